@@ -1,0 +1,42 @@
+# What each library is for, its licence and what was weighed against it: docs/dependencies.md.
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(TBB 2021 REQUIRED)
+find_package(yaml-cpp REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(nlohmann_json 3.11 REQUIRED)
+find_package(ZLIB REQUIRED)
+
+# Embree 3: the independent check only (src/verify).
+find_package(embree 3 REQUIRED)
+add_library(vantage_embree INTERFACE)
+add_library(vantage::embree ALIAS vantage_embree)
+target_link_libraries(vantage_embree INTERFACE embree)
+
+# Source releases that Debian does not package, fetched by scripts/fetch_sources.sh (pinned by version and hash).
+set(VANTAGE_DEPS_DIR ${PROJECT_SOURCE_DIR}/.deps CACHE PATH "Where scripts/fetch_sources.sh puts source releases")
+
+find_package(manifold 3.3 QUIET)
+if(NOT manifold_FOUND)
+  set(manifold_source ${VANTAGE_DEPS_DIR}/manifold)
+  if(NOT EXISTS ${manifold_source}/CMakeLists.txt)
+    message(FATAL_ERROR "Manifold is neither installed nor in ${manifold_source}: run scripts/fetch_sources.sh first")
+  endif()
+  set(MANIFOLD_CROSS_SECTION OFF CACHE INTERNAL "")
+  set(MANIFOLD_DOWNLOADS OFF CACHE INTERNAL "")
+  set(MANIFOLD_PAR ON CACHE INTERNAL "")
+  set(MANIFOLD_TEST OFF CACHE INTERNAL "")
+  set(MANIFOLD_CBIND OFF CACHE INTERNAL "")
+  set(MANIFOLD_PYBIND OFF CACHE INTERNAL "")
+  set(BUILD_SHARED_LIBS OFF CACHE INTERNAL "")
+  add_subdirectory(${manifold_source} ${CMAKE_BINARY_DIR}/third_party/manifold EXCLUDE_FROM_ALL SYSTEM)
+  if(NOT TARGET manifold::manifold)
+    add_library(manifold::manifold ALIAS manifold)
+  endif()
+endif()
+
+add_library(vantage_cdt INTERFACE)
+add_library(vantage::cdt ALIAS vantage_cdt)
+if(NOT EXISTS ${VANTAGE_DEPS_DIR}/cdt/include/CDT.h)
+  message(FATAL_ERROR "CDT is not in ${VANTAGE_DEPS_DIR}/cdt: run scripts/fetch_sources.sh first")
+endif()
+target_include_directories(vantage_cdt SYSTEM INTERFACE ${VANTAGE_DEPS_DIR}/cdt/include)

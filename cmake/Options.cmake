@@ -1,0 +1,11 @@
+# Compiler options of our own code; third-party code is built with its own.
+add_library(vantage_options INTERFACE)
+add_library(vantage::options ALIAS vantage_options)
+# -ffp-contract=off: a fused multiply-add rounds differently from one compiler to the next, and the exact predicates of
+# the triangulation rely on plain IEEE arithmetic.
+target_compile_options(vantage_options INTERFACE -Wall -Wextra -Wshadow -ffp-contract=off)
+if(VANTAGE_SANITIZE)
+  # Everything, third-party code too: a sanitizer that sees half of a program reports false races.
+  add_compile_options(-fsanitize=${VANTAGE_SANITIZE} -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=${VANTAGE_SANITIZE})
+endif()

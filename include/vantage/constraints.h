@@ -1,0 +1,35 @@
+// What the sensor can do and where the vehicle may fly.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "vantage/geometry.h"
+
+namespace vantage {
+
+struct Sensor {
+  double max_range_m = 0.0;  ///< to every point of the target; > 0, finite
+};
+
+/// A closed mesh to stay in.
+struct KeepInMesh {
+  Mesh mesh;         ///< closed, outward oriented, free of self-intersections; scene frame, metres
+  std::string name;  ///< for messages and for causes in reports
+};
+
+/// Where the vehicle may fly: the intersection of all that is given. Empty: everywhere.
+struct Navigation {
+  struct Altitude {
+    double min_m = 0.0, max_m = 0.0;  ///< scene z, min < max
+  };
+  std::optional<Altitude> altitude;
+  std::vector<Box> boxes;             ///< the volume is cut to their union
+  std::vector<Box> keep_out;          ///< each is taken away
+  std::vector<KeepInMesh> meshes;     ///< the volume is cut to each
+
+  bool empty() const { return !altitude && boxes.empty() && keep_out.empty() && meshes.empty(); }
+};
+
+}  // namespace vantage

@@ -1,0 +1,32 @@
+// Mission files: docs/mission-file.md.
+#pragma once
+
+#include <filesystem>
+
+#include "vantage/constraints.h"
+#include "vantage/scene.h"
+#include "vantage/target.h"
+#include "vantage/volume.h"
+
+namespace vantage {
+
+/// A mission file, read and checked. Paths are absolute; navigation meshes are read.
+struct Mission {
+  std::filesystem::path file;
+  std::filesystem::path scene_file;
+  SceneReadOptions scene_options;
+  Target target;
+  Sensor sensor;
+  Navigation navigation;
+  ExactOptions exact;
+};
+
+/// Throws Error(input) with file, line and column for: a missing or unreadable file, YAML that does not parse, an unknown
+/// key (with the nearest known one), a wrong type, a number that is NaN or infinite, a missing required key, edges that do
+/// not describe the vertices' polygon, and all that make_target_frame and the navigation checks refuse.
+Mission read_mission(const std::filesystem::path& file);
+
+/// All that `vantage compute` does but writing: reads the scene, prepares it, computes, cuts. Fills Volume::seconds.
+Volume compute_mission(const Mission& mission, const Progress& progress = {});
+
+}  // namespace vantage

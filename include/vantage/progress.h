@@ -1,0 +1,14 @@
+// How a caller follows a long computation, and stops it.
+#pragma once
+
+#include <functional>
+#include <string_view>
+
+namespace vantage {
+
+/// Called from time to time with the name of the stage and the fraction of it that is done (0 to 1). Returning false
+/// cancels: the running call throws Error with ErrorKind::cancelled within a few milliseconds. Never called from two
+/// threads at once; an empty function is allowed everywhere.
+using Progress = std::function<bool(std::string_view stage, double fraction)>;
+
+}  // namespace vantage

@@ -1,0 +1,27 @@
+// Point queries against the exact visibility of a target, without a mesh.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "vantage/constraints.h"
+#include "vantage/scene.h"
+#include "vantage/target.h"
+
+namespace vantage {
+
+struct PointAnswer {
+  bool inside = false;            ///< the whole target is visible, in range, and the point is within the navigation limits
+  double margin_m = 0;            ///< signed distance to the boundary along the line to the target's centre: positive inside
+  std::vector<std::string> blocked_by;  ///< names of the scene objects that hide part of the target, sorted, no repeats
+  bool out_of_range = false;
+  bool behind_target = false;
+  std::vector<std::string> outside_of;  ///< navigation limits that the point breaks ("altitude min", "box", "keep_out 0")
+};
+
+/// Answers for many points (scene frame, metres); exact, no tolerance. Cost: one walk of the scene's hierarchy a point.
+/// Throws as compute_visibility does.
+std::vector<PointAnswer> query_points(const PreparedScene& scene, const Target& target, const Sensor& sensor,
+                                      const Navigation& navigation, const std::vector<Vec3>& points);
+
+}  // namespace vantage

@@ -1,0 +1,109 @@
+// The visibility volume of a target: a closed mesh whose every facet knows what bounds the view there.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "vantage/constraints.h"
+#include "vantage/geometry.h"
+#include "vantage/progress.h"
+#include "vantage/scene.h"
+#include "vantage/target.h"
+
+namespace vantage {
+
+enum class CauseKind : std::uint8_t {
+  scene,         ///< beyond this facet an object of the scene hides part of the target
+  range,         ///< beyond it some point of the target is farther than max_range
+  target_plane,  ///< the plane of the target
+  navigation,    ///< a navigation limit
+};
+
+/// One reason for part of the boundary.
+struct Cause {
+  CauseKind kind = CauseKind::scene;
+  std::string name;    ///< the scene object's name; "max_range"; "target plane"; "altitude min", "box 0", "keep_out 2", ...
+  double area_m2 = 0;  ///< of the facets that it causes
+};
+
+/// How a computation ended. Everything but `computed` leaves the mesh empty, and `reason` says why in a sentence.
+enum class Outcome {
+  computed,
+  out_of_range,      ///< no point is within max_range of all vertices
+  blocked_at_once,   ///< the front is covered by the scene within a hand's breadth: most likely the wrong side
+  outside_limits,    ///< the navigation limits leave nothing
+};
+
+/// Work done at each stage, for reports and for those who tune.
+struct StageCounts {
+  std::size_t scene_polygons = 0;      ///< convex polygons in the scene
+  std::size_t candidate_blockers = 0;  ///< polygons whose blocker was built
+  std::size_t visible_blockers = 0;    ///< blockers that bound the volume somewhere
+  std::size_t visible_facets = 0;      ///< facets of those
+  std::size_t constraint_edges = 0;    ///< edges handed to the triangulation
+};
+
+struct Seconds {
+  double read = 0, prepare = 0, engine = 0, navigation = 0, write = 0, total = 0;
+};
+
+/// The result. `mesh` is closed, oriented outward, in the scene frame. Before navigation cuts it is one piece of genus 0 and
+/// star-shaped about every point of the target.
+struct Volume {
+  Outcome outcome = Outcome::computed;
+  std::string reason;  ///< empty when computed
+  std::string hint;    ///< what to try next, where there is something
+
+  Mesh mesh;
+  std::vector<std::uint32_t> cause_of;  ///< per triangle: index into `causes`
+  std::vector<Cause> causes;
+
+  double tolerance_m = 0;   ///< bound on how far range facets lie inside the true range region
+  double lift_m = 0;        ///< the target was raised this far to clear the surface that it lies on (rounding of the input;
+                            ///< at most numerics::kMaxLift, see docs/theory.md)
+  TargetFrame frame;        ///< of the target as used, lift included
+  StageCounts counts;
+  Seconds seconds;
+};
+
+struct ExactOptions {
+  double tolerance_m = 0.01;  ///< how far range facets may lie inside the true sphere; > 0. Planar parts are exact to rounding
+  int threads = 0;            ///< 0: as many as the machine has. The result does not depend on it
+};
+
+/// The exact visibility volume by docs/theory.md, before navigation cuts. Safe to call from many threads on one scene.
+/// Guaranteed from the inside: no point of the result, deeper than 1e-6 of its distance to the target, has any part of the
+/// target hidden or out of range.
+/// Throws Error(input) for a bad target (see make_target_frame), a pierced target (object, place, smallest offset that
+/// clears it), a target under the ground, a max_range or tolerance that is not positive and finite.
+Volume compute_visibility(const PreparedScene& scene, const Target& target, const Sensor& sensor,
+                          const ExactOptions& options = {}, const Progress& progress = {});
+
+/// Cuts a volume to the navigation limits. The result may have several pieces; each is closed. Facets keep their causes;
+/// cut faces are CauseKind::navigation. Throws Error(input) for limits that are wrong in themselves: a reversed altitude
+/// band or box, a mesh that is open or intersects itself.
+Volume cut_to_navigation(const Volume& volume, const Navigation& navigation, const Progress& progress = {});
+
+/// Topology and size of a closed mesh. `euler` is V - E + F over all pieces: 2 per piece of genus 0.
+struct MeshMeasures {
+  std::size_t vertices = 0, facets = 0, pieces = 0;
+  long euler = 0;
+  bool closed = false;    ///< every edge has exactly two triangles
+  bool oriented = false;  ///< which run it in opposite directions
+  double volume_m3 = 0, area_m2 = 0;
+  Box bounds;
+};
+MeshMeasures measure(const Mesh& mesh);
+
+/// Writes the mesh; the format follows the extension. Written whole or not at all.
+///   .ply  binary, little-endian, double coordinates, facet property `cause` (index) and the causes' names in comments;
+///         scene frame
+///   .obj  a group per cause; the axes of the scene file (`up`)
+///   .stl  binary; scene frame
+///   .glb  a material per kind of cause; y up as the specification demands
+/// Throws Error(output) when the file cannot be written and Error(input) for an unknown extension or a directory.
+void write_volume(const Volume& volume, const std::filesystem::path& file, UpAxis obj_up = UpAxis::z);
+
+}  // namespace vantage
