@@ -1,0 +1,45 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <utility>
+
+#include "vantage/geometry.h"
+
+namespace vantage {
+namespace {
+
+/// The corner tetrahedron of a cube with edges of `size` metres, moved by `offset`.
+Mesh corner(double size, const Vec3& offset) {
+  Mesh mesh;
+  mesh.vertices = {offset, offset + Vec3(size, 0, 0), offset + Vec3(0, size, 0), offset + Vec3(0, 0, size)};
+  mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+  return mesh;
+}
+
+TEST(Geometry, MeasuresATetrahedron) {
+  const Mesh mesh = corner(2, Vec3::Zero());
+  EXPECT_DOUBLE_EQ(enclosed_volume(mesh), 8.0 / 6);
+  EXPECT_DOUBLE_EQ(surface_area(mesh), 6 + 2 * std::sqrt(3.0));
+  const Box box = bounding_box(mesh);
+  EXPECT_EQ(box.min, Vec3::Zero());
+  EXPECT_EQ(box.max, Vec3::Constant(2));
+}
+
+TEST(Geometry, VolumeSurvivesLargeCoordinates) {
+  EXPECT_NEAR(enclosed_volume(corner(2, Vec3(580000, 4785000, 1000))), 8.0 / 6, 1e-9);
+}
+
+TEST(Geometry, TurningTheTrianglesNegatesTheVolume) {
+  Mesh mesh = corner(2, Vec3::Zero());
+  for (Triangle& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
+  EXPECT_DOUBLE_EQ(enclosed_volume(mesh), -8.0 / 6);
+}
+
+TEST(Geometry, AnEmptyMeshHasNoSize) {
+  EXPECT_TRUE(bounding_box({}).empty());
+  EXPECT_EQ(enclosed_volume({}), 0);
+  EXPECT_EQ(surface_area({}), 0);
+}
+
+}  // namespace
+}  // namespace vantage
