@@ -1,6 +1,6 @@
-#include "vantage/error.h"
-
 #include <gtest/gtest.h>
+
+#include "vantage/error.h"
 
 namespace vantage {
 namespace {

@@ -1,0 +1,275 @@
+#include "solid/csg.h"
+
+#include <manifold/manifold.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <future>
+#include <numeric>
+#include <utility>
+
+#include "vantage/error.h"
+
+namespace vantage::solid {
+
+struct Solid::Impl {
+  manifold::Manifold manifold;  // evaluated, status NoError
+};
+
+namespace {
+
+using Status = manifold::Manifold::Error;
+
+/// Manifold names its errors in debug builds only.
+const char* name_of(Status status) {
+  switch (status) {
+    case Status::NoError:
+      return "no error";
+    case Status::NonFiniteVertex:
+      return "a coordinate is not finite";
+    case Status::NotManifold:
+      return "not closed and oriented";
+    case Status::VertexOutOfBounds:
+      return "a vertex index is out of range";
+    case Status::PropertiesWrongLength:
+      return "properties of wrong length";
+    case Status::MissingPositionProperties:
+      return "positions are missing";
+    case Status::MergeVectorsDifferentLengths:
+      return "merge vectors of different lengths";
+    case Status::MergeIndexOutOfBounds:
+      return "a merge index is out of range";
+    case Status::TransformWrongLength:
+      return "transforms of wrong length";
+    case Status::RunIndexWrongLength:
+      return "run indices of wrong length";
+    case Status::FaceIDWrongLength:
+      return "labels of wrong length";
+    case Status::InvalidConstruction:
+      return "invalid construction";
+    case Status::ResultTooLarge:
+      return "the result has too many triangles";
+    case Status::InvalidTangents:
+      return "invalid tangents";
+    case Status::Cancelled:
+      return "cancelled";
+  }
+  return "unknown status";
+}
+
+manifold::vec3 to_manifold(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+Vec3 from_manifold(const manifold::vec3& v) { return {v.x, v.y, v.z}; }
+
+Solid wrap(manifold::Manifold evaluated) {
+  return Solid(std::make_shared<const Solid::Impl>(Solid::Impl{std::move(evaluated)}));
+}
+
+/// Manifold evaluates lazily. While it works on another thread this one asks the watch every few milliseconds.
+Status evaluate(const manifold::Manifold& lazy, const Watch& watch) {
+  if (!watch) return lazy.Status();
+  manifold::ExecutionContext context;
+  const manifold::Manifold watched = lazy.WithContext(context);
+  std::future<Status> result = std::async(std::launch::async, [&] { return watched.Status(); });
+  bool stopped = false;
+  while (result.wait_for(std::chrono::milliseconds(2)) != std::future_status::ready) {
+    if (stopped) continue;
+    try {
+      stopped = !watch(context.Progress());
+    } catch (...) {
+      context.Cancel();
+      result.wait();
+      throw;
+    }
+    if (stopped) context.Cancel();
+  }
+  result.get();
+  // An operation may end before it sees the request to stop. Otherwise this only takes over the cached result.
+  return stopped ? Status::Cancelled : lazy.Status();
+}
+
+Solid evaluated(const manifold::Manifold& lazy, const char* operation, const Watch& watch) {
+  const Status status = evaluate(lazy, watch);
+  if (status == Status::Cancelled) throw Error(ErrorKind::cancelled, "cancelled", operation, "");
+  if (status != Status::NoError) {
+    throw Error(ErrorKind::internal, std::string("a boolean operation on solids failed: ") + name_of(status), operation,
+                "");
+  }
+  return wrap(lazy);
+}
+
+std::vector<manifold::Manifold> manifolds_of(std::span<const Solid> operands) {
+  std::vector<manifold::Manifold> result;
+  result.reserve(operands.size());
+  for (const Solid& operand : operands) result.push_back(operand.impl().manifold);
+  return result;
+}
+
+manifold::MeshGL64 to_mesh_gl(const LabelledMesh& labelled, const std::string& name) {
+  const auto& [mesh, labels] = labelled;
+  if (labels.size() != mesh.triangles.size()) {
+    throw Error(ErrorKind::internal, "labels and triangles differ in number", name, "");
+  }
+  manifold::MeshGL64 gl;
+  gl.vertProperties.reserve(3 * mesh.vertices.size());
+  for (const Vec3& v : mesh.vertices) gl.vertProperties.insert(gl.vertProperties.end(), {v.x(), v.y(), v.z()});
+  gl.triVerts.reserve(3 * mesh.triangles.size());
+  for (const Triangle& t : mesh.triangles) gl.triVerts.insert(gl.triVerts.end(), {t[0], t[1], t[2]});
+  // A face id is carried through every operation, and Manifold never joins facets whose ids differ.
+  gl.faceID.reserve(labels.size());
+  for (const std::uint32_t label : labels) {
+    if (label > kMaxLabel) throw Error(ErrorKind::internal, "a label is too large", name, "");
+    gl.faceID.push_back(label);
+  }
+  return gl;
+}
+
+}  // namespace
+
+Solid::Solid() : impl_(std::make_shared<const Impl>()) {}
+
+Solid::Solid(const LabelledMesh& labelled, const std::string& name) {
+  const manifold::Manifold manifold(to_mesh_gl(labelled, name));
+  const Status status = manifold.Status();
+  if (status != Status::NoError) {
+    throw Error(ErrorKind::input, std::string("the mesh does not bound a solid: ") + name_of(status), name,
+                "give a closed mesh whose triangles all face outward");
+  }
+  impl_ = std::make_shared<const Impl>(Impl{manifold});
+}
+
+LabelledMesh Solid::to_mesh() const {
+  const manifold::MeshGL64 gl = impl_->manifold.GetMeshGL64();
+  LabelledMesh result;
+  result.mesh.vertices.reserve(gl.NumVert());
+  for (std::size_t i = 0; i < gl.NumVert(); ++i) result.mesh.vertices.push_back(from_manifold(gl.GetVertPos(i)));
+  std::vector<std::uint32_t> merged(gl.NumVert());
+  std::iota(merged.begin(), merged.end(), 0u);
+  for (std::size_t i = 0; i < gl.mergeFromVert.size(); ++i) {
+    merged[gl.mergeFromVert[i]] = static_cast<std::uint32_t>(gl.mergeToVert[i]);
+  }
+  result.mesh.triangles.reserve(gl.NumTri());
+  for (std::size_t i = 0; i < gl.NumTri(); ++i) {
+    result.mesh.triangles.push_back(
+        {merged[gl.triVerts[3 * i]], merged[gl.triVerts[3 * i + 1]], merged[gl.triVerts[3 * i + 2]]});
+  }
+  result.labels.reserve(gl.NumTri());
+  for (const auto label : gl.faceID) result.labels.push_back(static_cast<std::uint32_t>(label));
+  return result;
+}
+
+bool Solid::empty() const { return impl_->manifold.IsEmpty(); }
+std::size_t Solid::facets() const { return impl_->manifold.NumTri(); }
+double Solid::volume() const { return impl_->manifold.Volume(); }
+double Solid::area() const { return impl_->manifold.SurfaceArea(); }
+double Solid::epsilon() const { return impl_->manifold.GetEpsilon(); }
+
+Box Solid::bounds() const {
+  if (empty()) return {};
+  const manifold::Box box = impl_->manifold.BoundingBox();
+  return {from_manifold(box.min), from_manifold(box.max)};
+}
+
+long Solid::euler() const {
+  const manifold::Manifold& m = impl_->manifold;
+  return static_cast<long>(m.NumVert()) - static_cast<long>(m.NumEdge()) + static_cast<long>(m.NumTri());
+}
+
+long Solid::genus() const { return 1 - euler() / 2; }
+
+std::vector<Solid> Solid::pieces() const {
+  std::vector<Solid> result;
+  if (empty()) return result;
+  for (manifold::Manifold& piece : impl_->manifold.Decompose()) result.push_back(wrap(std::move(piece)));
+  return result;
+}
+
+Solid unite(const Solid& a, const Solid& b, const Watch& watch) {
+  return evaluated(a.impl().manifold + b.impl().manifold, "union", watch);
+}
+
+Solid intersect(const Solid& a, const Solid& b, const Watch& watch) {
+  return evaluated(a.impl().manifold ^ b.impl().manifold, "intersection", watch);
+}
+
+Solid subtract(const Solid& a, const Solid& b, const Watch& watch) {
+  return evaluated(a.impl().manifold - b.impl().manifold, "difference", watch);
+}
+
+Solid unite(std::span<const Solid> operands, const Watch& watch) {
+  return evaluated(manifold::Manifold::BatchBoolean(manifolds_of(operands), manifold::OpType::Add), "union", watch);
+}
+
+Solid intersect(std::span<const Solid> operands, const Watch& watch) {
+  if (operands.empty()) throw Error(ErrorKind::internal, "an intersection needs an operand", "", "");
+  return evaluated(manifold::Manifold::BatchBoolean(manifolds_of(operands), manifold::OpType::Intersect),
+                   "intersection", watch);
+}
+
+namespace {
+
+/// A box from its corners: bit i of a corner's index says whether it lies at the far end of axis i. Axes right-handed.
+LabelledMesh box_mesh(const std::array<Vec3, 8>& corners, const BoxLabels& labels) {
+  LabelledMesh box;
+  box.mesh.vertices.assign(corners.begin(), corners.end());
+  for (std::uint32_t axis = 0; axis < 3; ++axis) {
+    const std::uint32_t u = 1u << (axis + 1) % 3, v = 1u << (axis + 2) % 3, far = 1u << axis;
+    // Counter-clockwise about the axis on the far side, clockwise on the near one.
+    box.mesh.triangles.push_back({far, far + u, far + u + v});
+    box.mesh.triangles.push_back({far, far + u + v, far + v});
+    box.mesh.triangles.push_back({0, u + v, u});
+    box.mesh.triangles.push_back({0, v, u + v});
+    box.labels.insert(box.labels.end(), {labels.max[axis], labels.max[axis], labels.min[axis], labels.min[axis]});
+  }
+  return box;
+}
+
+}  // namespace
+
+Solid make_box(const Box& box, const BoxLabels& labels) {
+  if (!(box.min.array() < box.max.array()).all()) {
+    throw Error(ErrorKind::internal, "a box must have min < max on every axis", "", "");
+  }
+  std::array<Vec3, 8> corners;
+  for (unsigned i = 0; i < 8; ++i) {
+    for (unsigned axis = 0; axis < 3; ++axis) corners[i][axis] = (i >> axis & 1) ? box.max[axis] : box.min[axis];
+  }
+  return Solid(box_mesh(corners, labels), "box");
+}
+
+Solid convex_hull(std::span<const Vec3> points, std::uint32_t label) {
+  std::vector<manifold::vec3> positions;
+  positions.reserve(points.size());
+  for (const Vec3& point : points) positions.push_back(to_manifold(point));
+  const Solid unlabelled = evaluated(manifold::Manifold::Hull(positions), "convex hull", {});
+  if (unlabelled.empty()) return unlabelled;
+  LabelledMesh hull = unlabelled.to_mesh();
+  std::fill(hull.labels.begin(), hull.labels.end(), label);
+  return Solid(hull, "convex hull");
+}
+
+Solid trim(const Solid& solid, const Vec3& normal, double offset, std::uint32_t label, const Watch& watch) {
+  if (solid.empty()) return solid;
+  // The half-space as a box in the frame (u, v, normal) that reaches well past the solid on the other five sides, so
+  // that only the face at `offset` can cut it.
+  const Vec3 u = normal.unitOrthogonal(), v = normal.cross(u);
+  const Box bounds = solid.bounds();
+  const Vec3 centre = (bounds.min + bounds.max) / 2;
+  const double reach = (bounds.max - bounds.min).norm();
+  const double depth = normal.dot(centre) - reach;
+  if (offset <= depth) return Solid();
+  if (offset >= normal.dot(centre) + reach) return solid;
+  std::array<Vec3, 8> corners;
+  for (unsigned i = 0; i < 8; ++i) {
+    const double along_u = u.dot(centre) + ((i & 1) ? reach : -reach);
+    const double along_v = v.dot(centre) + ((i & 2) ? reach : -reach);
+    corners[i] = u * along_u + v * along_v + normal * ((i & 4) ? offset : depth);
+  }
+  BoxLabels labels;
+  labels.min.fill(label);
+  labels.max.fill(label);
+  return intersect(solid, Solid(box_mesh(corners, labels), "half-space"), watch);
+}
+
+}  // namespace vantage::solid

@@ -1,0 +1,92 @@
+// Closed solids and their boolean operations, in double precision: the one door to Manifold (csg.cpp alone includes
+// it). Every facet carries a label, and a facet of a result keeps the label of the facet that it is a part of.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "vantage/geometry.h"
+
+namespace vantage::solid {
+
+/// A mesh with one label per triangle.
+struct LabelledMesh {
+  Mesh mesh;
+  std::vector<std::uint32_t> labels;  ///< parallel to mesh.triangles, each at most kMaxLabel
+};
+
+constexpr std::uint32_t kMaxLabel = 0x7fffffff;
+
+/// Called from the calling thread while an operation runs, with the fraction that is done. Returning false stops it:
+/// the operation throws Error(cancelled). An empty function is allowed everywhere.
+using Watch = std::function<bool(double fraction)>;
+
+/// An immutable closed solid, cheap to copy. Any number of threads may read one.
+///
+/// Accuracy: corners of the operands come out bit for bit where they survive; new corners lie within `epsilon()` of
+/// both surfaces that meet there. `epsilon()` grows with the largest absolute coordinate (1e-12 of it), so move what
+/// lies far from the origin first. Coplanar facets are joined only where both label and operand agree.
+class Solid {
+ public:
+  /// The empty solid.
+  Solid();
+
+  /// Takes in a closed, oriented mesh: each edge's triangles run it as often in one direction as in the other. Vertices
+  /// are told apart by index, not by position. Parts turned inside out are cavities; self-intersections are not looked
+  /// for (see solid_check.h). `name` is for messages. Throws Error(input) when the mesh is not closed, an index or a
+  /// label is out of range, or a coordinate is not finite.
+  explicit Solid(const LabelledMesh& labelled, const std::string& name = "mesh");
+
+  /// The boundary: closed, and strictly so (two triangles per edge by index; where pieces touch, vertices are doubled).
+  LabelledMesh to_mesh() const;
+
+  bool empty() const;
+  std::size_t facets() const;
+  double volume() const;   ///< cubic metres
+  double area() const;     ///< square metres
+  double epsilon() const;  ///< metres, see above
+  Box bounds() const;
+  long euler() const;  ///< V - E + F over all pieces
+  long genus() const;  ///< of a single piece: 1 - euler / 2
+
+  /// The connected parts of the boundary; a cavity is a part of its own, with negative volume.
+  std::vector<Solid> pieces() const;
+
+  struct Impl;
+  const Impl& impl() const { return *impl_; }  ///< for csg.cpp
+  explicit Solid(std::shared_ptr<const Impl> impl) : impl_(std::move(impl)) {}
+
+ private:
+  std::shared_ptr<const Impl> impl_;
+};
+
+/// Booleans are regularised: no dangling faces, and what merely touches does not meet. All throw Error(cancelled) when
+/// the watch says so and Error(internal), with Manifold's status, when an operation fails.
+Solid unite(const Solid& a, const Solid& b, const Watch& watch = {});
+Solid intersect(const Solid& a, const Solid& b, const Watch& watch = {});
+Solid subtract(const Solid& a, const Solid& b, const Watch& watch = {});
+/// Of any number of operands, smallest first. The union of none is empty.
+Solid unite(std::span<const Solid> operands, const Watch& watch = {});
+/// Of at least one operand.
+Solid intersect(std::span<const Solid> operands, const Watch& watch = {});
+
+/// Labels of a box's sides.
+struct BoxLabels {
+  std::array<std::uint32_t, 3> min{}, max{};  ///< of the sides at min x, y, z and at max x, y, z
+};
+/// An axis-aligned box; its corners are those given, bit for bit. Needs min < max on every axis.
+Solid make_box(const Box& box, const BoxLabels& labels);
+
+/// The convex hull of at least four points that do not lie in one plane (else empty), every facet with one label.
+Solid convex_hull(std::span<const Vec3> points, std::uint32_t label);
+
+/// The part of `solid` with normal·x <= offset; the cut face gets `label`. `normal` is of unit length; where it is an
+/// axis the cut is exact.
+Solid trim(const Solid& solid, const Vec3& normal, double offset, std::uint32_t label, const Watch& watch = {});
+
+}  // namespace vantage::solid
