@@ -1,0 +1,38 @@
+// Every numeric constant of the exact engine, with its derivation. Lengths in metres.
+//
+// The user's tolerance (how far range facets may lie inside the sphere) is not here: that is a choice, these are
+// properties of double arithmetic. Local coordinates are at most a few kilometres, so one rounding costs about
+// 1e3 * 2^-53 = 1e-13 m, and a short chain of operations on well-shaped input stays under 1e-11 m.
+#pragma once
+
+namespace vantage::numerics {
+
+/// Heights over the target's plane below this are zero: a hundred times what rotating a point into the target's frame
+/// can cost, and far below any feature of a scene.
+inline constexpr double kOnPlane = 1e-9;
+
+/// A plane still separates a scene polygon from the target when it misses one of them by this little (a wall that
+/// stands on the target's edge touches its own separating planes).
+inline constexpr double kSeparation = 1e-9;
+
+/// Two surfaces whose inverse depths differ by less than this fraction are the same surface; the blocker with the lower
+/// index owns it. Coincident planes are the rule in cities (neighbouring walls, shared edges), and rounding would
+/// otherwise choose a different owner at every vertex.
+inline constexpr double kTie = 1e-10;
+
+/// The finished mesh is scaled about the target's centre by 1 - kShrink: ten times kTie, so that neither a tie given to
+/// the wrong owner nor the rounding of a crease leaves a point outside the true volume.
+inline constexpr double kShrink = 1e-9;
+
+/// Vertices of the direction chart (which spans [-1, 1]) closer than this are one vertex: 0.1 micrometres at 1 km.
+inline constexpr double kSnap = 1e-10;
+
+/// Coplanar neighbours are merged when no vertex is farther than this from the common plane. Rounding level: merging
+/// must not change what is hidden.
+inline constexpr double kCoplanar = 1e-9;
+
+/// The target may be raised by at most this much to clear the surface that it lies on: surfaces of real meshes are
+/// planar to a millimetre at best, single-precision files to a tenth of one.
+inline constexpr double kMaxLift = 2e-3;
+
+}  // namespace vantage::numerics
