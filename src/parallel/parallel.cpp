@@ -1,0 +1,29 @@
+#include "parallel/parallel.h"
+
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_invoke.h>
+#include <oneapi/tbb/task_arena.h>
+
+namespace vantage::parallel {
+
+void for_ranges(std::size_t count, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body) {
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, count, grain), [&](const auto& range) { body(range.begin(), range.end()); },
+      tbb::simple_partitioner());
+}
+
+void both(const std::function<void()>& first, const std::function<void()>& second) {
+  tbb::parallel_invoke(first, second);
+}
+
+void with_threads(int threads, const std::function<void()>& body) {
+  if (threads <= 0) {
+    body();
+    return;
+  }
+  tbb::task_arena arena(threads);
+  arena.execute(body);
+}
+
+}  // namespace vantage::parallel

@@ -1,0 +1,39 @@
+// Threads: the only room that sees the thread library (oneTBB).
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+namespace vantage::parallel {
+
+/// Calls `body(begin, end)` for ranges that together cover [0, count), at most `grain` long, on any thread, in any
+/// order. Results must not depend on how the range was cut. An exception thrown by `body` stops the rest and is thrown
+/// on.
+void for_ranges(std::size_t count, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body);
+
+/// Runs `first` and `second`, possibly at the same time.
+void both(const std::function<void()>& first, const std::function<void()>& second);
+
+/// Runs `body` with at most `threads` threads (0: all that the machine has) for the parallel calls made inside.
+void with_threads(int threads, const std::function<void()>& body);
+
+/// Sorts with all threads. `less` must be a total order on distinct elements, so that the result is the same whatever
+/// the number of threads.
+template <typename T, typename Less>
+void sort(std::vector<T>& items, Less less) {
+  constexpr std::size_t kSerial = 1 << 14;
+  const std::function<void(std::size_t, std::size_t)> run = [&](std::size_t begin, std::size_t end) {
+    if (end - begin <= kSerial) {
+      std::sort(items.begin() + begin, items.begin() + end, less);
+      return;
+    }
+    const std::size_t middle = begin + (end - begin) / 2;
+    both([&] { run(begin, middle); }, [&] { run(middle, end); });
+    std::inplace_merge(items.begin() + begin, items.begin() + middle, items.begin() + end, less);
+  };
+  run(0, items.size());
+}
+
+}  // namespace vantage::parallel

@@ -1,0 +1,200 @@
+#include "scene/convex_polygons.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+#include "parallel/parallel.h"
+
+namespace vantage::scene {
+namespace {
+
+// No vertex of a merged polygon is farther than this from its plane, in metres: rounding of the input only, since
+// merging must not change what is hidden.
+constexpr double kCoplanar = 1e-9;
+constexpr std::size_t kLargestPolygon = 32;  // corners; blockers cost in proportion
+constexpr std::size_t kLargestFan = 8;       // triangles on one edge that are tried pairwise
+
+struct Side {  // one triangle's side of an edge
+  std::uint32_t low, high;
+  std::uint32_t corner;  // 3 * triangle + corner at which the edge starts
+  bool operator<(const Side& other) const {
+    if (low != other.low) return low < other.low;
+    if (high != other.high) return high < other.high;
+    return corner < other.corner;
+  }
+};
+
+struct Candidate {
+  double length2;
+  std::uint32_t first, second;  // triangles
+  std::uint32_t from, to;       // the shared edge
+  bool operator<(const Candidate& other) const {
+    if (length2 != other.length2) return length2 > other.length2;
+    if (first != other.first) return first < other.first;
+    return second < other.second;
+  }
+};
+
+class Merger {
+ public:
+  Merger(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles,
+         const std::vector<std::uint32_t>& object_of)
+      : vertices_(vertices), triangles_(triangles), object_of_(object_of) {}
+
+  ConvexPolygons run(SceneStatistics& statistics) {
+    normals_.resize(triangles_.size());
+    parallel::for_ranges(triangles_.size(), 4096, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) normals_[i] = normal_of(triangles_[i]);
+    });
+    const std::vector<Candidate> candidates = find_candidates(statistics);
+    loops_.resize(triangles_.size());
+    parent_.resize(triangles_.size());
+    for (std::uint32_t i = 0; i < triangles_.size(); ++i) parent_[i] = i;
+    for (const Candidate& candidate : candidates) merge(candidate);
+    return collect();
+  }
+
+ private:
+  using Loop = std::vector<std::uint32_t>;
+
+  Vec3 normal_of(const Triangle& t) const {
+    return (vertices_[t[1]] - vertices_[t[0]]).cross(vertices_[t[2]] - vertices_[t[0]]).normalized();
+  }
+
+  std::vector<Candidate> find_candidates(SceneStatistics& statistics) const {
+    std::vector<Side> sides(triangles_.size() * 3);
+    parallel::for_ranges(triangles_.size(), 4096, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i)
+        for (std::uint32_t c = 0; c < 3; ++c) {
+          const std::uint32_t a = triangles_[i][c], b = triangles_[i][(c + 1) % 3];
+          sides[3 * i + c] = {std::min(a, b), std::max(a, b), std::uint32_t(3 * i + c)};
+        }
+    });
+    parallel::sort(sides, std::less<>());
+    std::vector<Candidate> candidates;
+    for (std::size_t begin = 0, end; begin < sides.size(); begin = end) {
+      end = begin + 1;
+      while (end < sides.size() && sides[end].low == sides[begin].low && sides[end].high == sides[begin].high) ++end;
+      const std::size_t fan = end - begin;
+      statistics.open_edges += fan == 1;
+      statistics.nonmanifold_edges += fan > 2;
+      if (fan == 2) statistics.misoriented_edges += start_of(sides[begin]) == start_of(sides[begin + 1]);
+      if (fan > kLargestFan) continue;
+      for (std::size_t i = begin; i < end; ++i)
+        for (std::size_t j = i + 1; j < end; ++j) add_candidate(sides[i], sides[j], candidates);
+    }
+    parallel::sort(candidates, std::less<>());
+    return candidates;
+  }
+
+  std::uint32_t start_of(const Side& side) const { return triangles_[side.corner / 3][side.corner % 3]; }
+  const Vec3& apex_of(const Side& side) const { return vertices_[triangles_[side.corner / 3][(side.corner + 2) % 3]]; }
+
+  void add_candidate(const Side& a, const Side& b, std::vector<Candidate>& out) const {
+    const std::uint32_t first = a.corner / 3, second = b.corner / 3;
+    if (object_of_[first] != object_of_[second]) return;
+    const Vec3 from = vertices_[a.low], edge = vertices_[a.high] - from;
+    const Vec3 to_first = apex_of(a) - from, to_second = apex_of(b) - from;
+    if (std::abs(normals_[first].dot(to_second)) > kCoplanar) return;
+    if (std::abs(normals_[second].dot(to_first)) > kCoplanar) return;
+    if (edge.cross(to_first).dot(edge.cross(to_second)) > 0) return;  // folded onto each other
+    out.push_back({edge.squaredNorm(), first, second, a.low, a.high});
+  }
+
+  std::uint32_t root(std::uint32_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+
+  Loop loop_of(std::uint32_t polygon) const {
+    if (!loops_[polygon].empty()) return loops_[polygon];
+    const Triangle& t = triangles_[polygon];
+    return {t[0], t[1], t[2]};
+  }
+
+  // Turns the loop so that the edge between `from` and `to` is its closing edge, running back -> front. False when the
+  // loop does not have that edge any more.
+  static bool close_with(Loop& loop, std::uint32_t from, std::uint32_t to) {
+    for (std::size_t i = 0; i < loop.size(); ++i)
+      if (loop[i] == from && loop[(i + 1) % loop.size()] == to) {
+        std::rotate(loop.begin(), loop.begin() + (i + 1) % loop.size(), loop.end());
+        return true;
+      }
+    return false;
+  }
+
+  void merge(const Candidate& candidate) {
+    const std::uint32_t a = root(candidate.first), b = root(candidate.second);
+    if (a == b) return;
+    Loop left = loop_of(a), right = loop_of(b);
+    std::uint32_t from = candidate.from, to = candidate.to;
+    if (!close_with(left, from, to)) {
+      std::swap(from, to);
+      if (!close_with(left, from, to)) return;
+    }
+    if (!close_with(right, to, from)) {
+      std::reverse(right.begin(), right.end());
+      if (!close_with(right, to, from)) return;
+    }
+    // left: to ... from, right: from ... to. Edges shared beyond this one vanish too.
+    while (left.size() > 2 && right.size() > 2 && left[left.size() - 2] == right[1]) {
+      left.pop_back();
+      right.erase(right.begin());
+    }
+    while (left.size() > 2 && right.size() > 2 && left[1] == right[right.size() - 2]) {
+      left.erase(left.begin());
+      right.pop_back();
+    }
+    if (right.size() < 3 || left.size() + right.size() - 2 > kLargestPolygon) return;
+    for (std::uint32_t v : right)
+      if (std::abs(normals_[a].dot(vertices_[v] - vertices_[left[0]])) > kCoplanar) return;
+    const std::size_t seam = left.size() - 1;
+    left.insert(left.end(), right.begin() + 1, right.end() - 1);
+    if (!convex_at(left, 0, normals_[a]) || !convex_at(left, seam, normals_[a])) return;
+    loops_[a] = std::move(left);
+    loops_[b] = {};
+    parent_[b] = a;
+  }
+
+  bool convex_at(const Loop& loop, std::size_t i, const Vec3& normal) const {
+    const std::size_t n = loop.size();
+    const Vec3 in = vertices_[loop[i]] - vertices_[loop[(i + n - 1) % n]];
+    const Vec3 out = vertices_[loop[(i + 1) % n]] - vertices_[loop[i]];
+    return normal.dot(in.cross(out)) >= -kCoplanar * std::max(in.norm(), out.norm());
+  }
+
+  ConvexPolygons collect() {
+    ConvexPolygons result;
+    result.first.push_back(0);
+    for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
+      if (parent_[i] != i) continue;
+      const Loop loop = loop_of(i);
+      const std::size_t n = loop.size();
+      for (std::size_t k = 0; k < n; ++k) {
+        const Vec3 in = vertices_[loop[k]] - vertices_[loop[(k + n - 1) % n]];
+        const Vec3 out = vertices_[loop[(k + 1) % n]] - vertices_[loop[k]];
+        const bool straight = n > 3 && in.cross(out).norm() <= kCoplanar * std::max(in.norm(), out.norm());
+        if (!straight) result.vertices.push_back(loop[k]);
+      }
+      result.first.push_back(std::uint32_t(result.vertices.size()));
+      result.object.push_back(object_of_[i]);
+    }
+    return result;
+  }
+
+  const std::vector<Vec3>& vertices_;
+  const std::vector<Triangle>& triangles_;
+  const std::vector<std::uint32_t>& object_of_;
+  std::vector<Vec3> normals_;
+  std::vector<Loop> loops_;  // empty: still the triangle itself, or merged into another
+  std::vector<std::uint32_t> parent_;
+};
+
+}  // namespace
+
+ConvexPolygons merge_coplanar(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles,
+                              const std::vector<std::uint32_t>& object_of, SceneStatistics& statistics) {
+  return Merger(vertices, triangles, object_of).run(statistics);
+}
+
+}  // namespace vantage::scene

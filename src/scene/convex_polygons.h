@@ -1,0 +1,26 @@
+// Merging coplanar neighbouring triangles into convex polygons.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "vantage/geometry.h"
+#include "vantage/scene.h"
+
+namespace vantage::scene {
+
+struct ConvexPolygons {
+  std::vector<std::uint32_t> first;     ///< per polygon, into `vertices`; one more than there are polygons
+  std::vector<std::uint32_t> vertices;  ///< in order round each polygon; collinear ones are left out
+  std::vector<std::uint32_t> object;    ///< per polygon
+
+  std::size_t count() const { return object.size(); }
+};
+
+/// Greedy, along the longest shared edge first (which is most often the diagonal of a wall). Only triangles of one
+/// object are merged, whichever way they are turned. Counts open, non-manifold and misoriented edges into `statistics`.
+/// `triangles` index welded `vertices`; none is degenerate, none is there twice. Cost: O(n log n).
+ConvexPolygons merge_coplanar(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles,
+                              const std::vector<std::uint32_t>& object_of, SceneStatistics& statistics);
+
+}  // namespace vantage::scene

@@ -1,0 +1,179 @@
+// Scene -> PreparedScene: weld, drop what hides nothing, merge coplanar neighbours, index.
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <unordered_set>
+
+#include "parallel/parallel.h"
+#include "scene/convex_polygons.h"
+#include "scene/prepared_data.h"
+#include "vantage/error.h"
+
+namespace vantage {
+namespace {
+
+// A triangle thinner than this, in metres, hides nothing that can be measured, and its normal is noise.
+constexpr double kThinnest = 1e-9;
+
+void report(const Progress& progress, double fraction) {
+  if (progress && !progress("preparing the scene", fraction))
+    throw Error(ErrorKind::cancelled, "cancelled while preparing the scene", "", "");
+}
+
+std::uint64_t mix(std::uint64_t x) {  // splitmix64's finalizer
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebull;
+  return x ^ (x >> 31);
+}
+
+// Maps each vertex to the first one at exactly the same place. Open addressing: half a million vertices are usual.
+class Welder {
+ public:
+  explicit Welder(std::size_t count) : mask_(std::bit_ceil(2 * count + 1) - 1), slots_(mask_ + 1, kFree) {}
+
+  std::uint32_t add(const Vec3& point) {
+    const Vec3 p = point.array() + 0.0;  // -0 becomes 0
+    std::uint64_t hash = 0;
+    for (int a = 0; a < 3; ++a) hash = mix(hash + 0x9e3779b97f4a7c15ull + std::bit_cast<std::uint64_t>(p[a]));
+    for (std::size_t slot = hash & mask_;; slot = (slot + 1) & mask_) {
+      if (slots_[slot] == kFree) {
+        slots_[slot] = std::uint32_t(points.size());
+        points.push_back(p);
+        return slots_[slot];
+      }
+      if (points[slots_[slot]] == p) return slots_[slot];
+    }
+  }
+
+  std::vector<Vec3> points;
+
+ private:
+  static constexpr std::uint32_t kFree = ~0u;
+  std::size_t mask_;
+  std::vector<std::uint32_t> slots_;
+};
+
+bool degenerate(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
+  return (b - a).cross(c - a).norm() <= kThinnest * longest;
+}
+
+struct TriangleHash {
+  std::size_t operator()(const Triangle& t) const { return mix(mix(mix(t[0] + 0x9e3779b97f4a7c15ull) + t[1]) + t[2]); }
+};
+
+struct CleanTriangles {
+  std::vector<Triangle> triangles;
+  std::vector<std::uint32_t> object_of;
+};
+
+CleanTriangles weld_and_clean(const Scene& scene, PreparedScene::Data& data) {
+  SceneStatistics& statistics = data.statistics;
+  Welder welder(scene.mesh.vertices.size());
+  std::vector<std::uint32_t> welded;
+  welded.reserve(scene.mesh.vertices.size());
+  for (const Vec3& v : scene.mesh.vertices) welded.push_back(welder.add(v - data.origin));
+  data.vertices = std::move(welder.points);
+
+  CleanTriangles clean;
+  std::unordered_set<Triangle, TriangleHash> seen;
+  seen.reserve(scene.mesh.triangles.size());
+  for (std::size_t i = 0; i < scene.mesh.triangles.size(); ++i) {
+    Triangle t = scene.mesh.triangles[i];
+    for (std::uint32_t& corner : t) corner = welded[corner];
+    if (degenerate(data.vertices[t[0]], data.vertices[t[1]], data.vertices[t[2]])) {
+      ++statistics.degenerate_triangles;
+      continue;
+    }
+    Triangle sorted = t;
+    std::sort(sorted.begin(), sorted.end());
+    if (!seen.insert(sorted).second) {
+      ++statistics.duplicate_triangles;
+      continue;
+    }
+    clean.triangles.push_back(t);
+    clean.object_of.push_back(scene.object_of.empty() ? 0 : scene.object_of[i]);
+  }
+  return clean;
+}
+
+scene::Bounds bounds_of(const PreparedScene::Data& data, const scene::ConvexPolygons& polygons, std::size_t i) {
+  Box box;
+  for (std::uint32_t k = polygons.first[i]; k < polygons.first[i + 1]; ++k)
+    box.extend(data.vertices[polygons.vertices[k]]);
+  scene::Bounds bounds;
+  for (int a = 0; a < 3; ++a) {
+    bounds.min[a] = std::nextafterf(float(box.min[a]), -INFINITY);
+    bounds.max[a] = std::nextafterf(float(box.max[a]), INFINITY);
+  }
+  return bounds;
+}
+
+void store_in_leaf_order(PreparedScene::Data& data, const scene::ConvexPolygons& polygons) {
+  std::vector<scene::Bounds> bounds(polygons.count());
+  parallel::for_ranges(polygons.count(), 4096, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) bounds[i] = bounds_of(data, polygons, i);
+  });
+  std::vector<std::uint32_t> order;
+  data.bvh = scene::build_bvh(bounds, order);
+  data.first_vertex.reserve(order.size() + 1);
+  data.first_vertex.push_back(0);
+  data.polygon_vertices.reserve(polygons.vertices.size());
+  data.polygon_object.reserve(order.size());
+  for (std::uint32_t i : order) {
+    data.polygon_vertices.insert(data.polygon_vertices.end(), polygons.vertices.begin() + polygons.first[i],
+                                 polygons.vertices.begin() + polygons.first[i + 1]);
+    data.first_vertex.push_back(std::uint32_t(data.polygon_vertices.size()));
+    data.polygon_object.push_back(polygons.object[i]);
+  }
+}
+
+void check(const Scene& scene) {
+  const auto refuse = [](std::string problem) {
+    throw Error(ErrorKind::input, std::move(problem), "scene made in memory",
+                "give each triangle three vertices and an object");
+  };
+  const std::size_t objects = std::max<std::size_t>(1, scene.objects.size());
+  if (!scene.object_of.empty() && scene.object_of.size() != scene.mesh.triangles.size())
+    refuse("object_of has " + std::to_string(scene.object_of.size()) + " entries for " +
+           std::to_string(scene.mesh.triangles.size()) + " triangles");
+  for (std::uint32_t object : scene.object_of)
+    if (object >= objects) refuse("object index " + std::to_string(object) + " is out of range");
+  for (const Triangle& t : scene.mesh.triangles)
+    for (std::uint32_t corner : t)
+      if (corner >= scene.mesh.vertices.size()) refuse("vertex index " + std::to_string(corner) + " is out of range");
+  for (const Vec3& v : scene.mesh.vertices)
+    if (!v.allFinite()) refuse("a vertex is not finite");
+}
+
+}  // namespace
+
+PreparedScene::PreparedScene(const Scene& scene, const Progress& progress) {
+  check(scene);
+  auto data = std::make_shared<Data>();
+  data->objects = scene.objects;
+  if (data->objects.empty()) data->objects.push_back("scene");
+  SceneStatistics& statistics = data->statistics;
+  statistics.triangles = scene.mesh.triangles.size();
+  statistics.vertices = scene.mesh.vertices.size();
+  statistics.objects = data->objects.size();
+  statistics.bounds = bounding_box(scene.mesh);
+  if (!statistics.bounds.empty()) data->origin = 0.5 * (statistics.bounds.min + statistics.bounds.max);
+  report(progress, 0.0);
+  const CleanTriangles clean = weld_and_clean(scene, *data);
+  statistics.welded_vertices = data->vertices.size();
+  report(progress, 0.3);
+  const auto polygons = scene::merge_coplanar(data->vertices, clean.triangles, clean.object_of, statistics);
+  statistics.polygons = polygons.count();
+  report(progress, 0.7);
+  store_in_leaf_order(*data, polygons);
+  report(progress, 1.0);
+  data_ = std::move(data);
+}
+
+const SceneStatistics& PreparedScene::statistics() const { return data_->statistics; }
+
+const std::vector<std::string>& PreparedScene::objects() const { return data_->objects; }
+
+}  // namespace vantage
