@@ -1,0 +1,106 @@
+#include "verify/occluders.h"
+
+#include <algorithm>
+#include <limits>
+#include <string>
+
+#include "vantage/error.h"
+#include "verify/tolerances.h"
+#include "verify/view_pyramid.h"
+
+namespace vantage::verify {
+namespace {
+
+FlatTriangle local_triangle(const Mesh& mesh, std::size_t number, const Vec3& origin) {
+  std::array<Vec3, 3> corners;
+  for (int i = 0; i < 3; ++i) {
+    const std::uint32_t index = mesh.triangles[number][i];
+    if (index >= mesh.vertices.size() || !mesh.vertices[index].allFinite()) {
+      throw Error(ErrorKind::input, "a corner of the triangle does not exist or is not finite",
+                  "scene triangle " + std::to_string(number), "read the scene again");
+    }
+    corners[i] = mesh.vertices[index] - origin;
+  }
+  return {corners[0], corners[1], corners[2]};
+}
+
+/// Holds every segment that can count: its viewpoint is within range of all vertices, so of their mean.
+Box region_of_segments(const TargetView& view, double max_range) {
+  Box region;
+  region.extend(Vec3(view.centre() - Vec3::Constant(max_range * (1 + 1e-6))));
+  region.extend(Vec3(view.centre() + Vec3::Constant(max_range * (1 + 1e-6))));
+  for (const Vec3& vertex : view.vertices()) region.extend(vertex);
+  return region;
+}
+
+}  // namespace
+
+Occluders::Occluders(const Scene& scene, const TargetView& view, double max_range) : view_(view) {
+  const Box region = region_of_segments(view, max_range);
+  std::vector<Box> boxes;
+  for (std::size_t i = 0; i < scene.mesh.triangles.size(); ++i) {
+    const FlatTriangle triangle = local_triangle(scene.mesh, i, view.origin());
+    if (triangle.normal_length == 0) continue;
+    const double top =
+        std::max({view.height(triangle.corner), view.height(triangle.second()), view.height(triangle.third())});
+    Box box = triangle.bounds();
+    box.min = box.min.cwiseMax(region.min);  // Embree is to see small numbers only
+    box.max = box.max.cwiseMin(region.max);
+    if (top <= 0 || box.empty()) continue;
+    triangles_.push_back(triangle);
+    number_.push_back(static_cast<std::uint32_t>(i));
+    boxes.push_back(box);
+  }
+  index_.emplace(boxes, std::max(region.min.cwiseAbs().maxCoeff(), region.max.cwiseAbs().maxCoeff()));
+}
+
+std::optional<double> Occluders::hit(const Segment& segment, const FlatTriangle& triangle) const {
+  const Meeting meeting = meet(segment, triangle);
+  if (meeting.contact != Contact::crossing || meeting.border < kGrazing) return std::nullopt;
+  if (meeting.position < kEnd || meeting.position > 1 - kEnd) return std::nullopt;
+  const Vec3 point = segment.at(meeting.position);
+  if (view_.height(point) < kSurfaceHeight && view_.over(point, kSurfaceHeight)) return std::nullopt;
+  return meeting.position;
+}
+
+bool Occluders::hide(const Vec3& viewpoint, const Vec3& target_point) const {
+  const Segment segment(viewpoint, target_point);
+  return index_->any_along(viewpoint, target_point,
+                           [&](std::uint32_t i) { return hit(segment, triangles_[i]).has_value(); });
+}
+
+std::optional<Vec3> Occluders::find_hidden(const Vec3& viewpoint, std::size_t& rays) const {
+  const ViewPyramid pyramid(viewpoint, view_);
+  thread_local std::vector<std::uint32_t> candidates;
+  candidates.clear();
+  index_->any_within(pyramid.sides(), [](std::uint32_t i) {
+    candidates.push_back(i);
+    return false;
+  });
+  // In the scene's order: how Embree arranges its hierarchy must not show in the report.
+  std::sort(candidates.begin(), candidates.end());
+  for (const std::uint32_t i : candidates) {
+    // The surface that the target lies on is cut away first, so that the aim is at what may count.
+    std::optional<Vec3> aim = pyramid.aim(triangles_[i], kSurfaceHeight);
+    if (!aim) aim = pyramid.aim(triangles_[i], 0);
+    if (!aim) continue;
+    ++rays;
+    if (hide(viewpoint, *aim)) return aim;
+  }
+  return std::nullopt;
+}
+
+std::optional<std::size_t> Occluders::first_hit(const Vec3& viewpoint, const Vec3& target_point) const {
+  const Segment segment(viewpoint, target_point);
+  double nearest = std::numeric_limits<double>::infinity();
+  std::optional<std::size_t> first;
+  for (std::size_t i = 0; i < triangles_.size(); ++i) {
+    const std::optional<double> position = hit(segment, triangles_[i]);
+    if (!position || *position >= nearest) continue;
+    nearest = *position;
+    first = number_[i];
+  }
+  return first;
+}
+
+}  // namespace vantage::verify
