@@ -1,0 +1,60 @@
+#include "verify/limits.h"
+
+#include <algorithm>
+
+#include "vantage/error.h"
+
+namespace vantage::verify {
+namespace {
+
+void check(const std::vector<Box>& boxes, const std::string& name) {
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    const bool ordered = (boxes[i].min.array() < boxes[i].max.array()).all();  // false for NaN too
+    if (ordered) continue;
+    throw Error(ErrorKind::input, "the box is reversed or flat", name + " " + std::to_string(i),
+                "give min smaller than max on every axis");
+  }
+}
+
+bool within(const Box& box, const Vec3& point) {
+  return (point.array() >= box.min.array()).all() && (point.array() <= box.max.array()).all();
+}
+
+bool strictly_within(const Box& box, const Vec3& point) {
+  return (point.array() > box.min.array()).all() && (point.array() < box.max.array()).all();
+}
+
+}  // namespace
+
+Limits::Limits(const Navigation& navigation, const Vec3& origin) : navigation_(navigation), origin_(origin) {
+  if (navigation_.altitude && !(navigation_.altitude->min_m < navigation_.altitude->max_m)) {
+    throw Error(ErrorKind::input, "the altitude band is reversed or empty", "navigation altitude",
+                "give the lower altitude first");
+  }
+  check(navigation_.boxes, "box");
+  check(navigation_.keep_out, "keep_out");
+  for (const KeepInMesh& keep_in : navigation_.meshes) {
+    meshes_.emplace_back(keep_in.mesh, origin, "keep-in mesh '" + keep_in.name + "'");
+  }
+}
+
+std::optional<std::string> Limits::broken_by(const Vec3& point) const {
+  const Vec3 scene_point = point + origin_;
+  if (navigation_.altitude) {
+    if (scene_point.z() < navigation_.altitude->min_m) return "altitude min";
+    if (scene_point.z() > navigation_.altitude->max_m) return "altitude max";
+  }
+  const auto holds = [&scene_point](const Box& box) { return within(box, scene_point); };
+  if (!navigation_.boxes.empty() && std::none_of(navigation_.boxes.begin(), navigation_.boxes.end(), holds)) {
+    return "box";
+  }
+  for (std::size_t i = 0; i < navigation_.keep_out.size(); ++i) {
+    if (strictly_within(navigation_.keep_out[i], scene_point)) return "keep_out " + std::to_string(i);
+  }
+  for (std::size_t i = 0; i < meshes_.size(); ++i) {
+    if (meshes_[i].contains(point) == false) return "mesh " + navigation_.meshes[i].name;
+  }
+  return std::nullopt;
+}
+
+}  // namespace vantage::verify

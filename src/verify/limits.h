@@ -1,0 +1,27 @@
+// Navigation limits as a set of points.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "vantage/constraints.h"
+#include "verify/closed_mesh.h"
+
+namespace vantage::verify {
+
+class Limits {
+ public:
+  /// Throws Error(input) for a reversed band or box and for a keep-in mesh that is not closed.
+  Limits(const Navigation& navigation, const Vec3& origin);
+
+  /// Name of the first limit that the local point breaks; nothing where it keeps them all. Borders are allowed.
+  std::optional<std::string> broken_by(const Vec3& point) const;
+
+ private:
+  Navigation navigation_;  ///< altitude and boxes; the meshes are in `meshes_`
+  Vec3 origin_;
+  std::vector<ClosedMesh> meshes_;
+};
+
+}  // namespace vantage::verify

@@ -1,0 +1,228 @@
+// The check of docs/verification.md: viewpoints against shadow rays.
+#include "vantage/verify.h"
+
+#include <atomic>
+#include <cmath>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "parallel/parallel.h"
+#include "vantage/error.h"
+#include "verify/binomial.h"
+#include "verify/limits.h"
+#include "verify/occluders.h"
+#include "verify/tolerances.h"
+#include "verify/viewpoints.h"
+
+namespace vantage {
+namespace {
+
+using verify::ClosedMesh;
+using verify::Limits;
+using verify::Occluders;
+using verify::Random;
+using verify::TargetView;
+using verify::Viewpoint;
+using verify::Viewpoints;
+
+constexpr int kRandomEdgePoints = 2;  // an edge, besides its quarter points
+
+struct Verdict {
+  bool claimed = false, uniform = false, over = false, under = false;
+  double depth = 0;  ///< from the surface of the volume, metres; for over and under
+  std::size_t rays = 0;
+  Vec3 position = Vec3::Zero();
+  std::optional<Vec3> hidden;  ///< a target point that the viewpoint does not see
+};
+
+class Check {
+ public:
+  Check(const Scene& scene, const Target& target, const Sensor& sensor, const Navigation& navigation,
+        const Mesh& volume, const VerifyOptions& options)
+      : options_(options),
+        max_range_(sensor.max_range_m),
+        scene_(scene),
+        view_(target),
+        volume_(volume, view_.origin(), "volume"),
+        limits_(navigation, view_.origin()),
+        occluders_(scene, view_, max_range_),
+        viewpoints_(volume_, view_, max_range_, options.points) {}
+
+  Verdict judge(std::size_t number) const;
+  VerifyReport report(const std::vector<Verdict>& verdicts) const;
+
+ private:
+  bool permitted(const Vec3& position, double range) const;
+  bool sees_all(const Vec3& position, Random& random, Verdict& verdict) const;
+  std::string cause(const Verdict& over_claimed) const;
+
+  VerifyOptions options_;
+  double max_range_;
+  const Scene& scene_;
+  TargetView view_;
+  ClosedMesh volume_;
+  Limits limits_;
+  Occluders occluders_;
+  Viewpoints viewpoints_;
+};
+
+/// All but the sight: in front, `range` metres from everywhere, within the limits.
+bool Check::permitted(const Vec3& position, double range) const {
+  return view_.height(position) > 0 && view_.farthest(position) <= range && !limits_.broken_by(position);
+}
+
+bool Check::sees_all(const Vec3& position, Random& random, Verdict& verdict) const {
+  const auto hidden = [&](const Vec3& target_point) {
+    ++verdict.rays;
+    if (!occluders_.hide(position, target_point)) return false;
+    verdict.hidden = target_point;
+    return true;
+  };
+  const std::vector<Vec3>& vertices = view_.vertices();
+  for (const Vec3& vertex : vertices) {
+    if (hidden(vertex)) return false;
+  }
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    const Vec3& start = vertices[i];
+    const Vec3 edge = vertices[(i + 1) % vertices.size()] - start;
+    for (const double share : {0.25, 0.5, 0.75}) {
+      if (hidden(start + share * edge)) return false;
+    }
+    for (int k = 0; k < kRandomEdgePoints; ++k) {
+      if (hidden(start + random.uniform() * edge)) return false;
+    }
+  }
+  // Roberts' R2 sequence (the plastic number's powers), shifted anew for every viewpoint.
+  double u = random.uniform(), v = random.uniform();
+  for (int k = 0; k < options_.target_samples; ++k) {
+    if (hidden(view_.interior(u, v))) return false;
+    u = std::fmod(u + 0.7548776662466927, 1.0);
+    v = std::fmod(v + 0.5698402909980532, 1.0);
+  }
+  verdict.hidden = occluders_.find_hidden(position, verdict.rays);
+  return !verdict.hidden;
+}
+
+Verdict Check::judge(std::size_t number) const {
+  Random random(options_.seed, number);
+  const Viewpoint viewpoint = viewpoints_.draw(number, random);
+  Verdict verdict;
+  verdict.position = viewpoint.position;
+  const std::optional<bool> claimed = volume_.contains(viewpoint.position);
+  if (!claimed) return verdict;  // on the surface: right either way
+  verdict.claimed = *claimed;
+  verdict.uniform = viewpoint.uniform && *claimed;
+
+  // A claim may reach as far as the range; a point that is not claimed counts only where the facets of the range
+  // sphere, which lie inside it by up to the tolerance, cannot be the reason.
+  const double range = *claimed ? max_range_ * (1 + verify::kRangeSlack) : max_range_ - options_.tolerance_m;
+  const bool good = permitted(viewpoint.position, range) && sees_all(viewpoint.position, random, verdict);
+  if (good == *claimed) return verdict;
+  verdict.depth = volume_.distance_to_surface(viewpoint.position);
+  const bool counts = verdict.depth > options_.depth_tolerance * (viewpoint.position - view_.centre()).norm();
+  verdict.over = counts && *claimed;
+  verdict.under = counts && !*claimed;
+  return verdict;
+}
+
+std::string Check::cause(const Verdict& over_claimed) const {
+  const Vec3& position = over_claimed.position;
+  if (over_claimed.hidden) {
+    const auto triangle = occluders_.first_hit(position, *over_claimed.hidden);
+    const bool named =
+        triangle && *triangle < scene_.object_of.size() && scene_.object_of[*triangle] < scene_.objects.size();
+    return named ? scene_.objects[scene_.object_of[*triangle]] : "scene";
+  }
+  if (view_.height(position) <= 0) return "target plane";
+  return limits_.broken_by(position).value_or("max_range");
+}
+
+VerifyReport Check::report(const std::vector<Verdict>& verdicts) const {
+  VerifyReport report;
+  report.seed = options_.seed;
+  report.points = verdicts.size();
+  report.closed = volume_.topology().closed;
+  report.oriented = volume_.topology().oriented;
+  report.euler = volume_.topology().euler;
+  const Verdict* worst_over = nullptr;
+  const Verdict* worst_under = nullptr;
+  std::size_t uniform_over = 0;
+  for (const Verdict& verdict : verdicts) {
+    report.inside += verdict.claimed;
+    report.rays += verdict.rays;
+    report.bound_points += verdict.uniform;
+    uniform_over += verdict.uniform && verdict.over;
+    report.over_claimed += verdict.over;
+    report.under_claimed += verdict.under;
+    if (verdict.over && (!worst_over || verdict.depth > worst_over->depth)) worst_over = &verdict;
+    if (verdict.under && (!worst_under || verdict.depth > worst_under->depth)) worst_under = &verdict;
+  }
+  report.over_claim_bound = verify::upper_share_bound(uniform_over, report.bound_points);
+  if (worst_over) {
+    report.worst_over_depth_m = worst_over->depth;
+    report.worst_over_point = worst_over->position + view_.origin();
+    report.worst_over_cause = cause(*worst_over);
+  }
+  if (worst_under) {
+    report.worst_under_depth_m = worst_under->depth;
+    report.worst_under_point = worst_under->position + view_.origin();
+  }
+  return report;
+}
+
+void check_arguments(const Sensor& sensor, const VerifyOptions& options) {
+  const auto require = [](bool holds, const char* problem, const char* where) {
+    if (!holds) throw Error(ErrorKind::input, problem, where, "give a positive, finite number");
+  };
+  require(std::isfinite(sensor.max_range_m) && sensor.max_range_m > 0, "the range is not positive and finite",
+          "sensor max_range");
+  require(std::isfinite(options.depth_tolerance) && options.depth_tolerance >= 0, "the depth tolerance is negative",
+          "verify depth_tolerance");
+  require(std::isfinite(options.tolerance_m) && options.tolerance_m >= 0, "the tolerance is negative",
+          "verify tolerance");
+  require(options.target_samples >= 0, "the number of target samples is negative", "verify target_samples");
+}
+
+/// Calls back from one thread at a time, and remembers being told to stop.
+class Reporter {
+ public:
+  Reporter(const Progress& progress, std::size_t total) : progress_(progress), total_(total) { add(0); }
+
+  bool stopped() const { return stopped_.load(std::memory_order_relaxed); }
+
+  void add(std::size_t points) {
+    const std::size_t done = done_.fetch_add(points) + points;
+    if (!progress_) return;
+    const std::unique_lock lock(mutex_, std::try_to_lock);
+    if (!lock || stopped()) return;
+    if (!progress_("verify", static_cast<double>(done) / static_cast<double>(total_))) stopped_ = true;
+  }
+
+ private:
+  const Progress& progress_;
+  std::size_t total_;
+  std::atomic<std::size_t> done_ = 0;
+  std::atomic<bool> stopped_ = false;
+  std::mutex mutex_;
+};
+
+}  // namespace
+
+VerifyReport verify_volume(const Scene& scene, const Target& target, const Sensor& sensor, const Navigation& navigation,
+                           const Mesh& volume, const VerifyOptions& options, const Progress& progress) {
+  check_arguments(sensor, options);
+  const Check check(scene, target, sensor, navigation, volume, options);
+  std::vector<Verdict> verdicts(options.points);
+  Reporter reporter(progress, std::max<std::size_t>(options.points, 1));
+  parallel::for_ranges(options.points, 16, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end && !reporter.stopped(); ++i) {
+      verdicts[i] = check.judge(i);
+      reporter.add(1);
+    }
+  });
+  if (reporter.stopped()) throw Error(ErrorKind::cancelled, "the check was cancelled", "", "");
+  return check.report(verdicts);
+}
+
+}  // namespace vantage

@@ -1,0 +1,334 @@
+// The check from end to end, on small scenes whose volume is known by construction.
+#include <gtest/gtest.h>
+
+#include <iostream>
+#include <limits>
+#include <vector>
+
+#include "parallel/parallel.h"
+#include "support/oracle.h"
+#include "support/solids.h"
+#include "vantage/error.h"
+#include "vantage/verify.h"
+
+namespace vantage {
+namespace {
+
+using testing::append;
+using testing::make_box_mesh;
+
+/// A frustum between two rectangles, outward; bit 0, 1, 2 of a vertex's number: x, y, z high.
+Mesh make_frustum(const Vec3& low_min, const Vec3& low_max, const Vec3& high_min, const Vec3& high_max) {
+  Mesh mesh = make_box_mesh(low_min, high_max);
+  for (int i = 0; i < 8; ++i) {
+    const Vec3 &min = i & 4 ? high_min : low_min, &max = i & 4 ? high_max : low_max;
+    mesh.vertices[i] = {i & 1 ? max.x() : min.x(), i & 2 ? max.y() : min.y(), min.z()};
+  }
+  return mesh;
+}
+
+/// The box minus a frustum whose upper rectangle lies in the box's top: a pit. Genus 0.
+Mesh box_with_pit(const Mesh& box, const Mesh& frustum) {
+  Mesh mesh;
+  mesh.vertices = box.vertices;
+  mesh.vertices.insert(mesh.vertices.end(), frustum.vertices.begin(), frustum.vertices.end());
+  const auto is_top = [](const Triangle& t) { return t[0] >= 4 && t[1] >= 4 && t[2] >= 4; };
+  for (const Triangle& t : box.triangles) {
+    if (!is_top(t)) mesh.triangles.push_back(t);
+  }
+  for (const Triangle& t : frustum.triangles) {
+    if (!is_top(t)) mesh.triangles.push_back({t[0] + 8, t[2] + 8, t[1] + 8});
+  }
+  for (const auto& [a, b] :
+       {std::pair{4u, 5u}, {5u, 7u}, {7u, 6u}, {6u, 4u}}) {  // the rim, counter-clockwise from above
+    mesh.triangles.push_back({a, b, b + 8});
+    mesh.triangles.push_back({a, b + 8, a + 8});
+  }
+  return mesh;
+}
+
+/// A plate over the ground, a square target on the ground, and a keep-in box. What the plate hides is a frustum: a
+/// point `rise` above the plate at height h is o + s (o - t) with s = rise / h.
+struct Example {
+  Scene scene;
+  Target target;
+  Sensor sensor{100};
+  Navigation navigation;
+  Mesh truth;
+
+  VerifyReport verify(const Mesh& volume, const VerifyOptions& options = {}) const {
+    return verify_volume(scene, target, sensor, navigation, volume, options);
+  }
+};
+
+Example plate_example(const Vec3& shift = Vec3::Zero()) {
+  Example example;
+  const double plate = 5, top = 10, s = (top - plate) / plate;
+  const double x0 = 2, x1 = 4, y0 = -1, y1 = 1;  // of the plate; the target reaches from -1 to 1
+  example.scene.mesh.vertices = {{x0, y0, plate}, {x1, y0, plate}, {x1, y1, plate}, {x0, y1, plate},
+                                 {-50, -50, 0},   {50, -50, 0},    {50, 50, 0},     {-50, 50, 0}};
+  example.scene.mesh.triangles = {{0, 1, 2}, {0, 2, 3}, {4, 5, 6}, {4, 6, 7}};
+  example.scene.object_of = {0, 0, 1, 1};
+  example.scene.objects = {"plate", "ground"};
+  example.target.vertices = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+  example.navigation.boxes = {{Vec3(-10, -10, 1), Vec3(10, 10, 10)}};
+  const Mesh hidden = make_frustum({x0, y0, plate}, {x1, y1, plate}, {x0 + s * (x0 - 1), y0 + s * (y0 - 1), top},
+                                   {x1 + s * (x1 + 1), y1 + s * (y1 + 1), top});
+  example.truth = box_with_pit(make_box_mesh({-10, -10, 1}, {10, 10, 10}), hidden);
+  for (Vec3& vertex : example.scene.mesh.vertices) vertex += shift;
+  for (Vec3& vertex : example.target.vertices) vertex += shift;
+  for (Vec3& vertex : example.truth.vertices) vertex += shift;
+  example.navigation.boxes[0].min += shift;
+  example.navigation.boxes[0].max += shift;
+  return example;
+}
+
+void expect_right(const VerifyReport& report) {
+  EXPECT_EQ(report.over_claimed, 0u) << report.worst_over_depth_m << " m at " << report.worst_over_point.transpose()
+                                     << ": " << report.worst_over_cause;
+  EXPECT_EQ(report.under_claimed, 0u) << report.worst_under_depth_m << " m at " << report.worst_under_point.transpose();
+}
+
+TEST(Verify, PassesAVolumeThatIsRight) {
+  const Example example = plate_example();
+  const VerifyReport report = example.verify(example.truth);
+  expect_right(report);
+  EXPECT_TRUE(report.closed);
+  EXPECT_TRUE(report.oriented);
+  EXPECT_EQ(report.euler, 2);
+  EXPECT_EQ(report.points, 20000u);
+  EXPECT_GT(report.inside, 5000u);
+  EXPECT_LT(report.inside, 20000u);
+  EXPECT_GT(report.rays, report.inside * 64);
+  EXPECT_GE(report.bound_points, 5000u);
+  EXPECT_NEAR(report.over_claim_bound, 1 - std::pow(0.05, 1.0 / static_cast<double>(report.bound_points)), 1e-12);
+  EXPECT_TRUE(report.worst_over_cause.empty());
+}
+
+TEST(Verify, LargeCoordinatesMakeNoDifference) {
+  const Vec3 shift(580000, 4785000, 1000);
+  const Example near = plate_example(), far = plate_example(shift);
+  expect_right(far.verify(far.truth));
+  Mesh uncut = make_box_mesh(shift + Vec3(-10, -10, 1), shift + Vec3(10, 10, 10));
+  const VerifyReport wrong = far.verify(uncut);
+  const VerifyReport same = near.verify(make_box_mesh({-10, -10, 1}, {10, 10, 10}));
+  EXPECT_EQ(wrong.over_claimed, same.over_claimed);
+  EXPECT_NEAR(wrong.worst_over_depth_m, same.worst_over_depth_m, 1e-6);
+}
+
+TEST(Verify, CatchesAShadowThatWasNotCut) {
+  const Example example = plate_example();
+  const VerifyReport report = example.verify(make_box_mesh({-10, -10, 1}, {10, 10, 10}));
+  EXPECT_GT(report.over_claimed, 100u);
+  EXPECT_EQ(report.under_claimed, 0u);
+  EXPECT_EQ(report.worst_over_cause, "plate");
+  EXPECT_GT(report.worst_over_depth_m, 1);
+  EXPECT_EQ(report.euler, 2);
+  // Of 20 x 20 x 9 m3 the frustum takes 5/3 (4 + 36 + 12) m3.
+  const double share = 5.0 / 3 * 52 / 3600;
+  EXPECT_GT(report.over_claim_bound, share);
+  EXPECT_LT(report.over_claim_bound, 2 * share);
+}
+
+TEST(Verify, CatchesAShadowCutAHairTooSmall) {
+  Example example = plate_example();
+  Mesh volume = example.truth;
+  for (std::size_t i = 8; i < 12; ++i) volume.vertices[i].z() += 1e-3;  // the pit's floor
+  const VerifyReport high = example.verify(volume);
+  EXPECT_GT(high.over_claimed, 0u);
+  EXPECT_LT(high.worst_over_depth_m, 1.1e-3);
+  for (std::size_t i = 8; i < 12; ++i) {  // lower, and wider, than what is hidden
+    volume.vertices[i] = example.truth.vertices[i] + Vec3(i & 1 ? 1e-3 : -1e-3, i & 2 ? 1e-3 : -1e-3, -1e-3);
+  }
+  const VerifyReport low = example.verify(volume);
+  EXPECT_EQ(low.over_claimed, 0u);
+  EXPECT_GT(low.under_claimed, 0u);
+  EXPECT_LT(low.worst_under_depth_m, 2e-3);
+}
+
+TEST(Verify, CatchesAVolumeThatIsInflatedShrunkOrMirrored) {
+  const Example example = plate_example();
+  const auto mapped = [&](const Vec3& factors) {
+    Mesh volume = example.truth;
+    for (Vec3& vertex : volume.vertices) vertex = vertex.cwiseProduct(factors);
+    if (factors.prod() < 0) {
+      for (Triangle& triangle : volume.triangles) std::swap(triangle[0], triangle[1]);
+    }
+    return example.verify(volume);
+  };
+  const VerifyReport inflated = mapped(Vec3::Constant(1.01));
+  EXPECT_GT(inflated.over_claimed, 0u);
+  EXPECT_EQ(inflated.worst_over_cause, "box");
+  const VerifyReport shrunk = mapped(Vec3(0.99, 0.99, 1));
+  EXPECT_EQ(shrunk.worst_over_cause, "plate");  // the pit's side towards the target moved over what the plate hides
+  EXPECT_GT(shrunk.under_claimed, 0u);
+  const VerifyReport mirrored = mapped(Vec3(-1, 1, 1));
+  EXPECT_EQ(mirrored.worst_over_cause, "plate");
+  EXPECT_GT(mirrored.over_claimed, 100u);
+  EXPECT_GT(mirrored.under_claimed, 100u);
+}
+
+TEST(Verify, CatchesAThinPoleBetweenTwoVertices) {
+  Example example = plate_example();
+  example.target.vertices = {{-5, -5, 0}, {5, -5, 0}, {5, 5, 0}, {-5, 5, 0}};
+  example.scene.mesh = make_box_mesh({-0.01, -7.01, 0}, {0.01, -6.99, 8});
+  example.scene.object_of.assign(12, 0);
+  example.scene.objects = {"pole"};
+  const Mesh box = make_box_mesh({-10, -10, 1}, {10, 10, 10});
+  VerifyOptions options;
+  const VerifyReport report = example.verify(box, options);
+  EXPECT_GT(report.over_claimed, 100u);
+  EXPECT_EQ(report.worst_over_cause, "pole");
+  // Every viewpoint that the pole matters to is found, not only where a sample happens to fall behind it: the count is
+  // the same whatever the samples.
+  options.target_samples = 0;
+  EXPECT_EQ(example.verify(box, options).over_claimed, report.over_claimed);
+}
+
+TEST(Verify, ChecksTheRange) {
+  Example example = plate_example();
+  example.navigation = {};
+  example.scene.mesh.triangles.clear();
+  const double corner = std::sqrt(11.0 * 11 + 11 * 11 + 10 * 10);  // from the box's upper corner to the far vertex
+  const Mesh box = make_box_mesh({-10, -10, 1}, {10, 10, 10});
+  example.sensor.max_range_m = corner;
+  VerifyReport report = example.verify(box);
+  EXPECT_EQ(report.over_claimed, 0u);
+  EXPECT_GT(report.under_claimed, 0u);  // the ball reaches farther than its inscribed box
+  example.sensor.max_range_m = 0.95 * corner;
+  report = example.verify(box);
+  EXPECT_GT(report.over_claimed, 0u);
+  EXPECT_EQ(report.worst_over_cause, "max_range");
+}
+
+TEST(Verify, ForgivesRangeFacetsInsideTheSphere) {
+  // A hemisphere of flat facets about a small target: inside the sphere by up to a few centimetres.
+  Example example = plate_example();
+  example.navigation = {};
+  example.scene.mesh.triangles.clear();
+  for (Vec3& vertex : example.target.vertices) vertex *= 1e-4;
+  example.sensor.max_range_m = 20;
+  const Mesh dome = testing::make_hemisphere(Vec3::Zero(), 20 - 2e-4, 96, 24).mesh;
+  VerifyOptions options;
+  options.tolerance_m = 0.1;
+  expect_right(example.verify(dome, options));
+  options.tolerance_m = 0.01;
+  const VerifyReport report = example.verify(dome, options);
+  EXPECT_EQ(report.over_claimed, 0u);
+  EXPECT_GT(report.under_claimed, 0u);
+  EXPECT_LT(report.worst_under_depth_m, 0.1);
+}
+
+TEST(Verify, CatchesWhatLiesBehindTheTarget) {
+  Example example = plate_example();
+  example.navigation = {};
+  example.scene.mesh.triangles.clear();
+  const VerifyReport report = example.verify(make_box_mesh({-10, -10, -3}, {10, 10, 10}));
+  EXPECT_GT(report.over_claimed, 0u);
+  EXPECT_EQ(report.worst_over_cause, "target plane");
+}
+
+TEST(Verify, TheSurfaceUnderTheTargetDoesNotCount) {
+  Example example = plate_example();
+  Mesh bump = make_box_mesh({-0.5, -0.5, -1}, {0.5, 0.5, 0.9e-3});
+  append(example.scene.mesh, bump);
+  expect_right(example.verify(example.truth));
+  append(example.scene.mesh, make_box_mesh({-0.5, -0.5, -1}, {0.5, 0.5, 1.1e-3}));
+  EXPECT_GT(example.verify(example.truth).over_claimed, 1000u);
+}
+
+TEST(Verify, DoesNotDependOnThreads) {
+  const Example example = plate_example();
+  const Mesh box = make_box_mesh({-10, -10, 1}, {10, 10, 10});
+  VerifyOptions options;
+  options.points = 4000;
+  VerifyReport one, all;
+  parallel::with_threads(1, [&] { one = example.verify(box, options); });
+  parallel::with_threads(2, [&] { all = example.verify(box, options); });
+  EXPECT_EQ(one.inside, all.inside);
+  EXPECT_EQ(one.rays, all.rays);
+  EXPECT_EQ(one.over_claimed, all.over_claimed);
+  EXPECT_EQ(one.under_claimed, all.under_claimed);
+  EXPECT_EQ(one.worst_over_depth_m, all.worst_over_depth_m);
+  EXPECT_EQ(one.worst_over_point, all.worst_over_point);
+  EXPECT_EQ(one.over_claim_bound, all.over_claim_bound);
+  options.seed = 2;
+  EXPECT_NE(example.verify(box, options).rays, one.rays);
+}
+
+TEST(Verify, AgreesWithAPlainLoop) {
+  // Claimed by nobody or by everybody: over- and under-claims together are what the plain loop says, viewpoint for
+  // viewpoint.
+  const Example example = plate_example();
+  const Mesh box = make_box_mesh({-10, -10, 1}, {10, 10, 10});
+  VerifyOptions options;
+  options.points = 1;
+  const std::uint64_t seed = 500;
+  std::cout << "seeds from " << seed << "\n";
+  int hidden = 0;
+  for (options.seed = seed; options.seed < seed + 300; ++options.seed) {
+    const VerifyReport report = example.verify(box, options);
+    if (report.over_claimed == 0) continue;
+    ++hidden;
+    EXPECT_FALSE(testing::sees_all(example.scene, example.target.vertices, report.worst_over_point, 2000));
+  }
+  EXPECT_GT(hidden, 0);
+}
+
+TEST(Verify, ReportsProgressAndStops) {
+  const Example example = plate_example();
+  VerifyOptions options;
+  options.points = 2000;
+  double last = 0;
+  int calls = 0;
+  verify_volume(example.scene, example.target, example.sensor, example.navigation, example.truth, options,
+                [&](std::string_view stage, double fraction) {
+                  EXPECT_EQ(stage, "verify");
+                  EXPECT_GE(fraction, 0);
+                  EXPECT_LE(fraction, 1);
+                  last = fraction;
+                  ++calls;
+                  return true;
+                });
+  EXPECT_GT(calls, 10);
+  EXPECT_GT(last, 0.5);
+  calls = 0;
+  try {
+    verify_volume(example.scene, example.target, example.sensor, example.navigation, example.truth, options,
+                  [&](std::string_view, double) { return ++calls < 5; });
+    FAIL() << "was not cancelled";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::cancelled);
+    EXPECT_EQ(calls, 5);
+  }
+}
+
+TEST(Verify, RefusesBadInput) {
+  const Example example = plate_example();
+  const auto refuses = [&](auto&& change) {
+    Example bad = example;
+    VerifyOptions options;
+    options.points = 8;
+    change(bad, options);
+    try {
+      bad.verify(bad.truth, options);
+      return false;
+    } catch (const Error& error) {
+      return error.kind() == ErrorKind::input && !error.problem().empty() && !error.where().empty() &&
+             !error.fix().empty();
+    }
+  };
+  EXPECT_FALSE(refuses([](Example&, VerifyOptions&) {}));
+  EXPECT_TRUE(refuses([](Example& e, VerifyOptions&) { e.truth.triangles.pop_back(); }));
+  EXPECT_TRUE(refuses([](Example& e, VerifyOptions&) { e.truth = {}; }));
+  EXPECT_TRUE(refuses([](Example& e, VerifyOptions&) { e.sensor.max_range_m = 0; }));
+  EXPECT_TRUE(refuses([](Example& e, VerifyOptions&) { e.sensor.max_range_m = std::nan(""); }));
+  EXPECT_TRUE(refuses([](Example& e, VerifyOptions&) { e.target.vertices.resize(2); }));
+  EXPECT_TRUE(refuses([](Example& e, VerifyOptions&) { e.navigation.altitude = Navigation::Altitude{5, 1}; }));
+  EXPECT_TRUE(refuses([](Example& e, VerifyOptions&) { e.scene.mesh.triangles[0][1] = 99; }));
+  EXPECT_TRUE(refuses([](Example&, VerifyOptions& o) { o.depth_tolerance = -1; }));
+  EXPECT_TRUE(refuses([](Example&, VerifyOptions& o) { o.target_samples = -1; }));
+}
+
+}  // namespace
+}  // namespace vantage
