@@ -1,0 +1,72 @@
+#include "solid/report.h"
+
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include "solid/names.h"
+
+namespace vantage::solid {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json json_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+Json json_of(const Box& box) {
+  if (box.empty()) return nullptr;
+  return {{"min", json_of(box.min)}, {"max", json_of(box.max)}};
+}
+
+Json json_of(const std::vector<Cause>& causes) {
+  Json list = Json::array();
+  for (const Cause& cause : causes) {
+    list.push_back({{"name", cause.name}, {"kind", name_of(cause.kind)}, {"area_m2", cause.area_m2}});
+  }
+  return list;
+}
+
+Json json_of(const StageCounts& counts) {
+  return {{"scene_polygons", counts.scene_polygons},
+          {"candidate_blockers", counts.candidate_blockers},
+          {"visible_blockers", counts.visible_blockers},
+          {"visible_facets", counts.visible_facets},
+          {"constraint_edges", counts.constraint_edges}};
+}
+
+Json json_of(const Seconds& seconds) {
+  return {{"read", seconds.read},     {"prepare", seconds.prepare},
+          {"engine", seconds.engine}, {"navigation", seconds.navigation},
+          {"write", seconds.write},   {"total", seconds.total}};
+}
+
+}  // namespace
+
+std::string report_json(const Volume& volume, const MeshMeasures& measures, const ReportSource& source) {
+  Json report;
+  report["version"] = VANTAGE_VERSION;
+  const std::array<std::pair<const char*, const std::string*>, 4> sources = {
+      {{"mission", &source.mission}, {"scene", &source.scene}, {"target", &source.target}, {"volume", &source.volume}}};
+  for (const auto& [key, text] : sources) {
+    if (!text->empty()) report[key] = *text;
+  }
+  report["outcome"] = name_of(volume.outcome);
+  report["reason"] = volume.reason;
+  report["hint"] = volume.hint;
+  report["volume_m3"] = measures.volume_m3;
+  report["area_m2"] = measures.area_m2;
+  report["pieces"] = measures.pieces;
+  report["vertices"] = measures.vertices;
+  report["facets"] = measures.facets;
+  report["euler"] = measures.euler;
+  report["closed"] = measures.closed;
+  report["oriented"] = measures.oriented;
+  report["tolerance_m"] = volume.tolerance_m;
+  report["lift_m"] = volume.lift_m;
+  report["bounding_box"] = json_of(measures.bounds);
+  report["causes"] = json_of(volume.causes);
+  report["counts"] = json_of(volume.counts);
+  report["seconds"] = json_of(volume.seconds);
+  return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace vantage::solid

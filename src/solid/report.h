@@ -1,0 +1,23 @@
+// The text of *.report.json.
+#pragma once
+
+#include <string>
+
+#include "vantage/volume.h"
+
+namespace vantage::solid {
+
+/// What the volume was made from, for the report; empty entries are left out.
+struct ReportSource {
+  std::string mission;  ///< file
+  std::string scene;    ///< file
+  std::string target;   ///< name
+  std::string volume;   ///< the file that holds the volume
+};
+
+/// A JSON object, UTF-8, two spaces of indentation, a newline at the end. Lengths are metres in the scene frame.
+/// `causes` are in the order of Volume::causes, so that the facet property of a PLY file indexes them. `bounding_box`
+/// is null for an empty volume. Bytes of names that are not UTF-8 are replaced.
+std::string report_json(const Volume& volume, const MeshMeasures& measures, const ReportSource& source = {});
+
+}  // namespace vantage::solid

@@ -1,0 +1,155 @@
+// glTF 2.0, binary container: y up, one primitive and one material per kind of cause. Positions are single precision,
+// as glTF demands, but relative to a node whose translation is written in full: UTM-sized coordinates survive.
+#include <array>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "solid/names.h"
+#include "solid/writers.h"
+
+namespace vantage::solid {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Values of the glTF 2.0 specification.
+constexpr std::uint32_t kMagic = 0x46546C67, kContainerVersion = 2, kJsonChunk = 0x4E4F534A, kBinChunk = 0x004E4942;
+constexpr int kFloat = 5126, kUnsignedInt = 5125, kArrayBuffer = 34962, kElementArrayBuffer = 34963, kTriangles = 4;
+constexpr std::size_t kContainerBytes = 12;
+
+constexpr std::array kKinds = {CauseKind::scene, CauseKind::range, CauseKind::target_plane, CauseKind::navigation};
+
+Json material_for(CauseKind kind) {
+  // Far apart for the colour-blind too; the range, which is most of the surface, is the most transparent.
+  std::array<double, 4> colour{};
+  switch (kind) {
+    case CauseKind::scene:
+      colour = {0.84, 0.37, 0.0, 0.5};
+      break;
+    case CauseKind::range:
+      colour = {0.34, 0.71, 0.91, 0.25};
+      break;
+    case CauseKind::target_plane:
+      colour = {0.0, 0.62, 0.45, 0.6};
+      break;
+    case CauseKind::navigation:
+      colour = {0.8, 0.47, 0.65, 0.4};
+      break;
+  }
+  return {{"name", name_of(kind)},
+          {"pbrMetallicRoughness", {{"baseColorFactor", colour}, {"metallicFactor", 0.0}, {"roughnessFactor", 0.9}}},
+          {"alphaMode", "BLEND"},
+          {"doubleSided", true}};
+}
+
+/// The document and its one buffer.
+struct Gltf {
+  Json json;
+  std::string buffer;
+
+  /// Appends to the buffer what `from` marks the beginning of, as a view.
+  std::size_t add_view(std::size_t from, int target) {
+    json["bufferViews"].push_back(
+        {{"buffer", 0}, {"byteOffset", from}, {"byteLength", buffer.size() - from}, {"target", target}});
+    return json["bufferViews"].size() - 1;
+  }
+
+  std::size_t add_accessor(Json accessor) {
+    json["accessors"].push_back(std::move(accessor));
+    return json["accessors"].size() - 1;
+  }
+};
+
+std::size_t add_positions(Gltf& gltf, const Mesh& mesh, const Vec3& origin) {
+  std::array<float, 3> low, high;
+  low.fill(std::numeric_limits<float>::infinity());
+  high.fill(-std::numeric_limits<float>::infinity());
+  for (const Vec3& vertex : mesh.vertices) {
+    const Vec3 local = to_y_up(vertex - origin);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto coordinate = static_cast<float>(local[static_cast<Eigen::Index>(axis)]);
+      low[axis] = std::min(low[axis], coordinate);
+      high[axis] = std::max(high[axis], coordinate);
+      append_little_endian(gltf.buffer, coordinate);
+    }
+  }
+  // As doubles, so that the text reads back as exactly these floats; the specification demands that.
+  const auto exact = [](const std::array<float, 3>& v) { return std::array<double, 3>{v[0], v[1], v[2]}; };
+  return gltf.add_accessor({{"bufferView", gltf.add_view(0, kArrayBuffer)},
+                            {"componentType", kFloat},
+                            {"count", mesh.vertices.size()},
+                            {"type", "VEC3"},
+                            {"min", exact(low)},
+                            {"max", exact(high)}});
+}
+
+/// Adds the facets of one kind of cause; nothing when there are none.
+void add_primitive(Gltf& gltf, const Volume& volume, CauseKind kind, std::size_t positions, Json& primitives) {
+  const std::size_t from = gltf.buffer.size();
+  for (std::size_t t = 0; t < volume.mesh.triangles.size(); ++t) {
+    if (volume.causes[volume.cause_of[t]].kind != kind) continue;
+    for (const std::uint32_t index : volume.mesh.triangles[t]) append_little_endian(gltf.buffer, index);
+  }
+  const std::size_t count = (gltf.buffer.size() - from) / sizeof(std::uint32_t);
+  if (count == 0) return;
+  const std::size_t indices = gltf.add_accessor({{"bufferView", gltf.add_view(from, kElementArrayBuffer)},
+                                                 {"componentType", kUnsignedInt},
+                                                 {"count", count},
+                                                 {"type", "SCALAR"}});
+  gltf.json["materials"].push_back(material_for(kind));
+  primitives.push_back({{"attributes", {{"POSITION", positions}}},
+                        {"indices", indices},
+                        {"material", gltf.json["materials"].size() - 1},
+                        {"mode", kTriangles}});
+}
+
+Gltf make_gltf(const Volume& volume) {
+  Gltf gltf;
+  gltf.json["asset"] = {{"version", "2.0"}, {"generator", "vantage " VANTAGE_VERSION}};
+  gltf.json["scene"] = 0;
+  if (volume.mesh.empty()) {  // the specification allows no empty array, so there is no node either
+    gltf.json["scenes"] = Json::array({{{"name", std::string("no volume: ") + name_of(volume.outcome)}}});
+    return gltf;
+  }
+  const Box box = bounding_box(volume.mesh);
+  const Vec3 origin = ((box.min + box.max) / 2).array().round();
+  const Vec3 translation = to_y_up(origin);
+  gltf.json["scenes"] = Json::array({{{"nodes", {0}}}});
+  gltf.json["nodes"] = Json::array({{{"name", "visibility volume"},
+                                     {"mesh", 0},
+                                     {"translation", {translation.x(), translation.y(), translation.z()}}}});
+  Json primitives = Json::array();
+  const std::size_t positions = add_positions(gltf, volume.mesh, origin);
+  for (const CauseKind kind : kKinds) add_primitive(gltf, volume, kind, positions, primitives);
+  gltf.json["meshes"] = Json::array({{{"name", "visibility volume"}, {"primitives", std::move(primitives)}}});
+  gltf.json["buffers"] = Json::array({{{"byteLength", gltf.buffer.size()}}});
+  return gltf;
+}
+
+void append_chunk(std::string& bytes, std::uint32_t type, std::string_view content, char padding) {
+  const std::size_t padded = (content.size() + 3) / 4 * 4;
+  append_little_endian(bytes, static_cast<std::uint32_t>(padded));
+  append_little_endian(bytes, type);
+  bytes += content;
+  bytes.append(padded - content.size(), padding);
+}
+
+}  // namespace
+
+void write_glb(const Volume& volume, AtomicFile& file) {
+  const Gltf gltf = make_gltf(volume);
+  std::string chunks;
+  append_chunk(chunks, kJsonChunk, gltf.json.dump(), ' ');
+  if (!gltf.buffer.empty()) append_chunk(chunks, kBinChunk, gltf.buffer, '\0');
+  check_count(kContainerBytes + chunks.size(), std::numeric_limits<std::uint32_t>::max(), "bytes", "GLB");
+
+  std::string header;
+  append_little_endian(header, kMagic);
+  append_little_endian(header, kContainerVersion);
+  append_little_endian(header, static_cast<std::uint32_t>(kContainerBytes + chunks.size()));
+  file.write(header);
+  file.write(chunks);
+}
+
+}  // namespace vantage::solid

@@ -1,0 +1,57 @@
+// Wavefront OBJ: one group per cause, in the axes of the scene file.
+#include <set>
+#include <vector>
+
+#include "solid/names.h"
+#include "solid/writers.h"
+
+namespace vantage::solid {
+namespace {
+
+/// Group names end at white space, so that becomes "_"; a name that is taken gets the number of its cause.
+std::vector<std::string> group_names(const std::vector<Cause>& causes) {
+  std::vector<std::string> names;
+  std::set<std::string> taken;
+  for (const Cause& cause : causes) {
+    std::string name = one_line(cause.name);
+    for (char& c : name) c = c == ' ' ? '_' : c;
+    if (name.empty()) name = name_of(cause.kind);
+    if (!taken.insert(name).second) {
+      name.append("#").append(std::to_string(names.size()));
+      taken.insert(name);
+    }
+    names.push_back(name);
+  }
+  return names;
+}
+
+}  // namespace
+
+void write_obj(const Volume& volume, UpAxis up, AtomicFile& file) {
+  const auto& [vertices, triangles] = volume.mesh;
+  file.write("# vantage " VANTAGE_VERSION " visibility volume: " + std::string(name_of(volume.outcome)) + "\n");
+  file.write(std::string("# metres, ") + (up == UpAxis::y ? "y up: (x, z, -y) of the scene frame\n" : "z up\n"));
+
+  for (const Vec3& vertex : vertices) {
+    std::string line("v");
+    for (const double coordinate : up == UpAxis::y ? to_y_up(vertex) : vertex) {
+      line.append(" ").append(exact_text(coordinate));
+    }
+    file.write(line.append("\n"));
+  }
+
+  std::vector<std::vector<std::size_t>> facets_of(volume.causes.size());
+  for (std::size_t t = 0; t < triangles.size(); ++t) facets_of[volume.cause_of[t]].push_back(t);
+  const std::vector<std::string> names = group_names(volume.causes);
+  for (std::size_t cause = 0; cause < facets_of.size(); ++cause) {
+    if (facets_of[cause].empty()) continue;
+    file.write("g " + names[cause] + "\n");
+    for (const std::size_t t : facets_of[cause]) {
+      std::string line("f");
+      for (const std::uint32_t index : triangles[t]) line.append(" ").append(std::to_string(std::uint64_t{index} + 1));
+      file.write(line.append("\n"));
+    }
+  }
+}
+
+}  // namespace vantage::solid

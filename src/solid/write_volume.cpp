@@ -1,0 +1,87 @@
+// Checks a volume, chooses the writer by the file's extension, and holds what the writers share.
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <filesystem>
+#include <string>
+
+#include "solid/writers.h"
+#include "vantage/error.h"
+
+namespace vantage {
+namespace solid {
+
+void check_count(std::uint64_t count, std::uint64_t limit, const char* what, const char* format) {
+  if (count <= limit) return;
+  throw Error(ErrorKind::output, std::to_string(count) + " " + what + " are too many for " + format,
+              "at most " + std::to_string(limit), "write another format or compute with a larger tolerance");
+}
+
+std::string exact_text(double number) {
+  std::array<char, 32> text;
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), number).ptr;
+  return {text.data(), end};
+}
+
+std::string one_line(std::string_view text) {
+  std::string line(text);
+  for (char& c : line) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+  }
+  return line;
+}
+
+namespace {
+
+void check_volume(const Volume& volume) {
+  const auto fail = [](const std::string& what, const std::string& where) {
+    throw Error(ErrorKind::input, what, where, "write a volume as computed, or mend what was changed in it");
+  };
+  const auto& [vertices, triangles] = volume.mesh;
+  if (volume.cause_of.size() != triangles.size()) {
+    fail("the volume has " + std::to_string(triangles.size()) + " triangles but " +
+             std::to_string(volume.cause_of.size()) + " causes of triangles",
+         "");
+  }
+  for (std::size_t v = 0; v < vertices.size(); ++v) {
+    if (!vertices[v].allFinite()) fail("a coordinate is not finite", "vertex " + std::to_string(v));
+  }
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    const auto beyond = [&](std::uint32_t v) { return v >= vertices.size(); };
+    if (std::any_of(triangles[t].begin(), triangles[t].end(), beyond)) {
+      fail("a vertex index is out of range", "triangle " + std::to_string(t));
+    }
+    if (volume.cause_of[t] >= volume.causes.size()) {
+      fail("a cause index is out of range", "triangle " + std::to_string(t));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace solid
+
+void write_volume(const Volume& volume, const std::filesystem::path& file, UpAxis obj_up) {
+  std::error_code ignored;
+  const bool directory =
+      std::filesystem::is_directory(file, ignored);  // AtomicFile refuses it, with or without extension
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const bool known = extension == ".ply" || extension == ".obj" || extension == ".stl" || extension == ".glb";
+  if (!known && !directory) {
+    throw Error(ErrorKind::input,
+                extension.empty() ? "the output file has no extension"
+                                  : "unknown output format \"" + file.extension().string() + "\"",
+                file.string(), "name a file that ends in .ply, .obj, .stl or .glb");
+  }
+  solid::check_volume(volume);
+  solid::AtomicFile output(file);
+  if (extension == ".ply") solid::write_ply(volume, output);
+  if (extension == ".obj") solid::write_obj(volume, obj_up, output);
+  if (extension == ".stl") solid::write_stl(volume, output);
+  if (extension == ".glb") solid::write_glb(volume, output);
+  output.commit();
+}
+
+}  // namespace vantage

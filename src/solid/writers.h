@@ -1,0 +1,46 @@
+// One writer per file format, and what they share. The volumes that they get are checked: write_volume.cpp.
+#pragma once
+
+#include <bit>
+#include <concepts>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+#include "solid/atomic_file.h"
+#include "vantage/volume.h"
+
+namespace vantage::solid {
+
+void write_ply(const Volume& volume, AtomicFile& file);
+void write_obj(const Volume& volume, UpAxis up, AtomicFile& file);
+void write_stl(const Volume& volume, AtomicFile& file);
+void write_glb(const Volume& volume, AtomicFile& file);
+
+/// Throws Error(output) when a format that counts in 32 bits cannot hold that many. `limit` is the largest number
+/// allowed.
+void check_count(std::uint64_t count, std::uint64_t limit, const char* what, const char* format);
+
+/// From the scene frame, z up, to axes with y up: (x, y, z) becomes (x, z, -y).
+inline Vec3 to_y_up(const Vec3& v) { return {v.x(), v.z(), -v.y()}; }
+
+/// The shortest text that reads back as the same number: at most 17 significant digits.
+std::string exact_text(double number);
+
+/// `text` on one line: control characters become spaces.
+std::string one_line(std::string_view text);
+
+/// Appends a number's bytes, the lowest first, on any machine.
+template <typename Number>
+requires std::is_arithmetic_v<Number>
+void append_little_endian(std::string& bytes, Number number) {
+  using Bits =
+      std::conditional_t<sizeof(Number) == 8, std::uint64_t,
+                         std::conditional_t<sizeof(Number) == 4, std::uint32_t,
+                                            std::conditional_t<sizeof(Number) == 2, std::uint16_t, std::uint8_t>>>;
+  const auto bits = std::bit_cast<Bits>(number);
+  for (unsigned i = 0; i < sizeof(Number); ++i) bytes.push_back(static_cast<char>(bits >> (8 * i) & 0xff));
+}
+
+}  // namespace vantage::solid
