@@ -1,0 +1,51 @@
+// What one convex scene polygon hides: docs/theory.md, "What one polygon blocks is convex".
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "vantage/geometry.h"
+#include "vantage/target.h"
+
+namespace vantage::exact {
+
+/// The target in its own frame, with what every blocker needs of it worked out once. `centre` is the origin.
+struct LocalTarget {
+  struct Edge {
+    Eigen::Vector2d outward;  ///< unit normal of the edge, away from the target
+    double distance;          ///< of the edge's line from the centre; > 0
+  };
+  std::vector<Eigen::Vector2d> vertices;  ///< counter-clockwise about the origin, metres
+  std::vector<Edge> edges;                ///< edge i runs from vertex i to vertex i + 1
+  double radius = 0;                      ///< of the farthest vertex from the origin
+};
+LocalTarget make_local_target(const std::vector<Eigen::Vector2d>& polygon);
+
+/// A plane g . x = 1 that bounds what a blocker hides: hidden points have g . x > 1 for all of its planes. `g` is an
+/// inverse length. On the direction d the plane is met at distance 1 / (g . d): g . d is the inverse depth.
+using Plane = Vec3;
+
+/// Planes of B(O) for the convex polygon O (local frame, metres, at least 3 corners, planar to rounding), clipped to
+/// z >= 0. Appends to `planes`; appends nothing when O reaches nowhere above the target's plane. Every plane holds all
+/// of B(O) on its far side (to numerics::kSeparation), so leaving one out would only hide more. Cost: O(N M) for N
+/// target vertices and M corners.
+class BlockerBuilder {
+ public:
+  explicit BlockerBuilder(const LocalTarget& target) : target_(target) {}
+  void build(std::span<const Vec3> polygon, std::vector<Plane>& planes);
+
+ private:
+  void clip(std::span<const Vec3> polygon);
+  void add_own_plane(const Vec3& normal);
+  void add_target_edge_planes();
+  void add_polygon_edge_planes(const Vec3& normal);
+  void add(const Vec3& normal, double height);
+
+  const LocalTarget& target_;
+  std::vector<Vec3> polygon_;  // clipped
+  std::vector<Plane>* planes_ = nullptr;
+  std::size_t first_ = 0;
+};
+
+}  // namespace vantage::exact

@@ -1,0 +1,110 @@
+#include "exact/chart_grid.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+#include "vantage/error.h"
+
+namespace vantage::exact {
+namespace {
+
+constexpr int kTrial = 16;        // lines of the grid on which the facets' depth below the sphere is measured
+constexpr int kMostLines = 2500;  // 25 million triangles at most
+constexpr double kSafety = 0.9;   // the depth falls with the square of the spacing only in the limit
+
+double line_at(int i, int n) {
+  if (i == n) return 1;
+  const double t = std::tan(M_PI / 2 * i / n);
+  return t / (1 + t);
+}
+
+// How far the plane through three points of a ball's sphere can lie inside it.
+double depth_below(const Vec3& a, const Vec3& b, const Vec3& c, double radius) {
+  const Vec3 u = b - a, v = c - a, w = c - b;
+  const double area2 = u.cross(v).norm();
+  const double circumradius = u.norm() * v.norm() * w.norm() / (2 * area2);
+  return circumradius >= radius ? radius : radius - std::sqrt(radius * radius - circumradius * circumradius);
+}
+
+double deepest_on_trial_grid(const RangeRegion& range) {
+  double deepest = 0;
+  const auto depth = [&](const ChartPoint& p, const ChartPoint& q, const ChartPoint& r) {
+    const std::size_t ball = range.nearest_ball(to_direction((p + q + r) / 3));
+    const auto lift = [&](const ChartPoint& x) { return Vec3(to_direction(x) / range.gauge(ball, to_direction(x))); };
+    return depth_below(lift(p), lift(q), lift(r), range.radius());
+  };
+  for (int quadrant = 0; quadrant < 4; ++quadrant)
+    for (int i = 0; i < kTrial; ++i)
+      for (int j = 0; i + j < kTrial; ++j) {
+        const double sa = quadrant & 1 ? -1 : 1, sb = quadrant & 2 ? -1 : 1;
+        const double a0 = sa * line_at(i, kTrial), a1 = sa * line_at(i + 1, kTrial);
+        const double b0 = sb * line_at(j, kTrial), b1 = sb * line_at(j + 1, kTrial);
+        deepest = std::max(deepest, depth({a0, b0}, {a1, b0}, {a0, b1}));
+        if (i + j + 1 < kTrial) deepest = std::max(deepest, depth({a1, b0}, {a1, b1}, {a0, b1}));
+      }
+  return deepest;
+}
+
+}  // namespace
+
+ChartGrid::ChartGrid(const RangeRegion& range, double tolerance) {
+  const double needed = kTrial * std::sqrt(deepest_on_trial_grid(range) / (kSafety * tolerance));
+  if (!(needed <= kMostLines)) {
+    const double least = tolerance * (needed / kMostLines) * (needed / kMostLines);
+    throw Error(ErrorKind::input, "the tolerance is too fine for this range: the mesh would have too many facets",
+                "tolerance " + std::to_string(tolerance) + " m at range " + std::to_string(range.radius()) + " m",
+                "give a tolerance of at least " + std::to_string(least) + " m");
+  }
+  n_ = std::max(8, int(std::ceil(needed)));
+  for (int i = 0; i <= n_; ++i) lines_.push_back(line_at(i, n_));
+  states_.assign(std::size_t(2 * n_) * (2 * n_), unknown);
+}
+
+int ChartGrid::locate(double coordinate) const {
+  const double x = std::min(std::abs(coordinate), 1.0);
+  int i = std::clamp(int(std::atan2(x, 1 - x) * (2 / M_PI) * n_), 0, n_ - 1);
+  while (i > 0 && lines_[i] > x) --i;
+  while (i + 1 < n_ && lines_[i + 1] <= x) ++i;
+  if (coordinate >= 0) return i;
+  return lines_[i] == x ? -i : -i - 1;
+}
+
+void ChartGrid::mark(const ChartPoint& from, const ChartPoint& to) {
+  constexpr double kMargin = 1e-8;  // well above the snapping of vertices
+  const int i0 = locate(std::min(from.x(), to.x()) - kMargin), i1 = locate(std::max(from.x(), to.x()) + kMargin);
+  const int j0 = locate(std::min(from.y(), to.y()) - kMargin), j1 = locate(std::max(from.y(), to.y()) + kMargin);
+  for (int j = j0; j <= j1; ++j)
+    for (int i = i0; i <= i1; ++i)
+      if (has_cell(i, j)) states_[index(i, j)] = mixed;
+}
+
+void ChartGrid::settle(const std::function<bool(const ChartPoint&)>& is_range_at) {
+  for (int j = -n_; j < n_; ++j) {
+    const int width = n_ - (j >= 0 ? j : -1 - j);
+    State run = unknown;
+    int begin = -width;
+    for (int i = -width; i <= width; ++i) {
+      const bool open = i < width && states_[index(i, j)] == unknown;
+      if (open) {
+        if (run == unknown && has_cell(i, j - 1) && state(i, j - 1) >= range) run = state(i, j - 1);
+        continue;
+      }
+      if (i > begin) {
+        if (run == unknown) {
+          const int middle = begin + (i - begin) / 2;
+          const double shift = inside(middle, j, n_ - 1) ? 0.5 : 1.0 / 3;  // halves of squares at the horizon
+          const auto between = [&](int k) {
+            const double low = line(k), high = line(k + 1);
+            return k >= 0 ? low + shift * (high - low) : high - shift * (high - low);
+          };
+          run = is_range_at({between(middle), between(j)}) ? range : blocked;
+        }
+        std::fill(&states_[index(begin, j)], &states_[index(begin, j)] + (i - begin), std::uint8_t(run));
+      }
+      run = unknown;
+      begin = i + 1;
+    }
+  }
+}
+
+}  // namespace vantage::exact

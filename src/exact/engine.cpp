@@ -1,0 +1,165 @@
+// compute_visibility: one target of a prepared scene, from blockers to the closed mesh.
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+
+#include "exact/collect.h"
+#include "exact/enclosing_circle.h"
+#include "exact/numerics.h"
+#include "exact/target_check.h"
+#include "exact/triangulation.h"
+#include "parallel/parallel.h"
+#include "vantage/error.h"
+#include "vantage/volume.h"
+
+namespace vantage {
+namespace {
+
+using namespace exact;
+using Clock = std::chrono::steady_clock;
+
+// A volume that ends this close to the target, in metres, is of no use to anyone: the view is blocked at once.
+constexpr double kHandsBreadth = 0.1;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+void check(const Sensor& sensor, const ExactOptions& options) {
+  if (!(sensor.max_range_m > 0) || !std::isfinite(sensor.max_range_m))
+    throw Error(ErrorKind::input, "max_range must be a positive, finite number of metres", "sensor",
+                "give the farthest distance at which the target can be seen");
+  if (!(options.tolerance_m > 0) || !std::isfinite(options.tolerance_m))
+    throw Error(ErrorKind::input, "tolerance must be a positive, finite number of metres", "exact options",
+                "give for example 0.01");
+}
+
+void report(const Progress& progress, const char* stage, double fraction) {
+  if (progress && !progress(stage, fraction))
+    throw Error(ErrorKind::cancelled, std::string("cancelled while ") + stage, "", "");
+}
+
+std::string metres(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g m", value);
+  return text;
+}
+
+// The origin must be inside every ball. The centre of the smallest enclosing circle always is, but may lie on the
+// target's outline, so the origin keeps as far from it as the range allows.
+void move_into_range(TargetFrame& frame, double max_range) {
+  const auto farthest = [&](const Eigen::Vector2d& p) {
+    double d = 0;
+    for (const auto& v : frame.polygon) d = std::max(d, (v - p).norm());
+    return d;
+  };
+  const double allowed = 0.5 * (frame.enclosing_radius_m + max_range);
+  if (farthest(Eigen::Vector2d::Zero()) <= allowed) return;
+  const Eigen::Vector2d centre = smallest_enclosing_circle(frame.polygon).centre;
+  double low = 0, high = 1;  // the distance to the farthest vertex is convex along the way
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (farthest(middle * centre) <= allowed ? high : low) = middle;
+  }
+  const Eigen::Vector2d shift = high * centre;
+  frame.origin += frame.axis_u * shift.x() + frame.axis_v * shift.y();
+  for (auto& v : frame.polygon) v -= shift;
+}
+
+void add_causes(const PreparedScene& scene, const BlockerSet& blockers, const Boundary& boundary, Volume& volume) {
+  constexpr std::uint32_t kNone = ~0u;
+  std::vector<std::uint32_t> of_object(scene.objects().size(), kNone);
+  std::uint32_t range = kNone, plane = kNone;
+  const auto cause = [&](std::uint32_t& slot, CauseKind kind, const std::string& name) {
+    if (slot == kNone) slot = std::uint32_t(volume.causes.size()), volume.causes.push_back({kind, name, 0});
+    return slot;
+  };
+  volume.cause_of.reserve(boundary.blocker_of.size());
+  for (std::size_t i = 0; i < boundary.blocker_of.size(); ++i) {
+    const std::uint32_t blocker = boundary.blocker_of[i];
+    std::uint32_t index;
+    if (blocker == Boundary::kRange) {
+      index = cause(range, CauseKind::range, "max_range");
+    } else if (blocker == Boundary::kTargetPlane) {
+      index = cause(plane, CauseKind::target_plane, "target plane");
+    } else {
+      const std::uint32_t object = scene.data().polygon_object[blockers.polygon[blocker]];
+      index = cause(of_object[object], CauseKind::scene, scene.objects()[object]);
+    }
+    volume.cause_of.push_back(index);
+    const Triangle& t = boundary.mesh.triangles[i];
+    const auto& v = boundary.mesh.vertices;
+    volume.causes[index].area_m2 += 0.5 * (v[t[1]] - v[t[0]]).cross(v[t[2]] - v[t[0]]).norm();
+  }
+}
+
+bool blocked_at_once(const Boundary& boundary) {
+  return std::all_of(boundary.mesh.vertices.begin(), boundary.mesh.vertices.end(),
+                     [](const Vec3& v) { return v.z() < kHandsBreadth; });
+}
+
+void set_blocked(const PreparedScene& scene, Volume& volume) {
+  const auto widest = std::max_element(volume.causes.begin(), volume.causes.end(), [](const Cause& a, const Cause& b) {
+    return (a.kind == CauseKind::scene ? a.area_m2 : 0) < (b.kind == CauseKind::scene ? b.area_m2 : 0);
+  });
+  (void)scene;
+  volume.outcome = Outcome::blocked_at_once;
+  volume.reason = "\"" + widest->name + "\" covers the target's front within " + metres(kHandsBreadth);
+  volume.hint = "the target looks into what it lies on: turn it round with front:, or raise it with offset:";
+  volume.causes.clear();
+  volume.cause_of.clear();
+}
+
+void compute(const PreparedScene& scene, const Sensor& sensor, const ExactOptions& options, const Progress& progress,
+             Volume& volume) {
+  const LocalTarget target = make_local_target(volume.frame.polygon);
+  const RangeRegion range(target, sensor.max_range_m);
+  ChartGrid grid(range, options.tolerance_m);
+  BlockerSet blockers;
+  DirectionTree tree(blockers, range);
+  collect_blockers(scene.data(), volume.frame, target, range, blockers, tree, progress);
+  report(progress, "tracing the envelope", 0.3);
+  const CurveSampling sampling{options.tolerance_m * 0.5, std::sqrt(8 * sensor.max_range_m * options.tolerance_m)};
+  const Skeleton skeleton = trace_envelope(blockers, tree.leaves(), range, sampling);
+  report(progress, "triangulating", 0.6);
+  Boundary boundary = triangulate_boundary(skeleton, blockers, tree, range, grid);
+  report(progress, "triangulating", 1.0);
+
+  volume.counts = {scene.data().polygon_count(), blockers.count(), skeleton.visible_blockers, skeleton.visible_facets,
+                   boundary.constraint_edges};
+  add_causes(scene, blockers, boundary, volume);
+  if (blocked_at_once(boundary)) {
+    set_blocked(scene, volume);
+    return;
+  }
+  volume.mesh = std::move(boundary.mesh);
+  for (Vec3& v : volume.mesh.vertices) v = volume.frame.to_scene(v);
+}
+
+}  // namespace
+
+Volume compute_visibility(const PreparedScene& scene, const Target& target, const Sensor& sensor,
+                          const ExactOptions& options, const Progress& progress) {
+  const auto start = Clock::now();
+  check(sensor, options);
+  Volume volume;
+  volume.tolerance_m = options.tolerance_m;
+  volume.frame = make_target_frame(target);
+  volume.lift_m = clearing_lift(scene.data(), target, volume.frame);
+  volume.frame.origin += volume.frame.normal * volume.lift_m;
+  volume.counts.scene_polygons = scene.data().polygon_count();
+  if (volume.frame.enclosing_radius_m * (1 + 1e-9) >= sensor.max_range_m) {
+    volume.outcome = Outcome::out_of_range;
+    volume.reason = "no point within " + metres(sensor.max_range_m) +
+                    " of all vertices: the target's enclosing circle has radius " +
+                    metres(volume.frame.enclosing_radius_m);
+    volume.hint = "raise max_range, or split the target";
+  } else {
+    move_into_range(volume.frame, sensor.max_range_m);
+    parallel::with_threads(options.threads, [&] { compute(scene, sensor, options, progress, volume); });
+  }
+  volume.seconds.engine = volume.seconds.total = seconds_since(start);
+  return volume;
+}
+
+}  // namespace vantage

@@ -1,0 +1,32 @@
+// The creases of the boundary: where two surfaces of the envelope meet. docs/theory.md, "Computing the envelope".
+#pragma once
+
+#include <vector>
+
+#include "exact/direction_tree.h"
+#include "exact/range_region.h"
+
+namespace vantage::exact {
+
+/// The one-skeleton of the envelope as points in the target's frame. Between creases the boundary is a plane or a ball.
+struct Skeleton {
+  struct Edge {
+    Vec3 from, to;
+  };
+  std::vector<Edge> planar;               ///< between two planes: straight
+  std::vector<std::vector<Vec3>> curved;  ///< on the range sphere: polylines with points on the curve
+  std::size_t visible_blockers = 0;
+  std::size_t visible_facets = 0;
+};
+
+struct CurveSampling {
+  double sagitta_m;  ///< a chord lies at most this far from its arc,
+  double length_m;   ///< and is at most this long
+};
+
+/// Every crease inside one blocker that bounds the volume is in the result in full: leaving one out would over-claim.
+/// Parallel over facets; the result does not depend on the number of threads.
+Skeleton trace_envelope(const BlockerSet& blockers, const std::vector<DirectionTree::Leaf>& leaves,
+                        const RangeRegion& range, const CurveSampling& sampling);
+
+}  // namespace vantage::exact

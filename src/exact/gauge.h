@@ -1,0 +1,32 @@
+// The envelope, evaluated: docs/theory.md, "The gauge".
+#pragma once
+
+#include "exact/direction_tree.h"
+#include "exact/range_region.h"
+
+namespace vantage::exact {
+
+/// What bounds the view in one direction.
+struct GaugeValue {
+  static constexpr std::uint32_t kRange = ~0u;
+  double value;           ///< inverse depth, for a direction of |x| + |y| + z = 1
+  std::uint32_t blocker;  ///< index of the blocker, or kRange
+};
+
+/// The greatest inverse depth over the range region and the blockers that the tree lists. Exact to rounding.
+inline GaugeValue evaluate_gauge(const BlockerSet& blockers, const DirectionTree& tree, const RangeRegion& range,
+                                 const ChartPoint& point) {
+  const Vec3 direction = to_direction(point);
+  GaugeValue greatest{range.gauge(direction), GaugeValue::kRange};
+  for (std::uint32_t blocker : tree.blockers_at(point)) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Plane& plane : blockers.planes_of(blocker)) {
+      least = std::min(least, plane.dot(direction));
+      if (least <= greatest.value) break;
+    }
+    if (least > greatest.value) greatest = {least, blocker};
+  }
+  return greatest;
+}
+
+}  // namespace vantage::exact

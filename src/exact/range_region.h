@@ -1,0 +1,44 @@
+// The range region: the intersection of the balls of radius max_range about the target's vertices.
+#pragma once
+
+#include <vector>
+
+#include "exact/blocker.h"
+
+namespace vantage::exact {
+
+class RangeRegion {
+ public:
+  /// The origin must be inside every ball.
+  RangeRegion(const LocalTarget& target, double max_range);
+
+  double radius() const { return radius_; }
+  std::size_t ball_count() const { return centres_.size(); }
+  const Eigen::Vector2d& centre(std::size_t ball) const { return centres_[ball]; }
+
+  /// Inverse depth along `direction` (any length: the gauge is homogeneous) of one ball's sphere.
+  double gauge(std::size_t ball, const Vec3& direction) const {
+    const double b = direction.x() * centres_[ball].x() + direction.y() * centres_[ball].y();
+    const double root = std::sqrt(b * b + direction.squaredNorm() * power_[ball]);
+    return b > 0 ? direction.squaredNorm() / (b + root) : (root - b) / power_[ball];
+  }
+
+  /// Of the region: the greatest of the balls' gauges. Convex in `direction`.
+  double gauge(const Vec3& direction) const;
+
+  /// The ball whose sphere is met first along `direction`.
+  std::size_t nearest_ball(const Vec3& direction) const;
+
+  /// A plane that touches the region where `direction` leaves it: g . d <= gauge(d) for every d, with equality there.
+  Plane supporting_plane(const Vec3& direction) const;
+
+  /// Whether a point is within max_range of all vertices.
+  bool contains(const Vec3& point) const;
+
+ private:
+  std::vector<Eigen::Vector2d> centres_;
+  std::vector<double> power_;  // radius^2 - |centre|^2
+  double radius_;
+};
+
+}  // namespace vantage::exact

@@ -1,0 +1,42 @@
+// Which part of a segment a blocker hides.
+#pragma once
+
+#include <span>
+
+#include "exact/blocker.h"
+#include "exact/interval_set.h"
+#include "exact/numerics.h"
+
+namespace vantage::exact {
+
+/// How far g . x may differ from 1 for points x within `reach` metres before a plane counts as apart from them: the tie
+/// width, plus the rounding of the product for planes that pass close to the centre.
+inline double tie_margin(const Plane& plane, double reach) {
+  return numerics::kTie + 1e-15 * reach * plane.cwiseAbs().sum();
+}
+
+/// The part of from -> to (parameters 0 to 1) on which every plane exceeds 1. A plane that holds the whole segment (a
+/// tie) hides it only if `owns_ties`. Empty intervals have begin >= end.
+inline Interval hidden_part(const Vec3& from, const Vec3& to, double reach, std::span<const Plane> planes,
+                            bool owns_ties) {
+  constexpr Interval kNone{1, 0};
+  Interval hidden{0, 1};
+  for (const Plane& plane : planes) {
+    const double margin = tie_margin(plane, reach);
+    const double a = plane.dot(from) - 1, b = plane.dot(to) - 1;
+    if (a <= margin && b <= margin) {
+      if (owns_ties && a >= -margin && b >= -margin) continue;
+      return kNone;
+    }
+    if (a >= -margin && b >= -margin) continue;
+    const double crossing = a / (a - b);
+    if (a < b)
+      hidden.begin = std::max(hidden.begin, crossing);
+    else
+      hidden.end = std::min(hidden.end, crossing);
+    if (hidden.begin >= hidden.end) return kNone;
+  }
+  return hidden;
+}
+
+}  // namespace vantage::exact

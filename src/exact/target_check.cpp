@@ -1,0 +1,225 @@
+#include "exact/target_check.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "exact/blocker.h"
+#include "exact/collect.h"
+#include "exact/facet_polygon.h"
+#include "exact/node_planes.h"
+#include "exact/numerics.h"
+#include "vantage/error.h"
+
+namespace vantage::exact {
+namespace {
+
+using numerics::kMaxLift;
+using numerics::kOnPlane;
+using numerics::kSeparation;
+
+/// The heights at which a scene polygon crosses the column over the target.
+struct Crossing {
+  double low, high;
+  std::uint32_t polygon;
+  Vec3 place;  // local, at the lowest point
+};
+
+class Column {
+ public:
+  Column(const PreparedScene::Data& scene, const TargetFrame& frame)
+      : scene_(scene), frame_(frame), target_(make_local_target(frame.polygon)) {}
+
+  /// Crossings that reach above the target's plane and begin below `ceiling`.
+  std::vector<Crossing> crossings(double ceiling) {
+    std::vector<Crossing> found;
+    if (!scene_.bvh.nodes.empty()) visit(0, ceiling, found);
+    return found;
+  }
+
+ private:
+  void visit(std::uint32_t at, double ceiling, std::vector<Crossing>& found) {
+    const scene::BvhNode& node = scene_.bvh.nodes[at];
+    if (!meets(node.bounds, ceiling)) return;
+    if (!node.leaf()) {
+      visit(node.first, ceiling, found);
+      visit(node.first + 1, ceiling, found);
+      return;
+    }
+    for (std::uint32_t polygon = node.first; polygon < node.first + node.count; ++polygon)
+      add_crossing(polygon, ceiling, found);
+  }
+
+  bool meets(const scene::Bounds& bounds, double ceiling) const {
+    const Vec3 centre = frame_.origin - scene_.origin;
+    std::array<Vec3, 8> corners;
+    double lowest = INFINITY, highest = -INFINITY;
+    for (int i = 0; i < 8; ++i) {
+      Vec3 corner;
+      for (int a = 0; a < 3; ++a) corner[a] = (i >> a & 1 ? bounds.max[a] : bounds.min[a]) - centre[a];
+      corners[i] = {frame_.axis_u.dot(corner), frame_.axis_v.dot(corner), frame_.normal.dot(corner)};
+      lowest = std::min(lowest, corners[i].z()), highest = std::max(highest, corners[i].z());
+    }
+    if (lowest > ceiling || highest <= 0) return false;
+    for (const LocalTarget::Edge& edge : target_.edges) {
+      const bool outside = std::all_of(corners.begin(), corners.end(),
+                                       [&](const Vec3& c) { return edge.outward.dot(c.head<2>()) >= edge.distance; });
+      if (outside) return false;
+    }
+    return true;
+  }
+
+  // Walls that only touch the target's outline do not cross its column.
+  void add_crossing(std::uint32_t polygon, double ceiling, std::vector<Crossing>& found) {
+    local_polygon(scene_, frame_, polygon, clipped_.corners);
+    clipped_.makers.assign(clipped_.corners.size(), 0);
+    for (const LocalTarget::Edge& edge : target_.edges) {
+      clip_facet(clipped_, {-edge.outward.x(), -edge.outward.y(), 0}, kSeparation - edge.distance, 0, 0, scratch_);
+      if (clipped_.empty()) return;
+    }
+    Crossing crossing{INFINITY, -INFINITY, polygon, {}};
+    for (const Vec3& c : clipped_.corners) {
+      if (c.z() < crossing.low) crossing.low = c.z(), crossing.place = c;
+      crossing.high = std::max(crossing.high, c.z());
+    }
+    if (crossing.high > kOnPlane && crossing.low <= ceiling) found.push_back(crossing);
+  }
+
+  const PreparedScene::Data& scene_;
+  const TargetFrame& frame_;
+  LocalTarget target_;
+  FacetPolygon clipped_, scratch_;
+};
+
+bool crosses(const Crossing& crossing, double height) {
+  return crossing.low <= height + kOnPlane && crossing.high > height + kOnPlane;
+}
+
+// The smallest height, in whole millimetres, at which nothing crosses.
+double clear_height(std::vector<Crossing> crossings) {
+  std::sort(crossings.begin(), crossings.end(), [](const Crossing& a, const Crossing& b) { return a.low < b.low; });
+  double height = 0;
+  for (bool raised = true; raised;) {
+    raised = false;
+    for (const Crossing& c : crossings)
+      if (crosses(c, height)) height = std::floor(c.high * 1000 + 1) / 1000, raised = true;
+  }
+  return height;
+}
+
+std::string describe(const Vec3& place) {
+  char text[96];
+  std::snprintf(text, sizeof text, "(%.3f, %.3f, %.3f)", place.x(), place.y(), place.z());
+  return text;
+}
+
+[[noreturn]] void refuse_pierced(const PreparedScene::Data& scene, const Target& target, const TargetFrame& frame,
+                                 const Crossing& crossing, double clear) {
+  char fix[96];
+  std::snprintf(fix, sizeof fix, "move the target, or raise it: offset: %.3f clears it", target.offset_m + clear);
+  throw Error(
+      ErrorKind::input,
+      "\"" + scene.objects[scene.polygon_object[crossing.polygon]] + "\" stands on or passes through the target",
+      "target \"" + target.name + "\", at " + describe(frame.to_scene(crossing.place)), fix);
+}
+
+// Heights of the scene over and under a point, straight up and down: nearest first, with the polygon hit.
+class Plumb {
+ public:
+  Plumb(const PreparedScene::Data& scene, const Vec3& point) : scene_(scene), point_(point - scene.origin) {
+    if (!scene.bvh.nodes.empty()) visit(0);
+  }
+  bool anything_below = false;
+  double nearest_above = INFINITY;
+  std::uint32_t polygon_above = 0;
+
+ private:
+  void visit(std::uint32_t at) {
+    const scene::BvhNode& node = scene_.bvh.nodes[at];
+    for (int a = 0; a < 2; ++a)
+      if (point_[a] < node.bounds.min[a] || point_[a] > node.bounds.max[a]) return;
+    if (!node.leaf()) {
+      visit(node.first);
+      visit(node.first + 1);
+      return;
+    }
+    for (std::uint32_t polygon = node.first; polygon < node.first + node.count; ++polygon) test(polygon);
+  }
+
+  void test(std::uint32_t polygon) {
+    const std::uint32_t begin = scene_.first_vertex[polygon], end = scene_.first_vertex[polygon + 1];
+    const auto corner = [&](std::uint32_t k) -> const Vec3& { return scene_.vertices[scene_.polygon_vertices[k]]; };
+    int left = 0, right = 0;
+    Vec3 area = Vec3::Zero();
+    for (std::uint32_t k = begin; k < end; ++k) {
+      const Vec3 a = corner(k) - point_, b = corner(k + 1 == end ? begin : k + 1) - point_;
+      const double side = a.x() * b.y() - a.y() * b.x();
+      left += side >= 0, right += side <= 0;
+      area += a.cross(b);
+    }
+    if ((left != int(end - begin) && right != int(end - begin)) || area.z() == 0) return;
+    const double height = area.dot(corner(begin) - point_) / area.z();
+    if (height <= kMaxLift) {
+      anything_below = true;
+    } else if (height < nearest_above) {
+      nearest_above = height;
+      polygon_above = polygon;
+    }
+  }
+
+  const PreparedScene::Data& scene_;
+  Vec3 point_;
+};
+
+Box object_bounds(const PreparedScene::Data& scene, std::uint32_t object) {
+  Box box;
+  for (std::size_t polygon = 0; polygon < scene.polygon_count(); ++polygon)
+    if (scene.polygon_object[polygon] == object)
+      for (std::uint32_t k = scene.first_vertex[polygon]; k < scene.first_vertex[polygon + 1]; ++k)
+        box.extend(scene.vertices[scene.polygon_vertices[k]]);
+  return box;
+}
+
+// A roof or a bridge over the target is fine. A target is under the ground when nothing of the scene is below it, and
+// what is above all of it is either everything there is or spreads over most of the scene.
+void refuse_underground(const PreparedScene::Data& scene, const Target& target, const TargetFrame& frame) {
+  std::vector<Vec3> probes{frame.origin};
+  double highest = frame.origin.z();
+  for (const auto& v : frame.polygon) {
+    probes.push_back(frame.to_scene({0.999 * v.x(), 0.999 * v.y(), 0}));
+    highest = std::max(highest, probes.back().z());
+  }
+  Plumb first(scene, probes[0]);
+  for (const Vec3& probe : probes) {
+    const Plumb plumb(scene, probe);
+    if (plumb.anything_below || !std::isfinite(plumb.nearest_above)) return;
+  }
+  const Box all = scene.statistics.bounds;
+  const Box over = object_bounds(scene, scene.polygon_object[first.polygon_above]);
+  const Vec3 extent = over.max - over.min, whole = all.max - all.min;
+  const bool ground_like = extent.x() >= 0.5 * whole.x() && extent.y() >= 0.5 * whole.y();
+  if (highest >= all.min.z() - kMaxLift && !ground_like) return;
+  char depth[32];
+  std::snprintf(depth, sizeof depth, "%.3f m", first.nearest_above);
+  throw Error(ErrorKind::input, "the target is under the ground",
+              "target \"" + target.name + "\": \"" + scene.objects[scene.polygon_object[first.polygon_above]] +
+                  "\" is " + depth + " above " + describe(frame.origin),
+              "raise the target, and check the scene's up axis and scale");
+}
+
+}  // namespace
+
+double clearing_lift(const PreparedScene::Data& scene, const Target& target, const TargetFrame& frame) {
+  Column column(scene, frame);
+  const std::vector<Crossing> low = column.crossings(kMaxLift);
+  double lift = 0;
+  for (const Crossing& c : low)
+    if (c.high <= kMaxLift) lift = std::max(lift, c.high);
+  for (const Crossing& c : low)
+    if (crosses(c, lift)) refuse_pierced(scene, target, frame, c, clear_height(column.crossings(INFINITY)));
+  refuse_underground(scene, target, frame);
+  return lift;
+}
+
+}  // namespace vantage::exact

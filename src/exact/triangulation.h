@@ -1,0 +1,28 @@
+// From the creases to the closed mesh: docs/theory.md, "Triangulation".
+#pragma once
+
+#include <vector>
+
+#include "exact/chart_grid.h"
+#include "exact/direction_tree.h"
+#include "exact/envelope.h"
+#include "exact/range_region.h"
+
+namespace vantage::exact {
+
+/// The boundary in the target's frame: closed, outward oriented, genus 0, star-shaped about the origin.
+struct Boundary {
+  static constexpr std::uint32_t kRange = ~0u;
+  static constexpr std::uint32_t kTargetPlane = ~0u - 1;
+
+  Mesh mesh;
+  std::vector<std::uint32_t> blocker_of;  ///< per triangle: index of the blocker that causes it, or one of the above
+  std::size_t constraint_edges = 0;
+};
+
+/// Cells of the grid that hold nothing but range sphere are cut in two; the rest of the chart is a constrained Delaunay
+/// triangulation of the creases. Every vertex is lifted to where the gauge says.
+Boundary triangulate_boundary(const Skeleton& skeleton, const BlockerSet& blockers, const DirectionTree& tree,
+                              const RangeRegion& range, ChartGrid& grid);
+
+}  // namespace vantage::exact

@@ -1,0 +1,66 @@
+#include "exact/vertex_snapper.h"
+
+#include <bit>
+
+#include "exact/numerics.h"
+
+namespace vantage::exact {
+namespace {
+
+using numerics::kSnap;
+
+constexpr std::uint32_t kNone = ~0u;
+constexpr double kCell = 1024 * kSnap;  // so large that a point seldom needs a look into a second cell
+
+std::int64_t cell_of(double coordinate) { return std::int64_t(std::floor(coordinate / kCell)); }
+
+}  // namespace
+
+VertexSnapper::VertexSnapper(std::size_t expected) {
+  points_.reserve(expected);
+  next_.reserve(expected);
+  heads_.assign(std::bit_ceil(2 * expected + 16), kNone);
+}
+
+std::size_t VertexSnapper::slot_of(std::int64_t x, std::int64_t y) const {
+  std::uint64_t h = std::uint64_t(x) * 0x9e3779b97f4a7c15ull + std::uint64_t(y) * 0xc2b2ae3d27d4eb4full;
+  h ^= h >> 29;
+  return (h * 0xbf58476d1ce4e5b9ull >> 20) & (heads_.size() - 1);
+}
+
+std::uint32_t VertexSnapper::find(std::int64_t x, std::int64_t y, const ChartPoint& point) const {
+  for (std::uint32_t i = heads_[slot_of(x, y)]; i != kNone; i = next_[i])
+    if ((points_[i] - point).cwiseAbs().maxCoeff() <= kSnap) return i;
+  return kNone;
+}
+
+std::uint32_t VertexSnapper::add(ChartPoint point) {
+  if (std::abs(point.x()) <= kSnap) point.x() = 0;
+  if (std::abs(point.y()) <= kSnap) point.y() = 0;
+  const double sum = std::abs(point.x()) + std::abs(point.y());
+  const bool horizon = sum >= 1 - kSnap;
+  if (horizon) point /= sum;
+  const std::int64_t x0 = cell_of(point.x() - kSnap), x1 = cell_of(point.x() + kSnap);
+  const std::int64_t y0 = cell_of(point.y() - kSnap), y1 = cell_of(point.y() + kSnap);
+  for (std::int64_t x = x0; x <= x1; ++x)
+    for (std::int64_t y = y0; y <= y1; ++y)
+      if (const std::uint32_t found = find(x, y, point); found != kNone) return found;
+  if (2 * points_.size() > heads_.size()) grow();
+  const std::size_t slot = slot_of(cell_of(point.x()), cell_of(point.y()));
+  points_.push_back(point);
+  horizon_.push_back(horizon);
+  next_.push_back(heads_[slot]);
+  heads_[slot] = std::uint32_t(points_.size() - 1);
+  return heads_[slot];
+}
+
+void VertexSnapper::grow() {
+  heads_.assign(2 * heads_.size(), kNone);
+  for (std::uint32_t i = 0; i < points_.size(); ++i) {
+    const std::size_t slot = slot_of(cell_of(points_[i].x()), cell_of(points_[i].y()));
+    next_[i] = heads_[slot];
+    heads_[slot] = i;
+  }
+}
+
+}  // namespace vantage::exact

@@ -1,0 +1,33 @@
+// Chart points that differ by rounding become one vertex.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "exact/chart.h"
+
+namespace vantage::exact {
+
+/// Gives points indices; a point within numerics::kSnap of an earlier one gets that one's index. Coordinates that close
+/// to an axis are put on it, and points that close to the horizon |a| + |b| = 1 are on the horizon.
+class VertexSnapper {
+ public:
+  explicit VertexSnapper(std::size_t expected);
+
+  std::uint32_t add(ChartPoint point);
+
+  const std::vector<ChartPoint>& points() const { return points_; }
+  bool on_horizon(std::uint32_t index) const { return horizon_[index]; }
+
+ private:
+  std::uint32_t find(std::int64_t x, std::int64_t y, const ChartPoint& point) const;
+  std::size_t slot_of(std::int64_t x, std::int64_t y) const;
+  void grow();
+
+  std::vector<ChartPoint> points_;
+  std::vector<bool> horizon_;
+  std::vector<std::uint32_t> next_;   // the next vertex in the same bucket
+  std::vector<std::uint32_t> heads_;  // hash table of buckets
+};
+
+}  // namespace vantage::exact
