@@ -21,9 +21,9 @@ struct Mission {
   ExactOptions exact;
 };
 
-/// Throws Error(input) with file, line and column for: a missing or unreadable file, YAML that does not parse, an unknown
-/// key (with the nearest known one), a wrong type, a number that is NaN or infinite, a missing required key, edges that do
-/// not describe the vertices' polygon, and all that make_target_frame and the navigation checks refuse.
+/// Throws Error(input) with file, line and column for: a missing or unreadable file, YAML that does not parse, an
+/// unknown key (with the nearest known one), a wrong type, a number that is NaN or infinite, a missing required key,
+/// edges that do not describe the vertices' polygon, and all that make_target_frame and the navigation checks refuse.
 Mission read_mission(const std::filesystem::path& file);
 
 /// All that `vantage compute` does but writing: reads the scene, prepares it, computes, cuts. Fills Volume::seconds.

@@ -11,12 +11,13 @@
 namespace vantage {
 
 struct PointAnswer {
-  bool inside = false;            ///< the whole target is visible, in range, and the point is within the navigation limits
-  double margin_m = 0;            ///< signed distance to the boundary along the line to the target's centre: positive inside
+  bool inside = false;  ///< the whole target is visible, in range, and the point is within the navigation limits
+  double margin_m = 0;  ///< signed distance to the boundary along the line to the target's centre: positive inside
   std::vector<std::string> blocked_by;  ///< names of the scene objects that hide part of the target, sorted, no repeats
   bool out_of_range = false;
   bool behind_target = false;
-  std::vector<std::string> outside_of;  ///< navigation limits that the point breaks ("altitude min", "box", "keep_out 0")
+  std::vector<std::string>
+      outside_of;  ///< navigation limits that the point breaks ("altitude min", "box", "keep_out 0")
 };
 
 /// Answers for many points (scene frame, metres); exact, no tolerance. Cost: one walk of the scene's hierarchy a point.

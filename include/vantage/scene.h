@@ -17,14 +17,14 @@ enum class UpAxis { y, z };
 /// Any triangle soup with names. Open, non-manifold, doubled, intersecting or mis-oriented triangles are all fine: they
 /// are opaque from both sides.
 struct Scene {
-  Mesh mesh;                              ///< scene frame: metres, z up
-  std::vector<std::uint32_t> object_of;   ///< per triangle: index into `objects`
-  std::vector<std::string> objects;       ///< names, as in the file ("Building17", "way/265517")
-  std::filesystem::path source;           ///< the file it was read from; empty when made in memory
-  UpAxis up = UpAxis::z;                  ///< axes of that file, used when a result is written as OBJ
+  Mesh mesh;                             ///< scene frame: metres, z up
+  std::vector<std::uint32_t> object_of;  ///< per triangle: index into `objects`
+  std::vector<std::string> objects;      ///< names, as in the file ("Building17", "way/265517")
+  std::filesystem::path source;          ///< the file it was read from; empty when made in memory
+  UpAxis up = UpAxis::z;                 ///< axes of that file, used when a result is written as OBJ
 
   // Counted while reading.
-  std::size_t dropped_faces = 0;          ///< faces of the file that hold no triangle (fewer than 3 corners)
+  std::size_t dropped_faces = 0;  ///< faces of the file that hold no triangle (fewer than 3 corners)
 };
 
 struct SceneReadOptions {
@@ -33,26 +33,28 @@ struct SceneReadOptions {
 };
 
 /// Reads .obj, .ply (ASCII, binary of either byte order), .stl (ASCII, binary), .gltf and .glb; each may be compressed
-/// with gzip (".obj.gz"). The format is told by the content, then by the name. Polygons with more than three corners are
-/// triangulated. Coordinates keep double precision where the format has it. glTF is always y up: `up` is not used for it.
+/// with gzip (".obj.gz"). The format is told by the content, then by the name. Polygons with more than three corners
+/// are triangulated. Coordinates keep double precision where the format has it. glTF is always y up: `up` is not used
+/// for it.
 ///
 /// Throws Error(input) naming the file, and the line or byte where there is one, for: a missing or unreadable file, an
 /// unknown format, truncated or garbled content, an index out of range, a coordinate that is not finite, no triangles.
-Scene read_scene(const std::filesystem::path& file, const SceneReadOptions& options = {}, const Progress& progress = {});
+Scene read_scene(const std::filesystem::path& file, const SceneReadOptions& options = {},
+                 const Progress& progress = {});
 
 /// What preparing found in a scene, and what `vantage inspect` shows.
 struct SceneStatistics {
-  std::size_t triangles = 0;            ///< as read
-  std::size_t vertices = 0;             ///< as read
-  std::size_t welded_vertices = 0;      ///< distinct positions
+  std::size_t triangles = 0;        ///< as read
+  std::size_t vertices = 0;         ///< as read
+  std::size_t welded_vertices = 0;  ///< distinct positions
   std::size_t objects = 0;
-  std::size_t degenerate_triangles = 0; ///< zero area; dropped (they hide nothing)
-  std::size_t duplicate_triangles = 0;  ///< same three positions, either turn; dropped
-  std::size_t open_edges = 0;           ///< edges with one triangle, after welding
-  std::size_t nonmanifold_edges = 0;    ///< edges with more than two triangles
-  std::size_t misoriented_edges = 0;    ///< edges that their two triangles run in the same direction
-  std::size_t polygons = 0;             ///< convex polygons after merging coplanar neighbours
-  Box bounds;                           ///< metres, scene frame
+  std::size_t degenerate_triangles = 0;  ///< zero area; dropped (they hide nothing)
+  std::size_t duplicate_triangles = 0;   ///< same three positions, either turn; dropped
+  std::size_t open_edges = 0;            ///< edges with one triangle, after welding
+  std::size_t nonmanifold_edges = 0;     ///< edges with more than two triangles
+  std::size_t misoriented_edges = 0;     ///< edges that their two triangles run in the same direction
+  std::size_t polygons = 0;              ///< convex polygons after merging coplanar neighbours
+  Box bounds;                            ///< metres, scene frame
 };
 
 /// A scene ready for visibility queries: welded, cleaned, coplanar neighbours merged into convex polygons, indexed by a

@@ -12,19 +12,20 @@ namespace vantage {
 /// A convex planar polygon, as the user states it. See docs/theory.md for what "seen" means.
 struct Target {
   std::string name = "target";
-  std::vector<Vec3> vertices;     ///< 3 to 64, scene frame, metres; in order round the polygon, either turn
-  double offset_m = 0.0;          ///< the polygon is moved this far along its normal, towards the front, before anything else
-  std::optional<Vec3> front;      ///< a vector on the side that is looked at (any length, not in the polygon's plane).
-                                  ///< Default: the side that faces up; for a vertical polygon (normal within 1e-6 of
-                                  ///< horizontal) the side from which the vertices run counter-clockwise
+  std::vector<Vec3> vertices;  ///< 3 to 64, scene frame, metres; in order round the polygon, either turn
+  double offset_m = 0.0;  ///< the polygon is moved this far along its normal, towards the front, before anything else
+  std::optional<Vec3> front;  ///< a vector on the side that is looked at (any length, not in the polygon's plane).
+                              ///< Default: the side that faces up; for a vertical polygon (normal within 1e-6 of
+                              ///< horizontal) the side from which the vertices run counter-clockwise
 };
 
 /// A checked target with its frame. Viewpoints have local z > 0.
 struct TargetFrame {
-  Vec3 origin;                          ///< strictly inside the polygon, near its smallest enclosing circle's centre
-  Vec3 axis_u, axis_v, normal;          ///< right-handed orthonormal; `normal` points to the front
-  std::vector<Eigen::Vector2d> polygon; ///< vertices in (u, v) about `origin`, metres, counter-clockwise seen from the front
-  double enclosing_radius_m = 0.0;      ///< of the smallest enclosing circle
+  Vec3 origin;                  ///< strictly inside the polygon, near its smallest enclosing circle's centre
+  Vec3 axis_u, axis_v, normal;  ///< right-handed orthonormal; `normal` points to the front
+  std::vector<Eigen::Vector2d>
+      polygon;  ///< vertices in (u, v) about `origin`, metres, counter-clockwise seen from the front
+  double enclosing_radius_m = 0.0;  ///< of the smallest enclosing circle
 
   Vec3 to_local(const Vec3& point) const {
     const Vec3 d = point - origin;
@@ -36,9 +37,9 @@ struct TargetFrame {
 };
 
 /// Checks a target and makes its frame, `offset_m` applied. The scene plays no part here.
-/// Throws Error(input) for: fewer than 3 or more than 64 vertices, a coordinate that is not finite, repeated vertices (which),
-/// zero area, not planar (by how much; allowed: 1e-6 of the extent, at least 1 mm), not convex (which vertex), a `front` that
-/// is zero or lies in the plane. Collinear vertices are dropped.
+/// Throws Error(input) for: fewer than 3 or more than 64 vertices, a coordinate that is not finite, repeated vertices
+/// (which), zero area, not planar (by how much; allowed: 1e-6 of the extent, at least 1 mm), not convex (which vertex),
+/// a `front` that is zero or lies in the plane. Collinear vertices are dropped.
 TargetFrame make_target_frame(const Target& target);
 
 }  // namespace vantage

@@ -24,16 +24,17 @@ enum class CauseKind : std::uint8_t {
 /// One reason for part of the boundary.
 struct Cause {
   CauseKind kind = CauseKind::scene;
-  std::string name;    ///< the scene object's name; "max_range"; "target plane"; "altitude min", "box 0", "keep_out 2", ...
+  std::string
+      name;  ///< the scene object's name; "max_range"; "target plane"; "altitude min", "box 0", "keep_out 2", ...
   double area_m2 = 0;  ///< of the facets that it causes
 };
 
 /// How a computation ended. Everything but `computed` leaves the mesh empty, and `reason` says why in a sentence.
 enum class Outcome {
   computed,
-  out_of_range,      ///< no point is within max_range of all vertices
-  blocked_at_once,   ///< the front is covered by the scene within a hand's breadth: most likely the wrong side
-  outside_limits,    ///< the navigation limits leave nothing
+  out_of_range,     ///< no point is within max_range of all vertices
+  blocked_at_once,  ///< the front is covered by the scene within a hand's breadth: most likely the wrong side
+  outside_limits,   ///< the navigation limits leave nothing
 };
 
 /// Work done at each stage, for reports and for those who tune.
@@ -49,8 +50,8 @@ struct Seconds {
   double read = 0, prepare = 0, engine = 0, navigation = 0, write = 0, total = 0;
 };
 
-/// The result. `mesh` is closed, oriented outward, in the scene frame. Before navigation cuts it is one piece of genus 0 and
-/// star-shaped about every point of the target.
+/// The result. `mesh` is closed, oriented outward, in the scene frame. Before navigation cuts it is one piece of genus
+/// 0 and star-shaped about every point of the target.
 struct Volume {
   Outcome outcome = Outcome::computed;
   std::string reason;  ///< empty when computed
@@ -60,30 +61,31 @@ struct Volume {
   std::vector<std::uint32_t> cause_of;  ///< per triangle: index into `causes`
   std::vector<Cause> causes;
 
-  double tolerance_m = 0;   ///< bound on how far range facets lie inside the true range region
-  double lift_m = 0;        ///< the target was raised this far to clear the surface that it lies on (rounding of the input;
-                            ///< at most numerics::kMaxLift, see docs/theory.md)
-  TargetFrame frame;        ///< of the target as used, lift included
+  double tolerance_m = 0;  ///< bound on how far range facets lie inside the true range region
+  double lift_m = 0;  ///< the target was raised this far to clear the surface that it lies on (rounding of the input;
+                      ///< at most numerics::kMaxLift, see docs/theory.md)
+  TargetFrame frame;  ///< of the target as used, lift included
   StageCounts counts;
   Seconds seconds;
 };
 
 struct ExactOptions {
-  double tolerance_m = 0.01;  ///< how far range facets may lie inside the true sphere; > 0. Planar parts are exact to rounding
-  int threads = 0;            ///< 0: as many as the machine has. The result does not depend on it
+  double tolerance_m =
+      0.01;         ///< how far range facets may lie inside the true sphere; > 0. Planar parts are exact to rounding
+  int threads = 0;  ///< 0: as many as the machine has. The result does not depend on it
 };
 
 /// The exact visibility volume by docs/theory.md, before navigation cuts. Safe to call from many threads on one scene.
-/// Guaranteed from the inside: no point of the result, deeper than 1e-6 of its distance to the target, has any part of the
-/// target hidden or out of range.
-/// Throws Error(input) for a bad target (see make_target_frame), a pierced target (object, place, smallest offset that
-/// clears it), a target under the ground, a max_range or tolerance that is not positive and finite.
+/// Guaranteed from the inside: no point of the result, deeper than 1e-6 of its distance to the target, has any part of
+/// the target hidden or out of range. Throws Error(input) for a bad target (see make_target_frame), a pierced target
+/// (object, place, smallest offset that clears it), a target under the ground, a max_range or tolerance that is not
+/// positive and finite.
 Volume compute_visibility(const PreparedScene& scene, const Target& target, const Sensor& sensor,
                           const ExactOptions& options = {}, const Progress& progress = {});
 
-/// Cuts a volume to the navigation limits. The result may have several pieces; each is closed. Facets keep their causes;
-/// cut faces are CauseKind::navigation. Throws Error(input) for limits that are wrong in themselves: a reversed altitude
-/// band or box, a mesh that is open or intersects itself.
+/// Cuts a volume to the navigation limits. The result may have several pieces; each is closed. Facets keep their
+/// causes; cut faces are CauseKind::navigation. Throws Error(input) for limits that are wrong in themselves: a reversed
+/// altitude band or box, a mesh that is open or intersects itself.
 Volume cut_to_navigation(const Volume& volume, const Navigation& navigation, const Progress& progress = {});
 
 /// Topology and size of a closed mesh. `euler` is V - E + F over all pieces: 2 per piece of genus 0.

@@ -242,7 +242,7 @@ Solid convex_hull(std::span<const Vec3> points, std::uint32_t label) {
   std::vector<manifold::vec3> positions;
   positions.reserve(points.size());
   for (const Vec3& point : points) positions.push_back(to_manifold(point));
-  const Solid unlabelled = evaluated(manifold::Manifold::Hull(positions), "convex hull", {});
+  Solid unlabelled = evaluated(manifold::Manifold::Hull(positions), "convex hull", {});
   if (unlabelled.empty()) return unlabelled;
   LabelledMesh hull = unlabelled.to_mesh();
   std::fill(hull.labels.begin(), hull.labels.end(), label);

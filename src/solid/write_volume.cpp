@@ -38,7 +38,8 @@ void check_volume(const Volume& volume) {
   const auto fail = [](const std::string& what, const std::string& where) {
     throw Error(ErrorKind::input, what, where, "write a volume as computed, or mend what was changed in it");
   };
-  const auto& [vertices, triangles] = volume.mesh;
+  const std::vector<Vec3>& vertices = volume.mesh.vertices;
+  const auto& triangles = volume.mesh.triangles;
   if (volume.cause_of.size() != triangles.size()) {
     fail("the volume has " + std::to_string(triangles.size()) + " triangles but " +
              std::to_string(volume.cause_of.size()) + " causes of triangles",
