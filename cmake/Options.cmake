@@ -4,8 +4,19 @@ add_library(vantage::options ALIAS vantage_options)
 # -ffp-contract=off: a fused multiply-add rounds differently from one compiler to the next, and the exact predicates of
 # the triangulation rely on plain IEEE arithmetic.
 target_compile_options(vantage_options INTERFACE -Wall -Wextra -Wshadow -ffp-contract=off)
+if(VANTAGE_WERROR)
+  target_compile_options(vantage_options INTERFACE -Werror)
+endif()
+
 if(VANTAGE_SANITIZE)
   # Everything, third-party code too: a sanitizer that sees half of a program reports false races.
-  add_compile_options(-fsanitize=${VANTAGE_SANITIZE} -fno-omit-frame-pointer)
+  add_compile_options(-fsanitize=${VANTAGE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${VANTAGE_SANITIZE})
+endif()
+
+if(PROJECT_IS_TOP_LEVEL AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  find_program(VANTAGE_CCACHE ccache)
+  if(VANTAGE_CCACHE)
+    set(CMAKE_CXX_COMPILER_LAUNCHER ${VANTAGE_CCACHE})
+  endif()
 endif()

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Fetches the source releases that Debian does not package into .deps/, pinned by version and hash (requirements file
-# beside this script). Does nothing when they are already there.
+# Fetches the source releases that Debian does not package into .deps/, pinned by version and hash (sources.txt beside
+# this script). Does nothing when they are already there.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 deps="$here/../.deps"
@@ -10,8 +10,13 @@ mkdir -p "$deps"
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 echo "fetching source releases into .deps/"
-python3 -m pip download --quiet --disable-pip-version-check --no-deps --no-binary :all: --require-hashes \
-  --dest "$work" -r "$here/sources.txt"
+# --no-binary names the packages rather than :all:, or pip before 23.1 builds its own build tools from source as well.
+if ! python3 -m pip download --quiet --disable-pip-version-check --no-deps --no-binary manifold3d,pythoncdt \
+  --require-hashes --dest "$work" -r "$here/sources.txt" >"$work/log" 2>&1; then
+  tail -n 15 "$work/log" >&2
+  echo "could not fetch the releases pinned in scripts/sources.txt; is the Python package index reachable?" >&2
+  exit 1
+fi
 for archive in "$work"/*.tar.gz; do tar -xzf "$archive" -C "$work"; done
 rm -rf "$deps/manifold" "$deps/cdt"
 mv "$work"/manifold3d-*/ "$deps/manifold"

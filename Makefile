@@ -1,0 +1,79 @@
+# The front doors; each installs what is missing (Debian 12: root or sudo), does only what is not done yet, and may be
+# repeated. CMakePresets.json has the builds for those who would rather call CMake.
+.DEFAULT_GOAL := help
+SHELL := /bin/bash
+.DELETE_ON_ERROR:
+
+PREFIX ?= /usr/local
+JOBS ?= $(shell nproc)
+# Warnings stop the build where nobody reads them.
+WERROR ?= $(if $(CI),ON,OFF)
+CONFIGURE_FLAGS ?=
+
+configure = cmake --preset $(1) -DVANTAGE_WERROR=$(WERROR) $(CONFIGURE_FLAGS) --log-level=WARNING >/dev/null
+compile = $(call configure,$(1)) && cmake --build --preset $(1) --parallel $(JOBS)
+
+.PHONY: help
+help:  ## this list
+	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## /  make \1\t/' | expand -t 18
+
+.PHONY: demo
+demo: build  ## build, then compute the volume of an example and say how to open it
+	@mkdir -p build/demo
+	build/bin/vantage compute examples/plaza/mission.yaml -o build/demo/volume.ply
+	@echo
+	@echo "The volume:    $(CURDIR)/build/demo/volume.ply"
+	@echo "Its numbers:   $(CURDIR)/build/demo/volume.report.json"
+	@echo "To look at it: open it in MeshLab or Blender (File > Import > PLY), together with the scene in examples/plaza/"
+
+.PHONY: build
+build: prepare  ## the program, at build/bin/vantage
+	@$(call compile,release)
+
+.PHONY: test
+test: build  ## build and run all tests
+	ctest --preset release --parallel $(JOBS)
+
+.PHONY: asan
+asan: prepare  ## unit tests under AddressSanitizer and UndefinedBehaviorSanitizer
+	@$(call compile,asan)
+	ctest --preset asan --parallel $(JOBS)
+
+.PHONY: tsan
+tsan: prepare  ## unit tests under ThreadSanitizer
+	@$(call compile,tsan)
+	ctest --preset tsan --parallel $(JOBS)
+
+.PHONY: bench
+bench: build  ## the benchmarks
+	build/bin/vantage_bench $(BENCH_FLAGS)
+
+.PHONY: fuzz
+fuzz: prepare tools  ## each fuzz target for a minute (SECONDS_EACH=60)
+	@$(call compile,fuzz)
+	scripts/fuzz.sh $(or $(SECONDS_EACH),60)
+
+.PHONY: install
+install: build  ## into PREFIX (/usr/local)
+	cmake --install build --prefix "$(PREFIX)"
+
+.PHONY: format
+format: tools  ## format our sources in place
+	@scripts/format.sh
+
+.PHONY: lint
+lint: build tools  ## formatting and clang-tidy
+	@status=0; scripts/format.sh --check || status=1; JOBS=$(JOBS) scripts/lint.sh || status=1; exit $$status
+
+.PHONY: clean
+clean:  ## remove all builds; fetched sources stay
+	rm -rf build build-*/
+
+.PHONY: prepare
+prepare:
+	@scripts/install_packages.sh
+	@scripts/fetch_sources.sh
+
+.PHONY: tools
+tools:
+	@scripts/install_packages.sh --tools

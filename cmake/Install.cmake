@@ -1,0 +1,31 @@
+# What `cmake --install` writes: the library, its headers, the program, and a package for find_package(vantage).
+include(CMakePackageConfigHelpers)
+
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/vantage)
+
+install(TARGETS vantage EXPORT vantage-targets
+        LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
+        INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/vantage DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
+        FILES_MATCHING PATTERN "*.h")
+if(TARGET vantage_cli)
+  # Relative, so that the installed tree may be moved as a whole.
+  file(RELATIVE_PATH to_library ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
+  set_target_properties(vantage_cli PROPERTIES INSTALL_RPATH "$ORIGIN/${to_library}")
+  install(TARGETS vantage_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()
+
+install(EXPORT vantage-targets NAMESPACE vantage:: DESTINATION ${package_dir})
+configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/vantage-config.cmake.in
+                              ${CMAKE_CURRENT_BINARY_DIR}/vantage-config.cmake INSTALL_DESTINATION ${package_dir})
+write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/vantage-config-version.cmake
+                                 COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/vantage-config.cmake ${CMAKE_CURRENT_BINARY_DIR}/vantage-config-version.cmake
+        DESTINATION ${package_dir})
+
+# Our licence, and those of the code that is compiled into the library.
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES ${VANTAGE_DEPS_DIR}/cdt/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME LICENSE.CDT)
+if(EXISTS ${VANTAGE_DEPS_DIR}/manifold/LICENSE)
+  install(FILES ${VANTAGE_DEPS_DIR}/manifold/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME LICENSE.Manifold)
+endif()

@@ -1,0 +1,61 @@
+#!/usr/bin/env bash
+# Installs the Debian packages that are missing; does nothing, and asks for no rights, when all are there.
+#   scripts/install_packages.sh            what building and testing need
+#   scripts/install_packages.sh --tools    and clang with its tools, for fuzzing, formatting and lint
+# VANTAGE_NO_INSTALL=1 skips the check, for those who bring their own.
+set -euo pipefail
+
+packages=(
+  # building
+  g++ make cmake ninja-build ccache pkg-config
+  # scripts/fetch_sources.sh
+  python3 python3-pip ca-certificates
+  # libraries
+  libeigen3-dev libtbb-dev libyaml-cpp-dev libcli11-dev nlohmann-json3-dev zlib1g-dev libembree-dev
+  # tests and benchmarks
+  libgtest-dev libbenchmark-dev
+)
+tools=(clang libclang-rt-14-dev clang-format clang-tidy)
+
+[ -z "${VANTAGE_NO_INSTALL:-}" ] || exit 0
+case "${1:-}" in
+  "") ;;
+  --tools) packages+=("${tools[@]}") ;;
+  *) echo "usage: $0 [--tools]" >&2; exit 2 ;;
+esac
+if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
+  echo "not a Debian system: please install the equivalents of: ${packages[*]}" >&2
+  echo "then set VANTAGE_NO_INSTALL=1" >&2
+  exit 1
+fi
+
+missing=()
+for package in "${packages[@]}"; do
+  status=$(dpkg-query --show --showformat='${db:Status-Status}' "$package" 2>/dev/null) || status=none
+  [[ $status == installed* ]] || missing+=("$package")
+done
+[ ${#missing[@]} -gt 0 ] || exit 0
+
+as_root=()
+if [ "$(id -u)" -ne 0 ]; then
+  if ! command -v sudo >/dev/null; then
+    echo "missing packages, and neither root nor sudo to install them. As root, run:" >&2
+    echo "  apt-get install ${missing[*]}" >&2
+    exit 1
+  fi
+  as_root=(sudo)
+  [ -t 0 ] || as_root=(sudo --non-interactive)  # nobody is there to type a password
+fi
+
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+apt() {
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -q -o DPkg::Lock::Timeout=300 "$@" >"$log" 2>&1 </dev/null &&
+    return
+  echo "apt-get $1 failed; its last lines:" >&2
+  tail -n 15 "$log" >&2
+  exit 1
+}
+echo "installing ${missing[*]}"
+apt update
+apt install --yes --no-install-recommends "${missing[@]}"
