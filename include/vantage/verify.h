@@ -13,9 +13,8 @@
 namespace vantage {
 
 struct VerifyOptions {
-  std::size_t points =
-      20000;  ///< viewpoints tried: half spread over the volume and its surroundings, half near the boundary
-  int target_samples = 64;  ///< points of the target looked at besides its vertices and edge points
+  std::size_t points = 20000;  ///< viewpoints tried: half near the boundary, half over the volume and its surroundings
+  int target_samples = 64;     ///< points of the target looked at besides its vertices and edge points
   std::uint64_t seed = 1;
   double depth_tolerance = 1e-6;  ///< a point counts as claimed wrongly, or wrongly not, when it lies deeper on the
                                   ///< wrong side of the surface than this times its distance to the target's centre
@@ -23,17 +22,15 @@ struct VerifyOptions {
 };
 
 struct VerifyReport {
-  std::size_t points = 0;  ///< viewpoints tried
-  std::size_t inside = 0;  ///< of those, claimed by the volume
-  std::size_t rays = 0;    ///< shadow rays shot
-  std::size_t over_claimed =
-      0;  ///< claimed, but some part of the target is hidden or out of range, or a limit is broken
+  std::size_t points = 0;          ///< viewpoints tried
+  std::size_t inside = 0;          ///< of those, claimed by the volume
+  std::size_t rays = 0;            ///< shadow rays shot
+  std::size_t over_claimed = 0;    ///< claimed, but part of the target is hidden or out of range, or a limit is broken
   std::size_t under_claimed = 0;   ///< not claimed, though everything sampled was visible, by more than the tolerance
   double worst_over_depth_m = 0;   ///< how deep inside the worst over-claimed point lies
   double worst_under_depth_m = 0;  ///< how far outside the worst under-claimed point lies
-  double over_claim_bound =
-      1;  ///< with 95 % confidence at most this share of the volume is over-claimed (exact binomial)
-  std::size_t bound_points = 0;           ///< the points that this rests on: uniform over the volume, independent
+  double over_claim_bound = 1;     ///< with 95 % confidence at most this share of the volume is over-claimed (binomial)
+  std::size_t bound_points = 0;    ///< the points that this rests on: uniform over the volume, independent
   Vec3 worst_over_point = Vec3::Zero();   ///< scene frame
   Vec3 worst_under_point = Vec3::Zero();  ///< scene frame
   std::string worst_over_cause;  ///< what is wrong there: the name of an object that hides the target, "max_range",
@@ -46,12 +43,12 @@ struct VerifyReport {
 /// Checks `volume` (any closed mesh, scene frame) against the scene by shadow rays to the target's vertices, edges and
 /// interior, and to where scene geometry reaches between the viewpoint and the target. Grazing is allowed: a hit closer
 /// to a triangle's border than 1e-9 of its size does not count. Hits lower than 1 mm over the target itself count as
-/// the surface that it lies on. A volume is right when nothing is over-claimed; see docs/verification.md for what
-/// follows.
+/// the surface that it lies on. A volume is right when nothing is over-claimed; see docs/verification.md. Where the
+/// engine raised the target (Volume::lift_m), raise it here too: add that to `target.offset_m`.
 ///
 /// The report depends on the seed, not on the number of threads (TBB; the caller's arena). Cost: points times samples
-/// shadow rays, one to two microseconds each and thread. Throws Error(input) for a mesh that is not closed or a target,
-/// sensor, limit or option that is wrong in itself, Error(cancelled) when told to stop.
+/// shadow rays, a few tenths of a microsecond each and thread. Throws Error(input) for a mesh that is not closed or a
+/// target, sensor, limit or option that is wrong in itself, Error(cancelled) when told to stop.
 VerifyReport verify_volume(const Scene& scene, const Target& target, const Sensor& sensor, const Navigation& navigation,
                            const Mesh& volume, const VerifyOptions& options = {}, const Progress& progress = {});
 
