@@ -149,7 +149,7 @@ TEST(VerifyClosedMesh, RefusesAnOpenMesh) {
   Mesh mesh = make_box_mesh({-1, -1, -1}, {1, 1, 1});
   mesh.triangles.pop_back();
   try {
-    ClosedMesh(mesh, Vec3::Zero(), "keep-in mesh 'airspace'");
+    const ClosedMesh solid(mesh, Vec3::Zero(), "keep-in mesh 'airspace'");
     FAIL() << "an open mesh passed";
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::input);
@@ -217,10 +217,12 @@ TEST(VerifyTarget, InteriorPointsCoverThePolygonEvenly) {
   const TargetView view(target);
   Vec3 sum = Vec3::Zero();
   constexpr int kSide = 400;
-  for (int i = 0; i < kSide * kSide; ++i) {
-    const Vec3 point = view.interior((i / kSide + 0.5) / kSide, (i % kSide + 0.5) / kSide);
-    ASSERT_TRUE(view.over(point, 1e-12));
-    sum += point + view.origin();
+  for (int i = 0; i < kSide; ++i) {
+    for (int k = 0; k < kSide; ++k) {
+      const Vec3 point = view.interior((i + 0.5) / kSide, (k + 0.5) / kSide);
+      ASSERT_TRUE(view.over(point, 1e-12));
+      sum += point + view.origin();
+    }
   }
   const Vec3 centroid(2, (4 * 0.5 + 4 * (1 + 2.0 / 3)) / 8, 0);  // a 4 x 1 rectangle under a triangle of height 2
   EXPECT_LT((sum / (kSide * kSide) - centroid).norm(), 1e-3);

@@ -78,8 +78,9 @@ Viewpoint Viewpoints::near_boundary(std::size_t number, Random& random) const {
     const auto found = std::upper_bound(area_.begin(), area_.end() - 1, random.uniform() * area_.back());
     facet = static_cast<std::size_t>(found - area_.begin());
   } else {
-    const double place = static_cast<double>(round / 2 * kSteps.size() + step) + random.uniform();
-    const double share = place / (static_cast<double>(count_) / 4 + kSteps.size());
+    const std::size_t place = round / 2 * kSteps.size() + step;
+    const double share =
+        (static_cast<double>(place) + random.uniform()) / (static_cast<double>(count_) / 4 + kSteps.size());
     facet = std::min(static_cast<std::size_t>(share * static_cast<double>(area_.size())), area_.size() - 1);
   }
   const Vec3 point = on_facet(facet, random);
