@@ -1,0 +1,243 @@
+#include "solid/solid_check.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <tuple>
+#include <vector>
+
+#include "parallel/parallel.h"
+#include "solid/edges.h"
+#include "solid/numerics.h"
+#include "solid/text.h"
+#include "solid/triangle_contact.h"
+#include "solid/triangle_tree.h"
+#include "vantage/error.h"
+
+namespace vantage::solid {
+namespace {
+
+[[noreturn]] void refuse(const std::string& problem, const std::string& where, const std::string& fix) {
+  throw Error(ErrorKind::input, problem, where, fix);
+}
+
+Mesh welded(const Mesh& mesh) {
+  std::vector<std::uint32_t> order(mesh.vertices.size());
+  std::iota(order.begin(), order.end(), 0u);
+  const auto key = [&](std::uint32_t v) {
+    const Vec3& p = mesh.vertices[v];
+    return std::make_tuple(p.x(), p.y(), p.z());
+  };
+  std::sort(order.begin(), order.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return key(a) != key(b) ? key(a) < key(b) : a < b; });
+  Mesh result;
+  std::vector<std::uint32_t> new_index(mesh.vertices.size());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    if (i == 0 || key(order[i]) != key(order[i - 1])) result.vertices.push_back(mesh.vertices[order[i]]);
+    new_index[order[i]] = static_cast<std::uint32_t>(result.vertices.size() - 1);
+  }
+  for (const Triangle& t : mesh.triangles) {
+    const Triangle n = {new_index[t[0]], new_index[t[1]], new_index[t[2]]};
+    if (n[0] != n[1] && n[1] != n[2] && n[2] != n[0]) result.triangles.push_back(n);
+  }
+  return result;
+}
+
+/// A mesh under examination: welded, about the origin.
+class Examination {
+ public:
+  Examination(const Mesh& mesh, std::string name) : local_(mesh), name_(std::move(name)) {
+    const Box box = bounding_box(mesh);
+    centre_ = (box.min + box.max) / 2;
+    distance_ = numerics::kTouching * (box.max - box.min).norm();
+    for (Vec3& vertex : local_.vertices) vertex -= centre_;
+  }
+
+  void check_edges() const;
+  void check_volume() const;
+  void check_contacts(const TriangleTree& tree, const Watch& watch);
+  void check_windings(const TriangleTree& tree, const Watch& watch) const;
+
+  const Mesh& local() const { return local_; }
+
+ private:
+  std::string place(const Vec3& local_point) const { return name_ + ", " + point_text(local_point + centre_); }
+  std::array<Vec3, 3> corners(std::size_t t) const {
+    const Triangle& triangle = local_.triangles[t];
+    return {local_.vertices[triangle[0]], local_.vertices[triangle[1]], local_.vertices[triangle[2]]};
+  }
+  Vec3 middle(std::size_t t) const {
+    const std::array<Vec3, 3> c = corners(t);
+    return (c[0] + c[1] + c[2]) / 3;
+  }
+  int shared_corners(std::size_t a, std::size_t b) const;
+  std::size_t first_crossing(std::size_t t, const TriangleTree& tree);
+  std::vector<std::size_t> samples() const;
+
+  Mesh local_;
+  std::string name_;
+  Vec3 centre_;
+  double distance_ = 0;         // up to which a contact counts as touching
+  std::vector<char> touching_;  // per triangle: meets one that is not its neighbour
+};
+
+constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+
+void Examination::check_edges() const {
+  std::size_t single = 0, crowded = 0, turned = 0;
+  EdgeUse first{};
+  for_each_edge(edge_uses(local_.triangles, local_.vertices.size()), [&](std::span<const EdgeUse> edge) {
+    const auto forward = std::count_if(edge.begin(), edge.end(), [](const EdgeUse& use) { return use.forward; });
+    if (2 * static_cast<std::size_t>(forward) == edge.size()) return;
+    if (single + crowded + turned == 0) first = edge[0];
+    if (edge.size() == 1) ++single;
+    if (edge.size() > 1) ++(edge.size() % 2 == 1 ? crowded : turned);
+  });
+  if (single + crowded + turned == 0) return;
+  const std::string where = name_ + ", first at the edge from " + point_text(local_.vertices[first.low] + centre_) +
+                            " to " + point_text(local_.vertices[first.high] + centre_);
+  if (single > 0) {
+    refuse("the mesh is open: " + count_text(single, "edge has", "edges have") + " only one triangle", where,
+           "close its holes, so that every edge has two triangles");
+  }
+  if (crowded > 0) {
+    refuse("the mesh is not closed: " + count_text(crowded, "edge has", "edges have") + " an odd number of triangles",
+           where, "remove inner and doubled faces, so that every edge has two triangles");
+  }
+  refuse("the triangles turn different ways: at " + count_text(turned, "edge", "edges") + " neighbours disagree", where,
+         "make all triangles face outward");
+}
+
+void Examination::check_volume() const {
+  const double volume = enclosed_volume(local_);
+  if (volume > surface_area(local_) * distance_) return;
+  if (volume >= -surface_area(local_) * distance_) {
+    refuse("the mesh encloses no space", name_, "give a closed mesh with an inside");
+  }
+  refuse("the mesh is inside out: its triangles face inward", name_, "flip its triangles (reverse their corners)");
+}
+
+int Examination::shared_corners(std::size_t a, std::size_t b) const {
+  int shared = 0;
+  for (const std::uint32_t v : local_.triangles[a]) {
+    shared += static_cast<int>(std::count(local_.triangles[b].begin(), local_.triangles[b].end(), v));
+  }
+  return shared;
+}
+
+/// The first triangle that passes through `t`; notes whether `t` touches any at all.
+std::size_t Examination::first_crossing(std::size_t t, const TriangleTree& tree) {
+  std::size_t first = kNone;
+  tree.for_each_near(triangle_box(local_, t), distance_, [&](std::size_t other) {
+    if (other == t) return;
+    const Contact contact = contact_of(corners(t), corners(other), shared_corners(t, other), distance_);
+    if (contact == Contact::touching) touching_[t] = 1;
+    if (contact == Contact::crossing) first = std::min(first, other);
+  });
+  return first;
+}
+
+void Examination::check_contacts(const TriangleTree& tree, const Watch& watch) {
+  const std::size_t count = local_.triangles.size();
+  constexpr std::size_t kBatch = 1 << 14, kGrain = 256;  // a batch takes some milliseconds
+  touching_.assign(count, 0);
+  std::vector<std::size_t> crossing(count, kNone);
+  for (std::size_t begin = 0; begin < count; begin += kBatch) {
+    if (watch && !watch(static_cast<double>(begin) / static_cast<double>(count))) {
+      throw Error(ErrorKind::cancelled, "cancelled", name_, "");
+    }
+    parallel::for_ranges(std::min(kBatch, count - begin), kGrain, [&](std::size_t from, std::size_t to) {
+      for (std::size_t t = begin + from; t < begin + to; ++t) crossing[t] = first_crossing(t, tree);
+    });
+  }
+  const auto crosses = [](std::size_t other) { return other != kNone; };
+  const auto first = std::find_if(crossing.begin(), crossing.end(), crosses);
+  if (first == crossing.end()) return;
+  const auto t = static_cast<std::size_t>(first - crossing.begin());
+  const auto triangles = std::count_if(crossing.begin(), crossing.end(), crosses);
+  refuse("the mesh intersects itself: " +
+             count_text(static_cast<std::size_t>(triangles), "triangle passes", "triangles pass") + " through others",
+         name_ + ", first the triangles at " + point_text(middle(t) + centre_) + " and " +
+             point_text(middle(*first) + centre_),
+         "unite its overlapping parts into one solid");
+}
+
+/// Triangles from which the winding number is known everywhere, when none passes through another: the largest of each
+/// patch that is bounded by crowded edges, and those that touch others.
+std::vector<std::size_t> Examination::samples() const {
+  const std::size_t count = local_.triangles.size();
+  DisjointSets patches(count);
+  for_each_edge(edge_uses(local_.triangles, local_.vertices.size()), [&](std::span<const EdgeUse> edge) {
+    if (edge.size() == 2) patches.join(edge[0].triangle, edge[1].triangle);
+  });
+  const auto area = [&](std::size_t t) {
+    const std::array<Vec3, 3> c = corners(t);
+    return (c[1] - c[0]).cross(c[2] - c[0]).norm();
+  };
+  std::vector<std::size_t> largest(count, kNone), result;
+  for (std::uint32_t t = 0; t < count; ++t) {
+    std::size_t& best = largest[patches.find(t)];
+    if (best == kNone || area(t) > area(best)) best = t;
+  }
+  for (std::size_t t = 0; t < count; ++t) {
+    if (touching_[t] || largest[patches.find(static_cast<std::uint32_t>(t))] == t) result.push_back(t);
+  }
+  return result;
+}
+
+void Examination::check_windings(const TriangleTree& tree, const Watch& watch) const {
+  const double offset = numerics::kSampleOffset * distance_;
+  std::size_t done = 0;
+  const std::vector<std::size_t> chosen = samples();
+  for (const std::size_t t : chosen) {
+    if (watch && done++ % 1024 == 0 && !watch(static_cast<double>(done) / static_cast<double>(chosen.size()))) {
+      throw Error(ErrorKind::cancelled, "cancelled", name_, "");
+    }
+    const std::array<Vec3, 3> c = corners(t);
+    const Vec3 normal = (c[1] - c[0]).cross(c[2] - c[0]);
+    const double longest = std::max({(c[1] - c[0]).norm(), (c[2] - c[1]).norm(), (c[0] - c[2]).norm()});
+    if (normal.norm() < 4 * offset * longest) continue;  // too narrow: the sample could lie beyond its neighbours
+    for (const double side : {offset, -offset}) {
+      const Vec3 point = middle(t) + normal.normalized() * side;
+      const int winding = tree.winding_number(point);
+      if (winding > 1) {
+        refuse("parts of the mesh overlap: there is space that lies inside two of them", place(point),
+               "unite its parts into one solid");
+      }
+      if (winding < 0) {
+        refuse("a part of the mesh is inside out: its triangles face inward", place(point),
+               "flip that part's triangles, or put it inside another part if it is a hole");
+      }
+    }
+  }
+}
+
+}  // namespace
+
+Mesh checked_solid(const Mesh& mesh, const std::string& name, const Watch& watch) {
+  if (mesh.empty()) refuse("the mesh has no triangles", name, "give a closed mesh");
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    if (!mesh.vertices[v].allFinite()) {
+      refuse("a coordinate is not finite", name + ", vertex " + std::to_string(v), "give numbers");
+    }
+  }
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto beyond = [&](std::uint32_t v) { return v >= mesh.vertices.size(); };
+    if (std::any_of(mesh.triangles[t].begin(), mesh.triangles[t].end(), beyond)) {
+      refuse("a vertex index is out of range", name + ", triangle " + std::to_string(t), "mend the mesh");
+    }
+  }
+  const Mesh result = welded(mesh);
+  Examination examination(result, name);
+  examination.check_edges();
+  examination.check_volume();
+  const TriangleTree tree(examination.local());
+  examination.check_contacts(tree, watch ? [&](double done) { return watch(0.7 * done); } : Watch());
+  examination.check_windings(tree, watch ? [&](double done) { return watch(0.7 + 0.3 * done); } : Watch());
+  return result;
+}
+
+}  // namespace vantage::solid

@@ -1,0 +1,21 @@
+// Whether a mesh from outside bounds a solid, and if not, what is wrong with it and where. Manifold itself checks only
+// that edges pair up.
+#pragma once
+
+#include <string>
+
+#include "solid/csg.h"
+#include "vantage/geometry.h"
+
+namespace vantage::solid {
+
+/// `mesh` with vertices at equal positions welded and triangles without extent in their indices dropped: ready for
+/// Solid. Touching parts and cavities are fine. Throws Error(input), `name` in `where`, for a mesh that
+///   - is empty, has a coordinate that is not finite or an index out of range,
+///   - is open (how many edges, the first one's ends), or whose triangles turn different ways,
+///   - passes through itself (the first place, and which triangles), deeper than numerics::kTouching of its diagonal,
+///   - is inside out or has parts that overlap, so that some space counts other than once or not at all.
+/// Error(cancelled) when the watch says so. Cost: O(n log n) for meshes as they are drawn.
+Mesh checked_solid(const Mesh& mesh, const std::string& name, const Watch& watch = {});
+
+}  // namespace vantage::solid

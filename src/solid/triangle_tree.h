@@ -1,0 +1,62 @@
+// A bounding volume hierarchy over the triangles of a mesh.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "scene/bvh.h"
+#include "vantage/geometry.h"
+
+namespace vantage::solid {
+
+/// Refers to the mesh, which must outlive it. The mesh should lie about the origin: boxes are single precision. Any
+/// number of threads may ask at once. Building: O(n log n).
+class TriangleTree {
+ public:
+  explicit TriangleTree(const Mesh& mesh);
+
+  /// Calls `visit(triangle)` for every triangle whose bounding box, grown by `margin`, meets `box`.
+  template <typename Visit>
+  void for_each_near(const Box& box, double margin, const Visit& visit) const;
+
+  /// How often the mesh, which must be closed, winds round a point that is not on it: 1 inside an outward-oriented
+  /// solid, 0 outside. Counts the signed crossings of rays in scattered directions until one keeps clear of all edges.
+  int winding_number(const Vec3& point) const;
+
+ private:
+  bool crossings(const Vec3& point, const Vec3& direction, int& winding) const;
+
+  const Mesh& mesh_;
+  std::vector<std::uint32_t> order_;
+  scene::Bvh bvh_;
+};
+
+Box triangle_box(const Mesh& mesh, std::size_t triangle);
+
+template <typename Visit>
+void TriangleTree::for_each_near(const Box& box, double margin, const Visit& visit) const {
+  const auto near = [&](const auto& low, const auto& high) {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (low[axis] > box.max[axis] + margin || high[axis] < box.min[axis] - margin) return false;
+    }
+    return true;
+  };
+  std::vector<std::uint32_t> stack;
+  if (!bvh_.nodes.empty()) stack.push_back(0);
+  while (!stack.empty()) {
+    const scene::BvhNode& node = bvh_.nodes[stack.back()];
+    stack.pop_back();
+    if (!near(node.bounds.min, node.bounds.max)) continue;
+    if (!node.leaf()) {
+      stack.push_back(node.first + 1);
+      stack.push_back(node.first);
+      continue;
+    }
+    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+      const Box item = triangle_box(mesh_, order_[i]);
+      if (near(item.min, item.max)) visit(order_[i]);
+    }
+  }
+}
+
+}  // namespace vantage::solid

@@ -1,0 +1,277 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <string>
+
+#include "solid/solid_check.h"
+#include "solid/triangle_contact.h"
+#include "solid/triangle_tree.h"
+#include "support/solids.h"
+#include "vantage/error.h"
+
+namespace vantage::solid {
+namespace {
+
+using vantage::testing::append;
+using vantage::testing::make_box_mesh;
+using vantage::testing::make_hemisphere;
+
+/// "" when the mesh passes, else the problem.
+std::string problem_of(const Mesh& mesh, std::string* where = nullptr) {
+  try {
+    checked_solid(mesh, "airspace.ply");
+    return "";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::input);
+    EXPECT_FALSE(error.fix().empty());
+    if (where != nullptr) *where = error.where();
+    return error.problem();
+  }
+}
+
+Mesh two_boxes(const Vec3& min, const Vec3& max) {
+  Mesh mesh = make_box_mesh(Vec3(0, 0, 0), Vec3(2, 2, 2));
+  append(mesh, make_box_mesh(min, max));
+  return mesh;
+}
+
+void flip(Mesh& mesh) {
+  for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
+}
+
+/// The same triangles, each with corners of its own, as an STL file has them.
+Mesh soup_of(const Mesh& mesh) {
+  Mesh soup;
+  for (const Triangle& t : mesh.triangles) {
+    const auto base = static_cast<std::uint32_t>(soup.vertices.size());
+    for (const std::uint32_t v : t) soup.vertices.push_back(mesh.vertices[v]);
+    soup.triangles.push_back({base, base + 1, base + 2});
+  }
+  return soup;
+}
+
+void transform(Mesh& mesh, const Eigen::Matrix3d& rotation, const Vec3& offset) {
+  for (Vec3& v : mesh.vertices) v = rotation * v + offset;
+}
+
+const std::string kOverlap = "parts of the mesh overlap: there is space that lies inside two of them";
+
+TEST(SolidCheck, AcceptsSolids) {
+  EXPECT_EQ(problem_of(make_box_mesh(Vec3(0, 0, 0), Vec3(1, 2, 3))), "");
+  EXPECT_EQ(problem_of(make_hemisphere(Vec3(580000, 4785000, 1000), 100).mesh), "");
+  EXPECT_EQ(problem_of(two_boxes(Vec3(3, 0, 0), Vec3(4, 1, 1))), "");
+}
+
+TEST(SolidCheck, WeldsEqualPositions) {
+  const Mesh box = make_box_mesh(Vec3(0, 0, 0), Vec3(1, 2, 3));
+  Mesh soup = soup_of(box);
+  soup.triangles.push_back({0, 0, 1});
+  const Mesh welded = checked_solid(soup, "airspace.stl");
+  EXPECT_EQ(welded.vertices.size(), 8u);
+  EXPECT_EQ(welded.triangles.size(), 12u);
+  EXPECT_DOUBLE_EQ(enclosed_volume(welded), 6);
+}
+
+TEST(SolidCheck, SaysHowManyEdgesAreOpenAndWhere) {
+  Mesh mesh = make_box_mesh(Vec3(0, 0, 0), Vec3(1, 1, 1));
+  mesh.triangles.pop_back();
+  std::string where;
+  EXPECT_EQ(problem_of(mesh, &where), "the mesh is open: 3 edges have only one triangle");
+  EXPECT_EQ(where, "airspace.ply, first at the edge from (1, 0, 0) to (1, 0, 1)");
+  mesh.triangles.clear();
+  EXPECT_EQ(problem_of(mesh), "the mesh has no triangles");
+}
+
+TEST(SolidCheck, SaysWhereTrianglesTurnDifferentWays) {
+  Mesh mesh = make_box_mesh(Vec3(0, 0, 0), Vec3(1, 1, 1));
+  std::swap(mesh.triangles[0][1], mesh.triangles[0][2]);
+  EXPECT_EQ(problem_of(mesh), "the triangles turn different ways: at 3 edges neighbours disagree");
+}
+
+TEST(SolidCheck, RefusesInnerFaces) {
+  Mesh mesh = make_box_mesh(Vec3(0, 0, 0), Vec3(1, 1, 1));
+  mesh.triangles.push_back({0, 3, 7});
+  mesh.triangles.push_back({0, 7, 4});
+  EXPECT_NE(problem_of(mesh), "");
+}
+
+TEST(SolidCheck, RefusesBadNumbers) {
+  Mesh mesh = make_box_mesh(Vec3(0, 0, 0), Vec3(1, 1, 1));
+  mesh.vertices[3].z() = INFINITY;
+  EXPECT_EQ(problem_of(mesh), "a coordinate is not finite");
+  mesh = make_box_mesh(Vec3(0, 0, 0), Vec3(1, 1, 1));
+  mesh.triangles[3][1] = 8;
+  EXPECT_EQ(problem_of(mesh), "a vertex index is out of range");
+  mesh = make_box_mesh(Vec3(0, 0, 0), Vec3(1, 1, 0));
+  EXPECT_NE(problem_of(mesh), "");  // flat
+}
+
+TEST(SolidCheck, RefusesInsideOut) {
+  Mesh mesh = make_box_mesh(Vec3(0, 0, 0), Vec3(1, 1, 1));
+  flip(mesh);
+  EXPECT_EQ(problem_of(mesh), "the mesh is inside out: its triangles face inward");
+  Mesh small = make_box_mesh(Vec3(3, 0, 0), Vec3(3.5, 0.5, 0.5));
+  flip(small);
+  Mesh mixed = make_box_mesh(Vec3(0, 0, 0), Vec3(1, 1, 1));
+  append(mixed, small);
+  EXPECT_EQ(problem_of(mixed), "a part of the mesh is inside out: its triangles face inward");
+}
+
+TEST(SolidCheck, AcceptsCavitiesAndRefusesNestedSolids) {
+  Mesh inner = make_box_mesh(Vec3(0.5, 0.5, 0.5), Vec3(1.5, 1.5, 1.5));
+  Mesh nested = two_boxes(Vec3(0.5, 0.5, 0.5), Vec3(1.5, 1.5, 1.5));
+  EXPECT_EQ(problem_of(nested), kOverlap);
+  flip(inner);
+  Mesh hollow = make_box_mesh(Vec3(0, 0, 0), Vec3(2, 2, 2));
+  append(hollow, inner);
+  EXPECT_EQ(problem_of(hollow), "");
+}
+
+TEST(SolidCheck, RefusesPartsThatPassThroughEachOther) {
+  std::string where;
+  const std::string problem = problem_of(two_boxes(Vec3(1, 0.5, 0.5), Vec3(3, 1.5, 1.75)), &where);
+  EXPECT_EQ(problem.substr(0, 28), "the mesh intersects itself: ") << problem;
+  EXPECT_EQ(where.substr(0, 33), "airspace.ply, first the triangles") << where;
+}
+
+TEST(SolidCheck, RefusesDegenerateOverlaps) {
+  // Flush on all sides but one; flush on some; the same box twice; edges that run exactly through corners and
+  // diagonals.
+  EXPECT_NE(problem_of(two_boxes(Vec3(1, 0, 0), Vec3(3, 2, 2))), "");
+  EXPECT_NE(problem_of(two_boxes(Vec3(1, 0, 0), Vec3(3, 2, 1))), "");
+  EXPECT_NE(problem_of(two_boxes(Vec3(0, 0, 0), Vec3(2, 2, 2))), "");
+  EXPECT_NE(problem_of(two_boxes(Vec3(0, 0, 0), Vec3(1, 1, 1))), "");
+  EXPECT_NE(problem_of(two_boxes(Vec3(1, 1, 1), Vec3(3, 3, 3))), "");
+  EXPECT_NE(problem_of(two_boxes(Vec3(0.5, 0.5, -1), Vec3(1.5, 1.5, 3))), "");
+  // A tower whose ring of edges lies exactly in the top of the box that it stands in: no triangle passes through
+  // another.
+  Mesh tower = make_box_mesh(Vec3(0.5, 0.5, 0.5), Vec3(1.5, 1.5, 2));
+  Mesh upper = make_box_mesh(Vec3(0.5, 0.5, 2), Vec3(1.5, 1.5, 3));
+  tower.triangles.erase(tower.triangles.begin() + 2, tower.triangles.begin() + 4);  // its top
+  upper.triangles.erase(upper.triangles.begin(), upper.triangles.begin() + 2);      // its bottom
+  append(tower, upper);
+  EXPECT_EQ(problem_of(soup_of(tower)), "");
+  append(tower, make_box_mesh(Vec3(0, 0, 0), Vec3(2, 2, 2)));
+  EXPECT_EQ(problem_of(soup_of(tower)), kOverlap);
+}
+
+TEST(SolidCheck, AcceptsPartsThatTouch) {
+  EXPECT_EQ(problem_of(two_boxes(Vec3(2, 0, 0), Vec3(4, 2, 2))), "");      // face to face
+  EXPECT_EQ(problem_of(two_boxes(Vec3(2, 0.5, 0.5), Vec3(4, 1, 1))), "");  // face within a face
+  EXPECT_EQ(problem_of(two_boxes(Vec3(2, 2, 0), Vec3(4, 4, 2))), "");      // edge to edge
+  EXPECT_EQ(problem_of(two_boxes(Vec3(2, 2, 1), Vec3(4, 4, 5))), "");      // part of an edge
+  EXPECT_EQ(problem_of(two_boxes(Vec3(2, 2, 2), Vec3(4, 4, 4))), "");      // corner to corner
+}
+
+TEST(SolidCheck, RoundingOfFlushWallsIsNoOverlap) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  for (int i = 0; i < 50; ++i) {
+    const Vec3 axis(uniform(random), uniform(random), uniform(random));
+    const Eigen::Matrix3d rotation = Eigen::AngleAxisd(3 * uniform(random), axis.normalized()).toRotationMatrix();
+    Mesh touching = two_boxes(Vec3(2, 0.3, 0.4), Vec3(4, 1, 1.1));
+    transform(touching, rotation, Vec3(uniform(random), uniform(random), uniform(random)));
+    for (Vec3& v : touching.vertices) v = v.cast<float>().cast<double>();
+    EXPECT_EQ(problem_of(touching), "") << "seed 7, case " << i;
+    Mesh overlapping = two_boxes(Vec3(1.999, 0.3, 0.4), Vec3(4, 1, 1.1));
+    transform(overlapping, rotation, Vec3(580000, 4785000, 1000));
+    EXPECT_NE(problem_of(overlapping), "") << "seed 7, case " << i;
+  }
+}
+
+TEST(SolidCheck, RandomRotatedBoxesAgreeWithSeparatingAxes) {
+  const unsigned seed = 11;
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  int meet = 0, apart = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Vec3 axis(uniform(random), uniform(random), uniform(random));
+    const Eigen::Matrix3d rotation = Eigen::AngleAxisd(3 * uniform(random), axis.normalized()).toRotationMatrix();
+    const Vec3 offset = 3 * Vec3(uniform(random), uniform(random), uniform(random));
+    Mesh a = make_box_mesh(Vec3(-1, -1, -1), Vec3(1, 1, 1)), b = a;
+    transform(b, rotation, offset);
+    // Two convex bodies are apart when one of their face normals or products of edge directions separates them.
+    double gap = -INFINITY;
+    const auto try_axis = [&](const Vec3& direction) {
+      if (direction.norm() < 1e-9) return;
+      const Vec3 d = direction.normalized();
+      double a_max = -INFINITY, b_min = INFINITY;
+      for (const Vec3& v : a.vertices) a_max = std::max(a_max, d.dot(v));
+      for (const Vec3& v : b.vertices) b_min = std::min(b_min, d.dot(v));
+      gap = std::max(gap, b_min - a_max);
+    };
+    for (int j = 0; j < 3; ++j) {
+      for (const double sign : {1.0, -1.0}) {
+        try_axis(sign * Vec3::Unit(j));
+        try_axis(sign * rotation.col(j));
+        for (int k = 0; k < 3; ++k) try_axis(sign * Vec3::Unit(j).cross(rotation.col(k)));
+      }
+    }
+    if (std::abs(gap) < 1e-5) continue;
+    (gap > 0 ? apart : meet) += 1;
+    append(a, b);
+    EXPECT_EQ(problem_of(a).empty(), gap > 0) << "seed " << seed << ", case " << i << ", gap " << gap;
+  }
+  EXPECT_GT(meet, 50);
+  EXPECT_GT(apart, 50);
+}
+
+TEST(SolidCheck, FindsAFoldThatPassesThroughTheOtherSide) {
+  Mesh mesh = make_hemisphere(Vec3(0, 0, 0), 10, 32, 16).mesh;
+  EXPECT_EQ(problem_of(mesh), "");
+  mesh.vertices[mesh.vertices.size() - 2].z() = -3;  // the pole, pulled through the floor
+  EXPECT_NE(problem_of(mesh), "");
+}
+
+TEST(SolidCheck, CanBeStopped) {
+  const Mesh mesh = make_hemisphere(Vec3(0, 0, 0), 10, 100, 50).mesh;
+  try {
+    checked_solid(mesh, "airspace.ply", [](double) { return false; });
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::cancelled);
+  }
+}
+
+TEST(TriangleContact, KindsOfContact) {
+  const std::array<Vec3, 3> floor = {Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 4, 0)};
+  const auto contact = [&](const Vec3& a, const Vec3& b, const Vec3& c, int shared = 0) {
+    const std::array<Vec3, 3> other = {a, b, c};
+    const Contact forth = contact_of(floor, other, shared, 1e-6);
+    EXPECT_EQ(contact_of(other, floor, shared, 1e-6), forth);
+    return forth;
+  };
+  EXPECT_EQ(contact(Vec3(1, 1, -1), Vec3(1, 1, 1), Vec3(2, 1, 1)), Contact::crossing);
+  EXPECT_EQ(contact(Vec3(1, 1, 0), Vec3(2, 1, 0), Vec3(1, 1, 1)), Contact::touching);      // stands on an edge
+  EXPECT_EQ(contact(Vec3(1, 1, 0), Vec3(2, 1, 1), Vec3(1, 1, 1)), Contact::none);          // stands on a corner
+  EXPECT_EQ(contact(Vec3(1, 1, -1e-7), Vec3(1, 1, 1), Vec3(2, 1, 1)), Contact::none);      // not deep enough
+  EXPECT_EQ(contact(Vec3(1, 1, 0), Vec3(2, 1, 0), Vec3(1, 2, 0)), Contact::touching);      // in one plane
+  EXPECT_EQ(contact(Vec3(4, 0, 0), Vec3(0, 4, 0), Vec3(4, 4, 0), 2), Contact::none);       // neighbours in one plane
+  EXPECT_EQ(contact(Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 0, 4), 2), Contact::none);       // neighbours at a wall
+  EXPECT_EQ(contact(Vec3(0, 0, 0), Vec3(-4, 0, 0), Vec3(0, 0, 4), 1), Contact::none);      // they share a corner
+  EXPECT_EQ(contact(Vec3(0, 0, 0), Vec3(3, 3, 1), Vec3(3, 3, -1), 1), Contact::crossing);  // and cross beyond it
+  EXPECT_EQ(contact(Vec3(5, 5, -1), Vec3(5, 5, 1), Vec3(9, 9, 0)), Contact::none);         // apart
+  EXPECT_EQ(contact(Vec3(0, 0, 1), Vec3(4, 0, 1), Vec3(0, 4, 1)), Contact::none);          // parallel
+  EXPECT_EQ(contact(Vec3(1, 1, -1), Vec3(1, 1, 1), Vec3(1, 1, 0)), Contact::none);         // a needle
+}
+
+TEST(TriangleTree, WindingNumbersOfADome) {
+  const Mesh mesh = make_hemisphere(Vec3(0, 0, 0), 10, 64, 32).mesh;
+  const TriangleTree tree(mesh);
+  const unsigned seed = 5;
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> uniform(-11, 11);
+  for (int i = 0; i < 2000; ++i) {
+    const Vec3 p(uniform(random), uniform(random), uniform(random));
+    if (std::abs(p.norm() - 10) < 0.1 || std::abs(p.z()) < 1e-6) continue;
+    EXPECT_EQ(tree.winding_number(p), p.z() > 0 && p.norm() < 10 ? 1 : 0) << "seed " << seed << ", case " << i;
+  }
+  EXPECT_EQ(tree.winding_number(Vec3(0, 0, 5)), 1);  // on the axis, above a vertex of the floor
+}
+
+}  // namespace
+}  // namespace vantage::solid
