@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <string>
 
+#include "solid/volume_check.h"
 #include "solid/writers.h"
 #include "vantage/error.h"
 
@@ -32,34 +33,6 @@ std::string one_line(std::string_view text) {
   return line;
 }
 
-namespace {
-
-void check_volume(const Volume& volume) {
-  const auto fail = [](const std::string& what, const std::string& where) {
-    throw Error(ErrorKind::input, what, where, "write a volume as computed, or mend what was changed in it");
-  };
-  const std::vector<Vec3>& vertices = volume.mesh.vertices;
-  const auto& triangles = volume.mesh.triangles;
-  if (volume.cause_of.size() != triangles.size()) {
-    fail("the volume has " + std::to_string(triangles.size()) + " triangles but " +
-             std::to_string(volume.cause_of.size()) + " causes of triangles",
-         "");
-  }
-  for (std::size_t v = 0; v < vertices.size(); ++v) {
-    if (!vertices[v].allFinite()) fail("a coordinate is not finite", "vertex " + std::to_string(v));
-  }
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    const auto beyond = [&](std::uint32_t v) { return v >= vertices.size(); };
-    if (std::any_of(triangles[t].begin(), triangles[t].end(), beyond)) {
-      fail("a vertex index is out of range", "triangle " + std::to_string(t));
-    }
-    if (volume.cause_of[t] >= volume.causes.size()) {
-      fail("a cause index is out of range", "triangle " + std::to_string(t));
-    }
-  }
-}
-
-}  // namespace
 }  // namespace solid
 
 void write_volume(const Volume& volume, const std::filesystem::path& file, UpAxis obj_up) {

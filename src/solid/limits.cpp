@@ -1,0 +1,70 @@
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "solid/navigation.h"
+#include "solid/solid_check.h"
+#include "solid/text.h"
+#include "vantage/error.h"
+
+namespace vantage::solid {
+namespace {
+
+/// One pair of limits; `what` and `axis` are for the message: "the altitude band", "".
+void check_pair(double min, double max, const std::string& what, const std::string& axis, const std::string& where) {
+  const auto refuse = [&](const std::string& problem, const char* fix) {
+    throw Error(ErrorKind::input, std::string(what).append(" ").append(problem), where, fix);
+  };
+  const std::string of_axis = axis.empty() ? "" : std::string(" in ").append(axis);
+  if (!std::isfinite(min) || !std::isfinite(max)) {
+    refuse(std::string("is not finite").append(of_axis), "give numbers; leave a limit out where there is none");
+  }
+  if (min > max) {
+    refuse(std::string("is reversed")
+               .append(of_axis)
+               .append(": min ")
+               .append(number_text(min))
+               .append(" is above max ")
+               .append(number_text(max)),
+           "swap the two");
+  }
+  if (min == max) {
+    refuse(std::string("is empty").append(of_axis).append(": min and max are both ").append(number_text(min)),
+           "give a max above the min");
+  }
+}
+
+void check_boxes(const std::vector<Box>& boxes, const std::string& name, const std::string& key) {
+  constexpr std::array kAxes = {"x", "y", "z"};
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    const std::string index = std::to_string(i);
+    for (unsigned axis = 0; axis < 3; ++axis) {
+      check_pair(boxes[i].min[axis], boxes[i].max[axis], std::string(name).append(" ").append(index), kAxes[axis],
+                 std::string("navigation.").append(key).append("[").append(index).append("]"));
+    }
+  }
+}
+
+}  // namespace
+
+void check_limits(const Navigation& navigation) {
+  if (navigation.altitude) {
+    check_pair(navigation.altitude->min_m, navigation.altitude->max_m, "the altitude band", "", "navigation.altitude");
+  }
+  check_boxes(navigation.boxes, "box", "boxes");
+  check_boxes(navigation.keep_out, "keep_out", "keep_out");
+}
+
+std::vector<Mesh> check_navigation(const Navigation& navigation, const Watch& watch) {
+  check_limits(navigation);
+  std::vector<Mesh> meshes;
+  const auto count = static_cast<double>(navigation.meshes.size());
+  for (std::size_t i = 0; i < navigation.meshes.size(); ++i) {
+    const KeepInMesh& keep_in = navigation.meshes[i];
+    const auto part = [&](double done) { return watch((static_cast<double>(i) + done) / count); };
+    meshes.push_back(checked_solid(keep_in.mesh, keep_in.name, watch ? Watch(part) : Watch()));
+  }
+  return meshes;
+}
+
+}  // namespace vantage::solid

@@ -1,0 +1,177 @@
+// Cutting a volume to where the vehicle may fly. The limits are small solids beside a volume of perhaps a hundred
+// thousand facets, so they are combined first, and the volume goes through one boolean.
+#include "solid/navigation.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "solid/edges.h"
+#include "solid/numerics.h"
+#include "solid/outside_limits.h"
+#include "solid/regions.h"
+#include "solid/volume_check.h"
+#include "vantage/error.h"
+#include "vantage/volume.h"
+
+namespace vantage {
+namespace solid {
+namespace {
+
+std::vector<Solid> solids_of(const std::vector<Region>& regions) {
+  std::vector<Solid> solids;
+  for (const Region& region : regions) solids.push_back(region.solid);
+  return solids;
+}
+
+Solid cut(const Solid& volume, const Regions& regions, const Watch& watch) {
+  const Solid forbidden = unite(solids_of(regions.forbidden));
+  if (regions.kept.empty()) return subtract(volume, forbidden, watch);
+  const Solid kept = intersect(solids_of(regions.kept));
+  return intersect(volume, forbidden.empty() ? kept : subtract(kept, forbidden), watch);
+}
+
+/// Removes pieces that are thinner than what the booleans resolve. Cavities stay: to fill one would add space.
+void drop_slivers(LabelledMesh& labelled, double thickness) {
+  auto& [mesh, labels] = labelled;
+  DisjointSets pieces(mesh.triangles.size());
+  for_each_edge(edge_uses(mesh.triangles, mesh.vertices.size()), [&](std::span<const EdgeUse> edge) {
+    for (const EdgeUse& use : edge) pieces.join(edge[0].triangle, use.triangle);
+  });
+  std::vector<double> volume(mesh.triangles.size(), 0), area(mesh.triangles.size(), 0);
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    const std::uint32_t piece = pieces.find(t);
+    const Vec3 &a = mesh.vertices[mesh.triangles[t][0]], &b = mesh.vertices[mesh.triangles[t][1]],
+               &c = mesh.vertices[mesh.triangles[t][2]];
+    const Vec3 apex = mesh.vertices[mesh.triangles[piece][0]];
+    volume[piece] += (a - apex).dot((b - apex).cross(c - apex)) / 6;
+    area[piece] += (b - a).cross(c - a).norm() / 2;
+  }
+  std::size_t kept = 0;
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    const std::uint32_t piece = pieces.find(t);
+    if (std::abs(volume[piece]) <= thickness * area[piece] && volume[piece] >= 0) continue;
+    mesh.triangles[kept] = mesh.triangles[t];
+    labels[kept++] = labels[t];
+  }
+  mesh.triangles.resize(kept);
+  labels.resize(kept);
+}
+
+void drop_unused_vertices(Mesh& mesh) {
+  constexpr std::uint32_t kUnused = std::numeric_limits<std::uint32_t>::max();
+  std::vector<std::uint32_t> new_index(mesh.vertices.size(), kUnused);
+  for (const Triangle& t : mesh.triangles) {
+    for (const std::uint32_t v : t) new_index[v] = 0;
+  }
+  std::uint32_t used = 0;
+  for (std::size_t v = 0; v < new_index.size(); ++v) {
+    if (new_index[v] == kUnused) continue;
+    mesh.vertices[used] = mesh.vertices[v];
+    new_index[v] = used++;
+  }
+  mesh.vertices.resize(used);
+  for (Triangle& t : mesh.triangles) {
+    for (std::uint32_t& v : t) v = new_index[v];
+  }
+}
+
+/// Puts the corners of cut faces into their planes exactly, where rounding left them beside it. `labelled` is in the
+/// scene frame already.
+void snap_to_planes(LabelledMesh& labelled, const std::vector<Surface>& surfaces, double allowance) {
+  auto& [mesh, labels] = labelled;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Surface& surface = surfaces[labels[t]];
+    if (!surface.axis) continue;
+    for (const std::uint32_t v : mesh.triangles[t]) {
+      double& coordinate = mesh.vertices[v][*surface.axis];
+      if (std::abs(coordinate - surface.at) > allowance) {
+        throw Error(ErrorKind::internal, "a cut face does not lie in its plane", "navigation", "");
+      }
+      coordinate = surface.at;
+    }
+  }
+}
+
+/// Moves what the booleans left into the result: scene frame, causes that still bound something, their areas.
+void take_over(LabelledMesh labelled, const Regions& regions, Volume& result) {
+  std::vector<double> area(regions.causes.size(), 0);
+  std::vector<bool> used(regions.causes.size(), false);
+  std::vector<std::uint32_t> cause_of;
+  const Mesh& mesh = labelled.mesh;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const std::uint32_t cause = regions.surfaces[labelled.labels[t]].cause;
+    const Vec3& a = mesh.vertices[mesh.triangles[t][0]];
+    area[cause] += (mesh.vertices[mesh.triangles[t][1]] - a).cross(mesh.vertices[mesh.triangles[t][2]] - a).norm() / 2;
+    used[cause] = true;
+    cause_of.push_back(cause);
+  }
+  std::vector<std::uint32_t> new_index(regions.causes.size(), 0);
+  result.causes.clear();
+  for (std::size_t cause = 0; cause < area.size(); ++cause) {
+    if (!used[cause]) continue;
+    new_index[cause] = static_cast<std::uint32_t>(result.causes.size());
+    result.causes.push_back({regions.causes[cause].kind, regions.causes[cause].name, area[cause]});
+  }
+  for (std::uint32_t& cause : cause_of) cause = new_index[cause];
+  result.cause_of = std::move(cause_of);
+  result.mesh = std::move(labelled.mesh);
+}
+
+void make_empty(const Emptiness& emptiness, Volume& result) {
+  result.outcome = Outcome::outside_limits;
+  result.reason = emptiness.reason;
+  result.hint = emptiness.hint;
+  result.mesh = {};
+  result.cause_of.clear();
+  result.causes.clear();
+}
+
+void cut_volume(const Regions& regions, const Watch& watch, Volume& result) {
+  const Solid volume(moved_to_origin(result.mesh, result.cause_of, regions.origin), "the volume");
+  const Solid remaining = cut(volume, regions, watch);
+  LabelledMesh labelled = remaining.to_mesh();
+  drop_slivers(labelled, sliver_thickness(volume));
+  if (labelled.mesh.empty()) {
+    const Watch asked_again = watch ? Watch([&](double) { return watch(1); }) : Watch();
+    return make_empty(explain_emptiness(volume, regions, asked_again), result);
+  }
+  drop_unused_vertices(labelled.mesh);
+  for (Vec3& vertex : labelled.mesh.vertices) vertex += regions.origin;
+  const double rounding = std::numeric_limits<double>::epsilon() * regions.origin.cwiseAbs().maxCoeff();
+  snap_to_planes(labelled, regions.surfaces, numerics::kSnapEpsilons * (volume.epsilon() + rounding));
+  take_over(std::move(labelled), regions, result);
+}
+
+}  // namespace
+}  // namespace solid
+
+Volume cut_to_navigation(const Volume& volume, const Navigation& navigation, const Progress& progress) {
+  const auto start = std::chrono::steady_clock::now();
+  const auto watch = [&](double from, double share) -> solid::Watch {
+    if (!progress) return {};
+    return [&progress, from, share](double done) { return progress("navigation", from + share * done); };
+  };
+  const auto stop = [&](double done) { return progress && !progress("navigation", done); };
+  const auto cancelled = [] { return Error(ErrorKind::cancelled, "cancelled", "navigation", ""); };
+
+  if (stop(0)) throw cancelled();
+  const std::vector<Mesh> meshes = solid::check_navigation(navigation, watch(0, 0.3));
+  Volume result = volume;
+  if (volume.outcome != Outcome::computed || volume.mesh.empty() || navigation.empty()) return result;
+
+  solid::check_volume(volume);
+  const Box bounds = measure(volume.mesh).bounds;
+  const solid::Regions regions = solid::make_regions(volume.causes, bounds, navigation, meshes);
+  if (!regions.kept.empty() || !regions.forbidden.empty()) solid::cut_volume(regions, watch(0.3, 0.7), result);
+  if (stop(1)) throw cancelled();
+  result.seconds.navigation = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return result;
+}
+
+}  // namespace vantage

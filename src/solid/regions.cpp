@@ -1,0 +1,148 @@
+#include "solid/regions.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "solid/numerics.h"
+#include "solid/text.h"
+
+namespace vantage::solid {
+namespace {
+
+/// Where the solids are moved to: booleans round to a part of the largest coordinate. A multiple of a power of two
+/// larger than the volume, so that moving there and back is exact but for coordinates much smaller than the volume
+/// itself.
+Vec3 local_origin(const Box& bounds) {
+  const double extent = std::max((bounds.max - bounds.min).maxCoeff(), 1.0);
+  const double grid = std::exp2(std::ceil(std::log2(extent)) + 1);
+  return ((bounds.min + bounds.max) / (2 * grid)).array().round() * grid;
+}
+
+bool contains(const Box& outer, const Box& inner) {
+  return (outer.min.array() <= inner.min.array()).all() && (outer.max.array() >= inner.max.array()).all();
+}
+
+bool insides_meet(const Box& a, const Box& b) {
+  return (a.min.array() < b.max.array()).all() && (b.min.array() < a.max.array()).all();
+}
+
+/// Causes of a box's six sides: at min x, y, z, then at max x, y, z.
+using SideCauses = std::array<std::uint32_t, 6>;
+
+class Builder {
+ public:
+  Builder(const std::vector<Cause>& volume_causes, const Box& bounds) : bounds_(bounds) {
+    result_.origin = local_origin(bounds);
+    result_.causes = volume_causes;
+    for (std::uint32_t i = 0; i < volume_causes.size(); ++i) result_.surfaces.push_back({i});
+    const Vec3 overshoot = Vec3::Constant(numerics::kOvershoot * (bounds.max - bounds.min).norm());
+    outer_ = {bounds.min - overshoot, bounds.max + overshoot};
+  }
+
+  void add_altitude(const Navigation::Altitude& altitude);
+  void add_boxes(const std::vector<Box>& boxes);
+  void add_mesh(const Mesh& mesh, const std::string& name);
+  void add_keep_out(const Box& box, std::size_t index);
+
+  Regions take() { return std::move(result_); }
+
+ private:
+  std::uint32_t add_cause(const std::string& name) {
+    result_.causes.push_back({CauseKind::navigation, name, 0});
+    return static_cast<std::uint32_t>(result_.causes.size() - 1);
+  }
+  std::uint32_t add_surface(const Surface& surface) {
+    result_.surfaces.push_back(surface);
+    return static_cast<std::uint32_t>(result_.surfaces.size() - 1);
+  }
+  Solid make_side_labelled_box(const Box& box, const SideCauses& causes);
+  Solid make_box_of_one_cause(const Box& box, const std::string& name);
+
+  Box bounds_, outer_;
+  Regions result_;
+};
+
+/// The part of a box that lies about the volume; sides outside of that are moved in, but stay clear of the volume.
+Solid Builder::make_side_labelled_box(const Box& box, const SideCauses& causes) {
+  BoxLabels labels;
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    labels.min[axis] = add_surface({causes[axis], axis, box.min[axis]});
+    labels.max[axis] = add_surface({causes[axis + 3], axis, box.max[axis]});
+  }
+  const Box near{box.min.cwiseMax(outer_.min) - result_.origin, box.max.cwiseMin(outer_.max) - result_.origin};
+  // A box thinner than the last digit of a large coordinate.
+  if (!(near.min.array() < near.max.array()).all()) return Solid();
+  return make_box(near, labels);
+}
+
+Solid Builder::make_box_of_one_cause(const Box& box, const std::string& name) {
+  SideCauses causes;
+  causes.fill(add_cause(name));
+  return make_side_labelled_box(box, causes);
+}
+
+void Builder::add_altitude(const Navigation::Altitude& altitude) {
+  Box band = outer_;
+  band.min.z() = altitude.min_m;
+  band.max.z() = altitude.max_m;
+  if (contains(band, bounds_)) return;
+  std::string name("the altitude band ");
+  name.append(number_text(altitude.min_m)).append(" to ").append(number_text(altitude.max_m)).append(" m");
+  if (!insides_meet(band, bounds_)) {
+    result_.kept.push_back({RegionKind::altitude, name, Solid(), band});
+    return;
+  }
+  const std::uint32_t min = add_cause("altitude min"), max = add_cause("altitude max");
+  result_.kept.push_back(
+      {RegionKind::altitude, name, make_side_labelled_box(band, {min, min, min, max, max, max}), band});
+}
+
+void Builder::add_boxes(const std::vector<Box>& boxes) {
+  if (boxes.empty()) return;
+  for (const Box& box : boxes) {
+    if (contains(box, bounds_)) return;
+  }
+  std::vector<Solid> solids;
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    if (insides_meet(boxes[i], bounds_)) {
+      solids.push_back(make_box_of_one_cause(boxes[i], std::string("box ").append(std::to_string(i))));
+    }
+  }
+  result_.kept.push_back({RegionKind::boxes, boxes.size() == 1 ? "box 0" : "boxes", unite(solids)});
+}
+
+void Builder::add_mesh(const Mesh& mesh, const std::string& name) {
+  const std::string full_name = std::string("mesh ").append(name);
+  const std::uint32_t label = add_surface({add_cause(full_name)});
+  std::vector<std::uint32_t> labels(mesh.triangles.size(), label);
+  result_.kept.push_back({RegionKind::mesh, std::string("the ").append(full_name),
+                          Solid(moved_to_origin(mesh, std::move(labels), result_.origin), name)});
+}
+
+void Builder::add_keep_out(const Box& box, std::size_t index) {
+  if (!insides_meet(box, bounds_)) return;
+  const std::string name = std::string("keep_out ").append(std::to_string(index));
+  result_.forbidden.push_back({RegionKind::keep_out, name, make_box_of_one_cause(box, name)});
+}
+
+}  // namespace
+
+LabelledMesh moved_to_origin(const Mesh& mesh, std::vector<std::uint32_t> labels, const Vec3& origin) {
+  LabelledMesh result{mesh, std::move(labels)};
+  for (Vec3& vertex : result.mesh.vertices) vertex -= origin;
+  return result;
+}
+
+Regions make_regions(const std::vector<Cause>& volume_causes, const Box& bounds, const Navigation& navigation,
+                     const std::vector<Mesh>& meshes) {
+  Builder builder(volume_causes, bounds);
+  if (navigation.altitude) builder.add_altitude(*navigation.altitude);
+  builder.add_boxes(navigation.boxes);
+  for (std::size_t i = 0; i < meshes.size(); ++i) builder.add_mesh(meshes[i], navigation.meshes[i].name);
+  for (std::size_t i = 0; i < navigation.keep_out.size(); ++i) builder.add_keep_out(navigation.keep_out[i], i);
+  return builder.take();
+}
+
+}  // namespace vantage::solid

@@ -1,0 +1,46 @@
+// Navigation limits as labelled solids.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "solid/csg.h"
+#include "vantage/volume.h"
+
+namespace vantage::solid {
+
+/// What a label stands for: a cause and, for a side of a box, the plane that its facets must lie in.
+struct Surface {
+  std::uint32_t cause = 0;
+  std::optional<Eigen::Index> axis = std::nullopt;
+  double at = 0;  ///< scene frame
+};
+
+enum class RegionKind { altitude, boxes, mesh, keep_out };
+
+/// Space to stay in or out of. All boxes to stay in are one region, since the volume is cut to their union.
+struct Region {
+  RegionKind kind;
+  std::string name;  ///< "the altitude band 20 to 120 m", "box 0", "the mesh airspace.ply", "keep_out 1"
+  Solid solid;       ///< about Regions::origin; empty when it misses the volume's bounds
+  Box box = {};      ///< of the altitude band, scene frame: z alone is meant
+};
+
+struct Regions {
+  Vec3 origin = Vec3::Zero();     ///< scene frame; the solids are relative to it
+  std::vector<Cause> causes;      ///< those of the volume, then those of the limits
+  std::vector<Surface> surfaces;  ///< by label; the first ones are the volume's causes in order
+  std::vector<Region> kept;       ///< the volume is cut to each
+  std::vector<Region> forbidden;  ///< each is taken away
+};
+
+/// Leaves out every limit that a volume with these bounds keeps anyway. `meshes` are the navigation's, checked and
+/// welded. Boxes are clipped a little outside the bounds, where that changes nothing, to keep coordinates small.
+Regions make_regions(const std::vector<Cause>& volume_causes, const Box& bounds, const Navigation& navigation,
+                     const std::vector<Mesh>& meshes);
+
+/// The mesh with its vertices relative to `origin`.
+LabelledMesh moved_to_origin(const Mesh& mesh, std::vector<std::uint32_t> labels, const Vec3& origin);
+
+}  // namespace vantage::solid

@@ -1,0 +1,471 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <random>
+#include <string>
+
+#include "parallel/parallel.h"
+#include "solid/navigation.h"
+#include "support/solids.h"
+#include "vantage/error.h"
+#include "vantage/volume.h"
+
+namespace vantage {
+namespace {
+
+using testing::append;
+using testing::first_open_edge;
+using testing::make_box_mesh;
+using testing::make_dome;
+using testing::make_hemisphere;
+
+const Vec3 kUtm(580000.1, 4785000.2, 1000.3);
+
+Volume bumpy_dome(const Vec3& origin, int sectors = 90, int rings = 30) {
+  return make_dome(origin, sectors, rings, [](double azimuth, double elevation) {
+    return 60 + 25 * std::sin(5 * azimuth) * std::cos(elevation) + 10 * std::cos(3 * elevation);
+  });
+}
+
+Box box(double x0, double y0, double z0, double x1, double y1, double z1, const Vec3& offset = Vec3::Zero()) {
+  return {Vec3(x0, y0, z0) + offset, Vec3(x1, y1, z1) + offset};
+}
+
+Navigation band(double min, double max) {
+  Navigation navigation;
+  navigation.altitude = {min, max};
+  return navigation;
+}
+
+/// Area by cause name, summed over the facets themselves.
+std::map<std::string, double> areas_of(const Volume& volume) {
+  std::map<std::string, double> areas;
+  for (std::size_t t = 0; t < volume.mesh.triangles.size(); ++t) {
+    const Triangle& i = volume.mesh.triangles[t];
+    const Vec3& a = volume.mesh.vertices[i[0]];
+    areas[volume.causes[volume.cause_of[t]].name] +=
+        (volume.mesh.vertices[i[1]] - a).cross(volume.mesh.vertices[i[2]] - a).norm() / 2;
+  }
+  return areas;
+}
+
+/// What every cut volume must be.
+void expect_sound(const Volume& volume) {
+  EXPECT_EQ(volume.outcome, Outcome::computed) << volume.reason;
+  EXPECT_EQ(first_open_edge(volume.mesh), "");
+  EXPECT_EQ(volume.cause_of.size(), volume.mesh.triangles.size());
+  EXPECT_EQ(measure(volume.mesh).vertices, volume.mesh.vertices.size());
+  const std::map<std::string, double> areas = areas_of(volume);
+  EXPECT_EQ(areas.size(), volume.causes.size());  // no cause without a facet
+  for (const Cause& cause : volume.causes) EXPECT_NEAR(cause.area_m2, areas.at(cause.name), 1e-6) << cause.name;
+}
+
+CauseKind kind_of(const Volume& volume, const std::string& name) {
+  for (const Cause& cause : volume.causes) {
+    if (cause.name == name) return cause.kind;
+  }
+  ADD_FAILURE() << "no cause named " << name;
+  return CauseKind::scene;
+}
+
+/// Whether a point lies in a dome by its own definition: the cone of one of its facets from the origin.
+bool inside_star(const Volume& dome, const Vec3& point) {
+  const Vec3 origin = dome.frame.origin, p = point - origin;
+  for (std::size_t t = 0; t < dome.mesh.triangles.size(); ++t) {
+    if (dome.cause_of[t] == 4) continue;  // the floor
+    Eigen::Matrix3d corners;
+    for (int i = 0; i < 3; ++i) corners.col(i) = dome.mesh.vertices[dome.mesh.triangles[t][i]] - origin;
+    const Vec3 weights = corners.fullPivLu().solve(p);
+    if (weights.minCoeff() >= -1e-9) return weights.sum() <= 1;
+  }
+  return false;
+}
+
+TEST(Navigation, AltitudeBandIsExact) {
+  for (const Vec3& origin : {Vec3(0, 0, 0), Vec3(0.1, -0.7, 3.3), kUtm}) {
+    const Volume dome = bumpy_dome(origin);
+    const double low = origin.z() + 10.1, high = origin.z() + 40.7;
+    const Volume cut = cut_to_navigation(dome, band(low, high));
+    expect_sound(cut);
+    const MeshMeasures measures = measure(cut.mesh);
+    EXPECT_EQ(measures.bounds.min.z(), low);
+    EXPECT_EQ(measures.bounds.max.z(), high);
+    EXPECT_EQ(measures.pieces, 1u);
+    EXPECT_EQ(measures.euler, 2);
+    EXPECT_LT(measures.volume_m3, measure(dome.mesh).volume_m3);
+    EXPECT_EQ(kind_of(cut, "altitude min"), CauseKind::navigation);
+    EXPECT_EQ(kind_of(cut, "altitude max"), CauseKind::navigation);
+    for (std::size_t t = 0; t < cut.mesh.triangles.size(); ++t) {
+      const std::string& name = cut.causes[cut.cause_of[t]].name;
+      for (const std::uint32_t v : cut.mesh.triangles[t]) {
+        if (name == "altitude min") {
+          EXPECT_EQ(cut.mesh.vertices[v].z(), low);
+        } else if (name == "altitude max") {
+          EXPECT_EQ(cut.mesh.vertices[v].z(), high);
+        }
+      }
+    }
+  }
+}
+
+TEST(Navigation, HemisphereSlabHasTheRightVolumeAndAreas) {
+  const Volume dome = make_hemisphere(Vec3(0, 0, 0), 100, 400, 200);
+  const Volume cut = cut_to_navigation(dome, band(20, 60));
+  const auto slab = [](double z) { return std::numbers::pi * (100 * 100 * z - z * z * z / 3); };
+  EXPECT_NEAR(measure(cut.mesh).volume_m3, slab(60) - slab(20), 100);
+  const std::map<std::string, double> areas = areas_of(cut);
+  EXPECT_NEAR(areas.at("altitude min"), std::numbers::pi * (10000 - 400), 5);
+  EXPECT_NEAR(areas.at("altitude max"), std::numbers::pi * (10000 - 3600), 5);
+  EXPECT_EQ(areas.count("target plane"), 0u);
+  EXPECT_EQ(areas.count("max_range"), 0u);  // above 60 degrees: z > 86
+}
+
+TEST(Navigation, KeepsWhatLiesWithinTheLimits) {
+  const Volume dome = bumpy_dome(Vec3(0, 0, 0));
+  Navigation navigation = band(0, 500);  // the floor lies in the lower limit
+  navigation.boxes = {box(-200, -200, -1, 200, 200, 300)};
+  navigation.keep_out = {box(150, 0, 0, 200, 10, 10)};
+  const Volume cut = cut_to_navigation(dome, navigation);
+  EXPECT_EQ(cut.mesh.vertices, dome.mesh.vertices);
+  EXPECT_EQ(cut.mesh.triangles, dome.mesh.triangles);
+  EXPECT_EQ(cut.cause_of, dome.cause_of);
+  EXPECT_EQ(cut_to_navigation(dome, {}).mesh.vertices, dome.mesh.vertices);
+}
+
+TEST(Navigation, VerticesAwayFromTheCutKeepTheirBits) {
+  const Volume dome = bumpy_dome(kUtm);
+  const Volume cut = cut_to_navigation(dome, band(0, kUtm.z() + 30.5));
+  std::map<std::array<double, 3>, int> after;
+  for (const Vec3& v : cut.mesh.vertices) ++after[{v.x(), v.y(), v.z()}];
+  for (const Vec3& v : dome.mesh.vertices) {
+    const int count = after[{v.x(), v.y(), v.z()}];
+    EXPECT_EQ(count, v.z() < kUtm.z() + 30.5 ? 1 : 0);
+  }
+}
+
+TEST(Navigation, BoxCornersAreExact) {
+  for (const Vec3& offset : {Vec3(0, 0, 0), kUtm}) {
+    const Volume dome = bumpy_dome(offset);
+    Navigation navigation;
+    navigation.boxes = {box(-9.7, -8.3, 5.1, 11.9, 7.7, 21.3, offset)};  // wholly inside
+    const Volume cut = cut_to_navigation(dome, navigation);
+    expect_sound(cut);
+    const MeshMeasures measures = measure(cut.mesh);
+    EXPECT_EQ(measures.vertices, 8u);
+    EXPECT_EQ(measures.bounds.min, navigation.boxes[0].min);
+    EXPECT_EQ(measures.bounds.max, navigation.boxes[0].max);
+    ASSERT_EQ(cut.causes.size(), 1u);
+    EXPECT_EQ(cut.causes[0].name, "box 0");
+    EXPECT_NEAR(measures.volume_m3, 21.6 * 16 * 16.2, 1e-5);
+  }
+}
+
+TEST(Navigation, BoxesAreUnited) {
+  const Volume dome = bumpy_dome(Vec3(0, 0, 0));
+  Navigation navigation;
+  navigation.boxes = {box(-20, -5, 1, 0, 5, 10), box(0, -5, 1, 20, 5, 10), box(10, -5, 5, 15, 5, 20),
+                      box(-20, 20, 1, -10, 30, 5), box(500, 500, 0, 501, 501, 1)};
+  const Volume cut = cut_to_navigation(dome, navigation);
+  expect_sound(cut);
+  EXPECT_EQ(measure(cut.mesh).pieces, 2u);
+  EXPECT_EQ(measure(cut.mesh).euler, 4);
+  EXPECT_NEAR(measure(cut.mesh).volume_m3, 40 * 10 * 9 + 5 * 10 * 10 + 10 * 10 * 4, 1e-6);
+  EXPECT_EQ(kind_of(cut, "box 3"), CauseKind::navigation);
+}
+
+TEST(Navigation, KeepOutTakesAway) {
+  const Volume dome = bumpy_dome(Vec3(0, 0, 0));
+  const double before = measure(dome.mesh).volume_m3;
+  Navigation navigation;
+  navigation.keep_out = {box(5, 5, 5, 7, 8, 9), box(500, 0, 0, 501, 1, 1), box(-4, -4, -9, -2, -2, 3)};
+  const Volume cut = cut_to_navigation(dome, navigation);
+  expect_sound(cut);
+  EXPECT_NEAR(measure(cut.mesh).volume_m3, before - 24 - 12, 1e-6);
+  EXPECT_EQ(measure(cut.mesh).pieces, 2u);  // the first is a cavity
+  const std::map<std::string, double> areas = areas_of(cut);
+  EXPECT_NEAR(areas.at("keep_out 0"), 2 * (6 + 8 + 12), 1e-9);
+  EXPECT_NEAR(areas.at("keep_out 2"), 4 * 2 * 3 + 4, 1e-9);
+  EXPECT_EQ(areas.count("keep_out 1"), 0u);
+}
+
+TEST(Navigation, KeepOutMayCutTheVolumeInTwo) {
+  const Volume dome = bumpy_dome(Vec3(0, 0, 0));
+  Navigation navigation;
+  navigation.keep_out = {box(-1, -200, -1, 1, 200, 200)};
+  const Volume cut = cut_to_navigation(dome, navigation);
+  expect_sound(cut);
+  EXPECT_EQ(measure(cut.mesh).pieces, 2u);
+  for (const Vec3& v : cut.mesh.vertices) EXPECT_GE(std::abs(v.x()), 1.0);
+}
+
+TEST(Navigation, MeshesCutAndKeepTheirNames) {
+  const Volume dome = bumpy_dome(kUtm);
+  Navigation navigation;
+  Mesh wedge = make_box_mesh(Vec3(-30, -30, 2) + kUtm, Vec3(30, 30, 20) + kUtm);
+  for (int v = 4; v < 8; ++v) wedge.vertices[v].x() += 10;  // slanted sides
+  navigation.meshes = {{wedge, "airspace.ply"}, {make_box_mesh(Vec3(-9, -9, -9) + kUtm, Vec3(9, 9, 99) + kUtm), "b"}};
+  const Volume cut = cut_to_navigation(dome, navigation);
+  expect_sound(cut);
+  EXPECT_EQ(kind_of(cut, "mesh airspace.ply"), CauseKind::navigation);
+  EXPECT_EQ(kind_of(cut, "mesh b"), CauseKind::navigation);
+  EXPECT_NEAR(measure(cut.mesh).volume_m3, 18 * 18 * 18, 1e-4);
+}
+
+TEST(Navigation, AllLimitsTogetherAgreeWithPointTests) {
+  for (const Vec3& offset : {Vec3(0, 0, 0), kUtm}) {
+    const Volume dome = bumpy_dome(offset, 36, 12);
+    Navigation navigation = band(offset.z() + 3, offset.z() + 45);
+    navigation.boxes = {box(-50, -50, 0, 10, 50, 50, offset), box(0, -20, -5, 70, 20, 30, offset)};
+    navigation.keep_out = {box(-20, -20, 0, -5, 15, 25, offset), box(20, -60, 10, 30, 60, 90, offset)};
+    Mesh mesh = make_box_mesh(Vec3(-45, -40, -10), Vec3(50, 40, 100));
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.4, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+    for (Vec3& v : mesh.vertices) v = turn * v + offset;
+    navigation.meshes = {{mesh, "m"}};
+    const Volume cut = cut_to_navigation(dome, navigation);
+    expect_sound(cut);
+
+    // The volume of the result by counting points of the definition.
+    const unsigned seed = 3;
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> xy(-90, 90), z(0, 80);
+    const auto in_any = [&](const std::vector<Box>& boxes, const Vec3& p) {
+      for (const Box& b : boxes) {
+        if ((p.array() >= b.min.array()).all() && (p.array() <= b.max.array()).all()) return true;
+      }
+      return false;
+    };
+    constexpr int kPoints = 40000;
+    int inside = 0;
+    for (int i = 0; i < kPoints; ++i) {
+      const Vec3 p = Vec3(xy(random), xy(random), z(random)) + offset;
+      const Vec3 m = turn.transpose() * (p - offset);
+      const bool in_mesh = m.x() > -45 && m.x() < 50 && m.y() > -40 && m.y() < 40 && m.z() > -10 && m.z() < 100;
+      inside += in_mesh && p.z() >= navigation.altitude->min_m && p.z() <= navigation.altitude->max_m &&
+                in_any(navigation.boxes, p) && !in_any(navigation.keep_out, p) && inside_star(dome, p);
+    }
+    const double share = double(inside) / kPoints, domain = 180.0 * 180 * 80;
+    const double deviation = domain * std::sqrt(share * (1 - share) / kPoints);
+    EXPECT_NEAR(measure(cut.mesh).volume_m3, share * domain, 4 * deviation) << "seed " << seed;
+    EXPECT_GT(inside, 500);
+  }
+}
+
+TEST(Navigation, NothingIsPushedOutward) {
+  // Every vertex of the result lies in the dome and in the limits, to rounding.
+  const Volume dome = bumpy_dome(kUtm, 36, 12);
+  const unsigned seed = 17;
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  for (int i = 0; i < 20; ++i) {
+    Navigation navigation = band(kUtm.z() + 10 + 8 * uniform(random), kUtm.z() + 30 + 8 * uniform(random));
+    const Vec3 centre = kUtm + Vec3(40 * uniform(random), 40 * uniform(random), 20);
+    navigation.boxes = {{centre - Vec3(30, 25, 40), centre + Vec3(30, 25, 40)}};
+    const Volume cut = cut_to_navigation(dome, navigation);
+    expect_sound(cut);
+    const Box& b = navigation.boxes[0];
+    for (const Vec3& v : cut.mesh.vertices) {
+      EXPECT_GE(v.z(), navigation.altitude->min_m);
+      EXPECT_LE(v.z(), navigation.altitude->max_m);
+      EXPECT_TRUE((v.array() >= b.min.array()).all() && (v.array() <= b.max.array()).all()) << "seed " << seed;
+      EXPECT_TRUE(inside_star(dome, kUtm + (v - kUtm) * (1 - 1e-9))) << "seed " << seed;
+    }
+  }
+}
+
+TEST(Navigation, LimitsThatTouchCornersAndEdgesOfTheVolume) {
+  // Planes through vertices, along edges and in the floor of the dome.
+  const Volume dome = make_hemisphere(Vec3(0, 0, 0), 10, 8, 4);
+  const double ring = dome.mesh.vertices[8].z();
+  for (const auto& [low, high] : {std::pair(ring, 20.0), std::pair(0.0, ring), std::pair(-5.0, ring)}) {
+    const Volume cut = cut_to_navigation(dome, band(low, high));
+    expect_sound(cut);
+    EXPECT_EQ(measure(cut.mesh).euler, 2);
+    EXPECT_EQ(measure(cut.mesh).bounds.max.z(), std::min(high, 10.0));
+    EXPECT_EQ(measure(cut.mesh).bounds.min.z(), std::max(low, 0.0));
+  }
+  Navigation quarter;
+  quarter.boxes = {box(0, 0, 0, 20, 20, 20)};
+  const Volume cut = cut_to_navigation(dome, quarter);
+  expect_sound(cut);
+  EXPECT_NEAR(measure(cut.mesh).volume_m3, measure(dome.mesh).volume_m3 / 4, 1e-9);
+}
+
+TEST(Navigation, WhatDoesNotChangeIsPassedThrough) {
+  Volume dome = bumpy_dome(Vec3(0, 0, 0));
+  dome.tolerance_m = 0.5;
+  dome.lift_m = 0.001;
+  dome.counts.visible_blockers = 17;
+  dome.seconds.engine = 3;
+  const Volume cut = cut_to_navigation(dome, band(5, 20));
+  EXPECT_EQ(cut.tolerance_m, 0.5);
+  EXPECT_EQ(cut.lift_m, 0.001);
+  EXPECT_EQ(cut.counts.visible_blockers, 17u);
+  EXPECT_EQ(cut.seconds.engine, 3);
+  EXPECT_GT(cut.seconds.navigation, 0);
+  EXPECT_EQ(cut.frame.origin, dome.frame.origin);
+
+  Volume blocked;
+  blocked.outcome = Outcome::blocked_at_once;
+  blocked.reason = "why";
+  blocked.hint = "what";
+  const Volume passed = cut_to_navigation(blocked, band(5, 20));
+  EXPECT_EQ(passed.outcome, Outcome::blocked_at_once);
+  EXPECT_EQ(passed.reason, "why");
+  EXPECT_EQ(passed.hint, "what");
+  EXPECT_THROW(cut_to_navigation(blocked, band(20, 5)), Error);  // wrong limits are wrong all the same
+}
+
+TEST(Navigation, SaysWhyNothingIsLeft) {
+  const Volume dome = make_hemisphere(Vec3(10, 20, 512.3), 100);
+  const auto outcome_of = [&](const Navigation& navigation) {
+    const Volume cut = cut_to_navigation(dome, navigation);
+    EXPECT_EQ(cut.outcome, Outcome::outside_limits);
+    EXPECT_TRUE(cut.mesh.empty() && cut.mesh.vertices.empty() && cut.cause_of.empty() && cut.causes.empty());
+    EXPECT_FALSE(cut.hint.empty());
+    EXPECT_EQ(cut.tolerance_m, dome.tolerance_m);
+    return cut.reason;
+  };
+  const std::string span = ", which spans x -90 to 110, y -80 to 120, z 512.3 to 612.3 m";
+  EXPECT_EQ(outcome_of(band(700, 800)), "the altitude band 700 to 800 m lies above the volume, which reaches 612.3 m");
+  EXPECT_EQ(outcome_of(band(612.3, 800)),
+            "the altitude band 612.3 to 800 m lies above the volume, which reaches 612.3 m");
+  EXPECT_EQ(outcome_of(band(5, 20.5)), "the altitude band 5 to 20.5 m lies below the volume, which begins at 512.3 m");
+
+  Navigation boxes;
+  boxes.boxes = {box(500, 0, 0, 600, 10, 999)};
+  EXPECT_EQ(outcome_of(boxes), "box 0 does not meet the volume" + span);
+  boxes.boxes.push_back(box(95, 105, 590, 120, 130, 700));  // meets its bounds only
+  EXPECT_EQ(outcome_of(boxes), "no box meets the volume" + span);
+  boxes.altitude = {520, 530};
+  boxes.boxes = {box(0, 0, 540, 600, 10, 999)};
+  EXPECT_EQ(outcome_of(boxes).substr(0, 63), "box 0 does not meet what the limits before it leave of the volu");
+
+  Navigation meshes;
+  meshes.meshes = {{make_box_mesh(Vec3(0, 0, 0), Vec3(10, 10, 10)), "airspace.ply"}};
+  EXPECT_EQ(outcome_of(meshes), "the mesh airspace.ply does not meet the volume" + span);
+
+  Navigation keep_out;
+  keep_out.keep_out = {box(-100, -100, 0, 200, 200, 999)};
+  EXPECT_EQ(outcome_of(keep_out), "keep_out 0 covers the volume" + span);
+  keep_out.keep_out = {box(-100, -100, 0, 50, 200, 999), box(50, -100, 0, 200, 200, 999)};
+  EXPECT_EQ(outcome_of(keep_out), "the keep_out boxes cover the volume" + span);
+}
+
+/// The error that a cut throws.
+Error error_of(const Navigation& navigation) {
+  try {
+    cut_to_navigation(make_hemisphere(Vec3(0, 0, 0), 10), navigation);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::input);
+    EXPECT_FALSE(error.fix().empty());
+    return error;
+  }
+  ADD_FAILURE() << "nothing was thrown";
+  return {ErrorKind::internal, "", "", ""};
+}
+
+TEST(Navigation, RefusesReversedLimits) {
+  EXPECT_EQ(error_of(band(120, 20)).problem(), "the altitude band is reversed: min 120 is above max 20");
+  EXPECT_EQ(error_of(band(120, 20)).where(), "navigation.altitude");
+  EXPECT_EQ(error_of(band(20, 20)).problem(), "the altitude band is empty: min and max are both 20");
+  EXPECT_EQ(error_of(band(20, NAN)).problem(), "the altitude band is not finite");
+  EXPECT_EQ(error_of(band(-INFINITY, 20)).problem(), "the altitude band is not finite");
+  Navigation navigation;
+  navigation.boxes = {box(0, 0, 0, 1, 1, 1), box(0, 30, 0, 1, 10, 1)};
+  EXPECT_EQ(error_of(navigation).problem(), "box 1 is reversed in y: min 30 is above max 10");
+  EXPECT_EQ(error_of(navigation).where(), "navigation.boxes[1]");
+  navigation.boxes.clear();
+  navigation.keep_out = {box(0, 0, 5, 1, 1, 5)};
+  EXPECT_EQ(error_of(navigation).problem(), "keep_out 0 is empty in z: min and max are both 5");
+  EXPECT_EQ(error_of(navigation).where(), "navigation.keep_out[0]");
+  navigation.keep_out = {Box()};
+  EXPECT_EQ(error_of(navigation).problem(), "keep_out 0 is not finite in x");
+}
+
+TEST(Navigation, RefusesBadMeshes) {
+  Navigation navigation;
+  Mesh mesh = make_box_mesh(Vec3(-5, -5, -5), Vec3(5, 5, 5));
+  mesh.triangles.pop_back();
+  navigation.meshes = {{mesh, "airspace.ply"}};
+  EXPECT_EQ(error_of(navigation).problem(), "the mesh is open: 3 edges have only one triangle");
+  EXPECT_EQ(error_of(navigation).where(), "airspace.ply, first at the edge from (5, -5, -5) to (5, -5, 5)");
+  mesh = make_box_mesh(Vec3(-5, -5, -5), Vec3(5, 5, 5));
+  append(mesh, make_box_mesh(Vec3(-4, -4, -4), Vec3(4, 4, 9)));
+  navigation.meshes[0].mesh = mesh;
+  EXPECT_EQ(error_of(navigation).problem().substr(0, 26), "the mesh intersects itself");
+  mesh = make_box_mesh(Vec3(-5, -5, -5), Vec3(5, 5, 5));
+  for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
+  navigation.meshes[0].mesh = mesh;
+  EXPECT_EQ(error_of(navigation).problem(), "the mesh is inside out: its triangles face inward");
+  EXPECT_EQ(error_of(navigation).fix(), "flip its triangles (reverse their corners)");
+  navigation.meshes[0].mesh = {};
+  EXPECT_EQ(error_of(navigation).problem(), "the mesh has no triangles");
+}
+
+TEST(Navigation, RefusesABrokenVolume) {
+  const Volume good = make_hemisphere(Vec3(0, 0, 0), 10);
+  std::vector<Volume> broken(4, good);
+  broken[0].cause_of[3] = 5;
+  broken[1].cause_of.pop_back();
+  broken[2].mesh.triangles[3] = {0, 1, 9999};
+  broken[3].mesh.triangles.pop_back();  // open
+  broken[3].cause_of.pop_back();
+  for (const Volume& volume : broken) {
+    try {
+      cut_to_navigation(volume, band(2, 5));
+      ADD_FAILURE() << "nothing was thrown";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::input) << error.what();
+    }
+  }
+}
+
+TEST(Navigation, ReportsProgressAndStops) {
+  const Volume dome = bumpy_dome(Vec3(0, 0, 0), 300, 150);
+  Navigation navigation = band(5, 50);
+  navigation.keep_out = {box(5, 5, 5, 30, 30, 30)};
+  navigation.meshes = {{make_hemisphere(Vec3(0, 0, 0), 40, 100, 50).mesh, "m"}};
+  double last = 0;
+  int calls = 0;
+  const Volume cut = cut_to_navigation(dome, navigation, [&](std::string_view stage, double fraction) {
+    EXPECT_EQ(stage, "navigation");
+    EXPECT_GE(fraction, last);
+    EXPECT_LE(fraction, 1);
+    last = fraction;
+    ++calls;
+    return true;
+  });
+  expect_sound(cut);
+  EXPECT_EQ(last, 1);
+  EXPECT_GT(calls, 3);
+  for (int stop_at = 1; stop_at < calls; stop_at += 1 + calls / 8) {
+    int asked = 0;
+    try {
+      cut_to_navigation(dome, navigation, [&](std::string_view, double) { return ++asked < stop_at; });
+      EXPECT_LT(asked, stop_at);  // it may have been asked less often this time
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::cancelled);
+    }
+  }
+}
+
+TEST(Navigation, DoesNotDependOnThreads) {
+  const Volume dome = bumpy_dome(kUtm, 400, 100);
+  Navigation navigation = band(kUtm.z() + 5, kUtm.z() + 50);
+  navigation.boxes = {box(-50, -50, 0, 10, 50, 50, kUtm), box(0, -20, -5, 70, 20, 30, kUtm)};
+  navigation.keep_out = {box(-20, -20, 0, -5, 15, 25, kUtm)};
+  Volume one;
+  parallel::with_threads(1, [&] { one = cut_to_navigation(dome, navigation); });
+  for (int i = 0; i < 3; ++i) {
+    const Volume all = cut_to_navigation(dome, navigation);
+    EXPECT_EQ(all.mesh.vertices, one.mesh.vertices);
+    EXPECT_EQ(all.mesh.triangles, one.mesh.triangles);
+    EXPECT_EQ(all.cause_of, one.cause_of);
+  }
+}
+
+}  // namespace
+}  // namespace vantage
