@@ -1,0 +1,297 @@
+// make_target_frame: every check, the choice of the front, and the frame itself.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+
+#include "support/random.h"
+#include "vantage/error.h"
+#include "vantage/target.h"
+
+namespace vantage {
+namespace {
+
+using Eigen::Vector2d;
+using testing::Random;
+
+Target target_of(std::vector<Vec3> vertices) {
+  Target target;
+  target.name = "plaza";
+  target.vertices = std::move(vertices);
+  return target;
+}
+
+Target square() { return target_of({{0, 0, 2}, {4, 0, 2}, {4, 4, 2}, {0, 4, 2}}); }
+
+Target reversed(Target target) {
+  std::reverse(target.vertices.begin(), target.vertices.end());
+  return target;
+}
+
+/// A regular polygon in the plane through `centre` with the given normal; counter-clockwise seen from there.
+Target regular(int corners, double radius, const Vec3& centre, const Vec3& normal) {
+  const Vec3 u = normal.unitOrthogonal(), v = normal.normalized().cross(u);
+  Target target = target_of({});
+  for (int k = 0; k < corners; ++k) {
+    const double angle = 2 * std::numbers::pi * k / corners;
+    target.vertices.push_back(centre + radius * (std::cos(angle) * u + std::sin(angle) * v));
+  }
+  return target;
+}
+
+double signed_area(const std::vector<Vector2d>& polygon) {
+  double twice = 0;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vector2d &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+    twice += a.x() * b.y() - a.y() * b.x();
+  }
+  return twice / 2;
+}
+
+/// All that a frame promises, whatever the target; `corners` are those that must be left.
+void expect_frame(const TargetFrame& frame, std::vector<Vec3> corners, double offset, double tolerance = 1e-9) {
+  Eigen::Matrix3d axes;
+  axes << frame.axis_u, frame.axis_v, frame.normal;
+  EXPECT_LT((axes.transpose() * axes - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_NEAR(axes.determinant(), 1, 1e-12);
+  EXPECT_GT(signed_area(frame.polygon), 0);
+  ASSERT_EQ(frame.polygon.size(), corners.size());
+  double farthest = 0;
+  for (std::size_t i = 0; i < frame.polygon.size(); ++i) {
+    const Vector2d &a = frame.polygon[i], &b = frame.polygon[(i + 1) % frame.polygon.size()];
+    EXPECT_GT(a.x() * b.y() - a.y() * b.x(), 0) << "the origin is not strictly inside, edge " << i;
+    const Vec3 expected = frame.to_scene({a.x(), a.y(), 0}) - offset * frame.normal;
+    const auto found = std::find_if(corners.begin(), corners.end(),
+                                    [&](const Vec3& corner) { return (corner - expected).norm() < tolerance; });
+    ASSERT_NE(found, corners.end()) << "vertex " << i << " at " << expected.transpose();
+    EXPECT_LT((frame.to_local(*found + offset * frame.normal) - Vec3(a.x(), a.y(), 0)).norm(), tolerance);
+    corners.erase(found);
+    for (const Vector2d& c : frame.polygon) farthest = std::max(farthest, (a - c).norm());
+  }
+  EXPECT_GE(frame.enclosing_radius_m, farthest / 2 - tolerance);
+  EXPECT_LE(frame.enclosing_radius_m, farthest / std::numbers::sqrt3 + tolerance);  // Jung's theorem
+}
+
+/// The error of a bad target; every one has all three lines and names the target.
+std::string refusal(const Target& target) {
+  try {
+    make_target_frame(target);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::input);
+    EXPECT_EQ(error.where(), "target \"plaza\"");
+    EXPECT_FALSE(error.fix().empty());
+    EXPECT_EQ(error.problem().find('\n'), std::string::npos);
+    return error.problem();
+  }
+  return "nothing was thrown";
+}
+
+TEST(TargetFrame, HorizontalTargetKeepsTheScenesAxes) {
+  const Target target = square();
+  const TargetFrame frame = make_target_frame(target);
+  expect_frame(frame, target.vertices, 0);
+  EXPECT_EQ(frame.normal, Vec3(0, 0, 1));
+  EXPECT_EQ(frame.axis_u, Vec3(1, 0, 0));
+  EXPECT_EQ(frame.axis_v, Vec3(0, 1, 0));
+  EXPECT_LT((frame.origin - Vec3(2, 2, 2)).norm(), 1e-12);
+  EXPECT_NEAR(frame.enclosing_radius_m, 2 * std::numbers::sqrt2, 1e-12);
+  EXPECT_LT((frame.to_local({3, 1, 7}) - Vec3(1, -1, 5)).norm(), 1e-12);
+}
+
+TEST(TargetFrame, EitherTurnLooksUp) {
+  const TargetFrame one = make_target_frame(square()), other = make_target_frame(reversed(square()));
+  EXPECT_EQ(other.normal, Vec3(0, 0, 1));
+  EXPECT_EQ(one.origin, other.origin);
+  expect_frame(other, square().vertices, 0);
+  const Vec3 tilted = Vec3(1, -2, 0.1).normalized();
+  const Target slope = regular(5, 10, {3, 4, 5}, tilted);
+  for (const Target& target : {slope, reversed(slope)}) {
+    const TargetFrame frame = make_target_frame(target);
+    expect_frame(frame, slope.vertices, 0);
+    EXPECT_LT((frame.normal - tilted).norm(), 1e-12);
+  }
+}
+
+TEST(TargetFrame, TiltedTargetsDrawnFromBelowLookUp) {
+  const Target overhang = regular(6, 4, {0, 0, 9}, Vec3(0.3, 0.2, -0.4));
+  EXPECT_LT((make_target_frame(overhang).normal - Vec3(-0.3, -0.2, 0.4).normalized()).norm(), 1e-12);
+}
+
+TEST(TargetFrame, VerticalTargetLooksToWhereItRunsCounterClockwise) {
+  // Seen from -y, the vertices run counter-clockwise.
+  const Target facade = target_of({{0, 0, 0}, {6, 0, 0}, {6, 0, 3}, {0, 0, 3}});
+  TargetFrame frame = make_target_frame(facade);
+  EXPECT_LT((frame.normal - Vec3(0, -1, 0)).norm(), 1e-12);
+  expect_frame(frame, facade.vertices, 0);
+  frame = make_target_frame(reversed(facade));
+  EXPECT_LT((frame.normal - Vec3(0, 1, 0)).norm(), 1e-12);
+  expect_frame(frame, facade.vertices, 0);
+}
+
+TEST(TargetFrame, AlmostVerticalCountsAsVerticalWithinOneInAMillion) {
+  const auto leaning = [](double lean) { return regular(4, 5, {1, 2, 3}, Vec3(1, 0, -lean)); };
+  EXPECT_LT(make_target_frame(leaning(0.9e-6)).normal.z(), 0);
+  EXPECT_GT(make_target_frame(leaning(1.1e-6)).normal.z(), 0);
+}
+
+TEST(TargetFrame, FrontIsObeyed) {
+  Target target = square();
+  target.front = Vec3(5, 3, -0.1);
+  EXPECT_EQ(make_target_frame(target).normal, Vec3(0, 0, -1));
+  expect_frame(make_target_frame(target), target.vertices, 0);
+  expect_frame(make_target_frame(reversed(target)), target.vertices, 0);
+  for (const double length : {1e-100, 1e100}) {
+    target.front = Vec3(0, 0, length);
+    EXPECT_EQ(make_target_frame(target).normal, Vec3(0, 0, 1));
+  }
+  Target facade = target_of({{0, 0, 0}, {6, 0, 0}, {6, 0, 3}, {0, 0, 3}});
+  for (const double side : {-1.0, 1.0}) {
+    facade.front = Vec3(0.5, side, 4);
+    EXPECT_LT((make_target_frame(facade).normal - Vec3(0, side, 0)).norm(), 1e-12);
+    EXPECT_LT((make_target_frame(reversed(facade)).normal - Vec3(0, side, 0)).norm(), 1e-12);
+  }
+}
+
+TEST(TargetFrame, OffsetMovesTowardsTheFront) {
+  Target target = square();
+  target.offset_m = 1.5;
+  EXPECT_LT((make_target_frame(target).origin - Vec3(2, 2, 3.5)).norm(), 1e-12);
+  expect_frame(make_target_frame(target), target.vertices, 1.5);
+  target.front = Vec3(0, 0, -1);
+  EXPECT_LT((make_target_frame(target).origin - Vec3(2, 2, 0.5)).norm(), 1e-12);
+  target.offset_m = -0.25;
+  EXPECT_LT((make_target_frame(target).origin - Vec3(2, 2, 2.25)).norm(), 1e-12);
+}
+
+TEST(TargetFrame, CollinearVerticesAreDropped) {
+  const Target target = target_of({{0, 0, 0}, {1, 0, 0}, {4, 0, 0}, {4, 2, 0}, {4, 3, 0}, {4, 4, 0}, {0, 4, 0}});
+  const std::vector<Vec3> corners = {{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}};
+  expect_frame(make_target_frame(target), corners, 0);
+  expect_frame(make_target_frame(reversed(target)), corners, 0);
+  // A triangle with a vertex in the middle of every edge, tilted: collinear but for rounding.
+  const Target triangle = regular(3, 7, {580000, 4785000, 1000}, {0.3, -0.4, 0.7});
+  Target refined = target_of({});
+  for (int i = 0; i < 3; ++i) {
+    refined.vertices.push_back(triangle.vertices[i]);
+    refined.vertices.push_back(0.5 * (triangle.vertices[i] + triangle.vertices[(i + 1) % 3]));
+  }
+  expect_frame(make_target_frame(refined), triangle.vertices, 0, 1e-6);
+}
+
+TEST(TargetFrame, SixtyFourVerticesAreTheMost) {
+  for (const Vec3& normal : {Vec3(0, 0, 1), Vec3(1, 0, 0), Vec3(1, 2, 3)}) {
+    const Target target = regular(64, 30, {1, 2, 3}, normal);
+    const TargetFrame frame = make_target_frame(target);
+    expect_frame(frame, target.vertices, 0);
+    EXPECT_NEAR(frame.enclosing_radius_m, 30, 1e-9);
+    EXPECT_LT((frame.origin - Vec3(1, 2, 3)).norm(), 1e-9);
+  }
+  EXPECT_EQ(refusal(regular(65, 30, {1, 2, 3}, {0, 0, 1})), "a target has at most 64 vertices, this one has 65");
+}
+
+TEST(TargetFrame, RandomTargetsOfAnyShapeAndPlace) {
+  Random random(17);
+  for (int draw = 0; draw < 500; ++draw) {
+    SCOPED_TRACE(draw);
+    const int corners = random.integer(3, 12);
+    const Vec3 normal = random.direction(), u = normal.unitOrthogonal(), v = normal.cross(u);
+    const Vec3 centre = random.point(-1e4, 1e4);
+    const double squeeze = std::pow(10, random.uniform(-3, 0));  // down to slivers
+    std::vector<double> angles;
+    for (int k = 0; k < corners; ++k) angles.push_back((k + random.uniform(0.1, 0.9)) * 2 * std::numbers::pi / corners);
+    Target target = target_of({});
+    for (const double angle : angles)
+      target.vertices.push_back(centre + 40 * (std::cos(angle) * u + squeeze * std::sin(angle) * v));
+    target.front = normal;
+    target.offset_m = random.uniform(-1, 1);
+    const TargetFrame frame = make_target_frame(random.chance(0.5) ? target : reversed(target));
+    EXPECT_GT(frame.normal.dot(normal), 1 - 1e-9);
+    expect_frame(frame, target.vertices, target.offset_m, 1e-7);
+  }
+}
+
+TEST(TargetFrame, RefusesTooFewVertices) {
+  EXPECT_EQ(refusal(target_of({})), "a target needs at least 3 vertices, this one has 0");
+  EXPECT_EQ(refusal(target_of({{0, 0, 0}, {1, 0, 0}})), "a target needs at least 3 vertices, this one has 2");
+}
+
+TEST(TargetFrame, RefusesWhatIsNotFinite) {
+  for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()}) {
+    Target target = square();
+    target.vertices[2].y() = bad;
+    EXPECT_EQ(refusal(target), "vertex 2 has a coordinate that is not finite");
+    target = square();
+    target.offset_m = bad;
+    EXPECT_EQ(refusal(target), "offset is not finite");
+    target = square();
+    target.front = Vec3(0, bad, 1);
+    EXPECT_EQ(refusal(target), "front is zero or not finite");
+  }
+}
+
+TEST(TargetFrame, RefusesAFrontThatTellsNothing) {
+  Target target = square();
+  target.front = Vec3::Zero();
+  EXPECT_EQ(refusal(target), "front is zero or not finite");
+  target.front = Vec3(1, 1, 0);
+  EXPECT_EQ(refusal(target), "front lies in the plane of the target");
+}
+
+TEST(TargetFrame, RefusesRepeatedVerticesAndSaysWhich) {
+  Target target = square();
+  target.vertices.push_back(target.vertices[1]);
+  EXPECT_EQ(refusal(target), "vertex 1 and vertex 4 are the same point");
+  target = target_of({{0, 0, 0}, {1, 0, 0}, {1, 0, 1e-12}, {0, 1, 0}});
+  EXPECT_EQ(refusal(target), "vertex 1 and vertex 2 are the same point");
+  EXPECT_EQ(refusal(target_of({{1, 1, 1}, {1, 1, 1}, {1, 1, 1}})), "vertex 0 and vertex 1 are the same point");
+}
+
+TEST(TargetFrame, RefusesZeroArea) {
+  EXPECT_EQ(refusal(target_of({{0, 0, 0}, {1, 2, 3}, {2, 4, 6}})), "the polygon has no area");
+  EXPECT_EQ(refusal(target_of({{0, 0, 0}, {4, 4, 0}, {4, 0, 0}, {0, 4, 0}})), "the polygon has no area");  // a bow tie
+}
+
+TEST(TargetFrame, RefusesWhatIsNotPlanarAndSaysByHowMuch) {
+  // Lifting one corner of a square by h moves it h/4 off the mean plane; each of the others moves as much.
+  Target target = square();
+  target.vertices[2].z() += 0.0039;
+  expect_frame(make_target_frame(target), target.vertices, 0, 2e-3);
+  target.vertices[2].z() += 0.0003;
+  const std::string problem = refusal(target);
+  EXPECT_NE(problem.find("the vertices are not in one plane: vertex "), std::string::npos) << problem;
+  EXPECT_NE(problem.find("is off by 0.00105 m"), std::string::npos) << problem;
+  // One in a million of the extent is forgiven.
+  target = regular(8, 50e3, {0, 0, 0}, {0, 0, 1});
+  target.vertices[3].z() += 0.1;
+  EXPECT_NO_THROW(make_target_frame(target));
+  target.vertices[3].z() += 0.3;
+  EXPECT_NE(refusal(target).find("vertex 3 is off by 0.2"), std::string::npos) << refusal(target);
+}
+
+TEST(TargetFrame, RefusesWhatIsNotConvexAndSaysWhere) {
+  const std::string turn = "not convex: the outline turns the wrong way at vertex ";
+  const Target arrow = target_of({{0, 0, 0}, {4, 0, 0}, {1, 1, 0}, {0, 4, 0}});
+  EXPECT_EQ(refusal(arrow), turn + "2");
+  EXPECT_EQ(refusal(reversed(arrow)), turn + "1");
+  // A spike that runs out and back along one line.
+  const Target spike = target_of({{0, 0, 0}, {4, 0, 0}, {6, 0, 0}, {5, 0, 0}, {4, 4, 0}, {0, 4, 0}});
+  EXPECT_NE(refusal(spike).find("not convex"), std::string::npos) << refusal(spike);
+  // Two vertices swapped: the outline crosses itself but encloses some area.
+  const Target crossed = target_of({{0, 0, 0}, {4, 0, 0}, {1, 3, 0}, {4, 4, 0}});
+  EXPECT_NE(refusal(crossed).find(turn), std::string::npos) << refusal(crossed);
+}
+
+TEST(TargetFrame, RefusesAStarThatTurnsOneWayOnly) {
+  const Target pentagon = regular(5, 5, {0, 0, 0}, {0, 0, 1});
+  Target star = pentagon;
+  for (int k = 0; k < 5; ++k) star.vertices[k] = pentagon.vertices[2 * k % 5];
+  EXPECT_NE(refusal(star).find("winds round more than once"), std::string::npos) << refusal(star);
+  EXPECT_NE(refusal(reversed(star)).find("winds round more than once"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace vantage
