@@ -13,6 +13,9 @@ if(VANTAGE_SANITIZE)
   add_compile_options(-fsanitize=${VANTAGE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${VANTAGE_SANITIZE})
 endif()
+if(VANTAGE_BUILD_FUZZERS)
+  add_compile_options(-fsanitize=fuzzer-no-link)  # coverage, for the fuzzer to be guided by
+endif()
 
 if(PROJECT_IS_TOP_LEVEL AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   find_program(VANTAGE_CCACHE ccache)
