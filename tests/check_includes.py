@@ -1,0 +1,153 @@
+#!/usr/bin/env python3
+"""Checks who includes what: third-party libraries stay behind the one room that uses them, and no room reaches up.
+
+    check_includes.py [ROOT]     exit 1 and one line for each include that breaks a rule
+
+With --self-test it breaks every rule on purpose, in a scratch tree, and fails unless each is noticed.
+"""
+
+import argparse
+import pathlib
+import re
+import sys
+import tempfile
+from typing import NamedTuple
+
+INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^">]+)[">]')
+
+
+class OnlyIn(NamedTuple):
+    """Headers that match `header` may be included only by files that match `allowed`."""
+
+    header: str
+    allowed: str
+    reason: str
+
+
+class NotIn(NamedTuple):
+    """Files that match `place` may not include headers that match `header`."""
+
+    place: str
+    header: str
+    reason: str
+
+
+# Paths are relative to the root, with forward slashes; headers as written between the quotes. Rooms name each other's
+# headers from src/ ("scene/bvh.h"), never by ../.
+RULES = [
+    OnlyIn(r"manifold/", r"src/solid/csg\.(h|cpp)", "only src/solid/csg.* sees Manifold"),
+    OnlyIn(r"embree", r"src/verify/", "only src/verify sees Embree"),
+    OnlyIn(r"CDT", r"src/exact/", "only src/exact sees CDT"),
+    OnlyIn(r"(oneapi/)?tbb/", r"src/parallel/", "only src/parallel sees the thread library"),
+    OnlyIn(r"CLI/", r"src/cli/", "only src/cli sees CLI11"),
+    OnlyIn(r"yaml-cpp/", r"src/mission/", "only src/mission sees yaml-cpp"),
+    OnlyIn(r"zlib\.h", r"src/scene/", "only src/scene sees zlib"),
+    NotIn(r"src/exact/", r"(verify|render|cli|mission|spheres)/", "the engine knows nothing of the rooms above it"),
+    NotIn(r"src/verify/", r"(exact|solid|cli|mission|spheres|render)/",
+          "the check shares no geometry code with what it checks"),
+    NotIn(r"src/parallel/", r"(scene|exact|solid|verify|cli|mission|spheres|render)/", "threads know nothing of geometry"),
+    NotIn(r"src/scene/", r"(exact|solid|verify|cli|mission|spheres|render)/", "the scene is the lowest room"),
+    NotIn(r"src/solid/", r"(verify|cli|mission|spheres|render)/", "solids know nothing of the rooms above them"),
+    NotIn(r"src/mission/", r"cli/", "missions know nothing of the command line"),
+    NotIn(r"include/", r"(scene|exact|solid|verify|cli|mission|spheres|render)/", "public headers stand alone"),
+    NotIn(r"include/", r"(manifold|embree|CDT|CLI|yaml-cpp|nlohmann|tbb|zlib)", "public headers need Eigen only"),
+]
+
+
+def violations(root: pathlib.Path) -> list[str]:
+    """One line for each include under src/ and include/ that breaks a rule."""
+    found = []
+    for folder in ("src", "include"):
+        for file in sorted((root / folder).rglob("*")):
+            if file.suffix not in (".h", ".cpp"):
+                continue
+            place = file.relative_to(root).as_posix()
+            for number, line in enumerate(file.read_text(encoding="utf-8").splitlines(), 1):
+                match = INCLUDE.match(line)
+                if match:
+                    found += [f"{place}:{number}: includes {match[1]}: {reason}" for reason in broken(place, match[1])]
+    return found
+
+
+def broken(place: str, header: str) -> list[str]:
+    """Why the file at `place` may not include `header`; empty if it may."""
+    reasons = []
+    for rule in RULES:
+        if isinstance(rule, OnlyIn):
+            bad = re.match(rule.header, header) and not re.match(rule.allowed, place)
+        else:
+            bad = re.match(rule.place, place) and re.match(rule.header, header)
+        if bad:
+            reasons.append(rule.reason)
+    if header.startswith("../"):
+        reasons.append("name headers from src/ or include/, not by ../")
+    return reasons
+
+
+# (file, header, whether it is allowed): each rule broken and kept.
+CASES = [
+    ("src/solid/csg.cpp", "manifold/manifold.h", True),
+    ("src/solid/measure.cpp", "manifold/manifold.h", False),
+    ("src/exact/engine.cpp", "manifold/manifold.h", False),
+    ("src/verify/occluders.cpp", "embree3/rtcore.h", True),
+    ("src/scene/bvh.cpp", "embree3/rtcore.h", False),
+    ("src/exact/triangulation.cpp", "CDT.h", True),
+    ("src/solid/csg.cpp", "CDT.h", False),
+    ("src/parallel/parallel.cpp", "oneapi/tbb/parallel_for.h", True),
+    ("src/exact/envelope.cpp", "tbb/parallel_for.h", False),
+    ("src/scene/bvh.cpp", "oneapi/tbb/parallel_for.h", False),
+    ("src/cli/main.cpp", "CLI/CLI.hpp", True),
+    ("src/mission/reader.cpp", "CLI/CLI.hpp", False),
+    ("src/mission/reader.cpp", "yaml-cpp/yaml.h", True),
+    ("src/cli/main.cpp", "yaml-cpp/yaml.h", False),
+    ("src/scene/gzip.cpp", "zlib.h", True),
+    ("src/solid/write.cpp", "zlib.h", False),
+    ("src/exact/engine.cpp", "scene/bvh.h", True),
+    ("src/exact/engine.cpp", "verify/segment.h", False),
+    ("src/exact/engine.cpp", "render/depth.h", False),
+    ("src/exact/engine.cpp", "cli/main.h", False),
+    ("src/verify/verify.cpp", "exact/numerics.h", False),
+    ("src/verify/verify.cpp", "solid/csg.h", False),
+    ("src/scene/bvh.cpp", "exact/numerics.h", False),
+    ("src/solid/csg.cpp", "mission/reader.h", False),
+    ("src/parallel/parallel.cpp", "scene/bvh.h", False),
+    ("src/mission/reader.cpp", "cli/main.h", False),
+    ("src/mission/reader.cpp", "scene/mesh_file.h", True),
+    ("include/vantage/scene.h", "vantage/geometry.h", True),
+    ("include/vantage/scene.h", "Eigen/Core", True),
+    ("include/vantage/scene.h", "scene/bvh.h", False),
+    ("include/vantage/scene.h", "tbb/parallel_for.h", False),
+    ("src/verify/verify.cpp", "../exact/numerics.h", False),
+]
+
+
+def self_test() -> list[str]:
+    """What the checker got wrong on CASES, each written to a file of its own and read back."""
+    wrong = []
+    for place, header, allowed in CASES:
+        with tempfile.TemporaryDirectory() as scratch:
+            root = pathlib.Path(scratch)
+            file = root / place
+            file.parent.mkdir(parents=True)
+            file.write_text(f'#include <vector>\n#include "{header}"\n', encoding="utf-8")
+            noticed = violations(root)
+        if bool(noticed) == allowed:
+            wrong.append(f"{place} including {header}: expected {'nothing' if allowed else 'a complaint'}, got {noticed}")
+    return wrong
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description="Checks who includes what.")
+    parser.add_argument("root", nargs="?", type=pathlib.Path, default=pathlib.Path(__file__).parent.parent)
+    parser.add_argument("--self-test", action="store_true")
+    arguments = parser.parse_args()
+    if not arguments.self_test and not (arguments.root / "src").is_dir():
+        print(f"{arguments.root}: no src/ there", file=sys.stderr)
+        return 2
+    problems = self_test() if arguments.self_test else violations(arguments.root)
+    print("\n".join(problems) if problems else "includes are in order")
+    return 1 if problems else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

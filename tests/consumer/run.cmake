@@ -1,0 +1,39 @@
+# cmake -DMODE=find_package|add_subdirectory -DVANTAGE_SOURCE_DIR=... -DVANTAGE_BUILD_DIR=... -P run.cmake
+# Builds and runs the consumer project in a scratch folder below the build folder.
+cmake_minimum_required(VERSION 3.25)
+set(scratch ${VANTAGE_BUILD_DIR}/consumer/${MODE})
+file(REMOVE_RECURSE ${scratch})
+
+function(run)
+  list(JOIN ARGN " " line)
+  message(STATUS "${line}")
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE failed)
+  if(failed)
+    message(FATAL_ERROR "failed (${failed}): ${line}")
+  endif()
+endfunction()
+
+if(MODE STREQUAL "find_package")
+  # Moved after the installation: an installed tree may not know where it lies.
+  run(${CMAKE_COMMAND} --install ${VANTAGE_BUILD_DIR} --prefix ${scratch}/staging)
+  file(RENAME ${scratch}/staging ${scratch}/prefix)
+  set(how -DCMAKE_PREFIX_PATH=${scratch}/prefix)
+elseif(MODE STREQUAL "add_subdirectory")
+  set(how -DUSE_SUBDIRECTORY=${VANTAGE_SOURCE_DIR} -DCMAKE_PREFIX_PATH=${PREFIX_PATH})
+  find_program(ccache ccache)
+  if(ccache)
+    list(APPEND how -DCMAKE_CXX_COMPILER_LAUNCHER=${ccache})  # vantage itself was compiled before
+  endif()
+else()
+  message(FATAL_ERROR "MODE is find_package or add_subdirectory, not '${MODE}'")
+endif()
+
+file(GLOB headers RELATIVE ${VANTAGE_SOURCE_DIR}/include/vantage ${VANTAGE_SOURCE_DIR}/include/vantage/*.h)
+run(${CMAKE_COMMAND} -S ${VANTAGE_SOURCE_DIR}/tests/consumer -B ${scratch}/build -G Ninja
+    -DCMAKE_BUILD_TYPE=${BUILD_TYPE} "-DHEADERS=${headers}" ${how})
+run(${CMAKE_COMMAND} --build ${scratch}/build --target consumer --parallel 2)
+run(${scratch}/build/consumer)
+if(EXISTS ${scratch}/prefix/bin/vantage)
+  run(${CMAKE_COMMAND} -E env --unset=LD_LIBRARY_PATH ${scratch}/prefix/bin/vantage --version)
+endif()
+file(REMOVE_RECURSE ${scratch})
