@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -9,6 +10,7 @@
 
 #include "parallel/parallel.h"
 #include "solid/navigation.h"
+#include "solid/triangle_tree.h"
 #include "support/solids.h"
 #include "vantage/error.h"
 #include "vantage/volume.h"
@@ -272,6 +274,97 @@ TEST(Navigation, NothingIsPushedOutward) {
       EXPECT_TRUE((v.array() >= b.min.array()).all() && (v.array() <= b.max.array()).all()) << "seed " << seed;
       EXPECT_TRUE(inside_star(dome, kUtm + (v - kUtm) * (1 - 1e-9))) << "seed " << seed;
     }
+  }
+}
+
+/// Triangles of boxes on a ground, as scenes have them.
+Scene small_town(const Vec3& offset) {
+  Scene scene;
+  scene.objects = {"ground", "north", "east", "tower"};
+  scene.mesh.vertices = {Vec3(-200, -200, 0), Vec3(200, -200, 0), Vec3(200, 200, 0), Vec3(-200, 200, 0)};
+  scene.mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  append(scene.mesh, make_box_mesh(Vec3(-20, 15, 0), Vec3(20, 30, 12)));
+  append(scene.mesh, make_box_mesh(Vec3(15, -20, 0), Vec3(30, 10, 20)));
+  append(scene.mesh, make_box_mesh(Vec3(-30, -12, 0), Vec3(-25, -7, 50)));
+  for (std::size_t t = 0; t < scene.mesh.triangles.size(); ++t) {
+    scene.object_of.push_back(t < 2 ? 0 : static_cast<std::uint32_t>(1 + (t - 2) / 12));
+  }
+  for (Vec3& v : scene.mesh.vertices) v += offset;
+  return scene;
+}
+
+/// Limits about `offset`. Every other coordinate is that of a vertex of the volume, so that planes run through
+/// vertices, along edges and in facets.
+Navigation random_limits(std::mt19937& random, const Volume& volume) {
+  std::uniform_int_distribution<std::size_t> vertex(0, volume.mesh.vertices.size() - 1);
+  const Box bounds = bounding_box(volume.mesh);
+  std::uniform_real_distribution<double> uniform(-0.1, 1.1);
+  const auto coordinate = [&](int axis) {
+    if (random() % 2 == 0) return volume.mesh.vertices[vertex(random)][axis];
+    return bounds.min[axis] + uniform(random) * (bounds.max[axis] - bounds.min[axis]);
+  };
+  const auto random_box = [&] {
+    Box b;
+    while (!(b.min.array() < b.max.array()).all()) {
+      for (int axis = 0; axis < 3; ++axis) {
+        b.min[axis] = coordinate(axis);
+        b.max[axis] = coordinate(axis);
+      }
+    }
+    return b;
+  };
+  Navigation navigation;
+  if (random() % 2 == 0) navigation.altitude = {random_box().min.z(), bounds.max.z() + 1};
+  for (std::size_t i = random() % 4; i > 0; --i) navigation.boxes.push_back(random_box());
+  for (std::size_t i = random() % 3; i > 0; --i) navigation.keep_out.push_back(random_box());
+  return navigation;
+}
+
+bool within_limits(const Navigation& navigation, const Vec3& p) {
+  const auto in = [&](const Box& b) {
+    return (p.array() >= b.min.array()).all() && (p.array() <= b.max.array()).all();
+  };
+  if (navigation.altitude && (p.z() < navigation.altitude->min_m || p.z() > navigation.altitude->max_m)) return false;
+  if (!navigation.boxes.empty() && std::none_of(navigation.boxes.begin(), navigation.boxes.end(), in)) return false;
+  return std::none_of(navigation.keep_out.begin(), navigation.keep_out.end(), in);
+}
+
+/// The mesh about `origin`, where single-precision boxes are fine.
+Mesh moved(Mesh mesh, const Vec3& origin) {
+  for (Vec3& v : mesh.vertices) v -= origin;
+  return mesh;
+}
+
+TEST(Navigation, RandomLimitsOnEngineVolumesAgreeWithPointTests) {
+  const unsigned seed = 23;
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  for (const Vec3& offset : {Vec3(0, 0, 0), kUtm}) {
+    const PreparedScene scene(small_town(offset));
+    Target target;
+    for (const Vec3& v : {Vec3(-5, -5, 0), Vec3(6, -4, 0), Vec3(0, 5, 0)}) target.vertices.push_back(v + offset);
+    const Volume volume = compute_visibility(scene, target, Sensor{60}, ExactOptions{0.1});
+    ASSERT_EQ(volume.outcome, Outcome::computed) << volume.reason;
+    const Mesh before = moved(volume.mesh, offset);
+    const solid::TriangleTree whole(before);
+    const Box bounds = bounding_box(volume.mesh);
+    int inside = 0, outside = 0;
+    for (int draw = 0; draw < 40; ++draw) {
+      const Navigation navigation = random_limits(random, volume);
+      const Volume cut = cut_to_navigation(volume, navigation);
+      if (cut.outcome == Outcome::computed) expect_sound(cut);
+      const Mesh after = moved(cut.mesh, offset);
+      const solid::TriangleTree rest(after);
+      for (int i = 0; i < 200; ++i) {
+        const Vec3 unit(uniform(random), uniform(random), uniform(random));
+        const Vec3 p = bounds.min + unit.cwiseProduct(bounds.max - bounds.min);
+        const bool expected = within_limits(navigation, p) && whole.winding_number(p - offset) == 1;
+        EXPECT_EQ(rest.winding_number(p - offset), expected ? 1 : 0) << "seed " << seed << ", draw " << draw;
+        ++(expected ? inside : outside);
+      }
+    }
+    EXPECT_GT(inside, 300);
+    EXPECT_GT(outside, 300);
   }
 }
 

@@ -230,7 +230,7 @@ Mesh checked_solid(const Mesh& mesh, const std::string& name, const Watch& watch
       refuse("a vertex index is out of range", name + ", triangle " + std::to_string(t), "mend the mesh");
     }
   }
-  const Mesh result = welded(mesh);
+  Mesh result = welded(mesh);
   Examination examination(result, name);
   examination.check_edges();
   examination.check_volume();
