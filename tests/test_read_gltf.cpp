@@ -1,0 +1,256 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "support/mesh_reading.h"
+#include "support/temporary_directory.h"
+
+namespace vantage::scene {
+namespace {
+
+using nlohmann::json;
+using testing::bytes_of;
+using testing::expect_input_error;
+using testing::read_as;
+
+using Names = std::vector<std::string>;
+using Triangles = std::vector<Triangle>;
+
+std::string base64(const std::string& bytes) {
+  const char* const digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    unsigned bits = 0;
+    for (std::size_t k = 0; k < 3; ++k) bits = bits << 8 | (i + k < bytes.size() ? bytes[i + k] & 0xffu : 0u);
+    for (std::size_t k = 0; k < 4; ++k) text += i + k > bytes.size() ? '=' : digits[bits >> (18 - 6 * k) & 63];
+  }
+  return text;
+}
+
+/// Four corners of a unit square in x and y, as floats, then the indices 0 1 2 0 2 3 as 16-bit numbers: 60 bytes.
+std::string square() {
+  std::string bytes;
+  for (const float value : {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 1.f, 1.f, 0.f, 0.f, 1.f, 0.f}) bytes += bytes_of(value);
+  for (const std::uint16_t index : {0, 1, 2, 0, 2, 3}) bytes += bytes_of(index);
+  return bytes;
+}
+
+/// One node with that square. Accessor 0 holds the positions, 1 the indices.
+json document() {
+  return json::parse(R"({
+    "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+    "nodes": [{"mesh": 0, "name": "way/17"}],
+    "meshes": [{"name": "wall", "primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"},
+                  {"bufferView": 1, "componentType": 5123, "count": 6, "type": "SCALAR"}],
+    "bufferViews": [{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 12}],
+    "buffers": [{"byteLength": 60}]})");
+}
+
+json embedded(json gltf, const std::string& bytes = square()) {
+  gltf["buffers"][0] = {{"byteLength", bytes.size()}, {"uri", "data:application/octet-stream;base64," + base64(bytes)}};
+  return gltf;
+}
+
+std::string chunk(const std::string& type, std::string bytes, char padding) {
+  while (bytes.size() % 4 != 0) bytes += padding;
+  return bytes_of(static_cast<std::uint32_t>(bytes.size())) + type + bytes;
+}
+
+std::string glb(const json& gltf, const std::string& bytes = square()) {
+  const std::string chunks = chunk("JSON", gltf.dump(), ' ') + chunk(std::string("BIN\0", 4), bytes, '\0');
+  return "glTF" + bytes_of(2u) + bytes_of(static_cast<std::uint32_t>(12 + chunks.size())) + chunks;
+}
+
+RawMesh read(const json& gltf) { return read_as("a.gltf", embedded(gltf).dump()); }
+
+void expect_error(const json& gltf, const std::string& problem) {
+  expect_input_error([&] { read_as("bad.gltf", gltf.dump()); }, problem, "bad.gltf");
+}
+
+TEST(ReadGltf, ReadsEmbeddedBinaryAndExternalBuffers) {
+  testing::TemporaryDirectory folder;
+  testing::write_bytes(folder / "the square.bin", square());
+  json external = document();
+  external["buffers"][0]["uri"] = "the%20square.bin";
+  testing::write_bytes(folder / "a.gltf", external.dump());
+  for (const RawMesh& mesh : {read(document()), read_as("a.glb", glb(document())), read_mesh_file(folder / "a.gltf")}) {
+    EXPECT_EQ(mesh.format, MeshFormat::gltf);
+    EXPECT_EQ(mesh.vertices, (std::vector<Vec3>{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 1, 0), Vec3(0, 1, 0)}));
+    EXPECT_EQ(mesh.triangles, (Triangles{{0, 1, 2}, {0, 2, 3}}));
+    EXPECT_EQ(mesh.objects, Names{"way/17"});
+  }
+}
+
+TEST(ReadGltf, KeepsDoublePrecisionOfNodes) {
+  json gltf = document();
+  gltf["nodes"][0]["translation"] = {580000.123456789, 1000.1, -4785000.987654321};
+  EXPECT_EQ(read(gltf).vertices[0], Vec3(580000.123456789, 1000.1, -4785000.987654321));
+  gltf["nodes"][0].erase("translation");
+  gltf["nodes"][0]["matrix"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 580000.123456789, 1000.1, -4785000.987654321, 1};
+  EXPECT_EQ(read(gltf).vertices[0], Vec3(580000.123456789, 1000.1, -4785000.987654321));
+}
+
+TEST(ReadGltf, MovesMeshesByTheirNodesAndParents) {
+  json gltf = document();
+  // Scale, then a quarter turn about z, then the translation; all that inside a parent that is moved along x.
+  gltf["nodes"] = json::parse(R"([
+    {"name": "city", "translation": [100, 0, 0], "children": [1, 2]},
+    {"mesh": 0, "translation": [0, 10, 0], "rotation": [0, 0, 0.70710678118654752, 0.70710678118654752], "scale": [2, 3, 1]},
+    {"mesh": 0, "name": "mirrored", "scale": [-1, 1, 1]}])");
+  const RawMesh mesh = read(gltf);
+  EXPECT_EQ(mesh.objects, (Names{"wall", "mirrored"}));  // the first node has no name; its mesh has one
+  ASSERT_EQ(mesh.vertices.size(), 8u);
+  EXPECT_LT((mesh.vertices[2] - Vec3(97, 12, 0)).norm(), 1e-13);
+  EXPECT_EQ(mesh.vertices[6], Vec3(99, 1, 0));
+  EXPECT_EQ(mesh.triangles[2], (Triangle{4, 6, 5}));  // turned, so that it still faces +z
+  EXPECT_EQ(mesh.object_of, (std::vector<std::uint32_t>{0, 0, 1, 1}));
+}
+
+TEST(ReadGltf, ReadsStripsFansAndUnindexedTriangles) {
+  json gltf = document();
+  json& primitive = gltf["meshes"][0]["primitives"][0];
+  primitive.erase("indices");
+  EXPECT_EQ(read(gltf).triangles, (Triangles{{0, 1, 2}}));  // four vertices: one triangle and a rest
+  primitive["mode"] = 5;
+  EXPECT_EQ(read(gltf).triangles, (Triangles{{0, 1, 2}, {1, 3, 2}}));
+  primitive["mode"] = 6;
+  EXPECT_EQ(read(gltf).triangles, (Triangles{{0, 1, 2}, {0, 2, 3}}));
+  primitive["mode"] = 1;  // lines
+  expect_error(embedded(gltf), "holds no triangles");
+}
+
+TEST(ReadGltf, AddsOnlyVerticesThatAreUsed) {
+  json gltf = document();
+  gltf["accessors"][1]["count"] = 3;
+  EXPECT_EQ(read(gltf).vertices.size(), 3u);
+}
+
+TEST(ReadGltf, ReadsStridesSparseAndQuantizedPositions) {
+  json gltf = document();
+  std::string bytes;
+  for (const std::uint8_t value : {0, 0, 0, 9, 255, 0, 0, 9, 255, 51, 0, 9}) bytes += bytes_of(value);  // stride 4
+  bytes += bytes_of(std::uint16_t{2});                                                                  // sparse index
+  for (const std::uint8_t value : {0, 255, 255}) bytes += bytes_of(value);                              // sparse value
+  gltf["extensionsRequired"] = {"KHR_mesh_quantization"};
+  gltf["bufferViews"] = json::parse(R"([{"buffer": 0, "byteLength": 12, "byteStride": 4},
+    {"buffer": 0, "byteOffset": 12, "byteLength": 2}, {"buffer": 0, "byteOffset": 14, "byteLength": 3}])");
+  gltf["accessors"] =
+      json::parse(R"([{"bufferView": 0, "componentType": 5121, "count": 3, "type": "VEC3", "normalized": true,
+    "sparse": {"count": 1, "indices": {"bufferView": 1, "componentType": 5123}, "values": {"bufferView": 2}}}])");
+  gltf["meshes"][0]["primitives"][0].erase("indices");
+  const RawMesh mesh = read_as("a.gltf", embedded(gltf, bytes).dump());
+  EXPECT_EQ(mesh.vertices, (std::vector<Vec3>{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 1)}));
+}
+
+TEST(ReadGltf, TakesTheDefaultScene) {
+  json gltf = document();
+  gltf["nodes"].push_back({{"mesh", 0}, {"name", "other"}});
+  gltf["scenes"] = {{{"nodes", {0}}}, {{"nodes", {1}}}};
+  gltf["scene"] = 1;
+  EXPECT_EQ(read(gltf).objects, Names{"other"});
+  gltf.erase("scene");
+  EXPECT_EQ(read(gltf).objects, Names{"way/17"});
+  gltf.erase("scenes");
+  gltf["nodes"].push_back({{"children", {1}}});
+  EXPECT_EQ(read(gltf).objects, (Names{"way/17", "other"}));
+}
+
+TEST(ReadGltf, NamesWhatIsWrong) {
+  const auto with = [](const std::string& pointer, const json& value) {
+    json gltf = embedded(document());
+    gltf[json::json_pointer(pointer)] = value;
+    return gltf;
+  };
+  expect_error(with("/asset/version", "1.0"), "glTF version \"1.0\" cannot be read");
+  expect_error(with("/asset", 7), "\"asset\" is not an object");
+  expect_error(with("/nodes", 7), "\"nodes\" is not an array");
+  expect_error(with("/nodes/0", 7), "an item of \"nodes\" is not an object");
+  expect_error(with("/nodes/0/mesh", 1), "there is no \"meshes\" number 1, only 1");
+  expect_error(with("/nodes/0/mesh", -1), "\"mesh\" is not a whole number");
+  expect_error(with("/nodes/0/mesh", 0.5), "\"mesh\" is not a whole number");
+  expect_error(with("/nodes/0/mesh", 1e300), "\"mesh\" is not a whole number");
+  expect_error(with("/nodes/0/name", 7), "\"name\" is not a text");
+  expect_error(with("/nodes/0/children", {0}), "node 0 has two parents");
+  expect_error(with("/nodes/0/matrix", {1, 2}), "\"matrix\" of a node has a wrong length");
+  expect_error(with("/nodes/0/scale", {1, 2, "3"}), "other than numbers");
+  expect_error(with("/meshes/0/primitives/0", 7), "a primitive is not an object");
+  expect_error(with("/accessors/0/count", 5), "accessor 0 goes beyond the end of its buffer view");
+  expect_error(with("/accessors/0/count", 9007199254740992), "accessor 0 goes beyond");
+  expect_error(with("/accessors/0/byteOffset", 9007199254740992), "accessor 0 goes beyond");
+  expect_error(with("/accessors/0/componentType", 5124), "accessor 0 has an unknown type");
+  expect_error(with("/accessors/0/componentType", 4294967296 + 5126), "accessor 0 has an unknown type");
+  expect_error(with("/accessors/0/type", "VEC2"), "positions are not of type VEC3");
+  expect_error(with("/accessors/0/sparse", {{"count", 1}}), "no sparse \"indices\"");
+  expect_error(with("/accessors/1/componentType", 5122), "indices are not unsigned whole numbers");
+  expect_error(with("/bufferViews/0/byteStride", 4), "accessor 0 has a wrong byte stride");
+  expect_error(with("/bufferViews/0/byteLength", 61), "buffer view 0 goes beyond the end of its buffer");
+  expect_error(with("/buffers/0/byteLength", 61), "buffer 0 announces 61 bytes, but has only 60");
+  expect_error(with("/buffers/0/uri", "data:;base64,%%%"), "buffer 0 is no valid base64");
+  expect_error(with("/buffers/0/uri", "data:,abc"), "a data URI without base64");
+  expect_error(with("/buffers/0/uri", "https://example.org/a.bin"), "has its data at \"https://example.org/a.bin\"");
+  expect_error(document(), "buffer 0 has no \"uri\"");
+  expect_error(with("/extensionsRequired", {"KHR_draco_mesh_compression"}), "extension \"KHR_draco_mesh_compression\"");
+  expect_error(with("/extensionsUsed", {"EXT_mesh_gpu_instancing"}), "extension \"EXT_mesh_gpu_instancing\"");
+  expect_error(json(), "its JSON is not an object");
+  expect_input_error([] { read_as("bad.gltf", R"({"asset": )"); }, "parse error at line 1, column 11", "bad.gltf");
+  expect_input_error([] { read_as("bad.gltf", "{" + std::string(1000000, '[')); }, "", "bad.gltf");
+  expect_input_error([] { read_as("bad.gltf", "{\"a\":" + std::string(1000000, '[')); }, "deeper than 100", "bad.gltf");
+}
+
+TEST(ReadGltf, FindsIndicesAndCoordinatesThatAreWrong) {
+  std::string bytes = square();
+  bytes.replace(58, 2, bytes_of(std::uint16_t{4}));
+  expect_error(embedded(document(), bytes), "refers to vertex 4, but has only 4");
+  bytes = square();
+  bytes.replace(4, 4, bytes_of(std::numeric_limits<float>::quiet_NaN()));
+  expect_error(embedded(document(), bytes), "a coordinate of vertex 0 is not finite");
+}
+
+TEST(ReadGltf, FindsBrokenBinaryFiles) {
+  const std::string good = glb(document());
+  const auto expect = [](std::string bytes, const std::string& problem, const std::string& where) {
+    expect_input_error([&] { read_as("bad.glb", bytes); }, problem, where);
+  };
+  for (std::size_t size = 4; size < good.size(); size += 7) expect(good.substr(0, size), "", "bad.glb, byte");
+  std::string bad = good;
+  bad[4] = 1;
+  expect(bad, "GLB version 1", "byte 4");
+  bad = good;
+  bad.replace(8, 4, bytes_of(static_cast<std::uint32_t>(good.size() + 1)));
+  expect(bad, "announces", "byte 8");
+  bad = good;
+  bad.replace(12, 4, bytes_of(0xffffffffu));
+  expect(bad, "a GLB chunk of 4294967295 bytes goes beyond", "byte 12");
+  bad = good;
+  bad.replace(16, 4, "BIN ");
+  expect(bad, "unexpected type", "byte 16");
+}
+
+TEST(ReadGltf, StopsMeshesThatRepeatWithoutEnd) {
+  json gltf = document();
+  for (int i = 0; i < 100; ++i) {
+    gltf["nodes"].push_back({{"mesh", 0}});
+    gltf["scenes"][0]["nodes"].push_back(i + 1);
+  }
+  EXPECT_EQ(read(gltf).triangles.size(), 202u);
+  ReadLimits limits;
+  limits.repeated_triangles = 100;
+  expect_input_error([&] { read_as("a.gltf", embedded(gltf).dump(), limits); }, "to more than 120 triangles", "a.gltf");
+  limits.json_values = 50;
+  expect_input_error([&] { read_as("a.gltf", embedded(gltf).dump(), limits); }, "more than 50 values", "a.gltf");
+}
+
+TEST(ReadGltf, NamesABufferFileThatIsMissing) {
+  testing::TemporaryDirectory folder;
+  json gltf = document();
+  gltf["buffers"][0]["uri"] = "gone.bin";
+  testing::write_bytes(folder / "a.gltf", gltf.dump());
+  expect_input_error([&] { read_mesh_file(folder / "a.gltf"); }, "does not exist", "gone.bin");
+  gltf["buffers"][0]["uri"] = ".";
+  testing::write_bytes(folder / "a.gltf", gltf.dump());
+  expect_input_error([&] { read_mesh_file(folder / "a.gltf"); }, "is a directory", "");
+}
+
+}  // namespace
+}  // namespace vantage::scene

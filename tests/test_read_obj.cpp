@@ -1,0 +1,125 @@
+#include <gtest/gtest.h>
+
+#include "support/mesh_reading.h"
+
+namespace vantage::scene {
+namespace {
+
+using testing::expect_input_error;
+using testing::read_as;
+
+using Names = std::vector<std::string>;
+using Triangles = std::vector<Triangle>;
+
+const std::string kThree = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+
+void expect_error(const std::string& bytes, const std::string& problem, const std::string& where) {
+  expect_input_error([&] { read_as("bad.obj", bytes); }, problem, where);
+}
+
+TEST(ReadObj, KeepsCoordinatesToTheLastBit) {
+  const RawMesh mesh =
+      read_as("a.obj", "v 580000.123456789 4785000.987654321 1000.1\nv -1e-3 +.5 5.\nv 1E+2 1e-400 -0\nf 1 2 3\n");
+  ASSERT_EQ(mesh.vertices.size(), 3u);
+  EXPECT_EQ(mesh.vertices[0], Vec3(580000.123456789, 4785000.987654321, 1000.1));
+  EXPECT_EQ(mesh.vertices[1], Vec3(-1e-3, 0.5, 5));
+  EXPECT_EQ(mesh.vertices[2], Vec3(100, 0, 0));
+  EXPECT_EQ(mesh.format, MeshFormat::obj);
+}
+
+TEST(ReadObj, UnderstandsAllWaysToNameACorner) {
+  const RawMesh mesh = read_as("a.obj", kThree +
+                                            "vt 0 0\nvn 0 0 1\nf 1 2 3\nf 1/1 2/1 3/1\nf 1//1 2//1 3//1\nf 1/1/1 "
+                                            "2/1/1 3/1/1\nf -3 -2 -1\nf -3/-1/-1 -2/-1/-1 -1/-1/-1 # done\n");
+  EXPECT_EQ(mesh.triangles, Triangles(6, {0, 1, 2}));
+}
+
+TEST(ReadObj, UnderstandsAllLineEnds) {
+  const RawMesh expected = read_as("a.obj", kThree + "o one\nf 1 2 3\n");
+  for (const std::string& bytes :
+       {std::string("v 0 0 0\r\nv 1 0 0\r\nv 0 1 0\r\no one\r\nf 1 2 3\r\n"),
+        std::string("v 0 0 0\rv 1 0 0\rv 0 1 0\ro one\rf 1 2 3\r"),
+        std::string("v 0 0 0\nv 1 0 0\nv 0 1 0\no one\nf 1 2 3"),
+        std::string("\xef\xbb\xbfv 0 0 \\\n0\nv 1 0 0\n\n\tv  0\t1 0 \no  one \nf 1 2\\\r\n 3\n"),
+        std::string("vt 0 \\\n 0\n#no continuation \\\nv 0 0 0 1 0.5 0.5\nv 1 0 0\nv 0 1 0\no one\nf 1 2 3\\\n\n")}) {
+    const RawMesh mesh = read_as("a.obj", bytes);
+    EXPECT_EQ(mesh.vertices, expected.vertices) << bytes;
+    EXPECT_EQ(mesh.triangles, expected.triangles) << bytes;
+    EXPECT_EQ(mesh.objects, expected.objects) << bytes;
+  }
+}
+
+TEST(ReadObj, NamesObjects) {
+  const RawMesh mesh = read_as("a.obj", kThree +
+                                            "f 1 2 3\n"
+                                            "g wall\nf 1 2 3\ng roof tiles\nf 1 2 3\ng wall\nf 1 2 3\n"
+                                            "o empty\no way/265517\ng part\nf 1 2 3\no Building 17 \nf 1 2 3\n"
+                                            "o Building 17\nf 1 2 3\no\nf 1 2 3\ng roof tiles\nf 1 2 3\n");
+  EXPECT_EQ(mesh.objects,
+            (Names{"object 0", "wall", "roof tiles", "way/265517", "Building 17", "Building 17", "part"}));
+  EXPECT_EQ(mesh.object_of, (std::vector<std::uint32_t>{0, 1, 2, 1, 3, 4, 5, 6, 2}));
+}
+
+TEST(ReadObj, CleansNames) {
+  const RawMesh mesh = read_as("a.obj", kThree +
+                                            "o Stra\xdf"
+                                            "e\x01 \x7f\nf 1 2 3\no Stra\xc3\x9f"
+                                            "e \xe2\x82\xac\nf 1 2 3\n"
+                                            "o \xed\xa0\x80\nf 1 2 3\n");
+  EXPECT_EQ(mesh.objects, (Names{"Stra\xc3\x9f"
+                                 "e",
+                                 "Stra\xc3\x9f"
+                                 "e \xe2\x82\xac",
+                                 "\xc3\xad\xc2\xa0\xc2\x80"}));
+}
+
+TEST(ReadObj, CutsPolygonsAndCountsFacesWithoutArea) {
+  const RawMesh mesh = read_as("a.obj", "v 0 0 0\nv 4 -2 0\nv 1 0 0\nv 4 2 0\nf 1 2 3 4\nf 1 2\nf 3\nf\nl 1 2\np 1\n");
+  EXPECT_EQ(mesh.triangles.size(), 2u);
+  EXPECT_EQ(mesh.dropped_faces, 3u);
+  Mesh cut{mesh.vertices, mesh.triangles};
+  EXPECT_DOUBLE_EQ(surface_area(cut), 2);  // across the other diagonal it would be 14
+}
+
+TEST(ReadObj, AllowsVerticesAfterTheirFaces) {
+  const RawMesh mesh =
+      read_as("a.obj", "o late\nf 1 2 3\nf 1 2 3 4\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\no b\nf 1 2 3\n");
+  EXPECT_EQ(mesh.triangles.size(), 4u);
+  EXPECT_EQ(mesh.objects, (Names{"late", "b"}));
+  EXPECT_EQ(mesh.object_of, (std::vector<std::uint32_t>{1, 0, 0, 0}));
+}
+
+TEST(ReadObj, NamesThePlaceOfWhatIsWrong) {
+  expect_error(kThree + "f 1 2 4\n", "refers to vertex 4, but the file has only 3", "bad.obj, line 4");
+  expect_error(kThree + "f 1 2 4294967297\n", "refers to vertex 4294967297", "line 4");
+  expect_error(kThree + "f 1 2 99999999999999999999\n", "\"99999999999999999999\" is no vertex number", "line 4");
+  expect_error(kThree + "f 1 2 -9223372036854775808\n", "but only 3 come before it", "line 4");
+  expect_error(kThree + "\n\nf 0 1 2\n", "count from 1", "line 6");
+  expect_error(kThree + "f 1 2 -4\n", "refers to vertex -4, but only 3 come before it", "line 4");
+  expect_error(kThree + "f 1 2 x\n", "\"x\" is no vertex number", "line 4");
+  expect_error(kThree + "f 1 2 3.5\n", "in a face", "line 4");
+  expect_error(kThree + "f 1 2 3/1/1/1\n", "in a face", "line 4");
+  expect_error("v 0 0\n" + kThree, "only 2 coordinates", "line 1");
+  expect_error("v 0 0 1,5\n" + kThree, "is no coordinate", "line 1");
+  expect_error("v 0 0 0x10\n" + kThree, "is no coordinate", "line 1");
+  expect_error("v 0 nan 0\n" + kThree, "the y coordinate of vertex 1 is not finite", "line 1");
+  expect_error(kThree + "v 0 0 -inf\n", "the z coordinate of vertex 4 is not finite", "line 4");
+  expect_error("v 1e999 0 0\n" + kThree, "not finite", "line 1");
+  expect_error(kThree + "f 1 2 3\nfacet 1 2 3\n", "unknown statement \"facet\"", "line 5");
+  expect_error(kThree + "f 1 2", "ends within a face", "line 4");
+  expect_error(kThree, "holds no triangles", "bad.obj");
+  expect_error(kThree + "f 1 2\n", "1 faces with fewer than 3 corners", "bad.obj");
+  expect_error(std::string("v 0 0\0 0\n", 9), "is no coordinate", "line 1");
+  expect_error(std::string(64, '\0'), "unknown statement", "line 1");
+  expect_error("\\", "unknown statement", "line 1");
+}
+
+TEST(ReadObj, RefusesPolygonsWithTooManyCorners) {
+  ReadLimits limits;
+  limits.corners = 4;
+  EXPECT_EQ(read_as("a.obj", kThree + "f 1 2 3 3\n", limits).triangles.size(), 2u);
+  expect_input_error([&] { read_as("a.obj", kThree + "f 1 2 3 3 3\n", limits); }, "5 corners; at most 4", "line 4");
+}
+
+}  // namespace
+}  // namespace vantage::scene

@@ -1,0 +1,181 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "support/mesh_reading.h"
+
+namespace vantage::scene {
+namespace {
+
+using testing::bytes_of;
+using testing::expect_input_error;
+using testing::read_as;
+
+using Triangles = std::vector<Triangle>;
+
+std::string header(const std::string& format, const std::string& elements) {
+  return "ply\nformat " + format + " 1.0\n" + elements + "end_header\n";
+}
+
+std::string mesh_header(const std::string& format, std::uint64_t vertices, std::uint64_t faces) {
+  return header(format, "comment made by hand\nelement vertex " + std::to_string(vertices) +
+                            "\nproperty double x\nproperty double y\nproperty double z\nelement face " +
+                            std::to_string(faces) + "\nproperty list uchar int vertex_indices\n");
+}
+
+const std::string kText = mesh_header("ascii", 3, 1) + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+
+template <class T>
+std::string ordered(T value, bool big_endian) {
+  std::string bytes = bytes_of(value);
+  if (big_endian) std::reverse(bytes.begin(), bytes.end());
+  return bytes;
+}
+
+void expect_error(const std::string& bytes, const std::string& problem, const std::string& where) {
+  expect_input_error([&] { read_as("bad.ply", bytes); }, problem, where);
+}
+
+std::string replaced(std::string text, const std::string& old_part, const std::string& new_part) {
+  const std::size_t at = text.find(old_part);
+  EXPECT_NE(at, std::string::npos) << old_part;
+  return text.replace(at, old_part.size(), new_part);
+}
+
+TEST(ReadPly, ReadsText) {
+  const RawMesh mesh = read_as("block.ply", mesh_header("ascii", 4, 2) +
+                                                "580000.123456789 4785000.987654321 1000.1\n1 0 0\n1 1 0\n0 1 0\n"
+                                                "3 0 1 2\n4 0 1 2 3\n");
+  EXPECT_EQ(mesh.format, MeshFormat::ply);
+  EXPECT_EQ(mesh.vertices[0], Vec3(580000.123456789, 4785000.987654321, 1000.1));
+  EXPECT_EQ(mesh.triangles.size(), 3u);
+  EXPECT_EQ(mesh.objects, std::vector<std::string>{"block"});
+}
+
+TEST(ReadPly, ReadsBothByteOrders) {
+  for (const bool big : {false, true}) {
+    std::string bytes = mesh_header(big ? "binary_big_endian" : "binary_little_endian", 3, 2);
+    for (const double value : {580000.123456789, 4785000.987654321, 1000.1, 1., 0., 0., 0., 1., 0.})
+      bytes += ordered(value, big);
+    for (int face = 0; face < 2; ++face) {
+      bytes += '\3';
+      for (const std::int32_t index : {0, 1, 2}) bytes += ordered(index, big);
+    }
+    const RawMesh mesh = read_as("a.ply", bytes);
+    EXPECT_EQ(mesh.vertices[0], Vec3(580000.123456789, 4785000.987654321, 1000.1));
+    EXPECT_EQ(mesh.triangles, Triangles(2, {0, 1, 2}));
+  }
+}
+
+/// Every type as a coordinate and as a corner, other properties and elements between, faces before vertices.
+TEST(ReadPly, ReadsEveryTypeAndPassesOverTheRest) {
+  const std::string elements =
+      "element camera 1\nproperty float a\nproperty list uint short b\n"
+      "element face 2\nproperty uchar red\nproperty list ushort uint8 vertex_index\nproperty list int double weights\n"
+      "element vertex 4\nproperty list char char notes\nproperty int8 x\nproperty float64 w\nproperty int16 y\n"
+      "property uint z\nelement tail 3\nproperty int32 q\n";
+  for (const bool big : {false, true}) {
+    std::string bytes = header(big ? "binary_big_endian" : "binary_little_endian", elements);
+    bytes += ordered(1.f, big) + ordered(std::uint32_t{2}, big) + ordered(std::int16_t{7}, big) +
+             ordered(std::int16_t{8}, big);
+    for (const int corners : {3, 4}) {
+      bytes += '\xff' + ordered(static_cast<std::uint16_t>(corners), big);
+      for (int i = 0; i < corners; ++i) bytes += static_cast<char>(i);
+      bytes += ordered(std::int32_t{1}, big) + ordered(0.5, big);
+    }
+    const int x[] = {-128, 127, 127, -128}, y[] = {-300, -300, 300, 300};
+    for (int i = 0; i < 4; ++i) {
+      bytes += '\0';
+      bytes += static_cast<char>(x[i]) + ordered(std::numeric_limits<double>::quiet_NaN(), big) +
+               ordered(static_cast<std::int16_t>(y[i]), big) + ordered(std::uint32_t{4000000000u}, big);
+    }
+    bytes += std::string(12, 'q');
+    const RawMesh mesh = read_as("a.ply", bytes);
+    ASSERT_EQ(mesh.vertices.size(), 4u);
+    EXPECT_EQ(mesh.vertices[2], Vec3(127, 300, 4e9));
+    EXPECT_EQ(mesh.triangles.size(), 3u);
+  }
+  const RawMesh text =
+      read_as("a.ply", header("ascii", elements) +
+                           "1.5 2 7 8\n255 3 0 1 2 1 0.5\n0 4 0 1 2 3 0\n0 -128 nan -300 4000000000\n"
+                           "1 5 127 nan -300 4000000000\n0 127 0 300 4000000000\n0 -128 0 300 4e9\n1 2 3");
+  EXPECT_EQ(text.vertices[3], Vec3(-128, 300, 4e9));
+  EXPECT_EQ(text.triangles.size(), 3u);
+}
+
+TEST(ReadPly, UnderstandsAllLineEndsOfTheHeader) {
+  for (const std::string end : {"\n", "\r\n", "\r"}) {
+    std::string bytes;
+    for (const char c : mesh_header("binary_little_endian", 3, 1)) bytes += c == '\n' ? end : std::string(1, c);
+    // The first byte of the rows is a line feed: it must not be taken for part of the header.
+    bytes += "\n" + std::string(71, '\0') + '\3';
+    for (const std::int32_t index : {0, 1, 2}) bytes += bytes_of(index);
+    EXPECT_EQ(read_as("a.ply", bytes).triangles.size(), 1u) << end.size();
+  }
+}
+
+TEST(ReadPly, NamesThePlaceOfWhatIsWrongInTheHeader) {
+  expect_error("plywood", "does not begin with the line \"ply\"", "line 1");
+  expect_error("ply", "ends within its header", "line 1");
+  expect_error("ply\n", "ends within its header", "line 2");
+  expect_error("ply\nformat ascii 1.0\n", "ends within its header", "line 3");
+  expect_error(replaced(kText, "ascii", "utf8"), "unknown format \"utf8\"", "line 2");
+  expect_error(replaced(kText, "1.0", "2.0"), "unknown version \"2.0\"", "line 2");
+  expect_error(replaced(kText, "format ascii 1.0\n", ""), "no \"format\" line", "line 9");
+  expect_error(replaced(kText, "vertex 3", "vertex -3"), "bad element count", "line 4");
+  expect_error(replaced(kText, "vertex 3", "vertex 99999999999999999999"), "bad element count", "line 4");
+  expect_error(replaced(kText, "vertex 3", "vertex"), "bad element count", "line 4");
+  expect_error(replaced(kText, "double y", "quad y"), "unknown type \"quad\"", "line 6");
+  expect_error(replaced(kText, "double y", "double"), "too short", "line 6");
+  expect_error(replaced(kText, "uchar int", "float int"), "length of a list is not a whole number", "line 9");
+  expect_error(replaced(kText, "int vertex", "float vertex"), "no list of whole numbers \"vertex_indices\"", "bad.ply");
+  expect_error(replaced(kText, "double y", "double v"), "no coordinate \"y\"", "bad.ply");
+  expect_error(replaced(kText, "element vertex 3\n", ""), "before the first element", "line 4");
+  expect_error(replaced(kText, "vertex 3", "vertices 3"), "no element \"vertex\"", "bad.ply");
+  expect_error(replaced(kText, "face 1", "faces 1"), "no element \"face\"", "bad.ply");
+  expect_error(replaced(kText, "comment", "commend"), "unknown header line \"commend\"", "line 3");
+}
+
+TEST(ReadPly, NamesThePlaceOfWhatIsWrongInText) {
+  expect_error(replaced(kText, "3 0 1 2", "3 0 1 3"), "refers to vertex 3, but the file has only 3 (counted from 0)",
+               "line 14");
+  expect_error(replaced(kText, "3 0 1 2", "3 0 1 -1"), "refers to vertex -1", "line 14");
+  expect_error(replaced(kText, "3 0 1 2", "3 0 1 1.5"), "\"1.5\" is no whole number", "line 14");
+  expect_error(replaced(kText, "3 0 1 2", "-3 0 1 2"), "a list of -3 values", "line 14");
+  expect_error(replaced(kText, "3 0 1 2", "3 0 1"), "ends too early", "line 15");
+  expect_error(replaced(kText, "1 0 0", "1 abc 0"), "\"abc\" is no number", "line 12");
+  expect_error(replaced(kText, "1 0 0", "1 1e999 0"), "y coordinate of vertex 1 is not finite", "line 12");
+  expect_error(replaced(kText, "face 1", "face 1000000000000"), "announces 1000000000000 rows of \"face\"", "line 14");
+  expect_error(replaced(kText, "vertex 3", "vertex 9223372036854775807"), "announces 9223372036854775807 rows",
+               "line 11");
+}
+
+TEST(ReadPly, NamesThePlaceOfWhatIsWrongInBinary) {
+  const std::string head = mesh_header("binary_little_endian", 3, 1), rows(72, '\0');
+  const std::string start = std::to_string(head.size()), face = std::to_string(head.size() + 73);
+  const auto corners = [](std::int32_t last) { return '\3' + bytes_of(0) + bytes_of(1) + bytes_of(last); };
+  EXPECT_EQ(read_as("a.ply", head + rows + corners(2)).triangles.size(), 1u);
+  expect_error(head + rows + corners(3), "refers to vertex 3", "byte " + face);
+  expect_error(head + rows + corners(-1), "refers to vertex -1", "byte");
+  expect_error(head + rows + corners(2).substr(0, 12), "ends too early", "byte");
+  expect_error(head + rows.substr(1), "announces 3 rows of \"vertex\", but only 71 bytes follow", "byte " + start);
+  expect_error(
+      head + std::string(16, '\0') + bytes_of(std::numeric_limits<double>::infinity()) + rows.substr(24) + corners(2),
+      "z coordinate of vertex 0 is not finite", "byte " + start);
+  const std::string huge = replaced(head, "uchar", "uint");
+  expect_error(huge + rows + bytes_of(std::uint32_t{4294967295u}) + bytes_of(1), "ends too early", "byte");
+  const std::string other = replaced(huge, "vertex_indices", "others\nproperty list uchar int vertex_indices");
+  expect_error(other + rows + bytes_of(std::uint32_t{4294967295u}) + bytes_of(1), "within a list of 4294967295 values",
+               "byte");
+}
+
+/// An element whose rows take no space must not be counted through.
+TEST(ReadPly, PassesOverElementsWithoutProperties) {
+  EXPECT_EQ(read_as("a.ply", replaced(kText, "element vertex", "element nothing 9000000000000000000\nelement vertex"))
+                .triangles.size(),
+            1u);
+}
+
+}  // namespace
+}  // namespace vantage::scene

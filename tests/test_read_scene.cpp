@@ -1,0 +1,329 @@
+// What all formats have in common: telling them apart, compression, axes and scale, files that cannot be read,
+// progress; and the real inputs.
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <clocale>
+#include <random>
+#include <set>
+
+#include "scene/mesh_file.h"
+#include "support/mesh_reading.h"
+#include "support/shared_data.h"
+#include "support/temporary_directory.h"
+#include "vantage/scene.h"
+
+namespace vantage {
+namespace {
+
+using testing::expect_input_error;
+using testing::shared_data;
+using testing::TemporaryDirectory;
+using testing::write_bytes;
+
+const std::string kObj = "o tower\nv 1 2 3\nv 4 2 3\nv 1 5 4\nf 1 2 3\n";
+
+std::string gzip(const std::string& bytes) {
+  z_stream stream{};
+  EXPECT_EQ(deflateInit2(&stream, 6, Z_DEFLATED, MAX_WBITS + 16, 8, Z_DEFAULT_STRATEGY), Z_OK);
+  std::string out(deflateBound(&stream, bytes.size()) + 32, '\0');
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
+  stream.avail_in = static_cast<uInt>(bytes.size());
+  stream.next_out = reinterpret_cast<Bytef*>(out.data());
+  stream.avail_out = static_cast<uInt>(out.size());
+  EXPECT_EQ(deflate(&stream, Z_FINISH), Z_STREAM_END);
+  out.resize(out.size() - stream.avail_out);
+  deflateEnd(&stream);
+  return out;
+}
+
+TEST(ReadScene, GivesTheSceneFrame) {
+  TemporaryDirectory folder;
+  write_bytes(folder / "a.obj", kObj);
+  const Scene plain = read_scene(folder / "a.obj");
+  EXPECT_EQ(plain.mesh.vertices[0], Vec3(1, 2, 3));
+  EXPECT_EQ(plain.objects, std::vector<std::string>{"tower"});
+  EXPECT_EQ(plain.object_of, std::vector<std::uint32_t>{0});
+  EXPECT_EQ(plain.source, folder / "a.obj");
+  EXPECT_EQ(plain.up, UpAxis::z);
+
+  const Scene turned = read_scene(folder / "a.obj", {.up = UpAxis::y, .scale = 0.5});
+  EXPECT_EQ(turned.mesh.vertices[0], Vec3(0.5, -1.5, 1));
+  EXPECT_EQ(turned.up, UpAxis::y);
+}
+
+TEST(ReadScene, TellsTheFormatByContentThenByName) {
+  using scene::MeshFormat;
+  const auto format = [](const std::string& name, const std::string& bytes) {
+    return scene::mesh_format(scene::MeshSource(name, bytes));
+  };
+  EXPECT_EQ(format("a.obj", "ply\nformat"), MeshFormat::ply);
+  EXPECT_EQ(format("a.obj", "solid x\n"), MeshFormat::stl);
+  EXPECT_EQ(format("a.obj", " {"), MeshFormat::gltf);
+  EXPECT_EQ(format("a", "glTF"), MeshFormat::gltf);
+  EXPECT_EQ(format("a", kObj), MeshFormat::obj);
+  EXPECT_EQ(format("a.stl", "# comment\n\nmtllib x\n"), MeshFormat::obj);
+  EXPECT_EQ(format("A.OBJ", "?"), MeshFormat::obj);
+  EXPECT_EQ(format("a.ply.gz", "?"), MeshFormat::ply);
+  EXPECT_EQ(format("a.STL", "?"), MeshFormat::stl);
+  EXPECT_EQ(format("a.glb", "?"), MeshFormat::gltf);
+  expect_input_error([&] { format("a.txt", "# A title\n\nText.\n"); }, "format of the mesh file is unknown", "a.txt");
+}
+
+TEST(ReadScene, ReadsCompressedFiles) {
+  TemporaryDirectory folder;
+  write_bytes(folder / "a.obj.gz", gzip(kObj));
+  write_bytes(folder / "b", gzip(kObj.substr(0, 20)) + gzip("") + gzip(kObj.substr(20)) + std::string(512, '\0'));
+  EXPECT_EQ(read_scene(folder / "a.obj.gz").mesh.vertices, read_scene(folder / "b").mesh.vertices);
+  // More than one buffer of the decompressor, and well compressible.
+  std::string large = kObj;
+  for (int i = 0; i < 400000; ++i) large += "f 1 2 3\n";
+  write_bytes(folder / "large.obj.gz", gzip(large));
+  EXPECT_EQ(read_scene(folder / "large.obj.gz").mesh.triangles.size(), 400001u);
+  write_bytes(folder / "t.ply.gz",
+              gzip("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty "
+                   "float z\nelement face 1\nproperty list uchar int vertex_index\nend_header\n"
+                   "0 0 0 1 0 0 0 1 0 3 0 1 2"));
+  EXPECT_EQ(read_scene(folder / "t.ply.gz").objects, std::vector<std::string>{"t"});
+}
+
+TEST(ReadScene, FindsBrokenCompression) {
+  TemporaryDirectory folder;
+  const std::string good = gzip(kObj + std::string(100000, '#'));
+  const auto expect = [&](const std::string& bytes, const std::string& problem) {
+    write_bytes(folder / "bad.obj.gz", bytes);
+    expect_input_error([&] { read_scene(folder / "bad.obj.gz"); }, problem, "bad.obj.gz");
+  };
+  for (std::size_t size = 2; size < good.size(); ++size) expect(good.substr(0, size), "ends too early");
+  std::string bad = good;
+  bad[good.size() - 6] = static_cast<char>(bad[good.size() - 6] ^ 1);  // the check sum
+  expect(bad, "corrupt");
+  expect(good + "more", "corrupt");
+  expect(gzip(""), "compressed file is empty");
+  write_bytes(folder / "bad.stl.gz", gzip(std::string(80, ' ') + std::string("\1\0\0\0", 4)));
+  expect_input_error([&] { read_scene(folder / "bad.stl.gz"); }, "announces 1 facets",
+                     "byte 80 of the decompressed content");
+}
+
+TEST(ReadScene, StopsDecompressionAtItsLimit) {
+  TemporaryDirectory folder;
+  write_bytes(folder / "bomb.obj.gz", gzip(kObj + std::string(100000 - kObj.size(), '\n')));
+  scene::ReadLimits limits;
+  limits.decompressed_bytes = 100000;
+  EXPECT_EQ(scene::read_mesh_file(folder / "bomb.obj.gz", {}, limits).triangles.size(), 1u);
+  limits.decompressed_bytes = 99999;
+  expect_input_error([&] { scene::read_mesh_file(folder / "bomb.obj.gz", {}, limits); }, "grows beyond 99999 bytes",
+                     "bomb.obj.gz");
+}
+
+TEST(ReadScene, NamesFilesThatCannotBeRead) {
+  TemporaryDirectory folder;
+  const auto expect = [&](const std::string& name, const std::string& problem) {
+    expect_input_error([&] { read_scene(folder / name); }, problem, name);
+  };
+  expect("gone.obj", "does not exist");
+  expect("gone/gone.obj", "does not exist");
+  std::filesystem::create_directory(folder / "city.obj");
+  expect("city.obj", "is a directory");
+  write_bytes(folder / "empty.obj", "");
+  expect("empty.obj", "is empty");
+  ASSERT_EQ(::mkfifo((folder / "pipe.obj").c_str(), 0600), 0);
+  expect("pipe.obj", "not a regular file");
+  write_bytes(folder / "secret.obj", kObj);
+  std::filesystem::permissions(folder / "secret.obj", std::filesystem::perms::none);
+  if (::geteuid() != 0) expect("secret.obj", "cannot be opened");  // root may read everything
+  write_bytes(folder / "file", kObj);
+  expect("file/a.obj", "cannot be opened");
+}
+
+TEST(ReadScene, RefusesWrongScalesAndFarCoordinates) {
+  TemporaryDirectory folder;
+  write_bytes(folder / "a.obj", kObj);
+  for (const double scale :
+       {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    expect_input_error([&] { read_scene(folder / "a.obj", {.scale = scale}); }, "scale of a mesh must be positive",
+                       "a.obj");
+  }
+  expect_input_error([&] { read_scene(folder / "a.obj", {.scale = 1e9}); }, "more than 1000000 km from the origin",
+                     "a.obj");
+  expect_input_error([&] { read_scene(folder / "a.obj", {.scale = 1e308}); }, "more than 1000000 km", "a.obj");
+}
+
+/// Bytes changed, cut out, doubled: each file must be read, or refused with an input error.
+TEST(ReadScene, SurvivesMutations) {
+  const unsigned seed = 42;
+  std::mt19937 random(seed);
+  const std::string ply =
+      "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 1\nproperty list uchar int vertex_indices\nend_header\n" +
+      std::string(36, '\0') + '\3' + testing::bytes_of(0) + testing::bytes_of(1) + testing::bytes_of(2);
+  const std::string gltf =
+      R"({"asset":{"version":"2.0"},"nodes":[{"mesh":0,"translation":[1,2,3]}],"meshes":[{"primitives":[{"attributes":)"
+      R"({"POSITION":0}}]}],"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],"bufferViews":)"
+      R"([{"buffer":0,"byteLength":36}],"buffers":[{"byteLength":36,"uri":"data:;base64,)" +
+      std::string(48, 'A') + "\"}]}";
+  const std::string stl =
+      "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
+      "endsolid a\n";
+  int read = 0, refused = 0;
+  for (const std::string& original : {kObj, ply, gltf, stl}) {
+    EXPECT_EQ(testing::read_as("a", original).triangles.size(), 1u);
+    for (int trial = 0; trial < 20000; ++trial) {
+      std::string bytes = original;
+      for (unsigned change = random() % 3 + 1; change > 0 && !bytes.empty(); --change) {
+        const std::size_t at = random() % bytes.size(), length = random() % 9;
+        switch (random() % 4) {
+          case 0:
+            bytes[at] = static_cast<char>(random());
+            break;
+          case 1:
+            bytes[at] = "0123456789-. \n"[random() % 14];
+            break;
+          case 2:
+            bytes.erase(at, length);
+            break;
+          default:
+            bytes.insert(at, bytes.substr(random() % bytes.size(), length));
+        }
+      }
+      try {
+        testing::read_as("a", bytes);
+        ++read;
+      } catch (const Error& error) {
+        ASSERT_EQ(error.kind(), ErrorKind::input) << "seed " << seed << ": " << error.what();
+        ++refused;
+      }
+    }
+  }
+  EXPECT_GT(read, 1000);
+  EXPECT_GT(refused, 1000);
+}
+
+TEST(ReadScene, ReadsNumbersTheSameInAnyLocale) {
+  const char* const with_comma[] = {"de_DE.UTF-8", "de_DE.utf8", "fr_FR.UTF-8", "fr_FR.utf8"};
+  const bool found = std::any_of(std::begin(with_comma), std::end(with_comma),
+                                 [](const char* name) { return std::setlocale(LC_NUMERIC, name) != nullptr; });
+  if (!found) GTEST_SKIP() << "no locale with a decimal comma is installed";
+  const scene::RawMesh mesh = testing::read_as("a.obj", "v 0.5 1.5e-400 1.5e-320\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  std::setlocale(LC_NUMERIC, "C");
+  EXPECT_EQ(mesh.vertices[0], Vec3(0.5, 0, 1.5e-320));
+}
+
+TEST(ReadScene, ReportsProgressAndCanBeCancelled) {
+  TemporaryDirectory folder;
+  std::string large = kObj;
+  for (int i = 0; i < 300000; ++i) large += "v 0.1234567 4785000.123 88.8\nf 1 2 3\n";
+  write_bytes(folder / "large.obj.gz", gzip(large));
+  std::set<std::string> stages;
+  double last = 0;
+  read_scene(folder / "large.obj.gz", {}, [&](std::string_view stage, double fraction) {
+    if (stages.insert(std::string(stage)).second) last = 0;
+    EXPECT_GE(fraction, last);
+    EXPECT_LE(fraction, 1);
+    last = fraction;
+    return true;
+  });
+  EXPECT_EQ(stages, (std::set<std::string>{"read file", "decompress", "parse OBJ"}));
+  for (const std::string& stop : stages) {
+    try {
+      read_scene(folder / "large.obj.gz", {}, [&](std::string_view stage, double) { return stage != stop; });
+      ADD_FAILURE() << "not cancelled at " << stop;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::cancelled);
+    }
+  }
+}
+
+TEST(ReadMesh, WeldsAndTakesTheAxesOfEachFormat) {
+  TemporaryDirectory folder;
+  // A tetrahedron whose facets share no vertex, and one facet without area; 0 and -0 are the same place.
+  std::string stl = "solid t\n", obj;
+  const Vec3 corners[4] = {Vec3(0, 0, 0), Vec3(2, 0, 0), Vec3(0, 3, 0), Vec3(0, 0, 4)};
+  int count = 0;
+  const std::vector<std::array<int, 3>> facets = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}, {1, 1, 2}};
+  for (const auto& facet : facets) {
+    stl += "facet normal 0 0 0\nouter loop\n";
+    for (const int corner : facet) {
+      const Vec3& v = corners[corner];
+      const std::string minus = ++count % 2 == 0 ? "-" : "";
+      const auto number = [&](double value) { return (value == 0 ? minus : "") + std::to_string(value) + " "; };
+      stl += "vertex " + number(v.x()) + number(v.y()) + number(v.z()) + "\n";
+      obj += "v " + number(v.x()) + number(v.z()) + std::to_string(-v.y()) + "\n";  // y up
+    }
+    stl += "endloop\nendfacet\n";
+    obj += "f -3 -2 -1\n";
+  }
+  write_bytes(folder / "t.stl", stl + "endsolid\n");
+  write_bytes(folder / "t.obj", obj);
+  for (const Mesh& mesh :
+       {scene::read_mesh(folder / "t.stl", UpAxis::y), scene::read_mesh(folder / "t.obj", UpAxis::y)}) {
+    EXPECT_EQ(mesh.vertices.size(), 4u);
+    EXPECT_EQ(mesh.triangles.size(), 4u);
+    EXPECT_DOUBLE_EQ(enclosed_volume(mesh), 4);
+    EXPECT_EQ(bounding_box(mesh).max, Vec3(2, 3, 4));
+  }
+}
+
+// ---- real inputs -------------------------------------------------------------------------------------------------
+
+struct RealInput {
+  const char* file;
+  std::size_t triangles, objects;
+  const char* object;  // one of them
+};
+
+class ReadRealScene : public ::testing::TestWithParam<RealInput> {};
+
+TEST_P(ReadRealScene, HasItsTrianglesAndNames) {
+  const RealInput& input = GetParam();
+  VANTAGE_REQUIRE_SHARED(input.file);
+  const Scene scene = read_scene(shared_data(input.file));
+  EXPECT_EQ(scene.mesh.triangles.size(), input.triangles);
+  EXPECT_EQ(scene.object_of.size(), input.triangles);
+  EXPECT_EQ(scene.dropped_faces, 0u);
+  EXPECT_EQ(scene.objects.size(), input.objects);
+  EXPECT_EQ(std::count(scene.objects.begin(), scene.objects.end(), input.object), 1);
+  for (const Triangle& triangle : scene.mesh.triangles) {
+    for (const std::uint32_t corner : triangle) ASSERT_LT(corner, scene.mesh.vertices.size());
+  }
+  for (const std::uint32_t object : scene.object_of) ASSERT_LT(object, scene.objects.size());
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, ReadRealScene,
+    ::testing::Values(RealInput{"charlotte/uptownCharlotte.obj", 7890, 184, "Building1"},
+                      RealInput{"battcave/battcave.obj", 2183, 4, "terrain"},
+                      RealInput{"battcave/v_002.obj", 19196, 1, "object 0"},
+                      RealInput{"battcave/v_003.obj", 19196, 1, "object 0"},
+                      RealInput{"battcave/v_005.obj", 19196, 1, "object 0"},
+                      RealInput{"mesh/munich_merged.ply", 38938, 1, "munich_merged"},
+                      RealInput{"mesh/florence_merged.ply", 35373, 1, "florence_merged"},
+                      RealInput{"mesh/etoile_merged.ply", 13058, 1, "etoile_merged"},
+                      RealInput{"mesh/simple_street_canyon_merged.ply", 74, 1, "simple_street_canyon_merged"},
+                      RealInput{"mesh/openfoam-buildings.obj.gz", 400020, 1, "buildings11"},
+                      RealInput{"mesh/delft-3dfier.obj.gz", 88670, 570, "bedabd859-00c8-11e6-b420-2bdcc4ab5d7f"},
+                      RealInput{"mesh/delft-gltf/delft.gltf", 21801, 570, "b0a8da4cc-2d2a-11e6-9a38-393caa90be70"},
+                      RealInput{"mesh/tour_part_dieu_0.obj", 1176, 1, "object 0"}),
+    [](const ::testing::TestParamInfo<RealInput>& instance) {
+      std::string name = std::filesystem::path(instance.param.file).filename().string();
+      std::replace_if(
+          name.begin(), name.end(), [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
+      return name;
+    });
+
+TEST(ReadRealSceneValues, CoordinatesAreThoseOfTheFile) {
+  const std::string delft = "mesh/delft-3dfier.obj.gz", charlotte = "charlotte/uptownCharlotte.obj";
+  VANTAGE_REQUIRE_SHARED(delft);
+  VANTAGE_REQUIRE_SHARED(charlotte);
+  const Scene scene = read_scene(shared_data(delft));
+  EXPECT_EQ(scene.mesh.vertices[0], Vec3(85012.343, 447455.577, 0.00));
+  const Box box = bounding_box(read_scene(shared_data(charlotte), {.up = UpAxis::y}).mesh);
+  EXPECT_NEAR(box.min.z(), 0, 1e-15);  // the ground
+  EXPECT_GT(box.max.z(), 100);
+}
+
+}  // namespace
+}  // namespace vantage

@@ -1,0 +1,75 @@
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "support/mesh_reading.h"
+
+namespace vantage::scene {
+namespace {
+
+using testing::bytes_of;
+using testing::expect_input_error;
+using testing::read_as;
+
+using Names = std::vector<std::string>;
+
+const std::string kFacet =
+    "facet normal 0 0 1\n outer loop\n vertex 0 0 0\n vertex 1 0 0\n vertex 0 1 0.1\n endloop\nendfacet\n";
+
+/// A binary STL of `count` facets; `announced` of them by its header.
+std::string binary(std::uint32_t count, std::uint32_t announced, float z = 0.5f,
+                   const std::string& header = "made by hand") {
+  std::string bytes = header + std::string(80 - header.size(), ' ') + bytes_of(announced);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    for (const float value : {0.f, 0.f, 1.f, 0.f, 0.f, z, 1.f, 0.f, z, 0.f, 1.f, z}) bytes += bytes_of(value);
+    bytes += bytes_of(std::uint16_t{0});
+  }
+  return bytes;
+}
+
+void expect_error(const std::string& bytes, const std::string& problem, const std::string& where) {
+  expect_input_error([&] { read_as("bad.stl", bytes); }, problem, where);
+}
+
+TEST(ReadStl, ReadsTextWithItsSolids) {
+  const RawMesh mesh =
+      read_as("part.stl", "solid east wing\n" + kFacet + kFacet + "endsolid east wing\nsolid\r\n" + kFacet +
+                              "endsolid\nSOLID upper\nFACET NORMAL nan nan -1.#IND\nOUTER LOOP\n"
+                              "VERTEX 0 0 0 VERTEX 1 0 0 VERTEX 1 1 0 VERTEX 0 1 0\nENDLOOP ENDFACET "
+                              "ENDSOLID\n");
+  EXPECT_EQ(mesh.format, MeshFormat::stl);
+  EXPECT_EQ(mesh.objects, (Names{"east wing", "part", "upper"}));
+  EXPECT_EQ(mesh.object_of, (std::vector<std::uint32_t>{0, 0, 1, 2, 2}));
+  EXPECT_EQ(mesh.vertices[2], Vec3(0, 1, 0.1));
+}
+
+TEST(ReadStl, ReadsBinary) {
+  const RawMesh mesh = read_as("tower.stl", binary(2, 2));
+  EXPECT_EQ(mesh.triangles, (std::vector<Triangle>{{0, 1, 2}, {3, 4, 5}}));
+  EXPECT_EQ(mesh.vertices[4], Vec3(1, 0, 0.5));
+  EXPECT_EQ(mesh.objects, Names{"tower"});
+  // Some programs begin binary files with "solid" too; and the name does not matter.
+  EXPECT_EQ(read_as("a", binary(2, 2, 0.5f, "solid")).triangles.size(), 2u);
+}
+
+TEST(ReadStl, NamesThePlaceOfWhatIsWrong) {
+  expect_error(binary(2, 3), "announces 3 facets, which take 234 bytes, but has 184", "bad.stl, byte 80");
+  expect_error(binary(2, 4294967295u), "announces 4294967295 facets", "byte 80");
+  expect_error(binary(3, 2), "announces 2 facets", "byte 80");
+  expect_error(binary(2, 4, 0, "solid"), "announces 4 facets", "byte 80");
+  expect_error(std::string("solid\0", 6), "ends in its header", "byte 6");
+  expect_error("?", "ends in its header", "byte 1");
+  expect_error(binary(0, 0), "holds no triangles", "bad.stl");
+  expect_error(binary(2, 2, std::numeric_limits<float>::quiet_NaN()), "z coordinate of vertex 0 is not finite",
+               "byte 96");
+  expect_error("solid a\n" + kFacet, "ends within a solid", "line 9");
+  expect_error("solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 x", "\"x\" is no coordinate", "line 4");
+  expect_error("solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 inf", "not finite", "line 4");
+  expect_error("solid a\nfacet normal 0 0 1\nvertex 0 0 0", "\"vertex\" where \"outer\" belongs", "line 3");
+  expect_error("solid a\nfacette", "\"facette\" where \"facet\" or \"endsolid\" belongs", "line 2");
+  expect_error("solid a\nendsolid a\n", "holds no triangles", "bad.stl");
+  expect_error("solid a\n" + kFacet + "endsolid a\nrubbish\n", "\"rubbish\" where \"solid\" belongs", "line 10");
+}
+
+}  // namespace
+}  // namespace vantage::scene
