@@ -1,9 +1,13 @@
 #include "parallel/parallel.h"
 
 #include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/parallel_invoke.h>
 #include <oneapi/tbb/task_arena.h>
+
+#include <optional>
 
 namespace vantage::parallel {
 
@@ -21,6 +25,11 @@ void with_threads(int threads, const std::function<void()>& body) {
   if (threads <= 0) {
     body();
     return;
+  }
+  // More threads than processors must be allowed first, or oneTBB complains on standard error and ignores the wish.
+  std::optional<tbb::global_control> allowance;
+  if (threads > tbb::info::default_concurrency()) {
+    allowance.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
   }
   tbb::task_arena arena(threads);
   arena.execute(body);
