@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "vantage/constraints.h"
 #include "vantage/scene.h"
@@ -19,6 +21,8 @@ struct Mission {
   Sensor sensor;
   Navigation navigation;
   ExactOptions exact;
+  std::vector<std::filesystem::path> navigation_files;  ///< that navigation.meshes were read from, in the same order
+  std::string target_place;  ///< "mission.yaml:9:13": put in front of the place in errors about the target
 };
 
 /// Throws Error(input) with file, line and column for: a missing or unreadable file, YAML that does not parse, an

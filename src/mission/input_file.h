@@ -1,0 +1,16 @@
+// Files that users name: can they be read, and in which axes are they?
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace vantage::mission_io {
+
+/// Whether the name ends in .obj or .obj.gz, whatever the case of the letters.
+bool is_obj(const std::filesystem::path& file);
+
+/// Throws Error(input), with `where` and "file: ..." as the place, unless `file` exists, is no folder and no device,
+/// and may be read. `what` begins the message: "the scene's mesh".
+void check_readable(const std::filesystem::path& file, const std::string& what, const std::string& where);
+
+}  // namespace vantage::mission_io

@@ -1,0 +1,361 @@
+// docs/mission-file.md describes every key.
+#include "mission/mission_parser.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "mission/input_file.h"
+#include "mission/numbers.h"
+#include "mission/run_mission.h"
+#include "mission/schema.h"
+#include "vantage/error.h"
+
+namespace vantage::mission_io {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Largest length that a mission may state, in metres: beyond it a coordinate leaves the solar system's inner planets,
+/// and squares of lengths begin to lose the millimetres that the engine promises.
+constexpr double kMaxLength = 1e9;
+
+class MissionParser {
+ public:
+  explicit MissionParser(const fs::path& file) : path_(file), file_(file.string()) {}
+
+  ParsedMission parse(std::string_view text);
+
+ private:
+  // Sections.
+  void parse_scene(const YamlNode& node);
+  void parse_target(const YamlNode& node);
+  void parse_sensor(const YamlNode& node);
+  void parse_navigation(const YamlNode& node);
+  void parse_method(const YamlNode& node);
+  void parse_exact(const YamlNode& node);
+  MeshReference mesh_reference(const YamlNode& node, Section section);
+  Navigation::Altitude altitude(const YamlNode& node) const;
+  std::vector<Box> boxes(const YamlNode& node, const std::string& what) const;
+  Box box(const YamlNode& node, const std::string& what) const;
+  void check_extent(const YamlNode& node, const std::string& what, int axis, const Box& box) const;
+  void check_edges(const YamlNode& node, std::size_t vertex_count) const;
+  void check_target(const YamlNode& vertices);
+
+  // Values. `what` is the key as messages call it: "target.vertices[2]".
+  const YamlNode& require(const YamlNode& map, Section section, std::string_view key, const std::string& fix) const;
+  double number(const YamlNode& node, const std::string& what) const;
+  double length(const YamlNode& node, const std::string& what) const;
+  double positive(const YamlNode& node, const std::string& what) const;
+  Vec3 vector(const YamlNode& node, const std::string& what) const;
+  std::string text(const YamlNode& node, const std::string& what) const;
+  UpAxis up_axis(const YamlNode& node, const std::string& what) const;
+  const std::vector<YamlNode>& list(const YamlNode& node, const std::string& what, const std::string& fix) const;
+  [[noreturn]] void fail(const YamlNode& node, const std::string& problem, const std::string& fix) const {
+    fail_at(node, file_, problem, fix);
+  }
+
+  fs::path path_;
+  std::string file_;
+  ParsedMission parsed_;
+};
+
+const char* const kVectorForm = "write three numbers in brackets, in metres, z up: [x, y, z]";
+const char* const kBoxForm = "write each box as {min: [x, y, z], max: [x, y, z]}";
+
+std::string indexed(const std::string& what, std::size_t index) { return what + "[" + std::to_string(index) + "]"; }
+
+std::string edge_text(std::size_t from, std::size_t to) {
+  std::string text = "[";
+  text += std::to_string(from);
+  text += ", ";
+  text += std::to_string(to);
+  text += "]";
+  return text;
+}
+
+ParsedMission MissionParser::parse(std::string_view mission_text) {
+  const YamlNode root = parse_yaml(mission_text, file_);
+  check_keys(root, Section::mission, file_);
+  parsed_.mission.file = fs::absolute(path_).lexically_normal();
+
+  if (const YamlNode* method = find(root, "method")) parse_method(*method);
+  parse_scene(require(root, Section::mission, "scene", "write 'scene:' and below it, indented, 'mesh: city.obj'"));
+  parse_target(require(root, Section::mission, "target",
+                       "write 'target:' and below it, indented, 'vertices: [[x, y, z], [x, y, z], [x, y, z]]'"));
+  parse_sensor(
+      require(root, Section::mission, "sensor", "write 'sensor:' and below it, indented, 'max_range: 100' (metres)"));
+  if (const YamlNode* navigation = find(root, "navigation")) parse_navigation(*navigation);
+  if (const YamlNode* exact = find(root, "exact")) parse_exact(*exact);
+  return std::move(parsed_);
+}
+
+void MissionParser::parse_scene(const YamlNode& node) {
+  check_keys(node, Section::scene, file_);
+  parsed_.scene = mesh_reference(node, Section::scene);
+  parsed_.mission.scene_file = parsed_.scene.file;
+  parsed_.mission.scene_options = parsed_.scene.options;
+}
+
+MeshReference MissionParser::mesh_reference(const YamlNode& node, Section section) {
+  const std::string prefix = section == Section::scene ? "scene." : "navigation.meshes.";
+  const YamlNode& mesh =
+      require(node, section, "mesh", "write 'mesh: city.obj'; the path starts from the mission file");
+  MeshReference reference;
+  reference.name = text(mesh, prefix + "mesh");
+  reference.where = place_in(file_, mesh.place);
+  reference.file = (parsed_.mission.file.parent_path() / reference.name).lexically_normal();
+  // What `compute` writes must come back as a navigation mesh where it was: OBJ in the axes of the scene file, PLY and
+  // STL in the scene frame.
+  if (section == Section::mesh && is_obj(reference.file)) reference.options.up = parsed_.mission.scene_options.up;
+  if (const YamlNode* up = find(node, "up")) reference.options.up = up_axis(*up, prefix + "up");
+  if (const YamlNode* scale = find(node, "scale")) reference.options.scale = positive(*scale, prefix + "scale");
+  return reference;
+}
+
+void MissionParser::parse_target(const YamlNode& node) {
+  check_keys(node, Section::target, file_);
+  Target& target = parsed_.mission.target;
+  if (const YamlNode* name = find(node, "name")) target.name = text(*name, "target.name");
+  const YamlNode& vertices =
+      require(node, Section::target, "vertices", "write 'vertices: [[x, y, z], [x, y, z], [x, y, z]]', 3 to 64 points");
+  list(vertices, "target.vertices", "write 'vertices: [[x, y, z], [x, y, z], [x, y, z]]', 3 to 64 points");
+  for (std::size_t i = 0; i < vertices.items.size(); ++i) {
+    target.vertices.push_back(vector(vertices.items[i], indexed("target.vertices", i)));
+  }
+  if (const YamlNode* offset = find(node, "offset")) target.offset_m = length(*offset, "target.offset");
+  if (const YamlNode* front = find(node, "front")) target.front = vector(*front, "target.front");
+  check_target(vertices);
+  if (const YamlNode* edges = find(node, "edges")) check_edges(*edges, target.vertices.size());
+}
+
+/// The checks that need no scene, told with the place of the vertices.
+void MissionParser::check_target(const YamlNode& vertices) {
+  Mission& mission = parsed_.mission;
+  mission.target_place = place_in(file_, vertices.place);
+  with_place(mission.target_place, [&] { return make_target_frame(mission.target); });
+}
+
+/// The edges must be the polygon's own: each joins neighbours in `vertices`, none is missing, none stands twice. Which
+/// way round an edge or the whole list runs does not matter.
+void MissionParser::check_edges(const YamlNode& node, std::size_t vertex_count) const {
+  const std::string fix = "list the edges as [0, 1], [1, 2], ..., [" + std::to_string(vertex_count - 1) +
+                          ", 0], or leave 'edges' out: the vertices' order says it all";
+  list(node, "target.edges", "write pairs of vertex numbers, counted from 0: [[0, 1], [1, 2], [2, 0]]");
+  std::vector<const YamlNode*> edge_from(vertex_count, nullptr);  // the edge from vertex i to vertex i + 1
+  for (std::size_t i = 0; i < node.items.size(); ++i) {
+    const YamlNode& item = node.items[i];
+    const std::string what = indexed("target.edges", i);
+    if (list(item, what, "write a pair of vertex numbers, such as [0, 1]").size() != 2) {
+      fail(item, what + " must be a pair of vertex numbers, not " + describe(item), fix);
+    }
+    std::size_t ends[2];
+    for (std::size_t k = 0; k < 2; ++k) {
+      const double value = number(item.items[k], what);
+      if (value < 0 || value >= static_cast<double>(vertex_count) || value != std::floor(value)) {
+        fail(item.items[k],
+             what + " names vertex " + shortest(value) + ", but the vertices are 0 to " +
+                 std::to_string(vertex_count - 1),
+             fix);
+      }
+      ends[k] = static_cast<std::size_t>(value);
+    }
+    const std::string pair = edge_text(ends[0], ends[1]);
+    const bool is_forward = (ends[0] + 1) % vertex_count == ends[1];
+    const bool is_backward = (ends[1] + 1) % vertex_count == ends[0];
+    if (!is_forward && !is_backward) {
+      fail(item, "target.edges and target.vertices disagree: edge " + pair + " joins vertices that are not neighbours",
+           fix);
+    }
+    const YamlNode*& seen = edge_from[is_forward ? ends[0] : ends[1]];
+    if (seen != nullptr) fail(item, "target.edges lists the edge " + pair + " twice", fix);
+    seen = &item;
+  }
+  const auto missing = std::find(edge_from.begin(), edge_from.end(), nullptr);
+  if (missing != edge_from.end()) {
+    const auto from = static_cast<std::size_t>(missing - edge_from.begin());
+    fail(
+        node,
+        "target.edges and target.vertices disagree: edge " + edge_text(from, (from + 1) % vertex_count) + " is missing",
+        fix);
+  }
+}
+
+void MissionParser::parse_sensor(const YamlNode& node) {
+  check_keys(node, Section::sensor, file_);
+  const YamlNode& range =
+      require(node, Section::sensor, "max_range", "write 'max_range: 100': metres, to every point of the target");
+  parsed_.mission.sensor.max_range_m = positive(range, "sensor.max_range");
+}
+
+void MissionParser::parse_navigation(const YamlNode& node) {
+  if (node.kind == YamlNode::Kind::null) return;  // the heading alone: no limits
+  check_keys(node, Section::navigation, file_);
+  Navigation& navigation = parsed_.mission.navigation;
+  if (const YamlNode* band = find(node, "altitude")) navigation.altitude = altitude(*band);
+  if (const YamlNode* keep_in = find(node, "boxes")) {
+    navigation.boxes = boxes(*keep_in, "navigation.boxes");
+    // "Cut to the union of no boxes" would leave nothing, and "no limit" is not what the key says either.
+    if (navigation.boxes.empty()) {
+      fail(*keep_in, "navigation.boxes is an empty list", "give at least one box, or leave the key out for no limit");
+    }
+  }
+  if (const YamlNode* keep_out = find(node, "keep_out")) {
+    navigation.keep_out = boxes(*keep_out, "navigation.keep_out");
+  }
+  const YamlNode* meshes = find(node, "meshes");
+  if (meshes == nullptr) return;
+  for (const YamlNode& item : list(*meshes, "navigation.meshes", "write a list of mesh files: [airspace.ply]")) {
+    if (item.kind == YamlNode::Kind::map) {
+      check_keys(item, Section::mesh, file_);
+      parsed_.navigation_meshes.push_back(mesh_reference(item, Section::mesh));
+      continue;
+    }
+    YamlNode map;  // the short form, a path alone
+    map.kind = YamlNode::Kind::map;
+    map.place = item.place;
+    map.entries.push_back({"mesh", item.place, item});
+    parsed_.navigation_meshes.push_back(mesh_reference(map, Section::mesh));
+  }
+}
+
+Navigation::Altitude MissionParser::altitude(const YamlNode& node) const {
+  const std::string form = "write the lowest and the highest altitude in metres: [20, 120]";
+  if (list(node, "navigation.altitude", form).size() != 2) {
+    fail(node, "navigation.altitude must be two numbers, not " + describe(node), form);
+  }
+  const double low = length(node.items[0], "navigation.altitude[0]");
+  const double high = length(node.items[1], "navigation.altitude[1]");
+  if (low > high) {
+    fail(node, "navigation.altitude is reversed: " + shortest(low) + " is above " + shortest(high),
+         "write the lower altitude first: [" + shortest(high) + ", " + shortest(low) + "]");
+  }
+  if (low == high) {
+    fail(node, "navigation.altitude holds no air: both limits are " + shortest(low), form);
+  }
+  return {low, high};
+}
+
+std::vector<Box> MissionParser::boxes(const YamlNode& node, const std::string& what) const {
+  std::vector<Box> result;
+  list(node, what, std::string("write a list of boxes, each {min: [x, y, z], max: [x, y, z]}"));
+  for (std::size_t i = 0; i < node.items.size(); ++i) result.push_back(box(node.items[i], indexed(what, i)));
+  return result;
+}
+
+Box MissionParser::box(const YamlNode& node, const std::string& what) const {
+  if (node.kind != YamlNode::Kind::map) fail(node, what + " must be a mapping, not " + describe(node), kBoxForm);
+  check_keys(node, Section::box, file_);
+  const YamlNode& min = require(node, Section::box, "min", kBoxForm);
+  const YamlNode& max = require(node, Section::box, "max", kBoxForm);
+  Box result;
+  result.min = vector(min, what + ".min");
+  result.max = vector(max, what + ".max");
+  for (int axis = 0; axis < 3; ++axis) check_extent(node, what, axis, result);
+  return result;
+}
+
+void MissionParser::check_extent(const YamlNode& node, const std::string& what, int axis, const Box& box) const {
+  if (box.min[axis] < box.max[axis]) return;
+  const bool is_reversed = box.min[axis] > box.max[axis];
+  const std::string name(1, "xyz"[axis]), low = shortest(box.min[axis]), high = shortest(box.max[axis]);
+  fail(node, what + (is_reversed ? " is reversed in " : " is flat in ") + name + ": min " + low + ", max " + high,
+       is_reversed ? "swap the two " + name + " values" : "give min and max different " + name + " values");
+}
+
+void MissionParser::parse_method(const YamlNode& node) {
+  const std::string method = text(node, "method");
+  if (method == "exact") return;
+  fail(node, "there is no method " + in_quotes(method), "write 'method: exact'; it is the only method so far");
+}
+
+void MissionParser::parse_exact(const YamlNode& node) {
+  check_keys(node, Section::exact, file_);
+  if (const YamlNode* tolerance = find(node, "tolerance")) {
+    parsed_.mission.exact.tolerance_m = positive(*tolerance, "exact.tolerance");
+  }
+}
+
+const YamlNode& MissionParser::require(const YamlNode& map, Section section, std::string_view key,
+                                       const std::string& fix) const {
+  if (const YamlNode* node = find(map, key)) return *node;
+  fail(map, std::string(section_name(section)) + " lacks the key '" + std::string(key) + "'", fix);
+}
+
+double MissionParser::number(const YamlNode& node, const std::string& what) const {
+  if (node.kind != YamlNode::Kind::scalar || node.is_quoted) {
+    fail(node, what + " must be a number, not " + describe(node), "write a plain decimal number, such as 12.5");
+  }
+  const ParsedNumber parsed = parse_number(node.text);
+  switch (parsed.fault) {
+    case NumberFault::none:
+      return parsed.value;
+    case NumberFault::not_finite:
+      fail(node, what + " is not finite: " + in_quotes(node.text), number_advice(node.text, parsed.fault));
+    case NumberFault::out_of_range:
+      fail(node, what + " is beyond what a double holds: " + in_quotes(node.text),
+           number_advice(node.text, parsed.fault));
+    case NumberFault::not_a_number:
+      break;
+  }
+  fail(node, what + " must be a number, not " + in_quotes(node.text), number_advice(node.text, parsed.fault));
+}
+
+double MissionParser::length(const YamlNode& node, const std::string& what) const {
+  const double value = number(node, what);
+  if (std::abs(value) > kMaxLength) {
+    fail(node, what + " is too large: " + shortest(value) + ", at most " + shortest(kMaxLength),
+         "lengths are in metres; far from the origin use a local frame");
+  }
+  return value;
+}
+
+double MissionParser::positive(const YamlNode& node, const std::string& what) const {
+  const double value = length(node, what);
+  if (value <= 0) fail(node, what + " must be greater than 0, not " + shortest(value), "write a positive number");
+  return value;
+}
+
+Vec3 MissionParser::vector(const YamlNode& node, const std::string& what) const {
+  if (node.kind != YamlNode::Kind::sequence || node.items.size() != 3) {
+    fail(node, what + " must be three numbers, not " + describe(node), kVectorForm);
+  }
+  Vec3 result;
+  for (int axis = 0; axis < 3; ++axis) {
+    result[axis] = length(node.items[static_cast<std::size_t>(axis)], what + "." + "xyz"[axis]);
+  }
+  return result;
+}
+
+std::string MissionParser::text(const YamlNode& node, const std::string& what) const {
+  if (node.kind != YamlNode::Kind::scalar || node.text.empty()) {
+    fail(node, what + " must be a text, not " + (node.kind == YamlNode::Kind::scalar ? "empty" : describe(node)),
+         "write a word; put it in quotes if it holds blanks, colons or brackets");
+  }
+  const bool has_control = std::any_of(node.text.begin(), node.text.end(),
+                                       [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; });
+  if (has_control) {
+    fail(node, what + " holds a control character: " + in_quotes(node.text), "write it without tabs and line breaks");
+  }
+  return node.text;
+}
+
+UpAxis MissionParser::up_axis(const YamlNode& node, const std::string& what) const {
+  const std::string axis = text(node, what);
+  if (axis == "y") return UpAxis::y;
+  if (axis == "z") return UpAxis::z;
+  fail(node, what + " must be y or z, not " + in_quotes(axis), "write the axis of the file that points up: y or z");
+}
+
+const std::vector<YamlNode>& MissionParser::list(const YamlNode& node, const std::string& what,
+                                                 const std::string& fix) const {
+  if (node.kind != YamlNode::Kind::sequence) fail(node, what + " must be a list, not " + describe(node), fix);
+  return node.items;
+}
+
+}  // namespace
+
+ParsedMission parse_mission(std::string_view text, const fs::path& file) { return MissionParser(file).parse(text); }
+
+}  // namespace vantage::mission_io

@@ -1,0 +1,32 @@
+// The mission file's text -> Mission, without touching any other file.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "mission/yaml_tree.h"
+#include "vantage/mission.h"
+
+namespace vantage::mission_io {
+
+/// A mesh file that a mission names.
+struct MeshReference {
+  std::filesystem::path file;  ///< absolute
+  std::string name;            ///< as written in the mission
+  SceneReadOptions options;
+  std::string where;  ///< "mission.yaml:12:13", for messages
+};
+
+struct ParsedMission {
+  Mission mission;      ///< complete but for the navigation meshes
+  MeshReference scene;  ///< the same file as mission.scene_file
+  std::vector<MeshReference> navigation_meshes;
+};
+
+/// Parses and checks the text of a mission file. `file` gives the folder that relative paths start from and the name in
+/// messages; it is not opened. Throws as read_mission does, but for what only the named files can tell.
+ParsedMission parse_mission(std::string_view text, const std::filesystem::path& file);
+
+}  // namespace vantage::mission_io

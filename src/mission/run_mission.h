@@ -1,0 +1,33 @@
+// compute_mission, and what else the program wants to know of the run.
+#pragma once
+
+#include <string>
+
+#include "vantage/error.h"
+#include "vantage/mission.h"
+
+namespace vantage::mission_io {
+
+struct MissionRun {
+  Volume volume;
+  SceneStatistics scene;        ///< what preparing found
+  UpAxis scene_up = UpAxis::z;  ///< axes of the scene file, for OBJ
+};
+
+/// As compute_mission.
+MissionRun run_mission(const Mission& mission, const Progress& progress);
+
+/// Calls `action` and returns what it returns. An Error(input) from it is thrown on with `place` (of the mission file)
+/// put in front of its own `where`: the engine knows the objects, but not the file that named the target.
+template <typename Action>
+auto with_place(const std::string& place, const Action& action) {
+  try {
+    return action();
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::input || place.empty()) throw;
+    throw Error(error.kind(), error.problem(), error.where().empty() ? place : place + ", " + error.where(),
+                error.fix());
+  }
+}
+
+}  // namespace vantage::mission_io

@@ -1,0 +1,492 @@
+// The mission file: what it means, and what is said when it is wrong.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <sstream>
+#include <string>
+
+#include "mission/mission_parser.h"
+#include "mission/nearest_name.h"
+#include "mission/numbers.h"
+#include "mission/yaml_tree.h"
+#include "vantage/error.h"
+#include "vantage/mission.h"
+
+namespace vantage {
+namespace {
+
+namespace fs = std::filesystem;
+using mission_io::NumberFault;
+using mission_io::parse_mission;
+using mission_io::parse_number;
+using mission_io::ParsedMission;
+
+constexpr const char* kScene = "scene:\n  mesh: city.obj\n";
+constexpr const char* kTarget = "target:\n  vertices: [[0, 0, 0], [10, 0, 0], [10, 10, 0], [0, 10, 0]]\n";
+constexpr const char* kSensor = "sensor:\n  max_range: 100\n";
+
+/// A mission of the four texts; the first three default to right ones.
+std::string mission_text(const std::string& rest, const std::string& target = kTarget,
+                         const std::string& sensor = kSensor, const std::string& scene = kScene) {
+  return scene + target + sensor + rest;
+}
+
+std::string with_navigation(const std::string& line) { return mission_text("navigation:\n  " + line + "\n"); }
+std::string with_sensor(const std::string& line) { return mission_text("", kTarget, "sensor:\n  " + line + "\n"); }
+std::string with_scene(const std::string& line) {
+  return mission_text("", kTarget, kSensor, "scene:\n  " + line + "\n");
+}
+std::string with_vertices(const std::string& vertices) {
+  return mission_text("", "target:\n  vertices: " + vertices + "\n");
+}
+/// A right target with one more line.
+std::string with_target(const std::string& line) { return mission_text("", std::string(kTarget) + "  " + line + "\n"); }
+
+Mission parse(const std::string& text) { return parse_mission(text, "folder/mission.yaml").mission; }
+
+/// The Error(input) that the text brings; fails the test when there is none.
+Error refusal(const std::string& text) {
+  try {
+    parse(text);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::input);
+    EXPECT_FALSE(error.problem().empty());
+    EXPECT_FALSE(error.fix().empty()) << error.problem();
+    EXPECT_EQ(error.problem().find('\n'), std::string::npos);
+    return error;
+  }
+  ADD_FAILURE() << "no error for:\n" << text;
+  return Error(ErrorKind::internal, "", "", "");
+}
+
+void expect_refusal(const std::string& text, const std::string& problem, const std::string& where,
+                    const std::string& fix = "") {
+  const Error error = refusal(text);
+  EXPECT_NE(error.problem().find(problem), std::string::npos) << error.problem() << "\nfor\n" << text;
+  EXPECT_NE(error.where().find("folder/mission.yaml"), std::string::npos) << error.where();
+  EXPECT_NE((error.where() + ",").find("mission.yaml" + where), std::string::npos)
+      << error.where() << " is not " << where << ": " << error.problem();
+  EXPECT_NE(error.fix().find(fix), std::string::npos) << error.fix() << "\nfor\n" << text;
+}
+
+TEST(Mission, ReadsEveryKey) {
+  const ParsedMission parsed = parse_mission(R"(
+scene: {mesh: ../city.obj, up: y, scale: 0.5}
+target:
+  name: "plaza, north"
+  vertices: [[0, 0, 1], [10, 0, 1], [0, 10, +1.0e0]]
+  edges: [[1, 0], [1, 2], [0, 2]]
+  offset: 0.25
+  front: [0, 0, -2]
+sensor: {max_range: 1.5e2}
+navigation:
+  altitude: [-20, 120]
+  boxes: [{min: [0, 1, 2], max: [3, 4, 5]}, {max: [1, 1, 1], min: [.5, .5, .5]}]
+  keep_out: [{min: [6, 7, 8], max: [9, 10, 11]}]
+  meshes: [airspace.ply, zone.obj, {mesh: old.OBJ.gz, up: z, scale: 2}]
+method: exact
+exact: {tolerance: 0.02}
+)",
+                                             "/data/missions/plaza.yaml");
+  const Mission& mission = parsed.mission;
+  EXPECT_EQ(mission.file, "/data/missions/plaza.yaml");
+  EXPECT_EQ(mission.scene_file, "/data/city.obj");
+  EXPECT_EQ(mission.scene_options.up, UpAxis::y);
+  EXPECT_EQ(mission.scene_options.scale, 0.5);
+  EXPECT_EQ(mission.target.name, "plaza, north");
+  ASSERT_EQ(mission.target.vertices.size(), 3U);
+  EXPECT_EQ(mission.target.vertices[2], Vec3(0, 10, 1));
+  EXPECT_EQ(mission.target.offset_m, 0.25);
+  ASSERT_TRUE(mission.target.front.has_value());
+  EXPECT_EQ(*mission.target.front, Vec3(0, 0, -2));
+  EXPECT_EQ(mission.target_place, "/data/missions/plaza.yaml:5:13");
+  EXPECT_EQ(mission.sensor.max_range_m, 150);
+  ASSERT_TRUE(mission.navigation.altitude.has_value());
+  EXPECT_EQ(mission.navigation.altitude->min_m, -20);
+  EXPECT_EQ(mission.navigation.altitude->max_m, 120);
+  ASSERT_EQ(mission.navigation.boxes.size(), 2U);
+  EXPECT_EQ(mission.navigation.boxes[0].max, Vec3(3, 4, 5));
+  EXPECT_EQ(mission.navigation.boxes[1].min, Vec3(.5, .5, .5));
+  ASSERT_EQ(mission.navigation.keep_out.size(), 1U);
+  EXPECT_EQ(mission.navigation.keep_out[0].min, Vec3(6, 7, 8));
+  EXPECT_EQ(mission.exact.tolerance_m, 0.02);
+
+  ASSERT_EQ(parsed.navigation_meshes.size(), 3U);
+  EXPECT_EQ(parsed.navigation_meshes[0].file, "/data/missions/airspace.ply");
+  EXPECT_EQ(parsed.navigation_meshes[0].name, "airspace.ply");
+  EXPECT_EQ(parsed.navigation_meshes[0].options.up, UpAxis::z) << "PLY is in the scene frame";
+  EXPECT_EQ(parsed.navigation_meshes[0].options.scale, 1.0) << "the scene's scale is the scene's alone";
+  EXPECT_EQ(parsed.navigation_meshes[1].options.up, UpAxis::y) << "OBJ is in the axes of the scene file";
+  EXPECT_EQ(parsed.navigation_meshes[2].options.up, UpAxis::z) << "unless it says otherwise";
+  EXPECT_EQ(parsed.navigation_meshes[2].options.scale, 2);
+}
+
+TEST(Mission, HasDefaults) {
+  const Mission mission = parse(mission_text(""));
+  EXPECT_EQ(mission.scene_options.up, UpAxis::z);
+  EXPECT_EQ(mission.scene_options.scale, 1.0);
+  EXPECT_EQ(mission.target.name, "target");
+  EXPECT_EQ(mission.target.offset_m, 0.0);
+  EXPECT_FALSE(mission.target.front.has_value());
+  EXPECT_TRUE(mission.navigation.empty());
+  EXPECT_EQ(mission.exact.tolerance_m, ExactOptions{}.tolerance_m);
+  EXPECT_EQ(mission.exact.threads, 0);
+  EXPECT_TRUE(mission.file.is_absolute());
+  EXPECT_EQ(mission.scene_file, mission.file.parent_path() / "city.obj");
+  EXPECT_TRUE(parse(mission_text("navigation:\n")).navigation.empty()) << "the heading alone is no limit";
+}
+
+TEST(Mission, AcceptsAByteOrderMarkAndWindowsLineEnds) {
+  std::string text = "\xEF\xBB\xBF" + mission_text("");
+  for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 2) text.insert(at, 1, '\r');
+  EXPECT_EQ(parse(text).target.vertices.size(), 4U);
+}
+
+TEST(Mission, AcceptsEdgesInAnyOrderAndTurn) {
+  for (const char* edges : {"[[0, 1], [1, 2], [2, 3], [3, 0]]", "[[3, 2], [2, 1], [1, 0], [0, 3]]",
+                            "[[2, 3], [1, 0], [0, 3], [1, 2]]", "[[0.0, 1], [1, 2], [2, 3], [3, 0]]"}) {
+    EXPECT_NO_THROW(parse(with_target(std::string("edges: ") + edges))) << edges;
+  }
+}
+
+TEST(MissionErrors, UnknownKeysNameTheNearest) {
+  expect_refusal(with_sensor("max_rnage: 100"), "unknown key 'max_rnage' in sensor", ":6:3", "'max_range'");
+  expect_refusal(mission_text("navigaton: {altitude: [1, 2]}"), "unknown key 'navigaton'", ":7:1", "'navigation'");
+  expect_refusal(with_scene("Mesh: city.obj"), "unknown key 'Mesh' in scene", ":2:3", "'mesh'");
+  expect_refusal(with_target("edge: []"), "unknown key 'edge' in target", ":5:3", "'edges'");
+  expect_refusal(with_navigation("keepout: []"), "unknown key 'keepout' in navigation", ":8:3", "'keep_out'");
+  expect_refusal(with_navigation("boxes: [{min: [0, 0, 0], mix: [1, 1, 1]}]"), "unknown key 'mix' in a box", ":8:28");
+  expect_refusal(with_navigation("meshes: [{mesh: a.ply, units: m}]"), "unknown key 'units'", ":8:26");
+  expect_refusal(mission_text("exact: {tolerence: 1}"), "unknown key 'tolerence' in exact", ":7:9", "'tolerance'");
+  expect_refusal(mission_text("<<: 1"), "unknown key '<<'", ":7:1");
+  expect_refusal(mission_text("x\xC3\xA9: 1"), "unknown key 'x\xC3\xA9'", ":7:1");
+  expect_refusal(mission_text("\"a\\e[31m\\n\": 1"), "unknown key 'a?[31m?'", ":7:1");
+  expect_refusal(mission_text(std::string(500, 'k') + ": 1"), "unknown key 'kkk", ":7:1");
+}
+
+TEST(MissionErrors, MisplacedKeysNameTheirSection) {
+  expect_refusal(with_sensor("altitude: [1, 2]"), "unknown key 'altitude' in sensor", ":6:3", "belongs to navigation");
+  expect_refusal(mission_text("max_range: 3"), "unknown key 'max_range' in the mission", ":7:1", "belongs to sensor");
+}
+
+TEST(MissionErrors, KeysGivenTwice) {
+  expect_refusal(with_sensor("max_range: 1\n  max_range: 2"), "key 'max_range' is given twice", ":7:3", "line 6");
+  expect_refusal(mission_text(kSensor), "key 'sensor' is given twice", ":7:1", "line 5");
+}
+
+TEST(MissionErrors, MissingKeysSayWhatToWrite) {
+  expect_refusal(std::string(kTarget) + kSensor, "lacks the key 'scene'", ":1:1", "mesh: city.obj");
+  expect_refusal(std::string(kScene) + kSensor, "lacks the key 'target'", ":1:1", "vertices: [[x, y, z]");
+  expect_refusal(std::string(kScene) + kTarget, "lacks the key 'sensor'", ":1:1", "max_range: 100");
+  expect_refusal(with_scene("up: y"), "scene lacks the key 'mesh'", ":2:3", "mesh: city.obj");
+  expect_refusal(mission_text("", "target: {name: a}\n"), "target lacks the key 'vertices'", ":3:9", "vertices: [[");
+  expect_refusal(mission_text("", kTarget, "sensor: {}\n"), "sensor lacks the key 'max_range'", ":5:9",
+                 "max_range: 100");
+  expect_refusal(with_navigation("boxes: [{min: [0, 0, 0]}]"), "a box lacks the key 'max'", ":8:11", "{min:");
+  expect_refusal(mission_text("", kTarget, "sensor:\n"), "sensor must be a mapping of keys, not nothing", ":5:1");
+}
+
+TEST(MissionErrors, WrongTypes) {
+  expect_refusal("- 1\n- 2\n", "the mission must be a mapping of keys, not a list of 2", ":1:1");
+  expect_refusal("just words", "the mission must be a mapping", ":1:1");
+  expect_refusal(mission_text("", kTarget, kSensor, "scene: city.obj\n"), "scene must be a mapping", ":1:8");
+  expect_refusal(with_scene("mesh: [a, b]"), "scene.mesh must be a text, not a list of 2", ":2:9");
+  expect_refusal(with_scene("mesh: ''"), "scene.mesh must be a text, not empty", ":2:9");
+  expect_refusal(with_scene("mesh: ~"), "scene.mesh must be a text, not nothing", ":2:3");
+  expect_refusal(with_scene("mesh: \"a\\0b\""), "scene.mesh holds a control character", ":2:9");
+  expect_refusal(with_scene("mesh: a\n  up: x"), "scene.up must be y or z, not 'x'", ":3:7");
+  expect_refusal(with_scene("mesh: a\n  up: [y]"), "scene.up must be a text", ":3:7");
+  expect_refusal(with_scene("mesh: a\n  scale: big"), "scene.scale must be a number, not 'big'", ":3:10");
+  expect_refusal(with_scene("mesh: a\n  scale: 0"), "scene.scale must be greater than 0", ":3:10");
+  expect_refusal(with_target("name: [a]"), "target.name must be a text", ":5:9");
+  expect_refusal(with_target("offset: high"), "target.offset must be a number", ":5:11");
+  expect_refusal(with_target("front: up"), "target.front must be three numbers", ":5:10", "[x, y, z]");
+  expect_refusal(with_target("front: [0, 1]"), "target.front must be three numbers, not a list of 2", ":5:10");
+  expect_refusal(with_vertices("3"), "target.vertices must be a list, not '3'", ":4:13");
+  expect_refusal(with_vertices("[[0, 0, 0], [1, 0], [0, 1, 0]]"), "target.vertices[1] must be three numbers", ":4:25");
+  expect_refusal(with_vertices("[[0, 0, 0], [1, 0, 0, 0], [0, 1, 0]]"), "not a list of 4", ":4:25");
+  expect_refusal(with_vertices("[[0, 0, 0], [1, 0, a], [0, 1, 0]]"), "target.vertices[1].z must be a number", ":4:32");
+  expect_refusal(with_sensor("max_range: \"100\""), "must be a number, not the text '100'", ":6:14");
+  expect_refusal(with_sensor("max_range: [100]"), "must be a number, not a list of 1", ":6:14");
+  expect_refusal(with_sensor("max_range: true"), "must be a number, not 'true'", ":6:14");
+  expect_refusal(with_navigation("altitude: 20"), "navigation.altitude must be a list", ":8:13", "[20, 120]");
+  expect_refusal(with_navigation("altitude: [20]"), "must be two numbers, not a list of 1", ":8:13");
+  expect_refusal(with_navigation("boxes: {min: [0, 0, 0], max: [1, 1, 1]}"), "navigation.boxes must be a list", ":8:");
+  expect_refusal(with_navigation("boxes: [1]"), "navigation.boxes[0] must be a mapping, not '1'", ":8:11");
+  expect_refusal(with_navigation("boxes: []"), "navigation.boxes is an empty list", ":8:10");
+  expect_refusal(with_navigation("meshes: a.ply"), "navigation.meshes must be a list", ":8:11", "[airspace.ply]");
+  expect_refusal(with_navigation("meshes: [[a.ply]]"), "must be a text, not a list of 1", ":8:12");
+  expect_refusal(mission_text("navigation: 3"), "navigation must be a mapping", ":7:13");
+  expect_refusal(mission_text("exact: fine"), "exact must be a mapping", ":7:8");
+  expect_refusal(mission_text("exact: {tolerance: -1}"), "exact.tolerance must be greater than 0", ":7:20");
+}
+
+TEST(MissionErrors, Methods) {
+  EXPECT_NO_THROW(parse(mission_text("method: exact")));
+  expect_refusal(mission_text("method: spheres"), "there is no method 'spheres'", ":7:9", "method: exact");
+  expect_refusal(mission_text("method:"), "method must be a text, not nothing", ":7:");
+}
+
+TEST(MissionErrors, NumbersThatAreNone) {
+  expect_refusal(with_sensor("max_range: 1_000"), "must be a number, not '1_000'", ":6:14", "without underscores");
+  expect_refusal(with_sensor("max_range: 0x10"), "must be a number, not '0x10'", ":6:14", "decimal digits");
+  expect_refusal(with_sensor("max_range: 0o17"), "must be a number, not '0o17'", ":6:14", "decimal digits");
+  expect_refusal(with_sensor("max_range: 1:30"), "must be a number, not '1:30'", ":6:14");
+  expect_refusal(with_sensor("max_range: 1,5"), "must be a number, not '1,5'", ":6:14", "decimal point");
+  expect_refusal(with_sensor("max_range: 100m"), "must be a number, not '100m'", ":6:14", "metres");
+  expect_refusal(with_sensor("max_range: 100 m"), "must be a number, not '100 m'", ":6:14", "metres");
+  for (const char* text : {".inf", "-.Inf", "+.INF", ".nan", ".NaN", "nan", "inf", "-Infinity"}) {
+    expect_refusal(with_sensor(std::string("max_range: ") + text), "is not finite", ":6:14", "finite");
+    expect_refusal(with_vertices(std::string("[[0, 0, 0], [1, ") + text + ", 0], [0, 1, 0]]"), "is not finite", ":4:29",
+                   "finite");
+  }
+  expect_refusal(with_sensor("max_range: 1e400"), "beyond what a double holds", ":6:14");
+  expect_refusal(with_sensor("max_range: 1e-400"), "beyond what a double holds", ":6:14");
+  expect_refusal(with_sensor("max_range: 1e300"), "too large", ":6:14");
+  expect_refusal(with_vertices("[[0, 0, 0], [1, -2e9, 0], [0, 1, 0]]"), "target.vertices[1].y is too large", ":4:29");
+}
+
+TEST(MissionErrors, Ranges) {
+  expect_refusal(with_sensor("max_range: 0"), "sensor.max_range must be greater than 0, not 0", ":6:14");
+  expect_refusal(with_sensor("max_range: -0.0"), "sensor.max_range must be greater than 0", ":6:14");
+  expect_refusal(with_sensor("max_range: -5"), "sensor.max_range must be greater than 0, not -5", ":6:14");
+  expect_refusal(with_sensor("max_range:"), "must be a number, not nothing", ":6:3");
+}
+
+TEST(MissionErrors, ReversedLimits) {
+  expect_refusal(with_navigation("altitude: [120, 20]"), "navigation.altitude is reversed: 120 is above 20", ":8:13",
+                 "[20, 120]");
+  expect_refusal(with_navigation("altitude: [20, 20]"), "holds no air", ":8:13");
+  expect_refusal(with_navigation("boxes: [{min: [0, 5, 0], max: [1, 4, 1]}]"),
+                 "navigation.boxes[0] is reversed in y: min 5, max 4", ":8:11", "swap the two y values");
+  expect_refusal(with_navigation("keep_out: [{min: [0, 0, 0], max: [1, 1, 1]}, {min: [0, 0, 2], max: [1, 1, 1]}]"),
+                 "navigation.keep_out[1] is reversed in z", ":8:48");
+  expect_refusal(with_navigation("keep_out: [{min: [0, 0, 0], max: [1, 0, 1]}]"), "is flat in y", ":8:14");
+}
+
+TEST(MissionErrors, EdgesThatDisagree) {
+  expect_refusal(with_target("edges: [[0, 2], [2, 1], [1, 3], [3, 0]]"), "edge [0, 2] joins vertices that are not",
+                 ":5:11");
+  expect_refusal(with_target("edges: [[0, 1], [1, 2], [2, 3]]"), "edge [3, 0] is missing", ":5:10");
+  expect_refusal(with_target("edges: []"), "edge [0, 1] is missing", ":5:10");
+  expect_refusal(with_target("edges: [[0, 1], [1, 2], [2, 3], [1, 0]]"), "the edge [1, 0] twice", ":5:35");
+  expect_refusal(with_target("edges: [[0, 1], [1, 2], [2, 3], [3, 4]]"), "names vertex 4, but the vertices are 0 to 3",
+                 ":5:39");
+  expect_refusal(with_target("edges: [[0, 1], [1, 2], [2, 3], [3, -1]]"), "names vertex -1", ":5:39");
+  expect_refusal(with_target("edges: [[0, 1], [1, 2], [2, 3], [3, 0.5]]"), "names vertex 0.5", ":5:39");
+  expect_refusal(with_target("edges: [[0, 1], [1, 1], [2, 3], [3, 0]]"), "edge [1, 1] joins", ":5:19");
+  expect_refusal(with_target("edges: [[0, 1, 2]]"), "must be a pair of vertex numbers", ":5:11");
+  expect_refusal(with_target("edges: [0, 1]"), "target.edges[0] must be a list", ":5:11");
+  expect_refusal(with_target("edges: 4"), "target.edges must be a list", ":5:10");
+}
+
+TEST(MissionErrors, TargetsThatAreNone) {
+  // What is wrong with a polygon is told by make_target_frame; here it gets its place.
+  const std::string place = ":4:13, target \"target\"";
+  expect_refusal(with_vertices("[[0, 0, 0], [1, 0, 0]]"), "at least 3 vertices", place);
+  expect_refusal(with_vertices("[]"), "at least 3 vertices", place);
+  expect_refusal(with_vertices("[[0, 0, 0], [9, 0, 0], [9, 9, 0.5], [0, 9, 0]]"), "not in one plane", place);
+  expect_refusal(with_vertices("[[0, 0, 0], [9, 0, 0], [2, 2, 0], [0, 9, 0]]"), "vertex 2", place);
+  expect_refusal(with_vertices("[[0, 0, 0], [9, 0, 0], [9, 0, 0], [0, 9, 0]]"), "same point", place);
+  expect_refusal(with_vertices("[[0, 0, 0], [9, 0, 0], [4, 0, 0]]"), "area", place);
+  expect_refusal(with_target("front: [1, 0, 0]"), "front lies in the plane", place);
+  expect_refusal(with_target("front: [0, 0, 0]"), "front is zero", place);
+  std::string many = "[";
+  for (int i = 0; i < 65; ++i)
+    many += (i > 0 ? ", [" : "[") + std::to_string(i) + ", " + std::to_string(i * i) + ", 0]";
+  expect_refusal(with_vertices(many + "]"), "at most 64 vertices", place);
+}
+
+TEST(MissionErrors, BrokenYaml) {
+  expect_refusal("scene: {mesh: a", "not valid YAML", ":");
+  expect_refusal("scene:\n\tmesh: a\n", "not valid YAML", ":2:", "tabs");
+  expect_refusal("scene: [1, 2\ntarget: 3\n", "not valid YAML", ":");
+  expect_refusal("scene: 'abc", "not valid YAML", ":");
+  expect_refusal("%YAML 9.9\n---\na: 1\n", "not valid YAML", ":");
+  expect_refusal(mission_text("---\n" + mission_text("")), "more than one YAML document", ":8:1");
+  expect_refusal(mission_text("? [a]\n: 1\n"), "a key must be a word", ":7:3");
+  expect_refusal(mission_text("? {a: 1}\n: 1\n"), "a key must be a word", ":7:");
+  expect_refusal(mission_text("~: 1\n"), "a key must be a word", ":7:1");
+}
+
+TEST(MissionErrors, EmptyFiles) {
+  for (const char* text : {"", "\n\n", "# only a comment\n", "\xEF\xBB\xBF", "---\n", "...\n", "   "}) {
+    const Error error = refusal(text);
+    EXPECT_TRUE(error.problem().find("empty") != std::string::npos ||
+                error.problem().find("nothing") != std::string::npos)
+        << error.problem();
+  }
+}
+
+TEST(MissionErrors, AliasesAndTags) {
+  expect_refusal("a: &a [1, 1]\nb: *a\n", "aliases", ":2:4", "write the value out");
+  std::ostringstream bomb;
+  bomb << "a0: &a0 [x, x]\n";
+  for (int i = 1; i < 60; ++i) bomb << "a" << i << ": &a" << i << " [*a" << i - 1 << ", *a" << i - 1 << "]\n";
+  expect_refusal(bomb.str(), "aliases", ":2:");
+  expect_refusal(with_sensor("max_range: !!float 3"), "tags", ":6:");
+  expect_refusal(mission_text("exact: !mine {}"), "tags", ":7:");
+}
+
+TEST(MissionErrors, NotText) {
+  expect_refusal(std::string("\x7F"
+                             "ELF\x02\x01\x01\0\0\0",
+                             10),
+                 "not text", ":1:1", "UTF-8");
+  expect_refusal(std::string("scene: \0", 8), "not text", ":1:8", "UTF-8");
+  expect_refusal("scene:\n  mesh: caf\xE9\n", "not UTF-8", ":2:12", "UTF-8");
+  expect_refusal("scene: \xC0\x80\n", "not UTF-8", ":1:8");
+  expect_refusal("scene: \xED\xA0\x80\n", "not UTF-8", ":1:8");
+  expect_refusal("scene: \xF5\x80\x80\x80\n", "not UTF-8", ":1:8");
+  expect_refusal("scene: \xE2\x82", "not UTF-8", ":1:8");
+  expect_refusal("scene: a\x04: b\n", "not text", ":1:9");  // yaml-cpp takes this byte for the end of the file
+  expect_refusal(std::string("\xFF\xFE"
+                             "s\0c\0",
+                             6),
+                 "UTF-16", "", "UTF-8");
+  expect_refusal(std::string("\xFE\xFF\0s\0c", 6), "UTF-16", "", "UTF-8");
+}
+
+TEST(MissionErrors, DeepNestingEndsEarly) {
+  const auto repeated = [](const std::string& unit, int times) {
+    std::string text;
+    for (int i = 0; i < times; ++i) text += unit;
+    return text;
+  };
+  for (const char* unit : {"[", "{", "- ", "? ", "[{", "{a: ", "{? ", "- - ? "}) {
+    const auto start = std::chrono::steady_clock::now();
+    refusal(repeated(unit, 100000));
+    refusal("a: " + repeated(unit, 100000));
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20)) << unit;
+  }
+  expect_refusal("a: " + repeated("[", 17) + repeated("]", 17), "levels deep", ":1:");
+}
+
+TEST(MissionErrors, HugeFiles) {
+  expect_refusal(std::string(mission_io::kMaxYamlBytes + 1, ' '), "too large", "");
+  std::ostringstream many_keys;
+  for (int i = 0; i < 90000; ++i) many_keys << "k" << i << ": 1\n";
+  expect_refusal(many_keys.str(), "more than", ":1:1");
+}
+
+TEST(MissionNumbers, AreReadAsDecimals) {
+  for (const auto& [text, value] : {std::pair("0", 0.0),
+                                    {"-0", -0.0},
+                                    {"12.5", 12.5},
+                                    {"+3", 3.0},
+                                    {".5", 0.5},
+                                    {"5.", 5.0},
+                                    {"1e3", 1000.0},
+                                    {"1E-3", 0.001},
+                                    {"010", 10.0},
+                                    {"0.1", 0.1},
+                                    {"1.7976931348623157e308", 1.7976931348623157e308}}) {
+    const auto parsed = parse_number(text);
+    EXPECT_EQ(parsed.fault, NumberFault::none) << text;
+    EXPECT_EQ(parsed.value, value) << text;
+  }
+  for (const char* text :
+       {"", " 1", "1 ", "+", "-", "+-1", "--1", "1e", "e5", "1.2.3", "0x1p3", "1_0", "1'0", "\xC2\xB2"}) {
+    EXPECT_EQ(parse_number(text).fault, NumberFault::not_a_number) << text;
+  }
+}
+
+TEST(MissionNumbers, AreWrittenShort) {
+  EXPECT_EQ(mission_io::shortest(0.1), "0.1");
+  EXPECT_EQ(mission_io::shortest(-1e9), "-1e+09");
+  EXPECT_EQ(mission_io::shortest(4785000), "4785000");
+}
+
+TEST(NearestName, CountsSlips) {
+  EXPECT_EQ(mission_io::edit_distance("", "abc"), 3);
+  EXPECT_EQ(mission_io::edit_distance("max_range", "max_range"), 0);
+  EXPECT_EQ(mission_io::edit_distance("max_rnage", "max_range"), 1) << "neighbours swapped";
+  EXPECT_EQ(mission_io::edit_distance("Max_Range", "max_range"), 0) << "case is no slip";
+  EXPECT_EQ(mission_io::edit_distance("kitten", "sitting"), 3);
+  EXPECT_EQ(mission_io::nearest_name("altitud", {"boxes", "altitude", "meshes"}), "altitude");
+  EXPECT_EQ(mission_io::nearest_name("x", {}), "");
+}
+
+/// A folder that goes away with the test.
+class MissionFiles : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string pattern = (fs::temp_directory_path() / "vantage-mission-XXXXXX").string();
+    ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
+    folder_ = pattern;
+  }
+  void TearDown() override {
+    std::error_code error;
+    fs::remove_all(folder_, error);
+  }
+
+  fs::path write(const std::string& name, const std::string& text) {
+    std::ofstream(folder_ / name, std::ios::binary) << text;
+    return folder_ / name;
+  }
+
+  std::optional<Error> refusal_of(const fs::path& file) {
+    try {
+      read_mission(file);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::input);
+      return error;
+    }
+    return std::nullopt;
+  }
+
+  void expect_refusal_of(const fs::path& file, const std::string& problem, const std::string& where) {
+    const std::optional<Error> error = refusal_of(file);
+    ASSERT_TRUE(error.has_value()) << "no error: " << problem;
+    EXPECT_NE(error->problem().find(problem), std::string::npos) << error->what();
+    EXPECT_NE(error->where().find(where), std::string::npos) << error->what();
+    EXPECT_FALSE(error->fix().empty()) << error->what();
+  }
+
+  static constexpr const char* kTetrahedron =
+      "o zone\nv 0 0 0\nv 0 0 50\nv 0 50 0\nv 50 0 0\nf 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n";
+
+  fs::path folder_;
+};
+
+TEST_F(MissionFiles, AreReadRelativeToTheMission) {
+  fs::create_directory(folder_ / "meshes");
+  write("meshes/city.obj", kTetrahedron);
+  write("meshes/zone.obj", kTetrahedron);
+  const fs::path file = write("mission.yaml", mission_text("navigation: {meshes: [meshes/zone.obj]}", kTarget, kSensor,
+                                                           "scene: {mesh: meshes/city.obj, up: y}\n"));
+  const Mission mission = read_mission(file);
+  EXPECT_EQ(mission.scene_file, folder_ / "meshes/city.obj");
+  ASSERT_EQ(mission.navigation.meshes.size(), 1U);
+  EXPECT_EQ(mission.navigation.meshes[0].name, "meshes/zone.obj");
+  EXPECT_EQ(mission.navigation.meshes[0].mesh.triangles.size(), 4U);
+  EXPECT_EQ(mission.navigation.meshes[0].mesh.vertices.size(), 4U);
+  EXPECT_NEAR(enclosed_volume(mission.navigation.meshes[0].mesh), 50.0 * 50 * 50 / 6, 1e-6);
+  EXPECT_EQ(bounding_box(mission.navigation.meshes[0].mesh).min, Vec3(0, -50, 0)) << "y up, as the scene's file";
+  ASSERT_EQ(mission.navigation_files.size(), 1U);
+  EXPECT_EQ(mission.navigation_files[0], folder_ / "meshes/zone.obj");
+}
+
+TEST_F(MissionFiles, ThatAreMissing) {
+  expect_refusal_of(folder_ / "none.yaml", "the mission file does not exist", "none.yaml");
+  expect_refusal_of(folder_, "the mission file is a folder", folder_.string());
+  expect_refusal_of("/dev/null", "not a regular file", "/dev/null");
+  const fs::path file = write("mission.yaml", mission_text("navigation: {meshes: [zone.obj]}"));
+  expect_refusal_of(file, "the scene's mesh file does not exist", "mission.yaml:2:9 (" + folder_.string());
+  write("city.obj", kTetrahedron);
+  expect_refusal_of(file, "the navigation mesh does not exist", "mission.yaml:7:23 (" + folder_.string());
+  fs::create_directory(folder_ / "zone.obj");
+  expect_refusal_of(file, "the navigation mesh is a folder", "mission.yaml:7:23");
+}
+
+TEST_F(MissionFiles, ThatAreTooLarge) {
+  const fs::path file = write("mission.yaml", "a: 1\n");
+  fs::resize_file(file, std::uintmax_t{1} << 40);  // sparse: a terabyte that takes no room
+  expect_refusal_of(file, "too large", "mission.yaml");
+}
+
+}  // namespace
+}  // namespace vantage
