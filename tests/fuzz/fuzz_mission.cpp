@@ -1,0 +1,43 @@
+// libFuzzer target: any bytes as the text of a mission file. Nothing but Error(input), with one line of each part, may
+// come out; what is accepted must satisfy what the rest of the program relies on.
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string_view>
+
+#include "mission/mission_parser.h"
+#include "vantage/error.h"
+
+namespace {
+
+void require(bool holds) {
+  if (!holds) std::abort();
+}
+
+void check_accepted(const vantage::mission_io::ParsedMission& parsed) {
+  const vantage::Mission& mission = parsed.mission;
+  require(mission.scene_file.is_absolute());
+  require(mission.target.vertices.size() >= 3 && mission.target.vertices.size() <= 64);
+  for (const vantage::Vec3& vertex : mission.target.vertices) require(vertex.allFinite());
+  require(std::isfinite(mission.sensor.max_range_m) && mission.sensor.max_range_m > 0);
+  require(std::isfinite(mission.exact.tolerance_m) && mission.exact.tolerance_m > 0);
+  require(mission.scene_options.scale > 0);
+  if (mission.navigation.altitude) require(mission.navigation.altitude->min_m < mission.navigation.altitude->max_m);
+  for (const vantage::Box& box : mission.navigation.boxes) require((box.min.array() < box.max.array()).all());
+  for (const vantage::Box& box : mission.navigation.keep_out) require((box.min.array() < box.max.array()).all());
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  try {
+    check_accepted(vantage::mission_io::parse_mission(text, "mission.yaml"));
+  } catch (const vantage::Error& error) {
+    require(error.kind() == vantage::ErrorKind::input);
+    require(!error.problem().empty() && !error.where().empty() && !error.fix().empty());
+    require(error.problem().find('\n') == std::string::npos);
+  }
+  return 0;
+}
