@@ -1,0 +1,183 @@
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <set>
+
+#include "cli/command.h"
+#include "cli/output_check.h"
+#include "cli/progress_line.h"
+#include "cli/text_table.h"
+#include "mission/run_mission.h"
+#include "solid/atomic_file.h"
+#include "solid/names.h"
+#include "solid/report.h"
+#include "vantage/error.h"
+#include "vantage/volume.h"
+
+namespace vantage::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using mission_io::MissionRun;
+
+constexpr const char* kExamples =
+    "EXAMPLES\n"
+    "  vantage compute mission.yaml -o volume.ply\n"
+    "  vantage compute mission.yaml -o volume.ply -o volume.glb -o volume.obj\n"
+    "  vantage compute mission.yaml -o volume.stl --json | jq .volume_m3\n"
+    "\n"
+    "The format follows the extension: .ply (scene frame, double precision, causes), .obj (axes of the scene file,\n"
+    "a group per cause), .stl (scene frame), .glb (y up, a material per kind of cause). Beside each output goes a "
+    "report,\n"
+    "volume.report.json. Where there is no volume, the report says why, no mesh is written, and the exit code is 0.\n";
+
+constexpr std::size_t kCausesShown = 10;
+
+struct Options {
+  CommonOptions common;
+  std::string mission_file;
+  std::vector<std::string> outputs;
+  bool json = false;
+};
+
+fs::path report_file(const fs::path& output) { return fs::path(output).replace_extension(".report.json"); }
+
+/// All that can be known to go wrong with the outputs before anything is computed.
+void check_outputs(const Options& options) {
+  std::set<fs::path> seen;
+  for (const std::string& output : options.outputs) {
+    check_volume_output(output);
+    check_can_write(report_file(output));
+    if (!seen.insert(fs::path(output).lexically_normal()).second) {
+      throw Error(ErrorKind::input, "an output is named twice", output, "give each -o a name of its own");
+    }
+  }
+}
+
+/// Fills the seconds of writing.
+void write_meshes(const Options& options, MissionRun& run) {
+  const auto start = std::chrono::steady_clock::now();
+  for (const std::string& output : options.outputs) write_volume(run.volume, output, run.scene_up);
+  Seconds& seconds = run.volume.seconds;
+  seconds.write = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  seconds.total += seconds.write;
+}
+
+std::string report_text(const Mission& mission, const MissionRun& run, const MeshMeasures& measures,
+                        const std::string& output) {
+  solid::ReportSource source;
+  source.mission = mission.file.string();
+  source.scene = mission.scene_file.string();
+  source.target = mission.target.name;
+  if (run.volume.outcome == Outcome::computed) source.volume = output;
+  return solid::report_json(run.volume, measures, source);
+}
+
+/// The largest causes, and how many more there are.
+void add_causes(TextTable& table, const Volume& volume) {
+  std::vector<const Cause*> causes;
+  double total = 0;
+  for (const Cause& cause : volume.causes) {
+    causes.push_back(&cause);
+    total += cause.area_m2;
+  }
+  std::stable_sort(causes.begin(), causes.end(),
+                   [](const Cause* a, const Cause* b) { return a->area_m2 > b->area_m2; });
+  table.heading("what bounds it, by area in square metres");
+  const std::size_t shown = std::min(causes.size(), kCausesShown);
+  for (std::size_t i = 0; i < shown; ++i) {
+    const std::string share = total > 0 ? fixed(100 * causes[i]->area_m2 / total, 1) + " %, " : "";
+    table.row(causes[i]->name, fixed(causes[i]->area_m2, 1), share + solid::name_of(causes[i]->kind));
+  }
+  if (shown < causes.size()) table.row("and " + count(causes.size() - shown) + " more", "", "all are in the report");
+}
+
+std::string summary(const Mission& mission, const MissionRun& run, const MeshMeasures& measures) {
+  const Volume& volume = run.volume;
+  const Seconds& seconds = volume.seconds;
+  TextTable table;
+  table.heading("target '" + mission.target.name + "', range " + fixed(mission.sensor.max_range_m, 1) + " m");
+  if (volume.outcome == Outcome::computed) {
+    table.row("volume", fixed(measures.volume_m3, 1), "cubic metres");
+    table.row("area", fixed(measures.area_m2, 1), "square metres");
+    table.row("pieces", count(measures.pieces), "");
+    table.row("facets", count(measures.facets), count(measures.vertices) + " vertices");
+    table.row("tolerance", fixed(volume.tolerance_m, 4), "metres that range facets may lie inside the true sphere");
+    add_causes(table, volume);
+  } else {
+    table.heading("no volume: " + volume.reason);
+    if (!volume.hint.empty()) table.heading("what to try: " + volume.hint);
+  }
+  table.heading("time");
+  table.row("read", duration(seconds.read), "");
+  table.row("prepare", duration(seconds.prepare), count(run.scene.polygons) + " convex polygons");
+  table.row("engine", duration(seconds.engine), count(volume.counts.visible_blockers) + " blockers in sight");
+  table.row("navigation", duration(seconds.navigation), "");
+  table.row("write", duration(seconds.write), "");
+  table.row("total", duration(seconds.total), "");
+  return table.text();
+}
+
+int run(const Options& options) {
+  check_outputs(options);
+  const Mission read = read_mission(options.mission_file);
+  for (const std::string& output : options.outputs) {
+    check_not_an_input(output, input_files(read));
+    check_not_an_input(report_file(output), input_files(read));
+  }
+  Mission mission = read;
+  mission.exact.threads = options.common.threads;
+
+  MissionRun run;
+  {
+    ProgressLine progress(options.common);
+    run = mission_io::run_mission(mission, progress.callback());
+    if (run.volume.outcome == Outcome::computed) write_meshes(options, run);
+  }
+  const MeshMeasures measures = measure(run.volume.mesh);
+  std::set<fs::path> reports;
+  for (const std::string& output : options.outputs) {
+    const fs::path report = report_file(output);
+    if (!reports.insert(report.lexically_normal()).second) continue;
+    solid::write_whole_file(report, report_text(mission, run, measures, output));
+  }
+  if (options.json) {
+    print(report_text(mission, run, measures, options.outputs.front()));
+  } else if (!options.common.quiet) {
+    std::string text = summary(mission, run, measures);
+    if (run.volume.outcome == Outcome::computed) {
+      for (const std::string& output : options.outputs) text += "wrote " + output + "\n";
+    }
+    for (const fs::path& report : reports) text += "wrote " + report.string() + "\n";
+    print(text);
+  }
+  if (run.volume.outcome != Outcome::computed) {
+    note("no volume: " + run.volume.reason);
+    for (const std::string& output : options.outputs) {
+      std::error_code error;
+      note(fs::exists(output, error) ? output + " is of an earlier run and was left as it was"
+                                     : output + " was not written");
+    }
+  }
+  return kSuccess;
+}
+
+}  // namespace
+
+void add_compute(CLI::App& app, Command& chosen) {
+  CLI::App* command = app.add_subcommand("compute", "Compute the visibility volume of a mission and write it");
+  auto options = std::make_shared<Options>();
+  command->add_option("mission", options->mission_file, "The mission file")->required()->option_text("MISSION");
+  command->add_option("-o,--output", options->outputs, "Where to write: .ply, .obj, .stl or .glb; may be repeated")
+      ->required()
+      ->allow_extra_args(false)
+      ->option_text("FILE");
+  command->add_flag("--json", options->json, "Print the report instead of a summary");
+  add_common_options(*command, options->common);
+  command->footer(kExamples);
+  command->callback([options, &chosen] {
+    chosen = [options] { return with_threads(options->common, [&] { return run(*options); }); };
+  });
+}
+
+}  // namespace vantage::cli

@@ -1,0 +1,146 @@
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/command.h"
+#include "cli/open_edges.h"
+#include "cli/progress_line.h"
+#include "cli/text_table.h"
+#include "mission/input_file.h"
+#include "mission/run_mission.h"
+#include "vantage/verify.h"
+#include "vantage/volume.h"
+
+namespace vantage::cli {
+namespace {
+
+constexpr const char* kExamples =
+    "EXAMPLES\n"
+    "  vantage verify mission.yaml volume.ply\n"
+    "  vantage verify mission.yaml volume.glb --points 200000 --seed 7\n"
+    "  vantage verify mission.yaml edited.obj --json    # .obj in the axes of the scene file, as compute writes it\n"
+    "\n"
+    "Exit code 1: part of the volume does not see the whole target, or its mesh is not closed.\n";
+
+struct Options {
+  CommonOptions common;
+  std::string mission_file, volume_file;
+  std::size_t points = VerifyOptions{}.points;
+  std::uint64_t seed = VerifyOptions{}.seed;
+  bool json = false;
+};
+
+bool is_right(const VerifyReport& report) { return report.over_claimed == 0 && report.closed && report.oriented; }
+
+std::string json_text(const VerifyReport& report, std::size_t holes) {
+  const auto point = [](const Vec3& p) { return nlohmann::ordered_json{p.x(), p.y(), p.z()}; };
+  nlohmann::ordered_json json;
+  json["right"] = is_right(report);
+  json["closed"] = report.closed;
+  json["open_edges"] = holes;
+  json["oriented"] = report.oriented;
+  json["euler"] = report.euler;
+  json["points"] = report.points;
+  json["inside"] = report.inside;
+  json["rays"] = report.rays;
+  json["over_claimed"] = report.over_claimed;
+  json["under_claimed"] = report.under_claimed;
+  json["worst_over_depth_m"] = report.worst_over_depth_m;
+  json["worst_over_point"] = point(report.worst_over_point);
+  json["worst_over_cause"] = report.worst_over_cause;
+  json["worst_under_depth_m"] = report.worst_under_depth_m;
+  json["worst_under_point"] = point(report.worst_under_point);
+  json["over_claim_bound"] = report.over_claim_bound;
+  json["bound_points"] = report.bound_points;
+  json["seed"] = report.seed;
+  // A name is bytes from a file, and JSON takes UTF-8 only: others are replaced rather than refused.
+  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+std::string table_text(const VerifyReport& report, std::size_t holes, const std::string& file) {
+  TextTable table;
+  table.heading(file);
+  table.row("closed", report.closed ? "yes" : "NO",
+            holes == 0 ? "every edge has two triangles" : count(holes) + " open edges");
+  if (report.closed) table.row("oriented", report.oriented ? "yes" : "NO", "which run it in opposite directions");
+  table.row("Euler number", std::to_string(report.euler), "2 for one piece without holes");
+  if (report.points > 0) {
+    table.heading("rays from random points, seed " + std::to_string(report.seed));
+    table.row("points tried", count(report.points), "");
+    table.row("inside", count(report.inside), "claimed by the volume");
+    table.row("rays", count(report.rays), "");
+    table.row("over-claimed", count(report.over_claimed), "claimed, but part of the target is hidden or out of range");
+    if (report.over_claimed > 0) {
+      table.row("worst depth", fixed(report.worst_over_depth_m, 6),
+                "metres inside, at " + vector(report.worst_over_point) + ", because of " + report.worst_over_cause);
+    }
+    table.row("under-claimed", count(report.under_claimed), "not claimed, though all that was sampled was visible");
+    if (report.under_claimed > 0) {
+      table.row("worst depth", fixed(report.worst_under_depth_m, 6),
+                "metres outside, at " + vector(report.worst_under_point));
+    }
+    table.row("bound", fixed(100 * report.over_claim_bound, 4) + " %",
+              "at most this share of the volume is over-claimed, with 95 % confidence");
+  }
+  table.heading(is_right(report) ? "nothing wrong was found"
+                                 : (report.closed && report.oriented ? "WRONG: the volume over-claims"
+                                                                     : "WRONG: the mesh is not a closed solid"));
+  return table.text();
+}
+
+int run(const Options& options) {
+  mission_io::check_readable(options.volume_file, "the volume", "");
+  const Mission mission = read_mission(options.mission_file);
+  ProgressLine progress(options.common);
+  const Scene scene = read_scene(mission.scene_file, mission.scene_options, progress.callback());
+
+  SceneReadOptions volume_options;
+  if (mission_io::is_obj(options.volume_file)) volume_options.up = scene.up;
+  const Mesh volume = read_scene(options.volume_file, volume_options, progress.callback()).mesh;
+  const std::size_t holes = count_open_edges(volume);
+
+  VerifyReport report;
+  if (holes == 0) {
+    VerifyOptions verify_options;
+    verify_options.points = options.points;
+    verify_options.seed = options.seed;
+    verify_options.tolerance_m = mission.exact.tolerance_m;
+    report = mission_io::with_place(mission.target_place, [&] {
+      return verify_volume(scene, mission.target, mission.sensor, mission.navigation, volume, verify_options,
+                           progress.callback());
+    });
+  } else {  // a mesh with holes has no inside to try points in
+    report.euler = measure(volume).euler;
+    report.seed = options.seed;
+  }
+  if (options.json) {
+    print(json_text(report, holes));
+  } else if (!options.common.quiet) {
+    print(table_text(report, holes, options.volume_file));
+  }
+  return is_right(report) ? kSuccess : kCheckFailed;
+}
+
+}  // namespace
+
+void add_verify(CLI::App& app, Command& chosen) {
+  CLI::App* command = app.add_subcommand("verify", "Check a volume by ray casting, independently of how it was made");
+  auto options = std::make_shared<Options>();
+  command->add_option("mission", options->mission_file, "The mission that the volume was computed for")
+      ->required()
+      ->option_text("MISSION");
+  command->add_option("volume", options->volume_file, "The volume: PLY, OBJ, STL or GLB")
+      ->required()
+      ->option_text("FILE");
+  command->add_option("--points", options->points, "Viewpoints to try (default 20000)")
+      ->check(CLI::Range(std::size_t{1}, std::size_t{10000000}))
+      ->option_text("N");
+  command->add_option("--seed", options->seed, "Seed of the random points (default 1)")->option_text("S");
+  command->add_flag("--json", options->json, "Print JSON instead of a table");
+  add_common_options(*command, options->common);
+  command->footer(kExamples);
+  command->callback([options, &chosen] {
+    chosen = [options] { return with_threads(options->common, [&] { return run(*options); }); };
+  });
+}
+
+}  // namespace vantage::cli

@@ -1,0 +1,31 @@
+// Runs a program as a user would, and keeps what came of it.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace vantage::testing {
+
+struct ProgramRun {
+  int exit_code = -1;       ///< negative: ended by this signal
+  bool was_started = true;  ///< false where the folder or the program is out of reach
+  bool timed_out = false;
+  std::string out, err;
+};
+
+struct RunOptions {
+  std::filesystem::path folder = ".";             ///< to run in
+  std::string input;                              ///< of standard input
+  std::optional<std::size_t> largest_file;        ///< bytes: writing more fails, as on a full disk
+  std::optional<std::filesystem::path> out_file;  ///< standard output goes there, not into ProgramRun::out
+  bool as_nobody = false;  ///< root gives up its rights first, which are above permissions; others run as they are
+  int timeout_s = 120;
+};
+
+/// Runs `program` with `arguments` and waits for its end, or kills it after the timeout.
+ProgramRun run_program(const std::filesystem::path& program, const std::vector<std::string>& arguments,
+                       const RunOptions& options = {});
+
+}  // namespace vantage::testing
