@@ -1,0 +1,52 @@
+// Gives bytes to a mesh reader. It may refuse them with an input error; what it reads must keep what it promises.
+#pragma once
+
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+#include "scene/mesh_readers.h"
+#include "vantage/error.h"
+
+namespace vantage::fuzzing {
+
+inline void require(bool condition, const char* promise) {
+  if (condition) return;
+  std::fprintf(stderr, "broken promise: %s\n", promise);
+  std::abort();
+}
+
+inline void check(const scene::RawMesh& mesh) {
+  require(!mesh.triangles.empty(), "there is a triangle");
+  require(mesh.object_of.size() == mesh.triangles.size(), "every triangle has an object");
+  for (const Vec3& vertex : mesh.vertices) require(vertex.allFinite(), "coordinates are finite");
+  for (const Triangle& triangle : mesh.triangles) {
+    for (const std::uint32_t corner : triangle) require(corner < mesh.vertices.size(), "corners are in range");
+  }
+  std::vector<bool> used(mesh.objects.size(), false);
+  for (const std::uint32_t object : mesh.object_of) {
+    require(object < mesh.objects.size(), "objects are in range");
+    used[object] = true;
+  }
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    require(used[i], "every object has a triangle");
+    require(!mesh.objects[i].empty(), "every object has a name");
+  }
+}
+
+template <class Reader>
+void read(const Reader& reader, const std::string& name, const std::uint8_t* data, std::size_t size) {
+  scene::ReadLimits limits;
+  limits.repeated_triangles = 10'000;
+  const Progress none;
+  scene::ReadProgress progress(none, name);
+  try {
+    check(reader(scene::MeshSource(name, std::string(reinterpret_cast<const char*>(data), size)), progress, limits));
+  } catch (const Error& error) {
+    require(error.kind() == ErrorKind::input, "what cannot be read is an input error");
+    require(error.problem().find('\n') == std::string::npos, "a problem is one line");
+  }
+}
+
+}  // namespace vantage::fuzzing
