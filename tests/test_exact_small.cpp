@@ -1,0 +1,218 @@
+// Small scenes: the engine's volume against the plain union of blockers, and its topology.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <chrono>
+#include <cmath>
+#include <iostream>
+#include <numbers>
+#include <string>
+
+#include "support/blocker_solids.h"
+#include "support/random.h"
+#include "support/scenes.h"
+#include "vantage/error.h"
+#include "vantage/volume.h"
+
+namespace vantage {
+namespace {
+
+using testing::Comparison;
+using testing::make_box_mesh;
+using testing::SceneBuilder;
+using testing::target_of;
+
+void expect_one_closed_piece(const Volume& volume) {
+  ASSERT_EQ(volume.outcome, Outcome::computed) << volume.reason;
+  const MeshMeasures m = measure(volume.mesh);
+  EXPECT_TRUE(m.closed);
+  EXPECT_TRUE(m.oriented);
+  EXPECT_EQ(m.euler, 2);
+  EXPECT_EQ(m.pieces, 1u);
+  EXPECT_GT(m.volume_m3, 0);
+  ASSERT_EQ(volume.cause_of.size(), volume.mesh.triangles.size());
+  for (const std::uint32_t cause : volume.cause_of) ASSERT_LT(cause, volume.causes.size());
+}
+
+/// Computes with a range that holds a box of the given reach and height about the target, and compares inside the box.
+Comparison expect_union(const Scene& scene, const Target& target, double reach = 40, double height = 40) {
+  const TargetFrame frame = make_target_frame(target);
+  const double across = 2 * frame.enclosing_radius_m + reach;
+  const Sensor sensor{std::sqrt(2 * across * across + height * height) + 1};
+  const Volume volume = compute_visibility(PreparedScene(scene), target, sensor, {0.2, 0});
+  expect_one_closed_piece(volume);
+  if (volume.mesh.empty()) return {};
+  const Comparison c = testing::compare_with_union(scene, volume, testing::local_box(volume.frame, reach, height));
+  EXPECT_GT(c.volume, 0);
+  EXPECT_LT(c.error(), 1e-6) << c.missing << " m3 missing, " << c.excessive << " m3 too much of " << c.volume << ", "
+                             << c.blockers << " blockers";
+  return c;
+}
+
+Target square(double half_side, const Vec3& centre = Vec3::Zero()) {
+  const double s = half_side;
+  return target_of(
+      {centre + Vec3(-s, -s, 0), centre + Vec3(s, -s, 0), centre + Vec3(s, s, 0), centre + Vec3(-s, s, 0)});
+}
+
+Target regular(int corners, double radius, const Vec3& centre, const Vec3& normal = Vec3(0, 0, 1)) {
+  const Vec3 n = normal.normalized(), u = n.unitOrthogonal(), v = n.cross(u);
+  Target target;
+  for (int k = 0; k < corners; ++k) {
+    const double angle = 2 * std::numbers::pi * k / corners;
+    target.vertices.push_back(centre + radius * (std::cos(angle) * u + std::sin(angle) * v));
+  }
+  return target;
+}
+
+TEST(ExactSmall, AnEmptySceneGivesTheRangeRegion) {
+  const Volume volume = compute_visibility(PreparedScene{Scene{}}, square(5), {50}, {1e-3, 0});
+  expect_one_closed_piece(volume);
+  // Four quarters of a half ball about the square's centre, between them what the vertices' balls share: by Monte
+  // Carlo's slow brother, a grid.
+  double expected = 0;
+  const int n = 400;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {  // the tower over each cell reaches up to the nearest of the four spheres
+      const double x = (i + 0.5) / n * 50, y = (j + 0.5) / n * 50;
+      const double rest = 2500 - (x + 5) * (x + 5) - (y + 5) * (y + 5);
+      if (rest > 0) expected += 4 * std::sqrt(rest) * 2500 / (n * n);
+    }
+  EXPECT_NEAR(enclosed_volume(volume.mesh), expected, 2e-4 * expected);
+  ASSERT_EQ(volume.causes.size(), 2u);
+}
+
+TEST(ExactSmall, ABoxBesideTheTarget) {
+  const Scene scene = SceneBuilder().ground("ground", 60).box("block", {8, -3, 0}, {14, 4, 9});
+  expect_union(scene, square(4));
+  expect_union(scene, target_of({{-3, -3, 0}, {5, -2, 0}, {0, 4, 0}}));
+}
+
+TEST(ExactSmall, AWallOfTwoTrianglesAndOneOfABox) {
+  expect_union(SceneBuilder().polygon("sheet", {{6, -8, 0}, {6, 8, 0}, {6, 8, 7}, {6, -8, 7}}), square(4));
+  expect_union(SceneBuilder().box("wall", {6, -8, 0}, {6.2, 8, 7}), square(4));
+  // A sheet that hangs in the air, askew.
+  expect_union(SceneBuilder().polygon("sail", {{3, -5, 6}, {7, 2, 5}, {4, 6, 11}}), square(4));
+}
+
+TEST(ExactSmall, AWallOnTheTargetsOutline) {
+  expect_union(SceneBuilder().box("wall", {4, -8, 0}, {4.5, 8, 7}), square(4));
+  expect_union(SceneBuilder().box("wall", {4, -4, 0}, {4.5, 4, 7}), square(4));
+  expect_union(SceneBuilder().box("corner post", {4, 4, 0}, {4.5, 4.5, 7}), square(4));
+}
+
+TEST(ExactSmall, APoleBetweenTwoVertices) {
+  const Scene scene = SceneBuilder().ground("ground", 60).box("pole", {-0.1, 5, 0}, {0.1, 5.2, 12});
+  const Comparison c = expect_union(scene, square(4));
+  EXPECT_GT(c.blockers, 0u);
+  expect_union(SceneBuilder().box("thin pole", {-0.005, 4, 0}, {0.005, 4.01, 12}), square(4));
+}
+
+TEST(ExactSmall, ABridgeOverTheTarget) {
+  const Scene scene = SceneBuilder()
+                          .ground("ground", 60)
+                          .box("deck", {-2, -20, 6}, {2, 20, 7})
+                          .box("pier", {-2, 10, 0}, {2, 11, 6})
+                          .box("pier", {-2, -11, 0}, {2, -10, 6});
+  expect_union(scene, square(4));
+  expect_union(scene, target_of({{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}));  // wholly underneath
+}
+
+TEST(ExactSmall, AnLShapedWall) {
+  const Scene scene = SceneBuilder()
+                          .polygon("long", {{4, -4, 0}, {4, 9, 0}, {4, 9, 5}, {4, -4, 5}})
+                          .polygon("short", {{-6, 9, 0}, {4, 9, 0}, {4, 9, 5}, {-6, 9, 5}});
+  expect_union(scene, square(3));
+  expect_union(scene, square(4));  // touches
+}
+
+TEST(ExactSmall, TwoTouchingBoxes) {
+  expect_union(SceneBuilder().box("left", {6, -5, 0}, {10, 0, 8}).box("right", {6, 0, 0}, {10, 5, 8}), square(4));
+  expect_union(SceneBuilder().box("left", {6, -5, 0}, {10, 0, 8}).box("right", {6, 0, 0}, {10, 5, 5}), square(4));
+  expect_union(SceneBuilder().box("low", {6, -5, 0}, {10, 5, 4}).box("high", {7, -4, 4}, {9, 4, 9}), square(4));
+  expect_union(SceneBuilder().box("one", {6, -5, 0}, {10, 0, 8}).box("edge to edge", {10, 0, 0}, {12, 6, 8}),
+               square(4));
+}
+
+TEST(ExactSmall, OverlappingAndDoubledWalls) {
+  expect_union(SceneBuilder().box("one", {6, -5, 0}, {10, 1, 8}).box("through it", {7, -2, 0}, {9, 5, 11}), square(4));
+  expect_union(SceneBuilder().box("one", {6, -5, 0}, {10, 1, 8}).box("again", {6, -5, 0}, {10, 1, 8}), square(4));
+  expect_union(SceneBuilder().box("one", {6, -5, 0}, {10, 1, 8}).box("a hair off", {6.001, -5, 0}, {10.001, 1, 8}),
+               square(4));
+}
+
+/// A floor, four walls and a ceiling; one wall has a window.
+Scene room() {
+  return SceneBuilder()
+      .ground("floor", 6)
+      .polygon("ceiling", {{-6, -6, 5}, {6, -6, 5}, {6, 6, 5}, {-6, 6, 5}})
+      .polygon("west", {{-6, -6, 0}, {-6, 6, 0}, {-6, 6, 5}, {-6, -6, 5}})
+      .polygon("north", {{-6, 6, 0}, {6, 6, 0}, {6, 6, 5}, {-6, 6, 5}})
+      .polygon("south", {{-6, -6, 0}, {6, -6, 0}, {6, -6, 5}, {-6, -6, 5}})
+      .polygon("sill", {{6, -6, 0}, {6, 6, 0}, {6, 6, 1}, {6, -6, 1}})
+      .polygon("lintel", {{6, -6, 3}, {6, 6, 3}, {6, 6, 5}, {6, -6, 5}})
+      .polygon("left", {{6, -6, 1}, {6, -2, 1}, {6, -2, 3}, {6, -6, 3}})
+      .polygon("right", {{6, 2, 1}, {6, 6, 1}, {6, 6, 3}, {6, 2, 3}});
+}
+
+TEST(ExactSmall, ARoomWithAWindow) {
+  const Comparison c = expect_union(room(), square(1, {0, 0, 0}));
+  EXPECT_GT(c.volume, 12 * 12 * 5);  // the room, and something outside the window
+  expect_union(room(), square(1, {3, 1, 0.5}));
+}
+
+TEST(ExactSmall, ATargetOnARoof) {
+  const Scene scene = SceneBuilder()
+                          .ground("ground", 60)
+                          .box("house", {-8, -8, 0}, {8, 8, 10})
+                          .box("chimney", {5, 5, 10}, {6, 6, 13})
+                          .box("parapet", {-8, -8, 10}, {8, -7.8, 11})
+                          .box("tower", {12, -6, 0}, {18, 6, 30});
+  expect_union(scene, square(4, {0, 0, 10}));
+  expect_union(scene, target_of({{-7, -7, 10}, {4, -7, 10}, {0, 7, 10}}));
+}
+
+TEST(ExactSmall, ATargetOnAFacade) {
+  const Scene scene = SceneBuilder()
+                          .ground("ground", 60)
+                          .box("house", {-8, 0, 0}, {8, 10, 12})
+                          .box("balcony", {-1, -1.5, 6}, {1, 0, 6.2})
+                          .box("opposite", {-12, -20, 0}, {3, -10, 8});
+  // Counter-clockwise seen from -y, where the street is.
+  expect_union(scene, target_of({{2, 0, 2}, {7, 0, 2}, {7, 0, 11}, {2, 0, 11}}));
+  expect_union(scene, target_of({{-7, 0, 1}, {-2, 0, 1}, {-4, 0, 9}}));
+  expect_union(scene, target_of({{-3, 0, 6.5}, {3, 0, 6.5}, {0, 0, 11}}));  // just above the balcony
+  // Down to the ground: the edges of the target, the wall and the street are one line.
+  expect_union(scene, target_of({{-8, 0, 0}, {8, 0, 0}, {8, 0, 5}, {-8, 0, 5}}));
+}
+
+TEST(ExactSmall, ATiltedTargetOnAPitchedRoof) {
+  Mesh house = make_box_mesh({-8, -5, 0}, {8, 5, 6});
+  house.vertices[4].y() = house.vertices[5].y() = 0;  // a lean-to roof from (y 0, z 6) ...
+  house.vertices[4].z() = house.vertices[5].z() = 9;
+  const Scene scene = SceneBuilder()
+                          .ground("ground", 60)
+                          .add("house", house)
+                          .box("chimney", {4, 1.5, 5}, {5, 2.5, 12})
+                          .box("neighbour", {-6, 9, 0}, {6, 15, 11});
+  // In the plane through (x, 0, 9) and (x, 5, 6): z = 9 - 0.6 y.
+  const auto on_roof = [](double x, double y) { return Vec3(x, y, 9 - 0.6 * y); };
+  expect_union(scene, target_of({on_roof(-6, 1), on_roof(2, 1), on_roof(2, 4), on_roof(-6, 4)}));
+  expect_union(scene, target_of({on_roof(-8, 0), on_roof(4, 1.5), on_roof(0, 5)}));
+}
+
+TEST(ExactSmall, TargetsWithThreeToSixtyFourVertices) {
+  const Scene scene =
+      SceneBuilder().ground("ground", 60).polygon("sheet", {{6, -3, 0}, {6, 4, 0}, {7, 4, 5}, {7, -3, 5}});
+  for (const int corners : {3, 4, 5, 6, 7, 8, 10, 12, 16, 24}) {
+    SCOPED_TRACE(corners);
+    expect_union(scene, regular(corners, 5, {0, 0, 0}));
+  }
+}
+
+TEST(ExactSmall, SixtyFourVertices) {
+  expect_union(SceneBuilder().polygon("leaf", {{7, -3, 0}, {7, 4, 1}, {6, 1, 5}}), regular(64, 5, {0, 0, 0}));
+}
+
+}  // namespace
+}  // namespace vantage
