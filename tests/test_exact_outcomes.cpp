@@ -1,0 +1,244 @@
+// How a computation ends when it does not end with a volume: outcomes with a reason and a hint, errors with a way out.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <set>
+#include <string>
+
+#include "support/scenes.h"
+#include "vantage/error.h"
+#include "vantage/verify.h"
+#include "vantage/volume.h"
+
+namespace vantage {
+namespace {
+
+using testing::SceneBuilder;
+using testing::target_of;
+
+Target square(double half_side, const Vec3& centre = Vec3::Zero()) {
+  const double s = half_side;
+  return target_of(
+      {centre + Vec3(-s, -s, 0), centre + Vec3(s, -s, 0), centre + Vec3(s, s, 0), centre + Vec3(-s, s, 0)});
+}
+
+/// Upright, in the plane y = const; counter-clockwise seen from -y.
+Target facade(double half_side, const Vec3& centre) {
+  const double s = half_side;
+  return target_of(
+      {centre + Vec3(-s, 0, -s), centre + Vec3(s, 0, -s), centre + Vec3(s, 0, s), centre + Vec3(-s, 0, s)});
+}
+
+Volume compute(const Scene& scene, const Target& target, double range = 50) {
+  return compute_visibility(PreparedScene(scene), target, {range}, {0.1, 0});
+}
+
+struct Refusal {
+  std::string problem, where, fix;
+};
+
+Refusal refusal(const Scene& scene, const Target& target, const Sensor& sensor = {50},
+                const ExactOptions& options = {}) {
+  try {
+    const Volume volume = compute_visibility(PreparedScene(scene), target, sensor, options);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::input);
+    return {error.problem(), error.where(), error.fix()};
+  }
+  return {"nothing was thrown", "", ""};
+}
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+/// The offset that a pierced target's error gives as the way out.
+double offset_in(const std::string& fix) {
+  const auto at = fix.find("offset: ");
+  EXPECT_NE(at, std::string::npos) << fix;
+  return at == std::string::npos ? 0 : std::stod(fix.substr(at + 8));
+}
+
+TEST(ExactOutcomes, OutOfRangeSaysHowFar) {
+  const Volume volume = compute(SceneBuilder().ground("ground", 100), square(50), 60);
+  EXPECT_EQ(volume.outcome, Outcome::out_of_range);
+  EXPECT_TRUE(contains(volume.reason, "no point within 60 m of all vertices")) << volume.reason;
+  EXPECT_TRUE(contains(volume.reason, "70.71 m")) << volume.reason;
+  EXPECT_FALSE(volume.hint.empty());
+  EXPECT_TRUE(volume.mesh.empty());
+  EXPECT_TRUE(volume.cause_of.empty());
+}
+
+TEST(ExactOutcomes, JustWithinRangeIsComputed) {
+  const Scene scene = SceneBuilder().ground("ground", 100);
+  const double radius = 30 * std::sqrt(2.0);
+  EXPECT_EQ(compute(scene, square(30), radius * (1 - 1e-6)).outcome, Outcome::out_of_range);
+  EXPECT_EQ(compute(scene, square(30), radius).outcome, Outcome::out_of_range);  // a single point is no volume
+  for (const double over : {1e-5, 1e-3, 0.1}) {
+    SCOPED_TRACE(over);
+    const double range = radius * (1 + over);
+    const Volume volume = compute_visibility(PreparedScene(scene), square(30), {range}, {0.01 * range * over, 0});
+    ASSERT_EQ(volume.outcome, Outcome::computed);
+    const MeshMeasures m = measure(volume.mesh);
+    EXPECT_TRUE(m.closed && m.oriented && m.euler == 2);
+    for (const Vec3& v : volume.mesh.vertices)
+      for (const Vec3& t : square(30).vertices) ASSERT_LE((v - t).norm(), range * (1 + 1e-12));
+  }
+}
+
+TEST(ExactOutcomes, ATriangleSeenFromItsLongSideIsComputed) {
+  // An obtuse triangle: the centre of the smallest enclosing circle is on its outline, and the range hardly reaches.
+  const Target target = target_of({{-30, 0, 0}, {30, 0, 0}, {0, 5, 0}});
+  for (const double range : {30.1, 31.0, 50.0}) {
+    const Volume volume = compute(SceneBuilder().ground("ground", 100), target, range);
+    ASSERT_EQ(volume.outcome, Outcome::computed) << range;
+    const MeshMeasures m = measure(volume.mesh);
+    EXPECT_TRUE(m.closed && m.oriented && m.euler == 2);
+  }
+}
+
+TEST(ExactOutcomes, AgainstAWallIsBlockedAtOnce) {
+  const Scene scene = SceneBuilder().ground("ground", 100).box("barn", {-60, -1, 0}, {60, -0.02, 60});
+  const Volume volume = compute(scene, facade(4, {0, 0, 20}));  // looks to -y, into the barn's wall
+  EXPECT_EQ(volume.outcome, Outcome::blocked_at_once);
+  EXPECT_TRUE(contains(volume.reason, "\"barn\"")) << volume.reason;
+  EXPECT_TRUE(contains(volume.hint, "front")) << volume.hint;
+  EXPECT_TRUE(volume.mesh.empty());
+  Target turned = facade(4, {0, 0, 20});
+  turned.front = Vec3(0, 1, 0);
+  EXPECT_EQ(compute(scene, turned).outcome, Outcome::computed);
+}
+
+TEST(ExactOutcomes, TheSurfaceUnderTheTargetDoesNotBlock) {
+  const Scene scene = SceneBuilder().ground("ground", 100);
+  for (const double height : {0.0, 0.001, -0.0005, -0.0015}) {  // drawn a little too low
+    SCOPED_TRACE(height);
+    const Volume volume = compute(scene, square(4, {0, 0, height}));
+    ASSERT_EQ(volume.outcome, Outcome::computed);
+    EXPECT_NEAR(volume.lift_m, std::max(0.0, -height), 1e-9);
+    const Volume free = compute(Scene(), square(4, {0, 0, height + volume.lift_m}));
+    EXPECT_NEAR(enclosed_volume(volume.mesh), enclosed_volume(free.mesh), 1e-6 * enclosed_volume(free.mesh));
+  }
+}
+
+TEST(ExactOutcomes, APierceNamesObjectPlaceAndWayOut) {
+  const Scene scene = SceneBuilder().ground("ground", 100).box("kiosk", {1, 1, 0}, {2, 2, 3});
+  const Refusal r = refusal(scene, square(4));
+  EXPECT_EQ(r.problem, "\"kiosk\" stands on or passes through the target");
+  EXPECT_TRUE(contains(r.where, "\"target\"")) << r.where;
+  double x = 0, y = 0, z = 0;  // the place is on the kiosk
+  ASSERT_EQ(std::sscanf(r.where.substr(r.where.find('(')).c_str(), "(%lf, %lf, %lf)", &x, &y, &z), 3) << r.where;
+  EXPECT_TRUE(x >= 1 && x <= 2 && y >= 1 && y <= 2 && z == 0) << r.where;
+  Target raised = square(4);
+  raised.offset_m = offset_in(r.fix);
+  EXPECT_NEAR(raised.offset_m, 3.0, 0.0011);
+  EXPECT_EQ(compute(scene, raised).outcome, Outcome::computed);
+  raised.offset_m = 2.9;  // and nothing much smaller will do
+  EXPECT_TRUE(contains(refusal(scene, raised).problem, "\"kiosk\""));
+  raised.offset_m = 1;  // counted from the vertices, not from where the target is now
+  EXPECT_NEAR(offset_in(refusal(scene, raised).fix), 3.0, 0.0011);
+}
+
+TEST(ExactOutcomes, TheWayOutOfAPierceLeadsPastEverything) {
+  // A tower with a mast, a bridge above it: clear between the two.
+  const Scene scene = SceneBuilder()
+                          .ground("ground", 100)
+                          .box("tower", {-1, -1, 0}, {1, 1, 10})
+                          .box("mast", {-0.1, -0.1, 10}, {0.1, 0.1, 12.5})
+                          .box("bridge", {-3, -60, 20}, {3, 60, 21});
+  Target target = square(4);
+  target.offset_m = offset_in(refusal(scene, target).fix);
+  EXPECT_NEAR(target.offset_m, 12.5, 0.0011);
+  EXPECT_EQ(compute(scene, target).outcome, Outcome::computed);
+}
+
+TEST(ExactOutcomes, AFacadeTargetIsPiercedByABalcony) {
+  const Scene scene = SceneBuilder()
+                          .ground("ground", 100)
+                          .box("house", {-9, 0, 0}, {9, 9, 15})
+                          .box("balcony", {-1, -1.5, 9}, {1, 0, 9.2});
+  Target target = facade(3, {0, 0, 9});
+  const Refusal r = refusal(scene, target);
+  EXPECT_TRUE(contains(r.problem, "\"balcony\"")) << r.problem;
+  target.offset_m = offset_in(r.fix);
+  EXPECT_NEAR(target.offset_m, 1.5, 0.0011);
+  EXPECT_EQ(compute(scene, target).outcome, Outcome::computed);
+}
+
+TEST(ExactOutcomes, ATargetOnASlopeIsClearedByItsOffset) {
+  Mesh slope;
+  slope.vertices = {{-50, -50, -5}, {50, -50, 5}, {50, 50, 5}, {-50, 50, -5}};
+  slope.triangles = {{0, 1, 2}, {0, 2, 3}};
+  const Scene scene = SceneBuilder().add("hill", slope);
+  Target target = square(4);
+  const Refusal r = refusal(scene, target);
+  EXPECT_TRUE(contains(r.problem, "\"hill\"")) << r.problem;
+  target.offset_m = offset_in(r.fix);
+  EXPECT_NEAR(target.offset_m, 0.4, 0.0011);
+  const Volume volume = compute(scene, target);
+  ASSERT_EQ(volume.outcome, Outcome::computed);
+  const VerifyReport report = verify_volume(scene, target, {50}, {}, volume.mesh);
+  EXPECT_EQ(report.over_claimed, 0u) << report.worst_over_depth_m;
+}
+
+TEST(ExactOutcomes, WhatTouchesTheOutlineDoesNotPierce) {
+  const Scene scene = SceneBuilder()
+                          .ground("ground", 100)
+                          .box("wall", {4, -8, 0}, {5, 8, 7})
+                          .box("corner", {-6, -6, 0}, {-4, -4, 2})
+                          .box("canopy", {-9, -9, 6}, {9, 9, 6.5});
+  EXPECT_EQ(compute(scene, square(4)).outcome, Outcome::computed);
+}
+
+TEST(ExactOutcomes, UnderTheGround) {
+  const Scene scene = SceneBuilder().ground("ground", 100).box("house", {-50, -50, 0}, {-40, -40, 20});
+  const Refusal r = refusal(scene, square(4, {0, 0, -3}));
+  EXPECT_EQ(r.problem, "the target is under the ground");
+  EXPECT_TRUE(contains(r.where, "\"ground\" is 3.000 m above")) << r.where;
+  EXPECT_FALSE(r.fix.empty());
+}
+
+TEST(ExactOutcomes, UnderARoofIsNotUnderTheGround) {
+  const Scene scene = SceneBuilder().ground("ground", 100).box("roof", {-30, -30, 8}, {30, 30, 9});
+  EXPECT_EQ(compute(scene, square(4)).outcome, Outcome::computed);
+}
+
+TEST(ExactOutcomes, BadNumbersAreRefused) {
+  const Scene scene = SceneBuilder().ground("ground", 100);
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const double bad : {0.0, -1.0, std::nan(""), infinity}) {
+    EXPECT_TRUE(contains(refusal(scene, square(4), {bad}).problem, "max_range"));
+    EXPECT_TRUE(contains(refusal(scene, square(4), {50}, {bad, 0}).problem, "tolerance"));
+  }
+  const Refusal fine = refusal(scene, square(4), {50}, {1e-9, 0});
+  EXPECT_TRUE(contains(fine.problem, "too fine")) << fine.problem;
+  EXPECT_TRUE(contains(fine.fix, "at least")) << fine.fix;
+  EXPECT_TRUE(contains(refusal(scene, target_of({{0, 0, 0}, {1, 0, 0}})).problem, "at least 3 vertices"));
+}
+
+TEST(ExactOutcomes, ProgressIsReportedAndStops) {
+  const PreparedScene scene(SceneBuilder().ground("ground", 100).box("house", {10, -5, 0}, {20, 5, 20}));
+  std::set<std::string> stages;
+  int calls = 0;
+  compute_visibility(scene, square(4), {50}, {}, [&](std::string_view stage, double fraction) {
+    EXPECT_GE(fraction, 0);
+    EXPECT_LE(fraction, 1);
+    stages.emplace(stage);
+    ++calls;
+    return true;
+  });
+  EXPECT_GE(stages.size(), 2u);
+  for (int stop = 1; stop <= calls; ++stop) {  // at every call in turn
+    int seen = 0;
+    try {
+      compute_visibility(scene, square(4), {50}, {}, [&](std::string_view, double) { return ++seen < stop; });
+      FAIL() << "was not cancelled at call " << stop;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::cancelled);
+      EXPECT_EQ(seen, stop);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace vantage
