@@ -39,18 +39,20 @@ LocalTarget make_local_target(const std::vector<Vector2d>& polygon) {
   return target;
 }
 
-void BlockerBuilder::build(std::span<const Vec3> polygon, std::vector<Plane>& planes) {
+bool BlockerBuilder::build(std::span<const Vec3> polygon, std::vector<Plane>& planes, std::vector<Vec3>& corners) {
   clip(polygon);
-  if (polygon_.size() < 3) return;
+  if (polygon_.size() < 3) return false;
   const Vec3 area = area_vector(polygon_);
   const double size = area.norm();
-  if (!(size > 0)) return;
+  if (!(size > 0)) return false;
   const Vec3 normal = area / size;
   planes_ = &planes;
   first_ = planes.size();
   add_own_plane(normal);
   add_target_edge_planes();
   add_polygon_edge_planes(normal);
+  corners.insert(corners.end(), polygon_.begin(), polygon_.end());
+  return true;
 }
 
 // Keeps what is above the target's plane; heights within rounding of it are set to zero.

@@ -27,13 +27,13 @@ LocalTarget make_local_target(const std::vector<Eigen::Vector2d>& polygon);
 using Plane = Vec3;
 
 /// Planes of B(O) for the convex polygon O (local frame, metres, at least 3 corners, planar to rounding), clipped to
-/// z >= 0. Appends to `planes`; appends nothing when O reaches nowhere above the target's plane. Every plane holds all
-/// of B(O) on its far side (to numerics::kSeparation), so leaving one out would only hide more. Cost: O(N M) for N
-/// target vertices and M corners.
+/// z >= 0. Appends to `planes` and the clipped corners to `corners`; returns false and appends nothing when O reaches
+/// nowhere above the target's plane. Every plane holds all of B(O) on its far side (to numerics::kSeparation), so
+/// leaving one out would only hide more. Cost: O(N M) for N target vertices and M corners.
 class BlockerBuilder {
  public:
   explicit BlockerBuilder(const LocalTarget& target) : target_(target) {}
-  void build(std::span<const Vec3> polygon, std::vector<Plane>& planes);
+  bool build(std::span<const Vec3> polygon, std::vector<Plane>& planes, std::vector<Vec3>& corners);
 
  private:
   void clip(std::span<const Vec3> polygon);

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cmath>
 
 #include "vantage/geometry.h"
@@ -53,6 +54,12 @@ struct ChartCell {
     const double corner = f.constant + f.slope_a * a + f.slope_b * b;
     const double da = f.slope_a * size, db = f.slope_b * size;
     return at_horizon() ? corner + std::min(0.0, std::min(da, db)) : corner + std::min(0.0, da) + std::min(0.0, db);
+  }
+  /// Values at the corners; a half square has its first corner twice.
+  std::array<double, 4> at_corners(const QuadrantLinear& f) const {
+    const double corner = f.constant + f.slope_a * a + f.slope_b * b;
+    const double da = f.slope_a * size, db = f.slope_b * size;
+    return {corner, corner + da, corner + db, at_horizon() ? corner : corner + da + db};
   }
   Vec3 centre_direction() const {
     const double shift = at_horizon() ? size / 3 : size / 2;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <queue>
 
-#include "exact/node_planes.h"
 #include "exact/numerics.h"
 #include "vantage/error.h"
 
@@ -51,8 +50,10 @@ void collect_blockers(const PreparedScene::Data& scene, const TargetFrame& frame
   if (scene.bvh.nodes.empty()) return;
   const Vec3 centre = frame.origin - scene.origin;
   const double reach = std::max(range.radius(), target.radius);  // a segment from the region to the target stays within
+  // The scene's axes in the target's frame.
+  std::array<Vec3, 3> axes;
+  for (int a = 0; a < 3; ++a) axes[a] = {frame.axis_u[a], frame.axis_v[a], frame.normal[a]};
   BlockerBuilder builder(target);
-  NodePlanes node_planes(target, frame);
   std::vector<Vec3> corners;
   std::priority_queue<Entry> queue;
   const auto push = [&](std::uint32_t node) {
@@ -65,8 +66,17 @@ void collect_blockers(const PreparedScene::Data& scene, const TargetFrame& frame
     const scene::BvhNode& node = scene.bvh.nodes[queue.top().node];
     queue.pop();
     if (++steps % 1024 == 0) check_cancelled(progress);
-    if (!node_planes.set(node.bounds, centre)) continue;
-    if (!tree.may_show(node_planes.planes())) continue;
+    Vec3 middle = Vec3::Zero();
+    std::array<Vec3, 3> half;
+    double above = 0;
+    for (int a = 0; a < 3; ++a) {
+      const double low = node.bounds.min[a] - centre[a], high = node.bounds.max[a] - centre[a];
+      middle += axes[a] * (0.5 * (low + high));
+      half[a] = axes[a] * (0.5 * (high - low));
+      above += std::abs(half[a].z());
+    }
+    if (middle.z() + above <= numerics::kOnPlane) continue;  // behind the target
+    if (tree.hides_box(middle, half)) continue;
     if (!node.leaf()) {
       push(node.first);
       push(node.first + 1);
@@ -74,15 +84,10 @@ void collect_blockers(const PreparedScene::Data& scene, const TargetFrame& frame
     }
     for (std::uint32_t polygon = node.first; polygon < node.first + node.count; ++polygon) {
       local_polygon(scene, frame, polygon, corners);
-      const std::size_t before = blockers.planes.size();
-      builder.build(corners, blockers.planes);
-      if (blockers.planes.size() == before) continue;
-      blockers.first.push_back(std::uint32_t(blockers.planes.size()));
-      blockers.polygon.push_back(polygon);
-      if (tree.insert(std::uint32_t(blockers.count() - 1))) continue;
-      blockers.planes.resize(before);  // hidden: forget it
-      blockers.first.pop_back();
-      blockers.polygon.pop_back();
+      if (tree.hides_hull(corners)) continue;
+      if (!builder.build(corners, blockers.planes, blockers.corners)) continue;
+      blockers.close(polygon);
+      if (!tree.insert(std::uint32_t(blockers.count() - 1))) blockers.drop_last();
     }
   }
 }

@@ -120,7 +120,7 @@ void compute(const PreparedScene& scene, const Sensor& sensor, const ExactOption
   collect_blockers(scene.data(), volume.frame, target, range, blockers, tree, progress);
   report(progress, "tracing the envelope", 0.3);
   const CurveSampling sampling{options.tolerance_m * 0.5, std::sqrt(8 * sensor.max_range_m * options.tolerance_m)};
-  const Skeleton skeleton = trace_envelope(blockers, tree.leaves(), range, sampling);
+  const Skeleton skeleton = trace_envelope(blockers, tree, range, sampling);
   report(progress, "triangulating", 0.6);
   Boundary boundary = triangulate_boundary(skeleton, blockers, tree, range, grid);
   report(progress, "triangulating", 1.0);

@@ -34,8 +34,32 @@ struct Sighting {
   bool operator<(const Sighting& other) const { return plane != other.plane ? plane < other.plane : leaf < other.leaf; }
 };
 
+// A plane bounds the view only beyond the corners where it touches its polygon: where those are hidden, so is it.
+std::vector<bool> hidden_planes(const BlockerSet& blockers, const DirectionTree& tree,
+                                const std::vector<DirectionTree::Leaf>& leaves, const RangeRegion& range) {
+  std::vector<bool> hidden(blockers.planes.size(), true);
+  std::vector<bool> listed(blockers.count(), false);
+  for (const auto& leaf : leaves)
+    for (std::uint32_t blocker : leaf.blockers) listed[blocker] = true;
+  std::vector<Vec3> touched;
+  for (std::uint32_t blocker = 0; blocker < blockers.count(); ++blocker) {
+    if (!listed[blocker]) continue;
+    for (std::uint32_t k = blockers.first[blocker]; k < blockers.first[blocker + 1]; ++k) {
+      const Plane& plane = blockers.planes[k];
+      const double margin = tie_margin(plane, range.radius());
+      touched.clear();
+      for (const Vec3& corner : blockers.corners_of(blocker))
+        if (std::abs(plane.dot(corner) - 1) <= margin) touched.push_back(corner);
+      hidden[k] = !touched.empty() && tree.hides_hull(touched);
+    }
+  }
+  return hidden;
+}
+
 // A plane may be seen in a leaf where it can reach the envelope's lower bound and can be the least of its blocker.
-FacetTable find_facets(const BlockerSet& blockers, const std::vector<DirectionTree::Leaf>& leaves) {
+FacetTable find_facets(const BlockerSet& blockers, const DirectionTree& tree,
+                       const std::vector<DirectionTree::Leaf>& leaves, const RangeRegion& range) {
+  const std::vector<bool> hidden = hidden_planes(blockers, tree, leaves, range);
   std::vector<Sighting> sightings;
   std::vector<double> upper, lower;
   for (std::uint32_t l = 0; l < leaves.size(); ++l) {
@@ -50,7 +74,8 @@ FacetTable find_facets(const BlockerSet& blockers, const std::vector<DirectionTr
         least_upper = std::min(least_upper, upper.back());
       }
       for (std::size_t k = 0; k < planes.size(); ++k)
-        if (upper[k] >= leaves[l].bound * (1 - 1e-12) && lower[k] <= least_upper * (1 + 1e-12))
+        if (!hidden[blockers.first[blocker] + k] && upper[k] >= leaves[l].bound * (1 - 1e-12) &&
+            lower[k] <= least_upper * (1 + 1e-12))
           sightings.push_back({blockers.first[blocker] + std::uint32_t(k), blocker, l});
     }
   }
@@ -319,9 +344,15 @@ void trace_range_creases(const BlockerSet& blockers, const std::vector<std::uint
 
 }  // namespace
 
-Skeleton trace_envelope(const BlockerSet& blockers, const std::vector<DirectionTree::Leaf>& leaves,
-                        const RangeRegion& range, const CurveSampling& sampling) {
-  const FacetTable table = find_facets(blockers, leaves);
+Skeleton trace_envelope(const BlockerSet& blockers, const DirectionTree& tree, const RangeRegion& range,
+                        const CurveSampling& sampling) {
+  const std::vector<DirectionTree::Leaf> leaves = tree.leaves();
+  const FacetTable table = find_facets(blockers, tree, leaves, range);
+  if (getenv("VDBG")) {
+    size_t r = 0;
+    for (auto& f : table.facets) r += f.leaf_count;
+    fprintf(stderr, "planes %zu active facets %zu leafrefs %zu\n", blockers.planes.size(), table.facets.size(), r);
+  }
   std::vector<FacetTracer::Result> results(table.facets.size());
   parallel::for_ranges(table.facets.size(), 16, [&](std::size_t begin, std::size_t end) {
     FacetTracer tracer(blockers, leaves, table, range, sampling);

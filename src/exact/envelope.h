@@ -26,7 +26,7 @@ struct CurveSampling {
 
 /// Every crease inside one blocker that bounds the volume is in the result in full: leaving one out would over-claim.
 /// Parallel over facets; the result does not depend on the number of threads.
-Skeleton trace_envelope(const BlockerSet& blockers, const std::vector<DirectionTree::Leaf>& leaves,
-                        const RangeRegion& range, const CurveSampling& sampling);
+Skeleton trace_envelope(const BlockerSet& blockers, const DirectionTree& tree, const RangeRegion& range,
+                        const CurveSampling& sampling);
 
 }  // namespace vantage::exact

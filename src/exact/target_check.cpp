@@ -8,7 +8,6 @@
 #include "exact/blocker.h"
 #include "exact/collect.h"
 #include "exact/facet_polygon.h"
-#include "exact/node_planes.h"
 #include "exact/numerics.h"
 #include "vantage/error.h"
 
