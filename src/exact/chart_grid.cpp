@@ -47,12 +47,12 @@ double deepest_on_trial_grid(const RangeRegion& range) {
 
 }  // namespace
 
-ChartGrid::ChartGrid(const RangeRegion& range, double tolerance) {
-  const double needed = kTrial * std::sqrt(deepest_on_trial_grid(range) / (kSafety * tolerance));
+ChartGrid::ChartGrid(const RangeRegion& region, double tolerance) {
+  const double needed = kTrial * std::sqrt(deepest_on_trial_grid(region) / (kSafety * tolerance));
   if (!(needed <= kMostLines)) {
     const double least = tolerance * (needed / kMostLines) * (needed / kMostLines);
     throw Error(ErrorKind::input, "the tolerance is too fine for this range: the mesh would have too many facets",
-                "tolerance " + std::to_string(tolerance) + " m at range " + std::to_string(range.radius()) + " m",
+                "tolerance " + std::to_string(tolerance) + " m at range " + std::to_string(region.radius()) + " m",
                 "give a tolerance of at least " + std::to_string(least) + " m");
   }
   n_ = std::max(8, int(std::ceil(needed)));
@@ -80,7 +80,7 @@ void ChartGrid::mark(const ChartPoint& from, const ChartPoint& to) {
 
 void ChartGrid::settle(const std::function<bool(const ChartPoint&)>& is_range_at) {
   for (int j = -n_; j < n_; ++j) {
-    const int width = n_ - (j >= 0 ? j : -1 - j);
+    const int width = row_width(j);
     State run = unknown;
     int begin = -width;
     for (int i = -width; i <= width; ++i) {
@@ -92,12 +92,12 @@ void ChartGrid::settle(const std::function<bool(const ChartPoint&)>& is_range_at
       if (i > begin) {
         if (run == unknown) {
           const int middle = begin + (i - begin) / 2;
-          const double shift = inside(middle, j, n_ - 1) ? 0.5 : 1.0 / 3;  // halves of squares at the horizon
+          const double shift = at_horizon(middle, j) ? 1.0 / 3 : 0.5;  // halves of squares at the horizon
           const auto between = [&](int k) {
             const double low = line(k), high = line(k + 1);
             return k >= 0 ? low + shift * (high - low) : high - shift * (high - low);
           };
-          run = is_range_at({between(middle), between(j)}) ? range : blocked;
+          run = is_range_at({between(middle), between(j)}) ? State::range : blocked;
         }
         std::fill(&states_[index(begin, j)], &states_[index(begin, j)] + (i - begin), std::uint8_t(run));
       }

@@ -16,7 +16,7 @@ class ChartGrid {
  public:
   /// Fine enough that the triangles on the range sphere lie at most `tolerance` inside it.
   /// Throws Error(input) when that would take more cells than can be handled.
-  ChartGrid(const RangeRegion& range, double tolerance);
+  ChartGrid(const RangeRegion& region, double tolerance);
 
   enum State : std::uint8_t {
     unknown,
@@ -28,8 +28,19 @@ class ChartGrid {
   int size() const { return n_; }
   double line(int i) const { return i < 0 ? -lines_[-i] : lines_[i]; }
   ChartPoint node(int i, int j) const { return {line(i), line(j)}; }
-  static bool inside(int i, int j, int n) { return (i >= 0 ? i : -1 - i) + (j >= 0 ? j : -1 - j) < n; }
-  bool has_cell(int i, int j) const { return i >= -n_ && i < n_ && j >= -n_ && j < n_ && inside(i, j, n_); }
+
+  /// Row j has the cells -row_width <= i < row_width.
+  int row_width(int j) const { return n_ - ring(j); }
+  bool has_cell(int i, int j) const { return ring(i) + ring(j) < n_; }
+  bool at_horizon(int i, int j) const { return ring(i) + ring(j) == n_ - 1; }
+
+  /// Lines on the four sides of a cell: a0 and b0 are the ones nearer to the axes.
+  struct Corners {
+    int a0, a1, b0, b1;
+  };
+  static Corners corners(int i, int j) {
+    return {i >= 0 ? i : i + 1, i >= 0 ? i + 1 : i, j >= 0 ? j : j + 1, j >= 0 ? j + 1 : j};
+  }
 
   /// Cell (i, j) lies between the lines i and i + 1, j and j + 1; -n <= i, j < n.
   State state(int i, int j) const { return State(states_[index(i, j)]); }
@@ -45,6 +56,7 @@ class ChartGrid {
   void settle(const std::function<bool(const ChartPoint&)>& is_range_at);
 
  private:
+  static int ring(int i) { return i >= 0 ? i : -1 - i; }
   std::size_t index(int i, int j) const { return std::size_t(j + n_) * (2 * n_) + std::size_t(i + n_); }
 
   int n_;

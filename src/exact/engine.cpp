@@ -122,7 +122,7 @@ void compute(const PreparedScene& scene, const Sensor& sensor, const ExactOption
   const CurveSampling sampling{options.tolerance_m * 0.5, std::sqrt(8 * sensor.max_range_m * options.tolerance_m)};
   const Skeleton skeleton = trace_envelope(blockers, tree, range, sampling);
   report(progress, "triangulating", 0.6);
-  Boundary boundary = triangulate_boundary(skeleton, blockers, tree, range, grid);
+  Boundary boundary = triangulate_boundary(skeleton, blockers, tree, range, grid, options.tolerance_m);
   report(progress, "triangulating", 1.0);
 
   volume.counts = {scene.data().polygon_count(), blockers.count(), skeleton.visible_blockers, skeleton.visible_facets,

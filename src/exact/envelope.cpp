@@ -108,7 +108,7 @@ class FacetTracer {
     if (!make_polygon(facet)) return result;
     gather_rivals(facet);
     if (!cut_by_rivals(facet)) return result;
-    trace_own_edges(facet, result);
+    trace_own_edges(result);
     trace_crossings(facet, result);
     trace_range(facet, result);
     result.visible = !result.planar.empty() || !result.curved.empty();
@@ -116,6 +116,8 @@ class FacetTracer {
   }
 
  private:
+  static constexpr std::uint32_t kNoRival = ~0u;
+
   const Plane& plane_of(const Facet& facet) const { return blockers_.planes[facet.plane]; }
   double reach() const { return range_.radius(); }
 
@@ -195,11 +197,11 @@ class FacetTracer {
   }
 
   // The creases between this facet and its siblings. Both find them; they are the same edge once snapped.
-  void trace_own_edges(const Facet& facet, Result& result) {
+  void trace_own_edges(Result& result) {
     for (std::size_t i = 0; i < polygon_.corners.size(); ++i) {
       if (polygon_.makers[i] >= FacetPolygon::kHorizon) continue;
       const Vec3 &from = polygon_.corners[i], &to = polygon_.corners[(i + 1) % polygon_.corners.size()];
-      trace_edge(from, to, facet.blocker, ~0u, result);
+      trace_edge(from, to, kNoRival, result);
     }
   }
 
@@ -212,21 +214,20 @@ class FacetTracer {
       for (std::size_t i = 0; i < corners.size(); ++i) {
         const std::uint32_t maker = cut.polygon.makers[i];
         if (maker < blockers_.first[cut.rival] || maker >= blockers_.first[cut.rival + 1]) continue;
-        trace_edge(corners[i], corners[(i + 1) % corners.size()], facet.blocker, cut.rival, result);
+        trace_edge(corners[i], corners[(i + 1) % corners.size()], cut.rival, result);
       }
     }
   }
 
   // Adds what of from -> to is in range and not hidden by any rival but `other`.
-  void trace_edge(const Vec3& from, const Vec3& to, std::uint32_t blocker, std::uint32_t other, Result& result) {
+  void trace_edge(const Vec3& from, const Vec3& to, std::uint32_t other, Result& result) {
     const double length = (to - from).norm();
     if (length < kShortest) return;
     shown_.assign(0, 1);
     keep_in_range(from, to);
     for (std::uint32_t rival : rivals_) {
       if (rival == other) continue;
-      const Interval hidden =
-          hidden_part(from, to, reach(), blockers_.planes_of(rival), rival < std::min(blocker, other));
+      const Interval hidden = hidden_part(from, to, reach(), blockers_.planes_of(rival));
       shown_.subtract(hidden.begin, hidden.end);
       if (shown_.empty()) return;
     }

@@ -24,12 +24,12 @@ inline constexpr double kTie = 1e-10;
 /// the wrong owner nor the rounding of a crease leaves a point outside the true volume.
 inline constexpr double kShrink = 1e-9;
 
-/// Vertices of the direction chart (which spans [-1, 1]) closer than this are one vertex: 0.1 micrometres at 1 km.
-inline constexpr double kSnap = 1e-10;
+/// Vertices of the direction chart (which spans [-1, 1]) closer than this are one vertex: a nanometre at 1 km, a
+/// hundred times the rounding of a crossing of two well-shaped planes.
+inline constexpr double kSnap = 1e-12;
 
-/// Coplanar neighbours are merged when no vertex is farther than this from the common plane. Rounding level: merging
-/// must not change what is hidden.
-inline constexpr double kCoplanar = 1e-9;
+/// The most that vertices are snapped when the triangulation cannot be built otherwise: 0.1 micrometres at 1 km.
+inline constexpr double kWidestSnap = 1e-10;
 
 /// The target may be raised by at most this much to clear the surface that it lies on: surfaces of real meshes are
 /// planar to a millimetre at best, single-precision files to a tenth of one.

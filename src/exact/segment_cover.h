@@ -15,19 +15,16 @@ inline double tie_margin(const Plane& plane, double reach) {
   return numerics::kTie + 1e-15 * reach * plane.cwiseAbs().sum();
 }
 
-/// The part of from -> to (parameters 0 to 1) on which every plane exceeds 1. A plane that holds the whole segment (a
-/// tie) hides it only if `owns_ties`. Empty intervals have begin >= end.
-inline Interval hidden_part(const Vec3& from, const Vec3& to, double reach, std::span<const Plane> planes,
-                            bool owns_ties) {
+/// The part of from -> to (parameters 0 to 1) on which every plane exceeds 1: what the blocker hides of it. A surface
+/// that only touches or holds the segment does not hide it: several blockers may share an edge, and none may count on
+/// another to report it. Empty intervals have begin >= end.
+inline Interval hidden_part(const Vec3& from, const Vec3& to, double reach, std::span<const Plane> planes) {
   constexpr Interval kNone{1, 0};
   Interval hidden{0, 1};
   for (const Plane& plane : planes) {
     const double margin = tie_margin(plane, reach);
     const double a = plane.dot(from) - 1, b = plane.dot(to) - 1;
-    if (a <= margin && b <= margin) {
-      if (owns_ties && a >= -margin && b >= -margin) continue;
-      return kNone;
-    }
+    if (a <= margin && b <= margin) return kNone;
     if (a >= -margin && b >= -margin) continue;
     const double crossing = a / (a - b);
     if (a < b)

@@ -2,21 +2,15 @@
 
 #include <bit>
 
-#include "exact/numerics.h"
-
 namespace vantage::exact {
 namespace {
 
-using numerics::kSnap;
-
 constexpr std::uint32_t kNone = ~0u;
-constexpr double kCell = 1024 * kSnap;  // so large that a point seldom needs a look into a second cell
-
-std::int64_t cell_of(double coordinate) { return std::int64_t(std::floor(coordinate / kCell)); }
+constexpr double kBucket = 4096;  // snapping distances; so large that a point seldom needs a look into a second bucket
 
 }  // namespace
 
-VertexSnapper::VertexSnapper(std::size_t expected) {
+VertexSnapper::VertexSnapper(std::size_t expected, double snap) : snap_(snap), bucket_(kBucket * snap) {
   points_.reserve(expected);
   next_.reserve(expected);
   heads_.assign(std::bit_ceil(2 * expected + 16), kNone);
@@ -30,23 +24,23 @@ std::size_t VertexSnapper::slot_of(std::int64_t x, std::int64_t y) const {
 
 std::uint32_t VertexSnapper::find(std::int64_t x, std::int64_t y, const ChartPoint& point) const {
   for (std::uint32_t i = heads_[slot_of(x, y)]; i != kNone; i = next_[i])
-    if ((points_[i] - point).cwiseAbs().maxCoeff() <= kSnap) return i;
+    if ((points_[i] - point).cwiseAbs().maxCoeff() <= snap_) return i;
   return kNone;
 }
 
 std::uint32_t VertexSnapper::add(ChartPoint point) {
-  if (std::abs(point.x()) <= kSnap) point.x() = 0;
-  if (std::abs(point.y()) <= kSnap) point.y() = 0;
+  if (std::abs(point.x()) <= snap_) point.x() = 0;
+  if (std::abs(point.y()) <= snap_) point.y() = 0;
   const double sum = std::abs(point.x()) + std::abs(point.y());
-  const bool horizon = sum >= 1 - kSnap;
+  const bool horizon = sum >= 1 - snap_;
   if (horizon) point /= sum;
-  const std::int64_t x0 = cell_of(point.x() - kSnap), x1 = cell_of(point.x() + kSnap);
-  const std::int64_t y0 = cell_of(point.y() - kSnap), y1 = cell_of(point.y() + kSnap);
+  const std::int64_t x0 = bucket_of(point.x() - snap_), x1 = bucket_of(point.x() + snap_);
+  const std::int64_t y0 = bucket_of(point.y() - snap_), y1 = bucket_of(point.y() + snap_);
   for (std::int64_t x = x0; x <= x1; ++x)
     for (std::int64_t y = y0; y <= y1; ++y)
       if (const std::uint32_t found = find(x, y, point); found != kNone) return found;
   if (2 * points_.size() > heads_.size()) grow();
-  const std::size_t slot = slot_of(cell_of(point.x()), cell_of(point.y()));
+  const std::size_t slot = slot_of(bucket_of(point.x()), bucket_of(point.y()));
   points_.push_back(point);
   horizon_.push_back(horizon);
   next_.push_back(heads_[slot]);
@@ -57,7 +51,7 @@ std::uint32_t VertexSnapper::add(ChartPoint point) {
 void VertexSnapper::grow() {
   heads_.assign(2 * heads_.size(), kNone);
   for (std::uint32_t i = 0; i < points_.size(); ++i) {
-    const std::size_t slot = slot_of(cell_of(points_[i].x()), cell_of(points_[i].y()));
+    const std::size_t slot = slot_of(bucket_of(points_[i].x()), bucket_of(points_[i].y()));
     next_[i] = heads_[slot];
     heads_[slot] = i;
   }

@@ -8,11 +8,11 @@
 
 namespace vantage::exact {
 
-/// Gives points indices; a point within numerics::kSnap of an earlier one gets that one's index. Coordinates that close
+/// Gives points indices; a point within `snap` of an earlier one gets that one's index. Coordinates that close
 /// to an axis are put on it, and points that close to the horizon |a| + |b| = 1 are on the horizon.
 class VertexSnapper {
  public:
-  explicit VertexSnapper(std::size_t expected);
+  VertexSnapper(std::size_t expected, double snap);
 
   std::uint32_t add(ChartPoint point);
 
@@ -22,8 +22,10 @@ class VertexSnapper {
  private:
   std::uint32_t find(std::int64_t x, std::int64_t y, const ChartPoint& point) const;
   std::size_t slot_of(std::int64_t x, std::int64_t y) const;
+  std::int64_t bucket_of(double coordinate) const { return std::int64_t(std::floor(coordinate / bucket_)); }
   void grow();
 
+  double snap_, bucket_;
   std::vector<ChartPoint> points_;
   std::vector<bool> horizon_;
   std::vector<std::uint32_t> next_;   // the next vertex in the same bucket

@@ -1,0 +1,124 @@
+#include "exact/constraint_graph.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace vantage::exact {
+namespace {
+
+// Monotone in the angle round the diamond.
+double turn_of(const ChartPoint& p) {
+  if (p.y() >= 0) return p.x() > 0 ? p.y() : 2 - p.y();
+  return p.x() < 0 ? 2 - p.y() : 4 + p.y();
+}
+
+}  // namespace
+
+ConstraintGraph::ConstraintGraph(const Skeleton& skeleton, ChartGrid& grid, const IsRange& is_range, double snap)
+    : grid_(grid), snapper_(2 * skeleton.planar.size() + 16 * skeleton.curved.size() + 1024, snap) {
+  for (const ChartPoint& corner :
+       {ChartPoint(0, 0), ChartPoint(1, 0), ChartPoint(0, 1), ChartPoint(-1, 0), ChartPoint(0, -1)})
+    snapper_.add(corner);
+  nodes_.assign(std::size_t(2 * grid_.size() + 1) * (2 * grid_.size() + 1), kNone);
+  node(0, 0) = 0;
+  add_creases(skeleton);
+  grid_.settle(is_range);
+  add_border();
+  add_fill(is_range);
+  add_axes();
+  add_horizon();
+  std::sort(edges_.begin(), edges_.end());
+  edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
+}
+
+void ConstraintGraph::add_edge(std::uint32_t a, std::uint32_t b) {
+  if (a != b) edges_.emplace_back(std::min(a, b), std::max(a, b));
+}
+
+void ConstraintGraph::add_creases(const Skeleton& skeleton) {
+  for (const Skeleton::Edge& edge : skeleton.planar) add_crease(edge.from, edge.to, false);
+  for (const auto& line : skeleton.curved)
+    for (std::size_t i = 0; i + 1 < line.size(); ++i) add_crease(line[i], line[i + 1], true);
+}
+
+// A straight line in space is straight in the chart but for bends where it crosses the planes x = 0 and y = 0.
+void ConstraintGraph::add_crease(const Vec3& from, const Vec3& to, bool on_sphere) {
+  std::array<double, 4> stops{0, 1, 1, 1};
+  int count = 1;
+  for (int axis = 0; axis < 2; ++axis)
+    if ((from[axis] < 0 && to[axis] > 0) || (from[axis] > 0 && to[axis] < 0))
+      stops[count++] = from[axis] / (from[axis] - to[axis]);
+  if (count == 3 && stops[2] < stops[1]) std::swap(stops[1], stops[2]);
+  stops[count] = 1;
+  ChartPoint previous = to_chart(from);
+  std::uint32_t vertex = snapper_.add(previous);
+  for (int i = 1; i <= count; ++i) {
+    const ChartPoint next = to_chart(stops[i] == 1 ? to : Vec3(from + stops[i] * (to - from)));
+    const std::uint32_t next_vertex = snapper_.add(next);
+    add_edge(vertex, next_vertex);
+    if (on_sphere) grid_.mark(previous, next);
+    previous = next, vertex = next_vertex;
+  }
+}
+
+std::uint32_t ConstraintGraph::vertex_at(int i, int j) {
+  std::uint32_t& slot = node(i, j);
+  if (slot == kNone) slot = snapper_.add(grid_.node(i, j));
+  return slot;
+}
+
+// The edges between cells that are cut in two and the rest of the chart.
+void ConstraintGraph::add_border() {
+  const int n = grid_.size();
+  for (int j = -n; j < n; ++j) {
+    const int width = grid_.row_width(j);
+    for (int i = -width; i < width; ++i) {
+      const bool here = grid_.is_range(i, j);
+      if (i + 1 < width && here != grid_.is_range(i + 1, j)) add_edge(vertex_at(i + 1, j), vertex_at(i + 1, j + 1));
+      if (grid_.has_cell(i, j + 1) && here != grid_.is_range(i, j + 1))
+        add_edge(vertex_at(i, j + 1), vertex_at(i + 1, j + 1));
+      if (here && grid_.at_horizon(i, j)) {
+        const ChartGrid::Corners c = ChartGrid::corners(i, j);
+        vertex_at(c.a1, c.b0);
+        vertex_at(c.a0, c.b1);
+      }
+    }
+  }
+}
+
+void ConstraintGraph::add_fill(const IsRange& is_range) {
+  const int n = grid_.size();
+  for (int j = -n; j < n; ++j) {
+    const int width = grid_.row_width(j);
+    for (int i = -width; i < width; ++i) {
+      if (grid_.state(i, j) != ChartGrid::mixed) continue;
+      for (const auto& [a, b] : {std::pair{i, j}, {i + 1, j}, {i, j + 1}, {i + 1, j + 1}}) {
+        if (std::abs(a) + std::abs(b) > n || node(a, b) != kNone) continue;
+        if (is_range(grid_.node(a, b))) vertex_at(a, b);
+      }
+    }
+  }
+}
+
+// Triangles must not pass over the axes, where the chart bends.
+void ConstraintGraph::add_axes() {
+  for (int axis = 0; axis < 2; ++axis) {
+    std::vector<std::uint32_t> on_axis;
+    for (std::uint32_t v = 0; v < points().size(); ++v)
+      if (points()[v][1 - axis] == 0) on_axis.push_back(v);
+    std::sort(on_axis.begin(), on_axis.end(),
+              [&](std::uint32_t a, std::uint32_t b) { return points()[a][axis] < points()[b][axis]; });
+    for (std::size_t k = 0; k + 1 < on_axis.size(); ++k) add_edge(on_axis[k], on_axis[k + 1]);
+  }
+}
+
+void ConstraintGraph::add_horizon() {
+  for (std::uint32_t v = 0; v < points().size(); ++v)
+    if (on_horizon(v)) horizon_.push_back(v);
+  std::sort(horizon_.begin(), horizon_.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return turn_of(points()[a]) < turn_of(points()[b]); });
+  for (std::size_t k = 0; k < horizon_.size(); ++k) add_edge(horizon_[k], horizon_[(k + 1) % horizon_.size()]);
+}
+
+}  // namespace vantage::exact

@@ -1,0 +1,55 @@
+// The points and edges of the chart that the triangulation must hold.
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "exact/chart_grid.h"
+#include "exact/envelope.h"
+#include "exact/vertex_snapper.h"
+
+namespace vantage::exact {
+
+/// Answers whether the boundary in the direction of a chart point is range sphere.
+using IsRange = std::function<bool(const ChartPoint&)>;
+
+/// Creases, split where they cross the chart's axes; the border of the cells that are cut in two; the axes; the
+/// horizon; and free points on the range sphere among the creases, so that triangles there are no larger than cells.
+class ConstraintGraph {
+ public:
+  using Edge = std::pair<std::uint32_t, std::uint32_t>;
+  static constexpr std::uint32_t kNone = ~0u;
+
+  /// Marks and settles the cells of `grid`. Points closer than `snap` become one.
+  ConstraintGraph(const Skeleton& skeleton, ChartGrid& grid, const IsRange& is_range, double snap);
+
+  const std::vector<ChartPoint>& points() const { return snapper_.points(); }
+  bool on_horizon(std::uint32_t vertex) const { return snapper_.on_horizon(vertex); }
+  const std::vector<Edge>& edges() const { return edges_; }
+  const std::vector<std::uint32_t>& horizon() const { return horizon_; }  ///< counter-clockwise
+
+  /// The vertex at a node of the grid; kNone where there is none yet.
+  std::uint32_t& node(int i, int j) {
+    const int n = grid_.size();
+    return nodes_[std::size_t(j + n) * (2 * n + 1) + std::size_t(i + n)];
+  }
+
+ private:
+  void add_edge(std::uint32_t a, std::uint32_t b);
+  void add_crease(const Vec3& from, const Vec3& to, bool on_sphere);
+  void add_creases(const Skeleton& skeleton);
+  std::uint32_t vertex_at(int i, int j);
+  void add_border();
+  void add_fill(const IsRange& is_range);
+  void add_axes();
+  void add_horizon();
+
+  ChartGrid& grid_;
+  VertexSnapper snapper_;
+  std::vector<Edge> edges_;
+  std::vector<std::uint32_t> nodes_;
+  std::vector<std::uint32_t> horizon_;
+};
+
+}  // namespace vantage::exact
