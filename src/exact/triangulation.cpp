@@ -18,6 +18,9 @@ namespace {
 constexpr int kMostRounds = 30;
 // The gauge may rise this fraction above a triangle before it counts as over-claimed: less than the final shrinking.
 constexpr double kSafe = 0.5 * numerics::kShrink;
+// Where it rises less than this (0.1 mm at 1 km) the triangle's corners are drawn in; where it rises more, a crease is missing
+// and the triangle is split.
+constexpr double kSmallRise = 1e-7;
 
 class BoundaryBuilder {
  public:
@@ -89,8 +92,11 @@ class BoundaryBuilder {
       known_[i].blocker = gauge.blocker;
       known_[i].kept = true;
       const double claimed = (gauges_[t[0]] + gauges_[t[1]] + gauges_[t[2]]) / 3;
-      if (gauge.value > claimed * (1 + kSafe) || (gauge.blocker == GaugeValue::kRange && too_deep(t)))
+      const double rise = gauge.value / claimed - 1;
+      if (rise > kSmallRise || (gauge.blocker == GaugeValue::kRange && too_deep(t)))
         added.push_back(centre);
+      else if (rise > kSafe)
+        for (std::uint32_t corner : t) gauges_[corner] *= 1 + 2 * rise;  // a greater gauge only makes the volume smaller
     }
     if (added.empty()) return false;
     cdt_.insertVertices(
