@@ -237,36 +237,6 @@ TEST(ReadScene, ReportsProgressAndCanBeCancelled) {
   }
 }
 
-TEST(ReadMesh, WeldsAndTakesTheAxesOfEachFormat) {
-  TemporaryDirectory folder;
-  // A tetrahedron whose facets share no vertex, and one facet without area; 0 and -0 are the same place.
-  std::string stl = "solid t\n", obj;
-  const Vec3 corners[4] = {Vec3(0, 0, 0), Vec3(2, 0, 0), Vec3(0, 3, 0), Vec3(0, 0, 4)};
-  int count = 0;
-  const std::vector<std::array<int, 3>> facets = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}, {1, 1, 2}};
-  for (const auto& facet : facets) {
-    stl += "facet normal 0 0 0\nouter loop\n";
-    for (const int corner : facet) {
-      const Vec3& v = corners[corner];
-      const std::string minus = ++count % 2 == 0 ? "-" : "";
-      const auto number = [&](double value) { return (value == 0 ? minus : "") + std::to_string(value) + " "; };
-      stl += "vertex " + number(v.x()) + number(v.y()) + number(v.z()) + "\n";
-      obj += "v " + number(v.x()) + number(v.z()) + std::to_string(-v.y()) + "\n";  // y up
-    }
-    stl += "endloop\nendfacet\n";
-    obj += "f -3 -2 -1\n";
-  }
-  write_bytes(folder / "t.stl", stl + "endsolid\n");
-  write_bytes(folder / "t.obj", obj);
-  for (const Mesh& mesh :
-       {scene::read_mesh(folder / "t.stl", UpAxis::y), scene::read_mesh(folder / "t.obj", UpAxis::y)}) {
-    EXPECT_EQ(mesh.vertices.size(), 4u);
-    EXPECT_EQ(mesh.triangles.size(), 4u);
-    EXPECT_DOUBLE_EQ(enclosed_volume(mesh), 4);
-    EXPECT_EQ(bounding_box(mesh).max, Vec3(2, 3, 4));
-  }
-}
-
 // ---- real inputs -------------------------------------------------------------------------------------------------
 
 struct RealInput {

@@ -38,7 +38,8 @@ struct SceneReadOptions {
 /// for it.
 ///
 /// Throws Error(input) naming the file, and the line or byte where there is one, for: a missing or unreadable file, an
-/// unknown format, truncated or garbled content, an index out of range, a coordinate that is not finite, no triangles.
+/// unknown format, truncated or garbled content, an index out of range, a coordinate that is not finite or (in metres)
+/// beyond 1e9, no triangles.
 Scene read_scene(const std::filesystem::path& file, const SceneReadOptions& options = {},
                  const Progress& progress = {});
 

@@ -18,8 +18,8 @@ namespace {
 constexpr int kMostRounds = 30;
 // The gauge may rise this fraction above a triangle before it counts as over-claimed: less than the final shrinking.
 constexpr double kSafe = 0.5 * numerics::kShrink;
-// Where it rises less than this (0.1 mm at 1 km) the triangle's corners are drawn in; where it rises more, a crease is missing
-// and the triangle is split.
+// Where it rises less than this (0.1 mm at 1 km) the triangle's corners are drawn in; where it rises more, a crease is
+// missing and the triangle is split.
 constexpr double kSmallRise = 1e-7;
 
 class BoundaryBuilder {
@@ -96,7 +96,8 @@ class BoundaryBuilder {
       if (rise > kSmallRise || (gauge.blocker == GaugeValue::kRange && too_deep(t)))
         added.push_back(centre);
       else if (rise > kSafe)
-        for (std::uint32_t corner : t) gauges_[corner] *= 1 + 2 * rise;  // a greater gauge only makes the volume smaller
+        for (std::uint32_t corner : t)
+          gauges_[corner] *= 1 + 2 * rise;  // a greater gauge only makes the volume smaller
     }
     if (added.empty()) return false;
     cdt_.insertVertices(

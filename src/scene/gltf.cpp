@@ -1,6 +1,10 @@
 // glTF 2.0 and GLB (Khronos Group, glTF 2.0 Specification, ISO/IEC 12113:2022): the triangles of the default scene's
 // nodes, each moved by its node. Materials, skins, morph targets and animations are passed over.
 #include <Eigen/Geometry>
+#include <array>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include "scene/gltf_document.h"
 #include "scene/mesh_builder.h"

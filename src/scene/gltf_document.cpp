@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "scene/mesh_readers.h"
 #include "scene/text_cursor.h"
@@ -28,7 +30,7 @@ constexpr std::array<std::string_view, 8> kHarmlessPrefixes = {"KHR_materials_",
                                                                "EXT_structural_metadata",
                                                                "KHR_mesh_quantization"};
 
-constexpr const char* kGarbled = "Export the mesh again; the file is cut off or garbled.";
+constexpr const char* kGarbled = "export the mesh again; the file is cut off or garbled";
 
 std::uint64_t size_of(std::uint64_t component_type) {
   switch (component_type) {
@@ -184,7 +186,7 @@ void Document::split_glb() {
   const auto version = load<std::uint32_t>(bytes.data() + 4), length = load<std::uint32_t>(bytes.data() + 8);
   if (version != 2) {
     source_.fail_at_byte(4, "GLB version " + std::to_string(version) + " cannot be read",
-                         "Export the mesh as glTF 2.0.");
+                         "export the mesh as glTF 2.0");
   }
   if (length > bytes.size()) {
     source_.fail_at_byte(
@@ -230,11 +232,11 @@ void Document::check_version_and_extensions() const {
   const Json asset = root_.value("asset", Json::object());
   if (!asset.is_object()) fail("\"asset\" is not an object");
   if (const std::string version = text(asset, "version"); !version.starts_with("2.")) {
-    source_.fail("glTF version " + in_quotes(version) + " cannot be read", "Export the mesh as glTF 2.0.");
+    source_.fail("glTF version " + in_quotes(version) + " cannot be read", "export the mesh as glTF 2.0");
   }
   const auto refuse = [&](std::string_view name) {
     source_.fail("the glTF file uses the extension " + in_quotes(name) + ", which cannot be read",
-                 "Export the mesh without it, or as OBJ or PLY.");
+                 "export the mesh without it, or as OBJ or PLY");
   };
   for (const Json& used : array(root_, "extensionsUsed")) {
     if (used.is_string() && std::find(kRefused.begin(), kRefused.end(), used.get<std::string>()) != kRefused.end()) {
@@ -377,7 +379,7 @@ std::string_view Document::buffer(std::uint64_t index) {
 
 std::string_view Document::external_file(const std::string& uri) {
   if (uri.find("://") != std::string::npos) {
-    source_.fail("the glTF file has its data at " + in_quotes(uri), "Download it and refer to the file.");
+    source_.fail("the glTF file has its data at " + in_quotes(uri), "download it and refer to the file");
   }
   const std::string relative = decode_percent(uri);
   if (relative.find('\0') != std::string::npos) fail("a buffer's \"uri\" holds a zero byte");

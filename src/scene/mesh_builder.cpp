@@ -1,6 +1,7 @@
 #include "scene/mesh_builder.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "scene/triangulate_polygon.h"
 
@@ -66,7 +67,7 @@ void MeshBuilder::end_face() {
     fail(place_,
          "a face has " + std::to_string(corners_.size()) + " corners; at most " + std::to_string(limits_.corners) +
              " can be read",
-         "Triangulate the mesh on export.");
+         "triangulate the mesh on export");
   } else if (highest_ < mesh_.vertices.size()) {
     add_face();
   } else {
@@ -119,7 +120,7 @@ RawMesh MeshBuilder::finish() {
   if (mesh_.triangles.empty()) {
     source_.fail("the file holds no triangles (" + std::to_string(mesh_.vertices.size()) + " vertices, " +
                      std::to_string(mesh_.dropped_faces) + " faces with fewer than 3 corners)",
-                 "Export a surface mesh with faces.");
+                 "export a surface mesh with faces");
   }
   keep_used_objects();
   return std::move(mesh_);
@@ -135,12 +136,12 @@ void MeshBuilder::fail_not_finite(const Vec3& vertex, std::uint64_t place) const
   fail(place,
        std::string("the ") + "xyz"[axis] + " coordinate of vertex " +
            std::to_string(mesh_.vertices.size() + first_index_) + " is not finite",
-       "Correct the coordinate or remove the vertex and its faces.");
+       "correct the coordinate or remove the vertex and its faces");
 }
 
 void MeshBuilder::fail_too_many(std::uint64_t place) const {
   fail(place, "the mesh has more than " + std::to_string(kMaxVertices) + " vertices",
-       "Cut the mesh to the part that is needed.");
+       "cut the mesh to the part that is needed");
 }
 
 void MeshBuilder::fail_out_of_range(std::uint64_t vertex, std::uint64_t place) const {
@@ -149,7 +150,7 @@ void MeshBuilder::fail_out_of_range(std::uint64_t vertex, std::uint64_t place) c
   fail(place,
        "a face refers to vertex " + std::to_string(number) + ", but the file has only " +
            std::to_string(mesh_.vertices.size()) + (first_index_ == 0 ? " (counted from 0)" : ""),
-       "Export the mesh again; it is cut off or garbled.");
+       "export the mesh again; it is cut off or garbled");
 }
 
 }  // namespace vantage::scene

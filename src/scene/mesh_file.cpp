@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
+#include <cmath>
 #include <new>
-#include <unordered_map>
 
 #include "scene/mesh_readers.h"
 #include "scene/text_cursor.h"
@@ -28,48 +27,6 @@ bool looks_like_json(std::string_view bytes) {
   return !text.at_end() && text.peek() == '{';
 }
 
-/// A position as the key of a hash table. Adding zero makes -0 the same as 0.
-struct PositionKey {
-  std::array<std::uint64_t, 3> bits;
-
-  explicit PositionKey(const Vec3& v) {
-    const Vec3 plain = v + Vec3::Zero();
-    std::memcpy(bits.data(), plain.data(), sizeof bits);
-  }
-  bool operator==(const PositionKey&) const = default;
-};
-
-struct PositionHash {
-  std::size_t operator()(const PositionKey& key) const {
-    std::uint64_t hash = 0;
-    for (const std::uint64_t bits : key.bits) {
-      hash = (hash ^ bits) * 0x9e3779b97f4a7c15u;  // 2^64 / golden ratio
-      hash ^= hash >> 32;
-    }
-    return hash;
-  }
-};
-
-/// Merges vertices at the same place and drops triangles with two equal corners.
-Mesh welded(const RawMesh& raw) {
-  Mesh mesh;
-  std::vector<std::uint32_t> new_index;
-  new_index.reserve(raw.vertices.size());
-  std::unordered_map<PositionKey, std::uint32_t, PositionHash> known(raw.vertices.size());
-  for (const Vec3& vertex : raw.vertices) {
-    const auto [found, is_new] =
-        known.try_emplace(PositionKey(vertex), static_cast<std::uint32_t>(mesh.vertices.size()));
-    if (is_new) mesh.vertices.push_back(vertex);
-    new_index.push_back(found->second);
-  }
-  mesh.triangles.reserve(raw.triangles.size());
-  for (const Triangle& old : raw.triangles) {
-    const Triangle t = {new_index[old[0]], new_index[old[1]], new_index[old[2]]};
-    if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) mesh.triangles.push_back(t);
-  }
-  return mesh;
-}
-
 }  // namespace
 
 MeshFormat mesh_format(const MeshSource& source) {
@@ -84,7 +41,7 @@ MeshFormat mesh_format(const MeshSource& source) {
   if (extension == ".stl") return MeshFormat::stl;
   if (extension == ".gltf" || extension == ".glb") return MeshFormat::gltf;
   source.fail("the format of the mesh file is unknown",
-              "Give an OBJ, PLY, STL, glTF or GLB file; it may be compressed with gzip.");
+              "give an OBJ, PLY, STL, glTF or GLB file; it may be compressed with gzip");
 }
 
 RawMesh read_any(const MeshSource& source, ReadProgress& progress, const ReadLimits& limits) {
@@ -100,7 +57,7 @@ RawMesh read_any(const MeshSource& source, ReadProgress& progress, const ReadLim
         return read_gltf(source, progress, limits);
     }
   } catch (const std::bad_alloc&) {
-    source.fail("there is not enough memory to read the mesh", "Cut the mesh to the part that is needed.");
+    source.fail("there is not enough memory to read the mesh", "cut the mesh to the part that is needed");
   }
   throw Error(ErrorKind::internal, "a mesh format without a reader", source.file().string(), "");
 }
@@ -111,14 +68,14 @@ RawMesh read_mesh_file(const std::filesystem::path& file, const Progress& callba
     return read_any(load_mesh_source(file, progress, limits), progress, limits);
   } catch (const std::bad_alloc&) {
     throw Error(ErrorKind::input, "there is not enough memory to load the file", file.string(),
-                "Cut the mesh to the part that is needed.");
+                "cut the mesh to the part that is needed");
   }
 }
 
 void to_scene_frame(RawMesh& mesh, UpAxis up, double scale, const std::filesystem::path& file) {
   if (!(scale > 0) || !std::isfinite(scale)) {
     throw Error(ErrorKind::input, "the scale of a mesh must be positive and finite", file.string(),
-                "Give the length of the file's unit in metres.");
+                "give the length of the file's unit in metres");
   }
   const bool y_up = up == UpAxis::y || mesh.format == MeshFormat::gltf;
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
@@ -129,14 +86,8 @@ void to_scene_frame(RawMesh& mesh, UpAxis up, double scale, const std::filesyste
     throw Error(ErrorKind::input,
                 "vertex " + std::to_string(i) + " (counted from 0) is more than " +
                     std::to_string(static_cast<long>(kMaxCoordinate / 1000)) + " km from the origin",
-                file.string(), "Check the scale, or correct the vertex.");
+                file.string(), "check the scale, or correct the vertex");
   }
-}
-
-Mesh read_mesh(const std::filesystem::path& file, UpAxis obj_up, const Progress& progress) {
-  RawMesh raw = read_mesh_file(file, progress);
-  to_scene_frame(raw, raw.format == MeshFormat::obj ? obj_up : UpAxis::z, 1.0, file);
-  return welded(raw);
 }
 
 }  // namespace vantage::scene

@@ -1,5 +1,5 @@
-// Reads mesh files of every format that vantage knows. For scenes there is read_scene (vantage/scene.h) on top of it;
-// navigation meshes and volumes to be verified go through read_mesh.
+// Reads mesh files of every format that vantage knows, into the file's own axes. read_scene (vantage/scene.h) is on top
+// of it.
 #pragma once
 
 #include <cstdint>
@@ -34,11 +34,5 @@ RawMesh read_mesh_file(const std::filesystem::path& file, const Progress& progre
 /// Moves a mesh from its file's axes and unit into the scene frame: scaled, z up. glTF is y up whatever `up` says.
 /// Throws Error(input) if a coordinate is then beyond kMaxCoordinate.
 void to_scene_frame(RawMesh& mesh, UpAxis up, double scale, const std::filesystem::path& file);
-
-/// Reads a mesh that lies in a scene, with the axes that write_volume gives each format: PLY and STL in the scene
-/// frame, OBJ in the axes `obj_up` of the scene's own file, glTF y up; metres. Vertices with the same coordinates
-/// become one and triangles with two equal corners are dropped, so that a closed surface is closed in its indices too,
-/// even from STL. Throws as read_scene does.
-Mesh read_mesh(const std::filesystem::path& file, UpAxis obj_up = UpAxis::z, const Progress& progress = {});
 
 }  // namespace vantage::scene

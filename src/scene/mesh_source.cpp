@@ -83,17 +83,17 @@ std::string read_file_bytes(const std::filesystem::path& file, ReadProgress& pro
   // O_NONBLOCK: opening a pipe that nobody writes to would wait for ever.
   const Descriptor descriptor(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   if (descriptor.get() < 0) {
-    if (errno == ENOENT) fail(file, "the file does not exist", "Correct the path.");
+    if (errno == ENOENT) fail(file, "the file does not exist", "correct the path");
     fail(file, std::string("the file cannot be opened: ") + std::strerror(errno),
-         "Check the path and the file's permissions.");
+         "check the path and the file's permissions");
   }
   struct stat status {};
   if (::fstat(descriptor.get(), &status) != 0) {
-    fail(file, std::string("the file cannot be read: ") + std::strerror(errno), "Check the file and its disk.");
+    fail(file, std::string("the file cannot be read: ") + std::strerror(errno), "check the file and its disk");
   }
-  if (S_ISDIR(status.st_mode)) fail(file, "the file is a directory", "Name a file in it.");
-  if (!S_ISREG(status.st_mode)) fail(file, "the file is not a regular file", "Write it to a file first.");
-  if (status.st_size == 0) fail(file, "the file is empty", "Export the mesh again.");
+  if (S_ISDIR(status.st_mode)) fail(file, "the file is a directory", "name a file in it");
+  if (!S_ISREG(status.st_mode)) fail(file, "the file is not a regular file", "write it to a file first");
+  if (status.st_size == 0) fail(file, "the file is empty", "export the mesh again");
 
   progress.begin("read file");
   std::string bytes(static_cast<std::size_t>(status.st_size), '\0');
@@ -102,9 +102,9 @@ std::string read_file_bytes(const std::filesystem::path& file, ReadProgress& pro
     const ssize_t got = ::read(descriptor.get(), bytes.data() + done, std::min(kChunk, bytes.size() - done));
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) {
-      fail(file, std::string("the file cannot be read: ") + std::strerror(errno), "Check the file and its disk.");
+      fail(file, std::string("the file cannot be read: ") + std::strerror(errno), "check the file and its disk");
     }
-    if (got == 0) fail(file, "the file shrank while it was read", "Wait until it is written, then try again.");
+    if (got == 0) fail(file, "the file shrank while it was read", "wait until it is written, then try again");
     done += static_cast<std::size_t>(got);
     progress.update_slowly(done, bytes.size());
   }
@@ -114,7 +114,7 @@ std::string read_file_bytes(const std::filesystem::path& file, ReadProgress& pro
 std::string decompress_gzip(std::string_view compressed, const std::filesystem::path& file, ReadProgress& progress,
                             const ReadLimits& limits) {
   progress.begin("decompress");
-  const std::string again = "Compress the mesh again, or give it uncompressed.";
+  const std::string again = "compress the mesh again, or give it uncompressed";
   const std::uint64_t limit = limits.decompressed_bytes;
   Inflater inflater;
   z_stream& stream = inflater.stream;
@@ -138,7 +138,7 @@ std::string decompress_gzip(std::string_view compressed, const std::filesystem::
 
     if (filled > limit) {
       fail(file, "the gzip data grows beyond " + std::to_string(limit) + " bytes",
-           "Decompress the file and cut the mesh to the part that is needed.");
+           "decompress the file and cut the mesh to the part that is needed");
     }
     if (result == Z_MEM_ERROR) throw std::bad_alloc();
     if (result == Z_BUF_ERROR) fail(file, "the gzip data ends too early", again);
@@ -158,7 +158,7 @@ MeshSource load_mesh_source(const std::filesystem::path& file, ReadProgress& pro
   std::string bytes = read_file_bytes(file, progress);
   if (!bytes.starts_with(kGzipMagic)) return MeshSource(file, std::move(bytes));
   std::string plain = decompress_gzip(bytes, file, progress, limits);
-  if (plain.empty()) fail(file, "the compressed file is empty", "Export the mesh again.");
+  if (plain.empty()) fail(file, "the compressed file is empty", "export the mesh again");
   return MeshSource(file, std::move(plain), true);
 }
 

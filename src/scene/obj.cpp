@@ -73,7 +73,7 @@ class ObjReader {
     } else if (std::find(kPassedOver.begin(), kPassedOver.end(), keyword) != kPassedOver.end()) {
       pass_over();
     } else {
-      fail("unknown statement " + in_quotes(keyword), "Check that this is an OBJ file; remove the line if it is.");
+      fail("unknown statement " + in_quotes(keyword), "check that this is an OBJ file; remove the line if it is");
     }
   }
 
@@ -160,7 +160,7 @@ class ObjReader {
     }
   }
 
-  static constexpr const char* kGarbled = "Export the mesh again; the file is cut off or garbled.";
+  static constexpr const char* kGarbled = "export the mesh again; the file is cut off or garbled";
 
   const MeshSource& source_;
   ReadProgress& progress_;

@@ -19,7 +19,7 @@ using ply::Header;
 using ply::Property;
 using ply::Type;
 
-constexpr const char* kGarbled = "Export the mesh again; the file is cut off or garbled.";
+constexpr const char* kGarbled = "export the mesh again; the file is cut off or garbled";
 
 /// Values in text, by line.
 class AsciiValues {
@@ -157,8 +157,8 @@ class PlyReader {
         rows(element, [&](const Property& property, std::size_t) { pass_over(property); });
       }
     }
-    if (!has_vertices) source_.fail("the PLY file has no element \"vertex\"", "Export a mesh.");
-    if (!has_faces) source_.fail("the PLY file has no element \"face\"", "Export a surface mesh, not a point cloud.");
+    if (!has_vertices) source_.fail("the PLY file has no element \"vertex\"", "export a mesh");
+    if (!has_faces) source_.fail("the PLY file has no element \"face\"", "export a surface mesh, not a point cloud");
     return builder_.finish();
   }
 
@@ -208,7 +208,7 @@ class PlyReader {
       const std::string name(1, "xyz"[axis]);
       const int index = element.find(name);
       if (index < 0 || element.properties[static_cast<std::size_t>(index)].is_list) {
-        source_.fail("the PLY file's vertices have no coordinate \"" + name + "\"", "Export the mesh with x, y and z.");
+        source_.fail("the PLY file's vertices have no coordinate \"" + name + "\"", "export the mesh with x, y and z");
       }
       axis_of[static_cast<std::size_t>(index)] = axis;
     }
@@ -233,7 +233,7 @@ class PlyReader {
     if (corners < 0 || !element.properties[static_cast<std::size_t>(corners)].is_list ||
         !ply::is_integer(element.properties[static_cast<std::size_t>(corners)].type)) {
       source_.fail("the PLY file's faces have no list of whole numbers \"vertex_indices\"",
-                   "Export the mesh with faces.");
+                   "export the mesh with faces");
     }
     builder_.reserve(builder_.vertex_count(), element.count);
     rows(element, [&](const Property& property, std::size_t i) {

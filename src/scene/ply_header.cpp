@@ -66,7 +66,7 @@ class HeaderReader {
  private:
   [[noreturn]] void fail(std::string problem) {
     source_.fail_at_line(text_.line(), "not a valid PLY header: " + std::move(problem),
-                         "Export the mesh again; the file is cut off or garbled.");
+                         "export the mesh again; the file is cut off or garbled");
   }
 
   std::string_view next_word() {
