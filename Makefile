@@ -11,7 +11,7 @@ WERROR ?= $(if $(CI),ON,OFF)
 CONFIGURE_FLAGS ?=
 
 configure = cmake --preset $(1) -DVANTAGE_WERROR=$(WERROR) $(CONFIGURE_FLAGS) --log-level=WARNING >/dev/null
-compile = $(call configure,$(1)) && cmake --build --preset $(1) --parallel $(JOBS)
+compile = $(call configure,$(1)) && cmake --build --preset $(1) --parallel $(JOBS) --target $(2)
 
 .PHONY: help
 help:  ## this list
@@ -22,35 +22,37 @@ demo: build  ## build, then compute the volume of an example and say how to open
 	@mkdir -p build/demo
 	build/bin/vantage compute examples/plaza/mission.yaml -o build/demo/volume.ply
 	@echo
-	@echo "The volume:    $(CURDIR)/build/demo/volume.ply"
-	@echo "Its numbers:   $(CURDIR)/build/demo/volume.report.json"
-	@echo "To look at it: open it in MeshLab or Blender (File > Import > PLY), together with the scene in examples/plaza/"
+	@echo "The volume:   $(CURDIR)/build/demo/volume.ply"
+	@echo "Its numbers:  $(CURDIR)/build/demo/volume.report.json"
+	@echo "Its scene:    $(CURDIR)/examples/plaza/plaza.obj"
+	@echo "Open the volume and the scene together in MeshLab; or in Blender, File > Import > Stanford PLY, and"
+	@echo "File > Import > Wavefront with Forward Y and Up Z."
 
 .PHONY: build
 build: prepare  ## the program, at build/bin/vantage
-	@$(call compile,release)
+	@$(call compile,release,vantage_cli)
 
 .PHONY: test
-test: build  ## build and run all tests
+test: everything  ## build and run all tests
 	ctest --preset release --parallel $(JOBS)
 
 .PHONY: asan
 asan: prepare  ## unit tests under AddressSanitizer and UndefinedBehaviorSanitizer
-	@$(call compile,asan)
+	@$(call compile,asan,all)
 	ctest --preset asan --parallel $(JOBS)
 
 .PHONY: tsan
 tsan: prepare  ## unit tests under ThreadSanitizer
-	@$(call compile,tsan)
+	@$(call compile,tsan,all)
 	ctest --preset tsan --parallel $(JOBS)
 
 .PHONY: bench
-bench: build  ## the benchmarks
+bench: everything  ## the benchmarks
 	build/bin/vantage_bench $(BENCH_FLAGS)
 
 .PHONY: fuzz
 fuzz: prepare tools  ## each fuzz target for a minute (SECONDS_EACH=60)
-	@$(call compile,fuzz)
+	@$(call compile,fuzz,all)
 	scripts/fuzz.sh $(or $(SECONDS_EACH),60)
 
 .PHONY: install
@@ -62,12 +64,16 @@ format: tools  ## format our sources in place
 	@scripts/format.sh
 
 .PHONY: lint
-lint: build tools  ## formatting and clang-tidy
+lint: everything tools  ## formatting and clang-tidy
 	@status=0; scripts/format.sh --check || status=1; JOBS=$(JOBS) scripts/lint.sh || status=1; exit $$status
 
 .PHONY: clean
 clean:  ## remove all builds; fetched sources stay
 	rm -rf build build-*/
+
+.PHONY: everything
+everything: prepare
+	@$(call compile,release,all)
 
 .PHONY: prepare
 prepare:
