@@ -28,8 +28,7 @@ Emptiness explain_altitude(const Region& band, const Solid& volume, const Vec3& 
   const double low = volume.bounds().min.z() + origin.z(), high = volume.bounds().max.z() + origin.z();
   const std::string low_text = number_text(low) + " m", high_text = number_text(high) + " m";
   if (band.box.min.z() >= high) {
-    return {band.name + " lies above the volume, which reaches " + high_text,
-            "let the band begin below " + high_text + " or raise max_range"};
+    return {band.name + " lies above the volume, which reaches " + high_text, "let the band begin below " + high_text};
   }
   if (band.box.max.z() <= low) {
     return {band.name + " lies below the volume, which begins at " + low_text, "let the band end above " + low_text};
