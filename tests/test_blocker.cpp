@@ -114,7 +114,8 @@ LocalTarget local_target(const Corners& target) {
 
 std::vector<Plane> planes_of(const LocalTarget& target, const std::vector<Vec3>& polygon) {
   std::vector<Plane> planes;
-  BlockerBuilder(target).build(polygon, planes);
+  std::vector<Vec3> corners;
+  BlockerBuilder(target).build(polygon, planes, corners);
   return planes;
 }
 

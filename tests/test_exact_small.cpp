@@ -19,6 +19,7 @@ namespace {
 
 using testing::Comparison;
 using testing::make_box_mesh;
+using testing::Random;
 using testing::SceneBuilder;
 using testing::target_of;
 
@@ -212,6 +213,38 @@ TEST(ExactSmall, TargetsWithThreeToSixtyFourVertices) {
 
 TEST(ExactSmall, SixtyFourVertices) {
   expect_union(SceneBuilder().polygon("leaf", {{7, -3, 0}, {7, 4, 1}, {6, 1, 5}}), regular(64, 5, {0, 0, 0}));
+}
+
+/// A few blocks on a coarse grid: walls that continue each other, stand on the target's outline or on its line.
+TEST(ExactSmall, RandomBlocksOnACoarseGrid) {
+  Random random(43);
+  int compared = 0, refused = 0;
+  double worst = 0;
+  for (int draw = 0; draw < 60; ++draw) {
+    SCOPED_TRACE(draw);
+    SceneBuilder builder;
+    if (random.chance(0.5)) builder.ground("ground", 30);
+    for (int k = 0; k < random.integer(1, 5); ++k) {
+      const Vec3 min(random.integer(-8, 6), random.integer(-8, 6), random.chance(0.7) ? 0 : random.integer(0, 4));
+      const Vec3 size(random.integer(1, 4), random.integer(1, 4), random.integer(1, 6));
+      builder.box("block " + std::to_string(k), min, min + size);
+    }
+    Target target = square(random.integer(1, 3), {0, 0, 0});
+    if (random.chance(0.3)) target.vertices.pop_back();
+    if (random.chance(0.3))
+      for (Vec3& v : target.vertices) v = Vec3(v.x(), 0, v.y() + 3);  // upright
+    try {
+      const Comparison c = expect_union(builder, target, 15, 15);
+      worst = std::max(worst, c.error());
+      ++compared;
+    } catch (const Error& error) {
+      ASSERT_EQ(error.kind(), ErrorKind::input) << error.what();
+      ASSERT_NE(error.problem().find("stands on or passes through"), std::string::npos) << error.what();
+      ++refused;
+    }
+  }
+  std::cout << compared << " compared, worst error " << worst << "; " << refused << " targets were pierced\n";
+  EXPECT_GT(compared, 20);
 }
 
 }  // namespace
