@@ -93,7 +93,7 @@ exact: {tolerance: 0.02}
                                              "/data/missions/plaza.yaml");
   const Mission& mission = parsed.mission;
   EXPECT_EQ(mission.file, "/data/missions/plaza.yaml");
-  EXPECT_EQ(mission.scene_file, "/data/city.obj");
+  EXPECT_EQ(mission.scene_file, "/data/missions/../city.obj") << "missions may be a symbolic link";
   EXPECT_EQ(mission.scene_options.up, UpAxis::y);
   EXPECT_EQ(mission.scene_options.scale, 0.5);
   EXPECT_EQ(mission.target.name, "plaza, north");
@@ -459,15 +459,23 @@ TEST_F(MissionFiles, AreReadRelativeToTheMission) {
   const fs::path file = write("mission.yaml", mission_text("navigation: {meshes: [meshes/zone.obj]}", kTarget, kSensor,
                                                            "scene: {mesh: meshes/city.obj, up: y}\n"));
   const Mission mission = read_mission(file);
-  EXPECT_EQ(mission.scene_file, folder_ / "meshes/city.obj");
   ASSERT_EQ(mission.navigation.meshes.size(), 1U);
   EXPECT_EQ(mission.navigation.meshes[0].name, "meshes/zone.obj");
   EXPECT_EQ(mission.navigation.meshes[0].mesh.triangles.size(), 4U);
   EXPECT_EQ(mission.navigation.meshes[0].mesh.vertices.size(), 4U);
   EXPECT_NEAR(enclosed_volume(mission.navigation.meshes[0].mesh), 50.0 * 50 * 50 / 6, 1e-6);
   EXPECT_EQ(bounding_box(mission.navigation.meshes[0].mesh).min, Vec3(0, -50, 0)) << "y up, as the scene's file";
+  EXPECT_EQ(mission.scene_file, fs::canonical(folder_) / "meshes/city.obj");
   ASSERT_EQ(mission.navigation_files.size(), 1U);
-  EXPECT_EQ(mission.navigation_files[0], folder_ / "meshes/zone.obj");
+  EXPECT_EQ(mission.navigation_files[0], fs::canonical(folder_) / "meshes/zone.obj");
+}
+
+TEST_F(MissionFiles, MayLieInALinkedFolder) {
+  fs::create_directories(folder_ / "data/missions");
+  write("data/city.obj", kTetrahedron);
+  write("data/missions/mission.yaml", mission_text("", kTarget, kSensor, "scene: {mesh: ../city.obj}\n"));
+  fs::create_directory_symlink(folder_ / "data/missions", folder_ / "here");
+  EXPECT_EQ(read_mission(folder_ / "here/mission.yaml").scene_file, fs::canonical(folder_) / "data/city.obj");
 }
 
 TEST_F(MissionFiles, ThatAreMissing) {

@@ -78,7 +78,7 @@ std::string edge_text(std::size_t from, std::size_t to) {
 ParsedMission MissionParser::parse(std::string_view mission_text) {
   const YamlNode root = parse_yaml(mission_text, file_);
   check_keys(root, Section::mission, file_);
-  parsed_.mission.file = fs::absolute(path_).lexically_normal();
+  parsed_.mission.file = fs::absolute(path_);
 
   if (const YamlNode* method = find(root, "method")) parse_method(*method);
   parse_scene(require(root, Section::mission, "scene", "write 'scene:' and below it, indented, 'mesh: city.obj'"));
@@ -105,7 +105,8 @@ MeshReference MissionParser::mesh_reference(const YamlNode& node, Section sectio
   MeshReference reference;
   reference.name = text(mesh, prefix + "mesh");
   reference.where = place_in(file_, mesh.place);
-  reference.file = (parsed_.mission.file.parent_path() / reference.name).lexically_normal();
+  // Not made shorter here: "a/../b" is not "b" where a is a symbolic link.
+  reference.file = parsed_.mission.file.parent_path() / reference.name;
   // What `compute` writes must come back as a navigation mesh where it was: OBJ in the axes of the scene file, PLY and
   // STL in the scene frame.
   if (section == Section::mesh && is_obj(reference.file)) reference.options.up = parsed_.mission.scene_options.up;

@@ -40,19 +40,27 @@ std::string read_text(const fs::path& file) {
   return text;
 }
 
+/// Without links and dots in the folder; the name stays, since the format may show in it alone.
+fs::path with_true_folder(const fs::path& file) {
+  std::error_code error;
+  const fs::path folder = fs::canonical(file.parent_path(), error);
+  return error ? file : folder / file.filename();
+}
+
 }  // namespace
 
 Mission read_mission(const fs::path& file) {
   mission_io::check_readable(file, "the mission file", "");
   mission_io::ParsedMission parsed = mission_io::parse_mission(read_text(file), file);
   mission_io::check_readable(parsed.scene.file, "the scene's mesh file", parsed.scene.where);
+  parsed.mission.scene_file = with_true_folder(parsed.scene.file);
   for (const mission_io::MeshReference& reference : parsed.navigation_meshes) {
     mission_io::check_readable(reference.file, "the navigation mesh", reference.where);
     const Scene scene = read_scene(reference.file, reference.options);
     parsed.mission.navigation.meshes.push_back(
         {mission_io::with_place(reference.where, [&] { return solid::checked_solid(scene.mesh, reference.name); }),
          reference.name});
-    parsed.mission.navigation_files.push_back(reference.file);
+    parsed.mission.navigation_files.push_back(with_true_folder(reference.file));
   }
   return std::move(parsed.mission);
 }
