@@ -3,7 +3,8 @@ add_library(vantage_options INTERFACE)
 add_library(vantage::options ALIAS vantage_options)
 # -ffp-contract=off: a fused multiply-add rounds differently from one compiler to the next, and the exact predicates of
 # the triangulation rely on plain IEEE arithmetic.
-target_compile_options(vantage_options INTERFACE -Wall -Wextra -Wshadow -ffp-contract=off)
+# -fno-semantic-interposition: lets the shared library inline its own functions.
+target_compile_options(vantage_options INTERFACE -Wall -Wextra -Wshadow -ffp-contract=off -fno-semantic-interposition)
 if(VANTAGE_WERROR)
   target_compile_options(vantage_options INTERFACE -Werror)
 endif()

@@ -10,6 +10,10 @@
 #include <array>
 #include <cmath>
 
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
+
 #include "vantage/geometry.h"
 
 namespace vantage::exact {
@@ -38,6 +42,9 @@ inline QuadrantLinear on_quadrant(const Vec3& plane, int quadrant) {
   return {plane.z(), x - plane.z(), y - plane.z()};
 }
 
+/// A linear function at the corners of a cell.
+using CellCorners = std::array<double, 4>;
+
 /// A square of a quadrant, [a, a + size] x [b, b + size] in |a|, |b|; when it straddles the horizon |a| + |b| = 1, the
 /// half of it that is above.
 struct ChartCell {
@@ -56,7 +63,7 @@ struct ChartCell {
     return at_horizon() ? corner + std::min(0.0, std::min(da, db)) : corner + std::min(0.0, da) + std::min(0.0, db);
   }
   /// Values at the corners; a half square has its first corner twice.
-  std::array<double, 4> at_corners(const QuadrantLinear& f) const {
+  CellCorners at_corners(const QuadrantLinear& f) const {
     const double corner = f.constant + f.slope_a * a + f.slope_b * b;
     const double da = f.slope_a * size, db = f.slope_b * size;
     return {corner, corner + da, corner + db, at_horizon() ? corner : corner + da + db};
@@ -67,5 +74,20 @@ struct ChartCell {
     return {quadrant & 1 ? -x : x, quadrant & 2 ? -y : y, std::max(0.0, 1 - x - y)};
   }
 };
+
+/// Whether `low` is at most `high` all over a cell, to rounding. Without branches: which corner decides is a matter of
+/// luck.
+inline bool below(const CellCorners& low, const CellCorners& high) {
+  constexpr double kRounding = 1 + 1e-13;
+#ifdef __SSE2__
+  const __m128d scale = _mm_set1_pd(kRounding);
+  const __m128d first = _mm_cmple_pd(_mm_loadu_pd(low.data()), _mm_mul_pd(_mm_loadu_pd(high.data()), scale));
+  const __m128d last = _mm_cmple_pd(_mm_loadu_pd(low.data() + 2), _mm_mul_pd(_mm_loadu_pd(high.data() + 2), scale));
+  return _mm_movemask_pd(_mm_and_pd(first, last)) == 3;
+#else
+  return low[0] <= high[0] * kRounding && low[1] <= high[1] * kRounding && low[2] <= high[2] * kRounding &&
+         low[3] <= high[3] * kRounding;
+#endif
+}
 
 }  // namespace vantage::exact

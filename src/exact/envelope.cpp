@@ -34,56 +34,78 @@ struct Sighting {
   bool operator<(const Sighting& other) const { return plane != other.plane ? plane < other.plane : leaf < other.leaf; }
 };
 
-// A plane bounds the view only beyond the corners where it touches its polygon: where those are hidden, so is it.
-std::vector<bool> hidden_planes(const BlockerSet& blockers, const DirectionTree& tree,
-                                const std::vector<DirectionTree::Leaf>& leaves, const RangeRegion& range) {
-  std::vector<bool> hidden(blockers.planes.size(), true);
-  std::vector<bool> listed(blockers.count(), false);
-  for (const auto& leaf : leaves)
-    for (std::uint32_t blocker : leaf.blockers) listed[blocker] = true;
-  std::vector<Vec3> touched;
-  for (std::uint32_t blocker = 0; blocker < blockers.count(); ++blocker) {
-    if (!listed[blocker]) continue;
-    for (std::uint32_t k = blockers.first[blocker]; k < blockers.first[blocker + 1]; ++k) {
-      const Plane& plane = blockers.planes[k];
-      const double margin = tie_margin(plane, range.radius());
-      touched.clear();
-      for (const Vec3& corner : blockers.corners_of(blocker))
-        if (std::abs(plane.dot(corner) - 1) <= margin) touched.push_back(corner);
-      hidden[k] = !touched.empty() && tree.hides_hull(touched);
-    }
+// The facet of a plane is swept from the corners where the plane touches its polygon, away from the target. For a point
+// o of B(C) and a target point t every plane g of C has g . o >= 1 >= g . t, so o + s (o - t) is in B(C) too: where a
+// rival holds those corners it hides the whole facet, if it does not coincide with it.
+class ContactTest {
+ public:
+  ContactTest(const BlockerSet& blockers, const DirectionTree& tree, double reach)
+      : blockers_(blockers), tree_(tree), reach_(reach) {}
+
+  bool hidden(std::uint32_t blocker, std::uint32_t index) {
+    const Plane& plane = blockers_.planes[index];
+    const double margin = tie_margin(plane, reach_);
+    Vec3 middle = Vec3::Zero();
+    touched_.clear();
+    for (const Vec3& corner : blockers_.corners_of(blocker))
+      if (std::abs(plane.dot(corner) - 1) <= margin) touched_.push_back(corner), middle += corner;
+    if (touched_.empty() || middle.z() <= 0) return false;
+    for (std::uint32_t rival : tree_.leaf_at(to_chart(middle)).blockers)
+      if (rival != blocker && hides(rival, plane, rival < blocker)) return true;
+    return false;
   }
-  return hidden;
+
+ private:
+  bool hides(std::uint32_t rival, const Plane& own, bool owns_ties) const {
+    for (const Plane& plane : blockers_.planes_of(rival)) {
+      const double margin = tie_margin(plane, reach_);
+      for (const Vec3& corner : touched_)
+        if (plane.dot(corner) - 1 < -margin) return false;
+      if (!owns_ties && (plane - own).norm() * reach_ <= 2 * margin) return false;
+    }
+    return true;
+  }
+
+  const BlockerSet& blockers_;
+  const DirectionTree& tree_;
+  double reach_;
+  std::vector<Vec3> touched_;
+};
+
+// Whether another blocker's surface is nowhere under plane k of the leaf. Of two that coincide the one with the lower
+// index stays.
+bool plane_hidden(const DirectionTree::Leaf& leaf, std::size_t own, std::uint32_t k) {
+  for (std::size_t i = 0; i < leaf.count(); ++i) {
+    if (i == own) continue;
+    const auto values = leaf.values_of(i);
+    if (!std::all_of(values.begin(), values.end(), [&](const auto& high) { return below(leaf.values[k], high); }))
+      continue;
+    const bool tie =
+        std::any_of(values.begin(), values.end(), [&](const auto& high) { return below(high, leaf.values[k]); });
+    if (!tie || leaf.blockers[i] < leaf.blockers[own]) return true;
+  }
+  return false;
 }
 
-// A plane may be seen in a leaf where it can reach the envelope's lower bound and can be the least of its blocker.
 FacetTable find_facets(const BlockerSet& blockers, const DirectionTree& tree,
-                       const std::vector<DirectionTree::Leaf>& leaves, const RangeRegion& range) {
-  const std::vector<bool> hidden = hidden_planes(blockers, tree, leaves, range);
+                       const std::vector<const DirectionTree::Leaf*>& leaves, const RangeRegion& range) {
   std::vector<Sighting> sightings;
-  std::vector<double> upper, lower;
-  for (std::uint32_t l = 0; l < leaves.size(); ++l) {
-    const ChartCell& cell = leaves[l].cell;
-    for (std::uint32_t blocker : leaves[l].blockers) {
-      const auto planes = blockers.planes_of(blocker);
-      upper.clear(), lower.clear();
-      double least_upper = std::numeric_limits<double>::infinity();
-      for (const Plane& plane : planes) {
-        const QuadrantLinear f = on_quadrant(plane, cell.quadrant);
-        upper.push_back(cell.max_of(f)), lower.push_back(cell.min_of(f));
-        least_upper = std::min(least_upper, upper.back());
-      }
-      for (std::size_t k = 0; k < planes.size(); ++k)
-        if (!hidden[blockers.first[blocker] + k] && upper[k] >= leaves[l].bound * (1 - 1e-12) &&
-            lower[k] <= least_upper * (1 + 1e-12))
-          sightings.push_back({blockers.first[blocker] + std::uint32_t(k), blocker, l});
-    }
-  }
+  for (std::uint32_t l = 0; l < leaves.size(); ++l)
+    for (std::size_t i = 0; i < leaves[l]->count(); ++i)
+      for (std::uint32_t k = leaves[l]->first_plane[i]; k < leaves[l]->first_plane[i + 1]; ++k)
+        if (!plane_hidden(*leaves[l], i, k)) sightings.push_back({leaves[l]->planes[k], leaves[l]->blockers[i], l});
   parallel::sort(sightings, std::less<>());
   FacetTable table;
+  ContactTest contact(blockers, tree, range.radius());
+  std::uint32_t last = ~0u;
+  bool hidden = false;
   for (const Sighting& s : sightings) {
-    if (table.facets.empty() || table.facets.back().plane != s.plane)
-      table.facets.push_back({s.plane, s.blocker, std::uint32_t(table.leaf.size()), 0});
+    if (s.plane != last) {
+      last = s.plane;
+      hidden = contact.hidden(s.blocker, s.plane);
+      if (!hidden) table.facets.push_back({s.plane, s.blocker, std::uint32_t(table.leaf.size()), 0});
+    }
+    if (hidden) continue;
     table.leaf.push_back(s.leaf);
     ++table.facets.back().leaf_count;
   }
@@ -91,10 +113,11 @@ FacetTable find_facets(const BlockerSet& blockers, const DirectionTree& tree,
 }
 
 /// Traces the creases of one facet after another; one tracer a thread.
+static size_t st[8];
 class FacetTracer {
  public:
-  FacetTracer(const BlockerSet& blockers, const std::vector<DirectionTree::Leaf>& leaves, const FacetTable& table,
-              const RangeRegion& range, const CurveSampling& sampling)
+  FacetTracer(const BlockerSet& blockers, const std::vector<const DirectionTree::Leaf*>& leaves,
+              const FacetTable& table, const RangeRegion& range, const CurveSampling& sampling)
       : blockers_(blockers), leaves_(leaves), table_(table), range_(range), sampling_(sampling) {}
 
   struct Result {
@@ -105,12 +128,22 @@ class FacetTracer {
 
   Result trace(const Facet& facet) {
     Result result;
-    if (!make_polygon(facet)) return result;
+    if (!make_polygon(facet)) {
+      ++st[0];
+      return result;
+    }
     gather_rivals(facet);
-    if (!cut_by_rivals(facet)) return result;
+    st[4] += rivals_.size();
+    if (!cut_by_rivals(facet)) {
+      ++st[1];
+      return result;
+    }
+    st[5] += rivals_.size();
+    st[6] += cut_count_;
     trace_own_edges(result);
     trace_crossings(facet, result);
     trace_range(facet, result);
+    ++st[result.planar.empty() && result.curved.empty() ? 2 : 3];
     result.visible = !result.planar.empty() || !result.curved.empty();
     return result;
   }
@@ -139,7 +172,7 @@ class FacetTracer {
   void gather_rivals(const Facet& facet) {
     rivals_.clear();
     for (std::uint32_t i = facet.first_leaf; i < facet.first_leaf + facet.leaf_count; ++i) {
-      const auto& listed = leaves_[table_.leaf[i]].blockers;
+      const auto& listed = leaves_[table_.leaf[i]]->blockers;
       rivals_.insert(rivals_.end(), listed.begin(), listed.end());
     }
     std::sort(rivals_.begin(), rivals_.end());
@@ -309,7 +342,7 @@ class FacetTracer {
 
  private:
   const BlockerSet& blockers_;
-  const std::vector<DirectionTree::Leaf>& leaves_;
+  const std::vector<const DirectionTree::Leaf*>& leaves_;
   const FacetTable& table_;
   const RangeRegion& range_;
   const CurveSampling& sampling_;
@@ -347,7 +380,7 @@ void trace_range_creases(const BlockerSet& blockers, const std::vector<std::uint
 
 Skeleton trace_envelope(const BlockerSet& blockers, const DirectionTree& tree, const RangeRegion& range,
                         const CurveSampling& sampling) {
-  const std::vector<DirectionTree::Leaf> leaves = tree.leaves();
+  const std::vector<const DirectionTree::Leaf*> leaves = tree.leaves();
   const FacetTable table = find_facets(blockers, tree, leaves, range);
   if (getenv("VDBG")) {
     size_t r = 0;
@@ -359,6 +392,11 @@ Skeleton trace_envelope(const BlockerSet& blockers, const DirectionTree& tree, c
     FacetTracer tracer(blockers, leaves, table, range, sampling);
     for (std::size_t i = begin; i < end; ++i) results[i] = tracer.trace(table.facets[i]);
   });
+  if (getenv("VDBG")) {
+    fprintf(stderr, "nopoly %zu hidden %zu empty %zu visible %zu rivals %zu near %zu cuts %zu\n", st[0], st[1], st[2],
+            st[3], st[4], st[5], st[6]);
+    std::fill(st, st + 8, 0);
+  }
   Skeleton skeleton;
   std::vector<std::uint32_t> shown;
   for (std::size_t i = 0; i < results.size(); ++i) {

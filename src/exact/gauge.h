@@ -18,13 +18,14 @@ inline GaugeValue evaluate_gauge(const BlockerSet& blockers, const DirectionTree
                                  const ChartPoint& point) {
   const Vec3 direction = to_direction(point);
   GaugeValue greatest{range.gauge(direction), GaugeValue::kRange};
-  for (std::uint32_t blocker : tree.blockers_at(point)) {
+  const DirectionTree::Leaf& leaf = tree.leaf_at(point);
+  for (std::size_t i = 0; i < leaf.count(); ++i) {
     double least = std::numeric_limits<double>::infinity();
-    for (const Plane& plane : blockers.planes_of(blocker)) {
-      least = std::min(least, plane.dot(direction));
+    for (std::uint32_t k = leaf.first_plane[i]; k < leaf.first_plane[i + 1]; ++k) {
+      least = std::min(least, blockers.planes[leaf.planes[k]].dot(direction));
       if (least <= greatest.value) break;
     }
-    if (least > greatest.value) greatest = {least, blocker};
+    if (least > greatest.value) greatest = {least, leaf.blockers[i]};
   }
   return greatest;
 }

@@ -1,0 +1,45 @@
+// The blockers of one target, stored one after another.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "exact/blocker.h"
+
+namespace vantage::exact {
+
+/// Blocker i owns the planes [first[i], first[i + 1]) and likewise its corners.
+struct BlockerSet {
+  std::vector<Plane> planes;
+  std::vector<std::uint32_t> first{0};
+  std::vector<Vec3> corners;  ///< of the scene polygon, clipped to the target's front
+  std::vector<std::uint32_t> first_corner{0};
+  std::vector<std::uint32_t> polygon;  ///< index of the scene polygon
+
+  std::size_t count() const { return polygon.size(); }
+  std::span<const Plane> planes_of(std::size_t blocker) const {
+    return {planes.data() + first[blocker], first[blocker + 1] - first[blocker]};
+  }
+  std::span<const Vec3> corners_of(std::size_t blocker) const {
+    return {corners.data() + first_corner[blocker], first_corner[blocker + 1] - first_corner[blocker]};
+  }
+
+  /// Ends a blocker whose planes and corners have been appended.
+  void close(std::uint32_t scene_polygon) {
+    first.push_back(std::uint32_t(planes.size()));
+    first_corner.push_back(std::uint32_t(corners.size()));
+    polygon.push_back(scene_polygon);
+  }
+
+  /// Takes the last one back.
+  void drop_last() {
+    first.pop_back();
+    first_corner.pop_back();
+    polygon.pop_back();
+    planes.resize(first.back());
+    corners.resize(first_corner.back());
+  }
+};
+
+}  // namespace vantage::exact
