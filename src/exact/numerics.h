@@ -26,7 +26,7 @@ inline constexpr double kShrink = 1e-9;
 
 /// Vertices of the direction chart (which spans [-1, 1]) closer than this are one vertex: a nanometre at 1 km, a
 /// hundred times the rounding of a crossing of two well-shaped planes.
-inline constexpr double kSnap = 1e-12;
+inline constexpr double kSnap = 1e-11;
 
 /// The most that vertices are snapped when the triangulation cannot be built otherwise: 0.1 micrometres at 1 km.
 inline constexpr double kWidestSnap = 1e-10;
