@@ -114,11 +114,12 @@ void ConstraintGraph::add_axes() {
 }
 
 void ConstraintGraph::add_horizon() {
+  std::vector<std::uint32_t> horizon;
   for (std::uint32_t v = 0; v < points().size(); ++v)
-    if (on_horizon(v)) horizon_.push_back(v);
-  std::sort(horizon_.begin(), horizon_.end(),
+    if (on_horizon(v)) horizon.push_back(v);
+  std::sort(horizon.begin(), horizon.end(),
             [&](std::uint32_t a, std::uint32_t b) { return turn_of(points()[a]) < turn_of(points()[b]); });
-  for (std::size_t k = 0; k < horizon_.size(); ++k) add_edge(horizon_[k], horizon_[(k + 1) % horizon_.size()]);
+  for (std::size_t k = 0; k < horizon.size(); ++k) add_edge(horizon[k], horizon[(k + 1) % horizon.size()]);
 }
 
 }  // namespace vantage::exact

@@ -27,7 +27,6 @@ class ConstraintGraph {
   const std::vector<ChartPoint>& points() const { return snapper_.points(); }
   bool on_horizon(std::uint32_t vertex) const { return snapper_.on_horizon(vertex); }
   const std::vector<Edge>& edges() const { return edges_; }
-  const std::vector<std::uint32_t>& horizon() const { return horizon_; }  ///< counter-clockwise
 
   /// The vertex at a node of the grid; kNone where there is none yet.
   std::uint32_t& node(int i, int j) {
@@ -49,7 +48,6 @@ class ConstraintGraph {
   VertexSnapper snapper_;
   std::vector<Edge> edges_;
   std::vector<std::uint32_t> nodes_;
-  std::vector<std::uint32_t> horizon_;
 };
 
 }  // namespace vantage::exact

@@ -14,13 +14,16 @@
 namespace vantage::exact {
 namespace {
 
-// Rounds of refinement. Each one halves what is wrong; more than a few are needed only where something is broken.
-constexpr int kMostRounds = 30;
+// Refinement that makes this many times the triangles that it began with will not end: something is broken.
+constexpr std::size_t kMostGrowth = 4;
 // The gauge may rise this fraction above a triangle before it counts as over-claimed: less than the final shrinking.
 constexpr double kSafe = 0.5 * numerics::kShrink;
 // Where it rises less than this (0.1 mm at 1 km) the triangle's corners are drawn in; where it rises more, a crease is
 // missing and the triangle is split.
 constexpr double kSmallRise = 1e-7;
+
+/// Thrown when the triangulation has split an edge of a cell; the cell is marked as mixed by then.
+struct BorderSplit {};
 
 class BoundaryBuilder {
  public:
@@ -43,9 +46,11 @@ class BoundaryBuilder {
     cdt_.insertEdges(
         graph_.edges().begin(), graph_.edges().end(), [](const auto& e) { return e.first; },
         [](const auto& e) { return e.second; });
-    for (int round = 0; refine(); ++round)
-      if (round == kMostRounds)
-        throw Error(ErrorKind::internal, "the boundary could not be triangulated safely", "triangulation", "");
+    const std::size_t most = kMostGrowth * cdt_.triangles.size() + 1000;
+    while (refine())
+      if (cdt_.triangles.size() > most)
+        throw Error(ErrorKind::internal, "the boundary could not be triangulated safely", "triangulation",
+                    "please report this with the mission and the scene");
     collect_triangles();
     lift();
     emit_range_cells();
@@ -58,11 +63,13 @@ class BoundaryBuilder {
   static constexpr std::uint32_t kNone = ConstraintGraph::kNone;
   static constexpr std::uint32_t kSuper = 3;  // the library's own vertices come first
 
+  enum class Place : std::uint8_t { outside, range_cell, kept };
+
   /// What is known of one triangle of the triangulation; valid while its vertices stay the same.
   struct Known {
     Triangle vertices{};
     std::uint32_t blocker = 0;
-    bool kept = false;
+    Place place = Place::outside;
   };
 
   GaugeValue gauge_at(const ChartPoint& p) const { return evaluate_gauge(blockers_, tree_, range_, p); }
@@ -83,17 +90,16 @@ class BoundaryBuilder {
       const auto& v = cdt_.triangles[i].vertices;
       const Triangle t{v[0], v[1], v[2]};
       if (known_[i].vertices == t) continue;
-      known_[i] = {t, 0, false};
-      if (t[0] < kSuper || t[1] < kSuper || t[2] < kSuper) continue;
-      const ChartPoint centre = (point(t[0]) + point(t[1]) + point(t[2])) / 3;
-      if (grid_.is_range(grid_.locate(centre.x()), grid_.locate(centre.y()))) continue;
-      if (on_horizon(t[0]) && on_horizon(t[1]) && on_horizon(t[2]) && centre.cwiseAbs().sum() > 1 - 1e-9) continue;
+      known_[i] = {t, 0, place_of(t)};
+      if (known_[i].place != Place::kept) continue;
+      const ChartPoint centre = centre_of(t);
       const GaugeValue gauge = gauge_at(centre);
       known_[i].blocker = gauge.blocker;
-      known_[i].kept = true;
       const double claimed = (gauges_[t[0]] + gauges_[t[1]] + gauges_[t[2]]) / 3;
       const double rise = gauge.value / claimed - 1;
-      if (rise > kSmallRise || (gauge.blocker == GaugeValue::kRange && too_deep(t)))
+      const bool deep = gauge.blocker == GaugeValue::kRange && too_deep(t);
+      if (rise <= kSafe && !deep) continue;
+      if ((rise > kSmallRise || deep) && has_room(t, centre))
         added.push_back(centre);
       else if (rise > kSafe)
         for (std::uint32_t corner : t)
@@ -104,6 +110,25 @@ class BoundaryBuilder {
         added.begin(), added.end(), [](const ChartPoint& p) { return p.x(); },
         [](const ChartPoint& p) { return p.y(); });
     return true;
+  }
+
+  ChartPoint centre_of(const Triangle& t) const { return (point(t[0]) + point(t[1]) + point(t[2])) / 3; }
+
+  Place place_of(const Triangle& t) const {
+    if (t[0] < kSuper || t[1] < kSuper || t[2] < kSuper) return Place::outside;
+    const ChartPoint centre = centre_of(t);
+    // Rounding leaves slivers between the points of one side of the horizon.
+    if (on_horizon(t[0]) && on_horizon(t[1]) && on_horizon(t[2]) && centre.cwiseAbs().sum() > 1 - 1e-9)
+      return Place::outside;
+    if (grid_.is_range(grid_.locate(centre.x()), grid_.locate(centre.y()))) return Place::range_cell;
+    return Place::kept;
+  }
+
+  // Whether a vertex can be put into a triangle without falling onto one that is there.
+  bool has_room(const Triangle& t, const ChartPoint& centre) const {
+    return std::all_of(t.begin(), t.end(), [&](std::uint32_t v) {
+      return (point(v) - centre).cwiseAbs().maxCoeff() > numerics::kWidestSnap;
+    });
   }
 
   // Whether some point of a triangle on the range sphere lies more than the tolerance inside it.
@@ -127,19 +152,43 @@ class BoundaryBuilder {
 
   // ---- the mesh ----
 
+  // An edge with nothing on its other side is on the horizon: the base closes it.
   void collect_triangles() {
-    for (const Known& known : known_) {
-      if (!known.kept) continue;
-      const Triangle& t = known.vertices;
+    for (std::size_t i = 0; i < known_.size(); ++i) {
+      if (known_[i].place != Place::kept) continue;
+      const Triangle& t = known_[i].vertices;
       result_.mesh.triangles.push_back({t[0] - kSuper, t[1] - kSuper, t[2] - kSuper});
-      result_.blocker_of.push_back(known.blocker);
+      result_.blocker_of.push_back(known_[i].blocker);
+      for (int e = 0; e < 3; ++e) {
+        const std::uint32_t from = t[e], to = t[(e + 1) % 3];
+        switch (known_[cdt_.triangles[i].neighbors[e]].place) {
+          case Place::kept:
+            break;
+          case Place::outside:
+            base_.emplace_back(from - kSuper, to - kSuper);
+            break;
+          case Place::range_cell:
+            check_border(from, to);
+        }
+      }
     }
   }
 
+  // Cells are cut in two without looking at the triangulation: it must not have split their edges.
+  void check_border(std::uint32_t from, std::uint32_t to) {
+    for (std::uint32_t v : {from, to})
+      if (v - kSuper >= graph_.points().size()) {
+        grid_.mark(point(v), point(v));
+        throw BorderSplit();
+      }
+  }
+
   void lift() {
-    result_.mesh.vertices.reserve(cdt_.vertices.size());
+    auto& vertices = result_.mesh.vertices;
+    vertices.reserve(cdt_.vertices.size());
     for (std::uint32_t v = kSuper; v < cdt_.vertices.size(); ++v)
-      result_.mesh.vertices.push_back(lifted(point(v), gauges_[v], on_horizon(v)));
+      vertices.push_back(lifted(point(v), gauges_[v], on_horizon(v)));
+    for (const auto& [from, to] : base_) vertices[from].z() = vertices[to].z() = 0;
   }
 
   static Vec3 lifted(const ChartPoint& point, double gauge, bool horizon) {
@@ -170,7 +219,10 @@ class BoundaryBuilder {
         const bool mirrored = (i >= 0) != (j >= 0);
         const std::uint32_t p = vertex_at(c.a1, c.b0), q = vertex_at(c.a0, c.b1);
         emit_range_triangle(vertex_at(c.a0, c.b0), p, q, mirrored);
-        if (!grid_.at_horizon(i, j)) emit_range_triangle(p, vertex_at(c.a1, c.b1), q, mirrored);
+        if (!grid_.at_horizon(i, j))
+          emit_range_triangle(p, vertex_at(c.a1, c.b1), q, mirrored);
+        else
+          base_.push_back(mirrored ? ConstraintGraph::Edge{q, p} : ConstraintGraph::Edge{p, q});
       }
     }
   }
@@ -184,9 +236,8 @@ class BoundaryBuilder {
   void emit_base() {
     const std::uint32_t centre = std::uint32_t(result_.mesh.vertices.size());
     result_.mesh.vertices.push_back(Vec3::Zero());
-    const auto& horizon = graph_.horizon();
-    for (std::size_t k = 0; k < horizon.size(); ++k) {
-      result_.mesh.triangles.push_back({centre, horizon[(k + 1) % horizon.size()], horizon[k]});
+    for (const auto& [from, to] : base_) {
+      result_.mesh.triangles.push_back({centre, to, from});
       result_.blocker_of.push_back(Boundary::kTargetPlane);
     }
   }
@@ -211,8 +262,9 @@ class BoundaryBuilder {
   double tolerance_;
   ConstraintGraph graph_;
   CDT::Triangulation<double> cdt_;
-  std::vector<double> gauges_;  // per vertex of the triangulation
-  std::vector<Known> known_;    // per triangle of it
+  std::vector<double> gauges_;               // per vertex of the triangulation
+  std::vector<Known> known_;                 // per triangle of it
+  std::vector<ConstraintGraph::Edge> base_;  // edges of the mesh on the horizon, as its triangles run them
   Boundary result_;
 };
 
@@ -222,12 +274,14 @@ Boundary triangulate_boundary(const Skeleton& skeleton, const BlockerSet& blocke
                               const RangeRegion& range, ChartGrid& grid, double tolerance) {
   // Where creases meet at less than the snapping distance the triangulation may find no place for their crossing; wider
   // snapping makes them one. What that moves, refinement finds.
-  for (double snap = numerics::kSnap;; snap *= 10) try {
+  for (double snap = numerics::kSnap;;) try {
       return BoundaryBuilder(skeleton, blockers, tree, range, grid, tolerance, snap).run();
+    } catch (const BorderSplit&) {
     } catch (const CDT::Error& error) {
       if (snap >= numerics::kWidestSnap)
         throw Error(ErrorKind::internal, std::string("the creases could not be triangulated: ") + error.what(),
-                    "triangulation", "");
+                    "triangulation", "please report this with the mission and the scene");
+      snap *= 10;
     }
 }
 
