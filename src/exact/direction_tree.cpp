@@ -15,12 +15,6 @@ constexpr double kRounding = 1e-13;     // bounds are good to this fraction
 
 using Corners = DirectionTree::Corners;
 
-double least_of(std::span<const Corners> values) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const Corners& v : values) least = std::min(least, std::min(std::min(v[0], v[1]), std::min(v[2], v[3])));
-  return least;
-}
-
 double upper_of(std::span<const Corners> values) {
   double upper = std::numeric_limits<double>::infinity();
   for (const Corners& v : values) upper = std::min(upper, std::max(std::max(v[0], v[1]), std::max(v[2], v[3])));
@@ -46,66 +40,72 @@ void DirectionTree::add_node(const ChartCell& cell, double bound, std::uint32_t 
 }
 
 // Leaves out planes that stay above another one of the blocker's all over the cell.
-void DirectionTree::reduce(const ChartCell& cell, std::span<const std::uint32_t> planes, Relevant& relevant) const {
-  relevant.planes.clear();
-  relevant.values.clear();
+void DirectionTree::reduce(const ChartCell& cell, std::span<const std::uint32_t> planes, Surface& surface) const {
+  surface.planes.clear();
+  surface.values.clear();
+  surface.least.fill(std::numeric_limits<double>::infinity());
   for (std::uint32_t plane : planes) {
     const Corners corners = cell.at_corners(on_quadrant(blockers_.planes[plane], cell.quadrant));
-    if (std::any_of(relevant.values.begin(), relevant.values.end(),
-                    [&](const Corners& v) { return below(v, corners); }))
+    if (std::any_of(surface.values.begin(), surface.values.end(), [&](const Corners& v) { return below(v, corners); }))
       continue;
     std::size_t kept = 0;
-    for (std::size_t i = 0; i < relevant.values.size(); ++i) {
-      if (below(corners, relevant.values[i])) continue;
-      relevant.values[kept] = relevant.values[i];
-      relevant.planes[kept++] = relevant.planes[i];
+    for (std::size_t i = 0; i < surface.values.size(); ++i) {
+      if (below(corners, surface.values[i])) continue;
+      surface.values[kept] = surface.values[i];
+      surface.planes[kept++] = surface.planes[i];
     }
-    relevant.values.resize(kept);
-    relevant.planes.resize(kept);
-    relevant.values.push_back(corners);
-    relevant.planes.push_back(plane);
+    surface.values.resize(kept);
+    surface.planes.resize(kept);
+    surface.values.push_back(corners);
+    surface.planes.push_back(plane);
+    for (int c = 0; c < 4; ++c) surface.least[c] = std::min(surface.least[c], corners[c]);
   }
 }
 
-// Under each plane of the champion there must be a plane of the other over the whole cell. Sufficient, not necessary.
-bool DirectionTree::stays_under(std::span<const Corners> values, std::span<const Corners> champion) {
-  if (champion.empty()) return false;
-  for (const Corners& high : champion)
-    if (std::none_of(values.begin(), values.end(), [&](const Corners& low) { return below(low, high); })) return false;
+// Under each plane of the higher one there must be a plane of the lower one over the whole cell. Sufficient, not
+// necessary. It is tried only where the corners allow it.
+bool DirectionTree::stays_under(std::span<const Corners> low, std::span<const Corners> high) {
+  for (const Corners& h : high)
+    if (std::none_of(low.begin(), low.end(), [&](const Corners& l) { return below(l, h); })) return false;
   return true;
 }
 
-bool DirectionTree::hidden_in(const Node& node, std::span<const Corners> values) {
-  if (upper_of(values) < node.bound * (1 - kRounding)) return true;
-  if (std::any_of(values.begin(), values.end(), [&](const Corners& v) { return below(v, node.range); })) return true;
-  return stays_under(values, node.champions[0]) || stays_under(values, node.champions[1]);
+bool DirectionTree::hidden_in(const Node& node, const Surface& surface) {
+  if (upper_of(surface.values) < node.bound * (1 - kRounding)) return true;
+  if (std::any_of(surface.values.begin(), surface.values.end(), [&](const Corners& v) { return below(v, node.range); }))
+    return true;
+  return std::any_of(node.champions.begin(), node.champions.end(), [&](const Surface& champion) {
+    return !champion.values.empty() && below(surface.least, champion.least) &&
+           stays_under(surface.values, champion.values);
+  });
 }
 
-void DirectionTree::consider_champion(Node& node, std::span<const Corners> values) {
-  const double least = least_of(values);
+void DirectionTree::consider_champion(Node& node, const Surface& surface) {
+  const double least = *std::min_element(surface.least.begin(), surface.least.end());
   node.bound = std::max(node.bound, least);
   double middle = std::numeric_limits<double>::infinity();
-  for (const Corners& v : values) middle = std::min(middle, v[0] + v[1] + v[2] + v[3]);
+  for (const Corners& v : surface.values) middle = std::min(middle, v[0] + v[1] + v[2] + v[3]);
   const std::array<double, 2> scores{least, middle};
   for (std::size_t i = 0; i < 2; ++i)
     if (scores[i] > node.champion_score[i]) {
       node.champion_score[i] = scores[i];
-      node.champions[i].assign(values.begin(), values.end());
+      node.champions[i] = surface;
     }
 }
 
 // Drops from the list what the new one hides.
-void DirectionTree::add_to_leaf(Leaf& leaf, std::uint32_t index, const Relevant& relevant) {
+void DirectionTree::add_to_leaf(Leaf& leaf, std::uint32_t index, const Surface& surface) {
   std::size_t kept = 0;
   std::uint32_t end = 0;
   for (std::size_t i = 0; i < leaf.count(); ++i) {
     const std::uint32_t begin = leaf.first_plane[i], count = leaf.first_plane[i + 1] - begin;
-    if (stays_under(leaf.values_of(i), relevant.values)) continue;
+    if (below(leaf.least[i], surface.least) && stays_under(leaf.values_of(i), surface.values)) continue;
     if (begin != end) {
       std::copy_n(leaf.values.begin() + begin, count, leaf.values.begin() + end);
       std::copy_n(leaf.planes.begin() + begin, count, leaf.planes.begin() + end);
     }
     leaf.blockers[kept] = leaf.blockers[i];
+    leaf.least[kept] = leaf.least[i];
     leaf.first_plane[kept++] = end;
     end += count;
   }
@@ -114,9 +114,11 @@ void DirectionTree::add_to_leaf(Leaf& leaf, std::uint32_t index, const Relevant&
   leaf.first_plane[kept] = end;
   leaf.planes.resize(end);
   leaf.values.resize(end);
+  leaf.least.resize(kept);
   leaf.blockers.push_back(index);
-  leaf.planes.insert(leaf.planes.end(), relevant.planes.begin(), relevant.planes.end());
-  leaf.values.insert(leaf.values.end(), relevant.values.begin(), relevant.values.end());
+  leaf.least.push_back(surface.least);
+  leaf.planes.insert(leaf.planes.end(), surface.planes.begin(), surface.planes.end());
+  leaf.values.insert(leaf.values.end(), surface.values.begin(), surface.values.end());
   leaf.first_plane.push_back(std::uint32_t(leaf.planes.size()));
 }
 
@@ -162,9 +164,9 @@ bool DirectionTree::insert(std::uint32_t index) {
 }
 
 bool DirectionTree::insert_below(std::uint32_t at, std::uint32_t index, std::span<const std::uint32_t> planes) {
-  Relevant& relevant = scratch_[nodes_[at].depth];
-  reduce(nodes_[at].cell, planes, relevant);
-  if (!insert_into(nodes_[at], index, relevant)) return false;
+  Surface& surface = scratch_[nodes_[at].depth];
+  reduce(nodes_[at].cell, planes, surface);
+  if (!insert_into(nodes_[at], index, surface)) return false;
   if (nodes_[at].first_child == 0) {
     if (nodes_[at].leaf.count() > kLongList && nodes_[at].depth < kDeepest) split(at);
     return true;
@@ -173,7 +175,7 @@ bool DirectionTree::insert_below(std::uint32_t at, std::uint32_t index, std::spa
   double bound = std::numeric_limits<double>::infinity();
   const std::uint32_t first = nodes_[at].first_child, count = nodes_[at].child_count;
   for (std::uint32_t child = first; child < first + count; ++child) {
-    shown |= insert_below(child, index, relevant.planes);
+    shown |= insert_below(child, index, surface.planes);
     bound = std::min(bound, nodes_[child].bound);
   }
   nodes_[at].bound = std::max(nodes_[at].bound, bound);
@@ -181,14 +183,14 @@ bool DirectionTree::insert_below(std::uint32_t at, std::uint32_t index, std::spa
 }
 
 // False when the blocker is hidden all over the cell.
-bool DirectionTree::insert_into(Node& node, std::uint32_t index, const Relevant& relevant) {
-  if (hidden_in(node, relevant.values)) return false;
+bool DirectionTree::insert_into(Node& node, std::uint32_t index, const Surface& surface) {
+  if (hidden_in(node, surface)) return false;
   if (node.first_child == 0) {
     for (std::size_t i = 0; i < node.leaf.count(); ++i)
-      if (stays_under(relevant.values, node.leaf.values_of(i))) return false;
-    add_to_leaf(node.leaf, index, relevant);
+      if (below(surface.least, node.leaf.least[i]) && stays_under(surface.values, node.leaf.values_of(i))) return false;
+    add_to_leaf(node.leaf, index, surface);
   }
-  consider_champion(node, relevant.values);
+  consider_champion(node, surface);
   return true;
 }
 
@@ -206,10 +208,10 @@ void DirectionTree::split(std::uint32_t at) {
   nodes_[at].leaf = Leaf();
   for (std::uint32_t child = first; child < std::uint32_t(nodes_.size()); ++child)
     for (std::size_t i = 0; i < leaf.count(); ++i) {
-      Relevant& relevant = scratch_[depth];
+      Surface& surface = scratch_[depth];
       reduce(nodes_[child].cell,
-             {leaf.planes.data() + leaf.first_plane[i], leaf.first_plane[i + 1] - leaf.first_plane[i]}, relevant);
-      insert_into(nodes_[child], leaf.blockers[i], relevant);
+             {leaf.planes.data() + leaf.first_plane[i], leaf.first_plane[i + 1] - leaf.first_plane[i]}, surface);
+      insert_into(nodes_[child], leaf.blockers[i], surface);
     }
 }
 

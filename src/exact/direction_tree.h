@@ -41,6 +41,7 @@ class DirectionTree {
     std::vector<std::uint32_t> first_plane{0};
     std::vector<std::uint32_t> planes;
     std::vector<Corners> values;
+    std::vector<Corners> least;  ///< per blocker: the least of its planes at each corner
 
     std::size_t count() const { return blockers.size(); }
     std::span<const Corners> values_of(std::size_t i) const {
@@ -51,38 +52,39 @@ class DirectionTree {
   const Leaf& leaf_at(const ChartPoint& point) const;
 
  private:
+  /// A blocker over a cell: the planes that matter there, and the least of them at each corner.
+  struct Surface {
+    std::vector<std::uint32_t> planes;
+    std::vector<Corners> values;
+    Corners least{};
+  };
   struct Node {
     ChartCell cell;
-    double bound = 0;  // constant lower bound on the envelope
-    Corners range{};   // linear lower bound on the range region's gauge
+    double bound = 0;                  // constant lower bound on the envelope
+    Corners range{};                   // linear lower bound on the range region's gauge
+    std::array<Surface, 2> champions;  // of greatest least value; greatest at the middle
     std::array<double, 2> champion_score{};
-    std::array<std::vector<Corners>, 2> champions;  // of greatest least value; greatest at the middle
     Leaf leaf;
     std::uint32_t first_child = 0;  // 0: a leaf
     std::uint32_t child_count = 0;
     std::uint32_t depth = 0;
   };
-  /// Planes of one blocker that matter in a cell.
-  struct Relevant {
-    std::vector<std::uint32_t> planes;
-    std::vector<Corners> values;
-  };
 
-  void reduce(const ChartCell& cell, std::span<const std::uint32_t> planes, Relevant& relevant) const;
-  static bool stays_under(std::span<const Corners> values, std::span<const Corners> champion);
-  static bool hidden_in(const Node& node, std::span<const Corners> values);
-  static void consider_champion(Node& node, std::span<const Corners> values);
-  static void add_to_leaf(Leaf& leaf, std::uint32_t index, const Relevant& relevant);
+  void reduce(const ChartCell& cell, std::span<const std::uint32_t> planes, Surface& surface) const;
+  static bool stays_under(std::span<const Corners> low, std::span<const Corners> high);
+  static bool hidden_in(const Node& node, const Surface& surface);
+  static void consider_champion(Node& node, const Surface& surface);
+  static void add_to_leaf(Leaf& leaf, std::uint32_t index, const Surface& surface);
 
   bool insert_below(std::uint32_t node, std::uint32_t index, std::span<const std::uint32_t> planes);
-  bool insert_into(Node& node, std::uint32_t index, const Relevant& relevant);
+  bool insert_into(Node& node, std::uint32_t index, const Surface& surface);
   void split(std::uint32_t node);
   void add_node(const ChartCell& cell, double bound, std::uint32_t depth);
 
   const BlockerSet& blockers_;
   const RangeRegion& range_;
   std::vector<Node> nodes_;
-  std::vector<Relevant> scratch_;  // one per level
+  std::vector<Surface> scratch_;  // one per level
 };
 
 }  // namespace vantage::exact
