@@ -17,7 +17,7 @@ struct PointAnswer {
   bool out_of_range = false;
   bool behind_target = false;
   std::vector<std::string>
-      outside_of;  ///< navigation limits that the point breaks ("altitude min", "box", "keep_out 0")
+      outside_of;  ///< limits that the point breaks: "altitude min", "boxes", "keep_out 0", "mesh NAME"
 };
 
 /// Answers for many points (scene frame, metres); exact, no tolerance. Cost: one walk of the scene's hierarchy a point.

@@ -6,7 +6,6 @@
 #include <cstdio>
 
 #include "exact/collect.h"
-#include "exact/enclosing_circle.h"
 #include "exact/numerics.h"
 #include "exact/target_check.h"
 #include "exact/triangulation.h"
@@ -43,27 +42,6 @@ std::string metres(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.4g m", value);
   return text;
-}
-
-// The origin must be inside every ball. The centre of the smallest enclosing circle always is, but may lie on the
-// target's outline, so the origin keeps as far from it as the range allows.
-void move_into_range(TargetFrame& frame, double max_range) {
-  const auto farthest = [&](const Eigen::Vector2d& p) {
-    double d = 0;
-    for (const auto& v : frame.polygon) d = std::max(d, (v - p).norm());
-    return d;
-  };
-  const double allowed = 0.5 * (frame.enclosing_radius_m + max_range);
-  if (farthest(Eigen::Vector2d::Zero()) <= allowed) return;
-  const Eigen::Vector2d centre = smallest_enclosing_circle(frame.polygon).centre;
-  double low = 0, high = 1;  // the distance to the farthest vertex is convex along the way
-  for (int i = 0; i < 60; ++i) {
-    const double middle = 0.5 * (low + high);
-    (farthest(middle * centre) <= allowed ? high : low) = middle;
-  }
-  const Eigen::Vector2d shift = high * centre;
-  frame.origin += frame.axis_u * shift.x() + frame.axis_v * shift.y();
-  for (auto& v : frame.polygon) v -= shift;
 }
 
 void add_causes(const PreparedScene& scene, const BlockerSet& blockers, const Boundary& boundary, Volume& volume) {

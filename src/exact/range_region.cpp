@@ -1,5 +1,7 @@
 #include "exact/range_region.h"
 
+#include "exact/enclosing_circle.h"
+
 namespace vantage::exact {
 
 RangeRegion::RangeRegion(const LocalTarget& target, double max_range) : centres_(target.vertices), radius_(max_range) {
@@ -33,6 +35,25 @@ bool RangeRegion::contains(const Vec3& point) const {
   for (const Eigen::Vector2d& c : centres_)
     if ((point - Vec3(c.x(), c.y(), 0)).squaredNorm() > radius_ * radius_) return false;
   return true;
+}
+
+void move_into_range(TargetFrame& frame, double max_range) {
+  const auto farthest = [&](const Eigen::Vector2d& p) {
+    double d = 0;
+    for (const auto& v : frame.polygon) d = std::max(d, (v - p).norm());
+    return d;
+  };
+  const double allowed = 0.5 * (frame.enclosing_radius_m + max_range);
+  if (farthest(Eigen::Vector2d::Zero()) <= allowed) return;
+  const Eigen::Vector2d centre = smallest_enclosing_circle(frame.polygon).centre;
+  double low = 0, high = 1;  // the distance to the farthest vertex is convex along the way
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (farthest(middle * centre) <= allowed ? high : low) = middle;
+  }
+  const Eigen::Vector2d shift = high * centre;
+  frame.origin += frame.axis_u * shift.x() + frame.axis_v * shift.y();
+  for (auto& v : frame.polygon) v -= shift;
 }
 
 }  // namespace vantage::exact

@@ -41,4 +41,8 @@ class RangeRegion {
   double radius_;
 };
 
+/// Moves the frame's origin inside every ball. The centre of the smallest enclosing circle always is, but may lie on
+/// the target's outline, so the origin keeps as far from it as the range allows. The range exceeds the circle's radius.
+void move_into_range(TargetFrame& frame, double max_range);
+
 }  // namespace vantage::exact

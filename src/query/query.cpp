@@ -1,0 +1,129 @@
+// query_points: the gauge of docs/theory.md along one line, straight from the scene's hierarchy.
+#include "vantage/query.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "exact/blocker.h"
+#include "exact/collect.h"
+#include "exact/range_region.h"
+#include "exact/segment_cover.h"
+#include "exact/target_check.h"
+#include "parallel/parallel.h"
+#include "query/limits.h"
+#include "vantage/error.h"
+
+namespace vantage {
+namespace {
+
+using namespace exact;
+
+/// Finds what stands between a point and the target; one a thread.
+class LineOfSight {
+ public:
+  LineOfSight(const PreparedScene::Data& scene, const TargetFrame& frame, const LocalTarget& target)
+      : scene_(scene), frame_(frame), target_(target), builder_(target) {}
+
+  /// Blocker planes of every polygon that may hide part of the target from a point between the centre and `apex`
+  /// (local). `visit` gets the polygon and its planes.
+  template <typename Visit>
+  void for_each(const Vec3& apex, const Visit& visit) {
+    Box pyramid;
+    const Vec3 shift = scene_.origin;
+    pyramid.extend(Vec3(frame_.to_scene(apex) - shift));
+    for (const auto& t : target_.vertices) pyramid.extend(Vec3(frame_.to_scene({t.x(), t.y(), 0}) - shift));
+    stack_.assign(scene_.bvh.nodes.empty() ? 0 : 1, 0);
+    while (!stack_.empty()) {
+      const scene::BvhNode& node = scene_.bvh.nodes[stack_.back()];
+      stack_.pop_back();
+      bool apart = false;
+      for (int a = 0; a < 3; ++a)
+        apart = apart || node.bounds.min[a] > pyramid.max[a] || node.bounds.max[a] < pyramid.min[a];
+      if (apart) continue;
+      if (!node.leaf()) {
+        stack_.push_back(node.first + 1);
+        stack_.push_back(node.first);
+        continue;
+      }
+      for (std::uint32_t polygon = node.first; polygon < node.first + node.count; ++polygon) {
+        local_polygon(scene_, frame_, polygon, corners_);
+        planes_.clear();
+        clipped_.clear();
+        if (builder_.build(corners_, planes_, clipped_)) visit(polygon, planes_);
+      }
+    }
+  }
+
+ private:
+  const PreparedScene::Data& scene_;
+  const TargetFrame& frame_;
+  const LocalTarget& target_;
+  BlockerBuilder builder_;
+  std::vector<std::uint32_t> stack_;
+  std::vector<Vec3> corners_, clipped_;
+  std::vector<Plane> planes_;
+};
+
+PointAnswer look(const PreparedScene::Data& scene, const RangeRegion& range, LineOfSight& sight, const Vec3& point) {
+  PointAnswer answer;
+  const double distance = point.norm();
+  answer.out_of_range = !range.contains(point);
+  answer.behind_target = point.z() <= 0;
+  if (answer.behind_target) {
+    answer.margin_m = -distance;
+    return answer;
+  }
+  const Vec3 direction = point / distance;
+  double gauge = range.gauge(direction);
+  std::set<std::string> names;
+  sight.for_each(direction * std::max(distance, 1 / gauge),
+                 [&](std::uint32_t polygon, const std::vector<Plane>& planes) {
+                   double least = std::numeric_limits<double>::infinity(), margin = 0;
+                   for (const Plane& plane : planes) {
+                     least = std::min(least, plane.dot(direction));
+                     margin = std::max(margin, tie_margin(plane, distance));
+                   }
+                   gauge = std::max(gauge, least);
+                   if (least * distance > 1 + margin) names.insert(scene.objects[scene.polygon_object[polygon]]);
+                 });
+  answer.blocked_by.assign(names.begin(), names.end());
+  answer.margin_m = 1 / gauge - distance;
+  return answer;
+}
+
+}  // namespace
+
+std::vector<PointAnswer> query_points(const PreparedScene& scene, const Target& target, const Sensor& sensor,
+                                      const Navigation& navigation, const std::vector<Vec3>& points) {
+  if (!(sensor.max_range_m > 0) || !std::isfinite(sensor.max_range_m))
+    throw Error(ErrorKind::input, "max_range must be a positive, finite number of metres", "sensor",
+                "give the farthest distance at which the target can be seen");
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (!points[i].allFinite())
+      throw Error(ErrorKind::input, "a coordinate is not finite", "point " + std::to_string(i), "give three numbers");
+  TargetFrame frame = make_target_frame(target);
+  frame.origin += frame.normal * clearing_lift(scene.data(), target, frame);
+  std::vector<PointAnswer> answers(points.size());
+  // Where no point at all is in range the centre may be out of range itself: look from the circle's centre, as the
+  // engine does.
+  const bool reachable = frame.enclosing_radius_m * (1 + 1e-9) < sensor.max_range_m;
+  if (reachable) move_into_range(frame, sensor.max_range_m);
+  const LocalTarget local = make_local_target(frame.polygon);
+  const RangeRegion range(local, reachable ? sensor.max_range_m : 2 * frame.enclosing_radius_m);
+  parallel::for_ranges(points.size(), 64, [&](std::size_t begin, std::size_t end) {
+    LineOfSight sight(scene.data(), frame, local);
+    for (std::size_t i = begin; i < end; ++i) {
+      PointAnswer& answer = answers[i];
+      answer = look(scene.data(), range, sight, frame.to_local(points[i]));
+      if (!reachable) answer.out_of_range = true, answer.margin_m = -(points[i] - frame.origin).norm();
+      answer.outside_of = query::limits_broken(navigation, points[i]);
+      answer.inside =
+          !answer.behind_target && !answer.out_of_range && answer.blocked_by.empty() && answer.outside_of.empty();
+    }
+  });
+  return answers;
+}
+
+}  // namespace vantage
