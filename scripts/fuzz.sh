@@ -7,9 +7,9 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 duration=${1:-60}
 shopt -s nullglob
-targets=(build-fuzz/bin/fuzz/fuzz_*)
+targets=(tests/fuzz/fuzz_*.cpp)
 if [ ${#targets[@]} -eq 0 ]; then
-  echo "fuzz: no targets in build-fuzz/bin/fuzz: run 'make fuzz'" >&2
+  echo "fuzz: no targets in tests/fuzz/" >&2
   exit 1
 fi
 # A leak or a sanitizer report ends the run of its target.
@@ -17,7 +17,7 @@ export ASAN_OPTIONS=detect_leaks=1:allocator_may_return_null=1 UBSAN_OPTIONS=pri
 failed=()
 total=0
 for target in "${targets[@]}"; do
-  name=$(basename "$target")
+  name=$(basename "$target" .cpp)
   subject=${name#fuzz_}
   corpus=build-fuzz/corpus/$subject findings=build-fuzz/findings/$subject
   mkdir -p "$corpus" "$findings"
@@ -27,7 +27,7 @@ for target in "${targets[@]}"; do
   [ -d "${seeds[0]}" ] || seeds=()
   [ ! -e "tests/fuzz/$subject.dict" ] || options+=(-dict="tests/fuzz/$subject.dict")
   log=build-fuzz/$subject.log
-  if "$target" "${options[@]}" "$corpus" "${seeds[@]}" >"$log" 2>&1 </dev/null; then
+  if "build-fuzz/bin/fuzz/$name" "${options[@]}" "$corpus" "${seeds[@]}" >"$log" 2>&1 </dev/null; then
     runs=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")
     total=$((total + runs))
     echo "$name: $runs inputs, nothing found"
