@@ -12,6 +12,7 @@ namespace vantage::exact {
 /// Blocker i owns the planes [first[i], first[i + 1]) and likewise its corners.
 struct BlockerSet {
   std::vector<Plane> planes;
+  std::vector<std::uint8_t> live;  ///< per plane: 0 where a neighbour of the polygon hides all of its facet
   std::vector<std::uint32_t> first{0};
   std::vector<Vec3> corners;  ///< of the scene polygon, clipped to the target's front
   std::vector<std::uint32_t> first_corner{0};
@@ -25,11 +26,12 @@ struct BlockerSet {
     return {corners.data() + first_corner[blocker], first_corner[blocker + 1] - first_corner[blocker]};
   }
 
-  /// Ends a blocker whose planes and corners have been appended.
+  /// Ends a blocker whose planes and corners have been appended; its planes are live.
   void close(std::uint32_t scene_polygon) {
     first.push_back(std::uint32_t(planes.size()));
     first_corner.push_back(std::uint32_t(corners.size()));
     polygon.push_back(scene_polygon);
+    live.resize(planes.size(), 1);
   }
 
   /// Takes the last one back.
@@ -38,6 +40,7 @@ struct BlockerSet {
     first_corner.pop_back();
     polygon.pop_back();
     planes.resize(first.back());
+    live.resize(first.back());
     corners.resize(first_corner.back());
   }
 };

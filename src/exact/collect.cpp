@@ -5,6 +5,7 @@
 #include <queue>
 
 #include "exact/numerics.h"
+#include "exact/segment_cover.h"
 #include "vantage/error.h"
 
 namespace vantage::exact {
@@ -27,6 +28,52 @@ double distance_to(const scene::Bounds& bounds, const Vec3& point) {
   }
   return std::sqrt(sum);
 }
+
+/// Finds the planes of a blocker whose facets its polygon's neighbours hide. A facet is swept from the corners that its
+/// plane touches, away from the target; a neighbour that has those corners hides every point of it, unless the plane
+/// bounds what the neighbour hides as well. So of a closed surface only the silhouette casts shadows: docs/theory.md,
+/// "Only what is seen can hide".
+class Neighbours {
+ public:
+  Neighbours(const PreparedScene::Data& scene, const TargetFrame& frame, double reach)
+      : scene_(scene), frame_(frame), centre_(frame.origin - scene.origin), reach_(reach) {}
+
+  /// For the last blocker of the set; `corners` are those of its polygon, not clipped.
+  void mark_hidden(std::uint32_t polygon, std::span<const Vec3> corners, BlockerSet& blockers) {
+    const auto clipped = blockers.corners_of(blockers.count() - 1);
+    // Where the target's plane cuts the polygon, its planes touch it at corners that no neighbour knows.
+    if (std::any_of(corners.begin(), corners.end(), [](const Vec3& c) { return c.z() < -numerics::kOnPlane; })) return;
+    const auto vertices = scene_.corners_of(polygon);
+    for (std::uint32_t k = blockers.first[blockers.count() - 1]; k < blockers.planes.size(); ++k) {
+      const double margin = tie_margin(blockers.planes[k], reach_);
+      touched_.clear();
+      for (std::size_t i = 0; i < corners.size(); ++i)
+        if (std::abs(blockers.planes[k].dot(clipped[i]) - 1) <= margin) touched_.push_back(vertices[i]);
+      if (touched_.empty() || touched_.size() == corners.size()) continue;
+      for (std::uint32_t other : scene_.polygons_at(touched_[0]))
+        if (other != polygon && hides(other, blockers.planes[k], 1 - 10 * margin)) blockers.live[k] = 0;
+    }
+  }
+
+ private:
+  // Whether a polygon has all the touched corners and also reaches to the near side of the plane.
+  bool hides(std::uint32_t other, const Plane& plane, double near) const {
+    const auto vertices = scene_.corners_of(other);
+    for (std::uint32_t v : touched_)
+      if (std::find(vertices.begin(), vertices.end(), v) == vertices.end()) return false;
+    return std::any_of(vertices.begin(), vertices.end(), [&](std::uint32_t v) {
+      const Vec3 d = scene_.vertices[v] - centre_;
+      const Vec3 local(frame_.axis_u.dot(d), frame_.axis_v.dot(d), frame_.normal.dot(d));
+      return local.z() >= 0 && plane.dot(local) < near;
+    });
+  }
+
+  const PreparedScene::Data& scene_;
+  const TargetFrame& frame_;
+  Vec3 centre_;
+  double reach_;
+  std::vector<std::uint32_t> touched_;
+};
 
 void check_cancelled(const Progress& progress) {
   if (progress && !progress("finding blockers", 0.0))
@@ -54,6 +101,7 @@ void collect_blockers(const PreparedScene::Data& scene, const TargetFrame& frame
   std::array<Vec3, 3> axes;
   for (int a = 0; a < 3; ++a) axes[a] = {frame.axis_u[a], frame.axis_v[a], frame.normal[a]};
   BlockerBuilder builder(target);
+  Neighbours neighbours(scene, frame, range.radius());
   std::vector<Vec3> corners;
   std::priority_queue<Entry> queue;
   const auto push = [&](std::uint32_t node) {
@@ -87,6 +135,7 @@ void collect_blockers(const PreparedScene::Data& scene, const TargetFrame& frame
       if (tree.hides_hull(corners)) continue;
       if (!builder.build(corners, blockers.planes, blockers.corners)) continue;
       blockers.close(polygon);
+      neighbours.mark_hidden(polygon, corners, blockers);
       if (!tree.insert(std::uint32_t(blockers.count() - 1))) blockers.drop_last();
     }
   }

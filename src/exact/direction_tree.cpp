@@ -184,6 +184,8 @@ bool DirectionTree::insert_below(std::uint32_t at, std::uint32_t index, std::spa
 
 // False when the blocker is hidden all over the cell.
 bool DirectionTree::insert_into(Node& node, std::uint32_t index, const Surface& surface) {
+  if (std::none_of(surface.planes.begin(), surface.planes.end(), [&](std::uint32_t k) { return blockers_.live[k]; }))
+    return false;
   if (hidden_in(node, surface)) return false;
   if (node.first_child == 0) {
     for (std::size_t i = 0; i < node.leaf.count(); ++i)

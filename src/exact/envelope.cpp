@@ -93,7 +93,8 @@ FacetTable find_facets(const BlockerSet& blockers, const DirectionTree& tree,
   for (std::uint32_t l = 0; l < leaves.size(); ++l)
     for (std::size_t i = 0; i < leaves[l]->count(); ++i)
       for (std::uint32_t k = leaves[l]->first_plane[i]; k < leaves[l]->first_plane[i + 1]; ++k)
-        if (!plane_hidden(*leaves[l], i, k)) sightings.push_back({leaves[l]->planes[k], leaves[l]->blockers[i], l});
+        if (blockers.live[leaves[l]->planes[k]] && !plane_hidden(*leaves[l], i, k))
+          sightings.push_back({leaves[l]->planes[k], leaves[l]->blockers[i], l});
   parallel::sort(sightings, std::less<>());
   FacetTable table;
   ContactTest contact(blockers, tree, range.radius());

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -22,7 +23,16 @@ struct PreparedScene::Data {
   std::vector<std::uint32_t> polygon_object;    ///< index into `objects`
   scene::Bvh bvh;                               ///< over the polygons, which are in its leaf order
 
+  std::vector<std::uint32_t> first_incident;  ///< per vertex, into `incident`; one more than there are vertices
+  std::vector<std::uint32_t> incident;        ///< polygons that have the vertex as a corner
+
   std::size_t polygon_count() const { return polygon_object.size(); }
+  std::span<const std::uint32_t> corners_of(std::size_t polygon) const {
+    return {polygon_vertices.data() + first_vertex[polygon], first_vertex[polygon + 1] - first_vertex[polygon]};
+  }
+  std::span<const std::uint32_t> polygons_at(std::size_t vertex) const {
+    return {incident.data() + first_incident[vertex], first_incident[vertex + 1] - first_incident[vertex]};
+  }
 };
 
 }  // namespace vantage

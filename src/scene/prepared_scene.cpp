@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numeric>
 #include <unordered_set>
 
 #include "parallel/parallel.h"
@@ -129,6 +130,16 @@ void store_in_leaf_order(PreparedScene::Data& data, const scene::ConvexPolygons&
   }
 }
 
+void index_incidence(PreparedScene::Data& data) {
+  data.first_incident.assign(data.vertices.size() + 1, 0);
+  for (std::uint32_t vertex : data.polygon_vertices) ++data.first_incident[vertex + 1];
+  std::partial_sum(data.first_incident.begin(), data.first_incident.end(), data.first_incident.begin());
+  data.incident.resize(data.polygon_vertices.size());
+  std::vector<std::uint32_t> next(data.first_incident.begin(), data.first_incident.end() - 1);
+  for (std::uint32_t polygon = 0; polygon < data.polygon_count(); ++polygon)
+    for (std::uint32_t vertex : data.corners_of(polygon)) data.incident[next[vertex]++] = polygon;
+}
+
 void check(const Scene& scene) {
   const auto refuse = [](std::string problem) {
     throw Error(ErrorKind::input, std::move(problem), "scene made in memory",
@@ -168,6 +179,7 @@ PreparedScene::PreparedScene(const Scene& scene, const Progress& progress) {
   statistics.polygons = polygons.count();
   report(progress, 0.7);
   store_in_leaf_order(*data, polygons);
+  index_incidence(*data);
   report(progress, 1.0);
   data_ = std::move(data);
 }
