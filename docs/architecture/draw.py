@@ -1,0 +1,49 @@
+#!/usr/bin/env python3
+"""Draws house.svg: the rooms of src/, and who calls whom. No packages needed."""
+
+import pathlib
+
+ROOMS = {  # name: (left, top, width, what it does)
+    "include/vantage": (20, 14, 760, "the public API: values, and functions that take and return them"),
+    "cli": (20, 104, 760, "inspect, compute, query, verify: parse, run, print"),
+    "mission": (20, 184, 230, "YAML to Mission, run it"),
+    "verify": (270, 184, 240, "shadow rays (Embree)"),
+    "query": (530, 184, 250, "point by point, no mesh"),
+    "solid": (20, 274, 230, "cuts (Manifold), files, reports"),
+    "exact": (530, 274, 250, "blockers, envelope, mesh (CDT)"),
+    "scene": (270, 364, 510, "files to Scene; weld, merge, hierarchy"),
+    "parallel": (20, 364, 230, "threads (oneTBB)"),
+}
+CALLS = [("cli", "mission"), ("cli", "verify"), ("cli", "query"), ("mission", "solid"), ("query", "exact"),
+         ("exact", "scene")]
+HEIGHT = 58
+
+
+def box(name):
+    left, top, width, what = ROOMS[name]
+    fill = "#eef2f9" if name != "include/vantage" else "#fdf1e2"
+    return (f'<rect x="{left}" y="{top}" width="{width}" height="{HEIGHT}" rx="7" fill="{fill}" stroke="#346ebe"/>'
+            f'<text x="{left + 12}" y="{top + 25}" font-size="16" font-weight="bold">{name}</text>'
+            f'<text x="{left + 12}" y="{top + 45}" font-size="13" fill="#4a5260">{what}</text>')
+
+
+def arrow(upper, lower):
+    """From the bottom of one room to the top of another, over the middle of the narrower one."""
+    left, _, width, _ = min(ROOMS[upper], ROOMS[lower], key=lambda room: room[2])
+    x, y0, y1 = left + width / 2, ROOMS[upper][1] + HEIGHT, ROOMS[lower][1] - 2
+    return f'<line x1="{x}" y1="{y0}" x2="{x}" y2="{y1}" stroke="#1d2b45" stroke-width="1.6" marker-end="url(#tip)"/>'
+
+
+def main():
+    parts = ['<svg xmlns="http://www.w3.org/2000/svg" width="800" height="440" viewBox="0 0 800 440" '
+             'font-family="Helvetica, Arial, sans-serif" fill="#1d2b45">',
+             '<defs><marker id="tip" viewBox="0 0 8 8" refX="7" refY="4" markerWidth="8" markerHeight="8" orient="auto">'
+             '<path d="M0,0 L8,4 L0,8 z" fill="#1d2b45"/></marker></defs>',
+             '<rect width="100%" height="100%" fill="white"/>']
+    parts += [box(name) for name in ROOMS]
+    parts += [arrow(*call) for call in CALLS]
+    (pathlib.Path(__file__).parent / "house.svg").write_text("\n".join(parts) + "\n</svg>\n", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
