@@ -37,7 +37,8 @@ def arrow(upper, lower):
 def main():
     parts = ['<svg xmlns="http://www.w3.org/2000/svg" width="800" height="440" viewBox="0 0 800 440" '
              'font-family="Helvetica, Arial, sans-serif" fill="#1d2b45">',
-             '<defs><marker id="tip" viewBox="0 0 8 8" refX="7" refY="4" markerWidth="8" markerHeight="8" orient="auto">'
+             '<defs><marker id="tip" viewBox="0 0 8 8" refX="7" refY="4" markerWidth="8" markerHeight="8" '
+             'orient="auto">'
              '<path d="M0,0 L8,4 L0,8 z" fill="#1d2b45"/></marker></defs>',
              '<rect width="100%" height="100%" fill="white"/>']
     parts += [box(name) for name in ROOMS]

@@ -20,7 +20,12 @@ SIZE = (1200, 800)  # pixels, width and height
 SAMPLES = 2  # per pixel, each way
 BACKGROUND = numpy.array([246, 247, 249], float)
 TARGET = numpy.array([214, 30, 40], float)
-KINDS = {"scene": (52, 110, 190), "range": (238, 150, 50), "target_plane": (150, 150, 150), "navigation": (60, 160, 100)}
+KINDS = {
+    "scene": (52, 110, 190),
+    "range": (238, 150, 50),
+    "target_plane": (150, 150, 150),
+    "navigation": (60, 160, 100),
+}
 FRONT_OPACITY, BACK_OPACITY = 0.34, 0.22
 CREASE_DEGREES = 4.0  # edges flatter than this are not drawn: the range sphere's triangles
 SLIVER = 0.02  # square metres: on the sphere the normal of a smaller facet says little
@@ -129,7 +134,9 @@ def grey(normals: numpy.ndarray) -> numpy.ndarray:
     return light[:, None] * numpy.array([222, 222, 226])
 
 
-def creases(triangles: numpy.ndarray, normals: numpy.ndarray, areas: numpy.ndarray, kinds: numpy.ndarray) -> numpy.ndarray:
+def creases(
+    triangles: numpy.ndarray, normals: numpy.ndarray, areas: numpy.ndarray, kinds: numpy.ndarray
+) -> numpy.ndarray:
     """Edges, as pairs of vertices, between facets that differ in kind or meet at an angle."""
     edges = numpy.sort(triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
     order = numpy.lexsort((edges[:, 1], edges[:, 0]))
