@@ -114,7 +114,6 @@ FacetTable find_facets(const BlockerSet& blockers, const DirectionTree& tree,
 }
 
 /// Traces the creases of one facet after another; one tracer a thread.
-static size_t st[8];
 class FacetTracer {
  public:
   FacetTracer(const BlockerSet& blockers, const std::vector<const DirectionTree::Leaf*>& leaves,
@@ -129,22 +128,12 @@ class FacetTracer {
 
   Result trace(const Facet& facet) {
     Result result;
-    if (!make_polygon(facet)) {
-      ++st[0];
-      return result;
-    }
+    if (!make_polygon(facet)) return result;
     gather_rivals(facet);
-    st[4] += rivals_.size();
-    if (!cut_by_rivals(facet)) {
-      ++st[1];
-      return result;
-    }
-    st[5] += rivals_.size();
-    st[6] += cut_count_;
+    if (!cut_by_rivals(facet)) return result;
     trace_own_edges(result);
     trace_crossings(facet, result);
     trace_range(facet, result);
-    ++st[result.planar.empty() && result.curved.empty() ? 2 : 3];
     result.visible = !result.planar.empty() || !result.curved.empty();
     return result;
   }
@@ -383,21 +372,11 @@ Skeleton trace_envelope(const BlockerSet& blockers, const DirectionTree& tree, c
                         const CurveSampling& sampling) {
   const std::vector<const DirectionTree::Leaf*> leaves = tree.leaves();
   const FacetTable table = find_facets(blockers, tree, leaves, range);
-  if (getenv("VDBG")) {
-    size_t r = 0;
-    for (auto& f : table.facets) r += f.leaf_count;
-    fprintf(stderr, "planes %zu active facets %zu leafrefs %zu\n", blockers.planes.size(), table.facets.size(), r);
-  }
   std::vector<FacetTracer::Result> results(table.facets.size());
   parallel::for_ranges(table.facets.size(), 16, [&](std::size_t begin, std::size_t end) {
     FacetTracer tracer(blockers, leaves, table, range, sampling);
     for (std::size_t i = begin; i < end; ++i) results[i] = tracer.trace(table.facets[i]);
   });
-  if (getenv("VDBG")) {
-    fprintf(stderr, "nopoly %zu hidden %zu empty %zu visible %zu rivals %zu near %zu cuts %zu\n", st[0], st[1], st[2],
-            st[3], st[4], st[5], st[6]);
-    std::fill(st, st + 8, 0);
-  }
   Skeleton skeleton;
   std::vector<std::uint32_t> shown;
   for (std::size_t i = 0; i < results.size(); ++i) {
