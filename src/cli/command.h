@@ -22,6 +22,7 @@ using Command = std::function<int()>;
 /// Each adds one command to `app`. Parsing it stores what is to be done in `chosen`, which must outlive the parsing.
 void add_inspect(CLI::App& app, Command& chosen);
 void add_compute(CLI::App& app, Command& chosen);
+void add_query(CLI::App& app, Command& chosen);
 void add_verify(CLI::App& app, Command& chosen);
 
 /// Options of every command.

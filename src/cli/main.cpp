@@ -19,6 +19,7 @@ constexpr const char* kExamples =
     "EXAMPLES\n"
     "  vantage inspect city.obj --up y\n"
     "  vantage compute mission.yaml -o volume.ply\n"
+    "  vantage query mission.yaml points.csv > answers.csv\n"
     "  vantage verify mission.yaml volume.ply\n"
     "\n"
     "EXIT CODES\n"
@@ -112,6 +113,7 @@ int run(int argument_count, char** arguments) {
   Command chosen;
   add_inspect(app, chosen);
   add_compute(app, chosen);
+  add_query(app, chosen);
   add_verify(app, chosen);
 
   try {
