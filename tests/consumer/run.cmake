@@ -29,10 +29,11 @@ else()
 endif()
 
 file(GLOB headers RELATIVE ${VANTAGE_SOURCE_DIR}/include/vantage ${VANTAGE_SOURCE_DIR}/include/vantage/*.h)
+list(JOIN headers "," headers)
 run(${CMAKE_COMMAND} -S ${VANTAGE_SOURCE_DIR}/tests/consumer -B ${scratch}/build -G Ninja
-    -DCMAKE_BUILD_TYPE=${BUILD_TYPE} "-DHEADERS=${headers}" ${how})
+    -DCMAKE_BUILD_TYPE=${BUILD_TYPE} -DHEADERS=${headers} ${how})
 run(${CMAKE_COMMAND} --build ${scratch}/build --target consumer --parallel 2)
-run(${scratch}/build/consumer)
+run(${scratch}/build/consumer ${VANTAGE_SOURCE_DIR}/examples/plaza/mission.yaml ${scratch}/volume.ply)
 if(EXISTS ${scratch}/prefix/bin/vantage)
   run(${CMAKE_COMMAND} -E env --unset=LD_LIBRARY_PATH ${scratch}/prefix/bin/vantage --version)
 endif()
