@@ -52,9 +52,11 @@ Scene repeat(const Scene& scene, int tiles) {
   Scene repeated;
   repeated.objects = scene.objects;
   const Box bounds = bounding_box(scene.mesh);
+  const Vec3 size = bounds.max - bounds.min;
+  const int middle = tiles / 2;
   for (int i = 0; i < tiles; ++i)
     for (int j = 0; j < tiles; ++j) {
-      const Vec3 size = bounds.max - bounds.min, shift((i - tiles / 2) * size.x(), (j - tiles / 2) * size.y(), 0);
+      const Vec3 shift((i - middle) * size.x(), (j - middle) * size.y(), 0);
       const auto first = std::uint32_t(repeated.mesh.vertices.size());
       for (const Vec3& v : scene.mesh.vertices) repeated.mesh.vertices.push_back(v + shift);
       for (const Triangle& t : scene.mesh.triangles)
@@ -162,7 +164,7 @@ void plain(State& state, const City& city, std::size_t index, double range, int 
         benchmark::DoNotOptimize(result.facets());
       });
     } catch (const Error& error) {
-      return state.SkipWithError(error.kind() == ErrorKind::cancelled ? "given up after 120 s" : error.what());
+      return state.SkipWithError(error.kind() == ErrorKind::cancelled ? "given up: it took too long" : error.what());
     }
   }
   state.counters["facets"] = double(result.facets());
