@@ -61,11 +61,14 @@ class Neighbours {
     const auto vertices = scene_.corners_of(other);
     for (std::uint32_t v : touched_)
       if (std::find(vertices.begin(), vertices.end(), v) == vertices.end()) return false;
-    return std::any_of(vertices.begin(), vertices.end(), [&](std::uint32_t v) {
+    bool stands = false, reaches = false;  // above the target's plane, to the near side
+    for (std::uint32_t v : vertices) {
       const Vec3 d = scene_.vertices[v] - centre_;
       const Vec3 local(frame_.axis_u.dot(d), frame_.axis_v.dot(d), frame_.normal.dot(d));
-      return local.z() >= 0 && plane.dot(local) < near;
-    });
+      stands = stands || local.z() > numerics::kOnPlane;
+      reaches = reaches || (local.z() >= 0 && plane.dot(local) < near);
+    }
+    return stands && reaches;
   }
 
   const PreparedScene::Data& scene_;

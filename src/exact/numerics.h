@@ -24,8 +24,8 @@ inline constexpr double kTie = 1e-10;
 /// the wrong owner nor the rounding of a crease leaves a point outside the true volume.
 inline constexpr double kShrink = 1e-9;
 
-/// Vertices of the direction chart (which spans [-1, 1]) closer than this are one vertex: a nanometre at 1 km, a
-/// hundred times the rounding of a crossing of two well-shaped planes.
+/// Vertices of the direction chart (which spans [-1, 1]) closer than this are one vertex: ten nanometres at 1 km, a
+/// thousand times the rounding of a crossing of two well-shaped planes.
 inline constexpr double kSnap = 1e-11;
 
 /// The most that vertices are snapped when the triangulation cannot be built otherwise: 0.1 micrometres at 1 km.
