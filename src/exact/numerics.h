@@ -24,12 +24,13 @@ inline constexpr double kTie = 1e-10;
 /// the wrong owner nor the rounding of a crease leaves a point outside the true volume.
 inline constexpr double kShrink = 1e-9;
 
-/// Vertices of the direction chart (which spans [-1, 1]) closer than this are one vertex: ten nanometres at 1 km, a
-/// thousand times the rounding of a crossing of two well-shaped planes.
-inline constexpr double kSnap = 1e-11;
+/// Vertices of the direction chart (which spans [-1, 1]) closer than this are one vertex: 0.1 micrometres at 1 km.
+/// Well-shaped crossings agree to 1e-14, but those of nearly parallel planes do not, and creases that miss each other's
+/// ends are slow to triangulate. What snapping moves, refinement finds.
+inline constexpr double kSnap = 1e-10;
 
-/// The most that vertices are snapped when the triangulation cannot be built otherwise: 0.1 micrometres at 1 km.
-inline constexpr double kWidestSnap = 1e-10;
+/// The most that vertices are snapped when the triangulation cannot be built otherwise: 10 micrometres at 1 km.
+inline constexpr double kWidestSnap = 1e-8;
 
 /// The target may be raised by at most this much to clear the surface that it lies on: surfaces of real meshes are
 /// planar to a millimetre at best, single-precision files to a tenth of one.

@@ -14,6 +14,21 @@ double RangeRegion::gauge(const Vec3& direction) const {
   return greatest;
 }
 
+double RangeRegion::gauge(const Vec3& direction, std::size_t& ball) const {
+  const double first = gauge(ball, direction);
+  // On the sphere about a the point direction / first is inside the ball about b when 2 x . (b - a) >= b^2 - a^2.
+  const Eigen::Vector2d& a = centres_[ball];
+  bool inside = true;
+  for (std::size_t k = 0; k < centres_.size(); ++k) {
+    const Eigen::Vector2d& b = centres_[k];
+    const double along = direction.x() * (b.x() - a.x()) + direction.y() * (b.y() - a.y());
+    inside = inside && 2 * along >= (power_[ball] - power_[k]) * first;
+  }
+  if (inside) return first;
+  ball = nearest_ball(direction);
+  return gauge(ball, direction);
+}
+
 std::size_t RangeRegion::nearest_ball(const Vec3& direction) const {
   std::size_t best = 0;
   double greatest = 0;

@@ -26,6 +26,10 @@ class RangeRegion {
   /// Of the region: the greatest of the balls' gauges. Convex in `direction`.
   double gauge(const Vec3& direction) const;
 
+  /// The same, trying `ball` first and leaving there the one that is met first: neighbouring directions mostly share
+  /// it, and whether a point of one sphere is inside the other balls is told without a square root.
+  double gauge(const Vec3& direction, std::size_t& ball) const;
+
   /// The ball whose sphere is met first along `direction`.
   std::size_t nearest_ball(const Vec3& direction) const;
 

@@ -9,6 +9,8 @@
 #include "exact/constraint_graph.h"
 #include "exact/gauge.h"
 #include "exact/numerics.h"
+#include "exact/range_cells.h"
+#include "parallel/parallel.h"
 #include "vantage/error.h"
 
 namespace vantage::exact {
@@ -40,20 +42,10 @@ class BoundaryBuilder {
 
   Boundary run() {
     result_.constraint_edges = graph_.edges().size();
-    cdt_.insertVertices(
-        graph_.points().begin(), graph_.points().end(), [](const ChartPoint& p) { return p.x(); },
-        [](const ChartPoint& p) { return p.y(); });
-    cdt_.insertEdges(
-        graph_.edges().begin(), graph_.edges().end(), [](const auto& e) { return e.first; },
-        [](const auto& e) { return e.second; });
-    const std::size_t most = kMostGrowth * cdt_.triangles.size() + 1000;
-    while (refine())
-      if (cdt_.triangles.size() > most)
-        throw Error(ErrorKind::internal, "the boundary could not be triangulated safely", "triangulation",
-                    "please report this with the mission and the scene");
+    parallel::both([&] { triangulate(); }, [&] { cells_ = cut_range_cells(graph_, grid_, range_); });
     collect_triangles();
     lift();
-    emit_range_cells();
+    add_range_cells();
     emit_base();
     drop_unused_vertices();
     return std::move(result_);
@@ -78,7 +70,21 @@ class BoundaryBuilder {
     return v - kSuper < graph_.points().size() && graph_.on_horizon(v - kSuper);
   }
 
-  // ---- refinement ----
+  // ---- triangulation ----
+
+  void triangulate() {
+    cdt_.insertVertices(
+        graph_.points().begin(), graph_.points().end(), [](const ChartPoint& p) { return p.x(); },
+        [](const ChartPoint& p) { return p.y(); });
+    cdt_.insertEdges(
+        graph_.edges().begin(), graph_.edges().end(), [](const auto& e) { return e.first; },
+        [](const auto& e) { return e.second; });
+    const std::size_t most = kMostGrowth * cdt_.triangles.size() + 1000;
+    while (refine())
+      if (cdt_.triangles.size() > most)
+        throw Error(ErrorKind::internal, "the boundary could not be triangulated safely", "triangulation",
+                    "please report this with the mission and the scene");
+  }
 
   // Looks at the triangles that are new; adds a point to each that is not good enough. True when there were any.
   bool refine() {
@@ -197,40 +203,14 @@ class BoundaryBuilder {
     return direction * ((1 - numerics::kShrink) / gauge);
   }
 
-  std::uint32_t vertex_at(int i, int j) {
-    std::uint32_t& slot = graph_.node(i, j);
-    if (slot == kNone) {
-      slot = std::uint32_t(result_.mesh.vertices.size());
-      const ChartPoint p = grid_.node(i, j);
-      const bool horizon = std::abs(i) + std::abs(j) == grid_.size();
-      result_.mesh.vertices.push_back(lifted(p, range_.gauge(to_direction(p)), horizon));
-    }
-    return slot;
-  }
-
-  void emit_range_cells() {
-    const int n = grid_.size();
-    for (int j = -n; j < n; ++j) {
-      const int width = grid_.row_width(j);
-      for (int i = -width; i < width; ++i) {
-        if (!grid_.is_range(i, j)) continue;
-        // The diagonal from (a1, b0) to (a0, b1) is the short one in space.
-        const ChartGrid::Corners c = ChartGrid::corners(i, j);
-        const bool mirrored = (i >= 0) != (j >= 0);
-        const std::uint32_t p = vertex_at(c.a1, c.b0), q = vertex_at(c.a0, c.b1);
-        emit_range_triangle(vertex_at(c.a0, c.b0), p, q, mirrored);
-        if (!grid_.at_horizon(i, j))
-          emit_range_triangle(p, vertex_at(c.a1, c.b1), q, mirrored);
-        else
-          base_.push_back(mirrored ? ConstraintGraph::Edge{q, p} : ConstraintGraph::Edge{p, q});
-      }
-    }
-  }
-
-  void emit_range_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, bool mirrored) {
-    if (mirrored) std::swap(b, c);
-    result_.mesh.triangles.push_back({a, b, c});
-    result_.blocker_of.push_back(Boundary::kRange);
+  void add_range_cells() {
+    const std::uint32_t first = std::uint32_t(result_.mesh.vertices.size());
+    const auto renamed = [&](std::uint32_t v) { return v < RangeCells::kOwn ? v : v - RangeCells::kOwn + first; };
+    for (const Vec3& v : cells_.vertices) result_.mesh.vertices.push_back(v * (1 - numerics::kShrink));
+    for (const Triangle& t : cells_.triangles)
+      result_.mesh.triangles.push_back({renamed(t[0]), renamed(t[1]), renamed(t[2])});
+    result_.blocker_of.resize(result_.mesh.triangles.size(), Boundary::kRange);
+    for (const auto& [from, to] : cells_.base) base_.emplace_back(renamed(from), renamed(to));
   }
 
   void emit_base() {
@@ -262,8 +242,9 @@ class BoundaryBuilder {
   double tolerance_;
   ConstraintGraph graph_;
   CDT::Triangulation<double> cdt_;
-  std::vector<double> gauges_;               // per vertex of the triangulation
-  std::vector<Known> known_;                 // per triangle of it
+  std::vector<double> gauges_;  // per vertex of the triangulation
+  std::vector<Known> known_;    // per triangle of it
+  RangeCells cells_;
   std::vector<ConstraintGraph::Edge> base_;  // edges of the mesh on the horizon, as its triangles run them
   Boundary result_;
 };
