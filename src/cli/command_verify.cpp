@@ -1,3 +1,5 @@
+#include <filesystem>
+#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -26,12 +28,29 @@ struct Options {
   std::string mission_file, volume_file;
   std::size_t points = VerifyOptions{}.points;
   std::uint64_t seed = VerifyOptions{}.seed;
+  double lift_m = -1;  // below zero: as the report says
   bool json = false;
 };
 
+constexpr double kMostLift = 0.01;  // metres; compute raises a target by no more than 2 mm
+
+/// How far `compute` raised the target to clear its surface: from the report beside the volume, 0 where there is none.
+double reported_lift(const std::filesystem::path& volume_file) {
+  const auto report = std::filesystem::path(volume_file).replace_extension(".report.json");
+  std::ifstream in(report);
+  if (!in) return 0;
+  const nlohmann::json json = nlohmann::json::parse(in, nullptr, false);
+  const auto lift = json.is_object() ? json.find("lift_m") : json.end();
+  if (json.is_object() && lift != json.end() && lift->is_number() && lift->get<double>() >= 0 &&
+      lift->get<double>() <= kMostLift)
+    return lift->get<double>();
+  throw Error(ErrorKind::input, "the report beside the volume gives no lift_m from 0 to 0.01", report.string(),
+              "write it again with \"vantage compute\", or say how far the target was raised with --lift");
+}
+
 bool is_right(const VerifyReport& report) { return report.over_claimed == 0 && report.closed && report.oriented; }
 
-std::string json_text(const VerifyReport& report, std::size_t holes) {
+std::string json_text(const VerifyReport& report, double lift, std::size_t holes) {
   const auto point = [](const Vec3& p) { return nlohmann::ordered_json{p.x(), p.y(), p.z()}; };
   nlohmann::ordered_json json;
   json["right"] = is_right(report);
@@ -52,17 +71,19 @@ std::string json_text(const VerifyReport& report, std::size_t holes) {
   json["over_claim_bound"] = report.over_claim_bound;
   json["bound_points"] = report.bound_points;
   json["seed"] = report.seed;
+  json["lift_m"] = lift;
   // A name is bytes from a file, and JSON takes UTF-8 only: others are replaced rather than refused.
   return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
-std::string table_text(const VerifyReport& report, std::size_t holes, const std::string& file) {
+std::string table_text(const VerifyReport& report, double lift, std::size_t holes, const std::string& file) {
   TextTable table;
   table.heading(file);
   table.row("closed", report.closed ? "yes" : "NO",
             holes == 0 ? "every edge has two triangles" : count(holes) + " open edges");
   if (report.closed) table.row("oriented", report.oriented ? "yes" : "NO", "which run it in opposite directions");
   table.row("Euler number", std::to_string(report.euler), "2 for one piece without holes");
+  if (lift > 0) table.row("lift", fixed(lift, 6), "metres that the target was raised to clear its surface");
   if (report.points > 0) {
     table.heading("rays from random points, seed " + std::to_string(report.seed));
     table.row("points tried", count(report.points), "");
@@ -90,6 +111,9 @@ std::string table_text(const VerifyReport& report, std::size_t holes, const std:
 int run(const Options& options) {
   mission_io::check_readable(options.volume_file, "the volume", "");
   const Mission mission = read_mission(options.mission_file);
+  Target target = mission.target;
+  const double lift = options.lift_m < 0 ? reported_lift(options.volume_file) : options.lift_m;
+  target.offset_m += lift;
   ProgressLine progress(options.common);
   const Scene scene = read_scene(mission.scene_file, mission.scene_options, progress.callback());
 
@@ -105,7 +129,7 @@ int run(const Options& options) {
     verify_options.seed = options.seed;
     verify_options.tolerance_m = mission.exact.tolerance_m;
     report = mission_io::with_place(mission.target_place, [&] {
-      return verify_volume(scene, mission.target, mission.sensor, mission.navigation, volume, verify_options,
+      return verify_volume(scene, target, mission.sensor, mission.navigation, volume, verify_options,
                            progress.callback());
     });
   } else {  // a mesh with holes has no inside to try points in
@@ -113,9 +137,9 @@ int run(const Options& options) {
     report.seed = options.seed;
   }
   if (options.json) {
-    print(json_text(report, holes));
+    print(json_text(report, lift, holes));
   } else if (!options.common.quiet) {
-    print(table_text(report, holes, options.volume_file));
+    print(table_text(report, lift, holes, options.volume_file));
   }
   return is_right(report) ? kSuccess : kCheckFailed;
 }
@@ -135,6 +159,11 @@ void add_verify(CLI::App& app, Command& chosen) {
       ->check(CLI::Range(std::size_t{1}, std::size_t{10000000}))
       ->option_text("N");
   command->add_option("--seed", options->seed, "Seed of the random points (default 1)")->option_text("S");
+  command
+      ->add_option("--lift", options->lift_m,
+                   "How far compute raised the target (default: lift_m of the report beside the volume, or 0)")
+      ->check(CLI::Range(0.0, kMostLift))
+      ->option_text("METRES");
   command->add_flag("--json", options->json, "Print JSON instead of a table");
   add_common_options(*command, options->common);
   command->footer(kExamples);
