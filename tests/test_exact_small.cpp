@@ -202,6 +202,29 @@ TEST(ExactSmall, ATiltedTargetOnAPitchedRoof) {
   expect_union(scene, target_of({on_roof(-8, 0), on_roof(4, 1.5), on_roof(0, 5)}));
 }
 
+/// The top of a tower whose pointed roof has only two sides: planes of three polygons meet in lines that pass within
+/// micrometres of each other.
+TEST(ExactSmall, ATowerOfThreePolygons) {
+  const Scene scene = SceneBuilder()
+                          .polygon("front", {{16, 20, 0}, {21, 20, 0}, {21, 20, 19}, {16, 20, 19}})
+                          .polygon("side", {{16, 25, 0}, {16, 20, 0}, {16, 20, 19}, {16, 25, 19}})
+                          .polygon("roof", {{16, 25, 19}, {16, 20, 19}, {18.5, 22.5, 25}});
+  expect_union(scene, target_of({{-12, -9, 0}, {8, -11, 0}, {11, 0, 0}, {4, 10, 0}, {-13, 8, 0}}), 60, 60);
+}
+
+/// Roofs that continue the plane of the target's roof but for micrometres: what they hide is all but flat.
+TEST(ExactSmall, SurfacesThatAllButContinueTheTarget) {
+  for (const double step : {1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4}) {
+    SCOPED_TRACE(step);
+    const Scene scene = SceneBuilder()
+                            .polygon("roof", {{-20, -8, 0}, {30, -8, step}, {30, 9, 2 * step}, {-20, 9, -step}})
+                            .polygon("next", {{30, -8, step}, {60, -8, 0}, {60, 9, 5 * step}, {30, 9, 2 * step}})
+                            .polygon("wall", {{30, -8, -9}, {30, 9, -9}, {30, 9, 2 * step}, {30, -8, step}})
+                            .box("chimney", {12, 1, -1}, {13, 2, 2});
+    expect_union(scene, target_of({{-5, -3, 0}, {4, -4, 0}, {6, 3, 0}, {-4, 5, 0}}), 60, 60);
+  }
+}
+
 TEST(ExactSmall, TargetsWithThreeToSixtyFourVertices) {
   const Scene scene =
       SceneBuilder().ground("ground", 60).polygon("sheet", {{6, -3, 0}, {6, 4, 0}, {7, 4, 5}, {7, -3, 5}});
@@ -213,6 +236,57 @@ TEST(ExactSmall, TargetsWithThreeToSixtyFourVertices) {
 
 TEST(ExactSmall, SixtyFourVertices) {
   expect_union(SceneBuilder().polygon("leaf", {{7, -3, 0}, {7, 4, 1}, {6, 1, 5}}), regular(64, 5, {0, 0, 0}));
+}
+
+/// Obstacles all round a place 8 m wide.
+Scene plaza() {
+  return SceneBuilder()
+      .ground("ground", 60)
+      .box("wall", {8, -6, 0}, {8.5, 7, 5})
+      .box("house", {-16, -4, 0}, {-7, 6, 9})
+      .box("pole", {-0.1, 4.5, 0}, {0.1, 4.7, 10})
+      .polygon("sign", {{2, -7, 3}, {5, -6, 4}, {4, -5, 7}, {1, -6, 6}});
+}
+
+TEST(ExactSmall, TargetsFromMetresToMicrometres) {
+  for (const double size : {1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6})
+    for (const Vec3& corner : {Vec3(-4, -4, 0), Vec3(4, -4, 0), Vec3(4, 4, 0), Vec3(-4, 4, 0)}) {
+      SCOPED_TRACE(size);
+      Target target = square(4);
+      for (Vec3& v : target.vertices) v = corner + size * (v - corner);
+      expect_union(plaza(), target, 12, 12);
+    }
+}
+
+TEST(ExactSmall, ThinTargets) {
+  for (const double width : {1e-1, 1e-2, 1e-3, 1e-4, 1e-5})
+    for (const double angle : {0.0, 0.3, 1.1, std::numbers::pi / 2, 2.8}) {
+      SCOPED_TRACE(width);
+      Target target = square(4);
+      for (Vec3& v : target.vertices) {
+        const double x = v.x(), y = width * v.y();
+        v = {std::cos(angle) * x - std::sin(angle) * y, std::sin(angle) * x + std::cos(angle) * y, 0};
+      }
+      expect_union(plaza(), target, 12, 12);
+    }
+}
+
+TEST(ExactSmall, SmallTargetsInRandomCities) {
+  Random random(47);
+  for (int draw = 0; draw < 12; ++draw) {
+    SCOPED_TRACE(draw);
+    const Scene city = testing::random_city(random, 25, 3);
+    const double radius = 2 * std::pow(10, -(draw % 4));
+    expect_union(city, testing::random_target(random, random.integer(3, 6), radius, {0, 0, 0}, {0, 0, 1}), 38, 45);
+  }
+}
+
+TEST(ExactSmall, ABoxInLineWithTheTargetsEdges) {
+  const Target facade = target_of({{-3, 0, 0}, {3, 0, 0}, {3, 0, 6}, {-3, 0, 6}});
+  expect_union(SceneBuilder().box("block", {6, -7, 0}, {10, -6, 1}), facade, 15, 15);
+  const Target gable = target_of({{-3, 0, 0}, {3, 0, 0}, {3, 0, 6}});
+  expect_union(SceneBuilder().box("block", {-3, -7, 0}, {-2, -4, 2}), gable, 15, 15);
+  expect_union(SceneBuilder().ground("ground", 30).box("block", {-1, -2, 0}, {3, -1, 4}), gable, 15, 15);
 }
 
 /// A few blocks on a coarse grid: walls that continue each other, stand on the target's outline or on its line.

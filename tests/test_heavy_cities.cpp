@@ -13,6 +13,7 @@
 #include <cstdlib>
 #include <iostream>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -142,6 +143,18 @@ std::optional<double> offset_that_clears(const Error& error, double most) {
   return offset <= most ? std::optional(offset) : std::nullopt;
 }
 
+/// As in a mission file.
+std::string describe(const Target& target, const Sensor& sensor) {
+  std::ostringstream out;
+  out.precision(17);
+  const auto put = [&](const Vec3& v) { out << "[" << v.x() << ", " << v.y() << ", " << v.z() << "]"; };
+  out << "\ntarget: {vertices: [";
+  for (const Vec3& v : target.vertices) put(v), out << (&v == &target.vertices.back() ? "]" : ", ");
+  if (target.front) out << ", front: ", put(*target.front);
+  out << ", offset: " << target.offset_m << "}\nsensor: {max_range: " << sensor.max_range_m << "}\n";
+  return out.str();
+}
+
 struct Totals {
   std::size_t targets = 0, points = 0, inside = 0, over = 0, under = 0, rays = 0;
   double worst_over = 0, worst_under = 0, engine_seconds = 0;
@@ -161,7 +174,7 @@ class HeavyCities : public ::testing::TestWithParam<City> {
           if (volume.outcome == Outcome::computed) return volume;
           break;
         } catch (const Error& error) {
-          EXPECT_EQ(error.kind(), ErrorKind::input) << error.what();
+          EXPECT_EQ(error.kind(), ErrorKind::input) << error.what() << describe(target, sensor);
           const auto offset = offset_that_clears(error, 6);  // up from rough ground, past a balcony
           if (!offset) break;
           EXPECT_EQ(again, 0) << "the offset that the error gave does not clear: " << error.what();

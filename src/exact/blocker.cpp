@@ -11,6 +11,7 @@ namespace vantage::exact {
 namespace {
 
 using Eigen::Vector2d;
+using numerics::kGrazing;
 using numerics::kOnPlane;
 using numerics::kSeparation;
 
@@ -35,6 +36,7 @@ LocalTarget make_local_target(const std::vector<Vector2d>& polygon) {
     const Vector2d outward(along.y(), -along.x());
     target.edges.push_back({outward, outward.dot(a)});
     target.radius = std::max(target.radius, a.norm());
+    target.clearance = std::min(target.clearance, target.edges.back().distance);
   }
   return target;
 }
@@ -48,10 +50,11 @@ bool BlockerBuilder::build(std::span<const Vec3> polygon, std::vector<Plane>& pl
   const Vec3 normal = area / size;
   planes_ = &planes;
   first_ = planes.size();
+  grown_ = false;
   add_own_plane(normal);
   add_target_edge_planes();
   add_polygon_edge_planes(normal);
-  corners.insert(corners.end(), polygon_.begin(), polygon_.end());
+  if (!grown_) corners.insert(corners.end(), polygon_.begin(), polygon_.end());
   return true;
 }
 
@@ -74,8 +77,17 @@ void BlockerBuilder::clip(std::span<const Vec3> polygon) {
 }
 
 void BlockerBuilder::add(const Vec3& normal, double height) {
-  if (!(height > kOnPlane)) return;  // the target's own plane, or within rounding of it
-  const Plane plane = normal / height;
+  if (!(height > 0)) return;  // the target's own plane
+  Plane plane = normal / height;
+  const double steepest = plane.head<2>().norm() / kGrazing;
+  if (plane.z() > 0 && height <= kGrazing * target_.clearance) {
+    grown_ = true;
+    return;
+  }
+  if (plane.z() < -steepest) {
+    grown_ = true;
+    plane.z() = -steepest;
+  }
   for (std::size_t i = first_; i < planes_->size(); ++i)
     if (((*planes_)[i] - plane).cwiseAbs().maxCoeff() <= 1e-13 * plane.cwiseAbs().maxCoeff()) return;
   planes_->push_back(plane);

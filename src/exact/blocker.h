@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -16,9 +17,10 @@ struct LocalTarget {
     Eigen::Vector2d outward;  ///< unit normal of the edge, away from the target
     double distance;          ///< of the edge's line from the centre; > 0
   };
-  std::vector<Eigen::Vector2d> vertices;  ///< counter-clockwise about the origin, metres
-  std::vector<Edge> edges;                ///< edge i runs from vertex i to vertex i + 1
-  double radius = 0;                      ///< of the farthest vertex from the origin
+  std::vector<Eigen::Vector2d> vertices;                       ///< counter-clockwise about the origin, metres
+  std::vector<Edge> edges;                                     ///< edge i runs from vertex i to vertex i + 1
+  double radius = 0;                                           ///< of the farthest vertex from the origin
+  double clearance = std::numeric_limits<double>::infinity();  ///< of the nearest edge's line from the origin
 };
 LocalTarget make_local_target(const std::vector<Eigen::Vector2d>& polygon);
 
@@ -29,7 +31,9 @@ using Plane = Vec3;
 /// Planes of B(O) for the convex polygon O (local frame, metres, at least 3 corners, planar to rounding), clipped to
 /// z >= 0. Appends to `planes` and the clipped corners to `corners`; returns false and appends nothing when O reaches
 /// nowhere above the target's plane. Every plane holds all of B(O) on its far side (to numerics::kSeparation), so
-/// leaving one out would only hide more. Cost: O(N M) for N target vertices and M corners.
+/// leaving one out, or easing it, only hides more. That is done to planes within numerics::kGrazing of the target's;
+/// then no corners are appended, for facets need not begin at them, and there may be no planes at all.
+/// Cost: O(N M) for N target vertices and M corners.
 class BlockerBuilder {
  public:
   explicit BlockerBuilder(const LocalTarget& target) : target_(target) {}
@@ -46,6 +50,7 @@ class BlockerBuilder {
   std::vector<Vec3> polygon_;  // clipped
   std::vector<Plane>* planes_ = nullptr;
   std::size_t first_ = 0;
+  bool grown_ = false;  // hides more than the polygon does
 };
 
 }  // namespace vantage::exact

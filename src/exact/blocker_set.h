@@ -14,9 +14,10 @@ struct BlockerSet {
   std::vector<Plane> planes;
   std::vector<std::uint8_t> live;  ///< per plane: 0 where a neighbour of the polygon hides all of its facet
   std::vector<std::uint32_t> first{0};
-  std::vector<Vec3> corners;  ///< of the scene polygon, clipped to the target's front
+  std::vector<Vec3> corners;  ///< of the scene polygon, clipped to the target's front; none where more is hidden
   std::vector<std::uint32_t> first_corner{0};
   std::vector<std::uint32_t> polygon;  ///< index of the scene polygon
+  std::vector<std::uint8_t> confined;  ///< per blocker: 1 where it can be seen only in front of its polygon
 
   std::size_t count() const { return polygon.size(); }
   std::span<const Plane> planes_of(std::size_t blocker) const {
@@ -31,6 +32,7 @@ struct BlockerSet {
     first.push_back(std::uint32_t(planes.size()));
     first_corner.push_back(std::uint32_t(corners.size()));
     polygon.push_back(scene_polygon);
+    confined.push_back(0);
     live.resize(planes.size(), 1);
   }
 
@@ -39,6 +41,7 @@ struct BlockerSet {
     first.pop_back();
     first_corner.pop_back();
     polygon.pop_back();
+    confined.pop_back();
     planes.resize(first.back());
     live.resize(first.back());
     corners.resize(first_corner.back());

@@ -11,6 +11,9 @@
 namespace vantage::exact {
 namespace {
 
+// A polygon that reaches this far over a plane, in metres, does so whatever rounding does.
+constexpr double kNear = 1e-7;
+
 struct Entry {
   double distance;
   std::uint32_t node;
@@ -29,33 +32,51 @@ double distance_to(const scene::Bounds& bounds, const Vec3& point) {
   return std::sqrt(sum);
 }
 
-/// Finds the planes of a blocker whose facets its polygon's neighbours hide. A facet is swept from the corners that its
+/// Finds the planes of a blocker whose facets its polygon's neighbours hide. Where only the polygon's own plane is
+/// left, its facet is the polygon, and the blocker is confined to that. A facet is swept from the corners that its
 /// plane touches, away from the target; a neighbour that has those corners hides every point of it, unless the plane
 /// bounds what the neighbour hides as well. So of a closed surface only the silhouette casts shadows: docs/theory.md,
 /// "Only what is seen can hide".
 class Neighbours {
  public:
-  Neighbours(const PreparedScene::Data& scene, const TargetFrame& frame, double reach)
-      : scene_(scene), frame_(frame), centre_(frame.origin - scene.origin), reach_(reach) {}
+  Neighbours(const PreparedScene::Data& scene, const TargetFrame& frame, const LocalTarget& target, double reach)
+      : scene_(scene), frame_(frame), target_(target), centre_(frame.origin - scene.origin), reach_(reach) {}
 
   /// For the last blocker of the set; `corners` are those of its polygon, not clipped.
   void mark_hidden(std::uint32_t polygon, std::span<const Vec3> corners, BlockerSet& blockers) {
     const auto clipped = blockers.corners_of(blockers.count() - 1);
+    if (clipped.empty()) return;  // its facets are not all swept from corners of the polygon
     // Where the target's plane cuts the polygon, its planes touch it at corners that no neighbour knows.
     if (std::any_of(corners.begin(), corners.end(), [](const Vec3& c) { return c.z() < -numerics::kOnPlane; })) return;
     const auto vertices = scene_.corners_of(polygon);
+    std::size_t live_others = 0;
+    bool flat = false;
     for (std::uint32_t k = blockers.first[blockers.count() - 1]; k < blockers.planes.size(); ++k) {
       const double margin = tie_margin(blockers.planes[k], reach_);
       touched_.clear();
       for (std::size_t i = 0; i < corners.size(); ++i)
         if (std::abs(blockers.planes[k].dot(clipped[i]) - 1) <= margin) touched_.push_back(vertices[i]);
-      if (touched_.empty() || touched_.size() == corners.size()) continue;
-      for (std::uint32_t other : scene_.polygons_at(touched_[0]))
-        if (other != polygon && hides(other, blockers.planes[k], 1 - 10 * margin)) blockers.live[k] = 0;
+      if (touched_.size() == corners.size()) {
+        flat = is_clear_of(blockers.planes[k]);
+        continue;
+      }
+      const auto hidden = [&](std::uint32_t other) {
+        return other != polygon && hides(other, blockers.planes[k], 1 - kNear * blockers.planes[k].norm());
+      };
+      const auto candidates = touched_.empty() ? std::span<const std::uint32_t>() : scene_.polygons_at(touched_[0]);
+      blockers.live[k] = std::none_of(candidates.begin(), candidates.end(), hidden);
+      live_others += blockers.live[k];
     }
+    blockers.confined.back() = flat && live_others == 0;
   }
 
  private:
+  // Whether the plane of a polygon does not touch the target: then what lies on it is hidden only by the polygon.
+  bool is_clear_of(const Plane& plane) const {
+    return std::all_of(target_.vertices.begin(), target_.vertices.end(),
+                       [&](const auto& t) { return plane.head<2>().dot(t) < 1 - kNear * plane.norm(); });
+  }
+
   // Whether a polygon has all the touched corners and also reaches to the near side of the plane.
   bool hides(std::uint32_t other, const Plane& plane, double near) const {
     const auto vertices = scene_.corners_of(other);
@@ -73,6 +94,7 @@ class Neighbours {
 
   const PreparedScene::Data& scene_;
   const TargetFrame& frame_;
+  const LocalTarget& target_;
   Vec3 centre_;
   double reach_;
   std::vector<std::uint32_t> touched_;
@@ -104,7 +126,7 @@ void collect_blockers(const PreparedScene::Data& scene, const TargetFrame& frame
   std::array<Vec3, 3> axes;
   for (int a = 0; a < 3; ++a) axes[a] = {frame.axis_u[a], frame.axis_v[a], frame.normal[a]};
   BlockerBuilder builder(target);
-  Neighbours neighbours(scene, frame, range.radius());
+  Neighbours neighbours(scene, frame, target, range.radius());
   std::vector<Vec3> corners;
   std::priority_queue<Entry> queue;
   const auto push = [&](std::uint32_t node) {
@@ -136,7 +158,10 @@ void collect_blockers(const PreparedScene::Data& scene, const TargetFrame& frame
     for (std::uint32_t polygon = node.first; polygon < node.first + node.count; ++polygon) {
       local_polygon(scene, frame, polygon, corners);
       if (tree.hides_hull(corners)) continue;
+      const std::size_t planes = blockers.planes.size();
       if (!builder.build(corners, blockers.planes, blockers.corners)) continue;
+      if (blockers.planes.size() == planes)  // it hides everything
+        blockers.planes.emplace_back(0, 0, 1 / (numerics::kGrazing * target.clearance));
       blockers.close(polygon);
       neighbours.mark_hidden(polygon, corners, blockers);
       if (!tree.insert(std::uint32_t(blockers.count() - 1))) blockers.drop_last();

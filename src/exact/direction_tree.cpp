@@ -11,6 +11,9 @@ namespace {
 
 constexpr std::size_t kLongList = 16;   // leaves with more blockers than this are split,
 constexpr std::uint32_t kDeepest = 14;  // but not below 2^-14 of a quadrant
+constexpr double kFutile = 1.9;         // A split that makes the lists this much longer in all is of no use,
+constexpr std::uint32_t kPatience = 4;  // and after so many of them in a row there are no more.
+constexpr std::size_t kVeryLong = 400;  // But lists this long are split whatever it makes of them.
 constexpr double kRounding = 1e-13;     // bounds are good to this fraction
 
 using Corners = DirectionTree::Corners;
@@ -158,24 +161,37 @@ bool DirectionTree::insert(std::uint32_t index) {
   std::vector<std::uint32_t>& all = scratch_.back().planes;
   all.resize(blockers_.first[index + 1] - blockers_.first[index]);
   std::iota(all.begin(), all.end(), blockers_.first[index]);
+  const Footprint* footprint = footprint_of(index);
   bool shown = false;
-  for (std::uint32_t root = 0; root < 4; ++root) shown |= insert_below(root, index, all);
+  for (std::uint32_t root = 0; root < 4; ++root) shown |= insert_below(root, index, all, footprint);
   return shown;
 }
 
-bool DirectionTree::insert_below(std::uint32_t at, std::uint32_t index, std::span<const std::uint32_t> planes) {
+// Null for a blocker that is not confined to what its polygon covers.
+const Footprint* DirectionTree::footprint_of(std::uint32_t blocker) {
+  if (!blockers_.confined[blocker]) return nullptr;
+  footprint_.assign(blockers_.corners_of(blocker));
+  return &footprint_;
+}
+
+bool DirectionTree::insert_below(std::uint32_t at, std::uint32_t index, std::span<const std::uint32_t> planes,
+                                 const Footprint* footprint) {
+  if (footprint && footprint->misses(nodes_[at].cell)) return false;
   Surface& surface = scratch_[nodes_[at].depth];
   reduce(nodes_[at].cell, planes, surface);
   if (!insert_into(nodes_[at], index, surface)) return false;
   if (nodes_[at].first_child == 0) {
-    if (nodes_[at].leaf.count() > kLongList && nodes_[at].depth < kDeepest) split(at);
+    const Node& node = nodes_[at];
+    if (node.leaf.count() > kLongList && node.depth < kDeepest &&
+        node.futile_splits < (node.leaf.count() > kVeryLong ? kDeepest : kPatience))
+      split(at);
     return true;
   }
   bool shown = false;
   double bound = std::numeric_limits<double>::infinity();
   const std::uint32_t first = nodes_[at].first_child, count = nodes_[at].child_count;
   for (std::uint32_t child = first; child < first + count; ++child) {
-    shown |= insert_below(child, index, surface.planes);
+    shown |= insert_below(child, index, surface.planes, footprint);
     bound = std::min(bound, nodes_[child].bound);
   }
   nodes_[at].bound = std::max(nodes_[at].bound, bound);
@@ -208,13 +224,21 @@ void DirectionTree::split(std::uint32_t at) {
   nodes_[at].child_count = std::uint32_t(nodes_.size()) - first;
   const Leaf leaf = std::move(nodes_[at].leaf);
   nodes_[at].leaf = Leaf();
-  for (std::uint32_t child = first; child < std::uint32_t(nodes_.size()); ++child)
-    for (std::size_t i = 0; i < leaf.count(); ++i) {
+  for (std::size_t i = 0; i < leaf.count(); ++i) {
+    const Footprint* footprint = footprint_of(leaf.blockers[i]);
+    for (std::uint32_t child = first; child < std::uint32_t(nodes_.size()); ++child) {
+      if (footprint && footprint->misses(nodes_[child].cell)) continue;
       Surface& surface = scratch_[depth];
       reduce(nodes_[child].cell,
              {leaf.planes.data() + leaf.first_plane[i], leaf.first_plane[i + 1] - leaf.first_plane[i]}, surface);
       insert_into(nodes_[child], leaf.blockers[i], surface);
     }
+  }
+  std::size_t listed = 0;
+  for (std::uint32_t child = first; child < std::uint32_t(nodes_.size()); ++child) listed += nodes_[child].leaf.count();
+  const bool futile = double(listed) > kFutile * double(leaf.count());
+  for (std::uint32_t child = first; child < std::uint32_t(nodes_.size()); ++child)
+    nodes_[child].futile_splits = futile ? nodes_[at].futile_splits + 1 : 0;
 }
 
 std::vector<const DirectionTree::Leaf*> DirectionTree::leaves() const {
@@ -222,6 +246,21 @@ std::vector<const DirectionTree::Leaf*> DirectionTree::leaves() const {
   for (const Node& node : nodes_)
     if (node.first_child == 0 && node.leaf.count() > 0) result.push_back(&node.leaf);
   return result;
+}
+
+std::vector<std::uint32_t> DirectionTree::listed_between(const Vec3& normal, double low, double high) const {
+  std::vector<std::uint32_t> found, open{0, 1, 2, 3};
+  while (!open.empty()) {
+    const Node& node = nodes_[open.back()];
+    open.pop_back();
+    const QuadrantLinear value = on_quadrant(normal, node.cell.quadrant);
+    if (node.cell.max_of(value) < low || node.cell.min_of(value) > high) continue;
+    for (std::uint32_t child = 0; child < node.child_count; ++child) open.push_back(node.first_child + child);
+    found.insert(found.end(), node.leaf.blockers.begin(), node.leaf.blockers.end());
+  }
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
 }
 
 const DirectionTree::Leaf& DirectionTree::leaf_at(const ChartPoint& point) const {

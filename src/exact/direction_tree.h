@@ -8,6 +8,7 @@
 
 #include "exact/blocker_set.h"
 #include "exact/chart.h"
+#include "exact/footprint.h"
 #include "exact/range_region.h"
 
 namespace vantage::exact {
@@ -51,6 +52,10 @@ class DirectionTree {
   std::vector<const Leaf*> leaves() const;
   const Leaf& leaf_at(const ChartPoint& point) const;
 
+  /// The blockers listed in cells that a direction with low <= normal . direction <= high (|x| + |y| + z = 1) may lie
+  /// in, ascending.
+  std::vector<std::uint32_t> listed_between(const Vec3& normal, double low, double high) const;
+
  private:
   /// A blocker over a cell: the planes that matter there, and the least of them at each corner.
   struct Surface {
@@ -68,6 +73,7 @@ class DirectionTree {
     std::uint32_t first_child = 0;  // 0: a leaf
     std::uint32_t child_count = 0;
     std::uint32_t depth = 0;
+    std::uint32_t futile_splits = 0;  // of the last ancestors in a row
   };
 
   void reduce(const ChartCell& cell, std::span<const std::uint32_t> planes, Surface& surface) const;
@@ -76,7 +82,9 @@ class DirectionTree {
   static void consider_champion(Node& node, const Surface& surface);
   static void add_to_leaf(Leaf& leaf, std::uint32_t index, const Surface& surface);
 
-  bool insert_below(std::uint32_t node, std::uint32_t index, std::span<const std::uint32_t> planes);
+  const Footprint* footprint_of(std::uint32_t blocker);
+  bool insert_below(std::uint32_t node, std::uint32_t index, std::span<const std::uint32_t> planes,
+                    const Footprint* footprint);
   bool insert_into(Node& node, std::uint32_t index, const Surface& surface);
   void split(std::uint32_t node);
   void add_node(const ChartCell& cell, double bound, std::uint32_t depth);
@@ -85,6 +93,7 @@ class DirectionTree {
   const RangeRegion& range_;
   std::vector<Node> nodes_;
   std::vector<Surface> scratch_;  // one per level
+  Footprint footprint_;
 };
 
 }  // namespace vantage::exact

@@ -17,6 +17,10 @@ namespace {
 constexpr double kShortest = 1e-9;
 // Two planes of one blocker whose inverse depths differ by less than this everywhere on a facet bound it together.
 constexpr double kSiblingMargin = 1e-12;
+// Planes of two blockers that differ by less than this fraction may be one plane, computed twice.
+constexpr double kSimilar = 1e-6;
+// Directions this near are looked at together: far above rounding, far below the size of a cell.
+constexpr double kBand = 1e-9;
 
 /// A plane of a blocker that may be seen, and the blockers that may cut it.
 struct Facet {
@@ -61,7 +65,7 @@ class ContactTest {
       const double margin = tie_margin(plane, reach_);
       for (const Vec3& corner : touched_)
         if (plane.dot(corner) - 1 < -margin) return false;
-      if (!owns_ties && (plane - own).norm() * reach_ <= 2 * margin) return false;
+      if (!owns_ties && (plane - own).norm() <= kSimilar * own.norm()) return false;
     }
     return true;
   }
@@ -345,8 +349,10 @@ class FacetTracer {
 };
 
 // Where two balls of the range region meet, in sight.
-void trace_range_creases(const BlockerSet& blockers, const std::vector<std::uint32_t>& shown, const RangeRegion& range,
+void trace_range_creases(const BlockerSet& blockers, const DirectionTree& tree, const RangeRegion& range,
                          const CurveSampling& sampling, std::vector<std::vector<Vec3>>& out) {
+  double inner = range.radius();  // the region holds all within this of the origin
+  for (std::size_t i = 0; i < range.ball_count(); ++i) inner = std::min(inner, range.radius() - range.centre(i).norm());
   for (std::size_t i = 0; i < range.ball_count(); ++i)
     for (std::size_t j = i + 1; j < range.ball_count(); ++j) {
       const Eigen::Vector2d a = range.centre(i), b = range.centre(j), middle = 0.5 * (a + b),
@@ -358,9 +364,13 @@ void trace_range_creases(const BlockerSet& blockers, const std::vector<std::uint
       CircleArcs arcs(circle);
       arcs.keep(Vec3::UnitZ(), 0);
       FacetTracer::keep_in_balls(range, i, j, arcs);
-      for (std::uint32_t blocker : shown) {
-        if (arcs.empty()) break;
+      if (arcs.empty()) continue;
+      // Points of the circle have along . x = height, and |x| + |y| + z from `inner` to less than twice the range.
+      const double height = along.dot(middle), near = height / inner, far = 0.5 * height / range.radius();
+      for (std::uint32_t blocker :
+           tree.listed_between({along.x(), along.y(), 0}, std::min(near, far) - kBand, std::max(near, far) + kBand)) {
         arcs.subtract_blocker(blockers.planes_of(blocker), true);
+        if (arcs.empty()) break;
       }
       FacetTracer::add_arcs(circle, arcs, sampling, out);
     }
@@ -378,16 +388,16 @@ Skeleton trace_envelope(const BlockerSet& blockers, const DirectionTree& tree, c
     for (std::size_t i = begin; i < end; ++i) results[i] = tracer.trace(table.facets[i]);
   });
   Skeleton skeleton;
-  std::vector<std::uint32_t> shown;
+  std::uint32_t last = ~0u;
   for (std::size_t i = 0; i < results.size(); ++i) {
     skeleton.planar.insert(skeleton.planar.end(), results[i].planar.begin(), results[i].planar.end());
     std::move(results[i].curved.begin(), results[i].curved.end(), std::back_inserter(skeleton.curved));
     if (!results[i].visible) continue;
     ++skeleton.visible_facets;
-    if (shown.empty() || shown.back() != table.facets[i].blocker) shown.push_back(table.facets[i].blocker);
+    if (table.facets[i].blocker != last) ++skeleton.visible_blockers;
+    last = table.facets[i].blocker;
   }
-  skeleton.visible_blockers = shown.size();
-  trace_range_creases(blockers, shown, range, sampling, skeleton.curved);
+  trace_range_creases(blockers, tree, range, sampling, skeleton.curved);
   return skeleton;
 }
 

@@ -11,6 +11,12 @@ namespace vantage::numerics {
 /// can cost, and far below any feature of a scene.
 inline constexpr double kOnPlane = 1e-9;
 
+/// Planes that hide what is below them rise at least this much, and planes this near the target's plane that hide what
+/// is above them are left out: both only hide more, by a millionth of the distance. Roof polygons that stand nanometres
+/// above a target on that roof would otherwise make planes so steep in inverse depth that rounding decides who is in
+/// front.
+inline constexpr double kGrazing = 1e-6;
+
 /// A plane still separates a scene polygon from the target when it misses one of them by this little (a wall that
 /// stands on the target's edge touches its own separating planes).
 inline constexpr double kSeparation = 1e-9;
@@ -32,8 +38,12 @@ inline constexpr double kSnap = 1e-10;
 /// The most that vertices are snapped when the triangulation cannot be built otherwise: 10 micrometres at 1 km.
 inline constexpr double kWidestSnap = 1e-8;
 
-/// The target may be raised by at most this much to clear the surface that it lies on: surfaces of real meshes are
-/// planar to a millimetre at best, single-precision files to a tenth of one.
+/// Polygons under the target that stand above its plane elsewhere are left at least this far below, in metres: where a
+/// surface that is almost the target's plane comes through it should be away from the target.
+inline constexpr double kClear = 1e-6;
+
+/// The target may be raised by at most this much, and kClear, to clear the surface that it lies on: surfaces of real
+/// meshes are planar to a millimetre at best, single-precision files to a tenth of one.
 inline constexpr double kMaxLift = 2e-3;
 
 }  // namespace vantage::numerics

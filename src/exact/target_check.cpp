@@ -14,6 +14,7 @@
 namespace vantage::exact {
 namespace {
 
+using numerics::kClear;
 using numerics::kMaxLift;
 using numerics::kOnPlane;
 using numerics::kSeparation;
@@ -30,7 +31,8 @@ class Column {
   Column(const PreparedScene::Data& scene, const TargetFrame& frame)
       : scene_(scene), frame_(frame), target_(make_local_target(frame.polygon)) {}
 
-  /// Crossings that reach above the target's plane and begin below `ceiling`.
+  /// Crossings that begin below `ceiling` and end above the target's plane, or just below it if the polygon stands
+  /// above the plane elsewhere.
   std::vector<Crossing> crossings(double ceiling) {
     std::vector<Crossing> found;
     if (!scene_.bvh.nodes.empty()) visit(0, ceiling, found);
@@ -60,7 +62,7 @@ class Column {
       corners[i] = {frame_.axis_u.dot(corner), frame_.axis_v.dot(corner), frame_.normal.dot(corner)};
       lowest = std::min(lowest, corners[i].z()), highest = std::max(highest, corners[i].z());
     }
-    if (lowest > ceiling || highest <= 0) return false;
+    if (lowest > ceiling || highest <= kOnPlane) return false;
     for (const LocalTarget::Edge& edge : target_.edges) {
       const bool outside = std::all_of(corners.begin(), corners.end(),
                                        [&](const Vec3& c) { return edge.outward.dot(c.head<2>()) >= edge.distance; });
@@ -72,6 +74,9 @@ class Column {
   // Walls that only touch the target's outline do not cross its column.
   void add_crossing(std::uint32_t polygon, double ceiling, std::vector<Crossing>& found) {
     local_polygon(scene_, frame_, polygon, clipped_.corners);
+    const bool stands =
+        std::any_of(clipped_.corners.begin(), clipped_.corners.end(), [](const Vec3& c) { return c.z() > kOnPlane; });
+    if (!stands) return;
     clipped_.makers.assign(clipped_.corners.size(), 0);
     for (const LocalTarget::Edge& edge : target_.edges) {
       clip_facet(clipped_, {-edge.outward.x(), -edge.outward.y(), 0}, kSeparation - edge.distance, 0, 0, scratch_);
@@ -82,7 +87,7 @@ class Column {
       if (c.z() < crossing.low) crossing.low = c.z(), crossing.place = c;
       crossing.high = std::max(crossing.high, c.z());
     }
-    if (crossing.high > kOnPlane && crossing.low <= ceiling) found.push_back(crossing);
+    if (crossing.high > -kClear && crossing.low <= ceiling) found.push_back(crossing);
   }
 
   const PreparedScene::Data& scene_;
@@ -95,16 +100,30 @@ bool crosses(const Crossing& crossing, double height) {
   return crossing.low <= height + kOnPlane && crossing.high > height + kOnPlane;
 }
 
+/// How far a target at some height is raised to clear its surface, and what crosses it there.
+struct Lift {
+  double lift = 0;
+  const Crossing* pierced_by = nullptr;
+};
+
+Lift lift_at(const std::vector<Crossing>& crossings, double height) {
+  Lift result;
+  for (const Crossing& c : crossings)
+    if (c.high > height - kClear && c.high <= height + kMaxLift)
+      result.lift = std::max(result.lift, c.high + kClear - height);
+  for (const Crossing& c : crossings)
+    if (!result.pierced_by && crosses(c, height + result.lift)) result.pierced_by = &c;
+  return result;
+}
+
 // The smallest height, in whole millimetres, at which nothing crosses.
-double clear_height(std::vector<Crossing> crossings) {
-  std::sort(crossings.begin(), crossings.end(), [](const Crossing& a, const Crossing& b) { return a.low < b.low; });
+double clear_height(const std::vector<Crossing>& crossings) {
   double height = 0;
-  for (bool raised = true; raised;) {
-    raised = false;
-    for (const Crossing& c : crossings)
-      if (crosses(c, height)) height = std::floor(c.high * 1000 + 1) / 1000, raised = true;
+  for (;;) {
+    const Lift lift = lift_at(crossings, height);
+    if (!lift.pierced_by) return height;
+    height = std::floor(lift.pierced_by->high * 1000 + 1) / 1000;
   }
-  return height;
 }
 
 std::string describe(const Vec3& place) {
@@ -211,14 +230,12 @@ void refuse_underground(const PreparedScene::Data& scene, const Target& target, 
 
 double clearing_lift(const PreparedScene::Data& scene, const Target& target, const TargetFrame& frame) {
   Column column(scene, frame);
-  const std::vector<Crossing> low = column.crossings(kMaxLift);
-  double lift = 0;
-  for (const Crossing& c : low)
-    if (c.high <= kMaxLift) lift = std::max(lift, c.high);
-  for (const Crossing& c : low)
-    if (crosses(c, lift)) refuse_pierced(scene, target, frame, c, clear_height(column.crossings(INFINITY)));
+  const std::vector<Crossing> low = column.crossings(2 * kMaxLift);
+  const Lift lift = lift_at(low, 0);
+  if (lift.pierced_by)
+    refuse_pierced(scene, target, frame, *lift.pierced_by, clear_height(column.crossings(INFINITY)));
   refuse_underground(scene, target, frame);
-  return lift;
+  return lift.lift;
 }
 
 }  // namespace vantage::exact

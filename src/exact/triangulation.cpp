@@ -20,9 +20,11 @@ namespace {
 constexpr std::size_t kMostGrowth = 4;
 // The gauge may rise this fraction above a triangle before it counts as over-claimed: less than the final shrinking.
 constexpr double kSafe = 0.5 * numerics::kShrink;
-// Where it rises less than this (0.1 mm at 1 km) the triangle's corners are drawn in; where it rises more, a crease is
-// missing and the triangle is split.
+// Where it rises less than this (0.1 mm at 1 km), or the triangle is narrower than that in the chart, the triangle's
+// corners are drawn in; otherwise a crease is missing and the triangle is split.
 constexpr double kSmallRise = 1e-7;
+
+constexpr double kThinnest = 1e-8;
 
 /// Thrown when the triangulation has split an edge of a cell; the cell is marked as mixed by then.
 struct BorderSplit {};
@@ -105,7 +107,7 @@ class BoundaryBuilder {
       const double rise = gauge.value / claimed - 1;
       const bool deep = gauge.blocker == GaugeValue::kRange && too_deep(t);
       if (rise <= kSafe && !deep) continue;
-      if ((rise > kSmallRise || deep) && has_room(t, centre))
+      if ((rise > kSmallRise || deep) && has_room(t))
         added.push_back(centre);
       else if (rise > kSafe)
         for (std::uint32_t corner : t)
@@ -130,11 +132,11 @@ class BoundaryBuilder {
     return Place::kept;
   }
 
-  // Whether a vertex can be put into a triangle without falling onto one that is there.
-  bool has_room(const Triangle& t, const ChartPoint& centre) const {
-    return std::all_of(t.begin(), t.end(), [&](std::uint32_t v) {
-      return (point(v) - centre).cwiseAbs().maxCoeff() > numerics::kWidestSnap;
-    });
+  // Whether a triangle is worth splitting: in one that is no wider than what snapping moves, a crease cannot be found.
+  bool has_room(const Triangle& t) const {
+    const ChartPoint a = point(t[1]) - point(t[0]), b = point(t[2]) - point(t[0]), c = b - a;
+    const double longest = std::sqrt(std::max({a.squaredNorm(), b.squaredNorm(), c.squaredNorm()}));
+    return std::abs(a.x() * b.y() - a.y() * b.x()) > kThinnest * longest;
   }
 
   // Whether some point of a triangle on the range sphere lies more than the tolerance inside it.
