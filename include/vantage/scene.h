@@ -35,7 +35,8 @@ struct SceneReadOptions {
 /// Reads .obj, .ply (ASCII, binary of either byte order), .stl (ASCII, binary), .gltf and .glb; each may be compressed
 /// with gzip (".obj.gz"). The format is told by the content, then by the name. Polygons with more than three corners
 /// are triangulated. Coordinates keep double precision where the format has it. glTF is always y up: `up` is not used
-/// for it.
+/// for it. In OBJ files an object is what "o" begins; where one such object holds all that is in any, and groups ("g")
+/// subdivide it, or where there is none, each group is an object.
 ///
 /// Throws Error(input) naming the file, and the line or byte where there is one, for: a missing or unreadable file, an
 /// unknown format, truncated or garbled content, an index out of range, a coordinate that is not finite or (in metres)

@@ -59,6 +59,10 @@ std::uint32_t MeshBuilder::add_object(std::string_view name) {
   return object_;
 }
 
+void MeshBuilder::rename_object(std::uint32_t object, std::string_view name) {
+  mesh_.objects[object] = clean_name(name);
+}
+
 void MeshBuilder::end_face() {
   if (object_ == kNone) add_object("");
   if (corners_.size() < 3) {
@@ -115,8 +119,11 @@ void MeshBuilder::keep_used_objects() {
   for (std::uint32_t& object : mesh_.object_of) object = new_index[object];
 }
 
-RawMesh MeshBuilder::finish() {
+RawMesh MeshBuilder::finish(const std::vector<std::uint32_t>& joined) {
   add_late_faces();
+  if (!joined.empty()) {
+    for (std::uint32_t& object : mesh_.object_of) object = joined[object];
+  }
   if (mesh_.triangles.empty()) {
     source_.fail("the file holds no triangles (" + std::to_string(mesh_.vertices.size()) + " vertices, " +
                      std::to_string(mesh_.dropped_faces) + " faces with fewer than 3 corners)",

@@ -47,6 +47,7 @@ class MeshBuilder {
   std::uint32_t add_object(std::string_view name);
   /// Goes back to an object.
   void set_object(std::uint32_t object) { object_ = object; }
+  void rename_object(std::uint32_t object, std::string_view name);
 
   // A face: begin_face, add_corner for each corner, end_face. Corners count from 0 and may be vertices that come later
   // in the file.
@@ -69,8 +70,9 @@ class MeshBuilder {
     mesh_.object_of.push_back(object_);
   }
 
-  /// The mesh. Throws for indices out of range and when there is no triangle.
-  RawMesh finish();
+  /// The mesh. Where `joined` is not empty, object i becomes part of the object joined[i]. Throws for indices out of
+  /// range and when there is no triangle.
+  RawMesh finish(const std::vector<std::uint32_t>& joined = {});
 
  private:
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();

@@ -2,7 +2,11 @@
 // texture coordinates, materials, lines, points and free-form surfaces are passed over.
 #include <algorithm>
 #include <array>
-#include <unordered_map>
+#include <limits>
+#include <map>
+#include <set>
+#include <utility>
+#include <vector>
 
 #include "scene/mesh_builder.h"
 #include "scene/mesh_readers.h"
@@ -35,10 +39,18 @@ class ObjReader {
       statement();
       text_.next_line();
     }
-    return builder_.finish();
+    return builder_.finish(name_parts());
   }
 
  private:
+  /// The faces of one group within one object; the builder's object of the same number. Which of the two is the
+  /// building shows only when the whole file is read.
+  struct Part {
+    std::uint32_t object;  // in object_names_
+    std::string_view group;
+    bool has_triangles = false;
+  };
+
   [[noreturn]] void fail(std::string problem, std::string fix) {
     source_.fail_at_line(text_.line(), std::move(problem), std::move(fix));
   }
@@ -67,9 +79,10 @@ class ObjReader {
     } else if (keyword == "f" || keyword == "fo") {  // "fo" is the name that "f" once had
       face();
     } else if (keyword == "o") {
-      object(trimmed(text_.rest_of_line()));
+      begin_object(trimmed(text_.rest_of_line()));
     } else if (keyword == "g") {
-      group(trimmed(text_.rest_of_line()));
+      group_ = trimmed(text_.rest_of_line());
+      part_is_known_ = false;
     } else if (std::find(kPassedOver.begin(), kPassedOver.end(), keyword) != kPassedOver.end()) {
       pass_over();
     } else {
@@ -107,6 +120,7 @@ class ObjReader {
   }
 
   void face() {
+    if (!part_is_known_) find_part();
     builder_.begin_face(text_.line());
     skip_blanks();
     while (!text_.at_line_end() && text_.peek() != '#') {
@@ -116,6 +130,7 @@ class ObjReader {
     if (text_.at_end() && builder_.corner_count() < 3) fail("the file ends within a face", kGarbled);
     text_.rest_of_line();
     builder_.end_face();
+    if (builder_.corner_count() >= 3) parts_[part_].has_triangles = true;
   }
 
   /// "12", "12/5", "12//7" or "12/5/7": only the first number matters. Negative numbers count back from the last
@@ -138,26 +153,57 @@ class ObjReader {
     if (!text_.at_word_end() && text_.peek() != '\\') fail(in_quotes(text_.word_around()) + " in a face", kGarbled);
   }
 
-  /// Each "o" starts an object, whatever its name: two buildings may have the same.
-  void object(std::string_view name) {
-    named_object_ = !name.empty();
-    if (named_object_) {
-      builder_.add_object(name);
-    } else {
-      group(group_);
+  /// Each "o" starts an object, whatever its name: two buildings may have the same. One without a name ends it.
+  void begin_object(std::string_view name) {
+    object_ = kNoObject;
+    if (!name.empty()) {
+      object_ = static_cast<std::uint32_t>(object_names_.size());
+      object_names_.push_back(name);
     }
+    part_is_known_ = false;
   }
 
-  /// Groups are objects where no object is named. Faces of a group may be scattered over the file.
-  void group(std::string_view name) {
-    group_ = name;
-    if (named_object_) return;
-    const auto [known, is_new] = groups_.try_emplace(name, 0);
+  /// Faces of a group may be scattered over the file.
+  void find_part() {
+    const auto [known, is_new] =
+        part_numbers_.try_emplace(std::pair(object_, group_), static_cast<std::uint32_t>(parts_.size()));
+    part_ = known->second;
     if (is_new) {
-      known->second = builder_.add_object(name);
+      parts_.push_back({object_, group_});
+      builder_.add_object(group_);
     } else {
-      builder_.set_object(known->second);
+      builder_.set_object(part_);
     }
+    part_is_known_ = true;
+  }
+
+  /// Whether the groups are what the file tells apart: it holds one object only, and that is subdivided. Where there
+  /// are several objects, groups are their parts (walls and roof, materials) or kinds of them.
+  bool groups_are_objects() const {
+    std::set<std::uint32_t> objects;
+    std::set<std::string_view> groups;
+    for (const Part& part : parts_) {
+      if (!part.has_triangles || part.object == kNoObject) continue;
+      objects.insert(part.object);
+      groups.insert(part.group);
+    }
+    return objects.size() == 1 && groups.size() > 1;
+  }
+
+  /// Names the builder's objects. Returns for each the one that it is joined with.
+  std::vector<std::uint32_t> name_parts() {
+    const bool by_group = groups_are_objects();
+    std::vector<std::uint32_t> joined(parts_.size());
+    std::vector<std::uint32_t> first(object_names_.size(), kNoObject);
+    for (std::uint32_t i = 0; i < parts_.size(); ++i) {
+      const Part& part = parts_[i];
+      joined[i] = i;
+      if (part.object == kNoObject || (by_group && !part.group.empty())) continue;  // has its group's name
+      builder_.rename_object(i, object_names_[part.object]);
+      if (first[part.object] == kNoObject) first[part.object] = i;
+      joined[i] = first[part.object];
+    }
+    return joined;
   }
 
   static constexpr const char* kGarbled = "export the mesh again; the file is cut off or garbled";
@@ -166,9 +212,15 @@ class ObjReader {
   ReadProgress& progress_;
   MeshBuilder builder_;
   TextCursor text_;
-  bool named_object_ = false;
+
+  static constexpr std::uint32_t kNoObject = std::numeric_limits<std::uint32_t>::max();
+  std::vector<std::string_view> object_names_;  // names lie in source_
+  std::uint32_t object_ = kNoObject;
   std::string_view group_;
-  std::unordered_map<std::string_view, std::uint32_t> groups_;  // names lie in source_
+  std::vector<Part> parts_;
+  std::map<std::pair<std::uint32_t, std::string_view>, std::uint32_t> part_numbers_;
+  std::uint32_t part_ = 0;
+  bool part_is_known_ = false;
 };
 
 }  // namespace
