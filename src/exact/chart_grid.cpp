@@ -79,32 +79,54 @@ void ChartGrid::mark(const ChartPoint& from, const ChartPoint& to) {
 }
 
 void ChartGrid::settle(const std::function<bool(const ChartPoint&)>& is_range_at) {
+  runs_.clear();
+  mixed_cells_.clear();
+  first_run_.assign(1, 0);
   for (int j = -n_; j < n_; ++j) {
-    const int width = row_width(j);
-    State run = unknown;
-    int begin = -width;
-    for (int i = -width; i <= width; ++i) {
-      const bool open = i < width && states_[index(i, j)] == unknown;
-      if (open) {
-        if (run == unknown && has_cell(i, j - 1) && state(i, j - 1) >= range) run = state(i, j - 1);
-        continue;
-      }
-      if (i > begin) {
-        if (run == unknown) {
-          const int middle = begin + (i - begin) / 2;
-          const double shift = at_horizon(middle, j) ? 1.0 / 3 : 0.5;  // halves of squares at the horizon
-          const auto between = [&](int k) {
-            const double low = line(k), high = line(k + 1);
-            return k >= 0 ? low + shift * (high - low) : high - shift * (high - low);
-          };
-          run = is_range_at({between(middle), between(j)}) ? State::range : blocked;
-        }
-        std::fill(&states_[index(begin, j)], &states_[index(begin, j)] + (i - begin), std::uint8_t(run));
-      }
-      run = unknown;
-      begin = i + 1;
-    }
+    settle_row(j, is_range_at);
+    list_row(j);
+    first_run_.push_back(std::uint32_t(runs_.size()));
   }
+}
+
+void ChartGrid::settle_row(int j, const std::function<bool(const ChartPoint&)>& is_range_at) {
+  const int width = row_width(j), width_below = has_cell(0, j - 1) ? row_width(j - 1) : 0;
+  std::uint8_t* const row = &states_[index(0, j)];
+  const std::uint8_t* const below = width_below ? &states_[index(0, j - 1)] : nullptr;
+  for (int i = -width; i < width;) {
+    if (row[i] != unknown) {
+      ++i;
+      continue;
+    }
+    const int begin = i;
+    State state = unknown;  // that of a settled cell below, if there is one
+    for (; i < width && row[i] == unknown; ++i)
+      if (state == unknown && i >= -width_below && i < width_below && below[i] >= range) state = State(below[i]);
+    if (state == unknown) state = is_range_at(inside(begin + (i - begin) / 2, j)) ? range : blocked;
+    std::fill(row + begin, row + i, std::uint8_t(state));
+  }
+}
+
+void ChartGrid::list_row(int j) {
+  const int width = row_width(j);
+  const std::uint8_t* const row = &states_[index(0, j)];
+  for (int i = -width; i < width;) {
+    const int begin = i;
+    while (i < width && row[i] == range) ++i;
+    if (i > begin) runs_.push_back({begin, i});
+    for (; i < width && row[i] != range; ++i)
+      if (row[i] == mixed) mixed_cells_.emplace_back(i, j);
+  }
+}
+
+// A point inside a cell.
+ChartPoint ChartGrid::inside(int i, int j) const {
+  const double shift = at_horizon(i, j) ? 1.0 / 3 : 0.5;  // halves of squares at the horizon
+  const auto between = [&](int k) {
+    const double low = line(k), high = line(k + 1);
+    return k >= 0 ? low + shift * (high - low) : high - shift * (high - low);
+  };
+  return {between(i), between(j)};
 }
 
 }  // namespace vantage::exact

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "exact/chart.h"
@@ -55,13 +57,33 @@ class ChartGrid {
   /// Settles the cells that no crease touches: `is_range_at` is asked once for each connected run of them.
   void settle(const std::function<bool(const ChartPoint&)>& is_range_at);
 
+  /// Cells begin <= i < end of one row.
+  struct Run {
+    int begin, end;
+  };
+
+  /// The cells of row j in the state `range`, from left to right; any j. Once settled.
+  std::span<const Run> range_runs(int j) const {
+    if (j < -n_ || j >= n_) return {};
+    return {runs_.data() + first_run_[j + n_], runs_.data() + first_run_[j + n_ + 1]};
+  }
+
+  /// The cells (i, j) in the state `mixed`, row by row. Once settled.
+  const std::vector<std::pair<int, int>>& mixed_cells() const { return mixed_cells_; }
+
  private:
   static int ring(int i) { return i >= 0 ? i : -1 - i; }
+  void settle_row(int j, const std::function<bool(const ChartPoint&)>& is_range_at);
+  void list_row(int j);
+  ChartPoint inside(int i, int j) const;
   std::size_t index(int i, int j) const { return std::size_t(j + n_) * (2 * n_) + std::size_t(i + n_); }
 
   int n_;
   std::vector<double> lines_;
   std::vector<std::uint8_t> states_;
+  std::vector<Run> runs_;
+  std::vector<std::uint32_t> first_run_;  // per row
+  std::vector<std::pair<int, int>> mixed_cells_;
 };
 
 }  // namespace vantage::exact

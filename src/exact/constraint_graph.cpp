@@ -20,6 +20,7 @@ ConstraintGraph::ConstraintGraph(const Skeleton& skeleton, ChartGrid& grid, cons
   for (const ChartPoint& corner :
        {ChartPoint(0, 0), ChartPoint(1, 0), ChartPoint(0, 1), ChartPoint(-1, 0), ChartPoint(0, -1)})
     snapper_.add(corner);
+  at_node_.assign(points().size(), true);
   nodes_.assign(std::size_t(2 * grid_.size() + 1) * (2 * grid_.size() + 1), kNone);
   node(0, 0) = 0;
   add_creases(skeleton);
@@ -30,6 +31,7 @@ ConstraintGraph::ConstraintGraph(const Skeleton& skeleton, ChartGrid& grid, cons
   add_horizon();
   std::sort(edges_.begin(), edges_.end());
   edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
+  at_node_.resize(points().size());
 }
 
 void ConstraintGraph::add_edge(std::uint32_t a, std::uint32_t b) {
@@ -64,41 +66,50 @@ void ConstraintGraph::add_crease(const Vec3& from, const Vec3& to, bool on_spher
 
 std::uint32_t ConstraintGraph::vertex_at(int i, int j) {
   std::uint32_t& slot = node(i, j);
-  if (slot == kNone) slot = snapper_.add(grid_.node(i, j));
+  if (slot == kNone) {
+    slot = snapper_.add(grid_.node(i, j));
+    if (at_node_.size() <= slot) at_node_.resize(slot + 1);
+    at_node_[slot] = true;
+  }
   return slot;
 }
 
 // The edges between cells that are cut in two and the rest of the chart.
 void ConstraintGraph::add_border() {
   const int n = grid_.size();
-  for (int j = -n; j < n; ++j) {
-    const int width = grid_.row_width(j);
-    for (int i = -width; i < width; ++i) {
-      const bool here = grid_.is_range(i, j);
-      if (i + 1 < width && here != grid_.is_range(i + 1, j)) add_edge(vertex_at(i + 1, j), vertex_at(i + 1, j + 1));
-      if (grid_.has_cell(i, j + 1) && here != grid_.is_range(i, j + 1))
-        add_edge(vertex_at(i, j + 1), vertex_at(i + 1, j + 1));
-      if (here && grid_.at_horizon(i, j)) {
-        const ChartGrid::Corners c = ChartGrid::corners(i, j);
-        vertex_at(c.a1, c.b0);
-        vertex_at(c.a0, c.b1);
-      }
+  for (int j = -n; j <= n; ++j) {
+    const int width = j < n ? grid_.row_width(j) : 0, width_below = j > -n ? grid_.row_width(j - 1) : 0;
+    for (const ChartGrid::Run& run : grid_.range_runs(j)) {
+      if (run.begin > -width) add_edge(vertex_at(run.begin, j), vertex_at(run.begin, j + 1));
+      if (run.end < width) add_edge(vertex_at(run.end, j), vertex_at(run.end, j + 1));
+      for (int i : {run.begin, run.end - 1})
+        if (grid_.at_horizon(i, j)) {
+          const ChartGrid::Corners c = ChartGrid::corners(i, j);
+          vertex_at(c.a1, c.b0);
+          vertex_at(c.a0, c.b1);
+        }
     }
+    add_steps(grid_.range_runs(j - 1), grid_.range_runs(j), std::min(width, width_below), j);
   }
 }
 
+// Along line j: where just one of the rows below and above it has a cell that is cut in two, and both have cells.
+void ConstraintGraph::add_steps(std::span<const ChartGrid::Run> below, std::span<const ChartGrid::Run> above, int width,
+                                int j) {
+  steps_.clear();
+  for (const auto& runs : {below, above})
+    for (const ChartGrid::Run& run : runs)
+      for (int end : {run.begin, run.end}) steps_.push_back(std::clamp(end, -width, width));
+  std::sort(steps_.begin(), steps_.end());
+  for (std::size_t k = 0; k + 1 < steps_.size(); k += 2)
+    for (int i = steps_[k]; i < steps_[k + 1]; ++i) add_edge(vertex_at(i, j), vertex_at(i + 1, j));
+}
+
 void ConstraintGraph::add_fill(const IsRange& is_range) {
-  const int n = grid_.size();
-  for (int j = -n; j < n; ++j) {
-    const int width = grid_.row_width(j);
-    for (int i = -width; i < width; ++i) {
-      if (grid_.state(i, j) != ChartGrid::mixed) continue;
-      for (const auto& [a, b] : {std::pair{i, j}, {i + 1, j}, {i, j + 1}, {i + 1, j + 1}}) {
-        if (std::abs(a) + std::abs(b) > n || node(a, b) != kNone) continue;
-        if (is_range(grid_.node(a, b))) vertex_at(a, b);
-      }
-    }
-  }
+  for (const auto& [i, j] : grid_.mixed_cells())
+    for (const auto& [a, b] : {std::pair{i, j}, {i + 1, j}, {i, j + 1}, {i + 1, j + 1}})
+      if (std::abs(a) + std::abs(b) <= grid_.size() && node(a, b) == kNone && is_range(grid_.node(a, b)))
+        vertex_at(a, b);
 }
 
 // Triangles must not pass over the axes, where the chart bends.

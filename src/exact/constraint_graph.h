@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -28,6 +29,9 @@ class ConstraintGraph {
   bool on_horizon(std::uint32_t vertex) const { return snapper_.on_horizon(vertex); }
   const std::vector<Edge>& edges() const { return edges_; }
 
+  /// Whether a vertex is at a node of the grid. Only triangles between three such vertices can be halves of its cells.
+  bool at_node(std::uint32_t vertex) const { return at_node_[vertex]; }
+
   /// The vertex at a node of the grid; kNone where there is none yet.
   std::uint32_t& node(int i, int j) {
     const int n = grid_.size();
@@ -40,6 +44,7 @@ class ConstraintGraph {
   void add_creases(const Skeleton& skeleton);
   std::uint32_t vertex_at(int i, int j);
   void add_border();
+  void add_steps(std::span<const ChartGrid::Run> below, std::span<const ChartGrid::Run> above, int width, int j);
   void add_fill(const IsRange& is_range);
   void add_axes();
   void add_horizon();
@@ -48,6 +53,8 @@ class ConstraintGraph {
   VertexSnapper snapper_;
   std::vector<Edge> edges_;
   std::vector<std::uint32_t> nodes_;
+  std::vector<bool> at_node_;
+  std::vector<int> steps_;  // for reuse
 };
 
 }  // namespace vantage::exact

@@ -18,12 +18,6 @@ constexpr double kRounding = 1e-13;     // bounds are good to this fraction
 
 using Corners = DirectionTree::Corners;
 
-double upper_of(std::span<const Corners> values) {
-  double upper = std::numeric_limits<double>::infinity();
-  for (const Corners& v : values) upper = std::min(upper, std::max(std::max(v[0], v[1]), std::max(v[2], v[3])));
-  return upper;
-}
-
 }  // namespace
 
 DirectionTree::DirectionTree(const BlockerSet& blockers, const RangeRegion& range)
@@ -42,13 +36,21 @@ void DirectionTree::add_node(const ChartCell& cell, double bound, std::uint32_t 
   node.depth = depth;
 }
 
-// Leaves out planes that stay above another one of the blocker's all over the cell.
-void DirectionTree::reduce(const ChartCell& cell, std::span<const std::uint32_t> planes, Surface& surface) const {
+// Leaves out planes that stay above another one of the blocker's all over the cell. False, with nothing to be relied on
+// in `surface`, where one plane alone shows that the blocker is hidden.
+bool DirectionTree::reduce(const Node& node, std::span<const std::uint32_t> planes, Surface& surface) {
+  corners_.clear();
+  for (std::uint32_t plane : planes) {
+    const Corners& corners =
+        corners_.emplace_back(node.cell.at_corners(on_quadrant(blockers_.planes[plane], node.cell.quadrant)));
+    const double upper = std::max(std::max(corners[0], corners[1]), std::max(corners[2], corners[3]));
+    if (upper < node.bound * (1 - kRounding) || below(corners, node.range)) return false;
+  }
   surface.planes.clear();
   surface.values.clear();
   surface.least.fill(std::numeric_limits<double>::infinity());
-  for (std::uint32_t plane : planes) {
-    const Corners corners = cell.at_corners(on_quadrant(blockers_.planes[plane], cell.quadrant));
+  for (std::size_t k = 0; k < planes.size(); ++k) {
+    const Corners& corners = corners_[k];
     if (std::any_of(surface.values.begin(), surface.values.end(), [&](const Corners& v) { return below(v, corners); }))
       continue;
     std::size_t kept = 0;
@@ -60,9 +62,10 @@ void DirectionTree::reduce(const ChartCell& cell, std::span<const std::uint32_t>
     surface.values.resize(kept);
     surface.planes.resize(kept);
     surface.values.push_back(corners);
-    surface.planes.push_back(plane);
+    surface.planes.push_back(planes[k]);
     for (int c = 0; c < 4; ++c) surface.least[c] = std::min(surface.least[c], corners[c]);
   }
+  return true;
 }
 
 // Under each plane of the higher one there must be a plane of the lower one over the whole cell. Sufficient, not
@@ -74,9 +77,6 @@ bool DirectionTree::stays_under(std::span<const Corners> low, std::span<const Co
 }
 
 bool DirectionTree::hidden_in(const Node& node, const Surface& surface) {
-  if (upper_of(surface.values) < node.bound * (1 - kRounding)) return true;
-  if (std::any_of(surface.values.begin(), surface.values.end(), [&](const Corners& v) { return below(v, node.range); }))
-    return true;
   return std::any_of(node.champions.begin(), node.champions.end(), [&](const Surface& champion) {
     return !champion.values.empty() && below(surface.least, champion.least) &&
            stays_under(surface.values, champion.values);
@@ -178,8 +178,7 @@ bool DirectionTree::insert_below(std::uint32_t at, std::uint32_t index, std::spa
                                  const Footprint* footprint) {
   if (footprint && footprint->misses(nodes_[at].cell)) return false;
   Surface& surface = scratch_[nodes_[at].depth];
-  reduce(nodes_[at].cell, planes, surface);
-  if (!insert_into(nodes_[at], index, surface)) return false;
+  if (!reduce(nodes_[at], planes, surface) || !insert_into(nodes_[at], index, surface)) return false;
   if (nodes_[at].first_child == 0) {
     const Node& node = nodes_[at];
     if (node.leaf.count() > kLongList && node.depth < kDeepest &&
@@ -229,9 +228,9 @@ void DirectionTree::split(std::uint32_t at) {
     for (std::uint32_t child = first; child < std::uint32_t(nodes_.size()); ++child) {
       if (footprint && footprint->misses(nodes_[child].cell)) continue;
       Surface& surface = scratch_[depth];
-      reduce(nodes_[child].cell,
-             {leaf.planes.data() + leaf.first_plane[i], leaf.first_plane[i + 1] - leaf.first_plane[i]}, surface);
-      insert_into(nodes_[child], leaf.blockers[i], surface);
+      const std::span<const std::uint32_t> planes(leaf.planes.data() + leaf.first_plane[i],
+                                                  leaf.first_plane[i + 1] - leaf.first_plane[i]);
+      if (reduce(nodes_[child], planes, surface)) insert_into(nodes_[child], leaf.blockers[i], surface);
     }
   }
   std::size_t listed = 0;

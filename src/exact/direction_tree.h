@@ -76,7 +76,7 @@ class DirectionTree {
     std::uint32_t futile_splits = 0;  // of the last ancestors in a row
   };
 
-  void reduce(const ChartCell& cell, std::span<const std::uint32_t> planes, Surface& surface) const;
+  bool reduce(const Node& node, std::span<const std::uint32_t> planes, Surface& surface);
   static bool stays_under(std::span<const Corners> low, std::span<const Corners> high);
   static bool hidden_in(const Node& node, const Surface& surface);
   static void consider_champion(Node& node, const Surface& surface);
@@ -93,6 +93,7 @@ class DirectionTree {
   const RangeRegion& range_;
   std::vector<Node> nodes_;
   std::vector<Surface> scratch_;  // one per level
+  std::vector<Corners> corners_;
   Footprint footprint_;
 };
 

@@ -1,5 +1,7 @@
 #include "exact/range_cells.h"
 
+#include "exact/numerics.h"
+
 namespace vantage::exact {
 namespace {
 
@@ -10,11 +12,15 @@ class Cutter {
 
   RangeCells run() {
     const int n = grid_.size();
-    for (int j = -n; j < n; ++j) {
-      const int width = grid_.row_width(j);
-      for (int i = -width; i < width; ++i)
-        if (grid_.state(i, j) == ChartGrid::range) cut(i, j);
-    }
+    std::size_t count = 0;
+    for (int j = -n; j < n; ++j)
+      for (const ChartGrid::Run& run : grid_.range_runs(j)) count += std::size_t(run.end - run.begin);
+    cells_.triangles.reserve(2 * count);
+    cells_.vertices.reserve(graph_.points().size() + count + 4 * std::size_t(n));
+    cells_.vertices.resize(graph_.points().size());
+    for (int j = -n; j < n; ++j)
+      for (const ChartGrid::Run& run : grid_.range_runs(j))
+        for (int i = run.begin; i < run.end; ++i) cut(i, j);
     return std::move(cells_);
   }
 
@@ -38,10 +44,10 @@ class Cutter {
   std::uint32_t vertex_at(int i, int j) {
     std::uint32_t& slot = graph_.node(i, j);
     if (slot == ConstraintGraph::kNone) {
-      slot = RangeCells::kOwn + std::uint32_t(cells_.vertices.size());
+      slot = std::uint32_t(cells_.vertices.size());
       Vec3 direction = to_direction(grid_.node(i, j));
       if (std::abs(i) + std::abs(j) == grid_.size()) direction.z() = 0;
-      cells_.vertices.push_back(direction / range_.gauge(direction, ball_));
+      cells_.vertices.push_back(direction * ((1 - numerics::kShrink) / range_.gauge(direction, ball_)));
     }
     return slot;
   }

@@ -8,12 +8,9 @@
 
 namespace vantage::exact {
 
-/// Triangles on the range sphere. A corner below `kOwn` is a vertex of the constraint graph; kOwn + i is
-/// `vertices[i]`.
+/// Triangles on the range sphere.
 struct RangeCells {
-  static constexpr std::uint32_t kOwn = 1u << 31;
-
-  std::vector<Vec3> vertices;  ///< target's frame, not shrunk
+  std::vector<Vec3> vertices;  ///< target's frame, shrunk; before them one place for each vertex of the graph
   std::vector<Triangle> triangles;
   std::vector<ConstraintGraph::Edge> base;  ///< edges on the horizon, as the triangles run them
 };

@@ -232,8 +232,7 @@ double clearing_lift(const PreparedScene::Data& scene, const Target& target, con
   Column column(scene, frame);
   const std::vector<Crossing> low = column.crossings(2 * kMaxLift);
   const Lift lift = lift_at(low, 0);
-  if (lift.pierced_by)
-    refuse_pierced(scene, target, frame, *lift.pierced_by, clear_height(column.crossings(INFINITY)));
+  if (lift.pierced_by) refuse_pierced(scene, target, frame, *lift.pierced_by, clear_height(column.crossings(INFINITY)));
   refuse_underground(scene, target, frame);
   return lift.lift;
 }

@@ -25,6 +25,7 @@ constexpr double kSafe = 0.5 * numerics::kShrink;
 constexpr double kSmallRise = 1e-7;
 
 constexpr double kThinnest = 1e-8;
+constexpr std::size_t kGrain = 256;  // directions that one thread takes at a time
 
 /// Thrown when the triangulation has split an edge of a cell; the cell is marked as mixed by then.
 struct BorderSplit {};
@@ -45,9 +46,13 @@ class BoundaryBuilder {
   Boundary run() {
     result_.constraint_edges = graph_.edges().size();
     parallel::both([&] { triangulate(); }, [&] { cells_ = cut_range_cells(graph_, grid_, range_); });
-    collect_triangles();
+    cell_vertices_ = std::uint32_t(cells_.vertices.size() - graph_.points().size());
+    result_.mesh.vertices = std::move(cells_.vertices);
+    result_.mesh.triangles = std::move(cells_.triangles);
+    result_.blocker_of.assign(result_.mesh.triangles.size(), Boundary::kRange);
+    base_ = std::move(cells_.base);
     lift();
-    add_range_cells();
+    collect_triangles();
     emit_base();
     drop_unused_vertices();
     return std::move(result_);
@@ -64,6 +69,12 @@ class BoundaryBuilder {
     Triangle vertices{};
     std::uint32_t blocker = 0;
     Place place = Place::outside;
+  };
+
+  /// A new triangle, and the gauge at its centre.
+  struct Fresh {
+    std::uint32_t triangle;
+    GaugeValue gauge;
   };
 
   GaugeValue gauge_at(const ChartPoint& p) const { return evaluate_gauge(blockers_, tree_, range_, p); }
@@ -90,34 +101,47 @@ class BoundaryBuilder {
 
   // Looks at the triangles that are new; adds a point to each that is not good enough. True when there were any.
   bool refine() {
-    for (std::uint32_t v = std::uint32_t(gauges_.size()); v < cdt_.vertices.size(); ++v)
-      gauges_.push_back(v < kSuper ? 0 : gauge_at(point(v)).value);
+    const std::size_t first_vertex = gauges_.size();
+    gauges_.resize(cdt_.vertices.size());
+    parallel::for_ranges(gauges_.size() - first_vertex, kGrain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t v = first_vertex + begin; v < first_vertex + end; ++v)
+        gauges_[v] = v < kSuper ? 0 : gauge_at(point(std::uint32_t(v))).value;
+    });
     known_.resize(cdt_.triangles.size());
-    std::vector<ChartPoint> added;
-    for (std::size_t i = 0; i < cdt_.triangles.size(); ++i) {
+    fresh_.clear();
+    for (std::uint32_t i = 0; i < known_.size(); ++i) {
       const auto& v = cdt_.triangles[i].vertices;
       const Triangle t{v[0], v[1], v[2]};
       if (known_[i].vertices == t) continue;
       known_[i] = {t, 0, place_of(t)};
-      if (known_[i].place != Place::kept) continue;
-      const ChartPoint centre = centre_of(t);
-      const GaugeValue gauge = gauge_at(centre);
-      known_[i].blocker = gauge.blocker;
-      const double claimed = (gauges_[t[0]] + gauges_[t[1]] + gauges_[t[2]]) / 3;
-      const double rise = gauge.value / claimed - 1;
-      const bool deep = gauge.blocker == GaugeValue::kRange && too_deep(t);
-      if (rise <= kSafe && !deep) continue;
-      if ((rise > kSmallRise || deep) && has_room(t))
-        added.push_back(centre);
-      else if (rise > kSafe)
-        for (std::uint32_t corner : t)
-          gauges_[corner] *= 1 + 2 * rise;  // a greater gauge only makes the volume smaller
+      if (known_[i].place == Place::kept) fresh_.push_back({i, {}});
+    }
+    parallel::for_ranges(fresh_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k)
+        fresh_[k].gauge = gauge_at(centre_of(known_[fresh_[k].triangle].vertices));
+    });
+    std::vector<ChartPoint> added;
+    for (const Fresh& fresh : fresh_) {
+      known_[fresh.triangle].blocker = fresh.gauge.blocker;
+      improve(known_[fresh.triangle].vertices, fresh.gauge, added);
     }
     if (added.empty()) return false;
     cdt_.insertVertices(
         added.begin(), added.end(), [](const ChartPoint& p) { return p.x(); },
         [](const ChartPoint& p) { return p.y(); });
     return true;
+  }
+
+  // `gauge` is that at the triangle's centre.
+  void improve(const Triangle& t, const GaugeValue& gauge, std::vector<ChartPoint>& added) {
+    const double claimed = (gauges_[t[0]] + gauges_[t[1]] + gauges_[t[2]]) / 3;
+    const double rise = gauge.value / claimed - 1;
+    const bool deep = gauge.blocker == GaugeValue::kRange && too_deep(t);
+    if (rise <= kSafe && !deep) return;
+    if ((rise > kSmallRise || deep) && has_room(t))
+      added.push_back(centre_of(t));
+    else if (rise > kSafe)
+      for (std::uint32_t corner : t) gauges_[corner] *= 1 + 2 * rise;  // a greater gauge only makes the volume smaller
   }
 
   ChartPoint centre_of(const Triangle& t) const { return (point(t[0]) + point(t[1]) + point(t[2])) / 3; }
@@ -128,7 +152,12 @@ class BoundaryBuilder {
     // Rounding leaves slivers between the points of one side of the horizon.
     if (on_horizon(t[0]) && on_horizon(t[1]) && on_horizon(t[2]) && centre.cwiseAbs().sum() > 1 - 1e-9)
       return Place::outside;
-    if (grid_.is_range(grid_.locate(centre.x()), grid_.locate(centre.y()))) return Place::range_cell;
+    const auto at_node = [&](std::uint32_t v) {
+      return v - kSuper < graph_.points().size() && graph_.at_node(v - kSuper);
+    };
+    if (at_node(t[0]) && at_node(t[1]) && at_node(t[2]) &&
+        grid_.is_range(grid_.locate(centre.x()), grid_.locate(centre.y())))
+      return Place::range_cell;
     return Place::kept;
   }
 
@@ -160,12 +189,18 @@ class BoundaryBuilder {
 
   // ---- the mesh ----
 
+  // The mesh has the vertices of the graph first, then those of the cells, then those that refinement added.
+  std::uint32_t renamed(std::uint32_t v) const {
+    return v - kSuper < graph_.points().size() ? v - kSuper : v - kSuper + cell_vertices_;
+  }
+
   // An edge with nothing on its other side is on the horizon: the base closes it.
   void collect_triangles() {
+    auto& vertices = result_.mesh.vertices;
     for (std::size_t i = 0; i < known_.size(); ++i) {
       if (known_[i].place != Place::kept) continue;
       const Triangle& t = known_[i].vertices;
-      result_.mesh.triangles.push_back({t[0] - kSuper, t[1] - kSuper, t[2] - kSuper});
+      result_.mesh.triangles.push_back({renamed(t[0]), renamed(t[1]), renamed(t[2])});
       result_.blocker_of.push_back(known_[i].blocker);
       for (int e = 0; e < 3; ++e) {
         const std::uint32_t from = t[e], to = t[(e + 1) % 3];
@@ -173,7 +208,8 @@ class BoundaryBuilder {
           case Place::kept:
             break;
           case Place::outside:
-            base_.emplace_back(from - kSuper, to - kSuper);
+            base_.emplace_back(renamed(from), renamed(to));
+            vertices[renamed(from)].z() = vertices[renamed(to)].z() = 0;
             break;
           case Place::range_cell:
             check_border(from, to);
@@ -193,26 +229,15 @@ class BoundaryBuilder {
 
   void lift() {
     auto& vertices = result_.mesh.vertices;
-    vertices.reserve(cdt_.vertices.size());
+    vertices.resize(cdt_.vertices.size() - kSuper + cell_vertices_);
     for (std::uint32_t v = kSuper; v < cdt_.vertices.size(); ++v)
-      vertices.push_back(lifted(point(v), gauges_[v], on_horizon(v)));
-    for (const auto& [from, to] : base_) vertices[from].z() = vertices[to].z() = 0;
+      vertices[renamed(v)] = lifted(point(v), gauges_[v], on_horizon(v));
   }
 
   static Vec3 lifted(const ChartPoint& point, double gauge, bool horizon) {
     Vec3 direction = to_direction(point);
     if (horizon) direction.z() = 0;
     return direction * ((1 - numerics::kShrink) / gauge);
-  }
-
-  void add_range_cells() {
-    const std::uint32_t first = std::uint32_t(result_.mesh.vertices.size());
-    const auto renamed = [&](std::uint32_t v) { return v < RangeCells::kOwn ? v : v - RangeCells::kOwn + first; };
-    for (const Vec3& v : cells_.vertices) result_.mesh.vertices.push_back(v * (1 - numerics::kShrink));
-    for (const Triangle& t : cells_.triangles)
-      result_.mesh.triangles.push_back({renamed(t[0]), renamed(t[1]), renamed(t[2])});
-    result_.blocker_of.resize(result_.mesh.triangles.size(), Boundary::kRange);
-    for (const auto& [from, to] : cells_.base) base_.emplace_back(renamed(from), renamed(to));
   }
 
   void emit_base() {
@@ -246,7 +271,9 @@ class BoundaryBuilder {
   CDT::Triangulation<double> cdt_;
   std::vector<double> gauges_;  // per vertex of the triangulation
   std::vector<Known> known_;    // per triangle of it
+  std::vector<Fresh> fresh_;
   RangeCells cells_;
+  std::uint32_t cell_vertices_ = 0;
   std::vector<ConstraintGraph::Edge> base_;  // edges of the mesh on the horizon, as its triangles run them
   Boundary result_;
 };
