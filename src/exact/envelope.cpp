@@ -91,26 +91,24 @@ bool plane_hidden(const DirectionTree::Leaf& leaf, std::size_t own, std::uint32_
   return false;
 }
 
-FacetTable find_facets(const BlockerSet& blockers, const DirectionTree& tree,
-                       const std::vector<const DirectionTree::Leaf*>& leaves, const RangeRegion& range) {
+FacetTable find_facets(const BlockerSet& blockers, const std::vector<const DirectionTree::Leaf*>& leaves) {
+  constexpr std::size_t kLeaves = 16;  // that one thread takes at a time
+  std::vector<std::vector<Sighting>> found(leaves.size() / kLeaves + 1);
+  parallel::for_ranges(found.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t c = begin; c < end; ++c)
+      for (std::size_t l = c * kLeaves; l < std::min(leaves.size(), (c + 1) * kLeaves); ++l)
+        for (std::size_t i = 0; i < leaves[l]->count(); ++i)
+          for (std::uint32_t k = leaves[l]->first_plane[i]; k < leaves[l]->first_plane[i + 1]; ++k)
+            if (blockers.live[leaves[l]->planes[k]] && !plane_hidden(*leaves[l], i, k))
+              found[c].push_back({leaves[l]->planes[k], leaves[l]->blockers[i], std::uint32_t(l)});
+  });
   std::vector<Sighting> sightings;
-  for (std::uint32_t l = 0; l < leaves.size(); ++l)
-    for (std::size_t i = 0; i < leaves[l]->count(); ++i)
-      for (std::uint32_t k = leaves[l]->first_plane[i]; k < leaves[l]->first_plane[i + 1]; ++k)
-        if (blockers.live[leaves[l]->planes[k]] && !plane_hidden(*leaves[l], i, k))
-          sightings.push_back({leaves[l]->planes[k], leaves[l]->blockers[i], l});
+  for (const auto& some : found) sightings.insert(sightings.end(), some.begin(), some.end());
   parallel::sort(sightings, std::less<>());
   FacetTable table;
-  ContactTest contact(blockers, tree, range.radius());
-  std::uint32_t last = ~0u;
-  bool hidden = false;
   for (const Sighting& s : sightings) {
-    if (s.plane != last) {
-      last = s.plane;
-      hidden = contact.hidden(s.blocker, s.plane);
-      if (!hidden) table.facets.push_back({s.plane, s.blocker, std::uint32_t(table.leaf.size()), 0});
-    }
-    if (hidden) continue;
+    if (table.facets.empty() || table.facets.back().plane != s.plane)
+      table.facets.push_back({s.plane, s.blocker, std::uint32_t(table.leaf.size()), 0});
     table.leaf.push_back(s.leaf);
     ++table.facets.back().leaf_count;
   }
@@ -120,9 +118,15 @@ FacetTable find_facets(const BlockerSet& blockers, const DirectionTree& tree,
 /// Traces the creases of one facet after another; one tracer a thread.
 class FacetTracer {
  public:
-  FacetTracer(const BlockerSet& blockers, const std::vector<const DirectionTree::Leaf*>& leaves,
-              const FacetTable& table, const RangeRegion& range, const CurveSampling& sampling)
-      : blockers_(blockers), leaves_(leaves), table_(table), range_(range), sampling_(sampling) {}
+  FacetTracer(const BlockerSet& blockers, const DirectionTree& tree,
+              const std::vector<const DirectionTree::Leaf*>& leaves, const FacetTable& table, const RangeRegion& range,
+              const CurveSampling& sampling)
+      : blockers_(blockers),
+        leaves_(leaves),
+        table_(table),
+        range_(range),
+        sampling_(sampling),
+        contact_(blockers, tree, range.radius()) {}
 
   struct Result {
     std::vector<Skeleton::Edge> planar;
@@ -132,7 +136,7 @@ class FacetTracer {
 
   Result trace(const Facet& facet) {
     Result result;
-    if (!make_polygon(facet)) return result;
+    if (contact_.hidden(facet.blocker, facet.plane) || !make_polygon(facet)) return result;
     gather_rivals(facet);
     if (!cut_by_rivals(facet)) return result;
     trace_own_edges(result);
@@ -341,6 +345,7 @@ class FacetTracer {
   const RangeRegion& range_;
   const CurveSampling& sampling_;
 
+  ContactTest contact_;
   FacetPolygon polygon_, scratch_;
   std::vector<std::uint32_t> rivals_;
   std::vector<Cut> cuts_;
@@ -381,10 +386,10 @@ void trace_range_creases(const BlockerSet& blockers, const DirectionTree& tree, 
 Skeleton trace_envelope(const BlockerSet& blockers, const DirectionTree& tree, const RangeRegion& range,
                         const CurveSampling& sampling) {
   const std::vector<const DirectionTree::Leaf*> leaves = tree.leaves();
-  const FacetTable table = find_facets(blockers, tree, leaves, range);
+  const FacetTable table = find_facets(blockers, leaves);
   std::vector<FacetTracer::Result> results(table.facets.size());
   parallel::for_ranges(table.facets.size(), 16, [&](std::size_t begin, std::size_t end) {
-    FacetTracer tracer(blockers, leaves, table, range, sampling);
+    FacetTracer tracer(blockers, tree, leaves, table, range, sampling);
     for (std::size_t i = begin; i < end; ++i) results[i] = tracer.trace(table.facets[i]);
   });
   Skeleton skeleton;

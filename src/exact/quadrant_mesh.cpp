@@ -1,0 +1,261 @@
+#include "exact/quadrant_mesh.h"
+
+#include <CDT.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "exact/gauge.h"
+#include "exact/numerics.h"
+#include "parallel/parallel.h"
+#include "vantage/error.h"
+
+namespace vantage::exact {
+namespace {
+
+// Refinement that makes this many times the triangles that it began with will not end: something is broken.
+constexpr std::size_t kMostGrowth = 4;
+// The gauge may rise this fraction above a triangle before it counts as over-claimed: less than the final shrinking.
+constexpr double kSafe = 0.5 * numerics::kShrink;
+// Where it rises less than this (0.1 mm at 1 km), or the triangle is narrower than that in the chart, the triangle's
+// corners are drawn in; otherwise a crease is missing and the triangle is split.
+constexpr double kSmallRise = 1e-7;
+constexpr double kThinnest = 1e-8;
+constexpr std::size_t kGrain = 256;  // directions that one thread takes at a time
+
+class QuadrantMesher {
+ public:
+  QuadrantMesher(int quadrant, const ConstraintGraph& graph, const ChartGrid& grid, const Envelope& envelope,
+                 double snap)
+      : quadrant_(quadrant),
+        graph_(graph),
+        grid_(grid),
+        envelope_(envelope),
+        cdt_(CDT::VertexInsertionOrder::Auto, CDT::IntersectingConstraintEdges::TryResolve, snap) {}
+
+  QuadrantMesh run() {
+    triangulate();
+    for (std::uint32_t v = 0; v < result_.graph_vertex.size(); ++v) result_.graph_gauge.push_back(gauges_[v + kSuper]);
+    for (std::uint32_t v = kSuper + own_count(); v < cdt_.vertices.size(); ++v) {
+      result_.added.push_back(point(v));
+      result_.added_gauge.push_back(gauges_[v]);
+    }
+    collect_triangles();
+    return std::move(result_);
+  }
+
+ private:
+  static constexpr std::uint32_t kSuper = 3;  // the library's own vertices come first
+
+  enum class Place : std::uint8_t { outside, range_cell, kept };
+
+  /// What is known of one triangle of the triangulation; valid while its vertices stay the same.
+  struct Known {
+    Triangle vertices{};
+    std::uint32_t blocker = 0;
+    Place place = Place::outside;
+  };
+
+  /// A new triangle, and the gauge at its centre.
+  struct Fresh {
+    std::uint32_t triangle;
+    GaugeValue gauge;
+  };
+
+  std::uint32_t own_count() const { return std::uint32_t(result_.graph_vertex.size()); }
+  bool is_own(std::uint32_t v) const { return v - kSuper < own_count(); }
+  /// The graph's vertex; only of its own.
+  std::uint32_t in_graph(std::uint32_t v) const { return result_.graph_vertex[v - kSuper]; }
+  bool on_horizon(std::uint32_t v) const { return is_own(v) && graph_.on_horizon(in_graph(v)); }
+  bool at_node(std::uint32_t v) const { return is_own(v) && graph_.at_node(in_graph(v)); }
+  ChartPoint point(std::uint32_t v) const { return {cdt_.vertices[v].x, cdt_.vertices[v].y}; }
+  ChartPoint centre_of(const Triangle& t) const { return (point(t[0]) + point(t[1]) + point(t[2])) / 3; }
+  GaugeValue gauge_at(const ChartPoint& p) const {
+    return evaluate_gauge(envelope_.blockers, envelope_.tree, envelope_.range, p);
+  }
+
+  void triangulate() {
+    const std::vector<ConstraintGraph::Edge> edges = take_own();
+    insert(result_.graph_vertex.size(), [&](std::size_t i) { return graph_.points()[result_.graph_vertex[i]]; });
+    cdt_.insertEdges(
+        edges.begin(), edges.end(), [](const auto& e) { return e.first; }, [](const auto& e) { return e.second; });
+    const std::size_t most = kMostGrowth * cdt_.triangles.size() + 1000;
+    while (refine())
+      if (cdt_.triangles.size() > most)
+        throw Error(ErrorKind::internal, "the boundary could not be triangulated safely", "triangulation",
+                    "please report this with the mission and the scene");
+  }
+
+  // The graph's vertices in the quadrant, and its edges between them.
+  std::vector<ConstraintGraph::Edge> take_own() {
+    const double sa = quadrant_ & 1 ? -1 : 1, sb = quadrant_ & 2 ? -1 : 1;
+    constexpr std::uint32_t kNone = ConstraintGraph::kNone;
+    std::vector<std::uint32_t> local(graph_.points().size(), kNone);
+    for (std::uint32_t v = 0; v < local.size(); ++v)
+      if (sa * graph_.points()[v].x() >= 0 && sb * graph_.points()[v].y() >= 0) {
+        local[v] = own_count();
+        result_.graph_vertex.push_back(v);
+      }
+    std::vector<ConstraintGraph::Edge> edges;
+    for (const auto& [a, b] : graph_.edges())
+      if (local[a] != kNone && local[b] != kNone) edges.emplace_back(local[a], local[b]);
+    return edges;
+  }
+
+  template <typename PointAt>
+  void insert(std::size_t count, const PointAt& point_at) {
+    std::vector<CDT::V2d<double>> points;
+    points.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) points.emplace_back(point_at(i).x(), point_at(i).y());
+    cdt_.insertVertices(points);
+  }
+
+  // Looks at the triangles that are new; adds a point to each that is not good enough. True when there were any.
+  bool refine() {
+    const std::size_t first_vertex = gauges_.size();
+    gauges_.resize(cdt_.vertices.size());
+    parallel::for_ranges(gauges_.size() - first_vertex, kGrain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t v = first_vertex + begin; v < first_vertex + end; ++v)
+        gauges_[v] = v < kSuper ? 0 : gauge_at(point(std::uint32_t(v))).value;
+    });
+    find_fresh();
+    parallel::for_ranges(fresh_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k)
+        fresh_[k].gauge = gauge_at(centre_of(known_[fresh_[k].triangle].vertices));
+    });
+    std::vector<ChartPoint> added;
+    for (const Fresh& fresh : fresh_) {
+      known_[fresh.triangle].blocker = fresh.gauge.blocker;
+      improve(known_[fresh.triangle].vertices, fresh.gauge, added);
+    }
+    if (added.empty()) return false;
+    insert(added.size(), [&](std::size_t i) { return added[i]; });
+    return true;
+  }
+
+  void find_fresh() {
+    known_.resize(cdt_.triangles.size());
+    fresh_.clear();
+    for (std::uint32_t i = 0; i < known_.size(); ++i) {
+      const auto& v = cdt_.triangles[i].vertices;
+      const Triangle t{v[0], v[1], v[2]};
+      if (known_[i].vertices == t) continue;
+      known_[i] = {t, 0, place_of(t)};
+      if (known_[i].place == Place::kept) fresh_.push_back({i, {}});
+    }
+  }
+
+  Place place_of(const Triangle& t) const {
+    if (t[0] < kSuper || t[1] < kSuper || t[2] < kSuper) return Place::outside;
+    const ChartPoint centre = centre_of(t);
+    // Rounding leaves slivers between the points of one side of the horizon.
+    if (on_horizon(t[0]) && on_horizon(t[1]) && on_horizon(t[2]) && centre.cwiseAbs().sum() > 1 - 1e-9)
+      return Place::outside;
+    if (at_node(t[0]) && at_node(t[1]) && at_node(t[2]) &&
+        grid_.is_range(grid_.locate(centre.x()), grid_.locate(centre.y())))
+      return Place::range_cell;
+    return Place::kept;
+  }
+
+  // `gauge` is that at the triangle's centre.
+  void improve(const Triangle& t, const GaugeValue& gauge, std::vector<ChartPoint>& added) {
+    const double claimed = (gauges_[t[0]] + gauges_[t[1]] + gauges_[t[2]]) / 3;
+    const double rise = gauge.value / claimed - 1;
+    const bool deep = gauge.blocker == GaugeValue::kRange && too_deep(t);
+    if (rise <= kSafe && !deep) return;
+    if ((rise > kSmallRise || deep) && has_room(t))
+      added.push_back(centre_of(t));
+    else if (rise > kSafe)
+      for (std::uint32_t corner : t) gauges_[corner] *= 1 + 2 * rise;  // a greater gauge only makes the volume smaller
+  }
+
+  // Whether a triangle is worth splitting: in one that is no wider than what snapping moves, a crease cannot be found.
+  bool has_room(const Triangle& t) const {
+    const ChartPoint a = point(t[1]) - point(t[0]), b = point(t[2]) - point(t[0]), c = b - a;
+    const double longest = std::sqrt(std::max({a.squaredNorm(), b.squaredNorm(), c.squaredNorm()}));
+    return std::abs(a.x() * b.y() - a.y() * b.x()) > kThinnest * longest;
+  }
+
+  // Whether some point of a triangle on the range sphere lies more than the tolerance inside it.
+  bool too_deep(const Triangle& t) const {
+    const RangeRegion& range = envelope_.range;
+    std::array<Vec3, 3> v;
+    for (int i = 0; i < 3; ++i) v[i] = to_direction(point(t[i])) / gauges_[t[i]];
+    const std::array<double, 3> square{(v[2] - v[1]).squaredNorm(), (v[0] - v[2]).squaredNorm(),
+                                       (v[1] - v[0]).squaredNorm()};
+    const std::size_t longest = std::size_t(std::max_element(square.begin(), square.end()) - square.begin());
+    // The deepest point is the middle of the circumcircle, or of the longest edge where that is outside.
+    const bool obtuse = 2 * square[longest] >= square[0] + square[1] + square[2];
+    const Vec3 middle = 0.5 * (v[(longest + 1) % 3] + v[(longest + 2) % 3]);
+    const Vec3 normal = (v[1] - v[0]).cross(v[2] - v[0]).normalized();
+    double farthest = 0;
+    for (std::size_t ball = 0; ball < range.ball_count(); ++ball) {
+      const Vec3 centre(range.centre(ball).x(), range.centre(ball).y(), 0);
+      farthest = std::max(farthest, obtuse ? (middle - centre).norm() : normal.dot(v[0] - centre));
+    }
+    return range.radius() - farthest > envelope_.tolerance_m;
+  }
+
+  std::uint32_t renamed(std::uint32_t v) const {
+    return is_own(v) ? in_graph(v) : std::uint32_t(graph_.points().size()) + (v - kSuper - own_count());
+  }
+
+  void collect_triangles() {
+    for (std::size_t i = 0; i < known_.size(); ++i) {
+      if (known_[i].place != Place::kept) continue;
+      const Triangle& t = known_[i].vertices;
+      result_.triangles.push_back({renamed(t[0]), renamed(t[1]), renamed(t[2])});
+      result_.blocker_of.push_back(known_[i].blocker);
+      for (int e = 0; e < 3; ++e) {
+        const std::uint32_t from = t[e], to = t[(e + 1) % 3];
+        const Place beyond = known_[cdt_.triangles[i].neighbors[e]].place;
+        if (beyond == Place::outside)
+          close(from, to);
+        else if (beyond == Place::range_cell)
+          check_border(from, to);
+      }
+    }
+  }
+
+  // An edge with nothing on its other side is on an axis, where the next quadrant goes on, or on the horizon, where the
+  // base closes it.
+  void close(std::uint32_t from, std::uint32_t to) {
+    const ChartPoint a = point(from).cwiseAbs(), b = point(to).cwiseAbs();
+    for (int axis = 0; axis < 2; ++axis)
+      if (std::max(a[axis], b[axis]) <= numerics::kWidestSnap) {
+        if (!is_own(from) || !is_own(to)) throw CannotTriangulate{"a crease has split an axis"};
+        return;
+      }
+    result_.base.emplace_back(renamed(from), renamed(to));
+  }
+
+  // Cells are cut in two without looking at the triangulation: it must not have split their edges.
+  void check_border(std::uint32_t from, std::uint32_t to) {
+    for (std::uint32_t v : {from, to})
+      if (!is_own(v)) result_.border_splits.push_back(point(v));
+  }
+
+  int quadrant_;
+  const ConstraintGraph& graph_;
+  const ChartGrid& grid_;
+  const Envelope& envelope_;
+  CDT::Triangulation<double> cdt_;
+  std::vector<double> gauges_;  // per vertex of the triangulation
+  std::vector<Known> known_;    // per triangle of it
+  std::vector<Fresh> fresh_;
+  QuadrantMesh result_;
+};
+
+}  // namespace
+
+QuadrantMesh mesh_quadrant(int quadrant, const ConstraintGraph& graph, const ChartGrid& grid, const Envelope& envelope,
+                           double snap) {
+  try {
+    return QuadrantMesher(quadrant, graph, grid, envelope, snap).run();
+  } catch (const CDT::Error& error) {
+    throw CannotTriangulate{error.what()};
+  }
+}
+
+}  // namespace vantage::exact
