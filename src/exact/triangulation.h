@@ -20,10 +20,8 @@ struct Boundary {
   std::size_t constraint_edges = 0;
 };
 
-/// Cells of the grid that hold nothing but range sphere are cut in two; the rest of the chart is a constrained Delaunay
-/// triangulation of the creases. Every vertex is lifted to where the gauge says. Triangles that lie more than
-/// `tolerance` inside the sphere get a point in the middle, and so do those above which the gauge rises (a crease that
-/// rounding has lost), until there are none.
+/// Cells of the grid that hold nothing but range sphere are cut in two; the rest of the chart is triangulated quadrant by
+/// quadrant. Every vertex is lifted to where the gauge says.
 Boundary triangulate_boundary(const Skeleton& skeleton, const BlockerSet& blockers, const DirectionTree& tree,
                               const RangeRegion& range, ChartGrid& grid, double tolerance);
 
