@@ -562,6 +562,23 @@ TEST_F(CliVerify, FailsAMeshThatIsNoSolid) {
   EXPECT_EQ(run({"verify", "mission.yaml", "turned.obj"}).exit_code, 1);
 }
 
+TEST_F(CliVerify, LooksFromWhereTheTargetWasRaisedTo) {
+  const std::string low =
+      "target: {vertices: [[-4, -4, -0.0015], [4, -4, -0.0015], [4, 4, -0.0015], [-4, 4, -0.0015]]}\n";
+  write("low.yaml", std::string(kScene) + low + kSensor);
+  output_of({"compute", "low.yaml", "-q", "-o", "low.ply"});
+  const auto report = nlohmann::json::parse(output_of({"verify", "low.yaml", "low.ply", "--points", "500", "--json"}));
+  EXPECT_NEAR(report.at("lift_m").get<double>(), 0.0015, 2e-6);
+  EXPECT_EQ(run({"verify", "low.yaml", "low.ply", "--points", "500", "--lift", "0"}).exit_code, 1);
+  fs::remove(folder_ / "low.report.json");
+  EXPECT_EQ(run({"verify", "low.yaml", "low.ply", "--points", "500"}).exit_code, 1);
+  EXPECT_EQ(run({"verify", "low.yaml", "low.ply", "--points", "500", "--lift", "0.001501"}).exit_code, 0);
+  for (const char* text : {"", "[]", "{}", "{\"lift_m\": \"far\"}", "{\"lift_m\": -1}", "{\"lift_m\": 1}"}) {
+    write("low.report.json", text);
+    expect_bad({"verify", "low.yaml", "low.ply"}, "lift_m", "low.report.json");
+  }
+}
+
 TEST_F(CliVerify, RefusesWhatIsNoMesh) {
   expect_bad({"verify", "mission.yaml", "none.ply"}, "the volume does not exist", "none.ply");
   expect_bad({"verify", "mission.yaml", "volume.ply"}, "", "volume.ply");

@@ -111,9 +111,6 @@ std::string table_text(const VerifyReport& report, double lift, std::size_t hole
 int run(const Options& options) {
   mission_io::check_readable(options.volume_file, "the volume", "");
   const Mission mission = read_mission(options.mission_file);
-  Target target = mission.target;
-  const double lift = options.lift_m < 0 ? reported_lift(options.volume_file) : options.lift_m;
-  target.offset_m += lift;
   ProgressLine progress(options.common);
   const Scene scene = read_scene(mission.scene_file, mission.scene_options, progress.callback());
 
@@ -121,6 +118,9 @@ int run(const Options& options) {
   if (mission_io::is_obj(options.volume_file)) volume_options.up = scene.up;
   const Mesh volume = read_scene(options.volume_file, volume_options, progress.callback()).mesh;
   const std::size_t holes = count_open_edges(volume);
+  Target target = mission.target;
+  const double lift = options.lift_m < 0 ? reported_lift(options.volume_file) : options.lift_m;
+  target.offset_m += lift;
 
   VerifyReport report;
   if (holes == 0) {
