@@ -429,6 +429,42 @@ TEST_F(CliCompute, ObjComesInTheAxesOfTheScene) {
   }
 }
 
+TEST_F(CliCompute, ObjComesInTheUnitOfTheScene) {
+  std::string millimetres;
+  for (const std::string& line : lines(kCity)) {
+    std::istringstream words(line);
+    std::string keyword;
+    double x = 0, y = 0, z = 0;
+    const bool is_vertex = words >> keyword && keyword == "v" && words >> x >> y >> z;
+    std::ostringstream scaled;
+    scaled << "v " << 1000 * x << ' ' << 1000 * y << ' ' << 1000 * z;
+    millimetres += (is_vertex ? scaled.str() : line) + "\n";
+  }
+  write("millimetres.obj", millimetres);
+  const std::string mission = std::string("scene: {mesh: millimetres.obj, scale: 0.001}\n") + kTarget + kSensor;
+  write("mission.yaml", mission);
+  output_of({"compute", "mission.yaml", "-q", "-o", "v.obj", "-o", "v.ply"});
+  const auto obj = nlohmann::json::parse(output_of({"inspect", "v.obj", "--json"}));
+  const auto ply = nlohmann::json::parse(output_of({"inspect", "v.ply", "--json"}));
+  for (const char* end : {"min", "max"}) {
+    for (int axis = 0; axis < 3; ++axis) {
+      EXPECT_NEAR(obj.at("bounds").at(end)[axis].get<double>(), 1000 * ply.at("bounds").at(end)[axis].get<double>(),
+                  1e-6);
+    }
+  }
+  const auto check =
+      nlohmann::json::parse(output_of({"verify", "mission.yaml", "v.obj", "--points", "2000", "--json"}));
+  EXPECT_EQ(check.at("right"), true);
+  EXPECT_EQ(check.at("under_claimed"), 0);
+  EXPECT_GT(check.at("inside"), 100);
+  // It limits the next mission where it was: the same volume, cut to itself.
+  write("next.yaml", mission + "navigation: {meshes: [v.obj]}\n");
+  output_of({"compute", "next.yaml", "-q", "-o", "next.ply"});
+  const double before = nlohmann::json::parse(content(folder_ / "v.report.json")).at("volume_m3");
+  const double after = nlohmann::json::parse(content(folder_ / "next.report.json")).at("volume_m3");
+  EXPECT_NEAR(after, before, 1e-6 * before);
+}
+
 TEST_F(CliCompute, NamesEmptyOutcomesAndKeepsTheOldMesh) {
   const auto expect_empty = [&](const std::string& mission, const std::string& outcome) {
     write("mission.yaml", mission);

@@ -118,8 +118,9 @@ exact: {tolerance: 0.02}
   EXPECT_EQ(parsed.navigation_meshes[0].file, "/data/missions/airspace.ply");
   EXPECT_EQ(parsed.navigation_meshes[0].name, "airspace.ply");
   EXPECT_EQ(parsed.navigation_meshes[0].options.up, UpAxis::z) << "PLY is in the scene frame";
-  EXPECT_EQ(parsed.navigation_meshes[0].options.scale, 1.0) << "the scene's scale is the scene's alone";
+  EXPECT_EQ(parsed.navigation_meshes[0].options.scale, 1.0) << "and in metres";
   EXPECT_EQ(parsed.navigation_meshes[1].options.up, UpAxis::y) << "OBJ is in the axes of the scene file";
+  EXPECT_EQ(parsed.navigation_meshes[1].options.scale, 0.5) << "and in its unit";
   EXPECT_EQ(parsed.navigation_meshes[2].options.up, UpAxis::z) << "unless it says otherwise";
   EXPECT_EQ(parsed.navigation_meshes[2].options.scale, 2);
 }

@@ -53,6 +53,7 @@ TEST(ReadScene, GivesTheSceneFrame) {
   const Scene turned = read_scene(folder / "a.obj", {.up = UpAxis::y, .scale = 0.5});
   EXPECT_EQ(turned.mesh.vertices[0], Vec3(0.5, -1.5, 1));
   EXPECT_EQ(turned.up, UpAxis::y);
+  EXPECT_EQ(turned.scale, 0.5);
 }
 
 TEST(ReadScene, TellsTheFormatByContentThenByName) {

@@ -176,6 +176,37 @@ TEST(WriteObj, YUpIsTheSceneFileFrame) {
   EXPECT_GT(enclosed_volume(obj.mesh), 0);  // still outward
 }
 
+TEST(WriteObj, IsInTheUnitOfTheSceneFile) {
+  const TemporaryDirectory directory;
+  const Volume volume = awkward_volume();
+  for (const double scale : {0.001, 0.3048, 1000.0}) {
+    SCOPED_TRACE(scale);
+    write_volume(volume, directory / "v.obj", UpAxis::y, scale);
+    const Obj obj = parse_obj(read_bytes(directory / "v.obj"));
+    ASSERT_EQ(obj.mesh.vertices.size(), volume.mesh.vertices.size());
+    EXPECT_EQ(first_open_edge(obj.mesh), "");
+    for (std::size_t v = 0; v < obj.mesh.vertices.size(); ++v) {
+      const Vec3 file = obj.mesh.vertices[v] * scale, expected = volume.mesh.vertices[v];
+      EXPECT_LE((Vec3(file.x(), -file.z(), file.y()) - expected).norm(), 4e-16 * expected.norm());
+    }
+  }
+}
+
+TEST(WriteObj, RefusesUnitsThatAreNone) {
+  const TemporaryDirectory directory;
+  testing::write_bytes(directory / "v.obj", "old");
+  for (const double scale : {0.0, -1.0, std::nan(""), std::numeric_limits<double>::infinity(), 1e-308}) {
+    try {
+      write_volume(awkward_volume(), directory / "v.obj", UpAxis::z, scale);
+      ADD_FAILURE() << "accepted " << scale;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::input);
+      EXPECT_NE(error.problem().find("cannot be written in units of"), std::string::npos) << error.problem();
+    }
+  }
+  EXPECT_EQ(read_bytes(directory / "v.obj"), "old");
+}
+
 TEST(WriteStl, HoldsTheTrianglesAndTheirNormals) {
   const TemporaryDirectory directory;
   const Volume volume = testing::make_hemisphere(Vec3(1, 2, 3), 50);

@@ -22,6 +22,7 @@ struct Scene {
   std::vector<std::string> objects;      ///< names, as in the file ("Building17", "way/265517")
   std::filesystem::path source;          ///< the file it was read from; empty when made in memory
   UpAxis up = UpAxis::z;                 ///< axes of that file, used when a result is written as OBJ
+  double scale = 1.0;                    ///< metres in one unit of that file, used likewise
 
   // Counted while reading.
   std::size_t dropped_faces = 0;  ///< faces of the file that hold no triangle (fewer than 3 corners)

@@ -102,10 +102,14 @@ MeshMeasures measure(const Mesh& mesh);
 /// Writes the mesh; the format follows the extension. Written whole or not at all.
 ///   .ply  binary, little-endian, double coordinates, facet property `cause` (index) and the causes' names in comments;
 ///         scene frame
-///   .obj  a group per cause; the axes of the scene file (`up`)
+///   .obj  a group per cause; the axes and the unit of the scene file: give Scene::up and Scene::scale (metres in one
+///         unit, > 0), so that it loads on top of the scene. Coordinates are divided by `obj_scale`: with 1 they keep
+///         every bit, with another they read back to within rounding
 ///   .stl  binary; scene frame
 ///   .glb  a material per kind of cause; y up as the specification demands
-/// Throws Error(output) when the file cannot be written and Error(input) for an unknown extension or a directory.
-void write_volume(const Volume& volume, const std::filesystem::path& file, UpAxis obj_up = UpAxis::z);
+/// Throws Error(output) when the file cannot be written and Error(input) for an unknown extension, a directory or a
+/// scale that is not positive, not finite or so small that coordinates overflow.
+void write_volume(const Volume& volume, const std::filesystem::path& file, UpAxis obj_up = UpAxis::z,
+                  double obj_scale = 1.0);
 
 }  // namespace vantage

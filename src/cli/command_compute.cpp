@@ -26,10 +26,10 @@ constexpr const char* kExamples =
     "  vantage compute mission.yaml -o volume.ply -o volume.glb -o volume.obj\n"
     "  vantage compute mission.yaml -o volume.stl --json | jq .volume_m3\n"
     "\n"
-    "The format follows the extension: .ply (scene frame, double precision, causes), .obj (axes of the scene file,\n"
-    "a group per cause), .stl (scene frame), .glb (y up, a material per kind of cause). Beside each output goes a "
-    "report,\n"
-    "volume.report.json. Where there is no volume, the report says why, no mesh is written, and the exit code is 0.\n";
+    "The format follows the extension: .ply (scene frame, double precision, causes), .obj (axes and unit of the\n"
+    "scene file, a group per cause), .stl (scene frame), .glb (y up, a material per kind of cause). Beside each\n"
+    "output goes a report, volume.report.json. Where there is no volume, the report says why, no mesh is written,\n"
+    "and the exit code is 0.\n";
 
 constexpr std::size_t kCausesShown = 10;
 
@@ -57,7 +57,7 @@ void check_outputs(const Options& options) {
 /// Fills the seconds of writing.
 void write_meshes(const Options& options, MissionRun& run) {
   const auto start = std::chrono::steady_clock::now();
-  for (const std::string& output : options.outputs) write_volume(run.volume, output, run.scene_up);
+  for (const std::string& output : options.outputs) write_volume(run.volume, output, run.scene_up, run.scene_scale);
   Seconds& seconds = run.volume.seconds;
   seconds.write = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   seconds.total += seconds.write;

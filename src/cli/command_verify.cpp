@@ -19,7 +19,7 @@ constexpr const char* kExamples =
     "EXAMPLES\n"
     "  vantage verify mission.yaml volume.ply\n"
     "  vantage verify mission.yaml volume.glb --points 200000 --seed 7\n"
-    "  vantage verify mission.yaml edited.obj --json    # .obj in the axes of the scene file, as compute writes it\n"
+    "  vantage verify mission.yaml edited.obj --json    # .obj in the axes and unit of the scene file\n"
     "\n"
     "Exit code 1: part of the volume does not see the whole target, or its mesh is not closed.\n";
 
@@ -115,7 +115,7 @@ int run(const Options& options) {
   const Scene scene = read_scene(mission.scene_file, mission.scene_options, progress.callback());
 
   SceneReadOptions volume_options;
-  if (mission_io::is_obj(options.volume_file)) volume_options.up = scene.up;
+  if (mission_io::is_obj(options.volume_file)) volume_options = {scene.up, scene.scale};  // as compute writes it
   const Mesh volume = read_scene(options.volume_file, volume_options, progress.callback()).mesh;
   const std::size_t holes = count_open_edges(volume);
   Target target = mission.target;

@@ -31,6 +31,7 @@ MissionRun run_mission(const Mission& mission, const Progress& progress) {
   Stopwatch stopwatch;
   const Scene scene = read_scene(mission.scene_file, mission.scene_options, progress);
   run.scene_up = scene.up;
+  run.scene_scale = scene.scale;
   seconds.read = stopwatch.lap();
 
   const PreparedScene prepared(scene, progress);

@@ -107,9 +107,9 @@ MeshReference MissionParser::mesh_reference(const YamlNode& node, Section sectio
   reference.where = place_in(file_, mesh.place);
   // Not made shorter here: "a/../b" is not "b" where a is a symbolic link.
   reference.file = parsed_.mission.file.parent_path() / reference.name;
-  // What `compute` writes must come back as a navigation mesh where it was: OBJ in the axes of the scene file, PLY and
-  // STL in the scene frame.
-  if (section == Section::mesh && is_obj(reference.file)) reference.options.up = parsed_.mission.scene_options.up;
+  // What `compute` writes must come back as a navigation mesh where it was: OBJ in the axes and the unit of the scene
+  // file, PLY and STL in the scene frame.
+  if (section == Section::mesh && is_obj(reference.file)) reference.options = parsed_.mission.scene_options;
   if (const YamlNode* up = find(node, "up")) reference.options.up = up_axis(*up, prefix + "up");
   if (const YamlNode* scale = find(node, "scale")) reference.options.scale = positive(*scale, prefix + "scale");
   return reference;

@@ -12,6 +12,7 @@ struct MissionRun {
   Volume volume;
   SceneStatistics scene;        ///< what preparing found
   UpAxis scene_up = UpAxis::z;  ///< axes of the scene file, for OBJ
+  double scene_scale = 1.0;     ///< metres in its unit, likewise
 };
 
 /// As compute_mission.

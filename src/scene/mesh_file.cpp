@@ -104,6 +104,7 @@ Scene read_scene(const std::filesystem::path& file, const SceneReadOptions& opti
   result.objects = std::move(raw.objects);
   result.source = file;
   result.up = raw.format == scene::MeshFormat::gltf ? UpAxis::y : options.up;
+  result.scale = options.scale;
   result.dropped_faces = raw.dropped_faces;
   return result;
 }

@@ -1,9 +1,11 @@
-// Wavefront OBJ: one group per cause, in the axes of the scene file.
+// Wavefront OBJ: one group per cause, in the axes and the unit of the scene file.
+#include <cmath>
 #include <set>
 #include <vector>
 
 #include "solid/names.h"
 #include "solid/writers.h"
+#include "vantage/error.h"
 
 namespace vantage::solid {
 namespace {
@@ -25,17 +27,27 @@ std::vector<std::string> group_names(const std::vector<Cause>& causes) {
   return names;
 }
 
+void check_scale(double scale, const std::vector<Vec3>& vertices) {
+  double largest = 0;
+  for (const Vec3& vertex : vertices) largest = std::max(largest, vertex.cwiseAbs().maxCoeff());
+  if (scale > 0 && std::isfinite(scale) && std::isfinite(largest / scale)) return;
+  throw Error(ErrorKind::input, "the volume cannot be written in units of " + exact_text(scale) + " m", "scale",
+              "give the length of the scene file's unit in metres");
+}
+
 }  // namespace
 
-void write_obj(const Volume& volume, UpAxis up, AtomicFile& file) {
+void write_obj(const Volume& volume, UpAxis up, double scale, AtomicFile& file) {
   const auto& [vertices, triangles] = volume.mesh;
+  check_scale(scale, vertices);
   file.write("# vantage " VANTAGE_VERSION " visibility volume: " + std::string(name_of(volume.outcome)) + "\n");
-  file.write(std::string("# metres, ") + (up == UpAxis::y ? "y up: (x, z, -y) of the scene frame\n" : "z up\n"));
+  file.write(scale == 1 ? "# metres, " : "# units of " + exact_text(scale) + " m, ");
+  file.write(up == UpAxis::y ? "y up: (x, z, -y) of the scene frame\n" : "z up\n");
 
   for (const Vec3& vertex : vertices) {
     std::string line("v");
     for (const double coordinate : up == UpAxis::y ? to_y_up(vertex) : vertex) {
-      line.append(" ").append(exact_text(coordinate));
+      line.append(" ").append(exact_text(coordinate / scale));
     }
     file.write(line.append("\n"));
   }

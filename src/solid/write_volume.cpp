@@ -35,7 +35,7 @@ std::string one_line(std::string_view text) {
 
 }  // namespace solid
 
-void write_volume(const Volume& volume, const std::filesystem::path& file, UpAxis obj_up) {
+void write_volume(const Volume& volume, const std::filesystem::path& file, UpAxis obj_up, double obj_scale) {
   std::error_code ignored;
   const bool directory =
       std::filesystem::is_directory(file, ignored);  // AtomicFile refuses it, with or without extension
@@ -52,7 +52,7 @@ void write_volume(const Volume& volume, const std::filesystem::path& file, UpAxi
   solid::check_volume(volume);
   solid::AtomicFile output(file);
   if (extension == ".ply") solid::write_ply(volume, output);
-  if (extension == ".obj") solid::write_obj(volume, obj_up, output);
+  if (extension == ".obj") solid::write_obj(volume, obj_up, obj_scale, output);
   if (extension == ".stl") solid::write_stl(volume, output);
   if (extension == ".glb") solid::write_glb(volume, output);
   output.commit();

@@ -14,7 +14,8 @@
 namespace vantage::solid {
 
 void write_ply(const Volume& volume, AtomicFile& file);
-void write_obj(const Volume& volume, UpAxis up, AtomicFile& file);
+/// `scale`: metres in one unit of the file.
+void write_obj(const Volume& volume, UpAxis up, double scale, AtomicFile& file);
 void write_stl(const Volume& volume, AtomicFile& file);
 void write_glb(const Volume& volume, AtomicFile& file);
 

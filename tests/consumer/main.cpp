@@ -51,7 +51,7 @@ bool between_walls() {
 bool compute_and_verify(const char* mission_file, const char* volume_file) {
   const vantage::Mission mission = vantage::read_mission(mission_file);
   const vantage::Volume volume = vantage::compute_mission(mission);
-  vantage::write_volume(volume, volume_file, mission.scene_options.up);
+  vantage::write_volume(volume, volume_file, mission.scene_options.up, mission.scene_options.scale);
 
   const vantage::Scene scene = vantage::read_scene(mission.scene_file, mission.scene_options);
   vantage::VerifyOptions options;
