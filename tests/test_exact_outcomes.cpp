@@ -52,7 +52,7 @@ Refusal refusal(const Scene& scene, const Target& target, const Sensor& sensor =
 
 bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-/// The offset that a pierced target's error gives as the way out.
+/// The offset that the error of a pierced or buried target gives as the way out.
 double offset_in(const std::string& fix) {
   const auto at = fix.find("offset: ");
   EXPECT_NE(at, std::string::npos) << fix;
@@ -195,7 +195,48 @@ TEST(ExactOutcomes, UnderTheGround) {
   const Refusal r = refusal(scene, square(4, {0, 0, -3}));
   EXPECT_EQ(r.problem, "the target is under the ground");
   EXPECT_TRUE(contains(r.where, "\"ground\" is 3.000 m above")) << r.where;
-  EXPECT_FALSE(r.fix.empty());
+  EXPECT_TRUE(contains(r.fix, "up axis and scale")) << r.fix;
+  Target raised = square(4, {0, 0, -3});
+  raised.offset_m = offset_in(r.fix);
+  EXPECT_NEAR(raised.offset_m, 3.0, 0.0011);
+  EXPECT_EQ(compute(scene, raised).outcome, Outcome::computed);
+  raised.offset_m = 2.99;  // and nothing much smaller will do
+  EXPECT_EQ(refusal(scene, raised).problem, "the target is under the ground");
+  raised.offset_m = 1;  // counted from the vertices, not from where the target is now
+  EXPECT_NEAR(offset_in(refusal(scene, raised).fix), 3.0, 0.0011);
+}
+
+TEST(ExactOutcomes, TheWayOutOfTheGroundLeadsPastWhatStandsOnIt) {
+  const Scene scene = SceneBuilder().ground("ground", 100).box("kiosk", {1, 1, 0}, {2, 2, 3});
+  Target target = square(4, {0, 0, -2});
+  const Refusal r = refusal(scene, target);
+  EXPECT_EQ(r.problem, "the target is under the ground");
+  target.offset_m = offset_in(r.fix);
+  EXPECT_NEAR(target.offset_m, 5.0, 0.0011);
+  EXPECT_EQ(compute(scene, target).outcome, Outcome::computed);
+}
+
+TEST(ExactOutcomes, ATiltedTargetLeavesTheGroundWithItsLowestCorner) {
+  Target target = square(4, {0, 0, -10});
+  for (Vec3& v : target.vertices) v.z() += 0.75 * v.x();  // from -13 to -7; the normal is (-0.6, 0, 0.8)
+  const Scene scene = SceneBuilder().ground("ground", 100);
+  const Refusal r = refusal(scene, target);
+  EXPECT_EQ(r.problem, "the target is under the ground");
+  target.offset_m = offset_in(r.fix);
+  EXPECT_NEAR(target.offset_m, 13 / 0.8, 0.0011);
+  EXPECT_EQ(compute(scene, target).outcome, Outcome::computed);
+}
+
+TEST(ExactOutcomes, NoOffsetBringsABuriedFacadeOut) {
+  // Sideways it would pass a buried tank, and then the edge of the ground, which is no way out.
+  const Scene scene = SceneBuilder()
+                          .ground("ground", 100)
+                          .box("tank", {-9, -40, -8}, {9, -30, -2})
+                          .polygon("skirt", {{-100, -100, -20}, {100, -100, -20}, {100, -100, 0}, {-100, -100, 0}});
+  const Refusal r = refusal(scene, facade(2, {0, 0, -5}));
+  EXPECT_EQ(r.problem, "the target is under the ground");
+  EXPECT_FALSE(contains(r.fix, "offset")) << r.fix;
+  EXPECT_TRUE(contains(r.fix, "up axis and scale")) << r.fix;
 }
 
 TEST(ExactOutcomes, UnderARoofIsNotUnderTheGround) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 
 #include "exact/blocker.h"
 #include "exact/collect.h"
@@ -116,13 +117,15 @@ Lift lift_at(const std::vector<Crossing>& crossings, double height) {
   return result;
 }
 
-// The smallest height, in whole millimetres, at which nothing crosses.
-double clear_height(const std::vector<Crossing>& crossings) {
-  double height = 0;
+// The next whole millimetre.
+double past(double height) { return std::floor(height * 1000 + 1) / 1000; }
+
+// The smallest height from `height` on, in whole millimetres, at which nothing crosses.
+double clear_height(const std::vector<Crossing>& crossings, double height = 0) {
   for (;;) {
     const Lift lift = lift_at(crossings, height);
     if (!lift.pierced_by) return height;
-    height = std::floor(lift.pierced_by->high * 1000 + 1) / 1000;
+    height = past(lift.pierced_by->high);
   }
 }
 
@@ -142,13 +145,15 @@ std::string describe(const Vec3& place) {
       "target \"" + target.name + "\", at " + describe(frame.to_scene(crossing.place)), fix);
 }
 
-// Heights of the scene over and under a point, straight up and down: nearest first, with the polygon hit.
+// What of the scene is straight over and under a point: the nearest over it, and whether anything, or anything of
+// `object`, is under it.
 class Plumb {
  public:
-  Plumb(const PreparedScene::Data& scene, const Vec3& point) : scene_(scene), point_(point - scene.origin) {
+  Plumb(const PreparedScene::Data& scene, const Vec3& point, std::optional<std::uint32_t> object = std::nullopt)
+      : scene_(scene), point_(point - scene.origin), object_(object) {
     if (!scene.bvh.nodes.empty()) visit(0);
   }
-  bool anything_below = false;
+  bool anything_below = false, object_below = false;
   double nearest_above = INFINITY;
   std::uint32_t polygon_above = 0;
 
@@ -180,6 +185,7 @@ class Plumb {
     const double height = area.dot(corner(begin) - point_) / area.z();
     if (height <= kMaxLift) {
       anything_below = true;
+      object_below |= object_ == scene_.polygon_object[polygon];
     } else if (height < nearest_above) {
       nearest_above = height;
       polygon_above = polygon;
@@ -188,6 +194,7 @@ class Plumb {
 
   const PreparedScene::Data& scene_;
   Vec3 point_;
+  std::optional<std::uint32_t> object_;
 };
 
 Box object_bounds(const PreparedScene::Data& scene, std::uint32_t object) {
@@ -199,9 +206,28 @@ Box object_bounds(const PreparedScene::Data& scene, std::uint32_t object) {
   return box;
 }
 
+// The smallest height, in whole millimetres, at which nothing crosses the target and the ground is below it. An upright
+// target, which moves sideways, has none: it stays below, or comes out beside the scene.
+std::optional<double> height_over_ground(const PreparedScene::Data& scene, const TargetFrame& frame, Column& column,
+                                         std::uint32_t ground) {
+  const std::vector<Crossing> crossings = column.crossings(INFINITY);
+  std::vector<double> tops;
+  for (const Crossing& c : crossings) tops.push_back(c.high);
+  std::sort(tops.begin(), tops.end());
+  double tried = 0;
+  for (const double top : tops) {
+    const double height = clear_height(crossings, past(top));
+    if (height <= tried) continue;
+    tried = height;
+    if (Plumb(scene, frame.origin + height * frame.normal, ground).object_below) return height;
+  }
+  return std::nullopt;
+}
+
 // A roof or a bridge over the target is fine. A target is under the ground when nothing of the scene is below it, and
 // what is above all of it is either everything there is or spreads over most of the scene.
-void refuse_underground(const PreparedScene::Data& scene, const Target& target, const TargetFrame& frame) {
+void refuse_underground(const PreparedScene::Data& scene, const Target& target, const TargetFrame& frame,
+                        Column& column) {
   std::vector<Vec3> probes{frame.origin};
   double highest = frame.origin.z();
   for (const auto& v : frame.polygon) {
@@ -214,16 +240,21 @@ void refuse_underground(const PreparedScene::Data& scene, const Target& target, 
     if (plumb.anything_below || !std::isfinite(plumb.nearest_above)) return;
   }
   const Box all = scene.statistics.bounds;
-  const Box over = object_bounds(scene, scene.polygon_object[first.polygon_above]);
+  const std::uint32_t ground = scene.polygon_object[first.polygon_above];
+  const Box over = object_bounds(scene, ground);
   const Vec3 extent = over.max - over.min, whole = all.max - all.min;
   const bool ground_like = extent.x() >= 0.5 * whole.x() && extent.y() >= 0.5 * whole.y();
   if (highest >= all.min.z() - kMaxLift && !ground_like) return;
-  char depth[32];
+  char depth[32], fix[128] = "raise the target, and check the scene's up axis and scale";
   std::snprintf(depth, sizeof depth, "%.3f m", first.nearest_above);
+  if (const auto height = height_over_ground(scene, frame, column, ground)) {
+    std::snprintf(fix, sizeof fix, "check the scene's up axis and scale, or raise the target: offset: %.3f clears it",
+                  target.offset_m + *height);
+  }
   throw Error(ErrorKind::input, "the target is under the ground",
-              "target \"" + target.name + "\": \"" + scene.objects[scene.polygon_object[first.polygon_above]] +
-                  "\" is " + depth + " above " + describe(frame.origin),
-              "raise the target, and check the scene's up axis and scale");
+              "target \"" + target.name + "\": \"" + scene.objects[ground] + "\" is " + depth + " above " +
+                  describe(frame.origin),
+              fix);
 }
 
 }  // namespace
@@ -233,7 +264,7 @@ double clearing_lift(const PreparedScene::Data& scene, const Target& target, con
   const std::vector<Crossing> low = column.crossings(2 * kMaxLift);
   const Lift lift = lift_at(low, 0);
   if (lift.pierced_by) refuse_pierced(scene, target, frame, *lift.pierced_by, clear_height(column.crossings(INFINITY)));
-  refuse_underground(scene, target, frame);
+  refuse_underground(scene, target, frame, column);
   return lift.lift;
 }
 

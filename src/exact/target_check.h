@@ -8,7 +8,8 @@ namespace vantage::exact {
 
 /// How far the target must be raised to clear the surface that it lies on: 0 to numerics::kMaxLift.
 /// Throws Error(input) when scene geometry stands on the target or passes through it (names the object, the place and
-/// the smallest offset that clears it), and when the target is under the ground.
+/// the smallest offset that clears it), and when the target is under the ground (the same, with the offset where
+/// raising it leads out).
 double clearing_lift(const PreparedScene::Data& scene, const Target& target, const TargetFrame& frame);
 
 }  // namespace vantage::exact
