@@ -68,7 +68,8 @@ class QuadrantMesher {
   /// The graph's vertex; only of its own.
   std::uint32_t in_graph(std::uint32_t v) const { return result_.graph_vertex[v - kSuper]; }
   bool on_horizon(std::uint32_t v) const { return is_own(v) && graph_.on_horizon(in_graph(v)); }
-  bool at_node(std::uint32_t v) const { return is_own(v) && graph_.at_node(in_graph(v)); }
+  /// Whether a triangle in a range cell may have this corner: a node, or where an edge between nodes was split.
+  bool may_bound_cell(std::uint32_t v) const { return !is_own(v) || graph_.at_node(in_graph(v)); }
   ChartPoint point(std::uint32_t v) const { return {cdt_.vertices[v].x, cdt_.vertices[v].y}; }
   ChartPoint centre_of(const Triangle& t) const { return (point(t[0]) + point(t[1]) + point(t[2])) / 3; }
   GaugeValue gauge_at(const ChartPoint& p) const {
@@ -152,7 +153,7 @@ class QuadrantMesher {
     // Rounding leaves slivers between the points of one side of the horizon.
     if (on_horizon(t[0]) && on_horizon(t[1]) && on_horizon(t[2]) && centre.cwiseAbs().sum() > 1 - 1e-9)
       return Place::outside;
-    if (at_node(t[0]) && at_node(t[1]) && at_node(t[2]) &&
+    if (may_bound_cell(t[0]) && may_bound_cell(t[1]) && may_bound_cell(t[2]) &&
         grid_.is_range(grid_.locate(centre.x()), grid_.locate(centre.y())))
       return Place::range_cell;
     return Place::kept;
