@@ -13,8 +13,10 @@
 namespace vantage::exact {
 namespace {
 
-/// Thrown when the triangulation has split an edge of a cell; the cell is marked as mixed by then.
-struct BorderSplit {};
+/// Thrown when the triangulation has split an edge of a range cell there.
+struct BorderSplit {
+  std::vector<ChartPoint> places;
+};
 
 class BoundaryBuilder {
  public:
@@ -49,11 +51,11 @@ class BoundaryBuilder {
     });
   }
 
-  void check_borders() {
-    bool split = false;
+  void check_borders() const {
+    BorderSplit split;
     for (const QuadrantMesh& quadrant : quadrants_)
-      for (const ChartPoint& p : quadrant.border_splits) grid_.mark(p, p), split = true;
-    if (split) throw BorderSplit();
+      split.places.insert(split.places.end(), quadrant.border_splits.begin(), quadrant.border_splits.end());
+    if (!split.places.empty()) throw split;
   }
 
   // The mesh has the vertices of the graph first, then those of the cells, then those that refinement added. On the
@@ -131,9 +133,14 @@ Boundary triangulate_boundary(const Skeleton& skeleton, const BlockerSet& blocke
   const Envelope envelope{blockers, tree, range, tolerance};
   // Where creases meet at less than the snapping distance the triangulation may find no place for their crossing; wider
   // snapping makes them one. What that moves, refinement finds.
-  for (double snap = numerics::kSnap;;) try {
+  double snap = numerics::kSnap, width = 1.0 / grid.size();
+  for (;;) try {
       return BoundaryBuilder(skeleton, envelope, grid, snap).run();
-    } catch (const BorderSplit&) {
+    } catch (const BorderSplit& split) {
+      // Cells round about are triangulated with the rest: more of them each time, as what splits one edge goes on.
+      for (const ChartPoint& p : split.places)
+        grid.mark(p - ChartPoint::Constant(width), p + ChartPoint::Constant(width));
+      width *= 2;
     } catch (const CannotTriangulate& failure) {
       if (snap >= numerics::kWidestSnap)
         throw Error(ErrorKind::internal, "the creases could not be triangulated: " + failure.why, "triangulation",
