@@ -25,17 +25,25 @@ constexpr double kBand = 1e-9;
 /// A plane of a blocker that may be seen, and the blockers that may cut it.
 struct Facet {
   std::uint32_t plane, blocker;
-  std::uint32_t first_leaf, leaf_count;  // into FacetTable::leaf
+  std::uint32_t first_place, place_count;  // into FacetTable::places
+};
+
+/// Where a facet may be seen: a leaf, and the facet's plane among those of the leaf.
+struct Place {
+  std::uint32_t leaf, plane;
 };
 
 struct FacetTable {
   std::vector<Facet> facets;
-  std::vector<std::uint32_t> leaf;
+  std::vector<Place> places;
 };
 
 struct Sighting {
-  std::uint32_t plane, blocker, leaf;
-  bool operator<(const Sighting& other) const { return plane != other.plane ? plane < other.plane : leaf < other.leaf; }
+  std::uint32_t plane, blocker;
+  Place place;
+  bool operator<(const Sighting& other) const {
+    return plane != other.plane ? plane < other.plane : place.leaf < other.place.leaf;
+  }
 };
 
 // The facet of a plane is swept from the corners where the plane touches its polygon, away from the target. For a point
@@ -100,7 +108,7 @@ FacetTable find_facets(const BlockerSet& blockers, const std::vector<const Direc
         for (std::size_t i = 0; i < leaves[l]->count(); ++i)
           for (std::uint32_t k = leaves[l]->first_plane[i]; k < leaves[l]->first_plane[i + 1]; ++k)
             if (blockers.live[leaves[l]->planes[k]] && !plane_hidden(*leaves[l], i, k))
-              found[c].push_back({leaves[l]->planes[k], leaves[l]->blockers[i], std::uint32_t(l)});
+              found[c].push_back({leaves[l]->planes[k], leaves[l]->blockers[i], {std::uint32_t(l), k}});
   });
   std::vector<Sighting> sightings;
   for (const auto& some : found) sightings.insert(sightings.end(), some.begin(), some.end());
@@ -108,9 +116,9 @@ FacetTable find_facets(const BlockerSet& blockers, const std::vector<const Direc
   FacetTable table;
   for (const Sighting& s : sightings) {
     if (table.facets.empty() || table.facets.back().plane != s.plane)
-      table.facets.push_back({s.plane, s.blocker, std::uint32_t(table.leaf.size()), 0});
-    table.leaf.push_back(s.leaf);
-    ++table.facets.back().leaf_count;
+      table.facets.push_back({s.plane, s.blocker, std::uint32_t(table.places.size()), 0});
+    table.places.push_back(s.place);
+    ++table.facets.back().place_count;
   }
   return table;
 }
@@ -167,15 +175,22 @@ class FacetTracer {
     return true;
   }
 
+  // The blockers that may rise over the facet's plane where the facet may be seen.
   void gather_rivals(const Facet& facet) {
     rivals_.clear();
-    for (std::uint32_t i = facet.first_leaf; i < facet.first_leaf + facet.leaf_count; ++i) {
-      const auto& listed = leaves_[table_.leaf[i]]->blockers;
-      rivals_.insert(rivals_.end(), listed.begin(), listed.end());
+    seen_.resize(blockers_.count(), ~0u);
+    for (std::uint32_t p = facet.first_place; p < facet.first_place + facet.place_count; ++p) {
+      const DirectionTree::Leaf& leaf = *leaves_[table_.places[p].leaf];
+      const CellCorners& own = leaf.values[table_.places[p].plane];
+      for (std::size_t i = 0; i < leaf.count(); ++i) {
+        const std::uint32_t rival = leaf.blockers[i];
+        if (rival == facet.blocker || seen_[rival] == facet.plane) continue;
+        const auto values = leaf.values_of(i);
+        if (std::any_of(values.begin(), values.end(), [&](const CellCorners& v) { return below(v, own); })) continue;
+        seen_[rival] = facet.plane;
+        rivals_.push_back(rival);
+      }
     }
-    std::sort(rivals_.begin(), rivals_.end());
-    rivals_.erase(std::unique(rivals_.begin(), rivals_.end()), rivals_.end());
-    std::erase(rivals_, facet.blocker);
   }
 
   struct Cut {  // what a rival hides of the polygon
@@ -356,6 +371,7 @@ class FacetTracer {
   ContactTest contact_;
   FacetPolygon polygon_, scratch_;
   std::vector<std::uint32_t> rivals_;
+  std::vector<std::uint32_t> seen_;  // per blocker: the facet's plane that it was last gathered for
   std::vector<Cut> cuts_;
   std::size_t cut_count_ = 0;
   IntervalSet shown_;
