@@ -195,7 +195,8 @@ class FacetTracer {
 
   struct Cut {  // what a rival hides of the polygon
     std::uint32_t rival;
-    double area;  // twice its
+    double area;
+    Box bounds;
     FacetPolygon polygon;
   };
 
@@ -211,6 +212,8 @@ class FacetTracer {
       if (overlap == Overlap::none) continue;
       cut.rival = rival;
       cut.area = area_of(cut.polygon);
+      cut.bounds = Box();
+      for (const Vec3& corner : cut.polygon.corners) cut.bounds.extend(corner);
       ++cut_count_;
     }
     std::sort(cuts_.begin(), cuts_.begin() + std::ptrdiff_t(cut_count_),
@@ -224,7 +227,7 @@ class FacetTracer {
     Vec3 sum = Vec3::Zero();
     for (std::size_t i = 1; i + 1 < polygon.corners.size(); ++i)
       sum += (polygon.corners[i] - polygon.corners[0]).cross(polygon.corners[i + 1] - polygon.corners[0]);
-    return sum.norm();
+    return 0.5 * sum.norm();
   }
 
   enum class Overlap { none, part, all };  // what a rival hides
@@ -279,9 +282,12 @@ class FacetTracer {
     if (length < kShortest) return;
     shown_.assign(0, 1);
     keep_in_range(from, to);
-    for (std::uint32_t rival : rivals_) {
-      if (rival == other) continue;
-      const Interval hidden = hidden_part(from, to, reach(), blockers_.planes_of(rival));
+    const Vec3 low = from.cwiseMin(to), high = from.cwiseMax(to);
+    for (std::size_t c = 0; c < cut_count_; ++c) {
+      const Cut& cut = cuts_[c];
+      const bool apart = (cut.bounds.min.array() > high.array()).any() || (cut.bounds.max.array() < low.array()).any();
+      if (apart || cut.rival == other) continue;
+      const Interval hidden = hidden_part(from, to, reach(), blockers_.planes_of(cut.rival));
       shown_.subtract(hidden.begin, hidden.end);
       if (shown_.empty()) return;
     }
