@@ -177,9 +177,14 @@ const Footprint* DirectionTree::footprint_of(std::uint32_t blocker) {
 bool DirectionTree::insert_below(std::uint32_t at, std::uint32_t index, std::span<const std::uint32_t> planes,
                                  const Footprint* footprint) {
   if (footprint && footprint->misses(nodes_[at].cell)) return false;
-  Surface& surface = scratch_[nodes_[at].depth];
-  if (!reduce(nodes_[at], planes, surface) || !insert_into(nodes_[at], index, surface)) return false;
-  if (nodes_[at].first_child == 0) {
+  const bool leaf = nodes_[at].first_child == 0;
+  // What a footprint confines to a few leaves is too small to matter to the cells above them.
+  if (leaf || !footprint) {
+    Surface& surface = scratch_[nodes_[at].depth];
+    if (!reduce(nodes_[at], planes, surface) || !insert_into(nodes_[at], index, surface)) return false;
+    planes = surface.planes;
+  }
+  if (leaf) {
     const Node& node = nodes_[at];
     if (node.leaf.count() > kLongList && node.depth < kDeepest &&
         node.futile_splits < (node.leaf.count() > kVeryLong ? kDeepest : kPatience))
@@ -190,7 +195,7 @@ bool DirectionTree::insert_below(std::uint32_t at, std::uint32_t index, std::spa
   double bound = std::numeric_limits<double>::infinity();
   const std::uint32_t first = nodes_[at].first_child, count = nodes_[at].child_count;
   for (std::uint32_t child = first; child < first + count; ++child) {
-    shown |= insert_below(child, index, surface.planes, footprint);
+    shown |= insert_below(child, index, planes, footprint);
     bound = std::min(bound, nodes_[child].bound);
   }
   nodes_[at].bound = std::max(nodes_[at].bound, bound);
