@@ -29,7 +29,9 @@ load_after=$(cut -d ' ' -f 1 /proc/loadavg)
 python3 "$root/bench/report.py" --commit "$commit" --cpu "$cpu" --threads "$(nproc)" --load "$load_before, $load_after" \
   "$out"/*.json >"$out/report.md"
 cat "$out/report.md"
-if [ "$write" = yes ]; then
+if grep -q '^- skipped: ' "$out/report.md" && [ "$write" = yes ]; then
+  echo "not written: not everything was measured" >&2
+elif [ "$write" = yes ]; then
   name=$(tr '[:upper:]' '[:lower:]' <<<"$cpu" | tr -cs 'a-z0-9' - | sed 's/^-//; s/-$//')
   file=bench/results/$(date +%F)-$name.md
   mkdir -p "$root/bench/results"

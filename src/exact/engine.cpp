@@ -76,11 +76,10 @@ bool blocked_at_once(const Boundary& boundary) {
                      [](const Vec3& v) { return v.z() < kHandsBreadth; });
 }
 
-void set_blocked(const PreparedScene& scene, Volume& volume) {
+void set_blocked(Volume& volume) {
   const auto widest = std::max_element(volume.causes.begin(), volume.causes.end(), [](const Cause& a, const Cause& b) {
     return (a.kind == CauseKind::scene ? a.area_m2 : 0) < (b.kind == CauseKind::scene ? b.area_m2 : 0);
   });
-  (void)scene;
   volume.outcome = Outcome::blocked_at_once;
   volume.reason = "\"" + widest->name + "\" covers the target's front within " + metres(kHandsBreadth);
   volume.hint = "the target looks into what it lies on: turn it round with front:, or raise it with offset:";
@@ -107,7 +106,7 @@ void compute(const PreparedScene& scene, const Sensor& sensor, const ExactOption
                    boundary.constraint_edges};
   add_causes(scene, blockers, boundary, volume);
   if (blocked_at_once(boundary)) {
-    set_blocked(scene, volume);
+    set_blocked(volume);
     return;
   }
   volume.mesh = std::move(boundary.mesh);

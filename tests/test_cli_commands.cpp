@@ -1,0 +1,303 @@
+// What the commands answer.
+#include "support/cli_fixture.h"
+
+namespace vantage::testing {
+namespace {
+
+using CliInspect = Cli;
+using CliCompute = Cli;
+using CliQuery = Cli;
+using CliVerify = Cli;
+
+TEST_F(CliInspect, ShowsWhatWasRead) {
+  const std::string table = output_of({"inspect", "city.obj"});
+  for (const char* expected : {"triangles", "12", "objects", "open edges", "fine: blockers are built per polygon"}) {
+    EXPECT_NE(table.find(expected), std::string::npos) << table;
+  }
+  const auto json = nlohmann::json::parse(output_of({"inspect", "city.obj", "--json"}));
+  EXPECT_EQ(json.at("triangles"), 12);
+  EXPECT_EQ(json.at("vertices"), 12);
+  EXPECT_EQ(json.at("objects"), 2);
+  EXPECT_EQ(json.at("polygons"), 6);
+  EXPECT_EQ(json.at("open_edges"), 8) << "of the ground, and of the block that has no floor";
+  EXPECT_EQ(json.at("bounds").at("max"), nlohmann::json({100, 100, 12}));
+}
+
+TEST_F(CliInspect, TurnsAndScales) {
+  const auto json = nlohmann::json::parse(output_of({"inspect", "city.obj", "--json", "--up", "y", "--scale", "2"}));
+  EXPECT_EQ(json.at("bounds").at("min"), nlohmann::json({-200, -24, -200}));
+  EXPECT_EQ(json.at("bounds").at("max"), nlohmann::json({200, 0, 200}));
+}
+
+TEST_F(CliCompute, WritesVolumeAndReport) {
+  const std::string summary = output_of({"compute", "mission.yaml", "-o", "volume.ply"});
+  for (const char* expected :
+       {"volume", "pieces", "facets", "max_range", "block", "total", "wrote volume.ply", "wrote volume.report.json"}) {
+    EXPECT_NE(summary.find(expected), std::string::npos) << summary;
+  }
+  EXPECT_EQ(content(folder_ / "volume.ply").substr(0, 4), "ply\n");
+  const auto report = nlohmann::json::parse(content(folder_ / "volume.report.json"));
+  EXPECT_EQ(report.at("outcome"), "computed");
+  EXPECT_EQ(report.at("euler"), 2);
+  EXPECT_EQ(report.at("pieces"), 1);
+  // Within the half ball about the target's centre, and not without the air straight above.
+  EXPECT_LT(report.at("volume_m3").get<double>(), 2.0 / 3 * 3.14159266 * 60 * 60 * 60);
+  EXPECT_GT(report.at("volume_m3").get<double>(), 0.5 * 2 / 3 * 3.14159266 * 52 * 52 * 52);
+  EXPECT_GT(report.at("seconds").at("total").get<double>(), 0.0);
+  EXPECT_EQ(report.at("target"), "square");
+}
+
+TEST_F(CliCompute, WritesEveryFormatAndIsQuiet) {
+  EXPECT_EQ(output_of({"compute", "mission.yaml", "-q", "-o", "a.ply", "-o", "a.obj", "-o", "a.stl", "-o", "b.GLB"}),
+            "");
+  for (const char* name : {"a.ply", "a.obj", "a.stl", "b.GLB", "a.report.json", "b.report.json"}) {
+    EXPECT_GT(content(folder_ / name).size(), 500U) << name;
+  }
+  EXPECT_EQ(content(folder_ / "volume.ply"), kOldOutput) << "not asked for";
+}
+
+TEST_F(CliCompute, PrintsTheReportAsJson) {
+  const auto printed = nlohmann::json::parse(output_of({"compute", "mission.yaml", "-o", "volume.ply", "--json"}));
+  EXPECT_EQ(printed, nlohmann::json::parse(content(folder_ / "volume.report.json")));
+}
+
+TEST_F(CliCompute, DoesNotDependOnThreads) {
+  output_of({"compute", "mission.yaml", "--threads", "1", "-o", "one.ply"});
+  output_of({"compute", "mission.yaml", "--threads", "4", "-o", "four.ply"});
+  EXPECT_TRUE(content(folder_ / "one.ply") == content(folder_ / "four.ply"));
+}
+
+TEST_F(CliCompute, TellsStagesWhenAsked) {
+  const ProgramRun result = run({"compute", "mission.yaml", "--progress", "-o", "volume.ply"});
+  EXPECT_EQ(result.exit_code, 0);
+  ASSERT_GE(lines(result.err).size(), 2U) << result.err;
+  for (const std::string& line : lines(result.err)) EXPECT_EQ(line.rfind("vantage: ", 0), 0U) << line;
+}
+
+TEST_F(CliCompute, ObjComesInTheAxesOfTheScene) {
+  write("mission.yaml",
+        "scene: {mesh: city.obj, up: y}\ntarget: {vertices: [[-5, -60, 5], [5, -60, 5], [0, -60, 15]],"
+        " front: [0, 1, 0]}\nsensor: {max_range: 30}\n");
+  output_of({"compute", "mission.yaml", "-o", "volume.obj", "-o", "volume.ply"});
+  const auto obj = nlohmann::json::parse(output_of({"inspect", "volume.obj", "--up", "y", "--json"}));
+  const auto ply = nlohmann::json::parse(output_of({"inspect", "volume.ply", "--json"}));
+  for (int axis = 0; axis < 3; ++axis) {
+    EXPECT_NEAR(obj.at("bounds").at("min")[axis].get<double>(), ply.at("bounds").at("min")[axis].get<double>(), 1e-4);
+    EXPECT_NEAR(obj.at("bounds").at("max")[axis].get<double>(), ply.at("bounds").at("max")[axis].get<double>(), 1e-4);
+  }
+}
+
+TEST_F(CliCompute, ObjComesInTheUnitOfTheScene) {
+  std::string millimetres;
+  for (const std::string& line : lines(kCity)) {
+    std::istringstream words(line);
+    std::string keyword;
+    double x = 0, y = 0, z = 0;
+    const bool is_vertex = words >> keyword && keyword == "v" && words >> x >> y >> z;
+    std::ostringstream scaled;
+    scaled << "v " << 1000 * x << ' ' << 1000 * y << ' ' << 1000 * z;
+    millimetres += (is_vertex ? scaled.str() : line) + "\n";
+  }
+  write("millimetres.obj", millimetres);
+  const std::string mission = std::string("scene: {mesh: millimetres.obj, scale: 0.001}\n") + kTarget + kSensor;
+  write("mission.yaml", mission);
+  output_of({"compute", "mission.yaml", "-q", "-o", "v.obj", "-o", "v.ply"});
+  const auto obj = nlohmann::json::parse(output_of({"inspect", "v.obj", "--json"}));
+  const auto ply = nlohmann::json::parse(output_of({"inspect", "v.ply", "--json"}));
+  for (const char* end : {"min", "max"}) {
+    for (int axis = 0; axis < 3; ++axis) {
+      EXPECT_NEAR(obj.at("bounds").at(end)[axis].get<double>(), 1000 * ply.at("bounds").at(end)[axis].get<double>(),
+                  1e-6);
+    }
+  }
+  const auto check =
+      nlohmann::json::parse(output_of({"verify", "mission.yaml", "v.obj", "--points", "2000", "--json"}));
+  EXPECT_EQ(check.at("right"), true);
+  EXPECT_EQ(check.at("under_claimed"), 0);
+  EXPECT_GT(check.at("inside"), 100);
+  // It limits the next mission where it was: the same volume, cut to itself.
+  write("next.yaml", mission + "navigation: {meshes: [v.obj]}\n");
+  output_of({"compute", "next.yaml", "-q", "-o", "next.ply"});
+  const double before = nlohmann::json::parse(content(folder_ / "v.report.json")).at("volume_m3");
+  const double after = nlohmann::json::parse(content(folder_ / "next.report.json")).at("volume_m3");
+  EXPECT_NEAR(after, before, 1e-6 * before);
+}
+
+TEST_F(CliCompute, NamesEmptyOutcomesAndKeepsTheOldMesh) {
+  const auto expect_empty = [&](const std::string& mission, const std::string& outcome) {
+    write("mission.yaml", mission);
+    const ProgramRun result = run({"compute", "mission.yaml", "-o", "volume.ply", "-o", "new.glb"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    const auto report = nlohmann::json::parse(content(folder_ / "volume.report.json"));
+    EXPECT_EQ(report.at("outcome"), outcome) << report;
+    EXPECT_NE(report.at("reason"), "");
+    EXPECT_NE(result.out.find(report.at("reason").get<std::string>()), std::string::npos) << result.out;
+    EXPECT_TRUE(content(folder_ / "volume.ply") == kOldOutput);
+    EXPECT_FALSE(fs::exists(folder_ / "new.glb"));
+    EXPECT_NE(result.err.find("volume.ply is of an earlier run and was left as it was"), std::string::npos);
+    EXPECT_NE(result.err.find("new.glb was not written"), std::string::npos);
+  };
+  const std::string start = std::string(kScene) + kTarget;
+  expect_empty(start + "sensor: {max_range: 5}\n", "out_of_range");
+  expect_empty(start + kSensor + "navigation: {altitude: [200, 300]}\n", "outside_limits");
+  // On one side of a panel 5 cm thick, looked at from the panel's inside.
+  write("panel.obj", std::string(kCity) +
+                         "o panel\nv 40 -99 0\nv 40 99 0\nv 40 99 99\nv 40 -99 99\nf 13 14 15 16\n"
+                         "v 40.05 -99 0\nv 40.05 99 0\nv 40.05 99 99\nv 40.05 -99 99\nf 17 18 19 20\n");
+  expect_empty(std::string("scene: {mesh: panel.obj}\n") + kSensor +
+                   "target: {vertices: [[40, -2, 2], [40, 2, 2], [40, 0, 6]], front: [1, 0, 0]}\n",
+               "blocked_at_once");
+}
+
+TEST_F(CliQuery, Answers) {
+  write("points.csv", "x,y,z\n0,0,30\n60,0,5\n0,0,80\n0,0,-3\n");
+  const std::vector<std::string> rows = lines(output_of({"query", "mission.yaml", "points.csv"}));
+  ASSERT_EQ(rows.size(), 5U);
+  EXPECT_EQ(rows[0], "x,y,z,inside,margin_m,blocked_by,out_of_range,behind_target,outside_of");
+  EXPECT_EQ(rows[1].rfind("0,0,30,true,", 0), 0U) << rows[1];
+  EXPECT_NE(rows[1].find(",,false,false,"), std::string::npos) << rows[1];
+  EXPECT_EQ(rows[2].rfind("60,0,5,false,-", 0), 0U) << rows[2];
+  EXPECT_NE(rows[2].find(",block,true,false,"), std::string::npos) << rows[2];
+  EXPECT_EQ(rows[3].rfind("0,0,80,false,-", 0), 0U) << rows[3];
+  EXPECT_NE(rows[3].find(",,true,false,"), std::string::npos) << rows[3];
+  EXPECT_NE(rows[4].find(",true,"), std::string::npos) << rows[4];
+}
+
+TEST_F(CliQuery, NamesBrokenLimits) {
+  write("mission.yaml", std::string(kScene) + kTarget + kSensor + "navigation: {altitude: [10, 20]}\n");
+  options_.input = "0 0 15\n0 0 5\n0 0 25\n";
+  const std::vector<std::string> rows = lines(output_of({"query", "mission.yaml", "-"}));
+  ASSERT_EQ(rows.size(), 4U);
+  EXPECT_NE(rows[1].find("true"), std::string::npos) << rows[1];
+  EXPECT_NE(rows[2].find("altitude min"), std::string::npos) << rows[2];
+  EXPECT_NE(rows[3].find("altitude max"), std::string::npos) << rows[3];
+}
+
+TEST_F(CliQuery, TakesAnyTable) {
+  const std::string expected = output_of({"query", "mission.yaml", "-"});
+  EXPECT_EQ(lines(expected).size(), 1U) << "no points, only the header";
+  options_.input = "1,2,30\n";
+  const std::string answers = output_of({"query", "mission.yaml", "-"});
+  for (const char* text :
+       {"1 2 30\n", "1\t2\t30", "1;2;30\r\n", " 1 , 2 , 30 , more\n", "x,y,z\n1,2,30\n", "id;Z;X;Y\np 1;30;1;2\n",
+        "\xEF\xBB\xBF\"x\",\"y\",\"z\"\n\"1\",\"2\",\"30\"\n", "# note\n\n  \n1,2,30",
+        "name,x,y,z\n\"a, \"\"b\"\"\",1,2,30\n", "x y z\n1 2 30\n", "1.0,2e0,+30"}) {
+    options_.input = text;
+    EXPECT_EQ(output_of({"query", "mission.yaml", "-"}), answers) << text;
+  }
+}
+
+TEST_F(CliQuery, WritesAFile) {
+  write("points.csv", "0,0,30\n");
+  const std::string answers = output_of({"query", "mission.yaml", "points.csv"});
+  EXPECT_EQ(output_of({"query", "mission.yaml", "points.csv", "-o", "answers.csv"}), "");
+  EXPECT_EQ(content(folder_ / "answers.csv"), answers);
+}
+
+TEST_F(CliQuery, RefusesBadRows) {
+  const auto expect_bad_points = [&](const std::string& text, const std::string& what, const std::string& line) {
+    write("points.csv", text);
+    expect_bad({"query", "mission.yaml", "points.csv", "-o", "volume.ply"}, what, "points.csv:" + line);
+  };
+  expect_bad_points("1,2,3\n4,5\n", "the row has 2 columns, but z is column 3", "2");
+  expect_bad_points("1,2,3\n\n4,five,6\n", "y is not a number: 'five'", "3");
+  expect_bad_points("x,y,z\n1,2,\n", "z is not a number: ''", "2");
+  expect_bad_points("1,2,nan\n", "z is not finite: 'nan'", "1");
+  expect_bad_points("1,2,-inf\n", "z is not finite: '-inf'", "1");
+  expect_bad_points("1,2,1e999\n", "z", "1");
+  expect_bad_points("1;2,5;3\n", "y is not a number: '2,5'", "1");
+  expect_bad_points("a,b,c\n1,2,3\n", "neither a point nor a header with a column x", "1");
+  expect_bad_points("x,y\n1,2\n", "with a column z", "1");
+  expect_bad({"query", "mission.yaml", "none.csv"}, "the points file does not exist", "none.csv");
+  expect_bad({"query", "mission.yaml", "."}, "the points file is a folder", ".");
+}
+
+TEST_F(CliVerify, PassesWhatWasComputed) {
+  output_of({"compute", "mission.yaml", "-q", "-o", "v.ply", "-o", "v.obj", "-o", "v.stl", "-o", "v.glb"});
+  for (const char* name : {"v.ply", "v.obj", "v.stl", "v.glb"}) {
+    const ProgramRun result = run({"verify", "mission.yaml", name, "--points", "4000", "--json"});
+    EXPECT_EQ(result.exit_code, 0) << name << result.err << result.out;
+    const auto report = nlohmann::json::parse(result.out);
+    EXPECT_EQ(report.at("right"), true);
+    EXPECT_EQ(report.at("over_claimed"), 0);
+    EXPECT_EQ(report.at("closed"), true);
+    EXPECT_GE(report.at("points"), 4000);
+    EXPECT_GT(report.at("inside"), 100);
+    EXPECT_EQ(report.at("seed"), 1);
+  }
+  const std::string table = output_of({"verify", "mission.yaml", "v.ply", "--points", "1000", "--seed", "7"});
+  for (const char* expected : {"over-claimed", "seed 7", "95 % confidence", "nothing wrong was found"}) {
+    EXPECT_NE(table.find(expected), std::string::npos) << table;
+  }
+}
+
+TEST_F(CliVerify, FailsAnOverClaimingVolume) {
+  // A box over the square that reaches behind the block.
+  write("box.obj",
+        "v -4 -4 1\nv 50 -4 1\nv 50 4 1\nv -4 4 1\nv -4 -4 20\nv 50 -4 20\nv 50 4 20\nv -4 4 20\n"
+        "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n");
+  const ProgramRun result = run({"verify", "mission.yaml", "box.obj", "--points", "2000"});
+  EXPECT_EQ(result.exit_code, 1) << result.err;
+  EXPECT_EQ(result.err, "");
+  EXPECT_NE(result.out.find("WRONG: the volume over-claims"), std::string::npos) << result.out;
+  const auto report =
+      nlohmann::json::parse(run({"verify", "mission.yaml", "box.obj", "--points", "2000", "--json"}).out);
+  EXPECT_EQ(report.at("right"), false);
+  EXPECT_GT(report.at("over_claimed"), 10);
+  EXPECT_GT(report.at("worst_over_depth_m"), 0.1);
+}
+
+TEST_F(CliVerify, FailsAMeshThatIsNoSolid) {
+  write("open.obj", "v 0 0 1\nv 5 0 1\nv 0 5 1\nv 0 0 9\nf 1 3 2\nf 1 2 4\nf 2 3 4\n");
+  const ProgramRun result = run({"verify", "mission.yaml", "open.obj"});
+  EXPECT_EQ(result.exit_code, 1) << result.err;
+  EXPECT_NE(result.out.find("WRONG: the mesh is not a closed solid"), std::string::npos) << result.out << result.err;
+  write("turned.obj", "v 0 0 1\nv 5 0 1\nv 0 5 1\nv 0 0 9\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 3 4\n");
+  EXPECT_EQ(run({"verify", "mission.yaml", "turned.obj"}).exit_code, 1);
+}
+
+TEST_F(CliVerify, LooksFromWhereTheTargetWasRaisedTo) {
+  const std::string low =
+      "target: {vertices: [[-4, -4, -0.0015], [4, -4, -0.0015], [4, 4, -0.0015], [-4, 4, -0.0015]]}\n";
+  write("low.yaml", std::string(kScene) + low + kSensor);
+  output_of({"compute", "low.yaml", "-q", "-o", "low.ply"});
+  const auto report = nlohmann::json::parse(output_of({"verify", "low.yaml", "low.ply", "--points", "500", "--json"}));
+  EXPECT_NEAR(report.at("lift_m").get<double>(), 0.0015, 2e-6);
+  EXPECT_EQ(run({"verify", "low.yaml", "low.ply", "--points", "500", "--lift", "0"}).exit_code, 1);
+  fs::remove(folder_ / "low.report.json");
+  EXPECT_EQ(run({"verify", "low.yaml", "low.ply", "--points", "500"}).exit_code, 1);
+  EXPECT_EQ(run({"verify", "low.yaml", "low.ply", "--points", "500", "--lift", "0.001501"}).exit_code, 0);
+  for (const char* text : {"", "[]", "{}", "{\"lift_m\": \"far\"}", "{\"lift_m\": -1}", "{\"lift_m\": 1}"}) {
+    write("low.report.json", text);
+    expect_bad({"verify", "low.yaml", "low.ply"}, "lift_m", "low.report.json");
+  }
+}
+
+TEST_F(CliVerify, RefusesWhatIsNoMesh) {
+  expect_bad({"verify", "mission.yaml", "none.ply"}, "the volume does not exist", "none.ply");
+  expect_bad({"verify", "mission.yaml", "volume.ply"}, "", "volume.ply");
+}
+
+TEST_F(Cli, TheExampleIsWhatItsScriptMakes) {
+  options_.folder = fs::path(VANTAGE_SOURCE_DIR) / "examples" / "plaza";
+  const ProgramRun made = run_program("/bin/sh", {"-c", "python3 make_scene.py"}, options_);
+  if (made.exit_code == 127) GTEST_SKIP() << "no python3";
+  EXPECT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_TRUE(made.out == content(options_.folder / "plaza.obj"));
+}
+
+TEST_F(Cli, TheExampleWorks) {
+  const fs::path example = fs::path(VANTAGE_SOURCE_DIR) / "examples" / "plaza";
+  const std::string mission = (example / "mission.yaml").string();
+  const auto report = nlohmann::json::parse(output_of({"compute", mission, "-o", "volume.ply", "--json"}));
+  EXPECT_EQ(report.at("outcome"), "computed");
+  EXPECT_GT(report.at("causes").size(), 10U);
+  EXPECT_EQ(run({"verify", mission, "volume.ply", "--points", "5000"}).exit_code, 0);
+  const std::vector<std::string> rows = lines(output_of({"query", mission, (example / "points.csv").string()}));
+  ASSERT_EQ(rows.size(), 8U);
+  EXPECT_NE(rows[1].find(",true,"), std::string::npos) << rows[1];
+  EXPECT_NE(rows[2].find("inn"), std::string::npos) << rows[2];
+}
+
+}  // namespace
+}  // namespace vantage::testing
