@@ -20,8 +20,8 @@ struct Boundary {
   std::size_t constraint_edges = 0;
 };
 
-/// Cells of the grid that hold nothing but range sphere are cut in two; the rest of the chart is triangulated quadrant by
-/// quadrant. Every vertex is lifted to where the gauge says.
+/// Cells of the grid that hold nothing but range sphere are cut in two; the rest of the chart is triangulated quadrant
+/// by quadrant. Every vertex is lifted to where the gauge says.
 Boundary triangulate_boundary(const Skeleton& skeleton, const BlockerSet& blockers, const DirectionTree& tree,
                               const RangeRegion& range, ChartGrid& grid, double tolerance);
 
