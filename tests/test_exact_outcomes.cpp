@@ -268,8 +268,9 @@ TEST(ExactOutcomes, ProgressIsReportedAndStops) {
     ++calls;
     return true;
   });
-  EXPECT_GE(stages.size(), 2u);
-  for (int stop = 1; stop <= calls; ++stop) {  // at every call in turn
+  EXPECT_GE(stages.size(), 3u);
+  ASSERT_GE(calls, 4);
+  for (int stop = 1; stop <= 4; ++stop) {  // there may be more calls where the machine is slow
     int seen = 0;
     try {
       compute_visibility(scene, square(4), {50}, {}, [&](std::string_view, double) { return ++seen < stop; });

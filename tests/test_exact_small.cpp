@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <iostream>
@@ -223,6 +224,38 @@ TEST(ExactSmall, SurfacesThatAllButContinueTheTarget) {
                             .box("chimney", {12, 1, -1}, {13, 2, 2});
     expect_union(scene, target_of({{-5, -3, 0}, {4, -4, 0}, {6, 3, 0}, {-4, 5, 0}}), 60, 60);
   }
+}
+
+/// Quadrilaterals that are flat only to the noise on their corners, as map coordinates and rounded files have it.
+TEST(ExactSmall, HousesThatAreNotQuitePlanar) {
+  Random random(53);
+  for (const double noise : {0.0, 1e-11, 1e-10, 3e-10, 1e-9, 3e-9, 1e-8, 1e-7, 1e-6, 1e-4})
+    for (int draw = 0; draw < 6; ++draw) {
+      SCOPED_TRACE(noise);
+      const double angle = random.uniform(0, 6), w = random.uniform(2, 5), l = random.uniform(3, 9),
+                   h = random.uniform(1, 3), top = h + random.uniform(1, 3);
+      Mesh house = make_box_mesh({-w, -l, 0}, {w, l, h});
+      for (int i = 4; i < 8; ++i) house.vertices[i].z() = h;
+      house.vertices.insert(house.vertices.end(), {{0, -l, top}, {0, l, top}});
+      const auto corner = [&](double x, double y, double z) {
+        for (std::uint32_t i = 0; i < 10; ++i)
+          if ((house.vertices[i] - Vec3(x, y, z)).norm() < 1e-9) return i;
+        return ~0u;
+      };
+      const std::uint32_t a = corner(-w, -l, h), b = corner(w, -l, h), c = corner(w, l, h), d = corner(-w, l, h);
+      std::erase_if(house.triangles, [&](const Triangle& t) {
+        return std::all_of(t.begin(), t.end(), [&](std::uint32_t v) { return house.vertices[v].z() == h; });
+      });
+      house.triangles.insert(house.triangles.end(), {{a, b, 8}, {c, d, 9}, {b, c, 9}, {b, 9, 8}, {d, a, 8}, {d, 8, 9}});
+      const Vec3 aside(w + random.uniform(2.5, 5), random.uniform(-3, 3), 0);
+      for (Vec3& v : house.vertices) {
+        v += aside;
+        v = Vec3(std::cos(angle) * v.x() - std::sin(angle) * v.y(), std::sin(angle) * v.x() + std::cos(angle) * v.y(),
+                 v.z());
+        v += noise * random.direction();
+      }
+      expect_union(SceneBuilder().ground("ground", 60).add("house", house), square(1.5), 30, 30);
+    }
 }
 
 TEST(ExactSmall, TargetsWithThreeToSixtyFourVertices) {

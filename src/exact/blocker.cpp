@@ -77,7 +77,7 @@ void BlockerBuilder::clip(std::span<const Vec3> polygon) {
 }
 
 void BlockerBuilder::add(const Vec3& normal, double height) {
-  if (!(height > 0)) return;  // the target's own plane
+  if (!(height > (normal.z() > 0 ? kOnPlane : 0))) return;  // the target's own plane
   Plane plane = normal / height;
   const double steepest = plane.head<2>().norm() / kGrazing;
   if (plane.z() > 0 && height <= kGrazing * target_.clearance) {
@@ -129,13 +129,16 @@ void BlockerBuilder::add_target_edge_planes() {
 // Through each edge of the polygon the planes that touch the target and have it on the near side: at most two. About
 // the edge as an axis the polygon is the ray (1, 0) of the coordinates (along, across); the plane's normal is inward +
 // slope * normal, and every target vertex must have along + slope * across <= 0.
-void BlockerBuilder::add_polygon_edge_planes(const Vec3& normal) {
+void BlockerBuilder::add_polygon_edge_planes(const Vec3& polygon_normal) {
   for (std::size_t i = 0; i < polygon_.size(); ++i) {
     const Vec3& a = polygon_[i];
     const Vec3 edge = polygon_[(i + 1) % polygon_.size()] - a;
     const double length = edge.norm();
     if (!(length > kOnPlane)) continue;
-    const Vec3 inward = normal.cross(edge / length);
+    // Square to the edge, so that the planes hold it: merged polygons are planar to a nanometre only.
+    const Vec3 along_edge = edge / length;
+    const Vec3 normal = (polygon_normal - polygon_normal.dot(along_edge) * along_edge).normalized();
+    const Vec3 inward = normal.cross(along_edge);
     const double along_0 = inward.dot(a), across_0 = normal.dot(a);
     double low = -kInfinity, high = kInfinity;
     bool separates = true;

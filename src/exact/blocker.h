@@ -43,7 +43,7 @@ class BlockerBuilder {
   void clip(std::span<const Vec3> polygon);
   void add_own_plane(const Vec3& normal);
   void add_target_edge_planes();
-  void add_polygon_edge_planes(const Vec3& normal);
+  void add_polygon_edge_planes(const Vec3& polygon_normal);
   void add(const Vec3& normal, double height);
 
   const LocalTarget& target_;

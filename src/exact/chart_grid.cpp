@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "exact/number_text.h"
+#include "exact/numerics.h"
 #include "vantage/error.h"
 
 namespace vantage::exact {
@@ -52,8 +54,8 @@ ChartGrid::ChartGrid(const RangeRegion& region, double tolerance) {
   if (!(needed <= kMostLines)) {
     const double least = tolerance * (needed / kMostLines) * (needed / kMostLines);
     throw Error(ErrorKind::input, "the tolerance is too fine for this range: the mesh would have too many facets",
-                "tolerance " + std::to_string(tolerance) + " m at range " + std::to_string(region.radius()) + " m",
-                "give a tolerance of at least " + std::to_string(least) + " m");
+                "tolerance " + metres_text(tolerance) + " at range " + metres_text(region.radius()),
+                "give a tolerance of at least " + metres_text(1.001 * least));
   }
   n_ = std::max(8, int(std::ceil(needed)));
   for (int i = 0; i <= n_; ++i) lines_.push_back(line_at(i, n_));
@@ -70,7 +72,7 @@ int ChartGrid::locate(double coordinate) const {
 }
 
 void ChartGrid::mark(const ChartPoint& from, const ChartPoint& to) {
-  constexpr double kMargin = 1e-8;  // well above the snapping of vertices
+  constexpr double kMargin = 4 * numerics::kWidestSnap;
   const int i0 = locate(std::min(from.x(), to.x()) - kMargin), i1 = locate(std::max(from.x(), to.x()) + kMargin);
   const int j0 = locate(std::min(from.y(), to.y()) - kMargin), j1 = locate(std::max(from.y(), to.y()) + kMargin);
   for (int j = j0; j <= j1; ++j)
@@ -103,6 +105,8 @@ void ChartGrid::settle_row(int j, const std::function<bool(const ChartPoint&)>& 
     for (; i < width && row[i] == unknown; ++i)
       if (state == unknown && i >= -width_below && i < width_below && below[i] >= range) state = State(below[i]);
     if (state == unknown) state = is_range_at(inside(begin + (i - begin) / 2, j)) ? range : blocked;
+    // Cells of the range are not looked at again: where a rim were missing, all that it bounds would be over-claimed.
+    if (state == range && !(is_range_at(inside(begin, j)) && is_range_at(inside(i - 1, j)))) state = mixed;
     std::fill(row + begin, row + i, std::uint8_t(state));
   }
 }

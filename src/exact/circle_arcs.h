@@ -1,6 +1,7 @@
 // A circle in space and the parts of it that half-spaces leave.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "exact/blocker.h"

@@ -6,7 +6,6 @@
 
 #include "exact/numerics.h"
 #include "exact/segment_cover.h"
-#include "vantage/error.h"
 
 namespace vantage::exact {
 namespace {
@@ -49,15 +48,14 @@ class Neighbours {
     // Where the target's plane cuts the polygon, its planes touch it at corners that no neighbour knows.
     if (std::any_of(corners.begin(), corners.end(), [](const Vec3& c) { return c.z() < -numerics::kOnPlane; })) return;
     const auto vertices = scene_.corners_of(polygon);
-    std::size_t live_others = 0;
-    bool flat = false;
+    std::size_t live_others = 0, own_planes = 0;
     for (std::uint32_t k = blockers.first[blockers.count() - 1]; k < blockers.planes.size(); ++k) {
-      const double margin = tie_margin(blockers.planes[k], reach_);
+      const double margin = touch_margin(blockers.planes[k], reach_);
       touched_.clear();
       for (std::size_t i = 0; i < corners.size(); ++i)
         if (std::abs(blockers.planes[k].dot(clipped[i]) - 1) <= margin) touched_.push_back(vertices[i]);
       if (touched_.size() == corners.size()) {
-        flat = is_clear_of(blockers.planes[k]);
+        own_planes += is_clear_of(blockers.planes[k]) ? 1 : 2;
         continue;
       }
       const auto hidden = [&](std::uint32_t other) {
@@ -67,7 +65,7 @@ class Neighbours {
       blockers.live[k] = std::none_of(candidates.begin(), candidates.end(), hidden);
       live_others += blockers.live[k];
     }
-    blockers.confined.back() = flat && live_others == 0;
+    blockers.confined.back() = own_planes == 1 && live_others == 0;
   }
 
  private:
@@ -100,11 +98,6 @@ class Neighbours {
   std::vector<std::uint32_t> touched_;
 };
 
-void check_cancelled(const Progress& progress) {
-  if (progress && !progress("finding blockers", 0.0))
-    throw Error(ErrorKind::cancelled, "cancelled while finding blockers", "", "");
-}
-
 }  // namespace
 
 void local_polygon(const PreparedScene::Data& scene, const TargetFrame& frame, std::uint32_t polygon,
@@ -118,7 +111,7 @@ void local_polygon(const PreparedScene::Data& scene, const TargetFrame& frame, s
 }
 
 void collect_blockers(const PreparedScene::Data& scene, const TargetFrame& frame, const LocalTarget& target,
-                      const RangeRegion& range, BlockerSet& blockers, DirectionTree& tree, const Progress& progress) {
+                      const RangeRegion& range, BlockerSet& blockers, DirectionTree& tree, Watch& watch) {
   if (scene.bvh.nodes.empty()) return;
   const Vec3 centre = frame.origin - scene.origin;
   const double reach = std::max(range.radius(), target.radius);  // a segment from the region to the target stays within
@@ -138,7 +131,7 @@ void collect_blockers(const PreparedScene::Data& scene, const TargetFrame& frame
   while (!queue.empty()) {
     const scene::BvhNode& node = scene.bvh.nodes[queue.top().node];
     queue.pop();
-    if (++steps % 1024 == 0) check_cancelled(progress);
+    if (++steps % 1024 == 0) watch.check();
     Vec3 middle = Vec3::Zero();
     std::array<Vec3, 3> half;
     double above = 0;

@@ -161,17 +161,17 @@ bool DirectionTree::insert(std::uint32_t index) {
   std::vector<std::uint32_t>& all = scratch_.back().planes;
   all.resize(blockers_.first[index + 1] - blockers_.first[index]);
   std::iota(all.begin(), all.end(), blockers_.first[index]);
-  const Footprint* footprint = footprint_of(index);
+  const Footprint* footprint = footprint_of(index, footprint_);
   bool shown = false;
   for (std::uint32_t root = 0; root < 4; ++root) shown |= insert_below(root, index, all, footprint);
   return shown;
 }
 
 // Null for a blocker that is not confined to what its polygon covers.
-const Footprint* DirectionTree::footprint_of(std::uint32_t blocker) {
+const Footprint* DirectionTree::footprint_of(std::uint32_t blocker, Footprint& footprint) const {
   if (!blockers_.confined[blocker]) return nullptr;
-  footprint_.assign(blockers_.corners_of(blocker));
-  return &footprint_;
+  footprint.assign(blockers_.corners_of(blocker));
+  return &footprint;
 }
 
 bool DirectionTree::insert_below(std::uint32_t at, std::uint32_t index, std::span<const std::uint32_t> planes,
@@ -229,7 +229,7 @@ void DirectionTree::split(std::uint32_t at) {
   const Leaf leaf = std::move(nodes_[at].leaf);
   nodes_[at].leaf = Leaf();
   for (std::size_t i = 0; i < leaf.count(); ++i) {
-    const Footprint* footprint = footprint_of(leaf.blockers[i]);
+    const Footprint* footprint = footprint_of(leaf.blockers[i], listed_footprint_);
     for (std::uint32_t child = first; child < std::uint32_t(nodes_.size()); ++child) {
       if (footprint && footprint->misses(nodes_[child].cell)) continue;
       Surface& surface = scratch_[depth];

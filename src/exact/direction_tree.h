@@ -82,7 +82,7 @@ class DirectionTree {
   static void consider_champion(Node& node, const Surface& surface);
   static void add_to_leaf(Leaf& leaf, std::uint32_t index, const Surface& surface);
 
-  const Footprint* footprint_of(std::uint32_t blocker);
+  const Footprint* footprint_of(std::uint32_t blocker, Footprint& footprint) const;
   bool insert_below(std::uint32_t node, std::uint32_t index, std::span<const std::uint32_t> planes,
                     const Footprint* footprint);
   bool insert_into(Node& node, std::uint32_t index, const Surface& surface);
@@ -94,7 +94,7 @@ class DirectionTree {
   std::vector<Node> nodes_;
   std::vector<Surface> scratch_;  // one per level
   std::vector<Corners> corners_;
-  Footprint footprint_;
+  Footprint footprint_, listed_footprint_;  // of what is inserted; of what a split deals out
 };
 
 }  // namespace vantage::exact

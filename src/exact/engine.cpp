@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 
 #include "exact/collect.h"
+#include "exact/number_text.h"
 #include "exact/numerics.h"
 #include "exact/target_check.h"
 #include "exact/triangulation.h"
@@ -31,17 +31,6 @@ void check(const Sensor& sensor, const ExactOptions& options) {
   if (!(options.tolerance_m > 0) || !std::isfinite(options.tolerance_m))
     throw Error(ErrorKind::input, "tolerance must be a positive, finite number of metres", "exact options",
                 "give for example 0.01");
-}
-
-void report(const Progress& progress, const char* stage, double fraction) {
-  if (progress && !progress(stage, fraction))
-    throw Error(ErrorKind::cancelled, std::string("cancelled while ") + stage, "", "");
-}
-
-std::string metres(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g m", value);
-  return text;
 }
 
 void add_causes(const PreparedScene& scene, const BlockerSet& blockers, const Boundary& boundary, Volume& volume) {
@@ -71,7 +60,8 @@ void add_causes(const PreparedScene& scene, const BlockerSet& blockers, const Bo
   }
 }
 
-bool blocked_at_once(const Boundary& boundary) {
+bool blocked_at_once(const RangeRegion& range, const Boundary& boundary) {
+  if (1 / range.gauge(Vec3::UnitZ()) <= kHandsBreadth) return false;  // the range alone ends that close
   return std::all_of(boundary.mesh.vertices.begin(), boundary.mesh.vertices.end(),
                      [](const Vec3& v) { return v.z() < kHandsBreadth; });
 }
@@ -81,7 +71,7 @@ void set_blocked(Volume& volume) {
     return (a.kind == CauseKind::scene ? a.area_m2 : 0) < (b.kind == CauseKind::scene ? b.area_m2 : 0);
   });
   volume.outcome = Outcome::blocked_at_once;
-  volume.reason = "\"" + widest->name + "\" covers the target's front within " + metres(kHandsBreadth);
+  volume.reason = "\"" + widest->name + "\" covers the target's front within " + metres_text(kHandsBreadth);
   volume.hint = "the target looks into what it lies on: turn it round with front:, or raise it with offset:";
   volume.causes.clear();
   volume.cause_of.clear();
@@ -92,20 +82,22 @@ void compute(const PreparedScene& scene, const Sensor& sensor, const ExactOption
   const LocalTarget target = make_local_target(volume.frame.polygon);
   const RangeRegion range(target, sensor.max_range_m);
   ChartGrid grid(range, options.tolerance_m);
+  Watch watch(progress);
+  watch.begin("finding blockers", 0);
   BlockerSet blockers;
   DirectionTree tree(blockers, range);
-  collect_blockers(scene.data(), volume.frame, target, range, blockers, tree, progress);
-  report(progress, "tracing the envelope", 0.3);
+  collect_blockers(scene.data(), volume.frame, target, range, blockers, tree, watch);
+  watch.begin("tracing the envelope", 0.3);
   const CurveSampling sampling{options.tolerance_m * 0.5, std::sqrt(8 * sensor.max_range_m * options.tolerance_m)};
-  const Skeleton skeleton = trace_envelope(blockers, tree, range, sampling);
-  report(progress, "triangulating", 0.6);
-  Boundary boundary = triangulate_boundary(skeleton, blockers, tree, range, grid, options.tolerance_m);
-  report(progress, "triangulating", 1.0);
+  const Skeleton skeleton = trace_envelope(blockers, tree, range, sampling, watch);
+  watch.begin("triangulating", 0.6);
+  Boundary boundary = triangulate_boundary(skeleton, blockers, tree, range, grid, options.tolerance_m, watch);
+  watch.begin("triangulating", 1.0);
 
   volume.counts = {scene.data().polygon_count(), blockers.count(), skeleton.visible_blockers, skeleton.visible_facets,
                    boundary.constraint_edges};
   add_causes(scene, blockers, boundary, volume);
-  if (blocked_at_once(boundary)) {
+  if (blocked_at_once(range, boundary)) {
     set_blocked(volume);
     return;
   }
@@ -122,14 +114,14 @@ Volume compute_visibility(const PreparedScene& scene, const Target& target, cons
   Volume volume;
   volume.tolerance_m = options.tolerance_m;
   volume.frame = make_target_frame(target);
-  volume.lift_m = clearing_lift(scene.data(), target, volume.frame);
+  volume.lift_m = clearing_lift(scene.data(), target, volume.frame, sensor.max_range_m);
   volume.frame.origin += volume.frame.normal * volume.lift_m;
   volume.counts.scene_polygons = scene.data().polygon_count();
   if (volume.frame.enclosing_radius_m * (1 + 1e-9) >= sensor.max_range_m) {
     volume.outcome = Outcome::out_of_range;
-    volume.reason = "no point within " + metres(sensor.max_range_m) +
+    volume.reason = "no point within " + metres_text(sensor.max_range_m) +
                     " of all vertices: the target's enclosing circle has radius " +
-                    metres(volume.frame.enclosing_radius_m);
+                    metres_text(volume.frame.enclosing_radius_m);
     volume.hint = "raise max_range, or split the target";
   } else {
     move_into_range(volume.frame, sensor.max_range_m);

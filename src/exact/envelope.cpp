@@ -56,7 +56,7 @@ class ContactTest {
 
   bool hidden(std::uint32_t blocker, std::uint32_t index) {
     const Plane& plane = blockers_.planes[index];
-    const double margin = tie_margin(plane, reach_);
+    const double margin = touch_margin(plane, reach_);
     Vec3 middle = Vec3::Zero();
     touched_.clear();
     for (const Vec3& corner : blockers_.corners_of(blocker))
@@ -123,7 +123,7 @@ FacetTable find_facets(const BlockerSet& blockers, const std::vector<const Direc
   return table;
 }
 
-/// Traces the creases of one facet after another; one tracer a thread.
+/// Traces the creases of one facet after another.
 class FacetTracer {
  public:
   FacetTracer(const BlockerSet& blockers, const DirectionTree& tree,
@@ -414,13 +414,18 @@ void trace_range_creases(const BlockerSet& blockers, const DirectionTree& tree, 
 }  // namespace
 
 Skeleton trace_envelope(const BlockerSet& blockers, const DirectionTree& tree, const RangeRegion& range,
-                        const CurveSampling& sampling) {
+                        const CurveSampling& sampling, Watch& watch) {
   const std::vector<const DirectionTree::Leaf*> leaves = tree.leaves();
   const FacetTable table = find_facets(blockers, leaves);
   std::vector<FacetTracer::Result> results(table.facets.size());
-  parallel::for_ranges(table.facets.size(), 16, [&](std::size_t begin, std::size_t end) {
+  const std::size_t grain =
+      std::max<std::size_t>(16, table.facets.size() / 256);  // a tracer costs a look at each blocker
+  parallel::for_ranges(table.facets.size(), grain, [&](std::size_t begin, std::size_t end) {
     FacetTracer tracer(blockers, tree, leaves, table, range, sampling);
-    for (std::size_t i = begin; i < end; ++i) results[i] = tracer.trace(table.facets[i]);
+    for (std::size_t i = begin; i < end; ++i) {
+      watch.check();
+      results[i] = tracer.trace(table.facets[i]);
+    }
   });
   Skeleton skeleton;
   std::uint32_t last = ~0u;

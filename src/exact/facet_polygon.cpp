@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <array>
 
+#include "vantage/error.h"
+
 namespace vantage::exact {
 
 void make_facet_square(const Plane& plane, double range, FacetPolygon& polygon) {
@@ -17,7 +19,8 @@ void make_facet_square(const Plane& plane, double range, FacetPolygon& polygon) 
 bool clip_facet(FacetPolygon& polygon, const Vec3& normal, double height, double margin, std::uint32_t maker,
                 FacetPolygon& scratch) {
   const std::size_t n = polygon.corners.size();
-  constexpr std::size_t kMost = 256;
+  constexpr std::size_t kMost = 512;  // a square, cut by the planes of two blockers: about 270 at most
+  if (n > kMost) throw Error(ErrorKind::internal, "a facet has too many corners", "envelope", "please report this");
   std::array<double, kMost> values;
   bool any_inside = false, any_outside = false;
   for (std::size_t i = 0; i < n; ++i) {

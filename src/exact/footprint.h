@@ -45,7 +45,7 @@ class Footprint {
   }
 
  private:
-  static constexpr double kMargin = 1e-12;  // corners and sides are at most about 1
+  static constexpr double kMargin = 1e-8;  // corners and sides are at most about 1; polygons are not quite planar
 
   std::vector<Vec3> corners_, sides_;
 };

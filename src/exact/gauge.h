@@ -1,6 +1,9 @@
 // The envelope, evaluated: docs/theory.md, "The gauge".
 #pragma once
 
+#include <algorithm>
+#include <limits>
+
 #include "exact/direction_tree.h"
 #include "exact/range_region.h"
 

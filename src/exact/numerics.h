@@ -1,4 +1,4 @@
-// Every numeric constant of the exact engine, with its derivation. Lengths in metres.
+// The numeric constants that files of the exact engine share, with their derivations. Lengths in metres.
 //
 // The user's tolerance (how far range facets may lie inside the sphere) is not here: that is a choice, these are
 // properties of double arithmetic. Local coordinates are at most a few kilometres, so one rounding costs about
@@ -20,6 +20,10 @@ inline constexpr double kGrazing = 1e-6;
 /// A plane still separates a scene polygon from the target when it misses one of them by this little (a wall that
 /// stands on the target's edge touches its own separating planes).
 inline constexpr double kSeparation = 1e-9;
+
+/// A plane touches the corners of a polygon that are this near to it, in metres: ten times what preparing a scene
+/// allows the triangles that it merges to be out of one plane.
+inline constexpr double kTouch = 1e-8;
 
 /// Two surfaces whose inverse depths differ by less than this fraction are the same surface; the blocker with the lower
 /// index owns it. Coincident planes are the rule in cities (neighbouring walls, shared edges), and rounding would

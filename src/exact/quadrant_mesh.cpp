@@ -81,11 +81,14 @@ class QuadrantMesher {
     insert(result_.graph_vertex.size(), [&](std::size_t i) { return graph_.points()[result_.graph_vertex[i]]; });
     cdt_.insertEdges(
         edges.begin(), edges.end(), [](const auto& e) { return e.first; }, [](const auto& e) { return e.second; });
+    envelope_.watch.check();
     const std::size_t most = kMostGrowth * cdt_.triangles.size() + 1000;
-    while (refine())
+    while (refine()) {
+      envelope_.watch.check();
       if (cdt_.triangles.size() > most)
         throw Error(ErrorKind::internal, "the boundary could not be triangulated safely", "triangulation",
                     "please report this with the mission and the scene");
+    }
   }
 
   // The graph's vertices in the quadrant, and its edges between them.
@@ -219,16 +222,17 @@ class QuadrantMesher {
     }
   }
 
-  // An edge with nothing on its other side is on an axis, where the next quadrant goes on, or on the horizon, where the
-  // base closes it.
+  // An edge with nothing on its other side is on the horizon, where the base closes it, or on an axis, where the next
+  // quadrant goes on.
   void close(std::uint32_t from, std::uint32_t to) {
-    const ChartPoint a = point(from).cwiseAbs(), b = point(to).cwiseAbs();
-    for (int axis = 0; axis < 2; ++axis)
-      if (std::max(a[axis], b[axis]) <= numerics::kWidestSnap) {
-        if (!is_own(from) || !is_own(to)) throw CannotTriangulate{"a crease has split an axis"};
-        return;
-      }
-    result_.base.emplace_back(renamed(from), renamed(to));
+    if (on_horizon(from) && on_horizon(to)) {
+      result_.base.emplace_back(renamed(from), renamed(to));
+      return;
+    }
+    const ChartPoint a = point(from), b = point(to);
+    const bool on_axis = (a.x() == 0 && b.x() == 0) || (a.y() == 0 && b.y() == 0);
+    if (!on_axis || !is_own(from) || !is_own(to))
+      throw CannotTriangulate{"a crease has split the border of a quadrant"};
   }
 
   // Cells are cut in two without looking at the triangulation: it must not have split their edges.

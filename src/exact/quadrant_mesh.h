@@ -1,11 +1,13 @@
 // The triangulation of one quadrant of the chart: docs/theory.md, "Triangulation".
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "exact/constraint_graph.h"
 #include "exact/direction_tree.h"
 #include "exact/range_region.h"
+#include "exact/watch.h"
 
 namespace vantage::exact {
 
@@ -27,12 +29,13 @@ struct Envelope {
   const DirectionTree& tree;
   const RangeRegion& range;
   double tolerance_m;
+  Watch& watch;
 };
 
 /// A constrained Delaunay triangulation of the graph's creases in quadrant 0..3 (bit 0: a < 0, bit 1: b < 0).
 /// Triangles that lie more than the tolerance inside the sphere get a point in the middle, and so do those above which
 /// the gauge rises (a crease that rounding has lost), until there are none. Points closer than `snap` cannot be told
-/// apart. Throws CannotTriangulate.
+/// apart. Throws CannotTriangulate, and Error(cancelled).
 QuadrantMesh mesh_quadrant(int quadrant, const ConstraintGraph& graph, const ChartGrid& grid, const Envelope& envelope,
                            double snap);
 

@@ -15,6 +15,13 @@ inline double tie_margin(const Plane& plane, double reach) {
   return numerics::kTie + 1e-15 * reach * plane.cwiseAbs().sum();
 }
 
+/// How far g . o may differ from 1 for corners o of a polygon that the plane may touch: merged polygons are
+/// planar to a nanometre only. Generous, because a plane taken for one that touches fewer corners may be taken for
+/// hidden.
+inline double touch_margin(const Plane& plane, double reach) {
+  return tie_margin(plane, reach) + numerics::kTouch * plane.norm();
+}
+
 /// The part of from -> to (parameters 0 to 1) on which every plane exceeds 1: what the blocker hides of it. A surface
 /// that only touches or holds the segment does not hide it: several blockers may share an edge, and none may count on
 /// another to report it. Empty intervals have begin >= end.

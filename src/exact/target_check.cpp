@@ -3,12 +3,12 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 
 #include "exact/blocker.h"
 #include "exact/collect.h"
 #include "exact/facet_polygon.h"
+#include "exact/number_text.h"
 #include "exact/numerics.h"
 #include "vantage/error.h"
 
@@ -130,15 +130,13 @@ double clear_height(const std::vector<Crossing>& crossings, double height = 0) {
 }
 
 std::string describe(const Vec3& place) {
-  char text[96];
-  std::snprintf(text, sizeof text, "(%.3f, %.3f, %.3f)", place.x(), place.y(), place.z());
-  return text;
+  return "(" + fixed_text(place.x(), 3) + ", " + fixed_text(place.y(), 3) + ", " + fixed_text(place.z(), 3) + ")";
 }
 
 [[noreturn]] void refuse_pierced(const PreparedScene::Data& scene, const Target& target, const TargetFrame& frame,
                                  const Crossing& crossing, double clear) {
-  char fix[96];
-  std::snprintf(fix, sizeof fix, "move the target, or raise it: offset: %.3f clears it", target.offset_m + clear);
+  const std::string fix =
+      "move the target, or raise it: offset: " + fixed_text(target.offset_m + clear, 3) + " clears it";
   throw Error(
       ErrorKind::input,
       "\"" + scene.objects[scene.polygon_object[crossing.polygon]] + "\" stands on or passes through the target",
@@ -216,6 +214,7 @@ std::optional<double> height_over_ground(const PreparedScene::Data& scene, const
   std::sort(tops.begin(), tops.end());
   double tried = 0;
   for (const double top : tops) {
+    if (past(top) <= tried) continue;
     const double height = clear_height(crossings, past(top));
     if (height <= tried) continue;
     tried = height;
@@ -245,27 +244,85 @@ void refuse_underground(const PreparedScene::Data& scene, const Target& target, 
   const Vec3 extent = over.max - over.min, whole = all.max - all.min;
   const bool ground_like = extent.x() >= 0.5 * whole.x() && extent.y() >= 0.5 * whole.y();
   if (highest >= all.min.z() - kMaxLift && !ground_like) return;
-  char depth[32], fix[128] = "raise the target, and check the scene's up axis and scale";
-  std::snprintf(depth, sizeof depth, "%.3f m", first.nearest_above);
-  if (const auto height = height_over_ground(scene, frame, column, ground)) {
-    std::snprintf(fix, sizeof fix, "check the scene's up axis and scale, or raise the target: offset: %.3f clears it",
-                  target.offset_m + *height);
-  }
+  std::string fix = "raise the target, and check the scene's up axis and scale";
+  if (const auto height = height_over_ground(scene, frame, column, ground))
+    fix = "check the scene's up axis and scale, or raise the target: offset: " +
+          fixed_text(target.offset_m + *height, 3) + " clears it";
   throw Error(ErrorKind::input, "the target is under the ground",
-              "target \"" + target.name + "\": \"" + scene.objects[ground] + "\" is " + depth + " above " +
-                  describe(frame.origin),
+              "target \"" + target.name + "\": \"" + scene.objects[ground] + "\" is " +
+                  fixed_text(first.nearest_above, 3) + " m above " + describe(frame.origin),
               fix);
+}
+
+/// Finds how high polygons rise above the target's plane that hardly do.
+class LowSurfaces {
+ public:
+  LowSurfaces(const PreparedScene::Data& scene, const TargetFrame& frame, double reach)
+      : scene_(scene), frame_(frame), centre_(frame.origin - scene.origin), reach_(reach) {}
+
+  /// Of polygons within reach: their highest corners that are above the plane by at most kMostHeight, ascending.
+  std::vector<double> tops() {
+    if (!scene_.bvh.nodes.empty()) visit(0);
+    std::sort(tops_.begin(), tops_.end());
+    return std::move(tops_);
+  }
+
+ private:
+  static constexpr double kMostHeight = kMaxLift + 2 * kClear;
+
+  void visit(std::uint32_t at) {
+    const scene::BvhNode& node = scene_.bvh.nodes[at];
+    double middle = 0, half = 0, square = 0;
+    for (int a = 0; a < 3; ++a) {
+      const double low = node.bounds.min[a] - centre_[a], high = node.bounds.max[a] - centre_[a];
+      middle += frame_.normal[a] * 0.5 * (low + high);
+      half += std::abs(frame_.normal[a]) * 0.5 * (high - low);
+      const double away = std::max({0.0, low, -high});
+      square += away * away;
+    }
+    if (middle + half <= kOnPlane || middle - half > kMostHeight || square > reach_ * reach_) return;
+    if (!node.leaf()) {
+      visit(node.first);
+      visit(node.first + 1);
+      return;
+    }
+    for (std::uint32_t polygon = node.first; polygon < node.first + node.count; ++polygon) add_top(polygon);
+  }
+
+  void add_top(std::uint32_t polygon) {
+    double top = -INFINITY;
+    for (std::uint32_t v : scene_.corners_of(polygon)) {
+      top = std::max(top, frame_.normal.dot(scene_.vertices[v] - centre_));
+      if (top > kMostHeight) return;
+    }
+    if (top > kOnPlane) tops_.push_back(top);
+  }
+
+  const PreparedScene::Data& scene_;
+  const TargetFrame& frame_;
+  Vec3 centre_;
+  double reach_;
+  std::vector<double> tops_;
+};
+
+// Raises the target above surfaces that all but continue its plane: what they hide is too flat for doubles.
+double clear_low_surfaces(double lift, const std::vector<double>& tops) {
+  for (double top : tops)
+    if (top > lift + kOnPlane && top <= lift + kClear) lift = top + kClear;
+  return lift;
 }
 
 }  // namespace
 
-double clearing_lift(const PreparedScene::Data& scene, const Target& target, const TargetFrame& frame) {
+double clearing_lift(const PreparedScene::Data& scene, const Target& target, const TargetFrame& frame, double reach) {
   Column column(scene, frame);
   const std::vector<Crossing> low = column.crossings(2 * kMaxLift);
   const Lift lift = lift_at(low, 0);
   if (lift.pierced_by) refuse_pierced(scene, target, frame, *lift.pierced_by, clear_height(column.crossings(INFINITY)));
   refuse_underground(scene, target, frame, column);
-  return lift.lift;
+  const double raised = clear_low_surfaces(lift.lift, LowSurfaces(scene, frame, reach).tops());
+  const bool pierced = std::any_of(low.begin(), low.end(), [&](const Crossing& c) { return crosses(c, raised); });
+  return pierced ? lift.lift : raised;
 }
 
 }  // namespace vantage::exact

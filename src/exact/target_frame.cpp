@@ -2,9 +2,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "exact/enclosing_circle.h"
+#include "exact/number_text.h"
 #include "vantage/error.h"
 #include "vantage/target.h"
 
@@ -20,12 +20,6 @@ constexpr double kPlanarAtLeast = 1e-3;   // metres
 
 [[noreturn]] void refuse(const Target& target, std::string problem, std::string fix) {
   throw Error(ErrorKind::input, std::move(problem), "target \"" + target.name + "\"", std::move(fix));
-}
-
-std::string metres(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g m", value);
-  return text;
 }
 
 std::string vertex_name(std::size_t index) { return "vertex " + std::to_string(index); }
@@ -77,7 +71,8 @@ void check_planar(const Target& target, const Vec3& normal, double extent) {
     if (off > worst) worst = off, culprit = i;
   }
   if (worst > std::max(kPlanarAtLeast, kPlanarFraction * extent))
-    refuse(target, "the vertices are not in one plane: " + vertex_name(culprit) + " is off by " + metres(worst),
+    refuse(target,
+           "the vertices are not in one plane: " + vertex_name(culprit) + " is off by " + exact::metres_text(worst),
            "move it onto the plane of the others, or split the target");
 }
 

@@ -18,6 +18,24 @@ struct BorderSplit {
   std::vector<ChartPoint> places;
 };
 
+// Whether every edge is run as often one way as the other: a sum over the edges that is zero for a closed, oriented
+// mesh and, but for chance, for no other.
+bool is_closed(const Mesh& mesh) {
+  const auto spread = [](std::uint64_t v) {
+    v = (v + 1) * 0x9e3779b97f4a7c15ull;
+    return (v ^ (v >> 29)) * 0xbf58476d1ce4e5b9ull;
+  };
+  std::vector<std::uint64_t> marks(mesh.vertices.size());
+  for (std::size_t v = 0; v < marks.size(); ++v) marks[v] = spread(v);
+  std::uint64_t sum = 0;
+  for (const Triangle& t : mesh.triangles)
+    for (int e = 0; e < 3; ++e) {
+      const std::uint64_t from = t[e], to = t[(e + 1) % 3];
+      sum += marks[from] * (to * to) - marks[to] * (from * from);
+    }
+  return sum == 0;
+}
+
 class BoundaryBuilder {
  public:
   BoundaryBuilder(const Skeleton& skeleton, const Envelope& envelope, ChartGrid& grid, double snap)
@@ -35,6 +53,7 @@ class BoundaryBuilder {
     for (const QuadrantMesh& quadrant : quadrants_) add(quadrant);
     emit_base();
     drop_unused_vertices();
+    if (!is_closed(result_.mesh)) throw CannotTriangulate{"the parts of the mesh do not meet"};
     return std::move(result_);
   }
 
@@ -52,10 +71,10 @@ class BoundaryBuilder {
   }
 
   void check_borders() const {
-    BorderSplit split;
+    std::vector<ChartPoint> places;
     for (const QuadrantMesh& quadrant : quadrants_)
-      split.places.insert(split.places.end(), quadrant.border_splits.begin(), quadrant.border_splits.end());
-    if (!split.places.empty()) throw split;
+      places.insert(places.end(), quadrant.border_splits.begin(), quadrant.border_splits.end());
+    if (!places.empty()) throw BorderSplit{std::move(places)};
   }
 
   // The mesh has the vertices of the graph first, then those of the cells, then those that refinement added. On the
@@ -87,10 +106,7 @@ class BoundaryBuilder {
     for (const Triangle& t : quadrant.triangles)
       mesh.triangles.push_back({renamed(t[0]), renamed(t[1]), renamed(t[2])});
     result_.blocker_of.insert(result_.blocker_of.end(), quadrant.blocker_of.begin(), quadrant.blocker_of.end());
-    for (const auto& [from, to] : quadrant.base) {
-      base_.emplace_back(renamed(from), renamed(to));
-      mesh.vertices[renamed(from)].z() = mesh.vertices[renamed(to)].z() = 0;
-    }
+    base_.insert(base_.end(), quadrant.base.begin(), quadrant.base.end());
   }
 
   void emit_base() {
@@ -129,8 +145,8 @@ class BoundaryBuilder {
 }  // namespace
 
 Boundary triangulate_boundary(const Skeleton& skeleton, const BlockerSet& blockers, const DirectionTree& tree,
-                              const RangeRegion& range, ChartGrid& grid, double tolerance) {
-  const Envelope envelope{blockers, tree, range, tolerance};
+                              const RangeRegion& range, ChartGrid& grid, double tolerance, Watch& watch) {
+  const Envelope envelope{blockers, tree, range, tolerance, watch};
   // Where creases meet at less than the snapping distance the triangulation may find no place for their crossing; wider
   // snapping makes them one. What that moves, refinement finds.
   double snap = numerics::kSnap, width = 1.0 / grid.size();

@@ -7,6 +7,7 @@
 #include "exact/direction_tree.h"
 #include "exact/envelope.h"
 #include "exact/range_region.h"
+#include "exact/watch.h"
 
 namespace vantage::exact {
 
@@ -23,6 +24,6 @@ struct Boundary {
 /// Cells of the grid that hold nothing but range sphere are cut in two; the rest of the chart is triangulated quadrant
 /// by quadrant. Every vertex is lifted to where the gauge says.
 Boundary triangulate_boundary(const Skeleton& skeleton, const BlockerSet& blockers, const DirectionTree& tree,
-                              const RangeRegion& range, ChartGrid& grid, double tolerance);
+                              const RangeRegion& range, ChartGrid& grid, double tolerance, Watch& watch);
 
 }  // namespace vantage::exact

@@ -104,7 +104,7 @@ std::vector<PointAnswer> query_points(const PreparedScene& scene, const Target& 
     if (!points[i].allFinite())
       throw Error(ErrorKind::input, "a coordinate is not finite", "point " + std::to_string(i), "give three numbers");
   TargetFrame frame = make_target_frame(target);
-  frame.origin += frame.normal * clearing_lift(scene.data(), target, frame);
+  frame.origin += frame.normal * clearing_lift(scene.data(), target, frame, sensor.max_range_m);
   std::vector<PointAnswer> answers(points.size());
   // Where no point at all is in range the centre may be out of range itself: look from the circle's centre, as the
   // engine does.
