@@ -233,6 +233,33 @@ TEST(PreparedScene, DoesNotMergeWhatIsNotConvexOrNotPlanar) {
   EXPECT_EQ(PreparedScene(scene).statistics().polygons, 2u);  // bent by a micrometre
 }
 
+/// The least distance within which the plane of some triangle has all of the vertices.
+double flatness(const Polygon& polygon, const std::vector<Polygon>& triangles) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Polygon& t : triangles) {
+    const Vec3 normal = area_vector(t).normalized();
+    double farthest = 0;
+    for (const Vec3& v : polygon) farthest = std::max(farthest, std::abs(normal.dot(v - t[0])));
+    least = std::min(least, farthest);
+  }
+  return least;
+}
+
+TEST(PreparedScene, DeviationsFromAPlaneDoNotAddUp) {
+  // A strip of 14 squares, the second half of which rises by 0.9 nm a metre: each square is within a nanometre of the
+  // one before it, and the last one 6 nm above the first one's plane.
+  Scene scene;
+  for (int x = 0; x <= 14; ++x)
+    for (const double y : {0.0, 1.0}) scene.mesh.vertices.emplace_back(x, y, 0.9e-9 * std::max(0, x - 7));
+  for (std::uint32_t x = 0; x < 14; ++x) {
+    scene.mesh.triangles.push_back({2 * x, 2 * x + 2, 2 * x + 1});
+    scene.mesh.triangles.push_back({2 * x + 1, 2 * x + 2, 2 * x + 3});
+  }
+  const PreparedScene prepared(scene);
+  EXPECT_LT(prepared.statistics().polygons, 6u);
+  for (const Polygon& polygon : polygons_of(prepared)) EXPECT_LT(flatness(polygon, triangles_of(scene)), 1.01e-9);
+}
+
 TEST(PreparedScene, MergingKeepsAreaAndWhatIsHidden) {
   Random random(23);
   for (int draw = 0; draw < 20; ++draw) {

@@ -146,8 +146,10 @@ class Merger {
       right.pop_back();
     }
     if (right.size() < 3 || left.size() + right.size() - 2 > kLargestPolygon) return;
+    // Always from the same plane, that of the polygon's first triangle, or small deviations would add up.
+    const Vec3& on_plane = vertices_[triangles_[a][0]];
     for (std::uint32_t v : right)
-      if (std::abs(normals_[a].dot(vertices_[v] - vertices_[left[0]])) > kCoplanar) return;
+      if (std::abs(normals_[a].dot(vertices_[v] - on_plane)) > kCoplanar) return;
     const std::size_t seam = left.size() - 1;
     left.insert(left.end(), right.begin() + 1, right.end() - 1);
     if (!convex_at(left, 0, normals_[a]) || !convex_at(left, seam, normals_[a])) return;
