@@ -25,6 +25,12 @@ TEST(Geometry, MeasuresATetrahedron) {
   EXPECT_EQ(box.max, Vec3::Constant(2));
 }
 
+TEST(Geometry, AVertexThatNoTriangleUsesDoesNotCount) {
+  Mesh mesh = corner(2, Vec3(580000, 4785000, 1000));
+  mesh.vertices.push_back(Vec3::Zero());
+  EXPECT_EQ(bounding_box(mesh).min, Vec3(580000, 4785000, 1000));
+}
+
 TEST(Geometry, VolumeSurvivesLargeCoordinates) {
   EXPECT_NEAR(enclosed_volume(corner(2, Vec3(580000, 4785000, 1000))), 8.0 / 6, 1e-9);
 }

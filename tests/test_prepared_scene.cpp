@@ -412,7 +412,26 @@ TEST(PreparedScene, RefusesSoupThatDoesNotHoldTogether) {
   EXPECT_EQ(refuses([](Scene& s) { s.mesh.triangles[3][1] = 8; }), "vertex index 8 is out of range");
   EXPECT_EQ(refuses([](Scene& s) { s.object_of[3] = 1; }), "object index 1 is out of range");
   EXPECT_EQ(refuses([](Scene& s) { s.object_of.pop_back(); }), "object_of has 11 entries for 12 triangles");
-  EXPECT_EQ(refuses([](Scene& s) { s.mesh.vertices[3].z() = std::nan(""); }), "a vertex is not finite");
+  EXPECT_EQ(refuses([](Scene& s) { s.mesh.vertices[3].z() = std::nan(""); }), "vertex 3 is not finite");
+  EXPECT_EQ(refuses([](Scene& s) { s.mesh.vertices[5].x() = -1.001e9; }),
+            "vertex 5 is more than 1000000 km from the origin");
+  EXPECT_EQ(refuses([](Scene& s) { s.mesh.vertices[5].x() = -1e9; }), "");
+}
+
+TEST(PreparedScene, WhatHidesNothingDoesNotMoveTheOrigin) {
+  const Vec3 utm(580000.3, 4785000.7, 1000.1);
+  Scene scene = SceneBuilder().box("block", utm, utm + Vec3(4, 2, 6));
+  const PreparedScene clean(scene);
+  scene.mesh.vertices.push_back(Vec3::Zero());  // used by no triangle
+  EXPECT_EQ(PreparedScene(scene).data().origin, clean.data().origin);
+  EXPECT_EQ(PreparedScene(scene).statistics().bounds.min, utm);
+  const auto stray = std::uint32_t(scene.mesh.vertices.size() - 1);
+  scene.mesh.triangles.push_back({stray, stray, stray});
+  scene.object_of.push_back(0);
+  const PreparedScene prepared(scene);
+  EXPECT_EQ(prepared.statistics().degenerate_triangles, 1u);
+  EXPECT_EQ(prepared.data().origin, clean.data().origin);
+  EXPECT_EQ(prepared.data().vertices.front(), clean.data().vertices.front());
 }
 
 TEST(PreparedScene, ReportsProgressAndStops) {

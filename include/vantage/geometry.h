@@ -37,6 +37,7 @@ struct Mesh {
   bool empty() const { return triangles.empty(); }
 };
 
+/// Of the triangles: a vertex that none of them uses does not count. Indices must be in range.
 Box bounding_box(const Mesh& mesh);
 
 /// Volume enclosed by a closed, outward-oriented mesh, in cubic metres (divergence theorem, about the first vertex).

@@ -57,7 +57,7 @@ struct SceneStatistics {
   std::size_t nonmanifold_edges = 0;     ///< edges with more than two triangles
   std::size_t misoriented_edges = 0;     ///< edges that their two triangles run in the same direction
   std::size_t polygons = 0;              ///< convex polygons after merging coplanar neighbours
-  Box bounds;                            ///< metres, scene frame
+  Box bounds;                            ///< of the triangles that are kept; metres, scene frame
 };
 
 /// A scene ready for visibility queries: welded, cleaned, coplanar neighbours merged into convex polygons, indexed by a

@@ -6,7 +6,9 @@ namespace vantage {
 
 Box bounding_box(const Mesh& mesh) {
   Box box;
-  for (const Vec3& vertex : mesh.vertices) box.extend(vertex);
+  for (const Triangle& triangle : mesh.triangles) {
+    for (const std::uint32_t vertex : triangle) box.extend(mesh.vertices[vertex]);
+  }
   return box;
 }
 

@@ -9,6 +9,7 @@
 #include "parallel/parallel.h"
 #include "scene/convex_polygons.h"
 #include "scene/prepared_data.h"
+#include "scene/read_limits.h"
 #include "vantage/error.h"
 
 namespace vantage {
@@ -58,6 +59,17 @@ class Welder {
 bool degenerate(const Vec3& a, const Vec3& b, const Vec3& c) {
   const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
   return (b - a).cross(c - a).norm() <= kThinnest * longest;
+}
+
+/// Of the triangles that will be kept: neither a vertex that none uses nor a triangle without area, say one with all of
+/// its corners at 0 in a file with map coordinates, may move the scene's origin.
+Box visible_bounds(const Mesh& mesh) {
+  Box box;
+  for (const Triangle& t : mesh.triangles) {
+    if (degenerate(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]])) continue;
+    for (const std::uint32_t vertex : t) box.extend(mesh.vertices[vertex]);
+  }
+  return box;
 }
 
 struct TriangleHash {
@@ -141,9 +153,8 @@ void index_incidence(PreparedScene::Data& data) {
 }
 
 void check(const Scene& scene) {
-  const auto refuse = [](std::string problem) {
-    throw Error(ErrorKind::input, std::move(problem), "scene made in memory",
-                "give each triangle three vertices and an object");
+  const auto refuse = [](std::string problem, const char* fix = "give each triangle three vertices and an object") {
+    throw Error(ErrorKind::input, std::move(problem), "scene made in memory", fix);
   };
   const std::size_t objects = std::max<std::size_t>(1, scene.objects.size());
   if (!scene.object_of.empty() && scene.object_of.size() != scene.mesh.triangles.size())
@@ -154,8 +165,14 @@ void check(const Scene& scene) {
   for (const Triangle& t : scene.mesh.triangles)
     for (std::uint32_t corner : t)
       if (corner >= scene.mesh.vertices.size()) refuse("vertex index " + std::to_string(corner) + " is out of range");
-  for (const Vec3& v : scene.mesh.vertices)
-    if (!v.allFinite()) refuse("a vertex is not finite");
+  for (std::size_t i = 0; i < scene.mesh.vertices.size(); ++i) {
+    const Vec3& v = scene.mesh.vertices[i];
+    if (!v.allFinite()) refuse("vertex " + std::to_string(i) + " is not finite", "give three numbers");
+    if (v.cwiseAbs().maxCoeff() > scene::kMaxCoordinate)
+      refuse("vertex " + std::to_string(i) + " is more than " +
+                 std::to_string(static_cast<long>(scene::kMaxCoordinate / 1000)) + " km from the origin",
+             "give coordinates in metres");
+  }
 }
 
 }  // namespace
@@ -169,7 +186,7 @@ PreparedScene::PreparedScene(const Scene& scene, const Progress& progress) {
   statistics.triangles = scene.mesh.triangles.size();
   statistics.vertices = scene.mesh.vertices.size();
   statistics.objects = data->objects.size();
-  statistics.bounds = bounding_box(scene.mesh);
+  statistics.bounds = visible_bounds(scene.mesh);
   if (!statistics.bounds.empty()) data->origin = 0.5 * (statistics.bounds.min + statistics.bounds.max);
   report(progress, 0.0);
   const CleanTriangles clean = weld_and_clean(scene, *data);
