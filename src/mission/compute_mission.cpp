@@ -1,6 +1,7 @@
 #include <chrono>
 
 #include "mission/run_mission.h"
+#include "parallel/parallel.h"
 #include "vantage/mission.h"
 
 namespace vantage {
@@ -25,7 +26,9 @@ class Stopwatch {
 
 namespace mission_io {
 
-MissionRun run_mission(const Mission& mission, const Progress& progress) {
+namespace {
+
+MissionRun run_stages(const Mission& mission, const Progress& progress) {
   MissionRun run;
   Seconds seconds;
   Stopwatch stopwatch;
@@ -50,6 +53,14 @@ MissionRun run_mission(const Mission& mission, const Progress& progress) {
   }
   seconds.total = seconds.read + seconds.prepare + seconds.engine + seconds.navigation;
   run.volume.seconds = seconds;
+  return run;
+}
+
+}  // namespace
+
+MissionRun run_mission(const Mission& mission, const Progress& progress) {
+  MissionRun run;
+  parallel::with_threads(mission.exact.threads, [&] { run = run_stages(mission, progress); });
   return run;
 }
 

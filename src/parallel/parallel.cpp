@@ -7,6 +7,9 @@
 #include <oneapi/tbb/parallel_invoke.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include <chrono>
+#include <exception>
+#include <future>
 #include <optional>
 
 namespace vantage::parallel {
@@ -33,6 +36,24 @@ void with_threads(int threads, const std::function<void()>& body) {
   }
   tbb::task_arena arena(threads);
   arena.execute(body);
+}
+
+void run_while_asking(const std::function<void()>& body, const std::function<void()>& ask) {
+  constexpr std::chrono::milliseconds kPause{2};
+  // A new thread belongs to no arena: left to itself it would take all the threads that the machine has.
+  const int threads = tbb::this_task_arena::max_concurrency();
+  std::future<void> running = std::async(std::launch::async, [&] { with_threads(threads, body); });
+  std::exception_ptr failure;
+  while (running.wait_for(kPause) != std::future_status::ready) {
+    if (failure) continue;
+    try {
+      ask();
+    } catch (...) {
+      failure = std::current_exception();
+    }
+  }
+  if (failure) std::rethrow_exception(failure);
+  running.get();
 }
 
 }  // namespace vantage::parallel

@@ -19,6 +19,11 @@ void both(const std::function<void()>& first, const std::function<void()>& secon
 /// Runs `body` with at most `threads` threads (0: all that the machine has) for the parallel calls made inside.
 void with_threads(int threads, const std::function<void()>& body);
 
+/// Runs `body` on a thread of its own, with as many threads for the parallel calls made inside as the caller has, and
+/// calls `ask` on the caller's thread every two milliseconds meanwhile. Ends when `body` has. An exception thrown by
+/// either is thrown on then, that of `ask` first; it should tell `body` to stop before it throws.
+void run_while_asking(const std::function<void()>& body, const std::function<void()>& ask);
+
 /// Sorts with all threads. `less` must be a total order on distinct elements, so that the result is the same whatever
 /// the number of threads.
 template <typename T, typename Less>

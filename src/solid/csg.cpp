@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <chrono>
+#include "parallel/parallel.h"
 #include <cmath>
 #include <future>
 #include <numeric>
@@ -71,20 +72,18 @@ Status evaluate(const manifold::Manifold& lazy, const Watch& watch) {
   if (!watch) return lazy.Status();
   manifold::ExecutionContext context;
   const manifold::Manifold watched = lazy.WithContext(context);
-  std::future<Status> result = std::async(std::launch::async, [&] { return watched.Status(); });
   bool stopped = false;
-  while (result.wait_for(std::chrono::milliseconds(2)) != std::future_status::ready) {
-    if (stopped) continue;
+  const auto ask = [&] {
+    if (stopped) return;
     try {
       stopped = !watch(context.Progress());
     } catch (...) {
       context.Cancel();
-      result.wait();
       throw;
     }
     if (stopped) context.Cancel();
-  }
-  result.get();
+  };
+  parallel::run_while_asking([&] { (void)watched.Status(); }, ask);
   // An operation may end before it sees the request to stop. Otherwise this only takes over the cached result.
   return stopped ? Status::Cancelled : lazy.Status();
 }
