@@ -1,5 +1,7 @@
 #include "support/plain_union.h"
 
+#include <manifold/manifold.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -28,6 +30,26 @@ double distance_to_box(const std::vector<Vec3>& points) {
   return box.min.cwiseMax(-box.max).cwiseMax(Vec3::Zero()).norm();
 }
 
+/// The convex hull of points; empty when they all lie in one plane.
+solid::Solid convex_hull(const std::vector<Vec3>& points) {
+  std::vector<manifold::vec3> positions;
+  positions.reserve(points.size());
+  for (const Vec3& p : points) positions.emplace_back(p.x(), p.y(), p.z());
+  const manifold::MeshGL64 hull = manifold::Manifold::Hull(positions).GetMeshGL64();
+  solid::LabelledMesh result;
+  for (std::size_t i = 0; i < hull.NumVert(); ++i) {
+    const manifold::vec3 p = hull.GetVertPos(i);
+    result.mesh.vertices.emplace_back(p.x, p.y, p.z);
+  }
+  for (std::size_t i = 0; i < hull.NumTri(); ++i) {
+    const auto t = hull.GetTriVerts(i);
+    result.mesh.triangles.push_back(
+        {static_cast<std::uint32_t>(t.x), static_cast<std::uint32_t>(t.y), static_cast<std::uint32_t>(t.z)});
+  }
+  result.labels.assign(result.mesh.triangles.size(), 0);
+  return solid::Solid(result, "convex hull");
+}
+
 }  // namespace
 
 // A polygon O hides { o + l (o - t) } for all o of it, t of the target and l >= 0, which is convex. What has l <= s is
@@ -51,7 +73,7 @@ solid::Solid plain_visibility(const Scene& scene, const TargetFrame& frame, cons
     corners = polygon;
     for (const Vec3& o : polygon)
       for (const Eigen::Vector2d& v : frame.polygon) corners.push_back((1 + far) * o - far * Vec3(v.x(), v.y(), 0));
-    solid::Solid blocker = solid::convex_hull(corners, 0);
+    solid::Solid blocker = convex_hull(corners);
     if (!blocker.empty()) blockers.push_back(std::move(blocker));
   }
   return solid::subtract(region, solid::unite(blockers, watch), watch);

@@ -2,15 +2,10 @@
 
 #include <manifold/manifold.h>
 
-#include <Eigen/Geometry>
-#include <algorithm>
-#include <chrono>
-#include "parallel/parallel.h"
-#include <cmath>
-#include <future>
 #include <numeric>
 #include <utility>
 
+#include "parallel/parallel.h"
 #include "vantage/error.h"
 
 namespace vantage::solid {
@@ -60,7 +55,6 @@ const char* name_of(Status status) {
   return "unknown status";
 }
 
-manifold::vec3 to_manifold(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 Vec3 from_manifold(const manifold::vec3& v) { return {v.x, v.y, v.z}; }
 
 Solid wrap(manifold::Manifold evaluated) {
@@ -175,15 +169,6 @@ long Solid::euler() const {
   return static_cast<long>(m.NumVert()) - static_cast<long>(m.NumEdge()) + static_cast<long>(m.NumTri());
 }
 
-long Solid::genus() const { return 1 - euler() / 2; }
-
-std::vector<Solid> Solid::pieces() const {
-  std::vector<Solid> result;
-  if (empty()) return result;
-  for (manifold::Manifold& piece : impl_->manifold.Decompose()) result.push_back(wrap(std::move(piece)));
-  return result;
-}
-
 Solid unite(const Solid& a, const Solid& b, const Watch& watch) {
   return evaluated(a.impl().manifold + b.impl().manifold, "union", watch);
 }
@@ -206,69 +191,26 @@ Solid intersect(std::span<const Solid> operands, const Watch& watch) {
                    "intersection", watch);
 }
 
-namespace {
-
-/// A box from its corners: bit i of a corner's index says whether it lies at the far end of axis i. Axes right-handed.
-LabelledMesh box_mesh(const std::array<Vec3, 8>& corners, const BoxLabels& labels) {
-  LabelledMesh box;
-  box.mesh.vertices.assign(corners.begin(), corners.end());
-  for (std::uint32_t axis = 0; axis < 3; ++axis) {
-    const std::uint32_t u = 1u << (axis + 1) % 3, v = 1u << (axis + 2) % 3, far = 1u << axis;
-    // Counter-clockwise about the axis on the far side, clockwise on the near one.
-    box.mesh.triangles.push_back({far, far + u, far + u + v});
-    box.mesh.triangles.push_back({far, far + u + v, far + v});
-    box.mesh.triangles.push_back({0, u + v, u});
-    box.mesh.triangles.push_back({0, v, u + v});
-    box.labels.insert(box.labels.end(), {labels.max[axis], labels.max[axis], labels.min[axis], labels.min[axis]});
-  }
-  return box;
-}
-
-}  // namespace
-
 Solid make_box(const Box& box, const BoxLabels& labels) {
   if (!(box.min.array() < box.max.array()).all()) {
     throw Error(ErrorKind::internal, "a box must have min < max on every axis", "", "");
   }
-  std::array<Vec3, 8> corners;
-  for (unsigned i = 0; i < 8; ++i) {
-    for (unsigned axis = 0; axis < 3; ++axis) corners[i][axis] = (i >> axis & 1) ? box.max[axis] : box.min[axis];
+  LabelledMesh result;
+  // Bit i of a corner's index says whether it lies at the far end of axis i.
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    Vec3& vertex = result.mesh.vertices.emplace_back();
+    for (unsigned axis = 0; axis < 3; ++axis) vertex[axis] = (corner >> axis & 1) ? box.max[axis] : box.min[axis];
   }
-  return Solid(box_mesh(corners, labels), "box");
-}
-
-Solid convex_hull(std::span<const Vec3> points, std::uint32_t label) {
-  std::vector<manifold::vec3> positions;
-  positions.reserve(points.size());
-  for (const Vec3& point : points) positions.push_back(to_manifold(point));
-  Solid unlabelled = evaluated(manifold::Manifold::Hull(positions), "convex hull", {});
-  if (unlabelled.empty()) return unlabelled;
-  LabelledMesh hull = unlabelled.to_mesh();
-  std::fill(hull.labels.begin(), hull.labels.end(), label);
-  return Solid(hull, "convex hull");
-}
-
-Solid trim(const Solid& solid, const Vec3& normal, double offset, std::uint32_t label, const Watch& watch) {
-  if (solid.empty()) return solid;
-  // The half-space as a box in the frame (u, v, normal) that reaches well past the solid on the other five sides, so
-  // that only the face at `offset` can cut it.
-  const Vec3 u = normal.unitOrthogonal(), v = normal.cross(u);
-  const Box bounds = solid.bounds();
-  const Vec3 centre = (bounds.min + bounds.max) / 2;
-  const double reach = (bounds.max - bounds.min).norm();
-  const double depth = normal.dot(centre) - reach;
-  if (offset <= depth) return Solid();
-  if (offset >= normal.dot(centre) + reach) return solid;
-  std::array<Vec3, 8> corners;
-  for (unsigned i = 0; i < 8; ++i) {
-    const double along_u = u.dot(centre) + ((i & 1) ? reach : -reach);
-    const double along_v = v.dot(centre) + ((i & 2) ? reach : -reach);
-    corners[i] = u * along_u + v * along_v + normal * ((i & 4) ? offset : depth);
+  for (std::uint32_t axis = 0; axis < 3; ++axis) {
+    const std::uint32_t u = 1u << (axis + 1) % 3, v = 1u << (axis + 2) % 3, far = 1u << axis;
+    // Counter-clockwise about the axis on the far side, clockwise on the near one.
+    result.mesh.triangles.push_back({far, far + u, far + u + v});
+    result.mesh.triangles.push_back({far, far + u + v, far + v});
+    result.mesh.triangles.push_back({0, u + v, u});
+    result.mesh.triangles.push_back({0, v, u + v});
+    result.labels.insert(result.labels.end(), {labels.max[axis], labels.max[axis], labels.min[axis], labels.min[axis]});
   }
-  BoxLabels labels;
-  labels.min.fill(label);
-  labels.max.fill(label);
-  return intersect(solid, Solid(box_mesh(corners, labels), "half-space"), watch);
+  return Solid(result, "box");
 }
 
 }  // namespace vantage::solid

@@ -52,10 +52,6 @@ class Solid {
   double epsilon() const;  ///< metres, see above
   Box bounds() const;
   long euler() const;  ///< V - E + F over all pieces
-  long genus() const;  ///< of a single piece: 1 - euler / 2
-
-  /// The connected parts of the boundary; a cavity is a part of its own, with negative volume.
-  std::vector<Solid> pieces() const;
 
   struct Impl;
   const Impl& impl() const { return *impl_; }  ///< for csg.cpp
@@ -81,12 +77,5 @@ struct BoxLabels {
 };
 /// An axis-aligned box; its corners are those given, bit for bit. Needs min < max on every axis.
 Solid make_box(const Box& box, const BoxLabels& labels);
-
-/// The convex hull of at least four points that do not lie in one plane (else empty), every facet with one label.
-Solid convex_hull(std::span<const Vec3> points, std::uint32_t label);
-
-/// The part of `solid` with normal·x <= offset; the cut face gets `label`. `normal` is of unit length; where it is an
-/// axis the cut is exact.
-Solid trim(const Solid& solid, const Vec3& normal, double offset, std::uint32_t label, const Watch& watch = {});
 
 }  // namespace vantage::solid

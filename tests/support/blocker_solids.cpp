@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "support/trim.h"
+
 namespace vantage::testing {
 namespace {
 
@@ -96,7 +98,7 @@ solid::Solid blocker_solid(const std::array<Vec3, 3>& triangle, const std::vecto
     const Real length = n.head<3>().norm();
     if (!(length > 1e-15L)) continue;  // the plane at infinity
     const Vec3 normal = (n.head<3>() / -length).cast<double>();
-    solid = solid::trim(solid, normal, double(n[3] / length), 0);
+    solid = trim(solid, normal, double(n[3] / length), 0);
     if (solid.empty()) break;
   }
   return solid;
