@@ -5,6 +5,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <filesystem>
+#include <memory>
 #include <string>
 #include <thread>
 #include <vector>
@@ -59,6 +62,45 @@ TEST(AtomicFile, LeavesTheOldFileUntilCommit) {
   }
   EXPECT_EQ(read_bytes(directory / "out.ply"), "old");
   EXPECT_EQ(directory.names(), Names{"out.ply"});
+}
+
+TEST(AtomicFile, ASetIsCommittedAsOne) {
+  const TemporaryDirectory directory;
+  write_bytes(directory / "a.ply", "old");
+  std::vector<std::unique_ptr<AtomicFile>> files;
+  for (const std::string name : {"a.ply", "b.ply"}) {
+    files.push_back(std::make_unique<AtomicFile>(directory / name));
+    files.back()->write(kLong);
+  }
+  files.front()->seal();  // that some are on the disk already makes no difference
+  commit_all(files);
+  EXPECT_EQ(read_bytes(directory / "a.ply"), kLong);
+  EXPECT_EQ(read_bytes(directory / "b.ply"), kLong);
+  files.clear();
+  EXPECT_EQ(directory.names().size(), 2u);
+  commit_all({});
+}
+
+TEST(AtomicFile, ASetOfWhichOneCannotBePutInPlaceLeavesEverythingAsItWas) {
+  const TemporaryDirectory directory;
+  for (const std::string name : {"a.ply", "d.ply"}) write_bytes(directory / name, "old");
+  std::vector<std::unique_ptr<AtomicFile>> files;
+  for (const std::string name : {"a.ply", "b.ply", "c.ply", "d.ply"}) {
+    files.push_back(std::make_unique<AtomicFile>(directory / name));
+    files.back()->write("new");
+  }
+  std::filesystem::create_directory(directory / "c.ply");  // a and b are in place by the time this is noticed
+  const Error error = error_of([&] { commit_all(files); });
+  EXPECT_EQ(error.kind(), ErrorKind::output);
+  EXPECT_EQ(error.problem(), "cannot put the file in place: Is a directory");
+  EXPECT_EQ(error.where(), (directory / "c.ply").string());
+  EXPECT_EQ(error.fix().find("already replaced"), std::string::npos);
+  files.clear();
+  EXPECT_EQ(read_bytes(directory / "a.ply"), "old");
+  EXPECT_EQ(read_bytes(directory / "d.ply"), "old");
+  Names names = directory.names();
+  std::sort(names.begin(), names.end());
+  EXPECT_EQ(names, (Names{"a.ply", "c.ply", "d.ply"}));
 }
 
 TEST(AtomicFile, RefusesADirectory) {

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <chrono>
 #include <memory>
 #include <set>
 
@@ -8,9 +7,9 @@
 #include "cli/progress_line.h"
 #include "cli/text_table.h"
 #include "mission/run_mission.h"
-#include "solid/atomic_file.h"
 #include "solid/names.h"
-#include "solid/report.h"
+#include "solid/result_files.h"
+#include "solid/writers.h"
 #include "vantage/error.h"
 #include "vantage/volume.h"
 
@@ -40,37 +39,27 @@ struct Options {
   bool json = false;
 };
 
-fs::path report_file(const fs::path& output) { return fs::path(output).replace_extension(".report.json"); }
-
 /// All that can be known to go wrong with the outputs before anything is computed.
 void check_outputs(const Options& options) {
   std::set<fs::path> seen;
   for (const std::string& output : options.outputs) {
     check_volume_output(output);
-    check_can_write(report_file(output));
+    check_can_write(solid::report_file(output));
     if (!seen.insert(fs::path(output).lexically_normal()).second) {
       throw Error(ErrorKind::input, "an output is named twice", output, "give each -o a name of its own");
     }
   }
 }
 
-/// Fills the seconds of writing.
-void write_meshes(const Options& options, MissionRun& run) {
-  const auto start = std::chrono::steady_clock::now();
-  for (const std::string& output : options.outputs) write_volume(run.volume, output, run.scene_up, run.scene_scale);
-  Seconds& seconds = run.volume.seconds;
-  seconds.write = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  seconds.total += seconds.write;
-}
-
-std::string report_text(const Mission& mission, const MissionRun& run, const MeshMeasures& measures,
-                        const std::string& output) {
-  solid::ReportSource source;
-  source.mission = mission.file.string();
-  source.scene = mission.scene_file.string();
-  source.target = mission.target.name;
-  if (run.volume.outcome == Outcome::computed) source.volume = output;
-  return solid::report_json(run.volume, measures, source);
+solid::WrittenResults write(const Options& options, const Mission& mission, MissionRun& run, const Progress& progress) {
+  solid::ResultRequest request;
+  request.volumes.assign(options.outputs.begin(), options.outputs.end());
+  request.obj_up = run.scene_up;
+  request.obj_scale = run.scene_scale;
+  request.source.mission = mission.file.string();
+  request.source.scene = mission.scene_file.string();
+  request.source.target = mission.target.name;
+  return solid::write_results(run.volume, request, progress);
 }
 
 /// The largest causes, and how many more there are.
@@ -123,7 +112,7 @@ int run(const Options& options) {
   const Mission read = read_mission(options.mission_file);
   for (const std::string& output : options.outputs) {
     check_not_an_input(output, input_files(read));
-    check_not_an_input(report_file(output), input_files(read));
+    check_not_an_input(solid::report_file(output), input_files(read));
   }
   Mission mission = read;
   mission.exact.threads = options.common.threads;
@@ -132,23 +121,17 @@ int run(const Options& options) {
   {
     ProgressLine progress(options.common);
     run = mission_io::run_mission(mission, progress.callback());
-    if (run.volume.outcome == Outcome::computed) write_meshes(options, run);
+    written = write(options, mission, run, progress.callback());
   }
-  const MeshMeasures measures = measure(run.volume.mesh);
-  std::set<fs::path> reports;
-  for (const std::string& output : options.outputs) {
-    const fs::path report = report_file(output);
-    if (!reports.insert(report.lexically_normal()).second) continue;
-    solid::write_whole_file(report, report_text(mission, run, measures, output));
-  }
+  solid::WrittenResults written;
   if (options.json) {
-    print(report_text(mission, run, measures, options.outputs.front()));
+    print(written.report);
   } else if (!options.common.quiet) {
-    std::string text = summary(mission, run, measures);
+    std::string text = summary(mission, run, written.measures);
     if (run.volume.outcome == Outcome::computed) {
       for (const std::string& output : options.outputs) text += "wrote " + output + "\n";
     }
-    for (const fs::path& report : reports) text += "wrote " + report.string() + "\n";
+    for (const fs::path& report : written.reports) text += "wrote " + report.string() + "\n";
     print(text);
   }
   if (run.volume.outcome != Outcome::computed) {

@@ -48,6 +48,16 @@ std::filesystem::path resolved(const std::filesystem::path& target) {
   return path;
 }
 
+/// A rename must reach the disk too. Not every file system lets a folder be synchronised; by then the file is whole
+/// either way.
+void synchronise_folder(const std::filesystem::path& file) {
+  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  const int handle = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (handle < 0) return;
+  (void)::fsync(handle);
+  ::close(handle);
+}
+
 }  // namespace
 
 AtomicFile::AtomicFile(const std::filesystem::path& target) : asked_(target), target_(resolved(target)) {
@@ -77,12 +87,14 @@ AtomicFile::AtomicFile(const std::filesystem::path& target) : asked_(target), ta
     temporary_.clear();
     fail("cannot create the file", reason);
   }
+  replaces_ = exists;
   if (exists) (void)::fchmod(descriptor_, old.st_mode & 07777);
 }
 
 AtomicFile::~AtomicFile() {
   if (descriptor_ >= 0) ::close(descriptor_);
   if (!temporary_.empty()) ::unlink(temporary_.c_str());
+  if (!kept_.empty()) ::unlink(kept_.c_str());
 }
 
 void AtomicFile::fail(const std::string& problem, int error_number) const {
@@ -110,22 +122,57 @@ void AtomicFile::flush() {
   buffer_.clear();
 }
 
-void AtomicFile::commit() {
+void AtomicFile::seal() {
+  if (descriptor_ < 0) return;
   flush();
   // Some file systems report a full disk only here.
   if (::fsync(descriptor_) != 0) fail("cannot write the file", errno);
   const int closed = ::close(descriptor_);
   descriptor_ = -1;
   if (closed != 0) fail("cannot write the file", errno);
+}
+
+void AtomicFile::put_in_place() {
   if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail("cannot put the file in place", errno);
   temporary_.clear();
-  // The rename itself must reach the disk too. Not every file system lets a directory be synchronised; by now the file
-  // is whole either way.
-  const std::filesystem::path directory = target_.has_parent_path() ? target_.parent_path() : ".";
-  const int handle = ::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (handle >= 0) {
-    (void)::fsync(handle);
-    ::close(handle);
+  synchronise_folder(target_);
+}
+
+void AtomicFile::commit() {
+  seal();
+  put_in_place();
+}
+
+void AtomicFile::keep_old() {
+  if (!replaces_) return;
+  const std::filesystem::path second_name = temporary_.string() + ".old";
+  if (::link(target_.c_str(), second_name.c_str()) == 0) kept_ = second_name;
+}
+
+/// Undoes put_in_place. False where the old file is lost.
+bool AtomicFile::give_back() {
+  if (!replaces_) return ::unlink(target_.c_str()) == 0;
+  if (kept_.empty() || ::rename(kept_.c_str(), target_.c_str()) != 0) return false;
+  kept_.clear();
+  synchronise_folder(target_);
+  return true;
+}
+
+void commit_all(const std::vector<std::unique_ptr<AtomicFile>>& files) {
+  for (const auto& file : files) file->seal();
+  if (files.size() > 1) {  // one rename needs no way back
+    for (const auto& file : files) file->keep_old();
+  }
+  std::size_t done = 0;
+  try {
+    for (; done < files.size(); ++done) files[done]->put_in_place();
+  } catch (const Error& error) {
+    std::string lost;
+    while (done-- > 0) {
+      if (!files[done]->give_back()) lost += (lost.empty() ? "" : ", ") + files[done]->asked_.string();
+    }
+    if (lost.empty()) throw;
+    throw Error(error.kind(), error.problem(), error.where(), "write elsewhere; already replaced: " + lost);
   }
 }
 

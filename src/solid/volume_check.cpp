@@ -37,4 +37,14 @@ void check_volume(const Volume& volume) {
   }
 }
 
+MeshMeasures measure_sound(const Mesh& mesh) {
+  const MeshMeasures measures = measure(mesh);
+  if (measures.closed && measures.oriented) return measures;
+  throw Error(ErrorKind::internal,
+              measures.closed ? "the volume's facets do not all face outward" : "the volume is not closed",
+              std::to_string(measures.facets) + " facets, Euler number " + std::to_string(measures.euler),
+              "this is a defect of vantage: please report it together with the mission and its meshes; nothing was "
+              "written");
+}
+
 }  // namespace vantage::solid

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <charconv>
 #include <filesystem>
+#include <memory>
 #include <string>
 
 #include "solid/volume_check.h"
@@ -33,9 +34,8 @@ std::string one_line(std::string_view text) {
   return line;
 }
 
-}  // namespace solid
-
-void write_volume(const Volume& volume, const std::filesystem::path& file, UpAxis obj_up, double obj_scale) {
+std::unique_ptr<AtomicFile> stage_volume(const Volume& volume, const std::filesystem::path& file, UpAxis obj_up,
+                                         double obj_scale) {
   std::error_code ignored;
   const bool directory =
       std::filesystem::is_directory(file, ignored);  // AtomicFile refuses it, with or without extension
@@ -49,13 +49,19 @@ void write_volume(const Volume& volume, const std::filesystem::path& file, UpAxi
                                   : "unknown output format \"" + file.extension().string() + "\"",
                 file.string(), "name a file that ends in .ply, .obj, .stl or .glb");
   }
-  solid::check_volume(volume);
-  solid::AtomicFile output(file);
-  if (extension == ".ply") solid::write_ply(volume, output);
-  if (extension == ".obj") solid::write_obj(volume, obj_up, obj_scale, output);
-  if (extension == ".stl") solid::write_stl(volume, output);
-  if (extension == ".glb") solid::write_glb(volume, output);
-  output.commit();
+  check_volume(volume);
+  auto output = std::make_unique<AtomicFile>(file);
+  if (extension == ".ply") write_ply(volume, *output);
+  if (extension == ".obj") write_obj(volume, obj_up, obj_scale, *output);
+  if (extension == ".stl") write_stl(volume, *output);
+  if (extension == ".glb") write_glb(volume, *output);
+  return output;
+}
+
+}  // namespace solid
+
+void write_volume(const Volume& volume, const std::filesystem::path& file, UpAxis obj_up, double obj_scale) {
+  solid::stage_volume(volume, file, obj_up, obj_scale)->commit();
 }
 
 }  // namespace vantage

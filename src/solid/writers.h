@@ -4,6 +4,8 @@
 #include <bit>
 #include <concepts>
 #include <cstdint>
+#include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -12,6 +14,10 @@
 #include "vantage/volume.h"
 
 namespace vantage::solid {
+
+/// Does all that write_volume does but the last step: the caller commits. Throws as write_volume does.
+std::unique_ptr<AtomicFile> stage_volume(const Volume& volume, const std::filesystem::path& file, UpAxis obj_up,
+                                         double obj_scale);
 
 void write_ply(const Volume& volume, AtomicFile& file);
 /// `scale`: metres in one unit of the file.

@@ -1,0 +1,70 @@
+#include "solid/result_files.h"
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+
+#include "solid/atomic_file.h"
+#include "solid/volume_check.h"
+#include "solid/writers.h"
+#include "vantage/error.h"
+
+namespace vantage::solid {
+namespace {
+
+class Stages {
+ public:
+  Stages(const Progress& progress, std::size_t count) : progress_(progress), count_(count) {}
+
+  void next() {
+    if (!progress_ || progress_("writing", static_cast<double>(done_++) / static_cast<double>(count_))) return;
+    throw Error(ErrorKind::cancelled, "cancelled while writing", "", "");
+  }
+
+ private:
+  const Progress& progress_;
+  std::size_t count_, done_ = 0;
+};
+
+}  // namespace
+
+std::filesystem::path report_file(const std::filesystem::path& volume_file) {
+  return std::filesystem::path(volume_file).replace_extension(".report.json");
+}
+
+WrittenResults write_results(Volume& volume, const ResultRequest& request, const Progress& progress) {
+  const auto start = std::chrono::steady_clock::now();
+  const bool has_volume = volume.outcome == Outcome::computed;
+  WrittenResults result;
+  result.measures = has_volume ? measure_sound(volume.mesh) : measure(volume.mesh);
+
+  std::vector<std::unique_ptr<AtomicFile>> files;
+  Stages stages(progress, request.volumes.size() + 1);
+  if (has_volume) {
+    for (const std::filesystem::path& file : request.volumes) {
+      stages.next();
+      files.push_back(stage_volume(volume, file, request.obj_up, request.obj_scale));
+      files.back()->seal();
+    }
+  }
+  stages.next();
+  volume.seconds.write = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  volume.seconds.total += volume.seconds.write;
+
+  for (const std::filesystem::path& file : request.volumes) {
+    ReportSource source = request.source;
+    if (has_volume) source.volume = file.string();
+    const std::string text = report_json(volume, result.measures, source);
+    if (result.report.empty()) result.report = text;
+    const std::filesystem::path report = report_file(file);
+    const auto is_same = [&](const auto& other) { return other.lexically_normal() == report.lexically_normal(); };
+    if (std::any_of(result.reports.begin(), result.reports.end(), is_same)) continue;
+    files.push_back(std::make_unique<AtomicFile>(report));
+    files.back()->write(text);
+    result.reports.push_back(report);
+  }
+  commit_all(files);
+  return result;
+}
+
+}  // namespace vantage::solid

@@ -1,0 +1,138 @@
+// What a computation leaves on the disk: all files or none.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "solid/result_files.h"
+#include "support/solids.h"
+#include "support/temporary_directory.h"
+#include "vantage/error.h"
+
+namespace vantage::solid {
+namespace {
+
+using vantage::testing::make_hemisphere;
+using vantage::testing::read_bytes;
+using vantage::testing::TemporaryDirectory;
+using vantage::testing::write_bytes;
+using Names = std::vector<std::string>;
+
+const Names kFiles = {"a.glb", "a.ply", "a.report.json", "b.obj", "b.report.json"};
+
+Names sorted_names(const TemporaryDirectory& directory) {
+  Names names = directory.names();
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+/// A request for three formats, and old files of all names that it stands for.
+ResultRequest request_over_old_files(const TemporaryDirectory& directory) {
+  for (const std::string& name : kFiles) write_bytes(directory / name, "old");
+  ResultRequest request;
+  request.volumes = {directory / "a.ply", directory / "a.glb", directory / "b.obj"};
+  request.source.target = "plaza";
+  return request;
+}
+
+void expect_old_files(const TemporaryDirectory& directory) {
+  EXPECT_EQ(sorted_names(directory), kFiles);
+  for (const std::string& name : kFiles) EXPECT_EQ(read_bytes(directory / name), "old") << name;
+}
+
+TEST(ResultFiles, ComeInAllFormatsWithAReportBesideEach) {
+  const TemporaryDirectory directory;
+  const ResultRequest request = request_over_old_files(directory);
+  Volume volume = make_hemisphere(Vec3::Zero(), 100);
+  volume.seconds.total = 1;
+  std::vector<std::string> stages;
+  const WrittenResults written = write_results(volume, request, [&](std::string_view stage, double fraction) {
+    stages.emplace_back(stage);
+    return fraction >= 0 && fraction <= 1;
+  });
+  EXPECT_EQ(stages, Names(4, "writing"));
+  EXPECT_EQ(sorted_names(directory), kFiles);
+  for (const std::string& name : kFiles) EXPECT_GT(read_bytes(directory / name).size(), 500u) << name;
+  EXPECT_EQ(written.reports,
+            (std::vector<std::filesystem::path>{directory / "a.report.json", directory / "b.report.json"}));
+  EXPECT_EQ(written.report, read_bytes(directory / "a.report.json"));
+  const auto report = nlohmann::json::parse(read_bytes(directory / "b.report.json"));
+  EXPECT_EQ(report.at("volume"), (directory / "b.obj").string());
+  EXPECT_EQ(report.at("target"), "plaza");
+  EXPECT_EQ(report.at("facets"), written.measures.facets);
+  EXPECT_EQ(report.at("seconds").at("write"), volume.seconds.write);
+  EXPECT_GT(volume.seconds.write, 0);
+  EXPECT_EQ(volume.seconds.total, 1 + volume.seconds.write);
+}
+
+TEST(ResultFiles, AVolumeThatIsNotClosedIsNotWritten) {
+  const TemporaryDirectory directory;
+  const ResultRequest request = request_over_old_files(directory);
+  const Volume sound = make_hemisphere(Vec3::Zero(), 100);
+  Volume open = sound, turned = sound;
+  open.mesh.triangles.pop_back();
+  open.cause_of.pop_back();
+  std::swap(turned.mesh.triangles[7][0], turned.mesh.triangles[7][1]);
+  for (const auto& [volume, problem] : {std::pair<Volume*, std::string>(&open, "the volume is not closed"),
+                                        {&turned, "the volume's facets do not all face outward"}}) {
+    try {
+      write_results(*volume, request);
+      FAIL() << problem;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::internal);
+      EXPECT_EQ(error.problem(), problem);
+      EXPECT_FALSE(error.where().empty());
+      EXPECT_FALSE(error.fix().empty());
+    }
+    expect_old_files(directory);
+  }
+}
+
+TEST(ResultFiles, AFailureOfTheLastLeavesAllOldFiles) {
+  const TemporaryDirectory directory;
+  ResultRequest request = request_over_old_files(directory);
+  Volume volume = make_hemisphere(Vec3::Zero(), 100);
+  request.obj_scale = 0;  // the OBJ comes third
+  EXPECT_THROW(write_results(volume, request), Error);
+  expect_old_files(directory);
+  request.obj_scale = 1;
+  request.volumes.push_back(directory / "none" / "c.ply");
+  EXPECT_THROW(write_results(volume, request), Error);
+  expect_old_files(directory);
+}
+
+TEST(ResultFiles, CancellingLeavesAllOldFiles) {
+  const TemporaryDirectory directory;
+  const ResultRequest request = request_over_old_files(directory);
+  for (int last = 0; last < 4; ++last) {
+    Volume volume = make_hemisphere(Vec3::Zero(), 100);
+    int asked = 0;
+    try {
+      write_results(volume, request, [&](std::string_view, double) { return asked++ < last; });
+      FAIL() << last;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::cancelled);
+    }
+    EXPECT_EQ(asked, last + 1);
+    expect_old_files(directory);
+  }
+}
+
+TEST(ResultFiles, WithoutAVolumeOnlyReportsAreWritten) {
+  const TemporaryDirectory directory;
+  const ResultRequest request = request_over_old_files(directory);
+  Volume volume;
+  volume.outcome = Outcome::outside_limits;
+  volume.reason = "too high";
+  write_results(volume, request);
+  EXPECT_EQ(sorted_names(directory), kFiles);
+  for (const char* name : {"a.ply", "a.glb", "b.obj"}) EXPECT_EQ(read_bytes(directory / name), "old") << name;
+  const auto report = nlohmann::json::parse(read_bytes(directory / "b.report.json"));
+  EXPECT_EQ(report.at("reason"), "too high");
+  EXPECT_FALSE(report.contains("volume"));
+}
+
+}  // namespace
+}  // namespace vantage::solid
