@@ -1,4 +1,6 @@
 // The program as a user meets it: exit codes, what it says, and which files it touches.
+#include <csignal>
+
 #include "support/cli_fixture.h"
 
 namespace vantage::testing {
@@ -8,6 +10,7 @@ using CliUsage = Cli;
 using CliBadMission = Cli;
 using CliBadMesh = Cli;
 using CliBadOutput = Cli;
+using CliSignals = Cli;
 
 TEST_F(CliUsage, HelpShowsExamples) {
   EXPECT_NE(output_of({"--help"}).find("EXAMPLES"), std::string::npos);
@@ -211,6 +214,55 @@ TEST_F(CliBadOutput, FullDisk) {
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
   options_.out_file = "/dev/full";
   expect_bad({"inspect", "city.obj"}, "could not be written", "standard output");
+}
+
+/// So many blocks that reading and preparing them takes a while.
+std::string large_city() {
+  std::ostringstream text;
+  for (int block = 0; block < 5000; ++block) {
+    const int x = 20 + block % 70 * 10, y = 20 + block / 70 * 10;
+    for (int z : {0, 9})
+      text << "v " << x << ' ' << y << ' ' << z << "\nv " << x + 5 << ' ' << y << ' ' << z << "\nv " << x + 5 << ' '
+           << y + 5 << ' ' << z << "\nv " << x << ' ' << y + 5 << ' ' << z << '\n';
+    text << "f -4 -3 -2 -1\nf -8 -7 -3 -4\nf -7 -6 -2 -3\nf -6 -5 -1 -2\nf -5 -8 -4 -1\n";
+  }
+  return text.str();
+}
+
+TEST_F(CliSignals, AskTheProgramToEnd) {
+  write("large.obj", large_city());
+  write("mission.yaml", std::string("scene: {mesh: large.obj}\n") + kTarget + kSensor);
+  options_.signal_when = [](const std::string& err) { return !err.empty(); };
+  const auto before = files();
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    options_.signal = signal;
+    const ProgramRun result = run({"compute", "mission.yaml", "--progress", "-o", "volume.ply"});
+    EXPECT_EQ(result.exit_code, 128 + signal);
+    EXPECT_EQ(lines(result.err).back(), "vantage: stopped; nothing was written") << result.err;
+    EXPECT_EQ(result.out, "");
+    EXPECT_TRUE(files() == before) << "signal " << signal;
+  }
+}
+
+TEST_F(CliSignals, LeaveAllFilesOrNone) {
+  write("mission.yaml", std::string(kScene) + kTarget + kSensor + "exact: {tolerance: 0.001}\n");
+  const std::vector<std::string> names = {"a.ply", "a.obj", "a.stl", "a.glb", "a.report.json"};
+  for (const std::string& name : names) write(name, kOldOutput);
+  options_.signal = SIGTERM;
+  options_.signal_when = [&](const std::string&) {  // while the first file is written
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder_)) {
+      if (entry.path().filename().string().rfind(".a.ply.", 0) == 0) return true;
+    }
+    return false;
+  };
+  const std::size_t count = files().size();
+  const ProgramRun result =
+      run({"compute", "mission.yaml", "-q", "-o", "a.ply", "-o", "a.obj", "-o", "a.stl", "-o", "a.glb"});
+  ASSERT_TRUE(result.exit_code == 128 + SIGTERM || result.exit_code == 0) << result.exit_code << result.err;
+  for (const std::string& name : names) {
+    EXPECT_EQ(content(folder_ / name) == kOldOutput, result.exit_code != 0) << name;
+  }
+  EXPECT_EQ(files().size(), count) << "temporary files were left";
 }
 
 }  // namespace

@@ -10,10 +10,10 @@ namespace vantage::cli {
 /// Exit codes of the program.
 enum ExitCode : int {
   kSuccess = 0,
-  kCheckFailed = 1,    ///< `verify` found the volume wrong
-  kBadInput = 2,       ///< wrong arguments or files, or a result that could not be written
-  kDefect = 3,         ///< vantage itself is at fault
-  kInterrupted = 130,  ///< as shells report an end by Ctrl-C
+  kCheckFailed = 1,  ///< `verify` found the volume wrong
+  kBadInput = 2,     ///< wrong arguments or files, or a result that could not be written
+  kDefect = 3,       ///< vantage itself is at fault
+  kSignalled = 128,  ///< and the number of the signal that ended it, as shells report it
 };
 
 /// Runs a parsed command and returns its exit code; throws vantage::Error.

@@ -80,6 +80,7 @@ int run(const Options& options) {
   const std::string text = answers_text(points, answers);
   if (options.output_file.empty()) {
     print(text);
+  stop_if_interrupted();
   } else {
     solid::write_whole_file(options.output_file, text);
   }

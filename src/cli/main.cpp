@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cli/command.h"
+#include "cli/interrupt.h"
 #include "mission/nearest_name.h"
 #include "mission/numbers.h"
 #include "vantage/error.h"
@@ -26,7 +27,8 @@ constexpr const char* kExamples =
     "  0  done\n"
     "  1  verify: the volume is wrong\n"
     "  2  bad input or arguments, or a result that could not be written; existing files are left as they were\n"
-    "  3  a defect of vantage\n"
+    "  3  a defect of vantage; existing files are left as they were\n"
+    "  128 + n  stopped by signal n (130: Ctrl-C); existing files are left as they were, a second signal ends at once\n"
     "\n"
     "The mission file: docs/mission-file.md\n";
 
@@ -48,7 +50,7 @@ int exit_code(ErrorKind kind) {
     case ErrorKind::output:
       return kBadInput;
     case ErrorKind::cancelled:
-      return kInterrupted;
+      return kSignalled + noted_signal();
     case ErrorKind::internal:
       break;
   }
@@ -85,7 +87,7 @@ int run_guarded(const Command& command, const std::string& name) {
   } catch (const Error& error) {
     if (error.kind() == ErrorKind::cancelled) {
       note("stopped; nothing was written");
-      return kInterrupted;
+      return exit_code(error.kind());
     }
     print_error(error.problem(), error.where().empty() ? "vantage " + name : error.where(),
                 error.fix().empty() ? "see 'vantage " + name + " --help'" : error.fix());

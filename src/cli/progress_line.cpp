@@ -3,7 +3,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <csignal>
 #include <cstdio>
 
 namespace vantage::cli {
@@ -11,10 +10,6 @@ namespace {
 
 constexpr std::chrono::milliseconds kQuietTime{1000};   // what is over sooner needs no progress
 constexpr std::chrono::milliseconds kRefreshTime{100};  // faster than that is only flicker
-
-volatile std::sig_atomic_t g_is_interrupted = 0;
-
-void interrupt(int) { g_is_interrupted = 1; }
 
 }  // namespace
 
@@ -24,25 +19,16 @@ ProgressLine::ProgressLine(const CommonOptions& options) : form_(Form::none) {
   } else if (!options.quiet && options.progress) {
     form_ = Form::plain;
   }
-  struct sigaction action {};
-  action.sa_handler = interrupt;
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
-  ::sigaction(SIGINT, &action, nullptr);
 }
 
-ProgressLine::~ProgressLine() {
-  wipe();
-  struct sigaction action {};
-  action.sa_handler = SIG_DFL;
-  ::sigaction(SIGINT, &action, nullptr);
-}
+ProgressLine::~ProgressLine() { wipe(); }
 
 Progress ProgressLine::callback() {
   return [this](std::string_view stage, double fraction) { return report(stage, fraction); };
 }
 
 bool ProgressLine::report(std::string_view stage, double fraction) {
-  if (g_is_interrupted != 0) return false;
+  if (noted_signal() != 0) return false;
   const Clock::time_point now = Clock::now();
   if (form_ == Form::plain && stage != stage_) {
     std::fprintf(stderr, "vantage: %.*s\n", static_cast<int>(stage.size()), stage.data());

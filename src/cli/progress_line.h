@@ -3,15 +3,17 @@
 
 #include <chrono>
 #include <string>
+#include <string_view>
 
 #include "cli/command.h"
+#include "cli/interrupt.h"
 #include "vantage/progress.h"
 
 namespace vantage::cli {
 
 /// Follows one command. On a terminal: after a second, one line that is rewritten and in the end wiped. With --progress
-/// and no terminal: a plain line per stage. Else, and with --quiet: nothing. Ctrl-C makes the callback ask for the end,
-/// so that nothing is left half-written; a second Ctrl-C ends the program at once.
+/// and no terminal: a plain line per stage. Else, and with --quiet: nothing. The first signal that asks the program to
+/// end makes the callback say so, so that nothing is left half-written; see InterruptGuard.
 class ProgressLine {
  public:
   explicit ProgressLine(const CommonOptions& options);
@@ -29,6 +31,7 @@ class ProgressLine {
   bool report(std::string_view stage, double fraction);
   void wipe();
 
+  InterruptGuard guard_;
   Form form_;
   Clock::time_point start_ = Clock::now();
   Clock::time_point last_shown_{};

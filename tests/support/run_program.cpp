@@ -1,6 +1,7 @@
 #include "support/run_program.h"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -86,14 +87,19 @@ ProgramRun run_program(const fs::path& program, const std::vector<std::string>& 
   ProgramRun run;
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(options.timeout_s);
   int status = 0;
+  bool is_signalled = options.signal == 0;
   while (::waitpid(child, &status, WNOHANG) == 0) {
+    if (!is_signalled && options.signal_when(content(streams.err()))) {
+      ::kill(child, options.signal);
+      is_signalled = true;
+    }
     if (std::chrono::steady_clock::now() > end) {
       run.timed_out = true;
       ::kill(child, SIGKILL);
       ::waitpid(child, &status, 0);
       break;
     }
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    std::this_thread::sleep_for(std::chrono::microseconds(is_signalled ? 2000 : 200));
   }
   run.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
   run.was_started = run.exit_code != kNotStarted;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,6 +22,8 @@ struct RunOptions {
   std::optional<std::size_t> largest_file;        ///< bytes: writing more fails, as on a full disk
   std::optional<std::filesystem::path> out_file;  ///< standard output goes there, not into ProgramRun::out
   bool as_nobody = false;  ///< root gives up its rights first, which are above permissions; others run as they are
+  int signal = 0;  ///< sent once, as soon as `signal_when` holds of what the program has written to standard error
+  std::function<bool(const std::string& err)> signal_when;
   int timeout_s = 120;
 };
 
