@@ -5,7 +5,9 @@
 #include <cmath>
 #include <iostream>
 #include <random>
+#include <vector>
 
+#include "support/solids.h"
 #include "vantage/error.h"
 #include "vantage/query.h"
 #include "vantage/volume.h"
@@ -60,31 +62,131 @@ TEST(Query, NamesTheLimitsThatArePassed) {
   EXPECT_EQ(answers[4].outside_of, std::vector<std::string>{"altitude min"});
 }
 
+TEST(Query, LimitsBoundTheMargin) {
+  Navigation navigation;
+  navigation.altitude = {5, 30};
+  navigation.keep_out = {{Vec3(-1, -1, 15), Vec3(1, 1, 25)}};
+  const PreparedScene scene(walls());
+  const auto margin = [&](const Vec3& point) {
+    return query_points(scene, square(), {50}, navigation, {point})[0].margin_m;
+  };
+  EXPECT_NEAR(margin({0, 0, 7}), 2, 1e-9);
+  EXPECT_NEAR(margin({0, 0, 14}), 1, 1e-9);
+  EXPECT_NEAR(margin({0, 0, 29}), 1, 1e-9);
+  EXPECT_NEAR(margin({0, 0, 26}), 1, 1e-9);
+  EXPECT_NEAR(margin({0, 0, 2}), -3, 1e-9);
+  EXPECT_NEAR(margin({0, 0, 33}), -3, 1e-9);
+  EXPECT_NEAR(margin({0, 0, 80}), -50, 1e-9);
+  EXPECT_NEAR(margin({0, 0, 16}), -1, 1e-9);
+  EXPECT_NEAR(margin({0, 0, 23}), -2, 1e-9);
+  EXPECT_NEAR(margin({0, 0, -4}), -9, 1e-9) << "behind the target";
+  EXPECT_NEAR(margin({0, 0, 0}), -5, 1e-9) << "at its centre";
+  EXPECT_NEAR(margin({0, 0, 30}), 0, 1e-9) << "on the limit";
+  EXPECT_NEAR(margin({0, 4, 8}), std::hypot(4, 8) * 3 / 8, 1e-9) << "obliquely";
+  // Along the ground the line is never high enough.
+  EXPECT_EQ(margin({0, 30, 1}), -INFINITY);
+}
+
+TEST(Query, BoxesAndMeshesBoundTheMargin) {
+  const PreparedScene scene(walls());
+  Navigation boxes;  // two that touch are one
+  boxes.boxes = {
+      {Vec3(-9, -9, 10), Vec3(9, 9, 20)}, {Vec3(-9, -9, 20), Vec3(9, 9, 32)}, {Vec3(30, 30, 1), Vec3(31, 31, 2)}};
+  Navigation meshes;
+  meshes.meshes = {{testing::make_box_mesh(Vec3(-9, -9, 10), Vec3(9, 9, 32)), "zone"},
+                   {testing::make_box_mesh(Vec3(-40, -40, -1), Vec3(40, 40, 40)), "all"}};
+  for (const Navigation& navigation : {boxes, meshes}) {
+    const std::vector<Vec3> points = {{0, 0, 18}, {0, 0, 30}, {0, 0, 4}, {0, 0, 35}, {0, 0, -1}, {0, 20, 4}};
+    const auto answers = query_points(scene, square(), {50}, navigation, points);
+    const std::vector<double> expected = {8, 2, -6, -3, -11, -INFINITY};
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      EXPECT_EQ(answers[i].inside, i < 2) << points[i].transpose();
+      if (std::isfinite(expected[i])) {
+        EXPECT_NEAR(answers[i].margin_m, expected[i], 1e-9) << points[i].transpose();
+      } else {
+        EXPECT_EQ(answers[i].margin_m, expected[i]) << points[i].transpose();
+      }
+    }
+  }
+}
+
+/// All kinds of limits.
+Navigation some_limits() {
+  Navigation navigation;
+  navigation.altitude = {4, 38};
+  navigation.boxes = {{Vec3(-40, -40, 0), Vec3(5, 40, 45)}, {Vec3(-5, -25, 2), Vec3(45, 25, 30)}};
+  navigation.keep_out = {{Vec3(-20, 5, 0), Vec3(-5, 15, 20)}, {Vec3(6, -12, 8), Vec3(20, -2, 50)}};
+  navigation.meshes = {{testing::make_box_mesh(Vec3(-35, -30, -10), Vec3(40, 30, 60)), "zone"}};
+  for (int v = 4; v < 8; ++v) navigation.meshes[0].mesh.vertices[v].x() += 10;  // slanted sides
+  return navigation;
+}
+
+TEST(Query, TheMarginIsWhereTheAnswerChanges) {
+  const PreparedScene scene(walls());
+  const unsigned seed = 20240818;
+  std::cout << "seed " << seed << "\n";
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> side(-50, 50), up(-10, 50);
+  std::vector<Vec3> points;
+  for (int i = 0; i < 2000; ++i) points.emplace_back(side(random), side(random), up(random));
+  for (const Navigation& navigation : {Navigation(), some_limits()}) {
+    const auto answers = query_points(scene, square(), {50}, navigation, points);
+    constexpr double kStep = 1e-6;
+    std::vector<Vec3> before, beyond;  // two a point: away from the target's centre and towards it
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const double margin = std::isfinite(answers[i].margin_m) ? std::abs(answers[i].margin_m) : 1000;
+      for (const double sign : {1.0, -1.0}) {
+        const Vec3 away = sign * points[i].normalized();
+        before.push_back(points[i] + away * std::max(margin - kStep, 0.0));
+        beyond.push_back(points[i] + away * (margin + kStep));
+      }
+    }
+    const auto same = query_points(scene, square(), {50}, navigation, before);
+    const auto other = query_points(scene, square(), {50}, navigation, beyond);
+    int inside = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const bool is_inside = answers[i].inside, has_boundary = std::isfinite(answers[i].margin_m);
+      inside += is_inside;
+      EXPECT_EQ(same[2 * i].inside, is_inside) << points[i].transpose();
+      const bool reaches_target = points[i].norm() <= answers[i].margin_m;  // where the line ends
+      if (!reaches_target) {
+        EXPECT_EQ(same[2 * i + 1].inside, is_inside) << points[i].transpose();
+      }
+      EXPECT_EQ(other[2 * i].inside != is_inside || other[2 * i + 1].inside != is_inside, has_boundary)
+          << points[i].transpose() << " margin " << answers[i].margin_m;
+    }
+    EXPECT_GT(inside, 200);
+  }
+}
+
 TEST(Query, AgreesWithTheMesh) {
   const PreparedScene scene(walls());
-  const Volume volume = compute_visibility(scene, square(), {50}, {0.05, 0});
+  const Volume whole = compute_visibility(scene, square(), {50}, {0.05, 0});
   const unsigned seed = 20240817;
   std::cout << "seed " << seed << "\n";
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> side(-50, 50), up(0.01, 50);
   std::vector<Vec3> points;
   for (int i = 0; i < 1000; ++i) points.emplace_back(side(random), side(random), up(random));
-  const auto answers = query_points(scene, square(), {50}, {}, points);
-  int inside = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (std::abs(answers[i].margin_m) < 0.1) continue;  // the mesh's own tolerance
-    double winding = 0;
-    for (const Triangle& t : volume.mesh.triangles) {
-      const Vec3 a = volume.mesh.vertices[t[0]] - points[i], b = volume.mesh.vertices[t[1]] - points[i],
-                 c = volume.mesh.vertices[t[2]] - points[i];
-      winding += std::atan2(a.dot(b.cross(c)), a.norm() * b.norm() * c.norm() + a.dot(b) * c.norm() +
-                                                   b.dot(c) * a.norm() + c.dot(a) * b.norm());
+  for (const Navigation& navigation : {Navigation(), some_limits()}) {
+    const Volume volume = cut_to_navigation(whole, navigation);
+    const auto answers = query_points(scene, square(), {50}, navigation, points);
+    int inside = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (std::abs(answers[i].margin_m) < 0.1) continue;  // the mesh's own tolerance
+      double winding = 0;
+      for (const Triangle& t : volume.mesh.triangles) {
+        const Vec3 a = volume.mesh.vertices[t[0]] - points[i], b = volume.mesh.vertices[t[1]] - points[i],
+                   c = volume.mesh.vertices[t[2]] - points[i];
+        winding += std::atan2(a.dot(b.cross(c)), a.norm() * b.norm() * c.norm() + a.dot(b) * c.norm() +
+                                                     b.dot(c) * a.norm() + c.dot(a) * b.norm());
+      }
+      EXPECT_EQ(answers[i].inside, winding > M_PI) << points[i].transpose();
+      EXPECT_EQ(answers[i].inside, answers[i].margin_m > 0) << points[i].transpose();
+      inside += answers[i].inside;
     }
-    EXPECT_EQ(answers[i].inside, winding > M_PI) << points[i].transpose();
-    EXPECT_EQ(answers[i].inside, answers[i].margin_m > 0) << points[i].transpose();
-    inside += answers[i].inside;
+    EXPECT_GT(inside, 100);
   }
-  EXPECT_GT(inside, 200);
 }
 
 TEST(Query, RefusesPointsThatAreNotNumbers) {
@@ -95,6 +197,7 @@ TEST(Query, OutOfReachOfEveryone) {
   const auto answers = query_points(PreparedScene(walls()), square(), {6}, {}, {{0, 0, 1}});
   EXPECT_TRUE(answers[0].out_of_range);
   EXPECT_FALSE(answers[0].inside);
+  EXPECT_EQ(answers[0].margin_m, -INFINITY);
 }
 
 }  // namespace

@@ -28,8 +28,10 @@ constexpr const char* kExamples =
     "\n"
     "ANSWERS\n"
     "  x,y,z,inside,margin_m,blocked_by,out_of_range,behind_target,outside_of: margin_m is the signed distance to the\n"
-    "  boundary along the line to the target's centre, positive inside; several names in one field are joined with "
-    "';'.\n"
+    "  volume's boundary along the line to the target's centre, positive inside. Navigation limits bound it too, the\n"
+    "  target itself does not; -inf where no point of that line is in the volume. Several names in one field are "
+    "joined\n"
+    "  with ';'.\n"
     "\n"
     "EXAMPLES\n"
     "  vantage query mission.yaml points.csv\n"
@@ -78,9 +80,9 @@ int run(const Options& options) {
     return query_points(scene, mission.target, mission.sensor, mission.navigation, points);
   });
   const std::string text = answers_text(points, answers);
+  stop_if_interrupted();
   if (options.output_file.empty()) {
     print(text);
-  stop_if_interrupted();
   } else {
     solid::write_whole_file(options.output_file, text);
   }

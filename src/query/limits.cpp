@@ -26,7 +26,80 @@ double winding_number(const Mesh& mesh, const Vec3& point) {
   return sum / (2 * M_PI);
 }
 
+void add_box_crossings(const Box& box, const SightLine& line, std::vector<double>& out) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (line.direction[axis] == 0) continue;
+    out.push_back((box.min[axis] - line.origin[axis]) / line.direction[axis]);
+    out.push_back((box.max[axis] - line.origin[axis]) / line.direction[axis]);
+  }
+}
+
+/// Where the line passes a triangle, or nearly: a crossing too many does no harm, one too few would. Triangles that the
+/// line slides along are left out; where they end it passes their neighbours.
+void add_mesh_crossings(const Mesh& mesh, const SightLine& line, std::vector<double>& out) {
+  constexpr double kNear = 1e-9;  // of the triangle's size
+  for (const Triangle& t : mesh.triangles) {
+    const Vec3 a = mesh.vertices[t[0]] - line.origin, u = mesh.vertices[t[1]] - mesh.vertices[t[0]],
+               v = mesh.vertices[t[2]] - mesh.vertices[t[0]];
+    const Vec3 normal = u.cross(v);
+    const double slope = normal.dot(line.direction);
+    if (slope == 0) continue;
+    const double distance = normal.dot(a) / slope;
+    const Vec3 p = distance * line.direction - a;
+    const double scale = normal.squaredNorm();
+    const double along_u = p.cross(v).dot(normal) / scale, along_v = u.cross(p).dot(normal) / scale;
+    if (along_u >= -kNear && along_v >= -kNear && along_u + along_v <= 1 + kNear) out.push_back(distance);
+  }
+}
+
+/// The line within reach, cut wherever it passes a limit: between neighbours all of it is allowed or none.
+std::vector<double> cut_line(const Navigation& navigation, const SightLine& line) {
+  std::vector<double> cuts;
+  if (navigation.altitude) {
+    Box band;
+    band.min = {-INFINITY, -INFINITY, navigation.altitude->min_m};
+    band.max = {INFINITY, INFINITY, navigation.altitude->max_m};
+    add_box_crossings(band, line, cuts);
+  }
+  for (const Box& box : navigation.boxes) add_box_crossings(box, line, cuts);
+  for (const Box& box : navigation.keep_out) add_box_crossings(box, line, cuts);
+  for (const KeepInMesh& mesh : navigation.meshes) add_mesh_crossings(mesh.mesh, line, cuts);
+  std::erase_if(cuts, [&](double cut) { return !(cut > 0 && cut < line.reach); });
+  cuts.push_back(0);
+  cuts.push_back(line.reach);
+  std::sort(cuts.begin(), cuts.end());
+  return cuts;
+}
+
+/// The part of the line from one cut to the next.
+struct Part {
+  double begin, end;
+  double distance_from(double at) const { return std::max({begin - at, at - end, 0.0}); }
+};
+
 }  // namespace
+
+double signed_margin(const Navigation& navigation, const SightLine& line, double at, bool is_inside) {
+  if (!(line.reach > 0)) return -INFINITY;
+  const std::vector<double> cuts = cut_line(navigation, line);
+  std::vector<Part> parts;
+  for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
+    if (cuts[i] < cuts[i + 1]) parts.push_back({cuts[i], cuts[i + 1]});
+  }
+  const auto is_allowed = [&](const Part& part) {
+    return limits_broken(navigation, line.at((part.begin + part.end) / 2)).empty();
+  };
+  // Nearest first: outside, the first part that is allowed ends the search; inside, the first that is not, or the
+  // reach.
+  std::stable_sort(parts.begin(), parts.end(),
+                   [&](const Part& a, const Part& b) { return a.distance_from(at) < b.distance_from(at); });
+  for (const Part& part : parts) {
+    const double distance = part.distance_from(at);
+    if (is_inside && distance >= line.reach - at) break;
+    if (is_allowed(part) != is_inside) return is_inside ? distance : 0.0 - distance;
+  }
+  return is_inside ? std::max(line.reach - at, 0.0) : -INFINITY;
+}
 
 std::vector<std::string> limits_broken(const Navigation& navigation, const Vec3& point) {
   std::vector<std::string> broken;

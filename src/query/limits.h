@@ -12,4 +12,19 @@ namespace vantage::query {
 /// NAME". Borders belong to the allowed side. Cost: linear in the triangles of the navigation meshes.
 std::vector<std::string> limits_broken(const Navigation& navigation, const Vec3& point);
 
+/// A line of sight: from the target's centre to the front. Scene frame.
+struct SightLine {
+  Vec3 origin, direction;  ///< unit length
+  double reach = 0;        ///< metres from the origin up to which the whole target is visible and in range; 0: nowhere
+
+  Vec3 at(double distance) const { return origin + distance * direction; }
+};
+
+/// Signed distance, along the line, from the point at `at` metres from its origin (negative: behind the target) to the
+/// boundary of the part of the line that is within reach and all limits: positive inside, minus infinity where there is
+/// no such part. The origin, where the line ends on the target, does not count as boundary. `is_inside`: what is known
+/// of the point by tests of its own, which this follows. Cost: as limits_broken for each crossing with a limit that
+/// lies nearer than that boundary.
+double signed_margin(const Navigation& navigation, const SightLine& line, double at, bool is_inside);
+
 }  // namespace vantage::query

@@ -66,18 +66,21 @@ class LineOfSight {
   std::vector<Plane> planes_;
 };
 
-PointAnswer look(const PreparedScene::Data& scene, const RangeRegion& range, LineOfSight& sight, const Vec3& point) {
-  PointAnswer answer;
-  const double distance = point.norm();
-  answer.out_of_range = !range.contains(point);
-  answer.behind_target = point.z() <= 0;
-  if (answer.behind_target) {
-    answer.margin_m = -distance;
-    return answer;
-  }
-  const Vec3 direction = point / distance;
-  double gauge = range.gauge(direction);
-  std::set<std::string> names;
+/// What one target asks of the scene; shared by all threads.
+struct Question {
+  const PreparedScene::Data& scene;
+  const TargetFrame& frame;
+  const RangeRegion& range;
+  const Navigation& navigation;
+  bool is_reachable;  // else no point at all is in range
+};
+
+/// Inverse of the distance up to which the target is seen along `direction` (local). Adds to `names` what hides some of
+/// it from the point at `distance`.
+double gauge_along(const Question& question, LineOfSight& sight, const Vec3& direction, double distance,
+                   std::set<std::string>& names) {
+  double gauge = question.range.gauge(direction);
+  const PreparedScene::Data& scene = question.scene;
   sight.for_each(direction * std::max(distance, 1 / gauge),
                  [&](std::uint32_t polygon, const std::vector<Plane>& planes) {
                    double least = std::numeric_limits<double>::infinity(), margin = 0;
@@ -88,8 +91,30 @@ PointAnswer look(const PreparedScene::Data& scene, const RangeRegion& range, Lin
                    gauge = std::max(gauge, least);
                    if (least * distance > 1 + margin) names.insert(scene.objects[scene.polygon_object[polygon]]);
                  });
+  return gauge;
+}
+
+PointAnswer look(const Question& question, LineOfSight& sight, const Vec3& scene_point) {
+  PointAnswer answer;
+  const TargetFrame& frame = question.frame;
+  const Vec3 point = frame.to_local(scene_point);
+  const double distance = point.norm();
+  answer.out_of_range = !question.is_reachable || !question.range.contains(point);
+  answer.behind_target = point.z() <= 0;
+  answer.outside_of = query::limits_broken(question.navigation, scene_point);
+
+  // The line goes to the front always: for a point behind the target it is the other half of the line through it.
+  const double side = answer.behind_target ? -1 : 1;
+  const Vec3 direction = distance > 0 ? Vec3(side * point / distance) : Vec3::UnitZ();
+  std::set<std::string> names;
+  const double gauge = gauge_along(question, sight, direction, answer.behind_target ? 0 : distance, names);
   answer.blocked_by.assign(names.begin(), names.end());
-  answer.margin_m = 1 / gauge - distance;
+  answer.inside =
+      !answer.behind_target && !answer.out_of_range && answer.blocked_by.empty() && answer.outside_of.empty();
+  const query::SightLine line{
+      frame.origin, frame.axis_u * direction.x() + frame.axis_v * direction.y() + frame.normal * direction.z(),
+      question.is_reachable ? 1 / gauge : 0};
+  answer.margin_m = query::signed_margin(question.navigation, line, side * distance, answer.inside);
   return answer;
 }
 
@@ -112,16 +137,10 @@ std::vector<PointAnswer> query_points(const PreparedScene& scene, const Target& 
   if (reachable) move_into_range(frame, sensor.max_range_m);
   const LocalTarget local = make_local_target(frame.polygon);
   const RangeRegion range(local, reachable ? sensor.max_range_m : 2 * frame.enclosing_radius_m);
+  const Question question{scene.data(), frame, range, navigation, reachable};
   parallel::for_ranges(points.size(), 64, [&](std::size_t begin, std::size_t end) {
     LineOfSight sight(scene.data(), frame, local);
-    for (std::size_t i = begin; i < end; ++i) {
-      PointAnswer& answer = answers[i];
-      answer = look(scene.data(), range, sight, frame.to_local(points[i]));
-      if (!reachable) answer.out_of_range = true, answer.margin_m = -(points[i] - frame.origin).norm();
-      answer.outside_of = query::limits_broken(navigation, points[i]);
-      answer.inside =
-          !answer.behind_target && !answer.out_of_range && answer.blocked_by.empty() && answer.outside_of.empty();
-    }
+    for (std::size_t i = begin; i < end; ++i) answers[i] = look(question, sight, points[i]);
   });
   return answers;
 }
