@@ -338,6 +338,24 @@ TEST(WriteGlb, IsValidAndKeepsLargeCoordinates) {
   }
 }
 
+TEST(WriteGlb, HasTheColoursOfThePictures) {
+  const TemporaryDirectory directory;
+  write_volume(awkward_volume(), directory / "v.glb");
+  const Glb glb = parse_glb(read_bytes(directory / "v.glb"));
+  // docs/gallery/render.py, from sRGB to linear.
+  const std::map<std::string, Vec3> colours = {{"scene", Vec3(0.0343, 0.1559, 0.5149)},
+                                               {"range", Vec3(0.8550, 0.3050, 0.0319)},
+                                               {"target_plane", Vec3(0.3050, 0.3050, 0.3050)},
+                                               {"navigation", Vec3(0.0452, 0.3515, 0.1274)}};
+  ASSERT_EQ(glb.json.at("materials").size(), colours.size());
+  for (const nlohmann::json& material : glb.json.at("materials")) {
+    const nlohmann::json& factor = material.at("pbrMetallicRoughness").at("baseColorFactor");
+    for (int i = 0; i < 3; ++i) {
+      EXPECT_NEAR(factor.at(i).get<double>(), colours.at(material.at("name"))[i], 1e-4) << material.at("name");
+    }
+  }
+}
+
 TEST(WriteVolume, EmptyVolumesMakeValidFiles) {
   const TemporaryDirectory directory;
   Volume volume;

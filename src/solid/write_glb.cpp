@@ -1,6 +1,7 @@
 // glTF 2.0, binary container: y up, one primitive and one material per kind of cause. Positions are single precision,
 // as glTF demands, but relative to a node whose translation is written in full: UTM-sized coordinates survive.
 #include <array>
+#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <vector>
@@ -20,21 +21,31 @@ constexpr std::size_t kContainerBytes = 12;
 
 constexpr std::array kKinds = {CauseKind::scene, CauseKind::range, CauseKind::target_plane, CauseKind::navigation};
 
+/// From the numbers that pictures and screens use (sRGB, 0 to 255) to the linear ones that glTF asks for.
+double linear(int colour) {
+  const double c = colour / 255.0;
+  return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+}
+
 Json material_for(CauseKind kind) {
-  // Far apart for the colour-blind too; the range, which is most of the surface, is the most transparent.
+  const auto colour_of = [](int red, int green, int blue, double opacity) {
+    return std::array<double, 4>{linear(red), linear(green), linear(blue), opacity};
+  };
+  // The colours of the documentation's pictures (docs/gallery/render.py). The range, which is most of the surface, is
+  // the most transparent.
   std::array<double, 4> colour{};
   switch (kind) {
     case CauseKind::scene:
-      colour = {0.84, 0.37, 0.0, 0.5};
+      colour = colour_of(52, 110, 190, 0.5);
       break;
     case CauseKind::range:
-      colour = {0.34, 0.71, 0.91, 0.25};
+      colour = colour_of(238, 150, 50, 0.25);
       break;
     case CauseKind::target_plane:
-      colour = {0.0, 0.62, 0.45, 0.6};
+      colour = colour_of(150, 150, 150, 0.6);
       break;
     case CauseKind::navigation:
-      colour = {0.8, 0.47, 0.65, 0.4};
+      colour = colour_of(60, 160, 100, 0.4);
       break;
   }
   return {{"name", name_of(kind)},
