@@ -67,6 +67,30 @@ TEST_F(CliCompute, DoesNotDependOnThreads) {
   EXPECT_TRUE(content(folder_ / "one.ply") == content(folder_ / "four.ply"));
 }
 
+TEST_F(CliCompute, WarnsWhereStlIsCoarserThanTheTolerance) {
+  std::string far_city;
+  for (const std::string& line : lines(kCity)) {
+    std::istringstream words(line);
+    std::string keyword;
+    double x = 0, y = 0, z = 0;
+    const bool is_vertex = words >> keyword && keyword == "v" && words >> x >> y >> z;
+    std::ostringstream moved;
+    moved << std::fixed << "v " << x + 580000 << ' ' << y + 4785000 << ' ' << z;
+    far_city += (is_vertex ? moved.str() : line) + "\n";
+  }
+  write("far.obj", far_city);
+  write("far.yaml", std::string("scene: {mesh: far.obj}\n") + kSensor +
+                        "target: {vertices: [[579995, 4784995, 0], [580005, 4784995, 0], [580000, 4785005, 0]]}\n");
+  const ProgramRun warned = run({"compute", "far.yaml", "-o", "far.ply", "-o", "far.STL"});
+  EXPECT_EQ(warned.exit_code, 0);
+  ASSERT_EQ(lines(warned.err).size(), 1U) << warned.err;
+  EXPECT_NE(warned.err.find("far.STL: STL holds coordinates as large as these to 0.250 m only"), std::string::npos)
+      << warned.err;
+  output_of({"compute", "far.yaml", "-q", "-o", "far.STL"});
+  output_of({"compute", "far.yaml", "-o", "far.ply"});
+  output_of({"compute", "mission.yaml", "-o", "near.stl"});
+}
+
 TEST_F(CliCompute, TellsStagesWhenAsked) {
   const ProgramRun result = run({"compute", "mission.yaml", "--progress", "-o", "volume.ply"});
   EXPECT_EQ(result.exit_code, 0);

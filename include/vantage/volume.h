@@ -105,7 +105,8 @@ MeshMeasures measure(const Mesh& mesh);
 ///   .obj  a group per cause; the axes and the unit of the scene file: give Scene::up and Scene::scale (metres in one
 ///         unit, > 0), so that it loads on top of the scene. Coordinates are divided by `obj_scale`: with 1 they keep
 ///         every bit, with another they read back to within rounding
-///   .stl  binary; scene frame
+///   .stl  binary; scene frame. Single precision, all that the format has: far from the origin it is coarse, half a
+///         metre between neighbouring numbers at a UTM northing of 4,785,000. Prefer another format there
 ///   .glb  a material per kind of cause; y up as the specification demands
 /// Throws Error(output) when the file cannot be written and Error(input) for an unknown extension, a directory or a
 /// scale that is not positive, not finite or so small that coordinates overflow.

@@ -107,6 +107,18 @@ std::string summary(const Mission& mission, const MissionRun& run, const MeshMea
   return table.text();
 }
 
+/// STL has single precision only: with map coordinates that may be far less than what was computed.
+void warn_of_coarse_stl(const Options& options, const Volume& volume) {
+  const double rounding = solid::single_precision_rounding(volume.mesh);
+  if (options.common.quiet || volume.outcome != Outcome::computed || rounding <= volume.tolerance_m) return;
+  for (const std::string& output : options.outputs) {
+    if (format_extension(output) != ".stl") continue;
+    note(output + ": STL holds coordinates as large as these to " + fixed(rounding, 3) +
+         " m only, less than the tolerance of " + fixed(volume.tolerance_m, 3) +
+         " m; write .ply, .obj or .glb for more");
+  }
+}
+
 int run(const Options& options) {
   check_outputs(options);
   const Mission read = read_mission(options.mission_file);
@@ -118,12 +130,12 @@ int run(const Options& options) {
   mission.exact.threads = options.common.threads;
 
   MissionRun run;
+  solid::WrittenResults written;
   {
     ProgressLine progress(options.common);
     run = mission_io::run_mission(mission, progress.callback());
     written = write(options, mission, run, progress.callback());
   }
-  solid::WrittenResults written;
   if (options.json) {
     print(written.report);
   } else if (!options.common.quiet) {
@@ -134,6 +146,7 @@ int run(const Options& options) {
     for (const fs::path& report : written.reports) text += "wrote " + report.string() + "\n";
     print(text);
   }
+  warn_of_coarse_stl(options, run.volume);
   if (run.volume.outcome != Outcome::computed) {
     note("no volume: " + run.volume.reason);
     for (const std::string& output : options.outputs) {

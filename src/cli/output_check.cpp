@@ -57,13 +57,18 @@ void check_can_write(const fs::path& file) {
   try_to_make_a_file_in(folder, file);
 }
 
+std::string format_extension(const fs::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return extension;
+}
+
 void check_volume_output(const fs::path& file) {
   static constexpr std::array<std::string_view, 4> kExtensions = {".ply", ".obj", ".stl", ".glb"};
   // A folder is told first: "out" has no extension, but that is not what is wrong with it.
   std::error_code error;
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  const std::string extension = format_extension(file);
   const bool is_known = std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
   if (!is_known && !fs::is_directory(file, error)) {
     const std::string problem =

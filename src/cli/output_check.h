@@ -13,6 +13,9 @@ namespace vantage::cli {
 /// no folder and no device, and an existing file is not write-protected.
 void check_can_write(const std::filesystem::path& file);
 
+/// What chooses the format: the extension in lower case, ".ply".
+std::string format_extension(const std::filesystem::path& file);
+
 /// check_can_write, and the extension must be one that write_volume knows.
 void check_volume_output(const std::filesystem::path& file);
 

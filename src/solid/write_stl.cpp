@@ -1,10 +1,19 @@
 // Binary STL, scene frame. The format has single precision only: far from the origin (UTM coordinates) it is coarse.
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "solid/writers.h"
 
 namespace vantage::solid {
+
+double single_precision_rounding(const Mesh& mesh) {
+  const Box box = bounding_box(mesh);
+  if (box.empty()) return 0;
+  const auto largest = static_cast<float>(std::max(box.min.cwiseAbs().maxCoeff(), box.max.cwiseAbs().maxCoeff()));
+  return (static_cast<double>(std::nextafter(largest, std::numeric_limits<float>::infinity())) - largest) / 2;
+}
 
 void write_stl(const Volume& volume, AtomicFile& file) {
   const auto& [vertices, triangles] = volume.mesh;

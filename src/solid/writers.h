@@ -25,6 +25,10 @@ void write_obj(const Volume& volume, UpAxis up, double scale, AtomicFile& file);
 void write_stl(const Volume& volume, AtomicFile& file);
 void write_glb(const Volume& volume, AtomicFile& file);
 
+/// How far a coordinate of the mesh may move by being written in single precision, metres: half the distance between
+/// neighbouring numbers at the largest one.
+double single_precision_rounding(const Mesh& mesh);
+
 /// Throws Error(output) when a format that counts in 32 bits cannot hold that many. `limit` is the largest number
 /// allowed.
 void check_count(std::uint64_t count, std::uint64_t limit, const char* what, const char* format);
