@@ -545,6 +545,17 @@ TEST(Navigation, ReportsProgressAndStops) {
   }
 }
 
+TEST(Navigation, ItsTimeIsPartOfTheTotal) {
+  Volume dome = bumpy_dome(Vec3::Zero());
+  dome.seconds.engine = dome.seconds.total = 1;
+  const Volume cut = cut_to_navigation(dome, band(5, 50));
+  EXPECT_GT(cut.seconds.navigation, 0);
+  EXPECT_EQ(cut.seconds.total, 1 + cut.seconds.navigation);
+  const Volume again = cut_to_navigation(cut, band(10, 40));
+  EXPECT_GT(again.seconds.navigation, cut.seconds.navigation);
+  EXPECT_NEAR(again.seconds.total, 1 + again.seconds.navigation, 1e-12);
+}
+
 TEST(Navigation, DoesNotDependOnThreads) {
   const Volume dome = bumpy_dome(kUtm, 400, 100);
   Navigation navigation = band(kUtm.z() + 5, kUtm.z() + 50);

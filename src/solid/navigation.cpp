@@ -170,7 +170,9 @@ Volume cut_to_navigation(const Volume& volume, const Navigation& navigation, con
   const solid::Regions regions = solid::make_regions(volume.causes, bounds, navigation, meshes);
   if (!regions.kept.empty() || !regions.forbidden.empty()) solid::cut_volume(regions, watch(0.3, 0.7), result);
   if (stop(1)) throw cancelled();
-  result.seconds.navigation = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  result.seconds.navigation += seconds;
+  result.seconds.total += seconds;
   return result;
 }
 
