@@ -31,6 +31,9 @@ struct Mission {
 Mission read_mission(const std::filesystem::path& file);
 
 /// All that `vantage compute` does but writing: reads the scene, prepares it, computes, cuts. Fills Volume::seconds.
+/// Uses at most `mission.exact.threads` threads for all of it. Throws as read_scene, compute_visibility and
+/// cut_to_navigation do, with the place in the mission file put in front of errors about the target. Cost: the sum of
+/// theirs; the scene is read and prepared anew each time, so use those functions for many targets of one scene.
 Volume compute_mission(const Mission& mission, const Progress& progress = {});
 
 }  // namespace vantage

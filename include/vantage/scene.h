@@ -1,6 +1,7 @@
 // Scenes: what may hide the target. Files become a Scene, a Scene becomes a PreparedScene that serves many targets.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -41,7 +42,9 @@ struct SceneReadOptions {
 ///
 /// Throws Error(input) naming the file, and the line or byte where there is one, for: a missing or unreadable file, an
 /// unknown format, truncated or garbled content, an index out of range, a coordinate that is not finite or (in metres)
-/// beyond 1e9, no triangles.
+/// beyond 1e9, no triangles, content that needs more memory than there is or than a mesh of that size may (4 GiB
+/// decompressed, a polygon of more than 16,384 corners); a scale that is not positive and finite. Error(cancelled) when
+/// told to stop. Cost: linear in the file, on one thread, but for polygons of many corners: the square of these.
 Scene read_scene(const std::filesystem::path& file, const SceneReadOptions& options = {},
                  const Progress& progress = {});
 
@@ -51,7 +54,7 @@ struct SceneStatistics {
   std::size_t vertices = 0;         ///< as read
   std::size_t welded_vertices = 0;  ///< distinct positions
   std::size_t objects = 0;
-  std::size_t degenerate_triangles = 0;  ///< zero area; dropped (they hide nothing)
+  std::size_t degenerate_triangles = 0;  ///< thinner than 1e-9 m; dropped (they hide nothing)
   std::size_t duplicate_triangles = 0;   ///< same three positions, either turn; dropped
   std::size_t open_edges = 0;            ///< edges with one triangle, after welding
   std::size_t nonmanifold_edges = 0;     ///< edges with more than two triangles
@@ -65,6 +68,9 @@ struct SceneStatistics {
 /// Cost: O(n log n) in the triangles, once per scene. The Scene's triangles are copied; the Scene may be dropped.
 class PreparedScene {
  public:
+  /// Uses the threads of the caller's arena (TBB); the result does not depend on their number. Throws Error(input) for
+  /// an index out of range, `object_of` of the wrong length, a vertex that is not finite or farther than 1e9 m from the
+  /// origin; Error(cancelled) when told to stop.
   explicit PreparedScene(const Scene& scene, const Progress& progress = {});
 
   const SceneStatistics& statistics() const;
