@@ -15,7 +15,8 @@ target_link_libraries(vantage_embree INTERFACE embree)
 # Source releases that Debian does not package, fetched by scripts/fetch_sources.sh (pinned by version and hash).
 set(VANTAGE_DEPS_DIR ${PROJECT_SOURCE_DIR}/.deps CACHE PATH "Where scripts/fetch_sources.sh puts source releases")
 
-find_package(manifold 3.3 QUIET)
+# 3.5: the first with the ExecutionContext that progress and cancelling need.
+find_package(manifold 3.5 QUIET)
 if(NOT manifold_FOUND)
   set(manifold_source ${VANTAGE_DEPS_DIR}/manifold)
   if(NOT EXISTS ${manifold_source}/CMakeLists.txt)
