@@ -10,10 +10,7 @@ mkdir -p "$deps"
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 echo "fetching source releases into .deps/"
-# --no-binary names the packages rather than :all:, or pip before 23.1 builds its own build tools from source as well.
-if ! python3 -m pip download --quiet --disable-pip-version-check --no-deps --no-binary manifold3d,pythoncdt \
-  --require-hashes --dest "$work" -r "$here/sources.txt" >"$work/log" 2>&1; then
-  tail -n 15 "$work/log" >&2
+if ! python3 "$here/fetch_releases.py" "$here/sources.txt" "$work"; then
   echo "could not fetch the releases pinned in scripts/sources.txt; is the Python package index reachable?" >&2
   exit 1
 fi
