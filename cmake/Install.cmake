@@ -23,9 +23,17 @@ write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/vantage-config-vers
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/vantage-config.cmake ${CMAKE_CURRENT_BINARY_DIR}/vantage-config-version.cmake
         DESTINATION ${package_dir})
 
-# Our licence, and those of the code that is compiled into the library.
-install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
-install(FILES ${VANTAGE_DEPS_DIR}/cdt/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME LICENSE.CDT)
-if(EXISTS ${VANTAGE_DEPS_DIR}/manifold/LICENSE)
-  install(FILES ${VANTAGE_DEPS_DIR}/manifold/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME LICENSE.Manifold)
+# Our licence, and those of the code that is compiled into the library and the program. A missing text stops the
+# installation: it may not be passed on without.
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/THIRD-PARTY-NOTICES.txt
+        DESTINATION ${CMAKE_INSTALL_DOCDIR})
+set(licences "cdt/LICENSE=CDT" "cdt/LICENSE-predicates.txt=CDT-predicates" "cdt/LICENSE-LLVM.txt=CDT-LLVM")
+if(NOT manifold_FOUND)  # else it is linked from where it is installed
+  list(APPEND licences "manifold/LICENSE=Manifold")
 endif()
+foreach(licence IN LISTS licences)
+  string(REPLACE "=" ";" licence ${licence})
+  list(GET licence 0 file)
+  list(GET licence 1 name)
+  install(FILES ${VANTAGE_DEPS_DIR}/${file} DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME LICENSE.${name})
+endforeach()
