@@ -2,9 +2,15 @@
 # Formats our own C++ sources; with --check only says what is not formatted, exit 1 if anything.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-mapfile -t files < <(git ls-files --cached --others --exclude-standard '*.cpp' '*.h' | while read -r file; do
-  [ ! -e "$file" ] || echo "$file"
-done)
+list=$(git ls-files --cached --others --exclude-standard '*.cpp' '*.h')  # a failure ends this script
+files=()
+while read -r file; do
+  [ ! -e "$file" ] || files+=("$file")
+done <<<"$list"
+if [ ${#files[@]} -eq 0 ]; then
+  echo "format: no sources found" >&2
+  exit 1
+fi
 case "${1:-}" in
   "") clang-format -i "${files[@]}" ;;
   --check)

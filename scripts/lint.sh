@@ -12,19 +12,29 @@ if [ ! -e $build/compile_commands.json ]; then
   exit 1
 fi
 case "${1:-}" in
-  "") mapfile -t files < <(git ls-files 'src/**/*.cpp' 'bench/*.cpp' 'tests/*.cpp') ;;
-  --changed) mapfile -t files < <({ git diff --name-only main; git ls-files --others --exclude-standard; } |
-      grep -E '^(src|bench|tests)/.*\.cpp$' | sort -u) ;;
-  *) files=("$@") ;;
+  "") list=$(git ls-files 'src/**/*.cpp' 'bench/*.cpp' 'tests/*.cpp') ;;
+  --changed)
+    list=$(git diff --name-only main && git ls-files --others --exclude-standard)
+    list=$(grep -E '^(src|bench|tests)/.*\.cpp$' <<<"$list" | sort -u) || true
+    ;;
+  *) list=$(printf '%s\n' "$@") ;;
 esac
-# Only what the build compiles: fuzz targets and the consumer test have builds of their own.
+# Only what the build compiles: fuzz targets and the consumer test have builds of their own. Files are compared as they
+# really lie, and checked under the name that the build knows: this folder may have been entered by a symbolic link.
+declare -A known
+while read -r file; do known[$(realpath -m -- "$file")]=$file; done \
+  < <(sed -n 's/^ *"file": "\(.*\)",\{0,1\}$/\1/p' $build/compile_commands.json)
 compiled=()
-for file in "${files[@]}"; do
-  ! grep -qF "\"$PWD/$file\"" $build/compile_commands.json || compiled+=("$file")
-done
+while read -r file; do
+  [ -z "$file" ] || [ -z "${known[$(realpath -m -- "$file")]:-}" ] || compiled+=("${known[$(realpath -m -- "$file")]}")
+done <<<"$list"
 if [ ${#compiled[@]} -eq 0 ]; then
-  echo "lint: nothing to check"
-  exit 0
+  if [ "${1:-}" = --changed ] && [ ${#known[@]} -gt 0 ]; then
+    echo "lint: nothing to check"
+    exit 0
+  fi
+  echo "lint: none of the files is among the ${#known[@]} that $build/compile_commands.json compiles" >&2
+  exit 1
 fi
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
