@@ -1,6 +1,7 @@
 // Collects what the readers find in a file: vertices, faces of any number of corners, objects.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <string>

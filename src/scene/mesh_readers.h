@@ -2,6 +2,8 @@
 // cannot read, allocates in proportion to the bytes it is given (or to `limits`), and asks `progress` all along.
 #pragma once
 
+#include <string_view>
+
 #include "scene/mesh_file.h"
 
 namespace vantage::scene {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "scene/read_limits.h"
 #include "scene/read_progress.h"

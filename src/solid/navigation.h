@@ -1,6 +1,8 @@
 // Checks of navigation limits, for those who read them from files.
 #pragma once
 
+#include <vector>
+
 #include "solid/csg.h"
 #include "vantage/constraints.h"
 

@@ -1,6 +1,7 @@
 // Navigation limits as labelled solids.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>

@@ -1,6 +1,7 @@
 // The scene's triangles as the check sees them: what lies on the segment from a viewpoint to a target point.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 

@@ -2,6 +2,7 @@
 // shares nothing with src/exact/ but the target's frame.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "solid/csg.h"

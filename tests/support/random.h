@@ -1,6 +1,7 @@
 // Random draws for tests: the seed is printed, and can be given again.
 #pragma once
 
+#include <cstdint>
 #include <cstdlib>
 #include <iostream>
 #include <random>
