@@ -258,6 +258,32 @@ TEST(ExactSmall, HousesThatAreNotQuitePlanar) {
     }
 }
 
+/// Ground, or the foot of a wall, within nanometres to micrometres of the target's plane: creases run along the
+/// horizon, closer to it than vertices can be told apart. Something may be left out there, nothing may be added.
+TEST(ExactSmall, SurfacesThatCreepAboveTheTargetsPlane) {
+  Random random(59);
+  for (int draw = 0; draw < 60; ++draw) {
+    SCOPED_TRACE(draw);
+    const double noise = std::pow(10, random.uniform(-9, -4)), turn = random.uniform(0, 6), far = random.uniform(3, 30);
+    const Vec3 along(-std::sin(turn), std::cos(turn), 0), foot = far * Vec3(std::cos(turn), std::sin(turn), 0);
+    const auto creep = [&] { return Vec3(0, 0, noise * random.uniform(-1, 1)); };
+    SceneBuilder scene;
+    if (random.chance(0.5)) {
+      const double top = random.uniform(1, 9);
+      scene.polygon("wall", {foot - 6 * along + creep(), foot + 8 * along + creep(), foot + 8 * along + Vec3(0, 0, top),
+                             foot - 6 * along + Vec3(0, 0, top)});
+    } else {
+      scene.polygon("ground", {Vec3(-60, -60, 0) + creep(), Vec3(60, -60, 0) + creep(), Vec3(0, 60, 0) + creep()});
+    }
+    Target target = square(0.5);
+    const Volume volume = compute_visibility(PreparedScene(scene), target, {100}, {0.2, 0});
+    expect_one_closed_piece(volume);
+    const Comparison c = testing::compare_with_union(scene, volume, testing::local_box(volume.frame, 40, 40));
+    EXPECT_LT(c.excessive, 1e-6 * c.volume);
+    EXPECT_LT(c.missing, 1e-2 * c.volume);
+  }
+}
+
 TEST(ExactSmall, TargetsWithThreeToSixtyFourVertices) {
   const Scene scene =
       SceneBuilder().ground("ground", 60).polygon("sheet", {{6, -3, 0}, {6, 4, 0}, {7, 4, 5}, {7, -3, 5}});

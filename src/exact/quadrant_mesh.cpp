@@ -9,12 +9,11 @@
 #include "exact/gauge.h"
 #include "exact/numerics.h"
 #include "parallel/parallel.h"
-#include "vantage/error.h"
 
 namespace vantage::exact {
 namespace {
 
-// Refinement that makes this many times the triangles that it began with will not end: something is broken.
+// When refinement has made this many times the triangles that it began with, no more are split: corners are drawn in.
 constexpr std::size_t kMostGrowth = 4;
 // The gauge may rise this fraction above a triangle before it counts as over-claimed: less than the final shrinking.
 constexpr double kSafe = 0.5 * numerics::kShrink;
@@ -82,13 +81,8 @@ class QuadrantMesher {
     cdt_.insertEdges(
         edges.begin(), edges.end(), [](const auto& e) { return e.first; }, [](const auto& e) { return e.second; });
     envelope_.watch.check();
-    const std::size_t most = kMostGrowth * cdt_.triangles.size() + 1000;
-    while (refine()) {
-      envelope_.watch.check();
-      if (cdt_.triangles.size() > most)
-        throw Error(ErrorKind::internal, "the boundary could not be triangulated safely", "triangulation",
-                    "please report this with the mission and the scene");
-    }
+    most_triangles_ = kMostGrowth * cdt_.triangles.size() + 1000;
+    while (refine()) envelope_.watch.check();
   }
 
   // The graph's vertices in the quadrant, and its edges between them.
@@ -119,9 +113,10 @@ class QuadrantMesher {
   bool refine() {
     const std::size_t first_vertex = gauges_.size();
     gauges_.resize(cdt_.vertices.size());
+    exact_gauges_.resize(cdt_.vertices.size());
     parallel::for_ranges(gauges_.size() - first_vertex, kGrain, [&](std::size_t begin, std::size_t end) {
       for (std::size_t v = first_vertex + begin; v < first_vertex + end; ++v)
-        gauges_[v] = v < kSuper ? 0 : gauge_at(point(std::uint32_t(v))).value;
+        exact_gauges_[v] = gauges_[v] = v < kSuper ? 0 : gauge_at(point(std::uint32_t(v))).value;
     });
     find_fresh();
     parallel::for_ranges(fresh_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
@@ -168,10 +163,20 @@ class QuadrantMesher {
     const double rise = gauge.value / claimed - 1;
     const bool deep = gauge.blocker == GaugeValue::kRange && too_deep(t);
     if (rise <= kSafe && !deep) return;
-    if ((rise > kSmallRise || deep) && has_room(t))
+    if ((rise > kSmallRise || deep) && cdt_.triangles.size() <= most_triangles_ && has_room(t))
       added.push_back(centre_of(t));
     else if (rise > kSafe)
-      for (std::uint32_t corner : t) gauges_[corner] *= 1 + 2 * rise;  // a greater gauge only makes the volume smaller
+      draw_in(t, gauge.value, rise);
+  }
+
+  // A greater gauge only makes the volume smaller. Either all corners by twice the rise or the far ones to the gauge:
+  // what takes less.
+  void draw_in(const Triangle& t, double gauge, double rise) {
+    const double least = std::min({gauges_[t[0]], gauges_[t[1]], gauges_[t[2]]});
+    const double level = gauge * (1 + kSafe);
+    const bool to_level = level < least * (1 + 2 * rise);
+    for (std::uint32_t corner : t)
+      gauges_[corner] = to_level ? std::max(gauges_[corner], level) : gauges_[corner] * (1 + 2 * rise);
   }
 
   // Whether a triangle is worth splitting: in one that is no wider than what snapping moves, a crease cannot be found.
@@ -181,11 +186,12 @@ class QuadrantMesher {
     return std::abs(a.x() * b.y() - a.y() * b.x()) > kThinnest * longest;
   }
 
-  // Whether some point of a triangle on the range sphere lies more than the tolerance inside it.
+  // Whether some point of a triangle on the range sphere lies more than the tolerance inside it. Corners that were
+  // drawn in do not count: no splitting would mend that.
   bool too_deep(const Triangle& t) const {
     const RangeRegion& range = envelope_.range;
     std::array<Vec3, 3> v;
-    for (int i = 0; i < 3; ++i) v[i] = to_direction(point(t[i])) / gauges_[t[i]];
+    for (int i = 0; i < 3; ++i) v[i] = to_direction(point(t[i])) / exact_gauges_[t[i]];
     const std::array<double, 3> square{(v[2] - v[1]).squaredNorm(), (v[0] - v[2]).squaredNorm(),
                                        (v[1] - v[0]).squaredNorm()};
     const std::size_t longest = std::size_t(std::max_element(square.begin(), square.end()) - square.begin());
@@ -246,8 +252,10 @@ class QuadrantMesher {
   const ChartGrid& grid_;
   const Envelope& envelope_;
   CDT::Triangulation<double> cdt_;
-  std::vector<double> gauges_;  // per vertex of the triangulation
-  std::vector<Known> known_;    // per triangle of it
+  std::size_t most_triangles_ = 0;
+  std::vector<double> gauges_;        // per vertex of the triangulation, drawn in where need be
+  std::vector<double> exact_gauges_;  // as evaluated
+  std::vector<Known> known_;          // per triangle of it
   std::vector<Fresh> fresh_;
   QuadrantMesh result_;
 };
