@@ -13,6 +13,7 @@
 #include "support/random.h"
 #include "support/scenes.h"
 #include "vantage/error.h"
+#include "vantage/query.h"
 #include "vantage/volume.h"
 
 namespace vantage {
@@ -281,6 +282,48 @@ TEST(ExactSmall, SurfacesThatCreepAboveTheTargetsPlane) {
     const Comparison c = testing::compare_with_union(scene, volume, testing::local_box(volume.frame, 40, 40));
     EXPECT_LT(c.excessive, 1e-6 * c.volume);
     EXPECT_LT(c.missing, 1e-2 * c.volume);
+  }
+}
+
+/// Whether the points just inside the mesh see the target, by the exact answers of query.
+void expect_facets_inside(const PreparedScene& scene, Target target, double range) {
+  const Volume volume = compute_visibility(scene, target, {range}, {});
+  if (volume.outcome != Outcome::computed) return;  // something lies on the target
+  expect_one_closed_piece(volume);
+  std::vector<Vec3> points;
+  for (const Triangle& t : volume.mesh.triangles) {
+    const auto& v = volume.mesh.vertices;
+    const Vec3 middle = (v[t[0]] + v[t[1]] + v[t[2]]) / 3 - volume.frame.origin;
+    if (middle.z() > 0) points.push_back(volume.frame.origin + 0.9999 * middle);
+  }
+  for (const PointAnswer& answer : query_points(scene, target, {range}, {}, points)) ASSERT_TRUE(answer.inside);
+}
+
+/// Ranges that leave a lens of millimetres: narrower than the tolerance.
+TEST(ExactSmall, RangesJustAboveTheEnclosingCircle) {
+  const Scene sheet = SceneBuilder().polygon("sheet", {{0.008148901359986048, 1.1676667727146894, 0.4532033394981615},
+                                                       {-0.11990467512319794, 1.3297047607461878, 0.3285000697334644},
+                                                       {0.25258728578786044, 1.4828191728465794, 0.00068131965788826}});
+  const Target octagon = target_of({{0, 0, 0},
+                                    {0.2911541475482512, 0, 0},
+                                    {0.9061724748585209, 0.10604688706726838, 0},
+                                    {1.4901914043690094, 0.7984737552231782, 0},
+                                    {1.4243443277402987, 1.0097348387328369, 0},
+                                    {1.3812233898380704, 1.0877195664493833, 0},
+                                    {0.39043516170460757, 1.827811970729792, 0},
+                                    {-1.809108850798967, 2.03054382393113, 0}});
+  expect_facets_inside(PreparedScene(sheet), octagon, 1.7638045549842059);
+  Random random(61);
+  for (int draw = 0; draw < 40; ++draw) {
+    SCOPED_TRACE(draw);
+    const Target target = testing::random_target(random, random.integer(3, 9), 2, {0, 0, 0}, {0, 0, 1});
+    SceneBuilder scene;
+    for (int i = 0; i < 3; ++i) {
+      const Vec3 at(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(0.001, 0.5));
+      scene.polygon("sheet", {at, at + 0.4 * random.direction().cwiseAbs(), at + 0.4 * random.direction().cwiseAbs()});
+    }
+    const double radius = make_target_frame(target).enclosing_radius_m;
+    expect_facets_inside(PreparedScene(scene), target, radius * (1 + std::pow(10, random.uniform(-4, -1))));
   }
 }
 

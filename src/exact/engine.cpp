@@ -88,7 +88,11 @@ void compute(const PreparedScene& scene, const Sensor& sensor, const ExactOption
   DirectionTree tree(blockers, range);
   collect_blockers(scene.data(), volume.frame, target, range, blockers, tree, watch);
   watch.begin("tracing the envelope", 0.3);
-  const CurveSampling sampling{options.tolerance_m * 0.5, std::sqrt(8 * sensor.max_range_m * options.tolerance_m)};
+  // Seen from the centre a chord must also stay well within a cell of the grid: a region may be no wider than the
+  // tolerance.
+  const double widest = 0.1 * range.inner_radius() * M_PI / 2 / grid.size();
+  const CurveSampling sampling{std::min(options.tolerance_m * 0.5, widest),
+                               std::sqrt(8 * sensor.max_range_m * options.tolerance_m)};
   const Skeleton skeleton = trace_envelope(blockers, tree, range, sampling, watch);
   watch.begin("triangulating", 0.6);
   Boundary boundary = triangulate_boundary(skeleton, blockers, tree, range, grid, options.tolerance_m, watch);

@@ -386,8 +386,7 @@ class FacetTracer {
 // Where two balls of the range region meet, in sight.
 void trace_range_creases(const BlockerSet& blockers, const DirectionTree& tree, const RangeRegion& range,
                          const CurveSampling& sampling, std::vector<std::vector<Vec3>>& out) {
-  double inner = range.radius();  // the region holds all within this of the origin
-  for (std::size_t i = 0; i < range.ball_count(); ++i) inner = std::min(inner, range.radius() - range.centre(i).norm());
+  const double inner = range.inner_radius();
   for (std::size_t i = 0; i < range.ball_count(); ++i)
     for (std::size_t j = i + 1; j < range.ball_count(); ++j) {
       const Eigen::Vector2d a = range.centre(i), b = range.centre(j), middle = 0.5 * (a + b),

@@ -8,6 +8,12 @@ RangeRegion::RangeRegion(const LocalTarget& target, double max_range) : centres_
   for (const Eigen::Vector2d& c : centres_) power_.push_back(max_range * max_range - c.squaredNorm());
 }
 
+double RangeRegion::inner_radius() const {
+  double farthest = 0;
+  for (const Eigen::Vector2d& c : centres_) farthest = std::max(farthest, c.norm());
+  return radius_ - farthest;
+}
+
 double RangeRegion::gauge(const Vec3& direction) const {
   double greatest = 0;
   for (std::size_t ball = 0; ball < centres_.size(); ++ball) greatest = std::max(greatest, gauge(ball, direction));

@@ -14,6 +14,7 @@ class RangeRegion {
 
   double radius() const { return radius_; }
   std::size_t ball_count() const { return centres_.size(); }
+  double inner_radius() const;  ///< the region holds all in front of the target that is within this of the origin
   const Eigen::Vector2d& centre(std::size_t ball) const { return centres_[ball]; }
 
   /// Inverse depth along `direction` (any length: the gauge is homogeneous) of one ball's sphere.
