@@ -286,7 +286,7 @@ TEST(ExactSmall, SurfacesThatCreepAboveTheTargetsPlane) {
 }
 
 /// Whether the points just inside the mesh see the target, by the exact answers of query.
-void expect_facets_inside(const PreparedScene& scene, Target target, double range) {
+void expect_facets_inside(const PreparedScene& scene, const Target& target, double range) {
   const Volume volume = compute_visibility(scene, target, {range}, {});
   if (volume.outcome != Outcome::computed) return;  // something lies on the target
   expect_one_closed_piece(volume);
