@@ -38,7 +38,7 @@ void check_volume(const Volume& volume) {
 }
 
 MeshMeasures measure_sound(const Mesh& mesh) {
-  const MeshMeasures measures = measure(mesh);
+  MeshMeasures measures = measure(mesh);
   if (measures.closed && measures.oriented) return measures;
   throw Error(ErrorKind::internal,
               measures.closed ? "the volume's facets do not all face outward" : "the volume is not closed",
