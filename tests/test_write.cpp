@@ -278,7 +278,7 @@ TEST(WriteGlb, IsValidAndKeepsLargeCoordinates) {
   EXPECT_EQ(glb.json.at("asset").at("version"), "2.0");
   EXPECT_EQ(glb.json.at("buffers").size(), 1u);
   EXPECT_EQ(glb.json.at("buffers")[0].at("byteLength"), glb.buffer.size());
-  EXPECT_EQ(glb.json.at("scenes").at(glb.json.at("scene").get<std::size_t>()).at("nodes"), nlohmann::json({0}));
+  EXPECT_EQ(glb.json.at("scenes").at(glb.json.at("scene").get<std::size_t>()).at("nodes").dump(), "[0]");
   const nlohmann::json& node = glb.json.at("nodes").at(0);
   const auto translation = node.at("translation").get<std::array<double, 3>>();
   const nlohmann::json& primitives = glb.json.at("meshes").at(node.at("mesh").get<std::size_t>()).at("primitives");
