@@ -12,6 +12,10 @@ packages=(
   python3 python3-pip ca-certificates
   # libraries
   libeigen3-dev libtbb-dev libyaml-cpp-dev libcli11-dev nlohmann-json3-dev zlib1g-dev libembree-dev
+  # rendering: headers only, the libraries themselves are loaded when there are any; and Mesa, which needs no GPU
+  libegl-dev libgl-dev libegl1 libgl1-mesa-dri
+  # pictures
+  libcairo2-dev fonts-dejavu-core
   # tests and benchmarks
   libgtest-dev libbenchmark-dev
 )

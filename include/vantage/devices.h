@@ -1,0 +1,52 @@
+// What can render depth images and pictures on this machine.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace vantage {
+
+enum class DeviceKind {
+  cpu,              ///< ray casting on the processor (Embree); always there
+  opengl_software,  ///< OpenGL that the processor emulates (Mesa's llvmpipe)
+  opengl_hardware,  ///< OpenGL on a graphics processor
+};
+
+struct RenderDevice {
+  int index = 0;  ///< in the list of render_devices: what `--device 1` names
+  DeviceKind kind = DeviceKind::cpu;
+  std::string name;    ///< "NVIDIA H200", "llvmpipe (LLVM 15.0.6, 256 bits)", "CPU (Embree 3.13.5)"
+  std::string driver;  ///< its version as it states it; empty for the CPU
+  std::size_t memory_bytes =
+      0;  ///< of its own memory, what the driver says is there; 0: it does not say, or it uses main memory
+  int largest_face_size = 0;  ///< texels a side
+};
+
+struct RenderDevices {
+  std::vector<RenderDevice> devices;  ///< the CPU first
+  std::string why_no_opengl;  ///< a sentence with what to install or mend; empty when there is any OpenGL device
+};
+
+/// Looks for devices: loads libEGL at run time, asks for its platforms, opens a context on each device. Never throws
+/// for what is missing. Tens of milliseconds.
+RenderDevices render_devices();
+
+/// Which device to use.
+struct DeviceChoice {
+  enum class Kind {
+    automatic,  ///< the first graphics processor; without one, the CPU
+    cpu,
+    opengl,  ///< any OpenGL device, a graphics processor first: insists, Error(input) when there is none
+    gpu,     ///< a graphics processor: insists
+    index,   ///< `index` of render_devices: insists
+  };
+  Kind kind = Kind::automatic;
+  int index = 0;
+};
+
+/// "auto", "cpu", "opengl", "gpu" or an index; throws Error(input) for anything else.
+DeviceChoice parse_device_choice(const std::string& text);
+
+}  // namespace vantage

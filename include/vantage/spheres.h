@@ -1,0 +1,85 @@
+// The method of visibility spheres: depth cube maps of the target's vertices, intersected (docs/spheres.md). After
+// Willis, Hague, Wolek, Brink, "GPU-Accelerated 3D Polygon Visibility Volumes", 2024.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "vantage/constraints.h"
+#include "vantage/devices.h"
+#include "vantage/geometry.h"
+#include "vantage/progress.h"
+#include "vantage/scene.h"
+#include "vantage/target.h"
+#include "vantage/volume.h"
+
+namespace vantage {
+
+struct SpheresOptions {
+  enum class Sphere {
+    conservative,  ///< each sphere lies inside what its vertex truly sees: nearest depth over each texel's footprint
+    centers,       ///< joins texel centres, as the paper does: over-claims at silhouettes
+  };
+  enum class Split {
+    euler,   ///< Algorithm 1: an edge is split while its pair intersection is not a topological sphere
+    always,  ///< every edge is split `max_splits` times, whatever the test says: for measuring
+  };
+  Sphere sphere = Sphere::conservative;
+  int cubemap = 200;                             ///< texels along a face's side, 1 to 8192
+  std::optional<std::array<int, 2>> resolution;  ///< instead of the cube map's grid: samples in longitude and latitude
+  Split split = Split::euler;
+  int max_splits = 6;       ///< how often an edge may be halved, 0 to 16
+  double min_edge_m = 0.5;  ///< an edge is not split into halves shorter than this; > 0
+  DeviceChoice device;
+  int threads = 0;  ///< 0: as many as the machine has
+};
+
+/// A step of Algorithm 1, for those who watch or write it down (`--stages`).
+struct SphereStage {
+  enum class Kind { sphere, pair, split, partial, result };
+  Kind kind = Kind::sphere;
+  std::string name;  ///< "sphere 0", "pair 0-1", "split 0-1", "partial 2", "result"
+  std::vector<Vec3>
+      points;  ///< the vertex of a sphere; the two ends of a pair; the two ends and the midpoint of a split
+  const Mesh* mesh = nullptr;  ///< scene frame, closed, possibly empty; null for a split. Valid during the call only
+  long euler = 0;              ///< V - E + F, of `mesh`
+  std::vector<long> component_euler;  ///< of each of its pieces
+  double volume_m3 = 0;
+  double seconds = 0;  ///< that this step took
+};
+using StageSink = std::function<void(const SphereStage& stage)>;
+
+/// What the run did, beyond the volume.
+struct SpheresReport {
+  RenderDevice device;
+  std::string device_note;           ///< why the CPU is used instead of a graphics processor; may be empty
+  std::size_t spheres = 0;           ///< visibility spheres made
+  std::size_t pairs = 0;             ///< pair intersections tested
+  std::size_t splits = 0;            ///< edges halved
+  std::size_t unresolved_pairs = 0;  ///< pairs still no topological sphere where splitting had to end
+  double render_seconds = 0;         ///< depth images, reading back, tessellation
+  double boolean_seconds = 0;
+};
+
+/// The volume of the spheres method, before navigation cuts: what lies on the target's front, in the intersection of
+/// the visibility spheres of the target's vertices and of the points where Algorithm 1 halved an edge. What hides part
+/// of the target between those points is not seen: unlike compute_visibility this may claim too much, whatever the
+/// resolution. The intersection may have several pieces; each is closed. A target of a single vertex is one sphere.
+/// Volume::counts stays empty but for scene_polygons. Causes name the scene as a whole: depth images know no objects.
+///
+/// Errors as compute_visibility, and Error(input) for options out of range, a device that was insisted on and is not
+/// there. Cost: one depth image of six faces per vertex, and booleans of meshes of 12 cubemap^2 triangles.
+Volume compute_visibility_spheres(const PreparedScene& scene, const Target& target, const Sensor& sensor,
+                                  const SpheresOptions& options = {}, SpheresReport* report = nullptr,
+                                  const StageSink& stages = {}, const Progress& progress = {});
+
+/// The visibility sphere of one viewpoint (scene frame): closed, genus 0, star-shaped about it, within `radius_m`.
+Mesh visibility_sphere(const PreparedScene& scene, const Vec3& viewpoint, double radius_m,
+                       const SpheresOptions& options = {}, const Progress& progress = {});
+
+}  // namespace vantage
