@@ -5,20 +5,15 @@
 
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
-#include <fstream>
 #include <functional>
-#include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "parallel/parallel.h"
+#include "support/cities.h"
 #include "support/memory.h"
 #include "support/plain_union.h"
-#include "support/shared_data.h"
-#include "support/street_targets.h"
 #include "vantage/error.h"
 #include "vantage/scene.h"
 #include "vantage/volume.h"
@@ -27,97 +22,9 @@ namespace vantage::bench {
 namespace {
 
 using benchmark::State;
-using testing::shared_data;
 
-constexpr std::uint64_t kSeed = 1;
-constexpr int kStreetTargets = 5, kRepetitions = 5, kTiles = 5;
+constexpr int kRepetitions = 5;
 constexpr double kPlainSeconds = 120;  ///< the plain union is given up after this
-
-struct City {
-  const char* name;
-  const char* file;
-  UpAxis up;
-  StreetSearch search;
-  int targets;
-  int tiles = 1;  ///< repeated so often along x and along y
-};
-const City kCharlotte{"charlotte", "charlotte/uptownCharlotte.obj", UpAxis::y, {}, 3};
-const City kMunich{"munich", "mesh/munich_merged.ply", UpAxis::z, {kSeed}, kStreetTargets};
-const City kMunichRepeated{"munich_5x5", "mesh/munich_merged.ply", UpAxis::z, {kSeed}, kStreetTargets, kTiles};
-const City kFlorence{"florence", "mesh/florence_merged.ply", UpAxis::z, {kSeed}, kStreetTargets};
-const City kOpenfoam{"openfoam", "mesh/openfoam-buildings.obj.gz", UpAxis::z, {}, 1};
-
-/// Copies side by side, the one in the middle where the scene was.
-Scene repeat(const Scene& scene, int tiles) {
-  Scene repeated;
-  repeated.objects = scene.objects;
-  const Box bounds = bounding_box(scene.mesh);
-  const Vec3 size = bounds.max - bounds.min;
-  const int middle = tiles / 2;
-  for (int i = 0; i < tiles; ++i)
-    for (int j = 0; j < tiles; ++j) {
-      const Vec3 shift((i - middle) * size.x(), (j - middle) * size.y(), 0);
-      const auto first = std::uint32_t(repeated.mesh.vertices.size());
-      for (const Vec3& v : scene.mesh.vertices) repeated.mesh.vertices.push_back(v + shift);
-      for (const Triangle& t : scene.mesh.triangles)
-        repeated.mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
-      repeated.object_of.insert(repeated.object_of.end(), scene.object_of.begin(), scene.object_of.end());
-    }
-  return repeated;
-}
-
-Scene read_city(const City& city) { return read_scene(shared_data(city.file), {city.up, 1.0}); }
-
-/// Of charlotte/baseline.json, which keeps the axes of the OBJ (y up).
-std::vector<StreetTarget> baseline_targets() {
-  std::ifstream stream(shared_data("charlotte/baseline.json"));
-  const auto baseline = nlohmann::json::parse(stream);
-  std::vector<StreetTarget> targets;
-  for (const auto& entry : baseline.at("targets")) {
-    StreetTarget found{{}, Vec3::Zero(), 0};
-    for (const auto& v : entry.at("vertices")) found.target.vertices.emplace_back(v[0], -v[2].get<double>(), v[1]);
-    for (const Vec3& v : found.target.vertices) found.centre += v / double(found.target.vertices.size());
-    targets.push_back(found);
-  }
-  return targets;
-}
-
-/// Its streets hold no 20 m target: one just over a roof 30 m up, among towers of up to 76 m.
-std::vector<StreetTarget> roof_target() {
-  const Vec3 centre(120, 90, 30.01);
-  StreetTarget found{{}, centre, 0};
-  found.target.vertices = {centre + Vec3(11.547, 0, 0), centre + Vec3(-5.7735, 10, 0), centre + Vec3(-5.7735, -10, 0)};
-  return {found};
-}
-
-struct Prepared {
-  Scene scene;
-  PreparedScene prepared;
-  std::vector<StreetTarget> targets;
-};
-
-/// Read, prepared and searched for targets once. Nothing when the file is absent.
-const Prepared* prepared(const City& city) {
-  static std::map<std::string, Prepared> cities;
-  if (!std::filesystem::exists(shared_data(city.file))) return nullptr;
-  if (const auto known = cities.find(city.name); known != cities.end()) return &known->second;
-  const auto keep = [&](Prepared made) { return &cities.emplace(city.name, std::move(made)).first->second; };
-  if (city.tiles > 1) {
-    const Prepared* single = prepared(kMunich);
-    return keep({{}, PreparedScene(repeat(single->scene, city.tiles)), single->targets});
-  }
-  Scene scene = read_city(city);
-  PreparedScene ready(scene);
-  auto targets = &city == &kCharlotte  ? baseline_targets()
-                 : &city == &kOpenfoam ? roof_target()
-                                       : find_street_targets(scene, ready, city.search, std::size_t(city.targets));
-  return keep({std::move(scene), std::move(ready), std::move(targets)});
-}
-
-void skip(State& state, const City& city) {
-  state.SkipWithError(
-      (std::string(city.file) + " is absent: set VANTAGE_SHARED to the folder that holds data/").c_str());
-}
 
 std::string describe(const StreetTarget& target) {
   char text[96];
@@ -129,8 +36,8 @@ std::string describe(const StreetTarget& target) {
 }
 
 void engine(State& state, const City& city, std::size_t index, double range, int threads) {
-  const Prepared* const ready = prepared(city);
-  if (!ready) return skip(state, city);
+  const PreparedCity* const ready = prepared_city(city);
+  if (!ready) return state.SkipWithError(absence(city).c_str());
   if (index >= ready->targets.size()) return state.SkipWithError("so many street targets were not found");
   const StreetTarget& street = ready->targets[index];
   std::optional<Volume> volume;
@@ -145,8 +52,8 @@ void engine(State& state, const City& city, std::size_t index, double range, int
 }
 
 void plain(State& state, const City& city, std::size_t index, double range, int threads) {
-  const Prepared* const ready = prepared(city);
-  if (!ready) return skip(state, city);
+  const PreparedCity* const ready = prepared_city(city);
+  if (!ready) return state.SkipWithError(absence(city).c_str());
   const StreetTarget& street = ready->targets.at(index);
   const TargetFrame frame = make_target_frame(street.target);
   Volume open = compute_visibility(PreparedScene{Scene{}}, street.target, {range});
@@ -173,8 +80,8 @@ void plain(State& state, const City& city, std::size_t index, double range, int 
 }
 
 void prepare(State& state, const City& city) {
-  if (!std::filesystem::exists(shared_data(city.file))) return skip(state, city);
-  const Scene single = read_city(city), scene = city.tiles > 1 ? repeat(single, city.tiles) : single;
+  if (!is_there(city)) return state.SkipWithError(absence(city).c_str());
+  const Scene scene = read_city(city);
   reset_peak_memory();
   for (auto _ : state) {
     const PreparedScene ready(scene);
