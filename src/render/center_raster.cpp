@@ -1,0 +1,58 @@
+#include "render/center_raster.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace vantage::render {
+namespace {
+
+struct Crossing {
+  double u, q;
+};
+
+/// Where the border of the polygon, in (u, v, q) = (right / forward, up / forward, 1 / forward), crosses a line of
+/// constant v: leftmost and rightmost. False when it does not.
+bool cross_row(std::span<const Vec3> corners, double v, Crossing& left, Crossing& right) {
+  left.u = std::numeric_limits<double>::infinity();
+  right.u = -left.u;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vec3& a = corners[i];
+    const Vec3& b = corners[i + 1 == corners.size() ? 0 : i + 1];
+    const double at_a = a.y() - v * a.z(), at_b = b.y() - v * b.z();
+    if ((at_a < 0) == (at_b < 0)) continue;
+    const Vec3 p = a + at_a / (at_a - at_b) * (b - a);
+    const Crossing crossing{p.x() / p.z(), 1 / p.z()};
+    if (crossing.u < left.u) left = crossing;
+    if (crossing.u > right.u) right = crossing;
+  }
+  return left.u <= right.u;
+}
+
+}  // namespace
+
+void draw_at_centers(const FaceBand& band, std::span<const Vec3> corners, std::span<float> inverse_depths) {
+  if (corners.empty()) return;
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const Vec3& p : corners) {
+    low = std::min(low, p.y() / p.z());
+    high = std::max(high, p.y() / p.z());
+  }
+  const auto after = [&](double coordinate) {  // first texel whose centre is not before it
+    return static_cast<int>(std::ceil((std::clamp(coordinate, -2.0, 2.0) + 1) * 0.5 * band.size - 0.5));
+  };
+  const int last_row = std::min(after(high), band.row_end - 1);
+  for (int row = std::max(after(low), band.row_begin); row <= last_row; ++row) {
+    Crossing left{}, right{};
+    if (!cross_row(corners, band.centre(row), left, right)) continue;
+    float* texels = inverse_depths.data() + static_cast<std::size_t>(row - band.row_begin) * band.size;
+    const double slope = right.u > left.u ? (right.q - left.q) / (right.u - left.u) : 0;
+    for (int i = std::max(after(left.u), 0); i < band.size && band.centre(i) <= right.u; ++i) {
+      const double q = left.q + slope * (band.centre(i) - left.u);
+      texels[i] = std::max(texels[i], static_cast<float>(q));
+    }
+  }
+}
+
+}  // namespace vantage::render

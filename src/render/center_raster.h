@@ -1,0 +1,15 @@
+// Rasterisation of convex polygons at the centres of texels, in double precision: for surfaces so near to the viewpoint
+// that single-precision rays would start on their wrong side.
+#pragma once
+
+#include <span>
+
+#include "render/face_view.h"
+
+namespace vantage::render {
+
+/// Raises every texel of the band whose centre the polygon covers to at least its inverse depth there. `corners` are
+/// what FaceClip made of it: (right, up, forward); `inverse_depths` holds the rows of the band.
+void draw_at_centers(const FaceBand& band, std::span<const Vec3> corners, std::span<float> inverse_depths);
+
+}  // namespace vantage::render

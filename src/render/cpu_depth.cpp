@@ -1,0 +1,112 @@
+#include "render/cpu_depth.h"
+
+#include <algorithm>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "parallel/parallel.h"
+#include "render/center_raster.h"
+#include "render/depth_request.h"
+#include "render/face_view.h"
+#include "render/footprint_raster.h"
+#include "render/ray_caster.h"
+#include "render/seen_scene.h"
+
+namespace vantage::render {
+namespace {
+
+constexpr int kBandRows = 128;                              // of a face: the unit of work of a thread
+constexpr std::size_t kAheadBytes = std::size_t{64} << 20;  // for the images of one round of viewpoints
+constexpr std::size_t kAheadViewpoints = 64;
+
+class CpuDepthRenderer : public DepthRenderer {
+ public:
+  explicit CpuDepthRenderer(const PreparedScene& scene) : device_(cpu_device()), scene_(scene) {}
+
+  const RenderDevice& device() const override { return device_; }
+
+  void render(const DepthRequest& request, const DepthSink& sink) override {
+    check_request(request, device_);
+    if (request.sampling == Sampling::centers && !rays_) rays_.emplace(scene_);
+    const std::size_t image = std::size_t{6} * request.face_size * request.face_size;
+    const std::size_t round = std::clamp<std::size_t>(kAheadBytes / (image * sizeof(float)), 1, kAheadViewpoints);
+    for (std::size_t first = 0; first < request.viewpoints.size(); first += round) {
+      const std::size_t count = std::min(round, request.viewpoints.size() - first);
+      images_.assign(count * image, 0.0F);
+      render_round(request, first, count, image);
+      for (std::size_t i = 0; i < count; ++i)
+        sink(first + i, std::span<const float>(images_).subspan(i * image, image));
+    }
+  }
+
+ private:
+  /// All bands of all faces of some viewpoints, on all threads.
+  void render_round(const DepthRequest& request, std::size_t first, std::size_t count, std::size_t image) {
+    const int size = request.face_size;
+    const std::size_t bands = static_cast<std::size_t>((size + kBandRows - 1) / kBandRows);
+    parallel::for_ranges(count * 6 * bands, 1, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t unit = begin; unit < end; ++unit) {
+        FaceBand band;
+        band.face = static_cast<int>(unit / bands % 6);
+        band.size = size;
+        band.row_begin = static_cast<int>(unit % bands) * kBandRows;
+        band.row_end = std::min(band.row_begin + kBandRows, size);
+        const std::size_t viewpoint = unit / (6 * bands);
+        const std::size_t offset = (static_cast<std::size_t>(band.face) * size + band.row_begin) * size;
+        const std::span<float> texels = std::span<float>(images_).subspan(
+            viewpoint * image + offset, static_cast<std::size_t>(band.row_end - band.row_begin) * size);
+        const Vec3 eye = request.viewpoints[first + viewpoint] - scene_.data().origin;
+        if (request.sampling == Sampling::nearest) {
+          draw_footprints(band, eye, request.range_m, texels);
+        } else {
+          draw_centers(band, eye, request.range_m, texels);
+        }
+      }
+    });
+  }
+
+  void draw_footprints(const FaceBand& band, const Vec3& eye, double range, std::span<float> texels) const {
+    FaceClip clip(band);
+    FootprintRaster raster(band, texels);
+    std::vector<Vec3> corners;
+    for_each_polygon(scene_.data().bvh, eye, range, clip, [&](std::uint32_t number) {
+      const SeenPolygon polygon = scene_.polygon(number, eye, corners);
+      raster.draw(clip.clip(polygon), polygon.slack);
+    });
+  }
+
+  void draw_centers(const FaceBand& band, const Vec3& eye, double range, std::span<float> texels) const {
+    std::vector<std::uint32_t> near;
+    std::vector<Vec3> corners;
+    FaceClip clip(band);
+    for_each_polygon(scene_.data().bvh, eye, std::min(range, rays_->near_distance(eye)), clip,
+                     [&](std::uint32_t number) {
+                       near.push_back(number);
+                       draw_at_centers(band, clip.clip(scene_.polygon(number, eye, corners)), texels);
+                     });
+    std::sort(near.begin(), near.end());
+    rays_->cast(band, eye, range, near, texels);
+  }
+
+  RenderDevice device_;
+  SeenScene scene_;
+  std::optional<RayCaster> rays_;  ///< made when first asked for
+  std::vector<float> images_;
+};
+
+}  // namespace
+
+RenderDevice cpu_device() {
+  RenderDevice device;
+  device.kind = DeviceKind::cpu;
+  device.name = "CPU (Embree " + ray_caster_version() + ")";
+  device.largest_face_size = 8192;
+  return device;
+}
+
+std::unique_ptr<DepthRenderer> make_cpu_depth_renderer(const PreparedScene& scene) {
+  return std::make_unique<CpuDepthRenderer>(scene);
+}
+
+}  // namespace vantage::render
