@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "solid/edges.h"
 #include "solid/numerics.h"
 #include "solid/outside_limits.h"
+#include "solid/pieces.h"
 #include "solid/regions.h"
 #include "solid/volume_check.h"
 #include "vantage/error.h"
@@ -34,51 +34,6 @@ Solid cut(const Solid& volume, const Regions& regions, const Watch& watch) {
   if (regions.kept.empty()) return subtract(volume, forbidden, watch);
   const Solid kept = intersect(solids_of(regions.kept));
   return intersect(volume, forbidden.empty() ? kept : subtract(kept, forbidden), watch);
-}
-
-/// Removes pieces that are thinner than what the booleans resolve. Cavities stay: to fill one would add space.
-void drop_slivers(LabelledMesh& labelled, double thickness) {
-  auto& [mesh, labels] = labelled;
-  DisjointSets pieces(mesh.triangles.size());
-  for_each_edge(edge_uses(mesh.triangles, mesh.vertices.size()), [&](std::span<const EdgeUse> edge) {
-    for (const EdgeUse& use : edge) pieces.join(edge[0].triangle, use.triangle);
-  });
-  std::vector<double> volume(mesh.triangles.size(), 0), area(mesh.triangles.size(), 0);
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    const std::uint32_t piece = pieces.find(t);
-    const Vec3 &a = mesh.vertices[mesh.triangles[t][0]], &b = mesh.vertices[mesh.triangles[t][1]],
-               &c = mesh.vertices[mesh.triangles[t][2]];
-    const Vec3 apex = mesh.vertices[mesh.triangles[piece][0]];
-    volume[piece] += (a - apex).dot((b - apex).cross(c - apex)) / 6;
-    area[piece] += (b - a).cross(c - a).norm() / 2;
-  }
-  std::size_t kept = 0;
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    const std::uint32_t piece = pieces.find(t);
-    if (std::abs(volume[piece]) <= thickness * area[piece] && volume[piece] >= 0) continue;
-    mesh.triangles[kept] = mesh.triangles[t];
-    labels[kept++] = labels[t];
-  }
-  mesh.triangles.resize(kept);
-  labels.resize(kept);
-}
-
-void drop_unused_vertices(Mesh& mesh) {
-  constexpr std::uint32_t kUnused = std::numeric_limits<std::uint32_t>::max();
-  std::vector<std::uint32_t> new_index(mesh.vertices.size(), kUnused);
-  for (const Triangle& t : mesh.triangles) {
-    for (const std::uint32_t v : t) new_index[v] = 0;
-  }
-  std::uint32_t used = 0;
-  for (std::size_t v = 0; v < new_index.size(); ++v) {
-    if (new_index[v] == kUnused) continue;
-    mesh.vertices[used] = mesh.vertices[v];
-    new_index[v] = used++;
-  }
-  mesh.vertices.resize(used);
-  for (Triangle& t : mesh.triangles) {
-    for (std::uint32_t& v : t) v = new_index[v];
-  }
 }
 
 /// Puts the corners of cut faces into their planes exactly, where rounding left them beside it. `labelled` is in the
@@ -141,7 +96,6 @@ void cut_volume(const Regions& regions, const Watch& watch, Volume& result) {
     const Watch asked_again = watch ? Watch([&](double) { return watch(1); }) : Watch();
     return make_empty(explain_emptiness(volume, regions, asked_again), result);
   }
-  drop_unused_vertices(labelled.mesh);
   for (Vec3& vertex : labelled.mesh.vertices) vertex += regions.origin;
   const double rounding = std::numeric_limits<double>::epsilon() * regions.origin.cwiseAbs().maxCoeff();
   snap_to_planes(labelled, regions.surfaces, numerics::kSnapEpsilons * (volume.epsilon() + rounding));
