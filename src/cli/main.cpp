@@ -22,6 +22,7 @@ constexpr const char* kExamples =
     "  vantage compute mission.yaml -o volume.ply\n"
     "  vantage query mission.yaml points.csv > answers.csv\n"
     "  vantage verify mission.yaml volume.ply\n"
+    "  vantage devices\n"
     "\n"
     "EXIT CODES\n"
     "  0  done\n"
@@ -117,6 +118,7 @@ int run(int argument_count, char** arguments) {
   add_compute(app, chosen);
   add_query(app, chosen);
   add_verify(app, chosen);
+  add_devices(app, chosen);
 
   try {
     app.parse(argument_count, arguments);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "render/cpu_depth.h"
+#include "render/device_list.h"
 #include "vantage/error.h"
 
 namespace vantage::render {
@@ -130,17 +131,18 @@ ChosenRenderer make_depth_renderer(const BackEnds& back_ends, const DeviceChoice
 }
 
 ChosenRenderer make_depth_renderer(const PreparedScene& scene, const DeviceChoice& choice) {
-  BackEnds back_ends;
-  // Looking for OpenGL takes a while, and can only lead to the CPU where that is asked for.
+  DeviceList list;
+  // Looking for OpenGL takes a while, and changes nothing where the CPU is asked for.
   if (choice.kind == DeviceChoice::Kind::cpu) {
-    back_ends.found.devices.push_back(cpu_device());
+    list.found.devices.push_back(cpu_device());
   } else {
-    back_ends.found = render_devices();
+    list = list_devices();
   }
+  BackEnds back_ends;
+  back_ends.found = list.found;
   back_ends.make = [scene](const RenderDevice& device) {
-    std::unique_ptr<DepthRenderer> renderer = make_cpu_depth_renderer(scene);
-    (void)device;
-    return renderer;
+    if (device.kind != DeviceKind::cpu) throw DeviceFailure("depth images by OpenGL are not built in");
+    return make_cpu_depth_renderer(scene);
   };
   return make_depth_renderer(back_ends, choice);
 }

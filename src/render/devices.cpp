@@ -4,16 +4,23 @@
 #include <charconv>
 
 #include "render/cpu_depth.h"
+#include "render/device_list.h"
 #include "vantage/error.h"
 
 namespace vantage {
 
-RenderDevices render_devices() {
-  RenderDevices found;
-  found.devices.push_back(render::cpu_device());
-  found.why_no_opengl = "this build has no OpenGL";
-  return found;
+render::DeviceList render::list_devices() {
+  DeviceList list;
+  list.found.devices.push_back(cpu_device());
+  list.opengl = gl_devices(list.found.why_no_opengl);
+  for (GlDeviceInfo& info : list.opengl) {
+    info.device.index = static_cast<int>(list.found.devices.size());
+    list.found.devices.push_back(info.device);
+  }
+  return list;
 }
+
+RenderDevices render_devices() { return render::list_devices().found; }
 
 DeviceChoice parse_device_choice(const std::string& text) {
   using Kind = DeviceChoice::Kind;

@@ -1,0 +1,121 @@
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/command.h"
+#include "cli/text_table.h"
+#include "render/choose.h"
+#include "vantage/devices.h"
+
+namespace vantage::cli {
+namespace {
+
+constexpr const char* kExamples =
+    "EXAMPLES\n"
+    "  vantage devices\n"
+    "  vantage devices --device gpu        # is there a graphics processor? exit code 2 when not\n"
+    "  vantage devices --json | jq -r '.devices[].name'\n";
+
+struct Options {
+  CommonOptions common;
+  std::string device = "auto";
+  bool json = false;
+};
+
+const char* kind_name(DeviceKind kind) {
+  switch (kind) {
+    case DeviceKind::cpu:
+      return "cpu";
+    case DeviceKind::opengl_software:
+      return "opengl_software";
+    case DeviceKind::opengl_hardware:
+      return "opengl_hardware";
+  }
+  return "";
+}
+
+const char* kind_remark(DeviceKind kind) {
+  switch (kind) {
+    case DeviceKind::cpu:
+      return "ray casting on the processor; always there";
+    case DeviceKind::opengl_software:
+      return "OpenGL that the processor emulates";
+    case DeviceKind::opengl_hardware:
+      return "OpenGL on a graphics processor";
+  }
+  return "";
+}
+
+std::string why(const render::ChosenDevice& chosen, const std::string& asked) {
+  if (!chosen.note.empty()) return chosen.note;
+  return asked == "auto" ? "the first graphics processor" : "asked for by --device " + asked;
+}
+
+std::string json_text(const RenderDevices& found, const render::ChosenDevice& chosen, const std::string& reason) {
+  nlohmann::ordered_json json;
+  json["devices"] = nlohmann::ordered_json::array();
+  for (const RenderDevice& device : found.devices) {
+    json["devices"].push_back({{"index", device.index},
+                               {"kind", kind_name(device.kind)},
+                               {"name", device.name},
+                               {"driver", device.driver},
+                               {"memory_bytes", device.memory_bytes},
+                               {"largest_face_size", device.largest_face_size}});
+  }
+  json["used"] = chosen.device.index;
+  json["why"] = reason;
+  json["why_no_opengl"] = found.why_no_opengl;
+  // A name is bytes from a driver, and JSON takes UTF-8 only: others are replaced rather than refused.
+  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+std::string table_text(const RenderDevices& found, const render::ChosenDevice& chosen, const std::string& reason) {
+  TextTable table;
+  for (const RenderDevice& device : found.devices) {
+    table.heading("device " + std::to_string(device.index) + ": " + device.name);
+    table.row("kind", "", kind_remark(device.kind));
+    if (!device.driver.empty()) table.row("driver", "", device.driver);
+    if (device.memory_bytes > 0) {
+      table.row("memory", fixed(static_cast<double>(device.memory_bytes) / (1 << 30), 1), "GiB of its own");
+    } else {
+      table.row("memory", "",
+                device.kind == DeviceKind::opengl_hardware ? "the driver does not say how much" : "main memory");
+    }
+    table.row("faces up to", count(static_cast<std::size_t>(device.largest_face_size)), "texels a side");
+  }
+  if (!found.why_no_opengl.empty()) {
+    table.heading("no OpenGL");
+    table.row("why", "", found.why_no_opengl);
+  }
+  table.heading("would be used");
+  table.row("device", std::to_string(chosen.device.index), reason);
+  return table.text();
+}
+
+int run(const Options& options) {
+  const DeviceChoice choice = parse_device_choice(options.device);
+  const RenderDevices found = render_devices();
+  const render::ChosenDevice chosen = render::choose_device(found, choice);
+  const std::string reason = why(chosen, options.device);
+  print(options.json ? json_text(found, chosen, reason) : table_text(found, chosen, reason));
+  return kSuccess;
+}
+
+}  // namespace
+
+void add_devices(CLI::App& app, Command& chosen) {
+  CLI::App* command =
+      app.add_subcommand("devices", "Show what can render depth images and pictures here, and which would be used");
+  auto options = std::make_shared<Options>();
+  command
+      ->add_option("--device", options->device,
+                   "Which one is asked for: auto (default), cpu, opengl, gpu, or the number of a device")
+      ->option_text("DEVICE");
+  command->add_flag("--json", options->json, "Print JSON instead of a table");
+  add_common_options(*command, options->common);
+  command->footer(kExamples);
+  command->callback([options, &chosen] {
+    chosen = [options] { return with_threads(options->common, [&] { return run(*options); }); };
+  });
+}
+
+}  // namespace vantage::cli
