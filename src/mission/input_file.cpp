@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <fstream>
 #include <string>
 #include <system_error>
 
+#include "mission/yaml_tree.h"
 #include "vantage/error.h"
 
 namespace vantage::mission_io {
@@ -16,6 +18,30 @@ namespace {
 namespace fs = std::filesystem;
 
 }  // namespace
+
+std::string read_text(const fs::path& file, const std::string& name) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) {
+    throw Error(ErrorKind::input, "the " + name + " cannot be read: " + std::strerror(errno), file.string(),
+                "check its permissions");
+  }
+  std::error_code error;
+  const std::uintmax_t size = fs::file_size(file, error);
+  if (!error && size > kMaxYamlBytes) {
+    throw Error(
+        ErrorKind::input,
+        "the " + name + " is too large: " + std::to_string(size) + " bytes, at most " + std::to_string(kMaxYamlBytes),
+        file.string(), "give the " + name + ", not a mesh");
+  }
+  std::string text(kMaxYamlBytes + 1, '\0');
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (stream.bad()) {
+    throw Error(ErrorKind::input, "the " + name + " cannot be read to its end", file.string(),
+                "check the disk that it lies on");
+  }
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  return text;
+}
 
 bool is_obj(const fs::path& file) {
   std::string name = file.filename().string();
@@ -29,8 +55,9 @@ void check_readable(const fs::path& file, const std::string& what, const std::st
   std::error_code error;
   const fs::file_status status = fs::status(file, error);
   if (status.type() == fs::file_type::not_found) {
-    throw Error(ErrorKind::input, what + " does not exist", place,
-                where.empty() ? "check the path" : "check the path; it starts from the mission file's folder");
+    throw Error(
+        ErrorKind::input, what + " does not exist", place,
+        where.empty() ? "check the path" : "check the path; it starts from the folder of the file that names it");
   }
   if (error) throw Error(ErrorKind::input, what + " cannot be reached: " + error.message(), place, "check the path");
   if (fs::is_directory(status)) {

@@ -10,6 +10,7 @@
 #include "mission/numbers.h"
 #include "mission/run_mission.h"
 #include "mission/schema.h"
+#include "mission/value_reader.h"
 #include "vantage/error.h"
 
 namespace vantage::mission_io {
@@ -17,13 +18,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Largest length that a mission may state, in metres: beyond it a coordinate leaves the solar system's inner planets,
-/// and squares of lengths begin to lose the millimetres that the engine promises.
-constexpr double kMaxLength = 1e9;
-
-class MissionParser {
+class MissionParser : private ValueReader {
  public:
-  explicit MissionParser(const fs::path& file) : path_(file), file_(file.string()) {}
+  explicit MissionParser(const fs::path& file) : ValueReader(file.string()), path_(file) {}
 
   ParsedMission parse(std::string_view text);
 
@@ -43,25 +40,13 @@ class MissionParser {
   void check_edges(const YamlNode& node, std::size_t vertex_count) const;
   void check_target(const YamlNode& vertices);
 
-  // Values. `what` is the key as messages call it: "target.vertices[2]".
   const YamlNode& require(const YamlNode& map, Section section, std::string_view key, const std::string& fix) const;
-  double number(const YamlNode& node, const std::string& what) const;
-  double length(const YamlNode& node, const std::string& what) const;
-  double positive(const YamlNode& node, const std::string& what) const;
-  Vec3 vector(const YamlNode& node, const std::string& what) const;
-  std::string text(const YamlNode& node, const std::string& what) const;
   UpAxis up_axis(const YamlNode& node, const std::string& what) const;
-  const std::vector<YamlNode>& list(const YamlNode& node, const std::string& what, const std::string& fix) const;
-  [[noreturn]] void fail(const YamlNode& node, const std::string& problem, const std::string& fix) const {
-    fail_at(node, file_, problem, fix);
-  }
 
   fs::path path_;
-  std::string file_;
   ParsedMission parsed_;
 };
 
-const char* const kVectorForm = "write three numbers in brackets, in metres, z up: [x, y, z]";
 const char* const kBoxForm = "write each box as {min: [x, y, z], max: [x, y, z]}";
 
 std::string indexed(const std::string& what, std::size_t index) { return what + "[" + std::to_string(index) + "]"; }
@@ -76,8 +61,8 @@ std::string edge_text(std::size_t from, std::size_t to) {
 }
 
 ParsedMission MissionParser::parse(std::string_view mission_text) {
-  const YamlNode root = parse_yaml(mission_text, file_);
-  check_keys(root, Section::mission, file_);
+  const YamlNode root = parse_yaml(mission_text, file());
+  check_keys(root, Section::mission, file());
   parsed_.mission.file = fs::absolute(path_);
 
   if (const YamlNode* method = find(root, "method")) parse_method(*method);
@@ -92,7 +77,7 @@ ParsedMission MissionParser::parse(std::string_view mission_text) {
 }
 
 void MissionParser::parse_scene(const YamlNode& node) {
-  check_keys(node, Section::scene, file_);
+  check_keys(node, Section::scene, file());
   parsed_.scene = mesh_reference(node, Section::scene);
   parsed_.mission.scene_file = parsed_.scene.file;
   parsed_.mission.scene_options = parsed_.scene.options;
@@ -104,7 +89,7 @@ MeshReference MissionParser::mesh_reference(const YamlNode& node, Section sectio
       require(node, section, "mesh", "write 'mesh: city.obj'; the path starts from the mission file");
   MeshReference reference;
   reference.name = text(mesh, prefix + "mesh");
-  reference.where = place_in(file_, mesh.place);
+  reference.where = place_in(file(), mesh.place);
   // Not made shorter here: "a/../b" is not "b" where a is a symbolic link.
   reference.file = parsed_.mission.file.parent_path() / reference.name;
   // What `compute` writes must come back as a navigation mesh where it was: OBJ in the axes and the unit of the scene
@@ -116,7 +101,7 @@ MeshReference MissionParser::mesh_reference(const YamlNode& node, Section sectio
 }
 
 void MissionParser::parse_target(const YamlNode& node) {
-  check_keys(node, Section::target, file_);
+  check_keys(node, Section::target, file());
   Target& target = parsed_.mission.target;
   if (const YamlNode* name = find(node, "name")) target.name = text(*name, "target.name");
   const YamlNode& vertices =
@@ -134,7 +119,7 @@ void MissionParser::parse_target(const YamlNode& node) {
 /// The checks that need no scene, told with the place of the vertices.
 void MissionParser::check_target(const YamlNode& vertices) {
   Mission& mission = parsed_.mission;
-  mission.target_place = place_in(file_, vertices.place);
+  mission.target_place = place_in(file(), vertices.place);
   with_place(mission.target_place, [&] { return make_target_frame(mission.target); });
 }
 
@@ -184,7 +169,7 @@ void MissionParser::check_edges(const YamlNode& node, std::size_t vertex_count) 
 }
 
 void MissionParser::parse_sensor(const YamlNode& node) {
-  check_keys(node, Section::sensor, file_);
+  check_keys(node, Section::sensor, file());
   const YamlNode& range =
       require(node, Section::sensor, "max_range", "write 'max_range: 100': metres, to every point of the target");
   parsed_.mission.sensor.max_range_m = positive(range, "sensor.max_range");
@@ -192,7 +177,7 @@ void MissionParser::parse_sensor(const YamlNode& node) {
 
 void MissionParser::parse_navigation(const YamlNode& node) {
   if (node.kind == YamlNode::Kind::null) return;  // the heading alone: no limits
-  check_keys(node, Section::navigation, file_);
+  check_keys(node, Section::navigation, file());
   Navigation& navigation = parsed_.mission.navigation;
   if (const YamlNode* band = find(node, "altitude")) navigation.altitude = altitude(*band);
   if (const YamlNode* keep_in = find(node, "boxes")) {
@@ -209,7 +194,7 @@ void MissionParser::parse_navigation(const YamlNode& node) {
   if (meshes == nullptr) return;
   for (const YamlNode& item : list(*meshes, "navigation.meshes", "write a list of mesh files: [airspace.ply]")) {
     if (item.kind == YamlNode::Kind::map) {
-      check_keys(item, Section::mesh, file_);
+      check_keys(item, Section::mesh, file());
       parsed_.navigation_meshes.push_back(mesh_reference(item, Section::mesh));
       continue;
     }
@@ -247,7 +232,7 @@ std::vector<Box> MissionParser::boxes(const YamlNode& node, const std::string& w
 
 Box MissionParser::box(const YamlNode& node, const std::string& what) const {
   if (node.kind != YamlNode::Kind::map) fail(node, what + " must be a mapping, not " + describe(node), kBoxForm);
-  check_keys(node, Section::box, file_);
+  check_keys(node, Section::box, file());
   const YamlNode& min = require(node, Section::box, "min", kBoxForm);
   const YamlNode& max = require(node, Section::box, "max", kBoxForm);
   Box result;
@@ -272,7 +257,7 @@ void MissionParser::parse_method(const YamlNode& node) {
 }
 
 void MissionParser::parse_exact(const YamlNode& node) {
-  check_keys(node, Section::exact, file_);
+  check_keys(node, Section::exact, file());
   if (const YamlNode* tolerance = find(node, "tolerance")) {
     parsed_.mission.exact.tolerance_m = positive(*tolerance, "exact.tolerance");
   }
@@ -284,75 +269,11 @@ const YamlNode& MissionParser::require(const YamlNode& map, Section section, std
   fail(map, std::string(section_name(section)) + " lacks the key '" + std::string(key) + "'", fix);
 }
 
-double MissionParser::number(const YamlNode& node, const std::string& what) const {
-  if (node.kind != YamlNode::Kind::scalar || node.is_quoted) {
-    fail(node, what + " must be a number, not " + describe(node), "write a plain decimal number, such as 12.5");
-  }
-  const ParsedNumber parsed = parse_number(node.text);
-  switch (parsed.fault) {
-    case NumberFault::none:
-      return parsed.value;
-    case NumberFault::not_finite:
-      fail(node, what + " is not finite: " + in_quotes(node.text), number_advice(node.text, parsed.fault));
-    case NumberFault::out_of_range:
-      fail(node, what + " is beyond what a double holds: " + in_quotes(node.text),
-           number_advice(node.text, parsed.fault));
-    case NumberFault::not_a_number:
-      break;
-  }
-  fail(node, what + " must be a number, not " + in_quotes(node.text), number_advice(node.text, parsed.fault));
-}
-
-double MissionParser::length(const YamlNode& node, const std::string& what) const {
-  const double value = number(node, what);
-  if (std::abs(value) > kMaxLength) {
-    fail(node, what + " is too large: " + shortest(value) + ", at most " + shortest(kMaxLength),
-         "lengths are in metres; far from the origin use a local frame");
-  }
-  return value;
-}
-
-double MissionParser::positive(const YamlNode& node, const std::string& what) const {
-  const double value = length(node, what);
-  if (value <= 0) fail(node, what + " must be greater than 0, not " + shortest(value), "write a positive number");
-  return value;
-}
-
-Vec3 MissionParser::vector(const YamlNode& node, const std::string& what) const {
-  if (node.kind != YamlNode::Kind::sequence || node.items.size() != 3) {
-    fail(node, what + " must be three numbers, not " + describe(node), kVectorForm);
-  }
-  Vec3 result;
-  for (int axis = 0; axis < 3; ++axis) {
-    result[axis] = length(node.items[static_cast<std::size_t>(axis)], what + "." + "xyz"[axis]);
-  }
-  return result;
-}
-
-std::string MissionParser::text(const YamlNode& node, const std::string& what) const {
-  if (node.kind != YamlNode::Kind::scalar || node.text.empty()) {
-    fail(node, what + " must be a text, not " + (node.kind == YamlNode::Kind::scalar ? "empty" : describe(node)),
-         "write a word; put it in quotes if it holds blanks, colons or brackets");
-  }
-  const bool has_control = std::any_of(node.text.begin(), node.text.end(),
-                                       [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; });
-  if (has_control) {
-    fail(node, what + " holds a control character: " + in_quotes(node.text), "write it without tabs and line breaks");
-  }
-  return node.text;
-}
-
 UpAxis MissionParser::up_axis(const YamlNode& node, const std::string& what) const {
   const std::string axis = text(node, what);
   if (axis == "y") return UpAxis::y;
   if (axis == "z") return UpAxis::z;
   fail(node, what + " must be y or z, not " + in_quotes(axis), "write the axis of the file that points up: y or z");
-}
-
-const std::vector<YamlNode>& MissionParser::list(const YamlNode& node, const std::string& what,
-                                                 const std::string& fix) const {
-  if (node.kind != YamlNode::Kind::sequence) fail(node, what + " must be a list, not " + describe(node), fix);
-  return node.items;
 }
 
 }  // namespace

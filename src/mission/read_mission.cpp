@@ -1,6 +1,3 @@
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <string>
 
 #include "mission/input_file.h"
@@ -15,31 +12,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The whole file, up to one byte more than parse_yaml takes (which then says that it is too large).
-std::string read_text(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) {
-    throw Error(ErrorKind::input, std::string("the mission file cannot be read: ") + std::strerror(errno),
-                file.string(), "check its permissions");
-  }
-  std::error_code error;
-  const std::uintmax_t size = fs::file_size(file, error);
-  if (!error && size > mission_io::kMaxYamlBytes) {
-    throw Error(ErrorKind::input,
-                "the mission file is too large: " + std::to_string(size) + " bytes, at most " +
-                    std::to_string(mission_io::kMaxYamlBytes),
-                file.string(), "give the mission file, not a mesh");
-  }
-  std::string text(mission_io::kMaxYamlBytes + 1, '\0');
-  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (stream.bad()) {
-    throw Error(ErrorKind::input, "the mission file cannot be read to its end", file.string(),
-                "check the disk that it lies on");
-  }
-  text.resize(static_cast<std::size_t>(stream.gcount()));
-  return text;
-}
-
 /// Without links and dots in the folder; the name stays, since the format may show in it alone.
 fs::path with_true_folder(const fs::path& file) {
   std::error_code error;
@@ -51,7 +23,7 @@ fs::path with_true_folder(const fs::path& file) {
 
 Mission read_mission(const fs::path& file) {
   mission_io::check_readable(file, "the mission file", "");
-  mission_io::ParsedMission parsed = mission_io::parse_mission(read_text(file), file);
+  mission_io::ParsedMission parsed = mission_io::parse_mission(mission_io::read_text(file, "mission file"), file);
   mission_io::check_readable(parsed.scene.file, "the scene's mesh file", parsed.scene.where);
   parsed.mission.scene_file = with_true_folder(parsed.scene.file);
   for (const mission_io::MeshReference& reference : parsed.navigation_meshes) {

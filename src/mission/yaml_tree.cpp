@@ -14,8 +14,11 @@
 namespace vantage::mission_io {
 namespace {
 
-constexpr const char* kSaveAsUtf8 = "save the mission as plain text in UTF-8; docs/mission-file.md shows an example";
-constexpr const char* kSeeExample = "compare with the example in docs/mission-file.md";
+std::string save_as_utf8(const YamlDialect& dialect) {
+  return "save it as plain text in UTF-8; " + dialect.page + " shows an example";
+}
+
+std::string see_example(const YamlDialect& dialect) { return "compare with the example in " + dialect.page; }
 
 [[noreturn]] void fail(const std::string& problem, const std::string& where, const std::string& fix) {
   throw Error(ErrorKind::input, problem, where, fix);
@@ -45,14 +48,14 @@ std::size_t utf8_length(std::string_view text, std::size_t at) {
 }
 
 /// yaml-cpp replaces bad bytes without a word and takes byte 4 for the end of the file, so both are caught here.
-void check_is_text(std::string_view text, const std::string& file) {
+void check_is_text(std::string_view text, const std::string& file, const YamlDialect& dialect) {
   if (text.size() > kMaxYamlBytes) {
-    fail("the mission file is too large: " + std::to_string(text.size()) + " bytes, at most " +
+    fail("the " + dialect.name + " is too large: " + std::to_string(text.size()) + " bytes, at most " +
              std::to_string(kMaxYamlBytes),
-         file, "give the mission file, not a mesh; geometry belongs into mesh files named by the mission");
+         file, "give the " + dialect.name + ", not a mesh; geometry belongs into mesh files that it names");
   }
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {
-    fail("the mission file is UTF-16 text, not UTF-8", file, kSaveAsUtf8);
+    fail("the " + dialect.name + " is UTF-16 text, not UTF-8", file, save_as_utf8(dialect));
   }
   int line = 1;
   std::size_t line_start = 0;
@@ -62,8 +65,8 @@ void check_is_text(std::string_view text, const std::string& file) {
     const std::size_t length = is_control ? 0 : utf8_length(text, at);
     if (length == 0) {
       const std::string what = is_control ? "a control character" : "a byte that is not UTF-8";
-      fail("the mission file is not text: it holds " + what + " (byte value " + std::to_string(byte) + ")",
-           place_in(file, {line, static_cast<int>(at - line_start) + 1}), kSaveAsUtf8);
+      fail("the " + dialect.name + " is not text: it holds " + what + " (byte value " + std::to_string(byte) + ")",
+           place_in(file, {line, static_cast<int>(at - line_start) + 1}), save_as_utf8(dialect));
     }
     at += length;
     if (byte == '\n') {
@@ -76,7 +79,7 @@ void check_is_text(std::string_view text, const std::string& file) {
 /// Builds the tree from yaml-cpp's events. Its own YAML::Node would follow aliases and keep duplicate keys unseen.
 class TreeBuilder : public YAML::EventHandler {
  public:
-  explicit TreeBuilder(const std::string& file) : file_(file) {}
+  TreeBuilder(const std::string& file, const YamlDialect& dialect) : file_(file), dialect_(dialect) {}
 
   YamlNode take_root() { return std::move(root_); }
 
@@ -86,7 +89,8 @@ class TreeBuilder : public YAML::EventHandler {
   void OnNull(const YAML::Mark& mark, YAML::anchor_t) override { add(make(YamlNode::Kind::null, mark)); }
 
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override {
-    fail("YAML aliases (*name) are not understood in a mission file", at(mark), "write the value out where it is used");
+    fail("YAML aliases (*name) are not understood in a " + dialect_.name, at(mark),
+         "write the value out where it is used");
   }
 
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t, const std::string& value) override {
@@ -130,14 +134,14 @@ class TreeBuilder : public YAML::EventHandler {
 
   void refuse_tag(const YAML::Mark& mark, const std::string& tag) const {
     if (tag.empty() || tag == "?" || tag == "!") return;
-    fail("YAML tags (" + in_quotes(tag) + ") are not understood in a mission file", at(mark),
+    fail("YAML tags (" + in_quotes(tag) + ") are not understood in a " + dialect_.name, at(mark),
          "write the value without the tag");
   }
 
   void open(YamlNode node) {
     if (static_cast<int>(open_.size()) >= kMaxYamlDepth) {
-      fail("the mission file nests more than " + std::to_string(kMaxYamlDepth) + " levels deep",
-           place_in(file_, node.place), kSeeExample);
+      fail("the " + dialect_.name + " nests more than " + std::to_string(kMaxYamlDepth) + " levels deep",
+           place_in(file_, node.place), see_example(dialect_));
     }
     if (expects_key()) refuse_key(node);
     open_.push_back({std::move(node), {}, {}, false});
@@ -154,7 +158,7 @@ class TreeBuilder : public YAML::EventHandler {
   }
 
   [[noreturn]] void refuse_key(const YamlNode& node) const {
-    fail("a key must be a word", place_in(file_, node.place), kSeeExample);
+    fail("a key must be a word", place_in(file_, node.place), see_example(dialect_));
   }
 
   void add(YamlNode node) {
@@ -175,14 +179,22 @@ class TreeBuilder : public YAML::EventHandler {
       if (node.kind == YamlNode::Kind::null) node.place = parent.key_place;  // yaml-cpp tells the next token's
       parent.node.entries.push_back({std::move(parent.key), parent.key_place, std::move(node)});
       parent.has_key = false;
-      if (parent.node.entries.size() > kMaxEntries) {
-        fail("a mapping has more than " + std::to_string(kMaxEntries) + " keys", place_in(file_, parent.node.place),
-             kSeeExample);
+      const std::size_t most = may_repeat() ? kMaxRepeated : kMaxEntries;
+      if (parent.node.entries.size() > most) {
+        fail("a mapping has more than " + std::to_string(most) + " keys", place_in(file_, parent.node.place),
+             see_example(dialect_));
       }
     }
   }
 
+  /// Whether the innermost open map is the outermost one of a file that repeats keys there.
+  bool may_repeat() const { return open_.size() == 1 && !dialect_.repeatable.empty(); }
+
   void refuse_second(const YamlNode& map, const YamlNode& key) const {
+    if (may_repeat() &&
+        std::find(dialect_.repeatable.begin(), dialect_.repeatable.end(), key.text) != dialect_.repeatable.end()) {
+      return;
+    }
     const auto first = std::find_if(map.entries.begin(), map.entries.end(),
                                     [&](const YamlEntry& entry) { return entry.key == key.text; });
     if (first == map.entries.end()) return;
@@ -194,6 +206,7 @@ class TreeBuilder : public YAML::EventHandler {
   static constexpr std::size_t kMaxEntries = 100;
 
   const std::string& file_;
+  const YamlDialect& dialect_;
   YamlNode root_;
   std::vector<Open> open_;
 };
@@ -213,25 +226,26 @@ std::string place_in(const std::string& file, Place place) {
   return file + ":" + std::to_string(place.line) + ":" + std::to_string(place.column);
 }
 
-YamlNode parse_yaml(std::string_view text, const std::string& file) {
+YamlNode parse_yaml(std::string_view text, const std::string& file, const YamlDialect& dialect) {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // a byte order mark, as some editors write it
-  check_is_text(text, file);
+  check_is_text(text, file, dialect);
   try {
     ViewBuffer buffer(text);
     std::istream stream(&buffer);
     YAML::Parser parser(stream);
-    TreeBuilder builder(file);
-    if (!parser.HandleNextDocument(builder)) fail("the mission file is empty", file, kSeeExample);
+    TreeBuilder builder(file, dialect);
+    if (!parser.HandleNextDocument(builder)) fail("the " + dialect.name + " is empty", file, see_example(dialect));
     YamlNode root = builder.take_root();
-    TreeBuilder rest(file);
+    TreeBuilder rest(file, dialect);
     if (parser.HandleNextDocument(rest)) {
-      fail("the mission file holds more than one YAML document", place_in(file, rest.take_root().place),
-           "keep one mission in a file: remove the '---' between them");
+      fail("the " + dialect.name + " holds more than one YAML document", place_in(file, rest.take_root().place),
+           "keep one in a file: remove the '---' between them");
     }
     return root;
   } catch (const YAML::Exception& error) {
     const Place place{error.mark.line + 1, error.mark.column + 1};
-    fail("the mission file is not valid YAML: " + error.msg, error.mark.is_null() ? file : place_in(file, place),
+    fail("the " + dialect.name + " is not valid YAML: " + error.msg,
+         error.mark.is_null() ? file : place_in(file, place),
          "check brackets, colons and indentation (blanks, not tabs) here and on the line before");
   }
 }
