@@ -1,0 +1,113 @@
+#include "scene/viewpoint_check.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <tuple>
+
+#include "vantage/error.h"
+
+namespace vantage::scene {
+namespace {
+
+// From inside, the winding number of a closed surface is 1. What is left out of a building without a floor spans less
+// than half of all directions from any point above it.
+constexpr double kInside = 0.5;
+// A deep valley spans more than half of all directions too, by its front: only what closes all around is a solid turned
+// inside out.
+constexpr double kInsideOut = -0.999;
+
+using Corners = std::array<Vec3, 3>;
+
+double squared_distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
+  const Vec3 along = b - a;
+  const double length = along.squaredNorm();
+  const double at = length > 0 ? std::clamp((p - a).dot(along) / length, 0.0, 1.0) : 0.0;
+  return (a + at * along - p).squaredNorm();
+}
+
+double squared_distance(const Vec3& p, const Corners& c) {
+  double nearest = INFINITY;
+  bool is_above = true;  // the foot of p lies within the triangle
+  const Vec3 normal = (c[1] - c[0]).cross(c[2] - c[0]);
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 &a = c[i], &b = c[(i + 1) % 3];
+    nearest = std::min(nearest, squared_distance_to_segment(p, a, b));
+    is_above = is_above && (b - a).cross(p - a).dot(normal) > 0;
+  }
+  if (!is_above) return nearest;
+  const double height = (p - c[0]).dot(normal);
+  return std::min(nearest, height * height / normal.squaredNorm());
+}
+
+/// Solid angle of a triangle seen from the origin; positive where its normal points away. Source: van Oosterom and
+/// Strackee, The Solid Angle of a Plane Triangle, 1983.
+double solid_angle(const Corners& c) {
+  const double a = c[0].norm(), b = c[1].norm(), d = c[2].norm();
+  return 2 * std::atan2(c[0].dot(c[1].cross(c[2])),
+                        a * b * d + c[0].dot(c[1]) * d + c[0].dot(c[2]) * b + c[1].dot(c[2]) * a);
+}
+
+/// Vertices at one position get one number.
+std::vector<std::uint32_t> welded(const std::vector<Vec3>& vertices) {
+  std::vector<std::uint32_t> order(vertices.size()), number(vertices.size());
+  std::iota(order.begin(), order.end(), 0U);
+  const auto less = [&](std::uint32_t i, std::uint32_t j) {
+    const Vec3 &a = vertices[i], &b = vertices[j];
+    return std::tie(a.x(), a.y(), a.z()) < std::tie(b.x(), b.y(), b.z());
+  };
+  std::sort(order.begin(), order.end(), less);
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const bool is_same = i > 0 && !less(order[i - 1], order[i]);
+    number[order[i]] = is_same ? number[order[i - 1]] : order[i];
+  }
+  return number;
+}
+
+std::uint32_t root_of(std::vector<std::uint32_t>& parent, std::uint32_t at) {
+  while (parent[at] != at) at = parent[at] = parent[parent[at]];
+  return at;
+}
+
+}  // namespace
+
+ViewpointCheck::ViewpointCheck(const Scene& scene) : scene_(scene) {
+  const std::vector<std::uint32_t> weld = welded(scene.mesh.vertices);
+  std::vector<std::uint32_t> parent = weld;
+  for (const Triangle& t : scene.mesh.triangles) {
+    const std::uint32_t root = root_of(parent, weld[t[0]]);
+    parent[root_of(parent, weld[t[1]])] = root;
+    parent[root_of(parent, weld[t[2]])] = root;
+  }
+  constexpr std::uint32_t kNone = ~std::uint32_t{0};
+  std::vector<std::uint32_t> piece(scene.mesh.vertices.size(), kNone);  // by root
+  piece_of_.reserve(scene.mesh.triangles.size());
+  for (const Triangle& t : scene.mesh.triangles) {
+    std::uint32_t& number = piece[root_of(parent, weld[t[0]])];
+    if (number == kNone) number = static_cast<std::uint32_t>(pieces_++);
+    piece_of_.push_back(number);
+  }
+}
+
+void ViewpointCheck::check(const Vec3& viewpoint, const std::string& name) const {
+  std::vector<double> angle(pieces_, 0.0);
+  for (std::size_t t = 0; t < piece_of_.size(); ++t) {
+    Corners corners;
+    for (std::size_t k = 0; k < 3; ++k) corners[k] = scene_.mesh.vertices[scene_.mesh.triangles[t][k]] - viewpoint;
+    if (squared_distance(Vec3::Zero(), corners) < kOnSurface * kOnSurface) {
+      throw Error(ErrorKind::input, name + " lies on a surface", "object '" + scene_.objects[scene_.object_of[t]] + "'",
+                  "move it off the surface, by 1 mm or more");
+    }
+    angle[piece_of_[t]] += solid_angle(corners);
+  }
+  for (std::size_t t = 0; t < piece_of_.size(); ++t) {
+    const double winding = angle[piece_of_[t]] / (4 * M_PI);
+    if (winding <= kInside && winding >= kInsideOut) continue;
+    throw Error(ErrorKind::input, name + " lies inside a solid", "object '" + scene_.objects[scene_.object_of[t]] + "'",
+                "move it into the open");
+  }
+}
+
+}  // namespace vantage::scene
