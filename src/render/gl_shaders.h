@@ -1,0 +1,23 @@
+// The shaders of the depth cube maps.
+#pragma once
+
+namespace vantage::render {
+
+/// What the depth image holds, for an inverse depth of 1/m: a power of two, so that dividing by it is exact. Also the
+/// nearest distance, in metres, that it can tell from zero.
+inline constexpr double kDepthScale = 0x1p-20;
+
+struct ShaderSources {
+  const char* vertex;
+  const char* geometry;
+  const char* fragment;
+};
+
+/// Sampling::centers: triangles, and the depth of their plane along each texel's centre.
+ShaderSources centers_shaders();
+
+/// Sampling::nearest: conservative rasterization. A quadrilateral that holds the triangle's image, and in each of its
+/// texels the nearest point of what the triangle and the texel's pyramid share.
+ShaderSources nearest_shaders();
+
+}  // namespace vantage::render
