@@ -86,7 +86,7 @@ uniform int first_face;
 uniform float face_size;
 flat out vec3 corner_a, corner_b, corner_c;
 flat out vec4 plane;   // normal, 1 / distance (bounded from above)
-flat out vec4 errors;  // slack, the same for the test of a direction, greatest inverse depth, of dot(normal, (u, v, 1))
+flat out vec4 errors;  // slack, rounding of the test of a direction, greatest inverse depth, of dot(normal, (u, v, 1))
 
 vec2 low = vec2(1e30), high = vec2(-1e30);
 
@@ -95,6 +95,19 @@ void extend(vec3 p, float slack) {
   vec2 grow = 4.0 * slack * (1.0 + max(abs(c.x), abs(c.y))) / vec2(p.z);
   low = min(low, c - grow);
   high = max(high, c + grow);
+}
+
+float segment_distance(vec3 from, vec3 to) {
+  vec3 along = to - from;
+  return length(from + clamp(-dot(from, along) / dot(along, along), 0.0, 1.0) * along);
+}
+
+// From the eye to the triangle; `height` over its plane.
+float triangle_distance(vec3 p[3], vec3 normal, float height, float tolerance) {
+  vec3 sides = vec3(dot(normal, cross(p[0], p[1] - p[0])), dot(normal, cross(p[1], p[2] - p[1])),
+                    dot(normal, cross(p[2], p[0] - p[2])));
+  if (all(greaterThan(sides, vec3(-tolerance))) || all(lessThan(sides, vec3(tolerance)))) return height;
+  return min(min(segment_distance(p[0], p[1]), segment_distance(p[1], p[2])), segment_distance(p[2], p[0]));
 }
 
 void main() {
@@ -109,6 +122,7 @@ void main() {
   if (distance < 0.0LF) {
     distance = -distance;
     normal = -normal;
+  } else {  // the axes of a face are a mirror's
     vec3 swapped = p[1];
     p[1] = p[2];
     p[2] = swapped;
@@ -124,7 +138,10 @@ void main() {
   double ab = length(b - a), ac = length(c - a), bc = length(c - b);
   double angle_error = 8.9e-16LF * (1.0LF + ab * ac / area);
   double least_distance = distance - angle_error * double(farthest);
-  float nearest = 0.5 * max(float(least_distance), 0.0);  // what the image holds is at z >= distance / sqrt(3)
+  float longest = float(max(max(ab, ac), bc));
+  float height = max(float(least_distance), 0.0);
+  float reach = triangle_distance(p, axes * vec3(normal), height, slack * longest) - slack;
+  float nearest = 0.577 * max(reach, 0.999 * height);  // what the image holds is at z >= distance / sqrt(3)
   float least = min(min(z.x, z.y), z.z);
   float cap = min(1.000001 / max(max(least - slack, nearest), 9.5367432e-7), 1048576.0);
 
@@ -149,14 +166,13 @@ void main() {
   high = min(high + 1.5 / face_size, vec2(1));
   if (any(greaterThan(low, high))) return;
 
-  float longest = float(max(max(ab, ac), bc));
   for (int k = 0; k < 4; ++k) {
     gl_Layer = int(corner[0].face) - first_face;
     corner_a = p[0];
     corner_b = p[1];
     corner_c = p[2];
     plane = vec4(axes * vec3(normal), 1e30);
-    errors = vec4(slack, slack * longest * (longest + 2.0 * farthest), cap, 1e30);
+    errors = vec4(slack, slack * (longest + 8.0 * slack * farthest * cap), cap, 1e30);
     if (least_distance > 0.0LF) {
       plane.w = min(1.000001 * float(1.0LF / least_distance), 1e30);
       errors.w = 4.8e-7 + 2.0 * float(angle_error);  // 2^-21: eight roundings of sums of three up to 1
@@ -181,6 +197,8 @@ uniform float face_size;
 
 const float kNone = 1e30;
 
+float size(vec3 v) { return abs(v.x) + abs(v.y) + abs(v.z); }
+
 vec4 inside_pyramid(vec3 p, vec2 low, vec2 high) {
   return vec4(high * p.z - p.xy, p.xy - low * p.z) + errors.x;
 }
@@ -200,14 +218,16 @@ void main() {
   float reach = 1.000001 / face_size + 2.4e-7;
   vec2 low = c - reach, high = c + reach;
   vec3 worst = vec3(mix(low, high, greaterThan(plane.xy, vec2(0))), 1);
-  float rise = dot(plane.xyz, worst) + errors.w;
-  if (rise <= 0.0) discard;
-  float q = min(1.000001 * rise * plane.w, errors.z);
+  float q = min(1.000001 * (dot(plane.xyz, worst) + errors.w) * plane.w, errors.z);
+  if (q * errors.x < 1.9e-6) discard;  // beyond the farthest corner, which is slack / 2^-19 away
 
-  float margin = -errors.y * q;
-  vec3 ab = corner_b - corner_a, bc = corner_c - corner_b, ca = corner_a - corner_c;
-  vec3 sides = vec3(dot(cross(corner_a, ab), worst), dot(cross(corner_b, bc), worst), dot(cross(corner_c, ca), worst));
-  if (any(lessThan(sides, vec3(margin)))) {
+  // A corner that is off by d moves the test of the point worst / q by d times the sine between the other two.
+  vec3 across_a = cross(corner_a, corner_b - corner_a), across_b = cross(corner_b, corner_c - corner_b),
+       across_c = cross(corner_c, corner_a - corner_c);
+  vec3 sides = vec3(dot(across_a, worst), dot(across_b, worst), dot(across_c, worst));
+  vec3 sines = vec3(size(cross(corner_a, worst)), size(cross(corner_b, worst)), size(cross(corner_c, worst)));
+  vec3 margin = errors.x * (q * vec3(size(across_a), size(across_b), size(across_c)) + sines + sines.yzx) + errors.y;
+  if (any(lessThan(sides, -margin))) {
     vec4 in_a = inside_pyramid(corner_a, low, high), in_b = inside_pyramid(corner_b, low, high),
          in_c = inside_pyramid(corner_c, low, high);
     float depth = min(min(least_depth(corner_a.z, corner_b.z, in_a, in_b),
