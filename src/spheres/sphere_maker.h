@@ -1,0 +1,51 @@
+// Visibility spheres of points: depth images, tessellated.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "render/depth.h"
+#include "solid/csg.h"
+#include "spheres/star_mesh.h"
+#include "vantage/spheres.h"
+#include "vantage/target.h"
+
+namespace vantage::spheres {
+
+struct Sphere {
+  solid::LabelledMesh mesh;  ///< in the maker's frame; labels are SphereLabel
+  double longest_ray_m = 0;  ///< of what is kept
+  double seconds = 0;        ///< rendering and tessellation
+};
+
+/// Throws Error(input) for options out of range, and for a mesh that would need more memory than there is.
+void check_options(const SpheresOptions& options);
+
+/// The greatest distance at which facets on the range sphere lie inside it.
+double sagitta(const SpheresOptions& options, double range_m);
+
+/// Facets of a whole sphere.
+std::size_t facet_count(const SpheresOptions& options);
+
+class SphereMaker {
+ public:
+  /// Meshes are in the axes of `frame` and about its origin; with `front_only` cut to its z >= 0, for viewpoints that
+  /// lie in its plane. Keeps references to the renderer. The options are checked already.
+  SphereMaker(render::DepthRenderer& renderer, const SpheresOptions& options, double range_m, const TargetFrame& frame,
+              bool front_only);
+
+  /// Called with the spheres in the order of the points. Points in the frame. Throws as DepthRenderer::render does.
+  void make(const std::vector<Vec3>& points, const std::function<void(std::size_t, Sphere)>& sink) const;
+
+ private:
+  StarMesh tessellated(std::span<const float> inverse_depths) const;
+
+  render::DepthRenderer& renderer_;
+  SpheresOptions options_;
+  double range_m_;
+  TargetFrame frame_;
+  bool front_only_;
+  int face_size_;
+};
+
+}  // namespace vantage::spheres

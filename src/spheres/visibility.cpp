@@ -1,0 +1,151 @@
+#include "spheres/visibility.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "exact/number_text.h"
+#include "exact/range_region.h"
+#include "exact/target_check.h"
+#include "exact/watch.h"
+#include "scene/prepared_data.h"
+#include "spheres/algorithm.h"
+#include "spheres/numerics.h"
+#include "vantage/error.h"
+
+namespace vantage::spheres {
+namespace {
+
+using exact::metres_text;
+using Clock = std::chrono::steady_clock;
+
+void check(const Sensor& sensor) {
+  if (!(sensor.max_range_m > 0) || !std::isfinite(sensor.max_range_m))
+    throw Error(ErrorKind::input, "max_range must be a positive, finite number of metres", "sensor",
+                "give the farthest distance at which the target can be seen");
+}
+
+/// "vertex 2 at (10.00, 4.50, 0.00)" for a corner of the target as used, by the number that the user gave it; a
+/// midpoint of an edge has only its place.
+std::string point_name(const Target& target, const Vec3& place) {
+  std::size_t nearest = 0;
+  const Vec3 moved = target.vertices[0] - place;
+  double least = moved.squaredNorm();
+  for (std::size_t i = 1; i < target.vertices.size(); ++i) {
+    const double distance = (target.vertices[i] - place).squaredNorm();
+    if (distance < least) least = distance, nearest = i;
+  }
+  return "vertex " + std::to_string(nearest) + " at (" + exact::fixed_text(place.x(), 2) + ", " +
+         exact::fixed_text(place.y(), 2) + ", " + exact::fixed_text(place.z(), 2) + ")";
+}
+
+void set_blocked(const Target& target, const Vec3& place, Volume& volume) {
+  volume.outcome = Outcome::blocked_at_once;
+  volume.reason = point_name(target, place) + " sees nothing farther than " + metres_text(numerics::kHandsBreadth) +
+                  ": it is inside a solid, or faces the surface that it lies on";
+  volume.hint = "turn the target round with front:, or raise it with offset:";
+}
+
+void set_unseen(const Target& target, const Vec3& a, const Vec3& b, Volume& volume) {
+  volume.outcome = Outcome::blocked_at_once;
+  volume.reason = "no point is in all visibility spheres: " + point_name(target, a);
+  volume.reason +=
+      a == b ? " sees none that the points before it see" : " and " + point_name(target, b) + " see none together";
+  volume.hint = "make the spheres finer with cubemap:, or try method: exact";
+}
+
+void set_mesh(const TargetFrame& frame, solid::LabelledMesh labelled, Volume& volume) {
+  const std::array<Cause, 3> causes = {{{CauseKind::scene, "scene", 0},
+                                        {CauseKind::range, "max_range", 0},
+                                        {CauseKind::target_plane, "target plane", 0}}};
+  constexpr std::uint32_t kNone = ~0u;
+  std::array<std::uint32_t, 3> index = {kNone, kNone, kNone};
+  volume.mesh = std::move(labelled.mesh);
+  for (Vec3& v : volume.mesh.vertices) v = frame.to_scene(v);
+  volume.cause_of.reserve(labelled.labels.size());
+  for (std::size_t t = 0; t < labelled.labels.size(); ++t) {
+    std::uint32_t& cause = index[labelled.labels[t]];
+    if (cause == kNone) {
+      cause = static_cast<std::uint32_t>(volume.causes.size());
+      volume.causes.push_back(causes[labelled.labels[t]]);
+    }
+    volume.cause_of.push_back(cause);
+    const Triangle& triangle = volume.mesh.triangles[t];
+    const Vec3& a = volume.mesh.vertices[triangle[0]];
+    volume.causes[cause].area_m2 +=
+        0.5 * (volume.mesh.vertices[triangle[1]] - a).cross(volume.mesh.vertices[triangle[2]] - a).norm();
+  }
+}
+
+void compute(const Target& target, const Sensor& sensor, const SpheresOptions& options, render::DepthRenderer& renderer,
+             SpheresReport& report, const StageSink& stages, const Progress& progress, Volume& volume) {
+  const bool front_only = target.vertices.size() > 1 || target.front;
+  const SphereMaker maker(renderer, options, sensor.max_range_m, volume.frame, front_only);
+  exact::Watch watch(progress);
+  watch.begin("making spheres", 0);
+  Intersection found =
+      intersect_spheres(volume.frame, maker, options, report, stages, watch, static_cast<bool>(progress));
+  watch.begin("intersecting spheres", 1);
+  const auto place = [&](const Vec3& point) { return volume.frame.to_scene(point); };
+  if (found.blocked) {
+    set_blocked(target, place(*found.blocked), volume);
+  } else if (found.mesh.mesh.empty()) {
+    set_unseen(target, place(found.unseen[0]), place(found.unseen[1]), volume);
+  } else {
+    set_mesh(volume.frame, std::move(found.mesh), volume);
+  }
+}
+
+}  // namespace
+
+Volume compute_visibility(const PreparedScene& scene, const Target& target, const Sensor& sensor,
+                          const SpheresOptions& options, render::DepthRenderer& renderer, SpheresReport* report,
+                          const StageSink& stages, const Progress& progress) {
+  const auto start = Clock::now();
+  check(sensor);
+  check_options(options);
+  SpheresReport own_report;
+  SpheresReport& told = report ? *report : own_report;
+  told = {};
+  Volume volume;
+  volume.tolerance_m = sagitta(options, sensor.max_range_m);
+  volume.frame = make_target_frame(target);
+  volume.lift_m = exact::clearing_lift(scene.data(), target, volume.frame, sensor.max_range_m);
+  volume.frame.origin += volume.frame.normal * volume.lift_m;
+  volume.counts.scene_polygons = scene.data().polygon_count();
+  if (volume.frame.enclosing_radius_m * (1 + 1e-9) >= sensor.max_range_m) {
+    volume.outcome = Outcome::out_of_range;
+    volume.reason = "no point within " + metres_text(sensor.max_range_m) +
+                    " of all vertices: the target's enclosing circle has radius " +
+                    metres_text(volume.frame.enclosing_radius_m);
+    volume.hint = "raise max_range, or split the target";
+  } else {
+    exact::move_into_range(volume.frame, sensor.max_range_m);
+    compute(target, sensor, options, renderer, told, stages, progress, volume);
+  }
+  told.device = renderer.device();  // only now: it may have changed on the way
+  volume.seconds.engine = volume.seconds.total = std::chrono::duration<double>(Clock::now() - start).count();
+  return volume;
+}
+
+Mesh visibility_sphere(const Vec3& viewpoint, double radius_m, const SpheresOptions& options,
+                       render::DepthRenderer& renderer) {
+  if (!viewpoint.allFinite())
+    throw Error(ErrorKind::input, "the viewpoint has a coordinate that is not finite", "visibility sphere",
+                "give three finite numbers");
+  check({radius_m});
+  check_options(options);
+  TargetFrame frame;
+  frame.origin = viewpoint;
+  frame.axis_u = Vec3::UnitX(), frame.axis_v = Vec3::UnitY(), frame.normal = Vec3::UnitZ();
+  const SphereMaker maker(renderer, options, radius_m, frame, false);
+  Mesh mesh;
+  maker.make({Vec3::Zero()}, [&](std::size_t, Sphere sphere) { mesh = std::move(sphere.mesh.mesh); });
+  for (Vec3& v : mesh.vertices) v += viewpoint;
+  return mesh;
+}
+
+}  // namespace vantage::spheres
