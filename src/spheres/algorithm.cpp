@@ -12,6 +12,7 @@ namespace vantage::spheres {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+using numerics::kHandsBreadth;
 using solid::LabelledMesh;
 using solid::Solid;
 
@@ -93,6 +94,7 @@ class Run {
   }
 
   void make_spheres(const std::vector<std::uint32_t>& which) {
+    if (which.empty()) return;
     std::vector<Vec3> places;
     for (const std::uint32_t i : which) places.push_back(points_[i].place);
     watch_.begin("making spheres", 0.1);
@@ -107,7 +109,9 @@ class Run {
 
   void take_sphere(std::uint32_t point, Sphere sphere) {
     ++report_.spheres;
-    if (sphere.longest_ray_m < numerics::kHandsBreadth && !result_.blocked) result_.blocked = points_[point].place;
+    // A range of that size ends the view by itself; a coarse grid has no vertex straight above.
+    const bool sees_nothing = maker_.range_m() > 2 * kHandsBreadth && sphere.reach_m < kHandsBreadth;
+    if (sees_nothing && !result_.blocked) result_.blocked = points_[point].place;
     if (result_.blocked) return;
     const auto start = Clock::now();
     points_[point].sphere.emplace(sphere.mesh, "a visibility sphere");

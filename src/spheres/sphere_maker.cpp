@@ -91,13 +91,7 @@ SphereMaker::SphereMaker(render::DepthRenderer& renderer, const SpheresOptions& 
       range_m_(range_m),
       frame_(frame),
       front_only_(front_only),
-      face_size_(face_size(options)) {
-  const int largest = renderer.device().largest_face_size;
-  if (face_size_ > largest)
-    refuse("cube faces of " + std::to_string(face_size_) + " texels a side are beyond what " + renderer.device().name +
-               " can render: " + std::to_string(largest),
-           "lower cubemap or resolution, or take another device");
-}
+      face_size_(face_size(options)) {}
 
 StarMesh SphereMaker::tessellated(std::span<const float> inverse_depths) const {
   const CubeMap cube{face_size_, inverse_depths};
@@ -126,7 +120,7 @@ void SphereMaker::make(const std::vector<Vec3>& points, const std::function<void
   renderer_.render(request, [&](std::size_t index, std::span<const float> inverse_depths) {
     const StarMesh star = tessellated(inverse_depths);
     placement.viewpoint = points[index];
-    Sphere sphere{placed(star, placement), longest_ray(star, placement), 0};
+    Sphere sphere{placed(star, placement), reach(star, placement), 0};
     sphere.seconds = std::chrono::duration<double>(Clock::now() - start).count();
     sink(index, std::move(sphere));
     start = Clock::now();

@@ -14,7 +14,7 @@ namespace vantage::spheres {
 
 struct Sphere {
   solid::LabelledMesh mesh;  ///< in the maker's frame; labels are SphereLabel
-  double longest_ray_m = 0;  ///< of what is kept
+  double reach_m = 0;        ///< how far it goes from the viewpoint; if it is cut, how high above the plane
   double seconds = 0;        ///< rendering and tessellation
 };
 
@@ -33,6 +33,8 @@ class SphereMaker {
   /// lie in its plane. Keeps references to the renderer. The options are checked already.
   SphereMaker(render::DepthRenderer& renderer, const SpheresOptions& options, double range_m, const TargetFrame& frame,
               bool front_only);
+
+  double range_m() const { return range_m_; }
 
   /// Called with the spheres in the order of the points. Points in the frame. Throws as DepthRenderer::render does.
   void make(const std::vector<Vec3>& points, const std::function<void(std::size_t, Sphere)>& sink) const;

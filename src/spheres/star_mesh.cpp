@@ -155,14 +155,11 @@ solid::LabelledMesh placed(const StarMesh& star, const Placement& placement) {
   return result;
 }
 
-double longest_ray(const StarMesh& star, const Placement& placement) {
+double reach(const StarMesh& star, const Placement& placement) {
   const Vec3 up = placement.to_mesh.row(2);
-  double longest = 0;
-  for (const Vec3& ray : star.rays) {
-    if (placement.front_only && up.dot(ray) <= numerics::kInPlane * ray.lpNorm<Eigen::Infinity>()) continue;
-    longest = std::max(longest, ray.squaredNorm());
-  }
-  return std::sqrt(longest);
+  double farthest = 0;
+  for (const Vec3& ray : star.rays) farthest = std::max(farthest, placement.front_only ? up.dot(ray) : ray.norm());
+  return farthest;
 }
 
 }  // namespace vantage::spheres

@@ -30,7 +30,7 @@ struct StarMesh {
 /// z the same) closes the solid. Cost: linear; sorting the facets that cross the plane.
 solid::LabelledMesh placed(const StarMesh& star, const Placement& placement);
 
-/// The longest ray, or the longest above the plane with `front_only`.
-double longest_ray(const StarMesh& star, const Placement& placement);
+/// How far the mesh goes from the viewpoint; with `front_only` how high above the plane.
+double reach(const StarMesh& star, const Placement& placement);
 
 }  // namespace vantage::spheres

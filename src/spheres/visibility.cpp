@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "exact/number_text.h"
+#include "exact/numerics.h"
 #include "exact/range_region.h"
 #include "exact/target_check.h"
 #include "exact/watch.h"
@@ -113,7 +114,9 @@ Volume compute_visibility(const PreparedScene& scene, const Target& target, cons
   Volume volume;
   volume.tolerance_m = sagitta(options, sensor.max_range_m);
   volume.frame = make_target_frame(target);
-  volume.lift_m = exact::clearing_lift(scene.data(), target, volume.frame, sensor.max_range_m);
+  // At the least off the surface that it lies on: seen from a point of its own plane a polygon has no depth.
+  volume.lift_m =
+      std::max(exact::clearing_lift(scene.data(), target, volume.frame, sensor.max_range_m), vantage::numerics::kClear);
   volume.frame.origin += volume.frame.normal * volume.lift_m;
   volume.counts.scene_polygons = scene.data().polygon_count();
   if (volume.frame.enclosing_radius_m * (1 + 1e-9) >= sensor.max_range_m) {
@@ -132,7 +135,7 @@ Volume compute_visibility(const PreparedScene& scene, const Target& target, cons
 }
 
 Mesh visibility_sphere(const Vec3& viewpoint, double radius_m, const SpheresOptions& options,
-                       render::DepthRenderer& renderer) {
+                       render::DepthRenderer& renderer, const Progress& progress) {
   if (!viewpoint.allFinite())
     throw Error(ErrorKind::input, "the viewpoint has a coordinate that is not finite", "visibility sphere",
                 "give three finite numbers");
@@ -142,8 +145,11 @@ Mesh visibility_sphere(const Vec3& viewpoint, double radius_m, const SpheresOpti
   frame.origin = viewpoint;
   frame.axis_u = Vec3::UnitX(), frame.axis_v = Vec3::UnitY(), frame.normal = Vec3::UnitZ();
   const SphereMaker maker(renderer, options, radius_m, frame, false);
+  exact::Watch watch(progress);
+  watch.begin("making spheres", 0);
   Mesh mesh;
   maker.make({Vec3::Zero()}, [&](std::size_t, Sphere sphere) { mesh = std::move(sphere.mesh.mesh); });
+  watch.begin("making spheres", 1);
   for (Vec3& v : mesh.vertices) v += viewpoint;
   return mesh;
 }

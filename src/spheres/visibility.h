@@ -13,6 +13,6 @@ Volume compute_visibility(const PreparedScene& scene, const Target& target, cons
 
 /// As visibility_sphere.
 Mesh visibility_sphere(const Vec3& viewpoint, double radius_m, const SpheresOptions& options,
-                       render::DepthRenderer& renderer);
+                       render::DepthRenderer& renderer, const Progress& progress);
 
 }  // namespace vantage::spheres

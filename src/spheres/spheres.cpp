@@ -1,0 +1,35 @@
+// The public functions: they choose the device.
+#include "vantage/spheres.h"
+
+#include "parallel/parallel.h"
+#include "render/depth.h"
+#include "spheres/sphere_maker.h"
+#include "spheres/visibility.h"
+
+namespace vantage {
+
+Volume compute_visibility_spheres(const PreparedScene& scene, const Target& target, const Sensor& sensor,
+                                  const SpheresOptions& options, SpheresReport* report, const StageSink& stages,
+                                  const Progress& progress) {
+  spheres::check_options(options);  // before a device is looked for
+  Volume volume;
+  parallel::with_threads(options.threads, [&] {
+    const render::ChosenRenderer chosen = render::make_depth_renderer(scene, options.device);
+    volume = spheres::compute_visibility(scene, target, sensor, options, *chosen.renderer, report, stages, progress);
+    if (report) report->device_note = chosen.note;
+  });
+  return volume;
+}
+
+Mesh visibility_sphere(const PreparedScene& scene, const Vec3& viewpoint, double radius_m,
+                       const SpheresOptions& options, const Progress& progress) {
+  spheres::check_options(options);
+  Mesh mesh;
+  parallel::with_threads(options.threads, [&] {
+    const render::ChosenRenderer chosen = render::make_depth_renderer(scene, options.device);
+    mesh = spheres::visibility_sphere(viewpoint, radius_m, options, *chosen.renderer, progress);
+  });
+  return mesh;
+}
+
+}  // namespace vantage
