@@ -75,24 +75,25 @@ TEST(CpuDepth, SeesTheGroundAMicrometreBelow) {
         const Vec3 eye = shift + Vec3(17.3, 40.1, side * height);
         const double true_height = std::abs(eye.z() - shift.z());
         for (const Sampling sampling : {Sampling::centers, Sampling::nearest}) {
-          const int n = 64;
-          const DepthMap map = render_scene(ground, eye, n, sampling);
-          for (int row = 0; row < n; ++row) {
-            // Face 0 has the z axis as its up. What looks away from the ground sees nothing, the row at the horizon
-            // too.
-            const double v =
-                sampling == Sampling::centers ? (2 * row + 1.0) / n - 1 : (2.0 * (row + (side < 0))) / n - 1;
-            const double q = std::max(-side * v, 0.0) / true_height;
-            for (int column = 0; column < n; ++column) {
-              if (q == 0) {
-                ASSERT_LT(map.at(0, row, column), 1e-2) << "row " << row;
-              } else {
-                ASSERT_NEAR(map.at(0, row, column) / q, 1, 1e-5) << "row " << row;
+          for (const int n : {64, 130}) {
+            const DepthMap map = render_scene(ground, eye, n, sampling);
+            for (int row = 0; row < n; ++row) {
+              // Face 0 has the z axis as its up. What looks away from the ground sees nothing, the row at the horizon
+              // too.
+              const double v =
+                  sampling == Sampling::centers ? (2 * row + 1.0) / n - 1 : (2.0 * (row + (side < 0))) / n - 1;
+              const double q = std::max(-side * v, 0.0) / true_height;
+              for (int column = 0; column < n; ++column) {
+                if (q == 0) {
+                  ASSERT_LT(map.at(0, row, column), 1e-2) << "row " << row;
+                } else {
+                  ASSERT_NEAR(map.at(0, row, column) / q, 1, 1e-5) << "row " << row;
+                }
               }
             }
+            ASSERT_NEAR(map.at(side > 0 ? 5 : 4, 10, 50) * true_height, 1, 1e-5);
+            ASSERT_EQ(map.at(side > 0 ? 4 : 5, 10, 50), 0);
           }
-          ASSERT_NEAR(map.at(side > 0 ? 5 : 4, 10, 50) * true_height, 1, 1e-5);
-          ASSERT_EQ(map.at(side > 0 ? 4 : 5, 10, 50), 0);
         }
       }
     }
@@ -105,11 +106,12 @@ TEST(CpuDepth, AgreesWithRaysAgainstRandomCities) {
     const Vec3 shift = round % 3 == 2 ? kMap : Vec3(0, 0, 0);
     const Scene city = shifted(random_city(random, 25, 2), shift);
     const Vec3 eye = shift + Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(1, 60));
-    const int n = 48;
+    const int n = round % 2 ? 256 : 48;  // rasterised and by rays
+    const int step = n * n / 330;
     const DepthMap map = render_scene(city, eye, n, Sampling::centers);
     const SeenTriangles triangles = seen_from(city.mesh, eye);
     int compared = 0;
-    for (int texel = 0; texel < 6 * n * n; texel += 7) {
+    for (int texel = 0; texel < 6 * n * n; texel += step) {
       const int face = texel / (n * n), row = texel / n % n, column = texel % n;
       const RayHit hit =
           first_hit(triangles, direction_on_face(face, (2 * column + 1.0) / n - 1, (2 * row + 1.0) / n - 1), 1e-4);
@@ -118,7 +120,32 @@ TEST(CpuDepth, AgreesWithRaysAgainstRandomCities) {
       ASSERT_NEAR(map.at(face, row, column), hit.inverse, 2e-7 * hit.inverse)
           << "round " << round << " texel " << texel;
     }
-    EXPECT_GT(compared, n * n * 6 / 7 / 2);
+    EXPECT_GT(compared, n * n * 6 / step / 2);
+  }
+}
+
+TEST(CpuDepth, HasNoCracks) {
+  // The walls of a room as grids of triangles, seen from its middle by rays along the very lines of the grids.
+  Random random(4110);
+  SceneBuilder builder;
+  const int cells = 12;
+  for (const render::CubeFace& wall : render::cube_faces()) {
+    for (int cell = 0; cell < cells * cells; ++cell) {
+      const auto corner = [&](int right, int up) {
+        return Vec3(wall.forward + (2.0 * (cell % cells + right) / cells - 1) * wall.right +
+                    (2.0 * (cell / cells + up) / cells - 1) * wall.up);
+      };
+      const bool turned = random.chance(0.5);  // each triangle its own object, or they are merged
+      builder.polygon("a", {corner(0, 0), corner(1, 0), turned ? corner(0, 1) : corner(1, 1)});
+      builder.polygon("b", {corner(1, 1), corner(0, 1), turned ? corner(1, 0) : corner(0, 0)});
+    }
+  }
+  for (const Sampling sampling : {Sampling::centers, Sampling::nearest}) {
+    for (const int n : {12, 36, 127, 129, 180, 255}) {
+      for (const Vec3& eye : {Vec3(0, 0, 0), Vec3(0.25, -0.5, 0.125), Vec3(0.1, 0.2, 0.3)}) {
+        for (const float q : render_scene(builder, eye, n, sampling).inverse_depths) ASSERT_GT(q, 0.5) << n;
+      }
+    }
   }
 }
 
@@ -134,8 +161,7 @@ TEST(CpuDepth, IsAccurateAtSixHundredMetres) {
           SceneBuilder().polygon("wall", {foot + 900 * a, foot + 900 * b, foot - 900 * a, foot - 900 * b}), shift);
       const SeenTriangles triangles = seen_from(wall.mesh, shift);
       for (const Sampling sampling : {Sampling::centers, Sampling::nearest}) {
-        // Texels of 1e-5 rad: then the nearest point of a footprint is its centre but for 6 mm.
-        const int n = 65;
+        const int n = round % 2 ? 65 : 131;
         const DepthMap map = render_scene(wall, shift, n, sampling);
         for (int texel = 0; texel < n * n; texel += 3) {
           const double half = sampling == Sampling::nearest ? 1.0 / n : 0;
@@ -354,7 +380,7 @@ TEST(NearestDepth, IsTheTrueMaximumButForRounding) {
       }
     }
   }
-  EXPECT_GT(seen, 10000);
+  EXPECT_GT(seen, 5000);
 }
 
 TEST(NearestDepth, MergedPolygonsAreBoundedToo) {
@@ -399,18 +425,21 @@ TEST(CpuDepth, DoesNotDependOnTheNumberOfThreads) {
   const Scene city = random_city(random, 40, 2);
   const auto renderer = render::make_cpu_depth_renderer(PreparedScene(city));
   const std::vector<Vec3> eyes{{0, 0, 1}, {1, 1, 30}, {0, 0, 1e-6}};
-  for (const Sampling sampling : {Sampling::centers, Sampling::nearest}) {
+  for (const auto& [sampling, n] :
+       {std::pair(Sampling::centers, 100), {Sampling::centers, 150}, {Sampling::nearest, 150}}) {
+    const int size = n;
+    const Sampling how = sampling;
     std::vector<std::vector<float>> images;
     for (const int threads : {1, 2, 5}) {
       std::size_t next = 0;
       std::vector<float> all;
       parallel::with_threads(threads, [&] {
-        renderer->render({eyes, 150, sampling, 200}, [&](std::size_t i, std::span<const float> image) {
+        renderer->render({eyes, size, how, 200}, [&](std::size_t i, std::span<const float> image) {
           EXPECT_EQ(i, next++);
           all.insert(all.end(), image.begin(), image.end());
         });
       });
-      EXPECT_EQ(all.size(), eyes.size() * 6 * 150 * 150);
+      EXPECT_EQ(all.size(), eyes.size() * 6 * size * size);
       images.push_back(std::move(all));
     }
     EXPECT_TRUE(images[0] == images[1]);

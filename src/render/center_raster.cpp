@@ -8,6 +8,9 @@
 namespace vantage::render {
 namespace {
 
+// Neighbours overlap by this much in u, so that rounding leaves no crack between them.
+constexpr double kSeam = 1e-12;
+
 struct Crossing {
   double u, q;
 };
@@ -48,8 +51,11 @@ void draw_at_centers(const FaceBand& band, std::span<const Vec3> corners, std::s
     if (!cross_row(corners, band.centre(row), left, right)) continue;
     float* texels = inverse_depths.data() + static_cast<std::size_t>(row - band.row_begin) * band.size;
     const double slope = right.u > left.u ? (right.q - left.q) / (right.u - left.u) : 0;
-    for (int i = std::max(after(left.u), 0); i < band.size && band.centre(i) <= right.u; ++i) {
-      const double q = left.q + slope * (band.centre(i) - left.u);
+    const int last = std::min(after(right.u + kSeam), band.size - 1);
+    for (int i = std::max(after(left.u - kSeam), 0); i <= last; ++i) {
+      const double u = band.centre(i);
+      if (u > right.u + kSeam) break;
+      const double q = left.q + slope * (std::clamp(u, left.u, right.u) - left.u);
       texels[i] = std::max(texels[i], static_cast<float>(q));
     }
   }

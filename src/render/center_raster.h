@@ -1,5 +1,5 @@
-// Rasterisation of convex polygons at the centres of texels, in double precision: for surfaces so near to the viewpoint
-// that single-precision rays would start on their wrong side.
+// Rasterisation of convex polygons at the centres of texels, in double precision. A row of texel centres cuts a convex
+// polygon in a segment, along which the inverse depth is linear.
 #pragma once
 
 #include <span>

@@ -1,4 +1,5 @@
-// Depth cube maps on the processor: rays for the centres of texels, a conservative rasteriser for their footprints.
+// Depth cube maps on the processor. Centres of texels: rays (Embree) for small faces, whose cost hardly grows with the
+// scene, a rasteriser for large ones. Footprints of texels: a conservative rasteriser.
 #pragma once
 
 #include <memory>

@@ -49,8 +49,8 @@ class DepthRenderer {
   virtual ~DepthRenderer() = default;
   virtual const RenderDevice& device() const = 0;
 
-  /// Renders ahead while `sink` runs. Throws Error(input) for a face size beyond the device's, a viewpoint that is not
-  /// finite or a range that is not positive; DeviceFailure when the device cannot go on (memory, lost).
+  /// May render ahead, also while `sink` runs. Throws Error(input) for a face size beyond the device's, a viewpoint
+  /// that is not finite or a range that is not positive; DeviceFailure when the device cannot go on (memory, lost).
   virtual void render(const DepthRequest& request, const DepthSink& sink) = 0;
 };
 
