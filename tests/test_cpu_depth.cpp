@@ -131,9 +131,10 @@ TEST(CpuDepth, HasNoCracks) {
   const int cells = 12;
   for (const render::CubeFace& wall : render::cube_faces()) {
     for (int cell = 0; cell < cells * cells; ++cell) {
+      const int column = cell % cells, row = cell / cells;
       const auto corner = [&](int right, int up) {
-        return Vec3(wall.forward + (2.0 * (cell % cells + right) / cells - 1) * wall.right +
-                    (2.0 * (cell / cells + up) / cells - 1) * wall.up);
+        return Vec3(wall.forward + (2.0 * (column + right) / cells - 1) * wall.right +
+                    (2.0 * (row + up) / cells - 1) * wall.up);
       };
       const bool turned = random.chance(0.5);  // each triangle its own object, or they are merged
       builder.polygon("a", {corner(0, 0), corner(1, 0), turned ? corner(0, 1) : corner(1, 1)});
@@ -165,7 +166,7 @@ TEST(CpuDepth, IsAccurateAtSixHundredMetres) {
         const DepthMap map = render_scene(wall, shift, n, sampling);
         for (int texel = 0; texel < n * n; texel += 3) {
           const double half = sampling == Sampling::nearest ? 1.0 / n : 0;
-          const double u = (2 * (texel % n) + 1.0) / n - 1, v = (2 * (texel / n) + 1.0) / n - 1;
+          const double u = texel_centre(texel % n, n), v = texel_centre(texel / n, n);
           const Vec3 d = direction_on_face(0, u, v);
           const RayHit hit = first_hit(triangles, d, 3.0 / n);
           if (!hit.is_clear || hit.inverse == 0) continue;

@@ -6,6 +6,7 @@
 
 #include "render/cpu_depth.h"
 #include "render/device_list.h"
+#include "render/gl_depth.h"
 #include "vantage/error.h"
 
 namespace vantage::render {
@@ -140,9 +141,9 @@ ChosenRenderer make_depth_renderer(const PreparedScene& scene, const DeviceChoic
   }
   BackEnds back_ends;
   back_ends.found = list.found;
-  back_ends.make = [scene](const RenderDevice& device) {
-    if (device.kind != DeviceKind::cpu) throw DeviceFailure("depth images by OpenGL are not built in");
-    return make_cpu_depth_renderer(scene);
+  back_ends.make = [scene, opengl = std::move(list.opengl)](const RenderDevice& device) {
+    if (device.kind == DeviceKind::cpu) return make_cpu_depth_renderer(scene);
+    return make_gl_depth_renderer(scene, opengl.at(device.index - 1));
   };
   return make_depth_renderer(back_ends, choice);
 }

@@ -42,6 +42,9 @@ inline Vec3 direction_on_face(int face, double u, double v) {
   return axes.forward + u * axes.right + v * axes.up;
 }
 
+/// Of the centre of column or row i, of -1 to 1 across a face.
+inline double texel_centre(int i, int size) { return (2.0 * i + 1) / size - 1; }
+
 /// Triangles relative to a viewpoint.
 using SeenTriangles = std::vector<std::array<Vec3, 3>>;
 
