@@ -6,7 +6,7 @@ find_package(CLI11 REQUIRED)
 find_package(nlohmann_json 3.11 REQUIRED)
 find_package(ZLIB REQUIRED)
 
-# Embree 3: the independent check only (src/verify).
+# Embree 3: the independent check and depth images only (src/verify, src/render).
 find_package(embree 3 REQUIRED)
 add_library(vantage_embree INTERFACE)
 add_library(vantage::embree ALIAS vantage_embree)

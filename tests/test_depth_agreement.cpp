@@ -82,7 +82,7 @@ class HeavyDepthAgreement : public ::testing::Test {
   void SetUp() override {
     for (const RealScene& scene : kScenes) VANTAGE_REQUIRE_SHARED(scene.file);
     list_ = render::list_devices();
-    if (list_.opengl.empty()) GTEST_SKIP() << "no OpenGL: " << list_.found.why_no_opengl;
+    if (list_.opengl.empty()) GTEST_SKIP() << list_.found.why_no_opengl;
   }
 
   /// `count` viewpoints in each scene, on each OpenGL device.

@@ -83,8 +83,8 @@ std::string table_text(const RenderDevices& found, const render::ChosenDevice& c
     table.row("faces up to", count(static_cast<std::size_t>(device.largest_face_size)), "texels a side");
   }
   if (!found.why_no_opengl.empty()) {
-    table.heading("no OpenGL");
-    table.row("why", "", found.why_no_opengl);
+    table.heading("more devices");
+    table.row("none", "", found.why_no_opengl);
   }
   table.heading("would be used");
   table.row("device", std::to_string(chosen.device.index), reason);

@@ -30,14 +30,14 @@ const RenderDevice* first_of(const RenderDevices& found, DeviceKind kind) {
 }
 
 [[noreturn]] void throw_not_there(const RenderDevices& found, const std::string& problem, const std::string& advice) {
-  const std::string reason = found.why_no_opengl.empty() ? "" : " (" + found.why_no_opengl + ")";
+  const std::string reason = found.why_no_opengl.empty() ? "" : ": " + found.why_no_opengl;
   throw Error(ErrorKind::input, problem + reason, std::string(kWhere) + "; there is " + list_of(found), advice);
 }
 
 std::string why_the_cpu(const RenderDevices& found) {
   const RenderDevice* software = first_of(found, DeviceKind::opengl_software);
   if (software) return "no graphics processor: the OpenGL here, " + software->name + ", runs on the processor itself";
-  return "no graphics processor: " + found.why_no_opengl;
+  return found.why_no_opengl;
 }
 
 bool insists(const DeviceChoice& choice) { return choice.kind != DeviceChoice::Kind::automatic; }
