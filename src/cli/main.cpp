@@ -23,6 +23,7 @@ constexpr const char* kExamples =
     "  vantage query mission.yaml points.csv > answers.csv\n"
     "  vantage verify mission.yaml volume.ply\n"
     "  vantage devices\n"
+    "  vantage spheres -c config.yaml\n"
     "\n"
     "EXIT CODES\n"
     "  0  done\n"
@@ -119,6 +120,7 @@ int run(int argument_count, char** arguments) {
   add_query(app, chosen);
   add_verify(app, chosen);
   add_devices(app, chosen);
+  add_spheres(app, chosen);
 
   try {
     app.parse(argument_count, arguments);

@@ -1,0 +1,130 @@
+#include <memory>
+#include <set>
+
+#include "cli/command.h"
+#include "cli/output_check.h"
+#include "cli/progress_line.h"
+#include "cli/text_table.h"
+#include "mission/seed_run.h"
+#include "solid/writers.h"
+#include "vantage/devices.h"
+#include "vantage/error.h"
+
+namespace vantage::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using mission_io::SeedConfig;
+using mission_io::SeedResult;
+using mission_io::SeedRun;
+using mission_io::SeedVolume;
+
+constexpr const char* kExamples =
+    "EXAMPLES\n"
+    "  vantage spheres -c config.yaml\n"
+    "  vantage spheres -c config.yaml --sphere conservative --device cpu\n"
+    "\n"
+    "Runs a configuration file of the program published with the seed paper: a visibility sphere for each block\n"
+    "visibility_vol, written where its output_file says (.obj in world axes; .ply, .stl, .glb). Paths start from the\n"
+    "configuration file. All files are written, or none. The keys: docs/seed-config.md\n";
+
+struct Options {
+  CommonOptions common;
+  std::string config_file, device = "auto", sphere = "centers";
+};
+
+/// Runs `action`; an error about an output is told with the place in the file that names it.
+template <typename Action>
+auto at_output(const SeedVolume& volume, const Action& action) {
+  try {
+    return action();
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::input && error.kind() != ErrorKind::output) throw;
+    throw Error(error.kind(), error.problem(), volume.output_where + ", " + error.where(), error.fix());
+  }
+}
+
+/// All that can be known to go wrong with the outputs before anything is computed.
+void check_outputs(const SeedConfig& config) {
+  std::vector<fs::path> inputs = {config.file};
+  for (const mission_io::SeedMesh& mesh : config.meshes) inputs.push_back(mesh.file);
+  std::set<fs::path> seen;
+  for (const SeedVolume& volume : config.volumes) {
+    at_output(volume, [&] {
+      check_volume_output(volume.output);
+      check_not_an_input(volume.output, inputs);
+      if (seen.insert(fs::weakly_canonical(volume.output)).second) return;
+      throw Error(ErrorKind::input, "two volumes are written to one file", volume.output.string(),
+                  "give each output_file a name of its own");
+    });
+  }
+}
+
+void write(const SeedConfig& config, const std::vector<SeedResult>& results) {
+  std::vector<std::unique_ptr<solid::AtomicFile>> files;
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    at_output(config.volumes[i], [&] {
+      files.push_back(solid::stage_volume(results[i].volume, config.volumes[i].output, config.up, 1.0));
+      files.back()->seal();
+    });
+  }
+  solid::commit_all(files);
+}
+
+std::string summary(const SeedConfig& config, const SeedRun& run) {
+  const std::vector<SeedResult>& results = run.results;
+  TextTable table;
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    const MeshMeasures& measures = results[i].measures;
+    table.heading(config.volumes[i].name);
+    table.row("volume", fixed(measures.volume_m3, 1), "cubic metres");
+    table.row("facets", count(measures.facets), count(measures.vertices) + " vertices");
+    table.row("time", duration(results[i].seconds), "");
+  }
+  std::string text = "device: " + run.device.name + (run.device_note.empty() ? "" : " (" + run.device_note + ")") +
+                     "\n" + table.text();
+  for (const SeedVolume& volume : config.volumes) text += "wrote " + volume.output.string() + "\n";
+  return text;
+}
+
+int run_command(const Options& options) {
+  SpheresOptions spheres;
+  spheres.device = parse_device_choice(options.device);
+  spheres.sphere = options.sphere == "centers" ? SpheresOptions::Sphere::centers : SpheresOptions::Sphere::conservative;
+  spheres.threads = options.common.threads;
+  const SeedConfig config = mission_io::read_seed_config(options.config_file);
+  check_outputs(config);
+  if (!options.common.quiet) {
+    for (const std::string& warning : config.warnings) note(warning);
+  }
+  SeedRun run;
+  {
+    ProgressLine progress(options.common);
+    run = mission_io::run_seed_config(config, spheres, progress.callback());
+    write(config, run.results);
+  }
+  if (!options.common.quiet) print(summary(config, run));
+  return kSuccess;
+}
+
+}  // namespace
+
+void add_spheres(CLI::App& app, Command& chosen) {
+  CLI::App* command = app.add_subcommand("spheres", "Run a configuration file of the program of the seed paper");
+  auto options = std::make_shared<Options>();
+  command->add_option("-c,--config", options->config_file, "The configuration file")->required()->option_text("FILE");
+  command->add_option("--device", options->device, "auto (default), cpu, opengl, gpu, or a number of 'vantage devices'")
+      ->option_text("DEVICE");
+  command
+      ->add_option("--sphere", options->sphere,
+                   "centers (default): joins texel centres, as that program does; conservative: an inner bound")
+      ->check(CLI::IsMember({"centers", "conservative"}))
+      ->option_text("KIND");
+  add_common_options(*command, options->common);
+  command->footer(kExamples);
+  command->callback([options, &chosen] {
+    chosen = [options] { return with_threads(options->common, [&] { return run_command(*options); }); };
+  });
+}
+
+}  // namespace vantage::cli
