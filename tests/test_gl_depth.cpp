@@ -363,9 +363,9 @@ TEST_F(GlDepth, CharlotteAgainstTheDefinition) {
     Vec3 eye = random.in_box(bounds) * 0.5;
     eye.z() = random.uniform(1, 60);
     const int face_size = i == 0 ? 40 : i == 1 ? 200 : 1024;
-    const Excess nearest = check_nearest(random, *gl, scene, eye, face_size, 1000);
+    const Excess nearest = check_nearest(random, *gl, scene, eye, face_size, 500);
     EXPECT_LE(nearest.invented + nearest.loose, nearest.texels / 20);
-    const Agreement centers = check_centers(random, *gl, scene, eye, face_size, 3000);
+    const Agreement centers = check_centers(random, *gl, scene, eye, face_size, 1000);
     EXPECT_LE(centers.differ, centers.texels / 200);
   }
 }

@@ -14,6 +14,8 @@ namespace {
 constexpr const char* kInstall =
     "install libegl1 and libgl1-mesa-dri (Debian), or the driver of the graphics processor";
 
+constexpr int kLargestFace = 16384;  // a face of these is 1 GiB
+
 // GL_NVX_gpu_memory_info and GL_ATI_meminfo, in KiB; not in the core header.
 constexpr GLenum kDedicatedMemoryNvx = 0x9047;
 constexpr GLenum kTextureFreeMemoryAti = 0x87FC;
@@ -148,7 +150,7 @@ RenderDevice describe(const GlContext& context) {
   std::array<GLint, 2> viewport{};
   gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &texture);
   gl.GetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport.data());
-  device.largest_face_size = std::min({texture, viewport[0], viewport[1]});
+  device.largest_face_size = std::min({texture, viewport[0], viewport[1], kLargestFace});
   if (device.kind == DeviceKind::opengl_hardware) {
     std::array<GLint, 4> kib{};
     if (context.has_extension("GL_NVX_gpu_memory_info"))

@@ -2,22 +2,20 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <new>
 #include <utility>
 #include <vector>
 
+#include "render/depth_request.h"
 #include "render/gl_clusters.h"
 #include "render/gl_library.h"
 #include "render/gl_program.h"
 #include "render/gl_shaders.h"
 #include "scene/prepared_data.h"
-#include "vantage/error.h"
 
 namespace vantage::render {
 namespace {
 
-constexpr int kLargestFace = 16384;         // a face of these is 1 GiB
 constexpr int kPatienceSeconds = 300;       // for the images of one pass
 constexpr std::size_t kTexelBytes = 4;      // 32-bit float
 constexpr std::size_t kCopiesOnDevice = 3;  // the image, and two copies on their way
@@ -50,7 +48,6 @@ class GlDepthRenderer : public DepthRenderer {
   std::size_t device_limit() const;
   void upload(const PreparedScene::Data& data);
   Program build(const char* name, const ShaderSources& sources);
-  void check_request(const DepthRequest& request) const;
   void prepare_images(int face_size);
   void release_images();
   void submit(const DepthRequest& request, const Pass& pass);
@@ -75,7 +72,6 @@ class GlDepthRenderer : public DepthRenderer {
 GlDepthRenderer::GlDepthRenderer(const PreparedScene& scene, const GlDeviceInfo& info, const GlDepthLimits& limits,
                                  std::shared_ptr<const GlLibrary> library)
     : limits_(limits), context_(info, std::move(library)), device_(info.device) {
-  device_.largest_face_size = std::min(device_.largest_face_size, kLargestFace);
   origin_ = scene.data().origin;
   const GlCurrent current(context_);
   const GlFunctions& gl = context_.gl();
@@ -151,23 +147,6 @@ GlDepthRenderer::Program GlDepthRenderer::build(const char* name, const ShaderSo
   gl.ProgramUniformMatrix3fv(program.id, gl.GetUniformLocation(program.id, "faces"), 6, GL_TRUE, axes.data());
   context_.check("setting up the shaders");
   return program;
-}
-
-void GlDepthRenderer::check_request(const DepthRequest& request) const {
-  if (request.face_size < 1 || request.face_size > device_.largest_face_size) {
-    throw Error(ErrorKind::input, "a cube map of " + std::to_string(request.face_size) + " texels a side", device_.name,
-                "ask for 1 to " + std::to_string(device_.largest_face_size));
-  }
-  if (!(request.range_m > 0)) {
-    throw Error(ErrorKind::input, "the range of a depth image is " + std::to_string(request.range_m) + " m", "",
-                "give a range above 0");
-  }
-  for (std::size_t i = 0; i < request.viewpoints.size(); ++i) {
-    if (!request.viewpoints[i].allFinite()) {
-      throw Error(ErrorKind::input, "a viewpoint has a coordinate that is not finite", "viewpoint " + std::to_string(i),
-                  "give three finite numbers");
-    }
-  }
 }
 
 void GlDepthRenderer::release_images() {
@@ -282,7 +261,7 @@ void GlDepthRenderer::collect(const Pass& pass, std::span<float> depths) {
 }
 
 void GlDepthRenderer::render(const DepthRequest& request, const DepthSink& sink) {
-  check_request(request);
+  check_request(request, device_);
   if (request.viewpoints.empty()) return;
   const GlCurrent current(context_);
   const GlFunctions& gl = context_.gl();

@@ -49,6 +49,10 @@ inline double inverse_depth_over(const FaceTriangles& triangles, double u, doubl
   double best = 0;
   std::vector<Vec3> polygon, cut;
   for (const auto& triangle : triangles) {
+    const bool beside = std::any_of(planes.begin(), planes.end(), [&](const Vec3& plane) {
+      return plane.dot(triangle[0]) < 0 && plane.dot(triangle[1]) < 0 && plane.dot(triangle[2]) < 0;
+    });
+    if (beside) continue;
     polygon.assign(triangle.begin(), triangle.end());
     for (const Vec3& plane : planes) {
       cut.clear();
