@@ -42,20 +42,22 @@ void draw_at_centers(const FaceBand& band, std::span<const Vec3> corners, std::s
     low = std::min(low, p.y() / p.z());
     high = std::max(high, p.y() / p.z());
   }
-  const auto after = [&](double coordinate) {  // first texel whose centre is not before it
-    return static_cast<int>(std::ceil((std::clamp(coordinate, -2.0, 2.0) + 1) * 0.5 * band.size - 0.5));
-  };
-  const int last_row = std::min(after(high), band.row_end - 1);
-  for (int row = std::max(after(low), band.row_begin); row <= last_row; ++row) {
+  // First texel whose centre is not before a coordinate, and last one whose centre is not after it.
+  const auto place = [&](double coordinate) { return (std::clamp(coordinate, -2.0, 2.0) + 1) * 0.5 * band.size - 0.5; };
+  const auto first_from = [&](double coordinate) { return static_cast<int>(std::ceil(place(coordinate))); };
+  const auto last_to = [&](double coordinate) { return static_cast<int>(std::floor(place(coordinate))); };
+  const double step = 2.0 / band.size;
+  const int last_row = std::min(last_to(high + kSeam), band.row_end - 1);
+  for (int row = std::max(first_from(low - kSeam), band.row_begin); row <= last_row; ++row) {
     Crossing left{}, right{};
     if (!cross_row(corners, band.centre(row), left, right)) continue;
     float* texels = inverse_depths.data() + static_cast<std::size_t>(row - band.row_begin) * band.size;
     const double slope = right.u > left.u ? (right.q - left.q) / (right.u - left.u) : 0;
-    const int last = std::min(after(right.u + kSeam), band.size - 1);
-    for (int i = std::max(after(left.u - kSeam), 0); i <= last; ++i) {
-      const double u = band.centre(i);
-      if (u > right.u + kSeam) break;
-      const double q = left.q + slope * (std::clamp(u, left.u, right.u) - left.u);
+    const double least = std::min(left.q, right.q), most = std::max(left.q, right.q);
+    const int first = std::max(first_from(left.u - kSeam), 0), last = std::min(last_to(right.u + kSeam), band.size - 1);
+    const double start = left.q + slope * (band.centre(first) - left.u);
+    for (int i = first; i <= last; ++i) {
+      const double q = std::min(std::max(start + slope * (step * (i - first)), least), most);
       texels[i] = std::max(texels[i], static_cast<float>(q));
     }
   }
