@@ -219,6 +219,34 @@ TEST(TargetFrame, RefusesTooFewVertices) {
   EXPECT_EQ(refusal(target_of({{0, 0, 0}, {1, 0, 0}})), "a target needs at least 3 vertices, this one has 2");
 }
 
+TEST(TargetFrame, OfAPointSeenFromAllSides) {
+  Target target = target_of({{1e6, 2, 3.7}});
+  const TargetFrame frame = make_target_frame(target);
+  EXPECT_TRUE(frame.all_sides);
+  EXPECT_EQ(frame.origin, target.vertices[0]);
+  EXPECT_EQ(frame.normal, Vec3::UnitZ());
+  EXPECT_EQ(frame.axis_u, Vec3::UnitX());
+  EXPECT_EQ(frame.axis_v, Vec3::UnitY());
+  ASSERT_EQ(frame.polygon.size(), 1U);
+  EXPECT_EQ(frame.polygon[0], Vector2d(0, 0));
+  EXPECT_EQ(frame.enclosing_radius_m, 0);
+  EXPECT_FALSE(make_target_frame(square()).all_sides);
+}
+
+TEST(TargetFrame, OfAPointWithAFront) {
+  Target target = target_of({{1, 2, 3}});
+  target.front = Vec3(0, -3, 4);
+  target.offset_m = 10;
+  const TargetFrame frame = make_target_frame(target);
+  EXPECT_FALSE(frame.all_sides);
+  EXPECT_TRUE(frame.normal.isApprox(Vec3(0, -0.6, 0.8)));
+  EXPECT_TRUE(frame.origin.isApprox(Vec3(1, -4, 11)));
+  EXPECT_TRUE(frame.axis_u.cross(frame.axis_v).isApprox(frame.normal));
+  target.front = Vec3(0, 0, 0);
+  EXPECT_EQ(refusal(target), "front is zero or not finite");
+  EXPECT_EQ(refusal(target_of({{0, std::nan(""), 0}})), "vertex 0 has a coordinate that is not finite");
+}
+
 TEST(TargetFrame, RefusesWhatIsNotFinite) {
   for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()}) {
     Target target = square();

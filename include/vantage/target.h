@@ -1,4 +1,4 @@
-// The polygon that must be seen, whole.
+// What must be seen: a polygon, whole, or a single point.
 #pragma once
 
 #include <optional>
@@ -9,23 +9,28 @@
 
 namespace vantage {
 
-/// A convex planar polygon, as the user states it. See docs/theory.md for what "seen" means.
+/// A convex planar polygon or a point, as the user states it. See docs/theory.md for what "seen" means.
 struct Target {
   std::string name = "target";
-  std::vector<Vec3> vertices;  ///< 3 to 64, scene frame, metres; in order round the polygon, either turn
-  double offset_m = 0.0;  ///< the polygon is moved this far along its normal, towards the front, before anything else
+  std::vector<Vec3> vertices;  ///< 3 to 64, scene frame, metres; in order round the polygon, either turn. One: a point
+  double offset_m = 0.0;  ///< the target is moved this far along its normal, towards the front, before anything else
   std::optional<Vec3> front;  ///< a vector on the side that is looked at (any length, not in the polygon's plane).
                               ///< Default: the side that faces up; for a vertical polygon (normal within 1e-6 of
-                              ///< horizontal) the side from which the vertices run counter-clockwise
+                              ///< horizontal) the side from which the vertices run counter-clockwise.
+                              ///< A point is seen from the half-space on this side only; without `front` from all
+                              ///< sides, and its normal is up
+
+  bool is_point() const { return vertices.size() == 1; }
 };
 
-/// A checked target with its frame. Viewpoints have local z > 0.
+/// A checked target with its frame. Viewpoints have local z > 0, but for a point that is seen from all sides.
 struct TargetFrame {
-  Vec3 origin;                  ///< strictly inside the polygon, near its smallest enclosing circle's centre
+  Vec3 origin;                  ///< strictly inside the polygon, near its smallest enclosing circle's centre; the point
   Vec3 axis_u, axis_v, normal;  ///< right-handed orthonormal; `normal` points to the front
-  std::vector<Eigen::Vector2d>
-      polygon;  ///< vertices in (u, v) about `origin`, metres, counter-clockwise seen from the front
-  double enclosing_radius_m = 0.0;  ///< of the smallest enclosing circle
+  std::vector<Eigen::Vector2d> polygon;  ///< vertices in (u, v) about `origin`, metres, counter-clockwise seen from the
+                                         ///< front; of a point: (0, 0) alone
+  double enclosing_radius_m = 0.0;       ///< of the smallest enclosing circle; 0 for a point
+  bool all_sides = false;                ///< a point without `front`: viewpoints may have any local z
 
   Vec3 to_local(const Vec3& point) const {
     const Vec3 d = point - origin;
@@ -37,7 +42,7 @@ struct TargetFrame {
 };
 
 /// Checks a target and makes its frame, `offset_m` applied. The scene plays no part here.
-/// Throws Error(input) for: fewer than 3 or more than 64 vertices, a coordinate that is not finite, repeated vertices
+/// Throws Error(input) for: no vertices, 2 or more than 64, a coordinate that is not finite, repeated vertices
 /// (which), zero area, not planar (by how much; allowed: 1e-6 of the extent, at least 1 mm), not convex (which vertex),
 /// a `front` that is zero or lies in the plane. Collinear vertices are dropped.
 TargetFrame make_target_frame(const Target& target);

@@ -26,8 +26,9 @@ std::string vertex_name(std::size_t index) { return "vertex " + std::to_string(i
 
 void check_vertices(const Target& target) {
   const auto& v = target.vertices;
-  if (v.size() < 3)
-    refuse(target, "a target needs at least 3 vertices, this one has " + std::to_string(v.size()), "add vertices");
+  if (v.size() < 3 && !target.is_point())
+    refuse(target, "a target needs at least 3 vertices, this one has " + std::to_string(v.size()),
+           "add vertices, or give one alone for a point");
   if (v.size() > 64)
     refuse(target, "a target has at most 64 vertices, this one has " + std::to_string(v.size()), "simplify it");
   for (std::size_t i = 0; i < v.size(); ++i)
@@ -120,10 +121,20 @@ std::vector<Vector2d> checked_convex(const Target& target, const std::vector<Vec
   return kept;
 }
 
+TargetFrame make_point_frame(const Target& target) {
+  TargetFrame frame;
+  make_axes(frame, target.front ? target.front->normalized() : Vec3::UnitZ());
+  frame.polygon = {Vector2d::Zero()};
+  frame.all_sides = !target.front;
+  frame.origin = target.vertices[0] + frame.normal * target.offset_m;
+  return frame;
+}
+
 }  // namespace
 
 TargetFrame make_target_frame(const Target& target) {
   check_vertices(target);
+  if (target.is_point()) return make_point_frame(target);
   const double extent = extent_of(target.vertices);
   check_repeats(target, extent);
   const Vec3 area = area_vector(target.vertices);

@@ -38,7 +38,9 @@ class MissionParser : private ValueReader {
   Box box(const YamlNode& node, const std::string& what) const;
   void check_extent(const YamlNode& node, const std::string& what, int axis, const Box& box) const;
   void check_edges(const YamlNode& node, std::size_t vertex_count) const;
-  void check_target(const YamlNode& vertices);
+  const YamlNode& parse_vertices(const YamlNode& node);
+  const YamlNode& parse_point(const YamlNode& node, const YamlNode& point);
+  void check_target(const YamlNode& place);
 
   const YamlNode& require(const YamlNode& map, Section section, std::string_view key, const std::string& fix) const;
   UpAxis up_axis(const YamlNode& node, const std::string& what) const;
@@ -47,6 +49,8 @@ class MissionParser : private ValueReader {
   ParsedMission parsed_;
 };
 
+const char* const kVerticesForm =
+    "write 'vertices: [[x, y, z], [x, y, z], [x, y, z]]', 3 to 64 points, or 'point: [x, y, z]'";
 const char* const kBoxForm = "write each box as {min: [x, y, z], max: [x, y, z]}";
 
 std::string indexed(const std::string& what, std::size_t index) { return what + "[" + std::to_string(index) + "]"; }
@@ -104,22 +108,49 @@ void MissionParser::parse_target(const YamlNode& node) {
   check_keys(node, Section::target, file());
   Target& target = parsed_.mission.target;
   if (const YamlNode* name = find(node, "name")) target.name = text(*name, "target.name");
-  const YamlNode& vertices =
-      require(node, Section::target, "vertices", "write 'vertices: [[x, y, z], [x, y, z], [x, y, z]]', 3 to 64 points");
-  list(vertices, "target.vertices", "write 'vertices: [[x, y, z], [x, y, z], [x, y, z]]', 3 to 64 points");
-  for (std::size_t i = 0; i < vertices.items.size(); ++i) {
-    target.vertices.push_back(vector(vertices.items[i], indexed("target.vertices", i)));
-  }
+  const YamlNode* point = find(node, "point");
+  const YamlNode& place = point ? parse_point(node, *point) : parse_vertices(node);
   if (const YamlNode* offset = find(node, "offset")) target.offset_m = length(*offset, "target.offset");
   if (const YamlNode* front = find(node, "front")) target.front = vector(*front, "target.front");
-  check_target(vertices);
+  check_target(place);
   if (const YamlNode* edges = find(node, "edges")) check_edges(*edges, target.vertices.size());
 }
 
-/// The checks that need no scene, told with the place of the vertices.
-void MissionParser::check_target(const YamlNode& vertices) {
+/// Returns the node that stands for the target in messages.
+const YamlNode& MissionParser::parse_vertices(const YamlNode& node) {
+  Target& target = parsed_.mission.target;
+  const YamlNode& vertices = require(node, Section::target, "vertices", kVerticesForm);
+  list(vertices, "target.vertices", kVerticesForm);
+  for (std::size_t i = 0; i < vertices.items.size(); ++i) {
+    target.vertices.push_back(vector(vertices.items[i], indexed("target.vertices", i)));
+  }
+  if (target.is_point()) {
+    fail(vertices, "a polygon needs at least 3 vertices, this one has 1",
+         "add vertices, or write 'point: [x, y, z]' for a single point");
+  }
+  return vertices;
+}
+
+const YamlNode& MissionParser::parse_point(const YamlNode& node, const YamlNode& point) {
+  for (const char* key : {"vertices", "edges"}) {
+    if (const YamlNode* other = find(node, key)) {
+      fail(*other, std::string("target has both 'point' and '") + key + "'",
+           "keep 'point' for a single point, or 'vertices' for a polygon");
+    }
+  }
+  parsed_.mission.target.vertices = {vector(point, "target.point")};
+  const YamlNode* offset = find(node, "offset");
+  if (offset != nullptr && find(node, "front") == nullptr) {
+    fail(*offset, "a point without 'front' has no side to be moved towards by 'offset'",
+         "move the point itself, or give 'front', the side that is looked at");
+  }
+  return point;
+}
+
+/// The checks that need no scene, told with the place of the vertices or the point.
+void MissionParser::check_target(const YamlNode& place) {
   Mission& mission = parsed_.mission;
-  mission.target_place = place_in(file(), vertices.place);
+  mission.target_place = place_in(file(), place.place);
   with_place(mission.target_place, [&] { return make_target_frame(mission.target); });
 }
 

@@ -20,7 +20,7 @@ const std::array<SectionKeys, 8>& table() {
   static const std::array<SectionKeys, 8> kTable = {{
       {Section::mission, "the mission", {"scene", "target", "sensor", "navigation", "method", "exact"}},
       {Section::scene, "scene", {"mesh", "up", "scale"}},
-      {Section::target, "target", {"name", "vertices", "edges", "offset", "front"}},
+      {Section::target, "target", {"name", "vertices", "edges", "point", "offset", "front"}},
       {Section::sensor, "sensor", {"max_range"}},
       {Section::navigation, "navigation", {"altitude", "boxes", "keep_out", "meshes"}},
       {Section::box, "a box", {"min", "max"}},
