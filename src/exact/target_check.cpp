@@ -29,11 +29,12 @@ struct Crossing {
 
 class Column {
  public:
-  Column(const PreparedScene::Data& scene, const TargetFrame& frame)
-      : scene_(scene), frame_(frame), target_(make_local_target(frame.polygon)) {}
+  /// Polygons that reach nowhere above `floor` do not count.
+  Column(const PreparedScene::Data& scene, const TargetFrame& frame, double floor = kOnPlane)
+      : scene_(scene), frame_(frame), target_(make_local_target(frame.polygon)), floor_(floor) {}
 
   /// Crossings that begin below `ceiling` and end above the target's plane, or just below it if the polygon stands
-  /// above the plane elsewhere.
+  /// above the plane elsewhere; with a floor below the plane, those that end above the floor.
   std::vector<Crossing> crossings(double ceiling) {
     std::vector<Crossing> found;
     if (!scene_.bvh.nodes.empty()) visit(0, ceiling, found);
@@ -63,7 +64,7 @@ class Column {
       corners[i] = {frame_.axis_u.dot(corner), frame_.axis_v.dot(corner), frame_.normal.dot(corner)};
       lowest = std::min(lowest, corners[i].z()), highest = std::max(highest, corners[i].z());
     }
-    if (lowest > ceiling || highest <= kOnPlane) return false;
+    if (lowest > ceiling || highest <= floor_) return false;
     for (const LocalTarget::Edge& edge : target_.edges) {
       const bool outside = std::all_of(corners.begin(), corners.end(),
                                        [&](const Vec3& c) { return edge.outward.dot(c.head<2>()) >= edge.distance; });
@@ -76,7 +77,7 @@ class Column {
   void add_crossing(std::uint32_t polygon, double ceiling, std::vector<Crossing>& found) {
     local_polygon(scene_, frame_, polygon, clipped_.corners);
     const bool stands =
-        std::any_of(clipped_.corners.begin(), clipped_.corners.end(), [](const Vec3& c) { return c.z() > kOnPlane; });
+        std::any_of(clipped_.corners.begin(), clipped_.corners.end(), [this](const Vec3& c) { return c.z() > floor_; });
     if (!stands) return;
     clipped_.makers.assign(clipped_.corners.size(), 0);
     for (const LocalTarget::Edge& edge : target_.edges) {
@@ -88,12 +89,13 @@ class Column {
       if (c.z() < crossing.low) crossing.low = c.z(), crossing.place = c;
       crossing.high = std::max(crossing.high, c.z());
     }
-    if (crossing.high > -kClear && crossing.low <= ceiling) found.push_back(crossing);
+    if (crossing.high > std::min(floor_, -kClear) && crossing.low <= ceiling) found.push_back(crossing);
   }
 
   const PreparedScene::Data& scene_;
   const TargetFrame& frame_;
   LocalTarget target_;
+  double floor_;
   FacetPolygon clipped_, scratch_;
 };
 
@@ -133,10 +135,27 @@ std::string describe(const Vec3& place) {
   return "(" + fixed_text(place.x(), 3) + ", " + fixed_text(place.y(), 3) + ", " + fixed_text(place.z(), 3) + ")";
 }
 
+// A point without a front may lie on a wall, of which the user alone knows the outer side.
+std::string advice_for_point(const PreparedScene::Data& scene, std::uint32_t polygon) {
+  const std::uint32_t begin = scene.first_vertex[polygon], end = scene.first_vertex[polygon + 1];
+  const auto corner = [&](std::uint32_t k) -> const Vec3& { return scene.vertices[scene.polygon_vertices[k]]; };
+  Vec3 normal = Vec3::Zero();
+  for (std::uint32_t k = begin + 1; k + 1 < end; ++k)
+    normal += (corner(k) - corner(begin)).cross(corner(k + 1) - corner(begin));
+  normal.normalize();
+  std::string text;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (axis > 0) text += ", ";
+    text += fixed_text(std::round(normal[axis] * 1000) / 1000 + 0.0, 3);  // the sum keeps "-0.000" out
+  }
+  return "if the point lies on that surface, say which side is looked at: front: [" + text +
+         "] or its opposite; else move it off";
+}
+
 [[noreturn]] void refuse_pierced(const PreparedScene::Data& scene, const Target& target, const TargetFrame& frame,
                                  const Crossing& crossing, double clear) {
-  const std::string fix =
-      "move the target, or raise it: offset: " + fixed_text(target.offset_m + clear, 3) + " clears it";
+  std::string fix = "move the target, or raise it: offset: " + fixed_text(target.offset_m + clear, 3) + " clears it";
+  if (frame.all_sides) fix = advice_for_point(scene, crossing.polygon);
   throw Error(
       ErrorKind::input,
       "\"" + scene.objects[scene.polygon_object[crossing.polygon]] + "\" stands on or passes through the target",
@@ -246,8 +265,10 @@ void refuse_underground(const PreparedScene::Data& scene, const Target& target, 
   if (highest >= all.min.z() - kMaxLift && !ground_like) return;
   std::string fix = "raise the target, and check the scene's up axis and scale";
   if (const auto height = height_over_ground(scene, frame, column, ground))
-    fix = "check the scene's up axis and scale, or raise the target: offset: " +
-          fixed_text(target.offset_m + *height, 3) + " clears it";
+    fix = "check the scene's up axis and scale, or raise the target: " +
+          (frame.all_sides ? "z = " + fixed_text(frame.origin.z() + *height, 3)
+                           : "offset: " + fixed_text(target.offset_m + *height, 3)) +
+          " clears it";
   throw Error(ErrorKind::input, "the target is under the ground",
               "target \"" + target.name + "\": \"" + scene.objects[ground] + "\" is " +
                   fixed_text(first.nearest_above, 3) + " m above " + describe(frame.origin),
@@ -323,6 +344,29 @@ double clearing_lift(const PreparedScene::Data& scene, const Target& target, con
   const double raised = clear_low_surfaces(lift.lift, LowSurfaces(scene, frame, reach).tops());
   const bool pierced = std::any_of(low.begin(), low.end(), [&](const Crossing& c) { return crosses(c, raised); });
   return pierced ? lift.lift : raised;
+}
+
+double height_off_surface(const PreparedScene::Data& scene, const TargetFrame& frame) {
+  // So high over a ridge all of the polygon, however it is turned, is seen along its slopes, up to 60 degrees.
+  const double clear = kClear + 4 * frame.enclosing_radius_m;
+  double height = 0;
+  for (const Crossing& c : Column(scene, frame, -clear).crossings(kMaxLift))
+    if (c.high <= kMaxLift) height = std::max(height, c.high + clear);
+  return height;
+}
+
+void refuse_steep_nearby(const PreparedScene::Data& scene, const Target& target, const TargetFrame& frame) {
+  constexpr double kSteep = 0.5;  // of the normal: more than 60 degrees
+  TargetFrame around = frame;
+  around.polygon = {{-kMaxLift, -kMaxLift}, {kMaxLift, -kMaxLift}, {kMaxLift, kMaxLift}, {-kMaxLift, kMaxLift}};
+  std::vector<Vec3> corners;
+  for (const Crossing& c : Column(scene, around, -kMaxLift).crossings(kMaxLift)) {
+    local_polygon(scene, frame, c.polygon, corners);
+    Vec3 area = Vec3::Zero();
+    for (std::size_t i = 1; i + 1 < corners.size(); ++i)
+      area += (corners[i] - corners[0]).cross(corners[i + 1] - corners[0]);
+    if (std::abs(area.z()) < kSteep * area.norm()) refuse_pierced(scene, target, frame, c, 0);
+  }
 }
 
 }  // namespace vantage::exact

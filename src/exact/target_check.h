@@ -13,4 +13,13 @@ namespace vantage::exact {
 /// raising it leads out).
 double clearing_lift(const PreparedScene::Data& scene, const Target& target, const TargetFrame& frame, double reach);
 
+/// How far a point that is seen from all sides must be raised for all that passes within numerics::kMaxLift straight
+/// below or above it to lie numerics::kClear and the polygon's diameter twice below: 0 where nothing does. The frame
+/// holds a small polygon about it.
+double height_off_surface(const PreparedScene::Data& scene, const TargetFrame& frame);
+
+/// Throws Error(input) when a steep surface passes within numerics::kMaxLift of a point that is seen from all sides:
+/// which side of it is meant rounding would decide.
+void refuse_steep_nearby(const PreparedScene::Data& scene, const Target& target, const TargetFrame& frame);
+
 }  // namespace vantage::exact

@@ -1,0 +1,27 @@
+// A single point as a target: a polygon of micrometres about it, for each side that is looked at.
+#pragma once
+
+#include <optional>
+
+#include "scene/prepared_data.h"
+#include "vantage/target.h"
+
+namespace vantage::exact {
+
+/// Circumradius of the triangle that stands for a point, in metres. What sees all of the triangle sees the point, so
+/// nothing is claimed wrongly; what is lost at silhouettes is this times how many times farther the viewpoint is than
+/// what hides it. A hundred thousand times kSnap, so that both planes at a silhouette can be told apart.
+inline constexpr double kPointRadius = 1e-5;
+
+struct PointSides {
+  double lift = 0;                  ///< the point was raised this far along its normal
+  TargetFrame front;                ///< the triangle, lift included; looks along the point's normal if it has a front
+  std::optional<TargetFrame> back;  ///< the same, turned about the u axis; for a point that is seen from all sides
+};
+
+/// `frame` is the point's. Errors as clearing_lift; for a point that is seen from all sides also when a steep surface
+/// passes close by, as the side is up to the user then.
+PointSides make_point_sides(const PreparedScene::Data& scene, const Target& target, const TargetFrame& frame,
+                            double reach);
+
+}  // namespace vantage::exact

@@ -1,0 +1,39 @@
+// What is seen of a target from one side of its plane: all steps of docs/theory.md from blockers to the closed mesh.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "exact/range_region.h"
+#include "vantage/scene.h"
+#include "vantage/volume.h"
+
+namespace vantage::exact {
+
+struct Side {
+  Mesh mesh;  ///< target's frame, closed
+  std::vector<std::uint32_t> cause_of;
+  std::vector<Cause> causes;
+  StageCounts counts;
+  double height = 0;        ///< up to which the mesh reaches over the target's plane, metres
+  double range_height = 0;  ///< up to which the range alone would let it reach, straight over the centre
+
+  /// Whether the scene, not the range, ends it that close to the target.
+  bool blocked_within(double distance) const { return height < distance && range_height > distance; }
+};
+
+/// The frame's polygon has at least 3 vertices; `range` is about the frame's origin. Throws Error(cancelled), and
+/// Error(input) for a tolerance too fine for the range.
+Side compute_side(const PreparedScene& scene, const TargetFrame& frame, const RangeRegion& range,
+                  const ExactOptions& options, const Progress& progress);
+
+/// Both sides of a point as one solid in the front's frame, without the wall between them. `back` is in the frame
+/// turned about the u axis. What is left of the wall, where the two differ by their tolerance, gets the cause of what
+/// is next to it. Throws Error(cancelled).
+Side join_sides(const Side& front, const Side& back, const Progress& progress);
+
+/// Name of the scene object that most of the boundary is due to.
+std::string widest_scene_cause(const std::vector<Cause>& causes);
+
+}  // namespace vantage::exact
