@@ -1,5 +1,6 @@
 #include "verify/occluders.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <limits>
 #include <string>
@@ -46,7 +47,8 @@ Occluders::Occluders(const Scene& scene, const TargetView& view, double max_rang
     Box box = triangle.bounds();
     box.min = box.min.cwiseMax(region.min);  // Embree is to see small numbers only
     box.max = box.max.cwiseMin(region.max);
-    if (top <= 0 || box.empty()) continue;
+    if (view.is_point()) add_surface(triangle, static_cast<std::uint32_t>(i));
+    if ((top <= 0 && !view.all_sides()) || box.empty()) continue;
     triangles_.push_back(triangle);
     number_.push_back(static_cast<std::uint32_t>(i));
     boxes.push_back(box);
@@ -57,13 +59,37 @@ Occluders::Occluders(const Scene& scene, const TargetView& view, double max_rang
 std::optional<double> Occluders::hit(const Segment& segment, const FlatTriangle& triangle) const {
   const Meeting meeting = meet(segment, triangle);
   if (meeting.contact != Contact::crossing || meeting.border < kGrazing) return std::nullopt;
-  if (meeting.position < kEnd || meeting.position > 1 - kEnd) return std::nullopt;
+  if (meeting.position < kEnd) return std::nullopt;
+  if (view_.is_point()) {
+    if ((1 - meeting.position) * segment.length < kPointSurface) return std::nullopt;
+    return meeting.position;
+  }
+  if (meeting.position > 1 - kEnd) return std::nullopt;
   const Vec3 point = segment.at(meeting.position);
   if (view_.height(point) < kSurfaceHeight && view_.over(point, kSurfaceHeight)) return std::nullopt;
   return meeting.position;
 }
 
+void Occluders::add_surface(const FlatTriangle& triangle, std::uint32_t number) {
+  const Vec3 offset = view_.centre() - triangle.corner;
+  const Vec3 normal = triangle.normal / triangle.normal_length;
+  if (std::abs(normal.dot(offset)) > kPointSurface) return;
+  const double third = normal.dot(triangle.edge1.cross(offset)) / triangle.normal_length;
+  const double second = normal.dot(offset.cross(triangle.edge2)) / triangle.normal_length;
+  if (std::min({second, third, 1 - second - third}) < kGrazing) return;
+  surfaces_.push_back({normal.dot(view_.normal()) < 0 ? Vec3(-normal) : normal, number});
+}
+
+const Occluders::Surface* Occluders::hiding_surface(const Vec3& viewpoint) const {
+  const auto hides = [&](const Surface& surface) {
+    return surface.outward.dot(viewpoint - view_.centre()) < -kPointSurface;
+  };
+  const auto found = std::find_if(surfaces_.begin(), surfaces_.end(), hides);
+  return found == surfaces_.end() ? nullptr : &*found;
+}
+
 bool Occluders::hide(const Vec3& viewpoint, const Vec3& target_point) const {
+  if (hiding_surface(viewpoint)) return true;
   const Segment segment(viewpoint, target_point);
   return index_->any_along(viewpoint, target_point,
                            [&](std::uint32_t i) { return hit(segment, triangles_[i]).has_value(); });
@@ -91,6 +117,7 @@ std::optional<Vec3> Occluders::find_hidden(const Vec3& viewpoint, std::size_t& r
 }
 
 std::optional<std::size_t> Occluders::first_hit(const Vec3& viewpoint, const Vec3& target_point) const {
+  if (const Surface* surface = hiding_surface(viewpoint)) return surface->number;
   const Segment segment(viewpoint, target_point);
   double nearest = std::numeric_limits<double>::infinity();
   std::optional<std::size_t> first;

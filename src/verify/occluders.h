@@ -21,7 +21,7 @@ class Occluders {
   /// A shadow ray: whether the scene crosses the open segment from a viewpoint to a target point (both local). Embree
   /// brings the candidates, each is tested in double precision. Not counted: touching, a segment in a triangle's plane,
   /// a hit within rounding or kGrazing of a triangle's border, a hit at either end, the surface that the target lies
-  /// on.
+  /// on. That of a point is not crossed: it hides the point from all that is behind it.
   bool hide(const Vec3& viewpoint, const Vec3& target_point) const;
 
   /// Shoots shadow rays at the parts of scene triangles between the viewpoint and the target until one is blocked; its
@@ -34,13 +34,22 @@ class Occluders {
   std::size_t size() const { return triangles_.size(); }
 
  private:
+  /// Of a triangle that a point lies on.
+  struct Surface {
+    Vec3 outward;          ///< normal on the target's front
+    std::uint32_t number;  ///< in the scene
+  };
+  const Surface* hiding_surface(const Vec3& viewpoint) const;
+  void add_surface(const FlatTriangle& triangle, std::uint32_t number);
+
   /// Position of the hit on the segment; nothing where the triangle does not hide.
   std::optional<double> hit(const Segment& segment, const FlatTriangle& triangle) const;
 
   const TargetView& view_;
   std::vector<FlatTriangle> triangles_;
   std::vector<std::uint32_t> number_;  ///< in the scene
-  std::optional<BoxIndex> index_;      ///< always there; made last, when the triangles are known
+  std::vector<Surface> surfaces_;
+  std::optional<BoxIndex> index_;  ///< always there; made last, when the triangles are known
 };
 
 }  // namespace vantage::verify

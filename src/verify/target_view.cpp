@@ -53,11 +53,17 @@ bool runs_on_back(const Target& target, const Vec3& normal) {
 }  // namespace
 
 TargetView::TargetView(const Target& target) {
-  if (target.vertices.size() < 3) fail(target, "the target has fewer than 3 vertices", "give at least 3");
+  if (target.vertices.size() < 3 && !target.is_point()) {
+    fail(target, "the target has fewer than 3 vertices", "give at least 3, or one for a point");
+  }
   for (const Vec3& vertex : target.vertices) {
     if (!vertex.allFinite()) fail(target, "a vertex of the target is not finite", "give numbers");
   }
   if (!std::isfinite(target.offset_m)) fail(target, "the offset of the target is not finite", "give a number");
+  if (target.is_point()) {
+    set_point(target);
+    return;
+  }
   origin_ = target.vertices[0] + mean([&target] {
               std::vector<Vec3> offsets;
               for (const Vec3& vertex : target.vertices) offsets.push_back(vertex - target.vertices[0]);
@@ -77,6 +83,17 @@ TargetView::TargetView(const Target& target) {
     fan_area_.push_back(area);
   }
   for (double& sum : fan_area_) sum /= area;
+}
+
+void TargetView::set_point(const Target& target) {
+  if (target.front && !(target.front->allFinite() && target.front->norm() > 0)) {
+    fail(target, "the front is zero or not finite", "give a vector that points to the side to look from");
+  }
+  all_sides_ = !target.front;
+  normal_ = target.front ? target.front->normalized() : Vec3(Vec3::UnitZ());
+  origin_ = target.vertices[0];
+  centre_ = target.offset_m * normal_;
+  vertices_ = {centre_};
 }
 
 void TargetView::set_plane(const Target& target) {
@@ -121,12 +138,14 @@ double TargetView::farthest(const Vec3& point) const {
 }
 
 bool TargetView::over(const Vec3& point, double margin) const {
+  if (is_point()) return (point - centre_ - height(point) * normal_).norm() <= margin;
   return std::all_of(sides_.begin(), sides_.end(), [&point, margin](const HalfSpace& side) {
     return side.normal.dot(point) >= side.offset - margin;
   });
 }
 
 Vec3 TargetView::interior(double u, double v) const {
+  if (is_point()) return centre_;
   const auto found = std::upper_bound(fan_area_.begin(), fan_area_.end() - 1, u);
   const auto i = static_cast<std::size_t>(found - fan_area_.begin());
   const double start = i > 0 ? fan_area_[i - 1] : 0.0;

@@ -29,6 +29,11 @@ inline constexpr double kEnd = 1e-9;
 /// the target lies on. Metres; part of the definition in vantage/verify.h.
 inline constexpr double kSurfaceHeight = 1e-3;
 
+/// A point has no surface: crossings closer to it than this, in metres, are what it lies on, and only those. The engine
+/// keeps a point more than ten times as far from what it lies on; coordinates are relative to the point and lose
+/// nothing.
+inline constexpr double kPointSurface = 1e-7;
+
 /// Relative slack of the range check: far above rounding, far below the depth tolerance of a claim.
 inline constexpr double kRangeSlack = 1e-9;
 

@@ -67,9 +67,10 @@ class Check {
   Viewpoints viewpoints_;
 };
 
-/// All but the sight: in front, `range` metres from everywhere, within the limits.
+/// All but the sight: in front (but for a point seen from all sides), `range` metres from everywhere, within the
+/// limits.
 bool Check::permitted(const Vec3& position, double range) const {
-  return view_.height(position) > 0 && view_.farthest(position) <= range && !limits_.broken_by(position);
+  return view_.in_front(position) && view_.farthest(position) <= range && !limits_.broken_by(position);
 }
 
 bool Check::sees_all(const Vec3& position, Random& random, Verdict& verdict) const {
@@ -83,6 +84,7 @@ bool Check::sees_all(const Vec3& position, Random& random, Verdict& verdict) con
   for (const Vec3& vertex : vertices) {
     if (hidden(vertex)) return false;
   }
+  if (view_.is_point()) return true;
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     const Vec3& start = vertices[i];
     const Vec3 edge = vertices[(i + 1) % vertices.size()] - start;
@@ -134,7 +136,7 @@ std::string Check::cause(const Verdict& over_claimed) const {
         triangle && *triangle < scene_.object_of.size() && scene_.object_of[*triangle] < scene_.objects.size();
     return named ? scene_.objects[scene_.object_of[*triangle]] : "scene";
   }
-  if (view_.height(position) <= 0) return "target plane";
+  if (!view_.in_front(position)) return "target plane";
   return limits_.broken_by(position).value_or("max_range");
 }
 

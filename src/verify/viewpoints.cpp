@@ -38,7 +38,7 @@ Viewpoint Viewpoints::draw(std::size_t number, Random& random) const {
     case 2:
       return around(random);
     case 3:
-      return in_half_ball(random);
+      return in_range(random);
     default:
       return near_boundary(number / 8 * 4 + number % 8 - 4, random);
   }
@@ -61,8 +61,8 @@ Viewpoint Viewpoints::around(Random& random) const {
   return {in_box(box, random), true};
 }
 
-Viewpoint Viewpoints::in_half_ball(Random& random) const {
-  const double rise = random.uniform(), turn = random.uniform(0, 2 * std::numbers::pi);
+Viewpoint Viewpoints::in_range(Random& random) const {
+  const double rise = random.uniform(view_.all_sides() ? -1 : 0, 1), turn = random.uniform(0, 2 * std::numbers::pi);
   const double radius = max_range_ * random.uniform();  // denser near the target, where most of a city's volume is cut
   const Vec3 axis_u = view_.normal().unitOrthogonal(), axis_v = view_.normal().cross(axis_u);
   const double flat = std::sqrt(1 - rise * rise);

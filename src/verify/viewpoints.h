@@ -15,7 +15,8 @@ struct Viewpoint {
 };
 
 /// Draws viewpoint number i of n, from its random numbers alone. Of eight viewpoints four lie near the boundary, two
-/// inside the volume, one anywhere in its bounding box and a tenth around it, one anywhere in the range's half ball.
+/// inside the volume, one anywhere in its bounding box and a tenth around it, one anywhere in the range's half ball, or
+/// ball for a point that is seen from all sides.
 class Viewpoints {
  public:
   /// Keeps references.
@@ -26,7 +27,7 @@ class Viewpoints {
  private:
   Viewpoint inside(Random& random) const;
   Viewpoint around(Random& random) const;
-  Viewpoint in_half_ball(Random& random) const;
+  Viewpoint in_range(Random& random) const;
   Viewpoint near_boundary(std::size_t number, Random& random) const;
   Vec3 on_facet(std::size_t facet, Random& random) const;
 
