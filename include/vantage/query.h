@@ -17,7 +17,7 @@ struct PointAnswer {
                         ///< Minus infinity where no point of that line is in the volume
   std::vector<std::string> blocked_by;  ///< names of the scene objects that hide part of the target, sorted, no repeats
   bool out_of_range = false;
-  bool behind_target = false;
+  bool behind_target = false;  ///< never for a point that is seen from all sides
   std::vector<std::string>
       outside_of;  ///< limits that the point breaks: "altitude min", "boxes", "keep_out 0", "mesh NAME"
 };

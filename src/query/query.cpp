@@ -8,6 +8,7 @@
 
 #include "exact/blocker.h"
 #include "exact/collect.h"
+#include "exact/point_target.h"
 #include "exact/range_region.h"
 #include "exact/segment_cover.h"
 #include "exact/target_check.h"
@@ -66,12 +67,13 @@ class LineOfSight {
   std::vector<Plane> planes_;
 };
 
-/// What one target asks of the scene; shared by all threads.
+/// What one side of a target asks of the scene; shared by all threads.
 struct Question {
   const PreparedScene::Data& scene;
-  const TargetFrame& frame;
-  const RangeRegion& range;
   const Navigation& navigation;
+  TargetFrame frame;
+  LocalTarget target;
+  RangeRegion range;
   bool is_reachable;  // else no point at all is in range
 };
 
@@ -100,7 +102,7 @@ PointAnswer look(const Question& question, LineOfSight& sight, const Vec3& scene
   const Vec3 point = frame.to_local(scene_point);
   const double distance = point.norm();
   answer.out_of_range = !question.is_reachable || !question.range.contains(point);
-  answer.behind_target = point.z() <= 0;
+  answer.behind_target = !frame.all_sides && point.z() <= 0;
   answer.outside_of = query::limits_broken(question.navigation, scene_point);
 
   // The line goes to the front always: for a point behind the target it is the other half of the line through it.
@@ -118,6 +120,30 @@ PointAnswer look(const Question& question, LineOfSight& sight, const Vec3& scene
   return answer;
 }
 
+/// One side; both of a point that is seen from all sides, the front first.
+std::vector<Question> make_questions(const PreparedScene::Data& scene, const Target& target, double max_range,
+                                     const Navigation& navigation) {
+  TargetFrame frame = make_target_frame(target);
+  std::vector<Question> questions;
+  if (target.is_point()) {
+    const PointSides sides = make_point_sides(scene, target, frame, max_range);
+    const RangeRegion range(make_local_target(frame.polygon), max_range);
+    questions.push_back({scene, navigation, sides.front, make_local_target(sides.front.polygon), range, true});
+    if (sides.back)
+      questions.push_back({scene, navigation, *sides.back, make_local_target(sides.back->polygon), range, true});
+    return questions;
+  }
+  frame.origin += frame.normal * clearing_lift(scene, target, frame, max_range);
+  // Where no point at all is in range the centre may be out of range itself: look from the circle's centre, as the
+  // engine does.
+  const bool reachable = frame.enclosing_radius_m * (1 + 1e-9) < max_range;
+  if (reachable) move_into_range(frame, max_range);
+  const LocalTarget local = make_local_target(frame.polygon);
+  const RangeRegion range(local, reachable ? max_range : 2 * frame.enclosing_radius_m);
+  questions.push_back({scene, navigation, frame, local, range, reachable});
+  return questions;
+}
+
 }  // namespace
 
 std::vector<PointAnswer> query_points(const PreparedScene& scene, const Target& target, const Sensor& sensor,
@@ -128,21 +154,16 @@ std::vector<PointAnswer> query_points(const PreparedScene& scene, const Target& 
   for (std::size_t i = 0; i < points.size(); ++i)
     if (!points[i].allFinite())
       throw Error(ErrorKind::input, "a coordinate is not finite", "point " + std::to_string(i), "give three numbers");
-  TargetFrame frame = make_target_frame(target);
-  frame.origin += frame.normal * clearing_lift(scene.data(), target, frame, sensor.max_range_m);
+  const std::vector<Question> sides = make_questions(scene.data(), target, sensor.max_range_m, navigation);
   std::vector<PointAnswer> answers(points.size());
-  // Where no point at all is in range the centre may be out of range itself: look from the circle's centre, as the
-  // engine does.
-  const bool reachable = frame.enclosing_radius_m * (1 + 1e-9) < sensor.max_range_m;
-  if (reachable) move_into_range(frame, sensor.max_range_m);
-  const LocalTarget local = make_local_target(frame.polygon);
-  const RangeRegion range(local, reachable ? sensor.max_range_m : 2 * frame.enclosing_radius_m);
-  const Question question{scene.data(), frame, range, navigation, reachable};
   parallel::for_ranges(points.size(), 64, [&](std::size_t begin, std::size_t end) {
-    LineOfSight sight(scene.data(), frame, local);
-    for (std::size_t i = begin; i < end; ++i) answers[i] = look(question, sight, points[i]);
+    std::vector<LineOfSight> sights;
+    for (const Question& side : sides) sights.emplace_back(scene.data(), side.frame, side.target);
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::size_t side = sides.size() > 1 && sides[0].frame.to_local(points[i]).z() < 0 ? 1 : 0;
+      answers[i] = look(sides[side], sights[side], points[i]);
+    }
   });
   return answers;
 }
-
 }  // namespace vantage

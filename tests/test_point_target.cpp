@@ -1,0 +1,225 @@
+// Targets of a single point: the exact engine, the check and queries against rays.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <string>
+
+#include "support/random.h"
+#include "support/ray_caster.h"
+#include "support/scenes.h"
+#include "support/shared_data.h"
+#include "support/solids.h"
+#include "vantage/error.h"
+#include "vantage/query.h"
+#include "vantage/verify.h"
+#include "vantage/volume.h"
+
+namespace vantage::testing {
+namespace {
+
+constexpr double kBall = 4 * std::numbers::pi / 3;
+
+Target point(const Vec3& place, const std::optional<Vec3>& front = std::nullopt) {
+  Target target;
+  target.name = "camera";
+  target.vertices = {place};
+  target.front = front;
+  return target;
+}
+
+Volume volume_of(const Scene& scene, const Target& target, double range, double tolerance = 0.01) {
+  return compute_visibility(PreparedScene(scene), target, {range}, {.tolerance_m = tolerance});
+}
+
+/// Volume by rays: within range, before the first hit, on the front.
+double ray_volume(const Scene& scene, const Volume& volume, double range, std::size_t count = 200000) {
+  const TargetFrame& frame = volume.frame;
+  const RayCaster rays(scene.mesh, frame.origin);
+  return radial_volume(
+      [&](const Vec3& d) { return !frame.all_sides && d.dot(frame.normal) <= 0 ? 0.0 : rays.first_hit(d, range); },
+      count);
+}
+
+VerifyReport verified(const Scene& scene, const Target& target, const Volume& volume, double range) {
+  Target raised = target;
+  raised.offset_m += volume.lift_m;
+  return verify_volume(scene, raised, {range}, {}, volume.mesh, {.points = 8000});
+}
+
+void expect_right(const Scene& scene, const Target& target, double range) {
+  const Volume volume = volume_of(scene, target, range);
+  ASSERT_EQ(volume.outcome, Outcome::computed) << volume.reason;
+  const MeshMeasures measures = measure(volume.mesh);
+  EXPECT_TRUE(measures.closed && measures.oriented);
+  EXPECT_EQ(measures.euler, 2);
+  EXPECT_EQ(measures.pieces, 1U);
+  const double expected = ray_volume(scene, volume, range);
+  EXPECT_NEAR(measures.volume_m3, expected, 1e-3 * expected);
+  const VerifyReport report = verified(scene, target, volume, range);
+  EXPECT_EQ(report.over_claimed, 0U) << report.worst_over_cause << ' ' << report.worst_over_depth_m << " m at "
+                                     << report.worst_over_point.transpose();
+  EXPECT_LE(report.under_claimed, report.points / 1000)
+      << report.worst_under_depth_m << " m at " << report.worst_under_point.transpose();
+}
+
+TEST(PointTarget, AloneIsABall) {
+  SceneBuilder builder;
+  builder.ground("far below", 10, -500);
+  const Volume volume = volume_of(builder, point({1e5, 2, 3}), 50, 0.001);
+  const MeshMeasures measures = measure(volume.mesh);
+  EXPECT_TRUE(measures.closed && measures.oriented);
+  EXPECT_EQ(measures.euler, 2);
+  EXPECT_LE(measures.volume_m3, kBall * 125000);
+  EXPECT_NEAR(measures.volume_m3, kBall * 125000, kBall * 125000 * 3 * 0.001 / 50);
+  ASSERT_EQ(volume.causes.size(), 1U) << "no wall is left between the halves";
+  EXPECT_EQ(volume.causes[0].kind, CauseKind::range);
+  EXPECT_NEAR(volume.causes[0].area_m2, 4 * std::numbers::pi * 2500, 1);
+  EXPECT_EQ(volume.lift_m, 0);
+  EXPECT_TRUE(volume.frame.all_sides);
+}
+
+TEST(PointTarget, OverGroundBesideABlock) {
+  SceneBuilder builder;
+  builder.ground("ground", 100).box("block", {5, -5, 0}, {15, 5, 20});
+  expect_right(builder, point({0, 0, 3}), 60);
+  expect_right(builder, point({10, 0, 25}), 60);
+  expect_right(builder, point({4.9, 5.2, 0.05}), 60);
+}
+
+TEST(PointTarget, OnTheGround) {
+  SceneBuilder builder;
+  builder.ground("ground", 100).box("block", {5, -5, 0}, {15, 5, 20});
+  for (const double z : {0.0, -1e-3, -1e-6, 1e-9, 5e-7, 1e-4, 1e-3, 1.9e-3}) {
+    SCOPED_TRACE(z);
+    const Target target = point({0, 0, z});
+    const Volume volume = volume_of(builder, target, 60);
+    EXPECT_GE(volume.frame.origin.z(), 0.9e-6);
+    for (const Cause& cause : volume.causes) EXPECT_NE(cause.kind, CauseKind::target_plane) << cause.name;
+    expect_right(builder, target, 60);
+  }
+}
+
+TEST(PointTarget, OnRoofsOfAnySlope) {
+  Random random(11);
+  for (const double slope : {0.0, 1e-7, 1e-5, 1e-3, 0.1, 0.5, 1.0, 1.7}) {
+    SCOPED_TRACE(slope);
+    SceneBuilder builder;
+    builder.ground("ground", 100, -20);
+    builder.polygon("roof", {{-8, -6, -8 * slope}, {8, -6, 8 * slope}, {8, 6, 8 * slope}, {-8, 6, -8 * slope}});
+    builder.box("chimney", {2, 1, -5}, {3, 2, 9});
+    const double x = random.uniform(-3, 1), y = random.uniform(-3, 0);
+    expect_right(builder, point({x, y, x * slope}), 60);
+  }
+}
+
+TEST(PointTarget, OnARidge) {
+  SceneBuilder builder;
+  builder.ground("ground", 100, -20);
+  builder.polygon("west", {{-8, -6, -4}, {0, -6, 0}, {0, 6, 0}, {-8, 6, -4}});
+  builder.polygon("east", {{0, -6, 0}, {8, -6, -4}, {8, 6, -4}, {0, 6, 0}});
+  expect_right(builder, point({0, 0.3, 0}), 60);
+}
+
+TEST(PointTarget, UnderABridge) {
+  SceneBuilder builder;
+  builder.ground("ground", 100).box("deck", {-40, -4, 6}, {40, 4, 7});
+  expect_right(builder, point({0, 0, 5.95}), 60);
+  expect_right(builder, point({0, 0, 5.95}, Vec3(0, 0, -1)), 60);
+}
+
+TEST(PointTarget, FrontIsAHalfSpace) {
+  SceneBuilder builder;
+  builder.ground("ground", 100).box("block", {5, -5, 0}, {15, 5, 20});
+  for (const Vec3& front : {Vec3(0, 0, 1), Vec3(0, 0, -1), Vec3(1, 0, 0), Vec3(1, -2, 0.5)}) {
+    expect_right(builder, point({0, 0, 8}, front), 60);
+  }
+  // On the facade, in its plane but for rounding.
+  for (const double off : {0.0, 1e-7, -1e-4}) expect_right(builder, point({5 + off, 0, 8}, Vec3(-1, 0, 0)), 60);
+  expect_right(builder, point({5, 1, 8}, Vec3(-1, 0.7, 0)), 60);
+}
+
+TEST(PointTarget, RandomCities) {
+  Random random(5);
+  for (int round = 0; round < 12; ++round) {
+    SCOPED_TRACE(round);
+    const Scene city = random_city(random, 30, 3);
+    const double z = random.chance(0.3) ? 0 : random.uniform(0.01, 30);
+    expect_right(city, point({random.uniform(-1, 1), random.uniform(-1, 1), z}), random.uniform(20, 120));
+  }
+}
+
+TEST(PointTarget, FarFromTheOrigin) {
+  SceneBuilder builder;
+  const Vec3 far(580000, 4785000, 100);
+  builder.box("tower", far + Vec3(5, -5, -10), far + Vec3(15, 5, 20));
+  builder.box("slab", far + Vec3(-50, -50, -11), far + Vec3(50, 50, -10));
+  expect_right(builder, point(far), 60);
+  expect_right(builder, point(far - Vec3(0, 0, 10)), 60);
+}
+
+Error refusal(const Scene& scene, const Target& target) {
+  try {
+    volume_of(scene, target, 60);
+  } catch (const Error& error) {
+    return error;
+  }
+  ADD_FAILURE() << "nothing was thrown";
+  return {ErrorKind::internal, "", "", ""};
+}
+
+TEST(PointTarget, OnAWallNeedsAFront) {
+  SceneBuilder builder;
+  builder.ground("ground", 100).box("block", {5, -5, 0}, {15, 5, 20});
+  for (const double off : {0.0, 1e-6, -1e-6, 1e-4, -1.5e-3, 1.5e-3}) {
+    SCOPED_TRACE(off);
+    const Error error = refusal(builder, point({5 + off, 0, 8}));
+    EXPECT_EQ(error.kind(), ErrorKind::input);
+    EXPECT_EQ(error.problem(), "\"block\" stands on or passes through the target");
+    EXPECT_NE(error.where().find("target \"camera\", at (5.000, "), std::string::npos) << error.where();
+    EXPECT_NE(error.fix().find("front: [-1.000, 0.000, 0.000] or its opposite"), std::string::npos) << error.fix();
+  }
+  expect_right(builder, point({4.997, 0, 8}), 60);
+}
+
+TEST(PointTarget, UnderTheGround) {
+  SceneBuilder builder;
+  builder.ground("ground", 100).box("block", {5, -5, 0}, {15, 5, 20});
+  const Error error = refusal(builder, point({0, 0, -4}));
+  EXPECT_EQ(error.problem(), "the target is under the ground");
+  EXPECT_NE(error.fix().find("z = 0.00"), std::string::npos) << error.fix();
+}
+
+TEST(PointTarget, BlockedOnAllSides) {
+  SceneBuilder builder;
+  builder.ground("ground", 100).box("crate", {-0.05, -0.05, 0.01}, {0.05, 0.05, 0.09});
+  const Volume volume = volume_of(builder, point({0, 0, 0.05}), 60);
+  EXPECT_EQ(volume.outcome, Outcome::blocked_at_once);
+  EXPECT_EQ(volume.reason, "\"crate\" covers the point on all sides within 0.1 m");
+  EXPECT_TRUE(volume.mesh.empty() && volume.causes.empty() && volume.cause_of.empty());
+}
+
+class HeavyPointCharlotte : public ::testing::Test {};
+
+TEST_F(HeavyPointCharlotte, AgreesWithRays) {
+  VANTAGE_REQUIRE_SHARED("charlotte/targets.json");
+  const Scene scene = read_scene(shared_data("charlotte/uptownCharlotte.obj"), {.up = UpAxis::y});
+  std::ifstream stream(shared_data("charlotte/targets.json"));
+  const auto json = nlohmann::json::parse(stream);
+  int tried = 0;
+  for (const auto& group : json) {
+    for (const auto& region : group.at("regions")) {
+      const auto p = region.at("points").at(0).get<std::vector<double>>();
+      SCOPED_TRACE("(" + std::to_string(p[0]) + ", " + std::to_string(p[1]) + ", " + std::to_string(p[2]) + ")");
+      expect_right(scene, point({p[0], -p[1], p[2]}), 300);
+      ++tried;
+    }
+  }
+  EXPECT_GE(tried, 5);
+}
+
+}  // namespace
+}  // namespace vantage::testing
