@@ -283,6 +283,34 @@ TEST(MissionErrors, EdgesThatDisagree) {
   expect_refusal(with_target("edges: 4"), "target.edges must be a list", ":5:10");
 }
 
+std::string with_point(const std::string& rest) { return mission_text("", "target:\n  " + rest + "\n"); }
+
+TEST(Mission, TargetOfAPoint) {
+  Mission mission = parse(with_point("point: [1, -2, 3.5]"));
+  ASSERT_TRUE(mission.target.is_point());
+  EXPECT_EQ(mission.target.vertices[0], Vec3(1, -2, 3.5));
+  EXPECT_FALSE(mission.target.front.has_value());
+  EXPECT_EQ(mission.target_place, "folder/mission.yaml:4:10");
+  mission = parse(with_point("{name: camera, point: [1, 2, 3], front: [0, -1, 0], offset: 0.1}"));
+  EXPECT_EQ(mission.target.name, "camera");
+  EXPECT_EQ(mission.target.offset_m, 0.1);
+  EXPECT_EQ(*mission.target.front, Vec3(0, -1, 0));
+}
+
+TEST(MissionErrors, PointsThatAreNone) {
+  expect_refusal(with_point("point: [1, 2]"), "target.point must be three numbers", ":4:10");
+  expect_refusal(with_point("point: [1, 2, .nan]"), "target.point.z is not finite", ":4:17");
+  expect_refusal(with_point("point: 5"), "target.point must be three numbers", ":4:10");
+  expect_refusal(with_point("{point: [1, 2, 3], vertices: [[0, 0, 0], [1, 0, 0], [1, 1, 0]]}"),
+                 "target has both 'point' and 'vertices'", ":4:32", "keep 'point' for a single point");
+  expect_refusal(with_point("{point: [1, 2, 3], edges: [[0, 0]]}"), "target has both 'point' and 'edges'", ":4:29");
+  expect_refusal(with_point("{point: [1, 2, 3], offset: 1}"), "has no side to be moved towards", ":4:30",
+                 "move the point itself");
+  expect_refusal(with_point("{point: [1, 2, 3], front: [0, 0, 0]}"), "front is zero", ":4:11");
+  expect_refusal(with_vertices("[[1, 2, 3]]"), "at least 3 vertices", ":4:13", "'point: [x, y, z]'");
+  expect_refusal(with_point("name: x"), "target lacks the key 'vertices'", ":4:3", "'point: [x, y, z]'");
+}
+
 TEST(MissionErrors, TargetsThatAreNone) {
   // What is wrong with a polygon is told by make_target_frame; here it gets its place.
   const std::string place = ":4:13, target \"target\"";

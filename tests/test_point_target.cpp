@@ -202,6 +202,90 @@ TEST(PointTarget, BlockedOnAllSides) {
   EXPECT_TRUE(volume.mesh.empty() && volume.causes.empty() && volume.cause_of.empty());
 }
 
+TEST(PointTarget, ForbidsNoSideToQueries) {
+  SceneBuilder builder;
+  builder.ground("ground", 100).box("block", {5, -5, 0}, {15, 5, 20});
+  const PreparedScene scene(builder);
+  const auto answers =
+      query_points(scene, point({0, 0, 3}), {60}, {},
+                   {{0, 0, 20}, {0, 0, 1}, {-10, 0, 1}, {0, 0, -5}, {20, 0, 3}, {0, 0, 70}, {0, 0, 3}});
+  for (const PointAnswer& answer : answers) EXPECT_FALSE(answer.behind_target);
+  EXPECT_TRUE(answers[0].inside);
+  EXPECT_NEAR(answers[0].margin_m, 43, 1e-6);
+  EXPECT_TRUE(answers[1].inside);
+  EXPECT_NEAR(answers[1].margin_m, 1, 1e-6) << "down to the ground";
+  EXPECT_TRUE(answers[2].inside);
+  EXPECT_NEAR(answers[2].margin_m, std::hypot(15, 3) - std::hypot(10, 2), 1e-5);
+  EXPECT_FALSE(answers[3].inside);
+  EXPECT_EQ(answers[3].blocked_by, std::vector<std::string>{"ground"});
+  EXPECT_NEAR(answers[3].margin_m, -5, 1e-6);
+  EXPECT_EQ(answers[4].blocked_by, std::vector<std::string>{"block"});
+  EXPECT_NEAR(answers[4].margin_m, -15, 1e-5);
+  EXPECT_TRUE(answers[5].out_of_range);
+  EXPECT_TRUE(answers[6].inside) << "the point itself";
+  const auto front = query_points(scene, point({0, 0, 3}, Vec3(0, 0, 1)), {60}, {}, {{0, 0, 20}, {0, 0, 1}});
+  EXPECT_TRUE(front[0].inside);
+  EXPECT_TRUE(front[1].behind_target);
+  EXPECT_FALSE(front[1].inside);
+}
+
+TEST(PointTarget, QueriesAgreeWithRays) {
+  Random random(21);
+  int inside = 0, outside = 0;
+  for (int round = 0; round < 6; ++round) {
+    const Scene city = random_city(random, 30, 3);
+    const PreparedScene prepared(city);
+    const Target target =
+        point({random.uniform(-1, 1), random.uniform(-1, 1), round < 2 ? 0 : random.uniform(0.01, 30)});
+    const double range = 80;
+    const TargetFrame frame = compute_visibility(prepared, target, {range}).frame;
+    const RayCaster rays(city.mesh, frame.origin);
+    std::vector<Vec3> points;
+    for (int i = 0; i < 2000; ++i) points.push_back(frame.origin + random.direction() * random.uniform(0.01, 90));
+    const auto answers = query_points(prepared, target, {range}, {}, points);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Vec3 way = points[i] - frame.origin;
+      const double seen = rays.first_hit(way.normalized(), range), margin = seen - way.norm();
+      if (answers[i].inside) {
+        EXPECT_GE(margin, -1e-9) << points[i].transpose();
+      } else {
+        EXPECT_LE(answers[i].margin_m, 1e-9);
+        EXPECT_TRUE(answers[i].out_of_range || !answers[i].blocked_by.empty());
+      }
+      // But for silhouettes, which the micrometres of the engine's triangle pass on either side.
+      if (answers[i].inside != (margin >= 0) && std::abs(margin) > 1e-6) ++outside;
+      inside += answers[i].inside;
+    }
+  }
+  EXPECT_GT(inside, 2000);
+  EXPECT_LE(outside, 2) << "answers that rays contradict";
+}
+
+TEST(PointTarget, VerifyFindsWhatIsWrong) {
+  SceneBuilder builder;
+  builder.ground("ground", 100).box("block", {5, -5, 0}, {15, 5, 20});
+  const Target target = point({0, 0, 3});
+  Volume volume = volume_of(builder, target, 60);
+  for (Vec3& v : volume.mesh.vertices) v = Vec3(0, 0, 3) + 1.01 * (v - Vec3(0, 0, 3));
+  VerifyReport report = verified(builder, target, volume, 60);
+  EXPECT_GT(report.over_claimed, report.points / 20);
+  EXPECT_NEAR(report.over_claim_bound, 0.03, 0.02) << "three percent of the volume";
+  for (Vec3& v : volume.mesh.vertices) v = Vec3(0, 0, 3) + 0.9 * (v - Vec3(0, 0, 3));
+  report = verified(builder, target, volume, 60);
+  EXPECT_EQ(report.over_claimed, 0U);
+  EXPECT_GT(report.under_claimed, report.points / 20);
+  // Below a point that lies on the ground nothing sees it, with the lift and without.
+  const Volume ball = volume_of(SceneBuilder().ground("far below", 10, -500), point({0, 0, 0}), 60);
+  for (const double lift : {0.0, 4e-5}) {
+    Target raised = point({0, 0, lift});
+    report = verify_volume(builder, raised, {60}, {}, ball.mesh, {.points = 4000});
+    EXPECT_GT(report.over_claimed, 1000U);
+    EXPECT_EQ(report.worst_over_cause, "ground");
+  }
+  report = verify_volume(builder, point({0, 0, 3}, Vec3(0, 0, 1)), {60}, {}, ball.mesh, {.points = 4000});
+  EXPECT_GT(report.over_claimed, 1000U);
+}
+
 class HeavyPointCharlotte : public ::testing::Test {};
 
 TEST_F(HeavyPointCharlotte, AgreesWithRays) {

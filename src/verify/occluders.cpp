@@ -76,16 +76,24 @@ void Occluders::add_surface(const FlatTriangle& triangle, std::uint32_t number) 
   if (std::abs(normal.dot(offset)) > kPointSurface) return;
   const double third = normal.dot(triangle.edge1.cross(offset)) / triangle.normal_length;
   const double second = normal.dot(offset.cross(triangle.edge2)) / triangle.normal_length;
-  if (std::min({second, third, 1 - second - third}) < kGrazing) return;
-  surfaces_.push_back({normal.dot(view_.normal()) < 0 ? Vec3(-normal) : normal, number});
+  const double border = std::min({second, third, 1 - second - third});
+  if (border < -kGrazing) return;
+  surfaces_.push_back({normal.dot(view_.normal()) < 0 ? Vec3(-normal) : normal, number, border < kGrazing});
 }
 
 const Occluders::Surface* Occluders::hiding_surface(const Vec3& viewpoint) const {
   const auto hides = [&](const Surface& surface) {
     return surface.outward.dot(viewpoint - view_.centre()) < -kPointSurface;
   };
-  const auto found = std::find_if(surfaces_.begin(), surfaces_.end(), hides);
-  return found == surfaces_.end() ? nullptr : &*found;
+  const Surface* edge = nullptr;
+  bool is_over_edge = false;
+  for (const Surface& surface : surfaces_) {
+    const bool is_behind = hides(surface);
+    if (is_behind && !surface.is_edge) return &surface;
+    if (is_behind) edge = &surface;
+    if (!is_behind && surface.is_edge) is_over_edge = true;
+  }
+  return is_over_edge ? nullptr : edge;
 }
 
 bool Occluders::hide(const Vec3& viewpoint, const Vec3& target_point) const {

@@ -38,7 +38,9 @@ class Occluders {
   struct Surface {
     Vec3 outward;          ///< normal on the target's front
     std::uint32_t number;  ///< in the scene
+    bool is_edge;          ///< the point lies on its border: over a ridge one sees past it
   };
+  /// One that the point lies in, or one of those at whose borders it lies, if the viewpoint is behind them all.
   const Surface* hiding_surface(const Vec3& viewpoint) const;
   void add_surface(const FlatTriangle& triangle, std::uint32_t number);
 
