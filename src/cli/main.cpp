@@ -22,6 +22,7 @@ constexpr const char* kExamples =
     "  vantage compute mission.yaml -o volume.ply\n"
     "  vantage query mission.yaml points.csv > answers.csv\n"
     "  vantage verify mission.yaml volume.ply\n"
+    "  vantage compare spheres.ply exact.ply\n"
     "  vantage devices\n"
     "  vantage spheres -c config.yaml\n"
     "\n"
@@ -119,6 +120,7 @@ int run(int argument_count, char** arguments) {
   add_compute(app, chosen);
   add_query(app, chosen);
   add_verify(app, chosen);
+  add_compare(app, chosen);
   add_devices(app, chosen);
   add_spheres(app, chosen);
 

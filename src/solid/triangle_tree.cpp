@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "vantage/error.h"
 
@@ -30,6 +31,33 @@ bool ray_meets(const scene::Bounds& box, const Vec3& point, const Vec3& inverse_
   }
   // The allowance covers the rounding of the divisions; a box too many is only slower.
   return from <= to * (1 + 1e-12);
+}
+
+double squared_distance(const scene::Bounds& box, const Vec3& point) {
+  double sum = 0;
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    const double away = std::max({box.min[axis] - point[axis], 0.0, point[axis] - box.max[axis]});
+    sum += away * away;
+  }
+  return sum;
+}
+
+double squared_distance_to_edge(const Vec3& point, const Vec3& start, const Vec3& end) {
+  const Vec3 edge = end - start;
+  const double length = edge.squaredNorm();
+  const double along = length > 0 ? std::clamp(edge.dot(point - start) / length, 0.0, 1.0) : 0.0;
+  return (point - start - along * edge).squaredNorm();
+}
+
+double squared_distance_to_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 normal = (b - a).cross(c - a);
+  const auto left_of = [&](const Vec3& from, const Vec3& to) { return normal.dot((to - from).cross(p - from)) >= 0; };
+  if (normal.squaredNorm() > 0 && left_of(a, b) && left_of(b, c) && left_of(c, a)) {
+    const double height = normal.dot(p - a);
+    return height * height / normal.squaredNorm();
+  }
+  return std::min(
+      {squared_distance_to_edge(p, a, b), squared_distance_to_edge(p, b, c), squared_distance_to_edge(p, c, a)});
 }
 
 enum class Hit { miss, from_front, from_back, unclear };
@@ -65,6 +93,35 @@ TriangleTree::TriangleTree(const Mesh& mesh) : mesh_(mesh) {
   std::vector<scene::Bounds> bounds(mesh.triangles.size());
   for (std::size_t t = 0; t < bounds.size(); ++t) bounds[t] = rounded_outward(triangle_box(mesh, t));
   bvh_ = scene::build_bvh(bounds, order_);
+}
+
+double TriangleTree::distance(const Vec3& point) const {
+  struct Waiting {
+    std::uint32_t node;
+    double nearest;
+  };
+  double best = std::numeric_limits<double>::infinity();
+  std::vector<Waiting> stack{{0, 0.0}};
+  while (!stack.empty()) {
+    const Waiting waiting = stack.back();
+    stack.pop_back();
+    if (waiting.nearest >= best) continue;
+    const scene::BvhNode& node = bvh_.nodes[waiting.node];
+    if (node.leaf()) {
+      for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+        const Triangle& t = mesh_.triangles[order_[i]];
+        best = std::min(best, squared_distance_to_triangle(point, mesh_.vertices[t[0]], mesh_.vertices[t[1]],
+                                                           mesh_.vertices[t[2]]));
+      }
+      continue;
+    }
+    Waiting near{node.first, squared_distance(bvh_.nodes[node.first].bounds, point)};
+    Waiting far{node.first + 1, squared_distance(bvh_.nodes[node.first + 1].bounds, point)};
+    if (far.nearest < near.nearest) std::swap(near, far);
+    stack.push_back(far);
+    stack.push_back(near);
+  }
+  return std::sqrt(best);
 }
 
 bool TriangleTree::crossings(const Vec3& point, const Vec3& direction, int& winding) const {

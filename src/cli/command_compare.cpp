@@ -1,0 +1,206 @@
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <utility>
+#include <vector>
+
+#include "cli/command.h"
+#include "cli/output_check.h"
+#include "cli/progress_line.h"
+#include "cli/text_table.h"
+#include "mission/input_file.h"
+#include "solid/writers.h"
+#include "vantage/compare.h"
+#include "vantage/error.h"
+#include "vantage/volume.h"
+
+namespace vantage::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kExamples =
+    "FRAMES\n"
+    "  PLY and STL files are in the scene frame: metres, z up. glTF is y up. OBJ files are in the axes and the unit "
+    "of\n"
+    "  the scene that they were made for: say --up and --scale as its mission does. --only-a and --only-b write "
+    "likewise.\n"
+    "\n"
+    "EXAMPLES\n"
+    "  vantage compare spheres.ply exact.ply\n"
+    "  vantage compare old.obj new.ply --up y            # old.obj was computed for a scene with y up\n"
+    "  vantage compare spheres.ply exact.ply --only-a over_claimed.ply --only-b missed.ply\n"
+    "  vantage compare a.ply b.glb --json | jq .only_a_percent\n"
+    "\n"
+    "The worst distance is that of the corner, of what only one of them claims, that is farthest from the other's\n"
+    "surface. Where one of them claims nothing alone no mesh is written, and an older file stays. The exit code does "
+    "not\n"
+    "depend on how much they differ.\n";
+
+struct Options {
+  CommonOptions common;
+  std::string file_a, file_b, only_a, only_b;
+  std::string up, scale;  // empty: not given
+  bool json = false;
+};
+
+/// How OBJ files are read and written.
+SceneReadOptions obj_options(const Options& options) {
+  const std::array<const std::string*, 4> files = {&options.file_a, &options.file_b, &options.only_a, &options.only_b};
+  const bool has_obj = std::any_of(files.begin(), files.end(), [](const auto* f) { return mission_io::is_obj(*f); });
+  if (!has_obj && !(options.up.empty() && options.scale.empty())) {
+    throw Error(ErrorKind::input, "--up and --scale are for OBJ files, and none is named", "command line",
+                "leave them out: PLY and STL are in the scene frame, and glTF is y up");
+  }
+  SceneReadOptions result;
+  if (options.up == "y") result.up = UpAxis::y;
+  if (!options.scale.empty()) result.scale = positive_option("--scale", options.scale);
+  return result;
+}
+
+void check_outputs(const Options& options) {
+  for (const std::string& output : {options.only_a, options.only_b}) {
+    if (output.empty()) continue;
+    check_volume_output(output);
+    check_not_an_input(output, {options.file_a, options.file_b});
+  }
+  if (!options.only_a.empty() &&
+      fs::path(options.only_a).lexically_normal() == fs::path(options.only_b).lexically_normal()) {
+    throw Error(ErrorKind::input, "an output is named twice", options.only_a, "give --only-a and --only-b two names");
+  }
+}
+
+Mesh read(const std::string& file, const SceneReadOptions& obj, const Progress& progress) {
+  return read_scene(file, mission_io::is_obj(file) ? obj : SceneReadOptions{}, progress).mesh;
+}
+
+Volume as_volume(Mesh mesh, const std::string& name) {
+  Volume volume;
+  volume.causes = {{CauseKind::scene, "only in " + name, surface_area(mesh)}};
+  volume.cause_of.assign(mesh.triangles.size(), 0);
+  volume.mesh = std::move(mesh);
+  return volume;
+}
+
+/// Both or none; returns the files that were written.
+std::vector<std::string> write(const Options& options, Comparison& comparison, const SceneReadOptions& obj) {
+  std::vector<std::unique_ptr<solid::AtomicFile>> files;
+  std::vector<std::string> written;
+  const auto stage = [&](const std::string& output, Mesh& mesh, const std::string& input) {
+    if (output.empty() || mesh.empty()) return;
+    files.push_back(solid::stage_volume(as_volume(std::move(mesh), fs::path(input).filename().string()), output, obj.up,
+                                        obj.scale));
+    written.push_back(output);
+  };
+  stage(options.only_a, comparison.only_a, options.file_a);
+  stage(options.only_b, comparison.only_b, options.file_b);
+  solid::commit_all(files);
+  return written;
+}
+
+double percent(double part, double whole) { return 100 * part / whole; }
+
+std::string json_text(const Options& options, const Comparison& c, const std::vector<std::string>& written) {
+  const auto point = [](double distance, const Vec3& p) -> nlohmann::ordered_json {
+    if (distance == 0) return nullptr;
+    return {p.x(), p.y(), p.z()};
+  };
+  nlohmann::ordered_json json;
+  json["a"] = options.file_a;
+  json["b"] = options.file_b;
+  json["volume_a_m3"] = c.volume_a_m3;
+  json["volume_b_m3"] = c.volume_b_m3;
+  json["intersection_m3"] = c.intersection_m3;
+  json["intersection_percent_of_a"] = percent(c.intersection_m3, c.volume_a_m3);
+  json["intersection_percent_of_b"] = percent(c.intersection_m3, c.volume_b_m3);
+  json["only_a_m3"] = c.only_a_m3;
+  json["only_a_percent"] = percent(c.only_a_m3, c.volume_a_m3);
+  json["only_b_m3"] = c.only_b_m3;
+  json["only_b_percent"] = percent(c.only_b_m3, c.volume_b_m3);
+  json["worst_only_a_m"] = c.worst_only_a_m;
+  json["worst_only_a_point"] = point(c.worst_only_a_m, c.worst_only_a_point);
+  json["worst_only_b_m"] = c.worst_only_b_m;
+  json["worst_only_b_point"] = point(c.worst_only_b_m, c.worst_only_b_point);
+  json["written"] = written;
+  // A name is bytes from the command line, and JSON takes UTF-8 only: others are replaced rather than refused.
+  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+std::string share_text(double part, double whole, const char* of) {
+  return "m3, " + fixed(percent(part, whole), 4) + " % of " + of;
+}
+
+void add_difference(TextTable& table, const char* name, double volume, double whole, double worst, const Vec3& at) {
+  const std::string of = std::string(name).substr(std::string(name).size() - 1);
+  table.row(name, fixed(volume, 3), share_text(volume, whole, of.c_str()));
+  if (worst > 0) table.row("worst distance", fixed(worst, 6), "m from the other's surface, at " + vector(at));
+}
+
+std::string table_text(const Options& options, const Comparison& c, const std::vector<std::string>& written,
+                       bool is_turn_doubtful) {
+  TextTable table;
+  table.heading("A: " + options.file_a);
+  table.heading("B: " + options.file_b);
+  table.row("volume of A", fixed(c.volume_a_m3, 3), "m3");
+  table.row("volume of B", fixed(c.volume_b_m3, 3), "m3");
+  table.row("in both", fixed(c.intersection_m3, 3),
+            "m3, " + fixed(percent(c.intersection_m3, c.volume_a_m3), 4) + " % of A, " +
+                fixed(percent(c.intersection_m3, c.volume_b_m3), 4) + " % of B");
+  add_difference(table, "only in A", c.only_a_m3, c.volume_a_m3, c.worst_only_a_m, c.worst_only_a_point);
+  add_difference(table, "only in B", c.only_b_m3, c.volume_b_m3, c.worst_only_b_m, c.worst_only_b_point);
+  if (is_turn_doubtful) table.heading("they share nothing: is the OBJ file y up, or not in metres? --up y, --scale S");
+  for (const std::string& file : written) table.heading("wrote " + file);
+  for (const auto& [output, name] : {std::pair(options.only_a, "A"), std::pair(options.only_b, "B")}) {
+    if (output.empty() || std::find(written.begin(), written.end(), output) != written.end()) continue;
+    table.heading("not written: " + output + ", as " + name + " claims nothing alone");
+  }
+  return table.text();
+}
+
+int run(const Options& options) {
+  mission_io::check_readable(options.file_a, "the first mesh", "");
+  mission_io::check_readable(options.file_b, "the second mesh", "");
+  const SceneReadOptions obj = obj_options(options);
+  check_outputs(options);
+  ProgressLine progress(options.common);
+  const Mesh a = read(options.file_a, obj, progress.callback());
+  const Mesh b = read(options.file_b, obj, progress.callback());
+  Comparison comparison = compare_volumes(a, b, options.file_a, options.file_b, progress.callback());
+  stop_if_interrupted();
+  const std::vector<std::string> written = write(options, comparison, obj);
+  const bool has_obj = mission_io::is_obj(options.file_a) || mission_io::is_obj(options.file_b);
+  if (options.json) {
+    print(json_text(options, comparison, written));
+  } else if (!options.common.quiet) {
+    print(table_text(options, comparison, written, comparison.intersection_m3 == 0 && has_obj));
+  }
+  return kSuccess;
+}
+
+}  // namespace
+
+void add_compare(CLI::App& app, Command& chosen) {
+  CLI::App* command = app.add_subcommand("compare", "Say how two closed volumes differ");
+  auto options = std::make_shared<Options>();
+  command->add_option("a", options->file_a, "A closed mesh: PLY, OBJ, STL, glTF or GLB; may be compressed with gzip")
+      ->required()
+      ->option_text("A");
+  command->add_option("b", options->file_b, "Another")->required()->option_text("B");
+  command->add_option("--only-a", options->only_a, "Write what only A claims: .ply, .obj, .stl or .glb")
+      ->option_text("FILE");
+  command->add_option("--only-b", options->only_b, "Write what only B claims")->option_text("FILE");
+  command->add_option("--up", options->up, "Axis of the OBJ files that points up: y or z (default)")
+      ->check(CLI::IsMember({"y", "z"}))
+      ->option_text("AXIS");
+  command->add_option("--scale", options->scale, "Metres in one unit of the OBJ files (default 1)")->option_text("S");
+  command->add_flag("--json", options->json, "Print JSON instead of a table");
+  add_common_options(*command, options->common);
+  command->footer(kExamples);
+  command->callback([options, &chosen] {
+    chosen = [options] { return with_threads(options->common, [&] { return run(*options); }); };
+  });
+}
+
+}  // namespace vantage::cli

@@ -1,0 +1,148 @@
+// compare_volumes: three booleans, and how far what only one mesh claims reaches from the other's surface.
+#include "vantage/compare.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "parallel/parallel.h"
+#include "solid/csg.h"
+#include "solid/solid_check.h"
+#include "solid/triangle_tree.h"
+#include "vantage/error.h"
+
+namespace vantage {
+namespace {
+
+using solid::Solid;
+using solid::TriangleTree;
+using solid::Watch;
+
+/// Parts of one run, each with its share of the whole.
+class Stages {
+ public:
+  explicit Stages(const Progress& progress) : progress_(progress) {}
+
+  /// The watch of the next stage. `name` must last.
+  Watch next(const char* name, double share) {
+    const double from = std::exchange(done_, done_ + share);
+    if (!progress_) return {};
+    if (!progress_(name, from)) throw Error(ErrorKind::cancelled, "the comparison was cancelled", name, "");
+    return [this, name, from, share](double fraction) { return progress_(name, from + share * fraction); };
+  }
+
+ private:
+  const Progress& progress_;
+  double done_ = 0;
+};
+
+Box bounds_of(const Mesh& a, const Mesh& b) {
+  Box box = bounding_box(a);
+  box.extend(bounding_box(b));
+  return box;
+}
+
+/// The triangles as corner positions, each from its least corner on, in order: equal for meshes that differ in nothing
+/// but numbering.
+std::vector<std::array<Vec3, 3>> canonical(const Mesh& mesh) {
+  const auto less = [](const Vec3& a, const Vec3& b) {
+    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
+  };
+  std::vector<std::array<Vec3, 3>> triangles;
+  triangles.reserve(mesh.triangles.size());
+  for (const Triangle& t : mesh.triangles) {
+    std::array<Vec3, 3> corners = {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end(), less), corners.end());
+    triangles.push_back(corners);
+  }
+  parallel::sort(triangles, [&](const auto& a, const auto& b) {
+    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), less);
+  });
+  return triangles;
+}
+
+bool are_identical(const Mesh& a, const Mesh& b) {
+  return a.triangles.size() == b.triangles.size() && canonical(a) == canonical(b);
+}
+
+Solid solid_of(Mesh mesh, const std::string& name) {
+  std::vector<std::uint32_t> labels(mesh.triangles.size(), 0);
+  return Solid({std::move(mesh), std::move(labels)}, name);
+}
+
+struct Farthest {
+  double distance = 0;
+  Vec3 point = Vec3::Zero();
+};
+
+/// The corner of `part` that is farthest from the surface in `tree`; the first of equals.
+Farthest farthest_corner(const Mesh& part, const TriangleTree& tree, const Watch& watch) {
+  constexpr std::size_t kBatch = 1 << 14, kGrain = 256;  // a batch takes some milliseconds
+  const std::size_t count = part.vertices.size();
+  std::vector<double> distance(count, 0);
+  for (std::size_t begin = 0; begin < count; begin += kBatch) {
+    if (watch && !watch(static_cast<double>(begin) / static_cast<double>(count))) {
+      throw Error(ErrorKind::cancelled, "the comparison was cancelled", "", "");
+    }
+    parallel::for_ranges(std::min(kBatch, count - begin), kGrain, [&](std::size_t from, std::size_t to) {
+      for (std::size_t v = begin + from; v < begin + to; ++v) distance[v] = tree.distance(part.vertices[v]);
+    });
+  }
+  const auto found = std::max_element(distance.begin(), distance.end());
+  if (found == distance.end()) return {};
+  return {*found, part.vertices[static_cast<std::size_t>(found - distance.begin())]};
+}
+
+/// Booleans lose no space: what A claims is claimed by B or not.
+void check_sums(const Comparison& c, double allowance) {
+  const double lost_a = c.volume_a_m3 - c.intersection_m3 - c.only_a_m3;
+  const double lost_b = c.volume_b_m3 - c.intersection_m3 - c.only_b_m3;
+  if (std::abs(lost_a) <= allowance && std::abs(lost_b) <= allowance) return;
+  throw Error(ErrorKind::internal, "the intersection and the difference do not add up to the volume", "comparison", "");
+}
+
+}  // namespace
+
+Comparison compare_volumes(const Mesh& mesh_a, const Mesh& mesh_b, const std::string& name_a, const std::string& name_b,
+                           const Progress& progress) {
+  Stages stages(progress);
+  Mesh a = solid::checked_solid(mesh_a, name_a, stages.next("checking the first mesh", 0.2));
+  Mesh b = solid::checked_solid(mesh_b, name_b, stages.next("checking the second mesh", 0.2));
+  const Box box = bounds_of(a, b);
+  const Vec3 origin = (box.min + box.max) / 2;
+  for (Mesh* mesh : {&a, &b}) {
+    for (Vec3& vertex : mesh->vertices) vertex -= origin;
+  }
+
+  Comparison result;
+  result.volume_a_m3 = enclosed_volume(a);
+  result.volume_b_m3 = enclosed_volume(b);
+  if (are_identical(a, b)) {
+    result.intersection_m3 = result.volume_b_m3 = result.volume_a_m3;
+    return result;
+  }
+  const Solid solid_a = solid_of(a, name_a), solid_b = solid_of(b, name_b);
+  result.intersection_m3 = intersect(solid_a, solid_b, stages.next("intersecting", 0.15)).volume();
+  const Solid only_a = subtract(solid_a, solid_b, stages.next("subtracting", 0.15));
+  const Solid only_b = subtract(solid_b, solid_a, stages.next("subtracting", 0.15));
+  result.only_a_m3 = only_a.volume();
+  result.only_b_m3 = only_b.volume();
+  result.only_a = only_a.to_mesh().mesh;
+  result.only_b = only_b.to_mesh().mesh;
+  const double area = solid_a.area() + solid_b.area(), length = (box.max - box.min).norm();
+  check_sums(result, area * length * 1e-9);
+
+  const Farthest from_b = farthest_corner(result.only_a, TriangleTree(b), stages.next("measuring distances", 0.075));
+  const Farthest from_a = farthest_corner(result.only_b, TriangleTree(a), stages.next("measuring distances", 0.075));
+  for (Mesh* mesh : {&result.only_a, &result.only_b}) {
+    for (Vec3& vertex : mesh->vertices) vertex += origin;
+  }
+  result.worst_only_a_m = from_b.distance;
+  result.worst_only_b_m = from_a.distance;
+  if (from_b.distance > 0) result.worst_only_a_point = from_b.point + origin;
+  if (from_a.distance > 0) result.worst_only_b_point = from_a.point + origin;
+  return result;
+}
+
+}  // namespace vantage
