@@ -2,6 +2,7 @@
 
 #include <manifold/manifold.h>
 
+#include <algorithm>
 #include <numeric>
 #include <utility>
 
@@ -67,10 +68,12 @@ Status evaluate(const manifold::Manifold& lazy, const Watch& watch) {
   manifold::ExecutionContext context;
   const manifold::Manifold watched = lazy.WithContext(context);
   bool stopped = false;
+  double done = 0;  // Manifold's own falls back to 0 in the end
   const auto ask = [&] {
     if (stopped) return;
+    done = std::max(done, context.Progress());
     try {
-      stopped = !watch(context.Progress());
+      stopped = !watch(done);
     } catch (...) {
       context.Cancel();
       throw;
