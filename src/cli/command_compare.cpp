@@ -150,7 +150,7 @@ std::string table_text(const Options& options, const Comparison& c, const std::v
                 fixed(percent(c.intersection_m3, c.volume_b_m3), 4) + " % of B");
   add_difference(table, "only in A", c.only_a_m3, c.volume_a_m3, c.worst_only_a_m, c.worst_only_a_point);
   add_difference(table, "only in B", c.only_b_m3, c.volume_b_m3, c.worst_only_b_m, c.worst_only_b_point);
-  if (is_turn_doubtful) table.heading("they share nothing: is the OBJ file y up, or not in metres? --up y, --scale S");
+  if (is_turn_doubtful) table.heading("they share little: is an OBJ file y up, or not in metres? --up y, --scale S");
   for (const std::string& file : written) table.heading("wrote " + file);
   for (const auto& [output, name] : {std::pair(options.only_a, "A"), std::pair(options.only_b, "B")}) {
     if (output.empty() || std::find(written.begin(), written.end(), output) != written.end()) continue;
@@ -170,11 +170,13 @@ int run(const Options& options) {
   Comparison comparison = compare_volumes(a, b, options.file_a, options.file_b, progress.callback());
   stop_if_interrupted();
   const std::vector<std::string> written = write(options, comparison, obj);
-  const bool has_obj = mission_io::is_obj(options.file_a) || mission_io::is_obj(options.file_b);
+  const bool is_turn_doubtful =
+      (mission_io::is_obj(options.file_a) || mission_io::is_obj(options.file_b)) && options.up.empty() &&
+      comparison.intersection_m3 < 0.5 * std::min(comparison.volume_a_m3, comparison.volume_b_m3);
   if (options.json) {
     print(json_text(options, comparison, written));
   } else if (!options.common.quiet) {
-    print(table_text(options, comparison, written, comparison.intersection_m3 == 0 && has_obj));
+    print(table_text(options, comparison, written, is_turn_doubtful));
   }
   return kSuccess;
 }
