@@ -226,7 +226,8 @@ TEST(MissionErrors, WrongTypes) {
 
 TEST(MissionErrors, Methods) {
   EXPECT_NO_THROW(parse(mission_text("method: exact")));
-  expect_refusal(mission_text("method: spheres"), "there is no method 'spheres'", ":7:9", "method: exact");
+  EXPECT_EQ(parse(mission_text("method: spheres")).method, Method::spheres);
+  expect_refusal(mission_text("method: sphere"), "there is no method 'sphere'", ":7:9", "method: spheres");
   expect_refusal(mission_text("method:"), "method must be a text, not nothing", ":7:");
 }
 

@@ -33,7 +33,8 @@ struct Cause {
 enum class Outcome {
   computed,
   out_of_range,     ///< no point is within max_range of all vertices
-  blocked_at_once,  ///< the front is covered by the scene within a hand's breadth: most likely the wrong side
+  blocked_at_once,  ///< the front is covered by the scene within a hand's breadth: most likely the wrong side. Of
+                    ///< spheres: a vertex sees nothing, or no point is in all of them
   outside_limits,   ///< the navigation limits leave nothing
 };
 

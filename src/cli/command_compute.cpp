@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <set>
 
 #include "cli/command.h"
 #include "cli/output_check.h"
 #include "cli/progress_line.h"
+#include "cli/stage_folder.h"
 #include "cli/text_table.h"
 #include "mission/run_mission.h"
 #include "solid/names.h"
@@ -24,11 +26,15 @@ constexpr const char* kExamples =
     "  vantage compute mission.yaml -o volume.ply\n"
     "  vantage compute mission.yaml -o volume.ply -o volume.glb -o volume.obj\n"
     "  vantage compute mission.yaml -o volume.stl --json | jq .volume_m3\n"
+    "  vantage compute mission.yaml --method spheres -o volume.ply --stages stages/\n"
     "\n"
     "The format follows the extension: .ply (scene frame, double precision, causes), .obj (axes and unit of the\n"
     "scene file, a group per cause), .stl (scene frame), .glb (y up, a material per kind of cause). Beside each\n"
     "output goes a report, volume.report.json. Where there is no volume, the report says why, no mesh is written,\n"
-    "and the exit code is 0.\n";
+    "and the exit code is 0.\n"
+    "\n"
+    "--stages writes each step of the spheres method as a mesh (PLY, scene frame), and stages.json. The folder is put\n"
+    "in place as a whole when the run is over; an older one of the same kind is replaced.\n";
 
 constexpr std::size_t kCausesShown = 10;
 
@@ -36,6 +42,8 @@ struct Options {
   CommonOptions common;
   std::string mission_file;
   std::vector<std::string> outputs;
+  std::string method, device;  // empty: as the mission says
+  std::string stages;          // empty: none are wanted
   bool json = false;
 };
 
@@ -51,6 +59,21 @@ void check_outputs(const Options& options) {
   }
 }
 
+/// What the command line says goes before what the mission says.
+Mission with_options(const Mission& read, const Options& options) {
+  Mission mission = read;
+  mission.exact.threads = options.common.threads;
+  if (!options.method.empty()) mission.method = options.method == "spheres" ? Method::spheres : Method::exact;
+  if (!options.device.empty()) mission.spheres.device = parse_device_choice(options.device);
+  if (mission.method == Method::spheres) return mission;
+  const char* const unused = !options.stages.empty() ? "--stages" : !options.device.empty() ? "--device" : nullptr;
+  if (unused) {
+    throw Error(ErrorKind::input, std::string(unused) + " is for the method of spheres, and this mission's is exact",
+                "command line, " + std::string(unused), "add --method spheres, or leave it out");
+  }
+  return mission;
+}
+
 solid::WrittenResults write(const Options& options, const Mission& mission, MissionRun& run, const Progress& progress) {
   solid::ResultRequest request;
   request.volumes.assign(options.outputs.begin(), options.outputs.end());
@@ -59,6 +82,7 @@ solid::WrittenResults write(const Options& options, const Mission& mission, Miss
   request.source.mission = mission.file.string();
   request.source.scene = mission.scene_file.string();
   request.source.target = mission.target.name;
+  if (run.spheres) request.source.spheres = solid::SpheresRun{mission.spheres, *run.spheres};
   return solid::write_results(run.volume, request, progress);
 }
 
@@ -81,6 +105,15 @@ void add_causes(TextTable& table, const Volume& volume) {
   if (shown < causes.size()) table.row("and " + count(causes.size() - shown) + " more", "", "all are in the report");
 }
 
+void add_spheres(TextTable& table, const SpheresReport& report) {
+  table.heading("visibility spheres, " + report.device.name);
+  if (!report.device_note.empty()) table.heading("  " + report.device_note);
+  table.row("spheres", count(report.spheres), "of the target's vertices, and of midpoints of its edges");
+  table.row("pairs", count(report.pairs), report.pairs == 0 ? "not looked at: no edge was to be halved by them" : "");
+  table.row("splits", count(report.splits), "edges halved");
+  table.row("unresolved", count(report.unresolved_pairs), "pairs still no topological sphere where halving had to end");
+}
+
 std::string summary(const Mission& mission, const MissionRun& run, const MeshMeasures& measures) {
   const Volume& volume = run.volume;
   const Seconds& seconds = volume.seconds;
@@ -97,10 +130,17 @@ std::string summary(const Mission& mission, const MissionRun& run, const MeshMea
     table.heading("no volume: " + volume.reason);
     if (!volume.hint.empty()) table.heading("what to try: " + volume.hint);
   }
+  if (run.spheres) add_spheres(table, *run.spheres);
   table.heading("time");
   table.row("read", duration(seconds.read), "");
   table.row("prepare", duration(seconds.prepare), count(run.scene.polygons) + " convex polygons");
-  table.row("engine", duration(seconds.engine), count(volume.counts.visible_blockers) + " blockers in sight");
+  if (run.spheres) {
+    table.row("engine", duration(seconds.engine),
+              duration(run.spheres->render_seconds) + " for spheres, " + duration(run.spheres->boolean_seconds) +
+                  " for intersections");
+  } else {
+    table.row("engine", duration(seconds.engine), count(volume.counts.visible_blockers) + " blockers in sight");
+  }
   table.row("navigation", duration(seconds.navigation), "");
   table.row("write", duration(seconds.write), "");
   table.row("total", duration(seconds.total), "");
@@ -126,14 +166,16 @@ int run(const Options& options) {
     check_not_an_input(output, input_files(read));
     check_not_an_input(solid::report_file(output), input_files(read));
   }
-  Mission mission = read;
-  mission.exact.threads = options.common.threads;
+  const Mission mission = with_options(read, options);
+  std::optional<StageFolder> stages;
+  if (!options.stages.empty()) stages.emplace(options.stages);
 
   MissionRun run;
   solid::WrittenResults written;
   {
     ProgressLine progress(options.common);
-    run = mission_io::run_mission(mission, progress.callback());
+    run = mission_io::run_mission(mission, progress.callback(), stages ? stages->sink() : StageSink());
+    if (stages) stages->commit(mission, run.volume, *run.spheres);
     written = write(options, mission, run, progress.callback());
   }
   if (options.json) {
@@ -144,6 +186,7 @@ int run(const Options& options) {
       for (const std::string& output : options.outputs) text += "wrote " + output + "\n";
     }
     for (const fs::path& report : written.reports) text += "wrote " + report.string() + "\n";
+    if (stages) text += "wrote " + (fs::path(options.stages) / "stages.json").string() + " and its meshes\n";
     print(text);
   }
   warn_of_coarse_stl(options, run.volume);
@@ -168,6 +211,15 @@ void add_compute(CLI::App& app, Command& chosen) {
       ->required()
       ->allow_extra_args(false)
       ->option_text("FILE");
+  command->add_option("--method", options->method, "exact or spheres; default: as the mission says")
+      ->check(CLI::IsMember({"exact", "spheres"}))
+      ->option_text("METHOD");
+  command
+      ->add_option("--device", options->device,
+                   "Of the method of spheres: auto, cpu, opengl, gpu or a number of 'vantage devices'")
+      ->option_text("DEVICE");
+  command->add_option("--stages", options->stages, "Of the method of spheres: write its steps to this folder")
+      ->option_text("FOLDER");
   command->add_flag("--json", options->json, "Print the report instead of a summary");
   add_common_options(*command, options->common);
   command->footer(kExamples);

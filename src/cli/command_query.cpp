@@ -67,6 +67,9 @@ int run(const Options& options) {
   }
   const Mission mission = read_mission(options.mission_file);
   if (!options.output_file.empty()) check_not_an_input(options.output_file, input_files(mission));
+  if (mission.method == Method::spheres && !options.common.quiet) {
+    note("the mission's method is spheres; queries are always answered exactly, for the whole target");
+  }
   if (is_from_stdin && !options.common.quiet && ::isatty(STDIN_FILENO) == 1) {
     note("reading points from the keyboard; end with Ctrl-D");
   }

@@ -28,7 +28,21 @@ namespace mission_io {
 
 namespace {
 
-MissionRun run_stages(const Mission& mission, const Progress& progress) {
+Volume compute(const Mission& mission, const PreparedScene& scene, const Progress& progress, const StageSink& stages,
+               std::optional<SpheresReport>& report) {
+  if (mission.method == Method::exact) {
+    return compute_visibility(scene, mission.target, mission.sensor, mission.exact, progress);
+  }
+  SpheresOptions options = mission.spheres;
+  options.threads = 0;  // those of the arena that the mission runs in
+  return compute_visibility_spheres(scene, mission.target, mission.sensor, options, &report.emplace(), stages,
+                                    progress);
+}
+
+/// Errors about devices are of no place in the mission's target.
+bool is_about_target(const Error& error) { return error.where().starts_with("target"); }
+
+MissionRun run_stages(const Mission& mission, const Progress& progress, const StageSink& stages) {
   MissionRun run;
   Seconds seconds;
   Stopwatch stopwatch;
@@ -41,9 +55,12 @@ MissionRun run_stages(const Mission& mission, const Progress& progress) {
   run.scene = prepared.statistics();
   seconds.prepare = stopwatch.lap();
 
-  run.volume = with_place(mission.target_place, [&] {
-    return compute_visibility(prepared, mission.target, mission.sensor, mission.exact, progress);
-  });
+  try {
+    run.volume = compute(mission, prepared, progress, stages, run.spheres);
+  } catch (const Error& error) {
+    if (mission.method == Method::spheres && !is_about_target(error)) throw;
+    with_place(mission.target_place, [&]() -> int { throw error; });
+  }
   seconds.engine = stopwatch.lap();
 
   if (run.volume.outcome == Outcome::computed && !mission.navigation.empty()) {
@@ -58,9 +75,9 @@ MissionRun run_stages(const Mission& mission, const Progress& progress) {
 
 }  // namespace
 
-MissionRun run_mission(const Mission& mission, const Progress& progress) {
+MissionRun run_mission(const Mission& mission, const Progress& progress, const StageSink& stages) {
   MissionRun run;
-  parallel::with_threads(mission.exact.threads, [&] { run = run_stages(mission, progress); });
+  parallel::with_threads(mission.exact.threads, [&] { run = run_stages(mission, progress, stages); });
   return run;
 }
 

@@ -10,6 +10,7 @@
 #include "mission/numbers.h"
 #include "mission/run_mission.h"
 #include "mission/schema.h"
+#include "mission/spheres_section.h"
 #include "mission/value_reader.h"
 #include "vantage/error.h"
 
@@ -77,6 +78,7 @@ ParsedMission MissionParser::parse(std::string_view mission_text) {
       require(root, Section::mission, "sensor", "write 'sensor:' and below it, indented, 'max_range: 100' (metres)"));
   if (const YamlNode* navigation = find(root, "navigation")) parse_navigation(*navigation);
   if (const YamlNode* exact = find(root, "exact")) parse_exact(*exact);
+  if (const YamlNode* spheres = find(root, "spheres")) parse_spheres(*spheres, *this, parsed_.mission.spheres);
   return std::move(parsed_);
 }
 
@@ -283,8 +285,11 @@ void MissionParser::check_extent(const YamlNode& node, const std::string& what, 
 
 void MissionParser::parse_method(const YamlNode& node) {
   const std::string method = text(node, "method");
-  if (method == "exact") return;
-  fail(node, "there is no method " + in_quotes(method), "write 'method: exact'; it is the only method so far");
+  if (method == "spheres") {
+    parsed_.mission.method = Method::spheres;
+  } else if (method != "exact") {
+    fail(node, "there is no method " + in_quotes(method), "write 'method: exact' or 'method: spheres'");
+  }
 }
 
 void MissionParser::parse_exact(const YamlNode& node) {

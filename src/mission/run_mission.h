@@ -1,6 +1,7 @@
 // compute_mission, and what else the program wants to know of the run.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "vantage/error.h"
@@ -10,13 +11,14 @@ namespace vantage::mission_io {
 
 struct MissionRun {
   Volume volume;
-  SceneStatistics scene;        ///< what preparing found
-  UpAxis scene_up = UpAxis::z;  ///< axes of the scene file, for OBJ
-  double scene_scale = 1.0;     ///< metres in its unit, likewise
+  SceneStatistics scene;                 ///< what preparing found
+  UpAxis scene_up = UpAxis::z;           ///< axes of the scene file, for OBJ
+  double scene_scale = 1.0;              ///< metres in its unit, likewise
+  std::optional<SpheresReport> spheres;  ///< what the spheres method did, where it was used
 };
 
-/// As compute_mission.
-MissionRun run_mission(const Mission& mission, const Progress& progress);
+/// As compute_mission. `stages` are those of the spheres method.
+MissionRun run_mission(const Mission& mission, const Progress& progress, const StageSink& stages = {});
 
 /// Calls `action` and returns what it returns. An Error(input) from it is thrown on with `place` (of the mission file)
 /// put in front of its own `where`: the engine knows the objects, but not the file that named the target.

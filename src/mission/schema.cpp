@@ -16,9 +16,9 @@ struct SectionKeys {
   std::vector<std::string_view> keys;
 };
 
-const std::array<SectionKeys, 8>& table() {
-  static const std::array<SectionKeys, 8> kTable = {{
-      {Section::mission, "the mission", {"scene", "target", "sensor", "navigation", "method", "exact"}},
+const std::array<SectionKeys, 9>& table() {
+  static const std::array<SectionKeys, 9> kTable = {{
+      {Section::mission, "the mission", {"scene", "target", "sensor", "navigation", "method", "exact", "spheres"}},
       {Section::scene, "scene", {"mesh", "up", "scale"}},
       {Section::target, "target", {"name", "vertices", "edges", "point", "offset", "front"}},
       {Section::sensor, "sensor", {"max_range"}},
@@ -26,6 +26,7 @@ const std::array<SectionKeys, 8>& table() {
       {Section::box, "a box", {"min", "max"}},
       {Section::mesh, "an entry of navigation.meshes", {"mesh", "up", "scale"}},
       {Section::exact, "exact", {"tolerance"}},
+      {Section::spheres, "spheres", {"sphere", "cubemap", "resolution", "split", "max_splits", "min_edge", "device"}},
   }};
   return kTable;
 }

@@ -11,7 +11,7 @@
 namespace vantage::mission_io {
 
 /// The sections of a mission file. A section's keys, and nothing else, may stand in its map.
-enum class Section { mission, scene, target, sensor, navigation, box, mesh, exact };
+enum class Section { mission, scene, target, sensor, navigation, box, mesh, exact, spheres };
 
 /// How messages call a section: "scene", "target"; "the mission" for the outermost one.
 std::string_view section_name(Section section);

@@ -30,4 +30,16 @@ const char* name_of(Outcome outcome) {
   return "unknown";
 }
 
+const char* name_of(DeviceKind kind) {
+  switch (kind) {
+    case DeviceKind::cpu:
+      return "cpu";
+    case DeviceKind::opengl_software:
+      return "opengl_software";
+    case DeviceKind::opengl_hardware:
+      return "opengl_hardware";
+  }
+  return "unknown";
+}
+
 }  // namespace vantage::solid

@@ -1,6 +1,7 @@
 // How kinds of causes and outcomes are called in files.
 #pragma once
 
+#include "vantage/devices.h"
 #include "vantage/volume.h"
 
 namespace vantage::solid {
@@ -10,5 +11,8 @@ const char* name_of(CauseKind kind);
 
 /// "computed", "out_of_range", "blocked_at_once", "outside_limits".
 const char* name_of(Outcome outcome);
+
+/// "cpu", "opengl_software", "opengl_hardware".
+const char* name_of(DeviceKind kind);
 
 }  // namespace vantage::solid

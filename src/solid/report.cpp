@@ -39,7 +39,36 @@ Json json_of(const Seconds& seconds) {
           {"write", seconds.write},   {"total", seconds.total}};
 }
 
+Json json_of(const SpheresRun& run) {
+  const SpheresOptions& options = run.options;
+  const SpheresReport& report = run.report;
+  Json json;
+  json["device"] = {
+      {"kind", name_of(report.device.kind)}, {"name", report.device.name}, {"driver", report.device.driver}};
+  if (!report.device_note.empty()) json["device"]["note"] = report.device_note;
+  json["sphere"] = options.sphere == SpheresOptions::Sphere::centers ? "centers" : "conservative";
+  if (options.resolution) {
+    json["resolution"] = *options.resolution;
+  } else {
+    json["cubemap"] = options.cubemap;
+  }
+  json["split"] = options.split == SpheresOptions::Split::always ? "always" : "euler";
+  json["max_splits"] = options.max_splits;
+  json["min_edge_m"] = options.min_edge_m;
+  json["spheres"] = report.spheres;
+  json["pairs"] = report.pairs;
+  json["splits"] = report.splits;
+  json["unresolved_pairs"] = report.unresolved_pairs;
+  json["render_seconds"] = report.render_seconds;
+  json["boolean_seconds"] = report.boolean_seconds;
+  return json;
+}
+
 }  // namespace
+
+std::string spheres_json(const SpheresRun& run) {
+  return json_of(run).dump(2, ' ', false, Json::error_handler_t::replace);
+}
 
 std::string report_json(const Volume& volume, const MeshMeasures& measures, const ReportSource& source) {
   Json report;
@@ -49,6 +78,7 @@ std::string report_json(const Volume& volume, const MeshMeasures& measures, cons
   for (const auto& [key, text] : sources) {
     if (!text->empty()) report[key] = *text;
   }
+  report["method"] = source.spheres ? "spheres" : "exact";
   report["outcome"] = name_of(volume.outcome);
   report["reason"] = volume.reason;
   report["hint"] = volume.hint;
@@ -64,6 +94,7 @@ std::string report_json(const Volume& volume, const MeshMeasures& measures, cons
   report["lift_m"] = volume.lift_m;
   report["bounding_box"] = json_of(measures.bounds);
   report["causes"] = json_of(volume.causes);
+  if (source.spheres) report["spheres"] = json_of(*source.spheres);
   report["counts"] = json_of(volume.counts);
   report["seconds"] = json_of(volume.seconds);
   return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -1,0 +1,149 @@
+#include "cli/stage_folder.h"
+
+#include <stdlib.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <system_error>
+#include <utility>
+
+#include "solid/atomic_file.h"
+#include "solid/names.h"
+#include "solid/report.h"
+#include "vantage/error.h"
+#include "vantage/volume.h"
+
+namespace vantage::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kStory = "stages.json";
+
+const char* name_of(SphereStage::Kind kind) {
+  switch (kind) {
+    case SphereStage::Kind::sphere:
+      return "sphere";
+    case SphereStage::Kind::pair:
+      return "pair";
+    case SphereStage::Kind::split:
+      return "split";
+    case SphereStage::Kind::partial:
+      return "partial";
+    case SphereStage::Kind::result:
+      return "result";
+  }
+  return "unknown";
+}
+
+/// "007_pair_0-1.ply".
+std::string file_name(std::size_t order, std::string name) {
+  std::array<char, 32> number;
+  std::snprintf(number.data(), number.size(), "%03zu_", order);
+  std::replace(name.begin(), name.end(), ' ', '_');
+  return number.data() + name + ".ply";
+}
+
+Json json_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+/// Without a slash at the end, which would make the folder its own parent.
+fs::path without_slash(const fs::path& folder) { return folder.has_filename() ? folder : folder.parent_path(); }
+
+}  // namespace
+
+StageFolder::StageFolder(fs::path folder) : asked_(std::move(folder)), folder_(without_slash(asked_)) {
+  std::error_code error;
+  const fs::file_status status = fs::status(folder_, error);
+  if (folder_.empty() || (fs::exists(status) && !fs::is_directory(status)))
+    throw Error(ErrorKind::input, "the place of the stages is not a folder", asked_.string(),
+                "name a folder for --stages; it is made if it does not exist");
+  if (fs::exists(status) && !fs::is_empty(folder_, error) && !fs::exists(folder_ / kStory, error))
+    throw Error(ErrorKind::input, std::string("the folder of the stages holds other things: no ") + kStory,
+                asked_.string(), "name an empty or a new folder, or one that --stages wrote");
+  if (fs::is_symlink(folder_, error)) folder_ = fs::canonical(folder_, error);
+  const fs::path parent = folder_.has_parent_path() ? folder_.parent_path() : fs::path(".");
+  std::string pattern = (parent / ".vantage-stages-XXXXXX").string();
+  if (::mkdtemp(pattern.data()) == nullptr) fail("the folder of the stages cannot be made", errno);
+  temporary_ = pattern;
+  // As other programs make folders; mkdtemp makes it private.
+  fs::permissions(temporary_, fs::exists(status) ? status.permissions() : fs::perms(0755), error);
+}
+
+StageFolder::~StageFolder() {
+  std::error_code ignored;
+  if (!temporary_.empty()) fs::remove_all(temporary_, ignored);
+}
+
+void StageFolder::fail(const std::string& problem, int error_number) const {
+  throw Error(ErrorKind::output, problem + ": " + std::strerror(error_number), asked_.string(),
+              "name a folder that can be written, on a disk with room");
+}
+
+StageSink StageFolder::sink() {
+  return [this](const SphereStage& stage) { add(stage); };
+}
+
+void StageFolder::add(const SphereStage& stage) {
+  Told told{name_of(stage.kind),   stage.name,      "",           stage.points, stage.euler,
+            stage.component_euler, stage.volume_m3, stage.seconds};
+  if (stage.mesh && !stage.mesh->empty()) {
+    Volume volume;
+    volume.mesh = *stage.mesh;
+    volume.causes = {{CauseKind::scene, stage.name, surface_area(volume.mesh)}};
+    volume.cause_of.assign(volume.mesh.triangles.size(), 0);
+    told.file = file_name(stages_.size(), stage.name);
+    write_volume(volume, temporary_ / told.file);
+  }
+  stages_.push_back(std::move(told));
+}
+
+void StageFolder::commit(const Mission& mission, const Volume& volume, const SpheresReport& report) {
+  Json story;
+  story["version"] = VANTAGE_VERSION;
+  story["mission"] = mission.file.string();
+  story["target"] = mission.target.name;
+  story["max_range_m"] = mission.sensor.max_range_m;
+  story["outcome"] = solid::name_of(volume.outcome);
+  story["reason"] = volume.reason;
+  story["run"] = Json::parse(solid::spheres_json({mission.spheres, report}));
+  story["stages"] = Json::array();
+  for (std::size_t i = 0; i < stages_.size(); ++i) {
+    const Told& told = stages_[i];
+    Json points = Json::array();
+    for (const Vec3& point : told.points) points.push_back(json_of(point));
+    Json stage = {{"order", i}, {"kind", told.kind}, {"name", told.name}, {"points", points}};
+    if (told.kind != "split") {
+      stage["euler"] = told.euler;
+      stage["component_euler"] = told.component_euler;
+      stage["volume_m3"] = told.volume_m3;
+      stage["seconds"] = told.seconds;
+      stage["file"] = told.file.empty() ? Json(nullptr) : Json(told.file);
+    }
+    story["stages"].push_back(std::move(stage));
+  }
+  solid::write_whole_file(temporary_ / kStory, story.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+
+  // A full folder cannot be renamed over: the old one steps aside first, and comes back if that fails.
+  std::error_code error;
+  const fs::path aside = temporary_.string() + "-old";
+  const bool is_replacing = fs::exists(folder_, error);
+  if (is_replacing) {
+    fs::rename(folder_, aside, error);
+    if (error) fail("the old folder of the stages cannot be replaced", error.value());
+  }
+  fs::rename(temporary_, folder_, error);
+  if (error) {
+    std::error_code ignored;
+    if (is_replacing) fs::rename(aside, folder_, ignored);
+    fail("the folder of the stages cannot be put in place", error.value());
+  }
+  temporary_.clear();
+  if (is_replacing) fs::remove_all(aside, error);
+}
+
+}  // namespace vantage::cli

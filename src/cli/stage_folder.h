@@ -1,0 +1,45 @@
+// Writes down a run of the spheres method step by step, for `compute --stages`.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "vantage/mission.h"
+#include "vantage/spheres.h"
+
+namespace vantage::cli {
+
+/// A folder of numbered meshes (000_sphere_0.ply, scene frame) and stages.json. It is made under another name beside
+/// its place, and put there by commit() as a whole; before that, and when anything fails, what was there stays. An
+/// older folder is replaced only if it is empty or holds a stages.json.
+class StageFolder {
+ public:
+  /// Throws Error(input) for a place that is taken by something else, Error(output) where no folder can be made.
+  explicit StageFolder(std::filesystem::path folder);
+  StageFolder(const StageFolder&) = delete;
+  StageFolder& operator=(const StageFolder&) = delete;
+  ~StageFolder();
+
+  /// Valid as long as this object. Its calls throw Error(output).
+  StageSink sink();
+
+  /// Writes the story and puts the folder in its place. Throws Error(output).
+  void commit(const Mission& mission, const Volume& volume, const SpheresReport& report);
+
+ private:
+  void add(const SphereStage& stage);
+  [[noreturn]] void fail(const std::string& problem, int error_number) const;
+
+  std::filesystem::path asked_, folder_, temporary_;
+  struct Told {
+    std::string kind, name, file;  // no file: there is no mesh, or it is empty
+    std::vector<Vec3> points;
+    long euler;
+    std::vector<long> component_euler;
+    double volume_m3, seconds;
+  };
+  std::vector<Told> stages_;
+};
+
+}  // namespace vantage::cli

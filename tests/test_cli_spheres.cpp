@@ -1,0 +1,159 @@
+// The method of spheres as users of the program meet it: options, reports, stages.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "support/cli_fixture.h"
+#include "vantage/scene.h"
+#include "vantage/volume.h"
+
+namespace vantage {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+class CliSpheres : public testing::Cli {
+ protected:
+  void SetUp() override {
+    Cli::SetUp();
+    write_mission("spheres: {cubemap: 12, max_splits: 1, device: cpu}\n");
+  }
+  void write_mission(const std::string& more) {
+    write("mission.yaml", std::string(testing::kScene) + testing::kTarget + testing::kSensor + more);
+  }
+  json report() const { return json::parse(testing::content(folder_ / "volume.report.json")); }
+};
+
+TEST_F(CliSpheres, ComputesAndReports) {
+  const std::string said = output_of({"compute", "mission.yaml", "--method", "spheres", "-o", "volume.ply"});
+  for (const char* expected :
+       {"visibility spheres, CPU", "spheres", "pairs", "splits", "unresolved", "for intersections"})
+    EXPECT_NE(said.find(expected), std::string::npos) << expected << " in\n" << said;
+  const json r = report();
+  EXPECT_EQ(r.at("method"), "spheres");
+  EXPECT_EQ(r.at("outcome"), "computed");
+  EXPECT_EQ(r.at("closed"), true);
+  EXPECT_EQ(r.at("spheres").at("device").at("kind"), "cpu");
+  EXPECT_EQ(r.at("spheres").at("cubemap"), 12);
+  EXPECT_EQ(r.at("spheres").at("sphere"), "conservative");
+  EXPECT_GE(r.at("spheres").at("spheres").get<int>(), 4);
+  EXPECT_GE(r.at("spheres").at("pairs").get<int>(), 4);
+  EXPECT_GT(r.at("spheres").at("boolean_seconds").get<double>(), 0);
+  const Mesh volume = read_scene(folder_ / "volume.ply").mesh;
+  EXPECT_TRUE(measure(volume).closed);
+
+  output_of({"compute", "mission.yaml", "-o", "volume.ply"});
+  EXPECT_EQ(report().at("method"), "exact");
+  EXPECT_FALSE(report().contains("spheres"));
+}
+
+TEST_F(CliSpheres, TheMissionMayNameTheMethod) {
+  write_mission(
+      "method: spheres\nspheres: {resolution: [24, 12], sphere: centers, split: always, max_splits: 1, min_edge: 1}\n");
+  output_of({"compute", "mission.yaml", "-q", "-o", "volume.ply"});
+  const json r = report().at("spheres");
+  EXPECT_EQ(r.at("resolution"), json({24, 12}));
+  EXPECT_EQ(r.at("sphere"), "centers");
+  EXPECT_EQ(r.at("split"), "always");
+  EXPECT_EQ(r.at("splits"), 4);
+  output_of({"compute", "mission.yaml", "-q", "--method", "exact", "-o", "volume.ply"});
+  EXPECT_EQ(report().at("method"), "exact");
+}
+
+TEST_F(CliSpheres, QueriesSayThatTheyAreExact) {
+  write_mission("method: spheres\n");
+  write("points.csv", "0 0 10\n");
+  const auto result = run({"query", "mission.yaml", "points.csv"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_NE(result.err.find("answered exactly"), std::string::npos) << result.err;
+  EXPECT_NE(result.out.find("true"), std::string::npos);
+}
+
+TEST_F(CliSpheres, RefusesWhatIsOutOfRangeWithItsPlace) {
+  const auto refused = [&](const std::string& section, const std::string& what,
+                           const std::string& where = "mission.yaml:") {
+    expect_bad_mission(
+        std::string(testing::kScene) + testing::kTarget + testing::kSensor + "method: spheres\n" + section, what,
+        where);
+  };
+  refused("spheres: {cubemap: 0}\n", "cubemap must be from 1", "mission.yaml:7:20");
+  refused("spheres: {cubemap: 100000}\n", "cubemap must be from 1 to 8192");
+  refused("spheres: {cubemap: 10.5}\n", "must be a whole number");
+  refused("spheres: {cubemap: 1e300}\n", "must be a whole number");
+  refused("spheres: {resolution: [0, 80]}\n", "resolution");
+  refused("spheres: {resolution: 160}\n", "must be a list");
+  refused("spheres: {resolution: [160, 80, 3]}\n", "must be two whole numbers");
+  refused("spheres: {max_splits: -1}\n", "max_splits");
+  refused("spheres: {min_edge: 0}\n", "min_edge");
+  refused("spheres: {sphere: round}\n", "conservative or centers");
+  refused("spheres: {split: never}\n", "euler or always");
+  refused("spheres: {device: toaster}\n", "toaster");
+  refused("spheres: {cubemaps: 4}\n", "unknown key 'cubemaps'");
+  expect_bad_mission(std::string(testing::kScene) + testing::kTarget + testing::kSensor + "method: sphere\n",
+                     "there is no method");
+}
+
+TEST_F(CliSpheres, RefusesItsOptionsForTheExactMethod) {
+  expect_bad({"compute", "mission.yaml", "-o", "volume.ply", "--stages", "stages"}, "--stages is for the method");
+  expect_bad({"compute", "mission.yaml", "-o", "volume.ply", "--device", "cpu"}, "--device is for the method");
+  expect_bad({"compute", "mission.yaml", "-o", "volume.ply", "--method", "spheres", "--device", "99"}, "no device 99");
+}
+
+TEST_F(CliSpheres, WritesItsStages) {
+  output_of({"compute", "mission.yaml", "--method", "spheres", "-o", "volume.ply", "--stages", "stages/"});
+  const json story = json::parse(testing::content(folder_ / "stages" / "stages.json"));
+  const json& stages = story.at("stages");
+  ASSERT_GE(stages.size(), 9U);
+  std::size_t files = 1;
+  for (std::size_t i = 0; i < stages.size(); ++i) {
+    EXPECT_EQ(stages[i].at("order"), i);
+    if (!stages[i].contains("file") || stages[i].at("file").is_null()) continue;
+    ++files;
+    const Mesh mesh = read_scene(folder_ / "stages" / stages[i].at("file").get<std::string>()).mesh;
+    const MeshMeasures m = measure(mesh);
+    EXPECT_TRUE(m.closed);
+    EXPECT_EQ(m.euler, stages[i].at("euler"));
+    EXPECT_NEAR(m.volume_m3, stages[i].at("volume_m3"), 1e-6 * m.volume_m3);
+  }
+  EXPECT_EQ(stages[0].at("kind"), "sphere");
+  EXPECT_EQ(stages[0].at("file"), "000_sphere_0.ply");
+  EXPECT_EQ(stages.back().at("kind"), "result");
+  EXPECT_EQ(story.at("run").at("spheres"), report().at("spheres").at("spheres"));
+  const auto count = [&] {
+    return std::distance(fs::directory_iterator(folder_ / "stages"), fs::directory_iterator());
+  };
+  EXPECT_EQ(std::size_t(count()), files);
+
+  // Again, with fewer: nothing of the old ones stays, and nothing beside the folder either.
+  write("stages/999_sphere_999.ply", "old");
+  output_of({"compute", "mission.yaml", "--method", "spheres", "-q", "-o", "volume.ply", "--stages", "stages"});
+  EXPECT_EQ(std::size_t(count()), files);
+  for (const auto& entry : fs::directory_iterator(folder_))
+    EXPECT_EQ(entry.path().filename().string().find(".vantage"), std::string::npos) << entry.path();
+}
+
+TEST_F(CliSpheres, LeavesOtherFoldersAlone) {
+  const std::vector<std::string> command = {"compute", "mission.yaml", "--method", "spheres",
+                                            "-o",      "volume.ply",   "--stages"};
+  const auto with = [&](const std::string& folder) {
+    std::vector<std::string> arguments = command;
+    arguments.push_back(folder);
+    return arguments;
+  };
+  write("mine/letter.txt", "dear");
+  expect_bad(with("mine"), "holds other things", "mine");
+  expect_bad(with("city.obj"), "not a folder", "city.obj");
+  expect_bad(with("no/such/place"), "cannot be made", "no/such/place");
+  // A run that fails leaves the older stages, and no traces.
+  write("stages/stages.json", "{}");
+  write("mission.yaml",
+        std::string(testing::kScene) + testing::kSensor +
+            "target: {vertices: [[22, -3, 5], [28, -3, 5], [25, 3, 15]]}\nspheres: {device: cpu, cubemap: 4}\n");
+  expect_bad(with("stages"), "stands on or passes through the target", "mission.yaml");
+}
+
+}  // namespace
+}  // namespace vantage
