@@ -16,8 +16,9 @@ namespace vantage::render {
 namespace {
 
 // Texels along a side of a face from which on rasterising all polygons in range is faster than a ray for each texel.
-// Measured per cube map with one thread, rays and rasterising: 40 texels 0.5 and 1.6 ms, 200 texels 7.3 and 3.3 ms, 2048
-// texels 578 and 52 ms (Florence, 300 m; Munich is alike, in Charlotte with its fewer polygons rasterising gains more).
+// Measured per cube map with one thread, rays and rasterising: 40 texels 0.5 and 1.6 ms, 200 texels 7.3 and 3.3 ms,
+// 2048 texels 578 and 52 ms (Florence, 300 m; Munich is alike, in Charlotte with its fewer polygons rasterising gains
+// more).
 constexpr int kRasterSize = 128;
 constexpr int kBandRows = 128;                              // of a face: the unit of work of a thread
 constexpr std::size_t kAheadBytes = std::size_t{64} << 20;  // for the images of one round of viewpoints
