@@ -40,7 +40,7 @@ void main() {
   normal /= area;
   double distance = dot(normal, a);
   if (distance < 0.0LF) { distance = -distance; normal = -normal; }
-  if (distance < 1e-9LF) return;  // seen edge on
+  if (distance < 1e-8LF) return;  // seen edge on
   mat3 axes = faces[corner[0].face];
   vec3 p[3];
   for (int k = 0; k < 3; ++k) p[k] = axes * vec3(corner[k].offset);
@@ -68,7 +68,7 @@ uniform float face_size;
 void main() {
   vec2 c = (2.0 * gl_FragCoord.xy - face_size) / face_size;
   precise float q = (plane.x * c.x + plane.y * c.y + plane.z) * plane.w;
-  gl_FragDepth = clamp(q, depths.x, depths.y) * 0.00000095367431640625;  // 2^-20
+  gl_FragDepth = clamp(q, depths.x, depths.y) * 7.450580596923828125e-9;  // 2^-27
 }
 )";
 
@@ -97,6 +97,19 @@ void extend(vec3 p, float slack) {
   high = max(high, c + grow);
 }
 
+double segment_distance(dvec3 from, dvec3 to) {
+  dvec3 along = to - from;
+  return length(from + clamp(-dot(from, along) / dot(along, along), 0.0LF, 1.0LF) * along);
+}
+
+// Whether the eye is on the triangle: then it grazes the triangle wherever it looks along it, which hides nothing.
+bool touches(dvec3 a, dvec3 b, dvec3 c, dvec3 normal, double distance) {
+  if (abs(distance) >= 1e-8LF) return false;
+  double ab = dot(normal, cross(a, b)), bc = dot(normal, cross(b, c)), ca = dot(normal, cross(c, a));
+  if (ab >= 0.0LF && bc >= 0.0LF && ca >= 0.0LF) return true;
+  return min(min(segment_distance(a, b), segment_distance(b, c)), segment_distance(c, a)) < 1e-8LF;
+}
+
 float segment_distance(vec3 from, vec3 to) {
   vec3 along = to - from;
   return length(from + clamp(-dot(from, along) / dot(along, along), 0.0, 1.0) * along);
@@ -117,6 +130,7 @@ void main() {
   if (area == 0.0LF) return;
   normal /= area;
   double distance = dot(normal, a);
+  if (touches(a, b, c, normal, distance)) return;
   mat3 axes = faces[corner[0].face];
   vec3 p[3] = vec3[3](axes * vec3(a), axes * vec3(b), axes * vec3(c));
   if (distance < 0.0LF) {
@@ -143,7 +157,7 @@ void main() {
   float reach = triangle_distance(p, axes * vec3(normal), height, slack * longest) - slack;
   float nearest = 0.577 * max(reach, 0.999 * height);  // what the image holds is at z >= distance / sqrt(3)
   float least = min(min(z.x, z.y), z.z);
-  float cap = min(1.000001 / max(max(least - slack, nearest), 9.5367432e-7), 1048576.0);
+  float cap = min(1.000001 / max(max(least - slack, nearest), 7.4505806e-9), 134217728.0);
 
   if (least >= 8.0 * slack) {
     for (int k = 0; k < 3; ++k) extend(p[k], slack);
@@ -178,7 +192,7 @@ void main() {
       errors.w = 4.8e-7 + 2.0 * float(angle_error);  // 2^-21: eight roundings of sums of three up to 1
     }
     gl_Position = vec4((k & 1) == 0 ? low.x : high.x, (k & 2) == 0 ? low.y : high.y,
-                       min(1.000001 * cap * 9.5367432e-7, 1.0), 1);
+                       min(1.000001 * cap * 7.4505806e-9, 1.0), 1);
     EmitVertex();
   }
 }
@@ -234,9 +248,9 @@ void main() {
                           least_depth(corner_b.z, corner_c.z, in_b, in_c)),
                       least_depth(corner_c.z, corner_a.z, in_c, in_a));
     if (depth == kNone) discard;
-    q = min(q, 1.000001 / max(depth - errors.x, 9.5367432e-7));
+    q = min(q, 1.000001 / max(depth - errors.x, 7.4505806e-9));
   }
-  gl_FragDepth = q * 0.00000095367431640625;  // 2^-20
+  gl_FragDepth = q * 7.450580596923828125e-9;  // 2^-27
 }
 )";
 

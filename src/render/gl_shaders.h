@@ -4,8 +4,8 @@
 namespace vantage::render {
 
 /// What the depth image holds, for an inverse depth of 1/m: a power of two, so that dividing by it is exact. Also the
-/// nearest distance, in metres, that it can tell from zero.
-inline constexpr double kDepthScale = 0x1p-20;
+/// least depth, in metres, that an image holds: less is nothing that a scene is exact to.
+inline constexpr double kDepthScale = 0x1p-27;
 
 struct ShaderSources {
   const char* vertex;
