@@ -57,7 +57,7 @@ Mesh moved(Mesh mesh, const Vec3& shift) {
 
 /// What holds for any comparison.
 Comparison compared(const Mesh& a, const Mesh& b) {
-  const Comparison c = compare_volumes(a, b);
+  Comparison c = compare_volumes(a, b);
   const double scale = 1e-9 * (c.volume_a_m3 + c.volume_b_m3);
   EXPECT_NEAR(c.volume_a_m3, enclosed_volume(a), scale);
   EXPECT_NEAR(c.volume_b_m3, enclosed_volume(b), scale);
