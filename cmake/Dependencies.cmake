@@ -12,6 +12,10 @@ add_library(vantage_embree INTERFACE)
 add_library(vantage::embree ALIAS vantage_embree)
 target_link_libraries(vantage_embree INTERFACE embree)
 
+# Cairo: writing on pictures, and PNG (src/render only).
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(CAIRO REQUIRED IMPORTED_TARGET cairo>=1.16)
+
 # Source releases that Debian does not package, fetched by scripts/fetch_sources.sh (pinned by version and hash).
 set(VANTAGE_DEPS_DIR ${PROJECT_SOURCE_DIR}/.deps CACHE PATH "Where scripts/fetch_sources.sh puts source releases")
 

@@ -342,11 +342,11 @@ TEST(WriteGlb, HasTheColoursOfThePictures) {
   const TemporaryDirectory directory;
   write_volume(awkward_volume(), directory / "v.glb");
   const Glb glb = parse_glb(read_bytes(directory / "v.glb"));
-  // docs/gallery/render.py, from sRGB to linear.
-  const std::map<std::string, Vec3> colours = {{"scene", Vec3(0.0343, 0.1559, 0.5149)},
-                                               {"range", Vec3(0.8550, 0.3050, 0.0319)},
-                                               {"target_plane", Vec3(0.3050, 0.3050, 0.3050)},
-                                               {"navigation", Vec3(0.0452, 0.3515, 0.1274)}};
+  // src/render/palette.h, from sRGB to linear.
+  const std::map<std::string, Vec3> colours = {{"scene", Vec3(0.0000, 0.1683, 0.4452)},
+                                               {"range", Vec3(0.7913, 0.3467, 0.0000)},
+                                               {"target_plane", Vec3(0.2159, 0.2159, 0.2384)},
+                                               {"navigation", Vec3(0.0000, 0.3419, 0.1714)}};
   ASSERT_EQ(glb.json.at("materials").size(), colours.size());
   for (const nlohmann::json& material : glb.json.at("materials")) {
     const nlohmann::json& factor = material.at("pbrMetallicRoughness").at("baseColorFactor");

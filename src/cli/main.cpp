@@ -25,6 +25,7 @@ constexpr const char* kExamples =
     "  vantage compare spheres.ply exact.ply\n"
     "  vantage devices\n"
     "  vantage spheres -c config.yaml\n"
+    "  vantage render mission.yaml --volume volume.ply -o picture.png\n"
     "\n"
     "EXIT CODES\n"
     "  0  done\n"
@@ -123,6 +124,7 @@ int run(int argument_count, char** arguments) {
   add_compare(app, chosen);
   add_devices(app, chosen);
   add_spheres(app, chosen);
+  add_render(app, chosen);
 
   try {
     app.parse(argument_count, arguments);

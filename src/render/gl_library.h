@@ -39,6 +39,7 @@ namespace vantage::render {
 // OpenGL 4.5 core.
 #define VANTAGE_GL_FUNCTIONS(X)                                               \
   X(ATTACHSHADER, AttachShader)                                               \
+  X(BEGINQUERY, BeginQuery)                                                   \
   X(BINDBUFFER, BindBuffer)                                                   \
   X(BINDBUFFERBASE, BindBufferBase)                                           \
   X(BINDFRAMEBUFFER, BindFramebuffer)                                         \
@@ -57,6 +58,7 @@ namespace vantage::render {
   X(CREATEBUFFERS, CreateBuffers)                                             \
   X(CREATEFRAMEBUFFERS, CreateFramebuffers)                                   \
   X(CREATEPROGRAM, CreateProgram)                                             \
+  X(CREATEQUERIES, CreateQueries)                                             \
   X(CREATERENDERBUFFERS, CreateRenderbuffers)                                 \
   X(CREATESHADER, CreateShader)                                               \
   X(CREATETEXTURES, CreateTextures)                                           \
@@ -66,6 +68,7 @@ namespace vantage::render {
   X(DELETEBUFFERS, DeleteBuffers)                                             \
   X(DELETEFRAMEBUFFERS, DeleteFramebuffers)                                   \
   X(DELETEPROGRAM, DeleteProgram)                                             \
+  X(DELETEQUERIES, DeleteQueries)                                             \
   X(DELETERENDERBUFFERS, DeleteRenderbuffers)                                 \
   X(DELETESHADER, DeleteShader)                                               \
   X(DELETESYNC, DeleteSync)                                                   \
@@ -79,6 +82,7 @@ namespace vantage::render {
   X(DRAWELEMENTS, DrawElements)                                               \
   X(ENABLE, Enable)                                                           \
   X(ENABLEVERTEXARRAYATTRIB, EnableVertexArrayAttrib)                         \
+  X(ENDQUERY, EndQuery)                                                       \
   X(FENCESYNC, FenceSync)                                                     \
   X(FINISH, Finish)                                                           \
   X(FLUSH, Flush)                                                             \
@@ -89,6 +93,7 @@ namespace vantage::render {
   X(GETINTEGERV, GetIntegerv)                                                 \
   X(GETPROGRAMINFOLOG, GetProgramInfoLog)                                     \
   X(GETPROGRAMIV, GetProgramiv)                                               \
+  X(GETQUERYOBJECTUIV, GetQueryObjectuiv)                                     \
   X(GETSHADERINFOLOG, GetShaderInfoLog)                                       \
   X(GETSHADERIV, GetShaderiv)                                                 \
   X(GETSTRING, GetString)                                                     \
@@ -104,6 +109,7 @@ namespace vantage::render {
   X(NAMEDBUFFERSTORAGE, NamedBufferStorage)                                   \
   X(NAMEDBUFFERSUBDATA, NamedBufferSubData)                                   \
   X(NAMEDFRAMEBUFFERDRAWBUFFER, NamedFramebufferDrawBuffer)                   \
+  X(NAMEDFRAMEBUFFERDRAWBUFFERS, NamedFramebufferDrawBuffers)                 \
   X(NAMEDFRAMEBUFFERREADBUFFER, NamedFramebufferReadBuffer)                   \
   X(NAMEDFRAMEBUFFERRENDERBUFFER, NamedFramebufferRenderbuffer)               \
   X(NAMEDFRAMEBUFFERTEXTURE, NamedFramebufferTexture)                         \

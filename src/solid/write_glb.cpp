@@ -31,21 +31,21 @@ Json material_for(CauseKind kind) {
   const auto colour_of = [](int red, int green, int blue, double opacity) {
     return std::array<double, 4>{linear(red), linear(green), linear(blue), opacity};
   };
-  // The colours of the documentation's pictures (docs/gallery/render.py). The range, which is most of the surface, is
+  // The colours of pictures (src/render/palette.h). The range, which is most of the surface, is
   // the most transparent.
   std::array<double, 4> colour{};
   switch (kind) {
     case CauseKind::scene:
-      colour = colour_of(52, 110, 190, 0.5);
+      colour = colour_of(0, 114, 178, 0.5);
       break;
     case CauseKind::range:
-      colour = colour_of(238, 150, 50, 0.25);
+      colour = colour_of(230, 159, 0, 0.25);
       break;
     case CauseKind::target_plane:
-      colour = colour_of(150, 150, 150, 0.6);
+      colour = colour_of(128, 128, 134, 0.6);
       break;
     case CauseKind::navigation:
-      colour = colour_of(60, 160, 100, 0.4);
+      colour = colour_of(0, 158, 115, 0.4);
       break;
   }
   return {{"name", name_of(kind)},

@@ -1,0 +1,73 @@
+// Pictures of a scene, its target and its volume: drawn by OpenGL off screen, annotated, ready for a paper.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "vantage/constraints.h"
+#include "vantage/geometry.h"
+#include "vantage/progress.h"
+#include "vantage/scene.h"
+#include "vantage/target.h"
+#include "vantage/volume.h"
+
+namespace vantage {
+
+/// Where a picture is taken from.
+struct PictureView {
+  enum class Kind {
+    oblique,  ///< parallel projection from `azimuth_deg` and `elevation_deg`, framing the volume and the target
+    top,      ///< parallel projection from above, north up
+    from,     ///< perspective from `from`, looking at the target's centre
+  };
+  Kind kind = Kind::oblique;
+  std::optional<double> azimuth_deg;  ///< from x (east), counter-clockwise, to where the camera is. Default: from where
+                                      ///< the scene hides least of the target and the volume; the south-west if it may
+  double elevation_deg = 45;          ///< above the horizon, -90 to 90
+  Vec3 from = Vec3::Zero();           ///< scene frame, metres
+};
+
+/// What to draw, and how.
+struct PictureRequest {
+  const Target* target = nullptr;  ///< drawn where it is given, `offset_m` applied; three vertices or more, or one
+  const Volume* volume = nullptr;  ///< its mesh, `cause_of` and `causes`; without causes it has one colour
+  const Mesh* solid = nullptr;     ///< instead of a volume: any mesh, in one colour
+  Navigation navigation;           ///< its boxes are drawn as thin lines
+  PictureView view;
+  int width = 1600, height = 1200;  ///< pixels, 64 to 4096
+  bool draw_scene = true;
+  bool annotate = true;         ///< title, legend, scale bar, north arrow
+  std::string title, subtitle;  ///< UTF-8
+  std::vector<Vec3> frame;      ///< what the picture must hold. Empty: volume or solid, target and boxes
+};
+
+/// Rows from the top, four bytes a pixel: red, green, blue (sRGB), and opacity, which is 255 everywhere.
+struct Picture {
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> rgba;
+};
+
+/// Draws with the first graphics processor, or without one with OpenGL that the processor emulates. The same request on
+/// the same machine gives the same bytes. Throws Error(input) where there is no OpenGL 4.5 (with what to install), and
+/// for a size out of range, a view or meshes that make no sense; Error(cancelled) when told to stop. Cost: some
+/// seconds where OpenGL is emulated, in proportion to the pixels and to the triangles near the volume.
+Picture render_picture(const Scene& scene, const PictureRequest& request, const Progress& progress = {});
+
+/// A panel of a figure sheet.
+struct PicturePanel {
+  Picture picture;
+  std::string caption;  ///< UTF-8, one line
+};
+
+/// Panels in rows, lettered (a), (b), ..., with their captions underneath and a title on top. All panels must have the
+/// size of the first; Error(input) otherwise, or when there is none.
+Picture arrange_sheet(const std::vector<PicturePanel>& panels, int columns, const std::string& title,
+                      const std::string& subtitle);
+
+/// PNG, 8 bits a channel. Written whole or not at all; throws Error(output), Error(input) as AtomicFile does.
+void write_png(const Picture& picture, const std::filesystem::path& file);
+
+}  // namespace vantage

@@ -1,0 +1,107 @@
+#include "cli/picture_options.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "cli/text_table.h"
+#include "mission/input_file.h"
+#include "mission/numbers.h"
+#include "solid/read_causes.h"
+#include "vantage/error.h"
+
+namespace vantage::cli {
+namespace {
+
+constexpr int kSmallest = 64, kLargest = 4096;  // pixels, as in vantage/picture.h
+
+[[noreturn]] void refuse_view(const std::string& problem) {
+  throw Error(ErrorKind::input, problem, "command line, --view",
+              "write --view top, --view oblique, --view oblique AZIMUTH,ELEVATION or --view from X,Y,Z");
+}
+
+std::vector<double> numbers(const std::string& text) {
+  std::vector<double> values;
+  for (std::size_t at = 0; at <= text.size();) {
+    const std::size_t end = std::min(text.find(',', at), text.size());
+    const std::string part = text.substr(at, end - at);
+    const mission_io::ParsedNumber parsed = mission_io::parse_number(part);
+    if (parsed.fault != mission_io::NumberFault::none) {
+      refuse_view("the view's " + mission_io::in_quotes(part) + " is no number");
+    }
+    values.push_back(parsed.value);
+    at = end + 1;
+  }
+  return values;
+}
+
+/// "12,345": groups of three digits.
+std::string grouped(double value) {
+  std::string digits = fixed(value, value < 100 ? 1 : 0);
+  const std::size_t end = std::min(digits.find('.'), digits.size());
+  for (std::size_t at = end; at > 3 && digits[at - 4] != '-'; at -= 3) digits.insert(at - 3, 1, ',');
+  return digits;
+}
+
+}  // namespace
+
+PictureView parse_view(const std::vector<std::string>& words) {
+  PictureView view;
+  if (words.empty()) return view;
+  const std::string& kind = words[0];
+  const std::vector<double> values = words.size() > 1 ? numbers(words[1]) : std::vector<double>{};
+  if (kind == "top") {
+    if (!values.empty()) refuse_view("the view from the top takes no numbers");
+    view.kind = PictureView::Kind::top;
+  } else if (kind == "oblique") {
+    if (values.size() > 2) refuse_view("an oblique view takes two numbers at most");
+    if (!values.empty()) view.azimuth_deg = values[0];
+    if (values.size() > 1) view.elevation_deg = values[1];
+    if (std::abs(view.elevation_deg) > 90) refuse_view("the view's elevation is beyond 90 degrees");
+  } else if (kind == "from") {
+    if (values.size() != 3) refuse_view("the view from a point needs its three coordinates, joined by commas");
+    view.kind = PictureView::Kind::from;
+    view.from = {values[0], values[1], values[2]};
+  } else {
+    refuse_view("no view is called " + mission_io::in_quotes(kind));
+  }
+  return view;
+}
+
+std::array<int, 2> parse_size(const std::string& text) {
+  std::array<int, 2> size{};
+  const char *at = text.data(), *end = text.data() + text.size();
+  const auto first = std::from_chars(at, end, size[0]);
+  const bool is_cross = first.ec == std::errc() && first.ptr != end && (*first.ptr == 'x' || *first.ptr == 'X');
+  const auto second = is_cross ? std::from_chars(first.ptr + 1, end, size[1]) : first;
+  const auto in_range = [](int pixels) { return pixels >= kSmallest && pixels <= kLargest; };
+  if (is_cross && second.ec == std::errc() && second.ptr == end && in_range(size[0]) && in_range(size[1])) return size;
+  throw Error(ErrorKind::input, mission_io::in_quotes(text) + " is no size of a picture", "command line, --size",
+              "write WIDTHxHEIGHT in pixels, " + std::to_string(kSmallest) + " to " + std::to_string(kLargest) +
+                  " each: 1600x1200");
+}
+
+std::string picture_subtitle(const Mission& mission, const Volume* volume) {
+  const std::string dot = " \u00b7 ";
+  std::string range = fixed(mission.sensor.max_range_m, 1);
+  if (range.ends_with(".0")) range.resize(range.size() - 2);
+  std::string text = "range " + range + "\u2009m";
+  if (volume != nullptr && volume->outcome != Outcome::computed) {
+    text += dot + "no volume: " + volume->reason;
+  } else if (volume != nullptr) {
+    text += dot + grouped(enclosed_volume(volume->mesh)) + "\u2009m\u00b3";
+  }
+  return text + dot + mission.scene_file.filename().string();
+}
+
+Volume read_volume(const std::string& file, const SceneReadOptions& scene, const Progress& progress) {
+  mission_io::check_readable(file, "the volume", "");
+  SceneReadOptions options;
+  if (mission_io::is_obj(file)) options = scene;  // as compute writes it
+  Volume volume;
+  volume.mesh = read_scene(file, options, progress).mesh;
+  solid::read_causes(file, volume);
+  return volume;
+}
+
+}  // namespace vantage::cli

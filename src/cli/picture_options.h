@@ -1,0 +1,25 @@
+// What `vantage render` is asked for, in words.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "vantage/mission.h"
+#include "vantage/picture.h"
+
+namespace vantage::cli {
+
+/// "top"; "oblique", "oblique AZIMUTH" or "oblique AZIMUTH,ELEVATION"; "from X,Y,Z". Throws Error(input).
+PictureView parse_view(const std::vector<std::string>& words);
+
+/// "1600x1200". Throws Error(input) for what is no size that render_picture takes.
+std::array<int, 2> parse_size(const std::string& text);
+
+/// "range 300 m": what is written under a picture's title. `volume` may be null.
+std::string picture_subtitle(const Mission& mission, const Volume* volume);
+
+/// A volume or any other mesh, with its causes where it has some. The frame of an OBJ file is the scene file's.
+Volume read_volume(const std::string& file, const SceneReadOptions& scene, const Progress& progress);
+
+}  // namespace vantage::cli

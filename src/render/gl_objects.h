@@ -1,0 +1,39 @@
+// OpenGL objects that end with the scope they were made in.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "render/gl_library.h"
+
+namespace vantage::render {
+
+/// Makes objects of the current context; its end deletes them all. Throws DeviceFailure for a program that does not
+/// build or a framebuffer that the device refuses.
+class GlObjects {
+ public:
+  explicit GlObjects(const GlFunctions& gl) : gl_(gl) {}
+  ~GlObjects();
+  GlObjects(const GlObjects&) = delete;
+  GlObjects& operator=(const GlObjects&) = delete;
+
+  GLuint texture(GLenum format, int width, int height);
+  /// A stack of depth images that a sampler compares with, smoothly.
+  GLuint shadow_maps(int size, int count);
+  GLuint buffer(const void* data, std::size_t bytes, GLenum usage);
+  GLuint vertex_array();
+  GLuint query();
+  GLuint framebuffer();
+  /// Of whole textures; `depth` may be 0.
+  GLuint framebuffer(const std::vector<GLuint>& colours, GLuint depth);
+  /// Each shader is `header` and its own text.
+  GLuint program(const char* header, const char* vertex, const char* fragment);
+
+ private:
+  GLuint shader(GLenum stage, const char* header, const char* text);
+
+  const GlFunctions& gl_;
+  std::vector<GLuint> textures_, buffers_, arrays_, framebuffers_, programs_, queries_;
+};
+
+}  // namespace vantage::render
