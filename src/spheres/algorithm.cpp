@@ -17,7 +17,7 @@ using solid::LabelledMesh;
 using solid::Solid;
 
 /// Spheres of this many facets in all are made before their pairs are looked at: enough for a renderer to overlap its
-/// work, and few enough to hold them all (some 300 bytes each).
+/// work, and few enough to hold them all.
 constexpr std::size_t kBatchFacets = 4'000'000;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
