@@ -88,6 +88,7 @@ TEST_F(CliSpheres, RefusesWhatIsOutOfRangeWithItsPlace) {
   refused("spheres: {resolution: [160, 80, 3]}\n", "must be two whole numbers");
   refused("spheres: {max_splits: -1}\n", "max_splits");
   refused("spheres: {min_edge: 0}\n", "min_edge");
+  refused("spheres: {merge: 0.5}\n", "merge must be");
   refused("spheres: {sphere: round}\n", "conservative or centers");
   refused("spheres: {split: never}\n", "euler or always");
   refused("spheres: {device: toaster}\n", "toaster");

@@ -36,15 +36,19 @@ struct Form {
   const char* name;
   bool is_bound;
   std::optional<std::array<int, 2>> grid;
+  double merge = 0;
 };
 const Form kForms[] = {{"centers", false, {}},
                        {"corners", true, {}},
                        {"lonlat", false, std::array{9, 5}},
                        {"bound lonlat", true, std::array{9, 6}},
-                       {"coarsest bound lonlat", true, std::array{3, 2}}};
+                       {"coarsest bound lonlat", true, std::array{3, 2}},
+                       {"merged centers", false, {}, 0.02},
+                       {"merged corners", true, {}, 0.02}};
 
 StarMesh make(const Form& form, const CubeMap& cube, const Vec3* front = nullptr) {
-  if (!form.grid) return form.is_bound ? bound_corners(cube, kRange, front) : join_centers(cube, kRange);
+  if (!form.grid)
+    return form.is_bound ? bound_corners(cube, kRange, front, form.merge) : join_centers(cube, kRange, form.merge);
   return form.is_bound ? bound_lonlat(cube, *form.grid, kRange, front) : join_lonlat(cube, *form.grid, kRange);
 }
 
@@ -124,7 +128,7 @@ TEST(SphereMesh, EndsAtTheRange) {
 TEST(SphereMesh, FrontHalfIsClosedAndEndsInThePlane) {
   Random random(3);
   for (int round = 0; round < 60; ++round) {
-    const Form& form = kForms[round % 5];
+    const Form& form = kForms[round % 7];
     const int n = random.integer(1, 7);
     const std::vector<float> inverse = random_depths(random, n);
     Vec3 normal = random.direction();

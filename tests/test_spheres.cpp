@@ -326,6 +326,9 @@ TEST(Spheres, RefusesOptionsOutOfRange) {
   refused("max_splits", [](SpheresOptions& o) { o.max_splits = 17; });
   refused("min_edge", [](SpheresOptions& o) { o.min_edge_m = 0; });
   refused("min_edge", [](SpheresOptions& o) { o.min_edge_m = NAN; });
+  refused("merge", [](SpheresOptions& o) { o.merge = -1e-9; });
+  refused("merge", [](SpheresOptions& o) { o.merge = 0.06; });
+  refused("merge", [](SpheresOptions& o) { o.merge = NAN; });
   // Within the limits, but some 800 million facets: no machine of today holds that.
   refused("of memory", [](SpheresOptions& o) { o.cubemap = 8192; });
 }

@@ -26,7 +26,9 @@ const std::array<SectionKeys, 9>& table() {
       {Section::box, "a box", {"min", "max"}},
       {Section::mesh, "an entry of navigation.meshes", {"mesh", "up", "scale"}},
       {Section::exact, "exact", {"tolerance"}},
-      {Section::spheres, "spheres", {"sphere", "cubemap", "resolution", "split", "max_splits", "min_edge", "device"}},
+      {Section::spheres,
+       "spheres",
+       {"sphere", "cubemap", "resolution", "merge", "split", "max_splits", "min_edge", "device"}},
   }};
   return kTable;
 }

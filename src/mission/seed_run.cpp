@@ -127,6 +127,7 @@ SeedResult compute(const SeedConfig& config, const SeedVolume& volume, const Box
   const double radius = std::isfinite(volume.radius_max) ? volume.radius_max : farthest_corner(bounds, volume.origin);
   options.cubemap = volume.texels;
   options.resolution.reset();
+  options.merge = 0;  // theirs has every texel
   Mesh mesh = spheres::visibility_sphere(axes * volume.origin, radius, options, renderer.along(axes), progress);
   for (Vec3& v : mesh.vertices) v = axes.transpose() * v;
 

@@ -66,6 +66,7 @@ void parse_spheres(const YamlNode& node, const ValueReader& reader, SpheresOptio
     options.resolution = {whole_number(value.items[0], reader, what + "[0]"),
                           whole_number(value.items[1], reader, what + "[1]")};
   });
+  take("merge", [&](const YamlNode& value, const std::string& what) { options.merge = reader.number(value, what); });
   take("split", [&](const YamlNode& value, const std::string& what) {
     options.split = one_of<Split>(value, reader, what, {{{"euler", Split::euler}, {"always", Split::always}}});
   });

@@ -52,6 +52,7 @@ Json json_of(const SpheresRun& run) {
   } else {
     json["cubemap"] = options.cubemap;
   }
+  json["merge"] = options.merge;
   json["split"] = options.split == SpheresOptions::Split::always ? "always" : "euler";
   json["max_splits"] = options.max_splits;
   json["min_edge_m"] = options.min_edge_m;

@@ -20,6 +20,7 @@ constexpr int kMostSplits = 16;
 /// Peak memory of a run with three spheres cut to the front, over the facets of one whole sphere: 620 to 710 bytes
 /// (Charlotte, 300 m range, faces of 300 and 200 texels).
 constexpr double kBytesPerFacet = 700;
+constexpr double kLargestMerge = 0.05;
 
 [[noreturn]] void refuse(const std::string& problem, const std::string& fix) {
   throw Error(ErrorKind::input, problem, "spheres", fix);
@@ -66,6 +67,8 @@ void check_options(const SpheresOptions& options) {
         "give how often an edge may be halved, such as 6");
   if (!(options.min_edge_m > 0) || !std::isfinite(options.min_edge_m))
     refuse("min_edge must be a positive, finite number of metres", "give for example 0.5");
+  if (!(options.merge >= 0) || options.merge > kLargestMerge)
+    refuse("merge must be from 0 to 0.05", "give the part of its distance that a facet may be off, such as 0.00025");
   check_memory(options);
 }
 
@@ -98,9 +101,10 @@ StarMesh SphereMaker::tessellated(std::span<const float> inverse_depths) const {
   const CubeMap cube{face_size_, inverse_depths};
   const Vec3* front = front_only_ ? &frame_.normal : nullptr;
   if (options_.sphere == SpheresOptions::Sphere::centers)
-    return options_.resolution ? join_lonlat(cube, *options_.resolution, range_m_) : join_centers(cube, range_m_);
+    return options_.resolution ? join_lonlat(cube, *options_.resolution, range_m_)
+                               : join_centers(cube, range_m_, options_.merge);
   return options_.resolution ? bound_lonlat(cube, *options_.resolution, range_m_, front)
-                             : bound_corners(cube, range_m_, front);
+                             : bound_corners(cube, range_m_, front, options_.merge);
 }
 
 void SphereMaker::make(const std::vector<Vec3>& points, const std::function<void(std::size_t, Sphere)>& sink) const {

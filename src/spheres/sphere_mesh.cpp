@@ -7,6 +7,7 @@
 
 #include "parallel/parallel.h"
 #include "spheres/cube_grid.h"
+#include "spheres/merge.h"
 #include "spheres/numerics.h"
 #include "spheres/texel_depths.h"
 
@@ -22,10 +23,9 @@ void set_ray(StarMesh& star, std::size_t vertex, const Vec3& direction, double i
   star.rays[vertex] = std::max(std::min(depth, at_range) * shorten, numerics::kFloor) * direction;
 }
 
-void resize(StarMesh& star, std::size_t vertices, std::size_t triangles) {
+void resize(StarMesh& star, std::size_t vertices) {
   star.rays.resize(vertices);
   star.at_range.resize(vertices);
-  star.triangles.resize(triangles);
 }
 
 std::size_t row_grain(int n) { return std::max<std::size_t>(1, std::size_t{1 << 13} / n); }
@@ -45,7 +45,7 @@ Triangle outward(const StarMesh& star, Triangle t) {
 }
 
 /// Strips between the faces along the cube's edges, and a triangle at each of its corners.
-void stitch(const CubeGrid& grid, StarMesh& star, std::size_t next) {
+void stitch(const CubeGrid& grid, StarMesh& star) {
   const int n = grid.size();
   for (int face = 0; face < 6; ++face) {
     for (int side = 0; side < 4; ++side) {
@@ -55,8 +55,8 @@ void stitch(const CubeGrid& grid, StarMesh& star, std::size_t next) {
                             b = grid.texel_index(grid.at_side(face, side, k + 1)),
                             c = grid.texel_index(grid.across(face, side, k + 1)),
                             d = grid.texel_index(grid.across(face, side, k));
-        star.triangles[next++] = outward(star, {a, b, c});
-        star.triangles[next++] = outward(star, {a, c, d});
+        star.triangles.push_back(outward(star, {a, b, c}));
+        star.triangles.push_back(outward(star, {a, c, d}));
       }
     }
   }
@@ -66,7 +66,7 @@ void stitch(const CubeGrid& grid, StarMesh& star, std::size_t next) {
       for (int a = 0; a < 3; ++a) d[a] = (corner >> a & 1 ? 1 : -1) * (a == axis ? 1 : 1 - 1.0 / n);
       return grid.texel_index(grid.texel_at(d));
     };
-    star.triangles[next++] = outward(star, {texel(0), texel(1), texel(2)});
+    star.triangles.push_back(outward(star, {texel(0), texel(1), texel(2)}));
   }
 }
 
@@ -97,20 +97,31 @@ void set_texel_triangles(StarMesh& star, std::size_t at, const std::array<std::u
   }
 }
 
-}  // namespace
+/// The texels' centres, face by face.
+std::vector<FaceGrid> centre_grids(const CubeGrid& grid) {
+  const int n = grid.size();
+  std::vector<FaceGrid> faces(6, {n - 1, 2.0 / n, {}});
+  for (int face = 0; face < 6; ++face)
+    for (int row = 0; row < n; ++row)
+      for (int column = 0; column < n; ++column) faces[face].vertex.push_back(grid.texel_index({face, column, row}));
+  return faces;
+}
 
-StarMesh join_centers(const CubeMap& cube, double range_m) {
-  const int n = cube.face_size;
-  const CubeGrid grid(n);
-  StarMesh star;
-  resize(star, 6 * std::size_t(n) * n, 12 * std::size_t(n) * n - 4);
-  for_face_rows(n, n, [&](int face, int row) {
-    for (int column = 0; column < n; ++column) {
-      const std::uint32_t vertex = grid.texel_index({face, column, row});
-      set_ray(star, vertex, grid.texel_direction({face, column, row}), cube.inverse_depths[vertex], range_m, 1);
-    }
-  });
+/// The texels' corners, face by face.
+std::vector<FaceGrid> corner_grids(const CubeGrid& grid) {
+  const int n = grid.size();
+  std::vector<FaceGrid> faces(6, {n, 2.0 / n, {}});
+  for (int face = 0; face < 6; ++face)
+    for (int row = 0; row <= n; ++row)
+      for (int column = 0; column <= n; ++column)
+        faces[face].vertex.push_back(grid.corner_index(grid.lattice({face, column, row})));
+  return faces;
+}
+
+void add_centre_facets(const CubeGrid& grid, StarMesh& star) {
+  const int n = grid.size();
   const std::size_t inner = std::size_t(n - 1) * (n - 1);
+  star.triangles.resize(12 * inner);
   for_face_rows(n - 1, n, [&](int face, int row) {
     for (int column = 0; column + 1 < n; ++column) {
       const std::uint32_t a = grid.texel_index({face, column, row}), b = a + 1, d = a + n, c = d + 1;
@@ -119,16 +130,49 @@ StarMesh join_centers(const CubeMap& cube, double range_m) {
       star.triangles[at + 1] = {a, d, c};
     }
   });
-  stitch(grid, star, 12 * inner);
+}
+
+void add_texel_facets(const CubeGrid& grid, StarMesh& star) {
+  const int n = grid.size();
+  star.triangles.resize(12 * std::size_t(n) * n);
+  for_face_rows(n, n, [&](int face, int row) {
+    for (int column = 0; column < n; ++column) {
+      const auto corner = [&](int i, int j) { return grid.corner_index(grid.lattice({face, column + i, row + j})); };
+      set_texel_triangles(star, 2 * std::size_t(grid.texel_index({face, column, row})),
+                          {corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)});
+    }
+  });
+}
+
+}  // namespace
+
+StarMesh join_centers(const CubeMap& cube, double range_m, double merge) {
+  const int n = cube.face_size;
+  const CubeGrid grid(n);
+  StarMesh star;
+  resize(star, 6 * std::size_t(n) * n);
+  for_face_rows(n, n, [&](int face, int row) {
+    for (int column = 0; column < n; ++column) {
+      const std::uint32_t vertex = grid.texel_index({face, column, row});
+      set_ray(star, vertex, grid.texel_direction({face, column, row}), cube.inverse_depths[vertex], range_m, 1);
+    }
+  });
+  if (merge > 0 && n > 1) {
+    add_merged_facets(star, centre_grids(grid), {merge, false, true});
+  } else {
+    add_centre_facets(grid, star);
+  }
+  stitch(grid, star);
+  if (merge > 0) drop_unused_vertices(star);
   return star;
 }
 
-StarMesh bound_corners(const CubeMap& cube, double range_m, const Vec3* front) {
+StarMesh bound_corners(const CubeMap& cube, double range_m, const Vec3* front, double merge) {
   const int n = cube.face_size;
   const CubeGrid grid(n);
   const TexelDepths depths(cube, grid, front);
   StarMesh star;
-  resize(star, grid.corner_count(), 12 * std::size_t(n) * n);
+  resize(star, grid.corner_count());
   for_face_rows(n + 1, n, [&](int face, int row) {
     for (int column = 0; column <= n; ++column) {
       const Lattice at = grid.lattice({face, column, row});
@@ -144,13 +188,12 @@ StarMesh bound_corners(const CubeMap& cube, double range_m, const Vec3* front) {
       set_ray(star, grid.corner_index(at), grid.direction(at), nearest, range_m, 1 - numerics::kShrink);
     }
   });
-  for_face_rows(n, n, [&](int face, int row) {
-    for (int column = 0; column < n; ++column) {
-      const auto corner = [&](int i, int j) { return grid.corner_index(grid.lattice({face, column + i, row + j})); };
-      set_texel_triangles(star, 2 * std::size_t(grid.texel_index({face, column, row})),
-                          {corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)});
-    }
-  });
+  if (merge > 0) {
+    add_merged_facets(star, corner_grids(grid), {merge, true, false});
+    drop_unused_vertices(star);
+  } else {
+    add_texel_facets(grid, star);
+  }
   return star;
 }
 

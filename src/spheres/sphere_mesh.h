@@ -18,19 +18,20 @@ struct CubeMap {
 };
 
 /// Joins the texels' centres, as the paper does: 6 n^2 vertices, the faces' grids stitched along the 12 edges and at
-/// the 8 corners of the cube, 12 n^2 - 4 triangles. Over-claims where depth jumps. `cube` sampled at centres.
-StarMesh join_centers(const CubeMap& cube, double range_m);
+/// the 8 corners of the cube, 12 n^2 - 4 triangles; with `merge` > 0 fewer (merge.h). Over-claims where depth jumps.
+/// `cube` sampled at centres.
+StarMesh join_centers(const CubeMap& cube, double range_m, double merge = 0);
 
-/// Joins the texels' corners: 6 n^2 + 2 vertices, 12 n^2 triangles. `cube` has the nearest depth over each texel
-/// (Sampling::nearest); then no point of the solid is hidden from the viewpoint or beyond the range, but for
-/// numerics::kFloor. docs/spheres.md has the proof; in short:
+/// Joins the texels' corners: 6 n^2 + 2 vertices, 12 n^2 triangles; with `merge` > 0 fewer (merge.h). `cube` has the
+/// nearest depth over each texel (Sampling::nearest); then no point of the solid is hidden from the viewpoint or beyond
+/// the range, but for numerics::kFloor. docs/spheres.md has the proof; in short:
 ///   - nothing hides the points in a texel's directions whose axial depth is at most the texel's;
 ///   - a corner's depth is the least of the texels that meet there (4; 3 at a corner of the cube), so all four corners
 ///     of a texel are at most as deep as it, and with them both triangles, which cover just the texel's directions;
 ///   - corners are cut to the range, and chords of a ball lie in it.
 /// `front`: a unit vector; texels all of whose directions are at a right angle to it or more count as empty. Right
 /// where the solid is cut to the half-space before `front` afterwards.
-StarMesh bound_corners(const CubeMap& cube, double range_m, const Vec3* front = nullptr);
+StarMesh bound_corners(const CubeMap& cube, double range_m, const Vec3* front = nullptr, double merge = 0);
 
 /// Longitude and latitude grid about the scene's z axis: `grid[0]` meridians, `grid[1]` bands from pole to pole:
 /// grid[0] (grid[1] - 1) + 2 vertices. At least 3 and 2. `join_lonlat` takes the depth of the texel that a vertex'
