@@ -1,0 +1,132 @@
+// How far the spheres method is from the exact volume: for targets of real scenes, over face sizes and splits, what it
+// claims too much and what it misses, by booleans of both meshes. One line of CSV a case on standard output.
+//   vantage_gap [--cities charlotte,munich,...] [--targets 20] [--range 300] [--sizes 40,100,200] [--splits 0,...,6]
+//               [--spheres conservative,centers] [--split euler|always]
+// The city "baseline" means the three targets of charlotte/baseline.json; of the others the targets are drawn at random
+// with a fixed seed (support/street_targets.h).
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "solid/csg.h"
+#include "support/cities.h"
+#include "vantage/error.h"
+#include "vantage/spheres.h"
+#include "vantage/volume.h"
+
+namespace vantage::bench {
+namespace {
+
+struct Request {
+  std::vector<std::string> cities{"baseline", "charlotte", "munich", "florence", "etoile"};
+  int targets = 20, skip = 0;
+  std::vector<double> ranges{300};
+  std::vector<int> sizes{40, 100, 200}, splits{0, 1, 2, 3, 4, 5, 6};
+  std::vector<std::string> spheres{"conservative", "centers"};
+  std::string split = "euler";
+  double merge = SpheresOptions().merge;
+};
+
+const City kEtoile{"etoile", "mesh/etoile_merged.ply", UpAxis::z, {}, 0};
+
+const City& city_named(const std::string& name) {
+  static const std::map<std::string, const City*> kCities = {{"baseline", &kCharlotte},
+                                                             {"charlotte", &kCharlotte},
+                                                             {"munich", &kMunich},
+                                                             {"florence", &kFlorence},
+                                                             {"etoile", &kEtoile}};
+  const auto found = kCities.find(name);
+  if (found == kCities.end())
+    throw Error(ErrorKind::input, "no city is called " + name, "--cities", "see the first lines of bench/gap/gap.cpp");
+  return *found->second;
+}
+
+/// About a local origin, so that booleans lose nothing to large coordinates.
+solid::Solid solid_of(const Volume& volume, const Vec3& origin) {
+  solid::LabelledMesh labelled{volume.mesh, std::vector<std::uint32_t>(volume.mesh.triangles.size(), 0)};
+  for (Vec3& v : labelled.mesh.vertices) v -= origin;
+  return solid::Solid(labelled);
+}
+
+void print_case(const std::string& city, std::size_t number, double range, const solid::Solid& exact,
+                const Vec3& origin, const PreparedScene& scene, const Target& target, const SpheresOptions& options,
+                const std::string& words) {
+  const auto start = std::chrono::steady_clock::now();
+  SpheresReport report;
+  const Volume volume = compute_visibility_spheres(scene, target, {range}, options, &report);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const solid::Solid claimed = volume.mesh.empty() ? solid::Solid() : solid_of(volume, origin);
+  const double both = solid::intersect(claimed, exact).volume();
+  std::printf("%s,%zu,%g,%s,%d,%d,%.6f,%.6f,%.6f,%.6f,%zu,%zu,%zu,%zu,%ld,%.4f\n", city.c_str(), number, range,
+              words.c_str(), options.cubemap, options.max_splits, exact.volume(), claimed.volume(),
+              claimed.volume() - both, exact.volume() - both, report.spheres, report.pairs, report.splits,
+              report.unresolved_pairs, claimed.euler(), seconds);
+  std::fflush(stdout);
+}
+
+void run_target(const Request& request, const std::string& city, std::size_t number, double range,
+                const PreparedScene& scene, const Target& target) {
+  const Volume volume = compute_visibility(scene, target, {range}, {1e-3, 0});
+  const Vec3 origin = volume.frame.origin;
+  const solid::Solid exact = solid_of(volume, origin);
+  for (const std::string& sphere : request.spheres)
+    for (const int size : request.sizes)
+      for (const int splits : request.splits) {
+        SpheresOptions options;
+        options.sphere = sphere == "centers" ? SpheresOptions::Sphere::centers : SpheresOptions::Sphere::conservative;
+        options.split = request.split == "always" ? SpheresOptions::Split::always : SpheresOptions::Split::euler;
+        options.merge = request.merge;
+        options.cubemap = size;
+        options.max_splits = splits;
+        print_case(city, number, range, exact, origin, scene, target, options, sphere + "," + request.split);
+      }
+}
+
+void run(const Request& request) {
+  std::puts(
+      "city,target,range_m,sphere,split,texels,max_splits,exact_m3,spheres_m3,over_m3,missing_m3,spheres,pairs,splits,"
+      "unresolved,euler,seconds");
+  for (const std::string& name : request.cities) {
+    const City& city = city_named(name);
+    if (!is_there(city)) {
+      std::fprintf(stderr, "%s\n", absence(city).c_str());
+      continue;
+    }
+    const Scene scene = read_city(city);
+    const PreparedScene prepared(scene);
+    const auto targets = name == "baseline" ? prepared_city(kCharlotte)->targets
+                                            : find_street_targets(scene, prepared, {}, std::size_t(request.targets));
+    std::fprintf(stderr, "%s: %zu targets\n", name.c_str(), targets.size());
+    for (std::size_t i = std::size_t(request.skip); i < targets.size(); ++i)
+      for (const double range : request.ranges) run_target(request, name, i + 1, range, prepared, targets[i].target);
+  }
+}
+
+}  // namespace
+}  // namespace vantage::bench
+
+int main(int argument_count, char** arguments) {
+  vantage::bench::Request request;
+  CLI::App app("What the spheres method claims too much and misses, against the exact volume");
+  app.add_option("--cities", request.cities)->delimiter(',');
+  app.add_option("--targets", request.targets, "of each city");
+  app.add_option("--skip", request.skip, "leave out so many of them, from the first");
+  app.add_option("--range", request.ranges, "metres")->delimiter(',');
+  app.add_option("--sizes", request.sizes, "texels a face side")->delimiter(',');
+  app.add_option("--splits", request.splits, "max_splits")->delimiter(',');
+  app.add_option("--spheres", request.spheres, "conservative, centers")->delimiter(',');
+  app.add_option("--split", request.split, "euler or always");
+  app.add_option("--merge", request.merge, "as in missions");
+  CLI11_PARSE(app, argument_count, arguments);
+  try {
+    vantage::bench::run(request);
+  } catch (const vantage::Error& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 2;
+  }
+  return 0;
+}
