@@ -207,6 +207,17 @@ TEST(Compare, RefusesWhatIsNoSolid) {
   EXPECT_EQ(refusal(empty, good).problem(), "the mesh has no triangles");
 }
 
+// What booleans of jagged surfaces leave: a ball of 3,600 facets with a speck of a box through one of them.
+TEST(Compare, TakesAMeshWithAFewFolds) {
+  const Mesh smooth = ball({0, 0, 0}, 10, 60, 30);
+  Mesh folded = smooth;
+  append(folded, box({9.98, 0.2, 0.2}, {10.02, 0.3, 0.3}));
+  const Comparison c = compare_volumes(folded, smooth);
+  EXPECT_NEAR(c.volume_a_m3, c.volume_b_m3, 1e-3);
+  EXPECT_NEAR(c.only_a_m3, 0, 1e-3);
+  EXPECT_NEAR(c.only_b_m3, 0, 1e-3);
+}
+
 TEST(Compare, CanBeFollowedAndCancelled) {
   const Mesh a = ball({0, 0, 0}, 10, 60, 30), b = ball({1, 0, 0}, 10, 60, 30);
   double last = 0;

@@ -21,8 +21,8 @@ struct Comparison {
 };
 
 /// Booleans of two closed, outward-oriented meshes. Throws Error(input) naming `name_a` or `name_b` for one that is
-/// open, inside out or intersects itself; Error(cancelled). Meshes of the same triangles
-/// differ by exactly 0. Uses the threads of the caller's arena (TBB). Cost: the check of each mesh for
+/// open, inside out or intersects itself (in more than 0.1 % of its area); Error(cancelled). Meshes of the same
+/// triangles differ by exactly 0. Uses the threads of the caller's arena (TBB). Cost: the check of each mesh for
 /// self-intersections and two boolean operations, O(n log n) in their facets: seconds for half a million.
 Comparison compare_volumes(const Mesh& a, const Mesh& b, const std::string& name_a = "A",
                            const std::string& name_b = "B", const Progress& progress = {});

@@ -35,7 +35,7 @@ class Examination {
 
   void check_edges() const;
   void check_volume() const;
-  void check_contacts(const TriangleTree& tree, const Watch& watch);
+  bool check_contacts(const TriangleTree& tree, const Watch& watch, double folds);
   void check_windings(const TriangleTree& tree, const Watch& watch) const;
 
   const Mesh& local() const { return local_; }
@@ -117,7 +117,8 @@ std::size_t Examination::first_crossing(std::size_t t, const TriangleTree& tree)
   return first;
 }
 
-void Examination::check_contacts(const TriangleTree& tree, const Watch& watch) {
+/// Whether no triangle passes through another. Some may, where they are few.
+bool Examination::check_contacts(const TriangleTree& tree, const Watch& watch, double folds) {
   const std::size_t count = local_.triangles.size();
   constexpr std::size_t kBatch = 1 << 14, kGrain = 256;  // a batch takes some milliseconds
   touching_.assign(count, 0);
@@ -132,7 +133,15 @@ void Examination::check_contacts(const TriangleTree& tree, const Watch& watch) {
   }
   const auto crosses = [](std::size_t other) { return other != kNone; };
   const auto first = std::find_if(crossing.begin(), crossing.end(), crosses);
-  if (first == crossing.end()) return;
+  if (first == crossing.end()) return true;
+  double folded = 0, whole = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::array<Vec3, 3> c = corners(k);
+    const double area = (c[1] - c[0]).cross(c[2] - c[0]).norm();
+    whole += area;
+    if (crosses(crossing[k])) folded += area;
+  }
+  if (folded <= folds * whole) return false;
   const auto t = static_cast<std::size_t>(first - crossing.begin());
   const auto triangles = std::count_if(crossing.begin(), crossing.end(), crosses);
   refuse("the mesh intersects itself: " +
@@ -194,7 +203,7 @@ void Examination::check_windings(const TriangleTree& tree, const Watch& watch) c
 
 }  // namespace
 
-Mesh checked_solid(const Mesh& mesh, const std::string& name, const Watch& watch) {
+Mesh checked_solid(const Mesh& mesh, const std::string& name, const Watch& watch, double folds) {
   if (mesh.empty()) refuse("the mesh has no triangles", name, "give a closed mesh");
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
     if (!mesh.vertices[v].allFinite()) {
@@ -212,8 +221,10 @@ Mesh checked_solid(const Mesh& mesh, const std::string& name, const Watch& watch
   examination.check_edges();
   examination.check_volume();
   const TriangleTree tree(examination.local());
-  examination.check_contacts(tree, watch ? [&](double done) { return watch(0.7 * done); } : Watch());
-  examination.check_windings(tree, watch ? [&](double done) { return watch(0.7 + 0.3 * done); } : Watch());
+  const Watch contacts = watch ? [&](double done) { return watch(0.7 * done); } : Watch();
+  const Watch windings = watch ? [&](double done) { return watch(0.7 + 0.3 * done); } : Watch();
+  // Within a fold space is inside twice, or inside out: all that is known then is that the whole is not.
+  if (examination.check_contacts(tree, contacts, folds)) examination.check_windings(tree, windings);
   return result;
 }
 

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <numbers>
@@ -72,7 +73,7 @@ void check_options(const SpheresOptions& options) {
   check_memory(options);
 }
 
-double sagitta(const SpheresOptions& options, double range_m) {
+double range_tolerance(const SpheresOptions& options, double range_m) {
   // Half the diagonal of the widest cell of directions.
   double half_diagonal = std::numbers::sqrt2 / options.cubemap;
   if (options.resolution) {
@@ -80,7 +81,8 @@ double sagitta(const SpheresOptions& options, double range_m) {
     const double latitude = std::numbers::pi / (*options.resolution)[1];
     half_diagonal = 0.5 * std::hypot(longitude, latitude);
   }
-  return range_m * (1 - std::cos(std::min(half_diagonal, std::numbers::pi / 2)));
+  const double sagitta = range_m * (1 - std::cos(std::min(half_diagonal, std::numbers::pi / 2)));
+  return options.resolution ? sagitta : std::max(sagitta, options.merge * range_m);
 }
 
 std::size_t facet_count(const SpheresOptions& options) {

@@ -22,7 +22,7 @@ struct Sphere {
 void check_options(const SpheresOptions& options);
 
 /// The greatest distance at which facets on the range sphere lie inside it.
-double sagitta(const SpheresOptions& options, double range_m);
+double range_tolerance(const SpheresOptions& options, double range_m);
 
 /// Facets of a whole sphere.
 std::size_t facet_count(const SpheresOptions& options);

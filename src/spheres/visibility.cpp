@@ -112,7 +112,7 @@ Volume compute_visibility(const PreparedScene& scene, const Target& target, cons
   SpheresReport& told = report ? *report : own_report;
   told = {};
   Volume volume;
-  volume.tolerance_m = sagitta(options, sensor.max_range_m);
+  volume.tolerance_m = range_tolerance(options, sensor.max_range_m);
   volume.frame = make_target_frame(target);
   // At the least off the surface that it lies on: seen from a point of its own plane a polygon has no depth.
   volume.lift_m =
