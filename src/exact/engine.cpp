@@ -1,11 +1,12 @@
 // compute_visibility: one target of a prepared scene, checked, lifted off its surface, and its outcome told.
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <chrono>
 #include <cmath>
 
 #include "exact/number_text.h"
+#include "exact/numerics.h"
 #include "exact/point_target.h"
+#include "exact/range_check.h"
 #include "exact/side.h"
 #include "exact/target_check.h"
 #include "parallel/parallel.h"
@@ -18,15 +19,10 @@ namespace {
 using namespace exact;
 using Clock = std::chrono::steady_clock;
 
-// A volume that ends this close to the target, in metres, is of no use to anyone: the view is blocked at once.
-constexpr double kHandsBreadth = 0.1;
-
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 void check(const Sensor& sensor, const ExactOptions& options) {
-  if (!(sensor.max_range_m > 0) || !std::isfinite(sensor.max_range_m))
-    throw Error(ErrorKind::input, "max_range must be a positive, finite number of metres", "sensor",
-                "give the farthest distance at which the target can be seen");
+  check_sensor(sensor);
   if (!(options.tolerance_m > 0) || !std::isfinite(options.tolerance_m))
     throw Error(ErrorKind::input, "tolerance must be a positive, finite number of metres", "exact options",
                 "give for example 0.01");
@@ -35,10 +31,10 @@ void check(const Sensor& sensor, const ExactOptions& options) {
 /// Makes the result of what was computed in `frame`. `what` and `hint` are for a view that is blocked at once.
 void take_over(Side side, const TargetFrame& frame, Volume& volume, const std::string& what, const std::string& hint) {
   volume.counts = side.counts;
-  if (side.blocked_within(kHandsBreadth)) {
+  if (side.blocked_within(numerics::kHandsBreadth)) {
     volume.outcome = Outcome::blocked_at_once;
     volume.reason =
-        "\"" + widest_scene_cause(side.causes) + "\" covers " + what + " within " + metres_text(kHandsBreadth);
+        '"' + widest_scene_cause(side.causes) + "\" covers " + what + " within " + metres_text(numerics::kHandsBreadth);
     volume.hint = hint;
     return;
   }
@@ -52,14 +48,7 @@ void compute_polygon(const PreparedScene& scene, const Target& target, const Sen
                      const ExactOptions& options, const Progress& progress, Volume& volume) {
   volume.lift_m = clearing_lift(scene.data(), target, volume.frame, sensor.max_range_m);
   volume.frame.origin += volume.frame.normal * volume.lift_m;
-  if (volume.frame.enclosing_radius_m * (1 + 1e-9) >= sensor.max_range_m) {
-    volume.outcome = Outcome::out_of_range;
-    volume.reason = "no point within " + metres_text(sensor.max_range_m) +
-                    " of all vertices: the target's enclosing circle has radius " +
-                    metres_text(volume.frame.enclosing_radius_m);
-    volume.hint = "raise max_range, or split the target";
-    return;
-  }
+  if (!can_reach(volume.frame, sensor)) return set_out_of_range(volume.frame, sensor, volume);
   move_into_range(volume.frame, sensor.max_range_m);
   const RangeRegion range(make_local_target(volume.frame.polygon), sensor.max_range_m);
   take_over(compute_side(scene, volume.frame, range, options, progress), volume.frame, volume, "the target's front",

@@ -50,4 +50,7 @@ inline constexpr double kClear = 1e-6;
 /// meshes are planar to a millimetre at best, single-precision files to a tenth of one.
 inline constexpr double kMaxLift = 2e-3;
 
+/// A volume that ends this close to the target is of no use to anyone: the view is blocked at once.
+inline constexpr double kHandsBreadth = 0.1;
+
 }  // namespace vantage::numerics

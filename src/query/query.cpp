@@ -3,12 +3,12 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 #include <set>
 
 #include "exact/blocker.h"
 #include "exact/collect.h"
 #include "exact/point_target.h"
+#include "exact/range_check.h"
 #include "exact/range_region.h"
 #include "exact/segment_cover.h"
 #include "exact/target_check.h"
@@ -136,7 +136,7 @@ std::vector<Question> make_questions(const PreparedScene::Data& scene, const Tar
   frame.origin += frame.normal * clearing_lift(scene, target, frame, max_range);
   // Where no point at all is in range the centre may be out of range itself: look from the circle's centre, as the
   // engine does.
-  const bool reachable = frame.enclosing_radius_m * (1 + 1e-9) < max_range;
+  const bool reachable = can_reach(frame, {max_range});
   if (reachable) move_into_range(frame, max_range);
   const LocalTarget local = make_local_target(frame.polygon);
   const RangeRegion range(local, reachable ? max_range : 2 * frame.enclosing_radius_m);
@@ -148,9 +148,7 @@ std::vector<Question> make_questions(const PreparedScene::Data& scene, const Tar
 
 std::vector<PointAnswer> query_points(const PreparedScene& scene, const Target& target, const Sensor& sensor,
                                       const Navigation& navigation, const std::vector<Vec3>& points) {
-  if (!(sensor.max_range_m > 0) || !std::isfinite(sensor.max_range_m))
-    throw Error(ErrorKind::input, "max_range must be a positive, finite number of metres", "sensor",
-                "give the farthest distance at which the target can be seen");
+  check_sensor(sensor);
   for (std::size_t i = 0; i < points.size(); ++i)
     if (!points[i].allFinite())
       throw Error(ErrorKind::input, "a coordinate is not finite", "point " + std::to_string(i), "give three numbers");

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "exact/numerics.h"
 #include "solid/pieces.h"
 #include "spheres/numerics.h"
 
@@ -12,9 +13,9 @@ namespace vantage::spheres {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-using numerics::kHandsBreadth;
 using solid::LabelledMesh;
 using solid::Solid;
+using vantage::numerics::kHandsBreadth;
 
 /// Spheres of this many facets in all are made before their pairs are looked at: enough for a renderer to overlap its
 /// work, and few enough to hold them all.

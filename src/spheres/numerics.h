@@ -22,9 +22,6 @@ inline constexpr double kInPlane = 1e-9;
 /// leaves out a cell that the texel touches.
 inline constexpr double kAngle = 1e-9;
 
-/// A volume that ends this close to a vertex is of no use to anyone: the view is blocked at once.
-inline constexpr double kHandsBreadth = 0.1;
-
 /// A piece whose volume is less than its area times this many epsilons of the booleans is rounding error, not space.
 inline constexpr double kSliverEpsilons = 10;
 

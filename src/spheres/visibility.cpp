@@ -3,12 +3,12 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <string>
 #include <utility>
 
 #include "exact/number_text.h"
 #include "exact/numerics.h"
+#include "exact/range_check.h"
 #include "exact/range_region.h"
 #include "exact/target_check.h"
 #include "exact/watch.h"
@@ -22,12 +22,6 @@ namespace {
 
 using exact::metres_text;
 using Clock = std::chrono::steady_clock;
-
-void check(const Sensor& sensor) {
-  if (!(sensor.max_range_m > 0) || !std::isfinite(sensor.max_range_m))
-    throw Error(ErrorKind::input, "max_range must be a positive, finite number of metres", "sensor",
-                "give the farthest distance at which the target can be seen");
-}
 
 /// "vertex 2 at (10.00, 4.50, 0.00)" for a corner of the target as used, by the number that the user gave it; a
 /// midpoint of an edge has only its place.
@@ -45,7 +39,8 @@ std::string point_name(const Target& target, const Vec3& place) {
 
 void set_blocked(const Target& target, const Vec3& place, Volume& volume) {
   volume.outcome = Outcome::blocked_at_once;
-  volume.reason = point_name(target, place) + " sees nothing farther than " + metres_text(numerics::kHandsBreadth) +
+  volume.reason = point_name(target, place) + " sees nothing farther than " +
+                  metres_text(vantage::numerics::kHandsBreadth) +
                   ": it is inside a solid, or faces the surface that it lies on";
   volume.hint = "turn the target round with front:, or raise it with offset:";
 }
@@ -106,7 +101,7 @@ Volume compute_visibility(const PreparedScene& scene, const Target& target, cons
                           const SpheresOptions& options, render::DepthRenderer& renderer, SpheresReport* report,
                           const StageSink& stages, const Progress& progress) {
   const auto start = Clock::now();
-  check(sensor);
+  exact::check_sensor(sensor);
   check_options(options);
   SpheresReport own_report;
   SpheresReport& told = report ? *report : own_report;
@@ -119,15 +114,11 @@ Volume compute_visibility(const PreparedScene& scene, const Target& target, cons
       std::max(exact::clearing_lift(scene.data(), target, volume.frame, sensor.max_range_m), vantage::numerics::kClear);
   volume.frame.origin += volume.frame.normal * volume.lift_m;
   volume.counts.scene_polygons = scene.data().polygon_count();
-  if (volume.frame.enclosing_radius_m * (1 + 1e-9) >= sensor.max_range_m) {
-    volume.outcome = Outcome::out_of_range;
-    volume.reason = "no point within " + metres_text(sensor.max_range_m) +
-                    " of all vertices: the target's enclosing circle has radius " +
-                    metres_text(volume.frame.enclosing_radius_m);
-    volume.hint = "raise max_range, or split the target";
-  } else {
+  if (exact::can_reach(volume.frame, sensor)) {
     exact::move_into_range(volume.frame, sensor.max_range_m);
     compute(target, sensor, options, renderer, told, stages, progress, volume);
+  } else {
+    exact::set_out_of_range(volume.frame, sensor, volume);
   }
   told.device = renderer.device();  // only now: it may have changed on the way
   volume.seconds.engine = volume.seconds.total = std::chrono::duration<double>(Clock::now() - start).count();
@@ -139,7 +130,7 @@ Mesh visibility_sphere(const Vec3& viewpoint, double radius_m, const SpheresOpti
   if (!viewpoint.allFinite())
     throw Error(ErrorKind::input, "the viewpoint has a coordinate that is not finite", "visibility sphere",
                 "give three finite numbers");
-  check({radius_m});
+  exact::check_sensor({radius_m});
   check_options(options);
   TargetFrame frame;
   frame.origin = viewpoint;
