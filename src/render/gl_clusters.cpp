@@ -1,7 +1,5 @@
 #include "render/gl_clusters.h"
 
-#include <algorithm>
-
 #include "render/depth.h"
 #include "scene/prepared_data.h"
 

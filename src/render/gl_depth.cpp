@@ -132,7 +132,7 @@ void GlDepthRenderer::upload(const PreparedScene::Data& data) {
 GlDepthRenderer::Program GlDepthRenderer::build(const char* name, const ShaderSources& sources) {
   const GlFunctions& gl = context_.gl();
   Program program;
-  program.id = make_program(context_, name, sources.vertex, sources.geometry, sources.fragment);
+  program.id = make_program(context_, name, sources);
   program.eye = gl.GetUniformLocation(program.id, "eye");
   program.first_face = gl.GetUniformLocation(program.id, "first_face");
   program.face_size = gl.GetUniformLocation(program.id, "face_size");

@@ -1,7 +1,5 @@
 #include "render/gl_objects.h"
 
-#include <array>
-
 #include "render/depth.h"
 
 namespace vantage::render {
@@ -83,35 +81,9 @@ GLuint GlObjects::framebuffer(const std::vector<GLuint>& colours, GLuint depth) 
   return name;
 }
 
-GLuint GlObjects::shader(GLenum stage, const char* header, const char* text) {
-  const GLuint name = gl_.CreateShader(stage);
-  const std::array<const char*, 2> parts = {header, text};
-  gl_.ShaderSource(name, 2, parts.data(), nullptr);
-  gl_.CompileShader(name);
-  GLint is_compiled = 0;
-  gl_.GetShaderiv(name, GL_COMPILE_STATUS, &is_compiled);
-  if (is_compiled != 0) return name;
-  std::array<char, 1024> log{};
-  gl_.GetShaderInfoLog(name, static_cast<GLsizei>(log.size()), nullptr, log.data());
-  gl_.DeleteShader(name);
-  throw DeviceFailure(std::string("the driver does not compile a shader: ") + log.data());
-}
-
-GLuint GlObjects::program(const char* header, const char* vertex, const char* fragment) {
-  const GLuint name = gl_.CreateProgram();
-  programs_.push_back(name);
-  for (const auto& [stage, text] : {std::pair(GL_VERTEX_SHADER, vertex), std::pair(GL_FRAGMENT_SHADER, fragment)}) {
-    const GLuint part = shader(static_cast<GLenum>(stage), header, text);
-    gl_.AttachShader(name, part);
-    gl_.DeleteShader(part);  // with the program
-  }
-  gl_.LinkProgram(name);
-  GLint is_linked = 0;
-  gl_.GetProgramiv(name, GL_LINK_STATUS, &is_linked);
-  if (is_linked != 0) return name;
-  std::array<char, 1024> log{};
-  gl_.GetProgramInfoLog(name, static_cast<GLsizei>(log.size()), nullptr, log.data());
-  throw DeviceFailure(std::string("the driver does not link a program: ") + log.data());
+GLuint GlObjects::program(const std::string& name, const ShaderSources& sources) {
+  programs_.push_back(make_program(context_, name, sources));
+  return programs_.back();
 }
 
 }  // namespace vantage::render

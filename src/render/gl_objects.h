@@ -4,15 +4,17 @@
 #include <string>
 #include <vector>
 
+#include "render/gl_context.h"
 #include "render/gl_library.h"
+#include "render/gl_program.h"
 
 namespace vantage::render {
 
-/// Makes objects of the current context; its end deletes them all. Throws DeviceFailure for a program that does not
-/// build or a framebuffer that the device refuses.
+/// Makes objects of a context, which must be current; its end deletes them all. Throws DeviceFailure for a program that
+/// does not build or a framebuffer that the device refuses.
 class GlObjects {
  public:
-  explicit GlObjects(const GlFunctions& gl) : gl_(gl) {}
+  explicit GlObjects(const GlContext& context) : context_(context), gl_(context.gl()) {}
   ~GlObjects();
   GlObjects(const GlObjects&) = delete;
   GlObjects& operator=(const GlObjects&) = delete;
@@ -26,12 +28,11 @@ class GlObjects {
   GLuint framebuffer();
   /// Of whole textures; `depth` may be 0.
   GLuint framebuffer(const std::vector<GLuint>& colours, GLuint depth);
-  /// Each shader is `header` and its own text.
-  GLuint program(const char* header, const char* vertex, const char* fragment);
+  /// `name` is for messages.
+  GLuint program(const std::string& name, const ShaderSources& sources);
 
  private:
-  GLuint shader(GLenum stage, const char* header, const char* text);
-
+  const GlContext& context_;
   const GlFunctions& gl_;
   std::vector<GLuint> textures_, buffers_, arrays_, framebuffers_, programs_, queries_;
 };

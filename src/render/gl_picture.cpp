@@ -2,7 +2,8 @@
 // depth peeling (C. Everitt, Interactive Order-Independent Transparency, 2001), blended from front to back; lines last.
 #include "render/gl_picture.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -77,7 +78,7 @@ Eigen::Vector4f four(const Eigen::Vector3f& v, float w) { return {v.x(), v.y(), 
 class Painter {
  public:
   Painter(const GlContext& context, const DrawList& list, const View& view)
-      : context_(context), gl_(context.gl()), list_(list), view_(view), objects_(gl_) {
+      : context_(context), gl_(context.gl()), list_(list), view_(view), objects_(context) {
     programs();
     images();
     solids_ = triangles(list.solids);
@@ -109,14 +110,17 @@ class Painter {
  private:
   void programs() {
     using namespace shaders;
-    solid_program_ = objects_.program(kHeader, kSolidVertex, kSolidFragment);
-    shadow_program_ = objects_.program(kHeader, kShadowVertex, kShadowFragment);
-    shade_program_ = objects_.program(kHeader, kScreenVertex, kShadeFragment);
-    film_program_ = objects_.program(kHeader, kFilmVertex, kFilmFragment);
-    copy_program_ = objects_.program(kHeader, kScreenVertex, kCopyFragment);
-    layer_program_ = objects_.program(kHeader, kScreenVertex, kLayerFragment);
-    target_program_ = objects_.program(kHeader, kTargetVertex, kTargetFragment);
-    line_program_ = objects_.program(kHeader, kLineVertex, kLineFragment);
+    const auto program = [&](const char* name, const char* vertex, const char* fragment) {
+      return objects_.program(name, {vertex, nullptr, fragment, kHeader});
+    };
+    solid_program_ = program("scenes", kSolidVertex, kSolidFragment);
+    shadow_program_ = program("shadows", kShadowVertex, kShadowFragment);
+    shade_program_ = program("light", kScreenVertex, kShadeFragment);
+    film_program_ = program("volumes", kFilmVertex, kFilmFragment);
+    copy_program_ = program("copies", kScreenVertex, kCopyFragment);
+    layer_program_ = program("layers", kScreenVertex, kLayerFragment);
+    target_program_ = program("targets", kTargetVertex, kTargetFragment);
+    line_program_ = program("lines", kLineVertex, kLineFragment);
     which_ = gl_.GetUniformLocation(shadow_program_, "which");
     fades_ = gl_.GetUniformLocation(line_program_, "fades");
   }

@@ -7,10 +7,12 @@
 namespace vantage::render {
 namespace {
 
-GLuint compile(const GlContext& context, const std::string& name, GLenum stage, const char* source) {
+GLuint compile(const GlContext& context, const std::string& name, GLenum stage, const char* header,
+               const char* source) {
   const GlFunctions& gl = context.gl();
   const GLuint shader = gl.CreateShader(stage);
-  gl.ShaderSource(shader, 1, &source, nullptr);
+  const std::array<const char*, 2> parts{header, source};
+  gl.ShaderSource(shader, GLsizei(parts.size()), parts.data(), nullptr);
   gl.CompileShader(shader);
   GLint compiled = GL_FALSE;
   gl.GetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
@@ -23,15 +25,15 @@ GLuint compile(const GlContext& context, const std::string& name, GLenum stage, 
 
 }  // namespace
 
-GLuint make_program(const GlContext& context, const std::string& name, const char* vertex, const char* geometry,
-                    const char* fragment) {
+GLuint make_program(const GlContext& context, const std::string& name, const ShaderSources& sources) {
   const GlFunctions& gl = context.gl();
   const GLuint program = gl.CreateProgram();
-  const std::array<std::pair<GLenum, const char*>, 3> stages{
-      {{GL_VERTEX_SHADER, vertex}, {GL_GEOMETRY_SHADER, geometry}, {GL_FRAGMENT_SHADER, fragment}}};
+  const std::array<std::pair<GLenum, const char*>, 3> stages{{{GL_VERTEX_SHADER, sources.vertex},
+                                                              {GL_GEOMETRY_SHADER, sources.geometry},
+                                                              {GL_FRAGMENT_SHADER, sources.fragment}}};
   for (const auto& [stage, source] : stages) {
     if (!source) continue;
-    const GLuint shader = compile(context, name, stage, source);
+    const GLuint shader = compile(context, name, stage, sources.header, source);
     gl.AttachShader(program, shader);
     gl.DeleteShader(shader);  // goes with the program
   }

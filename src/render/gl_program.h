@@ -8,9 +8,16 @@
 
 namespace vantage::render {
 
-/// A program that ends with the context. `geometry` may be null. Throws DeviceFailure with what the driver's compiler
-/// says; `name` is for that message. The context must be current.
-GLuint make_program(const GlContext& context, const std::string& name, const char* vertex, const char* geometry,
-                    const char* fragment);
+/// GLSL of a program's stages.
+struct ShaderSources {
+  const char* vertex;
+  const char* geometry;  ///< null: none
+  const char* fragment;
+  const char* header = "";  ///< goes before each of them
+};
+
+/// A program that ends with the context. Throws DeviceFailure with what the driver's compiler says; `name` is for that
+/// message. The context must be current.
+GLuint make_program(const GlContext& context, const std::string& name, const ShaderSources& sources);
 
 }  // namespace vantage::render

@@ -1,17 +1,13 @@
 // The shaders of the depth cube maps.
 #pragma once
 
+#include "render/gl_program.h"
+
 namespace vantage::render {
 
 /// What the depth image holds, for an inverse depth of 1/m: a power of two, so that dividing by it is exact. Also the
 /// least depth, in metres, that an image holds: less is nothing that a scene is exact to.
 inline constexpr double kDepthScale = 0x1p-27;
-
-struct ShaderSources {
-  const char* vertex;
-  const char* geometry;
-  const char* fragment;
-};
 
 /// Sampling::centers: triangles, and the depth of their plane along each texel's centre.
 ShaderSources centers_shaders();
