@@ -7,6 +7,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "scene/triangle_distance.h"
 #include "vantage/error.h"
 
 namespace vantage::scene {
@@ -20,27 +21,6 @@ constexpr double kInside = 0.5;
 constexpr double kInsideOut = -0.999;
 
 using Corners = std::array<Vec3, 3>;
-
-double squared_distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
-  const Vec3 along = b - a;
-  const double length = along.squaredNorm();
-  const double at = length > 0 ? std::clamp((p - a).dot(along) / length, 0.0, 1.0) : 0.0;
-  return (a + at * along - p).squaredNorm();
-}
-
-double squared_distance(const Vec3& p, const Corners& c) {
-  double nearest = INFINITY;
-  bool is_above = true;  // the foot of p lies within the triangle
-  const Vec3 normal = (c[1] - c[0]).cross(c[2] - c[0]);
-  for (int i = 0; i < 3; ++i) {
-    const Vec3 &a = c[i], &b = c[(i + 1) % 3];
-    nearest = std::min(nearest, squared_distance_to_segment(p, a, b));
-    is_above = is_above && (b - a).cross(p - a).dot(normal) > 0;
-  }
-  if (!is_above) return nearest;
-  const double height = (p - c[0]).dot(normal);
-  return std::min(nearest, height * height / normal.squaredNorm());
-}
 
 /// Solid angle of a triangle seen from the origin; positive where its normal points away. Source: van Oosterom and
 /// Strackee, The Solid Angle of a Plane Triangle, 1983.
@@ -96,7 +76,7 @@ void ViewpointCheck::check(const Vec3& viewpoint, const std::string& name) const
   for (std::size_t t = 0; t < piece_of_.size(); ++t) {
     Corners corners;
     for (std::size_t k = 0; k < 3; ++k) corners[k] = scene_.mesh.vertices[scene_.mesh.triangles[t][k]] - viewpoint;
-    if (squared_distance(Vec3::Zero(), corners) < kOnSurface * kOnSurface) {
+    if (squared_distance_to_triangle(Vec3::Zero(), corners[0], corners[1], corners[2]) < kOnSurface * kOnSurface) {
       throw Error(ErrorKind::input, name + " lies on a surface", "object '" + scene_.objects[scene_.object_of[t]] + "'",
                   "move it off the surface, by 1 mm or more");
     }

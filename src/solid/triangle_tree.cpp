@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "scene/triangle_distance.h"
 #include "vantage/error.h"
 
 namespace vantage::solid {
@@ -40,24 +41,6 @@ double squared_distance(const scene::Bounds& box, const Vec3& point) {
     sum += away * away;
   }
   return sum;
-}
-
-double squared_distance_to_edge(const Vec3& point, const Vec3& start, const Vec3& end) {
-  const Vec3 edge = end - start;
-  const double length = edge.squaredNorm();
-  const double along = length > 0 ? std::clamp(edge.dot(point - start) / length, 0.0, 1.0) : 0.0;
-  return (point - start - along * edge).squaredNorm();
-}
-
-double squared_distance_to_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 normal = (b - a).cross(c - a);
-  const auto left_of = [&](const Vec3& from, const Vec3& to) { return normal.dot((to - from).cross(p - from)) >= 0; };
-  if (normal.squaredNorm() > 0 && left_of(a, b) && left_of(b, c) && left_of(c, a)) {
-    const double height = normal.dot(p - a);
-    return height * height / normal.squaredNorm();
-  }
-  return std::min(
-      {squared_distance_to_edge(p, a, b), squared_distance_to_edge(p, b, c), squared_distance_to_edge(p, c, a)});
 }
 
 enum class Hit { miss, from_front, from_back, unclear };
@@ -110,8 +93,8 @@ double TriangleTree::distance(const Vec3& point) const {
     if (node.leaf()) {
       for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
         const Triangle& t = mesh_.triangles[order_[i]];
-        best = std::min(best, squared_distance_to_triangle(point, mesh_.vertices[t[0]], mesh_.vertices[t[1]],
-                                                           mesh_.vertices[t[2]]));
+        best = std::min(best, scene::squared_distance_to_triangle(point, mesh_.vertices[t[0]], mesh_.vertices[t[1]],
+                                                                  mesh_.vertices[t[2]]));
       }
       continue;
     }
