@@ -14,7 +14,7 @@ using CliSignals = Cli;
 
 TEST_F(CliUsage, HelpShowsExamples) {
   EXPECT_NE(output_of({"--help"}).find("EXAMPLES"), std::string::npos);
-  for (const char* command : {"inspect", "compute", "query", "verify", "devices"}) {
+  for (const char* command : {"inspect", "compute", "query", "verify", "compare", "devices", "spheres", "render"}) {
     const std::string help = output_of({command, "--help"});
     EXPECT_NE(help.find("EXAMPLES"), std::string::npos) << command;
     EXPECT_NE(help.find(std::string("vantage ") + command + " "), std::string::npos) << command;

@@ -30,6 +30,9 @@ struct PictureView {
   Vec3 from = Vec3::Zero();           ///< scene frame, metres
 };
 
+/// Pixels that a picture may have each way.
+inline constexpr int kSmallestPicture = 64, kLargestPicture = 4096;
+
 /// What to draw, and how.
 struct PictureRequest {
   const Target* target = nullptr;  ///< drawn where it is given, `offset_m` applied; three vertices or more, or one
@@ -37,7 +40,7 @@ struct PictureRequest {
   const Mesh* solid = nullptr;     ///< instead of a volume: any mesh, in one colour
   Navigation navigation;           ///< its boxes are drawn as thin lines
   PictureView view;
-  int width = 1600, height = 1200;  ///< pixels, 64 to 4096
+  int width = 1600, height = 1200;  ///< pixels, kSmallestPicture to kLargestPicture
   bool draw_scene = true;
   bool annotate = true;         ///< title, legend, scale bar, north arrow
   std::string title, subtitle;  ///< UTF-8

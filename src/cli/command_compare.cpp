@@ -8,6 +8,7 @@
 
 #include "cli/command.h"
 #include "cli/output_check.h"
+#include "cli/plain_volume.h"
 #include "cli/progress_line.h"
 #include "cli/text_table.h"
 #include "mission/input_file.h"
@@ -76,22 +77,14 @@ Mesh read(const std::string& file, const SceneReadOptions& obj, const Progress& 
   return read_scene(file, mission_io::is_obj(file) ? obj : SceneReadOptions{}, progress).mesh;
 }
 
-Volume as_volume(Mesh mesh, const std::string& name) {
-  Volume volume;
-  volume.causes = {{CauseKind::scene, "only in " + name, surface_area(mesh)}};
-  volume.cause_of.assign(mesh.triangles.size(), 0);
-  volume.mesh = std::move(mesh);
-  return volume;
-}
-
 /// Both or none; returns the files that were written.
 std::vector<std::string> write(const Options& options, Comparison& comparison, const SceneReadOptions& obj) {
   std::vector<std::unique_ptr<solid::AtomicFile>> files;
   std::vector<std::string> written;
   const auto stage = [&](const std::string& output, Mesh& mesh, const std::string& input) {
     if (output.empty() || mesh.empty()) return;
-    files.push_back(solid::stage_volume(as_volume(std::move(mesh), fs::path(input).filename().string()), output, obj.up,
-                                        obj.scale));
+    files.push_back(solid::stage_volume(plain_volume(std::move(mesh), "only in " + fs::path(input).filename().string()),
+                                        output, obj.up, obj.scale));
     written.push_back(output);
   };
   stage(options.only_a, comparison.only_a, options.file_a);

@@ -4,6 +4,7 @@
 #include "cli/command.h"
 #include "cli/text_table.h"
 #include "render/choose.h"
+#include "solid/names.h"
 #include "vantage/devices.h"
 
 namespace vantage::cli {
@@ -20,18 +21,6 @@ struct Options {
   std::string device = "auto";
   bool json = false;
 };
-
-const char* kind_name(DeviceKind kind) {
-  switch (kind) {
-    case DeviceKind::cpu:
-      return "cpu";
-    case DeviceKind::opengl_software:
-      return "opengl_software";
-    case DeviceKind::opengl_hardware:
-      return "opengl_hardware";
-  }
-  return "";
-}
 
 const char* kind_remark(DeviceKind kind) {
   switch (kind) {
@@ -55,7 +44,7 @@ std::string json_text(const RenderDevices& found, const render::ChosenDevice& ch
   json["devices"] = nlohmann::ordered_json::array();
   for (const RenderDevice& device : found.devices) {
     json["devices"].push_back({{"index", device.index},
-                               {"kind", kind_name(device.kind)},
+                               {"kind", solid::name_of(device.kind)},
                                {"name", device.name},
                                {"driver", device.driver},
                                {"memory_bytes", device.memory_bytes},

@@ -13,8 +13,6 @@
 namespace vantage::cli {
 namespace {
 
-constexpr int kSmallest = 64, kLargest = 4096;  // pixels, as in vantage/picture.h
-
 [[noreturn]] void refuse_view(const std::string& problem) {
   throw Error(ErrorKind::input, problem, "command line, --view",
               "write --view top, --view oblique, --view oblique AZIMUTH,ELEVATION or --view from X,Y,Z");
@@ -74,11 +72,11 @@ std::array<int, 2> parse_size(const std::string& text) {
   const auto first = std::from_chars(at, end, size[0]);
   const bool is_cross = first.ec == std::errc() && first.ptr != end && (*first.ptr == 'x' || *first.ptr == 'X');
   const auto second = is_cross ? std::from_chars(first.ptr + 1, end, size[1]) : first;
-  const auto in_range = [](int pixels) { return pixels >= kSmallest && pixels <= kLargest; };
+  const auto in_range = [](int pixels) { return pixels >= kSmallestPicture && pixels <= kLargestPicture; };
   if (is_cross && second.ec == std::errc() && second.ptr == end && in_range(size[0]) && in_range(size[1])) return size;
   throw Error(ErrorKind::input, mission_io::in_quotes(text) + " is no size of a picture", "command line, --size",
-              "write WIDTHxHEIGHT in pixels, " + std::to_string(kSmallest) + " to " + std::to_string(kLargest) +
-                  " each: 1600x1200");
+              "write WIDTHxHEIGHT in pixels, " + std::to_string(kSmallestPicture) + " to " +
+                  std::to_string(kLargestPicture) + " each: 1600x1200");
 }
 
 std::string picture_subtitle(const Mission& mission, const Volume* volume) {

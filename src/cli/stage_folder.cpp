@@ -11,6 +11,7 @@
 #include <system_error>
 #include <utility>
 
+#include "cli/plain_volume.h"
 #include "solid/atomic_file.h"
 #include "solid/names.h"
 #include "solid/report.h"
@@ -92,12 +93,8 @@ void StageFolder::add(const SphereStage& stage) {
   Told told{name_of(stage.kind),   stage.name,      "",           stage.points, stage.euler,
             stage.component_euler, stage.volume_m3, stage.seconds};
   if (stage.mesh && !stage.mesh->empty()) {
-    Volume volume;
-    volume.mesh = *stage.mesh;
-    volume.causes = {{CauseKind::scene, stage.name, surface_area(volume.mesh)}};
-    volume.cause_of.assign(volume.mesh.triangles.size(), 0);
     told.file = file_name(stages_.size(), stage.name);
-    write_volume(volume, temporary_ / told.file);
+    write_volume(plain_volume(*stage.mesh, stage.name), temporary_ / told.file);
   }
   stages_.push_back(std::move(told));
 }

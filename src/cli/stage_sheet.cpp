@@ -1,10 +1,10 @@
 #include "cli/stage_sheet.h"
 
-#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "cli/picture_options.h"
+#include "cli/plain_volume.h"
 #include "cli/text_table.h"
 #include "mission/input_file.h"
 #include "vantage/error.h"
@@ -27,9 +27,6 @@ StageFile stage_of(const nlohmann::json& json, const fs::path& folder) {
     stage.mesh = folder / json.at("file").get<std::string>();
   }
   if (json.contains("euler") && json.at("euler").is_number_integer()) stage.euler = json.at("euler").get<long>();
-  if (json.contains("volume_m3") && json.at("volume_m3").is_number()) {
-    stage.volume_m3 = json.at("volume_m3").get<double>();
-  }
   return stage;
 }
 
@@ -111,11 +108,7 @@ class SheetMaker {
     panel("result", &result_, view_, false);
     if (mission_.navigation.empty()) return;
     panel("where the vehicle may fly", nullptr, view_, true);
-    Volume whole = result_;
-    if (whole.causes.empty()) {
-      whole.causes = {{CauseKind::scene, "scene", surface_area(whole.mesh)}};
-      whole.cause_of.assign(whole.mesh.triangles.size(), 0);
-    }
+    const Volume whole = result_.causes.empty() ? plain_volume(result_.mesh, "scene") : result_;
     const Volume cut = cut_to_navigation(whole, mission_.navigation, progress_);
     panel(cut.mesh.empty() ? "navigable result: empty" : "navigable result", &cut, view_, true);
   }

@@ -17,7 +17,6 @@ struct StageFile {
   std::string name;
   std::filesystem::path mesh;  ///< empty: the step has none
   long euler = 0;
-  double volume_m3 = 0;
 };
 
 /// Reads `folder`/stages.json. Throws Error(input) for a missing or garbled file, naming the stage.

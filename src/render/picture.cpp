@@ -18,14 +18,13 @@ namespace {
 
 using namespace render;
 
-constexpr int kSmallestSize = 64, kLargestSize = 4096;
-
 void check(const PictureRequest& request) {
   for (const int size : {request.width, request.height}) {
-    if (size >= kSmallestSize && size <= kLargestSize) continue;
-    throw Error(ErrorKind::input, "a picture cannot be " + std::to_string(size) + " pixels wide or high",
-                "size " + std::to_string(request.width) + "x" + std::to_string(request.height),
-                "take " + std::to_string(kSmallestSize) + " to " + std::to_string(kLargestSize) + " pixels each way");
+    if (size >= kSmallestPicture && size <= kLargestPicture) continue;
+    throw Error(
+        ErrorKind::input, "a picture cannot be " + std::to_string(size) + " pixels wide or high",
+        "size " + std::to_string(request.width) + "x" + std::to_string(request.height),
+        "take " + std::to_string(kSmallestPicture) + " to " + std::to_string(kLargestPicture) + " pixels each way");
   }
 }
 

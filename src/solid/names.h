@@ -1,4 +1,4 @@
-// How kinds of causes and outcomes are called in files.
+// How kinds of causes, outcomes and devices are called in files.
 #pragma once
 
 #include "vantage/devices.h"
