@@ -1,7 +1,7 @@
 // The camera of pictures, the edges that they draw, and the causes that are read for them.
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 
 #include "render/creases.h"
 #include "render/draw_list.h"

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,8 +18,8 @@ struct RenderDevice {
   DeviceKind kind = DeviceKind::cpu;
   std::string name;    ///< "NVIDIA H200", "llvmpipe (LLVM 15.0.6, 256 bits)", "CPU (Embree 3.13.5)"
   std::string driver;  ///< its version as it states it; empty for the CPU
-  std::size_t memory_bytes =
-      0;  ///< of its own memory, what the driver says is there; 0: it does not say, or it uses main memory
+  /// Of its own memory, what the driver says is there; 0: it does not say, or it uses main memory.
+  std::size_t memory_bytes = 0;
   int largest_face_size = 0;  ///< texels a side
 };
 

@@ -1,4 +1,3 @@
-#include <string>
 
 #include "mission/input_file.h"
 #include "mission/mission_parser.h"

@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <optional>
 
 #include "mission/input_file.h"
 #include "mission/nearest_name.h"

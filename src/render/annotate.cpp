@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdio>
-#include <numbers>
 
 #include "render/canvas.h"
 #include "render/draw_list.h"

@@ -1,6 +1,5 @@
 #include "render/canvas.h"
 
-#include <cmath>
 #include <cstddef>
 
 #include "vantage/error.h"

@@ -1,7 +1,6 @@
 #include "render/center_raster.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 

@@ -11,7 +11,6 @@
 
 #include "vantage/devices.h"
 #include "vantage/geometry.h"
-#include "vantage/progress.h"
 #include "vantage/scene.h"
 
 namespace vantage::render {

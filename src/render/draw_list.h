@@ -11,6 +11,8 @@
 
 namespace vantage::render {
 
+class Sight;
+
 /// A corner of a triangle; three in a row make one.
 struct DrawVertex {
   Eigen::Vector3f position, normal;
@@ -52,7 +54,6 @@ struct PictureExtent {
 };
 
 PictureExtent find_extent(const Scene& scene, const PictureRequest& request);
-class Sight;
 /// Parts of the scene that hide the target are drawn as of glass.
 DrawList make_draw_list(const Scene& scene, const PictureRequest& request, const PictureExtent& extent,
                         const View& view, const Sight& sight);

@@ -11,7 +11,6 @@
 // 2 slack / (forward - slack) of those computed, which is affine in q too. The polygon is grown by that margin.
 #pragma once
 
-#include <array>
 #include <span>
 #include <vector>
 

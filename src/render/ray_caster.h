@@ -1,11 +1,10 @@
-// First hits of rays from one point, by Embree 3: the only file of this room that sees it.
+// First hits of rays from one point, by Embree 3.
 #pragma once
 
 #include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "render/seen_scene.h"
 

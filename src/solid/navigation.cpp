@@ -3,11 +3,9 @@
 #include "solid/navigation.h"
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
-#include <string>
 #include <utility>
 #include <vector>
 

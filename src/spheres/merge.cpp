@@ -1,7 +1,6 @@
 #include "spheres/merge.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "parallel/parallel.h"
