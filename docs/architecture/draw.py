@@ -5,17 +5,19 @@ import pathlib
 
 ROOMS = {  # name: (left, top, width, what it does)
     "include/vantage": (20, 14, 760, "the public API: values, and functions that take and return them"),
-    "cli": (20, 104, 760, "inspect, compute, query, verify: parse, run, print"),
-    "mission": (20, 184, 230, "YAML to Mission, run it"),
-    "verify": (270, 184, 240, "shadow rays (Embree)"),
-    "query": (530, 184, 250, "point by point, no mesh"),
-    "solid": (20, 274, 230, "cuts (Manifold), files, reports"),
-    "exact": (530, 274, 250, "blockers, envelope, mesh (CDT)"),
-    "scene": (270, 364, 510, "files to Scene; weld, merge, hierarchy"),
-    "parallel": (20, 364, 230, "threads (oneTBB)"),
+    "cli": (20, 104, 760, "inspect, compute, query, verify, compare, devices, spheres, render: parse, run, print"),
+    "mission": (20, 194, 300, "YAML to Mission, run it"),
+    "query": (340, 194, 200, "point by point, no mesh"),
+    "verify": (560, 194, 220, "shadow rays (Embree)"),
+    "spheres": (20, 284, 300, "cube map, sphere mesh, Algorithm 1"),
+    "render": (20, 374, 180, "depth images, pictures"),
+    "exact": (220, 374, 560, "blockers, envelope, mesh (CDT)"),
+    "solid": (220, 464, 560, "booleans (Manifold), cuts, measures, files, reports"),
+    "scene": (20, 554, 540, "files to Scene; weld, merge, hierarchy"),
+    "parallel": (580, 554, 200, "threads (oneTBB)"),
 }
-CALLS = [("cli", "mission"), ("cli", "verify"), ("cli", "query"), ("mission", "solid"), ("query", "exact"),
-         ("exact", "scene")]
+CALLS = [("cli", "mission"), ("cli", "verify"), ("cli", "query"), ("mission", "spheres"), ("query", "exact"),
+         ("spheres", "render"), ("spheres", "exact"), ("exact", "solid"), ("render", "scene"), ("solid", "scene")]
 HEIGHT = 58
 
 
@@ -28,14 +30,15 @@ def box(name):
 
 
 def arrow(upper, lower):
-    """From the bottom of one room to the top of another, over the middle of the narrower one."""
-    left, _, width, _ = min(ROOMS[upper], ROOMS[lower], key=lambda room: room[2])
-    x, y0, y1 = left + width / 2, ROOMS[upper][1] + HEIGHT, ROOMS[lower][1] - 2
+    """From the bottom of one room to the top of another, over the middle of what they share."""
+    left = max(ROOMS[upper][0], ROOMS[lower][0])
+    right = min(ROOMS[room][0] + ROOMS[room][2] for room in (upper, lower))
+    x, y0, y1 = (left + right) / 2, ROOMS[upper][1] + HEIGHT, ROOMS[lower][1] - 2
     return f'<line x1="{x}" y1="{y0}" x2="{x}" y2="{y1}" stroke="#1d2b45" stroke-width="1.6" marker-end="url(#tip)"/>'
 
 
 def main():
-    parts = ['<svg xmlns="http://www.w3.org/2000/svg" width="800" height="440" viewBox="0 0 800 440" '
+    parts = ['<svg xmlns="http://www.w3.org/2000/svg" width="800" height="630" viewBox="0 0 800 630" '
              'font-family="Helvetica, Arial, sans-serif" fill="#1d2b45">',
              '<defs><marker id="tip" viewBox="0 0 8 8" refX="7" refY="4" markerWidth="8" markerHeight="8" '
              'orient="auto">'

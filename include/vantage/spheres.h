@@ -46,9 +46,8 @@ struct SpheresOptions {
 struct SphereStage {
   enum class Kind { sphere, pair, split, partial, result };
   Kind kind = Kind::sphere;
-  std::string name;  ///< "sphere 0", "pair 0-1", "split 0-1", "partial 2", "result"
-  std::vector<Vec3>
-      points;  ///< the vertex of a sphere; the two ends of a pair; the two ends and the midpoint of a split
+  std::string name;            ///< "sphere 0", "pair 0-1", "split 0-1", "partial 2", "result"
+  std::vector<Vec3> points;    ///< the vertex of a sphere, the ends of a pair, the ends and the midpoint of a split
   const Mesh* mesh = nullptr;  ///< scene frame, closed, possibly empty; null for a split. Valid during the call only
   long euler = 0;              ///< V - E + F, of `mesh`
   std::vector<long> component_euler;  ///< of each of its pieces
@@ -76,7 +75,8 @@ struct SpheresReport {
 /// Volume::counts stays empty but for scene_polygons. Causes name the scene as a whole: depth images know no objects.
 ///
 /// Errors as compute_visibility, and Error(input) for options out of range, a device that was insisted on and is not
-/// there. Cost: one depth image of six faces per vertex, and booleans of meshes of 12 cubemap^2 triangles.
+/// there. Cost: one depth image of six faces per vertex, and booleans of meshes of at most 12 cubemap^2 triangles, a
+/// tenth to a third of them where facets are joined.
 Volume compute_visibility_spheres(const PreparedScene& scene, const Target& target, const Sensor& sensor,
                                   const SpheresOptions& options = {}, SpheresReport* report = nullptr,
                                   const StageSink& stages = {}, const Progress& progress = {});
