@@ -297,7 +297,7 @@ TEST_F(HeavyPointCharlotte, AgreesWithRays) {
   for (const auto& group : json) {
     for (const auto& region : group.at("regions")) {
       const auto p = region.at("points").at(0).get<std::vector<double>>();
-      SCOPED_TRACE("(" + std::to_string(p[0]) + ", " + std::to_string(p[1]) + ", " + std::to_string(p[2]) + ")");
+      SCOPED_TRACE(::testing::Message() << "point " << p[0] << ", " << p[1] << ", " << p[2]);
       expect_right(scene, point({p[0], -p[1], p[2]}), 300);
       ++tried;
     }
