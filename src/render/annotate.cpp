@@ -152,7 +152,8 @@ void draw_scale(Canvas& canvas, const Annotation& annotation, const View& view, 
 void draw_north(Canvas& canvas, const View& view, double font) {
   const Eigen::Vector2d flat(view.right.y(), -view.up.y());  // of a step to the north, right and down
   const double length = kArrow * font;
-  const Eigen::Vector2d centre(view.width - (kEdge + 1.6) * font, (kEdge + 2.3) * font);
+  const double room = (kEdge + kArrow + 1.25) * font;  // the letter beyond the tip included, wherever it points
+  const Eigen::Vector2d centre(view.width - room, room);
   const double size = std::clamp(flat.norm(), 0.35, 1.0) * length;
   const Eigen::Vector2d along = flat.norm() > 1e-6 ? Eigen::Vector2d(flat.normalized()) : Eigen::Vector2d(0, -1);
   const Eigen::Vector2d across(-along.y(), along.x());
