@@ -17,7 +17,8 @@ struct Rectangle {
   bool is_cell() const { return width() == 1 && height() == 1; }
 };
 
-/// Halves one face until nothing but flat rectangles and single cells is left.
+/// Halves one face until nothing but flat rectangles and single cells is left, then joins cells in a row: along upright
+/// edges of buildings depth jumps in one column of cells after another, always in the same way.
 class FaceSplitter {
  public:
   FaceSplitter(const StarMesh& star, const FaceGrid& grid, double tolerance)
@@ -31,7 +32,7 @@ class FaceSplitter {
   }
 
   void split(const Rectangle& r) {
-    const bool at_range = is_at_range(r), flat = !r.is_cell() && !at_range && is_flat(r);
+    const bool at_range = is_at_range(r), flat = has_middle(r) && !at_range && is_flat(r);
     if (r.is_cell() || flat || (at_range && may_follow_range(r))) {
       whole_.push_back(r);
       if (flat) flat_.push_back(r);
@@ -40,10 +41,44 @@ class FaceSplitter {
     }
   }
 
+  void join_cells() {
+    std::vector<Rectangle> joined;
+    single_.assign(std::size_t(grid_.cells) * grid_.cells, 0);
+    for (const Rectangle& r : whole_) {
+      if (r.is_cell() && !is_at_range(r)) {
+        single(r.left, r.bottom) = 1;
+      } else {
+        joined.push_back(r);
+      }
+    }
+    for (const Rectangle& r : whole_) {
+      if (r.is_cell() && single(r.left, r.bottom)) joined.push_back(longest_strip(r));
+    }
+    whole_ = std::move(joined);
+  }
+
   const std::vector<Rectangle>& whole() const { return whole_; }  ///< all
   const std::vector<Rectangle>& flat() const { return flat_; }    ///< of these, what was joined because it is flat
 
  private:
+  std::uint8_t& single(int column, int row) { return single_[std::size_t(row) * grid_.cells + column]; }
+
+  /// From a cell on to the right or upwards; takes its cells from those that are still single.
+  Rectangle longest_strip(const Rectangle& cell) {
+    Rectangle wide = cell, high = cell;
+    while (wide.right < grid_.cells && single(wide.right, wide.bottom) &&
+           is_flat({wide.left, wide.bottom, wide.right + 1, wide.top}))
+      ++wide.right;
+    while (high.top < grid_.cells && single(high.left, high.top) &&
+           is_flat({high.left, high.bottom, high.right, high.top + 1}))
+      ++high.top;
+    const Rectangle strip = wide.width() >= high.height() ? wide : high;
+    for (int row = strip.bottom; row < strip.top; ++row)
+      for (int column = strip.left; column < strip.right; ++column) single(column, row) = 0;
+    if (!strip.is_cell()) flat_.push_back(strip);
+    return strip;
+  }
+
   double at(int column, int row) const { return inverse_[std::size_t(row) * side_ + column]; }
 
   void halve(const Rectangle& r) {
@@ -78,7 +113,6 @@ class FaceSplitter {
   }
 
   bool is_flat(const Rectangle& r) const {
-    if (!has_middle(r)) return false;
     const double a = at(r.left, r.bottom), b = at(r.right, r.bottom), c = at(r.left, r.top), d = at(r.right, r.top);
     const double along_u = 0.5 * (b - a + d - c) / r.width(), along_v = 0.5 * (c - a + d - b) / r.height();
     const double start = 0.25 * (a + b + c + d) - 0.5 * (along_u * r.width() + along_v * r.height());
@@ -104,6 +138,7 @@ class FaceSplitter {
   double tolerance_;
   std::vector<double> inverse_;
   std::vector<std::uint8_t> at_range_;
+  std::vector<std::uint8_t> single_;  // per cell: not joined with any other yet
   std::vector<Rectangle> whole_, flat_;
 };
 
@@ -122,6 +157,43 @@ void border_of(const Rectangle& r, const FaceGrid& grid, const std::vector<std::
   for (int j = r.top; j > r.bottom; --j) take(r.left, j);
 }
 
+/// Where the four corners are in the border.
+std::array<std::size_t, 4> corner_places(const Rectangle& r, const FaceGrid& grid,
+                                         const std::vector<std::uint32_t>& border) {
+  const std::size_t side = std::size_t(grid.cells) + 1;
+  const auto place = [&](int column, int row) {
+    return std::size_t(std::find(border.begin(), border.end(), grid.vertex[std::size_t(row) * side + column]) -
+                       border.begin());
+  };
+  return {place(r.left, r.bottom), place(r.right, r.bottom), place(r.right, r.top), place(r.left, r.top)};
+}
+
+/// A strip one cell wide: triangles between the vertices of its two long sides.
+void add_strip(const Rectangle& r, const std::vector<std::uint32_t>& border, const std::array<std::size_t, 4>& corner,
+               std::vector<Triangle>& facets) {
+  // `near` runs from one short side to the other, `far` beside it, the other way round the border.
+  const std::size_t count = border.size(), first = r.height() == 1 ? corner[0] : corner[1],
+                    last = r.height() == 1 ? corner[1] : corner[2];
+  std::vector<std::uint32_t> near, far;
+  for (std::size_t k = first;; k = (k + 1) % count) {
+    near.push_back(border[k]);
+    if (k == last) break;
+  }
+  for (std::size_t k = (first + count - 1) % count; k != last; k = (k + count - 1) % count) far.push_back(border[k]);
+  std::size_t i = 0, j = 0;
+  while (i + 1 < near.size() || j + 1 < far.size()) {
+    // In step, by the share of each chain that is done: on which of the two a triangle stands is a matter of shape
+    // only.
+    const bool on_near =
+        j + 1 == far.size() || (i + 1 < near.size() && (i + 1) * (far.size() - 1) <= (j + 1) * (near.size() - 1));
+    if (on_near) {
+      facets.push_back({near[i], far[j], near[i + 1]}), ++i;
+    } else {
+      facets.push_back({near[i], far[j], far[j + 1]}), ++j;
+    }
+  }
+}
+
 // right x up = -forward: counter-clockwise on the face is clockwise from outside.
 void add_facets(const StarMesh& star, const Rectangle& r, const FaceGrid& grid, bool is_inward,
                 const std::vector<std::uint32_t>& border, std::vector<Triangle>& facets) {
@@ -133,6 +205,7 @@ void add_facets(const StarMesh& star, const Rectangle& r, const FaceGrid& grid, 
     facets.push_back({border[k], border[(k + 3) % 4], border[k + 2]});
     return;
   }
+  if (r.width() == 1 || r.height() == 1) return add_strip(r, border, corner_places(r, grid, border), facets);
   const std::size_t side = std::size_t(grid.cells) + 1;
   const std::uint32_t middle = grid.vertex[std::size_t((r.bottom + r.top) / 2) * side + (r.left + r.right) / 2];
   for (std::size_t k = 0; k < border.size(); ++k)
@@ -170,7 +243,7 @@ void add_merged_facets(StarMesh& star, const std::vector<FaceGrid>& faces, const
   for (const FaceGrid& grid : faces) splits.emplace_back(star, grid, rules.tolerance);
   parallel::for_ranges(faces.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end; ++f)
-      if (faces[f].cells > 0) splits[f].split({0, 0, faces[f].cells, faces[f].cells});
+      if (faces[f].cells > 0) splits[f].split({0, 0, faces[f].cells, faces[f].cells}), splits[f].join_cells();
   });
   std::vector<std::uint8_t> is_used(star.rays.size(), 0);
   for (std::size_t f = 0; f < faces.size(); ++f) mark_used(faces[f], splits[f].whole(), rules.keeps_borders, is_used);

@@ -2,8 +2,9 @@
 //
 // A plane is affine in (u, v, inverse depth) over a face of the cube map, so a wall that fills a thousand texels needs
 // no thousand facets. Rectangles of cells are halved until the inverse depths of all their vertices are affine to
-// within the tolerance, or all are at the range and the rectangle is small; vertices that a finer neighbour uses on the
-// border are kept on both sides, so that no gap opens. docs/spheres.md has the bound.
+// within the tolerance, or all are at the range and the rectangle is small; cells that are left join into strips one
+// cell wide. Vertices that a finer neighbour uses on the border are kept on both sides, so that no gap opens.
+// docs/spheres.md has the bound.
 #pragma once
 
 #include <cstdint>
