@@ -343,6 +343,29 @@ TEST(Spheres, RefusesTargetsAsTheExactEngineDoes) {
             problem_of([&] { compute_visibility(PreparedScene(scene), triangle(), {-1}); }));
 }
 
+TEST(Spheres, PointsAreRaisedAndRefusedAsTheExactEngineDoes) {
+  SceneBuilder slope;
+  const Vec3 up = Vec3(-0.3, -0.1, 1).normalized();
+  slope.polygon("slope", {{-100, -100, -40}, {100, -100, 20}, {100, 100, 40}, {-100, 100, -20}});
+  const Target under = target_of({{3.3, 7.7, 1.759}});  // by a millimetre
+  const Volume exact = compute_visibility(PreparedScene(slope), under, {kRange});
+  const Result found = run(slope, under, coarse(10));
+  expect_sound(found.volume);
+  EXPECT_GT(found.volume.lift_m, 1e-3);
+  EXPECT_EQ(found.volume.lift_m, exact.lift_m);
+  for (const Vec3& v : found.volume.mesh.vertices) EXPECT_GT(v.dot(up), 0);
+
+  SceneBuilder block;
+  block.ground("ground", 200).box("block", {10, -5, 0}, {20, 5, 10});
+  Target along_ground = target_of({{0, 0, 0}});
+  along_ground.front = Vec3(0, 1, 0);
+  for (const Target& target : {target_of({{10, 0, 5}}), target_of({{9.999, 0, 5}}), along_ground}) {
+    const std::string refusal = problem_of([&] { compute_visibility(PreparedScene(block), target, {kRange}); });
+    EXPECT_NE(refusal.find("stands on or passes through the target"), std::string::npos) << refusal;
+    EXPECT_EQ(problem_of([&] { run(block, target, coarse(4)); }), refusal);
+  }
+}
+
 TEST(Spheres, ASphereFromInsideASolidIsItsInside) {
   SceneBuilder scene;
   scene.box("room", {-2, -2, -2}, {2, 2, 2});

@@ -8,6 +8,7 @@
 
 #include "exact/number_text.h"
 #include "exact/numerics.h"
+#include "exact/point_target.h"
 #include "exact/range_check.h"
 #include "exact/range_region.h"
 #include "exact/target_check.h"
@@ -76,6 +77,14 @@ void set_mesh(const TargetFrame& frame, solid::LabelledMesh labelled, Volume& vo
   }
 }
 
+/// How far the target is raised, or why it cannot be seen where it lies: as the exact method says, points too. At the
+/// least off the surface that it lies on: seen from a point of its own plane a polygon has no depth.
+double lift_of(const PreparedScene::Data& scene, const Target& target, const TargetFrame& frame, double reach) {
+  const double lift = target.is_point() ? exact::make_point_sides(scene, target, frame, reach).lift
+                                        : exact::clearing_lift(scene, target, frame, reach);
+  return std::max(lift, vantage::numerics::kClear);
+}
+
 void compute(const Target& target, const Sensor& sensor, const SpheresOptions& options, render::DepthRenderer& renderer,
              SpheresReport& report, const StageSink& stages, const Progress& progress, Volume& volume) {
   const bool front_only = target.vertices.size() > 1 || target.front;
@@ -109,9 +118,7 @@ Volume compute_visibility(const PreparedScene& scene, const Target& target, cons
   Volume volume;
   volume.tolerance_m = range_tolerance(options, sensor.max_range_m);
   volume.frame = make_target_frame(target);
-  // At the least off the surface that it lies on: seen from a point of its own plane a polygon has no depth.
-  volume.lift_m =
-      std::max(exact::clearing_lift(scene.data(), target, volume.frame, sensor.max_range_m), vantage::numerics::kClear);
+  volume.lift_m = lift_of(scene.data(), target, volume.frame, sensor.max_range_m);
   volume.frame.origin += volume.frame.normal * volume.lift_m;
   volume.counts.scene_polygons = scene.data().polygon_count();
   if (exact::can_reach(volume.frame, sensor)) {
