@@ -366,6 +366,27 @@ TEST(Spheres, PointsAreRaisedAndRefusedAsTheExactEngineDoes) {
   }
 }
 
+TEST(Spheres, TheToleranceBoundsHowFarRangeFacetsLieInside) {
+  SceneBuilder scene;
+  scene.ground("ground", 200);
+  const Target target = target_of({{1, 2, 20}});
+  for (const double merge : {0.0, 0.01, 0.05}) {
+    SpheresOptions options = coarse(40);
+    options.merge = merge;
+    const Volume volume = run(scene, target, options).volume;
+    const Mesh& mesh = volume.mesh;
+    double deepest = 0;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      if (volume.causes[volume.cause_of[t]].kind != CauseKind::range) continue;
+      const Triangle& corners = mesh.triangles[t];
+      const Vec3 middle = (mesh.vertices[corners[0]] + mesh.vertices[corners[1]] + mesh.vertices[corners[2]]) / 3;
+      deepest = std::max(deepest, kRange - (middle - volume.frame.origin).norm());
+    }
+    EXPECT_GT(deepest, 0);
+    EXPECT_LE(deepest, volume.tolerance_m) << merge;
+  }
+}
+
 TEST(Spheres, ASphereFromInsideASolidIsItsInside) {
   SceneBuilder scene;
   scene.box("room", {-2, -2, -2}, {2, 2, 2});

@@ -81,8 +81,10 @@ double range_tolerance(const SpheresOptions& options, double range_m) {
     const double latitude = std::numbers::pi / (*options.resolution)[1];
     half_diagonal = 0.5 * std::hypot(longitude, latitude);
   }
-  const double sagitta = range_m * (1 - std::cos(std::min(half_diagonal, std::numbers::pi / 2)));
-  return options.resolution ? sagitta : std::max(sagitta, options.merge * range_m);
+  const double sagitta = 1 - std::cos(std::min(half_diagonal, std::numbers::pi / 2));
+  // A joined facet is off its cells by the tolerance of joining, and drawn in by as much.
+  const double joined = options.resolution ? 0 : 2 * options.merge;
+  return range_m * std::min(sagitta + joined, 1.0);
 }
 
 std::size_t facet_count(const SpheresOptions& options) {
