@@ -148,6 +148,18 @@ TEST_F(CliSpheres, LeavesOtherFoldersAlone) {
   expect_bad(with("mine"), "holds other things", "mine");
   expect_bad(with("city.obj"), "not a folder", "city.obj");
   expect_bad(with("no/such/place"), "cannot be made", "no/such/place");
+  // What somebody put beside older stages is not lost, be it an input of this very run.
+  write("kept/stages.json", "{}");
+  write("kept/000_sphere_0.ply", "old");
+  write("kept/notes.txt", "dear");
+  expect_bad(with("kept"), "holds other things: notes.txt", "kept");
+  EXPECT_EQ(testing::content(folder_ / "kept" / "notes.txt"), "dear");
+  EXPECT_EQ(testing::content(folder_ / "kept" / "000_sphere_0.ply"), "old");
+  fs::remove(folder_ / "kept" / "notes.txt");
+  fs::create_directory(folder_ / "kept" / "001_scans.ply");
+  expect_bad(with("kept"), "holds other things: 001_scans.ply", "kept");
+  write("scans/001_scan.ply", "mine");
+  expect_bad(with("scans"), "holds other things: no stages.json", "scans");
   // A run that fails leaves the older stages, and no traces.
   write("stages/stages.json", "{}");
   write("mission.yaml",

@@ -52,6 +52,15 @@ std::string file_name(std::size_t order, std::string name) {
 
 Json json_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
+/// Whether --stages writes files of this name: stages.json, and numbered meshes.
+bool is_stage_file(const fs::directory_entry& entry) {
+  std::error_code error;
+  const std::string name = entry.path().filename().string();
+  const std::size_t digits = std::min(name.find_first_not_of("0123456789"), name.size());
+  const bool is_mesh = digits >= 3 && name[digits] == '_' && entry.path().extension() == ".ply";
+  return (is_mesh || name == kStory) && entry.is_regular_file(error);
+}
+
 /// Without a slash at the end, which would make the folder its own parent.
 fs::path without_slash(const fs::path& folder) { return folder.has_filename() ? folder : folder.parent_path(); }
 
@@ -63,9 +72,7 @@ StageFolder::StageFolder(fs::path folder) : asked_(std::move(folder)), folder_(w
   if (folder_.empty() || (fs::exists(status) && !fs::is_directory(status)))
     throw Error(ErrorKind::input, "the place of the stages is not a folder", asked_.string(),
                 "name a folder for --stages; it is made if it does not exist");
-  if (fs::exists(status) && !fs::is_empty(folder_, error) && !fs::exists(folder_ / kStory, error))
-    throw Error(ErrorKind::input, std::string("the folder of the stages holds other things: no ") + kStory,
-                asked_.string(), "name an empty or a new folder, or one that --stages wrote");
+  if (fs::exists(status)) check_replaceable();
   if (fs::is_symlink(folder_, error)) folder_ = fs::canonical(folder_, error);
   const fs::path parent = folder_.has_parent_path() ? folder_.parent_path() : fs::path(".");
   std::string pattern = (parent / ".vantage-stages-XXXXXX").string();
@@ -83,6 +90,25 @@ StageFolder::~StageFolder() {
 void StageFolder::fail(const std::string& problem, int error_number) const {
   throw Error(ErrorKind::output, problem + ": " + std::strerror(error_number), asked_.string(),
               "name a folder that can be written, on a disk with room");
+}
+
+/// The old folder is removed as a whole: nothing in it may be anybody else's.
+void StageFolder::check_replaceable() const {
+  const auto refuse = [&](const std::string& reason) {
+    throw Error(ErrorKind::input, "the folder of the stages holds other things: " + reason, asked_.string(),
+                "name an empty or a new folder, or one that holds what --stages wrote and nothing else");
+  };
+  std::error_code error;
+  fs::directory_iterator entry(folder_, error);
+  if (error) fail("the folder of the stages cannot be read", error.value());
+  bool is_empty = true, has_story = false;
+  for (; entry != fs::directory_iterator(); entry.increment(error)) {
+    if (!is_stage_file(*entry)) refuse(entry->path().filename().string());
+    is_empty = false;
+    has_story |= entry->path().filename() == kStory;
+  }
+  if (error) fail("the folder of the stages cannot be read", error.value());
+  if (!is_empty && !has_story) refuse(std::string("no ") + kStory);
 }
 
 StageSink StageFolder::sink() {
@@ -130,6 +156,7 @@ void StageFolder::commit(const Mission& mission, const Volume& volume, const Sph
   const fs::path aside = temporary_.string() + "-old";
   const bool is_replacing = fs::exists(folder_, error);
   if (is_replacing) {
+    check_replaceable();  // the run may have taken long
     fs::rename(folder_, aside, error);
     if (error) fail("the old folder of the stages cannot be replaced", error.value());
   }

@@ -12,7 +12,7 @@ namespace vantage::cli {
 
 /// A folder of numbered meshes (000_sphere_0.ply, scene frame) and stages.json. It is made under another name beside
 /// its place, and put there by commit() as a whole; before that, and when anything fails, what was there stays. An
-/// older folder is replaced only if it is empty or holds a stages.json.
+/// older folder is replaced only if it is empty, or holds a stages.json and nothing but files of such names.
 class StageFolder {
  public:
   /// Throws Error(input) for a place that is taken by something else, Error(output) where no folder can be made.
@@ -29,6 +29,7 @@ class StageFolder {
 
  private:
   void add(const SphereStage& stage);
+  void check_replaceable() const;
   [[noreturn]] void fail(const std::string& problem, int error_number) const;
 
   std::filesystem::path asked_, folder_, temporary_;
