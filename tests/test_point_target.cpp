@@ -8,6 +8,7 @@
 #include <numbers>
 #include <string>
 
+#include "support/mesh_probe.h"
 #include "support/random.h"
 #include "support/ray_caster.h"
 #include "support/scenes.h"
@@ -303,6 +304,23 @@ TEST_F(HeavyPointCharlotte, AgreesWithRays) {
     }
   }
   EXPECT_GE(tried, 5);
+}
+
+/// Where a wall hides the point, and a smaller triangle in its place let the volume in all the same.
+TEST(HeavyPointCities, WallsAtSomeHundredMetresHide) {
+  VANTAGE_REQUIRE_SHARED("mesh/munich_merged.ply");
+  const auto expect_hidden = [](const Scene& scene, const Target& target, const Vec3& from) {
+    const Volume volume = volume_of(scene, target, 700);
+    EXPECT_LE(MeshProbe(volume).depth(from), 1e-6 * (from - volume.frame.origin).norm()) << from.transpose();
+  };
+  const Scene charlotte = read_scene(shared_data("charlotte/uptownCharlotte.obj"), {.up = UpAxis::y});
+  expect_hidden(charlotte, point({281, 126, 2}, Vec3(0, 0, 1)), {468.878090305, -268.854384524, 9.1805406575});
+  const Scene munich = read_scene(shared_data("mesh/munich_merged.ply"));
+  expect_hidden(munich, point({-108, -93, 30}), {447.619981061, -127.869535869, 16.2904927705});
+  expect_hidden(munich,
+                point({16.321704014479643, -41.75726387038288, 80},
+                      Vec3(-1.2736493271062752, 0.7564951393812008, 1.0298586434986376)),
+                {-167.240870851, 340.049377576, 11.7889321797});
 }
 
 }  // namespace
