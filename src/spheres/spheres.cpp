@@ -15,8 +15,11 @@ Volume compute_visibility_spheres(const PreparedScene& scene, const Target& targ
   Volume volume;
   parallel::with_threads(options.threads, [&] {
     const render::ChosenRenderer chosen = render::make_depth_renderer(scene, options.device);
+    const RenderDevice hoped = chosen.renderer->device();
     volume = spheres::compute_visibility(scene, target, sensor, options, *chosen.renderer, report, stages, progress);
-    if (report) report->device_note = chosen.note;
+    if (!report) return;
+    report->device_note = chosen.note;
+    if (report->device.index != hoped.index) report->device_note = hoped.name + " failed on the way, the CPU went on";
   });
   return volume;
 }
