@@ -39,10 +39,10 @@ def row(case, reports, difference, checks):
     exact, spheres = reports["exact"], reports["spheres"]
     volume = exact["volume_m3"]
     counts = spheres["spheres"]
-    return (f"| [{case}](paper/{case}.yaml) | {volume:,.0f} | {exact['pieces']} | {1000 * exact['seconds']['engine']:.0f} ms "
+    return (f"| [{case}](paper/{case}.yaml) | {volume:,.0f} | {exact['pieces']} "
             f"| {checks['exact']['over_claimed']} of {checks['exact']['inside']:,} | {spheres['volume_m3']:,.0f} "
             f"| {100 * difference['only_a_m3'] / volume:.2f} % | {100 * difference['only_b_m3'] / volume:.2f} % "
-            f"| {counts['spheres']}, {counts['splits']} | {spheres['seconds']['engine']:.1f} s "
+            f"| {counts['spheres']}, {counts['splits']} "
             f"| {checks['spheres']['over_claimed']} of {checks['spheres']['inside']:,} |")
 
 
@@ -64,8 +64,8 @@ def main():
     arguments = parser.parse_args()
     program, out = str(arguments.program), ROOT / "build/paper"
     out.mkdir(parents=True, exist_ok=True)
-    print("| mission | exact, m³ | pieces | engine | over-claimed | spheres, m³ | too much | missed | spheres made, splits "
-          "| engine | over-claimed |\n|---|---|---|---|---|---|---|---|---|---|---|")
+    print("| mission | exact, m³ | pieces | over-claimed | spheres, m³ | too much | missed | spheres made, splits "
+          "| over-claimed |\n|---|---|---|---|---|---|---|---|---|")
     for case in CASES:
         print(row(case, *experiment(program, case, out)), flush=True)
         if not arguments.no_pictures:
