@@ -13,7 +13,6 @@ namespace vantage::render {
 namespace {
 
 constexpr int kPacket = 8;
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 /// Embree hands the context back to the filter: what follows its own part is ours.
 struct CastContext {
