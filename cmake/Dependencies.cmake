@@ -16,6 +16,20 @@ target_link_libraries(vantage_embree INTERFACE embree)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(CAIRO REQUIRED IMPORTED_TARGET cairo>=1.16)
 
+# PROJ: coordinate reference systems (src/geo only). libosmium is headers; it reads XML with Expat and unpacks with zlib and
+# bzip2 (src/osm only). Clipper 6.4: outlines in the plane (src/city/footprint.cpp only); its
+# package file tells no version.
+pkg_check_modules(PROJ REQUIRED IMPORTED_TARGET proj>=9.1)
+pkg_check_modules(CLIPPER REQUIRED IMPORTED_TARGET polyclipping)
+find_package(EXPAT REQUIRED)
+find_package(BZip2 REQUIRED)
+find_package(Threads REQUIRED)
+find_path(OSMIUM_INCLUDE_DIR osmium/version.hpp REQUIRED)
+add_library(vantage_osmium INTERFACE)
+add_library(vantage::osmium ALIAS vantage_osmium)
+target_include_directories(vantage_osmium SYSTEM INTERFACE ${OSMIUM_INCLUDE_DIR})
+target_link_libraries(vantage_osmium INTERFACE EXPAT::EXPAT BZip2::BZip2 ZLIB::ZLIB Threads::Threads)
+
 # Source releases that Debian does not package, fetched by scripts/fetch_sources.sh (pinned by version and hash).
 set(VANTAGE_DEPS_DIR ${PROJECT_SOURCE_DIR}/.deps CACHE PATH "Where scripts/fetch_sources.sh puts source releases")
 

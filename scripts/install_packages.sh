@@ -16,8 +16,10 @@ packages=(
   libegl-dev libgl-dev libegl1 libgl1-mesa-dri
   # pictures
   libcairo2-dev fonts-dejavu-core
+  # maps and terrain; GDAL is loaded when there is one
+  libosmium2-dev libproj-dev proj-data libpolyclipping-dev libgdal32
   # tests and benchmarks
-  libgtest-dev libbenchmark-dev
+  libgtest-dev libbenchmark-dev osmium-tool
 )
 tools=(clang libclang-rt-14-dev clang-format clang-tidy)
 

@@ -4,10 +4,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "vantage/geometry.h"
+#include "vantage/georeference.h"
 #include "vantage/progress.h"
 
 namespace vantage {
@@ -27,6 +29,9 @@ struct Scene {
 
   // Counted while reading.
   std::size_t dropped_faces = 0;  ///< faces of the file that hold no triangle (fewer than 3 corners)
+
+  /// Where it lies on the earth; nothing for a mesh that does not say. The scene frame is then the one described there.
+  std::optional<Georeference> georeference;
 };
 
 struct SceneReadOptions {

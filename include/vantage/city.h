@@ -1,0 +1,97 @@
+// From OpenStreetMap and terrain to a scene: docs/scene.md.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "vantage/georeference.h"
+#include "vantage/progress.h"
+#include "vantage/scene.h"
+
+namespace vantage {
+
+/// What is assumed where the map says nothing. The table in docs/scene.md is made of these; each can be set.
+struct BuildingDefaults {
+  double level_m = 3.0;  ///< height of a storey (building:levels counts them)
+  double levels = 3;     ///< storeys of a building that has neither height nor levels
+  /// Storeys by the value of building=*, which goes before `levels`.
+  std::map<std::string, double> levels_of = {{"house", 2},          {"detached", 2}, {"semidetached_house", 2},
+                                             {"terrace", 2},        {"bungalow", 1}, {"farm", 2},
+                                             {"garage", 1},         {"garages", 1},  {"carport", 1},
+                                             {"shed", 1},           {"hut", 1},      {"cabin", 1},
+                                             {"kiosk", 1},          {"roof", 1},     {"greenhouse", 1},
+                                             {"static_caravan", 1}, {"service", 1},  {"industrial", 2},
+                                             {"warehouse", 2},      {"retail", 2},   {"church", 4},
+                                             {"cathedral", 8}};
+  double roof_level_m = 2.5;  ///< height of a storey in the roof (roof:levels)
+  double roof_pitch_deg =
+      30;                    ///< of a roof that is not flat and has no height of its own; at most a third of the height
+  double roof_deck_m = 0.5;  ///< thickness of building=roof, carport and the like, which stand on posts
+};
+
+/// What else is built; each can be switched off.
+struct Occluders {
+  bool walls = true;    ///< barrier=wall, city_wall, fence, retaining_wall, hedge, with or without a height
+  bool towers = true;   ///< man_made=tower, mast, chimney, water_tower, storage_tank, silo, communications_tower, …
+  bool bridges = true;  ///< bridge decks, so that one can look under them
+  bool trees = true;    ///< natural=tree and tree_row
+};
+
+/// The part of the map that is built. An object belongs to it, whole, when one of its corners does.
+struct CityRegion {
+  std::optional<std::array<double, 2>> center_deg;  ///< latitude, longitude (WGS 84)
+  double radius_m = 0;                              ///< about the centre; > 0 with `center_deg`
+  std::optional<std::array<double, 4>> bbox_deg;    ///< west, south, east, north
+};
+
+struct CityOptions {
+  CityRegion region;              ///< neither: all of the file
+  std::filesystem::path terrain;  ///< GeoTIFF, .hgt or .hgt.zip; empty: a plane at z = 0
+  double terrain_error_m = 0.5;   ///< the triangulated ground differs from the raster by no more than this
+  double ground_margin_m = 50;    ///< how far the ground goes on round what is built
+  BuildingDefaults defaults;
+  Occluders occluders;
+};
+
+/// What became of an object that was read and wanted.
+enum class Fate { written, repaired, open_surface, skipped };
+
+struct CityRecord {
+  std::string object;  ///< "way/265517"
+  std::string name;    ///< its name tag
+  std::string kind;    ///< "building", "building part", "wall", "tower", "bridge", "tree"
+  Fate fate = Fate::written;
+  std::string reason;                ///< of all but `written`; the report counts by it
+  std::vector<std::string> remarks;  ///< on its tags
+  double ground_m = 0;               ///< z it stands on
+  double base_m = 0, top_m = 0;      ///< lowest and highest z
+  double footprint_m2 = 0;
+};
+
+/// What was read and what became of it. Per kind: read = written + repaired + open_surface + skipped.
+struct CityReport {
+  Georeference georeference;
+  std::vector<CityRecord> records;
+  std::size_t outside = 0;         ///< left out because of the region
+  std::vector<std::string> notes;  ///< on the file and the terrain: voids filled, missing references, not sorted
+  double read_seconds = 0, build_seconds = 0, check_seconds = 0;
+};
+
+struct City {
+  Scene scene;  ///< one object per solid, named "way/265517 Empire State Building"; the ground is the object "ground"
+  CityReport report;
+};
+
+/// Reads an OpenStreetMap file (.osm, .osm.gz, .osm.bz2, .osm.pbf) and builds what it holds. Throws Error(input) for:
+/// all that reading refuses; a region without an area, out of range, or outside the file (says its bounds, and when
+/// latitude and longitude are the wrong way round); nothing to build in it (says how far the nearest building is); a
+/// terrain that cannot be used (docs/scene.md). Error(cancelled) when told to stop.
+City build_city(const std::filesystem::path& file, const CityOptions& options = {}, const Progress& progress = {});
+
+}  // namespace vantage

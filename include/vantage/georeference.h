@@ -1,0 +1,22 @@
+// Where on the earth a scene lies.
+#pragma once
+
+#include <string>
+
+namespace vantage {
+
+/// The scene frame of a scene that has a place on the earth: x east, y north, z up, in metres, from an origin in
+/// WGS 84. x and y are the azimuthal equidistant projection of the WGS 84 ellipsoid about the origin (Snyder, "Map
+/// projections: a working manual", 1987, chapter 25; EPSG method 9832): distances and directions from the origin are
+/// those on the ellipsoid, and between points within 2 km of it distances are right to 0.1 mm. See docs/scene.md.
+struct Georeference {
+  double latitude_deg = 0;   ///< of the origin; WGS 84, -90 to 90
+  double longitude_deg = 0;  ///< of the origin; WGS 84, -180 to 180
+  std::string vertical;      ///< what z is measured from: "flat ground", "EGM96 geoid", "as in dem.tif", "NAP height"
+  std::string source_crs;    ///< of the file it came from: "EPSG:4326", "EPSG:7415"; empty when unknown
+};
+
+/// PROJ's words for the horizontal part: "+proj=aeqd +lat_0=… +lon_0=… +datum=WGS84 +units=m +type=crs".
+std::string projection_text(const Georeference& georeference);
+
+}  // namespace vantage

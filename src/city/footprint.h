@@ -1,0 +1,47 @@
+// Outlines in the plane: cleaned, so that every later step may trust them. The only file that sees Clipper is
+// footprint.cpp.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace vantage::city {
+
+using Vec2 = Eigen::Vector2d;
+using Ring = std::vector<Vec2>;  ///< open: the first point is not repeated
+
+/// A simple polygon with holes: metres in the scene frame, every coordinate a multiple of kGrid (so that buildings that
+/// share a node share a point). Rings do not cross themselves or each other; they may touch in single points, which
+/// `make_solid` sees to. No ring has fewer than 3 points, repeated points or points in the middle of a straight side
+/// closer to it than kGrid.
+struct Footprint {
+  Ring outer;               ///< counter-clockwise
+  std::vector<Ring> holes;  ///< clockwise
+};
+
+constexpr double kGrid = 1.0 / 8192;  ///< metres: far below what OpenStreetMap stores (1e-7 degrees: 11 mm)
+
+double area_m2(const Footprint& footprint);  ///< holes taken off
+double area_m2(const std::vector<Footprint>& footprints);
+
+/// What was done to an outline to make it simple.
+struct Repairs {
+  bool self_crossing = false;  ///< it crossed itself: inside is what is wound round an odd number of times
+  bool nesting = false;        ///< holes outside the outer ring, or overlapping each other
+  std::size_t slivers = 0;     ///< pieces narrower than 1 cm or smaller than 0.01 m2 that were dropped
+};
+
+/// Rounds to the grid, removes spikes and repeated points, resolves crossings. Empty when nothing with an area is left.
+std::vector<Footprint> clean(const std::vector<Footprint>& rough, Repairs& repairs);
+
+std::vector<Footprint> subtract(const std::vector<Footprint>& from, const std::vector<Footprint>& what);
+std::vector<Footprint> intersect(const std::vector<Footprint>& a, const std::vector<Footprint>& b);
+
+/// Of a line with round ends and joints left out (mitred, square-free): a wall of this width. `closed`: a ring.
+std::vector<Footprint> widen(const std::vector<Vec2>& line, bool closed, double width_m);
+
+/// Convex pieces that cover a footprint and overlap only along their sides: few of them, none narrower than need be
+/// (triangulated, then joined while convex: Hertel and Mehlhorn, 1983). One when the footprint is convex without holes.
+std::vector<Ring> convex_pieces(const Footprint& footprint);
+
+}  // namespace vantage::city

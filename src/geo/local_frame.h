@@ -1,0 +1,61 @@
+// Between the earth and a scene's frame. The only room that sees PROJ.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <string>
+
+#include "vantage/georeference.h"
+
+namespace vantage::geo {
+
+/// Degrees, WGS 84, in this order everywhere in the library (mission files say [lat, lon] where they name a centre).
+struct LonLat {
+  double longitude_deg = 0;
+  double latitude_deg = 0;
+};
+
+/// The horizontal scene frame about an origin (see Georeference). Not for two threads at once; cheap to make (~1 ms).
+class LocalFrame {
+ public:
+  /// Throws Error(input) for a latitude or longitude that is out of range or not finite.
+  explicit LocalFrame(LonLat origin);
+  ~LocalFrame();
+  LocalFrame(LocalFrame&&) noexcept;
+  LocalFrame& operator=(LocalFrame&&) noexcept;
+
+  LonLat origin() const;
+  Eigen::Vector2d to_local(LonLat position) const;  ///< metres, (east, north)
+  LonLat to_lonlat(const Eigen::Vector2d& local) const;
+
+ private:
+  struct Data;
+  std::unique_ptr<Data> data_;
+};
+
+/// From a coordinate reference system to WGS 84 and back: "EPSG:4326", "EPSG:28992", "EPSG:7415" (of a compound one
+/// only the horizontal part is used), a WKT text, a PROJ text, or a CityJSON URL
+/// ("https://www.opengis.net/def/crs/EPSG/0/7415", "urn:ogc:def:crs:EPSG::7415"). Horizontal coordinates are always
+/// (east, north) or (longitude, latitude), whatever the authority's order of axes. Uses no network, and the best
+/// transformation among those whose grids are installed.
+class CoordinateSystem {
+ public:
+  /// Throws Error(input) for a text that PROJ does not know, a system that is not geographic or projected, or a PROJ
+  /// that lacks its database; `where` says where the text was found.
+  CoordinateSystem(const std::string& text, const std::string& where);
+  ~CoordinateSystem();
+  CoordinateSystem(CoordinateSystem&&) noexcept;
+  CoordinateSystem& operator=(CoordinateSystem&&) noexcept;
+
+  LonLat to_lonlat(const Eigen::Vector2d& position) const;  ///< throws Error(input) where the projection has no value
+  Eigen::Vector2d from_lonlat(LonLat position) const;       ///< likewise
+  bool is_geographic() const;                               ///< coordinates are degrees
+  const std::string& name() const;                          ///< "EPSG:28992 (Amersfoort / RD New)"
+  std::string vertical_name() const;                        ///< "NAP height" of a compound system; else empty
+
+ private:
+  struct Data;
+  std::unique_ptr<Data> data_;
+};
+
+}  // namespace vantage::geo

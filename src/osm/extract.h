@@ -1,0 +1,126 @@
+// What an OpenStreetMap file holds that may hide something, read with libosmium. The only room that sees it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "geo/local_frame.h"
+#include "vantage/progress.h"
+
+namespace vantage::osm {
+
+using geo::LonLat;
+
+enum class ObjectType { node, way, relation };
+
+struct ObjectId {
+  ObjectType type = ObjectType::way;
+  std::int64_t id = 0;
+
+  auto operator<=>(const ObjectId&) const = default;
+};
+std::string text(ObjectId id);                                   ///< "way/265517"
+std::optional<ObjectId> parse_object_id(std::string_view text);  ///< "way/265517", also "w265517"
+
+/// Keys and values as in the file. Few per object: searched one by one.
+class Tags {
+ public:
+  std::vector<std::pair<std::string, std::string>> all;
+
+  /// The value, or an empty text when there is none.
+  std::string_view get(std::string_view key) const;
+  bool has(std::string_view key) const;
+};
+
+using Ring = std::vector<LonLat>;  ///< open: the first position is not repeated
+
+struct Polygon {
+  Ring outer;               ///< counter-clockwise
+  std::vector<Ring> holes;  ///< clockwise
+};
+
+/// A closed way or a multipolygon relation, assembled. The tags of a multipolygon are the relation's, or for old-style
+/// ones its outer way's.
+struct Area {
+  ObjectId id;
+  Tags tags;
+  std::vector<Polygon> polygons;
+};
+
+struct Line {
+  ObjectId id;
+  Tags tags;
+  std::vector<LonLat> points;  ///< of a closed line the first is repeated at the end
+};
+
+struct Point {
+  ObjectId id;
+  Tags tags;
+  LonLat position;
+};
+
+/// type=building (Simple 3D Buildings): which parts belong to which outline. Members that are not in the file are left
+/// out.
+struct BuildingRelation {
+  ObjectId id;
+  Tags tags;
+  std::vector<ObjectId> outlines, parts;
+};
+
+/// An object that could not be read as it should be.
+struct Problem {
+  enum class Kind {
+    missing_nodes,        ///< a way refers to nodes that are not in the file; built from the rest where 3 are left
+    missing_members,      ///< a relation refers to ways that are not in the file
+    broken_multipolygon,  ///< rings do not close, cross, or nest wrongly: nothing could be assembled
+    degenerate,           ///< fewer than 3 different positions, or no area
+    open_outline          ///< a way tagged as an area that is not closed
+  };
+  ObjectId object;
+  Kind kind = Kind::missing_nodes;
+  std::string what;   ///< for people: "3 of 12 nodes are not in the file"
+  bool lost = false;  ///< nothing of the object is in the extract
+  Tags tags;          ///< of the object, to tell whether a building was lost
+};
+
+/// Positions that are wanted. An object is taken, whole, when one of its positions lies inside.
+struct Region {
+  std::optional<std::pair<LonLat, double>> circle;  ///< centre and radius in metres (on the ellipsoid)
+  std::optional<std::array<double, 4>> box_deg;     ///< west, south, east, north
+};
+
+struct ReadOptions {
+  std::optional<Region> region;  ///< nothing: all of the file
+  /// Asked for every way, relation and tagged node: whether its tags are of interest as an area, a line or a point.
+  /// What is not is not read any further. Tags of multipolygons are asked likewise.
+  bool (*wanted)(const Tags& tags) = nullptr;
+};
+
+struct Extract {
+  std::vector<Area> areas;  ///< in the order of type and id, as all lists here
+  std::vector<Line> lines;  ///< wanted ways, closed ones that are areas excepted
+  std::vector<Point> points;
+  std::vector<BuildingRelation> building_relations;
+  std::vector<Problem> problems;
+
+  std::array<double, 4> bounds_deg{};  ///< west, south, east, north of all nodes of the file, whatever the region
+  std::size_t nodes = 0, ways = 0, relations = 0;  ///< in the file
+  std::size_t outside = 0;                         ///< wanted objects that were left out because of the region
+  double nearest_outside_m = 0;  ///< of these the nearest one's distance from the region's centre; 0 when none
+  bool sorted = true;            ///< by type and id; else it was sorted in memory
+};
+
+/// Reads .osm, .osm.gz, .osm.bz2 and .osm.pbf, told by content and name. A closed way is an area when it is tagged
+/// building, building:part, area=yes, leisure, landuse, natural (but not tree_row), amenity, place or area:*, and not
+/// area=no; other closed ways are lines (a wall round a garden), those with both meanings are in both lists.
+/// Throws Error(input) naming the file for: no such file, not an OSM file, truncated or garbled (where), an empty one.
+/// Deleted objects (visible=false) and history files: only current versions. Error(cancelled) when told to stop.
+Extract read_extract(const std::filesystem::path& file, const ReadOptions& options = {}, const Progress& progress = {});
+
+}  // namespace vantage::osm
