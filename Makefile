@@ -47,8 +47,8 @@ tsan: prepare  ## unit tests under ThreadSanitizer
 	ctest --preset tsan --parallel $(JOBS)
 
 .PHONY: bench
-bench: everything  ## the benchmarks (RECORD=1 keeps the engine's figures in bench/results)
-	build/bin/vantage_bench --benchmark_filter='-^(engine|plain|prepare)/' $(BENCH_FLAGS)
+bench: everything  ## the benchmarks (RECORD=1 keeps the figures in bench/results)
+	build/bin/vantage_bench --benchmark_filter='-^(engine|plain|prepare|depth|spheres)/' $(BENCH_FLAGS)
 	bench/run.sh $(if $(RECORD),,--no-file)
 
 .PHONY: fuzz

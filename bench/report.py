@@ -5,6 +5,8 @@ import collections
 import json
 import statistics
 
+import report_spheres
+
 # Per scene and range in metres: (aimed at, at most), milliseconds for one target.
 AIMS = {
     ("charlotte", "100m"): (1, 3),
@@ -157,13 +159,17 @@ def main():
           "milliseconds unless said otherwise; spread is the standard deviation over the mean. CPU time is of all "
           "threads of the process. When others use the machine (a load above 1 before the start) only the CPU times of "
           "one thread mean much; wall times are then too long.\n")
-    inputs(found)
-    engine_table(found)
-    ratio_table(found)
+    if any(name.startswith("engine/") for name in found):
+        inputs(found)
+        engine_table(found)
+        ratio_table(found)
     plain_table(found)
     prepare_table(found)
-    for name, message in skipped.items():
-        print(f"- skipped: {name}: {message}")
+    report_spheres.depth_table(found, show)
+    report_spheres.volume_table(found, show)
+    for name, message in sorted(skipped.items()):
+        if not name.endswith("/gpu"):  # the list of devices tells of a graphics processor that is not there
+            print(f"- skipped: {name}: {message}")
 
 
 if __name__ == "__main__":

@@ -7,7 +7,7 @@ root=$(cd "$(dirname "$0")/.." && pwd)
 write=yes
 [ "${1:-}" != --no-file ] || { write=no; shift; }
 program=${1:-$root/build/bin/vantage_bench}
-filter=${FILTER:-'^(engine|plain)/'}
+filter=${FILTER:-'^(engine|plain|depth|spheres)/'}
 
 commit=$(git -C "$root" rev-parse --short HEAD 2>/dev/null || echo unknown)
 git -C "$root" diff --quiet HEAD -- src include cmake bench 2>/dev/null || commit+=" and changes"

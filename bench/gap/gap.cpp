@@ -3,7 +3,8 @@
 //   vantage_gap [--cities charlotte,munich,...] [--targets 20] [--range 300] [--sizes 40,100,200] [--splits 0,...,6]
 //               [--spheres conservative,centers] [--split euler|always]
 // The city "baseline" means the three targets of charlotte/baseline.json; of the others the targets are drawn at random
-// with a fixed seed (support/street_targets.h).
+// with a fixed seed (support/street_targets.h). The splits go up: a case that no further split can change is not
+// computed again, its figures are repeated.
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
@@ -52,20 +53,25 @@ solid::Solid solid_of(const Volume& volume, const Vec3& origin) {
   return solid::Solid(labelled);
 }
 
-void print_case(const std::string& city, std::size_t number, double range, const solid::Solid& exact,
-                const Vec3& origin, const PreparedScene& scene, const Target& target, const SpheresOptions& options,
-                const std::string& words) {
+/// What a run came to, but for the name of the case.
+struct Outcome {
+  std::string figures;
+  bool settled = false;  ///< more splits would change nothing: no pair was left that fails the test
+};
+
+Outcome run_case(const solid::Solid& exact, const Vec3& origin, const PreparedScene& scene, const Target& target,
+                 double range, const SpheresOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   SpheresReport report;
   const Volume volume = compute_visibility_spheres(scene, target, {range}, options, &report);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const solid::Solid claimed = volume.mesh.empty() ? solid::Solid() : solid_of(volume, origin);
   const double both = solid::intersect(claimed, exact).volume();
-  std::printf("%s,%zu,%g,%s,%d,%d,%.6f,%.6f,%.6f,%.6f,%zu,%zu,%zu,%zu,%ld,%.4f\n", city.c_str(), number, range,
-              words.c_str(), options.cubemap, options.max_splits, exact.volume(), claimed.volume(),
-              claimed.volume() - both, exact.volume() - both, report.spheres, report.pairs, report.splits,
-              report.unresolved_pairs, claimed.euler(), seconds);
-  std::fflush(stdout);
+  char figures[256];
+  std::snprintf(figures, sizeof figures, "%.6f,%.6f,%.6f,%.6f,%zu,%zu,%zu,%zu,%ld,%.4f", exact.volume(),
+                claimed.volume(), claimed.volume() - both, exact.volume() - both, report.spheres, report.pairs,
+                report.splits, report.unresolved_pairs, claimed.euler(), seconds);
+  return {figures, options.split == SpheresOptions::Split::euler && report.unresolved_pairs == 0};
 }
 
 void run_target(const Request& request, const std::string& city, std::size_t number, double range,
@@ -74,7 +80,8 @@ void run_target(const Request& request, const std::string& city, std::size_t num
   const Vec3 origin = volume.frame.origin;
   const solid::Solid exact = solid_of(volume, origin);
   for (const std::string& sphere : request.spheres)
-    for (const int size : request.sizes)
+    for (const int size : request.sizes) {
+      Outcome outcome;
       for (const int splits : request.splits) {
         SpheresOptions options;
         options.sphere = sphere == "centers" ? SpheresOptions::Sphere::centers : SpheresOptions::Sphere::conservative;
@@ -82,8 +89,12 @@ void run_target(const Request& request, const std::string& city, std::size_t num
         options.merge = request.merge;
         options.cubemap = size;
         options.max_splits = splits;
-        print_case(city, number, range, exact, origin, scene, target, options, sphere + "," + request.split);
+        if (!outcome.settled) outcome = run_case(exact, origin, scene, target, range, options);
+        std::printf("%s,%zu,%g,%s,%s,%d,%d,%s\n", city.c_str(), number, range, sphere.c_str(), request.split.c_str(),
+                    size, splits, outcome.figures.c_str());
+        std::fflush(stdout);
       }
+    }
 }
 
 void run(const Request& request) {
