@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <memory>
 #include <string>
 
 namespace vantage::cli {
@@ -39,6 +40,17 @@ void add_common_options(CLI::App& command, CommonOptions& options);
 
 /// Runs `command` with at most the threads that the options allow.
 int with_threads(const CommonOptions& options, const Command& command);
+
+/// The end of every add_...: the common options, the examples, and `run(*options)` when the command is chosen.
+template <typename Options>
+void finish(CLI::App& command, const std::shared_ptr<Options>& options, const char* examples, Command& chosen,
+            int (*run)(const Options&)) {
+  add_common_options(command, options->common);
+  command.footer(examples);
+  command.callback([options, &chosen, run] {
+    chosen = [options, run] { return with_threads(options->common, [&] { return run(*options); }); };
+  });
+}
 
 /// The positive number of option `name`; throws Error(input).
 double positive_option(const std::string& name, const std::string& text);

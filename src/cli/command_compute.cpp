@@ -221,11 +221,7 @@ void add_compute(CLI::App& app, Command& chosen) {
   command->add_option("--stages", options->stages, "Of the method of spheres: write its steps to this folder")
       ->option_text("FOLDER");
   command->add_flag("--json", options->json, "Print the report instead of a summary");
-  add_common_options(*command, options->common);
-  command->footer(kExamples);
-  command->callback([options, &chosen] {
-    chosen = [options] { return with_threads(options->common, [&] { return run(*options); }); };
-  });
+  finish<Options>(*command, options, kExamples, chosen, run);
 }
 
 }  // namespace vantage::cli

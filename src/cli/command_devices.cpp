@@ -100,11 +100,7 @@ void add_devices(CLI::App& app, Command& chosen) {
                    "Which one is asked for: auto (default), cpu, opengl, gpu, or the number of a device")
       ->option_text("DEVICE");
   command->add_flag("--json", options->json, "Print JSON instead of a table");
-  add_common_options(*command, options->common);
-  command->footer(kExamples);
-  command->callback([options, &chosen] {
-    chosen = [options] { return with_threads(options->common, [&] { return run(*options); }); };
-  });
+  finish<Options>(*command, options, kExamples, chosen, run);
 }
 
 }  // namespace vantage::cli

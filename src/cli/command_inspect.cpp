@@ -96,11 +96,7 @@ void add_inspect(CLI::App& app, Command& chosen) {
       ->option_text("AXIS");
   command->add_option("--scale", options->scale, "Metres in one unit of the file (default 1)")->option_text("S");
   command->add_flag("--json", options->json, "Print JSON instead of a table");
-  add_common_options(*command, options->common);
-  command->footer(kExamples);
-  command->callback([options, &chosen] {
-    chosen = [options] { return with_threads(options->common, [&] { return run(*options); }); };
-  });
+  finish<Options>(*command, options, kExamples, chosen, run);
 }
 
 }  // namespace vantage::cli

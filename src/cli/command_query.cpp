@@ -103,11 +103,7 @@ void add_query(CLI::App& app, Command& chosen) {
       ->option_text("POINTS");
   command->add_option("-o,--output", options->output_file, "Write the answers to a file, not to standard output")
       ->option_text("FILE");
-  add_common_options(*command, options->common);
-  command->footer(kExamples);
-  command->callback([options, &chosen] {
-    chosen = [options] { return with_threads(options->common, [&] { return run(*options); }); };
-  });
+  finish<Options>(*command, options, kExamples, chosen, run);
 }
 
 }  // namespace vantage::cli

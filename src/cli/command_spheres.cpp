@@ -120,11 +120,7 @@ void add_spheres(CLI::App& app, Command& chosen) {
                    "centers (default): joins texel centres, as that program does; conservative: an inner bound")
       ->check(CLI::IsMember({"centers", "conservative"}))
       ->option_text("KIND");
-  add_common_options(*command, options->common);
-  command->footer(kExamples);
-  command->callback([options, &chosen] {
-    chosen = [options] { return with_threads(options->common, [&] { return run_command(*options); }); };
-  });
+  finish<Options>(*command, options, kExamples, chosen, run_command);
 }
 
 }  // namespace vantage::cli

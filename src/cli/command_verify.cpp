@@ -165,11 +165,7 @@ void add_verify(CLI::App& app, Command& chosen) {
       ->check(CLI::Range(0.0, kMostLift))
       ->option_text("METRES");
   command->add_flag("--json", options->json, "Print JSON instead of a table");
-  add_common_options(*command, options->common);
-  command->footer(kExamples);
-  command->callback([options, &chosen] {
-    chosen = [options] { return with_threads(options->common, [&] { return run(*options); }); };
-  });
+  finish<Options>(*command, options, kExamples, chosen, run);
 }
 
 }  // namespace vantage::cli
