@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "vantage/georeference.h"
@@ -15,17 +16,22 @@ struct LonLat {
   double latitude_deg = 0;
 };
 
-/// The horizontal scene frame about an origin (see Georeference). Not for two threads at once; cheap to make (~1 ms).
+/// The horizontal scene frame about an origin (see Georeference). Cheap to make; any number of threads may use it at
+/// once. A position is found by solving the geodesic from the origin to it (Karney, "Algorithms for geodesics", 2013),
+/// which is exact to 15 nm everywhere, poles and antimeridian included, and takes about 1.2 us.
 class LocalFrame {
  public:
-  /// Throws Error(input) for a latitude or longitude that is out of range or not finite.
+  /// Throws Error(input) for a latitude or longitude that is out of range (-90 to 90, -180 to 180) or not finite.
   explicit LocalFrame(LonLat origin);
   ~LocalFrame();
   LocalFrame(LocalFrame&&) noexcept;
   LocalFrame& operator=(LocalFrame&&) noexcept;
 
   LonLat origin() const;
-  Eigen::Vector2d to_local(LonLat position) const;  ///< metres, (east, north)
+  /// Metres, (east, north). Longitudes may be any finite number of degrees. Throws Error(input) for a position that is
+  /// not on the earth.
+  Eigen::Vector2d to_local(LonLat position) const;
+  /// Longitude in -180 to 180. Throws Error(input) for a point that is not finite.
   LonLat to_lonlat(const Eigen::Vector2d& local) const;
 
  private:
@@ -37,7 +43,7 @@ class LocalFrame {
 /// only the horizontal part is used), a WKT text, a PROJ text, or a CityJSON URL
 /// ("https://www.opengis.net/def/crs/EPSG/0/7415", "urn:ogc:def:crs:EPSG::7415"). Horizontal coordinates are always
 /// (east, north) or (longitude, latitude), whatever the authority's order of axes. Uses no network, and the best
-/// transformation among those whose grids are installed.
+/// transformation among those whose grids are installed. Not for two threads at once; takes up to 50 ms to make.
 class CoordinateSystem {
  public:
   /// Throws Error(input) for a text that PROJ does not know, a system that is not geographic or projected, or a PROJ
@@ -49,9 +55,13 @@ class CoordinateSystem {
 
   LonLat to_lonlat(const Eigen::Vector2d& position) const;  ///< throws Error(input) where the projection has no value
   Eigen::Vector2d from_lonlat(LonLat position) const;       ///< likewise
-  bool is_geographic() const;                               ///< coordinates are degrees
+  bool is_geographic() const;                               ///< coordinates are angles: degrees, but for a few old ones
   const std::string& name() const;                          ///< "EPSG:28992 (Amersfoort / RD New)"
-  std::string vertical_name() const;                        ///< "NAP height" of a compound system; else empty
+  /// "NAP height" of a compound system, "ellipsoidal height" of a geographic or projected one with three axes; else
+  /// empty.
+  const std::string& vertical_name() const;
+  /// Metres in one unit of the third axis, negative when it is a depth; nothing without such an axis.
+  std::optional<double> vertical_unit_m() const;
 
  private:
   struct Data;

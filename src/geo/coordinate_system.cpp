@@ -1,0 +1,206 @@
+#include <proj.h>
+
+#include <cmath>
+#include <initializer_list>
+#include <sstream>
+
+#include "geo/local_frame.h"
+#include "vantage/error.h"
+
+namespace vantage::geo {
+namespace {
+
+struct ContextDeleter {
+  void operator()(PJ_CONTEXT* context) const { proj_context_destroy(context); }
+};
+struct ObjectDeleter {
+  void operator()(PJ* object) const { proj_destroy(object); }
+};
+using Context = std::unique_ptr<PJ_CONTEXT, ContextDeleter>;
+using Object = std::unique_ptr<PJ, ObjectDeleter>;
+
+/// Keeps PROJ's last message, which would go to standard error.
+void keep_message(void* text, int level, const char* message) noexcept {
+  if (level != PJ_LOG_ERROR || !message) return;
+  try {
+    *static_cast<std::string*>(text) = message;
+  } catch (const std::bad_alloc&) {  // a message less
+  }
+}
+
+/// What PROJ 9.1 does not take as it stands: URLs of the OGC ("https://www.opengis.net/def/crs/EPSG/0/7415"), and PROJ
+/// texts that do not say that they are a coordinate reference system.
+std::string in_words_of_proj(const std::string& text) {
+  for (const std::string_view scheme : {"http://", "https://"}) {
+    for (const std::string_view host : {"www.opengis.net/def/crs/", "opengis.net/def/crs/"}) {
+      const std::string prefix = std::string(scheme).append(host);
+      if (text.compare(0, prefix.size(), prefix) != 0) continue;
+      const std::size_t authority_end = text.find('/', prefix.size());
+      const std::size_t code = text.rfind('/');
+      if (authority_end == std::string::npos || code == authority_end) return text;
+      return text.substr(prefix.size(), authority_end - prefix.size()) + ":" + text.substr(code + 1);
+    }
+  }
+  const bool proj_text = text.find("+proj=") != std::string::npos || text.find("+init=") != std::string::npos;
+  return proj_text && text.find("+type=crs") == std::string::npos ? text + " +type=crs" : text;
+}
+
+/// For messages: one line, not longer than a line.
+std::string in_quotes(const std::string& text) {
+  std::string quoted = text.substr(0, 60);
+  for (char& c : quoted) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+  }
+  return "'" + quoted + (text.size() > 60 ? "...'" : "'");
+}
+
+bool is_one_of(PJ_TYPE type, std::initializer_list<PJ_TYPE> types) {
+  for (const PJ_TYPE other : types) {
+    if (type == other) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+struct CoordinateSystem::Data {
+  std::string message;  // before the context, which writes into it
+  Context context;
+  Object to_wgs84;
+  std::string name, vertical_name, where;
+  std::optional<double> vertical_unit_m;
+  bool geographic = false;
+
+  Object create(const std::string& text) const;
+  Object horizontal_part(Object system);
+  void read_vertical_axis(const PJ* system, int axis);
+  void name_after(const PJ* system, const std::string& text);
+  Eigen::Vector2d transform(const Eigen::Vector2d& from, PJ_DIRECTION direction) const;
+};
+
+Object CoordinateSystem::Data::create(const std::string& text) const {
+  Object system;
+  if (text.find('\0') == std::string::npos) system.reset(proj_create(context.get(), in_words_of_proj(text).c_str()));
+  if (system && proj_is_crs(system.get())) return system;
+  throw Error(ErrorKind::input,
+              "no known coordinate reference system: " + in_quotes(text) +
+                  (message.empty() ? "" : " (" + in_quotes(message) + ")"),
+              where, "give an EPSG code, as in EPSG:4326, or a WKT or PROJ text");
+}
+
+void CoordinateSystem::Data::read_vertical_axis(const PJ* system, int axis) {
+  const Object axes(proj_crs_get_coordinate_system(context.get(), system));
+  if (!axes || proj_cs_get_axis_count(context.get(), axes.get()) <= axis) return;
+  const char* direction = nullptr;
+  double unit_m = 1;
+  if (!proj_cs_get_axis_info(context.get(), axes.get(), axis, nullptr, nullptr, &direction, &unit_m, nullptr, nullptr,
+                             nullptr)) {
+    return;
+  }
+  vertical_unit_m = direction && std::string_view(direction) == "down" ? -unit_m : unit_m;
+}
+
+/// Notes the vertical axis, if there is one, and takes it off (where it is a system of its own).
+Object CoordinateSystem::Data::horizontal_part(Object system) {
+  if (proj_get_type(system.get()) == PJ_TYPE_COMPOUND_CRS) {
+    Object vertical(proj_crs_get_sub_crs(context.get(), system.get(), 1));
+    if (vertical && proj_get_type(vertical.get()) == PJ_TYPE_BOUND_CRS) {
+      vertical.reset(proj_get_source_crs(context.get(), vertical.get()));
+    }
+    if (vertical) {
+      vertical_name = proj_get_name(vertical.get());
+      read_vertical_axis(vertical.get(), 0);
+    }
+    return Object(proj_crs_get_sub_crs(context.get(), system.get(), 0));
+  }
+  read_vertical_axis(system.get(), 2);
+  if (vertical_unit_m) vertical_name = "ellipsoidal height";
+  return system;
+}
+
+void CoordinateSystem::Data::name_after(const PJ* system, const std::string& text) {
+  const char* const known_as = proj_get_name(system);
+  const std::string long_name = known_as ? known_as : "";
+  const char* const authority = proj_get_id_auth_name(system, 0);
+  const char* const code = proj_get_id_code(system, 0);
+  if (authority && code) {
+    name = std::string(authority).append(":").append(code).append(" (").append(long_name).append(")");
+  } else {
+    name = long_name.empty() || long_name == "unknown" || long_name == "unnamed" ? in_quotes(text) : long_name;
+  }
+}
+
+Eigen::Vector2d CoordinateSystem::Data::transform(const Eigen::Vector2d& from, PJ_DIRECTION direction) const {
+  proj_errno_reset(to_wgs84.get());
+  const PJ_COORD to = proj_trans(to_wgs84.get(), direction, proj_coord(from.x(), from.y(), 0, 0));
+  if (from.allFinite() && std::isfinite(to.xy.x) && std::isfinite(to.xy.y)) return {to.xy.x, to.xy.y};
+  const int fault = proj_errno(to_wgs84.get());
+  std::ostringstream problem;
+  problem.imbue(std::locale::classic());
+  problem.precision(12);
+  problem << "(" << from.x() << ", " << from.y() << ") has no counterpart "
+          << (direction == PJ_FWD ? "on the earth in " : "in ") << name;
+  if (fault) problem << ": " << proj_context_errno_string(context.get(), fault);
+  throw Error(ErrorKind::input, problem.str(), where,
+              "check the coordinates, their order (east before north, longitude before latitude) and their system");
+}
+
+CoordinateSystem::CoordinateSystem(const std::string& text, const std::string& where)
+    : data_(std::make_unique<Data>()) {
+  data_->where = where;
+  data_->context.reset(proj_context_create());
+  if (!data_->context) throw std::bad_alloc();
+  PJ_CONTEXT* const context = data_->context.get();
+  proj_log_func(context, &data_->message, keep_message);
+  proj_context_set_enable_network(context, 0);
+
+  if (!proj_context_get_database_path(context)) {
+    throw Error(
+        ErrorKind::input, "PROJ's database of coordinate reference systems, proj.db, is not to be found", where,
+        "install proj-data and libproj25 (Debian); if PROJ_DATA or PROJ_LIB is set, unset it or let it name the "
+        "folder that holds proj.db");
+  }
+
+  Object system = data_->create(text);
+  data_->name_after(system.get(), text);
+  system = data_->horizontal_part(std::move(system));
+  Object plain;  // without a transformation to WGS 84 that the text itself may bring
+  if (system && proj_get_type(system.get()) == PJ_TYPE_BOUND_CRS) {
+    plain.reset(proj_get_source_crs(context, system.get()));
+  }
+  const PJ_TYPE type = system ? proj_get_type(plain ? plain.get() : system.get()) : PJ_TYPE_UNKNOWN;
+  data_->geographic = is_one_of(type, {PJ_TYPE_GEOGRAPHIC_2D_CRS, PJ_TYPE_GEOGRAPHIC_3D_CRS});
+  if (!data_->geographic && type != PJ_TYPE_PROJECTED_CRS) {
+    throw Error(ErrorKind::input, data_->name + " is neither a geographic nor a projected coordinate reference system",
+                where, "give one with longitude and latitude, or with eastings and northings");
+  }
+  const Object wgs84(proj_create(context, "EPSG:4326"));
+  Object operation;
+  if (wgs84) {
+    operation.reset(proj_create_crs_to_crs_from_pj(context, system.get(), wgs84.get(), nullptr, nullptr));
+  }
+  if (operation) data_->to_wgs84.reset(proj_normalize_for_visualization(context, operation.get()));
+  if (!data_->to_wgs84) {
+    throw Error(ErrorKind::input,
+                "PROJ knows no way from " + data_->name + " to WGS 84" +
+                    (data_->message.empty() ? "" : ": " + in_quotes(data_->message)),
+                where, "convert the data to EPSG:4326 or to a projected system such as UTM");
+  }
+}
+CoordinateSystem::~CoordinateSystem() = default;
+CoordinateSystem::CoordinateSystem(CoordinateSystem&&) noexcept = default;
+CoordinateSystem& CoordinateSystem::operator=(CoordinateSystem&&) noexcept = default;
+
+LonLat CoordinateSystem::to_lonlat(const Eigen::Vector2d& position) const {
+  const Eigen::Vector2d result = data_->transform(position, PJ_FWD);
+  return {result.x(), result.y()};
+}
+Eigen::Vector2d CoordinateSystem::from_lonlat(LonLat position) const {
+  return data_->transform({position.longitude_deg, position.latitude_deg}, PJ_INV);
+}
+bool CoordinateSystem::is_geographic() const { return data_->geographic; }
+const std::string& CoordinateSystem::name() const { return data_->name; }
+const std::string& CoordinateSystem::vertical_name() const { return data_->vertical_name; }
+std::optional<double> CoordinateSystem::vertical_unit_m() const { return data_->vertical_unit_m; }
+
+}  // namespace vantage::geo

@@ -1,0 +1,85 @@
+#include "geo/local_frame.h"
+
+#include <geodesic.h>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+
+#include "vantage/error.h"
+
+namespace vantage {
+namespace {
+
+/// The shortest decimal that reads back as `value`, whatever the locale.
+std::string decimal(double value) {
+  std::array<char, 32> text{};
+  const auto end = std::to_chars(text.begin(), text.end(), value).ptr;
+  return {text.begin(), end};
+}
+
+}  // namespace
+
+std::string projection_text(const Georeference& georeference) {
+  return "+proj=aeqd +lat_0=" + decimal(georeference.latitude_deg) + " +lon_0=" + decimal(georeference.longitude_deg) +
+         " +datum=WGS84 +units=m +type=crs";
+}
+
+namespace geo {
+
+struct LocalFrame::Data {
+  LonLat origin;
+  geod_geodesic ellipsoid;
+};
+
+LocalFrame::LocalFrame(LonLat origin) {
+  // Written so that not-a-number is refused too.
+  const bool valid = std::abs(origin.latitude_deg) <= 90 && std::abs(origin.longitude_deg) <= 180;
+  if (!valid) {
+    throw Error(ErrorKind::input,
+                "latitude " + decimal(origin.latitude_deg) + ", longitude " + decimal(origin.longitude_deg) +
+                    " is no place on the earth",
+                "origin of the scene frame",
+                std::abs(origin.longitude_deg) <= 90 && std::abs(origin.latitude_deg) <= 180
+                    ? "latitude comes first: give them the other way round"
+                    : "give a latitude in -90 to 90 and a longitude in -180 to 180");
+  }
+  data_ = std::make_unique<Data>();
+  data_->origin = origin;
+  geod_init(&data_->ellipsoid, 6378137.0, 1 / 298.257223563);  // WGS 84
+}
+LocalFrame::~LocalFrame() = default;
+LocalFrame::LocalFrame(LocalFrame&&) noexcept = default;
+LocalFrame& LocalFrame::operator=(LocalFrame&&) noexcept = default;
+
+LonLat LocalFrame::origin() const { return data_->origin; }
+
+Eigen::Vector2d LocalFrame::to_local(LonLat position) const {
+  if (!(std::abs(position.latitude_deg) <= 90) || !std::isfinite(position.longitude_deg)) {
+    throw Error(ErrorKind::input,
+                "latitude " + decimal(position.latitude_deg) + ", longitude " + decimal(position.longitude_deg) +
+                    " is no place on the earth",
+                "position", "correct it; is its coordinate reference system the right one?");
+  }
+  double distance = 0, azimuth_deg = 0;
+  geod_inverse(&data_->ellipsoid, data_->origin.latitude_deg, data_->origin.longitude_deg, position.latitude_deg,
+               position.longitude_deg, &distance, &azimuth_deg, nullptr);
+  const double azimuth = azimuth_deg * std::numbers::pi / 180;
+  return {distance * std::sin(azimuth), distance * std::cos(azimuth)};
+}
+
+LonLat LocalFrame::to_lonlat(const Eigen::Vector2d& local) const {
+  if (!local.allFinite()) {
+    throw Error(ErrorKind::input, "a point that is not finite has no place on the earth", "scene frame",
+                "correct its coordinates");
+  }
+  const double azimuth_deg = std::atan2(local.x(), local.y()) * 180 / std::numbers::pi;
+  LonLat position;
+  geod_direct(&data_->ellipsoid, data_->origin.latitude_deg, data_->origin.longitude_deg, azimuth_deg, local.norm(),
+              &position.latitude_deg, &position.longitude_deg, nullptr);
+  return position;
+}
+
+}  // namespace geo
+}  // namespace vantage

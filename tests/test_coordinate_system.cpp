@@ -1,0 +1,157 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "geo/local_frame.h"
+#include "support/environment.h"
+#include "support/temporary_directory.h"
+#include "vantage/error.h"
+
+namespace vantage::geo {
+namespace {
+
+/// Points of the self-test of RDNAPTRANS 2008, the transformation of the Dutch mapping agency.
+struct DutchPoint {
+  LonLat etrs89;
+  Eigen::Vector2d rd;
+};
+const DutchPoint kDutchPoints[] = {{{5.387203657, 52.155172897}, {155000, 463000}},         // Amersfoort, RD's origin
+                                   {{4.824761912, 53.160753042}, {117380.12, 575040.34}},   // Texel
+                                   {{6.776726674, 53.419482050}, {247380.56, 604580.78}}};  // Groningen
+
+double metres_apart(LonLat a, LonLat b) { return LocalFrame(a).to_local(b).norm(); }
+
+/// The error of making one; empty when there is none.
+std::string refusal(const std::string& text) {
+  try {
+    const CoordinateSystem system(text, "file.tif");
+    return "";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::input);
+    EXPECT_EQ(error.where(), "file.tif");
+    EXPECT_FALSE(error.fix().empty());
+    return error.problem();
+  }
+}
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST(CoordinateSystem, ConvertsDutchCoordinates) {
+  const CoordinateSystem rd("EPSG:28992", "test");
+  EXPECT_EQ(rd.name(), "EPSG:28992 (Amersfoort / RD New)");
+  EXPECT_FALSE(rd.is_geographic());
+  EXPECT_EQ(rd.vertical_name(), "");
+  EXPECT_FALSE(rd.vertical_unit_m());
+  for (const DutchPoint& point : kDutchPoints) {  // without the correction grid, seven parameters: to a metre
+    EXPECT_LT(metres_apart(rd.to_lonlat(point.rd), point.etrs89), 1.0);
+    EXPECT_LT((rd.from_lonlat(point.etrs89) - point.rd).norm(), 1.0);
+  }
+  EXPECT_LT((rd.from_lonlat(rd.to_lonlat({85000, 447000})) - Eigen::Vector2d(85000, 447000)).norm(), 1e-3);
+}
+
+TEST(CoordinateSystem, UsesTheHorizontalPartOfACompoundSystem) {
+  const CoordinateSystem compound("EPSG:7415", "test");
+  EXPECT_EQ(compound.name(), "EPSG:7415 (Amersfoort / RD New + NAP height)");
+  EXPECT_EQ(compound.vertical_name(), "NAP height");
+  EXPECT_EQ(compound.vertical_unit_m(), 1.0);
+  const LonLat expected = CoordinateSystem("EPSG:28992", "test").to_lonlat({85000, 447000});
+  const LonLat got = compound.to_lonlat({85000, 447000});
+  EXPECT_EQ(got.longitude_deg, expected.longitude_deg);
+  EXPECT_EQ(got.latitude_deg, expected.latitude_deg);
+}
+
+TEST(CoordinateSystem, KnowsHeightsOfThreeAxesAndOtherUnits) {
+  const CoordinateSystem ellipsoidal("EPSG:4979", "test");
+  EXPECT_TRUE(ellipsoidal.is_geographic());
+  EXPECT_EQ(ellipsoidal.vertical_name(), "ellipsoidal height");
+  EXPECT_EQ(ellipsoidal.vertical_unit_m(), 1.0);
+  const CoordinateSystem feet("EPSG:6318+6360", "test");  // NAD83(2011) + NAVD88 height (ftUS)
+  EXPECT_NEAR(feet.vertical_unit_m().value(), 1200.0 / 3937, 1e-12);
+  const CoordinateSystem depth("EPSG:4326+5715", "test");
+  EXPECT_EQ(depth.vertical_unit_m(), -1.0);
+}
+
+TEST(CoordinateSystem, UnderstandsTheSpellingsOfCityJson) {
+  for (const char* spelling :
+       {"https://www.opengis.net/def/crs/EPSG/0/7415", "http://www.opengis.net/def/crs/EPSG/0/7415",
+        "https://www.opengis.net/def/crs/EPSG/9.9.1/7415", "http://opengis.net/def/crs/EPSG/0/7415",
+        "urn:ogc:def:crs:EPSG::7415", "epsg:7415"}) {
+    const CoordinateSystem system(spelling, "test");
+    EXPECT_EQ(system.name(), "EPSG:7415 (Amersfoort / RD New + NAP height)") << spelling;
+    EXPECT_EQ(system.vertical_name(), "NAP height") << spelling;
+  }
+  EXPECT_TRUE(contains(refusal("https://www.opengis.net/def/crs/EPSG/0/"), "no known coordinate reference system"));
+  EXPECT_TRUE(contains(refusal("https://www.opengis.net/def/crs/7415"), "no known coordinate reference system"));
+}
+
+TEST(CoordinateSystem, EastComesFirstWhateverTheAuthoritySays) {
+  const LonLat place{24.9, 60.2};
+  const CoordinateSystem wgs84("EPSG:4326", "test");  // latitude first by its definition
+  EXPECT_TRUE(wgs84.is_geographic());
+  EXPECT_EQ(wgs84.from_lonlat(place), Eigen::Vector2d(24.9, 60.2));
+  EXPECT_EQ(CoordinateSystem("OGC:CRS84", "test").from_lonlat(place), Eigen::Vector2d(24.9, 60.2));
+  const Eigen::Vector2d gauss_kruger = CoordinateSystem("EPSG:31467", "test").from_lonlat({9, 50});  // northing first
+  EXPECT_NEAR(gauss_kruger.x(), 3.5e6, 200);
+  EXPECT_NEAR(gauss_kruger.y(), 5.54e6, 2000);
+}
+
+TEST(CoordinateSystem, TakesProjAndWktTexts) {
+  const LonLat place{8.5, 50.1};
+  const Eigen::Vector2d utm = CoordinateSystem("EPSG:32632", "test").from_lonlat(place);
+  for (const char* text : {"+proj=utm +zone=32 +datum=WGS84", "+proj=utm +zone=32 +datum=WGS84 +type=crs"}) {
+    const CoordinateSystem system(text, "test");
+    EXPECT_LT((system.from_lonlat(place) - utm).norm(), 1e-6);
+    EXPECT_TRUE(contains(system.name(), "+proj=utm")) << system.name();
+  }
+  const CoordinateSystem wkt(
+      R"(PROJCS["my own",GEOGCS["WGS 84",DATUM["WGS_1984",SPHEROID["WGS 84",6378137,298.257223563]],)"
+      R"(PRIMEM["Greenwich",0],UNIT["degree",0.0174532925199433]],PROJECTION["Transverse_Mercator"],)"
+      R"(PARAMETER["latitude_of_origin",0],PARAMETER["central_meridian",9],PARAMETER["scale_factor",0.9996],)"
+      R"(PARAMETER["false_easting",500000],PARAMETER["false_northing",0],UNIT["metre",1]])",
+      "test");
+  EXPECT_EQ(wkt.name(), "my own");
+  EXPECT_LT((wkt.from_lonlat(place) - utm).norm(), 1e-6);
+  // Brings its own transformation to WGS 84 (a bound system).
+  const CoordinateSystem bound("+proj=utm +zone=32 +ellps=intl +towgs84=-87,-98,-121", "test");
+  EXPECT_FALSE(bound.is_geographic());
+  EXPECT_NEAR((bound.from_lonlat(place) - utm).norm(), 210, 60);
+}
+
+TEST(CoordinateSystem, SaysWhatItDoesNotKnow) {
+  EXPECT_TRUE(contains(refusal("EPSG:99999"), "no known coordinate reference system: 'EPSG:99999'"));
+  EXPECT_TRUE(contains(refusal(""), "no known coordinate reference system: ''"));
+  EXPECT_TRUE(contains(refusal("the usual one\n"), "'the usual one?'"));
+  EXPECT_TRUE(contains(refusal(std::string("EPSG:4326\0x", 11)), "'EPSG:4326?x'"));
+  EXPECT_TRUE(contains(refusal("+proj=nonsense"), "no known coordinate reference system"));
+  EXPECT_TRUE(contains(refusal("EPSG:4978"), "neither a geographic nor a projected"));  // geocentric
+  EXPECT_TRUE(contains(refusal("EPSG:5773"), "neither a geographic nor a projected"));  // EGM96 height
+  EXPECT_TRUE(contains(refusal("EPSG:7030"), "no known coordinate reference system"));  // an ellipsoid
+  EXPECT_LT(refusal(std::string(100000, 'x')).size(), 300u);
+}
+
+TEST(CoordinateSystem, SaysWhereTheProjectionEnds) {
+  const CoordinateSystem mercator("EPSG:3857", "file.tif");
+  EXPECT_THROW(mercator.from_lonlat({std::numeric_limits<double>::quiet_NaN(), 0}), Error);
+  try {
+    mercator.from_lonlat({10, 100});
+    FAIL() << "a latitude of 100 degrees";
+  } catch (const Error& error) {
+    EXPECT_TRUE(contains(error.problem(), "(10, 100) has no counterpart in EPSG:3857")) << error.what();
+    EXPECT_EQ(error.where(), "file.tif");
+  }
+  EXPECT_NEAR(mercator.from_lonlat({10, 50}).y(), 6446275.84, 0.01);  // and goes on working
+}
+
+TEST(CoordinateSystem, SaysWhenTheDatabaseIsMissing) {
+  const testing::TemporaryDirectory empty;
+  const testing::EnvironmentVariable data("PROJ_DATA", empty.path().string());
+  const testing::EnvironmentVariable lib("PROJ_LIB", empty.path().string());
+  EXPECT_TRUE(contains(refusal("EPSG:4326"), "proj.db, is not to be found"));
+  EXPECT_TRUE(contains(refusal("+proj=utm +zone=32"), "proj.db, is not to be found"));
+  EXPECT_NEAR(LocalFrame({7.4, 43.7}).to_local({7.4, 43.71}).y(), 1111, 1);  // needs none
+}
+
+}  // namespace
+}  // namespace vantage::geo
