@@ -73,32 +73,38 @@ struct BuildingRelation {
   std::vector<ObjectId> outlines, parts;
 };
 
-/// An object that could not be read as it should be.
+/// An object that could not be read as it should be; at most one for each object.
 struct Problem {
   enum class Kind {
-    missing_nodes,        ///< a way refers to nodes that are not in the file; built from the rest where 3 are left
-    missing_members,      ///< a relation refers to ways that are not in the file
-    broken_multipolygon,  ///< rings do not close, cross, or nest wrongly: nothing could be assembled
-    degenerate,           ///< fewer than 3 different positions, or no area
-    open_outline          ///< a way tagged as an area that is not closed
+    missing_nodes,    ///< a way refers to nodes that are not in the file or not on the earth; built from the rest
+    missing_members,  ///< a relation refers to objects that are not in the file
+    /// Rings do not close, cross, or nest wrongly. Of a relation nothing could be assembled; a closed way is taken as
+    /// it is drawn, crossing itself, where it bounds anything. Also a building relation of a type that is none
+    broken_multipolygon,
+    degenerate,    ///< fewer than 3 different positions (of a line: 2), no area, or nowhere on the earth
+    open_outline,  ///< a way tagged as an area that is not closed; a building is, by a straight side
+    /// A way that bounds a multipolygon and says nothing that it does not say, or is tagged like the multipolygon whose
+    /// hole it bounds: the multipolygon stands for it
+    repeated_outline
   };
   ObjectId object;
   Kind kind = Kind::missing_nodes;
-  std::string what;   ///< for people: "3 of 12 nodes are not in the file"
+  std::string what;   ///< for people: "3 of 12 nodes are not in the file"; all that is wrong, the cause first
   bool lost = false;  ///< nothing of the object is in the extract
   Tags tags;          ///< of the object, to tell whether a building was lost
 };
 
-/// Positions that are wanted. An object is taken, whole, when one of its positions lies inside.
+/// Positions that are wanted. An object is taken, whole, when one of its positions lies inside; the members of a
+/// building relation are taken together. With both a circle and a box a position must lie in both.
 struct Region {
   std::optional<std::pair<LonLat, double>> circle;  ///< centre and radius in metres (on the ellipsoid)
-  std::optional<std::array<double, 4>> box_deg;     ///< west, south, east, north
+  std::optional<std::array<double, 4>> box_deg;     ///< west, south, east, north; west > east: over the date line
 };
 
 struct ReadOptions {
   std::optional<Region> region;  ///< nothing: all of the file
-  /// Asked for every way, relation and tagged node: whether its tags are of interest as an area, a line or a point.
-  /// What is not is not read any further. Tags of multipolygons are asked likewise.
+  /// Asked for every tagged node, way and multipolygon: whether its tags are of interest as a point, a line or an area.
+  /// What is not is not read any further. Nothing: all that is tagged.
   bool (*wanted)(const Tags& tags) = nullptr;
 };
 
@@ -114,13 +120,20 @@ struct Extract {
   std::size_t outside = 0;                         ///< wanted objects that were left out because of the region
   double nearest_outside_m = 0;  ///< of these the nearest one's distance from the region's centre; 0 when none
   bool sorted = true;            ///< by type and id; else it was sorted in memory
+  std::size_t superseded = 0;    ///< older versions, and copies, of objects that the file holds more than once
 };
 
-/// Reads .osm, .osm.gz, .osm.bz2 and .osm.pbf, told by content and name. A closed way is an area when it is tagged
-/// building, building:part, area=yes, leisure, landuse, natural (but not tree_row), amenity, place or area:*, and not
-/// area=no; other closed ways are lines (a wall round a garden), those with both meanings are in both lists.
-/// Throws Error(input) naming the file for: no such file, not an OSM file, truncated or garbled (where), an empty one.
-/// Deleted objects (visible=false) and history files: only current versions. Error(cancelled) when told to stop.
+/// Reads .osm, .osm.gz, .osm.bz2 and .osm.pbf, told by content, whatever the name. A closed way is an area when it is
+/// tagged building, building:part, area=yes, area:*, or with a key of areas (leisure, landuse, natural, amenity, place,
+/// man_made, ...: see means_area) whose value is not linear (natural=tree_row), and not area=no. Other closed ways are
+/// lines (a wall round a garden), those with both meanings are in both lists. Members of a multipolygon are areas of
+/// their own where they say what it does not (Kind::repeated_outline). Deleted objects (visible=false) and history
+/// files: only current versions; of copies with equal versions the last counts. Memory: 24 bytes for each node of the
+/// file, 16 for each way, and what is wanted. Cost: the file is read twice, once for its relations alone.
+///
+/// Throws Error(input) naming the file for: no such file, a folder or pipe, not an OSM file (what it looks like),
+/// truncated or garbled (where, in XML the line), an empty one; a region that has no extent or is not on the earth.
+/// Error(cancelled) when told to stop.
 Extract read_extract(const std::filesystem::path& file, const ReadOptions& options = {}, const Progress& progress = {});
 
 }  // namespace vantage::osm

@@ -1,0 +1,221 @@
+#if defined(__GNUC__) && !defined(__clang__)
+// GCC 12 takes the user name behind libosmium's variable-sized objects for a read past their end.
+#pragma GCC diagnostic ignored "-Wstringop-overread"
+#endif
+
+#include "osm/area_assembler.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <osmium/area/assembler.hpp>
+#include <osmium/area/problem_reporter.hpp>
+#include <osmium/builder/osm_object_builder.hpp>
+#include <osmium/osm/area.hpp>
+#include <utility>
+
+#include "osm/map_objects.h"
+
+namespace vantage::osm {
+namespace {
+
+std::string place_text(osmium::Location location) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.7f, %.7f", location.lon_without_check(), location.lat_without_check());
+  return text;
+}
+
+/// Collects what the assembler complains of: how often, and where first.
+class Complaints : public osmium::area::ProblemReporter {
+ public:
+  explicit Complaints(ObjectId subject) : subject_(subject) {}
+
+  void report_intersection(osmium::object_id_type way1, osmium::Location, osmium::Location, osmium::object_id_type way2,
+                           osmium::Location, osmium::Location, osmium::Location where) override {
+    if (crossings_++ > 0) return;
+    std::string who = subject_ == ObjectId{ObjectType::way, way1} ? "it" : text({ObjectType::way, way1});
+    who.append(" crosses ").append(way1 == way2 ? "itself" : text({ObjectType::way, way2}));
+    first_crossing_ = who.append(" at ").append(place_text(where));
+  }
+  void report_ring_not_closed(const osmium::NodeRef& node, const osmium::Way* way) override {
+    if (open_ends_++ > 0) return;
+    first_open_end_ = std::string("the ring is open at ").append(place_text(node.location()));
+    if (way != nullptr) first_open_end_.append(" (").append(text(ObjectId{ObjectType::way, way->id()})).append(")");
+  }
+  void report_duplicate_segment(const osmium::NodeRef& a, const osmium::NodeRef&) override { note_doubled(a); }
+  void report_overlapping_segment(const osmium::NodeRef& a, const osmium::NodeRef&) override { note_doubled(a); }
+
+  std::string sentence() const {
+    if (crossings_ > 0) return with_count(first_crossing_, crossings_, "crossings");
+    if (open_ends_ > 0) return with_count(first_open_end_, open_ends_, "open ends");
+    if (doubled_ > 0)
+      return std::string("no area is left between sides that are drawn twice, at ").append(first_doubled_);
+    return "the rings do not bound an area";
+  }
+
+ private:
+  void note_doubled(const osmium::NodeRef& node) {
+    if (doubled_++ == 0) first_doubled_ = place_text(node.location());
+  }
+  static std::string with_count(const std::string& first, std::size_t count, const char* what) {
+    if (count == 1) return first;
+    return first + " (" + std::to_string(count) + " " + what + ")";
+  }
+
+  ObjectId subject_;
+  std::size_t crossings_ = 0, open_ends_ = 0, doubled_ = 0;
+  std::string first_crossing_, first_open_end_, first_doubled_;
+};
+
+/// Twice the area that a ring is wound round, in square degrees, counter-clockwise; about its first position.
+double twice_signed_area(const Ring& ring) {
+  double sum = 0;
+  for (std::size_t i = 1; i + 1 < ring.size(); ++i) {
+    const LonLat a{ring[i].longitude_deg - ring[0].longitude_deg, ring[i].latitude_deg - ring[0].latitude_deg};
+    const LonLat b{ring[i + 1].longitude_deg - ring[0].longitude_deg, ring[i + 1].latitude_deg - ring[0].latitude_deg};
+    sum += a.longitude_deg * b.latitude_deg - a.latitude_deg * b.longitude_deg;
+  }
+  return sum;
+}
+
+Ring oriented(Ring ring, bool counter_clockwise) {
+  if ((twice_signed_area(ring) > 0) != counter_clockwise) std::reverse(ring.begin(), ring.end());
+  return ring;
+}
+
+Ring to_ring(const osmium::NodeRefList& nodes, bool outer) {
+  Ring ring;
+  for (const osmium::NodeRef& node : nodes) ring.push_back(to_lonlat(node.location()));
+  ring.pop_back();  // the first one again
+  return oriented(std::move(ring), outer);
+}
+
+using Segment = std::pair<osmium::Location, osmium::Location>;
+
+Segment segment(const osmium::NodeRef& a, const osmium::NodeRef& b) {
+  return a.location() < b.location() ? Segment{a.location(), b.location()} : Segment{b.location(), a.location()};
+}
+
+/// The sides of rings, to tell which way is part of them.
+class Sides {
+ public:
+  void add(const osmium::NodeRefList& ring) {
+    for (std::size_t i = 1; i < ring.size(); ++i) sides_.push_back(segment(ring[i - 1], ring[i]));
+  }
+  void finish() { std::sort(sides_.begin(), sides_.end()); }
+  bool has_any_of(const osmium::WayNodeList& nodes) const {
+    for (std::size_t i = 1; i < nodes.size(); ++i) {
+      if (std::binary_search(sides_.begin(), sides_.end(), segment(nodes[i - 1], nodes[i]))) return true;
+    }
+    return false;
+  }
+
+ private:
+  std::vector<Segment> sides_;
+};
+
+osmium::area::AssemblerConfig config_with(Complaints& complaints) {
+  osmium::area::AssemblerConfig config;
+  config.problem_reporter = &complaints;
+  config.create_empty_areas = false;
+  config.ignore_invalid_locations = true;  // nodes that are not in the file: counted elsewhere
+  return config;
+}
+
+std::vector<Polygon> to_polygons(const osmium::Area& area) {
+  std::vector<Polygon> polygons;
+  for (const osmium::OuterRing& outer : area.outer_rings()) {
+    Polygon& polygon = polygons.emplace_back();
+    polygon.outer = to_ring(outer, true);
+    for (const osmium::InnerRing& inner : area.inner_rings(outer)) polygon.holes.push_back(to_ring(inner, false));
+  }
+  return polygons;
+}
+
+void classify(std::vector<MemberWay>& members, const osmium::Area& area) {
+  Sides outer_sides, inner_sides;
+  for (const osmium::OuterRing& outer : area.outer_rings()) {
+    outer_sides.add(outer);
+    for (const osmium::InnerRing& inner : area.inner_rings(outer)) inner_sides.add(inner);
+  }
+  outer_sides.finish();
+  inner_sides.finish();
+  for (MemberWay& member : members) {
+    member.outer = outer_sides.has_any_of(member.way->nodes());
+    member.inner = inner_sides.has_any_of(member.way->nodes());
+  }
+}
+
+/// Whether not all positions lie on one line. (The area would not tell: a figure of eight may be wound round none.)
+bool has_corner(const osmium::Way& way) {
+  std::vector<osmium::Location> places;
+  for (const osmium::NodeRef& node : way.nodes()) {
+    if (node.location() && (places.empty() || node.location() != places.back())) places.push_back(node.location());
+  }
+  for (std::size_t i = 2; i < places.size(); ++i) {
+    // Differences of stored coordinates are whole numbers: exact.
+    const auto dx = [&](std::size_t j) { return static_cast<double>(places[j].x()) - places[0].x(); };
+    const auto dy = [&](std::size_t j) { return static_cast<double>(places[j].y()) - places[0].y(); };
+    if (dx(1) * dy(i) != dy(1) * dx(i)) return true;
+  }
+  return false;
+}
+
+/// A relation of these members only: the assembler takes it that all are there.
+const osmium::Relation& relation_of(const osmium::Relation& relation, const std::vector<MemberWay>& members,
+                                    osmium::memory::Buffer& buffer) {
+  {
+    osmium::builder::RelationBuilder builder(buffer);
+    builder.set_id(relation.id());
+    osmium::builder::RelationMemberListBuilder list(builder);
+    for (const MemberWay& member : members) list.add_member(osmium::item_type::way, member.way->id(), member.role);
+  }
+  return buffer.get<osmium::Relation>(buffer.commit());
+}
+
+}  // namespace
+
+Assembly assemble(const osmium::Way& way) {
+  Complaints complaints({ObjectType::way, way.id()});
+  const osmium::area::AssemblerConfig config = config_with(complaints);
+  osmium::memory::Buffer buffer(1 << 12, osmium::memory::Buffer::auto_grow::yes);
+  if (!osmium::area::Assembler(config)(way, buffer)) return {{}, complaints.sentence()};
+  return {to_polygons(buffer.get<osmium::Area>(0)), ""};
+}
+
+Assembly assemble(const osmium::Relation& relation, std::vector<MemberWay>& members) {
+  if (members.empty()) return {{}, "none of its members is a way"};
+  Complaints complaints({ObjectType::relation, relation.id()});
+  const osmium::area::AssemblerConfig config = config_with(complaints);
+  osmium::memory::Buffer buffer(1 << 12, osmium::memory::Buffer::auto_grow::yes);
+  osmium::memory::Buffer relation_buffer(1 << 10, osmium::memory::Buffer::auto_grow::yes);
+  std::vector<const osmium::Way*> ways;
+  for (const MemberWay& member : members) ways.push_back(member.way);
+  const osmium::Relation& complete = relation_of(relation, members, relation_buffer);
+  if (!osmium::area::Assembler(config)(complete, ways, buffer)) return {{}, complaints.sentence()};
+  const auto& area = buffer.get<osmium::Area>(0);
+  classify(members, area);
+  return {to_polygons(area), ""};
+}
+
+std::vector<LonLat> positions(const osmium::Way& way) {
+  std::vector<LonLat> line;
+  osmium::Location previous;
+  for (const osmium::NodeRef& node : way.nodes()) {
+    if (!node.location() || node.location() == previous) continue;
+    previous = node.location();
+    line.push_back(to_lonlat(previous));
+  }
+  return line;
+}
+
+std::vector<Polygon> raw_polygon(const osmium::Way& way) {
+  Ring ring = positions(way);
+  if (!has_corner(way) || ring.size() < 3) return {};
+  const LonLat first = ring.front(), last = ring.back();
+  if (first.longitude_deg == last.longitude_deg && first.latitude_deg == last.latitude_deg) ring.pop_back();
+  return {Polygon{oriented(std::move(ring), true), {}}};
+}
+
+}  // namespace vantage::osm

@@ -1,0 +1,241 @@
+// The grid of multipolygon cases of osmcode/osm-testdata (public domain): each with its expected geometry and tags, or
+// "INVALID". A case may have several variants: "default" is what a strict reader gives, "location" what one gives that
+// joins ways where their ends lie in one place though they are different nodes, "fix" (or "fixed") what one gives that
+// repairs.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iostream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "support/osm_maps.h"
+#include "support/shared_data.h"
+
+namespace vantage::osm {
+namespace {
+
+using testing::read_bytes;
+
+/// Rings as text from their smallest corner on, rings and polygons in a fixed order. Every ring is turned
+/// counter-clockwise: which way round a ring is written in the expected text means nothing.
+using Positions = std::vector<std::pair<long, long>>;  // 1e-7 degrees
+
+/// Without positions in the middle of a straight side: the expected texts leave some of them out.
+Positions corners(const Positions& ring) {
+  Positions kept;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const auto [ax, ay] = ring[(i + ring.size() - 1) % ring.size()];
+    const auto [bx, by] = ring[i];
+    const auto [cx, cy] = ring[(i + 1) % ring.size()];
+    if ((bx - ax) * (cy - by) != (by - ay) * (cx - bx)) kept.push_back(ring[i]);
+  }
+  return kept;
+}
+
+std::string canonical(Positions ring) {
+  ring = corners(ring);
+  double doubled = 0;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const auto [ax, ay] = ring[i];
+    const auto [bx, by] = ring[(i + 1) % ring.size()];
+    doubled += static_cast<double>(ax) * static_cast<double>(by) - static_cast<double>(bx) * static_cast<double>(ay);
+  }
+  if (doubled < 0) std::reverse(ring.begin(), ring.end());
+  // A corner may come twice where a ring touches itself: of all turns, the smallest.
+  Positions smallest = ring;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    std::rotate(ring.begin(), ring.begin() + 1, ring.end());
+    smallest = std::min(smallest, ring);
+  }
+  std::string text;
+  for (const auto& [x, y] : smallest) text += std::to_string(x) + " " + std::to_string(y) + ",";
+  return text;
+}
+
+std::string canonical(const std::vector<std::vector<Positions>>& polygons) {
+  std::multiset<std::string> texts;
+  for (const std::vector<Positions>& rings : polygons) {
+    std::multiset<std::string> holes;
+    for (std::size_t i = 1; i < rings.size(); ++i) holes.insert(canonical(rings[i]));
+    std::string text = canonical(rings.at(0));
+    for (const std::string& hole : holes) text += " hole " + hole;
+    texts.insert(text);
+  }
+  std::string all;
+  for (const std::string& text : texts) all += text + "\n";
+  return all;
+}
+
+/// "MULTIPOLYGON(((7.01 1.01,...),(...)),((...)))"
+std::string canonical_wkt(const std::string& wkt) {
+  std::vector<std::vector<Positions>> polygons;
+  int depth = 0;
+  std::string number;
+  std::vector<long> pair;
+  const auto finish_number = [&] {
+    if (!number.empty()) pair.push_back(std::lround(std::stod(number) * 1e7));
+    number.clear();
+  };
+  const auto finish_pair = [&] {
+    finish_number();
+    if (pair.size() == 2) polygons.back().back().emplace_back(pair[0], pair[1]);
+    pair.clear();
+  };
+  for (const char c : wkt.substr(wkt.find('('))) {
+    if (c == '(') {
+      ++depth;
+      if (depth == 2) polygons.emplace_back();
+      if (depth == 3) polygons.back().emplace_back();
+    } else if (c == ')') {
+      finish_pair();
+      if (depth == 3) polygons.back().back().pop_back();  // the first position again
+      --depth;
+    } else if (c == ',') {
+      finish_pair();
+    } else if (c == ' ') {
+      finish_number();
+    } else {
+      number += c;
+    }
+  }
+  return canonical(polygons);
+}
+
+Positions to_positions(const Ring& ring) {
+  Positions positions;
+  for (const LonLat at : ring) {
+    positions.emplace_back(std::lround(at.longitude_deg * 1e7), std::lround(at.latitude_deg * 1e7));
+  }
+  return positions;
+}
+
+std::string canonical_area(const Area& area) {
+  std::vector<std::vector<Positions>> polygons;
+  for (const Polygon& polygon : area.polygons) {
+    EXPECT_GT(testing::doubled_area(polygon.outer), 0) << text(area.id);
+    auto& rings = polygons.emplace_back();
+    rings.push_back(to_positions(polygon.outer));
+    for (const Ring& hole : polygon.holes) {
+      EXPECT_LT(testing::doubled_area(hole), 0) << text(area.id);
+      rings.push_back(to_positions(hole));
+    }
+  }
+  return canonical(polygons);
+}
+
+using TagMap = std::map<std::string, std::string>;
+
+/// The ways of case 768, a relation that is INVALID, are each tagged area=yes and valid: areas of their own. The
+/// expected result leaves ways out that are members of any relation, and so does not list them.
+constexpr std::int64_t kWaysOfTheirOwn[] = {768800, 768801};
+
+/// Whether the extract's areas are those of the variant: objects, geometry, tags. What is INVALID must be a problem.
+bool matches(const Extract& extract, const nlohmann::json& variant) {
+  std::size_t expected_areas = 0;
+  for (const nlohmann::json& expected : variant) {
+    const ObjectType type = expected["from_type"] == "way" ? ObjectType::way : ObjectType::relation;
+    const ObjectId id{type, expected["from_id"].get<std::int64_t>()};
+    const Area* const area = testing::find_object(extract.areas, id);
+    if (expected["wkt"] == "INVALID") {
+      const Problem* const problem = testing::find_problem(extract, id);
+      if (area != nullptr || problem == nullptr || !problem->lost || problem->what.empty()) return false;
+      continue;
+    }
+    ++expected_areas;
+    if (area == nullptr || canonical_area(*area) != canonical_wkt(expected["wkt"])) return false;
+    if (TagMap(area->tags.all.begin(), area->tags.all.end()) != expected["tags"].get<TagMap>()) return false;
+  }
+  for (const std::int64_t way : kWaysOfTheirOwn) {
+    if (testing::find_object(extract.areas, testing::way_id(way)) != nullptr) ++expected_areas;
+  }
+  return extract.areas.size() == expected_areas;
+}
+
+std::vector<std::filesystem::path> cases() {
+  std::vector<std::filesystem::path> folders;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(testing::shared_data("osm-grid"))) {
+    if (entry.path().filename() == "data.osm") folders.push_back(entry.path().parent_path());
+  }
+  std::sort(folders.begin(), folders.end());
+  return folders;
+}
+
+TEST(OsmGrid, EveryMultipolygonIsAsExpected) {
+  VANTAGE_REQUIRE_SHARED("osm-grid");
+  std::map<std::string, std::size_t> by_variant;
+  for (const std::filesystem::path& folder : cases()) {
+    SCOPED_TRACE(folder.filename().string());
+    const nlohmann::json test = nlohmann::json::parse(read_bytes(folder / "test.json"));
+    const Extract extract = read_extract(folder / "data.osm");
+    if (!test.contains("areas")) {
+      ++by_variant["no areas"];
+      EXPECT_EQ(extract.areas.size(), 0u);
+      continue;
+    }
+    std::string matched;
+    for (const char* const name : {"default", "location", "fix", "fixed"}) {
+      const auto variant = test["areas"].find(name);
+      if (matched.empty() && variant != test["areas"].end() && matches(extract, *variant)) matched = name;
+    }
+    EXPECT_FALSE(matched.empty()) << test["description"] << "\n"
+                                  << testing::describe(extract) << "\nexpected " << test["areas"].dump();
+    ++by_variant[matched.empty() ? "none" : matched];
+  }
+  std::size_t total = 0;
+  std::string counts;
+  for (const auto& [name, count] : by_variant) {
+    total += count;
+    counts += name + ": " + std::to_string(count) + ", ";
+  }
+  EXPECT_EQ(total, cases().size());
+  EXPECT_GE(by_variant["default"] + by_variant["location"] + by_variant["fix"] + by_variant["fixed"], 102u);
+  RecordProperty("variants", counts);
+  std::cout << counts << total << " cases\n";
+}
+
+/// "110800 LINESTRING(1.02 1.12,1.07 1.13)" or "121800 NULL", a way each.
+TEST(OsmGrid, EveryWayIsTheLineItShouldBe) {
+  VANTAGE_REQUIRE_SHARED("osm-grid");
+  std::size_t lines = 0, nulls = 0;
+  for (const std::filesystem::path& folder : cases()) {
+    if (folder.parent_path().filename() != "1") continue;  // elsewhere ways are borders of areas
+    SCOPED_TRACE(folder.filename().string());
+    const Extract extract = read_extract(folder / "data.osm");
+    std::istringstream ways(read_bytes(folder / "ways.wkt"));
+    std::size_t expected_lines = 0;
+    for (std::string text; std::getline(ways, text);) {
+      const ObjectId id = testing::way_id(std::stol(text));
+      if (text.find("NULL") != std::string::npos) {
+        ++nulls;
+        const Problem* const problem = testing::find_problem(extract, id);
+        ASSERT_NE(problem, nullptr) << text;
+        EXPECT_EQ(problem->kind, Problem::Kind::degenerate);
+        EXPECT_TRUE(problem->lost);
+        continue;
+      }
+      ++expected_lines;
+      const Line* const line = testing::find_object(extract.lines, id);
+      ASSERT_NE(line, nullptr) << text;
+      std::string ours;
+      for (const LonLat at : line->points) {
+        std::ostringstream pair;
+        pair << at.longitude_deg << " " << at.latitude_deg;
+        ours += (ours.empty() ? "" : ",") + pair.str();
+      }
+      EXPECT_EQ(ours, text.substr(text.find('(') + 1, text.find(')') - text.find('(') - 1));
+    }
+    EXPECT_EQ(extract.lines.size(), expected_lines);
+    lines += expected_lines;
+  }
+  EXPECT_GT(lines, 15u);
+  EXPECT_GE(nulls, 3u);
+}
+
+}  // namespace
+}  // namespace vantage::osm
