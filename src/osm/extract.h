@@ -45,8 +45,8 @@ struct Polygon {
   std::vector<Ring> holes;  ///< clockwise
 };
 
-/// A closed way or a multipolygon relation, assembled. The tags of a multipolygon are the relation's, or for old-style
-/// ones its outer way's.
+/// A closed way or a multipolygon relation, assembled. The tags of a multipolygon are the relation's without its type,
+/// or of an old-style one those that all its outer ways have in common.
 struct Area {
   ObjectId id;
   Tags tags;

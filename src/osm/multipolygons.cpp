@@ -14,8 +14,6 @@ using Kind = Problem::Kind;
 
 ObjectId id_of(const osmium::Relation& relation) { return {ObjectType::relation, relation.id()}; }
 
-bool is_inner(const MemberWay& member) { return std::strcmp(member.role, "inner") == 0; }
-
 }  // namespace
 
 void Multipolygons::add(const osmium::Relation& relation) {
@@ -79,7 +77,7 @@ void Multipolygons::add_multipolygon(const osmium::Relation& relation, Tags tags
   Assembly assembly = assemble(relation, members.there);
   if (assembly.polygons.empty()) {
     trouble.add(Kind::broken_multipolygon, assembly.trouble);
-    lose(relation, tags, old_style, members, trouble);
+    extract_.problems.push_back(trouble.problem(id_of(relation), tags, true));  // its ways stand for themselves
     return;
   }
   if (old_style) {
@@ -93,24 +91,6 @@ void Multipolygons::add_multipolygon(const osmium::Relation& relation, Tags tags
   absorb(relation, tags, old_style, members.there);
   if (!trouble.empty()) extract_.problems.push_back(trouble.problem(id_of(relation), tags, false));
   extract_.areas.push_back({id_of(relation), std::move(tags), std::move(assembly.polygons)});
-}
-
-void Multipolygons::lose(const osmium::Relation& relation, const Tags& tags, bool old_style, const Members& members,
-                         const Trouble& trouble) {
-  if (!old_style) {
-    extract_.problems.push_back(trouble.problem(id_of(relation), tags, true));
-    return;
-  }
-  // Closed ways stand for themselves; pieces of a ring make sense together only, and are lost with it.
-  std::vector<Tags> pieces;
-  for (const MemberWay& member : members.there) {
-    const KeptWay* const kept = objects_.find_way(member.way->id());
-    if (!kept->wanted || kept->closed || is_inner(member)) continue;
-    pieces.push_back(to_tags(member.way->tags()));
-    absorbed_[member.way->id()] = {id_of(relation)};
-  }
-  const Tags common = common_tags(pieces);
-  extract_.problems.push_back(trouble.problem(id_of(relation), common.all.empty() ? tags : common, true));
 }
 
 void Multipolygons::absorb(const osmium::Relation& relation, const Tags& area_tags, bool old_style,

@@ -45,8 +45,6 @@ class Multipolygons {
   Members members_of(const osmium::Relation& relation) const;
   void absorb(const osmium::Relation& relation, const Tags& area_tags, bool old_style,
               const std::vector<MemberWay>& members);
-  void lose(const osmium::Relation& relation, const Tags& tags, bool old_style, const Members& members,
-            const Trouble& trouble);
 
   const MapObjects& objects_;
   bool (*wanted_)(const Tags&);
