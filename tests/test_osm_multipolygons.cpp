@@ -54,7 +54,7 @@ std::string canonical(Positions ring) {
     smallest = std::min(smallest, ring);
   }
   std::string text;
-  for (const auto& [x, y] : smallest) text += std::to_string(x) + " " + std::to_string(y) + ",";
+  for (const auto& [x, y] : smallest) text.append(std::to_string(x)).append(" ").append(std::to_string(y)).append(",");
   return text;
 }
 
@@ -226,7 +226,7 @@ TEST(OsmGrid, EveryWayIsTheLineItShouldBe) {
       for (const LonLat at : line->points) {
         std::ostringstream pair;
         pair << at.longitude_deg << " " << at.latitude_deg;
-        ours += (ours.empty() ? "" : ",") + pair.str();
+        ours.append(ours.empty() ? "" : ",").append(pair.str());
       }
       EXPECT_EQ(ours, text.substr(text.find('(') + 1, text.find(')') - text.find('(') - 1));
     }

@@ -170,7 +170,7 @@ TEST_P(OsmRealMap, EveryBuildingIsAccountedFor) {
     const bool is_lost = lost_ids.contains(object.id);
     const bool is_group = object.tags.contains("type") && object.tags.at("type") == "building";
     const bool is_absorbed = as_area == 0 && !is_lost && object.id.type == ObjectType::way &&
-                             ways_of_areas.contains("w" + std::to_string(object.id.id));
+                             ways_of_areas.contains(std::string("w").append(std::to_string(object.id.id)));
     EXPECT_EQ(as_area + is_lost + is_group + is_absorbed, 1u) << text(object.id);
     areas += as_area;
     lost += is_lost;

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "osm/extract.h"
-#include "support/run_program.h"
 #include "support/temporary_directory.h"
 #include "vantage/error.h"
 
@@ -21,31 +20,11 @@ inline std::string osm_xml(const std::string& content) {
   return "<?xml version='1.0' encoding='UTF-8'?>\n<osm version='0.6' generator='hand'>\n" + content + "</osm>\n";
 }
 
-inline std::string osm_node(long id, double lon, double lat, const std::string& inside = "") {
-  return "<node id='" + std::to_string(id) + "' version='1' lon='" + std::to_string(lon) + "' lat='" +
-         std::to_string(lat) + "'>" + inside + "</node>\n";
-}
-
-inline std::string osm_tag(const std::string& key, const std::string& value) {
-  return "<tag k='" + key + "' v='" + value + "'/>";
-}
-
-inline std::string osm_way(long id, const std::vector<long>& nodes, const std::string& tags = "") {
-  std::string text = "<way id='" + std::to_string(id) + "' version='1'>";
-  for (const long node : nodes) text += "<nd ref='" + std::to_string(node) + "'/>";
-  return text + tags + "</way>\n";
-}
-
+std::string osm_node(long id, double lon, double lat, const std::string& inside = "");
+std::string osm_tag(const std::string& key, const std::string& value);
+std::string osm_way(long id, const std::vector<long>& nodes, const std::string& tags = "");
 /// `members`: "way 5 outer", "relation 7 part".
-inline std::string osm_relation(long id, const std::vector<std::string>& members, const std::string& tags) {
-  std::string text = "<relation id='" + std::to_string(id) + "' version='1'>";
-  for (const std::string& member : members) {
-    const std::size_t first = member.find(' '), second = member.find(' ', first + 1);
-    text += "<member type='" + member.substr(0, first) + "' ref='" + member.substr(first + 1, second - first - 1) +
-            "' role='" + member.substr(second + 1) + "'/>";
-  }
-  return text + tags + "</relation>\n";
-}
+std::string osm_relation(long id, const std::vector<std::string>& members, const std::string& tags);
 
 /// Nodes `first`, `first` + 1, ... on the corners of a square, counter-clockwise from the lower left one.
 inline std::string osm_square(long first, double west, double south, double size) {
@@ -101,58 +80,13 @@ inline double doubled_area(const osm::Ring& ring) {
 }
 
 /// All that an extract holds, as text: equal for equal extracts. `file_details`: also what is known of the file itself.
-inline std::string describe(const osm::Extract& extract, bool file_details = true) {
-  std::string text;
-  const auto number = [&text](double value) { text += std::to_string(value * 1e7) + " "; };
-  const auto ring = [&](const std::vector<osm::LonLat>& positions) {
-    for (const osm::LonLat position : positions) number(position.longitude_deg), number(position.latitude_deg);
-    text += "/ ";
-  };
-  const auto head = [&text](osm::ObjectId id, const osm::Tags& tags) {
-    text += "\n" + osm::text(id);
-    for (const auto& [key, value] : tags.all) text += " [" + key + "=" + value + "]";
-    text += " ";
-  };
-  for (const osm::Area& area : extract.areas) {
-    head(area.id, area.tags);
-    for (const osm::Polygon& polygon : area.polygons) {
-      text += "outer ";
-      ring(polygon.outer);
-      for (const osm::Ring& hole : polygon.holes) ring(hole);
-    }
-  }
-  for (const osm::Line& line : extract.lines) head(line.id, line.tags), ring(line.points);
-  for (const osm::Point& point : extract.points) head(point.id, point.tags), ring({point.position});
-  for (const osm::BuildingRelation& relation : extract.building_relations) {
-    head(relation.id, relation.tags);
-    for (const osm::ObjectId id : relation.outlines) text += "outline " + osm::text(id) + " ";
-    for (const osm::ObjectId id : relation.parts) text += "part " + osm::text(id) + " ";
-  }
-  for (const osm::Problem& problem : extract.problems) {
-    head(problem.object, problem.tags);
-    text += std::to_string(static_cast<int>(problem.kind)) + " " + problem.what + (problem.lost ? " lost" : "");
-  }
-  text += "\n";
-  for (const double bound : extract.bounds_deg) number(bound);
-  for (const std::size_t count : {extract.nodes, extract.ways, extract.relations, extract.outside}) number(count);
-  number(extract.nearest_outside_m);
-  if (file_details) text += extract.sorted ? "sorted " : "unsorted ", number(extract.superseded);
-  return text;
-}
+std::string describe(const osm::Extract& extract, bool file_details = true);
 
 /// Whether osmium-tool is there.
-inline bool has_osmium() {
-  static const bool there = run_program("/usr/bin/env", {"osmium", "--version"}).exit_code == 0;
-  return there;
-}
+bool has_osmium();
 
 /// What osmium-tool prints; fails the test where it fails.
-inline std::string osmium(std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), "osmium");
-  const ProgramRun run = run_program("/usr/bin/env", arguments);
-  EXPECT_EQ(run.exit_code, 0) << arguments[1] << ": " << run.err;
-  return run.out;
-}
+std::string osmium(std::vector<std::string> arguments);
 
 }  // namespace vantage::testing
 
