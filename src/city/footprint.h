@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <vector>
 
 namespace vantage::city {
@@ -13,7 +14,7 @@ using Ring = std::vector<Vec2>;  ///< open: the first point is not repeated
 /// A simple polygon with holes: metres in the scene frame, every coordinate a multiple of kGrid (so that buildings that
 /// share a node share a point). Rings do not cross themselves or each other; they may touch in single points, which
 /// `make_solid` sees to. No ring has fewer than 3 points, repeated points or points in the middle of a straight side
-/// closer to it than kGrid.
+/// closer to it than kGrid (but where sides would cross without them).
 struct Footprint {
   Ring outer;               ///< counter-clockwise
   std::vector<Ring> holes;  ///< clockwise
@@ -28,16 +29,19 @@ double area_m2(const std::vector<Footprint>& footprints);
 struct Repairs {
   bool self_crossing = false;  ///< it crossed itself: inside is what is wound round an odd number of times
   bool nesting = false;        ///< holes outside the outer ring, or overlapping each other
+  bool beyond = false;         ///< not finite, or larger than 100 km: dropped
   std::size_t slivers = 0;     ///< pieces narrower than 1 cm or smaller than 0.01 m2 that were dropped
 };
 
 /// Rounds to the grid, removes spikes and repeated points, resolves crossings. Empty when nothing with an area is left.
 std::vector<Footprint> clean(const std::vector<Footprint>& rough, Repairs& repairs);
 
+/// Of the footprints of an object; those of others that lie elsewhere cost nothing. Slivers are left out as in `clean`.
 std::vector<Footprint> subtract(const std::vector<Footprint>& from, const std::vector<Footprint>& what);
 std::vector<Footprint> intersect(const std::vector<Footprint>& a, const std::vector<Footprint>& b);
 
-/// Of a line with round ends and joints left out (mitred, square-free): a wall of this width. `closed`: a ring.
+/// A wall of this width along a line: joints mitred (very sharp ones cut off), ends cut straight. `closed`: a ring.
+/// Empty for a line without a length. Where the line crosses itself or runs close to itself, what is shut in is a hole.
 std::vector<Footprint> widen(const std::vector<Vec2>& line, bool closed, double width_m);
 
 /// Convex pieces that cover a footprint and overlap only along their sides: few of them, none narrower than need be
