@@ -1,0 +1,250 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <initializer_list>
+#include <string>
+
+#include "city/building_form.h"
+#include "support/random.h"
+
+namespace vantage::city {
+namespace {
+
+using vantage::testing::Random;
+
+osm::Tags tagged(std::initializer_list<std::pair<std::string, std::string>> all) { return osm::Tags{all}; }
+
+struct Reading {
+  BuildingForm form;
+  std::vector<TagRemark> remarks;
+
+  bool has(const std::string& kind) const {
+    return std::any_of(remarks.begin(), remarks.end(), [&](const TagRemark& r) { return r.kind == kind; });
+  }
+};
+
+Reading read(std::initializer_list<std::pair<std::string, std::string>> all, const osm::Tags* outline = nullptr) {
+  Reading reading;
+  reading.form = read_form(tagged(all), outline, BuildingDefaults(), reading.remarks);
+  return reading;
+}
+
+TEST(CityForm, Lengths) {
+  const std::vector<std::pair<const char*, double>> lengths = {{"48.5", 48.5},
+                                                               {"48.5 m", 48.5},
+                                                               {"48,5m", 48.5},
+                                                               {" 12.13 m ", 12.13},
+                                                               {"160 ft", 48.768},
+                                                               {"160'", 48.768},
+                                                               {"5'11\"", 1.8034},
+                                                               {"5' 11\"", 1.8034},
+                                                               {"5'11", 1.8034},
+                                                               {"7'0\"", 2.1336},
+                                                               {"0.2 km", 200},
+                                                               {"5;5.5", 5.5},
+                                                               {"5.5;5;", 5.5},
+                                                               {"250 cm", 2.5},
+                                                               {"-3", -3},
+                                                               {"+4", 4},
+                                                               {".5", 0.5},
+                                                               {"10 metres", 10},
+                                                               {"10M", 10},
+                                                               {"3 feet", 0.9144},
+                                                               {"24\"", 0.6096},
+                                                               {"24 in", 0.6096},
+                                                               {"5\u203211\u2033", 1.8034},
+                                                               {"-5'6\"", -1.6764}};
+  for (const auto& [text, metres] : lengths) {
+    const std::optional<double> length = parse_length_m(text);
+    ASSERT_TRUE(length) << text;
+    EXPECT_NEAR(*length, metres, 1e-12) << text;
+  }
+  for (const char* text :
+       {"",    "concrete", "m",     "nan", "inf",    "-inf",   "1e3", "0x10", "10-12", "1,5-2,5", "12 storeys",
+        "5;x", ";",        "1.2.3", "--3", "5'13\"", "5'-1\"", "5'x", "'",    "\"",    "4''5",    "."}) {
+    EXPECT_FALSE(parse_length_m(text)) << text;
+  }
+  EXPECT_FALSE(parse_length_m(std::string(1000, '9'))) << "not finite";
+}
+
+TEST(CityForm, LevelsAndDirections) {
+  EXPECT_EQ(parse_levels("3"), 3);
+  EXPECT_EQ(parse_levels("2.5"), 2.5);
+  EXPECT_EQ(parse_levels("2;3"), 3);
+  EXPECT_EQ(parse_levels("0"), 0);
+  for (const char* text : {"concrete", "", "3 m", "1-3", "three"}) EXPECT_FALSE(parse_levels(text)) << text;
+  const std::vector<std::pair<const char*, double>> directions = {
+      {"45", 45},     {"45°", 45},  {"NE", 45}, {"north", 0},     {"North-East", 45},         {"southwest", 225},
+      {"nnw", 337.5}, {"-90", 270}, {"360", 0}, {"209.5", 209.5}, {"north-north-west", 337.5}};
+  for (const auto& [text, degrees] : directions) {
+    const std::optional<double> direction = parse_direction_deg(text);
+    ASSERT_TRUE(direction) << text;
+    EXPECT_EQ(*direction, degrees) << text;
+  }
+  for (const char* text : {"", "up", "forward", "northnorth", "45 m", "ns", "nan", "n e"}) {
+    const std::optional<double> direction = parse_direction_deg(text);
+    EXPECT_FALSE(direction) << text << " " << direction.value_or(-1);
+  }
+}
+
+TEST(CityForm, RoofShapes) {
+  for (int k = 0; k < kRoofShapes; ++k) {
+    const auto shape = static_cast<RoofShape>(k);
+    const std::optional<RoofName> name = parse_roof_shape(text(shape));
+    ASSERT_TRUE(name) << text(shape);
+    EXPECT_EQ(name->shape, shape);
+    EXPECT_TRUE(name->same);
+  }
+  EXPECT_EQ(parse_roof_shape("half_hipped")->shape, RoofShape::half_hipped);
+  EXPECT_EQ(parse_roof_shape(" Pitched ")->shape, RoofShape::gabled);
+  EXPECT_EQ(parse_roof_shape("lean-to")->shape, RoofShape::skillion);
+  EXPECT_FALSE(parse_roof_shape("double_saltbox")->same);
+  for (const char* text : {"", "many", "9.0", "sawtooth"}) EXPECT_FALSE(parse_roof_shape(text)) << text;
+}
+
+TEST(CityForm, HeightsAndTheirOrder) {
+  const Reading plain = read({{"building", "yes"}});
+  EXPECT_EQ(plain.form.top_m, 9);
+  EXPECT_EQ(plain.form.bottom_m, 0);
+  EXPECT_EQ(plain.form.roof, RoofShape::flat);
+  EXPECT_TRUE(plain.remarks.empty());
+  EXPECT_EQ(read({{"building", "bungalow"}}).form.top_m, 3);
+  EXPECT_EQ(read({{"building", "yes"}, {"building:levels", "5"}}).form.top_m, 15);
+  EXPECT_EQ(read({{"building", "yes"}, {"building:levels", "5"}, {"height", "21.5 m"}}).form.top_m, 21.5);
+  EXPECT_EQ(read({{"building", "yes"}, {"est_height", "8"}}).form.top_m, 8);
+  EXPECT_EQ(read({{"building", "yes"}, {"building:levels", "2"}, {"roof:levels", "1"}}).form.top_m, 8.5);
+  EXPECT_EQ(read({{"building", "yes"}, {"building:levels", "2"}, {"roof:height", "4"}}).form.top_m, 10);
+  const Reading part = read({{"building:part", "yes"}, {"height", "100"}, {"min_height", "5;5.5"}});
+  EXPECT_EQ(part.form.bottom_m, 5.5);
+  EXPECT_EQ(read({{"building:part", "yes"}, {"building:levels", "6"}, {"building:min_level", "2"}}).form.bottom_m, 6);
+  const Reading storeys =
+      read({{"building:part", "yes"}, {"height", "84"}, {"building:levels", "21"}, {"building:min_level", "20"}});
+  EXPECT_NEAR(storeys.form.bottom_m, 80, 1e-9) << "levels of 4 m";
+}
+
+TEST(CityForm, PartsInheritTheKindAlone) {
+  const osm::Tags church = tagged({{"building", "church"}, {"height", "50"}, {"min_height", "3"}});
+  const Reading part = read({{"building:part", "yes"}}, &church);
+  EXPECT_EQ(part.form.top_m, 12);
+  EXPECT_EQ(part.form.bottom_m, 0);
+  EXPECT_EQ(read({{"building:part", "roof"}}, &church).form.deck_m, 0.5);
+}
+
+TEST(CityForm, NonsenseIsRemarkedOnAndTakenAsUntagged) {
+  const Reading concrete = read({{"building", "yes"}, {"height", "concrete"}, {"building:levels", "concrete"}});
+  EXPECT_EQ(concrete.form.top_m, 9);
+  ASSERT_EQ(concrete.remarks.size(), 2u);
+  EXPECT_EQ(concrete.remarks[0].kind, "height that is no length");
+  EXPECT_EQ(concrete.remarks[0].what, "height=concrete: taken as untagged");
+  EXPECT_EQ(concrete.remarks[1].kind, "levels that are no number");
+  const Reading negative = read({{"building", "yes"}, {"height", "-12"}, {"building:levels", "2"}});
+  EXPECT_EQ(negative.form.top_m, 6);
+  EXPECT_TRUE(negative.has("negative height"));
+  EXPECT_TRUE(read({{"building", "yes"}, {"height", "0"}}).has("height of zero"));
+  EXPECT_EQ(read({{"building", "yes"}, {"height", "0"}, {"est_height", "7"}}).form.top_m, 7);
+  EXPECT_TRUE(read({{"building", "yes"}, {"height", "99999"}}).has("height beyond belief"));
+  EXPECT_TRUE(read({{"building", "yes"}, {"building:levels", "0"}}).has("no levels and no height"));
+  EXPECT_EQ(read({{"building", "yes"}, {"building:levels", "0"}}).form.top_m, 9);
+  EXPECT_EQ(read({{"building", "yes"}, {"building:levels", "0"}, {"roof:height", "4"}}).form.top_m, 4);
+  const Reading below = read({{"building", "retail"}, {"height", "19.9"}, {"building:min_level", "-1"}});
+  EXPECT_EQ(below.form.bottom_m, 0);
+  EXPECT_TRUE(below.has("negative levels"));
+  const Reading many = read({{"building", "yes"}, {"roof:shape", "many"}, {"roof:direction", "up"}});
+  EXPECT_EQ(many.form.roof, RoofShape::flat);
+  EXPECT_TRUE(many.has("unknown roof shape"));
+}
+
+TEST(CityForm, MinHeightNotBelowHeight) {
+  const Reading above = read({{"building:part", "yes"}, {"height", "48"}, {"min_height", "51"}});
+  EXPECT_EQ(above.form.bottom_m, 0);
+  EXPECT_EQ(above.form.top_m, 48);
+  EXPECT_TRUE(above.has("min_height not below height"));
+  const Reading equal = read({{"building:part", "yes"}, {"height", "5"}, {"min_height", "5"}});
+  EXPECT_EQ(equal.form.bottom_m, 4.5);
+  EXPECT_EQ(equal.form.top_m, 5);
+  EXPECT_TRUE(equal.has("min_height not below height"));
+  const Reading levels = read({{"building:part", "yes"}, {"building:levels", "2"}, {"building:min_level", "2"}});
+  EXPECT_EQ(levels.form.bottom_m, 6);
+  EXPECT_EQ(levels.form.top_m, 12);
+  EXPECT_TRUE(levels.has("building:levels not above building:min_level"));
+  const Reading dome =
+      read({{"building", "church"}, {"min_height", "18"}, {"roof:shape", "dome"}, {"roof:height", "5"}});
+  EXPECT_EQ(dome.form.bottom_m, 18);
+  EXPECT_EQ(dome.form.top_m, 23);
+  EXPECT_EQ(dome.form.roof_m, 5);
+  EXPECT_TRUE(dome.has("no height above the bottom"));
+  EXPECT_EQ(read({{"building:part", "yes"}, {"min_height", "13"}}).form.top_m, 16);
+}
+
+TEST(CityForm, Roofs) {
+  const Reading gabled = read(
+      {{"building", "yes"}, {"height", "9"}, {"min_height", "7.9"}, {"roof:shape", "gabled"}, {"roof:height", "1.1"}});
+  EXPECT_TRUE(gabled.remarks.empty());
+  EXPECT_EQ(gabled.form.roof_m, 9 - 7.9);
+  const Reading high = read({{"building", "yes"}, {"height", "9"}, {"roof:shape", "hipped"}, {"roof:height", "11"}});
+  EXPECT_EQ(high.form.roof_m, 9);
+  EXPECT_TRUE(high.has("roof higher than the building"));
+  const Reading open = read({{"building", "house"}, {"roof:shape", "gabled"}});
+  ASSERT_TRUE(open.form.pitch);
+  EXPECT_EQ(open.form.pitch->angle_deg, 30);
+  EXPECT_TRUE(open.form.pitch->on_top);
+  EXPECT_EQ(open.form.top_m, 6);
+  const Reading angle = read({{"building", "yes"}, {"height", "9"}, {"roof:shape", "gabled"}, {"roof:angle", "45°"}});
+  EXPECT_EQ(angle.form.pitch->angle_deg, 45);
+  EXPECT_EQ(angle.form.pitch->most_share, 1);
+  EXPECT_FALSE(angle.form.pitch->on_top);
+  EXPECT_TRUE(
+      read({{"building", "yes"}, {"roof:shape", "gabled"}, {"roof:angle", "95"}}).has("roof angle that is none"));
+  const Reading turned = read({{"building", "yes"},
+                               {"roof:shape", "skillion"},
+                               {"roof:height", "2"},
+                               {"roof:direction", "SW"},
+                               {"roof:orientation", "across"}});
+  EXPECT_EQ(turned.form.roof_direction_deg, 225);
+  EXPECT_TRUE(turned.form.roof_across);
+  EXPECT_TRUE(turned.remarks.empty());
+  EXPECT_TRUE(read({{"building", "yes"}, {"roof:shape", "gabled"}, {"roof:orientation", "2"}})
+                  .has("roof orientation that is none"));
+  EXPECT_TRUE(read({{"building", "yes"}, {"roof:shape", "skillion"}}).has("skillion roof without a direction"));
+  EXPECT_EQ(read({{"building", "yes"}, {"roof:shape", "gabled"}, {"roof:height", "0"}}).form.roof, RoofShape::flat);
+}
+
+TEST(CityForm, RoofsOnPosts) {
+  const Reading roof = read({{"building", "roof"}, {"height", "6"}});
+  EXPECT_EQ(roof.form.deck_m, 0.5);
+  EXPECT_EQ(roof.form.bottom_m, 0);
+  EXPECT_EQ(read({{"building", "roof"}, {"height", "6"}, {"min_height", "5.8"}}).form.deck_m, 0);
+  EXPECT_EQ(read({{"building", "carport"}}).form.top_m, 3);
+  const Reading open = read({{"building", "yes"}, {"wall", "no"}});
+  EXPECT_EQ(open.form.top_m, 3);
+  EXPECT_EQ(open.form.deck_m, 0.5);
+}
+
+TEST(CityForm, RandomTagsAlwaysMakeAForm) {
+  Random random(43);
+  const std::vector<std::string> keys = {"height",           "min_height",   "building:levels", "building:min_level",
+                                         "roof:height",      "roof:levels",  "roof:angle",      "roof:shape",
+                                         "roof:direction",   "building",     "est_height",      "wall",
+                                         "roof:orientation", "building:part"};
+  const std::vector<std::string> values = {"0",      "-1",       "3",      "12.5",  "1e9", "concrete", "5;5.5",
+                                           "30",     "roof",     "dome",   "yes",   "no",  "onion",    "SW",
+                                           "across", "0.001",    "gabled", "house", "nan", "100 ft",   ";",
+                                           "",       "skillion", "3000",   "1500"};
+  for (int round = 0; round < 20000; ++round) {
+    osm::Tags tags;
+    for (const std::string& key : keys) {
+      if (random.chance(0.5)) tags.all.emplace_back(key, values[random.integer(0, int(values.size()) - 1)]);
+    }
+    std::vector<TagRemark> remarks;
+    const BuildingForm form = read_form(tags, nullptr, BuildingDefaults(), remarks);
+    ASSERT_TRUE(std::isfinite(form.top_m));
+    ASSERT_GE(form.bottom_m, 0);
+    ASSERT_GT(form.top_m, form.bottom_m);
+    ASSERT_GE(form.roof_m, 0);
+    ASSERT_LE(form.roof_m, form.top_m - form.bottom_m);
+    ASSERT_FALSE(form.pitch && form.roof_m > 0);
+  }
+}
+
+}  // namespace
+}  // namespace vantage::city
