@@ -1,0 +1,209 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <numbers>
+#include <string>
+
+#include "city/occluders.h"
+#include "solid/solid_check.h"
+#include "support/random.h"
+#include "vantage/error.h"
+
+namespace vantage::city {
+namespace {
+
+using vantage::testing::Random;
+constexpr double kPi = std::numbers::pi;
+
+osm::Tags tagged(std::initializer_list<std::pair<std::string, std::string>> all) { return osm::Tags{all}; }
+
+struct Built {
+  std::vector<Shape> shapes;
+  std::vector<TagRemark> remarks;
+
+  Box box() const {
+    Box box;
+    for (const Shape& shape : shapes) box.extend(bounding_box(make_solid(shape, 0).mesh));
+    return box;
+  }
+  double volume() const {
+    double sum = 0;
+    for (const Shape& shape : shapes) sum += enclosed_volume(make_solid(shape, 0).mesh);
+    return sum;
+  }
+  bool has(const std::string& kind) const {
+    return std::any_of(remarks.begin(), remarks.end(), [&](const TagRemark& r) { return r.kind == kind; });
+  }
+};
+
+void expect_sound(const Built& built) {
+  for (const Shape& shape : built.shapes) {
+    try {
+      const Mesh mesh = make_solid(shape, 12.5).mesh;
+      EXPECT_EQ(solid::checked_solid(mesh, "shape").triangles.size(), mesh.triangles.size());
+    } catch (const Error& error) {
+      ADD_FAILURE() << error.what();
+    }
+  }
+}
+
+Built line(std::initializer_list<std::pair<std::string, std::string>> tags, const std::vector<Vec2>& points,
+           double piece_m = 0) {
+  Built built;
+  built.shapes = shapes_of_line(tagged(tags), points, piece_m, OccluderDefaults(), built.remarks);
+  expect_sound(built);
+  return built;
+}
+
+Built point(std::initializer_list<std::pair<std::string, std::string>> tags) {
+  Built built;
+  built.shapes = shapes_of_point(tagged(tags), {100, 200}, OccluderDefaults(), built.remarks);
+  expect_sound(built);
+  return built;
+}
+
+const std::vector<Vec2> kStraight = {{0, 0}, {20, 0}};
+const std::vector<Vec2> kRing = {{0, 0}, {20, 0}, {20, 10}, {0, 10}, {0, 0}};
+
+TEST(CityOccluders, Kinds) {
+  const auto kinds = [](std::initializer_list<std::pair<std::string, std::string>> tags) {
+    std::string all;
+    for (const Geometry geometry : {Geometry::point, Geometry::line, Geometry::area}) {
+      all.append(kind_of(tagged(tags), geometry)).append("/");
+    }
+    EXPECT_EQ(wanted(tagged(tags)), all != "///");
+    return all;
+  };
+  EXPECT_EQ(kinds({{"building", "yes"}}), "//building/");
+  EXPECT_EQ(kinds({{"building", "church"}, {"building:part", "yes"}}), "//building part/");
+  EXPECT_EQ(kinds({{"building", "yes"}, {"building:part", "no"}}), "//building/");
+  EXPECT_EQ(kinds({{"building", "no"}}), "///");
+  EXPECT_EQ(kinds({{"building", "yes"}, {"man_made", "tower"}}), "//building/");
+  EXPECT_EQ(kinds({{"building", "entrance"}}), "//building/");
+  EXPECT_EQ(kinds({{"barrier", "fence"}, {"leisure", "garden"}}), "/wall//");
+  EXPECT_EQ(kinds({{"barrier", "hedge"}, {"area", "yes"}}), "/wall/wall/");
+  EXPECT_EQ(kinds({{"barrier", "kerb"}}), "///");
+  EXPECT_EQ(kinds({{"man_made", "chimney"}}), "tower//tower/");
+  EXPECT_EQ(kinds({{"man_made", "pipeline"}}), "///");
+  EXPECT_EQ(kinds({{"man_made", "bridge"}}), "//bridge/");
+  EXPECT_EQ(kinds({{"bridge", "yes"}, {"highway", "primary"}}), "/bridge/bridge/");
+  EXPECT_EQ(kinds({{"bridge", "no"}, {"highway", "primary"}}), "///");
+  EXPECT_EQ(kinds({{"bridge", "yes"}, {"railway", "razed"}}), "///");
+  EXPECT_EQ(kinds({{"bridge", "yes"}}), "///");
+  EXPECT_EQ(kinds({{"natural", "tree"}}), "tree///");
+  EXPECT_EQ(kinds({{"natural", "tree_row"}}), "/tree//");
+  EXPECT_EQ(kinds({{"highway", "residential"}}), "///");
+}
+
+TEST(CityOccluders, Walls) {
+  const Built plain = line({{"barrier", "wall"}}, kStraight);
+  EXPECT_NEAR(plain.volume(), 20 * 0.25 * 2, 0.02);
+  const Built high = line({{"barrier", "city_wall"}, {"height", "8 m"}, {"width", "3"}}, kStraight);
+  EXPECT_NEAR(high.volume(), 20 * 3 * 8, 0.1);
+  EXPECT_TRUE(high.remarks.empty());
+  EXPECT_NEAR(line({{"barrier", "wall"}, {"wall", "noise_barrier"}}, kStraight).box().max.z(), 4, 1e-12);
+  const Built garden = line({{"barrier", "hedge"}}, kRing);
+  ASSERT_EQ(garden.shapes.size(), 1u);
+  EXPECT_EQ(garden.shapes[0].footprint.holes.size(), 1u) << "the garden stays open";
+  EXPECT_NEAR(garden.volume(), (21 * 11 - 19 * 9) * 1.5, 0.05);
+  const Built nonsense = line({{"barrier", "fence"}, {"height", "tall"}, {"width", "-1"}}, kStraight);
+  EXPECT_TRUE(nonsense.has("height that is no length"));
+  EXPECT_TRUE(nonsense.has("width not above zero"));
+  EXPECT_NEAR(nonsense.box().max.z(), 1.5, 1e-12);
+  EXPECT_TRUE(line({{"barrier", "wall"}}, {{3, 3}, {3, 3}}).has("too small to build"));
+  EXPECT_TRUE(line({{"barrier", "wall"}}, {}).shapes.empty());
+  EXPECT_TRUE(line({{"barrier", "wall"}}, {{0, 0}, {std::nan(""), 1}}).has("too small to build"));
+}
+
+TEST(CityOccluders, WallsInPiecesForSlopes) {
+  const std::vector<Vec2> bent = {{0, 0}, {25, 0}, {25, 13}};
+  const Built whole = line({{"barrier", "wall"}}, bent);
+  const Built pieces = line({{"barrier", "wall"}}, bent, 10);
+  EXPECT_EQ(whole.shapes.size(), 1u);
+  EXPECT_EQ(pieces.shapes.size(), 4u);  // 9.5 m each
+  EXPECT_NEAR(pieces.volume(), whole.volume(), 1e-2);
+  EXPECT_EQ(line({{"barrier", "wall"}}, kRing, 10).shapes.size(), 6u);
+  EXPECT_EQ(line({{"barrier", "wall"}}, kRing, 100).shapes[0].footprint.holes.size(), 1u);
+}
+
+TEST(CityOccluders, Towers) {
+  const Built tank = point({{"man_made", "storage_tank"}, {"height", "12"}, {"diameter", "20"}});
+  EXPECT_NEAR(tank.volume(), 12 * kPi * 100 * 0.9745, 5);
+  EXPECT_NEAR(tank.box().max.x(), 110, 1e-3);
+  EXPECT_NEAR(point({{"man_made", "tower"}, {"tower:type", "lighting"}}).box().max.z(), 15, 1e-9);
+  EXPECT_NEAR(point({{"man_made", "mast"}}).box().max.z(), 25, 1e-9);
+  const Built odd = point({{"man_made", "chimney"}, {"diameter", "1,5-2,5"}, {"height", "-4"}});
+  EXPECT_TRUE(odd.has("diameter that is no length"));
+  EXPECT_TRUE(odd.has("negative height"));
+  EXPECT_NEAR(odd.box().max.z(), 30, 1e-9);
+  const Built silo = point({{"man_made", "silo"}, {"height", "12"}, {"roof:shape", "dome"}, {"roof:height", "3"}});
+  EXPECT_LT(silo.volume(), 12 * kPi * 9);
+  EXPECT_NEAR(silo.box().max.z(), 12, 1e-9);
+  EXPECT_EQ(point({{"man_made", "mast"}, {"diameter", "0.01"}}).shapes.size(), 1u);
+  Built area;
+  area.shapes = shapes_of_area(tagged({{"man_made", "gasometer"}}), {{{{0, 0}, {9, 0}, {9, 9}, {0, 9}}, {}}},
+                               OccluderDefaults(), area.remarks);
+  EXPECT_NEAR(area.volume(), 81 * 30, 1e-6);
+}
+
+TEST(CityOccluders, BridgesCanBeLookedUnder) {
+  const Built road = line({{"bridge", "yes"}, {"highway", "primary"}, {"lanes", "2"}}, kStraight);
+  EXPECT_NEAR(road.box().min.z(), 5, 1e-12);
+  EXPECT_NEAR(road.volume(), 20 * 7 * 1, 0.05);
+  EXPECT_NEAR(line({{"bridge", "yes"}, {"highway", "path"}, {"layer", "2"}}, kStraight).box().min.z(), 10, 1e-12);
+  EXPECT_NEAR(line({{"bridge", "viaduct"}, {"railway", "rail"}, {"tracks", "2"}}, kStraight).volume(), 20 * 9, 0.05);
+  EXPECT_NEAR(line({{"bridge", "yes"}, {"highway", "steps"}, {"min_height", "5;5.5"}}, kStraight).box().min.z(), 5.5,
+              1e-12);
+  const Built below = line({{"bridge", "yes"}, {"highway", "footway"}, {"layer", "-2"}}, kStraight);
+  EXPECT_TRUE(below.has("bridge below the ground"));
+  EXPECT_NEAR(below.box().min.z(), 0, 1e-12);
+  EXPECT_TRUE(line({{"bridge", "yes"}, {"highway", "footway"}, {"layer", "x"}}, kStraight).has("layer that is none"));
+  EXPECT_NEAR(line({{"bridge", "yes"}, {"highway", "primary_link"}}, kStraight).volume(), 100, 0.05);
+}
+
+TEST(CityOccluders, Trees) {
+  const Built plain = point({{"natural", "tree"}});
+  EXPECT_NEAR(plain.box().max.z(), 10, 1e-12);
+  EXPECT_NEAR(plain.box().max.x() - plain.box().min.x(), 5, 1e-9);
+  const Built tall = point({{"natural", "tree"}, {"height", "29"}, {"diameter_crown", "8"}, {"circumference", "300"}});
+  EXPECT_NEAR(tall.box().max.z(), 29, 1e-12);
+  EXPECT_NEAR(tall.shapes[0].tree->trunk_m, 3 / kPi, 1e-12) << "in centimetres";
+  const Built spruce = point({{"natural", "tree"}, {"leaf_type", "needleleaved"}});
+  EXPECT_LT(spruce.volume(), plain.volume());
+  EXPECT_GT(spruce.volume(), 10);
+  EXPECT_NEAR(point({{"natural", "tree"}, {"height", "11"}, {"min_height", "7.5"}}).box().min.z(), 7.5, 1e-12);
+  EXPECT_EQ(line({{"natural", "tree_row"}}, {{0, 0}, {40, 0}}).shapes.size(), 6u);
+  EXPECT_EQ(line({{"natural", "tree_row"}}, {{0, 0}, {1, 0}}).shapes.size(), 2u);
+  EXPECT_EQ(line({{"natural", "tree_row"}}, kRing).shapes.size(), 8u);
+}
+
+TEST(CityOccluders, RandomTagsAndLines) {
+  Random random(61);
+  const std::vector<std::string> values = {"0.01", "1", "3.5", "500", "-2", "x", "0", "150", "2;3", "5'11\""};
+  const std::vector<std::vector<std::pair<std::string, std::string>>> kinds = {
+      {{"barrier", "wall"}}, {{"barrier", "hedge"}},    {{"bridge", "yes"}, {"highway", "service"}},
+      {{"natural", "tree"}}, {{"natural", "tree_row"}}, {{"man_made", "water_tower"}, {"roof:shape", "cone"}},
+      {{"man_made", "mast"}}};
+  for (int round = 0; round < 60; ++round) {
+    osm::Tags tags{kinds[static_cast<std::size_t>(random.integer(0, int(kinds.size()) - 1))]};
+    for (const char* key :
+         {"height", "width", "min_height", "diameter", "layer", "lanes", "diameter_crown", "roof:height"}) {
+      if (random.chance(0.4))
+        tags.all.emplace_back(key, values[static_cast<std::size_t>(random.integer(0, int(values.size()) - 1))]);
+    }
+    std::vector<Vec2> points;
+    for (int i = random.integer(2, 9); i > 0; --i) points.emplace_back(random.uniform(0, 40), random.uniform(0, 40));
+    if (random.chance(0.3)) points.push_back(points.front());
+    Built built;
+    built.shapes = shapes_of_line(tags, points, random.chance(0.5) ? 7 : 0, OccluderDefaults(), built.remarks);
+    for (Shape& shape : shapes_of_point(tags, points[0], OccluderDefaults(), built.remarks))
+      built.shapes.push_back(shape);
+    expect_sound(built);
+    ASSERT_FALSE(built.shapes.empty()) << round;
+  }
+}
+
+}  // namespace
+}  // namespace vantage::city
