@@ -26,7 +26,7 @@ Ring rectangle(double west, double south, double east, double north) {
   return {{west, south}, {east, south}, {east, north}, {west, north}};
 }
 
-Ring regular(int corners, double radius, Vec2 centre = Vec2::Zero(), double turn = 0) {
+Ring regular(int corners, double radius, const Vec2& centre = Vec2::Zero(), double turn = 0) {
   Ring ring;
   for (int k = 0; k < corners; ++k) {
     const double angle = turn + 2 * kPi * k / corners;
@@ -294,6 +294,14 @@ TEST(CitySolid, WhatIsNotStarShapedIsNamed) {
               std::string(text(shape)) + " roof over an outline that is not star-shaped: pyramid instead");
   }
   EXPECT_EQ(make_solid({horseshoe, {}}, form_of(RoofShape::pyramidal, 0, 12, 5), 0).repair, "");
+}
+
+TEST(CitySolid, ManyCornersTakeNoTime) {
+  const Footprint ring = cleaned({regular(4000, 200), {regular(3, 20)}})[0];
+  const Solid dome = make_solid(ring, form_of(RoofShape::dome, 0, 50, 30), 0);
+  EXPECT_EQ(dome.repair, "dome roof over an outline with courtyards that is not simple and convex: pyramid instead");
+  EXPECT_GT(make_solid({ring.outer, {}}, form_of(RoofShape::dome, 0, 50, 30), 0).mesh.triangles.size(), 8000u);
+  EXPECT_GT(make_solid(ring, form_of(RoofShape::mansard, 0, 50, 30), 0).mesh.triangles.size(), 8000u);
 }
 
 TEST(CitySolid, TouchingRingsAreDrawnApart) {

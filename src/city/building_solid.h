@@ -16,10 +16,12 @@ struct Solid {
 };
 
 /// `ground_m`: z of the ground that the form's heights count from. The roof is a piecewise linear height over the
-/// footprint (onions excepted), triangulated with its creases (constrained Delaunay), the floor the same triangles
-/// turned over, the walls join the two along the outline: closed by construction. Where two rings, or a ring with
-/// itself, touch in a point, that point is drawn apart by 1 mm into the solid, so that no edge has four facets. Throws
-/// Error(internal) where an invariant does not hold; the caller checks with solid::check all the same.
+/// footprint (onions excepted; the shapes are in roof_profile.h and roof_surface.h), its triangles cut along the
+/// creases, the floor the same triangles turned over (under roofs of rings round a centre: the outline's own), the
+/// walls join the two along the outline: closed by construction. What the form leaves open is settled first. Where two
+/// rings, or a ring with itself, touch in a point, that point is drawn apart by 1 mm into the solid, so that no edge
+/// has four facets. Throws Error(internal) where an invariant does not hold; the caller checks with solid::check all
+/// the same.
 Solid make_solid(const Footprint& footprint, const BuildingForm& form, double ground_m);
 
 }  // namespace vantage::city

@@ -17,6 +17,8 @@ constexpr double kOnCrease = 1e-4;        // metres of height within which a cor
 constexpr double kOnCreaseShare = 1e-3;   // of the roof's height, where that is less
 constexpr std::int64_t kLeastReach = 64;  // units of the grid (8 mm): a centre is that far inside every side's line
 
+constexpr std::size_t kMostSides = 256;  // of a dome with courtyards, which takes time with the square of them
+
 /// One ring of a roof that runs round a centre: how much the outline is scaled, at which height.
 struct Level {
   double scale = 1, height = 0;
@@ -256,7 +258,8 @@ RoofSurface central_surface(const Footprint& footprint, const Grid& grid, const 
   const bool open = rings.size() == 1 && footprint.holes.empty();
   const std::optional<GridPoint> centre = star_centre(open ? rings[0] : outline, grid, frame);
   const std::string name(text(form.roof));
-  if (centre && (open || is_convex(outline))) {
+  const bool by_planes = is_convex(outline) && outline.size() <= kMostSides;
+  if (centre && (open || by_planes)) {
     const bool onion = form.roof == RoofShape::onion;
     const RoofShape shape = onion && !open ? RoofShape::dome : form.roof;
     const std::vector<Level> levels = levels_of(shape, form.roof_m, std::max(frame.half_length, frame.half_width));
@@ -269,8 +272,9 @@ RoofSurface central_surface(const Footprint& footprint, const Grid& grid, const 
   RoofSurface surface =
       lowered(flat_surface(grid, rings), roof_planes(RoofShape::pyramidal, frame, form.roof_m), frame, form.roof_m);
   if (form.roof != RoofShape::pyramidal) {
-    surface.repair = name + (open ? " roof over an outline that is not star-shaped: pyramid instead"
-                                  : " roof over an outline with courtyards that is not convex: pyramid instead");
+    surface.repair =
+        name + (open ? " roof over an outline that is not star-shaped: pyramid instead"
+                     : " roof over an outline with courtyards that is not simple and convex: pyramid instead");
   }
   return surface;
 }
