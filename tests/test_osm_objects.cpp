@@ -13,7 +13,6 @@ namespace {
 
 using testing::doubled_area;
 using testing::extract_of;
-using testing::find_object;
 using testing::find_problem;
 using testing::osm_node;
 using testing::osm_relation;

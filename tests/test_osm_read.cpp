@@ -98,7 +98,7 @@ TEST(OsmRead, RefusesWhatIsNoMap) {
       {"<?xml version='1.0'?><osmChange version='0.6'/>", "it looks like an OpenStreetMap change file"},
       {"<?xml version='1.0'?><!-- <osm> --><gpx/>", "it looks like XML about <gpx>"},
       {"{\"type\": \"FeatureCollection\"}", "it looks like JSON"},
-      {std::string("\xff\xe0\x04o5m2", 8), "it looks like an o5m file"},
+      {std::string("\xff\xe0\x04o5m2", 7), "it looks like an o5m file"},
       {"n1 v1 x8.5 y47.2\n", "it looks like something else"},
       {"<?xml version='1.0'", "it looks like something else"}};
   for (const auto& [bytes, problem] : contents) {
