@@ -163,6 +163,7 @@ TEST(CityForm, MinHeightNotBelowHeight) {
   EXPECT_EQ(equal.form.bottom_m, 4.5);
   EXPECT_EQ(equal.form.top_m, 5);
   EXPECT_TRUE(equal.has("min_height not below height"));
+  EXPECT_EQ(read({{"building:part", "yes"}, {"height", "5"}, {"min_height", "4.995"}}).form.bottom_m, 4.5);
   const Reading levels = read({{"building:part", "yes"}, {"building:levels", "2"}, {"building:min_level", "2"}});
   EXPECT_EQ(levels.form.bottom_m, 6);
   EXPECT_EQ(levels.form.top_m, 12);

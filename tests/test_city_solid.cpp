@@ -382,7 +382,7 @@ BuildingForm draw_form(Random& random, RoofShape shape) {
   const double bottom = random.chance(0.5) ? 0 : random.uniform(0, 30), body = random.uniform(2, 30);
   const double share = random.chance(0.3) ? 1 : random.uniform(0.05, 0.95);
   BuildingForm form = form_of(shape, bottom, bottom + body, shape == RoofShape::flat ? 0 : body * share);
-  if (random.chance(0.1)) form = form_of(shape, bottom, bottom + 0.001, shape == RoofShape::flat ? 0 : 0.001);
+  if (random.chance(0.1)) form = form_of(shape, bottom, bottom + 0.01, shape == RoofShape::flat ? 0 : 0.01);
   if (random.chance(0.4))
     form.roof_direction_deg = random.chance(0.5) ? random.integer(0, 15) * 22.5 : random.uniform(0, 360);
   form.roof_across = random.chance(0.3);
@@ -414,7 +414,7 @@ TEST(CitySolid, RoofsFollowTheirProfile) {
     const Footprint footprint = draw_footprint(random);
     for (const RoofShape shape : kRidged) {
       const BuildingForm form = draw_form(random, shape);
-      if (form.top_m - form.bottom_m < 0.01) continue;
+      if (form.top_m - form.bottom_m < 0.02) continue;
       const std::string what = "round " + std::to_string(round) + ", " + std::string(text(shape));
       expect_profile(footprint, form, make_solid(footprint, form, 0), random, what);
       if (HasFatalFailure()) return;

@@ -1,13 +1,14 @@
 #include "city/building_form.h"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <initializer_list>
 
 namespace vantage::city {
 namespace {
 
 constexpr double kHighest = 1500;    // metres: twice what stands; beyond it a unit or a digit is wrong
+constexpr double kThinnest = 0.01;   // metres: a thinner solid is none, next to what rounding does to a large outline
 constexpr double kMostLevels = 300;  // likewise
 constexpr double kSteepest = 85;     // degrees; a steeper roof is a wall
 constexpr double kRoundPitch = 45;   // of domes and onions: as high as half their width
@@ -74,7 +75,7 @@ class FormReader {
   std::optional<double> first_height() {
     for (const std::string_view key : {"height", "building:height", "est_height"}) {
       const std::optional<double> height = number({key}, "height", parse_length_m, kHighest);
-      if (height && *height > 0) return height;
+      if (height && *height >= kThinnest) return height;
       if (height) remark("height of zero", key, tags_.get(key), "taken as untagged");
     }
     return std::nullopt;
@@ -144,8 +145,8 @@ class FormReader {
 
   /// The height is tagged: the bottom has to lie below it.
   void mend_bottom() {
-    if (form_.bottom_m < form_.top_m) return;
-    const bool equal = form_.bottom_m == form_.top_m;
+    if (form_.bottom_m <= form_.top_m - kThinnest) return;
+    const bool equal = std::abs(form_.bottom_m - form_.top_m) < kThinnest;
     form_.bottom_m = equal ? std::max(0.0, form_.top_m - defaults_.roof_deck_m) : 0;
     remark(std::string(bottom_key_).append(" not below height"), bottom_key_, tags_.get(bottom_key_),
            equal ? "taken as a deck below the height" : "taken as standing on the ground");
@@ -161,14 +162,14 @@ class FormReader {
     }
     const double roof = roof_m_.value_or(0);
     double walls = levels * defaults_.level_m;
-    if (walls + roof <= 0 || (walls <= 0 && form_.pitch)) {
+    if (walls + roof < kThinnest || (walls < kThinnest && form_.pitch)) {
       remark("no levels and no height", "building:levels", tags_.get("building:levels"), "taken as untagged");
       walls = std::max(default_levels(), 1.0) * defaults_.level_m;
     }
-    if (walls + (roof > 0 ? roof : 0) <= form_.bottom_m || (form_.bottom_m > 0 && walls < form_.bottom_m)) {
-      walls = form_.bottom_m + (roof > 0 ? 0 : defaults_.level_m);
+    if (form_.bottom_m > 0 && (walls < form_.bottom_m || walls + roof < form_.bottom_m + kThinnest)) {
+      walls = form_.bottom_m + (roof >= kThinnest ? 0 : defaults_.level_m);
       remark("no height above the bottom", bottom_key_, tags_.get(bottom_key_),
-             roof > 0 ? "the roof stands on it" : "taken as one level high");
+             roof >= kThinnest ? "the roof stands on it" : "taken as one level high");
     }
     form_.top_m = walls + roof;
     if (form_.pitch) form_.pitch->on_top = true;

@@ -80,8 +80,8 @@ std::optional<RoofName> parse_roof_shape(std::string_view text);
 ///           thickness of a deck below the eaves; else the ground
 ///   roof    roof:height, roof:levels, roof:angle, the default pitch
 /// A min_height above the height is left out (the object then reaches down to the ground, most often inside what it
-/// stands on); one equal to the height makes a deck. building:levels not above building:min_level are taken as counted
-/// from there.
+/// stands on); one within 1 cm of the height makes a deck. building:levels not above building:min_level are taken as
+/// counted from there.
 BuildingForm read_form(const osm::Tags& tags, const osm::Tags* outline, const BuildingDefaults& defaults,
                        std::vector<TagRemark>& remarks);
 
