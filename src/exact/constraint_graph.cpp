@@ -32,6 +32,7 @@ ConstraintGraph::ConstraintGraph(const Skeleton& skeleton, ChartGrid& grid, cons
   std::sort(edges_.begin(), edges_.end());
   edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
   at_node_.resize(points().size());
+  crease_gauges_.resize(points().size());
 }
 
 void ConstraintGraph::add_edge(std::uint32_t a, std::uint32_t b) {
@@ -44,6 +45,13 @@ void ConstraintGraph::add_creases(const Skeleton& skeleton) {
     for (std::size_t i = 0; i + 1 < line.size(); ++i) add_crease(line[i], line[i + 1], true);
 }
 
+std::uint32_t ConstraintGraph::add_crease_point(const Vec3& point, const ChartPoint& in_chart) {
+  const std::uint32_t vertex = snapper_.add(in_chart);
+  if (crease_gauges_.size() <= vertex) crease_gauges_.resize(vertex + 1);
+  crease_gauges_[vertex] = std::max(crease_gauges_[vertex], 1 / point.lpNorm<1>());
+  return vertex;
+}
+
 // A straight line in space is straight in the chart but for bends where it crosses the planes x = 0 and y = 0.
 void ConstraintGraph::add_crease(const Vec3& from, const Vec3& to, bool on_sphere) {
   std::array<double, 4> stops{0, 1, 1, 1};
@@ -54,10 +62,11 @@ void ConstraintGraph::add_crease(const Vec3& from, const Vec3& to, bool on_spher
   if (count == 3 && stops[2] < stops[1]) std::swap(stops[1], stops[2]);
   stops[count] = 1;
   ChartPoint previous = to_chart(from);
-  std::uint32_t vertex = snapper_.add(previous);
+  std::uint32_t vertex = add_crease_point(from, previous);
   for (int i = 1; i <= count; ++i) {
-    const ChartPoint next = to_chart(stops[i] == 1 ? to : Vec3(from + stops[i] * (to - from)));
-    const std::uint32_t next_vertex = snapper_.add(next);
+    const Vec3 stop = stops[i] == 1 ? to : Vec3(from + stops[i] * (to - from));
+    const ChartPoint next = to_chart(stop);
+    const std::uint32_t next_vertex = add_crease_point(stop, next);
     add_edge(vertex, next_vertex);
     if (on_sphere) grid_.mark(previous, next);
     previous = next, vertex = next_vertex;

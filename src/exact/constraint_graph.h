@@ -30,6 +30,11 @@ class ConstraintGraph {
   bool on_horizon(std::uint32_t vertex) const { return snapper_.on_horizon(vertex); }
   const std::vector<Edge>& edges() const { return edges_; }
 
+  /// The greatest inverse depth of the crease points that became this vertex; 0 for one that is on no crease. Where
+  /// snapping moves a vertex off a crease towards the shadow of what makes it, the gauge falls steeply: by 2e-5 of
+  /// itself at 50 m for a point and kSnap. The facets that end at the crease would be tilted by as much.
+  double crease_gauge(std::uint32_t vertex) const { return crease_gauges_[vertex]; }
+
   /// Whether a vertex is at a node of the grid. Only triangles between three such vertices can be halves of its cells.
   bool at_node(std::uint32_t vertex) const { return at_node_[vertex]; }
 
@@ -42,6 +47,7 @@ class ConstraintGraph {
  private:
   void add_edge(std::uint32_t a, std::uint32_t b);
   void add_crease(const Vec3& from, const Vec3& to, bool on_sphere);
+  std::uint32_t add_crease_point(const Vec3& point, const ChartPoint& in_chart);
   void add_creases(const Skeleton& skeleton);
   std::uint32_t vertex_at(int i, int j);
   void add_border();
@@ -55,6 +61,7 @@ class ConstraintGraph {
   std::vector<Edge> edges_;
   std::vector<std::uint32_t> nodes_;
   std::vector<bool> at_node_;
+  std::vector<double> crease_gauges_;
   std::vector<int> steps_;  // for reuse
 };
 

@@ -115,8 +115,11 @@ class QuadrantMesher {
     gauges_.resize(cdt_.vertices.size());
     exact_gauges_.resize(cdt_.vertices.size());
     parallel::for_ranges(gauges_.size() - first_vertex, kGrain, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t v = first_vertex + begin; v < first_vertex + end; ++v)
-        exact_gauges_[v] = gauges_[v] = v < kSuper ? 0 : gauge_at(point(std::uint32_t(v))).value;
+      for (auto v = std::uint32_t(first_vertex + begin); v < first_vertex + end; ++v) {
+        if (v < kSuper) continue;
+        exact_gauges_[v] = gauge_at(point(v)).value;
+        gauges_[v] = is_own(v) ? std::max(exact_gauges_[v], graph_.crease_gauge(in_graph(v))) : exact_gauges_[v];
+      }
     });
     find_fresh();
     parallel::for_ranges(fresh_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
