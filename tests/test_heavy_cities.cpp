@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "support/aimed_check.h"
 #include "support/random.h"
 #include "support/scenes.h"
 #include "support/shared_data.h"
@@ -157,7 +158,7 @@ std::string describe(const Target& target, const Sensor& sensor) {
 
 struct Totals {
   std::size_t targets = 0, points = 0, inside = 0, over = 0, under = 0, rays = 0;
-  double worst_over = 0, worst_under = 0, engine_seconds = 0;
+  double worst_over = 0, worst_under = 0, worst_aimed = 0, engine_seconds = 0;
 };
 
 class HeavyCities : public ::testing::TestWithParam<City> {
@@ -200,6 +201,11 @@ class HeavyCities : public ::testing::TestWithParam<City> {
     const VerifyReport report = verify_volume(scene, target, sensor, {}, volume.mesh, options);
     EXPECT_EQ(report.over_claimed, 0u) << what << ": " << report.worst_over_depth_m << " m inside at "
                                        << report.worst_over_point.transpose() << ", " << report.worst_over_cause;
+    Random random(options.seed);
+    const testing::AimedReport aimed = testing::look_beside_edges(scene, volume, sensor.max_range_m, aimed_, random);
+    EXPECT_LE(aimed.worst_share, 1e-6) << what << ": " << aimed.worst_depth << " m inside at "
+                                       << aimed.worst_place.transpose() << ", beside an edge";
+    totals_.worst_aimed = std::max(totals_.worst_aimed, aimed.worst_share);
     ++totals_.targets;
     totals_.points += report.points, totals_.inside += report.inside, totals_.rays += report.rays;
     totals_.over += report.over_claimed, totals_.under += report.under_claimed;
@@ -215,6 +221,7 @@ class HeavyCities : public ::testing::TestWithParam<City> {
 
   std::size_t all_targets_ = from_environment("VANTAGE_HEAVY_TARGETS", 0);  // 0: the short run
   std::size_t points_ = from_environment("VANTAGE_HEAVY_POINTS", 2000);
+  std::size_t aimed_ = from_environment("VANTAGE_HEAVY_AIMED", 400);  // directions from each vertex, past scene edges
   double tolerance_ = all_targets_ ? ExactOptions().tolerance_m : 0.1;
   Totals totals_;
 };
@@ -247,9 +254,10 @@ TEST_P(HeavyCities, NothingIsOverClaimed) {
   std::printf(
       "%s: %zu targets, %zu points, %zu inside, %zu rays; over-claimed %zu (worst %.3g m), under-claimed %zu (worst "
       "%.3g "
-      "m); engine %.1f ms a target; %.1f s in all\n",
+      "m), beside edges worst %.3g of the distance; engine %.1f ms a target; %.1f s in all\n",
       city.name, totals_.targets, totals_.points, totals_.inside, totals_.rays, totals_.over, totals_.worst_over,
-      totals_.under, totals_.worst_under, 1e3 * totals_.engine_seconds / double(totals_.targets), seconds);
+      totals_.under, totals_.worst_under, totals_.worst_aimed, 1e3 * totals_.engine_seconds / double(totals_.targets),
+      seconds);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, HeavyCities, ::testing::ValuesIn(kCities),

@@ -2,12 +2,16 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <array>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <optional>
 #include <string>
 
+#include "support/aimed_check.h"
 #include "support/mesh_probe.h"
 #include "support/random.h"
 #include "support/ray_caster.h"
@@ -150,6 +154,34 @@ TEST(PointTarget, RandomCities) {
     const Scene city = random_city(random, 30, 3);
     const double z = random.chance(0.3) ? 0 : random.uniform(0.01, 30);
     expect_right(city, point({random.uniform(-1, 1), random.uniform(-1, 1), z}), random.uniform(20, 120));
+  }
+}
+
+/// Many-cornered plates, a millimetre or so over the ground: seen from the point, the shadows of their far edges are
+/// hardly wider than what the engine snaps together.
+Scene plates(Random& random, int count) {
+  SceneBuilder builder;
+  builder.ground("ground", 400);
+  for (int k = 0; k < count; ++k) {
+    const double angle = random.uniform(0, 2 * std::numbers::pi), away = random.uniform(15, 120);
+    const Vec3 centre(away * std::cos(angle), away * std::sin(angle), random.uniform(0.5e-3, 5e-3));
+    builder.polygon("plate " + std::to_string(k),
+                    random_target(random, random.integer(4, 16), random.uniform(2, 8), centre, Vec3::UnitZ()).vertices);
+  }
+  return builder;
+}
+
+TEST(PointTarget, NothingHiddenIsClaimedBesideEdges) {
+  Random random(31);
+  for (int round = 0; round < 4; ++round) {
+    SCOPED_TRACE(round);
+    const Scene scene = plates(random, 12);
+    const double range = 700, height = random.uniform(20, 80);
+    const Volume volume = volume_of(scene, point({random.uniform(-5, 5), random.uniform(-5, 5), height}), range, 0.5);
+    ASSERT_EQ(volume.outcome, Outcome::computed);
+    const AimedReport report = look_beside_edges(scene, volume, range, 20000, random);
+    EXPECT_GT(report.looks, 5000U);
+    EXPECT_LE(report.worst_share, 1e-6) << report.worst_depth << " m deep at " << report.worst_place.transpose();
   }
 }
 
@@ -304,6 +336,45 @@ TEST_F(HeavyPointCharlotte, AgreesWithRays) {
     }
   }
   EXPECT_GE(tried, 5);
+}
+
+/// Points at random in real scenes, some of them on the ground. VANTAGE_HEAVY_POINT_TARGETS: how many in each.
+TEST(HeavyPointCities, NothingHiddenIsClaimedBesideEdges) {
+  VANTAGE_REQUIRE_SHARED("mesh/munich_merged.ply");
+  const char* given = std::getenv("VANTAGE_HEAVY_POINT_TARGETS");
+  const std::size_t count = given ? std::strtoull(given, nullptr, 10) : 2;
+  constexpr std::array<const char*, 6> kFiles = {
+      "battcave/battcave.obj",    "mesh/etoile_merged.ply",        "mesh/munich_merged.ply",
+      "mesh/florence_merged.ply", "charlotte/uptownCharlotte.obj", "mesh/simple_street_canyon_merged.ply"};
+  constexpr std::array<double, 6> kHeights = {80, 0.0021, 30, 1.7, 12.3, 0};
+  Random random(77);
+  double worst = 0;
+  for (const std::string file : kFiles) {
+    const Scene scene = read_scene(shared_data(file), {.up = file.ends_with(".obj") ? UpAxis::y : UpAxis::z});
+    const PreparedScene prepared(scene);
+    const Box box = bounding_box(scene.mesh);
+    std::size_t made = 0;
+    for (std::size_t tried = 0; made < count && tried < 100 * count; ++tried) {
+      Vec3 place = random.in_box(box);
+      place *= 0.7;
+      place.z() = kHeights[made % kHeights.size()];
+      std::optional<Volume> volume;
+      try {
+        volume = compute_visibility(prepared, point(place), {700}, {.tolerance_m = 0.1});
+      } catch (const Error& error) {
+        ASSERT_EQ(error.kind(), ErrorKind::input) << error.what();
+        continue;  // on a wall, or under the ground
+      }
+      if (volume->outcome != Outcome::computed || volume->mesh.triangles.size() < 1000) continue;
+      ++made;
+      const AimedReport report = look_beside_edges(scene, *volume, 700, 40000, random);
+      EXPECT_LE(report.worst_share, 1e-6) << file << ", point " << place.transpose() << ": " << report.worst_depth
+                                          << " m deep at " << report.worst_place.transpose();
+      worst = std::max(worst, report.worst_share);
+    }
+    EXPECT_EQ(made, count) << file;
+  }
+  std::cout << "worst: " << worst << " of the distance\n";
 }
 
 /// Where a wall hides the point, and a smaller triangle in its place let the volume in all the same.

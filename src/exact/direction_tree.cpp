@@ -252,6 +252,35 @@ std::vector<const DirectionTree::Leaf*> DirectionTree::leaves() const {
   return result;
 }
 
+void DirectionTree::leaves_over(int quadrant, const std::array<ChartPoint, 3>& triangle,
+                                std::vector<const Leaf*>& found) const {
+  std::array<Eigen::Vector2d, 3> corners;
+  for (int i = 0; i < 3; ++i) corners[i] = triangle[i].cwiseAbs();
+  const Eigen::Vector2d low = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]);
+  const Eigen::Vector2d high = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]);
+  std::array<QuadrantLinear, 3> sides;  // at most 0 inside
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::Vector2d &from = corners[i], along = corners[(i + 1) % 3] - from,
+                          to_third = corners[(i + 2) % 3] - from;
+    const double turn = along.x() * to_third.y() - along.y() * to_third.x() > 0 ? 1 : -1;
+    sides[i] = {turn * (along.x() * from.y() - along.y() * from.x()), turn * along.y(), -turn * along.x()};
+  }
+  std::array<std::uint32_t, 4 * (kDeepest + 1)> open;
+  std::size_t count = 0;
+  open[count++] = std::uint32_t(quadrant);
+  while (count > 0) {
+    const Node& node = nodes_[open[--count]];
+    const ChartCell& cell = node.cell;
+    if (low.x() > cell.a + cell.size || high.x() < cell.a || low.y() > cell.b + cell.size || high.y() < cell.b)
+      continue;
+    const bool apart =
+        std::any_of(sides.begin(), sides.end(), [&](const QuadrantLinear& s) { return cell.min_of(s) > kRounding; });
+    if (apart) continue;
+    if (node.first_child == 0) found.push_back(&node.leaf);
+    for (std::uint32_t child = 0; child < node.child_count; ++child) open[count++] = node.first_child + child;
+  }
+}
+
 std::vector<std::uint32_t> DirectionTree::listed_between(const Vec3& normal, double low, double high) const {
   std::vector<std::uint32_t> found, open{0, 1, 2, 3};
   while (!open.empty()) {

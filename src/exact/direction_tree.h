@@ -52,6 +52,10 @@ class DirectionTree {
   std::vector<const Leaf*> leaves() const;
   const Leaf& leaf_at(const ChartPoint& point) const;
 
+  /// Appends the leaves of one quadrant whose cells a triangle of the chart meets, and perhaps some that it only nearly
+  /// meets.
+  void leaves_over(int quadrant, const std::array<ChartPoint, 3>& triangle, std::vector<const Leaf*>& found) const;
+
   /// The blockers listed in cells that a direction with low <= normal . direction <= high (|x| + |y| + z = 1) may lie
   /// in, ascending.
   std::vector<std::uint32_t> listed_between(const Vec3& normal, double low, double high) const;

@@ -36,7 +36,9 @@ inline constexpr double kShrink = 1e-9;
 
 /// Vertices of the direction chart (which spans [-1, 1]) closer than this are one vertex: 0.1 micrometres at 1 km.
 /// Well-shaped crossings agree to 1e-14, but those of nearly parallel planes do not, and creases that miss each other's
-/// ends are slow to triangulate. What snapping moves, refinement finds.
+/// ends are slow to triangulate. What snapping moves, refinement finds, or the check of the finished facets: a vertex
+/// that is moved by this much across the crease in front of a shadow stands, at a distance d, kSnap d |g| d behind it,
+/// g being the shadow's plane; for a point (|g| up to 1e4) at 100 m a millimetre, by which the facets at it are tilted.
 inline constexpr double kSnap = 1e-10;
 
 /// The most that vertices are snapped when the triangulation cannot be built otherwise: 10 micrometres at 1 km.

@@ -8,6 +8,7 @@
 
 #include "exact/gauge.h"
 #include "exact/numerics.h"
+#include "exact/rise_check.h"
 #include "parallel/parallel.h"
 
 namespace vantage::exact {
@@ -49,10 +50,12 @@ class QuadrantMesher {
 
   enum class Place : std::uint8_t { outside, range_cell, kept };
 
-  /// What is known of one triangle of the triangulation; valid while its vertices stay the same.
+  /// What is known of one triangle of the triangulation, the gauge at its centre among it; valid while its vertices
+  /// stay the same.
   struct Known {
     Triangle vertices{};
     std::uint32_t blocker = 0;
+    double gauge = 0;
     Place place = Place::outside;
   };
 
@@ -83,6 +86,7 @@ class QuadrantMesher {
     envelope_.watch.check();
     most_triangles_ = kMostGrowth * cdt_.triangles.size() + 1000;
     while (refine()) envelope_.watch.check();
+    draw_in_tilted();
   }
 
   // The graph's vertices in the quadrant, and its edges between them.
@@ -129,6 +133,7 @@ class QuadrantMesher {
     std::vector<ChartPoint> added;
     for (const Fresh& fresh : fresh_) {
       known_[fresh.triangle].blocker = fresh.gauge.blocker;
+      known_[fresh.triangle].gauge = fresh.gauge.value;
       improve(known_[fresh.triangle].vertices, fresh.gauge, added);
     }
     if (added.empty()) return false;
@@ -143,7 +148,7 @@ class QuadrantMesher {
       const auto& v = cdt_.triangles[i].vertices;
       const Triangle t{v[0], v[1], v[2]};
       if (known_[i].vertices == t) continue;
-      known_[i] = {t, 0, place_of(t)};
+      known_[i] = {t, 0, 0, place_of(t)};
       if (known_[i].place == Place::kept) fresh_.push_back({i, {}});
     }
   }
@@ -180,6 +185,30 @@ class QuadrantMesher {
     const bool to_level = level < least * (1 + 2 * rise);
     for (std::uint32_t corner : t)
       gauges_[corner] = to_level ? std::max(gauges_[corner], level) : gauges_[corner] * (1 + 2 * rise);
+  }
+
+  // Refinement looks at the middle of each triangle alone. A crease that passes a vertex closer than the snapping
+  // distance goes through it, and the vertex may lie well behind the crease: the facets that end there are tilted. What
+  // then rises above them, wherever it is, is found here, and covered. A facet that lies on the gauge in its middle is
+  // not tilted, and one on the range sphere cannot be: where its rim has moved, it claims that much sideways at most.
+  void draw_in_tilted() {
+    std::vector<double> rises(known_.size(), 0);
+    parallel::for_ranges(known_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+      RiseCheck check(envelope_.blockers, envelope_.tree);
+      for (std::size_t i = begin; i < end; ++i) {
+        const Known& known = known_[i];
+        if (known.place != Place::kept || known.blocker == GaugeValue::kRange) continue;
+        const auto& [a, b, c] = known.vertices;
+        const double claimed = (gauges_[a] + gauges_[b] + gauges_[c]) / 3;
+        if (std::abs(known.gauge / claimed - 1) > kSafe)
+          rises[i] = check.greatest_rise(quadrant_, {point(a), point(b), point(c)},
+                                         {gauges_[a], gauges_[b], gauges_[c]}, kSafe);
+      }
+    });
+    std::vector<double> greatest(gauges_.size(), 0);
+    for (std::size_t i = 0; i < known_.size(); ++i)
+      for (const std::uint32_t corner : known_[i].vertices) greatest[corner] = std::max(greatest[corner], rises[i]);
+    for (std::size_t v = 0; v < gauges_.size(); ++v) gauges_[v] *= 1 + greatest[v];
   }
 
   // Whether a triangle is worth splitting: in one that is no wider than what snapping moves, a crease cannot be found.
