@@ -1,6 +1,8 @@
 // The method of spheres as users of the program meet it: options, reports, stages.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -166,6 +168,24 @@ TEST_F(CliSpheres, LeavesOtherFoldersAlone) {
         std::string(testing::kScene) + testing::kSensor +
             "target: {vertices: [[22, -3, 5], [28, -3, 5], [25, 3, 15]]}\nspheres: {device: cpu, cubemap: 4}\n");
   expect_bad(with("stages"), "stands on or passes through the target", "mission.yaml");
+}
+
+TEST_F(CliSpheres, KeepsTheOlderStagesWhenTheVolumeCannotBeWritten) {
+  const auto command = [](const char* output, const char* folder) {
+    return std::vector<std::string>{"compute", "mission.yaml", "--method", "spheres", "-q",
+                                    "-o",      output,         "--stages", folder};
+  };
+  output_of(command("whole.obj", "stages"));
+  std::uintmax_t largest = 0;
+  for (const auto& entry : fs::directory_iterator(folder_ / "stages")) largest = std::max(largest, entry.file_size());
+  const std::uintmax_t needed = fs::file_size(folder_ / "whole.obj");
+  ASSERT_GT(needed, largest + 2000) << "there is no limit that stops the volume alone";
+  write("stages/999_sphere_999.ply", "older");
+  options_.largest_file = (needed + largest) / 2;
+  expect_bad(command("new.obj", "stages"), "cannot write", "new.obj");
+  EXPECT_EQ(testing::content(folder_ / "stages" / "999_sphere_999.ply"), "older");
+  expect_bad(command("new.obj", "fresh"), "cannot write", "new.obj");
+  EXPECT_FALSE(fs::exists(folder_ / "fresh"));
 }
 
 }  // namespace

@@ -175,8 +175,9 @@ int run(const Options& options) {
   {
     ProgressLine progress(options.common);
     run = mission_io::run_mission(mission, progress.callback(), stages ? stages->sink() : StageSink());
-    if (stages) stages->commit(mission, run.volume, *run.spheres);
+    if (stages) stages->write_story(mission, run.volume, *run.spheres);
     written = write(options, mission, run, progress.callback());
+    if (stages) stages->commit();
   }
   if (options.json) {
     print(written.report);

@@ -125,7 +125,7 @@ void StageFolder::add(const SphereStage& stage) {
   stages_.push_back(std::move(told));
 }
 
-void StageFolder::commit(const Mission& mission, const Volume& volume, const SpheresReport& report) {
+void StageFolder::write_story(const Mission& mission, const Volume& volume, const SpheresReport& report) {
   Json story;
   story["version"] = VANTAGE_VERSION;
   story["mission"] = mission.file.string();
@@ -150,13 +150,17 @@ void StageFolder::commit(const Mission& mission, const Volume& volume, const Sph
     story["stages"].push_back(std::move(stage));
   }
   solid::write_whole_file(temporary_ / kStory, story.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  std::error_code error;
+  if (fs::exists(folder_, error)) check_replaceable();  // the run may have taken long
+}
 
+void StageFolder::commit() {
   // A full folder cannot be renamed over: the old one steps aside first, and comes back if that fails.
   std::error_code error;
   const fs::path aside = temporary_.string() + "-old";
   const bool is_replacing = fs::exists(folder_, error);
   if (is_replacing) {
-    check_replaceable();  // the run may have taken long
+    check_replaceable();
     fs::rename(folder_, aside, error);
     if (error) fail("the old folder of the stages cannot be replaced", error.value());
   }

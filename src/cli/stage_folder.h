@@ -24,8 +24,11 @@ class StageFolder {
   /// Valid as long as this object. Its calls throw Error(output).
   StageSink sink();
 
-  /// Writes the story and puts the folder in its place. Throws Error(output).
-  void commit(const Mission& mission, const Volume& volume, const SpheresReport& report);
+  /// Writes the story. Throws Error(output), and Error(input) when what is in the folder's place must not be replaced.
+  void write_story(const Mission& mission, const Volume& volume, const SpheresReport& report);
+
+  /// Puts the folder in its place: when all else is written. Throws as write_story().
+  void commit();
 
  private:
   void add(const SphereStage& stage);
