@@ -33,6 +33,14 @@ std::vector<double> numbers(const std::string& text) {
   return values;
 }
 
+/// "from 1,2,3" in two words, for those who quote it as one.
+std::vector<std::string> split_once(const std::string& text) {
+  const std::size_t end = text.find(' ');
+  const std::size_t next = text.find_first_not_of(' ', std::min(end, text.size()));
+  if (next == std::string::npos) return {text.substr(0, end)};
+  return {text.substr(0, end), text.substr(next)};
+}
+
 /// "12,345": groups of three digits.
 std::string grouped(double value) {
   std::string digits = fixed(value, value < 100 ? 1 : 0);
@@ -43,9 +51,10 @@ std::string grouped(double value) {
 
 }  // namespace
 
-PictureView parse_view(const std::vector<std::string>& words) {
+PictureView parse_view(const std::vector<std::string>& given) {
   PictureView view;
-  if (words.empty()) return view;
+  if (given.empty()) return view;
+  const std::vector<std::string> words = given.size() == 1 ? split_once(given[0]) : given;
   const std::string& kind = words[0];
   const std::vector<double> values = words.size() > 1 ? numbers(words[1]) : std::vector<double>{};
   if (kind == "top") {

@@ -10,8 +10,9 @@
 
 namespace vantage::cli {
 
-/// "top"; "oblique", "oblique AZIMUTH" or "oblique AZIMUTH,ELEVATION"; "from X,Y,Z". Throws Error(input).
-PictureView parse_view(const std::vector<std::string>& words);
+/// "top"; "oblique", "oblique AZIMUTH" or "oblique AZIMUTH,ELEVATION"; "from X,Y,Z"; in one word, quoted, or in two.
+/// Throws Error(input).
+PictureView parse_view(const std::vector<std::string>& given);
 
 /// "1600x1200". Throws Error(input) for what is no size that render_picture takes.
 std::array<int, 2> parse_size(const std::string& text);
