@@ -54,6 +54,10 @@ TEST_F(CliRender, TakesItsViewInAnyOrder) {
   output_of({"render", "mission.yaml", "--view", "from", "-60,-50,40", "-o", "c.png", "--size", "120x90"});
   output_of({"render", "mission.yaml", "--view", "oblique", "10,30", "-o", "d.png", "--size", "120x90"});
   EXPECT_NE(content(folder_ / "c.png"), content(folder_ / "d.png"));
+  output_of({"render", "--view", "from -60,-50,40", "mission.yaml", "-o", "e.png", "--size", "120x90"});
+  EXPECT_EQ(content(folder_ / "c.png"), content(folder_ / "e.png")) << "quoted as one word";
+  output_of({"render", "mission.yaml", "-o", "f.png", "--size", "120x90", "--view", "oblique  10,30"});
+  EXPECT_EQ(content(folder_ / "d.png"), content(folder_ / "f.png"));
 }
 
 TEST_F(CliRender, DrawsTheSceneWhereThereIsNoVolume) {
@@ -107,6 +111,9 @@ TEST_F(CliRender, RefusesBadArguments) {
   expect_bad(with({"--view", "from", "1,2,nan"}), "no number", "--view");
   expect_bad(with({"--view", "oblique", "10,95"}), "elevation", "--view");
   expect_bad(with({"--view", "top", "1"}), "takes no numbers", "--view");
+  expect_bad(with({"--view", "from 1,2"}), "three coordinates", "--view");
+  expect_bad(with({"--view", "from 1,2,3 4"}), "no number", "--view");
+  expect_bad(with({"--view", "from 1,2,3", "4,5,6"}), "no view is called", "--view");
   for (const char* size : {"0x100", "100", "100x", "x100", "100x100x100", "1e3x100", "100x5000", "-5x100"}) {
     expect_bad(with({"--size", size}), "no size of a picture", "--size", "1600x1200");
   }
@@ -141,7 +148,10 @@ TEST_F(CliRender, SaysWhatToInstallWhereThereIsNoOpenGL) {
     ::unsetenv(name);
     GTEST_SKIP() << "this machine's EGL does not look for its drivers where " << name << " says";
   }
-  expect_bad({"render", "mission.yaml", "-o", "picture.png"}, "OpenGL", "", "libegl1");
+  expect_bad({"render", "mission.yaml", "-o", "picture.png"}, "pictures need OpenGL 4.5: no OpenGL", "", "libegl1");
+  const ProgramRun refused = run({"render", "mission.yaml", "-o", "picture.png"});
+  EXPECT_NE(refused.err.find("this machine's OpenGL"), std::string::npos) << refused.err;
+  EXPECT_EQ(refused.err.find("mission.yaml"), std::string::npos) << "the mission is not to blame: " << refused.err;
   old ? ::setenv(name, old->c_str(), 1) : ::unsetenv(name);
 }
 

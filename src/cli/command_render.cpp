@@ -65,7 +65,7 @@ Picture picture(const Options& options, const Mission& mission, const PictureVie
   request.height = size[1];
   request.title = mission.target.name;
   request.subtitle = picture_subtitle(mission, &volume);
-  return mission_io::with_place(mission.target_place, [&] { return render_picture(scene, request, progress); });
+  return render_picture(scene, request, progress);
 }
 
 Picture sheet(const Options& options, const Mission& mission, const PictureView& view, std::array<int, 2> size,
