@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <fstream>
 #include <numbers>
 #include <string>
 
@@ -42,14 +43,22 @@ void check_grid(const std::array<int, 2>& grid) {
            "give at most [12800, 6400]");
 }
 
+/// Of the machine, or as much of it as the control group (a container, a batch job) may use; version 2, "max" for all.
+double memory_bytes() {
+  const double machine = double(::sysconf(_SC_PHYS_PAGES)) * double(::sysconf(_SC_PAGESIZE));
+  double group = 0;
+  std::ifstream limit("/sys/fs/cgroup/memory.max");
+  return limit >> group ? std::min(machine, group) : machine;
+}
+
 void check_memory(const SpheresOptions& options) {
   const double texels = 6 * std::pow(double(face_size(options)), 2);
   const double needed = kBytesPerFacet * double(facet_count(options)) + 4 * texels;
-  const double there = double(::sysconf(_SC_PHYS_PAGES)) * double(::sysconf(_SC_PAGESIZE));
+  const double there = memory_bytes();
   if (needed <= there) return;
   const auto gigabytes = [](double bytes) { return std::to_string(std::lround(std::ceil(bytes / 1e9))) + " GB"; };
   refuse("spheres of " + std::to_string(facet_count(options)) + " facets need some " + gigabytes(needed) +
-             " of memory, and this machine has " + gigabytes(there),
+             " of memory, and " + gigabytes(there) + " are there",
          "lower cubemap or resolution");
 }
 
