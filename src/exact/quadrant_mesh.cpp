@@ -206,8 +206,10 @@ class QuadrantMesher {
       }
     });
     std::vector<double> greatest(gauges_.size(), 0);
-    for (std::size_t i = 0; i < known_.size(); ++i)
+    for (std::size_t i = 0; i < known_.size(); ++i) {
+      if (rises[i] == 0) continue;
       for (const std::uint32_t corner : known_[i].vertices) greatest[corner] = std::max(greatest[corner], rises[i]);
+    }
     for (std::size_t v = 0; v < gauges_.size(); ++v) gauges_[v] *= 1 + greatest[v];
   }
 
