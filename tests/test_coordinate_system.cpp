@@ -41,6 +41,7 @@ bool contains(const std::string& text, const std::string& part) { return text.fi
 TEST(CoordinateSystem, ConvertsDutchCoordinates) {
   const CoordinateSystem rd("EPSG:28992", "test");
   EXPECT_EQ(rd.name(), "EPSG:28992 (Amersfoort / RD New)");
+  EXPECT_EQ(rd.code(), "EPSG:28992");
   EXPECT_FALSE(rd.is_geographic());
   EXPECT_EQ(rd.vertical_name(), "");
   EXPECT_FALSE(rd.vertical_unit_m());
@@ -112,6 +113,7 @@ TEST(CoordinateSystem, TakesProjAndWktTexts) {
       R"(PARAMETER["false_easting",500000],PARAMETER["false_northing",0],UNIT["metre",1]])",
       "test");
   EXPECT_EQ(wkt.name(), "my own");
+  EXPECT_EQ(wkt.code(), "");
   EXPECT_LT((wkt.from_lonlat(place) - utm).norm(), 1e-6);
   // Brings its own transformation to WGS 84 (a bound system).
   const CoordinateSystem bound("+proj=utm +zone=32 +ellps=intl +towgs84=-87,-98,-121", "test");

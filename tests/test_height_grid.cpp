@@ -133,7 +133,7 @@ TEST(HeightGrid, FillsVoids) {
   for (const char* declared : {"42", "nan", "-3.40282306073709653e+38"}) {
     TestRaster raster = make_raster(9, 9, [](int column, int) { return column == 4 ? 10 : 20; });
     const float value = std::strtof(declared, nullptr);
-    for (int row = 2; row < 7; ++row) raster.values[static_cast<std::size_t>(row * 9 + 4)] = value;
+    for (int row = 2; row < 7; ++row) raster.at(4, row) = value;
     raster.nodata = declared;
     const HeightGrid grid = read_height_grid(write_raster(folder.path(), "declared", raster));
     EXPECT_EQ(grid.voids, 5u) << declared;
@@ -147,14 +147,14 @@ TEST(HeightGrid, FillsVoids) {
 TEST(HeightGrid, FillsVoidsFarFromAnyValue) {
   const testing::TemporaryDirectory folder;
   TestRaster raster = make_raster(40, 30, [](int, int) { return kNan; });
-  raster.values[static_cast<std::size_t>(3 * 40 + 5)] = 12.5f;
+  raster.at(5, 3) = 12.5f;
   const HeightGrid grid = read_height_grid(write_raster(folder.path(), "lonely", raster));
   EXPECT_EQ(grid.voids, 1199u);
   for (const float height : grid.heights_m) EXPECT_EQ(height, 12.5f);
 }
 
 /// The mean over eight directions as its definition says, one void after the other.
-double filled_slowly(const TestRaster& raster, int column, int row) {
+double filled_slowly(TestRaster& raster, int column, int row) {
   double sum = 0, weights = 0;
   for (int dx = -1; dx <= 1; ++dx) {
     for (int dy = -1; dy <= 1; ++dy) {
@@ -162,7 +162,7 @@ double filled_slowly(const TestRaster& raster, int column, int row) {
       for (int i = 1;; ++i) {
         const int x = column + i * dx, y = row + i * dy;
         if (x < 0 || y < 0 || x >= raster.columns || y >= raster.rows) break;
-        const float value = raster.values[static_cast<std::size_t>(y * raster.columns + x)];
+        const float value = raster.at(x, y);
         if (std::isnan(value)) continue;
         const double distance = i * std::hypot(dx, dy);
         sum += static_cast<double>(value) / distance;
@@ -185,7 +185,7 @@ TEST(HeightGrid, FillsVoidsAsTheDefinitionSays) {
     const HeightGrid grid = read_height_grid(write_raster(folder.path(), "random", raster));
     for (int row = 0; row < rows; ++row) {
       for (int column = 0; column < columns; ++column) {
-        const float value = raster.values[static_cast<std::size_t>(row * columns + column)];
+        const float value = raster.at(column, row);
         const double expected = std::isnan(value) ? filled_slowly(raster, column, row) : value;
         if (std::isnan(expected)) continue;  // no value in any direction: filled in another round
         ASSERT_NEAR(grid.at(column, row), expected, 1e-3) << column << " " << row;

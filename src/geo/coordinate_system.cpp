@@ -67,7 +67,7 @@ struct CoordinateSystem::Data {
   std::string message;  // before the context, which writes into it
   Context context;
   Object to_wgs84;
-  std::string name, vertical_name, where;
+  std::string code, name, vertical_name, where;
   std::optional<double> vertical_unit_m;
   bool geographic = false;
 
@@ -122,9 +122,10 @@ void CoordinateSystem::Data::name_after(const PJ* system, const std::string& tex
   const char* const known_as = proj_get_name(system);
   const std::string long_name = known_as ? known_as : "";
   const char* const authority = proj_get_id_auth_name(system, 0);
-  const char* const code = proj_get_id_code(system, 0);
-  if (authority && code) {
-    name = std::string(authority).append(":").append(code).append(" (").append(long_name).append(")");
+  const char* const number = proj_get_id_code(system, 0);
+  if (authority && number) {
+    code = std::string(authority).append(":").append(number);
+    name = code + " (" + long_name + ")";
   } else {
     name = long_name.empty() || long_name == "unknown" || long_name == "unnamed" ? in_quotes(text) : long_name;
   }
@@ -200,6 +201,7 @@ Eigen::Vector2d CoordinateSystem::from_lonlat(LonLat position) const {
 }
 bool CoordinateSystem::is_geographic() const { return data_->geographic; }
 const std::string& CoordinateSystem::name() const { return data_->name; }
+const std::string& CoordinateSystem::code() const { return data_->code; }
 const std::string& CoordinateSystem::vertical_name() const { return data_->vertical_name; }
 std::optional<double> CoordinateSystem::vertical_unit_m() const { return data_->vertical_unit_m; }
 

@@ -57,6 +57,7 @@ class CoordinateSystem {
   Eigen::Vector2d from_lonlat(LonLat position) const;       ///< likewise
   bool is_geographic() const;                               ///< coordinates are angles: degrees, but for a few old ones
   const std::string& name() const;                          ///< "EPSG:28992 (Amersfoort / RD New)"
+  const std::string& code() const;                          ///< "EPSG:28992"; empty when it has none
   /// "NAP height" of a compound system, "ellipsoidal height" of a geographic or projected one with three axes; else
   /// empty.
   const std::string& vertical_name() const;

@@ -17,6 +17,7 @@ thread_local GdalMessages* innermost = nullptr;
 
 std::unique_ptr<GdalLibrary> functions_of(void* handle, std::string& missing) {
   auto library = std::make_unique<GdalLibrary>();
+// NOLINTNEXTLINE(bugprone-macro-parentheses): the arguments are types
 #define VANTAGE_LOAD(result, name, arguments)                                  \
   library->name = reinterpret_cast<result(*) arguments>(dlsym(handle, #name)); \
   if (!library->name) missing = #name;
@@ -45,7 +46,8 @@ const GdalLibrary* load_gdal_library(std::string& why_not, const std::vector<std
     std::string missing;
     std::unique_ptr<GdalLibrary> library = functions_of(handle, missing);
     if (!missing.empty()) {
-      why_not = "GDAL is too old: " + name + " lacks " + missing + remedy;
+      why_not = "GDAL is too old: ";
+      why_not.append(name).append(" lacks ").append(missing).append(remedy);
       continue;
     }
     {

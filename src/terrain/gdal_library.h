@@ -37,6 +37,7 @@ namespace vantage::terrain {
   X(void, CSLDestroy, (char**))
 
 struct GdalLibrary {
+// NOLINTNEXTLINE(bugprone-macro-parentheses): the arguments are types
 #define VANTAGE_MEMBER(result, name, arguments) result(*name) arguments = nullptr;
   VANTAGE_GDAL_FUNCTIONS(VANTAGE_MEMBER)
 #undef VANTAGE_MEMBER

@@ -55,7 +55,8 @@ std::string raster_in_archive(const GdalLibrary& library, const std::string& arc
 
 /// GDAL's name of a file: absolute, so that none is taken for something else (a subdataset, a database).
 std::string gdal_name(const GdalLibrary& library, const fs::path& file) {
-  const std::string path = fs::absolute(file).string(), extension = lower_extension(file);
+  std::string path = fs::absolute(file).string();
+  const std::string extension = lower_extension(file);
   if (extension == ".zip") return raster_in_archive(library, "/vsizip/" + path);
   if (extension == ".gz") return "/vsigzip/" + path;
   return path;

@@ -32,7 +32,7 @@ std::filesystem::path write_raster(const std::filesystem::path& folder, const st
     text << "</VRTRasterBand>\n";
   }
   text << "</VRTDataset>\n";
-  const std::filesystem::path file = folder / (name + ".vrt");
+  std::filesystem::path file = folder / (name + ".vrt");
   std::ofstream(file) << text.str();
   return file;
 }
