@@ -9,6 +9,7 @@
 #include <functional>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "support/random.h"
@@ -105,7 +106,25 @@ TEST(HeightGrid, ReadsOnlyTheWindowAndTwoPostsRoundIt) {
   }
   // Its border may cut pixels in half, no more.
   EXPECT_EQ(read_height_grid(file, Window{origin, {-1000, -745}, {990, 750}}).columns, 200);
-  EXPECT_TRUE(contains(refusal(file, Window{origin, {-1020, -700}, {900, 700}}), "does not cover the area"));
+  for (const auto& [min, max] : std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>>{{{-1020, -700}, {900, 700}},
+                                                                                         {{-900, -760}, {900, 700}},
+                                                                                         {{-900, -700}, {1010, 700}},
+                                                                                         {{-900, -700}, {900, 770}}}) {
+    EXPECT_TRUE(contains(refusal(file, Window{origin, min, max}), "does not cover the area")) << min << max;
+  }
+}
+
+TEST(HeightGrid, ReadsLargeRastersInParts) {
+  const testing::TemporaryDirectory folder;
+  const auto height = [](int column, int row) { return 1 + (7 * column + 13 * row) % 1000; };
+  const HeightGrid grid = read_height_grid(write_raster(folder.path(), "large", make_raster(1100, 2050, height)));
+  std::size_t differ = 0;
+  for (int row = 0; row < 2050; ++row) {
+    for (int column = 0; column < 1100; ++column) {
+      if (grid.at(column, row) != static_cast<float>(height(column, row))) ++differ;
+    }
+  }
+  EXPECT_EQ(differ, 0u);
 }
 
 TEST(HeightGrid, ReadsAWindowOfPixels) {

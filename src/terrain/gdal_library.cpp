@@ -17,10 +17,11 @@ thread_local GdalMessages* innermost = nullptr;
 
 std::unique_ptr<GdalLibrary> functions_of(void* handle, std::string& missing) {
   auto library = std::make_unique<GdalLibrary>();
-// NOLINTNEXTLINE(bugprone-macro-parentheses): the arguments are types
+// NOLINTBEGIN(bugprone-macro-parentheses): the arguments are types
 #define VANTAGE_LOAD(result, name, arguments)                                  \
   library->name = reinterpret_cast<result(*) arguments>(dlsym(handle, #name)); \
   if (!library->name) missing = #name;
+  // NOLINTEND(bugprone-macro-parentheses)
   VANTAGE_GDAL_FUNCTIONS(VANTAGE_LOAD)
 #undef VANTAGE_LOAD
   return library;
