@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iostream>
 #include <limits>
 #include <string>
 
@@ -45,10 +47,13 @@ TEST(CoordinateSystem, ConvertsDutchCoordinates) {
   EXPECT_FALSE(rd.is_geographic());
   EXPECT_EQ(rd.vertical_name(), "");
   EXPECT_FALSE(rd.vertical_unit_m());
-  for (const DutchPoint& point : kDutchPoints) {  // without the correction grid, seven parameters: to a metre
-    EXPECT_LT(metres_apart(rd.to_lonlat(point.rd), point.etrs89), 1.0);
+  double worst_m = 0;
+  for (const DutchPoint& point : kDutchPoints) {
+    worst_m = std::max(worst_m, metres_apart(rd.to_lonlat(point.rd), point.etrs89));
     EXPECT_LT((rd.from_lonlat(point.etrs89) - point.rd).norm(), 1.0);
   }
+  std::cout << "without the correction grid: " << worst_m << " m\n";
+  EXPECT_LT(worst_m, 1.0);
   EXPECT_LT((rd.from_lonlat(rd.to_lonlat({85000, 447000})) - Eigen::Vector2d(85000, 447000)).norm(), 1e-3);
 }
 

@@ -18,7 +18,7 @@ struct LonLat {
 
 /// The horizontal scene frame about an origin (see Georeference). Cheap to make; any number of threads may use it at
 /// once. A position is found by solving the geodesic from the origin to it (Karney, "Algorithms for geodesics", 2013),
-/// which is exact to 15 nm everywhere, poles and antimeridian included, and takes about 1.2 us.
+/// which is exact to 15 nm everywhere, poles and antimeridian included, and takes about a microsecond.
 class LocalFrame {
  public:
   /// Throws Error(input) for a latitude or longitude that is out of range (-90 to 90, -180 to 180) or not finite.

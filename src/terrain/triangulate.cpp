@@ -43,10 +43,7 @@ void add_crossings(const HeightGrid& grid, const geo::LocalFrame& frame, const E
   double last = 0;
   for (const double part : parts) {
     if ((part - last) * length < kOnBorder_m || (1 - part) * length < kOnBorder_m) continue;
-    Eigen::Vector2d place = from + part * (to - from);
-    for (int axis = 0; axis < 2; ++axis) {
-      if (from[axis] == to[axis]) place[axis] = from[axis];  // on the border, to the last bit
-    }
+    const Eigen::Vector2d place = from + part * (to - from);  // to the last bit on a border along an axis
     points.push_back(lifted(place, grid.height_m(cell_at(part))));
     last = part;
   }
