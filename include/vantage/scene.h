@@ -1,6 +1,7 @@
 // Scenes: what may hide the target. Files become a Scene, a Scene becomes a PreparedScene that serves many targets.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -32,24 +33,43 @@ struct Scene {
 
   /// Where it lies on the earth; nothing for a mesh that does not say. The scene frame is then the one described there.
   std::optional<Georeference> georeference;
+
+  /// What was unusual while reading but no error, for people: a sentence each, with counts and the first culprit.
+  std::vector<std::string> notes;
 };
 
 struct SceneReadOptions {
   UpAxis up = UpAxis::z;
-  double scale = 1.0;  ///< metres in one unit of the file; > 0
+  double scale = 1.0;  ///< metres in one unit of the file; > 0. Where x and y are in a CRS, of its z only
+
+  /// CityJSON: the level of detail ("2.2") to take of each object; empty: the highest that it has. One that lacks it
+  /// gives the nearest lower one, or else the nearest higher one; a note counts these. A whole number ("2") is also met
+  /// by the highest of its refinements ("2.2").
+  std::string lod = {};
+
+  /// The coordinate reference system of the file's x and y: "EPSG:28992", a WKT or PROJ text. Goes before what a
+  /// CityJSON file says; a file whose georeference vantage wrote has none. z stays as it is.
+  std::string crs = {};
+
+  /// Latitude and longitude (WGS 84, degrees) of the scene frame's origin. Empty: the centre of the scene where the
+  /// file or `crs` says where it lies. For a file that does not, its x and y are taken as metres east and north of it.
+  std::optional<std::array<double, 2>> origin_deg = std::nullopt;
 };
 
-/// Reads .obj, .ply (ASCII, binary of either byte order), .stl (ASCII, binary), .gltf and .glb; each may be compressed
-/// with gzip (".obj.gz"). The format is told by the content, then by the name. Polygons with more than three corners
-/// are triangulated. Coordinates keep double precision where the format has it. glTF is always y up: `up` is not used
-/// for it. In OBJ files an object is what "o" begins; where one such object holds all that is in any, and groups ("g")
-/// subdivide it, or where there is none, each group is an object.
+/// Reads .obj, .ply (ASCII, binary of either byte order), .stl (ASCII, binary), .gltf and .glb, and CityJSON 1.0 to 2.0
+/// (.city.json, .json, and as text sequence .city.jsonl; see docs/scene.md); each may be compressed with gzip
+/// (".obj.gz"). The format is told by the content, then by the name. Polygons with more than three corners
+/// are triangulated. Coordinates keep double precision where the format has it. glTF is always y up, CityJSON z up:
+/// `up` is not used for them. In OBJ files an object is what "o" begins; where one such object holds all that is in
+/// any, and groups ("g") subdivide it, or where there is none, each group is an object.
 ///
 /// Throws Error(input) naming the file, and the line or byte where there is one, for: a missing or unreadable file, an
 /// unknown format, truncated or garbled content, an index out of range, a coordinate that is not finite or (in metres)
 /// beyond 1e9, no triangles, content that needs more memory than there is or than a mesh of that size may (4 GiB
-/// decompressed, a polygon of more than 16,384 corners); a scale that is not positive and finite. Error(cancelled) when
-/// told to stop. Cost: linear in the file, on one thread, but for polygons of many corners: the square of these.
+/// decompressed, a polygon of more than 16,384 corners); a scale that is not positive and finite; a CRS that is unknown
+/// or has no value at the scene, an origin that is out of range, a georeference of vantage that is garbled.
+/// Error(cancelled) when told to stop. Cost: linear in the file, on one thread, but for polygons of many corners: the
+/// square of these.
 Scene read_scene(const std::filesystem::path& file, const SceneReadOptions& options = {},
                  const Progress& progress = {});
 
@@ -67,6 +87,19 @@ struct SceneStatistics {
   std::size_t polygons = 0;              ///< convex polygons after merging coplanar neighbours
   Box bounds;                            ///< of the triangles that are kept; metres, scene frame
 };
+
+/// Writes a scene, in the scene frame; the format follows the extension. Written whole or not at all. Objects without
+/// triangles, and vertices that none uses, are not written.
+///   .obj  an object ("o") for each object, double precision, metres, z up
+///   .glb  a node and a mesh for each object; y up, as the specification demands. Positions are single precision about
+///         an origin of the object's own: of one that is 100 m wide right to 4 um, wherever it lies
+///   .ply  binary, little-endian, double coordinates; one mesh: names are not kept
+///   .stl  binary, single precision: one mesh; names are not kept
+/// The georeference goes into the file (docs/scene.md), for .stl into FILE.place.json beside it.
+///
+/// Throws Error(input) for an unknown extension, a directory, a scene without triangles, and one whose arrays do not
+/// fit together; Error(output) when the file cannot be written or the format cannot hold that much. Cost: linear.
+void write_scene(const Scene& scene, const std::filesystem::path& file);
 
 /// A scene ready for visibility queries: welded, cleaned, coplanar neighbours merged into convex polygons, indexed by a
 /// bounding volume hierarchy. Immutable and cheap to copy (a shared handle); any number of threads may use it at once.

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "scene/georeference_text.h"
 #include "scene/gltf_document.h"
 #include "scene/mesh_builder.h"
 #include "scene/mesh_readers.h"
@@ -53,10 +54,32 @@ class GltfReader {
         waiting.push_back({document_.as_whole(*child, "children"), world});
       }
     }
-    return builder_.finish();
+    RawMesh mesh = builder_.finish();
+    mesh.georeference = georeference();
+    return mesh;
   }
 
  private:
+  /// In the "extras" of the default scene or, as others may move it there, of the asset.
+  std::optional<Georeference> georeference() const {
+    const Json& root = document_.root();
+    const Json& scenes = document_.array(root, "scenes");
+    std::vector<const Json*> holders;
+    if (!scenes.empty()) holders.push_back(&document_.item("scenes", document_.whole(root, "scene").value_or(0)));
+    if (const auto asset = root.find("asset"); asset != root.end()) holders.push_back(&*asset);
+    for (const Json* holder : holders) {
+      const auto extras = holder->find("extras");
+      const Json* found = extras == holder->end() ? nullptr : georeference_in(*extras);
+      if (!found) continue;
+      try {
+        return parse_georeference(*found);
+      } catch (const GeoreferenceProblem& problem) {
+        document_.fail(problem.text);
+      }
+    }
+    return std::nullopt;
+  }
+
   /// The nodes of the default scene; of the first scene where none is the default; without scenes the nodes that are
   /// nobody's children.
   std::vector<std::uint64_t> root_nodes() const {

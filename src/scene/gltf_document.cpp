@@ -7,6 +7,7 @@
 #include <cstring>
 #include <limits>
 
+#include "scene/json_text.h"
 #include "scene/mesh_readers.h"
 #include "scene/text_cursor.h"
 
@@ -208,22 +209,10 @@ void Document::split_glb() {
 }
 
 void Document::parse_json() {
-  constexpr int kDeepest = 100;
-  std::size_t values = 0;
-  const auto count_values = [&](int depth, Json::parse_event_t, Json&) {
-    if (depth > kDeepest) fail("its JSON is nested deeper than " + std::to_string(kDeepest) + " levels");
-    if (++values > limits_.json_values) {
-      fail("its JSON has more than " + std::to_string(limits_.json_values) + " values");
-    }
-    progress_.update(0, 1);
-    return true;
-  };
   try {
-    root_ = Json::parse(json_.begin(), json_.end(), count_values);
-  } catch (const Json::exception& error) {
-    const std::string text = error.what();  // "[json.exception.parse_error.101] parse error at line 1, column 2: ..."
-    const std::size_t start = text.find("] ");
-    fail(text.substr(start == std::string::npos ? 0 : start + 2));
+    root_ = scene::parse_json(json_, progress_, limits_);
+  } catch (const JsonProblem& problem) {
+    fail(problem.text);
   }
   if (!root_.is_object()) fail("its JSON is not an object");
 }

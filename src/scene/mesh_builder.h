@@ -33,6 +33,7 @@ class MeshBuilder {
     mesh_.object_of.reserve(triangles);
   }
 
+  const Vec3& vertex(std::uint32_t index) const { return mesh_.vertices[index]; }
   std::size_t vertex_count() const { return mesh_.vertices.size(); }
   std::size_t triangle_count() const { return mesh_.triangles.size(); }
 

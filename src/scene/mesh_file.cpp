@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <new>
+#include <utility>
 
 #include "scene/mesh_readers.h"
+#include "scene/place_file.h"
 #include "scene/text_cursor.h"
 #include "vantage/error.h"
 
@@ -22,6 +23,7 @@ bool looks_like_obj(std::string_view bytes) {
 }
 
 bool looks_like_json(std::string_view bytes) {
+  if (bytes.starts_with("\xef\xbb\xbf")) bytes.remove_prefix(3);
   TextCursor text(bytes);
   text.skip_spaces();
   return !text.at_end() && text.peek() == '{';
@@ -35,16 +37,21 @@ MeshFormat mesh_format(const MeshSource& source) {
   if (bytes.starts_with("glTF")) return MeshFormat::gltf;
   if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) return MeshFormat::ply;
   if (is_binary_stl(bytes) || is_ascii_stl(bytes)) return MeshFormat::stl;
-  if (looks_like_json(bytes)) return MeshFormat::gltf;
+  const bool named_json = extension == ".json" || extension == ".jsonl";
+  if (looks_like_json(bytes)) {
+    const bool is_gltf = !named_json || bytes.find("\"asset\"") != std::string_view::npos;
+    return is_cityjson(bytes) || !is_gltf ? MeshFormat::cityjson : MeshFormat::gltf;
+  }
   if (extension == ".obj" || looks_like_obj(bytes)) return MeshFormat::obj;
   if (extension == ".ply") return MeshFormat::ply;
   if (extension == ".stl") return MeshFormat::stl;
   if (extension == ".gltf" || extension == ".glb") return MeshFormat::gltf;
+  if (named_json) return MeshFormat::cityjson;
   source.fail("the format of the mesh file is unknown",
-              "give an OBJ, PLY, STL, glTF or GLB file; it may be compressed with gzip");
+              "give an OBJ, PLY, STL, glTF, GLB or CityJSON file; it may be compressed with gzip");
 }
 
-RawMesh read_any(const MeshSource& source, ReadProgress& progress, const ReadLimits& limits) {
+RawMesh read_any(const MeshSource& source, ReadProgress& progress, const ReadLimits& limits, const std::string& lod) {
   try {
     switch (mesh_format(source)) {
       case MeshFormat::obj:
@@ -55,6 +62,8 @@ RawMesh read_any(const MeshSource& source, ReadProgress& progress, const ReadLim
         return read_stl(source, progress, limits);
       case MeshFormat::gltf:
         return read_gltf(source, progress, limits);
+      case MeshFormat::cityjson:
+        return read_cityjson(source, progress, limits, lod);
     }
   } catch (const std::bad_alloc&) {
     source.fail("there is not enough memory to read the mesh", "cut the mesh to the part that is needed");
@@ -62,31 +71,17 @@ RawMesh read_any(const MeshSource& source, ReadProgress& progress, const ReadLim
   throw Error(ErrorKind::internal, "a mesh format without a reader", source.file().string(), "");
 }
 
-RawMesh read_mesh_file(const std::filesystem::path& file, const Progress& callback, const ReadLimits& limits) {
+RawMesh read_mesh_file(const std::filesystem::path& file, const Progress& callback, const ReadLimits& limits,
+                       const std::string& lod) {
   ReadProgress progress(callback, file);
   try {
-    return read_any(load_mesh_source(file, progress, limits), progress, limits);
+    const MeshSource source = load_mesh_source(file, progress, limits);
+    RawMesh mesh = read_any(source, progress, limits, lod);
+    if (mesh.format == MeshFormat::stl) mesh.georeference = read_place_file(source, progress);
+    return mesh;
   } catch (const std::bad_alloc&) {
     throw Error(ErrorKind::input, "there is not enough memory to load the file", file.string(),
                 "cut the mesh to the part that is needed");
-  }
-}
-
-void to_scene_frame(RawMesh& mesh, UpAxis up, double scale, const std::filesystem::path& file) {
-  if (!(scale > 0) || !std::isfinite(scale)) {
-    throw Error(ErrorKind::input, "the scale of a mesh must be positive and finite", file.string(),
-                "give the length of the file's unit in metres");
-  }
-  const bool y_up = up == UpAxis::y || mesh.format == MeshFormat::gltf;
-  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-    Vec3& v = mesh.vertices[i];
-    if (y_up) v = Vec3(v.x(), -v.z(), v.y());
-    v *= scale;
-    if (v.cwiseAbs().maxCoeff() <= kMaxCoordinate) continue;
-    throw Error(ErrorKind::input,
-                "vertex " + std::to_string(i) + " (counted from 0) is more than " +
-                    std::to_string(static_cast<long>(kMaxCoordinate / 1000)) + " km from the origin",
-                file.string(), "check the scale, or correct the vertex");
   }
 }
 
@@ -95,17 +90,22 @@ void to_scene_frame(RawMesh& mesh, UpAxis up, double scale, const std::filesyste
 namespace vantage {
 
 Scene read_scene(const std::filesystem::path& file, const SceneReadOptions& options, const Progress& progress) {
-  scene::RawMesh raw = scene::read_mesh_file(file, progress);
-  scene::to_scene_frame(raw, options.up, options.scale, file);
+  scene::RawMesh raw = scene::read_mesh_file(file, progress, {}, options.lod);
+  const bool was_projected = !raw.crs.empty() || !options.crs.empty();
+  scene::to_scene_frame(raw, options, file);
   Scene result;
   result.mesh.vertices = std::move(raw.vertices);
   result.mesh.triangles = std::move(raw.triangles);
   result.object_of = std::move(raw.object_of);
   result.objects = std::move(raw.objects);
   result.source = file;
-  result.up = raw.format == scene::MeshFormat::gltf ? UpAxis::y : options.up;
-  result.scale = options.scale;
+  result.up = raw.format == scene::MeshFormat::gltf       ? UpAxis::y
+              : raw.format == scene::MeshFormat::cityjson ? UpAxis::z
+                                                          : options.up;
+  result.scale = was_projected ? 1 : options.scale;
   result.dropped_faces = raw.dropped_faces;
+  result.georeference = std::move(raw.georeference);
+  result.notes = std::move(raw.notes);
   return result;
 }
 

@@ -2,6 +2,7 @@
 // cannot read, allocates in proportion to the bytes it is given (or to `limits`), and asks `progress` all along.
 #pragma once
 
+#include <string>
 #include <string_view>
 
 #include "scene/mesh_file.h"
@@ -12,12 +13,19 @@ namespace vantage::scene {
 MeshFormat mesh_format(const MeshSource& source);
 
 /// Reads a file of whichever format it is.
-RawMesh read_any(const MeshSource& source, ReadProgress& progress, const ReadLimits& limits = {});
+RawMesh read_any(const MeshSource& source, ReadProgress& progress, const ReadLimits& limits = {},
+                 const std::string& lod = {});
 
 RawMesh read_obj(const MeshSource& source, ReadProgress& progress, const ReadLimits& limits = {});
 RawMesh read_ply(const MeshSource& source, ReadProgress& progress, const ReadLimits& limits = {});
 RawMesh read_stl(const MeshSource& source, ReadProgress& progress, const ReadLimits& limits = {});
 RawMesh read_gltf(const MeshSource& source, ReadProgress& progress, const ReadLimits& limits = {});
+/// `lod`: as SceneReadOptions::lod.
+RawMesh read_cityjson(const MeshSource& source, ReadProgress& progress, const ReadLimits& limits = {},
+                      const std::string& lod = {});
+
+/// Whether some JSON object in the text has the type "CityJSON" or "CityJSONFeature".
+bool is_cityjson(std::string_view bytes);
 
 /// Whether the content is a binary STL: its length is the one that its facet count asks for.
 bool is_binary_stl(std::string_view bytes);

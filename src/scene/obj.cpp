@@ -4,10 +4,12 @@
 #include <array>
 #include <limits>
 #include <map>
+#include <optional>
 #include <set>
 #include <utility>
 #include <vector>
 
+#include "scene/georeference_text.h"
 #include "scene/mesh_builder.h"
 #include "scene/mesh_readers.h"
 #include "scene/text_cursor.h"
@@ -39,7 +41,9 @@ class ObjReader {
       statement();
       text_.next_line();
     }
-    return builder_.finish(name_parts());
+    RawMesh mesh = builder_.finish(name_parts());
+    mesh.georeference = std::move(georeference_);
+    return mesh;
   }
 
  private:
@@ -70,7 +74,7 @@ class ObjReader {
     text_.skip_blanks();
     if (text_.at_line_end()) return;
     if (text_.peek() == '#') {
-      text_.rest_of_line();
+      comment(text_.rest_of_line());
       return;
     }
     const std::string_view keyword = text_.word();
@@ -87,6 +91,14 @@ class ObjReader {
       pass_over();
     } else {
       fail("unknown statement " + in_quotes(keyword), "check that this is an OBJ file; remove the line if it is");
+    }
+  }
+
+  void comment(std::string_view text) {
+    try {
+      read_georeference_comment(text.substr(1), georeference_);
+    } catch (const GeoreferenceProblem& problem) {
+      fail(problem.text, "correct or remove the line; the mesh is read without");
     }
   }
 
@@ -212,6 +224,7 @@ class ObjReader {
   ReadProgress& progress_;
   MeshBuilder builder_;
   TextCursor text_;
+  std::optional<Georeference> georeference_;
 
   static constexpr std::uint32_t kNoObject = std::numeric_limits<std::uint32_t>::max();
   std::vector<std::string_view> object_names_;  // names lie in source_

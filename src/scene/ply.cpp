@@ -159,7 +159,9 @@ class PlyReader {
     }
     if (!has_vertices) source_.fail("the PLY file has no element \"vertex\"", "export a mesh");
     if (!has_faces) source_.fail("the PLY file has no element \"face\"", "export a surface mesh, not a point cloud");
-    return builder_.finish();
+    RawMesh mesh = builder_.finish();
+    mesh.georeference = header_.georeference;
+    return mesh;
   }
 
  private:

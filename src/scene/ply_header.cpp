@@ -3,6 +3,7 @@
 #include <array>
 #include <utility>
 
+#include "scene/georeference_text.h"
 #include "scene/text_cursor.h"
 
 namespace vantage::scene::ply {
@@ -51,7 +52,8 @@ class HeaderReader {
       } else if (keyword != "comment" && keyword != "obj_info" && !(keyword.empty() && text_.at_line_end())) {
         fail("unknown header line " + in_quotes(keyword));
       }
-      if (keyword == "comment" || keyword == "obj_info") text_.rest_of_line();
+      if (keyword == "comment") comment(text_.rest_of_line());
+      if (keyword == "obj_info") text_.rest_of_line();
       end_line();
     }
     if (!has_format) fail("the header has no \"format\" line");
@@ -67,6 +69,14 @@ class HeaderReader {
   [[noreturn]] void fail(std::string problem) {
     source_.fail_at_line(text_.line(), "not a valid PLY header: " + std::move(problem),
                          "export the mesh again; the file is cut off or garbled");
+  }
+
+  void comment(std::string_view text) {
+    try {
+      read_georeference_comment(text, header_.georeference);
+    } catch (const GeoreferenceProblem& problem) {
+      source_.fail_at_line(text_.line(), problem.text, "correct or remove the comment; the mesh is read without");
+    }
   }
 
   std::string_view next_word() {

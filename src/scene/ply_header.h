@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "scene/mesh_source.h"
+#include "vantage/georeference.h"
 
 namespace vantage::scene::ply {
 
@@ -38,8 +40,9 @@ struct Element {
 struct Header {
   Encoding encoding = Encoding::ascii;
   std::vector<Element> elements;
-  std::size_t data = 0;         ///< byte where the rows begin
-  std::uint64_t data_line = 0;  ///< line where they begin
+  std::optional<Georeference> georeference;  ///< from a comment of vantage
+  std::size_t data = 0;                      ///< byte where the rows begin
+  std::uint64_t data_line = 0;               ///< line where they begin
 };
 
 /// Reads and checks a header. Throws Error(input) with the line for whatever it does not understand.

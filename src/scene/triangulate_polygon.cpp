@@ -10,24 +10,6 @@ namespace {
 
 using Point = Eigen::Vector2d;
 
-/// The corners in a plane, about the first of them, counter-clockwise.
-std::vector<Point> project(const std::vector<Vec3>& points) {
-  const Vec3& origin = points[0];
-  Vec3 normal = Vec3::Zero();
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    normal += (points[i] - origin).cross(points[(i + 1) % points.size()] - origin);
-  }
-  int dropped = 0;
-  normal.cwiseAbs().maxCoeff(&dropped);
-  int u = (dropped + 1) % 3, v = (dropped + 2) % 3;
-  if (normal[dropped] < 0) std::swap(u, v);
-
-  std::vector<Point> flat;
-  flat.reserve(points.size());
-  for (const Vec3& point : points) flat.emplace_back(point[u] - origin[u], point[v] - origin[v]);
-  return flat;
-}
-
 /// Twice the signed area of a triangle.
 double turn(const Point& a, const Point& b, const Point& c) {
   return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
@@ -146,12 +128,29 @@ class EarClipper {
 
 }  // namespace
 
+std::vector<Point> project_polygon(const std::vector<Vec3>& points, std::size_t border) {
+  const Vec3& origin = points[0];
+  Vec3 normal = Vec3::Zero();
+  for (std::size_t i = 0; i < border; ++i) {
+    normal += (points[i] - origin).cross(points[(i + 1) % border] - origin);
+  }
+  int dropped = 0;
+  normal.cwiseAbs().maxCoeff(&dropped);
+  int u = (dropped + 1) % 3, v = (dropped + 2) % 3;
+  if (normal[dropped] < 0) std::swap(u, v);
+
+  std::vector<Point> flat;
+  flat.reserve(points.size());
+  for (const Vec3& point : points) flat.emplace_back(point[u] - origin[u], point[v] - origin[v]);
+  return flat;
+}
+
 void triangulate_polygon(const std::vector<Vec3>& points, std::vector<std::array<std::uint32_t, 3>>& triangles) {
   if (points.size() == 3) {
     triangles.push_back({0, 1, 2});
     return;
   }
-  EarClipper(project(points), triangles).run();
+  EarClipper(project_polygon(points, points.size()), triangles).run();
 }
 
 }  // namespace vantage::scene

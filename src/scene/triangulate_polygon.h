@@ -9,6 +9,10 @@
 
 namespace vantage::scene {
 
+/// The corners in a plane: about the first of them, projected along the largest component of the Newell normal of the
+/// first `border` corners, which then run counter-clockwise.
+std::vector<Eigen::Vector2d> project_polygon(const std::vector<Vec3>& points, std::size_t border);
+
 /// Ear clipping in the polygon's plane (Newell normal, projected along its largest component). `points` are the corners
 /// in order, either turn, 3 or more; appended to `triangles` are exactly points.size() - 2 triples of indices into
 /// them, with the turn of the polygon.

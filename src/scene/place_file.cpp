@@ -1,0 +1,35 @@
+#include "scene/place_file.h"
+
+#include <nlohmann/json.hpp>
+
+#include "scene/georeference_text.h"
+#include "vantage/error.h"
+
+namespace vantage::scene {
+
+std::filesystem::path place_file(const std::filesystem::path& mesh_file) {
+  return std::filesystem::path(mesh_file) += ".place.json";
+}
+
+std::string place_file_text(const std::optional<Georeference>& georeference) {
+  nlohmann::ordered_json json;
+  json["vantage"]["georeference"] = nullptr;
+  if (georeference) json["vantage"]["georeference"] = georeference_json(*georeference);
+  return json.dump(2, ' ', true, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+std::optional<Georeference> read_place_file(const MeshSource& mesh, ReadProgress& progress) {
+  const std::filesystem::path file = place_file(mesh.file());
+  std::error_code ignored;
+  if (!std::filesystem::exists(file, ignored)) return std::nullopt;
+  try {
+    const nlohmann::json json = nlohmann::json::parse(read_file_bytes(file, progress), nullptr, false);
+    const auto place = georeference_in(json);
+    if (!place) throw GeoreferenceProblem{"the file holds no georeference of vantage"};
+    return place->is_null() ? std::nullopt : std::optional(parse_georeference(*place));
+  } catch (const GeoreferenceProblem& problem) {
+    throw Error(ErrorKind::input, problem.text, file.string(), "correct or remove the file; the mesh is read without");
+  }
+}
+
+}  // namespace vantage::scene

@@ -1,0 +1,14 @@
+#include "fuzz/mesh_fuzzing.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace vantage::scene;
+  const auto with_lod = [](const MeshSource& source, ReadProgress& progress, const ReadLimits& limits) {
+    return read_cityjson(source, progress, limits, "1");
+  };
+  const auto without = [](const MeshSource& source, ReadProgress& progress, const ReadLimits& limits) {
+    return read_cityjson(source, progress, limits);
+  };
+  vantage::fuzzing::read(without, "/nowhere/fuzz.city.json", data, size);
+  vantage::fuzzing::read(with_lod, "/nowhere/fuzz.city.json", data, size);
+  return 0;
+}

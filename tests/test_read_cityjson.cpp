@@ -1,0 +1,400 @@
+// CityJSON made by hand: what is read of it, and how what is wrong with it is told.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "scene/lod.h"
+#include "support/mesh_reading.h"
+#include "support/temporary_directory.h"
+
+namespace vantage {
+namespace {
+
+using nlohmann::json;
+using scene::RawMesh;
+using testing::expect_input_error;
+using testing::read_as;
+
+/// A cube of 2 m as a Solid whose vertices are those of corners(), from `first` on.
+json cube_shell(int first = 0) {
+  json shell = json::array();
+  for (const auto& ring :
+       {std::vector<int>{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}) {
+    json surface = json::array();
+    for (const int corner : ring) surface.push_back(first + corner);
+    shell.push_back(json::array({surface}));
+  }
+  return shell;
+}
+
+/// Corners of a cube, in the file's whole numbers.
+json corners(int low, int high) {
+  json vertices = json::array();
+  for (int i = 0; i < 8; ++i) vertices.push_back({i & 1 ? high : low, i & 2 ? high : low, i & 4 ? high : low});
+  return vertices;
+}
+
+json geometry(const char* type, const char* lod, json boundaries) {
+  return {{"type", type}, {"lod", lod}, {"boundaries", std::move(boundaries)}};
+}
+
+/// One building: a cube of 2 m at (10, 20, 30).
+json document() {
+  return {{"type", "CityJSON"},
+          {"version", "2.0"},
+          {"transform", {{"scale", {0.01, 0.01, 0.01}}, {"translate", {10, 20, 30}}}},
+          {"vertices", corners(0, 200)},
+          {"CityObjects",
+           {{"b1", {{"type", "Building"}, {"geometry", {geometry("Solid", "1", json::array({cube_shell()}))}}}}}}};
+}
+
+RawMesh read(const json& file, const std::string& lod = "") {
+  const Progress none;
+  scene::ReadProgress progress(none, "a.city.json");
+  return scene::read_cityjson(scene::MeshSource("a.city.json", file.dump()), progress, {}, lod);
+}
+
+Mesh mesh_of(const RawMesh& raw) { return {raw.vertices, raw.triangles}; }
+
+void expect_error(const json& file, const std::string& problem, const std::string& where = "a.city.json") {
+  expect_input_error([&] { read(file); }, problem, where);
+}
+
+TEST(ReadCityJson, UndoesTheTransform) {
+  const RawMesh mesh = read(document());
+  EXPECT_EQ(mesh.format, scene::MeshFormat::cityjson);
+  EXPECT_EQ(mesh.objects, std::vector<std::string>{"b1"});
+  EXPECT_EQ(mesh.triangles.size(), 12u);
+  EXPECT_EQ(mesh.vertices.size(), 8u);
+  EXPECT_NEAR(enclosed_volume(mesh_of(mesh)), 8, 1e-12);
+  EXPECT_EQ(bounding_box(mesh_of(mesh)).min, Vec3(10, 20, 30));
+  EXPECT_EQ(bounding_box(mesh_of(mesh)).max, Vec3(12, 22, 32));
+  EXPECT_TRUE(mesh.notes.empty());
+}
+
+TEST(ReadCityJson, TakesEveryTypeOfSurfaces) {
+  json file = document();
+  json& geometries = file["CityObjects"]["b1"]["geometry"];
+  const json solid = json::array({cube_shell()});
+  for (const char* type : {"MultiSolid", "CompositeSolid"}) {
+    geometries = json::array({geometry(type, "1", json::array({solid}))});
+    EXPECT_EQ(read(file).triangles.size(), 12u) << type;
+  }
+  for (const char* type : {"MultiSurface", "CompositeSurface"}) {
+    geometries = json::array({geometry(type, "1", cube_shell())});
+    EXPECT_EQ(read(file).triangles.size(), 12u) << type;
+  }
+}
+
+TEST(ReadCityJson, KeepsCavities) {
+  json file = document();
+  file["vertices"] = corners(0, 400);
+  for (const json& corner : corners(100, 300)) file["vertices"].push_back(corner);
+  json cavity = cube_shell(8);
+  for (json& surface : cavity) std::reverse(surface[0].begin(), surface[0].end());
+  json& boundaries = file["CityObjects"]["b1"]["geometry"][0]["boundaries"];
+  boundaries.push_back(cavity);
+  const RawMesh mesh = read(file);
+  EXPECT_EQ(mesh.triangles.size(), 24u);
+  EXPECT_NEAR(enclosed_volume(mesh_of(mesh)), 64 - 8, 1e-12);
+  EXPECT_TRUE(mesh.notes.empty());
+  boundaries[1] = cube_shell(8);
+  EXPECT_EQ(read(file).notes, std::vector<std::string>{"1 shell of a solid is inside out (of \"b1\")"});
+}
+
+TEST(ReadCityJson, LeavesHolesOpen) {
+  json file = document();
+  file["vertices"] = {{0, 0, 0},       {1000, 0, 500},  {1000, 1000, 500}, {0, 1000, 0},
+                      {200, 200, 100}, {200, 400, 100}, {400, 400, 200},   {400, 200, 200}};
+  file["CityObjects"]["b1"]["geometry"] = json::array({geometry("MultiSurface", "1", {{{0, 1, 2, 3}, {4, 5, 6, 7}}})});
+  const RawMesh mesh = read(file);
+  EXPECT_EQ(mesh.triangles.size(), 8u);
+  EXPECT_NEAR(surface_area(mesh_of(mesh)), 96 * std::sqrt(1.25), 1e-9);
+}
+
+TEST(ReadCityJson, ChoosesTheLevelOfDetail) {
+  EXPECT_EQ(scene::choose_lod({1, 2.2, 1.3}, std::nullopt), 2.2);
+  EXPECT_EQ(scene::choose_lod({1, 2.2, 1.3}, 1.3), 1.3);
+  EXPECT_EQ(scene::choose_lod({1.2, 2.2, 1.3}, 1), 1.3);  // the highest of its refinements
+  EXPECT_EQ(scene::choose_lod({1, 1.2, 2.2}, 1), 1);
+  EXPECT_EQ(scene::choose_lod({0, 1.2, 2.2}, 1.3), 1.2);
+  EXPECT_EQ(scene::choose_lod({2.2, 3}, 1), 2.2);
+  EXPECT_EQ(scene::parse_lod("2.2"), 2.2);
+  for (const char* bad : {"", "two", "2.2.1", "-1", "10", "nan"}) EXPECT_FALSE(scene::parse_lod(bad)) << bad;
+
+  json file = document();
+  json& b1 = file["CityObjects"]["b1"]["geometry"];
+  b1.push_back(geometry("MultiSurface", "0", json::array({cube_shell()[0]})));
+  file["CityObjects"]["b2"] = {{"type", "Building"},
+                               {"geometry", {geometry("MultiSurface", "2.2", json::array({cube_shell()[0]}))}}};
+  EXPECT_EQ(read(file).triangles.size(), 14u);
+  const RawMesh ground = read(file, "0");
+  EXPECT_EQ(ground.triangles.size(), 4u);
+  EXPECT_EQ(ground.notes,
+            std::vector<std::string>{"1 CityObject has no geometry of LoD 0: the nearest is taken (of \"b2\")"});
+  EXPECT_TRUE(read(file, "1").notes.size() == 1);
+  expect_input_error([&] { read(file, "3"); }, "no CityObject has a geometry of LoD 3", "a.city.json");
+  expect_input_error([&] { read(file, "high"); }, "no level of detail: \"high\"", "a.city.json");
+}
+
+TEST(ReadCityJson, PlacesInstancesOfTemplates) {
+  json file = document();
+  // A right-angled triangle, made twice as large, turned by 90 degrees about z and put at vertex 7.
+  file["geometry-templates"] = {{"templates", {geometry("MultiSurface", "2", {{{0, 1, 2}}})}},
+                                {"vertices-templates", {{0.5, 0, 0}, {1.5, 0, 0}, {0.5, 0.25, 0}}}};
+  const json instance = {{"type", "GeometryInstance"},
+                         {"template", 0},
+                         {"boundaries", {7}},
+                         {"transformationMatrix", {0, -2, 0, 1, 2, 0, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1}}};
+  file["CityObjects"] = {{"t1", {{"type", "SolitaryVegetationObject"}, {"geometry", {instance}}}},
+                         {"t2", {{"type", "SolitaryVegetationObject"}, {"geometry", {instance}}}}};
+  file["CityObjects"]["t2"]["geometry"][0]["boundaries"][0] = 0;
+  const RawMesh mesh = read(file);
+  ASSERT_EQ(mesh.triangles.size(), 2u);
+  EXPECT_EQ(mesh.vertices[0], Vec3(12 + 1, 22 + 1, 32));
+  EXPECT_EQ(mesh.vertices[1], Vec3(12 + 1, 22 + 3, 32));
+  EXPECT_EQ(mesh.vertices[2], Vec3(12 + 0.5, 22 + 1, 32));
+  EXPECT_EQ(mesh.vertices[3], Vec3(10 + 1, 20 + 1, 30));
+
+  const auto with = [&](const char* key, const json& value) {
+    json bad = file;
+    bad["CityObjects"]["t1"]["geometry"][0][key] = value;
+    return bad;
+  };
+  const std::string where = "CityObject \"t1\", geometry 0";
+  expect_error(with("template", 1), "refers to template 1, but there are only 1", where);
+  expect_error(with("boundaries", {8}), "refers to vertex 8, but there are only 8", where);
+  expect_error(with("boundaries", {1, 2}), "hold no single vertex", where);
+  expect_error(with("transformationMatrix", {1, 0, 0}), "is not an array of 16 numbers", where);
+  expect_error(with("transformationMatrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1, 0, 0, 1}), "last row", where);
+  json nested = file;
+  nested["geometry-templates"]["templates"][0] = instance;
+  expect_error(nested, "its template is an instance itself", where);
+  json many = file;
+  many["CityObjects"]["t1"]["geometry"] = std::vector<json>(200, instance);
+  const Progress none;
+  scene::ReadProgress progress(none, "a");
+  scene::ReadLimits limits;
+  limits.repeated_triangles = 10;
+  const scene::MeshSource small("a", file.dump());
+  EXPECT_NO_THROW(scene::read_cityjson(small, progress, limits));
+  // Of a template with many triangles: few bytes, many instances.
+  json surfaces = std::vector<json>(1000, {{0, 1, 2}});
+  many["geometry-templates"]["templates"][0]["boundaries"] = surfaces;
+  const scene::MeshSource large("a", many.dump());
+  expect_input_error([&] { scene::read_cityjson(large, progress, limits); }, "its instances repeat templates",
+                     "\"t1\"");
+}
+
+TEST(ReadCityJson, TurnsMirroredInstancesBack) {
+  json file = document();
+  file["geometry-templates"] = {{"templates", {geometry("Solid", "2", json::array({cube_shell()}))}},
+                                {"vertices-templates", corners(0, 1)}};
+  file["CityObjects"]["b1"]["geometry"] = {
+      {{"type", "GeometryInstance"},
+       {"template", 0},
+       {"boundaries", {0}},
+       {"transformationMatrix", {-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}}};
+  const RawMesh mesh = read(file);
+  EXPECT_NEAR(enclosed_volume(mesh_of(mesh)), 1, 1e-12);
+  EXPECT_TRUE(mesh.notes.empty());
+}
+
+TEST(ReadCityJson, NamesObjectsAndLeavesPartsToThemselves) {
+  json file = document();
+  json& objects = file["CityObjects"];
+  objects["p1"] = objects["b1"];
+  objects["p1"]["type"] = "BuildingPart";
+  objects["p1"]["parents"] = {"b1"};
+  objects["p1"]["attributes"] = {{"name", "Tower"}, {"height", 3}};
+  objects["b1"].erase("geometry");
+  objects["b1"]["children"] = {"p1"};
+  objects["e"] = {{"type", "+Bench"}};
+  objects["l"] = {{"type", "Road"}, {"geometry", {geometry("MultiLineString", "0", {{0, 1}})}}};
+  const RawMesh mesh = read(file);
+  EXPECT_EQ(mesh.objects, std::vector<std::string>{"p1 Tower"});
+  EXPECT_EQ(mesh.notes, (std::vector<std::string>{"1 CityObject has neither surfaces nor parts (of \"e\")",
+                                                  "1 geometry of points or lines is passed over (of \"l\")"}));
+}
+
+TEST(ReadCityJson, NotesWhatIsWrongInAWayThatASoupMayBe) {
+  json file = document();
+  json& shell = file["CityObjects"]["b1"]["geometry"][0]["boundaries"][0];
+  const json sound = shell;
+  shell.erase(5);
+  EXPECT_EQ(read(file).notes, std::vector<std::string>{"1 shell of a solid is not closed (of \"b1\")"});
+  shell = sound;
+  std::reverse(shell[5][0].begin(), shell[5][0].end());
+  EXPECT_EQ(read(file).notes,
+            std::vector<std::string>{"1 shell of a solid has surfaces that face the wrong way (of \"b1\")"});
+  for (std::size_t i = 0; i < 5; ++i) std::reverse(shell[i][0].begin(), shell[i][0].end());
+  EXPECT_EQ(read(file).notes, std::vector<std::string>{"1 shell of a solid is inside out (of \"b1\")"});
+
+  file = document();
+  file["vertices"][7][2] = 260;
+  const RawMesh bent = read(file);
+  EXPECT_EQ(bent.triangles.size(), 12u);
+  EXPECT_EQ(bent.notes,
+            std::vector<std::string>{"1 surface is not flat to 1 cm, a corner lies up to 0.15 m off (of \"b1\")"});
+
+  file = document();
+  file["vertices"].push_back({900, 0, 0});
+  file["vertices"].push_back({950, 0, 0});
+  file["vertices"].push_back({900, 50, 0});
+  file["CityObjects"]["b1"]["geometry"] = json::array({geometry("MultiSurface", "1", {{{0, 1, 3, 2}, {8, 9, 10}}})});
+  EXPECT_EQ(read(file).notes, std::vector<std::string>{"1 hole lies outside its surface and is left out (of \"b1\")"});
+}
+
+TEST(ReadCityJson, TakesRepeatedCornersAsOne) {
+  json file = document();
+  json& ring = file["CityObjects"]["b1"]["geometry"][0]["boundaries"][0][0][0];
+  ring = {0, 0, 2, 2, 2, 3, 1, 0};  // and closed, as in GML
+  file["vertices"].push_back({0, 0, 0});
+  file["CityObjects"]["b1"]["geometry"][0]["boundaries"][0][1][0].push_back(4);
+  file["CityObjects"]["b1"]["geometry"][0]["boundaries"][0].push_back({{0, 8, 1}});  // a line there and back
+  const RawMesh mesh = read(file);
+  EXPECT_EQ(mesh.triangles.size(), 12u);
+  EXPECT_EQ(mesh.dropped_faces, 1u);
+  EXPECT_TRUE(mesh.notes.empty());
+}
+
+TEST(ReadCityJson, ReadsAllVersions) {
+  json file = document();
+  file["version"] = "1.1";
+  EXPECT_EQ(read(file).triangles.size(), 12u);
+  file["version"] = "1.0";
+  file["CityObjects"]["b1"]["geometry"][0]["lod"] = 2.2;  // a number then
+  file.erase("transform");
+  file["metadata"] = {{"referenceSystem", "urn:ogc:def:crs:EPSG::28992"}};
+  const RawMesh mesh = read(file, "2.2");
+  EXPECT_EQ(mesh.crs, "urn:ogc:def:crs:EPSG::28992");
+  EXPECT_EQ(bounding_box(mesh_of(mesh)).max, Vec3(200, 200, 200));
+  for (const json& version : {json("0.9"), json("1.00"), json("3.0"), json("")}) {
+    file["version"] = version;
+    expect_error(file, "its version " + version.dump() + " cannot be read; 1.0, 1.1 and 2.0 can");
+  }
+}
+
+TEST(ReadCityJson, ReadsTextSequences) {
+  json head = document();
+  head["CityObjects"] = json::object();
+  head["vertices"] = json::array();
+  json feature = {{"type", "CityJSONFeature"},
+                  {"id", "b1"},
+                  {"CityObjects", document()["CityObjects"]},
+                  {"vertices", corners(0, 200)}};
+  json second = feature;
+  second["CityObjects"] = {{"b2", feature["CityObjects"]["b1"]}};
+  second["vertices"] = corners(1000, 1300);
+  const std::string text = head.dump() + "\n" + feature.dump() + "\r\n\n" + second.dump();
+  const RawMesh mesh = read_as("a.city.jsonl", text);
+  EXPECT_EQ(mesh.objects, (std::vector<std::string>{"b1", "b2"}));
+  EXPECT_EQ(mesh.triangles.size(), 24u);
+  EXPECT_NEAR(enclosed_volume(mesh_of(mesh)), 8 + 27, 1e-9);
+
+  expect_input_error([&] { read_as("a.city.jsonl", text.substr(text.find('\n') + 1)); }, "begins with a feature",
+                     "line 1");
+  second["CityObjects"]["b2"]["geometry"][0]["boundaries"][0][0][0][0] = 8;
+  expect_input_error([&] { read_as("a.jsonl", head.dump() + "\n\n" + second.dump()); }, "refers to vertex 8",
+                     "a.jsonl, line 3, CityObject \"b2\", geometry 0, shell 0, surface 0, ring 0");
+  expect_input_error([&] { read_as("a.jsonl", head.dump() + "\n" + feature.dump() + "\n{]"); }, "parse error",
+                     "a.jsonl, line 3, column 2");
+  expect_input_error([&] { read_as("a.jsonl", head.dump() + "\n" + feature.dump() + "\n" + head.dump()); },
+                     "not of type CityJSONFeature", "line 3");
+}
+
+TEST(ReadCityJson, SaysWhereTheJsonEnds) {
+  expect_input_error([] { read_as("a.city.json", "{\"type\": \"CityJSON\",\n  \"version\" \"2.0\"}"); }, "parse error",
+                     "a.city.json, line 2, column 17");
+  expect_input_error([] { read_as("a.json", "hello"); }, "not a valid CityJSON file: parse error", "line 1, column 1");
+  expect_input_error([] { read_as("a.json", "[]"); }, "its JSON is not an object", "a.json");
+  expect_input_error([] { read_as("a.json", "{}"); }, "\"type\" is missing", "a.json");
+  expect_input_error([] { read_as("a.json", R"({"type": "FeatureCollection"})"); }, "its type is \"FeatureCollection\"",
+                     "a.json");
+  const std::string deep = R"({"type":"CityJSON","a":)" + std::string(200, '[');
+  expect_input_error([&] { read_as("a.json", deep); }, "nested deeper than 100 levels", "a.json");
+}
+
+TEST(ReadCityJson, NamesWhatIsWrongInTheDocument) {
+  const auto with = [](const json& patch) {
+    json file = document();
+    file.merge_patch(patch);
+    return file;
+  };
+  expect_error(with({{"version", nullptr}}), "\"version\" is missing");
+  expect_error(with({{"vertices", nullptr}}), "\"vertices\" is missing");
+  expect_error(with({{"vertices", 7}}), "\"vertices\" is not an array");
+  expect_error(with({{"vertices", {{1, 2, 3}, {1, 2}}}}), "vertex 1 (counted from 0) is not an array of three numbers");
+  expect_error(with({{"transform", nullptr}}), "\"transform\" is missing");
+  expect_error(with({{"transform", {{"scale", nullptr}}}}), "\"scale\" is missing");
+  expect_error(with({{"transform", {{"scale", {1, 1}}}}}), "\"scale\" is not an array of 3 numbers");
+  expect_error(with({{"transform", {{"scale", {1, 0, 1}}}}}), "a \"scale\" of the transform is 0");
+  expect_error(with({{"transform", {{"scale", {1, 1e300, 1}}, {"translate", {0, 1e308, "x"}}}}}),
+               "\"translate\" is not an array of 3 numbers");
+  expect_error(with({{"metadata", {{"referenceSystem", 7415}}}}), "\"referenceSystem\" is not a text");
+  json misspelt = document();
+  misspelt["City Objects"] = misspelt["CityObjects"];
+  misspelt.erase("CityObjects");
+  expect_error(misspelt, "\"CityObjects\" is missing; there is \"City Objects\"");
+  expect_error(with({{"CityObjects", {{"b1", nullptr}}}}), "holds no surfaces (0 CityObjects)");
+}
+
+TEST(ReadCityJson, NamesWhatIsWrongInAGeometry) {
+  const std::string where = "a.city.json, CityObject \"b1\", geometry 0";
+  const auto with = [](const char* pointer, const json& value) {
+    json file = document();
+    file[json::json_pointer("/CityObjects/b1" + std::string(pointer))] = value;
+    return file;
+  };
+  expect_error(with("/geometry/0/type", "Sphere"), "its geometry type \"Sphere\" is unknown", where);
+  expect_error(with("/geometry/0/type", 3), "\"type\" is missing", where);
+  expect_error(with("/geometry/0/lod", "high"), "is no level of detail", where);
+  expect_error(with("/geometry/0/boundaries", "x"), "\"boundaries\" is not an array", where);
+  expect_error(with("/geometry", 5), "\"geometry\" is not an array", "CityObject \"b1\"");
+  expect_error(with("", 5), "it is not an object", "CityObject \"b1\"");
+  expect_error(with("/type", nullptr), "\"type\" is missing", "CityObject \"b1\"");
+
+  const std::string ring = where + ", shell 0, surface 3, ring 0";
+  const std::string at = "/geometry/0/boundaries/0/3/0";
+  expect_error(with(at.c_str(), {1, 2}), "a ring has 2 vertices, not 3 or more", ring);
+  expect_error(with(at.c_str(), {1, 2, 8}), "it refers to vertex 8, but there are only 8", ring);
+  expect_error(with(at.c_str(), {1, 2, -1}), "it refers to vertex -1, but there are only 8", ring);
+  expect_error(with(at.c_str(), {1, 2, 0.5}), "the number of a vertex is not a whole number", ring);
+  expect_error(with(at.c_str(), {1, 2, nullptr}), "the number of a vertex is not a whole number", ring);
+  expect_error(with(at.c_str(), {{1, 2, 3}}), "nested deeper than its type", ring);
+  expect_error(with(at.c_str(), 1), "nested less deep than its type", ring);
+  expect_error(with("/geometry/0/boundaries/0/3", json::array()), "a surface has no rings", "surface 3");
+  expect_error(with("/geometry/0/boundaries", cube_shell()), "nested less deep", "shell 0, surface 0, ring 0");
+  expect_error(with("/geometry/0/type", "MultiSurface"), "nested deeper", "surface 0, ring 0");
+}
+
+TEST(ReadCityJson, KeepsWithinItsLimits) {
+  const Progress none;
+  scene::ReadProgress progress(none, "a");
+  scene::ReadLimits limits;
+  limits.corners = 3;
+  const scene::MeshSource source("a.city.json", document().dump());
+  expect_input_error([&] { scene::read_cityjson(source, progress, limits); }, "a surface has 4 corners; at most 3",
+                     "surface 0");
+  limits = {};
+  limits.json_values = 20;
+  expect_input_error([&] { scene::read_cityjson(source, progress, limits); }, "more than 20 values", "a.city.json");
+}
+
+TEST(ReadCityJson, IsToldByItsContent) {
+  using scene::MeshFormat;
+  const auto format = [](const std::string& name, const std::string& bytes) {
+    return scene::mesh_format(scene::MeshSource(name, bytes));
+  };
+  EXPECT_EQ(format("a", " {\n\"type\" : \"CityJSON\""), MeshFormat::cityjson);
+  EXPECT_EQ(format("a.gltf", "{\"version\": \"2.0\", \"type\":\"CityJSON\"}"), MeshFormat::cityjson);
+  EXPECT_EQ(format("a", "{\"type\":\"CityJSONFeature\"}"), MeshFormat::cityjson);
+  EXPECT_EQ(format("a", "{\"note\":\"CityJSON\"}"), MeshFormat::gltf);
+  EXPECT_EQ(format("a.gltf", "{}"), MeshFormat::gltf);
+  EXPECT_EQ(format("a.json", "{\"asset\": {}}"), MeshFormat::gltf);
+  EXPECT_EQ(format("a.city.json", "{}"), MeshFormat::cityjson);
+  EXPECT_EQ(format("a.city.jsonl.gz", "?"), MeshFormat::cityjson);
+}
+
+}  // namespace
+}  // namespace vantage
