@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -67,6 +68,7 @@ struct Volume {
   double lift_m = 0;  ///< the target was raised this far to clear the surface that it lies on (rounding of the input);
                       ///< less than 2.01 mm
   TargetFrame frame;  ///< of the target as used, lift included
+  std::optional<Georeference> georeference;  ///< of the scene; compute_mission fills it in, and writers write it
   StageCounts counts;
   Seconds seconds;
 };
@@ -127,6 +129,7 @@ MeshMeasures measure(const Mesh& mesh);
 ///   .stl  binary; scene frame. Single precision, all that the format has: far from the origin it is coarse, half a
 ///         metre between neighbouring numbers at a UTM northing of 4,785,000. Prefer another format there
 ///   .glb  a material per kind of cause; y up as the specification demands
+/// The georeference goes into the file, for .stl into FILE.place.json beside it (docs/scene.md).
 /// Cost: linear in the facets; the bytes are on the disk when it returns. Throws Error(output) when the file cannot be
 /// written or the format cannot hold that many facets, and Error(input) for an unknown extension, a directory, a volume
 /// whose arrays do not fit together, or a scale that is not positive, not finite or so small that coordinates overflow.

@@ -70,6 +70,7 @@ MissionRun run_stages(const Mission& mission, const Progress& progress, const St
   }
   seconds.total = seconds.read + seconds.prepare + seconds.engine + seconds.navigation;
   run.volume.seconds = seconds;
+  run.volume.georeference = scene.georeference;
   return run;
 }
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "scene/georeference_text.h"
 #include "solid/names.h"
 
 namespace vantage::solid {
@@ -93,6 +94,7 @@ std::string report_json(const Volume& volume, const MeshMeasures& measures, cons
   report["oriented"] = measures.oriented;
   report["tolerance_m"] = volume.tolerance_m;
   report["lift_m"] = volume.lift_m;
+  if (volume.georeference) report["georeference"] = scene::georeference_json(*volume.georeference);
   report["bounding_box"] = json_of(measures.bounds);
   report["causes"] = json_of(volume.causes);
   if (source.spheres) report["spheres"] = json_of(*source.spheres);

@@ -29,7 +29,8 @@ std::string spheres_json(const SpheresRun& run);
 
 /// A JSON object, UTF-8, two spaces of indentation, a newline at the end. Lengths are metres in the scene frame.
 /// `causes` are in the order of Volume::causes, so that the facet property of a PLY file indexes them. `bounding_box`
-/// is null for an empty volume. Bytes of names that are not UTF-8 are replaced.
+/// is null for an empty volume; `georeference` is there when the scene has one. Bytes of names that are not UTF-8 are
+/// replaced.
 std::string report_json(const Volume& volume, const MeshMeasures& measures, const ReportSource& source = {});
 
 }  // namespace vantage::solid

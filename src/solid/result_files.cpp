@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <chrono>
 #include <memory>
+#include <utility>
 
 #include "solid/atomic_file.h"
 #include "solid/volume_check.h"
+#include "solid/write_place.h"
 #include "solid/writers.h"
 #include "vantage/error.h"
 
@@ -45,6 +47,7 @@ WrittenResults write_results(Volume& volume, const ResultRequest& request, const
       stages.next();
       files.push_back(stage_volume(volume, file, request.obj_up, request.obj_scale));
       files.back()->seal();
+      if (auto place = stage_place(volume.georeference, file)) files.push_back(std::move(place));
     }
   }
   stages.next();

@@ -5,6 +5,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "scene/georeference_text.h"
+#include "solid/glb_container.h"
 #include "solid/names.h"
 #include "solid/writers.h"
 
@@ -14,9 +16,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // Values of the glTF 2.0 specification.
-constexpr std::uint32_t kMagic = 0x46546C67, kContainerVersion = 2, kJsonChunk = 0x4E4F534A, kBinChunk = 0x004E4942;
 constexpr int kFloat = 5126, kUnsignedInt = 5125, kArrayBuffer = 34962, kElementArrayBuffer = 34963, kTriangles = 4;
-constexpr std::size_t kContainerBytes = 12;
 
 constexpr std::array kKinds = {CauseKind::scene, CauseKind::range, CauseKind::target_plane, CauseKind::navigation};
 
@@ -126,6 +126,9 @@ Gltf make_gltf(const Volume& volume) {
   const Vec3 origin = ((box.min + box.max) / 2).array().round();
   const Vec3 translation = to_y_up(origin);
   gltf.json["scenes"] = Json::array({{{"nodes", {0}}}});
+  if (volume.georeference) {
+    gltf.json["scenes"][0]["extras"]["vantage"]["georeference"] = scene::georeference_json(*volume.georeference);
+  }
   gltf.json["nodes"] = Json::array({{{"name", "visibility volume"},
                                      {"mesh", 0},
                                      {"translation", {translation.x(), translation.y(), translation.z()}}}});
@@ -137,29 +140,11 @@ Gltf make_gltf(const Volume& volume) {
   return gltf;
 }
 
-void append_chunk(std::string& bytes, std::uint32_t type, std::string_view content, char padding) {
-  const std::size_t padded = (content.size() + 3) / 4 * 4;
-  append_little_endian(bytes, static_cast<std::uint32_t>(padded));
-  append_little_endian(bytes, type);
-  bytes += content;
-  bytes.append(padded - content.size(), padding);
-}
-
 }  // namespace
 
 void write_glb(const Volume& volume, AtomicFile& file) {
   const Gltf gltf = make_gltf(volume);
-  std::string chunks;
-  append_chunk(chunks, kJsonChunk, gltf.json.dump(), ' ');
-  if (!gltf.buffer.empty()) append_chunk(chunks, kBinChunk, gltf.buffer, '\0');
-  check_count(kContainerBytes + chunks.size(), std::numeric_limits<std::uint32_t>::max(), "bytes", "GLB");
-
-  std::string header;
-  append_little_endian(header, kMagic);
-  append_little_endian(header, kContainerVersion);
-  append_little_endian(header, static_cast<std::uint32_t>(kContainerBytes + chunks.size()));
-  file.write(header);
-  file.write(chunks);
+  write_glb_container(gltf.json.dump(-1, ' ', false, Json::error_handler_t::replace), gltf.buffer, file);
 }
 
 }  // namespace vantage::solid

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "solid/names.h"
+#include "solid/write_place.h"
 #include "solid/writers.h"
 #include "vantage/error.h"
 
@@ -43,6 +44,7 @@ void write_obj(const Volume& volume, UpAxis up, double scale, AtomicFile& file) 
   file.write("# vantage " VANTAGE_VERSION " visibility volume: " + std::string(name_of(volume.outcome)) + "\n");
   file.write(scale == 1 ? "# metres, " : "# units of " + exact_text(scale) + " m, ");
   file.write(up == UpAxis::y ? "y up: (x, z, -y) of the scene frame\n" : "z up\n");
+  file.write(place_comment(volume.georeference, "# "));
 
   for (const Vec3& vertex : vertices) {
     std::string line("v");

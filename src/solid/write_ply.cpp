@@ -2,6 +2,7 @@
 #include <limits>
 
 #include "solid/names.h"
+#include "solid/write_place.h"
 #include "solid/writers.h"
 
 namespace vantage::solid {
@@ -13,6 +14,7 @@ void write_ply(const Volume& volume, AtomicFile& file) {
   std::string header = "ply\nformat binary_little_endian 1.0\n";
   header += "comment vantage " VANTAGE_VERSION " visibility volume: " + std::string(name_of(volume.outcome)) + "\n";
   header += "comment vantage frame: scene, metres, z up\n";
+  header += place_comment(volume.georeference, "comment ");
   header += "comment vantage tolerance_m " + exact_text(volume.tolerance_m) + "\n";
   for (std::size_t i = 0; i < volume.causes.size(); ++i) {
     const Cause& cause = volume.causes[i];

@@ -15,11 +15,12 @@ double single_precision_rounding(const Mesh& mesh) {
   return (static_cast<double>(std::nextafter(largest, std::numeric_limits<float>::infinity())) - largest) / 2;
 }
 
-void write_stl(const Volume& volume, AtomicFile& file) {
-  const auto& [vertices, triangles] = volume.mesh;
+void write_stl_mesh(const Mesh& mesh, std::string_view content, AtomicFile& file) {
+  const auto& [vertices, triangles] = mesh;
   check_count(triangles.size(), std::numeric_limits<std::uint32_t>::max(), "triangles", "STL");
 
-  std::string header = "vantage " VANTAGE_VERSION " visibility volume, scene frame, metres, z up";
+  std::string header("vantage " VANTAGE_VERSION " ");
+  header.append(content).append(", scene frame, metres, z up");
   header.resize(80, ' ');
   append_little_endian(header, static_cast<std::uint32_t>(triangles.size()));
   file.write(header);
@@ -36,5 +37,7 @@ void write_stl(const Volume& volume, AtomicFile& file) {
     file.write(facet);
   }
 }
+
+void write_stl(const Volume& volume, AtomicFile& file) { write_stl_mesh(volume.mesh, "visibility volume", file); }
 
 }  // namespace vantage::solid

@@ -15,7 +15,8 @@
 
 namespace vantage::solid {
 
-/// Does all that write_volume does but the last step: the caller commits. Throws as write_volume does.
+/// Does all that write_volume does but the last step, and the file beside an STL (write_place.h): the caller commits.
+/// Throws as write_volume does.
 std::unique_ptr<AtomicFile> stage_volume(const Volume& volume, const std::filesystem::path& file, UpAxis obj_up,
                                          double obj_scale);
 
@@ -24,6 +25,12 @@ void write_ply(const Volume& volume, AtomicFile& file);
 void write_obj(const Volume& volume, UpAxis up, double scale, AtomicFile& file);
 void write_stl(const Volume& volume, AtomicFile& file);
 void write_glb(const Volume& volume, AtomicFile& file);
+
+/// A mesh as binary STL; `content` says in the header what it is.
+void write_stl_mesh(const Mesh& mesh, std::string_view content, AtomicFile& file);
+/// The extension in lower case when it is one of those that can be written. Throws Error(input) for another, unless
+/// `file` is a directory, which AtomicFile refuses with a better message.
+std::string output_extension(const std::filesystem::path& file);
 
 /// How far a coordinate of the mesh may move by being written in single precision, metres: half the distance between
 /// neighbouring numbers at the largest one.
@@ -38,6 +45,9 @@ inline Vec3 to_y_up(const Vec3& v) { return {v.x(), v.z(), -v.y()}; }
 
 /// The shortest text that reads back as the same number: at most 17 significant digits.
 std::string exact_text(double number);
+
+/// The same, at the end of `text`.
+void append_exact(std::string& text, double number);
 
 /// `text` on one line: control characters become spaces.
 std::string one_line(std::string_view text);

@@ -1,0 +1,247 @@
+// Where a scene lies on the earth: from coordinate systems into the scene frame, and through files of every format.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "geo/local_frame.h"
+#include "scene/georeference_text.h"
+#include "scene/place_file.h"
+#include "solid/report.h"
+#include "solid/result_files.h"
+#include "support/mesh_reading.h"
+#include "support/solids.h"
+#include "support/temporary_directory.h"
+#include "vantage/scene.h"
+#include "vantage/volume.h"
+
+namespace vantage {
+namespace {
+
+using nlohmann::json;
+using testing::expect_input_error;
+using testing::read_bytes;
+using testing::TemporaryDirectory;
+using testing::write_bytes;
+
+const Georeference kPlace{40.748400000000004, -73.98570000000001, "EGM96 \"geoid\" of dém.tif", "EPSG:4326"};
+
+void expect_same(const std::optional<Georeference>& found, const Georeference& expected) {
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->latitude_deg, expected.latitude_deg);
+  EXPECT_EQ(found->longitude_deg, expected.longitude_deg);
+  EXPECT_EQ(found->vertical, expected.vertical);
+  EXPECT_EQ(found->source_crs, expected.source_crs);
+}
+
+Scene one_box() {
+  Scene scene;
+  scene.mesh = testing::make_box_mesh(Vec3(1, 2, 3), Vec3(4, 6, 8));
+  scene.object_of.assign(scene.mesh.triangles.size(), 0);
+  scene.objects = {"way/1"};
+  return scene;
+}
+
+Volume one_volume() {
+  Volume volume;
+  volume.mesh = testing::make_box_mesh(Vec3(1, 2, 3), Vec3(4, 6, 8));
+  volume.causes = {{CauseKind::scene, "way/1"}};
+  volume.cause_of.assign(volume.mesh.triangles.size(), 0);
+  return volume;
+}
+
+TEST(Place, TravelsInScenes) {
+  const TemporaryDirectory directory;
+  Scene scene = one_box();
+  for (const char* name : {"a.obj", "a.ply", "a.glb", "a.stl"}) {
+    scene.georeference = kPlace;
+    write_scene(scene, directory / name);
+    const Scene read = read_scene(directory / name);
+    expect_same(read.georeference, kPlace);
+    EXPECT_NEAR((bounding_box(read.mesh).max - Vec3(4, 6, 8)).norm(), 0, 1e-12) << name;
+    scene.georeference.reset();
+    write_scene(scene, directory / name);
+    EXPECT_FALSE(read_scene(directory / name).georeference) << name;  // an old one beside an STL would lie
+  }
+}
+
+TEST(Place, TravelsInVolumesAndReports) {
+  const TemporaryDirectory directory;
+  Volume volume = one_volume();
+  volume.georeference = kPlace;
+  for (const char* name : {"a.obj", "a.ply", "a.glb", "a.stl"}) {
+    write_volume(volume, directory / name);
+    expect_same(read_scene(directory / name).georeference, kPlace);
+  }
+  write_volume(volume, directory / "y.obj", UpAxis::y, 0.5);
+  const Scene read = read_scene(directory / "y.obj", {.up = UpAxis::y, .scale = 0.5});
+  expect_same(read.georeference, kPlace);
+  EXPECT_EQ(bounding_box(read.mesh).max, Vec3(4, 6, 8));
+
+  solid::ResultRequest request;
+  request.volumes = {directory / "b.stl", directory / "c.ply"};
+  solid::write_results(volume, request);
+  expect_same(read_scene(directory / "b.stl").georeference, kPlace);
+  for (const char* name : {"b.report.json", "c.report.json"}) {
+    const json report = json::parse(read_bytes(directory / name));
+    EXPECT_EQ(report["georeference"]["latitude_deg"], kPlace.latitude_deg);
+    EXPECT_EQ(report["georeference"]["projection"], projection_text(kPlace));
+  }
+  volume.georeference.reset();
+  EXPECT_FALSE(json::parse(solid::report_json(volume, measure(volume.mesh))).contains("georeference"));
+}
+
+TEST(Place, IsRefusedWhenGarbled) {
+  const TemporaryDirectory directory;
+  const std::string mesh = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  const auto obj = [&](const std::string& comment) {
+    write_bytes(directory / "a.obj", "# made by hand\n" + comment + "\n" + mesh);
+    return read_scene(directory / "a.obj");
+  };
+  const std::string ours = "# vantage georeference: ";
+  EXPECT_FALSE(obj("# vantage georeferences are fine").georeference);
+  EXPECT_EQ(obj(ours + R"({"latitude_deg": 1, "longitude_deg": 2, "more": []})").georeference->longitude_deg, 2);
+  const auto refused = [&](const std::string& text, const std::string& problem) {
+    expect_input_error([&] { obj(ours + text); }, problem, "a.obj, line 2");
+  };
+  refused("", "it is no JSON object");
+  refused("{", "it is no JSON object");
+  refused("7", "it is no JSON object");
+  refused(R"({"longitude_deg": 2})", "\"latitude_deg\" is missing");
+  refused(R"({"latitude_deg": 91, "longitude_deg": 2})", "\"latitude_deg\" is not a number of at most 90");
+  refused(R"({"latitude_deg": 1, "longitude_deg": "2"})", "\"longitude_deg\" is not a number of at most 180");
+  refused(R"({"latitude_deg": 1, "longitude_deg": 2, "vertical": 3})", "\"vertical\" is not a text");
+  const std::string one = ours + R"({"latitude_deg": 1, "longitude_deg": 2})";
+  EXPECT_TRUE(obj(one + "\n" + one).georeference);
+  expect_input_error([&] { obj(one + "\n" + ours + R"({"latitude_deg": 3, "longitude_deg": 2})"); },
+                     "two georeferences that differ", "a.obj, line 3");
+
+  write_bytes(
+      directory / "a.ply",
+      "ply\nformat ascii 1.0\ncomment vantage georeference: {]\nelement vertex 3\nproperty float x\nproperty "
+      "float y\nproperty float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 "
+      "0\n0 1 0\n3 0 1 2\n");
+  expect_input_error([&] { read_scene(directory / "a.ply"); }, "it is no JSON object", "a.ply, line 3");
+
+  write_scene(one_box(), directory / "a.stl");
+  for (const char* text : {"{]", "{}", "{\"vantage\": 3}", R"({"vantage": {"georeference": 3}})"}) {
+    write_bytes(directory / "a.stl.place.json", text);
+    expect_input_error([&] { read_scene(directory / "a.stl"); }, "georeference", "a.stl.place.json");
+  }
+}
+
+TEST(Place, IsReadFromScenesAndAssetsOfGltf) {
+  const std::string place = R"({"vantage":{"georeference":{"latitude_deg":1,"longitude_deg":2}}})";
+  json gltf = {{"asset", {{"version", "2.0"}}},
+               {"scenes", {{{"nodes", {0}}}}},
+               {"nodes", {{{"mesh", 0}}}},
+               {"meshes", {{{"primitives", {{{"attributes", {{"POSITION", 0}}}}}}}}},
+               {"accessors", {{{"bufferView", 0}, {"componentType", 5126}, {"count", 3}, {"type", "VEC3"}}}},
+               {"bufferViews", {{{"buffer", 0}, {"byteLength", 36}}}},
+               {"buffers", {{{"byteLength", 36}, {"uri", "data:;base64," + std::string(48, 'A')}}}}};
+  EXPECT_FALSE(testing::read_as("a.gltf", gltf.dump()).georeference);
+  json in_scene = gltf, in_asset = gltf;
+  in_scene["scenes"][0]["extras"] = json::parse(place);
+  in_asset["asset"]["extras"] = json::parse(place);
+  EXPECT_EQ(testing::read_as("a.gltf", in_scene.dump()).georeference->latitude_deg, 1);
+  EXPECT_EQ(testing::read_as("a.gltf", in_asset.dump()).georeference->latitude_deg, 1);
+  in_scene["scenes"][0]["extras"]["vantage"]["georeference"]["latitude_deg"] = 100;
+  expect_input_error([&] { testing::read_as("a.gltf", in_scene.dump()); },
+                     "\"latitude_deg\" is not a number of at most", "a.gltf");
+  in_scene["scenes"][0]["extras"] = "anything";
+  EXPECT_FALSE(testing::read_as("a.gltf", in_scene.dump()).georeference);
+}
+
+/// Two triangles, the lower left corner at (x, y).
+std::string square_obj(const std::string& x0, const std::string& y0, const std::string& x1, const std::string& y1) {
+  return "v " + x0 + " " + y0 + " 5\nv " + x1 + " " + y0 + " 5\nv " + x1 + " " + y1 + " 7\nv " + x0 + " " + y1 +
+         " 7\nf 1 2 3 4\n";
+}
+
+TEST(Place, TakesMapCoordinatesIntoTheLocalFrame) {
+  const TemporaryDirectory directory;
+  write_bytes(directory / "a.obj", square_obj("84800.125", "447500.25", "84900.125", "447600.25"));
+  const Scene scene = read_scene(directory / "a.obj", {.crs = "EPSG:28992"});
+  ASSERT_TRUE(scene.georeference);
+  EXPECT_EQ(scene.georeference->source_crs, "EPSG:28992");
+  EXPECT_EQ(scene.georeference->vertical, "as in a.obj");
+  const Box box = bounding_box(scene.mesh);
+  EXPECT_EQ(box.min.z(), 5);
+  EXPECT_EQ(box.max.z(), 7);
+  // The centre is the origin; RD is turned by 0.8 degrees there, its scale is right to 1e-4.
+  EXPECT_LT(((box.min + box.max) / 2).head<2>().norm(), 1e-3);
+  EXPECT_NEAR((scene.mesh.vertices[0] - scene.mesh.vertices[1]).norm(), 100, 0.01);
+  EXPECT_NEAR((scene.mesh.vertices[1] - scene.mesh.vertices[0]).y(), 100 * std::sin(0.8 / 57.3), 0.02);
+  // And back: the coordinates of the file, but for the height that changes of datum leave out.
+  const geo::CoordinateSystem rd("EPSG:28992", "test");
+  const geo::LocalFrame frame({scene.georeference->longitude_deg, scene.georeference->latitude_deg});
+  const Eigen::Vector2d back = rd.from_lonlat(frame.to_lonlat(scene.mesh.vertices[2].head<2>()));
+  EXPECT_LT((back - Eigen::Vector2d(84900.125, 447600.25)).norm(), 1e-3);
+
+  const std::array<double, 2> origin = {52.01, 4.36};
+  const Scene about = read_scene(directory / "a.obj", {.crs = "EPSG:28992", .origin_deg = origin});
+  EXPECT_EQ(about.georeference->latitude_deg, 52.01);
+  EXPECT_EQ(about.georeference->longitude_deg, 4.36);
+  EXPECT_LT((rd.from_lonlat(geo::LocalFrame({4.36, 52.01}).to_lonlat(about.mesh.vertices[2].head<2>())) - back).norm(),
+            1e-6);
+
+  // A volume computed there is read about another origin.
+  write_scene(scene, directory / "b.ply");
+  const Scene moved = read_scene(directory / "b.ply", {.origin_deg = origin});
+  for (std::size_t t = 0; t < 2; ++t) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3& vertex = moved.mesh.vertices[moved.mesh.triangles[t][k]];
+      EXPECT_LT((vertex - about.mesh.vertices[about.mesh.triangles[t][k]]).norm(), 1e-6);
+    }
+  }
+  expect_input_error([&] { read_scene(directory / "b.ply", {.crs = "EPSG:28992"}); }, "in a local frame already",
+                     "b.ply");
+}
+
+TEST(Place, TakesTurnsUnitsAndDegrees) {
+  const TemporaryDirectory directory;
+  // y up: north is -z. The scale is that of z alone.
+  write_bytes(directory / "y.obj", "v 84800 1 -447500\nv 84900 1 -447500\nv 84900 3 -447600\nf 1 2 3\n");
+  const Scene turned = read_scene(directory / "y.obj", {.up = UpAxis::y, .scale = 0.5, .crs = "EPSG:28992"});
+  EXPECT_NEAR((turned.mesh.vertices[0] - turned.mesh.vertices[1]).norm(), 100, 0.01);
+  EXPECT_EQ(turned.mesh.vertices[2].z(), 1.5);
+  EXPECT_EQ(turned.scale, 1);
+
+  write_bytes(directory / "d.obj", square_obj("4.36", "52.01", "4.361", "52.011"));
+  const Scene degrees = read_scene(directory / "d.obj", {.crs = "EPSG:4326"});
+  EXPECT_NEAR((degrees.mesh.vertices[3] - degrees.mesh.vertices[0]).norm(), 111.29, 0.05);
+
+  write_bytes(directory / "f.obj", square_obj("987000", "211000", "987328", "211328"));
+  const Scene feet = read_scene(directory / "f.obj", {.crs = "EPSG:2263"});
+  EXPECT_NEAR((feet.mesh.vertices[0] - feet.mesh.vertices[1]).norm(), 100, 0.1);
+  ASSERT_EQ(feet.notes.size(), 1u);
+  EXPECT_NE(feet.notes[0].find("x and y are in feet"), std::string::npos);
+  EXPECT_TRUE(read_scene(directory / "f.obj", {.scale = 0.3048, .crs = "EPSG:2263"}).notes.empty());
+}
+
+TEST(Place, PutsLocalMeshesAtAnOrigin) {
+  const TemporaryDirectory directory;
+  write_bytes(directory / "a.obj", square_obj("0", "0", "100", "100"));
+  const Scene scene = read_scene(directory / "a.obj", {.origin_deg = std::array<double, 2>{35.2249, -80.8403}});
+  EXPECT_EQ(scene.georeference->latitude_deg, 35.2249);
+  EXPECT_EQ(scene.mesh.vertices[2], Vec3(100, 100, 7));
+  write_bytes(directory / "b.obj", square_obj("84800", "447500", "84900", "447600"));
+  expect_input_error(
+      [&] {
+        read_scene(directory / "b.obj", {.origin_deg = std::array<double, 2>{52, 4}});
+      },
+      "goes 448 km from its origin", "b.obj");
+}
+
+TEST(Place, RefusesWhatIsNowhere) {
+  const TemporaryDirectory directory;
+  write_bytes(directory / "a.obj", square_obj("0", "0", "100", "100"));
+  expect_input_error([&] { read_scene(directory / "a.obj", {.crs = "EPSG:999999"}); }, "EPSG:999999", "a.obj");
+  expect_input_error(
+      [&] {
+        read_scene(directory / "a.obj", {.origin_deg = std::array<double, 2>{95, 4}});
+      },
+      "latitude", "");
+}
+
+}  // namespace
+}  // namespace vantage

@@ -1,0 +1,179 @@
+// Scenes of many objects, written and read again.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "support/temporary_directory.h"
+#include "vantage/error.h"
+#include "vantage/scene.h"
+
+namespace vantage {
+namespace {
+
+using testing::read_bytes;
+using testing::TemporaryDirectory;
+
+/// Adds a tetrahedron with vertices of its own.
+void add_tetrahedron(Scene& scene, const Vec3& at, double size, std::uint32_t object) {
+  const auto first = static_cast<std::uint32_t>(scene.mesh.vertices.size());
+  for (const Vec3& corner : {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)}) {
+    scene.mesh.vertices.push_back(at + size * corner);
+  }
+  for (const Triangle& t : {Triangle{0, 2, 1}, Triangle{0, 1, 3}, Triangle{0, 3, 2}, Triangle{1, 2, 3}}) {
+    scene.mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+    scene.object_of.push_back(object);
+  }
+}
+
+/// Objects whose triangles lie mixed, awkward names, UTM-sized and awkward coordinates, an object and a vertex that
+/// nothing uses.
+Scene awkward_scene() {
+  Scene scene;
+  scene.objects = {"way/265517 Straße \"7\"", "unused", "two\nlines", "", "way/265517 Straße \"7\"", "back\\slash\\"};
+  const Vec3 far(580000.1, 4785000.2, 1000.3);
+  add_tetrahedron(scene, far, 10.0 / 3, 4);
+  add_tetrahedron(scene, far + Vec3(1000.7, 0, 0), 1e-3, 0);
+  add_tetrahedron(scene, Vec3(-0.1, 1.0 / 3, 1e-9), 20, 2);
+  add_tetrahedron(scene, Vec3(0, 0, 0), 30, 5);
+  add_tetrahedron(scene, far + Vec3(50, 7, 7), 1, 4);
+  scene.mesh.vertices.emplace_back(9e8, 0, 0);
+  add_tetrahedron(scene, Vec3(70, 7, 7), 1, 3);
+  return scene;
+}
+
+/// The corners of an object's triangles, in the order of the scene's triangles.
+std::vector<Vec3> corners_of(const Scene& scene, std::uint32_t object) {
+  std::vector<Vec3> corners;
+  for (std::size_t t = 0; t < scene.mesh.triangles.size(); ++t) {
+    if (scene.object_of[t] != object) continue;
+    for (const std::uint32_t vertex : scene.mesh.triangles[t]) corners.push_back(scene.mesh.vertices[vertex]);
+  }
+  return corners;
+}
+
+void expect_same_objects(const Scene& wrote, const Scene& read, double tolerance) {
+  const std::vector<std::uint32_t> kept = {0, 2, 3, 4, 5};
+  const std::vector<std::string> names = {"way/265517 Straße \"7\"", "two lines", "object 3", "way/265517 Straße \"7\"",
+                                          "back\\slash\\"};
+  ASSERT_EQ(read.objects, names);
+  ASSERT_EQ(read.mesh.triangles.size(), wrote.mesh.triangles.size());
+  EXPECT_EQ(read.mesh.vertices.size(), wrote.mesh.vertices.size() - 1);
+  for (std::uint32_t i = 0; i < kept.size(); ++i) {
+    const std::vector<Vec3> expected = corners_of(wrote, kept[i]), found = corners_of(read, i);
+    ASSERT_EQ(found.size(), expected.size()) << names[i];
+    for (std::size_t k = 0; k < found.size(); ++k) EXPECT_LE((found[k] - expected[k]).norm(), tolerance) << names[i];
+  }
+}
+
+TEST(WriteScene, ObjKeepsObjectsAndEveryBit) {
+  const TemporaryDirectory directory;
+  const Scene scene = awkward_scene();
+  write_scene(scene, directory / "scene.obj");
+  expect_same_objects(scene, read_scene(directory / "scene.obj"), 0);
+}
+
+TEST(WriteScene, GlbKeepsObjectsWhereverTheyLie) {
+  const TemporaryDirectory directory;
+  const Scene scene = awkward_scene();
+  write_scene(scene, directory / "scene.glb");
+  expect_same_objects(scene, read_scene(directory / "scene.glb"), 4e-6);
+}
+
+TEST(WriteScene, PlyIsOneMeshWithEveryBit) {
+  const TemporaryDirectory directory;
+  const Scene scene = awkward_scene();
+  write_scene(scene, directory / "scene.ply");
+  const Scene read = read_scene(directory / "scene.ply");
+  EXPECT_EQ(read.objects, std::vector<std::string>{"scene"});
+  ASSERT_EQ(read.mesh.triangles.size(), scene.mesh.triangles.size());
+  for (std::size_t t = 0; t < read.mesh.triangles.size(); ++t) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_EQ(read.mesh.vertices[read.mesh.triangles[t][k]], scene.mesh.vertices[scene.mesh.triangles[t][k]]);
+    }
+  }
+}
+
+TEST(WriteScene, StlIsOneMesh) {
+  const TemporaryDirectory directory;
+  const Scene scene = awkward_scene();
+  write_scene(scene, directory / "scene.stl");
+  const Scene read = read_scene(directory / "scene.stl");
+  EXPECT_EQ(read.mesh.triangles.size(), scene.mesh.triangles.size());
+  EXPECT_FALSE(std::filesystem::exists(directory / "scene.stl.place.json"));
+}
+
+TEST(WriteScene, GlbIsWhatTheSpecificationAsksFor) {
+  const TemporaryDirectory directory;
+  write_scene(awkward_scene(), directory / "scene.glb");
+  const std::string bytes = read_bytes(directory / "scene.glb");
+  ASSERT_EQ(bytes.substr(0, 4), "glTF");
+  std::uint32_t length = 0, json_length = 0;
+  std::memcpy(&length, bytes.data() + 8, 4);
+  std::memcpy(&json_length, bytes.data() + 12, 4);
+  EXPECT_EQ(length, bytes.size());
+  ASSERT_EQ(json_length % 4, 0u);
+  const auto json = nlohmann::json::parse(bytes.substr(20, json_length));
+  EXPECT_EQ(json["asset"]["version"], "2.0");
+  EXPECT_EQ(json["nodes"].size(), 5u);
+  EXPECT_EQ(json["scenes"][0]["nodes"].size(), 5u);
+  std::uint32_t binary = 0;
+  std::memcpy(&binary, bytes.data() + 20 + json_length, 4);
+  EXPECT_EQ(json["buffers"][0]["byteLength"], binary);
+  const auto& views = json["bufferViews"];
+  EXPECT_EQ(views[0]["byteLength"].get<std::size_t>() + views[1]["byteLength"].get<std::size_t>(), binary);
+  std::size_t positions = 0, indices = 0;
+  for (std::size_t i = 0; i < 5; ++i) {
+    const auto& primitive = json["meshes"][i]["primitives"][0];
+    const auto& accessor = json["accessors"][primitive["attributes"]["POSITION"].get<std::size_t>()];
+    EXPECT_EQ(accessor["byteOffset"], positions);
+    for (int axis = 0; axis < 3; ++axis) EXPECT_LE(accessor["min"][axis], accessor["max"][axis]);
+    positions += accessor["count"].get<std::size_t>() * 12;
+    const auto& index = json["accessors"][primitive["indices"].get<std::size_t>()];
+    EXPECT_EQ(index["byteOffset"], indices);
+    indices += index["count"].get<std::size_t>() * 4;
+  }
+  EXPECT_EQ(views[0]["byteLength"], positions);
+  EXPECT_EQ(views[1]["byteLength"], indices);
+}
+
+TEST(WriteScene, RefusesWhatDoesNotFitTogether) {
+  const TemporaryDirectory directory;
+  const auto problem = [&](const Scene& scene, const char* name) {
+    try {
+      write_scene(scene, directory / name);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::input);
+      return error.problem() + " | " + error.where();
+    }
+    return std::string("none");
+  };
+  EXPECT_EQ(problem(Scene(), "a.obj"), "the scene holds no triangles | ");
+  Scene scene = awkward_scene();
+  EXPECT_EQ(problem(scene, "a.xyz"), "unknown output format \".xyz\" | " + (directory / "a.xyz").string());
+  scene.object_of[3] = 6;
+  EXPECT_EQ(problem(scene, "a.obj"), "an object index is out of range | triangle 3");
+  scene.object_of.pop_back();
+  EXPECT_EQ(problem(scene, "a.obj"), "the scene has 24 triangles but objects of 23 | ");
+  scene = awkward_scene();
+  scene.mesh.triangles[7][1] = 25;
+  EXPECT_EQ(problem(scene, "a.obj"), "a vertex index is out of range | triangle 7");
+  scene = awkward_scene();
+  scene.mesh.vertices[2].y() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(problem(scene, "a.glb"), "a coordinate is not finite | vertex 2");
+  EXPECT_TRUE(std::filesystem::is_empty(directory.path()));
+}
+
+TEST(WriteScene, KeepsTheOldFileWhenItCannotWrite) {
+  const TemporaryDirectory directory;
+  write_scene(awkward_scene(), directory / "scene.obj");
+  const std::string old = read_bytes(directory / "scene.obj");
+  EXPECT_THROW(write_scene(Scene(), directory / "scene.obj"), Error);
+  EXPECT_EQ(read_bytes(directory / "scene.obj"), old);
+  EXPECT_THROW(write_scene(awkward_scene(), directory / "missing" / "scene.obj"), Error);
+}
+
+}  // namespace
+}  // namespace vantage
