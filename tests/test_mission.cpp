@@ -92,9 +92,9 @@ exact: {tolerance: 0.02}
                                              "/data/missions/plaza.yaml");
   const Mission& mission = parsed.mission;
   EXPECT_EQ(mission.file, "/data/missions/plaza.yaml");
-  EXPECT_EQ(mission.scene_file, "/data/missions/../city.obj") << "missions may be a symbolic link";
-  EXPECT_EQ(mission.scene_options.up, UpAxis::y);
-  EXPECT_EQ(mission.scene_options.scale, 0.5);
+  EXPECT_EQ(mission.scene.file, "/data/missions/../city.obj") << "missions may be a symbolic link";
+  EXPECT_EQ(mission.scene.mesh.up, UpAxis::y);
+  EXPECT_EQ(mission.scene.mesh.scale, 0.5);
   EXPECT_EQ(mission.target.name, "plaza, north");
   ASSERT_EQ(mission.target.vertices.size(), 3U);
   EXPECT_EQ(mission.target.vertices[2], Vec3(0, 10, 1));
@@ -126,8 +126,8 @@ exact: {tolerance: 0.02}
 
 TEST(Mission, HasDefaults) {
   const Mission mission = parse(mission_text(""));
-  EXPECT_EQ(mission.scene_options.up, UpAxis::z);
-  EXPECT_EQ(mission.scene_options.scale, 1.0);
+  EXPECT_EQ(mission.scene.mesh.up, UpAxis::z);
+  EXPECT_EQ(mission.scene.mesh.scale, 1.0);
   EXPECT_EQ(mission.target.name, "target");
   EXPECT_EQ(mission.target.offset_m, 0.0);
   EXPECT_FALSE(mission.target.front.has_value());
@@ -135,7 +135,7 @@ TEST(Mission, HasDefaults) {
   EXPECT_EQ(mission.exact.tolerance_m, ExactOptions{}.tolerance_m);
   EXPECT_EQ(mission.exact.threads, 0);
   EXPECT_TRUE(mission.file.is_absolute());
-  EXPECT_EQ(mission.scene_file, mission.file.parent_path() / "city.obj");
+  EXPECT_EQ(mission.scene.file, mission.file.parent_path() / "city.obj");
   EXPECT_TRUE(parse(mission_text("navigation:\n")).navigation.empty()) << "the heading alone is no limit";
 }
 
@@ -492,7 +492,7 @@ TEST_F(MissionFiles, AreReadRelativeToTheMission) {
   EXPECT_EQ(mission.navigation.meshes[0].mesh.vertices.size(), 4U);
   EXPECT_NEAR(enclosed_volume(mission.navigation.meshes[0].mesh), 50.0 * 50 * 50 / 6, 1e-6);
   EXPECT_EQ(bounding_box(mission.navigation.meshes[0].mesh).min, Vec3(0, -50, 0)) << "y up, as the scene's file";
-  EXPECT_EQ(mission.scene_file, fs::canonical(folder_) / "meshes/city.obj");
+  EXPECT_EQ(mission.scene.file, fs::canonical(folder_) / "meshes/city.obj");
   ASSERT_EQ(mission.navigation_files.size(), 1U);
   EXPECT_EQ(mission.navigation_files[0], fs::canonical(folder_) / "meshes/zone.obj");
 }
@@ -502,7 +502,7 @@ TEST_F(MissionFiles, MayLieInALinkedFolder) {
   write("data/city.obj", kTetrahedron);
   write("data/missions/mission.yaml", mission_text("", kTarget, kSensor, "scene: {mesh: ../city.obj}\n"));
   fs::create_directory_symlink(folder_ / "data/missions", folder_ / "here");
-  EXPECT_EQ(read_mission(folder_ / "here/mission.yaml").scene_file, fs::canonical(folder_) / "data/city.obj");
+  EXPECT_EQ(read_mission(folder_ / "here/mission.yaml").scene.file, fs::canonical(folder_) / "data/city.obj");
 }
 
 TEST_F(MissionFiles, ThatAreMissing) {

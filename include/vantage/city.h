@@ -80,7 +80,7 @@ struct CityReport {
   std::vector<CityRecord> records;
   std::size_t outside = 0;         ///< left out because of the region
   std::vector<std::string> notes;  ///< on the file and the terrain: voids filled, missing references, not sorted
-  double read_seconds = 0, build_seconds = 0, check_seconds = 0;
+  double read_seconds = 0, build_seconds = 0;  ///< checking is part of building
 };
 
 struct City {

@@ -1,12 +1,15 @@
 // Mission files: docs/mission-file.md.
 #pragma once
 
+#include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "vantage/constraints.h"
 #include "vantage/scene.h"
+#include "vantage/scene_source.h"
 #include "vantage/spheres.h"
 #include "vantage/target.h"
 #include "vantage/volume.h"
@@ -19,12 +22,27 @@ enum class Method {
   spheres,  ///< compute_visibility_spheres
 };
 
+/// A target by what people know. It is laid on the scene's ground: in the plane nearest to the ground under it, raised
+/// until no ground under it lies above that.
+struct GroundTarget {
+  std::string osm;  ///< an area of the scene's map, "way/123"; not convex: its convex parts; or
+  std::optional<std::array<double, 2>> center_deg;  ///< latitude and longitude (WGS 84) of a rectangle's centre
+  double width_m = 0, length_m = 0;                 ///< > 0; the length runs along the heading
+  double heading_deg = 0;                           ///< clockwise from north
+};
+
 /// A mission file, read and checked. Paths are absolute; navigation meshes are read.
 struct Mission {
   std::filesystem::path file;
-  std::filesystem::path scene_file;
-  SceneReadOptions scene_options;
+  SceneSource scene;
   Target target;
+  std::vector<Target> other_parts;  ///< of a target that is not convex: the volume is that of all parts together
+
+  /// What read_mission_scene resolves. Until then the coordinates of the target and of the boxes are in this reference
+  /// system ("EPSG:4326": longitude, latitude, z); empty: the scene frame. With a GroundTarget the target is not there.
+  std::string crs;
+  std::optional<GroundTarget> ground_target;
+
   Sensor sensor;
   Navigation navigation;
   Method method = Method::exact;
@@ -38,6 +56,14 @@ struct Mission {
 /// unknown key (with the nearest known one), a wrong type, a number that is NaN or infinite, a missing required key,
 /// edges that do not describe the vertices' polygon, and all that make_target_frame and the navigation checks refuse.
 Mission read_mission(const std::filesystem::path& file);
+
+/// Reads the mission's scene, and puts what the mission gives on the earth or by name into its frame: afterwards `crs`
+/// and `ground_target` are empty, `target`, `other_parts` and the boxes complete. Boxes lie askew in the frame: a box
+/// to stay in becomes the largest one of the frame inside it, a box to stay out of the smallest round it. Throws as
+/// load_scene does, and Error(input) with the place in the mission file for: a scene that does not say where on the
+/// earth it lies, a position without a value, an object that the map does not have, a target that reaches beyond the
+/// ground, and all that make_target_frame refuses.
+LoadedScene read_mission_scene(Mission& mission, const Progress& progress = {});
 
 /// All that `vantage compute` does but writing: reads the scene, prepares it, computes, cuts. Fills Volume::seconds.
 /// Uses at most `mission.exact.threads` threads for all of it. Throws as read_scene, the method and

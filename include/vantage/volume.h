@@ -37,6 +37,7 @@ enum class Outcome {
   blocked_at_once,  ///< the front is covered by the scene within a hand's breadth: most likely the wrong side. Of
                     ///< spheres: a vertex sees nothing, or no point is in all of them
   outside_limits,   ///< the navigation limits leave nothing
+  no_common_view,   ///< of a target in parts: no point sees all of them
 };
 
 /// Work done at each stage, for reports and for those who tune.
@@ -104,6 +105,14 @@ Volume compute_visibility(const PreparedScene& scene, const Target& target, cons
 /// mesh that is open, inside out or intersects itself) and for a volume whose arrays do not fit together;
 /// Error(cancelled) when told to stop; Error(internal) when a boolean operation fails.
 Volume cut_to_navigation(const Volume& volume, const Navigation& navigation, const Progress& progress = {});
+
+/// What all the volumes claim: that of a target in parts is the intersection of its parts' volumes. May have several
+/// pieces, each closed; facets keep their causes, and causes of the same kind and name become one. Tolerance and lift
+/// are the largest of the volumes', the frame is the first one's, seconds and counts are sums. Where one of the volumes
+/// is empty, so is the result, with its outcome and reason; where they have nothing in common, Outcome::no_common_view.
+/// Throws Error(input) for no volumes and for one whose arrays do not fit together; Error(cancelled) when told to stop;
+/// Error(internal) when a boolean operation fails. Cost: a boolean operation per volume, O(n log n) in the facets.
+Volume intersect_volumes(const std::vector<Volume>& volumes, const Progress& progress = {});
 
 /// Topology and size of a closed mesh. `euler` is V - E + F over all pieces: 2 per piece of genus 0.
 struct MeshMeasures {

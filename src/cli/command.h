@@ -29,6 +29,7 @@ void add_compare(CLI::App& app, Command& chosen);
 void add_devices(CLI::App& app, Command& chosen);
 void add_spheres(CLI::App& app, Command& chosen);
 void add_render(CLI::App& app, Command& chosen);
+void add_scene(CLI::App& app, Command& chosen);
 
 /// Options of every command.
 struct CommonOptions {

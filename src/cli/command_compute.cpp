@@ -77,10 +77,10 @@ Mission with_options(const Mission& read, const Options& options) {
 solid::WrittenResults write(const Options& options, const Mission& mission, MissionRun& run, const Progress& progress) {
   solid::ResultRequest request;
   request.volumes.assign(options.outputs.begin(), options.outputs.end());
-  request.obj_up = run.scene_up;
-  request.obj_scale = run.scene_scale;
+  request.obj_up = run.loaded.scene.up;
+  request.obj_scale = run.loaded.scene.scale;
   request.source.mission = mission.file.string();
-  request.source.scene = mission.scene_file.string();
+  request.source.scene = mission.scene.file.string();
   request.source.target = mission.target.name;
   if (run.spheres) request.source.spheres = solid::SpheresRun{mission.spheres, *run.spheres};
   return solid::write_results(run.volume, request, progress);
@@ -166,7 +166,7 @@ int run(const Options& options) {
     check_not_an_input(output, input_files(read));
     check_not_an_input(solid::report_file(output), input_files(read));
   }
-  const Mission mission = with_options(read, options);
+  Mission mission = with_options(read, options);
   std::optional<StageFolder> stages;
   if (!options.stages.empty()) stages.emplace(options.stages);
 

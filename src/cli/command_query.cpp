@@ -1,5 +1,6 @@
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -59,13 +60,29 @@ std::string read_all(const std::string& file) {
   return text;
 }
 
+/// The whole target is seen where all its parts are.
+void narrow(std::vector<PointAnswer>& answers, const std::vector<PointAnswer>& of_part) {
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    PointAnswer& answer = answers[i];
+    const PointAnswer& other = of_part[i];
+    answer.inside = answer.inside && other.inside;
+    answer.margin_m = std::min(answer.margin_m, other.margin_m);
+    std::vector<std::string> blockers;
+    std::set_union(answer.blocked_by.begin(), answer.blocked_by.end(), other.blocked_by.begin(), other.blocked_by.end(),
+                   std::back_inserter(blockers));
+    answer.blocked_by = std::move(blockers);
+    answer.out_of_range = answer.out_of_range || other.out_of_range;
+    answer.behind_target = answer.behind_target || other.behind_target;
+  }
+}
+
 int run(const Options& options) {
   const bool is_from_stdin = options.points_file == "-";
   if (!options.output_file.empty()) {
     check_can_write(options.output_file);
     if (!is_from_stdin) check_not_an_input(options.output_file, {options.points_file});
   }
-  const Mission mission = read_mission(options.mission_file);
+  Mission mission = read_mission(options.mission_file);
   if (!options.output_file.empty()) check_not_an_input(options.output_file, input_files(mission));
   if (mission.method == Method::spheres && !options.common.quiet) {
     note("the mission's method is spheres; queries are always answered exactly, for the whole target");
@@ -77,11 +94,15 @@ int run(const Options& options) {
       parse_points(read_all(options.points_file), is_from_stdin ? "standard input" : options.points_file);
 
   ProgressLine progress(options.common);
-  const PreparedScene scene(read_scene(mission.scene_file, mission.scene_options, progress.callback()),
-                            progress.callback());
-  const std::vector<PointAnswer> answers = mission_io::with_place(mission.target_place, [&] {
+  const PreparedScene scene(read_mission_scene(mission, progress.callback()).scene, progress.callback());
+  std::vector<PointAnswer> answers = mission_io::with_place(mission.target_place, [&] {
     return query_points(scene, mission.target, mission.sensor, mission.navigation, points);
   });
+  for (const Target& part : mission.other_parts) {
+    narrow(answers, mission_io::with_place(mission.target_place, [&] {
+             return query_points(scene, part, mission.sensor, mission.navigation, points);
+           }));
+  }
   const std::string text = answers_text(points, answers);
   stop_if_interrupted();
   if (options.output_file.empty()) {

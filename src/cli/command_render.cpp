@@ -45,17 +45,19 @@ void check_output(const std::string& output) {
   check_can_write(output);
 }
 
-Picture picture(const Options& options, const Mission& mission, const PictureView& view, std::array<int, 2> size,
+Picture picture(const Options& options, Mission& mission, const PictureView& view, std::array<int, 2> size,
                 const Progress& progress) {
   Volume volume;
-  const bool is_given = !options.volume_file.empty();
-  if (is_given) {
-    volume = read_volume(options.volume_file, mission.scene_options, progress);
+  Scene scene;
+  if (!options.volume_file.empty()) {
+    volume = read_volume(options.volume_file, mission_io::result_axes(mission.scene), progress);
+    scene = read_mission_scene(mission, progress).scene;
   } else {
-    volume = mission_io::run_mission(mission, progress).volume;
+    mission_io::MissionRun run = mission_io::run_mission(mission, progress);
+    volume = std::move(run.volume);
+    scene = std::move(run.loaded.scene);
     if (volume.outcome != Outcome::computed && !options.common.quiet) note("no volume: " + volume.reason);
   }
-  const Scene scene = read_scene(mission.scene_file, mission.scene_options, progress);
   PictureRequest request;
   request.target = &mission.target;
   request.volume = &volume;
@@ -68,10 +70,10 @@ Picture picture(const Options& options, const Mission& mission, const PictureVie
   return render_picture(scene, request, progress);
 }
 
-Picture sheet(const Options& options, const Mission& mission, const PictureView& view, std::array<int, 2> size,
+Picture sheet(const Options& options, Mission& mission, const PictureView& view, std::array<int, 2> size,
               const Progress& progress) {
   const std::vector<StageFile> stages = read_stages(options.stages);
-  const Scene scene = read_scene(mission.scene_file, mission.scene_options, progress);
+  const Scene scene = read_mission_scene(mission, progress).scene;
   return stage_sheet(mission, scene, stages, view, size, progress);
 }
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -108,19 +109,35 @@ std::string table_text(const VerifyReport& report, double lift, std::size_t hole
   return table.text();
 }
 
+/// A volume is right for a target in parts when it is for each part. What it leaves unclaimed is not judged: the part
+/// that hides there may be another one.
+void add(const VerifyReport& part, VerifyReport& report) {
+  report.points += part.points;
+  report.inside += part.inside;
+  report.rays += part.rays;
+  report.over_claimed += part.over_claimed;
+  report.under_claimed = 0;
+  report.worst_under_depth_m = 0;
+  if (part.worst_over_depth_m > report.worst_over_depth_m) {
+    report.worst_over_depth_m = part.worst_over_depth_m;
+    report.worst_over_point = part.worst_over_point;
+    report.worst_over_cause = part.worst_over_cause;
+  }
+  report.over_claim_bound = std::min(1.0, report.over_claim_bound + part.over_claim_bound);
+  report.bound_points = std::min(report.bound_points, part.bound_points);
+}
+
 int run(const Options& options) {
   mission_io::check_readable(options.volume_file, "the volume", "");
-  const Mission mission = read_mission(options.mission_file);
+  Mission mission = read_mission(options.mission_file);
   ProgressLine progress(options.common);
-  const Scene scene = read_scene(mission.scene_file, mission.scene_options, progress.callback());
+  const Scene scene = read_mission_scene(mission, progress.callback()).scene;
 
   SceneReadOptions volume_options;
   if (mission_io::is_obj(options.volume_file)) volume_options = {scene.up, scene.scale};  // as compute writes it
   const Mesh volume = read_scene(options.volume_file, volume_options, progress.callback()).mesh;
   const std::size_t holes = count_open_edges(volume);
-  Target target = mission.target;
   const double lift = options.lift_m < 0 ? reported_lift(options.volume_file) : options.lift_m;
-  target.offset_m += lift;
 
   VerifyReport report;
   if (holes == 0) {
@@ -128,10 +145,15 @@ int run(const Options& options) {
     verify_options.points = options.points;
     verify_options.seed = options.seed;
     verify_options.tolerance_m = mission.exact.tolerance_m;
-    report = mission_io::with_place(mission.target_place, [&] {
-      return verify_volume(scene, target, mission.sensor, mission.navigation, volume, verify_options,
-                           progress.callback());
-    });
+    const auto verify = [&](Target target) {
+      target.offset_m += lift;
+      return mission_io::with_place(mission.target_place, [&] {
+        return verify_volume(scene, target, mission.sensor, mission.navigation, volume, verify_options,
+                             progress.callback());
+      });
+    };
+    report = verify(mission.target);
+    for (const Target& part : mission.other_parts) add(verify(part), report);
   } else {  // a mesh with holes has no inside to try points in
     report.euler = measure(volume).euler;
     report.seed = options.seed;
@@ -139,6 +161,10 @@ int run(const Options& options) {
   if (options.json) {
     print(json_text(report, lift, holes));
   } else if (!options.common.quiet) {
+    if (!mission.other_parts.empty()) {
+      note("the target has " + std::to_string(mission.other_parts.size() + 1) +
+           " convex parts: each is checked for over-claims; what is left unclaimed is not judged");
+    }
     print(table_text(report, lift, holes, options.volume_file));
   }
   return is_right(report) ? kSuccess : kCheckFailed;

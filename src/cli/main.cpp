@@ -18,6 +18,7 @@ namespace {
 
 constexpr const char* kExamples =
     "EXAMPLES\n"
+    "  vantage scene city.osm.pbf --center 40.7484,-73.9857 --radius 600 -o scene.glb\n"
     "  vantage inspect city.obj --up y\n"
     "  vantage compute mission.yaml -o volume.ply\n"
     "  vantage query mission.yaml points.csv > answers.csv\n"
@@ -117,6 +118,7 @@ int run(int argument_count, char** arguments) {
   app.require_subcommand(1);
   app.footer(kExamples);
   Command chosen;
+  add_scene(app, chosen);
   add_inspect(app, chosen);
   add_compute(app, chosen);
   add_query(app, chosen);

@@ -98,7 +98,7 @@ std::string picture_subtitle(const Mission& mission, const Volume* volume) {
   } else if (volume != nullptr) {
     text += dot + grouped(enclosed_volume(volume->mesh)) + "\u2009m\u00b3";
   }
-  return text + dot + mission.scene_file.filename().string();
+  return text + dot + mission.scene.file.filename().string();
 }
 
 Volume read_volume(const std::string& file, const SceneReadOptions& scene, const Progress& progress) {

@@ -7,6 +7,7 @@
 #include "cli/plain_volume.h"
 #include "cli/text_table.h"
 #include "mission/input_file.h"
+#include "mission/run_mission.h"
 #include "vantage/error.h"
 #include "vantage/volume.h"
 
@@ -51,9 +52,10 @@ class SheetMaker {
   void load(const std::vector<StageFile>& stages) {
     for (const StageFile& stage : stages) {
       if (stage.mesh.empty()) continue;
-      if (stage.kind == "result") result_ = read_volume(stage.mesh.string(), mission_.scene_options, progress_);
+      if (stage.kind == "result")
+        result_ = read_volume(stage.mesh.string(), mission_io::result_axes(mission_.scene), progress_);
       if (stage.kind == "sphere" && frame_.empty()) {
-        frame_ = read_volume(stage.mesh.string(), mission_.scene_options, progress_).mesh.vertices;
+        frame_ = read_volume(stage.mesh.string(), mission_io::result_axes(mission_.scene), progress_).mesh.vertices;
       }
     }
     frame_.insert(frame_.end(), result_.mesh.vertices.begin(), result_.mesh.vertices.end());
@@ -93,7 +95,7 @@ class SheetMaker {
         ++left;
         continue;
       }
-      const Volume volume = read_volume(stage.mesh.string(), mission_.scene_options, progress_);
+      const Volume volume = read_volume(stage.mesh.string(), mission_io::result_axes(mission_.scene), progress_);
       panel(stage.name + ", Euler number " + std::to_string(stage.euler), &volume, view_, false);
       ++drawn;
     }

@@ -28,30 +28,37 @@ namespace mission_io {
 
 namespace {
 
-Volume compute(const Mission& mission, const PreparedScene& scene, const Progress& progress, const StageSink& stages,
-               std::optional<SpheresReport>& report) {
+Volume compute_part(const Mission& mission, const Target& target, const PreparedScene& scene, const Progress& progress,
+                    const StageSink& stages, std::optional<SpheresReport>& report) {
   if (mission.method == Method::exact) {
-    return compute_visibility(scene, mission.target, mission.sensor, mission.exact, progress);
+    return compute_visibility(scene, target, mission.sensor, mission.exact, progress);
   }
   SpheresOptions options = mission.spheres;
   options.threads = 0;  // those of the arena that the mission runs in
-  return compute_visibility_spheres(scene, mission.target, mission.sensor, options, &report.emplace(), stages,
-                                    progress);
+  return compute_visibility_spheres(scene, target, mission.sensor, options, &report.emplace(), stages, progress);
+}
+
+Volume compute(const Mission& mission, const PreparedScene& scene, const Progress& progress, const StageSink& stages,
+               std::optional<SpheresReport>& report) {
+  if (mission.other_parts.empty()) return compute_part(mission, mission.target, scene, progress, stages, report);
+  std::vector<Volume> volumes{compute_part(mission, mission.target, scene, progress, stages, report)};
+  for (const Target& part : mission.other_parts) {
+    volumes.push_back(compute_part(mission, part, scene, progress, stages, report));
+  }
+  return intersect_volumes(volumes, progress);
 }
 
 /// Errors about devices are of no place in the mission's target.
 bool is_about_target(const Error& error) { return error.where().starts_with("target"); }
 
-MissionRun run_stages(const Mission& mission, const Progress& progress, const StageSink& stages) {
+MissionRun run_stages(Mission& mission, const Progress& progress, const StageSink& stages) {
   MissionRun run;
   Seconds seconds;
   Stopwatch stopwatch;
-  const Scene scene = read_scene(mission.scene_file, mission.scene_options, progress);
-  run.scene_up = scene.up;
-  run.scene_scale = scene.scale;
+  run.loaded = read_mission_scene(mission, progress);
   seconds.read = stopwatch.lap();
 
-  const PreparedScene prepared(scene, progress);
+  const PreparedScene prepared(run.loaded.scene, progress);
   run.scene = prepared.statistics();
   seconds.prepare = stopwatch.lap();
 
@@ -70,13 +77,22 @@ MissionRun run_stages(const Mission& mission, const Progress& progress, const St
   }
   seconds.total = seconds.read + seconds.prepare + seconds.engine + seconds.navigation;
   run.volume.seconds = seconds;
-  run.volume.georeference = scene.georeference;
+  run.volume.georeference = run.loaded.scene.georeference;
   return run;
 }
 
 }  // namespace
 
-MissionRun run_mission(const Mission& mission, const Progress& progress, const StageSink& stages) {
+SceneReadOptions result_axes(const SceneSource& scene) {
+  SceneReadOptions axes;
+  if (scene.kind == SceneSource::Kind::mesh && scene.mesh.crs.empty()) {
+    axes.up = scene.mesh.up;
+    axes.scale = scene.mesh.scale;
+  }
+  return axes;
+}
+
+MissionRun run_mission(Mission& mission, const Progress& progress, const StageSink& stages) {
   MissionRun run;
   parallel::with_threads(mission.exact.threads, [&] { run = run_stages(mission, progress, stages); });
   return run;
@@ -85,7 +101,8 @@ MissionRun run_mission(const Mission& mission, const Progress& progress, const S
 }  // namespace mission_io
 
 Volume compute_mission(const Mission& mission, const Progress& progress) {
-  return mission_io::run_mission(mission, progress).volume;
+  Mission placed = mission;
+  return mission_io::run_mission(placed, progress).volume;
 }
 
 }  // namespace vantage

@@ -8,6 +8,7 @@
 #include "mission/input_file.h"
 #include "mission/numbers.h"
 #include "mission/run_mission.h"
+#include "mission/scene_section.h"
 #include "mission/schema.h"
 #include "mission/spheres_section.h"
 #include "mission/value_reader.h"
@@ -32,18 +33,20 @@ class MissionParser : private ValueReader {
   void parse_navigation(const YamlNode& node);
   void parse_method(const YamlNode& node);
   void parse_exact(const YamlNode& node);
-  MeshReference mesh_reference(const YamlNode& node, Section section);
+  MeshReference mesh_reference(const YamlNode& node);
   Navigation::Altitude altitude(const YamlNode& node) const;
   std::vector<Box> boxes(const YamlNode& node, const std::string& what) const;
   Box box(const YamlNode& node, const std::string& what) const;
   void check_extent(const YamlNode& node, const std::string& what, int axis, const Box& box) const;
   void check_edges(const YamlNode& node, std::size_t vertex_count) const;
+  void refuse_beside(const YamlNode& node, const char* key, std::initializer_list<const char*> others,
+                     const char* fix) const;
   const YamlNode& parse_vertices(const YamlNode& node);
+  const YamlNode& parse_ground_target(const YamlNode& node);
   const YamlNode& parse_point(const YamlNode& node, const YamlNode& point);
   void check_target(const YamlNode& place);
 
   const YamlNode& require(const YamlNode& map, Section section, std::string_view key, const std::string& fix) const;
-  UpAxis up_axis(const YamlNode& node, const std::string& what) const;
 
   fs::path path_;
   ParsedMission parsed_;
@@ -70,6 +73,7 @@ ParsedMission MissionParser::parse(std::string_view mission_text) {
   parsed_.mission.file = fs::absolute(path_);
 
   if (const YamlNode* method = find(root, "method")) parse_method(*method);
+  if (const YamlNode* crs = find(root, "crs")) parsed_.mission.crs = text(*crs, "crs");
   parse_scene(require(root, Section::mission, "scene", "write 'scene:' and below it, indented, 'mesh: city.obj'"));
   parse_target(require(root, Section::mission, "target",
                        "write 'target:' and below it, indented, 'vertices: [[x, y, z], [x, y, z], [x, y, z]]'"));
@@ -82,26 +86,27 @@ ParsedMission MissionParser::parse(std::string_view mission_text) {
 }
 
 void MissionParser::parse_scene(const YamlNode& node) {
-  check_keys(node, Section::scene, file());
-  parsed_.scene = mesh_reference(node, Section::scene);
-  parsed_.mission.scene_file = parsed_.scene.file;
-  parsed_.mission.scene_options = parsed_.scene.options;
+  // Not made shorter here: "a/../b" is not "b" where a is a symbolic link.
+  SceneSection section = parse_scene_section(node, *this, parsed_.mission.file.parent_path());
+  parsed_.mission.scene = std::move(section.source);
+  parsed_.scene_where = std::move(section.where);
+  parsed_.terrain_where = std::move(section.terrain_where);
 }
 
-MeshReference MissionParser::mesh_reference(const YamlNode& node, Section section) {
-  const std::string prefix = section == Section::scene ? "scene." : "navigation.meshes.";
+MeshReference MissionParser::mesh_reference(const YamlNode& node) {
   const YamlNode& mesh =
-      require(node, section, "mesh", "write 'mesh: city.obj'; the path starts from the mission file");
+      require(node, Section::mesh, "mesh", "write 'mesh: city.obj'; the path starts from the mission file");
   MeshReference reference;
-  reference.name = text(mesh, prefix + "mesh");
+  reference.name = text(mesh, "navigation.meshes.mesh");
   reference.where = place_in(file(), mesh.place);
-  // Not made shorter here: "a/../b" is not "b" where a is a symbolic link.
   reference.file = parsed_.mission.file.parent_path() / reference.name;
   // What `compute` writes must come back as a navigation mesh where it was: OBJ in the axes and the unit of the scene
   // file, PLY and STL in the scene frame.
-  if (section == Section::mesh && is_obj(reference.file)) reference.options = parsed_.mission.scene_options;
-  if (const YamlNode* up = find(node, "up")) reference.options.up = up_axis(*up, prefix + "up");
-  if (const YamlNode* scale = find(node, "scale")) reference.options.scale = positive(*scale, prefix + "scale");
+  if (is_obj(reference.file)) reference.options = result_axes(parsed_.mission.scene);
+  if (const YamlNode* up = find(node, "up")) reference.options.up = parse_up_axis(*up, *this, "navigation.meshes.up");
+  if (const YamlNode* scale = find(node, "scale")) {
+    reference.options.scale = positive(*scale, "navigation.meshes.scale");
+  }
   return reference;
 }
 
@@ -110,7 +115,10 @@ void MissionParser::parse_target(const YamlNode& node) {
   Target& target = parsed_.mission.target;
   if (const YamlNode* name = find(node, "name")) target.name = text(*name, "target.name");
   const YamlNode* point = find(node, "point");
-  const YamlNode& place = point ? parse_point(node, *point) : parse_vertices(node);
+  const bool is_on_ground = find(node, "osm") || find(node, "center");
+  const YamlNode& place = point          ? parse_point(node, *point)
+                          : is_on_ground ? parse_ground_target(node)
+                                         : parse_vertices(node);
   if (const YamlNode* offset = find(node, "offset")) target.offset_m = length(*offset, "target.offset");
   if (const YamlNode* front = find(node, "front")) target.front = vector(*front, "target.front");
   check_target(place);
@@ -120,6 +128,12 @@ void MissionParser::parse_target(const YamlNode& node) {
 /// Returns the node that stands for the target in messages.
 const YamlNode& MissionParser::parse_vertices(const YamlNode& node) {
   Target& target = parsed_.mission.target;
+  for (const char* key : {"width", "length", "heading"}) {
+    if (const YamlNode* entry = find(node, key)) {
+      fail(*entry, std::string("target.") + key + " is of a rectangle, and the target has no 'center'",
+           "write 'center: [latitude, longitude]'");
+    }
+  }
   const YamlNode& vertices = require(node, Section::target, "vertices", kVerticesForm);
   list(vertices, "target.vertices", kVerticesForm);
   for (std::size_t i = 0; i < vertices.items.size(); ++i) {
@@ -132,13 +146,42 @@ const YamlNode& MissionParser::parse_vertices(const YamlNode& node) {
   return vertices;
 }
 
-const YamlNode& MissionParser::parse_point(const YamlNode& node, const YamlNode& point) {
-  for (const char* key : {"vertices", "edges"}) {
-    if (const YamlNode* other = find(node, key)) {
-      fail(*other, std::string("target has both 'point' and '") + key + "'",
-           "keep 'point' for a single point, or 'vertices' for a polygon");
+/// Keys that say another thing than `key` does.
+void MissionParser::refuse_beside(const YamlNode& node, const char* key, std::initializer_list<const char*> others,
+                                  const char* fix) const {
+  for (const char* other : others) {
+    if (const YamlNode* entry = find(node, other)) {
+      fail(*entry, std::string("target has both '") + key + "' and '" + other + "'", fix);
     }
   }
+}
+
+/// Where it lies is found out when the scene is read.
+const YamlNode& MissionParser::parse_ground_target(const YamlNode& node) {
+  GroundTarget& ground = parsed_.mission.ground_target.emplace();
+  if (const YamlNode* osm = find(node, "osm")) {
+    refuse_beside(node, "osm", {"vertices", "edges", "center", "width", "length", "heading"},
+                  "keep 'osm' for an area of the map, or give the target yourself");
+    ground.osm = text(*osm, "target.osm");
+    if (parsed_.mission.scene.kind != SceneSource::Kind::map) {
+      fail(*osm, "target.osm names an object of a map, and the scene is none",
+           "write 'scene: {osm: city.osm.pbf}', or give the target's vertices");
+    }
+    return *osm;
+  }
+  const YamlNode& center = *find(node, "center");
+  refuse_beside(node, "center", {"vertices", "edges"}, "keep 'center' for a rectangle, or 'vertices' for a polygon");
+  ground.center_deg = parse_lat_lon(center, *this, "target.center");
+  const std::string form = "write 'width: 20' and 'length: 30' (metres), and 'heading: 45' (degrees from north)";
+  ground.width_m = positive(require(node, Section::target, "width", form), "target.width");
+  ground.length_m = positive(require(node, Section::target, "length", form), "target.length");
+  if (const YamlNode* heading = find(node, "heading")) ground.heading_deg = number(*heading, "target.heading");
+  return center;
+}
+
+const YamlNode& MissionParser::parse_point(const YamlNode& node, const YamlNode& point) {
+  refuse_beside(node, "point", {"vertices", "edges", "osm", "center"},
+                "keep 'point' for a single point, or 'vertices' for a polygon");
   parsed_.mission.target.vertices = {vector(point, "target.point")};
   const YamlNode* offset = find(node, "offset");
   if (offset != nullptr && find(node, "front") == nullptr) {
@@ -152,6 +195,7 @@ const YamlNode& MissionParser::parse_point(const YamlNode& node, const YamlNode&
 void MissionParser::check_target(const YamlNode& place) {
   Mission& mission = parsed_.mission;
   mission.target_place = place_in(file(), place.place);
+  if (!mission.crs.empty() || mission.ground_target) return;  // place_mission does it
   with_place(mission.target_place, [&] { return make_target_frame(mission.target); });
 }
 
@@ -227,14 +271,14 @@ void MissionParser::parse_navigation(const YamlNode& node) {
   for (const YamlNode& item : list(*meshes, "navigation.meshes", "write a list of mesh files: [airspace.ply]")) {
     if (item.kind == YamlNode::Kind::map) {
       check_keys(item, Section::mesh, file());
-      parsed_.navigation_meshes.push_back(mesh_reference(item, Section::mesh));
+      parsed_.navigation_meshes.push_back(mesh_reference(item));
       continue;
     }
     YamlNode map;  // the short form, a path alone
     map.kind = YamlNode::Kind::map;
     map.place = item.place;
     map.entries.push_back({"mesh", item.place, item});
-    parsed_.navigation_meshes.push_back(mesh_reference(map, Section::mesh));
+    parsed_.navigation_meshes.push_back(mesh_reference(map));
   }
 }
 
@@ -302,13 +346,6 @@ const YamlNode& MissionParser::require(const YamlNode& map, Section section, std
                                        const std::string& fix) const {
   if (const YamlNode* node = find(map, key)) return *node;
   fail(map, std::string(section_name(section)) + " lacks the key '" + std::string(key) + "'", fix);
-}
-
-UpAxis MissionParser::up_axis(const YamlNode& node, const std::string& what) const {
-  const std::string axis = text(node, what);
-  if (axis == "y") return UpAxis::y;
-  if (axis == "z") return UpAxis::z;
-  fail(node, what + " must be y or z, not " + in_quotes(axis), "write the axis of the file that points up: y or z");
 }
 
 }  // namespace

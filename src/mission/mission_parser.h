@@ -20,8 +20,8 @@ struct MeshReference {
 };
 
 struct ParsedMission {
-  Mission mission;      ///< complete but for the navigation meshes
-  MeshReference scene;  ///< the same file as mission.scene_file
+  Mission mission;                         ///< complete but for the navigation meshes
+  std::string scene_where, terrain_where;  ///< "mission.yaml:3:9": of the names of the scene's files
   std::vector<MeshReference> navigation_meshes;
 };
 

@@ -1,6 +1,7 @@
 
 #include "mission/input_file.h"
 #include "mission/mission_parser.h"
+#include "mission/placing.h"
 #include "mission/run_mission.h"
 #include "solid/solid_check.h"
 #include "vantage/error.h"
@@ -18,22 +19,45 @@ fs::path with_true_folder(const fs::path& file) {
   return error ? file : folder / file.filename();
 }
 
+const char* what_of(SceneSource::Kind kind) {
+  switch (kind) {
+    case SceneSource::Kind::mesh:
+      return "the scene's mesh file";
+    case SceneSource::Kind::map:
+      return "the scene's map";
+    case SceneSource::Kind::raster:
+      return "the scene's raster";
+  }
+  return "the scene's file";
+}
+
 }  // namespace
 
 Mission read_mission(const fs::path& file) {
   mission_io::check_readable(file, "the mission file", "");
   mission_io::ParsedMission parsed = mission_io::parse_mission(mission_io::read_text(file, "mission file"), file);
-  mission_io::check_readable(parsed.scene.file, "the scene's mesh file", parsed.scene.where);
-  parsed.mission.scene_file = with_true_folder(parsed.scene.file);
+  SceneSource& scene = parsed.mission.scene;
+  mission_io::check_readable(scene.file, what_of(scene.kind), parsed.scene_where);
+  scene.file = with_true_folder(scene.file);
+  if (!scene.city.terrain.empty()) {
+    mission_io::check_readable(scene.city.terrain, "the terrain", parsed.terrain_where);
+    scene.city.terrain = with_true_folder(scene.city.terrain);
+  }
   for (const mission_io::MeshReference& reference : parsed.navigation_meshes) {
     mission_io::check_readable(reference.file, "the navigation mesh", reference.where);
-    const Scene scene = read_scene(reference.file, reference.options);
+    const Scene limit = read_scene(reference.file, reference.options);
     parsed.mission.navigation.meshes.push_back(
-        {mission_io::with_place(reference.where, [&] { return solid::checked_solid(scene.mesh, reference.name); }),
+        {mission_io::with_place(reference.where, [&] { return solid::checked_solid(limit.mesh, reference.name); }),
          reference.name});
     parsed.mission.navigation_files.push_back(with_true_folder(reference.file));
   }
   return std::move(parsed.mission);
+}
+
+LoadedScene read_mission_scene(Mission& mission, const Progress& progress) {
+  LoadedScene loaded = load_scene(mission.scene, progress);
+  mission_io::place_mission(mission, loaded.scene, progress);
+  return loaded;
 }
 
 }  // namespace vantage

@@ -11,14 +11,17 @@ namespace vantage::mission_io {
 
 struct MissionRun {
   Volume volume;
+  LoadedScene loaded;
   SceneStatistics scene;                 ///< what preparing found
-  UpAxis scene_up = UpAxis::z;           ///< axes of the scene file, for OBJ
-  double scene_scale = 1.0;              ///< metres in its unit, likewise
   std::optional<SpheresReport> spheres;  ///< what the spheres method did, where it was used
 };
 
-/// As compute_mission. `stages` are those of the spheres method.
-MissionRun run_mission(const Mission& mission, const Progress& progress, const StageSink& stages = {});
+/// As compute_mission, and places the mission as read_mission_scene does. `stages` are those of the spheres method.
+MissionRun run_mission(Mission& mission, const Progress& progress, const StageSink& stages = {});
+
+/// Axes and unit of the mission's results in OBJ: those of the scene's mesh file, so that they load on top of it; z up
+/// and metres where the scene is not read as the file has it.
+SceneReadOptions result_axes(const SceneSource& scene);
 
 /// Calls `action` and returns what it returns. An Error(input) from it is thrown on with `place` (of the mission file)
 /// put in front of its own `where`: the engine knows the objects, but not the file that named the target.

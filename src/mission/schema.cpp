@@ -18,9 +18,16 @@ struct SectionKeys {
 
 const std::array<SectionKeys, 9>& table() {
   static const std::array<SectionKeys, 9> kTable = {{
-      {Section::mission, "the mission", {"scene", "target", "sensor", "navigation", "method", "exact", "spheres"}},
-      {Section::scene, "scene", {"mesh", "up", "scale"}},
-      {Section::target, "target", {"name", "vertices", "edges", "point", "offset", "front"}},
+      {Section::mission,
+       "the mission",
+       {"scene", "crs", "target", "sensor", "navigation", "method", "exact", "spheres"}},
+      {Section::scene,
+       "scene",
+       {"mesh", "osm", "raster", "up", "scale", "lod", "crs", "origin", "center", "radius", "bbox", "terrain", "error",
+        "without", "defaults"}},
+      {Section::target,
+       "target",
+       {"name", "vertices", "edges", "point", "osm", "center", "width", "length", "heading", "offset", "front"}},
       {Section::sensor, "sensor", {"max_range"}},
       {Section::navigation, "navigation", {"altitude", "boxes", "keep_out", "meshes"}},
       {Section::box, "a box", {"min", "max"}},

@@ -26,6 +26,8 @@ const char* name_of(Outcome outcome) {
       return "blocked_at_once";
     case Outcome::outside_limits:
       return "outside_limits";
+    case Outcome::no_common_view:
+      return "no_common_view";
   }
   return "unknown";
 }

@@ -9,7 +9,7 @@ namespace vantage::solid {
 /// "scene", "range", "target_plane", "navigation".
 const char* name_of(CauseKind kind);
 
-/// "computed", "out_of_range", "blocked_at_once", "outside_limits".
+/// "computed", "out_of_range", "blocked_at_once", "outside_limits", "no_common_view".
 const char* name_of(Outcome outcome);
 
 /// "cpu", "opengl_software", "opengl_hardware".

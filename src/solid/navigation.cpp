@@ -13,6 +13,7 @@
 #include "solid/outside_limits.h"
 #include "solid/pieces.h"
 #include "solid/regions.h"
+#include "solid/take_over.h"
 #include "solid/volume_check.h"
 #include "vantage/error.h"
 #include "vantage/volume.h"
@@ -51,31 +52,6 @@ void snap_to_planes(LabelledMesh& labelled, const std::vector<Surface>& surfaces
   }
 }
 
-/// Moves what the booleans left into the result: scene frame, causes that still bound something, their areas.
-void take_over(LabelledMesh labelled, const Regions& regions, Volume& result) {
-  std::vector<double> area(regions.causes.size(), 0);
-  std::vector<bool> used(regions.causes.size(), false);
-  std::vector<std::uint32_t> cause_of;
-  const Mesh& mesh = labelled.mesh;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const std::uint32_t cause = regions.surfaces[labelled.labels[t]].cause;
-    const Vec3& a = mesh.vertices[mesh.triangles[t][0]];
-    area[cause] += (mesh.vertices[mesh.triangles[t][1]] - a).cross(mesh.vertices[mesh.triangles[t][2]] - a).norm() / 2;
-    used[cause] = true;
-    cause_of.push_back(cause);
-  }
-  std::vector<std::uint32_t> new_index(regions.causes.size(), 0);
-  result.causes.clear();
-  for (std::size_t cause = 0; cause < area.size(); ++cause) {
-    if (!used[cause]) continue;
-    new_index[cause] = static_cast<std::uint32_t>(result.causes.size());
-    result.causes.push_back({regions.causes[cause].kind, regions.causes[cause].name, area[cause]});
-  }
-  for (std::uint32_t& cause : cause_of) cause = new_index[cause];
-  result.cause_of = std::move(cause_of);
-  result.mesh = std::move(labelled.mesh);
-}
-
 void make_empty(const Emptiness& emptiness, Volume& result) {
   result.outcome = Outcome::outside_limits;
   result.reason = emptiness.reason;
@@ -97,7 +73,8 @@ void cut_volume(const Regions& regions, const Watch& watch, Volume& result) {
   for (Vec3& vertex : labelled.mesh.vertices) vertex += regions.origin;
   const double rounding = std::numeric_limits<double>::epsilon() * regions.origin.cwiseAbs().maxCoeff();
   snap_to_planes(labelled, regions.surfaces, numerics::kSnapEpsilons * (volume.epsilon() + rounding));
-  take_over(std::move(labelled), regions, result);
+  take_over(
+      std::move(labelled), regions.causes, [&](std::uint32_t label) { return regions.surfaces[label].cause; }, result);
 }
 
 }  // namespace

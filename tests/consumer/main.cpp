@@ -51,9 +51,9 @@ bool between_walls() {
 bool compute_and_verify(const char* mission_file, const char* volume_file) {
   const vantage::Mission mission = vantage::read_mission(mission_file);
   const vantage::Volume volume = vantage::compute_mission(mission);
-  vantage::write_volume(volume, volume_file, mission.scene_options.up, mission.scene_options.scale);
+  vantage::write_volume(volume, volume_file, mission.scene.mesh.up, mission.scene.mesh.scale);
 
-  const vantage::Scene scene = vantage::read_scene(mission.scene_file, mission.scene_options);
+  const vantage::Scene scene = vantage::read_scene(mission.scene.file, mission.scene.mesh);
   vantage::VerifyOptions options;
   options.points = 500;
   const vantage::VerifyReport report =

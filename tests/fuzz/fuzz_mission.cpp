@@ -17,12 +17,12 @@ void require(bool holds) {
 
 void check_accepted(const vantage::mission_io::ParsedMission& parsed) {
   const vantage::Mission& mission = parsed.mission;
-  require(mission.scene_file.is_absolute());
+  require(mission.scene.file.is_absolute());
   require(mission.target.vertices.size() >= 3 && mission.target.vertices.size() <= 64);
   for (const vantage::Vec3& vertex : mission.target.vertices) require(vertex.allFinite());
   require(std::isfinite(mission.sensor.max_range_m) && mission.sensor.max_range_m > 0);
   require(std::isfinite(mission.exact.tolerance_m) && mission.exact.tolerance_m > 0);
-  require(mission.scene_options.scale > 0);
+  require(mission.scene.mesh.scale > 0);
   if (mission.navigation.altitude) require(mission.navigation.altitude->min_m < mission.navigation.altitude->max_m);
   for (const vantage::Box& box : mission.navigation.boxes) require((box.min.array() < box.max.array()).all());
   for (const vantage::Box& box : mission.navigation.keep_out) require((box.min.array() < box.max.array()).all());

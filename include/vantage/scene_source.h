@@ -1,0 +1,41 @@
+// Any file that a scene can be made of, and how.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "vantage/city.h"
+#include "vantage/progress.h"
+#include "vantage/scene.h"
+#include "vantage/terrain.h"
+
+namespace vantage {
+
+/// A file and what is to be made of it. Only the options of its kind count.
+struct SceneSource {
+  enum class Kind {
+    mesh,   ///< read_scene: OBJ, PLY, STL, glTF, CityJSON
+    map,    ///< build_city: OpenStreetMap
+    raster  ///< scene_from_raster: heights on a grid
+  };
+  Kind kind = Kind::mesh;
+  std::filesystem::path file;
+  SceneReadOptions mesh;
+  CityOptions city;
+  RasterOptions raster;
+};
+
+/// Told by the name: .osm, .pbf (also .osm.gz, .osm.bz2) are maps; .tif, .tiff, .hgt, .asc, .vrt, .img and those zipped
+/// are rasters; all else are meshes. Case does not count.
+SceneSource::Kind source_kind(const std::filesystem::path& file);
+
+struct LoadedScene {
+  Scene scene;
+  std::optional<CityReport> city;      ///< of a map
+  std::optional<RasterReport> raster;  ///< of a raster
+};
+
+/// Throws as the function of its kind does.
+LoadedScene load_scene(const SceneSource& source, const Progress& progress = {});
+
+}  // namespace vantage

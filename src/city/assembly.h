@@ -1,0 +1,14 @@
+// The scene of a site's solids and its ground.
+#pragma once
+
+#include <vector>
+
+#include "city/site.h"
+#include "vantage/scene.h"
+
+namespace vantage::city {
+
+/// One object per item that has triangles, named "way/265517 Empire State Building", then the ground.
+Scene assemble(const Site& site, const std::vector<Mesh>& solids, const Mesh& ground);
+
+}  // namespace vantage::city

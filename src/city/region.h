@@ -1,0 +1,25 @@
+// The part of the map that is asked for: checks, and what is said when it holds nothing.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "geo/local_frame.h"
+#include "osm/extract.h"
+#include "vantage/city.h"
+
+namespace vantage::city {
+
+/// Throws Error(input) for what cannot be right in any file: numbers out of range, no area, circle and box at once.
+std::optional<osm::Region> checked_region(const CityRegion& region);
+
+/// Throws Error(input) where the region lies outside the file (its bounds; latitude and longitude the wrong way round).
+void check_overlap(const CityRegion& region, const osm::Extract& extract, const std::filesystem::path& file);
+
+/// Says what the region lacks: how far the nearest object is.
+[[noreturn]] void fail_empty(const CityRegion& region, const osm::Extract& extract, const std::filesystem::path& file);
+
+/// Origin of the frame: the centre of what is asked for, or of the file.
+geo::LonLat frame_origin(const CityRegion& region, const osm::Extract& extract);
+
+}  // namespace vantage::city

@@ -1,0 +1,241 @@
+// Simple 3D Buildings (https://wiki.openstreetmap.org/wiki/Simple_3D_Buildings): a building whose parts are drawn is
+// not built itself; what its parts leave open is, where that is more than careless drawing leaves.
+#include "city/site.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <limits>
+#include <set>
+
+#include "city/structures.h"
+
+namespace vantage::city {
+namespace {
+
+/// Parts that cover this share of their building stand for all of it.
+constexpr double kCovered = 0.9;
+/// Across an outline, metres. No building is larger; an outline that is comes of a slip of the hand.
+constexpr double kLargest = 3000;
+
+CityRecord record_of(osm::ObjectId id, const osm::Tags& tags, std::string kind) {
+  CityRecord record;
+  record.object = osm::text(id);
+  record.name = std::string(tags.get("name"));
+  record.kind = std::move(kind);
+  return record;
+}
+
+void skip(Site& site, CityRecord record, std::string reason) {
+  record.fate = Fate::skipped;
+  record.reason = std::move(reason);
+  site.skipped.push_back(std::move(record));
+}
+
+/// Fates of outlines that were mended or cannot be built.
+std::string fault_of(const Structure& structure) {
+  if (structure.footprints.empty()) return "outline without an area";
+  if ((structure.max - structure.min).maxCoeff() > kLargest) return "outline more than 3 km across";
+  if (structure.source->tags.get("location") == "underground") return "underground";
+  return {};
+}
+
+std::string repair_of(const Repairs& repairs) {
+  if (repairs.self_crossing) return "outline that crosses itself: what is wound round an odd number of times is built";
+  if (repairs.nesting) return "holes that overlap or lie outside: built without what lies outside";
+  return {};
+}
+
+void note_remarks(CityRecord& record, const std::vector<TagRemark>& remarks) {
+  for (const TagRemark& remark : remarks) record.remarks.push_back(remark.what);
+}
+
+class BuildingSorter {
+ public:
+  BuildingSorter(Site& site, std::vector<Structure> structures, const BuildingDefaults& defaults)
+      : site_(site), structures_(std::move(structures)), defaults_(defaults) {}
+
+  void sort() {
+    for (const Structure& structure : structures_) {
+      CityRecord record =
+          record_of(structure.source->id, structure.source->tags, structure.is_part ? "building part" : "building");
+      const std::string fault = fault_of(structure);
+      if (!fault.empty()) {
+        skip(site_, std::move(record), fault);
+      } else if (has_parts(structure)) {
+        add_remainder(structure, std::move(record));
+      } else {
+        add(structure, std::move(record), structure.footprints);
+      }
+    }
+  }
+
+ private:
+  bool has_parts(const Structure& structure) const {
+    return std::any_of(structure.parts.begin(), structure.parts.end(),
+                       [&](std::size_t part) { return fault_of(structures_[part]).empty(); });
+  }
+
+  void add_remainder(const Structure& building, CityRecord record) {
+    const double share = 1 - area_m2(uncovered(building, structures_, building.parts)) / building.area_m2;
+    if (share >= kCovered) {
+      skip(site_, std::move(record), "its parts are built in its place");
+      return;
+    }
+    // Parts that begin higher up, such as lift houses drawn on a roof, stand on what is built here.
+    std::vector<std::size_t> grounded;
+    std::copy_if(building.parts.begin(), building.parts.end(), std::back_inserter(grounded),
+                 [&](std::size_t part) { return form_of(structures_[part]).bottom_m <= 0; });
+    std::vector<Footprint> rest = uncovered(building, structures_, grounded);
+    char text[96];
+    std::snprintf(text, sizeof text, "its parts cover %.0f %% of it", 100 * share);
+    record.remarks.emplace_back(text);
+    record.fate = Fate::repaired;
+    record.reason = "parts leave some of it open: that is built by its own tags";
+    add(building, std::move(record), std::move(rest));
+  }
+
+  BuildingForm form_of(const Structure& structure, std::vector<TagRemark>* remarks = nullptr) const {
+    const osm::Tags* const outline = structure.outline ? &structures_[*structure.outline].source->tags : nullptr;
+    std::vector<TagRemark> unheard;
+    return read_form(structure.source->tags, outline, defaults_, remarks ? *remarks : unheard);
+  }
+
+  void add(const Structure& structure, CityRecord record, std::vector<Footprint> footprints) {
+    const std::string repair = repair_of(structure.repairs);
+    if (!repair.empty()) {
+      record.fate = Fate::repaired;
+      record.reason = repair;
+    }
+    const Structure* const outline = structure.outline ? &structures_[*structure.outline] : nullptr;
+    std::vector<TagRemark> remarks;
+    Item item;
+    const BuildingForm form = form_of(structure, &remarks);
+    note_remarks(record, remarks);
+    item.record = std::move(record);
+    for (Footprint& footprint : footprints) item.shapes.push_back({std::move(footprint), form, {}});
+    if (outline) {
+      item.standing = outline->footprints;
+    } else if (!structure.parts.empty()) {
+      item.standing = structure.footprints;
+    }
+    site_.items.push_back(std::move(item));
+  }
+
+  Site& site_;
+  std::vector<Structure> structures_;
+  const BuildingDefaults& defaults_;
+};
+
+bool is_switched_on(std::string_view kind, const Occluders& occluders) {
+  if (kind == "wall") return occluders.walls;
+  if (kind == "tower") return occluders.towers;
+  if (kind == "bridge") return occluders.bridges;
+  if (kind == "tree") return occluders.trees;
+  return !kind.empty();
+}
+
+/// Walls, towers, bridges and trees.
+class OccluderSorter {
+ public:
+  OccluderSorter(Site& site, const geo::LocalFrame& frame, const CityOptions& options)
+      : site_(site), frame_(frame), options_(options), piece_m_(options.terrain.empty() ? 0 : kWallPiece) {}
+
+  void sort(const osm::Extract& extract) {
+    for (const osm::Area& area : extract.areas) {
+      const std::string_view kind = kind_of(area.tags, Geometry::area);
+      if (is_building(kind) || !is_switched_on(kind, options_.occluders)) continue;
+      Repairs repairs;
+      const std::vector<Footprint> footprints = clean(project(area, frame_), repairs);
+      add(area.id, area.tags, kind,
+          [&](auto& remarks) { return shapes_of_area(area.tags, footprints, defaults_, remarks); });
+    }
+    for (const osm::Line& line : extract.lines) {
+      const std::string_view kind = kind_of(line.tags, Geometry::line);
+      if (is_building(kind) || !is_switched_on(kind, options_.occluders)) continue;
+      std::vector<Vec2> points;
+      for (const geo::LonLat& position : line.points) points.push_back(frame_.to_local(position));
+      add(line.id, line.tags, kind,
+          [&](auto& remarks) { return shapes_of_line(line.tags, points, piece_m_, defaults_, remarks); });
+    }
+    for (const osm::Point& point : extract.points) {
+      const std::string_view kind = kind_of(point.tags, Geometry::point);
+      if (is_building(kind) || !is_switched_on(kind, options_.occluders)) continue;
+      add(point.id, point.tags, kind, [&](auto& remarks) {
+        return shapes_of_point(point.tags, frame_.to_local(point.position), defaults_, remarks);
+      });
+    }
+  }
+
+ private:
+  static constexpr double kWallPiece = 10;  // metres of wall that stand level, where there is terrain
+
+  static bool is_building(std::string_view kind) { return kind == "building" || kind == "building part"; }
+
+  template <typename MakeShapes>
+  void add(osm::ObjectId id, const osm::Tags& tags, std::string_view kind, const MakeShapes& make_shapes) {
+    Item item;
+    item.record = record_of(id, tags, std::string(kind));
+    std::vector<TagRemark> remarks;
+    item.shapes = make_shapes(remarks);
+    note_remarks(item.record, remarks);
+    if (item.shapes.empty()) return skip(site_, std::move(item.record), "without a length or an area");
+    if (kind == "wall" || kind == "tree") item.stand = Item::Stand::each;
+    if (kind == "bridge") item.stand = Item::Stand::above;
+    site_.items.push_back(std::move(item));
+  }
+
+  Site& site_;
+  const geo::LocalFrame& frame_;
+  const CityOptions& options_;
+  double piece_m_;
+  OccluderDefaults defaults_;
+};
+
+/// What an object would have been, had it been read.
+std::string_view kind_of_lost(const osm::Problem& problem) {
+  const bool is_point = problem.object.type == osm::ObjectType::node;
+  const std::string_view as_area = kind_of(problem.tags, is_point ? Geometry::point : Geometry::area);
+  return as_area.empty() && !is_point ? kind_of(problem.tags, Geometry::line) : as_area;
+}
+
+/// Objects that were wanted and of which nothing could be read.
+void skip_lost(Site& site, const osm::Extract& extract, const CityOptions& options) {
+  for (const osm::Problem& problem : extract.problems) {
+    if (!problem.lost) continue;
+    const std::string_view kind = kind_of_lost(problem);
+    if (!is_switched_on(kind, options.occluders)) continue;
+    skip(site, record_of(problem.object, problem.tags, std::string(kind)), problem.what);
+  }
+}
+
+void set_bounds(Site& site) {
+  site.min = Vec2::Constant(std::numeric_limits<double>::infinity());
+  site.max = -site.min;
+  const auto extend = [&](const Vec2& point) {
+    site.min = site.min.cwiseMin(point);
+    site.max = site.max.cwiseMax(point);
+  };
+  for (const Item& item : site.items) {
+    for (const Footprint& footprint : item.standing)
+      std::for_each(footprint.outer.begin(), footprint.outer.end(), extend);
+    for (const Shape& shape : item.shapes) {
+      std::for_each(shape.footprint.outer.begin(), shape.footprint.outer.end(), extend);
+      if (shape.tree) extend(shape.tree->foot);
+    }
+  }
+}
+
+}  // namespace
+
+Site make_site(const osm::Extract& extract, const geo::LocalFrame& frame, const CityOptions& options) {
+  Site site;
+  std::vector<Structure> structures = structures_of(extract.areas, frame);
+  assign_parts(structures, extract.building_relations);
+  BuildingSorter(site, std::move(structures), options.defaults).sort();
+  OccluderSorter(site, frame, options).sort(extract);
+  skip_lost(site, extract, options);
+  set_bounds(site);
+  return site;
+}
+
+}  // namespace vantage::city

@@ -1,0 +1,104 @@
+// The volume of a target in parts: what the volumes of all parts have in common.
+#include <algorithm>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "solid/outside_limits.h"
+#include "solid/pieces.h"
+#include "solid/regions.h"
+#include "solid/take_over.h"
+#include "solid/volume_check.h"
+#include "vantage/error.h"
+#include "vantage/volume.h"
+
+namespace vantage {
+namespace {
+
+using solid::LabelledMesh;
+using solid::Solid;
+
+/// Causes of several volumes as one list.
+class CauseList {
+ public:
+  std::uint32_t add(const Cause& cause) {
+    const auto [entry, is_new] =
+        index_.try_emplace({cause.kind, cause.name}, static_cast<std::uint32_t>(causes_.size()));
+    if (is_new) causes_.push_back(cause);
+    return entry->second;
+  }
+  const std::vector<Cause>& causes() const { return causes_; }
+
+ private:
+  std::map<std::pair<CauseKind, std::string>, std::uint32_t> index_;
+  std::vector<Cause> causes_;
+};
+
+void add_work(const Volume& part, Volume& result) {
+  result.tolerance_m = std::max(result.tolerance_m, part.tolerance_m);
+  result.lift_m = std::max(result.lift_m, part.lift_m);
+  result.counts.candidate_blockers += part.counts.candidate_blockers;
+  result.counts.visible_blockers += part.counts.visible_blockers;
+  result.counts.visible_facets += part.counts.visible_facets;
+  result.counts.constraint_edges += part.counts.constraint_edges;
+  result.seconds.engine += part.seconds.engine;
+  result.seconds.total += part.seconds.total;
+}
+
+void make_empty(Outcome outcome, std::string reason, std::string hint, Volume& result) {
+  result.outcome = outcome;
+  result.reason = std::move(reason);
+  result.hint = std::move(hint);
+  result.mesh = {};
+  result.cause_of.clear();
+  result.causes.clear();
+}
+
+Solid solid_of(const Volume& volume, const Vec3& origin, CauseList& causes) {
+  std::vector<std::uint32_t> merged;
+  for (const Cause& cause : volume.causes) merged.push_back(causes.add(cause));
+  std::vector<std::uint32_t> labels;
+  labels.reserve(volume.cause_of.size());
+  for (const std::uint32_t cause : volume.cause_of) labels.push_back(merged[cause]);
+  return Solid(solid::moved_to_origin(volume.mesh, std::move(labels), origin), "the volume");
+}
+
+}  // namespace
+
+Volume intersect_volumes(const std::vector<Volume>& volumes, const Progress& progress) {
+  if (volumes.empty()) throw Error(ErrorKind::input, "there are no volumes to intersect", "", "give at least one");
+  Volume result = volumes.front();
+  for (std::size_t i = 1; i < volumes.size(); ++i) add_work(volumes[i], result);
+  for (std::size_t i = 0; i < volumes.size(); ++i) {
+    solid::check_volume(volumes[i]);
+    if (volumes[i].outcome == Outcome::computed && !volumes[i].mesh.empty()) continue;
+    const std::string part = "part " + std::to_string(i + 1) + " of the target: ";
+    make_empty(volumes[i].outcome, part + volumes[i].reason, volumes[i].hint, result);
+    return result;
+  }
+  if (volumes.size() == 1) return result;
+
+  const Vec3 origin = result.frame.origin;
+  CauseList causes;
+  std::vector<Solid> solids;
+  double sliver = 0;
+  for (const Volume& volume : volumes) {
+    solids.push_back(solid_of(volume, origin, causes));
+    sliver = std::max(sliver, solid::sliver_thickness(solids.back()));
+  }
+  const solid::Watch watch = progress ? solid::Watch([&](double done) { return progress("parts", done); }) : nullptr;
+  LabelledMesh labelled = solid::intersect(solids, watch).to_mesh();
+  solid::drop_slivers(labelled, sliver);
+  if (labelled.mesh.empty()) {
+    make_empty(Outcome::no_common_view,
+               "no position sees all " + std::to_string(volumes.size()) + " parts of the target",
+               "choose a smaller or convex target, or a longer range", result);
+    return result;
+  }
+  for (Vec3& vertex : labelled.mesh.vertices) vertex += origin;
+  solid::take_over(
+      std::move(labelled), causes.causes(), [](std::uint32_t label) { return label; }, result);
+  return result;
+}
+
+}  // namespace vantage

@@ -1,0 +1,273 @@
+// From a map to a scene: which objects are built, where, how high, and what the report says of the rest.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+
+#include "solid/solid_check.h"
+#include "support/map_text.h"
+#include "support/shared_data.h"
+#include "support/temporary_directory.h"
+#include "vantage/city.h"
+#include "vantage/error.h"
+
+namespace vantage {
+namespace {
+
+using testing::MapText;
+using testing::TemporaryDirectory;
+using testing::write_bytes;
+
+// A map holds positions to 1e-7 degrees: 11 mm.
+class CityTest : public ::testing::Test {
+ protected:
+  City build(const MapText& map, const CityOptions& options = {}) {
+    write_bytes(folder_ / "city.osm", map.text());
+    return build_city(folder_ / "city.osm", options);
+  }
+
+  void expect_refused(const MapText& map, const CityOptions& options, const std::string& problem,
+                      const std::string& fix) {
+    try {
+      build(map, options);
+      ADD_FAILURE() << "not refused: " << problem;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::input);
+      EXPECT_NE(error.problem().find(problem), std::string::npos) << error.what();
+      EXPECT_NE(error.fix().find(fix), std::string::npos) << error.what();
+    }
+  }
+
+  TemporaryDirectory folder_;
+};
+
+const CityRecord& record_of(const City& city, const std::string& object) {
+  const auto& records = city.report.records;
+  const auto found =
+      std::find_if(records.begin(), records.end(), [&](const CityRecord& r) { return r.object == object; });
+  if (found == records.end()) throw std::runtime_error("no record of " + object);
+  return *found;
+}
+
+/// The triangles of the object whose name begins so.
+Mesh object_mesh(const Scene& scene, const std::string& name) {
+  Mesh mesh;
+  mesh.vertices = scene.mesh.vertices;
+  for (std::size_t i = 0; i < scene.mesh.triangles.size(); ++i) {
+    if (scene.objects[scene.object_of[i]].starts_with(name)) mesh.triangles.push_back(scene.mesh.triangles[i]);
+  }
+  return mesh;
+}
+
+double object_volume(const Scene& scene, const std::string& name) {
+  const Mesh mesh = object_mesh(scene, name);
+  return mesh.empty() ? 0 : enclosed_volume(solid::checked_solid(mesh, name));
+}
+
+TEST_F(CityTest, BuildsABlockWhereItStands) {
+  MapText map;
+  map.box(10, 20, 30, 50, {{"building", "yes"}, {"height", "12"}, {"name", "Block"}});
+  map.box(-20, -30, -10, -20, {{"building", "yes"}, {"height", "5"}});
+  CityOptions options;
+  options.region.center_deg = {48.1374, 11.5755};
+  options.region.radius_m = 200;
+  const City city = build(map, options);
+  ASSERT_EQ(city.scene.objects.size(), 3U);
+  EXPECT_EQ(city.scene.objects[0], "way/1 Block");
+  EXPECT_EQ(city.scene.objects[1], "way/2");
+  EXPECT_EQ(city.scene.objects[2], "ground");
+  const Box bounds = bounding_box(object_mesh(city.scene, "way/1"));
+  EXPECT_NEAR((bounds.min - Vec3(10, 20, 0)).norm(), 0, 0.012);
+  EXPECT_NEAR((bounds.max - Vec3(30, 50, 12)).norm(), 0, 0.012);
+  EXPECT_NEAR(object_volume(city.scene, "way/1"), 20 * 30 * 12, 1);
+  EXPECT_EQ(record_of(city, "way/1").fate, Fate::written);
+  ASSERT_TRUE(city.scene.georeference);
+  EXPECT_EQ(city.scene.georeference->latitude_deg, 48.1374);
+  EXPECT_EQ(city.scene.georeference->longitude_deg, 11.5755);
+  EXPECT_EQ(city.scene.georeference->vertical, "flat ground");
+}
+
+TEST_F(CityTest, PartsReplaceTheOutlineTheyLieIn) {
+  MapText map;
+  map.box(0, 0, 40, 40, {{"building", "yes"}, {"height", "100"}});
+  map.box(0, 0, 40, 40, {{"building:part", "yes"}, {"height", "20"}});
+  map.box(10, 10, 30, 30, {{"building:part", "yes"}, {"height", "100"}, {"min_height", "20"}});
+  const City city = build(map);
+  EXPECT_EQ(object_volume(city.scene, "way/1"), 0) << "the outline is not built";
+  EXPECT_NEAR(object_volume(city.scene, "way/2"), 40 * 40 * 20, 30);
+  EXPECT_NEAR(object_volume(city.scene, "way/3"), 20 * 20 * 80, 40);
+  EXPECT_NEAR(record_of(city, "way/3").base_m, 20, 1e-9);
+  EXPECT_EQ(record_of(city, "way/1").fate, Fate::skipped);
+  EXPECT_EQ(record_of(city, "way/1").reason, "its parts are built in its place");
+}
+
+TEST_F(CityTest, WhatPartsLeaveOpenIsBuilt) {
+  MapText map;
+  map.box(0, 0, 40, 40, {{"building", "yes"}, {"height", "10"}});
+  map.box(0, 0, 20, 40, {{"building:part", "yes"}, {"height", "30"}});
+  const City city = build(map);
+  EXPECT_NEAR(object_volume(city.scene, "way/1"), 20 * 40 * 10, 5) << "the open half";
+  EXPECT_EQ(record_of(city, "way/1").fate, Fate::repaired);
+  EXPECT_NEAR(record_of(city, "way/1").footprint_m2, 20 * 40, 1);
+}
+
+TEST_F(CityTest, WhatStandsOnARoofLeavesNoShaftBelow) {
+  MapText map;
+  map.box(0, 0, 40, 40, {{"building", "yes"}, {"height", "50"}});
+  map.box(10, 10, 20, 20, {{"building:part", "yes"}, {"height", "55"}, {"min_height", "50"}});
+  const City city = build(map);
+  EXPECT_NEAR(object_volume(city.scene, "way/1"), 40 * 40 * 50, 20);
+  EXPECT_NEAR(object_volume(city.scene, "way/2"), 10 * 10 * 5, 1);
+}
+
+TEST_F(CityTest, ARelationJoinsPartsThatLieOutside) {
+  MapText map;
+  const long outline = map.box(0, 0, 20, 20, {{"building", "yes"}, {"height", "10"}});
+  const long inside = map.box(0, 0, 20, 20, {{"building:part", "yes"}, {"height", "10"}});
+  const long annex = map.box(20, 0, 40, 20, {{"building:part", "yes"}, {"height", "6"}});
+  map.relation({{"way", outline, "outline"}, {"way", inside, "part"}, {"way", annex, "part"}}, {{"type", "building"}});
+  const City city = build(map);
+  EXPECT_EQ(record_of(city, "way/1").fate, Fate::skipped);
+  EXPECT_NEAR(object_volume(city.scene, "way/3"), 20 * 20 * 6, 2);
+}
+
+TEST_F(CityTest, APartOfNoBuildingStandsAlone) {
+  MapText map;
+  map.box(0, 0, 20, 20, {{"building:part", "yes"}, {"height", "10"}});
+  const City city = build(map);
+  EXPECT_EQ(record_of(city, "way/1").kind, "building part");
+  EXPECT_NEAR(object_volume(city.scene, "way/1"), 4000, 1);
+}
+
+TEST_F(CityTest, CourtyardsStayOpen) {
+  MapText map;
+  const long outer = map.box(0, 0, 40, 40, {});
+  const long inner = map.box(10, 10, 30, 30, {});
+  map.relation({{"way", outer, "outer"}, {"way", inner, "inner"}},
+               {{"type", "multipolygon"}, {"building", "yes"}, {"height", "15"}});
+  const City city = build(map);
+  EXPECT_NEAR(object_volume(city.scene, "relation/1"), (1600 - 400) * 15, 5);
+}
+
+TEST_F(CityTest, MendsAnOutlineThatCrossesItself) {
+  MapText map;
+  map.area({{0, 0}, {20, 20}, {20, 0}, {0, 20}}, {{"building", "yes"}, {"height", "10"}});
+  const City city = build(map);
+  EXPECT_EQ(record_of(city, "way/1").fate, Fate::repaired);
+  EXPECT_NEAR(object_volume(city.scene, "way/1"), 200 * 10, 10) << "two triangles of 100 m2";
+}
+
+TEST_F(CityTest, SkipsWhatIsNoBuildingAndSaysWhy) {
+  MapText map;
+  map.box(0, 0, 20, 20, {{"building", "yes"}});
+  map.box(30, 0, 50, 20, {{"building", "yes"}, {"location", "underground"}});
+  map.area({{60, 0}, {70, 0}, {80, 0}}, {{"building", "yes"}});
+  map.box(-6000, 100, 6000, 120, {{"building", "yes"}});
+  map.box(0, 40, 20, 60, {{"building", "no"}});
+  const City city = build(map);
+  EXPECT_EQ(record_of(city, "way/2").reason, "underground");
+  EXPECT_EQ(record_of(city, "way/3").fate, Fate::skipped) << "a line";
+  EXPECT_EQ(record_of(city, "way/4").reason, "outline more than 3 km across");
+  EXPECT_THROW(record_of(city, "way/5"), std::runtime_error) << "not a building at all";
+  std::map<Fate, int> fates;
+  for (const CityRecord& record : city.report.records) ++fates[record.fate];
+  EXPECT_EQ(fates[Fate::written], 1);
+  EXPECT_EQ(fates[Fate::skipped], 3);
+}
+
+TEST_F(CityTest, DefaultsCanBeSet) {
+  MapText map;
+  map.box(0, 0, 20, 20, {{"building", "yes"}});
+  map.box(30, 0, 50, 20, {{"building", "house"}});
+  map.box(60, 0, 80, 20, {{"building", "yes"}, {"building:levels", "5"}});
+  const City plain = build(map);
+  EXPECT_NEAR(record_of(plain, "way/1").top_m, 9, 1e-9) << "three storeys of 3 m";
+  EXPECT_NEAR(record_of(plain, "way/3").top_m, 15, 1e-9);
+  CityOptions options;
+  options.defaults.level_m = 4;
+  options.defaults.levels = 2;
+  options.defaults.levels_of["house"] = 1;
+  const City set = build(map, options);
+  EXPECT_NEAR(record_of(set, "way/1").top_m, 8, 1e-9);
+  EXPECT_NEAR(record_of(set, "way/2").top_m, 4, 1e-9);
+  EXPECT_NEAR(record_of(set, "way/3").top_m, 20, 1e-9);
+}
+
+TEST_F(CityTest, TakesWhatHasACornerInTheRegionWhole) {
+  MapText map;
+  map.box(0, 0, 20, 20, {{"building", "yes"}});
+  map.box(90, 0, 140, 20, {{"building", "yes"}});
+  map.box(300, 0, 320, 20, {{"building", "yes"}});
+  CityOptions options;
+  options.region.center_deg = {48.1374, 11.5755};
+  options.region.radius_m = 100;
+  const City city = build(map, options);
+  EXPECT_EQ(city.report.records.size(), 2U);
+  EXPECT_EQ(city.report.outside, 1U);
+  EXPECT_NEAR(bounding_box(object_mesh(city.scene, "way/2")).max.x(), 140, 1e-2);
+}
+
+TEST_F(CityTest, RefusesRegionsThatHoldNothing) {
+  MapText map;
+  map.box(0, 0, 20, 20, {{"building", "yes"}});
+  map.node(2000, 0);
+  CityOptions options;
+  options.region.radius_m = 50;
+  options.region.center_deg = {48.1374, 11.5955};
+  expect_refused(map, options, "nothing to build in the area", "the nearest of 1 objects is 14");
+  options.region.center_deg = {11.5755, 48.1374};
+  expect_refused(map, options, "outside the map", "the wrong way round: write 48.1374,11.5755");
+  options.region.center_deg = {47, 11};
+  expect_refused(map, options, "outside the map", "the map holds latitude 48.13");
+  options.region.center_deg = {148, 11};
+  expect_refused(map, options, "no place at latitude 148", "write the latitude first: 11,148");
+  options.region.center_deg = {48.1374, 11.5755};
+  options.region.radius_m = 0;
+  expect_refused(map, options, "radius", "more than 0");
+  options.region = {};
+  options.region.bbox_deg = {11.6, 48.1, 11.5, 48.2};
+  expect_refused(map, options, "the box holds nothing", "west,south,east,north");
+  options.region.bbox_deg = {48.1, 11.5, 48.2, 11.6};
+  expect_refused(map, options, "outside the map", "the wrong way round");
+}
+
+TEST_F(CityTest, RefusesAMapWithoutBuildings) {
+  MapText map;
+  map.line({{0, 0}, {100, 0}}, {{"highway", "residential"}});
+  expect_refused(map, {}, "holds no building", "give an extract with buildings");
+}
+
+TEST_F(CityTest, StandsOnTerrain) {
+  MapText map;
+  map.box(-10, -10, 10, 10, {{"building", "yes"}, {"height", "12"}});
+  map.box(-10, -10, 10, 0, {{"building:part", "yes"}, {"height", "12"}});
+  map.box(-10, 0, 10, 10, {{"building:part", "yes"}, {"height", "12"}});
+  // A plane that rises to the north by 1 m in 10, 500 m high at the origin; posts 0.0005 degrees apart.
+  std::string grid = "ncols 41\nnrows 41\nxllcenter 11.5655\nyllcenter 48.1274\ncellsize 0.0005\nNODATA_value -9999\n";
+  for (int row = 0; row < 41; ++row) {
+    const double north = (20 - row) * 0.0005 * 111200;
+    for (int column = 0; column < 41; ++column) grid += std::to_string(500 + north / 10) + " ";
+    grid += "\n";
+  }
+  write_bytes(folder_ / "dem.asc", grid);
+  write_bytes(
+      folder_ / "dem.prj",
+      "GEOGCS[\"WGS 84\",DATUM[\"WGS_1984\",SPHEROID[\"WGS 84\",6378137,298.257223563]],PRIMEM[\"Greenwich\",0],"
+      "UNIT[\"degree\",0.0174532925199433]]");
+  CityOptions options;
+  options.terrain = folder_ / "dem.asc";
+  options.region.center_deg = {48.1374, 11.5755};
+  options.region.radius_m = 100;
+  const City city = build(map, options);
+  for (const char* part : {"way/2", "way/3"}) {
+    EXPECT_NEAR(record_of(city, part).ground_m, 499, 0.05) << "the lowest ground under the building, not the part";
+    EXPECT_NEAR(record_of(city, part).top_m, 511, 0.05);
+  }
+  const Box ground = bounding_box(object_mesh(city.scene, "ground"));
+  EXPECT_NEAR(ground.max.z() - ground.min.z(), 0.1 * (20 + 2 * options.ground_margin_m), 0.2);
+}
+
+}  // namespace
+}  // namespace vantage

@@ -1,0 +1,98 @@
+// The volume of a target in parts. The oracle: a convex polygon is seen from just where both its halves are.
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+
+#include "support/mesh_probe.h"
+#include "support/random.h"
+#include "support/scenes.h"
+#include "vantage/error.h"
+#include "vantage/volume.h"
+
+namespace vantage {
+namespace {
+
+using testing::first_open_edge;
+using testing::Random;
+using testing::SceneBuilder;
+using testing::target_of;
+
+constexpr double kRange = 80;
+
+PreparedScene courtyard() {
+  SceneBuilder builder;
+  builder.ground("ground", 200).box("west", {-40, -30, 0}, {-20, 30, 18}).box("east", {22, -10, 0}, {35, 25, 30});
+  builder.box("bridge", {-20, 12, 9}, {22, 14, 10}).box("post", {12, -12, 0}, {13, -11, 6});
+  return PreparedScene(builder.scene());
+}
+
+Volume volume_of(const PreparedScene& scene, const std::vector<Vec3>& polygon) {
+  return compute_visibility(scene, target_of(polygon), {kRange}, {1e-3, 0});
+}
+
+TEST(IntersectVolumes, HalvesMakeTheWhole) {
+  const PreparedScene scene = courtyard();
+  Random random(811);
+  for (int round = 0; round < 8; ++round) {
+    const double x = random.uniform(-12, 2), y = random.uniform(-8, 2), w = random.uniform(3, 9);
+    const double cut = x + w * random.uniform(0.2, 0.8);
+    const Volume whole = volume_of(scene, {{x, y, 0}, {x + w, y, 0}, {x + w, y + w, 0}, {x, y + w, 0}});
+    const Volume left = volume_of(scene, {{x, y, 0}, {cut, y, 0}, {cut, y + w, 0}, {x, y + w, 0}});
+    const Volume right = volume_of(scene, {{cut, y, 0}, {x + w, y, 0}, {x + w, y + w, 0}, {cut, y + w, 0}});
+    const Volume both = intersect_volumes({left, right});
+    ASSERT_EQ(both.outcome, Outcome::computed) << both.reason;
+    EXPECT_EQ(first_open_edge(both.mesh), "");
+    const double expected = enclosed_volume(whole.mesh);
+    EXPECT_NEAR(enclosed_volume(both.mesh), expected, 1e-4 * expected) << "target at " << x << " " << y << ", " << w;
+    EXPECT_GT(enclosed_volume(left.mesh), 1.005 * expected) << "a half alone must claim more, or nothing is tested";
+  }
+}
+
+TEST(IntersectVolumes, KeepsCausesAndNamesEachOnce) {
+  const PreparedScene scene = courtyard();
+  const Volume both = intersect_volumes({volume_of(scene, {{-9, 0, 0}, {-3, 0, 0}, {-3, 6, 0}}),
+                                         volume_of(scene, {{3, 0, 0}, {9, 0, 0}, {9, 6, 0}})});
+  ASSERT_EQ(both.outcome, Outcome::computed) << both.reason;
+  ASSERT_EQ(both.cause_of.size(), both.mesh.triangles.size());
+  std::set<std::string> names;
+  double area = 0;
+  for (const Cause& cause : both.causes) {
+    EXPECT_TRUE(names.insert(cause.name).second) << cause.name << " stands twice";
+    area += cause.area_m2;
+  }
+  EXPECT_TRUE(names.contains("west")) << "hides the eastern part";
+  EXPECT_TRUE(names.contains("east")) << "hides the western part";
+  EXPECT_TRUE(names.contains("max_range"));
+  EXPECT_NEAR(area, surface_area(both.mesh), 1e-6 * area);
+}
+
+TEST(IntersectVolumes, SaysWhenNothingIsInCommon) {
+  SceneBuilder builder;
+  builder.ground("ground", 500);
+  const PreparedScene scene(builder.scene());
+  const Volume both = intersect_volumes({volume_of(scene, {{-100, 0, 0}, {-95, 0, 0}, {-95, 5, 0}}),
+                                         volume_of(scene, {{95, 0, 0}, {100, 0, 0}, {100, 5, 0}})});
+  EXPECT_EQ(both.outcome, Outcome::no_common_view);
+  EXPECT_TRUE(both.mesh.empty());
+  EXPECT_NE(both.reason.find("no position sees all 2 parts"), std::string::npos) << both.reason;
+}
+
+TEST(IntersectVolumes, TakesOverAnEmptyPart) {
+  const PreparedScene scene = courtyard();
+  const Volume good = volume_of(scene, {{-9, 0, 0}, {-3, 0, 0}, {-3, 6, 0}});
+  Volume empty;
+  empty.outcome = Outcome::out_of_range;
+  empty.reason = "too far";
+  const Volume both = intersect_volumes({good, empty});
+  EXPECT_EQ(both.outcome, Outcome::out_of_range);
+  EXPECT_EQ(both.reason, "part 2 of the target: too far");
+  EXPECT_TRUE(both.mesh.empty() && both.causes.empty());
+}
+
+TEST(IntersectVolumes, RefusesNothingAtAll) {
+  EXPECT_THROW(intersect_volumes({}), Error);
+}
+
+}  // namespace
+}  // namespace vantage
