@@ -209,6 +209,22 @@ TEST_F(CityTest, TakesWhatHasACornerInTheRegionWhole) {
   EXPECT_NEAR(bounding_box(object_mesh(city.scene, "way/2")).max.x(), 140, 1e-2);
 }
 
+TEST_F(CityTest, ABuildingComesWithAllItsParts) {
+  MapText map;
+  map.box(50, 0, 250, 20, {{"building", "yes"}, {"height", "9"}});
+  map.box(50, 0, 150, 20, {{"building:part", "yes"}, {"height", "9"}});
+  map.box(150, 0, 250, 20, {{"building:part", "yes"}, {"height", "30"}});
+  map.box(150, 40, 250, 60, {{"building", "yes"}, {"height", "30"}});
+  CityOptions options;
+  options.region.center_deg = {48.1374, 11.5755};
+  options.region.radius_m = 100;
+  const City city = build(map, options);
+  EXPECT_EQ(record_of(city, "way/1").fate, Fate::skipped);
+  EXPECT_EQ(record_of(city, "way/3").fate, Fate::written) << "no corner of this part lies in the region";
+  EXPECT_EQ(city.report.records.size(), 3U);
+  EXPECT_EQ(city.report.outside, 1U);
+}
+
 TEST_F(CityTest, RefusesRegionsThatHoldNothing) {
   MapText map;
   map.box(0, 0, 20, 20, {{"building", "yes"}});

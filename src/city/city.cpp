@@ -41,16 +41,16 @@ City build_city(const std::filesystem::path& file, const CityOptions& options, c
   City result;
 
   auto start = Clock::now();
-  const osm::Extract extract = osm::read_extract(file, {region, city::wanted}, progress);
+  const osm::Extract extract = osm::read_extract(file, {city::with_margin(region), city::wanted}, progress);
   city::check_overlap(options.region, extract, file);
   const geo::LocalFrame frame(city::frame_origin(options.region, extract));
   result.report.notes = notes_on(extract);
-  result.report.outside = extract.outside;
   result.report.read_seconds = seconds_since(start);
 
   start = Clock::now();
-  city::Site site = city::make_site(extract, frame, options);
-  if (site.items.empty()) city::fail_empty(options.region, extract, file);
+  city::Site site = city::make_site(extract, osm::RegionFilter(region), frame, options);
+  result.report.outside = site.outside.objects;
+  if (site.items.empty()) city::fail_empty(options.region, extract, site.outside, file);
   const city::Vec2 margin = city::Vec2::Constant(options.ground_margin_m);
   const city::Vec2 min = site.min - margin, max = site.max + margin;
   const city::Ground ground = options.terrain.empty()

@@ -85,6 +85,20 @@ std::optional<osm::Region> checked_region(const CityRegion& region) {
   return {};
 }
 
+std::optional<osm::Region> with_margin(const std::optional<osm::Region>& region) {
+  constexpr double kMargin = 300;  // metres: more than any part lies from the rest of its building
+  if (!region) return region;
+  osm::Region wider = *region;
+  if (wider.circle) wider.circle->second += kMargin;
+  if (wider.box_deg) {
+    const Bounds& b = *region->box_deg;
+    const Bounds south = box_round({b[1], b[0]}, kMargin), north = box_round({b[3], b[2]}, kMargin);
+    wider.box_deg = {std::max(-180.0, std::min(south[0], b[0] - (north[2] - b[2]))), std::max(-90.0, south[1]),
+                     std::min(180.0, std::max(north[2], b[2] + (b[0] - south[0]))), std::min(90.0, north[3])};
+  }
+  return wider;
+}
+
 void check_overlap(const CityRegion& region, const osm::Extract& extract, const std::filesystem::path& file) {
   const Bounds& known = extract.bounds_deg;
   if (region.center_deg) {
@@ -104,15 +118,22 @@ void check_overlap(const CityRegion& region, const osm::Extract& extract, const 
   }
 }
 
-void fail_empty(const CityRegion& region, const osm::Extract& extract, const std::filesystem::path& file) {
-  if (extract.outside == 0) {
+void Outside::add(std::size_t more, double nearest) {
+  if (more == 0) return;
+  nearest_m = objects == 0 ? nearest : std::min(nearest_m, nearest);
+  objects += more;
+}
+
+void fail_empty(const CityRegion& region, const osm::Extract& extract, const Outside& outside,
+                const std::filesystem::path& file) {
+  if (outside.objects == 0) {
     fail("the map holds no building and nothing else to build", file.string(),
          "give an extract with buildings; it has " + std::to_string(extract.nodes) + " nodes and " +
              std::to_string(extract.ways) + " ways, " + bounds_text(extract.bounds_deg));
   }
   fail("there is nothing to build in the area", file.string(),
-       "the nearest of " + std::to_string(extract.outside) + " objects is " +
-           formatted("%.0f m", extract.nearest_outside_m, 0) +
+       "the nearest of " + std::to_string(outside.objects) + " objects is " +
+           formatted("%.0f m", outside.nearest_m, 0) +
            (region.center_deg ? " from the centre: give a larger radius, or another centre"
                               : " from the box: give a larger box") +
            "; the map holds " + bounds_text(extract.bounds_deg));

@@ -49,13 +49,37 @@ void note_remarks(CityRecord& record, const std::vector<TagRemark>& remarks) {
   for (const TagRemark& remark : remarks) record.remarks.push_back(remark.what);
 }
 
+bool touches(const osm::RegionFilter& region, const std::vector<geo::LonLat>& positions) {
+  return std::any_of(positions.begin(), positions.end(), [&](geo::LonLat at) { return region.contains(at); });
+}
+
+bool touches(const osm::RegionFilter& region, const osm::Area& area) {
+  return std::any_of(area.polygons.begin(), area.polygons.end(),
+                     [&](const osm::Polygon& polygon) { return touches(region, polygon.outer); });
+}
+
+double nearest(const osm::RegionFilter& region, const std::vector<geo::LonLat>& positions) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const geo::LonLat at : positions) least = std::min(least, region.distance_m(at));
+  return least;
+}
+
+double nearest(const osm::RegionFilter& region, const osm::Area& area) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const osm::Polygon& polygon : area.polygons) least = std::min(least, nearest(region, polygon.outer));
+  return least;
+}
+
 class BuildingSorter {
  public:
   BuildingSorter(Site& site, std::vector<Structure> structures, const BuildingDefaults& defaults)
       : site_(site), structures_(std::move(structures)), defaults_(defaults) {}
 
-  void sort() {
-    for (const Structure& structure : structures_) {
+  void sort(const osm::RegionFilter& region) {
+    const std::vector<bool> belongs = choose(region);
+    for (std::size_t i = 0; i < structures_.size(); ++i) {
+      const Structure& structure = structures_[i];
+      if (!belongs[i]) continue;
       CityRecord record =
           record_of(structure.source->id, structure.source->tags, structure.is_part ? "building part" : "building");
       const std::string fault = fault_of(structure);
@@ -70,6 +94,21 @@ class BuildingSorter {
   }
 
  private:
+  /// Which structures belong to the region; the others are counted.
+  std::vector<bool> choose(const osm::RegionFilter& region) const {
+    std::vector<bool> belongs(structures_.size());
+    for (std::size_t i = 0; i < structures_.size(); ++i) belongs[i] = touches(region, *structures_[i].source);
+    for (std::size_t i = 0; i < structures_.size(); ++i) {
+      const std::vector<std::size_t>& parts = structures_[i].parts;
+      if (std::any_of(parts.begin(), parts.end(), [&](std::size_t part) { return belongs[part]; })) belongs[i] = true;
+      for (const std::size_t part : parts) belongs[part] = belongs[i];
+    }
+    for (std::size_t i = 0; i < structures_.size(); ++i) {
+      if (!belongs[i]) site_.outside.add(1, nearest(region, *structures_[i].source));
+    }
+    return belongs;
+  }
+
   bool has_parts(const Structure& structure) const {
     return std::any_of(structure.parts.begin(), structure.parts.end(),
                        [&](std::size_t part) { return fault_of(structures_[part]).empty(); });
@@ -137,13 +176,17 @@ bool is_switched_on(std::string_view kind, const Occluders& occluders) {
 /// Walls, towers, bridges and trees.
 class OccluderSorter {
  public:
-  OccluderSorter(Site& site, const geo::LocalFrame& frame, const CityOptions& options)
-      : site_(site), frame_(frame), options_(options), piece_m_(options.terrain.empty() ? 0 : kWallPiece) {}
+  OccluderSorter(Site& site, const osm::RegionFilter& region, const geo::LocalFrame& frame, const CityOptions& options)
+      : site_(site),
+        region_(region),
+        frame_(frame),
+        options_(options),
+        piece_m_(options.terrain.empty() ? 0 : kWallPiece) {}
 
   void sort(const osm::Extract& extract) {
     for (const osm::Area& area : extract.areas) {
       const std::string_view kind = kind_of(area.tags, Geometry::area);
-      if (is_building(kind) || !is_switched_on(kind, options_.occluders)) continue;
+      if (is_building(kind) || !is_switched_on(kind, options_.occluders) || !belongs(area)) continue;
       Repairs repairs;
       const std::vector<Footprint> footprints = clean(project(area, frame_), repairs);
       add(area.id, area.tags, kind,
@@ -151,7 +194,7 @@ class OccluderSorter {
     }
     for (const osm::Line& line : extract.lines) {
       const std::string_view kind = kind_of(line.tags, Geometry::line);
-      if (is_building(kind) || !is_switched_on(kind, options_.occluders)) continue;
+      if (is_building(kind) || !is_switched_on(kind, options_.occluders) || !belongs(line.points)) continue;
       std::vector<Vec2> points;
       for (const geo::LonLat& position : line.points) points.push_back(frame_.to_local(position));
       add(line.id, line.tags, kind,
@@ -160,6 +203,7 @@ class OccluderSorter {
     for (const osm::Point& point : extract.points) {
       const std::string_view kind = kind_of(point.tags, Geometry::point);
       if (is_building(kind) || !is_switched_on(kind, options_.occluders)) continue;
+      if (!belongs(std::vector{point.position})) continue;
       add(point.id, point.tags, kind, [&](auto& remarks) {
         return shapes_of_point(point.tags, frame_.to_local(point.position), defaults_, remarks);
       });
@@ -168,6 +212,13 @@ class OccluderSorter {
 
  private:
   static constexpr double kWallPiece = 10;  // metres of wall that stand level, where there is terrain
+
+  template <typename Positions>
+  bool belongs(const Positions& positions) {
+    if (touches(region_, positions)) return true;
+    site_.outside.add(1, nearest(region_, positions));
+    return false;
+  }
 
   static bool is_building(std::string_view kind) { return kind == "building" || kind == "building part"; }
 
@@ -185,6 +236,7 @@ class OccluderSorter {
   }
 
   Site& site_;
+  const osm::RegionFilter& region_;
   const geo::LocalFrame& frame_;
   const CityOptions& options_;
   double piece_m_;
@@ -227,12 +279,14 @@ void set_bounds(Site& site) {
 
 }  // namespace
 
-Site make_site(const osm::Extract& extract, const geo::LocalFrame& frame, const CityOptions& options) {
+Site make_site(const osm::Extract& extract, const osm::RegionFilter& region, const geo::LocalFrame& frame,
+               const CityOptions& options) {
   Site site;
+  site.outside.add(extract.outside, extract.nearest_outside_m);
   std::vector<Structure> structures = structures_of(extract.areas, frame);
   assign_parts(structures, extract.building_relations);
-  BuildingSorter(site, std::move(structures), options.defaults).sort();
-  OccluderSorter(site, frame, options).sort(extract);
+  BuildingSorter(site, std::move(structures), options.defaults).sort(region);
+  OccluderSorter(site, region, frame, options).sort(extract);
   skip_lost(site, extract, options);
   set_bounds(site);
   return site;

@@ -6,8 +6,10 @@
 
 #include "city/footprint.h"
 #include "city/occluders.h"
+#include "city/region.h"
 #include "geo/local_frame.h"
 #include "osm/extract.h"
+#include "osm/region_filter.h"
 #include "vantage/city.h"
 
 namespace vantage::city {
@@ -26,11 +28,14 @@ struct Item {
 
 struct Site {
   std::vector<Item> items;
-  std::vector<CityRecord> skipped;              ///< read, wanted and not built, with the reason
+  std::vector<CityRecord> skipped;  ///< read, wanted and not built, with the reason
+  Outside outside;
   Vec2 min = Vec2::Zero(), max = Vec2::Zero();  ///< bounds of the footprints
 };
 
-/// Buildings and parts by Simple 3D Buildings, and the other occluders that are switched on.
-Site make_site(const osm::Extract& extract, const geo::LocalFrame& frame, const CityOptions& options);
+/// Buildings and parts by Simple 3D Buildings, and the other occluders that are switched on. An object belongs to the
+/// region when one of its corners does, and a building with all its parts when one of theirs does.
+Site make_site(const osm::Extract& extract, const osm::RegionFilter& region, const geo::LocalFrame& frame,
+               const CityOptions& options);
 
 }  // namespace vantage::city

@@ -91,9 +91,10 @@ void place_boxes(Navigation& navigation, const Placer& placer, const std::string
 
 // ---- targets on the ground ------------------------------------------------------------------------------------------
 
-/// The triangles of the object "ground", which scenes from maps have.
+/// The triangles of the object "ground", which scenes from maps have, or "surface", which is all of a raster's.
 terrain::Surface ground_of(const Mission& mission, const Scene& scene) {
-  const auto found = std::find(scene.objects.begin(), scene.objects.end(), "ground");
+  const auto found = std::find_if(scene.objects.begin(), scene.objects.end(),
+                                  [](const std::string& name) { return name == "ground" || name == "surface"; });
   if (found == scene.objects.end()) {
     fail("the scene has no object 'ground' to put the target on", mission.target_place,
          "give the target's vertices, or a scene that is made from a map");
@@ -224,8 +225,8 @@ std::vector<city::Ring> halved(const city::Ring& piece) {
 void put_on_ground(Mission& mission, const Scene& scene, const geo::LocalFrame& frame, const Progress& progress) {
   const GroundTarget wanted = *mission.ground_target;
   const terrain::Surface ground = ground_of(mission, scene);
-  const std::vector<city::Ring> rings =
-      wanted.osm.empty() ? std::vector<city::Ring>{rectangle(wanted, frame)} : outlines(mission, wanted.osm, frame, progress);
+  const std::vector<city::Ring> rings = wanted.osm.empty() ? std::vector<city::Ring>{rectangle(wanted, frame)}
+                                                           : outlines(mission, wanted.osm, frame, progress);
   std::vector<Target> parts;
   for (const city::Ring& ring : rings) {
     const Plane plane = ground_plane(ground, ring, mission.target_place);
