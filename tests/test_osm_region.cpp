@@ -96,6 +96,42 @@ TEST(OsmRegion, TakesAnObjectWholeWhenOneOfItsPositionsIsInside) {
   EXPECT_NEAR(nothing.nearest_outside_m, distance_m({9.05, 48.05}, {8.03, 47}), 1e-6);
 }
 
+/// A slab of 0.004 by 0.0002 degrees, 303 by 22 m, whose corners are all far from the middle of its long sides.
+TEST(OsmRegion, TakesWhatReachesInWithoutACorner) {
+  const std::string slab = osm_node(1, 8.000, 47.0000) + osm_node(2, 8.004, 47.0000) + osm_node(3, 8.004, 47.0002) +
+                           osm_node(4, 8.000, 47.0002);
+  const std::string content =
+      slab + osm_way(31, osm_ring(1), kBuilding) + osm_way(32, {1, 2}, osm_tag("barrier", "wall"));
+  const LonLat beside{8.002, 46.9999};
+  const double gap = distance_m(beside, {8.002, 47});
+  const Extract near = extract_of(content, circle(beside, gap + 0.01));
+  EXPECT_EQ(near.areas.size(), 1u);
+  EXPECT_EQ(near.lines.size(), 1u);
+  const Extract far = extract_of(content, circle(beside, gap - 0.01));
+  EXPECT_TRUE(far.areas.empty() && far.lines.empty());
+  EXPECT_NEAR(far.nearest_outside_m, gap, 0.001);
+
+  const Extract across = extract_of(content, box(8.001, 46.9999, 8.0011, 47.1));
+  EXPECT_EQ(across.areas.size(), 1u);
+  EXPECT_EQ(across.lines.size(), 1u);
+  const Extract past = extract_of(content, box(8.001, 46.9998, 8.0011, 46.9999));
+  EXPECT_EQ(past.outside, 2u);
+}
+
+TEST(OsmRegion, TakesAreasThatGoRoundIt) {
+  const std::string content =
+      osm_square(1, 8, 47, 0.01) + osm_square(5, 8.004, 47.004, 0.002) + osm_way(31, osm_ring(1)) +
+      osm_way(34, osm_ring(1), kBuilding) + osm_way(32, osm_ring(1), osm_tag("barrier", "wall")) +
+      osm_way(33, osm_ring(5)) +
+      osm_relation(40, {"way 31 outer", "way 33 inner"}, osm_tag("type", "multipolygon") + kPart);
+  const Extract in_hole = extract_of(content, circle({8.005, 47.005}, 20));
+  EXPECT_NE(find_object(in_hole.areas, way_id(34)), nullptr);
+  EXPECT_EQ(find_object(in_hole.areas, relation_id(40)), nullptr);
+  EXPECT_TRUE(in_hole.lines.empty());  // a wall hides nothing where it is not
+  const Extract in_ring = extract_of(content, box(8.002, 47.002, 8.0021, 47.0021));
+  EXPECT_NE(find_object(in_ring.areas, relation_id(40)), nullptr);
+}
+
 TEST(OsmRegion, MayLieOverTheDateLine) {
   const std::string content = osm_node(1, 179.9999, 0, kBuilding) + osm_node(2, -179.9999, 0, kBuilding) +
                               osm_node(3, 179.99, 0, kBuilding) + osm_node(4, 0, 0, kBuilding);

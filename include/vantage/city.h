@@ -43,7 +43,7 @@ struct Occluders {
   bool trees = true;    ///< natural=tree and tree_row
 };
 
-/// The part of the map that is built. An object belongs to it, whole, when one of its corners does.
+/// The part of the map that is built. An object belongs to it, whole, when some of it does, be it but a side's middle.
 struct CityRegion {
   std::optional<std::array<double, 2>> center_deg;  ///< latitude, longitude (WGS 84)
   double radius_m = 0;                              ///< about the centre; > 0 with `center_deg`

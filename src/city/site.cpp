@@ -49,24 +49,47 @@ void note_remarks(CityRecord& record, const std::vector<TagRemark>& remarks) {
   for (const TagRemark& remark : remarks) record.remarks.push_back(remark.what);
 }
 
-bool touches(const osm::RegionFilter& region, const std::vector<geo::LonLat>& positions) {
-  return std::any_of(positions.begin(), positions.end(), [&](geo::LonLat at) { return region.contains(at); });
+/// Calls `visit` with the ends of each side; a single position is a side from it to itself.
+template <typename Visit>
+void for_sides(const std::vector<geo::LonLat>& positions, bool closed, const Visit& visit) {
+  const std::size_t count = positions.size();
+  const std::size_t sides = closed || count < 2 ? count : count - 1;
+  for (std::size_t i = 0; i < sides; ++i) visit(positions[i], positions[(i + 1) % count]);
 }
 
+bool touches(const osm::RegionFilter& region, const std::vector<geo::LonLat>& line) {
+  bool found = false;
+  for_sides(line, false, [&](geo::LonLat from, geo::LonLat to) { found = found || region.meets(from, to); });
+  return found;
+}
+
+/// With a corner, with some of a side, or by lying round the region's centre.
 bool touches(const osm::RegionFilter& region, const osm::Area& area) {
-  return std::any_of(area.polygons.begin(), area.polygons.end(),
-                     [&](const osm::Polygon& polygon) { return touches(region, polygon.outer); });
+  if (region.everything()) return true;
+  bool found = false, round_centre = false;
+  const auto take = [&](const osm::Ring& ring) {
+    for_sides(ring, true, [&](geo::LonLat from, geo::LonLat to) {
+      found = found || region.meets(from, to);
+      round_centre ^= region.is_east_of_centre(from, to);
+    });
+  };
+  for (const osm::Polygon& polygon : area.polygons) {
+    take(polygon.outer);
+    std::for_each(polygon.holes.begin(), polygon.holes.end(), take);
+  }
+  return found || round_centre;
 }
 
-double nearest(const osm::RegionFilter& region, const std::vector<geo::LonLat>& positions) {
+double nearest(const osm::RegionFilter& region, const std::vector<geo::LonLat>& positions, bool closed = false) {
   double least = std::numeric_limits<double>::infinity();
-  for (const geo::LonLat at : positions) least = std::min(least, region.distance_m(at));
+  for_sides(positions, closed,
+            [&](geo::LonLat from, geo::LonLat to) { least = std::min(least, region.distance_m(from, to)); });
   return least;
 }
 
 double nearest(const osm::RegionFilter& region, const osm::Area& area) {
   double least = std::numeric_limits<double>::infinity();
-  for (const osm::Polygon& polygon : area.polygons) least = std::min(least, nearest(region, polygon.outer));
+  for (const osm::Polygon& polygon : area.polygons) least = std::min(least, nearest(region, polygon.outer, true));
   return least;
 }
 

@@ -195,7 +195,7 @@ void add_scene(CLI::App& app, Command& chosen) {
       ->option_text("FILE");
   command->add_option("--center", options->center, "Centre of the area, degrees (WGS 84); with --radius")
       ->option_text("LAT,LON");
-  command->add_option("--radius", options->radius, "Of the area; what has a corner in it is built, whole")
+  command->add_option("--radius", options->radius, "Of the area; what reaches into it is built, whole")
       ->option_text("METRES");
   command->add_option("--bbox", options->bbox, "The area as a box, degrees")->option_text("W,S,E,N");
   command->add_option("--window", options->window, "Part of a raster, in posts")

@@ -94,8 +94,9 @@ struct Problem {
   Tags tags;          ///< of the object, to tell whether a building was lost
 };
 
-/// Positions that are wanted. An object is taken, whole, when one of its positions lies inside; the members of a
-/// building relation are taken together. With both a circle and a box a position must lie in both.
+/// Positions that are wanted. An object is taken, whole, when some of it lies inside: a corner, a part of a side, or of
+/// an area about the region's centre its interior; the members of a building relation are taken together. With both a
+/// circle and a box a position must lie in both.
 struct Region {
   std::optional<std::pair<LonLat, double>> circle;  ///< centre and radius in metres (on the ellipsoid)
   std::optional<std::array<double, 4>> box_deg;     ///< west, south, east, north; west > east: over the date line

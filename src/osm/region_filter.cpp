@@ -63,6 +63,7 @@ RegionFilter::RegionFilter(const std::optional<Region>& region) {
     }
     centre = circle_->centre;
   }
+  middle_ = centre;
   centre_ = on_ellipsoid(centre);
 }
 
@@ -80,8 +81,53 @@ bool RegionFilter::contains(LonLat position) const {
   return distance_m(position) <= circle_->radius_m;
 }
 
+RegionFilter::Side RegionFilter::side(LonLat from, LonLat to) const {
+  return {{std::remainder(from.longitude_deg - middle_.longitude_deg, 360), from.latitude_deg - middle_.latitude_deg},
+          {std::remainder(to.longitude_deg - from.longitude_deg, 360), to.latitude_deg - from.latitude_deg}};
+}
+
+LonLat RegionFilter::nearest(const Side& side, double begin, double end) const {
+  // A degree of longitude is shorter by the cosine: enough to find the place, whose distance is then measured.
+  const double shrink = std::cos(middle_.latitude_deg * kDegree);
+  const double x = shrink * side.from[0], y = side.from[1], dx = shrink * side.along[0], dy = side.along[1];
+  const double square = dx * dx + dy * dy;
+  const double at = square > 0 ? std::clamp(-(x * dx + y * dy) / square, begin, end) : begin;
+  return {std::remainder(middle_.longitude_deg + side.from[0] + at * side.along[0], 360),
+          middle_.latitude_deg + side.from[1] + at * side.along[1]};
+}
+
+bool RegionFilter::meets(LonLat from, LonLat to) const {
+  if (everything() || contains(from) || contains(to)) return true;
+  const Side whole = side(from, to);
+  double begin = 0, end = 1;
+  if (box_) {  // Y.-D. Liang and B. A. Barsky, 1984
+    const auto& [west, south, east, north] = *box_;
+    const double low_x = std::remainder(west - middle_.longitude_deg, 360);
+    const std::array<double, 2> low = {low_x, south - middle_.latitude_deg};
+    const std::array<double, 2> size = {west < east ? east - west : east - west + 360, north - south};
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      const double before = low[axis] - whole.from[axis], after = before + size[axis], along = whole.along[axis];
+      if (along == 0 && (before > 0 || after < 0)) return false;
+      if (along == 0) continue;
+      begin = std::max(begin, std::min(before / along, after / along));
+      end = std::min(end, std::max(before / along, after / along));
+    }
+    if (begin > end) return false;
+  }
+  return !circle_ || distance_m(nearest(whole, begin, end)) <= circle_->radius_m;
+}
+
+bool RegionFilter::is_east_of_centre(LonLat from, LonLat to) const {
+  const Side whole = side(from, to);
+  const double end = whole.from[1] + whole.along[1];
+  if ((whole.from[1] > 0) == (end > 0)) return false;
+  return whole.from[0] - whole.from[1] / whole.along[1] * whole.along[0] > 0;
+}
+
 double RegionFilter::distance_m(LonLat position) const {
   return everything() ? 0 : arc(on_ellipsoid(position), centre_);
 }
+
+double RegionFilter::distance_m(LonLat from, LonLat to) const { return distance_m(nearest(side(from, to), 0, 1)); }
 
 }  // namespace vantage::osm

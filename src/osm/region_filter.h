@@ -21,17 +21,32 @@ class RegionFilter {
 
   bool everything() const { return !circle_ && !box_; }
   bool contains(LonLat position) const;
+  /// Whether some of the straight side between two positions is inside.
+  bool meets(LonLat from, LonLat to) const;
+  /// Whether a ray from the centre to the east crosses the side. The centre lies within rings that it crosses an odd
+  /// number of times in all.
+  bool is_east_of_centre(LonLat from, LonLat to) const;
   /// From the centre of the circle, or else of the box; 0 where there is no region.
   double distance_m(LonLat position) const;
+  double distance_m(LonLat from, LonLat to) const;  ///< to the nearest point of a side
 
  private:
+  /// A side in degrees about the centre, longitude first; it does not break at the date line.
+  struct Side {
+    std::array<double, 2> from{}, along{};
+  };
+  Side side(LonLat from, LonLat to) const;
+  /// The point of the part of a side, from `begin` to `end` of its length, that is nearest to the centre.
+  LonLat nearest(const Side& side, double begin, double end) const;
+
   struct Circle {
     LonLat centre;
     double radius_m = 0;
   };
   std::optional<Circle> circle_;
   std::optional<std::array<double, 4>> box_;
-  std::array<double, 3> centre_{};  ///< metres, earth-centred
+  LonLat middle_;
+  std::array<double, 3> centre_{};  ///< the same, metres, earth-centred
 };
 
 }  // namespace vantage::osm

@@ -1,26 +1,50 @@
 #include "osm/selection.h"
 
 #include <algorithm>
+#include <optional>
+
+#include "osm/meaning.h"
 
 namespace vantage::osm {
+namespace {
+
+/// Calls `visit` with the ends of each side; once, with the same position twice, where there is but one.
+template <typename Visit>
+void for_sides(const osmium::Way& way, const Visit& visit) {
+  std::optional<LonLat> before;
+  bool alone = false;
+  for (const osmium::NodeRef& node : way.nodes()) {
+    if (!node.location()) continue;
+    const LonLat here = to_lonlat(node.location());
+    if (before) visit(*before, here);
+    alone = !before;
+    before = here;
+  }
+  if (alone) visit(*before, *before);
+}
+
+}  // namespace
 
 Selection::Selection(const MapObjects& objects, const RegionFilter& region) : objects_(objects), region_(region) {
   if (region_.everything()) return;
   for (const KeptWay& kept : objects_.ways) {
-    const osmium::WayNodeList& nodes = kept.way->nodes();
-    if (std::any_of(nodes.begin(), nodes.end(), [this](const osmium::NodeRef& node) {
-          return node.location() && region_.contains(to_lonlat(node.location()));
-        })) {
-      ways_.insert(kept.way->id());
-    }
+    bool held = false, round_centre = false;
+    for_sides(*kept.way, [&](LonLat from, LonLat to) {
+      held = held || region_.meets(from, to);
+      round_centre ^= region_.is_east_of_centre(from, to);
+    });
+    if (held || (round_centre && kept.closed && means_area(to_tags(kept.way->tags())))) ways_.insert(kept.way->id());
   }
   for (const osmium::Relation* const relation : objects_.relations) {
-    const osmium::RelationMemberList& members = relation->members();
-    if (std::any_of(members.begin(), members.end(), [this](const osmium::RelationMember& member) {
-          return member.type() == osmium::item_type::way && ways_.contains(member.ref());
-        })) {
-      relations_.insert(relation->id());
+    bool held = false, round_centre = false;
+    for (const osmium::RelationMember& member : relation->members()) {
+      const KeptWay* const kept = member.type() == osmium::item_type::way ? objects_.find_way(member.ref()) : nullptr;
+      if (kept == nullptr) continue;
+      held = held || ways_.contains(member.ref());
+      for_sides(*kept->way, [&](LonLat from, LonLat to) { round_centre ^= region_.is_east_of_centre(from, to); });
     }
+    const bool is_area = kind_of(to_tags(relation->tags())) == RelationKind::multipolygon;
+    if (held || (round_centre && is_area)) relations_.insert(relation->id());
   }
   take_buildings_together();
 }
@@ -65,9 +89,7 @@ void Selection::leave_out(const osmium::Relation& multipolygon) {
 }
 
 void Selection::measure(const osmium::Way& way) {
-  for (const osmium::NodeRef& node : way.nodes()) {
-    if (node.location()) nearest_ = std::min(nearest_, region_.distance_m(to_lonlat(node.location())));
-  }
+  for_sides(way, [this](LonLat from, LonLat to) { nearest_ = std::min(nearest_, region_.distance_m(from, to)); });
 }
 
 }  // namespace vantage::osm

@@ -12,8 +12,9 @@
 
 namespace vantage::osm {
 
-/// An object lies in the region when one of its positions does; a multipolygon when one of its ways does. What belongs
-/// to one type=building relation is taken together: a tower without the parts that replace it would be wrong.
+/// An object lies in the region when it reaches into it: a corner or some of a side does, or it is an area about the
+/// region's centre. What belongs to one type=building relation is taken together: a tower without the parts that
+/// replace it would be wrong.
 class Selection {
  public:
   Selection(const MapObjects& objects, const RegionFilter& region);
