@@ -159,6 +159,24 @@ TEST_F(CityTest, MendsAnOutlineThatCrossesItself) {
   EXPECT_NEAR(object_volume(city.scene, "way/1"), 200 * 10, 10) << "two triangles of 100 m2";
 }
 
+TEST_F(CityTest, SaysWhatItMadeUp) {
+  MapText map;
+  map.line({{0, 0}, {20, 0}, {20, 20}, {0, 20}}, {{"building", "yes"}, {"height", "10"}});
+  const long a = map.node(40, 0), b = map.node(60, 0), c = map.node(60, 20);
+  map.way({a, b, c, 99, a}, {{"building", "yes"}});
+  map.way({a, 99, b}, {{"barrier", "wall"}});
+  const City city = build(map);
+  const CityRecord &open = record_of(city, "way/1"), &torn = record_of(city, "way/2"), &wall = record_of(city, "way/3");
+  EXPECT_EQ(open.fate, Fate::repaired);
+  EXPECT_EQ(open.reason, "outline that is not closed: a straight side closes it");
+  ASSERT_EQ(open.remarks.size(), 1U);
+  EXPECT_NE(open.remarks[0].find("a straight side of 20.0 m"), std::string::npos) << open.remarks[0];
+  EXPECT_EQ(torn.fate, Fate::repaired);
+  EXPECT_EQ(torn.reason, "some of its nodes are not in the file: built from the others");
+  EXPECT_EQ(wall.fate, Fate::repaired);
+  EXPECT_NEAR(object_volume(city.scene, "way/2"), 200 * 9, 5);
+}
+
 TEST_F(CityTest, SkipsWhatIsNoBuildingAndSaysWhy) {
   MapText map;
   map.box(0, 0, 20, 20, {{"building", "yes"}});

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <limits>
+#include <map>
 #include <set>
 
 #include "city/structures.h"
@@ -300,6 +301,39 @@ void set_bounds(Site& site) {
   }
 }
 
+/// How an object was built that could not be read as it is drawn; an empty text where nothing was made up.
+std::string reading_repair(osm::Problem::Kind kind) {
+  using Kind = osm::Problem::Kind;
+  switch (kind) {
+    case Kind::missing_nodes:
+      return "some of its nodes are not in the file: built from the others";
+    case Kind::missing_members:
+      return "some of its members are not in the file: built from the others";
+    case Kind::open_outline:
+      return "outline that is not closed: a straight side closes it";
+    case Kind::broken_multipolygon:
+      return "rings that do not fit together: taken as drawn";
+    case Kind::degenerate:
+    case Kind::repeated_outline:
+      break;
+  }
+  return {};
+}
+
+void note_reading_repairs(Site& site, const osm::Extract& extract) {
+  std::map<std::string, const osm::Problem*> problems;
+  for (const osm::Problem& problem : extract.problems) {
+    if (!problem.lost && !reading_repair(problem.kind).empty()) problems[osm::text(problem.object)] = &problem;
+  }
+  for (Item& item : site.items) {
+    const auto found = problems.find(item.record.object);
+    if (found == problems.end()) continue;
+    item.record.fate = Fate::repaired;
+    if (item.record.reason.empty()) item.record.reason = reading_repair(found->second->kind);
+    item.record.remarks.push_back(found->second->what);
+  }
+}
+
 }  // namespace
 
 Site make_site(const osm::Extract& extract, const osm::RegionFilter& region, const geo::LocalFrame& frame,
@@ -312,6 +346,7 @@ Site make_site(const osm::Extract& extract, const osm::RegionFilter& region, con
   OccluderSorter(site, region, frame, options).sort(extract);
   skip_lost(site, extract, options);
   set_bounds(site);
+  note_reading_repairs(site, extract);
   return site;
 }
 
