@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "city/footprint.h"
@@ -35,49 +37,69 @@ geo::LocalFrame frame_of(const Mission& mission, const Scene& scene) {
   return geo::LocalFrame({scene.georeference->longitude_deg, scene.georeference->latitude_deg});
 }
 
-/// Positions of the mission's CRS in the frame; heights are z already.
+/// Positions of the mission's CRS in the frame; heights are z already, in the unit of the CRS where it has one.
 class Placer {
  public:
   Placer(const Mission& mission, const geo::LocalFrame& frame)
       : frame_(frame), system_(mission.crs, mission.file.string()) {}
 
   Vec3 operator()(const Vec3& position) const {
-    const Vec2 local = frame_.to_local(system_.to_lonlat(position.head<2>()));
-    return {local.x(), local.y(), position.z()};
+    const Vec2 local = place(position.head<2>());
+    return {local.x(), local.y(), placed_z(position.z())};
   }
 
-  /// The corners of a box's lower side, in order round.
-  std::array<Vec2, 4> corners(const Box& box) const {
-    const Placer& at = *this;
-    return {at(box.min).head<2>(), at({box.max.x(), box.min.y(), 0}).head<2>(), at(box.max).head<2>(),
-            at({box.min.x(), box.max.y(), 0}).head<2>()};
-  }
+  bool is_geographic() const { return system_.is_geographic(); }
 
-  /// A box lies askew in the frame by the angle between the norths, and its sides curve: what is kept in is cut down to
-  /// the largest box of the frame within its sides, what is kept out grows to the smallest round it.
+  /// A box lies askew in the frame by the angle between the norths, and its sides curve (a parallel of 2 km by a
+  /// decimetre): what is kept in is cut down to the largest box of the frame within its sides, what is kept out grows
+  /// to the smallest round it.
   Box inside(const Box& box) const {
-    const auto c = corners(box);
+    const auto [south, east, north, west] = sides(box);
     Box result;
-    result.min = {std::max(c[0].x(), c[3].x()), std::max(c[0].y(), c[1].y()), box.min.z()};
-    result.max = {std::min(c[1].x(), c[2].x()), std::min(c[2].y(), c[3].y()), box.max.z()};
+    const auto [low, high] = std::minmax({placed_z(box.min.z()), placed_z(box.max.z())});
+    result.min = {west.max.x(), south.max.y(), low};
+    result.max = {east.min.x(), north.min.y(), high};
     return result;
   }
   Box around(const Box& box) const {
     Box result;
-    for (const Vec2& corner : corners(box)) {
-      result.extend(Vec3(corner.x(), corner.y(), box.min.z()));
-      result.extend(Vec3(corner.x(), corner.y(), box.max.z()));
-    }
+    for (const Box& side : sides(box)) result.extend(side);
+    std::tie(result.min.z(), result.max.z()) = std::minmax({placed_z(box.min.z()), placed_z(box.max.z())});
     return result;
   }
 
  private:
+  /// What a side of a box takes up in the frame; z is not used.
+  Box side(const Vec2& from, const Vec2& to) const {
+    constexpr int kSteps = 32;
+    std::vector<Vec2> points;
+    for (int i = 0; i <= kSteps; ++i) points.push_back(place(from + (to - from) * i / kSteps));
+    // Between three of its points a curve leaves the chord by about an eighth of their second difference.
+    double bulge = 0;
+    for (int i = 1; i < kSteps; ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      bulge = std::max(bulge, (points[at - 1] - 2 * points[at] + points[at + 1]).norm() / 4);
+    }
+    Box result;
+    for (const Vec2& p : points) {
+      result.extend(Vec3(p.x() - bulge, p.y() - bulge, 0));
+      result.extend(Vec3(p.x() + bulge, p.y() + bulge, 0));
+    }
+    return result;
+  }
+  /// South, east, north, west.
+  std::array<Box, 4> sides(const Box& box) const {
+    const Vec2 a = box.min.head<2>(), c = box.max.head<2>(), b(c.x(), a.y()), d(a.x(), c.y());
+    return {side(a, b), side(b, c), side(c, d), side(d, a)};
+  }
+
+  Vec2 place(const Vec2& position) const { return frame_.to_local(system_.to_lonlat(position)); }
+  double placed_z(double z) const { return z * system_.vertical_unit_m().value_or(1); }
+
   const geo::LocalFrame& frame_;
   geo::CoordinateSystem system_;
 };
 
-/// Sides of a box that follow parallels curve by up to this over a kilometre and more; 1 cm covers boxes of 2 km below
-/// 80 degrees of latitude.
 void place_boxes(Navigation& navigation, const Placer& placer, const std::string& where) {
   for (Box& box : navigation.boxes) {
     box = placer.inside(box);
@@ -87,6 +109,18 @@ void place_boxes(Navigation& navigation, const Placer& placer, const std::string
     }
   }
   for (Box& box : navigation.keep_out) box = placer.around(box);
+}
+
+void check_near(const Mission& mission, const Placer& placer) {
+  constexpr double kFarthest = 100e3;  // metres from the origin: no scene is so large
+  for (const Vec3& vertex : mission.target.vertices) {
+    const double distance = vertex.head<2>().norm();
+    if (distance <= kFarthest) continue;
+    fail("the target lies " + std::to_string(std::lround(distance / 1000)) + " km from the scene's origin",
+         mission.target_place,
+         placer.is_geographic() ? "write the longitude before the latitude: [longitude, latitude, z]"
+                                : "check the coordinates, east before north, and the 'crs' that they are in");
+  }
 }
 
 // ---- targets on the ground ------------------------------------------------------------------------------------------
@@ -166,30 +200,36 @@ bool is_closed(const osm::Line& line) {
   return line.points.size() > 3 && first.longitude_deg == last.longitude_deg && first.latitude_deg == last.latitude_deg;
 }
 
-/// The rings of an object of the map: an area, or any closed way.
-std::vector<osm::Ring> rings_of(const osm::Extract& extract, osm::ObjectId id) {
-  std::vector<osm::Ring> rings;
+/// The polygons of an object of the map: an area, or any closed way.
+std::vector<osm::Polygon> polygons_of(const osm::Extract& extract, osm::ObjectId id) {
+  std::vector<osm::Polygon> polygons;
   for (const osm::Area& area : extract.areas) {
     if (area.id != id) continue;
-    for (const osm::Polygon& polygon : area.polygons) rings.push_back(polygon.outer);
+    polygons.insert(polygons.end(), area.polygons.begin(), area.polygons.end());
   }
   for (const osm::Line& line : extract.lines) {
-    if (line.id == id && is_closed(line)) rings.emplace_back(line.points.begin(), line.points.end() - 1);
+    if (line.id == id && is_closed(line)) polygons.push_back({{line.points.begin(), line.points.end() - 1}, {}});
   }
-  return rings;
+  return polygons;
 }
 
-/// The outlines of an object of the map, without holes: what lies in a hole (a fountain) is to be seen as well.
-std::vector<city::Ring> outlines(const Mission& mission, const std::string& name, const geo::LocalFrame& frame,
-                                 const Progress& progress) {
+city::Ring projected(const osm::Ring& ring, const geo::LocalFrame& frame) {
+  city::Ring result;
+  for (const geo::LonLat& position : ring) result.push_back(frame.to_local(position));
+  return result;
+}
+
+/// The outlines of an object of the map. What is in a hole, a building maybe, is no part of it and need not be seen.
+std::vector<city::Footprint> outlines(const Mission& mission, const std::string& name, const geo::LocalFrame& frame,
+                                      const Progress& progress) {
   const auto id = osm::parse_object_id(name);
   if (!id) fail(in_quotes(name) + " is no object of a map", mission.target_place, "write 'osm: way/123'");
   osm::ReadOptions options;
   options.region = city::checked_region(mission.scene.city.region);
   std::vector<city::Footprint> rough;
-  for (const osm::Ring& ring : rings_of(osm::read_extract(mission.scene.file, options, progress), *id)) {
-    city::Footprint footprint;
-    for (const geo::LonLat& position : ring) footprint.outer.push_back(frame.to_local(position));
+  for (const osm::Polygon& polygon : polygons_of(osm::read_extract(mission.scene.file, options, progress), *id)) {
+    city::Footprint footprint{projected(polygon.outer, frame), {}};
+    for (const osm::Ring& hole : polygon.holes) footprint.holes.push_back(projected(hole, frame));
     rough.push_back(std::move(footprint));
   }
   if (rough.empty()) {
@@ -197,11 +237,10 @@ std::vector<city::Ring> outlines(const Mission& mission, const std::string& name
          "name a tagged closed way or a multipolygon of " + mission.scene.file.filename().string() +
              ", or choose a larger area of the map");
   }
-  std::vector<city::Ring> rings;
   city::Repairs repairs;
-  for (city::Footprint& footprint : city::clean(rough, repairs)) rings.push_back(std::move(footprint.outer));
-  if (rings.empty()) fail(name + " has no area", mission.target_place, "name another object");
-  return rings;
+  std::vector<city::Footprint> outlines = city::clean(rough, repairs);
+  if (outlines.empty()) fail(name + " has no area", mission.target_place, "name another object");
+  return outlines;
 }
 
 std::vector<Vec3> on_plane(const city::Ring& ring, const Plane& plane) {
@@ -222,15 +261,57 @@ std::vector<city::Ring> halved(const city::Ring& piece) {
   return parts;
 }
 
+/// Whether a place is wound round by a facet seen from above. Of facets that share a side, one holds a place on it.
+bool holds(const std::array<Vec3, 3>& facet, const Vec3& at) {
+  bool inside = false;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3 &a = facet[i], &b = facet[(i + 1) % 3];
+    if ((a.y() > at.y()) == (b.y() > at.y())) continue;
+    if (at.x() < a.x() + (b.x() - a.x()) * (at.y() - a.y()) / (b.y() - a.y())) inside = !inside;
+  }
+  return inside;
+}
+
+/// The first object that a point lies in: of its facets on the vertical line through the point an odd number is above,
+/// and an even number in all, or else it is not closed there. Nothing where the point is in the open.
+std::optional<std::string> solid_round(const Scene& scene, const Vec3& at) {
+  std::vector<std::size_t> above(scene.objects.size(), 0), all(scene.objects.size(), 0);
+  for (std::size_t i = 0; i < scene.mesh.triangles.size(); ++i) {
+    std::array<Vec3, 3> facet;
+    for (std::size_t k = 0; k < 3; ++k) facet[k] = scene.mesh.vertices[scene.mesh.triangles[i][k]];
+    if (!holds(facet, at)) continue;
+    const Vec3 normal = (facet[1] - facet[0]).cross(facet[2] - facet[0]);
+    ++all[scene.object_of[i]];
+    above[scene.object_of[i]] += normal.dot(at - facet[0]) * normal.z() < 0;
+  }
+  for (std::size_t object = 0; object < all.size(); ++object) {
+    if (all[object] % 2 == 0 && above[object] % 2 == 1) return scene.objects[object];
+  }
+  return std::nullopt;
+}
+
+/// From inside a building its walls are all that is seen, and a volume all the same.
+void check_outdoors(const std::vector<Target>& parts, const Scene& scene, const std::string& where) {
+  constexpr double kClear = 1e-3;  // metres: the target may lie on the floor of a building
+  for (const Target& part : parts) {
+    const TargetFrame frame = make_target_frame(part);
+    const auto solid = solid_round(scene, frame.origin + kClear * frame.normal);
+    if (!solid) continue;
+    fail("the target lies inside " + in_quotes(*solid), where,
+         "name a place outdoors; for a roof give its 'vertices', for a storey a scene that has rooms");
+  }
+}
+
 void put_on_ground(Mission& mission, const Scene& scene, const geo::LocalFrame& frame, const Progress& progress) {
   const GroundTarget wanted = *mission.ground_target;
   const terrain::Surface ground = ground_of(mission, scene);
-  const std::vector<city::Ring> rings = wanted.osm.empty() ? std::vector<city::Ring>{rectangle(wanted, frame)}
-                                                           : outlines(mission, wanted.osm, frame, progress);
+  const std::vector<city::Footprint> areas = wanted.osm.empty()
+                                                 ? std::vector<city::Footprint>{{rectangle(wanted, frame), {}}}
+                                                 : outlines(mission, wanted.osm, frame, progress);
   std::vector<Target> parts;
-  for (const city::Ring& ring : rings) {
-    const Plane plane = ground_plane(ground, ring, mission.target_place);
-    for (const city::Ring& piece : city::convex_pieces({ring, {}})) {
+  for (const city::Footprint& area : areas) {
+    const Plane plane = ground_plane(ground, area.outer, mission.target_place);
+    for (const city::Ring& piece : city::convex_pieces(area)) {
       for (const city::Ring& small : halved(piece)) {
         Target part = mission.target;
         part.vertices = on_plane(small, plane);
@@ -238,6 +319,7 @@ void put_on_ground(Mission& mission, const Scene& scene, const geo::LocalFrame& 
       }
     }
   }
+  check_outdoors(parts, scene, mission.target_place);
   if (parts.size() > 1) {
     for (std::size_t i = 0; i < parts.size(); ++i) parts[i].name.append(" ").append(std::to_string(i + 1));
   }
@@ -256,6 +338,7 @@ void place_mission(Mission& mission, const Scene& scene, const Progress& progres
       for (Vec3& vertex : mission.target.vertices) vertex = placer(vertex);
       return 0;
     });
+    check_near(mission, placer);
     place_boxes(mission.navigation, placer, mission.file.string());
     mission.crs.clear();
   }

@@ -1,0 +1,133 @@
+// Targets on the ground that are not what they look like: indoors, with holes, far away; and boxes whose sides curve.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+#include "geo/local_frame.h"
+#include "support/map_text.h"
+#include "support/temporary_directory.h"
+#include "vantage/error.h"
+#include "vantage/mission.h"
+
+namespace vantage {
+namespace {
+
+using testing::MapText;
+using testing::TemporaryDirectory;
+using testing::write_bytes;
+
+constexpr geo::LonLat kOrigin = {11.5755, 48.1374};
+
+class GroundTargetTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    MapText map(kOrigin);
+    map.box(-10, -10, 10, 10, {{"building", "yes"}, {"height", "12"}});  // way/1
+    map.box(-40, -40, 40, 40, {{"name", "the border of the square"}});   // way/2
+    map.relation({{"way", 2, "outer"}, {"way", 1, "inner"}}, {{"type", "multipolygon"}, {"place", "square"}});
+    map.box(100, -5, 120, 5, {{"building", "roof"}, {"height", "5"}, {"name", "Shelter"}});  // way/3
+    write_bytes(folder_ / "city.osm", map.text());
+  }
+
+  Mission placed(const std::string& text) {
+    write_bytes(folder_ / "mission.yaml",
+                "scene: {osm: city.osm, center: [48.1374, 11.5755], radius: 300}\n"
+                "sensor: {max_range: 90}\n" +
+                    text);
+    Mission mission = read_mission(folder_ / "mission.yaml");
+    loaded_ = read_mission_scene(mission);
+    return mission;
+  }
+
+  void expect_refused(const std::string& text, const std::string& problem, const std::string& fix) {
+    try {
+      placed(text);
+      ADD_FAILURE() << "not refused: " << problem;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::input);
+      EXPECT_NE(error.problem().find(problem), std::string::npos) << error.what();
+      EXPECT_NE(error.where().find("mission.yaml:3:"), std::string::npos) << error.what();
+      EXPECT_NE(error.fix().find(fix), std::string::npos) << error.what();
+    }
+  }
+
+  static std::string at(double east, double north) {
+    const geo::LonLat place = geo::LocalFrame(kOrigin).to_lonlat({east, north});
+    char text[64];
+    std::snprintf(text, sizeof text, "[%.9f, %.9f]", place.latitude_deg, place.longitude_deg);
+    return text;
+  }
+
+  TemporaryDirectory folder_;
+  LoadedScene loaded_;
+};
+
+double area_of(const Target& target) {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t i = 1; i + 1 < target.vertices.size(); ++i) {
+    sum += (target.vertices[i] - target.vertices[0]).cross(target.vertices[i + 1] - target.vertices[0]) / 2;
+  }
+  return sum.norm();
+}
+
+TEST_F(GroundTargetTest, IndoorsIsRefused) {
+  expect_refused("target: {osm: way/1}\n", "the target lies inside 'way/1'", "outdoors");
+  expect_refused("target: {center: " + at(2, -3) + ", width: 4, length: 6, heading: 20}\n", "inside 'way/1'",
+                 "outdoors");
+  const Mission below = placed("target: {center: " + at(110, 0) + ", width: 4, length: 6}\n");
+  EXPECT_NEAR(area_of(below.target), 24, 1e-6) << "under a roof on posts is outdoors";
+}
+
+TEST_F(GroundTargetTest, HolesAreNoPartOfIt) {
+  const Mission square = placed("target: {osm: relation/1}\n");
+  double area = area_of(square.target);
+  for (const Target& part : square.other_parts) area += area_of(part);
+  EXPECT_NEAR(area, 80 * 80 - 20 * 20, 2);
+  EXPECT_EQ(compute_mission(read_mission(folder_ / "mission.yaml")).outcome, Outcome::no_common_view)
+      << "the building in the middle hides some of it from everywhere within range";
+}
+
+TEST_F(GroundTargetTest, FarAwayIsMostLikelyTheWrongOrder) {
+  expect_refused(
+      "target: {vertices: [[48.1374, 11.5755, 0], [48.1375, 11.5755, 0], [48.1374, 11.5756, 0]]}\n"
+      "crs: EPSG:4326\n",
+      "km from the scene's origin", "longitude before the latitude");
+}
+
+/// EPSG:6360 measures in feet of the US survey.
+TEST_F(GroundTargetTest, HeightsAreInTheUnitOfTheSystem) {
+  const auto height = [&](const char* system) {
+    const std::string text =
+        "target: {vertices: [[691000, 5334600, 10], [691010, 5334600, 10], [691000, 5334610, 10]]}\n";
+    return placed(text + "crs: " + system + "\n").target.vertices.at(0).z();
+  };
+  EXPECT_EQ(height("EPSG:25832"), 10);
+  EXPECT_NEAR(height("EPSG:25832+6360"), 10 * 1200.0 / 3937, 1e-9);
+}
+
+/// A box of 8 km in longitude: its northern side, a parallel, lies 1.4 m further south in the middle than at its ends.
+TEST_F(GroundTargetTest, BoxesHoldWithSidesThatCurve) {
+  const geo::LocalFrame frame(kOrigin);
+  const Mission mission = placed("target: {center: " + at(70, 0) +
+                                 ", width: 4, length: 6}\ncrs: EPSG:4326\nnavigation:\n"
+                                 "  boxes: [{min: [11.52, 48.13, 1], max: [11.63, 48.145, 80]}]\n"
+                                 "  keep_out: [{min: [11.52, 48.13, 1], max: [11.63, 48.145, 80]}]\n");
+  const Box &in = mission.navigation.boxes.at(0), &out = mission.navigation.keep_out.at(0);
+  const double ends = frame.to_local({11.52, 48.145}).y(), middle = frame.to_local({kOrigin.longitude_deg, 48.145}).y();
+  EXPECT_GT(ends - middle, 1);
+  EXPECT_LE(in.max.y(), middle);
+  EXPECT_NEAR(in.max.y(), middle, 0.01);
+  EXPECT_GE(out.max.y(), ends);
+  EXPECT_NEAR(out.max.y(), ends, 0.01);
+  for (int i = 0; i <= 100; ++i) {
+    const double longitude = 11.52 + 0.11 * i / 100;
+    EXPECT_GE(in.min.y(), frame.to_local({longitude, 48.13}).y());
+    EXPECT_LE(out.min.y(), frame.to_local({longitude, 48.13}).y());
+  }
+}
+
+}  // namespace
+}  // namespace vantage
