@@ -76,7 +76,9 @@ class MapText {
 
   static std::string tag_text(const TagList& tags) {
     std::string text;
-    for (const auto& [key, value] : tags) text += "<tag k=\"" + key + "\" v=\"" + value + "\"/>";
+    for (const auto& [key, value] : tags) {
+      text.append("<tag k=\"").append(key).append("\" v=\"").append(value).append("\"/>");
+    }
     return text;
   }
 
