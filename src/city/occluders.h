@@ -1,7 +1,6 @@
 // What hides besides buildings: walls, towers, bridges and trees, as shapes to build on some ground.
 #pragma once
 
-#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -23,45 +22,6 @@ std::string_view kind_of(const osm::Tags& tags, Geometry geometry);
 
 /// Whether the tags make any of these of some geometry: for osm::ReadOptions.
 bool wanted(const osm::Tags& tags);
-
-/// Sizes where the tags say none. Metres.
-struct OccluderDefaults {
-  struct Size {
-    double height_m = 0;
-    double width_m = 0;  ///< of a wall its thickness, of a tower its diameter
-  };
-  /// By barrier=*; a wall with wall=noise_barrier by that.
-  std::map<std::string, Size, std::less<>> walls = {{"wall", {2, 0.25}},   {"city_wall", {6, 2}},
-                                                    {"fence", {1.5, 0.1}}, {"retaining_wall", {1.5, 0.4}},
-                                                    {"hedge", {1.5, 1}},   {"noise_barrier", {4, 0.3}}};
-  /// By man_made=*; a tower by tower:type=*, where that is here.
-  std::map<std::string, Size, std::less<>> towers = {
-      {"tower", {20, 6}},       {"communications_tower", {100, 12}},
-      {"mast", {25, 0.6}},      {"chimney", {30, 3}},
-      {"water_tower", {25, 8}}, {"storage_tank", {10, 15}},
-      {"silo", {12, 6}},        {"gasometer", {30, 40}},
-      {"lighthouse", {20, 6}},  {"cooling_tower", {100, 60}},
-      {"cooling", {100, 60}},   {"communication", {40, 4}},
-      {"bell_tower", {25, 6}},  {"minaret", {25, 3}},
-      {"lighting", {15, 0.5}},  {"observation", {25, 6}},
-  };
-  double layer_m = 5;    ///< underside of a bridge for each layer=*; one layer when it says none
-  double deck_m = 1;     ///< thickness of a bridge's deck
-  double lane_m = 3.5;   ///< width of a lane (lanes=*)
-  double track_m = 4.5;  ///< width of a railway track (tracks=*)
-  /// Width of a bridge by highway=*; of others `other_way_m`.
-  std::map<std::string, double, std::less<>> ways = {
-      {"motorway", 11}, {"trunk", 11},      {"primary", 8},      {"secondary", 7},
-      {"tertiary", 7},  {"residential", 6}, {"unclassified", 6}, {"service", 4},
-      {"track", 3},     {"pedestrian", 4},  {"footway", 2.5},    {"cycleway", 2.5},
-      {"path", 2},      {"steps", 2.5},     {"bridleway", 2.5},  {"living_street", 5}};
-  double other_way_m = 5;
-  double tree_m = 10;              ///< height of a tree
-  double crown_share = 0.5;        ///< diameter of its crown by its height
-  double trunk_share = 0.03;       ///< diameter of its trunk by its height
-  double crown_base_share = 0.25;  ///< of its height that is trunk
-  double tree_spacing_m = 8;       ///< along a tree_row
-};
 
 /// A tree: an eight-sided trunk that widens into a crown; one closed surface, every upright section convex but for the
 /// crown's underside.

@@ -205,6 +205,7 @@ class OccluderSorter {
         region_(region),
         frame_(frame),
         options_(options),
+        defaults_(options.occluder_defaults),
         piece_m_(options.terrain.empty() ? 0 : kWallPiece) {}
 
   void sort(const osm::Extract& extract) {
@@ -263,8 +264,8 @@ class OccluderSorter {
   const osm::RegionFilter& region_;
   const geo::LocalFrame& frame_;
   const CityOptions& options_;
+  const OccluderDefaults& defaults_;
   double piece_m_;
-  OccluderDefaults defaults_;
 };
 
 /// What an object would have been, had it been read.

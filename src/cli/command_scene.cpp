@@ -77,12 +77,12 @@ CityRegion region_of(const Options& options) {
 }
 
 /// "level=3.2".
-void apply(const std::string& setting, BuildingDefaults& defaults) {
+void apply(const std::string& setting, CityOptions& options) {
   const std::string where = "--set " + setting;
   const std::size_t sign = setting.find('=');
   if (sign == std::string::npos)
     fail("'" + setting + "' sets nothing", where, "write --set NAME=VALUE, such as level=3.2");
-  city::set(defaults, setting.substr(0, sign), positive_option(where, setting.substr(sign + 1)),
+  city::set(options, setting.substr(0, sign), positive_option(where, setting.substr(sign + 1)),
             "command line, " + where);
 }
 
@@ -104,7 +104,7 @@ SceneSource source_of(const Options& options) {
   source.kind = source_kind(options.input);
   source.city.region = region_of(options);
   source.city.terrain = options.terrain;
-  for (const std::string& setting : options.settings) apply(setting, source.city.defaults);
+  for (const std::string& setting : options.settings) apply(setting, source.city);
   for (const std::string& kind : options.without) city::leave_out(source.city.occluders, kind, "--without " + kind);
   const CityRegion& region = source.city.region;
   source.raster.region = {region.center_deg, region.radius_m, region.bbox_deg, {}};

@@ -125,7 +125,7 @@ class SceneParser {
                    "write {level: 3.2, levels.house: 2}");
     }
     for (const YamlEntry& entry : defaults->entries) {
-      city::set(city.defaults, entry.key, reader_.number(entry.value, "scene.defaults." + entry.key),
+      city::set(city, entry.key, reader_.number(entry.value, "scene.defaults." + entry.key),
                 place_in(reader_.file(), entry.place));
     }
   }
