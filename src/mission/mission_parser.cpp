@@ -163,6 +163,7 @@ const YamlNode& MissionParser::parse_ground_target(const YamlNode& node) {
     refuse_beside(node, "osm", {"vertices", "edges", "center", "width", "length", "heading"},
                   "keep 'osm' for an area of the map, or give the target yourself");
     ground.osm = text(*osm, "target.osm");
+    if (find(node, "name") == nullptr) parsed_.mission.target.name = ground.osm;
     if (parsed_.mission.scene.kind != SceneSource::Kind::map) {
       fail(*osm, "target.osm names an object of a map, and the scene is none",
            "write 'scene: {osm: city.osm.pbf}', or give the target's vertices");
