@@ -323,5 +323,29 @@ TEST_F(Cli, TheExampleWorks) {
   EXPECT_NE(rows[2].find("inn"), std::string::npos) << rows[2];
 }
 
+TEST_F(Cli, TheTownIsWhatItsScriptMakes) {
+  options_.folder = fs::path(VANTAGE_SOURCE_DIR) / "examples" / "town";
+  const ProgramRun made = run_program("/bin/sh", {"-c", "python3 make_map.py"}, options_);
+  if (made.exit_code == 127) GTEST_SKIP() << "no python3";
+  EXPECT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_TRUE(made.out == content(options_.folder / "town.osm"));
+}
+
+TEST_F(Cli, TheTownWorks) {
+  const fs::path example = fs::path(VANTAGE_SOURCE_DIR) / "examples" / "town";
+  const auto scene =
+      nlohmann::json::parse(output_of({"scene", (example / "town.osm").string(), "-o", "town.glb", "--json"}));
+  EXPECT_EQ(scene.at("kinds").at("building").at("read"), 10);
+  EXPECT_EQ(scene.at("kinds").at("building part").at("written"), 2);
+  for (const auto& record : scene.at("records")) EXPECT_NE(record.at("fate"), "open_surface") << record;
+
+  const std::string mission = (example / "mission.yaml").string();
+  const auto report = nlohmann::json::parse(output_of({"compute", mission, "-o", "volume.ply", "--json"}));
+  EXPECT_EQ(report.at("outcome"), "computed");
+  EXPECT_NEAR(report.at("georeference").at("latitude_deg"), 48, 1e-9);
+  EXPECT_GT(report.at("causes").size(), 5U);
+  EXPECT_EQ(run({"verify", mission, "volume.ply", "--points", "5000"}).exit_code, 0);
+}
+
 }  // namespace
 }  // namespace vantage::testing
