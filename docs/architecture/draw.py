@@ -4,20 +4,26 @@
 import pathlib
 
 ROOMS = {  # name: (left, top, width, what it does)
-    "include/vantage": (20, 14, 760, "the public API: values, and functions that take and return them"),
-    "cli": (20, 104, 760, "inspect, compute, query, verify, compare, devices, spheres, render: parse, run, print"),
-    "mission": (20, 194, 300, "YAML to Mission, run it"),
-    "query": (340, 194, 200, "point by point, no mesh"),
-    "verify": (560, 194, 220, "shadow rays (Embree)"),
-    "spheres": (20, 284, 300, "cube map, sphere mesh, Algorithm 1"),
-    "render": (20, 374, 180, "depth images, pictures"),
-    "exact": (220, 374, 560, "blockers, envelope, mesh (CDT)"),
-    "solid": (220, 464, 560, "booleans (Manifold), cuts, measures, files, reports"),
-    "scene": (20, 554, 540, "files to Scene; weld, merge, hierarchy"),
-    "parallel": (580, 554, 200, "threads (oneTBB)"),
+    "include/vantage": (20, 14, 1020, "the public API: values, and functions that take and return them"),
+    "cli": (20, 104, 1020, "scene, inspect, compute, query, verify, compare, render, ...: parse, run, print"),
+    "mission": (20, 194, 560, "YAML to Mission, run it"),
+    "query": (600, 194, 200, "point by point, no mesh"),
+    "verify": (820, 194, 220, "shadow rays (Embree)"),
+    "spheres": (420, 284, 240, "cube map, mesh, Algorithm 1"),
+    "city": (20, 374, 380, "maps to solids on the ground (Clipper)"),
+    "render": (420, 374, 180, "depth images, pictures"),
+    "exact": (620, 374, 420, "blockers, envelope, mesh (CDT)"),
+    "osm": (20, 464, 145, "maps (libosmium)"),
+    "terrain": (180, 464, 140, "heights (GDAL)"),
+    "solid": (340, 464, 700, "booleans (Manifold), cuts, measures, files, reports"),
+    "scene": (20, 554, 1020, "files to Scene; weld, merge, hierarchy"),
+    "geo": (20, 644, 560, "where on the earth (PROJ)"),
+    "parallel": (600, 644, 440, "threads (oneTBB)"),
 }
-CALLS = [("cli", "mission"), ("cli", "verify"), ("cli", "query"), ("mission", "spheres"), ("query", "exact"),
-         ("spheres", "render"), ("spheres", "exact"), ("exact", "solid"), ("render", "scene"), ("solid", "scene")]
+CALLS = [("cli", "mission"), ("cli", "verify"), ("cli", "query"), ("mission", "city"), ("mission", "spheres"),
+         ("query", "exact"), ("spheres", "render"), ("spheres", "exact"), ("city", "osm"), ("city", "terrain"),
+         ("city", "solid"), ("exact", "solid"), ("render", "solid"), ("osm", "scene"), ("terrain", "scene"),
+         ("solid", "scene"), ("scene", "geo"), ("scene", "parallel")]
 HEIGHT = 58
 
 
@@ -38,7 +44,7 @@ def arrow(upper, lower):
 
 
 def main():
-    parts = ['<svg xmlns="http://www.w3.org/2000/svg" width="800" height="630" viewBox="0 0 800 630" '
+    parts = ['<svg xmlns="http://www.w3.org/2000/svg" width="1060" height="720" viewBox="0 0 1060 720" '
              'font-family="Helvetica, Arial, sans-serif" fill="#1d2b45">',
              '<defs><marker id="tip" viewBox="0 0 8 8" refX="7" refY="4" markerWidth="8" markerHeight="8" '
              'orient="auto">'
