@@ -133,6 +133,30 @@ TEST_F(CityTest, ARelationJoinsPartsThatLieOutside) {
   EXPECT_NEAR(object_volume(city.scene, "way/3"), 20 * 20 * 6, 2);
 }
 
+TEST_F(CityTest, PartsReplaceEveryOutlineTheyLieIn) {
+  MapText map;
+  map.box(0, 0, 100, 40, {{"building", "retail"}, {"height", "10"}});
+  map.box(0, 0, 40, 40, {{"building", "yes"}, {"height", "172"}});
+  map.box(0, 0, 40, 40, {{"building:part", "yes"}, {"height", "50"}});
+  map.box(0, 0, 100, 40, {{"building:part", "yes"}, {"location", "underground"}});
+  const City city = build(map);
+  EXPECT_EQ(record_of(city, "way/2").reason, "its parts are built in its place");
+  EXPECT_EQ(record_of(city, "way/1").fate, Fate::repaired);
+  EXPECT_NEAR(record_of(city, "way/1").footprint_m2, 60 * 40, 3) << "what is underground covers nothing";
+  EXPECT_NEAR(object_volume(city.scene, "way/3"), 40 * 40 * 50, 30);
+}
+
+TEST_F(CityTest, TellsOfPointsAndGroups) {
+  MapText map;
+  const long outline = map.box(0, 0, 20, 20, {{"building", "yes"}});
+  map.node(30, 30, {{"building", "yes"}});
+  map.relation({{"way", outline, "outline"}}, {{"type", "building"}, {"building", "yes"}});
+  const City city = build(map);
+  EXPECT_EQ(city.report.records.size(), 3U);
+  EXPECT_EQ(record_of(city, "node/5").reason, "drawn as a point: it has no outline");
+  EXPECT_EQ(record_of(city, "relation/1").reason, "its members are built in its place");
+}
+
 TEST_F(CityTest, APartOfNoBuildingStandsAlone) {
   MapText map;
   map.box(0, 0, 20, 20, {{"building:part", "yes"}, {"height", "10"}});

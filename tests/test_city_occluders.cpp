@@ -76,12 +76,12 @@ TEST(CityOccluders, Kinds) {
     EXPECT_EQ(wanted(tagged(tags)), all != "///");
     return all;
   };
-  EXPECT_EQ(kinds({{"building", "yes"}}), "//building/");
-  EXPECT_EQ(kinds({{"building", "church"}, {"building:part", "yes"}}), "//building part/");
-  EXPECT_EQ(kinds({{"building", "yes"}, {"building:part", "no"}}), "//building/");
+  EXPECT_EQ(kinds({{"building", "yes"}}), "building//building/");
+  EXPECT_EQ(kinds({{"building", "church"}, {"building:part", "yes"}}), "building part//building part/");
+  EXPECT_EQ(kinds({{"building", "yes"}, {"building:part", "no"}}), "building//building/");
   EXPECT_EQ(kinds({{"building", "no"}}), "///");
-  EXPECT_EQ(kinds({{"building", "yes"}, {"man_made", "tower"}}), "//building/");
-  EXPECT_EQ(kinds({{"building", "entrance"}}), "//building/");
+  EXPECT_EQ(kinds({{"building", "yes"}, {"man_made", "tower"}}), "tower//building/");
+  EXPECT_EQ(kinds({{"building", "entrance"}}), "building//building/");
   EXPECT_EQ(kinds({{"barrier", "fence"}, {"leisure", "garden"}}), "/wall//");
   EXPECT_EQ(kinds({{"barrier", "hedge"}, {"area", "yes"}}), "/wall/wall/");
   EXPECT_EQ(kinds({{"barrier", "kerb"}}), "///");

@@ -38,10 +38,12 @@ bool is_carried(const osm::Tags& tags) {
 
 std::string_view kind_of(const osm::Tags& tags, Geometry geometry) {
   const bool line = geometry == Geometry::line, area = geometry == Geometry::area;
-  // Nodes and open ways tagged as buildings are entrances and mistakes.
-  if (says_yes(tags.get("building:part"))) return area ? "building part" : "";
-  if (says_yes(tags.get("building"))) return area ? "building" : "";
-  if (!line && is_tower(tags)) return "tower";
+  const bool tower = !line && is_tower(tags);
+  if (tower && !area) return "tower";
+  // A point has no outline to build, but is told of.
+  if (says_yes(tags.get("building:part"))) return line ? "" : "building part";
+  if (says_yes(tags.get("building"))) return line ? "" : "building";
+  if (tower) return "tower";
   const std::string_view bridge = tags.get("bridge");
   if (line && says_yes(bridge) && is_carried(tags)) return "bridge";
   const bool drawn = tags.get("man_made") == "bridge" || (says_yes(bridge) && is_carried(tags));

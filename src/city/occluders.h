@@ -16,8 +16,9 @@ namespace vantage::city {
 enum class Geometry { point, line, area };
 
 /// "building", "building part", "wall", "tower", "bridge", "tree", or an empty text for what hides nothing. A building
-/// that is a tower as well is a building. What an object is may depend on how it is drawn: a garden with barrier=fence
-/// is a wall as a line and nothing as an area (unless area=yes says that the barrier itself is drawn).
+/// that is a tower as well is a building, but a tower where it is a point. What an object is may depend on how it is
+/// drawn: a garden with barrier=fence is a wall as a line and nothing as an area (unless area=yes says that the barrier
+/// itself is drawn).
 std::string_view kind_of(const osm::Tags& tags, Geometry geometry);
 
 /// Whether the tags make any of these of some geometry: for osm::ReadOptions.

@@ -107,10 +107,11 @@ class BuildingSorter {
       CityRecord record =
           record_of(structure.source->id, structure.source->tags, structure.is_part ? "building part" : "building");
       const std::string fault = fault_of(structure);
+      const std::vector<std::size_t> parts = parts_of(structure);
       if (!fault.empty()) {
         skip(site_, std::move(record), fault);
-      } else if (has_parts(structure)) {
-        add_remainder(structure, std::move(record));
+      } else if (!parts.empty()) {
+        add_remainder(structure, parts, std::move(record));
       } else {
         add(structure, std::move(record), structure.footprints);
       }
@@ -125,7 +126,10 @@ class BuildingSorter {
     for (std::size_t i = 0; i < structures_.size(); ++i) {
       const std::vector<std::size_t>& parts = structures_[i].parts;
       if (std::any_of(parts.begin(), parts.end(), [&](std::size_t part) { return belongs[part]; })) belongs[i] = true;
-      for (const std::size_t part : parts) belongs[part] = belongs[i];
+    }
+    for (std::size_t i = 0; i < structures_.size(); ++i) {
+      if (!belongs[i]) continue;
+      for (const std::size_t part : structures_[i].parts) belongs[part] = true;
     }
     for (std::size_t i = 0; i < structures_.size(); ++i) {
       if (!belongs[i]) site_.outside.add(1, nearest(region, *structures_[i].source));
@@ -133,20 +137,23 @@ class BuildingSorter {
     return belongs;
   }
 
-  bool has_parts(const Structure& structure) const {
-    return std::any_of(structure.parts.begin(), structure.parts.end(),
-                       [&](std::size_t part) { return fault_of(structures_[part]).empty(); });
+  /// Those that are built.
+  std::vector<std::size_t> parts_of(const Structure& building) const {
+    std::vector<std::size_t> parts;
+    std::copy_if(building.parts.begin(), building.parts.end(), std::back_inserter(parts),
+                 [&](std::size_t part) { return fault_of(structures_[part]).empty(); });
+    return parts;
   }
 
-  void add_remainder(const Structure& building, CityRecord record) {
-    const double share = 1 - area_m2(uncovered(building, structures_, building.parts)) / building.area_m2;
+  void add_remainder(const Structure& building, const std::vector<std::size_t>& parts, CityRecord record) {
+    const double share = 1 - area_m2(uncovered(building, structures_, parts)) / building.area_m2;
     if (share >= kCovered) {
       skip(site_, std::move(record), "its parts are built in its place");
       return;
     }
     // Parts that begin higher up, such as lift houses drawn on a roof, stand on what is built here.
     std::vector<std::size_t> grounded;
-    std::copy_if(building.parts.begin(), building.parts.end(), std::back_inserter(grounded),
+    std::copy_if(parts.begin(), parts.end(), std::back_inserter(grounded),
                  [&](std::size_t part) { return form_of(structures_[part]).bottom_m <= 0; });
     std::vector<Footprint> rest = uncovered(building, structures_, grounded);
     char text[96];
@@ -227,8 +234,11 @@ class OccluderSorter {
     }
     for (const osm::Point& point : extract.points) {
       const std::string_view kind = kind_of(point.tags, Geometry::point);
-      if (is_building(kind) || !is_switched_on(kind, options_.occluders)) continue;
-      if (!belongs(std::vector{point.position})) continue;
+      if (!is_switched_on(kind, options_.occluders) || !belongs(std::vector{point.position})) continue;
+      if (is_building(kind)) {
+        skip(site_, record_of(point.id, point.tags, std::string(kind)), "drawn as a point: it has no outline");
+        continue;
+      }
       add(point.id, point.tags, kind, [&](auto& remarks) {
         return shapes_of_point(point.tags, frame_.to_local(point.position), defaults_, remarks);
       });
@@ -282,6 +292,15 @@ void skip_lost(Site& site, const osm::Extract& extract, const CityOptions& optio
     const std::string_view kind = kind_of_lost(problem);
     if (!is_switched_on(kind, options.occluders)) continue;
     skip(site, record_of(problem.object, problem.tags, std::string(kind)), problem.what);
+  }
+}
+
+/// Relations that only say which outline and parts belong together, but are tagged as if they were a building.
+void skip_groups(Site& site, const osm::Extract& extract) {
+  for (const osm::BuildingRelation& relation : extract.building_relations) {
+    const std::string_view kind = kind_of(relation.tags, Geometry::area);
+    if (kind != "building" && kind != "building part") continue;
+    skip(site, record_of(relation.id, relation.tags, std::string(kind)), "its members are built in its place");
   }
 }
 
@@ -345,6 +364,7 @@ Site make_site(const osm::Extract& extract, const osm::RegionFilter& region, con
   assign_parts(structures, extract.building_relations);
   BuildingSorter(site, std::move(structures), options.defaults).sort(region);
   OccluderSorter(site, region, frame, options).sort(extract);
+  skip_groups(site, extract);
   skip_lost(site, extract, options);
   set_bounds(site);
   note_reading_repairs(site, extract);

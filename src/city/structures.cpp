@@ -130,18 +130,17 @@ void assign_parts(std::vector<Structure>& structures, const std::vector<osm::Bui
   assign_by_relations(structures, relations);
   const OutlineGrid grid(structures);
   for (std::size_t i = 0; i < structures.size(); ++i) {
-    const Structure& part = structures[i];
-    if (!part.is_part || part.outline || part.footprints.empty()) continue;
-    double largest = kMost * part.area_m2;
-    std::optional<std::size_t> best;
+    Structure& part = structures[i];
+    if (!part.is_part || part.footprints.empty()) continue;
+    const std::optional<std::size_t> named = part.outline;
     for (const std::size_t candidate : grid.near(part)) {
-      if (!boxes_touch(part, structures[candidate])) continue;
+      if (candidate == named || !boxes_touch(part, structures[candidate])) continue;
       const double common = area_m2(intersect(part.footprints, structures[candidate].footprints));
-      if (common < largest) continue;
-      largest = common;
-      best = candidate;
+      if (common < kMost * part.area_m2) continue;
+      structures[candidate].parts.push_back(i);
+      if (named) continue;
+      if (!part.outline || structures[candidate].area_m2 < structures[*part.outline].area_m2) part.outline = candidate;
     }
-    if (best) join(structures, i, *best);
   }
 }
 

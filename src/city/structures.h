@@ -21,7 +21,7 @@ struct Structure {
   double area_m2 = 0;
   Vec2 min = Vec2::Zero(), max = Vec2::Zero();  ///< bounds
 
-  std::optional<std::size_t> outline;  ///< of a part: the structure that it lies in
+  std::optional<std::size_t> outline;  ///< of a part: the structure that it belongs to
   std::vector<std::size_t> parts;      ///< of a building: the structures that lie in it
 };
 
@@ -31,8 +31,9 @@ std::vector<Structure> structures_of(const std::vector<osm::Area>& areas, const 
 /// The rings of an area, projected. Not cleaned.
 std::vector<Footprint> project(const osm::Area& area, const geo::LocalFrame& frame);
 
-/// Fills `outline` and `parts`: by the type=building relations first; a part that none of them names belongs to the
-/// building that holds most of it, if that is at least half.
+/// Fills `outline` and `parts`. A part replaces every building that holds at least half of it, and the one that a
+/// type=building relation names for it: outlines lie on one another where a block, a station or a mall is drawn as well
+/// as the buildings in it. Its own outline is the one of the relation, or else the smallest.
 void assign_parts(std::vector<Structure>& structures, const std::vector<osm::BuildingRelation>& relations);
 
 /// What of a building none of these structures covers, seen from above. Slivers that come of careless drawing are left
