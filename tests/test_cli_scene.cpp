@@ -1,0 +1,321 @@
+// vantage scene as its users run it: what it writes, what it says, and what it refuses.
+#include "support/cli_fixture.h"
+#include "support/map_text.h"
+#include "support/osm_maps.h"
+#include "vantage/scene.h"
+
+namespace vantage::testing {
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* kWgs84 =
+    "GEOGCS[\"WGS 84\",DATUM[\"WGS_1984\",SPHEROID[\"WGS 84\",6378137,298.257223563]],PRIMEM[\"Greenwich\",0],"
+    "UNIT[\"degree\",0.0174532925199433]]";
+constexpr const char* kCentre = "48.1374,11.5755";
+
+/// Heights of 500 m round the centre of the maps; `corner`: the height of the first post.
+std::string grid_of_heights(const std::string& corner, double west = 11.5655, const char* nodata = "-9999") {
+  std::string grid = "ncols 41\nnrows 41\nxllcenter " + std::to_string(west) +
+                     "\nyllcenter 48.1274\ncellsize 0.0005\nNODATA_value " + nodata + "\n" + corner;
+  for (int post = 1; post < 41 * 41; ++post) grid += post % 41 == 0 ? "\n500.0" : " 500.0";
+  return grid + "\n";
+}
+
+class CliScene : public Cli {
+ protected:
+  void SetUp() override {
+    Cli::SetUp();
+    MapText map;
+    map.box(10, 20, 30, 50, {{"building", "yes"}, {"height", "12"}, {"name", "Block"}});
+    map.box(-30, -30, -10, -10, {{"building", "house"}});
+    map.line({{0, -60}, {40, -60}}, {{"barrier", "wall"}});
+    map.node(50, 50, {{"natural", "tree"}});
+    write("city.osm", map.text());
+    write("scene.glb", kOldOutput);
+    write("scene.report.json", kOldOutput);
+  }
+
+  void write_dem(const std::string& name, const std::string& grid, const std::string& system = kWgs84) {
+    write(name + ".asc", grid);
+    if (!system.empty()) write(name + ".prj", system);
+  }
+
+  void expect_bad_map(const std::string& text, const std::string& what, const std::string& fix,
+                      const std::vector<std::string>& more = {}) {
+    write("bad.osm", text);
+    std::vector<std::string> arguments = {"scene", "bad.osm", "-o", "scene.glb"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    expect_bad(arguments, what, "", fix);
+  }
+  void expect_bad_option(const std::vector<std::string>& more, const std::string& what, const std::string& where,
+                         const std::string& fix = "") {
+    std::vector<std::string> arguments = {"scene", "city.osm", "-o", "scene.glb"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    expect_bad(arguments, what, where, fix);
+  }
+
+  /// The report on a map that is written all the same.
+  json report_of(const std::string& text, const std::vector<std::string>& more = {}) {
+    write("odd.osm", text);
+    std::vector<std::string> arguments = {"scene", "odd.osm", "-q", "-o", "odd.obj"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    EXPECT_EQ(output_of(arguments), "");
+    return json::parse(content(folder_ / "odd.report.json"));
+  }
+};
+
+using CliSceneBadMap = CliScene;
+using CliSceneBadTerrain = CliScene;
+using CliSceneBadOption = CliScene;
+using CliSceneBadOutput = CliScene;
+using CliSceneMended = CliScene;
+
+TEST_F(CliScene, WritesEveryFormatAndAReport) {
+  const std::string summary = output_of({"scene", "city.osm", "-o", "scene.glb", "-o", "scene.obj", "-o", "scene.ply",
+                                         "-o", "scene.stl", "--center", kCentre, "--radius", "300"});
+  for (const char* expected : {"origin", "48.137400, 11.575500", "building", "2 written", "wall", "tree"}) {
+    EXPECT_NE(summary.find(expected), std::string::npos) << summary;
+  }
+  std::size_t triangles = 0;
+  for (const char* name : {"scene.glb", "scene.obj", "scene.ply", "scene.stl"}) {
+    const Scene scene = read_scene(folder_ / name);
+    if (triangles == 0) triangles = scene.mesh.triangles.size();
+    EXPECT_EQ(scene.mesh.triangles.size(), triangles) << name;
+    ASSERT_TRUE(scene.georeference) << name;
+    EXPECT_NEAR(scene.georeference->latitude_deg, 48.1374, 1e-12) << name;
+    EXPECT_NEAR(bounding_box(scene.mesh).max.z(), 12, 1e-6) << name;
+  }
+  const auto report = json::parse(content(folder_ / "scene.report.json"));
+  EXPECT_EQ(report.at("triangles"), triangles);
+  EXPECT_EQ(report.at("kinds").at("building").at("read"), 2);
+  EXPECT_EQ(report.at("kinds").at("building").at("written"), 2);
+  EXPECT_EQ(report.at("georeference").at("longitude_deg"), 11.5755);
+  EXPECT_EQ(report.at("records").size(), 4U);
+}
+
+TEST_F(CliScene, KeepsNamesWhereTheFormatHasThem) {
+  output_of({"scene", "city.osm", "-q", "-o", "scene.glb", "-o", "scene.obj"});
+  for (const char* name : {"scene.glb", "scene.obj"}) {
+    const std::vector<std::string> objects = read_scene(folder_ / name).objects;
+    EXPECT_EQ(objects.at(0), "way/1 Block") << name;
+    EXPECT_EQ(objects.back(), "ground") << name;
+  }
+}
+
+TEST_F(CliScene, PrintsTheReportAsJsonAndIsQuiet) {
+  const std::string printed = output_of({"scene", "city.osm", "--json", "-o", "scene.glb"});
+  EXPECT_EQ(json::parse(printed), json::parse(content(folder_ / "scene.report.json")));
+  EXPECT_EQ(output_of({"scene", "city.osm", "--quiet", "-o", "scene.glb"}), "");
+  EXPECT_NE(content(folder_ / "scene.glb"), kOldOutput);
+}
+
+TEST_F(CliScene, LeavesOutAndSetsDefaults) {
+  output_of({"scene", "city.osm", "-q", "-o", "a.obj", "--without", "walls", "--without", "trees", "--set",
+             "levels.house=5", "--set", "level=4"});
+  const auto report = json::parse(content(folder_ / "a.report.json"));
+  ASSERT_EQ(report.at("records").size(), 2U);
+  EXPECT_NEAR(report.at("records")[1].at("top_m").get<double>(), 20, 1e-9);
+}
+
+TEST_F(CliScene, MeshesAndRastersBecomeScenesToo) {
+  write_dem("dem", grid_of_heights("480"));
+  output_of({"scene", "dem.asc", "-q", "-o", "dem.ply"});
+  EXPECT_NEAR(bounding_box(read_scene(folder_ / "dem.ply").mesh).min.z(), 480, 1e-6);
+  output_of({"scene", "city.obj", "--origin", kCentre, "-q", "-o", "placed.obj"});
+  EXPECT_NEAR(read_scene(folder_ / "placed.obj").georeference.value().longitude_deg, 11.5755, 1e-12);
+}
+
+// ---- maps -----------------------------------------------------------------------------------------------------------
+
+TEST_F(CliSceneBadMap, NotAMap) {
+  expect_bad({"scene", "none.osm", "-o", "scene.glb"}, "does not exist", "none.osm");
+  expect_bad({"scene", ".", "-o", "scene.glb"}, "is a folder", ".");
+  expect_bad_map("", "empty", "");
+  expect_bad_map("hello\n", "not an OpenStreetMap file", "");
+  expect_bad_map("<html><body>429 Too Many Requests</body></html>", "not an OpenStreetMap file", "");
+  expect_bad_map("<osm version='0.6'>\n<node id='1' lat='1' lon='1'>\n", "ends too early", "download or export");
+}
+
+TEST_F(CliSceneBadMap, NothingInIt) {
+  expect_bad_map("<osm version='0.6'></osm>\n", "", "");
+  MapText map;
+  map.line({{0, 0}, {100, 0}}, {{"highway", "residential"}});
+  expect_bad_map(map.text(), "holds no building", "give an extract with buildings");
+}
+
+TEST_F(CliSceneBadMap, Truncated) {
+  VANTAGE_REQUIRE_OSMIUM();
+  osmium({"cat", "-o", (folder_ / "city.osm.pbf").string(), (folder_ / "city.osm").string()});
+  const std::string whole = content(folder_ / "city.osm.pbf");
+  for (const std::size_t length : {whole.size() - 1, whole.size() / 2, whole.size() / 4, std::size_t{5}}) {
+    write("cut.osm.pbf", whole.substr(0, length));
+    expect_bad({"scene", "cut.osm.pbf", "-o", "scene.glb"}, "", "cut.osm.pbf");
+  }
+  output_of({"scene", "city.osm.pbf", "-q", "-o", "whole.obj"});
+}
+
+TEST_F(CliSceneBadMap, NothingInTheArea) {
+  expect_bad_option({"--center", "48.13776,11.57523", "--radius", "5"}, "there is nothing to build in the area",
+                    "city.osm", " m from the centre: give a larger radius");
+  expect_bad_option({"--center", "50,10", "--radius", "100"}, "lies outside the map", "city.osm",
+                    "the map holds latitude 48.13");
+  expect_bad_option({"--center", "11.5755,48.1374", "--radius", "100"}, "lies outside the map", "city.osm",
+                    "latitude and longitude are the wrong way round: write 48.1374,11.5755");
+  expect_bad_option({"--center", "-98.5,40", "--radius", "100"}, "there is no place at latitude -98.5", "center",
+                    "write the latitude first: 40,-98.5");
+  expect_bad_option({"--bbox", "12,50,13,50.1"}, "the box lies outside the map", "city.osm", "the map holds");
+  expect_bad_option({"--bbox", "11.6,48.1,11.5,48.2"}, "the box holds nothing", "bbox", "west,south,east,north");
+}
+
+// ---- what is mended, and counted ------------------------------------------------------------------------------------
+
+TEST_F(CliSceneMended, OutlinesThatCrossThemselves) {
+  MapText map;
+  map.area({{0, 0}, {20, 20}, {20, 0}, {0, 20}}, {{"building", "yes"}, {"height", "10"}});
+  const json report = report_of(map.text());
+  EXPECT_EQ(report.at("kinds").at("building").at("repaired"), 1);
+  EXPECT_NEAR(report.at("records")[0].at("footprint_m2").get<double>(), 200, 1);
+}
+
+TEST_F(CliSceneMended, BadNestingOfPolygons) {
+  MapText map;
+  map.box(100, 100, 120, 120, {{"building", "yes"}});
+  const long outer = map.box(0, 0, 40, 40, {}), hole = map.box(30, 10, 60, 30, {});
+  map.relation({{"way", outer, "outer"}, {"way", hole, "inner"}}, {{"type", "multipolygon"}, {"building", "yes"}});
+  const json report = report_of(map.text());
+  ASSERT_EQ(report.at("kinds").at("building").at("read"), 2);
+  for (const json& record : report.at("records")) {
+    if (record.at("object") != "relation/1") continue;
+    EXPECT_NE(record.at("fate"), "written");
+    EXPECT_FALSE(record.at("reason").get<std::string>().empty());
+  }
+}
+
+TEST_F(CliSceneMended, OutlinesWithoutAnAreaAndBeyondBelief) {
+  MapText map;
+  map.box(0, 0, 20, 20, {{"building", "yes"}});
+  map.area({{60, 0}, {70, 0}, {80, 0}}, {{"building", "yes"}});
+  map.box(-5000, 100, 5000, 120, {{"building", "yes"}});
+  const json report = report_of(map.text());
+  EXPECT_EQ(report.at("kinds").at("building").at("skipped"), 2);
+  EXPECT_EQ(report.at("reasons").at("skipped").at("outline more than 3 km across"), 1);
+  EXPECT_EQ(report.at("reasons").at("skipped").size(), 2U);
+}
+
+TEST_F(CliSceneMended, HeightsThatAreNone) {
+  MapText map;
+  map.box(0, 0, 20, 20, {{"building", "yes"}, {"height", "-5"}});
+  map.box(30, 0, 50, 20, {{"building", "yes"}, {"height", "10"}, {"min_height", "12"}});
+  map.box(60, 0, 80, 20, {{"building", "yes"}, {"height", "high"}});
+  const json report = report_of(map.text());
+  const json& records = report.at("records");
+  for (const json& record : records) EXPECT_EQ(record.at("remarks").size(), 1U) << record.dump();
+  EXPECT_NEAR(records[0].at("top_m").get<double>(), 9, 1e-9) << "three storeys of 3 m";
+  EXPECT_NEAR(records[1].at("base_m").get<double>(), 0, 1e-9);
+  EXPECT_NEAR(records[1].at("top_m").get<double>(), 10, 1e-9);
+  EXPECT_NEAR(records[2].at("top_m").get<double>(), 9, 1e-9);
+}
+
+TEST_F(CliSceneMended, PointsAreToldOf) {
+  MapText map;
+  map.box(0, 0, 20, 20, {{"building", "yes"}});
+  map.node(40, 40, {{"building", "yes"}, {"name", "Kiosk"}});
+  map.node(50, 40, {{"building", "yes"}, {"man_made", "tower"}, {"height", "30"}});
+  const json report = report_of(map.text());
+  EXPECT_EQ(report.at("kinds").at("building").at("read"), 2);
+  EXPECT_EQ(report.at("reasons").at("skipped").at("drawn as a point: it has no outline"), 1);
+  EXPECT_EQ(report.at("kinds").at("tower").at("written"), 1);
+}
+
+// ---- terrain --------------------------------------------------------------------------------------------------------
+
+TEST_F(CliSceneBadTerrain, CannotBeUsed) {
+  expect_bad_option({"--terrain", "none.tif"}, "does not exist", "none.tif");
+  expect_bad_option({"--terrain", "city.obj"}, "", "city.obj");
+  write_dem("far", grid_of_heights("500", 12.5));
+  expect_bad_option({"--terrain", "far.asc"}, "does not cover", "far.asc");
+  write_dem("nowhere", grid_of_heights("500"), "");
+  expect_bad_option({"--terrain", "nowhere.asc"}, "coordinate reference system", "nowhere.asc");
+}
+
+TEST_F(CliSceneBadTerrain, VoidsAreFilledAndCounted) {
+  for (const char* nodata : {"-9999", "nan"}) {
+    write_dem("dem", grid_of_heights("500", 11.5655, nodata));
+    std::string grid = content(folder_ / "dem.asc");
+    // The post at the centre: row 20, column 20.
+    std::vector<std::string> rows = lines(grid);
+    std::string row;
+    for (int column = 0; column < 41; ++column) row += column == 20 ? std::string(nodata) + " " : "500.0 ";
+    rows[6 + 20] = row;
+    grid.clear();
+    for (const std::string& line : rows) grid += line + "\n";
+    write("dem.asc", grid);
+    const json report = report_of(content(folder_ / "city.osm"), {"--terrain", "dem.asc"});
+    EXPECT_NE(report.at("notes").dump().find("1 posts of dem.asc had no height"), std::string::npos)
+        << nodata << report.at("notes").dump();
+    EXPECT_NEAR(report.at("records")[0].at("ground_m").get<double>(), 500, 1e-6) << nodata;
+  }
+}
+
+// ---- the command line -----------------------------------------------------------------------------------------------
+
+TEST_F(CliSceneBadOption, ThatDoNotFit) {
+  expect_bad_option({"--radius", "100"}, "radius without a centre", "radius", "give the centre");
+  expect_bad_option({"--center", kCentre}, "--center without --radius", "--center", "--radius METRES");
+  expect_bad_option({"--center", kCentre, "--radius", "9", "--bbox", "11,48,12,49"}, "a centre and a box", "center");
+  expect_bad_option({"--lod", "2"}, "--lod is for CityJSON files", "--lod", "leave it out");
+  expect_bad_option({"--crs", "EPSG:4326"}, "--crs is for meshes", "--crs", "leave it out");
+  expect_bad_option({"--window", "0,0,5,5"}, "--window is for rasters", "--window", "leave it out");
+  expect_bad({"scene", "city.obj", "-o", "scene.glb", "--set", "level=3"}, "--set is for maps", "--set");
+  expect_bad({"scene", "city.obj", "-o", "scene.glb", "--terrain", "dem.asc"}, "--terrain is for maps", "--terrain");
+}
+
+TEST_F(CliSceneBadOption, ThatAreNoNumbers) {
+  for (const char* text : {"48.1374", "48.1374,", "48.1374, 11.5755", "north,east", "48.1374,11.5755,3", "nan,inf"}) {
+    expect_bad_option({"--center", text, "--radius", "100"}, "", "center");
+  }
+  for (const char* text : {"0", "-5", "nan", "inf", "1e9", "ten", "5m"}) {
+    expect_bad_option({"--center", kCentre, "--radius", text}, "", "radius");
+  }
+  for (const char* text : {"1,2,3", "a,b,c,d", "nan,nan,nan,nan"}) expect_bad_option({"--bbox", text}, "", "bbox");
+  for (const char* text : {"level", "level=", "level=0", "level=x", "storey=3", "levels.house=0", "=3"}) {
+    expect_bad_option({"--set", text}, "", "--set");
+  }
+  expect_bad_option({"--without", "windows"}, "'windows' is not what can be left out", "", "walls, towers");
+  expect_bad_option({"--error", "-1"}, "", "--error");
+}
+
+TEST_F(CliSceneBadOption, UnknownReferenceSystems) {
+  expect_bad({"scene", "city.obj", "-o", "scene.glb", "--crs", "EPSG:999999"}, "EPSG:999999", "");
+  expect_bad({"scene", "city.obj", "-o", "scene.glb", "--crs", "nonsense"}, "nonsense", "");
+  expect_bad({"scene", "city.obj", "-o", "scene.glb", "--origin", "95,10"}, "", "");
+}
+
+TEST_F(CliSceneBadOutput, CannotBeWritten) {
+  expect_bad({"scene", "city.osm", "-o", "none/scene.glb"}, "the output folder does not exist", "none/scene.glb");
+  expect_bad({"scene", "city.osm", "-o", "scene.xyz"}, "no format is known", "scene.xyz");
+  expect_bad({"scene", "city.osm", "-o", "scene"}, "no extension", "scene");
+  expect_bad({"scene", "city.osm", "-o", "."}, "is a folder", ".");
+  expect_bad({"scene", "city.osm", "-o", "city.osm"}, "", "city.osm");
+  expect_bad({"scene", "city.obj", "-o", "city.obj"}, "would overwrite an input", "city.obj");
+  expect_bad({"scene", "city.osm", "-o", "scene.glb", "-o", "./scene.glb"}, "an output is named twice", "scene.glb");
+  fs::create_directory(folder_ / "taken.report.json");
+  expect_bad({"scene", "city.osm", "-o", "taken.glb"}, "", "taken.report.json");
+}
+
+TEST_F(CliSceneBadOutput, FullDisk) {
+  options_.largest_file = 1000;
+  expect_bad({"scene", "city.osm", "-q", "-o", "scene.glb"}, "", "scene");
+}
+
+TEST_F(CliSceneBadOutput, WriteProtected) {
+  become_nobody();
+  if (!run({"--version"}).was_started) GTEST_SKIP() << "the program is out of reach of a user without rights";
+  fs::permissions(folder_ / "scene.glb", fs::perms::owner_read | fs::perms::others_read);
+  expect_bad({"scene", "city.osm", "-o", "scene.glb"}, "the output file is write-protected", "scene.glb");
+  fs::permissions(folder_ / "scene.glb", fs::perms::all);
+}
+
+}  // namespace
+}  // namespace vantage::testing
