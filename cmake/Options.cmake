@@ -21,6 +21,8 @@ endif()
 if(PROJECT_IS_TOP_LEVEL AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   find_program(VANTAGE_CCACHE ccache)
   if(VANTAGE_CCACHE)
-    set(CMAKE_CXX_COMPILER_LAUNCHER ${VANTAGE_CCACHE})
+    # Paths below the project count as relative, so that a clone elsewhere finds what this one compiled.
+    set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=1
+                                    ${VANTAGE_CCACHE})
   endif()
 endif()

@@ -102,6 +102,35 @@ class Scripts(unittest.TestCase):
             self.assertIn(f"checked --quiet -p build {file}\n", text)
             self.assertIn("lint: 1 files clean", text)
 
+    def test_lint_checks_again_what_has_changed(self):
+        file = self.tree / "src" / "room" / "a.cpp"
+        self.prepare_lint(file)
+        (self.tree / "build" / "compile_commands.json").write_text(
+            json.dumps([{"directory": str(self.tree), "command": f"/usr/bin/c++ -DX -c {file}", "file": str(file)}],
+                       indent=2), encoding="utf-8")
+        (self.tree / ".clang-tidy").write_text("Checks: '*'\n", encoding="utf-8")
+        (self.tree / "src" / "room" / "a.h").write_text("int b;\n", encoding="utf-8")
+        file.write_text('#include "a.h"\nint a;\n', encoding="utf-8")
+        self.put_tool("clang++", 'exec g++ "$@"\n')
+        self.environment["VANTAGE_LINT_CACHE"] = str(self.scratch / "cache")
+
+        def is_checked():
+            code, text = self.run_script("lint.sh")
+            self.assertEqual(code, 0, text)
+            return "checked --quiet" in text
+
+        self.assertTrue(is_checked())
+        self.assertFalse(is_checked(), "nothing has changed")
+        (self.tree / "src" / "room" / "a.h").write_text("int c;\n", encoding="utf-8")
+        self.assertTrue(is_checked(), "what it includes has changed")
+        (self.tree / ".clang-tidy").write_text("Checks: 'x'\n", encoding="utf-8")
+        self.assertTrue(is_checked(), "the rules have changed")
+        file.write_text('#include "a.h"\nint a;  // NOLINT\n', encoding="utf-8")
+        self.assertTrue(is_checked(), "a comment has changed")
+        self.put_tool("clang-tidy", 'case "$*" in *version*) echo 1;; *) exit 1;; esac\n')
+        for _ in range(2):
+            self.assertEqual(self.run_script("lint.sh")[0], 1, "a finding is not forgotten")
+
     def test_lint_fails_where_git_does(self):
         self.prepare_lint(self.tree / "src" / "room" / "a.cpp")
         shutil.rmtree(self.tree / ".git")

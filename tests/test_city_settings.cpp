@@ -7,13 +7,14 @@
 #include <string>
 
 #include "city/settings.h"
+#include "support/places.h"
 #include "vantage/error.h"
 
 namespace vantage::city {
 namespace {
 
 std::string manual() {
-  std::ifstream file(std::string(VANTAGE_SOURCE_DIR) + "/docs/scene.md");
+  std::ifstream file(testing::source_folder() / "docs/scene.md");
   return {std::istreambuf_iterator<char>(file), {}};
 }
 

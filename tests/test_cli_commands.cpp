@@ -303,7 +303,7 @@ TEST_F(CliVerify, RefusesWhatIsNoMesh) {
 }
 
 TEST_F(Cli, TheExampleIsWhatItsScriptMakes) {
-  options_.folder = fs::path(VANTAGE_SOURCE_DIR) / "examples" / "plaza";
+  options_.folder = testing::source_folder() / "examples" / "plaza";
   const ProgramRun made = run_program("/bin/sh", {"-c", "python3 make_scene.py"}, options_);
   if (made.exit_code == 127) GTEST_SKIP() << "no python3";
   EXPECT_EQ(made.exit_code, 0) << made.err;
@@ -311,7 +311,7 @@ TEST_F(Cli, TheExampleIsWhatItsScriptMakes) {
 }
 
 TEST_F(Cli, TheExampleWorks) {
-  const fs::path example = fs::path(VANTAGE_SOURCE_DIR) / "examples" / "plaza";
+  const fs::path example = testing::source_folder() / "examples" / "plaza";
   const std::string mission = (example / "mission.yaml").string();
   const auto report = nlohmann::json::parse(output_of({"compute", mission, "-o", "volume.ply", "--json"}));
   EXPECT_EQ(report.at("outcome"), "computed");
@@ -324,7 +324,7 @@ TEST_F(Cli, TheExampleWorks) {
 }
 
 TEST_F(Cli, TheTownIsWhatItsScriptMakes) {
-  options_.folder = fs::path(VANTAGE_SOURCE_DIR) / "examples" / "town";
+  options_.folder = testing::source_folder() / "examples" / "town";
   const ProgramRun made = run_program("/bin/sh", {"-c", "python3 make_map.py"}, options_);
   if (made.exit_code == 127) GTEST_SKIP() << "no python3";
   EXPECT_EQ(made.exit_code, 0) << made.err;
@@ -332,7 +332,7 @@ TEST_F(Cli, TheTownIsWhatItsScriptMakes) {
 }
 
 TEST_F(Cli, TheTownWorks) {
-  const fs::path example = fs::path(VANTAGE_SOURCE_DIR) / "examples" / "town";
+  const fs::path example = testing::source_folder() / "examples" / "town";
   const auto scene =
       nlohmann::json::parse(output_of({"scene", (example / "town.osm").string(), "-o", "town.glb", "--json"}));
   EXPECT_EQ(scene.at("kinds").at("building").at("read"), 10);

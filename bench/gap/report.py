@@ -41,20 +41,28 @@ def total(rows, key):
     return sum(int(row[key]) for row in rows)
 
 
+def figures(rows, split):
+    """What a row of the table says of a case. A pair fails the test when it is split or left unresolved."""
+    failed = total(rows, "splits") + total(rows, "unresolved") if split == "euler" else "-"
+    return (f"{len(rows)} | {share([row['over'] for row in rows])} | {share([row['missing'] for row in rows])} | "
+            f"{statistics.mean(int(row['spheres']) for row in rows):.3g} | {failed} | {total(rows, 'unresolved')}")
+
+
 def table(cases):
+    """Neighbouring max_splits that came to the same stand in one row."""
     lines = ["| scene | range | sphere | split | texels | max_splits | targets | over-claimed, % | missed, % | spheres | "
-             "pairs that failed the Euler test | of them unresolved | seconds |",
-             "|---|---|---|---|---|---|---|---|---|---|---|---|---|"]
+             "pairs that failed the Euler test | of them unresolved |",
+             "|---|---|---|---|---|---|---|---|---|---|---|---|"]
+    runs = []  # (key without max_splits, first, last, figures)
     for key in sorted(cases):
-        rows = cases[key]
-        city, distance, sphere, split, texels, splits = key
-        # A pair fails the test when it is split or left unresolved.
-        failed = total(rows, "splits") + total(rows, "unresolved") if split == "euler" else "-"
-        seconds = statistics.median(float(row["seconds"]) for row in rows)
-        lines.append(f"| {city} | {distance:g} m | {sphere} | {split} | {texels} | {splits} | {len(rows)} | "
-                     f"{share([row['over'] for row in rows])} | {share([row['missing'] for row in rows])} | "
-                     f"{statistics.mean(int(row['spheres']) for row in rows):.3g} | {failed} | "
-                     f"{total(rows, 'unresolved')} | {seconds:.2g} |")
+        said = figures(cases[key], key[3])
+        if runs and runs[-1][0] == key[:5] and runs[-1][3] == said:
+            runs[-1][2] = key[5]
+        else:
+            runs.append([key[:5], key[5], key[5], said])
+    for (city, distance, sphere, split, texels), first, last, said in runs:
+        splits = f"{first}" if first == last else f"{first} to {last}"
+        lines.append(f"| {city} | {distance:g} m | {sphere} | {split} | {texels} | {splits} | {said} |")
     return "\n".join(lines)
 
 

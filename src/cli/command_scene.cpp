@@ -12,6 +12,7 @@
 #include "cli/scene_report.h"
 #include "cli/text_table.h"
 #include "mission/input_file.h"
+#include "mission/numbers.h"
 #include "solid/atomic_file.h"
 #include "solid/result_files.h"
 #include "solid/scene_writers.h"
@@ -60,7 +61,7 @@ std::array<double, N> numbers(const std::string& text, const std::string& option
     const auto [stop, error] = std::from_chars(at, end, values[i]);
     const bool is_last = i + 1 == N;
     if (error != std::errc() || (is_last ? stop != end : stop == end || *stop != ',')) {
-      fail("'" + text + "' is not " + form, option, "write it without spaces: " + form);
+      fail(mission_io::in_quotes(text).append(" is not ").append(form), option, "write it without spaces: " + form);
     }
     at = stop + 1;
   }

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "support/places.h"
 #include "support/run_program.h"
 
 namespace vantage::testing {
@@ -65,7 +66,7 @@ class Cli : public ::testing::Test {
   }
 
   ProgramRun run(const std::vector<std::string>& arguments) const {
-    ProgramRun result = run_program(VANTAGE_CLI, arguments, options_);
+    ProgramRun result = run_program(program_file(), arguments, options_);
     EXPECT_FALSE(result.timed_out);
     return result;
   }

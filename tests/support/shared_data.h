@@ -6,12 +6,14 @@
 #include <filesystem>
 #include <string>
 
+#include "support/places.h"
+
 namespace vantage::testing {
 
 /// Path of a file below `shared/data`. May not exist: see VANTAGE_REQUIRE_SHARED.
 inline std::filesystem::path shared_data(const std::string& file) {
   const char* set = std::getenv("VANTAGE_SHARED");
-  const std::filesystem::path shared = set ? set : std::filesystem::path(VANTAGE_SOURCE_DIR) / ".." / "shared";
+  const std::filesystem::path shared = set ? set : source_folder() / ".." / "shared";
   return shared / "data" / file;
 }
 
