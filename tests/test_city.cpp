@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <random>
 #include <string>
 
 #include "solid/solid_check.h"
@@ -199,6 +200,30 @@ TEST_F(CityTest, SaysWhatItMadeUp) {
   EXPECT_EQ(torn.reason, "some of its nodes are not in the file: built from the others");
   EXPECT_EQ(wall.fate, Fate::repaired);
   EXPECT_NEAR(object_volume(city.scene, "way/2"), 200 * 9, 5);
+}
+
+TEST_F(CityTest, ScribblesCostNeitherTimeNorTheOthers) {
+  MapText map;
+  map.box(-30, 0, -10, 20, {{"building", "yes"}});
+  std::mt19937 random(4);  // the seed
+  const auto corner = [&] { return static_cast<double>(random() % 30000) / 100; };
+  MapText::Positions scribble, tangle;
+  for (int i = 0; i < 1900; ++i) scribble.emplace_back(corner(), corner());
+  for (int i = 0; i < 60; ++i) tangle.emplace_back(corner(), corner());
+  map.area(scribble, {{"building", "yes"}});
+  map.area(tangle, {{"building", "yes"}});
+  map.line(scribble, {{"barrier", "wall"}, {"height", "3"}});
+  MapText::Positions round = {{600, 0}};  // 1900 corners and one crossing
+  for (int i = 0; i < 1900; ++i) round.emplace_back(500 + 90 * std::cos(i * 0.0033), 90 * std::sin(i * 0.0033));
+  round.emplace_back(600, 20);
+  map.area(round, {{"building", "yes"}});
+  const City city = build(map);
+  EXPECT_NE(record_of(city, "way/5").fate, Fate::skipped);
+  EXPECT_EQ(record_of(city, "way/1").fate, Fate::written);
+  EXPECT_EQ(record_of(city, "way/2").reason, "outline that crosses itself more than a thousand times");
+  EXPECT_EQ(record_of(city, "way/3").fate, Fate::repaired);
+  EXPECT_EQ(record_of(city, "way/4").fate, Fate::written);
+  EXPECT_EQ(object_mesh(city.scene, "way/4").triangles.size(), 1899U * 12) << "each side is a box";
 }
 
 TEST_F(CityTest, SkipsWhatIsNoBuildingAndSaysWhy) {

@@ -357,10 +357,49 @@ std::vector<GridPolygon> untangled(const GridRing& ring, Repairs& repairs) {
   return result;
 }
 
+/// Whether sides cross one another more often than drawing explains. What is made of them would take time with the
+/// square of the crossings, and look like nothing.
+bool is_tangled(const std::vector<GridRing>& rings, bool closed = true) {
+  constexpr std::size_t kMostCrossings = 1000;
+  struct Side {
+    Vec2 from, to;
+    double left = 0, right = 0;
+  };
+  std::vector<Side> sides;
+  for (const GridRing& ring : rings) {
+    const auto at = [&](std::size_t i) {
+      return Vec2(double(ring[i % ring.size()].x), double(ring[i % ring.size()].y));
+    };
+    for (std::size_t i = 0; i + (closed ? 0 : 1) < ring.size(); ++i) {
+      const Vec2 a = at(i), b = at(i + 1);
+      sides.push_back({a, b, std::min(a.x(), b.x()), std::max(a.x(), b.x())});
+    }
+  }
+  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.left < b.left; });
+  const auto parts = [](const Side& side, const Vec2& a, const Vec2& b) {
+    const Vec2 along = side.to - side.from, p = a - side.from, q = b - side.from;
+    return (along.x() * p.y() - along.y() * p.x()) * (along.x() * q.y() - along.y() * q.x()) < 0;
+  };
+  std::size_t crossings = 0;
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    const Side& a = sides[i];
+    for (std::size_t j = i + 1; j < sides.size() && sides[j].left <= a.right; ++j) {
+      const Side& b = sides[j];
+      crossings += parts(a, b.from, b.to) && parts(b, a.from, a.to);
+      if (crossings > kMostCrossings) return true;
+    }
+  }
+  return false;
+}
+
 /// One polygon of the rough ones; its rings are tidy.
 std::vector<GridPolygon> cleaned(const GridPolygon& rough, Repairs& repairs) {
   const Meeting meeting = meeting_of(rings_of({rough}));
   if (!meeting.crossing && !meeting.touching && is_nested(rough)) return {rough};
+  if (is_tangled(rings_of({rough}))) {
+    repairs.tangled = true;
+    return {};
+  }
   std::vector<GridPolygon> result = untangled(rough.outer, repairs);
   if (rough.holes.empty()) return result;
   Clipping clipping;
@@ -480,6 +519,15 @@ std::vector<Footprint> intersect(const std::vector<Footprint>& a, const std::vec
   return clipped(both, ClipperLib::ctIntersection);
 }
 
+/// A footprint for each side of a line.
+static std::vector<Footprint> widen_sides(const std::vector<Vec2>& line, double width_m) {
+  std::vector<Footprint> footprints;
+  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+    for (Footprint& side : widen({line[i], line[i + 1]}, false, width_m)) footprints.push_back(std::move(side));
+  }
+  return footprints;
+}
+
 std::vector<Footprint> widen(const std::vector<Vec2>& line, bool closed, double width_m) {
   const Grid grid(std::vector<const Ring*>{&line});
   if (!grid.holds(line)) return {};
@@ -487,6 +535,7 @@ std::vector<Footprint> widen(const std::vector<Vec2>& line, bool closed, double 
   points.erase(std::unique(points.begin(), points.end()), points.end());
   while (closed && points.size() > 1 && points.front() == points.back()) points.pop_back();
   if (points.size() < 2) return {};
+  if (points.size() > 2 && is_tangled({points}, false)) return widen_sides(line, width_m);
   ClipperLib::ClipperOffset offset(kMiterLimit);
   offset.AddPath(to_path(points), ClipperLib::jtMiter,
                  closed && points.size() > 2 ? ClipperLib::etClosedLine : ClipperLib::etOpenButt);

@@ -29,6 +29,7 @@ double area_m2(const std::vector<Footprint>& footprints);
 struct Repairs {
   bool self_crossing = false;  ///< it crossed itself: inside is what is wound round an odd number of times
   bool nesting = false;        ///< holes outside the outer ring, or overlapping each other
+  bool tangled = false;        ///< it crosses itself more than a thousand times: dropped
   bool beyond = false;         ///< not finite, or larger than 100 km: dropped
   std::size_t slivers = 0;     ///< pieces narrower than 1 cm or smaller than 0.01 m2 that were dropped
 };
@@ -41,7 +42,8 @@ std::vector<Footprint> subtract(const std::vector<Footprint>& from, const std::v
 std::vector<Footprint> intersect(const std::vector<Footprint>& a, const std::vector<Footprint>& b);
 
 /// A wall of this width along a line: joints mitred (very sharp ones cut off), ends cut straight. `closed`: a ring.
-/// Empty for a line without a length. Where the line crosses itself or runs close to itself, what is shut in is a hole.
+/// Empty for a line without a length. Where the line crosses itself or runs close to itself, what is shut in is a hole;
+/// of one that crosses itself more than a thousand times each side is a footprint, and these overlap.
 std::vector<Footprint> widen(const std::vector<Vec2>& line, bool closed, double width_m);
 
 /// Convex pieces that cover a footprint and overlap only along their sides: few of them, none narrower than need be

@@ -34,6 +34,9 @@ void skip(Site& site, CityRecord record, std::string reason) {
 
 /// Fates of outlines that were mended or cannot be built.
 std::string fault_of(const Structure& structure) {
+  if (structure.footprints.empty() && structure.repairs.tangled) {
+    return "outline that crosses itself more than a thousand times";
+  }
   if (structure.footprints.empty()) return "outline without an area";
   if ((structure.max - structure.min).maxCoeff() > kLargest) return "outline more than 3 km across";
   if (structure.source->tags.get("location") == "underground") return "underground";
@@ -41,6 +44,7 @@ std::string fault_of(const Structure& structure) {
 }
 
 std::string repair_of(const Repairs& repairs) {
+  if (repairs.tangled) return "one of its outlines crosses itself more than a thousand times: built without it";
   if (repairs.self_crossing) return "outline that crosses itself: what is wound round an odd number of times is built";
   if (repairs.nesting) return "holes that overlap or lie outside: built without what lies outside";
   return {};

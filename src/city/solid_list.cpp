@@ -127,6 +127,20 @@ Mesh joined(const std::vector<Mesh>& pieces, CityRecord& record) {
   return mesh;
 }
 
+/// Nothing where it cannot be built: one object out of line must not cost all the others.
+Mesh solid_of(Item& item, const Ground& ground) {
+  try {
+    std::vector<Mesh> pieces = build(item, ground);
+    check(item, pieces, ground);
+    return joined(pieces, item.record);
+  } catch (const Error& error) {
+    if (error.kind() == ErrorKind::cancelled) throw;
+    item.record.fate = Fate::skipped;
+    item.record.reason = error.problem();
+    return {};
+  }
+}
+
 }  // namespace
 
 std::vector<Mesh> build_solids(Site& site, const Ground& ground, const Progress& progress) {
@@ -134,9 +148,7 @@ std::vector<Mesh> build_solids(Site& site, const Ground& ground, const Progress&
   SharedProgress shared(progress, "building", site.items.size());
   parallel::for_ranges(site.items.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      std::vector<Mesh> pieces = build(site.items[i], ground);
-      check(site.items[i], pieces, ground);
-      solids[i] = joined(pieces, site.items[i].record);
+      solids[i] = solid_of(site.items[i], ground);
     }
     shared.add(end - begin);
   });
