@@ -51,8 +51,8 @@ TEST(IntersectVolumes, HalvesMakeTheWhole) {
 
 TEST(IntersectVolumes, KeepsCausesAndNamesEachOnce) {
   const PreparedScene scene = courtyard();
-  const Volume both = intersect_volumes({volume_of(scene, {{-9, 0, 0}, {-3, 0, 0}, {-3, 6, 0}}),
-                                         volume_of(scene, {{3, 0, 0}, {9, 0, 0}, {9, 6, 0}})});
+  const Volume both = intersect_volumes(
+      {volume_of(scene, {{-9, 0, 0}, {-3, 0, 0}, {-3, 6, 0}}), volume_of(scene, {{3, 0, 0}, {9, 0, 0}, {9, 6, 0}})});
   ASSERT_EQ(both.outcome, Outcome::computed) << both.reason;
   ASSERT_EQ(both.cause_of.size(), both.mesh.triangles.size());
   std::set<std::string> names;
@@ -90,9 +90,7 @@ TEST(IntersectVolumes, TakesOverAnEmptyPart) {
   EXPECT_TRUE(both.mesh.empty() && both.causes.empty());
 }
 
-TEST(IntersectVolumes, RefusesNothingAtAll) {
-  EXPECT_THROW(intersect_volumes({}), Error);
-}
+TEST(IntersectVolumes, RefusesNothingAtAll) { EXPECT_THROW(intersect_volumes({}), Error); }
 
 }  // namespace
 }  // namespace vantage

@@ -29,7 +29,7 @@ constexpr const char* kExamples =
     "  vantage scene city.osm.pbf --center 40.7484,-73.9857 --radius 600 -o scene.glb\n"
     "  vantage scene city.osm.pbf --bbox -73.99,40.74,-73.97,40.76 --terrain N40W074.hgt -o scene.obj\n"
     "  vantage scene city.osm.gz --set level=3.2 --set levels=4 --without trees --without walls -o scene.ply\n"
-    "  vantage scene delft.city.json --lod 2.2 -o scene.glb\n"
+    "  vantage scene town.city.json --lod 2.2 -o scene.glb\n"
     "  vantage scene dsm.tif --center 51.999,4.37 --radius 200 --error 0.1 -o scene.ply\n"
     "  vantage scene delft.obj --crs EPSG:28992 --origin 52.0116,4.3571 -o scene.obj\n"
     "\n"

@@ -47,8 +47,10 @@ MeshFormat mesh_format(const MeshSource& source) {
   if (extension == ".stl") return MeshFormat::stl;
   if (extension == ".gltf" || extension == ".glb") return MeshFormat::gltf;
   if (named_json) return MeshFormat::cityjson;
-  source.fail("the format of the mesh file is unknown",
-              "give an OBJ, PLY, STL, glTF, GLB or CityJSON file; it may be compressed with gzip");
+  source.fail(
+      "the format of the mesh file is unknown",
+      "give an OBJ, PLY, STL, glTF, GLB or CityJSON file; it may be compressed with gzip. Of a map or a raster of "
+      "heights 'vantage scene' makes a scene, and missions take them as scene.osm and scene.raster");
 }
 
 RawMesh read_any(const MeshSource& source, ReadProgress& progress, const ReadLimits& limits, const std::string& lod) {
