@@ -1,5 +1,6 @@
 #include "city/region.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <string>
@@ -72,6 +73,20 @@ std::optional<osm::Region> checked_box(const Bounds& b) {
   return osm::Region{{}, b};
 }
 
+/// Of the areas alone: a file may have a coast or a border that goes on for kilometres.
+Bounds areas_bounds(const osm::Extract& extract) {
+  Bounds b{180, 90, -180, -90};
+  for (const osm::Area& area : extract.areas) {
+    for (const osm::Polygon& polygon : area.polygons) {
+      for (const LonLat at : polygon.outer) {
+        b = {std::min(b[0], at.longitude_deg), std::min(b[1], at.latitude_deg), std::max(b[2], at.longitude_deg),
+             std::max(b[3], at.latitude_deg)};
+      }
+    }
+  }
+  return b[0] <= b[2] ? b : extract.bounds_deg;
+}
+
 }  // namespace
 
 std::optional<osm::Region> checked_region(const CityRegion& region) {
@@ -141,7 +156,7 @@ void fail_empty(const CityRegion& region, const osm::Extract& extract, const Out
 
 LonLat frame_origin(const CityRegion& region, const osm::Extract& extract) {
   if (region.center_deg) return {(*region.center_deg)[1], (*region.center_deg)[0]};
-  const Bounds& b = region.bbox_deg ? *region.bbox_deg : extract.bounds_deg;
+  const Bounds b = region.bbox_deg ? *region.bbox_deg : areas_bounds(extract);
   return {(b[0] + b[2]) / 2, (b[1] + b[3]) / 2};
 }
 

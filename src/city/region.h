@@ -31,7 +31,7 @@ struct Outside {
 [[noreturn]] void fail_empty(const CityRegion& region, const osm::Extract& extract, const Outside& outside,
                              const std::filesystem::path& file);
 
-/// Origin of the frame: the centre of what is asked for, or of the file.
+/// Origin of the frame: the middle of what is asked for, or else of the areas that were read.
 geo::LonLat frame_origin(const CityRegion& region, const osm::Extract& extract);
 
 }  // namespace vantage::city
