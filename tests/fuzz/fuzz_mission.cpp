@@ -18,7 +18,12 @@ void require(bool holds) {
 void check_accepted(const vantage::mission_io::ParsedMission& parsed) {
   const vantage::Mission& mission = parsed.mission;
   require(mission.scene.file.is_absolute());
-  require(mission.target.vertices.size() >= 3 && mission.target.vertices.size() <= 64);
+  const std::size_t corners = mission.target.vertices.size();
+  if (mission.ground_target) {
+    require(corners == 0);  // the scene says where it lies
+  } else if (mission.crs.empty()) {
+    require(corners == 1 || (corners >= 3 && corners <= 64));
+  }
   for (const vantage::Vec3& vertex : mission.target.vertices) require(vertex.allFinite());
   require(std::isfinite(mission.sensor.max_range_m) && mission.sensor.max_range_m > 0);
   require(std::isfinite(mission.exact.tolerance_m) && mission.exact.tolerance_m > 0);
