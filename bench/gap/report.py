@@ -104,12 +104,12 @@ class Panel:
             self.parts.append(f'<circle cx="{self.x(p):.1f}" cy="{self.y(v):.1f}" r="3" fill="{colour}"/>')
 
 
-def medians(cases, place_of, wanted, column):
-    """city -> [(place, median)] of the cases that `wanted` takes."""
+def points_of(cases, place_of, wanted, column, of_targets):
+    """city -> [(place, median or worst)] of the cases that `wanted` takes."""
     curves = collections.defaultdict(list)
     for key in sorted(cases):
         if wanted(*key) and place_of(*key) is not None:
-            curves[key[0]].append((place_of(*key), statistics.median(row[column] for row in cases[key])))
+            curves[key[0]].append((place_of(*key), of_targets(row[column] for row in cases[key])))
     return curves
 
 
@@ -117,6 +117,7 @@ def draw(cases, distance, file):
     sizes = sorted({key[4] for key in cases})
     splits = sorted({key[5] for key in cases})
     most = max(sizes, key=lambda size: len({key[5] for key in cases if key[4] == size and key[3] == "always"}))
+    splits = [n for n in splits if any(key[3] == "always" and key[4] == most and key[5] == n for key in cases)]
 
     def at_size(sphere):
         return lambda city, d, s, split, texels, n: d == distance and s == sphere and split == "euler" and n == 0
@@ -129,17 +130,18 @@ def draw(cases, distance, file):
         return sizes.index(texels)
 
     def split_place(city, d, s, split, texels, n):
-        return splits.index(n)
+        return splits.index(n) if n in splits else None
 
     words = [str(size) for size in sizes]
-    panels = [Panel(80, "over-claimed, vertices only", words, "texels a face side"),
-              Panel(500, "missed, vertices only", words, "texels a face side"),
-              Panel(920, f"over-claimed, edges split, {most} texels", [str(n) for n in splits], "splits")]
-    for panel, place, choose, column in ((panels[0], size_place, at_size, "over"),
-                                         (panels[1], size_place, at_size, "missing"),
-                                         (panels[2], split_place, at_split, "over")):
+    panels = [Panel(80, "over-claimed, median", words, "texels a face side"),
+              Panel(500, "missed, median", words, "texels a face side"),
+              Panel(920, f"over-claimed, worst, {most} texels", [str(n) for n in splits], "halvings of every edge")]
+    for panel, place, choose, column, of_targets in (
+            (panels[0], size_place, at_size, "over", statistics.median),
+            (panels[1], size_place, at_size, "missing", statistics.median),
+            (panels[2], split_place, at_split, "over", max)):
         for sphere, dash in (("conservative", ""), ("centers", "6 4")):
-            for city, points in medians(cases, place, choose(sphere), column).items():
+            for city, points in points_of(cases, place, choose(sphere), column, of_targets).items():
                 panel.curve(points, COLOURS.get(city, DARK), dash)
     parts = [part for panel in panels for part in panel.parts]
     x = 80
