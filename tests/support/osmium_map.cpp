@@ -62,7 +62,8 @@ ListedObject parse_opl(const std::string& line) {
 }
 
 std::vector<ListedObject> listed(const std::filesystem::path& map, const std::vector<std::string>& filter) {
-  std::vector<std::string> arguments = {"tags-filter", "-R", "-f", "opl,locations_on_ways=true", "-o", "-", map.string()};
+  std::vector<std::string> arguments = {"tags-filter", "-R", "-f",        "opl,locations_on_ways=true",
+                                        "-o",          "-",  map.string()};
   arguments.insert(arguments.end(), filter.begin(), filter.end());
   std::vector<ListedObject> objects;
   for (const std::string& line : split(osmium(arguments), '\n')) objects.push_back(parse_opl(line));
