@@ -8,9 +8,13 @@
 #include "city/footprint.h"
 #include "city/grid_rings.h"
 #include "support/random.h"
+#include "support/rings.h"
 
 namespace vantage::city {
 namespace {
+
+using testing::inside;
+using testing::inside_odd;
 
 using vantage::testing::Random;
 
@@ -19,25 +23,6 @@ Ring rectangle(double west, double south, double east, double north) {
 }
 
 Ring reversed(Ring ring) { return {ring.rbegin(), ring.rend()}; }
-
-/// Twice round is out again.
-bool inside_odd(const Vec2& p, const Ring& ring) {
-  bool inside = false;
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    const Vec2 &a = ring[i], &b = ring[(i + 1) % ring.size()];
-    if ((a.y() > p.y()) == (b.y() > p.y())) continue;
-    if (p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x())) inside = !inside;
-  }
-  return inside;
-}
-
-bool inside(const Vec2& p, const Footprint& footprint) {
-  if (!inside_odd(p, footprint.outer)) return false;
-  for (const Ring& hole : footprint.holes) {
-    if (inside_odd(p, hole)) return false;
-  }
-  return true;
-}
 
 bool inside(const Vec2& p, const std::vector<Footprint>& footprints) {
   for (const Footprint& footprint : footprints) {

@@ -14,10 +14,13 @@
 #include "solid/solid_check.h"
 #include "solid/weld.h"
 #include "support/random.h"
+#include "support/rings.h"
 #include "vantage/error.h"
 
 namespace vantage::city {
 namespace {
+
+using testing::inside;
 
 using vantage::testing::Random;
 constexpr double kPi = std::numbers::pi;
@@ -53,22 +56,6 @@ BuildingForm form_of(RoofShape shape, double bottom, double top, double roof) {
 }
 
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
-
-bool inside_odd(const Vec2& p, const Ring& ring) {
-  bool inside = false;
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    const Vec2 &a = ring[i], &b = ring[(i + 1) % ring.size()];
-    if ((a.y() > p.y()) == (b.y() > p.y())) continue;
-    if (p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x())) inside = !inside;
-  }
-  return inside;
-}
-
-bool inside(const Vec2& p, const Footprint& footprint) {
-  if (!inside_odd(p, footprint.outer)) return false;
-  return std::none_of(footprint.holes.begin(), footprint.holes.end(),
-                      [&](const Ring& hole) { return inside_odd(p, hole); });
-}
 
 double distance_to(const Vec2& p, const Footprint& footprint) {
   double least = std::numeric_limits<double>::infinity();
