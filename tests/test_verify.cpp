@@ -237,6 +237,27 @@ TEST(Verify, TheSurfaceUnderTheTargetDoesNotCount) {
   EXPECT_GT(example.verify(example.truth).over_claimed, 1000u);
 }
 
+TEST(Verify, ATargetInPartsMustBeSeenInAllOfThem) {
+  for (const Vec3& shift : {Vec3(0, 0, 0), Vec3(580000, 4785000, 1000)}) {
+    const Example whole = plate_example(shift);
+    std::vector<Target> halves = {whole.target, whole.target};  // the target reaches from -1 to 1
+    for (const int i : {1, 2}) halves[0].vertices[i].x() = shift.x() + 0.25;
+    for (const int i : {0, 3}) halves[1].vertices[i].x() = shift.x() + 0.25;
+    const auto verify = [&](const std::vector<Target>& parts, const Mesh& volume) {
+      return verify_volume(whole.scene, parts, whole.sensor, whole.navigation, volume);
+    };
+    expect_right(verify(halves, whole.truth));
+    const VerifyReport half = verify({halves[0]}, whole.truth);
+    EXPECT_EQ(half.over_claimed, 0u);
+    EXPECT_GT(half.under_claimed, 10u) << "of one part alone more is seen";
+    const VerifyReport uncut = verify(halves, make_box_mesh(shift + Vec3(-10, -10, 1), shift + Vec3(10, 10, 10)));
+    EXPECT_GT(uncut.over_claimed, 100u);
+    EXPECT_EQ(uncut.worst_over_cause, "plate");
+  }
+  const Example example = plate_example();
+  EXPECT_THROW(verify_volume(example.scene, std::vector<Target>(), example.sensor, {}, example.truth), Error);
+}
+
 TEST(Verify, DoesNotDependOnThreads) {
   const Example example = plate_example();
   const Mesh box = make_box_mesh({-10, -10, 1}, {10, 10, 10});

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "vantage/constraints.h"
 #include "vantage/progress.h"
@@ -51,5 +52,11 @@ struct VerifyReport {
 /// target, sensor, limit or option that is wrong in itself, Error(cancelled) when told to stop.
 VerifyReport verify_volume(const Scene& scene, const Target& target, const Sensor& sensor, const Navigation& navigation,
                            const Mesh& volume, const VerifyOptions& options = {}, const Progress& progress = {});
+
+/// The same of a target in parts, one or more: what is claimed must see every part whole, and what is not must miss
+/// some of one.
+VerifyReport verify_volume(const Scene& scene, const std::vector<Target>& parts, const Sensor& sensor,
+                           const Navigation& navigation, const Mesh& volume, const VerifyOptions& options = {},
+                           const Progress& progress = {});
 
 }  // namespace vantage

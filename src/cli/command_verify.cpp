@@ -1,8 +1,8 @@
-#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 #include "cli/command.h"
 #include "cli/open_edges.h"
@@ -109,33 +109,14 @@ std::string table_text(const VerifyReport& report, double lift, std::size_t hole
   return table.text();
 }
 
-/// A volume is right for a target in parts when it is for each part. What it leaves unclaimed is not judged: the part
-/// that hides there may be another one.
-void add(const VerifyReport& part, VerifyReport& report) {
-  report.points += part.points;
-  report.inside += part.inside;
-  report.rays += part.rays;
-  report.over_claimed += part.over_claimed;
-  report.under_claimed = 0;
-  report.worst_under_depth_m = 0;
-  if (part.worst_over_depth_m > report.worst_over_depth_m) {
-    report.worst_over_depth_m = part.worst_over_depth_m;
-    report.worst_over_point = part.worst_over_point;
-    report.worst_over_cause = part.worst_over_cause;
-  }
-  report.over_claim_bound = std::min(1.0, report.over_claim_bound + part.over_claim_bound);
-  report.bound_points = std::min(report.bound_points, part.bound_points);
-}
-
 int run(const Options& options) {
   mission_io::check_readable(options.volume_file, "the volume", "");
   Mission mission = read_mission(options.mission_file);
   ProgressLine progress(options.common);
   const Scene scene = read_mission_scene(mission, progress.callback()).scene;
 
-  SceneReadOptions volume_options;
-  if (mission_io::is_obj(options.volume_file)) volume_options = {scene.up, scene.scale};  // as compute writes it
-  const Mesh volume = read_scene(options.volume_file, volume_options, progress.callback()).mesh;
+  const Mesh volume =
+      read_scene(options.volume_file, mission_io::result_options(options.volume_file, scene), progress.callback()).mesh;
   const std::size_t holes = count_open_edges(volume);
   const double lift = options.lift_m < 0 ? reported_lift(options.volume_file) : options.lift_m;
 
@@ -162,8 +143,7 @@ int run(const Options& options) {
     print(json_text(report, lift, holes));
   } else if (!options.common.quiet) {
     if (!mission.other_parts.empty()) {
-      note("the target has " + std::to_string(mission.other_parts.size() + 1) +
-           " convex parts: each is checked for over-claims; what is left unclaimed is not judged");
+      note("the target has " + std::to_string(mission.other_parts.size() + 1) + " convex parts: all must be seen");
     }
     print(table_text(report, lift, holes, options.volume_file));
   }

@@ -1,8 +1,10 @@
 // The check of docs/verification.md: viewpoints against shadow rays.
 #include "vantage/verify.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <deque>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -28,63 +30,96 @@ using verify::Viewpoints;
 
 constexpr int kRandomEdgePoints = 2;  // an edge, besides its quarter points
 
+/// A target, or one part of it, and what may hide it.
+struct Part {
+  Part(const Scene& scene, const Target& target, double max_range) : view(target), occluders(scene, view, max_range) {}
+  Part(const Part&) = delete;
+  Part& operator=(const Part&) = delete;
+
+  TargetView view;
+  Occluders occluders;
+};
+
 struct Verdict {
   bool claimed = false, uniform = false, over = false, under = false;
   double depth = 0;  ///< from the surface of the volume, metres; for over and under
   std::size_t rays = 0;
-  Vec3 position = Vec3::Zero();
-  std::optional<Vec3> hidden;  ///< a target point that the viewpoint does not see
+  Vec3 position = Vec3::Zero();   ///< in the frame of the first part
+  const Part* blocked = nullptr;  ///< the part that the viewpoint does not see whole,
+  Vec3 hidden = Vec3::Zero();     ///< and a hidden point of it, in its frame
 };
 
 class Check {
  public:
-  Check(const Scene& scene, const Target& target, const Sensor& sensor, const Navigation& navigation,
+  Check(const Scene& scene, const std::vector<Target>& targets, const Sensor& sensor, const Navigation& navigation,
         const Mesh& volume, const VerifyOptions& options)
       : options_(options),
         max_range_(sensor.max_range_m),
         scene_(scene),
-        view_(target),
+        parts_(parts(scene, targets, max_range_)),
+        view_(parts_.front().view),
         volume_(volume, view_.origin(), "volume"),
         limits_(navigation, view_.origin()),
-        occluders_(scene, view_, max_range_),
         viewpoints_(volume_, view_, max_range_, options.points) {}
 
   Verdict judge(std::size_t number) const;
   VerifyReport report(const std::vector<Verdict>& verdicts) const;
 
  private:
+  static std::deque<Part> parts(const Scene& scene, const std::vector<Target>& targets, double max_range);
+  Vec3 in_frame_of(const Part& part, const Vec3& position) const {
+    return position + view_.origin() - part.view.origin();
+  }
   bool permitted(const Vec3& position, double range) const;
   bool sees_all(const Vec3& position, Random& random, Verdict& verdict) const;
+  bool sees(const Part& part, const Vec3& position, Random& random, Verdict& verdict) const;
   std::string cause(const Verdict& over_claimed) const;
 
   VerifyOptions options_;
   double max_range_;
   const Scene& scene_;
-  TargetView view_;
+  std::deque<Part> parts_;  // whose members point at each other
+  const TargetView& view_;  // of the first part: its frame is the check's
   ClosedMesh volume_;
   Limits limits_;
-  Occluders occluders_;
   Viewpoints viewpoints_;
 };
+
+std::deque<Part> Check::parts(const Scene& scene, const std::vector<Target>& targets, double max_range) {
+  std::deque<Part> parts;
+  for (const Target& target : targets) parts.emplace_back(scene, target, max_range);
+  return parts;
+}
 
 /// All but the sight: in front (but for a point seen from all sides), `range` metres from everywhere, within the
 /// limits.
 bool Check::permitted(const Vec3& position, double range) const {
-  return view_.in_front(position) && view_.farthest(position) <= range && !limits_.broken_by(position);
+  const auto reaches = [&](const Part& part) {
+    const Vec3 own = in_frame_of(part, position);
+    return part.view.in_front(own) && part.view.farthest(own) <= range;
+  };
+  return std::all_of(parts_.begin(), parts_.end(), reaches) && !limits_.broken_by(position);
 }
 
 bool Check::sees_all(const Vec3& position, Random& random, Verdict& verdict) const {
+  return std::all_of(parts_.begin(), parts_.end(),
+                     [&](const Part& part) { return sees(part, in_frame_of(part, position), random, verdict); });
+}
+
+/// `position` in the part's frame.
+bool Check::sees(const Part& part, const Vec3& position, Random& random, Verdict& verdict) const {
   const auto hidden = [&](const Vec3& target_point) {
     ++verdict.rays;
-    if (!occluders_.hide(position, target_point)) return false;
+    if (!part.occluders.hide(position, target_point)) return false;
+    verdict.blocked = &part;
     verdict.hidden = target_point;
     return true;
   };
-  const std::vector<Vec3>& vertices = view_.vertices();
+  const std::vector<Vec3>& vertices = part.view.vertices();
   for (const Vec3& vertex : vertices) {
     if (hidden(vertex)) return false;
   }
-  if (view_.is_point()) return true;
+  if (part.view.is_point()) return true;
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     const Vec3& start = vertices[i];
     const Vec3 edge = vertices[(i + 1) % vertices.size()] - start;
@@ -98,12 +133,15 @@ bool Check::sees_all(const Vec3& position, Random& random, Verdict& verdict) con
   // Roberts' R2 sequence (the plastic number's powers), shifted anew for every viewpoint.
   double u = random.uniform(), v = random.uniform();
   for (int k = 0; k < options_.target_samples; ++k) {
-    if (hidden(view_.interior(u, v))) return false;
+    if (hidden(part.view.interior(u, v))) return false;
     u = std::fmod(u + 0.7548776662466927, 1.0);
     v = std::fmod(v + 0.5698402909980532, 1.0);
   }
-  verdict.hidden = occluders_.find_hidden(position, verdict.rays);
-  return !verdict.hidden;
+  const std::optional<Vec3> found = part.occluders.find_hidden(position, verdict.rays);
+  if (!found) return true;
+  verdict.blocked = &part;
+  verdict.hidden = *found;
+  return false;
 }
 
 Verdict Check::judge(std::size_t number) const {
@@ -130,13 +168,14 @@ Verdict Check::judge(std::size_t number) const {
 
 std::string Check::cause(const Verdict& over_claimed) const {
   const Vec3& position = over_claimed.position;
-  if (over_claimed.hidden) {
-    const auto triangle = occluders_.first_hit(position, *over_claimed.hidden);
+  if (const Part* const part = over_claimed.blocked) {
+    const auto triangle = part->occluders.first_hit(in_frame_of(*part, position), over_claimed.hidden);
     const bool named =
         triangle && *triangle < scene_.object_of.size() && scene_.object_of[*triangle] < scene_.objects.size();
     return named ? scene_.objects[scene_.object_of[*triangle]] : "scene";
   }
-  if (!view_.in_front(position)) return "target plane";
+  const auto behind = [&](const Part& part) { return !part.view.in_front(in_frame_of(part, position)); };
+  if (std::any_of(parts_.begin(), parts_.end(), behind)) return "target plane";
   return limits_.broken_by(position).value_or("max_range");
 }
 
@@ -213,8 +252,15 @@ class Reporter {
 
 VerifyReport verify_volume(const Scene& scene, const Target& target, const Sensor& sensor, const Navigation& navigation,
                            const Mesh& volume, const VerifyOptions& options, const Progress& progress) {
+  return verify_volume(scene, std::vector<Target>{target}, sensor, navigation, volume, options, progress);
+}
+
+VerifyReport verify_volume(const Scene& scene, const std::vector<Target>& parts, const Sensor& sensor,
+                           const Navigation& navigation, const Mesh& volume, const VerifyOptions& options,
+                           const Progress& progress) {
   check_arguments(sensor, options);
-  const Check check(scene, target, sensor, navigation, volume, options);
+  if (parts.empty()) throw Error(ErrorKind::input, "the target has no parts", "verify", "give one or more");
+  const Check check(scene, parts, sensor, navigation, volume, options);
   std::vector<Verdict> verdicts(options.points);
   Reporter reporter(progress, std::max<std::size_t>(options.points, 1));
   parallel::for_ranges(options.points, 16, [&](std::size_t begin, std::size_t end) {
