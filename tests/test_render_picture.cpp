@@ -88,6 +88,14 @@ TEST_F(RenderPicture, ShowsTheTargetWhereItIs) {
   for (const double x : {-7.0, 7.0, 25.0}) EXPECT_FALSE(is_red(at(picture, x, 0))) << at(picture, x, 0);
 }
 
+TEST_F(RenderPicture, ShowsEveryPartOfTheTarget) {
+  EXPECT_FALSE(is_red(at(render(), -20, 25)));
+  request_.other_parts = {testing::target_of({{-25, 20, 0}, {-15, 20, 0}, {-15, 30, 0}, {-25, 30, 0}})};
+  const Picture picture = render();
+  EXPECT_TRUE(is_red(at(picture, -20, 25)));
+  EXPECT_TRUE(is_red(at(picture, 0, 0)));
+}
+
 TEST_F(RenderPicture, HasNorthUpAndEastRight) {
   target_ = testing::target_of({{-25, 20, 0}, {-15, 20, 0}, {-15, 30, 0}, {-25, 30, 0}});
   const Picture picture = render();

@@ -60,6 +60,7 @@ Picture picture(const Options& options, Mission& mission, const PictureView& vie
   }
   PictureRequest request;
   request.target = &mission.target;
+  request.other_parts = mission.other_parts;
   request.volume = &volume;
   request.navigation = mission.navigation;
   request.view = view;

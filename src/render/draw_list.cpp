@@ -25,15 +25,42 @@ constexpr double kGroundSink = 0.05;                      // metres: a ground of
 constexpr double kLargestBox = 3;                         // over the rest's size: larger boxes do not count in framing
 constexpr double kGroundMark = 0;                         // opacity that tells ground to the shaders
 constexpr double kLeastOpacity = 0.01;                    // of a building that is drawn
+constexpr double kSameCorner = 1e-3;                      // metres between corners of parts that are one
 constexpr int kGridCells = 9;                             // or so, across the disc
 
-std::vector<Vec3> target_points(const PictureRequest& request) {
-  if (request.target == nullptr) return {};
-  if (request.target->vertices.size() < 3) return request.target->vertices;
-  const TargetFrame frame = make_target_frame(*request.target);
-  std::vector<Vec3> points;
+using Outline = std::vector<Vec3>;
+
+Outline outline_of(const Target& target) {
+  if (target.vertices.size() < 3) return target.vertices;
+  const TargetFrame frame = make_target_frame(target);
+  Outline points;
   for (const Eigen::Vector2d& p : frame.polygon) points.push_back(frame.to_scene({p.x(), p.y(), 0}));
   return points;
+}
+
+/// A polygon or a point for each part of the target.
+std::vector<Outline> target_outlines(const PictureRequest& request) {
+  std::vector<Outline> outlines;
+  if (request.target != nullptr) outlines.push_back(outline_of(*request.target));
+  for (const Target& part : request.other_parts) outlines.push_back(outline_of(part));
+  return outlines;
+}
+
+std::vector<Vec3> corners_of(const std::vector<Outline>& outlines) {
+  std::vector<Vec3> corners;
+  for (const Outline& outline : outlines) corners.insert(corners.end(), outline.begin(), outline.end());
+  return corners;
+}
+
+/// Whether a side of one part is one of another part's too, run the other way: it is inside the target.
+bool is_shared(const std::vector<Outline>& outlines, const Vec3& from, const Vec3& to) {
+  return std::any_of(outlines.begin(), outlines.end(), [&](const Outline& outline) {
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+      const Vec3 &a = outline[i], &b = outline[(i + 1) % outline.size()];
+      if ((a - to).norm() < kSameCorner && (b - from).norm() < kSameCorner) return true;
+    }
+    return false;
+  });
 }
 
 const Mesh* solid_of(const PictureRequest& request) {
@@ -51,7 +78,7 @@ std::array<Vec3, 8> corners_of(const Box& box) {
 
 std::vector<Vec3> framed_points(const Scene& scene, const PictureRequest& request) {
   if (!request.frame.empty()) return request.frame;
-  std::vector<Vec3> points = target_points(request);
+  std::vector<Vec3> points = corners_of(target_outlines(request));
   if (const Mesh* solid = solid_of(request)) {
     for (const Triangle& t : solid->triangles) {
       for (const std::uint32_t v : t) points.push_back(solid->vertices[v]);
@@ -306,17 +333,19 @@ class Builder {
   }
 
   void target() {
-    const std::vector<Vec3>& points = extent_.target;
-    if (points.empty()) return;
-    if (points.size() < 3) {
-      for (const Vec3& point : points) dot(point);
-      return;
-    }
-    for (std::size_t i = 1; i + 1 < points.size(); ++i) {
-      triangle(list_.target, points[0], points[i], points[i + 1], packed(kTarget, 0.9));
-    }
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      line(list_.lines, points[i], points[(i + 1) % points.size()], kTargetOutline, 1, 3, 1, 0.35);
+    const std::vector<Outline> outlines = target_outlines(request_);
+    for (const Outline& points : outlines) {
+      if (points.size() < 3) {
+        for (const Vec3& point : points) dot(point);
+        continue;
+      }
+      for (std::size_t i = 1; i + 1 < points.size(); ++i) {
+        triangle(list_.target, points[0], points[i], points[i + 1], packed(kTarget, 0.9));
+      }
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        const Vec3 &from = points[i], &to = points[(i + 1) % points.size()];
+        if (!is_shared(outlines, from, to)) line(list_.lines, from, to, kTargetOutline, 1, 3, 1, 0.35);
+      }
     }
   }
 
@@ -363,7 +392,7 @@ PictureExtent find_extent(const Scene& scene, const PictureRequest& request) {
   PictureExtent extent;
   extent.points = framed_points(scene, request);
   for (const Vec3& point : extent.points) extent.framed.extend(point);
-  extent.target = target_points(request);
+  extent.target = corners_of(target_outlines(request));
   const std::vector<Vec3>& target = extent.target;
   extent.centre = 0.5 * (extent.framed.min + extent.framed.max);
   if (!target.empty()) {
