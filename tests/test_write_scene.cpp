@@ -154,7 +154,7 @@ TEST(WriteScene, RefusesWhatDoesNotFitTogether) {
   Scene scene = awkward_scene();
   EXPECT_EQ(problem(scene, "a.xyz"), "unknown output format \".xyz\" | " + (directory / "a.xyz").string());
   scene.object_of[3] = 6;
-  EXPECT_EQ(problem(scene, "a.obj"), "an object index is out of range | triangle 3");
+  EXPECT_EQ(problem(scene, "a.obj"), "its object index is out of range | triangle 3");
   scene.object_of.pop_back();
   EXPECT_EQ(problem(scene, "a.obj"), "the scene has 24 triangles but objects of 23 | ");
   scene = awkward_scene();

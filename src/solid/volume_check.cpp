@@ -7,34 +7,33 @@
 #include "vantage/error.h"
 
 namespace vantage::solid {
-namespace {
-
-[[noreturn]] void refuse(const std::string& problem, const std::string& where) {
-  throw Error(ErrorKind::input, problem, where, "give a volume as computed, or mend what was changed in it");
-}
-
-}  // namespace
-
-void check_volume(const Volume& volume) {
-  const std::vector<Vec3>& vertices = volume.mesh.vertices;
-  const std::vector<Triangle>& triangles = volume.mesh.triangles;
-  if (volume.cause_of.size() != triangles.size()) {
-    refuse("the volume has " + std::to_string(triangles.size()) + " triangles but causes of " +
-               std::to_string(volume.cause_of.size()),
+void check_labelled(const Mesh& mesh, const Labels& labels) {
+  const auto refuse = [&](const std::string& problem, const std::string& where) {
+    throw Error(ErrorKind::input, problem, where, labels.fix);
+  };
+  if (labels.of.size() != mesh.triangles.size()) {
+    refuse(std::string("the ").append(labels.owner) + " has " + std::to_string(mesh.triangles.size()) +
+               " triangles but " + labels.name + "s of " + std::to_string(labels.of.size()),
            "");
   }
-  for (std::size_t v = 0; v < vertices.size(); ++v) {
-    if (!vertices[v].allFinite()) refuse("a coordinate is not finite", "vertex " + std::to_string(v));
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    if (!mesh.vertices[v].allFinite()) refuse("a coordinate is not finite", "vertex " + std::to_string(v));
   }
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    const auto beyond = [&](std::uint32_t v) { return v >= vertices.size(); };
-    if (std::any_of(triangles[t].begin(), triangles[t].end(), beyond)) {
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Triangle& triangle = mesh.triangles[t];
+    const auto beyond = [&](std::uint32_t v) { return v >= mesh.vertices.size(); };
+    if (std::any_of(triangle.begin(), triangle.end(), beyond)) {
       refuse("a vertex index is out of range", "triangle " + std::to_string(t));
     }
-    if (volume.cause_of[t] >= volume.causes.size()) {
-      refuse("a cause index is out of range", "triangle " + std::to_string(t));
+    if (labels.of[t] >= labels.count) {
+      refuse(std::string("its ").append(labels.name) + " index is out of range", "triangle " + std::to_string(t));
     }
   }
+}
+
+void check_volume(const Volume& volume) {
+  check_labelled(volume.mesh, {volume.cause_of, volume.causes.size(), "volume", "cause",
+                               "give a volume as computed, or mend what was changed in it"});
 }
 
 MeshMeasures measure_sound(const Mesh& mesh) {

@@ -1,10 +1,10 @@
 // Checks a scene, chooses the writer by the file's extension; the writers for OBJ and PLY.
-#include <algorithm>
 #include <limits>
 #include <numeric>
 #include <string>
 
 #include "solid/scene_writers.h"
+#include "solid/volume_check.h"
 #include "solid/write_place.h"
 #include "solid/writers.h"
 #include "vantage/error.h"
@@ -13,32 +13,10 @@ namespace vantage {
 namespace solid {
 namespace {
 
-[[noreturn]] void refuse(std::string problem, std::string where) {
-  throw Error(ErrorKind::input, std::move(problem), std::move(where),
-              "give a scene as read, or mend what was changed in it");
-}
-
 void check_scene(const Scene& scene) {
-  const std::vector<Vec3>& vertices = scene.mesh.vertices;
-  const std::vector<Triangle>& triangles = scene.mesh.triangles;
-  if (triangles.empty()) refuse("the scene holds no triangles", "");
-  if (scene.object_of.size() != triangles.size()) {
-    refuse("the scene has " + std::to_string(triangles.size()) + " triangles but objects of " +
-               std::to_string(scene.object_of.size()),
-           "");
-  }
-  for (std::size_t v = 0; v < vertices.size(); ++v) {
-    if (!vertices[v].allFinite()) refuse("a coordinate is not finite", "vertex " + std::to_string(v));
-  }
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    const auto beyond = [&](std::uint32_t v) { return v >= vertices.size(); };
-    if (std::any_of(triangles[t].begin(), triangles[t].end(), beyond)) {
-      refuse("a vertex index is out of range", "triangle " + std::to_string(t));
-    }
-    if (scene.object_of[t] >= scene.objects.size()) {
-      refuse("an object index is out of range", "triangle " + std::to_string(t));
-    }
-  }
+  constexpr const char* kFix = "give a scene as read, or mend what was changed in it";
+  if (scene.mesh.triangles.empty()) throw Error(ErrorKind::input, "the scene holds no triangles", "", kFix);
+  check_labelled(scene.mesh, {scene.object_of, scene.objects.size(), "scene", "object", kFix});
 }
 
 /// Numbers the vertices that triangles use, in the order of their first use: no vertex is kept that none uses.
