@@ -244,6 +244,18 @@ TEST_F(CityTest, SkipsWhatIsNoBuildingAndSaysWhy) {
   EXPECT_EQ(fates[Fate::skipped], 3);
 }
 
+TEST_F(CityTest, WhatLiesUndergroundIsNotBuilt) {
+  MapText map;
+  map.box(0, 0, 20, 20, {{"building", "yes"}, {"layer", "-1"}});
+  map.box(30, 0, 50, 20, {{"man_made", "storage_tank"}, {"location", "underground"}});
+  const City city = build(map);
+  EXPECT_EQ(record_of(city, "way/2").reason, "underground");
+  const CityRecord& doubtful = record_of(city, "way/1");
+  EXPECT_EQ(doubtful.fate, Fate::written) << "a layer alone does not say that it cannot be seen";
+  ASSERT_EQ(doubtful.remarks.size(), 1U);
+  EXPECT_EQ(doubtful.remarks[0], "layer=-1: built on the ground");
+}
+
 TEST_F(CityTest, DefaultsCanBeSet) {
   MapText map;
   map.box(0, 0, 20, 20, {{"building", "yes"}});
@@ -314,6 +326,36 @@ TEST_F(CityTest, RefusesRegionsThatHoldNothing) {
   expect_refused(map, options, "the box holds nothing", "west,south,east,north");
   options.region.bbox_deg = {48.1, 11.5, 48.2, 11.6};
   expect_refused(map, options, "outside the map", "the wrong way round");
+}
+
+TEST_F(CityTest, SaysWhyNothingCanBeBuilt) {
+  MapText map;
+  const long cellar = map.box(0, 0, 20, 20, {{"building", "yes"}, {"location", "underground"}});
+  map.box(30, 0, 50, 20, {{"building", "yes"}, {"location", "underground"}});
+  map.node(30, 30, {{"building", "yes"}});
+  map.relation({{"way", cellar, "outline"}}, {{"type", "building"}, {"building", "yes"}});
+  expect_refused(map, {}, "nothing that the map holds can be built",
+                 "underground (2), drawn as a point: it has no outline (1), its members");
+  map.box(1000, 0, 1020, 20, {{"building", "yes"}});
+  CityOptions options;
+  options.region.center_deg = {48.1374, 11.5755};
+  options.region.radius_m = 100;
+  expect_refused(map, options, "nothing in the area can be built", "underground (2)");
+}
+
+TEST_F(CityTest, GroupsBelongToTheRegionThatTheirMembersDo) {
+  MapText map;
+  const long near = map.box(0, 0, 20, 20, {{"building", "yes"}});
+  const long far = map.box(1000, 0, 1020, 20, {{"building", "yes"}});
+  map.relation({{"way", near, "outline"}}, {{"type", "building"}, {"building", "yes"}});
+  map.relation({{"way", far, "outline"}}, {{"type", "building"}, {"building", "yes"}});
+  CityOptions options;
+  options.region.center_deg = {48.1374, 11.5755};
+  options.region.radius_m = 100;
+  const City city = build(map, options);
+  EXPECT_EQ(city.report.records.size(), 2U);
+  EXPECT_NO_THROW(record_of(city, "relation/1"));
+  EXPECT_THROW(record_of(city, "relation/2"), std::runtime_error);
 }
 
 TEST_F(CityTest, RefusesAMapWithoutBuildings) {

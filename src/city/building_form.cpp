@@ -35,6 +35,10 @@ class FormReader {
       stack_levels();
     }
     fit_roof();
+    // Many lie underground, but not all, and one that is left out would hide nothing.
+    if (parse_levels(tags_.get("layer")).value_or(0) < 0) {
+      remark("building below the ground", "layer", tags_.get("layer"), "built on the ground");
+    }
     if (on_posts_ && !bottom_tagged_) form_.deck_m = defaults_.roof_deck_m;
     return form_;
   }

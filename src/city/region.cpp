@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <string>
+#include <utility>
 
 #include "vantage/error.h"
 
@@ -24,6 +26,19 @@ std::string formatted(const char* format, double a, double b) {
 std::string bounds_text(const Bounds& b) {
   char text[160];
   std::snprintf(text, sizeof text, "latitude %.5f to %.5f, longitude %.5f to %.5f", b[1], b[3], b[0], b[2]);
+  return text;
+}
+
+/// "underground (2), outline without an area (1)", the commonest first.
+std::string reasons_of(const std::vector<CityRecord>& skipped) {
+  std::map<std::string, std::size_t> counts;
+  for (const CityRecord& record : skipped) ++counts[record.reason];
+  std::vector<std::pair<std::string, std::size_t>> reasons(counts.begin(), counts.end());
+  std::stable_sort(reasons.begin(), reasons.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
+  std::string text;
+  for (const auto& [reason, count] : reasons) {
+    text.append(text.empty() ? "" : ", ").append(reason).append(" (").append(std::to_string(count)).append(")");
+  }
   return text;
 }
 
@@ -140,7 +155,13 @@ void Outside::add(std::size_t more, double nearest) {
 }
 
 void fail_empty(const CityRegion& region, const osm::Extract& extract, const Outside& outside,
-                const std::filesystem::path& file) {
+                const std::vector<CityRecord>& skipped, const std::filesystem::path& file) {
+  if (!skipped.empty()) {
+    const bool is_whole = outside.objects == 0;
+    fail(std::string("nothing ") + (is_whole ? "that the map holds" : "in the area") + " can be built", file.string(),
+         "it is skipped because of: " + reasons_of(skipped) +
+             (is_whole ? "; correct the map, or give another one" : "; choose a larger area"));
+  }
   if (outside.objects == 0) {
     fail("the map holds no building and nothing else to build", file.string(),
          "give an extract with buildings; it has " + std::to_string(extract.nodes) + " nodes and " +

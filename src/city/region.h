@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <vector>
 
 #include "geo/local_frame.h"
 #include "osm/extract.h"
@@ -27,9 +28,9 @@ struct Outside {
   void add(std::size_t more, double nearest);
 };
 
-/// Says what the region lacks: how far the nearest object is.
+/// Says what the region lacks: why what is in it was skipped, how far the nearest object outside is.
 [[noreturn]] void fail_empty(const CityRegion& region, const osm::Extract& extract, const Outside& outside,
-                             const std::filesystem::path& file);
+                             const std::vector<CityRecord>& skipped, const std::filesystem::path& file);
 
 /// Origin of the frame: the middle of what is asked for, or else of the areas that were read.
 geo::LonLat frame_origin(const CityRegion& region, const osm::Extract& extract);

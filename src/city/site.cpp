@@ -33,13 +33,17 @@ void skip(Site& site, CityRecord record, std::string reason) {
 }
 
 /// Fates of outlines that were mended or cannot be built.
+constexpr const char* kUnderground = "underground";
+
+bool is_underground(const osm::Tags& tags) { return tags.get("location") == "underground"; }
+
 std::string fault_of(const Structure& structure) {
   if (structure.footprints.empty() && structure.repairs.tangled) {
     return "outline that crosses itself more than a thousand times";
   }
   if (structure.footprints.empty()) return "outline without an area";
   if ((structure.max - structure.min).maxCoeff() > kLargest) return "outline more than 3 km across";
-  if (structure.source->tags.get("location") == "underground") return "underground";
+  if (is_underground(structure.source->tags)) return kUnderground;
   return {};
 }
 
@@ -265,6 +269,7 @@ class OccluderSorter {
   void add(osm::ObjectId id, const osm::Tags& tags, std::string_view kind, const MakeShapes& make_shapes) {
     Item item;
     item.record = record_of(id, tags, std::string(kind));
+    if (is_underground(tags)) return skip(site_, std::move(item.record), kUnderground);
     std::vector<TagRemark> remarks;
     item.shapes = make_shapes(remarks);
     note_remarks(item.record, remarks);
@@ -299,11 +304,20 @@ void skip_lost(Site& site, const osm::Extract& extract, const CityOptions& optio
   }
 }
 
-/// Relations that only say which outline and parts belong together, but are tagged as if they were a building.
-void skip_groups(Site& site, const osm::Extract& extract) {
+/// Relations that only say which outline and parts belong together, but are tagged as if they were a building. They
+/// belong to the region when one of their members does.
+void skip_groups(Site& site, const osm::Extract& extract, const osm::RegionFilter& region) {
+  std::set<std::string> known;
+  for (const Item& item : site.items) known.insert(item.record.object);
+  for (const CityRecord& record : site.skipped) known.insert(record.object);
+  const auto is_known = [&](osm::ObjectId id) { return known.contains(osm::text(id)); };
   for (const osm::BuildingRelation& relation : extract.building_relations) {
     const std::string_view kind = kind_of(relation.tags, Geometry::area);
     if (kind != "building" && kind != "building part") continue;
+    const bool belongs = region.everything() ||
+                         std::any_of(relation.outlines.begin(), relation.outlines.end(), is_known) ||
+                         std::any_of(relation.parts.begin(), relation.parts.end(), is_known);
+    if (!belongs) continue;
     skip(site, record_of(relation.id, relation.tags, std::string(kind)), "its members are built in its place");
   }
 }
@@ -368,7 +382,7 @@ Site make_site(const osm::Extract& extract, const osm::RegionFilter& region, con
   assign_parts(structures, extract.building_relations);
   BuildingSorter(site, std::move(structures), options.defaults).sort(region);
   OccluderSorter(site, region, frame, options).sort(extract);
-  skip_groups(site, extract);
+  skip_groups(site, extract, region);
   skip_lost(site, extract, options);
   set_bounds(site);
   note_reading_repairs(site, extract);
