@@ -200,6 +200,8 @@ TEST_F(MissionPlaces, AConvexAreaIsTheTargetAsItIs) {
 TEST_F(MissionPlaces, AnAreaThatIsNotConvexIsItsParts) {
   const Mission whole = placed(map_scene(), "target: {osm: way/3}\n");
   ASSERT_EQ(whole.other_parts.size(), 1U) << "an L is two rectangles";
+  EXPECT_EQ(whole.target.name, "way/3");
+  EXPECT_EQ(whole.other_parts[0].name, "way/3, part 2");
   EXPECT_NEAR(area_of(whole.target) + area_of(whole.other_parts[0]), 40 * 15 + 20 * 25, 1);
   const Volume both = compute_mission(mission(map_scene(), "target: {osm: way/3}\n"));
   ASSERT_EQ(both.outcome, Outcome::computed);
@@ -277,7 +279,8 @@ TEST_F(CliMissionPlaces, ComputeQueryVerifyAndRenderOnASlope) {
     EXPECT_NE(answers[1].find(",true,"), std::string::npos) << answers[1];
     EXPECT_NE(answers[2].find(",false,"), std::string::npos) << answers[2];
     EXPECT_NE(answers[3].find(",false,"), std::string::npos) << answers[3];
-    const ProgramRun picture = run({"render", "mission.yaml", "-q", "-o", "picture.png"});
+    const ProgramRun picture =
+        run({"render", "mission.yaml", "--volume", "volume.ply", "--size", "320x240", "-q", "-o", "picture.png"});
     const bool is_without_opengl = picture.exit_code != 0 && picture.err.find("OpenGL") != std::string::npos;
     if (!is_without_opengl) {
       EXPECT_EQ(picture.exit_code, 0) << picture.err;
@@ -296,7 +299,11 @@ TEST_F(CliMissionPlaces, TargetsThatAreNone) {
   expect_refused("mesh: city.obj", "target: {osm: way/2}\n", "the scene is none", "mission.yaml:2:", "scene: {osm:");
   expect_refused("mesh: city.obj", "target: {center: [48, 11], width: 5, length: 5}\n",
                  "does not say where on the earth", "mission.yaml", "");
-  expect_refused(scene, "target: {center: [48.2, 11.5755], width: 5, length: 5}\n", "beyond the scene's ground",
+  expect_refused(scene, "target: {center: [48.2, 11.5755], width: 5, length: 5}\n", "m from the scene's origin",
+                 "mission.yaml:2:", "larger area");
+  expect_refused(scene, "target: {center: [11.5755, 48.1374], width: 5, length: 5}\n", "m from the scene's origin",
+                 "mission.yaml:2:", "the wrong way round: write center: [latitude, longitude]");
+  expect_refused(scene, "target: {center: [48.1374, 11.5755], width: 5, length: 5000}\n", "beyond the scene's ground",
                  "mission.yaml:2:", "larger area");
   expect_refused(scene, "target: {center: [148.1, 11], width: 5, length: 5}\n", "is no place",
                  "mission.yaml:2:", "latitude first: [11, 148.1]");

@@ -16,6 +16,9 @@ struct Georeference {
   std::string source_crs;    ///< of the file it came from: "EPSG:4326", "EPSG:7415"; empty when unknown
 };
 
+/// Georeference::vertical of a map without terrain: z is measured from the ground, wherever that lies.
+inline constexpr const char* kFlatGround = "flat ground";
+
 /// PROJ's words for the horizontal part: "+proj=aeqd +lat_0=… +lon_0=… +datum=WGS84 +units=m +type=crs".
 std::string projection_text(const Georeference& georeference);
 

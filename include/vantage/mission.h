@@ -59,7 +59,8 @@ Mission read_mission(const std::filesystem::path& file);
 
 /// Reads the mission's scene, and puts what the mission gives on the earth or by name into its frame: afterwards `crs`
 /// and `ground_target` are empty, `target`, `other_parts` and the boxes complete. Boxes lie askew in the frame: a box
-/// to stay in becomes the largest one of the frame inside it, a box to stay out of the smallest round it. Throws as
+/// to stay in becomes the largest one of the frame inside it, a box to stay out of the smallest round it. A navigation
+/// mesh whose file says where on the earth it lies is moved there, where the scene says so too. Throws as
 /// load_scene does, and Error(input) with the place in the mission file for: a scene that does not say where on the
 /// earth it lies, a position without a value, an object that the map does not have, a target that reaches beyond the
 /// ground, and all that make_target_frame refuses.

@@ -22,7 +22,7 @@ Ground Ground::plane(const Vec2& min, const Vec2& max) {
   Ground ground;
   ground.plane_.vertices = {{min.x(), min.y(), 0}, {max.x(), min.y(), 0}, {max.x(), max.y(), 0}, {min.x(), max.y(), 0}};
   ground.plane_.triangles = {{0, 1, 2}, {0, 2, 3}};
-  ground.vertical_ = "flat ground";
+  ground.vertical_ = kFlatGround;
   return ground;
 }
 

@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -11,7 +13,9 @@
 #include "cli/plain_volume.h"
 #include "cli/progress_line.h"
 #include "cli/text_table.h"
+#include "geo/local_frame.h"
 #include "mission/input_file.h"
+#include "solid/write_place.h"
 #include "solid/writers.h"
 #include "vantage/compare.h"
 #include "vantage/error.h"
@@ -73,18 +77,40 @@ void check_outputs(const Options& options) {
   }
 }
 
-Mesh read(const std::string& file, const SceneReadOptions& obj, const Progress& progress) {
-  return read_scene(file, mission_io::is_obj(file) ? obj : SceneReadOptions{}, progress).mesh;
-}
+/// Both meshes in the frame of the first: where both say where on the earth they lie, the second is moved there.
+struct Pair {
+  Pair(const Options& options, const SceneReadOptions& obj, const Progress& progress) {
+    const auto read = [&](const std::string& file) {
+      Scene scene = read_scene(file, mission_io::is_obj(file) ? obj : SceneReadOptions{}, progress);
+      return std::pair(std::move(scene.mesh), std::move(scene.georeference));
+    };
+    std::optional<Georeference> place_b;
+    std::tie(a, place) = read(options.file_a);
+    std::tie(b, place_b) = read(options.file_b);
+    if (!place) {
+      place = place_b;
+    } else if (place_b) {
+      geo::move_origin(b.vertices, *place_b, *place);
+      is_moved = place_b->latitude_deg != place->latitude_deg || place_b->longitude_deg != place->longitude_deg;
+    }
+  }
+
+  Mesh a, b;
+  std::optional<Georeference> place;  ///< of the frame
+  bool is_moved = false;
+};
 
 /// Both or none; returns the files that were written.
-std::vector<std::string> write(const Options& options, Comparison& comparison, const SceneReadOptions& obj) {
+std::vector<std::string> write(const Options& options, Comparison& comparison, const std::optional<Georeference>& place,
+                               const SceneReadOptions& obj) {
   std::vector<std::unique_ptr<solid::AtomicFile>> files;
   std::vector<std::string> written;
   const auto stage = [&](const std::string& output, Mesh& mesh, const std::string& input) {
     if (output.empty() || mesh.empty()) return;
-    files.push_back(solid::stage_volume(plain_volume(std::move(mesh), "only in " + fs::path(input).filename().string()),
-                                        output, obj.up, obj.scale));
+    Volume volume = plain_volume(std::move(mesh), "only in " + fs::path(input).filename().string());
+    volume.georeference = place;
+    files.push_back(solid::stage_volume(volume, output, obj.up, obj.scale));
+    if (auto place_file = solid::stage_place(place, output)) files.push_back(std::move(place_file));
     written.push_back(output);
   };
   stage(options.only_a, comparison.only_a, options.file_a);
@@ -158,11 +184,13 @@ int run(const Options& options) {
   const SceneReadOptions obj = obj_options(options);
   check_outputs(options);
   ProgressLine progress(options.common);
-  const Mesh a = read(options.file_a, obj, progress.callback());
-  const Mesh b = read(options.file_b, obj, progress.callback());
-  Comparison comparison = compare_volumes(a, b, options.file_a, options.file_b, progress.callback());
+  const Pair pair(options, obj, progress.callback());
+  Comparison comparison = compare_volumes(pair.a, pair.b, options.file_a, options.file_b, progress.callback());
   stop_if_interrupted();
-  const std::vector<std::string> written = write(options, comparison, obj);
+  const std::vector<std::string> written = write(options, comparison, pair.place, obj);
+  if (pair.is_moved && !options.common.quiet) {
+    note("the second mesh has another origin on the earth: it was moved into the frame of the first");
+  }
   const bool is_turn_doubtful =
       (mission_io::is_obj(options.file_a) || mission_io::is_obj(options.file_b)) && options.up.empty() &&
       comparison.intersection_m3 < 0.5 * std::min(comparison.volume_a_m3, comparison.volume_b_m3);

@@ -5,6 +5,7 @@
 #include "cli/picture_options.h"
 #include "cli/progress_line.h"
 #include "cli/stage_sheet.h"
+#include "mission/input_file.h"
 #include "mission/numbers.h"
 #include "mission/run_mission.h"
 #include "vantage/error.h"
@@ -50,8 +51,9 @@ Picture picture(const Options& options, Mission& mission, const PictureView& vie
   Volume volume;
   Scene scene;
   if (!options.volume_file.empty()) {
-    volume = read_volume(options.volume_file, mission_io::result_axes(mission.scene), progress);
+    mission_io::check_readable(options.volume_file, "the volume", "");  // before the scene, which takes longer
     scene = read_mission_scene(mission, progress).scene;
+    volume = read_volume(options.volume_file, scene, progress);
   } else {
     mission_io::MissionRun run = mission_io::run_mission(mission, progress);
     volume = std::move(run.volume);

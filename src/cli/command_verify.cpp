@@ -126,15 +126,13 @@ int run(const Options& options) {
     verify_options.points = options.points;
     verify_options.seed = options.seed;
     verify_options.tolerance_m = mission.exact.tolerance_m;
-    const auto verify = [&](Target target) {
-      target.offset_m += lift;
-      return mission_io::with_place(mission.target_place, [&] {
-        return verify_volume(scene, target, mission.sensor, mission.navigation, volume, verify_options,
-                             progress.callback());
-      });
-    };
-    report = verify(mission.target);
-    for (const Target& part : mission.other_parts) add(verify(part), report);
+    std::vector<Target> parts = mission.other_parts;
+    parts.insert(parts.begin(), mission.target);
+    for (Target& part : parts) part.offset_m += lift;
+    report = mission_io::with_place(mission.target_place, [&] {
+      return verify_volume(scene, parts, mission.sensor, mission.navigation, volume, verify_options,
+                           progress.callback());
+    });
   } else {  // a mesh with holes has no inside to try points in
     report.euler = measure(volume).euler;
     report.seed = options.seed;

@@ -7,6 +7,7 @@
 #include "cli/text_table.h"
 #include "mission/input_file.h"
 #include "mission/numbers.h"
+#include "mission/run_mission.h"
 #include "solid/read_causes.h"
 #include "vantage/error.h"
 
@@ -101,12 +102,10 @@ std::string picture_subtitle(const Mission& mission, const Volume* volume) {
   return text + dot + mission.scene.file.filename().string();
 }
 
-Volume read_volume(const std::string& file, const SceneReadOptions& scene, const Progress& progress) {
+Volume read_volume(const std::string& file, const Scene& scene, const Progress& progress) {
   mission_io::check_readable(file, "the volume", "");
-  SceneReadOptions options;
-  if (mission_io::is_obj(file)) options = scene;  // as compute writes it
   Volume volume;
-  volume.mesh = read_scene(file, options, progress).mesh;
+  volume.mesh = read_scene(file, mission_io::result_options(file, scene), progress).mesh;
   solid::read_causes(file, volume);
   return volume;
 }

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "cli/plain_volume.h"
+#include "scene/georeference_text.h"
 #include "solid/atomic_file.h"
 #include "solid/names.h"
 #include "solid/report.h"
@@ -133,6 +134,7 @@ void StageFolder::write_story(const Mission& mission, const Volume& volume, cons
   story["max_range_m"] = mission.sensor.max_range_m;
   story["outcome"] = solid::name_of(volume.outcome);
   story["reason"] = volume.reason;
+  if (volume.georeference) story["georeference"] = scene::georeference_json(*volume.georeference);
   story["run"] = Json::parse(solid::spheres_json({mission.spheres, report}));
   story["stages"] = Json::array();
   for (std::size_t i = 0; i < stages_.size(); ++i) {

@@ -52,19 +52,22 @@ class SheetMaker {
   void load(const std::vector<StageFile>& stages) {
     for (const StageFile& stage : stages) {
       if (stage.mesh.empty()) continue;
-      if (stage.kind == "result")
-        result_ = read_volume(stage.mesh.string(), mission_io::result_axes(mission_.scene), progress_);
+      if (stage.kind == "result") result_ = read_volume(stage.mesh.string(), scene_, progress_);
       if (stage.kind == "sphere" && frame_.empty()) {
-        frame_ = read_volume(stage.mesh.string(), mission_io::result_axes(mission_.scene), progress_).mesh.vertices;
+        frame_ = read_volume(stage.mesh.string(), scene_, progress_).mesh.vertices;
       }
     }
     frame_.insert(frame_.end(), result_.mesh.vertices.begin(), result_.mesh.vertices.end());
     frame_.insert(frame_.end(), mission_.target.vertices.begin(), mission_.target.vertices.end());
+    for (const Target& part : mission_.other_parts) {
+      frame_.insert(frame_.end(), part.vertices.begin(), part.vertices.end());
+    }
   }
 
   void panel(const std::string& caption, const Volume* volume, const PictureView& view, bool with_limits) {
     PictureRequest request;
     request.target = &mission_.target;
+    request.other_parts = mission_.other_parts;
     request.volume = volume;
     request.view = view;
     request.width = size_[0];
@@ -95,7 +98,7 @@ class SheetMaker {
         ++left;
         continue;
       }
-      const Volume volume = read_volume(stage.mesh.string(), mission_io::result_axes(mission_.scene), progress_);
+      const Volume volume = read_volume(stage.mesh.string(), scene_, progress_);
       panel(stage.name + ", Euler number " + std::to_string(stage.euler), &volume, view_, false);
       ++drawn;
     }

@@ -1,5 +1,6 @@
 #include <chrono>
 
+#include "mission/input_file.h"
 #include "mission/run_mission.h"
 #include "parallel/parallel.h"
 #include "vantage/mission.h"
@@ -85,11 +86,19 @@ MissionRun run_stages(Mission& mission, const Progress& progress, const StageSin
 
 SceneReadOptions result_axes(const SceneSource& scene) {
   SceneReadOptions axes;
-  if (scene.kind == SceneSource::Kind::mesh && scene.mesh.crs.empty()) {
-    axes.up = scene.mesh.up;
-    axes.scale = scene.mesh.scale;
-  }
+  if (scene.kind != SceneSource::Kind::mesh) return axes;
+  axes.up = is_gltf(scene.file) ? UpAxis::y : scene.mesh.up;
+  if (scene.mesh.crs.empty()) axes.scale = scene.mesh.scale;
   return axes;
+}
+
+SceneReadOptions result_options(const std::filesystem::path& file, const Scene& scene) {
+  SceneReadOptions options;
+  if (is_obj(file)) options = {scene.up, scene.scale};
+  if (scene.georeference) {
+    options.origin_deg = {scene.georeference->latitude_deg, scene.georeference->longitude_deg};
+  }
+  return options;
 }
 
 MissionRun run_mission(Mission& mission, const Progress& progress, const StageSink& stages) {

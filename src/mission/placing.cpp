@@ -111,6 +111,21 @@ void place_boxes(Navigation& navigation, const Placer& placer, const std::string
   for (Box& box : navigation.keep_out) box = placer.around(box);
 }
 
+/// Meshes to stay in that say where on the earth they lie, into the frame: their origin may be another one.
+void place_meshes(Navigation& navigation, const Georeference& place, const std::string& where) {
+  for (KeepInMesh& keep_in : navigation.meshes) {
+    if (!keep_in.georeference) continue;
+    const std::string& vertical = keep_in.georeference->vertical;
+    if ((vertical == kFlatGround) != (place.vertical == kFlatGround)) {
+      fail("the heights of " + in_quotes(keep_in.name) + " are measured from another level (" + vertical +
+               ") than the scene's (" + place.vertical + ")",
+           where, "make it for a scene with the same ground as this one's");
+    }
+    geo::move_origin(keep_in.mesh.vertices, *keep_in.georeference, place);
+    keep_in.georeference = place;
+  }
+}
+
 void check_near(const Mission& mission, const Placer& placer) {
   constexpr double kFarthest = 100e3;  // metres from the origin: no scene is so large
   for (const Vec3& vertex : mission.target.vertices) {
@@ -243,6 +258,20 @@ std::vector<city::Footprint> outlines(const Mission& mission, const std::string&
   return outlines;
 }
 
+/// A rectangle whose centre is off the ground is most likely a mistake about the centre.
+void check_center(const GroundTarget& wanted, const terrain::Surface& ground, const geo::LocalFrame& frame,
+                  const std::string& where) {
+  const auto [latitude, longitude] = *wanted.center_deg;
+  const Vec2 centre = frame.to_local({longitude, latitude});
+  if (ground.height(centre)) return;
+  const bool is_swapped = std::abs(longitude) <= 90 && ground.height(frame.to_local({latitude, longitude}));
+  fail("the target's centre lies " + std::to_string(std::lround(centre.norm())) +
+           " m from the scene's origin, off its ground",
+       where,
+       is_swapped ? "latitude and longitude are the wrong way round: write center: [latitude, longitude]"
+                  : "move it onto the ground, or choose a larger area of the map");
+}
+
 std::vector<Vec3> on_plane(const city::Ring& ring, const Plane& plane) {
   std::vector<Vec3> vertices;
   for (const Vec2& p : ring) vertices.emplace_back(p.x(), p.y(), plane.at(p));
@@ -305,6 +334,7 @@ void check_outdoors(const std::vector<Target>& parts, const Scene& scene, const 
 void put_on_ground(Mission& mission, const Scene& scene, const geo::LocalFrame& frame, const Progress& progress) {
   const GroundTarget wanted = *mission.ground_target;
   const terrain::Surface ground = ground_of(mission, scene);
+  if (wanted.center_deg) check_center(wanted, ground, frame, mission.target_place);
   const std::vector<city::Footprint> areas = wanted.osm.empty()
                                                  ? std::vector<city::Footprint>{{rectangle(wanted, frame), {}}}
                                                  : outlines(mission, wanted.osm, frame, progress);
@@ -320,9 +350,8 @@ void put_on_ground(Mission& mission, const Scene& scene, const geo::LocalFrame& 
     }
   }
   check_outdoors(parts, scene, mission.target_place);
-  if (parts.size() > 1) {
-    for (std::size_t i = 0; i < parts.size(); ++i) parts[i].name.append(" ").append(std::to_string(i + 1));
-  }
+  // The first goes by the name of the whole, which reports and pictures show.
+  for (std::size_t i = 1; i < parts.size(); ++i) parts[i].name.append(", part ").append(std::to_string(i + 1));
   mission.target = parts.front();
   mission.other_parts.assign(parts.begin() + 1, parts.end());
 }
@@ -330,6 +359,7 @@ void put_on_ground(Mission& mission, const Scene& scene, const geo::LocalFrame& 
 }  // namespace
 
 void place_mission(Mission& mission, const Scene& scene, const Progress& progress) {
+  if (scene.georeference) place_meshes(mission.navigation, *scene.georeference, mission.file.string());
   if (mission.crs.empty() && !mission.ground_target) return;
   const geo::LocalFrame frame = frame_of(mission, scene);
   if (!mission.crs.empty()) {

@@ -48,7 +48,7 @@ Mission read_mission(const fs::path& file) {
     const Scene limit = read_scene(reference.file, reference.options);
     parsed.mission.navigation.meshes.push_back(
         {mission_io::with_place(reference.where, [&] { return solid::checked_solid(limit.mesh, reference.name); }),
-         reference.name});
+         reference.name, limit.georeference});
     parsed.mission.navigation_files.push_back(with_true_folder(reference.file));
   }
   return std::move(parsed.mission);

@@ -17,10 +17,6 @@ geo::LonLat lonlat(const std::array<double, 2>& latitude_longitude) {
   return {latitude_longitude[1], latitude_longitude[0]};
 }
 
-geo::LonLat origin_of(const Georeference& georeference) {
-  return {georeference.longitude_deg, georeference.latitude_deg};
-}
-
 std::string as_in(const std::filesystem::path& file) { return "as in " + file.filename().string(); }
 
 Box bounds_of(const RawMesh& mesh) {
@@ -68,14 +64,13 @@ void project(RawMesh& mesh, const SceneReadOptions& options, const std::filesyst
                    system.vertical_name().empty() ? as_in(file) : system.vertical_name(), short_name(system.name())};
 }
 
-/// From one local frame into another.
-void move_origin(RawMesh& mesh, geo::LonLat origin) {
-  const geo::LocalFrame old_frame(origin_of(*mesh.georeference)), new_frame(origin);
-  for (Vec3& vertex : mesh.vertices) {
-    vertex.head<2>() = new_frame.to_local(old_frame.to_lonlat(vertex.head<2>()));
-  }
-  mesh.georeference->latitude_deg = new_frame.origin().latitude_deg;
-  mesh.georeference->longitude_deg = new_frame.origin().longitude_deg;
+/// From the local frame that the file names into another.
+void move_to(RawMesh& mesh, const std::array<double, 2>& origin_deg) {
+  Georeference moved = *mesh.georeference;
+  moved.latitude_deg = origin_deg[0];
+  moved.longitude_deg = origin_deg[1];
+  geo::move_origin(mesh.vertices, *mesh.georeference, moved);
+  mesh.georeference = moved;
 }
 
 /// A mesh that does not say where it lies is in the local frame about the origin.
@@ -104,7 +99,7 @@ void find_place(RawMesh& mesh, const SceneReadOptions& options, const std::files
   for (Vec3& vertex : mesh.vertices) vertex *= options.scale;
   if (!options.origin_deg) return;
   if (mesh.georeference) {
-    move_origin(mesh, lonlat(*options.origin_deg));
+    move_to(mesh, *options.origin_deg);
   } else {
     put_at(mesh, lonlat(*options.origin_deg), file);
   }
