@@ -254,7 +254,19 @@ TEST(Verify, ATargetInPartsMustBeSeenInAllOfThem) {
     EXPECT_GT(uncut.over_claimed, 100u);
     EXPECT_EQ(uncut.worst_over_cause, "plate");
   }
+  // A second part that stands upright, and sees only what lies to the south of it.
   const Example example = plate_example();
+  Target wall;
+  wall.vertices = {{-1, 1, 0}, {1, 1, 0}, {1, 1, 2}, {-1, 1, 2}};
+  wall.front = Vec3(0, -1, 0);
+  const std::vector<Target> both = {example.target, wall};
+  Navigation low;
+  low.boxes = {{Vec3(-10, -10, 1), Vec3(10, 10, 4)}};  // under the plate nothing is hidden
+  expect_right(verify_volume(example.scene, both, example.sensor, low, make_box_mesh({-10, -10, 1}, {10, 1, 4})));
+  const VerifyReport north =
+      verify_volume(example.scene, both, example.sensor, low, make_box_mesh({-10, -10, 1}, {10, 10, 4}));
+  EXPECT_GT(north.over_claimed, 100u);
+  EXPECT_EQ(north.worst_over_cause, "target plane");
   EXPECT_THROW(verify_volume(example.scene, std::vector<Target>(), example.sensor, {}, example.truth), Error);
 }
 

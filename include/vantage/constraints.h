@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "vantage/geometry.h"
-#include "vantage/georeference.h"
 
 namespace vantage {
 
@@ -18,7 +17,6 @@ struct Sensor {
 struct KeepInMesh {
   Mesh mesh;         ///< closed, outward oriented, free of self-intersections; scene frame, metres
   std::string name;  ///< for messages and for causes in reports
-  std::optional<Georeference> georeference = {};  ///< of the file that it is from; read_mission_scene goes by it
 };
 
 /// Where the vehicle may fly: the intersection of all that is given. Empty: everywhere.

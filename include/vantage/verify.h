@@ -54,7 +54,8 @@ VerifyReport verify_volume(const Scene& scene, const Target& target, const Senso
                            const Mesh& volume, const VerifyOptions& options = {}, const Progress& progress = {});
 
 /// The same of a target in parts, one or more: what is claimed must see every part whole, and what is not must miss
-/// some of one.
+/// some of one. Depths are told by the distance to the first part's centre. Cost: that of each part, one after the
+/// other; memory is that of one.
 VerifyReport verify_volume(const Scene& scene, const std::vector<Target>& parts, const Sensor& sensor,
                            const Navigation& navigation, const Mesh& volume, const VerifyOptions& options = {},
                            const Progress& progress = {});

@@ -17,14 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Whether the name ends in `extension`, or in that and .gz, whatever the case of the letters.
-bool has_extension(const fs::path& file, const std::string& extension) {
-  std::string name = file.filename().string();
-  std::transform(name.begin(), name.end(), name.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return name.ends_with(extension) || name.ends_with(extension + ".gz");
-}
-
 }  // namespace
 
 std::string read_text(const fs::path& file, const std::string& name) {
@@ -51,9 +43,12 @@ std::string read_text(const fs::path& file, const std::string& name) {
   return text;
 }
 
-bool is_obj(const fs::path& file) { return has_extension(file, ".obj"); }
-
-bool is_gltf(const fs::path& file) { return has_extension(file, ".gltf") || has_extension(file, ".glb"); }
+bool is_obj(const fs::path& file) {
+  std::string name = file.filename().string();
+  std::transform(name.begin(), name.end(), name.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return name.ends_with(".obj") || name.ends_with(".obj.gz");
+}
 
 void check_readable(const fs::path& file, const std::string& what, const std::string& where) {
   const std::string place = where.empty() ? file.string() : where + " (" + file.string() + ")";

@@ -8,8 +8,6 @@ namespace vantage::mission_io {
 
 /// Whether the name ends in .obj or .obj.gz, whatever the case of the letters.
 bool is_obj(const std::filesystem::path& file);
-/// Likewise .gltf and .glb.
-bool is_gltf(const std::filesystem::path& file);
 
 /// The whole of a text file, up to one byte more than parse_yaml takes. `name` is how messages call it: "mission file".
 /// Throws Error(input) when it cannot be read or is larger.

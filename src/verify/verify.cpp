@@ -4,10 +4,11 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <deque>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "parallel/parallel.h"
 #include "vantage/error.h"
@@ -30,96 +31,93 @@ using verify::Viewpoints;
 
 constexpr int kRandomEdgePoints = 2;  // an edge, besides its quarter points
 
-/// A target, or one part of it, and what may hide it.
-struct Part {
-  Part(const Scene& scene, const Target& target, double max_range) : view(target), occluders(scene, view, max_range) {}
-  Part(const Part&) = delete;
-  Part& operator=(const Part&) = delete;
-
-  TargetView view;
-  Occluders occluders;
-};
-
 struct Verdict {
-  bool claimed = false, uniform = false, over = false, under = false;
-  double depth = 0;  ///< from the surface of the volume, metres; for over and under
+  explicit Verdict(Random numbers) : random(numbers) {}
+
+  Random random;  ///< of this viewpoint, as far as they are used up
+  bool on_surface = false, claimed = false, uniform = false, over = false, under = false;
+  bool good = false;  ///< within the limits, and sees what has been looked at so far
+  double depth = 0;   ///< from the surface of the volume, metres; for over and under
   std::size_t rays = 0;
-  Vec3 position = Vec3::Zero();   ///< in the frame of the first part
-  const Part* blocked = nullptr;  ///< the part that the viewpoint does not see whole,
-  Vec3 hidden = Vec3::Zero();     ///< and a hidden point of it, in its frame
+  Vec3 position = Vec3::Zero();        ///< in the frame of the first part
+  std::optional<std::size_t> blocked;  ///< the part that the viewpoint does not see whole,
+  Vec3 hidden = Vec3::Zero();          ///< and a hidden point of it, in its frame
 };
 
+/// Of a target in parts: the first part's frame is the check's, and the scene is indexed for one part at a time.
 class Check {
  public:
-  Check(const Scene& scene, const std::vector<Target>& targets, const Sensor& sensor, const Navigation& navigation,
+  Check(const Scene& scene, const std::vector<Target>& parts, const Sensor& sensor, const Navigation& navigation,
         const Mesh& volume, const VerifyOptions& options)
       : options_(options),
         max_range_(sensor.max_range_m),
         scene_(scene),
-        parts_(parts(scene, targets, max_range_)),
-        view_(parts_.front().view),
+        parts_(parts.begin(), parts.end()),
         volume_(volume, view_.origin(), "volume"),
         limits_(navigation, view_.origin()),
         viewpoints_(volume_, view_, max_range_, options.points) {}
 
-  Verdict judge(std::size_t number) const;
-  VerifyReport report(const std::vector<Verdict>& verdicts) const;
+  /// Chooses a viewpoint.
+  Verdict draw(std::size_t number) const;
+  /// What look() looks at from now on. Not while other threads look.
+  void turn_to(std::size_t part);
+  void look(Verdict& verdict) const;
+  /// When all parts have been looked at.
+  void settle(Verdict& verdict) const;
+  VerifyReport report(const std::vector<Verdict>& verdicts);
 
  private:
-  static std::deque<Part> parts(const Scene& scene, const std::vector<Target>& targets, double max_range);
-  Vec3 in_frame_of(const Part& part, const Vec3& position) const {
-    return position + view_.origin() - part.view.origin();
+  Vec3 in_frame_of(std::size_t part, const Vec3& position) const {
+    return position + (view_.origin() - parts_[part].origin());  // nothing is rounded where the frames are the same
   }
   bool permitted(const Vec3& position, double range) const;
-  bool sees_all(const Vec3& position, Random& random, Verdict& verdict) const;
-  bool sees(const Part& part, const Vec3& position, Random& random, Verdict& verdict) const;
-  std::string cause(const Verdict& over_claimed) const;
+  bool sees(const TargetView& part, const Vec3& position, Verdict& verdict) const;
+  std::string cause(const Verdict& over_claimed);
 
   VerifyOptions options_;
   double max_range_;
   const Scene& scene_;
-  std::deque<Part> parts_;  // whose members point at each other
-  const TargetView& view_;  // of the first part: its frame is the check's
+  std::vector<TargetView> parts_;
+  const TargetView& view_ = parts_.front();
   ClosedMesh volume_;
   Limits limits_;
   Viewpoints viewpoints_;
+  std::size_t part_ = 0;
+  std::unique_ptr<const Occluders> occluders_;  // of that part, once it was turned to
 };
 
-std::deque<Part> Check::parts(const Scene& scene, const std::vector<Target>& targets, double max_range) {
-  std::deque<Part> parts;
-  for (const Target& target : targets) parts.emplace_back(scene, target, max_range);
-  return parts;
+void Check::turn_to(std::size_t part) {
+  if (occluders_ && part == part_) return;
+  occluders_.reset();  // before the next one takes memory
+  part_ = part;
+  occluders_ = std::make_unique<Occluders>(scene_, parts_[part], max_range_);
 }
 
 /// All but the sight: in front (but for a point seen from all sides), `range` metres from everywhere, within the
 /// limits.
 bool Check::permitted(const Vec3& position, double range) const {
-  const auto reaches = [&](const Part& part) {
-    const Vec3 own = in_frame_of(part, position);
-    return part.view.in_front(own) && part.view.farthest(own) <= range;
-  };
-  return std::all_of(parts_.begin(), parts_.end(), reaches) && !limits_.broken_by(position);
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    const Vec3 own = in_frame_of(i, position);
+    if (!parts_[i].in_front(own) || parts_[i].farthest(own) > range) return false;
+  }
+  return !limits_.broken_by(position);
 }
 
-bool Check::sees_all(const Vec3& position, Random& random, Verdict& verdict) const {
-  return std::all_of(parts_.begin(), parts_.end(),
-                     [&](const Part& part) { return sees(part, in_frame_of(part, position), random, verdict); });
-}
-
-/// `position` in the part's frame.
-bool Check::sees(const Part& part, const Vec3& position, Random& random, Verdict& verdict) const {
+/// `position` in the frame of the part that was turned to.
+bool Check::sees(const TargetView& part, const Vec3& position, Verdict& verdict) const {
+  Random& random = verdict.random;
   const auto hidden = [&](const Vec3& target_point) {
     ++verdict.rays;
-    if (!part.occluders.hide(position, target_point)) return false;
-    verdict.blocked = &part;
+    if (!occluders_->hide(position, target_point)) return false;
+    verdict.blocked = part_;
     verdict.hidden = target_point;
     return true;
   };
-  const std::vector<Vec3>& vertices = part.view.vertices();
+  const std::vector<Vec3>& vertices = part.vertices();
   for (const Vec3& vertex : vertices) {
     if (hidden(vertex)) return false;
   }
-  if (part.view.is_point()) return true;
+  if (part.is_point()) return true;
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     const Vec3& start = vertices[i];
     const Vec3 edge = vertices[(i + 1) % vertices.size()] - start;
@@ -133,53 +131,61 @@ bool Check::sees(const Part& part, const Vec3& position, Random& random, Verdict
   // Roberts' R2 sequence (the plastic number's powers), shifted anew for every viewpoint.
   double u = random.uniform(), v = random.uniform();
   for (int k = 0; k < options_.target_samples; ++k) {
-    if (hidden(part.view.interior(u, v))) return false;
+    if (hidden(part.interior(u, v))) return false;
     u = std::fmod(u + 0.7548776662466927, 1.0);
     v = std::fmod(v + 0.5698402909980532, 1.0);
   }
-  const std::optional<Vec3> found = part.occluders.find_hidden(position, verdict.rays);
+  const std::optional<Vec3> found = occluders_->find_hidden(position, verdict.rays);
   if (!found) return true;
-  verdict.blocked = &part;
+  verdict.blocked = part_;
   verdict.hidden = *found;
   return false;
 }
 
-Verdict Check::judge(std::size_t number) const {
-  Random random(options_.seed, number);
-  const Viewpoint viewpoint = viewpoints_.draw(number, random);
-  Verdict verdict;
+Verdict Check::draw(std::size_t number) const {
+  Verdict verdict(Random(options_.seed, number));
+  const Viewpoint viewpoint = viewpoints_.draw(number, verdict.random);
   verdict.position = viewpoint.position;
   const std::optional<bool> claimed = volume_.contains(viewpoint.position);
-  if (!claimed) return verdict;  // on the surface: right either way
+  verdict.on_surface = !claimed;  // right either way
+  if (!claimed) return verdict;
   verdict.claimed = *claimed;
   verdict.uniform = viewpoint.uniform && *claimed;
-
   // A claim may reach as far as the range; a point that is not claimed counts only where the facets of the range
   // sphere, which lie inside it by up to the tolerance, cannot be the reason.
   const double range = *claimed ? max_range_ * (1 + verify::kRangeSlack) : max_range_ - options_.tolerance_m;
-  const bool good = permitted(viewpoint.position, range) && sees_all(viewpoint.position, random, verdict);
-  if (good == *claimed) return verdict;
-  verdict.depth = volume_.distance_to_surface(viewpoint.position);
-  const bool counts = verdict.depth > options_.depth_tolerance * (viewpoint.position - view_.centre()).norm();
-  verdict.over = counts && *claimed;
-  verdict.under = counts && !*claimed;
+  verdict.good = permitted(viewpoint.position, range);
   return verdict;
 }
 
-std::string Check::cause(const Verdict& over_claimed) const {
+void Check::look(Verdict& verdict) const {
+  if (verdict.good) verdict.good = sees(parts_[part_], in_frame_of(part_, verdict.position), verdict);
+}
+
+void Check::settle(Verdict& verdict) const {
+  if (verdict.on_surface || verdict.good == verdict.claimed) return;
+  verdict.depth = volume_.distance_to_surface(verdict.position);
+  const bool counts = verdict.depth > options_.depth_tolerance * (verdict.position - view_.centre()).norm();
+  verdict.over = counts && verdict.claimed;
+  verdict.under = counts && !verdict.claimed;
+}
+
+std::string Check::cause(const Verdict& over_claimed) {
   const Vec3& position = over_claimed.position;
-  if (const Part* const part = over_claimed.blocked) {
-    const auto triangle = part->occluders.first_hit(in_frame_of(*part, position), over_claimed.hidden);
+  if (over_claimed.blocked) {
+    turn_to(*over_claimed.blocked);
+    const auto triangle = occluders_->first_hit(in_frame_of(part_, position), over_claimed.hidden);
     const bool named =
         triangle && *triangle < scene_.object_of.size() && scene_.object_of[*triangle] < scene_.objects.size();
     return named ? scene_.objects[scene_.object_of[*triangle]] : "scene";
   }
-  const auto behind = [&](const Part& part) { return !part.view.in_front(in_frame_of(part, position)); };
-  if (std::any_of(parts_.begin(), parts_.end(), behind)) return "target plane";
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    if (!parts_[i].in_front(in_frame_of(i, position))) return "target plane";
+  }
   return limits_.broken_by(position).value_or("max_range");
 }
 
-VerifyReport Check::report(const std::vector<Verdict>& verdicts) const {
+VerifyReport Check::report(const std::vector<Verdict>& verdicts) {
   VerifyReport report;
   report.seed = options_.seed;
   report.points = verdicts.size();
@@ -260,16 +266,26 @@ VerifyReport verify_volume(const Scene& scene, const std::vector<Target>& parts,
                            const Progress& progress) {
   check_arguments(sensor, options);
   if (parts.empty()) throw Error(ErrorKind::input, "the target has no parts", "verify", "give one or more");
-  const Check check(scene, parts, sensor, navigation, volume, options);
-  std::vector<Verdict> verdicts(options.points);
-  Reporter reporter(progress, std::max<std::size_t>(options.points, 1));
+  Check check(scene, parts, sensor, navigation, volume, options);
+  std::vector<Verdict> verdicts(options.points, Verdict(Random(options.seed, 0)));
+  Reporter reporter(progress, std::max<std::size_t>(options.points * (parts.size() + 1), 1));
+  const auto for_all = [&](const auto& act) {
+    parallel::for_ranges(options.points, 16, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end && !reporter.stopped(); ++i) {
+        act(i);
+        reporter.add(1);
+      }
+    });
+    if (reporter.stopped()) throw Error(ErrorKind::cancelled, "the check was cancelled", "", "");
+  };
+  for_all([&](std::size_t i) { verdicts[i] = check.draw(i); });
+  for (std::size_t part = 0; part < parts.size(); ++part) {
+    check.turn_to(part);
+    for_all([&](std::size_t i) { check.look(verdicts[i]); });
+  }
   parallel::for_ranges(options.points, 16, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end && !reporter.stopped(); ++i) {
-      verdicts[i] = check.judge(i);
-      reporter.add(1);
-    }
+    for (std::size_t i = begin; i < end; ++i) check.settle(verdicts[i]);
   });
-  if (reporter.stopped()) throw Error(ErrorKind::cancelled, "the check was cancelled", "", "");
   return check.report(verdicts);
 }
 
