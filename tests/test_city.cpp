@@ -253,7 +253,7 @@ TEST_F(CityTest, WhatLiesUndergroundIsNotBuilt) {
   const CityRecord& doubtful = record_of(city, "way/1");
   EXPECT_EQ(doubtful.fate, Fate::written) << "a layer alone does not say that it cannot be seen";
   ASSERT_EQ(doubtful.remarks.size(), 1U);
-  EXPECT_EQ(doubtful.remarks[0], "layer=-1: built on the ground");
+  EXPECT_EQ(doubtful.remarks[0], "layer=-1: its layer is not used");
 }
 
 TEST_F(CityTest, DefaultsCanBeSet) {
@@ -335,12 +335,13 @@ TEST_F(CityTest, SaysWhyNothingCanBeBuilt) {
   map.node(30, 30, {{"building", "yes"}});
   map.relation({{"way", cellar, "outline"}}, {{"type", "building"}, {"building", "yes"}});
   expect_refused(map, {}, "nothing that the map holds can be built",
-                 "underground (2), drawn as a point: it has no outline (1), its members");
+                 "underground (2), drawn as a point: it has no outline (1), its members are skipped too (1)");
   map.box(1000, 0, 1020, 20, {{"building", "yes"}});
   CityOptions options;
   options.region.center_deg = {48.1374, 11.5755};
   options.region.radius_m = 100;
-  expect_refused(map, options, "nothing in the area can be built", "underground (2)");
+  expect_refused(map, options, "nothing to build in the area", "the nearest of 1 objects is 10");
+  expect_refused(map, options, "nothing to build in the area", "near it: underground (2)");
 }
 
 TEST_F(CityTest, GroupsBelongToTheRegionThatTheirMembersDo) {

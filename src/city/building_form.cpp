@@ -35,9 +35,9 @@ class FormReader {
       stack_levels();
     }
     fit_roof();
-    // Many lie underground, but not all, and one that is left out would hide nothing.
+    // Many lie underground, but not all: to leave one out that does not would let a volume claim too much.
     if (parse_levels(tags_.get("layer")).value_or(0) < 0) {
-      remark("building below the ground", "layer", tags_.get("layer"), "built on the ground");
+      remark("building below the ground", "layer", tags_.get("layer"), "its layer is not used");
     }
     if (on_posts_ && !bottom_tagged_) form_.deck_m = defaults_.roof_deck_m;
     return form_;

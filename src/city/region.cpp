@@ -29,16 +29,19 @@ std::string bounds_text(const Bounds& b) {
   return text;
 }
 
-/// "underground (2), outline without an area (1)", the commonest first.
+/// "underground (2), outline without an area (1)": the three commonest, and how many other reasons there are.
 std::string reasons_of(const std::vector<CityRecord>& skipped) {
+  constexpr std::size_t kMostReasons = 3;
   std::map<std::string, std::size_t> counts;
   for (const CityRecord& record : skipped) ++counts[record.reason];
   std::vector<std::pair<std::string, std::size_t>> reasons(counts.begin(), counts.end());
   std::stable_sort(reasons.begin(), reasons.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
   std::string text;
-  for (const auto& [reason, count] : reasons) {
-    text.append(text.empty() ? "" : ", ").append(reason).append(" (").append(std::to_string(count)).append(")");
+  for (std::size_t i = 0; i < std::min(reasons.size(), kMostReasons); ++i) {
+    text.append(i == 0 ? "" : ", ").append(reasons[i].first).append(" (");
+    text.append(std::to_string(reasons[i].second)).append(")");
   }
+  if (reasons.size() > kMostReasons) text += " and " + std::to_string(reasons.size() - kMostReasons) + " other reasons";
   return text;
 }
 
@@ -156,23 +159,22 @@ void Outside::add(std::size_t more, double nearest) {
 
 void fail_empty(const CityRegion& region, const osm::Extract& extract, const Outside& outside,
                 const std::vector<CityRecord>& skipped, const std::filesystem::path& file) {
-  if (!skipped.empty()) {
-    const bool is_whole = outside.objects == 0;
-    fail(std::string("nothing ") + (is_whole ? "that the map holds" : "in the area") + " can be built", file.string(),
-         "it is skipped because of: " + reasons_of(skipped) +
-             (is_whole ? "; correct the map, or give another one" : "; choose a larger area"));
-  }
-  if (outside.objects == 0) {
+  if (outside.objects == 0 && skipped.empty()) {
     fail("the map holds no building and nothing else to build", file.string(),
          "give an extract with buildings; it has " + std::to_string(extract.nodes) + " nodes and " +
              std::to_string(extract.ways) + " ways, " + bounds_text(extract.bounds_deg));
+  }
+  if (outside.objects == 0) {
+    fail("nothing that the map holds can be built", file.string(),
+         "correct it, or give another one; it is skipped because of: " + reasons_of(skipped));
   }
   fail("there is nothing to build in the area", file.string(),
        "the nearest of " + std::to_string(outside.objects) + " objects is " +
            formatted("%.0f m", outside.nearest_m, 0) +
            (region.center_deg ? " from the centre: give a larger radius, or another centre"
                               : " from the box: give a larger box") +
-           "; the map holds " + bounds_text(extract.bounds_deg));
+           "; the map holds " + bounds_text(extract.bounds_deg) +
+           (skipped.empty() ? "" : "; skipped in the area or near it: " + reasons_of(skipped)));
 }
 
 LonLat frame_origin(const CityRegion& region, const osm::Extract& extract) {

@@ -28,7 +28,7 @@ struct Outside {
   void add(std::size_t more, double nearest);
 };
 
-/// Says what the region lacks: why what is in it was skipped, how far the nearest object outside is.
+/// Says what the region lacks: how far the nearest object outside is, and why what was read of it was skipped.
 [[noreturn]] void fail_empty(const CityRegion& region, const osm::Extract& extract, const Outside& outside,
                              const std::vector<CityRecord>& skipped, const std::filesystem::path& file);
 

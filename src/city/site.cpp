@@ -32,11 +32,11 @@ void skip(Site& site, CityRecord record, std::string reason) {
   site.skipped.push_back(std::move(record));
 }
 
-/// Fates of outlines that were mended or cannot be built.
 constexpr const char* kUnderground = "underground";
 
 bool is_underground(const osm::Tags& tags) { return tags.get("location") == "underground"; }
 
+/// Fates of outlines that were mended or cannot be built.
 std::string fault_of(const Structure& structure) {
   if (structure.footprints.empty() && structure.repairs.tangled) {
     return "outline that crosses itself more than a thousand times";
@@ -307,18 +307,23 @@ void skip_lost(Site& site, const osm::Extract& extract, const CityOptions& optio
 /// Relations that only say which outline and parts belong together, but are tagged as if they were a building. They
 /// belong to the region when one of their members does.
 void skip_groups(Site& site, const osm::Extract& extract, const osm::RegionFilter& region) {
-  std::set<std::string> known;
-  for (const Item& item : site.items) known.insert(item.record.object);
-  for (const CityRecord& record : site.skipped) known.insert(record.object);
-  const auto is_known = [&](osm::ObjectId id) { return known.contains(osm::text(id)); };
+  std::set<std::string> built, skipped;
+  for (const Item& item : site.items) built.insert(item.record.object);
+  for (const CityRecord& record : site.skipped) skipped.insert(record.object);
   for (const osm::BuildingRelation& relation : extract.building_relations) {
     const std::string_view kind = kind_of(relation.tags, Geometry::area);
     if (kind != "building" && kind != "building part") continue;
-    const bool belongs = region.everything() ||
-                         std::any_of(relation.outlines.begin(), relation.outlines.end(), is_known) ||
-                         std::any_of(relation.parts.begin(), relation.parts.end(), is_known);
-    if (!belongs) continue;
-    skip(site, record_of(relation.id, relation.tags, std::string(kind)), "its members are built in its place");
+    const auto has_member_in = [&](const std::set<std::string>& objects) {
+      const auto is_in = [&](osm::ObjectId id) { return objects.contains(osm::text(id)); };
+      return std::any_of(relation.outlines.begin(), relation.outlines.end(), is_in) ||
+             std::any_of(relation.parts.begin(), relation.parts.end(), is_in);
+    };
+    const bool is_built = has_member_in(built), is_read = is_built || has_member_in(skipped);
+    if (!is_read && !region.everything()) continue;
+    skip(site, record_of(relation.id, relation.tags, std::string(kind)),
+         is_built  ? "its members are built in its place"
+         : is_read ? "its members are skipped too"
+                   : "none of its members could be read");
   }
 }
 
@@ -382,8 +387,8 @@ Site make_site(const osm::Extract& extract, const osm::RegionFilter& region, con
   assign_parts(structures, extract.building_relations);
   BuildingSorter(site, std::move(structures), options.defaults).sort(region);
   OccluderSorter(site, region, frame, options).sort(extract);
-  skip_groups(site, extract, region);
   skip_lost(site, extract, options);
+  skip_groups(site, extract, region);
   set_bounds(site);
   note_reading_repairs(site, extract);
   return site;
