@@ -7,6 +7,7 @@
 #include "vantage/error.h"
 
 namespace vantage::solid {
+
 void check_labelled(const Mesh& mesh, const Labels& labels) {
   const auto refuse = [&](const std::string& problem, const std::string& where) {
     throw Error(ErrorKind::input, problem, where, labels.fix);

@@ -13,7 +13,8 @@ namespace vantage::solid {
 struct Labels {
   const std::vector<std::uint32_t>& of;  ///< per triangle: below `count`
   std::size_t count;
-  const char *owner, *name;  ///< for messages: "volume", "cause"
+  const char* owner;  ///< for messages: "volume"
+  const char* name;   ///< "cause"
   const char* fix;
 };
 
