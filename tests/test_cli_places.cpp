@@ -8,6 +8,7 @@ namespace vantage::testing {
 namespace {
 
 constexpr geo::LonLat kCentre = {11.5755, 48.1374};
+constexpr const char* kOtherCentre = "[48.1374, 11.5765]";
 
 /// a.yaml and b.yaml: the same target on the same map, in frames that lie 74 m apart; a.ply: the volume of the first.
 class CliPlaces : public Cli {
@@ -21,7 +22,7 @@ class CliPlaces : public Cli {
     map.box(140, 140, 150, 150, {{"building", "yes"}});      // to here
     write("city.osm", map.text());
     write("a.yaml", mission_at("[48.1374, 11.5755]"));
-    write("b.yaml", mission_at("[48.1374, 11.5765]"));
+    write("b.yaml", mission_at(kOtherCentre));
     output_of({"compute", "a.yaml", "-q", "-o", "a.ply"});
   }
 
@@ -35,42 +36,58 @@ class CliPlaces : public Cli {
 };
 
 TEST_F(CliPlaces, NavigationMeshesAreMoved) {
+  output_of({"compute", "a.yaml", "-q", "-o", "a.stl", "-o", "a.glb", "-o", "a.obj"});
   const double alone = computed_m3("b.yaml");
-  write("kept.yaml", mission_at("[48.1374, 11.5765]") + "navigation: {meshes: [a.ply]}\n");
-  EXPECT_NEAR(computed_m3("kept.yaml"), alone, 1e-4 * alone) << "the volume cut to itself";
-  write("flat.yaml", mission_at("[48.1374, 11.5755]") + "navigation: {meshes: [a.ply]}\n");
-  EXPECT_NEAR(computed_m3("flat.yaml"), alone, 1e-4 * alone) << "in its own frame";
+  for (const char* const name : {"a.ply", "a.stl", "a.glb", "a.obj"}) {
+    write("kept.yaml", mission_at(kOtherCentre) + "navigation: {meshes: [" + name + "]}\n");
+    EXPECT_NEAR(computed_m3("kept.yaml"), alone, 1e-4 * alone) << name << ": the volume cut to itself";
+  }
+  write("same.yaml", mission_at("[48.1374, 11.5755]") + "navigation: {meshes: [a.ply]}\n");
+  EXPECT_NEAR(computed_m3("same.yaml"), alone, 1e-4 * alone) << "in its own frame";
 }
 
 TEST_F(CliPlaces, NavigationMeshesFromAnotherLevelAreRefused) {
-  std::string ply = content(folder_ / "a.ply");
-  const std::string flat = "flat ground";
-  ply.replace(ply.find(flat), flat.size(), "EGM96 geoid");
-  write("high.ply", ply);
-  expect_bad_mission(mission_at("[48.1374, 11.5765]") + "navigation: {meshes: [high.ply]}\n",
+  const auto write_with_level = [&](const std::string& name, const std::string& level) {
+    std::string ply = content(folder_ / "a.ply");
+    const std::string flat = "flat ground";
+    write(name, ply.replace(ply.find(flat), flat.size(), level));
+  };
+  const std::string navigation = "navigation:\n  meshes: [";
+  write_with_level("high.ply", "EGM96 geoid");
+  expect_bad_mission(mission_at(kOtherCentre) + navigation + "high.ply]\n",
                      "'high.ply' are measured from another level (EGM96 geoid) than the scene's (flat ground)",
-                     "mission.yaml", "same ground");
+                     "mission.yaml:5:12", "same ground");
+  write_with_level("unknown.ply", "");
+  write("unknown.yaml", mission_at(kOtherCentre) + navigation + "unknown.ply]\n");
+  EXPECT_GT(computed_m3("unknown.yaml"), 1e4) << "what is not known to differ is not refused";
 }
 
 TEST_F(CliPlaces, VolumesAreVerifiedWhereTheyLie) {
-  for (const char* const mission : {"a.yaml", "b.yaml"}) {
-    const auto json = nlohmann::json::parse(output_of({"verify", mission, "a.ply", "--points", "4000", "--json"}));
+  for (const std::string mission : {"a.yaml", "b.yaml"}) {
+    const ProgramRun verified = run({"verify", mission, "a.ply", "--points", "4000", "--json"});
+    const auto json = nlohmann::json::parse(verified.out);
     EXPECT_EQ(json.at("right"), true) << mission << json.dump();
     EXPECT_EQ(json.at("under_claimed"), 0) << mission << ": the target has two parts, and both must be seen";
     EXPECT_GT(json.at("inside").get<int>(), 1000);
+    const bool is_told = verified.err.find("a.ply lies about another origin") != std::string::npos;
+    EXPECT_EQ(is_told, mission == "b.yaml") << verified.err;
   }
 }
 
 TEST_F(CliPlaces, AnObjForAGlbSceneComesBackWhereItWas) {
   output_of({"scene", "city.osm", "--center", "48.1374,11.5755", "--radius", "300", "-q", "-o", "city.glb"});
-  const std::string mission =
-      "scene: {mesh: city.glb}\ntarget: {center: [48.1374, 11.5755], width: 8, length: 20}\nsensor: {max_range: 80}\n";
-  write("glb.yaml", mission);
-  const double alone = computed_m3("glb.yaml");
-  output_of({"compute", "glb.yaml", "-q", "-o", "up.obj"});  // y up, as the scene
-  EXPECT_EQ(nlohmann::json::parse(output_of({"verify", "glb.yaml", "up.obj", "--json"})).at("right"), true);
-  write("kept.yaml", mission + "navigation: {meshes: [up.obj]}\n");
-  EXPECT_NEAR(computed_m3("kept.yaml"), alone, 1e-4 * alone);
+  fs::copy_file(folder_ / "city.glb", folder_ / "city.mesh");  // the content tells the format
+  for (const std::string scene : {"city.glb", "city.mesh"}) {
+    const std::string mission = "scene: {mesh: " + scene +
+                                "}\ntarget: {center: [48.1374, 11.5755], width: 8, length: 20}\n"
+                                "sensor: {max_range: 80}\n";
+    write("glb.yaml", mission);
+    const double alone = computed_m3("glb.yaml");
+    output_of({"compute", "glb.yaml", "-q", "-o", "up.obj"});  // y up, as the scene
+    EXPECT_EQ(nlohmann::json::parse(output_of({"verify", "glb.yaml", "up.obj", "--json"})).at("right"), true);
+    write("kept.yaml", mission + "navigation: {meshes: [up.obj]}\n");
+    EXPECT_NEAR(computed_m3("kept.yaml"), alone, 1e-4 * alone) << scene;
+  }
 }
 
 TEST_F(CliPlaces, VolumesAreComparedWhereTheyLie) {
@@ -79,10 +96,10 @@ TEST_F(CliPlaces, VolumesAreComparedWhereTheyLie) {
   const auto json = nlohmann::json::parse(compared.out);
   EXPECT_LT(json.at("only_a_percent").get<double>(), 0.01);
   EXPECT_LT(json.at("only_b_percent").get<double>(), 0.01);
-  EXPECT_NE(compared.err.find("another origin"), std::string::npos) << compared.err;
+  EXPECT_NE(compared.err.find("b.obj lies about another origin"), std::string::npos) << compared.err;
 
   // What is written of the difference lies in the frame of the first, and says so.
-  write("low.yaml", mission_at("[48.1374, 11.5765]") + "navigation: {altitude: [0, 30]}\n");
+  write("low.yaml", mission_at(kOtherCentre) + "navigation: {altitude: [0, 30]}\n");
   output_of({"compute", "low.yaml", "-q", "-o", "low.ply"});
   output_of({"compare", "a.ply", "low.ply", "--only-a", "high.stl", "-q"});
   const Scene high = read_scene(folder_ / "high.stl");
@@ -90,6 +107,25 @@ TEST_F(CliPlaces, VolumesAreComparedWhereTheyLie) {
   EXPECT_EQ(high.georeference->longitude_deg, kCentre.longitude_deg);
   const Vec3 top = bounding_box(read_scene(folder_ / "a.ply").mesh).max;
   EXPECT_NEAR((bounding_box(high.mesh).max - top).norm(), 0, 1e-2) << "the frames lie 74 m apart";
+}
+
+TEST_F(CliPlaces, StagesAndPicturesAreWhereTheyLie) {
+  const std::string spheres = "method: spheres\nspheres: {cubemap: 20}\n";
+  write("a.yaml", mission_at("[48.1374, 11.5755]") + spheres);
+  output_of({"compute", "a.yaml", "-q", "-o", "spheres.ply", "--stages", "stages"});
+  const Scene stage = read_scene(folder_ / "stages" / "000_sphere_0.ply");
+  ASSERT_TRUE(stage.georeference);
+  EXPECT_EQ(stage.georeference->longitude_deg, kCentre.longitude_deg);
+
+  output_of({"compute", "b.yaml", "-q", "-o", "b.ply"});
+  const ProgramRun own = run({"render", "b.yaml", "--volume", "b.ply", "--size", "320x240", "-o", "own.png"});
+  if (own.exit_code != 0 && own.err.find("OpenGL") != std::string::npos) GTEST_SKIP() << own.err;
+  const ProgramRun other = run({"render", "b.yaml", "--volume", "a.ply", "--size", "320x240", "-o", "other.png"});
+  EXPECT_EQ(other.exit_code, 0) << other.err;
+  EXPECT_NE(other.err.find("another origin"), std::string::npos) << other.err;
+  const double sizes = static_cast<double>(content(folder_ / "own.png").size()) /
+                       static_cast<double>(content(folder_ / "other.png").size());
+  EXPECT_NEAR(sizes, 1, 0.01) << "the same picture but for a pixel here and there";
 }
 
 }  // namespace

@@ -116,12 +116,15 @@ exact: {tolerance: 0.02}
   ASSERT_EQ(parsed.navigation_meshes.size(), 3U);
   EXPECT_EQ(parsed.navigation_meshes[0].file, "/data/missions/airspace.ply");
   EXPECT_EQ(parsed.navigation_meshes[0].name, "airspace.ply");
-  EXPECT_EQ(parsed.navigation_meshes[0].options.up, UpAxis::z) << "PLY is in the scene frame";
-  EXPECT_EQ(parsed.navigation_meshes[0].options.scale, 1.0) << "and in metres";
-  EXPECT_EQ(parsed.navigation_meshes[1].options.up, UpAxis::y) << "OBJ is in the axes of the scene file";
-  EXPECT_EQ(parsed.navigation_meshes[1].options.scale, 0.5) << "and in its unit";
-  EXPECT_EQ(parsed.navigation_meshes[2].options.up, UpAxis::z) << "unless it says otherwise";
-  EXPECT_EQ(parsed.navigation_meshes[2].options.scale, 2);
+  const mission_io::MeshReference &ply = parsed.navigation_meshes[0], &obj = parsed.navigation_meshes[1],
+                                  &own = parsed.navigation_meshes[2];
+  EXPECT_FALSE(ply.in_scene_axes || ply.in_scene_unit) << "PLY is in the scene frame";
+  EXPECT_EQ(ply.options.up, UpAxis::z);
+  EXPECT_EQ(ply.options.scale, 1.0) << "and in metres";
+  EXPECT_TRUE(obj.in_scene_axes && obj.in_scene_unit) << "OBJ is in the axes and the unit of the scene file";
+  EXPECT_FALSE(own.in_scene_axes || own.in_scene_unit) << "unless it says otherwise";
+  EXPECT_EQ(own.options.up, UpAxis::z);
+  EXPECT_EQ(own.options.scale, 2);
 }
 
 TEST(Mission, HasDefaults) {
@@ -485,7 +488,8 @@ TEST_F(MissionFiles, AreReadRelativeToTheMission) {
   write("meshes/zone.obj", kTetrahedron);
   const fs::path file = write("mission.yaml", mission_text("navigation: {meshes: [meshes/zone.obj]}", kTarget, kSensor,
                                                            "scene: {mesh: meshes/city.obj, up: y}\n"));
-  const Mission mission = read_mission(file);
+  Mission mission = read_mission(file);
+  read_mission_scene(mission);
   ASSERT_EQ(mission.navigation.meshes.size(), 1U);
   EXPECT_EQ(mission.navigation.meshes[0].name, "meshes/zone.obj");
   EXPECT_EQ(mission.navigation.meshes[0].mesh.triangles.size(), 4U);
@@ -494,7 +498,7 @@ TEST_F(MissionFiles, AreReadRelativeToTheMission) {
   EXPECT_EQ(bounding_box(mission.navigation.meshes[0].mesh).min, Vec3(0, -50, 0)) << "y up, as the scene's file";
   EXPECT_EQ(mission.scene.file, fs::canonical(folder_) / "meshes/city.obj");
   ASSERT_EQ(mission.navigation_files.size(), 1U);
-  EXPECT_EQ(mission.navigation_files[0], fs::canonical(folder_) / "meshes/zone.obj");
+  EXPECT_EQ(mission.navigation_files[0].path, fs::canonical(folder_) / "meshes/zone.obj");
 }
 
 TEST_F(MissionFiles, MayLieInALinkedFolder) {

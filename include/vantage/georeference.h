@@ -12,8 +12,9 @@ namespace vantage {
 struct Georeference {
   double latitude_deg = 0;   ///< of the origin; WGS 84, -90 to 90
   double longitude_deg = 0;  ///< of the origin; WGS 84, -180 to 180
-  std::string vertical;      ///< what z is measured from: "flat ground", "EGM96 geoid", "as in dem.tif", "NAP height"
-  std::string source_crs;    ///< of the file it came from: "EPSG:4326", "EPSG:7415"; empty when unknown
+  /// What z is measured from: "flat ground", "EGM96 geoid", "as in dem.tif", "NAP height"; empty when unknown.
+  std::string vertical;
+  std::string source_crs;  ///< of the file it came from: "EPSG:4326", "EPSG:7415"; empty when unknown
 };
 
 /// Georeference::vertical of a map without terrain: z is measured from the ground, wherever that lies.

@@ -31,6 +31,15 @@ struct GroundTarget {
   double heading_deg = 0;                           ///< clockwise from north
 };
 
+/// Where a navigation mesh was read from, and what read_mission_scene has still to settle about it.
+struct NavigationFile {
+  std::filesystem::path path;
+  std::string place;           ///< "mission.yaml:9:13", for messages
+  bool in_scene_axes = false;  ///< the mesh is in the axes of the scene's file, which is not read yet: OBJ
+  bool in_scene_unit = false;  ///< likewise
+  std::optional<Georeference> georeference;  ///< of the frame that it is in, as its file says
+};
+
 /// A mission file, read and checked. Paths are absolute; navigation meshes are read.
 struct Mission {
   std::filesystem::path file;
@@ -47,8 +56,8 @@ struct Mission {
   Navigation navigation;
   Method method = Method::exact;
   ExactOptions exact;
-  SpheresOptions spheres;  ///< but for the threads: those of `exact` count for both methods
-  std::vector<std::filesystem::path> navigation_files;  ///< that navigation.meshes were read from, in the same order
+  SpheresOptions spheres;                        ///< but for the threads: those of `exact` count for both methods
+  std::vector<NavigationFile> navigation_files;  ///< of navigation.meshes, in the same order
   std::string target_place;  ///< "mission.yaml:9:13": put in front of the place in errors about the target
 };
 
@@ -59,11 +68,12 @@ Mission read_mission(const std::filesystem::path& file);
 
 /// Reads the mission's scene, and puts what the mission gives on the earth or by name into its frame: afterwards `crs`
 /// and `ground_target` are empty, `target`, `other_parts` and the boxes complete. Boxes lie askew in the frame: a box
-/// to stay in becomes the largest one of the frame inside it, a box to stay out of the smallest round it. A navigation
-/// mesh whose file says where on the earth it lies is moved there, where the scene says so too. Throws as
-/// load_scene does, and Error(input) with the place in the mission file for: a scene that does not say where on the
-/// earth it lies, a position without a value, an object that the map does not have, a target that reaches beyond the
-/// ground, and all that make_target_frame refuses.
+/// to stay in becomes the largest one of the frame inside it, a box to stay out of the smallest round it. Navigation
+/// meshes in OBJ take the axes and the unit of the scene's file; those that say where on the earth they lie are moved
+/// there, where the scene says so too. Throws as load_scene does, and Error(input) with the place in the mission file
+/// for: a scene that does not say where on the earth it lies, a position without a value, an object that the map does
+/// not have, a target off the ground or reaching beyond it, a navigation mesh whose heights are measured from another
+/// level than the scene's, and all that make_target_frame refuses.
 LoadedScene read_mission_scene(Mission& mission, const Progress& progress = {});
 
 /// All that `vantage compute` does but writing: reads the scene, prepares it, computes, cuts. Fills Volume::seconds.

@@ -13,6 +13,7 @@
 #include "vantage/constraints.h"
 #include "vantage/devices.h"
 #include "vantage/geometry.h"
+#include "vantage/georeference.h"
 #include "vantage/progress.h"
 #include "vantage/scene.h"
 #include "vantage/target.h"
@@ -52,7 +53,8 @@ struct SphereStage {
   long euler = 0;              ///< V - E + F, of `mesh`
   std::vector<long> component_euler;  ///< of each of its pieces
   double volume_m3 = 0;
-  double seconds = 0;  ///< that this step took
+  double seconds = 0;                        ///< that this step took
+  std::optional<Georeference> georeference;  ///< of the scene; a mission's run fills it in
 };
 using StageSink = std::function<void(const SphereStage& stage)>;
 

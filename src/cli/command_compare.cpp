@@ -4,7 +4,6 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -13,8 +12,8 @@
 #include "cli/plain_volume.h"
 #include "cli/progress_line.h"
 #include "cli/text_table.h"
-#include "geo/local_frame.h"
 #include "mission/input_file.h"
+#include "mission/into_frame.h"
 #include "solid/write_place.h"
 #include "solid/writers.h"
 #include "vantage/compare.h"
@@ -32,6 +31,7 @@ constexpr const char* kExamples =
     "of\n"
     "  the scene that they were made for: say --up and --scale as its mission does. --only-a and --only-b write "
     "likewise.\n"
+    "  Where both say where on the earth they lie, B is moved into the frame of A, and so is all that is told of it.\n"
     "\n"
     "EXAMPLES\n"
     "  vantage compare spheres.ply exact.ply\n"
@@ -76,29 +76,6 @@ void check_outputs(const Options& options) {
     throw Error(ErrorKind::input, "an output is named twice", options.only_a, "give --only-a and --only-b two names");
   }
 }
-
-/// Both meshes in the frame of the first: where both say where on the earth they lie, the second is moved there.
-struct Pair {
-  Pair(const Options& options, const SceneReadOptions& obj, const Progress& progress) {
-    const auto read = [&](const std::string& file) {
-      Scene scene = read_scene(file, mission_io::is_obj(file) ? obj : SceneReadOptions{}, progress);
-      return std::pair(std::move(scene.mesh), std::move(scene.georeference));
-    };
-    std::optional<Georeference> place_b;
-    std::tie(a, place) = read(options.file_a);
-    std::tie(b, place_b) = read(options.file_b);
-    if (!place) {
-      place = place_b;
-    } else if (place_b) {
-      geo::move_origin(b.vertices, *place_b, *place);
-      is_moved = place_b->latitude_deg != place->latitude_deg || place_b->longitude_deg != place->longitude_deg;
-    }
-  }
-
-  Mesh a, b;
-  std::optional<Georeference> place;  ///< of the frame
-  bool is_moved = false;
-};
 
 /// Both or none; returns the files that were written.
 std::vector<std::string> write(const Options& options, Comparison& comparison, const std::optional<Georeference>& place,
@@ -184,13 +161,14 @@ int run(const Options& options) {
   const SceneReadOptions obj = obj_options(options);
   check_outputs(options);
   ProgressLine progress(options.common);
-  const Pair pair(options, obj, progress.callback());
-  Comparison comparison = compare_volumes(pair.a, pair.b, options.file_a, options.file_b, progress.callback());
+  const mission_io::MeshInFrame a = mission_io::read_into_frame(options.file_a, obj, {}, progress.callback());
+  const mission_io::MeshInFrame b =
+      mission_io::read_into_frame(options.file_b, obj, a.georeference, progress.callback());
+  if (!options.common.quiet) std::for_each(b.notes.begin(), b.notes.end(), note);
+  Comparison comparison = compare_volumes(a.mesh, b.mesh, options.file_a, options.file_b, progress.callback());
   stop_if_interrupted();
-  const std::vector<std::string> written = write(options, comparison, pair.place, obj);
-  if (pair.is_moved && !options.common.quiet) {
-    note("the second mesh has another origin on the earth: it was moved into the frame of the first");
-  }
+  const std::vector<std::string> written =
+      write(options, comparison, a.georeference ? a.georeference : b.georeference, obj);
   const bool is_turn_doubtful =
       (mission_io::is_obj(options.file_a) || mission_io::is_obj(options.file_b)) && options.up.empty() &&
       comparison.intersection_m3 < 0.5 * std::min(comparison.volume_a_m3, comparison.volume_b_m3);

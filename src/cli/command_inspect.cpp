@@ -55,7 +55,7 @@ void add_place(TextTable& table, const Georeference& place) {
   table.heading("where it lies: metres east, north and up of this origin (WGS 84)");
   table.row("latitude", fixed(place.latitude_deg, 7), "degrees");
   table.row("longitude", fixed(place.longitude_deg, 7), "degrees");
-  table.row("z from", "", place.vertical);
+  if (!place.vertical.empty()) table.row("z from", "", place.vertical);
   table.row("made from", "", place.source_crs.empty() ? "unknown coordinate system" : place.source_crs);
 }
 

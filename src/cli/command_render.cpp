@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <memory>
 
 #include "cli/command.h"
@@ -53,7 +54,9 @@ Picture picture(const Options& options, Mission& mission, const PictureView& vie
   if (!options.volume_file.empty()) {
     mission_io::check_readable(options.volume_file, "the volume", "");  // before the scene, which takes longer
     scene = read_mission_scene(mission, progress).scene;
-    volume = read_volume(options.volume_file, scene, progress);
+    std::vector<std::string> notes;
+    volume = read_volume(options.volume_file, scene, progress, &notes);
+    if (!options.common.quiet) std::for_each(notes.begin(), notes.end(), note);
   } else {
     mission_io::MissionRun run = mission_io::run_mission(mission, progress);
     volume = std::move(run.volume);

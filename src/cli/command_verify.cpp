@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -9,6 +10,7 @@
 #include "cli/progress_line.h"
 #include "cli/text_table.h"
 #include "mission/input_file.h"
+#include "mission/into_frame.h"
 #include "mission/run_mission.h"
 #include "vantage/verify.h"
 #include "vantage/volume.h"
@@ -37,7 +39,9 @@ constexpr double kMostLift = 0.01;  // metres; compute raises a target by no mor
 
 /// How far `compute` raised the target to clear its surface: from the report beside the volume, 0 where there is none.
 double reported_lift(const std::filesystem::path& volume_file) {
-  const auto report = std::filesystem::path(volume_file).replace_extension(".report.json");
+  std::filesystem::path report = volume_file;
+  if (report.extension() == ".gz") report.replace_extension();
+  report.replace_extension(".report.json");
   std::ifstream in(report);
   if (!in) return 0;
   const nlohmann::json json = nlohmann::json::parse(in, nullptr, false);
@@ -115,8 +119,9 @@ int run(const Options& options) {
   ProgressLine progress(options.common);
   const Scene scene = read_mission_scene(mission, progress.callback()).scene;
 
-  const Mesh volume =
-      read_scene(options.volume_file, mission_io::result_options(options.volume_file, scene), progress.callback()).mesh;
+  const mission_io::MeshInFrame read = mission_io::read_into_frame(options.volume_file, scene, progress.callback());
+  if (!options.common.quiet) std::for_each(read.notes.begin(), read.notes.end(), note);
+  const Mesh& volume = read.mesh;
   const std::size_t holes = count_open_edges(volume);
   const double lift = options.lift_m < 0 ? reported_lift(options.volume_file) : options.lift_m;
 

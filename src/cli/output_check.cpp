@@ -90,7 +90,7 @@ void check_not_an_input(const fs::path& output, const std::vector<fs::path>& inp
 
 std::vector<fs::path> input_files(const Mission& mission) {
   std::vector<fs::path> files = {mission.file, mission.scene.file};
-  files.insert(files.end(), mission.navigation_files.begin(), mission.navigation_files.end());
+  for (const NavigationFile& file : mission.navigation_files) files.push_back(file.path);
   return files;
 }
 

@@ -6,8 +6,8 @@
 
 #include "cli/text_table.h"
 #include "mission/input_file.h"
+#include "mission/into_frame.h"
 #include "mission/numbers.h"
-#include "mission/run_mission.h"
 #include "solid/read_causes.h"
 #include "vantage/error.h"
 
@@ -102,10 +102,13 @@ std::string picture_subtitle(const Mission& mission, const Volume* volume) {
   return text + dot + mission.scene.file.filename().string();
 }
 
-Volume read_volume(const std::string& file, const Scene& scene, const Progress& progress) {
+Volume read_volume(const std::string& file, const Scene& scene, const Progress& progress,
+                   std::vector<std::string>* notes) {
   mission_io::check_readable(file, "the volume", "");
   Volume volume;
-  volume.mesh = read_scene(file, mission_io::result_options(file, scene), progress).mesh;
+  mission_io::MeshInFrame read = mission_io::read_into_frame(file, scene, progress);
+  volume.mesh = std::move(read.mesh);
+  if (notes) *notes = std::move(read.notes);
   solid::read_causes(file, volume);
   return volume;
 }

@@ -12,7 +12,6 @@
 #include <utility>
 
 #include "cli/plain_volume.h"
-#include "scene/georeference_text.h"
 #include "solid/atomic_file.h"
 #include "solid/names.h"
 #include "solid/report.h"
@@ -121,7 +120,9 @@ void StageFolder::add(const SphereStage& stage) {
             stage.component_euler, stage.volume_m3, stage.seconds};
   if (stage.mesh && !stage.mesh->empty()) {
     told.file = file_name(stages_.size(), stage.name);
-    write_volume(plain_volume(*stage.mesh, stage.name), temporary_ / told.file);
+    Volume volume = plain_volume(*stage.mesh, stage.name);
+    volume.georeference = stage.georeference;
+    write_volume(volume, temporary_ / told.file);
   }
   stages_.push_back(std::move(told));
 }
@@ -134,7 +135,6 @@ void StageFolder::write_story(const Mission& mission, const Volume& volume, cons
   story["max_range_m"] = mission.sensor.max_range_m;
   story["outcome"] = solid::name_of(volume.outcome);
   story["reason"] = volume.reason;
-  if (volume.georeference) story["georeference"] = scene::georeference_json(*volume.georeference);
   story["run"] = Json::parse(solid::spheres_json({mission.spheres, report}));
   story["stages"] = Json::array();
   for (std::size_t i = 0; i < stages_.size(); ++i) {

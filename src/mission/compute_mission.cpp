@@ -1,6 +1,5 @@
 #include <chrono>
 
-#include "mission/input_file.h"
 #include "mission/run_mission.h"
 #include "parallel/parallel.h"
 #include "vantage/mission.h"
@@ -63,8 +62,13 @@ MissionRun run_stages(Mission& mission, const Progress& progress, const StageSin
   run.scene = prepared.statistics();
   seconds.prepare = stopwatch.lap();
 
+  const auto placed = [&](const SphereStage& stage) {
+    SphereStage copy = stage;
+    copy.georeference = run.loaded.scene.georeference;
+    stages(copy);
+  };
   try {
-    run.volume = compute(mission, prepared, progress, stages, run.spheres);
+    run.volume = compute(mission, prepared, progress, stages ? StageSink(placed) : StageSink(), run.spheres);
   } catch (const Error& error) {
     if (mission.method == Method::spheres && !is_about_target(error)) throw;
     with_place(mission.target_place, [&]() -> int { throw error; });
@@ -83,23 +87,6 @@ MissionRun run_stages(Mission& mission, const Progress& progress, const StageSin
 }
 
 }  // namespace
-
-SceneReadOptions result_axes(const SceneSource& scene) {
-  SceneReadOptions axes;
-  if (scene.kind != SceneSource::Kind::mesh) return axes;
-  axes.up = is_gltf(scene.file) ? UpAxis::y : scene.mesh.up;
-  if (scene.mesh.crs.empty()) axes.scale = scene.mesh.scale;
-  return axes;
-}
-
-SceneReadOptions result_options(const std::filesystem::path& file, const Scene& scene) {
-  SceneReadOptions options;
-  if (is_obj(file)) options = {scene.up, scene.scale};
-  if (scene.georeference) {
-    options.origin_deg = {scene.georeference->latitude_deg, scene.georeference->longitude_deg};
-  }
-  return options;
-}
 
 MissionRun run_mission(Mission& mission, const Progress& progress, const StageSink& stages) {
   MissionRun run;

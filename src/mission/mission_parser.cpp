@@ -102,11 +102,12 @@ MeshReference MissionParser::mesh_reference(const YamlNode& node) {
   reference.file = parsed_.mission.file.parent_path() / reference.name;
   // What `compute` writes must come back as a navigation mesh where it was: OBJ in the axes and the unit of the scene
   // file, PLY and STL in the scene frame.
-  if (is_obj(reference.file)) reference.options = result_axes(parsed_.mission.scene);
-  if (const YamlNode* up = find(node, "up")) reference.options.up = parse_up_axis(*up, *this, "navigation.meshes.up");
-  if (const YamlNode* scale = find(node, "scale")) {
-    reference.options.scale = positive(*scale, "navigation.meshes.scale");
-  }
+  const YamlNode* const up = find(node, "up");
+  const YamlNode* const scale = find(node, "scale");
+  if (up) reference.options.up = parse_up_axis(*up, *this, "navigation.meshes.up");
+  if (scale) reference.options.scale = positive(*scale, "navigation.meshes.scale");
+  reference.in_scene_axes = is_obj(reference.file) && !up;
+  reference.in_scene_unit = is_obj(reference.file) && !scale;
   return reference;
 }
 

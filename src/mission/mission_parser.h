@@ -16,7 +16,9 @@ struct MeshReference {
   std::filesystem::path file;  ///< absolute
   std::string name;            ///< as written in the mission
   SceneReadOptions options;
-  std::string where;  ///< "mission.yaml:12:13", for messages
+  bool in_scene_axes = false,
+       in_scene_unit = false;  ///< as NavigationFile says; `options` then leaves them as they are
+  std::string where;           ///< "mission.yaml:12:13", for messages
 };
 
 struct ParsedMission {

@@ -111,21 +111,6 @@ void place_boxes(Navigation& navigation, const Placer& placer, const std::string
   for (Box& box : navigation.keep_out) box = placer.around(box);
 }
 
-/// Meshes to stay in that say where on the earth they lie, into the frame: their origin may be another one.
-void place_meshes(Navigation& navigation, const Georeference& place, const std::string& where) {
-  for (KeepInMesh& keep_in : navigation.meshes) {
-    if (!keep_in.georeference) continue;
-    const std::string& vertical = keep_in.georeference->vertical;
-    if ((vertical == kFlatGround) != (place.vertical == kFlatGround)) {
-      fail("the heights of " + in_quotes(keep_in.name) + " are measured from another level (" + vertical +
-               ") than the scene's (" + place.vertical + ")",
-           where, "make it for a scene with the same ground as this one's");
-    }
-    geo::move_origin(keep_in.mesh.vertices, *keep_in.georeference, place);
-    keep_in.georeference = place;
-  }
-}
-
 void check_near(const Mission& mission, const Placer& placer) {
   constexpr double kFarthest = 100e3;  // metres from the origin: no scene is so large
   for (const Vec3& vertex : mission.target.vertices) {
@@ -359,7 +344,6 @@ void put_on_ground(Mission& mission, const Scene& scene, const geo::LocalFrame& 
 }  // namespace
 
 void place_mission(Mission& mission, const Scene& scene, const Progress& progress) {
-  if (scene.georeference) place_meshes(mission.navigation, *scene.georeference, mission.file.string());
   if (mission.crs.empty() && !mission.ground_target) return;
   const geo::LocalFrame frame = frame_of(mission, scene);
   if (!mission.crs.empty()) {

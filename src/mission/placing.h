@@ -6,8 +6,7 @@
 namespace vantage::mission_io {
 
 /// Turns coordinates of `mission.crs` into the scene frame and puts `mission.ground_target` on the ground; both are
-/// then empty, `target` and `other_parts` complete and checked. Navigation meshes that lie elsewhere on the earth are
-/// moved into the frame. Does nothing where none of these is set. Throws Error(input),
+/// then empty, `target` and `other_parts` complete and checked. Does nothing where neither is set. Throws Error(input),
 /// with places in the mission file, for: a scene without a place on the earth, a position that the CRS has no value
 /// for, an object that is not in the map or no area, a target off the ground, and all that make_target_frame refuses.
 void place_mission(Mission& mission, const Scene& scene, const Progress& progress);

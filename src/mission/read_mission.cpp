@@ -1,5 +1,6 @@
 
 #include "mission/input_file.h"
+#include "mission/into_frame.h"
 #include "mission/mission_parser.h"
 #include "mission/placing.h"
 #include "mission/run_mission.h"
@@ -48,14 +49,16 @@ Mission read_mission(const fs::path& file) {
     const Scene limit = read_scene(reference.file, reference.options);
     parsed.mission.navigation.meshes.push_back(
         {mission_io::with_place(reference.where, [&] { return solid::checked_solid(limit.mesh, reference.name); }),
-         reference.name, limit.georeference});
-    parsed.mission.navigation_files.push_back(with_true_folder(reference.file));
+         reference.name});
+    parsed.mission.navigation_files.push_back({with_true_folder(reference.file), reference.where,
+                                               reference.in_scene_axes, reference.in_scene_unit, limit.georeference});
   }
   return std::move(parsed.mission);
 }
 
 LoadedScene read_mission_scene(Mission& mission, const Progress& progress) {
   LoadedScene loaded = load_scene(mission.scene, progress);
+  mission_io::place_navigation_meshes(mission, loaded.scene);
   mission_io::place_mission(mission, loaded.scene, progress);
   return loaded;
 }

@@ -1,7 +1,6 @@
 // compute_mission, and what else the program wants to know of the run.
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -19,14 +18,6 @@ struct MissionRun {
 
 /// As compute_mission, and places the mission as read_mission_scene does. `stages` are those of the spheres method.
 MissionRun run_mission(Mission& mission, const Progress& progress, const StageSink& stages = {});
-
-/// Axes and unit of the mission's results in OBJ, told before the scene is read: those of the scene's mesh file, so
-/// that they load on top of it; z up and metres where it is no mesh.
-SceneReadOptions result_axes(const SceneSource& scene);
-
-/// How a result, or any mesh that goes with it, is read into the frame of `scene`: OBJ in the axes and the unit of the
-/// scene's file; one that says where on the earth it lies is moved there, any other is taken to be in the frame.
-SceneReadOptions result_options(const std::filesystem::path& file, const Scene& scene);
 
 /// Calls `action` and returns what it returns. An Error(input) from it is thrown on with `place` (of the mission file)
 /// put in front of its own `where`: the engine knows the objects, but not the file that named the target.

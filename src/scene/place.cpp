@@ -84,7 +84,7 @@ void put_at(RawMesh& mesh, geo::LonLat origin, const std::filesystem::path& file
                     " km from its origin: its coordinates are no metres about the origin that is given",
                 file.string(), "name their coordinate system with crs, as in EPSG:28992");
   }
-  mesh.georeference = Georeference{frame.origin().latitude_deg, frame.origin().longitude_deg, as_in(file), ""};
+  mesh.georeference = Georeference{frame.origin().latitude_deg, frame.origin().longitude_deg, "", ""};
 }
 
 void find_place(RawMesh& mesh, const SceneReadOptions& options, const std::filesystem::path& file) {

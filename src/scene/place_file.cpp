@@ -8,7 +8,9 @@
 namespace vantage::scene {
 
 std::filesystem::path place_file(const std::filesystem::path& mesh_file) {
-  return std::filesystem::path(mesh_file) += ".place.json";
+  std::filesystem::path name = mesh_file;
+  if (name.extension() == ".gz") name.replace_extension();  // compressed, it is the same mesh
+  return name += ".place.json";
 }
 
 std::string place_file_text(const std::optional<Georeference>& georeference) {

@@ -10,6 +10,7 @@
 
 namespace vantage::scene {
 
+/// "city.stl.place.json" for "city.stl" and "city.stl.gz".
 std::filesystem::path place_file(const std::filesystem::path& mesh_file);
 
 /// {"vantage": {"georeference": {…}}}; null in place of the object when there is none.
