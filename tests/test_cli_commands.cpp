@@ -1,5 +1,6 @@
 // What the commands answer.
 #include "support/cli_fixture.h"
+#include "vantage/geometry.h"
 
 namespace vantage::testing {
 namespace {
@@ -128,10 +129,18 @@ TEST_F(CliCompute, ObjComesInTheUnitOfTheScene) {
   output_of({"compute", "mission.yaml", "-q", "-o", "v.obj", "-o", "v.ply"});
   const auto obj = nlohmann::json::parse(output_of({"inspect", "v.obj", "--json"}));
   const auto ply = nlohmann::json::parse(output_of({"inspect", "v.ply", "--json"}));
+  Box bounds;  // of the numbers in the file
+  for (const std::string& line : lines(content(folder_ / "v.obj"))) {
+    std::istringstream words(line);
+    std::string keyword;
+    Vec3 v;
+    if (words >> keyword && keyword == "v" && words >> v.x() >> v.y() >> v.z()) bounds.extend(v);
+  }
   for (const char* end : {"min", "max"}) {
     for (int axis = 0; axis < 3; ++axis) {
-      EXPECT_NEAR(obj.at("bounds").at(end)[axis].get<double>(), 1000 * ply.at("bounds").at(end)[axis].get<double>(),
-                  1e-6);
+      const double metres = ply.at("bounds").at(end)[axis].get<double>();
+      EXPECT_NEAR((end == std::string("min") ? bounds.min : bounds.max)[axis], 1000 * metres, 1e-6);
+      EXPECT_NEAR(obj.at("bounds").at(end)[axis].get<double>(), metres, 1e-9) << "the file says its unit";
     }
   }
   const auto check =

@@ -27,6 +27,7 @@ struct Scene {
   std::filesystem::path source;          ///< the file it was read from; empty when made in memory
   UpAxis up = UpAxis::z;                 ///< axes of that file, used when a result is written as OBJ
   double scale = 1.0;                    ///< metres in one unit of that file, used likewise
+  bool states_axes = false;              ///< the file itself says both: an OBJ that vantage wrote
 
   // Counted while reading.
   std::size_t dropped_faces = 0;  ///< faces of the file that hold no triangle (fewer than 3 corners)
@@ -58,10 +59,11 @@ struct SceneReadOptions {
 
 /// Reads .obj, .ply (ASCII, binary of either byte order), .stl (ASCII, binary), .gltf and .glb, and CityJSON 1.0 to 2.0
 /// (.city.json, .json, and as text sequence .city.jsonl; see docs/scene.md); each may be compressed with gzip
-/// (".obj.gz"). The format is told by the content, then by the name. Polygons with more than three corners
-/// are triangulated. Coordinates keep double precision where the format has it. glTF is always y up, CityJSON z up:
-/// `up` is not used for them. In OBJ files an object is what "o" begins; where one such object holds all that is in
-/// any, and groups ("g") subdivide it, or where there is none, each group is an object.
+/// (".obj.gz"). An OBJ that vantage wrote says its axes and unit itself, which go before `up` and `scale`. The format
+/// is told by the content, then by the name. Polygons with more than three corners are triangulated. Coordinates keep
+/// double precision where the format has it. glTF is always y up, CityJSON z up: `up` is not used for them. In OBJ
+/// files an object is what "o" begins; where one such object holds all that is in any, and groups ("g") subdivide it,
+/// or where there is none, each group is an object.
 ///
 /// Throws Error(input) naming the file, and the line or byte where there is one, for: a missing or unreadable file, an
 /// unknown format, truncated or garbled content, an index out of range, a coordinate that is not finite or (in metres)

@@ -27,15 +27,13 @@ namespace fs = std::filesystem;
 
 constexpr const char* kExamples =
     "FRAMES\n"
-    "  PLY and STL files are in the scene frame: metres, z up. glTF is y up. OBJ files are in the axes and the unit "
-    "of\n"
-    "  the scene that they were made for: say --up and --scale as its mission does. --only-a and --only-b write "
-    "likewise.\n"
+    "  PLY and STL files are in the scene frame: metres, z up. glTF is y up. An OBJ that vantage wrote says its axes and\n"
+    "  unit itself; of any other say them with --up and --scale. --only-a and --only-b write likewise.\n"
     "  Where both say where on the earth they lie, B is moved into the frame of A, and so is all that is told of it.\n"
     "\n"
     "EXAMPLES\n"
     "  vantage compare spheres.ply exact.ply\n"
-    "  vantage compare old.obj new.ply --up y            # old.obj was computed for a scene with y up\n"
+    "  vantage compare edited.obj new.ply --up y         # edited.obj has y up, and does not say so\n"
     "  vantage compare spheres.ply exact.ply --only-a over_claimed.ply --only-b missed.ply\n"
     "  vantage compare a.ply b.glb --json | jq .only_a_percent\n"
     "\n"

@@ -51,7 +51,8 @@ Mission read_mission(const fs::path& file) {
         {mission_io::with_place(reference.where, [&] { return solid::checked_solid(limit.mesh, reference.name); }),
          reference.name});
     parsed.mission.navigation_files.push_back({with_true_folder(reference.file), reference.where,
-                                               reference.in_scene_axes, reference.in_scene_unit, limit.georeference});
+                                               reference.in_scene_axes && !limit.states_axes,
+                                               reference.in_scene_unit && !limit.states_axes, limit.georeference});
   }
   return std::move(parsed.mission);
 }

@@ -32,8 +32,9 @@ Scene read_world(const SeedConfig& config, const Progress& progress) {
     const auto first_vertex = static_cast<std::uint32_t>(world.mesh.vertices.size());
     const auto first_object = static_cast<std::uint32_t>(world.objects.size());
     for (const Vec3& given : part.mesh.vertices) {
-      // glTF alone has axes of its own, and was turned.
-      const Vec3 v = part.up == UpAxis::y ? Vec3(given.x(), given.z(), -given.y()) : given;
+      // What has axes and a unit of its own, as glTF, was turned and scaled: back to the numbers of the file.
+      const Vec3 turned = part.up == UpAxis::y ? Vec3(given.x(), given.z(), -given.y()) : given;
+      const Vec3 v = turned / part.scale;
       world.mesh.vertices.push_back(mesh.position + mesh.rotation * mesh.scale.cwiseProduct(v));
     }
     for (const Triangle& t : part.mesh.triangles) {

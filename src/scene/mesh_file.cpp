@@ -94,7 +94,15 @@ namespace vantage {
 Scene read_scene(const std::filesystem::path& file, const SceneReadOptions& options, const Progress& progress) {
   scene::RawMesh raw = scene::read_mesh_file(file, progress, {}, options.lod);
   const bool was_projected = !raw.crs.empty() || !options.crs.empty();
-  scene::to_scene_frame(raw, options, file);
+  SceneReadOptions used = options;
+  if (raw.axes) {
+    used.up = raw.axes->up;
+    used.scale = raw.axes->unit_m;
+    if ((options.up == UpAxis::y && used.up == UpAxis::z) || (options.scale != 1 && options.scale != used.scale)) {
+      raw.notes.push_back("the file says \"" + scene::axes_text(*raw.axes) + "\": taken so");
+    }
+  }
+  scene::to_scene_frame(raw, used, file);
   Scene result;
   result.mesh.vertices = std::move(raw.vertices);
   result.mesh.triangles = std::move(raw.triangles);
@@ -103,8 +111,9 @@ Scene read_scene(const std::filesystem::path& file, const SceneReadOptions& opti
   result.source = file;
   result.up = raw.format == scene::MeshFormat::gltf       ? UpAxis::y
               : raw.format == scene::MeshFormat::cityjson ? UpAxis::z
-                                                          : options.up;
-  result.scale = was_projected ? 1 : options.scale;
+                                                          : used.up;
+  result.scale = was_projected ? 1 : used.scale;
+  result.states_axes = raw.axes.has_value();
   result.dropped_faces = raw.dropped_faces;
   result.georeference = std::move(raw.georeference);
   result.notes = std::move(raw.notes);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "scene/axes_text.h"
 #include "scene/mesh_source.h"
 #include "vantage/geometry.h"
 #include "vantage/progress.h"
@@ -31,6 +32,7 @@ struct RawMesh {
   /// The coordinate reference system of x and y, if the file names one, and where it does.
   std::string crs, crs_place;
   std::optional<Georeference> georeference;  ///< as vantage wrote it; x and y then are metres about its origin
+  std::optional<Axes> axes;                  ///< likewise, of OBJ
   std::vector<std::string> notes;            ///< as Scene::notes
 };
 

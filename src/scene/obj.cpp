@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "scene/axes_text.h"
 #include "scene/georeference_text.h"
 #include "scene/mesh_builder.h"
 #include "scene/mesh_readers.h"
@@ -43,6 +44,7 @@ class ObjReader {
     }
     RawMesh mesh = builder_.finish(name_parts());
     mesh.georeference = std::move(georeference_);
+    mesh.axes = axes_;
     return mesh;
   }
 
@@ -97,8 +99,11 @@ class ObjReader {
   void comment(std::string_view text) {
     try {
       read_georeference_comment(text.substr(1), georeference_);
+      read_axes_comment(text.substr(1), axes_);
     } catch (const GeoreferenceProblem& problem) {
       fail(problem.text, "correct or remove the line; the mesh is read without");
+    } catch (const AxesProblem& problem) {
+      fail(problem.text, "correct or remove the line, and say how it is with up and scale");
     }
   }
 
@@ -225,6 +230,7 @@ class ObjReader {
   MeshBuilder builder_;
   TextCursor text_;
   std::optional<Georeference> georeference_;
+  std::optional<Axes> axes_;
 
   static constexpr std::uint32_t kNoObject = std::numeric_limits<std::uint32_t>::max();
   std::vector<std::string_view> object_names_;  // names lie in source_

@@ -3,6 +3,7 @@
 #include <set>
 #include <vector>
 
+#include "scene/axes_text.h"
 #include "solid/names.h"
 #include "solid/write_place.h"
 #include "solid/writers.h"
@@ -42,8 +43,7 @@ void write_obj(const Volume& volume, UpAxis up, double scale, AtomicFile& file) 
   const auto& [vertices, triangles] = volume.mesh;
   check_scale(scale, vertices);
   file.write("# vantage " VANTAGE_VERSION " visibility volume: " + std::string(name_of(volume.outcome)) + "\n");
-  file.write(scale == 1 ? "# metres, " : "# units of " + exact_text(scale) + " m, ");
-  file.write(up == UpAxis::y ? "y up: (x, z, -y) of the scene frame\n" : "z up\n");
+  file.write("# " + scene::axes_text({up, scale}) + "\n");
   file.write(place_comment(volume.georeference, "# "));
 
   for (const Vec3& vertex : vertices) {

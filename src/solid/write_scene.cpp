@@ -3,6 +3,7 @@
 #include <numeric>
 #include <string>
 
+#include "scene/axes_text.h"
 #include "solid/scene_writers.h"
 #include "solid/volume_check.h"
 #include "solid/write_place.h"
@@ -57,7 +58,7 @@ std::string object_name(const Scene& scene, std::size_t object) {
 void write_scene_obj(const Scene& scene, AtomicFile& file) {
   const std::vector<Vec3>& vertices = scene.mesh.vertices;
   const std::vector<Triangle>& triangles = scene.mesh.triangles;
-  file.write("# vantage " VANTAGE_VERSION " scene: metres, z up\n");
+  file.write("# vantage " VANTAGE_VERSION " scene\n# " + scene::axes_text({}) + "\n");
   file.write(place_comment(scene.georeference, "# "));
   UsedVertices used(scene.mesh);
   std::string vertex_lines, face_lines;
