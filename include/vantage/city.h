@@ -118,8 +118,9 @@ struct CityRecord {
 struct CityReport {
   Georeference georeference;
   std::vector<CityRecord> records;
-  std::size_t outside = 0;         ///< left out because of the region
-  std::vector<std::string> notes;  ///< on the file and the terrain: voids filled, missing references, not sorted
+  std::size_t outside = 0;             ///< left out because of the region
+  std::array<double, 4> bounds_deg{};  ///< west, south, east, north of all that the file holds
+  std::vector<std::string> notes;      ///< on the file and the terrain: voids filled, missing references, not sorted
   double read_seconds = 0, build_seconds = 0;  ///< checking is part of building
 };
 

@@ -69,6 +69,8 @@ struct Volume {
   double lift_m = 0;  ///< the target was raised this far to clear the surface that it lies on (rounding of the input);
                       ///< less than 2.01 mm
   TargetFrame frame;  ///< of the target as used, lift included
+  std::vector<std::string> notes;  ///< what to know before relying on it, a sentence each: the map ends within the
+                                   ///< range. compute_mission fills it in
   std::optional<Georeference> georeference;  ///< of the scene; compute_mission fills it in, and writers write it
   StageCounts counts;
   Seconds seconds;

@@ -50,6 +50,7 @@ City build_city(const std::filesystem::path& file, const CityOptions& options, c
   start = Clock::now();
   city::Site site = city::make_site(extract, osm::RegionFilter(region), frame, options);
   result.report.outside = site.outside.objects;
+  result.report.bounds_deg = extract.bounds_deg;
   if (site.items.empty()) city::fail_empty(options.region, extract, site.outside, site.skipped, file);
   const city::Vec2 margin = city::Vec2::Constant(options.ground_margin_m);
   const city::Vec2 min = site.min - margin, max = site.max + margin;

@@ -190,6 +190,7 @@ int run(const Options& options) {
     if (stages) text += "wrote " + (fs::path(options.stages) / "stages.json").string() + " and its meshes\n";
     print(text);
   }
+  if (!options.common.quiet) std::for_each(run.volume.notes.begin(), run.volume.notes.end(), note);
   warn_of_coarse_stl(options, run.volume);
   if (run.volume.outcome != Outcome::computed) {
     note("no volume: " + run.volume.reason);

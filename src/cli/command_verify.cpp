@@ -9,6 +9,7 @@
 #include "cli/open_edges.h"
 #include "cli/progress_line.h"
 #include "cli/text_table.h"
+#include "mission/caveats.h"
 #include "mission/input_file.h"
 #include "mission/into_frame.h"
 #include "mission/run_mission.h"
@@ -117,7 +118,10 @@ int run(const Options& options) {
   mission_io::check_readable(options.volume_file, "the volume", "");
   Mission mission = read_mission(options.mission_file);
   ProgressLine progress(options.common);
-  const Scene scene = read_mission_scene(mission, progress.callback()).scene;
+  const LoadedScene loaded = read_mission_scene(mission, progress.callback());
+  const Scene& scene = loaded.scene;
+  const std::vector<std::string> doubts = mission_io::caveats(mission, loaded);
+  if (!options.common.quiet) std::for_each(doubts.begin(), doubts.end(), note);
 
   const mission_io::MeshInFrame read = mission_io::read_into_frame(options.volume_file, scene, progress.callback());
   if (!options.common.quiet) std::for_each(read.notes.begin(), read.notes.end(), note);

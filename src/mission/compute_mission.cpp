@@ -1,5 +1,6 @@
 #include <chrono>
 
+#include "mission/caveats.h"
 #include "mission/run_mission.h"
 #include "parallel/parallel.h"
 #include "vantage/mission.h"
@@ -83,6 +84,7 @@ MissionRun run_stages(Mission& mission, const Progress& progress, const StageSin
   seconds.total = seconds.read + seconds.prepare + seconds.engine + seconds.navigation;
   run.volume.seconds = seconds;
   run.volume.georeference = run.loaded.scene.georeference;
+  run.volume.notes = caveats(mission, run.loaded);
   return run;
 }
 

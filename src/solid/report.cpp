@@ -84,6 +84,7 @@ std::string report_json(const Volume& volume, const MeshMeasures& measures, cons
   report["outcome"] = name_of(volume.outcome);
   report["reason"] = volume.reason;
   report["hint"] = volume.hint;
+  report["notes"] = volume.notes;
   report["volume_m3"] = measures.volume_m3;
   report["area_m2"] = measures.area_m2;
   report["pieces"] = measures.pieces;

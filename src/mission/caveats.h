@@ -1,0 +1,15 @@
+// What a mission's result does not know.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "vantage/mission.h"
+
+namespace vantage::mission_io {
+
+/// Sentences for people: that map, raster or ground end within the range, where what would hide part of the target is
+/// missing; that a target looks as if it were given in degrees. `mission` placed in the frame of `loaded`.
+std::vector<std::string> caveats(const Mission& mission, const LoadedScene& loaded);
+
+}  // namespace vantage::mission_io
