@@ -18,6 +18,7 @@ class CliPlaces : public Cli {
     MapText map(kCentre);
     map.box(30, -10, 45, 10, {{"building", "yes"}, {"height", "20"}});
     map.area({{-20, -20}, {10, -20}, {10, -5}, {-5, -5}, {-5, 20}, {-20, 20}}, {{"amenity", "parking"}});  // way/2
+    map.box(-60, -60, -50, -50, {{"building", "yes"}});
     map.box(-150, -150, -140, -140, {{"building", "yes"}});  // the ground reaches from here
     map.box(140, 140, 150, 150, {{"building", "yes"}});      // to here
     write("city.osm", map.text());
@@ -87,7 +88,95 @@ TEST_F(CliPlaces, AnObjForAGlbSceneComesBackWhereItWas) {
     EXPECT_EQ(nlohmann::json::parse(output_of({"verify", "glb.yaml", "up.obj", "--json"})).at("right"), true);
     write("kept.yaml", mission + "navigation: {meshes: [up.obj]}\n");
     EXPECT_NEAR(computed_m3("kept.yaml"), alone, 1e-4 * alone) << scene;
+    output_of({"compute", "glb.yaml", "-q", "-o", "up.ply"});
+    const auto same = nlohmann::json::parse(output_of({"compare", "up.ply", "up.obj", "--json"}));
+    EXPECT_LT(same.at("only_a_percent").get<double>(), 1e-6) << "the file says that it is y up";
   }
+}
+
+TEST_F(CliPlaces, AnObjSaysItsAxesAndUnit) {
+  // The lines of an editor that keeps no comments: then the scene's file tells, or the entry.
+  std::string bare;
+  write("feet.obj", "v -300 -300 0\nv 300 -300 0\nv 300 300 0\nv -300 300 0\nf 1 2 3 4\n");
+  const std::string mission =
+      "scene: {mesh: feet.obj, up: z, scale: 0.3048}\nsensor: {max_range: 50}\n"
+      "target: {vertices: [[0, 0, 0.5], [9, 0, 0.5], [9, 9, 0.5]]}\n";
+  write("feet.yaml", mission);
+  const double alone = computed_m3("feet.yaml");
+  output_of({"compute", "feet.yaml", "-q", "-o", "v.obj"});
+  for (const std::string& line : lines(content(folder_ / "v.obj"))) {
+    if (line.starts_with("#")) {
+      EXPECT_TRUE(line.find("axes") == std::string::npos || line == "# vantage axes: z up, unit 0.3048 m") << line;
+    } else {
+      bare += line + "\n";
+    }
+  }
+  write("bare.obj", bare);
+  for (const char* const name : {"v.obj", "bare.obj"}) {
+    write("kept.yaml", mission + "navigation: {meshes: [" + name + "]}\n");
+    EXPECT_NEAR(computed_m3("kept.yaml"), alone, 1e-4 * alone) << name;
+  }
+}
+
+TEST_F(CliPlaces, AnotherCityIsRefused) {
+  output_of({"scene", "city.osm", "-q", "-o", "here.obj"});
+  write("there.obj", "# vantage georeference: {\"latitude_deg\": 43.7, \"longitude_deg\": 7.4}\n" +
+                         std::string("v 0 0 0\nv 9 0 0\nv 0 9 0\nv 0 0 9\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n"));
+  expect_bad({"compare", "a.ply", "there.obj"}, "the mesh lies 5", "there.obj", "goes with the other");
+  expect_bad({"verify", "a.yaml", "there.obj"}, "km away", "there.obj");
+  expect_bad_mission(mission_at(kOtherCentre) + "navigation: {meshes: [there.obj]}\n", "'there.obj' lies 5",
+                     "mission.yaml:4:23", "surroundings");
+  expect_bad({"scene", "here.obj", "--origin", "11.5755,48.1374", "-o", "volume.ply"}, "the origin lies", "here.obj",
+             "the wrong way round");
+}
+
+TEST_F(CliPlaces, SwappedBoxesAreRefused) {
+  const std::string crs = mission_at(kOtherCentre) + "crs: EPSG:4326\n";
+  const std::string box = "{min: [48.1373, 11.5754, 0], max: [48.1375, 11.5756, 50]}";
+  expect_bad_mission(crs + "navigation: {keep_out: [" + box + "]}\n", "box 0 of navigation.keep_out lies",
+                     "mission.yaml", "the longitude before the latitude");
+  expect_bad_mission(crs + "navigation: {boxes: [" + box + "]}\n", "box 0 of navigation.boxes lies", "mission.yaml",
+                     "the longitude before the latitude");
+}
+
+TEST_F(CliPlaces, TellsWhereTheMapEndsWithinTheRange) {
+  const auto notes = [&](const std::string& scene, const std::string& rest) {
+    write("short.yaml", "scene: {osm: city.osm" + scene + "}\ntarget: {osm: way/2}\n" + rest);
+    const auto report = nlohmann::json::parse(run({"compute", "short.yaml", "-o", "out.ply", "--json"}).out);
+    EXPECT_LE(report.at("notes").size(), 1U);
+    return report.at("notes").empty() ? std::string() : report.at("notes")[0].get<std::string>();
+  };
+  const std::string centre = ", center: [48.1374, 11.5755], radius: ";
+  const std::string range80 = "sensor: {max_range: 80}\n", range200 = "sensor: {max_range: 200}\n";
+  EXPECT_EQ(notes(centre + "120", range80), "");
+  const std::string circle = notes(centre + "90", range80);
+  EXPECT_NE(circle.find("reaches 19 m beyond"), std::string::npos) << circle;  // the corner at (-20, -20)
+  EXPECT_NE(circle.find("give scene.radius 109 m"), std::string::npos) << circle;
+  const std::string box = notes(", bbox: [11.5747, 48.1360, 11.5763, 48.1388]", range80);
+  EXPECT_NE(box.find("give a larger scene.bbox"), std::string::npos) << box;
+  const std::string file = notes("", range200);
+  EXPECT_NE(file.find("reaches 71 m beyond"), std::string::npos) << file;  // the map ends at 150
+  EXPECT_NE(file.find("take an extract that reaches farther"), std::string::npos) << file;
+  EXPECT_NE(file.find("beyond the map:"), std::string::npos) << file;
+  output_of({"scene", "city.osm", "--center", "48.1374,11.5755", "--radius", "120", "-q", "-o", "part.glb"});
+  write("part.yaml",
+        "scene: {mesh: part.glb}\ntarget: {center: [48.1374, 11.5755], width: 8, length: 20}\n" + range200);
+  EXPECT_NE(run({"compute", "part.yaml", "-o", "out.ply"}).err.find("beyond the scene's ground"), std::string::npos);
+  EXPECT_EQ(notes("", range200 + "navigation: {boxes: [{min: [-90, -90, 0], max: [90, 90, 300]}]}\n"), "")
+      << "what the vehicle may not fly over cannot be between it and the target";
+  const ProgramRun verified = run({"verify", "a.yaml", "a.ply"});
+  EXPECT_EQ(verified.err.find("beyond the part of the map"), std::string::npos);
+  write("a.yaml", "scene: {osm: city.osm" + centre + "90}\ntarget: {osm: way/2}\n" + range80);
+  EXPECT_NE(run({"verify", "a.yaml", "a.ply"}).err.find("beyond the part of the map"), std::string::npos);
+}
+
+TEST_F(CliPlaces, AsksWhetherATinyTargetIsInDegrees) {
+  write("tiny.yaml",
+        "scene: {osm: city.osm}\nsensor: {max_range: 50}\n"
+        "target: {vertices: [[11.5755, 48.1374, 1], [11.5757, 48.1374, 1], [11.5757, 48.1376, 1]]}\n");
+  const ProgramRun tiny = run({"compute", "tiny.yaml", "-o", "out.ply"});
+  EXPECT_NE(tiny.err.find("0.28 mm across"), std::string::npos) << tiny.err;
+  EXPECT_NE(tiny.err.find("crs: EPSG:4326"), std::string::npos) << tiny.err;
 }
 
 TEST_F(CliPlaces, VolumesAreComparedWhereTheyLie) {

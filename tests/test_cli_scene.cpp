@@ -266,6 +266,8 @@ TEST_F(CliSceneBadOption, ThatDoNotFit) {
   expect_bad_option({"--center", kCentre, "--radius", "9", "--bbox", "11,48,12,49"}, "a centre and a box", "center");
   expect_bad_option({"--lod", "2"}, "--lod is for CityJSON files", "--lod", "leave it out");
   expect_bad_option({"--crs", "EPSG:4326"}, "--crs is for meshes", "--crs", "leave it out");
+  expect_bad_option({"--up", "y"}, "--up is for meshes", "--up", "leave it out");
+  expect_bad_option({"--scale", "2"}, "--scale is for meshes", "--scale", "leave it out");
   expect_bad_option({"--window", "0,0,5,5"}, "--window is for rasters", "--window", "leave it out");
   expect_bad({"scene", "city.obj", "-o", "scene.glb", "--set", "level=3"}, "--set is for maps", "--set");
   expect_bad({"scene", "city.obj", "-o", "scene.glb", "--terrain", "dem.asc"}, "--terrain is for maps", "--terrain");

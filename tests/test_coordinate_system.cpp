@@ -151,6 +151,20 @@ TEST(CoordinateSystem, SaysWhereTheProjectionEnds) {
   EXPECT_NEAR(mercator.from_lonlat({10, 50}).y(), 6446275.84, 0.01);  // and goes on working
 }
 
+TEST(CoordinateSystem, KnowsTheAreaThatItIsMadeFor) {
+  const CoordinateSystem rd("EPSG:28992", "test"), utm("EPSG:32632", "test"), proj("+proj=utm +zone=32", "test");
+  EXPECT_FALSE(rd.area_without({4.36, 52.01}));
+  EXPECT_NE(rd.area_without({11.58, 48.14}).value_or("").find("Netherlands"), std::string::npos);
+  EXPECT_FALSE(utm.area_without({11.58, 48.14}));
+  EXPECT_TRUE(utm.area_without({4.36, 52.01}));
+  EXPECT_FALSE(proj.area_without({100, 0})) << "a text of PROJ's has no area";
+  const CoordinateSystem fiji("EPSG:3460", "test");  // its area crosses the antimeridian
+  EXPECT_FALSE(fiji.area_without({178, -17}));
+  EXPECT_FALSE(fiji.area_without({-179, -17}));
+  EXPECT_FALSE(fiji.area_without({181, -17}));
+  EXPECT_TRUE(fiji.area_without({0, -17}));
+}
+
 TEST(CoordinateSystem, SaysWhenTheDatabaseIsMissing) {
   const testing::TemporaryDirectory empty;
   const testing::EnvironmentVariable data("PROJ_DATA", empty.path().string());

@@ -151,6 +151,44 @@ TEST(Place, IsReadFromScenesAndAssetsOfGltf) {
   EXPECT_FALSE(testing::read_as("a.gltf", in_scene.dump()).georeference);
 }
 
+TEST(Axes, TravelInObjAndGoBeforeTheOptions) {
+  const TemporaryDirectory directory;
+  Volume volume = one_volume();
+  write_volume(volume, directory / "a.obj", UpAxis::y, 0.3048);
+  const Scene read = read_scene(directory / "a.obj");
+  EXPECT_NEAR((bounding_box(read.mesh).max - Vec3(4, 6, 8)).norm(), 0, 1e-12);
+  EXPECT_TRUE(read.states_axes);
+  EXPECT_EQ(read.up, UpAxis::y);
+  EXPECT_EQ(read.scale, 0.3048);
+  EXPECT_TRUE(read.notes.empty());
+  EXPECT_TRUE(read_scene(directory / "a.obj", {.up = UpAxis::y, .scale = 0.3048}).notes.empty());
+  const Scene other = read_scene(directory / "a.obj", {.scale = 2});
+  EXPECT_EQ(other.mesh.vertices, read.mesh.vertices);
+  ASSERT_EQ(other.notes.size(), 1U);
+  EXPECT_EQ(other.notes[0], "the file says \"vantage axes: y up, unit 0.3048 m\": taken so");
+  write_scene(one_box(), directory / "b.obj");
+  EXPECT_TRUE(read_scene(directory / "b.obj", {.up = UpAxis::y}).states_axes);
+}
+
+TEST(Axes, AreRefusedWhenGarbled) {
+  const TemporaryDirectory directory;
+  const auto obj = [&](const std::string& comment) {
+    write_bytes(directory / "a.obj", "# made by hand\n" + comment + "\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    return read_scene(directory / "a.obj");
+  };
+  EXPECT_FALSE(obj("# vantage axes are fine").states_axes);
+  EXPECT_FALSE(obj("# y up").states_axes);
+  EXPECT_EQ(obj("#vantage axes: y up, unit 1e-3 m\r").scale, 1e-3);
+  for (const char* const text :
+       {"", " ", " x up, unit 1 m", " y up", " y up, unit 1", " y up, unit  m", " y up, unit m", " y up, unit -1 m",
+        " y up, unit 0 m", " y up, unit nan m", " y up, unit 1e999 m", " y up, unit 1 m 2"}) {
+    expect_input_error([&] { obj(std::string("# vantage axes:") + text); }, "garbled", "a.obj, line 2");
+  }
+  const std::string one = "# vantage axes: y up, unit 1 m";
+  EXPECT_TRUE(obj(one + "\n" + one).states_axes);
+  expect_input_error([&] { obj(one + "\n# vantage axes: z up, unit 1 m"); }, "two kinds of axes", "a.obj, line 3");
+}
+
 /// Two triangles, the lower left corner at (x, y).
 std::string square_obj(const std::string& x0, const std::string& y0, const std::string& x1, const std::string& y1) {
   return "v " + x0 + " " + y0 + " 5\nv " + x1 + " " + y0 + " 5\nv " + x1 + " " + y1 + " 7\nv " + x0 + " " + y1 +
@@ -164,6 +202,15 @@ TEST(Place, TakesMapCoordinatesIntoTheLocalFrame) {
   ASSERT_TRUE(scene.georeference);
   EXPECT_EQ(scene.georeference->source_crs, "EPSG:28992");
   EXPECT_EQ(scene.georeference->vertical, "as in a.obj");
+  EXPECT_TRUE(scene.notes.empty());
+  const Scene elsewhere = read_scene(directory / "a.obj", {.crs = "EPSG:32632"});
+  ASSERT_EQ(elsewhere.notes.size(), 1U);
+  EXPECT_NE(elsewhere.notes[0].find("outside the area that EPSG:32632 is made for"), std::string::npos);
+  expect_input_error(
+      [&] {
+        read_scene(directory / "a.obj", {.crs = "EPSG:28992", .origin_deg = {{4.366, 52.01}}});
+      },
+      "the origin lies 6", "a.obj");
   const Box box = bounding_box(scene.mesh);
   EXPECT_EQ(box.min.z(), 5);
   EXPECT_EQ(box.max.z(), 7);

@@ -136,6 +136,8 @@ void check_options(const Options& options, SceneSource::Kind kind) {
   only_for(!options.terrain.empty(), "--terrain", {Kind::map}, "maps");
   only_for(!options.settings.empty(), "--set", {Kind::map}, "maps");
   only_for(!options.without.empty(), "--without", {Kind::map}, "maps");
+  only_for(options.up == "y", "--up", {Kind::mesh}, "meshes");
+  only_for(options.scale != "1", "--scale", {Kind::mesh}, "meshes");
   only_for(!options.lod.empty(), "--lod", {Kind::mesh}, "CityJSON files");
   only_for(!options.crs.empty(), "--crs", {Kind::mesh}, "meshes");
   only_for(!options.origin.empty(), "--origin", {Kind::mesh, Kind::raster}, "meshes, CityJSON files and rasters");

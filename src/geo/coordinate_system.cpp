@@ -1,5 +1,6 @@
 #include <proj.h>
 
+#include <array>
 #include <cmath>
 #include <initializer_list>
 #include <sstream>
@@ -70,11 +71,14 @@ struct CoordinateSystem::Data {
   std::string code, name, vertical_name, where;
   std::optional<double> vertical_unit_m;
   bool geographic = false;
+  std::array<double, 4> area_deg{};  // west, south, east, north
+  std::string area_name;             // empty when PROJ knows no area
 
   Object create(const std::string& text) const;
   Object horizontal_part(Object system);
   void read_vertical_axis(const PJ* system, int axis);
   void name_after(const PJ* system, const std::string& text);
+  void read_area(const PJ* system);
   Eigen::Vector2d transform(const Eigen::Vector2d& from, PJ_DIRECTION direction) const;
 };
 
@@ -131,6 +135,14 @@ void CoordinateSystem::Data::name_after(const PJ* system, const std::string& tex
   }
 }
 
+void CoordinateSystem::Data::read_area(const PJ* system) {
+  constexpr double kUnknown = -1000;
+  const char* known_as = nullptr;
+  auto& [west, south, east, north] = area_deg;
+  const bool is_known = proj_get_area_of_use(context.get(), system, &west, &south, &east, &north, &known_as) != 0;
+  if (is_known && west > kUnknown && known_as) area_name = known_as;
+}
+
 Eigen::Vector2d CoordinateSystem::Data::transform(const Eigen::Vector2d& from, PJ_DIRECTION direction) const {
   proj_errno_reset(to_wgs84.get());
   const PJ_COORD to = proj_trans(to_wgs84.get(), direction, proj_coord(from.x(), from.y(), 0, 0));
@@ -164,6 +176,7 @@ CoordinateSystem::CoordinateSystem(const std::string& text, const std::string& w
 
   Object system = data_->create(text);
   data_->name_after(system.get(), text);
+  data_->read_area(system.get());
   system = data_->horizontal_part(std::move(system));
   Object plain;  // without a transformation to WGS 84 that the text itself may bring
   if (system && proj_get_type(system.get()) == PJ_TYPE_BOUND_CRS) {
@@ -204,5 +217,14 @@ const std::string& CoordinateSystem::name() const { return data_->name; }
 const std::string& CoordinateSystem::code() const { return data_->code; }
 const std::string& CoordinateSystem::vertical_name() const { return data_->vertical_name; }
 std::optional<double> CoordinateSystem::vertical_unit_m() const { return data_->vertical_unit_m; }
+std::optional<std::string> CoordinateSystem::area_without(LonLat position) const {
+  if (data_->area_name.empty()) return std::nullopt;
+  const auto& [west, south, east, north] = data_->area_deg;
+  const double longitude = std::remainder(position.longitude_deg, 360);
+  const bool is_between = west <= east ? longitude >= west && longitude <= east  //
+                                       : longitude >= west || longitude <= east;
+  const bool is_inside = is_between && position.latitude_deg >= south && position.latitude_deg <= north;
+  return is_inside ? std::nullopt : std::optional(data_->area_name);
+}
 
 }  // namespace vantage::geo

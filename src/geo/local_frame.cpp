@@ -81,6 +81,18 @@ LonLat LocalFrame::to_lonlat(const Eigen::Vector2d& local) const {
   return position;
 }
 
+double geodesic_m(LonLat from, LonLat to) { return LocalFrame(from).to_local(to).norm(); }
+
+void check_origin(LonLat origin, LonLat middle, const std::string& where) {
+  const double distance = geodesic_m(origin, middle);
+  if (distance <= kFarthestM) return;
+  const LonLat swapped{origin.latitude_deg, origin.longitude_deg};
+  const bool is_swapped = std::abs(swapped.latitude_deg) <= 90 && geodesic_m(swapped, middle) <= kFarthestM;
+  throw Error(ErrorKind::input, "the origin lies " + std::to_string(std::lround(distance / 1000)) + " km away", where,
+              is_swapped ? "latitude and longitude are the wrong way round: give the latitude first"
+                         : "give an origin nearby, or none: then it is the middle");
+}
+
 bool move_origin(std::vector<Vec3>& points, const Georeference& from, const Georeference& to) {
   if (from.latitude_deg == to.latitude_deg && from.longitude_deg == to.longitude_deg) return false;
   const LocalFrame old_frame({from.longitude_deg, from.latitude_deg}), new_frame({to.longitude_deg, to.latitude_deg});

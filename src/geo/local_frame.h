@@ -41,6 +41,15 @@ class LocalFrame {
   std::unique_ptr<Data> data_;
 };
 
+/// No scene is so large, metres: a place that far from the origin is a mistake, and the frame's distances are no longer
+/// good there.
+inline constexpr double kFarthestM = 100e3;
+
+double geodesic_m(LonLat from, LonLat to);
+
+/// Throws Error(input) for an origin farther than kFarthestM from `middle`, that of what is to lie about it.
+void check_origin(LonLat origin, LonLat middle, const std::string& where);
+
 /// x and y of points of the frame about `from`'s origin into that about `to`'s; the same origin leaves every bit as it
 /// is. z is left alone. Returns whether the origins differ. Throws Error(input) for one that is no place on the earth.
 bool move_origin(std::vector<Vec3>& points, const Georeference& from, const Georeference& to);
@@ -69,6 +78,9 @@ class CoordinateSystem {
   const std::string& vertical_name() const;
   /// Metres in one unit of the third axis, negative when it is a depth; nothing without such an axis.
   std::optional<double> vertical_unit_m() const;
+  /// The area that the system is made for, in the authority's words, when the position lies outside it; nothing inside,
+  /// or where no area is known.
+  std::optional<std::string> area_without(LonLat position) const;
 
  private:
   struct Data;

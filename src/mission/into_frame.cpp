@@ -1,5 +1,7 @@
 #include "mission/into_frame.h"
 
+#include <cmath>
+
 #include "geo/local_frame.h"
 #include "mission/input_file.h"
 #include "mission/numbers.h"
@@ -14,6 +16,16 @@ bool is_on_another_level(const Georeference& a, const Georeference& b) {
   return is_known && (a.vertical == kFlatGround) != (b.vertical == kFlatGround);
 }
 
+/// Refuses a mesh of another city.
+void check_near(const Georeference& mesh, const Georeference& frame, const std::string& name, const std::string& where,
+                const char* fix) {
+  const double distance =
+      geo::geodesic_m({mesh.longitude_deg, mesh.latitude_deg}, {frame.longitude_deg, frame.latitude_deg});
+  if (distance <= geo::kFarthestM) return;
+  throw Error(ErrorKind::input, name + " lies " + std::to_string(std::lround(distance / 1000)) + " km away", where,
+              fix);
+}
+
 std::string levels_text(const Georeference& mesh, const Georeference& scene) {
   return "measured from another level (" + mesh.vertical + ") than the scene's (" + scene.vertical + ")";
 }
@@ -25,6 +37,7 @@ MeshInFrame read_into_frame(const std::filesystem::path& file, const SceneReadOp
   Scene read = read_scene(file, is_obj(file) ? obj : SceneReadOptions{}, progress);
   MeshInFrame result{std::move(read.mesh), std::move(read.georeference), {}};
   if (!frame || !result.georeference) return result;
+  check_near(*result.georeference, *frame, "the mesh", file.string(), "give the mesh that goes with the other input");
   if (geo::move_origin(result.mesh.vertices, *result.georeference, *frame)) {
     result.notes.push_back(file.string() +
                            " lies about another origin on the earth: it was moved into the frame (the same map differs "
@@ -51,6 +64,8 @@ void place_navigation_meshes(Mission& mission, const Scene& scene) {
     }
     file.in_scene_axes = file.in_scene_unit = false;
     if (!file.georeference || !scene.georeference) continue;
+    check_near(*file.georeference, *scene.georeference, in_quotes(keep_in.name), file.place,
+               "give a mesh of the scene's surroundings");
     if (is_on_another_level(*file.georeference, *scene.georeference)) {
       throw Error(
           ErrorKind::input,

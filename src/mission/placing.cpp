@@ -48,7 +48,11 @@ class Placer {
     return {local.x(), local.y(), placed_z(position.z())};
   }
 
-  bool is_geographic() const { return system_.is_geographic(); }
+  /// For coordinates that lead far away.
+  const char* order_advice() const {
+    return system_.is_geographic() ? "write the longitude before the latitude: [longitude, latitude, z]"
+                                   : "check the coordinates, east before north, and the 'crs' that they are in";
+  }
 
   /// A box lies askew in the frame by the angle between the norths, and its sides curve (a parallel of 2 km by a
   /// decimetre): what is kept in is cut down to the largest box of the frame within its sides, what is kept out grows
@@ -100,26 +104,37 @@ class Placer {
   geo::CoordinateSystem system_;
 };
 
+/// A box of which nothing is near the scene is most likely a slip, and would keep nothing out.
+void check_near(const Box& box, const std::string& name, const Placer& placer, const std::string& where) {
+  const Vec2 nearest = Vec2::Zero().cwiseMax(box.min.head<2>()).cwiseMin(box.max.head<2>());
+  if (nearest.norm() <= geo::kFarthestM) return;
+  fail(name + " lies " + std::to_string(std::lround(nearest.norm() / 1000)) + " km from the scene's origin", where,
+       placer.order_advice());
+}
+
 void place_boxes(Navigation& navigation, const Placer& placer, const std::string& where) {
-  for (Box& box : navigation.boxes) {
+  for (std::size_t i = 0; i < navigation.boxes.size(); ++i) {
+    check_near(placer.around(navigation.boxes[i]), "box " + std::to_string(i) + " of navigation.boxes", placer, where);
+    Box& box = navigation.boxes[i];
     box = placer.inside(box);
     if ((box.min.array() >= box.max.array()).any()) {
       fail("a box of navigation.boxes is too small or too askew to hold a box of the scene frame", where,
            "make it larger, or give it in the scene frame");
     }
   }
-  for (Box& box : navigation.keep_out) box = placer.around(box);
+  for (std::size_t i = 0; i < navigation.keep_out.size(); ++i) {
+    Box& box = navigation.keep_out[i];
+    box = placer.around(box);
+    check_near(box, "box " + std::to_string(i) + " of navigation.keep_out", placer, where);
+  }
 }
 
 void check_near(const Mission& mission, const Placer& placer) {
-  constexpr double kFarthest = 100e3;  // metres from the origin: no scene is so large
   for (const Vec3& vertex : mission.target.vertices) {
     const double distance = vertex.head<2>().norm();
-    if (distance <= kFarthest) continue;
+    if (distance <= geo::kFarthestM) continue;
     fail("the target lies " + std::to_string(std::lround(distance / 1000)) + " km from the scene's origin",
-         mission.target_place,
-         placer.is_geographic() ? "write the longitude before the latitude: [longitude, latitude, z]"
-                                : "check the coordinates, east before north, and the 'crs' that they are in");
+         mission.target_place, placer.order_advice());
   }
 }
 
@@ -131,7 +146,7 @@ terrain::Surface ground_of(const Mission& mission, const Scene& scene) {
                                   [](const std::string& name) { return name == "ground" || name == "surface"; });
   if (found == scene.objects.end()) {
     fail("the scene has no object 'ground' to put the target on", mission.target_place,
-         "give the target's vertices, or a scene that is made from a map");
+         "give the target's vertices, or a scene that is made from a map; PLY and STL keep no objects, OBJ and GLB do");
   }
   const auto ground = static_cast<std::uint32_t>(found - scene.objects.begin());
   Mesh mesh;

@@ -10,8 +10,7 @@
 namespace vantage::scene {
 namespace {
 
-constexpr double kFootM = 0.3048;            // the foot of the US survey differs by 2 ppm
-constexpr double kFarthestLocalM = 100'000;  // from its origin, a mesh whose coordinates are said to be local
+constexpr double kFootM = 0.3048;  // the foot of the US survey differs by 2 ppm
 
 geo::LonLat lonlat(const std::array<double, 2>& latitude_longitude) {
   return {latitude_longitude[1], latitude_longitude[0]};
@@ -46,6 +45,12 @@ void project(RawMesh& mesh, const SceneReadOptions& options, const std::filesyst
   const Vec3 middle = (box.min + box.max) / 2;
   const geo::LonLat centre = system.to_lonlat(middle.head<2>());
   const geo::LocalFrame frame(options.origin_deg ? lonlat(*options.origin_deg) : centre);
+  geo::check_origin(frame.origin(), centre, file.string());
+
+  if (const auto area = system.area_without(centre)) {
+    mesh.notes.push_back("the mesh lies outside the area that " + short_name(system.name()) + " is made for (" + *area +
+                         "): is it the right system?");
+  }
 
   const double unit_m = system.vertical_unit_m().value_or(1) * options.scale;
   const auto local = [&](const Eigen::Vector2d& position) { return frame.to_local(system.to_lonlat(position)); };
@@ -65,7 +70,9 @@ void project(RawMesh& mesh, const SceneReadOptions& options, const std::filesyst
 }
 
 /// From the local frame that the file names into another.
-void move_to(RawMesh& mesh, const std::array<double, 2>& origin_deg) {
+void move_to(RawMesh& mesh, const std::array<double, 2>& origin_deg, const std::filesystem::path& file) {
+  geo::check_origin(lonlat(origin_deg), {mesh.georeference->longitude_deg, mesh.georeference->latitude_deg},
+                    file.string());
   Georeference moved = *mesh.georeference;
   moved.latitude_deg = origin_deg[0];
   moved.longitude_deg = origin_deg[1];
@@ -78,7 +85,7 @@ void put_at(RawMesh& mesh, geo::LonLat origin, const std::filesystem::path& file
   const geo::LocalFrame frame(origin);  // checks the origin
   const Box box = bounds_of(mesh);
   const double farthest = std::max(box.min.head<2>().cwiseAbs().maxCoeff(), box.max.head<2>().cwiseAbs().maxCoeff());
-  if (farthest > kFarthestLocalM) {
+  if (farthest > geo::kFarthestM) {
     throw Error(ErrorKind::input,
                 "the mesh goes " + std::to_string(std::lround(farthest / 1000)) +
                     " km from its origin: its coordinates are no metres about the origin that is given",
@@ -99,7 +106,7 @@ void find_place(RawMesh& mesh, const SceneReadOptions& options, const std::files
   for (Vec3& vertex : mesh.vertices) vertex *= options.scale;
   if (!options.origin_deg) return;
   if (mesh.georeference) {
-    move_to(mesh, *options.origin_deg);
+    move_to(mesh, *options.origin_deg, file);
   } else {
     put_at(mesh, lonlat(*options.origin_deg), file);
   }

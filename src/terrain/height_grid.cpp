@@ -64,6 +64,16 @@ std::string bounds_text(const std::vector<Eigen::Vector2d>& points, const ToPosi
   return text.str();
 }
 
+/// Whether the raster holds the window's origin with latitude and longitude the other way round.
+bool is_swapped(const HeightGrid& grid, const Window& window) {
+  try {
+    const Eigen::Vector2d at = grid.column_row({window.origin.latitude_deg, window.origin.longitude_deg});
+    return at.minCoeff() >= 0 && at.x() <= grid.columns && at.y() <= grid.rows;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
 [[noreturn]] void fail_uncovered(const HeightGrid& grid, const Window& window) {
   const geo::LocalFrame frame(window.origin);
   const auto edges = outline({-0.5, -0.5}, {grid.columns - 0.5, grid.rows - 0.5});
@@ -73,8 +83,10 @@ std::string bounds_text(const std::vector<Eigen::Vector2d>& points, const ToPosi
           bounds_text(edges, [&](const Eigen::Vector2d& p) { return grid.position(p); }) + ", the area " +
           bounds_text(outline(window.min, window.max), [&](const Eigen::Vector2d& p) { return frame.to_lonlat(p); }),
       grid.file.string(),
-      "make the area smaller, or give a raster that covers it (an SRTM tile is named after its south-west corner; "
-      "gdalbuildvrt joins several)");
+      is_swapped(grid, window)
+          ? "latitude and longitude are the wrong way round: give the latitude first"
+          : "make the area smaller, or give a raster that covers it (an SRTM tile is named after its south-west "
+            "corner; gdalbuildvrt joins several)");
 }
 
 /// Where a window's outline lies in the raster, in columns and rows; nothing where that cannot be told.

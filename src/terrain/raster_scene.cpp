@@ -77,10 +77,13 @@ HeightGrid read(const fs::path& file, const RasterRegion& region, const Progress
   return read_height_grid(file, std::nullopt, progress);
 }
 
-geo::LonLat origin_of(const HeightGrid& grid, const RasterOptions& options) {
-  if (options.origin_deg) return {(*options.origin_deg)[1], (*options.origin_deg)[0]};
-  const geo::LonLat middle = grid.position({(grid.columns - 1) / 2.0, (grid.rows - 1) / 2.0});
-  return {std::remainder(middle.longitude_deg, 360), middle.latitude_deg};
+geo::LonLat origin_of(const HeightGrid& grid, const RasterOptions& options, const std::filesystem::path& file) {
+  const geo::LonLat position = grid.position({(grid.columns - 1) / 2.0, (grid.rows - 1) / 2.0});
+  const geo::LonLat middle{std::remainder(position.longitude_deg, 360), position.latitude_deg};
+  if (!options.origin_deg) return middle;
+  const geo::LonLat origin{(*options.origin_deg)[1], (*options.origin_deg)[0]};
+  geo::check_origin(origin, middle, file.string());
+  return origin;
 }
 
 std::vector<Vec3> posts_of(const HeightGrid& grid, const geo::LocalFrame& frame) {
@@ -195,7 +198,7 @@ RasterScene scene_from_raster(const std::filesystem::path& file, const RasterOpt
   if (grid.columns < 2 || grid.rows < 2) {
     refuse("the region has a single row or column of posts, which is no surface", file, "give a larger region");
   }
-  const geo::LocalFrame frame(origin_of(grid, options));
+  const geo::LocalFrame frame(origin_of(grid, options, file));
   scene::ReadProgress progress(callback, file);
   progress.begin("triangulating the surface");
   std::vector<Vec3> posts = posts_of(grid, frame);
