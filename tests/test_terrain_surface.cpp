@@ -98,6 +98,22 @@ void expect_delaunay(const Mesh& mesh) {
   }
 }
 
+/// Facets across a side know each other, by the same two corners.
+void expect_mutual_neighbours(const Tin& tin) {
+  for (std::uint32_t f = 0; f < tin.facets().size(); ++f) {
+    const Tin::Facet& facet = tin.facets()[f];
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (facet.neighbour[i] == Tin::kNone) continue;
+      const Tin::Facet& beyond = tin.facets()[facet.neighbour[i]];
+      const auto back =
+          std::size_t(std::find(beyond.neighbour.begin(), beyond.neighbour.end(), f) - beyond.neighbour.begin());
+      ASSERT_LT(back, 3u);
+      ASSERT_EQ(beyond.corner[(back + 1) % 3], facet.corner[(i + 2) % 3]);
+      ASSERT_EQ(beyond.corner[(back + 2) % 3], facet.corner[(i + 1) % 3]);
+    }
+  }
+}
+
 TEST(Tin, IsDelaunayWhateverTheOrder) {
   testing::Random random(11);
   for (int run = 0; run < 30; ++run) {
@@ -112,14 +128,7 @@ TEST(Tin, IsDelaunayWhateverTheOrder) {
     const Mesh mesh = mesh_of_all(tin);
     expect_tiling(mesh, {0, 0}, {16, 16});
     expect_delaunay(mesh);
-    for (std::uint32_t f = 0; f < tin.facets().size(); ++f) {  // neighbours know each other
-      for (std::size_t i = 0; i < 3; ++i) {
-        const std::uint32_t beyond = tin.facets()[f].neighbour[i];
-        if (beyond == Tin::kNone) continue;
-        const auto& back = tin.facets()[beyond].neighbour;
-        ASSERT_NE(std::find(back.begin(), back.end(), f), back.end());
-      }
-    }
+    expect_mutual_neighbours(tin);
   }
 }
 
@@ -156,6 +165,132 @@ TEST(Tin, KeepsThePromisedErrorOnRandomHeights) {
       ASSERT_LE(std::abs(slow_height(mesh, candidate.head<2>()).value() - candidate.z()), error + 1e-9);
     }
   }
+}
+
+TEST(Tin, InsertsWhatMakesAMiddle) {
+  // Two posts in a row on a slope that is not between them: their middle is off by 6, they themselves by 5 and 1.
+  for (const double error : {6.5, 5.5}) {
+    Tin tin = unit_square(10);
+    const std::uint32_t first = tin.add_candidates({{4, 2, 5}, {6, 2, -1}, {5, 8, 0.5}, {5, 9, 1}});
+    tin.add_middles({{{first, first + 1}}, {{first, first + 1, first + 2, first + 3}}});
+    tin.refine(error, [](double) {});
+    EXPECT_EQ(tin.facets().size(), 2u) << error;  // the middle is at 2
+  }
+  Tin tin = unit_square(10);
+  const std::uint32_t first = tin.add_candidates({{4, 5, 3}, {6, 5, 3.5}, {5, 8, 0.5}, {5, 3, 1}});
+  tin.add_middles({{{first, first + 1, first + 2, first + 3}}});
+  tin.refine(3.25 - 1e-9, [](double) {});
+  EXPECT_EQ(tin.facets().size(), 4u);  // the second, of 3.5; the middle, of 3.25, is between both then
+  tin.refine(1, [](double) {});
+  const Mesh mesh = mesh_of_all(tin);
+  expect_tiling(mesh, {0, 0}, {10, 10});
+  EXPECT_NEAR(slow_height(mesh, {5, 5}).value(), 3.25, 1);
+}
+
+/// The upper side of the convex hull of points over a place among them: the highest of all triangles there.
+double upper_hull(const std::vector<Vec3>& points, const Vec2& at) {
+  double highest = -1e9;
+  for (std::uint32_t a = 0; a < points.size(); ++a) {
+    for (std::uint32_t b = a + 1; b < points.size(); ++b) {
+      for (std::uint32_t c = b + 1; c < points.size(); ++c) {
+        highest = std::max(highest, slow_height(Mesh{points, {{a, b, c}}}, at).value_or(-1e9));
+      }
+    }
+  }
+  return highest;
+}
+
+TEST(Tin, FoldsPointsOnACircleIntoTheirUpperHull) {
+  testing::Random random(13);
+  for (int run = 0; run < 60; ++run) {
+    const int count = random.integer(4, 9);
+    std::vector<Vec3> ring;  // counter-clockwise
+    for (int i = 0; i < count; ++i) {
+      const double angle = 2 * M_PI * (i + random.uniform(-0.2, 0.2)) / count;
+      ring.emplace_back(500 + std::cos(angle), 500 + std::sin(angle), random.uniform(-3, 3));
+    }
+    std::vector<Vec3> shuffled = ring;
+    for (std::size_t i = shuffled.size(); i > 1; --i) {
+      std::swap(shuffled[i - 1], shuffled[std::size_t(random.integer(0, int(i) - 1))]);
+    }
+    Tin tin = unit_square(1000);
+    for (const Vec3& point : shuffled) tin.insert(point);
+    tin.fold_up(0);
+    const Mesh mesh = mesh_of_all(tin);
+    expect_tiling(mesh, {0, 0}, {1000, 1000});
+    expect_mutual_neighbours(tin);
+    for (int i = 0; i < 30; ++i) {
+      Vec2 at = Vec2::Zero();  // inside
+      double sum = 0;
+      for (const Vec3& point : ring) {
+        const double weight = random.uniform(0, 1);
+        at += weight * point.head<2>();
+        sum += weight;
+      }
+      at /= sum;
+      ASSERT_NEAR(slow_height(mesh, at).value(), upper_hull(ring, at), 1e-5);
+    }
+  }
+}
+
+TEST(Tin, FoldsOnlyWhereNoCandidateGoesAstray) {
+  // A valley from corner to corner, folded as a ridge between the other two; a post says that it is a valley.
+  for (const bool has_post : {false, true}) {
+    for (const bool turned : {false, true}) {
+      Tin tin({Vec3(0, 0, turned ? 4.0 : 0.0), Vec3(10, 0, turned ? 0.0 : 4.0), Vec3(10, 10, turned ? 4.0 : 0.0),
+               Vec3(0, 10, turned ? 0.0 : 4.0)});
+      if (has_post) tin.add_candidates({{4, 4, turned ? 4.0 : 0.0}});
+      tin.refine(1, [](double) {});
+      tin.fold_up(1);
+      ASSERT_EQ(tin.facets().size(), 2u);
+      expect_tiling(mesh_of_all(tin), {0, 0}, {10, 10});
+      EXPECT_EQ(slow_height(mesh_of_all(tin), {5, 5}), has_post && !turned ? 0.0 : 4.0);
+    }
+  }
+}
+
+TEST(Tin, LeavesWhatIsOnNoCircle) {
+  // A kite: its short diagonal is Delaunay's, beyond doubt, and lower than its long one.
+  Tin tin = unit_square(1000);
+  for (const Vec3& point : {Vec3(500, 480, 9), Vec3(510, 500, 0), Vec3(500, 520, 9), Vec3(490, 500, 0)}) {
+    tin.insert(point);
+  }
+  tin.fold_up(0);
+  expect_delaunay(mesh_of_all(tin));
+  EXPECT_EQ(slow_height(mesh_of_all(tin), {500, 500}), 0.0);
+}
+
+TEST(Tin, FoldingKeepsTheErrorAndTheNetwork) {
+  testing::Random random(14);
+  int folded = 0;
+  for (int run = 0; run < 30; ++run) {
+    Tin tin = unit_square(24);
+    std::vector<Vec3> candidates;
+    for (int y = 0; y <= 24; ++y) {
+      for (int x = 0; x <= 24; ++x) {
+        const bool corner = (x == 0 || x == 24) && (y == 0 || y == 24);
+        candidates.emplace_back(x, y, corner ? 0 : random.chance(0.4) ? random.uniform(0, 9) : 1.0);
+      }
+    }
+    const double error = random.chance(0.3) ? 0 : random.uniform(0, 4);
+    tin.add_candidates(candidates);
+    tin.refine(error, [](double) {});
+    const Mesh before = mesh_of_all(tin);
+    tin.fold_up(error);
+    const Mesh mesh = mesh_of_all(tin);
+    expect_tiling(mesh, {0, 0}, {24, 24});
+    expect_mutual_neighbours(tin);
+    for (const Vec3& candidate : candidates) {
+      ASSERT_LE(std::abs(slow_height(mesh, candidate.head<2>()).value() - candidate.z()), error + 1e-9);
+    }
+    for (int i = 0; i < 100; ++i) {  // nowhere lower
+      const Vec2 at(random.uniform(0, 24), random.uniform(0, 24));
+      const double change = slow_height(mesh, at).value() - slow_height(before, at).value();
+      ASSERT_GE(change, -1e-9);
+      folded += change > 1e-3;
+    }
+  }
+  EXPECT_GT(folded, 300);
 }
 
 // ---- positions ---------------------------------------------------------------------------------------------------
@@ -321,6 +456,69 @@ TEST(Triangulate, KeepsTheErrorOverTheExactRectangle) {
     }
   }
   EXPECT_GT(before, 2u * 5000);  // error 0: every post
+}
+
+/// How far the ground is from where it should be in the cells whose posts all lie in its rectangle: at the posts, on
+/// the middles of the cells' sides, and on those of their higher diagonals.
+double worst_over_cells(const HeightGrid& grid, const geo::LocalFrame& frame, const Surface& surface, const Vec2& min,
+                        const Vec2& max) {
+  std::vector<std::optional<Vec3>> posts;
+  for (int row = 0; row < grid.rows; ++row) {
+    for (int column = 0; column < grid.columns; ++column) {
+      const Vec2 at = frame.to_local(grid.position(Vec2(column, row)));
+      posts.emplace_back(Vec3(at.x(), at.y(), double(grid.at(column, row))));
+      if ((at - min).minCoeff() < 0.02 || (max - at).minCoeff() < 0.02) posts.back().reset();
+    }
+  }
+  double worst = 0;
+  std::size_t cells = 0;
+  const auto look = [&](const Vec3& a, const Vec3& b) {
+    const Vec3 middle = (a + b) / 2;
+    worst = std::max(worst, std::abs(surface.height(middle.head<2>()).value() - middle.z()));
+  };
+  for (std::size_t a = 0; a + std::size_t(grid.columns) + 1 < posts.size(); ++a) {
+    const std::size_t b = a + 1, c = b + std::size_t(grid.columns), d = c - 1;
+    if (b % std::size_t(grid.columns) == 0 || !posts[a] || !posts[b] || !posts[c] || !posts[d]) continue;
+    ++cells;
+    look(*posts[a], *posts[a]);
+    look(*posts[a], *posts[b]);
+    look(*posts[a], *posts[d]);
+    const bool falling = posts[a]->z() + posts[c]->z() >= posts[b]->z() + posts[d]->z();
+    falling ? look(*posts[a], *posts[c]) : look(*posts[b], *posts[d]);
+  }
+  EXPECT_GT(cells, 100u);
+  return worst;
+}
+
+TEST(Triangulate, TheGroundBetweenPostsDoesNotDependOnTheFrame) {
+  const testing::TemporaryDirectory folder;
+  testing::Random random(31);
+  for (const char* srs : {"EPSG:4326", "EPSG:32632", "EPSG:28992"}) {
+    for (const bool in_steps : {false, true}) {  // whole metres, many posts in the plane of their neighbours
+      TestRaster raster = make_raster(40, 36, [&](int column, int row) {
+        if (in_steps) return double(random.integer(0, 2) + (column > 20 ? column / 3 : 0));
+        return 5 * ((column + row) % 2) + random.uniform(-4, 4);  // saddles
+      });
+      raster.srs = srs;
+      if (raster.srs == "EPSG:4326") raster.transform = {7.4, 1.0 / 1200, 0, 43.75, 0, -1.0 / 1200};  // SRTM's
+      if (raster.srs == "EPSG:28992") raster.transform = {85000, 25, 0, 447000, 0, -25};
+      const HeightGrid grid = read_height_grid(write_raster(folder.path(), "dem", raster));
+      for (const double error : {0.0, 0.01, 0.5}) {
+        for (const Vec2& origin : {Vec2(20, 18), Vec2(17.3, 19.1), Vec2(-140, 300)}) {
+          const geo::LocalFrame frame(grid.position(origin));
+          // Not along the posts: within 1 cm of the border they would count as on it.
+          const Vec2 from = frame.to_local(grid.position(Vec2(2.6, 32.3))),
+                     to = frame.to_local(grid.position(Vec2(36.4, 2.7)));
+          const Triangulation ground = triangulate(grid, frame, from, to, error);
+          expect_tiling(ground.surface.mesh(), from, to);
+          EXPECT_LE(ground.largest_error_m, error + 1e-3);
+          const Vec2 cell = (to - from).cwiseAbs() / 32;  // those at the border are cut by it
+          EXPECT_LE(worst_over_cells(grid, frame, ground.surface, from + cell, to - cell), error + 1e-3)
+              << srs << ", " << error << " m, origin " << origin.transpose() << (in_steps ? ", in steps" : "");
+        }
+      }
+    }
+  }
 }
 
 TEST(Triangulate, NeedsTwoTrianglesForAPlane) {

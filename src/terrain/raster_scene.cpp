@@ -183,7 +183,8 @@ Mesh simplified(const HeightGrid& grid, const std::vector<Vec3>& posts, double m
     const auto first = posts.begin() + static_cast<std::ptrdiff_t>(row * columns);
     candidates.insert(candidates.end(), first + 1, first + static_cast<std::ptrdiff_t>(columns) - 1);
   }
-  grow(tin, candidates, max_error_m, progress);
+  tin.add_candidates(candidates);
+  grow(tin, max_error_m, progress);
   return mesh_of(tin, inside_border(tin, static_cast<std::uint32_t>(border.size())));
 }
 

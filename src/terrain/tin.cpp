@@ -2,7 +2,9 @@
 
 #include <CDTUtils.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace vantage::terrain {
 namespace {
@@ -36,14 +38,30 @@ std::uint32_t Tin::insert(const Vec3& point) {
   return vertex;
 }
 
-void Tin::add_candidates(const std::vector<Vec3>& points) {
+std::uint32_t Tin::add_candidates(const std::vector<Vec3>& points) {
+  const auto first = static_cast<std::uint32_t>(points_.size());
+  add(points);
+  return first;
+}
+
+void Tin::add_middles(std::vector<Middle> middles) {
+  std::vector<Vec3> points;
+  points.reserve(middles.size());
+  for (const Middle& middle : middles) {
+    points.emplace_back((points_[middle.candidates[0]] + points_[middle.candidates[1]]) / 2);
+  }
+  middles_ = std::move(middles);
+  add(points);
+}
+
+void Tin::add(const std::vector<Vec3>& points) {
   const std::size_t first = points_.size();
   points_.insert(points_.end(), points.begin(), points.end());
   next_.resize(points_.size(), kNone);
   for (std::size_t i = first; i < points_.size(); ++i) {
     last_ = locate(points_[i], last_);
     const auto candidate = static_cast<std::uint32_t>(i);
-    give(candidate, last_, error_over(candidate, last_));
+    give(candidate, last_, error_over(candidate, facets_[last_].corner));
   }
 }
 
@@ -55,19 +73,32 @@ void Tin::refine(double max_error, const std::function<void(double)>& progress) 
     const Worst worst = queue_.top();
     queue_.pop();
     if (count % kQuiet == 0) progress(worst.error);
-    const Facet& facet = facets_[worst.facet];
-    if (facet.worst != worst.candidate || facet.error != worst.error) continue;  // replaced since
-    const std::uint32_t over = locate(points_[worst.candidate], worst.facet);
-    if (vertex_in_place(over, points_[worst.candidate]) != kNone) {
-      drop(worst.candidate, worst.facet);
-      queue_.push({facet.error, worst.facet, facet.worst});
-      continue;
-    }
-    insert_vertex(worst.candidate, over);
-    for (const std::uint32_t f : fan_) {
-      if (facets_[f].error > max_error) queue_.push({facets_[f].error, f, facets_[f].worst});
-    }
+    const auto facet_of = [&]() -> const Facet& { return facets_[worst.facet]; };
+    if (facet_of().worst != worst.candidate || facet_of().error != worst.error) continue;  // replaced since
+    if (!insert_for(worst, max_error)) drop(worst.candidate, worst.facet);
+    if (facet_of().error > max_error) queue_.push({facet_of().error, worst.facet, facet_of().worst});
   }
+}
+
+/// Inserts a candidate, or for a middle the first of its own that is no vertex yet. False if there is nothing to
+/// insert.
+bool Tin::insert_for(const Worst& worst, double max_error) {
+  const std::size_t first_middle = points_.size() - middles_.size();
+  if (worst.candidate < first_middle) return insert_candidate(worst.candidate, worst.facet, max_error);
+  const Middle& middle = middles_[worst.candidate - first_middle];
+  return std::any_of(middle.candidates.begin(), middle.candidates.end(), [&](std::uint32_t candidate) {
+    return candidate != kNone && insert_candidate(candidate, worst.facet, max_error);
+  });
+}
+
+bool Tin::insert_candidate(std::uint32_t candidate, std::uint32_t start, double max_error) {
+  const std::uint32_t over = locate(points_[candidate], start);
+  if (vertex_in_place(over, points_[candidate]) != kNone) return false;
+  insert_vertex(candidate, over);
+  for (const std::uint32_t f : fan_) {
+    if (facets_[f].error > max_error) queue_.push({facets_[f].error, f, facets_[f].worst});
+  }
+  return true;
 }
 
 /// The facet that a point lies in, or on the border of: a walk that crosses edges towards it, which ends in a Delaunay
@@ -208,7 +239,7 @@ void Tin::share_out(std::uint32_t vertex) {
         last = last + 1 < fan_.size() ? last + 1 : 0;
       }
       if (over == kNone) over = locate(point, fan_.front());  // on the last spoke, or lost to rounding
-      give(candidate, over, error_over(candidate, over));
+      give(candidate, over, error_over(candidate, facets_[over].corner));
     }
     candidate = after;
   }
@@ -224,9 +255,9 @@ void Tin::give(std::uint32_t candidate, std::uint32_t facet, double error) {
   }
 }
 
-double Tin::error_over(std::uint32_t candidate, std::uint32_t facet) const {
-  const Vec3& a = points_[facets_[facet].corner[0]];
-  const Vec3 b = points_[facets_[facet].corner[1]] - a, c = points_[facets_[facet].corner[2]] - a;
+double Tin::error_over(std::uint32_t candidate, const std::array<std::uint32_t, 3>& corner) const {
+  const Vec3& a = points_[corner[0]];
+  const Vec3 b = points_[corner[1]] - a, c = points_[corner[2]] - a;
   const Vec3 p = points_[candidate] - a;
   const double area = b.x() * c.y() - b.y() * c.x();
   const double along_b = (p.x() * c.y() - p.y() * c.x()) / area, along_c = (b.x() * p.y() - b.y() * p.x()) / area;
@@ -239,7 +270,7 @@ void Tin::drop(std::uint32_t candidate, std::uint32_t facet) {
   facets_[facet].error = -1;
   while (chain != kNone) {
     const std::uint32_t after = next_[chain];
-    if (chain != candidate) give(chain, facet, error_over(chain, facet));
+    if (chain != candidate) give(chain, facet, error_over(chain, facets_[facet].corner));
     chain = after;
   }
 }

@@ -26,12 +26,24 @@ class Tin {
   /// Makes a point a vertex, whatever its error; before there are candidates. It must lie in the rectangle or on its
   /// border. Returns its index; that of the vertex in its place if there is one.
   std::uint32_t insert(const Vec3& point);
-  /// Points that may become vertices; in the rectangle or on its border. Once. Neighbours in the list had better be
-  /// neighbours in the plane.
-  void add_candidates(const std::vector<Vec3>& points);
-  /// Inserts the worst candidate until none differs from its facet by more than `max_error` vertically. Calls
-  /// `progress` with the worst error every few thousand insertions.
+  /// Points that may become vertices; in the rectangle or on its border. Neighbours in the list had better be
+  /// neighbours in the plane. Returns the index of the first; the others follow.
+  std::uint32_t add_candidates(const std::vector<Vec3>& points);
+  /// The middle between two candidates where the surface shall run straight from one to the other. It never becomes a
+  /// vertex: when it is the worst, the first of its candidates that is none yet does; when all are, it is settled.
+  struct Middle {
+    std::array<std::uint32_t, 4> candidates{kNone, kNone, kNone, kNone};  ///< the two, and others, if any
+  };
+  /// Once, after all candidates.
+  void add_middles(std::vector<Middle> middles);
+  /// Inserts the worst candidate until none, and no middle, differs from its facet by more than `max_error` vertically.
+  /// Calls `progress` with the worst error every few thousand insertions.
   void refine(double max_error, const std::function<void(double)>& progress);
+  /// Where two facets make a convex quadrilateral whose corners all but lie on a circle, as those of a raster's cell
+  /// do, folds it along the diagonal that is higher where the two cross: Delaunay's choice would depend on rounding.
+  /// Leaves it where a candidate would then differ by more than `max_error`. Last: the network may not be Delaunay
+  /// afterwards, and takes no more points. tin_fold.cpp.
+  void fold_up(double max_error);
 
   const std::vector<Vec3>& points() const { return points_; }
   /// Counter-clockwise, indices into points().
@@ -59,15 +71,21 @@ class Tin {
   std::uint32_t locate(const Vec3& point, std::uint32_t start) const;
   std::uint32_t vertex_in_place(std::uint32_t facet, const Vec3& point) const;
   bool in_circle(std::uint32_t facet, const Vec3& point) const;
+  void add(const std::vector<Vec3>& candidates);
+  bool insert_for(const Worst& worst, double max_error);
+  bool insert_candidate(std::uint32_t candidate, std::uint32_t start, double max_error);
   void insert_vertex(std::uint32_t vertex, std::uint32_t facet);
   void find_cavity(const Vec3& point, std::uint32_t facet);
   void fill_cavity(std::uint32_t vertex);
   void share_out(std::uint32_t vertex);
   void give(std::uint32_t candidate, std::uint32_t facet, double error);
-  double error_over(std::uint32_t candidate, std::uint32_t facet) const;
+  double error_over(std::uint32_t candidate, const std::array<std::uint32_t, 3>& corner) const;
   void drop(std::uint32_t candidate, std::uint32_t facet);
+  bool fold(std::uint32_t facet, std::size_t side, double max_error);
+  void replace_neighbour(std::uint32_t facet, std::uint32_t old, std::uint32_t now);
 
-  std::vector<Vec3> points_;  ///< vertices and candidates
+  std::vector<Vec3> points_;     ///< vertices, candidates, middles
+  std::vector<Middle> middles_;  ///< the last of the points
   std::vector<Facet> facets_;
   std::vector<std::uint32_t> next_;  ///< per candidate, the next of its facet's chain
   std::priority_queue<Worst> queue_;

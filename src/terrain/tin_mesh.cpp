@@ -7,8 +7,7 @@
 
 namespace vantage::terrain {
 
-void grow(Tin& tin, const std::vector<Vec3>& candidates, double max_error_m, scene::ReadProgress& progress) {
-  tin.add_candidates(candidates);
+void grow(Tin& tin, double max_error_m, scene::ReadProgress& progress) {
   double first = -1;
   tin.refine(max_error_m, [&](double error) {
     // The error falls about as a power of the number of insertions: its logarithm tells how far it is.

@@ -10,8 +10,8 @@
 
 namespace vantage::terrain {
 
-/// Adds the candidates and inserts them, worst first, down to the error. Throws Error(cancelled).
-void grow(Tin& tin, const std::vector<Vec3>& candidates, double max_error_m, scene::ReadProgress& progress);
+/// Inserts its candidates, worst first, down to the error. Throws Error(cancelled).
+void grow(Tin& tin, double max_error_m, scene::ReadProgress& progress);
 
 /// The facets that are wanted, with the vertices that they use.
 Mesh mesh_of(const Tin& tin, const std::vector<bool>& wanted);

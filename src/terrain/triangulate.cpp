@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <initializer_list>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -51,8 +53,10 @@ void add_crossings(const HeightGrid& grid, const geo::LocalFrame& frame, const E
 
 struct Samples {
   std::array<Vec3, 4> corners;
-  std::vector<Vec3> border;  ///< between the corners
-  std::vector<Vec3> posts;   ///< in the rectangle
+  std::vector<Vec3> border;               ///< between the corners
+  std::vector<Vec3> posts;                ///< in the rectangle
+  std::vector<Vec3> inner;                ///< of these, those that are not on its border
+  std::vector<std::uint32_t> inner_post;  ///< per post of the grid, its index in `inner`, or Tin::kNone
 };
 
 Samples sample(const HeightGrid& grid, const geo::LocalFrame& frame, const Eigen::Vector2d& min,
@@ -70,12 +74,46 @@ Samples sample(const HeightGrid& grid, const geo::LocalFrame& frame, const Eigen
     add_crossings(grid, frame, corners[i], corners[(i + 1) % 4], samples.border);
   }
   const std::vector<Eigen::Vector2d> places = post_positions(grid, frame);
+  samples.inner_post.resize(places.size(), Tin::kNone);
   for (std::size_t i = 0; i < places.size(); ++i) {
-    if ((places[i] - min).minCoeff() >= 0 && (max - places[i]).minCoeff() >= 0) {
-      samples.posts.push_back(lifted(places[i], static_cast<double>(grid.heights_m[i])));
-    }
+    const double inside_m = std::min((places[i] - min).minCoeff(), (max - places[i]).minCoeff());
+    if (inside_m < 0) continue;
+    samples.posts.push_back(lifted(places[i], static_cast<double>(grid.heights_m[i])));
+    if (inside_m < kOnBorder_m) continue;
+    samples.inner_post[i] = static_cast<std::uint32_t>(samples.inner.size());
+    samples.inner.push_back(samples.posts.back());
   }
   return samples;
+}
+
+/// Of the sides of the cells between inner posts, and of their higher diagonals: there the surface is not known, and is
+/// taken to run straight from post to post. `first`: index of the first inner post among the candidates.
+std::vector<Tin::Middle> middles(const HeightGrid& grid, const Samples& samples, std::uint32_t first) {
+  std::vector<Tin::Middle> middles;
+  const auto columns = static_cast<std::size_t>(grid.columns);
+  const auto add = [&](std::initializer_list<std::size_t> posts) {
+    Tin::Middle middle;
+    auto candidate = middle.candidates.begin();
+    for (const std::size_t post : posts) {
+      if (samples.inner_post[post] == Tin::kNone) return;
+      *candidate++ = first + samples.inner_post[post];
+    }
+    middles.push_back(middle);
+  };
+  for (std::size_t post = 0; post < samples.inner_post.size(); ++post) {
+    const std::size_t right = post + 1, below = post + columns, across = below + 1;
+    const bool has_right = right % columns != 0, has_below = below < samples.inner_post.size();
+    if (has_right) add({post, right});
+    if (has_below) add({post, below});
+    if (!has_right || !has_below) continue;
+    const auto& z = grid.heights_m;
+    if (z[post] + z[across] >= z[right] + z[below]) {
+      add({post, across, right, below});
+    } else {
+      add({right, below, post, across});
+    }
+  }
+  return middles;
 }
 
 }  // namespace
@@ -94,12 +132,10 @@ Triangulation triangulate(const HeightGrid& grid, const geo::LocalFrame& frame, 
   progress.begin("triangulating the terrain");
   const Samples samples = sample(grid, frame, min, max);
   Tin tin(samples.corners);
-  std::vector<Vec3> candidates = samples.border;
-  for (const Vec3& post : samples.posts) {
-    const Eigen::Vector2d place = post.head<2>();
-    if ((place - min).minCoeff() >= kOnBorder_m && (max - place).minCoeff() >= kOnBorder_m) candidates.push_back(post);
-  }
-  grow(tin, candidates, max_error_m, progress);
+  tin.add_candidates(samples.border);
+  tin.add_middles(middles(grid, samples, tin.add_candidates(samples.inner)));
+  grow(tin, max_error_m, progress);
+  tin.fold_up(max_error_m);
   std::vector<bool> all(tin.facets().size(), true);
   Triangulation result{Surface(mesh_of(tin, all)), 0, samples.posts.size()};
   result.largest_error_m =
