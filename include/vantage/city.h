@@ -92,7 +92,9 @@ struct CityRegion {
 struct CityOptions {
   CityRegion region;              ///< neither: all of the file
   std::filesystem::path terrain;  ///< GeoTIFF, .hgt or .hgt.zip; empty: a plane at z = 0
-  double terrain_error_m = 0.5;   ///< the triangulated ground differs from the raster by no more than this
+  /// The triangulated ground differs from the raster by no more than this, vertically, at its posts. Between them it is
+  /// not known: a cell of four posts is taken for two triangles, folded along its higher diagonal (docs/terrain.md).
+  double terrain_error_m = 0.5;
   double ground_margin_m = 50;    ///< how far the ground goes on round what is built
   BuildingDefaults defaults;
   Occluders occluders;
