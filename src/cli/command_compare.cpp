@@ -27,8 +27,8 @@ namespace fs = std::filesystem;
 
 constexpr const char* kExamples =
     "FRAMES\n"
-    "  PLY and STL files are in the scene frame: metres, z up. glTF is y up. An OBJ that vantage wrote says its axes and\n"
-    "  unit itself; of any other say them with --up and --scale. --only-a and --only-b write likewise.\n"
+    "  PLY and STL files are in the scene frame: metres, z up. glTF is y up. An OBJ that vantage wrote says its axes\n"
+    "  and unit itself; of any other say them with --up and --scale. --only-a and --only-b write likewise.\n"
     "  Where both say where on the earth they lie, B is moved into the frame of A, and so is all that is told of it.\n"
     "\n"
     "EXAMPLES\n"
