@@ -16,7 +16,7 @@ std::string_view trimmed(std::string_view text) {
 }
 
 std::optional<Axes> parse(std::string_view text) {
-  if (text.size() < 1 || (text[0] != 'y' && text[0] != 'z')) return std::nullopt;
+  if (text.empty() || (text[0] != 'y' && text[0] != 'z')) return std::nullopt;
   Axes axes;
   axes.up = text[0] == 'y' ? UpAxis::y : UpAxis::z;
   text.remove_prefix(1);
