@@ -95,7 +95,7 @@ struct CityOptions {
   /// The triangulated ground differs from the raster by no more than this, vertically, at its posts. Between them it is
   /// not known: a cell of four posts is taken for two triangles, folded along its higher diagonal (docs/terrain.md).
   double terrain_error_m = 0.5;
-  double ground_margin_m = 50;    ///< how far the ground goes on round what is built
+  double ground_margin_m = 50;  ///< how far the ground goes on round what is built
   BuildingDefaults defaults;
   Occluders occluders;
   OccluderDefaults occluder_defaults;

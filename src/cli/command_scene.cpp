@@ -206,8 +206,9 @@ void add_scene(CLI::App& app, Command& chosen) {
   command->add_option("--terrain", options->terrain, "Ground heights: GeoTIFF, .hgt or .hgt.zip (default: a plane)")
       ->option_text("FILE");
   command
-      ->add_option("--error", options->error,
-                   "How far the ground may differ from the raster at its posts, vertically (0.5; of a raster alone 0.25)")
+      ->add_option(
+          "--error", options->error,
+          "How far the ground may differ from the raster at its posts, vertically (0.5; of a raster alone 0.25)")
       ->option_text("METRES");
   command->add_option("--set", options->settings, "A default for what the map does not say, see docs/scene.md")
       ->allow_extra_args(false)
