@@ -29,7 +29,7 @@ class CliPlaces : public Cli {
 
   static std::string mission_at(const std::string& centre) {
     return "scene: {osm: city.osm, center: " + centre +
-           ", radius: 300}\ntarget: {osm: way/2}\nsensor: {max_range: 80}\n";
+           ", radius: 300}\ntarget: {osm: way/2}\nsensor: {max_range: 80}\nexact: {tolerance: 0.2}\n";
   }
   double computed_m3(const std::string& mission) {
     return nlohmann::json::parse(output_of({"compute", mission, "-o", "out.ply", "--json"})).at("volume_m3");
@@ -57,7 +57,7 @@ TEST_F(CliPlaces, NavigationMeshesFromAnotherLevelAreRefused) {
   write_with_level("high.ply", "EGM96 geoid");
   expect_bad_mission(mission_at(kOtherCentre) + navigation + "high.ply]\n",
                      "'high.ply' are measured from another level (EGM96 geoid) than the scene's (flat ground)",
-                     "mission.yaml:5:12", "same ground");
+                     "mission.yaml:6:12", "same ground");
   write_with_level("unknown.ply", "");
   write("unknown.yaml", mission_at(kOtherCentre) + navigation + "unknown.ply]\n");
   EXPECT_GT(computed_m3("unknown.yaml"), 1e4) << "what is not known to differ is not refused";
@@ -125,7 +125,7 @@ TEST_F(CliPlaces, AnotherCityIsRefused) {
   expect_bad({"compare", "a.ply", "there.obj"}, "the mesh lies 5", "there.obj", "goes with the other");
   expect_bad({"verify", "a.yaml", "there.obj"}, "km away", "there.obj");
   expect_bad_mission(mission_at(kOtherCentre) + "navigation: {meshes: [there.obj]}\n", "'there.obj' lies 5",
-                     "mission.yaml:4:23", "surroundings");
+                     "mission.yaml:5:23", "surroundings");
   expect_bad({"scene", "here.obj", "--origin", "11.5755,48.1374", "-o", "volume.ply"}, "the origin lies", "here.obj",
              "the wrong way round");
 }

@@ -167,6 +167,23 @@ TEST(SolidCheck, AcceptsPartsThatTouch) {
   EXPECT_EQ(problem_of(two_boxes(Vec3(2, 2, 2), Vec3(4, 4, 4))), "");      // corner to corner
 }
 
+TEST(SolidCheck, FacetsThatPassEachOtherByDoNotCross) {
+  // Two of a volume, all but parallel and 0.1 mm apart, less than the touching distance: there corners of each count as
+  // in the plane of the other. Each with a point behind it.
+  const auto with_apex = [](const Vec3& a, const Vec3& b, const Vec3& c, double side) {
+    const Vec3 apex = (a + b + c) / 3 - side * (b - a).cross(c - a).normalized();
+    return side > 0 ? Mesh{{a, b, c, apex}, {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}}}
+                    : Mesh{{a, b, c, apex}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
+  };
+  Mesh mesh = with_apex({42.81496849, 3.94295094, 43.20660073}, {43.57096166, 2.98966011, 42.60739977},
+                        {44.47537542, 8.87794017, 37.4230532}, 1);
+  append(mesh, with_apex({43.59360311, 2.10810867, 43.13461707}, {43.5908172, 3.00243665, 42.5679659},
+                         {43.13018076, 2.48246799, 43.61795076}, -1));
+  append(mesh, make_box_mesh(Vec3(-80, -80, 0), Vec3(-79, -79, 1)));
+  append(mesh, make_box_mesh(Vec3(60, 60, 0), Vec3(61, 61, 1)));
+  EXPECT_EQ(problem_of(mesh), "");
+}
+
 TEST(SolidCheck, RoundingOfFlushWallsIsNoOverlap) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> uniform(-1, 1);

@@ -9,6 +9,10 @@ namespace vantage::solid::numerics {
 /// 2 * sqrt(3) times that, and by a few times more where a narrow triangle is tilted.
 constexpr double kTouching = 1e-6;
 
+/// A crossing is looked at again with this part of the touching distance: well above the rounding of coordinates (1e-16
+/// of the diagonal), and so little that what is nearer counts as touching anyway.
+constexpr double kClosely = 1e-3;
+
 /// How far off a facet, in units of the touching distance, winding numbers are taken: outside the zone in which
 /// surfaces count as touching, and still close to the facet.
 constexpr double kSampleOffset = 10;

@@ -110,9 +110,15 @@ std::size_t Examination::first_crossing(std::size_t t, const TriangleTree& tree)
   std::size_t first = kNone;
   tree.for_each_near(triangle_box(local_, t), distance_, [&](std::size_t other) {
     if (other == t) return;
-    const Contact contact = contact_of(corners(t), corners(other), shared_corners(t, other), distance_);
-    if (contact == Contact::touching) touching_[t] = 1;
-    if (contact == Contact::crossing) first = std::min(first, other);
+    const int shared = shared_corners(t, other);
+    const Contact contact = contact_of(corners(t), corners(other), shared, distance_);
+    // Of two that pass each other by within the distance, all but parallel, corners are taken to lie in the other's
+    // plane, and the rest seems to cross. What truly crosses does so when looked at closely, too.
+    const bool is_apart =
+        contact == Contact::crossing &&
+        contact_of(corners(t), corners(other), shared, numerics::kClosely * distance_) != Contact::crossing;
+    if (contact == Contact::touching || is_apart) touching_[t] = 1;
+    if (contact == Contact::crossing && !is_apart) first = std::min(first, other);
   });
   return first;
 }
