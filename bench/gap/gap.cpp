@@ -67,11 +67,13 @@ Outcome run_case(const solid::Solid& exact, const Vec3& origin, const PreparedSc
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const solid::Solid claimed = volume.mesh.empty() ? solid::Solid() : solid_of(volume, origin);
   const double both = solid::intersect(claimed, exact).volume();
+  // With max_splits 0 no pair is tested, and nothing is known of them.
+  const bool is_tested = options.split == SpheresOptions::Split::euler && report.pairs > 0;
   char figures[256];
   std::snprintf(figures, sizeof figures, "%.6f,%.6f,%.6f,%.6f,%zu,%zu,%zu,%zu,%ld,%.4f", exact.volume(),
                 claimed.volume(), claimed.volume() - both, exact.volume() - both, report.spheres, report.pairs,
                 report.splits, report.unresolved_pairs, claimed.euler(), seconds);
-  return {figures, options.split == SpheresOptions::Split::euler && report.unresolved_pairs == 0};
+  return {figures, is_tested && report.unresolved_pairs == 0};
 }
 
 void run_target(const Request& request, const std::string& city, std::size_t number, double range,

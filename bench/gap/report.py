@@ -42,8 +42,10 @@ def total(rows, key):
 
 
 def figures(rows, split):
-    """What a row of the table says of a case. A pair fails the test when it is split or left unresolved."""
-    failed = total(rows, "splits") + total(rows, "unresolved") if split == "euler" else "-"
+    """What a row of the table says of a case. A pair fails the test when it is split or left unresolved; with
+    max_splits 0 no pair is tested."""
+    is_tested = split == "euler" and total(rows, "pairs") > 0
+    failed = total(rows, "splits") + total(rows, "unresolved") if is_tested else "-"
     return (f"{len(rows)} | {share([row['over'] for row in rows])} | {share([row['missing'] for row in rows])} | "
             f"{statistics.mean(int(row['spheres']) for row in rows):.3g} | {failed} | {total(rows, 'unresolved')}")
 
