@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "support/cli_fixture.h"
-#include "vantage/devices.h"
+#include "support/opengl.h"
 
 namespace vantage::testing {
 namespace {
@@ -13,10 +13,6 @@ class CliRender : public Cli {
  protected:
   void SetUp() override {
     Cli::SetUp();
-    const RenderDevices found = render_devices();
-    has_opengl_ = std::any_of(found.devices.begin(), found.devices.end(),
-                              [](const RenderDevice& device) { return device.kind != DeviceKind::cpu; });
-    why_ = found.why_no_opengl;
     write("picture.png", kOldOutput);
   }
 
@@ -29,13 +25,7 @@ class CliRender : public Cli {
     };
     return {number(16), number(20)};
   }
-
-  bool has_opengl_ = false;
-  std::string why_;
 };
-
-#define VANTAGE_REQUIRE_OPENGL() \
-  if (!has_opengl_) GTEST_SKIP() << "needs OpenGL: " << why_
 
 TEST_F(CliRender, DrawsWhatItComputesOrIsGiven) {
   VANTAGE_REQUIRE_OPENGL();

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <string>
 
+#include "support/opengl.h"
 #include "support/scenes.h"
 #include "support/temporary_directory.h"
-#include "vantage/devices.h"
 #include "vantage/error.h"
 #include "vantage/picture.h"
 
@@ -44,10 +44,7 @@ Volume volume_of(const Mesh& mesh, CauseKind kind) {
 class RenderPicture : public ::testing::Test {
  protected:
   void SetUp() override {
-    const RenderDevices found = render_devices();
-    const bool has_opengl = std::any_of(found.devices.begin(), found.devices.end(),
-                                        [](const RenderDevice& device) { return device.kind != DeviceKind::cpu; });
-    if (!has_opengl) GTEST_SKIP() << "needs OpenGL: " << found.why_no_opengl;
+    VANTAGE_REQUIRE_OPENGL();
     scene_ = SceneBuilder().ground("ground", 100).box("block", {20, -5, 0}, {30, 5, 12}).scene();
     target_ = testing::target_of({{-5, -5, 0}, {5, -5, 0}, {5, 5, 0}, {-5, 5, 0}});
     request_.target = &target_;
