@@ -19,9 +19,9 @@ using solid::Solid;
 using solid::TriangleTree;
 using solid::Watch;
 
-/// Booleans of finely jagged surfaces, such as visibility spheres, leave folds about their smallest facets: of 66,000
-/// facets of two spheres with a range of 100 m two crossed, by 2 mm. Such a mesh can be compared; their area, as a part
-/// of the whole, is far less than this.
+/// Volumes from elsewhere may pass through themselves in a few facets: they can be compared all the same, where these
+/// are no larger a part of the whole area. (Of 54 spheres, pairs and results of ours, of up to 91,530 facets, none
+/// did.)
 constexpr double kFolds = 1e-3;
 
 /// Parts of one run, each with its share of the whole.
