@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "core/progress_reporter.h"
 #include "parallel/parallel.h"
 #include "support/cities.h"
 #include "support/memory.h"
@@ -62,12 +63,12 @@ void plain(State& state, const City& city, std::size_t index, double range, int 
   solid::Solid result;
   for (auto _ : state) {
     const auto start = std::chrono::steady_clock::now();
-    const auto watch = [&](double) {
+    const Progress is_in_time = [&](std::string_view, double) {
       return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() < kPlainSeconds;
     };
     try {
       parallel::with_threads(threads, [&] {
-        result = plain_visibility(ready->scene, frame, region, range, watch);
+        result = plain_visibility(ready->scene, frame, region, range, core::ProgressReporter(is_in_time));
         benchmark::DoNotOptimize(result.facets());
       });
     } catch (const Error& error) {

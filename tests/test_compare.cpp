@@ -10,6 +10,7 @@
 #include <string>
 
 #include "solid/triangle_tree.h"
+#include "support/progress_check.h"
 #include "support/random.h"
 #include "support/shared_data.h"
 #include "support/solids.h"
@@ -220,26 +221,10 @@ TEST(Compare, TakesAMeshWithAFewFolds) {
 
 TEST(Compare, CanBeFollowedAndCancelled) {
   const Mesh a = ball({0, 0, 0}, 10, 60, 30), b = ball({1, 0, 0}, 10, 60, 30);
-  double last = 0;
-  int calls = 0;
-  compare_volumes(a, b, "A", "B", [&](std::string_view, double fraction) {
-    EXPECT_GE(fraction, last - 1e-12);
-    EXPECT_LE(fraction, 1 + 1e-12);
-    last = fraction;
-    ++calls;
-    return true;
-  });
-  EXPECT_GE(calls, 6);
-  for (int allowed = 0; allowed < calls; ++allowed) {
-    int left = allowed;
-    try {
-      compare_volumes(a, b, "A", "B", [&](std::string_view, double) { return left-- > 0; });
-    } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::cancelled);
-      continue;
-    }
-    EXPECT_GE(allowed, calls / 4) << "not cancelled after " << allowed << " of " << calls << " calls";
-  }
+  const auto story =
+      testing::check_progress([&](const Progress& progress) { compare_volumes(a, b, "A", "B", progress); });
+  EXPECT_EQ(story.stages.size(), 5U);
+  EXPECT_EQ(story.last_fraction.at("measuring distances"), 1);
 }
 
 TEST(TriangleTree, DistanceIsThatOfTheNearestTriangle) {

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <set>
 
+#include "core/progress_reporter.h"
 #include "solid/csg.h"
+#include "support/progress_check.h"
 #include "support/solids.h"
 #include "support/trim.h"
 #include "vantage/error.h"
@@ -191,26 +193,25 @@ TEST(Csg, RefusesWhatIsNotClosed) {
   EXPECT_THROW((make_box({Vec3(1, 0, 0), Vec3(0, 1, 1)}, {})), Error);
 }
 
-TEST(Csg, WatchIsAskedAndMayStop) {
+TEST(Csg, AsksAndMayBeStopped) {
   const Volume volume = vantage::testing::make_hemisphere(kOrigin, 100, 300, 150);
   const Solid dome({volume.mesh, volume.cause_of});
   std::vector<Solid> boxes;
   for (int i = 0; i < 8; ++i) boxes.push_back(labelled_box(Vec3(i * 9, -50, 1), Vec3(i * 9 + 8.5, 50, 60), 10));
-  int asked = 0;
-  const Solid all = intersect(dome, unite(boxes), [&](double fraction) {
-    EXPECT_GE(fraction, 0);
-    EXPECT_LE(fraction, 1);
-    return ++asked > 0;
-  });
+  Solid all;
+  const auto story = testing::follow(
+      [&](const Progress& progress) { all = intersect(dome, unite(boxes), core::ProgressReporter(progress)); });
   EXPECT_FALSE(all.empty());
-  EXPECT_GT(asked, 0);
+  EXPECT_GT(story.calls, 0U);
+  const Progress no = [](std::string_view, double) { return false; };
   try {
-    intersect(dome, unite(boxes), [](double) { return false; });
+    intersect(dome, unite(boxes), core::ProgressReporter(no));
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::cancelled);
   }
-  EXPECT_THROW(intersect(dome, unite(boxes), [](double) -> bool { throw std::logic_error("mine"); }), std::logic_error);
+  const Progress broken = [](std::string_view, double) -> bool { throw std::logic_error("mine"); };
+  EXPECT_THROW(intersect(dome, unite(boxes), core::ProgressReporter(broken)), std::logic_error);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 
+#include "support/progress_check.h"
 #include "support/scenes.h"
 #include "vantage/error.h"
 #include "vantage/verify.h"
@@ -259,27 +260,10 @@ TEST(ExactOutcomes, BadNumbersAreRefused) {
 
 TEST(ExactOutcomes, ProgressIsReportedAndStops) {
   const PreparedScene scene(SceneBuilder().ground("ground", 100).box("house", {10, -5, 0}, {20, 5, 20}));
-  std::set<std::string> stages;
-  int calls = 0;
-  compute_visibility(scene, square(4), {50}, {}, [&](std::string_view stage, double fraction) {
-    EXPECT_GE(fraction, 0);
-    EXPECT_LE(fraction, 1);
-    stages.emplace(stage);
-    ++calls;
-    return true;
-  });
-  EXPECT_GE(stages.size(), 3u);
-  ASSERT_GE(calls, 4);
-  for (int stop = 1; stop <= 4; ++stop) {  // there may be more calls where the machine is slow
-    int seen = 0;
-    try {
-      compute_visibility(scene, square(4), {50}, {}, [&](std::string_view, double) { return ++seen < stop; });
-      FAIL() << "was not cancelled at call " << stop;
-    } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::cancelled);
-      EXPECT_EQ(seen, stop);
-    }
-  }
+  const auto story = testing::check_progress(
+      [&](const Progress& progress) { compute_visibility(scene, square(4), {50}, {}, progress); });
+  EXPECT_EQ(story.stages,
+            (std::vector<std::string>{"finding blockers", "tracing the envelope", "triangulating"}));
 }
 
 }  // namespace

@@ -52,15 +52,14 @@ Mesh pipeline(const Scene& scene, const Target& goal, const Mutation& mutation =
   ChartGrid grid(range, kTolerance);
   BlockerSet blockers;
   DirectionTree found(blockers, range);
-  const Progress progress;
-  Watch watch(progress);
-  collect_blockers(prepared.data(), frame, target, range, blockers, found, watch);
+  const core::ProgressReporter progress;
+  collect_blockers(prepared.data(), frame, target, range, blockers, found, progress);
   if (mutation.blockers) mutation.blockers(blockers);
   DirectionTree tree(blockers, range);
   for (std::uint32_t i = 0; i < blockers.count(); ++i) tree.insert(i);
   const CurveSampling sampling{kTolerance * 0.5, std::sqrt(8 * kRange * kTolerance)};
-  const Skeleton skeleton = trace_envelope(blockers, tree, range, sampling, watch);
-  Mesh mesh = triangulate_boundary(skeleton, blockers, tree, range, grid, kTolerance, watch).mesh;
+  const Skeleton skeleton = trace_envelope(blockers, tree, range, sampling, progress);
+  Mesh mesh = triangulate_boundary(skeleton, blockers, tree, range, grid, kTolerance, progress).mesh;
   for (Vec3& v : mesh.vertices) v = frame.to_scene(v);
   return mesh;
 }

@@ -12,6 +12,7 @@
 
 #include "parallel/parallel.h"
 #include "scene/prepared_data.h"
+#include "support/progress_check.h"
 #include "support/random.h"
 #include "support/scenes.h"
 #include "support/solids.h"
@@ -436,20 +437,9 @@ TEST(PreparedScene, WhatHidesNothingDoesNotMoveTheOrigin) {
 
 TEST(PreparedScene, ReportsProgressAndStops) {
   const Scene scene = SceneBuilder().box("block", {0, 0, 0}, {1, 1, 1});
-  std::vector<double> fractions;
-  const PreparedScene prepared(scene, [&](std::string_view stage, double fraction) {
-    EXPECT_EQ(stage, "preparing the scene");
-    fractions.push_back(fraction);
-    return true;
-  });
-  EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
-  EXPECT_EQ(fractions.back(), 1.0);
-  try {
-    const PreparedScene stopped(scene, [](std::string_view, double fraction) { return fraction < 0.5; });
-    FAIL() << "was not cancelled";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::cancelled);
-  }
+  const auto story = testing::check_progress([&](const Progress& progress) { const PreparedScene p(scene, progress); });
+  EXPECT_EQ(story.stages, std::vector<std::string>{"preparing the scene"});
+  EXPECT_EQ(story.last_fraction.at("preparing the scene"), 1);
 }
 
 }  // namespace

@@ -49,8 +49,7 @@ json document() {
 }
 
 RawMesh read(const json& file, const std::string& lod = "") {
-  const Progress none;
-  scene::ReadProgress progress(none, "a.city.json");
+  const core::ProgressReporter progress;
   return scene::read_cityjson(scene::MeshSource("a.city.json", file.dump()), progress, {}, lod);
 }
 
@@ -172,8 +171,7 @@ TEST(ReadCityJson, PlacesInstancesOfTemplates) {
   expect_error(nested, "its template is an instance itself", where);
   json many = file;
   many["CityObjects"]["t1"]["geometry"] = std::vector<json>(200, instance);
-  const Progress none;
-  scene::ReadProgress progress(none, "a");
+  const core::ProgressReporter progress;
   scene::ReadLimits limits;
   limits.repeated_triangles = 10;
   const scene::MeshSource small("a", file.dump());
@@ -369,8 +367,7 @@ TEST(ReadCityJson, NamesWhatIsWrongInAGeometry) {
 }
 
 TEST(ReadCityJson, KeepsWithinItsLimits) {
-  const Progress none;
-  scene::ReadProgress progress(none, "a");
+  const core::ProgressReporter progress;
   scene::ReadLimits limits;
   limits.corners = 3;
   const scene::MeshSource source("a.city.json", document().dump());

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/progress_reporter.h"
 #include "solid/result_files.h"
 #include "support/solids.h"
 #include "support/temporary_directory.h"
@@ -106,7 +107,8 @@ TEST(ResultFiles, AFailureOfTheLastLeavesAllOldFiles) {
 TEST(ResultFiles, CancellingLeavesAllOldFiles) {
   const TemporaryDirectory directory;
   const ResultRequest request = request_over_old_files(directory);
-  for (int last = 0; last < 4; ++last) {
+  const core::ProgressReporter::AskAlways always;
+  for (int last = 0; last < 5; ++last) {
     Volume volume = make_hemisphere(Vec3::Zero(), 100);
     int asked = 0;
     try {

@@ -26,11 +26,9 @@ class RiseOverFacets : public ::testing::Test {
     const TargetFrame frame = make_target_frame(target);
     const PreparedScene prepared(testing::random_city(random_, 30, 3));
     const LocalTarget local = make_local_target(frame.polygon);
-    const Progress none;
-    Watch watch(none);
     range_.emplace(local, 90);
     tree_.emplace(blockers_, *range_);
-    collect_blockers(prepared.data(), frame, local, *range_, blockers_, *tree_, watch);
+    collect_blockers(prepared.data(), frame, local, *range_, blockers_, *tree_, {});
   }
 
   GaugeValue gauge_at(const ChartPoint& p) const { return evaluate_gauge(blockers_, *tree_, *range_, p); }

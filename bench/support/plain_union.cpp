@@ -56,7 +56,7 @@ solid::Solid convex_hull(const std::vector<Vec3>& points) {
 // the hull of the corners o and (1 + s) o - s t, and l <= s holds within the range when (1 + s) is at least the range
 // over the least distance of O from the target.
 solid::Solid plain_visibility(const Scene& scene, const TargetFrame& frame, const solid::Solid& region,
-                              double max_range, const solid::Watch& watch) {
+                              double max_range, const core::ProgressReporter& progress) {
   double radius = 0;
   for (const Eigen::Vector2d& t : frame.polygon) radius = std::max(radius, t.norm());
   constexpr double kNearest = 0.1;  // metres; keeps the hull of what comes closer finite
@@ -76,7 +76,7 @@ solid::Solid plain_visibility(const Scene& scene, const TargetFrame& frame, cons
     solid::Solid blocker = convex_hull(corners);
     if (!blocker.empty()) blockers.push_back(std::move(blocker));
   }
-  return solid::subtract(region, solid::unite(blockers, watch), watch);
+  return solid::subtract(region, solid::unite(blockers, progress), progress);
 }
 
 }  // namespace vantage::bench

@@ -17,13 +17,15 @@ ROOMS = {  # name: (left, top, width, what it does)
     "terrain": (180, 464, 140, "heights (GDAL)"),
     "solid": (340, 464, 700, "booleans (Manifold), cuts, measures, files, reports"),
     "scene": (20, 554, 1020, "files to Scene; weld, merge, hierarchy"),
-    "geo": (20, 644, 560, "where on the earth (PROJ)"),
-    "parallel": (600, 644, 440, "threads (oneTBB)"),
+    "geo": (20, 644, 340, "where on the earth (PROJ)"),
+    "core": (380, 644, 320, "progress, and stopping"),
+    "parallel": (720, 644, 320, "threads (oneTBB)"),
 }
 CALLS = [("cli", "mission"), ("cli", "verify"), ("cli", "query"), ("mission", "city"), ("mission", "spheres"),
          ("query", "exact"), ("spheres", "render"), ("spheres", "exact"), ("city", "osm"), ("city", "terrain"),
          ("city", "solid"), ("exact", "solid"), ("render", "solid"), ("osm", "scene"), ("terrain", "scene"),
-         ("solid", "scene"), ("scene", "geo"), ("scene", "parallel")]
+         ("solid", "scene"), ("scene", "geo"), ("scene", "core"),
+         ("scene", "parallel")]
 HEIGHT = 58
 
 

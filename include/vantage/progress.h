@@ -6,9 +6,10 @@
 
 namespace vantage {
 
-/// Called from time to time with the name of the stage and the fraction of it that is done (0 to 1). Returning false
-/// cancels: the running call throws Error with ErrorKind::cancelled soon, within tenths of a second on the largest
-/// scenes. Never called from two threads at once, but not always from the same one; an empty function is allowed
+/// Called from time to time with the name of the stage and the fraction of it that is done (0 to 1). The fraction does
+/// not fall within a stage; a stage may begin again, for the next mesh say. Returning false cancels: the running call
+/// throws Error with ErrorKind::cancelled soon, within tenths of a second on the largest scenes, and does not call
+/// again. Never called from two threads at once, but not always from the same one; an empty function is allowed
 /// everywhere.
 using Progress = std::function<bool(std::string_view stage, double fraction)>;
 

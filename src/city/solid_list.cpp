@@ -1,11 +1,10 @@
 #include "city/solid_list.h"
 
 #include <algorithm>
-#include <atomic>
-#include <mutex>
 #include <string>
 
 #include "city/building_solid.h"
+#include "core/progress_reporter.h"
 #include "parallel/parallel.h"
 #include "solid/solid_check.h"
 #include "vantage/error.h"
@@ -14,30 +13,6 @@ namespace vantage::city {
 namespace {
 
 constexpr std::size_t kGrain = 64;
-
-/// Counts what is done on any thread and asks the caller from one at a time.
-class SharedProgress {
- public:
-  SharedProgress(const Progress& progress, const char* stage, std::size_t total)
-      : progress_(progress), stage_(stage), total_(total) {}
-
-  /// Throws Error(cancelled).
-  void add(std::size_t count) {
-    const std::size_t done = done_ += count;
-    if (!progress_) return;
-    const std::lock_guard lock(mutex_);
-    if (!progress_(stage_, double(done) / double(std::max<std::size_t>(total_, 1)))) {
-      throw Error(ErrorKind::cancelled, "cancelled", "", "");
-    }
-  }
-
- private:
-  const Progress& progress_;
-  const char* stage_;
-  std::size_t total_;
-  std::atomic<std::size_t> done_{0};
-  std::mutex mutex_;
-};
 
 void append(Mesh& mesh, const Mesh& piece) {
   const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
@@ -143,14 +118,16 @@ Mesh solid_of(Item& item, const Ground& ground) {
 
 }  // namespace
 
-std::vector<Mesh> build_solids(Site& site, const Ground& ground, const Progress& progress) {
+std::vector<Mesh> build_solids(Site& site, const Ground& ground, const Progress& callback) {
   std::vector<Mesh> solids(site.items.size());
-  SharedProgress shared(progress, "building", site.items.size());
+  const core::ProgressReporter progress(callback);
+  progress.begin("building");
+  core::ProgressCounter counter(progress, site.items.size());
   parallel::for_ranges(site.items.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       solids[i] = solid_of(site.items[i], ground);
     }
-    shared.add(end - begin);
+    counter.add(end - begin);
   });
   return solids;
 }

@@ -111,7 +111,8 @@ void local_polygon(const PreparedScene::Data& scene, const TargetFrame& frame, s
 }
 
 void collect_blockers(const PreparedScene::Data& scene, const TargetFrame& frame, const LocalTarget& target,
-                      const RangeRegion& range, BlockerSet& blockers, DirectionTree& tree, Watch& watch) {
+                      const RangeRegion& range, BlockerSet& blockers, DirectionTree& tree,
+                      const core::ProgressReporter& progress) {
   if (scene.bvh.nodes.empty()) return;
   const Vec3 centre = frame.origin - scene.origin;
   const double reach = std::max(range.radius(), target.radius);  // a segment from the region to the target stays within
@@ -131,7 +132,7 @@ void collect_blockers(const PreparedScene::Data& scene, const TargetFrame& frame
   while (!queue.empty()) {
     const scene::BvhNode& node = scene.bvh.nodes[queue.top().node];
     queue.pop();
-    if (++steps % 1024 == 0) watch.check();
+    if (++steps % 1024 == 0) progress.check();
     Vec3 middle = Vec3::Zero();
     std::array<Vec3, 3> half;
     double above = 0;

@@ -1,9 +1,9 @@
 // Finds the blockers that may be seen from a target, nearest first, without looking at the rest of the city.
 #pragma once
 
+#include "core/progress_reporter.h"
 #include "exact/blocker.h"
 #include "exact/direction_tree.h"
-#include "exact/watch.h"
 #include "scene/prepared_data.h"
 #include "vantage/target.h"
 
@@ -13,7 +13,8 @@ namespace vantage::exact {
 /// hidden behind what was found before. Fills `blockers` and inserts into `tree`, which must refer to `blockers`.
 /// Blockers come in the order found, which does not depend on anything but the input.
 void collect_blockers(const PreparedScene::Data& scene, const TargetFrame& frame, const LocalTarget& target,
-                      const RangeRegion& range, BlockerSet& blockers, DirectionTree& tree, Watch& watch);
+                      const RangeRegion& range, BlockerSet& blockers, DirectionTree& tree,
+                      const core::ProgressReporter& progress);
 
 /// Corners of a scene polygon in the target's frame.
 void local_polygon(const PreparedScene::Data& scene, const TargetFrame& frame, std::uint32_t polygon,

@@ -45,7 +45,7 @@ void take_over(Side side, const TargetFrame& frame, Volume& volume, const std::s
 }
 
 void compute_polygon(const PreparedScene& scene, const Target& target, const Sensor& sensor,
-                     const ExactOptions& options, const Progress& progress, Volume& volume) {
+                     const ExactOptions& options, const core::ProgressReporter& progress, Volume& volume) {
   volume.lift_m = clearing_lift(scene.data(), target, volume.frame, sensor.max_range_m);
   volume.frame.origin += volume.frame.normal * volume.lift_m;
   if (!can_reach(volume.frame, sensor)) return set_out_of_range(volume.frame, sensor, volume);
@@ -55,16 +55,8 @@ void compute_polygon(const PreparedScene& scene, const Target& target, const Sen
             "the target looks into what it lies on: turn it round with front:, or raise it with offset:");
 }
 
-/// Fractions of the whole for one of several computations.
-Progress part_of(const Progress& progress, double from, double share) {
-  if (!progress) return {};
-  return [&progress, from, share](std::string_view stage, double fraction) {
-    return progress(stage, from + share * fraction);
-  };
-}
-
 void compute_point(const PreparedScene& scene, const Target& target, const Sensor& sensor, const ExactOptions& options,
-                   const Progress& progress, Volume& volume) {
+                   const core::ProgressReporter& progress, Volume& volume) {
   const PointSides sides = make_point_sides(scene.data(), target, volume.frame, sensor.max_range_m);
   volume.lift_m = sides.lift;
   volume.frame.origin = sides.front.origin;
@@ -75,17 +67,18 @@ void compute_point(const PreparedScene& scene, const Target& target, const Senso
               "the point looks into what it lies on: turn it round with front:, or move it with offset:");
     return;
   }
-  const Side front = compute_side(scene, sides.front, range, options, part_of(progress, 0, 0.45));
-  const Side back = compute_side(scene, *sides.back, range, options, part_of(progress, 0.45, 0.45));
-  take_over(join_sides(front, back, part_of(progress, 0.9, 0.1)), sides.front, volume, "the point on all sides",
+  const Side front = compute_side(scene, sides.front, range, options, progress);
+  const Side back = compute_side(scene, *sides.back, range, options, progress);
+  take_over(join_sides(front, back, progress), sides.front, volume, "the point on all sides",
             "move the point out of what it lies in");
 }
 
 }  // namespace
 
 Volume compute_visibility(const PreparedScene& scene, const Target& target, const Sensor& sensor,
-                          const ExactOptions& options, const Progress& progress) {
+                          const ExactOptions& options, const Progress& callback) {
   const auto start = Clock::now();
+  const core::ProgressReporter progress(callback);
   check(sensor, options);
   Volume volume;
   volume.tolerance_m = options.tolerance_m;

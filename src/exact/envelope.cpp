@@ -413,7 +413,7 @@ void trace_range_creases(const BlockerSet& blockers, const DirectionTree& tree, 
 }  // namespace
 
 Skeleton trace_envelope(const BlockerSet& blockers, const DirectionTree& tree, const RangeRegion& range,
-                        const CurveSampling& sampling, Watch& watch) {
+                        const CurveSampling& sampling, const core::ProgressReporter& progress) {
   const std::vector<const DirectionTree::Leaf*> leaves = tree.leaves();
   const FacetTable table = find_facets(blockers, leaves);
   std::vector<FacetTracer::Result> results(table.facets.size());
@@ -422,7 +422,7 @@ Skeleton trace_envelope(const BlockerSet& blockers, const DirectionTree& tree, c
   parallel::for_ranges(table.facets.size(), grain, [&](std::size_t begin, std::size_t end) {
     FacetTracer tracer(blockers, tree, leaves, table, range, sampling);
     for (std::size_t i = begin; i < end; ++i) {
-      watch.check();
+      progress.check();
       results[i] = tracer.trace(table.facets[i]);
     }
   });

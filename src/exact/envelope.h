@@ -3,9 +3,9 @@
 
 #include <vector>
 
+#include "core/progress_reporter.h"
 #include "exact/direction_tree.h"
 #include "exact/range_region.h"
-#include "exact/watch.h"
 
 namespace vantage::exact {
 
@@ -28,6 +28,6 @@ struct CurveSampling {
 /// Every crease inside one blocker that bounds the volume is in the result in full: leaving one out would over-claim.
 /// Parallel over facets; the result does not depend on the number of threads.
 Skeleton trace_envelope(const BlockerSet& blockers, const DirectionTree& tree, const RangeRegion& range,
-                        const CurveSampling& sampling, Watch& watch);
+                        const CurveSampling& sampling, const core::ProgressReporter& progress);
 
 }  // namespace vantage::exact

@@ -83,9 +83,9 @@ class QuadrantMesher {
     insert(result_.graph_vertex.size(), [&](std::size_t i) { return graph_.points()[result_.graph_vertex[i]]; });
     cdt_.insertEdges(
         edges.begin(), edges.end(), [](const auto& e) { return e.first; }, [](const auto& e) { return e.second; });
-    envelope_.watch.check();
+    envelope_.progress.check();
     most_triangles_ = kMostGrowth * cdt_.triangles.size() + 1000;
-    while (refine()) envelope_.watch.check();
+    while (refine()) envelope_.progress.check();
     draw_in_tilted();
   }
 

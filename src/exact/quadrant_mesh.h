@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "core/progress_reporter.h"
 #include "exact/constraint_graph.h"
 #include "exact/direction_tree.h"
 #include "exact/range_region.h"
-#include "exact/watch.h"
 
 namespace vantage::exact {
 
@@ -29,7 +29,7 @@ struct Envelope {
   const DirectionTree& tree;
   const RangeRegion& range;
   double tolerance_m;
-  Watch& watch;
+  const core::ProgressReporter& progress;
 };
 
 /// A constrained Delaunay triangulation of the graph's creases in quadrant 0..3 (bit 0: a < 0, bit 1: b < 0).

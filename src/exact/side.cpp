@@ -117,24 +117,23 @@ StageCounts operator+(StageCounts a, const StageCounts& b) {
 }  // namespace
 
 Side compute_side(const PreparedScene& scene, const TargetFrame& frame, const RangeRegion& range,
-                  const ExactOptions& options, const Progress& progress) {
+                  const ExactOptions& options, const core::ProgressReporter& progress) {
   const LocalTarget target = make_local_target(frame.polygon);
   ChartGrid grid(range, options.tolerance_m);
-  Watch watch(progress);
-  watch.begin("finding blockers", 0);
+  progress.begin("finding blockers");
   BlockerSet blockers;
   DirectionTree tree(blockers, range);
-  collect_blockers(scene.data(), frame, target, range, blockers, tree, watch);
-  watch.begin("tracing the envelope", 0.3);
+  collect_blockers(scene.data(), frame, target, range, blockers, tree, progress);
+  progress.begin("tracing the envelope");
   // Seen from the centre a chord must also stay well within a cell of the grid: a region may be no wider than the
   // tolerance.
   const double widest = 0.1 * range.inner_radius() * M_PI / 2 / grid.size();
   const CurveSampling sampling{std::min(options.tolerance_m * 0.5, widest),
                                std::sqrt(8 * range.radius() * options.tolerance_m)};
-  const Skeleton skeleton = trace_envelope(blockers, tree, range, sampling, watch);
-  watch.begin("triangulating", 0.6);
-  Boundary boundary = triangulate_boundary(skeleton, blockers, tree, range, grid, options.tolerance_m, watch);
-  watch.begin("triangulating", 1.0);
+  const Skeleton skeleton = trace_envelope(blockers, tree, range, sampling, progress);
+  progress.begin("triangulating");
+  Boundary boundary = triangulate_boundary(skeleton, blockers, tree, range, grid, options.tolerance_m, progress);
+  progress.finish();
 
   Side side;
   side.counts = {scene.data().polygon_count(), blockers.count(), skeleton.visible_blockers, skeleton.visible_facets,
@@ -146,13 +145,12 @@ Side compute_side(const PreparedScene& scene, const TargetFrame& frame, const Ra
   return side;
 }
 
-Side join_sides(const Side& front, const Side& back, const Progress& progress) {
+Side join_sides(const Side& front, const Side& back, const core::ProgressReporter& progress) {
   Side joined;
   const std::vector<std::uint32_t> of_front = merge_causes(front.causes, joined.causes);
   const std::vector<std::uint32_t> of_back = merge_causes(back.causes, joined.causes);
-  const solid::Watch watch =
-      progress ? solid::Watch([&](double done) { return progress("joining both sides", done); }) : solid::Watch();
-  solid::LabelledMesh both = unite(solid_of(front, 1, of_front), solid_of(back, -1, of_back), watch).to_mesh();
+  progress.begin("joining both sides");
+  solid::LabelledMesh both = unite(solid_of(front, 1, of_front), solid_of(back, -1, of_back), progress).to_mesh();
   joined.mesh = std::move(both.mesh);
   joined.cause_of = std::move(both.labels);
   dissolve_wall(joined);

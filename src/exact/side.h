@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/progress_reporter.h"
 #include "exact/range_region.h"
 #include "vantage/scene.h"
 #include "vantage/volume.h"
@@ -26,12 +27,12 @@ struct Side {
 /// The frame's polygon has at least 3 vertices; `range` is about the frame's origin. Throws Error(cancelled), and
 /// Error(input) for a tolerance too fine for the range.
 Side compute_side(const PreparedScene& scene, const TargetFrame& frame, const RangeRegion& range,
-                  const ExactOptions& options, const Progress& progress);
+                  const ExactOptions& options, const core::ProgressReporter& progress);
 
 /// Both sides of a point as one solid in the front's frame, without the wall between them. `back` is in the frame
 /// turned about the u axis. What is left of the wall, where the two differ by their tolerance, gets the cause of what
 /// is next to it. Throws Error(cancelled).
-Side join_sides(const Side& front, const Side& back, const Progress& progress);
+Side join_sides(const Side& front, const Side& back, const core::ProgressReporter& progress);
 
 /// Name of the scene object that most of the boundary is due to.
 std::string widest_scene_cause(const std::vector<Cause>& causes);

@@ -145,8 +145,9 @@ class BoundaryBuilder {
 }  // namespace
 
 Boundary triangulate_boundary(const Skeleton& skeleton, const BlockerSet& blockers, const DirectionTree& tree,
-                              const RangeRegion& range, ChartGrid& grid, double tolerance, Watch& watch) {
-  const Envelope envelope{blockers, tree, range, tolerance, watch};
+                              const RangeRegion& range, ChartGrid& grid, double tolerance,
+                              const core::ProgressReporter& progress) {
+  const Envelope envelope{blockers, tree, range, tolerance, progress};
   // Where creases meet at less than the snapping distance the triangulation may find no place for their crossing; wider
   // snapping makes them one. What that moves, refinement finds.
   double snap = numerics::kSnap, width = 1.0 / grid.size();

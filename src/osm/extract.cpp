@@ -13,7 +13,7 @@
 #include "osm/region_filter.h"
 #include "osm/selection.h"
 #include "osm/trouble.h"
-#include "scene/read_progress.h"
+#include "core/progress_reporter.h"
 #include "vantage/error.h"
 
 namespace vantage::osm {
@@ -32,17 +32,17 @@ class ExtractBuilder {
   ExtractBuilder(const MapObjects& objects, const RegionFilter& region, const ReadOptions& options)
       : objects_(objects), selection_(objects, region), multipolygons_(objects, options.wanted, selection_, extract_) {}
 
-  Extract build(scene::ReadProgress& progress) {
+  Extract build(const core::ProgressReporter& progress) {
     const std::size_t steps = objects_.relations.size() + objects_.ways.size();
     std::size_t done = 0;
     // Multipolygons first: their ways may have nothing more to say.
     for (const osmium::Relation* const relation : objects_.relations) {
       multipolygons_.add(*relation);
-      progress.update_slowly(++done, steps);
+      progress.report(++done, steps);
     }
     for (const KeptWay& kept : objects_.ways) {
       if (kept.wanted) add(kept);
-      progress.update(++done, steps);
+      progress.tick(++done, steps);
     }
     for (const Point& point : objects_.points) add(point);
     describe_file();
@@ -168,7 +168,7 @@ class ExtractBuilder {
 Extract read_extract(const std::filesystem::path& file, const ReadOptions& options, const Progress& progress) {
   const RegionFilter region(options.region);
   const MapFile map = open_map_file(file);
-  scene::ReadProgress watch(progress, file);
+  core::ProgressReporter watch(progress, file);
   const MapObjects objects = load_objects(map, options.wanted, watch);
   if (objects.nodes + objects.ways_in_file + objects.relations_in_file == 0) {
     throw Error(ErrorKind::input, "the map is empty: there is no node, way or relation in it", file.string(),

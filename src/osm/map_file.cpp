@@ -128,7 +128,7 @@ MapFile open_map_file(const std::filesystem::path& path) {
   fail(path.string(), "the file is not an OpenStreetMap file: it looks like " + guess(bytes, root), fix);
 }
 
-void read_objects(const MapFile& file, osmium::osm_entity_bits::type kinds, scene::ReadProgress& progress,
+void read_objects(const MapFile& file, osmium::osm_entity_bits::type kinds, const core::ProgressReporter& progress,
                   const std::function<void(const osmium::memory::Buffer&)>& handle) {
   try {
     // An absolute path: libosmium takes "-" for the standard input and "http:..." for an address.
@@ -136,7 +136,7 @@ void read_objects(const MapFile& file, osmium::osm_entity_bits::type kinds, scen
     osmium::io::Reader reader(source, kinds);
     while (const osmium::memory::Buffer buffer = reader.read()) {
       handle(buffer);
-      progress.update_slowly(reader.offset(), reader.file_size());
+      progress.report(reader.offset(), reader.file_size());
     }
     reader.close();
   } catch (...) {

@@ -7,7 +7,7 @@
 #include <osmium/osm/entity_bits.hpp>
 #include <string>
 
-#include "scene/read_progress.h"
+#include "core/progress_reporter.h"
 
 namespace vantage::osm {
 
@@ -24,7 +24,7 @@ MapFile open_map_file(const std::filesystem::path& path);
 /// Reads the file from its beginning to its end and hands over what it holds, of the kinds asked for, in its order.
 /// Throws Error(input) where the content is garbled or cut off (line, where there are lines), Error(cancelled), and
 /// what `handle` throws.
-void read_objects(const MapFile& file, osmium::osm_entity_bits::type kinds, scene::ReadProgress& progress,
+void read_objects(const MapFile& file, osmium::osm_entity_bits::type kinds, const core::ProgressReporter& progress,
                   const std::function<void(const osmium::memory::Buffer&)>& handle);
 
 }  // namespace vantage::osm

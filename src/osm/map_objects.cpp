@@ -46,7 +46,7 @@ std::vector<Kept> current_of(std::vector<Kept> kept, const Table& versions) {
 
 class Loader {
  public:
-  Loader(const MapFile& file, bool (*wanted)(const Tags&), scene::ReadProgress& progress)
+  Loader(const MapFile& file, bool (*wanted)(const Tags&), const core::ProgressReporter& progress)
       : file_(file), wanted_(wanted), progress_(progress) {}
 
   MapObjects load() {
@@ -200,7 +200,7 @@ class Loader {
 
   const MapFile& file_;
   bool (*wanted_)(const Tags&);
-  scene::ReadProgress& progress_;
+  const core::ProgressReporter& progress_;
   MapObjects objects_;
   Versions<NodeEntry> nodes_;
   Versions<Entry> way_versions_, relation_versions_;
@@ -241,7 +241,7 @@ RelationKind kind_of(const Tags& tags) {
   return type == "building" ? RelationKind::building : RelationKind::other;
 }
 
-MapObjects load_objects(const MapFile& file, bool (*wanted)(const Tags&), scene::ReadProgress& progress) {
+MapObjects load_objects(const MapFile& file, bool (*wanted)(const Tags&), const core::ProgressReporter& progress) {
   return Loader(file, wanted, progress).load();
 }
 

@@ -92,15 +92,13 @@ class Painter {
     context_.check("uploading what a picture shows");
   }
 
-  std::vector<std::uint8_t> paint(const Progress& progress) {
+  std::vector<std::uint8_t> paint(const core::ProgressReporter& progress) {
     gl_.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
     gl_.BindBufferBase(GL_UNIFORM_BUFFER, 0, frame_block_);
     gl_.DepthFunc(GL_GREATER);
     clear(sum_target_, 0);
     for (int frame = 0; frame < kFrames; ++frame) {
-      if (progress && !progress("draw the picture", static_cast<double>(frame) / kFrames)) {
-        throw Error(ErrorKind::cancelled, "drawing the picture was stopped", "", "");
-      }
+      progress.report(static_cast<double>(frame) / kFrames);
       paint_frame(frame);
       context_.check("drawing a picture");
     }
@@ -373,7 +371,7 @@ class Painter {
 }  // namespace
 
 std::vector<std::uint8_t> draw_picture(const GlContext& context, const DrawList& list, const View& view,
-                                       const Progress& progress) {
+                                       const core::ProgressReporter& progress) {
   const GlCurrent current(context);
   Painter painter(context, list, view);
   return painter.paint(progress);

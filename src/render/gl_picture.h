@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/progress_reporter.h"
 #include "render/draw_list.h"
 #include "render/gl_context.h"
 #include "render/view.h"
-#include "vantage/progress.h"
 
 namespace vantage::render {
 
@@ -15,6 +15,6 @@ namespace vantage::render {
 /// directions of its own. Throws DeviceFailure; Error(cancelled). Takes about 70 bytes of the device's memory for each
 /// pixel, and the list's size.
 std::vector<std::uint8_t> draw_picture(const GlContext& context, const DrawList& list, const View& view,
-                                       const Progress& progress);
+                                       const core::ProgressReporter& progress);
 
 }  // namespace vantage::render

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/progress_reporter.h"
 #include "render/annotate.h"
 #include "render/canvas.h"
 #include "render/depth.h"
@@ -60,7 +61,7 @@ void check_volume(const Volume& volume) {
 }
 
 /// Draws on the first device that is able to, graphics processors first.
-std::vector<std::uint8_t> draw(const DrawList& list, const View& view, const Progress& progress) {
+std::vector<std::uint8_t> draw(const DrawList& list, const View& view, const core::ProgressReporter& progress) {
   std::string why;
   std::vector<GlDeviceInfo> devices = gl_devices(why);
   std::stable_sort(devices.begin(), devices.end(), [](const GlDeviceInfo& a, const GlDeviceInfo& b) {
@@ -81,7 +82,7 @@ std::vector<std::uint8_t> draw(const DrawList& list, const View& view, const Pro
 
 }  // namespace
 
-Picture render_picture(const Scene& scene, const PictureRequest& request, const Progress& progress) {
+Picture render_picture(const Scene& scene, const PictureRequest& request, const Progress& callback) {
   check(request);
   check_indices(scene.mesh, "scene");
   check_objects(scene);
@@ -104,6 +105,8 @@ Picture render_picture(const Scene& scene, const PictureRequest& request, const 
   const DrawList list = make_draw_list(scene, request, extent, view, sight);
   annotation.grid_m = list.grid_m;
 
+  const core::ProgressReporter progress(callback);
+  progress.begin("draw the picture");
   const std::vector<std::uint8_t> rgb = draw(list, view, progress);
   Picture picture{request.width, request.height, {}};
   picture.rgba.reserve(rgb.size() / 3 * 4);

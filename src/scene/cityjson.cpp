@@ -51,7 +51,8 @@ std::string type_of(const Json& object, const Trail& trail) {
 
 class CityJsonReader {
  public:
-  CityJsonReader(const MeshSource& source, ReadProgress& progress, const ReadLimits& limits, const std::string& lod)
+  CityJsonReader(const MeshSource& source, const core::ProgressReporter& progress, const ReadLimits& limits,
+                 const std::string& lod)
       : source_(source),
         progress_(progress),
         limits_(limits),
@@ -114,7 +115,7 @@ class CityJsonReader {
     const Json& objects = cityjson::required(root, "CityObjects", Json::value_t::object, trail_);
     std::uint64_t done = 0;
     for (const auto& [id, object] : objects.items()) {
-      progress_.update(done++, objects.size());
+      progress_.tick(done++, objects.size());
       trail_.set_object(id.empty() ? "(no id)" : id);
       if (!object.is_object()) trail_.fail("it is not an object");
       read_object(id, object, vertices);
@@ -302,7 +303,7 @@ class CityJsonReader {
   }
 
   const MeshSource& source_;
-  ReadProgress& progress_;
+  const core::ProgressReporter& progress_;
   const ReadLimits& limits_;
   Trail trail_;
   MeshBuilder builder_;
@@ -340,7 +341,7 @@ bool is_cityjson(std::string_view bytes) {
   return false;
 }
 
-RawMesh read_cityjson(const MeshSource& source, ReadProgress& progress, const ReadLimits& limits,
+RawMesh read_cityjson(const MeshSource& source, const core::ProgressReporter& progress, const ReadLimits& limits,
                       const std::string& lod) {
   progress.begin("parse CityJSON");
   return CityJsonReader(source, progress, limits, lod).read();

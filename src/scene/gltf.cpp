@@ -22,7 +22,7 @@ enum PrimitiveMode { kTriangles = 4, kTriangleStrip, kTriangleFan };
 
 class GltfReader {
  public:
-  GltfReader(const MeshSource& source, ReadProgress& progress, const ReadLimits& limits)
+  GltfReader(const MeshSource& source, const core::ProgressReporter& progress, const ReadLimits& limits)
       : progress_(progress),
         limits_(limits),
         document_(source, progress, limits),
@@ -45,7 +45,7 @@ class GltfReader {
       const Json& node = document_.item("nodes", visit.node);
       if (seen[visit.node]) document_.fail("node " + std::to_string(visit.node) + " has two parents, or is its own");
       seen[visit.node] = true;
-      progress_.update_slowly(visited_++, nodes_);
+      progress_.report(visited_++, nodes_);
 
       const Eigen::Affine3d world = visit.parent * local_transform(node);
       if (const auto mesh = document_.whole(node, "mesh")) add_mesh(node, document_.item("meshes", *mesh), world);
@@ -161,7 +161,7 @@ class GltfReader {
     start_vertices(positions.count());
     const bool mirrored = world.linear().determinant() < 0;
     for (std::uint64_t i = 0; i < triangles; ++i) {
-      progress_.update(visited_, nodes_);
+      progress_.tick(visited_, nodes_);
       // The turn of a strip's every second triangle is reversed.
       const bool odd = mode == kTriangleStrip && i % 2 == 1;
       const std::uint64_t first = mode == kTriangles ? 3 * i : mode == kTriangleStrip ? i : 0;
@@ -211,7 +211,7 @@ class GltfReader {
     std::uint32_t vertex;
   };
 
-  ReadProgress& progress_;
+  const core::ProgressReporter& progress_;
   const ReadLimits& limits_;
   Document document_;
   MeshBuilder builder_;
@@ -222,7 +222,7 @@ class GltfReader {
 
 }  // namespace
 
-RawMesh read_gltf(const MeshSource& source, ReadProgress& progress, const ReadLimits& limits) {
+RawMesh read_gltf(const MeshSource& source, const core::ProgressReporter& progress, const ReadLimits& limits) {
   progress.begin("parse glTF");
   return GltfReader(source, progress, limits).read();
 }

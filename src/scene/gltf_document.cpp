@@ -168,7 +168,7 @@ std::uint64_t Accessor::index(std::uint64_t element) const {
   return base_.whole(element);
 }
 
-Document::Document(const MeshSource& source, ReadProgress& progress, const ReadLimits& limits)
+Document::Document(const MeshSource& source, const core::ProgressReporter& progress, const ReadLimits& limits)
     : source_(source), progress_(progress), limits_(limits), json_(source.bytes()) {
   if (source.bytes().starts_with("glTF")) split_glb();
   parse_json();

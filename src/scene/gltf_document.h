@@ -51,7 +51,7 @@ class Accessor {
 class Document {
  public:
   /// Parses the JSON part and checks the version and the extensions.
-  Document(const MeshSource& source, ReadProgress& progress, const ReadLimits& limits);
+  Document(const MeshSource& source, const core::ProgressReporter& progress, const ReadLimits& limits);
   Document(const Document&) = delete;
   Document& operator=(const Document&) = delete;
 
@@ -86,7 +86,7 @@ class Document {
   std::string_view external_file(const std::string& uri);
 
   const MeshSource& source_;
-  ReadProgress& progress_;
+  const core::ProgressReporter& progress_;
   const ReadLimits& limits_;
   std::string_view json_, glb_buffer_;
   bool is_glb_ = false;

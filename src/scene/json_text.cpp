@@ -23,7 +23,7 @@ JsonProblem problem_at(std::string_view text, std::size_t byte, std::string prob
 
 }  // namespace
 
-json parse_json(std::string_view text, ReadProgress& progress, const ReadLimits& limits) {
+json parse_json(std::string_view text, const core::ProgressReporter& progress, const ReadLimits& limits) {
   constexpr int kDeepest = 100;
   std::size_t values = 0;
   const auto count_values = [&](int depth, json::parse_event_t, json&) {
@@ -31,7 +31,7 @@ json parse_json(std::string_view text, ReadProgress& progress, const ReadLimits&
     if (++values > limits.json_values) {
       throw JsonProblem{"its JSON has more than " + std::to_string(limits.json_values) + " values"};
     }
-    progress.update(0, 1);
+    progress.tick(0, 1);
     return true;
   };
   try {

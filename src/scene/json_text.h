@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "scene/read_limits.h"
-#include "scene/read_progress.h"
+#include "core/progress_reporter.h"
 
 namespace vantage::scene {
 
@@ -20,6 +20,6 @@ struct JsonProblem {
 
 /// Parses `text`. Throws JsonProblem for what is no JSON, is nested deeper than 100 levels, or has more values than the
 /// limits allow; Error(cancelled) when told to stop.
-nlohmann::json parse_json(std::string_view text, ReadProgress& progress, const ReadLimits& limits);
+nlohmann::json parse_json(std::string_view text, const core::ProgressReporter& progress, const ReadLimits& limits);
 
 }  // namespace vantage::scene

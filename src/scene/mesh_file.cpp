@@ -53,7 +53,8 @@ MeshFormat mesh_format(const MeshSource& source) {
       "heights 'vantage scene' makes a scene, and missions take them as scene.osm and scene.raster");
 }
 
-RawMesh read_any(const MeshSource& source, ReadProgress& progress, const ReadLimits& limits, const std::string& lod) {
+RawMesh read_any(const MeshSource& source, const core::ProgressReporter& progress, const ReadLimits& limits,
+                 const std::string& lod) {
   try {
     switch (mesh_format(source)) {
       case MeshFormat::obj:
@@ -75,7 +76,7 @@ RawMesh read_any(const MeshSource& source, ReadProgress& progress, const ReadLim
 
 RawMesh read_mesh_file(const std::filesystem::path& file, const Progress& callback, const ReadLimits& limits,
                        const std::string& lod) {
-  ReadProgress progress(callback, file);
+  core::ProgressReporter progress(callback, file);
   try {
     const MeshSource source = load_mesh_source(file, progress, limits);
     RawMesh mesh = read_any(source, progress, limits, lod);

@@ -13,15 +13,15 @@ namespace vantage::scene {
 MeshFormat mesh_format(const MeshSource& source);
 
 /// Reads a file of whichever format it is.
-RawMesh read_any(const MeshSource& source, ReadProgress& progress, const ReadLimits& limits = {},
+RawMesh read_any(const MeshSource& source, const core::ProgressReporter& progress, const ReadLimits& limits = {},
                  const std::string& lod = {});
 
-RawMesh read_obj(const MeshSource& source, ReadProgress& progress, const ReadLimits& limits = {});
-RawMesh read_ply(const MeshSource& source, ReadProgress& progress, const ReadLimits& limits = {});
-RawMesh read_stl(const MeshSource& source, ReadProgress& progress, const ReadLimits& limits = {});
-RawMesh read_gltf(const MeshSource& source, ReadProgress& progress, const ReadLimits& limits = {});
+RawMesh read_obj(const MeshSource& source, const core::ProgressReporter& progress, const ReadLimits& limits = {});
+RawMesh read_ply(const MeshSource& source, const core::ProgressReporter& progress, const ReadLimits& limits = {});
+RawMesh read_stl(const MeshSource& source, const core::ProgressReporter& progress, const ReadLimits& limits = {});
+RawMesh read_gltf(const MeshSource& source, const core::ProgressReporter& progress, const ReadLimits& limits = {});
 /// `lod`: as SceneReadOptions::lod.
-RawMesh read_cityjson(const MeshSource& source, ReadProgress& progress, const ReadLimits& limits = {},
+RawMesh read_cityjson(const MeshSource& source, const core::ProgressReporter& progress, const ReadLimits& limits = {},
                       const std::string& lod = {});
 
 /// Whether some JSON object in the text has the type "CityJSON" or "CityJSONFeature".

@@ -79,7 +79,7 @@ void MeshSource::fail_at_byte(std::uint64_t byte, std::string problem, std::stri
               std::move(fix));
 }
 
-std::string read_file_bytes(const std::filesystem::path& file, ReadProgress& progress) {
+std::string read_file_bytes(const std::filesystem::path& file, const core::ProgressReporter& progress) {
   // O_NONBLOCK: opening a pipe that nobody writes to would wait for ever.
   const Descriptor descriptor(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   if (descriptor.get() < 0) {
@@ -106,13 +106,13 @@ std::string read_file_bytes(const std::filesystem::path& file, ReadProgress& pro
     }
     if (got == 0) fail(file, "the file shrank while it was read", "wait until it is written, then try again");
     done += static_cast<std::size_t>(got);
-    progress.update_slowly(done, bytes.size());
+    progress.report(done, bytes.size());
   }
   return bytes;
 }
 
-std::string decompress_gzip(std::string_view compressed, const std::filesystem::path& file, ReadProgress& progress,
-                            const ReadLimits& limits) {
+std::string decompress_gzip(std::string_view compressed, const std::filesystem::path& file,
+                            const core::ProgressReporter& progress, const ReadLimits& limits) {
   progress.begin("decompress");
   const std::string again = "compress the mesh again, or give it uncompressed";
   const std::uint64_t limit = limits.decompressed_bytes;
@@ -134,7 +134,7 @@ std::string decompress_gzip(std::string_view compressed, const std::filesystem::
     const int result = inflate(&stream, Z_NO_FLUSH);
     used += in_size - stream.avail_in;
     filled += out_size - stream.avail_out;
-    progress.update_slowly(used, compressed.size());
+    progress.report(used, compressed.size());
 
     if (filled > limit) {
       fail(file, "the gzip data grows beyond " + std::to_string(limit) + " bytes",
@@ -154,7 +154,8 @@ std::string decompress_gzip(std::string_view compressed, const std::filesystem::
   return out;
 }
 
-MeshSource load_mesh_source(const std::filesystem::path& file, ReadProgress& progress, const ReadLimits& limits) {
+MeshSource load_mesh_source(const std::filesystem::path& file, const core::ProgressReporter& progress,
+                            const ReadLimits& limits) {
   std::string bytes = read_file_bytes(file, progress);
   if (!bytes.starts_with(kGzipMagic)) return MeshSource(file, std::move(bytes));
   std::string plain = decompress_gzip(bytes, file, progress, limits);

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "scene/read_limits.h"
-#include "scene/read_progress.h"
+#include "core/progress_reporter.h"
 
 namespace vantage::scene {
 
@@ -39,14 +39,15 @@ class MeshSource {
 
 /// The content of a regular file, as it is. Throws Error(input) for a missing or unreadable file, a directory, a pipe
 /// or device, and an empty file.
-std::string read_file_bytes(const std::filesystem::path& file, ReadProgress& progress);
+std::string read_file_bytes(const std::filesystem::path& file, const core::ProgressReporter& progress);
 
 /// The content of a file, decompressed if it begins with gzip's magic bytes. Throws as read_file_bytes does, and for
 /// corrupt or endless gzip data.
-MeshSource load_mesh_source(const std::filesystem::path& file, ReadProgress& progress, const ReadLimits& limits = {});
+MeshSource load_mesh_source(const std::filesystem::path& file, const core::ProgressReporter& progress,
+                            const ReadLimits& limits = {});
 
 /// Decompresses gzip data, all members of it. `file` is for messages.
-std::string decompress_gzip(std::string_view compressed, const std::filesystem::path& file, ReadProgress& progress,
-                            const ReadLimits& limits = {});
+std::string decompress_gzip(std::string_view compressed, const std::filesystem::path& file,
+                            const core::ProgressReporter& progress, const ReadLimits& limits = {});
 
 }  // namespace vantage::scene

@@ -28,7 +28,7 @@ constexpr std::array<std::string_view, 47> kPassedOver = {
 
 class ObjReader {
  public:
-  ObjReader(const MeshSource& source, ReadProgress& progress, const ReadLimits& limits)
+  ObjReader(const MeshSource& source, const core::ProgressReporter& progress, const ReadLimits& limits)
       : source_(source),
         progress_(progress),
         builder_(source, MeshFormat::obj, MeshBuilder::PlaceUnit::line, limits, 1),
@@ -38,7 +38,7 @@ class ObjReader {
 
   RawMesh read() {
     while (!text_.at_end()) {
-      progress_.update(text_.offset(), source_.bytes().size());
+      progress_.tick(text_.offset(), source_.bytes().size());
       statement();
       text_.next_line();
     }
@@ -226,7 +226,7 @@ class ObjReader {
   static constexpr const char* kGarbled = "export the mesh again; the file is cut off or garbled";
 
   const MeshSource& source_;
-  ReadProgress& progress_;
+  const core::ProgressReporter& progress_;
   MeshBuilder builder_;
   TextCursor text_;
   std::optional<Georeference> georeference_;
@@ -244,7 +244,7 @@ class ObjReader {
 
 }  // namespace
 
-RawMesh read_obj(const MeshSource& source, ReadProgress& progress, const ReadLimits& limits) {
+RawMesh read_obj(const MeshSource& source, const core::ProgressReporter& progress, const ReadLimits& limits) {
   progress.begin("parse OBJ");
   return ObjReader(source, progress, limits).read();
 }

@@ -20,7 +20,7 @@ std::string place_file_text(const std::optional<Georeference>& georeference) {
   return json.dump(2, ' ', true, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
-std::optional<Georeference> read_place_file(const MeshSource& mesh, ReadProgress& progress) {
+std::optional<Georeference> read_place_file(const MeshSource& mesh, const core::ProgressReporter& progress) {
   const std::filesystem::path file = place_file(mesh.file());
   std::error_code ignored;
   if (!std::filesystem::exists(file, ignored)) return std::nullopt;

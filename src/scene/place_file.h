@@ -17,6 +17,6 @@ std::filesystem::path place_file(const std::filesystem::path& mesh_file);
 std::string place_file_text(const std::optional<Georeference>& georeference);
 
 /// Reads the file beside `mesh`; nothing when there is none. Throws Error(input) for one that cannot be read.
-std::optional<Georeference> read_place_file(const MeshSource& mesh, ReadProgress& progress);
+std::optional<Georeference> read_place_file(const MeshSource& mesh, const core::ProgressReporter& progress);
 
 }  // namespace vantage::scene

@@ -134,7 +134,8 @@ class BinaryValues {
 template <class Values>
 class PlyReader {
  public:
-  PlyReader(const MeshSource& source, const Header& header, ReadProgress& progress, const ReadLimits& limits)
+  PlyReader(const MeshSource& source, const Header& header, const core::ProgressReporter& progress,
+            const ReadLimits& limits)
       : source_(source),
         header_(header),
         progress_(progress),
@@ -185,7 +186,7 @@ class PlyReader {
   void rows(const Element& element, const Read& read) {
     const std::uint64_t total = source_.bytes().size();
     for (std::uint64_t row = 0; row < element.count; ++row) {
-      progress_.update(total - values_.left(), total);
+      progress_.tick(total - values_.left(), total);
       for (std::size_t i = 0; i < element.properties.size(); ++i) read(element.properties[i], i);
     }
   }
@@ -260,14 +261,14 @@ class PlyReader {
 
   const MeshSource& source_;
   const Header& header_;
-  ReadProgress& progress_;
+  const core::ProgressReporter& progress_;
   MeshBuilder builder_;
   Values values_;
 };
 
 }  // namespace
 
-RawMesh read_ply(const MeshSource& source, ReadProgress& progress, const ReadLimits& limits) {
+RawMesh read_ply(const MeshSource& source, const core::ProgressReporter& progress, const ReadLimits& limits) {
   progress.begin("parse PLY");
   const Header header = ply::read_header(source);
   if (header.encoding == Encoding::ascii) return PlyReader<AsciiValues>(source, header, progress, limits).read();

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <unordered_set>
 
+#include "core/progress_reporter.h"
 #include "parallel/parallel.h"
 #include "scene/convex_polygons.h"
 #include "scene/prepared_data.h"
@@ -17,11 +18,6 @@ namespace {
 
 // A triangle thinner than this, in metres, hides nothing that can be measured, and its normal is noise.
 constexpr double kThinnest = 1e-9;
-
-void report(const Progress& progress, double fraction) {
-  if (progress && !progress("preparing the scene", fraction))
-    throw Error(ErrorKind::cancelled, "cancelled while preparing the scene", "", "");
-}
 
 std::uint64_t mix(std::uint64_t x) {  // splitmix64's finalizer
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
@@ -177,7 +173,7 @@ void check(const Scene& scene) {
 
 }  // namespace
 
-PreparedScene::PreparedScene(const Scene& scene, const Progress& progress) {
+PreparedScene::PreparedScene(const Scene& scene, const Progress& callback) {
   check(scene);
   auto data = std::make_shared<Data>();
   data->objects = scene.objects;
@@ -188,16 +184,17 @@ PreparedScene::PreparedScene(const Scene& scene, const Progress& progress) {
   statistics.objects = data->objects.size();
   statistics.bounds = visible_bounds(scene.mesh);
   if (!statistics.bounds.empty()) data->origin = 0.5 * (statistics.bounds.min + statistics.bounds.max);
-  report(progress, 0.0);
+  const core::ProgressReporter progress(callback);
+  progress.begin("preparing the scene");
   const CleanTriangles clean = weld_and_clean(scene, *data);
   statistics.welded_vertices = data->vertices.size();
-  report(progress, 0.3);
+  progress.report(0.3);
   const auto polygons = scene::merge_coplanar(data->vertices, clean.triangles, clean.object_of, statistics);
   statistics.polygons = polygons.count();
-  report(progress, 0.7);
+  progress.report(0.7);
   store_in_leaf_order(*data, polygons);
   index_incidence(*data);
-  report(progress, 1.0);
+  progress.finish();
   data_ = std::move(data);
 }
 

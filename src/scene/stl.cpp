@@ -28,7 +28,7 @@ std::uint64_t binary_length(std::string_view bytes) {
   return kCountEnd + kFacet * std::uint64_t{value_at<std::uint32_t>(bytes, kHeader)};
 }
 
-RawMesh read_binary(const MeshSource& source, ReadProgress& progress, const ReadLimits& limits) {
+RawMesh read_binary(const MeshSource& source, const core::ProgressReporter& progress, const ReadLimits& limits) {
   const std::string_view bytes = source.bytes();
   if (bytes.size() < kCountEnd)
     source.fail_at_byte(bytes.size(), "the binary STL ends in its header", "export it again");
@@ -44,7 +44,7 @@ RawMesh read_binary(const MeshSource& source, ReadProgress& progress, const Read
   builder.reserve(3 * facets, facets);
   builder.add_object(source.stem());
   for (std::size_t at = kCountEnd; at < bytes.size(); at += kFacet) {
-    progress.update(at, bytes.size());
+    progress.tick(at, bytes.size());
     Triangle triangle;
     for (std::size_t corner = 0; corner < 3; ++corner) {
       const std::size_t place = at + 12 * (corner + 1);  // the normal comes first
@@ -59,7 +59,7 @@ RawMesh read_binary(const MeshSource& source, ReadProgress& progress, const Read
 
 class AsciiStlReader {
  public:
-  AsciiStlReader(const MeshSource& source, ReadProgress& progress, const ReadLimits& limits)
+  AsciiStlReader(const MeshSource& source, const core::ProgressReporter& progress, const ReadLimits& limits)
       : source_(source),
         progress_(progress),
         builder_(source, MeshFormat::stl, MeshBuilder::PlaceUnit::line, limits),
@@ -95,7 +95,7 @@ class AsciiStlReader {
     const std::string name = clean_name(text_.rest_of_line());
     builder_.add_object(name.empty() ? source_.stem() : name);
     while (keyword() == "facet") {
-      progress_.update(text_.offset(), source_.bytes().size());
+      progress_.tick(text_.offset(), source_.bytes().size());
       facet();
     }
     if (keyword_ != "endsolid") fail(in_quotes(keyword_) + " where \"facet\" or \"endsolid\" belongs");
@@ -125,7 +125,7 @@ class AsciiStlReader {
   }
 
   const MeshSource& source_;
-  ReadProgress& progress_;
+  const core::ProgressReporter& progress_;
   MeshBuilder builder_;
   TextCursor text_;
   std::string keyword_;
@@ -145,7 +145,7 @@ bool is_ascii_stl(std::string_view bytes) {
   return solid && bytes.substr(0, 1024).find('\0') == std::string_view::npos;
 }
 
-RawMesh read_stl(const MeshSource& source, ReadProgress& progress, const ReadLimits& limits) {
+RawMesh read_stl(const MeshSource& source, const core::ProgressReporter& progress, const ReadLimits& limits) {
   progress.begin("parse STL");
   const bool ascii = is_ascii_stl(source.bytes()) && !is_binary_stl(source.bytes());
   return ascii ? AsciiStlReader(source, progress, limits).read() : read_binary(source, progress, limits);

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/progress_reporter.h"
 #include "parallel/parallel.h"
 #include "solid/csg.h"
 #include "solid/solid_check.h"
@@ -17,30 +18,11 @@ namespace {
 
 using solid::Solid;
 using solid::TriangleTree;
-using solid::Watch;
 
 /// Volumes from elsewhere may pass through themselves in a few facets: they can be compared all the same, where these
 /// are no larger a part of the whole area. (Of 54 spheres, pairs and results of ours, of up to 91,530 facets, none
 /// did.)
 constexpr double kFolds = 1e-3;
-
-/// Parts of one run, each with its share of the whole.
-class Stages {
- public:
-  explicit Stages(const Progress& progress) : progress_(progress) {}
-
-  /// The watch of the next stage. `name` must last.
-  Watch next(const char* name, double share) {
-    const double from = std::exchange(done_, done_ + share);
-    if (!progress_) return {};
-    if (!progress_(name, from)) throw Error(ErrorKind::cancelled, "the comparison was cancelled", name, "");
-    return [this, name, from, share](double fraction) { return progress_(name, from + share * fraction); };
-  }
-
- private:
-  const Progress& progress_;
-  double done_ = 0;
-};
 
 Box bounds_of(const Mesh& a, const Mesh& b) {
   Box box = bounding_box(a);
@@ -82,18 +64,15 @@ struct Farthest {
 };
 
 /// The corner of `part` that is farthest from the surface in `tree`; the first of equals.
-Farthest farthest_corner(const Mesh& part, const TriangleTree& tree, const Watch& watch) {
-  constexpr std::size_t kBatch = 1 << 14, kGrain = 256;  // a batch takes some milliseconds
+Farthest farthest_corner(const Mesh& part, const TriangleTree& tree, const core::ProgressReporter& progress) {
+  constexpr std::size_t kGrain = 256;
   const std::size_t count = part.vertices.size();
   std::vector<double> distance(count, 0);
-  for (std::size_t begin = 0; begin < count; begin += kBatch) {
-    if (watch && !watch(static_cast<double>(begin) / static_cast<double>(count))) {
-      throw Error(ErrorKind::cancelled, "the comparison was cancelled", "", "");
-    }
-    parallel::for_ranges(std::min(kBatch, count - begin), kGrain, [&](std::size_t from, std::size_t to) {
-      for (std::size_t v = begin + from; v < begin + to; ++v) distance[v] = tree.distance(part.vertices[v]);
-    });
-  }
+  core::ProgressCounter counter(progress, count);
+  parallel::for_ranges(count, kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) distance[v] = tree.distance(part.vertices[v]);
+    counter.add(end - begin);
+  });
   const auto found = std::max_element(distance.begin(), distance.end());
   if (found == distance.end()) return {};
   return {*found, part.vertices[static_cast<std::size_t>(found - distance.begin())]};
@@ -113,10 +92,12 @@ double intersection_of(const Comparison& c, double allowance) {
 }  // namespace
 
 Comparison compare_volumes(const Mesh& mesh_a, const Mesh& mesh_b, const std::string& name_a, const std::string& name_b,
-                           const Progress& progress) {
-  Stages stages(progress);
-  Mesh a = solid::checked_solid(mesh_a, name_a, stages.next("checking the first mesh", 0.2), kFolds);
-  Mesh b = solid::checked_solid(mesh_b, name_b, stages.next("checking the second mesh", 0.2), kFolds);
+                           const Progress& callback) {
+  const core::ProgressReporter progress(callback);
+  progress.begin("checking the first mesh");
+  Mesh a = solid::checked_solid(mesh_a, name_a, progress, kFolds);
+  progress.begin("checking the second mesh");
+  Mesh b = solid::checked_solid(mesh_b, name_b, progress, kFolds);
   const Box box = bounds_of(a, b);
   const Vec3 origin = (box.min + box.max) / 2;
   for (Mesh* mesh : {&a, &b}) {
@@ -131,8 +112,10 @@ Comparison compare_volumes(const Mesh& mesh_a, const Mesh& mesh_b, const std::st
     return result;
   }
   const Solid solid_a = solid_of(a, name_a), solid_b = solid_of(b, name_b);
-  const Solid only_a = subtract(solid_a, solid_b, stages.next("subtracting", 0.2));
-  const Solid only_b = subtract(solid_b, solid_a, stages.next("subtracting", 0.2));
+  progress.begin("subtracting the second mesh");
+  const Solid only_a = subtract(solid_a, solid_b, progress);
+  progress.begin("subtracting the first mesh");
+  const Solid only_b = subtract(solid_b, solid_a, progress);
   result.only_a_m3 = only_a.volume();
   result.only_b_m3 = only_b.volume();
   result.only_a = only_a.to_mesh().mesh;
@@ -140,8 +123,10 @@ Comparison compare_volumes(const Mesh& mesh_a, const Mesh& mesh_b, const std::st
   const double area = solid_a.area() + solid_b.area(), length = (box.max - box.min).norm();
   result.intersection_m3 = intersection_of(result, area * length * 1e-9);
 
-  const Farthest from_b = farthest_corner(result.only_a, TriangleTree(b), stages.next("measuring distances", 0.1));
-  const Farthest from_a = farthest_corner(result.only_b, TriangleTree(a), stages.next("measuring distances", 0.1));
+  progress.begin("measuring distances");
+  const Farthest from_b = farthest_corner(result.only_a, TriangleTree(b), progress.part(0, 0.5));
+  const Farthest from_a = farthest_corner(result.only_b, TriangleTree(a), progress.part(0.5, 1));
+  progress.finish();
   for (Mesh* mesh : {&result.only_a, &result.only_b}) {
     for (Vec3& vertex : mesh->vertices) vertex += origin;
   }

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "core/progress_reporter.h"
 #include "parallel/parallel.h"
 #include "vantage/error.h"
 
@@ -62,31 +63,25 @@ Solid wrap(manifold::Manifold evaluated) {
   return Solid(std::make_shared<const Solid::Impl>(Solid::Impl{std::move(evaluated)}));
 }
 
-/// Manifold evaluates lazily. While it works on another thread this one asks the watch every few milliseconds.
-Status evaluate(const manifold::Manifold& lazy, const Watch& watch) {
-  if (!watch) return lazy.Status();
+/// Manifold evaluates lazily. While it works on another thread this one asks every few milliseconds whether to go on.
+Status evaluate(const manifold::Manifold& lazy, const core::ProgressReporter& progress) {
+  if (!progress.is_followed()) return lazy.Status();
   manifold::ExecutionContext context;
   const manifold::Manifold watched = lazy.WithContext(context);
-  bool stopped = false;
-  double done = 0;  // Manifold's own falls back to 0 in the end
   const auto ask = [&] {
-    if (stopped) return;
-    done = std::max(done, context.Progress());
     try {
-      stopped = !watch(done);
+      progress.report(context.Progress());
     } catch (...) {
       context.Cancel();
       throw;
     }
-    if (stopped) context.Cancel();
   };
   parallel::run_while_asking([&] { (void)watched.Status(); }, ask);
-  // An operation may end before it sees the request to stop. Otherwise this only takes over the cached result.
-  return stopped ? Status::Cancelled : lazy.Status();
+  return lazy.Status();  // only takes over the cached result
 }
 
-Solid evaluated(const manifold::Manifold& lazy, const char* operation, const Watch& watch) {
-  const Status status = evaluate(lazy, watch);
+Solid evaluated(const manifold::Manifold& lazy, const char* operation, const core::ProgressReporter& progress) {
+  const Status status = evaluate(lazy, progress);
   if (status == Status::Cancelled) throw Error(ErrorKind::cancelled, "cancelled", operation, "");
   if (status != Status::NoError) {
     throw Error(ErrorKind::internal, std::string("a boolean operation on solids failed: ") + name_of(status), operation,
@@ -172,26 +167,26 @@ long Solid::euler() const {
   return static_cast<long>(m.NumVert()) - static_cast<long>(m.NumEdge()) + static_cast<long>(m.NumTri());
 }
 
-Solid unite(const Solid& a, const Solid& b, const Watch& watch) {
-  return evaluated(a.impl().manifold + b.impl().manifold, "union", watch);
+Solid unite(const Solid& a, const Solid& b, const core::ProgressReporter& progress) {
+  return evaluated(a.impl().manifold + b.impl().manifold, "union", progress);
 }
 
-Solid intersect(const Solid& a, const Solid& b, const Watch& watch) {
-  return evaluated(a.impl().manifold ^ b.impl().manifold, "intersection", watch);
+Solid intersect(const Solid& a, const Solid& b, const core::ProgressReporter& progress) {
+  return evaluated(a.impl().manifold ^ b.impl().manifold, "intersection", progress);
 }
 
-Solid subtract(const Solid& a, const Solid& b, const Watch& watch) {
-  return evaluated(a.impl().manifold - b.impl().manifold, "difference", watch);
+Solid subtract(const Solid& a, const Solid& b, const core::ProgressReporter& progress) {
+  return evaluated(a.impl().manifold - b.impl().manifold, "difference", progress);
 }
 
-Solid unite(std::span<const Solid> operands, const Watch& watch) {
-  return evaluated(manifold::Manifold::BatchBoolean(manifolds_of(operands), manifold::OpType::Add), "union", watch);
+Solid unite(std::span<const Solid> operands, const core::ProgressReporter& progress) {
+  return evaluated(manifold::Manifold::BatchBoolean(manifolds_of(operands), manifold::OpType::Add), "union", progress);
 }
 
-Solid intersect(std::span<const Solid> operands, const Watch& watch) {
+Solid intersect(std::span<const Solid> operands, const core::ProgressReporter& progress) {
   if (operands.empty()) throw Error(ErrorKind::internal, "an intersection needs an operand", "", "");
   return evaluated(manifold::Manifold::BatchBoolean(manifolds_of(operands), manifold::OpType::Intersect),
-                   "intersection", watch);
+                   "intersection", progress);
 }
 
 Solid make_box(const Box& box, const BoxLabels& labels) {

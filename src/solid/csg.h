@@ -4,13 +4,13 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "core/progress_reporter.h"
 #include "vantage/geometry.h"
 
 namespace vantage::solid {
@@ -22,10 +22,6 @@ struct LabelledMesh {
 };
 
 constexpr std::uint32_t kMaxLabel = 0x7fffffff;
-
-/// Called from the calling thread while an operation runs, with the fraction that is done. Returning false stops it:
-/// the operation throws Error(cancelled). An empty function is allowed everywhere.
-using Watch = std::function<bool(double fraction)>;
 
 /// An immutable closed solid, cheap to copy. Any number of threads may read one.
 ///
@@ -62,15 +58,16 @@ class Solid {
   std::shared_ptr<const Impl> impl_;
 };
 
-/// Booleans are regularised: no dangling faces, and what merely touches does not meet. All throw Error(cancelled) when
-/// the watch says so and Error(internal), with Manifold's status, when an operation fails.
-Solid unite(const Solid& a, const Solid& b, const Watch& watch = {});
-Solid intersect(const Solid& a, const Solid& b, const Watch& watch = {});
-Solid subtract(const Solid& a, const Solid& b, const Watch& watch = {});
+/// Booleans are regularised: no dangling faces, and what merely touches does not meet. All ask `progress` from the
+/// calling thread while the operation runs, and throw Error(cancelled) when told to stop and Error(internal), with
+/// Manifold's status, when an operation fails.
+Solid unite(const Solid& a, const Solid& b, const core::ProgressReporter& progress = {});
+Solid intersect(const Solid& a, const Solid& b, const core::ProgressReporter& progress = {});
+Solid subtract(const Solid& a, const Solid& b, const core::ProgressReporter& progress = {});
 /// Of any number of operands, smallest first. The union of none is empty.
-Solid unite(std::span<const Solid> operands, const Watch& watch = {});
+Solid unite(std::span<const Solid> operands, const core::ProgressReporter& progress = {});
 /// Of at least one operand.
-Solid intersect(std::span<const Solid> operands, const Watch& watch = {});
+Solid intersect(std::span<const Solid> operands, const core::ProgressReporter& progress = {});
 
 /// Labels of a box's sides.
 struct BoxLabels {

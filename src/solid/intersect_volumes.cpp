@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "core/progress_reporter.h"
 #include "solid/outside_limits.h"
 #include "solid/pieces.h"
 #include "solid/regions.h"
@@ -65,7 +66,7 @@ Solid solid_of(const Volume& volume, const Vec3& origin, CauseList& causes) {
 
 }  // namespace
 
-Volume intersect_volumes(const std::vector<Volume>& volumes, const Progress& progress) {
+Volume intersect_volumes(const std::vector<Volume>& volumes, const Progress& callback) {
   if (volumes.empty()) throw Error(ErrorKind::input, "there are no volumes to intersect", "", "give at least one");
   Volume result = volumes.front();
   for (std::size_t i = 1; i < volumes.size(); ++i) add_work(volumes[i], result);
@@ -86,8 +87,9 @@ Volume intersect_volumes(const std::vector<Volume>& volumes, const Progress& pro
     solids.push_back(solid_of(volume, origin, causes));
     sliver = std::max(sliver, solid::sliver_thickness(solids.back()));
   }
-  const solid::Watch watch = progress ? solid::Watch([&](double done) { return progress("parts", done); }) : nullptr;
-  LabelledMesh labelled = solid::intersect(solids, watch).to_mesh();
+  const core::ProgressReporter progress(callback);
+  progress.begin("parts");
+  LabelledMesh labelled = solid::intersect(solids, progress).to_mesh();
   solid::drop_slivers(labelled, sliver);
   if (labelled.mesh.empty()) {
     make_empty(Outcome::no_common_view,

@@ -55,14 +55,14 @@ void check_limits(const Navigation& navigation) {
   check_boxes(navigation.keep_out, "keep_out", "keep_out");
 }
 
-std::vector<Mesh> check_navigation(const Navigation& navigation, const Watch& watch) {
+std::vector<Mesh> check_navigation(const Navigation& navigation, const core::ProgressReporter& progress) {
   check_limits(navigation);
   std::vector<Mesh> meshes;
   const auto count = static_cast<double>(navigation.meshes.size());
   for (std::size_t i = 0; i < navigation.meshes.size(); ++i) {
     const KeepInMesh& keep_in = navigation.meshes[i];
-    const auto part = [&](double done) { return watch((static_cast<double>(i) + done) / count); };
-    meshes.push_back(checked_solid(keep_in.mesh, keep_in.name, watch ? Watch(part) : Watch()));
+    const auto done = static_cast<double>(i);
+    meshes.push_back(checked_solid(keep_in.mesh, keep_in.name, progress.part(done / count, (done + 1) / count)));
   }
   return meshes;
 }

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/progress_reporter.h"
 #include "solid/numerics.h"
 #include "solid/outside_limits.h"
 #include "solid/pieces.h"
@@ -28,11 +29,11 @@ std::vector<Solid> solids_of(const std::vector<Region>& regions) {
   return solids;
 }
 
-Solid cut(const Solid& volume, const Regions& regions, const Watch& watch) {
+Solid cut(const Solid& volume, const Regions& regions, const core::ProgressReporter& progress) {
   const Solid forbidden = unite(solids_of(regions.forbidden));
-  if (regions.kept.empty()) return subtract(volume, forbidden, watch);
+  if (regions.kept.empty()) return subtract(volume, forbidden, progress);
   const Solid kept = intersect(solids_of(regions.kept));
-  return intersect(volume, forbidden.empty() ? kept : subtract(kept, forbidden), watch);
+  return intersect(volume, forbidden.empty() ? kept : subtract(kept, forbidden), progress);
 }
 
 /// Puts the corners of cut faces into their planes exactly, where rounding left them beside it. `labelled` is in the
@@ -61,14 +62,13 @@ void make_empty(const Emptiness& emptiness, Volume& result) {
   result.causes.clear();
 }
 
-void cut_volume(const Regions& regions, const Watch& watch, Volume& result) {
+void cut_volume(const Regions& regions, const core::ProgressReporter& progress, Volume& result) {
   const Solid volume(moved_to_origin(result.mesh, result.cause_of, regions.origin), "the volume");
-  const Solid remaining = cut(volume, regions, watch);
+  const Solid remaining = cut(volume, regions, progress);
   LabelledMesh labelled = remaining.to_mesh();
   drop_slivers(labelled, sliver_thickness(volume));
   if (labelled.mesh.empty()) {
-    const Watch asked_again = watch ? Watch([&](double) { return watch(1); }) : Watch();
-    return make_empty(explain_emptiness(volume, regions, asked_again), result);
+    return make_empty(explain_emptiness(volume, regions, progress), result);
   }
   for (Vec3& vertex : labelled.mesh.vertices) vertex += regions.origin;
   const double rounding = std::numeric_limits<double>::epsilon() * regions.origin.cwiseAbs().maxCoeff();
@@ -80,25 +80,19 @@ void cut_volume(const Regions& regions, const Watch& watch, Volume& result) {
 }  // namespace
 }  // namespace solid
 
-Volume cut_to_navigation(const Volume& volume, const Navigation& navigation, const Progress& progress) {
+Volume cut_to_navigation(const Volume& volume, const Navigation& navigation, const Progress& callback) {
   const auto start = std::chrono::steady_clock::now();
-  const auto watch = [&](double from, double share) -> solid::Watch {
-    if (!progress) return {};
-    return [&progress, from, share](double done) { return progress("navigation", from + share * done); };
-  };
-  const auto stop = [&](double done) { return progress && !progress("navigation", done); };
-  const auto cancelled = [] { return Error(ErrorKind::cancelled, "cancelled", "navigation", ""); };
-
-  if (stop(0)) throw cancelled();
-  const std::vector<Mesh> meshes = solid::check_navigation(navigation, watch(0, 0.3));
+  const core::ProgressReporter progress(callback);
+  progress.begin("navigation");
+  const std::vector<Mesh> meshes = solid::check_navigation(navigation, progress.part(0, 0.3));
   Volume result = volume;
   if (volume.outcome != Outcome::computed || volume.mesh.empty() || navigation.empty()) return result;
 
   solid::check_volume(volume);
   const Box bounds = measure(volume.mesh).bounds;
   const solid::Regions regions = solid::make_regions(volume.causes, bounds, navigation, meshes);
-  if (!regions.kept.empty() || !regions.forbidden.empty()) solid::cut_volume(regions, watch(0.3, 0.7), result);
-  if (stop(1)) throw cancelled();
+  if (!regions.kept.empty() || !regions.forbidden.empty()) solid::cut_volume(regions, progress.part(0.3, 1), result);
+  progress.finish();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   result.seconds.navigation += seconds;
   result.seconds.total += seconds;

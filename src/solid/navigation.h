@@ -13,6 +13,6 @@ namespace vantage::solid {
 void check_limits(const Navigation& navigation);
 
 /// check_limits, and checked_solid on every mesh. Returns the meshes, welded.
-std::vector<Mesh> check_navigation(const Navigation& navigation, const Watch& watch = {});
+std::vector<Mesh> check_navigation(const Navigation& navigation, const core::ProgressReporter& progress = {});
 
 }  // namespace vantage::solid

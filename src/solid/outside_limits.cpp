@@ -57,12 +57,12 @@ Emptiness explain_region(const Region& region, const Solid& left, const std::str
 
 }  // namespace
 
-Emptiness explain_emptiness(const Solid& volume, const Regions& regions, const Watch& watch) {
+Emptiness explain_emptiness(const Solid& volume, const Regions& regions, const core::ProgressReporter& progress) {
   const double thickness = sliver_thickness(volume);
   Solid left = volume;
   std::string left_name = "the volume";
   for (const Region& region : regions.kept) {
-    const Solid next = intersect(left, region.solid, watch);
+    const Solid next = intersect(left, region.solid, progress);
     if (negligible(next, thickness)) return explain_region(region, left, left_name, regions.origin);
     left = next;
     left_name = "what the limits before it leave of the volume";

@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "scene/mesh_source.h"
-#include "scene/read_progress.h"
+#include "core/progress_reporter.h"
 #include "solid/names.h"
 #include "vantage/error.h"
 
@@ -66,7 +66,7 @@ void read_causes(const std::filesystem::path& file, Volume& volume) {
   volume.cause_of.clear();
   volume.causes.clear();
   const Progress nobody;
-  scene::ReadProgress progress(nobody, file);
+  core::ProgressReporter progress(nobody, file);
   const scene::MeshSource source = scene::load_mesh_source(file, progress);
   const std::string_view bytes = source.bytes();
   if (bytes.substr(0, 36) != "ply\nformat binary_little_endian 1.0\n") return;

@@ -5,6 +5,7 @@
 #include <memory>
 #include <utility>
 
+#include "core/progress_reporter.h"
 #include "solid/atomic_file.h"
 #include "solid/volume_check.h"
 #include "solid/write_place.h"
@@ -14,43 +15,30 @@
 namespace vantage::solid {
 namespace {
 
-class Stages {
- public:
-  Stages(const Progress& progress, std::size_t count) : progress_(progress), count_(count) {}
-
-  void next() {
-    if (!progress_ || progress_("writing", static_cast<double>(done_++) / static_cast<double>(count_))) return;
-    throw Error(ErrorKind::cancelled, "cancelled while writing", "", "");
-  }
-
- private:
-  const Progress& progress_;
-  std::size_t count_, done_ = 0;
-};
-
 }  // namespace
 
 std::filesystem::path report_file(const std::filesystem::path& volume_file) {
   return std::filesystem::path(volume_file).replace_extension(".report.json");
 }
 
-WrittenResults write_results(Volume& volume, const ResultRequest& request, const Progress& progress) {
+WrittenResults write_results(Volume& volume, const ResultRequest& request, const Progress& callback) {
   const auto start = std::chrono::steady_clock::now();
+  const core::ProgressReporter progress(callback);
+  progress.begin("writing");
   const bool has_volume = volume.outcome == Outcome::computed;
   WrittenResults result;
   result.measures = has_volume ? measure_sound(volume.mesh) : measure(volume.mesh);
 
   std::vector<std::unique_ptr<AtomicFile>> files;
-  Stages stages(progress, request.volumes.size() + 1);
   if (has_volume) {
     for (const std::filesystem::path& file : request.volumes) {
-      stages.next();
+      progress.report(files.size(), request.volumes.size() + 1);
       files.push_back(stage_volume(volume, file, request.obj_up, request.obj_scale));
       files.back()->seal();
       if (auto place = stage_place(volume.georeference, file)) files.push_back(std::move(place));
     }
   }
-  stages.next();
+  progress.finish();
   volume.seconds.write = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   volume.seconds.total += volume.seconds.write;
 

@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "core/progress_reporter.h"
 #include "parallel/parallel.h"
 #include "solid/edges.h"
 #include "solid/numerics.h"
@@ -35,8 +36,8 @@ class Examination {
 
   void check_edges() const;
   void check_volume() const;
-  bool check_contacts(const TriangleTree& tree, const Watch& watch, double folds);
-  void check_windings(const TriangleTree& tree, const Watch& watch) const;
+  bool check_contacts(const TriangleTree& tree, const core::ProgressReporter& progress, double folds);
+  void check_windings(const TriangleTree& tree, const core::ProgressReporter& progress) const;
 
   const Mesh& local() const { return local_; }
 
@@ -124,19 +125,16 @@ std::size_t Examination::first_crossing(std::size_t t, const TriangleTree& tree)
 }
 
 /// Whether no triangle passes through another. Some may, where they are few.
-bool Examination::check_contacts(const TriangleTree& tree, const Watch& watch, double folds) {
+bool Examination::check_contacts(const TriangleTree& tree, const core::ProgressReporter& progress, double folds) {
   const std::size_t count = local_.triangles.size();
-  constexpr std::size_t kBatch = 1 << 14, kGrain = 256;  // a batch takes some milliseconds
+  constexpr std::size_t kGrain = 256;
   touching_.assign(count, 0);
   std::vector<std::size_t> crossing(count, kNone);
-  for (std::size_t begin = 0; begin < count; begin += kBatch) {
-    if (watch && !watch(static_cast<double>(begin) / static_cast<double>(count))) {
-      throw Error(ErrorKind::cancelled, "cancelled", name_, "");
-    }
-    parallel::for_ranges(std::min(kBatch, count - begin), kGrain, [&](std::size_t from, std::size_t to) {
-      for (std::size_t t = begin + from; t < begin + to; ++t) crossing[t] = first_crossing(t, tree);
-    });
-  }
+  core::ProgressCounter counter(progress, count);
+  parallel::for_ranges(count, kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t) crossing[t] = first_crossing(t, tree);
+    counter.add(end - begin);
+  });
   const auto crosses = [](std::size_t other) { return other != kNone; };
   const auto first = std::find_if(crossing.begin(), crossing.end(), crosses);
   if (first == crossing.end()) return true;
@@ -180,14 +178,12 @@ std::vector<std::size_t> Examination::samples() const {
   return result;
 }
 
-void Examination::check_windings(const TriangleTree& tree, const Watch& watch) const {
+void Examination::check_windings(const TriangleTree& tree, const core::ProgressReporter& progress) const {
   const double offset = numerics::kSampleOffset * distance_;
   std::size_t done = 0;
   const std::vector<std::size_t> chosen = samples();
   for (const std::size_t t : chosen) {
-    if (watch && done++ % 1024 == 0 && !watch(static_cast<double>(done) / static_cast<double>(chosen.size()))) {
-      throw Error(ErrorKind::cancelled, "cancelled", name_, "");
-    }
+    progress.report(done++, chosen.size());
     const std::array<Vec3, 3> c = corners(t);
     const Vec3 normal = (c[1] - c[0]).cross(c[2] - c[0]);
     const double longest = std::max({(c[1] - c[0]).norm(), (c[2] - c[1]).norm(), (c[0] - c[2]).norm()});
@@ -209,7 +205,7 @@ void Examination::check_windings(const TriangleTree& tree, const Watch& watch) c
 
 }  // namespace
 
-Mesh checked_solid(const Mesh& mesh, const std::string& name, const Watch& watch, double folds) {
+Mesh checked_solid(const Mesh& mesh, const std::string& name, const core::ProgressReporter& progress, double folds) {
   if (mesh.empty()) refuse("the mesh has no triangles", name, "give a closed mesh");
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
     if (!mesh.vertices[v].allFinite()) {
@@ -227,10 +223,10 @@ Mesh checked_solid(const Mesh& mesh, const std::string& name, const Watch& watch
   examination.check_edges();
   examination.check_volume();
   const TriangleTree tree(examination.local());
-  const Watch contacts = watch ? [&](double done) { return watch(0.7 * done); } : Watch();
-  const Watch windings = watch ? [&](double done) { return watch(0.7 + 0.3 * done); } : Watch();
   // Within a fold space is inside twice, or inside out: all that is known then is that the whole is not.
-  if (examination.check_contacts(tree, contacts, folds)) examination.check_windings(tree, windings);
+  if (examination.check_contacts(tree, progress.part(0, 0.7), folds)) {
+    examination.check_windings(tree, progress.part(0.7, 1));
+  }
   return result;
 }
 

@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "core/progress_reporter.h"
 #include "solid/csg.h"
 #include "vantage/geometry.h"
 
@@ -16,7 +17,8 @@ namespace vantage::solid {
 ///   - passes through itself (the first place, and which triangles), deeper than numerics::kTouching of its diagonal,
 ///   - is inside out or has parts that overlap, so that some space counts other than once or not at all.
 /// Triangles that pass through others are let be where they make up no more than `folds` of the mesh's area.
-/// Error(cancelled) when the watch says so. Cost: O(n log n) for meshes as they are drawn.
-Mesh checked_solid(const Mesh& mesh, const std::string& name, const Watch& watch = {}, double folds = 0);
+/// Error(cancelled) when told to stop. Cost: O(n log n) for meshes as they are drawn.
+Mesh checked_solid(const Mesh& mesh, const std::string& name, const core::ProgressReporter& progress = {},
+                   double folds = 0);
 
 }  // namespace vantage::solid

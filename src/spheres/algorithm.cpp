@@ -51,15 +51,8 @@ Shape shape_of(const Solid& solid) { return shape_of(solid.to_mesh(), numerics::
 class Run {
  public:
   Run(const TargetFrame& frame, const SphereMaker& maker, const SpheresOptions& options, SpheresReport& report,
-      const StageSink& stages, exact::Watch& watch, bool is_watched)
-      : frame_(frame), maker_(maker), options_(options), report_(report), stages_(stages), watch_(watch) {
-    if (is_watched) {
-      asked_ = [this](double) {
-        watch_.check();
-        return true;
-      };
-    }
-  }
+      const StageSink& stages, const core::ProgressReporter& progress)
+      : frame_(frame), maker_(maker), options_(options), report_(report), stages_(stages), progress_(progress) {}
 
   Intersection run() {
     for (const auto& corner : frame_.polygon) points_.push_back({{corner.x(), corner.y(), 0}, {}, 0, false});
@@ -98,11 +91,11 @@ class Run {
     if (which.empty()) return;
     std::vector<Vec3> places;
     for (const std::uint32_t i : which) places.push_back(points_[i].place);
-    watch_.begin("making spheres", 0.1);
+    progress_.begin("making spheres");
     auto start = Clock::now();
     maker_.make(places, [&](std::size_t k, Sphere sphere) {
       report_.render_seconds += seconds_since(start);
-      watch_.check();
+      progress_.report(k, places.size());
       take_sphere(which[k], std::move(sphere));
       start = Clock::now();
     });
@@ -121,6 +114,9 @@ class Run {
     const Shape shape = shape_of(std::move(sphere.mesh), 0);
     tell(SphereStage::Kind::sphere, "sphere " + std::to_string(point), {point}, &shape, sphere.seconds);
   }
+
+  /// For a step of a stage whose steps are counted: only asked whether to go on.
+  core::ProgressReporter still() const { return progress_.part(0, 0); }
 
   void push(const Edge& edge) {
     pending_.push_back(edge);
@@ -145,9 +141,11 @@ class Run {
     make_spheres(missing);
     if (result_.blocked) is_empty_ = true;
     std::vector<Edge> halves;
+    progress_.begin("intersecting spheres");
     for (const Edge& edge : batch) {
       if (is_empty_) return;
-      watch_.begin("intersecting spheres", 0.5);
+      progress_.report(edges_, edges_ + batch.size() + pending_.size());
+      ++edges_;
       take_edge(edge, halves);
     }
     for (auto half = halves.rbegin(); half != halves.rend(); ++half) push(*half);
@@ -175,7 +173,7 @@ class Run {
     std::optional<Solid> pair;
     if (must_test()) {
       const auto start = Clock::now();
-      pair = solid::intersect(*points_[edge.from].sphere, *points_[edge.to].sphere, asked_);
+      pair = solid::intersect(*points_[edge.from].sphere, *points_[edge.to].sphere, still());
       const Shape shape = shape_of(*pair);
       const double seconds = seconds_since(start);
       report_.boolean_seconds += seconds;
@@ -231,7 +229,7 @@ class Run {
     if (waiting_.empty()) return;
     const auto start = Clock::now();
     if (partial_) waiting_.insert(waiting_.begin(), *partial_);
-    partial_ = waiting_.size() == 1 ? waiting_.front() : solid::intersect(waiting_, asked_);
+    partial_ = waiting_.size() == 1 ? waiting_.front() : solid::intersect(waiting_, still());
     waiting_.clear();
     const double seconds = seconds_since(start);
     report_.boolean_seconds += seconds;
@@ -287,8 +285,7 @@ class Run {
   const SpheresOptions& options_;
   SpheresReport& report_;
   const StageSink& stages_;
-  exact::Watch& watch_;
-  solid::Watch asked_;
+  const core::ProgressReporter& progress_;
 
   std::vector<Point> points_;
   std::vector<Edge> pending_;
@@ -297,14 +294,16 @@ class Run {
   std::uint32_t last_ = 0;  // the last point that was taken in
   bool is_empty_ = false;
   int partials_ = 0;
+  std::size_t edges_ = 0;  // looked at
   Intersection result_;
 };
 
 }  // namespace
 
 Intersection intersect_spheres(const TargetFrame& frame, const SphereMaker& maker, const SpheresOptions& options,
-                               SpheresReport& report, const StageSink& stages, exact::Watch& watch, bool is_watched) {
-  return Run(frame, maker, options, report, stages, watch, is_watched).run();
+                               SpheresReport& report, const StageSink& stages,
+                               const core::ProgressReporter& progress) {
+  return Run(frame, maker, options, report, stages, progress).run();
 }
 
 }  // namespace vantage::spheres

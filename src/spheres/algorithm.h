@@ -6,7 +6,7 @@
 #include <array>
 #include <optional>
 
-#include "exact/watch.h"
+#include "core/progress_reporter.h"
 #include "solid/csg.h"
 #include "spheres/sphere_maker.h"
 #include "vantage/spheres.h"
@@ -25,6 +25,7 @@ struct Intersection {
 /// device. Stage meshes are in the scene frame. Points are numbered: the polygon's corners, then midpoints as they
 /// come.
 Intersection intersect_spheres(const TargetFrame& frame, const SphereMaker& maker, const SpheresOptions& options,
-                               SpheresReport& report, const StageSink& stages, exact::Watch& watch, bool is_watched);
+                               SpheresReport& report, const StageSink& stages,
+                               const core::ProgressReporter& progress);
 
 }  // namespace vantage::spheres

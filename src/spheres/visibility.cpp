@@ -6,13 +6,13 @@
 #include <string>
 #include <utility>
 
+#include "core/progress_reporter.h"
 #include "exact/number_text.h"
 #include "exact/numerics.h"
 #include "exact/point_target.h"
 #include "exact/range_check.h"
 #include "exact/range_region.h"
 #include "exact/target_check.h"
-#include "exact/watch.h"
 #include "scene/prepared_data.h"
 #include "spheres/algorithm.h"
 #include "spheres/numerics.h"
@@ -86,14 +86,12 @@ double lift_of(const PreparedScene::Data& scene, const Target& target, const Tar
 }
 
 void compute(const Target& target, const Sensor& sensor, const SpheresOptions& options, render::DepthRenderer& renderer,
-             SpheresReport& report, const StageSink& stages, const Progress& progress, Volume& volume) {
+             SpheresReport& report, const StageSink& stages, const core::ProgressReporter& progress,
+             Volume& volume) {
   const bool front_only = target.vertices.size() > 1 || target.front;
   const SphereMaker maker(renderer, options, sensor.max_range_m, volume.frame, front_only);
-  exact::Watch watch(progress);
-  watch.begin("making spheres", 0);
-  Intersection found =
-      intersect_spheres(volume.frame, maker, options, report, stages, watch, static_cast<bool>(progress));
-  watch.begin("intersecting spheres", 1);
+  Intersection found = intersect_spheres(volume.frame, maker, options, report, stages, progress);
+  progress.finish();
   const auto place = [&](const Vec3& point) { return volume.frame.to_scene(point); };
   if (found.blocked) {
     set_blocked(target, place(*found.blocked), volume);
@@ -108,7 +106,8 @@ void compute(const Target& target, const Sensor& sensor, const SpheresOptions& o
 
 Volume compute_visibility(const PreparedScene& scene, const Target& target, const Sensor& sensor,
                           const SpheresOptions& options, render::DepthRenderer& renderer, SpheresReport* report,
-                          const StageSink& stages, const Progress& progress) {
+                          const StageSink& stages, const Progress& callback) {
+  const core::ProgressReporter progress(callback);
   const auto start = Clock::now();
   exact::check_sensor(sensor);
   check_options(options);
@@ -133,7 +132,8 @@ Volume compute_visibility(const PreparedScene& scene, const Target& target, cons
 }
 
 Mesh visibility_sphere(const Vec3& viewpoint, double radius_m, const SpheresOptions& options,
-                       render::DepthRenderer& renderer, const Progress& progress) {
+                       render::DepthRenderer& renderer, const Progress& callback) {
+  const core::ProgressReporter progress(callback);
   if (!viewpoint.allFinite())
     throw Error(ErrorKind::input, "the viewpoint has a coordinate that is not finite", "visibility sphere",
                 "give three finite numbers");
@@ -143,11 +143,10 @@ Mesh visibility_sphere(const Vec3& viewpoint, double radius_m, const SpheresOpti
   frame.origin = viewpoint;
   frame.axis_u = Vec3::UnitX(), frame.axis_v = Vec3::UnitY(), frame.normal = Vec3::UnitZ();
   const SphereMaker maker(renderer, options, radius_m, frame, false);
-  exact::Watch watch(progress);
-  watch.begin("making spheres", 0);
+  progress.begin("making spheres");
   Mesh mesh;
   maker.make({Vec3::Zero()}, [&](std::size_t, Sphere sphere) { mesh = std::move(sphere.mesh.mesh); });
-  watch.begin("making spheres", 1);
+  progress.finish();
   for (Vec3& v : mesh.vertices) v += viewpoint;
   return mesh;
 }

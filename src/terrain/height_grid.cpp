@@ -8,7 +8,7 @@
 #include <sstream>
 #include <utility>
 
-#include "scene/read_progress.h"
+#include "core/progress_reporter.h"
 #include "terrain/fill_voids.h"
 #include "terrain/raster_file.h"
 #include "vantage/error.h"
@@ -177,10 +177,10 @@ HeightGrid read_pixels(const RasterFile& raster, HeightGrid grid, const PixelWin
                 place, "make the area smaller, or the raster coarser with gdalwarp -tr");
   }
   const double unit = unit_m(raster, grid.crs, grid.file);
-  scene::ReadProgress progress(callback, grid.file);
+  core::ProgressReporter progress(callback, grid.file);
   progress.begin("reading heights");
   grid.heights_m = raster.read(pixels, [&](int rows) {
-    progress.update_slowly(static_cast<std::uint64_t>(rows), static_cast<std::uint64_t>(pixels.rows));
+    progress.report(static_cast<std::uint64_t>(rows), static_cast<std::uint64_t>(pixels.rows));
   });
   for (float& height : grid.heights_m) {
     height = static_cast<float>(height * unit);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "geo/local_frame.h"
-#include "scene/read_progress.h"
+#include "core/progress_reporter.h"
 #include "terrain/height_grid.h"
 #include "terrain/post_positions.h"
 #include "terrain/surface.h"
@@ -167,7 +167,7 @@ std::vector<bool> inside_border(const Tin& tin, std::uint32_t border_size) {
 }
 
 Mesh simplified(const HeightGrid& grid, const std::vector<Vec3>& posts, double max_error_m,
-                scene::ReadProgress& progress) {
+                const core::ProgressReporter& progress) {
   Box box;
   for (const Vec3& post : posts) box.extend(post);
   // Far round the posts, so that the border's edges are those of the network; dropped in the end.
@@ -200,7 +200,7 @@ RasterScene scene_from_raster(const std::filesystem::path& file, const RasterOpt
     refuse("the region has a single row or column of posts, which is no surface", file, "give a larger region");
   }
   const geo::LocalFrame frame(origin_of(grid, options, file));
-  scene::ReadProgress progress(callback, file);
+  core::ProgressReporter progress(callback, file);
   progress.begin("triangulating the surface");
   std::vector<Vec3> posts = posts_of(grid, frame);
 

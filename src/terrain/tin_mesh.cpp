@@ -7,14 +7,14 @@
 
 namespace vantage::terrain {
 
-void grow(Tin& tin, double max_error_m, scene::ReadProgress& progress) {
+void grow(Tin& tin, double max_error_m, const core::ProgressReporter& progress) {
   double first = -1;
   tin.refine(max_error_m, [&](double error) {
     // The error falls about as a power of the number of insertions: its logarithm tells how far it is.
     if (first < 0) first = error;
     const double floor = std::max(max_error_m, 0.01), done = std::log(first / error), all = std::log(first / floor);
     const double part = all > 0 ? std::clamp(done / all, 0.0, 1.0) : 0;
-    progress.update_slowly(static_cast<std::uint64_t>(1000 * part), 1000);
+    progress.report(static_cast<std::uint64_t>(1000 * part), 1000);
   });
 }
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "scene/read_progress.h"
+#include "core/progress_reporter.h"
 #include "terrain/surface.h"
 #include "terrain/tin.h"
 #include "vantage/geometry.h"
@@ -11,7 +11,7 @@
 namespace vantage::terrain {
 
 /// Inserts its candidates, worst first, down to the error. Throws Error(cancelled).
-void grow(Tin& tin, double max_error_m, scene::ReadProgress& progress);
+void grow(Tin& tin, double max_error_m, const core::ProgressReporter& progress);
 
 /// The facets that are wanted, with the vertices that they use.
 Mesh mesh_of(const Tin& tin, const std::vector<bool>& wanted);

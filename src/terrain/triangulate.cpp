@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "scene/read_progress.h"
+#include "core/progress_reporter.h"
 #include "terrain/post_positions.h"
 #include "terrain/surface.h"
 #include "terrain/tin.h"
@@ -128,7 +128,7 @@ Triangulation triangulate(const HeightGrid& grid, const geo::LocalFrame& frame, 
     throw Error(ErrorKind::input, "the error allowed to the terrain is negative or not a number", grid.file.string(),
                 "give metres, 0 or more");
   }
-  scene::ReadProgress progress(callback, grid.file);
+  core::ProgressReporter progress(callback, grid.file);
   progress.begin("triangulating the terrain");
   const Samples samples = sample(grid, frame, min, max);
   Tin tin(samples.corners);

@@ -2,14 +2,13 @@
 #include "vantage/verify.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "core/progress_reporter.h"
 #include "parallel/parallel.h"
 #include "vantage/error.h"
 #include "verify/binomial.h"
@@ -231,29 +230,6 @@ void check_arguments(const Sensor& sensor, const VerifyOptions& options) {
   require(options.target_samples >= 0, "the number of target samples is negative", "verify target_samples");
 }
 
-/// Calls back from one thread at a time, and remembers being told to stop.
-class Reporter {
- public:
-  Reporter(const Progress& progress, std::size_t total) : progress_(progress), total_(total) { add(0); }
-
-  bool stopped() const { return stopped_.load(std::memory_order_relaxed); }
-
-  void add(std::size_t points) {
-    const std::size_t done = done_.fetch_add(points) + points;
-    if (!progress_) return;
-    const std::unique_lock lock(mutex_, std::try_to_lock);
-    if (!lock || stopped()) return;
-    if (!progress_("verify", static_cast<double>(done) / static_cast<double>(total_))) stopped_ = true;
-  }
-
- private:
-  const Progress& progress_;
-  std::size_t total_;
-  std::atomic<std::size_t> done_ = 0;
-  std::atomic<bool> stopped_ = false;
-  std::mutex mutex_;
-};
-
 }  // namespace
 
 VerifyReport verify_volume(const Scene& scene, const Target& target, const Sensor& sensor, const Navigation& navigation,
@@ -263,20 +239,21 @@ VerifyReport verify_volume(const Scene& scene, const Target& target, const Senso
 
 VerifyReport verify_volume(const Scene& scene, const std::vector<Target>& parts, const Sensor& sensor,
                            const Navigation& navigation, const Mesh& volume, const VerifyOptions& options,
-                           const Progress& progress) {
+                           const Progress& callback) {
   check_arguments(sensor, options);
   if (parts.empty()) throw Error(ErrorKind::input, "the target has no parts", "verify", "give one or more");
   Check check(scene, parts, sensor, navigation, volume, options);
   std::vector<Verdict> verdicts(options.points, Verdict(Random(options.seed, 0)));
-  Reporter reporter(progress, std::max<std::size_t>(options.points * (parts.size() + 1), 1));
+  const core::ProgressReporter progress(callback);
+  progress.begin("verify");
+  core::ProgressCounter counter(progress, options.points * (parts.size() + 1));
   const auto for_all = [&](const auto& act) {
     parallel::for_ranges(options.points, 16, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end && !reporter.stopped(); ++i) {
+      for (std::size_t i = begin; i < end; ++i) {
         act(i);
-        reporter.add(1);
+        counter.add();
       }
     });
-    if (reporter.stopped()) throw Error(ErrorKind::cancelled, "the check was cancelled", "", "");
   };
   for_all([&](std::size_t i) { verdicts[i] = check.draw(i); });
   for (std::size_t part = 0; part < parts.size(); ++part) {

@@ -40,10 +40,8 @@ template <class Reader>
 void read(const Reader& reader, const std::string& name, const std::uint8_t* data, std::size_t size) {
   scene::ReadLimits limits;
   limits.repeated_triangles = 10'000;
-  const Progress none;
-  scene::ReadProgress progress(none, name);
   try {
-    check(reader(scene::MeshSource(name, std::string(reinterpret_cast<const char*>(data), size)), progress, limits));
+    check(reader(scene::MeshSource(name, std::string(reinterpret_cast<const char*>(data), size)), {}, limits));
   } catch (const Error& error) {
     require(error.kind() == ErrorKind::input, "what cannot be read is an input error");
     require(error.problem().find('\n') == std::string::npos, "a problem is one line");

@@ -14,9 +14,7 @@ namespace vantage::testing {
 
 /// Reads `bytes` as if they were the content of a file with this name.
 inline scene::RawMesh read_as(const std::string& name, const std::string& bytes, const scene::ReadLimits& limits = {}) {
-  const Progress none;
-  scene::ReadProgress progress(none, name);
-  return scene::read_any(scene::MeshSource(name, bytes), progress, limits);
+  return scene::read_any(scene::MeshSource(name, bytes), {}, limits);
 }
 
 /// Runs `body`, which must throw an input Error whose problem holds `problem` and whose place holds `where`.

@@ -1,0 +1,96 @@
+#include "core/progress_reporter.h"
+
+#include <algorithm>
+#include <chrono>
+#include <mutex>
+#include <utility>
+
+#include "vantage/error.h"
+
+namespace vantage::core {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::milliseconds kPause{10};  // between two calls of the callback
+
+std::atomic<int> g_asks_always{0};
+
+}  // namespace
+
+struct ProgressReporter::State {
+  State(const Progress& callback, std::string place) : progress(callback), where(std::move(place)) {}
+
+  /// With the mutex locked.
+  void call() {
+    if (!cancelled && !progress(stage.load(), fraction)) cancelled = true;
+    next = (Clock::now() + kPause).time_since_epoch().count();
+  }
+
+  void throw_if_cancelled() const {
+    if (!cancelled) return;
+    throw Error(ErrorKind::cancelled, std::string("cancelled while ") + stage.load(), where, "");
+  }
+
+  const Progress& progress;
+  const std::string where;
+  std::mutex mutex;
+  std::atomic<bool> cancelled = false;
+  std::atomic<const char*> stage = "starting";
+  std::atomic<Clock::rep> next = 0;
+  double fraction = 0;
+};
+
+ProgressReporter::ProgressReporter(const Progress& progress, std::string where) : asks_always_(g_asks_always > 0) {
+  if (progress) state_ = std::make_shared<State>(progress, std::move(where));
+}
+
+void ProgressReporter::begin(const char* stage) const {
+  if (!state_) return;
+  {
+    const std::lock_guard lock(state_->mutex);
+    state_->stage = stage;
+    state_->fraction = 0;
+    state_->call();
+  }
+  state_->throw_if_cancelled();
+}
+
+void ProgressReporter::finish() const {
+  if (!state_) return;
+  {
+    const std::lock_guard lock(state_->mutex);
+    state_->fraction = std::clamp(from_ + share_, state_->fraction, 1.0);
+    state_->call();
+  }
+  state_->throw_if_cancelled();
+}
+
+bool ProgressReporter::is_due() const {
+  return asks_always_ || state_->cancelled.load(std::memory_order_relaxed) ||
+         Clock::now().time_since_epoch().count() >= state_->next.load(std::memory_order_relaxed);
+}
+
+void ProgressReporter::ask(double fraction) const {
+  {
+    const std::unique_lock lock(state_->mutex, std::try_to_lock);
+    if (lock && is_due()) {  // another thread may just have asked
+      state_->fraction = std::clamp(fraction, state_->fraction, 1.0);
+      state_->call();
+    }
+  }
+  state_->throw_if_cancelled();
+}
+
+ProgressReporter ProgressReporter::part(double from, double to) const {
+  ProgressReporter part = *this;
+  part.from_ = from_ + share_ * from;
+  part.share_ = share_ * (to - from);
+  return part;
+}
+
+ProgressReporter::AskAlways::AskAlways() { ++g_asks_always; }
+
+ProgressReporter::AskAlways::~AskAlways() { --g_asks_always; }
+
+}  // namespace vantage::core

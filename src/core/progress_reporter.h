@@ -1,0 +1,100 @@
+// How work is followed and stopped: the one way from a loop to the caller's Progress.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <memory>
+#include <string>
+
+#include "vantage/progress.h"
+
+namespace vantage::core {
+
+/// Tells a Progress callback how far the work is, and stops the work when the callback says so.
+///
+/// A cheap handle: its copies and parts speak of the same work, and any thread may use any of them. The callback is
+/// called by one thread at a time, at the beginning and at the end of a stage and else every 10 ms at most. The fraction
+/// of a stage does not fall. Once the callback has returned false it is not called again, and every member throws
+/// Error(cancelled), on all threads. A default reporter does nothing.
+class ProgressReporter {
+ public:
+  ProgressReporter() = default;
+
+  /// Keeps a reference to `progress`, which may be empty. `where` is the place in Error(cancelled), say a file.
+  explicit ProgressReporter(const Progress& progress, std::string where = {});
+
+  /// Whether someone listens.
+  bool is_followed() const { return state_ != nullptr; }
+
+  /// Begins a stage, of which nothing is done yet, and asks at once. `stage` must last.
+  void begin(const char* stage) const;
+  /// The stage (or this part of it) is done: asks at once.
+  void finish() const;
+
+  /// The fraction that is done of the stage (or of this part of it). Looks at the clock: some ten nanoseconds.
+  void report(double fraction) const {
+    if (state_ && is_due()) ask(from_ + share_ * fraction);
+  }
+  void report(std::size_t done, std::size_t total) const {
+    report(static_cast<double>(done) / static_cast<double>(total > 0 ? total : 1));
+  }
+
+  /// Asks only whether to go on, and leaves the fraction as it is.
+  void check() const {
+    if (state_ && is_due()) ask(0);
+  }
+
+  /// The same for loops of a microsecond a turn and less: look at the clock at every 64th call.
+  void tick() const {
+    if (state_ && is_turn()) check();
+  }
+  void tick(std::size_t done, std::size_t total) const {
+    if (state_ && is_turn()) report(done, total);
+  }
+
+  /// For a step of the stage: what it reports from 0 to 1 is told as `from` to `to`.
+  ProgressReporter part(double from, double to) const;
+
+  /// For tests: reporters made while one lives wait for no clock, and ask at every call of a member.
+  class AskAlways {
+   public:
+    AskAlways();
+    ~AskAlways();
+    AskAlways(const AskAlways&) = delete;
+    AskAlways& operator=(const AskAlways&) = delete;
+  };
+
+ private:
+  struct State;
+
+  bool is_turn() const {
+    thread_local unsigned calls = 0;
+    return (++calls & 63U) == 0 || asks_always_;
+  }
+  bool is_due() const;
+  void ask(double fraction) const;
+
+  std::shared_ptr<State> state_;
+  bool asks_always_ = false;
+  double from_ = 0, share_ = 1;  ///< of the stage
+};
+
+/// Counts what all threads together have done of a loop.
+class ProgressCounter {
+ public:
+  /// Keeps a reference to `progress`.
+  ProgressCounter(const ProgressReporter& progress, std::size_t total) : progress_(progress), total_(total) {}
+
+  /// To be called after each step. Throws Error(cancelled).
+  void add(std::size_t steps = 1) {
+    const std::size_t done = done_.fetch_add(steps, std::memory_order_relaxed) + steps;
+    progress_.report(done, total_);
+  }
+
+ private:
+  const ProgressReporter& progress_;
+  std::size_t total_;
+  std::atomic<std::size_t> done_ = 0;
+};
+
+}  // namespace vantage::core
