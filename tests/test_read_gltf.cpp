@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <ctime>
 #include <nlohmann/json.hpp>
 
 #include "support/mesh_reading.h"
@@ -250,6 +251,23 @@ TEST(ReadGltf, NamesABufferFileThatIsMissing) {
   gltf["buffers"][0]["uri"] = ".";
   testing::write_bytes(folder / "a.gltf", gltf.dump());
   expect_input_error([&] { read_mesh_file(folder / "a.gltf"); }, "is a directory", "");
+}
+
+// Each as deep as all: in time the square of the nodes before.
+TEST(ReadGltf, ReadsManyNestedNodesInLinearTime) {
+  const auto seconds = [](int count) {
+    json gltf = document();
+    gltf["nodes"] = json::array();
+    for (int i = 0; i < count; ++i) gltf["nodes"].push_back({{"children", {i + 1}}, {"translation", {0, 0, 0.5}}});
+    gltf["nodes"].push_back({{"mesh", 0}});
+    const std::string text = embedded(gltf).dump();
+    const std::clock_t start = std::clock();
+    const RawMesh mesh = read_as("a.gltf", text);
+    EXPECT_EQ(mesh.vertices[0], Vec3(0, 0, 0.5 * count));
+    return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+  };
+  const double few = seconds(20'000), many = seconds(200'000);
+  EXPECT_LT(many, 30 * few + 0.5);  // 10 times, where linear; 100 times, where not
 }
 
 }  // namespace
