@@ -253,6 +253,45 @@ TEST(ReadGltf, NamesABufferFileThatIsMissing) {
   expect_input_error([&] { read_mesh_file(folder / "a.gltf"); }, "is a directory", "");
 }
 
+// Whoever made the file shall not choose what else of the disk is read.
+TEST(ReadGltf, ReadsBuffersBelowItsOwnFolderOnly) {
+  namespace fs = std::filesystem;
+  testing::TemporaryDirectory folder;
+  fs::create_directories(folder / "city/data");
+  fs::create_directories(folder / "city2");
+  for (const char* name : {"secret.bin", "city/data/near.bin", "city2/twin.bin"}) {
+    testing::write_bytes(folder / name, square());
+  }
+  fs::create_symlink(folder / "secret.bin", folder / "city/data/link.bin");
+  fs::create_symlink(folder.path(), folder / "city/up");
+  fs::create_symlink("near.bin", folder / "city/data/inner.bin");
+  const auto read = [&](const std::string& uri, const fs::path& file) {
+    json gltf = document();
+    gltf["buffers"][0]["uri"] = uri;
+    testing::write_bytes(folder / "city/a.gltf", gltf.dump());
+    return read_mesh_file(file).triangles.size();
+  };
+  const fs::path file = folder / "city/a.gltf";
+  const std::string absolute = fs::canonical(folder.path()).string();
+  for (const std::string& uri :
+       {std::string("data/near.bin"), std::string("./data/../data/near.bin"), std::string("../city/data/near.bin"),
+        std::string("data%2Fnear.bin"), std::string("data/inner.bin"), absolute + "/city/data/near.bin"}) {
+    EXPECT_EQ(read(uri, file), 2u) << uri;
+  }
+  for (const std::string& uri :
+       {std::string("../secret.bin"), std::string("%2e%2e/secret.bin"), std::string("..%2Fsecret.bin"),
+        std::string("data/../../secret.bin"), std::string("data/link.bin"), std::string("up/secret.bin"),
+        absolute + "/secret.bin", std::string("../city2/twin.bin"), std::string("/etc/passwd"),
+        std::string("%2Fetc%2Fpasswd"), std::string("/dev/zero"), std::string("../gone.bin")}) {
+    expect_input_error([&] { read(uri, file); }, uri, "a.gltf");
+  }
+  // A link to the glTF file finds what is beside the file.
+  fs::create_directories(folder / "links");
+  fs::create_symlink(folder / "city/a.gltf", folder / "links/a.gltf");
+  fs::create_symlink(folder / "city/data", folder / "links/data");
+  EXPECT_EQ(read("data/near.bin", folder / "links/a.gltf"), 2u);
+}
+
 // Each as deep as all: in time the square of the nodes before.
 TEST(ReadGltf, ReadsManyNestedNodesInLinearTime) {
   const auto seconds = [](int count) {

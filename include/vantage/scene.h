@@ -66,12 +66,12 @@ struct SceneReadOptions {
 /// or where there is none, each group is an object.
 ///
 /// Throws Error(input) naming the file, and the line or byte where there is one, for: a missing or unreadable file, an
-/// unknown format, truncated or garbled content, an index out of range, a coordinate that is not finite or (in metres)
-/// beyond 1e9, no triangles, content that needs more memory than there is or than a mesh of that size may (4 GiB
-/// decompressed, a polygon of more than 16,384 corners); a scale that is not positive and finite; a CRS that is unknown
-/// or has no value at the scene, an origin that is out of range, a georeference of vantage that is garbled.
-/// Error(cancelled) when told to stop. Cost: linear in the file, on one thread, but for polygons of many corners: the
-/// square of these.
+/// unknown format, truncated or garbled content, a glTF buffer outside of the file's folder, an index out of range, a
+/// coordinate that is not finite or (in metres) beyond 1e9, no triangles, content that needs more memory than there is
+/// or than a mesh of that size may (4 GiB decompressed, a polygon of more than 16,384 corners); a scale that is not
+/// positive and finite; a CRS that is unknown or has no value at the scene, an origin that is out of range, a
+/// georeference of vantage that is garbled. Error(cancelled) when told to stop. Cost: linear in the file, on one
+/// thread, but for polygons of many corners: the square of these.
 Scene read_scene(const std::filesystem::path& file, const SceneReadOptions& options = {},
                  const Progress& progress = {});
 

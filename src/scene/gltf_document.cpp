@@ -372,16 +372,32 @@ std::string_view Document::external_file(const std::string& uri) {
   }
   const std::string relative = decode_percent(uri);
   if (relative.find('\0') != std::string::npos) fail("a buffer's \"uri\" holds a zero byte");
-  const std::filesystem::path path = source_.file().parent_path() / relative;
-  std::error_code error;
-  const std::filesystem::path canonical = std::filesystem::weakly_canonical(path, error);
-  const std::string key = "file " + (error ? path : canonical).string();
+  const std::filesystem::path path = file_below(relative, uri);
+  const std::string key = "file " + path.string();
   auto known = contents_.find(key);
   if (known == contents_.end()) {
     known = contents_.emplace(key, read_file_bytes(path, progress_)).first;
     progress_.begin("parse glTF");
   }
   return known->second;
+}
+
+/// The file that a URI means, without links. It must lie below the folder of the glTF file, which others may have made:
+/// they shall not choose among all files of the machine.
+std::filesystem::path Document::file_below(const std::string& relative, const std::string& uri) const {
+  namespace fs = std::filesystem;
+  const fs::path folder = source_.file().has_parent_path() ? source_.file().parent_path() : fs::path(".");
+  std::error_code error;
+  const fs::path path = fs::weakly_canonical(folder / relative, error);
+  if (error) source_.fail("the path " + in_quotes(uri) + " of a buffer leads nowhere: " + error.message(), kGarbled);
+  // The glTF file may be a link itself, with its buffers beside the one or the other.
+  for (const fs::path& base :
+       {fs::weakly_canonical(folder, error), fs::weakly_canonical(source_.file()).parent_path()}) {
+    if (error) continue;
+    if (std::mismatch(base.begin(), base.end(), path.begin(), path.end()).first == base.end()) return path;
+  }
+  source_.fail("the glTF file has its data in " + in_quotes(uri) + ", which is not in its own folder",
+               "put that file beside the glTF file, or in a folder below, and correct the \"uri\" of the buffer");
 }
 
 }  // namespace vantage::scene::gltf

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -84,6 +85,7 @@ class Document {
                               const std::string& name);
   std::string_view buffer(std::uint64_t index);
   std::string_view external_file(const std::string& uri);
+  std::filesystem::path file_below(const std::string& relative, const std::string& uri) const;
 
   const MeshSource& source_;
   const core::ProgressReporter& progress_;
