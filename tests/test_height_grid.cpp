@@ -18,6 +18,7 @@
 #include "support/temporary_directory.h"
 #include "terrain/gdal_library.h"
 #include "terrain/height_grid.h"
+#include "terrain/surface.h"
 #include "vantage/error.h"
 
 namespace vantage::terrain {
@@ -254,6 +255,55 @@ TEST(HeightGrid, TakesRowsThatRunNorthAndLongitudesBeyond180) {
   const HeightGrid part = read_height_grid(file, Window{{-73.95, 40.05}, {-20000, -20000}, {20000, 20000}});
   EXPECT_LT(part.columns, 15);
   EXPECT_NEAR(part.height_m(part.column_row({-73.95, 40.05})), plane(10, 10), 1e-4);
+}
+
+/// All round the earth in columns of half a degree; the height is that of a plane over the frame about `origin`.
+TestRaster round_the_earth(const geo::LonLat& origin, double north_deg, int rows) {
+  const geo::LocalFrame frame(origin);
+  TestRaster raster = make_raster(720, rows, [&](int column, int row) {
+    const Eigen::Vector2d at = frame.to_local({-180 + (column + 0.5) * 0.5, north_deg - (row + 0.5) * 0.5});
+    return at.norm() < 3e6 ? 300 + 1e-3 * at.x() - 5e-4 * at.y() : 0;
+  });
+  raster.srs = "EPSG:4326";
+  raster.transform = {-180, 0.5, 0, north_deg, 0, -0.5};
+  return raster;
+}
+
+TEST(HeightGrid, ARasterRoundTheEarthHasNoEndAtTheAntimeridian) {
+  const testing::TemporaryDirectory folder;
+  for (const double longitude : {180.0, -179.9, 179.9, -180.0}) {
+    const geo::LonLat origin{longitude, 5};
+    const auto file = write_raster(folder.path(), "world", round_the_earth(origin, 10, 20));
+    const HeightGrid grid = read_height_grid(file, Window{origin, {-150e3, -100e3}, {150e3, 100e3}});
+    EXPECT_LT(grid.columns, 14);
+    for (const double east : {-140e3, -30e3, 0.0, 20e3, 140e3}) {
+      const Eigen::Vector2d at = grid.column_row(geo::LocalFrame(origin).to_lonlat({east, 10e3}));
+      EXPECT_NEAR(grid.height_m(at), 300 + 1e-3 * east - 5, 0.5) << longitude << " " << east;
+    }
+  }
+}
+
+TEST(HeightGrid, AWindowRoundAPoleHoldsAllLongitudes) {
+  const testing::TemporaryDirectory folder;
+  for (const bool south : {false, true}) {
+    const geo::LonLat origin{30, south ? -89.0 : 89.5};
+    const auto file = write_raster(folder.path(), "pole", round_the_earth(origin, south ? -80 : 90, 20));
+    const Eigen::Vector2d half(300e3, 300e3);
+    const HeightGrid grid = read_height_grid(file, Window{origin, -half, half});
+    EXPECT_EQ(grid.columns, 720);
+    const geo::LocalFrame frame(origin);
+    const Triangulation ground = triangulate(grid, frame, -half, half, 0.1);
+    testing::Random random(73);
+    for (int i = 0; i < 200; ++i) {
+      const Eigen::Vector2d at(random.uniform(-290e3, 290e3), random.uniform(-290e3, 290e3));
+      EXPECT_NEAR(ground.surface.height(at).value(), 300 + 1e-3 * at.x() - 5e-4 * at.y(), 6) << at.transpose();
+    }
+    TestRaster part = round_the_earth(origin, south ? -80 : 90, 20);
+    part.transform[0] = -100;  // no longer all round
+    part.transform[1] = 0.4;
+    EXPECT_TRUE(
+        contains(refusal(write_raster(folder.path(), "part", part), Window{origin, -half, half}), "does not cover"));
+  }
 }
 
 TEST(HeightGrid, RefusesWhatIsNoRasterOfHeights) {

@@ -86,7 +86,7 @@ struct Occluders {
 struct CityRegion {
   std::optional<std::array<double, 2>> center_deg;  ///< latitude, longitude (WGS 84)
   double radius_m = 0;                              ///< about the centre; > 0 with `center_deg`
-  std::optional<std::array<double, 4>> bbox_deg;    ///< west, south, east, north
+  std::optional<std::array<double, 4>> bbox_deg;    ///< west, south, east, north; west > east crosses the antimeridian
 };
 
 struct CityOptions {
@@ -121,7 +121,8 @@ struct CityReport {
   Georeference georeference;
   std::vector<CityRecord> records;
   std::size_t outside = 0;             ///< left out because of the region
-  std::array<double, 4> bounds_deg{};  ///< west, south, east, north of all that the file holds
+  std::array<double, 4> bounds_deg{};  ///< west, south, east, north of all that the file holds; west > east: across
+                                       ///< the antimeridian
   std::vector<std::string> notes;      ///< on the file and the terrain: voids filled, missing references, not sorted
   double read_seconds = 0, build_seconds = 0;  ///< checking is part of building
 };

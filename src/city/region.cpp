@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <map>
 #include <string>
 #include <utility>
 
+#include "geo/longitudes.h"
 #include "vantage/error.h"
 
 namespace vantage::city {
@@ -49,18 +51,43 @@ std::string reasons_of(const std::vector<CityRecord>& skipped) {
   throw Error(ErrorKind::input, problem, where, fix);
 }
 
+geo::LongitudeRange longitudes(const Bounds& b) { return {b[0], b[2]}; }
+
 bool holds(const Bounds& b, double latitude, double longitude) {
-  return b[0] <= longitude && longitude <= b[2] && b[1] <= latitude && latitude <= b[3];
+  return longitudes(b).holds(longitude) && b[1] <= latitude && latitude <= b[3];
 }
 
-bool overlap(const Bounds& a, const Bounds& b) { return a[0] <= b[2] && b[0] <= a[2] && a[1] <= b[3] && b[1] <= a[3]; }
+bool overlap(const Bounds& a, const Bounds& b) {
+  return longitudes(a).meets(longitudes(b)) && a[1] <= b[3] && b[1] <= a[3];
+}
 
-/// A box round a circle, degrees. Rough is enough: it only decides whether an error is worth raising early.
-Bounds box_round(const std::array<double, 2>& center, double radius_m) {
+/// Of what lies round a pole, up to the pole.
+Bounds with_pole(const Bounds& b) {
+  if (longitudes(b).width_deg() <= 180) return b;
+  return {-180, b[1] > 0 ? b[1] : -90, 180, b[1] > 0 ? 90 : b[3]};
+}
+
+/// Whose ends may lie beyond the antimeridian.
+Bounds brought_back(Bounds b) {
+  if (b[2] - b[0] >= 360) return {-180, std::max(-90.0, b[1]), 180, std::min(90.0, b[3])};
+  if (b[0] < -180) b[0] += 360;
+  if (b[2] > 180) b[2] -= 360;
+  return {b[0], std::max(-90.0, b[1]), b[2], std::min(90.0, b[3])};
+}
+
+/// Half a box round a circle, degrees of longitude and latitude. Rough is enough.
+std::array<double, 2> degrees_of(double radius_m, double latitude_deg) {
   constexpr double kMetresPerDegree = 111000;
   const double latitude = radius_m / kMetresPerDegree;
-  const double longitude = latitude / std::max(0.01, std::cos(center[0] * M_PI / 180));
-  return {center[1] - longitude, center[0] - latitude, center[1] + longitude, center[0] + latitude};
+  const double shrink = std::cos(latitude_deg * M_PI / 180);
+  const bool holds_pole = std::abs(latitude_deg) + latitude >= 90;
+  return {holds_pole ? 180 : std::min(180.0, latitude / shrink), latitude};
+}
+
+/// It only decides whether an error is worth raising early.
+Bounds box_round(const std::array<double, 2>& center, double radius_m) {
+  const auto [longitude, latitude] = degrees_of(radius_m, center[0]);
+  return brought_back({center[1] - longitude, center[0] - latitude, center[1] + longitude, center[0] + latitude});
 }
 
 std::optional<osm::Region> checked_circle(const CityRegion& region) {
@@ -80,29 +107,54 @@ std::optional<osm::Region> checked_circle(const CityRegion& region) {
 
 std::optional<osm::Region> checked_box(const Bounds& b) {
   const bool in_range = std::abs(b[0]) <= 180 && std::abs(b[2]) <= 180 && std::abs(b[1]) <= 90 && std::abs(b[3]) <= 90;
-  if (!in_range || !(b[0] < b[2]) || !(b[1] < b[3])) {
+  // One across the antimeridian has its west at the higher number: so has one whose ends were mixed up.
+  const bool is_reversed = b[0] > b[2] && longitudes(b).width_deg() > 180;
+  if (!in_range || is_reversed || b[0] == b[2] || !(b[1] < b[3])) {
     fail("the box holds nothing: " + bounds_text(b), "bbox",
          "give degrees as west,south,east,north: the lower longitude, the lower latitude, the higher ones");
   }
-  const double across = std::max(b[3] - b[1], (b[2] - b[0]) * std::cos((b[1] + b[3]) / 2 * M_PI / 180)) * 111.0;
+  const double nearest_equator = b[1] <= 0 && b[3] >= 0 ? 0 : std::min(std::abs(b[1]), std::abs(b[3]));
+  // Round a pole a box is as wide as the circle of its lower latitude; else its middle tells enough.
+  const double width = longitudes(b).width_deg() > 180
+                           ? 2 * (90 - nearest_equator)
+                           : longitudes(b).width_deg() * std::cos((b[1] + b[3]) / 2 * M_PI / 180);
+  const double across = std::max(b[3] - b[1], width) * 111.0;
   if (across > 2 * kMostRadius / 1e3) {
     fail("the box is " + formatted("%.0f km across", across, 0), "bbox", "give one of at most 100 km");
   }
   return osm::Region{{}, b};
 }
 
-/// Of the areas alone: a file may have a coast or a border that goes on for kilometres.
-Bounds areas_bounds(const osm::Extract& extract) {
-  Bounds b{180, 90, -180, -90};
+/// Calls `visit` with the outlines' positions. Of the areas alone: a file may have a coast or a border that goes on for
+/// kilometres.
+template <typename Visit>
+void for_corners(const osm::Extract& extract, const Visit& visit) {
   for (const osm::Area& area : extract.areas) {
-    for (const osm::Polygon& polygon : area.polygons) {
-      for (const LonLat at : polygon.outer) {
-        b = {std::min(b[0], at.longitude_deg), std::min(b[1], at.latitude_deg), std::max(b[2], at.longitude_deg),
-             std::max(b[3], at.latitude_deg)};
-      }
-    }
+    for (const osm::Polygon& polygon : area.polygons) std::for_each(polygon.outer.begin(), polygon.outer.end(), visit);
   }
-  return b[0] <= b[2] ? b : extract.bounds_deg;
+}
+
+Bounds areas_bounds(const osm::Extract& extract) {
+  geo::LongitudeSpan span;
+  double south = 90, north = -90;
+  for_corners(extract, [&](LonLat at) {
+    span.add(at.longitude_deg);
+    south = std::min(south, at.latitude_deg);
+    north = std::max(north, at.latitude_deg);
+  });
+  if (span.empty()) return extract.bounds_deg;
+  return {span.range().west, south, span.range().east, north};
+}
+
+/// The middle of what lies round a pole.
+LonLat middle_round_pole(const osm::Extract& extract, double latitude_deg) {
+  const geo::LocalFrame frame({0, latitude_deg > 0 ? 90.0 : -90.0});
+  Eigen::Vector2d min = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity()), max = -min;
+  for_corners(extract, [&](LonLat at) {
+    min = min.cwiseMin(frame.to_local(at));
+    max = max.cwiseMax(frame.to_local(at));
+  });
+  return min.x() <= max.x() ? frame.to_lonlat((min + max) / 2) : frame.origin();
 }
 
 }  // namespace
@@ -125,15 +177,16 @@ std::optional<osm::Region> with_margin(const std::optional<osm::Region>& region)
   if (wider.circle) wider.circle->second += kMargin;
   if (wider.box_deg) {
     const Bounds& b = *region->box_deg;
-    const Bounds south = box_round({b[1], b[0]}, kMargin), north = box_round({b[3], b[2]}, kMargin);
-    wider.box_deg = {std::max(-180.0, std::min(south[0], b[0] - (north[2] - b[2]))), std::max(-90.0, south[1]),
-                     std::min(180.0, std::max(north[2], b[2] + (b[0] - south[0]))), std::min(90.0, north[3])};
+    const auto [south_width, height] = degrees_of(kMargin, b[1]);
+    const double width = std::max(south_width, degrees_of(kMargin, b[3])[0]);
+    const double east = b[0] <= b[2] ? b[2] : b[2] + 360;
+    wider.box_deg = brought_back({b[0] - width, b[1] - height, east + width, b[3] + height});
   }
   return wider;
 }
 
 void check_overlap(const CityRegion& region, const osm::Extract& extract, const std::filesystem::path& file) {
-  const Bounds& known = extract.bounds_deg;
+  const Bounds known = with_pole(extract.bounds_deg);
   if (region.center_deg) {
     const auto [latitude, longitude] = *region.center_deg;
     if (overlap(box_round(*region.center_deg, region.radius_m), known)) return;
@@ -180,7 +233,11 @@ void fail_empty(const CityRegion& region, const osm::Extract& extract, const Out
 LonLat frame_origin(const CityRegion& region, const osm::Extract& extract) {
   if (region.center_deg) return {(*region.center_deg)[1], (*region.center_deg)[0]};
   const Bounds b = region.bbox_deg ? *region.bbox_deg : areas_bounds(extract);
-  return {(b[0] + b[2]) / 2, (b[1] + b[3]) / 2};
+  const double latitude = (b[1] + b[3]) / 2;
+  const bool is_round_pole = longitudes(b).width_deg() > 180;
+  if (is_round_pole && region.bbox_deg) return {0, latitude > 0 ? 90.0 : -90.0};
+  if (is_round_pole) return middle_round_pole(extract, latitude);
+  return {longitudes(b).middle_deg(), latitude};
 }
 
 }  // namespace vantage::city

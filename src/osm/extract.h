@@ -116,7 +116,9 @@ struct Extract {
   std::vector<BuildingRelation> building_relations;
   std::vector<Problem> problems;
 
-  std::array<double, 4> bounds_deg{};  ///< west, south, east, north of all nodes of the file, whatever the region
+  /// West, south, east, north of all nodes of the file, whatever the region. West > east: across the antimeridian;
+  /// where they lie round a pole, from the lowest to the highest.
+  std::array<double, 4> bounds_deg{};
   std::size_t nodes = 0, ways = 0, relations = 0;  ///< in the file
   std::size_t outside = 0;                         ///< wanted objects that were left out because of the region
   double nearest_outside_m = 0;  ///< of these the nearest one's distance from the region's centre; 0 when none

@@ -7,6 +7,7 @@
 #include <osmium/osm/object_comparisons.hpp>
 #include <utility>
 
+#include "geo/longitudes.h"
 #include "osm/meaning.h"
 
 namespace vantage::osm {
@@ -137,10 +138,9 @@ class Loader {
   }
 
   void extend_bounds(osmium::Location location) {
-    bounds_[0] = std::min(bounds_[0], location.lon_without_check());
-    bounds_[1] = std::min(bounds_[1], location.lat_without_check());
-    bounds_[2] = std::max(bounds_[2], location.lon_without_check());
-    bounds_[3] = std::max(bounds_[3], location.lat_without_check());
+    longitudes_.add(location.lon_without_check());
+    south_ = std::min(south_, location.lat_without_check());
+    north_ = std::max(north_, location.lat_without_check());
   }
 
   void finish_nodes() {
@@ -161,7 +161,10 @@ class Loader {
       auto& way = objects_.way_buffer.get<osmium::Way>(kept.offset);
       objects_.ways.push_back(place(way, kept.wanted));
     }
-    if (bounds_[0] <= bounds_[2]) objects_.bounds_deg = bounds_;
+    if (!longitudes_.empty()) {
+      const geo::LongitudeRange range = longitudes_.range();
+      objects_.bounds_deg = {range.west, south_, range.east, north_};
+    }
     objects_.nodes = nodes_.current();
     objects_.ways_in_file = way_versions_.current();
     objects_.relations_in_file = relation_versions_.current();
@@ -206,8 +209,8 @@ class Loader {
   Versions<Entry> way_versions_, relation_versions_;
   std::vector<Kept> kept_points_, kept_ways_, kept_relations_;
   std::vector<std::int64_t> member_ways_;  // by id
-  std::array<double, 4> bounds_ = {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
-                                   -std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  geo::LongitudeSpan longitudes_;
+  double south_ = std::numeric_limits<double>::infinity(), north_ = -std::numeric_limits<double>::infinity();
   osmium::item_type previous_type_ = osmium::item_type::undefined;
   std::int64_t previous_id_ = 0;
 };

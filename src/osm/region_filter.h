@@ -31,13 +31,18 @@ class RegionFilter {
   double distance_m(LonLat from, LonLat to) const;  ///< to the nearest point of a side
 
  private:
-  /// A side in degrees about the centre, longitude first; it does not break at the date line.
+  /// About the centre, east and north. Degrees of longitude and latitude, which do not break at the date line; near a
+  /// pole metres, in the azimuthal equidistant projection.
+  std::array<double, 2> in_plane(LonLat position) const;
+  LonLat from_plane(const std::array<double, 2>& place) const;
+  /// A side in this plane, straight.
   struct Side {
     std::array<double, 2> from{}, along{};
   };
   Side side(LonLat from, LonLat to) const;
-  /// The point of the part of a side, from `begin` to `end` of its length, that is nearest to the centre.
-  LonLat nearest(const Side& side, double begin, double end) const;
+  bool cut_to_box(const Side& side, double& begin, double& end) const;
+  /// From the centre to the nearest point of the part of a side, from `begin` to `end` of its length.
+  double nearest_m(const Side& side, double begin, double end) const;
 
   struct Circle {
     LonLat centre;
@@ -46,6 +51,7 @@ class RegionFilter {
   std::optional<Circle> circle_;
   std::optional<std::array<double, 4>> box_;
   LonLat middle_;
+  bool polar_ = false;
   std::array<double, 3> centre_{};  ///< the same, metres, earth-centred
 };
 

@@ -4,6 +4,8 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <cstddef>
+#include <functional>
 #include <limits>
 #include <sstream>
 #include <utility>
@@ -89,14 +91,32 @@ bool is_swapped(const HeightGrid& grid, const Window& window) {
             "corner; gdalbuildvrt joins several)");
 }
 
-/// Where a window's outline lies in the raster, in columns and rows; nothing where that cannot be told.
+/// Columns of a full turn, where the raster goes round the earth: its first column follows its last one.
+std::optional<double> full_turn(const HeightGrid& grid) {
+  if (!grid.crs.is_geographic()) return std::nullopt;
+  const double turn = 360 / std::abs(grid.step.x());
+  return std::abs(turn - grid.columns) < 0.5 ? std::optional(turn) : std::nullopt;
+}
+
+/// Where a window's outline lies in the raster, in columns and rows; nothing where that cannot be told. Of a raster
+/// that goes round the earth, columns may lie beyond its ends. Round a pole the window holds all of them.
 std::pair<Range, Range> columns_and_rows(const HeightGrid& grid, const Window& window) {
   const geo::LocalFrame frame(window.origin);
+  const std::optional<double> turn = full_turn(grid);
+  const double middle = turn ? grid.column_row(window.origin).x() : 0;
   std::pair<Range, Range> result;
   for (const Eigen::Vector2d& point : outline(window.min, window.max)) {
     const Eigen::Vector2d at = grid.column_row(frame.to_lonlat(point));
-    result.first.extend(at.x());
+    result.first.extend(turn ? middle + std::remainder(at.x() - middle, *turn) : at.x());
     result.second.extend(at.y());
+  }
+  for (const double pole : {-90.0, 90.0}) {
+    const Eigen::Vector2d place = frame.to_local({window.origin.longitude_deg, pole});
+    const bool is_inside = (place.array() >= window.min.array() && place.array() <= window.max.array()).all();
+    if (!grid.crs.is_geographic() || !is_inside) continue;
+    result.first.extend(-0.5);
+    result.first.extend((turn ? grid.columns : 360 / std::abs(grid.step.x())) - 0.5);
+    result.second.extend(grid.column_row({window.origin.longitude_deg, pole}).y());
   }
   return result;
 }
@@ -112,19 +132,44 @@ PixelWindow pixels_of(const HeightGrid& grid, const Window& window) {
     fail_uncovered(grid, window);
   }
   const auto [columns, rows] = ranges;
+  const bool goes_round = full_turn(grid).has_value();
   constexpr double kHalfPixel = 0.5 + 1e-6;  // and rounding
-  if (columns.low < -kHalfPixel || rows.low < -kHalfPixel || columns.high > grid.columns - 1 + kHalfPixel ||
-      rows.high > grid.rows - 1 + kHalfPixel) {
+  const bool has_columns = columns.low >= -kHalfPixel && columns.high <= grid.columns - 1 + kHalfPixel;
+  if ((!has_columns && !goes_round) || rows.low < -kHalfPixel || rows.high > grid.rows - 1 + kHalfPixel) {
     fail_uncovered(grid, window);
   }
-  const auto begin = [](double low) { return std::max(0, static_cast<int>(std::floor(low)) - kMarginPosts); };
-  const auto end = [](double high, int count) {
-    return std::min(count, static_cast<int>(std::ceil(high)) + kMarginPosts + 1);
-  };
-  PixelWindow pixels{begin(columns.low), begin(rows.low), 0, 0};
-  pixels.columns = end(columns.high, grid.columns) - pixels.first_column;
-  pixels.rows = end(rows.high, grid.rows) - pixels.first_row;
+  const auto begin = [](double low) { return static_cast<int>(std::floor(low)) - kMarginPosts; };
+  const auto end = [](double high) { return static_cast<int>(std::ceil(high)) + kMarginPosts + 1; };
+  PixelWindow pixels{begin(columns.low), std::max(0, begin(rows.low)), 0, 0};
+  int last = end(columns.high);
+  if (!goes_round || last - pixels.first_column >= grid.columns) {
+    pixels.first_column = std::max(0, goes_round ? 0 : pixels.first_column);
+    last = goes_round ? grid.columns : std::min(grid.columns, last);
+  }
+  pixels.columns = last - pixels.first_column;
+  pixels.rows = std::min(grid.rows, end(rows.high)) - pixels.first_row;
   return pixels;
+}
+
+/// Of a raster that goes round the earth, columns beyond its ends are those at its other end.
+std::vector<float> read_round(const RasterFile& raster, const PixelWindow& pixels,
+                              const std::function<void(int)>& done) {
+  const int all = raster.columns(), first = ((pixels.first_column % all) + all) % all;
+  if (first + pixels.columns <= all) {
+    return raster.read({first, pixels.first_row, pixels.columns, pixels.rows}, done);
+  }
+  const int left = all - first, right = pixels.columns - left;
+  const std::vector<float> west = raster.read({first, pixels.first_row, left, pixels.rows}, done);
+  const std::vector<float> east = raster.read({0, pixels.first_row, right, pixels.rows}, done);
+  std::vector<float> heights;
+  heights.reserve(west.size() + east.size());
+  for (int row = 0; row < pixels.rows; ++row) {
+    heights.insert(heights.end(), west.begin() + std::ptrdiff_t{row} * left,
+                   west.begin() + std::ptrdiff_t{row + 1} * left);
+    heights.insert(heights.end(), east.begin() + std::ptrdiff_t{row} * right,
+                   east.begin() + std::ptrdiff_t{row + 1} * right);
+  }
+  return heights;
 }
 
 /// Metres in the unit of the heights.
@@ -179,7 +224,7 @@ HeightGrid read_pixels(const RasterFile& raster, HeightGrid grid, const PixelWin
   const double unit = unit_m(raster, grid.crs, grid.file);
   core::ProgressReporter progress(callback, grid.file);
   progress.begin("reading heights");
-  grid.heights_m = raster.read(pixels, [&](int rows) {
+  grid.heights_m = read_round(raster, pixels, [&](int rows) {
     progress.report(static_cast<std::uint64_t>(rows), static_cast<std::uint64_t>(pixels.rows));
   });
   for (float& height : grid.heights_m) {
