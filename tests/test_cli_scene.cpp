@@ -71,6 +71,70 @@ using CliSceneBadOption = CliScene;
 using CliSceneBadOutput = CliScene;
 using CliSceneMended = CliScene;
 
+TEST_F(CliScene, InspectTellsWhatMapsAndRastersHold) {
+  const std::string table = output_of({"inspect", "city.osm"});
+  for (const char* expected : {"building", "wall", "tree", "latitude", "triangles", "open edges", "convex polygons"}) {
+    EXPECT_NE(table.find(expected), std::string::npos) << table;
+  }
+  const json map = json::parse(output_of({"inspect", "city.osm", "--json"}));
+  EXPECT_EQ(map.at("kinds").at("building").at("written"), 2);
+  EXPECT_EQ(map.at("objects"), 5) << "four, and the ground";
+  EXPECT_EQ(map.at("open_edges"), 4) << "of the ground";
+  EXPECT_EQ(map.at("records").size(), 4U);
+  EXPECT_NEAR(map.at("map_bounds_deg")[1].get<double>(), 48.1374 - 60 / 111200.0, 1e-4);
+  EXPECT_NEAR(map.at("georeference").at("latitude_deg").get<double>(), 48.1374, 1e-3);
+  EXPECT_GT(map.at("bounds").at("max")[2].get<double>(), 11.9);
+  const json part = json::parse(
+      output_of({"inspect", "city.osm", "--json", "--center", kCentre, "--radius", "45", "--without", "trees"}));
+  EXPECT_EQ(part.at("records").size(), 2U);
+
+  write_dem("dem", grid_of_heights("520.0"));
+  const json raster = json::parse(output_of({"inspect", "dem.asc", "--json"}));
+  EXPECT_EQ(raster.at("raster").at("columns"), 41);
+  EXPECT_EQ(raster.at("raster").at("highest_m"), 520);
+  EXPECT_NEAR(raster.at("georeference").at("longitude_deg").get<double>(), 11.5755, 1e-4);
+  EXPECT_NE(output_of({"inspect", "dem.asc"}).find("posts"), std::string::npos);
+  expect_bad({"inspect", "dem.asc", "--up", "y"}, "--up is for meshes", "--up", "leave it out");
+  expect_bad({"inspect", "city.osm", "--lod", "2"}, "--lod is for CityJSON", "--lod", "leave it out");
+}
+
+TEST_F(CliScene, WithoutAnOutputItReportsOnly) {
+  const std::vector<std::string> before = {content(folder_ / "scene.glb"), content(folder_ / "scene.report.json")};
+  const auto files = [&] { return std::distance(fs::directory_iterator(folder_), fs::directory_iterator()); };
+  const auto count = files();
+  const std::string table = output_of({"scene", "city.osm"});
+  EXPECT_NE(table.find("building"), std::string::npos) << table;
+  const json report = json::parse(output_of({"scene", "city.osm", "--json"}));
+  EXPECT_EQ(report.at("kinds").at("building").at("read"), 2);
+  EXPECT_EQ(report.at("bounds").at("min").size(), 3U);
+  EXPECT_EQ(output_of({"scene", "city.osm", "-q"}), "");
+  EXPECT_EQ(files(), count);
+  EXPECT_EQ(content(folder_ / "scene.glb"), before[0]);
+  EXPECT_EQ(content(folder_ / "scene.report.json"), before[1]);
+}
+
+TEST_F(CliScene, NumbersMayHaveBlanksBetweenThem) {
+  const auto place = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"scene", "city.osm", "--json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return json::parse(output_of(arguments)).at("georeference");
+  };
+  const json plain = place({"--center", "48.1374,11.5755", "--radius", "90"});
+  for (const char* const centre : {"48.1374, 11.5755", " 48.1374 ,11.5755 ", "48.1374,\t+11.5755"}) {
+    EXPECT_EQ(place({"--center", centre, "--radius", "90"}), plain) << centre;
+  }
+  EXPECT_EQ(place({"--bbox", "11.574,48.136,11.577,48.139"}), place({"--bbox", "11.574, 48.136, 11.577, 48.139"}));
+  write_dem("dem", grid_of_heights("520.0"));
+  const json raster = json::parse(
+      output_of({"scene", "dem.asc", "--json", "--window", "1, 2, 10, 20", "--origin", "48.1374, 11.5755"}));
+  EXPECT_EQ(raster.at("raster").at("rows"), 20);
+  EXPECT_EQ(raster.at("georeference").at("latitude_deg"), 48.1374);
+  for (const char* const centre :
+       {"48.1374 11.5755", "48.1374,", ",11.5", "48,1374,11,5755", "48.1374, 11.5755,", "nan, 1"}) {
+    expect_bad_option({"--center", centre, "--radius", "90"}, "is not latitude,longitude", "--center");
+  }
+}
+
 TEST_F(CliScene, WritesEveryFormatAndAReport) {
   const std::string summary = output_of({"scene", "city.osm", "-o", "scene.glb", "-o", "scene.obj", "-o", "scene.ply",
                                          "-o", "scene.stl", "--center", kCentre, "--radius", "300"});

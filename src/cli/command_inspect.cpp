@@ -4,8 +4,9 @@
 
 #include "cli/command.h"
 #include "cli/progress_line.h"
+#include "cli/scene_options.h"
+#include "cli/scene_report.h"
 #include "cli/text_table.h"
-#include "mission/input_file.h"
 #include "scene/georeference_text.h"
 #include "vantage/scene.h"
 
@@ -18,18 +19,18 @@ constexpr const char* kExamples =
     "  vantage inspect scan.ply.gz --scale 0.001     # a file in millimetres\n"
     "  vantage inspect city.glb --json | jq .open_edges\n"
     "  vantage inspect delft.city.json --lod 2.2     # CityJSON: its coordinate system is known\n"
-    "  vantage inspect map.obj --crs EPSG:28992      # a file whose x and y are map coordinates\n";
+    "  vantage inspect map.obj --crs EPSG:28992      # a file whose x and y are map coordinates\n"
+    "  vantage inspect city.osm.pbf                  # what a scene of it would hold, and what became of each object\n"
+    "  vantage inspect dsm.tif                       # heights and their place\n";
 
 struct Options {
   CommonOptions common;
-  std::string scene_file;
-  std::string up = "z";
-  std::string scale = "1";
-  std::string lod, crs;
+  SceneOptions scene;
   bool json = false;
 };
 
-std::string json_text(const Scene& scene, const SceneStatistics& found) {
+std::string json_text(const LoadedScene& loaded, const SceneStatistics& found) {
+  const Scene& scene = loaded.scene;
   const auto vector = [](const Vec3& v) { return nlohmann::ordered_json{v.x(), v.y(), v.z()}; };
   nlohmann::ordered_json json;
   json["file"] = scene.source.string();
@@ -46,7 +47,8 @@ std::string json_text(const Scene& scene, const SceneStatistics& found) {
   json["polygons"] = found.polygons;
   json["bounds"] = {{"min", vector(found.bounds.min)}, {"max", vector(found.bounds.max)}};
   if (scene.georeference) json["georeference"] = scene::georeference_json(*scene.georeference);
-  json["notes"] = scene.notes;
+  json["notes"] = notes_of(loaded);
+  add_source(json, loaded);
   // A name is bytes from a file, and JSON takes UTF-8 only: others are replaced rather than refused.
   return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
@@ -59,7 +61,8 @@ void add_place(TextTable& table, const Georeference& place) {
   table.row("made from", "", place.source_crs.empty() ? "unknown coordinate system" : place.source_crs);
 }
 
-std::string table_text(const Scene& scene, const SceneStatistics& found) {
+std::string table_text(const LoadedScene& loaded, const SceneStatistics& found) {
+  const Scene& scene = loaded.scene;
   const Vec3 size = found.bounds.max - found.bounds.min;
   TextTable table;
   table.heading(scene.source.string());
@@ -72,6 +75,7 @@ std::string table_text(const Scene& scene, const SceneStatistics& found) {
   const bool is_upright = size.z() <= 2 * std::min(size.x(), size.y());
   table.row("size", vector(size), is_upright || scene.up == UpAxis::y ? "" : "is z up? --up y for a file with y up");
   if (scene.georeference) add_place(table, *scene.georeference);
+  add_source(table, loaded);
   table.heading("what was mended");
   table.row("positions", count(found.welded_vertices), "vertices left after joining equal ones");
   table.row("faces without area", count(found.degenerate_triangles + scene.dropped_faces),
@@ -81,42 +85,34 @@ std::string table_text(const Scene& scene, const SceneStatistics& found) {
   table.row("open edges", count(found.open_edges), "fine: blockers are built per polygon, not per solid");
   table.row("non-manifold edges", count(found.nonmanifold_edges), "fine: more than two triangles meet there");
   table.row("mis-oriented edges", count(found.misoriented_edges), "fine: both sides of a triangle are opaque");
-  for (const std::string& note : scene.notes) table.heading("  " + note);
+  for (const std::string& note : notes_of(loaded)) table.heading("  " + note);
   table.heading("what the engine works on");
   table.row("convex polygons", count(found.polygons), "after merging coplanar neighbours");
   return table.text();
 }
 
 int run(const Options& options) {
-  SceneReadOptions read_options;
-  read_options.up = options.up == "y" ? UpAxis::y : UpAxis::z;
-  read_options.scale = positive_option("--scale", options.scale);
-  read_options.lod = options.lod;
-  read_options.crs = options.crs;
-  mission_io::check_readable(options.scene_file, "the scene file", "");
+  const SceneSource source = scene_source(options.scene, "the scene file");
   ProgressLine progress(options.common);
-  const Scene scene = read_scene(options.scene_file, read_options, progress.callback());
-  const PreparedScene prepared(scene, progress.callback());
-  print(options.json ? json_text(scene, prepared.statistics()) : table_text(scene, prepared.statistics()));
+  const LoadedScene loaded = load_scene(source, progress.callback());
+  const PreparedScene prepared(loaded.scene, progress.callback());
+  print(options.json ? json_text(loaded, prepared.statistics()) : table_text(loaded, prepared.statistics()));
   return kSuccess;
 }
 
 }  // namespace
 
 void add_inspect(CLI::App& app, Command& chosen) {
-  CLI::App* command = app.add_subcommand("inspect", "Show what a mesh file holds, and what is wrong with it");
+  CLI::App* command =
+      app.add_subcommand("inspect", "Show what a mesh, a map or a height raster holds, and what is wrong with it");
   auto options = std::make_shared<Options>();
-  command->add_option("scene", options->scene_file, "OBJ, PLY, STL, glTF, GLB or CityJSON; may be compressed with gzip")
+  command
+      ->add_option(
+          "scene", options->scene.input,
+          "OBJ, PLY, STL, glTF, GLB or CityJSON, also compressed with gzip; OpenStreetMap; a raster of heights")
       ->required()
       ->option_text("FILE");
-  command->add_option("--up", options->up, "Axis of the file that points up: y or z (default); glTF is always y up")
-      ->check(CLI::IsMember({"y", "z"}))
-      ->option_text("AXIS");
-  command->add_option("--scale", options->scale, "Metres in one unit of the file (default 1)")->option_text("S");
-  command->add_option("--lod", options->lod, "Of CityJSON: the level of detail to take, as 2.2; default: the highest")
-      ->option_text("LOD");
-  command->add_option("--crs", options->crs, "Coordinate system of x and y, as EPSG:28992; CityJSON files say it")
-      ->option_text("CRS");
+  add_scene_options(*command, options->scene);
   command->add_flag("--json", options->json, "Print JSON instead of a table");
   finish<Options>(*command, options, kExamples, chosen, run);
 }

@@ -21,15 +21,12 @@ namespace {
 
 std::vector<double> numbers(const std::string& text) {
   std::vector<double> values;
-  for (std::size_t at = 0; at <= text.size();) {
-    const std::size_t end = std::min(text.find(',', at), text.size());
-    const std::string part = text.substr(at, end - at);
+  for (const std::string_view part : mission_io::split_at_commas(text)) {
     const mission_io::ParsedNumber parsed = mission_io::parse_number(part);
     if (parsed.fault != mission_io::NumberFault::none) {
       refuse_view("the view's " + mission_io::in_quotes(part) + " is no number");
     }
     values.push_back(parsed.value);
-    at = end + 1;
   }
   return values;
 }

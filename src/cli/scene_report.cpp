@@ -104,6 +104,9 @@ nlohmann::ordered_json record_json(const CityRecord& record) {
 
 void add_city(TextTable& table, const CityReport& report) {
   table.row("read", duration(report.read_seconds), "built and checked in " + duration(report.build_seconds));
+  const auto& [west, south, east, north] = report.bounds_deg;
+  table.row("the map holds", "latitude " + fixed(south, 5) + " to " + fixed(north, 5), "");
+  table.row("", "longitude " + fixed(west, 5) + " to " + fixed(east, 5), west > east ? "across the antimeridian" : "");
   table.heading("what was read");
   for (const auto& [kind, tally] : tallies(report)) add_tally(table, kind, tally);
   if (report.outside > 0) table.row("outside the area", count(report.outside), "left out");
@@ -129,6 +132,7 @@ void add_city(nlohmann::ordered_json& json, const CityReport& report) {
   }
   for (const auto& [key, found] : reasons(report)) json["reasons"][name_of(key.first)][key.second] = found.first;
   json["outside"] = report.outside;
+  json["map_bounds_deg"] = report.bounds_deg;  // west, south, east, north
   json["seconds"] = {{"read", report.read_seconds}, {"build", report.build_seconds}};
   json["records"] = nlohmann::ordered_json::array();
   for (const CityRecord& record : report.records) json["records"].push_back(record_json(record));
@@ -147,14 +151,23 @@ void add_raster(nlohmann::ordered_json& json, const RasterReport& report) {
                     {"highest_m", report.highest_m}, {"largest_error_m", report.largest_error_m}};
 }
 
-/// What is worth a sentence, whatever the source.
+}  // namespace
+
 std::vector<std::string> notes_of(const LoadedScene& loaded) {
   std::vector<std::string> notes = loaded.scene.notes;
   if (loaded.city) notes.insert(notes.end(), loaded.city->notes.begin(), loaded.city->notes.end());
   return notes;
 }
 
-}  // namespace
+void add_source(TextTable& table, const LoadedScene& loaded) {
+  if (loaded.city) add_city(table, *loaded.city);
+  if (loaded.raster) add_raster(table, *loaded.raster);
+}
+
+void add_source(nlohmann::ordered_json& json, const LoadedScene& loaded) {
+  if (loaded.city) add_city(json, *loaded.city);
+  if (loaded.raster) add_raster(json, *loaded.raster);
+}
 
 std::string scene_table(const LoadedScene& loaded, const std::filesystem::path& file) {
   TextTable table;
@@ -166,8 +179,10 @@ std::string scene_table(const LoadedScene& loaded, const std::filesystem::path& 
     if (!place->vertical.empty()) table.row("z from", place->vertical, "");
   }
   table.row("triangles", count(loaded.scene.mesh.triangles.size()), count(loaded.scene.objects.size()) + " objects");
-  if (loaded.city) add_city(table, *loaded.city);
-  if (loaded.raster) add_raster(table, *loaded.raster);
+  const Box box = bounding_box(loaded.scene.mesh);
+  table.row("from", vector(box.min), "metres");
+  table.row("to", vector(box.max), "");
+  add_source(table, loaded);
   const std::vector<std::string> notes = notes_of(loaded);
   if (!notes.empty()) table.heading("notes");
   for (const std::string& note : notes) table.heading("  " + note);
@@ -186,9 +201,10 @@ std::string scene_json(const LoadedScene& loaded) {
   }
   json["triangles"] = loaded.scene.mesh.triangles.size();
   json["objects"] = loaded.scene.objects.size();
+  const Box box = bounding_box(loaded.scene.mesh);
+  json["bounds"] = {{"min", {box.min.x(), box.min.y(), box.min.z()}}, {"max", {box.max.x(), box.max.y(), box.max.z()}}};
   json["notes"] = notes_of(loaded);
-  if (loaded.city) add_city(json, *loaded.city);
-  if (loaded.raster) add_raster(json, *loaded.raster);
+  add_source(json, loaded);
   // A name is bytes from a file, and JSON takes UTF-8 only: others are replaced rather than refused.
   return json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }

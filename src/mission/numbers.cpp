@@ -39,6 +39,20 @@ ParsedNumber parse_number(std::string_view text) {
   return {value, NumberFault::none};
 }
 
+std::vector<std::string_view> split_at_commas(std::string_view text) {
+  constexpr std::string_view kBlanks = " \t";
+  std::vector<std::string_view> parts;
+  for (std::size_t at = 0; at <= text.size();) {
+    const std::size_t end = std::min(text.find(',', at), text.size());
+    const std::string_view part = text.substr(at, end - at);
+    const std::size_t first = part.find_first_not_of(kBlanks);
+    parts.push_back(first == std::string_view::npos ? std::string_view()
+                                                    : part.substr(first, part.find_last_not_of(kBlanks) - first + 1));
+    at = end + 1;
+  }
+  return parts;
+}
+
 std::string number_advice(std::string_view text, NumberFault fault) {
   if (fault == NumberFault::not_finite) return "write a finite number";
   if (fault == NumberFault::out_of_range) return "write a number that fits a double, or 0";

@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace vantage::mission_io {
 
@@ -21,6 +22,9 @@ struct ParsedNumber {
 /// The number that the whole of `text` spells: an optional sign, decimal digits with at most one point, an optional
 /// exponent. No blanks, no 0x10, no 1_000, no 1,5, no 1:30. Never throws.
 ParsedNumber parse_number(std::string_view text);
+
+/// The parts of `text` between commas, without the blanks round them: of "51.5, -0.09" two.
+std::vector<std::string_view> split_at_commas(std::string_view text);
 
 /// What to write instead of `text`, which parse_number refused for `fault`: one sentence, without a full stop.
 std::string number_advice(std::string_view text, NumberFault fault);

@@ -1,0 +1,154 @@
+#include "cli/scene_options.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+#include "city/settings.h"
+#include "cli/command.h"
+#include "mission/input_file.h"
+#include "mission/numbers.h"
+#include "vantage/error.h"
+
+namespace vantage::cli {
+namespace {
+
+[[noreturn]] void fail(const std::string& problem, const std::string& option, const std::string& fix) {
+  throw Error(ErrorKind::input, problem, "command line, " + option, fix);
+}
+
+template <std::size_t N>
+std::array<double, N> numbers(const std::string& text, const std::string& option, const std::string& form) {
+  std::array<double, N> values{};
+  const std::vector<std::string_view> parts = mission_io::split_at_commas(text);
+  bool is_good = parts.size() == N;
+  for (std::size_t i = 0; i < N && is_good; ++i) {
+    const mission_io::ParsedNumber parsed = mission_io::parse_number(parts[i]);
+    values[i] = parsed.value;
+    is_good = parsed.fault == mission_io::NumberFault::none;
+  }
+  if (!is_good) {
+    fail(mission_io::in_quotes(text).append(" is not ").append(form), option,
+         "write numbers joined by commas, in quotes if there are blanks: " + form);
+  }
+  return values;
+}
+
+CityRegion region_of(const SceneOptions& options) {
+  CityRegion region;
+  if (!options.center.empty()) region.center_deg = numbers<2>(options.center, "--center", "latitude,longitude");
+  if (!options.bbox.empty()) region.bbox_deg = numbers<4>(options.bbox, "--bbox", "west,south,east,north");
+  if (!options.radius.empty()) region.radius_m = positive_option("--radius", options.radius);
+  if (region.center_deg && options.radius.empty()) fail("--center without --radius", "--center", "add --radius METRES");
+  return region;
+}
+
+/// "level=3.2".
+void apply(const std::string& setting, CityOptions& options) {
+  const std::string where = "--set " + setting;
+  const std::size_t sign = setting.find('=');
+  if (sign == std::string::npos)
+    fail("'" + setting + "' sets nothing", where, "write --set NAME=VALUE, such as level=3.2");
+  city::set(options, setting.substr(0, sign), positive_option(where, setting.substr(sign + 1)),
+            "command line, " + where);
+}
+
+std::array<int, 4> window_of(const std::string& text) {
+  std::array<int, 4> window{};
+  const std::array<double, 4> values = numbers<4>(text, "--window", "column,row,columns,rows");
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (values[i] != std::floor(values[i]) || std::abs(values[i]) > 1e9) {
+      fail("'" + text + "' is not a window", "--window", "give whole numbers: column,row,columns,rows");
+    }
+    window[i] = static_cast<int>(values[i]);
+  }
+  return window;
+}
+
+SceneSource source_of(const SceneOptions& options) {
+  SceneSource source;
+  source.file = options.input;
+  source.kind = source_kind(options.input);
+  source.city.region = region_of(options);
+  source.city.terrain = options.terrain;
+  for (const std::string& setting : options.settings) apply(setting, source.city);
+  for (const std::string& kind : options.without) city::leave_out(source.city.occluders, kind, "--without " + kind);
+  const CityRegion& region = source.city.region;
+  source.raster.region = {region.center_deg, region.radius_m, region.bbox_deg, {}};
+  if (!options.window.empty()) source.raster.region.pixels = window_of(options.window);
+  if (!options.error.empty()) {
+    source.city.terrain_error_m = source.raster.max_error_m = positive_option("--error", options.error);
+  }
+  source.mesh.up = options.up == "y" ? UpAxis::y : UpAxis::z;
+  source.mesh.scale = positive_option("--scale", options.scale);
+  source.mesh.lod = options.lod;
+  source.mesh.crs = options.crs;
+  if (!options.origin.empty()) {
+    source.mesh.origin_deg = source.raster.origin_deg = numbers<2>(options.origin, "--origin", "latitude,longitude");
+  }
+  return source;
+}
+
+/// Options that mean nothing for this kind of file are more likely a slip than a wish.
+void check_options(const SceneOptions& options, SceneSource::Kind kind) {
+  using Kind = SceneSource::Kind;
+  const auto only_for = [&](bool is_given, const char* option, std::initializer_list<Kind> kinds, const char* what) {
+    if (!is_given || std::find(kinds.begin(), kinds.end(), kind) != kinds.end()) return;
+    fail(std::string(option) + " is for " + what + ", and " + options.input + " is none", option, "leave it out");
+  };
+  only_for(!options.center.empty(), "--center", {Kind::map, Kind::raster}, "maps and rasters");
+  only_for(!options.bbox.empty(), "--bbox", {Kind::map, Kind::raster}, "maps and rasters");
+  only_for(!options.error.empty(), "--error", {Kind::map, Kind::raster}, "terrain and rasters");
+  only_for(!options.terrain.empty(), "--terrain", {Kind::map}, "maps");
+  only_for(!options.settings.empty(), "--set", {Kind::map}, "maps");
+  only_for(!options.without.empty(), "--without", {Kind::map}, "maps");
+  only_for(options.up == "y", "--up", {Kind::mesh}, "meshes");
+  only_for(options.scale != "1", "--scale", {Kind::mesh}, "meshes");
+  only_for(!options.lod.empty(), "--lod", {Kind::mesh}, "CityJSON files");
+  only_for(!options.crs.empty(), "--crs", {Kind::mesh}, "meshes");
+  only_for(!options.origin.empty(), "--origin", {Kind::mesh, Kind::raster}, "meshes, CityJSON files and rasters");
+  only_for(!options.window.empty(), "--window", {Kind::raster}, "rasters");
+}
+
+}  // namespace
+
+SceneSource scene_source(const SceneOptions& options, const std::string& what) {
+  mission_io::check_readable(options.input, what, "");
+  SceneSource source = source_of(options);
+  check_options(options, source.kind);
+  return source;
+}
+
+void add_scene_options(CLI::App& command, SceneOptions& options) {
+  command.add_option("--center", options.center, "Centre of the area, degrees (WGS 84); with --radius")
+      ->option_text("LAT,LON");
+  command.add_option("--radius", options.radius, "Of the area; what reaches into it is built, whole")
+      ->option_text("METRES");
+  command.add_option("--bbox", options.bbox, "The area as a box, degrees")->option_text("W,S,E,N");
+  command.add_option("--window", options.window, "Part of a raster, in posts")->option_text("COLUMN,ROW,COLUMNS,ROWS");
+  command.add_option("--terrain", options.terrain, "Ground heights: GeoTIFF, .hgt or .hgt.zip (default: a plane)")
+      ->option_text("FILE");
+  command
+      .add_option(
+          "--error", options.error,
+          "How far the ground may differ from the raster at its posts, vertically (0.5; of a raster alone 0.25)")
+      ->option_text("METRES");
+  command.add_option("--set", options.settings, "A default for what the map does not say, see docs/scene.md")
+      ->allow_extra_args(false)
+      ->option_text("NAME=VALUE");
+  command.add_option("--without", options.without, "Leave out walls, towers, bridges or trees")
+      ->allow_extra_args(false)
+      ->option_text("KIND");
+  command.add_option("--lod", options.lod, "Level of detail of CityJSON (default: the highest)")->option_text("LOD");
+  command.add_option("--crs", options.crs, "Reference system of a mesh's coordinates, such as EPSG:28992")
+      ->option_text("CRS");
+  command.add_option("--origin", options.origin, "Origin of the scene frame (default: the middle)")
+      ->option_text("LAT,LON");
+  command.add_option("--up", options.up, "Axis of a mesh file that points up: y or z (default); glTF is always y up")
+      ->check(CLI::IsMember({"y", "z"}))
+      ->option_text("AXIS");
+  command.add_option("--scale", options.scale, "Metres in one unit of a mesh file (default 1)")->option_text("S");
+}
+
+}  // namespace vantage::cli
