@@ -50,6 +50,29 @@ TEST_F(CliRender, TakesItsViewInAnyOrder) {
   EXPECT_EQ(content(folder_ / "d.png"), content(folder_ / "f.png"));
 }
 
+TEST_F(CliRender, TellsWhatMakesTheResultDoubtful) {
+  VANTAGE_REQUIRE_OPENGL();
+  write("far.yaml",
+        std::string(kScene) + kSensor + "target: {vertices: [[9000, 0, 0], [9010, 0, 0], [9000, 10, 0]]}\n");
+  const std::vector<std::string> draw = {"render", "far.yaml", "-o", "far.png", "--size", "320x240"};
+  EXPECT_NE(run(draw).err.find("8.9 km"), std::string::npos);
+  ASSERT_EQ(run({"compute", "far.yaml", "-o", "far.ply"}).exit_code, 0);
+  std::vector<std::string> given = draw;
+  given.insert(given.end(), {"--volume", "far.ply"});
+  given[3] = "given.png";
+  EXPECT_NE(run(given).err.find("8.9 km"), std::string::npos);
+  EXPECT_EQ(content(folder_ / "given.png"), content(folder_ / "far.png"));
+}
+
+TEST_F(CliRender, NumbersMayHaveBlanksBetweenThem) {
+  VANTAGE_REQUIRE_OPENGL();
+  output_of({"render", "mission.yaml", "--view", "from", "-60,-50,40", "-o", "a.png", "--size", "120x90"});
+  output_of({"render", "mission.yaml", "--view", "from", "-60, -50, 40", "-o", "b.png", "--size", "120x90"});
+  output_of({"render", "--view", "from -60, -50, 40", "mission.yaml", "-o", "c.png", "--size", "120x90"});
+  EXPECT_EQ(content(folder_ / "a.png"), content(folder_ / "b.png"));
+  EXPECT_EQ(content(folder_ / "a.png"), content(folder_ / "c.png"));
+}
+
 TEST_F(CliRender, DrawsTheSceneWhereThereIsNoVolume) {
   VANTAGE_REQUIRE_OPENGL();
   write("mission.yaml", std::string(kScene) + kTarget + kSensor + "navigation: {altitude: [500, 600]}\n");

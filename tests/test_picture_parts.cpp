@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 
+#include "render/annotate.h"
 #include "render/creases.h"
 #include "render/draw_list.h"
 #include "render/view.h"
@@ -52,6 +53,41 @@ TEST(PictureView, FramesItsPointsTightlyWithinTheInsets) {
     EXPECT_NEAR(box.center().x(), 195, 1e-6);
     EXPECT_NEAR(box.center().y(), 140, 1e-6);
   }
+}
+
+TEST(PictureNotes, AreWrittenUnderTheSubtitle) {
+  render::Annotation annotation;
+  annotation.title = "square";
+  annotation.subtitle = "range 60 m";
+  View view = view_of(views()[0]);
+  view.width = 800;
+  view.height = 600;
+  const Picture paper{800, 600, std::vector<std::uint8_t>(std::size_t{4} * 800 * 600, 255)};
+  const auto red_rows = [](const Picture& picture) {
+    int first = picture.height, last = -1;
+    for (int row = 0; row < picture.height; ++row) {
+      for (int column = 0; column < picture.width; ++column) {
+        const std::uint8_t* const pixel = &picture.rgba[4 * (std::size_t(row) * 800 + std::size_t(column))];
+        if (pixel[0] < pixel[2] + 60) continue;
+        first = std::min(first, row);
+        last = std::max(last, row);
+      }
+    }
+    return std::pair(first, last);
+  };
+  EXPECT_EQ(red_rows(annotated(paper, annotation, view)).second, -1);
+  const double plain = insets_of(annotation, 800, 600).top;
+  annotation.notes = {"the range reaches 12 m beyond the map"};
+  const double one = insets_of(annotation, 800, 600).top;
+  EXPECT_GT(one, plain + 5);
+  const auto [first, last] = red_rows(annotated(paper, annotation, view));
+  EXPECT_GT(first, plain / 2);
+  EXPECT_LE(last, one);
+  annotation.notes.assign(9, std::string(40, 'x') + " " + std::string(60, 'y') + " " + std::string(300, 'z'));
+  const double many = insets_of(annotation, 800, 600).top;
+  EXPECT_GT(many, one + 20);
+  EXPECT_LT(many, 200) << "a picture must have room for what it shows";
+  EXPECT_LE(red_rows(annotated(paper, annotation, view)).second, many);
 }
 
 TEST(PictureView, ClipCoordinatesAgreeWithPixelsAndDepths) {

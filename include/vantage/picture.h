@@ -43,9 +43,10 @@ struct PictureRequest {
   PictureView view;
   int width = 1600, height = 1200;  ///< pixels, kSmallestPicture to kLargestPicture
   bool draw_scene = true;
-  bool annotate = true;         ///< title, legend, scale bar, north arrow
-  std::string title, subtitle;  ///< UTF-8
-  std::vector<Vec3> frame;      ///< what the picture must hold. Empty: volume or solid, target and boxes
+  bool annotate = true;            ///< title, legend, scale bar, north arrow
+  std::string title, subtitle;     ///< UTF-8
+  std::vector<std::string> notes;  ///< what to know before relying on it, as Volume::notes: written under the subtitle
+  std::vector<Vec3> frame;         ///< what the picture must hold. Empty: volume or solid, target and boxes
 };
 
 /// Rows from the top, four bytes a pixel: red, green, blue (sRGB), and opacity, which is 255 everywhere.

@@ -3,6 +3,8 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "vantage/city.h"
 #include "vantage/progress.h"
@@ -33,6 +35,7 @@ struct LoadedScene {
   Scene scene;
   std::optional<CityReport> city;      ///< of a map
   std::optional<RasterReport> raster;  ///< of a raster
+  std::vector<std::string> notes;      ///< what read_mission_scene changed to fit the target: a sentence each
 };
 
 /// Throws as the function of its kind does.

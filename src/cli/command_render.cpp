@@ -6,6 +6,7 @@
 #include "cli/picture_options.h"
 #include "cli/progress_line.h"
 #include "cli/stage_sheet.h"
+#include "mission/caveats.h"
 #include "mission/input_file.h"
 #include "mission/numbers.h"
 #include "mission/run_mission.h"
@@ -53,16 +54,19 @@ Picture picture(const Options& options, Mission& mission, const PictureView& vie
   Scene scene;
   if (!options.volume_file.empty()) {
     mission_io::check_readable(options.volume_file, "the volume", "");  // before the scene, which takes longer
-    scene = read_mission_scene(mission, progress).scene;
+    LoadedScene loaded = read_mission_scene(mission, progress);
     std::vector<std::string> notes;
-    volume = read_volume(options.volume_file, scene, progress, &notes);
+    volume = read_volume(options.volume_file, loaded.scene, progress, &notes);
     if (!options.common.quiet) std::for_each(notes.begin(), notes.end(), note);
+    volume.notes = mission_io::caveats(mission, loaded, &volume.mesh);
+    scene = std::move(loaded.scene);
   } else {
     mission_io::MissionRun run = mission_io::run_mission(mission, progress);
     volume = std::move(run.volume);
     scene = std::move(run.loaded.scene);
     if (volume.outcome != Outcome::computed && !options.common.quiet) note("no volume: " + volume.reason);
   }
+  if (!options.common.quiet) std::for_each(volume.notes.begin(), volume.notes.end(), note);
   PictureRequest request;
   request.target = &mission.target;
   request.other_parts = mission.other_parts;
@@ -73,6 +77,7 @@ Picture picture(const Options& options, Mission& mission, const PictureView& vie
   request.height = size[1];
   request.title = mission.target.name;
   request.subtitle = picture_subtitle(mission, &volume);
+  request.notes = volume.notes;
   return render_picture(scene, request, progress);
 }
 

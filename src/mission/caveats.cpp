@@ -8,6 +8,8 @@
 #include <numbers>
 
 #include "geo/local_frame.h"
+#include "geo/longitudes.h"
+#include "mission/scene_caveats.h"
 
 namespace vantage::mission_io {
 namespace {
@@ -58,20 +60,26 @@ std::vector<Vec2> reach(const Mission& mission) {
   return points;
 }
 
+double beyond(const std::vector<Vec2>& points, const Vec2& centre, double radius) {
+  double most = 0;
+  for (const Vec2& p : points) most = std::max(most, (p - centre).norm() - radius);
+  return most;
+}
+
 /// How far the points reach out of a rectangle of the earth (west, south, east, north), metres.
 double beyond(const std::vector<Vec2>& points, const std::array<double, 4>& degrees, const geo::LocalFrame& frame) {
-  const Vec2 sw = frame.to_local({degrees[0], degrees[1]}), se = frame.to_local({degrees[2], degrees[1]});
-  const Vec2 ne = frame.to_local({degrees[2], degrees[3]}), nw = frame.to_local({degrees[0], degrees[3]});
+  const auto [west, south, east, north] = degrees;
+  if (geo::LongitudeRange{west, east}.width_deg() > 180) {  // round a pole
+    const bool is_south = south + north < 0;
+    const geo::LonLat pole{0, is_south ? -90.0 : 90.0};
+    return beyond(points, frame.to_local(pole), geo::geodesic_m(pole, {0, is_south ? north : south}));
+  }
+  const Vec2 sw = frame.to_local({west, south}), se = frame.to_local({east, south});
+  const Vec2 ne = frame.to_local({east, north}), nw = frame.to_local({west, north});
   const Vec2 min(std::max(sw.x(), nw.x()), std::max(sw.y(), se.y()));
   const Vec2 max(std::min(se.x(), ne.x()), std::min(ne.y(), nw.y()));
   double most = 0;
   for (const Vec2& p : points) most = std::max({most, (min - p).maxCoeff(), (p - max).maxCoeff()});
-  return most;
-}
-
-double beyond(const std::vector<Vec2>& points, const Vec2& centre, double radius) {
-  double most = 0;
-  for (const Vec2& p : points) most = std::max(most, (p - centre).norm() - radius);
   return most;
 }
 
@@ -121,11 +129,11 @@ Shortfall of(const Mission& mission, const LoadedScene& loaded) {
 
 }  // namespace
 
-std::vector<std::string> caveats(const Mission& mission, const LoadedScene& loaded) {
+std::vector<std::string> caveats(const Mission& mission, const LoadedScene& loaded, const Mesh* volume) {
   constexpr double kTolerance = 1;  // metre: rounding of degrees, and corners of extracts
   constexpr double kTiny = 0.01;    // metre: a target of street size in degrees is 1e-4 across
   constexpr double kLargestDegree = 180;
-  std::vector<std::string> sentences;
+  std::vector<std::string> sentences = loaded.notes;
   const Shortfall shortfall = of(mission, loaded);
   if (shortfall.metres > kTolerance) {
     sentences.push_back("the range reaches " + metres(shortfall.metres) + " beyond " + shortfall.known +
@@ -141,6 +149,7 @@ std::vector<std::string> caveats(const Mission& mission, const LoadedScene& load
     sentences.push_back(std::string("the target is ") + size +
                         " mm across: if its vertices are longitudes and latitudes, say so with 'crs: EPSG:4326'");
   }
+  for (std::string& sentence : scene_caveats(mission, loaded, volume)) sentences.push_back(std::move(sentence));
   return sentences;
 }
 

@@ -84,7 +84,8 @@ MissionRun run_stages(Mission& mission, const Progress& progress, const StageSin
   seconds.total = seconds.read + seconds.prepare + seconds.engine + seconds.navigation;
   run.volume.seconds = seconds;
   run.volume.georeference = run.loaded.scene.georeference;
-  run.volume.notes = caveats(mission, run.loaded);
+  std::vector<std::string> notes = caveats(mission, run.loaded, &run.volume.mesh);
+  run.volume.notes.insert(run.volume.notes.end(), notes.begin(), notes.end());
   return run;
 }
 

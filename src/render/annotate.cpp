@@ -17,6 +17,8 @@ constexpr double kGap = 1.5;                          // between entries of the 
 constexpr double kMark = 1.15;                        // side of a legend's mark
 constexpr double kArrow = 1.6;                        // half the length of the north arrow
 constexpr double kTitleSize = 1.3;                    // of the title's letters
+constexpr double kNoteSize = 0.88;                    // of the notes' letters
+constexpr double kNoteRow = 1.2;                      // from one line of notes to the next
 constexpr double kBar = 9.5;                          // the longest scale bar
 constexpr double kBarRoom = 11, kLongBarRoom = 15.5;  // for it in the last row of the legend, with its writing
 
@@ -178,9 +180,40 @@ void draw_north(Canvas& canvas, const View& view, double font) {
   canvas.show_with_halo("N", letter.x() - 0.5 * canvas.width_of("N"), letter.y() + 0.36 * font);
 }
 
-double title_room(const Annotation& annotation, double font) {
-  if (annotation.title.empty() && annotation.subtitle.empty()) return 0;
-  return (kEdge + kTitleSize * 0.8 + (annotation.subtitle.empty() ? 0 : 1.35) + 0.5) * font;
+/// The notes, broken between words into lines that are no wider than `room`.
+std::vector<std::string> note_lines(Canvas& canvas, const Annotation& annotation, double room, double font) {
+  constexpr std::size_t kMostLines = 6;
+  canvas.set_font(kNoteSize * font);
+  std::vector<std::string> lines;
+  for (const std::string& note : annotation.notes) {
+    std::string line = "!";
+    for (std::size_t at = 0; at < note.size();) {
+      const std::size_t end = std::min(note.find(' ', at), note.size());
+      const std::string longer = line + " " + note.substr(at, end - at);
+      if (canvas.width_of(longer) > room) {
+        lines.push_back(line);
+        line = "   " + note.substr(at, end - at);
+      } else {
+        line = longer;
+      }
+      at = end + 1;
+    }
+    lines.push_back(line);
+  }
+  if (lines.size() > kMostLines) {
+    lines.resize(kMostLines);
+    lines.back() += " \u2026";
+  }
+  return lines;
+}
+
+/// How wide a line under the title may be: the north arrow is beside it.
+double title_width(int width, double font) { return width - (2 * kEdge + 4) * font; }
+
+double title_room(const Annotation& annotation, std::size_t note_lines, double font) {
+  if (annotation.title.empty() && annotation.subtitle.empty() && note_lines == 0) return 0;
+  return (kEdge + kTitleSize * 0.8 + (annotation.subtitle.empty() ? 0 : 1.35) + 0.5) * font +
+         static_cast<double>(note_lines) * kNoteRow * font;
 }
 
 }  // namespace
@@ -216,7 +249,8 @@ Insets insets_of(const Annotation& annotation, int width, int height) {
   const double font = font_size(width, height);
   Canvas canvas(1, 1);
   const Layout layout = lay_out(canvas, annotation, width, font);
-  return {font, std::max(title_room(annotation, font), 0.8 * font), font,
+  const std::size_t notes = note_lines(canvas, annotation, title_width(width, font), font).size();
+  return {font, std::max(title_room(annotation, notes, font), 0.8 * font), font,
           (kEdge + 1.0 + (layout.rows - 1) * kRow + 0.9) * font};
 }
 
@@ -234,7 +268,7 @@ Picture annotated(const Picture& picture, const Annotation& annotation, const Vi
   draw_scale(canvas, annotation, view, last, font);
   draw_north(canvas, view, font);
 
-  const double room = picture.width - (2 * kEdge + 4) * font;
+  const double room = title_width(picture.width, font);
   double baseline = (kEdge + 0.8 * kTitleSize) * font;
   canvas.set_font(kTitleSize * font, true);
   canvas.set_colour(kInk);
@@ -243,6 +277,14 @@ Picture annotated(const Picture& picture, const Annotation& annotation, const Vi
   canvas.set_font(font);
   canvas.set_colour(kFaintInk);
   canvas.show_with_halo(canvas.fitted(annotation.subtitle, room), kEdge * font, baseline);
+  baseline += 0.15 * font;
+  const std::vector<std::string> notes = note_lines(canvas, annotation, room, font);
+  canvas.set_font(kNoteSize * font);
+  canvas.set_colour(kTarget);
+  for (const std::string& line : notes) {
+    baseline += kNoteRow * font;
+    canvas.show_with_halo(canvas.fitted(line, room), kEdge * font, baseline);
+  }
   return canvas.picture();
 }
 

@@ -20,8 +20,9 @@ struct LegendEntry {
 struct Annotation {
   std::string title, subtitle;
   std::vector<LegendEntry> legend;
-  double grid_m = 0;            ///< 0: there is none
-  bool is_perspective = false;  ///< lengths hold at the target only
+  double grid_m = 0;               ///< 0: there is none
+  bool is_perspective = false;     ///< lengths hold at the target only
+  std::vector<std::string> notes;  ///< in lines under the subtitle
 };
 
 /// The kinds of cause that bound the volume, with their shares of its area, the target and the boxes.

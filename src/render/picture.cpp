@@ -89,8 +89,9 @@ Picture render_picture(const Scene& scene, const PictureRequest& request, const 
   if (request.volume != nullptr) check_volume(*request.volume);
   if (request.solid != nullptr) check_indices(*request.solid, "solid");
 
-  Annotation annotation{request.title, request.subtitle, legend_of(request), 0,
-                        request.view.kind == PictureView::Kind::from};
+  Annotation annotation{
+      request.title, request.subtitle, legend_of(request), 0, request.view.kind == PictureView::Kind::from,
+      request.notes};
   const PictureExtent extent = find_extent(scene, request);
   Insets insets{8, 8, 8, 8};
   if (request.annotate) insets = insets_of(annotation, request.width, request.height);
