@@ -243,6 +243,109 @@ TEST_F(MissionPlaces, ARectangleAboutAPlace) {
   EXPECT_NEAR(most, 10, 1e-3) << "45 degrees is north-east";
 }
 
+TEST_F(MissionPlaces, ANamedAreaGivesItsNameToTheTarget) {
+  MapText map(kCentre);
+  map.box(30, -10, 45, 10, {{"building", "yes"}});
+  map.box(-10, -10, 10, 10, {{"leisure", "park"}, {"name", "Zuccotti Park"}});
+  write("city.osm", map.text());
+  EXPECT_EQ(placed("osm: city.osm", "target: {osm: way/2}\n").target.name, "Zuccotti Park (way/2)");
+  EXPECT_EQ(placed("osm: city.osm", "target: {osm: way/2, name: lawn}\n").target.name, "lawn");
+  mission("osm: city.osm", "target: {osm: way/2}\n");
+  EXPECT_NE(run({"compute", "mission.yaml", "-o", "out.ply"}).out.find("Zuccotti Park"), std::string::npos);
+  const auto report = nlohmann::json::parse(content(folder_ / "out.report.json"));
+  EXPECT_EQ(report.at("target"), "Zuccotti Park (way/2)");
+}
+
+// ---- the ground under it --------------------------------------------------------------------------------------------
+
+Box ground_box(const Scene& scene) {
+  Box box;
+  for (std::size_t i = 0; i < scene.mesh.triangles.size(); ++i) {
+    if (scene.objects[scene.object_of[i]] != "ground") continue;
+    for (const std::uint32_t vertex : scene.mesh.triangles[i]) box.extend(scene.mesh.vertices[vertex]);
+  }
+  return box;
+}
+
+TEST_F(MissionPlaces, FlatGroundIsExtendedToHoldTheTarget) {
+  MapText map(kCentre);
+  map.box(-20, -20, 0, 0, {{"building", "yes"}, {"height", "8"}});
+  map.box(60, -10, 120, 40, {{"leisure", "park"}});    // way/2: the ground ends at 50
+  map.box(300, 300, 340, 330, {{"leisure", "park"}});  // way/3: nothing is built near it
+  write("city.osm", map.text());
+  for (const std::string name : {"way/2", "way/3"}) {
+    const Mission result = placed("osm: city.osm", "target: {osm: " + name + "}\n");
+    EXPECT_EQ(loaded_.notes.size(), 1u);
+    const Box ground = ground_box(loaded_.scene);
+    for (const Vec3& vertex : result.target.vertices) {
+      EXPECT_EQ(vertex.z(), 0);
+      EXPECT_GT((vertex - ground.min).head<2>().minCoeff(), 10);
+      EXPECT_GT((ground.max - vertex).head<2>().minCoeff(), 10);
+    }
+    const Volume seen = volume("osm: city.osm", "target: {osm: " + name + "}\n");
+    ASSERT_EQ(seen.outcome, Outcome::computed) << seen.reason;
+    ASSERT_FALSE(seen.notes.empty());
+    EXPECT_NE(seen.notes[0].find("extended"), std::string::npos) << seen.notes[0];
+  }
+  // By its place in degrees, a little off the ground; and in a scene that was written to a file.
+  const geo::LonLat at = frame_.to_lonlat({80, 10});
+  const std::string target =
+      "target: {center: [" + text_of(at.latitude_deg) + ", " + text_of(at.longitude_deg) + "], width: 8, length: 12}\n";
+  placed("osm: city.osm", target);
+  EXPECT_EQ(loaded_.notes.size(), 1u);
+  output_of({"scene", "city.osm", "-q", "-o", "built.glb"});
+  placed("mesh: built.glb", target);
+  EXPECT_EQ(loaded_.notes.size(), 1u);
+  // What is large enough stays as it is.
+  placed("osm: city.osm", "target: {center: [48.1374, 11.57575], width: 8, length: 12}\n");
+  EXPECT_TRUE(loaded_.notes.empty());
+  // As large as it takes, though nothing can see all of it.
+  const Volume field = volume("osm: city.osm", "target: {center: [48.1374, 11.5757], width: 5, length: 5000}\n");
+  EXPECT_EQ(field.outcome, Outcome::out_of_range);
+}
+
+TEST_F(MissionPlaces, TerrainIsBuiltAsFarAsTheTarget) {
+  MapText map(kCentre);
+  map.box(-20, -20, 0, 0, {{"building", "yes"}, {"height", "8"}});
+  map.box(60, -10, 120, 40, {{"leisure", "park"}});
+  write("city.osm", map.text());
+  const std::string scene = "osm: city.osm, terrain: dem.asc, error: 0.01";
+  const Mission result = placed(scene, "target: {osm: way/2}\n");
+  EXPECT_EQ(loaded_.notes.size(), 1u);
+  for (const Vec3& vertex : result.target.vertices) {
+    const double north = frame_
+                             .to_local(geo::LocalFrame({loaded_.scene.georeference->longitude_deg,
+                                                        loaded_.scene.georeference->latitude_deg})
+                                           .to_lonlat(vertex.head<2>()))
+                             .y();
+    EXPECT_NEAR(vertex.z(), 500 + kSlope * north, 0.05);
+  }
+}
+
+// ---- what stands on it ----------------------------------------------------------------------------------------------
+
+TEST_F(CliMissionPlaces, WhatStandsOnATargetCanBeLeftOut) {
+  MapText map(kCentre);
+  map.box(60, -10, 75, 10, {{"building", "yes"}, {"height", "20"}});
+  map.box(-10, -10, 10, 10, {{"leisure", "pitch"}, {"barrier", "fence"}});  // way/2, with its fence
+  map.box(20, -10, 40, 10, {{"leisure", "pitch"}});                         // way/3, with another's
+  map.line({{20, -10}, {40, -10}, {40, 10}}, {{"barrier", "fence"}});
+  map.box(-60, -10, -30, 20, {{"leisure", "park"}});  // way/5
+  map.node(-45, 5, {{"natural", "tree"}});
+  map.box(-60, 40, -30, 70, {{"amenity", "parking"}});  // way/6: a building stands on it
+  map.box(-50, 50, -40, 60, {{"building", "yes"}, {"height", "12"}});
+  write("city.osm", map.text());
+  const std::string scene = "osm: city.osm";
+  expect_refused(scene, "target: {osm: way/2}\n", "stands on", "mission.yaml:2:", "without: [walls]");
+  expect_refused(scene, "target: {osm: way/3}\n", "stands on", "mission.yaml:2:", "without: [walls]");
+  expect_refused(scene, "target: {osm: way/5}\n", "inside 'node/20'", "mission.yaml:2:", "without: [trees]");
+  expect_refused(scene, "target: {osm: way/6}\n", "inside 'way/7'", "mission.yaml:2:", "outdoors");
+  for (const char* target : {"target: {osm: way/2}\n", "target: {osm: way/3}\n"}) {
+    EXPECT_EQ(volume(scene + ", without: [walls]", target).outcome, Outcome::computed);
+  }
+  EXPECT_EQ(volume(scene + ", without: [trees]", "target: {osm: way/5}\n").outcome, Outcome::computed);
+}
+
 // ---- on a slope -----------------------------------------------------------------------------------------------------
 
 TEST_F(MissionPlaces, ATargetLiesOnTheSlope) {
@@ -296,12 +399,17 @@ TEST_F(CliMissionPlaces, TargetsThatAreNone) {
   expect_refused("mesh: city.obj", "target: {osm: way/2}\n", "the scene is none", "mission.yaml:2:", "scene: {osm:");
   expect_refused("mesh: city.obj", "target: {center: [48, 11], width: 5, length: 5}\n",
                  "does not say where on the earth", "mission.yaml", "");
-  expect_refused(scene, "target: {center: [48.2, 11.5755], width: 5, length: 5}\n", "m from the scene's origin",
+  expect_refused(scene, "target: {center: [48.2, 11.5755], width: 5, length: 5}\n", "m from the scene's ground",
                  "mission.yaml:2:", "larger area");
   expect_refused(scene, "target: {center: [11.5755, 48.1374], width: 5, length: 5}\n", "m from the scene's origin",
                  "mission.yaml:2:", "the wrong way round: write center: [latitude, longitude]");
-  expect_refused(scene, "target: {center: [48.1374, 11.5755], width: 5, length: 5000}\n", "beyond the scene's ground",
-                 "mission.yaml:2:", "larger area");
+  expect_refused("osm: city.osm", "target: {center: [48.2, 11.5755], width: 5, length: 5}\n",
+                 "m from the scene's ground", "mission.yaml:2:", "all of the map is used");
+  expect_refused("osm: city.osm", "target: {osm: way/999}\n", "no area way/999", "mission.yaml:2:", "closed way");
+  expect_refused(scene + ", terrain: dem.asc", "target: {center: [48.1374, 11.5755], width: 5, length: 5000}\n",
+                 "does not cover", "dem.asc", "");
+  expect_refused("raster: dem.asc", "target: {center: [48.1373, 11.5656], width: 200, length: 20}\n",
+                 "beyond the scene's ground", "mission.yaml:2:", "all of the raster is used");
   expect_refused(scene, "target: {center: [148.1, 11], width: 5, length: 5}\n", "is no place",
                  "mission.yaml:2:", "latitude first: [11, 148.1]");
   expect_refused(scene, "target: {center: [48.1374, 11.5755], width: 5}\n", "lacks the key 'length'", "mission.yaml",

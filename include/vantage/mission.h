@@ -70,10 +70,12 @@ Mission read_mission(const std::filesystem::path& file);
 /// and `ground_target` are empty, `target`, `other_parts` and the boxes complete. Boxes lie askew in the frame: a box
 /// to stay in becomes the largest one of the frame inside it, a box to stay out of the smallest round it. Navigation
 /// meshes in OBJ take the axes and the unit of the scene's file; those that say where on the earth they lie are moved
-/// there, where the scene says so too. Throws as load_scene does, and Error(input) with the place in the mission file
-/// for: a scene that does not say where on the earth it lies, a position without a value, an object that the map does
-/// not have, a target off the ground or reaching beyond it, a navigation mesh whose heights are measured from another
-/// level than the scene's, and all that make_target_frame refuses.
+/// there, where the scene says so too. A target of the map without a name of its own gets the object's. Ground that
+/// ends under a target that is laid on it is extended: flat ground as it is, a map's terrain by building more of it
+/// (LoadedScene::notes). Throws as load_scene does, and Error(input) with the place in the mission file for: a scene
+/// that does not say where on the earth it lies, a position without a value, an object that the map does not have, a
+/// target farther off the ground than max_range or beyond ground that cannot be extended, a navigation mesh whose
+/// heights are measured from another level than the scene's, and all that make_target_frame refuses.
 LoadedScene read_mission_scene(Mission& mission, const Progress& progress = {});
 
 /// All that `vantage compute` does but writing: reads the scene, prepares it, computes, cuts. Fills Volume::seconds.

@@ -17,6 +17,10 @@ void append(Scene& scene, const Mesh& mesh, const std::string& name) {
 
 }  // namespace
 
+std::string object_name(const CityRecord& record) {
+  return record.name.empty() ? record.object : record.object + " " + record.name;
+}
+
 Scene assemble(const Site& site, const std::vector<Mesh>& solids, const Mesh& ground) {
   Scene scene;
   std::size_t vertices = ground.vertices.size(), triangles = ground.triangles.size();
@@ -28,8 +32,7 @@ Scene assemble(const Site& site, const std::vector<Mesh>& solids, const Mesh& gr
   scene.mesh.triangles.reserve(triangles);
   scene.object_of.reserve(triangles);
   for (std::size_t i = 0; i < solids.size(); ++i) {
-    const CityRecord& record = site.items[i].record;
-    append(scene, solids[i], record.name.empty() ? record.object : record.object + " " + record.name);
+    append(scene, solids[i], object_name(site.items[i].record));
   }
   append(scene, ground, "ground");
   return scene;

@@ -152,14 +152,21 @@ std::string advice_for_point(const PreparedScene::Data& scene, std::uint32_t pol
          "] or its opposite; else move it off";
 }
 
+// Raising a target by more than this (metres) makes another one of it.
+constexpr double kMostRaise = 3;
+
 [[noreturn]] void refuse_pierced(const PreparedScene::Data& scene, const Target& target, const TargetFrame& frame,
                                  const Crossing& crossing, double clear) {
+  const std::uint32_t object = scene.polygon_object[crossing.polygon];
+  const std::string name = "\"" + scene.objects[object] + "\"";
   std::string fix = "move the target, or raise it: offset: " + fixed_text(target.offset_m + clear, 3) + " clears it";
+  if (clear > kMostRaise) {
+    fix = "move the target off it, or give a polygon that leaves it out: over the target nothing is clear for " +
+          fixed_text(clear, 0) + " m";
+  }
   if (frame.all_sides) fix = advice_for_point(scene, crossing.polygon);
-  throw Error(
-      ErrorKind::input,
-      "\"" + scene.objects[scene.polygon_object[crossing.polygon]] + "\" stands on or passes through the target",
-      "target \"" + target.name + "\", at " + describe(frame.to_scene(crossing.place)), fix);
+  throw PiercedTarget(name + " stands on or passes through the target",
+                      "target \"" + target.name + "\", at " + describe(frame.to_scene(crossing.place)), fix, object);
 }
 
 // What of the scene is straight over and under a point: the nearest over it, and whether anything, or anything of
@@ -264,7 +271,8 @@ void refuse_underground(const PreparedScene::Data& scene, const Target& target, 
   const bool ground_like = extent.x() >= 0.5 * whole.x() && extent.y() >= 0.5 * whole.y();
   if (highest >= all.min.z() - kMaxLift && !ground_like) return;
   std::string fix = "raise the target, and check the scene's up axis and scale";
-  if (const auto height = height_over_ground(scene, frame, column, ground))
+  const auto height = height_over_ground(scene, frame, column, ground);
+  if (height && *height <= kMostRaise)
     fix = "check the scene's up axis and scale, or raise the target: " +
           (frame.all_sides ? "z = " + fixed_text(frame.origin.z() + *height, 3)
                            : "offset: " + fixed_text(target.offset_m + *height, 3)) +

@@ -1,6 +1,7 @@
 #include <chrono>
 
 #include "mission/caveats.h"
+#include "mission/pierced_advice.h"
 #include "mission/run_mission.h"
 #include "parallel/parallel.h"
 #include "vantage/mission.h"
@@ -56,6 +57,7 @@ MissionRun run_stages(Mission& mission, const Progress& progress, const StageSin
   MissionRun run;
   Seconds seconds;
   Stopwatch stopwatch;
+  const std::string target_object = mission.ground_target ? mission.ground_target->osm : "";
   run.loaded = read_mission_scene(mission, progress);
   seconds.read = stopwatch.lap();
 
@@ -70,6 +72,8 @@ MissionRun run_stages(Mission& mission, const Progress& progress, const StageSin
   };
   try {
     run.volume = compute(mission, prepared, progress, stages ? StageSink(placed) : StageSink(), run.spheres);
+  } catch (const exact::PiercedTarget& error) {
+    with_place(mission.target_place, [&]() -> int { throw explained(error, run.loaded, target_object); });
   } catch (const Error& error) {
     if (mission.method == Method::spheres && !is_about_target(error)) throw;
     with_place(mission.target_place, [&]() -> int { throw error; });

@@ -12,9 +12,12 @@
 #include "city/footprint.h"
 #include "city/region.h"
 #include "geo/local_frame.h"
+#include "mission/ground_room.h"
 #include "mission/numbers.h"
+#include "mission/pierced_advice.h"
 #include "mission/run_mission.h"
 #include "osm/extract.h"
+#include "scene/mesh_builder.h"
 #include "terrain/surface.h"
 #include "vantage/error.h"
 
@@ -140,19 +143,17 @@ void check_near(const Mission& mission, const Placer& placer) {
 
 // ---- targets on the ground ------------------------------------------------------------------------------------------
 
-/// The triangles of the object "ground", which scenes from maps have, or "surface", which is all of a raster's.
+/// The triangles of the ground.
 terrain::Surface ground_of(const Mission& mission, const Scene& scene) {
-  const auto found = std::find_if(scene.objects.begin(), scene.objects.end(),
-                                  [](const std::string& name) { return name == "ground" || name == "surface"; });
-  if (found == scene.objects.end()) {
+  const auto ground = ground_object(scene);
+  if (!ground) {
     fail("the scene has no object 'ground' to put the target on", mission.target_place,
          "give the target's vertices, or a scene that is made from a map; PLY and STL keep no objects, OBJ and GLB do");
   }
-  const auto ground = static_cast<std::uint32_t>(found - scene.objects.begin());
   Mesh mesh;
   std::vector<std::uint32_t> renamed(scene.mesh.vertices.size(), UINT32_MAX);
   for (std::size_t i = 0; i < scene.mesh.triangles.size(); ++i) {
-    if (scene.object_of[i] != ground) continue;
+    if (scene.object_of[i] != *ground) continue;
     Triangle triangle = scene.mesh.triangles[i];
     for (std::uint32_t& vertex : triangle) {
       if (renamed[vertex] == UINT32_MAX) {
@@ -176,7 +177,9 @@ struct Plane {
 
 /// The plane nearest to the ground at a ring's corners and the middles of its sides, raised until no ground under the
 /// ring lies above it.
-Plane ground_plane(const terrain::Surface& ground, const city::Ring& ring, const std::string& where) {
+Plane ground_plane(const terrain::Surface& ground, const city::Ring& ring, const LoadedScene& loaded,
+                   const Mission& mission) {
+  const char* const beyond = "the target reaches beyond the scene's ground";
   std::vector<Vec2> samples;
   for (std::size_t i = 0; i < ring.size(); ++i) {
     samples.push_back(ring[i]);
@@ -188,7 +191,7 @@ Plane ground_plane(const terrain::Surface& ground, const city::Ring& ring, const
   Eigen::VectorXd heights(samples.size());
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const auto height = ground.height(samples[i]);
-    if (!height) fail("the target reaches beyond the scene's ground", where, "choose a larger area of the map");
+    if (!height) fail_off_ground(loaded, mission, beyond);
     rows.row(static_cast<Eigen::Index>(i)) << samples[i].x() - middle.x(), samples[i].y() - middle.y(), 1;
     heights[static_cast<Eigen::Index>(i)] = *height;
   }
@@ -197,7 +200,7 @@ Plane ground_plane(const terrain::Surface& ground, const city::Ring& ring, const
   Mesh tilted = ground.mesh();
   for (Vec3& vertex : tilted.vertices) vertex.z() -= plane.at(vertex.head<2>());
   const auto range = terrain::Surface(std::move(tilted)).range(ring);
-  if (!range) fail("the target reaches beyond the scene's ground", where, "choose a larger area of the map");
+  if (!range) fail_off_ground(loaded, mission, beyond);
   plane.level += range->highest;
   return plane;
 }
@@ -234,42 +237,67 @@ city::Ring projected(const osm::Ring& ring, const geo::LocalFrame& frame) {
   return result;
 }
 
-/// The outlines of an object of the map. What is in a hole, a building maybe, is no part of it and need not be seen.
-std::vector<city::Footprint> outlines(const Mission& mission, const std::string& name, const geo::LocalFrame& frame,
+/// Of an object of the map: "Zuccotti Park"; empty where it has none.
+std::string name_of(const osm::Extract& extract, osm::ObjectId id) {
+  for (const osm::Area& area : extract.areas) {
+    if (area.id == id && area.tags.has("name")) return scene::clean_name(area.tags.get("name"));
+  }
+  for (const osm::Line& line : extract.lines) {
+    if (line.id == id && line.tags.has("name")) return scene::clean_name(line.tags.get("name"));
+  }
+  return {};
+}
+
+/// The outlines of an object of the map. What is in a hole, a building maybe, is no part of it and need not be seen. A
+/// target that has no name of its own gets the object's.
+std::vector<city::Footprint> outlines(Mission& mission, const std::string& name, const geo::LocalFrame& frame,
                                       const Progress& progress) {
   const auto id = osm::parse_object_id(name);
   if (!id) fail(in_quotes(name) + " is no object of a map", mission.target_place, "write 'osm: way/123'");
   osm::ReadOptions options;
   options.region = city::checked_region(mission.scene.city.region);
+  const osm::Extract extract = osm::read_extract(mission.scene.file, options, progress);
   std::vector<city::Footprint> rough;
-  for (const osm::Polygon& polygon : polygons_of(osm::read_extract(mission.scene.file, options, progress), *id)) {
+  for (const osm::Polygon& polygon : polygons_of(extract, *id)) {
     city::Footprint footprint{projected(polygon.outer, frame), {}};
     for (const osm::Ring& hole : polygon.holes) footprint.holes.push_back(projected(hole, frame));
     rough.push_back(std::move(footprint));
   }
   if (rough.empty()) {
-    fail("the scene's part of the map has no area " + name, mission.target_place,
+    const bool is_part = options.region.has_value();
+    fail((is_part ? "the scene's part of the map has no area " : "the map has no area ") + name, mission.target_place,
          "name a tagged closed way or a multipolygon of " + mission.scene.file.filename().string() +
-             ", or choose a larger area of the map");
+             (is_part ? ", or choose a larger area of the map" : ""));
   }
   city::Repairs repairs;
   std::vector<city::Footprint> outlines = city::clean(rough, repairs);
   if (outlines.empty()) fail(name + " has no area", mission.target_place, "name another object");
+  const std::string known_as = name_of(extract, *id);
+  if (mission.target.name == name && !known_as.empty()) mission.target.name = known_as + " (" + name + ")";
   return outlines;
 }
 
-/// A rectangle whose centre is off the ground is most likely a mistake about the centre.
-void check_center(const GroundTarget& wanted, const terrain::Surface& ground, const geo::LocalFrame& frame,
-                  const std::string& where) {
+/// A rectangle that is on the ground only with latitude and longitude the other way round.
+void check_order(const Mission& mission, const GroundTarget& wanted, const terrain::Surface& ground,
+                 const geo::LocalFrame& frame) {
   const auto [latitude, longitude] = *wanted.center_deg;
   const Vec2 centre = frame.to_local({longitude, latitude});
-  if (ground.height(centre)) return;
-  const bool is_swapped = std::abs(longitude) <= 90 && ground.height(frame.to_local({latitude, longitude}));
+  if (ground.height(centre) || std::abs(longitude) > 90 || !ground.height(frame.to_local({latitude, longitude})))
+    return;
   fail("the target's centre lies " + std::to_string(std::lround(centre.norm())) +
            " m from the scene's origin, off its ground",
-       where,
-       is_swapped ? "latitude and longitude are the wrong way round: write center: [latitude, longitude]"
-                  : "move it onto the ground, or choose a larger area of the map");
+       mission.target_place, "latitude and longitude are the wrong way round: write center: [latitude, longitude]");
+}
+
+PlanBox plan_box(const std::vector<city::Footprint>& areas) {
+  PlanBox box{areas.front().outer.front(), areas.front().outer.front()};
+  for (const city::Footprint& area : areas) {
+    for (const Vec2& corner : area.outer) {
+      box.min = box.min.cwiseMin(corner);
+      box.max = box.max.cwiseMax(corner);
+    }
+  }
+  return box;
 }
 
 std::vector<Vec3> on_plane(const city::Ring& ring, const Plane& plane) {
@@ -303,7 +331,7 @@ bool holds(const std::array<Vec3, 3>& facet, const Vec3& at) {
 
 /// The first object that a point lies in: of its facets on the vertical line through the point an odd number is above,
 /// and an even number in all, or else it is not closed there. Nothing where the point is in the open.
-std::optional<std::string> solid_round(const Scene& scene, const Vec3& at) {
+std::optional<std::uint32_t> solid_round(const Scene& scene, const Vec3& at) {
   std::vector<std::size_t> above(scene.objects.size(), 0), all(scene.objects.size(), 0);
   for (std::size_t i = 0; i < scene.mesh.triangles.size(); ++i) {
     std::array<Vec3, 3> facet;
@@ -314,33 +342,35 @@ std::optional<std::string> solid_round(const Scene& scene, const Vec3& at) {
     above[scene.object_of[i]] += normal.dot(at - facet[0]) * normal.z() < 0;
   }
   for (std::size_t object = 0; object < all.size(); ++object) {
-    if (all[object] % 2 == 0 && above[object] % 2 == 1) return scene.objects[object];
+    if (all[object] % 2 == 0 && above[object] % 2 == 1) return static_cast<std::uint32_t>(object);
   }
   return std::nullopt;
 }
 
 /// From inside a building its walls are all that is seen, and a volume all the same.
-void check_outdoors(const std::vector<Target>& parts, const Scene& scene, const std::string& where) {
+void check_outdoors(const std::vector<Target>& parts, const LoadedScene& loaded, const Mission& mission) {
   constexpr double kClear = 1e-3;  // metres: the target may lie on the floor of a building
   for (const Target& part : parts) {
     const TargetFrame frame = make_target_frame(part);
-    const auto solid = solid_round(scene, frame.origin + kClear * frame.normal);
+    const auto solid = solid_round(loaded.scene, frame.origin + kClear * frame.normal);
     if (!solid) continue;
-    fail("the target lies inside " + in_quotes(*solid), where,
-         "name a place outdoors; for a roof give its 'vertices', for a storey a scene that has rooms");
+    fail("the target lies inside " + in_quotes(loaded.scene.objects[*solid]), mission.target_place,
+         how_to_leave_out(loaded, *solid, mission.ground_target->osm)
+             .value_or("name a place outdoors; for a roof give its 'vertices', for a storey a scene that has rooms"));
   }
 }
 
-void put_on_ground(Mission& mission, const Scene& scene, const geo::LocalFrame& frame, const Progress& progress) {
+void put_on_ground(Mission& mission, LoadedScene& loaded, const geo::LocalFrame& frame, const Progress& progress) {
   const GroundTarget wanted = *mission.ground_target;
-  const terrain::Surface ground = ground_of(mission, scene);
-  if (wanted.center_deg) check_center(wanted, ground, frame, mission.target_place);
+  if (wanted.center_deg) check_order(mission, wanted, ground_of(mission, loaded.scene), frame);
   const std::vector<city::Footprint> areas = wanted.osm.empty()
                                                  ? std::vector<city::Footprint>{{rectangle(wanted, frame), {}}}
                                                  : outlines(mission, wanted.osm, frame, progress);
+  if (auto note = make_room(loaded, mission, plan_box(areas))) loaded.notes.push_back(std::move(*note));
+  const terrain::Surface ground = ground_of(mission, loaded.scene);
   std::vector<Target> parts;
   for (const city::Footprint& area : areas) {
-    const Plane plane = ground_plane(ground, area.outer, mission.target_place);
+    const Plane plane = ground_plane(ground, area.outer, loaded, mission);
     for (const city::Ring& piece : city::convex_pieces(area)) {
       for (const city::Ring& small : halved(piece)) {
         Target part = mission.target;
@@ -349,7 +379,7 @@ void put_on_ground(Mission& mission, const Scene& scene, const geo::LocalFrame& 
       }
     }
   }
-  check_outdoors(parts, scene, mission.target_place);
+  check_outdoors(parts, loaded, mission);
   // The first goes by the name of the whole, which reports and pictures show.
   for (std::size_t i = 1; i < parts.size(); ++i) parts[i].name.append(", part ").append(std::to_string(i + 1));
   mission.target = parts.front();
@@ -358,9 +388,9 @@ void put_on_ground(Mission& mission, const Scene& scene, const geo::LocalFrame& 
 
 }  // namespace
 
-void place_mission(Mission& mission, const Scene& scene, const Progress& progress) {
+void place_mission(Mission& mission, LoadedScene& loaded, const Progress& progress) {
   if (mission.crs.empty() && !mission.ground_target) return;
-  const geo::LocalFrame frame = frame_of(mission, scene);
+  const geo::LocalFrame frame = frame_of(mission, loaded.scene);
   if (!mission.crs.empty()) {
     const Placer placer(mission, frame);
     with_place(mission.target_place, [&] {
@@ -371,7 +401,7 @@ void place_mission(Mission& mission, const Scene& scene, const Progress& progres
     place_boxes(mission.navigation, placer, mission.file.string());
     mission.crs.clear();
   }
-  if (mission.ground_target) put_on_ground(mission, scene, frame, progress);
+  if (mission.ground_target) put_on_ground(mission, loaded, frame, progress);
   mission.ground_target.reset();
   with_place(mission.target_place, [&] {
     make_target_frame(mission.target);

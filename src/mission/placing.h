@@ -9,6 +9,7 @@ namespace vantage::mission_io {
 /// then empty, `target` and `other_parts` complete and checked. Does nothing where neither is set. Throws Error(input),
 /// with places in the mission file, for: a scene without a place on the earth, a position that the CRS has no value
 /// for, an object that is not in the map or no area, a target off the ground, and all that make_target_frame refuses.
-void place_mission(Mission& mission, const Scene& scene, const Progress& progress);
+/// Flat ground is extended to hold the target (`loaded.notes`); throws TerrainTooSmall where terrain has to be.
+void place_mission(Mission& mission, LoadedScene& loaded, const Progress& progress);
 
 }  // namespace vantage::mission_io

@@ -1,4 +1,7 @@
 
+#include <cmath>
+
+#include "mission/ground_room.h"
 #include "mission/input_file.h"
 #include "mission/into_frame.h"
 #include "mission/mission_parser.h"
@@ -60,7 +63,16 @@ Mission read_mission(const fs::path& file) {
 LoadedScene read_mission_scene(Mission& mission, const Progress& progress) {
   LoadedScene loaded = load_scene(mission.scene, progress);
   mission_io::place_navigation_meshes(mission, loaded.scene);
-  mission_io::place_mission(mission, loaded.scene, progress);
+  try {
+    mission_io::place_mission(mission, loaded, progress);
+  } catch (const mission_io::TerrainTooSmall& terrain) {
+    const double farther = std::ceil(terrain.missing_m) + 1;
+    mission.scene.city.ground_margin_m += farther;
+    loaded = load_scene(mission.scene, progress);
+    loaded.notes.push_back("the ground was built " + std::to_string(std::lround(farther)) +
+                           " m farther to hold the target: the map has nothing to build out there");
+    mission_io::place_mission(mission, loaded, progress);
+  }
   return loaded;
 }
 
