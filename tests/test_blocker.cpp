@@ -109,7 +109,7 @@ bool pierces(const Corners& target, const Corners& polygon) {
 LocalTarget local_target(const Corners& target) {
   std::vector<Vector2d> polygon;
   for (const Corner& t : target) polygon.emplace_back(double(t[0]), double(t[1]));
-  return exact::make_local_target(polygon);
+  return exact::make_local_target(polygon, 1e-9, 0);
 }
 
 std::vector<Plane> planes_of(const LocalTarget& target, const std::vector<Vec3>& polygon) {
@@ -303,7 +303,7 @@ TEST(Blocker, AgreesWithTheOracleForAnyShape) {
     bool above_target = false;
     for (const Vec3& o : polygon) above_target = above_target || (o.z() < 0.1 && o.head<2>().norm() < 20);
     if (above_target) continue;  // might pierce it
-    const std::vector<Plane> planes = planes_of(exact::make_local_target(flat), polygon);
+    const std::vector<Plane> planes = planes_of(exact::make_local_target(flat, 1e-9, 0), polygon);
     for (int k = 0; k < 30; ++k) {
       Vec3 p = random.point(-80, 80);
       if (random.chance(0.7)) {

@@ -109,7 +109,20 @@ TEST_F(CliBadMission, TargetsThatTheSceneRefuses) {
   expect_bad_square("25", "0", "\"block\" stands on or passes through the target", "nothing is clear for 12 m");
   expect_bad_square("25", "6", "\"block\" stands on or passes through the target", "nothing is clear for 6 m");
   expect_bad_square("25", "10", "\"block\" stands on or passes through the target", "offset: 2.001");
-  expect_bad_square("0", "-0.5", "the target is under the ground", "raise the target");
+}
+
+using CliNotes = Cli;
+
+TEST_F(CliNotes, ATargetUnderTheGroundIsToldAndComputed) {
+  write("buried.yaml",
+        std::string(kScene) + kSensor + "target:\n  vertices: [[-5, -5, -2], [5, -5, -2], [5, 5, -2], [-5, 5, -2]]\n");
+  const ProgramRun shown = run({"compute", "buried.yaml", "-o", "out.ply"});
+  EXPECT_EQ(shown.exit_code, 0);
+  EXPECT_NE(shown.err.find("offset: 2.00"), std::string::npos) << shown.err;
+  const auto report = nlohmann::json::parse(run({"compute", "buried.yaml", "-o", "out.ply", "--json"}).out);
+  ASSERT_EQ(report.at("notes").size(), 1U);
+  EXPECT_NE(report.at("notes")[0].get<std::string>().find("\"ground\" is 2.000 m above"), std::string::npos);
+  EXPECT_EQ(report.at("outcome"), "computed");
 }
 
 TEST_F(CliBadMission, NavigationMeshes) {

@@ -47,8 +47,8 @@ struct Mutation {
 Mesh pipeline(const Scene& scene, const Target& goal, const Mutation& mutation = {}) {
   const PreparedScene prepared(scene);
   const TargetFrame frame = make_target_frame(goal);
-  const LocalTarget target = make_local_target(frame.polygon);
-  const RangeRegion range(target, mutation.range);
+  const LocalTarget target = make_local_target(frame.polygon, 1e-9, 0);
+  const RangeRegion range(frame.polygon, mutation.range);
   ChartGrid grid(range, kTolerance);
   BlockerSet blockers;
   DirectionTree found(blockers, range);

@@ -34,8 +34,9 @@ struct Cause {
 enum class Outcome {
   computed,
   out_of_range,     ///< no point is within max_range of all vertices
-  blocked_at_once,  ///< the front is covered by the scene within a hand's breadth: most likely the wrong side. Of
-                    ///< spheres: a vertex sees nothing, or no point is in all of them
+  blocked_at_once,  ///< the front is covered by the scene within a hand's breadth (0.1 m; where max_range is less than
+                    ///< 20 m, less in proportion): most likely the wrong side. Of spheres: a vertex sees nothing, or
+                    ///< no point is in all of them
   outside_limits,   ///< the navigation limits leave nothing
   no_common_view,   ///< of a target in parts: no point sees all of them
 };
@@ -67,10 +68,10 @@ struct Volume {
 
   double tolerance_m = 0;  ///< bound on how far range facets lie inside the true range region
   double lift_m = 0;  ///< the target was raised this far to clear the surface that it lies on (rounding of the input);
-                      ///< less than 2.01 mm
+                      ///< less than 2.01 mm; where max_range is less than 20 m, in proportion
   TargetFrame frame;  ///< of the target as used, lift included
-  std::vector<std::string> notes;  ///< what to know before relying on it, a sentence each: the map ends within the
-                                   ///< range. compute_mission fills it in
+  std::vector<std::string> notes;  ///< what to know before relying on it, a sentence each: the target seems to be under
+                                   ///< the ground. compute_mission adds its own: the map ends within the range
   std::optional<Georeference> georeference;  ///< of the scene; compute_mission fills it in, and writers write it
   StageCounts counts;
   Seconds seconds;
@@ -84,15 +85,19 @@ struct ExactOptions {
 
 /// The exact visibility volume by docs/theory.md, before navigation cuts. Safe to call from many threads on one scene.
 /// Guaranteed from the inside: no point of the result, deeper than 1e-6 of its distance to the target, has any part of
-/// the target hidden or out of range. Fills everything of the result; of Seconds `engine` and `total`.
+/// the target hidden or out of range, but for a strip of nanometres along the target's outline. The strip is 1e-9 of
+/// the target's radius wide, at most 1e-9 m, or eight roundings of the largest coordinate where that is more (9e-9 m at
+/// map coordinates of 5e6 m); what reaches no farther inside the outline counts as standing on it. Fills everything of
+/// the result; of Seconds `engine` and `total`.
 ///
 /// Cost: it grows with what is seen from the target and with the facets of the range sphere (in proportion to max_range
 /// over tolerance), hardly with the size of the scene. Milliseconds in ordinary streets; bench/results has figures.
 ///
 /// Throws Error(input) for a bad target (see make_target_frame), a pierced target (object, place, smallest offset that
-/// clears it), a target under the ground, a max_range or tolerance that is not positive and finite, a tolerance so fine
-/// for this range that the mesh would have too many facets; Error(cancelled) when told to stop; Error(internal) when
-/// the boundary could not be triangulated safely: no volume rather than a wrong one.
+/// clears it), a max_range or tolerance that is not positive and finite, a tolerance so fine for this range that the
+/// mesh would have too many facets; Error(cancelled) when told to stop; Error(internal) when the boundary could not be
+/// triangulated safely: no volume rather than a wrong one. A target that seems to lie under the ground is told in
+/// `notes`.
 Volume compute_visibility(const PreparedScene& scene, const Target& target, const Sensor& sensor,
                           const ExactOptions& options = {}, const Progress& progress = {});
 
@@ -110,8 +115,9 @@ Volume cut_to_navigation(const Volume& volume, const Navigation& navigation, con
 
 /// What all the volumes claim: that of a target in parts is the intersection of its parts' volumes. May have several
 /// pieces, each closed; facets keep their causes, and causes of the same kind and name become one. Tolerance and lift
-/// are the largest of the volumes', the frame is the first one's, seconds and counts are sums. Where one of the volumes
-/// is empty, so is the result, with its outcome and reason; where they have nothing in common, Outcome::no_common_view.
+/// are the largest of the volumes', the frame is the first one's, seconds and counts are sums, notes are those of all.
+/// Where one of the volumes is empty, so is the result, with its outcome and reason; where they have nothing in common,
+/// Outcome::no_common_view.
 /// Throws Error(input) for no volumes and for one whose arrays do not fit together; Error(cancelled) when told to stop;
 /// Error(internal) when a boolean operation fails. Cost: a boolean operation per volume, O(n log n) in the facets.
 Volume intersect_volumes(const std::vector<Volume>& volumes, const Progress& progress = {});

@@ -12,8 +12,6 @@ namespace {
 
 using Eigen::Vector2d;
 using numerics::kGrazing;
-using numerics::kOnPlane;
-using numerics::kSeparation;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -27,9 +25,11 @@ Vec3 area_vector(const std::vector<Vec3>& polygon) {
 
 }  // namespace
 
-LocalTarget make_local_target(const std::vector<Vector2d>& polygon) {
+LocalTarget make_local_target(const std::vector<Vector2d>& polygon, double slack, double rounding) {
   LocalTarget target;
   target.vertices = polygon;
+  target.slack = slack;
+  target.rounding = rounding;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Vector2d& a = polygon[i];
     const Vector2d along = (polygon[(i + 1) % polygon.size()] - a).normalized();
@@ -62,7 +62,7 @@ bool BlockerBuilder::build(std::span<const Vec3> polygon, std::vector<Plane>& pl
 void BlockerBuilder::clip(std::span<const Vec3> polygon) {
   polygon_.clear();
   bool above = false;
-  const auto height = [](const Vec3& p) { return std::abs(p.z()) <= kOnPlane ? 0.0 : p.z(); };
+  const auto height = [this](const Vec3& p) { return std::abs(p.z()) <= target_.slack ? 0.0 : p.z(); };
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Vec3 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
     const double za = height(a), zb = height(b);
@@ -77,7 +77,7 @@ void BlockerBuilder::clip(std::span<const Vec3> polygon) {
 }
 
 void BlockerBuilder::add(const Vec3& normal, double height) {
-  if (!(height > (normal.z() > 0 ? kOnPlane : 0))) return;  // the target's own plane
+  if (!(height > (normal.z() > 0 ? target_.slack : 0))) return;  // the target's own plane
   Plane plane = normal / height;
   const double steepest = plane.head<2>().norm() / kGrazing;
   if (plane.z() > 0 && height <= kGrazing * target_.clearance) {
@@ -104,9 +104,9 @@ void BlockerBuilder::add_own_plane(const Vec3& normal) {
     const double h = normal.dot(o);
     own_low = std::min(own_low, h), own_high = std::max(own_high, h);
   }
-  if (high <= own_low + kSeparation)
+  if (high <= own_low + target_.slack)
     add(normal, own_low);
-  else if (low >= own_high - kSeparation)
+  else if (low >= own_high - target_.slack)
     add(-normal, -own_high);
 }
 
@@ -119,7 +119,7 @@ void BlockerBuilder::add_target_edge_planes() {
       const double outside = edge.outward.dot(o.head<2>()) - edge.distance;
       if (o.z() > 0)
         slope = std::max(slope, -outside / o.z());
-      else if (outside < -kSeparation)
+      else if (outside < -target_.slack)
         separates = false;  // the polygon stands on the target's plane inside this edge: only z = 0 separates them
     }
     if (separates) add({edge.outward.x(), edge.outward.y(), slope}, edge.distance);
@@ -134,7 +134,7 @@ void BlockerBuilder::add_polygon_edge_planes(const Vec3& polygon_normal) {
     const Vec3& a = polygon_[i];
     const Vec3 edge = polygon_[(i + 1) % polygon_.size()] - a;
     const double length = edge.norm();
-    if (!(length > kOnPlane)) continue;
+    if (!(length > target_.slack)) continue;
     // Square to the edge, so that the planes hold it: merged polygons are planar to a nanometre only.
     const Vec3 along_edge = edge / length;
     const Vec3 normal = (polygon_normal - polygon_normal.dot(along_edge) * along_edge).normalized();
@@ -145,11 +145,11 @@ void BlockerBuilder::add_polygon_edge_planes(const Vec3& polygon_normal) {
     for (const Vector2d& t : target_.vertices) {
       const double along = inward.x() * t.x() + inward.y() * t.y() - along_0;
       const double across = normal.x() * t.x() + normal.y() * t.y() - across_0;
-      if (across > kSeparation)
+      if (across > target_.slack)
         high = std::min(high, -along / across);
-      else if (across < -kSeparation)
+      else if (across < -target_.slack)
         low = std::max(low, -along / across);
-      else if (along > kSeparation)
+      else if (along > target_.slack)
         separates = false;
     }
     if (!separates || low > high) continue;

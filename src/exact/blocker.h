@@ -21,8 +21,10 @@ struct LocalTarget {
   std::vector<Edge> edges;                                     ///< edge i runs from vertex i to vertex i + 1
   double radius = 0;                                           ///< of the farthest vertex from the origin
   double clearance = std::numeric_limits<double>::infinity();  ///< of the nearest edge's line from the origin
+  double slack = 0;     ///< points this near to the plane, or to an edge's line, are on it (Lengths::slack)
+  double rounding = 0;  ///< of coordinates (Lengths::rounding)
 };
-LocalTarget make_local_target(const std::vector<Eigen::Vector2d>& polygon);
+LocalTarget make_local_target(const std::vector<Eigen::Vector2d>& polygon, double slack, double rounding);
 
 /// A plane g . x = 1 that bounds what a blocker hides: hidden points have g . x > 1 for all of its planes. `g` is an
 /// inverse length. On the direction d the plane is met at distance 1 / (g . d): g . d is the inverse depth.
@@ -30,9 +32,9 @@ using Plane = Vec3;
 
 /// Planes of B(O) for the convex polygon O (local frame, metres, at least 3 corners, planar to rounding), clipped to
 /// z >= 0. Appends to `planes` and the clipped corners to `corners`; returns false and appends nothing when O reaches
-/// nowhere above the target's plane. Every plane holds all of B(O) on its far side (to numerics::kSeparation), so
-/// leaving one out, or easing it, only hides more. That is done to planes within numerics::kGrazing of the target's;
-/// then no corners are appended, for facets need not begin at them, and there may be no planes at all.
+/// nowhere above the target's plane. Every plane holds all of B(O) on its far side (to LocalTarget::slack), so leaving
+/// one out, or easing it, only hides more. That is done to planes within numerics::kGrazing of the target's; then no
+/// corners are appended, for facets need not begin at them, and there may be no planes at all.
 /// Cost: O(N M) for N target vertices and M corners.
 class BlockerBuilder {
  public:

@@ -46,7 +46,7 @@ class Neighbours {
     const auto clipped = blockers.corners_of(blockers.count() - 1);
     if (clipped.empty()) return;  // its facets are not all swept from corners of the polygon
     // Where the target's plane cuts the polygon, its planes touch it at corners that no neighbour knows.
-    if (std::any_of(corners.begin(), corners.end(), [](const Vec3& c) { return c.z() < -numerics::kOnPlane; })) return;
+    if (std::any_of(corners.begin(), corners.end(), [&](const Vec3& c) { return c.z() < -target_.slack; })) return;
     const auto vertices = scene_.corners_of(polygon);
     std::size_t live_others = 0, own_planes = 0;
     for (std::uint32_t k = blockers.first[blockers.count() - 1]; k < blockers.planes.size(); ++k) {
@@ -84,7 +84,7 @@ class Neighbours {
     for (std::uint32_t v : vertices) {
       const Vec3 d = scene_.vertices[v] - centre_;
       const Vec3 local(frame_.axis_u.dot(d), frame_.axis_v.dot(d), frame_.normal.dot(d));
-      stands = stands || local.z() > numerics::kOnPlane;
+      stands = stands || local.z() > target_.slack;
       reaches = reaches || (local.z() >= 0 && plane.dot(local) < near);
     }
     return stands && reaches;
@@ -142,7 +142,7 @@ void collect_blockers(const PreparedScene::Data& scene, const TargetFrame& frame
       half[a] = axes[a] * (0.5 * (high - low));
       above += std::abs(half[a].z());
     }
-    if (middle.z() + above <= numerics::kOnPlane) continue;  // behind the target
+    if (middle.z() + above <= target.slack) continue;  // behind the target
     if (tree.hides_box(middle, half)) continue;
     if (!node.leaf()) {
       push(node.first);

@@ -3,8 +3,8 @@
 #include <chrono>
 #include <cmath>
 
+#include "exact/lengths.h"
 #include "exact/number_text.h"
-#include "exact/numerics.h"
 #include "exact/point_target.h"
 #include "exact/range_check.h"
 #include "exact/side.h"
@@ -29,12 +29,13 @@ void check(const Sensor& sensor, const ExactOptions& options) {
 }
 
 /// Makes the result of what was computed in `frame`. `what` and `hint` are for a view that is blocked at once.
-void take_over(Side side, const TargetFrame& frame, Volume& volume, const std::string& what, const std::string& hint) {
+void take_over(Side side, const TargetFrame& frame, double max_range, Volume& volume, const std::string& what,
+               const std::string& hint) {
   volume.counts = side.counts;
-  if (side.blocked_within(numerics::kHandsBreadth)) {
+  const double near = hands_breadth(max_range);
+  if (side.blocked_within(near)) {
     volume.outcome = Outcome::blocked_at_once;
-    volume.reason =
-        '"' + widest_scene_cause(side.causes) + "\" covers " + what + " within " + metres_text(numerics::kHandsBreadth);
+    volume.reason = '"' + widest_scene_cause(side.causes) + "\" covers " + what + " within " + metres_text(near);
     volume.hint = hint;
     return;
   }
@@ -46,12 +47,15 @@ void take_over(Side side, const TargetFrame& frame, Volume& volume, const std::s
 
 void compute_polygon(const PreparedScene& scene, const Target& target, const Sensor& sensor,
                      const ExactOptions& options, const core::ProgressReporter& progress, Volume& volume) {
-  volume.lift_m = clearing_lift(scene.data(), target, volume.frame, sensor.max_range_m);
+  Clearance clearance = clear_target(scene.data(), target, volume.frame, sensor.max_range_m);
+  volume.lift_m = clearance.lift_m;
+  volume.notes = std::move(clearance.notes);
   volume.frame.origin += volume.frame.normal * volume.lift_m;
   if (!can_reach(volume.frame, sensor)) return set_out_of_range(volume.frame, sensor, volume);
   move_into_range(volume.frame, sensor.max_range_m);
-  const RangeRegion range(make_local_target(volume.frame.polygon), sensor.max_range_m);
-  take_over(compute_side(scene, volume.frame, range, options, progress), volume.frame, volume, "the target's front",
+  const RangeRegion range(volume.frame.polygon, sensor.max_range_m);
+  take_over(compute_side(scene, volume.frame, range, options, progress), volume.frame, sensor.max_range_m, volume,
+            "the target's front",
             "the target looks into what it lies on: turn it round with front:, or raise it with offset:");
 }
 
@@ -59,17 +63,19 @@ void compute_point(const PreparedScene& scene, const Target& target, const Senso
                    const core::ProgressReporter& progress, Volume& volume) {
   const PointSides sides = make_point_sides(scene.data(), target, volume.frame, sensor.max_range_m);
   volume.lift_m = sides.lift;
+  volume.notes = sides.notes;
   volume.frame.origin = sides.front.origin;
   // Of the point itself: the triangle would cost micrometres.
-  const RangeRegion range(make_local_target(volume.frame.polygon), sensor.max_range_m);
+  const RangeRegion range(volume.frame.polygon, sensor.max_range_m);
   if (!sides.back) {
-    take_over(compute_side(scene, sides.front, range, options, progress), sides.front, volume, "the point's front",
+    take_over(compute_side(scene, sides.front, range, options, progress), sides.front, sensor.max_range_m, volume,
+              "the point's front",
               "the point looks into what it lies on: turn it round with front:, or move it with offset:");
     return;
   }
   const Side front = compute_side(scene, sides.front, range, options, progress);
   const Side back = compute_side(scene, *sides.back, range, options, progress);
-  take_over(join_sides(front, back, progress), sides.front, volume, "the point on all sides",
+  take_over(join_sides(front, back, progress), sides.front, sensor.max_range_m, volume, "the point on all sides",
             "move the point out of what it lies in");
 }
 

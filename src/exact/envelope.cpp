@@ -7,14 +7,18 @@
 #include "exact/circle_arcs.h"
 #include "exact/facet_polygon.h"
 #include "exact/interval_set.h"
+#include "exact/numerics.h"
 #include "exact/segment_cover.h"
 #include "parallel/parallel.h"
 
 namespace vantage::exact {
 namespace {
 
-// Pieces of an edge shorter than this, in metres, are rounding.
+// Pieces of an edge shorter than this, in metres, are rounding. Less in small worlds.
 constexpr double kShortest = 1e-9;
+double shortest_piece(const RangeRegion& range) {
+  return kShortest * std::min(1.0, range.radius() / numerics::kFullRange);
+}
 // Two planes of one blocker whose inverse depths differ by less than this everywhere on a facet bound it together.
 constexpr double kSiblingMargin = 1e-12;
 // Planes of two blockers that differ by less than this fraction may be one plane, computed twice.
@@ -134,6 +138,7 @@ class FacetTracer {
         table_(table),
         range_(range),
         sampling_(sampling),
+        shortest_(shortest_piece(range)),
         contact_(blockers, tree, range.radius()) {}
 
   struct Result {
@@ -279,7 +284,7 @@ class FacetTracer {
   // Adds what of from -> to is in range and not hidden by any rival but `other`.
   void trace_edge(const Vec3& from, const Vec3& to, std::uint32_t other, Result& result) {
     const double length = (to - from).norm();
-    if (length < kShortest) return;
+    if (length < shortest_) return;
     shown_.assign(0, 1);
     keep_in_range(from, to);
     const Vec3 low = from.cwiseMin(to), high = from.cwiseMax(to);
@@ -291,7 +296,7 @@ class FacetTracer {
       shown_.subtract(hidden.begin, hidden.end);
       if (shown_.empty()) return;
     }
-    shown_.drop_shorter_than(kShortest / length);
+    shown_.drop_shorter_than(shortest_ / length);
     for (const Interval& part : shown_.parts())
       result.planar.push_back({part.begin == 0 ? from : Vec3(from + part.begin * (to - from)),
                                part.end == 1 ? to : Vec3(from + part.end * (to - from))});
@@ -338,7 +343,7 @@ class FacetTracer {
         if (arcs.empty()) break;
         arcs.subtract_blocker(blockers_.planes_of(rival), rival < facet.blocker);
       }
-      add_arcs(circle, arcs, sampling_, result.curved);
+      add_arcs(circle, arcs, shortest_, sampling_, result.curved);
     }
   }
 
@@ -355,9 +360,9 @@ class FacetTracer {
     }
   }
 
-  static void add_arcs(const SpaceCircle& circle, CircleArcs& arcs, const CurveSampling& sampling,
+  static void add_arcs(const SpaceCircle& circle, CircleArcs& arcs, double shortest, const CurveSampling& sampling,
                        std::vector<std::vector<Vec3>>& out) {
-    arcs.drop_shorter_than(kShortest / circle.radius);
+    arcs.drop_shorter_than(shortest / circle.radius);
     const double by_sagitta = 2 * std::acos(std::max(0.0, 1 - sampling.sagitta_m / circle.radius));
     const double step = std::min(by_sagitta, sampling.length_m / circle.radius);
     for (const Interval& part : arcs.parts()) {
@@ -373,6 +378,7 @@ class FacetTracer {
   const FacetTable& table_;
   const RangeRegion& range_;
   const CurveSampling& sampling_;
+  double shortest_;
 
   ContactTest contact_;
   FacetPolygon polygon_, scratch_;
@@ -406,7 +412,7 @@ void trace_range_creases(const BlockerSet& blockers, const DirectionTree& tree, 
         arcs.subtract_blocker(blockers.planes_of(blocker), true);
         if (arcs.empty()) break;
       }
-      FacetTracer::add_arcs(circle, arcs, sampling, out);
+      FacetTracer::add_arcs(circle, arcs, shortest_piece(range), sampling, out);
     }
 }
 

@@ -7,19 +7,27 @@
 
 namespace vantage::numerics {
 
-/// Heights over the target's plane below this are zero: a hundred times what rotating a point into the target's frame
-/// can cost, and far below any feature of a scene.
-inline constexpr double kOnPlane = 1e-9;
+/// Points this near to the target's plane, to the line of one of its edges, or to a plane that touches the target are
+/// on it: far above what rounding costs in worlds of metres, and far below any feature of a scene. Times the radius of
+/// the target's enclosing circle where that is less than a metre. A wall that stands on the target's edge is taken for
+/// one that touches it; a strip of the target this wide along its outline may be hidden.
+inline constexpr double kOnTarget = 1e-9;
+
+/// The same, at the least so many roundings of the largest coordinate: four each for the target's corner and for that
+/// of the scene (two for a point of a sloped plane written as doubles, two for its way into the target's frame). At map
+/// coordinates, 5e6 m, this is what counts: 9 nanometres.
+inline constexpr double kRoundings = 8;
+
+/// Ranges of at least so many metres make a world of ordinary size. In smaller ones the lengths below that say so are
+/// smaller in proportion.
+inline constexpr double kFullRange = 20;
 
 /// Planes that hide what is below them rise at least this much, and planes this near the target's plane that hide what
 /// is above them are left out: both only hide more, by a millionth of the distance. Roof polygons that stand nanometres
 /// above a target on that roof would otherwise make planes so steep in inverse depth that rounding decides who is in
-/// front.
+/// front. "This near" is the height, in parts of the distance from the centre to the nearest edge, at which the plane
+/// passes the centre.
 inline constexpr double kGrazing = 1e-6;
-
-/// A plane still separates a scene polygon from the target when it misses one of them by this little (a wall that
-/// stands on the target's edge touches its own separating planes).
-inline constexpr double kSeparation = 1e-9;
 
 /// A plane touches the corners of a polygon that are this near to it, in metres: ten times what preparing a scene
 /// allows the triangles that it merges to be out of one plane.
@@ -45,14 +53,15 @@ inline constexpr double kSnap = 1e-10;
 inline constexpr double kWidestSnap = 1e-8;
 
 /// Polygons under the target that stand above its plane elsewhere are left at least this far below, in metres: where a
-/// surface that is almost the target's plane comes through it should be away from the target.
+/// surface that is almost the target's plane comes through it should be away from the target. Less in small worlds.
 inline constexpr double kClear = 1e-6;
 
 /// The target may be raised by at most this much, and kClear, to clear the surface that it lies on: surfaces of real
-/// meshes are planar to a millimetre at best, single-precision files to a tenth of one.
+/// meshes are planar to a millimetre at best, single-precision files to a tenth of one. Less in small worlds.
 inline constexpr double kMaxLift = 2e-3;
 
-/// A volume that ends this close to the target is of no use to anyone: the view is blocked at once.
+/// A volume that ends this close to the target is of no use to anyone: the view is blocked at once. Less in small
+/// worlds.
 inline constexpr double kHandsBreadth = 0.1;
 
 }  // namespace vantage::numerics

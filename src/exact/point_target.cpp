@@ -1,17 +1,20 @@
 #include "exact/point_target.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "exact/numerics.h"
 #include "exact/target_check.h"
 
 namespace vantage::exact {
 namespace {
 
-TargetFrame with_triangle(TargetFrame frame) {
-  const double half = 0.5 * std::sqrt(3.0) * kPointRadius;
-  frame.polygon = {{kPointRadius, 0}, {-0.5 * kPointRadius, half}, {-0.5 * kPointRadius, -half}};
-  frame.enclosing_radius_m = kPointRadius;
+TargetFrame with_triangle(TargetFrame frame, double radius) {
+  const double half = 0.5 * std::sqrt(3.0) * radius;
+  frame.polygon = {{radius, 0}, {-0.5 * radius, half}, {-0.5 * radius, -half}};
+  frame.enclosing_radius_m = radius;
   return frame;
 }
 
@@ -37,16 +40,18 @@ TargetFrame looking_back(const TargetFrame& frame) {
 }  // namespace
 
 PointSides make_point_sides(const PreparedScene::Data& scene, const Target& target, const TargetFrame& frame,
-                            double reach) {
+                            double max_range) {
   PointSides sides;
-  sides.front = with_triangle(frame);
+  sides.front = with_triangle(frame, kPointRadius * std::min(1.0, max_range / numerics::kFullRange));
   const Vec3 origin = frame.origin;
   if (frame.all_sides) {
-    sides.lift = height_off_surface(scene, sides.front);
+    sides.lift = height_off_surface(scene, sides.front, max_range);
     sides.front.origin = origin + sides.lift * frame.normal;
-    refuse_steep_nearby(scene, target, sides.front);
+    refuse_steep_nearby(scene, target, sides.front, max_range);
   }
-  sides.lift += clearing_lift(scene, target, sides.front, reach);
+  Clearance clearance = clear_target(scene, target, sides.front, max_range);
+  sides.lift += clearance.lift_m;
+  sides.notes = std::move(clearance.notes);
   sides.front.origin = origin + sides.lift * frame.normal;
   if (frame.all_sides) {
     sides.front = tilted(sides.front);

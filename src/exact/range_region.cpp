@@ -4,7 +4,8 @@
 
 namespace vantage::exact {
 
-RangeRegion::RangeRegion(const LocalTarget& target, double max_range) : centres_(target.vertices), radius_(max_range) {
+RangeRegion::RangeRegion(const std::vector<Eigen::Vector2d>& polygon, double max_range)
+    : centres_(polygon), radius_(max_range) {
   for (const Eigen::Vector2d& c : centres_) power_.push_back(max_range * max_range - c.squaredNorm());
 }
 

@@ -9,8 +9,8 @@ namespace vantage::exact {
 
 class RangeRegion {
  public:
-  /// The origin must be inside every ball.
-  RangeRegion(const LocalTarget& target, double max_range);
+  /// A ball about each vertex. The origin must be inside all of them.
+  RangeRegion(const std::vector<Eigen::Vector2d>& polygon, double max_range);
 
   double radius() const { return radius_; }
   std::size_t ball_count() const { return centres_.size(); }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "exact/collect.h"
+#include "exact/lengths.h"
 #include "exact/triangulation.h"
 #include "solid/csg.h"
 #include "solid/edges.h"
@@ -118,7 +119,8 @@ StageCounts operator+(StageCounts a, const StageCounts& b) {
 
 Side compute_side(const PreparedScene& scene, const TargetFrame& frame, const RangeRegion& range,
                   const ExactOptions& options, const core::ProgressReporter& progress) {
-  const LocalTarget target = make_local_target(frame.polygon);
+  const Lengths lengths = lengths_of(scene.data(), frame, range.radius());
+  const LocalTarget target = make_local_target(frame.polygon, lengths.slack, lengths.rounding);
   ChartGrid grid(range, options.tolerance_m);
   progress.begin("finding blockers");
   BlockerSet blockers;

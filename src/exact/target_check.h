@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "scene/prepared_data.h"
 #include "vantage/error.h"
@@ -23,20 +24,26 @@ class PiercedTarget : public Error {
   std::uint32_t object_;
 };
 
-/// How far the target must be raised to clear the surface that it lies on, and polygons within `reach` metres that rise
-/// less than numerics::kClear above its plane: 0 to numerics::kMaxLift and three times numerics::kClear.
-/// Throws PiercedTarget when scene geometry stands on the target or passes through it (names the object, the place and
-/// the smallest offset that clears it, or how much is missing where that is more than a few metres), Error(input) when
-/// the target is under the ground (the same, with the offset where raising it leads out).
-double clearing_lift(const PreparedScene::Data& scene, const Target& target, const TargetFrame& frame, double reach);
+struct Clearance {
+  double lift_m = 0;               ///< the target must be raised this far
+  std::vector<std::string> notes;  ///< what people should know of where it lies: buried_note
+};
 
-/// How far a point that is seen from all sides must be raised for all that passes within numerics::kMaxLift straight
-/// below or above it to lie numerics::kClear and the polygon's diameter twice below: 0 where nothing does. The frame
-/// holds a small polygon about it.
-double height_off_surface(const PreparedScene::Data& scene, const TargetFrame& frame);
+/// How far the target must be raised to clear the surface that it lies on, and polygons within range that rise less
+/// than Lengths::clear above its plane: 0 to Lengths::lift and three times Lengths::clear. Throws Error(input) when
+/// scene geometry stands on the target or passes through it (names the object, the place and the smallest offset that
+/// clears it).
+Clearance clear_target(const PreparedScene::Data& scene, const Target& target, const TargetFrame& frame,
+                       double max_range);
 
-/// Throws Error(input) when a steep surface passes within numerics::kMaxLift of a point that is seen from all sides:
-/// which side of it is meant rounding would decide.
-void refuse_steep_nearby(const PreparedScene::Data& scene, const Target& target, const TargetFrame& frame);
+/// How far a point that is seen from all sides must be raised for all that passes within Lengths::lift straight below
+/// or above it to lie Lengths::clear and the polygon's diameter twice below: 0 where nothing does. The frame holds a
+/// small polygon about it.
+double height_off_surface(const PreparedScene::Data& scene, const TargetFrame& frame, double max_range);
+
+/// Throws Error(input) when a steep surface passes within Lengths::lift of a point that is seen from all sides: which
+/// side of it is meant rounding would decide.
+void refuse_steep_nearby(const PreparedScene::Data& scene, const Target& target, const TargetFrame& frame,
+                         double max_range);
 
 }  // namespace vantage::exact

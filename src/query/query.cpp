@@ -7,6 +7,7 @@
 
 #include "exact/blocker.h"
 #include "exact/collect.h"
+#include "exact/lengths.h"
 #include "exact/point_target.h"
 #include "exact/range_check.h"
 #include "exact/range_region.h"
@@ -124,23 +125,25 @@ PointAnswer look(const Question& question, LineOfSight& sight, const Vec3& scene
 std::vector<Question> make_questions(const PreparedScene::Data& scene, const Target& target, double max_range,
                                      const Navigation& navigation) {
   TargetFrame frame = make_target_frame(target);
+  const auto local_target = [&](const TargetFrame& f) {
+    const Lengths lengths = lengths_of(scene, f, max_range);
+    return make_local_target(f.polygon, lengths.slack, lengths.rounding);
+  };
   std::vector<Question> questions;
   if (target.is_point()) {
     const PointSides sides = make_point_sides(scene, target, frame, max_range);
-    const RangeRegion range(make_local_target(frame.polygon), max_range);
-    questions.push_back({scene, navigation, sides.front, make_local_target(sides.front.polygon), range, true});
-    if (sides.back)
-      questions.push_back({scene, navigation, *sides.back, make_local_target(sides.back->polygon), range, true});
+    const RangeRegion range(frame.polygon, max_range);
+    questions.push_back({scene, navigation, sides.front, local_target(sides.front), range, true});
+    if (sides.back) questions.push_back({scene, navigation, *sides.back, local_target(*sides.back), range, true});
     return questions;
   }
-  frame.origin += frame.normal * clearing_lift(scene, target, frame, max_range);
+  frame.origin += frame.normal * clear_target(scene, target, frame, max_range).lift_m;
   // Where no point at all is in range the centre may be out of range itself: look from the circle's centre, as the
   // engine does.
   const bool reachable = can_reach(frame, {max_range});
   if (reachable) move_into_range(frame, max_range);
-  const LocalTarget local = make_local_target(frame.polygon);
-  const RangeRegion range(local, reachable ? max_range : 2 * frame.enclosing_radius_m);
-  questions.push_back({scene, navigation, frame, local, range, reachable});
+  const RangeRegion range(frame.polygon, reachable ? max_range : 2 * frame.enclosing_radius_m);
+  questions.push_back({scene, navigation, frame, local_target(frame), range, reachable});
   return questions;
 }
 

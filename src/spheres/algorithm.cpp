@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "exact/numerics.h"
+#include "exact/lengths.h"
 #include "solid/pieces.h"
 #include "spheres/numerics.h"
 
@@ -15,7 +15,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using solid::LabelledMesh;
 using solid::Solid;
-using vantage::numerics::kHandsBreadth;
 
 /// Spheres of this many facets in all are made before their pairs are looked at: enough for a renderer to overlap its
 /// work, and few enough to hold them all.
@@ -104,7 +103,8 @@ class Run {
   void take_sphere(std::uint32_t point, Sphere sphere) {
     ++report_.spheres;
     // A range of that size ends the view by itself; a coarse grid has no vertex straight above.
-    const bool sees_nothing = maker_.range_m() > 2 * kHandsBreadth && sphere.reach_m < kHandsBreadth;
+    const double near = exact::hands_breadth(maker_.range_m());
+    const bool sees_nothing = maker_.range_m() > 2 * near && sphere.reach_m < near;
     if (sees_nothing && !result_.blocked) result_.blocked = points_[point].place;
     if (result_.blocked) return;
     const auto start = Clock::now();

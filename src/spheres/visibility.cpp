@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "core/progress_reporter.h"
+#include "exact/lengths.h"
 #include "exact/number_text.h"
-#include "exact/numerics.h"
 #include "exact/point_target.h"
 #include "exact/range_check.h"
 #include "exact/range_region.h"
@@ -38,10 +38,10 @@ std::string point_name(const Target& target, const Vec3& place) {
          exact::fixed_text(place.y(), 2) + ", " + exact::fixed_text(place.z(), 2) + ")";
 }
 
-void set_blocked(const Target& target, const Vec3& place, Volume& volume) {
+void set_blocked(const Target& target, const Vec3& place, double max_range, Volume& volume) {
   volume.outcome = Outcome::blocked_at_once;
   volume.reason = point_name(target, place) + " sees nothing farther than " +
-                  metres_text(vantage::numerics::kHandsBreadth) +
+                  metres_text(exact::hands_breadth(max_range)) +
                   ": it is inside a solid, or faces the surface that it lies on";
   volume.hint = "turn the target round with front:, or raise it with offset:";
 }
@@ -79,10 +79,17 @@ void set_mesh(const TargetFrame& frame, solid::LabelledMesh labelled, Volume& vo
 
 /// How far the target is raised, or why it cannot be seen where it lies: as the exact method says, points too. At the
 /// least off the surface that it lies on: seen from a point of its own plane a polygon has no depth.
-double lift_of(const PreparedScene::Data& scene, const Target& target, const TargetFrame& frame, double reach) {
-  const double lift = target.is_point() ? exact::make_point_sides(scene, target, frame, reach).lift
-                                        : exact::clearing_lift(scene, target, frame, reach);
-  return std::max(lift, vantage::numerics::kClear);
+exact::Clearance clearance_of(const PreparedScene::Data& scene, const Target& target, const TargetFrame& frame,
+                              double max_range) {
+  exact::Clearance clearance;
+  if (target.is_point()) {
+    exact::PointSides sides = exact::make_point_sides(scene, target, frame, max_range);
+    clearance = {sides.lift, std::move(sides.notes)};
+  } else {
+    clearance = exact::clear_target(scene, target, frame, max_range);
+  }
+  clearance.lift_m = std::max(clearance.lift_m, exact::lengths_of(scene, frame, max_range).clear);
+  return clearance;
 }
 
 void compute(const Target& target, const Sensor& sensor, const SpheresOptions& options, render::DepthRenderer& renderer,
@@ -94,7 +101,7 @@ void compute(const Target& target, const Sensor& sensor, const SpheresOptions& o
   progress.finish();
   const auto place = [&](const Vec3& point) { return volume.frame.to_scene(point); };
   if (found.blocked) {
-    set_blocked(target, place(*found.blocked), volume);
+    set_blocked(target, place(*found.blocked), sensor.max_range_m, volume);
   } else if (found.mesh.mesh.empty()) {
     set_unseen(target, place(found.unseen[0]), place(found.unseen[1]), volume);
   } else {
@@ -117,7 +124,9 @@ Volume compute_visibility(const PreparedScene& scene, const Target& target, cons
   Volume volume;
   volume.tolerance_m = range_tolerance(options, sensor.max_range_m);
   volume.frame = make_target_frame(target);
-  volume.lift_m = lift_of(scene.data(), target, volume.frame, sensor.max_range_m);
+  exact::Clearance clearance = clearance_of(scene.data(), target, volume.frame, sensor.max_range_m);
+  volume.lift_m = clearance.lift_m;
+  volume.notes = std::move(clearance.notes);
   volume.frame.origin += volume.frame.normal * volume.lift_m;
   volume.counts.scene_polygons = scene.data().polygon_count();
   if (exact::can_reach(volume.frame, sensor)) {
