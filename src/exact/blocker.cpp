@@ -13,6 +13,7 @@ namespace {
 using Eigen::Vector2d;
 using numerics::kGrazing;
 
+constexpr double kSimilar = 1e-6;  // planes that differ by more than this fraction are two
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // Area vector of a planar polygon, not normalized.
@@ -80,7 +81,7 @@ void BlockerBuilder::add(const Vec3& normal, double height) {
   if (!(height > (normal.z() > 0 ? target_.slack : 0))) return;  // the target's own plane
   Plane plane = normal / height;
   const double steepest = plane.head<2>().norm() / kGrazing;
-  if (plane.z() > 0 && height <= kGrazing * target_.clearance) {
+  if (plane.z() * kGrazing * target_.clearance >= 1) {
     grown_ = true;
     return;
   }
@@ -89,37 +90,64 @@ void BlockerBuilder::add(const Vec3& normal, double height) {
     plane.z() = -steepest;
   }
   for (std::size_t i = first_; i < planes_->size(); ++i)
-    if (((*planes_)[i] - plane).cwiseAbs().maxCoeff() <= 1e-13 * plane.cwiseAbs().maxCoeff()) return;
+    if (same((*planes_)[i], plane)) return;
   planes_->push_back(plane);
+}
+
+// Whether two planes are one, computed twice: the one that is kept touches all that the other touches.
+bool BlockerBuilder::same(const Plane& kept, const Plane& plane) const {
+  const double difference = (kept - plane).cwiseAbs().maxCoeff(), size = plane.cwiseAbs().maxCoeff();
+  if (difference <= 1e-13 * size) return true;
+  if (difference > kSimilar * size) return false;
+  const double near = target_.rounding * plane.norm();
+  for (const Vec3& o : polygon_)
+    if (plane.dot(o) - 1 <= near && std::abs(kept.dot(o) - 1) > 2 * near) return false;
+  for (const Vector2d& t : target_.vertices)
+    if (plane.head<2>().dot(t) - 1 >= -near && std::abs(kept.head<2>().dot(t) - 1) > 2 * near) return false;
+  return true;
 }
 
 // The plane of the polygon itself, if the target is wholly on one side of it.
 void BlockerBuilder::add_own_plane(const Vec3& normal) {
   double low = kInfinity, high = -kInfinity, own_low = kInfinity, own_high = -kInfinity;
+  const auto height_of = [&](const Vector2d& t) { return normal.x() * t.x() + normal.y() * t.y(); };
   for (const Vector2d& t : target_.vertices) {
-    const double h = normal.x() * t.x() + normal.y() * t.y();
-    low = std::min(low, h), high = std::max(high, h);
+    low = std::min(low, height_of(t));
+    high = std::max(high, height_of(t));
   }
   for (const Vec3& o : polygon_) {
     const double h = normal.dot(o);
     own_low = std::min(own_low, h), own_high = std::max(own_high, h);
   }
-  if (high <= own_low + target_.slack)
+  on_polygon_.assign(target_.vertices.size(), 0);
+  const bool is_over = high <= own_low + target_.slack, is_under = low >= own_high - target_.slack;
+  if (!is_over && !is_under) return;
+  for (std::size_t i = 0; i < target_.vertices.size(); ++i) {
+    const double h = height_of(target_.vertices[i]);
+    on_polygon_[i] = is_over ? h >= own_low - target_.slack : h <= own_high + target_.slack;
+  }
+  if (is_over)
     add(normal, own_low);
-  else if (low >= own_high - target_.slack)
+  else
     add(-normal, -own_high);
 }
 
-// Through each edge of the target the one plane that touches the polygon and has it on the far side.
+// Through each edge of the target the one plane that touches the polygon and has it on the far side. Not where that is
+// the polygon's own plane: rounding would make them two that cross at an angle of nothing. Corners of a wall that
+// stands on the edge are on it: a nanometre off, they would tilt the plane the more the nearer they are to the
+// target's.
 void BlockerBuilder::add_target_edge_planes() {
-  for (const LocalTarget::Edge& edge : target_.edges) {
+  for (std::size_t i = 0; i < target_.edges.size(); ++i) {
+    if (on_polygon_[i] && on_polygon_[i + 1 == on_polygon_.size() ? 0 : i + 1]) continue;
+    const LocalTarget::Edge& edge = target_.edges[i];
     double slope = -kInfinity;
     bool separates = true;
     for (const Vec3& o : polygon_) {
-      const double outside = edge.outward.dot(o.head<2>()) - edge.distance;
+      double outside = edge.outward.dot(o.head<2>()) - edge.distance;
+      if (std::abs(outside) <= target_.slack) outside = 0;
       if (o.z() > 0)
         slope = std::max(slope, -outside / o.z());
-      else if (outside < -target_.slack)
+      else if (outside < 0)
         separates = false;  // the polygon stands on the target's plane inside this edge: only z = 0 separates them
     }
     if (separates) add({edge.outward.x(), edge.outward.y(), slope}, edge.distance);

@@ -47,9 +47,11 @@ class BlockerBuilder {
   void add_target_edge_planes();
   void add_polygon_edge_planes(const Vec3& polygon_normal);
   void add(const Vec3& normal, double height);
+  bool same(const Plane& kept, const Plane& plane) const;
 
   const LocalTarget& target_;
-  std::vector<Vec3> polygon_;  // clipped
+  std::vector<Vec3> polygon_;             // clipped
+  std::vector<std::uint8_t> on_polygon_;  // per target vertex: 1 where the polygon's plane, if kept, touches it
   std::vector<Plane>* planes_ = nullptr;
   std::size_t first_ = 0;
   bool grown_ = false;  // hides more than the polygon does

@@ -1,11 +1,13 @@
 #include "exact/vertex_snapper.h"
 
 #include <bit>
+#include <cmath>
 
 namespace vantage::exact {
 namespace {
 
 constexpr std::uint32_t kNone = ~0u;
+constexpr double kLow = 1e-3;     // over the horizon
 constexpr double kBucket = 4096;  // snapping distances; so large that a point seldom needs a look into a second bucket
 
 }  // namespace
@@ -29,9 +31,13 @@ std::uint32_t VertexSnapper::find(std::int64_t x, std::int64_t y, const ChartPoi
 }
 
 std::uint32_t VertexSnapper::add(ChartPoint point) {
-  if (std::abs(point.x()) <= snap_) point.x() = 0;
-  if (std::abs(point.y()) <= snap_) point.y() = 0;
   const double sum = std::abs(point.x()) + std::abs(point.y());
+  for (const int axis : {0, 1}) {
+    if (std::abs(point[axis]) > snap_) continue;
+    point[axis] = 0;
+    // Near the horizon at the same height over it: another one is far off the steep planes that meet there.
+    if (sum > 1 - kLow) point[1 - axis] = std::copysign(sum, point[1 - axis]);
+  }
   const bool horizon = sum >= 1 - snap_;
   if (horizon) point /= sum;
   const std::int64_t x0 = bucket_of(point.x() - snap_), x1 = bucket_of(point.x() + snap_);
