@@ -30,7 +30,7 @@ struct Clearance {
 };
 
 /// How far the target must be raised to clear the surface that it lies on, and polygons within range that rise less
-/// than Lengths::clear above its plane: 0 to Lengths::lift and three times Lengths::clear. Throws Error(input) when
+/// than Lengths::clear above its plane: 0 to Lengths::lift and three times Lengths::clear. Throws PiercedTarget when
 /// scene geometry stands on the target or passes through it (names the object, the place and the smallest offset that
 /// clears it).
 Clearance clear_target(const PreparedScene::Data& scene, const Target& target, const TargetFrame& frame,
