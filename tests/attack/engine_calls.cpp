@@ -1,0 +1,150 @@
+#include "engine_calls.h"
+
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+
+#include "vantage/compare.h"
+#include "vantage/error.h"
+#include "vantage/mission.h"
+#include "vantage/scene_source.h"
+
+namespace attack {
+namespace {
+
+using namespace vantage;
+
+Volume compute(const Case& c, const Target& target) {
+  return compute_visibility(PreparedScene(c.scene), target, Sensor{c.range}, {c.tolerance, 1});
+}
+
+bool holds(const std::string& text, const char* words) { return text.find(words) != std::string::npos; }
+
+std::string refusal_of(const Error& error) {
+  const std::string& problem = error.problem();
+  if (holds(problem, "stands on or passes through")) return "pierced";
+  if (holds(problem, "under the ground")) return "under the ground";
+  if (holds(error.where(), "target") || holds(problem, "target")) return "target";
+  if (holds(problem, "tolerance")) return "tolerance";
+  return "other";
+}
+
+std::string number(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.17g", value);
+  return text;
+}
+
+std::string list(const Vec3& p) { return "[" + number(p.x()) + ", " + number(p.y()) + ", " + number(p.z()) + "]"; }
+
+void write_box(std::ostream& out, const Box& box) {
+  out << "    - {min: " << list(box.min) << ", max: " << list(box.max) << "}\n";
+}
+
+void write_navigation(const Navigation& navigation, std::ostream& out) {
+  if (navigation.empty()) return;
+  out << "navigation:\n";
+  if (navigation.altitude)
+    out << "  altitude: [" << number(navigation.altitude->min_m) << ", " << number(navigation.altitude->max_m) << "]\n";
+  if (!navigation.boxes.empty()) out << "  boxes:\n";
+  for (const Box& box : navigation.boxes) write_box(out, box);
+  if (!navigation.keep_out.empty()) out << "  keep_out:\n";
+  for (const Box& box : navigation.keep_out) write_box(out, box);
+}
+
+void write_mission(const Case& c, const Target& target, const std::filesystem::path& file) {
+  std::ofstream out(file);
+  out << "scene: {mesh: scene.obj}\ntarget:\n";
+  if (target.is_point()) {
+    out << "  point: " << list(target.vertices[0]) << "\n";
+  } else {
+    out << "  vertices:\n";
+    for (const Vec3& v : target.vertices) out << "    - " << list(v) << "\n";
+  }
+  if (target.offset_m != 0) out << "  offset: " << number(target.offset_m) << "\n";
+  if (target.front) out << "  front: " << list(*target.front) << "\n";
+  out << "sensor: {max_range: " << number(c.range) << "}\n";
+  write_navigation(c.navigation, out);
+  out << "exact: {tolerance: " << number(c.tolerance) << "}\n";
+}
+
+}  // namespace
+
+Answer ask_engine(const Case& c) {
+  Answer answer;
+  try {
+    for (const Target& part : c.parts) answer.parts.push_back(compute(c, part));
+    answer.volume = c.parts.size() == 1 ? answer.parts[0] : intersect_volumes(answer.parts);
+    if (!c.navigation.empty() && answer.volume.outcome == Outcome::computed)
+      answer.volume = cut_to_navigation(answer.volume, c.navigation);
+  } catch (const Error& error) {
+    answer.thrown = true;
+    answer.defect = error.kind() != ErrorKind::input;
+    answer.refusal = refusal_of(error);
+    answer.message = error.what();
+  } catch (const std::exception& error) {
+    answer.thrown = answer.defect = true;
+    answer.message = error.what();
+  }
+  return answer;
+}
+
+std::optional<std::vector<PointAnswer>> ask_query(const Case& c, std::size_t part, const std::vector<Vec3>& points,
+                                                  std::string& message) {
+  try {
+    return query_points(PreparedScene(c.scene), c.parts[part], Sensor{c.range}, {}, points);
+  } catch (const std::exception& error) {
+    message = error.what();
+    return std::nullopt;
+  }
+}
+
+std::string reversed_differs(const Case& c, const Volume& volume) {
+  Target target = c.parts[0];
+  target.front = volume.frame.normal;
+  target.vertices.assign(c.parts[0].vertices.rbegin(), c.parts[0].vertices.rend());
+  try {
+    const Volume reversed = compute(c, target);
+    if (reversed.outcome != volume.outcome) return "the outcome is another one";
+    if (volume.outcome != Outcome::computed) return {};
+    const Comparison comparison = compare_volumes(volume.mesh, reversed.mesh);
+    const double worst = std::max(comparison.only_a_m3, comparison.only_b_m3) / comparison.volume_a_m3;
+    const double allowed = 3 * c.tolerance * surface_area(volume.mesh) / comparison.volume_a_m3 + 1e-4;
+    if (worst > allowed) return number(100 * worst) + " % of the volume differ";
+  } catch (const std::exception& error) {
+    return std::string("throws: ") + error.what();
+  }
+  return {};
+}
+
+void write_case(const Case& c, const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder);
+  std::ofstream out(folder / "scene.obj");
+  for (const Vec3& v : c.scene.mesh.vertices)
+    out << "v " << number(v.x()) << " " << number(v.y()) << " " << number(v.z()) << "\n";
+  std::uint32_t last = ~0u;
+  for (std::size_t i = 0; i < c.scene.mesh.triangles.size(); ++i) {
+    const std::uint32_t object = c.scene.object_of.empty() ? 0 : c.scene.object_of[i];
+    if (object != last) out << "o " << c.scene.objects[object] << "\n";
+    last = object;
+    const Triangle& t = c.scene.mesh.triangles[i];
+    out << "f " << t[0] + 1 << " " << t[1] + 1 << " " << t[2] + 1 << "\n";
+  }
+  for (std::size_t k = 0; k < c.parts.size(); ++k)
+    write_mission(c, c.parts[k], folder / (k == 0 ? "mission.yaml" : "mission" + std::to_string(k + 1) + ".yaml"));
+}
+
+Case read_case(const std::filesystem::path& file) {
+  Mission mission = read_mission(file);
+  Case c;
+  c.kind = "mission";
+  c.scene = read_mission_scene(mission).scene;
+  c.parts.push_back(mission.target);
+  c.parts.insert(c.parts.end(), mission.other_parts.begin(), mission.other_parts.end());
+  c.range = mission.sensor.max_range_m;
+  c.tolerance = mission.exact.tolerance_m;
+  c.navigation = mission.navigation;
+  return c;
+}
+
+}  // namespace attack

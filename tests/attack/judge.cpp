@@ -1,0 +1,108 @@
+#include "judge.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "trial.h"
+
+namespace attack {
+namespace {
+
+using vantage::Outcome;
+
+const char* name_of(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::computed: return "computed";
+    case Outcome::out_of_range: return "out of range";
+    case Outcome::blocked_at_once: return "blocked at once";
+    case Outcome::outside_limits: return "outside limits";
+    case Outcome::no_common_view: return "no common view";
+  }
+  return "?";
+}
+
+constexpr const char* kNames[kClasses] = {
+    "over-claim",  "thin over-claim", "out of range", "behind target", "outside limits", "bad mesh",
+    "bad causes",  "query over",      "bad outcome",  "false refusal", "defect",         "crash",
+    "hang",        "shallow",         "touching",     "query under",   "query and mesh", "blocked by",
+    "under-claim", "reversed"};
+
+}  // namespace
+
+const char* name_of(Class which) { return kNames[static_cast<int>(which)]; }
+
+bool is_wrong(Class which) { return which < Class::shallow; }
+
+void Judgement::add(Finding finding) {
+  for (Finding& f : findings) {
+    if (f.which != finding.which) continue;
+    if (f.share < finding.share) f = std::move(finding);
+    return;
+  }
+  findings.push_back(std::move(finding));
+}
+
+const Finding* Judgement::find(Class which) const {
+  const auto at = std::find_if(findings.begin(), findings.end(), [&](const Finding& f) { return f.which == which; });
+  return at == findings.end() ? nullptr : &*at;
+}
+
+bool Judgement::wrong() const {
+  return std::any_of(findings.begin(), findings.end(), [](const Finding& f) { return is_wrong(f.which); });
+}
+
+Trial::Trial(const Case& the_case, const Answer& the_answer, const JudgeOptions& the_options)
+    : c(the_case), answer(the_answer), options(the_options), blockers(c.scene, c.parts), random(c.seed ^ 0x6a75646765) {
+  constexpr double kSeparation = 2e-9;
+  margin_ = kSeparation + 4 * 2.3e-16 * blockers.largest;
+  for (std::size_t k = 0; k < c.parts.size(); ++k) {
+    const bool made = k < answer.parts.size();
+    const double lift = made ? answer.parts[k].lift_m : 0;
+    const Vec3 centre = made ? Vec3(answer.parts[k].frame.origin - blockers.origin) : Vec3::Zero();
+    parts.emplace_back(blockers, c.parts[k], lift, margin_, centre);
+    if (!made) parts.back().centre = parts.back().exact.target().centre;
+    result.lift = std::max(result.lift, lift);
+  }
+}
+
+const std::string& Trial::object_of(std::size_t triangle) const {
+  return c.scene.objects[blockers.triangles[triangle].object];
+}
+
+double range_along(const SeenTarget& target, const Vec3& from, const Vec3& direction, double range) {
+  double least = INFINITY;
+  for (const Vec3& corner : target.corners) {
+    const Vec3 away = from - corner;
+    const double b = away.dot(direction), under = b * b - away.squaredNorm() + range * range;
+    if (under <= 0) return 0;
+    least = std::min(least, std::sqrt(under) - b);
+  }
+  return std::max(least, 0.0);
+}
+
+Judgement judge(const Case& c, const Answer& answer, const JudgeOptions& options) {
+  Trial trial(c, answer, options);
+  Judgement& result = trial.result;
+  if (answer.thrown) {
+    result.status = answer.defect ? "defect" : "refused: " + answer.refusal;
+    if (answer.defect)
+      result.add({Class::defect, 0, Vec3::Zero(), answer.message});
+    else
+      judge_refusal(trial);
+    return result;
+  }
+  result.status = name_of(answer.volume.outcome);
+  if (answer.volume.outcome == Outcome::computed)
+    judge_claims(trial);
+  else
+    judge_outcome(trial);
+  judge_losses(trial);
+  if (options.query) judge_query(trial);
+  if (options.reversed && c.parts.size() == 1 && !c.parts[0].is_point()) {
+    const std::string differs = reversed_differs(c, answer.parts[0]);
+    if (!differs.empty()) result.add({Class::reversed, 0, Vec3::Zero(), differs});
+  }
+  return result;
+}
+
+}  // namespace attack

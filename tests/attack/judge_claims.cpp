@@ -1,0 +1,209 @@
+// What a volume claims wrongly: by viewpoints, and facet by facet.
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "trial.h"
+
+namespace attack {
+namespace {
+
+class Claims {
+ public:
+  explicit Claims(Trial& trial) : trial_(trial), mesh_(local(trial)) {}
+
+  void check_mesh() {
+    const vantage::Volume& volume = trial_.answer.volume;
+    for (const std::string& fault : faults(volume.mesh))
+      trial_.result.add({Class::bad_mesh, 0, Vec3::Zero(), fault});
+    if (volume.cause_of.size() != volume.mesh.triangles.size())
+      trial_.result.add({Class::bad_causes, 0, Vec3::Zero(), "not one cause a facet"});
+    for (const std::uint32_t cause : volume.cause_of)
+      if (cause >= volume.causes.size())
+        trial_.result.add({Class::bad_causes, 0, Vec3::Zero(), "cause " + std::to_string(cause)});
+    trial_.result.facets = mesh_.size();
+  }
+
+  void look() {
+    std::vector<double> area(mesh_.size());
+    for (std::size_t i = 0; i < mesh_.size(); ++i) area[i] = area_of(mesh_.corners(i));
+    std::partial_sum(area.begin(), area.end(), area.begin());
+    Random& random = trial_.random;
+    const auto draw = [&](bool by_area) {
+      if (!by_area) return static_cast<std::size_t>(random.integer(0, static_cast<int>(mesh_.size()) - 1));
+      const auto at = std::lower_bound(area.begin(), area.end(), random.uniform(0, area.back()));
+      return std::min(static_cast<std::size_t>(at - area.begin()), mesh_.size() - 1);
+    };
+    for (std::size_t k = 0; k < trial_.options.facets; ++k) look_behind(draw(k % 2 == 0), 3);
+    for (std::size_t k = 0; k < trial_.options.viewpoints; ++k) {
+      const Vec3 q = place_on(mesh_.corners(draw(true)));
+      const Vec3 from = trial_.c.navigation.empty() ? trial_.parts[0].centre : place_on(mesh_.corners(draw(true)));
+      check(from + std::cbrt(random.uniform(0, 1)) * (q - from));
+    }
+  }
+
+  void prove() {
+    for (std::size_t part = 0; part < trial_.parts.size(); ++part) prove(part);
+  }
+
+ private:
+  static vantage::Mesh local(const Trial& trial) {
+    vantage::Mesh mesh = trial.answer.volume.mesh;
+    for (Vec3& v : mesh.vertices) v -= trial.blockers.origin;
+    return mesh;
+  }
+  static double area_of(const Corners& t) { return 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).norm(); }
+
+  /// A point of the triangle: in the middle, near a corner, near a side, or anywhere.
+  Vec3 place_on(const Corners& t) {
+    Random& random = trial_.random;
+    double u = random.uniform(0, 1), v = random.uniform(0, 1);
+    if (u + v > 1) u = 1 - u, v = 1 - v;
+    double w = 1 - u - v;
+    const double near = random.magnitude(1e-9, 0.1);
+    switch (random.integer(0, 3)) {
+      case 0: u = v = w = 1.0 / 3; break;
+      case 1: u *= near, v *= near, w = 1 - u - v; break;
+      case 2: w *= near, u = (1 - w) * u / (u + v), v = 1 - w - u; break;
+      default: break;
+    }
+    const int k = random.integer(0, 2);
+    return u * t[k] + v * t[(k + 1) % 3] + w * t[(k + 2) % 3];
+  }
+
+  /// Viewpoints right behind a facet.
+  void look_behind(std::size_t facet, int places) {
+    const Corners t = mesh_.corners(facet);
+    const Vec3 across = (t[1] - t[0]).cross(t[2] - t[0]);
+    const Vec3 inward = across.norm() > 0 ? Vec3(-across.normalized()) : Vec3::Zero();
+    const Vec3 centre = trial_.parts[0].centre;
+    for (int k = 0; k < places; ++k) {
+      const Vec3 q = place_on(t);
+      const double step = trial_.random.pick({1.1e-6, 2e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1});
+      check(q + step * (centre - q));
+      check(q + step * (centre - q).norm() * inward);
+    }
+  }
+
+  /// What is wrong with a claimed viewpoint.
+  void check(const Vec3& p) {
+    if (mesh_.locate(p) != Place::inside) return;
+    ++trial_.result.viewpoints;
+    for (const PartView& part : trial_.parts) check(p, part);
+    const std::string broken = limit_broken(trial_.to_scene(p));
+    if (!broken.empty()) report(Class::outside_limits, p, broken);
+  }
+
+  void check(const Vec3& p, const PartView& part) {
+    const SeenTarget& target = part.exact.target();
+    if (!target.all_sides && target.height(p) < -trial_.noise()) report(Class::behind_target, p, "");
+    if (!part.exact.in_range(p, trial_.c.range)) report(Class::out_of_range, p, "");
+    const auto hidden = part.exact.first_hiding(p);
+    if (!hidden) return;
+    if (const auto solid = part.inner.first_hiding(p, Which::not_thin))
+      report(Class::over_claim, p, trial_.object_of(*solid));
+    else if (const auto thin = part.inner.first_hiding(p))
+      report(Class::thin_over_claim, p, trial_.object_of(*thin));
+    else
+      report(Class::touching, p, trial_.object_of(*hidden));
+  }
+
+  /// Only what lies deeper than the guarantee allows counts.
+  void report(Class which, const Vec3& p, const std::string& detail) {
+    const double away = (p - trial_.parts[0].centre).norm();
+    const double share = mesh_.distance(p) / away;
+    if (share > kDepth) {
+      trial_.result.add({which, share, trial_.to_scene(p), detail});
+    } else {
+      const Vec3& centre = trial_.parts[0].centre;
+      const Vec3 outer = centre + (p - centre) / (1 - kDepth);
+      if (which == Class::over_claim && mesh_.locate(outer) == Place::inside)
+        trial_.result.add({Class::shallow, share, trial_.to_scene(p), detail});
+    }
+  }
+
+  std::string limit_broken(const Vec3& p) const {
+    const vantage::Navigation& limits = trial_.c.navigation;
+    const auto holds = [&p](const vantage::Box& box) {
+      return (p.array() >= box.min.array()).all() && (p.array() <= box.max.array()).all();
+    };
+    const auto holds_inside = [&p](const vantage::Box& box) {
+      return (p.array() > box.min.array()).all() && (p.array() < box.max.array()).all();
+    };
+    if (limits.altitude && (p.z() < limits.altitude->min_m || p.z() > limits.altitude->max_m)) return "altitude";
+    if (!limits.boxes.empty() && std::none_of(limits.boxes.begin(), limits.boxes.end(), holds)) return "boxes";
+    if (std::any_of(limits.keep_out.begin(), limits.keep_out.end(), holds_inside)) return "keep_out";
+    return {};
+  }
+
+  /// A facet moved in by kDepth about the centre. Corners that rounding left under the target's plane are raised to
+  /// `clear` above it: the same way for all facets, so that the mesh stays closed.
+  Corners moved_in(const Corners& facet, const PartView& part, double clear) const {
+    Corners moved;
+    const SeenTarget& target = part.exact.target();
+    for (int k = 0; k < 3; ++k) {
+      moved[k] = part.centre + (1 - kDepth) * (facet[k] - part.centre);
+      const double height = target.height(moved[k]);
+      if (!target.all_sides && height < clear) moved[k] += (clear - height) * target.normal;
+    }
+    return moved;
+  }
+
+  // docs/theory.md has no word on it; the theorem: let every facet that faces away from a point c of the target have
+  // no triangle of the scene in the interior of conv(facet, target). Then every point of the mesh sees the target. For
+  // the ray from c through the point leaves the mesh for good through such a facet, at or behind the point.
+  void prove(std::size_t index) {
+    const PartView& part = trial_.parts[index];
+    const SeenTarget& target = part.exact.target();
+    std::size_t searched = 0;
+    for (std::size_t i = 0; i < mesh_.size(); ++i) {
+      const Corners facet = moved_in(mesh_.corners(i), part, trial_.noise());
+      if (orientation(facet[0], facet[1], facet[2], target.corners[0]) >= 0) continue;
+      if (!target.all_sides && lies_low(facet, target)) continue;
+      if (trial_.result.proved + trial_.result.unproved >= trial_.options.proofs * trial_.parts.size()) {
+        ++trial_.result.unproved;
+        continue;
+      }
+      const auto hidden = part.exact.first_hiding(facet);
+      if (!hidden) {
+        ++trial_.result.proved;
+        continue;
+      }
+      ++trial_.result.unproved;
+      if (++searched > 30) continue;
+      const std::size_t before = trial_.result.findings.size();
+      look_behind(i, 20);
+      if (trial_.result.findings.size() == before) report_facet(i, part, *hidden);
+    }
+  }
+
+  bool lies_low(const Corners& facet, const SeenTarget& target) const {
+    return std::all_of(facet.begin(), facet.end(),
+                       [&](const Vec3& p) { return target.height(p) <= 4 * trial_.noise() + 1e-12; });
+  }
+
+  /// No viewpoint was found that is deep enough: say what the facet is.
+  void report_facet(std::size_t i, const PartView& part, std::size_t hidden) {
+    const Corners facet = moved_in(mesh_.corners(i), part, 2 * trial_.margin());
+    const Vec3 middle = (facet[0] + facet[1] + facet[2]) / 3;
+    const bool inner = part.inner.first_hiding(facet).has_value();
+    trial_.result.add({inner ? Class::shallow : Class::touching, 0, trial_.to_scene(middle),
+                       "facet " + std::to_string(i) + ", " + trial_.object_of(hidden)});
+  }
+
+  Trial& trial_;
+  ClosedMesh mesh_;
+};
+
+}  // namespace
+
+void judge_claims(Trial& trial) {
+  Claims claims(trial);
+  claims.check_mesh();
+  if (trial.result.find(Class::bad_mesh) && trial.result.find(Class::bad_mesh)->detail.find("cancel") != std::string::npos)
+    return;
+  claims.look();
+  claims.prove();
+}
+
+}  // namespace attack

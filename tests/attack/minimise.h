@@ -1,0 +1,17 @@
+// A failing case, made as small as it stays failing.
+#pragma once
+
+#include <functional>
+
+#include "judge.h"
+
+namespace attack {
+
+/// Judges a case in a process of its own.
+Judgement judge_isolated(const Case& c, const JudgeOptions& options, unsigned seconds);
+
+/// Takes away triangles, limits, parts and corners of the target while the judge still finds `which`. At most `tries`
+/// judgements.
+Case minimise(const Case& c, Class which, const JudgeOptions& options, unsigned seconds, int tries);
+
+}  // namespace attack

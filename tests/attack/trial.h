@@ -1,0 +1,63 @@
+// What the parts of the judge share.
+#pragma once
+
+#include <deque>
+#include <string>
+#include <vector>
+
+#include "closed_mesh.h"
+#include "judge.h"
+#include "oracle.h"
+#include "random.h"
+
+namespace attack {
+
+/// One part of the target before the scene. Local coordinates: those of Trial::blockers.
+struct PartView {
+  PartView(const Blockers& blockers, const vantage::Target& target, double lift, double margin, const Vec3& engine_centre)
+      : exact(blockers, make_seen_target(target, lift, blockers.origin)),
+        inner(blockers, moved_in(exact.target(), margin)),
+        centre(engine_centre) {}
+
+  View exact;   ///< as given, and lifted
+  View inner;   ///< moved in and raised by the separation that the engine takes for touching, and the rounding of input
+  Vec3 centre;  ///< that the engine measures distances from
+};
+
+class Trial {
+ public:
+  Trial(const Case& the_case, const Answer& the_answer, const JudgeOptions& the_options);
+
+  /// The engine's separation, and what storing coordinates of this size rounds: metres.
+  double margin() const { return margin_; }
+  /// Heights over the target's plane below this are rounding of the oracle's own frame.
+  double noise() const { return 1e-14 * std::max(blockers.largest, 1e-6); }
+  Vec3 to_scene(const Vec3& local) const { return local + blockers.origin; }
+  const std::string& object_of(std::size_t triangle) const;
+
+  const Case& c;
+  const Answer& answer;
+  JudgeOptions options;
+  Blockers blockers;
+  std::deque<PartView> parts;
+  Random random;
+  Judgement result;
+
+ private:
+  double margin_;
+};
+
+/// Mesh, causes, and whether anything is claimed wrongly.
+void judge_claims(Trial& trial);
+/// What of each part's volume is not claimed.
+void judge_losses(Trial& trial);
+/// query_points against the oracle and against the mesh.
+void judge_query(Trial& trial);
+/// An empty outcome and a refusal must have a reason.
+void judge_outcome(Trial& trial);
+void judge_refusal(Trial& trial);
+
+/// Metres along the unit `direction` from `from` until a corner of the target is farther than `range`; 0: never within.
+double range_along(const SeenTarget& target, const Vec3& from, const Vec3& direction, double range);
+
+}  // namespace attack
