@@ -28,21 +28,24 @@ double distance_to_triangle(const Vec3& p, const Corners& t) {
 
 }  // namespace
 
-std::vector<std::string> faults(const vantage::Mesh& mesh) {
-  std::vector<std::string> found;
+MeshFaults faults(const vantage::Mesh& mesh) {
+  MeshFaults found;
   std::map<std::pair<std::uint32_t, std::uint32_t>, long> edges;
-  std::size_t flat = 0, open = 0;
   for (const vantage::Triangle& t : mesh.triangles) {
-    for (int k = 0; k < 3; ++k) {
-      if (t[k] >= mesh.vertices.size()) return {"a facet names vertex " + std::to_string(t[k])};
-      const std::uint32_t a = t[k], b = t[(k + 1) % 3];
-      a < b ? ++edges[{a, b}] : --edges[{b, a}];
+    if (*std::max_element(t.begin(), t.end()) >= mesh.vertices.size()) {
+      found.bad_index = true;
+      continue;
     }
-    flat += collinear(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]);
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t a = t[k], b = t[(k + 1) % 3];
+      if (a < b)
+        ++edges[{a, b}];
+      else
+        --edges[{b, a}];
+    }
+    found.flat_facets += collinear(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]) ? 1 : 0;
   }
-  for (const auto& edge : edges) open += edge.second != 0;
-  if (open > 0) found.push_back(std::to_string(open) + " edges do not cancel");
-  if (flat > 0) found.push_back(std::to_string(flat) + " facets without area");
+  for (const auto& edge : edges) found.open_edges += edge.second != 0 ? 1 : 0;
   return found;
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <string>
 #include <vector>
 
 #include "exact.h"
@@ -10,9 +9,13 @@
 
 namespace attack {
 
-/// What is wrong with the mesh as a closed, oriented one, by index; empty when nothing is: an index out of range, a
-/// directed edge that its opposite does not cancel, a facet whose corners lie on one line (exact).
-std::vector<std::string> faults(const vantage::Mesh& mesh);
+struct MeshFaults {
+  bool bad_index = false;
+  std::size_t open_edges = 0;   ///< directed edges, by index, that their opposites do not cancel
+  std::size_t flat_facets = 0;  ///< facets whose corners lie on one line; exact
+};
+
+MeshFaults faults(const vantage::Mesh& mesh);
 
 enum class Place { inside, outside, on_surface };
 

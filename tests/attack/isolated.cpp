@@ -1,6 +1,7 @@
 #include "isolated.h"
 
 #include <poll.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -17,7 +18,9 @@ namespace {
 constexpr char kEnd[] = "\nthe end\n";
 
 [[noreturn]] void work_and_exit(int to, unsigned seconds, const std::function<std::string()>& work) {
-  alarm(seconds);
+  const rlimit limit{seconds, seconds + 5};
+  setrlimit(RLIMIT_CPU, &limit);
+  alarm(20 * seconds);  // one that sleeps
   std::string text = work() + kEnd;
   for (std::size_t at = 0; at < text.size();) {
     const ssize_t written = write(to, text.data() + at, text.size() - at);
@@ -31,7 +34,7 @@ Exit finish(std::string text, int status) {
   Exit exit;
   if (WIFSIGNALED(status)) {
     const int signal = WTERMSIG(status);
-    exit.hung = signal == SIGALRM;
+    exit.hung = signal == SIGALRM || signal == SIGXCPU || signal == SIGKILL;
     exit.crashed = !exit.hung;
     exit.how = "signal " + std::to_string(signal) + " (" + strsignal(signal) + ")";
     return exit;

@@ -10,7 +10,7 @@ namespace attack {
 struct Exit {
   std::string text;      ///< what the work returned; of no use when it died
   bool crashed = false;  ///< by a signal, or it ended before its time
-  bool hung = false;     ///< it was ended after its time
+  bool hung = false;     ///< it used more processor time than it had
   std::string how;       ///< "signal 11 (Segmentation fault)"
 };
 

@@ -22,10 +22,10 @@ const char* name_of(Outcome outcome) {
 }
 
 constexpr const char* kNames[kClasses] = {
-    "over-claim",  "thin over-claim", "out of range", "behind target", "outside limits", "bad mesh",
-    "bad causes",  "query over",      "bad outcome",  "false refusal", "defect",         "crash",
-    "hang",        "shallow",         "touching",     "query under",   "query and mesh", "blocked by",
-    "under-claim", "reversed"};
+    "over-claim",  "thin over-claim", "out of range",  "behind target",  "outside limits", "bad mesh",   "flat facets",
+    "bad causes",  "query over",      "bad outcome",   "false refusal",  "defect",         "crash",      "hang",
+    "shallow",     "touching",        "query under",   "query and mesh", "blocked by",     "under-claim", "lift refusal",
+    "reversed"};
 
 }  // namespace
 
@@ -54,7 +54,7 @@ bool Judgement::wrong() const {
 Trial::Trial(const Case& the_case, const Answer& the_answer, const JudgeOptions& the_options)
     : c(the_case), answer(the_answer), options(the_options), blockers(c.scene, c.parts), random(c.seed ^ 0x6a75646765) {
   constexpr double kSeparation = 2e-9;
-  margin_ = kSeparation + 4 * 2.3e-16 * blockers.largest;
+  margin_ = kSeparation + rounding();
   for (std::size_t k = 0; k < c.parts.size(); ++k) {
     const bool made = k < answer.parts.size();
     const double lift = made ? answer.parts[k].lift_m : 0;
@@ -67,6 +67,13 @@ Trial::Trial(const Case& the_case, const Answer& the_answer, const JudgeOptions&
 
 const std::string& Trial::object_of(std::size_t triangle) const {
   return c.scene.objects[blockers.triangles[triangle].object];
+}
+
+vantage::Mesh local_mesh(const Trial& trial, const vantage::Volume& volume) {
+  if (faults(volume.mesh).bad_index) return {};
+  vantage::Mesh mesh = volume.mesh;
+  for (Vec3& v : mesh.vertices) v -= trial.blockers.origin;
+  return mesh;
 }
 
 double range_along(const SeenTarget& target, const Vec3& from, const Vec3& direction, double range) {

@@ -16,7 +16,8 @@ enum class Class {
   out_of_range,     ///< such a point is farther than max_range from a corner
   behind_target,    ///< such a point is behind the target's plane
   outside_limits,   ///< such a point breaks a navigation limit
-  bad_mesh,         ///< not closed, not oriented, a facet without area
+  bad_mesh,         ///< not closed or not oriented, by index
+  flat_facets,      ///< facets whose corners lie on one line, exactly
   bad_causes,       ///< an index of a cause out of range, or not one a facet
   query_over,       ///< query_points says inside where the target is hidden by more than kDepth of the distance
   bad_outcome,      ///< empty for a reason that does not hold
@@ -33,6 +34,7 @@ enum class Class {
   query_mesh,   ///< query_points and the mesh end the view at places that differ by more than kDepth
   blocked_by,   ///< query_points names an object that hides nothing, or not one that does
   under_claim,  ///< a place outside sees everything, by more than kDepth and the tolerance
+  lift_refusal, ///< refused, though all is clear; something is over the target by less than the lift that is stated
   reversed,     ///< the target's corners in the other order give another volume, or comparing the two fails
 };
 inline constexpr int kClasses = static_cast<int>(Class::reversed) + 1;
@@ -54,8 +56,10 @@ struct Judgement {
   std::string status;  ///< "computed", an outcome's name, "refused: pierced", ...
   std::vector<Finding> findings;  ///< the worst one of each class
   std::size_t viewpoints = 0;     ///< claimed ones that were looked from
-  std::size_t proved = 0;         ///< facets whose every point sees all of the target, moved in by kDepth
-  std::size_t unproved = 0;       ///< facets that were not tried
+  std::size_t proved = 0;          ///< facets whose every point sees all of the target, moved in by kDepth
+  std::size_t proved_smaller = 0;  ///< likewise, of the target smaller by the separation
+  std::size_t unproved = 0;        ///< not so
+  std::size_t untried = 0;         ///< beyond JudgeOptions::proofs
   std::size_t facets = 0;
   double lift = 0;
   double lost = 0;        ///< share of the true volume that is not claimed, less the tolerance: an estimate

@@ -15,7 +15,7 @@ constexpr double kGrazing = 3e-6;
 class Losses {
  public:
   Losses(Trial& trial, std::size_t part)
-      : trial_(trial), view_(trial.parts[part]), mesh_(local(trial, trial.answer.parts[part])) {}
+      : trial_(trial), view_(trial.parts[part]), mesh_(local_mesh(trial, trial.answer.parts[part])) {}
 
   void measure() {
     double seen = 0, lost = 0;
@@ -32,12 +32,6 @@ class Losses {
   }
 
  private:
-  static vantage::Mesh local(const Trial& trial, const vantage::Volume& volume) {
-    vantage::Mesh mesh = volume.mesh;
-    for (Vec3& v : mesh.vertices) v -= trial.blockers.origin;
-    return mesh;
-  }
-
   Vec3 beside_an_edge() {
     Random& random = trial_.random;
     const auto& triangles = trial_.blockers.triangles;
@@ -60,7 +54,7 @@ class Losses {
     if (!target.all_sides && rise < kGrazing) return {0, 0};
     const double most = range_along(target, view_.centre, direction, trial_.c.range - trial_.c.tolerance);
     const double reached = std::min(mesh_.last_exit(view_.centre, direction), most);
-    const double next = reached * (1 + 3 * kDepth);
+    const double next = reached * (1 + 3 * kDepth) + 2 * trial_.rounding();
     const auto clear = [&](double t) { return view_.exact.clear(view_.centre + t * direction); };
     if (next >= most || !clear(std::max(next, 1e-9 * most))) return {reached, reached};
     double low = next, high = most;
@@ -77,7 +71,7 @@ class Losses {
     const double gap = (possible - reached) / possible;
     trial_.result.worst_gap = std::max(trial_.result.worst_gap, gap);
     if (mesh_.size() > 0 && (mesh_.locate(place) != Place::outside ||
-                             mesh_.distance(place) <= kDepth * (place - view_.centre).norm()))
+                             mesh_.distance(place) <= kDepth * (place - view_.centre).norm() + trial_.rounding()))
       return;
     trial_.result.add({Class::under_claim, gap, trial_.to_scene(place), ""});
   }
@@ -106,6 +100,34 @@ Vec3 find_clear(Trial& trial, const std::vector<View>& views, double least, std:
   return Vec3::Constant(NAN);
 }
 
+/// The least height over the target's plane that a triangle has within its outline, of triangles that rise above the
+/// plane there; infinity: nothing is over the target. In doubles.
+double lowest_over(const Trial& trial, const SeenTarget& target) {
+  double lowest = INFINITY;
+  for (const Blocker& blocker : trial.blockers.triangles) {
+    std::vector<Vec3> polygon(blocker.corners.begin(), blocker.corners.end());
+    const std::size_t n = target.corners.size();
+    for (std::size_t i = 0; i < n && !polygon.empty(); ++i) {
+      const Vec3 &a = target.corners[i], inward = target.normal.cross(target.corners[(i + 1) % n] - a);
+      std::vector<Vec3> kept;
+      for (std::size_t k = 0; k < polygon.size(); ++k) {
+        const Vec3 &from = polygon[k], &to = polygon[(k + 1) % polygon.size()];
+        const double at_from = inward.dot(from - a), at_to = inward.dot(to - a);
+        if (at_from >= 0) kept.push_back(from);
+        if (at_from * at_to < 0) kept.emplace_back(from + at_from / (at_from - at_to) * (to - from));
+      }
+      polygon = kept;
+    }
+    double low = INFINITY, high = -INFINITY;
+    for (const Vec3& p : polygon) {
+      low = std::min(low, target.height(p));
+      high = std::max(high, target.height(p));
+    }
+    if (high > -1e-6) lowest = std::min(lowest, low);
+  }
+  return lowest;
+}
+
 std::vector<View> grown_views(const Trial& trial) {
   std::vector<View> views;
   for (const PartView& part : trial.parts)
@@ -128,10 +150,19 @@ void judge_outcome(Trial& trial) {
   if (p.allFinite()) trial.result.add({Class::bad_outcome, 0, trial.to_scene(p), trial.result.status});
 }
 
+// A triangle that hides no part of the target may yet be refused where it is over it by less than the lift that the
+// engine states: a world smaller than its millimetres.
 void judge_refusal(Trial& trial) {
   if (trial.answer.refusal != "pierced" && trial.answer.refusal != "under the ground") return;
-  const Vec3 p = find_clear(trial, grown_views(trial), 0, 400);
-  if (p.allFinite()) trial.result.add({Class::false_refusal, 0, trial.to_scene(p), trial.answer.message});
+  const std::vector<View> views = grown_views(trial);
+  const Vec3 p = find_clear(trial, views, 0, 400);
+  if (!p.allFinite()) return;
+  constexpr double kMostLift = 2.011e-3;
+  const bool is_low = trial.answer.refusal == "pierced" &&
+                      std::any_of(views.begin(), views.end(), [&](const View& view) {
+                        return lowest_over(trial, view.target()) < kMostLift;
+                      });
+  trial.result.add({is_low ? Class::lift_refusal : Class::false_refusal, 0, trial.to_scene(p), trial.answer.message});
 }
 
 }  // namespace attack

@@ -14,7 +14,7 @@ using vantage::PointAnswer;
 class Queries {
  public:
   Queries(Trial& trial, std::size_t part)
-      : trial_(trial), part_(part), view_(trial.parts[part]), mesh_(local(trial, trial.answer.parts[part])) {}
+      : trial_(trial), part_(part), view_(trial.parts[part]), mesh_(local_mesh(trial, trial.answer.parts[part])) {}
 
   void ask() {
     std::vector<Vec3> points;
@@ -34,12 +34,6 @@ class Queries {
   }
 
  private:
-  static vantage::Mesh local(const Trial& trial, const vantage::Volume& volume) {
-    vantage::Mesh mesh = volume.mesh;
-    for (Vec3& v : mesh.vertices) v -= trial.blockers.origin;
-    return mesh;
-  }
-
   /// Beside the end of a line of sight mostly, else anywhere.
   Vec3 draw() {
     Random& random = trial_.random;
@@ -56,7 +50,8 @@ class Queries {
     const SeenTarget& target = view_.exact.target();
     const Vec3 from_centre = p - view_.centre;
     const double away = from_centre.norm();
-    const Vec3 nearer = p - kDepth * from_centre, farther = p + kDepth * from_centre;
+    const double step = kDepth + trial_.rounding() / away;
+    const Vec3 nearer = p - step * from_centre, farther = p + step * from_centre;
     const double height = target.all_sides ? away : target.height(p);
     if (std::abs(height) < 1e-5 * away) return;
     const double place_margin = std::abs(answer.margin_m) / away;
@@ -105,7 +100,8 @@ class Queries {
     const double asked = away + answer.margin_m, reached = mesh_.last_exit(view_.centre, direction);
     const double in_range = range_along(target, view_.centre, direction, trial_.c.range - trial_.c.tolerance);
     const double gap = (std::min(asked, in_range) - reached) / std::max(asked, reached);
-    if (gap > 2 * kDepth || reached > asked * (1 + kDepth))
+    const double step = kDepth + trial_.rounding() / away;
+    if (gap > 2 * step || reached > asked * (1 + step))
       trial_.result.add({Class::query_mesh, std::max(gap, (reached - asked) / reached), trial_.to_scene(p),
                          gap > 0 ? "the mesh ends sooner" : "the mesh goes on"});
   }

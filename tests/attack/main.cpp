@@ -40,7 +40,7 @@ constexpr const char* kUsage =
   --minimised N  how many of each class are made small and written (3)
   --told         also print and write what is told but not failed
   --jobs N       processes at once (2)
-  --seconds N    of one scene; longer is a failure (60)
+  --seconds N    processor time of one scene; more is a failure (60)
   --self-test    check that the judge objects to what is wrong
 exit code: 0 nothing is wrong, 1 something is, 2 the options are
 )";
@@ -136,7 +136,9 @@ class Attack {
   }
 
   void write(std::size_t index, const Case& c, const Finding& f) {
-    const Case small = minimise(c, f.which, judge_options(index), options_.seconds, 300);
+    const bool slow = f.which == Class::hang;
+    const Case small =
+        minimise(c, f.which, judge_options(index), slow ? options_.seconds / 4 : options_.seconds, slow ? 25 : 300);
     std::string folder = name_of(f.which);
     std::replace(folder.begin(), folder.end(), ' ', '-');
     const std::filesystem::path place = options_.out / (folder + "-" + std::to_string(options_.seed) + "-" + std::to_string(index));
@@ -157,8 +159,9 @@ class Attack {
 int judge_mission(const Options& options) {
   const Case c = read_case(options.mission);
   const Judgement judgement = judge_isolated(c, judge_options(3), options.seconds);
-  std::printf("%s: %zu viewpoints inside, %zu facets, %zu proved, %zu not; lift %g m; lost %.4f %%\n",
-              judgement.status.c_str(), judgement.viewpoints, judgement.facets, judgement.proved, judgement.unproved,
+  std::printf("%s: %zu viewpoints inside, %zu facets, %zu proved, %zu of a smaller target, %zu not; lift %g m; lost %.4f %%\n",
+              judgement.status.c_str(), judgement.viewpoints, judgement.facets, judgement.proved,
+              judgement.proved_smaller, judgement.unproved,
               judgement.lift, 100 * judgement.lost);
   for (const Finding& f : judgement.findings) print(f, 0, c);
   return judgement.wrong() ? 1 : 0;

@@ -1,6 +1,8 @@
 #include "minimise.h"
 
 #include <algorithm>
+#include <array>
+#include <map>
 
 #include "findings_text.h"
 #include "isolated.h"
@@ -18,6 +20,7 @@ class Minimiser {
     drop_triangles();
     for (vantage::Target& part : best_.parts) drop_corners(static_cast<std::size_t>(&part - best_.parts.data()));
     drop_triangles();
+    drop_unused();
     return best_;
   }
 
@@ -63,6 +66,28 @@ class Minimiser {
       Case c = best_;
       c.parts[part].vertices.erase(c.parts[part].vertices.begin() + static_cast<std::ptrdiff_t>(at));
       if (!keep_if_failing(c)) ++at;
+    }
+  }
+
+  /// Vertices and objects that no triangle uses.
+  void drop_unused() {
+    const vantage::Scene old = best_.scene;
+    vantage::Scene& scene = best_.scene;
+    scene.mesh.vertices.clear();
+    scene.objects.clear();
+    std::map<std::uint32_t, std::uint32_t> objects;
+    std::map<std::array<double, 3>, std::uint32_t> vertices;
+    for (std::size_t i = 0; i < scene.mesh.triangles.size(); ++i) {
+      const auto object = objects.try_emplace(old.object_of[i], static_cast<std::uint32_t>(objects.size()));
+      if (object.second) scene.objects.push_back(old.objects[old.object_of[i]]);
+      scene.object_of[i] = object.first->second;
+      for (std::uint32_t& corner : scene.mesh.triangles[i]) {
+        const vantage::Vec3& p = old.mesh.vertices[corner];
+        const auto vertex =
+            vertices.try_emplace({p.x(), p.y(), p.z()}, static_cast<std::uint32_t>(scene.mesh.vertices.size()));
+        if (vertex.second) scene.mesh.vertices.push_back(p);
+        corner = vertex.first->second;
+      }
     }
   }
 

@@ -69,6 +69,7 @@ View::View(const Blockers& blockers, SeenTarget target) : blockers_(blockers), t
                                       [&](const Vec3& p) { return target_.height(p) < -noise; });
     below_.push_back(is_below);
   }
+  last_plane_.resize(blockers.triangles.size());
   supports_of_.setConstant(NAN);
 }
 
@@ -131,7 +132,7 @@ bool View::facet_clear(std::size_t i, const Corners& facet) const {
     return interior_misses(std::array{facet[0], facet[1], facet[2], target_.corners[0]}, blocker.corners);
   std::vector<Vec3> points(facet.begin(), facet.end());
   points.insert(points.end(), target_.corners.begin(), target_.corners.end());
-  if (target_.fan() > 1 && hull_of_two_misses(points, blocker.corners)) return true;
+  if (target_.fan() > 1 && hull_of_two_misses(points, blocker.corners, last_plane_[i])) return true;
   for (std::size_t k = 0; k < target_.fan(); ++k) {
     const Corners t = target_.fan_triangle(k);
     if (!interior_misses(std::array{facet[0], facet[1], facet[2], t[0], t[1], t[2]}, blocker.corners)) return false;

@@ -72,6 +72,7 @@ class View {
   std::vector<bool> below_;  ///< triangles that lie behind the target's plane, well away from it
   mutable Vec3 supports_of_;
   mutable std::vector<Support> supports_;
+  mutable std::vector<SeparatingPlane> last_plane_;  ///< of each triangle: what kept it apart from the last facet
 };
 
 }  // namespace attack

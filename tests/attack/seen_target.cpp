@@ -31,8 +31,6 @@ SeenTarget seen_point(const vantage::Target& target, double lift, const Vec3& or
   return seen;
 }
 
-double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
-
 /// Cuts away what lies farther than `distance` along the unit vector `outward`.
 std::vector<Vector2d> cut(const std::vector<Vector2d>& polygon, const Vector2d& outward, double distance) {
   std::vector<Vector2d> kept;

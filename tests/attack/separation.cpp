@@ -32,10 +32,10 @@ class Sides {
 // points at 0, and separates nothing.
 bool separates(const Vec3& a, const Vec3& b, const Vec3& c, std::span<const Vec3> hull, const Corners& triangle) {
   const Sides plane(a, b, c);
-  const int of_hull = plane.side(hull);
-  if (of_hull == 2 || of_hull == 0) return false;
   const int of_triangle = plane.side(triangle);
-  return of_triangle != 2 && of_triangle != of_hull;
+  if (of_triangle == 2) return false;
+  const int of_hull = plane.side(hull);
+  return of_hull != 2 && of_hull != 0 && of_hull != of_triangle;
 }
 
 bool boxes_apart(std::span<const Vec3> hull, const Corners& triangle) {
@@ -76,22 +76,32 @@ bool interior_misses(std::span<const Vec3> points, const Corners& triangle) {
   return flat(points);
 }
 
-bool hull_of_two_misses(std::span<const Vec3> points, const Corners& triangle) {
-  const std::size_t n = points.size();
-  const auto edge_separates = [&](const Vec3& a, const Vec3& b) {
-    return std::any_of(triangle.begin(), triangle.end(),
-                       [&](const Vec3& corner) { return separates(a, b, corner, points, triangle); });
+bool hull_of_two_misses(std::span<const Vec3> points, const Corners& triangle, SeparatingPlane& last) {
+  const auto works = [&](const SeparatingPlane& p) {
+    if (p.by_side) return separates(triangle[p.first], triangle[p.second], points[p.third], points, triangle);
+    return separates(points[p.first], points[p.second], triangle[p.third], points, triangle);
   };
-  for (std::size_t i = 0; i < 3; ++i)
-    if (edge_separates(points[i], points[(i + 1) % 3])) return true;
-  for (std::size_t k = 3; k < n; ++k)
-    if (edge_separates(points[k], points[k + 1 < n ? k + 1 : 3])) return true;
-  for (const Vec3& p : points)
+  const int n = static_cast<int>(points.size());
+  if (last.first >= 0 && std::max({last.first, last.second, last.third}) < n && works(last)) return true;
+  const auto try_plane = [&](int first, int second, int third, bool by_side) {
+    const SeparatingPlane plane{first, second, third, by_side};
+    if (!works(plane)) return false;
+    last = plane;
+    return true;
+  };
+  const auto try_edge = [&](int i, int j) {
+    return try_plane(i, j, 0, false) || try_plane(i, j, 1, false) || try_plane(i, j, 2, false);
+  };
+  for (int i = 0; i < 3; ++i)
+    if (try_edge(i, (i + 1) % 3)) return true;
+  for (int k = 3; k < n; ++k)
+    if (try_edge(k, k + 1 < n ? k + 1 : 3)) return true;
+  for (int i = 0; i < n; ++i)
     for (int k = 0; k < 3; ++k)
-      if (separates(triangle[k], triangle[(k + 1) % 3], p, points, triangle)) return true;
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t k = 3; k < n; ++k)
-      if (edge_separates(points[i], points[k])) return true;
+      if (try_plane(k, (k + 1) % 3, i, true)) return true;
+  for (int i = 0; i < 3; ++i)
+    for (int k = 3; k < n; ++k)
+      if (try_edge(i, k)) return true;
   return false;
 }
 

@@ -16,9 +16,16 @@ namespace attack {
 /// plane is taken by the signs of all corners, so nothing is computed that could be rounded.
 bool interior_misses(std::span<const Vec3> points, const Corners& triangle);
 
+/// A plane through two points of the hull and a corner of the triangle, or the other way round, by their numbers.
+struct SeparatingPlane {
+  int first = -1, second = 0;  ///< points; of the triangle where `by_side`
+  int third = 0;
+  bool by_side = false;
+};
+
 /// The same for a facet (the first three points) and a polygon in order (the others) by the planes of their sides alone:
-/// true is certain, false is not.
-bool hull_of_two_misses(std::span<const Vec3> points, const Corners& triangle);
+/// true is certain, false is not. `last`: the plane that was found, and which one to try first.
+bool hull_of_two_misses(std::span<const Vec3> points, const Corners& triangle, SeparatingPlane& last);
 
 /// Whether the open segment from `from` to `to` passes from one side of the triangle to the other through its interior.
 /// Exact.

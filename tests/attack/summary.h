@@ -20,7 +20,7 @@ class Summary {
  private:
   struct Row {
     std::size_t scenes = 0, computed = 0, empty = 0, refused = 0, wrong = 0, touching = 0, query = 0;
-    std::size_t viewpoints = 0, proved = 0, unproved = 0, measured = 0, losing = 0;
+    std::size_t viewpoints = 0, proved = 0, smaller = 0, unproved = 0, measured = 0, losing = 0;
     double lost = 0, most_lost = 0;
 
     void add(const Judgement& judgement);

@@ -30,6 +30,8 @@ class Trial {
 
   /// The engine's separation, and what storing coordinates of this size rounds: metres.
   double margin() const { return margin_; }
+  /// By how much storing a coordinate of this size may move a vertex of the mesh, twice: metres.
+  double rounding() const { return 4 * 2.3e-16 * blockers.largest; }
   /// Heights over the target's plane below this are rounding of the oracle's own frame.
   double noise() const { return 1e-14 * std::max(blockers.largest, 1e-6); }
   Vec3 to_scene(const Vec3& local) const { return local + blockers.origin; }
@@ -46,6 +48,9 @@ class Trial {
  private:
   double margin_;
 };
+
+/// The volume's mesh about the oracle's origin; an empty one where an index is out of range.
+vantage::Mesh local_mesh(const Trial& trial, const vantage::Volume& volume);
 
 /// Mesh, causes, and whether anything is claimed wrongly.
 void judge_claims(Trial& trial);
