@@ -78,7 +78,8 @@ class Queries {
     for (std::size_t i = 0; i < trial_.blockers.triangles.size(); ++i) {
       const bool hides = view_.exact.hides(i, farther);
       if (hides) perhaps.insert(trial_.object_of(i));
-      if (hides && !trial_.blockers.triangles[i].thin && view_.exact.hides(i, nearer) && view_.inner.hides(i, nearer))
+      const Blocker& blocker = trial_.blockers.triangles[i];
+      if (hides && !blocker.thin && !blocker.repeat && view_.exact.hides(i, nearer) && view_.inner.hides(i, nearer))
         surely.insert(trial_.object_of(i));
     }
     const std::set<std::string> named(answer.blocked_by.begin(), answer.blocked_by.end());

@@ -138,7 +138,7 @@ class Attack {
   void write(std::size_t index, const Case& c, const Finding& f) {
     const bool slow = f.which == Class::hang;
     const Case small =
-        minimise(c, f.which, judge_options(index), slow ? options_.seconds / 4 : options_.seconds, slow ? 25 : 300);
+        minimise(c, f, judge_options(index), slow ? options_.seconds / 4 : options_.seconds, slow ? 25 : 300);
     std::string folder = name_of(f.which);
     std::replace(folder.begin(), folder.end(), ' ', '-');
     const std::filesystem::path place = options_.out / (folder + "-" + std::to_string(options_.seed) + "-" + std::to_string(index));

@@ -12,8 +12,8 @@ namespace {
 
 class Minimiser {
  public:
-  Minimiser(Case c, Class which, const JudgeOptions& options, unsigned seconds, int tries)
-      : best_(std::move(c)), which_(which), options_(options), seconds_(seconds), tries_(tries) {}
+  Minimiser(Case c, const Finding& finding, const JudgeOptions& options, unsigned seconds, int tries)
+      : best_(std::move(c)), which_(finding.which), least_(finding.share / 3), options_(options), seconds_(seconds), tries_(tries) {}
 
   Case run() {
     drop_extras();
@@ -26,7 +26,10 @@ class Minimiser {
 
  private:
   bool keep_if_failing(const Case& smaller) {
-    if (tries_-- <= 0 || !judge_isolated(smaller, options_, seconds_).find(which_)) return false;
+    if (tries_-- <= 0) return false;
+    const Judgement judgement = judge_isolated(smaller, options_, seconds_);
+    const Finding* finding = judgement.find(which_);
+    if (finding == nullptr || finding->share < least_) return false;
     best_ = smaller;
     return true;
   }
@@ -93,6 +96,7 @@ class Minimiser {
 
   Case best_;
   Class which_;
+  double least_;
   JudgeOptions options_;
   unsigned seconds_;
   int tries_;
@@ -109,8 +113,8 @@ Judgement judge_isolated(const Case& c, const JudgeOptions& options, unsigned se
   return judgement;
 }
 
-Case minimise(const Case& c, Class which, const JudgeOptions& options, unsigned seconds, int tries) {
-  return Minimiser(c, which, options, seconds, tries).run();
+Case minimise(const Case& c, const Finding& finding, const JudgeOptions& options, unsigned seconds, int tries) {
+  return Minimiser(c, finding, options, seconds, tries).run();
 }
 
 }  // namespace attack

@@ -10,8 +10,8 @@ namespace attack {
 /// Judges a case in a process of its own.
 Judgement judge_isolated(const Case& c, const JudgeOptions& options, unsigned seconds);
 
-/// Takes away triangles, limits, parts and corners of the target while the judge still finds `which`. At most `tries`
-/// judgements.
-Case minimise(const Case& c, Class which, const JudgeOptions& options, unsigned seconds, int tries);
+/// Takes away triangles, limits, parts and corners of the target while the judge still finds it, a third as deep at
+/// least. At most `tries` judgements.
+Case minimise(const Case& c, const Finding& finding, const JudgeOptions& options, unsigned seconds, int tries);
 
 }  // namespace attack

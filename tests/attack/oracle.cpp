@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace attack {
 namespace {
@@ -46,6 +47,7 @@ Blockers::Blockers(const vantage::Scene& scene, const std::vector<vantage::Targe
     if (exact) origin[axis] = near;
   }
   for (const Vec3& p : stored) largest = std::max(largest, p.cwiseAbs().maxCoeff());
+  std::set<std::array<std::array<double, 3>, 3>> seen;
   for (std::size_t i = 0; i < scene.mesh.triangles.size(); ++i) {
     Blocker blocker;
     for (int k = 0; k < 3; ++k) {
@@ -55,6 +57,10 @@ Blockers::Blockers(const vantage::Scene& scene, const std::vector<vantage::Targe
     if (collinear(blocker.corners[0], blocker.corners[1], blocker.corners[2])) continue;
     blocker.object = scene.object_of.empty() ? 0 : scene.object_of[i];
     blocker.thin = least_height(blocker.corners) <= kThin;
+    std::array<std::array<double, 3>, 3> places;
+    for (int k = 0; k < 3; ++k) places[k] = {blocker.corners[k].x(), blocker.corners[k].y(), blocker.corners[k].z()};
+    std::sort(places.begin(), places.end());
+    blocker.repeat = !seen.insert(places).second;
     triangles.push_back(blocker);
   }
 }

@@ -16,7 +16,8 @@ struct Blocker {
   Corners corners;
   vantage::Box box;
   std::uint32_t object = 0;
-  bool thin = false;  ///< not higher than kThin over its longest side
+  bool thin = false;    ///< not higher than kThin over its longest side
+  bool repeat = false;  ///< the same three places as an earlier triangle
 };
 
 /// The height up to which the engine takes a triangle for nothing, metres.
