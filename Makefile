@@ -56,6 +56,12 @@ fuzz: prepare tools  ## each fuzz target for a minute (SECONDS_EACH=60)
 	@$(call compile,fuzz,all)
 	scripts/fuzz.sh $(or $(SECONDS_EACH),60)
 
+.PHONY: nightly
+nightly: prepare  ## what takes too long for every change: 2,000 degenerate scenes (SEED=N; else by the date)
+	@$(call compile,release,vantage_attack)
+	build/bin/vantage_attack --scenes $(or $(SCENES),2000) --seed $(or $(SEED),$(shell date +%Y%m%d)) \
+	  --jobs $(JOBS) --out build/attack
+
 .PHONY: install
 install: build  ## into PREFIX (/usr/local)
 	cmake --install build --prefix "$(PREFIX)"

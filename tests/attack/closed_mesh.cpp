@@ -22,8 +22,8 @@ double distance_to_triangle(const Vec3& p, const Corners& t) {
   bool over = length > 0;
   for (int k = 0; k < 3 && over; ++k) over = normal.dot((t[(k + 1) % 3] - t[k]).cross(p - t[k])) >= 0;
   if (over) return std::abs(normal.dot(p - t[0])) / length;
-  return std::min({distance_to_segment(p, t[0], t[1]), distance_to_segment(p, t[1], t[2]),
-                   distance_to_segment(p, t[2], t[0])});
+  return std::min(
+      {distance_to_segment(p, t[0], t[1]), distance_to_segment(p, t[1], t[2]), distance_to_segment(p, t[2], t[0])});
 }
 
 }  // namespace

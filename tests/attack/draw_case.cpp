@@ -22,14 +22,18 @@ void SceneDrawing::ground() {
   const double w = random_.uniform(3, 12);
   const double low = random_.chance(0.5) ? 0 : -std::abs(tiny()) - (random_.chance(0.5) ? random_.uniform(0, 0.5) : 0);
   switch (random_.integer(0, 3)) {
-    case 0: polygon({{-w, -w, low}, {w, -w, low}, {w, w, low}, {-w, w, low}}); break;
+    case 0:
+      polygon({{-w, -w, low}, {w, -w, low}, {w, w, low}, {-w, w, low}});
+      break;
     case 1:
       for (int i = 0; i < static_cast<int>(outline_.size()); ++i) {
         const Vec3 a = corner(i), b = corner(i + 1), far_a = (w * a).eval(), far_b = (w * b).eval();
         polygon({a, far_a, far_b, b});
       }
       break;
-    case 2: polygon(outline_); break;
+    case 2:
+      polygon(outline_);
+      break;
     default: {
       const int side = random_.integer(0, static_cast<int>(outline_.size()) - 1);
       const Vec3 out = outward(side), along(-out.y(), out.x(), 0), foot = corner(side);
@@ -51,9 +55,14 @@ void SceneDrawing::houses() {
       size = ((size / grid).array().round() * grid).max(grid);
     }
     switch (random_.integer(0, 4)) {
-      case 0: low = Vec3(last_high.x() + tiny(), last_low.y(), last_low.z()); break;  // wall to wall
-      case 1: low = Vec3(last_low.x(), last_low.y(), last_high.z()); break;           // on the roof
-      default: break;
+      case 0:
+        low = Vec3(last_high.x() + tiny(), last_low.y(), last_low.z());
+        break;  // wall to wall
+      case 1:
+        low = Vec3(last_low.x(), last_low.y(), last_high.z());
+        break;  // on the roof
+      default:
+        break;
     }
     const Vec3 high = low + size;
     last_low = low, last_high = high;
@@ -82,7 +91,8 @@ void SceneDrawing::room() {
   object("room");
   double reach = 0;
   for (const Vec3& p : outline_) reach = std::max(reach, p.norm());
-  const double x = reach * random_.uniform(1.05, 3), y = reach * random_.uniform(1.05, 3), high = random_.uniform(0.3, 3);
+  const double x = reach * random_.uniform(1.05, 3), y = reach * random_.uniform(1.05, 3),
+               high = random_.uniform(0.3, 3);
   const double low = random_.pick({0.0, -0.5, -1.0});
   const int door = random_.integer(-1, 3);
   const Vec3 p[4] = {{-x, -y, low}, {x, -y, low}, {x, y, low}, {-x, y, low}};
@@ -111,23 +121,16 @@ void SceneDrawing::room() {
 }
 
 std::string SceneDrawing::add_things() {
-  static constexpr Named kKinds[] = {{"walls", &SceneDrawing::walls},
-                                     {"walls", &SceneDrawing::walls},
-                                     {"parapets", &SceneDrawing::parapets},
-                                     {"planes", &SceneDrawing::planes_through_edges},
-                                     {"touching", &SceneDrawing::touching},
-                                     {"low slopes", &SceneDrawing::low_slopes},
-                                     {"ground", &SceneDrawing::ground},
-                                     {"canopy", &SceneDrawing::canopy},
-                                     {"fan", &SceneDrawing::fan},
-                                     {"poles", &SceneDrawing::poles},
-                                     {"slivers", &SceneDrawing::slivers},
-                                     {"soup", &SceneDrawing::soup},
-                                     {"houses", &SceneDrawing::houses},
-                                     {"roof", &SceneDrawing::roof},
-                                     {"room", &SceneDrawing::room},
-                                     {"rims", &SceneDrawing::rims},
-                                     {"copies", &SceneDrawing::copies}};
+  static constexpr Named kKinds[] = {
+      {"walls", &SceneDrawing::walls},       {"walls", &SceneDrawing::walls},
+      {"parapets", &SceneDrawing::parapets}, {"planes", &SceneDrawing::planes_through_edges},
+      {"touching", &SceneDrawing::touching}, {"low slopes", &SceneDrawing::low_slopes},
+      {"ground", &SceneDrawing::ground},     {"canopy", &SceneDrawing::canopy},
+      {"fan", &SceneDrawing::fan},           {"poles", &SceneDrawing::poles},
+      {"slivers", &SceneDrawing::slivers},   {"soup", &SceneDrawing::soup},
+      {"houses", &SceneDrawing::houses},     {"roof", &SceneDrawing::roof},
+      {"room", &SceneDrawing::room},         {"rims", &SceneDrawing::rims},
+      {"copies", &SceneDrawing::copies}};
   const Named& kind = kKinds[random_.integer(0, static_cast<int>(std::size(kKinds)) - 1)];
   lets_pierce_ = random_.chance(0.02);
   (this->*kind.draw)();
@@ -158,7 +161,8 @@ Pose draw_pose(Random& random, double scale, std::string& kind) {
   Pose pose;
   pose.scale = scale;
   switch (random.integer(0, 5)) {
-    case 0: break;
+    case 0:
+      break;
     case 1:  // on a wall, along the axes
       pose.rotation << 0, 0, 1, 1, 0, 0, 0, 1, 0;
       kind += ", upright";
@@ -172,7 +176,8 @@ Pose draw_pose(Random& random, double scale, std::string& kind) {
       pose.rotation = random.rotation();
       kind += ", tilted";
       break;
-    default: break;
+    default:
+      break;
   }
   if (random.chance(0.4)) {
     pose.shift = Vec3(5e5, 5e6, 100) + (random.chance(0.5) ? Vec3::Zero() : random.point(-100, 100));
@@ -221,7 +226,8 @@ void draw_target(Random& random, const Pose& pose, const std::vector<Vec3>& outl
   if (pose.rotation.isIdentity() && random.chance(0.5)) target.front.reset();
   if (random.chance(0.05)) target.front = pose.rotation * Vec3(0, 0, -1), c.kind += ", from below";
   if (random.chance(0.3)) std::reverse(target.vertices.begin(), target.vertices.end());
-  if (random.chance(0.15)) target.offset_m = random.pick({1e-9, 1e-6, 1e-3 * pose.scale, 0.05 * pose.scale, 0.3 * pose.scale});
+  if (random.chance(0.15))
+    target.offset_m = random.pick({1e-9, 1e-6, 1e-3 * pose.scale, 0.05 * pose.scale, 0.3 * pose.scale});
   if (random.chance(0.06)) {
     target.vertices = {pose(random.chance(0.3) ? Vec3(0, 0, random.uniform(0, 0.5)) : outline[0])};
     c.kind += ", point";

@@ -65,23 +65,34 @@ Outline with_flat_corners(Random& random, double scale, const Outline& outline) 
 Outline draw_shape(Random& random, double scale, std::string& kind) {
   const Outline square = rectangle(0.5, 0.5);
   switch (random.integer(0, 9)) {
-    case 0: kind = "triangle"; return on_circle(random, 3, 0.3);
-    case 1: kind = "square"; return square;
-    case 2: kind = "polygon"; return on_circle(random, random.integer(4, 12), 0.3);
-    case 3: kind = "many corners"; return on_circle(random, random.integer(20, 64), 0.4);
+    case 0:
+      kind = "triangle";
+      return on_circle(random, 3, 0.3);
+    case 1:
+      kind = "square";
+      return square;
+    case 2:
+      kind = "polygon";
+      return on_circle(random, random.integer(4, 12), 0.3);
+    case 3:
+      kind = "many corners";
+      return on_circle(random, random.integer(20, 64), 0.4);
     case 4:
       kind = "chamfer";
-      return rounded(random, square, random.magnitude(1e-9, 0.4), 1, 0.7);
+      return rounded(random, square, random.chance(0.5) ? random.magnitude(5e-10, 1e-8) : random.magnitude(1e-8, 0.4),
+                     1, 0.7);
     case 5: {
       kind = "fillet";
       const int corners = random.integer(1, 4);
-      return rounded(random, corners == 3 ? on_circle(random, 3, 0.2) : square, random.magnitude(1e-7, 0.4),
-                     60 / 4 / corners + 1, 1.0);
+      return rounded(random, corners == 3 ? on_circle(random, 3, 0.2) : square,
+                     random.magnitude(random.chance(0.3) ? 1e-7 : 1e-4, 0.4), 60 / 4 / corners + 1, 1.0);
     }
     case 6:
       kind = "flat corners";
       return with_flat_corners(random, scale, random.chance(0.5) ? square : on_circle(random, 4, 0.3));
-    case 7: kind = "needle"; return rectangle(0.5, random.magnitude(1e-6, 1e-2));
+    case 7:
+      kind = "needle";
+      return rectangle(0.5, random.magnitude(1e-6, 1e-2));
     case 8: {
       kind = "needle triangle";
       const double height = random.magnitude(1e-6, 1e-1);
@@ -89,7 +100,8 @@ Outline draw_shape(Random& random, double scale, std::string& kind) {
     }
     default:
       kind = "half disc";
-      return rounded(random, rectangle(0.5, 0.25), 0.25, random.integer(2, 25), 0.5);
+      return rounded(random, rectangle(0.5, 0.25), random.pick({0.2, 0.2499, 0.2499999999}), random.integer(2, 25),
+                     0.5);
   }
 }
 

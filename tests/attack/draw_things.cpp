@@ -134,10 +134,18 @@ void SceneDrawing::touching() {
       return Vec3(beside() + random_.uniform(0, 1) * out + Vec3(0, 0, random_.magnitude(1e-4, 3)));
     };
     switch (random_.integer(0, 3)) {
-      case 0: triangle(beside(), high(), high()); break;
-      case 1: triangle(beside(), beside(), high()); break;
-      case 2: triangle(corner(side), corner(side + 1), high()); break;
-      default: triangle(corner(side), beside(), beside()); break;
+      case 0:
+        triangle(beside(), high(), high());
+        break;
+      case 1:
+        triangle(beside(), beside(), high());
+        break;
+      case 2:
+        triangle(corner(side), corner(side + 1), high());
+        break;
+      default:
+        triangle(corner(side), beside(), beside());
+        break;
     }
   }
 }
@@ -162,7 +170,8 @@ void SceneDrawing::canopy() {
   const double high = random_.chance(0.8) ? random_.uniform(0.2, 4) : random_.magnitude(3e-3, 0.2);
   const double grow = random_.pick({1.0, 1.0, 0.5, 2.0, 1 + 1e-9});
   const Vec3 shift = random_.chance(0.5) ? Vec3::Zero() : Vec3(random_.uniform(-2, 2), random_.uniform(-2, 2), 0);
-  const Vec3 tilt = random_.chance(0.5) ? Vec3::Zero() : Vec3(random_.uniform(-0.3, 0.3), random_.uniform(-0.3, 0.3), 0);
+  const Vec3 tilt =
+      random_.chance(0.5) ? Vec3::Zero() : Vec3(random_.uniform(-0.3, 0.3), random_.uniform(-0.3, 0.3), 0);
   std::vector<Vec3> corners;
   for (const Vec3& p : outline_) {
     Vec3 q = grow * p + shift;
@@ -180,9 +189,10 @@ void SceneDrawing::canopy() {
 // Many triangles that share a point or a line.
 void SceneDrawing::fan() {
   object("fan");
-  const int pages = random_.integer(4, 40);
+  const int pages = random_.chance(0.97) ? random_.integer(4, 40) : random_.integer(200, 1000);
   const int i = random_.integer(0, static_cast<int>(outline_.size()) - 1);
-  const Vec3 out = (outward(i) + outward(i - 1)).norm() > 1e-6 ? Vec3((outward(i) + outward(i - 1)).normalized()) : outward(i);
+  const Vec3 out =
+      (outward(i) + outward(i - 1)).norm() > 1e-6 ? Vec3((outward(i) + outward(i - 1)).normalized()) : outward(i);
   const Vec3 away = random_.chance(0.5) ? Vec3::Zero() : Vec3(random_.uniform(0, 2) * out);
   const Vec3 foot = corner(i) + away;
   Vec3 axis = Vec3::UnitZ();
@@ -264,7 +274,8 @@ void SceneDrawing::rims() {
     const double rise = std::abs(tiny());
     for (int k = 1; k < points; ++k) {
       const double t = static_cast<double>(k) / points;
-      p.push_back((1 - t) * p[static_cast<std::size_t>(points) + 2] + t * (a + up) + 4 * t * (1 - t) * rise * Vec3::UnitZ());
+      p.push_back((1 - t) * p[static_cast<std::size_t>(points) + 2] + t * (a + up) +
+                  4 * t * (1 - t) * rise * Vec3::UnitZ());
     }
   }
   p.push_back(a + up);
@@ -282,10 +293,18 @@ void SceneDrawing::copies() {
     const Vec3 a = scene_.mesh.vertices[t[0]], b = scene_.mesh.vertices[t[1]], c = scene_.mesh.vertices[t[2]];
     const double u = random_.uniform(0, 1), v = random_.uniform(0, 1), off = tiny();
     switch (random_.integer(0, 3)) {
-      case 0: triangle(b, a, c); break;
-      case 1: triangle(a, a + u * (b - a), a + v * (c - a)); break;
-      case 2: triangle(a + off * Vec3::UnitX(), b + off * Vec3::UnitX(), c + off * Vec3::UnitX()); break;
-      default: triangle(a + u * (b - a), b + u * (c - b), c + v * (a - c)); break;
+      case 0:
+        triangle(b, a, c);
+        break;
+      case 1:
+        triangle(a, a + u * (b - a), a + v * (c - a));
+        break;
+      case 2:
+        triangle(a + off * Vec3::UnitX(), b + off * Vec3::UnitX(), c + off * Vec3::UnitX());
+        break;
+      default:
+        triangle(a + u * (b - a), b + u * (c - b), c + v * (a - c));
+        break;
     }
   }
 }

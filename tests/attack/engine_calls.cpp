@@ -35,7 +35,11 @@ std::string number(double value) {
   return text;
 }
 
-std::string list(const Vec3& p) { return "[" + number(p.x()) + ", " + number(p.y()) + ", " + number(p.z()) + "]"; }
+std::string list(const Vec3& p) {
+  std::string text = "[";
+  for (int axis = 0; axis < 3; ++axis) text.append(axis > 0 ? ", " : "").append(number(p[axis]));
+  return text.append("]");
+}
 
 void write_box(std::ostream& out, const Box& box) {
   out << "    - {min: " << list(box.min) << ", max: " << list(box.max) << "}\n";

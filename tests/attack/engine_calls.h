@@ -18,8 +18,8 @@ struct Answer {
   vantage::Volume volume;              ///< of all of it, cut to the limits
 
   bool thrown = false;
-  bool defect = false;      ///< an exception that may not be: Error(internal), or none of ours
-  std::string refusal;      ///< "pierced", "under the ground", "target", "navigation", "other"
+  bool defect = false;  ///< an exception that may not be: Error(internal), or none of ours
+  std::string refusal;  ///< "pierced", "under the ground", "target", "navigation", "other"
   std::string message;
 };
 

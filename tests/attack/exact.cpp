@@ -6,59 +6,6 @@
 namespace attack {
 namespace {
 
-/// A number as a sum of doubles that do not overlap, the smallest first. Never rounded.
-class Expansion {
- public:
-  Expansion() = default;
-  explicit Expansion(double value) {
-    if (value != 0) parts_[size_++] = value;
-  }
-
-  static Expansion difference(double a, double b) {
-    const double sum = a - b, back = a - sum;
-    const double tail = (a - (sum + back)) + (back - b);
-    Expansion result(tail);
-    if (sum != 0) result.parts_[result.size_++] = sum;
-    return result;
-  }
-
-  Expansion operator-() const {
-    Expansion result = *this;
-    for (int i = 0; i < size_; ++i) result.parts_[i] = -parts_[i];
-    return result;
-  }
-  Expansion operator+(const Expansion& other) const;
-  Expansion operator-(const Expansion& other) const { return *this + -other; }
-  Expansion operator*(const Expansion& other) const {
-    Expansion result;
-    for (int i = 0; i < other.size_; ++i) result = result + scaled(other.parts_[i]);
-    return result;
-  }
-
-  int sign() const { return size_ == 0 ? 0 : (parts_[size_ - 1] > 0 ? 1 : -1); }
-
- private:
-  static constexpr int kMostParts = 224;  // three products of three differences: 3 * 64
-
-  Expansion scaled(double factor) const;
-  void append(double part) {
-    if (part != 0) parts_[size_++] = part;
-  }
-
-  int size_ = 0;
-  std::array<double, kMostParts> parts_;  // NOLINT: the first size_ are set
-
- public:
-  Expansion(const Expansion& other) : size_(other.size_) {
-    for (int i = 0; i < size_; ++i) parts_[i] = other.parts_[i];
-  }
-  Expansion& operator=(const Expansion& other) {
-    size_ = other.size_;
-    for (int i = 0; i < size_; ++i) parts_[i] = other.parts_[i];
-    return *this;
-  }
-};
-
 struct Pair {
   double high, low;
 };
@@ -68,52 +15,98 @@ Pair two_sum(double a, double b) {
   return {sum, (a - virtual_a) + (b - virtual_b)};
 }
 
+/// Where |a| >= |b|.
+Pair fast_two_sum(double a, double b) {
+  const double sum = a + b;
+  return {sum, b - (sum - a)};
+}
+
 Pair two_product(double a, double b) {
   const double product = a * b;
   return {product, std::fma(a, b, -product)};
 }
 
-// Every part of the smaller number in turn is carried through the other: slower than merging, and right for all inputs.
-Expansion Expansion::operator+(const Expansion& other) const {
-  if (size_ < other.size_) return other + *this;
-  Expansion result = *this;
-  for (int i = 0; i < other.size_; ++i) {
-    double carry = other.parts_[i];
-    Expansion next;
-    for (int k = 0; k < result.size_; ++k) {
-      const Pair sum = two_sum(carry, result.parts_[k]);
-      next.append(sum.low);
-      carry = sum.high;
-    }
-    next.append(carry);
-    result = next;
+/// A number as a sum of at most `kMost` doubles that do not overlap, the smallest first. Never rounded.
+template <int kMost>
+struct Expansion {
+  int size = 0;
+  double parts[kMost];  // the first `size` are set
+
+  Expansion() {}  // NOLINT: the array stays as it is
+  void append(double part) {
+    if (part != 0) parts[size++] = part;
   }
+  int sign() const { return size == 0 ? 0 : (parts[size - 1] > 0 ? 1 : -1); }
+};
+
+Expansion<2> difference(double a, double b) {
+  const Pair sum = two_sum(a, -b);
+  Expansion<2> result;
+  result.append(sum.low);
+  result.append(sum.high);
   return result;
 }
 
-Expansion Expansion::scaled(double factor) const {
-  Expansion result;
-  for (int i = 0; i < size_; ++i) {
-    const Pair product = two_product(parts_[i], factor);
-    Expansion term(product.low);
-    term.append(product.high);
-    result = result + term;
+/// Shewchuk's fast expansion sum: the parts of both by size, then carried upwards. `sign`: of the second.
+template <int m, int n>
+Expansion<m + n> sum(const Expansion<m>& a, const Expansion<n>& b, double sign = 1) {
+  Expansion<m + n> result;
+  int i = 0, k = 0;
+  const auto next = [&] {
+    if (k >= b.size || (i < a.size && std::abs(a.parts[i]) < std::abs(b.parts[k]))) return a.parts[i++];
+    return sign * b.parts[k++];
+  };
+  const int count = a.size + b.size;
+  if (count == 0) return result;
+  double carry = next();
+  for (int taken = 1; taken < count; ++taken) {
+    const double part = next();
+    const Pair both = taken == 1 ? fast_two_sum(part, carry) : two_sum(carry, part);
+    result.append(both.low);
+    carry = both.high;
   }
+  result.append(carry);
   return result;
 }
 
-using ExactVector = std::array<Expansion, 3>;
+/// Shewchuk's scale expansion.
+template <int m>
+Expansion<2 * m> product(const Expansion<m>& a, double factor) {
+  Expansion<2 * m> result;
+  if (a.size == 0 || factor == 0) return result;
+  Pair carry = two_product(a.parts[0], factor);
+  result.append(carry.low);
+  for (int i = 1; i < a.size; ++i) {
+    const Pair term = two_product(a.parts[i], factor);
+    const Pair low = two_sum(carry.high, term.low);
+    result.append(low.low);
+    carry = fast_two_sum(term.high, low.high);
+    result.append(carry.low);
+  }
+  result.append(carry.high);
+  return result;
+}
+
+template <int m>
+Expansion<4 * m> product(const Expansion<m>& a, const Expansion<2>& b) {
+  if (b.size < 2) return sum(product(a, b.size == 1 ? b.parts[0] : 0.0), Expansion<2 * m>());
+  return sum(product(a, b.parts[0]), product(a, b.parts[1]));
+}
+
+using ExactVector = std::array<Expansion<2>, 3>;
 
 ExactVector difference(const Vec3& a, const Vec3& b) {
-  return {Expansion::difference(a.x(), b.x()), Expansion::difference(a.y(), b.y()),
-          Expansion::difference(a.z(), b.z())};
+  return {difference(a.x(), b.x()), difference(a.y(), b.y()), difference(a.z(), b.z())};
 }
 
-Expansion minor(const ExactVector& u, const ExactVector& v, int i, int j) { return u[i] * v[j] - u[j] * v[i]; }
+Expansion<16> minor(const ExactVector& u, const ExactVector& v, int i, int j) {
+  return sum(product(u[i], v[j]), product(u[j], v[i]), -1);
+}
 
 int exact_orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const ExactVector u = difference(b, a), v = difference(c, a), w = difference(d, a);
-  return (minor(u, v, 1, 2) * w[0] + minor(u, v, 2, 0) * w[1] + minor(u, v, 0, 1) * w[2]).sign();
+  return sum(sum(product(minor(u, v, 1, 2), w[0]), product(minor(u, v, 2, 0), w[1])), product(minor(u, v, 0, 1), w[2]))
+      .sign();
 }
 
 }  // namespace
@@ -141,7 +134,10 @@ bool collinear(const Vec3& a, const Vec3& b, const Vec3& c) {
 
 int compare_distance(const Vec3& a, const Vec3& b, double length) {
   const ExactVector d = difference(a, b);
-  return (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] - Expansion(length) * Expansion(length)).sign();
+  Expansion<2> reach;
+  reach.append(length);
+  const auto squares = sum(sum(product(d[0], d[0]), product(d[1], d[1])), product(d[2], d[2]));
+  return sum(squares, product(reach, reach), -1).sign();
 }
 
 }  // namespace attack

@@ -12,19 +12,24 @@ using vantage::Outcome;
 
 const char* name_of(Outcome outcome) {
   switch (outcome) {
-    case Outcome::computed: return "computed";
-    case Outcome::out_of_range: return "out of range";
-    case Outcome::blocked_at_once: return "blocked at once";
-    case Outcome::outside_limits: return "outside limits";
-    case Outcome::no_common_view: return "no common view";
+    case Outcome::computed:
+      return "computed";
+    case Outcome::out_of_range:
+      return "out of range";
+    case Outcome::blocked_at_once:
+      return "blocked at once";
+    case Outcome::outside_limits:
+      return "outside limits";
+    case Outcome::no_common_view:
+      return "no common view";
   }
   return "?";
 }
 
 constexpr const char* kNames[kClasses] = {
-    "over-claim",  "thin over-claim", "out of range",  "behind target",  "outside limits", "bad mesh",   "flat facets",
-    "bad causes",  "query over",      "bad outcome",   "false refusal",  "defect",         "crash",      "hang",
-    "shallow",     "touching",        "query under",   "query and mesh", "blocked by",     "under-claim", "lift refusal",
+    "over-claim", "thin over-claim", "out of range", "behind target",  "outside limits", "bad mesh",    "flat facets",
+    "bad causes", "query over",      "bad outcome",  "false refusal",  "defect",         "crash",       "hang",
+    "shallow",    "touching",        "query under",  "query and mesh", "blocked by",     "under-claim", "lift refusal",
     "reversed"};
 
 }  // namespace

@@ -27,15 +27,15 @@ enum class Class {
   hang,             ///< it took longer than the limit
 
   // Told, not failed.
-  shallow,      ///< some point of a facet, moved in by kDepth along the line to the centre, does not see all, but it
-                ///< lies less deep than the guarantee speaks of
-  touching,     ///< over-claimed by the triangles as stored, not when the target is smaller by the separation
-  query_under,  ///< query_points says outside where all is clear by more than kDepth
-  query_mesh,   ///< query_points and the mesh end the view at places that differ by more than kDepth
-  blocked_by,   ///< query_points names an object that hides nothing, or not one that does
-  under_claim,  ///< a place outside sees everything, by more than kDepth and the tolerance
-  lift_refusal, ///< refused, though all is clear; something is over the target by less than the lift that is stated
-  reversed,     ///< the target's corners in the other order give another volume, or comparing the two fails
+  shallow,       ///< some point of a facet, moved in by kDepth along the line to the centre, does not see all, but it
+                 ///< lies less deep than the guarantee speaks of
+  touching,      ///< over-claimed by the triangles as stored, not when the target is smaller by the separation
+  query_under,   ///< query_points says outside where all is clear by more than kDepth
+  query_mesh,    ///< query_points and the mesh end the view at places that differ by more than kDepth
+  blocked_by,    ///< query_points names an object that hides nothing, or not one that does
+  under_claim,   ///< a place outside sees everything, by more than kDepth and the tolerance
+  lift_refusal,  ///< refused, though all is clear; something is over the target by less than the lift that is stated
+  reversed,      ///< the target's corners in the other order give another volume, or comparing the two fails
 };
 inline constexpr int kClasses = static_cast<int>(Class::reversed) + 1;
 
@@ -53,17 +53,17 @@ struct Finding {
 };
 
 struct Judgement {
-  std::string status;  ///< "computed", an outcome's name, "refused: pierced", ...
-  std::vector<Finding> findings;  ///< the worst one of each class
-  std::size_t viewpoints = 0;     ///< claimed ones that were looked from
+  std::string status;              ///< "computed", an outcome's name, "refused: pierced", ...
+  std::vector<Finding> findings;   ///< the worst one of each class
+  std::size_t viewpoints = 0;      ///< claimed ones that were looked from
   std::size_t proved = 0;          ///< facets whose every point sees all of the target, moved in by kDepth
   std::size_t proved_smaller = 0;  ///< likewise, of the target smaller by the separation
   std::size_t unproved = 0;        ///< not so
   std::size_t untried = 0;         ///< beyond JudgeOptions::proofs
   std::size_t facets = 0;
   double lift = 0;
-  double lost = 0;        ///< share of the true volume that is not claimed, less the tolerance: an estimate
-  double worst_gap = 0;   ///< the greatest share of a line of sight that is not claimed
+  double lost = 0;       ///< share of the true volume that is not claimed, less the tolerance: an estimate
+  double worst_gap = 0;  ///< the greatest share of a line of sight that is not claimed
 
   void add(Finding finding);
   const Finding* find(Class which) const;
@@ -71,12 +71,12 @@ struct Judgement {
 };
 
 struct JudgeOptions {
-  std::size_t facets = 60;       ///< drawn, to look from points in and right behind them
-  std::size_t viewpoints = 40;   ///< anywhere inside
-  std::size_t directions = 60;   ///< to look for what is left out
-  std::size_t proofs = 3000;     ///< facets at most to prove
-  bool reversed = false;         ///< compare with the target's corners the other way round
-  bool query = true;             ///< ask query_points too
+  std::size_t facets = 60;      ///< drawn, to look from points in and right behind them
+  std::size_t viewpoints = 40;  ///< anywhere inside
+  std::size_t directions = 60;  ///< to look for what is left out
+  std::size_t proofs = 3000;    ///< facets at most to prove
+  bool reversed = false;        ///< compare with the target's corners the other way round
+  bool query = true;            ///< ask query_points too
 };
 
 /// `answer`: what the engine made of this case, or of another one, or what became of it: the judge must tell.

@@ -64,10 +64,17 @@ class Claims {
     double w = 1 - u - v;
     const double near = random.magnitude(1e-9, 0.1);
     switch (random.integer(0, 3)) {
-      case 0: u = v = w = 1.0 / 3; break;
-      case 1: u *= near, v *= near, w = 1 - u - v; break;
-      case 2: w *= near, u = (1 - w) * u / (u + v), v = 1 - w - u; break;
-      default: break;
+      case 0:
+        u = v = w = 1.0 / 3;
+        break;
+      case 1:
+        u *= near, v *= near, w = 1 - u - v;
+        break;
+      case 2:
+        w *= near, u = (1 - w) * u / (u + v), v = 1 - w - u;
+        break;
+      default:
+        break;
     }
     const int k = random.integer(0, 2);
     return u * t[k] + v * t[(k + 1) % 3] + w * t[(k + 2) % 3];
@@ -181,8 +188,10 @@ class Claims {
       ++(reached == as_stored ? result.proved : reached == smaller ? result.proved_smaller : result.unproved);
       if (reached == level) continue;
       constexpr int kFew = 12;  // more of the same tell nothing new
-      if (++failed[reached - 1] <= kFew) search(i, static_cast<Level>(reached - 1));
-      else if (reached < levels) level = reached;
+      if (++failed[reached - 1] <= kFew)
+        search(i, static_cast<Level>(reached - 1));
+      else if (reached < levels)
+        level = reached;
     }
   }
 

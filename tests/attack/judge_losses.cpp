@@ -161,9 +161,8 @@ void judge_refusal(Trial& trial) {
   if (!p.allFinite()) return;
   constexpr double kMostLift = 2.011e-3;
   const bool is_low = trial.answer.refusal == "pierced" &&
-                      std::any_of(views.begin(), views.end(), [&](const View& view) {
-                        return lowest_over(trial, view.target()) < kMostLift;
-                      });
+                      std::any_of(views.begin(), views.end(),
+                                  [&](const View& view) { return lowest_over(trial, view.target()) < kMostLift; });
   trial.result.add({is_low ? Class::lift_refusal : Class::false_refusal, 0, trial.to_scene(p), trial.answer.message});
 }
 

@@ -65,18 +65,30 @@ Options parse(int count, char** words) {
       if (*text < '0' || *text > '9' || *end != 0) fail();
       return n;
     };
-    if (word == "--scenes") options.scenes = number();
-    else if (word == "--first") options.first = number();
-    else if (word == "--seed") options.seed = number();
-    else if (word == "--only") options.first = number(), options.scenes = 1, options.told = true;
-    else if (word == "--mission") options.mission = value();
-    else if (word == "--out") options.out = value();
-    else if (word == "--minimised") options.minimised = static_cast<int>(number());
-    else if (word == "--told") options.told = true;
-    else if (word == "--jobs") options.jobs = std::max(1, static_cast<int>(number()));
-    else if (word == "--seconds") options.seconds = static_cast<unsigned>(number());
-    else if (word == "--self-test") options.self_test = true;
-    else fail();
+    if (word == "--scenes")
+      options.scenes = number();
+    else if (word == "--first")
+      options.first = number();
+    else if (word == "--seed")
+      options.seed = number();
+    else if (word == "--only")
+      options.first = number(), options.scenes = 1, options.told = true;
+    else if (word == "--mission")
+      options.mission = value();
+    else if (word == "--out")
+      options.out = value();
+    else if (word == "--minimised")
+      options.minimised = static_cast<int>(number());
+    else if (word == "--told")
+      options.told = true;
+    else if (word == "--jobs")
+      options.jobs = std::max(1, static_cast<int>(number()));
+    else if (word == "--seconds")
+      options.seconds = static_cast<unsigned>(number());
+    else if (word == "--self-test")
+      options.self_test = true;
+    else
+      fail();
   }
   return options;
 }
@@ -141,7 +153,8 @@ class Attack {
         minimise(c, f, judge_options(index), slow ? options_.seconds / 4 : options_.seconds, slow ? 25 : 300);
     std::string folder = name_of(f.which);
     std::replace(folder.begin(), folder.end(), ' ', '-');
-    const std::filesystem::path place = options_.out / (folder + "-" + std::to_string(options_.seed) + "-" + std::to_string(index));
+    const std::filesystem::path place =
+        options_.out / (folder + "-" + std::to_string(options_.seed) + "-" + std::to_string(index));
     write_case(small, place);
     std::ofstream note(place / "README.txt");
     note << name_of(f.which) << ", share " << f.share << ", at " << f.place.transpose() << ", " << f.detail << "\n"
@@ -159,10 +172,10 @@ class Attack {
 int judge_mission(const Options& options) {
   const Case c = read_case(options.mission);
   const Judgement judgement = judge_isolated(c, judge_options(3), options.seconds);
-  std::printf("%s: %zu viewpoints inside, %zu facets, %zu proved, %zu of a smaller target, %zu not; lift %g m; lost %.4f %%\n",
-              judgement.status.c_str(), judgement.viewpoints, judgement.facets, judgement.proved,
-              judgement.proved_smaller, judgement.unproved,
-              judgement.lift, 100 * judgement.lost);
+  std::printf(
+      "%s: %zu viewpoints inside, %zu facets, %zu proved, %zu of a smaller target, %zu not; lift %g m; lost %.4f %%\n",
+      judgement.status.c_str(), judgement.viewpoints, judgement.facets, judgement.proved, judgement.proved_smaller,
+      judgement.unproved, judgement.lift, 100 * judgement.lost);
   for (const Finding& f : judgement.findings) print(f, 0, c);
   return judgement.wrong() ? 1 : 0;
 }

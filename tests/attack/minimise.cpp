@@ -13,7 +13,12 @@ namespace {
 class Minimiser {
  public:
   Minimiser(Case c, const Finding& finding, const JudgeOptions& options, unsigned seconds, int tries)
-      : best_(std::move(c)), which_(finding.which), least_(finding.share / 3), options_(options), seconds_(seconds), tries_(tries) {}
+      : best_(std::move(c)),
+        which_(finding.which),
+        least_(finding.share / 3),
+        options_(options),
+        seconds_(seconds),
+        tries_(tries) {}
 
   Case run() {
     drop_extras();

@@ -42,8 +42,8 @@ Blockers::Blockers(const vantage::Scene& scene, const std::vector<vantage::Targe
   for (const vantage::Target& t : targets) stored.insert(stored.end(), t.vertices.begin(), t.vertices.end());
   for (int axis = 0; axis < 3; ++axis) {
     const double near = targets[0].vertices[0][axis];
-    const bool exact = std::all_of(stored.begin(), stored.end(),
-                                   [&](const Vec3& p) { return subtracts_exactly(p[axis], near); });
+    const bool exact =
+        std::all_of(stored.begin(), stored.end(), [&](const Vec3& p) { return subtracts_exactly(p[axis], near); });
     if (exact) origin[axis] = near;
   }
   for (const Vec3& p : stored) largest = std::max(largest, p.cwiseAbs().maxCoeff());

@@ -69,7 +69,7 @@ class View {
   const Blockers& blockers_;
   SeenTarget target_;
   vantage::Box box_;
-  std::vector<int> side_;     ///< of each triangle's plane: where the target is; 2: on both sides
+  std::vector<int> side_;    ///< of each triangle's plane: where the target is; 2: on both sides
   std::vector<bool> below_;  ///< triangles that lie behind the target's plane, well away from it
   mutable Vec3 supports_of_;
   mutable std::vector<Support> supports_;

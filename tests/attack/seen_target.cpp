@@ -76,8 +76,7 @@ SeenTarget make_seen_target(const vantage::Target& target, double lift, const Ve
   seen.normal = turned ? Vec3(-own) : own;
   if (turned) std::reverse(seen.corners.begin(), seen.corners.end());
   const Vec3 centre = mean(seen.corners);
-  for (Vec3& v : seen.corners)
-    v += seen.normal * (target.offset_m + lift - seen.normal.dot(v - centre));
+  for (Vec3& v : seen.corners) v += seen.normal * (target.offset_m + lift - seen.normal.dot(v - centre));
   seen.centre = mean(seen.corners);
   return seen;
 }
@@ -97,7 +96,8 @@ SeenTarget moved_in(const SeenTarget& target, double margin) {
     reach = std::max(reach, polygon.back().norm());
   }
   std::vector<Vector2d> inner = polygon;
-  if (margin < 0) inner = {{-3 * reach, -3 * reach}, {3 * reach, -3 * reach}, {3 * reach, 3 * reach}, {-3 * reach, 3 * reach}};
+  if (margin < 0)
+    inner = {{-3 * reach, -3 * reach}, {3 * reach, -3 * reach}, {3 * reach, 3 * reach}, {-3 * reach, 3 * reach}};
   for (const OuterLine& line : outer_lines(polygon, margin)) inner = cut(inner, line.outward, line.distance - margin);
   moved.corners.clear();
   for (const Vector2d& p : inner)

@@ -233,7 +233,8 @@ class WrongAnswers {
 bool self_test() {
   test_signs();
   test_separation();
-  for (const double scale : {1e-2, 1.0, 1e4}) WrongAnswers(make_case(scale, Vec3::Zero()), "scale " + std::to_string(scale)).put();
+  for (const double scale : {1e-2, 1.0, 1e4})
+    WrongAnswers(make_case(scale, Vec3::Zero()), "scale " + std::to_string(scale)).put();
   for (const double scale : {1e-1, 1e2})
     WrongAnswers(make_case(scale, Vec3(5e5, 5e6, 100)), "far, scale " + std::to_string(scale)).put();
   std::printf("self-test: %d failed\n", failures);

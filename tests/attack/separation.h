@@ -23,8 +23,8 @@ struct SeparatingPlane {
   bool by_side = false;
 };
 
-/// The same for a facet (the first three points) and a polygon in order (the others) by the planes of their sides alone:
-/// true is certain, false is not. `last`: the plane that was found, and which one to try first.
+/// The same for a facet (the first three points) and a polygon in order (the others) by the planes of their sides
+/// alone: true is certain, false is not. `last`: the plane that was found, and which one to try first.
 bool hull_of_two_misses(std::span<const Vec3> points, const Corners& triangle, SeparatingPlane& last);
 
 /// Whether the open segment from `from` to `to` passes from one side of the triangle to the other through its interior.

@@ -18,8 +18,7 @@ __attribute__((format(printf, 1, 2))) std::string format(const char* pattern, ..
   return text;
 }
 
-constexpr const char* kHeading =
-    "%-18s %6s %8s %5s %7s %10s %8s %8s %8s | %5s %8s %6s | %6s %9s %9s\n";
+constexpr const char* kHeading = "%-18s %6s %8s %5s %7s %10s %8s %8s %8s | %5s %8s %6s | %6s %9s %9s\n";
 
 /// "square | walls | ground, tilted, far": the parts of it.
 std::vector<std::string> split(const std::string& kind) {
@@ -61,8 +60,8 @@ void Summary::Row::add(const Judgement& j) {
 }
 
 std::string Summary::Row::text(const std::string& name) const {
-  return format("%-18s %6zu %8zu %5zu %7zu %10zu %8zu %8zu %8zu | %5zu %8zu %6zu | %6zu %9.4f %9.4f\n", name.c_str(), scenes,
-                computed, empty, refused, viewpoints, proved, smaller, unproved, wrong, touching, query, losing,
+  return format("%-18s %6zu %8zu %5zu %7zu %10zu %8zu %8zu %8zu | %5zu %8zu %6zu | %6zu %9.4f %9.4f\n", name.c_str(),
+                scenes, computed, empty, refused, viewpoints, proved, smaller, unproved, wrong, touching, query, losing,
                 measured > 0 ? 100 * lost / static_cast<double>(measured) : 0.0, 100 * most_lost);
 }
 
@@ -80,8 +79,8 @@ void Summary::add(const Case& c, const Judgement& judgement) {
 
 std::string Summary::text() const {
   const auto heading = [](const char* name) {
-    return format("\n") + format(kHeading, name, "scenes", "computed", "empty", "refused", "viewpoints", "proved", "smaller", "unproved",
-                         "WRONG", "touching", "query", "losing", "lost %", "most %");
+    return format("\n") + format(kHeading, name, "scenes", "computed", "empty", "refused", "viewpoints", "proved",
+                                 "smaller", "unproved", "WRONG", "touching", "query", "losing", "lost %", "most %");
   };
   std::string text = heading("scale, m");
   for (const auto& [scale, row] : by_scale_) text += row.text(format("%g", scale));

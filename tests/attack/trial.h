@@ -14,7 +14,8 @@ namespace attack {
 
 /// One part of the target before the scene. Local coordinates: those of Trial::blockers.
 struct PartView {
-  PartView(const Blockers& blockers, const vantage::Target& target, double lift, double margin, const Vec3& engine_centre)
+  PartView(const Blockers& blockers, const vantage::Target& target, double lift, double margin,
+           const Vec3& engine_centre)
       : exact(blockers, make_seen_target(target, lift, blockers.origin)),
         inner(blockers, moved_in(exact.target(), margin)),
         centre(engine_centre) {}
