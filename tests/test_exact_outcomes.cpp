@@ -285,8 +285,7 @@ TEST(ExactOutcomes, ProgressIsReportedAndStops) {
   const PreparedScene scene(SceneBuilder().ground("ground", 100).box("house", {10, -5, 0}, {20, 5, 20}));
   const auto story = testing::check_progress(
       [&](const Progress& progress) { compute_visibility(scene, square(4), {50}, {}, progress); });
-  EXPECT_EQ(story.stages,
-            (std::vector<std::string>{"finding blockers", "tracing the envelope", "triangulating"}));
+  EXPECT_EQ(story.stages, (std::vector<std::string>{"finding blockers", "tracing the envelope", "triangulating"}));
 }
 
 }  // namespace

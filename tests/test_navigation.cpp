@@ -523,8 +523,8 @@ TEST(Navigation, ReportsProgressAndStops) {
   navigation.keep_out = {box(5, 5, 5, 30, 30, 30)};
   navigation.meshes = {{make_hemisphere(Vec3(0, 0, 0), 40, 100, 50).mesh, "m"}};
   Volume cut;
-  const auto story = testing::check_progress(
-      [&](const Progress& progress) { cut = cut_to_navigation(dome, navigation, progress); });
+  const auto story =
+      testing::check_progress([&](const Progress& progress) { cut = cut_to_navigation(dome, navigation, progress); });
   expect_sound(cut);
   EXPECT_EQ(story.stages, std::vector<std::string>{"navigation"});
   EXPECT_EQ(story.last_fraction.at("navigation"), 1);

@@ -248,9 +248,8 @@ TEST(SolidCheck, FindsAFoldThatPassesThroughTheOtherSide) {
 
 TEST(SolidCheck, CanBeStopped) {
   const Mesh mesh = make_hemisphere(Vec3(0, 0, 0), 10, 100, 50).mesh;
-  const auto story = testing::check_progress([&](const Progress& progress) {
-    checked_solid(mesh, "airspace.ply", core::ProgressReporter(progress));
-  });
+  const auto story = testing::check_progress(
+      [&](const Progress& progress) { checked_solid(mesh, "airspace.ply", core::ProgressReporter(progress)); });
   EXPECT_GT(story.calls, mesh.triangles.size() / 256);
 }
 

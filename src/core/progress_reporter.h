@@ -13,9 +13,9 @@ namespace vantage::core {
 /// Tells a Progress callback how far the work is, and stops the work when the callback says so.
 ///
 /// A cheap handle: its copies and parts speak of the same work, and any thread may use any of them. The callback is
-/// called by one thread at a time, at the beginning and at the end of a stage and else every 10 ms at most. The fraction
-/// of a stage does not fall. Once the callback has returned false it is not called again, and every member throws
-/// Error(cancelled), on all threads. A default reporter does nothing.
+/// called by one thread at a time, at the beginning and at the end of a stage and else every 10 ms at most. The
+/// fraction of a stage does not fall. Once the callback has returned false it is not called again, and every member
+/// throws Error(cancelled), on all threads. A default reporter does nothing.
 class ProgressReporter {
  public:
   ProgressReporter() = default;

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "core/progress_reporter.h"
 #include "osm/area_assembler.h"
 #include "osm/map_file.h"
 #include "osm/map_objects.h"
@@ -13,7 +14,6 @@
 #include "osm/region_filter.h"
 #include "osm/selection.h"
 #include "osm/trouble.h"
-#include "core/progress_reporter.h"
 #include "vantage/error.h"
 
 namespace vantage::osm {

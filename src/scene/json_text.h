@@ -7,8 +7,8 @@
 #include <string>
 #include <string_view>
 
-#include "scene/read_limits.h"
 #include "core/progress_reporter.h"
+#include "scene/read_limits.h"
 
 namespace vantage::scene {
 

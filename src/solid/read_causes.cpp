@@ -7,8 +7,8 @@
 #include <string>
 #include <string_view>
 
-#include "scene/mesh_source.h"
 #include "core/progress_reporter.h"
+#include "scene/mesh_source.h"
 #include "solid/names.h"
 #include "vantage/error.h"
 

@@ -13,9 +13,7 @@
 #include "vantage/error.h"
 
 namespace vantage::solid {
-namespace {
-
-}  // namespace
+namespace {}  // namespace
 
 std::filesystem::path report_file(const std::filesystem::path& volume_file) {
   return std::filesystem::path(volume_file).replace_extension(".report.json");

@@ -301,8 +301,7 @@ class Run {
 }  // namespace
 
 Intersection intersect_spheres(const TargetFrame& frame, const SphereMaker& maker, const SpheresOptions& options,
-                               SpheresReport& report, const StageSink& stages,
-                               const core::ProgressReporter& progress) {
+                               SpheresReport& report, const StageSink& stages, const core::ProgressReporter& progress) {
   return Run(frame, maker, options, report, stages, progress).run();
 }
 

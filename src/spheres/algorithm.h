@@ -25,7 +25,6 @@ struct Intersection {
 /// device. Stage meshes are in the scene frame. Points are numbered: the polygon's corners, then midpoints as they
 /// come.
 Intersection intersect_spheres(const TargetFrame& frame, const SphereMaker& maker, const SpheresOptions& options,
-                               SpheresReport& report, const StageSink& stages,
-                               const core::ProgressReporter& progress);
+                               SpheresReport& report, const StageSink& stages, const core::ProgressReporter& progress);
 
 }  // namespace vantage::spheres

@@ -93,8 +93,7 @@ exact::Clearance clearance_of(const PreparedScene::Data& scene, const Target& ta
 }
 
 void compute(const Target& target, const Sensor& sensor, const SpheresOptions& options, render::DepthRenderer& renderer,
-             SpheresReport& report, const StageSink& stages, const core::ProgressReporter& progress,
-             Volume& volume) {
+             SpheresReport& report, const StageSink& stages, const core::ProgressReporter& progress, Volume& volume) {
   const bool front_only = target.vertices.size() > 1 || target.front;
   const SphereMaker maker(renderer, options, sensor.max_range_m, volume.frame, front_only);
   Intersection found = intersect_spheres(volume.frame, maker, options, report, stages, progress);

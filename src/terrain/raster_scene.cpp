@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "geo/local_frame.h"
 #include "core/progress_reporter.h"
+#include "geo/local_frame.h"
 #include "terrain/height_grid.h"
 #include "terrain/post_positions.h"
 #include "terrain/surface.h"
