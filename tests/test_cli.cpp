@@ -106,8 +106,8 @@ TEST_F(CliBadMission, TargetsThatTheSceneRefuses) {
     }
     expect_bad_mission(mission + vertices + "]\n", what, "mission.yaml:4:13, target \"target\"", fix);
   };
-  expect_bad_square("25", "0", "\"block\" stands on or passes through the target", "nothing is clear for 12 m");
-  expect_bad_square("25", "6", "\"block\" stands on or passes through the target", "nothing is clear for 6 m");
+  expect_bad_square("25", "0", "\"block\" stands on or passes through the target", "clear for 12 m");
+  expect_bad_square("25", "6", "\"block\" stands on or passes through the target", "clear for 6 m");
   expect_bad_square("25", "10", "\"block\" stands on or passes through the target", "offset: 2.001");
 }
 

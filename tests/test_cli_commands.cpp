@@ -103,7 +103,7 @@ TEST_F(CliCompute, ObjComesInTheAxesOfTheScene) {
   write("mission.yaml",
         "scene: {mesh: city.obj, up: y}\ntarget: {vertices: [[-5, -60, 5], [5, -60, 5], [0, -60, 15]],"
         " front: [0, 1, 0]}\nsensor: {max_range: 30}\n");
-  output_of({"compute", "mission.yaml", "-o", "volume.obj", "-o", "volume.ply"});
+  output_of({"compute", "mission.yaml", "-q", "-o", "volume.obj", "-o", "volume.ply"});
   const auto obj = nlohmann::json::parse(output_of({"inspect", "volume.obj", "--up", "y", "--json"}));
   const auto ply = nlohmann::json::parse(output_of({"inspect", "volume.ply", "--json"}));
   for (int axis = 0; axis < 3; ++axis) {

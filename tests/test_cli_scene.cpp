@@ -338,7 +338,7 @@ TEST_F(CliSceneBadOption, ThatDoNotFit) {
 }
 
 TEST_F(CliSceneBadOption, ThatAreNoNumbers) {
-  for (const char* text : {"48.1374", "48.1374,", "48.1374, 11.5755", "north,east", "48.1374,11.5755,3", "nan,inf"}) {
+  for (const char* text : {"48.1374", "48.1374,", "48.1374 11.5755", "north,east", "48.1374,11.5755,3", "nan,inf"}) {
     expect_bad_option({"--center", text, "--radius", "100"}, "", "center");
   }
   for (const char* text : {"0", "-5", "nan", "inf", "1e9", "ten", "5m"}) {

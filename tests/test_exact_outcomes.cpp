@@ -144,13 +144,16 @@ TEST(ExactOutcomes, TheWayOutOfAPierceLeadsPastEverything) {
   // A tower with a mast, a bridge above it: clear between the two.
   const Scene scene = SceneBuilder()
                           .ground("ground", 100)
-                          .box("tower", {-1, -1, 0}, {1, 1, 10})
-                          .box("mast", {-0.1, -0.1, 10}, {0.1, 0.1, 12.5})
-                          .box("bridge", {-3, -60, 20}, {3, 60, 21});
+                          .box("tower", {-1, -1, 0}, {1, 1, 3})
+                          .box("mast", {-0.1, -0.1, 3}, {0.1, 0.1, 4.5})
+                          .box("bridge", {-3, -60, 12}, {3, 60, 13});
   Target target = square(4);
   target.offset_m = offset_in(refusal(scene, target).fix);
-  EXPECT_NEAR(target.offset_m, 12.5, 0.0011);
+  EXPECT_NEAR(target.offset_m, 4.5, 0.0011);
   EXPECT_EQ(compute(scene, target).outcome, Outcome::computed);
+  target.offset_m = 0;  // 117 m up there is another target
+  const Scene high = SceneBuilder().ground("ground", 100).box("tower", {-1, -1, 0}, {1, 1, 117});
+  EXPECT_FALSE(contains(refusal(high, target).fix, "offset")) << refusal(high, target).fix;
 }
 
 TEST(ExactOutcomes, AFacadeTargetIsPiercedByABalcony) {

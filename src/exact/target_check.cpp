@@ -36,7 +36,7 @@ std::string advice_for_point(const PreparedScene::Data& scene, std::uint32_t pol
 }
 
 // Raising a target by more than this (metres) makes another one of it.
-constexpr double kMostRaise = 3;
+constexpr double kMostRaise = 5;
 
 [[noreturn]] void refuse_pierced(const PreparedScene::Data& scene, const Target& target, const TargetFrame& frame,
                                  const Lengths& lengths, const Crossing& crossing, double clear) {
