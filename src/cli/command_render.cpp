@@ -58,7 +58,7 @@ Picture picture(const Options& options, Mission& mission, const PictureView& vie
     std::vector<std::string> notes;
     volume = read_volume(options.volume_file, loaded.scene, progress, &notes);
     if (!options.common.quiet) std::for_each(notes.begin(), notes.end(), note);
-    volume.notes = mission_io::caveats(mission, loaded, &volume.mesh);
+    volume.notes = mission_io::caveats(mission, loaded, &volume);
     scene = std::move(loaded.scene);
   } else {
     mission_io::MissionRun run = mission_io::run_mission(mission, progress);

@@ -7,6 +7,7 @@
 
 #include "exact/column.h"
 #include "exact/number_text.h"
+#include "exact/numerics.h"
 
 namespace vantage::exact {
 namespace {
@@ -131,7 +132,8 @@ std::optional<std::string> buried_note(const PreparedScene::Data& scene, const T
   std::string note = "nothing of the scene is below target \"" + target.name + "\", and \"" +
                      scene.objects[cover->object] + "\" is " + fixed_text(cover->height, decimals) +
                      " m above it: if that is the ground, the target is under it; check the scene's up axis and scale";
-  if (const auto height = height_over_ground(scene, frame, lengths, cover->object)) {
+  const auto height = height_over_ground(scene, frame, lengths, cover->object);
+  if (height && *height <= numerics::kMostRaise) {
     note += ", or raise the target: ";
     note += frame.all_sides ? "z = " + fixed_text(frame.origin.z() + *height, decimals)
                             : "offset: " + fixed_text(target.offset_m + *height, decimals);

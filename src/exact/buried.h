@@ -12,7 +12,8 @@ namespace vantage::exact {
 
 /// A sentence for people where nothing of the scene is below the target and what is above all of it is either all that
 /// there is or spreads over most of the scene: it names that object, and the smallest offset that brings the target out
-/// where there is one. A scene may be anything, a canopy alone too: such a target is computed like any other.
+/// where there is one of a few metres. A scene may be anything, a canopy alone too: such a target is computed like any
+/// other.
 std::optional<std::string> buried_note(const PreparedScene::Data& scene, const Target& target, const TargetFrame& frame,
                                        const Lengths& lengths);
 

@@ -60,6 +60,9 @@ inline constexpr double kClear = 1e-6;
 /// meshes are planar to a millimetre at best, single-precision files to a tenth of one. Less in small worlds.
 inline constexpr double kMaxLift = 2e-3;
 
+/// Advice to raise the target goes no further, in metres: higher up it is another target.
+inline constexpr double kMostRaise = 5;
+
 /// A volume that ends this close to the target is of no use to anyone: the view is blocked at once. Less in small
 /// worlds.
 inline constexpr double kHandsBreadth = 0.1;

@@ -8,6 +8,7 @@
 #include "exact/collect.h"
 #include "exact/column.h"
 #include "exact/number_text.h"
+#include "exact/numerics.h"
 #include "vantage/error.h"
 
 namespace vantage::exact {
@@ -35,9 +36,6 @@ std::string advice_for_point(const PreparedScene::Data& scene, std::uint32_t pol
          "] or its opposite; else move it off";
 }
 
-// Raising a target by more than this (metres) makes another one of it.
-constexpr double kMostRaise = 5;
-
 [[noreturn]] void refuse_pierced(const PreparedScene::Data& scene, const Target& target, const TargetFrame& frame,
                                  const Lengths& lengths, const Crossing& crossing, double clear) {
   const std::uint32_t object = scene.polygon_object[crossing.polygon];
@@ -45,7 +43,7 @@ constexpr double kMostRaise = 5;
   const int decimals = HeightStep(lengths).decimals;
   std::string fix =
       "move the target, or raise it: offset: " + fixed_text(target.offset_m + clear, decimals) + " clears it";
-  if (clear > kMostRaise) {
+  if (clear > numerics::kMostRaise) {
     fix = "move the target off it, or give a polygon that leaves it out: over the target nothing is clear for " +
           fixed_text(clear, 0) + " m";
   }

@@ -129,7 +129,7 @@ Shortfall of(const Mission& mission, const LoadedScene& loaded) {
 
 }  // namespace
 
-std::vector<std::string> caveats(const Mission& mission, const LoadedScene& loaded, const Mesh* volume) {
+std::vector<std::string> caveats(const Mission& mission, const LoadedScene& loaded, const Volume* volume) {
   constexpr double kTolerance = 1;  // metre: rounding of degrees, and corners of extracts
   constexpr double kTiny = 0.01;    // metre: a target of street size in degrees is 1e-4 across
   constexpr double kLargestDegree = 180;

@@ -10,7 +10,7 @@ namespace vantage::mission_io {
 
 /// Sentences for people: LoadedScene::notes; that map, raster or ground end within the range, where what would hide
 /// part of the target is missing; that a target looks as if it were given in degrees; those of scene_caveats. `mission`
-/// placed in the frame of `loaded`; `volume`, where there is one: its mesh.
-std::vector<std::string> caveats(const Mission& mission, const LoadedScene& loaded, const Mesh* volume = nullptr);
+/// placed in the frame of `loaded`; `volume`, where there is one.
+std::vector<std::string> caveats(const Mission& mission, const LoadedScene& loaded, const Volume* volume = nullptr);
 
 }  // namespace vantage::mission_io

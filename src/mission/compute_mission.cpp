@@ -88,7 +88,7 @@ MissionRun run_stages(Mission& mission, const Progress& progress, const StageSin
   seconds.total = seconds.read + seconds.prepare + seconds.engine + seconds.navigation;
   run.volume.seconds = seconds;
   run.volume.georeference = run.loaded.scene.georeference;
-  std::vector<std::string> notes = caveats(mission, run.loaded, &run.volume.mesh);
+  std::vector<std::string> notes = caveats(mission, run.loaded, &run.volume);
   run.volume.notes.insert(run.volume.notes.end(), notes.begin(), notes.end());
   return run;
 }

@@ -123,9 +123,10 @@ std::optional<std::string> from_below(const Mission& mission, const Scene& scene
          "as free; leave target.front out, or turn it round, to look from above";
 }
 
-std::optional<std::string> below_all(const Scene& scene, const Mesh* volume) {
-  if (volume == nullptr || volume->empty()) return std::nullopt;
-  const Box box = bounding_box(*volume), all = bounding_box(scene.mesh);
+std::optional<std::string> below_all(const Scene& scene, const Volume* volume) {
+  // A target under the ground is told by the method itself.
+  if (volume == nullptr || volume->mesh.empty() || !volume->notes.empty()) return std::nullopt;
+  const Box box = bounding_box(volume->mesh), all = bounding_box(scene.mesh);
   constexpr double kTouch = 1e-3;  // of the volume's height
   if (box.max.z() > all.min.z() + kTouch * (box.max.z() - box.min.z())) return std::nullopt;
   return "the whole volume lies below the scene, whose lowest point is at z = " +
@@ -152,7 +153,7 @@ std::optional<std::string> on_its_side(const LoadedScene& loaded) {
          " % of its area is upright and faces along y; if so, " + turning_advice(scene);
 }
 
-std::vector<std::string> scene_caveats(const Mission& mission, const LoadedScene& loaded, const Mesh* volume) {
+std::vector<std::string> scene_caveats(const Mission& mission, const LoadedScene& loaded, const Volume* volume) {
   std::vector<std::string> sentences;
   if (loaded.scene.mesh.empty() || mission.target.vertices.empty()) return sentences;
   if (const auto side = on_its_side(loaded)) sentences.push_back(*side);

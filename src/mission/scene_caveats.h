@@ -12,7 +12,7 @@ namespace vantage::mission_io {
 
 /// Sentences for people, none where all is as usual. `mission` placed in the frame of `loaded`; `volume` may be null or
 /// empty. Cost: linear in the scene's triangles.
-std::vector<std::string> scene_caveats(const Mission& mission, const LoadedScene& loaded, const Mesh* volume);
+std::vector<std::string> scene_caveats(const Mission& mission, const LoadedScene& loaded, const Volume* volume);
 
 /// Of these the one that tells that the scene seems to lie on its side, with what to do.
 std::optional<std::string> on_its_side(const LoadedScene& loaded);
