@@ -177,6 +177,36 @@ std::optional<double> volume_of(const Scene& scene, const Target& target, double
   }
 }
 
+/// What reaches less than the slack into the outline stands on it, whatever its base: the strip that is given away.
+/// What reaches ten times as far in hides what it hides.
+TEST(NearPlane, WallsWithinTheSlackStandOnTheEdge) {
+  struct World {
+    Vec3 shift;
+    double scale, slack;
+  };
+  for (const World& world : {World{kOrigin, 1e-3, 4e-12}, World{kOrigin, 1, 1e-9}, World{kMap, 1, 8.9e-9}})
+    for (const Pose& pose : poses(world.shift, world.shift == kOrigin ? "" : ", on a map"))
+      for (const auto& outline : outlines()) {
+        SCOPED_TRACE(pose.name + ", " + std::to_string(outline.size()) + " corners, scale " +
+                     std::to_string(world.scale));
+        const auto volume = [&](double base, double inward) {
+          const Case made = make_case(outline, pose, world.scale, {1, 0, base * world.slack, inward * world.slack});
+          return volume_of(made.scene, made.target, made.range);
+        };
+        const std::optional<double> whole = volume(0, 0);
+        ASSERT_TRUE(whole);
+        for (const double base : {0.0, 2.0, 30.0}) {
+          const std::optional<double> in_strip = volume(base, 0.4);
+          ASSERT_TRUE(in_strip) << base;
+          EXPECT_NEAR(*in_strip, *whole, 2e-4 * *whole) << base;
+        }
+        EXPECT_FALSE(volume(0, 10)) << "pierced";
+        const std::optional<double> inside = volume(10, 10);  // hides the strip from all that is above 45 degrees
+        ASSERT_TRUE(inside);
+        EXPECT_LT(*inside, 0.8 * *whole);
+      }
+}
+
 /// A few walls on, beside and just inside the target's edges, ground, and a block; some of it a hair over the plane.
 Scene world(Random& random, const std::vector<Vec3>& outline) {
   const auto any = [&](std::initializer_list<double> values) {
