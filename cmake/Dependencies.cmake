@@ -33,12 +33,15 @@ target_link_libraries(vantage_osmium INTERFACE EXPAT::EXPAT BZip2::BZip2 ZLIB::Z
 # Source releases that Debian does not package, fetched by scripts/fetch_sources.sh (pinned by version and hash).
 set(VANTAGE_DEPS_DIR ${PROJECT_SOURCE_DIR}/.deps CACHE PATH "Where scripts/fetch_sources.sh puts source releases")
 
-# 3.5: the first with the ExecutionContext that progress and cancelling need.
-find_package(manifold 3.5 QUIET)
-if(NOT manifold_FOUND)
+# Manifold 3.5: the first with the ExecutionContext that progress and cancelling need. Its releases misplace a corner now and
+# then, so an installed one is used only on request: ours is corrected.
+option(VANTAGE_INSTALLED_MANIFOLD "Use an installed Manifold as it is (its booleans go wrong where solids coincide)" OFF)
+if(VANTAGE_INSTALLED_MANIFOLD)
+  find_package(manifold 3.5 REQUIRED)
+else()
   set(manifold_source ${VANTAGE_DEPS_DIR}/manifold)
   if(NOT EXISTS ${manifold_source}/CMakeLists.txt)
-    message(FATAL_ERROR "Manifold is neither installed nor in ${manifold_source}: run scripts/fetch_sources.sh first")
+    message(FATAL_ERROR "Manifold is not in ${manifold_source}: run scripts/fetch_sources.sh first")
   endif()
   block()  # its options must not reach a project that includes ours
     set(MANIFOLD_CROSS_SECTION OFF)
@@ -50,6 +53,8 @@ if(NOT manifold_FOUND)
     set(BUILD_SHARED_LIBS OFF)
     add_subdirectory(${manifold_source} ${CMAKE_CURRENT_BINARY_DIR}/third_party/manifold EXCLUDE_FROM_ALL SYSTEM)
   endblock()
+  include(${CMAKE_CURRENT_LIST_DIR}/MendManifold.cmake)
+  vantage_mend_manifold(${manifold_source})
   if(NOT TARGET manifold::manifold)
     add_library(manifold::manifold ALIAS manifold)
   endif()

@@ -28,7 +28,7 @@ install(FILES ${CMAKE_CURRENT_BINARY_DIR}/vantage-config.cmake ${CMAKE_CURRENT_B
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/THIRD-PARTY-NOTICES.txt
         DESTINATION ${CMAKE_INSTALL_DOCDIR})
 set(licences "cdt/LICENSE=CDT" "cdt/LICENSE-predicates.txt=CDT-predicates" "cdt/LICENSE-LLVM.txt=CDT-LLVM")
-if(NOT manifold_FOUND)  # else it is linked from where it is installed
+if(NOT VANTAGE_INSTALLED_MANIFOLD)  # else it is linked from where it is installed
   list(APPEND licences "manifold/LICENSE=Manifold")
 endif()
 foreach(licence IN LISTS licences)

@@ -116,8 +116,9 @@ Comparison compare_volumes(const Mesh& mesh_a, const Mesh& mesh_b, const std::st
   const Solid only_a = subtract(solid_a, solid_b, progress);
   progress.begin("subtracting the first mesh");
   const Solid only_b = subtract(solid_b, solid_a, progress);
-  result.only_a_m3 = only_a.volume();
-  result.only_b_m3 = only_b.volume();
+  // Sheets that coincide but for rounding may leave a little less than nothing.
+  result.only_a_m3 = std::max(only_a.volume(), 0.0);
+  result.only_b_m3 = std::max(only_b.volume(), 0.0);
   result.only_a = only_a.to_mesh().mesh;
   result.only_b = only_b.to_mesh().mesh;
   const double area = solid_a.area() + solid_b.area(), length = (box.max - box.min).norm();

@@ -1,0 +1,34 @@
+# Corrects one line of Manifold before it is compiled. Where Manifold::Impl::DedupeEdge takes apart two sheets that touch
+# along an edge, it copies the vertex at the edge's start, but gives the copy the position of the edge's end: a corner of the
+# result jumps along that edge. It happens where the two operands almost coincide. Wrong in all releases up to 3.5.4.
+# The release itself stays as it was fetched: the corrected copy is in the build folder.
+function(vantage_mend_manifold source_dir)
+  set(original ${source_dir}/src/edge_op.cpp)
+  set(mended_dir ${CMAKE_CURRENT_BINARY_DIR}/third_party/manifold_mended)
+  set(wrong "// Split the pinched vert the previous split created.
+    const int newVert = vertPos_.size();
+    vertPos_.push_back(vertPos_[endVert]);
+    if (vertNormal_.size() > 0) vertNormal_.push_back(vertNormal_[endVert]);
+")
+  set(right "// Split the pinched vert the previous split created.
+    const int newVert = vertPos_.size();
+    vertPos_.push_back(vertPos_[startVert]);  // changed by vantage: was endVert
+    if (vertNormal_.size() > 0) vertNormal_.push_back(vertNormal_[startVert]);
+")
+  file(READ ${original} text)
+  string(FIND "${text}" "${wrong}" first)
+  string(FIND "${text}" "${wrong}" last REVERSE)
+  if(first EQUAL -1 OR NOT first EQUAL last)
+    message(FATAL_ERROR "${original} is not as cmake/MendManifold.cmake expects. Look whether this release of Manifold still \
+needs the correction (docs/dependencies.md, test Compare.TheSameVolumeFromTheTargetReversed)")
+  endif()
+  string(REPLACE "${wrong}" "${right}" text "${text}")
+  file(WRITE ${mended_dir}/edge_op.new "${text}")
+  file(COPY_FILE ${mended_dir}/edge_op.new ${mended_dir}/edge_op.cpp ONLY_IF_DIFFERENT)
+  file(REMOVE ${mended_dir}/edge_op.new)
+
+  get_target_property(sources manifold SOURCES)
+  list(FILTER sources EXCLUDE REGEX "(^|/)edge_op\\.cpp$")
+  set_target_properties(manifold PROPERTIES SOURCES "${sources};${mended_dir}/edge_op.cpp")
+  target_include_directories(manifold PRIVATE ${source_dir}/src)
+endfunction()
