@@ -54,7 +54,8 @@ TEST(Compare, TheSameVolumeFromTheTargetReversed) {
   target.front = Vec3::UnitZ();
   const PreparedScene prepared(scene);
   const Sensor sensor{50.52257686141341};
-  const Volume a = compute_visibility(prepared, target, sensor), b = compute_visibility(prepared, reversed(target), sensor);
+  const Volume a = compute_visibility(prepared, target, sensor),
+               b = compute_visibility(prepared, reversed(target), sensor);
   EXPECT_LT(misfit(a.mesh, b.mesh, sensor.max_range_m), 1e-12);
   for (const bool swapped : {false, true}) {
     const Comparison c = swapped ? compare_volumes(b.mesh, a.mesh) : compare_volumes(a.mesh, b.mesh);
