@@ -4,9 +4,13 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <iostream>
+#include <limits>
 #include <random>
+#include <tuple>
 #include <vector>
 
+#include "parallel/parallel.h"
+#include "support/random.h"
 #include "support/solids.h"
 #include "vantage/error.h"
 #include "vantage/query.h"
@@ -187,6 +191,169 @@ TEST(Query, AgreesWithTheMesh) {
     }
     EXPECT_GT(inside, 100);
   }
+}
+
+/// Triangles, small and large, many of them degenerate on purpose: standing on the target's plane or a hair above it,
+/// nearly in it, thin as needles, doubled, or touching the target's edge.
+Scene soup(testing::Random& random, double scale, const Vec3& at) {
+  Scene scene;
+  const auto add = [&](const Vec3& a, const Vec3& b, const Vec3& c) {
+    const auto first = static_cast<std::uint32_t>(scene.mesh.vertices.size());
+    for (const Vec3& v : {a, b, c}) scene.mesh.vertices.push_back(at + scale * v);
+    scene.mesh.triangles.push_back({first, first + 1, first + 2});
+    scene.object_of.push_back(static_cast<std::uint32_t>(random.integer(0, 11)));
+  };
+  for (int i = 0; i < 12; ++i) scene.objects.push_back("object " + std::to_string(i % 9));  // some share a name
+  const auto small = [&] { return random.uniform(-6, 6); };
+  for (int i = 0; i < 240; ++i) {
+    const double turn = random.uniform(0, 2 * M_PI), hair = std::pow(10.0, random.uniform(-9, -2));
+    const Vec3 o = random.uniform(17, 60) * Vec3(std::cos(turn), std::sin(turn), 0), up(0, 0, 1);
+    const Vec3 along(small(), small(), 0), high = random.uniform(0, 25) * up;
+    switch (i % 6) {
+      case 0:  // a wall on the ground
+        add(o, o + along, o + along + high);
+        break;
+      case 1:  // one that floats a hair above it
+        add(o + hair * up, o + along + hair * up, o + along + high);
+        break;
+      case 2:  // nearly in the target's plane
+        add(o + hair * up, o + along, o + Vec3(small(), small(), hair));
+        break;
+      case 3:  // a needle
+        add(o + high, o + along + high, o + along + Vec3(hair, 0, 1));
+        break;
+      case 4:  // a roof
+        add(o + 9 * up, o + along + 9 * up, o + Vec3(small(), small(), 9));
+        break;
+      default:  // anything
+        add(o + small() * up, o + along, o + Vec3(small(), small(), small()));
+    }
+  }
+  add({5, -5, 0}, {5, 5, 0}, {7, 0, 4});  // leans on the target's edge
+  return scene;
+}
+
+/// Bit for bit, but for the answers' order, which is the points'.
+void expect_same(const PointAnswer& a, const PointAnswer& b, const Vec3& point) {
+  EXPECT_EQ(a.inside, b.inside) << point.transpose();
+  EXPECT_EQ(a.margin_m, b.margin_m) << point.transpose();
+  EXPECT_EQ(a.blocked_by, b.blocked_by) << point.transpose();
+  EXPECT_EQ(a.out_of_range, b.out_of_range) << point.transpose();
+  EXPECT_EQ(a.behind_target, b.behind_target) << point.transpose();
+  EXPECT_EQ(a.outside_of, b.outside_of) << point.transpose();
+}
+
+class QueryAtScale : public ::testing::TestWithParam<std::tuple<double, double>> {};
+
+TEST_P(QueryAtScale, ManyPointsGetTheBitsOfEachAlone) {
+  const auto [scale, shift] = GetParam();
+  testing::Random random(20240819);
+  const Vec3 at(shift, -shift, shift / 1e4);
+  for (int round = 0; round < 3; ++round) {
+    const PreparedScene scene(soup(random, scale, at));
+    Target target;
+    target.offset_m = round == 2 ? 1e-7 * scale : 0;
+    for (const Vec3& v : square().vertices) target.vertices.push_back(at + scale * v);
+    std::vector<Vec3> points;
+    for (int i = 0; i < 400; ++i) {
+      const double reach = i % 4 == 3 ? 300 : 60;  // some far out of range
+      Vec3 point = reach * random.point(-1, 1);
+      point.z() = i % 8 == 0 ? 1e-8 : std::abs(point.z());
+      points.emplace_back(at + scale * point);
+    }
+    for (int i = 0; i < 40; ++i) points.emplace_back(at + scale * 50 * Vec3(random.uniform(-1, 1), i % 2, i % 3 * 0.5));
+    points.push_back(at);
+    const std::size_t first_of_bundle = points.size();
+    for (int i = 0; i < 300; ++i) {  // narrow ones, so that cells become small
+      const Vec3 middle = points[static_cast<std::size_t>(i) % 6] - at;
+      points.emplace_back(at + random.uniform(0.2, 1.2) * (middle + 1e-3 * middle.norm() * random.point(-1, 1)));
+    }
+    const Sensor sensor{50 * scale};
+    PointQuery query(scene, {target}, sensor, {});
+    for (int i = 0; i < 200; ++i) query.answer(std::span(points).subspan(first_of_bundle));
+    const auto answers = query.answer(points);
+    std::size_t inside = 0, blocked = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      expect_same(answers[i], query_points(scene, target, sensor, {}, {points[i]})[0], points[i]);
+      inside += answers[i].inside;
+      blocked += answers[i].blocked_by.size();
+    }
+    EXPECT_GT(inside, 10U);
+    EXPECT_GT(blocked, 100U);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scales, QueryAtScale,
+                         ::testing::Values(std::tuple(1e-3, 0.0), std::tuple(0.1, 0.0), std::tuple(1.0, 0.0),
+                                           std::tuple(1.0, 5e6), std::tuple(100.0, 0.0), std::tuple(100.0, 5e6)));
+
+TEST(Query, PointsSeenFromAllSidesAndTargetsInPartsGetTheSameBits) {
+  testing::Random random(20240820);
+  const PreparedScene scene(soup(random, 1, Vec3::Zero()));
+  std::vector<Vec3> points;
+  for (int i = 0; i < 300; ++i) points.push_back(random.point(-60, 60));
+  Target point, left, right;
+  point.vertices = {{0, 0, 4}};
+  left.vertices = {{-5, -5, 0}, {0, -5, 0}, {0, 5, 0}, {-5, 5, 0}};
+  right.vertices = {{0, -5, 0}, {5, -5, 0}, {0, 5, 0}};
+  for (const std::vector<Target>& parts : {std::vector<Target>{point}, std::vector<Target>{left, right}}) {
+    PointQuery query(scene, parts, {50}, some_limits());
+    query.answer(points);
+    const auto answers = query.answer(points);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      PointQuery fresh(scene, parts, {50}, some_limits());
+      expect_same(answers[i], fresh.answer({&points[i], 1})[0], points[i]);
+      bool sees_all = true;
+      for (const Target& part : parts) {
+        sees_all = sees_all && query_points(scene, part, {50}, some_limits(), {points[i]})[0].inside;
+      }
+      EXPECT_EQ(answers[i].inside, sees_all);
+    }
+  }
+}
+
+TEST(Query, ThreadsChangeNoBit) {
+  testing::Random random(7);
+  const PreparedScene scene(soup(random, 1, Vec3::Zero()));
+  std::vector<Vec3> points;
+  for (int i = 0; i < 4000; ++i) points.push_back(random.point(-60, 60));
+  std::vector<std::vector<PointAnswer>> answers(2);
+  for (const int threads : {1, 4}) {
+    parallel::with_threads(
+        threads, [&] { answers[threads == 1 ? 0 : 1] = query_points(scene, square(), {50}, some_limits(), points); });
+  }
+  for (std::size_t i = 0; i < points.size(); ++i) expect_same(answers[0][i], answers[1][i], points[i]);
+}
+
+TEST(Query, TellsTheMarginHoweverFarAway) {
+  const PreparedScene scene(walls());
+  Navigation zone;
+  zone.meshes = {{testing::make_box_mesh(Vec3(-9, -9, 0), Vec3(9, 9, 32)), "zone"}};
+  for (const double far : {1e9, 1e149, 1e151, 1e155, 1e200, 1.7e308}) {
+    const auto answers = query_points(scene, square(), {50}, zone, {{0, 0, far}, {far, 0, 1}, {0, 0, -far}});
+    EXPECT_NEAR(answers[0].margin_m / -far, 1, 1e-7) << far;
+    EXPECT_TRUE(answers[0].out_of_range);
+    EXPECT_FALSE(answers[0].behind_target);
+    EXPECT_EQ(answers[0].outside_of, std::vector<std::string>{"mesh zone"});
+    EXPECT_EQ(answers[1].blocked_by, std::vector<std::string>{"east wall"}) << far;
+    EXPECT_NEAR(answers[1].margin_m / -far, 1, 1e-7) << far;
+    EXPECT_NEAR(answers[2].margin_m / -far, 1, 1e-7) << far;
+    EXPECT_TRUE(answers[2].behind_target);
+  }
+  const double most = std::numeric_limits<double>::max();
+  for (const double sign : {1.0, -1.0}) {
+    const auto answer = query_points(scene, square(), {50}, {}, {Vec3(most, most, sign * most)})[0];
+    EXPECT_TRUE(std::isfinite(answer.margin_m)) << answer.margin_m;
+    EXPECT_LT(answer.margin_m, -1e308);
+    EXPECT_EQ(answer.behind_target, sign < 0);
+  }
+}
+
+TEST(Query, RefusesNoPartsAndRangesWithoutBound) {
+  const PreparedScene scene(walls());
+  EXPECT_THROW(PointQuery(scene, {}, {50}, {}), Error);
+  EXPECT_THROW(PointQuery(scene, {square()}, {1e10}, {}), Error);
+  EXPECT_THROW(PointQuery(scene, {square()}, {NAN}, {}), Error);
 }
 
 TEST(Query, RefusesPointsThatAreNotNumbers) {

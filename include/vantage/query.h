@@ -1,6 +1,8 @@
 // Point queries against the exact visibility of a target, without a mesh.
 #pragma once
 
+#include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -22,9 +24,31 @@ struct PointAnswer {
       outside_of;  ///< limits that the point breaks: "altitude min", "boxes", "keep_out 0", "mesh NAME"
 };
 
-/// Answers for many points (scene frame, metres), in their order; exact, no tolerance. Uses the threads of the caller's
-/// arena (TBB). Cost: one walk of the scene's hierarchy a point, and a few passes over the triangles of each navigation
-/// mesh. Throws Error(input) for a point that is not finite, and for targets and ranges as compute_visibility does.
+/// Answers questions about points, for one target in one scene: as many as there are, in portions of any size. What it
+/// learns of the scene with the first points makes the later ones quick: some microseconds each in a city.
+class PointQuery {
+ public:
+  /// A target in parts is seen where all its parts are. Holds on to the scene; the rest is copied. Throws Error(input)
+  /// for targets and ranges as compute_visibility does, for no parts, and for a range beyond 1e9 m.
+  PointQuery(const PreparedScene& scene, const std::vector<Target>& parts, const Sensor& sensor,
+             const Navigation& navigation);
+  ~PointQuery();
+  PointQuery(PointQuery&&) noexcept;
+  PointQuery& operator=(PointQuery&&) noexcept;
+
+  /// Answers in the order of the points (scene frame, metres); exact, no tolerance, and the same whatever was asked
+  /// before. Uses the threads of the caller's arena (TBB); not for two callers at once. Cost: for the first points one
+  /// walk of the scene's hierarchy each; then, once, O(n) in the polygons within reach of the target; from then on in
+  /// proportion to what may hide the target from the point. And a few passes over the triangles of each navigation
+  /// mesh. Throws Error(input) for a point that is not finite.
+  std::vector<PointAnswer> answer(std::span<const Vec3> points);
+
+ private:
+  struct Data;
+  std::unique_ptr<Data> data_;
+};
+
+/// PointQuery for a target of one part and one portion of points.
 std::vector<PointAnswer> query_points(const PreparedScene& scene, const Target& target, const Sensor& sensor,
                                       const Navigation& navigation, const std::vector<Vec3>& points);
 

@@ -10,10 +10,9 @@
 namespace vantage::exact {
 
 /// How far g . x may differ from 1 for points x within `reach` metres before a plane counts as apart from them: the tie
-/// width, plus the rounding of the product for planes that pass close to the centre.
-inline double tie_margin(const Plane& plane, double reach) {
-  return numerics::kTie + 1e-15 * reach * plane.cwiseAbs().sum();
-}
+/// width, plus the rounding of the product for planes that pass close to the centre. `sum`: |x| + |y| + |z| of g.
+inline double tie_margin(double sum, double reach) { return numerics::kTie + 1e-15 * reach * sum; }
+inline double tie_margin(const Plane& plane, double reach) { return tie_margin(plane.cwiseAbs().sum(), reach); }
 
 /// How far g . o may differ from 1 for corners o of a polygon that the plane may touch: merged polygons are
 /// planar to a nanometre only. Generous, because a plane taken for one that touches fewer corners may be taken for

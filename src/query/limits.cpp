@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace vantage::query {
 namespace {
@@ -52,25 +53,6 @@ void add_mesh_crossings(const Mesh& mesh, const SightLine& line, std::vector<dou
   }
 }
 
-/// The line within reach, cut wherever it passes a limit: between neighbours all of it is allowed or none.
-std::vector<double> cut_line(const Navigation& navigation, const SightLine& line) {
-  std::vector<double> cuts;
-  if (navigation.altitude) {
-    Box band;
-    band.min = {-INFINITY, -INFINITY, navigation.altitude->min_m};
-    band.max = {INFINITY, INFINITY, navigation.altitude->max_m};
-    add_box_crossings(band, line, cuts);
-  }
-  for (const Box& box : navigation.boxes) add_box_crossings(box, line, cuts);
-  for (const Box& box : navigation.keep_out) add_box_crossings(box, line, cuts);
-  for (const KeepInMesh& mesh : navigation.meshes) add_mesh_crossings(mesh.mesh, line, cuts);
-  std::erase_if(cuts, [&](double cut) { return !(cut > 0 && cut < line.reach); });
-  cuts.push_back(0);
-  cuts.push_back(line.reach);
-  std::sort(cuts.begin(), cuts.end());
-  return cuts;
-}
-
 /// The part of the line from one cut to the next.
 struct Part {
   double begin, end;
@@ -79,16 +61,37 @@ struct Part {
 
 }  // namespace
 
-double signed_margin(const Navigation& navigation, const SightLine& line, double at, bool is_inside) {
+Limits::Limits(Navigation navigation) : navigation_(std::move(navigation)) {
+  for (const KeepInMesh& mesh : navigation_.meshes) mesh_boxes_.push_back(bounding_box(mesh.mesh));
+}
+
+/// The line within reach, cut wherever it passes a limit: between neighbours all of it is allowed or none.
+std::vector<double> Limits::cut_line(const SightLine& line) const {
+  std::vector<double> cuts;
+  if (navigation_.altitude) {
+    Box band;
+    band.min = {-INFINITY, -INFINITY, navigation_.altitude->min_m};
+    band.max = {INFINITY, INFINITY, navigation_.altitude->max_m};
+    add_box_crossings(band, line, cuts);
+  }
+  for (const Box& box : navigation_.boxes) add_box_crossings(box, line, cuts);
+  for (const Box& box : navigation_.keep_out) add_box_crossings(box, line, cuts);
+  for (const KeepInMesh& mesh : navigation_.meshes) add_mesh_crossings(mesh.mesh, line, cuts);
+  std::erase_if(cuts, [&](double cut) { return !(cut > 0 && cut < line.reach); });
+  cuts.push_back(0);
+  cuts.push_back(line.reach);
+  std::sort(cuts.begin(), cuts.end());
+  return cuts;
+}
+
+double Limits::signed_margin(const SightLine& line, double at, bool is_inside) const {
   if (!(line.reach > 0)) return -INFINITY;
-  const std::vector<double> cuts = cut_line(navigation, line);
+  const std::vector<double> cuts = cut_line(line);
   std::vector<Part> parts;
   for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
     if (cuts[i] < cuts[i + 1]) parts.push_back({cuts[i], cuts[i + 1]});
   }
-  const auto is_allowed = [&](const Part& part) {
-    return limits_broken(navigation, line.at((part.begin + part.end) / 2)).empty();
-  };
+  const auto is_allowed = [&](const Part& part) { return broken(line.at((part.begin + part.end) / 2)).empty(); };
   // Nearest first: outside, the first part that is allowed ends the search; inside, the first that is not, or the
   // reach.
   std::stable_sort(parts.begin(), parts.end(),
@@ -101,19 +104,22 @@ double signed_margin(const Navigation& navigation, const SightLine& line, double
   return is_inside ? std::max(line.reach - at, 0.0) : -INFINITY;
 }
 
-std::vector<std::string> limits_broken(const Navigation& navigation, const Vec3& point) {
+std::vector<std::string> Limits::broken(const Vec3& point) const {
   std::vector<std::string> broken;
-  if (navigation.altitude) {
-    if (point.z() < navigation.altitude->min_m) broken.push_back("altitude min");
-    if (point.z() > navigation.altitude->max_m) broken.push_back("altitude max");
+  if (navigation_.altitude) {
+    if (point.z() < navigation_.altitude->min_m) broken.push_back("altitude min");
+    if (point.z() > navigation_.altitude->max_m) broken.push_back("altitude max");
   }
-  const auto& boxes = navigation.boxes;
+  const auto& boxes = navigation_.boxes;
   if (!boxes.empty() && std::none_of(boxes.begin(), boxes.end(), [&](const Box& box) { return inside(box, point); }))
     broken.push_back("boxes");
-  for (std::size_t i = 0; i < navigation.keep_out.size(); ++i)
-    if (strictly_inside(navigation.keep_out[i], point)) broken.push_back("keep_out " + std::to_string(i));
-  for (const KeepInMesh& mesh : navigation.meshes)
-    if (winding_number(mesh.mesh, point) < 0.5) broken.push_back("mesh " + mesh.name);
+  for (std::size_t i = 0; i < navigation_.keep_out.size(); ++i)
+    if (strictly_inside(navigation_.keep_out[i], point)) broken.push_back("keep_out " + std::to_string(i));
+  for (std::size_t i = 0; i < navigation_.meshes.size(); ++i) {
+    const KeepInMesh& mesh = navigation_.meshes[i];
+    // Also because the winding number overflows far away.
+    if (!inside(mesh_boxes_[i], point) || winding_number(mesh.mesh, point) < 0.5) broken.push_back("mesh " + mesh.name);
+  }
   return broken;
 }
 

@@ -8,10 +8,6 @@
 
 namespace vantage::query {
 
-/// Names as in reports: "altitude min", "altitude max", "boxes" (the point is in none of them), "keep_out 2", "mesh
-/// NAME". Borders belong to the allowed side. Cost: linear in the triangles of the navigation meshes.
-std::vector<std::string> limits_broken(const Navigation& navigation, const Vec3& point);
-
 /// A line of sight: from the target's centre to the front. Scene frame.
 struct SightLine {
   Vec3 origin, direction;  ///< unit length
@@ -20,11 +16,27 @@ struct SightLine {
   Vec3 at(double distance) const { return origin + distance * direction; }
 };
 
-/// Signed distance, along the line, from the point at `at` metres from its origin (negative: behind the target) to the
-/// boundary of the part of the line that is within reach and all limits: positive inside, minus infinity where there is
-/// no such part. The origin, where the line ends on the target, does not count as boundary. `is_inside`: what is known
-/// of the point by tests of its own, which this follows. Cost: as limits_broken for each crossing with a limit that
-/// lies nearer than that boundary.
-double signed_margin(const Navigation& navigation, const SightLine& line, double at, bool is_inside);
+class Limits {
+ public:
+  explicit Limits(Navigation navigation);
+
+  /// Names as in reports: "altitude min", "altitude max", "boxes" (the point is in none of them), "keep_out 2", "mesh
+  /// NAME". Borders belong to the allowed side. Cost: linear in the triangles of the navigation meshes whose boxes hold
+  /// the point.
+  std::vector<std::string> broken(const Vec3& point) const;
+
+  /// Signed distance, along the line, from the point at `at` metres from its origin (negative: behind the target) to
+  /// the boundary of the part of the line that is within reach and all limits: positive inside, minus infinity where
+  /// there is no such part. The origin, where the line ends on the target, does not count as boundary. `is_inside`:
+  /// what is known of the point by tests of its own, which this follows. Cost: as broken() for each crossing with a
+  /// limit that lies nearer than that boundary.
+  double signed_margin(const SightLine& line, double at, bool is_inside) const;
+
+ private:
+  std::vector<double> cut_line(const SightLine& line) const;
+
+  Navigation navigation_;
+  std::vector<Box> mesh_boxes_;
+};
 
 }  // namespace vantage::query

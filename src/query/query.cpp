@@ -1,9 +1,13 @@
-// query_points: the gauge of docs/theory.md along one line, straight from the scene's hierarchy.
+// PointQuery: the gauge of docs/theory.md along one line, straight from the scene's hierarchy.
 #include "vantage/query.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <set>
+#include <atomic>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <optional>
 
 #include "exact/blocker.h"
 #include "exact/collect.h"
@@ -14,6 +18,7 @@
 #include "exact/segment_cover.h"
 #include "exact/target_check.h"
 #include "parallel/parallel.h"
+#include "query/blocker_index.h"
 #include "query/limits.h"
 #include "vantage/error.h"
 
@@ -21,121 +26,258 @@ namespace vantage {
 namespace {
 
 using namespace exact;
+using query::BlockerIndex;
 
-/// Finds what stands between a point and the target; one a thread.
-class LineOfSight {
- public:
-  LineOfSight(const PreparedScene::Data& scene, const TargetFrame& frame, const LocalTarget& target)
-      : scene_(scene), frame_(frame), target_(target), builder_(target) {}
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kLargestRange = 1e9;  // metres; as scenes
 
-  /// Blocker planes of every polygon that may hide part of the target from a point between the centre and `apex`
-  /// (local). `visit` gets the polygon and its planes.
-  template <typename Visit>
-  void for_each(const Vec3& apex, const Visit& visit) {
-    Box pyramid;
-    const Vec3 shift = scene_.origin;
-    pyramid.extend(Vec3(frame_.to_scene(apex) - shift));
-    for (const auto& t : target_.vertices) pyramid.extend(Vec3(frame_.to_scene({t.x(), t.y(), 0}) - shift));
-    stack_.assign(scene_.bvh.nodes.empty() ? 0 : 1, 0);
-    while (!stack_.empty()) {
-      const scene::BvhNode& node = scene_.bvh.nodes[stack_.back()];
-      stack_.pop_back();
-      bool apart = false;
-      for (int a = 0; a < 3; ++a)
-        apart = apart || node.bounds.min[a] > pyramid.max[a] || node.bounds.max[a] < pyramid.min[a];
-      if (apart) continue;
-      if (!node.leaf()) {
-        stack_.push_back(node.first + 1);
-        stack_.push_back(node.first);
-        continue;
-      }
-      for (std::uint32_t polygon = node.first; polygon < node.first + node.count; ++polygon) {
-        local_polygon(scene_, frame_, polygon, corners_);
-        planes_.clear();
-        clipped_.clear();
-        if (builder_.build(corners_, planes_, clipped_)) visit(polygon, planes_);
-      }
+/// Squares of larger coordinates may overflow.
+constexpr double kSquarable = 1e150;
+
+bool overlap(const scene::Bounds& bounds, const Box& box) {
+  bool apart = false;
+  for (int a = 0; a < 3; ++a) apart = apart || bounds.min[a] > box.max[a] || bounds.max[a] < box.min[a];
+  return !apart;
+}
+
+/// Calls visit(leaf) for the leaves of the scene's hierarchy that overlap a box relative to the scene's origin.
+template <typename Visit>
+void for_each_leaf(const PreparedScene::Data& scene, const Box& box, std::vector<std::uint32_t>& stack,
+                   const Visit& visit) {
+  stack.assign(scene.bvh.nodes.empty() ? 0 : 1, 0);
+  while (!stack.empty()) {
+    const std::uint32_t at = stack.back();
+    const scene::BvhNode& node = scene.bvh.nodes[at];
+    stack.pop_back();
+    if (!overlap(node.bounds, box)) continue;
+    if (node.leaf()) {
+      visit(at);
+    } else {
+      stack.push_back(node.first + 1);
+      stack.push_back(node.first);
     }
   }
+}
 
- private:
-  const PreparedScene::Data& scene_;
-  const TargetFrame& frame_;
-  const LocalTarget& target_;
-  BlockerBuilder builder_;
-  std::vector<std::uint32_t> stack_;
-  std::vector<Vec3> corners_, clipped_;
-  std::vector<Plane> planes_;
+/// What blocks from points up to some distance.
+struct Reach {
+  double metres = kInfinity;            ///< from the target's centre
+  std::unique_ptr<BlockerIndex> index;  ///< once it pays
+  std::vector<std::uint32_t> leaves;    ///< that the index is to hold; found when it is first thought of
+  std::size_t polygons = 0;             ///< in them
+  std::atomic<std::size_t> work = 0;    ///< blockers built without the index
 };
 
+LocalTarget local_target(const PreparedScene::Data& scene, const TargetFrame& frame, double max_range) {
+  const Lengths lengths = lengths_of(scene, frame, max_range);
+  return make_local_target(frame.polygon, lengths.slack, lengths.rounding);
+}
+
 /// What one side of a target asks of the scene; shared by all threads.
-struct Question {
+struct Side {
+  /// `range_region` is about the frame's origin.
+  Side(const PreparedScene::Data& scene_data, const query::Limits& navigation, const TargetFrame& target_frame,
+       const RangeRegion& range_region, double max_range, bool reachable)
+      : scene(scene_data),
+        limits(navigation),
+        frame(target_frame),
+        target(local_target(scene_data, target_frame, max_range)),
+        range(range_region),
+        is_reachable(reachable) {
+    // All that is in range is this near to the centre, which is a mean of the target's vertices.
+    reaches[0].metres = range.radius() * (1 + 1e-9);
+  }
+
   const PreparedScene::Data& scene;
-  const Navigation& navigation;
+  const query::Limits& limits;
   TargetFrame frame;
   LocalTarget target;
   RangeRegion range;
   bool is_reachable;  // else no point at all is in range
+  std::array<Reach, 2> reaches;
+
+  /// Of all that may hide the target from points within reach. Relative to the scene's origin.
+  Box box_within(double metres) const {
+    Box box;
+    for (const auto& t : target.vertices) box.extend(Vec3(frame.to_scene({t.x(), t.y(), 0}) - scene.origin));
+    const double room = metres * (1 + 1e-6) + 1e-6 + 1e-12 * frame.origin.norm();
+    box.extend(Vec3(frame.origin - scene.origin - Vec3::Constant(room)));
+    box.extend(Vec3(frame.origin - scene.origin + Vec3::Constant(room)));
+    return box;
+  }
 };
 
-/// Inverse of the distance up to which the target is seen along `direction` (local). Adds to `names` what hides some of
-/// it from the point at `distance`.
-double gauge_along(const Question& question, LineOfSight& sight, const Vec3& direction, double distance,
-                   std::set<std::string>& names) {
-  double gauge = question.range.gauge(direction);
-  const PreparedScene::Data& scene = question.scene;
-  sight.for_each(direction * std::max(distance, 1 / gauge),
-                 [&](std::uint32_t polygon, const std::vector<Plane>& planes) {
-                   double least = std::numeric_limits<double>::infinity(), margin = 0;
-                   for (const Plane& plane : planes) {
-                     least = std::min(least, plane.dot(direction));
-                     margin = std::max(margin, tie_margin(plane, distance));
-                   }
-                   gauge = std::max(gauge, least);
-                   if (least * distance > 1 + margin) names.insert(scene.objects[scene.polygon_object[polygon]]);
-                 });
-  return gauge;
+/// Which objects of the scene were named for the point that is looked at. One a thread, kept from point to point.
+class NamedObjects {
+ public:
+  void clear(std::size_t object_count) {
+    if (stamps_.size() < object_count) stamps_.resize(object_count, 0);
+    ++stamp_;
+    named_.clear();
+  }
+  bool has(std::uint32_t object) const { return stamps_[object] == stamp_; }
+  void add(std::uint32_t object) {
+    if (has(object)) return;
+    stamps_[object] = stamp_;
+    named_.push_back(object);
+  }
+  std::size_t count() const { return named_.size(); }
+  std::vector<std::string> names(const std::vector<std::string>& objects) const {
+    std::vector<std::string> result;
+    for (const std::uint32_t object : named_) result.push_back(objects[object]);
+    std::sort(result.begin(), result.end());
+    result.erase(std::unique(result.begin(), result.end()), result.end());
+    return result;
+  }
+
+ private:
+  std::vector<std::uint64_t> stamps_;
+  std::vector<std::uint32_t> named_;
+  std::uint64_t stamp_ = 0;
+};
+
+/// Looks along one line from the target's centre.
+class Sight {
+ public:
+  /// `direction` is local and of unit length. What hides some of the target from the point at `distance` is named.
+  Sight(Side& side, const Vec3& direction, double distance, NamedObjects& named)
+      : side_(side), direction_(direction), distance_(distance), named_(named), gauge_(side.range.gauge(direction)) {
+    named_.clear(side.scene.objects.size());
+    const double farthest = std::max(distance, 1 / gauge_);
+    const Vec3 shift = side.scene.origin;
+    pyramid_.extend(Vec3(side.frame.to_scene(direction * farthest) - shift));
+    for (const auto& t : side.target.vertices) {
+      pyramid_.extend(Vec3(side.frame.to_scene({t.x(), t.y(), 0}) - shift));
+    }
+    Reach& reach = side.reaches[farthest <= side.reaches[0].metres ? 0 : 1];
+    if (reach.index) {
+      look_up(*reach.index);
+    } else {
+      walk(reach);
+    }
+  }
+
+  /// Inverse of the distance up to which the target is seen.
+  double gauge() const { return gauge_; }
+
+ private:
+  void walk(Reach& reach) {
+    BlockerBuilder builder(side_.target);
+    std::vector<std::uint32_t> stack;
+    std::vector<Vec3> corners, clipped;
+    std::vector<Plane> planes;
+    std::size_t work = 0;
+    for_each_leaf(side_.scene, pyramid_, stack, [&](std::uint32_t leaf) {
+      const scene::BvhNode& node = side_.scene.bvh.nodes[leaf];
+      for (std::uint32_t polygon = node.first; polygon < node.first + node.count; ++polygon) {
+        local_polygon(side_.scene, side_.frame, polygon, corners);
+        planes.clear();
+        clipped.clear();
+        ++work;
+        if (!builder.build(corners, planes, clipped)) continue;
+        double least = kInfinity, widest = 0;
+        for (const Plane& plane : planes) {
+          least = std::min(least, plane.dot(direction_));
+          widest = std::max(widest, plane.cwiseAbs().sum());
+        }
+        take(least, widest, side_.scene.polygon_object[polygon]);
+      }
+    });
+    reach.work += work;
+  }
+
+  void look_up(BlockerIndex& index) {
+    index.for_each(direction_, [&](const BlockerIndex::Entry& entry, double bound) {
+      const bool can_raise = bound > gauge_;
+      if (!can_raise && (!(bound * distance_ > 1) || named_.count() == side_.scene.objects.size())) return false;
+      const BlockerIndex::Blocker& blocker = index.blocker(entry.blocker);
+      if (!can_raise && named_.has(blocker.object)) return true;
+      const auto is_low = [&](double value) { return value <= gauge_ && value * distance_ <= 1; };
+      double least = kInfinity;
+      if (blocker.plane_count > 0) least = index.plane(entry.plane).dot(direction_);
+      for (std::uint32_t p = 0; p < blocker.plane_count && !is_low(least); ++p) {
+        least = std::min(least, index.plane(blocker.first_plane + p).dot(direction_));
+      }
+      if (!is_low(least) && overlap(side_.scene.bvh.nodes[blocker.leaf].bounds, pyramid_)) {
+        take(least, blocker.widest, blocker.object);
+      }
+      return true;
+    });
+  }
+
+  /// A blocker that begins at 1 / least along the line.
+  void take(double least, double widest, std::uint32_t object) {
+    gauge_ = std::max(gauge_, least);
+    if (least * distance_ > 1 + tie_margin(widest, distance_)) named_.add(object);
+  }
+
+  Side& side_;
+  Vec3 direction_;
+  double distance_;
+  NamedObjects& named_;
+  double gauge_;
+  Box pyramid_;
+};
+
+/// A point as seen from the target's centre.
+struct Bearing {
+  Vec3 direction = Vec3::Zero();  ///< local, unit length; zero at the centre
+  double distance = 0;
+  bool in_front = false, in_range = false;
+};
+
+Bearing bearing_of(const Side& side, const Vec3& scene_point) {
+  const TargetFrame& frame = side.frame;
+  const double largest = scene_point.cwiseAbs().maxCoeff();
+  if (largest < kSquarable) {
+    const Vec3 point = frame.to_local(scene_point);
+    const double distance = point.norm();
+    return {distance > 0 ? Vec3(point / distance) : Vec3(Vec3::Zero()), distance,
+            point.z() > 0, side.is_reachable && side.range.contains(point)};
+  }
+  // So far away the centre is where the origin is.
+  const Vec3 unit = scene_point / largest;
+  const Vec3 direction = Vec3(frame.axis_u.dot(unit), frame.axis_v.dot(unit), frame.normal.dot(unit)).normalized();
+  return {direction, std::min(unit.norm() * largest, std::numeric_limits<double>::max()),
+          direction.z() > 0, false};
 }
 
-PointAnswer look(const Question& question, LineOfSight& sight, const Vec3& scene_point) {
+PointAnswer look(Side& side, const Vec3& scene_point) {
+  thread_local NamedObjects named;
   PointAnswer answer;
-  const TargetFrame& frame = question.frame;
-  const Vec3 point = frame.to_local(scene_point);
-  const double distance = point.norm();
-  answer.out_of_range = !question.is_reachable || !question.range.contains(point);
-  answer.behind_target = !frame.all_sides && point.z() <= 0;
-  answer.outside_of = query::limits_broken(question.navigation, scene_point);
+  const TargetFrame& frame = side.frame;
+  const Bearing bearing = bearing_of(side, scene_point);
+  answer.out_of_range = !bearing.in_range;
+  answer.behind_target = !frame.all_sides && !bearing.in_front;
+  answer.outside_of = side.limits.broken(scene_point);
 
   // The line goes to the front always: for a point behind the target it is the other half of the line through it.
-  const double side = answer.behind_target ? -1 : 1;
-  const Vec3 direction = distance > 0 ? Vec3(side * point / distance) : Vec3::UnitZ();
-  std::set<std::string> names;
-  const double gauge = gauge_along(question, sight, direction, answer.behind_target ? 0 : distance, names);
-  answer.blocked_by.assign(names.begin(), names.end());
+  const double sign = answer.behind_target ? -1 : 1;
+  const Vec3 direction = bearing.distance > 0 ? Vec3(sign * bearing.direction) : Vec3::UnitZ();
+  const Sight sight(side, direction, answer.behind_target ? 0 : bearing.distance, named);
+  answer.blocked_by = named.names(side.scene.objects);
   answer.inside =
       !answer.behind_target && !answer.out_of_range && answer.blocked_by.empty() && answer.outside_of.empty();
   const query::SightLine line{
       frame.origin, frame.axis_u * direction.x() + frame.axis_v * direction.y() + frame.normal * direction.z(),
-      question.is_reachable ? 1 / gauge : 0};
-  answer.margin_m = query::signed_margin(question.navigation, line, side * distance, answer.inside);
+      side.is_reachable ? 1 / sight.gauge() : 0};
+  answer.margin_m = side.limits.signed_margin(line, sign * bearing.distance, answer.inside);
   return answer;
 }
 
+using Sides = std::vector<std::unique_ptr<Side>>;
+
 /// One side; both of a point that is seen from all sides, the front first.
-std::vector<Question> make_questions(const PreparedScene::Data& scene, const Target& target, double max_range,
-                                     const Navigation& navigation) {
+Sides make_sides(const PreparedScene::Data& scene, const Target& target, double max_range,
+                 const query::Limits& limits) {
   TargetFrame frame = make_target_frame(target);
-  const auto local_target = [&](const TargetFrame& f) {
-    const Lengths lengths = lengths_of(scene, f, max_range);
-    return make_local_target(f.polygon, lengths.slack, lengths.rounding);
-  };
-  std::vector<Question> questions;
+  Sides result;
   if (target.is_point()) {
     const PointSides sides = make_point_sides(scene, target, frame, max_range);
-    const RangeRegion range(frame.polygon, max_range);
-    questions.push_back({scene, navigation, sides.front, local_target(sides.front), range, true});
-    if (sides.back) questions.push_back({scene, navigation, *sides.back, local_target(*sides.back), range, true});
-    return questions;
+    const RangeRegion range(frame.polygon, max_range);  // of the point itself, not of the triangle that stands for it
+    result.push_back(std::make_unique<Side>(scene, limits, sides.front, range, max_range, true));
+    if (sides.back) result.push_back(std::make_unique<Side>(scene, limits, *sides.back, range, max_range, true));
+    return result;
   }
   frame.origin += frame.normal * clear_target(scene, target, frame, max_range).lift_m;
   // Where no point at all is in range the centre may be out of range itself: look from the circle's centre, as the
@@ -143,28 +285,100 @@ std::vector<Question> make_questions(const PreparedScene::Data& scene, const Tar
   const bool reachable = can_reach(frame, {max_range});
   if (reachable) move_into_range(frame, max_range);
   const RangeRegion range(frame.polygon, reachable ? max_range : 2 * frame.enclosing_radius_m);
-  questions.push_back({scene, navigation, frame, local_target(frame), range, reachable});
-  return questions;
+  result.push_back(std::make_unique<Side>(scene, limits, frame, range, max_range, reachable));
+  return result;
+}
+
+/// The index is made as soon as building blockers for single points has cost as much: so no one who asks about a few
+/// points waits for it, and no one pays much more than the cheaper of the two.
+void consider_index(const Side& side, Reach& reach) {
+  constexpr std::size_t kLittle = 1000;  // blockers, about a millisecond
+  if (reach.index || reach.work < kLittle) return;
+  if (reach.leaves.empty()) {
+    std::vector<std::uint32_t> stack;
+    for_each_leaf(side.scene, side.box_within(reach.metres), stack, [&](std::uint32_t leaf) {
+      reach.leaves.push_back(leaf);
+      reach.polygons += side.scene.bvh.nodes[leaf].count;
+    });
+  }
+  if (reach.work < reach.polygons) return;
+  reach.index =
+      std::make_unique<BlockerIndex>(side.scene, side.frame, side.target, reach.leaves, reach.metres);
+}
+
+void look_from_all(const Sides& sides, std::span<const Vec3> points, std::span<PointAnswer> answers) {
+  // Portions that grow, as what the first ones cost decides about the index.
+  for (std::size_t done = 0, portion = 16; done < points.size(); done += portion, portion *= 2) {
+    const std::size_t count = std::min(portion, points.size() - done);
+    parallel::for_ranges(count, 64, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = done + begin; i < done + end; ++i) {
+        const bool is_behind = sides.size() > 1 && sides[0]->frame.to_local(points[i]).z() < 0;
+        answers[i] = look(*sides[is_behind ? 1 : 0], points[i]);
+      }
+    });
+    for (const auto& side : sides) {
+      for (Reach& reach : side->reaches) consider_index(*side, reach);
+    }
+  }
+}
+
+/// The whole target is seen where all its parts are.
+void narrow(PointAnswer& answer, const PointAnswer& other) {
+  answer.inside = answer.inside && other.inside;
+  answer.margin_m = std::min(answer.margin_m, other.margin_m);
+  std::vector<std::string> blockers;
+  std::set_union(answer.blocked_by.begin(), answer.blocked_by.end(), other.blocked_by.begin(), other.blocked_by.end(),
+                 std::back_inserter(blockers));
+  answer.blocked_by = std::move(blockers);
+  answer.out_of_range = answer.out_of_range || other.out_of_range;
+  answer.behind_target = answer.behind_target || other.behind_target;
 }
 
 }  // namespace
 
-std::vector<PointAnswer> query_points(const PreparedScene& scene, const Target& target, const Sensor& sensor,
-                                      const Navigation& navigation, const std::vector<Vec3>& points) {
+struct PointQuery::Data {
+  PreparedScene scene;
+  query::Limits limits;
+  std::vector<Sides> parts;
+};
+
+PointQuery::PointQuery(const PreparedScene& scene, const std::vector<Target>& parts, const Sensor& sensor,
+                       const Navigation& navigation)
+    : data_(std::make_unique<Data>(Data{scene, query::Limits(navigation), {}})) {
   check_sensor(sensor);
-  for (std::size_t i = 0; i < points.size(); ++i)
-    if (!points[i].allFinite())
-      throw Error(ErrorKind::input, "a coordinate is not finite", "point " + std::to_string(i), "give three numbers");
-  const std::vector<Question> sides = make_questions(scene.data(), target, sensor.max_range_m, navigation);
-  std::vector<PointAnswer> answers(points.size());
-  parallel::for_ranges(points.size(), 64, [&](std::size_t begin, std::size_t end) {
-    std::vector<LineOfSight> sights;
-    for (const Question& side : sides) sights.emplace_back(scene.data(), side.frame, side.target);
-    for (std::size_t i = begin; i < end; ++i) {
-      const std::size_t side = sides.size() > 1 && sides[0].frame.to_local(points[i]).z() < 0 ? 1 : 0;
-      answers[i] = look(sides[side], sights[side], points[i]);
+  if (sensor.max_range_m > kLargestRange) {
+    throw Error(ErrorKind::input, "max_range is larger than 1e9 m", "sensor", "give metres");
+  }
+  if (parts.empty()) throw Error(ErrorKind::input, "the target has no parts", "query", "give one or more");
+  for (const Target& part : parts) {
+    data_->parts.push_back(make_sides(data_->scene.data(), part, sensor.max_range_m, data_->limits));
+  }
+}
+PointQuery::~PointQuery() = default;
+PointQuery::PointQuery(PointQuery&&) noexcept = default;
+PointQuery& PointQuery::operator=(PointQuery&&) noexcept = default;
+
+std::vector<PointAnswer> PointQuery::answer(std::span<const Vec3> points) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (points[i].allFinite()) continue;
+    throw Error(ErrorKind::input, "a coordinate is not finite", "point " + std::to_string(i), "give three numbers");
+  }
+  std::vector<PointAnswer> answers(points.size()), of_part;
+  for (std::size_t part = 0; part < data_->parts.size(); ++part) {
+    if (part == 0) {
+      look_from_all(data_->parts[0], points, answers);
+      continue;
     }
-  });
+    of_part.resize(points.size());
+    look_from_all(data_->parts[part], points, of_part);
+    for (std::size_t i = 0; i < points.size(); ++i) narrow(answers[i], of_part[i]);
+  }
   return answers;
 }
+
+std::vector<PointAnswer> query_points(const PreparedScene& scene, const Target& target, const Sensor& sensor,
+                                      const Navigation& navigation, const std::vector<Vec3>& points) {
+  return PointQuery(scene, {target}, sensor, navigation).answer(points);
+}
+
 }  // namespace vantage
