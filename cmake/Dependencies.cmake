@@ -16,10 +16,15 @@ target_link_libraries(vantage_embree INTERFACE embree)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(CAIRO REQUIRED IMPORTED_TARGET cairo>=1.16)
 
-# PROJ: coordinate reference systems (src/geo only). libosmium is headers; it reads XML with Expat and unpacks with zlib and
-# bzip2 (src/osm only). Clipper 6.4: outlines in the plane (src/city/footprint.cpp only); its
-# package file tells no version.
+# PROJ: coordinate reference systems (src/geo only), found here and loaded at run time. libosmium is headers; it reads
+# XML with Expat and unpacks with zlib and bzip2 (src/osm only). Clipper 6.4: outlines in the plane
+# (src/city/footprint.cpp only); its package file tells no version.
 pkg_check_modules(PROJ REQUIRED IMPORTED_TARGET proj>=9.1)
+find_library(VANTAGE_PROJ_LIBRARY proj HINTS ${PROJ_LIBRARY_DIRS} REQUIRED NO_CACHE)
+file(REAL_PATH ${VANTAGE_PROJ_LIBRARY} VANTAGE_PROJ_FILE)
+# The name that stands for its binary interface: libproj.so.25 of libproj.so.25.9.1.1.
+get_filename_component(VANTAGE_PROJ_NAME ${VANTAGE_PROJ_FILE} NAME)
+string(REGEX REPLACE "^(lib.*\\.so\\.[0-9]+).*" "\\1" VANTAGE_PROJ_NAME ${VANTAGE_PROJ_NAME})
 pkg_check_modules(CLIPPER REQUIRED IMPORTED_TARGET polyclipping)
 find_package(EXPAT REQUIRED)
 find_package(BZip2 REQUIRED)

@@ -1,21 +1,20 @@
-#include <proj.h>
-
 #include <array>
 #include <cmath>
 #include <initializer_list>
 #include <sstream>
 
 #include "geo/local_frame.h"
+#include "geo/proj_library.h"
 #include "vantage/error.h"
 
 namespace vantage::geo {
 namespace {
 
 struct ContextDeleter {
-  void operator()(PJ_CONTEXT* context) const { proj_context_destroy(context); }
+  void operator()(PJ_CONTEXT* context) const { proj().proj_context_destroy(context); }
 };
 struct ObjectDeleter {
-  void operator()(PJ* object) const { proj_destroy(object); }
+  void operator()(PJ* object) const { proj().proj_destroy(object); }
 };
 using Context = std::unique_ptr<PJ_CONTEXT, ContextDeleter>;
 using Object = std::unique_ptr<PJ, ObjectDeleter>;
@@ -84,8 +83,10 @@ struct CoordinateSystem::Data {
 
 Object CoordinateSystem::Data::create(const std::string& text) const {
   Object system;
-  if (text.find('\0') == std::string::npos) system.reset(proj_create(context.get(), in_words_of_proj(text).c_str()));
-  if (system && proj_is_crs(system.get())) return system;
+  if (text.find('\0') == std::string::npos) {
+    system.reset(proj().proj_create(context.get(), in_words_of_proj(text).c_str()));
+  }
+  if (system && proj().proj_is_crs(system.get())) return system;
   throw Error(ErrorKind::input,
               "no known coordinate reference system: " + in_quotes(text) +
                   (message.empty() ? "" : " (" + in_quotes(message) + ")"),
@@ -93,12 +94,12 @@ Object CoordinateSystem::Data::create(const std::string& text) const {
 }
 
 void CoordinateSystem::Data::read_vertical_axis(const PJ* system, int axis) {
-  const Object axes(proj_crs_get_coordinate_system(context.get(), system));
-  if (!axes || proj_cs_get_axis_count(context.get(), axes.get()) <= axis) return;
+  const Object axes(proj().proj_crs_get_coordinate_system(context.get(), system));
+  if (!axes || proj().proj_cs_get_axis_count(context.get(), axes.get()) <= axis) return;
   const char* direction = nullptr;
   double unit_m = 1;
-  if (!proj_cs_get_axis_info(context.get(), axes.get(), axis, nullptr, nullptr, &direction, &unit_m, nullptr, nullptr,
-                             nullptr)) {
+  if (!proj().proj_cs_get_axis_info(context.get(), axes.get(), axis, nullptr, nullptr, &direction, &unit_m, nullptr,
+                                    nullptr, nullptr)) {
     return;
   }
   vertical_unit_m = direction && std::string_view(direction) == "down" ? -unit_m : unit_m;
@@ -106,16 +107,16 @@ void CoordinateSystem::Data::read_vertical_axis(const PJ* system, int axis) {
 
 /// Notes the vertical axis, if there is one, and takes it off (where it is a system of its own).
 Object CoordinateSystem::Data::horizontal_part(Object system) {
-  if (proj_get_type(system.get()) == PJ_TYPE_COMPOUND_CRS) {
-    Object vertical(proj_crs_get_sub_crs(context.get(), system.get(), 1));
-    if (vertical && proj_get_type(vertical.get()) == PJ_TYPE_BOUND_CRS) {
-      vertical.reset(proj_get_source_crs(context.get(), vertical.get()));
+  if (proj().proj_get_type(system.get()) == PJ_TYPE_COMPOUND_CRS) {
+    Object vertical(proj().proj_crs_get_sub_crs(context.get(), system.get(), 1));
+    if (vertical && proj().proj_get_type(vertical.get()) == PJ_TYPE_BOUND_CRS) {
+      vertical.reset(proj().proj_get_source_crs(context.get(), vertical.get()));
     }
     if (vertical) {
-      vertical_name = proj_get_name(vertical.get());
+      vertical_name = proj().proj_get_name(vertical.get());
       read_vertical_axis(vertical.get(), 0);
     }
-    return Object(proj_crs_get_sub_crs(context.get(), system.get(), 0));
+    return Object(proj().proj_crs_get_sub_crs(context.get(), system.get(), 0));
   }
   read_vertical_axis(system.get(), 2);
   if (vertical_unit_m) vertical_name = "ellipsoidal height";
@@ -123,10 +124,10 @@ Object CoordinateSystem::Data::horizontal_part(Object system) {
 }
 
 void CoordinateSystem::Data::name_after(const PJ* system, const std::string& text) {
-  const char* const known_as = proj_get_name(system);
+  const char* const known_as = proj().proj_get_name(system);
   const std::string long_name = known_as ? known_as : "";
-  const char* const authority = proj_get_id_auth_name(system, 0);
-  const char* const number = proj_get_id_code(system, 0);
+  const char* const authority = proj().proj_get_id_auth_name(system, 0);
+  const char* const number = proj().proj_get_id_code(system, 0);
   if (authority && number) {
     code = std::string(authority).append(":").append(number);
     name = code + " (" + long_name + ")";
@@ -139,21 +140,24 @@ void CoordinateSystem::Data::read_area(const PJ* system) {
   constexpr double kUnknown = -1000;
   const char* known_as = nullptr;
   auto& [west, south, east, north] = area_deg;
-  const bool is_known = proj_get_area_of_use(context.get(), system, &west, &south, &east, &north, &known_as) != 0;
+  const bool is_known =
+      proj().proj_get_area_of_use(context.get(), system, &west, &south, &east, &north, &known_as) != 0;
   if (is_known && west > kUnknown && known_as) area_name = known_as;
 }
 
 Eigen::Vector2d CoordinateSystem::Data::transform(const Eigen::Vector2d& from, PJ_DIRECTION direction) const {
-  proj_errno_reset(to_wgs84.get());
-  const PJ_COORD to = proj_trans(to_wgs84.get(), direction, proj_coord(from.x(), from.y(), 0, 0));
+  proj().proj_errno_reset(to_wgs84.get());
+  PJ_COORD position{};
+  position.xy = {from.x(), from.y()};
+  const PJ_COORD to = proj().proj_trans(to_wgs84.get(), direction, position);
   if (from.allFinite() && std::isfinite(to.xy.x) && std::isfinite(to.xy.y)) return {to.xy.x, to.xy.y};
-  const int fault = proj_errno(to_wgs84.get());
+  const int fault = proj().proj_errno(to_wgs84.get());
   std::ostringstream problem;
   problem.imbue(std::locale::classic());
   problem.precision(12);
   problem << "(" << from.x() << ", " << from.y() << ") has no counterpart "
           << (direction == PJ_FWD ? "on the earth in " : "in ") << name;
-  if (fault) problem << ": " << proj_context_errno_string(context.get(), fault);
+  if (fault) problem << ": " << proj().proj_context_errno_string(context.get(), fault);
   throw Error(ErrorKind::input, problem.str(), where,
               "check the coordinates, their order (east before north, longitude before latitude) and their system");
 }
@@ -161,13 +165,13 @@ Eigen::Vector2d CoordinateSystem::Data::transform(const Eigen::Vector2d& from, P
 CoordinateSystem::CoordinateSystem(const std::string& text, const std::string& where)
     : data_(std::make_unique<Data>()) {
   data_->where = where;
-  data_->context.reset(proj_context_create());
+  data_->context.reset(proj().proj_context_create());
   if (!data_->context) throw std::bad_alloc();
   PJ_CONTEXT* const context = data_->context.get();
-  proj_log_func(context, &data_->message, keep_message);
-  proj_context_set_enable_network(context, 0);
+  proj().proj_log_func(context, &data_->message, keep_message);
+  proj().proj_context_set_enable_network(context, 0);
 
-  if (!proj_context_get_database_path(context)) {
+  if (!proj().proj_context_get_database_path(context)) {
     throw Error(
         ErrorKind::input, "PROJ's database of coordinate reference systems, proj.db, is not to be found", where,
         "install proj-data and libproj25 (Debian); if PROJ_DATA or PROJ_LIB is set, unset it or let it name the "
@@ -179,21 +183,21 @@ CoordinateSystem::CoordinateSystem(const std::string& text, const std::string& w
   data_->read_area(system.get());
   system = data_->horizontal_part(std::move(system));
   Object plain;  // without a transformation to WGS 84 that the text itself may bring
-  if (system && proj_get_type(system.get()) == PJ_TYPE_BOUND_CRS) {
-    plain.reset(proj_get_source_crs(context, system.get()));
+  if (system && proj().proj_get_type(system.get()) == PJ_TYPE_BOUND_CRS) {
+    plain.reset(proj().proj_get_source_crs(context, system.get()));
   }
-  const PJ_TYPE type = system ? proj_get_type(plain ? plain.get() : system.get()) : PJ_TYPE_UNKNOWN;
+  const PJ_TYPE type = system ? proj().proj_get_type(plain ? plain.get() : system.get()) : PJ_TYPE_UNKNOWN;
   data_->geographic = is_one_of(type, {PJ_TYPE_GEOGRAPHIC_2D_CRS, PJ_TYPE_GEOGRAPHIC_3D_CRS});
   if (!data_->geographic && type != PJ_TYPE_PROJECTED_CRS) {
     throw Error(ErrorKind::input, data_->name + " is neither a geographic nor a projected coordinate reference system",
                 where, "give one with longitude and latitude, or with eastings and northings");
   }
-  const Object wgs84(proj_create(context, "EPSG:4326"));
+  const Object wgs84(proj().proj_create(context, "EPSG:4326"));
   Object operation;
   if (wgs84) {
-    operation.reset(proj_create_crs_to_crs_from_pj(context, system.get(), wgs84.get(), nullptr, nullptr));
+    operation.reset(proj().proj_create_crs_to_crs_from_pj(context, system.get(), wgs84.get(), nullptr, nullptr));
   }
-  if (operation) data_->to_wgs84.reset(proj_normalize_for_visualization(context, operation.get()));
+  if (operation) data_->to_wgs84.reset(proj().proj_normalize_for_visualization(context, operation.get()));
   if (!data_->to_wgs84) {
     throw Error(ErrorKind::input,
                 "PROJ knows no way from " + data_->name + " to WGS 84" +

@@ -1,12 +1,11 @@
 #include "geo/local_frame.h"
 
-#include <geodesic.h>
-
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <numbers>
 
+#include "geo/proj_library.h"
 #include "vantage/error.h"
 
 namespace vantage {
@@ -47,7 +46,7 @@ LocalFrame::LocalFrame(LonLat origin) {
   }
   data_ = std::make_unique<Data>();
   data_->origin = origin;
-  geod_init(&data_->ellipsoid, 6378137.0, 1 / 298.257223563);  // WGS 84
+  proj().geod_init(&data_->ellipsoid, 6378137.0, 1 / 298.257223563);  // WGS 84
 }
 LocalFrame::~LocalFrame() = default;
 LocalFrame::LocalFrame(LocalFrame&&) noexcept = default;
@@ -63,8 +62,8 @@ Eigen::Vector2d LocalFrame::to_local(LonLat position) const {
                 "position", "correct it; is its coordinate reference system the right one?");
   }
   double distance = 0, azimuth_deg = 0;
-  geod_inverse(&data_->ellipsoid, data_->origin.latitude_deg, data_->origin.longitude_deg, position.latitude_deg,
-               position.longitude_deg, &distance, &azimuth_deg, nullptr);
+  proj().geod_inverse(&data_->ellipsoid, data_->origin.latitude_deg, data_->origin.longitude_deg, position.latitude_deg,
+                      position.longitude_deg, &distance, &azimuth_deg, nullptr);
   const double azimuth = azimuth_deg * std::numbers::pi / 180;
   return {distance * std::sin(azimuth), distance * std::cos(azimuth)};
 }
@@ -76,8 +75,8 @@ LonLat LocalFrame::to_lonlat(const Eigen::Vector2d& local) const {
   }
   const double azimuth_deg = std::atan2(local.x(), local.y()) * 180 / std::numbers::pi;
   LonLat position;
-  geod_direct(&data_->ellipsoid, data_->origin.latitude_deg, data_->origin.longitude_deg, azimuth_deg, local.norm(),
-              &position.latitude_deg, &position.longitude_deg, nullptr);
+  proj().geod_direct(&data_->ellipsoid, data_->origin.latitude_deg, data_->origin.longitude_deg, azimuth_deg,
+                     local.norm(), &position.latitude_deg, &position.longitude_deg, nullptr);
   return position;
 }
 

@@ -1,0 +1,44 @@
+#include "geo/proj_library.h"
+
+#include <dlfcn.h>
+
+#include <array>
+#include <string>
+
+#include "vantage/error.h"
+
+// Set by CMakeLists.txt: the name that the library of these headers has on the system, and where it was found.
+#if !defined(VANTAGE_PROJ_NAME) || !defined(VANTAGE_PROJ_FILE)
+#error "which PROJ?"
+#endif
+
+namespace vantage::geo {
+namespace {
+
+/// Empty where all is there.
+std::string load(ProjLibrary& library) {
+  void* handle = nullptr;
+  for (const char* name : std::array{VANTAGE_PROJ_NAME, VANTAGE_PROJ_FILE}) {
+    if (!handle) handle = dlopen(name, RTLD_LAZY | RTLD_LOCAL);
+  }
+  if (!handle) return "PROJ is not installed";
+  std::string missing;
+#define VANTAGE_LOAD(name)                                                       \
+  library.name = reinterpret_cast<decltype(library.name)>(dlsym(handle, #name)); \
+  if (!library.name) missing = #name;
+  VANTAGE_PROJ_FUNCTIONS(VANTAGE_LOAD)
+#undef VANTAGE_LOAD
+  return missing.empty() ? "" : "PROJ lacks the function " + missing;
+}
+
+}  // namespace
+
+const ProjLibrary& proj() {
+  static ProjLibrary library;
+  static const std::string why_not = load(library);
+  if (why_not.empty()) return library;
+  throw Error(ErrorKind::input, why_not + ", and where a scene lies on the earth is worked out with it",
+              VANTAGE_PROJ_NAME, "install libproj25 (Debian 12), or build vantage with the PROJ that is there");
+}
+
+}  // namespace vantage::geo
