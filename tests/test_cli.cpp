@@ -1,4 +1,5 @@
 // The program as a user meets it: exit codes, what it says, and which files it touches.
+#include <array>
 #include <csignal>
 
 #include "support/cli_fixture.h"
@@ -12,9 +13,12 @@ using CliBadMesh = Cli;
 using CliBadOutput = Cli;
 using CliSignals = Cli;
 
+constexpr std::array kCommands = {"scene",   "inspect", "compute", "query", "verify",
+                                  "compare", "devices", "spheres", "render"};
+
 TEST_F(CliUsage, HelpShowsExamples) {
   EXPECT_NE(output_of({"--help"}).find("EXAMPLES"), std::string::npos);
-  for (const char* command : {"inspect", "compute", "query", "verify", "compare", "devices", "spheres", "render"}) {
+  for (const char* command : kCommands) {
     const std::string help = output_of({command, "--help"});
     EXPECT_NE(help.find("EXAMPLES"), std::string::npos) << command;
     EXPECT_NE(help.find(std::string("vantage ") + command + " "), std::string::npos) << command;
@@ -24,13 +28,95 @@ TEST_F(CliUsage, HelpShowsExamples) {
   }
 }
 
-TEST_F(CliUsage, Version) { EXPECT_EQ(output_of({"--version"}), "vantage " VANTAGE_VERSION "\n"); }
+TEST_F(CliUsage, Version) {
+  EXPECT_EQ(output_of({"--version"}), "vantage " VANTAGE_VERSION "\n");
+  EXPECT_EQ(output_of({"version"}), output_of({"--version"}));
+}
+
+TEST_F(CliUsage, HelpIsACommandToo) {
+  EXPECT_EQ(output_of({"help"}), output_of({"--help"}));
+  for (const char* command : kCommands) EXPECT_EQ(output_of({"help", command}), output_of({command, "--help"}));
+  expect_bad({"help", "comptue"}, "'comptue'", "command line", "did you mean 'compute'?");
+  expect_bad({"comptue", "--help"}, "'comptue'", "command line", "did you mean 'compute'?");
+  EXPECT_NE(output_of({"help", "--help"}), output_of({"--help"}));
+}
+
+TEST_F(CliUsage, MisspeltOptionsGetASuggestion) {
+  const auto expect_suggestion = [&](const std::vector<std::string>& arguments, const std::string& suggestion) {
+    expect_bad(arguments, "", "command line", suggestion);
+  };
+  expect_suggestion({"compute", "mission.yaml", "--ouput", "v.ply"}, "'--output'");
+  expect_suggestion({"compute", "mission.yaml", "--out", "v.ply"}, "'--output'");
+  expect_suggestion({"compute", "mission.yaml", "--out=v.ply"}, "'--output'");
+  expect_suggestion({"compute", "mission.yaml", "-output", "v.ply"}, "'--output'");
+  expect_suggestion({"compute", "mission.yaml", "-o", "v.ply", "--jsn"}, "'--json'");
+  expect_suggestion({"compute", "mission.yaml", "-o", "v.ply", "--thread", "2"}, "'--threads'");
+  expect_suggestion({"verify", "mission.yaml", "v.ply", "-points", "9"}, "'--points'");
+  expect_suggestion({"scene", "city.osm", "--centre", "1,2", "-o", "a.glb"}, "'--center'");
+  expect_suggestion({"compute", "mission.yaml", "-o", "v.ply", "--points", "9"}, "'vantage verify'");
+  expect_suggestion({"--verison"}, "'--version'");
+  expect_suggestion({"compute", "mission.yaml", "-o", "v.ply", "--xyzzy"}, "vantage compute --help");
+  expect_suggestion({"compute", "mission.yaml", "-o", "v.ply", "extra.ply"}, "vantage compute --help");
+}
+
+/// Rows of the table of exit codes, as "0 done", from a text whose words they are.
+std::string words_of(const std::string& text) {
+  std::string words;
+  std::istringstream stream(text);
+  for (std::string word; stream >> word;) {
+    if (word != "|") words += word + " ";
+  }
+  return words;
+}
+
+TEST_F(CliUsage, OneTableOfExitCodesForAll) {
+  std::string table = output_of({"--help"});
+  table = table.substr(table.find("EXIT CODES"));
+  const std::string after = table.substr(0, table.find("After 2"));
+  for (const char* command : kCommands) {
+    EXPECT_TRUE(output_of({command, "--help"}).ends_with(table)) << command;
+  }
+  const std::string page = words_of(content(source_folder() / "docs" / "command-line.md"));
+  EXPECT_NE(page.find(words_of(after.substr(std::string("EXIT CODES").size()))), std::string::npos)
+      << "docs/command-line.md has another table than\n"
+      << table;
+}
+
+TEST_F(CliUsage, EveryCommandObeysTheTable) {
+  write("box.obj",
+        "v -4 -4 1\nv 50 -4 1\nv 50 4 1\nv -4 4 1\nv -4 -4 20\nv 50 -4 20\nv 50 4 20\nv -4 4 20\n"
+        "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n");
+  write("near.yaml", std::string(kScene) + kTarget + "sensor: {max_range: 5}\n");
+  write("config.yaml", "camera: []\n");
+  const auto code = [&](const std::vector<std::string>& arguments) { return run(arguments).exit_code; };
+  EXPECT_EQ(code({"scene", "city.obj", "-o", "scene.glb"}), 0);
+  EXPECT_EQ(code({"scene", "none.osm", "-o", "scene.glb"}), 2);
+  EXPECT_EQ(code({"inspect", "city.obj"}), 0);
+  EXPECT_EQ(code({"inspect", "none.obj"}), 2);
+  EXPECT_EQ(code({"compute", "mission.yaml", "-o", "v.ply"}), 0);
+  EXPECT_EQ(code({"compute", "near.yaml", "-o", "none.ply"}), 0);
+  EXPECT_EQ(code({"query", "mission.yaml", "-"}), 0);
+  EXPECT_EQ(code({"query", "mission.yaml", "none.csv"}), 2);
+  EXPECT_EQ(code({"verify", "mission.yaml", "v.ply", "--points", "500"}), 0);
+  EXPECT_EQ(code({"verify", "mission.yaml", "box.obj", "--points", "500"}), 1);
+  EXPECT_EQ(code({"verify", "mission.yaml", "none.ply"}), 2);
+  EXPECT_EQ(code({"compare", "v.ply", "box.obj"}), 0);
+  EXPECT_EQ(code({"compare", "v.ply", "none.obj"}), 2);
+  EXPECT_EQ(code({"devices"}), 0);
+  EXPECT_EQ(code({"devices", "--device", "99"}), 2);
+  EXPECT_EQ(code({"spheres", "-c", "config.yaml"}), 2);
+  EXPECT_EQ(code({"render", "none.yaml", "-o", "p.png"}), 2);
+  for (const char* command : kCommands) {
+    EXPECT_EQ(code({command, "--no-such-option"}), 2) << command;
+    EXPECT_EQ(code({command, "--help"}), 0) << command;
+  }
+}
 
 TEST_F(CliUsage, Mistakes) {
   expect_bad({}, "no command is given", "command line", "vantage --help");
   expect_bad({"comptue"}, "there is no command 'comptue'", "command line", "did you mean 'compute'?");
-  expect_bad({"inspect", "city.obj", "--sacle", "2"}, "--sacle", "command line", "vantage inspect --help");
-  expect_bad({"--colour", "inspect"}, "", "command line");
+  expect_bad({"inspect", "city.obj", "--sacle", "2"}, "--sacle", "command line", "did you mean '--scale'?");
+  expect_bad({"--colour", "inspect"}, "--colour", "command line", "vantage --help");
   expect_bad({"inspect"}, "scene", "command line", "vantage inspect --help");
   expect_bad({"inspect", "city.obj", "--up", "x"}, "--up", "command line");
   expect_bad({"inspect", "city.obj", "--scale", "nan"}, "--scale must be a positive number, not 'nan'", "--scale");

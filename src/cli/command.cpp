@@ -1,6 +1,9 @@
 #include "cli/command.h"
 
+#include <time.h>
+
 #include <cerrno>
+#include <chrono>
 #include <cstdio>
 #include <cstring>
 
@@ -9,6 +12,40 @@
 #include "vantage/error.h"
 
 namespace vantage::cli {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double processor_seconds() {
+  timespec used{};
+  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &used);
+  return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
+}
+
+// Set when the libraries are loaded and initialised, just before main().
+const double g_loading_seconds = processor_seconds();
+const Clock::time_point g_start = Clock::now();
+
+}  // namespace
+
+double loading_seconds() { return g_loading_seconds; }
+
+double seconds_since_start() {
+  return g_loading_seconds + std::chrono::duration<double>(Clock::now() - g_start).count();
+}
+
+std::string exit_code_table() {
+  return "\n"
+         "EXIT CODES\n"
+         "  0      done\n"
+         "  1      a check failed, and what shows it is printed: verify found the volume wrong; compute --fail-empty\n"
+         "         found no volume\n"
+         "  2      bad input, bad arguments, or a result that could not be written\n"
+         "  3      a defect of vantage: please report it together with the input\n"
+         "  4      neither proved nor refuted (not used yet)\n"
+         "  128+n  stopped by signal n. 130: Ctrl-C. 141: whoever read the output stopped reading\n"
+         "  After 2, 3 and 128+n existing files are as they were. A second Ctrl-C ends the program at once.\n";
+}
 
 void add_common_options(CLI::App& command, CommonOptions& options) {
   command.add_option("--threads", options.threads, "Threads to use; 0 (default): as many as the machine has")
@@ -34,10 +71,11 @@ double positive_option(const std::string& name, const std::string& text) {
               "command line, " + name, advice);
 }
 
-void print(const std::string& text) {
+void print(std::string_view text) {
   errno = 0;
   const bool is_written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
   if (is_written) return;
+  if (errno == EPIPE) throw ClosedPipe();
   throw Error(ErrorKind::output, std::string("the result could not be written: ") + std::strerror(errno),
               "standard output", "make room on the disk, or send it elsewhere");
 }

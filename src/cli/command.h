@@ -2,20 +2,26 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <exception>
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 
 namespace vantage::cli {
 
-/// Exit codes of the program.
+/// Exit codes of the program. What they mean is said in exit_code_table() and nowhere else.
 enum ExitCode : int {
   kSuccess = 0,
-  kCheckFailed = 1,  ///< `verify` found the volume wrong
-  kBadInput = 2,     ///< wrong arguments or files, or a result that could not be written
-  kDefect = 3,       ///< vantage itself is at fault
+  kCheckFailed = 1,
+  kBadInput = 2,
+  kDefect = 3,
+  kUndecided = 4,
   kSignalled = 128,  ///< and the number of the signal that ended it, as shells report it
 };
+
+/// The table at the end of every help text. docs/command-line.md has the same lines.
+std::string exit_code_table();
 
 /// Runs a parsed command and returns its exit code; throws vantage::Error.
 using Command = std::function<int()>;
@@ -44,10 +50,10 @@ int with_threads(const CommonOptions& options, const Command& command);
 
 /// The end of every add_...: the common options, the examples, and `run(*options)` when the command is chosen.
 template <typename Options>
-void finish(CLI::App& command, const std::shared_ptr<Options>& options, const char* examples, Command& chosen,
+void finish(CLI::App& command, const std::shared_ptr<Options>& options, const std::string& examples, Command& chosen,
             int (*run)(const Options&)) {
   add_common_options(command, options->common);
-  command.footer(examples);
+  command.footer(examples + exit_code_table());
   command.callback([options, &chosen, run] {
     chosen = [options, run] { return with_threads(options->common, [&] { return run(*options); }); };
   });
@@ -56,8 +62,17 @@ void finish(CLI::App& command, const std::shared_ptr<Options>& options, const ch
 /// The positive number of option `name`; throws Error(input).
 double positive_option(const std::string& name, const std::string& text);
 
-/// Writes `text` to standard output and makes sure that it arrived; throws Error(output), say for a full disk.
-void print(const std::string& text);
+/// Thrown when the reader of standard output has gone away, as `head` does: nothing is wrong, and no one listens.
+class ClosedPipe : public std::exception {};
+
+/// Writes `text` to standard output and makes sure that it arrived; throws Error(output), say for a full disk, and
+/// ClosedPipe.
+void print(std::string_view text);
+
+/// Since the program was started, its loading included: that counts by its processor time, for no clock ran then.
+double seconds_since_start();
+/// The part of it before main().
+double loading_seconds();
 
 /// Writes a line to standard error.
 void note(const std::string& text);

@@ -139,7 +139,7 @@ void add_render(CLI::App& app, Command& chosen) {
       ->excludes(volume)
       ->option_text("FOLDER");
   add_common_options(*command, options->common);
-  command->footer(kExamples);
+  command->footer(kExamples + exit_code_table());
   command->callback([options, &chosen] {
     settle_mission(*options);
     chosen = [options] { return with_threads(options->common, [&] { return run(*options); }); };

@@ -23,9 +23,7 @@ constexpr const char* kExamples =
     "EXAMPLES\n"
     "  vantage verify mission.yaml volume.ply\n"
     "  vantage verify mission.yaml volume.glb --points 200000 --seed 7\n"
-    "  vantage verify mission.yaml edited.obj --json    # .obj in the axes and unit of the scene file\n"
-    "\n"
-    "Exit code 1: part of the volume does not see the whole target, or its mesh is not closed.\n";
+    "  vantage verify mission.yaml edited.obj --json    # .obj in the axes and unit of the scene file\n";
 
 struct Options {
   CommonOptions common;

@@ -4,13 +4,13 @@
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "cli/command.h"
 #include "cli/interrupt.h"
-#include "mission/nearest_name.h"
-#include "mission/numbers.h"
+#include "cli/usage_error.h"
 #include "vantage/error.h"
 
 namespace vantage::cli {
@@ -28,14 +28,8 @@ constexpr const char* kExamples =
     "  vantage spheres -c config.yaml\n"
     "  vantage render mission.yaml --volume volume.ply -o picture.png\n"
     "\n"
-    "EXIT CODES\n"
-    "  0  done\n"
-    "  1  verify: the volume is wrong\n"
-    "  2  bad input or arguments, or a result that could not be written; existing files are left as they were\n"
-    "  3  a defect of vantage; existing files are left as they were\n"
-    "  128 + n  stopped by signal n (130: Ctrl-C); existing files are left as they were, a second signal ends at once\n"
-    "\n"
-    "The mission file: docs/mission-file.md\n";
+    "MISSION and POINTS may be -, standard input. The mission file: docs/mission-file.md\n"
+    "All commands: docs/command-line.md\n";
 
 /// One line: what an error message holds may come from a file.
 std::string one_line(std::string text) {
@@ -62,40 +56,22 @@ int exit_code(ErrorKind kind) {
   return kDefect;
 }
 
-/// The help text to look at: of the command that was named, if one was.
-std::string help_command(const CLI::App& app) {
-  const std::vector<CLI::App*> parsed = app.get_subcommands();
-  return parsed.empty() ? "vantage --help" : "vantage " + parsed.front()->get_name() + " --help";
+int print_error(const Error& error, const std::string& name) {
+  const std::string command = name.empty() ? "vantage" : "vantage " + name;
+  print_error(error.problem(), error.where().empty() ? command : error.where(),
+              error.fix().empty() ? "see '" + command + " --help'" : error.fix());
+  return exit_code(error.kind());
 }
 
-int print_usage_error(const CLI::App& app, const CLI::ParseError& error, const std::vector<std::string>& arguments) {
-  if (!arguments.empty() && arguments.front().substr(0, 1) != "-" && app.get_subcommands().empty()) {
-    std::vector<std::string> names;
-    for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
-    const std::string_view nearest =
-        mission_io::nearest_name(arguments.front(), std::vector<std::string_view>(names.begin(), names.end()));
-    print_error("there is no command " + mission_io::in_quotes(arguments.front()), "command line",
-                "did you mean '" + std::string(nearest) + "'? 'vantage --help' lists the commands");
-    return kBadInput;
-  }
-  if (arguments.empty()) {
-    print_error("no command is given", "command line", "see 'vantage --help'");
-    return kBadInput;
-  }
-  print_error(error.what(), "command line", "see '" + help_command(app) + "'");
-  return kBadInput;
-}
-
+/// `name`: of the command.
 int run_guarded(const Command& command, const std::string& name) {
   try {
     return command();
+  } catch (const ClosedPipe&) {
+    return kSignalled + SIGPIPE;
   } catch (const Error& error) {
-    if (error.kind() == ErrorKind::cancelled) {
-      note("stopped; nothing was written");
-      return exit_code(error.kind());
-    }
-    print_error(error.problem(), error.where().empty() ? "vantage " + name : error.where(),
-                error.fix().empty() ? "see 'vantage " + name + " --help'" : error.fix());
+    if (error.kind() != ErrorKind::cancelled) return print_error(error, name);
+    note("stopped; nothing was written");
     return exit_code(error.kind());
   } catch (const std::bad_alloc&) {
     print_error("the memory is used up", "vantage " + name,
@@ -108,16 +84,34 @@ int run_guarded(const Command& command, const std::string& name) {
   }
 }
 
-int run(int argument_count, char** arguments) {
-  // A closed pipe or a file size limit must end in a message, not in the program's death.
-  std::signal(SIGPIPE, SIG_IGN);
-  std::signal(SIGXFSZ, SIG_IGN);
+/// So that they are listed; with_options() sees to what they do, but for "help -- compute" and the like.
+void add_help(CLI::App& app, Command& chosen) {
+  CLI::App* help = app.add_subcommand("help", "Show the help text of a command: vantage help compute");
+  help->add_option("command")->option_text("COMMAND");
+  CLI::App* version = app.add_subcommand("version", "Print the version");
+  for (CLI::App* command : {help, version}) {
+    command->callback([command, &chosen] {
+      chosen = [command] {
+        print(command->help("vantage"));
+        return kSuccess;
+      };
+    });
+  }
+}
 
-  CLI::App app("The closed volume of every position from which a whole convex polygon is visible.", "vantage");
-  app.set_version_flag("--version", "vantage " VANTAGE_VERSION);
-  app.require_subcommand(1);
-  app.footer(kExamples);
-  Command chosen;
+/// "help" and "version" are other words for options.
+std::vector<std::string> with_options(std::vector<std::string> arguments) {
+  if (arguments.empty()) return arguments;
+  const bool stands_alone = arguments.size() == 1 || arguments[1].substr(0, 1) != "-";
+  if (arguments[0] == "version" && stands_alone) arguments[0] = "--version";
+  if (arguments[0] == "help" && stands_alone) {
+    arguments.erase(arguments.begin());
+    arguments.emplace_back("--help");
+  }
+  return arguments;
+}
+
+void add_commands(CLI::App& app, Command& chosen) {
   add_scene(app, chosen);
   add_inspect(app, chosen);
   add_compute(app, chosen);
@@ -127,12 +121,35 @@ int run(int argument_count, char** arguments) {
   add_devices(app, chosen);
   add_spheres(app, chosen);
   add_render(app, chosen);
+  add_help(app, chosen);
+}
 
+int run(const std::vector<std::string>& typed) {
+  // A closed pipe or a file size limit must end in an exit code, not in the program's death.
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+
+  CLI::App app("The closed volume of every position from which a whole convex polygon is visible.", "vantage");
+  app.set_version_flag("--version", "vantage " VANTAGE_VERSION);
+  app.require_subcommand(1);
+  app.footer(kExamples + exit_code_table());
+  Command chosen;
+  add_commands(app, chosen);
+
+  const std::vector<std::string> arguments = with_options(typed);
+  const bool names_command = !arguments.empty() && arguments[0].substr(0, 1) != "-";
+  if (names_command && !find_command(app, arguments[0])) return print_error(unknown_command(app, arguments[0]), "");
   try {
-    app.parse(argument_count, arguments);
+    app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-    return print_usage_error(app, error, std::vector<std::string>(arguments + 1, arguments + argument_count));
+    if (error.get_exit_code() != 0) return print_error(usage_error(app, error, arguments), "");
+    std::ostringstream text;  // of --help or --version
+    app.exit(error, text, text);
+    const auto print_text = [&] {
+      print(text.str());
+      return kSuccess;
+    };
+    return run_guarded(print_text, "");
   }
   return run_guarded(chosen, app.get_subcommands().front()->get_name());
 }
@@ -142,7 +159,7 @@ int run(int argument_count, char** arguments) {
 
 int main(int argument_count, char** arguments) {
   try {
-    return vantage::cli::run(argument_count, arguments);
+    return vantage::cli::run({arguments + std::min(argument_count, 1), arguments + argument_count});
   } catch (const std::exception& error) {
     std::fprintf(stderr, "vantage: unexpected failure: %s\n", error.what());
     return vantage::cli::kDefect;
