@@ -95,6 +95,9 @@ TEST_F(CliUsage, EveryCommandObeysTheTable) {
   EXPECT_EQ(code({"inspect", "none.obj"}), 2);
   EXPECT_EQ(code({"compute", "mission.yaml", "-o", "v.ply"}), 0);
   EXPECT_EQ(code({"compute", "near.yaml", "-o", "none.ply"}), 0);
+  EXPECT_EQ(code({"compute", "near.yaml", "-o", "none.ply", "--fail-empty"}), 1);
+  EXPECT_EQ(code({"compute", "mission.yaml", "-o", "v.ply", "--fail-empty"}), 0);
+  EXPECT_EQ(code({"compute", "none.yaml", "-o", "v.ply", "--fail-empty"}), 2);
   EXPECT_EQ(code({"query", "mission.yaml", "-"}), 0);
   EXPECT_EQ(code({"query", "mission.yaml", "none.csv"}), 2);
   EXPECT_EQ(code({"verify", "mission.yaml", "v.ply", "--points", "500"}), 0);
@@ -110,6 +113,66 @@ TEST_F(CliUsage, EveryCommandObeysTheTable) {
     EXPECT_EQ(code({command, "--no-such-option"}), 2) << command;
     EXPECT_EQ(code({command, "--help"}), 0) << command;
   }
+}
+
+TEST_F(CliUsage, AMissionFromStandardInput) {
+  output_of({"compute", "mission.yaml", "-q", "-o", "a.ply"});
+  options_.input = content(folder_ / "mission.yaml");
+  output_of({"compute", "-", "-q", "-o", "b.ply"});
+  EXPECT_TRUE(content(folder_ / "a.ply") == content(folder_ / "b.ply"));
+  EXPECT_EQ(nlohmann::json::parse(content(folder_ / "b.report.json")).at("mission"), "standard input");
+  EXPECT_EQ(run({"verify", "-", "a.ply", "--points", "200"}).exit_code, 0);
+  write("points.csv", "0,0,30\n");
+  EXPECT_EQ(output_of({"query", "-", "points.csv"}), output_of({"query", "mission.yaml", "points.csv"}));
+  expect_bad({"query", "-", "-"}, "standard input", "command line");
+  options_.input = std::string(kScene) + kTarget + "sensor: {max_rnage: 60}\n";
+  expect_bad({"compute", "-", "-o", "volume.ply"}, "max_rnage", "standard input:5:10", "max_range");
+  options_.input.assign(std::size_t{3} << 20, '#');
+  expect_bad({"compute", "-", "-o", "volume.ply"}, "too large", "standard input");
+  options_.input = "";
+  expect_bad({"compute", "-", "-o", "volume.ply"}, "", "standard input");
+}
+
+TEST_F(CliUsage, AVolumeToStandardOutput) {
+  for (const std::string format : {"ply", "obj", "stl", "glb"}) {
+    output_of({"compute", "mission.yaml", "-q", "-o", "v." + format});
+    const auto before = files();
+    EXPECT_TRUE(output_of({"compute", "mission.yaml", "-q", "-o", "-", "--format", format}) ==
+                content(folder_ / ("v." + format)));
+    EXPECT_TRUE(files() == before) << "a file was left";
+  }
+  const ProgramRun told = run({"compute", "mission.yaml", "-o", "-", "--format", "ply", "--report", "r.json"});
+  EXPECT_EQ(told.exit_code, 0);
+  EXPECT_TRUE(told.out == content(folder_ / "v.ply"));
+  EXPECT_NE(told.err.find("cubic metres"), std::string::npos) << told.err;
+  auto report = nlohmann::json::parse(content(folder_ / "r.json"));
+  auto expected = nlohmann::json::parse(content(folder_ / "v.report.json"));
+  for (auto* json : {&report, &expected}) {
+    json->erase("seconds");
+    json->erase("volume");
+  }
+  EXPECT_EQ(report, expected);
+  const std::string both = output_of({"compute", "mission.yaml", "-q", "-o", "-", "--format", "ply", "-o", "w.ply"});
+  EXPECT_TRUE(both == content(folder_ / "w.ply"));
+
+  expect_bad({"compute", "mission.yaml", "-o", "-"}, "which format", "-o -", "--format ply");
+  expect_bad({"compute", "mission.yaml", "-o", "-", "--format", "xyz"}, "--format", "command line");
+  expect_bad({"compute", "mission.yaml", "-o", "v.ply", "--format", "ply"}, "--format", "--format");
+  expect_bad({"compute", "mission.yaml", "-o", "v.ply", "--report", "r.json"}, "--report", "--report");
+  expect_bad({"compute", "mission.yaml", "-o", "-", "--format", "ply", "--json"}, "standard output", "--json");
+  expect_bad({"compute", "mission.yaml", "-o", "-", "--format", "ply", "-o", "-"}, "named twice", "-");
+  write("near.yaml", std::string(kScene) + kTarget + "sensor: {max_range: 5}\n");
+  const ProgramRun empty = run({"compute", "near.yaml", "-q", "-o", "-", "--format", "ply", "--fail-empty"});
+  EXPECT_EQ(empty.exit_code, 1);
+  EXPECT_EQ(empty.out, "");
+}
+
+TEST_F(CliUsage, RefusesStandardStreamsWhereTheyMeanNothing) {
+  expect_bad({"inspect", "-"}, "standard input", "-");
+  expect_bad({"verify", "mission.yaml", "-"}, "standard input", "-");
+  expect_bad({"compare", "city.obj", "-"}, "standard input", "-");
+  expect_bad({"spheres", "-c", "-"}, "standard input", "-");
+  expect_bad({"compare", "city.obj", "city.obj", "--only-a", "-"}, "standard output", "-");
 }
 
 TEST_F(CliUsage, Mistakes) {

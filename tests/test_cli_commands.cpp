@@ -33,9 +33,10 @@ TEST_F(CliInspect, TurnsAndScales) {
 TEST_F(CliCompute, WritesVolumeAndReport) {
   const std::string summary = output_of({"compute", "mission.yaml", "-o", "volume.ply"});
   for (const char* expected :
-       {"volume", "pieces", "facets", "max_range", "block", "total", "wrote volume.ply", "wrote volume.report.json"}) {
+       {"volume", "1 piece", "facets", "max_range", "block", "time", "wrote volume.ply", "wrote volume.report.json"}) {
     EXPECT_NE(summary.find(expected), std::string::npos) << summary;
   }
+  EXPECT_EQ(lines(summary).size(), 7U) << summary;
   EXPECT_EQ(content(folder_ / "volume.ply").substr(0, 4), "ply\n");
   const auto report = nlohmann::json::parse(content(folder_ / "volume.report.json"));
   EXPECT_EQ(report.at("outcome"), "computed");
@@ -46,6 +47,31 @@ TEST_F(CliCompute, WritesVolumeAndReport) {
   EXPECT_GT(report.at("volume_m3").get<double>(), 0.5 * 2 / 3 * 3.14159266 * 52 * 52 * 52);
   EXPECT_GT(report.at("seconds").at("total").get<double>(), 0.0);
   EXPECT_EQ(report.at("target"), "square");
+}
+
+TEST_F(CliCompute, TellsMoreWhenAsked) {
+  const std::string summary = output_of({"compute", "mission.yaml", "-v", "-o", "volume.ply"});
+  for (const char* expected :
+       {"tolerance", "area", "vertices", "square metres", "start", "prepare", "engine", "total"}) {
+    EXPECT_NE(summary.find(expected), std::string::npos) << expected << "\n" << summary;
+  }
+}
+
+TEST_F(CliCompute, TellsTheLift) {
+  EXPECT_EQ(output_of({"compute", "mission.yaml", "-v", "-o", "volume.ply"}).find("lift"), std::string::npos);
+  write("low.yaml",
+        std::string(kScene) + kSensor + "target: {vertices: [[-4, -4, -0.0015], [4, -4, -0.0015], [4, 4, -0.0015]]}\n");
+  const std::string summary = output_of({"compute", "low.yaml", "-o", "volume.ply"});
+  EXPECT_NE(summary.find("lift"), std::string::npos) << summary;
+  EXPECT_NE(summary.find("1.50"), std::string::npos) << summary;
+}
+
+TEST_F(CliCompute, TheTotalHoldsTheStages) {
+  output_of({"compute", "mission.yaml", "-o", "volume.ply"});
+  const auto seconds = nlohmann::json::parse(content(folder_ / "volume.report.json")).at("seconds");
+  double sum = 0;
+  for (const char* stage : {"read", "prepare", "engine", "navigation", "write"}) sum += seconds.at(stage).get<double>();
+  EXPECT_GT(seconds.at("total").get<double>(), sum + 1e-3) << "loading the program takes milliseconds";
 }
 
 TEST_F(CliCompute, WritesEveryFormatAndIsQuiet) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "vantage/constraints.h"
@@ -65,6 +66,10 @@ struct Mission {
 /// unknown key (with the nearest known one), a wrong type, a number that is NaN or infinite, a missing required key,
 /// edges that do not describe the vertices' polygon, and all that make_target_frame and the navigation checks refuse.
 Mission read_mission(const std::filesystem::path& file);
+
+/// The same of a mission file's text, which came from elsewhere. `file` stands for it in messages and reports; paths in
+/// the text start from its folder, the current one where it has none.
+Mission read_mission_text(std::string_view text, const std::filesystem::path& file);
 
 /// Reads the mission's scene, and puts what the mission gives on the earth or by name into its frame: afterwards `crs`
 /// and `ground_target` are empty, `target`, `other_parts` and the boxes complete. Boxes lie askew in the frame: a box

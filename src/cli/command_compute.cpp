@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cstdio>
 #include <memory>
 #include <optional>
 #include <set>
@@ -7,8 +8,10 @@
 #include "cli/output_check.h"
 #include "cli/progress_line.h"
 #include "cli/stage_folder.h"
+#include "cli/standard_streams.h"
 #include "cli/text_table.h"
 #include "mission/run_mission.h"
+#include "solid/atomic_file.h"
 #include "solid/names.h"
 #include "solid/result_files.h"
 #include "solid/writers.h"
@@ -27,16 +30,20 @@ constexpr const char* kExamples =
     "  vantage compute mission.yaml -o volume.ply -o volume.glb -o volume.obj\n"
     "  vantage compute mission.yaml -o volume.stl --json | jq .volume_m3\n"
     "  vantage compute mission.yaml --method spheres -o volume.ply --stages stages/\n"
+    "  make_mission | vantage compute - -o - --format ply > volume.ply\n"
     "\n"
     "The format follows the extension: .ply (scene frame, double precision, causes), .obj (axes and unit of the\n"
     "scene file, a group per cause), .stl (scene frame), .glb (y up, a material per kind of cause). Beside each\n"
     "output goes a report, volume.report.json. Where there is no volume, the report says why, no mesh is written,\n"
-    "and the exit code is 0.\n"
+    "and the exit code is 0, or 1 with --fail-empty.\n"
+    "\n"
+    "With -o - the volume goes to standard output, when it is whole, and the summary to standard error; the report of\n"
+    "that output is written only with --report.\n"
     "\n"
     "--stages writes each step of the spheres method as a mesh (PLY, scene frame), and stages.json. The folder is put\n"
     "in place as a whole when the run is over; an older one of the same kind is replaced.\n";
 
-constexpr std::size_t kCausesShown = 10;
+constexpr std::size_t kCausesListed = 10, kCausesInLine = 3;
 
 struct Options {
   CommonOptions common;
@@ -44,19 +51,42 @@ struct Options {
   std::vector<std::string> outputs;
   std::string method, device;  // empty: as the mission says
   std::string stages;          // empty: none are wanted
-  bool json = false;
+  std::string format, report;  // of what goes to standard output; empty: not given
+  bool json = false, verbose = false, fail_empty = false;
+
+  bool is_to_stdout() const { return std::any_of(outputs.begin(), outputs.end(), is_standard_stream); }
 };
+
+[[noreturn]] void fail_option(const std::string& problem, const std::string& option, const std::string& fix) {
+  throw Error(ErrorKind::input, problem, "command line, " + option, fix);
+}
 
 /// All that can be known to go wrong with the outputs before anything is computed.
 void check_outputs(const Options& options) {
   std::set<fs::path> seen;
   for (const std::string& output : options.outputs) {
-    check_volume_output(output);
-    check_can_write(solid::report_file(output));
+    if (!is_standard_stream(output)) {
+      check_volume_output(output);
+      check_can_write(solid::report_file(output));
+    }
     if (!seen.insert(fs::path(output).lexically_normal()).second) {
       throw Error(ErrorKind::input, "an output is named twice", output, "give each -o a name of its own");
     }
   }
+  if (!options.is_to_stdout()) {
+    if (!options.format.empty()) fail_option("--format is for -o -", "--format", "name a file with that extension");
+    if (!options.report.empty()) {
+      fail_option("--report is for -o -", "--report", "leave it out: a report is written beside each file");
+    }
+    return;
+  }
+  if (options.format.empty()) {
+    fail_option("-o - does not say in which format", "-o -", "add --format ply, obj, stl or glb");
+  }
+  if (options.json) {
+    fail_option("-o - and --json both want standard output", "--json", "write the report to a file with --report");
+  }
+  if (!options.report.empty()) check_can_write(options.report);
 }
 
 /// What the command line says goes before what the mission says.
@@ -74,30 +104,57 @@ Mission with_options(const Mission& read, const Options& options) {
   return mission;
 }
 
-solid::WrittenResults write(const Options& options, const Mission& mission, MissionRun& run, const Progress& progress) {
+solid::ReportSource source_of(const Mission& mission, const MissionRun& run) {
+  solid::ReportSource source;
+  source.mission = mission.file.string();
+  source.scene = mission.scene.file.string();
+  source.target = mission.target.name;
+  if (run.spheres) source.spheres = solid::SpheresRun{mission.spheres, *run.spheres};
+  return source;
+}
+
+/// `files`: the outputs, with the one that is on its way to standard output.
+solid::WrittenResults write(const std::vector<std::string>& files, const Mission& mission, MissionRun& run,
+                            const Progress& progress) {
   solid::ResultRequest request;
-  request.volumes.assign(options.outputs.begin(), options.outputs.end());
+  request.volumes.assign(files.begin(), files.end());
   request.obj_up = run.loaded.scene.up;
   request.obj_scale = run.loaded.scene.scale;
-  request.source.mission = mission.file.string();
-  request.source.scene = mission.scene.file.string();
-  request.source.target = mission.target.name;
-  if (run.spheres) request.source.spheres = solid::SpheresRun{mission.spheres, *run.spheres};
+  request.source = source_of(mission, run);
   return solid::write_results(run.volume, request, progress);
+}
+
+std::vector<const Cause*> by_area(const Volume& volume) {
+  std::vector<const Cause*> causes;
+  for (const Cause& cause : volume.causes) causes.push_back(&cause);
+  std::stable_sort(causes.begin(), causes.end(),
+                   [](const Cause* a, const Cause* b) { return a->area_m2 > b->area_m2; });
+  return causes;
+}
+
+double total_area(const Volume& volume) {
+  double total = 0;
+  for (const Cause& cause : volume.causes) total += cause.area_m2;
+  return total;
+}
+
+/// The largest causes in one line, with their shares of the surface.
+std::string main_causes(const Volume& volume) {
+  const std::vector<const Cause*> causes = by_area(volume);
+  const double total = total_area(volume);
+  std::string text;
+  for (std::size_t i = 0; i < std::min(causes.size(), kCausesInLine) && total > 0; ++i) {
+    text += (i > 0 ? ", " : "") + causes[i]->name + " " + fixed(100 * causes[i]->area_m2 / total, 0) + " %";
+  }
+  return causes.size() > kCausesInLine ? text + ", and " + count(causes.size() - kCausesInLine) + " more" : text;
 }
 
 /// The largest causes, and how many more there are.
 void add_causes(TextTable& table, const Volume& volume) {
-  std::vector<const Cause*> causes;
-  double total = 0;
-  for (const Cause& cause : volume.causes) {
-    causes.push_back(&cause);
-    total += cause.area_m2;
-  }
-  std::stable_sort(causes.begin(), causes.end(),
-                   [](const Cause* a, const Cause* b) { return a->area_m2 > b->area_m2; });
+  const std::vector<const Cause*> causes = by_area(volume);
+  const double total = total_area(volume);
   table.heading("what bounds it, by area in square metres");
-  const std::size_t shown = std::min(causes.size(), kCausesShown);
+  const std::size_t shown = std::min(causes.size(), kCausesListed);
   for (std::size_t i = 0; i < shown; ++i) {
     const std::string share = total > 0 ? fixed(100 * causes[i]->area_m2 / total, 1) + " %, " : "";
     table.row(causes[i]->name, fixed(causes[i]->area_m2, 1), share + solid::name_of(causes[i]->kind));
@@ -114,24 +171,34 @@ void add_spheres(TextTable& table, const SpheresReport& report) {
   table.row("unresolved", count(report.unresolved_pairs), "pairs still no topological sphere where halving had to end");
 }
 
-std::string summary(const Mission& mission, const MissionRun& run, const MeshMeasures& measures) {
+/// How much the exact engine raised the target; 0 for none.
+void add_lift(TextTable& table, const Volume& volume) {
+  if (volume.lift_m > 0) {
+    table.row("lift", fixed(1e3 * volume.lift_m, 3), "mm that the target was raised to clear the surface it lies on");
+  }
+}
+
+/// What everyone wants to know, in five lines: target, volume, mesh, causes, time. And the lift where there is one.
+void add_essentials(TextTable& table, const Mission& mission, const MissionRun& run, const MeshMeasures& measures) {
   const Volume& volume = run.volume;
-  const Seconds& seconds = volume.seconds;
-  TextTable table;
   table.heading("target '" + mission.target.name + "', range " + fixed(mission.sensor.max_range_m, 1) + " m");
   if (volume.outcome == Outcome::computed) {
     table.row("volume", fixed(measures.volume_m3, 1), "cubic metres");
-    table.row("area", fixed(measures.area_m2, 1), "square metres");
-    table.row("pieces", count(measures.pieces), "");
-    table.row("facets", count(measures.facets), count(measures.vertices) + " vertices");
-    table.row("tolerance", fixed(volume.tolerance_m, 4), "metres that range facets may lie inside the true sphere");
-    add_causes(table, volume);
+    table.row("mesh", count(measures.facets),
+              "facets, " + count(measures.pieces) + (measures.pieces == 1 ? " piece" : " pieces"));
+    table.row("bounded by", "", main_causes(volume));
+    add_lift(table, volume);
   } else {
     table.heading("no volume: " + volume.reason);
     if (!volume.hint.empty()) table.heading("what to try: " + volume.hint);
   }
-  if (run.spheres) add_spheres(table, *run.spheres);
+  table.row("time", duration(volume.seconds.total), "");
+}
+
+void add_times(TextTable& table, const MissionRun& run) {
+  const Seconds& seconds = run.volume.seconds;
   table.heading("time");
+  table.row("start", duration(loading_seconds()), "loading the program and its libraries");
   table.row("read", duration(seconds.read), "");
   table.row("prepare", duration(seconds.prepare), count(run.scene.polygons) + " convex polygons");
   if (run.spheres) {
@@ -139,11 +206,26 @@ std::string summary(const Mission& mission, const MissionRun& run, const MeshMea
               duration(run.spheres->render_seconds) + " for spheres, " + duration(run.spheres->boolean_seconds) +
                   " for intersections");
   } else {
-    table.row("engine", duration(seconds.engine), count(volume.counts.visible_blockers) + " blockers in sight");
+    table.row("engine", duration(seconds.engine), count(run.volume.counts.visible_blockers) + " blockers in sight");
   }
   table.row("navigation", duration(seconds.navigation), "");
   table.row("write", duration(seconds.write), "");
   table.row("total", duration(seconds.total), "");
+}
+
+std::string summary(const Mission& mission, const MissionRun& run, const MeshMeasures& measures, bool verbose) {
+  TextTable table;
+  add_essentials(table, mission, run, measures);
+  if (!verbose) return table.text();
+  if (run.volume.outcome == Outcome::computed) {
+    table.heading("mesh");
+    table.row("area", fixed(measures.area_m2, 1), "square metres");
+    table.row("vertices", count(measures.vertices), "");
+    table.row("tolerance", fixed(run.volume.tolerance_m, 4), "metres that range facets may lie inside the true sphere");
+    add_causes(table, run.volume);
+  }
+  if (run.spheres) add_spheres(table, *run.spheres);
+  add_times(table, run);
   return table.text();
 }
 
@@ -152,55 +234,94 @@ void warn_of_coarse_stl(const Options& options, const Volume& volume) {
   const double rounding = solid::single_precision_rounding(volume.mesh);
   if (options.common.quiet || volume.outcome != Outcome::computed || rounding <= volume.tolerance_m) return;
   for (const std::string& output : options.outputs) {
-    if (format_extension(output) != ".stl") continue;
+    const bool is_stl = is_standard_stream(output) ? options.format == "stl" : format_extension(output) == ".stl";
+    if (!is_stl) continue;
     note(output + ": STL holds coordinates as large as these to " + fixed(rounding, 3) +
          " m only, less than the tolerance of " + fixed(volume.tolerance_m, 3) +
          " m; write .ply, .obj or .glb for more");
   }
 }
 
+/// All that is written but standard output, and what people are told of it.
+std::string list_of_files(const Options& options, const MissionRun& run, const solid::WrittenResults& written) {
+  std::string text;
+  for (const std::string& output : options.outputs) {
+    if (run.volume.outcome == Outcome::computed && !is_standard_stream(output)) text += "wrote " + output + "\n";
+  }
+  for (const fs::path& report : written.reports) text += "wrote " + report.string() + "\n";
+  if (!options.report.empty()) text += "wrote " + options.report + "\n";
+  if (!options.stages.empty()) {
+    text += "wrote " + (fs::path(options.stages) / "stages.json").string() + " and its meshes\n";
+  }
+  return text;
+}
+
+void tell_of_no_volume(const Options& options, const Volume& volume) {
+  note("no volume: " + volume.reason);
+  for (const std::string& output : options.outputs) {
+    std::error_code error;
+    note(!is_standard_stream(output) && fs::exists(output, error)
+             ? output + " is of an earlier run and was left as it was"
+             : (is_standard_stream(output) ? "standard output" : output) + " was not written");
+  }
+}
+
+/// Standard output holds the report, or the volume, or the summary.
+void tell(const Options& options, const Mission& mission, const MissionRun& run, const solid::WrittenResults& written,
+          const OutgoingFile* outgoing) {
+  const bool has_volume = run.volume.outcome == Outcome::computed;
+  if (options.json) {
+    print(written.report);
+  } else if (!options.common.quiet) {
+    const std::string text =
+        summary(mission, run, written.measures, options.verbose) + list_of_files(options, run, written);
+    if (outgoing) {
+      std::fputs(text.c_str(), stderr);
+    } else {
+      print(text);
+    }
+  }
+  if (!options.common.quiet) std::for_each(run.volume.notes.begin(), run.volume.notes.end(), note);
+  warn_of_coarse_stl(options, run.volume);
+  if (!has_volume) tell_of_no_volume(options, run.volume);
+  if (outgoing && has_volume) outgoing->send();
+}
+
 int run(const Options& options) {
   check_outputs(options);
-  const Mission read = read_mission(options.mission_file);
+  const double start = seconds_since_start();
+  const Mission read = read_mission_argument(options.mission_file);
+  const double mission_seconds = seconds_since_start() - start;
   for (const std::string& output : options.outputs) {
     check_not_an_input(output, input_files(read));
     check_not_an_input(solid::report_file(output), input_files(read));
   }
+  if (!options.report.empty()) check_not_an_input(options.report, input_files(read));
   Mission mission = with_options(read, options);
   std::optional<StageFolder> stages;
   if (!options.stages.empty()) stages.emplace(options.stages);
+  std::optional<OutgoingFile> outgoing;
+  if (options.is_to_stdout()) outgoing.emplace("." + options.format);
+  std::vector<std::string> files = options.outputs;
+  if (outgoing) std::replace(files.begin(), files.end(), std::string("-"), outgoing->path().string());
 
   MissionRun run;
   solid::WrittenResults written;
   {
     ProgressLine progress(options.common);
     run = mission_io::run_mission(mission, progress.callback(), stages ? stages->sink() : StageSink());
+    run.volume.seconds.read += mission_seconds;
+    run.volume.seconds.total = seconds_since_start();  // with all that lies between; writing is added
     if (stages) stages->write_story(mission, run.volume, *run.spheres);
-    written = write(options, mission, run, progress.callback());
+    written = write(files, mission, run, progress.callback());
     if (stages) stages->commit();
   }
-  if (options.json) {
-    print(written.report);
-  } else if (!options.common.quiet) {
-    std::string text = summary(mission, run, written.measures);
-    if (run.volume.outcome == Outcome::computed) {
-      for (const std::string& output : options.outputs) text += "wrote " + output + "\n";
-    }
-    for (const fs::path& report : written.reports) text += "wrote " + report.string() + "\n";
-    if (stages) text += "wrote " + (fs::path(options.stages) / "stages.json").string() + " and its meshes\n";
-    print(text);
+  if (outgoing) std::erase(written.reports, solid::report_file(outgoing->path()));
+  if (!options.report.empty()) {
+    solid::write_whole_file(options.report, solid::report_json(run.volume, written.measures, source_of(mission, run)));
   }
-  if (!options.common.quiet) std::for_each(run.volume.notes.begin(), run.volume.notes.end(), note);
-  warn_of_coarse_stl(options, run.volume);
-  if (run.volume.outcome != Outcome::computed) {
-    note("no volume: " + run.volume.reason);
-    for (const std::string& output : options.outputs) {
-      std::error_code error;
-      note(fs::exists(output, error) ? output + " is of an earlier run and was left as it was"
-                                     : output + " was not written");
-    }
-  }
-  return kSuccess;
+  tell(options, mission, run, written, outgoing ? &*outgoing : nullptr);
+  return options.fail_empty && run.volume.outcome != Outcome::computed ? kCheckFailed : kSuccess;
 }
 
 }  // namespace
@@ -208,8 +329,12 @@ int run(const Options& options) {
 void add_compute(CLI::App& app, Command& chosen) {
   CLI::App* command = app.add_subcommand("compute", "Compute the visibility volume of a mission and write it");
   auto options = std::make_shared<Options>();
-  command->add_option("mission", options->mission_file, "The mission file")->required()->option_text("MISSION");
-  command->add_option("-o,--output", options->outputs, "Where to write: .ply, .obj, .stl or .glb; may be repeated")
+  command->add_option("mission", options->mission_file, "The mission file; - for standard input")
+      ->required()
+      ->option_text("MISSION");
+  command
+      ->add_option("-o,--output", options->outputs,
+                   "Where to write: .ply, .obj, .stl or .glb, or - for standard output; may be repeated")
       ->required()
       ->allow_extra_args(false)
       ->option_text("FILE");
@@ -222,7 +347,14 @@ void add_compute(CLI::App& app, Command& chosen) {
       ->option_text("DEVICE");
   command->add_option("--stages", options->stages, "Of the method of spheres: write its steps to this folder")
       ->option_text("FOLDER");
+  command->add_option("--format", options->format, "Of what -o - writes: ply, obj, stl or glb")
+      ->check(CLI::IsMember({"ply", "obj", "stl", "glb"}))
+      ->option_text("FORMAT");
+  command->add_option("--report", options->report, "Where the report of -o - goes; default: nowhere")
+      ->option_text("FILE");
+  command->add_flag("--fail-empty", options->fail_empty, "Exit with code 1 where there is no volume");
   command->add_flag("--json", options->json, "Print the report instead of a summary");
+  command->add_flag("-v,--verbose", options->verbose, "Print all causes, sizes and times, not five lines");
   finish<Options>(*command, options, kExamples, chosen, run);
 }
 

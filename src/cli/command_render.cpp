@@ -1,11 +1,13 @@
 #include <algorithm>
 #include <memory>
+#include <optional>
 
 #include "cli/command.h"
 #include "cli/output_check.h"
 #include "cli/picture_options.h"
 #include "cli/progress_line.h"
 #include "cli/stage_sheet.h"
+#include "cli/standard_streams.h"
 #include "mission/caveats.h"
 #include "mission/input_file.h"
 #include "mission/numbers.h"
@@ -40,6 +42,7 @@ struct Options {
 };
 
 void check_output(const std::string& output) {
+  if (is_standard_stream(output)) return;
   std::error_code error;
   if (format_extension(output) != ".png" && !fs::is_directory(output, error)) {
     throw Error(ErrorKind::input, "pictures are written as PNG, not as " + mission_io::in_quotes(output), output,
@@ -94,15 +97,22 @@ int run(const Options& options) {
   const std::array<int, 2> size =
       parse_size(!options.size.empty() ? options.size : (is_sheet ? kPanelSize : kPictureSize));
   check_output(options.output);
-  Mission mission = read_mission(options.mission_file);
+  Mission mission = read_mission_argument(options.mission_file);
   mission.exact.threads = options.common.threads;
   std::vector<fs::path> inputs = input_files(mission);
   if (!options.volume_file.empty()) inputs.emplace_back(options.volume_file);
   check_not_an_input(options.output, inputs);
+  std::optional<OutgoingFile> outgoing;
+  if (is_standard_stream(options.output)) outgoing.emplace(".png");
   {
     ProgressLine progress(options.common);
     const auto draw = is_sheet ? sheet : picture;
-    write_png(draw(options, mission, view, size, progress.callback()), options.output);
+    write_png(draw(options, mission, view, size, progress.callback()),
+              outgoing ? outgoing->path() : fs::path(options.output));
+  }
+  if (outgoing) {
+    outgoing->send();
+    return kSuccess;
   }
   if (!options.common.quiet) print("wrote " + options.output + "\n");
   return kSuccess;
@@ -122,8 +132,11 @@ void settle_mission(Options& options) {
 void add_render(CLI::App& app, Command& chosen) {
   CLI::App* command = app.add_subcommand("render", "Draw the scene, the target and the volume as a PNG picture");
   auto options = std::make_shared<Options>();
-  command->add_option("mission", options->mission_file, "The mission file")->option_text("MISSION (required)");
-  command->add_option("-o,--output", options->output, "Where to write: .png")->required()->option_text("FILE");
+  command->add_option("mission", options->mission_file, "The mission file; - for standard input")
+      ->option_text("MISSION (required)");
+  command->add_option("-o,--output", options->output, "Where to write: .png, or - for standard output")
+      ->required()
+      ->option_text("FILE");
   CLI::Option* volume =
       command->add_option("--volume", options->volume_file, "The volume; computed when it is not given");
   volume->option_text("FILE");

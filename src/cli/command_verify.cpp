@@ -8,6 +8,7 @@
 #include "cli/command.h"
 #include "cli/open_edges.h"
 #include "cli/progress_line.h"
+#include "cli/standard_streams.h"
 #include "cli/text_table.h"
 #include "mission/caveats.h"
 #include "mission/input_file.h"
@@ -114,7 +115,7 @@ std::string table_text(const VerifyReport& report, double lift, std::size_t hole
 
 int run(const Options& options) {
   mission_io::check_readable(options.volume_file, "the volume", "");
-  Mission mission = read_mission(options.mission_file);
+  Mission mission = read_mission_argument(options.mission_file);
   ProgressLine progress(options.common);
   const LoadedScene loaded = read_mission_scene(mission, progress.callback());
   const Scene& scene = loaded.scene;
@@ -160,7 +161,9 @@ int run(const Options& options) {
 void add_verify(CLI::App& app, Command& chosen) {
   CLI::App* command = app.add_subcommand("verify", "Check a volume by ray casting, independently of how it was made");
   auto options = std::make_shared<Options>();
-  command->add_option("mission", options->mission_file, "The mission that the volume was computed for")
+  command
+      ->add_option("mission", options->mission_file,
+                   "The mission that the volume was computed for; - for standard input")
       ->required()
       ->option_text("MISSION");
   command->add_option("volume", options->volume_file, "The volume: PLY, OBJ, STL or GLB")

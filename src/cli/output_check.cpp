@@ -29,9 +29,17 @@ void try_to_make_a_file_in(const fs::path& folder, const fs::path& file) {
   ::unlink(trial.c_str());
 }
 
+/// "-" where it means nothing; a file of that name is "./-".
+void check_is_no_stream(const fs::path& file) {
+  if (file != "-") return;
+  throw Error(ErrorKind::input, "standard output is not taken here", "-",
+              "name a file; only the -o of compute, query and render takes -");
+}
+
 }  // namespace
 
 void check_can_write(const fs::path& file) {
+  check_is_no_stream(file);
   std::error_code error;
   const fs::file_status status = fs::status(file, error);
   if (fs::is_directory(status)) {
@@ -66,6 +74,7 @@ std::string format_extension(const fs::path& file) {
 
 void check_volume_output(const fs::path& file) {
   static constexpr std::array<std::string_view, 4> kExtensions = {".ply", ".obj", ".stl", ".glb"};
+  check_is_no_stream(file);
   // A folder is told first: "out" has no extension, but that is not what is wrong with it.
   std::error_code error;
   const std::string extension = format_extension(file);

@@ -52,6 +52,10 @@ bool is_obj(const fs::path& file) {
 
 void check_readable(const fs::path& file, const std::string& what, const std::string& where) {
   const std::string place = where.empty() ? file.string() : where + " (" + file.string() + ")";
+  if (file == "-") {
+    throw Error(ErrorKind::input, what + " cannot come from standard input", place,
+                "name a file; only a command's MISSION and the POINTS of query may be -");
+  }
   std::error_code error;
   const fs::file_status status = fs::status(file, error);
   if (status.type() == fs::file_type::not_found) {

@@ -39,7 +39,11 @@ const char* what_of(SceneSource::Kind kind) {
 
 Mission read_mission(const fs::path& file) {
   mission_io::check_readable(file, "the mission file", "");
-  mission_io::ParsedMission parsed = mission_io::parse_mission(mission_io::read_text(file, "mission file"), file);
+  return read_mission_text(mission_io::read_text(file, "mission file"), file);
+}
+
+Mission read_mission_text(std::string_view text, const fs::path& file) {
+  mission_io::ParsedMission parsed = mission_io::parse_mission(text, file);
   SceneSource& scene = parsed.mission.scene;
   mission_io::check_readable(scene.file, what_of(scene.kind), parsed.scene_where);
   scene.file = with_true_folder(scene.file);

@@ -1,0 +1,67 @@
+#include "cli/standard_streams.h"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <iostream>
+#include <string_view>
+#include <system_error>
+
+#include "cli/command.h"
+#include "vantage/error.h"
+
+namespace vantage::cli {
+
+namespace fs = std::filesystem;
+
+Mission read_mission_argument(const std::string& argument) {
+  if (!is_standard_stream(argument)) return read_mission(argument);
+  constexpr std::streamsize kMost = std::streamsize{2} << 20;  // the parser takes half, and says so
+  std::string text(static_cast<std::size_t>(kMost), '\0');
+  std::cin.read(text.data(), kMost);
+  if (std::cin.bad()) {
+    throw Error(ErrorKind::input, "the mission cannot be read", "standard input", "send it again");
+  }
+  text.resize(static_cast<std::size_t>(std::cin.gcount()));
+  Mission mission = read_mission_text(text, "standard input");
+  mission.file = "standard input";  // and not a file of that name in the current folder
+  return mission;
+}
+
+OutgoingFile::OutgoingFile(const std::string& extension) {
+  if (extension != ".obj" && ::isatty(STDOUT_FILENO) == 1) {
+    throw Error(ErrorKind::input, "standard output is a terminal, and a " + extension + " file is no text",
+                "command line, -o", "send it to a program or a file: vantage ... -o - | PROGRAM");
+  }
+  std::error_code error;
+  const fs::path temporary = fs::temp_directory_path(error);
+  std::string pattern = ((error ? fs::path("/tmp") : temporary) / "vantage-XXXXXX").string();
+  if (::mkdtemp(pattern.data()) == nullptr) {
+    throw Error(ErrorKind::output, std::string("no temporary file can be made: ") + std::strerror(errno), pattern,
+                "make room there, or set TMPDIR to a folder that can be written");
+  }
+  folder_ = pattern;
+  path_ = folder_ / ("result" + extension);
+}
+
+OutgoingFile::~OutgoingFile() {
+  std::error_code error;
+  fs::remove_all(folder_, error);
+}
+
+void OutgoingFile::send() const {
+  std::ifstream stream(path_, std::ios::binary);
+  std::string part(std::size_t{1} << 20, '\0');
+  do {
+    stream.read(part.data(), static_cast<std::streamsize>(part.size()));
+    print(std::string_view(part).substr(0, static_cast<std::size_t>(stream.gcount())));
+  } while (stream);
+  if (stream.bad() || !stream.eof()) {
+    throw Error(ErrorKind::output, "the result cannot be read back", path_.string(), "try again, or write to a file");
+  }
+}
+
+}  // namespace vantage::cli
