@@ -7,7 +7,6 @@ namespace {
 
 using CliInspect = Cli;
 using CliCompute = Cli;
-using CliQuery = Cli;
 using CliVerify = Cli;
 
 TEST_F(CliInspect, ShowsWhatWasRead) {
@@ -206,69 +205,6 @@ TEST_F(CliCompute, NamesEmptyOutcomesAndKeepsTheOldMesh) {
   expect_empty(std::string("scene: {mesh: panel.obj}\n") + kSensor +
                    "target: {vertices: [[40, -2, 2], [40, 2, 2], [40, 0, 6]], front: [1, 0, 0]}\n",
                "blocked_at_once");
-}
-
-TEST_F(CliQuery, Answers) {
-  write("points.csv", "x,y,z\n0,0,30\n60,0,5\n0,0,80\n0,0,-3\n");
-  const std::vector<std::string> rows = lines(output_of({"query", "mission.yaml", "points.csv"}));
-  ASSERT_EQ(rows.size(), 5U);
-  EXPECT_EQ(rows[0], "x,y,z,inside,margin_m,blocked_by,out_of_range,behind_target,outside_of");
-  EXPECT_EQ(rows[1].rfind("0,0,30,true,", 0), 0U) << rows[1];
-  EXPECT_NE(rows[1].find(",,false,false,"), std::string::npos) << rows[1];
-  EXPECT_EQ(rows[2].rfind("60,0,5,false,-", 0), 0U) << rows[2];
-  EXPECT_NE(rows[2].find(",block,true,false,"), std::string::npos) << rows[2];
-  EXPECT_EQ(rows[3].rfind("0,0,80,false,-", 0), 0U) << rows[3];
-  EXPECT_NE(rows[3].find(",,true,false,"), std::string::npos) << rows[3];
-  EXPECT_NE(rows[4].find(",true,"), std::string::npos) << rows[4];
-}
-
-TEST_F(CliQuery, NamesBrokenLimits) {
-  write("mission.yaml", std::string(kScene) + kTarget + kSensor + "navigation: {altitude: [10, 20]}\n");
-  options_.input = "0 0 15\n0 0 5\n0 0 25\n";
-  const std::vector<std::string> rows = lines(output_of({"query", "mission.yaml", "-"}));
-  ASSERT_EQ(rows.size(), 4U);
-  EXPECT_NE(rows[1].find("true"), std::string::npos) << rows[1];
-  EXPECT_NE(rows[2].find("altitude min"), std::string::npos) << rows[2];
-  EXPECT_NE(rows[3].find("altitude max"), std::string::npos) << rows[3];
-}
-
-TEST_F(CliQuery, TakesAnyTable) {
-  const std::string expected = output_of({"query", "mission.yaml", "-"});
-  EXPECT_EQ(lines(expected).size(), 1U) << "no points, only the header";
-  options_.input = "1,2,30\n";
-  const std::string answers = output_of({"query", "mission.yaml", "-"});
-  for (const char* text :
-       {"1 2 30\n", "1\t2\t30", "1;2;30\r\n", " 1 , 2 , 30 , more\n", "x,y,z\n1,2,30\n", "id;Z;X;Y\np 1;30;1;2\n",
-        "\xEF\xBB\xBF\"x\",\"y\",\"z\"\n\"1\",\"2\",\"30\"\n", "# note\n\n  \n1,2,30",
-        "name,x,y,z\n\"a, \"\"b\"\"\",1,2,30\n", "x y z\n1 2 30\n", "1.0,2e0,+30"}) {
-    options_.input = text;
-    EXPECT_EQ(output_of({"query", "mission.yaml", "-"}), answers) << text;
-  }
-}
-
-TEST_F(CliQuery, WritesAFile) {
-  write("points.csv", "0,0,30\n");
-  const std::string answers = output_of({"query", "mission.yaml", "points.csv"});
-  EXPECT_EQ(output_of({"query", "mission.yaml", "points.csv", "-o", "answers.csv"}), "");
-  EXPECT_EQ(content(folder_ / "answers.csv"), answers);
-}
-
-TEST_F(CliQuery, RefusesBadRows) {
-  const auto expect_bad_points = [&](const std::string& text, const std::string& what, const std::string& line) {
-    write("points.csv", text);
-    expect_bad({"query", "mission.yaml", "points.csv", "-o", "volume.ply"}, what, "points.csv:" + line);
-  };
-  expect_bad_points("1,2,3\n4,5\n", "the row has 2 columns, but z is column 3", "2");
-  expect_bad_points("1,2,3\n\n4,five,6\n", "y is not a number: 'five'", "3");
-  expect_bad_points("x,y,z\n1,2,\n", "z is not a number: ''", "2");
-  expect_bad_points("1,2,nan\n", "z is not finite: 'nan'", "1");
-  expect_bad_points("1,2,-inf\n", "z is not finite: '-inf'", "1");
-  expect_bad_points("1,2,1e999\n", "z", "1");
-  expect_bad_points("1;2,5;3\n", "y is not a number: '2,5'", "1");
-  expect_bad_points("a,b,c\n1,2,3\n", "neither a point nor a header with a column x", "1");
-  expect_bad_points("x,y\n1,2\n", "with a column z", "1");
-  expect_bad({"query", "mission.yaml", "none.csv"}, "the points file does not exist", "none.csv");
-  expect_bad({"query", "mission.yaml", "."}, "the points file is a folder", ".");
 }
 
 TEST_F(CliVerify, PassesWhatWasComputed) {

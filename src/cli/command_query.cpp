@@ -1,18 +1,23 @@
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
-#include <iostream>
-#include <iterator>
+#include <filesystem>
 #include <memory>
+#include <optional>
+#include <span>
 
 #include "cli/command.h"
+#include "cli/interrupt.h"
 #include "cli/output_check.h"
-#include "cli/point_list.h"
+#include "cli/point_table.h"
 #include "cli/progress_line.h"
+#include "cli/row_reader.h"
+#include "cli/standard_streams.h"
 #include "mission/input_file.h"
+#include "mission/numbers.h"
 #include "mission/run_mission.h"
 #include "solid/atomic_file.h"
 #include "vantage/error.h"
@@ -23,93 +28,187 @@ namespace {
 
 constexpr const char* kExamples =
     "POINTS\n"
-    "  One in a row, in metres, z up; separated by commas, semicolons or blanks. A header may name the columns x, y, "
-    "z;\n"
-    "  without one the first three are taken.\n"
+    "  A row each; commas, semicolons, tabs or blanks separate the columns. A header may name them: x, y, z in metres\n"
+    "  of the scene frame, z up; or lon, lat in degrees (WGS 84) and z, for a scene that says where on the earth it\n"
+    "  lies. Without a header the first three columns are taken. z is always the scene's: measured from the flat\n"
+    "  ground of a map, or from the zero of its terrain, not from the ground under the point.\n"
     "\n"
     "ANSWERS\n"
-    "  x,y,z,inside,margin_m,blocked_by,out_of_range,behind_target,outside_of: margin_m is the signed distance to the\n"
+    "  The table of the points, all of its columns in their order, and after them\n"
+    "  inside,margin_m,blocked_by,out_of_range,behind_target,outside_of: margin_m is the signed distance to the\n"
     "  volume's boundary along the line to the target's centre, positive inside. Navigation limits bound it too, the\n"
-    "  target itself does not; -inf where no point of that line is in the volume. Several names in one field are "
-    "joined\n"
-    "  with ';'.\n"
+    "  target itself does not; -inf where no point of that line is in the volume. Several names in a field are joined\n"
+    "  with ';'. With --json: an array of objects, one a line; -inf is null, and columns that are no coordinates are\n"
+    "  text.\n"
     "\n"
     "EXAMPLES\n"
     "  vantage query mission.yaml points.csv\n"
     "  vantage query mission.yaml points.csv -o answers.csv\n"
-    "  echo 10 20 35 | vantage query mission.yaml -\n";
+    "  echo 10 20 35 | vantage query mission.yaml -\n"
+    "  vantage query mission.yaml track.csv --lonlat --z 60 --json | jq '.[] | select(.inside)'\n";
 
 struct Options {
   CommonOptions common;
   std::string mission_file, points_file, output_file;
+  std::string z;  // as typed
+  bool lonlat = false, json = false;
+
+  bool is_to_stdout() const { return output_file.empty() || is_standard_stream(output_file); }
 };
 
-std::string read_all(const std::string& file) {
-  if (file == "-") {
-    std::string text{std::istreambuf_iterator<char>(std::cin), std::istreambuf_iterator<char>()};
-    if (std::cin.bad()) throw Error(ErrorKind::input, "the points cannot be read", "standard input", "send them again");
-    return text;
-  }
-  mission_io::check_readable(file, "the points file", "");
-  std::ifstream stream(file, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  if (stream.bad()) {
+/// The points' file, or standard input.
+class Source {
+ public:
+  explicit Source(const std::string& file) {
+    if (is_standard_stream(file)) return;
+    mission_io::check_readable(file, "the points file", "");
+    descriptor_ = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
+    if (descriptor_ >= 0) return;
     throw Error(ErrorKind::input, std::string("the points file cannot be read: ") + std::strerror(errno), file,
-                "check the disk that it lies on");
+                "check its permissions");
+  }
+  ~Source() {
+    if (descriptor_ != STDIN_FILENO) ::close(descriptor_);
+  }
+  Source(const Source&) = delete;
+  Source& operator=(const Source&) = delete;
+
+  int descriptor() const { return descriptor_; }
+
+ private:
+  int descriptor_ = STDIN_FILENO;
+};
+
+/// Where answers go, as they come; a file is put in place when all are there.
+class Sink {
+ public:
+  explicit Sink(const Options& options) {
+    if (!options.is_to_stdout()) file_.emplace(options.output_file);
+  }
+  void write(const std::string& text) {
+    if (file_) {
+      file_->write(text);
+    } else {
+      print(text);
+    }
+  }
+  void commit() {
+    if (file_) file_->commit();
+  }
+
+ private:
+  std::optional<solid::AtomicFile> file_;
+};
+
+TableOptions table_options(const Options& options) {
+  TableOptions result;
+  result.lonlat = options.lonlat;
+  result.json = options.json;
+  if (options.z.empty()) return result;
+  const mission_io::ParsedNumber z = mission_io::parse_number(options.z);
+  if (z.fault != mission_io::NumberFault::none) {
+    throw Error(ErrorKind::input, "--z must be a number, not " + mission_io::in_quotes(options.z), "command line, --z",
+                mission_io::number_advice(options.z, z.fault));
+  }
+  result.z = z.value;
+  return result;
+}
+
+void tell_of_columns(const PointTable& table) {
+  if (table.is_ambiguous()) note("the points have x, y and lon, lat: x and y are used; --lonlat uses the others");
+  if (table.replaced().empty()) return;
+  std::string names;
+  for (const std::string& name : table.replaced()) names += (names.empty() ? "" : ", ") + name;
+  note("columns of the points that the answers replace: " + names);
+}
+
+void tell_of_heights(const Scene& scene) {
+  const std::string level = scene.georeference ? scene.georeference->vertical : "";
+  note("z of the points is metres above " + (level.empty() ? "the zero of the scene's file" : level));
+}
+
+/// Rows of one portion, with their coordinates.
+struct Portion {
+  std::vector<Row> rows;
+  std::vector<Vec3> coordinates;
+};
+
+/// All that is wrong with a row is found before any of the portion is answered.
+Portion parsed(PointTable& table, std::span<const Row> rows) {
+  Portion portion;
+  portion.rows.assign(rows.begin(), rows.end());
+  for (const Row& row : rows) portion.coordinates.push_back(table.coordinates(row));
+  return portion;
+}
+
+std::string answered(PointTable& table, const Portion& portion, const Scene& scene, PointQuery& query) {
+  std::vector<Vec3> points;
+  for (std::size_t i = 0; i < portion.rows.size(); ++i) {
+    points.push_back(table.scene_point(portion.coordinates[i], scene.georeference, portion.rows[i]));
+  }
+  const std::vector<PointAnswer> answers = query.answer(points);
+  std::string text;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    table.append(text, portion.rows[i], portion.coordinates[i], answers[i]);
   }
   return text;
 }
 
-/// The whole target is seen where all its parts are.
-void narrow(std::vector<PointAnswer>& answers, const std::vector<PointAnswer>& of_part) {
-  for (std::size_t i = 0; i < answers.size(); ++i) {
-    PointAnswer& answer = answers[i];
-    const PointAnswer& other = of_part[i];
-    answer.inside = answer.inside && other.inside;
-    answer.margin_m = std::min(answer.margin_m, other.margin_m);
-    std::vector<std::string> blockers;
-    std::set_union(answer.blocked_by.begin(), answer.blocked_by.end(), other.blocked_by.begin(), other.blocked_by.end(),
-                   std::back_inserter(blockers));
-    answer.blocked_by = std::move(blockers);
-    answer.out_of_range = answer.out_of_range || other.out_of_range;
-    answer.behind_target = answer.behind_target || other.behind_target;
+void check_streams(const Options& options) {
+  const bool is_from_stdin = is_standard_stream(options.points_file);
+  if (is_from_stdin && is_standard_stream(options.mission_file)) {
+    throw Error(ErrorKind::input, "the mission and the points cannot both come from standard input",
+                "command line, MISSION and POINTS", "write one of them to a file");
   }
+  if (options.is_to_stdout()) return;
+  check_can_write(options.output_file);
+  if (!is_from_stdin) check_not_an_input(options.output_file, {options.points_file});
 }
 
 int run(const Options& options) {
-  const bool is_from_stdin = options.points_file == "-";
-  if (!options.output_file.empty()) {
-    check_can_write(options.output_file);
-    if (!is_from_stdin) check_not_an_input(options.output_file, {options.points_file});
-  }
-  Mission mission = read_mission(options.mission_file);
-  if (!options.output_file.empty()) check_not_an_input(options.output_file, input_files(mission));
-  if (mission.method == Method::spheres && !options.common.quiet) {
+  check_streams(options);
+  const TableOptions columns = table_options(options);
+  Mission mission = read_mission_argument(options.mission_file);
+  if (!options.is_to_stdout()) check_not_an_input(options.output_file, input_files(mission));
+  const bool is_from_stdin = is_standard_stream(options.points_file);
+  const bool is_quiet = options.common.quiet;
+  if (mission.method == Method::spheres && !is_quiet) {
     note("the mission's method is spheres; queries are always answered exactly, for the whole target");
   }
-  if (is_from_stdin && !options.common.quiet && ::isatty(STDIN_FILENO) == 1) {
+  if (is_from_stdin && !is_quiet && ::isatty(STDIN_FILENO) == 1) {
     note("reading points from the keyboard; end with Ctrl-D");
   }
-  const std::vector<Vec3> points =
-      parse_points(read_all(options.points_file), is_from_stdin ? "standard input" : options.points_file);
-
+  const Source source(options.points_file);
   ProgressLine progress(options.common);
-  const PreparedScene scene(read_mission_scene(mission, progress.callback()).scene, progress.callback());
-  std::vector<PointAnswer> answers = mission_io::with_place(mission.target_place, [&] {
-    return query_points(scene, mission.target, mission.sensor, mission.navigation, points);
+  RowReader reader(source.descriptor(), is_from_stdin ? "standard input" : options.points_file, stop_if_interrupted);
+
+  // The first rows before the scene: a mistake in them is told at once.
+  const std::vector<Row>& first = reader.next();
+  const Row no_row;
+  PointTable table(reader, first.empty() ? no_row : first.front(), columns);
+  Portion portion = parsed(table, std::span(first).subspan(table.has_header() ? 1 : 0));
+  if (portion.rows.empty()) portion = parsed(table, reader.next());  // the header came alone
+  if (!is_quiet) tell_of_columns(table);
+
+  const Scene scene = read_mission_scene(mission, progress.callback()).scene;
+  if (table.is_lonlat() && !is_quiet) tell_of_heights(scene);
+  std::vector<Target> parts = mission.other_parts;
+  parts.insert(parts.begin(), mission.target);
+  PointQuery query = mission_io::with_place(mission.target_place, [&] {
+    return PointQuery(PreparedScene(scene, progress.callback()), parts, mission.sensor, mission.navigation);
   });
-  for (const Target& part : mission.other_parts) {
-    narrow(answers, mission_io::with_place(mission.target_place, [&] {
-             return query_points(scene, part, mission.sensor, mission.navigation, points);
-           }));
+  Sink sink(options);
+  std::string text = table.beginning();
+  while (!portion.rows.empty()) {
+    text += answered(table, portion, scene, query);
+    sink.write(text);
+    text.clear();
+    stop_if_interrupted();
+    portion = parsed(table, reader.next());
   }
-  const std::string text = answers_text(points, answers);
-  stop_if_interrupted();
-  if (options.output_file.empty()) {
-    print(text);
-  } else {
-    solid::write_whole_file(options.output_file, text);
-  }
+  if (!text.empty()) sink.write(text);  // there were no points
+  sink.write(table.end());
+  sink.commit();
   return kSuccess;
 }
 
@@ -118,12 +217,20 @@ int run(const Options& options) {
 void add_query(CLI::App& app, Command& chosen) {
   CLI::App* command = app.add_subcommand("query", "Say of each point whether it sees the whole target, and why not");
   auto options = std::make_shared<Options>();
-  command->add_option("mission", options->mission_file, "The mission")->required()->option_text("MISSION");
+  command->add_option("mission", options->mission_file, "The mission; - for standard input")
+      ->required()
+      ->option_text("MISSION");
   command->add_option("points", options->points_file, "File of points; - for standard input")
       ->required()
       ->option_text("POINTS");
-  command->add_option("-o,--output", options->output_file, "Write the answers to a file, not to standard output")
+  command
+      ->add_option("-o,--output", options->output_file,
+                   "Write the answers to a file; -, the default, is standard output")
       ->option_text("FILE");
+  command->add_flag("--lonlat", options->lonlat, "The points are longitude and latitude in degrees, WGS 84");
+  command->add_option("--z", options->z, "One height for all points, which then have no column z")
+      ->option_text("METRES");
+  command->add_flag("--json", options->json, "Write a JSON array of objects, one a line");
   finish<Options>(*command, options, kExamples, chosen, run);
 }
 

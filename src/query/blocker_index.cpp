@@ -16,7 +16,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// rounding errors of 4e-16, and the direction's place in the cell another 1e-15 or so.
 constexpr double kRounding = 1e-14;
 
-constexpr int kDeepest = 11;            // cells of half a milliradian
+constexpr int kDeepest = 11;             // cells of half a milliradian
 constexpr std::size_t kFewEntries = 12;  // not worth dividing for
 constexpr std::size_t kPatience = 8;     // entries looked at, for each in the list, before it is divided
 constexpr std::size_t kLeavesAtOnce = 64;

@@ -232,14 +232,13 @@ Bearing bearing_of(const Side& side, const Vec3& scene_point) {
   if (largest < kSquarable) {
     const Vec3 point = frame.to_local(scene_point);
     const double distance = point.norm();
-    return {distance > 0 ? Vec3(point / distance) : Vec3(Vec3::Zero()), distance,
-            point.z() > 0, side.is_reachable && side.range.contains(point)};
+    return {distance > 0 ? Vec3(point / distance) : Vec3(Vec3::Zero()), distance, point.z() > 0,
+            side.is_reachable && side.range.contains(point)};
   }
   // So far away the centre is where the origin is.
   const Vec3 unit = scene_point / largest;
   const Vec3 direction = Vec3(frame.axis_u.dot(unit), frame.axis_v.dot(unit), frame.normal.dot(unit)).normalized();
-  return {direction, std::min(unit.norm() * largest, std::numeric_limits<double>::max()),
-          direction.z() > 0, false};
+  return {direction, std::min(unit.norm() * largest, std::numeric_limits<double>::max()), direction.z() > 0, false};
 }
 
 PointAnswer look(Side& side, const Vec3& scene_point) {
@@ -302,8 +301,7 @@ void consider_index(const Side& side, Reach& reach) {
     });
   }
   if (reach.work < reach.polygons) return;
-  reach.index =
-      std::make_unique<BlockerIndex>(side.scene, side.frame, side.target, reach.leaves, reach.metres);
+  reach.index = std::make_unique<BlockerIndex>(side.scene, side.frame, side.target, reach.leaves, reach.metres);
 }
 
 void look_from_all(const Sides& sides, std::span<const Vec3> points, std::span<PointAnswer> answers) {

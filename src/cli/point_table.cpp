@@ -1,0 +1,265 @@
+#include "cli/point_table.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "mission/numbers.h"
+#include "vantage/error.h"
+
+namespace vantage::cli {
+namespace {
+
+using mission_io::in_quotes;
+using mission_io::NumberFault;
+
+constexpr std::array<const char*, 6> kAnswers = {"inside",       "margin_m",      "blocked_by",
+                                                 "out_of_range", "behind_target", "outside_of"};
+
+std::string lower_case(std::string text) {
+  for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return text;
+}
+
+/// Begins like a name and is no spelling of infinity or not-a-number, which is a point's mistake, not a header.
+bool is_word(const std::string& field) {
+  if (field.empty() || mission_io::parse_number(field).fault != NumberFault::not_a_number) return false;
+  const auto c = static_cast<unsigned char>(field.front());
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c >= 0x80;
+}
+
+std::optional<std::size_t> find_column(const std::vector<std::string>& names,
+                                       std::initializer_list<const char*> wanted) {
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const std::string name = lower_case(names[i]);
+    if (std::any_of(wanted.begin(), wanted.end(), [&](const char* word) { return name == word; })) return i;
+  }
+  return std::nullopt;
+}
+
+/// The plain cases at once; what is left is parse_number's.
+mission_io::ParsedNumber number_in(std::string_view text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool is_whole = end == text.data() + text.size() && error == std::errc();
+  if (is_whole && std::isfinite(value)) return {value, NumberFault::none};
+  return mission_io::parse_number(text);
+}
+
+void append_number(std::string& text, double value) {
+  std::array<char, 32> digits;
+  text.append(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr);
+}
+
+/// Nine significant digits: a micrometre in a kilometre.
+void append_metres(std::string& text, double value) {
+  std::array<char, 32> digits;
+  const auto [end, error] =
+      std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::general, 9);
+  text.append(digits.data(), end);
+}
+
+/// In double quotes where the text would break the row; RFC 4180.
+void append_field(std::string& text, std::string_view field) {
+  if (field.find_first_of(",\"\r\n") == std::string_view::npos) {
+    text += field;
+    return;
+  }
+  text += '"';
+  for (const char c : field) text.append(c == '"' ? 2 : 1, c);
+  text += '"';
+}
+
+void append_names(std::string& text, const std::vector<std::string>& names) {
+  if (names.size() == 1) return append_field(text, names.front());
+  std::string joined;
+  for (const std::string& name : names) {
+    if (!joined.empty()) joined += ';';
+    joined += name;
+  }
+  append_field(text, joined);
+}
+
+/// Bytes that are not UTF-8 are replaced rather than refused.
+std::string json_text(const nlohmann::json& value) {
+  return value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+const char* truth(bool value) { return value ? "true" : "false"; }
+
+}  // namespace
+
+PointTable::PointTable(const RowReader& reader, const Row& first, const TableOptions& options)
+    : reader_(reader), options_(options), is_lonlat_(options.lonlat) {
+  reader_.split(first.text, fields_);
+  const std::size_t looked_at = std::min<std::size_t>(fields_.size(), 3);
+  has_header_ = std::any_of(fields_.begin(), fields_.begin() + static_cast<std::ptrdiff_t>(looked_at),
+                            [](const Field& field) { return is_word(field.plain()); });
+  if (has_header_) {
+    take_header(fields_, first);
+  } else {
+    for (std::size_t axis = 0; axis < (options.z ? 2 : 3); ++axis) column_[axis] = axis;
+    names_ = {is_lonlat_ ? "lon" : "x", is_lonlat_ ? "lat" : "y"};
+    if (!options.z) names_.emplace_back("z");
+    while (names_.size() < fields_.size()) names_.push_back("column_" + std::to_string(names_.size() + 1));
+  }
+  for (const std::string& name : names_) {
+    is_kept_.push_back(std::find(kAnswers.begin(), kAnswers.end(), name) == kAnswers.end());
+    if (!is_kept_.back()) replaced_.push_back(name);
+  }
+  if (!options.json) return;
+  std::set<std::string> seen;
+  for (const std::string& name : names_) {
+    if (seen.insert(name).second) continue;
+    fail("two columns are named " + in_quotes(name) + ", which JSON cannot hold", first, "give each a name of its own");
+  }
+}
+
+void PointTable::take_header(const std::vector<Field>& fields, const Row& row) {
+  for (const Field& field : fields) names_.push_back(field.plain());
+  const auto x = find_column(names_, {"x"}), y = find_column(names_, {"y"}), z = find_column(names_, {"z"}),
+             lon = find_column(names_, {"lon", "longitude"}), lat = find_column(names_, {"lat", "latitude"});
+  is_lonlat_ = options_.lonlat || (lon && lat && !(x && y));
+  is_ambiguous_ = !options_.lonlat && lon && lat && x && y;
+  column_ = {is_lonlat_ ? lon : x, is_lonlat_ ? lat : y, z};
+  for (const auto& column : column_) {
+    if (column && !is_lonlat_) names_[*column] = lower_case(names_[*column]);
+  }
+  if (options_.z && z) fail("the points have a column z, and --z gives another", row, "leave one of them out");
+  const std::array<const char*, 3> axes = {is_lonlat_ ? "lon" : "x", is_lonlat_ ? "lat" : "y", "z"};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (column_[axis] || (axis == 2 && options_.z)) continue;
+    const std::string form = is_lonlat_
+                                 ? "begin with the header 'lon,lat,z', or with a point such as 11.57,48.14,30"
+                                 : "begin with the header 'x,y,z' or 'lon,lat,z', or with a point such as 1.5,2,30";
+    fail("the first row is neither a point nor a header with a column " + std::string(axes[axis]), row,
+         axis == 2 ? form + "; --z gives one height for all points" : form);
+  }
+}
+
+Vec3 PointTable::coordinates(const Row& row) {
+  reader_.split(row.text, fields_);
+  while (fields_.size() > names_.size() && fields_.back().text.empty()) fields_.pop_back();
+  if (fields_.size() > names_.size()) {
+    fail("the row has " + std::to_string(fields_.size()) + " columns, but the first row has " +
+             std::to_string(names_.size()),
+         row, "write the same columns in every row; put a text that holds the separator in double quotes");
+  }
+  Vec3 point(0, 0, options_.z.value_or(0));
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (!column_[axis]) continue;  // --z
+    const std::size_t column = *column_[axis];
+    const std::string& name = names_[column];
+    if (column >= fields_.size()) {
+      fail("the row has " + std::to_string(fields_.size()) + " columns, but " + name + " is column " +
+               std::to_string(column + 1),
+           row, "write all coordinates in every row, separated like the first row");
+    }
+    const std::string plain = fields_[column].is_quoted ? fields_[column].plain() : std::string();
+    const std::string_view text = fields_[column].is_quoted ? std::string_view(plain) : fields_[column].text;
+    const mission_io::ParsedNumber parsed = number_in(text);
+    if (parsed.fault != NumberFault::none) {
+      fail(name + (parsed.fault == NumberFault::not_finite ? " is not finite: " : " is not a number: ") +
+               in_quotes(text),
+           row, mission_io::number_advice(text, parsed.fault));
+    }
+    point[static_cast<Eigen::Index>(axis)] = parsed.value;
+  }
+  return point;
+}
+
+Vec3 PointTable::scene_point(const Vec3& coordinates, const std::optional<Georeference>& place, const Row& row) const {
+  if (!is_lonlat_) return coordinates;
+  if (!place) {
+    fail("the points are longitudes and latitudes, but the scene does not say where on the earth it lies", row,
+         "give x, y and z in the scene frame, or a scene with a place: a map, CityJSON with a reference system, a "
+         "raster, or a mesh with 'crs' or written by 'vantage scene'");
+  }
+  try {
+    const Eigen::Vector2d xy = scene_position(*place, coordinates.x(), coordinates.y());
+    return {xy.x(), xy.y(), coordinates.z()};
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::input) throw;
+    fail(error.problem(), row, error.fix());
+  }
+}
+
+std::string PointTable::beginning() const {
+  if (options_.json) return "[";
+  std::string text;
+  for (std::size_t i = 0; i < names_.size(); ++i) {
+    if (!is_kept_[i]) continue;
+    append_field(text, names_[i]);
+    text += ',';
+  }
+  for (const char* name : kAnswers) text += std::string(name) + (name == kAnswers.back() ? "\n" : ",");
+  return text;
+}
+
+std::optional<std::size_t> PointTable::axis_of(std::size_t column) const {
+  const auto found = std::find(column_.begin(), column_.end(), std::optional(column));
+  if (found == column_.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - column_.begin());
+}
+
+void PointTable::append(std::string& text, const Row& row, const Vec3& coordinates, const PointAnswer& answer) {
+  reader_.split(row.text, fields_);
+  if (options_.json) {
+    append_json(text, coordinates, answer);
+  } else {
+    append_csv(text, coordinates, answer);
+  }
+  is_first_ = false;
+}
+
+void PointTable::append_csv(std::string& text, const Vec3& coordinates, const PointAnswer& answer) const {
+  for (std::size_t i = 0; i < names_.size(); ++i) {
+    if (!is_kept_[i]) continue;
+    if (const auto axis = axis_of(i)) {
+      append_number(text, coordinates[static_cast<Eigen::Index>(*axis)]);
+    } else if (i < fields_.size()) {
+      if (fields_[i].is_quoted) {
+        text += fields_[i].text;
+      } else {
+        append_field(text, fields_[i].text);
+      }
+    }
+    text += ',';
+  }
+  text.append(truth(answer.inside)).append(",");
+  append_metres(text, answer.margin_m);
+  text += ',';
+  append_names(text, answer.blocked_by);
+  text.append(",").append(truth(answer.out_of_range)).append(",").append(truth(answer.behind_target)).append(",");
+  append_names(text, answer.outside_of);
+  text += '\n';
+}
+
+void PointTable::append_json(std::string& text, const Vec3& coordinates, const PointAnswer& answer) {
+  text += is_first_ ? "\n{" : ",\n{";
+  for (std::size_t i = 0; i < names_.size(); ++i) {
+    if (!is_kept_[i]) continue;
+    const auto axis = axis_of(i);
+    text += json_text(names_[i]) + ": ";
+    if (axis) {
+      append_number(text, coordinates[static_cast<Eigen::Index>(*axis)]);
+    } else {
+      text += i < fields_.size() ? json_text(fields_[i].plain()) : "\"\"";
+    }
+    text += ", ";
+  }
+  text.append("\"inside\": ").append(truth(answer.inside)).append(", \"margin_m\": ");
+  text += std::isfinite(answer.margin_m) ? mission_io::shortest(answer.margin_m) : "null";
+  text.append(", \"blocked_by\": ").append(json_text(answer.blocked_by));
+  text.append(", \"out_of_range\": ").append(truth(answer.out_of_range));
+  text.append(", \"behind_target\": ").append(truth(answer.behind_target));
+  text.append(", \"outside_of\": ").append(json_text(answer.outside_of)).append("}");
+}
+
+void PointTable::fail(const std::string& problem, const Row& row, const std::string& fix) const {
+  throw Error(ErrorKind::input, problem, reader_.file() + ":" + std::to_string(row.line), fix);
+}
+
+}  // namespace vantage::cli

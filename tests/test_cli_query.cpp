@@ -1,0 +1,284 @@
+// `vantage query`: tables of points, and what is answered beside them.
+#include <chrono>
+
+#include "support/cli_fixture.h"
+#include "vantage/query.h"
+
+namespace vantage::testing {
+namespace {
+
+using CliQuery = Cli;
+
+constexpr const char* kAnswers = "inside,margin_m,blocked_by,out_of_range,behind_target,outside_of";
+
+TEST_F(CliQuery, Answers) {
+  write("points.csv", "x,y,z\n0,0,30\n60,0,5\n0,0,80\n0,0,-3\n");
+  const std::vector<std::string> rows = lines(output_of({"query", "mission.yaml", "points.csv"}));
+  ASSERT_EQ(rows.size(), 5U);
+  EXPECT_EQ(rows[0], "x,y,z,inside,margin_m,blocked_by,out_of_range,behind_target,outside_of");
+  EXPECT_EQ(rows[1].rfind("0,0,30,true,", 0), 0U) << rows[1];
+  EXPECT_NE(rows[1].find(",,false,false,"), std::string::npos) << rows[1];
+  EXPECT_EQ(rows[2].rfind("60,0,5,false,-", 0), 0U) << rows[2];
+  EXPECT_NE(rows[2].find(",block,true,false,"), std::string::npos) << rows[2];
+  EXPECT_EQ(rows[3].rfind("0,0,80,false,-", 0), 0U) << rows[3];
+  EXPECT_NE(rows[3].find(",,true,false,"), std::string::npos) << rows[3];
+  EXPECT_NE(rows[4].find(",true,"), std::string::npos) << rows[4];
+}
+
+TEST_F(CliQuery, NamesBrokenLimits) {
+  write("mission.yaml", std::string(kScene) + kTarget + kSensor + "navigation: {altitude: [10, 20]}\n");
+  options_.input = "0 0 15\n0 0 5\n0 0 25\n";
+  const std::vector<std::string> rows = lines(output_of({"query", "mission.yaml", "-"}));
+  ASSERT_EQ(rows.size(), 4U);
+  EXPECT_NE(rows[1].find("true"), std::string::npos) << rows[1];
+  EXPECT_NE(rows[2].find("altitude min"), std::string::npos) << rows[2];
+  EXPECT_NE(rows[3].find("altitude max"), std::string::npos) << rows[3];
+}
+
+TEST_F(CliQuery, TakesAnyTable) {
+  const std::string expected = output_of({"query", "mission.yaml", "-"});
+  EXPECT_EQ(lines(expected).size(), 1U) << "no points, only the header";
+  options_.input = "1,2,30\n";
+  const std::string answers = output_of({"query", "mission.yaml", "-"});
+  for (const char* text : {"1 2 30\n", "1\t2\t30", "1;2;30\r\n", " 1 , 2 , 30\n", "x,y,z\n1,2,30\n", "X;Y;Z\n1;2;30\n",
+                           "\xEF\xBB\xBF\"x\",\"y\",\"z\"\n\"1\",\"2\",\"30\"\n", "# note\n\n  \n1,2,30",
+                           "x y z\n1 2 30\n", "1.0,2e0,+30"}) {
+    options_.input = text;
+    EXPECT_EQ(output_of({"query", "mission.yaml", "-"}), answers) << text;
+  }
+}
+
+TEST_F(CliQuery, WritesAFile) {
+  write("points.csv", "0,0,30\n");
+  const std::string answers = output_of({"query", "mission.yaml", "points.csv"});
+  EXPECT_EQ(output_of({"query", "mission.yaml", "points.csv", "-o", "answers.csv"}), "");
+  EXPECT_EQ(content(folder_ / "answers.csv"), answers);
+}
+
+TEST_F(CliQuery, RefusesBadRows) {
+  const auto expect_bad_points = [&](const std::string& text, const std::string& what, const std::string& line) {
+    write("points.csv", text);
+    expect_bad({"query", "mission.yaml", "points.csv", "-o", "volume.ply"}, what, "points.csv:" + line);
+  };
+  expect_bad_points("1,2,3\n4,5\n", "the row has 2 columns, but z is column 3", "2");
+  expect_bad_points("1,2,3\n\n4,five,6\n", "y is not a number: 'five'", "3");
+  expect_bad_points("x,y,z\n1,2,\n", "z is not a number: ''", "2");
+  expect_bad_points("1,2,nan\n", "z is not finite: 'nan'", "1");
+  expect_bad_points("1,2,-inf\n", "z is not finite: '-inf'", "1");
+  expect_bad_points("1,2,1e999\n", "z", "1");
+  expect_bad_points("1;2,5;3\n", "y is not a number: '2,5'", "1");
+  expect_bad_points("a,b,c\n1,2,3\n", "neither a point nor a header with a column x", "1");
+  expect_bad_points("x,y\n1,2\n", "with a column z", "1");
+  expect_bad({"query", "mission.yaml", "none.csv"}, "the points file does not exist", "none.csv");
+  expect_bad({"query", "mission.yaml", "."}, "the points file is a folder", ".");
+}
+
+TEST_F(CliQuery, KeepsAllColumnsInTheirOrder) {
+  const auto rows_of = [&](const std::string& text) {
+    options_.input = text;
+    return lines(output_of({"query", "mission.yaml", "-"}));
+  };
+  auto rows = rows_of("id;note;Z;X;Y;\n007;\"tall; \"\"old\"\" tree\";30;1;2.50;\nb;a,b;31;0;0;x\n\n;;32;0;0\n");
+  ASSERT_EQ(rows.size(), 4U);
+  EXPECT_EQ(rows[0], std::string("id,note,z,x,y,,") + kAnswers);
+  EXPECT_EQ(rows[1].rfind("007,\"tall; \"\"old\"\" tree\",30,1,2.5,,true,", 0), 0U) << rows[1];
+  EXPECT_EQ(rows[2].rfind("b,\"a,b\",31,0,0,x,true,", 0), 0U) << rows[2];
+  EXPECT_EQ(rows[3].rfind(",,32,0,0,,true,", 0), 0U) << rows[3];
+
+  rows = rows_of("1 2 30 oak \"two words\"\n1 2 31 elm\n");
+  ASSERT_EQ(rows.size(), 3U);
+  EXPECT_EQ(rows[0], std::string("x,y,z,column_4,column_5,") + kAnswers);
+  EXPECT_EQ(rows[1].rfind("1,2,30,oak,\"two words\",true,", 0), 0U) << rows[1];
+  EXPECT_EQ(rows[2].rfind("1,2,31,elm,,true,", 0), 0U) << rows[2];
+
+  rows = rows_of("x\ty\tz\ta\tb\n1\t2\t30\t\tlast\n");
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_EQ(rows[1].rfind("1,2,30,,last,true,", 0), 0U) << rows[1];
+}
+
+TEST_F(CliQuery, KeepsLineBreaksInQuotes) {
+  options_.input = "x,y,z,note\r\n0,0,30,\"first\nsecond, third\"\r\n0,0,five,\"\"\r\n";
+  const ProgramRun refused = run({"query", "mission.yaml", "-"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("standard input:4"), std::string::npos) << refused.err;
+  options_.input = "x,y,z,note\r\n0,0,30,\"first\nsecond, third\"\r\n0,0,31,\"\"\r\n";
+  const std::string answers = output_of({"query", "mission.yaml", "-"});
+  EXPECT_NE(answers.find("\n0,0,30,\"first\nsecond, third\",true,"), std::string::npos) << answers;
+  EXPECT_NE(answers.find("\n0,0,31,\"\",true,"), std::string::npos) << answers;
+}
+
+TEST_F(CliQuery, AnswersReplaceThoseOfAnEarlierRun) {
+  options_.input = "id,x,y,z\na,0,0,30\nb,60,0,5\n";
+  const std::string answers = output_of({"query", "mission.yaml", "-"});
+  options_.input = answers;
+  const ProgramRun again = run({"query", "mission.yaml", "-"});
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_EQ(again.out, answers);
+  EXPECT_NE(again.err.find("margin_m"), std::string::npos) << again.err;
+}
+
+TEST_F(CliQuery, RefusesTablesThatAreNoTables) {
+  const auto expect_bad_points = [&](const std::string& text, const std::string& what, const std::string& line) {
+    write("points.csv", text);
+    expect_bad({"query", "mission.yaml", "points.csv", "-o", "volume.ply"}, what, "points.csv:" + line);
+  };
+  expect_bad_points("x,y,z\n1,2,3\n1,2,3,4\n", "4 columns", "3");
+  expect_bad_points("1 2 3 oak\n1 2 3 old oak\n", "5 columns", "2");
+  expect_bad_points("1,2,3,a\n1,2,3,\"b\n1,2,3,c\n", "quote", "2");
+  expect_bad_points("1,2,3,\"" + std::string(2 << 20, 'a') + "\"\n", "longer than a megabyte", "1");
+  expect_bad_points("1,2,3\n" + std::string(3 << 20, '1'), "longer than a megabyte", "2");
+  expect_bad_points("1,2,3,\"" + std::string(2 << 20, '\n'), "longer than a megabyte", "1");
+  write("points.csv", "x,y,z,a,a\n0,0,30,1,2\n");
+  expect_bad({"query", "mission.yaml", "points.csv", "--json"}, "'a'", "points.csv:1");
+}
+
+TEST_F(CliQuery, WritesJson) {
+  write("points.csv", "id,x,y,z,note\n07,0,0,30,\"say \"\"hi\"\"\"\n8,60,0,5,\xff\n9,0,0,-1e155,\n");
+  const auto json = nlohmann::json::parse(output_of({"query", "mission.yaml", "points.csv", "--json"}));
+  ASSERT_EQ(json.size(), 3U);
+  EXPECT_EQ(json[0].at("id"), "07");
+  EXPECT_EQ(json[0].at("note"), "say \"hi\"");
+  EXPECT_EQ(json[0].at("z"), 30);
+  EXPECT_EQ(json[0].at("inside"), true);
+  EXPECT_NEAR(json[0].at("margin_m").get<double>(), std::sqrt(60. * 60 - 50) - 30, 1e-12);
+  EXPECT_EQ(json[1].at("blocked_by"), nlohmann::json({"block"}));
+  EXPECT_EQ(json[1].at("out_of_range"), true);
+  EXPECT_EQ(json[2].at("behind_target"), true);
+  EXPECT_EQ(json[2].at("outside_of"), nlohmann::json::array());
+  EXPECT_NEAR(json[2].at("margin_m").get<double>() / -1e155, 1, 1e-12);
+  EXPECT_EQ(nlohmann::json::parse(output_of({"query", "mission.yaml", "-", "--json"})).size(), 0U);
+  write("mission.yaml", std::string(kScene) + kTarget + kSensor + "navigation: {altitude: [10, 20]}\n");
+  options_.input = "50 0 0.5\n";
+  const auto nowhere = nlohmann::json::parse(output_of({"query", "mission.yaml", "-", "--json"}));
+  EXPECT_TRUE(nowhere[0].at("margin_m").is_null());
+  EXPECT_EQ(nowhere[0].at("outside_of"), nlohmann::json({"altitude min"}));
+}
+
+TEST_F(CliQuery, OneHeightForAll) {
+  options_.input = "1 2 30\n3 4 30\n";
+  const auto with = lines(output_of({"query", "mission.yaml", "-"}));
+  options_.input = "1 2\n3 4\n";
+  const auto without = lines(output_of({"query", "mission.yaml", "-", "--z", "30"}));
+  ASSERT_EQ(without.size(), 3U);
+  EXPECT_EQ(without[0], std::string("x,y,") + kAnswers);
+  for (std::size_t i = 1; i < 3; ++i) EXPECT_EQ(without[i].substr(4), with[i].substr(7));
+  write("points.csv", "x,y,z\n1,2,3\n");
+  expect_bad({"query", "mission.yaml", "points.csv", "--z", "30"}, "column z", "points.csv:1");
+  expect_bad({"query", "mission.yaml", "points.csv", "--z", "high"}, "--z", "--z");
+}
+
+/// City on the earth: its x and y are metres east and north of the origin.
+constexpr const char* kPlacedScene = "scene: {mesh: city.obj, origin: [48.1, 11.5]}\n";
+
+TEST_F(CliQuery, TakesLongitudeAndLatitude) {
+  write("mission.yaml", std::string(kPlacedScene) + kTarget + kSensor);
+  const Georeference place{48.1, 11.5, "", ""};
+  std::ostringstream degrees, metres;
+  degrees.precision(17);
+  metres.precision(17);
+  degrees << "height,LAT,Longitude,z\n";
+  for (const double lon : {11.4993, 11.5, 11.50031, 11.6}) {
+    for (const double lat : {48.0996, 48.1, 48.10037}) {
+      const Eigen::Vector2d xy = scene_position(place, lon, lat);
+      degrees << "h," << lat << ',' << lon << ",5\n";
+      metres << xy.x() << ',' << xy.y() << ",5\n";
+    }
+  }
+  options_.input = metres.str();
+  const auto expected = lines(output_of({"query", "mission.yaml", "-"}));
+  write("degrees.csv", degrees.str());
+  const auto answers = lines(output_of({"query", "mission.yaml", "degrees.csv", "-q"}));
+  ASSERT_EQ(answers.size(), 13U);
+  ASSERT_EQ(expected.size(), 13U);
+  EXPECT_EQ(answers[0], std::string("height,LAT,Longitude,z,") + kAnswers);
+  const auto answer = [](const std::string& row) { return row.substr(row.find(",5,") + 3); };
+  int inside = 0;
+  for (std::size_t i = 1; i < answers.size(); ++i) {
+    EXPECT_EQ(answer(answers[i]), answer(expected[i])) << answers[i];
+    inside += answer(answers[i]).starts_with("true");
+  }
+  EXPECT_GT(inside, 0);
+  EXPECT_EQ(answers[5].rfind("h,48.1,11.5,5,true,", 0), 0U) << answers[5];
+
+  options_.input = "11.5 48.1 5\n";
+  EXPECT_NE(output_of({"query", "mission.yaml", "-", "-q", "--lonlat"}).find("\n11.5,48.1,5,true,"), std::string::npos);
+  EXPECT_NE(run({"query", "mission.yaml", "-", "--lonlat"}).err.find("z of the points"), std::string::npos);
+  options_.input = "lon,lat,x,y,z\n11.5,48.1,0,70,5\n";
+  EXPECT_NE(output_of({"query", "mission.yaml", "-", "-q"}).find("11.5,48.1,0,70,5,false,"), std::string::npos);
+  EXPECT_NE(output_of({"query", "mission.yaml", "-", "-q", "--lonlat"}).find("11.5,48.1,0,70,5,true,"),
+            std::string::npos);
+}
+
+TEST_F(CliQuery, RefusesPlacesThatAreNone) {
+  const auto expect_bad_points = [&](const std::string& row, const std::string& what, const std::string& fix) {
+    write("points.csv", "lon,lat,z\n11.5,48.1,9\n\n" + row + "\n");
+    expect_bad({"query", "mission.yaml", "points.csv", "-q", "-o", "volume.ply"}, what, "points.csv:4", fix);
+  };
+  write("points.csv", "lon,lat,z\n11.5,48.1,9\n");
+  expect_bad({"query", "mission.yaml", "points.csv", "-q"}, "does not say where on the earth", "points.csv:2");
+  write("mission.yaml", std::string(kPlacedScene) + kTarget + kSensor);
+  expect_bad_points("11.5,91,9", "no place on the earth", "-90 to 90");
+  expect_bad_points("181,48.1,9", "no place on the earth", "-180 to 180");
+  expect_bad_points("48.1,11.5,9", "km from the scene's origin", "longitude before");
+  expect_bad_points("0,0,9", "km from the scene's origin", "100 km");
+  expect_bad_points("11.5,nan,9", "lat is not finite", "");
+  expect_bad_points("11.5,,9", "lat is not a number", "");
+  write("points.csv", "lon,lat\n11.5,48.1\n");
+  expect_bad({"query", "mission.yaml", "points.csv"}, "column z", "points.csv:1", "--z");
+  write("points.csv", "lon,x,z\n11.5,48.1,3\n");
+  expect_bad({"query", "mission.yaml", "points.csv", "--lonlat"}, "column lat", "points.csv:1");
+}
+
+/// A command of bash, in the test's folder; $V is the program.
+ProgramRun shell(const RunOptions& options, const std::string& command) {
+  return run_program("/bin/bash", {"-c", "V='" + program_file().string() + "'; " + command}, options);
+}
+
+TEST_F(CliQuery, EndsQuietlyWhenNoOneReads) {
+  std::string points;
+  for (int i = 0; i < 200000; ++i) points += "0,0," + std::to_string(i % 50 + 1) + "\n";
+  write("points.csv", points);
+  for (const std::string json : {"", " --json"}) {
+    const ProgramRun result =
+        shell(options_, "$V query mission.yaml points.csv" + json + " | head -n 2 > first.txt; echo ${PIPESTATUS[0]}");
+    EXPECT_EQ(result.out, "141\n");
+    EXPECT_EQ(result.err, "");
+    EXPECT_EQ(lines(content(folder_ / "first.txt")).size(), 2U);
+  }
+}
+
+TEST_F(CliQuery, AnswersAsPointsCome) {
+  options_.timeout_s = 100;
+  const ProgramRun result = shell(options_,
+                                  "{ echo x,y,z; sleep 0.2; echo 0,0,30; for i in $(seq 800); do"
+                                  " grep -q true answers.csv && break; sleep 0.1; done;"
+                                  " cp answers.csv seen.csv; echo 0,0,31; } | $V query mission.yaml - > answers.csv");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(lines(content(folder_ / "seen.csv")).size(), 2U);
+  EXPECT_EQ(lines(content(folder_ / "answers.csv")).size(), 3U);
+}
+
+TEST_F(CliQuery, AMistakeFarDownLeavesNoFile) {
+  std::string points = "x,y,z\n";
+  for (int i = 0; i < 300000; ++i) points += "0,0,30\n";
+  write("points.csv", points + "0,0,here\n");
+  expect_bad({"query", "mission.yaml", "points.csv", "-o", "volume.ply"}, "z is not a number: 'here'",
+             "points.csv:300002");
+  const ProgramRun printed = run({"query", "mission.yaml", "points.csv"});
+  EXPECT_EQ(printed.exit_code, 2);
+  EXPECT_GT(lines(printed.out).size(), 100000U) << "what came before the portion with the mistake";
+  write("points.csv", points);
+  EXPECT_EQ(lines(output_of({"query", "mission.yaml", "points.csv", "--threads", "2"})).size(), 300001U);
+}
+
+TEST_F(CliQuery, EndsOnCtrlCWhileItWaits) {
+  options_.signal = SIGINT;
+  options_.signal_when = [&](const std::string&) { return !content(folder_ / "answers.csv").empty(); };
+  const auto start = std::chrono::steady_clock::now();
+  const ProgramRun result = shell(options_, "exec $V query mission.yaml - < <(echo 0,0,30; sleep 60) > answers.csv");
+  EXPECT_EQ(result.exit_code, 130) << result.err;
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(30));
+}
+
+}  // namespace
+}  // namespace vantage::testing
