@@ -221,7 +221,8 @@ TEST_F(CliVerify, PassesWhatWasComputed) {
     EXPECT_EQ(report.at("seed"), 1);
   }
   const std::string table = output_of({"verify", "mission.yaml", "v.ply", "--points", "1000", "--seed", "7"});
-  for (const char* expected : {"over-claimed", "seed 7", "95 % confidence", "nothing wrong was found"}) {
+  for (const char* expected :
+       {"over-claimed", "seed 7", "95 % confidence", "bound's points", "nothing wrong was found"}) {
     EXPECT_NE(table.find(expected), std::string::npos) << table;
   }
 }
@@ -247,6 +248,9 @@ TEST_F(CliVerify, FailsAMeshThatIsNoSolid) {
   const ProgramRun result = run({"verify", "mission.yaml", "open.obj"});
   EXPECT_EQ(result.exit_code, 1) << result.err;
   EXPECT_NE(result.out.find("WRONG: the mesh is not a closed solid"), std::string::npos) << result.out << result.err;
+  const auto json = nlohmann::json::parse(run({"verify", "mission.yaml", "open.obj", "--json"}).out);
+  EXPECT_EQ(json.at("open_edges"), 3);
+  EXPECT_NEAR(json.at("open_edge_at").at(0).get<double>(), 0, 2.5) << "a witness";
   write("turned.obj", "v 0 0 1\nv 5 0 1\nv 0 5 1\nv 0 0 9\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 3 4\n");
   EXPECT_EQ(run({"verify", "mission.yaml", "turned.obj"}).exit_code, 1);
 }

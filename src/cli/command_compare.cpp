@@ -129,7 +129,10 @@ std::string share_text(double part, double whole, const char* of) {
 void add_difference(TextTable& table, const char* name, double volume, double whole, double worst, const Vec3& at) {
   const std::string of = std::string(name).substr(std::string(name).size() - 1);
   table.row(name, fixed(volume, 3), share_text(volume, whole, of.c_str()));
-  if (worst > 0) table.row("worst distance", fixed(worst, 6), "m from the other's surface, at " + vector(at));
+  if (worst > 0) {
+    table.row("worst distance", fixed(worst, 6),
+              "m from the other's surface, at " + vector(at) + ", its corner that lies farthest from there");
+  }
 }
 
 std::string table_text(const Options& options, const Comparison& c, const std::vector<std::string>& written,

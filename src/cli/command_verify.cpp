@@ -24,7 +24,11 @@ constexpr const char* kExamples =
     "EXAMPLES\n"
     "  vantage verify mission.yaml volume.ply\n"
     "  vantage verify mission.yaml volume.glb --points 200000 --seed 7\n"
-    "  vantage verify mission.yaml edited.obj --json    # .obj in the axes and unit of the scene file\n";
+    "  vantage verify mission.yaml edited.obj --json    # .obj in the axes and unit of the scene file\n"
+    "\n"
+    "DEPTHS\n"
+    "  The depth of a point is its distance to the volume's surface: how far inside the volume an over-claimed point\n"
+    "  lies, how far outside of it an under-claimed one. The worst depth is the greatest that was met, not a bound.\n";
 
 struct Options {
   CommonOptions common;
@@ -55,12 +59,13 @@ double reported_lift(const std::filesystem::path& volume_file) {
 
 bool is_right(const VerifyReport& report) { return report.over_claimed == 0 && report.closed && report.oriented; }
 
-std::string json_text(const VerifyReport& report, double lift, std::size_t holes) {
+std::string json_text(const VerifyReport& report, double lift, const OpenEdges& holes) {
   const auto point = [](const Vec3& p) { return nlohmann::ordered_json{p.x(), p.y(), p.z()}; };
   nlohmann::ordered_json json;
   json["right"] = is_right(report);
   json["closed"] = report.closed;
-  json["open_edges"] = holes;
+  json["open_edges"] = holes.count;
+  json["open_edge_at"] = holes.count > 0 ? point(holes.middle_of_first) : nlohmann::ordered_json();
   json["oriented"] = report.oriented;
   json["euler"] = report.euler;
   json["points"] = report.points;
@@ -81,31 +86,37 @@ std::string json_text(const VerifyReport& report, double lift, std::size_t holes
   return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
-std::string table_text(const VerifyReport& report, double lift, std::size_t holes, const std::string& file) {
+std::string table_text(const VerifyReport& report, double lift, const OpenEdges& holes, const std::string& file) {
   TextTable table;
   table.heading(file);
   table.row("closed", report.closed ? "yes" : "NO",
-            holes == 0 ? "every edge has two triangles" : count(holes) + " open edges");
+            holes.count == 0 ? "every edge has two triangles"
+                             : count(holes.count) + " open edges, one of them at " + vector(holes.middle_of_first));
   if (report.closed) table.row("oriented", report.oriented ? "yes" : "NO", "which run it in opposite directions");
   table.row("Euler number", std::to_string(report.euler), "2 for one piece without holes");
   if (lift > 0) table.row("lift", fixed(lift, 6), "metres that the target was raised to clear its surface");
   if (report.points > 0) {
     table.heading("rays from random points, seed " + std::to_string(report.seed));
-    table.row("points tried", count(report.points), "");
+    table.row("points tried", count(report.points), "half of them near the volume's surface");
     table.row("inside", count(report.inside), "claimed by the volume");
     table.row("rays", count(report.rays), "");
     table.row("over-claimed", count(report.over_claimed), "claimed, but part of the target is hidden or out of range");
     if (report.over_claimed > 0) {
       table.row("worst depth", fixed(report.worst_over_depth_m, 6),
-                "metres inside, at " + vector(report.worst_over_point) + ", because of " + report.worst_over_cause);
+                "metres inside: from the deepest of them to the volume's surface, at " +
+                    vector(report.worst_over_point) + ", because of " + report.worst_over_cause);
     }
     table.row("under-claimed", count(report.under_claimed), "not claimed, though all that was sampled was visible");
     if (report.under_claimed > 0) {
-      table.row("worst depth", fixed(report.worst_under_depth_m, 6),
-                "metres outside, at " + vector(report.worst_under_point));
+      table.row(
+          "worst depth", fixed(report.worst_under_depth_m, 6),
+          "metres outside: from the farthest of them to the volume's surface, at " + vector(report.worst_under_point));
     }
     table.row("bound", fixed(100 * report.over_claim_bound, 4) + " %",
               "at most this share of the volume is over-claimed, with 95 % confidence");
+    table.row("bound's points", count(report.bound_points),
+              "uniform over the volume; the count of over-claims also has points near the surface, which this leaves "
+              "out");
   }
   table.heading(is_right(report) ? "nothing wrong was found"
                                  : (report.closed && report.oriented ? "WRONG: the volume over-claims"
@@ -125,11 +136,11 @@ int run(const Options& options) {
   const mission_io::MeshInFrame read = mission_io::read_into_frame(options.volume_file, scene, progress.callback());
   if (!options.common.quiet) std::for_each(read.notes.begin(), read.notes.end(), note);
   const Mesh& volume = read.mesh;
-  const std::size_t holes = count_open_edges(volume);
+  const OpenEdges holes = find_open_edges(volume);
   const double lift = options.lift_m < 0 ? reported_lift(options.volume_file) : options.lift_m;
 
   VerifyReport report;
-  if (holes == 0) {
+  if (holes.count == 0) {
     VerifyOptions verify_options;
     verify_options.points = options.points;
     verify_options.seed = options.seed;

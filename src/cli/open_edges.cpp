@@ -7,11 +7,15 @@
 
 namespace vantage::cli {
 
-std::size_t count_open_edges(const Mesh& mesh) {
+OpenEdges find_open_edges(const Mesh& mesh) {
   const Mesh joined = solid::welded(mesh);
-  std::size_t open = 0;
-  solid::for_each_edge(solid::edge_uses(joined.triangles, joined.vertices.size()),
-                       [&](std::span<const solid::EdgeUse> edge) { open += edge.size() % 2; });
+  OpenEdges open;
+  solid::for_each_edge(
+      solid::edge_uses(joined.triangles, joined.vertices.size()), [&](std::span<const solid::EdgeUse> edge) {
+        if (edge.size() % 2 == 0) return;
+        if (open.count++ > 0) return;
+        open.middle_of_first = 0.5 * (joined.vertices[edge.front().low] + joined.vertices[edge.front().high]);
+      });
   return open;
 }
 
