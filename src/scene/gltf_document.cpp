@@ -388,14 +388,14 @@ std::filesystem::path Document::file_below(const std::string& relative, const st
   namespace fs = std::filesystem;
   const fs::path folder = source_.file().has_parent_path() ? source_.file().parent_path() : fs::path(".");
   std::error_code error;
-  const fs::path path = fs::weakly_canonical(folder / relative, error);
+  fs::path path = fs::weakly_canonical(folder / relative, error);
   if (error) source_.fail("the path " + in_quotes(uri) + " of a buffer leads nowhere: " + error.message(), kGarbled);
+  const auto is_below = [&path](const fs::path& base) {
+    return !base.empty() && std::mismatch(base.begin(), base.end(), path.begin(), path.end()).first == base.end();
+  };
   // The glTF file may be a link itself, with its buffers beside the one or the other.
-  for (const fs::path& base :
-       {fs::weakly_canonical(folder, error), fs::weakly_canonical(source_.file()).parent_path()}) {
-    if (error) continue;
-    if (std::mismatch(base.begin(), base.end(), path.begin(), path.end()).first == base.end()) return path;
-  }
+  if (is_below(fs::weakly_canonical(folder, error))) return path;
+  if (is_below(fs::weakly_canonical(source_.file(), error).parent_path())) return path;
   source_.fail("the glTF file has its data in " + in_quotes(uri) + ", which is not in its own folder",
                "put that file beside the glTF file, or in a folder below, and correct the \"uri\" of the buffer");
 }
