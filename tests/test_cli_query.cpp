@@ -2,7 +2,7 @@
 #include <chrono>
 
 #include "support/cli_fixture.h"
-#include "vantage/query.h"
+#include "vantage/georeference.h"
 
 namespace vantage::testing {
 namespace {

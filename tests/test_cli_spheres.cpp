@@ -30,7 +30,9 @@ class CliSpheres : public testing::Cli {
 };
 
 TEST_F(CliSpheres, ComputesAndReports) {
-  const std::string said = output_of({"compute", "mission.yaml", "--method", "spheres", "-o", "volume.ply"});
+  EXPECT_NE(output_of({"compute", "mission.yaml", "--method", "spheres", "-o", "volume.ply"}).find("spheres, CPU"),
+            std::string::npos);
+  const std::string said = output_of({"compute", "mission.yaml", "--method", "spheres", "-v", "-o", "volume.ply"});
   for (const char* expected :
        {"visibility spheres, CPU", "spheres", "pairs", "splits", "unresolved", "for intersections"})
     EXPECT_NE(said.find(expected), std::string::npos) << expected << " in\n" << said;

@@ -1,6 +1,7 @@
 // Where on the earth a scene lies.
 #pragma once
 
+#include <Eigen/Core>
 #include <string>
 
 namespace vantage {
@@ -19,6 +20,11 @@ struct Georeference {
 
 /// Georeference::vertical of a map without terrain: z is measured from the ground, wherever that lies.
 inline constexpr const char* kFlatGround = "flat ground";
+
+/// x and y in the scene frame of a point that is given on the earth (WGS 84, degrees), exact to 15 nm. Takes about two
+/// microseconds: a geodesic is solved. Throws Error(input) for a latitude beyond 90 or a longitude beyond 180 degrees,
+/// and for a point more than 100 km from the origin, where distances in the frame are no longer good.
+Eigen::Vector2d scene_position(const Georeference& georeference, double longitude_deg, double latitude_deg);
 
 /// PROJ's words for the horizontal part: "+proj=aeqd +lat_0=… +lon_0=… +datum=WGS84 +units=m +type=crs".
 std::string projection_text(const Georeference& georeference);

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "vantage/constraints.h"
-#include "vantage/georeference.h"
 #include "vantage/scene.h"
 #include "vantage/target.h"
 
@@ -48,11 +47,6 @@ class PointQuery {
   struct Data;
   std::unique_ptr<Data> data_;
 };
-
-/// x and y in the scene frame of a point that is given on the earth (WGS 84, degrees), exact to 15 nm. Takes about two
-/// microseconds: a geodesic is solved. Throws Error(input) for a latitude beyond 90 or a longitude beyond 180 degrees,
-/// and for a point more than 100 km from the origin, where distances in the frame are no longer good.
-Eigen::Vector2d scene_position(const Georeference& georeference, double longitude_deg, double latitude_deg);
 
 /// PointQuery for a target of one part and one portion of points.
 std::vector<PointAnswer> query_points(const PreparedScene& scene, const Target& target, const Sensor& sensor,

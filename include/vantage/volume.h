@@ -50,6 +50,7 @@ struct StageCounts {
   std::size_t constraint_edges = 0;    ///< edges handed to the triangulation
 };
 
+/// `total` may be more than the sum: the program counts from its start, and the reading of the mission under `read`.
 struct Seconds {
   double read = 0, prepare = 0, engine = 0, navigation = 0, write = 0, total = 0;
 };

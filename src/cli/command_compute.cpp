@@ -163,8 +163,7 @@ void add_causes(TextTable& table, const Volume& volume) {
 }
 
 void add_spheres(TextTable& table, const SpheresReport& report) {
-  table.heading("visibility spheres, " + report.device.name);
-  if (!report.device_note.empty()) table.heading("  " + report.device_note);
+  table.heading("visibility spheres");
   table.row("spheres", count(report.spheres), "of the target's vertices, and of midpoints of its edges");
   table.row("pairs", count(report.pairs), report.pairs == 0 ? "not looked at: no edge was to be halved by them" : "");
   table.row("splits", count(report.splits), "edges halved");
@@ -181,7 +180,9 @@ void add_lift(TextTable& table, const Volume& volume) {
 /// What everyone wants to know, in five lines: target, volume, mesh, causes, time. And the lift where there is one.
 void add_essentials(TextTable& table, const Mission& mission, const MissionRun& run, const MeshMeasures& measures) {
   const Volume& volume = run.volume;
-  table.heading("target '" + mission.target.name + "', range " + fixed(mission.sensor.max_range_m, 1) + " m");
+  table.heading("target '" + mission.target.name + "', range " + fixed(mission.sensor.max_range_m, 1) + " m" +
+                (run.spheres ? ", visibility spheres, " + run.spheres->device.name : ""));
+  if (run.spheres && !run.spheres->device_note.empty()) table.heading("  " + run.spheres->device_note);
   if (volume.outcome == Outcome::computed) {
     table.row("volume", fixed(measures.volume_m3, 1), "cubic metres");
     table.row("mesh", count(measures.facets),

@@ -7,7 +7,6 @@
 
 #include "geo/proj_library.h"
 #include "vantage/error.h"
-#include "vantage/query.h"
 
 namespace vantage {
 namespace {
