@@ -58,16 +58,23 @@ bool Judgement::wrong() const {
 
 Trial::Trial(const Case& the_case, const Answer& the_answer, const JudgeOptions& the_options)
     : c(the_case), answer(the_answer), options(the_options), blockers(c.scene, c.parts), random(c.seed ^ 0x6a75646765) {
-  constexpr double kSeparation = 2e-9;
-  margin_ = kSeparation + rounding();
   for (std::size_t k = 0; k < c.parts.size(); ++k) {
     const bool made = k < answer.parts.size();
     const double lift = made ? answer.parts[k].lift_m : 0;
-    const Vec3 centre = made ? Vec3(answer.parts[k].frame.origin - blockers.origin) : Vec3::Zero();
-    parts.emplace_back(blockers, c.parts[k], lift, margin_, centre);
-    if (!made) parts.back().centre = parts.back().exact.target().centre;
+    const SeenTarget target = make_seen_target(c.parts[k], lift, blockers.origin);
+    const Vec3 centre = made ? Vec3(answer.parts[k].frame.origin - blockers.origin) : target.centre;
+    parts.emplace_back(blockers, target, strip_width(blockers, target, c.range), centre);
     result.lift = std::max(result.lift, lift);
   }
+}
+
+double small_world(double range) { return std::min(1.0, range / 20); }
+
+double strip_width(const Blockers& blockers, const SeenTarget& target, double range) {
+  const double radius = target.is_point() ? 5e-4 * small_world(range) : enclosing_radius(target);
+  const double largest = (target.centre + blockers.origin).cwiseAbs().maxCoeff() +
+                         (target.centre - blockers.middle).cwiseAbs().maxCoeff() + radius + range;
+  return 1.01 * std::max(1e-9 * std::min(1.0, radius), 8 * 2.22e-16 * largest);
 }
 
 const std::string& Trial::object_of(std::size_t triangle) const {

@@ -182,7 +182,7 @@ class Claims {
       }
       int reached = level;
       for (; reached < levels; ++reached)
-        if (!hidden(moved_in(mesh_.corners(i), part, reached == as_stored ? trial_.noise() : 2 * trial_.margin()), part,
+        if (!hidden(moved_in(mesh_.corners(i), part, reached == as_stored ? trial_.noise() : 2 * part.margin), part,
                     static_cast<Level>(reached)))
           break;
       ++(reached == as_stored ? result.proved : reached == smaller ? result.proved_smaller : result.unproved);

@@ -133,7 +133,7 @@ double lowest_over(const Trial& trial, const SeenTarget& target) {
 std::vector<View> grown_views(const Trial& trial) {
   std::vector<View> views;
   for (const PartView& part : trial.parts)
-    views.emplace_back(trial.blockers, moved_in(part.exact.target(), -trial.margin()));
+    views.emplace_back(trial.blockers, moved_in(part.exact.target(), -part.margin));
   return views;
 }
 
@@ -147,7 +147,7 @@ void judge_losses(Trial& trial) {
 void judge_outcome(Trial& trial) {
   const Outcome outcome = trial.answer.volume.outcome;
   if (outcome == Outcome::outside_limits) return;
-  const double least = outcome == Outcome::blocked_at_once ? 0.1 : 0;
+  const double least = outcome == Outcome::blocked_at_once ? 0.1 * small_world(trial.c.range) : 0;
   const Vec3 p = find_clear(trial, grown_views(trial), least, 400);
   if (p.allFinite()) trial.result.add({Class::bad_outcome, 0, trial.to_scene(p), trial.result.status});
 }
@@ -159,10 +159,10 @@ void judge_refusal(Trial& trial) {
   const std::vector<View> views = grown_views(trial);
   const Vec3 p = find_clear(trial, views, 0, 400);
   if (!p.allFinite()) return;
-  constexpr double kMostLift = 2.011e-3;
+  const double most_lift = 2.011e-3 * small_world(trial.c.range) + 7 * trial.parts[0].margin;
   const bool is_low = trial.answer.refusal == "pierced" &&
                       std::any_of(views.begin(), views.end(),
-                                  [&](const View& view) { return lowest_over(trial, view.target()) < kMostLift; });
+                                  [&](const View& view) { return lowest_over(trial, view.target()) < most_lift; });
   trial.result.add({is_low ? Class::lift_refusal : Class::false_refusal, 0, trial.to_scene(p), trial.answer.message});
 }
 

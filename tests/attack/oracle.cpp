@@ -48,6 +48,7 @@ Blockers::Blockers(const vantage::Scene& scene, const std::vector<vantage::Targe
   }
   for (const Vec3& p : stored) largest = std::max(largest, p.cwiseAbs().maxCoeff());
   std::set<std::array<std::array<double, 3>, 3>> seen;
+  vantage::Box bounds;
   for (std::size_t i = 0; i < scene.mesh.triangles.size(); ++i) {
     Blocker blocker;
     for (int k = 0; k < 3; ++k) {
@@ -62,7 +63,9 @@ Blockers::Blockers(const vantage::Scene& scene, const std::vector<vantage::Targe
     std::sort(places.begin(), places.end());
     blocker.repeat = !seen.insert(places).second;
     triangles.push_back(blocker);
+    bounds.extend(blocker.box);
   }
+  if (!triangles.empty()) middle = 0.5 * (bounds.min + bounds.max);
 }
 
 View::View(const Blockers& blockers, SeenTarget target) : blockers_(blockers), target_(std::move(target)) {

@@ -29,7 +29,8 @@ struct Blockers {
 
   Vec3 origin = Vec3::Zero();
   std::vector<Blocker> triangles;
-  double largest = 0;  ///< the greatest coordinate of scene and targets as stored, metres
+  Vec3 middle = Vec3::Zero();  ///< of the triangles' bounding box
+  double largest = 0;          ///< the greatest coordinate of scene and targets as stored, metres
 };
 
 /// Which triangles to ask.

@@ -14,25 +14,21 @@ namespace attack {
 
 /// One part of the target before the scene. Local coordinates: those of Trial::blockers.
 struct PartView {
-  PartView(const Blockers& blockers, const vantage::Target& target, double lift, double margin,
-           const Vec3& engine_centre)
-      : exact(blockers, make_seen_target(target, lift, blockers.origin)),
-        inner(blockers, moved_in(exact.target(), margin)),
-        centre(engine_centre) {}
+  PartView(const Blockers& blockers, const SeenTarget& target, double strip, const Vec3& engine_centre)
+      : exact(blockers, target), inner(blockers, moved_in(target, strip)), centre(engine_centre), margin(strip) {}
 
-  View exact;   ///< as given, and lifted
-  View inner;   ///< moved in and raised by the separation that the engine takes for touching, and the rounding of input
-  Vec3 centre;  ///< that the engine measures distances from
+  View exact;     ///< as given, and lifted
+  View inner;     ///< moved in and raised by the margin
+  Vec3 centre;    ///< that the engine measures distances from
+  double margin;  ///< the strip along the outline that vantage/volume.h excepts, metres
 };
 
 class Trial {
  public:
   Trial(const Case& the_case, const Answer& the_answer, const JudgeOptions& the_options);
 
-  /// The engine's separation, and what storing coordinates of this size rounds: metres.
-  double margin() const { return margin_; }
-  /// By how much storing a coordinate of this size may move a vertex of the mesh, twice: metres.
-  double rounding() const { return 4 * 2.3e-16 * blockers.largest; }
+  /// What storing coordinates of this size may move a vertex of the mesh by: metres.
+  double rounding() const { return 2 * 2.3e-16 * blockers.largest; }
   /// Heights over the target's plane below this are rounding of the oracle's own frame.
   double noise() const { return 1e-14 * std::max(blockers.largest, 1e-6); }
   Vec3 to_scene(const Vec3& local) const { return local + blockers.origin; }
@@ -45,10 +41,13 @@ class Trial {
   std::deque<PartView> parts;
   Random random;
   Judgement result;
-
- private:
-  double margin_;
 };
+
+/// The width of the strip along the target's outline that vantage/volume.h excepts from the guarantee.
+double strip_width(const Blockers& blockers, const SeenTarget& target, double range);
+
+/// What becomes smaller with a range of less than 20 m does so by this.
+double small_world(double range);
 
 /// The volume's mesh about the oracle's origin; an empty one where an index is out of range.
 vantage::Mesh local_mesh(const Trial& trial, const vantage::Volume& volume);
