@@ -174,7 +174,7 @@ TEST(PreparedScene, WeldsEqualPositionsOnly) {
 
 TEST(PreparedScene, DropsDegenerateTrianglesAndCountsThem) {
   Scene scene;
-  scene.mesh.vertices = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {2, 0, 0}, {2, 1e-10, 0}, {2, 1e-6, 0}};
+  scene.mesh.vertices = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {2, 0, 0}, {2, 1e-15, 0}, {2, 1e-6, 0}};
   scene.mesh.triangles = {{0, 1, 2}, {0, 1, 1}, {2, 2, 2}, {0, 3, 1}, {0, 4, 1}, {0, 5, 1}};
   const PreparedScene prepared(scene);
   EXPECT_EQ(prepared.statistics().degenerate_triangles, 4u);  // the last one, a micrometre thin, is kept

@@ -173,13 +173,27 @@ TEST(TargetFrame, CollinearVerticesAreDropped) {
   expect_frame(make_target_frame(target), corners, 0);
   expect_frame(make_target_frame(reversed(target)), corners, 0);
   // A triangle with a vertex in the middle of every edge, tilted: collinear but for rounding.
-  const Target triangle = regular(3, 7, {580000, 4785000, 1000}, {0.3, -0.4, 0.7});
-  Target refined = target_of({});
-  for (int i = 0; i < 3; ++i) {
-    refined.vertices.push_back(triangle.vertices[i]);
-    refined.vertices.push_back(0.5 * (triangle.vertices[i] + triangle.vertices[(i + 1) % 3]));
+  const auto refined = [](const Target& triangle) {
+    Target finer = target_of({});
+    for (int i = 0; i < 3; ++i) {
+      finer.vertices.push_back(triangle.vertices[i]);
+      finer.vertices.push_back(0.5 * (triangle.vertices[i] + triangle.vertices[(i + 1) % 3]));
+    }
+    return finer;
+  };
+  const Target triangle = regular(3, 7, {0, 0, 0}, {0.3, -0.4, 0.7});
+  expect_frame(make_target_frame(refined(triangle)), triangle.vertices, 0);
+  // On a map the coordinates are rounded to a nanometre: a vertex that this puts outside is a corner.
+  const Target on_map = refined(regular(3, 7, {580000, 4785000, 1000}, {0.3, -0.4, 0.7}));
+  const TargetFrame frame = make_target_frame(on_map);
+  EXPECT_LE(frame.polygon.size(), 6U);
+  for (const Vec3& vertex : on_map.vertices) {
+    const Vector2d v = frame.to_local(vertex).head<2>();
+    for (std::size_t i = 0; i < frame.polygon.size(); ++i) {
+      const Vector2d &a = frame.polygon[i], side = frame.polygon[(i + 1) % frame.polygon.size()] - a;
+      EXPECT_GT((side.x() * (v - a).y() - side.y() * (v - a).x()) / side.norm(), -2e-9);  // the origin is rounded too
+    }
   }
-  expect_frame(make_target_frame(refined), triangle.vertices, 0, 1e-6);
 }
 
 TEST(TargetFrame, SixtyFourVerticesAreTheMost) {

@@ -81,13 +81,13 @@ struct SceneStatistics {
   std::size_t vertices = 0;         ///< as read
   std::size_t welded_vertices = 0;  ///< distinct positions
   std::size_t objects = 0;
-  std::size_t degenerate_triangles = 0;  ///< thinner than 1e-9 m; dropped (they hide nothing)
+  std::size_t degenerate_triangles = 0;  ///< no wider than rounding (docs/theory.md, "What is dropped"); dropped
   std::size_t duplicate_triangles = 0;   ///< same three positions, either turn; dropped
   std::size_t open_edges = 0;            ///< edges with one triangle, after welding
   std::size_t nonmanifold_edges = 0;     ///< edges with more than two triangles
   std::size_t misoriented_edges = 0;     ///< edges that their two triangles run in the same direction
   std::size_t polygons = 0;              ///< convex polygons after merging coplanar neighbours
-  Box bounds;                            ///< of the triangles that are kept; metres, scene frame
+  Box bounds;                            ///< of the triangles that have an area; metres, scene frame
 };
 
 /// Writes a scene, in the scene frame; the format follows the extension. Written whole or not at all. Objects without

@@ -27,7 +27,7 @@ struct Target {
 struct TargetFrame {
   Vec3 origin;                  ///< strictly inside the polygon, near its smallest enclosing circle's centre; the point
   Vec3 axis_u, axis_v, normal;  ///< right-handed orthonormal; `normal` points to the front
-  std::vector<Eigen::Vector2d> polygon;  ///< vertices in (u, v) about `origin`, metres, counter-clockwise seen from the
+  std::vector<Eigen::Vector2d> polygon;  ///< corners in (u, v) about `origin`, metres, counter-clockwise seen from the
                                          ///< front; of a point: (0, 0) alone
   double enclosing_radius_m = 0.0;       ///< of the smallest enclosing circle; 0 for a point
   bool all_sides = false;                ///< a point without `front`: viewpoints may have any local z
@@ -42,9 +42,15 @@ struct TargetFrame {
 };
 
 /// Checks a target and makes its frame, `offset_m` applied. The scene plays no part here.
-/// Throws Error(input) for: no vertices, 2 or more than 64, a coordinate that is not finite, repeated vertices
-/// (which), zero area, not planar (by how much; allowed: 1e-6 of the extent, at least 1 mm), not convex (which vertex),
-/// a `front` that is zero or lies in the plane. Collinear vertices are dropped.
+///
+/// The polygon of the frame is the convex hull of the vertices, in the plane of their mean. It never loses a corner:
+/// every vertex lies in it, but for 2^-50 of the extent, which is the rounding of its coordinates. A vertex is left out
+/// where it lies inside the line between the corners beside it, by at most 1e-9 of the extent (and 2^-50 of the largest
+/// coordinate); so much larger the polygon may be than what its vertices bound.
+///
+/// Throws Error(input) for: no vertices, 2 or more than 64, a coordinate that is not finite, repeated vertices (which;
+/// those nearer to each other than 1e-9 of the extent), zero area, not planar (by how much; allowed: 1e-6 of the extent,
+/// at least 1 mm), not convex by more than said above (which vertex), a `front` that is zero or lies in the plane.
 TargetFrame make_target_frame(const Target& target);
 
 }  // namespace vantage

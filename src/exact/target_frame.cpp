@@ -2,9 +2,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "exact/enclosing_circle.h"
 #include "exact/number_text.h"
+#include "scene/convex_corners.h"
 #include "vantage/error.h"
 #include "vantage/target.h"
 
@@ -17,6 +19,11 @@ using Eigen::Vector2d;
 constexpr double kVerticalNormal = 1e-6;
 constexpr double kPlanarFraction = 1e-6;  // of the extent
 constexpr double kPlanarAtLeast = 1e-3;   // metres
+// A vertex this far inside the line between its neighbours, in parts of the extent, is on it. The target only grows.
+constexpr double kStraight = 1e-9;
+// Of the extent: four times what the coordinates of a vertex lose on the way into the frame, and so all that a target
+// may lose of a corner.
+constexpr double kRounding = 0x1p-50;
 
 [[noreturn]] void refuse(const Target& target, std::string problem, std::string fix) {
   throw Error(ErrorKind::input, std::move(problem), "target \"" + target.name + "\"", std::move(fix));
@@ -99,26 +106,52 @@ void make_axes(TargetFrame& frame, const Vec3& normal) {
   frame.axis_v = frame.normal.cross(frame.axis_u).normalized();
 }
 
-// Refuses the first reflex corner; drops collinear vertices. `polygon` is counter-clockwise.
-std::vector<Vector2d> checked_convex(const Target& target, const std::vector<Vector2d>& polygon,
-                                     const std::vector<std::size_t>& index, double extent) {
+// Where an outline that is not convex turns the wrong way most, or runs back along itself.
+std::size_t worst_turn(const std::vector<Vec3>& polygon) {
   const std::size_t n = polygon.size();
-  std::vector<Vector2d> kept;
-  double total_turn = 0;
+  std::size_t worst = 0;
+  double most = -1;
   for (std::size_t i = 0; i < n; ++i) {
-    const Vector2d a = polygon[i] - polygon[(i + n - 1) % n], b = polygon[(i + 1) % n] - polygon[i];
-    const double cross = a.x() * b.y() - a.y() * b.x(), dot = a.dot(b);
-    const bool straight = std::abs(cross) <= 1e-9 * extent * std::max(a.norm(), b.norm());
-    if ((cross < 0 && !straight) || (straight && dot < 0))
-      refuse(target, "not convex: the outline turns the wrong way at " + vertex_name(index[i]),
-             "give the vertices in order round a convex polygon; split a concave one into convex targets");
-    total_turn += std::atan2(cross, dot);
-    if (!straight) kept.push_back(polygon[i]);
+    const Vec3 in = polygon[i] - polygon[(i + n - 1) % n], out = polygon[(i + 1) % n] - polygon[i];
+    const double turn = std::atan2(in.cross(out).z(), in.dot(out));
+    const double wrong = std::abs(turn) > std::numbers::pi - 1e-6 ? std::numbers::pi : -turn;
+    if (wrong > most) {
+      most = wrong;
+      worst = i;
+    }
   }
-  if (total_turn > 3 * M_PI)
+  return worst;
+}
+
+double whole_turn(const std::vector<Vec3>& polygon) {
+  const std::size_t n = polygon.size();
+  double turn = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec3 in = polygon[i] - polygon[(i + n - 1) % n], out = polygon[(i + 1) % n] - polygon[i];
+    turn += std::atan2(in.cross(out).z(), in.dot(out));
+  }
+  return turn;
+}
+
+// The corners of a counter-clockwise polygon, given with z = 0. What they bound holds every vertex, to rounding: a
+// vertex is left out only where the others' outline passes outside it. Refuses what is not convex.
+std::vector<Vector2d> corners_of(const Target& target, const std::vector<Vec3>& polygon,
+                                 const std::vector<std::size_t>& index, double extent) {
+  if (whole_turn(polygon) > 3 * std::numbers::pi)
     refuse(target, "not convex: the outline winds round more than once, starting at " + vertex_name(index[0]),
            "give the vertices in order round the polygon");
-  return kept;
+  double largest = 0;
+  for (const Vec3& v : target.vertices) largest = std::max(largest, v.cwiseAbs().maxCoeff());
+  const scene::CornerSlack slack{kStraight * extent + kRounding * largest, kRounding * extent};
+  const auto is_corner = scene::find_corners(polygon, Vec3::UnitZ(), slack);
+  if (!is_corner)
+    refuse(target, "not convex: the outline turns the wrong way at " + vertex_name(index[worst_turn(polygon)]),
+           "give the vertices in order round a convex polygon; split a concave one into convex targets");
+  std::vector<Vector2d> corners;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    if ((*is_corner)[i]) corners.emplace_back(polygon[i].head<2>());
+  }
+  return corners;
 }
 
 TargetFrame make_point_frame(const Target& target) {
@@ -146,18 +179,18 @@ TargetFrame make_target_frame(const Target& target) {
   TargetFrame frame;
   make_axes(frame, front_normal(target, own_normal));
   const Vec3 anchor = target.vertices[0];
-  std::vector<Vector2d> polygon;
+  std::vector<Vec3> outline;
   std::vector<std::size_t> index;
   for (std::size_t i = 0; i < target.vertices.size(); ++i) {
     const Vec3 d = target.vertices[i] - anchor;
-    polygon.emplace_back(frame.axis_u.dot(d), frame.axis_v.dot(d));
+    outline.emplace_back(frame.axis_u.dot(d), frame.axis_v.dot(d), 0);
     index.push_back(i);
   }
   if (own_normal.dot(frame.normal) < 0) {
-    std::reverse(polygon.begin(), polygon.end());
+    std::reverse(outline.begin(), outline.end());
     std::reverse(index.begin(), index.end());
   }
-  polygon = checked_convex(target, polygon, index, extent);
+  std::vector<Vector2d> polygon = corners_of(target, outline, index, extent);
 
   double height = 0;  // of the plane over the anchor: the mean, which is zero for an exactly planar polygon
   for (const Vec3& v : target.vertices) height += frame.normal.dot(v - anchor) / double(target.vertices.size());

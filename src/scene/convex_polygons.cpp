@@ -2,15 +2,14 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <optional>
 
 #include "parallel/parallel.h"
+#include "scene/convex_corners.h"
 
 namespace vantage::scene {
 namespace {
 
-// No vertex of a merged polygon is farther than this from its plane, in metres: rounding of the input only, since
-// merging must not change what is hidden.
-constexpr double kCoplanar = 1e-9;
 constexpr std::size_t kLargestPolygon = 32;  // corners; blockers cost in proportion
 constexpr std::size_t kLargestFan = 8;       // triangles on one edge that are tried pairwise
 
@@ -38,8 +37,8 @@ struct Candidate {
 class Merger {
  public:
   Merger(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles,
-         const std::vector<std::uint32_t>& object_of)
-      : vertices_(vertices), triangles_(triangles), object_of_(object_of) {}
+         const std::vector<std::uint32_t>& object_of, double slack)
+      : vertices_(vertices), triangles_(triangles), object_of_(object_of), slack_(slack) {}
 
   ConvexPolygons run(SceneStatistics& statistics) {
     normals_.resize(triangles_.size());
@@ -48,6 +47,7 @@ class Merger {
     });
     const std::vector<Candidate> candidates = find_candidates(statistics);
     loops_.resize(triangles_.size());
+    turns_left_.resize(triangles_.size());
     parent_.resize(triangles_.size());
     for (std::uint32_t i = 0; i < triangles_.size(); ++i) parent_[i] = i;
     for (const Candidate& candidate : candidates) merge(candidate);
@@ -95,8 +95,8 @@ class Merger {
     if (object_of_[first] != object_of_[second]) return;
     const Vec3 from = vertices_[a.low], edge = vertices_[a.high] - from;
     const Vec3 to_first = apex_of(a) - from, to_second = apex_of(b) - from;
-    if (std::abs(normals_[first].dot(to_second)) > kCoplanar) return;
-    if (std::abs(normals_[second].dot(to_first)) > kCoplanar) return;
+    if (std::abs(normals_[first].dot(to_second)) > slack_) return;
+    if (std::abs(normals_[second].dot(to_first)) > slack_) return;
     if (edge.cross(to_first).dot(edge.cross(to_second)) > 0) return;  // folded onto each other
     out.push_back({edge.squaredNorm(), first, second, a.low, a.high});
   }
@@ -136,33 +136,76 @@ class Merger {
       std::reverse(right.begin(), right.end());
       if (!close_with(right, to, from)) return;
     }
-    // left: to ... from, right: from ... to. Edges shared beyond this one vanish too.
+    // left: to ... from, right: from ... to. Edges shared beyond this one vanish too, and the vertices between them.
+    Loop vanished;
     while (left.size() > 2 && right.size() > 2 && left[left.size() - 2] == right[1]) {
+      vanished.push_back(left.back());
       left.pop_back();
       right.erase(right.begin());
     }
     while (left.size() > 2 && right.size() > 2 && left[1] == right[right.size() - 2]) {
+      vanished.push_back(left.front());
       left.erase(left.begin());
       right.pop_back();
     }
     if (right.size() < 3 || left.size() + right.size() - 2 > kLargestPolygon) return;
     // Always from the same plane, that of the polygon's first triangle, or small deviations would add up.
     const Vec3& on_plane = vertices_[triangles_[a][0]];
-    for (std::uint32_t v : right)
-      if (std::abs(normals_[a].dot(vertices_[v] - on_plane)) > kCoplanar) return;
+    const auto is_off = [&](std::uint32_t v) {
+      return std::abs(normals_[a].dot(vertices_[v] - on_plane)) > slack_;
+    };
+    if (std::any_of(right.begin(), right.end(), is_off)) return;
+    // The normal of a sliver may be too rough for its own corners.
+    if (loops_[a].empty() && std::any_of(left.begin(), left.end(), is_off)) return;
     const std::size_t seam = left.size() - 1;
     left.insert(left.end(), right.begin() + 1, right.end() - 1);
-    if (!convex_at(left, 0, normals_[a]) || !convex_at(left, seam, normals_[a])) return;
+    if (turn_at(left, 0, normals_[a]) < -slack_ || turn_at(left, seam, normals_[a]) < -slack_) return;
+    const bool turns_left = vanished.empty() && turns_left_everywhere(a) && turns_left_everywhere(b) &&
+                            turn_at(left, 0, normals_[a]) > slack_ && turn_at(left, seam, normals_[a]) > slack_;
+    if (!turns_left && !is_convex(left, normals_[a], vanished)) return;
     loops_[a] = std::move(left);
+    turns_left_[a] = turns_left;
     loops_[b] = {};
     parent_[b] = a;
   }
 
-  bool convex_at(const Loop& loop, std::size_t i, const Vec3& normal) const {
+  // How far a vertex of a loop sticks out of the line between its neighbours.
+  double turn_at(const Loop& loop, std::size_t i, const Vec3& normal) const {
     const std::size_t n = loop.size();
-    const Vec3 in = vertices_[loop[i]] - vertices_[loop[(i + n - 1) % n]];
-    const Vec3 out = vertices_[loop[(i + 1) % n]] - vertices_[loop[i]];
-    return normal.dot(in.cross(out)) >= -kCoplanar * std::max(in.norm(), out.norm());
+    return distance_right_of(vertices_[loop[(i + n - 1) % n]], vertices_[loop[(i + 1) % n]], vertices_[loop[i]],
+                             normal);
+  }
+
+  // Whether each vertex of a polygon is a corner beyond doubt. Two such polygons on either side of an edge make another
+  // one if both ends of the edge are.
+  bool turns_left_everywhere(std::uint32_t polygon) const {
+    if (!loops_[polygon].empty()) return turns_left_[polygon];
+    const Triangle& t = triangles_[polygon];
+    const Vec3 ab = vertices_[t[1]] - vertices_[t[0]], ac = vertices_[t[2]] - vertices_[t[0]];
+    return ab.cross(ac).norm() > slack_ * std::max({ab.norm(), ac.norm(), (ac - ab).norm()});
+  }
+
+  // Whether the corners of a loop hold all of its vertices, and those that are inside it now, to the slack.
+  bool is_convex(const Loop& loop, const Vec3& normal, const Loop& inside) {
+    const auto is_corner = corners_of(loop, normal);
+    if (!is_corner) return false;
+    Loop corners;
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+      if ((*is_corner)[k]) corners.push_back(loop[k]);
+    }
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      const Vec3 &from = vertices_[corners[k]], &to = vertices_[corners[(k + 1) % corners.size()]];
+      for (std::uint32_t v : inside) {
+        if (distance_right_of(from, to, vertices_[v], normal) > slack_) return false;
+      }
+    }
+    return true;
+  }
+
+  std::optional<std::vector<bool>> corners_of(const Loop& loop, const Vec3& normal) {
+    points_.clear();
+    for (std::uint32_t v : loop) points_.push_back(vertices_[v]);
+    return find_corners(points_, normal, {slack_, slack_});
   }
 
   ConvexPolygons collect() {
@@ -171,12 +214,10 @@ class Merger {
     for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
       if (parent_[i] != i) continue;
       const Loop loop = loop_of(i);
-      const std::size_t n = loop.size();
-      for (std::size_t k = 0; k < n; ++k) {
-        const Vec3 in = vertices_[loop[k]] - vertices_[loop[(k + n - 1) % n]];
-        const Vec3 out = vertices_[loop[(k + 1) % n]] - vertices_[loop[k]];
-        const bool straight = n > 3 && in.cross(out).norm() <= kCoplanar * std::max(in.norm(), out.norm());
-        if (!straight) result.vertices.push_back(loop[k]);
+      const auto is_corner =
+          loops_[i].empty() || turns_left_[i] ? std::nullopt : corners_of(loop, normals_[i]);
+      for (std::size_t k = 0; k < loop.size(); ++k) {
+        if (!is_corner || (*is_corner)[k]) result.vertices.push_back(loop[k]);
       }
       result.first.push_back(std::uint32_t(result.vertices.size()));
       result.object.push_back(object_of_[i]);
@@ -187,16 +228,20 @@ class Merger {
   const std::vector<Vec3>& vertices_;
   const std::vector<Triangle>& triangles_;
   const std::vector<std::uint32_t>& object_of_;
+  const double slack_;
   std::vector<Vec3> normals_;
-  std::vector<Loop> loops_;  // empty: still the triangle itself, or merged into another
+  std::vector<Loop> loops_;       // empty: still the triangle itself, or merged into another
+  std::vector<char> turns_left_;  // of merged polygons: each vertex is a corner beyond doubt
+  std::vector<Vec3> points_;      // for corners_of
   std::vector<std::uint32_t> parent_;
 };
 
 }  // namespace
 
 ConvexPolygons merge_coplanar(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles,
-                              const std::vector<std::uint32_t>& object_of, SceneStatistics& statistics) {
-  return Merger(vertices, triangles, object_of).run(statistics);
+                              const std::vector<std::uint32_t>& object_of, double slack_m,
+                              SceneStatistics& statistics) {
+  return Merger(vertices, triangles, object_of, slack_m).run(statistics);
 }
 
 }  // namespace vantage::scene

@@ -16,8 +16,19 @@
 namespace vantage {
 namespace {
 
-// A triangle thinner than this, in metres, hides nothing that can be measured, and its normal is noise.
-constexpr double kThinnest = 1e-9;
+// Coordinates about the scene's origin are right to 2^-53 of the largest of them. So much, times a small number, is what
+// rounding may have made of three corners on one line: a triangle less wide than this part of the largest coordinate
+// may be none. A narrower margin would keep noise; a wider one would lose wires that are really there.
+constexpr double kNoWidth = 0x1p-50;
+// What rounding may have put between a plane or a line and the vertices that were computed to be on it: 16 times that.
+constexpr double kBent = 0x1p-46;
+// In a scene that is so large that these are more than a nanometre its coordinates say less than the scene is to.
+constexpr double kMostSlack = 1e-9;
+
+double slack_of(double share, const Box& bounds) {
+  const double largest = bounds.empty() ? 0 : 0.5 * (bounds.max - bounds.min).maxCoeff();
+  return std::min(share * largest, kMostSlack);
+}
 
 std::uint64_t mix(std::uint64_t x) {  // splitmix64's finalizer
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
@@ -52,20 +63,34 @@ class Welder {
   std::vector<std::uint32_t> slots_;
 };
 
-bool degenerate(const Vec3& a, const Vec3& b, const Vec3& c) {
-  const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
-  return (b - a).cross(c - a).norm() <= kThinnest * longest;
+struct TriangleSize {
+  double length;  ///< of the longest side
+  double width;   ///< at right angles to it
+};
+
+TriangleSize size_of(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const double length = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
+  return {length, length > 0 ? (b - a).cross(c - a).norm() / length : 0};
 }
 
-/// Of the triangles that will be kept: neither a vertex that none uses nor a triangle without area, say one with all of
-/// its corners at 0 in a file with map coordinates, may move the scene's origin.
-Box visible_bounds(const Mesh& mesh) {
-  Box box;
+/// Whether each triangle has an area, wherever it lies, and the bounds of those that have: neither a vertex that none
+/// uses nor a triangle without area, say one with all of its corners at 0 in a file with map coordinates, may move the
+/// scene's origin.
+struct Extent {
+  std::vector<char> has_area;
+  Box bounds;
+};
+
+Extent extent_of(const Mesh& mesh) {
+  Extent extent;
+  extent.has_area.reserve(mesh.triangles.size());
   for (const Triangle& t : mesh.triangles) {
-    if (degenerate(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]])) continue;
-    for (const std::uint32_t vertex : t) box.extend(mesh.vertices[vertex]);
+    const TriangleSize size = size_of(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]);
+    extent.has_area.push_back(size.width > kNoWidth * size.length);
+    if (!extent.has_area.back()) continue;
+    for (const std::uint32_t vertex : t) extent.bounds.extend(mesh.vertices[vertex]);
   }
-  return box;
+  return extent;
 }
 
 struct TriangleHash {
@@ -77,7 +102,7 @@ struct CleanTriangles {
   std::vector<std::uint32_t> object_of;
 };
 
-CleanTriangles weld_and_clean(const Scene& scene, PreparedScene::Data& data) {
+CleanTriangles weld_and_clean(const Scene& scene, const std::vector<char>& has_area, PreparedScene::Data& data) {
   SceneStatistics& statistics = data.statistics;
   Welder welder(scene.mesh.vertices.size());
   std::vector<std::uint32_t> welded;
@@ -86,12 +111,13 @@ CleanTriangles weld_and_clean(const Scene& scene, PreparedScene::Data& data) {
   data.vertices = std::move(welder.points);
 
   CleanTriangles clean;
+  const double no_width = slack_of(kNoWidth, statistics.bounds);
   std::unordered_set<Triangle, TriangleHash> seen;
   seen.reserve(scene.mesh.triangles.size());
   for (std::size_t i = 0; i < scene.mesh.triangles.size(); ++i) {
     Triangle t = scene.mesh.triangles[i];
     for (std::uint32_t& corner : t) corner = welded[corner];
-    if (degenerate(data.vertices[t[0]], data.vertices[t[1]], data.vertices[t[2]])) {
+    if (!has_area[i] || size_of(data.vertices[t[0]], data.vertices[t[1]], data.vertices[t[2]]).width <= no_width) {
       ++statistics.degenerate_triangles;
       continue;
     }
@@ -182,14 +208,16 @@ PreparedScene::PreparedScene(const Scene& scene, const Progress& callback) {
   statistics.triangles = scene.mesh.triangles.size();
   statistics.vertices = scene.mesh.vertices.size();
   statistics.objects = data->objects.size();
-  statistics.bounds = visible_bounds(scene.mesh);
+  const Extent extent = extent_of(scene.mesh);
+  statistics.bounds = extent.bounds;
   if (!statistics.bounds.empty()) data->origin = 0.5 * (statistics.bounds.min + statistics.bounds.max);
   const core::ProgressReporter progress(callback);
   progress.begin("preparing the scene");
-  const CleanTriangles clean = weld_and_clean(scene, *data);
+  const CleanTriangles clean = weld_and_clean(scene, extent.has_area, *data);
   statistics.welded_vertices = data->vertices.size();
   progress.report(0.3);
-  const auto polygons = scene::merge_coplanar(data->vertices, clean.triangles, clean.object_of, statistics);
+  const auto polygons = scene::merge_coplanar(data->vertices, clean.triangles, clean.object_of,
+                                              slack_of(kBent, statistics.bounds), statistics);
   statistics.polygons = polygons.count();
   progress.report(0.7);
   store_in_leaf_order(*data, polygons);

@@ -117,12 +117,35 @@ void TargetView::set_plane(const Target& target) {
   centre_ += target.offset_m * normal_;
 }
 
-void TargetView::check_shape(const Target& target) const {
-  const double slack = kPlanar * extent(vertices_);
+// Where rounding has bent a straight side inwards the target is grown to the straight line. Else a side may be so short
+// that its direction says nothing about where the others should be.
+void TargetView::drop_reflex_vertices(const Target& target, double slack) {
+  for (std::size_t i = 0, straight = 0; vertices_.size() > 3 && straight < vertices_.size();) {
+    const std::size_t count = vertices_.size();
+    const Vec3& before = vertices_[(i + count - 1) % count];
+    const Vec3 chord = vertices_[(i + 1) % count] - before;
+    const double depth = normal_.cross(chord).dot(vertices_[i] - before);  // times the chord's length
+    if (depth < 0) {
+      ++straight;
+      i = (i + 1) % count;
+      continue;
+    }
+    if (depth > slack * chord.norm()) fail(target, "the target is not convex", "split it into convex targets");
+    vertices_.erase(vertices_.begin() + static_cast<std::ptrdiff_t>(i));
+    i = (i + count - 2) % (count - 1);
+    straight = 0;
+  }
+}
+
+void TargetView::check_shape(const Target& target) {
   for (std::size_t i = 0; i < vertices_.size(); ++i) {
     const Vec3 edge = vertices_[(i + 1) % vertices_.size()] - vertices_[i];
     if (!(edge.norm() > 0)) fail(target, "a vertex of the target is repeated", "give each vertex once");
-    const Vec3 inwards = normal_.cross(edge).normalized();
+  }
+  const double slack = kPlanar * extent(vertices_);
+  drop_reflex_vertices(target, slack);
+  for (std::size_t i = 0; i < vertices_.size(); ++i) {
+    const Vec3 inwards = normal_.cross(vertices_[(i + 1) % vertices_.size()] - vertices_[i]).normalized();
     for (const Vec3& vertex : vertices_) {
       if (inwards.dot(vertex - vertices_[i]) < -slack) {
         fail(target, "the target is not convex", "split it into convex targets");

@@ -11,7 +11,8 @@ namespace vantage::verify {
 class TargetView {
  public:
   /// The polygon in the plane through the mean of its vertices, normal by Newell's rule, front by the rule in
-  /// vantage/target.h, offset applied. A point has one vertex and the plane through it. Throws Error(input) for a
+  /// vantage/target.h, offset applied. Vertices that rounding has put inside the others' outline, by a millionth of
+  /// the extent at most, are left out. A point has one vertex and the plane through it. Throws Error(input) for a
   /// polygon that has no plane, is not planar or not convex.
   explicit TargetView(const Target& target);
 
@@ -40,7 +41,8 @@ class TargetView {
  private:
   void set_point(const Target& target);
   void set_plane(const Target& target);
-  void check_shape(const Target& target) const;
+  void drop_reflex_vertices(const Target& target, double slack);
+  void check_shape(const Target& target);
 
   Vec3 origin_, centre_, normal_;
   bool all_sides_ = false;
