@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -14,7 +15,6 @@
 #include "cli/text_table.h"
 #include "mission/input_file.h"
 #include "mission/into_frame.h"
-#include "solid/write_place.h"
 #include "solid/writers.h"
 #include "vantage/compare.h"
 #include "vantage/error.h"
@@ -37,9 +37,9 @@ constexpr const char* kExamples =
     "  vantage compare spheres.ply exact.ply --only-a over_claimed.ply --only-b missed.ply\n"
     "  vantage compare a.ply b.glb --json | jq .only_a_percent\n"
     "\n"
-    "The worst distance is that of the corner, of what only one of them claims, that is farthest from the other's\n"
-    "surface. Where one of them claims nothing alone no mesh is written, and an older file stays. The exit code does "
-    "not\n"
+    "The worst distance of A is the largest distance from a point of A to the nearest point of B (one-sided Hausdorff\n"
+    "distance): that of a point that was found, and a bound that no point exceeds.\n"
+    "Where one of them claims nothing alone no mesh is written, and an older file stays. The exit code does not\n"
     "depend on how much they differ.\n";
 
 struct Options {
@@ -84,8 +84,8 @@ std::vector<std::string> write(const Options& options, Comparison& comparison, c
     if (output.empty() || mesh.empty()) return;
     Volume volume = plain_volume(std::move(mesh), "only in " + fs::path(input).filename().string());
     volume.georeference = place;
-    files.push_back(solid::stage_volume(volume, output, obj.up, obj.scale));
-    if (auto place_file = solid::stage_place(place, output)) files.push_back(std::move(place_file));
+    solid::StagedVolume staged = solid::stage_volume(volume, output, obj.up, obj.scale);
+    std::move(staged.files.begin(), staged.files.end(), std::back_inserter(files));
     written.push_back(output);
   };
   stage(options.only_a, comparison.only_a, options.file_a);
@@ -114,8 +114,10 @@ std::string json_text(const Options& options, const Comparison& c, const std::ve
   json["only_b_m3"] = c.only_b_m3;
   json["only_b_percent"] = percent(c.only_b_m3, c.volume_b_m3);
   json["worst_only_a_m"] = c.worst_only_a_m;
+  json["worst_only_a_bound_m"] = c.worst_only_a_bound_m;
   json["worst_only_a_point"] = point(c.worst_only_a_m, c.worst_only_a_point);
   json["worst_only_b_m"] = c.worst_only_b_m;
+  json["worst_only_b_bound_m"] = c.worst_only_b_bound_m;
   json["worst_only_b_point"] = point(c.worst_only_b_m, c.worst_only_b_point);
   json["written"] = written;
   // A name is bytes from the command line, and JSON takes UTF-8 only: others are replaced rather than refused.
@@ -126,12 +128,13 @@ std::string share_text(double part, double whole, const char* of) {
   return "m3, " + fixed(percent(part, whole), 4) + " % of " + of;
 }
 
-void add_difference(TextTable& table, const char* name, double volume, double whole, double worst, const Vec3& at) {
+void add_difference(TextTable& table, const char* name, double volume, double whole, double worst, double bound,
+                    const Vec3& at) {
   const std::string of = std::string(name).substr(std::string(name).size() - 1);
   table.row(name, fixed(volume, 3), share_text(volume, whole, of.c_str()));
   if (worst > 0) {
     table.row("worst distance", fixed(worst, 6),
-              "m from the other's surface, at " + vector(at) + ", its corner that lies farthest from there");
+              "m from the other, at " + vector(at) + "; none is over " + fixed(bound, 6));
   }
 }
 
@@ -145,8 +148,10 @@ std::string table_text(const Options& options, const Comparison& c, const std::v
   table.row("in both", fixed(c.intersection_m3, 3),
             "m3, " + fixed(percent(c.intersection_m3, c.volume_a_m3), 4) + " % of A, " +
                 fixed(percent(c.intersection_m3, c.volume_b_m3), 4) + " % of B");
-  add_difference(table, "only in A", c.only_a_m3, c.volume_a_m3, c.worst_only_a_m, c.worst_only_a_point);
-  add_difference(table, "only in B", c.only_b_m3, c.volume_b_m3, c.worst_only_b_m, c.worst_only_b_point);
+  add_difference(table, "only in A", c.only_a_m3, c.volume_a_m3, c.worst_only_a_m, c.worst_only_a_bound_m,
+                 c.worst_only_a_point);
+  add_difference(table, "only in B", c.only_b_m3, c.volume_b_m3, c.worst_only_b_m, c.worst_only_b_bound_m,
+                 c.worst_only_b_point);
   if (is_turn_doubtful) table.heading("they share little: is an OBJ file y up, or not in metres? --up y, --scale S");
   for (const std::string& file : written) table.heading("wrote " + file);
   for (const auto& [output, name] : {std::pair(options.only_a, "A"), std::pair(options.only_b, "B")}) {

@@ -230,16 +230,14 @@ std::string summary(const Mission& mission, const MissionRun& run, const MeshMea
   return table.text();
 }
 
-/// STL has single precision only: with map coordinates that may be far less than what was computed.
-void warn_of_coarse_stl(const Options& options, const Volume& volume) {
-  const double rounding = solid::single_precision_rounding(volume.mesh);
-  if (options.common.quiet || volume.outcome != Outcome::computed || rounding <= volume.tolerance_m) return;
-  for (const std::string& output : options.outputs) {
-    const bool is_stl = is_standard_stream(output) ? options.format == "stl" : format_extension(output) == ".stl";
-    if (!is_stl) continue;
-    note(output + ": STL holds coordinates as large as these to " + fixed(rounding, 3) +
-         " m only, less than the tolerance of " + fixed(volume.tolerance_m, 3) +
-         " m; write .ply, .obj or .glb for more");
+/// STL and GLB have single precision only: with map coordinates that may be far less than what was computed.
+void warn_of_rounding(const Options& options, const Volume& volume, const solid::WrittenResults& written) {
+  if (options.common.quiet) return;
+  for (std::size_t i = 0; i < written.written.size(); ++i) {
+    const double rounding = written.written[i].rounding_m;
+    if (rounding <= volume.tolerance_m) continue;
+    note(options.outputs[i] + ": rounding to single precision moved the surface by up to " + fixed(rounding, 3) +
+         " m, more than the tolerance of " + fixed(volume.tolerance_m, 3) + " m; write .ply or .obj for more");
   }
 }
 

@@ -64,8 +64,9 @@ void write(const SeedConfig& config, const std::vector<SeedResult>& results) {
   std::vector<std::unique_ptr<solid::AtomicFile>> files;
   for (std::size_t i = 0; i < results.size(); ++i) {
     at_output(config.volumes[i], [&] {
-      files.push_back(solid::stage_volume(results[i].volume, config.volumes[i].output, config.up, 1.0));
-      files.back()->seal();
+      solid::StagedVolume staged = solid::stage_volume(results[i].volume, config.volumes[i].output, config.up, 1.0);
+      staged.files.front()->seal();
+      std::move(staged.files.begin(), staged.files.end(), std::back_inserter(files));
     });
   }
   solid::commit_all(files);

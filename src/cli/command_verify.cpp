@@ -57,9 +57,9 @@ double reported_lift(const std::filesystem::path& volume_file) {
               "write it again with \"vantage compute\", or say how far the target was raised with --lift");
 }
 
-bool is_right(const VerifyReport& report) { return report.over_claimed == 0 && report.closed && report.oriented; }
+bool is_solid(const VerifyReport& report) { return report.closed && report.oriented && report.flat_facets == 0; }
 
-std::string json_text(const VerifyReport& report, double lift, const OpenEdges& holes) {
+std::string json_text(const VerifyReport& report, const Given& given, const OpenEdges& holes) {
   const auto point = [](const Vec3& p) { return nlohmann::ordered_json{p.x(), p.y(), p.z()}; };
   nlohmann::ordered_json json;
   json["right"] = is_right(report);
@@ -67,6 +67,7 @@ std::string json_text(const VerifyReport& report, double lift, const OpenEdges& 
   json["open_edges"] = holes.count;
   json["open_edge_at"] = holes.count > 0 ? point(holes.middle_of_first) : nlohmann::ordered_json();
   json["oriented"] = report.oriented;
+  json["flat_facets"] = report.flat_facets;
   json["euler"] = report.euler;
   json["points"] = report.points;
   json["inside"] = report.inside;
@@ -81,12 +82,13 @@ std::string json_text(const VerifyReport& report, double lift, const OpenEdges& 
   json["over_claim_bound"] = report.over_claim_bound;
   json["bound_points"] = report.bound_points;
   json["seed"] = report.seed;
-  json["lift_m"] = lift;
+  json["lift_m"] = given.lift_m;
+  json["rounding_m"] = given.rounding_m;
   // A name is bytes from a file, and JSON takes UTF-8 only: others are replaced rather than refused.
   return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
-std::string table_text(const VerifyReport& report, double lift, const OpenEdges& holes, const std::string& file) {
+std::string table_text(const VerifyReport& report, const Given& given, const OpenEdges& holes, const std::string& file) {
   TextTable table;
   table.heading(file);
   table.row("closed", report.closed ? "yes" : "NO",
@@ -94,7 +96,15 @@ std::string table_text(const VerifyReport& report, double lift, const OpenEdges&
                              : count(holes.count) + " open edges, one of them at " + vector(holes.middle_of_first));
   if (report.closed) table.row("oriented", report.oriented ? "yes" : "NO", "which run it in opposite directions");
   table.row("Euler number", std::to_string(report.euler), "2 for one piece without holes");
-  if (lift > 0) table.row("lift", fixed(lift, 6), "metres that the target was raised to clear its surface");
+  if (report.flat_facets > 0) {
+    table.row("flat facets", count(report.flat_facets), "without area: programs that join vertices find holes there");
+  }
+  if (given.lift_m > 0) {
+    table.row("lift", fixed(given.lift_m, 6), "metres that the target was raised to clear its surface");
+  }
+  if (given.rounding_m > 0) {
+    table.row("rounding", fixed(given.rounding_m, 6), "metres that the file says its numbers moved the surface: allowed");
+  }
   if (report.points > 0) {
     table.heading("rays from random points, seed " + std::to_string(report.seed));
     table.row("points tried", count(report.points), "half of them near the volume's surface");
@@ -119,8 +129,8 @@ std::string table_text(const VerifyReport& report, double lift, const OpenEdges&
               "out");
   }
   table.heading(is_right(report) ? "nothing wrong was found"
-                                 : (report.closed && report.oriented ? "WRONG: the volume over-claims"
-                                                                     : "WRONG: the mesh is not a closed solid"));
+                                 : (is_solid(report) ? "WRONG: the volume over-claims"
+                                                     : "WRONG: the mesh is not a closed solid"));
   return table.text();
 }
 
@@ -137,7 +147,7 @@ int run(const Options& options) {
   if (!options.common.quiet) std::for_each(read.notes.begin(), read.notes.end(), note);
   const Mesh& volume = read.mesh;
   const OpenEdges holes = find_open_edges(volume);
-  const double lift = options.lift_m < 0 ? reported_lift(options.volume_file) : options.lift_m;
+  const Given given{options.lift_m < 0 ? reported_lift(options.volume_file) : options.lift_m, read.rounding_m};
 
   VerifyReport report;
   if (holes.count == 0) {
@@ -145,9 +155,10 @@ int run(const Options& options) {
     verify_options.points = options.points;
     verify_options.seed = options.seed;
     verify_options.tolerance_m = mission.exact.tolerance_m;
+    verify_options.rounding_m = given.rounding_m;
     std::vector<Target> parts = mission.other_parts;
     parts.insert(parts.begin(), mission.target);
-    for (Target& part : parts) part.offset_m += lift;
+    for (Target& part : parts) part.offset_m += given.lift_m;
     report = mission_io::with_place(mission.target_place, [&] {
       return verify_volume(scene, parts, mission.sensor, mission.navigation, volume, verify_options,
                            progress.callback());
@@ -157,12 +168,12 @@ int run(const Options& options) {
     report.seed = options.seed;
   }
   if (options.json) {
-    print(json_text(report, lift, holes));
+    print(json_text(report, given, holes));
   } else if (!options.common.quiet) {
     if (!mission.other_parts.empty()) {
       note("the target has " + std::to_string(mission.other_parts.size() + 1) + " convex parts: all must be seen");
     }
-    print(table_text(report, lift, holes, options.volume_file));
+    print(table_text(report, given, holes, options.volume_file));
   }
   return is_right(report) ? kSuccess : kCheckFailed;
 }

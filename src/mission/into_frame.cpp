@@ -35,7 +35,7 @@ std::string levels_text(const Georeference& mesh, const Georeference& scene) {
 MeshInFrame read_into_frame(const std::filesystem::path& file, const SceneReadOptions& obj,
                             const std::optional<Georeference>& frame, const Progress& progress) {
   Scene read = read_scene(file, is_obj(file) ? obj : SceneReadOptions{}, progress);
-  MeshInFrame result{std::move(read.mesh), std::move(read.georeference), {}};
+  MeshInFrame result{std::move(read.mesh), std::move(read.georeference), read.rounding_m.value_or(0), {}};
   if (!frame || !result.georeference) return result;
   check_near(*result.georeference, *frame, "the mesh", file.string(), "give the mesh that goes with the other input");
   if (geo::move_origin(result.mesh.vertices, *result.georeference, *frame)) {

@@ -13,6 +13,7 @@ namespace vantage::mission_io {
 struct MeshInFrame {
   Mesh mesh;
   std::optional<Georeference> georeference;  ///< as the file says
+  double rounding_m = 0;                     ///< as the file says: Scene::rounding_m
   std::vector<std::string> notes;            ///< for people: that it was moved, that its heights do not fit
 };
 

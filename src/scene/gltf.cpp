@@ -10,6 +10,7 @@
 #include "scene/gltf_document.h"
 #include "scene/mesh_builder.h"
 #include "scene/mesh_readers.h"
+#include "scene/rounding_text.h"
 
 namespace vantage::scene {
 namespace {
@@ -56,6 +57,7 @@ class GltfReader {
     }
     RawMesh mesh = builder_.finish();
     mesh.georeference = georeference();
+    mesh.rounding_m = rounding();
     return mesh;
   }
 
@@ -78,6 +80,19 @@ class GltfReader {
       }
     }
     return std::nullopt;
+  }
+
+  /// In the "extras" of the asset.
+  std::optional<double> rounding() const {
+    const auto asset = document_.root().find("asset");
+    if (asset == document_.root().end() || !asset->is_object()) return std::nullopt;
+    const auto extras = asset->find("extras");
+    if (extras == asset->end()) return std::nullopt;
+    try {
+      return rounding_in(*extras);
+    } catch (const RoundingProblem& problem) {
+      document_.fail(problem.text);
+    }
   }
 
   /// The nodes of the default scene; of the first scene where none is the default; without scenes the nodes that are

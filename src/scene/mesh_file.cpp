@@ -80,7 +80,11 @@ RawMesh read_mesh_file(const std::filesystem::path& file, const Progress& callba
   try {
     const MeshSource source = load_mesh_source(file, progress, limits);
     RawMesh mesh = read_any(source, progress, limits, lod);
-    if (mesh.format == MeshFormat::stl) mesh.georeference = read_place_file(source, progress);
+    if (mesh.format == MeshFormat::stl) {
+      PlaceFile beside = read_place_file(source, progress);
+      mesh.georeference = std::move(beside.georeference);
+      mesh.rounding_m = beside.rounding_m;
+    }
     return mesh;
   } catch (const std::bad_alloc&) {
     throw Error(ErrorKind::input, "there is not enough memory to load the file", file.string(),
@@ -117,6 +121,7 @@ Scene read_scene(const std::filesystem::path& file, const SceneReadOptions& opti
   result.states_axes = raw.axes.has_value();
   result.dropped_faces = raw.dropped_faces;
   result.georeference = std::move(raw.georeference);
+  result.rounding_m = raw.rounding_m;
   result.notes = std::move(raw.notes);
   return result;
 }

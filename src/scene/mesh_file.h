@@ -33,6 +33,7 @@ struct RawMesh {
   std::string crs, crs_place;
   std::optional<Georeference> georeference;  ///< as vantage wrote it; x and y then are metres about its origin
   std::optional<Axes> axes;                  ///< likewise, of OBJ
+  std::optional<double> rounding_m;          ///< likewise: how far the file's numbers moved a volume
   std::vector<std::string> notes;            ///< as Scene::notes
 };
 

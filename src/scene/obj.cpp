@@ -13,6 +13,7 @@
 #include "scene/georeference_text.h"
 #include "scene/mesh_builder.h"
 #include "scene/mesh_readers.h"
+#include "scene/rounding_text.h"
 #include "scene/text_cursor.h"
 
 namespace vantage::scene {
@@ -45,6 +46,7 @@ class ObjReader {
     RawMesh mesh = builder_.finish(name_parts());
     mesh.georeference = std::move(georeference_);
     mesh.axes = axes_;
+    mesh.rounding_m = rounding_;
     return mesh;
   }
 
@@ -100,8 +102,11 @@ class ObjReader {
     try {
       read_georeference_comment(text.substr(1), georeference_);
       read_axes_comment(text.substr(1), axes_);
+      read_rounding_comment(text.substr(1), rounding_);
     } catch (const GeoreferenceProblem& problem) {
       fail(problem.text, "correct or remove the line; the mesh is read without");
+    } catch (const RoundingProblem& problem) {
+      fail(problem.text, "correct or remove the line");
     } catch (const AxesProblem& problem) {
       fail(problem.text, "correct or remove the line, and say how it is with up and scale");
     }
@@ -230,6 +235,7 @@ class ObjReader {
   MeshBuilder builder_;
   TextCursor text_;
   std::optional<Georeference> georeference_;
+  std::optional<double> rounding_;
   std::optional<Axes> axes_;
 
   static constexpr std::uint32_t kNoObject = std::numeric_limits<std::uint32_t>::max();

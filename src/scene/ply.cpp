@@ -162,6 +162,7 @@ class PlyReader {
     if (!has_faces) source_.fail("the PLY file has no element \"face\"", "export a surface mesh, not a point cloud");
     RawMesh mesh = builder_.finish();
     mesh.georeference = header_.georeference;
+    mesh.rounding_m = header_.rounding_m;
     return mesh;
   }
 

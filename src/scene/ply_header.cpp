@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "scene/georeference_text.h"
+#include "scene/rounding_text.h"
 #include "scene/text_cursor.h"
 
 namespace vantage::scene::ply {
@@ -74,8 +75,11 @@ class HeaderReader {
   void comment(std::string_view text) {
     try {
       read_georeference_comment(text, header_.georeference);
+      read_rounding_comment(text, header_.rounding_m);
     } catch (const GeoreferenceProblem& problem) {
       source_.fail_at_line(text_.line(), problem.text, "correct or remove the comment; the mesh is read without");
+    } catch (const RoundingProblem& problem) {
+      source_.fail_at_line(text_.line(), problem.text, "correct or remove the comment");
     }
   }
 

@@ -43,6 +43,7 @@ struct Header {
   std::optional<Georeference> georeference;  ///< from a comment of vantage
   std::size_t data = 0;                      ///< byte where the rows begin
   std::uint64_t data_line = 0;               ///< line where they begin
+  std::optional<double> rounding_m;          ///< from a comment of vantage
 };
 
 /// Reads and checks a header. Throws Error(input) with the line for whatever it does not understand.

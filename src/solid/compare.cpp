@@ -9,15 +9,16 @@
 #include "core/progress_reporter.h"
 #include "parallel/parallel.h"
 #include "solid/csg.h"
+#include "solid/farthest.h"
 #include "solid/solid_check.h"
-#include "solid/triangle_tree.h"
 #include "vantage/error.h"
 
 namespace vantage {
 namespace {
 
+using solid::Farthest;
+using solid::LabelledMesh;
 using solid::Solid;
-using solid::TriangleTree;
 
 /// Volumes from elsewhere may pass through themselves in a few facets: they can be compared all the same, where these
 /// are no larger a part of the whole area. (Of 54 spheres, pairs and results of ours, of up to 91,530 facets, none
@@ -53,29 +54,12 @@ bool are_identical(const Mesh& a, const Mesh& b) {
   return a.triangles.size() == b.triangles.size() && canonical(a) == canonical(b);
 }
 
-Solid solid_of(Mesh mesh, const std::string& name) {
-  std::vector<std::uint32_t> labels(mesh.triangles.size(), 0);
+/// Facets of A, and those of B, keep these labels in the differences.
+constexpr std::uint32_t kOfA = 0, kOfB = 1;
+
+Solid solid_of(Mesh mesh, std::uint32_t label, const std::string& name) {
+  std::vector<std::uint32_t> labels(mesh.triangles.size(), label);
   return Solid({std::move(mesh), std::move(labels)}, name);
-}
-
-struct Farthest {
-  double distance = 0;
-  Vec3 point = Vec3::Zero();
-};
-
-/// The corner of `part` that is farthest from the surface in `tree`; the first of equals.
-Farthest farthest_corner(const Mesh& part, const TriangleTree& tree, const core::ProgressReporter& progress) {
-  constexpr std::size_t kGrain = 256;
-  const std::size_t count = part.vertices.size();
-  std::vector<double> distance(count, 0);
-  core::ProgressCounter counter(progress, count);
-  parallel::for_ranges(count, kGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t v = begin; v < end; ++v) distance[v] = tree.distance(part.vertices[v]);
-    counter.add(end - begin);
-  });
-  const auto found = std::max_element(distance.begin(), distance.end());
-  if (found == distance.end()) return {};
-  return {*found, part.vertices[static_cast<std::size_t>(found - distance.begin())]};
 }
 
 /// What A does not claim alone B claims too, and the other way round: both differences must leave the same. A third
@@ -111,7 +95,7 @@ Comparison compare_volumes(const Mesh& mesh_a, const Mesh& mesh_b, const std::st
     result.intersection_m3 = result.volume_b_m3 = result.volume_a_m3;
     return result;
   }
-  const Solid solid_a = solid_of(a, name_a), solid_b = solid_of(b, name_b);
+  const Solid solid_a = solid_of(a, kOfA, name_a), solid_b = solid_of(b, kOfB, name_b);
   progress.begin("subtracting the second mesh");
   const Solid only_a = subtract(solid_a, solid_b, progress);
   progress.begin("subtracting the first mesh");
@@ -119,22 +103,25 @@ Comparison compare_volumes(const Mesh& mesh_a, const Mesh& mesh_b, const std::st
   // Sheets that coincide but for rounding may leave a little less than nothing.
   result.only_a_m3 = std::max(only_a.volume(), 0.0);
   result.only_b_m3 = std::max(only_b.volume(), 0.0);
-  result.only_a = only_a.to_mesh().mesh;
-  result.only_b = only_b.to_mesh().mesh;
+  LabelledMesh part_a = only_a.to_mesh(), part_b = only_b.to_mesh();
   const double area = solid_a.area() + solid_b.area(), length = (box.max - box.min).norm();
   result.intersection_m3 = intersection_of(result, area * length * 1e-9);
 
   progress.begin("measuring distances");
-  const Farthest from_b = farthest_corner(result.only_a, TriangleTree(b), progress.part(0, 0.5));
-  const Farthest from_a = farthest_corner(result.only_b, TriangleTree(a), progress.part(0.5, 1));
+  const Farthest from_b = farthest_point(part_a, kOfA, b, progress.part(0, 0.5));
+  const Farthest from_a = farthest_point(part_b, kOfB, a, progress.part(0.5, 1));
   progress.finish();
-  for (Mesh* mesh : {&result.only_a, &result.only_b}) {
-    for (Vec3& vertex : mesh->vertices) vertex += origin;
+  result.worst_only_a_m = from_b.at_least_m;
+  result.worst_only_b_m = from_a.at_least_m;
+  result.worst_only_a_bound_m = from_b.at_most_m;
+  result.worst_only_b_bound_m = from_a.at_most_m;
+  if (from_b.at_least_m > 0) result.worst_only_a_point = from_b.point + origin;
+  if (from_a.at_least_m > 0) result.worst_only_b_point = from_a.point + origin;
+  for (LabelledMesh* part : {&part_a, &part_b}) {
+    for (Vec3& vertex : part->mesh.vertices) vertex += origin;
   }
-  result.worst_only_a_m = from_b.distance;
-  result.worst_only_b_m = from_a.distance;
-  if (from_b.distance > 0) result.worst_only_a_point = from_b.point + origin;
-  if (from_a.distance > 0) result.worst_only_b_point = from_a.point + origin;
+  result.only_a = std::move(part_a.mesh);
+  result.only_b = std::move(part_b.mesh);
   return result;
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/progress_reporter.h"
+#include "solid/clean.h"
 #include "solid/outside_limits.h"
 #include "solid/pieces.h"
 #include "solid/regions.h"
@@ -85,10 +86,11 @@ Volume intersect_volumes(const std::vector<Volume>& volumes, const Progress& cal
   const Vec3 origin = result.frame.origin;
   CauseList causes;
   std::vector<Solid> solids;
-  double sliver = 0;
+  double sliver = 0, rounding = 0;
   for (const Volume& volume : volumes) {
     solids.push_back(solid_of(volume, origin, causes));
     sliver = std::max(sliver, solid::sliver_thickness(solids.back()));
+    rounding = std::max(rounding, solids.back().epsilon());
   }
   const core::ProgressReporter progress(callback);
   progress.begin("parts");
@@ -101,6 +103,9 @@ Volume intersect_volumes(const std::vector<Volume>& volumes, const Progress& cal
     return result;
   }
   for (Vec3& vertex : labelled.mesh.vertices) vertex += origin;
+  // Parts share scene polygons, so most of what bounds one volume all but coincides with what bounds another.
+  solid::clean_inward(labelled, origin, {},
+                      solid::cleaning_limits(result.tolerance_m, rounding, bounding_box(labelled.mesh)));
   solid::take_over(
       std::move(labelled), causes.causes(), [](std::uint32_t label) { return label; }, result);
   return result;

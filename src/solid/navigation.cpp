@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/progress_reporter.h"
+#include "solid/clean.h"
 #include "solid/numerics.h"
 #include "solid/outside_limits.h"
 #include "solid/pieces.h"
@@ -72,7 +73,11 @@ void cut_volume(const Regions& regions, const core::ProgressReporter& progress, 
   }
   for (Vec3& vertex : labelled.mesh.vertices) vertex += regions.origin;
   const double rounding = std::numeric_limits<double>::epsilon() * regions.origin.cwiseAbs().maxCoeff();
-  snap_to_planes(labelled, regions.surfaces, numerics::kSnapEpsilons * (volume.epsilon() + rounding));
+  const double allowance = numerics::kSnapEpsilons * (volume.epsilon() + rounding);
+  snap_to_planes(labelled, regions.surfaces, allowance);
+  const CleaningLimits limits = cleaning_limits(result.tolerance_m, volume.epsilon(), bounding_box(labelled.mesh));
+  clean_inward(labelled, regions.origin, regions.surfaces, limits);
+  snap_to_planes(labelled, regions.surfaces, allowance);  // what was merged went to the origin and back
   take_over(
       std::move(labelled), regions.causes, [&](std::uint32_t label) { return regions.surfaces[label].cause; }, result);
 }

@@ -2,6 +2,8 @@
 // these are allowances for rounding.
 #pragma once
 
+#include <cstddef>
+
 namespace vantage::solid::numerics {
 
 /// Parts of a navigation mesh that meet less deeply than this times the diagonal of the mesh's bounding box count as
@@ -27,5 +29,49 @@ constexpr double kSliverEpsilons = 10;
 /// Boxes that stand for half-spaces reach beyond the volume by this part of its diagonal, so that only the face that is
 /// meant can cut it.
 constexpr double kOvershoot = 0.125;
+
+/// Cleaning after booleans takes away edges shorter than this part of the volume's tolerance: a micrometre at the usual
+/// centimetre, and nothing that anyone asked for.
+constexpr double kCleanPart = 1e-4;
+
+/// ... and than this part of the volume's diagonal, whatever the tolerance,
+constexpr double kCleanLargest = 1e-6;
+
+/// ... but no less than this many times what booleans, and coordinates in the scene frame, resolve: two vertices that stay
+/// must stay two.
+constexpr double kCleanEpsilons = 16;
+
+/// How far cleaning may move a vertex in all, in lengths of the edges that it takes away: a few merges in a row.
+constexpr double kFarthestMove = 4;
+
+/// What merges in a row may add to the solid, in epsilons of the booleans.
+constexpr double kMostRaises = 10;
+
+/// Vertices nearer to each other than this part of the edges that go are merged whatever that adds: to programs that join
+/// vertices (some do to 1e-8) they are one. 1e-8 m at the usual tolerance, where a volume is right to 1e-6 of the distance.
+constexpr double kMergeAnyway = 1e-2;
+
+/// A facet narrower than this part of the edges that go has no direction to keep: rounding tilts it by a degree and more.
+constexpr double kTurnable = 1e-3;
+
+/// In double precision a facet has no area for its readers when it is narrower than this many steps of the largest
+/// coordinate: rounding of the area's own terms.
+constexpr double kFlatSteps = 4;
+
+/// The bounds of the farthest point agree to this part of it.
+constexpr double kFarthestPart = 0.01;
+
+/// ... or to this part of the diagonal of both solids: rounding of distances, and of the booleans.
+constexpr double kNegligible = 1e-12;
+
+/// Pieces of facets, and cubes of space, that are looked at before the two bounds are left apart: seconds, and some hundred
+/// megabytes.
+constexpr std::size_t kMostPatches = 2'000'000, kMostCells = 300'000;
+
+/// With more facets than this near a cube it is halved before a point behind all of them is looked for.
+constexpr std::size_t kMostFacetsOfCell = 2000;
+
+/// How far behind all facets that point must lie, in parts of the space that they lie in: well above rounding.
+constexpr double kKernelMargin = 1e-10;
 
 }  // namespace vantage::solid::numerics

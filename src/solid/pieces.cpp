@@ -11,23 +11,6 @@ namespace {
 
 constexpr std::uint32_t kUnused = std::numeric_limits<std::uint32_t>::max();
 
-void drop_unused_vertices(Mesh& mesh) {
-  std::vector<std::uint32_t> new_index(mesh.vertices.size(), kUnused);
-  for (const Triangle& t : mesh.triangles) {
-    for (const std::uint32_t v : t) new_index[v] = 0;
-  }
-  std::uint32_t used = 0;
-  for (std::size_t v = 0; v < new_index.size(); ++v) {
-    if (new_index[v] == kUnused) continue;
-    mesh.vertices[used] = mesh.vertices[v];
-    new_index[v] = used++;
-  }
-  mesh.vertices.resize(used);
-  for (Triangle& t : mesh.triangles) {
-    for (std::uint32_t& v : t) v = new_index[v];
-  }
-}
-
 }  // namespace
 
 Pieces find_pieces(const Mesh& mesh) {
@@ -62,6 +45,23 @@ Pieces find_pieces(const Mesh& mesh) {
     piece.euler = static_cast<long>(piece.vertices) - static_cast<long>(piece.facets / 2);  // E is 3 F / 2
   }
   return result;
+}
+
+void drop_unused_vertices(Mesh& mesh) {
+  std::vector<std::uint32_t> new_index(mesh.vertices.size(), kUnused);
+  for (const Triangle& t : mesh.triangles) {
+    for (const std::uint32_t v : t) new_index[v] = 0;
+  }
+  std::uint32_t used = 0;
+  for (std::size_t v = 0; v < new_index.size(); ++v) {
+    if (new_index[v] == kUnused) continue;
+    mesh.vertices[used] = mesh.vertices[v];
+    new_index[v] = used++;
+  }
+  mesh.vertices.resize(used);
+  for (Triangle& t : mesh.triangles) {
+    for (std::uint32_t& v : t) v = new_index[v];
+  }
 }
 
 void drop_slivers(LabelledMesh& labelled, double thickness_m) {

@@ -29,4 +29,7 @@ Pieces find_pieces(const Mesh& mesh);
 /// to fill one would add space. Vertices that nothing uses any more go too.
 void drop_slivers(LabelledMesh& labelled, double thickness_m);
 
+/// Numbers the vertices anew, in their order, without those that no triangle uses.
+void drop_unused_vertices(Mesh& mesh);
+
 }  // namespace vantage::solid

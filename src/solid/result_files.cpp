@@ -2,18 +2,18 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <memory>
 #include <utility>
 
 #include "core/progress_reporter.h"
 #include "solid/atomic_file.h"
 #include "solid/volume_check.h"
-#include "solid/write_place.h"
 #include "solid/writers.h"
 #include "vantage/error.h"
 
 namespace vantage::solid {
-namespace {}  // namespace
+
 
 std::filesystem::path report_file(const std::filesystem::path& volume_file) {
   return std::filesystem::path(volume_file).replace_extension(".report.json");
@@ -30,10 +30,11 @@ WrittenResults write_results(Volume& volume, const ResultRequest& request, const
   std::vector<std::unique_ptr<AtomicFile>> files;
   if (has_volume) {
     for (const std::filesystem::path& file : request.volumes) {
-      progress.report(files.size(), request.volumes.size() + 1);
-      files.push_back(stage_volume(volume, file, request.obj_up, request.obj_scale));
-      files.back()->seal();
-      if (auto place = stage_place(volume.georeference, file)) files.push_back(std::move(place));
+      progress.report(result.written.size(), request.volumes.size() + 1);
+      StagedVolume staged = stage_volume(volume, file, request.obj_up, request.obj_scale);
+      staged.files.front()->seal();
+      std::move(staged.files.begin(), staged.files.end(), std::back_inserter(files));
+      result.written.push_back(staged.report);
     }
   }
   progress.finish();

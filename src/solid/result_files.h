@@ -20,6 +20,7 @@ struct ResultRequest {
 
 struct WrittenResults {
   MeshMeasures measures;
+  std::vector<WrittenVolume> written;          ///< of each file that is asked for; empty when there is no volume
   std::vector<std::filesystem::path> reports;  ///< those written
   std::string report;                          ///< text of the first file's
 };

@@ -78,12 +78,13 @@ TriangleTree::TriangleTree(const Mesh& mesh) : mesh_(mesh) {
   bvh_ = scene::build_bvh(bounds, order_);
 }
 
-double TriangleTree::distance(const Vec3& point) const {
+TriangleTree::Nearest TriangleTree::nearest(const Vec3& point) const {
   struct Waiting {
     std::uint32_t node;
     double nearest;
   };
   double best = std::numeric_limits<double>::infinity();
+  std::uint32_t triangle = 0;
   std::vector<Waiting> stack{{0, 0.0}};
   while (!stack.empty()) {
     const Waiting waiting = stack.back();
@@ -93,8 +94,11 @@ double TriangleTree::distance(const Vec3& point) const {
     if (node.leaf()) {
       for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
         const Triangle& t = mesh_.triangles[order_[i]];
-        best = std::min(best, scene::squared_distance_to_triangle(point, mesh_.vertices[t[0]], mesh_.vertices[t[1]],
-                                                                  mesh_.vertices[t[2]]));
+        const double squared = scene::squared_distance_to_triangle(point, mesh_.vertices[t[0]], mesh_.vertices[t[1]],
+                                                                   mesh_.vertices[t[2]]);
+        if (squared >= best) continue;
+        best = squared;
+        triangle = order_[i];
       }
       continue;
     }
@@ -104,7 +108,7 @@ double TriangleTree::distance(const Vec3& point) const {
     stack.push_back(far);
     stack.push_back(near);
   }
-  return std::sqrt(best);
+  return {std::sqrt(best), triangle};
 }
 
 bool TriangleTree::crossings(const Vec3& point, const Vec3& direction, int& winding) const {

@@ -19,8 +19,13 @@ class TriangleTree {
   template <typename Visit>
   void for_each_near(const Box& box, double margin, const Visit& visit) const;
 
-  /// From the point to the nearest point of the mesh, which must not be empty; metres.
-  double distance(const Vec3& point) const;
+  struct Nearest {
+    double distance;
+    std::uint32_t triangle;
+  };
+  /// The triangle nearest to a point, and its distance; the mesh must not be empty. Metres.
+  Nearest nearest(const Vec3& point) const;
+  double distance(const Vec3& point) const { return nearest(point).distance; }
 
   /// How often the mesh, which must be closed, winds round a point that is not on it: 1 inside an outward-oriented
   /// solid, 0 outside. Counts the signed crossings of rays in scattered directions until one keeps clear of all edges.

@@ -71,12 +71,12 @@ struct Gltf {
   }
 };
 
-std::size_t add_positions(Gltf& gltf, const Mesh& mesh, const Vec3& origin) {
+std::size_t add_positions(Gltf& gltf, const StoredMesh& stored) {
   std::array<float, 3> low, high;
   low.fill(std::numeric_limits<float>::infinity());
   high.fill(-std::numeric_limits<float>::infinity());
-  for (const Vec3& vertex : mesh.vertices) {
-    const Vec3 local = to_y_up(vertex - origin);
+  for (const Vec3& vertex : stored.mesh.vertices) {
+    const Vec3 local = to_y_up(vertex - stored.origin);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const auto coordinate = static_cast<float>(local[static_cast<Eigen::Index>(axis)]);
       low[axis] = std::min(low[axis], coordinate);
@@ -88,18 +88,19 @@ std::size_t add_positions(Gltf& gltf, const Mesh& mesh, const Vec3& origin) {
   const auto exact = [](const std::array<float, 3>& v) { return std::array<double, 3>{v[0], v[1], v[2]}; };
   return gltf.add_accessor({{"bufferView", gltf.add_view(0, kArrayBuffer)},
                             {"componentType", kFloat},
-                            {"count", mesh.vertices.size()},
+                            {"count", stored.mesh.vertices.size()},
                             {"type", "VEC3"},
                             {"min", exact(low)},
                             {"max", exact(high)}});
 }
 
 /// Adds the facets of one kind of cause; nothing when there are none.
-void add_primitive(Gltf& gltf, const Volume& volume, CauseKind kind, std::size_t positions, Json& primitives) {
+void add_primitive(Gltf& gltf, const Volume& volume, const StoredMesh& stored, CauseKind kind, std::size_t positions,
+                   Json& primitives) {
   const std::size_t from = gltf.buffer.size();
-  for (std::size_t t = 0; t < volume.mesh.triangles.size(); ++t) {
-    if (volume.causes[volume.cause_of[t]].kind != kind) continue;
-    for (const std::uint32_t index : volume.mesh.triangles[t]) append_little_endian(gltf.buffer, index);
+  for (std::size_t t = 0; t < stored.mesh.triangles.size(); ++t) {
+    if (volume.causes[stored.cause_of[t]].kind != kind) continue;
+    for (const std::uint32_t index : stored.mesh.triangles[t]) append_little_endian(gltf.buffer, index);
   }
   const std::size_t count = (gltf.buffer.size() - from) / sizeof(std::uint32_t);
   if (count == 0) return;
@@ -114,17 +115,16 @@ void add_primitive(Gltf& gltf, const Volume& volume, CauseKind kind, std::size_t
                         {"mode", kTriangles}});
 }
 
-Gltf make_gltf(const Volume& volume) {
+Gltf make_gltf(const Volume& volume, const StoredMesh& stored) {
   Gltf gltf;
   gltf.json["asset"] = {{"version", "2.0"}, {"generator", "vantage " VANTAGE_VERSION}};
+  gltf.json["asset"]["extras"]["vantage"]["rounding_m"] = stored.rounding_m;
   gltf.json["scene"] = 0;
-  if (volume.mesh.empty()) {  // the specification allows no empty array, so there is no node either
+  if (stored.mesh.empty()) {  // the specification allows no empty array, so there is no node either
     gltf.json["scenes"] = Json::array({{{"name", std::string("no volume: ") + name_of(volume.outcome)}}});
     return gltf;
   }
-  const Box box = bounding_box(volume.mesh);
-  const Vec3 origin = ((box.min + box.max) / 2).array().round();
-  const Vec3 translation = to_y_up(origin);
+  const Vec3 translation = to_y_up(stored.origin);
   gltf.json["scenes"] = Json::array({{{"nodes", {0}}}});
   if (volume.georeference) {
     gltf.json["scenes"][0]["extras"]["vantage"]["georeference"] = scene::georeference_json(*volume.georeference);
@@ -133,8 +133,8 @@ Gltf make_gltf(const Volume& volume) {
                                      {"mesh", 0},
                                      {"translation", {translation.x(), translation.y(), translation.z()}}}});
   Json primitives = Json::array();
-  const std::size_t positions = add_positions(gltf, volume.mesh, origin);
-  for (const CauseKind kind : kKinds) add_primitive(gltf, volume, kind, positions, primitives);
+  const std::size_t positions = add_positions(gltf, stored);
+  for (const CauseKind kind : kKinds) add_primitive(gltf, volume, stored, kind, positions, primitives);
   gltf.json["meshes"] = Json::array({{{"name", "visibility volume"}, {"primitives", std::move(primitives)}}});
   gltf.json["buffers"] = Json::array({{{"byteLength", gltf.buffer.size()}}});
   return gltf;
@@ -142,8 +142,8 @@ Gltf make_gltf(const Volume& volume) {
 
 }  // namespace
 
-void write_glb(const Volume& volume, AtomicFile& file) {
-  const Gltf gltf = make_gltf(volume);
+void write_glb(const Volume& volume, const StoredMesh& stored, AtomicFile& file) {
+  const Gltf gltf = make_gltf(volume, stored);
   write_glb_container(gltf.json.dump(-1, ' ', false, Json::error_handler_t::replace), gltf.buffer, file);
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "scene/axes_text.h"
+#include "scene/rounding_text.h"
 #include "solid/names.h"
 #include "solid/write_place.h"
 #include "solid/writers.h"
@@ -29,22 +30,22 @@ std::vector<std::string> group_names(const std::vector<Cause>& causes) {
   return names;
 }
 
-void check_scale(double scale, const std::vector<Vec3>& vertices) {
+}  // namespace
+
+void check_obj_scale(const Volume& volume, double scale) {
   double largest = 0;
-  for (const Vec3& vertex : vertices) largest = std::max(largest, vertex.cwiseAbs().maxCoeff());
+  for (const Vec3& vertex : volume.mesh.vertices) largest = std::max(largest, vertex.cwiseAbs().maxCoeff());
   if (scale > 0 && std::isfinite(scale) && std::isfinite(largest / scale)) return;
   throw Error(ErrorKind::input, "the volume cannot be written in units of " + exact_text(scale) + " m", "scale",
               "give the length of the scene file's unit in metres");
 }
 
-}  // namespace
-
-void write_obj(const Volume& volume, UpAxis up, double scale, AtomicFile& file) {
-  const auto& [vertices, triangles] = volume.mesh;
-  check_scale(scale, vertices);
+void write_obj(const Volume& volume, const StoredMesh& stored, UpAxis up, double scale, AtomicFile& file) {
+  const auto& [vertices, triangles] = stored.mesh;
   file.write("# vantage " VANTAGE_VERSION " visibility volume: " + std::string(name_of(volume.outcome)) + "\n");
   file.write("# " + scene::axes_text({up, scale}) + "\n");
   file.write(place_comment(volume.georeference, "# "));
+  file.write("# " + scene::rounding_text(stored.rounding_m) + "\n");
 
   for (const Vec3& vertex : vertices) {
     std::string line("v");
@@ -55,7 +56,7 @@ void write_obj(const Volume& volume, UpAxis up, double scale, AtomicFile& file) 
   }
 
   std::vector<std::vector<std::size_t>> facets_of(volume.causes.size());
-  for (std::size_t t = 0; t < triangles.size(); ++t) facets_of[volume.cause_of[t]].push_back(t);
+  for (std::size_t t = 0; t < triangles.size(); ++t) facets_of[stored.cause_of[t]].push_back(t);
   const std::vector<std::string> names = group_names(volume.causes);
   for (std::size_t cause = 0; cause < facets_of.size(); ++cause) {
     if (facets_of[cause].empty()) continue;

@@ -1,7 +1,6 @@
 #include "solid/write_place.h"
 
 #include "scene/georeference_text.h"
-#include "scene/place_file.h"
 #include "solid/writers.h"
 
 namespace vantage::solid {
@@ -13,14 +12,13 @@ std::string place_comment(const std::optional<Georeference>& georeference, const
   return line.append("\n");
 }
 
-std::unique_ptr<AtomicFile> stage_place(const std::optional<Georeference>& georeference,
-                                        const std::filesystem::path& mesh_file) {
+std::unique_ptr<AtomicFile> stage_place(const scene::PlaceFile& content, const std::filesystem::path& mesh_file) {
   if (output_extension(mesh_file) != ".stl") return nullptr;
   const std::filesystem::path file = scene::place_file(mesh_file);
   std::error_code ignored;
-  if (!georeference && !std::filesystem::exists(file, ignored)) return nullptr;
+  if (!content.georeference && !content.rounding_m && !std::filesystem::exists(file, ignored)) return nullptr;
   auto output = std::make_unique<AtomicFile>(file);
-  output->write(scene::place_file_text(georeference));
+  output->write(scene::place_file_text(content));
   return output;
 }
 

@@ -1,14 +1,15 @@
 // PLY 1.0, binary, little-endian; scene frame.
 #include <limits>
 
+#include "scene/rounding_text.h"
 #include "solid/names.h"
 #include "solid/write_place.h"
 #include "solid/writers.h"
 
 namespace vantage::solid {
 
-void write_ply(const Volume& volume, AtomicFile& file) {
-  const auto& [vertices, triangles] = volume.mesh;
+void write_ply(const Volume& volume, const StoredMesh& stored, AtomicFile& file) {
+  const auto& [vertices, triangles] = stored.mesh;
   check_count(vertices.size(), std::numeric_limits<std::int32_t>::max(), "vertices", "PLY");
 
   std::string header = "ply\nformat binary_little_endian 1.0\n";
@@ -16,6 +17,7 @@ void write_ply(const Volume& volume, AtomicFile& file) {
   header += "comment vantage frame: scene, metres, z up\n";
   header += place_comment(volume.georeference, "comment ");
   header += "comment vantage tolerance_m " + exact_text(volume.tolerance_m) + "\n";
+  header += "comment " + scene::rounding_text(stored.rounding_m) + "\n";
   for (std::size_t i = 0; i < volume.causes.size(); ++i) {
     const Cause& cause = volume.causes[i];
     header +=
@@ -37,7 +39,7 @@ void write_ply(const Volume& volume, AtomicFile& file) {
     row.clear();
     append_little_endian(row, std::uint8_t{3});
     for (const std::uint32_t index : triangles[t]) append_little_endian(row, index);
-    append_little_endian(row, volume.cause_of[t]);
+    append_little_endian(row, stored.cause_of[t]);
     file.write(row);
   }
 }

@@ -1,19 +1,10 @@
 // Binary STL, scene frame. The format has single precision only: far from the origin (UTM coordinates) it is coarse.
 #include <Eigen/Geometry>
-#include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "solid/writers.h"
 
 namespace vantage::solid {
-
-double single_precision_rounding(const Mesh& mesh) {
-  const Box box = bounding_box(mesh);
-  if (box.empty()) return 0;
-  const auto largest = static_cast<float>(std::max(box.min.cwiseAbs().maxCoeff(), box.max.cwiseAbs().maxCoeff()));
-  return (static_cast<double>(std::nextafter(largest, std::numeric_limits<float>::infinity())) - largest) / 2;
-}
 
 void write_stl_mesh(const Mesh& mesh, std::string_view content, AtomicFile& file) {
   const auto& [vertices, triangles] = mesh;
@@ -38,6 +29,6 @@ void write_stl_mesh(const Mesh& mesh, std::string_view content, AtomicFile& file
   }
 }
 
-void write_stl(const Volume& volume, AtomicFile& file) { write_stl_mesh(volume.mesh, "visibility volume", file); }
+void write_stl(const StoredMesh& stored, AtomicFile& file) { write_stl_mesh(stored.mesh, "visibility volume", file); }
 
 }  // namespace vantage::solid

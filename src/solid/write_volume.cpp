@@ -56,25 +56,48 @@ std::string output_extension(const std::filesystem::path& file) {
               file.string(), "name a file that ends in .ply, .obj, .stl or .glb");
 }
 
-std::unique_ptr<AtomicFile> stage_volume(const Volume& volume, const std::filesystem::path& file, UpAxis obj_up,
-                                         double obj_scale) {
+namespace {
+
+/// The mesh as the file will hold it. Errors of rounding are told of the file.
+StoredMesh stored_for(const Volume& volume, const std::filesystem::path& file, const std::string& extension,
+                      double obj_scale) {
+  try {
+    if (extension == ".stl") return stored_as_floats(volume);
+    if (extension == ".glb") return stored_as_local_floats(volume);
+    if (extension == ".obj" && obj_scale != 1) return stored_in_units(volume, obj_scale);
+    return stored_as_doubles(volume);
+  } catch (const Error& error) {
+    throw Error(error.kind(), error.problem(), file.string(), error.fix());
+  }
+}
+
+}  // namespace
+
+StagedVolume stage_volume(const Volume& volume, const std::filesystem::path& file, UpAxis obj_up, double obj_scale) {
   const std::string extension = output_extension(file);
   check_volume(volume);
+  if (extension == ".obj") check_obj_scale(volume, obj_scale);
   auto output = std::make_unique<AtomicFile>(file);
-  if (extension == ".ply") write_ply(volume, *output);
-  if (extension == ".obj") write_obj(volume, obj_up, obj_scale, *output);
-  if (extension == ".stl") write_stl(volume, *output);
-  if (extension == ".glb") write_glb(volume, *output);
-  return output;
+  const StoredMesh stored = stored_for(volume, file, extension, obj_scale);
+  if (extension == ".ply") write_ply(volume, stored, *output);
+  if (extension == ".obj") write_obj(volume, stored, obj_up, obj_scale, *output);
+  if (extension == ".stl") write_stl(stored, *output);
+  if (extension == ".glb") write_glb(volume, stored, *output);
+  StagedVolume staged;
+  staged.report = {stored.rounding_m, stored.mesh.triangles.size(), stored.turned_facets};
+  staged.files.push_back(std::move(output));
+  if (auto beside = stage_place({volume.georeference, stored.rounding_m}, file)) {
+    staged.files.push_back(std::move(beside));
+  }
+  return staged;
 }
 
 }  // namespace solid
 
-void write_volume(const Volume& volume, const std::filesystem::path& file, UpAxis obj_up, double obj_scale) {
-  std::vector<std::unique_ptr<solid::AtomicFile>> files;
-  files.push_back(solid::stage_volume(volume, file, obj_up, obj_scale));
-  if (auto place = solid::stage_place(volume.georeference, file)) files.push_back(std::move(place));
-  solid::commit_all(files);
+WrittenVolume write_volume(const Volume& volume, const std::filesystem::path& file, UpAxis obj_up, double obj_scale) {
+  const solid::StagedVolume staged = solid::stage_volume(volume, file, obj_up, obj_scale);
+  solid::commit_all(staged.files);
+  return staged.report;
 }
 
 }  // namespace vantage

@@ -1,4 +1,5 @@
-// One writer per file format, and what they share. The volumes that they get are checked: write_volume.cpp.
+// One writer per file format, and what they share. The volumes that they get are checked, and rounded to the numbers of the
+// format: write_volume.cpp.
 #pragma once
 
 #include <bit>
@@ -9,32 +10,36 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <vector>
 
 #include "solid/atomic_file.h"
+#include "solid/stored_mesh.h"
 #include "vantage/volume.h"
 
 namespace vantage::solid {
 
-/// Does all that write_volume does but the last step, and the file beside an STL (write_place.h): the caller commits.
-/// Throws as write_volume does.
-std::unique_ptr<AtomicFile> stage_volume(const Volume& volume, const std::filesystem::path& file, UpAxis obj_up,
-                                         double obj_scale);
+/// A volume that is written but not in place yet.
+struct StagedVolume {
+  std::vector<std::unique_ptr<AtomicFile>> files;  ///< the volume's first; for STL the one beside it too
+  WrittenVolume report;
+};
 
-void write_ply(const Volume& volume, AtomicFile& file);
-/// `scale`: metres in one unit of the file.
-void write_obj(const Volume& volume, UpAxis up, double scale, AtomicFile& file);
-void write_stl(const Volume& volume, AtomicFile& file);
-void write_glb(const Volume& volume, AtomicFile& file);
+/// Does all that write_volume does but the last step: the caller gives the files to commit_all. Throws as write_volume
+/// does.
+StagedVolume stage_volume(const Volume& volume, const std::filesystem::path& file, UpAxis obj_up, double obj_scale);
+
+void write_ply(const Volume& volume, const StoredMesh& stored, AtomicFile& file);
+/// Throws Error(input) for a `scale` (metres in one unit of the file) that cannot be written in.
+void check_obj_scale(const Volume& volume, double scale);
+void write_obj(const Volume& volume, const StoredMesh& stored, UpAxis up, double scale, AtomicFile& file);
+void write_stl(const StoredMesh& stored, AtomicFile& file);
+void write_glb(const Volume& volume, const StoredMesh& stored, AtomicFile& file);
 
 /// A mesh as binary STL; `content` says in the header what it is.
 void write_stl_mesh(const Mesh& mesh, std::string_view content, AtomicFile& file);
 /// The extension in lower case when it is one of those that can be written. Throws Error(input) for another, unless
 /// `file` is a directory, which AtomicFile refuses with a better message.
 std::string output_extension(const std::filesystem::path& file);
-
-/// How far a coordinate of the mesh may move by being written in single precision, metres: half the distance between
-/// neighbouring numbers at the largest one.
-double single_precision_rounding(const Mesh& mesh);
 
 /// Throws Error(output) when a format that counts in 32 bits cannot hold that many. `limit` is the largest number
 /// allowed.

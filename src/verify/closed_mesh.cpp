@@ -1,5 +1,6 @@
 #include "verify/closed_mesh.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -94,12 +95,23 @@ EdgeSurvey survey(const Mesh& mesh, const std::vector<std::uint32_t>& names) {
   return result;
 }
 
+std::size_t count_flat(const Mesh& mesh, const std::vector<std::uint32_t>& places) {
+  return static_cast<std::size_t>(
+      std::count_if(mesh.triangles.begin(), mesh.triangles.end(), [&](const Triangle& triangle) {
+        const Triangle t{places[triangle[0]], places[triangle[1]], places[triangle[2]]};
+        const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
+        return t[0] == t[1] || t[1] == t[2] || t[2] == t[0] || (b - a).cross(c - a).isZero(0);
+      }));
+}
+
 Topology checked_topology(const Mesh& mesh, const std::string& name) {
   std::vector<std::uint32_t> names(mesh.vertices.size());
   std::iota(names.begin(), names.end(), 0u);
   const EdgeSurvey by_index = survey(mesh, names);
-  if (by_index.all_twice) return by_index.topology;
-  const EdgeSurvey by_position = survey(mesh, first_at_position(mesh.vertices));
+  const std::vector<std::uint32_t> places = first_at_position(mesh.vertices);
+  EdgeSurvey by_position = survey(mesh, places);
+  by_position.topology.flat = count_flat(mesh, places);
+  if (by_index.all_twice) by_position.topology.euler = by_index.topology.euler;
   if (!by_position.topology.closed) {
     std::ostringstream where;
     where.precision(10);

@@ -164,7 +164,8 @@ void Check::look(Verdict& verdict) const {
 void Check::settle(Verdict& verdict) const {
   if (verdict.on_surface || verdict.good == verdict.claimed) return;
   verdict.depth = volume_.distance_to_surface(verdict.position);
-  const bool counts = verdict.depth > options_.depth_tolerance * (verdict.position - view_.centre()).norm();
+  const double allowed = options_.depth_tolerance * (verdict.position - view_.centre()).norm() + options_.rounding_m;
+  const bool counts = verdict.depth > allowed;
   verdict.over = counts && verdict.claimed;
   verdict.under = counts && !verdict.claimed;
 }
@@ -190,6 +191,7 @@ VerifyReport Check::report(const std::vector<Verdict>& verdicts) {
   report.points = verdicts.size();
   report.closed = volume_.topology().closed;
   report.oriented = volume_.topology().oriented;
+  report.flat_facets = volume_.topology().flat;
   report.euler = volume_.topology().euler;
   const Verdict* worst_over = nullptr;
   const Verdict* worst_under = nullptr;
@@ -227,6 +229,7 @@ void check_arguments(const Sensor& sensor, const VerifyOptions& options) {
           "verify depth_tolerance");
   require(std::isfinite(options.tolerance_m) && options.tolerance_m >= 0, "the tolerance is negative",
           "verify tolerance");
+  require(std::isfinite(options.rounding_m) && options.rounding_m >= 0, "the rounding is negative", "verify rounding");
   require(options.target_samples >= 0, "the number of target samples is negative", "verify target_samples");
 }
 

@@ -1,0 +1,36 @@
+// Takes away what booleans leave of surfaces that all but coincide: edges and facets as small as rounding.
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "solid/csg.h"
+#include "solid/regions.h"
+
+namespace vantage::solid {
+
+struct CleaningLimits {
+  double distance_m = 0;   ///< edges shorter than this go, and facets narrower
+  double allowance_m = 0;  ///< what booleans may be off by, Solid::epsilon()
+};
+
+struct Cleaning {
+  std::size_t merged = 0;  ///< pairs of vertices that became one
+  std::size_t left = 0;    ///< edges shorter than the distance that had to stay
+  double moved_m = 0;      ///< no vertex, and so no point of the surface, has moved farther
+};
+
+/// Distances that suit a volume: a ten-thousandth of its tolerance, but well above what coordinates in the scene frame
+/// and booleans resolve, and far below its size.
+CleaningLimits cleaning_limits(double tolerance_m, double allowance_m, const Box& scene_bounds);
+
+/// Merges the ends of short edges, and in narrow facets a corner with the side across from it, where the solid loses by
+/// it: what a merge adds is thinner than the allowance, or than a hundredth of the distance where the two are no farther
+/// apart. All merges together add no more than ten allowances and a hundredth of the distance. No point of the surface moves by more than numerics::kFarthestMove distances. The mesh must be closed with two triangles to an edge,
+/// as to_mesh makes it, and stays so; it is in the scene frame, where `surfaces` (by label; none: no planes) say which
+/// facets lie in a plane: those stay in it. `origin`: near the mesh. docs/theory.md, "Cleaning", has the argument.
+/// Cost: linear, but for what is merged.
+Cleaning clean_inward(LabelledMesh& labelled, const Vec3& origin, std::span<const Surface> surfaces,
+                      const CleaningLimits& limits);
+
+}  // namespace vantage::solid
