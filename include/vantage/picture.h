@@ -72,7 +72,8 @@ struct PicturePanel {
 Picture arrange_sheet(const std::vector<PicturePanel>& panels, int columns, const std::string& title,
                       const std::string& subtitle);
 
-/// PNG, 8 bits a channel. Written whole or not at all; throws Error(output), Error(input) as AtomicFile does.
-void write_png(const Picture& picture, const std::filesystem::path& file);
+/// PNG, 8 bits a channel. Written whole or not at all; throws Error(output), Error(input) as AtomicFile does, and
+/// Error(cancelled) when told to stop.
+void write_png(const Picture& picture, const std::filesystem::path& file, const Progress& progress = {});
 
 }  // namespace vantage

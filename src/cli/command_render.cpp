@@ -107,8 +107,9 @@ int run(const Options& options) {
   {
     ProgressLine progress(options.common);
     const auto draw = is_sheet ? sheet : picture;
-    write_png(draw(options, mission, view, size, progress.callback()),
-              outgoing ? outgoing->path() : fs::path(options.output));
+    const Progress follow = progress.callback();
+    write_png(draw(options, mission, view, size, follow), outgoing ? outgoing->path() : fs::path(options.output),
+              follow);
   }
   if (outgoing) {
     outgoing->send();

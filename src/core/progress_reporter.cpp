@@ -23,7 +23,7 @@ struct ProgressReporter::State {
 
   /// With the mutex locked.
   void call() {
-    if (!cancelled && !progress(stage.load(), fraction)) cancelled = true;
+    if (!cancelled && !progress(stage.load(), fraction.load())) cancelled = true;
     next = (Clock::now() + kPause).time_since_epoch().count();
   }
 
@@ -38,7 +38,7 @@ struct ProgressReporter::State {
   std::atomic<bool> cancelled = false;
   std::atomic<const char*> stage = "starting";
   std::atomic<Clock::rep> next = 0;
-  double fraction = 0;
+  std::atomic<double> fraction = 0;
 };
 
 ProgressReporter::ProgressReporter(const Progress& progress, std::string where) : asks_always_(g_asks_always > 0) {
@@ -58,9 +58,9 @@ void ProgressReporter::begin(const char* stage) const {
 
 void ProgressReporter::finish() const {
   if (!state_) return;
+  raise(from_ + share_);
   {
     const std::lock_guard lock(state_->mutex);
-    state_->fraction = std::clamp(from_ + share_, state_->fraction, 1.0);
     state_->call();
   }
   state_->throw_if_cancelled();
@@ -71,13 +71,17 @@ bool ProgressReporter::is_due() const {
          Clock::now().time_since_epoch().count() >= state_->next.load(std::memory_order_relaxed);
 }
 
-void ProgressReporter::ask(double fraction) const {
+void ProgressReporter::raise(double fraction) const {
+  fraction = std::min(fraction, 1.0);
+  double before = state_->fraction.load(std::memory_order_relaxed);
+  while (fraction > before && !state_->fraction.compare_exchange_weak(before, fraction)) {
+  }
+}
+
+void ProgressReporter::ask() const {
   {
     const std::unique_lock lock(state_->mutex, std::try_to_lock);
-    if (lock && is_due()) {  // another thread may just have asked
-      state_->fraction = std::clamp(fraction, state_->fraction, 1.0);
-      state_->call();
-    }
+    if (lock && is_due()) state_->call();  // another thread may just have asked
   }
   state_->throw_if_cancelled();
 }
@@ -92,5 +96,21 @@ ProgressReporter ProgressReporter::part(double from, double to) const {
 ProgressReporter::AskAlways::AskAlways() { ++g_asks_always; }
 
 ProgressReporter::AskAlways::~AskAlways() { --g_asks_always; }
+
+bool ProgressBridge::ask(void* bridge, double fraction) noexcept {
+  auto* const self = static_cast<ProgressBridge*>(bridge);
+  try {
+    self->progress_.report(fraction);
+    return true;
+  } catch (...) {
+    const std::lock_guard lock(self->mutex_);
+    if (!self->thrown_) self->thrown_ = std::current_exception();
+    return false;
+  }
+}
+
+void ProgressBridge::rethrow() const {
+  if (thrown_) std::rethrow_exception(thrown_);
+}
 
 }  // namespace vantage::core

@@ -3,7 +3,9 @@
 
 #include <atomic>
 #include <cstddef>
+#include <exception>
 #include <memory>
+#include <mutex>
 #include <string>
 
 #include "vantage/progress.h"
@@ -33,7 +35,9 @@ class ProgressReporter {
 
   /// The fraction that is done of the stage (or of this part of it). Looks at the clock: some ten nanoseconds.
   void report(double fraction) const {
-    if (state_ && is_due()) ask(from_ + share_ * fraction);
+    if (!state_) return;
+    raise(from_ + share_ * fraction);
+    check();
   }
   void report(std::size_t done, std::size_t total) const {
     report(static_cast<double>(done) / static_cast<double>(total > 0 ? total : 1));
@@ -41,7 +45,7 @@ class ProgressReporter {
 
   /// Asks only whether to go on, and leaves the fraction as it is.
   void check() const {
-    if (state_ && is_due()) ask(0);
+    if (state_ && is_due()) ask();
   }
 
   /// The same for loops of a microsecond a turn and less: look at the clock at every 64th call.
@@ -72,7 +76,8 @@ class ProgressReporter {
     return (++calls & 63U) == 0 || asks_always_;
   }
   bool is_due() const;
-  void ask(double fraction) const;
+  void raise(double fraction) const;
+  void ask() const;
 
   std::shared_ptr<State> state_;
   bool asks_always_ = false;
@@ -95,6 +100,25 @@ class ProgressCounter {
   const ProgressReporter& progress_;
   std::size_t total_;
   std::atomic<std::size_t> done_ = 0;
+};
+
+/// For libraries that ask by a plain function, from any thread, through which nothing may be thrown.
+class ProgressBridge {
+ public:
+  /// Keeps a reference to `progress`.
+  explicit ProgressBridge(const ProgressReporter& progress) : progress_(progress) {}
+
+  /// False to stop. `bridge` is this.
+  static bool ask(void* bridge, double fraction) noexcept;
+
+  /// To be called when the library is done or has given up. Throws Error(cancelled) where ask() said no, and whatever
+  /// else the callback threw.
+  void rethrow() const;
+
+ private:
+  const ProgressReporter& progress_;
+  std::mutex mutex_;
+  std::exception_ptr thrown_;
 };
 
 }  // namespace vantage::core

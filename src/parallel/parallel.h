@@ -6,6 +6,8 @@
 #include <functional>
 #include <vector>
 
+#include "core/progress_reporter.h"
+
 namespace vantage::parallel {
 
 /// Calls `body(begin, end)` for ranges that together cover [0, count), at most `grain` long, on any thread, in any
@@ -25,17 +27,19 @@ void with_threads(int threads, const std::function<void()>& body);
 void run_while_asking(const std::function<void()>& body, const std::function<void()>& ask);
 
 /// Sorts with all threads. `less` must be a total order on distinct elements, so that the result is the same whatever
-/// the number of threads.
+/// the number of threads. Throws Error(cancelled); the items are then in some order.
 template <typename T, typename Less>
-void sort(std::vector<T>& items, Less less) {
+void sort(std::vector<T>& items, Less less, const core::ProgressReporter& progress = {}) {
   constexpr std::size_t kSerial = 1 << 14;
   const std::function<void(std::size_t, std::size_t)> run = [&](std::size_t begin, std::size_t end) {
+    progress.check();
     if (end - begin <= kSerial) {
       std::sort(items.begin() + begin, items.begin() + end, less);
       return;
     }
     const std::size_t middle = begin + (end - begin) / 2;
     both([&] { run(begin, middle); }, [&] { run(middle, end); });
+    progress.check();
     std::inplace_merge(items.begin() + begin, items.begin() + middle, items.begin() + end, less);
   };
   run(0, items.size());

@@ -1,6 +1,7 @@
 #include "render/canvas.h"
 
 #include <cstddef>
+#include <utility>
 
 #include "vantage/error.h"
 
@@ -41,10 +42,16 @@ std::size_t character_length(const std::string& text, std::size_t at) {
   return length;
 }
 
-cairo_status_t append(void* to, const unsigned char* bytes, unsigned length) {
-  static_cast<std::string*>(to)->append(reinterpret_cast<const char*>(bytes), length);
-  return CAIRO_STATUS_SUCCESS;
-}
+struct PngStream {
+  std::string bytes;
+  core::ProgressBridge* bridge;
+
+  static cairo_status_t append(void* to, const unsigned char* more, unsigned length) {
+    auto* const stream = static_cast<PngStream*>(to);
+    stream->bytes.append(reinterpret_cast<const char*>(more), length);
+    return core::ProgressBridge::ask(stream->bridge, 0) ? CAIRO_STATUS_SUCCESS : CAIRO_STATUS_WRITE_ERROR;
+  }
+};
 
 }  // namespace
 
@@ -180,10 +187,13 @@ Picture Canvas::picture() const {
   return picture;
 }
 
-std::string Canvas::png() const {
-  std::string bytes;
-  check(cairo_surface_write_to_png_stream(surface_.get(), append, &bytes), "writing PNG");
-  return bytes;
+std::string Canvas::png(const core::ProgressReporter& progress) const {
+  core::ProgressBridge bridge(progress);
+  PngStream stream{{}, &bridge};
+  const cairo_status_t status = cairo_surface_write_to_png_stream(surface_.get(), PngStream::append, &stream);
+  bridge.rethrow();
+  check(status, "writing PNG");
+  return std::move(stream.bytes);
 }
 
 }  // namespace vantage::render

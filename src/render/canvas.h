@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "core/progress_reporter.h"
 #include "render/palette.h"
 #include "vantage/picture.h"
 
@@ -34,7 +35,8 @@ class Canvas {
   void place(const Picture& picture, double x, double y);
 
   Picture picture() const;
-  std::string png() const;
+  /// Throws Error(cancelled).
+  std::string png(const core::ProgressReporter& progress = {}) const;
 
  private:
   struct SurfaceEnd {

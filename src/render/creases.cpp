@@ -7,6 +7,8 @@
 #include <numbers>
 #include <utility>
 
+#include "parallel/parallel.h"
+
 namespace vantage::render {
 namespace {
 
@@ -33,7 +35,7 @@ Facet facet_of(const Mesh& mesh, const Triangle& t) {
   return {size > 0 ? Vec3(cross / size) : Vec3(Vec3::Zero()), size <= kThin * longest2};
 }
 
-std::vector<Side> sorted_sides(const Mesh& mesh) {
+std::vector<Side> sorted_sides(const Mesh& mesh, const core::ProgressReporter& progress) {
   std::vector<Side> sides;
   sides.reserve(3 * mesh.triangles.size());
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -42,9 +44,10 @@ std::vector<Side> sorted_sides(const Mesh& mesh) {
       sides.push_back({std::min(a, b), std::max(a, b), t});
     }
   }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+  const auto less = [](const Side& a, const Side& b) {
     return a.low != b.low ? a.low < b.low : (a.high != b.high ? a.high < b.high : a.triangle < b.triangle);
-  });
+  };
+  parallel::sort(sides, less, progress);
   return sides;
 }
 
@@ -75,19 +78,23 @@ void mend_thin(const Mesh& mesh, const std::vector<Side>& sides, std::vector<Fac
 }  // namespace
 
 std::vector<Crease> find_creases(const Mesh& mesh, std::span<const std::uint8_t> kind_of, const Vec3& eye,
-                                 const Vec3& back, bool perspective) {
+                                 const Vec3& back, bool perspective, const core::ProgressReporter& progress) {
   std::vector<Facet> facets;
   facets.reserve(mesh.triangles.size());
   for (const Triangle& t : mesh.triangles) facets.push_back(facet_of(mesh, t));
 
-  const std::vector<Side> sides = sorted_sides(mesh);
+  const std::vector<Side> sides = sorted_sides(mesh, progress);
   mend_thin(mesh, sides, facets);
+  progress.check();
 
   const auto faces_viewer = [&](std::uint32_t t, const Vec3& point) {
     return facets[t].normal.dot(perspective ? Vec3(eye - point) : back) > 0;
   };
+  const auto are_of_two_kinds = [&](std::uint32_t one, std::uint32_t other) {
+    return !kind_of.empty() && kind_of[one] != kind_of[other];
+  };
   const auto strength = [&](std::uint32_t one, std::uint32_t other, const Vec3& point) {
-    if (!kind_of.empty() && kind_of[one] != kind_of[other]) return 1.0;
+    if (are_of_two_kinds(one, other)) return 1.0;
     if (facets[one].is_thin || facets[other].is_thin) return 0.0;
     const double angle = std::acos(std::clamp(facets[one].normal.dot(facets[other].normal), -1.0, 1.0));
     const double sharpness = std::clamp((angle - kFlat) / (kSharp - kFlat), 0.0, 1.0);
@@ -100,11 +107,15 @@ std::vector<Crease> find_creases(const Mesh& mesh, std::span<const std::uint8_t>
   for (std::size_t i = 0, next = 0; i < sides.size(); i = next) {
     while (next < sides.size() && sides[next].low == sides[i].low && sides[next].high == sides[i].high) ++next;
     const Vec3 &a = mesh.vertices[sides[i].low], &b = mesh.vertices[sides[i].high];
-    double most = next - i == 1 ? 1 : 0;  // a hole has a rim
+    bool is_border = next - i == 1;  // a hole has a rim
+    double most = is_border ? 1 : 0;
     for (std::size_t k = i + 1; k < next; ++k) {
-      most = std::max(most, strength(sides[i].triangle, sides[k].triangle, 0.5 * (a + b)));
+      const std::uint32_t one = sides[i].triangle, other = sides[k].triangle;
+      is_border = is_border || are_of_two_kinds(one, other);
+      most = std::max(most, strength(one, other, 0.5 * (a + b)));
     }
-    if (most > 0) creases.push_back({a, b, most});
+    if (most > 0) creases.push_back({a, b, most, is_border});
+    progress.tick();
   }
   return creases;
 }

@@ -6,8 +6,8 @@
 #include <limits>
 #include <map>
 #include <numeric>
-#include <tuple>
 
+#include "parallel/parallel.h"
 #include "render/creases.h"
 #include "render/palette.h"
 #include "render/sight.h"
@@ -76,11 +76,13 @@ std::array<Vec3, 8> corners_of(const Box& box) {
   return corners;
 }
 
-std::vector<Vec3> framed_points(const Scene& scene, const PictureRequest& request) {
+std::vector<Vec3> framed_points(const Scene& scene, const PictureRequest& request,
+                                const core::ProgressReporter& progress) {
   if (!request.frame.empty()) return request.frame;
   std::vector<Vec3> points = corners_of(target_outlines(request));
   if (const Mesh* solid = solid_of(request)) {
     for (const Triangle& t : solid->triangles) {
+      progress.tick();
       for (const std::uint32_t v : t) points.push_back(solid->vertices[v]);
     }
   }
@@ -115,7 +117,7 @@ struct Parts {
   std::vector<Box> boxes;         ///< those of parts that are another's stay empty
 };
 
-Parts parts_of(const Scene& scene, double building_size) {
+Parts parts_of(const Scene& scene, double building_size, const core::ProgressReporter& progress) {
   const Mesh& mesh = scene.mesh;
   Parts parts{std::vector<std::uint32_t>(mesh.triangles.size()), std::vector<Box>(mesh.triangles.size())};
   std::iota(parts.of.begin(), parts.of.end(), 0U);
@@ -130,28 +132,38 @@ Parts parts_of(const Scene& scene, double building_size) {
   std::vector<Corner> corners;
   corners.reserve(3 * mesh.triangles.size());
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    progress.tick();
     const std::uint32_t object = t < scene.object_of.size() ? scene.object_of[t] : 0;
     for (const std::uint32_t v : mesh.triangles[t]) corners.push_back({mesh.vertices[v], object, t});
   }
-  const auto key = [](const Corner& c) { return std::tuple(c.object, c.place.x(), c.place.y(), c.place.z()); };
-  std::sort(corners.begin(), corners.end(), [&](const Corner& a, const Corner& b) {
-    return std::tuple_cat(key(a), std::tuple(a.triangle)) < std::tuple_cat(key(b), std::tuple(b.triangle));
-  });
+  const auto less = [](const Corner& a, const Corner& b) {
+    if (a.object != b.object) return a.object < b.object;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (a.place[axis] != b.place[axis]) return a.place[axis] < b.place[axis];
+    }
+    return a.triangle < b.triangle;
+  };
+  parallel::sort(corners, less, progress);
   for (std::size_t i = 1; i < corners.size(); ++i) {
-    if (key(corners[i]) == key(corners[i - 1])) parts.of[root(corners[i].triangle)] = root(corners[i - 1].triangle);
+    progress.tick();
+    if (corners[i].object != corners[i - 1].object || corners[i].place != corners[i - 1].place) continue;
+    parts.of[root(corners[i].triangle)] = root(corners[i - 1].triangle);
   }
   std::vector<Box> objects(scene.objects.size());
   std::vector<std::uint32_t> first(scene.objects.size(), std::numeric_limits<std::uint32_t>::max());
   for (std::uint32_t t = 0; t < scene.object_of.size(); ++t) {
+    progress.tick();
     for (const std::uint32_t v : mesh.triangles[t]) objects[scene.object_of[t]].extend(mesh.vertices[v]);
   }
   for (std::uint32_t t = 0; t < scene.object_of.size(); ++t) {
+    progress.tick();
     const std::uint32_t object = scene.object_of[t];
     if ((objects[object].max - objects[object].min).head<2>().maxCoeff() > building_size) continue;
     first[object] = std::min(first[object], t);
     parts.of[root(t)] = root(first[object]);
   }
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    progress.tick();
     parts.of[t] = root(t);
     for (const std::uint32_t v : mesh.triangles[t]) parts.boxes[parts.of[t]].extend(mesh.vertices[v]);
   }
@@ -159,11 +171,13 @@ Parts parts_of(const Scene& scene, double building_size) {
 }
 
 /// The height at which most of the level surface lies that is not above `ceiling`: streets, not roofs.
-double ground_height(const Scene& scene, const Eigen::Vector2d& focus, double radius, double ceiling) {
+double ground_height(const Scene& scene, const Eigen::Vector2d& focus, double radius, double ceiling,
+                     const core::ProgressReporter& progress) {
   constexpr double kStep = 0.25;
   std::map<long, double> area_at;
   double lowest = std::numeric_limits<double>::infinity();
   for (const Triangle& t : scene.mesh.triangles) {
+    progress.tick();
     const Vec3 &a = scene.mesh.vertices[t[0]], &b = scene.mesh.vertices[t[1]], &c = scene.mesh.vertices[t[2]];
     if (plan_distance(a, b, c, focus) > radius) continue;
     lowest = std::min({lowest, a.z(), b.z(), c.z()});
@@ -182,12 +196,13 @@ double ground_height(const Scene& scene, const Eigen::Vector2d& focus, double ra
 class Builder {
  public:
   Builder(const Scene& scene, const PictureRequest& request, const PictureExtent& extent, const View& view,
-          const Sight& sight)
+          const Sight& sight, const core::ProgressReporter& progress)
       : scene_(scene),
         request_(request),
         extent_(extent),
         view_(view),
         sight_(sight),
+        progress_(progress),
         unit_(std::sqrt(1.0 * view.width * view.height) / 1386) {
     list_.origin = extent.centre;
   }
@@ -260,9 +275,10 @@ class Builder {
 
   void solids(const Vec3& middle) {
     const Mesh& mesh = scene_.mesh;
-    const Parts parts = parts_of(scene_, extent_.radius);
+    const Parts parts = parts_of(scene_, extent_.radius, progress_);
     const std::vector<double> opacities = opacities_of(parts, middle);
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+      progress_.tick();
       const Triangle& t = mesh.triangles[i];
       const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
       const bool is_low = std::max({a.z(), b.z(), c.z()}) < extent_.ground_z + kGroundBand;
@@ -322,13 +338,17 @@ class Builder {
       }
     }
     for (std::size_t t = 0; t < solid->triangles.size(); ++t) {
+      progress_.tick();
       const Triangle& corners = solid->triangles[t];
       const Colour colour = kinds.empty() ? kPlainVolume : colour_of(static_cast<CauseKind>(kinds[t]));
       triangle(list_.volume, solid->vertices[corners[0]], solid->vertices[corners[1]], solid->vertices[corners[2]],
                packed(colour));
     }
-    for (const Crease& crease : find_creases(*solid, kinds, view_.eye, view_.back, view_.perspective)) {
-      line(list_.lines, crease.a, crease.b, kCrease, 0.85 * crease.strength, 1.2 + 0.7 * crease.strength, 0.35, 0);
+    const std::vector<Crease> creases =
+        find_creases(*solid, kinds, view_.eye, view_.back, view_.perspective, progress_);
+    for (const Crease& crease : thin_out(creases, view_, unit_, progress_)) {
+      line(list_.creases, crease.a, crease.b, kCrease, crease_opacity(crease.strength), crease_width(crease.strength),
+           0.35, 0);
     }
   }
 
@@ -376,6 +396,7 @@ class Builder {
   const PictureExtent& extent_;
   const View& view_;
   const Sight& sight_;
+  const core::ProgressReporter& progress_;
   double unit_;  // pixels of the picture for one of a picture of 1600 x 1200
   DrawList list_;
 };
@@ -388,9 +409,9 @@ double round_length(double length) {
   return power * (factor >= 5 ? 5 : (factor >= 2 ? 2 : 1));
 }
 
-PictureExtent find_extent(const Scene& scene, const PictureRequest& request) {
+PictureExtent find_extent(const Scene& scene, const PictureRequest& request, const core::ProgressReporter& progress) {
   PictureExtent extent;
-  extent.points = framed_points(scene, request);
+  extent.points = framed_points(scene, request, progress);
   for (const Vec3& point : extent.points) extent.framed.extend(point);
   extent.target = corners_of(target_outlines(request));
   const std::vector<Vec3>& target = extent.target;
@@ -404,13 +425,13 @@ PictureExtent find_extent(const Scene& scene, const PictureRequest& request) {
   for (const Vec3& point : extent.points) radius = std::max(radius, (point.head<2>() - middle).norm());
   extent.radius = std::max(radius, 1.0);
   const double ceiling = target.empty() ? extent.framed.max.z() : extent.centre.z() + kGroundBand;
-  extent.ground_z = ground_height(scene, middle, extent.radius, ceiling);
+  extent.ground_z = ground_height(scene, middle, extent.radius, ceiling, progress);
   return extent;
 }
 
 DrawList make_draw_list(const Scene& scene, const PictureRequest& request, const PictureExtent& extent,
-                        const View& view, const Sight& sight) {
-  return Builder(scene, request, extent, view, sight).build();
+                        const View& view, const Sight& sight, const core::ProgressReporter& progress) {
+  return Builder(scene, request, extent, view, sight, progress).build();
 }
 
 }  // namespace vantage::render

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/progress_reporter.h"
 #include "render/view.h"
 #include "vantage/geometry.h"
 #include "vantage/picture.h"
@@ -34,7 +35,8 @@ struct DrawList {
   std::vector<DrawVertex> volume;                   ///< translucent
   std::vector<DrawVertex> target;                   ///< a flat colour over the volume, hidden by the scene only
   std::vector<DrawLine> ground_lines;               ///< below the volume
-  std::vector<DrawLine> lines;                      ///< above it
+  std::vector<DrawLine> creases;                    ///< above it, below the target
+  std::vector<DrawLine> lines;                      ///< above all
   Eigen::Vector2f focus = Eigen::Vector2f::Zero();  ///< middle of the disc of scene that is shown
   float fade_begin = 0, fade_end = 1;               ///< radii between which it fades into the paper
   Eigen::Vector3f light_centre = Eigen::Vector3f::Zero();
@@ -53,10 +55,11 @@ struct PictureExtent {
   double radius = 1;  ///< of the disc about `framed`'s middle that the scene is shown in full
 };
 
-PictureExtent find_extent(const Scene& scene, const PictureRequest& request);
+PictureExtent find_extent(const Scene& scene, const PictureRequest& request,
+                          const core::ProgressReporter& progress = {});
 /// Parts of the scene that hide the target are drawn as of glass.
 DrawList make_draw_list(const Scene& scene, const PictureRequest& request, const PictureExtent& extent,
-                        const View& view, const Sight& sight);
+                        const View& view, const Sight& sight, const core::ProgressReporter& progress = {});
 
 /// 1, 2 or 5 times a power of ten, the largest that is at most `length` (> 0).
 double round_length(double length);

@@ -46,6 +46,7 @@ namespace vantage::render {
   X(BINDTEXTUREUNIT, BindTextureUnit)                           \
   X(BINDVERTEXARRAY, BindVertexArray)                           \
   X(BLENDFUNC, BlendFunc)                                       \
+  X(BLENDFUNCSEPARATE, BlendFuncSeparate)                       \
   X(CHECKNAMEDFRAMEBUFFERSTATUS, CheckNamedFramebufferStatus)   \
   X(CLEARNAMEDFRAMEBUFFERFV, ClearNamedFramebufferfv)           \
   X(CLIENTWAITSYNC, ClientWaitSync)                             \

@@ -1,16 +1,21 @@
-// Each frame: shadow maps of its lights, the scene into images of depth, normal and colour, these shaded; the volume by
-// depth peeling (C. Everitt, Interactive Order-Independent Transparency, 2001), blended from front to back; lines last.
+// Each frame: shadow maps of its lights, the scene into images of depth, normal and colour, these shaded; the volume's
+// first layers by depth peeling (C. Everitt, Interactive Order-Independent Transparency, 2001), blended from front to
+// back, and all layers behind them at once, in their mean colour; lines last.
 #include "render/gl_picture.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
+#include <chrono>
+#include <cstdio>
+#include <ctime>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
 #include <numbers>
 
+#include "render/coarse_triangles.h"
 #include "render/gl_objects.h"
 #include "render/gl_picture_shaders.h"
 #include "vantage/error.h"
@@ -18,15 +23,26 @@
 namespace vantage::render {
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
 constexpr int kSky = 9, kSun = 2;  // lights of a frame, as in the shaders
 constexpr int kSkyMapSize = 512, kSunMapSize = 2048;
-constexpr int kMostLayers = 40;       // of the volume: a ray through more crossings is rare, and they hardly show
-constexpr double kSunRadius = 0.035;  // radians: softens the shadows
+constexpr std::size_t kManySolids = 100'000;  // triangles of the scene, from which on the sky's shadows are simplified
+constexpr int kMostLayers = 12;                 // of the volume that are peeled: a fifth of the light comes from behind
+constexpr int kLeastLayers = 3;                 // of a volume of very many facets, which are drawn anew for each layer
+constexpr std::size_t kPeeledFacets = 800'000;  // in a frame
+constexpr double kSunRadius = 0.035;            // radians: softens the shadows
 
 // Sixteenths of a pixel: no two in a row or a column (the standard pattern of eight).
 constexpr std::array<std::array<int, 2>, 8> kShifts = {
     {{1, -3}, {-1, 3}, {5, 1}, {-3, -5}, {-5, 5}, {-7, -1}, {3, 7}, {7, -7}}};
 constexpr int kFrames = static_cast<int>(kShifts.size());
+
+// Where the processor draws, whatever waits to be drawn must be done before a picture can be given up.
+constexpr GLsizei kPartVertices = 6 << 13;           // drawn at a time: whole triangles, and whole lines
+constexpr int kPartPixels = 1 << 18;                 // likewise, of passes over all pixels
+constexpr std::chrono::milliseconds kMostQueue{40};  // of work that is handed over before it is waited for
+constexpr GLuint64 kGlance = 10'000'000;             // nanoseconds
 
 /// As `Frame` in the shaders (std140).
 struct FrameBlock {
@@ -77,31 +93,35 @@ Eigen::Vector4f four(const Eigen::Vector3f& v, float w) { return {v.x(), v.y(), 
 
 class Painter {
  public:
-  Painter(const GlContext& context, const DrawList& list, const View& view)
-      : context_(context), gl_(context.gl()), list_(list), view_(view), objects_(context) {
+  Painter(const GlContext& context, const DrawList& list, const View& view, const core::ProgressReporter& progress)
+      : context_(context), gl_(context.gl()), list_(list), view_(view), progress_(progress), objects_(context) {
     programs();
     images();
     solids_ = triangles(list.solids);
+    skylit_ = skylit();
     volume_ = triangles(list.volume);
     target_ = triangles(list.target);
     ground_lines_ = lines(list.ground_lines);
+    creases_ = lines(list.creases);
     lines_ = lines(list.lines);
-    empty_ = {objects_.vertex_array(), 3};
+    const std::size_t facets = std::max<std::size_t>(list.volume.size() / 3, 1);
+    layers_ = static_cast<int>(std::clamp<std::size_t>(kPeeledFacets / facets, kLeastLayers, kMostLayers));
+    screen_ = objects_.vertex_array();
     frame_block_ = objects_.buffer(nullptr, sizeof(FrameBlock), GL_DYNAMIC_DRAW);
     layer_query_ = objects_.query();
     context_.check("uploading what a picture shows");
   }
 
-  std::vector<std::uint8_t> paint(const core::ProgressReporter& progress) {
+  std::vector<std::uint8_t> paint() {
     gl_.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
     gl_.BindBufferBase(GL_UNIFORM_BUFFER, 0, frame_block_);
     gl_.DepthFunc(GL_GREATER);
     clear(sum_target_, 0);
     for (int frame = 0; frame < kFrames; ++frame) {
-      progress.report(static_cast<double>(frame) / kFrames);
       paint_frame(frame);
       context_.check("drawing a picture");
     }
+    settle();
     return read();
   }
 
@@ -117,6 +137,8 @@ class Painter {
     film_program_ = program("volumes", kFilmVertex, kFilmFragment);
     copy_program_ = program("copies", kScreenVertex, kCopyFragment);
     layer_program_ = program("layers", kScreenVertex, kLayerFragment);
+    rest_program_ = program("volumes behind", kFilmVertex, kRestFragment);
+    mean_program_ = program("layers behind", kScreenVertex, kMeanFragment);
     target_program_ = program("targets", kTargetVertex, kTargetFragment);
     line_program_ = program("lines", kLineVertex, kLineFragment);
     which_ = gl_.GetUniformLocation(shadow_program_, "which");
@@ -135,6 +157,8 @@ class Painter {
     scene_target_ = objects_.framebuffer({normal_, albedo_}, depth_);
     image_target_ = objects_.framebuffer({image_}, 0);
     film_target_ = objects_.framebuffer({film_}, 0);
+    rest_ = objects_.texture(GL_RGBA16F, w, h);
+    rest_target_ = objects_.framebuffer({rest_}, 0);
     sum_target_ = objects_.framebuffer({sum_}, 0);
     for (std::size_t i = 0; i < layer_depths_.size(); ++i) {
       layer_depths_[i] = objects_.texture(GL_DEPTH_COMPONENT32F, w, h);
@@ -174,6 +198,16 @@ class Painter {
     return result;
   }
 
+  /// What keeps the light of the sky away. Its shadows are rough, so that less than all will do where there is much.
+  Batch skylit() {
+    if (list_.solids.size() / 3 < kManySolids) return solids_;
+    const float texel = 2 * list_.light_radius / kSkyMapSize;
+    const std::vector<Eigen::Vector3f> corners = coarse_triangles(list_.solids, 0.5F * texel, progress_);
+    const Batch result = batch(corners.data(), sizeof(Eigen::Vector3f), corners.size());
+    attribute(result, 0, 3, GL_FLOAT, 0);
+    return result;
+  }
+
   Batch lines(const std::vector<DrawLine>& lines) {
     std::vector<LineVertex> vertices;
     vertices.reserve(6 * lines.size());
@@ -199,11 +233,50 @@ class Painter {
     gl_.ClearNamedFramebufferfv(target, GL_DEPTH, 0, &zero);
   }
 
-  void draw(GLuint program, const Batch& batch, GLenum primitive = GL_TRIANGLES) {
+  void draw(GLuint program, const Batch& batch) {
     if (batch.count == 0) return;
     gl_.UseProgram(program);
     gl_.BindVertexArray(batch.array);
-    gl_.DrawArrays(primitive, 0, batch.count);
+    for (GLsizei first = 0; first < batch.count; first += kPartVertices) {
+      gl_.DrawArrays(GL_TRIANGLES, first, std::min(kPartVertices, batch.count - first));
+      pace();
+    }
+  }
+
+  /// Runs a program for all pixels of the target.
+  void fill(GLuint program) {
+    gl_.UseProgram(program);
+    gl_.BindVertexArray(screen_);
+    const int rows = std::max(1, kPartPixels / view_.width);
+    for (int row = 0; row < view_.height; row += rows) {
+      gl_.Viewport(0, row, view_.width, std::min(rows, view_.height - row));
+      gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+      pace();
+    }
+    gl_.Viewport(0, 0, view_.width, view_.height);
+  }
+
+  static void lap(const char* w) { static clock_t l = 0; clock_t n = clock(); if (l && n - l > 60000) fprintf(stderr, "LAP %s %.3f\n", w, (n-l)/1e6); l = n; }
+  void pace() {
+    lap("draw");
+    progress_.check();
+    if (Clock::now() - settled_ > kMostQueue) settle();
+  }
+
+  /// Waits until all is drawn.
+  void settle() {
+    lap("before settle");
+    GLsync fence = gl_.FenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+    const auto end = [&] { gl_.DeleteSync(fence); };
+    try {
+      while (gl_.ClientWaitSync(fence, GL_SYNC_FLUSH_COMMANDS_BIT, kGlance) == GL_TIMEOUT_EXPIRED) {lap("wait"); progress_.check();}
+ lap("waited");
+    } catch (...) {
+      end();
+      throw;
+    }
+    end();
+    settled_ = Clock::now();
   }
 
   void begin(GLuint target, bool with_depth) {
@@ -257,7 +330,7 @@ class Painter {
       gl_.Viewport(0, 0, size, size);
       clear_depth(shadow_target_);
       gl_.ProgramUniform1i(shadow_program_, which_, i);
-      draw(shadow_program_, solids_);
+      draw(shadow_program_, i < kSky ? skylit_ : solids_);
     }
     gl_.Disable(GL_DEPTH_CLAMP);
   }
@@ -274,7 +347,7 @@ class Painter {
     gl_.BindTextureUnit(2, albedo_);
     gl_.BindTextureUnit(3, sky_maps_);
     gl_.BindTextureUnit(4, sun_maps_);
-    draw(shade_program_, empty_);
+    fill(shade_program_);
 
     blend(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     clear_depth(layer_targets_[0]);
@@ -289,7 +362,11 @@ class Painter {
     if (volume_.count == 0) return;
     clear(film_target_, 0);
     GLuint before = nothing_before_;
-    for (int layer = 0; layer < kMostLayers; ++layer) {
+    for (int layer = 0;; ++layer) {
+      if (layer == layers_) {
+        rest(before);
+        break;
+      }
       const std::size_t at = layer == 0 ? 0 : static_cast<std::size_t>(1 + layer % 2);
       begin(layer_targets_[at], true);
       clear_depth(layer_targets_[at]);
@@ -298,6 +375,7 @@ class Painter {
       gl_.BeginQuery(GL_ANY_SAMPLES_PASSED, layer_query_);
       draw(film_program_, volume_);
       gl_.EndQuery(GL_ANY_SAMPLES_PASSED);
+      settle();
       GLuint is_any = 0;
       gl_.GetQueryObjectuiv(layer_query_, GL_QUERY_RESULT, &is_any);
       if (is_any == 0) break;
@@ -307,32 +385,55 @@ class Painter {
       blend(GL_ONE_MINUS_DST_ALPHA, GL_ONE);  // under what is there
       gl_.BindTextureUnit(0, layer_);
       gl_.BindTextureUnit(1, before);
-      draw(layer_program_, empty_);
+      fill(layer_program_);
     }
     begin(image_target_, false);
     blend(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     gl_.BindTextureUnit(0, film_);
-    draw(copy_program_, empty_);
+    fill(copy_program_);
+  }
+
+  /// All of the volume that is behind the layer `before`.
+  void rest(GLuint before) {
+    begin(rest_target_, false);
+    const std::array<GLfloat, 4> nothing = {0, 0, 0, 1};
+    gl_.ClearNamedFramebufferfv(rest_target_, GL_COLOR, 0, nothing.data());
+    gl_.BindTextureUnit(0, depth_);
+    gl_.BindTextureUnit(1, before);
+    gl_.Enable(GL_BLEND);
+    gl_.BlendFuncSeparate(GL_ONE, GL_ONE, GL_ZERO, GL_ONE_MINUS_SRC_ALPHA);
+    draw(rest_program_, volume_);
+
+    begin(film_target_, false);
+    blend(GL_ONE_MINUS_DST_ALPHA, GL_ONE);
+    gl_.BindTextureUnit(0, rest_);
+    fill(mean_program_);
   }
 
   void paint_frame(int frame) {
+    const auto report = [&](double part) { progress_.report((frame + part) / kFrames); };
     set_frame(frame);
     shadows();
+    lap("shadows end");
+    report(0.3);
     scene();
+    report(0.5);
     films();
+    report(0.9);
 
     begin(image_target_, false);
     blend(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     gl_.BindTextureUnit(0, depth_);
     gl_.BindTextureUnit(1, layer_depths_[0]);
-    draw(target_program_, target_);
     gl_.ProgramUniform1f(line_program_, fades_, 0);
+    draw(line_program_, creases_);
+    draw(target_program_, target_);
     draw(line_program_, lines_);
 
     begin(sum_target_, false);
     blend(GL_ONE, GL_ONE);
     gl_.BindTextureUnit(0, image_);
-    draw(copy_program_, empty_);
+    fill(copy_program_);
   }
 
   std::vector<std::uint8_t> read() {
@@ -343,6 +444,7 @@ class Painter {
     context_.check("reading a picture back");
     std::vector<std::uint8_t> bytes(sum.size());
     for (std::size_t row = 0; row < height; ++row) {
+      progress_.check();
       const float* from = sum.data() + 3 * width * (height - 1 - row);
       for (std::size_t i = 0; i < 3 * width; ++i) {
         bytes[3 * width * row + i] =
@@ -356,16 +458,19 @@ class Painter {
   const GlFunctions& gl_;
   const DrawList& list_;
   const View& view_;
+  const core::ProgressReporter& progress_;
   GlObjects objects_;
   GLuint solid_program_ = 0, shadow_program_ = 0, shade_program_ = 0, film_program_ = 0, copy_program_ = 0,
-         layer_program_ = 0, target_program_ = 0, line_program_ = 0;
+         layer_program_ = 0, rest_program_ = 0, mean_program_ = 0, target_program_ = 0, line_program_ = 0;
   GLint which_ = -1, fades_ = -1;
-  GLuint depth_ = 0, normal_ = 0, albedo_ = 0, image_ = 0, layer_ = 0, film_ = 0, sum_ = 0, nothing_before_ = 0;
+  GLuint depth_ = 0, normal_ = 0, albedo_ = 0, image_ = 0, layer_ = 0, film_ = 0, rest_ = 0, sum_ = 0, nothing_before_ = 0;
   std::array<GLuint, 3> layer_depths_{}, layer_targets_{};
   GLuint sky_maps_ = 0, sun_maps_ = 0;
-  GLuint scene_target_ = 0, image_target_ = 0, film_target_ = 0, sum_target_ = 0, shadow_target_ = 0;
-  Batch solids_, volume_, target_, ground_lines_, lines_, empty_;
-  GLuint frame_block_ = 0, layer_query_ = 0;
+  GLuint scene_target_ = 0, image_target_ = 0, film_target_ = 0, rest_target_ = 0, sum_target_ = 0, shadow_target_ = 0;
+  Batch solids_, skylit_, volume_, target_, ground_lines_, creases_, lines_;
+  int layers_ = kMostLayers;
+  GLuint screen_ = 0, frame_block_ = 0, layer_query_ = 0;
+  Clock::time_point settled_ = Clock::now();
 };
 
 }  // namespace
@@ -373,8 +478,7 @@ class Painter {
 std::vector<std::uint8_t> draw_picture(const GlContext& context, const DrawList& list, const View& view,
                                        const core::ProgressReporter& progress) {
   const GlCurrent current(context);
-  Painter painter(context, list, view);
-  return painter.paint(progress);
+  return Painter(context, list, view, progress).paint();
 }
 
 }  // namespace vantage::render

@@ -20,6 +20,14 @@ layout(std140, binding = 0) uniform Frame {
 };
 vec3 to_viewer(vec3 p) { return eye.w > 0.5 ? eye.xyz - p : back.xyz * back.w; }
 float faded(vec3 p) { return smoothstep(fade.z, fade.w, distance(p.xy, fade.xy)); }
+// Colour and opacity of the volume: what is looked through at a slant is thicker.
+vec4 film_of(vec3 p, vec3 normal, vec3 colour) {
+  vec3 n = normalize(normal);
+  float slant = dot(n, normalize(to_viewer(p)));
+  float opacity = slant > 0 ? 0.20 : 0.13;
+  opacity = 1 - pow(1 - opacity, 1 / max(abs(slant), 0.22));
+  return vec4(colour * (0.84 + 0.16 * abs(dot(n, light[SKY].xyz))), opacity);
+}
 )";
 
 inline constexpr const char* kSolidVertex = R"(
@@ -120,8 +128,7 @@ void main() {
 }
 )";
 
-// A film: what is looked through at a slant is thicker. `before`: depths of the layer before, 1 everywhere for the
-// first.
+// `before`: depths of the layer before, 1 everywhere for the first.
 inline constexpr const char* kFilmFragment = R"(
 layout(binding = 0) uniform sampler2D depths;
 layout(binding = 1) uniform sampler2D before;
@@ -132,12 +139,34 @@ layout(location = 0) out vec4 result;
 void main() {
   ivec2 at = ivec2(gl_FragCoord.xy);
   if (gl_FragCoord.z <= texelFetch(depths, at, 0).x || gl_FragCoord.z >= texelFetch(before, at, 0).x) discard;
-  vec3 n = normalize(v_normal);
-  float slant = dot(n, normalize(to_viewer(v_position)));
-  float opacity = slant > 0 ? 0.20 : 0.13;
-  opacity = 1 - pow(1 - opacity, 1 / max(abs(slant), 0.22));
-  float shade = 0.84 + 0.16 * abs(dot(n, light[SKY].xyz));
-  result = vec4(v_colour.rgb * shade, 1) * opacity;
+  vec4 film = film_of(v_position, v_normal, v_colour.rgb);
+  result = vec4(film.rgb, 1) * film.a;
+}
+)";
+
+// What is behind the layers that were peeled, in no order: the sum of the films' colours, each times its film's share
+// -ln(1 - opacity), and what light is left of all (by blending).
+inline constexpr const char* kRestFragment = R"(
+layout(binding = 0) uniform sampler2D depths;
+layout(binding = 1) uniform sampler2D before;
+in vec3 v_position;
+flat in vec3 v_normal;
+flat in vec4 v_colour;
+layout(location = 0) out vec4 result;
+void main() {
+  ivec2 at = ivec2(gl_FragCoord.xy);
+  if (gl_FragCoord.z <= texelFetch(depths, at, 0).x || gl_FragCoord.z >= texelFetch(before, at, 0).x) discard;
+  vec4 film = film_of(v_position, v_normal, v_colour.rgb);
+  result = vec4(film.rgb * -log(1 - film.a), film.a);
+}
+)";
+inline constexpr const char* kMeanFragment = R"(
+layout(binding = 0) uniform sampler2D image;
+layout(location = 0) out vec4 result;
+void main() {
+  vec4 rest = texelFetch(image, ivec2(gl_FragCoord.xy), 0);
+  if (rest.a >= 1) discard;
+  result = vec4(rest.rgb / -log(max(rest.a, 1e-6)), 1) * (1 - rest.a);
 }
 )";
 

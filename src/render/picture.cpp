@@ -83,6 +83,8 @@ std::vector<std::uint8_t> draw(const DrawList& list, const View& view, const cor
 }  // namespace
 
 Picture render_picture(const Scene& scene, const PictureRequest& request, const Progress& callback) {
+  const core::ProgressReporter progress(callback);
+  progress.begin("preparing the picture");
   check(request);
   check_indices(scene.mesh, "scene");
   check_objects(scene);
@@ -92,33 +94,37 @@ Picture render_picture(const Scene& scene, const PictureRequest& request, const 
   Annotation annotation{
       request.title, request.subtitle, legend_of(request), 0, request.view.kind == PictureView::Kind::from,
       request.notes};
-  const PictureExtent extent = find_extent(scene, request);
+  const PictureExtent extent = find_extent(scene, request, progress);
   Insets insets{8, 8, 8, 8};
   if (request.annotate) insets = insets_of(annotation, request.width, request.height);
+  progress.check();
   Box bounds = bounding_box(scene.mesh);
   bounds.extend(extent.framed);
-  const Sight sight(scene.mesh, extent.centre);
+  const Sight sight(scene.mesh, extent.centre, progress.part(0, 0));
   PictureView from = request.view;
   if (from.kind == PictureView::Kind::oblique && !from.azimuth_deg) {
-    from.azimuth_deg = best_azimuth(sight, extent, extent.target, from.elevation_deg, kPreferredAzimuth);
+    from.azimuth_deg = best_azimuth(sight, extent, extent.target, from.elevation_deg, kPreferredAzimuth, progress);
   }
   const View view = make_view(from, request.width, request.height, insets, extent.points, extent.centre, bounds);
-  const DrawList list = make_draw_list(scene, request, extent, view, sight);
+  const DrawList list = make_draw_list(scene, request, extent, view, sight, progress);
   annotation.grid_m = list.grid_m;
 
-  const core::ProgressReporter progress(callback);
-  progress.begin("draw the picture");
+  progress.begin("drawing the picture");
   const std::vector<std::uint8_t> rgb = draw(list, view, progress);
   Picture picture{request.width, request.height, {}};
   picture.rgba.reserve(rgb.size() / 3 * 4);
   for (std::size_t i = 0; i < rgb.size(); i += 3)
     picture.rgba.insert(picture.rgba.end(), {rgb[i], rgb[i + 1], rgb[i + 2], 255});
+  progress.finish();
   return request.annotate ? annotated(picture, annotation, view) : picture;
 }
 
-void write_png(const Picture& picture, const std::filesystem::path& file) {
+void write_png(const Picture& picture, const std::filesystem::path& file, const Progress& callback) {
+  const core::ProgressReporter progress(callback, file);
+  progress.begin("writing the picture");
   solid::AtomicFile output(file);
-  output.write(Canvas(picture).png());
+  output.write(Canvas(picture).png(progress));
+  progress.finish();
   output.commit();
 }
 

@@ -30,7 +30,8 @@ struct Sight::Rays {
   }
 };
 
-Sight::Sight(const Mesh& mesh, const Vec3& origin) : rays_(std::make_unique<Rays>()), origin_(origin) {
+Sight::Sight(const Mesh& mesh, const Vec3& origin, const core::ProgressReporter& progress)
+    : rays_(std::make_unique<Rays>()), origin_(origin) {
   RTCGeometry geometry = rtcNewGeometry(rays_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
   auto* vertices =
       static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
@@ -40,6 +41,7 @@ Sight::Sight(const Mesh& mesh, const Vec3& origin) : rays_(std::make_unique<Rays
                                                                  std::max<std::size_t>(mesh.triangles.size(), 1)));
   if (vertices == nullptr || indices == nullptr) throw std::bad_alloc();
   for (const Vec3& vertex : mesh.vertices) {
+    progress.tick();
     for (const double coordinate : Vec3(vertex - origin)) *vertices++ = static_cast<float>(coordinate);
   }
   for (const Triangle& triangle : mesh.triangles) indices = std::copy(triangle.begin(), triangle.end(), indices);
@@ -47,7 +49,11 @@ Sight::Sight(const Mesh& mesh, const Vec3& origin) : rays_(std::make_unique<Rays
   rtcCommitGeometry(geometry);
   rtcAttachGeometry(rays_->scene, geometry);
   rtcReleaseGeometry(geometry);
+  core::ProgressBridge bridge(progress);
+  rtcSetSceneProgressMonitorFunction(rays_->scene, core::ProgressBridge::ask, &bridge);
   rtcCommitScene(rays_->scene);
+  rtcSetSceneProgressMonitorFunction(rays_->scene, nullptr, nullptr);
+  bridge.rethrow();
 }
 
 Sight::~Sight() = default;
@@ -74,7 +80,7 @@ void Sight::each_hit(const Vec3& point, const Vec3& towards, bool to_infinity,
 }
 
 double best_azimuth(const Sight& sight, const PictureExtent& extent, const std::vector<Vec3>& target,
-                    double elevation_deg, double preferred) {
+                    double elevation_deg, double preferred, const core::ProgressReporter& progress) {
   std::vector<Vec3> samples;
   const std::size_t stride = std::max<std::size_t>(1, extent.points.size() / kSamples);
   for (std::size_t i = 0; i < extent.points.size(); i += stride) samples.push_back(extent.points[i]);
@@ -82,6 +88,7 @@ double best_azimuth(const Sight& sight, const PictureExtent& extent, const std::
   const auto hidden_share = [&](const std::vector<Vec3>& points, const Vec3& towards) {
     double hidden = 0;
     for (const Vec3& point : points) {
+      progress.check();
       bool is_hidden = false;
       sight.each_hit(point + kStart * Vec3::UnitZ(), towards, true, [&](std::uint32_t) {
         is_hidden = true;

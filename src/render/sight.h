@@ -13,7 +13,8 @@ namespace vantage::render {
 /// Rays against the scene's triangles, in single precision: good enough for where to stand, and for nothing else.
 class Sight {
  public:
-  Sight(const Mesh& mesh, const Vec3& origin);
+  /// Throws Error(cancelled).
+  Sight(const Mesh& mesh, const Vec3& origin, const core::ProgressReporter& progress = {});
   ~Sight();
   Sight(const Sight&) = delete;
   Sight& operator=(const Sight&) = delete;
@@ -32,6 +33,6 @@ class Sight {
 /// Degrees round from the east from where, at this elevation, the scene hides least of the target and the volume; of
 /// equals the one nearest to `preferred`.
 double best_azimuth(const Sight& sight, const PictureExtent& extent, const std::vector<Vec3>& target,
-                    double elevation_deg, double preferred);
+                    double elevation_deg, double preferred, const core::ProgressReporter& progress = {});
 
 }  // namespace vantage::render
