@@ -110,7 +110,7 @@ TEST_F(CliCompute, WarnsWhereStlIsCoarserThanTheTolerance) {
   const ProgramRun warned = run({"compute", "far.yaml", "-o", "far.ply", "-o", "far.STL"});
   EXPECT_EQ(warned.exit_code, 0);
   ASSERT_EQ(lines(warned.err).size(), 1U) << warned.err;
-  EXPECT_NE(warned.err.find("far.STL: STL holds coordinates as large as these to 0.250 m only"), std::string::npos)
+  EXPECT_NE(warned.err.find("far.STL: rounding to single precision moved the surface by up to 0.4"), std::string::npos)
       << warned.err;
   output_of({"compute", "far.yaml", "-q", "-o", "far.STL"});
   output_of({"compute", "far.yaml", "-o", "far.ply"});

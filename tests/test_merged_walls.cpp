@@ -1,5 +1,5 @@
-// Merging triangles into convex polygons where rims are all but straight and corners all but none: a merged polygon must
-// hold its triangles, and what hides with them must hide with it.
+// Merging triangles into convex polygons where rims are all but straight and corners all but none: a merged polygon
+// must hold its triangles, and what hides with them must hide with it.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -133,10 +133,11 @@ TEST(MergedWalls, HoldTheirTriangles) {
       for (int draw = 0; draw < 200; ++draw) {
         SCOPED_TRACE(std::to_string(scale) + (on_map ? " m on the map, draw " : " m, draw ") + std::to_string(draw));
         const OutlineDraw outline(random, random.chance(0.5) ? 30 : 40);
-        const Scene scene = SceneBuilder().add("wall", mesh_of(random, random_wall(random, scale, on_map), outline.outline()));
+        const Scene scene =
+            SceneBuilder().add("wall", mesh_of(random, random_wall(random, scale, on_map), outline.outline()));
         const Loss loss = loss_of(scene);
-        // 2^-46 of the half extent is the slack of a merged polygon; some more for the planes that are fitted here. What
-        // is too thin to have a plane may be off by its width.
+        // 2^-46 of the half extent is the slack of a merged polygon; some more for the planes that are fitted here.
+        // What is too thin to have a plane may be off by its width.
         ASSERT_LT(loss.farthest, 10 * 0x1p-46 * scale);
         ASSERT_LT(std::abs(loss.more_area), 100 * 0x1p-46 * scale * scale);
         const SceneStatistics& s = PreparedScene(scene).statistics();
@@ -210,7 +211,8 @@ TEST(MergedWalls, HideWhatTheirTrianglesHide) {
         target.front = n;
         SceneBuilder builder;
         const double low = -5 * scale, far = 20 * scale;  // so that no wall over the target is its ground
-        builder.polygon("ground", {centre + Vec3(-far, -far, low), centre + Vec3(far, -far, low), centre + Vec3(0, far, low)});
+        builder.polygon("ground",
+                        {centre + Vec3(-far, -far, low), centre + Vec3(far, -far, low), centre + Vec3(0, far, low)});
         for (int k = 0; k < 3; ++k) {
           // Beside the target, standing up more or less, in front of its plane.
           const double angle = random.uniform(0, 2 * std::numbers::pi), size = scale * log_uniform(random, 0.1, 0.6);

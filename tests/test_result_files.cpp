@@ -49,11 +49,12 @@ TEST(ResultFiles, ComeInAllFormatsWithAReportBesideEach) {
   Volume volume = make_hemisphere(Vec3::Zero(), 100);
   volume.seconds.total = 1;
   std::vector<std::string> stages;
+  const core::ProgressReporter::AskAlways ask_always;
   const WrittenResults written = write_results(volume, request, [&](std::string_view stage, double fraction) {
     stages.emplace_back(stage);
     return fraction >= 0 && fraction <= 1;
   });
-  EXPECT_EQ(stages, Names(4, "writing"));
+  EXPECT_EQ(stages, Names(5, "writing"));  // at the beginning, before each file and at the end
   EXPECT_EQ(sorted_names(directory), kFiles);
   for (const std::string& name : kFiles) EXPECT_GT(read_bytes(directory / name).size(), 500u) << name;
   EXPECT_EQ(written.reports,

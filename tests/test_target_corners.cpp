@@ -69,9 +69,7 @@ Drawn draw_target(Random& random, double scale, bool on_map) {
 }
 
 /// Metres that coordinates of a target may be off by rounding, in any of the frames that they go through.
-double rounding(const Drawn& drawn) {
-  return 1e-15 * (10 * drawn.scale + drawn.centre.cwiseAbs().maxCoeff());
-}
+double rounding(const Drawn& drawn) { return 1e-15 * (10 * drawn.scale + drawn.centre.cwiseAbs().maxCoeff()); }
 
 TEST(TargetCorners, TheFrameHoldsEveryVertex) {
   Random random(811);

@@ -1,8 +1,8 @@
 // How two closed volumes differ.
 //
-// The worst distance of A from B is the largest distance that any point of A has to the nearest point of B, both taken as
-// solids: the one-sided Hausdorff distance. It is 0 where A claims nothing alone. It is known from below, by a point that
-// was found, and from above, by a bound that no point exceeds.
+// The worst distance of A from B is the largest distance that any point of A has to the nearest point of B, both taken
+// as solids: the one-sided Hausdorff distance. It is 0 where A claims nothing alone. It is known from below, by a point
+// that was found, and from above, by a bound that no point exceeds.
 #pragma once
 
 #include <string>
@@ -28,10 +28,10 @@ struct Comparison {
 
 /// Booleans of two closed, outward-oriented meshes. Throws Error(input) naming `name_a` or `name_b` for one that is
 /// open, inside out or intersects itself (in more than 0.1 % of its area); Error(cancelled). Meshes of the same
-/// triangles differ by exactly 0. The bounds of a worst distance lie within 1 % of it, or 1e-12 of the size of both; where
-/// that would take too long, as between volumes that differ by a hair in very many places, they are farther apart.
-/// Uses the threads of the caller's arena (TBB). Cost: the check of each mesh for self-intersections and two boolean
-/// operations, O(n log n) in their facets, and the distances of what differs: seconds for half a million.
+/// triangles differ by exactly 0. The bounds of a worst distance lie within 1 % of it, or 1e-12 of the size of both;
+/// where that would take too long, as between volumes that differ by a hair in very many places, they are farther
+/// apart. Uses the threads of the caller's arena (TBB). Cost: the check of each mesh for self-intersections and two
+/// boolean operations, O(n log n) in their facets, and the distances of what differs: seconds for half a million.
 Comparison compare_volumes(const Mesh& a, const Mesh& b, const std::string& name_a = "A",
                            const std::string& name_b = "B", const Progress& progress = {});
 

@@ -35,8 +35,8 @@ struct Scene {
   /// Where it lies on the earth; nothing for a mesh that does not say. The scene frame is then the one described there.
   std::optional<Georeference> georeference;
 
-  /// Of a volume that vantage wrote: how far the rounding to the file's numbers moved it, metres. Nothing where the file
-  /// does not say.
+  /// Of a volume that vantage wrote: how far the rounding to the file's numbers moved it, metres. Nothing where the
+  /// file does not say.
   std::optional<double> rounding_m;
 
   /// What was unusual while reading but no error, for people: a sentence each, with counts and the first culprit.

@@ -49,8 +49,9 @@ struct TargetFrame {
 /// coordinate); so much larger the polygon may be than what its vertices bound.
 ///
 /// Throws Error(input) for: no vertices, 2 or more than 64, a coordinate that is not finite, repeated vertices (which;
-/// those nearer to each other than 1e-9 of the extent), zero area, not planar (by how much; allowed: 1e-6 of the extent,
-/// at least 1 mm), not convex by more than said above (which vertex), a `front` that is zero or lies in the plane.
+/// those nearer to each other than 1e-9 of the extent), zero area, not planar (by how much; allowed: 1e-6 of the
+/// extent, at least 1 mm), not convex by more than said above (which vertex), a `front` that is zero or lies in the
+/// plane.
 TargetFrame make_target_frame(const Target& target);
 
 }  // namespace vantage

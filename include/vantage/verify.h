@@ -20,8 +20,8 @@ struct VerifyOptions {
   double depth_tolerance = 1e-6;  ///< a point counts as claimed wrongly, or wrongly not, when it lies deeper on the
                                   ///< wrong side of the surface than this times its distance to the target's centre
   double tolerance_m = 0.01;  ///< of the volume (ExactOptions): what lies within it of the range limit may be unclaimed
-  double rounding_m = 0;  ///< of the volume's file (Scene::rounding_m): what lies no deeper on the wrong side than this,
-                          ///< besides what the depth tolerance allows, does not count
+  double rounding_m = 0;      ///< of the volume's file (Scene::rounding_m): what lies no deeper on the wrong side than
+                          ///< this, besides what the depth tolerance allows, does not count
 };
 
 struct VerifyReport {
@@ -38,10 +38,10 @@ struct VerifyReport {
   Vec3 worst_under_point = Vec3::Zero();  ///< scene frame
   std::string worst_over_cause;  ///< what is wrong there: the name of an object that hides the target, "max_range",
                                  ///< "target plane" or a navigation limit; empty when nothing is
-  bool closed = false;    ///< every edge has an even number of facets, with vertices in one place taken for one,
-  bool oriented = false;  ///< and is run as often in one direction as in the other
-  std::size_t flat_facets = 0;  ///< facets without area, or with two corners in one place: readers that weld vertices
-                                ///< find the mesh open at them
+  bool closed = false;           ///< every edge has an even number of facets, with vertices in one place taken for one,
+  bool oriented = false;         ///< and is run as often in one direction as in the other
+  std::size_t flat_facets = 0;   ///< facets without area, or with two corners in one place: readers that weld vertices
+                                 ///< find the mesh open at them
   long euler = 0;
   std::uint64_t seed = 0;
 };
@@ -49,8 +49,9 @@ struct VerifyReport {
 /// Checks `volume` (any closed mesh, scene frame) against the scene by shadow rays to the target's vertices, edges and
 /// interior, and to where scene geometry reaches between the viewpoint and the target. Grazing is allowed: a hit closer
 /// to a triangle's border than 1e-9 of its size does not count. Hits lower than 1 mm over the target itself count as
-/// the surface that it lies on. A volume is right when nothing is over-claimed and its mesh is a closed, oriented surface for whoever reads it; see docs/verification.md. Where the
-/// engine raised the target (Volume::lift_m), raise it here too: add that to `target.offset_m`.
+/// the surface that it lies on. A volume is right when nothing is over-claimed and its mesh is a closed, oriented
+/// surface for whoever reads it; see docs/verification.md. Where the engine raised the target (Volume::lift_m), raise
+/// it here too: add that to `target.offset_m`.
 ///
 /// The report depends on the seed, not on the number of threads (TBB; the caller's arena). Cost: points times samples
 /// shadow rays, a few tenths of a microsecond each and thread. Throws Error(input) for a mesh that is not closed or a

@@ -140,15 +140,16 @@ MeshMeasures measure(const Mesh& mesh);
 
 /// What a written file holds.
 struct WrittenVolume {
-  double rounding_m = 0;          ///< how far rounding to the file's numbers moved the surface, at most; metres
-  std::size_t facets = 0;         ///< in the file: fewer than the volume's, where rounding leaves some without area
-  std::size_t turned_facets = 0;  ///< of the volume's facets, those that rounding turned over: narrower than the rounding
+  double rounding_m = 0;   ///< how far rounding to the file's numbers moved the surface, at most; metres
+  std::size_t facets = 0;  ///< in the file: fewer than the volume's, where rounding leaves some without area
+  std::size_t turned_facets =
+      0;  ///< of the volume's facets, those that rounding turned over: narrower than the rounding
 };
 
-/// Writes the mesh; the format follows the extension. Written whole or not at all. Read back, with vertices in one place
-/// taken for one as readers do, every file is closed (each edge is run as often in one direction as in the other) and has
-/// no facet without area. Rounding cannot keep inside: where it moves the surface, by up to rounding_m, the file says so,
-/// and `vantage verify` allows that much.
+/// Writes the mesh; the format follows the extension. Written whole or not at all. Read back, with vertices in one
+/// place taken for one as readers do, every file is closed (each edge is run as often in one direction as in the other)
+/// and has no facet without area. Rounding cannot keep inside: where it moves the surface, by up to rounding_m, the
+/// file says so, and `vantage verify` allows that much.
 ///   .ply  binary, little-endian, double coordinates, facet property `cause` (index) and the causes' names in comments;
 ///         scene frame
 ///   .obj  a group per cause; the axes and the unit of the scene file: give Scene::up and Scene::scale (metres in one
@@ -156,13 +157,15 @@ struct WrittenVolume {
 ///         every bit, with another they read back to within rounding
 ///   .stl  binary; scene frame. Single precision, all that the format has: far from the origin it is coarse, half a
 ///         metre between neighbouring numbers at a UTM northing of 4,785,000. Prefer another format there
-///   .glb  a material per kind of cause; y up as the specification demands. Single precision about an origin in the middle
+///   .glb  a material per kind of cause; y up as the specification demands. Single precision about an origin in the
+///   middle
 ///         of the volume: 0.03 mm at 600 m across, wherever it lies
 /// The georeference and rounding_m go into the file, for .stl into FILE.place.json beside it (docs/scene.md).
 /// Cost: linear in the facets; the bytes are on the disk when it returns. Throws Error(output) when the file cannot be
-/// written, the format cannot hold that many facets or nothing of the volume is left in it, and Error(input) for an unknown extension, a directory, a volume
-/// whose arrays do not fit together, or a scale that is not positive, not finite or so small that coordinates overflow.
+/// written, the format cannot hold that many facets or nothing of the volume is left in it, and Error(input) for an
+/// unknown extension, a directory, a volume whose arrays do not fit together, or a scale that is not positive, not
+/// finite or so small that coordinates overflow.
 WrittenVolume write_volume(const Volume& volume, const std::filesystem::path& file, UpAxis obj_up = UpAxis::z,
-                  double obj_scale = 1.0);
+                           double obj_scale = 1.0);
 
 }  // namespace vantage

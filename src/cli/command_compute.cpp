@@ -281,7 +281,7 @@ void tell(const Options& options, const Mission& mission, const MissionRun& run,
     }
   }
   if (!options.common.quiet) std::for_each(run.volume.notes.begin(), run.volume.notes.end(), note);
-  warn_of_coarse_stl(options, run.volume);
+  warn_of_rounding(options, run.volume, written);
   if (!has_volume) tell_of_no_volume(options, run.volume);
   if (outgoing && has_volume) outgoing->send();
 }

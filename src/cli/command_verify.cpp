@@ -59,6 +59,13 @@ double reported_lift(const std::filesystem::path& volume_file) {
 
 bool is_solid(const VerifyReport& report) { return report.closed && report.oriented && report.flat_facets == 0; }
 
+bool is_right(const VerifyReport& report) { return report.over_claimed == 0 && is_solid(report); }
+
+/// What is known of the volume besides its mesh.
+struct Given {
+  double lift_m = 0, rounding_m = 0;
+};
+
 std::string json_text(const VerifyReport& report, const Given& given, const OpenEdges& holes) {
   const auto point = [](const Vec3& p) { return nlohmann::ordered_json{p.x(), p.y(), p.z()}; };
   nlohmann::ordered_json json;
@@ -88,7 +95,8 @@ std::string json_text(const VerifyReport& report, const Given& given, const Open
   return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
-std::string table_text(const VerifyReport& report, const Given& given, const OpenEdges& holes, const std::string& file) {
+std::string table_text(const VerifyReport& report, const Given& given, const OpenEdges& holes,
+                       const std::string& file) {
   TextTable table;
   table.heading(file);
   table.row("closed", report.closed ? "yes" : "NO",
@@ -103,7 +111,8 @@ std::string table_text(const VerifyReport& report, const Given& given, const Ope
     table.row("lift", fixed(given.lift_m, 6), "metres that the target was raised to clear its surface");
   }
   if (given.rounding_m > 0) {
-    table.row("rounding", fixed(given.rounding_m, 6), "metres that the file says its numbers moved the surface: allowed");
+    table.row("rounding", fixed(given.rounding_m, 6),
+              "metres that the file says its numbers moved the surface: allowed");
   }
   if (report.points > 0) {
     table.heading("rays from random points, seed " + std::to_string(report.seed));
@@ -128,9 +137,9 @@ std::string table_text(const VerifyReport& report, const Given& given, const Ope
               "uniform over the volume; the count of over-claims also has points near the surface, which this leaves "
               "out");
   }
-  table.heading(is_right(report) ? "nothing wrong was found"
-                                 : (is_solid(report) ? "WRONG: the volume over-claims"
-                                                     : "WRONG: the mesh is not a closed solid"));
+  table.heading(is_right(report)
+                    ? "nothing wrong was found"
+                    : (is_solid(report) ? "WRONG: the volume over-claims" : "WRONG: the mesh is not a closed solid"));
   return table.text();
 }
 

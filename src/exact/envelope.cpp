@@ -77,7 +77,10 @@ class ContactTest {
       const double margin = tie_margin(plane, reach_);
       for (const Vec3& corner : touched_)
         if (plane.dot(corner) - 1 < -margin) return false;
-      if (!owns_ties && (plane - own).norm() <= kSimilar * own.norm()) return false;
+      // One plane, computed twice: it decides nothing but who owns it. Where the two are apart at the far end of the
+      // range, whichever is in front there has a facet: the corners, which are near, do not say.
+      const double apart = (plane - own).norm();
+      if (apart <= kSimilar * own.norm() && (!owns_ties || apart * reach_ > margin)) return false;
     }
     return true;
   }

@@ -8,11 +8,11 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <cstdio>
-#include <ctime>
 #include <cmath>
 #include <cstddef>
+#include <cstdio>
 #include <cstring>
+#include <ctime>
 #include <numbers>
 
 #include "render/coarse_triangles.h"
@@ -28,8 +28,8 @@ using Clock = std::chrono::steady_clock;
 constexpr int kSky = 9, kSun = 2;  // lights of a frame, as in the shaders
 constexpr int kSkyMapSize = 512, kSunMapSize = 2048;
 constexpr std::size_t kManySolids = 100'000;  // triangles of the scene, from which on the sky's shadows are simplified
-constexpr int kMostLayers = 12;                 // of the volume that are peeled: a fifth of the light comes from behind
-constexpr int kLeastLayers = 3;                 // of a volume of very many facets, which are drawn anew for each layer
+constexpr int kMostLayers = 12;               // of the volume that are peeled: a fifth of the light comes from behind
+constexpr int kLeastLayers = 3;               // of a volume of very many facets, which are drawn anew for each layer
 constexpr std::size_t kPeeledFacets = 800'000;  // in a frame
 constexpr double kSunRadius = 0.035;            // radians: softens the shadows
 
@@ -256,7 +256,12 @@ class Painter {
     gl_.Viewport(0, 0, view_.width, view_.height);
   }
 
-  static void lap(const char* w) { static clock_t l = 0; clock_t n = clock(); if (l && n - l > 60000) fprintf(stderr, "LAP %s %.3f\n", w, (n-l)/1e6); l = n; }
+  static void lap(const char* w) {
+    static clock_t l = 0;
+    clock_t n = clock();
+    if (l && n - l > 60000) fprintf(stderr, "LAP %s %.3f\n", w, (n - l) / 1e6);
+    l = n;
+  }
   void pace() {
     lap("draw");
     progress_.check();
@@ -269,8 +274,11 @@ class Painter {
     GLsync fence = gl_.FenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
     const auto end = [&] { gl_.DeleteSync(fence); };
     try {
-      while (gl_.ClientWaitSync(fence, GL_SYNC_FLUSH_COMMANDS_BIT, kGlance) == GL_TIMEOUT_EXPIRED) {lap("wait"); progress_.check();}
- lap("waited");
+      while (gl_.ClientWaitSync(fence, GL_SYNC_FLUSH_COMMANDS_BIT, kGlance) == GL_TIMEOUT_EXPIRED) {
+        lap("wait");
+        progress_.check();
+      }
+      lap("waited");
     } catch (...) {
       end();
       throw;
@@ -463,7 +471,8 @@ class Painter {
   GLuint solid_program_ = 0, shadow_program_ = 0, shade_program_ = 0, film_program_ = 0, copy_program_ = 0,
          layer_program_ = 0, rest_program_ = 0, mean_program_ = 0, target_program_ = 0, line_program_ = 0;
   GLint which_ = -1, fades_ = -1;
-  GLuint depth_ = 0, normal_ = 0, albedo_ = 0, image_ = 0, layer_ = 0, film_ = 0, rest_ = 0, sum_ = 0, nothing_before_ = 0;
+  GLuint depth_ = 0, normal_ = 0, albedo_ = 0, image_ = 0, layer_ = 0, film_ = 0, rest_ = 0, sum_ = 0,
+         nothing_before_ = 0;
   std::array<GLuint, 3> layer_depths_{}, layer_targets_{};
   GLuint sky_maps_ = 0, sun_maps_ = 0;
   GLuint scene_target_ = 0, image_target_ = 0, film_target_ = 0, rest_target_ = 0, sum_target_ = 0, shadow_target_ = 0;

@@ -10,8 +10,8 @@
 namespace vantage::render {
 namespace {
 
-constexpr double kCell = 14;            // pixels (of a picture of 1600 x 1200) along a side of the cells that are counted
-constexpr double kMostInk = 0.16;       // of a cell's area; from half of it on lines fade
+constexpr double kCell = 14;       // pixels (of a picture of 1600 x 1200) along a side of the cells that are counted
+constexpr double kMostInk = 0.16;  // of a cell's area; from half of it on lines fade
 constexpr double kMostBorderInk = 0.5;  // the same for borders alone
 constexpr double kLongEnough = 120;     // pixels: what is longer is not more important
 constexpr double kLeastStrength = 0.04;

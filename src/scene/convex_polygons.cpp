@@ -151,9 +151,7 @@ class Merger {
     if (right.size() < 3 || left.size() + right.size() - 2 > kLargestPolygon) return;
     // Always from the same plane, that of the polygon's first triangle, or small deviations would add up.
     const Vec3& on_plane = vertices_[triangles_[a][0]];
-    const auto is_off = [&](std::uint32_t v) {
-      return std::abs(normals_[a].dot(vertices_[v] - on_plane)) > slack_;
-    };
+    const auto is_off = [&](std::uint32_t v) { return std::abs(normals_[a].dot(vertices_[v] - on_plane)) > slack_; };
     if (std::any_of(right.begin(), right.end(), is_off)) return;
     // The normal of a sliver may be too rough for its own corners.
     if (loops_[a].empty() && std::any_of(left.begin(), left.end(), is_off)) return;
@@ -214,8 +212,7 @@ class Merger {
     for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
       if (parent_[i] != i) continue;
       const Loop loop = loop_of(i);
-      const auto is_corner =
-          loops_[i].empty() || turns_left_[i] ? std::nullopt : corners_of(loop, normals_[i]);
+      const auto is_corner = loops_[i].empty() || turns_left_[i] ? std::nullopt : corners_of(loop, normals_[i]);
       for (std::size_t k = 0; k < loop.size(); ++k) {
         if (!is_corner || (*is_corner)[k]) result.vertices.push_back(loop[k]);
       }

@@ -23,10 +23,9 @@ struct ConvexPolygons {
 ///
 /// No polygon hides less than its triangles by more than rounding: each of their corners is within `slack_m` of its
 /// plane, and in that plane within twice the slack of its outline. Nor does it hide more than that: of a vertex that is
-/// no corner of the polygon the outline passes outside by `slack_m` at most. That should be what rounding moves vertices
-/// by that were meant to be in one plane, or on one line.
+/// no corner of the polygon the outline passes outside by `slack_m` at most. That should be what rounding moves
+/// vertices by that were meant to be in one plane, or on one line.
 ConvexPolygons merge_coplanar(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles,
-                              const std::vector<std::uint32_t>& object_of, double slack_m,
-                              SceneStatistics& statistics);
+                              const std::vector<std::uint32_t>& object_of, double slack_m, SceneStatistics& statistics);
 
 }  // namespace vantage::scene

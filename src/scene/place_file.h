@@ -1,5 +1,5 @@
-// The small file beside a mesh whose format has no room for its place on the earth and its rounding: those of "city.stl"
-// are in "city.stl.place.json".
+// The small file beside a mesh whose format has no room for its place on the earth and its rounding: those of
+// "city.stl" are in "city.stl.place.json".
 #pragma once
 
 #include <filesystem>

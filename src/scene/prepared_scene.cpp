@@ -16,9 +16,9 @@
 namespace vantage {
 namespace {
 
-// Coordinates about the scene's origin are right to 2^-53 of the largest of them. So much, times a small number, is what
-// rounding may have made of three corners on one line: a triangle less wide than this part of the largest coordinate
-// may be none. A narrower margin would keep noise; a wider one would lose wires that are really there.
+// Coordinates about the scene's origin are right to 2^-53 of the largest of them. So much, times a small number, is
+// what rounding may have made of three corners on one line: a triangle less wide than this part of the largest
+// coordinate may be none. A narrower margin would keep noise; a wider one would lose wires that are really there.
 constexpr double kNoWidth = 0x1p-50;
 // What rounding may have put between a plane or a line and the vertices that were computed to be on it: 16 times that.
 constexpr double kBent = 0x1p-46;

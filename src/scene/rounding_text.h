@@ -15,8 +15,8 @@ std::string rounding_text(double rounding_m);
 /// RoundingProblem for one that is garbled.
 void read_rounding_comment(std::string_view comment, std::optional<double>& known);
 
-/// "rounding_m" in the object "vantage" of a JSON object: glTF's "extras", files of their own. Throws RoundingProblem for
-/// one that is no length.
+/// "rounding_m" in the object "vantage" of a JSON object: glTF's "extras", files of their own. Throws RoundingProblem
+/// for one that is no length.
 std::optional<double> rounding_in(const nlohmann::json& object);
 
 /// What is wrong with such a number; whoever reads the file adds where it stands.

@@ -102,10 +102,10 @@ class Cleaner {
   CleaningLimits limits_;
   double allowance_;  // of the merge that is tried
   std::optional<Stars> stars_;
-  std::vector<Vec3> scene_vertices_;     // as they came
-  std::vector<char> gone_;               // per triangle
-  std::vector<double> moved_, raised_;   // per vertex: how far anything has moved that is now it, and outward
-  std::vector<std::uint32_t> version_;   // per vertex: how often it has moved
+  std::vector<Vec3> scene_vertices_;    // as they came
+  std::vector<char> gone_;              // per triangle
+  std::vector<double> moved_, raised_;  // per vertex: how far anything has moved that is now it, and outward
+  std::vector<std::uint32_t> version_;  // per vertex: how often it has moved
   Cleaning result_;
 };
 
@@ -167,10 +167,10 @@ bool Cleaner::can_merge(std::uint32_t u, std::uint32_t v) const {
   return shared == 2 && common.size() == 4;  // u, v and the two corners
 }
 
-/// How far outside of the solid, by the facet, it would come to lie if its corner `moving` went to `place`; nothing when
-/// that is too far, when it would turn over or when it would leave a plane that it must stay in. The facet sweeps a
-/// tetrahedron; where the place lies behind the facet that is taken from the solid, else it is added, and no point of it is
-/// farther outside than the place.
+/// How far outside of the solid, by the facet, it would come to lie if its corner `moving` went to `place`; nothing
+/// when that is too far, when it would turn over or when it would leave a plane that it must stay in. The facet sweeps
+/// a tetrahedron; where the place lies behind the facet that is taken from the solid, else it is added, and no point of
+/// it is farther outside than the place.
 std::optional<double> Cleaner::raise_of_facet(std::uint32_t t, std::uint32_t moving, const Vec3& place) const {
   const Surface* const plane = plane_of(t);
   if (plane && place[*plane->axis] != plane->at - origin_[*plane->axis]) return std::nullopt;
@@ -232,7 +232,8 @@ std::optional<Vec3> Cleaner::place_behind(std::uint32_t u, std::uint32_t v) cons
       if (plane.kept) place[*plane.kept->axis] = plane.kept->at - origin_[*plane.kept->axis];
     }
     if (farthest <= limits_.allowance_m / 2) return place;
-    place -= front->normal * (1.2 * farthest + 0.1 * limits_.allowance_m);  // a little too far: it comes to an end sooner
+    place -=
+        front->normal * (1.2 * farthest + 0.1 * limits_.allowance_m);  // a little too far: it comes to an end sooner
   }
   return std::nullopt;
 }
@@ -325,7 +326,11 @@ std::optional<Cleaner::Narrow> Cleaner::find_narrow(std::uint32_t t) const {
   }
   const Vec3 &from = c[longest], &to = c[(longest + 1) % 3], &apex = c[(longest + 2) % 3];
   const double along = (to - from).dot(apex - from) / (to - from).squaredNorm();
-  Narrow narrow{t, t, triangles_[t][(longest + 2) % 3], triangles_[t][longest], triangles_[t][(longest + 1) % 3],
+  Narrow narrow{t,
+                t,
+                triangles_[t][(longest + 2) % 3],
+                triangles_[t][longest],
+                triangles_[t][(longest + 1) % 3],
                 from + along * (to - from)};
   // Near an end it is that edge which is short.
   if ((narrow.foot - from).norm() < limits_.distance_m || (narrow.foot - to).norm() < limits_.distance_m) {
@@ -351,7 +356,8 @@ bool Cleaner::mend(const Narrow& narrow) {
   stars_->add_vertex();
   std::array<std::uint32_t, 2> added{};
   std::size_t count = 0;
-  for (const std::uint32_t t : {facet, neighbour}) {  // `t` keeps the part at `from`, a new triangle has the one at `to`
+  for (const std::uint32_t t :
+       {facet, neighbour}) {  // `t` keeps the part at `from`, a new triangle has the one at `to`
     Triangle part = triangles_[t];
     std::replace(part.begin(), part.end(), from, middle);
     std::replace(triangles_[t].begin(), triangles_[t].end(), to, middle);

@@ -1,6 +1,6 @@
-// Two parts. On the region's own facets: they are split until bounds agree. Inside of it: a point that is farther from the
-// other solid than any point of the region's surface would be a local maximum of the distance, and there is none where the
-// other solid's surface is star-shaped, nearby, about some point.
+// Two parts. On the region's own facets: they are split until bounds agree. Inside of it: a point that is farther from
+// the other solid than any point of the region's surface would be a local maximum of the distance, and there is none
+// where the other solid's surface is star-shaped, nearby, about some point.
 #include "solid/farthest.h"
 
 #include <Eigen/Geometry>
@@ -16,7 +16,6 @@
 #include "solid/kernel_point.h"
 #include "solid/numerics.h"
 #include "solid/triangle_tree.h"
-#include "vantage/error.h"
 
 namespace vantage::solid {
 namespace {
@@ -27,8 +26,8 @@ using Corners = std::array<Vec3, 3>;
 struct Answer {
   double least = 0;  // reached
   Vec3 point = Vec3::Zero();
-  double most = 0;         // of all that has been settled
-  double negligible = 0;   // rounding: bounds need not agree better
+  double most = 0;        // of all that has been settled
+  double negligible = 0;  // rounding: bounds need not agree better
 
   void reach(double distance, const Vec3& at) {
     if (distance <= least) return;
@@ -75,7 +74,8 @@ class SurfaceSearch {
   Patch make_patch(const Corners& corners, const std::array<double, 3>& distances, int depth) const;
   void split(const Patch& patch, std::vector<Patch>& pieces) const;
   std::optional<std::pair<Vec3, double>> cut(const Patch& patch) const;
-  std::vector<Patch> first_patches(const LabelledMesh& region, std::uint32_t own, const core::ProgressReporter& progress) const;
+  std::vector<Patch> first_patches(const LabelledMesh& region, std::uint32_t own,
+                                   const core::ProgressReporter& progress) const;
   void take_in(std::vector<Patch>& patches);
 
   const Mesh& other_;
@@ -83,8 +83,8 @@ class SurfaceSearch {
   Answer& answer_;
 };
 
-/// The distance from one facet of the other solid is convex: over a patch it is largest at a corner. And no point of the
-/// patch is nearer to the other solid than that facet is.
+/// The distance from one facet of the other solid is convex: over a patch it is largest at a corner. And no point of
+/// the patch is nearer to the other solid than that facet is.
 Patch SurfaceSearch::make_patch(const Corners& corners, const std::array<double, 3>& distances, int depth) const {
   Patch patch{corners, distances};
   patch.depth = depth;
@@ -148,8 +148,9 @@ void SurfaceSearch::split(const Patch& patch, std::vector<Patch>& pieces) const 
   for (std::size_t k = 0; k < 3; ++k) height[k] = plane->first.dot(c[k]) - plane->second;
   std::size_t alone = 0;  // the corner that has the others on the other side
   for (std::size_t k = 1; k < 3; ++k) {
-    const auto differs = [&](std::size_t m) { return (height[m] > 0) != (height[(m + 1) % 3] > 0) &&
-                                                     (height[m] > 0) != (height[(m + 2) % 3] > 0); };
+    const auto differs = [&](std::size_t m) {
+      return (height[m] > 0) != (height[(m + 1) % 3] > 0) && (height[m] > 0) != (height[(m + 2) % 3] > 0);
+    };
     if (differs(k)) alone = k;
   }
   const std::size_t j = (alone + 1) % 3, k = (alone + 2) % 3;
@@ -288,7 +289,8 @@ InsideSearch::Finding InsideSearch::look(const Cell& cell) const {
   const bool is_on_surface = from_surface <= answer_.negligible;
   const bool is_inside = is_on_surface || region_tree_.winding_number(cell.middle) > 0;
   if (is_inside) finding.reached = from_other;
-  finding.is_closed = (!is_inside && from_surface > radius) || is_star_shaped_near(cell.middle, from_other + 2 * radius);
+  finding.is_closed =
+      (!is_inside && from_surface > radius) || is_star_shaped_near(cell.middle, from_other + 2 * radius);
   if (finding.is_closed) finding.bound = finding.reached;
   return finding;
 }
@@ -334,7 +336,8 @@ void InsideSearch::run(const core::ProgressReporter& progress) {
 
 }  // namespace
 
-Farthest farthest_point(const LabelledMesh& region, std::uint32_t own, const Mesh& other, const core::ProgressReporter& progress) {
+Farthest farthest_point(const LabelledMesh& region, std::uint32_t own, const Mesh& other,
+                        const core::ProgressReporter& progress) {
   if (region.mesh.empty()) return {};
   Answer answer;
   Box box = bounding_box(region.mesh);

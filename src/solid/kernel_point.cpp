@@ -21,8 +21,8 @@ struct Bounds {
 /// Coordinates are about 1: what is less than this beyond a limit is on it.
 constexpr double kSlack = 1e-13;
 
-/// The point of the box with the largest coordinates that keeps the rows. Where a row in its turn is not kept the solution
-/// lies on it, and the rows before it are a problem of one dimension less.
+/// The point of the box with the largest coordinates that keeps the rows. Where a row in its turn is not kept the
+/// solution lies on it, and the rows before it are a problem of one dimension less.
 template <std::size_t kDimension>
 bool solve(const std::vector<Row>& rows, std::size_t count, const Bounds& bounds, std::array<double, 3>& x) {
   for (std::size_t k = 0; k < kDimension; ++k) x[k] = bounds.high[k];
@@ -98,9 +98,8 @@ std::optional<Vec3> kernel_point(const std::vector<HalfSpace>& half_spaces, cons
   std::array<double, 3> x{};
   if (!solve<3>(rows, rows.size(), bounds, x)) return std::nullopt;
   const Vec3 point = centre + size * Vec3(x[0], x[1], x[2]);
-  const bool is_behind_all = std::all_of(half_spaces.begin(), half_spaces.end(), [&](const HalfSpace& h) {
-    return h.normal.dot(point) <= h.at - margin / 2;
-  });
+  const bool is_behind_all = std::all_of(half_spaces.begin(), half_spaces.end(),
+                                         [&](const HalfSpace& h) { return h.normal.dot(point) <= h.at - margin / 2; });
   return is_behind_all ? std::optional(point) : std::nullopt;
 }
 

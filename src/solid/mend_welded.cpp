@@ -140,9 +140,9 @@ void Mender::take_in(std::uint32_t t) {
   flat_facets_.push({side_length(t, longest_side(t)), t});
 }
 
-/// Of the flat facets the one with the longest side of all gives its third corner, b, to the facet across: (c, a, b) and
-/// (a, c, x) become (a, b, x) and (b, c, x). On one line b and x lie between a and c, so the side b x that comes is shorter
-/// than the side a c that goes, and an end is reached. The bound is for narrow facets that are not quite flat.
+/// Of the flat facets the one with the longest side of all gives its third corner, b, to the facet across: (c, a, b)
+/// and (a, c, x) become (a, b, x) and (b, c, x). On one line b and x lie between a and c, so the side b x that comes is
+/// shorter than the side a c that goes, and an end is reached. The bound is for narrow facets that are not quite flat.
 void Mender::turn_sides() {
   std::size_t left = 64 + 16 * triangles_.size();
   while (!flat_facets_.empty() && left-- > 0) {

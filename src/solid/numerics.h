@@ -37,8 +37,8 @@ constexpr double kCleanPart = 1e-4;
 /// ... and than this part of the volume's diagonal, whatever the tolerance,
 constexpr double kCleanLargest = 1e-6;
 
-/// ... but no less than this many times what booleans, and coordinates in the scene frame, resolve: two vertices that stay
-/// must stay two.
+/// ... but no less than this many times what booleans, and coordinates in the scene frame, resolve: two vertices that
+/// stay must stay two.
 constexpr double kCleanEpsilons = 16;
 
 /// How far cleaning may move a vertex in all, in lengths of the edges that it takes away: a few merges in a row.
@@ -47,11 +47,13 @@ constexpr double kFarthestMove = 4;
 /// What merges in a row may add to the solid, in epsilons of the booleans.
 constexpr double kMostRaises = 10;
 
-/// Vertices nearer to each other than this part of the edges that go are merged whatever that adds: to programs that join
-/// vertices (some do to 1e-8) they are one. 1e-8 m at the usual tolerance, where a volume is right to 1e-6 of the distance.
+/// Vertices nearer to each other than this part of the edges that go are merged whatever that adds: to programs that
+/// join vertices (some do to 1e-8) they are one. 1e-8 m at the usual tolerance, where a volume is right to 1e-6 of the
+/// distance.
 constexpr double kMergeAnyway = 1e-2;
 
-/// A facet narrower than this part of the edges that go has no direction to keep: rounding tilts it by a degree and more.
+/// A facet narrower than this part of the edges that go has no direction to keep: rounding tilts it by a degree and
+/// more.
 constexpr double kTurnable = 1e-3;
 
 /// In double precision a facet has no area for its readers when it is narrower than this many steps of the largest
@@ -64,8 +66,8 @@ constexpr double kFarthestPart = 0.01;
 /// ... or to this part of the diagonal of both solids: rounding of distances, and of the booleans.
 constexpr double kNegligible = 1e-12;
 
-/// Pieces of facets, and cubes of space, that are looked at before the two bounds are left apart: seconds, and some hundred
-/// megabytes.
+/// Pieces of facets, and cubes of space, that are looked at before the two bounds are left apart: seconds, and some
+/// hundred megabytes.
 constexpr std::size_t kMostPatches = 2'000'000, kMostCells = 300'000;
 
 /// With more facets than this near a cube it is halved before a point behind all of them is looked for.

@@ -14,7 +14,6 @@
 
 namespace vantage::solid {
 
-
 std::filesystem::path report_file(const std::filesystem::path& volume_file) {
   return std::filesystem::path(volume_file).replace_extension(".report.json");
 }

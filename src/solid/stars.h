@@ -10,7 +10,8 @@
 
 namespace vantage::solid {
 
-/// Holds indices only: who changes a triangle tells so. Building: linear time. A change: linear in the vertex's triangles.
+/// Holds indices only: who changes a triangle tells so. Building: linear time. A change: linear in the vertex's
+/// triangles.
 class Stars {
  public:
   Stars(const std::vector<Triangle>& triangles, std::size_t vertices);

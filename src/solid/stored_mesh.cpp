@@ -50,8 +50,8 @@ StoredMesh stored(const Volume& volume, double flat, const Place& place) {
   return result;
 }
 
-/// Rounds to a grid about `origin` whose numbers single precision holds, all of them: so neighbouring vertices are whole
-/// steps apart, also where the numbers are small, and what has no area has none in exact arithmetic.
+/// Rounds to a grid about `origin` whose numbers single precision holds, all of them: so neighbouring vertices are
+/// whole steps apart, also where the numbers are small, and what has no area has none in exact arithmetic.
 StoredMesh stored_on_grid(const Volume& volume, const Box& box, const Vec3& origin) {
   constexpr int kFloatDigits = std::numeric_limits<float>::digits, kDoubleDigits = std::numeric_limits<double>::digits;
   const Box local{box.min - origin, box.max - origin};
@@ -68,8 +68,9 @@ StoredMesh stored_on_grid(const Volume& volume, const Box& box, const Vec3& orig
   });
   result.origin = origin;
   if (result.mesh.empty()) {
-    throw Error(ErrorKind::output, "nothing of the volume is left in single precision: at these coordinates it is coarse",
-                "", "write .ply or .obj");
+    throw Error(ErrorKind::output,
+                "nothing of the volume is left in single precision: at these coordinates it is coarse", "",
+                "write .ply or .obj");
   }
   return result;
 }

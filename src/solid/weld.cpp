@@ -24,8 +24,8 @@ std::vector<std::uint32_t> order_of_positions(const std::vector<Vec3>& vertices)
   return order;
 }
 
-/// The uses of an edge by triangles, in pairs that have the solid between them: from each that runs it from high to low to
-/// the next that runs it from low to high, turning round the edge through the inside.
+/// The uses of an edge by triangles, in pairs that have the solid between them: from each that runs it from high to low
+/// to the next that runs it from low to high, turning round the edge through the inside.
 class EdgePairs {
  public:
   explicit EdgePairs(const Mesh& mesh) : mesh_(mesh) {}

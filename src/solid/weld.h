@@ -12,9 +12,9 @@ Mesh welded(const Mesh& mesh);
 /// For every vertex the first one at exactly the same position. Cost: O(n log n).
 std::vector<std::uint32_t> first_at_position(const std::vector<Vec3>& vertices);
 
-/// The other way round: where facets round a vertex make several fans that only touch there, each fan gets a vertex of its
-/// own. At an edge with more than two triangles those that enclose the solid between them stay together. The mesh must be
-/// closed. Vertices that are new come last. Cost: linear, but for sorting the edges at each vertex.
+/// The other way round: where facets round a vertex make several fans that only touch there, each fan gets a vertex of
+/// its own. At an edge with more than two triangles those that enclose the solid between them stay together. The mesh
+/// must be closed. Vertices that are new come last. Cost: linear, but for sorting the edges at each vertex.
 void split_where_pieces_touch(Mesh& mesh);
 
 }  // namespace vantage::solid

@@ -1,5 +1,5 @@
-// One writer per file format, and what they share. The volumes that they get are checked, and rounded to the numbers of the
-// format: write_volume.cpp.
+// One writer per file format, and what they share. The volumes that they get are checked, and rounded to the numbers of
+// the format: write_volume.cpp.
 #pragma once
 
 #include <bit>

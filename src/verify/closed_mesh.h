@@ -13,16 +13,16 @@ namespace vantage::verify {
 
 /// What the edges of a mesh tell, with vertices in one place taken for one.
 struct Topology {
-  bool closed = false;     ///< every edge has an even number of triangles (two, but where pieces touch)
-  bool oriented = false;   ///< as many of them run it forwards as backwards
-  std::size_t flat = 0;    ///< triangles without area, or with two corners in one place; the latter are left out above
-  long euler = 0;          ///< V - E + F; by indices, where they make a surface of two triangles to an edge
+  bool closed = false;    ///< every edge has an even number of triangles (two, but where pieces touch)
+  bool oriented = false;  ///< as many of them run it forwards as backwards
+  std::size_t flat = 0;   ///< triangles without area, or with two corners in one place; the latter are left out above
+  long euler = 0;         ///< V - E + F; by indices, where they make a surface of two triangles to an edge
 };
 
 class ClosedMesh {
  public:
-  /// `origin` becomes the local origin of all queries. `name` is for messages. Throws Error(input) for a mesh that has no triangles, is not
-  /// closed, has an index out of range or a coordinate that is not finite.
+  /// `origin` becomes the local origin of all queries. `name` is for messages. Throws Error(input) for a mesh that has
+  /// no triangles, is not closed, has an index out of range or a coordinate that is not finite.
   ClosedMesh(const Mesh& mesh, const Vec3& origin, const std::string& name);
 
   const Topology& topology() const { return topology_; }

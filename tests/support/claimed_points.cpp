@@ -10,8 +10,8 @@ namespace vantage::testing {
 namespace {
 
 Vec3 on_surface(const Mesh& mesh, Random& random) {
-  const auto& t = mesh.triangles[static_cast<std::size_t>(
-      random.integer(0, static_cast<int>(mesh.triangles.size()) - 1))];
+  const auto& t =
+      mesh.triangles[static_cast<std::size_t>(random.integer(0, static_cast<int>(mesh.triangles.size()) - 1))];
   double a = random.uniform(0, 1), b = random.uniform(0, 1);
   if (a + b > 1) {
     a = 1 - a;

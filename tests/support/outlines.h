@@ -67,7 +67,8 @@ class OutlineDraw {
     if (kind == crowded_side) crowd(here, next);
   }
 
-  void cut_corner(const Eigen::Vector2d& before, const Eigen::Vector2d& here, const Eigen::Vector2d& after, int between) {
+  void cut_corner(const Eigen::Vector2d& before, const Eigen::Vector2d& here, const Eigen::Vector2d& after,
+                  int between) {
     const double size = log_uniform(random_, (between + 1) * 3e-9, random_.chance(0.5) ? 1e-6 : 0.1);
     const Eigen::Vector2d back = (before - here).normalized(), on = (after - here).normalized();
     const double base_angle = std::numbers::pi / 2 - 0.5 * std::acos(std::clamp(back.dot(on), -1.0, 1.0));
