@@ -36,15 +36,20 @@ build: prepare  ## the program, at build/bin/vantage
 test: everything  ## build and run all tests
 	ctest --preset release --parallel $(JOBS)
 
+.PHONY: check
+check: everything tools  ## before a commit: build, unit tests, format, and lint of what changed
+	@ctest --preset release --parallel $(JOBS) --label-exclude 'heavy|consumer'
+	@status=0; scripts/format.sh --check || status=1; JOBS=$(JOBS) scripts/lint.sh --changed || status=1; exit $$status
+
 .PHONY: asan
 asan: prepare  ## unit tests under AddressSanitizer and UndefinedBehaviorSanitizer
 	@$(call compile,asan,all)
 	ctest --preset asan --parallel $(JOBS)
 
 .PHONY: tsan
-tsan: prepare  ## unit tests under ThreadSanitizer
-	@$(call compile,tsan,all)
-	ctest --preset tsan --parallel $(JOBS)
+tsan: prepare  ## the tests of what runs on threads under ThreadSanitizer (ALL=1: all unit tests)
+	@$(call compile,tsan,vantage_tests)
+	ctest --preset tsan --parallel $(JOBS) $(if $(ALL),,--tests-regex 'Thread|Parallel|ProgressReporter')
 
 .PHONY: bench
 bench: everything  ## the benchmarks (RECORD=1 keeps the figures in bench/results)
@@ -57,8 +62,8 @@ fuzz: prepare tools  ## each fuzz target for a minute (SECONDS_EACH=60)
 	scripts/fuzz.sh $(or $(SECONDS_EACH),60)
 
 .PHONY: nightly
-nightly: prepare  ## what takes too long for every change: 2,000 degenerate scenes (SEED=N; else by the date)
-	@$(call compile,release,vantage_attack)
+nightly: everything tools  ## what takes too long for every change: all of lint, 2,000 degenerate scenes (SEED=N; else the date)
+	@$(MAKE) --no-print-directory lint ALL=1
 	build/bin/vantage_attack --scenes $(or $(SCENES),2000) --seed $(or $(SEED),$(shell date +%Y%m%d)) \
 	  --jobs $(JOBS) --out build/attack
 
@@ -71,8 +76,9 @@ format: tools  ## format our sources in place
 	@scripts/format.sh
 
 .PHONY: lint
-lint: everything tools  ## formatting and clang-tidy
-	@status=0; scripts/format.sh --check || status=1; JOBS=$(JOBS) scripts/lint.sh || status=1; exit $$status
+lint: everything tools  ## formatting, and clang-tidy over the library and the program (ALL=1: tests and benchmarks too)
+	@status=0; scripts/format.sh --check || status=1; \
+	  JOBS=$(JOBS) scripts/lint.sh $(if $(ALL),,--library) || status=1; exit $$status
 
 .PHONY: clean
 clean:  ## remove all builds; fetched sources stay

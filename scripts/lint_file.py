@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """Checks one source file with clang-tidy, unless the same text was found clean before.
 
-    lint_file.py BUILD_FOLDER FILE     exit 1 on a finding
+    lint_file.py BUILD_FOLDER FILE [CHECKS]     exit 1 on a finding; CHECKS: changes to .clang-tidy's list
 
 What is compared is the preprocessed text with its comments (NOLINT lives in them), without the paths of the folder that
-it was compiled in, the rules, and clang-tidy's version.
+it was compiled in, the rules, and clang-tidy's version. A header that the build precompiles is not used: clang cannot
+read GCC's, and each file should include what it needs.
 """
 
 import hashlib
@@ -26,36 +27,45 @@ def command_of(build, file):
     raise SystemExit(f"{file} is not among the compile commands")
 
 
-def fingerprint(build, file):
+def options_of(build, file):
+    """The compiler's options for `file`, without output files and precompiled headers; and the folder."""
     words, folder = command_of(build, file)
     # From the first option on: before it stand the compiler and what launches it.
     first = next(i for i, word in enumerate(words) if word.startswith("-") and i > 0 and words[i - 1].endswith("++"))
-    options, skip = [], False
-    for word in words[first:]:
-        if skip or word in ("-c", "-MD", file):
-            skip = False
-        elif word in ("-o", "-MT", "-MF"):
-            skip = True
-        else:
+    options, skip = [], 0
+    for i, word in enumerate(words[first:], first):
+        is_precompiled = word == "-include" and words[i + 1].endswith("/cmake_pch.hxx")
+        if skip > 0:
+            skip -= 1
+        elif word in ("-o", "-MT", "-MF") or is_precompiled:
+            skip = 1
+        elif word not in ("-c", "-MD", "-Winvalid-pch", file):
             options.append(word)
+    return options, folder
+
+
+def fingerprint(options, folder, file, checks):
     text = subprocess.run(["clang++", *options, "-E", "-CC", "-P", file], cwd=folder, check=True, capture_output=True,
                           timeout=TIMEOUT_S).stdout
     root = str(pathlib.Path(__file__).resolve().parents[1]).encode()
     version = subprocess.run(["clang-tidy", "--version"], check=True, capture_output=True).stdout
     rules = (pathlib.Path(__file__).resolve().parents[1] / ".clang-tidy").read_bytes()
-    return hashlib.sha256(b"\0".join([text.replace(root, b""), version, rules])).hexdigest()
+    return hashlib.sha256(b"\0".join([text.replace(root, b""), version, rules, checks.encode()])).hexdigest()
 
 
 def main():
     build, file = pathlib.Path(sys.argv[1]), sys.argv[2]
+    checks = sys.argv[3] if len(sys.argv) > 3 else ""
     cache = pathlib.Path(os.environ.get("VANTAGE_LINT_CACHE", pathlib.Path.home() / ".cache" / "vantage-lint"))
+    options, folder = options_of(build, file)
     try:
-        clean = cache / fingerprint(build, file)
-    except (subprocess.SubprocessError, OSError, KeyError, StopIteration):
+        clean = cache / fingerprint(options, folder, file, checks)
+    except (subprocess.SubprocessError, OSError):
         clean = None  # it is checked every time then, and clang-tidy itself says what is wrong
     if clean and clean.exists():
         return 0
-    result = subprocess.run(["clang-tidy", "--quiet", "-p", str(build), file], timeout=TIMEOUT_S)
+    command = ["clang-tidy", "--quiet", *([f"--checks={checks}"] if checks else []), file, "--", *options]
+    result = subprocess.run(command, cwd=folder, timeout=TIMEOUT_S)
     if result.returncode == 0 and clean:
         cache.mkdir(parents=True, exist_ok=True)
         clean.touch()

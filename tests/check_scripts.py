@@ -79,7 +79,7 @@ class Scripts(unittest.TestCase):
         (self.tree / "src" / "room" / "a.cpp").write_text("int a;\n", encoding="utf-8")
         (self.tree / "build").mkdir()
         (self.tree / "build" / "compile_commands.json").write_text(
-            json.dumps([{"directory": str(self.tree), "command": "c++", "file": str(compiled)}], indent=2), encoding="utf-8")
+            json.dumps([{"directory": str(self.tree), "command": f"/usr/bin/c++ -DX -c {compiled}", "file": str(compiled)}], indent=2), encoding="utf-8")
         self.git("init")
         self.git("add", "src")
         self.put_tool("clang-tidy", 'echo "checked $*"\n')
@@ -99,7 +99,7 @@ class Scripts(unittest.TestCase):
         for cwd in (self.tree, link):
             code, text = self.run_script("lint.sh", cwd=cwd)
             self.assertEqual(code, 0, text)
-            self.assertIn(f"checked --quiet -p build {file}\n", text)
+            self.assertIn(f"checked --quiet {file} -- -DX\n", text)
             self.assertIn("lint: 1 files clean", text)
 
     def test_lint_checks_again_what_has_changed(self):

@@ -129,7 +129,7 @@ Agreement compare_with_query(const PreparedScene& scene, const Case& made, const
 }
 
 Volume compute(const PreparedScene& scene, const Case& made) {
-  const Volume volume = compute_visibility(scene, made.target, {made.range}, {1e-3 * made.range, 0});
+  Volume volume = compute_visibility(scene, made.target, {made.range}, {1e-3 * made.range, 0});
   EXPECT_EQ(volume.outcome, Outcome::computed) << volume.reason;
   const MeshMeasures m = measure(volume.mesh);
   EXPECT_TRUE(m.closed && m.oriented && m.euler == 2 && m.pieces == 1);

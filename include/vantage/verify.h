@@ -21,7 +21,7 @@ struct VerifyOptions {
                                   ///< wrong side of the surface than this times its distance to the target's centre
   double tolerance_m = 0.01;  ///< of the volume (ExactOptions): what lies within it of the range limit may be unclaimed
   double rounding_m = 0;      ///< of the volume's file (Scene::rounding_m): what lies no deeper on the wrong side than
-                          ///< this, besides what the depth tolerance allows, does not count
+                              ///< this, besides what the depth tolerance allows, does not count
 };
 
 struct VerifyReport {

@@ -165,7 +165,8 @@ void SurfaceSearch::split(const Patch& patch, std::vector<Patch>& pieces) const 
 std::vector<Patch> SurfaceSearch::first_patches(const LabelledMesh& region, std::uint32_t own,
                                                 const core::ProgressReporter& progress) const {
   constexpr std::size_t kGrain = 256;
-  const auto& [mesh, labels] = region;
+  const Mesh& mesh = region.mesh;
+  const std::vector<std::uint32_t>& labels = region.labels;
   std::vector<std::uint32_t> facets;
   std::vector<char> is_used(mesh.vertices.size(), 0);
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
