@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/progress_reporter.h"
-#include "parallel/parallel.h"
+#include "core/parallel.h"
 #include "support/cities.h"
 #include "support/memory.h"
 #include "support/plain_union.h"

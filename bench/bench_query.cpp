@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "parallel/parallel.h"
+#include "core/parallel.h"
 #include "support/cities.h"
 #include "vantage/query.h"
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <utility>
 
-#include "render/depth.h"
+#include "depth/depth.h"
 #include "support/cities.h"
 #include "vantage/error.h"
 #include "vantage/spheres.h"
@@ -26,18 +26,18 @@ const std::map<std::string, DeviceChoice::Kind> kDevices = {
     {"cpu", DeviceChoice::Kind::cpu}, {"opengl", DeviceChoice::Kind::opengl}, {"gpu", DeviceChoice::Kind::gpu}};
 
 /// Opened, and the scene uploaded, once a process. Throws Error(input) where the device is not there.
-render::DepthRenderer& renderer(const City& city, const std::string& device) {
-  static std::map<std::pair<std::string, std::string>, std::unique_ptr<render::DepthRenderer>> opened;
+depth::DepthRenderer& renderer(const City& city, const std::string& device) {
+  static std::map<std::pair<std::string, std::string>, std::unique_ptr<depth::DepthRenderer>> opened;
   auto& slot = opened[{city.name, device}];
-  if (!slot) slot = render::make_depth_renderer(prepared_city(city)->prepared, {kDevices.at(device), 0}).renderer;
+  if (!slot) slot = depth::make_depth_renderer(prepared_city(city)->prepared, {kDevices.at(device), 0}).renderer;
   return *slot;
 }
 
-void depth(State& state, const City& city, int face_size, render::Sampling sampling, const std::string& device) {
+void depth(State& state, const City& city, int face_size, depth::Sampling sampling, const std::string& device) {
   const PreparedCity* const ready = prepared_city(city);
   if (!ready) return state.SkipWithError(absence(city).c_str());
   try {
-    render::DepthRenderer& images = renderer(city, device);
+    depth::DepthRenderer& images = renderer(city, device);
     const Vec3 viewpoint = ready->targets.front().target.vertices.front() + Vec3(0, 0, 1e-3);
     double sum = 0;
     for (auto _ : state) {
@@ -78,7 +78,7 @@ const bool registered = [] {
   for (const City* city : {&kCharlotte, &kMunichRepeated})
     for (const int size : {40, 200, 512, 2048})
       for (const auto& [word, sampling] :
-           {std::pair{"centers", render::Sampling::centers}, std::pair{"nearest", render::Sampling::nearest}})
+           {std::pair{"centers", depth::Sampling::centers}, std::pair{"nearest", depth::Sampling::nearest}})
         for (const auto& device : kDevices)
           add(std::string("depth/") + city->name + "/" + std::to_string(size) + "/" + word + "/" + device.first,
               [city, size, sampling = sampling, name = device.first](State& state) {

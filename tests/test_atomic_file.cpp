@@ -12,13 +12,13 @@
 #include <thread>
 #include <vector>
 
-#include "solid/atomic_file.h"
+#include "core/atomic_file.h"
 #include "support/solids.h"
 #include "support/temporary_directory.h"
 #include "vantage/error.h"
 #include "vantage/volume.h"
 
-namespace vantage::solid {
+namespace vantage::core {
 namespace {
 
 using vantage::testing::read_bytes;
@@ -229,4 +229,4 @@ TEST(AtomicFile, AFullDiskLeavesTheOldFile) {
 }
 
 }  // namespace
-}  // namespace vantage::solid
+}  // namespace vantage::core

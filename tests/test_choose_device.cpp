@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "render/choose.h"
+#include "depth/choose.h"
 #include "support/mesh_reading.h"
 #include "support/scenes.h"
 #include "vantage/error.h"
@@ -14,10 +14,10 @@
 namespace vantage::testing {
 namespace {
 
-using render::BackEnds;
-using render::ChosenRenderer;
-using render::DepthRequest;
-using render::DeviceFailure;
+using depth::BackEnds;
+using depth::ChosenRenderer;
+using depth::DepthRequest;
+using depth::DeviceFailure;
 using Kind = DeviceChoice::Kind;
 
 RenderDevice device(int index, DeviceKind kind, const std::string& name) {
@@ -30,11 +30,11 @@ RenderDevice device(int index, DeviceKind kind, const std::string& name) {
 }
 
 /// Answers each viewpoint with its x and the number of its device; fails once so many have been answered.
-class FakeRenderer : public render::DepthRenderer {
+class FakeRenderer : public depth::DepthRenderer {
  public:
   FakeRenderer(const RenderDevice& device, std::size_t answers) : device_(device), answers_(answers) {}
   const RenderDevice& device() const override { return device_; }
-  void render(const DepthRequest& request, const render::DepthSink& sink) override {
+  void render(const DepthRequest& request, const depth::DepthSink& sink) override {
     EXPECT_LE(request.face_size, device_.largest_face_size);
     for (std::size_t i = 0; i < request.viewpoints.size(); ++i) {
       if (answers_ == 0) throw DeviceFailure("the driver reset the device");
@@ -62,7 +62,7 @@ struct Machine {
     if (software) result.found.devices.push_back(device(index++, DeviceKind::opengl_software, "llvmpipe"));
     if (hardware) result.found.devices.push_back(device(index++, DeviceKind::opengl_hardware, "Big GPU"));
     if (!software && !hardware) result.found.why_no_opengl = "libEGL.so.1 is not installed";
-    result.make = [this](const RenderDevice& of) -> std::unique_ptr<render::DepthRenderer> {
+    result.make = [this](const RenderDevice& of) -> std::unique_ptr<depth::DepthRenderer> {
       if (of.kind != DeviceKind::cpu && fails_at_once) throw DeviceFailure("the scene needs 9 GiB of 8");
       made.push_back(of.name);
       return std::make_unique<FakeRenderer>(of, of.kind == DeviceKind::cpu ? 1000 : answers);
@@ -74,9 +74,9 @@ struct Machine {
 const std::vector<Vec3> kEyes{{10, 0, 0}, {11, 0, 0}, {12, 0, 0}, {13, 0, 0}, {14, 0, 0}};
 
 /// Renders kEyes; the devices that did, in order. Every viewpoint must come once and in its place.
-std::vector<int> devices_of(render::DepthRenderer& renderer, int face_size = 8) {
+std::vector<int> devices_of(depth::DepthRenderer& renderer, int face_size = 8) {
   std::vector<int> result;
-  renderer.render({kEyes, face_size, render::Sampling::centers, 10}, [&](std::size_t i, std::span<const float> image) {
+  renderer.render({kEyes, face_size, depth::Sampling::centers, 10}, [&](std::size_t i, std::span<const float> image) {
     ASSERT_EQ(i, result.size());
     ASSERT_EQ(image[0], static_cast<float>(kEyes[i].x()));
     result.push_back(static_cast<int>(image[1]));
@@ -85,7 +85,7 @@ std::vector<int> devices_of(render::DepthRenderer& renderer, int face_size = 8) 
 }
 
 std::string chosen(Machine machine, Kind kind, int index = 0) {
-  return render::make_depth_renderer(machine.back_ends(), {kind, index}).renderer->device().name;
+  return depth::make_depth_renderer(machine.back_ends(), {kind, index}).renderer->device().name;
 }
 
 TEST(ChooseDevice, AutomaticTakesAGraphicsProcessorOrElseTheCpu) {
@@ -97,7 +97,7 @@ TEST(ChooseDevice, AutomaticTakesAGraphicsProcessorOrElseTheCpu) {
 TEST(ChooseDevice, SaysWhyItIsTheCpu) {
   Machine neither{.software = false, .hardware = false}, emulated{.hardware = false}, full;
   const auto note = [](Machine& machine, Kind kind) {
-    return render::make_depth_renderer(machine.back_ends(), {kind, 0}).note;
+    return depth::make_depth_renderer(machine.back_ends(), {kind, 0}).note;
   };
   EXPECT_NE(note(neither, Kind::automatic).find("libEGL.so.1 is not installed"), std::string::npos);
   EXPECT_NE(note(emulated, Kind::automatic).find("llvmpipe"), std::string::npos);
@@ -125,13 +125,13 @@ TEST(ChooseDevice, RefusesWhatIsNotThereAndSaysWhatIs) {
 
 TEST(ChooseDevice, FallsBackWhenTheDeviceCannotHoldTheScene) {
   Machine machine{.fails_at_once = true};
-  ChosenRenderer chosen = render::make_depth_renderer(machine.back_ends(), {});
+  ChosenRenderer chosen = depth::make_depth_renderer(machine.back_ends(), {});
   EXPECT_EQ(chosen.renderer->device().kind, DeviceKind::cpu);
   EXPECT_NE(chosen.note.find("Big GPU cannot be used: the scene needs 9 GiB of 8"), std::string::npos) << chosen.note;
   EXPECT_EQ(devices_of(*chosen.renderer), (std::vector<int>{0, 0, 0, 0, 0}));
   expect_input_error(
       [&] {
-        render::make_depth_renderer(machine.back_ends(), {Kind::gpu, 0});
+        depth::make_depth_renderer(machine.back_ends(), {Kind::gpu, 0});
       },
       "9 GiB of 8", "Big GPU");
 }
@@ -139,7 +139,7 @@ TEST(ChooseDevice, FallsBackWhenTheDeviceCannotHoldTheScene) {
 TEST(ChooseDevice, GoesOnWithTheCpuInTheMiddleOfARequest) {
   for (const std::size_t answers : {0U, 1U, 3U, 4U}) {
     Machine machine{.answers = answers};
-    ChosenRenderer chosen = render::make_depth_renderer(machine.back_ends(), {});
+    ChosenRenderer chosen = depth::make_depth_renderer(machine.back_ends(), {});
     EXPECT_EQ(chosen.renderer->device().name, "Big GPU");
     std::vector<int> expected(answers, 2);
     expected.resize(kEyes.size(), 0);
@@ -154,32 +154,32 @@ TEST(ChooseDevice, StopsInTheMiddleWhereTheChoiceInsists) {
   for (const DeviceChoice& choice :
        {DeviceChoice{Kind::gpu, 0}, DeviceChoice{Kind::opengl, 0}, DeviceChoice{Kind::index, 2}}) {
     Machine machine{.answers = 2};
-    ChosenRenderer chosen = render::make_depth_renderer(machine.back_ends(), choice);
+    ChosenRenderer chosen = depth::make_depth_renderer(machine.back_ends(), choice);
     expect_input_error([&] { devices_of(*chosen.renderer); }, "the driver reset the device", "Big GPU");
   }
 }
 
 TEST(ChooseDevice, TakesTheCpuForFacesThatTheDeviceDoesNotMake) {
   Machine machine;
-  ChosenRenderer chosen = render::make_depth_renderer(machine.back_ends(), {});
+  ChosenRenderer chosen = depth::make_depth_renderer(machine.back_ends(), {});
   EXPECT_EQ(devices_of(*chosen.renderer, 101), (std::vector<int>{0, 0, 0, 0, 0}));
 }
 
 TEST(ChooseDevice, LetsErrorsOfTheSinkThrough) {
   Machine machine;
-  ChosenRenderer chosen = render::make_depth_renderer(machine.back_ends(), {});
+  ChosenRenderer chosen = depth::make_depth_renderer(machine.back_ends(), {});
   const auto stop = [](std::size_t, std::span<const float>) { throw Error(ErrorKind::cancelled, "stop", "", ""); };
-  EXPECT_THROW(chosen.renderer->render({kEyes, 8, render::Sampling::centers, 10}, stop), Error);
+  EXPECT_THROW(chosen.renderer->render({kEyes, 8, depth::Sampling::centers, 10}, stop), Error);
   EXPECT_EQ(machine.made, (std::vector<std::string>{"Big GPU"})) << "no fault of the device";
 }
 
 TEST(ChooseDevice, OfThisMachineRendersARealScene) {
   const PreparedScene scene(SceneBuilder().box("room", {-2, -3, -4}, {5, 6, 7}));
   for (const Kind kind : {Kind::automatic, Kind::cpu}) {
-    const ChosenRenderer chosen = render::make_depth_renderer(scene, {kind, 0});
+    const ChosenRenderer chosen = depth::make_depth_renderer(scene, {kind, 0});
     const Vec3 eye(0, 0, 0);
     int calls = 0;
-    chosen.renderer->render({{&eye, 1}, 3, render::Sampling::nearest, 100},
+    chosen.renderer->render({{&eye, 1}, 3, depth::Sampling::nearest, 100},
                             [&](std::size_t, std::span<const float> image) {
                               ++calls;
                               ASSERT_EQ(image.size(), 54U);

@@ -5,8 +5,8 @@
 #include <limits>
 #include <numbers>
 
-#include "city/footprint.h"
-#include "city/grid_rings.h"
+#include "maps/city/footprint.h"
+#include "maps/city/grid_rings.h"
 #include "support/random.h"
 #include "support/rings.h"
 

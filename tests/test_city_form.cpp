@@ -4,7 +4,7 @@
 #include <initializer_list>
 #include <string>
 
-#include "city/building_form.h"
+#include "maps/city/building_form.h"
 #include "support/random.h"
 
 namespace vantage::city {

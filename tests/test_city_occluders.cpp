@@ -6,7 +6,7 @@
 #include <numbers>
 #include <string>
 
-#include "city/occluders.h"
+#include "maps/city/occluders.h"
 #include "solid/solid_check.h"
 #include "support/random.h"
 #include "vantage/error.h"

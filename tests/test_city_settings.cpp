@@ -6,7 +6,7 @@
 #include <iterator>
 #include <string>
 
-#include "city/settings.h"
+#include "maps/city/settings.h"
 #include "support/places.h"
 #include "vantage/error.h"
 

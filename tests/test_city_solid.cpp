@@ -9,10 +9,10 @@
 #include <optional>
 #include <string>
 
-#include "city/building_solid.h"
-#include "city/roof_profile.h"
+#include "maps/city/building_solid.h"
+#include "maps/city/roof_profile.h"
 #include "solid/solid_check.h"
-#include "solid/weld.h"
+#include "core/weld.h"
 #include "support/random.h"
 #include "support/rings.h"
 #include "vantage/error.h"
@@ -87,7 +87,7 @@ std::optional<std::pair<double, double>> span_at(const Mesh& mesh, const Vec2& p
 
 /// Every edge has exactly two facets, also when equal positions are one; closed, outward, free of self-intersections.
 void expect_sound(const Solid& solid, const std::string& what) {
-  for (const Mesh& mesh : {solid.mesh, solid::welded(solid.mesh)}) {
+  for (const Mesh& mesh : {solid.mesh, core::welded(solid.mesh)}) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, int> uses;
     for (const Triangle& t : mesh.triangles) {
       for (int e = 0; e < 3; ++e) ++uses[{t[e], t[(e + 1) % 3]}];

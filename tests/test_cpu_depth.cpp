@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "parallel/parallel.h"
-#include "render/cpu_depth.h"
+#include "core/parallel.h"
+#include "depth/cpu_depth.h"
 #include "support/depth_probe.h"
 #include "support/mesh_reading.h"
 #include "support/random.h"
@@ -16,7 +16,7 @@
 namespace vantage::testing {
 namespace {
 
-using render::Sampling;
+using depth::Sampling;
 
 const Vec3 kMap(580000, 4785000, 1000);  // coordinates as maps have them
 
@@ -26,13 +26,13 @@ Scene shifted(Scene scene, const Vec3& by) {
 }
 
 DepthMap render_scene(const Scene& scene, const Vec3& viewpoint, int size, Sampling sampling, double range = 1e9) {
-  const auto renderer = render::make_cpu_depth_renderer(PreparedScene(scene));
+  const auto renderer = depth::make_cpu_depth_renderer(PreparedScene(scene));
   return render_one(*renderer, viewpoint, size, sampling, range);
 }
 
 TEST(CubeFaces, AreRightHandedAndCoverAllAxes) {
   Vec3 sum = Vec3::Zero();
-  for (const render::CubeFace& face : render::cube_faces()) {
+  for (const depth::CubeFace& face : depth::cube_faces()) {
     EXPECT_EQ(face.right.cross(face.up), -face.forward);
     sum += face.forward.cwiseAbs();
   }
@@ -129,7 +129,7 @@ TEST(CpuDepth, HasNoCracks) {
   Random random(4110);
   SceneBuilder builder;
   const int cells = 12;
-  for (const render::CubeFace& wall : render::cube_faces()) {
+  for (const depth::CubeFace& wall : depth::cube_faces()) {
     for (int cell = 0; cell < cells * cells; ++cell) {
       const int column = cell % cells, row = cell / cells;
       const auto corner = [&](int right, int up) {
@@ -326,7 +326,7 @@ TEST(NearestDepth, BoundsRandomDirectionsInCities) {
 /// The largest inverse depth of a triangle in a square of a face: cut in extended precision.
 double exact_in_square(const std::array<Vec3, 3>& triangle, int face, double u0, double u1, double v0, double v1) {
   using Point = std::array<long double, 3>;
-  const render::CubeFace& axes = render::cube_faces()[face];
+  const depth::CubeFace& axes = depth::cube_faces()[face];
   std::vector<Point> points, next;
   for (const Vec3& p : triangle) points.push_back({axes.right.dot(p), axes.up.dot(p), axes.forward.dot(p)});
   const std::array<Point, 5> sides{{{0, 0, 1}, {1, 0, -u0}, {-1, 0, u1}, {0, 1, -v0}, {0, -1, v1}}};
@@ -407,7 +407,7 @@ TEST(NearestDepth, MergedPolygonsAreBoundedToo) {
 TEST(NearestDepth, IsNeverFartherThanTheCentre) {
   Random random(4107);
   const Scene city = random_city(random, 40, 2);
-  const auto renderer = render::make_cpu_depth_renderer(PreparedScene(city));
+  const auto renderer = depth::make_cpu_depth_renderer(PreparedScene(city));
   for (int round = 0; round < 5; ++round) {
     const Vec3 eye(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(0.1, 50));
     const DepthMap nearest = render_one(*renderer, eye, 100, Sampling::nearest);
@@ -424,7 +424,7 @@ TEST(NearestDepth, IsNeverFartherThanTheCentre) {
 TEST(CpuDepth, DoesNotDependOnTheNumberOfThreads) {
   Random random(4108);
   const Scene city = random_city(random, 40, 2);
-  const auto renderer = render::make_cpu_depth_renderer(PreparedScene(city));
+  const auto renderer = depth::make_cpu_depth_renderer(PreparedScene(city));
   const std::vector<Vec3> eyes{{0, 0, 1}, {1, 1, 30}, {0, 0, 1e-6}};
   for (const auto& [sampling, n] :
        {std::pair(Sampling::centers, 100), {Sampling::centers, 150}, {Sampling::nearest, 150}}) {
@@ -451,7 +451,7 @@ TEST(CpuDepth, DoesNotDependOnTheNumberOfThreads) {
 TEST(CpuDepth, KeepsWhatIsInRange) {
   Random random(4109);
   const Scene city = random_city(random, 40, 2);
-  const auto renderer = render::make_cpu_depth_renderer(PreparedScene(city));
+  const auto renderer = depth::make_cpu_depth_renderer(PreparedScene(city));
   const Vec3 eye(0, 0, 2);
   for (const Sampling sampling : {Sampling::centers, Sampling::nearest}) {
     const int n = 64;
@@ -487,7 +487,7 @@ TEST(CpuDepth, SurfacesThatTouchTheViewpointHideNothing) {
 }
 
 TEST(CpuDepth, RefusesBadRequests) {
-  const auto renderer = render::make_cpu_depth_renderer(PreparedScene(SceneBuilder().ground("ground", 100)));
+  const auto renderer = depth::make_cpu_depth_renderer(PreparedScene(SceneBuilder().ground("ground", 100)));
   const auto render = [&](const Vec3& eye, int size, double range) {
     renderer->render({{&eye, 1}, size, Sampling::centers, range}, [](std::size_t, std::span<const float>) { FAIL(); });
   };

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "render/cpu_depth.h"
-#include "render/device_list.h"
-#include "render/gl_depth.h"
+#include "depth/cpu_depth.h"
+#include "depth/device_list.h"
+#include "depth/gl_depth.h"
 #include "support/depth_probe.h"
 #include "support/random.h"
 #include "support/shared_data.h"
@@ -18,7 +18,7 @@
 namespace vantage::testing {
 namespace {
 
-using render::Sampling;
+using depth::Sampling;
 
 constexpr double kRange = 400;
 
@@ -39,7 +39,7 @@ std::vector<Vec3> random_viewpoints(const PreparedScene& scene, Random& random, 
   return viewpoints;
 }
 
-std::vector<float> render_all(render::DepthRenderer& renderer, const std::vector<Vec3>& viewpoints, int size,
+std::vector<float> render_all(depth::DepthRenderer& renderer, const std::vector<Vec3>& viewpoints, int size,
                               Sampling sampling) {
   std::vector<float> all;
   const auto begin = std::chrono::steady_clock::now();
@@ -81,7 +81,7 @@ class HeavyDepthAgreement : public ::testing::Test {
  protected:
   void SetUp() override {
     for (const RealScene& scene : kScenes) VANTAGE_REQUIRE_SHARED(scene.file);
-    list_ = render::list_devices();
+    list_ = depth::list_devices();
     if (list_.opengl.empty()) GTEST_SKIP() << list_.found.why_no_opengl;
   }
 
@@ -93,9 +93,9 @@ class HeavyDepthAgreement : public ::testing::Test {
       const PreparedScene scene(read_scene(shared_data(file.file), {file.up, 1.0}));
       std::cout << file.file << "\n";
       const std::vector<Vec3> viewpoints = random_viewpoints(scene, random, count);
-      const std::vector<float> of_cpu = render_all(*render::make_cpu_depth_renderer(scene), viewpoints, size, sampling);
+      const std::vector<float> of_cpu = render_all(*depth::make_cpu_depth_renderer(scene), viewpoints, size, sampling);
       for (std::size_t i = 0; i < list_.opengl.size(); ++i) {
-        const auto renderer = render::make_gl_depth_renderer(scene, list_.opengl[i]);
+        const auto renderer = depth::make_gl_depth_renderer(scene, list_.opengl[i]);
         compare(render_all(*renderer, viewpoints, size, sampling), of_cpu, size, sums[i]);
       }
     }
@@ -109,7 +109,7 @@ class HeavyDepthAgreement : public ::testing::Test {
     }
   }
 
-  render::DeviceList list_;
+  depth::DeviceList list_;
 };
 
 TEST_F(HeavyDepthAgreement, OfThousandViewpoints) {

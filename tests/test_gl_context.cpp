@@ -10,19 +10,19 @@
 #include <utility>
 #include <vector>
 
-#include "render/gl_context.h"
-#include "render/gl_depth.h"
-#include "render/gl_library.h"
+#include "depth/gl_context.h"
+#include "depth/gl_depth.h"
+#include "depth/gl_library.h"
 #include "support/scenes.h"
 
 namespace vantage::testing {
 namespace {
 
-using render::DeviceFailure;
-using render::GlContext;
-using render::GlCurrent;
-using render::GlDeviceInfo;
-using render::GlLibrary;
+using depth::DeviceFailure;
+using depth::GlContext;
+using depth::GlCurrent;
+using depth::GlDeviceInfo;
+using depth::GlLibrary;
 
 std::shared_ptr<const GlLibrary> real;  // what replaced functions pass on to
 int calls = 0;                          // of a replaced function, since the test began
@@ -31,9 +31,9 @@ class GlContexts : public ::testing::Test {
  protected:
   void SetUp() override {
     std::string why;
-    real = render::load_gl_library(why);
+    real = depth::load_gl_library(why);
     if (!real) GTEST_SKIP() << why;
-    if (render::gl_devices(why, real).empty()) GTEST_SKIP() << why;
+    if (depth::gl_devices(why, real).empty()) GTEST_SKIP() << why;
     broken_ = std::make_shared<GlLibrary>(*real);
     calls = 0;
   }
@@ -41,7 +41,7 @@ class GlContexts : public ::testing::Test {
 
   std::vector<GlDeviceInfo> devices() {
     why_.clear();
-    return render::gl_devices(why_, broken_);
+    return depth::gl_devices(why_, broken_);
   }
 
   /// Expects that no device is found, and that the sentence says all of `words` and what to do.
@@ -53,15 +53,15 @@ class GlContexts : public ::testing::Test {
   }
 
   /// Expects a DeviceFailure that says `word`, from making a renderer or from rendering with it.
-  void expect_failure(const char* word, const render::GlDepthLimits& limits = {}, int face_size = 16) {
+  void expect_failure(const char* word, const depth::GlDepthLimits& limits = {}, int face_size = 16) {
     std::string why;
-    const GlDeviceInfo device = render::gl_devices(why, real).front();
+    const GlDeviceInfo device = depth::gl_devices(why, real).front();
     const PreparedScene scene(SceneBuilder().ground("ground", 10).scene());
     const std::vector<Vec3> eyes(3, Vec3(0, 0, 1));
     std::size_t maps = 0;
     try {
-      const auto renderer = render::make_gl_depth_renderer(scene, device, limits, broken_);
-      renderer->render({eyes, face_size, render::Sampling::nearest, 100},
+      const auto renderer = depth::make_gl_depth_renderer(scene, device, limits, broken_);
+      renderer->render({eyes, face_size, depth::Sampling::nearest, 100},
                        [&](std::size_t, std::span<const float>) { ++maps; });
       ADD_FAILURE() << "nothing failed";
     } catch (const DeviceFailure& failure) {
@@ -76,9 +76,9 @@ class GlContexts : public ::testing::Test {
 
 TEST(GlLibraries, MissingOnesSayWhatToInstall) {
   std::string why;
-  EXPECT_EQ(render::load_gl_library(why, "libnothing-of-that-name.so.1"), nullptr);
+  EXPECT_EQ(depth::load_gl_library(why, "libnothing-of-that-name.so.1"), nullptr);
   EXPECT_NE(why.find("install libegl1 and libgl1-mesa-dri"), std::string::npos) << why;
-  EXPECT_EQ(render::load_gl_library(why, "libm.so.6"), nullptr);
+  EXPECT_EQ(depth::load_gl_library(why, "libm.so.6"), nullptr);
   EXPECT_NE(why.find("libm.so.6 lacks egl"), std::string::npos) << why;
 }
 
@@ -246,11 +246,11 @@ TEST_F(GlContexts, WhatWasCurrentIsCurrentAgain) {
 
 TEST_F(GlContexts, ARendererWorksOnAnyThread) {
   const PreparedScene scene(SceneBuilder().ground("ground", 10).scene());
-  const auto renderer = render::make_gl_depth_renderer(scene, devices().front());
+  const auto renderer = depth::make_gl_depth_renderer(scene, devices().front());
   const Vec3 eye(0, 0, 2);
   float down = 0;
   std::thread([&] {
-    renderer->render({std::span(&eye, 1), 3, render::Sampling::centers, 100},
+    renderer->render({std::span(&eye, 1), 3, depth::Sampling::centers, 100},
                      [&](std::size_t, std::span<const float> depths) { down = depths[5 * 9 + 4]; });
   }).join();
   EXPECT_NEAR(down, 0.5, 1e-6);

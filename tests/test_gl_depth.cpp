@@ -11,7 +11,7 @@
 #include <thread>
 #include <vector>
 
-#include "render/gl_depth.h"
+#include "depth/gl_depth.h"
 #include "support/pyramid_oracle.h"
 #include "support/random.h"
 #include "support/scenes.h"
@@ -22,7 +22,7 @@
 namespace vantage::testing {
 namespace {
 
-using render::Sampling;
+using depth::Sampling;
 
 constexpr double kRange = 5000;
 
@@ -30,18 +30,18 @@ class GlDepth : public ::testing::Test {
  protected:
   void SetUp() override {
     std::string why_none;
-    devices_ = render::gl_devices(why_none);
+    devices_ = depth::gl_devices(why_none);
     if (devices_.empty()) GTEST_SKIP() << why_none;
   }
 
-  std::unique_ptr<render::DepthRenderer> renderer(const Scene& scene) const {
-    return render::make_gl_depth_renderer(PreparedScene(scene), devices_.front());
+  std::unique_ptr<depth::DepthRenderer> renderer(const Scene& scene) const {
+    return depth::make_gl_depth_renderer(PreparedScene(scene), devices_.front());
   }
 
-  std::vector<render::GlDeviceInfo> devices_;
+  std::vector<depth::GlDeviceInfo> devices_;
 };
 
-std::vector<float> cube_map(render::DepthRenderer& renderer, const Vec3& eye, int face_size, Sampling sampling,
+std::vector<float> cube_map(depth::DepthRenderer& renderer, const Vec3& eye, int face_size, Sampling sampling,
                             double range = kRange) {
   std::vector<float> result;
   renderer.render({std::span(&eye, 1), face_size, sampling, range},
@@ -82,7 +82,7 @@ struct Excess {
 };
 
 /// Nearest depths against each triangle's part in the texel's pyramid.
-Excess check_nearest(Random& random, render::DepthRenderer& renderer, const Scene& scene, const Vec3& eye,
+Excess check_nearest(Random& random, depth::DepthRenderer& renderer, const Scene& scene, const Vec3& eye,
                      int face_size, int most) {
   const std::vector<float> depths = cube_map(renderer, eye, face_size, Sampling::nearest);
   const auto faces = all_faces(scene, eye);
@@ -114,7 +114,7 @@ struct Agreement {
 };
 
 /// Depths at the centres against rays.
-Agreement check_centers(Random& random, render::DepthRenderer& renderer, const Scene& scene, const Vec3& eye,
+Agreement check_centers(Random& random, depth::DepthRenderer& renderer, const Scene& scene, const Vec3& eye,
                         int face_size, int most) {
   const std::vector<float> depths = cube_map(renderer, eye, face_size, Sampling::centers);
   const auto faces = all_faces(scene, eye);
@@ -305,12 +305,12 @@ TEST_F(GlDepth, FewerFacesAtOnceChangeNothing) {
   const PreparedScene prepared(scene);
   const Vec3 eye(1, 2, 15);
   const int n = 64;
-  const auto all = render::make_gl_depth_renderer(prepared, devices_.front());
+  const auto all = depth::make_gl_depth_renderer(prepared, devices_.front());
   const std::vector<float> expected = cube_map(*all, eye, n, Sampling::nearest);
   for (const std::size_t faces : {1, 2, 3, 4}) {
-    render::GlDepthLimits limits;
+    depth::GlDepthLimits limits;
     limits.image_bytes = 12 * faces * n * n;
-    const auto some = render::make_gl_depth_renderer(prepared, devices_.front(), limits);
+    const auto some = depth::make_gl_depth_renderer(prepared, devices_.front(), limits);
     EXPECT_EQ(cube_map(*some, eye, n, Sampling::nearest), expected) << faces;
   }
 }
@@ -342,7 +342,7 @@ TEST_F(GlDepth, AViewpointOnASurfaceSeesWhatIsAbove) {
     const auto faces = all_faces(scene, eye);
     for (const Texel& t : some_texels(random, n, 1 << 20)) {
       const double u = centre_of(t.column, n), v = centre_of(t.row, n);
-      const render::CubeFace& axes = render::cube_faces()[t.face];
+      const depth::CubeFace& axes = depth::cube_faces()[t.face];
       const double upward = (axes.forward + u * axes.right + v * axes.up).z();
       const double q = depths[(std::size_t(t.face) * n + t.row) * n + t.column];
       EXPECT_GE(q, inverse_depth_along(faces[t.face], u, v));  // of the block
@@ -361,7 +361,7 @@ TEST_F(GlDepth, TwoRenderersOnTwoThreads) {
   std::vector<std::thread> threads;
   for (std::vector<float>& map : maps) {
     threads.emplace_back([&] {
-      const auto gl = render::make_gl_depth_renderer(prepared, devices_.front());
+      const auto gl = depth::make_gl_depth_renderer(prepared, devices_.front());
       for (int i = 0; i < 5; ++i) map = cube_map(*gl, eye, 50, Sampling::nearest);
     });
   }

@@ -16,9 +16,9 @@
 #include "support/raster_writer.h"
 #include "support/shared_data.h"
 #include "support/temporary_directory.h"
-#include "terrain/gdal_library.h"
-#include "terrain/height_grid.h"
-#include "terrain/surface.h"
+#include "maps/terrain/gdal_library.h"
+#include "maps/terrain/height_grid.h"
+#include "maps/terrain/surface.h"
 #include "vantage/error.h"
 
 namespace vantage::terrain {

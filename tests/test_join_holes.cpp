@@ -6,11 +6,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "scene/join_holes.h"
-#include "scene/triangulate_polygon.h"
+#include "io/join_holes.h"
+#include "io/triangulate_polygon.h"
 #include "support/random.h"
 
-namespace vantage::scene {
+namespace vantage::io {
 namespace {
 
 using Ring = std::vector<Vec3>;
@@ -133,4 +133,4 @@ TEST(JoinHoles, CoversRandomPolygonsInSpace) {
 }
 
 }  // namespace
-}  // namespace vantage::scene
+}  // namespace vantage::io

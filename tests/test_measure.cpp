@@ -3,7 +3,7 @@
 #include <numbers>
 #include <utility>
 
-#include "solid/edges.h"
+#include "core/edges.h"
 #include "support/solids.h"
 #include "vantage/error.h"
 #include "vantage/volume.h"

@@ -7,10 +7,10 @@
 #include <sstream>
 #include <string>
 
-#include "mission/mission_parser.h"
-#include "mission/nearest_name.h"
-#include "mission/numbers.h"
-#include "mission/yaml_tree.h"
+#include "app/mission_parser.h"
+#include "app/nearest_name.h"
+#include "app/numbers.h"
+#include "app/yaml_tree.h"
 #include "vantage/error.h"
 #include "vantage/mission.h"
 
@@ -18,10 +18,10 @@ namespace vantage {
 namespace {
 
 namespace fs = std::filesystem;
-using mission_io::NumberFault;
-using mission_io::parse_mission;
-using mission_io::parse_number;
-using mission_io::ParsedMission;
+using app::NumberFault;
+using app::parse_mission;
+using app::parse_number;
+using app::ParsedMission;
 
 constexpr const char* kScene = "scene:\n  mesh: city.obj\n";
 constexpr const char* kTarget = "target:\n  vertices: [[0, 0, 0], [10, 0, 0], [10, 10, 0], [0, 10, 0]]\n";
@@ -116,7 +116,7 @@ exact: {tolerance: 0.02}
   ASSERT_EQ(parsed.navigation_meshes.size(), 3U);
   EXPECT_EQ(parsed.navigation_meshes[0].file, "/data/missions/airspace.ply");
   EXPECT_EQ(parsed.navigation_meshes[0].name, "airspace.ply");
-  const mission_io::MeshReference &ply = parsed.navigation_meshes[0], &obj = parsed.navigation_meshes[1],
+  const app::MeshReference &ply = parsed.navigation_meshes[0], &obj = parsed.navigation_meshes[1],
                                   &own = parsed.navigation_meshes[2];
   EXPECT_FALSE(ply.in_scene_axes || ply.in_scene_unit) << "PLY is in the scene frame";
   EXPECT_EQ(ply.options.up, UpAxis::z);
@@ -396,7 +396,7 @@ TEST(MissionErrors, DeepNestingEndsEarly) {
 }
 
 TEST(MissionErrors, HugeFiles) {
-  expect_refusal(std::string(mission_io::kMaxYamlBytes + 1, ' '), "too large", "");
+  expect_refusal(std::string(app::kMaxYamlBytes + 1, ' '), "too large", "");
   std::ostringstream many_keys;
   for (int i = 0; i < 90000; ++i) many_keys << "k" << i << ": 1\n";
   expect_refusal(many_keys.str(), "more than", ":1:1");
@@ -425,19 +425,19 @@ TEST(MissionNumbers, AreReadAsDecimals) {
 }
 
 TEST(MissionNumbers, AreWrittenShort) {
-  EXPECT_EQ(mission_io::shortest(0.1), "0.1");
-  EXPECT_EQ(mission_io::shortest(-1e9), "-1e+09");
-  EXPECT_EQ(mission_io::shortest(4785000), "4785000");
+  EXPECT_EQ(app::shortest(0.1), "0.1");
+  EXPECT_EQ(app::shortest(-1e9), "-1e+09");
+  EXPECT_EQ(app::shortest(4785000), "4785000");
 }
 
 TEST(NearestName, CountsSlips) {
-  EXPECT_EQ(mission_io::edit_distance("", "abc"), 3);
-  EXPECT_EQ(mission_io::edit_distance("max_range", "max_range"), 0);
-  EXPECT_EQ(mission_io::edit_distance("max_rnage", "max_range"), 1) << "neighbours swapped";
-  EXPECT_EQ(mission_io::edit_distance("Max_Range", "max_range"), 0) << "case is no slip";
-  EXPECT_EQ(mission_io::edit_distance("kitten", "sitting"), 3);
-  EXPECT_EQ(mission_io::nearest_name("altitud", {"boxes", "altitude", "meshes"}), "altitude");
-  EXPECT_EQ(mission_io::nearest_name("x", {}), "");
+  EXPECT_EQ(app::edit_distance("", "abc"), 3);
+  EXPECT_EQ(app::edit_distance("max_range", "max_range"), 0);
+  EXPECT_EQ(app::edit_distance("max_rnage", "max_range"), 1) << "neighbours swapped";
+  EXPECT_EQ(app::edit_distance("Max_Range", "max_range"), 0) << "case is no slip";
+  EXPECT_EQ(app::edit_distance("kitten", "sitting"), 3);
+  EXPECT_EQ(app::nearest_name("altitud", {"boxes", "altitude", "meshes"}), "altitude");
+  EXPECT_EQ(app::nearest_name("x", {}), "");
 }
 
 /// A folder that goes away with the test.

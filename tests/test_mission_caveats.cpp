@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "mission/scene_caveats.h"
+#include "app/scene_caveats.h"
 #include "support/random.h"
 #include "support/shared_data.h"
 #include "support/temporary_directory.h"
@@ -19,7 +19,7 @@
 namespace vantage {
 namespace {
 
-using mission_io::scene_caveats;
+using app::scene_caveats;
 using testing::TemporaryDirectory;
 using testing::write_bytes;
 
@@ -243,14 +243,14 @@ TEST(MissionCaveatsOfExamples, KnowRealCitiesThatLieOnTheirSide) {
     LoadedScene right, wrong;
     right.scene = read_scene(testing::shared_data(file), {.up = up});
     wrong.scene = read_scene(testing::shared_data(file), {.up = up == UpAxis::y ? UpAxis::z : UpAxis::y});
-    EXPECT_FALSE(mission_io::on_its_side(right)) << file;
-    EXPECT_TRUE(mission_io::on_its_side(wrong)) << file;
+    EXPECT_FALSE(app::on_its_side(right)) << file;
+    EXPECT_TRUE(app::on_its_side(wrong)) << file;
   }
   for (const char* const file :
        {"mesh/simple_street_canyon_merged.ply", "mesh/tour_part_dieu_0.obj", "mesh/openfoam-buildings.obj.gz"}) {
     LoadedScene right;
     right.scene = read_scene(testing::shared_data(file));
-    EXPECT_FALSE(mission_io::on_its_side(right)) << file;
+    EXPECT_FALSE(app::on_its_side(right)) << file;
   }
 }
 

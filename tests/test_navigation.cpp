@@ -8,7 +8,7 @@
 #include <random>
 #include <string>
 
-#include "parallel/parallel.h"
+#include "core/parallel.h"
 #include "solid/navigation.h"
 #include "solid/triangle_tree.h"
 #include "support/progress_check.h"

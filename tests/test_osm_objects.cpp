@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "osm/meaning.h"
+#include "maps/osm/meaning.h"
 #include "support/osm_maps.h"
 #include "support/shared_data.h"
 

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "osm/region_filter.h"
+#include "maps/osm/region_filter.h"
 #include "support/osm_maps.h"
 #include "support/shared_data.h"
 

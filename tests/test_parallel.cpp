@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <thread>
 
-#include "parallel/parallel.h"
+#include "core/parallel.h"
 
 namespace vantage::parallel {
 namespace {

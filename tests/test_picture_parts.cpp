@@ -3,11 +3,11 @@
 
 #include <Eigen/Geometry>
 
-#include "render/annotate.h"
-#include "render/creases.h"
-#include "render/draw_list.h"
-#include "render/view.h"
-#include "solid/read_causes.h"
+#include "picture/annotate.h"
+#include "picture/creases.h"
+#include "picture/draw_list.h"
+#include "picture/view.h"
+#include "io/read_causes.h"
 #include "support/solids.h"
 #include "support/temporary_directory.h"
 #include "vantage/error.h"
@@ -16,10 +16,10 @@
 namespace vantage {
 namespace {
 
-using render::Crease;
-using render::find_creases;
-using render::make_view;
-using render::View;
+using picture::Crease;
+using picture::find_creases;
+using picture::make_view;
+using picture::View;
 using testing::make_box_mesh;
 
 const std::vector<Vec3> kPoints = {{-10, -20, 0}, {30, 5, 12}, {0, 0, 40}, {7, -3, 25}};
@@ -56,7 +56,7 @@ TEST(PictureView, FramesItsPointsTightlyWithinTheInsets) {
 }
 
 TEST(PictureNotes, AreWrittenUnderTheSubtitle) {
-  render::Annotation annotation;
+  picture::Annotation annotation;
   annotation.title = "square";
   annotation.subtitle = "range 60 m";
   View view = view_of(views()[0]);
@@ -131,10 +131,10 @@ TEST(PictureView, SurvivesPointsBehindTheCamera) {
 }
 
 TEST(RoundLength, GoesByOneTwoFive) {
-  EXPECT_DOUBLE_EQ(render::round_length(1), 1);
-  EXPECT_DOUBLE_EQ(render::round_length(4.9), 2);
-  EXPECT_DOUBLE_EQ(render::round_length(73), 50);
-  EXPECT_DOUBLE_EQ(render::round_length(0.3), 0.2);
+  EXPECT_DOUBLE_EQ(picture::round_length(1), 1);
+  EXPECT_DOUBLE_EQ(picture::round_length(4.9), 2);
+  EXPECT_DOUBLE_EQ(picture::round_length(73), 50);
+  EXPECT_DOUBLE_EQ(picture::round_length(0.3), 0.2);
 }
 
 TEST(Creases, OfABoxAreItsEdges) {
@@ -189,7 +189,7 @@ TEST(ReadCauses, BringsBackWhatWasWritten) {
   write_volume(written, folder / "v.ply");
   Volume read;
   read.mesh = read_scene(folder / "v.ply").mesh;
-  solid::read_causes(folder / "v.ply", read);
+  io::read_causes(folder / "v.ply", read);
   EXPECT_EQ(read.cause_of, written.cause_of);
   ASSERT_EQ(read.causes.size(), 2U);
   EXPECT_EQ(read.causes[0].kind, CauseKind::range);
@@ -203,7 +203,7 @@ TEST(ReadCauses, TakesOtherFilesForPlainMeshes) {
     write_volume(two_causes(), folder / name);
     Volume read;
     read.mesh = read_scene(folder / name).mesh;
-    solid::read_causes(folder / name, read);
+    io::read_causes(folder / name, read);
     EXPECT_TRUE(read.causes.empty()) << name;
     EXPECT_TRUE(read.cause_of.empty()) << name;
   }
@@ -218,7 +218,7 @@ TEST(ReadCauses, RefusesCausesOutOfRange) {
   Volume read;
   read.mesh = read_scene(folder / "v.ply").mesh;
   try {
-    solid::read_causes(folder / "v.ply", read);
+    io::read_causes(folder / "v.ply", read);
     FAIL() << "nothing was thrown";
   } catch (const Error& error) {
     EXPECT_NE(error.problem().find("facet 11 has cause 9"), std::string::npos) << error.what();

@@ -4,10 +4,10 @@
 #include <nlohmann/json.hpp>
 
 #include "geo/local_frame.h"
-#include "scene/georeference_text.h"
-#include "scene/place_file.h"
-#include "solid/report.h"
-#include "solid/result_files.h"
+#include "io/georeference_text.h"
+#include "io/place_file.h"
+#include "app/report.h"
+#include "app/result_files.h"
 #include "support/mesh_reading.h"
 #include "support/solids.h"
 #include "support/temporary_directory.h"
@@ -77,9 +77,9 @@ TEST(Place, TravelsInVolumesAndReports) {
   expect_same(read.georeference, kPlace);
   EXPECT_EQ(bounding_box(read.mesh).max, Vec3(4, 6, 8));
 
-  solid::ResultRequest request;
+  app::ResultRequest request;
   request.volumes = {directory / "b.stl", directory / "c.ply"};
-  solid::write_results(volume, request);
+  app::write_results(volume, request);
   expect_same(read_scene(directory / "b.stl").georeference, kPlace);
   for (const char* name : {"b.report.json", "c.report.json"}) {
     const json report = json::parse(read_bytes(directory / name));
@@ -87,7 +87,7 @@ TEST(Place, TravelsInVolumesAndReports) {
     EXPECT_EQ(report["georeference"]["projection"], projection_text(kPlace));
   }
   volume.georeference.reset();
-  EXPECT_FALSE(json::parse(solid::report_json(volume, measure(volume.mesh))).contains("georeference"));
+  EXPECT_FALSE(json::parse(app::report_json(volume, measure(volume.mesh))).contains("georeference"));
 }
 
 TEST(Place, IsRefusedWhenGarbled) {

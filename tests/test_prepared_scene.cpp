@@ -10,7 +10,7 @@
 #include <set>
 #include <string>
 
-#include "parallel/parallel.h"
+#include "core/parallel.h"
 #include "scene/prepared_data.h"
 #include "support/progress_check.h"
 #include "support/random.h"
@@ -336,14 +336,14 @@ TEST(PreparedScene, TheHierarchyHoldsEverything) {
     const PreparedScene prepared(scene);
     const auto& data = prepared.data();
     std::vector<int> seen(data.polygon_count());
-    const auto holds = [](const scene::Bounds& outer, const Vec3& min, const Vec3& max) {
+    const auto holds = [](const core::Bounds& outer, const Vec3& min, const Vec3& max) {
       for (int a = 0; a < 3; ++a)
         if (double(outer.min[a]) > min[a] || double(outer.max[a]) < max[a]) return false;
       return true;
     };
     std::size_t visited = 0;
     const auto visit = [&](auto&& self, std::uint32_t at) -> void {
-      const scene::BvhNode& node = data.bvh.nodes.at(at);
+      const core::BvhNode& node = data.bvh.nodes.at(at);
       ++visited;
       if (!node.leaf()) {
         for (const std::uint32_t child : {node.first, node.first + 1}) {
@@ -369,7 +369,7 @@ TEST(PreparedScene, TheHierarchyHoldsEverything) {
 
 bool same_bits(const PreparedScene& one, const PreparedScene& other) {
   const auto &a = one.data(), &b = other.data();
-  const auto same_nodes = [](const scene::BvhNode& m, const scene::BvhNode& n) {
+  const auto same_nodes = [](const core::BvhNode& m, const core::BvhNode& n) {
     return m.bounds.min == n.bounds.min && m.bounds.max == n.bounds.max && m.first == n.first && m.count == n.count;
   };
   return a.origin == b.origin && a.vertices == b.vertices && a.first_vertex == b.first_vertex &&

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/progress_reporter.h"
-#include "parallel/parallel.h"
+#include "core/parallel.h"
 #include "support/progress_check.h"
 #include "vantage/error.h"
 

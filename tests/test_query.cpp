@@ -9,7 +9,7 @@
 #include <tuple>
 #include <vector>
 
-#include "parallel/parallel.h"
+#include "core/parallel.h"
 #include "support/random.h"
 #include "support/solids.h"
 #include "vantage/error.h"

@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "scene/lod.h"
+#include "io/lod.h"
 #include "support/mesh_reading.h"
 #include "support/temporary_directory.h"
 
@@ -11,7 +11,7 @@ namespace vantage {
 namespace {
 
 using nlohmann::json;
-using scene::RawMesh;
+using io::RawMesh;
 using testing::expect_input_error;
 using testing::read_as;
 
@@ -50,7 +50,7 @@ json document() {
 
 RawMesh read(const json& file, const std::string& lod = "") {
   const core::ProgressReporter progress;
-  return scene::read_cityjson(scene::MeshSource("a.city.json", file.dump()), progress, {}, lod);
+  return io::read_cityjson(io::MeshSource("a.city.json", file.dump()), progress, {}, lod);
 }
 
 Mesh mesh_of(const RawMesh& raw) { return {raw.vertices, raw.triangles}; }
@@ -61,7 +61,7 @@ void expect_error(const json& file, const std::string& problem, const std::strin
 
 TEST(ReadCityJson, UndoesTheTransform) {
   const RawMesh mesh = read(document());
-  EXPECT_EQ(mesh.format, scene::MeshFormat::cityjson);
+  EXPECT_EQ(mesh.format, io::MeshFormat::cityjson);
   EXPECT_EQ(mesh.objects, std::vector<std::string>{"b1"});
   EXPECT_EQ(mesh.triangles.size(), 12u);
   EXPECT_EQ(mesh.vertices.size(), 8u);
@@ -112,14 +112,14 @@ TEST(ReadCityJson, LeavesHolesOpen) {
 }
 
 TEST(ReadCityJson, ChoosesTheLevelOfDetail) {
-  EXPECT_EQ(scene::choose_lod({1, 2.2, 1.3}, std::nullopt), 2.2);
-  EXPECT_EQ(scene::choose_lod({1, 2.2, 1.3}, 1.3), 1.3);
-  EXPECT_EQ(scene::choose_lod({1.2, 2.2, 1.3}, 1), 1.3);  // the highest of its refinements
-  EXPECT_EQ(scene::choose_lod({1, 1.2, 2.2}, 1), 1);
-  EXPECT_EQ(scene::choose_lod({0, 1.2, 2.2}, 1.3), 1.2);
-  EXPECT_EQ(scene::choose_lod({2.2, 3}, 1), 2.2);
-  EXPECT_EQ(scene::parse_lod("2.2"), 2.2);
-  for (const char* bad : {"", "two", "2.2.1", "-1", "10", "nan"}) EXPECT_FALSE(scene::parse_lod(bad)) << bad;
+  EXPECT_EQ(io::choose_lod({1, 2.2, 1.3}, std::nullopt), 2.2);
+  EXPECT_EQ(io::choose_lod({1, 2.2, 1.3}, 1.3), 1.3);
+  EXPECT_EQ(io::choose_lod({1.2, 2.2, 1.3}, 1), 1.3);  // the highest of its refinements
+  EXPECT_EQ(io::choose_lod({1, 1.2, 2.2}, 1), 1);
+  EXPECT_EQ(io::choose_lod({0, 1.2, 2.2}, 1.3), 1.2);
+  EXPECT_EQ(io::choose_lod({2.2, 3}, 1), 2.2);
+  EXPECT_EQ(io::parse_lod("2.2"), 2.2);
+  for (const char* bad : {"", "two", "2.2.1", "-1", "10", "nan"}) EXPECT_FALSE(io::parse_lod(bad)) << bad;
 
   json file = document();
   json& b1 = file["CityObjects"]["b1"]["geometry"];
@@ -172,15 +172,15 @@ TEST(ReadCityJson, PlacesInstancesOfTemplates) {
   json many = file;
   many["CityObjects"]["t1"]["geometry"] = std::vector<json>(200, instance);
   const core::ProgressReporter progress;
-  scene::ReadLimits limits;
+  core::ReadLimits limits;
   limits.repeated_triangles = 10;
-  const scene::MeshSource small("a", file.dump());
-  EXPECT_NO_THROW(scene::read_cityjson(small, progress, limits));
+  const io::MeshSource small("a", file.dump());
+  EXPECT_NO_THROW(io::read_cityjson(small, progress, limits));
   // Of a template with many triangles: few bytes, many instances.
   json surfaces = std::vector<json>(1000, {{0, 1, 2}});
   many["geometry-templates"]["templates"][0]["boundaries"] = surfaces;
-  const scene::MeshSource large("a", many.dump());
-  expect_input_error([&] { scene::read_cityjson(large, progress, limits); }, "its instances repeat templates",
+  const io::MeshSource large("a", many.dump());
+  expect_input_error([&] { io::read_cityjson(large, progress, limits); }, "its instances repeat templates",
                      "\"t1\"");
 }
 
@@ -368,20 +368,20 @@ TEST(ReadCityJson, NamesWhatIsWrongInAGeometry) {
 
 TEST(ReadCityJson, KeepsWithinItsLimits) {
   const core::ProgressReporter progress;
-  scene::ReadLimits limits;
+  core::ReadLimits limits;
   limits.corners = 3;
-  const scene::MeshSource source("a.city.json", document().dump());
-  expect_input_error([&] { scene::read_cityjson(source, progress, limits); }, "a surface has 4 corners; at most 3",
+  const io::MeshSource source("a.city.json", document().dump());
+  expect_input_error([&] { io::read_cityjson(source, progress, limits); }, "a surface has 4 corners; at most 3",
                      "surface 0");
   limits = {};
   limits.json_values = 20;
-  expect_input_error([&] { scene::read_cityjson(source, progress, limits); }, "more than 20 values", "a.city.json");
+  expect_input_error([&] { io::read_cityjson(source, progress, limits); }, "more than 20 values", "a.city.json");
 }
 
 TEST(ReadCityJson, IsToldByItsContent) {
-  using scene::MeshFormat;
+  using io::MeshFormat;
   const auto format = [](const std::string& name, const std::string& bytes) {
-    return scene::mesh_format(scene::MeshSource(name, bytes));
+    return io::mesh_format(io::MeshSource(name, bytes));
   };
   EXPECT_EQ(format("a", " {\n\"type\" : \"CityJSON\""), MeshFormat::cityjson);
   EXPECT_EQ(format("a.gltf", "{\"version\": \"2.0\", \"type\":\"CityJSON\"}"), MeshFormat::cityjson);

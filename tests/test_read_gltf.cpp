@@ -6,7 +6,7 @@
 #include "support/mesh_reading.h"
 #include "support/temporary_directory.h"
 
-namespace vantage::scene {
+namespace vantage::io {
 namespace {
 
 using nlohmann::json;
@@ -235,7 +235,7 @@ TEST(ReadGltf, StopsMeshesThatRepeatWithoutEnd) {
     gltf["scenes"][0]["nodes"].push_back(i + 1);
   }
   EXPECT_EQ(read(gltf).triangles.size(), 202u);
-  ReadLimits limits;
+  core::ReadLimits limits;
   limits.repeated_triangles = 100;
   expect_input_error([&] { read_as("a.gltf", embedded(gltf).dump(), limits); }, "to more than 120 triangles", "a.gltf");
   limits.json_values = 50;
@@ -310,4 +310,4 @@ TEST(ReadGltf, ReadsManyNestedNodesInLinearTime) {
 }
 
 }  // namespace
-}  // namespace vantage::scene
+}  // namespace vantage::io

@@ -2,7 +2,7 @@
 
 #include "support/mesh_reading.h"
 
-namespace vantage::scene {
+namespace vantage::io {
 namespace {
 
 using testing::expect_input_error;
@@ -149,11 +149,11 @@ TEST(ReadObj, NamesThePlaceOfWhatIsWrong) {
 }
 
 TEST(ReadObj, RefusesPolygonsWithTooManyCorners) {
-  ReadLimits limits;
+  core::ReadLimits limits;
   limits.corners = 4;
   EXPECT_EQ(read_as("a.obj", kThree + "f 1 2 3 3\n", limits).triangles.size(), 2u);
   expect_input_error([&] { read_as("a.obj", kThree + "f 1 2 3 3 3\n", limits); }, "5 corners; at most 4", "line 4");
 }
 
 }  // namespace
-}  // namespace vantage::scene
+}  // namespace vantage::io

@@ -5,7 +5,7 @@
 
 #include "support/mesh_reading.h"
 
-namespace vantage::scene {
+namespace vantage::io {
 namespace {
 
 using testing::bytes_of;
@@ -178,4 +178,4 @@ TEST(ReadPly, PassesOverElementsWithoutProperties) {
 }
 
 }  // namespace
-}  // namespace vantage::scene
+}  // namespace vantage::io

@@ -10,7 +10,7 @@
 #include <random>
 #include <set>
 
-#include "scene/mesh_file.h"
+#include "io/mesh_file.h"
 #include "support/mesh_reading.h"
 #include "support/shared_data.h"
 #include "support/temporary_directory.h"
@@ -57,9 +57,9 @@ TEST(ReadScene, GivesTheSceneFrame) {
 }
 
 TEST(ReadScene, TellsTheFormatByContentThenByName) {
-  using scene::MeshFormat;
+  using io::MeshFormat;
   const auto format = [](const std::string& name, const std::string& bytes) {
-    return scene::mesh_format(scene::MeshSource(name, bytes));
+    return io::mesh_format(io::MeshSource(name, bytes));
   };
   EXPECT_EQ(format("a.obj", "ply\nformat"), MeshFormat::ply);
   EXPECT_EQ(format("a.obj", "solid x\n"), MeshFormat::stl);
@@ -112,11 +112,11 @@ TEST(ReadScene, FindsBrokenCompression) {
 TEST(ReadScene, StopsDecompressionAtItsLimit) {
   TemporaryDirectory folder;
   write_bytes(folder / "bomb.obj.gz", gzip(kObj + std::string(100000 - kObj.size(), '\n')));
-  scene::ReadLimits limits;
+  core::ReadLimits limits;
   limits.decompressed_bytes = 100000;
-  EXPECT_EQ(scene::read_mesh_file(folder / "bomb.obj.gz", {}, limits).triangles.size(), 1u);
+  EXPECT_EQ(io::read_mesh_file(folder / "bomb.obj.gz", {}, limits).triangles.size(), 1u);
   limits.decompressed_bytes = 99999;
-  expect_input_error([&] { scene::read_mesh_file(folder / "bomb.obj.gz", {}, limits); }, "grows beyond 99999 bytes",
+  expect_input_error([&] { io::read_mesh_file(folder / "bomb.obj.gz", {}, limits); }, "grows beyond 99999 bytes",
                      "bomb.obj.gz");
 }
 
@@ -208,7 +208,7 @@ TEST(ReadScene, ReadsNumbersTheSameInAnyLocale) {
   const bool found = std::any_of(std::begin(with_comma), std::end(with_comma),
                                  [](const char* name) { return std::setlocale(LC_NUMERIC, name) != nullptr; });
   if (!found) GTEST_SKIP() << "no locale with a decimal comma is installed";
-  const scene::RawMesh mesh = testing::read_as("a.obj", "v 0.5 1.5e-400 1.5e-320\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const io::RawMesh mesh = testing::read_as("a.obj", "v 0.5 1.5e-400 1.5e-320\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   std::setlocale(LC_NUMERIC, "C");
   EXPECT_EQ(mesh.vertices[0], Vec3(0.5, 0, 1.5e-320));
 }

@@ -4,7 +4,7 @@
 
 #include "support/mesh_reading.h"
 
-namespace vantage::scene {
+namespace vantage::io {
 namespace {
 
 using testing::bytes_of;
@@ -72,4 +72,4 @@ TEST(ReadStl, NamesThePlaceOfWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace vantage::scene
+}  // namespace vantage::io

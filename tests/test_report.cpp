@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "solid/report.h"
+#include "app/report.h"
 #include "support/solids.h"
 
-namespace vantage::solid {
+namespace vantage::app {
 namespace {
 
 using nlohmann::json;
@@ -86,4 +86,4 @@ TEST(Report, SurvivesNamesThatAreNotUtf8) {
 }
 
 }  // namespace
-}  // namespace vantage::solid
+}  // namespace vantage::app

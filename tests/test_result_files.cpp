@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "core/progress_reporter.h"
-#include "solid/result_files.h"
+#include "app/result_files.h"
 #include "support/solids.h"
 #include "support/temporary_directory.h"
 #include "vantage/error.h"
 
-namespace vantage::solid {
+namespace vantage::app {
 namespace {
 
 using vantage::testing::make_hemisphere;
@@ -138,4 +138,4 @@ TEST(ResultFiles, WithoutAVolumeOnlyReportsAreWritten) {
 }
 
 }  // namespace
-}  // namespace vantage::solid
+}  // namespace vantage::app

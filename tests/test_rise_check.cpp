@@ -65,7 +65,7 @@ class RiseOverFacets : public ::testing::Test {
 
   Random random_{3};
   BlockerSet blockers_;
-  std::optional<RangeRegion> range_;
+  std::optional<target::RangeRegion> range_;
   std::optional<DirectionTree> tree_;
 };
 

@@ -4,15 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mission/seed_config.h"
+#include "app/seed_config.h"
 #include "support/mesh_reading.h"
 
 namespace vantage::testing {
 namespace {
 
-using mission_io::parse_seed_config;
-using mission_io::SeedConfig;
-using mission_io::SeedVolume;
+using app::parse_seed_config;
+using app::SeedConfig;
+using app::SeedVolume;
 
 // As their tools write it: blanks before colons, comments, a comma in a key, blocks again and again.
 constexpr const char* kAsTheirs = R"(world_coord_sys:

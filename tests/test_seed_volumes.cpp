@@ -11,8 +11,8 @@
 #include <numeric>
 #include <sstream>
 
-#include "mission/seed_run.h"
-#include "render/depth.h"
+#include "app/seed_run.h"
+#include "depth/depth.h"
 #include "support/cli_fixture.h"
 #include "support/shared_data.h"
 
@@ -52,10 +52,10 @@ std::vector<Texel> their_texels() {
   return texels;
 }
 
-/// Ours, in the order of render::cube_faces, in the axes of the mesh: the cube's x, y, z are +x, -z, +y there.
+/// Ours, in the order of depth::cube_faces, in the axes of the mesh: the cube's x, y, z are +x, -z, +y there.
 std::vector<Texel> our_texels() {
   std::vector<Texel> texels;
-  for (const render::CubeFace& face : render::cube_faces()) {
+  for (const depth::CubeFace& face : depth::cube_faces()) {
     for (int row = 0; row < kSide; ++row) {
       for (int column = 0; column < kSide; ++column) {
         const Vec3 at = kSide * face.forward + (2 * column + 1 - kSide) * face.right + (2 * row + 1 - kSide) * face.up;

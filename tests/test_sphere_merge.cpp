@@ -24,7 +24,7 @@ using testing::Random;
 constexpr double kRange = 50, kMerge = 0.01;
 
 /// Depths of a made-up city, or of a room with five walls.
-std::vector<float> depths(const Mesh& mesh, const Vec3& from, int n, render::Sampling sampling) {
+std::vector<float> depths(const Mesh& mesh, const Vec3& from, int n, depth::Sampling sampling) {
   testing::BruteDepth renderer(mesh);
   const std::vector<Vec3> viewpoints{from};
   std::vector<float> kept;
@@ -68,11 +68,11 @@ void expect_near(const StarMesh& plain, const StarMesh& merged, bool is_inward, 
 
 TEST(SphereMerge, MakesAWallOfFewFacets) {
   const int n = 48;
-  const std::vector<float> nearest = depths(room(), {0, 0, 0}, n, render::Sampling::nearest);
+  const std::vector<float> nearest = depths(room(), {0, 0, 0}, n, depth::Sampling::nearest);
   const StarMesh plain = bound_corners({n, nearest}, kRange),
                  merged = bound_corners({n, nearest}, kRange, nullptr, kMerge);
   EXPECT_LT(merged.triangles.size() * 3, plain.triangles.size());
-  const std::vector<float> centres = depths(room(), {0, 0, 0}, n, render::Sampling::centers);
+  const std::vector<float> centres = depths(room(), {0, 0, 0}, n, depth::Sampling::centers);
   const StarMesh joined = join_centers({n, centres}, kRange, kMerge);
   EXPECT_LT(joined.triangles.size() * 3, plain.triangles.size());
 }
@@ -83,8 +83,8 @@ TEST(SphereMerge, StaysCloseAndInsideWhereThatIsPromised) {
     const Mesh mesh = round == 0 ? room() : testing::random_city(random, 8, 6).mesh;
     const Vec3 from = round == 0 ? Vec3(0.3, -0.2, 0.1) : Vec3(random.uniform(-3, 3), random.uniform(-3, 3), 0.5);
     const int n = random.integer(15, 24);
-    const std::vector<float> nearest = depths(mesh, from, n, render::Sampling::nearest);
-    const std::vector<float> centres = depths(mesh, from, n, render::Sampling::centers);
+    const std::vector<float> nearest = depths(mesh, from, n, depth::Sampling::nearest);
+    const std::vector<float> centres = depths(mesh, from, n, depth::Sampling::centers);
     const StarMesh bound = bound_corners({n, nearest}, kRange, nullptr, kMerge);
     const StarMesh joined = join_centers({n, centres}, kRange, kMerge);
     expect_near(bound_corners({n, nearest}, kRange), bound, true, random);

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "parallel/parallel.h"
+#include "core/parallel.h"
 #include "spheres/cube_grid.h"
 #include "spheres/numerics.h"
 #include "spheres/sphere_mesh.h"
@@ -170,7 +170,7 @@ TEST(SphereMesh, PutsEachTexelWhereTheFacesSay) {
   for (int face = 0; face < 6; ++face) {
     for (int j = 0; j < n; ++j) {
       for (int i = 0; i < n; ++i) {
-        const render::CubeFace& axes = render::cube_faces()[face];
+        const depth::CubeFace& axes = depth::cube_faces()[face];
         const Vec3 direction = axes.forward + ((2.0 * i + 1) / n - 1) * axes.right + ((2.0 * j + 1) / n - 1) * axes.up;
         const std::size_t texel = (face * n + j) * n + i;
         inverse[texel] = 1.0F / 4;
@@ -200,7 +200,7 @@ TEST(SphereMesh, ConservativeOnesLieInWhatIsSeen) {
       Mesh mesh;
       const bool front_only = round % 2 == 1;
       const Vec3 up = Vec3::UnitZ();
-      renderer.render({viewpoints, n, render::Sampling::nearest, kRange}, [&](std::size_t, std::span<const float> w) {
+      renderer.render({viewpoints, n, depth::Sampling::nearest, kRange}, [&](std::size_t, std::span<const float> w) {
         Placement placement;
         placement.front_only = front_only;
         mesh = placed(make(form, {n, w}, front_only ? &up : nullptr), placement).mesh;
@@ -224,7 +224,7 @@ TEST(SphereMesh, ConservativeOnesComeCloseToWhatIsSeen) {
   testing::BruteDepth renderer(builder.scene().mesh);
   const std::vector<Vec3> viewpoints{Vec3::Zero()};
   const int n = 40;
-  renderer.render({viewpoints, n, render::Sampling::nearest, kRange}, [&](std::size_t, std::span<const float> w) {
+  renderer.render({viewpoints, n, depth::Sampling::nearest, kRange}, [&](std::size_t, std::span<const float> w) {
     const double half_ball = 2 * std::numbers::pi / 3 * std::pow(kRange, 3);
     const double cut = std::numbers::pi * std::pow(kRange - 10, 2) * (2 * kRange + 10) / 3;
     const double truth = 2 * half_ball - cut;

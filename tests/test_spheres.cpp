@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "parallel/parallel.h"
+#include "core/parallel.h"
 #include "spheres/visibility.h"
 #include "support/brute_depth.h"
 #include "support/mesh_probe.h"

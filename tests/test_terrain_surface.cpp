@@ -13,8 +13,8 @@
 #include "support/shared_data.h"
 #include "support/temporary_directory.h"
 #include "support/tiling.h"
-#include "terrain/post_positions.h"
-#include "terrain/surface.h"
+#include "maps/terrain/post_positions.h"
+#include "maps/terrain/surface.h"
 #include "vantage/error.h"
 
 namespace vantage::terrain {

@@ -7,9 +7,9 @@
 #include <numbers>
 #include <random>
 
-#include "scene/triangulate_polygon.h"
+#include "io/triangulate_polygon.h"
 
-namespace vantage::scene {
+namespace vantage::io {
 namespace {
 
 using Indices = std::vector<std::array<std::uint32_t, 3>>;
@@ -168,4 +168,4 @@ TEST(TriangulatePolygon, EndsInBoundedTime) {
 }
 
 }  // namespace
-}  // namespace vantage::scene
+}  // namespace vantage::io

@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "parallel/parallel.h"
+#include "core/parallel.h"
 #include "support/oracle.h"
 #include "support/progress_check.h"
 #include "support/solids.h"

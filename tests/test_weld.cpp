@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include "solid/weld.h"
+#include "core/weld.h"
 #include "support/solids.h"
 
-namespace vantage::solid {
+namespace vantage::core {
 namespace {
 
 /// Every triangle with corners of its own, as in STL.
@@ -49,4 +49,4 @@ TEST(Weld, DropsTrianglesWithTwoCornersInOnePlace) {
 }
 
 }  // namespace
-}  // namespace vantage::solid
+}  // namespace vantage::core

@@ -7,8 +7,8 @@
 #include <cstdio>
 #include <cstring>
 
-#include "mission/numbers.h"
-#include "parallel/parallel.h"
+#include "app/numbers.h"
+#include "core/parallel.h"
 #include "vantage/error.h"
 
 namespace vantage::cli {
@@ -62,12 +62,12 @@ int with_threads(const CommonOptions& options, const Command& command) {
 }
 
 double positive_option(const std::string& name, const std::string& text) {
-  const mission_io::ParsedNumber parsed = mission_io::parse_number(text);
-  if (parsed.fault == mission_io::NumberFault::none && parsed.value > 0) return parsed.value;
-  const std::string advice = parsed.fault == mission_io::NumberFault::none
+  const app::ParsedNumber parsed = app::parse_number(text);
+  if (parsed.fault == app::NumberFault::none && parsed.value > 0) return parsed.value;
+  const std::string advice = parsed.fault == app::NumberFault::none
                                  ? "write a number greater than 0"
-                                 : mission_io::number_advice(text, parsed.fault);
-  throw Error(ErrorKind::input, name + " must be a positive number, not " + mission_io::in_quotes(text),
+                                 : app::number_advice(text, parsed.fault);
+  throw Error(ErrorKind::input, name + " must be a positive number, not " + app::in_quotes(text),
               "command line, " + name, advice);
 }
 

@@ -13,9 +13,9 @@
 #include "cli/plain_volume.h"
 #include "cli/progress_line.h"
 #include "cli/text_table.h"
-#include "mission/input_file.h"
-#include "mission/into_frame.h"
-#include "solid/writers.h"
+#include "app/input_file.h"
+#include "app/into_frame.h"
+#include "io/writers.h"
 #include "vantage/compare.h"
 #include "vantage/error.h"
 #include "vantage/volume.h"
@@ -52,7 +52,7 @@ struct Options {
 /// How OBJ files are read and written.
 SceneReadOptions obj_options(const Options& options) {
   const std::array<const std::string*, 4> files = {&options.file_a, &options.file_b, &options.only_a, &options.only_b};
-  const bool has_obj = std::any_of(files.begin(), files.end(), [](const auto* f) { return mission_io::is_obj(*f); });
+  const bool has_obj = std::any_of(files.begin(), files.end(), [](const auto* f) { return app::is_obj(*f); });
   if (!has_obj && !(options.up.empty() && options.scale.empty())) {
     throw Error(ErrorKind::input, "--up and --scale are for OBJ files, and none is named", "command line",
                 "leave them out: PLY and STL are in the scene frame, and glTF is y up");
@@ -78,19 +78,19 @@ void check_outputs(const Options& options) {
 /// Both or none; returns the files that were written.
 std::vector<std::string> write(const Options& options, Comparison& comparison, const std::optional<Georeference>& place,
                                const SceneReadOptions& obj) {
-  std::vector<std::unique_ptr<solid::AtomicFile>> files;
+  std::vector<std::unique_ptr<core::AtomicFile>> files;
   std::vector<std::string> written;
   const auto stage = [&](const std::string& output, Mesh& mesh, const std::string& input) {
     if (output.empty() || mesh.empty()) return;
     Volume volume = plain_volume(std::move(mesh), "only in " + fs::path(input).filename().string());
     volume.georeference = place;
-    solid::StagedVolume staged = solid::stage_volume(volume, output, obj.up, obj.scale);
+    io::StagedVolume staged = io::stage_volume(volume, output, obj.up, obj.scale);
     std::move(staged.files.begin(), staged.files.end(), std::back_inserter(files));
     written.push_back(output);
   };
   stage(options.only_a, comparison.only_a, options.file_a);
   stage(options.only_b, comparison.only_b, options.file_b);
-  solid::commit_all(files);
+  core::commit_all(files);
   return written;
 }
 
@@ -162,21 +162,21 @@ std::string table_text(const Options& options, const Comparison& c, const std::v
 }
 
 int run(const Options& options) {
-  mission_io::check_readable(options.file_a, "the first mesh", "");
-  mission_io::check_readable(options.file_b, "the second mesh", "");
+  app::check_readable(options.file_a, "the first mesh", "");
+  app::check_readable(options.file_b, "the second mesh", "");
   const SceneReadOptions obj = obj_options(options);
   check_outputs(options);
   ProgressLine progress(options.common);
-  const mission_io::MeshInFrame a = mission_io::read_into_frame(options.file_a, obj, {}, progress.callback());
-  const mission_io::MeshInFrame b =
-      mission_io::read_into_frame(options.file_b, obj, a.georeference, progress.callback());
+  const app::MeshInFrame a = app::read_into_frame(options.file_a, obj, {}, progress.callback());
+  const app::MeshInFrame b =
+      app::read_into_frame(options.file_b, obj, a.georeference, progress.callback());
   if (!options.common.quiet) std::for_each(b.notes.begin(), b.notes.end(), note);
   Comparison comparison = compare_volumes(a.mesh, b.mesh, options.file_a, options.file_b, progress.callback());
   stop_if_interrupted();
   const std::vector<std::string> written =
       write(options, comparison, a.georeference ? a.georeference : b.georeference, obj);
   const bool is_turn_doubtful =
-      (mission_io::is_obj(options.file_a) || mission_io::is_obj(options.file_b)) && options.up.empty() &&
+      (app::is_obj(options.file_a) || app::is_obj(options.file_b)) && options.up.empty() &&
       comparison.intersection_m3 < 0.5 * std::min(comparison.volume_a_m3, comparison.volume_b_m3);
   if (options.json) {
     print(json_text(options, comparison, written));

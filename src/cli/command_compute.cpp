@@ -10,11 +10,11 @@
 #include "cli/stage_folder.h"
 #include "cli/standard_streams.h"
 #include "cli/text_table.h"
-#include "mission/run_mission.h"
-#include "solid/atomic_file.h"
-#include "solid/names.h"
-#include "solid/result_files.h"
-#include "solid/writers.h"
+#include "app/run_mission.h"
+#include "core/atomic_file.h"
+#include "core/names.h"
+#include "app/result_files.h"
+#include "io/writers.h"
 #include "vantage/error.h"
 #include "vantage/volume.h"
 
@@ -22,7 +22,7 @@ namespace vantage::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using mission_io::MissionRun;
+using app::MissionRun;
 
 constexpr const char* kExamples =
     "EXAMPLES\n"
@@ -67,7 +67,7 @@ void check_outputs(const Options& options) {
   for (const std::string& output : options.outputs) {
     if (!is_standard_stream(output)) {
       check_volume_output(output);
-      check_can_write(solid::report_file(output));
+      check_can_write(app::report_file(output));
     }
     if (!seen.insert(fs::path(output).lexically_normal()).second) {
       throw Error(ErrorKind::input, "an output is named twice", output, "give each -o a name of its own");
@@ -104,24 +104,24 @@ Mission with_options(const Mission& read, const Options& options) {
   return mission;
 }
 
-solid::ReportSource source_of(const Mission& mission, const MissionRun& run) {
-  solid::ReportSource source;
+app::ReportSource source_of(const Mission& mission, const MissionRun& run) {
+  app::ReportSource source;
   source.mission = mission.file.string();
   source.scene = mission.scene.file.string();
   source.target = mission.target.name;
-  if (run.spheres) source.spheres = solid::SpheresRun{mission.spheres, *run.spheres};
+  if (run.spheres) source.spheres = app::SpheresRun{mission.spheres, *run.spheres};
   return source;
 }
 
 /// `files`: the outputs, with the one that is on its way to standard output.
-solid::WrittenResults write(const std::vector<std::string>& files, const Mission& mission, MissionRun& run,
+app::WrittenResults write(const std::vector<std::string>& files, const Mission& mission, MissionRun& run,
                             const Progress& progress) {
-  solid::ResultRequest request;
+  app::ResultRequest request;
   request.volumes.assign(files.begin(), files.end());
   request.obj_up = run.loaded.scene.up;
   request.obj_scale = run.loaded.scene.scale;
   request.source = source_of(mission, run);
-  return solid::write_results(run.volume, request, progress);
+  return app::write_results(run.volume, request, progress);
 }
 
 std::vector<const Cause*> by_area(const Volume& volume) {
@@ -157,7 +157,7 @@ void add_causes(TextTable& table, const Volume& volume) {
   const std::size_t shown = std::min(causes.size(), kCausesListed);
   for (std::size_t i = 0; i < shown; ++i) {
     const std::string share = total > 0 ? fixed(100 * causes[i]->area_m2 / total, 1) + " %, " : "";
-    table.row(causes[i]->name, fixed(causes[i]->area_m2, 1), share + solid::name_of(causes[i]->kind));
+    table.row(causes[i]->name, fixed(causes[i]->area_m2, 1), share + core::name_of(causes[i]->kind));
   }
   if (shown < causes.size()) table.row("and " + count(causes.size() - shown) + " more", "", "all are in the report");
 }
@@ -231,7 +231,7 @@ std::string summary(const Mission& mission, const MissionRun& run, const MeshMea
 }
 
 /// STL and GLB have single precision only: with map coordinates that may be far less than what was computed.
-void warn_of_rounding(const Options& options, const Volume& volume, const solid::WrittenResults& written) {
+void warn_of_rounding(const Options& options, const Volume& volume, const app::WrittenResults& written) {
   if (options.common.quiet) return;
   for (std::size_t i = 0; i < written.written.size(); ++i) {
     const double rounding = written.written[i].rounding_m;
@@ -242,7 +242,7 @@ void warn_of_rounding(const Options& options, const Volume& volume, const solid:
 }
 
 /// All that is written but standard output, and what people are told of it.
-std::string list_of_files(const Options& options, const MissionRun& run, const solid::WrittenResults& written) {
+std::string list_of_files(const Options& options, const MissionRun& run, const app::WrittenResults& written) {
   std::string text;
   for (const std::string& output : options.outputs) {
     if (run.volume.outcome == Outcome::computed && !is_standard_stream(output)) text += "wrote " + output + "\n";
@@ -266,7 +266,7 @@ void tell_of_no_volume(const Options& options, const Volume& volume) {
 }
 
 /// Standard output holds the report, or the volume, or the summary.
-void tell(const Options& options, const Mission& mission, const MissionRun& run, const solid::WrittenResults& written,
+void tell(const Options& options, const Mission& mission, const MissionRun& run, const app::WrittenResults& written,
           const OutgoingFile* outgoing) {
   const bool has_volume = run.volume.outcome == Outcome::computed;
   if (options.json) {
@@ -293,7 +293,7 @@ int run(const Options& options) {
   const double mission_seconds = seconds_since_start() - start;
   for (const std::string& output : options.outputs) {
     check_not_an_input(output, input_files(read));
-    check_not_an_input(solid::report_file(output), input_files(read));
+    check_not_an_input(app::report_file(output), input_files(read));
   }
   if (!options.report.empty()) check_not_an_input(options.report, input_files(read));
   Mission mission = with_options(read, options);
@@ -305,19 +305,19 @@ int run(const Options& options) {
   if (outgoing) std::replace(files.begin(), files.end(), std::string("-"), outgoing->path().string());
 
   MissionRun run;
-  solid::WrittenResults written;
+  app::WrittenResults written;
   {
     ProgressLine progress(options.common);
-    run = mission_io::run_mission(mission, progress.callback(), stages ? stages->sink() : StageSink());
+    run = app::run_mission(mission, progress.callback(), stages ? stages->sink() : StageSink());
     run.volume.seconds.read += mission_seconds;
     run.volume.seconds.total = seconds_since_start();  // with all that lies between; writing is added
     if (stages) stages->write_story(mission, run.volume, *run.spheres);
     written = write(files, mission, run, progress.callback());
     if (stages) stages->commit();
   }
-  if (outgoing) std::erase(written.reports, solid::report_file(outgoing->path()));
+  if (outgoing) std::erase(written.reports, app::report_file(outgoing->path()));
   if (!options.report.empty()) {
-    solid::write_whole_file(options.report, solid::report_json(run.volume, written.measures, source_of(mission, run)));
+    core::write_whole_file(options.report, app::report_json(run.volume, written.measures, source_of(mission, run)));
   }
   tell(options, mission, run, written, outgoing ? &*outgoing : nullptr);
   return options.fail_empty && run.volume.outcome != Outcome::computed ? kCheckFailed : kSuccess;

@@ -3,8 +3,8 @@
 
 #include "cli/command.h"
 #include "cli/text_table.h"
-#include "render/choose.h"
-#include "solid/names.h"
+#include "depth/choose.h"
+#include "core/names.h"
 #include "vantage/devices.h"
 
 namespace vantage::cli {
@@ -34,17 +34,17 @@ const char* kind_remark(DeviceKind kind) {
   return "";
 }
 
-std::string why(const render::ChosenDevice& chosen, const std::string& asked) {
+std::string why(const depth::ChosenDevice& chosen, const std::string& asked) {
   if (!chosen.note.empty()) return chosen.note;
   return asked == "auto" ? "the first graphics processor" : "asked for by --device " + asked;
 }
 
-std::string json_text(const RenderDevices& found, const render::ChosenDevice& chosen, const std::string& reason) {
+std::string json_text(const RenderDevices& found, const depth::ChosenDevice& chosen, const std::string& reason) {
   nlohmann::ordered_json json;
   json["devices"] = nlohmann::ordered_json::array();
   for (const RenderDevice& device : found.devices) {
     json["devices"].push_back({{"index", device.index},
-                               {"kind", solid::name_of(device.kind)},
+                               {"kind", core::name_of(device.kind)},
                                {"name", device.name},
                                {"driver", device.driver},
                                {"memory_bytes", device.memory_bytes},
@@ -57,7 +57,7 @@ std::string json_text(const RenderDevices& found, const render::ChosenDevice& ch
   return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
-std::string table_text(const RenderDevices& found, const render::ChosenDevice& chosen, const std::string& reason) {
+std::string table_text(const RenderDevices& found, const depth::ChosenDevice& chosen, const std::string& reason) {
   TextTable table;
   for (const RenderDevice& device : found.devices) {
     table.heading("device " + std::to_string(device.index) + ": " + device.name);
@@ -83,7 +83,7 @@ std::string table_text(const RenderDevices& found, const render::ChosenDevice& c
 int run(const Options& options) {
   const DeviceChoice choice = parse_device_choice(options.device);
   const RenderDevices found = render_devices();
-  const render::ChosenDevice chosen = render::choose_device(found, choice);
+  const depth::ChosenDevice chosen = depth::choose_device(found, choice);
   const std::string reason = why(chosen, options.device);
   print(options.json ? json_text(found, chosen, reason) : table_text(found, chosen, reason));
   return kSuccess;

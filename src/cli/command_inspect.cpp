@@ -7,7 +7,7 @@
 #include "cli/scene_options.h"
 #include "cli/scene_report.h"
 #include "cli/text_table.h"
-#include "scene/georeference_text.h"
+#include "io/georeference_text.h"
 #include "vantage/scene.h"
 
 namespace vantage::cli {
@@ -46,7 +46,7 @@ std::string json_text(const LoadedScene& loaded, const SceneStatistics& found) {
   json["misoriented_edges"] = found.misoriented_edges;
   json["polygons"] = found.polygons;
   json["bounds"] = {{"min", vector(found.bounds.min)}, {"max", vector(found.bounds.max)}};
-  if (scene.georeference) json["georeference"] = scene::georeference_json(*scene.georeference);
+  if (scene.georeference) json["georeference"] = io::georeference_json(*scene.georeference);
   json["notes"] = notes_of(loaded);
   add_source(json, loaded);
   // A name is bytes from a file, and JSON takes UTF-8 only: others are replaced rather than refused.

@@ -16,10 +16,10 @@
 #include "cli/progress_line.h"
 #include "cli/row_reader.h"
 #include "cli/standard_streams.h"
-#include "mission/input_file.h"
-#include "mission/numbers.h"
-#include "mission/run_mission.h"
-#include "solid/atomic_file.h"
+#include "app/input_file.h"
+#include "app/numbers.h"
+#include "app/run_mission.h"
+#include "core/atomic_file.h"
 #include "vantage/error.h"
 #include "vantage/query.h"
 
@@ -61,7 +61,7 @@ class Source {
  public:
   explicit Source(const std::string& file) {
     if (is_standard_stream(file)) return;
-    mission_io::check_readable(file, "the points file", "");
+    app::check_readable(file, "the points file", "");
     descriptor_ = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
     if (descriptor_ >= 0) return;
     throw Error(ErrorKind::input, std::string("the points file cannot be read: ") + std::strerror(errno), file,
@@ -97,7 +97,7 @@ class Sink {
   }
 
  private:
-  std::optional<solid::AtomicFile> file_;
+  std::optional<core::AtomicFile> file_;
 };
 
 TableOptions table_options(const Options& options) {
@@ -105,10 +105,10 @@ TableOptions table_options(const Options& options) {
   result.lonlat = options.lonlat;
   result.json = options.json;
   if (options.z.empty()) return result;
-  const mission_io::ParsedNumber z = mission_io::parse_number(options.z);
-  if (z.fault != mission_io::NumberFault::none) {
-    throw Error(ErrorKind::input, "--z must be a number, not " + mission_io::in_quotes(options.z), "command line, --z",
-                mission_io::number_advice(options.z, z.fault));
+  const app::ParsedNumber z = app::parse_number(options.z);
+  if (z.fault != app::NumberFault::none) {
+    throw Error(ErrorKind::input, "--z must be a number, not " + app::in_quotes(options.z), "command line, --z",
+                app::number_advice(options.z, z.fault));
   }
   result.z = z.value;
   return result;
@@ -194,7 +194,7 @@ int run(const Options& options) {
   if (table.is_lonlat() && !is_quiet) tell_of_heights(scene);
   std::vector<Target> parts = mission.other_parts;
   parts.insert(parts.begin(), mission.target);
-  PointQuery query = mission_io::with_place(mission.target_place, [&] {
+  PointQuery query = app::with_place(mission.target_place, [&] {
     return PointQuery(PreparedScene(scene, progress.callback()), parts, mission.sensor, mission.navigation);
   });
   Sink sink(options);

@@ -8,10 +8,10 @@
 #include "cli/progress_line.h"
 #include "cli/stage_sheet.h"
 #include "cli/standard_streams.h"
-#include "mission/caveats.h"
-#include "mission/input_file.h"
-#include "mission/numbers.h"
-#include "mission/run_mission.h"
+#include "app/caveats.h"
+#include "app/input_file.h"
+#include "app/numbers.h"
+#include "app/run_mission.h"
 #include "vantage/error.h"
 #include "vantage/picture.h"
 
@@ -45,7 +45,7 @@ void check_output(const std::string& output) {
   if (is_standard_stream(output)) return;
   std::error_code error;
   if (format_extension(output) != ".png" && !fs::is_directory(output, error)) {
-    throw Error(ErrorKind::input, "pictures are written as PNG, not as " + mission_io::in_quotes(output), output,
+    throw Error(ErrorKind::input, "pictures are written as PNG, not as " + app::in_quotes(output), output,
                 "give the output a name that ends in .png");
   }
   check_can_write(output);
@@ -56,15 +56,15 @@ Picture picture(const Options& options, Mission& mission, const PictureView& vie
   Volume volume;
   Scene scene;
   if (!options.volume_file.empty()) {
-    mission_io::check_readable(options.volume_file, "the volume", "");  // before the scene, which takes longer
+    app::check_readable(options.volume_file, "the volume", "");  // before the scene, which takes longer
     LoadedScene loaded = read_mission_scene(mission, progress);
     std::vector<std::string> notes;
     volume = read_volume(options.volume_file, loaded.scene, progress, &notes);
     if (!options.common.quiet) std::for_each(notes.begin(), notes.end(), note);
-    volume.notes = mission_io::caveats(mission, loaded, &volume);
+    volume.notes = app::caveats(mission, loaded, &volume);
     scene = std::move(loaded.scene);
   } else {
-    mission_io::MissionRun run = mission_io::run_mission(mission, progress);
+    app::MissionRun run = app::run_mission(mission, progress);
     volume = std::move(run.volume);
     scene = std::move(run.loaded.scene);
     if (volume.outcome != Outcome::computed && !options.common.quiet) note("no volume: " + volume.reason);

@@ -7,9 +7,9 @@
 #include "cli/progress_line.h"
 #include "cli/scene_options.h"
 #include "cli/scene_report.h"
-#include "solid/atomic_file.h"
-#include "solid/result_files.h"
-#include "solid/scene_writers.h"
+#include "core/atomic_file.h"
+#include "app/result_files.h"
+#include "io/scene_writers.h"
 #include "vantage/error.h"
 #include "vantage/scene_source.h"
 
@@ -57,16 +57,16 @@ int run(const Options& options) {
   ProgressLine progress(options.common);
   const LoadedScene loaded = load_scene(source, progress.callback());
 
-  std::vector<std::unique_ptr<solid::AtomicFile>> files;
+  std::vector<std::unique_ptr<core::AtomicFile>> files;
   for (const std::string& output : options.outputs) {
-    for (auto& file : solid::stage_scene(loaded.scene, output)) files.push_back(std::move(file));
+    for (auto& file : io::stage_scene(loaded.scene, output)) files.push_back(std::move(file));
     if (!loaded.city) continue;
-    files.push_back(std::make_unique<solid::AtomicFile>(solid::report_file(output)));
+    files.push_back(std::make_unique<core::AtomicFile>(app::report_file(output)));
     files.back()->write(scene_json(loaded));
     files.back()->seal();
   }
   stop_if_interrupted();
-  solid::commit_all(files);
+  core::commit_all(files);
   if (options.json) {
     print(scene_json(loaded));
   } else if (!options.common.quiet) {

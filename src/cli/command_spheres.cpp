@@ -5,8 +5,8 @@
 #include "cli/output_check.h"
 #include "cli/progress_line.h"
 #include "cli/text_table.h"
-#include "mission/seed_run.h"
-#include "solid/writers.h"
+#include "app/seed_run.h"
+#include "io/writers.h"
 #include "vantage/devices.h"
 #include "vantage/error.h"
 
@@ -14,10 +14,10 @@ namespace vantage::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using mission_io::SeedConfig;
-using mission_io::SeedResult;
-using mission_io::SeedRun;
-using mission_io::SeedVolume;
+using app::SeedConfig;
+using app::SeedResult;
+using app::SeedRun;
+using app::SeedVolume;
 
 constexpr const char* kExamples =
     "EXAMPLES\n"
@@ -47,7 +47,7 @@ auto at_output(const SeedVolume& volume, const Action& action) {
 /// All that can be known to go wrong with the outputs before anything is computed.
 void check_outputs(const SeedConfig& config) {
   std::vector<fs::path> inputs = {config.file};
-  for (const mission_io::SeedMesh& mesh : config.meshes) inputs.push_back(mesh.file);
+  for (const app::SeedMesh& mesh : config.meshes) inputs.push_back(mesh.file);
   std::set<fs::path> seen;
   for (const SeedVolume& volume : config.volumes) {
     at_output(volume, [&] {
@@ -61,15 +61,15 @@ void check_outputs(const SeedConfig& config) {
 }
 
 void write(const SeedConfig& config, const std::vector<SeedResult>& results) {
-  std::vector<std::unique_ptr<solid::AtomicFile>> files;
+  std::vector<std::unique_ptr<core::AtomicFile>> files;
   for (std::size_t i = 0; i < results.size(); ++i) {
     at_output(config.volumes[i], [&] {
-      solid::StagedVolume staged = solid::stage_volume(results[i].volume, config.volumes[i].output, config.up, 1.0);
+      io::StagedVolume staged = io::stage_volume(results[i].volume, config.volumes[i].output, config.up, 1.0);
       staged.files.front()->seal();
       std::move(staged.files.begin(), staged.files.end(), std::back_inserter(files));
     });
   }
-  solid::commit_all(files);
+  core::commit_all(files);
 }
 
 std::string summary(const SeedConfig& config, const SeedRun& run) {
@@ -93,7 +93,7 @@ int run_command(const Options& options) {
   spheres.device = parse_device_choice(options.device);
   spheres.sphere = options.sphere == "centers" ? SpheresOptions::Sphere::centers : SpheresOptions::Sphere::conservative;
   spheres.threads = options.common.threads;
-  const SeedConfig config = mission_io::read_seed_config(options.config_file);
+  const SeedConfig config = app::read_seed_config(options.config_file);
   check_outputs(config);
   if (!options.common.quiet) {
     for (const std::string& warning : config.warnings) note(warning);
@@ -101,7 +101,7 @@ int run_command(const Options& options) {
   SeedRun run;
   {
     ProgressLine progress(options.common);
-    run = mission_io::run_seed_config(config, spheres, progress.callback());
+    run = app::run_seed_config(config, spheres, progress.callback());
     write(config, run.results);
   }
   if (!options.common.quiet) print(summary(config, run));

@@ -10,10 +10,10 @@
 #include "cli/progress_line.h"
 #include "cli/standard_streams.h"
 #include "cli/text_table.h"
-#include "mission/caveats.h"
-#include "mission/input_file.h"
-#include "mission/into_frame.h"
-#include "mission/run_mission.h"
+#include "app/caveats.h"
+#include "app/input_file.h"
+#include "app/into_frame.h"
+#include "app/run_mission.h"
 #include "vantage/verify.h"
 #include "vantage/volume.h"
 
@@ -144,15 +144,15 @@ std::string table_text(const VerifyReport& report, const Given& given, const Ope
 }
 
 int run(const Options& options) {
-  mission_io::check_readable(options.volume_file, "the volume", "");
+  app::check_readable(options.volume_file, "the volume", "");
   Mission mission = read_mission_argument(options.mission_file);
   ProgressLine progress(options.common);
   const LoadedScene loaded = read_mission_scene(mission, progress.callback());
   const Scene& scene = loaded.scene;
-  const std::vector<std::string> doubts = mission_io::caveats(mission, loaded);
+  const std::vector<std::string> doubts = app::caveats(mission, loaded);
   if (!options.common.quiet) std::for_each(doubts.begin(), doubts.end(), note);
 
-  const mission_io::MeshInFrame read = mission_io::read_into_frame(options.volume_file, scene, progress.callback());
+  const app::MeshInFrame read = app::read_into_frame(options.volume_file, scene, progress.callback());
   if (!options.common.quiet) std::for_each(read.notes.begin(), read.notes.end(), note);
   const Mesh& volume = read.mesh;
   const OpenEdges holes = find_open_edges(volume);
@@ -168,7 +168,7 @@ int run(const Options& options) {
     std::vector<Target> parts = mission.other_parts;
     parts.insert(parts.begin(), mission.target);
     for (Target& part : parts) part.offset_m += given.lift_m;
-    report = mission_io::with_place(mission.target_place, [&] {
+    report = app::with_place(mission.target_place, [&] {
       return verify_volume(scene, parts, mission.sensor, mission.navigation, volume, verify_options,
                            progress.callback());
     });

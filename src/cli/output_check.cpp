@@ -9,7 +9,7 @@
 #include <cstring>
 #include <system_error>
 
-#include "mission/numbers.h"
+#include "app/numbers.h"
 #include "vantage/error.h"
 
 namespace vantage::cli {
@@ -50,7 +50,7 @@ void check_can_write(const fs::path& file) {
     throw Error(ErrorKind::input, "the output is not a regular file", file.string(), "name a file on disk");
   }
   if (!file.has_filename()) {
-    throw Error(ErrorKind::input, "the output has no file name", mission_io::in_quotes(file.string()),
+    throw Error(ErrorKind::input, "the output has no file name", app::in_quotes(file.string()),
                 "name a file, such as volume.ply");
   }
   const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
@@ -82,7 +82,7 @@ void check_volume_output(const fs::path& file) {
   if (!is_known && !fs::is_directory(file, error)) {
     const std::string problem =
         extension.empty() ? "the output has no extension, so that its format is unknown"
-                          : "no format is known for the extension " + mission_io::in_quotes(file.extension().string());
+                          : "no format is known for the extension " + app::in_quotes(file.extension().string());
     throw Error(ErrorKind::input, problem, file.string(), "write .ply, .obj, .stl or .glb");
   }
   check_can_write(file);

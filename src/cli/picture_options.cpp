@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "cli/text_table.h"
-#include "mission/input_file.h"
-#include "mission/into_frame.h"
-#include "mission/numbers.h"
-#include "solid/read_causes.h"
+#include "app/input_file.h"
+#include "app/into_frame.h"
+#include "app/numbers.h"
+#include "io/read_causes.h"
 #include "vantage/error.h"
 
 namespace vantage::cli {
@@ -21,10 +21,10 @@ namespace {
 
 std::vector<double> numbers(const std::string& text) {
   std::vector<double> values;
-  for (const std::string_view part : mission_io::split_at_commas(text)) {
-    const mission_io::ParsedNumber parsed = mission_io::parse_number(part);
-    if (parsed.fault != mission_io::NumberFault::none) {
-      refuse_view("the view's " + mission_io::in_quotes(part) + " is no number");
+  for (const std::string_view part : app::split_at_commas(text)) {
+    const app::ParsedNumber parsed = app::parse_number(part);
+    if (parsed.fault != app::NumberFault::none) {
+      refuse_view("the view's " + app::in_quotes(part) + " is no number");
     }
     values.push_back(parsed.value);
   }
@@ -68,7 +68,7 @@ PictureView parse_view(const std::vector<std::string>& given) {
     view.kind = PictureView::Kind::from;
     view.from = {values[0], values[1], values[2]};
   } else {
-    refuse_view("no view is called " + mission_io::in_quotes(kind));
+    refuse_view("no view is called " + app::in_quotes(kind));
   }
   return view;
 }
@@ -81,7 +81,7 @@ std::array<int, 2> parse_size(const std::string& text) {
   const auto second = is_cross ? std::from_chars(first.ptr + 1, end, size[1]) : first;
   const auto in_range = [](int pixels) { return pixels >= kSmallestPicture && pixels <= kLargestPicture; };
   if (is_cross && second.ec == std::errc() && second.ptr == end && in_range(size[0]) && in_range(size[1])) return size;
-  throw Error(ErrorKind::input, mission_io::in_quotes(text) + " is no size of a picture", "command line, --size",
+  throw Error(ErrorKind::input, app::in_quotes(text) + " is no size of a picture", "command line, --size",
               "write WIDTHxHEIGHT in pixels, " + std::to_string(kSmallestPicture) + " to " +
                   std::to_string(kLargestPicture) + " each: 1600x1200");
 }
@@ -101,12 +101,12 @@ std::string picture_subtitle(const Mission& mission, const Volume* volume) {
 
 Volume read_volume(const std::string& file, const Scene& scene, const Progress& progress,
                    std::vector<std::string>* notes) {
-  mission_io::check_readable(file, "the volume", "");
+  app::check_readable(file, "the volume", "");
   Volume volume;
-  mission_io::MeshInFrame read = mission_io::read_into_frame(file, scene, progress);
+  app::MeshInFrame read = app::read_into_frame(file, scene, progress);
   volume.mesh = std::move(read.mesh);
   if (notes) *notes = std::move(read.notes);
-  solid::read_causes(file, volume);
+  io::read_causes(file, volume);
   return volume;
 }
 

@@ -6,14 +6,14 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "mission/numbers.h"
+#include "app/numbers.h"
 #include "vantage/error.h"
 
 namespace vantage::cli {
 namespace {
 
-using mission_io::in_quotes;
-using mission_io::NumberFault;
+using app::in_quotes;
+using app::NumberFault;
 
 constexpr std::array<const char*, 6> kAnswers = {"inside",       "margin_m",      "blocked_by",
                                                  "out_of_range", "behind_target", "outside_of"};
@@ -25,7 +25,7 @@ std::string lower_case(std::string text) {
 
 /// Begins like a name and is no spelling of infinity or not-a-number, which is a point's mistake, not a header.
 bool is_word(const std::string& field) {
-  if (field.empty() || mission_io::parse_number(field).fault != NumberFault::not_a_number) return false;
+  if (field.empty() || app::parse_number(field).fault != NumberFault::not_a_number) return false;
   const auto c = static_cast<unsigned char>(field.front());
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c >= 0x80;
 }
@@ -40,12 +40,12 @@ std::optional<std::size_t> find_column(const std::vector<std::string>& names,
 }
 
 /// The plain cases at once; what is left is parse_number's.
-mission_io::ParsedNumber number_in(std::string_view text) {
+app::ParsedNumber number_in(std::string_view text) {
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   const bool is_whole = end == text.data() + text.size() && error == std::errc();
   if (is_whole && std::isfinite(value)) return {value, NumberFault::none};
-  return mission_io::parse_number(text);
+  return app::parse_number(text);
 }
 
 void append_number(std::string& text, double value) {
@@ -159,11 +159,11 @@ Vec3 PointTable::coordinates(const Row& row) {
     }
     const std::string plain = fields_[column].is_quoted ? fields_[column].plain() : std::string();
     const std::string_view text = fields_[column].is_quoted ? std::string_view(plain) : fields_[column].text;
-    const mission_io::ParsedNumber parsed = number_in(text);
+    const app::ParsedNumber parsed = number_in(text);
     if (parsed.fault != NumberFault::none) {
       fail(name + (parsed.fault == NumberFault::not_finite ? " is not finite: " : " is not a number: ") +
                in_quotes(text),
-           row, mission_io::number_advice(text, parsed.fault));
+           row, app::number_advice(text, parsed.fault));
     }
     point[static_cast<Eigen::Index>(axis)] = parsed.value;
   }
@@ -251,7 +251,7 @@ void PointTable::append_json(std::string& text, const Vec3& coordinates, const P
     text += ", ";
   }
   text.append("\"inside\": ").append(truth(answer.inside)).append(", \"margin_m\": ");
-  text += std::isfinite(answer.margin_m) ? mission_io::shortest(answer.margin_m) : "null";
+  text += std::isfinite(answer.margin_m) ? app::shortest(answer.margin_m) : "null";
   text.append(", \"blocked_by\": ").append(json_text(answer.blocked_by));
   text.append(", \"out_of_range\": ").append(truth(answer.out_of_range));
   text.append(", \"behind_target\": ").append(truth(answer.behind_target));

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <string_view>
 
-#include "city/settings.h"
+#include "maps/city/settings.h"
 #include "cli/command.h"
-#include "mission/input_file.h"
-#include "mission/numbers.h"
+#include "app/input_file.h"
+#include "app/numbers.h"
 #include "vantage/error.h"
 
 namespace vantage::cli {
@@ -21,15 +21,15 @@ namespace {
 template <std::size_t N>
 std::array<double, N> numbers(const std::string& text, const std::string& option, const std::string& form) {
   std::array<double, N> values{};
-  const std::vector<std::string_view> parts = mission_io::split_at_commas(text);
+  const std::vector<std::string_view> parts = app::split_at_commas(text);
   bool is_good = parts.size() == N;
   for (std::size_t i = 0; i < N && is_good; ++i) {
-    const mission_io::ParsedNumber parsed = mission_io::parse_number(parts[i]);
+    const app::ParsedNumber parsed = app::parse_number(parts[i]);
     values[i] = parsed.value;
-    is_good = parsed.fault == mission_io::NumberFault::none;
+    is_good = parsed.fault == app::NumberFault::none;
   }
   if (!is_good) {
-    fail(mission_io::in_quotes(text).append(" is not ").append(form), option,
+    fail(app::in_quotes(text).append(" is not ").append(form), option,
          "write numbers joined by commas, in quotes if there are blanks: " + form);
   }
   return values;
@@ -114,7 +114,7 @@ void check_options(const SceneOptions& options, SceneSource::Kind kind) {
 }  // namespace
 
 SceneSource scene_source(const SceneOptions& options, const std::string& what) {
-  mission_io::check_readable(options.input, what, "");
+  app::check_readable(options.input, what, "");
   SceneSource source = source_of(options);
   check_options(options, source.kind);
   return source;

@@ -12,9 +12,9 @@
 #include <utility>
 
 #include "cli/plain_volume.h"
-#include "solid/atomic_file.h"
-#include "solid/names.h"
-#include "solid/report.h"
+#include "core/atomic_file.h"
+#include "core/names.h"
+#include "app/report.h"
 #include "vantage/error.h"
 #include "vantage/volume.h"
 
@@ -133,9 +133,9 @@ void StageFolder::write_story(const Mission& mission, const Volume& volume, cons
   story["mission"] = mission.file.string();
   story["target"] = mission.target.name;
   story["max_range_m"] = mission.sensor.max_range_m;
-  story["outcome"] = solid::name_of(volume.outcome);
+  story["outcome"] = core::name_of(volume.outcome);
   story["reason"] = volume.reason;
-  story["run"] = Json::parse(solid::spheres_json({mission.spheres, report}));
+  story["run"] = Json::parse(app::spheres_json({mission.spheres, report}));
   story["stages"] = Json::array();
   for (std::size_t i = 0; i < stages_.size(); ++i) {
     const Told& told = stages_[i];
@@ -151,7 +151,7 @@ void StageFolder::write_story(const Mission& mission, const Volume& volume, cons
     }
     story["stages"].push_back(std::move(stage));
   }
-  solid::write_whole_file(temporary_ / kStory, story.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  core::write_whole_file(temporary_ / kStory, story.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
   std::error_code error;
   if (fs::exists(folder_, error)) check_replaceable();  // the run may have taken long
 }

@@ -6,8 +6,8 @@
 #include "cli/picture_options.h"
 #include "cli/plain_volume.h"
 #include "cli/text_table.h"
-#include "mission/input_file.h"
-#include "mission/run_mission.h"
+#include "app/input_file.h"
+#include "app/run_mission.h"
 #include "vantage/error.h"
 #include "vantage/volume.h"
 
@@ -131,7 +131,7 @@ class SheetMaker {
 
 std::vector<StageFile> read_stages(const fs::path& folder) {
   const fs::path file = folder / "stages.json";
-  mission_io::check_readable(file, "the story of the stages", "");
+  app::check_readable(file, "the story of the stages", "");
   std::vector<StageFile> stages;
   try {
     std::ifstream stream(file);

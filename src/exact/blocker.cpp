@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "exact/numerics.h"
+#include "target/numerics.h"
 
 namespace vantage::exact {
 namespace {

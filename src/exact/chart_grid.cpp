@@ -3,8 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
-#include "exact/number_text.h"
-#include "exact/numerics.h"
+#include "core/number_text.h"
+#include "target/numerics.h"
 #include "vantage/error.h"
 
 namespace vantage::exact {
@@ -28,7 +28,7 @@ double depth_below(const Vec3& a, const Vec3& b, const Vec3& c, double radius) {
   return circumradius >= radius ? radius : radius - std::sqrt(radius * radius - circumradius * circumradius);
 }
 
-double deepest_on_trial_grid(const RangeRegion& range) {
+double deepest_on_trial_grid(const target::RangeRegion& range) {
   double deepest = 0;
   const auto depth = [&](const ChartPoint& p, const ChartPoint& q, const ChartPoint& r) {
     const std::size_t ball = range.nearest_ball(to_direction((p + q + r) / 3));
@@ -49,13 +49,13 @@ double deepest_on_trial_grid(const RangeRegion& range) {
 
 }  // namespace
 
-ChartGrid::ChartGrid(const RangeRegion& region, double tolerance) {
+ChartGrid::ChartGrid(const target::RangeRegion& region, double tolerance) {
   const double needed = kTrial * std::sqrt(deepest_on_trial_grid(region) / (kSafety * tolerance));
   if (!(needed <= kMostLines)) {
     const double least = tolerance * (needed / kMostLines) * (needed / kMostLines);
     throw Error(ErrorKind::input, "the tolerance is too fine for this range: the mesh would have too many facets",
-                "tolerance " + metres_text(tolerance) + " at range " + metres_text(region.radius()),
-                "give a tolerance of at least " + metres_text(1.001 * least));
+                "tolerance " + core::metres_text(tolerance) + " at range " + core::metres_text(region.radius()),
+                "give a tolerance of at least " + core::metres_text(1.001 * least));
   }
   n_ = std::max(8, int(std::ceil(needed)));
   for (int i = 0; i <= n_; ++i) lines_.push_back(line_at(i, n_));

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "exact/chart.h"
-#include "exact/range_region.h"
+#include "target/range_region.h"
 
 namespace vantage::exact {
 
@@ -18,7 +18,7 @@ class ChartGrid {
  public:
   /// Fine enough that the triangles on the range sphere lie at most `tolerance` inside it.
   /// Throws Error(input) when that would take more cells than can be handled.
-  ChartGrid(const RangeRegion& region, double tolerance);
+  ChartGrid(const target::RangeRegion& region, double tolerance);
 
   enum State : std::uint8_t {
     unknown,

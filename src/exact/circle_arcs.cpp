@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "exact/numerics.h"
+#include "target/numerics.h"
 #include "exact/segment_cover.h"
 
 namespace vantage::exact {

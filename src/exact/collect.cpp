@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <queue>
 
-#include "exact/numerics.h"
+#include "target/numerics.h"
 #include "exact/segment_cover.h"
 
 namespace vantage::exact {
@@ -22,7 +22,7 @@ struct Entry {
   }
 };
 
-double distance_to(const scene::Bounds& bounds, const Vec3& point) {
+double distance_to(const core::Bounds& bounds, const Vec3& point) {
   double sum = 0;
   for (int a = 0; a < 3; ++a) {
     const double d = std::max({0.0, bounds.min[a] - point[a], point[a] - bounds.max[a]});
@@ -111,7 +111,7 @@ void local_polygon(const PreparedScene::Data& scene, const TargetFrame& frame, s
 }
 
 void collect_blockers(const PreparedScene::Data& scene, const TargetFrame& frame, const LocalTarget& target,
-                      const RangeRegion& range, BlockerSet& blockers, DirectionTree& tree,
+                      const target::RangeRegion& range, BlockerSet& blockers, DirectionTree& tree,
                       const core::ProgressReporter& progress) {
   if (scene.bvh.nodes.empty()) return;
   const Vec3 centre = frame.origin - scene.origin;
@@ -130,7 +130,7 @@ void collect_blockers(const PreparedScene::Data& scene, const TargetFrame& frame
   push(0);
   std::size_t steps = 0;
   while (!queue.empty()) {
-    const scene::BvhNode& node = scene.bvh.nodes[queue.top().node];
+    const core::BvhNode& node = scene.bvh.nodes[queue.top().node];
     queue.pop();
     if (++steps % 1024 == 0) progress.check();
     Vec3 middle = Vec3::Zero();

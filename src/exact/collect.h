@@ -13,7 +13,7 @@ namespace vantage::exact {
 /// hidden behind what was found before. Fills `blockers` and inserts into `tree`, which must refer to `blockers`.
 /// Blockers come in the order found, which does not depend on anything but the input.
 void collect_blockers(const PreparedScene::Data& scene, const TargetFrame& frame, const LocalTarget& target,
-                      const RangeRegion& range, BlockerSet& blockers, DirectionTree& tree,
+                      const target::RangeRegion& range, BlockerSet& blockers, DirectionTree& tree,
                       const core::ProgressReporter& progress);
 
 /// Corners of a scene polygon in the target's frame.

@@ -20,7 +20,7 @@ using Corners = DirectionTree::Corners;
 
 }  // namespace
 
-DirectionTree::DirectionTree(const BlockerSet& blockers, const RangeRegion& range)
+DirectionTree::DirectionTree(const BlockerSet& blockers, const target::RangeRegion& range)
     : blockers_(blockers), range_(range), scratch_(kDeepest + 2) {
   nodes_.reserve(256);
   for (int quadrant = 0; quadrant < 4; ++quadrant) add_node({quadrant, 0, 0, 1}, 0, 0);

@@ -9,7 +9,7 @@
 #include "exact/blocker_set.h"
 #include "exact/chart.h"
 #include "exact/footprint.h"
-#include "exact/range_region.h"
+#include "target/range_region.h"
 
 namespace vantage::exact {
 
@@ -20,7 +20,7 @@ namespace vantage::exact {
 class DirectionTree {
  public:
   /// Keeps references to both.
-  DirectionTree(const BlockerSet& blockers, const RangeRegion& range);
+  DirectionTree(const BlockerSet& blockers, const target::RangeRegion& range);
 
   /// Whether all of a box (centre and half extents, target's frame) is hidden by one blocker that is listed where its
   /// centre is seen. What is hidden itself adds nothing to the boundary: docs/theory.md, "Only what is seen can hide".
@@ -94,7 +94,7 @@ class DirectionTree {
   void add_node(const ChartCell& cell, double bound, std::uint32_t depth);
 
   const BlockerSet& blockers_;
-  const RangeRegion& range_;
+  const target::RangeRegion& range_;
   std::vector<Node> nodes_;
   std::vector<Surface> scratch_;  // one per level
   std::vector<Corners> corners_;

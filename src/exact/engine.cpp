@@ -3,13 +3,13 @@
 #include <chrono>
 #include <cmath>
 
-#include "exact/lengths.h"
-#include "exact/number_text.h"
-#include "exact/point_target.h"
-#include "exact/range_check.h"
+#include "target/lengths.h"
+#include "core/number_text.h"
+#include "target/point_target.h"
+#include "target/range_check.h"
 #include "exact/side.h"
-#include "exact/target_check.h"
-#include "parallel/parallel.h"
+#include "target/target_check.h"
+#include "core/parallel.h"
 #include "vantage/error.h"
 #include "vantage/volume.h"
 
@@ -22,7 +22,7 @@ using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 void check(const Sensor& sensor, const ExactOptions& options) {
-  check_sensor(sensor);
+  target::check_sensor(sensor);
   if (!(options.tolerance_m > 0) || !std::isfinite(options.tolerance_m))
     throw Error(ErrorKind::input, "tolerance must be a positive, finite number of metres", "exact options",
                 "give for example 0.01");
@@ -32,10 +32,10 @@ void check(const Sensor& sensor, const ExactOptions& options) {
 void take_over(Side side, const TargetFrame& frame, double max_range, Volume& volume, const std::string& what,
                const std::string& hint) {
   volume.counts = side.counts;
-  const double near = hands_breadth(max_range);
+  const double near = target::hands_breadth(max_range);
   if (side.blocked_within(near)) {
     volume.outcome = Outcome::blocked_at_once;
-    volume.reason = '"' + widest_scene_cause(side.causes) + "\" covers " + what + " within " + metres_text(near);
+    volume.reason = '"' + widest_scene_cause(side.causes) + "\" covers " + what + " within " + core::metres_text(near);
     volume.hint = hint;
     return;
   }
@@ -47,13 +47,13 @@ void take_over(Side side, const TargetFrame& frame, double max_range, Volume& vo
 
 void compute_polygon(const PreparedScene& scene, const Target& target, const Sensor& sensor,
                      const ExactOptions& options, const core::ProgressReporter& progress, Volume& volume) {
-  Clearance clearance = clear_target(scene.data(), target, volume.frame, sensor.max_range_m);
+  target::Clearance clearance = target::clear_target(scene.data(), target, volume.frame, sensor.max_range_m);
   volume.lift_m = clearance.lift_m;
   volume.notes = std::move(clearance.notes);
   volume.frame.origin += volume.frame.normal * volume.lift_m;
-  if (!can_reach(volume.frame, sensor)) return set_out_of_range(volume.frame, sensor, volume);
-  move_into_range(volume.frame, sensor.max_range_m);
-  const RangeRegion range(volume.frame.polygon, sensor.max_range_m);
+  if (!target::can_reach(volume.frame, sensor)) return target::set_out_of_range(volume.frame, sensor, volume);
+  target::move_into_range(volume.frame, sensor.max_range_m);
+  const target::RangeRegion range(volume.frame.polygon, sensor.max_range_m);
   take_over(compute_side(scene, volume.frame, range, options, progress), volume.frame, sensor.max_range_m, volume,
             "the target's front",
             "the target looks into what it lies on: turn it round with front:, or raise it with offset:");
@@ -61,12 +61,12 @@ void compute_polygon(const PreparedScene& scene, const Target& target, const Sen
 
 void compute_point(const PreparedScene& scene, const Target& target, const Sensor& sensor, const ExactOptions& options,
                    const core::ProgressReporter& progress, Volume& volume) {
-  const PointSides sides = make_point_sides(scene.data(), target, volume.frame, sensor.max_range_m);
+  const target::PointSides sides = target::make_point_sides(scene.data(), target, volume.frame, sensor.max_range_m);
   volume.lift_m = sides.lift;
   volume.notes = sides.notes;
   volume.frame.origin = sides.front.origin;
   // Of the point itself: the triangle would cost micrometres.
-  const RangeRegion range(volume.frame.polygon, sensor.max_range_m);
+  const target::RangeRegion range(volume.frame.polygon, sensor.max_range_m);
   if (!sides.back) {
     take_over(compute_side(scene, sides.front, range, options, progress), sides.front, sensor.max_range_m, volume,
               "the point's front",

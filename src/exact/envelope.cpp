@@ -5,18 +5,18 @@
 #include <cmath>
 
 #include "exact/circle_arcs.h"
-#include "exact/facet_polygon.h"
+#include "core/facet_polygon.h"
 #include "exact/interval_set.h"
-#include "exact/numerics.h"
+#include "target/numerics.h"
 #include "exact/segment_cover.h"
-#include "parallel/parallel.h"
+#include "core/parallel.h"
 
 namespace vantage::exact {
 namespace {
 
 // Pieces of an edge shorter than this, in metres, are rounding. Less in small worlds.
 constexpr double kShortest = 1e-9;
-double shortest_piece(const RangeRegion& range) {
+double shortest_piece(const target::RangeRegion& range) {
   return kShortest * std::min(1.0, range.radius() / numerics::kFullRange);
 }
 // Two planes of one blocker whose inverse depths differ by less than this everywhere on a facet bound it together.
@@ -134,7 +134,7 @@ FacetTable find_facets(const BlockerSet& blockers, const std::vector<const Direc
 class FacetTracer {
  public:
   FacetTracer(const BlockerSet& blockers, const DirectionTree& tree,
-              const std::vector<const DirectionTree::Leaf*>& leaves, const FacetTable& table, const RangeRegion& range,
+              const std::vector<const DirectionTree::Leaf*>& leaves, const FacetTable& table, const target::RangeRegion& range,
               const CurveSampling& sampling)
       : blockers_(blockers),
         leaves_(leaves),
@@ -172,12 +172,12 @@ class FacetTracer {
   bool make_polygon(const Facet& facet) {
     const Plane& plane = plane_of(facet);
     if (plane.norm() * reach() <= 1) return false;  // the plane does not come within range
-    make_facet_square(plane, reach(), polygon_);
-    clip_facet(polygon_, Vec3::UnitZ(), 0, 0, FacetPolygon::kHorizon, scratch_);
+    core::make_facet_square(plane, reach(), polygon_);
+    core::clip_facet(polygon_, Vec3::UnitZ(), 0, 0, core::FacetPolygon::kHorizon, scratch_);
     for (std::uint32_t k = blockers_.first[facet.blocker]; k < blockers_.first[facet.blocker + 1]; ++k) {
       if (k == facet.plane) continue;
       const double margin = kSiblingMargin + 1e-15 * reach() * blockers_.planes[k].cwiseAbs().sum();
-      clip_facet(polygon_, blockers_.planes[k], 1, margin, k, scratch_);
+      core::clip_facet(polygon_, blockers_.planes[k], 1, margin, k, scratch_);
       if (polygon_.empty()) return false;
     }
     return true;
@@ -205,7 +205,7 @@ class FacetTracer {
     std::uint32_t rival;
     double area;
     Box bounds;
-    FacetPolygon polygon;
+    core::FacetPolygon polygon;
   };
 
   // Cuts out of a copy of the facet what each rival hides. False when one of them hides all of it. Rivals that hide
@@ -231,7 +231,7 @@ class FacetTracer {
     return true;
   }
 
-  static double area_of(const FacetPolygon& polygon) {
+  static double area_of(const core::FacetPolygon& polygon) {
     Vec3 sum = Vec3::Zero();
     for (std::size_t i = 1; i + 1 < polygon.corners.size(); ++i)
       sum += (polygon.corners[i] - polygon.corners[0]).cross(polygon.corners[i + 1] - polygon.corners[0]);
@@ -240,7 +240,7 @@ class FacetTracer {
 
   enum class Overlap { none, part, all };  // what a rival hides
 
-  Overlap cut_by(std::uint32_t rival, std::uint32_t blocker, FacetPolygon& cut) {
+  Overlap cut_by(std::uint32_t rival, std::uint32_t blocker, core::FacetPolygon& cut) {
     bool copied = false;
     for (const Plane& plane : blockers_.planes_of(rival)) {
       const double margin = tie_margin(plane, reach());
@@ -254,7 +254,7 @@ class FacetTracer {
         if (!tie || rival > blocker) return Overlap::none;
       } else if (low < -margin) {
         if (!copied) cut = polygon_, copied = true;
-        clip_facet(cut, plane, 1, margin, std::uint32_t(&plane - blockers_.planes.data()), scratch_);
+        core::clip_facet(cut, plane, 1, margin, std::uint32_t(&plane - blockers_.planes.data()), scratch_);
         if (cut.empty()) return Overlap::none;
       }
     }
@@ -264,7 +264,7 @@ class FacetTracer {
   // The creases between this facet and its siblings. Both find them; they are the same edge once snapped.
   void trace_own_edges(Result& result) {
     for (std::size_t i = 0; i < polygon_.corners.size(); ++i) {
-      if (polygon_.makers[i] >= FacetPolygon::kHorizon) continue;
+      if (polygon_.makers[i] >= core::FacetPolygon::kHorizon) continue;
       const Vec3 &from = polygon_.corners[i], &to = polygon_.corners[(i + 1) % polygon_.corners.size()];
       trace_edge(from, to, kNoRival, result);
     }
@@ -340,7 +340,7 @@ class FacetTracer {
       CircleArcs arcs(circle);
       arcs.keep(Vec3::UnitZ(), 0);
       for (std::uint32_t maker : polygon_.makers)
-        if (maker < FacetPolygon::kHorizon) arcs.keep(blockers_.planes[maker], 1);
+        if (maker < core::FacetPolygon::kHorizon) arcs.keep(blockers_.planes[maker], 1);
       keep_in_other_balls(ball, arcs);
       for (std::uint32_t rival : rivals_) {
         if (arcs.empty()) break;
@@ -354,7 +354,7 @@ class FacetTracer {
   void keep_in_other_balls(std::size_t ball, CircleArcs& arcs) const { keep_in_balls(range_, ball, ball, arcs); }
 
  public:
-  static void keep_in_balls(const RangeRegion& range, std::size_t ball, std::size_t also, CircleArcs& arcs) {
+  static void keep_in_balls(const target::RangeRegion& range, std::size_t ball, std::size_t also, CircleArcs& arcs) {
     const Eigen::Vector2d own = range.centre(ball);
     for (std::size_t k = 0; k < range.ball_count() && !arcs.empty(); ++k) {
       if (k == ball || k == also) continue;
@@ -379,12 +379,12 @@ class FacetTracer {
   const BlockerSet& blockers_;
   const std::vector<const DirectionTree::Leaf*>& leaves_;
   const FacetTable& table_;
-  const RangeRegion& range_;
+  const target::RangeRegion& range_;
   const CurveSampling& sampling_;
   double shortest_;
 
   ContactTest contact_;
-  FacetPolygon polygon_, scratch_;
+  core::FacetPolygon polygon_, scratch_;
   std::vector<std::uint32_t> rivals_;
   std::vector<std::uint32_t> seen_;  // per blocker: the facet's plane that it was last gathered for
   std::vector<Cut> cuts_;
@@ -393,7 +393,7 @@ class FacetTracer {
 };
 
 // Where two balls of the range region meet, in sight.
-void trace_range_creases(const BlockerSet& blockers, const DirectionTree& tree, const RangeRegion& range,
+void trace_range_creases(const BlockerSet& blockers, const DirectionTree& tree, const target::RangeRegion& range,
                          const CurveSampling& sampling, std::vector<std::vector<Vec3>>& out) {
   const double inner = range.inner_radius();
   for (std::size_t i = 0; i < range.ball_count(); ++i)
@@ -421,7 +421,7 @@ void trace_range_creases(const BlockerSet& blockers, const DirectionTree& tree, 
 
 }  // namespace
 
-Skeleton trace_envelope(const BlockerSet& blockers, const DirectionTree& tree, const RangeRegion& range,
+Skeleton trace_envelope(const BlockerSet& blockers, const DirectionTree& tree, const target::RangeRegion& range,
                         const CurveSampling& sampling, const core::ProgressReporter& progress) {
   const std::vector<const DirectionTree::Leaf*> leaves = tree.leaves();
   const FacetTable table = find_facets(blockers, leaves);

@@ -5,7 +5,7 @@
 
 #include "core/progress_reporter.h"
 #include "exact/direction_tree.h"
-#include "exact/range_region.h"
+#include "target/range_region.h"
 
 namespace vantage::exact {
 
@@ -27,7 +27,7 @@ struct CurveSampling {
 
 /// Every crease inside one blocker that bounds the volume is in the result in full: leaving one out would over-claim.
 /// Parallel over facets; the result does not depend on the number of threads.
-Skeleton trace_envelope(const BlockerSet& blockers, const DirectionTree& tree, const RangeRegion& range,
+Skeleton trace_envelope(const BlockerSet& blockers, const DirectionTree& tree, const target::RangeRegion& range,
                         const CurveSampling& sampling, const core::ProgressReporter& progress);
 
 }  // namespace vantage::exact

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "exact/direction_tree.h"
-#include "exact/range_region.h"
+#include "target/range_region.h"
 
 namespace vantage::exact {
 
@@ -17,7 +17,7 @@ struct GaugeValue {
 };
 
 /// The greatest inverse depth over the range region and the blockers that the tree lists. Exact to rounding.
-inline GaugeValue evaluate_gauge(const BlockerSet& blockers, const DirectionTree& tree, const RangeRegion& range,
+inline GaugeValue evaluate_gauge(const BlockerSet& blockers, const DirectionTree& tree, const target::RangeRegion& range,
                                  const ChartPoint& point) {
   const Vec3 direction = to_direction(point);
   GaugeValue greatest{range.gauge(direction), GaugeValue::kRange};

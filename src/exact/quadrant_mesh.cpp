@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "exact/gauge.h"
-#include "exact/numerics.h"
+#include "target/numerics.h"
 #include "exact/rise_check.h"
-#include "parallel/parallel.h"
+#include "core/parallel.h"
 
 namespace vantage::exact {
 namespace {
@@ -223,7 +223,7 @@ class QuadrantMesher {
   // Whether some point of a triangle on the range sphere lies more than the tolerance inside it. Corners that were
   // drawn in do not count: no splitting would mend that.
   bool too_deep(const Triangle& t) const {
-    const RangeRegion& range = envelope_.range;
+    const target::RangeRegion& range = envelope_.range;
     std::array<Vec3, 3> v;
     for (int i = 0; i < 3; ++i) v[i] = to_direction(point(t[i])) / exact_gauges_[t[i]];
     const std::array<double, 3> square{(v[2] - v[1]).squaredNorm(), (v[0] - v[2]).squaredNorm(),

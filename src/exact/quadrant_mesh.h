@@ -7,7 +7,7 @@
 #include "core/progress_reporter.h"
 #include "exact/constraint_graph.h"
 #include "exact/direction_tree.h"
-#include "exact/range_region.h"
+#include "target/range_region.h"
 
 namespace vantage::exact {
 
@@ -27,7 +27,7 @@ struct QuadrantMesh {
 struct Envelope {
   const BlockerSet& blockers;
   const DirectionTree& tree;
-  const RangeRegion& range;
+  const target::RangeRegion& range;
   double tolerance_m;
   const core::ProgressReporter& progress;
 };

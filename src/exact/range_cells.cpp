@@ -1,13 +1,13 @@
 #include "exact/range_cells.h"
 
-#include "exact/numerics.h"
+#include "target/numerics.h"
 
 namespace vantage::exact {
 namespace {
 
 class Cutter {
  public:
-  Cutter(ConstraintGraph& graph, const ChartGrid& grid, const RangeRegion& range)
+  Cutter(ConstraintGraph& graph, const ChartGrid& grid, const target::RangeRegion& range)
       : graph_(graph), grid_(grid), range_(range) {}
 
   RangeCells run() {
@@ -54,14 +54,14 @@ class Cutter {
 
   ConstraintGraph& graph_;
   const ChartGrid& grid_;
-  const RangeRegion& range_;
+  const target::RangeRegion& range_;
   std::size_t ball_ = 0;
   RangeCells cells_;
 };
 
 }  // namespace
 
-RangeCells cut_range_cells(ConstraintGraph& graph, const ChartGrid& grid, const RangeRegion& range) {
+RangeCells cut_range_cells(ConstraintGraph& graph, const ChartGrid& grid, const target::RangeRegion& range) {
   return Cutter(graph, grid, range).run();
 }
 

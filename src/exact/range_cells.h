@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "exact/constraint_graph.h"
-#include "exact/range_region.h"
+#include "target/range_region.h"
 
 namespace vantage::exact {
 
@@ -16,6 +16,6 @@ struct RangeCells {
 };
 
 /// Numbers the nodes of the graph's grid that have no vertex yet.
-RangeCells cut_range_cells(ConstraintGraph& graph, const ChartGrid& grid, const RangeRegion& range);
+RangeCells cut_range_cells(ConstraintGraph& graph, const ChartGrid& grid, const target::RangeRegion& range);
 
 }  // namespace vantage::exact

@@ -5,7 +5,7 @@
 
 #include "exact/blocker.h"
 #include "exact/interval_set.h"
-#include "exact/numerics.h"
+#include "target/numerics.h"
 
 namespace vantage::exact {
 

@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "exact/collect.h"
-#include "exact/lengths.h"
+#include "target/lengths.h"
 #include "exact/triangulation.h"
 #include "solid/csg.h"
-#include "solid/edges.h"
+#include "core/edges.h"
 
 namespace vantage::exact {
 namespace {
@@ -80,10 +80,10 @@ void dissolve_wall(Side& side) {
   const auto is_wall = [&](std::uint32_t t) { return side.causes[side.cause_of[t]].kind == CauseKind::target_plane; };
   std::vector<std::vector<std::uint32_t>> neighbours(side.mesh.triangles.size());
   std::vector<std::uint32_t> front;
-  const auto uses = solid::edge_uses(side.mesh.triangles, side.mesh.vertices.size());
-  solid::for_each_edge(uses, [&](std::span<const solid::EdgeUse> edge) {
-    for (const solid::EdgeUse& from : edge) {
-      for (const solid::EdgeUse& to : edge) {
+  const auto uses = core::edge_uses(side.mesh.triangles, side.mesh.vertices.size());
+  core::for_each_edge(uses, [&](std::span<const core::EdgeUse> edge) {
+    for (const core::EdgeUse& from : edge) {
+      for (const core::EdgeUse& to : edge) {
         if (!is_wall(to.triangle) || from.triangle == to.triangle) continue;
         neighbours[from.triangle].push_back(to.triangle);
         if (!is_wall(from.triangle)) front.push_back(from.triangle);
@@ -117,9 +117,9 @@ StageCounts operator+(StageCounts a, const StageCounts& b) {
 
 }  // namespace
 
-Side compute_side(const PreparedScene& scene, const TargetFrame& frame, const RangeRegion& range,
+Side compute_side(const PreparedScene& scene, const TargetFrame& frame, const target::RangeRegion& range,
                   const ExactOptions& options, const core::ProgressReporter& progress) {
-  const Lengths lengths = lengths_of(scene.data(), frame, range.radius());
+  const target::Lengths lengths = target::lengths_of(scene.data(), frame, range.radius());
   const LocalTarget target = make_local_target(frame.polygon, lengths.slack, lengths.rounding);
   ChartGrid grid(range, options.tolerance_m);
   progress.begin("finding blockers");

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/progress_reporter.h"
-#include "exact/range_region.h"
+#include "target/range_region.h"
 #include "vantage/scene.h"
 #include "vantage/volume.h"
 
@@ -26,7 +26,7 @@ struct Side {
 
 /// The frame's polygon has at least 3 vertices; `range` is about the frame's origin. Throws Error(cancelled), and
 /// Error(input) for a tolerance too fine for the range.
-Side compute_side(const PreparedScene& scene, const TargetFrame& frame, const RangeRegion& range,
+Side compute_side(const PreparedScene& scene, const TargetFrame& frame, const target::RangeRegion& range,
                   const ExactOptions& options, const core::ProgressReporter& progress);
 
 /// Both sides of a point as one solid in the front's frame, without the wall between them. `back` is in the frame

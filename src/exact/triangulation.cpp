@@ -4,10 +4,10 @@
 #include <array>
 
 #include "exact/gauge.h"
-#include "exact/numerics.h"
+#include "target/numerics.h"
 #include "exact/quadrant_mesh.h"
 #include "exact/range_cells.h"
-#include "parallel/parallel.h"
+#include "core/parallel.h"
 #include "vantage/error.h"
 
 namespace vantage::exact {
@@ -145,7 +145,7 @@ class BoundaryBuilder {
 }  // namespace
 
 Boundary triangulate_boundary(const Skeleton& skeleton, const BlockerSet& blockers, const DirectionTree& tree,
-                              const RangeRegion& range, ChartGrid& grid, double tolerance,
+                              const target::RangeRegion& range, ChartGrid& grid, double tolerance,
                               const core::ProgressReporter& progress) {
   const Envelope envelope{blockers, tree, range, tolerance, progress};
   // Where creases meet at less than the snapping distance the triangulation may find no place for their crossing; wider

@@ -7,7 +7,7 @@
 #include "exact/chart_grid.h"
 #include "exact/direction_tree.h"
 #include "exact/envelope.h"
-#include "exact/range_region.h"
+#include "target/range_region.h"
 
 namespace vantage::exact {
 
@@ -24,7 +24,7 @@ struct Boundary {
 /// Cells of the grid that hold nothing but range sphere are cut in two; the rest of the chart is triangulated quadrant
 /// by quadrant. Every vertex is lifted to where the gauge says.
 Boundary triangulate_boundary(const Skeleton& skeleton, const BlockerSet& blockers, const DirectionTree& tree,
-                              const RangeRegion& range, ChartGrid& grid, double tolerance,
+                              const target::RangeRegion& range, ChartGrid& grid, double tolerance,
                               const core::ProgressReporter& progress);
 
 }  // namespace vantage::exact

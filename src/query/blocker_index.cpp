@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "exact/collect.h"
-#include "parallel/parallel.h"
+#include "core/parallel.h"
 
 namespace vantage::query {
 namespace {
@@ -114,7 +114,7 @@ void BlockerIndex::build_blockers(const PreparedScene::Data& scene, const Target
       Piece& piece = pieces[i];
       const std::size_t first = i * kLeavesAtOnce, count = std::min(kLeavesAtOnce, leaves.size() - first);
       for (const std::uint32_t leaf : leaves.subspan(first, count)) {
-        const scene::BvhNode& node = scene.bvh.nodes[leaf];
+        const core::BvhNode& node = scene.bvh.nodes[leaf];
         for (std::uint32_t polygon = node.first; polygon < node.first + node.count; ++polygon) {
           exact::local_polygon(scene, frame, polygon, corners);
           clipped.clear();

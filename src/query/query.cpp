@@ -11,13 +11,13 @@
 
 #include "exact/blocker.h"
 #include "exact/collect.h"
-#include "exact/lengths.h"
-#include "exact/point_target.h"
-#include "exact/range_check.h"
-#include "exact/range_region.h"
+#include "target/lengths.h"
+#include "target/point_target.h"
+#include "target/range_check.h"
+#include "target/range_region.h"
 #include "exact/segment_cover.h"
-#include "exact/target_check.h"
-#include "parallel/parallel.h"
+#include "target/target_check.h"
+#include "core/parallel.h"
 #include "query/blocker_index.h"
 #include "query/limits.h"
 #include "vantage/error.h"
@@ -26,6 +26,7 @@ namespace vantage {
 namespace {
 
 using namespace exact;
+using namespace target;
 using query::BlockerIndex;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -34,7 +35,7 @@ constexpr double kLargestRange = 1e9;  // metres; as scenes
 /// Squares of larger coordinates may overflow.
 constexpr double kSquarable = 1e150;
 
-bool overlap(const scene::Bounds& bounds, const Box& box) {
+bool overlap(const core::Bounds& bounds, const Box& box) {
   bool apart = false;
   for (int a = 0; a < 3; ++a) apart = apart || bounds.min[a] > box.max[a] || bounds.max[a] < box.min[a];
   return !apart;
@@ -47,7 +48,7 @@ void for_each_leaf(const PreparedScene::Data& scene, const Box& box, std::vector
   stack.assign(scene.bvh.nodes.empty() ? 0 : 1, 0);
   while (!stack.empty()) {
     const std::uint32_t at = stack.back();
-    const scene::BvhNode& node = scene.bvh.nodes[at];
+    const core::BvhNode& node = scene.bvh.nodes[at];
     stack.pop_back();
     if (!overlap(node.bounds, box)) continue;
     if (node.leaf()) {
@@ -168,7 +169,7 @@ class Sight {
     std::vector<Plane> planes;
     std::size_t work = 0;
     for_each_leaf(side_.scene, pyramid_, stack, [&](std::uint32_t leaf) {
-      const scene::BvhNode& node = side_.scene.bvh.nodes[leaf];
+      const core::BvhNode& node = side_.scene.bvh.nodes[leaf];
       for (std::uint32_t polygon = node.first; polygon < node.first + node.count; ++polygon) {
         local_polygon(side_.scene, side_.frame, polygon, corners);
         planes.clear();

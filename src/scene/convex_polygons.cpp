@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <optional>
 
-#include "parallel/parallel.h"
-#include "scene/convex_corners.h"
+#include "core/parallel.h"
+#include "core/convex_corners.h"
 
 namespace vantage::scene {
 namespace {
@@ -170,7 +170,7 @@ class Merger {
   // How far a vertex of a loop sticks out of the line between its neighbours.
   double turn_at(const Loop& loop, std::size_t i, const Vec3& normal) const {
     const std::size_t n = loop.size();
-    return distance_right_of(vertices_[loop[(i + n - 1) % n]], vertices_[loop[(i + 1) % n]], vertices_[loop[i]],
+    return core::distance_right_of(vertices_[loop[(i + n - 1) % n]], vertices_[loop[(i + 1) % n]], vertices_[loop[i]],
                              normal);
   }
 
@@ -194,7 +194,7 @@ class Merger {
     for (std::size_t k = 0; k < corners.size(); ++k) {
       const Vec3 &from = vertices_[corners[k]], &to = vertices_[corners[(k + 1) % corners.size()]];
       for (std::uint32_t v : inside) {
-        if (distance_right_of(from, to, vertices_[v], normal) > slack_) return false;
+        if (core::distance_right_of(from, to, vertices_[v], normal) > slack_) return false;
       }
     }
     return true;
@@ -203,7 +203,7 @@ class Merger {
   std::optional<std::vector<bool>> corners_of(const Loop& loop, const Vec3& normal) {
     points_.clear();
     for (std::uint32_t v : loop) points_.push_back(vertices_[v]);
-    return find_corners(points_, normal, {slack_, slack_});
+    return core::find_corners(points_, normal, {slack_, slack_});
   }
 
   ConvexPolygons collect() {

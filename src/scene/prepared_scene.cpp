@@ -7,10 +7,10 @@
 #include <unordered_set>
 
 #include "core/progress_reporter.h"
-#include "parallel/parallel.h"
+#include "core/parallel.h"
 #include "scene/convex_polygons.h"
 #include "scene/prepared_data.h"
-#include "scene/read_limits.h"
+#include "core/read_limits.h"
 #include "vantage/error.h"
 
 namespace vantage {
@@ -133,11 +133,11 @@ CleanTriangles weld_and_clean(const Scene& scene, const std::vector<char>& has_a
   return clean;
 }
 
-scene::Bounds bounds_of(const PreparedScene::Data& data, const scene::ConvexPolygons& polygons, std::size_t i) {
+core::Bounds bounds_of(const PreparedScene::Data& data, const scene::ConvexPolygons& polygons, std::size_t i) {
   Box box;
   for (std::uint32_t k = polygons.first[i]; k < polygons.first[i + 1]; ++k)
     box.extend(data.vertices[polygons.vertices[k]]);
-  scene::Bounds bounds;
+  core::Bounds bounds;
   for (int a = 0; a < 3; ++a) {
     bounds.min[a] = std::nextafterf(float(box.min[a]), -INFINITY);
     bounds.max[a] = std::nextafterf(float(box.max[a]), INFINITY);
@@ -146,12 +146,12 @@ scene::Bounds bounds_of(const PreparedScene::Data& data, const scene::ConvexPoly
 }
 
 void store_in_leaf_order(PreparedScene::Data& data, const scene::ConvexPolygons& polygons) {
-  std::vector<scene::Bounds> bounds(polygons.count());
+  std::vector<core::Bounds> bounds(polygons.count());
   parallel::for_ranges(polygons.count(), 4096, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) bounds[i] = bounds_of(data, polygons, i);
   });
   std::vector<std::uint32_t> order;
-  data.bvh = scene::build_bvh(bounds, order);
+  data.bvh = core::build_bvh(bounds, order);
   data.first_vertex.reserve(order.size() + 1);
   data.first_vertex.push_back(0);
   data.polygon_vertices.reserve(polygons.vertices.size());
@@ -190,9 +190,9 @@ void check(const Scene& scene) {
   for (std::size_t i = 0; i < scene.mesh.vertices.size(); ++i) {
     const Vec3& v = scene.mesh.vertices[i];
     if (!v.allFinite()) refuse("vertex " + std::to_string(i) + " is not finite", "give three numbers");
-    if (v.cwiseAbs().maxCoeff() > scene::kMaxCoordinate)
+    if (v.cwiseAbs().maxCoeff() > core::kMaxCoordinate)
       refuse("vertex " + std::to_string(i) + " is more than " +
-                 std::to_string(static_cast<long>(scene::kMaxCoordinate / 1000)) + " km from the origin",
+                 std::to_string(static_cast<long>(core::kMaxCoordinate / 1000)) + " km from the origin",
              "give coordinates in metres");
   }
 }

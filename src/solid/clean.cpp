@@ -12,11 +12,11 @@
 #include <utility>
 #include <vector>
 
-#include "scene/triangle_distance.h"
-#include "solid/edges.h"
+#include "core/triangle_distance.h"
+#include "core/edges.h"
 #include "solid/numerics.h"
-#include "solid/pieces.h"
-#include "solid/stars.h"
+#include "core/pieces.h"
+#include "core/stars.h"
 
 namespace vantage::solid {
 namespace {
@@ -101,7 +101,7 @@ class Cleaner {
   std::span<const Surface> surfaces_;
   CleaningLimits limits_;
   double allowance_;  // of the merge that is tried
-  std::optional<Stars> stars_;
+  std::optional<core::Stars> stars_;
   std::vector<Vec3> scene_vertices_;    // as they came
   std::vector<char> gone_;              // per triangle
   std::vector<double> moved_, raised_;  // per vertex: how far anything has moved that is now it, and outward
@@ -139,7 +139,7 @@ void Cleaner::finish() {
   }
   triangles_.resize(kept);
   labelled_.labels.resize(kept);
-  drop_unused_vertices(labelled_.mesh);
+  core::drop_unused_vertices(labelled_.mesh);
 }
 
 /// The plane that a facet must stay in, if there is one.
@@ -178,7 +178,7 @@ std::optional<double> Cleaner::raise_of_facet(std::uint32_t t, std::uint32_t mov
   const Vec3 normal = (old[1] - old[0]).cross(old[2] - old[0]);
   const double length = normal.norm();
   double raise = length > 0 ? std::max(normal.dot(place - old[0]) / length, 0.0) : limits_.distance_m;
-  if (raise > allowance_) raise = std::sqrt(scene::squared_distance_to_triangle(place, old[0], old[1], old[2]));
+  if (raise > allowance_) raise = std::sqrt(core::squared_distance_to_triangle(place, old[0], old[1], old[2]));
   if (raise > allowance_) return std::nullopt;
   if (width_of(old) < numerics::kTurnable * limits_.distance_m) return raise;  // too narrow to have a direction
   Corners turned = old;

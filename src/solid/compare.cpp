@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/progress_reporter.h"
-#include "parallel/parallel.h"
+#include "core/parallel.h"
 #include "solid/csg.h"
 #include "solid/farthest.h"
 #include "solid/solid_check.h"

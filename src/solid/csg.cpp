@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/progress_reporter.h"
-#include "parallel/parallel.h"
+#include "core/parallel.h"
 #include "vantage/error.h"
 
 namespace vantage::solid {

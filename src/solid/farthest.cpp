@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "parallel/parallel.h"
-#include "scene/triangle_distance.h"
+#include "core/parallel.h"
+#include "core/triangle_distance.h"
 #include "solid/kernel_point.h"
 #include "solid/numerics.h"
 #include "solid/triangle_tree.h"
@@ -47,7 +47,7 @@ Corners corners_of(const Mesh& mesh, std::uint32_t t) {
 Vec3 normal_of(const Corners& c) { return (c[1] - c[0]).cross(c[2] - c[0]).stableNormalized(); }
 
 double distance(const Vec3& point, const Corners& c) {
-  return std::sqrt(scene::squared_distance_to_triangle(point, c[0], c[1], c[2]));
+  return std::sqrt(core::squared_distance_to_triangle(point, c[0], c[1], c[2]));
 }
 
 // ---- on the surface ----------------------------------------------------------------------------------------------

@@ -7,10 +7,10 @@
 #include "core/progress_reporter.h"
 #include "solid/clean.h"
 #include "solid/outside_limits.h"
-#include "solid/pieces.h"
+#include "core/pieces.h"
 #include "solid/regions.h"
 #include "solid/take_over.h"
-#include "solid/volume_check.h"
+#include "core/volume_check.h"
 #include "vantage/error.h"
 #include "vantage/volume.h"
 
@@ -75,7 +75,7 @@ Volume intersect_volumes(const std::vector<Volume>& volumes, const Progress& cal
   Volume result = volumes.front();
   for (std::size_t i = 1; i < volumes.size(); ++i) add_work(volumes[i], result);
   for (std::size_t i = 0; i < volumes.size(); ++i) {
-    solid::check_volume(volumes[i]);
+    core::check_volume(volumes[i]);
     if (volumes[i].outcome == Outcome::computed && !volumes[i].mesh.empty()) continue;
     const std::string part = "part " + std::to_string(i + 1) + " of the target: ";
     make_empty(volumes[i].outcome, part + volumes[i].reason, volumes[i].hint, result);
@@ -95,7 +95,7 @@ Volume intersect_volumes(const std::vector<Volume>& volumes, const Progress& cal
   const core::ProgressReporter progress(callback);
   progress.begin("parts");
   LabelledMesh labelled = solid::intersect(solids, progress).to_mesh();
-  solid::drop_slivers(labelled, sliver);
+  core::drop_slivers(labelled, sliver);
   if (labelled.mesh.empty()) {
     make_empty(Outcome::no_common_view,
                "no position sees all " + std::to_string(volumes.size()) + " parts of the target",

@@ -4,7 +4,7 @@
 
 #include "solid/navigation.h"
 #include "solid/solid_check.h"
-#include "solid/text.h"
+#include "core/text.h"
 #include "vantage/error.h"
 
 namespace vantage::solid {
@@ -23,13 +23,13 @@ void check_pair(double min, double max, const std::string& what, const std::stri
     refuse(std::string("is reversed")
                .append(of_axis)
                .append(": min ")
-               .append(number_text(min))
+               .append(core::number_text(min))
                .append(" is above max ")
-               .append(number_text(max)),
+               .append(core::number_text(max)),
            "swap the two");
   }
   if (min == max) {
-    refuse(std::string("is empty").append(of_axis).append(": min and max are both ").append(number_text(min)),
+    refuse(std::string("is empty").append(of_axis).append(": min and max are both ").append(core::number_text(min)),
            "give a max above the min");
   }
 }

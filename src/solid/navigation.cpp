@@ -13,10 +13,10 @@
 #include "solid/clean.h"
 #include "solid/numerics.h"
 #include "solid/outside_limits.h"
-#include "solid/pieces.h"
+#include "core/pieces.h"
 #include "solid/regions.h"
 #include "solid/take_over.h"
-#include "solid/volume_check.h"
+#include "core/volume_check.h"
 #include "vantage/error.h"
 #include "vantage/volume.h"
 
@@ -67,7 +67,7 @@ void cut_volume(const Regions& regions, const core::ProgressReporter& progress, 
   const Solid volume(moved_to_origin(result.mesh, result.cause_of, regions.origin), "the volume");
   const Solid remaining = cut(volume, regions, progress);
   LabelledMesh labelled = remaining.to_mesh();
-  drop_slivers(labelled, sliver_thickness(volume));
+  core::drop_slivers(labelled, sliver_thickness(volume));
   if (labelled.mesh.empty()) {
     return make_empty(explain_emptiness(volume, regions, progress), result);
   }
@@ -93,7 +93,7 @@ Volume cut_to_navigation(const Volume& volume, const Navigation& navigation, con
   Volume result = volume;
   if (volume.outcome != Outcome::computed || volume.mesh.empty() || navigation.empty()) return result;
 
-  solid::check_volume(volume);
+  core::check_volume(volume);
   const Box bounds = measure(volume.mesh).bounds;
   const solid::Regions regions = solid::make_regions(volume.causes, bounds, navigation, meshes);
   if (!regions.kept.empty() || !regions.forbidden.empty()) solid::cut_volume(regions, progress.part(0.3, 1), result);

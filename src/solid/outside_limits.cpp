@@ -3,7 +3,7 @@
 #include <array>
 
 #include "solid/numerics.h"
-#include "solid/text.h"
+#include "core/text.h"
 
 namespace vantage::solid {
 namespace {
@@ -18,15 +18,15 @@ std::string span_text(const Solid& solid, const Vec3& origin) {
   const Box local = solid.bounds();
   std::string text(", which spans ");
   for (unsigned axis = 0; axis < 3; ++axis) {
-    text.append(kAxes[axis]).append(number_text(local.min[axis] + origin[axis]));
-    text.append(" to ").append(number_text(local.max[axis] + origin[axis]));
+    text.append(kAxes[axis]).append(core::number_text(local.min[axis] + origin[axis]));
+    text.append(" to ").append(core::number_text(local.max[axis] + origin[axis]));
   }
   return text.append(" m");
 }
 
 Emptiness explain_altitude(const Region& band, const Solid& volume, const Vec3& origin) {
   const double low = volume.bounds().min.z() + origin.z(), high = volume.bounds().max.z() + origin.z();
-  const std::string low_text = number_text(low) + " m", high_text = number_text(high) + " m";
+  const std::string low_text = core::number_text(low) + " m", high_text = core::number_text(high) + " m";
   if (band.box.min.z() >= high) {
     return {band.name + " lies above the volume, which reaches " + high_text, "let the band begin below " + high_text};
   }

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "solid/numerics.h"
-#include "solid/text.h"
+#include "core/text.h"
 
 namespace vantage::solid {
 namespace {
@@ -89,7 +89,7 @@ void Builder::add_altitude(const Navigation::Altitude& altitude) {
   band.max.z() = altitude.max_m;
   if (contains(band, bounds_)) return;
   std::string name("the altitude band ");
-  name.append(number_text(altitude.min_m)).append(" to ").append(number_text(altitude.max_m)).append(" m");
+  name.append(core::number_text(altitude.min_m)).append(" to ").append(core::number_text(altitude.max_m)).append(" m");
   if (!insides_meet(band, bounds_)) {
     result_.kept.push_back({RegionKind::altitude, name, Solid(), band});
     return;

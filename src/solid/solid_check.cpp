@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "core/progress_reporter.h"
-#include "parallel/parallel.h"
-#include "solid/edges.h"
+#include "core/parallel.h"
+#include "core/edges.h"
 #include "solid/numerics.h"
-#include "solid/text.h"
+#include "core/text.h"
 #include "solid/triangle_contact.h"
 #include "solid/triangle_tree.h"
-#include "solid/weld.h"
+#include "core/weld.h"
 #include "vantage/error.h"
 
 namespace vantage::solid {
@@ -42,7 +42,7 @@ class Examination {
   const Mesh& local() const { return local_; }
 
  private:
-  std::string place(const Vec3& local_point) const { return name_ + ", " + point_text(local_point + centre_); }
+  std::string place(const Vec3& local_point) const { return name_ + ", " + core::point_text(local_point + centre_); }
   std::array<Vec3, 3> corners(std::size_t t) const {
     const Triangle& triangle = local_.triangles[t];
     return {local_.vertices[triangle[0]], local_.vertices[triangle[1]], local_.vertices[triangle[2]]};
@@ -66,26 +66,26 @@ constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
 void Examination::check_edges() const {
   std::size_t single = 0, crowded = 0, turned = 0;
-  EdgeUse first{};
-  for_each_edge(edge_uses(local_.triangles, local_.vertices.size()), [&](std::span<const EdgeUse> edge) {
-    const auto forward = std::count_if(edge.begin(), edge.end(), [](const EdgeUse& use) { return use.forward; });
+  core::EdgeUse first{};
+  core::for_each_edge(core::edge_uses(local_.triangles, local_.vertices.size()), [&](std::span<const core::EdgeUse> edge) {
+    const auto forward = std::count_if(edge.begin(), edge.end(), [](const core::EdgeUse& use) { return use.forward; });
     if (2 * static_cast<std::size_t>(forward) == edge.size()) return;
     if (single + crowded + turned == 0) first = edge[0];
     if (edge.size() == 1) ++single;
     if (edge.size() > 1) ++(edge.size() % 2 == 1 ? crowded : turned);
   });
   if (single + crowded + turned == 0) return;
-  const std::string where = name_ + ", first at the edge from " + point_text(local_.vertices[first.low] + centre_) +
-                            " to " + point_text(local_.vertices[first.high] + centre_);
+  const std::string where = name_ + ", first at the edge from " + core::point_text(local_.vertices[first.low] + centre_) +
+                            " to " + core::point_text(local_.vertices[first.high] + centre_);
   if (single > 0) {
-    refuse("the mesh is open: " + count_text(single, "edge has", "edges have") + " only one triangle", where,
+    refuse("the mesh is open: " + core::count_text(single, "edge has", "edges have") + " only one triangle", where,
            "close its holes, so that every edge has two triangles");
   }
   if (crowded > 0) {
-    refuse("the mesh is not closed: " + count_text(crowded, "edge has", "edges have") + " an odd number of triangles",
+    refuse("the mesh is not closed: " + core::count_text(crowded, "edge has", "edges have") + " an odd number of triangles",
            where, "remove inner and doubled faces, so that every edge has two triangles");
   }
-  refuse("the triangles turn different ways: at " + count_text(turned, "edge", "edges") + " neighbours disagree", where,
+  refuse("the triangles turn different ways: at " + core::count_text(turned, "edge", "edges") + " neighbours disagree", where,
          "make all triangles face outward");
 }
 
@@ -149,9 +149,9 @@ bool Examination::check_contacts(const TriangleTree& tree, const core::ProgressR
   const auto t = static_cast<std::size_t>(first - crossing.begin());
   const auto triangles = std::count_if(crossing.begin(), crossing.end(), crosses);
   refuse("the mesh intersects itself: " +
-             count_text(static_cast<std::size_t>(triangles), "triangle passes", "triangles pass") + " through others",
-         name_ + ", first the triangles at " + point_text(middle(t) + centre_) + " and " +
-             point_text(middle(*first) + centre_),
+             core::count_text(static_cast<std::size_t>(triangles), "triangle passes", "triangles pass") + " through others",
+         name_ + ", first the triangles at " + core::point_text(middle(t) + centre_) + " and " +
+             core::point_text(middle(*first) + centre_),
          "unite its overlapping parts into one solid");
 }
 
@@ -159,8 +159,8 @@ bool Examination::check_contacts(const TriangleTree& tree, const core::ProgressR
 /// patch that is bounded by crowded edges, and those that touch others.
 std::vector<std::size_t> Examination::samples() const {
   const std::size_t count = local_.triangles.size();
-  DisjointSets patches(count);
-  for_each_edge(edge_uses(local_.triangles, local_.vertices.size()), [&](std::span<const EdgeUse> edge) {
+  core::DisjointSets patches(count);
+  core::for_each_edge(core::edge_uses(local_.triangles, local_.vertices.size()), [&](std::span<const core::EdgeUse> edge) {
     if (edge.size() == 2) patches.join(edge[0].triangle, edge[1].triangle);
   });
   const auto area = [&](std::size_t t) {
@@ -218,7 +218,7 @@ Mesh checked_solid(const Mesh& mesh, const std::string& name, const core::Progre
       refuse("a vertex index is out of range", name + ", triangle " + std::to_string(t), "mend the mesh");
     }
   }
-  Mesh result = welded(mesh);
+  Mesh result = core::welded(mesh);
   Examination examination(result, name);
   examination.check_edges();
   examination.check_volume();

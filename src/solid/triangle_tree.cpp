@@ -6,15 +6,15 @@
 #include <limits>
 #include <utility>
 
-#include "scene/triangle_distance.h"
+#include "core/triangle_distance.h"
 #include "vantage/error.h"
 
 namespace vantage::solid {
 namespace {
 
-scene::Bounds rounded_outward(const Box& box) {
+core::Bounds rounded_outward(const Box& box) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
-  scene::Bounds bounds{};
+  core::Bounds bounds{};
   for (unsigned axis = 0; axis < 3; ++axis) {
     bounds.min[axis] = std::nextafter(static_cast<float>(box.min[axis]), -kInfinity);
     bounds.max[axis] = std::nextafter(static_cast<float>(box.max[axis]), kInfinity);
@@ -22,7 +22,7 @@ scene::Bounds rounded_outward(const Box& box) {
   return bounds;
 }
 
-bool ray_meets(const scene::Bounds& box, const Vec3& point, const Vec3& inverse_direction) {
+bool ray_meets(const core::Bounds& box, const Vec3& point, const Vec3& inverse_direction) {
   double from = 0, to = std::numeric_limits<double>::infinity();
   for (unsigned axis = 0; axis < 3; ++axis) {
     const double a = (box.min[axis] - point[axis]) * inverse_direction[axis];
@@ -34,7 +34,7 @@ bool ray_meets(const scene::Bounds& box, const Vec3& point, const Vec3& inverse_
   return from <= to * (1 + 1e-12);
 }
 
-double squared_distance(const scene::Bounds& box, const Vec3& point) {
+double squared_distance(const core::Bounds& box, const Vec3& point) {
   double sum = 0;
   for (unsigned axis = 0; axis < 3; ++axis) {
     const double away = std::max({box.min[axis] - point[axis], 0.0, point[axis] - box.max[axis]});
@@ -73,9 +73,9 @@ Box triangle_box(const Mesh& mesh, std::size_t triangle) {
 }
 
 TriangleTree::TriangleTree(const Mesh& mesh) : mesh_(mesh) {
-  std::vector<scene::Bounds> bounds(mesh.triangles.size());
+  std::vector<core::Bounds> bounds(mesh.triangles.size());
   for (std::size_t t = 0; t < bounds.size(); ++t) bounds[t] = rounded_outward(triangle_box(mesh, t));
-  bvh_ = scene::build_bvh(bounds, order_);
+  bvh_ = core::build_bvh(bounds, order_);
 }
 
 TriangleTree::Nearest TriangleTree::nearest(const Vec3& point) const {
@@ -90,11 +90,11 @@ TriangleTree::Nearest TriangleTree::nearest(const Vec3& point) const {
     const Waiting waiting = stack.back();
     stack.pop_back();
     if (waiting.nearest >= best) continue;
-    const scene::BvhNode& node = bvh_.nodes[waiting.node];
+    const core::BvhNode& node = bvh_.nodes[waiting.node];
     if (node.leaf()) {
       for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
         const Triangle& t = mesh_.triangles[order_[i]];
-        const double squared = scene::squared_distance_to_triangle(point, mesh_.vertices[t[0]], mesh_.vertices[t[1]],
+        const double squared = core::squared_distance_to_triangle(point, mesh_.vertices[t[0]], mesh_.vertices[t[1]],
                                                                    mesh_.vertices[t[2]]);
         if (squared >= best) continue;
         best = squared;
@@ -116,7 +116,7 @@ bool TriangleTree::crossings(const Vec3& point, const Vec3& direction, int& wind
   winding = 0;
   std::vector<std::uint32_t> stack{0};
   while (!stack.empty()) {
-    const scene::BvhNode& node = bvh_.nodes[stack.back()];
+    const core::BvhNode& node = bvh_.nodes[stack.back()];
     stack.pop_back();
     if (!ray_meets(node.bounds, point, inverse)) continue;
     if (!node.leaf()) {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "scene/bvh.h"
+#include "core/bvh.h"
 #include "vantage/geometry.h"
 
 namespace vantage::solid {
@@ -36,7 +36,7 @@ class TriangleTree {
 
   const Mesh& mesh_;
   std::vector<std::uint32_t> order_;
-  scene::Bvh bvh_;
+  core::Bvh bvh_;
 };
 
 Box triangle_box(const Mesh& mesh, std::size_t triangle);
@@ -52,7 +52,7 @@ void TriangleTree::for_each_near(const Box& box, double margin, const Visit& vis
   std::vector<std::uint32_t> stack;
   if (!bvh_.nodes.empty()) stack.push_back(0);
   while (!stack.empty()) {
-    const scene::BvhNode& node = bvh_.nodes[stack.back()];
+    const core::BvhNode& node = bvh_.nodes[stack.back()];
     stack.pop_back();
     if (!near(node.bounds.min, node.bounds.max)) continue;
     if (!node.leaf()) {

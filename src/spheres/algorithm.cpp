@@ -5,8 +5,8 @@
 #include <string>
 #include <utility>
 
-#include "exact/lengths.h"
-#include "solid/pieces.h"
+#include "target/lengths.h"
+#include "core/pieces.h"
 #include "spheres/numerics.h"
 
 namespace vantage::spheres {
@@ -36,8 +36,8 @@ struct Shape {
 Shape shape_of(LabelledMesh labelled, double thickness_m) {
   Shape shape;
   shape.labelled = std::move(labelled);
-  solid::drop_slivers(shape.labelled, thickness_m);
-  for (const solid::Piece& piece : solid::find_pieces(shape.labelled.mesh).pieces) {
+  core::drop_slivers(shape.labelled, thickness_m);
+  for (const core::Piece& piece : core::find_pieces(shape.labelled.mesh).pieces) {
     shape.component_euler.push_back(piece.euler);
     shape.euler += piece.euler;
     shape.volume_m3 += piece.volume_m3;
@@ -103,7 +103,7 @@ class Run {
   void take_sphere(std::uint32_t point, Sphere sphere) {
     ++report_.spheres;
     // A range of that size ends the view by itself; a coarse grid has no vertex straight above.
-    const double near = exact::hands_breadth(maker_.range_m());
+    const double near = target::hands_breadth(maker_.range_m());
     const bool sees_nothing = maker_.range_m() > 2 * near && sphere.reach_m < near;
     if (sees_nothing && !result_.blocked) result_.blocked = points_[point].place;
     if (result_.blocked) return;

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/depth.h"
+#include "depth/depth.h"
 
 namespace vantage::spheres {
 namespace {
@@ -17,7 +17,7 @@ Vec3 real(const std::array<int, 3>& v) { return {double(v[0]), double(v[1]), dou
 
 CubeGrid::CubeGrid(int face_size) : n_(face_size) {
   for (std::size_t f = 0; f < 6; ++f) {
-    const render::CubeFace& face = render::cube_faces()[f];
+    const depth::CubeFace& face = depth::cube_faces()[f];
     axes_[f] = {whole(face.forward), whole(face.right), whole(face.up)};
   }
 }

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include "parallel/parallel.h"
+#include "core/parallel.h"
 #include "spheres/cube_grid.h"
 #include "spheres/numerics.h"
 #include "spheres/sphere_mesh.h"

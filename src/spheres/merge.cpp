@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "parallel/parallel.h"
+#include "core/parallel.h"
 
 namespace vantage::spheres {
 namespace {

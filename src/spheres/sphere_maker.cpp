@@ -101,7 +101,7 @@ std::size_t facet_count(const SpheresOptions& options) {
   return 12 * std::size_t(options.cubemap) * options.cubemap;
 }
 
-SphereMaker::SphereMaker(render::DepthRenderer& renderer, const SpheresOptions& options, double range_m,
+SphereMaker::SphereMaker(depth::DepthRenderer& renderer, const SpheresOptions& options, double range_m,
                          const TargetFrame& frame, bool front_only)
     : renderer_(renderer),
       options_(options),
@@ -123,11 +123,11 @@ StarMesh SphereMaker::tessellated(std::span<const float> inverse_depths) const {
 void SphereMaker::make(const std::vector<Vec3>& points, const std::function<void(std::size_t, Sphere)>& sink) const {
   std::vector<Vec3> viewpoints;
   for (const Vec3& p : points) viewpoints.push_back(frame_.to_scene(p));
-  render::DepthRequest request;
+  depth::DepthRequest request;
   request.viewpoints = viewpoints;
   request.face_size = face_size_;
   request.sampling =
-      options_.sphere == SpheresOptions::Sphere::centers ? render::Sampling::centers : render::Sampling::nearest;
+      options_.sphere == SpheresOptions::Sphere::centers ? depth::Sampling::centers : depth::Sampling::nearest;
   request.range_m = range_m_;
   Placement placement;
   placement.to_mesh.row(0) = frame_.axis_u;

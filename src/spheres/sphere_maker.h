@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "render/depth.h"
+#include "depth/depth.h"
 #include "solid/csg.h"
 #include "spheres/star_mesh.h"
 #include "vantage/spheres.h"
@@ -31,7 +31,7 @@ class SphereMaker {
  public:
   /// Meshes are in the axes of `frame` and about its origin; with `front_only` cut to its z >= 0, for viewpoints that
   /// lie in its plane. Keeps references to the renderer. The options are checked already.
-  SphereMaker(render::DepthRenderer& renderer, const SpheresOptions& options, double range_m, const TargetFrame& frame,
+  SphereMaker(depth::DepthRenderer& renderer, const SpheresOptions& options, double range_m, const TargetFrame& frame,
               bool front_only);
 
   double range_m() const { return range_m_; }
@@ -42,7 +42,7 @@ class SphereMaker {
  private:
   StarMesh tessellated(std::span<const float> inverse_depths) const;
 
-  render::DepthRenderer& renderer_;
+  depth::DepthRenderer& renderer_;
   SpheresOptions options_;
   double range_m_;
   TargetFrame frame_;

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "parallel/parallel.h"
+#include "core/parallel.h"
 #include "spheres/cube_grid.h"
 #include "spheres/merge.h"
 #include "spheres/numerics.h"

@@ -1,8 +1,8 @@
 // The public functions: they choose the device.
 #include "vantage/spheres.h"
 
-#include "parallel/parallel.h"
-#include "render/depth.h"
+#include "core/parallel.h"
+#include "depth/depth.h"
 #include "spheres/sphere_maker.h"
 #include "spheres/visibility.h"
 
@@ -14,7 +14,7 @@ Volume compute_visibility_spheres(const PreparedScene& scene, const Target& targ
   spheres::check_options(options);  // before a device is looked for
   Volume volume;
   parallel::with_threads(options.threads, [&] {
-    const render::ChosenRenderer chosen = render::make_depth_renderer(scene, options.device);
+    const depth::ChosenRenderer chosen = depth::make_depth_renderer(scene, options.device);
     const RenderDevice hoped = chosen.renderer->device();
     volume = spheres::compute_visibility(scene, target, sensor, options, *chosen.renderer, report, stages, progress);
     if (!report) return;
@@ -29,7 +29,7 @@ Mesh visibility_sphere(const PreparedScene& scene, const Vec3& viewpoint, double
   spheres::check_options(options);
   Mesh mesh;
   parallel::with_threads(options.threads, [&] {
-    const render::ChosenRenderer chosen = render::make_depth_renderer(scene, options.device);
+    const depth::ChosenRenderer chosen = depth::make_depth_renderer(scene, options.device);
     mesh = spheres::visibility_sphere(viewpoint, radius_m, options, *chosen.renderer, progress);
   });
   return mesh;

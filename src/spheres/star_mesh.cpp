@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "parallel/parallel.h"
+#include "core/parallel.h"
 #include "spheres/numerics.h"
 
 namespace vantage::spheres {

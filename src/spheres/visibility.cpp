@@ -7,12 +7,12 @@
 #include <utility>
 
 #include "core/progress_reporter.h"
-#include "exact/lengths.h"
-#include "exact/number_text.h"
-#include "exact/point_target.h"
-#include "exact/range_check.h"
-#include "exact/range_region.h"
-#include "exact/target_check.h"
+#include "target/lengths.h"
+#include "core/number_text.h"
+#include "target/point_target.h"
+#include "target/range_check.h"
+#include "target/range_region.h"
+#include "target/target_check.h"
 #include "scene/prepared_data.h"
 #include "spheres/algorithm.h"
 #include "spheres/numerics.h"
@@ -21,7 +21,7 @@
 namespace vantage::spheres {
 namespace {
 
-using exact::metres_text;
+using core::metres_text;
 using Clock = std::chrono::steady_clock;
 
 /// "vertex 2 at (10.00, 4.50, 0.00)" for a corner of the target as used, by the number that the user gave it; a
@@ -34,14 +34,14 @@ std::string point_name(const Target& target, const Vec3& place) {
     const double distance = (target.vertices[i] - place).squaredNorm();
     if (distance < least) least = distance, nearest = i;
   }
-  return "vertex " + std::to_string(nearest) + " at (" + exact::fixed_text(place.x(), 2) + ", " +
-         exact::fixed_text(place.y(), 2) + ", " + exact::fixed_text(place.z(), 2) + ")";
+  return "vertex " + std::to_string(nearest) + " at (" + core::fixed_text(place.x(), 2) + ", " +
+         core::fixed_text(place.y(), 2) + ", " + core::fixed_text(place.z(), 2) + ")";
 }
 
 void set_blocked(const Target& target, const Vec3& place, double max_range, Volume& volume) {
   volume.outcome = Outcome::blocked_at_once;
   volume.reason = point_name(target, place) + " sees nothing farther than " +
-                  metres_text(exact::hands_breadth(max_range)) +
+                  metres_text(target::hands_breadth(max_range)) +
                   ": it is inside a solid, or faces the surface that it lies on";
   volume.hint = "turn the target round with front:, or raise it with offset:";
 }
@@ -79,20 +79,20 @@ void set_mesh(const TargetFrame& frame, solid::LabelledMesh labelled, Volume& vo
 
 /// How far the target is raised, or why it cannot be seen where it lies: as the exact method says, points too. At the
 /// least off the surface that it lies on: seen from a point of its own plane a polygon has no depth.
-exact::Clearance clearance_of(const PreparedScene::Data& scene, const Target& target, const TargetFrame& frame,
+target::Clearance clearance_of(const PreparedScene::Data& scene, const Target& target, const TargetFrame& frame,
                               double max_range) {
-  exact::Clearance clearance;
+  target::Clearance clearance;
   if (target.is_point()) {
-    exact::PointSides sides = exact::make_point_sides(scene, target, frame, max_range);
+    target::PointSides sides = target::make_point_sides(scene, target, frame, max_range);
     clearance = {sides.lift, std::move(sides.notes)};
   } else {
-    clearance = exact::clear_target(scene, target, frame, max_range);
+    clearance = target::clear_target(scene, target, frame, max_range);
   }
-  clearance.lift_m = std::max(clearance.lift_m, exact::lengths_of(scene, frame, max_range).clear);
+  clearance.lift_m = std::max(clearance.lift_m, target::lengths_of(scene, frame, max_range).clear);
   return clearance;
 }
 
-void compute(const Target& target, const Sensor& sensor, const SpheresOptions& options, render::DepthRenderer& renderer,
+void compute(const Target& target, const Sensor& sensor, const SpheresOptions& options, depth::DepthRenderer& renderer,
              SpheresReport& report, const StageSink& stages, const core::ProgressReporter& progress, Volume& volume) {
   const bool front_only = target.vertices.size() > 1 || target.front;
   const SphereMaker maker(renderer, options, sensor.max_range_m, volume.frame, front_only);
@@ -111,11 +111,11 @@ void compute(const Target& target, const Sensor& sensor, const SpheresOptions& o
 }  // namespace
 
 Volume compute_visibility(const PreparedScene& scene, const Target& target, const Sensor& sensor,
-                          const SpheresOptions& options, render::DepthRenderer& renderer, SpheresReport* report,
+                          const SpheresOptions& options, depth::DepthRenderer& renderer, SpheresReport* report,
                           const StageSink& stages, const Progress& callback) {
   const core::ProgressReporter progress(callback);
   const auto start = Clock::now();
-  exact::check_sensor(sensor);
+  target::check_sensor(sensor);
   check_options(options);
   SpheresReport own_report;
   SpheresReport& told = report ? *report : own_report;
@@ -123,16 +123,16 @@ Volume compute_visibility(const PreparedScene& scene, const Target& target, cons
   Volume volume;
   volume.tolerance_m = range_tolerance(options, sensor.max_range_m);
   volume.frame = make_target_frame(target);
-  exact::Clearance clearance = clearance_of(scene.data(), target, volume.frame, sensor.max_range_m);
+  target::Clearance clearance = clearance_of(scene.data(), target, volume.frame, sensor.max_range_m);
   volume.lift_m = clearance.lift_m;
   volume.notes = std::move(clearance.notes);
   volume.frame.origin += volume.frame.normal * volume.lift_m;
   volume.counts.scene_polygons = scene.data().polygon_count();
-  if (exact::can_reach(volume.frame, sensor)) {
-    exact::move_into_range(volume.frame, sensor.max_range_m);
+  if (target::can_reach(volume.frame, sensor)) {
+    target::move_into_range(volume.frame, sensor.max_range_m);
     compute(target, sensor, options, renderer, told, stages, progress, volume);
   } else {
-    exact::set_out_of_range(volume.frame, sensor, volume);
+    target::set_out_of_range(volume.frame, sensor, volume);
   }
   told.device = renderer.device();  // only now: it may have changed on the way
   volume.seconds.engine = volume.seconds.total = std::chrono::duration<double>(Clock::now() - start).count();
@@ -140,12 +140,12 @@ Volume compute_visibility(const PreparedScene& scene, const Target& target, cons
 }
 
 Mesh visibility_sphere(const Vec3& viewpoint, double radius_m, const SpheresOptions& options,
-                       render::DepthRenderer& renderer, const Progress& callback) {
+                       depth::DepthRenderer& renderer, const Progress& callback) {
   const core::ProgressReporter progress(callback);
   if (!viewpoint.allFinite())
     throw Error(ErrorKind::input, "the viewpoint has a coordinate that is not finite", "visibility sphere",
                 "give three finite numbers");
-  exact::check_sensor({radius_m});
+  target::check_sensor({radius_m});
   check_options(options);
   TargetFrame frame;
   frame.origin = viewpoint;

@@ -1,18 +1,18 @@
 // compute_visibility_spheres and visibility_sphere with a renderer of the caller's choice.
 #pragma once
 
-#include "render/depth.h"
+#include "depth/depth.h"
 #include "vantage/spheres.h"
 
 namespace vantage::spheres {
 
 /// As compute_visibility_spheres, but for SpheresReport::device_note. Runs in the caller's arena.
 Volume compute_visibility(const PreparedScene& scene, const Target& target, const Sensor& sensor,
-                          const SpheresOptions& options, render::DepthRenderer& renderer, SpheresReport* report,
+                          const SpheresOptions& options, depth::DepthRenderer& renderer, SpheresReport* report,
                           const StageSink& stages, const Progress& progress);
 
 /// As visibility_sphere.
 Mesh visibility_sphere(const Vec3& viewpoint, double radius_m, const SpheresOptions& options,
-                       render::DepthRenderer& renderer, const Progress& progress);
+                       depth::DepthRenderer& renderer, const Progress& progress);
 
 }  // namespace vantage::spheres

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/progress_reporter.h"
-#include "parallel/parallel.h"
+#include "core/parallel.h"
 #include "vantage/error.h"
 #include "verify/binomial.h"
 #include "verify/limits.h"

@@ -1,11 +1,11 @@
 #include "fuzz/mesh_fuzzing.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace vantage::scene;
-  const auto with_lod = [](const MeshSource& source, const auto& progress, const ReadLimits& limits) {
+  using namespace vantage::io;
+  const auto with_lod = [](const MeshSource& source, const auto& progress, const core::ReadLimits& limits) {
     return read_cityjson(source, progress, limits, "1");
   };
-  const auto without = [](const MeshSource& source, const auto& progress, const ReadLimits& limits) {
+  const auto without = [](const MeshSource& source, const auto& progress, const core::ReadLimits& limits) {
     return read_cityjson(source, progress, limits);
   };
   vantage::fuzzing::read(without, "/nowhere/fuzz.city.json", data, size);

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "mission/mission_parser.h"
+#include "app/mission_parser.h"
 #include "vantage/error.h"
 
 namespace {
@@ -15,7 +15,7 @@ void require(bool holds) {
   if (!holds) std::abort();
 }
 
-void check_accepted(const vantage::mission_io::ParsedMission& parsed) {
+void check_accepted(const vantage::app::ParsedMission& parsed) {
   const vantage::Mission& mission = parsed.mission;
   require(mission.scene.file.is_absolute());
   const std::size_t corners = mission.target.vertices.size();
@@ -38,7 +38,7 @@ void check_accepted(const vantage::mission_io::ParsedMission& parsed) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   try {
-    check_accepted(vantage::mission_io::parse_mission(text, "mission.yaml"));
+    check_accepted(vantage::app::parse_mission(text, "mission.yaml"));
   } catch (const vantage::Error& error) {
     require(error.kind() == vantage::ErrorKind::input);
     require(!error.problem().empty() && !error.where().empty() && !error.fix().empty());

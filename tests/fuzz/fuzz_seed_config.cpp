@@ -7,14 +7,14 @@
 #include <set>
 #include <string_view>
 
-#include "mission/seed_config.h"
+#include "app/seed_config.h"
 #include "vantage/error.h"
 
 namespace {
 
-using vantage::mission_io::SeedConfig;
-using vantage::mission_io::SeedMesh;
-using vantage::mission_io::SeedVolume;
+using vantage::app::SeedConfig;
+using vantage::app::SeedMesh;
+using vantage::app::SeedVolume;
 
 void require(bool holds) {
   if (!holds) std::abort();
@@ -52,7 +52,7 @@ void check_accepted(const SeedConfig& config) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   try {
-    check_accepted(vantage::mission_io::parse_seed_config(text, "config.yaml"));
+    check_accepted(vantage::app::parse_seed_config(text, "config.yaml"));
   } catch (const vantage::Error& error) {
     require(error.kind() == vantage::ErrorKind::input);
     require(!error.problem().empty() && !error.where().empty() && !error.fix().empty());

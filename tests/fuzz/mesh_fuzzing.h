@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/mesh_readers.h"
+#include "io/mesh_readers.h"
 #include "vantage/error.h"
 
 namespace vantage::fuzzing {
@@ -18,7 +18,7 @@ inline void require(bool condition, const char* promise) {
   std::abort();
 }
 
-inline void check(const scene::RawMesh& mesh) {
+inline void check(const io::RawMesh& mesh) {
   require(!mesh.triangles.empty(), "there is a triangle");
   require(mesh.object_of.size() == mesh.triangles.size(), "every triangle has an object");
   for (const Vec3& vertex : mesh.vertices) require(vertex.allFinite(), "coordinates are finite");
@@ -38,10 +38,10 @@ inline void check(const scene::RawMesh& mesh) {
 
 template <class Reader>
 void read(const Reader& reader, const std::string& name, const std::uint8_t* data, std::size_t size) {
-  scene::ReadLimits limits;
+  core::ReadLimits limits;
   limits.repeated_triangles = 10'000;
   try {
-    check(reader(scene::MeshSource(name, std::string(reinterpret_cast<const char*>(data), size)), {}, limits));
+    check(reader(io::MeshSource(name, std::string(reinterpret_cast<const char*>(data), size)), {}, limits));
   } catch (const Error& error) {
     require(error.kind() == ErrorKind::input, "what cannot be read is an input error");
     require(error.problem().find('\n') == std::string::npos, "a problem is one line");

@@ -28,7 +28,7 @@ float rounded_up(double value) {
 }
 
 /// Of the part of the polygon in the texel; 0 if there is none.
-double nearest_inverse(const Polygon& polygon, const render::CubeFace& face, double u, double v, double half) {
+double nearest_inverse(const Polygon& polygon, const depth::CubeFace& face, double u, double v, double half) {
   Polygon part = clipped(polygon, face.right - (u - half) * face.forward);
   part = clipped(part, (u + half) * face.forward - face.right);
   part = clipped(part, face.up - (v - half) * face.forward);
@@ -62,7 +62,7 @@ BruteDepth::BruteDepth(Mesh mesh) : mesh_(std::move(mesh)) {
   device_.largest_face_size = 4096;
 }
 
-void BruteDepth::render(const render::DepthRequest& request, const render::DepthSink& sink) {
+void BruteDepth::render(const depth::DepthRequest& request, const depth::DepthSink& sink) {
   ++requests;
   const int n = request.face_size;
   std::vector<float> inverse(6 * static_cast<std::size_t>(n) * n);
@@ -73,11 +73,11 @@ void BruteDepth::render(const render::DepthRequest& request, const render::Depth
       for (const auto v : t) polygon.push_back(mesh_.vertices[v] - request.viewpoints[k]);
     }
     std::size_t texel = 0;
-    for (const render::CubeFace& face : render::cube_faces()) {
+    for (const depth::CubeFace& face : depth::cube_faces()) {
       for (int row = 0; row < n; ++row) {
         for (int column = 0; column < n; ++column, ++texel) {
           const double u = (2.0 * column + 1) / n - 1, v = (2.0 * row + 1) / n - 1;
-          if (request.sampling == render::Sampling::centers) {
+          if (request.sampling == depth::Sampling::centers) {
             const Vec3 direction = face.forward + u * face.right + v * face.up;
             inverse[texel] = static_cast<float>(1 / first_hit(mesh_, request.viewpoints[k], direction));
             continue;

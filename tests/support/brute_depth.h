@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "render/depth.h"
+#include "depth/depth.h"
 #include "vantage/scene.h"
 
 namespace vantage::testing {
@@ -13,11 +13,11 @@ namespace vantage::testing {
 double first_hit(const Mesh& mesh, const Vec3& from, const Vec3& direction);
 
 /// Sampling::nearest is exact: each triangle is clipped to the texel's pyramid, and its nearest corner counts.
-class BruteDepth : public render::DepthRenderer {
+class BruteDepth : public depth::DepthRenderer {
  public:
   explicit BruteDepth(Mesh mesh);
   const RenderDevice& device() const override { return device_; }
-  void render(const render::DepthRequest& request, const render::DepthSink& sink) override;
+  void render(const depth::DepthRequest& request, const depth::DepthSink& sink) override;
 
   int requests = 0, images = 0;  ///< so far
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "render/depth.h"
+#include "depth/depth.h"
 
 namespace vantage::testing {
 
@@ -20,7 +20,7 @@ struct DepthMap {
   }
 };
 
-inline DepthMap render_one(render::DepthRenderer& renderer, const Vec3& viewpoint, int size, render::Sampling sampling,
+inline DepthMap render_one(depth::DepthRenderer& renderer, const Vec3& viewpoint, int size, depth::Sampling sampling,
                            double range = 1e9) {
   DepthMap map;
   map.size = size;
@@ -32,13 +32,13 @@ inline DepthMap render_one(render::DepthRenderer& renderer, const Vec3& viewpoin
 
 /// (u, v, inverse depth) of a point relative to the viewpoint, on a face; the depth may be negative.
 inline Vec3 on_face(int face, const Vec3& point) {
-  const render::CubeFace& axes = render::cube_faces()[face];
+  const depth::CubeFace& axes = depth::cube_faces()[face];
   const double forward = axes.forward.dot(point);
   return {axes.right.dot(point) / forward, axes.up.dot(point) / forward, 1 / forward};
 }
 
 inline Vec3 direction_on_face(int face, double u, double v) {
-  const render::CubeFace& axes = render::cube_faces()[face];
+  const depth::CubeFace& axes = depth::cube_faces()[face];
   return axes.forward + u * axes.right + v * axes.up;
 }
 

@@ -7,14 +7,14 @@
 #include <functional>
 #include <string>
 
-#include "scene/mesh_readers.h"
+#include "io/mesh_readers.h"
 #include "vantage/error.h"
 
 namespace vantage::testing {
 
 /// Reads `bytes` as if they were the content of a file with this name.
-inline scene::RawMesh read_as(const std::string& name, const std::string& bytes, const scene::ReadLimits& limits = {}) {
-  return scene::read_any(scene::MeshSource(name, bytes), {}, limits);
+inline io::RawMesh read_as(const std::string& name, const std::string& bytes, const core::ReadLimits& limits = {}) {
+  return io::read_any(io::MeshSource(name, bytes), {}, limits);
 }
 
 /// Runs `body`, which must throw an input Error whose problem holds `problem` and whose place holds `where`.

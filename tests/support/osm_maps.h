@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "osm/extract.h"
+#include "maps/osm/extract.h"
 #include "support/temporary_directory.h"
 #include "vantage/error.h"
 

@@ -7,7 +7,7 @@
 #include <array>
 #include <vector>
 
-#include "render/depth.h"
+#include "depth/depth.h"
 
 namespace vantage::testing {
 
@@ -15,7 +15,7 @@ namespace vantage::testing {
 using FaceTriangles = std::vector<std::array<Vec3, 3>>;
 
 inline FaceTriangles triangles_of_face(const Mesh& mesh, const Vec3& eye, int face) {
-  const render::CubeFace& axes = render::cube_faces()[face];
+  const depth::CubeFace& axes = depth::cube_faces()[face];
   FaceTriangles triangles;
   triangles.reserve(mesh.triangles.size());
   for (const Triangle& t : mesh.triangles) {

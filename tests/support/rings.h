@@ -1,7 +1,7 @@
 // Where a point lies, by the oldest of rules: for tests of outlines.
 #pragma once
 
-#include "city/footprint.h"
+#include "maps/city/footprint.h"
 
 namespace vantage::testing {
 

@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "terrain/tin.h"
+#include "maps/terrain/tin.h"
 
 namespace vantage::terrain {
 

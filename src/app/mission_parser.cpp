@@ -1,0 +1,357 @@
+// docs/mission-file.md describes every key.
+#include "app/mission_parser.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "app/input_file.h"
+#include "app/numbers.h"
+#include "app/run_mission.h"
+#include "app/scene_section.h"
+#include "app/schema.h"
+#include "app/spheres_section.h"
+#include "app/value_reader.h"
+#include "vantage/error.h"
+
+namespace vantage::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+class MissionParser : private ValueReader {
+ public:
+  explicit MissionParser(const fs::path& file) : ValueReader(file.string()), path_(file) {}
+
+  ParsedMission parse(std::string_view text);
+
+ private:
+  // Sections.
+  void parse_scene(const YamlNode& node);
+  void parse_target(const YamlNode& node);
+  void parse_sensor(const YamlNode& node);
+  void parse_navigation(const YamlNode& node);
+  void parse_method(const YamlNode& node);
+  void parse_exact(const YamlNode& node);
+  MeshReference mesh_reference(const YamlNode& node);
+  Navigation::Altitude altitude(const YamlNode& node) const;
+  std::vector<Box> boxes(const YamlNode& node, const std::string& what) const;
+  Box box(const YamlNode& node, const std::string& what) const;
+  void check_extent(const YamlNode& node, const std::string& what, int axis, const Box& box) const;
+  void check_edges(const YamlNode& node, std::size_t vertex_count) const;
+  void refuse_beside(const YamlNode& node, const char* key, std::initializer_list<const char*> others,
+                     const char* fix) const;
+  const YamlNode& parse_vertices(const YamlNode& node);
+  const YamlNode& parse_ground_target(const YamlNode& node);
+  const YamlNode& parse_point(const YamlNode& node, const YamlNode& point);
+  void check_target(const YamlNode& place);
+
+  const YamlNode& require(const YamlNode& map, Section section, std::string_view key, const std::string& fix) const;
+
+  fs::path path_;
+  ParsedMission parsed_;
+};
+
+const char* const kVerticesForm =
+    "write 'vertices: [[x, y, z], [x, y, z], [x, y, z]]', 3 to 64 points, or 'point: [x, y, z]'";
+const char* const kBoxForm = "write each box as {min: [x, y, z], max: [x, y, z]}";
+
+std::string indexed(const std::string& what, std::size_t index) { return what + "[" + std::to_string(index) + "]"; }
+
+std::string edge_text(std::size_t from, std::size_t to) {
+  std::string text = "[";
+  text += std::to_string(from);
+  text += ", ";
+  text += std::to_string(to);
+  text += "]";
+  return text;
+}
+
+ParsedMission MissionParser::parse(std::string_view mission_text) {
+  const YamlNode root = parse_yaml(mission_text, file());
+  check_keys(root, Section::mission, file());
+  parsed_.mission.file = fs::absolute(path_);
+
+  if (const YamlNode* method = find(root, "method")) parse_method(*method);
+  if (const YamlNode* crs = find(root, "crs")) parsed_.mission.crs = text(*crs, "crs");
+  parse_scene(require(root, Section::mission, "scene", "write 'scene:' and below it, indented, 'mesh: city.obj'"));
+  parse_target(require(root, Section::mission, "target",
+                       "write 'target:' and below it, indented, 'vertices: [[x, y, z], [x, y, z], [x, y, z]]'"));
+  parse_sensor(
+      require(root, Section::mission, "sensor", "write 'sensor:' and below it, indented, 'max_range: 100' (metres)"));
+  if (const YamlNode* navigation = find(root, "navigation")) parse_navigation(*navigation);
+  if (const YamlNode* exact = find(root, "exact")) parse_exact(*exact);
+  if (const YamlNode* spheres = find(root, "spheres")) parse_spheres(*spheres, *this, parsed_.mission.spheres);
+  return std::move(parsed_);
+}
+
+void MissionParser::parse_scene(const YamlNode& node) {
+  // Not made shorter here: "a/../b" is not "b" where a is a symbolic link.
+  SceneSection section = parse_scene_section(node, *this, parsed_.mission.file.parent_path());
+  parsed_.mission.scene = std::move(section.source);
+  parsed_.scene_where = std::move(section.where);
+  parsed_.terrain_where = std::move(section.terrain_where);
+}
+
+MeshReference MissionParser::mesh_reference(const YamlNode& node) {
+  const YamlNode& mesh =
+      require(node, Section::mesh, "mesh", "write 'mesh: city.obj'; the path starts from the mission file");
+  MeshReference reference;
+  reference.name = text(mesh, "navigation.meshes.mesh");
+  reference.where = place_in(file(), mesh.place);
+  reference.file = parsed_.mission.file.parent_path() / reference.name;
+  // What `compute` writes must come back as a navigation mesh where it was: OBJ in the axes and the unit of the scene
+  // file, PLY and STL in the scene frame.
+  const YamlNode* const up = find(node, "up");
+  const YamlNode* const scale = find(node, "scale");
+  if (up) reference.options.up = parse_up_axis(*up, *this, "navigation.meshes.up");
+  if (scale) reference.options.scale = positive(*scale, "navigation.meshes.scale");
+  reference.in_scene_axes = is_obj(reference.file) && !up;
+  reference.in_scene_unit = is_obj(reference.file) && !scale;
+  return reference;
+}
+
+void MissionParser::parse_target(const YamlNode& node) {
+  check_keys(node, Section::target, file());
+  Target& target = parsed_.mission.target;
+  if (const YamlNode* name = find(node, "name")) target.name = text(*name, "target.name");
+  const YamlNode* point = find(node, "point");
+  const bool is_on_ground = find(node, "osm") || find(node, "center");
+  const YamlNode& place = point          ? parse_point(node, *point)
+                          : is_on_ground ? parse_ground_target(node)
+                                         : parse_vertices(node);
+  if (const YamlNode* offset = find(node, "offset")) target.offset_m = length(*offset, "target.offset");
+  if (const YamlNode* front = find(node, "front")) target.front = vector(*front, "target.front");
+  check_target(place);
+  if (const YamlNode* edges = find(node, "edges")) check_edges(*edges, target.vertices.size());
+}
+
+/// Returns the node that stands for the target in messages.
+const YamlNode& MissionParser::parse_vertices(const YamlNode& node) {
+  Target& target = parsed_.mission.target;
+  for (const char* key : {"width", "length", "heading"}) {
+    if (const YamlNode* entry = find(node, key)) {
+      fail(*entry, std::string("target.") + key + " is of a rectangle, and the target has no 'center'",
+           "write 'center: [latitude, longitude]'");
+    }
+  }
+  const YamlNode& vertices = require(node, Section::target, "vertices", kVerticesForm);
+  list(vertices, "target.vertices", kVerticesForm);
+  for (std::size_t i = 0; i < vertices.items.size(); ++i) {
+    target.vertices.push_back(vector(vertices.items[i], indexed("target.vertices", i)));
+  }
+  if (target.is_point()) {
+    fail(vertices, "a polygon needs at least 3 vertices, this one has 1",
+         "add vertices, or write 'point: [x, y, z]' for a single point");
+  }
+  return vertices;
+}
+
+/// Keys that say another thing than `key` does.
+void MissionParser::refuse_beside(const YamlNode& node, const char* key, std::initializer_list<const char*> others,
+                                  const char* fix) const {
+  for (const char* other : others) {
+    if (const YamlNode* entry = find(node, other)) {
+      fail(*entry, std::string("target has both '") + key + "' and '" + other + "'", fix);
+    }
+  }
+}
+
+/// Where it lies is found out when the scene is read.
+const YamlNode& MissionParser::parse_ground_target(const YamlNode& node) {
+  GroundTarget& ground = parsed_.mission.ground_target.emplace();
+  if (const YamlNode* osm = find(node, "osm")) {
+    refuse_beside(node, "osm", {"vertices", "edges", "center", "width", "length", "heading"},
+                  "keep 'osm' for an area of the map, or give the target yourself");
+    ground.osm = text(*osm, "target.osm");
+    if (find(node, "name") == nullptr) parsed_.mission.target.name = ground.osm;
+    if (parsed_.mission.scene.kind != SceneSource::Kind::map) {
+      fail(*osm, "target.osm names an object of a map, and the scene is none",
+           "write 'scene: {osm: city.osm.pbf}', or give the target's vertices");
+    }
+    return *osm;
+  }
+  const YamlNode& center = *find(node, "center");
+  refuse_beside(node, "center", {"vertices", "edges"}, "keep 'center' for a rectangle, or 'vertices' for a polygon");
+  ground.center_deg = parse_lat_lon(center, *this, "target.center");
+  const std::string form = "write 'width: 20' and 'length: 30' (metres), and 'heading: 45' (degrees from north)";
+  ground.width_m = positive(require(node, Section::target, "width", form), "target.width");
+  ground.length_m = positive(require(node, Section::target, "length", form), "target.length");
+  if (const YamlNode* heading = find(node, "heading")) ground.heading_deg = number(*heading, "target.heading");
+  return center;
+}
+
+const YamlNode& MissionParser::parse_point(const YamlNode& node, const YamlNode& point) {
+  refuse_beside(node, "point", {"vertices", "edges", "osm", "center"},
+                "keep 'point' for a single point, or 'vertices' for a polygon");
+  parsed_.mission.target.vertices = {vector(point, "target.point")};
+  const YamlNode* offset = find(node, "offset");
+  if (offset != nullptr && find(node, "front") == nullptr) {
+    fail(*offset, "a point without 'front' has no side to be moved towards by 'offset'",
+         "move the point itself, or give 'front', the side that is looked at");
+  }
+  return point;
+}
+
+/// The checks that need no scene, told with the place of the vertices or the point.
+void MissionParser::check_target(const YamlNode& place) {
+  Mission& mission = parsed_.mission;
+  mission.target_place = place_in(file(), place.place);
+  if (!mission.crs.empty() || mission.ground_target) return;  // place_mission does it
+  with_place(mission.target_place, [&] { return make_target_frame(mission.target); });
+}
+
+/// The edges must be the polygon's own: each joins neighbours in `vertices`, none is missing, none stands twice. Which
+/// way round an edge or the whole list runs does not matter.
+void MissionParser::check_edges(const YamlNode& node, std::size_t vertex_count) const {
+  const std::string fix = "list the edges as [0, 1], [1, 2], ..., [" + std::to_string(vertex_count - 1) +
+                          ", 0], or leave 'edges' out: the vertices' order says it all";
+  list(node, "target.edges", "write pairs of vertex numbers, counted from 0: [[0, 1], [1, 2], [2, 0]]");
+  std::vector<const YamlNode*> edge_from(vertex_count, nullptr);  // the edge from vertex i to vertex i + 1
+  for (std::size_t i = 0; i < node.items.size(); ++i) {
+    const YamlNode& item = node.items[i];
+    const std::string what = indexed("target.edges", i);
+    if (list(item, what, "write a pair of vertex numbers, such as [0, 1]").size() != 2) {
+      fail(item, what + " must be a pair of vertex numbers, not " + describe(item), fix);
+    }
+    std::size_t ends[2];
+    for (std::size_t k = 0; k < 2; ++k) {
+      const double value = number(item.items[k], what);
+      if (value < 0 || value >= static_cast<double>(vertex_count) || value != std::floor(value)) {
+        fail(item.items[k],
+             what + " names vertex " + shortest(value) + ", but the vertices are 0 to " +
+                 std::to_string(vertex_count - 1),
+             fix);
+      }
+      ends[k] = static_cast<std::size_t>(value);
+    }
+    const std::string pair = edge_text(ends[0], ends[1]);
+    const bool is_forward = (ends[0] + 1) % vertex_count == ends[1];
+    const bool is_backward = (ends[1] + 1) % vertex_count == ends[0];
+    if (!is_forward && !is_backward) {
+      fail(item, "target.edges and target.vertices disagree: edge " + pair + " joins vertices that are not neighbours",
+           fix);
+    }
+    const YamlNode*& seen = edge_from[is_forward ? ends[0] : ends[1]];
+    if (seen != nullptr) fail(item, "target.edges lists the edge " + pair + " twice", fix);
+    seen = &item;
+  }
+  const auto missing = std::find(edge_from.begin(), edge_from.end(), nullptr);
+  if (missing != edge_from.end()) {
+    const auto from = static_cast<std::size_t>(missing - edge_from.begin());
+    fail(
+        node,
+        "target.edges and target.vertices disagree: edge " + edge_text(from, (from + 1) % vertex_count) + " is missing",
+        fix);
+  }
+}
+
+void MissionParser::parse_sensor(const YamlNode& node) {
+  check_keys(node, Section::sensor, file());
+  const YamlNode& range =
+      require(node, Section::sensor, "max_range", "write 'max_range: 100': metres, to every point of the target");
+  parsed_.mission.sensor.max_range_m = positive(range, "sensor.max_range");
+}
+
+void MissionParser::parse_navigation(const YamlNode& node) {
+  if (node.kind == YamlNode::Kind::null) return;  // the heading alone: no limits
+  check_keys(node, Section::navigation, file());
+  Navigation& navigation = parsed_.mission.navigation;
+  if (const YamlNode* band = find(node, "altitude")) navigation.altitude = altitude(*band);
+  if (const YamlNode* keep_in = find(node, "boxes")) {
+    navigation.boxes = boxes(*keep_in, "navigation.boxes");
+    // "Cut to the union of no boxes" would leave nothing, and "no limit" is not what the key says either.
+    if (navigation.boxes.empty()) {
+      fail(*keep_in, "navigation.boxes is an empty list", "give at least one box, or leave the key out for no limit");
+    }
+  }
+  if (const YamlNode* keep_out = find(node, "keep_out")) {
+    navigation.keep_out = boxes(*keep_out, "navigation.keep_out");
+  }
+  const YamlNode* meshes = find(node, "meshes");
+  if (meshes == nullptr) return;
+  for (const YamlNode& item : list(*meshes, "navigation.meshes", "write a list of mesh files: [airspace.ply]")) {
+    if (item.kind == YamlNode::Kind::map) {
+      check_keys(item, Section::mesh, file());
+      parsed_.navigation_meshes.push_back(mesh_reference(item));
+      continue;
+    }
+    YamlNode map;  // the short form, a path alone
+    map.kind = YamlNode::Kind::map;
+    map.place = item.place;
+    map.entries.push_back({"mesh", item.place, item});
+    parsed_.navigation_meshes.push_back(mesh_reference(map));
+  }
+}
+
+Navigation::Altitude MissionParser::altitude(const YamlNode& node) const {
+  const std::string form = "write the lowest and the highest altitude in metres: [20, 120]";
+  if (list(node, "navigation.altitude", form).size() != 2) {
+    fail(node, "navigation.altitude must be two numbers, not " + describe(node), form);
+  }
+  const double low = length(node.items[0], "navigation.altitude[0]");
+  const double high = length(node.items[1], "navigation.altitude[1]");
+  if (low > high) {
+    fail(node, "navigation.altitude is reversed: " + shortest(low) + " is above " + shortest(high),
+         "write the lower altitude first: [" + shortest(high) + ", " + shortest(low) + "]");
+  }
+  if (low == high) {
+    fail(node, "navigation.altitude holds no air: both limits are " + shortest(low), form);
+  }
+  return {low, high};
+}
+
+std::vector<Box> MissionParser::boxes(const YamlNode& node, const std::string& what) const {
+  std::vector<Box> result;
+  list(node, what, std::string("write a list of boxes, each {min: [x, y, z], max: [x, y, z]}"));
+  for (std::size_t i = 0; i < node.items.size(); ++i) result.push_back(box(node.items[i], indexed(what, i)));
+  return result;
+}
+
+Box MissionParser::box(const YamlNode& node, const std::string& what) const {
+  if (node.kind != YamlNode::Kind::map) fail(node, what + " must be a mapping, not " + describe(node), kBoxForm);
+  check_keys(node, Section::box, file());
+  const YamlNode& min = require(node, Section::box, "min", kBoxForm);
+  const YamlNode& max = require(node, Section::box, "max", kBoxForm);
+  Box result;
+  result.min = vector(min, what + ".min");
+  result.max = vector(max, what + ".max");
+  for (int axis = 0; axis < 3; ++axis) check_extent(node, what, axis, result);
+  return result;
+}
+
+void MissionParser::check_extent(const YamlNode& node, const std::string& what, int axis, const Box& box) const {
+  if (box.min[axis] < box.max[axis]) return;
+  const bool is_reversed = box.min[axis] > box.max[axis];
+  const std::string name(1, "xyz"[axis]), low = shortest(box.min[axis]), high = shortest(box.max[axis]);
+  fail(node, what + (is_reversed ? " is reversed in " : " is flat in ") + name + ": min " + low + ", max " + high,
+       is_reversed ? "swap the two " + name + " values" : "give min and max different " + name + " values");
+}
+
+void MissionParser::parse_method(const YamlNode& node) {
+  const std::string method = text(node, "method");
+  if (method == "spheres") {
+    parsed_.mission.method = Method::spheres;
+  } else if (method != "exact") {
+    fail(node, "there is no method " + in_quotes(method), "write 'method: exact' or 'method: spheres'");
+  }
+}
+
+void MissionParser::parse_exact(const YamlNode& node) {
+  check_keys(node, Section::exact, file());
+  if (const YamlNode* tolerance = find(node, "tolerance")) {
+    parsed_.mission.exact.tolerance_m = positive(*tolerance, "exact.tolerance");
+  }
+}
+
+const YamlNode& MissionParser::require(const YamlNode& map, Section section, std::string_view key,
+                                       const std::string& fix) const {
+  if (const YamlNode* node = find(map, key)) return *node;
+  fail(map, std::string(section_name(section)) + " lacks the key '" + std::string(key) + "'", fix);
+}
+
+}  // namespace
+
+ParsedMission parse_mission(std::string_view text, const fs::path& file) { return MissionParser(file).parse(text); }
+
+}  // namespace vantage::app

@@ -1,0 +1,107 @@
+#include "app/report.h"
+
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include "io/georeference_text.h"
+#include "core/names.h"
+
+namespace vantage::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json json_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+Json json_of(const Box& box) {
+  if (box.empty()) return nullptr;
+  return {{"min", json_of(box.min)}, {"max", json_of(box.max)}};
+}
+
+Json json_of(const std::vector<Cause>& causes) {
+  Json list = Json::array();
+  for (const Cause& cause : causes) {
+    list.push_back({{"name", cause.name}, {"kind", core::name_of(cause.kind)}, {"area_m2", cause.area_m2}});
+  }
+  return list;
+}
+
+Json json_of(const StageCounts& counts) {
+  return {{"scene_polygons", counts.scene_polygons},
+          {"candidate_blockers", counts.candidate_blockers},
+          {"visible_blockers", counts.visible_blockers},
+          {"visible_facets", counts.visible_facets},
+          {"constraint_edges", counts.constraint_edges}};
+}
+
+Json json_of(const Seconds& seconds) {
+  return {{"read", seconds.read},     {"prepare", seconds.prepare},
+          {"engine", seconds.engine}, {"navigation", seconds.navigation},
+          {"write", seconds.write},   {"total", seconds.total}};
+}
+
+Json json_of(const SpheresRun& run) {
+  const SpheresOptions& options = run.options;
+  const SpheresReport& report = run.report;
+  Json json;
+  json["device"] = {
+      {"kind", core::name_of(report.device.kind)}, {"name", report.device.name}, {"driver", report.device.driver}};
+  if (!report.device_note.empty()) json["device"]["note"] = report.device_note;
+  json["sphere"] = options.sphere == SpheresOptions::Sphere::centers ? "centers" : "conservative";
+  if (options.resolution) {
+    json["resolution"] = *options.resolution;
+  } else {
+    json["cubemap"] = options.cubemap;
+  }
+  json["merge"] = options.merge;
+  json["split"] = options.split == SpheresOptions::Split::always ? "always" : "euler";
+  json["max_splits"] = options.max_splits;
+  json["min_edge_m"] = options.min_edge_m;
+  json["spheres"] = report.spheres;
+  json["pairs"] = report.pairs;
+  json["splits"] = report.splits;
+  json["unresolved_pairs"] = report.unresolved_pairs;
+  json["render_seconds"] = report.render_seconds;
+  json["boolean_seconds"] = report.boolean_seconds;
+  return json;
+}
+
+}  // namespace
+
+std::string spheres_json(const SpheresRun& run) {
+  return json_of(run).dump(2, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string report_json(const Volume& volume, const MeshMeasures& measures, const ReportSource& source) {
+  Json report;
+  report["version"] = VANTAGE_VERSION;
+  const std::array<std::pair<const char*, const std::string*>, 4> sources = {
+      {{"mission", &source.mission}, {"scene", &source.scene}, {"target", &source.target}, {"volume", &source.volume}}};
+  for (const auto& [key, text] : sources) {
+    if (!text->empty()) report[key] = *text;
+  }
+  report["method"] = source.spheres ? "spheres" : "exact";
+  report["outcome"] = core::name_of(volume.outcome);
+  report["reason"] = volume.reason;
+  report["hint"] = volume.hint;
+  report["notes"] = volume.notes;
+  report["volume_m3"] = measures.volume_m3;
+  report["area_m2"] = measures.area_m2;
+  report["pieces"] = measures.pieces;
+  report["vertices"] = measures.vertices;
+  report["facets"] = measures.facets;
+  report["euler"] = measures.euler;
+  report["closed"] = measures.closed;
+  report["oriented"] = measures.oriented;
+  report["tolerance_m"] = volume.tolerance_m;
+  report["lift_m"] = volume.lift_m;
+  if (volume.georeference) report["georeference"] = io::georeference_json(*volume.georeference);
+  report["bounding_box"] = json_of(measures.bounds);
+  report["causes"] = json_of(volume.causes);
+  if (source.spheres) report["spheres"] = json_of(*source.spheres);
+  report["counts"] = json_of(volume.counts);
+  report["seconds"] = json_of(volume.seconds);
+  return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace vantage::app

@@ -1,0 +1,167 @@
+#include "app/scene_section.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <initializer_list>
+#include <utility>
+
+#include "maps/city/settings.h"
+#include "app/numbers.h"
+#include "app/run_mission.h"
+#include "app/schema.h"
+
+namespace vantage::app {
+namespace {
+
+using Kind = SceneSource::Kind;
+
+const char* const kLatLonForm = "write degrees, the latitude first: [48.1374, 11.5755]";
+
+class SceneParser {
+ public:
+  SceneParser(const YamlNode& node, const ValueReader& reader, const std::filesystem::path& folder)
+      : node_(node), reader_(reader), folder_(folder) {}
+
+  SceneSection parse() {
+    check_keys(node_, Section::scene, reader_.file());
+    choose_kind();
+    parse_mesh_options();
+    parse_region();
+    parse_ground();
+    parse_city();
+    return std::move(section_);
+  }
+
+ private:
+  /// Which of the three kinds of file is named.
+  void choose_kind() {
+    const YamlNode* named = nullptr;
+    const char* first = nullptr;
+    for (const auto& [key, kind] : {std::pair{"mesh", Kind::mesh}, {"osm", Kind::map}, {"raster", Kind::raster}}) {
+      const YamlNode* const entry = find(node_, key);
+      if (!entry) continue;
+      if (named) {
+        reader_.fail(*entry, std::string("scene has both '") + first + "' and '" + key + "'", "keep one of them");
+      }
+      named = entry;
+      first = key;
+      section_.source.kind = kind;
+      section_.source.file = folder_ / reader_.text(*entry, std::string("scene.") + key);
+      section_.where = place_in(reader_.file(), entry->place);
+    }
+    if (!named) {
+      reader_.fail(node_, "scene lacks the key 'mesh'",
+                   "write 'mesh: city.obj', 'osm: city.osm.pbf' or 'raster: dsm.tif'; the path starts from the mission "
+                   "file");
+    }
+  }
+
+  /// The value of `key`, which only these kinds of scene know.
+  const YamlNode* take(const char* key, std::initializer_list<Kind> kinds, const char* what) const {
+    const YamlNode* const entry = find(node_, key);
+    if (!entry || std::find(kinds.begin(), kinds.end(), section_.source.kind) != kinds.end()) return entry;
+    reader_.fail(*entry, std::string("scene.") + key + " is for " + what + ", and this scene is none", "leave it out");
+  }
+
+  void parse_mesh_options() {
+    SceneReadOptions& mesh = section_.source.mesh;
+    if (const YamlNode* up = take("up", {Kind::mesh}, "meshes")) mesh.up = parse_up_axis(*up, reader_, "scene.up");
+    if (const YamlNode* scale = take("scale", {Kind::mesh}, "meshes"))
+      mesh.scale = reader_.positive(*scale, "scene.scale");
+    if (const YamlNode* lod = take("lod", {Kind::mesh}, "CityJSON files")) mesh.lod = reader_.text(*lod, "scene.lod");
+    if (const YamlNode* crs = take("crs", {Kind::mesh}, "meshes")) mesh.crs = reader_.text(*crs, "scene.crs");
+    if (const YamlNode* origin = take("origin", {Kind::mesh, Kind::raster}, "meshes, CityJSON files and rasters")) {
+      mesh.origin_deg = section_.source.raster.origin_deg = parse_lat_lon(*origin, reader_, "scene.origin");
+    }
+  }
+
+  void parse_region() {
+    CityRegion region;
+    const char* const what = "maps and rasters";
+    const YamlNode* const center = take("center", {Kind::map, Kind::raster}, what);
+    const YamlNode* const radius = take("radius", {Kind::map, Kind::raster}, what);
+    const YamlNode* const box = take("bbox", {Kind::map, Kind::raster}, what);
+    if (center) region.center_deg = parse_lat_lon(*center, reader_, "scene.center");
+    if (radius) region.radius_m = reader_.positive(*radius, "scene.radius");
+    if (center && !radius)
+      reader_.fail(*center, "scene has a 'center' without a 'radius'", "add 'radius: 600' (metres)");
+    if (radius && !center) reader_.fail(*radius, "scene has a 'radius' without a 'center'", kLatLonForm);
+    if (box) {
+      if (center) reader_.fail(*box, "scene has both 'center' and 'bbox'", "keep one of them");
+      const char* const form = "write degrees: [west, south, east, north]";
+      if (reader_.list(*box, "scene.bbox", form).size() != 4) {
+        reader_.fail(*box, "scene.bbox must be four numbers, not " + describe(*box), form);
+      }
+      std::array<double, 4>& bounds = region.bbox_deg.emplace();
+      for (std::size_t i = 0; i < 4; ++i) bounds[i] = reader_.number(box->items[i], "scene.bbox");
+    }
+    section_.source.city.region = region;
+    section_.source.raster.region = {region.center_deg, region.radius_m, region.bbox_deg, {}};
+  }
+
+  void parse_ground() {
+    if (const YamlNode* terrain = take("terrain", {Kind::map}, "maps")) {
+      section_.source.city.terrain = folder_ / reader_.text(*terrain, "scene.terrain");
+      section_.terrain_where = place_in(reader_.file(), terrain->place);
+    }
+    if (const YamlNode* error = take("error", {Kind::map, Kind::raster}, "terrain and rasters")) {
+      section_.source.city.terrain_error_m = section_.source.raster.max_error_m =
+          reader_.positive(*error, "scene.error");
+    }
+  }
+
+  void parse_city() {
+    CityOptions& city = section_.source.city;
+    if (const YamlNode* without = take("without", {Kind::map}, "maps")) {
+      for (const YamlNode& kind : reader_.list(*without, "scene.without", "write a list: [trees, walls]")) {
+        city::leave_out(city.occluders, reader_.text(kind, "scene.without"), place_in(reader_.file(), kind.place));
+      }
+    }
+    const YamlNode* const defaults = take("defaults", {Kind::map}, "maps");
+    if (!defaults) return;
+    if (defaults->kind != YamlNode::Kind::map) {
+      reader_.fail(*defaults, "scene.defaults must be a mapping, not " + describe(*defaults),
+                   "write {level: 3.2, levels.house: 2}");
+    }
+    for (const YamlEntry& entry : defaults->entries) {
+      city::set(city, entry.key, reader_.number(entry.value, "scene.defaults." + entry.key),
+                place_in(reader_.file(), entry.place));
+    }
+  }
+
+  const YamlNode& node_;
+  const ValueReader& reader_;
+  const std::filesystem::path& folder_;
+  SceneSection section_;
+};
+
+}  // namespace
+
+SceneSection parse_scene_section(const YamlNode& node, const ValueReader& reader, const std::filesystem::path& folder) {
+  return SceneParser(node, reader, folder).parse();
+}
+
+UpAxis parse_up_axis(const YamlNode& node, const ValueReader& reader, const std::string& what) {
+  const std::string axis = reader.text(node, what);
+  if (axis == "y") return UpAxis::y;
+  if (axis == "z") return UpAxis::z;
+  reader.fail(node, what + " must be y or z, not " + in_quotes(axis),
+              "write the axis of the file that points up: y or z");
+}
+
+std::array<double, 2> parse_lat_lon(const YamlNode& node, const ValueReader& reader, const std::string& what) {
+  if (reader.list(node, what, kLatLonForm).size() != 2) {
+    reader.fail(node, what + " must be two numbers, not " + describe(node), kLatLonForm);
+  }
+  const double latitude = reader.number(node.items[0], what), longitude = reader.number(node.items[1], what);
+  if (std::abs(latitude) > 90 || std::abs(longitude) > 180) {
+    const bool is_swapped = std::abs(longitude) <= 90 && std::abs(latitude) <= 180;
+    reader.fail(node, what + " is no place: latitude " + shortest(latitude) + ", longitude " + shortest(longitude),
+                is_swapped ? "write the latitude first: [" + shortest(longitude) + ", " + shortest(latitude) + "]"
+                           : std::string(kLatLonForm));
+  }
+  return {latitude, longitude};
+}
+
+}  // namespace vantage::app

@@ -1,0 +1,117 @@
+#include "app/schema.h"
+
+#include <algorithm>
+#include <array>
+
+#include "app/nearest_name.h"
+#include "app/numbers.h"
+#include "vantage/error.h"
+
+namespace vantage::app {
+namespace {
+
+struct SectionKeys {
+  Section section;
+  std::string_view name;
+  std::vector<std::string_view> keys;
+};
+
+const std::array<SectionKeys, 9>& table() {
+  static const std::array<SectionKeys, 9> kTable = {{
+      {Section::mission,
+       "the mission",
+       {"scene", "crs", "target", "sensor", "navigation", "method", "exact", "spheres"}},
+      {Section::scene,
+       "scene",
+       {"mesh", "osm", "raster", "up", "scale", "lod", "crs", "origin", "center", "radius", "bbox", "terrain", "error",
+        "without", "defaults"}},
+      {Section::target,
+       "target",
+       {"name", "vertices", "edges", "point", "osm", "center", "width", "length", "heading", "offset", "front"}},
+      {Section::sensor, "sensor", {"max_range"}},
+      {Section::navigation, "navigation", {"altitude", "boxes", "keep_out", "meshes"}},
+      {Section::box, "a box", {"min", "max"}},
+      {Section::mesh, "an entry of navigation.meshes", {"mesh", "up", "scale"}},
+      {Section::exact, "exact", {"tolerance"}},
+      {Section::spheres,
+       "spheres",
+       {"sphere", "cubemap", "resolution", "merge", "split", "max_splits", "min_edge", "device"}},
+  }};
+  return kTable;
+}
+
+const SectionKeys& row(Section section) { return table()[static_cast<std::size_t>(section)]; }
+
+std::string joined(const std::vector<std::string_view>& words) {
+  std::string text;
+  for (const std::string_view word : words) text += (text.empty() ? "" : ", ") + std::string(word);
+  return text;
+}
+
+/// The section, other than `section`, that knows `key`; null when none does.
+const SectionKeys* owner_of(std::string_view key, Section section) {
+  for (const SectionKeys& candidate : table()) {
+    if (candidate.section == section) continue;
+    if (std::find(candidate.keys.begin(), candidate.keys.end(), key) != candidate.keys.end()) return &candidate;
+  }
+  return nullptr;
+}
+
+[[noreturn]] void fail_unknown(const YamlEntry& entry, Section section, const std::string& file) {
+  const std::vector<std::string_view>& keys = row(section).keys;
+  const std::string_view nearest = nearest_name(entry.key, keys);
+  const std::string known = " (keys of " + std::string(row(section).name) + ": " + joined(keys) + ")";
+  std::string fix = "did you mean '" + std::string(nearest) + "'?" + known;
+  // A key that is right elsewhere is more likely misplaced than misspelt, unless it is one slip from a key of this
+  // place.
+  if (const SectionKeys* owner = owner_of(entry.key, section); owner && edit_distance(entry.key, nearest) > 1) {
+    fix = "'" + entry.key + "' belongs to " + std::string(owner->name) + "; the nearest key here is '" +
+          std::string(nearest) + "'" + known;
+  }
+  throw Error(ErrorKind::input, "unknown key " + in_quotes(entry.key) + " in " + std::string(row(section).name),
+              place_in(file, entry.place), fix);
+}
+
+}  // namespace
+
+std::string_view section_name(Section section) { return row(section).name; }
+
+const std::vector<std::string_view>& known_keys(Section section) { return row(section).keys; }
+
+const YamlNode* find(const YamlNode& map, std::string_view key) {
+  for (const YamlEntry& entry : map.entries) {
+    if (entry.key == key) return &entry.value;
+  }
+  return nullptr;
+}
+
+void check_keys(const YamlNode& node, Section section, const std::string& file) {
+  if (node.kind != YamlNode::Kind::map) {
+    fail_at(node, file, std::string(section_name(section)) + " must be a mapping of keys, not " + describe(node),
+            "write its keys, indented, as 'key: value': " + joined(known_keys(section)));
+  }
+  for (const YamlEntry& entry : node.entries) {
+    const std::vector<std::string_view>& keys = known_keys(section);
+    if (std::find(keys.begin(), keys.end(), entry.key) == keys.end()) fail_unknown(entry, section, file);
+  }
+}
+
+void fail_at(const YamlNode& node, const std::string& file, const std::string& problem, const std::string& fix) {
+  throw Error(ErrorKind::input, problem, place_in(file, node.place), fix);
+}
+
+std::string describe(const YamlNode& node) {
+  switch (node.kind) {
+    case YamlNode::Kind::null:
+      return "nothing";
+    case YamlNode::Kind::sequence:
+      return "a list of " + std::to_string(node.items.size());
+    case YamlNode::Kind::map:
+      return "a mapping";
+    case YamlNode::Kind::scalar:
+      break;
+  }
+  return (node.is_quoted ? "the text " : "") + in_quotes(node.text);
+}
+
+}  // namespace vantage::app

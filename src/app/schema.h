@@ -1,0 +1,35 @@
+// The keys of a mission file, all in one table, and the errors about them.
+#pragma once
+
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/yaml_tree.h"
+
+namespace vantage::app {
+
+/// The sections of a mission file. A section's keys, and nothing else, may stand in its map.
+enum class Section { mission, scene, target, sensor, navigation, box, mesh, exact, spheres };
+
+/// How messages call a section: "scene", "target"; "the mission" for the outermost one.
+std::string_view section_name(Section section);
+
+const std::vector<std::string_view>& known_keys(Section section);
+
+/// The value of `key` in `map`, or null. Asking for a key that the table does not know is a defect.
+const YamlNode* find(const YamlNode& map, std::string_view key);
+
+/// Throws Error(input) unless `node` is a map with known keys only. For an unknown key the error names the nearest
+/// known one, or the section that it belongs to.
+void check_keys(const YamlNode& node, Section section, const std::string& file);
+
+/// Throws Error(input) at `node`.
+[[noreturn]] void fail_at(const YamlNode& node, const std::string& file, const std::string& problem,
+                          const std::string& fix);
+
+/// What a node is, for messages: "a list", "the text 'abc'", "nothing".
+std::string describe(const YamlNode& node);
+
+}  // namespace vantage::app

@@ -1,0 +1,43 @@
+// Values of YAML files, checked: numbers, lengths, vectors, texts, lists.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/schema.h"
+#include "app/yaml_tree.h"
+#include "vantage/geometry.h"
+
+namespace vantage::app {
+
+/// Largest length that a file may state, in metres: beyond it a coordinate leaves the solar system's inner planets, and
+/// squares of lengths begin to lose the millimetres that the engine promises.
+inline constexpr double kMaxLength = 1e9;
+
+/// Reads values of one file. `what` is the key as messages call it: "target.vertices[2]". All throw Error(input) with
+/// the node's place.
+class ValueReader {
+ public:
+  explicit ValueReader(std::string file) : file_(std::move(file)) {}
+
+  const std::string& file() const { return file_; }
+
+  double number(const YamlNode& node, const std::string& what) const;
+  double length(const YamlNode& node, const std::string& what) const;    ///< at most kMaxLength either way
+  double positive(const YamlNode& node, const std::string& what) const;  ///< a length above 0
+  /// Three lengths. `form` is what to write instead, where the node is none.
+  Vec3 vector(const YamlNode& node, const std::string& what,
+              const char* form = "write three numbers in brackets, in metres, z up: [x, y, z]") const;
+  std::string text(const YamlNode& node, const std::string& what) const;  ///< not empty, no control characters
+  const std::vector<YamlNode>& list(const YamlNode& node, const std::string& what, const std::string& fix) const;
+
+  [[noreturn]] void fail(const YamlNode& node, const std::string& problem, const std::string& fix) const {
+    fail_at(node, file_, problem, fix);
+  }
+
+ private:
+  std::string file_;
+};
+
+}  // namespace vantage::app

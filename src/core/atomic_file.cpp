@@ -1,0 +1,185 @@
+#include "core/atomic_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+
+#include "vantage/error.h"
+
+namespace vantage::core {
+namespace {
+
+constexpr std::size_t kBufferBytes = 1 << 20;
+
+std::string advice_for(int error_number) {
+  switch (error_number) {
+    case ENOSPC:
+    case EDQUOT:
+      return "free some space or write elsewhere; the old file, if any, is as it was";
+    case EFBIG:
+      return "raise the limit on file sizes or write elsewhere; the old file, if any, is as it was";
+    case ENOENT:
+    case ENOTDIR:
+      return "create the directory or name another";
+    case EACCES:
+    case EPERM:
+    case EROFS:
+      return "write to a directory that you may write to";
+    default:
+      return "write elsewhere; the old file, if any, is as it was";
+  }
+}
+
+/// Where the file really lies: symbolic links are followed, so that a link to a result stays a link.
+std::filesystem::path resolved(const std::filesystem::path& target) {
+  std::error_code error;
+  std::filesystem::path path = target;
+  for (int hops = 0; hops < 40 && std::filesystem::is_symlink(path, error); ++hops) {
+    const std::filesystem::path link = std::filesystem::read_symlink(path, error);
+    if (error) break;
+    path = link.is_absolute() ? link : path.parent_path() / link;
+  }
+  return path;
+}
+
+/// A rename must reach the disk too. Not every file system lets a folder be synchronised; by then the file is whole
+/// either way.
+void synchronise_folder(const std::filesystem::path& file) {
+  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  const int handle = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (handle < 0) return;
+  (void)::fsync(handle);
+  ::close(handle);
+}
+
+}  // namespace
+
+AtomicFile::AtomicFile(const std::filesystem::path& target) : asked_(target), target_(resolved(target)) {
+  if (target.empty()) throw Error(ErrorKind::input, "no output file was named", "", "give the name of a file");
+  struct stat old {};
+  const bool exists = ::stat(target_.c_str(), &old) == 0;
+  if (!exists && errno == ELOOP) fail("cannot create the file", ELOOP);
+  if ((exists && S_ISDIR(old.st_mode)) || target_.filename().empty()) {
+    throw Error(ErrorKind::input, "the output is a directory", asked_.string(), "give the name of a file");
+  }
+  if (exists && !S_ISREG(old.st_mode)) {
+    throw Error(ErrorKind::output, "the output is a device, a pipe or a socket, not a file", asked_.string(),
+                "give the name of a file");
+  }
+  // A rename would replace a file that its owner has protected.
+  if (exists && ::access(target_.c_str(), W_OK) != 0) fail("cannot write the file", errno);
+  buffer_.reserve(kBufferBytes);
+  // Beside the target, because a rename is only atomic within one file system. The counter tells threads apart.
+  static std::atomic<unsigned> counter{0};
+  std::string name(".");
+  name.append(target_.filename().string(), 0, 200).append(".").append(std::to_string(::getpid()));
+  name.append("-").append(std::to_string(counter++)).append(".tmp");
+  temporary_ = target_.parent_path() / name;
+  descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (descriptor_ < 0) {
+    const int reason = errno;
+    temporary_.clear();
+    fail("cannot create the file", reason);
+  }
+  replaces_ = exists;
+  if (exists) (void)::fchmod(descriptor_, old.st_mode & 07777);
+}
+
+AtomicFile::~AtomicFile() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+  if (!kept_.empty()) ::unlink(kept_.c_str());
+}
+
+void AtomicFile::fail(const std::string& problem, int error_number) const {
+  throw Error(ErrorKind::output, problem + ": " + std::strerror(error_number), asked_.string(),
+              advice_for(error_number));
+}
+
+void AtomicFile::write(std::string_view bytes) {
+  while (!bytes.empty()) {
+    const std::size_t taken = std::min(bytes.size(), kBufferBytes - buffer_.size());
+    buffer_.insert(buffer_.end(), bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(taken));
+    bytes.remove_prefix(taken);
+    if (buffer_.size() == kBufferBytes) flush();
+  }
+}
+
+void AtomicFile::flush() {
+  std::size_t done = 0;
+  while (done < buffer_.size()) {
+    const ssize_t written = ::write(descriptor_, buffer_.data() + done, buffer_.size() - done);
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) fail("cannot write the file", errno);
+    done += static_cast<std::size_t>(written);
+  }
+  buffer_.clear();
+}
+
+void AtomicFile::seal() {
+  if (descriptor_ < 0) return;
+  flush();
+  // Some file systems report a full disk only here.
+  if (::fsync(descriptor_) != 0) fail("cannot write the file", errno);
+  const int closed = ::close(descriptor_);
+  descriptor_ = -1;
+  if (closed != 0) fail("cannot write the file", errno);
+}
+
+void AtomicFile::put_in_place() {
+  if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail("cannot put the file in place", errno);
+  temporary_.clear();
+  synchronise_folder(target_);
+}
+
+void AtomicFile::commit() {
+  seal();
+  put_in_place();
+}
+
+void AtomicFile::keep_old() {
+  if (!replaces_) return;
+  const std::filesystem::path second_name = temporary_.string() + ".old";
+  if (::link(target_.c_str(), second_name.c_str()) == 0) kept_ = second_name;
+}
+
+/// Undoes put_in_place. False where the old file is lost.
+bool AtomicFile::give_back() {
+  if (!replaces_) return ::unlink(target_.c_str()) == 0;
+  if (kept_.empty() || ::rename(kept_.c_str(), target_.c_str()) != 0) return false;
+  kept_.clear();
+  synchronise_folder(target_);
+  return true;
+}
+
+void commit_all(const std::vector<std::unique_ptr<AtomicFile>>& files) {
+  for (const auto& file : files) file->seal();
+  if (files.size() > 1) {  // one rename needs no way back
+    for (const auto& file : files) file->keep_old();
+  }
+  std::size_t done = 0;
+  try {
+    for (; done < files.size(); ++done) files[done]->put_in_place();
+  } catch (const Error& error) {
+    std::string lost;
+    while (done-- > 0) {
+      if (!files[done]->give_back()) lost += (lost.empty() ? "" : ", ") + files[done]->asked_.string();
+    }
+    if (lost.empty()) throw;
+    throw Error(error.kind(), error.problem(), error.where(), "write elsewhere; already replaced: " + lost);
+  }
+}
+
+void write_whole_file(const std::filesystem::path& file, std::string_view bytes) {
+  AtomicFile output(file);
+  output.write(bytes);
+  output.commit();
+}
+
+}  // namespace vantage::core

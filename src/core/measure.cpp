@@ -1,0 +1,41 @@
+#include <vector>
+
+#include "core/edges.h"
+#include "vantage/volume.h"
+
+namespace vantage {
+
+MeshMeasures measure(const Mesh& mesh) {
+  const std::vector<core::EdgeUse> uses = core::edge_uses(mesh.triangles, mesh.vertices.size());
+
+  MeshMeasures result;
+  std::vector<bool> used(mesh.vertices.size(), false);
+  for (const Triangle& triangle : mesh.triangles) {
+    for (const std::uint32_t vertex : triangle) {
+      if (used[vertex]) continue;
+      used[vertex] = true;
+      ++result.vertices;
+      result.bounds.extend(mesh.vertices[vertex]);
+    }
+  }
+
+  long edges = 0;
+  result.closed = result.oriented = true;
+  core::DisjointSets pieces(mesh.triangles.size());
+  core::for_each_edge(uses, [&](std::span<const core::EdgeUse> edge) {
+    ++edges;
+    const bool pair = edge.size() == 2 && edge[0].low != edge[0].high;
+    result.closed = result.closed && pair;
+    result.oriented = result.oriented && pair && edge[0].forward != edge[1].forward;
+    for (const core::EdgeUse& use : edge) pieces.join(edge[0].triangle, use.triangle);
+  });
+
+  result.facets = mesh.triangles.size();
+  result.pieces = pieces.count();
+  result.euler = static_cast<long>(result.vertices) - edges + static_cast<long>(result.facets);
+  result.volume_m3 = enclosed_volume(mesh);
+  result.area_m2 = surface_area(mesh);
+  return result;
+}
+
+}  // namespace vantage

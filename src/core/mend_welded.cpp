@@ -1,0 +1,209 @@
+#include "core/mend_welded.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <queue>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "core/edges.h"
+#include "core/pieces.h"
+#include "core/stars.h"
+#include "core/weld.h"
+
+namespace vantage::core {
+namespace {
+
+class Mender {
+ public:
+  Mender(solid::LabelledMesh& labelled, double flat)
+      : labelled_(labelled),
+        vertices_(labelled.mesh.vertices),
+        triangles_(labelled.mesh.triangles),
+        flat_(flat),
+        first_(first_at_position(vertices_)) {}
+
+  bool run();
+
+ private:
+  struct Waiting {
+    double length;  // of its longest side
+    std::uint32_t triangle;
+    bool operator<(const Waiting& other) const {  // the longest comes first out of a heap
+      return std::tie(length, other.triangle) < std::tie(other.length, triangle);
+    }
+  };
+
+  bool is_collapsed(const Triangle& t) const { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
+  bool is_flat(const Triangle& t) const;
+  bool has_flaws() const;
+  void weld();
+  void remove(std::uint32_t t);
+  bool cancel(std::uint32_t t);
+  std::size_t longest_side(std::uint32_t t) const;
+  double side_length(std::uint32_t t, std::size_t side) const {
+    return (vertices_[triangles_[t][(side + 1) % 3]] - vertices_[triangles_[t][side]]).norm();
+  }
+  std::optional<std::uint32_t> across(std::uint32_t t, std::size_t side) const;
+  void take_in(std::uint32_t t);
+  void turn_sides();
+  void finish();
+
+  solid::LabelledMesh& labelled_;
+  std::vector<Vec3>& vertices_;
+  std::vector<Triangle>& triangles_;
+  double flat_;
+  std::vector<std::uint32_t> first_;  // per vertex: the first one in the same place
+  std::optional<Stars> stars_;
+  std::vector<char> gone_;
+  std::priority_queue<Waiting> flat_facets_;
+};
+
+bool Mender::is_flat(const Triangle& t) const {
+  const Vec3 &a = vertices_[t[0]], &b = vertices_[t[1]], &c = vertices_[t[2]];
+  const Vec3 normal = (b - a).cross(c - a);
+  if (flat_ == 0) return normal.isZero(0);
+  const double longest = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+  return normal.squaredNorm() <= flat_ * flat_ * longest;
+}
+
+bool Mender::has_flaws() const {
+  return std::any_of(triangles_.begin(), triangles_.end(), [&](const Triangle& t) {
+    return is_collapsed({first_[t[0]], first_[t[1]], first_[t[2]]}) || is_flat(t);
+  });
+}
+
+void Mender::remove(std::uint32_t t) {
+  gone_[t] = 1;
+  for (const std::uint32_t v : triangles_[t]) stars_->remove(v, t);
+}
+
+/// One vertex for each place; facets with two corners in one place go.
+void Mender::weld() {
+  for (Triangle& t : triangles_) t = {first_[t[0]], first_[t[1]], first_[t[2]]};
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    if (is_collapsed(triangles_[t])) continue;
+    triangles_[kept] = triangles_[t];
+    labelled_.labels[kept++] = labelled_.labels[t];
+  }
+  triangles_.resize(kept);
+  labelled_.labels.resize(kept);
+  stars_.emplace(triangles_, vertices_.size());
+  gone_.assign(kept, 0);
+}
+
+/// Removes a facet together with one on the same corners that faces it, where there is one.
+bool Mender::cancel(std::uint32_t t) {
+  const auto& [a, b, c] = triangles_[t];
+  for (const std::uint32_t other : stars_->of(a)) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Triangle& o = triangles_[other];
+      if (o[i] != a || o[(i + 1) % 3] != c || o[(i + 2) % 3] != b) continue;
+      remove(t);
+      remove(other);
+      return true;
+    }
+  }
+  return false;
+}
+
+/// The side from that corner to the next.
+std::size_t Mender::longest_side(std::uint32_t t) const {
+  std::size_t longest = 0;
+  for (std::size_t i = 1; i < 3; ++i) {
+    if (side_length(t, i) > side_length(t, longest)) longest = i;
+  }
+  return longest;
+}
+
+/// A facet that runs a side in the other direction; of several one that is not flat.
+std::optional<std::uint32_t> Mender::across(std::uint32_t t, std::size_t side) const {
+  const std::uint32_t from = triangles_[t][side], to = triangles_[t][(side + 1) % 3];
+  std::optional<std::uint32_t> found;
+  for (const std::uint32_t other : stars_->of(from)) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (triangles_[other][i] != to || triangles_[other][(i + 1) % 3] != from) continue;
+      if (!found || (is_flat(triangles_[*found]) && !is_flat(triangles_[other]))) found = other;
+    }
+  }
+  return found;
+}
+
+/// A facet that is new, or is looked at for the first time.
+void Mender::take_in(std::uint32_t t) {
+  if (gone_[t] || cancel(t) || !is_flat(triangles_[t])) return;
+  flat_facets_.push({side_length(t, longest_side(t)), t});
+}
+
+/// Of the flat facets the one with the longest side of all gives its third corner, b, to the facet across: (c, a, b)
+/// and (a, c, x) become (a, b, x) and (b, c, x). On one line b and x lie between a and c, so the side b x that comes is
+/// shorter than the side a c that goes, and an end is reached. The bound is for narrow facets that are not quite flat.
+void Mender::turn_sides() {
+  std::size_t left = 64 + 16 * triangles_.size();
+  while (!flat_facets_.empty() && left-- > 0) {
+    const std::uint32_t t = flat_facets_.top().triangle;
+    const double length = flat_facets_.top().length;
+    flat_facets_.pop();
+    if (gone_[t] || !is_flat(triangles_[t])) continue;
+    const std::size_t side = longest_side(t);
+    if (side_length(t, side) != length) continue;  // it has changed and waits again
+    const std::optional<std::uint32_t> other = across(t, side);
+    if (!other) continue;  // of an open mesh
+    const std::uint32_t c = triangles_[t][side], a = triangles_[t][(side + 1) % 3], b = triangles_[t][(side + 2) % 3];
+    std::uint32_t x = 0;
+    for (const std::uint32_t v : triangles_[*other]) x = v != a && v != c ? v : x;
+    remove(t);
+    remove(*other);
+    if (x == b) continue;  // they faced each other
+    gone_[t] = gone_[*other] = 0;
+    triangles_[t] = {a, b, x};
+    triangles_[*other] = {b, c, x};
+    labelled_.labels[t] = labelled_.labels[*other];
+    for (const std::uint32_t made : {t, *other}) {
+      for (const std::uint32_t v : triangles_[made]) stars_->add(v, made);
+    }
+    take_in(t);
+    take_in(*other);
+  }
+}
+
+/// Leaves out what is gone and gives each fan of facets a vertex of its own.
+void Mender::finish() {
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    if (gone_[t]) continue;
+    triangles_[kept] = triangles_[t];
+    labelled_.labels[kept++] = labelled_.labels[t];
+  }
+  triangles_.resize(kept);
+  labelled_.labels.resize(kept);
+  split_where_pieces_touch(labelled_.mesh);
+  drop_unused_vertices(labelled_.mesh);
+}
+
+bool Mender::run() {
+  if (!has_flaws()) return false;
+  weld();
+  std::vector<char> is_welded(vertices_.size(), 0);
+  for (std::uint32_t v = 0; v < first_.size(); ++v) {
+    if (first_[v] != v) is_welded[first_[v]] = 1;
+  }
+  for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
+    const auto& [a, b, c] = triangles_[t];
+    if (is_welded[a] || is_welded[b] || is_welded[c] || is_flat(triangles_[t])) take_in(t);
+  }
+  turn_sides();
+  finish();
+  return true;
+}
+
+}  // namespace
+
+bool mend_welded(solid::LabelledMesh& labelled, double flat_m) { return Mender(labelled, flat_m).run(); }
+
+}  // namespace vantage::core

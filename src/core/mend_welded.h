@@ -1,0 +1,22 @@
+// Readers of a mesh weld vertices that stand in one place, and rounding puts vertices into one place. What such a mesh
+// must be for its readers: closed, and without facets that have no area.
+#pragma once
+
+#include "solid/csg.h"
+
+namespace vantage::core {
+
+/// Tells vertices apart by position and changes the mesh so that no facet is flat: narrower than `flat_m`, or without
+/// any area where that is 0. A closed mesh stays closed: each edge is run as often in one direction as in the other.
+///   - A facet with two corners in one place goes.
+///   - Two facets on the same corners that face each other go.
+///   - A flat facet goes, and the one across its longest side gets its third corner. No point of the surface moves by
+///   more
+///     than `flat_m` for it.
+/// In the result vertices in one place are one vertex where their facets hang together, and several where pieces only
+/// touch: two triangles to an edge, as far as that can be. A mesh without such facets is left as it is. Returns whether
+/// anything was changed. With `flat_m` 0 differences and products of coordinates should be exact (whole multiples,
+/// below 2^25, of a power of two). Cost: linear, but for sorting the vertices.
+bool mend_welded(solid::LabelledMesh& labelled, double flat_m);
+
+}  // namespace vantage::core

@@ -1,0 +1,82 @@
+#include "core/pieces.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <limits>
+
+#include "core/edges.h"
+
+namespace vantage::core {
+namespace {
+
+constexpr std::uint32_t kUnused = std::numeric_limits<std::uint32_t>::max();
+
+}  // namespace
+
+Pieces find_pieces(const Mesh& mesh) {
+  DisjointSets sets(mesh.vertices.size());
+  for (const Triangle& t : mesh.triangles) {
+    sets.join(t[0], t[1]);
+    sets.join(t[1], t[2]);
+  }
+  Pieces result;
+  result.piece_of.reserve(mesh.triangles.size());
+  std::vector<std::uint32_t> number(mesh.vertices.size(), kUnused);  // by the set's root
+  std::vector<Vec3> apex;
+  for (const Triangle& t : mesh.triangles) {
+    std::uint32_t& piece = number[sets.find(t[0])];
+    if (piece == kUnused) {
+      piece = static_cast<std::uint32_t>(result.pieces.size());
+      result.pieces.emplace_back();
+      apex.push_back(mesh.vertices[t[0]]);
+    }
+    result.piece_of.push_back(piece);
+    const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
+    Piece& grown = result.pieces[piece];
+    ++grown.facets;
+    grown.volume_m3 += (a - apex[piece]).dot((b - apex[piece]).cross(c - apex[piece])) / 6;
+    grown.area_m2 += (b - a).cross(c - a).norm() / 2;
+  }
+  for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
+    const std::uint32_t piece = number[sets.find(v)];
+    if (piece != kUnused) ++result.pieces[piece].vertices;
+  }
+  for (Piece& piece : result.pieces) {
+    piece.euler = static_cast<long>(piece.vertices) - static_cast<long>(piece.facets / 2);  // E is 3 F / 2
+  }
+  return result;
+}
+
+void drop_unused_vertices(Mesh& mesh) {
+  std::vector<std::uint32_t> new_index(mesh.vertices.size(), kUnused);
+  for (const Triangle& t : mesh.triangles) {
+    for (const std::uint32_t v : t) new_index[v] = 0;
+  }
+  std::uint32_t used = 0;
+  for (std::size_t v = 0; v < new_index.size(); ++v) {
+    if (new_index[v] == kUnused) continue;
+    mesh.vertices[used] = mesh.vertices[v];
+    new_index[v] = used++;
+  }
+  mesh.vertices.resize(used);
+  for (Triangle& t : mesh.triangles) {
+    for (std::uint32_t& v : t) v = new_index[v];
+  }
+}
+
+void drop_slivers(solid::LabelledMesh& labelled, double thickness_m) {
+  auto& [mesh, labels] = labelled;
+  const Pieces found = find_pieces(mesh);
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Piece& piece = found.pieces[found.piece_of[t]];
+    if (std::abs(piece.volume_m3) <= thickness_m * piece.area_m2 && piece.volume_m3 >= 0) continue;
+    mesh.triangles[kept] = mesh.triangles[t];
+    labels[kept++] = labels[t];
+  }
+  mesh.triangles.resize(kept);
+  labels.resize(kept);
+  drop_unused_vertices(mesh);
+}
+
+}  // namespace vantage::core

@@ -1,0 +1,50 @@
+#include "core/volume_check.h"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "vantage/error.h"
+
+namespace vantage::core {
+
+void check_labelled(const Mesh& mesh, const Labels& labels) {
+  const auto refuse = [&](const std::string& problem, const std::string& where) {
+    throw Error(ErrorKind::input, problem, where, labels.fix);
+  };
+  if (labels.of.size() != mesh.triangles.size()) {
+    refuse(std::string("the ").append(labels.owner) + " has " + std::to_string(mesh.triangles.size()) +
+               " triangles but " + labels.name + "s of " + std::to_string(labels.of.size()),
+           "");
+  }
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    if (!mesh.vertices[v].allFinite()) refuse("a coordinate is not finite", "vertex " + std::to_string(v));
+  }
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Triangle& triangle = mesh.triangles[t];
+    const auto beyond = [&](std::uint32_t v) { return v >= mesh.vertices.size(); };
+    if (std::any_of(triangle.begin(), triangle.end(), beyond)) {
+      refuse("a vertex index is out of range", "triangle " + std::to_string(t));
+    }
+    if (labels.of[t] >= labels.count) {
+      refuse(std::string("its ").append(labels.name) + " index is out of range", "triangle " + std::to_string(t));
+    }
+  }
+}
+
+void check_volume(const Volume& volume) {
+  check_labelled(volume.mesh, {volume.cause_of, volume.causes.size(), "volume", "cause",
+                               "give a volume as computed, or mend what was changed in it"});
+}
+
+MeshMeasures measure_sound(const Mesh& mesh) {
+  MeshMeasures measures = measure(mesh);
+  if (measures.closed && measures.oriented) return measures;
+  throw Error(ErrorKind::internal,
+              measures.closed ? "the volume's facets do not all face outward" : "the volume is not closed",
+              std::to_string(measures.facets) + " facets, Euler number " + std::to_string(measures.euler),
+              "this is a defect of vantage: please report it together with the mission and its meshes; nothing was "
+              "written");
+}
+
+}  // namespace vantage::core

@@ -1,0 +1,140 @@
+#include "core/weld.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <tuple>
+
+#include "core/edges.h"
+
+namespace vantage::core {
+namespace {
+
+/// The vertices in the order of their coordinates, those in one place in the order of their indices.
+std::vector<std::uint32_t> order_of_positions(const std::vector<Vec3>& vertices) {
+  std::vector<std::uint32_t> order(vertices.size());
+  std::iota(order.begin(), order.end(), 0u);
+  const auto key = [&](std::uint32_t v) {
+    const Vec3& p = vertices[v];
+    return std::make_tuple(p.x(), p.y(), p.z(), v);
+  };
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+  return order;
+}
+
+/// The uses of an edge by triangles, in pairs that have the solid between them: from each that runs it from high to low
+/// to the next that runs it from low to high, turning round the edge through the inside.
+class EdgePairs {
+ public:
+  explicit EdgePairs(const Mesh& mesh) : mesh_(mesh) {}
+
+  template <typename Visit>
+  void for_each(std::span<const EdgeUse> edge, const Visit& visit) {
+    if (edge.size() == 2) return visit(edge[0], edge[1]);
+    order_.assign(edge.begin(), edge.end());
+    const Vec3 &low = mesh_.vertices[edge[0].low], &high = mesh_.vertices[edge[0].high];
+    const Vec3 along = (high - low).normalized(), u = along.unitOrthogonal(), v = along.cross(u);
+    const auto angle = [&](const EdgeUse& use) {
+      const Vec3 arm = third_corner(use) - low;
+      return std::atan2(arm.dot(v), arm.dot(u));
+    };
+    std::sort(order_.begin(), order_.end(), [&](const EdgeUse& a, const EdgeUse& b) {
+      return std::tuple(angle(a), a.triangle) < std::tuple(angle(b), b.triangle);
+    });
+    // Counter-clockwise about the edge a triangle that runs it forward has the solid before it, and one that runs it
+    // backward has it after it: brackets that match.
+    std::vector<EdgeUse> open;
+    for (std::size_t round = 0; round < 2; ++round) {
+      for (const EdgeUse& use : order_) {
+        if (!use.forward && round == 0) open.push_back(use);
+        if (!use.forward || open.empty() || is_taken(use)) continue;
+        visit(open.back(), use);
+        taken_.push_back(use.triangle);
+        open.pop_back();
+      }
+    }
+    taken_.clear();
+  }
+
+ private:
+  const Vec3& third_corner(const EdgeUse& use) const {
+    const Triangle& t = mesh_.triangles[use.triangle];
+    const auto other = std::find_if(t.begin(), t.end(), [&](std::uint32_t v) { return v != use.low && v != use.high; });
+    return mesh_.vertices[other == t.end() ? t[0] : *other];
+  }
+  bool is_taken(const EdgeUse& use) const {
+    return std::find(taken_.begin(), taken_.end(), use.triangle) != taken_.end();
+  }
+
+  const Mesh& mesh_;
+  std::vector<EdgeUse> order_;
+  std::vector<std::uint32_t> taken_;
+};
+
+}  // namespace
+
+Mesh welded(const Mesh& mesh) {
+  const std::vector<std::uint32_t> order = order_of_positions(mesh.vertices);
+  Mesh result;
+  std::vector<std::uint32_t> new_index(mesh.vertices.size());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    if (i == 0 || mesh.vertices[order[i]] != mesh.vertices[order[i - 1]]) {
+      result.vertices.push_back(mesh.vertices[order[i]]);
+    }
+    new_index[order[i]] = static_cast<std::uint32_t>(result.vertices.size() - 1);
+  }
+  for (const Triangle& t : mesh.triangles) {
+    const Triangle n = {new_index[t[0]], new_index[t[1]], new_index[t[2]]};
+    if (n[0] != n[1] && n[1] != n[2] && n[2] != n[0]) result.triangles.push_back(n);
+  }
+  return result;
+}
+
+std::vector<std::uint32_t> first_at_position(const std::vector<Vec3>& vertices) {
+  const std::vector<std::uint32_t> order = order_of_positions(vertices);
+  std::vector<std::uint32_t> first(vertices.size());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const bool is_same = i > 0 && vertices[order[i]] == vertices[order[i - 1]];
+    first[order[i]] = is_same ? first[order[i - 1]] : order[i];
+  }
+  return first;
+}
+
+void split_where_pieces_touch(Mesh& mesh) {
+  // Corners of triangles that are one vertex: those of the two triangles at an edge, at either end of it.
+  DisjointSets corners(3 * mesh.triangles.size());
+  const auto corner = [&](const EdgeUse& use, std::uint32_t vertex) {
+    const Triangle& t = mesh.triangles[use.triangle];
+    const auto place = static_cast<std::uint32_t>(std::find(t.begin(), t.end(), vertex) - t.begin());
+    return 3 * use.triangle + place;
+  };
+  const std::vector<EdgeUse> uses = edge_uses(mesh.triangles, mesh.vertices.size());
+  EdgePairs pairs(mesh);
+  for_each_edge(uses, [&](std::span<const EdgeUse> edge) {
+    pairs.for_each(edge, [&](const EdgeUse& a, const EdgeUse& b) {
+      corners.join(corner(a, edge[0].low), corner(b, edge[0].low));
+      corners.join(corner(a, edge[0].high), corner(b, edge[0].high));
+    });
+  });
+  constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+  std::vector<std::uint32_t> vertex_of(3 * mesh.triangles.size(), kNone);  // by the set's first corner
+  std::vector<char> is_taken(mesh.vertices.size(), 0);
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (std::uint32_t i = 0; i < 3; ++i) {
+      std::uint32_t& vertex = vertex_of[corners.find(3 * t + i)];
+      std::uint32_t& v = mesh.triangles[t][i];
+      if (vertex == kNone && is_taken[v]) {
+        vertex = static_cast<std::uint32_t>(mesh.vertices.size());
+        mesh.vertices.push_back(Vec3(mesh.vertices[v]));
+      } else if (vertex == kNone) {
+        vertex = v;
+        is_taken[v] = 1;
+      }
+      v = vertex;
+    }
+  }
+}
+
+}  // namespace vantage::core

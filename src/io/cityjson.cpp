@@ -1,0 +1,350 @@
+// CityJSON 1.0, 1.1 and 2.0 (OGC Community Standard 20-072r5), and its text sequences: the surfaces of all city
+// objects. Semantics, textures and materials are passed over, and so are points and lines. See docs/scene.md.
+#include <algorithm>
+#include <array>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "io/cityjson_document.h"
+#include "io/cityjson_surfaces.h"
+#include "io/json_text.h"
+#include "io/lod.h"
+#include "io/mesh_builder.h"
+#include "io/mesh_readers.h"
+
+namespace vantage::io {
+namespace {
+
+using cityjson::Finding;
+using cityjson::Header;
+using cityjson::Json;
+using cityjson::Trail;
+using cityjson::Vertices;
+
+constexpr double kNoLod = -1;  // of a geometry that does not say; below all that do
+
+/// What the arrays of a geometry's boundaries stand for, from the outside in; rings and vertices follow.
+struct GeometryType {
+  std::string_view name;
+  std::vector<const char*> levels;
+};
+const std::array<GeometryType, 5> kSurfaceTypes = {{{"MultiSurface", {"surface"}},
+                                                    {"CompositeSurface", {"surface"}},
+                                                    {"Solid", {"shell", "surface"}},
+                                                    {"MultiSolid", {"solid", "shell", "surface"}},
+                                                    {"CompositeSolid", {"solid", "shell", "surface"}}}};
+
+std::string lod_text(double lod) {
+  if (lod == kNoLod) return "none";
+  std::string text = std::to_string(lod);  // "2.200000"
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return text;
+}
+
+std::string type_of(const Json& object, const Trail& trail) {
+  const auto type = object.find("type");
+  if (type == object.end() || !type->is_string()) trail.fail("\"type\" is missing");
+  return type->get<std::string>();
+}
+
+class CityJsonReader {
+ public:
+  CityJsonReader(const MeshSource& source, const core::ProgressReporter& progress, const core::ReadLimits& limits,
+                 const std::string& lod)
+      : source_(source),
+        progress_(progress),
+        limits_(limits),
+        trail_(source),
+        builder_(source, MeshFormat::cityjson, MeshBuilder::PlaceUnit::byte, limits),
+        surfaces_(builder_, trail_, limits) {
+    if (lod.empty()) return;
+    asked_ = parse_lod(lod);
+    if (!asked_) {
+      throw Error(ErrorKind::input, "no level of detail: " + in_quotes(lod), source.file().string(),
+                  "give a number as in CityJSON, such as 1 or 2.2");
+    }
+  }
+
+  RawMesh read() {
+    const std::string_view bytes = source_.bytes();
+    const bool is_sequence = bytes.find("\"CityJSONFeature\"") != std::string_view::npos;
+    std::size_t first_end = is_sequence ? line_end(0) : bytes.size();
+    const Json root = parse(bytes.substr(0, first_end), is_sequence ? 1 : 0);
+    header_ = cityjson::read_header(root, trail_);
+    read_objects(root);
+    std::uint64_t line = 1;
+    for (std::size_t at = first_end + 1; at < bytes.size(); at = line_end(at) + 1) {
+      ++line;
+      const std::string_view text = bytes.substr(at, line_end(at) - at);
+      if (text.find_first_not_of(" \t\r") == std::string_view::npos) continue;
+      const Json feature = parse(text, line);
+      if (!feature.is_object() || type_of(feature, trail_) != "CityJSONFeature") {
+        trail_.fail("the line is not of type CityJSONFeature");
+      }
+      read_objects(feature);
+    }
+    check_lod();
+    return finish();
+  }
+
+ private:
+  std::size_t line_end(std::size_t at) const {
+    return std::min(source_.bytes().find('\n', at), source_.bytes().size());
+  }
+
+  /// `line`: of a sequence; 0 for the one document of a file.
+  Json parse(std::string_view text, std::uint64_t line) {
+    trail_.set_line(line);
+    trail_.set_object("");
+    try {
+      return parse_json(text, progress_, limits_);
+    } catch (const JsonProblem& problem) {
+      std::string where = source_.file().string();
+      if (problem.line > 0) {
+        where.append(", line ").append(std::to_string(line > 0 ? line : problem.line));
+        where.append(", column ").append(std::to_string(problem.column));
+      }
+      throw Error(ErrorKind::input, "not a valid CityJSON file: " + problem.text, where, Trail::kGarbled);
+    }
+  }
+
+  void read_objects(const Json& root) {
+    Vertices vertices = cityjson::read_vertices(root, header_, trail_);
+    const Json& objects = cityjson::required(root, "CityObjects", Json::value_t::object, trail_);
+    std::uint64_t done = 0;
+    for (const auto& [id, object] : objects.items()) {
+      progress_.tick(done++, objects.size());
+      trail_.set_object(id.empty() ? "(no id)" : id);
+      if (!object.is_object()) trail_.fail("it is not an object");
+      read_object(id, object, vertices);
+    }
+    trail_.set_object("");
+    objects_ += objects.size();
+  }
+
+  void read_object(const std::string& id, const Json& object, Vertices& vertices) {
+    type_of(object, trail_);  // any type that has surfaces may hide something
+    const auto geometry = object.find("geometry");
+    const bool has_geometry = geometry != object.end() && !geometry->is_null();
+    if (has_geometry && !geometry->is_array()) trail_.fail("\"geometry\" is not an array");
+    if (!has_geometry || geometry->empty()) {
+      if (!object.contains("children")) empty_.add(id);
+      return;
+    }
+    std::vector<std::pair<std::size_t, double>> candidates;  // which of them hold surfaces, and their levels
+    std::vector<double> levels;
+    for (std::size_t i = 0; i < geometry->size(); ++i) {
+      const Trail::Step step(trail_, "geometry", i);
+      const Json& item = (*geometry)[i];
+      if (!item.is_object()) trail_.fail("it is not an object");
+      if (!has_surfaces(item)) continue;
+      levels.push_back(lod_of(item));
+      candidates.emplace_back(i, levels.back());
+    }
+    if (levels.empty()) return;
+    found_lods_.insert(levels.begin(), levels.end());
+    const double chosen = choose_lod(levels, asked_);
+    if (asked_ && !meets_lod(chosen, *asked_)) other_lod_.add(id);
+
+    const std::size_t before = builder_.triangle_count();
+    builder_.add_object(name_of(id, object));
+    for (const auto& [i, lod] : candidates) {
+      const Trail::Step step(trail_, "geometry", i);
+      if (lod == chosen) read_geometry((*geometry)[i], vertices);
+    }
+    if (builder_.triangle_count() == before) empty_.add(id);
+  }
+
+  /// "way/1 Town hall": the id, and the name where there is one.
+  static std::string name_of(const std::string& id, const Json& object) {
+    const auto attributes = object.find("attributes");
+    if (attributes == object.end() || !attributes->is_object()) return id;
+    const auto name = attributes->find("name");
+    if (name == attributes->end() || !name->is_string() || name->get<std::string>() == id) return id;
+    return id + " " + name->get<std::string>();
+  }
+
+  static const GeometryType* find_type(std::string_view name) {
+    const auto* found = std::find_if(kSurfaceTypes.begin(), kSurfaceTypes.end(),
+                                     [&](const GeometryType& type) { return type.name == name; });
+    return found == kSurfaceTypes.end() ? nullptr : found;
+  }
+
+  /// Whether a geometry, or the template that it is an instance of, holds surfaces; counts those that do not.
+  bool has_surfaces(const Json& geometry) {
+    const std::string type = type_of(geometry, trail_);
+    if (type == "GeometryInstance") return has_surfaces(template_of(geometry));
+    if (type == "MultiPoint" || type == "MultiLineString") {
+      no_surfaces_.add(trail_.object());
+      return false;
+    }
+    if (!find_type(type)) trail_.fail("its geometry type " + in_quotes(type) + " is unknown");
+    return true;
+  }
+
+  const Json& template_of(const Json& instance) const {
+    const auto number = instance.find("template");
+    if (number == instance.end()) trail_.fail("\"template\" is missing");
+    const Json& geometry =
+        header_.templates[cityjson::index_below(*number, header_.templates.size(), "template", trail_)];
+    if (!geometry.is_object()) trail_.fail("its template is not an object");
+    if (type_of(geometry, trail_) == "GeometryInstance") trail_.fail("its template is an instance itself");
+    return geometry;
+  }
+
+  double lod_of(const Json& item) const {
+    const Json& geometry = type_of(item, trail_) == "GeometryInstance" ? template_of(item) : item;
+    const auto lod = geometry.find("lod");
+    if (lod == geometry.end()) return kNoLod;
+    const auto value = lod->is_string()   ? parse_lod(lod->get<std::string>())  // a number in version 1.0
+                       : lod->is_number() ? parse_lod(lod->dump())
+                                          : std::nullopt;
+    if (!value) trail_.fail("its \"lod\" " + in_quotes(lod->dump()) + " is no level of detail");
+    return *value;
+  }
+
+  void read_geometry(const Json& geometry, Vertices& vertices) {
+    if (type_of(geometry, trail_) != "GeometryInstance") {
+      read_surfaces(geometry, vertices, Eigen::Affine3d::Identity());
+      return;
+    }
+    const Json& anchor = cityjson::required(geometry, "boundaries", Json::value_t::array, trail_);
+    if (anchor.size() != 1) trail_.fail("the \"boundaries\" of an instance hold no single vertex");
+    const std::size_t place = cityjson::index_below(anchor[0], vertices.size(), "vertex", trail_);
+    const Json& matrix = cityjson::required(geometry, "transformationMatrix", Json::value_t::array, trail_);
+    const std::vector<double> rows = cityjson::numbers(matrix, 16, "\"transformationMatrix\"", trail_);
+    if (rows[12] != 0 || rows[13] != 0 || rows[14] != 0 || rows[15] != 1) {
+      trail_.fail("the last row of \"transformationMatrix\" is not 0, 0, 0, 1");
+    }
+    Eigen::Affine3d placement;
+    placement.matrix() = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(rows.data());
+    placement.pretranslate(vertices.position(place));
+    header_.template_vertices.begin_instance();
+    read_surfaces(template_of(geometry), header_.template_vertices, placement);
+    const std::size_t room = limits_.repeated_triangles + source_.bytes().size() / 3;
+    if (builder_.triangle_count() > room) {
+      trail_.fail("its instances repeat templates to more than " + std::to_string(room) + " triangles",
+                  "cut the file to the part that is needed");
+    }
+  }
+
+  void read_surfaces(const Json& geometry, Vertices& vertices, const Eigen::Affine3d& placement) {
+    vertices_ = &vertices;
+    placement_ = placement;
+    mirrored_ = placement.linear().determinant() < 0;
+    const GeometryType& type = *find_type(type_of(geometry, trail_));
+    read_level(cityjson::required(geometry, "boundaries", Json::value_t::array, trail_), type, 0);
+  }
+
+  void read_level(const Json& boundaries, const GeometryType& type, std::size_t level) {
+    if (level == type.levels.size()) {
+      read_surface(boundaries);
+      return;
+    }
+    const std::string_view what = type.levels[level];
+    for (std::size_t i = 0; i < boundaries.size(); ++i) {
+      const Trail::Step step(trail_, type.levels[level], i);
+      if (!boundaries[i].is_array()) trail_.fail("its boundaries are nested less deep than its type has levels");
+      if (what == "shell") surfaces_.begin_shell(i > 0);
+      read_level(boundaries[i], type, level + 1);
+      if (what == "shell") surfaces_.end_shell();
+    }
+  }
+
+  void read_surface(const Json& rings) {
+    if (rings.empty()) trail_.fail("a surface has no rings");
+    rings_.resize(rings.size());
+    for (std::size_t i = 0; i < rings.size(); ++i) {
+      const Trail::Step step(trail_, "ring", i);
+      if (!rings[i].is_array()) trail_.fail("its boundaries are nested less deep than its type has levels");
+      rings_[i].clear();
+      for (const Json& index : rings[i]) {
+        const std::size_t vertex = cityjson::index_below(index, vertices_->size(), "vertex", trail_);
+        rings_[i].push_back(vertices_->use(vertex, placement_, builder_));
+      }
+      if (rings_[i].size() < 3)
+        trail_.fail("a ring has " + std::to_string(rings_[i].size()) + " vertices, not 3 or more");
+      if (mirrored_) std::reverse(rings_[i].begin(), rings_[i].end());
+    }
+    surfaces_.add(rings_);
+  }
+
+  /// An object without the level gives another, but when none has it that is most likely a mistake.
+  void check_lod() const {
+    if (!asked_ || found_lods_.empty()) return;
+    const bool any =
+        std::any_of(found_lods_.begin(), found_lods_.end(), [&](double lod) { return meets_lod(lod, *asked_); });
+    if (any) return;
+    std::string levels;
+    for (const double lod : found_lods_) levels.append(levels.empty() ? "" : ", ").append(lod_text(lod));
+    throw Error(ErrorKind::input, "no CityObject has a geometry of LoD " + lod_text(*asked_), source_.file().string(),
+                "ask for one that the file has: " + levels);
+  }
+
+  RawMesh finish() {
+    if (builder_.triangle_count() == 0) {
+      source_.fail("the CityJSON file holds no surfaces (" + std::to_string(objects_) + " CityObjects)",
+                   "give a file whose CityObjects have surfaces or solids");
+    }
+    RawMesh mesh = builder_.finish();
+    mesh.crs = header_.crs;
+    mesh.crs_place = source_.file().string() + ", metadata, referenceSystem";
+    if (asked_) {
+      const std::string missing = " no geometry of LoD " + lod_text(*asked_) + ": the nearest is taken";
+      other_lod_.note(mesh.notes, "CityObject has", "CityObjects have", missing);
+    }
+    empty_.note(mesh.notes, "CityObject has neither surfaces nor parts", "CityObjects have neither surfaces nor parts");
+    no_surfaces_.note(mesh.notes, "geometry of points or lines is passed over",
+                      "geometries of points or lines are passed over");
+    surfaces_.add_notes(mesh.notes);
+    return mesh;
+  }
+
+  const MeshSource& source_;
+  const core::ProgressReporter& progress_;
+  const core::ReadLimits& limits_;
+  Trail trail_;
+  MeshBuilder builder_;
+  cityjson::SurfaceBuilder surfaces_;
+  std::optional<double> asked_;
+
+  Header header_;
+  std::set<double> found_lods_;
+  std::size_t objects_ = 0;
+  Finding other_lod_, empty_, no_surfaces_;
+
+  // Of the geometry that is being read.
+  Vertices* vertices_ = nullptr;
+  Eigen::Affine3d placement_ = Eigen::Affine3d::Identity();
+  bool mirrored_ = false;
+  std::vector<std::vector<std::uint32_t>> rings_;
+};
+
+}  // namespace
+
+bool is_cityjson(std::string_view bytes) {
+  constexpr std::string_view kValue = "\"CityJSON", kKey = "\"type\"";
+  for (std::size_t at = bytes.find(kValue); at != std::string_view::npos; at = bytes.find(kValue, at + 1)) {
+    const std::string_view after = bytes.substr(at + kValue.size());
+    if (!after.starts_with("\"") && !after.starts_with("Feature\"")) continue;
+    const auto trim = [](std::string_view text) {
+      const std::size_t last = text.find_last_not_of(" \t\r\n");
+      return text.substr(0, last == std::string_view::npos ? 0 : last + 1);
+    };
+    std::string_view before = trim(bytes.substr(0, at));
+    if (!before.ends_with(":")) continue;
+    before.remove_suffix(1);
+    if (trim(before).ends_with(kKey)) return true;
+  }
+  return false;
+}
+
+RawMesh read_cityjson(const MeshSource& source, const core::ProgressReporter& progress, const core::ReadLimits& limits,
+                      const std::string& lod) {
+  progress.begin("parse CityJSON");
+  return CityJsonReader(source, progress, limits, lod).read();
+}
+
+}  // namespace vantage::io

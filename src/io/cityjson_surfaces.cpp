@@ -1,0 +1,140 @@
+#include "io/cityjson_surfaces.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <charconv>
+
+#include "io/join_holes.h"
+
+namespace vantage::io::cityjson {
+namespace {
+
+// What val3dity (H. Ledoux, 2018) allows by default for a surface to count as flat.
+constexpr double kFlatM = 0.01;
+
+using Ring = std::vector<std::uint32_t>;
+
+void drop_repeated_corners(Ring& ring) {
+  ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
+  while (ring.size() > 1 && ring.front() == ring.back()) ring.pop_back();
+}
+
+std::string two_decimals(double number) {
+  std::array<char, 64> text;
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), number, std::chars_format::fixed, 2).ptr};
+}
+
+}  // namespace
+
+void Finding::note(std::vector<std::string>& notes, const char* one, const char* many, const std::string& more) const {
+  if (count_ == 0) return;
+  std::string text = std::to_string(count_);
+  text.append(" ").append(count_ == 1 ? one : many).append(more);
+  notes.push_back(text.append(count_ == 1 ? " (of " : " (the first of ").append(in_quotes(first_)).append(")"));
+}
+
+void SurfaceBuilder::begin_shell(bool is_cavity) {
+  in_shell_ = true;
+  is_cavity_ = is_cavity;
+  shell_.begin();
+  about_.reset();
+  volume_ = 0;
+}
+
+void SurfaceBuilder::end_shell() {
+  in_shell_ = false;
+  switch (shell_.result()) {
+    case ShellCheck::Result::open:
+      open_.add(trail_.object());
+      break;
+    case ShellCheck::Result::misoriented:
+      misoriented_.add(trail_.object());
+      break;
+    case ShellCheck::Result::closed:
+      if (is_cavity_ ? volume_ > 0 : volume_ < 0) inside_out_.add(trail_.object());
+      break;
+  }
+}
+
+void SurfaceBuilder::add(std::vector<Ring>& rings) {
+  for (Ring& ring : rings) drop_repeated_corners(ring);
+  const bool has_border = rings[0].size() >= 3;
+  rings.erase(std::remove_if(rings.begin() + 1, rings.end(), [](const Ring& ring) { return ring.size() < 3; }),
+              rings.end());
+  std::size_t corners = 0;
+  for (const Ring& ring : rings) corners += ring.size();
+  if (corners > limits_.corners) {
+    trail_.fail("a surface has " + std::to_string(corners) + " corners; at most " + std::to_string(limits_.corners) +
+                    " can be read",
+                "cut it into smaller ones");
+  }
+  builder_.begin_face(0);
+  if (!has_border || rings.size() == 1) {
+    for (const std::uint32_t corner : rings[0]) builder_.add_corner(corner);
+  } else {
+    std::vector<Vec3> points;
+    std::vector<std::uint32_t> vertices;
+    std::vector<std::size_t> ends;
+    for (const Ring& ring : rings) {
+      for (const std::uint32_t corner : ring) {
+        points.push_back(builder_.vertex(corner));
+        vertices.push_back(corner);
+      }
+      ends.push_back(points.size());
+    }
+    std::size_t left_out = 0;
+    for (const std::uint32_t i : join_holes(points, ends, left_out)) builder_.add_corner(vertices[i]);
+    for (; left_out > 0; --left_out) holes_outside_.add(trail_.object());
+  }
+  builder_.end_face();
+  if (!has_border) return;
+  check_flatness(rings);
+  if (in_shell_) check_shell(rings);
+}
+
+void SurfaceBuilder::check_flatness(const std::vector<Ring>& rings) {
+  const Ring& border = rings[0];
+  const Vec3& origin = builder_.vertex(border[0]);
+  Vec3 normal = Vec3::Zero(), middle = Vec3::Zero();
+  for (std::size_t i = 0; i < border.size(); ++i) {
+    const Vec3 a = builder_.vertex(border[i]) - origin, b = builder_.vertex(border[(i + 1) % border.size()]) - origin;
+    normal += a.cross(b);
+    middle += a / static_cast<double>(border.size());
+  }
+  if (normal.norm() == 0) return;
+  normal.normalize();
+  double farthest = 0;
+  for (const Ring& ring : rings) {
+    for (const std::uint32_t corner : ring) {
+      farthest = std::max(farthest, std::abs(normal.dot(builder_.vertex(corner) - origin - middle)));
+    }
+  }
+  if (farthest > kFlatM) not_flat_.add(trail_.object());
+  farthest_m_ = std::max(farthest_m_, farthest);
+}
+
+void SurfaceBuilder::check_shell(const std::vector<Ring>& rings) {
+  for (const Ring& ring : rings) {
+    if (!about_) about_ = builder_.vertex(ring[0]);
+    const Vec3 first = builder_.vertex(ring[0]) - *about_;
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const std::uint32_t from = ring[i], to = ring[(i + 1) % ring.size()];
+      shell_.add_edge(from, to);
+      volume_ += first.dot((builder_.vertex(from) - *about_).cross(builder_.vertex(to) - *about_));
+    }
+  }
+}
+
+void SurfaceBuilder::add_notes(std::vector<std::string>& notes) const {
+  open_.note(notes, "shell of a solid is not closed", "shells of solids are not closed");
+  misoriented_.note(notes, "shell of a solid has surfaces that face the wrong way",
+                    "shells of solids have surfaces that face the wrong way");
+  inside_out_.note(notes, "shell of a solid is inside out", "shells of solids are inside out");
+  not_flat_.note(notes, "surface is not flat to 1 cm,", "surfaces are not flat to 1 cm,",
+                 " a corner lies up to " + two_decimals(farthest_m_) + " m off");
+  holes_outside_.note(notes, "hole lies outside its surface and is left out",
+                      "holes lie outside their surfaces and are left out");
+}
+
+}  // namespace vantage::io::cityjson

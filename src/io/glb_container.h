@@ -1,0 +1,13 @@
+// The container of binary glTF (GLB): a document and its one buffer in one file.
+#pragma once
+
+#include <string_view>
+
+#include "core/atomic_file.h"
+
+namespace vantage::io {
+
+/// Writes both as chunks behind GLB's header. Throws Error(output) when they take 4 GiB or more.
+void write_glb_container(std::string_view json, std::string_view buffer, core::AtomicFile& file);
+
+}  // namespace vantage::io

@@ -1,0 +1,245 @@
+// glTF 2.0 and GLB (Khronos Group, glTF 2.0 Specification, ISO/IEC 12113:2022): the triangles of the default scene's
+// nodes, each moved by its node. Materials, skins, morph targets and animations are passed over.
+#include <Eigen/Geometry>
+#include <array>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "io/georeference_text.h"
+#include "io/gltf_document.h"
+#include "io/mesh_builder.h"
+#include "io/mesh_readers.h"
+#include "io/rounding_text.h"
+
+namespace vantage::io {
+namespace {
+
+using gltf::Accessor;
+using gltf::Document;
+using gltf::Json;
+
+enum PrimitiveMode { kTriangles = 4, kTriangleStrip, kTriangleFan };
+
+class GltfReader {
+ public:
+  GltfReader(const MeshSource& source, const core::ProgressReporter& progress, const core::ReadLimits& limits)
+      : progress_(progress),
+        limits_(limits),
+        document_(source, progress, limits),
+        builder_(source, MeshFormat::gltf, MeshBuilder::PlaceUnit::byte, limits) {}
+
+  RawMesh read() {
+    struct Visit {
+      std::uint64_t node;
+      Eigen::Affine3d parent;
+    };
+    std::vector<Visit> waiting;  // a stack: first come, last served
+    const std::vector<std::uint64_t> roots = root_nodes();
+    for (auto root = roots.rbegin(); root != roots.rend(); ++root)
+      waiting.push_back({*root, Eigen::Affine3d::Identity()});
+    nodes_ = document_.array(document_.root(), "nodes").size();
+    std::vector<bool> seen(nodes_, false);
+    while (!waiting.empty()) {
+      const Visit visit = waiting.back();
+      waiting.pop_back();
+      const Json& node = document_.item("nodes", visit.node);
+      if (seen[visit.node]) document_.fail("node " + std::to_string(visit.node) + " has two parents, or is its own");
+      seen[visit.node] = true;
+      progress_.report(visited_++, nodes_);
+
+      const Eigen::Affine3d world = visit.parent * local_transform(node);
+      if (const auto mesh = document_.whole(node, "mesh")) add_mesh(node, document_.item("meshes", *mesh), world);
+      const Json& children = document_.array(node, "children");
+      for (auto child = children.rbegin(); child != children.rend(); ++child) {
+        waiting.push_back({document_.as_whole(*child, "children"), world});
+      }
+    }
+    RawMesh mesh = builder_.finish();
+    mesh.georeference = georeference();
+    mesh.rounding_m = rounding();
+    return mesh;
+  }
+
+ private:
+  /// In the "extras" of the default scene or, as others may move it there, of the asset.
+  std::optional<Georeference> georeference() const {
+    const Json& root = document_.root();
+    const Json& scenes = document_.array(root, "scenes");
+    std::vector<const Json*> holders;
+    if (!scenes.empty()) holders.push_back(&document_.item("scenes", document_.whole(root, "scene").value_or(0)));
+    if (const auto asset = root.find("asset"); asset != root.end()) holders.push_back(&*asset);
+    for (const Json* holder : holders) {
+      const auto extras = holder->find("extras");
+      const Json* found = extras == holder->end() ? nullptr : georeference_in(*extras);
+      if (!found) continue;
+      try {
+        return parse_georeference(*found);
+      } catch (const GeoreferenceProblem& problem) {
+        document_.fail(problem.text);
+      }
+    }
+    return std::nullopt;
+  }
+
+  /// In the "extras" of the asset.
+  std::optional<double> rounding() const {
+    const auto asset = document_.root().find("asset");
+    if (asset == document_.root().end() || !asset->is_object()) return std::nullopt;
+    const auto extras = asset->find("extras");
+    if (extras == asset->end()) return std::nullopt;
+    try {
+      return rounding_in(*extras);
+    } catch (const RoundingProblem& problem) {
+      document_.fail(problem.text);
+    }
+  }
+
+  /// The nodes of the default scene; of the first scene where none is the default; without scenes the nodes that are
+  /// nobody's children.
+  std::vector<std::uint64_t> root_nodes() const {
+    std::vector<std::uint64_t> roots;
+    const Json& root = document_.root();
+    if (!document_.array(root, "scenes").empty()) {
+      const Json& scene = document_.item("scenes", document_.whole(root, "scene").value_or(0));
+      for (const Json& node : document_.array(scene, "nodes")) roots.push_back(document_.as_whole(node, "nodes"));
+      return roots;
+    }
+    const std::size_t count = document_.array(root, "nodes").size();
+    std::vector<bool> is_child(count, false);
+    for (std::size_t i = 0; i < count; ++i) {
+      for (const Json& child : document_.array(document_.item("nodes", i), "children")) {
+        const std::uint64_t index = document_.as_whole(child, "children");
+        if (index < count) is_child[index] = true;
+      }
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      if (!is_child[i]) roots.push_back(i);
+    }
+    return roots;
+  }
+
+  /// `count` numbers, or `otherwise` if the key is missing.
+  std::vector<double> numbers(const Json& object, const char* key, std::vector<double> otherwise) const {
+    if (!object.contains(key)) return otherwise;
+    const Json& values = document_.array(object, key);
+    if (values.size() != otherwise.size()) document_.fail(std::string("\"") + key + "\" of a node has a wrong length");
+    std::vector<double> result;
+    for (const Json& value : values) {
+      if (!value.is_number())
+        document_.fail(std::string("\"") + key + "\" of a node holds something other than numbers");
+      result.push_back(value.get<double>());
+    }
+    return result;
+  }
+
+  Eigen::Affine3d local_transform(const Json& node) const {
+    if (node.contains("matrix")) {
+      const std::vector<double> columns = numbers(node, "matrix", std::vector<double>(16));
+      Eigen::Affine3d transform;
+      transform.matrix() = Eigen::Map<const Eigen::Matrix4d>(columns.data());
+      return transform;
+    }
+    const auto t = numbers(node, "translation", {0, 0, 0});
+    const auto r = numbers(node, "rotation", {0, 0, 0, 1});  // x, y, z, w
+    const auto s = numbers(node, "scale", {1, 1, 1});
+    return Eigen::Translation3d(t[0], t[1], t[2]) * Eigen::Quaterniond(r[3], r[0], r[1], r[2]).normalized() *
+           Eigen::Scaling(s[0], s[1], s[2]);
+  }
+
+  void add_mesh(const Json& node, const Json& mesh, const Eigen::Affine3d& world) {
+    const std::string name = document_.text(node, "name");
+    builder_.add_object(name.empty() ? document_.text(mesh, "name") : name);
+    for (const Json& primitive : document_.array(mesh, "primitives")) {
+      if (!primitive.is_object()) document_.fail("a primitive is not an object");
+      const std::uint64_t mode = document_.whole(primitive, "mode").value_or(kTriangles);
+      if (mode >= kTriangles && mode <= kTriangleFan) add_primitive(primitive, static_cast<int>(mode), world);
+    }
+  }
+
+  void add_primitive(const Json& primitive, int mode, const Eigen::Affine3d& world) {
+    const auto attributes = primitive.find("attributes");
+    if (attributes == primitive.end() || !attributes->is_object()) document_.fail("a primitive has no \"attributes\"");
+    const auto position_index = document_.whole(*attributes, "POSITION");
+    if (!position_index) return;  // the specification allows it; there is nothing to draw
+    const Accessor positions = document_.accessor(*position_index);
+    if (positions.components() != 3) document_.fail("a primitive's positions are not of type VEC3");
+    std::optional<Accessor> indices;
+    if (const auto index = document_.whole(primitive, "indices")) {
+      indices = document_.accessor(*index);
+      if (!indices->is_index()) document_.fail("a primitive's indices are not unsigned whole numbers");
+    }
+
+    const std::uint64_t corners = indices ? indices->count() : positions.count();
+    const std::uint64_t triangles = mode == kTriangles ? corners / 3 : corners < 3 ? 0 : corners - 2;
+    check_total(triangles);
+    start_vertices(positions.count());
+    const bool mirrored = world.linear().determinant() < 0;
+    for (std::uint64_t i = 0; i < triangles; ++i) {
+      progress_.tick(visited_, nodes_);
+      // The turn of a strip's every second triangle is reversed.
+      const bool odd = mode == kTriangleStrip && i % 2 == 1;
+      const std::uint64_t first = mode == kTriangles ? 3 * i : mode == kTriangleStrip ? i : 0;
+      const std::uint64_t second = mode == kTriangles ? first + 1 : i + 1;
+      Triangle triangle;
+      const std::array<std::uint64_t, 3> corner = {first, second, second + 1};
+      for (std::size_t k = 0; k < 3; ++k) {
+        triangle[k] = vertex(indices ? indices->index(corner[k]) : corner[k], positions, world);
+      }
+      if (mirrored != odd) std::swap(triangle[1], triangle[2]);
+      builder_.add_triangle(triangle);
+    }
+  }
+
+  /// Nodes may repeat a mesh and primitives an accessor: a small file can describe more triangles than there is memory.
+  void check_total(std::uint64_t more) const {
+    const std::uint64_t room = limits_.repeated_triangles + document_.buffer_bytes() / 3;
+    if (builder_.triangle_count() + more > room) {
+      document_.fail("its nodes repeat its meshes to more than " + std::to_string(room) + " triangles");
+    }
+  }
+
+  /// Makes ready for the vertices of one primitive; only those that its triangles use are added.
+  void start_vertices(std::uint64_t count) {
+    if (vertex_of_.size() < count) vertex_of_.resize(count, {0, 0});
+    ++primitive_;
+  }
+
+  std::uint32_t vertex(std::uint64_t index, const Accessor& positions, const Eigen::Affine3d& world) {
+    if (index >= positions.count()) {
+      document_.fail("a primitive refers to vertex " + std::to_string(index) + ", but has only " +
+                     std::to_string(positions.count()) + " (counted from 0)");
+    }
+    Known& known = vertex_of_[index];
+    if (known.primitive != primitive_) {
+      const Vec3 position(positions.number(index, 0), positions.number(index, 1), positions.number(index, 2));
+      const Vec3 moved = world * position;
+      if (!moved.allFinite()) document_.fail("a coordinate of vertex " + std::to_string(index) + " is not finite");
+      known = {primitive_, builder_.add_vertex(moved, 0)};
+    }
+    return known.vertex;
+  }
+
+  /// What a vertex of an accessor became, and for which primitive.
+  struct Known {
+    std::uint64_t primitive;
+    std::uint32_t vertex;
+  };
+
+  const core::ProgressReporter& progress_;
+  const core::ReadLimits& limits_;
+  Document document_;
+  MeshBuilder builder_;
+  std::uint64_t visited_ = 0, nodes_ = 0;
+  std::vector<Known> vertex_of_;
+  std::uint64_t primitive_ = 0;
+};
+
+}  // namespace
+
+RawMesh read_gltf(const MeshSource& source, const core::ProgressReporter& progress, const core::ReadLimits& limits) {
+  progress.begin("parse glTF");
+  return GltfReader(source, progress, limits).read();
+}
+
+}  // namespace vantage::io

@@ -1,0 +1,110 @@
+#include "io/json_text.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+namespace vantage::io {
+namespace {
+
+using nlohmann::json;
+
+/// "[json.exception.parse_error.101] parse error at line 1, column 2: syntax error while …" without the code before.
+std::string without_code(const std::string& what) {
+  const std::size_t start = what.find("] ");
+  return what.substr(start == std::string::npos ? 0 : start + 2);
+}
+
+JsonProblem problem_at(std::string_view text, std::size_t byte, std::string problem) {
+  const std::string_view before = text.substr(0, byte == 0 ? 0 : byte - 1);  // bytes count from 1
+  const std::size_t line_start = before.rfind('\n');
+  return {std::move(problem), static_cast<std::uint64_t>(std::count(before.begin(), before.end(), '\n')) + 1,
+          before.size() - (line_start == std::string_view::npos ? 0 : line_start + 1) + 1};
+}
+
+/// Builds the value that a text describes. The parser of the library does so too, but looks through all earlier items
+/// of an array after each that is an object, where it is given a callback that may stop it: the square of the items.
+class ValueBuilder final : public nlohmann::json_sax<json> {
+ public:
+  ValueBuilder(std::string_view text, const core::ProgressReporter& progress, const core::ReadLimits& limits)
+      : text_(text), progress_(progress), limits_(limits) {}
+
+  json take() { return std::move(root_); }
+
+  bool null() override { return add(nullptr); }
+  bool boolean(bool value) override { return add(value); }
+  bool number_integer(json::number_integer_t value) override { return add(value); }
+  bool number_unsigned(json::number_unsigned_t value) override { return add(value); }
+  bool number_float(json::number_float_t value, const json::string_t& /*written*/) override { return add(value); }
+  bool string(json::string_t& value) override { return add(std::move(value)); }
+  bool binary(json::binary_t& value) override { return add(std::move(value)); }
+  bool start_object(std::size_t /*size*/) override { return open(json::object()); }
+  bool start_array(std::size_t /*size*/) override { return open(json::array()); }
+  bool end_object() override { return close(); }
+  bool end_array() override { return close(); }
+  bool key(json::string_t& name) override {
+    member_ = &(*open_.back())[std::move(name)];
+    return true;
+  }
+
+  bool parse_error(std::size_t byte, const std::string& /*last*/, const json::exception& error) override {
+    if (dynamic_cast<const json::parse_error*>(&error)) throw problem_at(text_, byte, without_code(error.what()));
+    throw JsonProblem{without_code(error.what())};  // a number that is too large
+  }
+
+ private:
+  bool add(json value) {
+    place(std::move(value));
+    return true;
+  }
+
+  bool open(json value) {
+    constexpr std::size_t kDeepest = 100;
+    if (open_.size() > kDeepest) {
+      throw JsonProblem{"its JSON is nested deeper than " + std::to_string(kDeepest) + " levels"};
+    }
+    open_.push_back(place(std::move(value)));
+    return true;
+  }
+
+  bool close() {
+    open_.pop_back();
+    return true;
+  }
+
+  /// Where the value stays until its parent is closed: a parent gets its next item when this one is complete.
+  json* place(json value) {
+    if (++values_ > limits_.json_values) {
+      throw JsonProblem{"its JSON has more than " + std::to_string(limits_.json_values) + " values"};
+    }
+    progress_.tick(0, 1);
+    if (open_.empty()) {
+      root_ = std::move(value);
+      return &root_;
+    }
+    if (open_.back()->is_array()) {
+      open_.back()->push_back(std::move(value));
+      return &open_.back()->back();
+    }
+    *member_ = std::move(value);
+    return member_;
+  }
+
+  std::string_view text_;
+  const core::ProgressReporter& progress_;
+  const core::ReadLimits& limits_;
+  json root_;
+  std::vector<json*> open_;  ///< arrays and objects whose end has not come, outermost first
+  json* member_ = nullptr;   ///< of the innermost one, an object: the value of its last key
+  std::size_t values_ = 0;
+};
+
+}  // namespace
+
+json parse_json(std::string_view text, const core::ProgressReporter& progress, const core::ReadLimits& limits) {
+  ValueBuilder builder(text, progress, limits);
+  json::sax_parse(text.begin(), text.end(), &builder);
+  return builder.take();
+}
+
+}  // namespace vantage::io

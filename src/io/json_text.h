@@ -1,0 +1,25 @@
+// Parses the JSON part of a file within limits.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+
+#include "core/progress_reporter.h"
+#include "core/read_limits.h"
+
+namespace vantage::io {
+
+/// Why a text is no JSON, or too much of it. Line and column count from 1; 0 where there is none.
+struct JsonProblem {
+  std::string text;
+  std::uint64_t line = 0, column = 0;
+};
+
+/// Parses `text`. Throws JsonProblem for what is no JSON, is nested deeper than 100 levels, or has more values than the
+/// limits allow; Error(cancelled) when told to stop.
+nlohmann::json parse_json(std::string_view text, const core::ProgressReporter& progress, const core::ReadLimits& limits);
+
+}  // namespace vantage::io

@@ -1,0 +1,163 @@
+#include "io/mesh_builder.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "io/triangulate_polygon.h"
+
+namespace vantage::io {
+namespace {
+
+bool is_continuation(char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; }
+
+/// Length in bytes of the UTF-8 character that `text` begins with, 0 if it begins with none.
+std::size_t utf8_length(std::string_view text) {
+  const auto lead = static_cast<unsigned char>(text[0]);
+  const std::size_t length = lead < 0x80   ? 1
+                             : lead < 0xc2 ? 0
+                             : lead < 0xe0 ? 2
+                             : lead < 0xf0 ? 3
+                             : lead < 0xf5 ? 4
+                                           : 0;
+  if (length == 0 || text.size() < length) return 0;
+  for (std::size_t i = 1; i < length; ++i) {
+    if (!is_continuation(text[i])) return 0;
+  }
+  if (length < 3) return length;
+  // Overlong forms, surrogates and what lies beyond U+10FFFF show in the second byte.
+  const auto second = static_cast<unsigned char>(text[1]);
+  const bool wrong = (lead == 0xe0 && second < 0xa0) || (lead == 0xed && second >= 0xa0) ||
+                     (lead == 0xf0 && second < 0x90) || (lead == 0xf4 && second >= 0x90);
+  return wrong ? 0 : length;
+}
+
+}  // namespace
+
+std::string clean_name(std::string_view name) {
+  std::string clean;
+  while (!name.empty()) {
+    const std::size_t length = utf8_length(name);
+    const auto byte = static_cast<unsigned char>(name[0]);
+    if (length == 0) {
+      clean += static_cast<char>(0xc0 | (byte >> 6));
+      clean += static_cast<char>(0x80 | (byte & 0x3f));
+    } else if (byte < 0x20 || byte == 0x7f) {
+      clean += ' ';
+    } else {
+      clean += name.substr(0, length);
+    }
+    name.remove_prefix(std::max<std::size_t>(length, 1));
+  }
+  const std::size_t first = clean.find_first_not_of(' ');
+  if (first == std::string::npos) return {};
+  return clean.substr(first, clean.find_last_not_of(' ') - first + 1);
+}
+
+std::uint32_t MeshBuilder::add_object(std::string_view name) {
+  object_ = static_cast<std::uint32_t>(mesh_.objects.size());
+  mesh_.objects.push_back(clean_name(name));
+  return object_;
+}
+
+void MeshBuilder::rename_object(std::uint32_t object, std::string_view name) {
+  mesh_.objects[object] = clean_name(name);
+}
+
+void MeshBuilder::end_face() {
+  if (object_ == kNone) add_object("");
+  if (corners_.size() < 3) {
+    ++mesh_.dropped_faces;
+  } else if (corners_.size() > limits_.corners) {
+    fail(place_,
+         "a face has " + std::to_string(corners_.size()) + " corners; at most " + std::to_string(limits_.corners) +
+             " can be read",
+         "triangulate the mesh on export");
+  } else if (highest_ < mesh_.vertices.size()) {
+    add_face();
+  } else {
+    late_faces_.push_back({late_corners_.size(), late_corners_.size() + corners_.size(), place_, object_});
+    late_corners_.insert(late_corners_.end(), corners_.begin(), corners_.end());
+  }
+  highest_ = 0;
+}
+
+void MeshBuilder::add_face() {
+  if (corners_.size() == 3) {
+    add_triangle({corners_[0], corners_[1], corners_[2]});
+    return;
+  }
+  polygon_.clear();
+  for (const std::uint32_t corner : corners_) polygon_.push_back(mesh_.vertices[corner]);
+  ears_.clear();
+  triangulate_polygon(polygon_, ears_);
+  for (const Triangle& ear : ears_) add_triangle({corners_[ear[0]], corners_[ear[1]], corners_[ear[2]]});
+}
+
+void MeshBuilder::add_late_faces() {
+  for (const LateFace& face : late_faces_) {
+    corners_.assign(late_corners_.begin() + static_cast<std::ptrdiff_t>(face.begin),
+                    late_corners_.begin() + static_cast<std::ptrdiff_t>(face.end));
+    for (const std::uint32_t corner : corners_) {
+      if (corner >= mesh_.vertices.size()) fail_out_of_range(corner, face.place);
+    }
+    object_ = face.object;
+    add_face();
+  }
+}
+
+void MeshBuilder::keep_used_objects() {
+  std::vector<std::uint32_t> new_index(mesh_.objects.size(), kNone);
+  for (const std::uint32_t object : mesh_.object_of) new_index[object] = 0;
+  std::vector<std::string> used;
+  for (std::size_t i = 0; i < new_index.size(); ++i) {
+    if (new_index[i] == kNone) continue;
+    new_index[i] = static_cast<std::uint32_t>(used.size());
+    const std::string number = std::to_string(used.size());
+    used.push_back(mesh_.objects[i].empty() ? "object " + number : std::move(mesh_.objects[i]));
+  }
+  mesh_.objects = std::move(used);
+  for (std::uint32_t& object : mesh_.object_of) object = new_index[object];
+}
+
+RawMesh MeshBuilder::finish(const std::vector<std::uint32_t>& joined) {
+  add_late_faces();
+  if (!joined.empty()) {
+    for (std::uint32_t& object : mesh_.object_of) object = joined[object];
+  }
+  if (mesh_.triangles.empty()) {
+    source_.fail("the file holds no triangles (" + std::to_string(mesh_.vertices.size()) + " vertices, " +
+                     std::to_string(mesh_.dropped_faces) + " faces with fewer than 3 corners)",
+                 "export a surface mesh with faces");
+  }
+  keep_used_objects();
+  return std::move(mesh_);
+}
+
+void MeshBuilder::fail(std::uint64_t place, std::string problem, std::string fix) const {
+  if (unit_ == PlaceUnit::line) source_.fail_at_line(place, std::move(problem), std::move(fix));
+  source_.fail_at_byte(place, std::move(problem), std::move(fix));
+}
+
+void MeshBuilder::fail_not_finite(const Vec3& vertex, std::uint64_t place) const {
+  const int axis = std::isfinite(vertex.x()) ? (std::isfinite(vertex.y()) ? 2 : 1) : 0;
+  fail(place,
+       std::string("the ") + "xyz"[axis] + " coordinate of vertex " +
+           std::to_string(mesh_.vertices.size() + first_index_) + " is not finite",
+       "correct the coordinate or remove the vertex and its faces");
+}
+
+void MeshBuilder::fail_too_many(std::uint64_t place) const {
+  fail(place, "the mesh has more than " + std::to_string(kMaxVertices) + " vertices",
+       "cut the mesh to the part that is needed");
+}
+
+void MeshBuilder::fail_out_of_range(std::uint64_t vertex, std::uint64_t place) const {
+  // `vertex` may be the highest 64-bit number: the sum wraps where the file's own number did.
+  const std::uint64_t number = vertex + first_index_;
+  fail(place,
+       "a face refers to vertex " + std::to_string(number) + ", but the file has only " +
+           std::to_string(mesh_.vertices.size()) + (first_index_ == 0 ? " (counted from 0)" : ""),
+       "export the mesh again; it is cut off or garbled");
+}
+
+}  // namespace vantage::io

@@ -1,0 +1,129 @@
+#include "io/mesh_file.h"
+
+#include <algorithm>
+#include <array>
+#include <new>
+#include <utility>
+
+#include "io/mesh_readers.h"
+#include "io/place_file.h"
+#include "io/text_cursor.h"
+#include "vantage/error.h"
+
+namespace vantage::io {
+namespace {
+
+/// Whether the first statement, comments aside, is one of those that OBJ files begin with.
+bool looks_like_obj(std::string_view bytes) {
+  constexpr std::array<std::string_view, 11> kFirst = {"v", "vn", "vt", "f",      "o",     "g",
+                                                       "s", "l",  "p",  "mtllib", "usemtl"};
+  TextCursor text(bytes);
+  for (text.skip_spaces(); !text.at_end() && text.peek() == '#'; text.skip_spaces()) text.rest_of_line();
+  return std::find(kFirst.begin(), kFirst.end(), text.word()) != kFirst.end();
+}
+
+bool looks_like_json(std::string_view bytes) {
+  if (bytes.starts_with("\xef\xbb\xbf")) bytes.remove_prefix(3);
+  TextCursor text(bytes);
+  text.skip_spaces();
+  return !text.at_end() && text.peek() == '{';
+}
+
+}  // namespace
+
+MeshFormat mesh_format(const MeshSource& source) {
+  const std::string_view bytes = source.bytes();
+  const std::string extension = source.extension();
+  if (bytes.starts_with("glTF")) return MeshFormat::gltf;
+  if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) return MeshFormat::ply;
+  if (is_binary_stl(bytes) || is_ascii_stl(bytes)) return MeshFormat::stl;
+  const bool named_json = extension == ".json" || extension == ".jsonl";
+  if (looks_like_json(bytes)) {
+    const bool is_gltf = !named_json || bytes.find("\"asset\"") != std::string_view::npos;
+    return is_cityjson(bytes) || !is_gltf ? MeshFormat::cityjson : MeshFormat::gltf;
+  }
+  if (extension == ".obj" || looks_like_obj(bytes)) return MeshFormat::obj;
+  if (extension == ".ply") return MeshFormat::ply;
+  if (extension == ".stl") return MeshFormat::stl;
+  if (extension == ".gltf" || extension == ".glb") return MeshFormat::gltf;
+  if (named_json) return MeshFormat::cityjson;
+  source.fail(
+      "the format of the mesh file is unknown",
+      "give an OBJ, PLY, STL, glTF, GLB or CityJSON file; it may be compressed with gzip. Of a map or a raster of "
+      "heights 'vantage scene' makes a scene, and missions take them as scene.osm and scene.raster");
+}
+
+RawMesh read_any(const MeshSource& source, const core::ProgressReporter& progress, const core::ReadLimits& limits,
+                 const std::string& lod) {
+  try {
+    switch (mesh_format(source)) {
+      case MeshFormat::obj:
+        return read_obj(source, progress, limits);
+      case MeshFormat::ply:
+        return read_ply(source, progress, limits);
+      case MeshFormat::stl:
+        return read_stl(source, progress, limits);
+      case MeshFormat::gltf:
+        return read_gltf(source, progress, limits);
+      case MeshFormat::cityjson:
+        return read_cityjson(source, progress, limits, lod);
+    }
+  } catch (const std::bad_alloc&) {
+    source.fail("there is not enough memory to read the mesh", "cut the mesh to the part that is needed");
+  }
+  throw Error(ErrorKind::internal, "a mesh format without a reader", source.file().string(), "");
+}
+
+RawMesh read_mesh_file(const std::filesystem::path& file, const Progress& callback, const core::ReadLimits& limits,
+                       const std::string& lod) {
+  core::ProgressReporter progress(callback, file);
+  try {
+    const MeshSource source = load_mesh_source(file, progress, limits);
+    RawMesh mesh = read_any(source, progress, limits, lod);
+    if (mesh.format == MeshFormat::stl) {
+      PlaceFile beside = read_place_file(source, progress);
+      mesh.georeference = std::move(beside.georeference);
+      mesh.rounding_m = beside.rounding_m;
+    }
+    return mesh;
+  } catch (const std::bad_alloc&) {
+    throw Error(ErrorKind::input, "there is not enough memory to load the file", file.string(),
+                "cut the mesh to the part that is needed");
+  }
+}
+
+}  // namespace vantage::io
+
+namespace vantage {
+
+Scene read_scene(const std::filesystem::path& file, const SceneReadOptions& options, const Progress& progress) {
+  io::RawMesh raw = io::read_mesh_file(file, progress, {}, options.lod);
+  const bool was_projected = !raw.crs.empty() || !options.crs.empty();
+  SceneReadOptions used = options;
+  if (raw.axes) {
+    used.up = raw.axes->up;
+    used.scale = raw.axes->unit_m;
+    if ((options.up == UpAxis::y && used.up == UpAxis::z) || (options.scale != 1 && options.scale != used.scale)) {
+      raw.notes.push_back("the file says \"" + io::axes_text(*raw.axes) + "\": taken so");
+    }
+  }
+  io::to_scene_frame(raw, used, file);
+  Scene result;
+  result.mesh.vertices = std::move(raw.vertices);
+  result.mesh.triangles = std::move(raw.triangles);
+  result.object_of = std::move(raw.object_of);
+  result.objects = std::move(raw.objects);
+  result.source = file;
+  result.up = raw.format == io::MeshFormat::gltf       ? UpAxis::y
+              : raw.format == io::MeshFormat::cityjson ? UpAxis::z
+                                                          : used.up;
+  result.scale = was_projected ? 1 : used.scale;
+  result.states_axes = raw.axes.has_value();
+  result.dropped_faces = raw.dropped_faces;
+  result.georeference = std::move(raw.georeference);
+  result.rounding_m = raw.rounding_m;
+  result.notes = std::move(raw.notes);
+  return result;
+}
+
+}  // namespace vantage

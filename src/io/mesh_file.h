@@ -1,0 +1,50 @@
+// Reads mesh files of every format that vantage knows, into the file's own axes. read_scene (vantage/scene.h) is on top
+// of it.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/axes_text.h"
+#include "io/mesh_source.h"
+#include "vantage/geometry.h"
+#include "vantage/progress.h"
+#include "vantage/scene.h"
+
+namespace vantage::io {
+
+enum class MeshFormat { obj, ply, stl, gltf, cityjson };
+
+/// A mesh as its file describes it: in the file's unit and axes, polygons cut into triangles. All indices are in range,
+/// all coordinates finite, there is at least one triangle, and every object has one. Vertices that no triangle uses
+/// stay.
+struct RawMesh {
+  MeshFormat format = MeshFormat::obj;
+  std::vector<Vec3> vertices;
+  std::vector<Triangle> triangles;
+  std::vector<std::uint32_t> object_of;  ///< per triangle: index into `objects`
+  std::vector<std::string> objects;      ///< names, UTF-8, no control characters, not empty; may repeat
+  std::size_t dropped_faces = 0;         ///< faces with fewer than 3 corners
+
+  /// The coordinate reference system of x and y, if the file names one, and where it does.
+  std::string crs, crs_place;
+  std::optional<Georeference> georeference;  ///< as vantage wrote it; x and y then are metres about its origin
+  std::optional<Axes> axes;                  ///< likewise, of OBJ
+  std::optional<double> rounding_m;          ///< likewise: how far the file's numbers moved a volume
+  std::vector<std::string> notes;            ///< as Scene::notes
+};
+
+/// Reads a file of any known format, compressed or not. Throws as read_scene does.
+/// `lod`: as SceneReadOptions::lod.
+RawMesh read_mesh_file(const std::filesystem::path& file, const Progress& progress = {}, const core::ReadLimits& limits = {},
+                       const std::string& lod = {});
+
+/// Moves a mesh from its file's axes and unit into the scene frame: z up, scaled, about the origin where it has a
+/// place. glTF is y up and CityJSON z up whatever the options say. Fills in `georeference`. Throws Error(input) if a
+/// coordinate is then beyond kMaxCoordinate, and for places as read_scene does.
+void to_scene_frame(RawMesh& mesh, const SceneReadOptions& options, const std::filesystem::path& file);
+
+}  // namespace vantage::io

@@ -1,0 +1,136 @@
+// From a file's axes, unit and coordinate reference system into the scene frame.
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "geo/local_frame.h"
+#include "io/mesh_file.h"
+#include "vantage/error.h"
+
+namespace vantage::io {
+namespace {
+
+constexpr double kFootM = 0.3048;  // the foot of the US survey differs by 2 ppm
+
+geo::LonLat lonlat(const std::array<double, 2>& latitude_longitude) {
+  return {latitude_longitude[1], latitude_longitude[0]};
+}
+
+std::string as_in(const std::filesystem::path& file) { return "as in " + file.filename().string(); }
+
+Box bounds_of(const RawMesh& mesh) {
+  Box box;
+  for (const Triangle& triangle : mesh.triangles) {
+    for (const std::uint32_t vertex : triangle) box.extend(mesh.vertices[vertex]);
+  }
+  return box;
+}
+
+/// "EPSG:7415 (Amersfoort / RD New + NAP height)" without what is in brackets.
+std::string short_name(const std::string& name) {
+  const std::size_t bracket = name.find(" (");
+  const bool is_code = bracket != std::string::npos && name.find(':') < bracket;
+  return is_code ? name.substr(0, bracket) : name;
+}
+
+/// x and y from the coordinate system `text` into the local frame.
+void project(RawMesh& mesh, const SceneReadOptions& options, const std::filesystem::path& file) {
+  const bool is_asked = !options.crs.empty();
+  const std::string& text = is_asked ? options.crs : mesh.crs;
+  const geo::CoordinateSystem system(text, is_asked ? "crs of " + file.string() : mesh.crs_place);
+  if (is_asked && !mesh.crs.empty() && mesh.crs != text) {
+    mesh.notes.push_back("the file says that its coordinate system is " + mesh.crs + "; taken is " + system.name());
+  }
+  const Box box = bounds_of(mesh);
+  const Vec3 middle = (box.min + box.max) / 2;
+  const geo::LonLat centre = system.to_lonlat(middle.head<2>());
+  const geo::LocalFrame frame(options.origin_deg ? lonlat(*options.origin_deg) : centre);
+  geo::check_origin(frame.origin(), centre, file.string());
+
+  if (const auto area = system.area_without(centre)) {
+    mesh.notes.push_back("the mesh lies outside the area that " + short_name(system.name()) + " is made for (" + *area +
+                         "): is it the right system?");
+  }
+
+  const double unit_m = system.vertical_unit_m().value_or(1) * options.scale;
+  const auto local = [&](const Eigen::Vector2d& position) { return frame.to_local(system.to_lonlat(position)); };
+  if (unit_m == 1 && !system.is_geographic()) {
+    const double east_m = (local(middle.head<2>() + Eigen::Vector2d(1, 0)) - local(middle.head<2>())).norm();
+    if (std::abs(east_m - kFootM) < 0.01 * kFootM) {
+      mesh.notes.emplace_back("its x and y are in feet, z is taken as metres: give the scale 0.3048 if it is in feet");
+    }
+  }
+  for (Vec3& vertex : mesh.vertices) {
+    vertex.head<2>() = local(vertex.head<2>());
+    vertex.z() *= unit_m;
+  }
+  mesh.georeference =
+      Georeference{frame.origin().latitude_deg, frame.origin().longitude_deg,
+                   system.vertical_name().empty() ? as_in(file) : system.vertical_name(), short_name(system.name())};
+}
+
+/// From the local frame that the file names into another.
+void move_to(RawMesh& mesh, const std::array<double, 2>& origin_deg, const std::filesystem::path& file) {
+  geo::check_origin(lonlat(origin_deg), {mesh.georeference->longitude_deg, mesh.georeference->latitude_deg},
+                    file.string());
+  Georeference moved = *mesh.georeference;
+  moved.latitude_deg = origin_deg[0];
+  moved.longitude_deg = origin_deg[1];
+  geo::move_origin(mesh.vertices, *mesh.georeference, moved);
+  mesh.georeference = moved;
+}
+
+/// A mesh that does not say where it lies is in the local frame about the origin.
+void put_at(RawMesh& mesh, geo::LonLat origin, const std::filesystem::path& file) {
+  const geo::LocalFrame frame(origin);  // checks the origin
+  const Box box = bounds_of(mesh);
+  const double farthest = std::max(box.min.head<2>().cwiseAbs().maxCoeff(), box.max.head<2>().cwiseAbs().maxCoeff());
+  if (farthest > geo::kFarthestM) {
+    throw Error(ErrorKind::input,
+                "the mesh goes " + std::to_string(std::lround(farthest / 1000)) +
+                    " km from its origin: its coordinates are no metres about the origin that is given",
+                file.string(), "name their coordinate system with crs, as in EPSG:28992");
+  }
+  mesh.georeference = Georeference{frame.origin().latitude_deg, frame.origin().longitude_deg, "", ""};
+}
+
+void find_place(RawMesh& mesh, const SceneReadOptions& options, const std::filesystem::path& file) {
+  if (!mesh.crs.empty() || !options.crs.empty()) {
+    if (mesh.georeference) {
+      throw Error(ErrorKind::input, "a coordinate system is given for a mesh that is in a local frame already",
+                  "crs of " + file.string(), "leave crs out: the file says where it lies");
+    }
+    project(mesh, options, file);
+    return;
+  }
+  for (Vec3& vertex : mesh.vertices) vertex *= options.scale;
+  if (!options.origin_deg) return;
+  if (mesh.georeference) {
+    move_to(mesh, *options.origin_deg, file);
+  } else {
+    put_at(mesh, lonlat(*options.origin_deg), file);
+  }
+}
+
+}  // namespace
+
+void to_scene_frame(RawMesh& mesh, const SceneReadOptions& options, const std::filesystem::path& file) {
+  if (!(options.scale > 0) || !std::isfinite(options.scale)) {
+    throw Error(ErrorKind::input, "the scale of a mesh must be positive and finite", file.string(),
+                "give the length of the file's unit in metres");
+  }
+  const bool y_up = mesh.format == MeshFormat::gltf || (options.up == UpAxis::y && mesh.format != MeshFormat::cityjson);
+  if (y_up) {
+    for (Vec3& v : mesh.vertices) v = Vec3(v.x(), -v.z(), v.y());
+  }
+  find_place(mesh, options, file);
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    if (mesh.vertices[i].cwiseAbs().maxCoeff() <= core::kMaxCoordinate) continue;
+    throw Error(ErrorKind::input,
+                "vertex " + std::to_string(i) + " (counted from 0) is more than " +
+                    std::to_string(static_cast<long>(kMaxCoordinate / 1000)) + " km from the origin",
+                file.string(), "check the scale, or correct the vertex");
+  }
+}
+
+}  // namespace vantage::io

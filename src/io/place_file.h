@@ -1,0 +1,29 @@
+// The small file beside a mesh whose format has no room for its place on the earth and its rounding: those of
+// "city.stl" are in "city.stl.place.json".
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "io/mesh_source.h"
+#include "vantage/georeference.h"
+
+namespace vantage::io {
+
+/// "city.stl.place.json" for "city.stl" and "city.stl.gz".
+std::filesystem::path place_file(const std::filesystem::path& mesh_file);
+
+/// What it holds.
+struct PlaceFile {
+  std::optional<Georeference> georeference;
+  std::optional<double> rounding_m;  ///< of a volume
+};
+
+/// {"vantage": {"georeference": {…}, "rounding_m": …}}; null in place of the object when there is none.
+std::string place_file_text(const PlaceFile& content);
+
+/// Reads the file beside `mesh`; nothing when there is none. Throws Error(input) for one that cannot be read.
+PlaceFile read_place_file(const MeshSource& mesh, const core::ProgressReporter& progress);
+
+}  // namespace vantage::io

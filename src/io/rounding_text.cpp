@@ -1,0 +1,50 @@
+#include "io/rounding_text.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "io/text_cursor.h"
+
+namespace vantage::io {
+namespace {
+
+constexpr std::string_view kMark = "vantage rounding_m ";
+constexpr const char* kGarbled = "the rounding_m of vantage in it is no length";
+
+double checked(double rounding) {
+  if (!(rounding >= 0) || !std::isfinite(rounding)) throw RoundingProblem{kGarbled};
+  return rounding;
+}
+
+}  // namespace
+
+std::string rounding_text(double rounding_m) {
+  std::array<char, 32> number{};
+  const auto end = std::to_chars(number.begin(), number.end(), rounding_m).ptr;
+  return std::string(kMark).append(number.begin(), end);
+}
+
+void read_rounding_comment(std::string_view comment, std::optional<double>& known) {
+  while (!comment.empty() && TextCursor::is_blank(comment.front())) comment.remove_prefix(1);
+  if (!comment.starts_with(kMark)) return;
+  comment.remove_prefix(kMark.size());
+  while (!comment.empty() && (TextCursor::is_blank(comment.back()) || comment.back() == '\r')) comment.remove_suffix(1);
+  double number = -1;
+  const auto [end, error] = std::from_chars(comment.data(), comment.data() + comment.size(), number);
+  if (error != std::errc() || end != comment.data() + comment.size()) throw RoundingProblem{kGarbled};
+  known = std::max(checked(number), known.value_or(0));
+}
+
+std::optional<double> rounding_in(const nlohmann::json& object) {
+  if (!object.is_object()) return std::nullopt;
+  const auto ours = object.find("vantage");
+  if (ours == object.end() || !ours->is_object()) return std::nullopt;
+  const auto found = ours->find("rounding_m");
+  if (found == ours->end()) return std::nullopt;
+  return checked(found->is_number() ? found->get<double>() : -1);
+}
+
+}  // namespace vantage::io

@@ -1,0 +1,111 @@
+#include "io/stored_mesh.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "core/mend_welded.h"
+#include "solid/numerics.h"
+#include "vantage/error.h"
+
+namespace vantage::io {
+namespace {
+
+double largest_coordinate(const Box& box) {
+  return std::max(box.min.cwiseAbs().maxCoeff(), box.max.cwiseAbs().maxCoeff());
+}
+
+/// The distance between numbers of that many binary digits at the magnitude of `number` > 0.
+double spacing(double number, int digits) {
+  int exponent = 0;
+  std::frexp(number, &exponent);  // number < 2^exponent
+  return std::ldexp(1.0, exponent - digits);
+}
+
+/// Moves the vertices to `place(vertex)` and makes the mesh whole for readers.
+template <typename Place>
+StoredMesh stored(const Volume& volume, double flat, const Place& place) {
+  StoredMesh result;
+  solid::LabelledMesh labelled{volume.mesh, volume.cause_of};
+  for (Vec3& vertex : labelled.mesh.vertices) {
+    const Vec3 moved = place(vertex);
+    result.rounding_m = std::max(result.rounding_m, (moved - vertex).norm());
+    vertex = moved;
+  }
+  if (result.rounding_m > 0) {
+    const auto normal = [](const Mesh& mesh, const Triangle& t) {
+      return (mesh.vertices[t[1]] - mesh.vertices[t[0]]).cross(mesh.vertices[t[2]] - mesh.vertices[t[0]]);
+    };
+    for (const Triangle& t : volume.mesh.triangles) {
+      if (normal(labelled.mesh, t).dot(normal(volume.mesh, t)) < 0) ++result.turned_facets;
+    }
+  }
+  result.is_mended = core::mend_welded(labelled, flat);
+  if (result.is_mended) result.rounding_m += flat;
+  result.mesh = std::move(labelled.mesh);
+  result.cause_of = std::move(labelled.labels);
+  return result;
+}
+
+/// Rounds to a grid about `origin` whose numbers single precision holds, all of them: so neighbouring vertices are
+/// whole steps apart, also where the numbers are small, and what has no area has none in exact arithmetic.
+StoredMesh stored_on_grid(const Volume& volume, const Box& box, const Vec3& origin) {
+  constexpr int kFloatDigits = std::numeric_limits<float>::digits, kDoubleDigits = std::numeric_limits<double>::digits;
+  const Box local{box.min - origin, box.max - origin};
+  const double largest = largest_coordinate(local);
+  if (largest > static_cast<double>(std::numeric_limits<float>::max())) {
+    throw Error(ErrorKind::output, "the volume's coordinates are too large for single precision", "",
+                "write .ply or .obj");
+  }
+  // Origin and number must also add up exactly where they are read.
+  const double step = std::max({spacing(largest, kFloatDigits), spacing(largest_coordinate(box), kDoubleDigits),
+                                static_cast<double>(std::numeric_limits<float>::min())});
+  StoredMesh result = stored(volume, 0, [&](const Vec3& vertex) {
+    return Vec3(origin + ((vertex - origin) / step).array().round().matrix() * step);
+  });
+  result.origin = origin;
+  if (result.mesh.empty()) {
+    throw Error(ErrorKind::output,
+                "nothing of the volume is left in single precision: at these coordinates it is coarse", "",
+                "write .ply or .obj");
+  }
+  return result;
+}
+
+}  // namespace
+
+StoredMesh stored_as_doubles(const Volume& volume) {
+  const Box box = bounding_box(volume.mesh);
+  const double flat = box.empty() ? 0 : numerics::kFlatSteps * spacing(largest_coordinate(box), 53);
+  return stored(volume, flat, [](const Vec3& vertex) { return vertex; });
+}
+
+StoredMesh stored_in_units(const Volume& volume, double scale) {
+  const Box box = bounding_box(volume.mesh);
+  const double flat = box.empty() ? 0 : numerics::kFlatSteps * spacing(largest_coordinate(box), 53);
+  // Until the number that is written reads back as the one that it was made from: at once, as a rule.
+  constexpr int kRounds = 4;
+  return stored(volume, flat, [&](Vec3 vertex) {
+    for (int round = 0; round < kRounds; ++round) vertex = vertex / scale * scale;
+    return vertex;
+  });
+}
+
+StoredMesh stored_as_floats(const Volume& volume) {
+  if (volume.mesh.empty()) return {};
+  return stored_on_grid(volume, bounding_box(volume.mesh), Vec3::Zero());
+}
+
+StoredMesh stored_as_local_floats(const Volume& volume) {
+  if (volume.mesh.empty()) return {};
+  const Box box = bounding_box(volume.mesh);
+  // Whole multiples of a sixteenth of the size, or so: the origin then lies on the grid.
+  const double extent = (box.max - box.min).maxCoeff(), part = extent > 0 ? spacing(extent, 4) : 1;
+  const double unit = std::max(part, spacing(std::max(largest_coordinate(box), extent), 53));
+  return stored_on_grid(volume, box, ((box.min + box.max) / (2 * unit)).array().round() * unit);
+}
+
+}  // namespace vantage::io

@@ -1,0 +1,150 @@
+// glTF 2.0, binary container: y up, one primitive and one material per kind of cause. Positions are single precision,
+// as glTF demands, but relative to a node whose translation is written in full: UTM-sized coordinates survive.
+#include <array>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "io/georeference_text.h"
+#include "io/glb_container.h"
+#include "core/names.h"
+#include "io/writers.h"
+
+namespace vantage::io {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Values of the glTF 2.0 specification.
+constexpr int kFloat = 5126, kUnsignedInt = 5125, kArrayBuffer = 34962, kElementArrayBuffer = 34963, kTriangles = 4;
+
+constexpr std::array kKinds = {CauseKind::scene, CauseKind::range, CauseKind::target_plane, CauseKind::navigation};
+
+/// From the numbers that pictures and screens use (sRGB, 0 to 255) to the linear ones that glTF asks for.
+double linear(int colour) {
+  const double c = colour / 255.0;
+  return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+}
+
+Json material_for(CauseKind kind) {
+  const auto colour_of = [](int red, int green, int blue, double opacity) {
+    return std::array<double, 4>{linear(red), linear(green), linear(blue), opacity};
+  };
+  // The colours of pictures (src/render/palette.h). The range, which is most of the surface, is
+  // the most transparent.
+  std::array<double, 4> colour{};
+  switch (kind) {
+    case CauseKind::scene:
+      colour = colour_of(0, 114, 178, 0.5);
+      break;
+    case CauseKind::range:
+      colour = colour_of(230, 159, 0, 0.25);
+      break;
+    case CauseKind::target_plane:
+      colour = colour_of(128, 128, 134, 0.6);
+      break;
+    case CauseKind::navigation:
+      colour = colour_of(0, 158, 115, 0.4);
+      break;
+  }
+  return {{"name", core::name_of(kind)},
+          {"pbrMetallicRoughness", {{"baseColorFactor", colour}, {"metallicFactor", 0.0}, {"roughnessFactor", 0.9}}},
+          {"alphaMode", "BLEND"},
+          {"doubleSided", true}};
+}
+
+/// The document and its one buffer.
+struct Gltf {
+  Json json;
+  std::string buffer;
+
+  /// Appends to the buffer what `from` marks the beginning of, as a view.
+  std::size_t add_view(std::size_t from, int target) {
+    json["bufferViews"].push_back(
+        {{"buffer", 0}, {"byteOffset", from}, {"byteLength", buffer.size() - from}, {"target", target}});
+    return json["bufferViews"].size() - 1;
+  }
+
+  std::size_t add_accessor(Json accessor) {
+    json["accessors"].push_back(std::move(accessor));
+    return json["accessors"].size() - 1;
+  }
+};
+
+std::size_t add_positions(Gltf& gltf, const StoredMesh& stored) {
+  std::array<float, 3> low, high;
+  low.fill(std::numeric_limits<float>::infinity());
+  high.fill(-std::numeric_limits<float>::infinity());
+  for (const Vec3& vertex : stored.mesh.vertices) {
+    const Vec3 local = to_y_up(vertex - stored.origin);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto coordinate = static_cast<float>(local[static_cast<Eigen::Index>(axis)]);
+      low[axis] = std::min(low[axis], coordinate);
+      high[axis] = std::max(high[axis], coordinate);
+      append_little_endian(gltf.buffer, coordinate);
+    }
+  }
+  // As doubles, so that the text reads back as exactly these floats; the specification demands that.
+  const auto exact = [](const std::array<float, 3>& v) { return std::array<double, 3>{v[0], v[1], v[2]}; };
+  return gltf.add_accessor({{"bufferView", gltf.add_view(0, kArrayBuffer)},
+                            {"componentType", kFloat},
+                            {"count", stored.mesh.vertices.size()},
+                            {"type", "VEC3"},
+                            {"min", exact(low)},
+                            {"max", exact(high)}});
+}
+
+/// Adds the facets of one kind of cause; nothing when there are none.
+void add_primitive(Gltf& gltf, const Volume& volume, const StoredMesh& stored, CauseKind kind, std::size_t positions,
+                   Json& primitives) {
+  const std::size_t from = gltf.buffer.size();
+  for (std::size_t t = 0; t < stored.mesh.triangles.size(); ++t) {
+    if (volume.causes[stored.cause_of[t]].kind != kind) continue;
+    for (const std::uint32_t index : stored.mesh.triangles[t]) append_little_endian(gltf.buffer, index);
+  }
+  const std::size_t count = (gltf.buffer.size() - from) / sizeof(std::uint32_t);
+  if (count == 0) return;
+  const std::size_t indices = gltf.add_accessor({{"bufferView", gltf.add_view(from, kElementArrayBuffer)},
+                                                 {"componentType", kUnsignedInt},
+                                                 {"count", count},
+                                                 {"type", "SCALAR"}});
+  gltf.json["materials"].push_back(material_for(kind));
+  primitives.push_back({{"attributes", {{"POSITION", positions}}},
+                        {"indices", indices},
+                        {"material", gltf.json["materials"].size() - 1},
+                        {"mode", kTriangles}});
+}
+
+Gltf make_gltf(const Volume& volume, const StoredMesh& stored) {
+  Gltf gltf;
+  gltf.json["asset"] = {{"version", "2.0"}, {"generator", "vantage " VANTAGE_VERSION}};
+  gltf.json["asset"]["extras"]["vantage"]["rounding_m"] = stored.rounding_m;
+  gltf.json["scene"] = 0;
+  if (stored.mesh.empty()) {  // the specification allows no empty array, so there is no node either
+    gltf.json["scenes"] = Json::array({{{"name", std::string("no volume: ") + core::name_of(volume.outcome)}}});
+    return gltf;
+  }
+  const Vec3 translation = to_y_up(stored.origin);
+  gltf.json["scenes"] = Json::array({{{"nodes", {0}}}});
+  if (volume.georeference) {
+    gltf.json["scenes"][0]["extras"]["vantage"]["georeference"] = io::georeference_json(*volume.georeference);
+  }
+  gltf.json["nodes"] = Json::array({{{"name", "visibility volume"},
+                                     {"mesh", 0},
+                                     {"translation", {translation.x(), translation.y(), translation.z()}}}});
+  Json primitives = Json::array();
+  const std::size_t positions = add_positions(gltf, stored);
+  for (const CauseKind kind : kKinds) add_primitive(gltf, volume, stored, kind, positions, primitives);
+  gltf.json["meshes"] = Json::array({{{"name", "visibility volume"}, {"primitives", std::move(primitives)}}});
+  gltf.json["buffers"] = Json::array({{{"byteLength", gltf.buffer.size()}}});
+  return gltf;
+}
+
+}  // namespace
+
+void write_glb(const Volume& volume, const StoredMesh& stored, core::AtomicFile& file) {
+  const Gltf gltf = make_gltf(volume, stored);
+  write_glb_container(gltf.json.dump(-1, ' ', false, Json::error_handler_t::replace), gltf.buffer, file);
+}
+
+}  // namespace vantage::io

@@ -1,0 +1,25 @@
+#include "io/write_place.h"
+
+#include "io/georeference_text.h"
+#include "io/writers.h"
+
+namespace vantage::io {
+
+std::string place_comment(const std::optional<Georeference>& georeference, const char* start) {
+  if (!georeference) return {};
+  std::string line(start);
+  line.append(io::kGeoreferenceMark).append(" ").append(io::georeference_text(*georeference));
+  return line.append("\n");
+}
+
+std::unique_ptr<core::AtomicFile> stage_place(const io::PlaceFile& content, const std::filesystem::path& mesh_file) {
+  if (output_extension(mesh_file) != ".stl") return nullptr;
+  const std::filesystem::path file = io::place_file(mesh_file);
+  std::error_code ignored;
+  if (!content.georeference && !content.rounding_m && !std::filesystem::exists(file, ignored)) return nullptr;
+  auto output = std::make_unique<core::AtomicFile>(file);
+  output->write(io::place_file_text(content));
+  return output;
+}
+
+}  // namespace vantage::io

@@ -1,0 +1,72 @@
+// One writer per file format, and what they share. The volumes that they get are checked, and rounded to the numbers of
+// the format: write_volume.cpp.
+#pragma once
+
+#include <bit>
+#include <concepts>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "core/atomic_file.h"
+#include "io/stored_mesh.h"
+#include "vantage/volume.h"
+
+namespace vantage::io {
+
+/// A volume that is written but not in place yet.
+struct StagedVolume {
+  std::vector<std::unique_ptr<core::AtomicFile>> files;  ///< the volume's first; for STL the one beside it too
+  WrittenVolume report;
+};
+
+/// Does all that write_volume does but the last step: the caller gives the files to commit_all. Throws as write_volume
+/// does.
+StagedVolume stage_volume(const Volume& volume, const std::filesystem::path& file, UpAxis obj_up, double obj_scale);
+
+void write_ply(const Volume& volume, const StoredMesh& stored, core::AtomicFile& file);
+/// Throws Error(input) for a `scale` (metres in one unit of the file) that cannot be written in.
+void check_obj_scale(const Volume& volume, double scale);
+void write_obj(const Volume& volume, const StoredMesh& stored, UpAxis up, double scale, core::AtomicFile& file);
+void write_stl(const StoredMesh& stored, core::AtomicFile& file);
+void write_glb(const Volume& volume, const StoredMesh& stored, core::AtomicFile& file);
+
+/// A mesh as binary STL; `content` says in the header what it is.
+void write_stl_mesh(const Mesh& mesh, std::string_view content, core::AtomicFile& file);
+/// The extension in lower case when it is one of those that can be written. Throws Error(input) for another, unless
+/// `file` is a directory, which AtomicFile refuses with a better message.
+std::string output_extension(const std::filesystem::path& file);
+
+/// Throws Error(output) when a format that counts in 32 bits cannot hold that many. `limit` is the largest number
+/// allowed.
+void check_count(std::uint64_t count, std::uint64_t limit, const char* what, const char* format);
+
+/// From the scene frame, z up, to axes with y up: (x, y, z) becomes (x, z, -y).
+inline Vec3 to_y_up(const Vec3& v) { return {v.x(), v.z(), -v.y()}; }
+
+/// The shortest text that reads back as the same number: at most 17 significant digits.
+std::string exact_text(double number);
+
+/// The same, at the end of `text`.
+void append_exact(std::string& text, double number);
+
+/// `text` on one line: control characters become spaces.
+std::string one_line(std::string_view text);
+
+/// Appends a number's bytes, the lowest first, on any machine.
+template <typename Number>
+requires std::is_arithmetic_v<Number>
+void append_little_endian(std::string& bytes, Number number) {
+  using Bits =
+      std::conditional_t<sizeof(Number) == 8, std::uint64_t,
+                         std::conditional_t<sizeof(Number) == 4, std::uint32_t,
+                                            std::conditional_t<sizeof(Number) == 2, std::uint16_t, std::uint8_t>>>;
+  const auto bits = std::bit_cast<Bits>(number);
+  for (unsigned i = 0; i < sizeof(Number); ++i) bytes.push_back(static_cast<char>(bits >> (8 * i) & 0xff));
+}
+
+}  // namespace vantage::io

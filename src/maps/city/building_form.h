@@ -1,0 +1,88 @@
+// Simple 3D Buildings: tags -> heights and a roof. https://wiki.openstreetmap.org/wiki/Simple_3D_Buildings
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "maps/osm/extract.h"
+#include "vantage/city.h"
+
+namespace vantage::city {
+
+enum class RoofShape {
+  flat,
+  gabled,
+  hipped,
+  half_hipped,
+  pyramidal,
+  skillion,
+  gambrel,
+  mansard,
+  dome,
+  onion,
+  cone,
+  round,
+  saltbox
+};
+constexpr int kRoofShapes = 13;
+
+/// As the scheme spells it: "half-hipped".
+std::string_view text(RoofShape shape);
+
+/// One solid over a footprint. Heights are metres above the ground of the building it belongs to.
+struct BuildingForm {
+  double bottom_m = 0;  ///< min_height: 0 stands on the ground
+  double top_m = 0;     ///< of the roof's highest point; > bottom_m
+  double roof_m = 0;    ///< of this the roof's part, 0 <= roof_m <= top_m - bottom_m
+  RoofShape roof = RoofShape::flat;
+  std::optional<double> roof_direction_deg;  ///< compass: where the roof's main face falls to; across the ridge
+  bool roof_across = false;                  ///< roof:orientation=across: the ridge runs along the shorter side
+
+  /// Of a roof whose height the tags leave open: it follows from the outline's width (`settled`), and `roof_m` is 0
+  /// until then.
+  struct Pitch {
+    double angle_deg = 0;
+    bool on_top = false;    ///< the roof comes on top of `top_m`; else `top_m` stays, and the walls give way
+    double most_share = 1;  ///< of the height above the bottom that the roof may take
+  };
+  std::optional<Pitch> pitch;
+  /// > 0: stands on posts. The bottom is this far below the eaves, `bottom_m` only a lower limit (`settled`).
+  double deck_m = 0;
+};
+
+/// What was not as it should be in an object's tags; each kind is counted in the report.
+struct TagRemark {
+  std::string kind;  ///< "height that is no length", "unknown roof shape", "min_height not below height", …
+  std::string what;  ///< "height=concrete: taken as untagged"
+};
+
+/// "48.5", "48.5 m", "48,5m", "160 ft", "160'", "5'11\"", "0.2 km", "5;5.5" (the largest counts: what hides more);
+/// nothing for what is no length. Metres; may be negative.
+std::optional<double> parse_length_m(std::string_view text);
+/// "3", "2.5", "2;3" (the largest); nothing for what is no number of levels.
+std::optional<double> parse_levels(std::string_view text);
+/// Degrees clockwise from north: "45", "45°", "NE", "north"; nothing else.
+std::optional<double> parse_direction_deg(std::string_view text);
+/// A roof:shape, its synonyms included (the table is in roof_names.cpp); nothing for what is none.
+struct RoofName {
+  RoofShape shape = RoofShape::flat;
+  bool same = true;  ///< else the shape that comes closest
+};
+std::optional<RoofName> parse_roof_shape(std::string_view text);
+
+/// Heights and roof of a building or a part. `outline`: the tags of the building that a part lies in, for what the part
+/// does not say itself (nothing is inherited but building, the kind that defaults go by). Never fails: nonsense is
+/// remarked on and taken as untagged. Heights are taken from, in this order:
+///   top     height, building:height, est_height; else building:levels (or the default of the kind) and the roof
+///   bottom  min_height; else building:min_level; else, for building=roof, carport and the like and for wall=no, the
+///           thickness of a deck below the eaves; else the ground
+///   roof    roof:height, roof:levels, roof:angle, the default pitch
+/// A min_height above the height is left out (the object then reaches down to the ground, most often inside what it
+/// stands on); one within 1 cm of the height makes a deck. building:levels not above building:min_level are taken as
+/// counted from there.
+BuildingForm read_form(const osm::Tags& tags, const osm::Tags* outline, const BuildingDefaults& defaults,
+                       std::vector<TagRemark>& remarks);
+
+}  // namespace vantage::city

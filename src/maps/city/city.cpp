@@ -1,0 +1,74 @@
+// build_city: reads, sorts out what stands where, builds each solid, checks it, and puts the scene together.
+#include "vantage/city.h"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "maps/city/assembly.h"
+#include "maps/city/ground.h"
+#include "maps/city/region.h"
+#include "maps/city/site.h"
+#include "maps/city/solid_list.h"
+#include "maps/osm/extract.h"
+#include "vantage/error.h"
+
+namespace vantage {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+/// What of the file does not belong to one building.
+std::vector<std::string> notes_on(const osm::Extract& extract) {
+  std::vector<std::string> notes;
+  std::size_t nodes = 0, members = 0;
+  for (const osm::Problem& problem : extract.problems) {
+    nodes += problem.kind == osm::Problem::Kind::missing_nodes;
+    members += problem.kind == osm::Problem::Kind::missing_members;
+  }
+  if (nodes > 0) notes.push_back(std::to_string(nodes) + " ways refer to nodes that are not in the file");
+  if (members > 0) notes.push_back(std::to_string(members) + " relations refer to ways that are not in the file");
+  if (!extract.sorted) notes.emplace_back("the file is not sorted by type and id; it was sorted in memory");
+  return notes;
+}
+
+}  // namespace
+
+City build_city(const std::filesystem::path& file, const CityOptions& options, const Progress& progress) {
+  const auto region = city::checked_region(options.region);
+  City result;
+
+  auto start = Clock::now();
+  const osm::Extract extract = osm::read_extract(file, {city::with_margin(region), city::wanted}, progress);
+  city::check_overlap(options.region, extract, file);
+  const geo::LocalFrame frame(city::frame_origin(options.region, extract));
+  result.report.notes = notes_on(extract);
+  result.report.read_seconds = seconds_since(start);
+
+  start = Clock::now();
+  city::Site site = city::make_site(extract, osm::RegionFilter(region), frame, options);
+  result.report.outside = site.outside.objects;
+  result.report.bounds_deg = extract.bounds_deg;
+  if (site.items.empty()) city::fail_empty(options.region, extract, site.outside, site.skipped, file);
+  const city::Vec2 margin = city::Vec2::Constant(options.ground_margin_m);
+  const city::Vec2 min = site.min - margin, max = site.max + margin;
+  const city::Ground ground = options.terrain.empty()
+                                  ? city::Ground::plane(min, max)
+                                  : city::Ground::from_file(options.terrain, frame, min, max, options.terrain_error_m,
+                                                            result.report.notes, progress);
+  const std::vector<Mesh> solids = city::build_solids(site, ground, progress);
+  result.report.build_seconds = seconds_since(start);
+
+  const geo::LonLat origin = frame.origin();
+  result.report.georeference = {origin.latitude_deg, origin.longitude_deg, ground.vertical(), "EPSG:4326"};
+  result.scene = city::assemble(site, solids, ground.mesh());
+  result.scene.source = file;
+  result.scene.georeference = result.report.georeference;
+  for (city::Item& item : site.items) result.report.records.push_back(std::move(item.record));
+  for (CityRecord& record : site.skipped) result.report.records.push_back(std::move(record));
+  return result;
+}
+
+}  // namespace vantage

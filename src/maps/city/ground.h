@@ -1,0 +1,39 @@
+// What buildings stand on: a plane at z = 0, or terrain.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "maps/city/footprint.h"
+#include "geo/local_frame.h"
+#include "maps/terrain/surface.h"
+#include "vantage/geometry.h"
+#include "vantage/progress.h"
+
+namespace vantage::city {
+
+class Ground {
+ public:
+  /// A horizontal rectangle at z = 0.
+  static Ground plane(const Vec2& min, const Vec2& max);
+  /// Throws as terrain::read_height_grid does. `notes` gets what was filled and how closely the triangles follow.
+  static Ground from_file(const std::filesystem::path& file, const geo::LocalFrame& frame, const Vec2& min,
+                          const Vec2& max, double max_error_m, std::vector<std::string>& notes,
+                          const Progress& progress);
+
+  /// Of the ground under some footprints (at least one), z in metres.
+  terrain::Surface::Range range(const std::vector<Footprint>& footprints) const;
+  double height(const Vec2& at) const;
+
+  const Mesh& mesh() const;             ///< counter-clockwise seen from above
+  const std::string& vertical() const;  ///< what z is measured from
+
+ private:
+  Mesh plane_;
+  std::optional<terrain::Surface> surface_;
+  std::string vertical_;
+};
+
+}  // namespace vantage::city

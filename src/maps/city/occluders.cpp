@@ -1,0 +1,256 @@
+#include "maps/city/occluders.h"
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <numbers>
+#include <string>
+
+#include "maps/city/tree.h"
+
+namespace vantage::city {
+namespace {
+
+constexpr double kMostHeight = 700;  // metres: of masts the highest ever
+constexpr double kMostWidth = 200;   // metres: of a wall, a bridge or a tank
+constexpr double kLeastSize = 0.05;  // metres: nothing is thinner or lower than that
+constexpr double kMostTree = 150;    // metres
+constexpr double kMostCrown = 60;    // metres
+constexpr double kLeastTower = 0.2;  // metres: a thinner one would be dropped as a sliver
+constexpr int kTowerSides = 16;
+constexpr double kMetreGirth = 20;  // circumference=* beyond that is in centimetres
+
+/// The first of the keys that holds a length up to `most`; what holds none is remarked on.
+std::optional<double> tagged_length(const osm::Tags& tags, std::initializer_list<std::string_view> keys, double most,
+                                    std::vector<TagRemark>& remarks) {
+  for (const std::string_view key : keys) {
+    const std::string_view value = tags.get(key);
+    if (value.empty()) continue;
+    const std::optional<double> length = parse_length_m(value);
+    if (length && *length > 0 && *length <= most) return std::max(*length, kLeastSize);
+    const std::string_view kind = !length ? " that is no length" : *length <= 0 ? " not above zero" : " beyond belief";
+    remarks.push_back(
+        {std::string(key).append(kind), std::string(key).append("=").append(value).append(": taken as untagged")});
+  }
+  return std::nullopt;
+}
+
+OccluderDefaults::Size size_of(const std::map<std::string, OccluderDefaults::Size, std::less<>>& sizes,
+                               std::initializer_list<std::string_view> names) {
+  for (const std::string_view name : names) {
+    const auto found = sizes.find(name);
+    if (found != sizes.end()) return found->second;
+  }
+  return {2, 0.25};
+}
+
+std::vector<Shape> extruded(const std::vector<Footprint>& footprints, const BuildingForm& form) {
+  std::vector<Shape> shapes;
+  for (const Footprint& footprint : footprints) shapes.push_back({footprint, form, std::nullopt});
+  return shapes;
+}
+
+/// The line in pieces of equal length, none longer than `piece_m`; whole when that is 0.
+std::vector<std::vector<Vec2>> pieces_of(const std::vector<Vec2>& line, double piece_m) {
+  double length = 0;
+  for (std::size_t i = 0; i + 1 < line.size(); ++i) length += (line[i + 1] - line[i]).norm();
+  if (piece_m <= 0 || !(length > piece_m)) return {line};
+  const double step = length / std::ceil(length / piece_m);
+  std::vector<std::vector<Vec2>> pieces = {{line[0]}};
+  double left = step;
+  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+    Vec2 from = line[i];
+    double rest = (line[i + 1] - from).norm();
+    while (rest > left + kGrid) {
+      const Vec2 cut = from + (line[i + 1] - from) * (left / rest);
+      pieces.back().push_back(cut);
+      pieces.push_back({cut});
+      rest -= left;
+      from = cut;
+      left = step;
+    }
+    pieces.back().push_back(line[i + 1]);
+    left -= rest;
+  }
+  return pieces;
+}
+
+// ---- walls -------------------------------------------------------------------------------------------------------
+
+OccluderDefaults::Size wall_size(const osm::Tags& tags, const OccluderDefaults& defaults,
+                                 std::vector<TagRemark>& remarks) {
+  const std::string_view barrier = tags.get("barrier");
+  const std::string_view kind = barrier == "wire_fence"               ? "fence"
+                                : tags.get("historic") == "citywalls" ? "city_wall"
+                                                                      : barrier;
+  OccluderDefaults::Size size = size_of(defaults.walls, {tags.get("wall"), kind, "wall"});
+  size.height_m = tagged_length(tags, {"height", "est_height"}, kMostHeight, remarks).value_or(size.height_m);
+  size.width_m = tagged_length(tags, {"width", "est_width"}, kMostWidth, remarks).value_or(size.width_m);
+  return size;
+}
+
+BuildingForm upright(const osm::Tags& tags, double height_m, std::vector<TagRemark>& remarks) {
+  BuildingForm form;
+  form.top_m = height_m;
+  if (!tags.has("min_height") || tags.get("min_height") == "0") return form;
+  const std::optional<double> bottom = tagged_length(tags, {"min_height"}, kMostHeight, remarks);
+  if (bottom && *bottom < height_m) {
+    form.bottom_m = *bottom;
+  } else if (bottom) {
+    remarks.push_back(
+        {"min_height not below height",
+         std::string("min_height=").append(tags.get("min_height")).append(": taken as standing on the ground")});
+  }
+  return form;
+}
+
+std::vector<Shape> walls_along(const osm::Tags& tags, const std::vector<Vec2>& points, double piece_m,
+                               const OccluderDefaults& defaults, std::vector<TagRemark>& remarks) {
+  const OccluderDefaults::Size size = wall_size(tags, defaults, remarks);
+  const BuildingForm form = upright(tags, size.height_m, remarks);
+  std::vector<Shape> shapes;
+  const std::vector<std::vector<Vec2>> pieces = pieces_of(points, piece_m);
+  for (const std::vector<Vec2>& piece : pieces) {
+    const bool closed = pieces.size() == 1 && points.size() > 3 && points.front() == points.back();
+    for (Shape& shape : extruded(widen(piece, closed, size.width_m), form)) shapes.push_back(std::move(shape));
+  }
+  return shapes;
+}
+
+// ---- towers ------------------------------------------------------------------------------------------------------
+
+OccluderDefaults::Size tower_size(const osm::Tags& tags, const OccluderDefaults& defaults) {
+  return size_of(defaults.towers, {tags.get("tower:type"), tags.get("man_made"), "tower"});
+}
+
+/// As a building without a storey height: its roof, its min_height, and a height of its own when it has none.
+BuildingForm tower_form(const osm::Tags& tags, const OccluderDefaults& defaults, std::vector<TagRemark>& remarks) {
+  BuildingDefaults building;
+  building.levels = tower_size(tags, defaults).height_m / building.level_m;
+  building.levels_of.clear();
+  return read_form(tags, nullptr, building, remarks);
+}
+
+// ---- bridges -----------------------------------------------------------------------------------------------------
+
+BuildingForm deck_form(const osm::Tags& tags, const OccluderDefaults& defaults, std::vector<TagRemark>& remarks) {
+  BuildingForm form;
+  const std::string_view layer = tags.get("layer");
+  const std::optional<double> layers = parse_levels(layer);
+  constexpr double kMostLayers = 10;
+  if (!layer.empty() && (!layers || std::abs(*layers) > kMostLayers)) {
+    remarks.push_back({"layer that is none", std::string("layer=").append(layer).append(": taken as untagged")});
+  } else if (layers && *layers < 0) {
+    remarks.push_back({"bridge below the ground", std::string("layer=").append(layer).append(": taken as 0")});
+  }
+  const bool valid = layers && *layers != 0 && std::abs(*layers) <= kMostLayers;
+  form.bottom_m = defaults.layer_m * (valid ? std::max(*layers, 0.0) : 1);
+  if (const auto clear = tagged_length(tags, {"min_height"}, kMostHeight, remarks)) form.bottom_m = *clear;
+  form.top_m = form.bottom_m + defaults.deck_m;
+  return form;
+}
+
+double deck_width(const osm::Tags& tags, const OccluderDefaults& defaults, std::vector<TagRemark>& remarks) {
+  if (const auto width = tagged_length(tags, {"width", "est_width"}, kMostWidth, remarks)) return *width;
+  const auto count = [&](std::string_view key, double most) {
+    const std::optional<double> number = parse_levels(tags.get(key));
+    return number && *number >= 1 && *number <= most ? *number : 0;
+  };
+  std::string_view highway = tags.get("highway");
+  if (highway.empty()) return defaults.track_m * std::max(1.0, count("tracks", 20));
+  if (const double lanes = count("lanes", 20); lanes > 0) return defaults.lane_m * lanes;
+  if (highway.ends_with("_link")) return defaults.other_way_m;
+  const auto found = defaults.ways.find(highway);
+  return found == defaults.ways.end() ? defaults.other_way_m : found->second;
+}
+
+// ---- trees -------------------------------------------------------------------------------------------------------
+
+Tree tree_of(const osm::Tags& tags, const OccluderDefaults& defaults, std::vector<TagRemark>& remarks) {
+  Tree tree;
+  const double height = tagged_length(tags, {"height", "est_height"}, kMostTree, remarks).value_or(defaults.tree_m);
+  const BuildingForm form = upright(tags, height, remarks);
+  tree.bottom_m = form.bottom_m;
+  tree.top_m = form.top_m;
+  const double own = tree.top_m - tree.bottom_m;
+  tree.crown_m = tagged_length(tags, {"diameter_crown", "crown_diameter"}, kMostCrown, remarks)
+                     .value_or(defaults.crown_share * own);
+  std::optional<double> girth = tagged_length(tags, {"circumference"}, 100 * kMetreGirth, remarks);
+  if (girth && *girth > kMetreGirth) *girth /= 100;
+  tree.trunk_m = girth ? *girth / std::numbers::pi : defaults.trunk_share * own;
+  tree.trunk_m = std::min(std::max(tree.trunk_m, kLeastSize / 5), tree.crown_m / 2);
+  tree.crown_base_share = std::clamp(defaults.crown_base_share, 0.05, 0.9);
+  tree.needles = tags.get("leaf_type") == "needleleaved" || tags.get("type") == "conifer";
+  return tree;
+}
+
+std::vector<Shape> trees_along(const osm::Tags& tags, const std::vector<Vec2>& points, const OccluderDefaults& defaults,
+                               std::vector<TagRemark>& remarks) {
+  Tree tree = tree_of(tags, defaults, remarks);
+  std::vector<Shape> shapes;
+  const auto plant = [&](const Vec2& foot) {
+    tree.foot = foot;
+    shapes.push_back({{}, {}, tree});
+  };
+  const std::vector<std::vector<Vec2>> pieces = pieces_of(points, defaults.tree_spacing_m);
+  for (const std::vector<Vec2>& piece : pieces) plant(piece.front());
+  if (points.front() != points.back()) plant(points.back());
+  return shapes;
+}
+
+}  // namespace
+
+std::vector<Shape> shapes_of_line(const osm::Tags& tags, const std::vector<Vec2>& points, double piece_m,
+                                  const OccluderDefaults& defaults, std::vector<TagRemark>& remarks) {
+  const std::string_view kind = kind_of(tags, Geometry::line);
+  const bool finite = std::all_of(points.begin(), points.end(), [](const Vec2& p) { return p.allFinite(); });
+  std::vector<Shape> shapes;
+  if (finite && points.size() >= 2) {
+    if (kind == "wall") shapes = walls_along(tags, points, piece_m, defaults, remarks);
+    if (kind == "tree") shapes = trees_along(tags, points, defaults, remarks);
+    if (kind == "bridge") {
+      const bool closed = points.size() > 3 && points.front() == points.back();
+      shapes = extruded(widen(points, closed, deck_width(tags, defaults, remarks)), deck_form(tags, defaults, remarks));
+    }
+  }
+  if (shapes.empty() && !kind.empty())
+    remarks.push_back({"too small to build", std::string(kind).append(" along a line")});
+  return shapes;
+}
+
+std::vector<Shape> shapes_of_point(const osm::Tags& tags, const Vec2& point, const OccluderDefaults& defaults,
+                                   std::vector<TagRemark>& remarks) {
+  const std::string_view kind = kind_of(tags, Geometry::point);
+  if (kind == "tree") {
+    Tree tree = tree_of(tags, defaults, remarks);
+    tree.foot = point;
+    return {{{}, {}, tree}};
+  }
+  if (kind != "tower") return {};
+  const double diameter =
+      tagged_length(tags, {"diameter", "width"}, kMostWidth, remarks).value_or(tower_size(tags, defaults).width_m);
+  const double built = std::max(diameter, kLeastTower);
+  Ring ring;  // its corners on the circle
+  for (int k = 0; k < kTowerSides; ++k) {
+    const double angle = 2 * std::numbers::pi * k / kTowerSides;
+    ring.push_back(point + built / 2 * Vec2(std::cos(angle), std::sin(angle)));
+  }
+  Repairs repairs;
+  return extruded(clean({{ring, {}}}, repairs), tower_form(tags, defaults, remarks));
+}
+
+std::vector<Shape> shapes_of_area(const osm::Tags& tags, const std::vector<Footprint>& area,
+                                  const OccluderDefaults& defaults, std::vector<TagRemark>& remarks) {
+  const std::string_view kind = kind_of(tags, Geometry::area);
+  if (kind == "tower") return extruded(area, tower_form(tags, defaults, remarks));
+  if (kind == "bridge") return extruded(area, deck_form(tags, defaults, remarks));
+  if (kind == "wall") return extruded(area, upright(tags, wall_size(tags, defaults, remarks).height_m, remarks));
+  return {};
+}
+
+Solid make_solid(const Shape& shape, double ground_m) {
+  if (shape.tree) return {tree_mesh(*shape.tree, ground_m), ""};
+  return make_solid(shape.footprint, shape.form, ground_m);
+}
+
+}  // namespace vantage::city

@@ -1,0 +1,62 @@
+// What hides besides buildings: walls, towers, bridges and trees, as shapes to build on some ground.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "maps/city/building_form.h"
+#include "maps/city/building_solid.h"
+#include "maps/city/footprint.h"
+#include "maps/osm/extract.h"
+
+namespace vantage::city {
+
+enum class Geometry { point, line, area };
+
+/// "building", "building part", "wall", "tower", "bridge", "tree", or an empty text for what hides nothing. A building
+/// that is a tower as well is a building, but a tower where it is a point. What an object is may depend on how it is
+/// drawn: a garden with barrier=fence is a wall as a line and nothing as an area (unless area=yes says that the barrier
+/// itself is drawn).
+std::string_view kind_of(const osm::Tags& tags, Geometry geometry);
+
+/// Whether the tags make any of these of some geometry: for osm::ReadOptions.
+bool wanted(const osm::Tags& tags);
+
+/// A tree: an eight-sided trunk that widens into a crown; one closed surface, every upright section convex but for the
+/// crown's underside.
+struct Tree {
+  Vec2 foot = Vec2::Zero();
+  double bottom_m = 0, top_m = 0;   ///< above the ground
+  double crown_m = 0, trunk_m = 0;  ///< diameters
+  double crown_base_share = 0.25;
+  bool needles = false;  ///< the crown is a cone; else an egg
+};
+
+/// One solid: something extruded, or a tree. Heights count from the ground where it stands.
+struct Shape {
+  Footprint footprint;  ///< empty for a tree
+  BuildingForm form;
+  std::optional<Tree> tree;
+};
+
+/// Of a line: walls, tree rows, bridges. `points`: in scene metres, of a closed line the first repeated at the end.
+/// `piece_m` > 0: walls come in pieces of that length, each to stand on ground of its own; else in one.
+/// Bridges: the underside lies layer=* times `layer_m` above the ground, or at min_height.
+/// Empty, with a remark, for what has no length.
+std::vector<Shape> shapes_of_line(const osm::Tags& tags, const std::vector<Vec2>& points, double piece_m,
+                                  const OccluderDefaults& defaults, std::vector<TagRemark>& remarks);
+
+/// Of a point: towers (regular 16-gons) and trees.
+std::vector<Shape> shapes_of_point(const osm::Tags& tags, const Vec2& point, const OccluderDefaults& defaults,
+                                   std::vector<TagRemark>& remarks);
+
+/// Of an area, cleaned: towers, bridges, and walls drawn as areas.
+std::vector<Shape> shapes_of_area(const osm::Tags& tags, const std::vector<Footprint>& area,
+                                  const OccluderDefaults& defaults, std::vector<TagRemark>& remarks);
+
+/// As make_solid does it for buildings; `ground_m`: z of the ground that the heights count from.
+Solid make_solid(const Shape& shape, double ground_m);
+
+}  // namespace vantage::city

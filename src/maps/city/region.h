@@ -1,0 +1,38 @@
+// The part of the map that is asked for: checks, and what is said when it holds nothing.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "geo/local_frame.h"
+#include "maps/osm/extract.h"
+#include "vantage/city.h"
+
+namespace vantage::city {
+
+/// Throws Error(input) for what cannot be right in any file: numbers out of range, no area, circle and box at once.
+std::optional<osm::Region> checked_region(const CityRegion& region);
+
+/// What to read so that every building of the region comes with all its parts: a margin round it.
+std::optional<osm::Region> with_margin(const std::optional<osm::Region>& region);
+
+/// Throws Error(input) where the region lies outside the file (its bounds; latitude and longitude the wrong way round).
+void check_overlap(const CityRegion& region, const osm::Extract& extract, const std::filesystem::path& file);
+
+/// What was read and does not belong to the region.
+struct Outside {
+  std::size_t objects = 0;
+  double nearest_m = 0;  ///< from the region's centre; 0 when there are none
+
+  void add(std::size_t more, double nearest);
+};
+
+/// Says what the region lacks: how far the nearest object outside is, and why what was read of it was skipped.
+[[noreturn]] void fail_empty(const CityRegion& region, const osm::Extract& extract, const Outside& outside,
+                             const std::vector<CityRecord>& skipped, const std::filesystem::path& file);
+
+/// Origin of the frame: the middle of what is asked for, or else of the areas that were read.
+geo::LonLat frame_origin(const CityRegion& region, const osm::Extract& extract);
+
+}  // namespace vantage::city

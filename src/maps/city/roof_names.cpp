@@ -1,0 +1,117 @@
+// The names of roofs: those of the scheme, other spellings of them that are in use, and shapes that are built as the
+// one that comes closest.
+//
+//   built as      names
+//   flat          flat
+//   gabled        gabled, gable, pitched, saddle; close: double_saltbox, gabled_row, cross_gabled, crosspitched
+//   hipped        hipped, hip; close: side_hipped, hipped-and-gabled, dutch_gabled, gablet
+//   half-hipped   half-hipped, half_hip, clipped_gable, jerkinhead; close: side_half-hipped
+//   pyramidal     pyramidal, pyramid, tented, tent; close: spire, crosshipped
+//   skillion      skillion, lean-to, mono-pitched, monopitch, single-pitched, pent, shed, sloped, slanted
+//   gambrel       gambrel
+//   mansard       mansard, mansarde
+//   dome          dome, domed, hemisphere
+//   onion         onion, bulbous
+//   cone          cone, conical
+//   round         round, rounded, barrel, barrel_vault, vault, arched
+//   saltbox       saltbox; close: gabled_height_moved
+//
+// Others (sawtooth, butterfly, many, …) are no roof of the scheme: they are taken as flat, and remarked on.
+#include <algorithm>
+#include <array>
+#include <string>
+
+#include "maps/city/building_form.h"
+
+namespace vantage::city {
+namespace {
+
+struct Known {
+  std::string_view name;
+  RoofShape shape;
+  bool same = true;
+};
+
+// Spelt with underscores.
+constexpr std::array kKnown = {
+    Known{"flat", RoofShape::flat},
+    Known{"gabled", RoofShape::gabled},
+    Known{"gable", RoofShape::gabled},
+    Known{"pitched", RoofShape::gabled},
+    Known{"saddle", RoofShape::gabled},
+    Known{"double_saltbox", RoofShape::gabled, false},
+    Known{"gabled_row", RoofShape::gabled, false},
+    Known{"cross_gabled", RoofShape::gabled, false},
+    Known{"crosspitched", RoofShape::gabled, false},
+    Known{"hipped", RoofShape::hipped},
+    Known{"hip", RoofShape::hipped},
+    Known{"side_hipped", RoofShape::hipped, false},
+    Known{"hipped_and_gabled", RoofShape::hipped, false},
+    Known{"dutch_gabled", RoofShape::hipped, false},
+    Known{"gablet", RoofShape::hipped, false},
+    Known{"half_hipped", RoofShape::half_hipped},
+    Known{"half_hip", RoofShape::half_hipped},
+    Known{"clipped_gable", RoofShape::half_hipped},
+    Known{"jerkinhead", RoofShape::half_hipped},
+    Known{"side_half_hipped", RoofShape::half_hipped, false},
+    Known{"pyramidal", RoofShape::pyramidal},
+    Known{"pyramid", RoofShape::pyramidal},
+    Known{"tented", RoofShape::pyramidal},
+    Known{"tent", RoofShape::pyramidal},
+    Known{"spire", RoofShape::pyramidal, false},
+    Known{"crosshipped", RoofShape::pyramidal, false},
+    Known{"skillion", RoofShape::skillion},
+    Known{"lean_to", RoofShape::skillion},
+    Known{"mono_pitched", RoofShape::skillion},
+    Known{"monopitched", RoofShape::skillion},
+    Known{"mono_pitch", RoofShape::skillion},
+    Known{"monopitch", RoofShape::skillion},
+    Known{"single_pitched", RoofShape::skillion},
+    Known{"pent", RoofShape::skillion},
+    Known{"shed", RoofShape::skillion},
+    Known{"sloped", RoofShape::skillion},
+    Known{"slanted", RoofShape::skillion},
+    Known{"gambrel", RoofShape::gambrel},
+    Known{"mansard", RoofShape::mansard},
+    Known{"mansarde", RoofShape::mansard},
+    Known{"dome", RoofShape::dome},
+    Known{"domed", RoofShape::dome},
+    Known{"hemisphere", RoofShape::dome},
+    Known{"onion", RoofShape::onion},
+    Known{"bulbous", RoofShape::onion},
+    Known{"cone", RoofShape::cone},
+    Known{"conical", RoofShape::cone},
+    Known{"round", RoofShape::round},
+    Known{"rounded", RoofShape::round},
+    Known{"barrel", RoofShape::round},
+    Known{"barrel_vault", RoofShape::round},
+    Known{"vault", RoofShape::round},
+    Known{"arched", RoofShape::round},
+    Known{"saltbox", RoofShape::saltbox},
+    Known{"gabled_height_moved", RoofShape::saltbox, false},
+};
+
+}  // namespace
+
+std::string_view text(RoofShape shape) {
+  static constexpr std::array<std::string_view, kRoofShapes> names = {
+      "flat",    "gabled", "hipped", "half-hipped", "pyramidal", "skillion", "gambrel",
+      "mansard", "dome",   "onion",  "cone",        "round",     "saltbox"};
+  return names[static_cast<std::size_t>(shape)];
+}
+
+std::optional<RoofName> parse_roof_shape(std::string_view text) {
+  const auto is_space = [](char c) { return c == ' ' || c == '\t'; };
+  while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
+  std::string name(text);
+  for (char& c : name) {
+    if (c == '-' || c == ' ') c = '_';
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  const auto found = std::find_if(kKnown.begin(), kKnown.end(), [&](const Known& known) { return known.name == name; });
+  if (found == kKnown.end()) return std::nullopt;
+  return RoofName{found->shape, found->same};
+}
+
+}  // namespace vantage::city

@@ -1,0 +1,41 @@
+// Everything that is to be built, in the frame's metres, before it becomes solid.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "maps/city/footprint.h"
+#include "maps/city/occluders.h"
+#include "maps/city/region.h"
+#include "geo/local_frame.h"
+#include "maps/osm/extract.h"
+#include "maps/osm/region_filter.h"
+#include "vantage/city.h"
+
+namespace vantage::city {
+
+/// One object of the scene.
+struct Item {
+  CityRecord record;          ///< heights and fate are filled when it is built
+  std::vector<Shape> shapes;  ///< each becomes a closed piece
+  enum class Stand {
+    together,  ///< on the lowest ground under `standing`
+    each,      ///< each shape on the lowest ground under it: walls and trees follow the ground
+    above      ///< on the highest ground under `standing`: bridges
+  } stand = Stand::together;
+  std::vector<Footprint> standing;  ///< of a part its building's outline; empty: the shapes' footprints
+};
+
+struct Site {
+  std::vector<Item> items;
+  std::vector<CityRecord> skipped;  ///< read, wanted and not built, with the reason
+  Outside outside;
+  Vec2 min = Vec2::Zero(), max = Vec2::Zero();  ///< bounds of the footprints
+};
+
+/// Buildings and parts by Simple 3D Buildings, and the other occluders that are switched on. An object belongs to the
+/// region when one of its corners does, and a building with all its parts when one of theirs does.
+Site make_site(const osm::Extract& extract, const osm::RegionFilter& region, const geo::LocalFrame& frame,
+               const CityOptions& options);
+
+}  // namespace vantage::city

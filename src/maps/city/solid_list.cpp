@@ -1,0 +1,135 @@
+#include "maps/city/solid_list.h"
+
+#include <algorithm>
+#include <string>
+
+#include "maps/city/building_solid.h"
+#include "core/progress_reporter.h"
+#include "core/parallel.h"
+#include "solid/solid_check.h"
+#include "vantage/error.h"
+
+namespace vantage::city {
+namespace {
+
+constexpr std::size_t kGrain = 64;
+
+void append(Mesh& mesh, const Mesh& piece) {
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), piece.vertices.begin(), piece.vertices.end());
+  for (const Triangle& t : piece.triangles) mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+}
+
+void repair(CityRecord& record, const std::string& how) {
+  record.fate = Fate::repaired;
+  if (record.reason.empty()) record.reason = how;
+}
+
+std::vector<Footprint> footprints_of(const Item& item) {
+  std::vector<Footprint> footprints;
+  for (const Shape& shape : item.shapes) {
+    if (!shape.footprint.outer.empty()) footprints.push_back(shape.footprint);
+  }
+  return footprints;
+}
+
+/// z that a shape's heights count from. `together` is of the whole item.
+double ground_under(const Item& item, const Shape& shape, const Ground& ground, double together) {
+  if (item.stand != Item::Stand::each) return together;
+  return shape.tree ? ground.height(shape.tree->foot) : ground.range({shape.footprint}).lowest;
+}
+
+/// A mesh for each shape. Fills the record's ground and area.
+std::vector<Mesh> build(Item& item, const Ground& ground) {
+  const std::vector<Footprint> footprints = footprints_of(item);
+  double together = 0;
+  if (item.stand != Item::Stand::each) {
+    const auto range = ground.range(item.standing.empty() ? footprints : item.standing);
+    together = item.stand == Item::Stand::above ? range.highest : range.lowest;
+  }
+  item.record.ground_m = ground_under(item, item.shapes.front(), ground, together);
+  item.record.footprint_m2 = area_m2(footprints);
+  std::vector<Mesh> pieces;
+  for (const Shape& shape : item.shapes) {
+    Solid solid = make_solid(shape, ground_under(item, shape, ground, together));
+    if (!solid.repair.empty()) repair(item.record, solid.repair);
+    pieces.push_back(std::move(solid.mesh));
+  }
+  return pieces;
+}
+
+/// What is wrong with the first piece that is no solid, or nothing.
+std::string fault(const std::vector<Mesh>& pieces, const std::string& name) {
+  for (const Mesh& piece : pieces) {
+    try {
+      solid::checked_solid(piece, name);
+    } catch (const Error& error) {
+      if (error.kind() == ErrorKind::cancelled) throw;
+      return error.problem();
+    }
+  }
+  return {};
+}
+
+bool has_roof(const Item& item) {
+  return std::any_of(item.shapes.begin(), item.shapes.end(),
+                     [](const Shape& shape) { return !shape.tree && shape.form.roof != RoofShape::flat; });
+}
+
+void check(Item& item, std::vector<Mesh>& pieces, const Ground& ground) {
+  const std::string wrong = fault(pieces, item.record.object);
+  if (wrong.empty()) return;
+  if (has_roof(item)) {
+    Item flat = item;
+    for (Shape& shape : flat.shapes) shape.form.roof = RoofShape::flat;
+    std::vector<Mesh> simpler = build(flat, ground);
+    if (fault(simpler, item.record.object).empty()) {
+      pieces = std::move(simpler);
+      repair(item.record, "roof of its shape is no solid here: flat instead");
+      return;
+    }
+  }
+  item.record.fate = Fate::open_surface;
+  item.record.reason = wrong;
+}
+
+Mesh joined(const std::vector<Mesh>& pieces, CityRecord& record) {
+  Mesh mesh;
+  for (const Mesh& piece : pieces) append(mesh, piece);
+  const Box bounds = bounding_box(mesh);
+  record.base_m = bounds.min.z();
+  record.top_m = bounds.max.z();
+  return mesh;
+}
+
+/// Nothing where it cannot be built: one object out of line must not cost all the others.
+Mesh solid_of(Item& item, const Ground& ground) {
+  try {
+    std::vector<Mesh> pieces = build(item, ground);
+    check(item, pieces, ground);
+    return joined(pieces, item.record);
+  } catch (const Error& error) {
+    if (error.kind() == ErrorKind::cancelled) throw;
+    item.record.fate = Fate::skipped;
+    item.record.reason = error.problem();
+    return {};
+  }
+}
+
+}  // namespace
+
+std::vector<Mesh> build_solids(Site& site, const Ground& ground, const Progress& callback) {
+  std::vector<Mesh> solids(site.items.size());
+  const core::ProgressReporter progress(callback);
+  progress.begin("building");
+  core::ProgressCounter counter(progress, site.items.size());
+  parallel::for_ranges(site.items.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      solids[i] = solid_of(site.items[i], ground);
+    }
+    counter.add(end - begin);
+  });
+  return solids;
+}
+
+}  // namespace vantage::city

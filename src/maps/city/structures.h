@@ -1,0 +1,44 @@
+// Buildings and their parts in the plane: which part belongs to which outline, and what the parts leave uncovered.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "maps/city/footprint.h"
+#include "geo/local_frame.h"
+#include "maps/osm/extract.h"
+
+namespace vantage::city {
+
+/// A building or a building part.
+struct Structure {
+  const osm::Area* source = nullptr;
+  bool is_part = false;
+  std::vector<Footprint> footprints;  ///< empty: nothing with an area was left
+  Repairs repairs;
+  double area_m2 = 0;
+  Vec2 min = Vec2::Zero(), max = Vec2::Zero();  ///< bounds
+
+  std::optional<std::size_t> outline;  ///< of a part: the structure that it belongs to
+  std::vector<std::size_t> parts;      ///< of a building: the structures that lie in it
+};
+
+/// Of the areas those that are buildings or parts, in the frame's metres.
+std::vector<Structure> structures_of(const std::vector<osm::Area>& areas, const geo::LocalFrame& frame);
+
+/// The rings of an area, projected. Not cleaned.
+std::vector<Footprint> project(const osm::Area& area, const geo::LocalFrame& frame);
+
+/// Fills `outline` and `parts`. A part replaces every building that holds at least half of it, and the one that a
+/// type=building relation names for it: outlines lie on one another where a block, a station or a mall is drawn as well
+/// as the buildings in it. Its own outline is the one of the relation, or else the smallest.
+void assign_parts(std::vector<Structure>& structures, const std::vector<osm::BuildingRelation>& relations);
+
+/// What of a building none of these structures covers, seen from above. Slivers that come of careless drawing are left
+/// out.
+std::vector<Footprint> uncovered(const Structure& building, const std::vector<Structure>& structures,
+                                 const std::vector<std::size_t>& parts);
+
+}  // namespace vantage::city

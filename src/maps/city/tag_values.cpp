@@ -1,0 +1,168 @@
+// Lengths, levels and directions as people write them in tags.
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+#include "maps/city/building_form.h"
+
+namespace vantage::city {
+namespace {
+
+bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+std::string lower(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return result;
+}
+
+/// A number at the front of `text`, which is shortened by it: "12", "-3", "+4", "2.5", ".5", "2,5"; no exponents.
+std::optional<double> take_number(std::string_view& text) {
+  std::string digits;
+  std::size_t i = 0;
+  if (i < text.size() && (text[i] == '+' || text[i] == '-')) {
+    if (text[i] == '-') digits = "-";
+    ++i;
+  }
+  bool any = false, point = false;
+  for (; i < text.size(); ++i) {
+    const bool separator = text[i] == '.' || text[i] == ',';
+    if (separator ? point : !is_digit(text[i])) break;
+    point = point || separator;
+    any = any || !separator;
+    digits += separator ? '.' : text[i];
+  }
+  double value = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (!any || error != std::errc() || end != digits.data() + digits.size() || !std::isfinite(value)) {
+    return std::nullopt;
+  }
+  text.remove_prefix(i);
+  return value;
+}
+
+/// A number and nothing more.
+std::optional<double> plain_number(std::string_view text) {
+  const std::optional<double> value = take_number(text);
+  return value && text.empty() ? value : std::nullopt;
+}
+
+constexpr double kFoot = 0.3048, kInch = 0.0254;
+
+/// Metres in a unit.
+std::optional<double> unit_m(std::string_view unit) {
+  static constexpr std::array<std::pair<std::string_view, double>, 18> units = {{{"", 1},
+                                                                                 {"m", 1},
+                                                                                 {"m.", 1},
+                                                                                 {"meter", 1},
+                                                                                 {"meters", 1},
+                                                                                 {"metre", 1},
+                                                                                 {"metres", 1},
+                                                                                 {"mm", 0.001},
+                                                                                 {"cm", 0.01},
+                                                                                 {"km", 1000},
+                                                                                 {"ft", kFoot},
+                                                                                 {"ft.", kFoot},
+                                                                                 {"feet", kFoot},
+                                                                                 {"foot", kFoot},
+                                                                                 {"'", kFoot},
+                                                                                 {"in", kInch},
+                                                                                 {"inch", kInch},
+                                                                                 {"\"", kInch}}};
+  const auto found = std::find_if(units.begin(), units.end(), [&](const auto& known) { return known.first == unit; });
+  if (found == units.end()) return std::nullopt;
+  return found->second;
+}
+
+/// The typographer's marks for feet and inches as plain ones, two apostrophes as one inch mark.
+std::string plain_marks(std::string_view text) {
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 5> marks = {
+      {{"\u2032", "'"}, {"\u2019", "'"}, {"\u2033", "\""}, {"\u201d", "\""}, {"''", "\""}}};
+  std::string result(text);
+  for (const auto& [from, to] : marks) {
+    for (std::size_t at = 0; (at = result.find(from, at)) != std::string::npos; at += to.size()) {
+      result.replace(at, from.size(), to);
+    }
+  }
+  return result;
+}
+
+std::optional<double> one_length_m(std::string_view text) {
+  const std::string value = plain_marks(lower(text));
+  std::string_view rest = value;
+  const std::optional<double> number = take_number(rest);
+  if (!number) return std::nullopt;
+  if (!rest.empty() && rest.front() == '\'' && rest.size() > 1) {  // 5'11": feet and inches
+    rest = trimmed(rest.substr(1));
+    const bool digit = !rest.empty() && is_digit(rest.front());
+    const std::optional<double> inches = digit ? take_number(rest) : std::nullopt;
+    if (!inches || *inches >= 12 || (!rest.empty() && rest != "\"")) return std::nullopt;
+    return (*number * kFoot) + std::copysign(*inches * kInch, *number);
+  }
+  const std::optional<double> unit = unit_m(trimmed(rest));
+  if (!unit) return std::nullopt;
+  return *number * *unit;
+}
+
+/// The largest of the values between semicolons, all of which must be values; empty ones are passed over.
+template <typename Parse>
+std::optional<double> largest(std::string_view list, const Parse& parse) {
+  std::optional<double> result;
+  while (true) {
+    const std::size_t end = list.find(';');
+    const std::string_view item = trimmed(list.substr(0, end));
+    if (!item.empty()) {
+      const std::optional<double> value = parse(item);
+      if (!value) return std::nullopt;
+      result = result ? std::max(*result, *value) : *value;
+    }
+    if (end == std::string_view::npos) return result;
+    list.remove_prefix(end + 1);
+  }
+}
+
+}  // namespace
+
+std::optional<double> parse_length_m(std::string_view text) { return largest(text, one_length_m); }
+
+std::optional<double> parse_levels(std::string_view text) { return largest(text, plain_number); }
+
+std::optional<double> parse_direction_deg(std::string_view text) {
+  static constexpr std::array<std::string_view, 16> winds = {"n", "nne", "ne", "ene", "e", "ese", "se", "sse",
+                                                             "s", "ssw", "sw", "wsw", "w", "wnw", "nw", "nnw"};
+  std::string value = lower(trimmed(text));
+  constexpr std::string_view degree = "\u00b0";
+  if (value.ends_with(degree)) value.resize(value.size() - degree.size());
+  if (const std::optional<double> number = plain_number(trimmed(value))) {
+    const double turned = std::fmod(*number, 360);
+    return turned < 0 ? turned + 360 : turned;
+  }
+  // "north-north-east" and the like by their initials.
+  std::string initials;
+  std::string_view rest = value;
+  while (!rest.empty()) {
+    static constexpr std::array<std::string_view, 4> words = {"north", "east", "south", "west"};
+    const auto word = std::find_if(words.begin(), words.end(), [&](std::string_view w) { return rest.starts_with(w); });
+    if (word == words.end()) break;
+    initials += word->front();
+    rest.remove_prefix(word->size());
+    while (!rest.empty() && (rest.front() == '-' || rest.front() == '_' || rest.front() == ' ')) rest.remove_prefix(1);
+  }
+  const std::string_view name = rest.empty() ? std::string_view(initials) : std::string_view(value);
+  const auto wind = std::find(winds.begin(), winds.end(), name);
+  if (wind == winds.end()) return std::nullopt;
+  return 22.5 * static_cast<double>(wind - winds.begin());
+}
+
+}  // namespace vantage::city

@@ -1,0 +1,65 @@
+#include "maps/city/triangulate.h"
+
+#include <CDT.h>
+
+#include "vantage/error.h"
+
+namespace vantage::city {
+namespace {
+
+bool is_strictly_convex(const GridRing& ring) {
+  const std::size_t count = ring.size();
+  if (count < 3) return false;
+  // All corners turn left, and all as seen from the first: no second time round.
+  for (std::size_t i = 0; i < count; ++i) {
+    if (turn(ring[i], ring[(i + 1) % count], ring[(i + 2) % count]) <= 0) return false;
+  }
+  for (std::size_t i = 1; i + 1 < count; ++i) {
+    if (turn(ring[0], ring[i], ring[i + 1]) <= 0) return false;
+  }
+  return true;
+}
+
+std::vector<Triangle> fan(std::size_t count) {
+  std::vector<Triangle> result;
+  for (std::uint32_t i = 1; i + 1 < count; ++i) result.push_back({0, i, i + 1});
+  return result;
+}
+
+}  // namespace
+
+std::vector<Triangle> triangulate(const std::vector<GridRing>& rings) {
+  if (rings.size() == 1 && is_strictly_convex(rings[0])) return fan(rings[0].size());
+  std::vector<CDT::V2d<double>> points;
+  std::vector<CDT::Edge> edges;
+  for (const GridRing& ring : rings) {
+    const auto first = static_cast<CDT::VertInd>(points.size()), count = static_cast<CDT::VertInd>(ring.size());
+    for (CDT::VertInd i = 0; i < count; ++i) {
+      points.emplace_back(static_cast<double>(ring[i].x), static_cast<double>(ring[i].y));
+      edges.emplace_back(first + i, first + (i + 1) % count);
+    }
+  }
+  try {
+    const CDT::DuplicatesInfo duplicates = CDT::RemoveDuplicatesAndRemapEdges(points, edges);
+    std::vector<std::uint32_t> first_of(points.size(), ~0u);  // the corner that a point stands for
+    for (std::uint32_t i = 0; i < duplicates.mapping.size(); ++i) {
+      std::uint32_t& first = first_of[duplicates.mapping[i]];
+      first = std::min(first, i);
+    }
+    CDT::Triangulation<double> cdt(CDT::VertexInsertionOrder::Auto, CDT::IntersectingConstraintEdges::NotAllowed, 0);
+    cdt.insertVertices(points);
+    cdt.insertEdges(edges);
+    cdt.eraseOuterTrianglesAndHoles();
+    std::vector<Triangle> result;
+    result.reserve(cdt.triangles.size());
+    for (const CDT::Triangle& t : cdt.triangles) {
+      result.push_back({first_of[t.vertices[0]], first_of[t.vertices[1]], first_of[t.vertices[2]]});
+    }
+    return result;
+  } catch (const CDT::Error& error) {
+    throw Error(ErrorKind::internal, std::string("an outline could not be triangulated: ").append(error.what()),
+                "outline", "please report this with the map");
+  }
+}
+
+}  // namespace vantage::city

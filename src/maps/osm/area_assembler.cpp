@@ -1,0 +1,273 @@
+#if defined(__GNUC__) && !defined(__clang__)
+// GCC 12 takes the user name behind libosmium's variable-sized objects for a read past their end.
+#pragma GCC diagnostic ignored "-Wstringop-overread"
+#endif
+
+#include "maps/osm/area_assembler.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <osmium/area/assembler.hpp>
+#include <osmium/area/problem_reporter.hpp>
+#include <osmium/builder/osm_object_builder.hpp>
+#include <osmium/osm/area.hpp>
+#include <utility>
+
+#include "maps/osm/assembly_plane.h"
+#include "maps/osm/map_objects.h"
+
+namespace vantage::osm {
+namespace {
+
+std::string place_text(LonLat position) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.7f, %.7f", position.longitude_deg, position.latitude_deg);
+  return text;
+}
+
+/// Collects what the assembler complains of: how often, and where first.
+class Complaints : public osmium::area::ProblemReporter {
+ public:
+  Complaints(ObjectId subject, const AssemblyPlane& plane) : subject_(subject), plane_(plane) {}
+
+  void report_intersection(osmium::object_id_type way1, osmium::Location, osmium::Location, osmium::object_id_type way2,
+                           osmium::Location, osmium::Location, osmium::Location where) override {
+    if (crossings_++ > 0) return;
+    std::string who = subject_ == ObjectId{ObjectType::way, way1} ? "it" : text({ObjectType::way, way1});
+    who.append(" crosses ").append(way1 == way2 ? "itself" : text({ObjectType::way, way2}));
+    first_crossing_ = who.append(" at ").append(place_text(plane_.from_plane(where)));
+  }
+  void report_ring_not_closed(const osmium::NodeRef& node, const osmium::Way* way) override {
+    if (open_ends_++ > 0) return;
+    first_open_end_ = std::string("the ring is open at ").append(place_text(plane_.from_plane(node.location())));
+    if (way != nullptr) first_open_end_.append(" (").append(text(ObjectId{ObjectType::way, way->id()})).append(")");
+  }
+  void report_duplicate_segment(const osmium::NodeRef& a, const osmium::NodeRef&) override { note_doubled(a); }
+  void report_overlapping_segment(const osmium::NodeRef& a, const osmium::NodeRef&) override { note_doubled(a); }
+
+  std::string sentence() const {
+    if (crossings_ > 0) return with_count(first_crossing_, crossings_, "crossings");
+    if (open_ends_ > 0) return with_count(first_open_end_, open_ends_, "open ends");
+    if (doubled_ > 0)
+      return std::string("no area is left between sides that are drawn twice, at ").append(first_doubled_);
+    return "the rings do not bound an area";
+  }
+
+ private:
+  void note_doubled(const osmium::NodeRef& node) {
+    if (doubled_++ == 0) first_doubled_ = place_text(plane_.from_plane(node.location()));
+  }
+  static std::string with_count(const std::string& first, std::size_t count, const char* what) {
+    if (count == 1) return first;
+    return first + " (" + std::to_string(count) + " " + what + ")";
+  }
+
+  ObjectId subject_;
+  const AssemblyPlane& plane_;
+  std::size_t crossings_ = 0, open_ends_ = 0, doubled_ = 0;
+  std::string first_crossing_, first_open_end_, first_doubled_;
+};
+
+using NodeLocations = std::vector<osmium::Location>;
+
+/// Twice the area that a ring of the plane is wound round, counter-clockwise; about its first position.
+double twice_signed_area(const NodeLocations& ring) {
+  const auto from_first = [&](osmium::Location at) {
+    return LonLat{at.lon_without_check() - ring[0].lon_without_check(),
+                  at.lat_without_check() - ring[0].lat_without_check()};
+  };
+  double sum = 0;
+  for (std::size_t i = 1; i + 1 < ring.size(); ++i) {
+    const LonLat a = from_first(ring[i]), b = from_first(ring[i + 1]);
+    sum += a.longitude_deg * b.latitude_deg - a.latitude_deg * b.longitude_deg;
+  }
+  return sum;
+}
+
+/// Of places in the plane, turned as is asked for.
+Ring to_ring(NodeLocations places, bool counter_clockwise, const AssemblyPlane& plane) {
+  if ((twice_signed_area(places) > 0) != counter_clockwise) std::reverse(places.begin(), places.end());
+  Ring ring;
+  for (const osmium::Location place : places) ring.push_back(plane.from_plane(place));
+  return ring;
+}
+
+Ring to_ring(const osmium::NodeRefList& nodes, bool outer, const AssemblyPlane& plane) {
+  NodeLocations places;
+  for (const osmium::NodeRef& node : nodes) places.push_back(node.location());
+  places.pop_back();  // the first one again
+  return to_ring(std::move(places), outer, plane);
+}
+
+using Segment = std::pair<osmium::Location, osmium::Location>;
+
+Segment segment(const osmium::NodeRef& a, const osmium::NodeRef& b) {
+  return a.location() < b.location() ? Segment{a.location(), b.location()} : Segment{b.location(), a.location()};
+}
+
+/// The sides of rings, to tell which way is part of them.
+class Sides {
+ public:
+  void add(const osmium::NodeRefList& ring) {
+    for (std::size_t i = 1; i < ring.size(); ++i) sides_.push_back(segment(ring[i - 1], ring[i]));
+  }
+  void finish() { std::sort(sides_.begin(), sides_.end()); }
+  bool has_any_of(const osmium::WayNodeList& nodes) const {
+    for (std::size_t i = 1; i < nodes.size(); ++i) {
+      if (std::binary_search(sides_.begin(), sides_.end(), segment(nodes[i - 1], nodes[i]))) return true;
+    }
+    return false;
+  }
+
+ private:
+  std::vector<Segment> sides_;
+};
+
+osmium::area::AssemblerConfig config_with(Complaints& complaints) {
+  osmium::area::AssemblerConfig config;
+  config.problem_reporter = &complaints;
+  config.create_empty_areas = false;
+  config.ignore_invalid_locations = true;  // nodes that are not in the file: counted elsewhere
+  return config;
+}
+
+std::vector<Polygon> to_polygons(const osmium::Area& area, const AssemblyPlane& plane) {
+  std::vector<Polygon> polygons;
+  for (const osmium::OuterRing& outer : area.outer_rings()) {
+    Polygon& polygon = polygons.emplace_back();
+    polygon.outer = to_ring(outer, true, plane);
+    for (const osmium::InnerRing& inner : area.inner_rings(outer)) {
+      polygon.holes.push_back(to_ring(inner, false, plane));
+    }
+  }
+  return polygons;
+}
+
+/// `placed`: of each member its way, in the plane.
+void classify(std::vector<MemberWay>& members, const std::vector<const osmium::Way*>& placed,
+              const osmium::Area& area) {
+  Sides outer_sides, inner_sides;
+  for (const osmium::OuterRing& outer : area.outer_rings()) {
+    outer_sides.add(outer);
+    for (const osmium::InnerRing& inner : area.inner_rings(outer)) inner_sides.add(inner);
+  }
+  outer_sides.finish();
+  inner_sides.finish();
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    members[i].outer = outer_sides.has_any_of(placed[i]->nodes());
+    members[i].inner = inner_sides.has_any_of(placed[i]->nodes());
+  }
+}
+
+/// Those that follow each other are different.
+NodeLocations places_of(const osmium::Way& way, const AssemblyPlane& plane) {
+  NodeLocations places;
+  for (const osmium::NodeRef& node : way.nodes()) {
+    if (!node.location()) continue;
+    const osmium::Location place = plane.to_plane(node.location());
+    if (places.empty() || place != places.back()) places.push_back(place);
+  }
+  return places;
+}
+
+/// Whether not all places lie on one line. (The area would not tell: a figure of eight may be wound round none.)
+bool has_corner(const NodeLocations& places) {
+  for (std::size_t i = 2; i < places.size(); ++i) {
+    // Differences of stored coordinates are whole numbers: exact.
+    const auto dx = [&](std::size_t j) { return static_cast<double>(places[j].x()) - places[0].x(); };
+    const auto dy = [&](std::size_t j) { return static_cast<double>(places[j].y()) - places[0].y(); };
+    if (dx(1) * dy(i) != dy(1) * dx(i)) return true;
+  }
+  return false;
+}
+
+/// Ways with their nodes where the plane has them: the ways themselves, or copies.
+class PlacedWays {
+ public:
+  PlacedWays(const std::vector<const osmium::Way*>& ways, const AssemblyPlane& plane) : ways_(ways) {
+    if (!plane.moves()) return;
+    std::vector<std::size_t> offsets;
+    for (const osmium::Way* const way : ways) {
+      offsets.push_back(copies_.committed());
+      copies_.add_item(*way);
+      copies_.commit();
+    }
+    for (std::size_t i = 0; i < ways.size(); ++i) {
+      auto& copy = copies_.get<osmium::Way>(offsets[i]);
+      for (osmium::NodeRef& node : copy.nodes()) {
+        if (node.location()) node.set_location(plane.to_plane(node.location()));
+      }
+      ways_[i] = &copy;
+    }
+  }
+
+  const std::vector<const osmium::Way*>& ways() const { return ways_; }
+
+ private:
+  std::vector<const osmium::Way*> ways_;
+  osmium::memory::Buffer copies_{1 << 10, osmium::memory::Buffer::auto_grow::yes};
+};
+
+/// A relation of these members only: the assembler takes it that all are there.
+const osmium::Relation& relation_of(const osmium::Relation& relation, const std::vector<MemberWay>& members,
+                                    osmium::memory::Buffer& buffer) {
+  {
+    osmium::builder::RelationBuilder builder(buffer);
+    builder.set_id(relation.id());
+    osmium::builder::RelationMemberListBuilder list(builder);
+    for (const MemberWay& member : members) list.add_member(osmium::item_type::way, member.way->id(), member.role);
+  }
+  return buffer.get<osmium::Relation>(buffer.commit());
+}
+
+}  // namespace
+
+Assembly assemble(const osmium::Way& way) {
+  const AssemblyPlane plane({&way});
+  const PlacedWays placed({&way}, plane);
+  Complaints complaints({ObjectType::way, way.id()}, plane);
+  const osmium::area::AssemblerConfig config = config_with(complaints);
+  osmium::memory::Buffer buffer(1 << 12, osmium::memory::Buffer::auto_grow::yes);
+  if (!osmium::area::Assembler(config)(*placed.ways().front(), buffer)) return {{}, complaints.sentence()};
+  return {to_polygons(buffer.get<osmium::Area>(0), plane), ""};
+}
+
+Assembly assemble(const osmium::Relation& relation, std::vector<MemberWay>& members) {
+  if (members.empty()) return {{}, "none of its members is a way"};
+  std::vector<const osmium::Way*> ways;
+  for (const MemberWay& member : members) ways.push_back(member.way);
+  const AssemblyPlane plane(ways);
+  const PlacedWays placed(ways, plane);
+  Complaints complaints({ObjectType::relation, relation.id()}, plane);
+  const osmium::area::AssemblerConfig config = config_with(complaints);
+  osmium::memory::Buffer buffer(1 << 12, osmium::memory::Buffer::auto_grow::yes);
+  osmium::memory::Buffer relation_buffer(1 << 10, osmium::memory::Buffer::auto_grow::yes);
+  const osmium::Relation& complete = relation_of(relation, members, relation_buffer);
+  if (!osmium::area::Assembler(config)(complete, placed.ways(), buffer)) return {{}, complaints.sentence()};
+  const auto& area = buffer.get<osmium::Area>(0);
+  classify(members, placed.ways(), area);
+  return {to_polygons(area, plane), ""};
+}
+
+std::vector<LonLat> positions(const osmium::Way& way) {
+  std::vector<LonLat> line;
+  osmium::Location previous;
+  for (const osmium::NodeRef& node : way.nodes()) {
+    if (!node.location() || node.location() == previous) continue;
+    previous = node.location();
+    line.push_back(to_lonlat(previous));
+  }
+  return line;
+}
+
+std::vector<Polygon> raw_polygon(const osmium::Way& way) {
+  const AssemblyPlane plane({&way});
+  NodeLocations places = places_of(way, plane);
+  if (!has_corner(places)) return {};
+  if (places.front() == places.back()) places.pop_back();
+  return {Polygon{to_ring(std::move(places), true, plane), {}}};
+}
+
+}  // namespace vantage::osm

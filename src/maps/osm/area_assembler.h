@@ -1,0 +1,42 @@
+// Rings and polygons from ways, by libosmium's assembler.
+#pragma once
+
+#include <cstddef>
+#include <osmium/memory/buffer.hpp>
+#include <osmium/osm/relation.hpp>
+#include <osmium/osm/way.hpp>
+#include <string>
+#include <vector>
+
+#include "maps/osm/extract.h"
+
+namespace vantage::osm {
+
+/// A way that is a member of a multipolygon, and what it turned out to be.
+struct MemberWay {
+  const osmium::Way* way = nullptr;
+  const char* role = "";  ///< as in the relation: only to word problems by
+  bool outer = false;     ///< it is part of an outer ring
+  bool inner = false;     ///< it is part of a hole
+};
+
+struct Assembly {
+  std::vector<Polygon> polygons;  ///< empty: nothing could be assembled
+  std::string trouble;  ///< why not, for people: "the ring is open at 7.41, 1.11 (way/714801)"; empty when it could
+};
+
+/// Assembles a closed way. Positions that are undefined are left out; one that touches itself becomes several polygons
+/// or has holes.
+Assembly assemble(const osmium::Way& way);
+
+/// Assembles a multipolygon from the members that are there, whatever their roles, and tells which way is which.
+Assembly assemble(const osmium::Relation& relation, std::vector<MemberWay>& members);
+
+/// The way's positions, those that follow each other all different: of a closed way the first is repeated at the end.
+std::vector<LonLat> positions(const osmium::Way& way);
+
+/// The ring that a way draws, closed by a straight side where it is open, whether it crosses itself or not. Nothing
+/// when all its positions lie on one line.
+std::vector<Polygon> raw_polygon(const osmium::Way& way);
+
+}  // namespace vantage::osm

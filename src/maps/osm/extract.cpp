@@ -1,0 +1,181 @@
+#include "maps/osm/extract.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include "core/progress_reporter.h"
+#include "maps/osm/area_assembler.h"
+#include "maps/osm/map_file.h"
+#include "maps/osm/map_objects.h"
+#include "maps/osm/meaning.h"
+#include "maps/osm/multipolygons.h"
+#include "maps/osm/region_filter.h"
+#include "maps/osm/selection.h"
+#include "maps/osm/trouble.h"
+#include "vantage/error.h"
+
+namespace vantage::osm {
+namespace {
+
+using Kind = Problem::Kind;
+
+std::string metres_text(double metres) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f m", metres);
+  return text;
+}
+
+class ExtractBuilder {
+ public:
+  ExtractBuilder(const MapObjects& objects, const RegionFilter& region, const ReadOptions& options)
+      : objects_(objects), selection_(objects, region), multipolygons_(objects, options.wanted, selection_, extract_) {}
+
+  Extract build(const core::ProgressReporter& progress) {
+    const std::size_t steps = objects_.relations.size() + objects_.ways.size();
+    std::size_t done = 0;
+    // Multipolygons first: their ways may have nothing more to say.
+    for (const osmium::Relation* const relation : objects_.relations) {
+      multipolygons_.add(*relation);
+      progress.report(++done, steps);
+    }
+    for (const KeptWay& kept : objects_.ways) {
+      if (kept.wanted) add(kept);
+      progress.tick(++done, steps);
+    }
+    for (const Point& point : objects_.points) add(point);
+    describe_file();
+    sort();
+    return std::move(extract_);
+  }
+
+ private:
+  void describe_file() {
+    extract_.bounds_deg = objects_.bounds_deg;
+    extract_.nodes = objects_.nodes;
+    extract_.ways = objects_.ways_in_file;
+    extract_.relations = objects_.relations_in_file;
+    extract_.superseded = objects_.superseded;
+    extract_.sorted = objects_.sorted;
+    extract_.outside = selection_.outside();
+    extract_.nearest_outside_m = selection_.nearest_outside_m();
+  }
+
+  void sort() {
+    const auto sort_by_id = [](auto& list) {
+      std::stable_sort(list.begin(), list.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
+    };
+    sort_by_id(extract_.areas);
+    sort_by_id(extract_.lines);
+    sort_by_id(extract_.points);
+    sort_by_id(extract_.building_relations);
+    std::stable_sort(extract_.problems.begin(), extract_.problems.end(),
+                     [](const Problem& a, const Problem& b) { return a.object < b.object; });
+  }
+
+  void add(const Point& point) {
+    if (!std::isfinite(point.position.latitude_deg)) {
+      Trouble trouble;
+      trouble.add(Kind::degenerate, "its position is nowhere on the earth");
+      extract_.problems.push_back(trouble.problem(point.id, point.tags, true));
+    } else if (selection_.holds(point)) {
+      extract_.points.push_back(point);
+    } else {
+      selection_.leave_out(point);
+    }
+  }
+
+  /// What a way is to become.
+  struct Meaning {
+    bool area = false, line = false, outline = false;
+  };
+
+  static Meaning meaning_of(const KeptWay& kept, const Tags& tags, bool absorbed) {
+    Meaning meaning{.area = !absorbed && (kept.closed ? means_area(tags) : means_building(tags)),
+                    .line = means_line(tags),
+                    .outline = means_building(tags) || tags.get("area") == "yes"};
+    // What is drawn open is a line, but for outlines and for pieces of rings: a park's border.
+    if (!kept.closed && !meaning.outline && !absorbed) meaning.line = true;
+    return meaning;
+  }
+
+  void add(const KeptWay& kept) {
+    const osmium::Way& way = *kept.way;
+    const ObjectId id{ObjectType::way, way.id()};
+    const Tags tags = to_tags(way.tags());
+    const auto absorbed = multipolygons_.absorbed(way.id());
+    const Meaning meaning = meaning_of(kept, tags, absorbed.has_value());
+    if (!selection_.holds(id)) {
+      if (!absorbed) selection_.leave_out(way);
+      return;
+    }
+    Trouble trouble;
+    trouble.add_share(Kind::missing_nodes, kept.missing, way.nodes().size(), "nodes", "not in the file");
+    trouble.add_share(Kind::missing_nodes, kept.off_earth, way.nodes().size(), "nodes", "nowhere on the earth");
+    bool there = meaning.area && add_area(kept, tags, trouble);
+    there = (meaning.line && add_line(kept, tags, trouble)) || there;
+    if (absorbed) {
+      if (!absorbed->reported || !means_area(tags)) return;
+      trouble.add(Kind::repeated_outline, (absorbed->hole ? "it is tagged like " : "it bounds ") + text(absorbed->by) +
+                                              (absorbed->hole ? ", whose hole it bounds" : ", which stands for it"));
+    } else if (!meaning.area && !meaning.line) {
+      trouble.add(Kind::open_outline, "it is tagged as an area, but not closed");
+    }
+    if (!trouble.empty()) extract_.problems.push_back(trouble.problem(id, tags, !there));
+  }
+
+  bool add_area(const KeptWay& kept, const Tags& tags, Trouble& trouble) {
+    const osmium::Way& way = *kept.way;
+    Assembly assembly;
+    if (kept.closed) assembly = assemble(way);
+    if (assembly.polygons.empty()) {
+      assembly.polygons = raw_polygon(way);
+      if (assembly.polygons.empty()) {
+        trouble.add(Kind::degenerate, "its positions bound no area");
+        return false;
+      }
+      const Ring& ring = assembly.polygons.front().outer;
+      if (kept.closed) {
+        trouble.add(Kind::broken_multipolygon, assembly.trouble + "; taken as it is drawn");
+      } else {
+        trouble.add(Kind::open_outline, "it is not closed; a straight side of " +
+                                            metres_text(distance_m(ring.front(), ring.back())) + " closes it");
+      }
+    }
+    extract_.areas.push_back({{ObjectType::way, way.id()}, tags, std::move(assembly.polygons)});
+    return true;
+  }
+
+  bool add_line(const KeptWay& kept, const Tags& tags, Trouble& trouble) {
+    std::vector<LonLat> points = positions(*kept.way);
+    if (points.size() < 2) {
+      trouble.add(Kind::degenerate, "it has no two different positions");
+      return false;
+    }
+    extract_.lines.push_back({{ObjectType::way, kept.way->id()}, tags, std::move(points)});
+    return true;
+  }
+
+  const MapObjects& objects_;
+  Extract extract_;
+  Selection selection_;
+  Multipolygons multipolygons_;
+};
+
+}  // namespace
+
+Extract read_extract(const std::filesystem::path& file, const ReadOptions& options, const Progress& progress) {
+  const RegionFilter region(options.region);
+  const MapFile map = open_map_file(file);
+  core::ProgressReporter watch(progress, file);
+  const MapObjects objects = load_objects(map, options.wanted, watch);
+  if (objects.nodes + objects.ways_in_file + objects.relations_in_file == 0) {
+    throw Error(ErrorKind::input, "the map is empty: there is no node, way or relation in it", file.string(),
+                "download or export the map again");
+  }
+  watch.begin("assemble areas");
+  return ExtractBuilder(objects, region, options).build(watch);
+}
+
+}  // namespace vantage::osm

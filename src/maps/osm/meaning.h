@@ -1,0 +1,30 @@
+// What tags say an object is: an area, a line, an outline. https://wiki.openstreetmap.org/wiki/Area
+#pragma once
+
+#include "maps/osm/extract.h"
+
+namespace vantage::osm {
+
+/// Tagged building or building:part, and not as "no".
+bool means_building(const Tags& tags);
+
+/// A closed way with these tags bounds an area.
+bool means_area(const Tags& tags);
+
+/// A closed way with these tags is a line, whether or not it bounds an area besides: a wall round a garden.
+bool means_line(const Tags& tags);
+
+/// None but those that say nothing about what a multipolygon is: its meaning is on its outer ways (old-style tagging).
+bool says_nothing(const Tags& tags);
+
+/// All that `way` says is said by `area` too, which it bounds: it adds nothing. "building=yes" is said by any
+/// building=*.
+bool repeats(const Tags& way, const Tags& area);
+
+/// Both say the same, but for what says nothing.
+bool says_the_same(const Tags& a, const Tags& b);
+
+/// The tags that all of them have. Of none: none.
+Tags common_tags(const std::vector<Tags>& all);
+
+}  // namespace vantage::osm

@@ -1,0 +1,56 @@
+// Multipolygon and building relations. https://wiki.openstreetmap.org/wiki/Relation:multipolygon
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+#include "maps/osm/area_assembler.h"
+#include "maps/osm/extract.h"
+#include "maps/osm/map_objects.h"
+#include "maps/osm/selection.h"
+#include "maps/osm/trouble.h"
+
+namespace vantage::osm {
+
+/// Builds the areas of multipolygons, and knows which of their ways say nothing of their own.
+class Multipolygons {
+ public:
+  Multipolygons(const MapObjects& objects, bool (*wanted)(const Tags&), Selection& selection, Extract& extract)
+      : objects_(objects), wanted_(wanted), selection_(selection), extract_(extract) {}
+
+  /// Adds an area, a building relation or a problem to the extract, or nothing when it is not wanted.
+  void add(const osmium::Relation& relation);
+
+  /// A way that a multipolygon stands for.
+  struct Absorbed {
+    ObjectId by;
+    bool reported = false;  ///< it should not be tagged at all
+    bool hole = false;      ///< it is tagged like the multipolygon whose hole it bounds
+  };
+  std::optional<Absorbed> absorbed(std::int64_t way) const;
+
+ private:
+  struct Members {
+    std::vector<MemberWay> there;
+    std::size_t ways = 0;                                     ///< as many as the relation names
+    std::size_t nodes = 0, missing_nodes = 0, off_earth = 0;  ///< of those that are there
+    bool any_wanted = false;
+  };
+
+  void add_multipolygon(const osmium::Relation& relation, Tags tags);
+  void add_building(const osmium::Relation& relation, const Tags& tags);
+  Members members_of(const osmium::Relation& relation) const;
+  void absorb(const osmium::Relation& relation, const Tags& area_tags, bool old_style,
+              const std::vector<MemberWay>& members);
+
+  const MapObjects& objects_;
+  bool (*wanted_)(const Tags&);
+  Selection& selection_;
+  Extract& extract_;
+  std::unordered_map<std::int64_t, Absorbed> absorbed_;
+};
+
+}  // namespace vantage::osm

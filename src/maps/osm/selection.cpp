@@ -1,0 +1,95 @@
+#include "maps/osm/selection.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "maps/osm/meaning.h"
+
+namespace vantage::osm {
+namespace {
+
+/// Calls `visit` with the ends of each side; once, with the same position twice, where there is but one.
+template <typename Visit>
+void for_sides(const osmium::Way& way, const Visit& visit) {
+  std::optional<LonLat> before;
+  bool alone = false;
+  for (const osmium::NodeRef& node : way.nodes()) {
+    if (!node.location()) continue;
+    const LonLat here = to_lonlat(node.location());
+    if (before) visit(*before, here);
+    alone = !before;
+    before = here;
+  }
+  if (alone) visit(*before, *before);
+}
+
+}  // namespace
+
+Selection::Selection(const MapObjects& objects, const RegionFilter& region) : objects_(objects), region_(region) {
+  if (region_.everything()) return;
+  for (const KeptWay& kept : objects_.ways) {
+    bool held = false, round_centre = false;
+    for_sides(*kept.way, [&](LonLat from, LonLat to) {
+      held = held || region_.meets(from, to);
+      round_centre ^= region_.is_east_of_centre(from, to);
+    });
+    if (held || (round_centre && kept.closed && means_area(to_tags(kept.way->tags())))) ways_.insert(kept.way->id());
+  }
+  for (const osmium::Relation* const relation : objects_.relations) {
+    bool held = false, round_centre = false;
+    for (const osmium::RelationMember& member : relation->members()) {
+      const KeptWay* const kept = member.type() == osmium::item_type::way ? objects_.find_way(member.ref()) : nullptr;
+      if (kept == nullptr) continue;
+      held = held || ways_.contains(member.ref());
+      for_sides(*kept->way, [&](LonLat from, LonLat to) { round_centre ^= region_.is_east_of_centre(from, to); });
+    }
+    const bool is_area = kind_of(to_tags(relation->tags())) == RelationKind::multipolygon;
+    if (held || (round_centre && is_area)) relations_.insert(relation->id());
+  }
+  take_buildings_together();
+}
+
+void Selection::take_buildings_together() {
+  for (const osmium::Relation* const relation : objects_.relations) {
+    if (kind_of(to_tags(relation->tags())) != RelationKind::building) continue;
+    const osmium::RelationMemberList& members = relation->members();
+    const bool held = std::any_of(members.begin(), members.end(), [this](const osmium::RelationMember& member) {
+      if (member.type() == osmium::item_type::way) return ways_.contains(member.ref());
+      return member.type() == osmium::item_type::relation && relations_.contains(member.ref());
+    });
+    if (!held) continue;
+    relations_.insert(relation->id());
+    for (const osmium::RelationMember& member : members) {
+      if (member.type() == osmium::item_type::way) ways_.insert(member.ref());
+      if (member.type() == osmium::item_type::relation) relations_.insert(member.ref());
+    }
+  }
+}
+
+bool Selection::holds(ObjectId id) const {
+  return region_.everything() || (id.type == ObjectType::way ? ways_ : relations_).contains(id.id);
+}
+
+void Selection::leave_out(const Point& point) {
+  ++outside_;
+  nearest_ = std::min(nearest_, region_.distance_m(point.position));
+}
+
+void Selection::leave_out(const osmium::Way& way) {
+  ++outside_;
+  measure(way);
+}
+
+void Selection::leave_out(const osmium::Relation& multipolygon) {
+  ++outside_;
+  for (const osmium::RelationMember& member : multipolygon.members()) {
+    if (member.type() != osmium::item_type::way) continue;
+    if (const KeptWay* const kept = objects_.find_way(member.ref())) measure(*kept->way);
+  }
+}
+
+void Selection::measure(const osmium::Way& way) {
+  for_sides(way, [this](LonLat from, LonLat to) { nearest_ = std::min(nearest_, region_.distance_m(from, to)); });
+}
+
+}  // namespace vantage::osm

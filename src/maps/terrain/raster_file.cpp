@@ -1,0 +1,188 @@
+#include "maps/terrain/raster_file.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <limits>
+#include <string_view>
+
+#include "vantage/error.h"
+
+namespace vantage::terrain {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Of gdal.h.
+constexpr unsigned kOpenRaster = 0x02, kOpenVerbose = 0x40;  // GDAL_OF_*
+constexpr int kRead = 0;                                     // GF_Read
+constexpr int kByte = 1, kFloat64 = 7;                       // GDALDataType
+constexpr int kFirstComplex = 8, kLastComplex = 11;
+constexpr int kPalette = 2, kRed = 3, kAlpha = 6;  // GDALColorInterp
+
+constexpr double kUsualVoids[] = {-9999, -32768};  // what files use for "no value", often without declaring it
+
+std::string lower_extension(const fs::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+void check_regular(const fs::path& file) {
+  std::error_code error;
+  const fs::file_status status = fs::status(file, error);
+  if (!fs::exists(status)) {
+    throw Error(ErrorKind::input, "the raster does not exist", file.string(), "check the path");
+  }
+  if (!fs::is_regular_file(status)) {
+    throw Error(ErrorKind::input, "the raster is not a regular file", file.string(), "name a file on disk");
+  }
+}
+
+/// The only file in an archive that may be a raster, by its extension.
+std::string raster_in_archive(const GdalLibrary& library, const std::string& archive) {
+  const std::unique_ptr<char*, void (*)(char**)> names(library.VSIReadDir(archive.c_str()), library.CSLDestroy);
+  for (char* const* name = names.get(); name && *name; ++name) {
+    const std::string extension = lower_extension(*name);
+    if (extension == ".hgt" || extension == ".tif" || extension == ".tiff" || extension == ".asc" ||
+        extension == ".img" || extension == ".dem") {
+      return archive + "/" + *name;
+    }
+  }
+  return archive;
+}
+
+/// GDAL's name of a file: absolute, so that none is taken for something else (a subdataset, a database).
+std::string gdal_name(const GdalLibrary& library, const fs::path& file) {
+  std::string path = fs::absolute(file).string();
+  const std::string extension = lower_extension(file);
+  if (extension == ".zip") return raster_in_archive(library, "/vsizip/" + path);
+  if (extension == ".gz") return "/vsigzip/" + path;
+  return path;
+}
+
+}  // namespace
+
+void DatasetCloser::operator()(void* dataset) const {
+  const GdalMessages messages(*library);
+  library->GDALClose(dataset);
+}
+
+RasterFile::RasterFile(const fs::path& file) : file_(file), library_((check_regular(file), gdal(file))) {
+  const GdalMessages messages(library_);
+  open();
+  check_bands();
+  read_georeference();
+  int given = 0;
+  const double scale = library_.GDALGetRasterScale(band_, &given);
+  if (given && scale != 0) scale_ = scale;
+  const double offset = library_.GDALGetRasterOffset(band_, &given);
+  if (given) offset_ = offset;
+  if (const char* unit = library_.GDALGetRasterUnitType(band_)) unit_ = unit;
+  is_srtm_ =
+      std::string_view(library_.GDALGetDriverShortName(library_.GDALGetDatasetDriver(dataset_.get()))) == "SRTMHGT";
+}
+
+void RasterFile::fail(const std::string& problem, const std::string& fix) const {
+  throw Error(ErrorKind::input, problem, file_.string(), fix);
+}
+
+void RasterFile::open() {
+  const GdalMessages messages(library_);
+  const std::string name = gdal_name(library_, file_);
+  dataset_ = {library_.GDALOpenEx(name.c_str(), kOpenRaster | kOpenVerbose, nullptr, nullptr, nullptr),
+              DatasetCloser{&library_}};
+  if (!dataset_) {
+    fail(
+        "not a raster that GDAL can read" + (messages.first_error().empty() ? "" : " (" + messages.first_error() + ")"),
+        "give a GeoTIFF, an SRTM .hgt under its own name (N43E007.hgt), or another raster of heights");
+  }
+  columns_ = library_.GDALGetRasterXSize(dataset_.get());
+  rows_ = library_.GDALGetRasterYSize(dataset_.get());
+}
+
+void RasterFile::check_bands() const {
+  const int count = library_.GDALGetRasterCount(dataset_.get());
+  const auto colour = [&](int band) {
+    return library_.GDALGetRasterColorInterpretation(library_.GDALGetRasterBand(dataset_.get(), band));
+  };
+  if (count == 0)
+    fail("the raster has no band", "give a file with one band of heights; convert it with gdal_translate");
+  if (colour(1) == kPalette || colour(1) == kRed) fail("this is a picture, not heights", "give a raster of heights");
+  if (count > 1 && !(count == 2 && colour(2) == kAlpha)) {
+    fail("the raster has " + std::to_string(count) + " bands; heights have one", "choose one with gdal_translate -b");
+  }
+  const int type = library_.GDALGetRasterDataType(library_.GDALGetRasterBand(dataset_.get(), 1));
+  if (type >= kFirstComplex && type <= kLastComplex) {
+    fail("the raster's values are complex numbers, not heights", "give a raster of heights");
+  }
+}
+
+void RasterFile::read_georeference() {
+  band_ = library_.GDALGetRasterBand(dataset_.get(), 1);
+  double transform[6] = {};
+  void* const system = library_.GDALGetSpatialRef(dataset_.get());
+  const bool placed = library_.GDALGetGeoTransform(dataset_.get(), transform) == 0;
+  if (!placed && !system) {
+    fail("the raster does not say where on the earth it lies",
+         "give a georeferenced one, or assign its place and its "
+         "system with gdal_translate -a_ullr and -a_srs");
+  }
+  if (!placed) fail("the raster does not say where its corner lies", "assign it with gdal_translate -a_ullr");
+  if (!system) {
+    fail("the raster has no coordinate reference system",
+         "assign it, as in gdal_translate -a_srs EPSG:4326 in out.tif");
+  }
+  if (transform[2] != 0 || transform[4] != 0) {
+    fail("the raster's rows do not run east (it is rotated or sheared)", "straighten it with gdalwarp");
+  }
+  corner_ = {transform[0], transform[3]};
+  pixel_ = {transform[1], transform[5]};
+  if (!corner_.allFinite() || !pixel_.allFinite() || pixel_.x() == 0 || pixel_.y() == 0) {
+    fail("the raster's pixels have no size", "assign it with gdal_translate -a_ullr");
+  }
+  char* wkt = nullptr;
+  const char* const options[] = {"FORMAT=WKT2_2019", nullptr};
+  const bool exported = library_.OSRExportToWktEx(system, &wkt, options) == 0;
+  const std::unique_ptr<char, void (*)(void*)> text(wkt, library_.VSIFree);
+  if (!exported || !text) {
+    fail("the raster's coordinate reference system cannot be read", "assign it with gdal_translate -a_srs");
+  }
+  crs_wkt_ = text.get();
+}
+
+void RasterFile::read_rows(const PixelWindow& pixels, int begin, int end, float* heights) const {
+  const GdalMessages messages(library_);
+  const std::size_t count = std::size_t(end - begin) * std::size_t(pixels.columns);
+  std::vector<double> values(count);
+  std::vector<unsigned char> mask(count);
+  const auto get = [&](void* band, void* into, int type) {
+    return library_.GDALRasterIO(band, kRead, pixels.first_column, pixels.first_row + begin, pixels.columns,
+                                 end - begin, into, pixels.columns, end - begin, type, 0, 0) == 0;
+  };
+  if (!get(band_, values.data(), kFloat64) || !get(library_.GDALGetMaskBand(band_), mask.data(), kByte)) {
+    fail("the raster is damaged: it cannot be read to its end" +
+             (messages.first_error().empty() ? "" : " (" + messages.first_error() + ")"),
+         "fetch it again");
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    const double stored = values[i], height = stored * scale_ + offset_;
+    const bool is_void = mask[i] == 0 || !std::isfinite(height) ||
+                         std::find(std::begin(kUsualVoids), std::end(kUsualVoids), stored) != std::end(kUsualVoids);
+    heights[i] = is_void ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(height);
+  }
+}
+
+std::vector<float> RasterFile::read(const PixelWindow& pixels, const std::function<void(int)>& done) const {
+  const int at_once = std::max(1, (1 << 20) / pixels.columns);
+  std::vector<float> heights(std::size_t(pixels.columns) * std::size_t(pixels.rows));
+  for (int begin = 0; begin < pixels.rows; begin += at_once) {
+    done(begin);
+    const int end = std::min(pixels.rows, begin + at_once);
+    read_rows(pixels, begin, end, heights.data() + std::size_t(begin) * std::size_t(pixels.columns));
+  }
+  return heights;
+}
+
+}  // namespace vantage::terrain

@@ -1,0 +1,230 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "core/progress_reporter.h"
+#include "geo/local_frame.h"
+#include "maps/terrain/height_grid.h"
+#include "maps/terrain/post_positions.h"
+#include "maps/terrain/surface.h"
+#include "maps/terrain/tin.h"
+#include "maps/terrain/tin_mesh.h"
+#include "vantage/error.h"
+#include "vantage/terrain.h"
+
+namespace vantage {
+namespace terrain {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void refuse(const std::string& problem, const fs::path& file, const std::string& fix) {
+  throw Error(ErrorKind::input, problem, file.string(), fix);
+}
+
+void check(const RasterOptions& options, const fs::path& file) {
+  const RasterRegion& region = options.region;
+  if (int(region.center_deg.has_value()) + int(region.bbox_deg.has_value()) + int(region.pixels.has_value()) > 1) {
+    refuse("the region is given in more than one way", file, "give a centre, a box or pixels");
+  }
+  if (region.center_deg && !(region.radius_m > 0 && region.radius_m < 1e6)) {
+    refuse("the region has no extent", file, "give a radius above 0 and below 1000 km");
+  }
+  if (!(options.max_error_m >= 0)) {
+    refuse("the error allowed to the surface is negative or not a number", file, "give metres, 0 or more");
+  }
+}
+
+/// The rectangle of the frame about the middle of a box that holds the box.
+Window window_round(const std::array<double, 4>& bbox_deg, const fs::path& file) {
+  const auto [west, south, given_east, north] = bbox_deg;
+  const double east = given_east < west ? given_east + 360 : given_east;
+  const bool valid = std::abs(west) <= 180 && std::abs(given_east) <= 180 && south >= -90 && north <= 90 &&
+                     south < north && east > west;
+  if (!valid) {
+    refuse("the box has no area or is not on the earth", file,
+           "give west, south, east and north in degrees, in this order");
+  }
+  const double middle = std::remainder((west + east) / 2, 360);
+  const geo::LonLat origin{middle, (south + north) / 2};
+  const geo::LocalFrame frame(origin);
+  Window window{origin, Eigen::Vector2d::Constant(1e9), Eigen::Vector2d::Constant(-1e9)};
+  constexpr int kSamples = 16;  // a side is curved in the frame
+  for (int i = 0; i <= kSamples; ++i) {
+    const double longitude = west + (east - west) * i / kSamples, latitude = south + (north - south) * i / kSamples;
+    for (const geo::LonLat position :
+         {geo::LonLat{longitude, south}, {longitude, north}, {west, latitude}, {east, latitude}}) {
+      window.min = window.min.cwiseMin(frame.to_local(position));
+      window.max = window.max.cwiseMax(frame.to_local(position));
+    }
+  }
+  return window;
+}
+
+HeightGrid read(const fs::path& file, const RasterRegion& region, const Progress& progress) {
+  if (region.pixels) {
+    const auto [column, row, columns, rows] = *region.pixels;
+    return read_height_pixels(file, {column, row, columns, rows}, progress);
+  }
+  if (region.bbox_deg) return read_height_grid(file, window_round(*region.bbox_deg, file), progress);
+  if (region.center_deg) {
+    const Eigen::Vector2d half = Eigen::Vector2d::Constant(region.radius_m);
+    return read_height_grid(file, Window{{(*region.center_deg)[1], (*region.center_deg)[0]}, -half, half}, progress);
+  }
+  return read_height_grid(file, std::nullopt, progress);
+}
+
+geo::LonLat origin_of(const HeightGrid& grid, const RasterOptions& options, const std::filesystem::path& file) {
+  const geo::LonLat position = grid.position({(grid.columns - 1) / 2.0, (grid.rows - 1) / 2.0});
+  const geo::LonLat middle{std::remainder(position.longitude_deg, 360), position.latitude_deg};
+  if (!options.origin_deg) return middle;
+  const geo::LonLat origin{(*options.origin_deg)[1], (*options.origin_deg)[0]};
+  geo::check_origin(origin, middle, file.string());
+  return origin;
+}
+
+std::vector<Vec3> posts_of(const HeightGrid& grid, const geo::LocalFrame& frame) {
+  std::vector<Vec3> posts;
+  posts.reserve(grid.heights_m.size());
+  const std::vector<Eigen::Vector2d> places = post_positions(grid, frame);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    posts.emplace_back(places[i].x(), places[i].y(), static_cast<double>(grid.heights_m[i]));
+  }
+  return posts;
+}
+
+/// Indices of the outermost posts, counter-clockwise seen from above when the rows run south and the columns east.
+std::vector<std::uint32_t> border_of(const HeightGrid& grid) {
+  const auto columns = static_cast<std::uint32_t>(grid.columns), rows = static_cast<std::uint32_t>(grid.rows);
+  std::vector<std::uint32_t> border;
+  for (std::uint32_t row = 0; row + 1 < rows; ++row) border.push_back(row * columns);
+  for (std::uint32_t column = 0; column + 1 < columns; ++column) border.push_back((rows - 1) * columns + column);
+  for (std::uint32_t row = rows - 1; row > 0; --row) border.push_back(row * columns + columns - 1);
+  for (std::uint32_t column = columns - 1; column > 0; --column) border.push_back(column);
+  return border;
+}
+
+/// Two triangles for each square of four posts, split along the diagonal whose ends are nearer in height.
+Mesh every_post(const HeightGrid& grid, std::vector<Vec3> posts) {
+  Mesh mesh{std::move(posts), {}};
+  const bool turned = grid.step.x() * grid.step.y() > 0;  // the rows run north
+  for (int row = 0; row + 1 < grid.rows; ++row) {
+    for (int column = 0; column + 1 < grid.columns; ++column) {
+      const auto a = static_cast<std::uint32_t>(row) * static_cast<std::uint32_t>(grid.columns) +
+                     static_cast<std::uint32_t>(column);
+      const std::uint32_t b = a + static_cast<std::uint32_t>(grid.columns), c = b + 1, d = a + 1;
+      const double falling = std::abs(mesh.vertices[a].z() - mesh.vertices[c].z());
+      const double rising = std::abs(mesh.vertices[b].z() - mesh.vertices[d].z());
+      std::array<Triangle, 2> pair = falling <= rising ? std::array<Triangle, 2>{{{a, b, c}, {a, c, d}}}
+                                                       : std::array<Triangle, 2>{{{a, b, d}, {b, c, d}}};
+      for (Triangle& triangle : pair) {
+        if (turned) std::swap(triangle[1], triangle[2]);
+        mesh.triangles.push_back(triangle);
+      }
+    }
+  }
+  return mesh;
+}
+
+/// The facets inside the border, whose posts are the vertices that follow the four corners of the network: all that
+/// cannot be reached from those without crossing it.
+std::vector<bool> inside_border(const Tin& tin, std::uint32_t border_size) {
+  const auto& facets = tin.facets();
+  const auto on_border = [&](std::uint32_t from, std::uint32_t to) {
+    if (from < 4 || to < 4 || from >= 4 + border_size || to >= 4 + border_size) return false;
+    const std::uint32_t apart = from > to ? from - to : to - from;
+    return apart == 1 || apart == border_size - 1;
+  };
+  std::vector<bool> inside(facets.size(), true);
+  std::vector<std::uint32_t> open;
+  for (std::uint32_t f = 0; f < facets.size(); ++f) {
+    if (*std::min_element(facets[f].corner.begin(), facets[f].corner.end()) >= 4) continue;
+    inside[f] = false;
+    open.push_back(f);
+  }
+  std::size_t crossings = 0;
+  while (!open.empty()) {
+    const Tin::Facet& facet = facets[open.back()];
+    open.pop_back();
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t beyond = facet.neighbour[i];
+      if (beyond == Tin::kNone || !inside[beyond]) continue;
+      if (on_border(facet.corner[(i + 1) % 3], facet.corner[(i + 2) % 3])) {
+        ++crossings;
+      } else {
+        inside[beyond] = false;
+        open.push_back(beyond);
+      }
+    }
+  }
+  if (crossings != border_size) {
+    throw Error(ErrorKind::internal, "the border of a raster is not among the edges of its triangles", "terrain", "");
+  }
+  return inside;
+}
+
+Mesh simplified(const HeightGrid& grid, const std::vector<Vec3>& posts, double max_error_m,
+                const core::ProgressReporter& progress) {
+  Box box;
+  for (const Vec3& post : posts) box.extend(post);
+  // Far round the posts, so that the border's edges are those of the network; dropped in the end.
+  const Vec3 middle = (box.min + box.max) / 2;
+  const double far = 10 * (box.max - box.min).head<2>().maxCoeff();
+  Tin tin({middle + Vec3(-far, -far, 0), middle + Vec3(far, -far, 0), middle + Vec3(far, far, 0),
+           middle + Vec3(-far, far, 0)});
+  const std::vector<std::uint32_t> border = border_of(grid);
+  for (const std::uint32_t post : border) tin.insert(posts[post]);
+  std::vector<Vec3> candidates;
+  const auto columns = static_cast<std::size_t>(grid.columns), rows = static_cast<std::size_t>(grid.rows);
+  for (std::size_t row = 1; row + 1 < rows; ++row) {
+    const auto first = posts.begin() + static_cast<std::ptrdiff_t>(row * columns);
+    candidates.insert(candidates.end(), first + 1, first + static_cast<std::ptrdiff_t>(columns) - 1);
+  }
+  tin.add_candidates(candidates);
+  grow(tin, max_error_m, progress);
+  return mesh_of(tin, inside_border(tin, static_cast<std::uint32_t>(border.size())));
+}
+
+}  // namespace
+}  // namespace terrain
+
+RasterScene scene_from_raster(const std::filesystem::path& file, const RasterOptions& options,
+                              const Progress& callback) {
+  using namespace terrain;
+  check(options, file);
+  const HeightGrid grid = read(file, options.region, callback);
+  if (grid.columns < 2 || grid.rows < 2) {
+    refuse("the region has a single row or column of posts, which is no surface", file, "give a larger region");
+  }
+  const geo::LocalFrame frame(origin_of(grid, options, file));
+  core::ProgressReporter progress(callback, file);
+  progress.begin("triangulating the surface");
+  std::vector<Vec3> posts = posts_of(grid, frame);
+
+  RasterScene result;
+  result.report.columns = static_cast<std::size_t>(grid.columns);
+  result.report.rows = static_cast<std::size_t>(grid.rows);
+  result.report.voids = grid.voids;
+  const auto [lowest, highest] = std::minmax_element(grid.heights_m.begin(), grid.heights_m.end());
+  result.report.lowest_m = static_cast<double>(*lowest);
+  result.report.highest_m = static_cast<double>(*highest);
+  Scene& scene = result.scene;
+  if (options.max_error_m > 0) {
+    const Surface surface(simplified(grid, posts, options.max_error_m, progress));
+    result.report.largest_error_m = largest_error(surface, posts);
+    scene.mesh = surface.mesh();
+  } else {
+    scene.mesh = every_post(grid, std::move(posts));
+  }
+  scene.object_of.assign(scene.mesh.triangles.size(), 0);
+  scene.objects = {"surface"};
+  scene.source = file;
+  scene.georeference = Georeference{frame.origin().latitude_deg, frame.origin().longitude_deg, grid.vertical,
+                                    grid.crs.code().empty() ? grid.crs.name() : grid.crs.code()};
+  return result;
+}
+
+}  // namespace vantage

@@ -1,0 +1,53 @@
+// The range region: the intersection of the balls of radius max_range about the target's vertices.
+#pragma once
+
+#include <vector>
+
+#include "exact/blocker.h"
+
+namespace vantage::target {
+
+class RangeRegion {
+ public:
+  /// A ball about each vertex. The origin must be inside all of them.
+  RangeRegion(const std::vector<Eigen::Vector2d>& polygon, double max_range);
+
+  double radius() const { return radius_; }
+  std::size_t ball_count() const { return centres_.size(); }
+  double inner_radius() const;  ///< the region holds all in front of the target that is within this of the origin
+  const Eigen::Vector2d& centre(std::size_t ball) const { return centres_[ball]; }
+
+  /// Inverse depth along `direction` (any length: the gauge is homogeneous) of one ball's sphere.
+  double gauge(std::size_t ball, const Vec3& direction) const {
+    const double b = direction.x() * centres_[ball].x() + direction.y() * centres_[ball].y();
+    const double root = std::sqrt(b * b + direction.squaredNorm() * power_[ball]);
+    return b > 0 ? direction.squaredNorm() / (b + root) : (root - b) / power_[ball];
+  }
+
+  /// Of the region: the greatest of the balls' gauges. Convex in `direction`.
+  double gauge(const Vec3& direction) const;
+
+  /// The same, trying `ball` first and leaving there the one that is met first: neighbouring directions mostly share
+  /// it, and whether a point of one sphere is inside the other balls is told without a square root.
+  double gauge(const Vec3& direction, std::size_t& ball) const;
+
+  /// The ball whose sphere is met first along `direction`.
+  std::size_t nearest_ball(const Vec3& direction) const;
+
+  /// A plane that touches the region where `direction` leaves it: g . d <= gauge(d) for every d, with equality there.
+  exact::Plane supporting_plane(const Vec3& direction) const;
+
+  /// Whether a point is within max_range of all vertices.
+  bool contains(const Vec3& point) const;
+
+ private:
+  std::vector<Eigen::Vector2d> centres_;
+  std::vector<double> power_;  // radius^2 - |centre|^2
+  double radius_;
+};
+
+/// Moves the frame's origin inside every ball. The centre of the smallest enclosing circle always is, but may lie on
+/// the target's outline, so the origin keeps as far from it as the range allows. The range exceeds the circle's radius.
+void move_into_range(TargetFrame& frame, double max_range);
+
+}  // namespace vantage::target

@@ -1,0 +1,207 @@
+// Checks of a target polygon and its local frame.
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "target/enclosing_circle.h"
+#include "core/number_text.h"
+#include "core/convex_corners.h"
+#include "vantage/error.h"
+#include "vantage/target.h"
+
+namespace vantage {
+namespace {
+
+using Eigen::Vector2d;
+
+// A normal within this of horizontal belongs to a vertical target, which no side of "up" can be told apart for.
+constexpr double kVerticalNormal = 1e-6;
+constexpr double kPlanarFraction = 1e-6;  // of the extent
+constexpr double kPlanarAtLeast = 1e-3;   // metres
+// A vertex this far inside the line between its neighbours, in parts of the extent, is on it. The target only grows.
+constexpr double kStraight = 1e-9;
+// Of the extent: four times what the coordinates of a vertex lose on the way into the frame, and so all that a target
+// may lose of a corner.
+constexpr double kRounding = 0x1p-50;
+
+[[noreturn]] void refuse(const Target& target, std::string problem, std::string fix) {
+  throw Error(ErrorKind::input, std::move(problem), "target \"" + target.name + "\"", std::move(fix));
+}
+
+std::string vertex_name(std::size_t index) { return "vertex " + std::to_string(index); }
+
+void check_vertices(const Target& target) {
+  const auto& v = target.vertices;
+  if (v.size() < 3 && !target.is_point())
+    refuse(target, "a target needs at least 3 vertices, this one has " + std::to_string(v.size()),
+           "add vertices, or give one alone for a point");
+  if (v.size() > 64)
+    refuse(target, "a target has at most 64 vertices, this one has " + std::to_string(v.size()), "simplify it");
+  for (std::size_t i = 0; i < v.size(); ++i)
+    if (!v[i].allFinite())
+      refuse(target, vertex_name(i) + " has a coordinate that is not finite", "give three finite numbers");
+  if (!std::isfinite(target.offset_m)) refuse(target, "offset is not finite", "give metres along the normal");
+  if (target.front && (!target.front->allFinite() || target.front->norm() == 0))
+    refuse(target, "front is zero or not finite", "give a vector on the side that is looked at, such as [0, 0, 1]");
+}
+
+double extent_of(const std::vector<Vec3>& vertices) {
+  Box box;
+  for (const Vec3& v : vertices) box.extend(v);
+  return (box.max - box.min).norm();
+}
+
+void check_repeats(const Target& target, double extent) {
+  const auto& v = target.vertices;
+  for (std::size_t i = 0; i < v.size(); ++i)
+    for (std::size_t j = i + 1; j < v.size(); ++j)
+      if ((v[i] - v[j]).norm() <= 1e-9 * extent || v[i] == v[j])
+        refuse(target, vertex_name(i) + " and " + vertex_name(j) + " are the same point", "drop one of them");
+}
+
+// Twice the area vector, about the first vertex so that large coordinates do not cancel.
+Vec3 area_vector(const std::vector<Vec3>& vertices) {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t i = 1; i + 1 < vertices.size(); ++i)
+    sum += (vertices[i] - vertices[0]).cross(vertices[i + 1] - vertices[0]);
+  return sum;
+}
+
+void check_planar(const Target& target, const Vec3& normal, double extent) {
+  const auto& v = target.vertices;
+  Vec3 centre = Vec3::Zero();
+  for (const Vec3& p : v) centre += (p - v[0]) / double(v.size());
+  double worst = 0;
+  std::size_t culprit = 0;
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    const double off = std::abs(normal.dot(v[i] - v[0] - centre));
+    if (off > worst) worst = off, culprit = i;
+  }
+  if (worst > std::max(kPlanarAtLeast, kPlanarFraction * extent))
+    refuse(target,
+           "the vertices are not in one plane: " + vertex_name(culprit) + " is off by " + core::metres_text(worst),
+           "move it onto the plane of the others, or split the target");
+}
+
+Vec3 front_normal(const Target& target, const Vec3& normal) {
+  if (target.front) {
+    const double side = target.front->normalized().dot(normal);
+    if (std::abs(side) < 1e-6)
+      refuse(target, "front lies in the plane of the target", "give a vector that points away from the looked-at side");
+    return side > 0 ? normal : Vec3(-normal);
+  }
+  return normal.z() < -kVerticalNormal ? Vec3(-normal) : normal;
+}
+
+// Axes that keep the scene's x and y for a horizontal target, so that boxes of the scene stay boxes.
+void make_axes(TargetFrame& frame, const Vec3& normal) {
+  frame.normal = normal;
+  if (std::abs(normal.x()) < 1e-12 && std::abs(normal.y()) < 1e-12) {
+    frame.normal = {0, 0, normal.z() > 0 ? 1.0 : -1.0};
+    frame.axis_u = {1, 0, 0};
+  } else {
+    frame.axis_u = Vec3(0, 0, 1).cross(normal).normalized();
+  }
+  frame.axis_v = frame.normal.cross(frame.axis_u).normalized();
+}
+
+// Where an outline that is not convex turns the wrong way most, or runs back along itself.
+std::size_t worst_turn(const std::vector<Vec3>& polygon) {
+  const std::size_t n = polygon.size();
+  std::size_t worst = 0;
+  double most = -1;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec3 in = polygon[i] - polygon[(i + n - 1) % n], out = polygon[(i + 1) % n] - polygon[i];
+    const double turn = std::atan2(in.cross(out).z(), in.dot(out));
+    const double wrong = std::abs(turn) > std::numbers::pi - 1e-6 ? std::numbers::pi : -turn;
+    if (wrong > most) {
+      most = wrong;
+      worst = i;
+    }
+  }
+  return worst;
+}
+
+double whole_turn(const std::vector<Vec3>& polygon) {
+  const std::size_t n = polygon.size();
+  double turn = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec3 in = polygon[i] - polygon[(i + n - 1) % n], out = polygon[(i + 1) % n] - polygon[i];
+    turn += std::atan2(in.cross(out).z(), in.dot(out));
+  }
+  return turn;
+}
+
+// The corners of a counter-clockwise polygon, given with z = 0. What they bound holds every vertex, to rounding: a
+// vertex is left out only where the others' outline passes outside it. Refuses what is not convex.
+std::vector<Vector2d> corners_of(const Target& target, const std::vector<Vec3>& polygon,
+                                 const std::vector<std::size_t>& index, double extent) {
+  if (whole_turn(polygon) > 3 * std::numbers::pi)
+    refuse(target, "not convex: the outline winds round more than once, starting at " + vertex_name(index[0]),
+           "give the vertices in order round the polygon");
+  double largest = 0;
+  for (const Vec3& v : target.vertices) largest = std::max(largest, v.cwiseAbs().maxCoeff());
+  const core::CornerSlack slack{kStraight * extent + kRounding * largest, kRounding * extent};
+  const auto is_corner = core::find_corners(polygon, Vec3::UnitZ(), slack);
+  if (!is_corner)
+    refuse(target, "not convex: the outline turns the wrong way at " + vertex_name(index[worst_turn(polygon)]),
+           "give the vertices in order round a convex polygon; split a concave one into convex targets");
+  std::vector<Vector2d> corners;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    if ((*is_corner)[i]) corners.emplace_back(polygon[i].head<2>());
+  }
+  return corners;
+}
+
+TargetFrame make_point_frame(const Target& target) {
+  TargetFrame frame;
+  make_axes(frame, target.front ? target.front->normalized() : Vec3::UnitZ());
+  frame.polygon = {Vector2d::Zero()};
+  frame.all_sides = !target.front;
+  frame.origin = target.vertices[0] + frame.normal * target.offset_m;
+  return frame;
+}
+
+}  // namespace
+
+TargetFrame make_target_frame(const Target& target) {
+  check_vertices(target);
+  if (target.is_point()) return make_point_frame(target);
+  const double extent = extent_of(target.vertices);
+  check_repeats(target, extent);
+  const Vec3 area = area_vector(target.vertices);
+  if (area.norm() <= 1e-9 * extent * extent)
+    refuse(target, "the polygon has no area", "its vertices must not lie on one line");
+  const Vec3 own_normal = area.normalized();
+  check_planar(target, own_normal, extent);
+
+  TargetFrame frame;
+  make_axes(frame, front_normal(target, own_normal));
+  const Vec3 anchor = target.vertices[0];
+  std::vector<Vec3> outline;
+  std::vector<std::size_t> index;
+  for (std::size_t i = 0; i < target.vertices.size(); ++i) {
+    const Vec3 d = target.vertices[i] - anchor;
+    outline.emplace_back(frame.axis_u.dot(d), frame.axis_v.dot(d), 0);
+    index.push_back(i);
+  }
+  if (own_normal.dot(frame.normal) < 0) {
+    std::reverse(outline.begin(), outline.end());
+    std::reverse(index.begin(), index.end());
+  }
+  std::vector<Vector2d> polygon = corners_of(target, outline, index, extent);
+
+  double height = 0;  // of the plane over the anchor: the mean, which is zero for an exactly planar polygon
+  for (const Vec3& v : target.vertices) height += frame.normal.dot(v - anchor) / double(target.vertices.size());
+  const auto circle = target::smallest_enclosing_circle(polygon);
+  const Vector2d centre = 0.5 * (circle.centre + target::centroid(polygon));
+  for (Vector2d& p : polygon) p -= centre;
+  frame.polygon = std::move(polygon);
+  frame.enclosing_radius_m = circle.radius;
+  frame.origin =
+      anchor + frame.axis_u * centre.x() + frame.axis_v * centre.y() + frame.normal * (height + target.offset_m);
+  return frame;
+}
+
+}  // namespace vantage
