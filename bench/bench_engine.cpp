@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "core/progress_reporter.h"
 #include "core/parallel.h"
+#include "core/progress_reporter.h"
 #include "support/cities.h"
 #include "support/memory.h"
 #include "support/plain_union.h"

@@ -18,8 +18,8 @@ namespace {
 
 using Eigen::Vector2d;
 using exact::BlockerBuilder;
-using exact::LocalTarget;
 using exact::Plane;
+using target::LocalTarget;
 using testing::Random;
 
 /// Corners on an integer grid: all that the oracle computes is exact.
@@ -106,13 +106,13 @@ bool pierces(const Corners& target, const Corners& polygon) {
   return true;
 }
 
-LocalTarget local_target(const Corners& target) {
+target::LocalTarget local_target(const Corners& target) {
   std::vector<Vector2d> polygon;
   for (const Corner& t : target) polygon.emplace_back(double(t[0]), double(t[1]));
-  return exact::make_local_target(polygon, 1e-9, 0);
+  return target::make_local_target(polygon, 1e-9, 0);
 }
 
-std::vector<Plane> planes_of(const LocalTarget& target, const std::vector<Vec3>& polygon) {
+std::vector<Plane> planes_of(const target::LocalTarget& target, const std::vector<Vec3>& polygon) {
   std::vector<Plane> planes;
   std::vector<Vec3> corners;
   BlockerBuilder(target).build(polygon, planes, corners);
@@ -303,7 +303,7 @@ TEST(Blocker, AgreesWithTheOracleForAnyShape) {
     bool above_target = false;
     for (const Vec3& o : polygon) above_target = above_target || (o.z() < 0.1 && o.head<2>().norm() < 20);
     if (above_target) continue;  // might pierce it
-    const std::vector<Plane> planes = planes_of(exact::make_local_target(flat, 1e-9, 0), polygon);
+    const std::vector<Plane> planes = planes_of(target::make_local_target(flat, 1e-9, 0), polygon);
     for (int k = 0; k < 30; ++k) {
       Vec3 p = random.point(-80, 80);
       if (random.chance(0.7)) {
@@ -348,7 +348,7 @@ TEST(Blocker, EveryPlaneKeepsTargetAndPolygonApart) {
 }
 
 TEST(Blocker, WhatDoesNotReachAboveTheTargetHidesNothing) {
-  const LocalTarget target = local_target(targets()[1]);
+  const target::LocalTarget target = local_target(targets()[1]);
   EXPECT_TRUE(planes_of(target, {{5, 5, -1}, {6, 5, -1}, {6, 6, -3}}).empty());
   EXPECT_TRUE(planes_of(target, {{5, 5, 0}, {6, 5, 0}, {6, 6, 0}}).empty());
   EXPECT_TRUE(planes_of(target, {{5, 5, 0}, {6, 5, -1}, {6, 6, 0}}).empty());

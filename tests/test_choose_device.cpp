@@ -129,11 +129,7 @@ TEST(ChooseDevice, FallsBackWhenTheDeviceCannotHoldTheScene) {
   EXPECT_EQ(chosen.renderer->device().kind, DeviceKind::cpu);
   EXPECT_NE(chosen.note.find("Big GPU cannot be used: the scene needs 9 GiB of 8"), std::string::npos) << chosen.note;
   EXPECT_EQ(devices_of(*chosen.renderer), (std::vector<int>{0, 0, 0, 0, 0}));
-  expect_input_error(
-      [&] {
-        depth::make_depth_renderer(machine.back_ends(), {Kind::gpu, 0});
-      },
-      "9 GiB of 8", "Big GPU");
+  expect_input_error([&] { depth::make_depth_renderer(machine.back_ends(), {Kind::gpu, 0}); }, "9 GiB of 8", "Big GPU");
 }
 
 TEST(ChooseDevice, GoesOnWithTheCpuInTheMiddleOfARequest) {

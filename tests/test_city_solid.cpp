@@ -9,10 +9,10 @@
 #include <optional>
 #include <string>
 
+#include "core/weld.h"
 #include "maps/city/building_solid.h"
 #include "maps/city/roof_profile.h"
 #include "solid/solid_check.h"
-#include "core/weld.h"
 #include "support/random.h"
 #include "support/rings.h"
 #include "vantage/error.h"

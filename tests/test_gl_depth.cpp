@@ -82,8 +82,8 @@ struct Excess {
 };
 
 /// Nearest depths against each triangle's part in the texel's pyramid.
-Excess check_nearest(Random& random, depth::DepthRenderer& renderer, const Scene& scene, const Vec3& eye,
-                     int face_size, int most) {
+Excess check_nearest(Random& random, depth::DepthRenderer& renderer, const Scene& scene, const Vec3& eye, int face_size,
+                     int most) {
   const std::vector<float> depths = cube_map(renderer, eye, face_size, Sampling::nearest);
   const auto faces = all_faces(scene, eye);
   Excess result;

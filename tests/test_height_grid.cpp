@@ -12,13 +12,13 @@
 #include <utility>
 #include <vector>
 
+#include "maps/terrain/gdal_library.h"
+#include "maps/terrain/height_grid.h"
+#include "maps/terrain/surface.h"
 #include "support/random.h"
 #include "support/raster_writer.h"
 #include "support/shared_data.h"
 #include "support/temporary_directory.h"
-#include "maps/terrain/gdal_library.h"
-#include "maps/terrain/height_grid.h"
-#include "maps/terrain/surface.h"
 #include "vantage/error.h"
 
 namespace vantage::terrain {

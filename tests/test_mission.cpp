@@ -117,7 +117,7 @@ exact: {tolerance: 0.02}
   EXPECT_EQ(parsed.navigation_meshes[0].file, "/data/missions/airspace.ply");
   EXPECT_EQ(parsed.navigation_meshes[0].name, "airspace.ply");
   const app::MeshReference &ply = parsed.navigation_meshes[0], &obj = parsed.navigation_meshes[1],
-                                  &own = parsed.navigation_meshes[2];
+                           &own = parsed.navigation_meshes[2];
   EXPECT_FALSE(ply.in_scene_axes || ply.in_scene_unit) << "PLY is in the scene frame";
   EXPECT_EQ(ply.options.up, UpAxis::z);
   EXPECT_EQ(ply.options.scale, 1.0) << "and in metres";

@@ -47,7 +47,7 @@ struct Mutation {
 Mesh pipeline(const Scene& scene, const Target& goal, const Mutation& mutation = {}) {
   const PreparedScene prepared(scene);
   const TargetFrame frame = make_target_frame(goal);
-  const LocalTarget target = make_local_target(frame.polygon, 1e-9, 0);
+  const target::LocalTarget target = target::make_local_target(frame.polygon, 1e-9, 0);
   const RangeRegion range(frame.polygon, mutation.range);
   ChartGrid grid(range, kTolerance);
   BlockerSet blockers;

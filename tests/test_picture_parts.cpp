@@ -3,11 +3,11 @@
 
 #include <Eigen/Geometry>
 
+#include "io/read_causes.h"
 #include "picture/annotate.h"
 #include "picture/creases.h"
 #include "picture/draw_list.h"
 #include "picture/view.h"
-#include "io/read_causes.h"
 #include "support/solids.h"
 #include "support/temporary_directory.h"
 #include "vantage/error.h"

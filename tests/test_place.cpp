@@ -3,11 +3,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/report.h"
+#include "app/result_files.h"
 #include "geo/local_frame.h"
 #include "io/georeference_text.h"
 #include "io/place_file.h"
-#include "app/report.h"
-#include "app/result_files.h"
 #include "support/mesh_reading.h"
 #include "support/solids.h"
 #include "support/temporary_directory.h"

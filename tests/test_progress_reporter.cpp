@@ -7,8 +7,8 @@
 #include <thread>
 #include <vector>
 
-#include "core/progress_reporter.h"
 #include "core/parallel.h"
+#include "core/progress_reporter.h"
 #include "support/progress_check.h"
 #include "vantage/error.h"
 

@@ -8,11 +8,11 @@
 #include <string>
 
 #include "geo/local_frame.h"
+#include "maps/terrain/height_grid.h"
+#include "maps/terrain/surface.h"
 #include "support/raster_writer.h"
 #include "support/shared_data.h"
 #include "support/temporary_directory.h"
-#include "maps/terrain/height_grid.h"
-#include "maps/terrain/surface.h"
 #include "vantage/error.h"
 #include "vantage/terrain.h"
 

@@ -10,8 +10,8 @@
 namespace vantage {
 namespace {
 
-using nlohmann::json;
 using io::RawMesh;
+using nlohmann::json;
 using testing::expect_input_error;
 using testing::read_as;
 
@@ -180,8 +180,7 @@ TEST(ReadCityJson, PlacesInstancesOfTemplates) {
   json surfaces = std::vector<json>(1000, {{0, 1, 2}});
   many["geometry-templates"]["templates"][0]["boundaries"] = surfaces;
   const io::MeshSource large("a", many.dump());
-  expect_input_error([&] { io::read_cityjson(large, progress, limits); }, "its instances repeat templates",
-                     "\"t1\"");
+  expect_input_error([&] { io::read_cityjson(large, progress, limits); }, "its instances repeat templates", "\"t1\"");
 }
 
 TEST(ReadCityJson, TurnsMirroredInstancesBack) {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "core/progress_reporter.h"
 #include "app/result_files.h"
+#include "core/progress_reporter.h"
 #include "support/solids.h"
 #include "support/temporary_directory.h"
 #include "vantage/error.h"

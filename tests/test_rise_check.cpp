@@ -25,7 +25,7 @@ class RiseOverFacets : public ::testing::Test {
     target.vertices = {{-1, -1, 0.5}, {1, -1, 0.5}, {0, 1, 0.5}};
     const TargetFrame frame = make_target_frame(target);
     const PreparedScene prepared(testing::random_city(random_, 30, 3));
-    const LocalTarget local = make_local_target(frame.polygon, 1e-9, 0);
+    const target::LocalTarget local = target::make_local_target(frame.polygon, 1e-9, 0);
     range_.emplace(frame.polygon, 90);
     tree_.emplace(blockers_, *range_);
     collect_blockers(prepared.data(), frame, local, *range_, blockers_, *tree_, {});

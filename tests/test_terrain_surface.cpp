@@ -8,13 +8,13 @@
 #include <string>
 #include <vector>
 
+#include "maps/terrain/post_positions.h"
+#include "maps/terrain/surface.h"
 #include "support/random.h"
 #include "support/raster_writer.h"
 #include "support/shared_data.h"
 #include "support/temporary_directory.h"
 #include "support/tiling.h"
-#include "maps/terrain/post_positions.h"
-#include "maps/terrain/surface.h"
 #include "vantage/error.h"
 
 namespace vantage::terrain {

@@ -7,9 +7,9 @@
 #include <limits>
 #include <numbers>
 
+#include "app/scene_caveats.h"
 #include "geo/local_frame.h"
 #include "geo/longitudes.h"
-#include "app/scene_caveats.h"
 
 namespace vantage::app {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "geo/local_frame.h"
 #include "app/input_file.h"
 #include "app/numbers.h"
+#include "geo/local_frame.h"
 #include "vantage/error.h"
 
 namespace vantage::app {

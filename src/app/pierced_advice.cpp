@@ -5,8 +5,8 @@
 #include <string_view>
 #include <utility>
 
-#include "maps/city/assembly.h"
 #include "app/scene_caveats.h"
+#include "maps/city/assembly.h"
 
 namespace vantage::app {
 namespace {

@@ -9,15 +9,15 @@
 #include <tuple>
 #include <vector>
 
-#include "maps/city/footprint.h"
-#include "maps/city/region.h"
-#include "geo/local_frame.h"
 #include "app/ground_room.h"
 #include "app/numbers.h"
 #include "app/pierced_advice.h"
 #include "app/run_mission.h"
-#include "maps/osm/extract.h"
+#include "geo/local_frame.h"
 #include "io/mesh_builder.h"
+#include "maps/city/footprint.h"
+#include "maps/city/region.h"
+#include "maps/osm/extract.h"
 #include "maps/terrain/surface.h"
 #include "vantage/error.h"
 

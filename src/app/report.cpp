@@ -3,8 +3,8 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
-#include "io/georeference_text.h"
 #include "core/names.h"
+#include "io/georeference_text.h"
 
 namespace vantage::app {
 namespace {

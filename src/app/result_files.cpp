@@ -6,8 +6,8 @@
 #include <memory>
 #include <utility>
 
-#include "core/progress_reporter.h"
 #include "core/atomic_file.h"
+#include "core/progress_reporter.h"
 #include "core/volume_check.h"
 #include "io/writers.h"
 #include "vantage/error.h"

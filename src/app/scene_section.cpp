@@ -6,10 +6,10 @@
 #include <initializer_list>
 #include <utility>
 
-#include "maps/city/settings.h"
 #include "app/numbers.h"
 #include "app/run_mission.h"
 #include "app/schema.h"
+#include "maps/city/settings.h"
 
 namespace vantage::app {
 namespace {

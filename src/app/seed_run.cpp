@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "app/run_mission.h"
+#include "core/volume_check.h"
 #include "depth/depth.h"
 #include "scene/viewpoint_check.h"
-#include "core/volume_check.h"
 #include "spheres/visibility.h"
 #include "vantage/error.h"
 

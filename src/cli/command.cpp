@@ -64,9 +64,8 @@ int with_threads(const CommonOptions& options, const Command& command) {
 double positive_option(const std::string& name, const std::string& text) {
   const app::ParsedNumber parsed = app::parse_number(text);
   if (parsed.fault == app::NumberFault::none && parsed.value > 0) return parsed.value;
-  const std::string advice = parsed.fault == app::NumberFault::none
-                                 ? "write a number greater than 0"
-                                 : app::number_advice(text, parsed.fault);
+  const std::string advice =
+      parsed.fault == app::NumberFault::none ? "write a number greater than 0" : app::number_advice(text, parsed.fault);
   throw Error(ErrorKind::input, name + " must be a positive number, not " + app::in_quotes(text),
               "command line, " + name, advice);
 }

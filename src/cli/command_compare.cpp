@@ -8,13 +8,13 @@
 #include <utility>
 #include <vector>
 
+#include "app/input_file.h"
+#include "app/into_frame.h"
 #include "cli/command.h"
 #include "cli/output_check.h"
 #include "cli/plain_volume.h"
 #include "cli/progress_line.h"
 #include "cli/text_table.h"
-#include "app/input_file.h"
-#include "app/into_frame.h"
 #include "io/writers.h"
 #include "vantage/compare.h"
 #include "vantage/error.h"
@@ -168,8 +168,7 @@ int run(const Options& options) {
   check_outputs(options);
   ProgressLine progress(options.common);
   const app::MeshInFrame a = app::read_into_frame(options.file_a, obj, {}, progress.callback());
-  const app::MeshInFrame b =
-      app::read_into_frame(options.file_b, obj, a.georeference, progress.callback());
+  const app::MeshInFrame b = app::read_into_frame(options.file_b, obj, a.georeference, progress.callback());
   if (!options.common.quiet) std::for_each(b.notes.begin(), b.notes.end(), note);
   Comparison comparison = compare_volumes(a.mesh, b.mesh, options.file_a, options.file_b, progress.callback());
   stop_if_interrupted();

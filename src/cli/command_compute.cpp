@@ -4,16 +4,16 @@
 #include <optional>
 #include <set>
 
+#include "app/result_files.h"
+#include "app/run_mission.h"
 #include "cli/command.h"
 #include "cli/output_check.h"
 #include "cli/progress_line.h"
 #include "cli/stage_folder.h"
 #include "cli/standard_streams.h"
 #include "cli/text_table.h"
-#include "app/run_mission.h"
 #include "core/atomic_file.h"
 #include "core/names.h"
-#include "app/result_files.h"
 #include "io/writers.h"
 #include "vantage/error.h"
 #include "vantage/volume.h"
@@ -115,7 +115,7 @@ app::ReportSource source_of(const Mission& mission, const MissionRun& run) {
 
 /// `files`: the outputs, with the one that is on its way to standard output.
 app::WrittenResults write(const std::vector<std::string>& files, const Mission& mission, MissionRun& run,
-                            const Progress& progress) {
+                          const Progress& progress) {
   app::ResultRequest request;
   request.volumes.assign(files.begin(), files.end());
   request.obj_up = run.loaded.scene.up;

@@ -3,8 +3,8 @@
 
 #include "cli/command.h"
 #include "cli/text_table.h"
-#include "depth/choose.h"
 #include "core/names.h"
+#include "depth/choose.h"
 #include "vantage/devices.h"
 
 namespace vantage::cli {

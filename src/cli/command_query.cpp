@@ -9,6 +9,9 @@
 #include <optional>
 #include <span>
 
+#include "app/input_file.h"
+#include "app/numbers.h"
+#include "app/run_mission.h"
 #include "cli/command.h"
 #include "cli/interrupt.h"
 #include "cli/output_check.h"
@@ -16,9 +19,6 @@
 #include "cli/progress_line.h"
 #include "cli/row_reader.h"
 #include "cli/standard_streams.h"
-#include "app/input_file.h"
-#include "app/numbers.h"
-#include "app/run_mission.h"
 #include "core/atomic_file.h"
 #include "vantage/error.h"
 #include "vantage/query.h"

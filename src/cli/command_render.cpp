@@ -2,16 +2,16 @@
 #include <memory>
 #include <optional>
 
+#include "app/caveats.h"
+#include "app/input_file.h"
+#include "app/numbers.h"
+#include "app/run_mission.h"
 #include "cli/command.h"
 #include "cli/output_check.h"
 #include "cli/picture_options.h"
 #include "cli/progress_line.h"
 #include "cli/stage_sheet.h"
 #include "cli/standard_streams.h"
-#include "app/caveats.h"
-#include "app/input_file.h"
-#include "app/numbers.h"
-#include "app/run_mission.h"
 #include "vantage/error.h"
 #include "vantage/picture.h"
 

@@ -2,13 +2,13 @@
 #include <memory>
 #include <set>
 
+#include "app/result_files.h"
 #include "cli/command.h"
 #include "cli/output_check.h"
 #include "cli/progress_line.h"
 #include "cli/scene_options.h"
 #include "cli/scene_report.h"
 #include "core/atomic_file.h"
-#include "app/result_files.h"
 #include "io/scene_writers.h"
 #include "vantage/error.h"
 #include "vantage/scene_source.h"

@@ -1,11 +1,11 @@
 #include <memory>
 #include <set>
 
+#include "app/seed_run.h"
 #include "cli/command.h"
 #include "cli/output_check.h"
 #include "cli/progress_line.h"
 #include "cli/text_table.h"
-#include "app/seed_run.h"
 #include "io/writers.h"
 #include "vantage/devices.h"
 #include "vantage/error.h"

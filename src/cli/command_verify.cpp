@@ -5,15 +5,15 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "app/caveats.h"
+#include "app/input_file.h"
+#include "app/into_frame.h"
+#include "app/run_mission.h"
 #include "cli/command.h"
 #include "cli/open_edges.h"
 #include "cli/progress_line.h"
 #include "cli/standard_streams.h"
 #include "cli/text_table.h"
-#include "app/caveats.h"
-#include "app/input_file.h"
-#include "app/into_frame.h"
-#include "app/run_mission.h"
 #include "vantage/verify.h"
 #include "vantage/volume.h"
 

@@ -4,10 +4,10 @@
 #include <charconv>
 #include <cmath>
 
-#include "cli/text_table.h"
 #include "app/input_file.h"
 #include "app/into_frame.h"
 #include "app/numbers.h"
+#include "cli/text_table.h"
 #include "io/read_causes.h"
 #include "vantage/error.h"
 

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <string_view>
 
-#include "maps/city/settings.h"
-#include "cli/command.h"
 #include "app/input_file.h"
 #include "app/numbers.h"
+#include "cli/command.h"
+#include "maps/city/settings.h"
 #include "vantage/error.h"
 
 namespace vantage::cli {

@@ -11,10 +11,10 @@
 #include <system_error>
 #include <utility>
 
+#include "app/report.h"
 #include "cli/plain_volume.h"
 #include "core/atomic_file.h"
 #include "core/names.h"
-#include "app/report.h"
 #include "vantage/error.h"
 #include "vantage/volume.h"
 

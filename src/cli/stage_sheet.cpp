@@ -3,11 +3,11 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "app/input_file.h"
+#include "app/run_mission.h"
 #include "cli/picture_options.h"
 #include "cli/plain_volume.h"
 #include "cli/text_table.h"
-#include "app/input_file.h"
-#include "app/run_mission.h"
 #include "vantage/error.h"
 #include "vantage/volume.h"
 

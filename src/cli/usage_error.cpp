@@ -94,8 +94,7 @@ const CLI::App* find_command(const CLI::App& app, const std::string& name) {
 Error unknown_command(const CLI::App& app, const std::string& word) {
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
-  const std::string_view nearest =
-      app::nearest_name(word, std::vector<std::string_view>(names.begin(), names.end()));
+  const std::string_view nearest = app::nearest_name(word, std::vector<std::string_view>(names.begin(), names.end()));
   return {ErrorKind::input, "there is no command " + in_quotes(word), kWhere,
           "did you mean '" + std::string(nearest) + "'? 'vantage --help' lists the commands"};
 }

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "exact/blocker.h"
+#include "core/plane.h"
 
 namespace vantage::core {
 

@@ -20,7 +20,7 @@ namespace {
 
 class Mender {
  public:
-  Mender(solid::LabelledMesh& labelled, double flat)
+  Mender(LabelledMesh& labelled, double flat)
       : labelled_(labelled),
         vertices_(labelled.mesh.vertices),
         triangles_(labelled.mesh.triangles),
@@ -53,7 +53,7 @@ class Mender {
   void turn_sides();
   void finish();
 
-  solid::LabelledMesh& labelled_;
+  LabelledMesh& labelled_;
   std::vector<Vec3>& vertices_;
   std::vector<Triangle>& triangles_;
   double flat_;
@@ -204,6 +204,6 @@ bool Mender::run() {
 
 }  // namespace
 
-bool mend_welded(solid::LabelledMesh& labelled, double flat_m) { return Mender(labelled, flat_m).run(); }
+bool mend_welded(LabelledMesh& labelled, double flat_m) { return Mender(labelled, flat_m).run(); }
 
 }  // namespace vantage::core

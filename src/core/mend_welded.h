@@ -2,7 +2,7 @@
 // must be for its readers: closed, and without facets that have no area.
 #pragma once
 
-#include "solid/csg.h"
+#include "core/labelled_mesh.h"
 
 namespace vantage::core {
 
@@ -17,6 +17,6 @@ namespace vantage::core {
 /// touch: two triangles to an edge, as far as that can be. A mesh without such facets is left as it is. Returns whether
 /// anything was changed. With `flat_m` 0 differences and products of coordinates should be exact (whole multiples,
 /// below 2^25, of a power of two). Cost: linear, but for sorting the vertices.
-bool mend_welded(solid::LabelledMesh& labelled, double flat_m);
+bool mend_welded(LabelledMesh& labelled, double flat_m);
 
 }  // namespace vantage::core

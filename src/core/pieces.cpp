@@ -64,7 +64,7 @@ void drop_unused_vertices(Mesh& mesh) {
   }
 }
 
-void drop_slivers(solid::LabelledMesh& labelled, double thickness_m) {
+void drop_slivers(LabelledMesh& labelled, double thickness_m) {
   auto& [mesh, labels] = labelled;
   const Pieces found = find_pieces(mesh);
   std::size_t kept = 0;

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "solid/csg.h"
+#include "core/labelled_mesh.h"
 #include "vantage/geometry.h"
 
 namespace vantage::core {
@@ -27,7 +27,7 @@ Pieces find_pieces(const Mesh& mesh);
 
 /// Removes pieces that are thinner than `thickness_m` (volume over area): what booleans do not resolve. Cavities stay:
 /// to fill one would add space. Vertices that nothing uses any more go too.
-void drop_slivers(solid::LabelledMesh& labelled, double thickness_m);
+void drop_slivers(LabelledMesh& labelled, double thickness_m);
 
 /// Numbers the vertices anew, in their order, without those that no triangle uses.
 void drop_unused_vertices(Mesh& mesh);

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "depth/depth.h"
 #include "core/bvh.h"
+#include "depth/depth.h"
 
 namespace vantage::depth {
 

@@ -26,22 +26,6 @@ Vec3 area_vector(const std::vector<Vec3>& polygon) {
 
 }  // namespace
 
-LocalTarget make_local_target(const std::vector<Vector2d>& polygon, double slack, double rounding) {
-  LocalTarget target;
-  target.vertices = polygon;
-  target.slack = slack;
-  target.rounding = rounding;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Vector2d& a = polygon[i];
-    const Vector2d along = (polygon[(i + 1) % polygon.size()] - a).normalized();
-    const Vector2d outward(along.y(), -along.x());
-    target.edges.push_back({outward, outward.dot(a)});
-    target.radius = std::max(target.radius, a.norm());
-    target.clearance = std::min(target.clearance, target.edges.back().distance);
-  }
-  return target;
-}
-
 bool BlockerBuilder::build(std::span<const Vec3> polygon, std::vector<Plane>& planes, std::vector<Vec3>& corners) {
   clip(polygon);
   if (polygon_.size() < 3) return false;
@@ -139,7 +123,7 @@ void BlockerBuilder::add_own_plane(const Vec3& normal) {
 void BlockerBuilder::add_target_edge_planes() {
   for (std::size_t i = 0; i < target_.edges.size(); ++i) {
     if (on_polygon_[i] && on_polygon_[i + 1 == on_polygon_.size() ? 0 : i + 1]) continue;
-    const LocalTarget::Edge& edge = target_.edges[i];
+    const target::LocalTarget::Edge& edge = target_.edges[i];
     double slope = -kInfinity;
     bool separates = true;
     for (const Vec3& o : polygon_) {

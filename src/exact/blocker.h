@@ -6,39 +6,23 @@
 #include <span>
 #include <vector>
 
-#include "vantage/geometry.h"
-#include "vantage/target.h"
+#include "core/plane.h"
+#include "target/local_target.h"
 
 namespace vantage::exact {
 
-/// The target in its own frame, with what every blocker needs of it worked out once. `centre` is the origin.
-struct LocalTarget {
-  struct Edge {
-    Eigen::Vector2d outward;  ///< unit normal of the edge, away from the target
-    double distance;          ///< of the edge's line from the centre; > 0
-  };
-  std::vector<Eigen::Vector2d> vertices;                       ///< counter-clockwise about the origin, metres
-  std::vector<Edge> edges;                                     ///< edge i runs from vertex i to vertex i + 1
-  double radius = 0;                                           ///< of the farthest vertex from the origin
-  double clearance = std::numeric_limits<double>::infinity();  ///< of the nearest edge's line from the origin
-  double slack = 0;     ///< points this near to the plane, or to an edge's line, are on it (Lengths::slack)
-  double rounding = 0;  ///< of coordinates (Lengths::rounding)
-};
-LocalTarget make_local_target(const std::vector<Eigen::Vector2d>& polygon, double slack, double rounding);
-
-/// A plane g . x = 1 that bounds what a blocker hides: hidden points have g . x > 1 for all of its planes. `g` is an
-/// inverse length. On the direction d the plane is met at distance 1 / (g . d): g . d is the inverse depth.
-using Plane = Vec3;
+/// Of a blocker: g . x = 1 bounds what it hides. Hidden points have g . x > 1 for all of its planes.
+using core::Plane;
 
 /// Planes of B(O) for the convex polygon O (local frame, metres, at least 3 corners, planar to rounding), clipped to
 /// z >= 0. Appends to `planes` and the clipped corners to `corners`; returns false and appends nothing when O reaches
-/// nowhere above the target's plane. Every plane holds all of B(O) on its far side (to LocalTarget::slack), so leaving
-/// one out, or easing it, only hides more. That is done to planes within numerics::kGrazing of the target's; then no
-/// corners are appended, for facets need not begin at them, and there may be no planes at all.
-/// Cost: O(N M) for N target vertices and M corners.
+/// nowhere above the target's plane. Every plane holds all of B(O) on its far side (to target::LocalTarget::slack), so
+/// leaving one out, or easing it, only hides more. That is done to planes within numerics::kGrazing of the target's;
+/// then no corners are appended, for facets need not begin at them, and there may be no planes at all. Cost: O(N M) for
+/// N target vertices and M corners.
 class BlockerBuilder {
  public:
-  explicit BlockerBuilder(const LocalTarget& target) : target_(target) {}
+  explicit BlockerBuilder(const target::LocalTarget& target) : target_(target) {}
   bool build(std::span<const Vec3> polygon, std::vector<Plane>& planes, std::vector<Vec3>& corners);
 
  private:
@@ -49,7 +33,7 @@ class BlockerBuilder {
   void add(const Vec3& normal, double height);
   bool same(const Plane& kept, const Plane& plane) const;
 
-  const LocalTarget& target_;
+  const target::LocalTarget& target_;
   std::vector<Vec3> polygon_;             // clipped
   std::vector<std::uint8_t> on_polygon_;  // per target vertex: 1 where the polygon's plane, if kept, touches it
   std::vector<Plane>* planes_ = nullptr;

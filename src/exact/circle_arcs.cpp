@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "target/numerics.h"
 #include "exact/segment_cover.h"
+#include "target/numerics.h"
 
 namespace vantage::exact {
 namespace {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <queue>
 
-#include "target/numerics.h"
 #include "exact/segment_cover.h"
+#include "target/numerics.h"
 
 namespace vantage::exact {
 namespace {
@@ -38,7 +38,8 @@ double distance_to(const core::Bounds& bounds, const Vec3& point) {
 /// "Only what is seen can hide".
 class Neighbours {
  public:
-  Neighbours(const PreparedScene::Data& scene, const TargetFrame& frame, const LocalTarget& target, double reach)
+  Neighbours(const PreparedScene::Data& scene, const TargetFrame& frame, const target::LocalTarget& target,
+             double reach)
       : scene_(scene), frame_(frame), target_(target), centre_(frame.origin - scene.origin), reach_(reach) {}
 
   /// For the last blocker of the set; `corners` are those of its polygon, not clipped.
@@ -92,7 +93,7 @@ class Neighbours {
 
   const PreparedScene::Data& scene_;
   const TargetFrame& frame_;
-  const LocalTarget& target_;
+  const target::LocalTarget& target_;
   Vec3 centre_;
   double reach_;
   std::vector<std::uint32_t> touched_;
@@ -100,17 +101,7 @@ class Neighbours {
 
 }  // namespace
 
-void local_polygon(const PreparedScene::Data& scene, const TargetFrame& frame, std::uint32_t polygon,
-                   std::vector<Vec3>& corners) {
-  const Vec3 centre = frame.origin - scene.origin;
-  corners.clear();
-  for (std::uint32_t k = scene.first_vertex[polygon]; k < scene.first_vertex[polygon + 1]; ++k) {
-    const Vec3 d = scene.vertices[scene.polygon_vertices[k]] - centre;
-    corners.emplace_back(frame.axis_u.dot(d), frame.axis_v.dot(d), frame.normal.dot(d));
-  }
-}
-
-void collect_blockers(const PreparedScene::Data& scene, const TargetFrame& frame, const LocalTarget& target,
+void collect_blockers(const PreparedScene::Data& scene, const TargetFrame& frame, const target::LocalTarget& target,
                       const target::RangeRegion& range, BlockerSet& blockers, DirectionTree& tree,
                       const core::ProgressReporter& progress) {
   if (scene.bvh.nodes.empty()) return;
@@ -150,7 +141,7 @@ void collect_blockers(const PreparedScene::Data& scene, const TargetFrame& frame
       continue;
     }
     for (std::uint32_t polygon = node.first; polygon < node.first + node.count; ++polygon) {
-      local_polygon(scene, frame, polygon, corners);
+      target::local_polygon(scene, frame, polygon, corners);
       if (tree.hides_hull(corners)) continue;
       const std::size_t planes = blockers.planes.size();
       if (!builder.build(corners, blockers.planes, blockers.corners)) continue;

@@ -12,12 +12,8 @@ namespace vantage::exact {
 /// Walks the scene's hierarchy by distance from the target's centre; skips what is behind the target, out of range or
 /// hidden behind what was found before. Fills `blockers` and inserts into `tree`, which must refer to `blockers`.
 /// Blockers come in the order found, which does not depend on anything but the input.
-void collect_blockers(const PreparedScene::Data& scene, const TargetFrame& frame, const LocalTarget& target,
+void collect_blockers(const PreparedScene::Data& scene, const TargetFrame& frame, const target::LocalTarget& target,
                       const target::RangeRegion& range, BlockerSet& blockers, DirectionTree& tree,
                       const core::ProgressReporter& progress);
-
-/// Corners of a scene polygon in the target's frame.
-void local_polygon(const PreparedScene::Data& scene, const TargetFrame& frame, std::uint32_t polygon,
-                   std::vector<Vec3>& corners);
 
 }  // namespace vantage::exact

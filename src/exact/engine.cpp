@@ -3,13 +3,13 @@
 #include <chrono>
 #include <cmath>
 
-#include "target/lengths.h"
 #include "core/number_text.h"
+#include "core/parallel.h"
+#include "exact/side.h"
+#include "target/lengths.h"
 #include "target/point_target.h"
 #include "target/range_check.h"
-#include "exact/side.h"
 #include "target/target_check.h"
-#include "core/parallel.h"
 #include "vantage/error.h"
 #include "vantage/volume.h"
 

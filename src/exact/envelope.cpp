@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "exact/circle_arcs.h"
 #include "core/facet_polygon.h"
-#include "exact/interval_set.h"
-#include "target/numerics.h"
-#include "exact/segment_cover.h"
 #include "core/parallel.h"
+#include "exact/circle_arcs.h"
+#include "exact/interval_set.h"
+#include "exact/segment_cover.h"
+#include "target/numerics.h"
 
 namespace vantage::exact {
 namespace {
@@ -134,8 +134,8 @@ FacetTable find_facets(const BlockerSet& blockers, const std::vector<const Direc
 class FacetTracer {
  public:
   FacetTracer(const BlockerSet& blockers, const DirectionTree& tree,
-              const std::vector<const DirectionTree::Leaf*>& leaves, const FacetTable& table, const target::RangeRegion& range,
-              const CurveSampling& sampling)
+              const std::vector<const DirectionTree::Leaf*>& leaves, const FacetTable& table,
+              const target::RangeRegion& range, const CurveSampling& sampling)
       : blockers_(blockers),
         leaves_(leaves),
         table_(table),

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "exact/gauge.h"
-#include "target/numerics.h"
-#include "exact/rise_check.h"
 #include "core/parallel.h"
+#include "exact/gauge.h"
+#include "exact/rise_check.h"
+#include "target/numerics.h"
 
 namespace vantage::exact {
 namespace {

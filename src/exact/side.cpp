@@ -5,11 +5,11 @@
 #include <cmath>
 #include <utility>
 
+#include "core/edges.h"
 #include "exact/collect.h"
-#include "target/lengths.h"
 #include "exact/triangulation.h"
 #include "solid/csg.h"
-#include "core/edges.h"
+#include "target/lengths.h"
 
 namespace vantage::exact {
 namespace {
@@ -120,7 +120,7 @@ StageCounts operator+(StageCounts a, const StageCounts& b) {
 Side compute_side(const PreparedScene& scene, const TargetFrame& frame, const target::RangeRegion& range,
                   const ExactOptions& options, const core::ProgressReporter& progress) {
   const target::Lengths lengths = target::lengths_of(scene.data(), frame, range.radius());
-  const LocalTarget target = make_local_target(frame.polygon, lengths.slack, lengths.rounding);
+  const target::LocalTarget target = target::make_local_target(frame.polygon, lengths.slack, lengths.rounding);
   ChartGrid grid(range, options.tolerance_m);
   progress.begin("finding blockers");
   BlockerSet blockers;

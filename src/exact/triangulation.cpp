@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 
+#include "core/parallel.h"
 #include "exact/gauge.h"
-#include "target/numerics.h"
 #include "exact/quadrant_mesh.h"
 #include "exact/range_cells.h"
-#include "core/parallel.h"
+#include "target/numerics.h"
 #include "vantage/error.h"
 
 namespace vantage::exact {

@@ -20,6 +20,7 @@ struct JsonProblem {
 
 /// Parses `text`. Throws JsonProblem for what is no JSON, is nested deeper than 100 levels, or has more values than the
 /// limits allow; Error(cancelled) when told to stop.
-nlohmann::json parse_json(std::string_view text, const core::ProgressReporter& progress, const core::ReadLimits& limits);
+nlohmann::json parse_json(std::string_view text, const core::ProgressReporter& progress,
+                          const core::ReadLimits& limits);
 
 }  // namespace vantage::io

@@ -116,7 +116,7 @@ Scene read_scene(const std::filesystem::path& file, const SceneReadOptions& opti
   result.source = file;
   result.up = raw.format == io::MeshFormat::gltf       ? UpAxis::y
               : raw.format == io::MeshFormat::cityjson ? UpAxis::z
-                                                          : used.up;
+                                                       : used.up;
   result.scale = was_projected ? 1 : used.scale;
   result.states_axes = raw.axes.has_value();
   result.dropped_faces = raw.dropped_faces;

@@ -39,8 +39,8 @@ struct RawMesh {
 
 /// Reads a file of any known format, compressed or not. Throws as read_scene does.
 /// `lod`: as SceneReadOptions::lod.
-RawMesh read_mesh_file(const std::filesystem::path& file, const Progress& progress = {}, const core::ReadLimits& limits = {},
-                       const std::string& lod = {});
+RawMesh read_mesh_file(const std::filesystem::path& file, const Progress& progress = {},
+                       const core::ReadLimits& limits = {}, const std::string& lod = {});
 
 /// Moves a mesh from its file's axes and unit into the scene frame: z up, scaled, about the origin where it has a
 /// place. glTF is y up and CityJSON z up whatever the options say. Fills in `georeference`. Throws Error(input) if a

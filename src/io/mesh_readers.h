@@ -19,10 +19,11 @@ RawMesh read_any(const MeshSource& source, const core::ProgressReporter& progres
 RawMesh read_obj(const MeshSource& source, const core::ProgressReporter& progress, const core::ReadLimits& limits = {});
 RawMesh read_ply(const MeshSource& source, const core::ProgressReporter& progress, const core::ReadLimits& limits = {});
 RawMesh read_stl(const MeshSource& source, const core::ProgressReporter& progress, const core::ReadLimits& limits = {});
-RawMesh read_gltf(const MeshSource& source, const core::ProgressReporter& progress, const core::ReadLimits& limits = {});
+RawMesh read_gltf(const MeshSource& source, const core::ProgressReporter& progress,
+                  const core::ReadLimits& limits = {});
 /// `lod`: as SceneReadOptions::lod.
-RawMesh read_cityjson(const MeshSource& source, const core::ProgressReporter& progress, const core::ReadLimits& limits = {},
-                      const std::string& lod = {});
+RawMesh read_cityjson(const MeshSource& source, const core::ProgressReporter& progress,
+                      const core::ReadLimits& limits = {}, const std::string& lod = {});
 
 /// Whether some JSON object in the text has the type "CityJSON" or "CityJSONFeature".
 bool is_cityjson(std::string_view bytes);

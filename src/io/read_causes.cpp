@@ -7,9 +7,9 @@
 #include <string>
 #include <string_view>
 
+#include "core/names.h"
 #include "core/progress_reporter.h"
 #include "io/mesh_source.h"
-#include "core/names.h"
 #include "vantage/error.h"
 
 namespace vantage::io {

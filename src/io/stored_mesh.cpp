@@ -8,11 +8,14 @@
 #include <utility>
 
 #include "core/mend_welded.h"
-#include "solid/numerics.h"
 #include "vantage/error.h"
 
 namespace vantage::io {
 namespace {
+
+/// In double precision a facet has no area for its readers when it is narrower than this many steps of the largest
+/// coordinate: rounding of the area's own terms.
+constexpr double kFlatSteps = 4;
 
 double largest_coordinate(const Box& box) {
   return std::max(box.min.cwiseAbs().maxCoeff(), box.max.cwiseAbs().maxCoeff());
@@ -29,7 +32,7 @@ double spacing(double number, int digits) {
 template <typename Place>
 StoredMesh stored(const Volume& volume, double flat, const Place& place) {
   StoredMesh result;
-  solid::LabelledMesh labelled{volume.mesh, volume.cause_of};
+  core::LabelledMesh labelled{volume.mesh, volume.cause_of};
   for (Vec3& vertex : labelled.mesh.vertices) {
     const Vec3 moved = place(vertex);
     result.rounding_m = std::max(result.rounding_m, (moved - vertex).norm());
@@ -79,13 +82,13 @@ StoredMesh stored_on_grid(const Volume& volume, const Box& box, const Vec3& orig
 
 StoredMesh stored_as_doubles(const Volume& volume) {
   const Box box = bounding_box(volume.mesh);
-  const double flat = box.empty() ? 0 : numerics::kFlatSteps * spacing(largest_coordinate(box), 53);
+  const double flat = box.empty() ? 0 : kFlatSteps * spacing(largest_coordinate(box), 53);
   return stored(volume, flat, [](const Vec3& vertex) { return vertex; });
 }
 
 StoredMesh stored_in_units(const Volume& volume, double scale) {
   const Box box = bounding_box(volume.mesh);
-  const double flat = box.empty() ? 0 : numerics::kFlatSteps * spacing(largest_coordinate(box), 53);
+  const double flat = box.empty() ? 0 : kFlatSteps * spacing(largest_coordinate(box), 53);
   // Until the number that is written reads back as the one that it was made from: at once, as a rule.
   constexpr int kRounds = 4;
   return stored(volume, flat, [&](Vec3 vertex) {

@@ -5,9 +5,9 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "core/names.h"
 #include "io/georeference_text.h"
 #include "io/glb_container.h"
-#include "core/names.h"
 #include "io/writers.h"
 
 namespace vantage::io {

@@ -3,9 +3,9 @@
 #include <set>
 #include <vector>
 
+#include "core/names.h"
 #include "io/axes_text.h"
 #include "io/rounding_text.h"
-#include "core/names.h"
 #include "io/write_place.h"
 #include "io/writers.h"
 #include "vantage/error.h"

@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
-#include "io/place_file.h"
 #include "core/atomic_file.h"
+#include "io/place_file.h"
 #include "vantage/georeference.h"
 
 namespace vantage::io {

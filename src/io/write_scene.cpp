@@ -3,9 +3,9 @@
 #include <numeric>
 #include <string>
 
+#include "core/volume_check.h"
 #include "io/axes_text.h"
 #include "io/scene_writers.h"
-#include "core/volume_check.h"
 #include "io/write_place.h"
 #include "io/writers.h"
 #include "vantage/error.h"

@@ -29,6 +29,8 @@ void write_stl_mesh(const Mesh& mesh, std::string_view content, core::AtomicFile
   }
 }
 
-void write_stl(const StoredMesh& stored, core::AtomicFile& file) { write_stl_mesh(stored.mesh, "visibility volume", file); }
+void write_stl(const StoredMesh& stored, core::AtomicFile& file) {
+  write_stl_mesh(stored.mesh, "visibility volume", file);
+}
 
 }  // namespace vantage::io

@@ -15,8 +15,8 @@
 #include <ctime>
 #include <numbers>
 
-#include "picture/coarse_triangles.h"
 #include "depth/gl_objects.h"
+#include "picture/coarse_triangles.h"
 #include "picture/gl_picture_shaders.h"
 #include "vantage/error.h"
 
@@ -93,7 +93,8 @@ Eigen::Vector4f four(const Eigen::Vector3f& v, float w) { return {v.x(), v.y(), 
 
 class Painter {
  public:
-  Painter(const depth::GlContext& context, const DrawList& list, const View& view, const core::ProgressReporter& progress)
+  Painter(const depth::GlContext& context, const DrawList& list, const View& view,
+          const core::ProgressReporter& progress)
       : context_(context), gl_(context.gl()), list_(list), view_(view), progress_(progress), objects_(context) {
     programs();
     images();

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/progress_reporter.h"
-#include "picture/draw_list.h"
 #include "depth/gl_context.h"
+#include "picture/draw_list.h"
 #include "picture/view.h"
 
 namespace vantage::picture {

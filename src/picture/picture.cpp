@@ -3,15 +3,15 @@
 
 #include <algorithm>
 
+#include "core/atomic_file.h"
 #include "core/progress_reporter.h"
+#include "depth/depth.h"
+#include "depth/gl_context.h"
 #include "picture/annotate.h"
 #include "picture/canvas.h"
-#include "depth/depth.h"
 #include "picture/draw_list.h"
-#include "depth/gl_context.h"
 #include "picture/gl_picture.h"
 #include "picture/sight.h"
-#include "core/atomic_file.h"
 #include "vantage/error.h"
 
 namespace vantage {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "exact/collect.h"
 #include "core/parallel.h"
+#include "exact/collect.h"
 
 namespace vantage::query {
 namespace {
@@ -58,8 +58,8 @@ void sort_by_bound(std::vector<BlockerIndex::Entry>& entries) {
 
 }  // namespace
 
-BlockerIndex::BlockerIndex(const PreparedScene::Data& scene, const TargetFrame& frame, const exact::LocalTarget& target,
-                           std::span<const std::uint32_t> leaves, double reach)
+BlockerIndex::BlockerIndex(const PreparedScene::Data& scene, const TargetFrame& frame,
+                           const target::LocalTarget& target, std::span<const std::uint32_t> leaves, double reach)
     : least_bound_((1 - 1e-9) / (std::sqrt(3.0) * reach)) {
   build_blockers(scene, frame, target, leaves);
   parallel::for_ranges(roots_.size(), 1, [&](std::size_t begin, std::size_t end) {
@@ -101,7 +101,7 @@ void BlockerIndex::free_below(Cell& cell) {
 }
 
 void BlockerIndex::build_blockers(const PreparedScene::Data& scene, const TargetFrame& frame,
-                                  const exact::LocalTarget& target, std::span<const std::uint32_t> leaves) {
+                                  const target::LocalTarget& target, std::span<const std::uint32_t> leaves) {
   struct Piece {
     std::vector<Blocker> blockers;
     std::vector<exact::Plane> planes;
@@ -116,7 +116,7 @@ void BlockerIndex::build_blockers(const PreparedScene::Data& scene, const Target
       for (const std::uint32_t leaf : leaves.subspan(first, count)) {
         const core::BvhNode& node = scene.bvh.nodes[leaf];
         for (std::uint32_t polygon = node.first; polygon < node.first + node.count; ++polygon) {
-          exact::local_polygon(scene, frame, polygon, corners);
+          target::local_polygon(scene, frame, polygon, corners);
           clipped.clear();
           const std::size_t planes_before = piece.planes.size();
           if (!builder.build(corners, piece.planes, clipped)) continue;

@@ -35,7 +35,7 @@ class BlockerIndex {
   /// Of the polygons in `leaves` (nodes of the scene's hierarchy), for points up to `reach` metres from the target's
   /// centre. Keeps references to nothing. Uses the threads of the caller's arena. Cost: O(N M) for each polygon, as
   /// BlockerBuilder.
-  BlockerIndex(const PreparedScene::Data& scene, const TargetFrame& frame, const exact::LocalTarget& target,
+  BlockerIndex(const PreparedScene::Data& scene, const TargetFrame& frame, const target::LocalTarget& target,
                std::span<const std::uint32_t> leaves, double reach);
   ~BlockerIndex();
   BlockerIndex(const BlockerIndex&) = delete;
@@ -72,7 +72,7 @@ class BlockerIndex {
   Cell& cell_at(const Vec3& direction, double sum);
   bool is_worth_dividing(Cell& cell, std::size_t looked_at) const;
   void divide(Cell& cell);
-  void build_blockers(const PreparedScene::Data& scene, const TargetFrame& frame, const exact::LocalTarget& target,
+  void build_blockers(const PreparedScene::Data& scene, const TargetFrame& frame, const target::LocalTarget& target,
                       std::span<const std::uint32_t> leaves);
   static void free_below(Cell& cell);
 

@@ -9,17 +9,17 @@
 #include <limits>
 #include <optional>
 
+#include "core/parallel.h"
 #include "exact/blocker.h"
 #include "exact/collect.h"
+#include "exact/segment_cover.h"
+#include "query/blocker_index.h"
+#include "query/limits.h"
 #include "target/lengths.h"
 #include "target/point_target.h"
 #include "target/range_check.h"
 #include "target/range_region.h"
-#include "exact/segment_cover.h"
 #include "target/target_check.h"
-#include "core/parallel.h"
-#include "query/blocker_index.h"
-#include "query/limits.h"
 #include "vantage/error.h"
 
 namespace vantage {
@@ -69,9 +69,9 @@ struct Reach {
   std::atomic<std::size_t> work = 0;    ///< blockers built without the index
 };
 
-LocalTarget local_target(const PreparedScene::Data& scene, const TargetFrame& frame, double max_range) {
+target::LocalTarget local_target(const PreparedScene::Data& scene, const TargetFrame& frame, double max_range) {
   const Lengths lengths = lengths_of(scene, frame, max_range);
-  return make_local_target(frame.polygon, lengths.slack, lengths.rounding);
+  return target::make_local_target(frame.polygon, lengths.slack, lengths.rounding);
 }
 
 /// What one side of a target asks of the scene; shared by all threads.
@@ -92,7 +92,7 @@ struct Side {
   const PreparedScene::Data& scene;
   const query::Limits& limits;
   TargetFrame frame;
-  LocalTarget target;
+  target::LocalTarget target;
   RangeRegion range;
   bool is_reachable;  // else no point at all is in range
   std::array<Reach, 2> reaches;
@@ -171,7 +171,7 @@ class Sight {
     for_each_leaf(side_.scene, pyramid_, stack, [&](std::uint32_t leaf) {
       const core::BvhNode& node = side_.scene.bvh.nodes[leaf];
       for (std::uint32_t polygon = node.first; polygon < node.first + node.count; ++polygon) {
-        local_polygon(side_.scene, side_.frame, polygon, corners);
+        target::local_polygon(side_.scene, side_.frame, polygon, corners);
         planes.clear();
         clipped.clear();
         ++work;

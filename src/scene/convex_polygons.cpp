@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <optional>
 
-#include "core/parallel.h"
 #include "core/convex_corners.h"
+#include "core/parallel.h"
 
 namespace vantage::scene {
 namespace {
@@ -171,7 +171,7 @@ class Merger {
   double turn_at(const Loop& loop, std::size_t i, const Vec3& normal) const {
     const std::size_t n = loop.size();
     return core::distance_right_of(vertices_[loop[(i + n - 1) % n]], vertices_[loop[(i + 1) % n]], vertices_[loop[i]],
-                             normal);
+                                   normal);
   }
 
   // Whether each vertex of a polygon is a corner beyond doubt. Two such polygons on either side of an edge make another

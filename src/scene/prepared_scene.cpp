@@ -6,11 +6,11 @@
 #include <numeric>
 #include <unordered_set>
 
-#include "core/progress_reporter.h"
 #include "core/parallel.h"
+#include "core/progress_reporter.h"
+#include "core/read_limits.h"
 #include "scene/convex_polygons.h"
 #include "scene/prepared_data.h"
-#include "core/read_limits.h"
 #include "vantage/error.h"
 
 namespace vantage {

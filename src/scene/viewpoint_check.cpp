@@ -76,7 +76,8 @@ void ViewpointCheck::check(const Vec3& viewpoint, const std::string& name) const
   for (std::size_t t = 0; t < piece_of_.size(); ++t) {
     Corners corners;
     for (std::size_t k = 0; k < 3; ++k) corners[k] = scene_.mesh.vertices[scene_.mesh.triangles[t][k]] - viewpoint;
-    if (core::squared_distance_to_triangle(Vec3::Zero(), corners[0], corners[1], corners[2]) < kOnSurface * kOnSurface) {
+    if (core::squared_distance_to_triangle(Vec3::Zero(), corners[0], corners[1], corners[2]) <
+        kOnSurface * kOnSurface) {
       throw Error(ErrorKind::input, name + " lies on a surface", "object '" + scene_.objects[scene_.object_of[t]] + "'",
                   "move it off the surface, by 1 mm or more");
     }

@@ -12,11 +12,11 @@
 #include <utility>
 #include <vector>
 
-#include "core/triangle_distance.h"
 #include "core/edges.h"
-#include "solid/numerics.h"
 #include "core/pieces.h"
 #include "core/stars.h"
+#include "core/triangle_distance.h"
+#include "solid/numerics.h"
 
 namespace vantage::solid {
 namespace {

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/progress_reporter.h"
 #include "core/parallel.h"
+#include "core/progress_reporter.h"
 #include "solid/csg.h"
 #include "solid/farthest.h"
 #include "solid/solid_check.h"

@@ -6,8 +6,8 @@
 #include <numeric>
 #include <utility>
 
-#include "core/progress_reporter.h"
 #include "core/parallel.h"
+#include "core/progress_reporter.h"
 #include "vantage/error.h"
 
 namespace vantage::solid {

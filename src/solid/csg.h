@@ -10,17 +10,15 @@
 #include <utility>
 #include <vector>
 
+#include "core/labelled_mesh.h"
 #include "core/progress_reporter.h"
 #include "vantage/geometry.h"
 
 namespace vantage::solid {
 
-/// A mesh with one label per triangle.
-struct LabelledMesh {
-  Mesh mesh;
-  std::vector<std::uint32_t> labels;  ///< parallel to mesh.triangles, each at most kMaxLabel
-};
+using core::LabelledMesh;
 
+/// Of a LabelledMesh that becomes a solid.
 constexpr std::uint32_t kMaxLabel = 0x7fffffff;
 
 /// An immutable closed solid, cheap to copy. Any number of threads may read one.

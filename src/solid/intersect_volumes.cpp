@@ -4,13 +4,13 @@
 #include <string>
 #include <utility>
 
+#include "core/pieces.h"
 #include "core/progress_reporter.h"
+#include "core/volume_check.h"
 #include "solid/clean.h"
 #include "solid/outside_limits.h"
-#include "core/pieces.h"
 #include "solid/regions.h"
 #include "solid/take_over.h"
-#include "core/volume_check.h"
 #include "vantage/error.h"
 #include "vantage/volume.h"
 

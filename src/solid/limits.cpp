@@ -2,9 +2,9 @@
 #include <cmath>
 #include <string>
 
+#include "core/text.h"
 #include "solid/navigation.h"
 #include "solid/solid_check.h"
-#include "core/text.h"
 #include "vantage/error.h"
 
 namespace vantage::solid {

@@ -9,14 +9,14 @@
 #include <utility>
 #include <vector>
 
+#include "core/pieces.h"
 #include "core/progress_reporter.h"
+#include "core/volume_check.h"
 #include "solid/clean.h"
 #include "solid/numerics.h"
 #include "solid/outside_limits.h"
-#include "core/pieces.h"
 #include "solid/regions.h"
 #include "solid/take_over.h"
-#include "core/volume_check.h"
 #include "vantage/error.h"
 #include "vantage/volume.h"
 

@@ -56,10 +56,6 @@ constexpr double kMergeAnyway = 1e-2;
 /// more.
 constexpr double kTurnable = 1e-3;
 
-/// In double precision a facet has no area for its readers when it is narrower than this many steps of the largest
-/// coordinate: rounding of the area's own terms.
-constexpr double kFlatSteps = 4;
-
 /// The bounds of the farthest point agree to this part of it.
 constexpr double kFarthestPart = 0.01;
 

@@ -2,8 +2,8 @@
 
 #include <array>
 
-#include "solid/numerics.h"
 #include "core/text.h"
+#include "solid/numerics.h"
 
 namespace vantage::solid {
 namespace {

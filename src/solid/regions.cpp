@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include "solid/numerics.h"
 #include "core/text.h"
+#include "solid/numerics.h"
 
 namespace vantage::solid {
 namespace {

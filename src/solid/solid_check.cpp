@@ -7,14 +7,14 @@
 #include <limits>
 #include <vector>
 
-#include "core/progress_reporter.h"
-#include "core/parallel.h"
 #include "core/edges.h"
-#include "solid/numerics.h"
+#include "core/parallel.h"
+#include "core/progress_reporter.h"
 #include "core/text.h"
+#include "core/weld.h"
+#include "solid/numerics.h"
 #include "solid/triangle_contact.h"
 #include "solid/triangle_tree.h"
-#include "core/weld.h"
 #include "vantage/error.h"
 
 namespace vantage::solid {
@@ -67,26 +67,30 @@ constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 void Examination::check_edges() const {
   std::size_t single = 0, crowded = 0, turned = 0;
   core::EdgeUse first{};
-  core::for_each_edge(core::edge_uses(local_.triangles, local_.vertices.size()), [&](std::span<const core::EdgeUse> edge) {
-    const auto forward = std::count_if(edge.begin(), edge.end(), [](const core::EdgeUse& use) { return use.forward; });
-    if (2 * static_cast<std::size_t>(forward) == edge.size()) return;
-    if (single + crowded + turned == 0) first = edge[0];
-    if (edge.size() == 1) ++single;
-    if (edge.size() > 1) ++(edge.size() % 2 == 1 ? crowded : turned);
-  });
+  core::for_each_edge(
+      core::edge_uses(local_.triangles, local_.vertices.size()), [&](std::span<const core::EdgeUse> edge) {
+        const auto forward =
+            std::count_if(edge.begin(), edge.end(), [](const core::EdgeUse& use) { return use.forward; });
+        if (2 * static_cast<std::size_t>(forward) == edge.size()) return;
+        if (single + crowded + turned == 0) first = edge[0];
+        if (edge.size() == 1) ++single;
+        if (edge.size() > 1) ++(edge.size() % 2 == 1 ? crowded : turned);
+      });
   if (single + crowded + turned == 0) return;
-  const std::string where = name_ + ", first at the edge from " + core::point_text(local_.vertices[first.low] + centre_) +
-                            " to " + core::point_text(local_.vertices[first.high] + centre_);
+  const std::string where = name_ + ", first at the edge from " +
+                            core::point_text(local_.vertices[first.low] + centre_) + " to " +
+                            core::point_text(local_.vertices[first.high] + centre_);
   if (single > 0) {
     refuse("the mesh is open: " + core::count_text(single, "edge has", "edges have") + " only one triangle", where,
            "close its holes, so that every edge has two triangles");
   }
   if (crowded > 0) {
-    refuse("the mesh is not closed: " + core::count_text(crowded, "edge has", "edges have") + " an odd number of triangles",
+    refuse("the mesh is not closed: " + core::count_text(crowded, "edge has", "edges have") +
+               " an odd number of triangles",
            where, "remove inner and doubled faces, so that every edge has two triangles");
   }
-  refuse("the triangles turn different ways: at " + core::count_text(turned, "edge", "edges") + " neighbours disagree", where,
-         "make all triangles face outward");
+  refuse("the triangles turn different ways: at " + core::count_text(turned, "edge", "edges") + " neighbours disagree",
+         where, "make all triangles face outward");
 }
 
 void Examination::check_volume() const {
@@ -149,7 +153,8 @@ bool Examination::check_contacts(const TriangleTree& tree, const core::ProgressR
   const auto t = static_cast<std::size_t>(first - crossing.begin());
   const auto triangles = std::count_if(crossing.begin(), crossing.end(), crosses);
   refuse("the mesh intersects itself: " +
-             core::count_text(static_cast<std::size_t>(triangles), "triangle passes", "triangles pass") + " through others",
+             core::count_text(static_cast<std::size_t>(triangles), "triangle passes", "triangles pass") +
+             " through others",
          name_ + ", first the triangles at " + core::point_text(middle(t) + centre_) + " and " +
              core::point_text(middle(*first) + centre_),
          "unite its overlapping parts into one solid");
@@ -160,9 +165,10 @@ bool Examination::check_contacts(const TriangleTree& tree, const core::ProgressR
 std::vector<std::size_t> Examination::samples() const {
   const std::size_t count = local_.triangles.size();
   core::DisjointSets patches(count);
-  core::for_each_edge(core::edge_uses(local_.triangles, local_.vertices.size()), [&](std::span<const core::EdgeUse> edge) {
-    if (edge.size() == 2) patches.join(edge[0].triangle, edge[1].triangle);
-  });
+  core::for_each_edge(core::edge_uses(local_.triangles, local_.vertices.size()),
+                      [&](std::span<const core::EdgeUse> edge) {
+                        if (edge.size() == 2) patches.join(edge[0].triangle, edge[1].triangle);
+                      });
   const auto area = [&](std::size_t t) {
     const std::array<Vec3, 3> c = corners(t);
     return (c[1] - c[0]).cross(c[2] - c[0]).norm();

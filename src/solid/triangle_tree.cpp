@@ -94,8 +94,8 @@ TriangleTree::Nearest TriangleTree::nearest(const Vec3& point) const {
     if (node.leaf()) {
       for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
         const Triangle& t = mesh_.triangles[order_[i]];
-        const double squared = core::squared_distance_to_triangle(point, mesh_.vertices[t[0]], mesh_.vertices[t[1]],
-                                                                   mesh_.vertices[t[2]]);
+        const double squared =
+            core::squared_distance_to_triangle(point, mesh_.vertices[t[0]], mesh_.vertices[t[1]], mesh_.vertices[t[2]]);
         if (squared >= best) continue;
         best = squared;
         triangle = order_[i];

@@ -5,9 +5,9 @@
 #include <string>
 #include <utility>
 
-#include "target/lengths.h"
 #include "core/pieces.h"
 #include "spheres/numerics.h"
+#include "target/lengths.h"
 
 namespace vantage::spheres {
 namespace {

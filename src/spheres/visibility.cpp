@@ -6,16 +6,16 @@
 #include <string>
 #include <utility>
 
-#include "core/progress_reporter.h"
-#include "target/lengths.h"
 #include "core/number_text.h"
+#include "core/progress_reporter.h"
+#include "scene/prepared_data.h"
+#include "spheres/algorithm.h"
+#include "spheres/numerics.h"
+#include "target/lengths.h"
 #include "target/point_target.h"
 #include "target/range_check.h"
 #include "target/range_region.h"
 #include "target/target_check.h"
-#include "scene/prepared_data.h"
-#include "spheres/algorithm.h"
-#include "spheres/numerics.h"
 #include "vantage/error.h"
 
 namespace vantage::spheres {
@@ -80,7 +80,7 @@ void set_mesh(const TargetFrame& frame, solid::LabelledMesh labelled, Volume& vo
 /// How far the target is raised, or why it cannot be seen where it lies: as the exact method says, points too. At the
 /// least off the surface that it lies on: seen from a point of its own plane a polygon has no depth.
 target::Clearance clearance_of(const PreparedScene::Data& scene, const Target& target, const TargetFrame& frame,
-                              double max_range) {
+                               double max_range) {
   target::Clearance clearance;
   if (target.is_point()) {
     target::PointSides sides = target::make_point_sides(scene, target, frame, max_range);

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
-#include "target/column.h"
 #include "core/number_text.h"
+#include "target/column.h"
 #include "target/numerics.h"
 
 namespace vantage::target {

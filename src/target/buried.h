@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "target/lengths.h"
 #include "scene/prepared_data.h"
+#include "target/lengths.h"
 #include "vantage/target.h"
 
 namespace vantage::target {

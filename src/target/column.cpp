@@ -5,15 +5,13 @@
 #include <array>
 #include <cmath>
 
-#include "exact/collect.h"
-
 namespace vantage::target {
 
 Column::Column(const PreparedScene::Data& scene, const TargetFrame& frame, const Lengths& lengths, double floor)
     : scene_(scene),
       frame_(frame),
       lengths_(lengths),
-      target_(exact::make_local_target(frame.polygon, lengths.slack, lengths.rounding)),
+      target_(make_local_target(frame.polygon, lengths.slack, lengths.rounding)),
       floor_(floor) {}
 
 std::vector<Crossing> Column::crossings(double ceiling) {
@@ -47,7 +45,7 @@ bool Column::meets(const core::Bounds& bounds, double ceiling) const {
     highest = std::max(highest, corners[i].z());
   }
   if (lowest > ceiling || highest <= floor_) return false;
-  for (const exact::LocalTarget::Edge& edge : target_.edges) {
+  for (const LocalTarget::Edge& edge : target_.edges) {
     const bool outside = std::all_of(corners.begin(), corners.end(),
                                      [&](const Vec3& c) { return edge.outward.dot(c.head<2>()) >= edge.distance; });
     if (outside) return false;
@@ -56,13 +54,14 @@ bool Column::meets(const core::Bounds& bounds, double ceiling) const {
 }
 
 void Column::add_crossing(std::uint32_t polygon, double ceiling, std::vector<Crossing>& found) {
-  exact::local_polygon(scene_, frame_, polygon, clipped_.corners);
+  local_polygon(scene_, frame_, polygon, clipped_.corners);
   const bool stands =
       std::any_of(clipped_.corners.begin(), clipped_.corners.end(), [this](const Vec3& c) { return c.z() > floor_; });
   if (!stands) return;
   clipped_.makers.assign(clipped_.corners.size(), 0);
-  for (const exact::LocalTarget::Edge& edge : target_.edges) {
-    core::clip_facet(clipped_, {-edge.outward.x(), -edge.outward.y(), 0}, lengths_.slack - edge.distance, 0, 0, scratch_);
+  for (const LocalTarget::Edge& edge : target_.edges) {
+    core::clip_facet(clipped_, {-edge.outward.x(), -edge.outward.y(), 0}, lengths_.slack - edge.distance, 0, 0,
+                     scratch_);
     if (clipped_.empty()) return;
   }
   Crossing crossing{INFINITY, -INFINITY, polygon, {}};

@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "exact/blocker.h"
 #include "core/facet_polygon.h"
-#include "target/lengths.h"
 #include "scene/prepared_data.h"
+#include "target/lengths.h"
+#include "target/local_target.h"
 #include "vantage/target.h"
 
 namespace vantage::target {
@@ -37,7 +37,7 @@ class Column {
   const PreparedScene::Data& scene_;
   const TargetFrame& frame_;
   Lengths lengths_;
-  exact::LocalTarget target_;
+  LocalTarget target_;
   double floor_;
   core::FacetPolygon clipped_, scratch_;
 };

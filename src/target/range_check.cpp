@@ -20,7 +20,8 @@ bool can_reach(const TargetFrame& frame, const Sensor& sensor) {
 void set_out_of_range(const TargetFrame& frame, const Sensor& sensor, Volume& volume) {
   volume.outcome = Outcome::out_of_range;
   volume.reason = "no point within " + core::metres_text(sensor.max_range_m) +
-                  " of all vertices: the target's enclosing circle has radius " + core::metres_text(frame.enclosing_radius_m);
+                  " of all vertices: the target's enclosing circle has radius " +
+                  core::metres_text(frame.enclosing_radius_m);
   volume.hint = "raise max_range, or split the target";
 }
 

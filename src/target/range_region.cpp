@@ -46,7 +46,7 @@ std::size_t RangeRegion::nearest_ball(const Vec3& direction) const {
   return best;
 }
 
-exact::Plane RangeRegion::supporting_plane(const Vec3& direction) const {
+core::Plane RangeRegion::supporting_plane(const Vec3& direction) const {
   const std::size_t ball = nearest_ball(direction);
   const Vec3 point = direction / gauge(ball, direction);
   const Vec3 normal = point - Vec3(centres_[ball].x(), centres_[ball].y(), 0);

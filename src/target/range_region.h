@@ -3,7 +3,8 @@
 
 #include <vector>
 
-#include "exact/blocker.h"
+#include "core/plane.h"
+#include "vantage/target.h"
 
 namespace vantage::target {
 
@@ -35,7 +36,7 @@ class RangeRegion {
   std::size_t nearest_ball(const Vec3& direction) const;
 
   /// A plane that touches the region where `direction` leaves it: g . d <= gauge(d) for every d, with equality there.
-  exact::Plane supporting_plane(const Vec3& direction) const;
+  core::Plane supporting_plane(const Vec3& direction) const;
 
   /// Whether a point is within max_range of all vertices.
   bool contains(const Vec3& point) const;

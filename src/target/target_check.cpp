@@ -4,10 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "target/buried.h"
-#include "exact/collect.h"
-#include "target/column.h"
 #include "core/number_text.h"
+#include "target/buried.h"
+#include "target/column.h"
 #include "target/numerics.h"
 #include "vantage/error.h"
 
@@ -155,7 +154,7 @@ void refuse_steep_nearby(const PreparedScene::Data& scene, const Target& target,
   around.polygon = {{-near, -near}, {near, -near}, {near, near}, {-near, near}};
   std::vector<Vec3> corners;
   for (const Crossing& c : Column(scene, around, lengths, -near).crossings(near)) {
-    exact::local_polygon(scene, frame, c.polygon, corners);
+    local_polygon(scene, frame, c.polygon, corners);
     Vec3 area = Vec3::Zero();
     for (std::size_t i = 1; i + 1 < corners.size(); ++i)
       area += (corners[i] - corners[0]).cross(corners[i + 1] - corners[0]);

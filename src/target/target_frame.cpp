@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "target/enclosing_circle.h"
-#include "core/number_text.h"
 #include "core/convex_corners.h"
+#include "core/number_text.h"
+#include "target/enclosing_circle.h"
 #include "vantage/error.h"
 #include "vantage/target.h"
 

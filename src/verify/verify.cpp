@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "core/progress_reporter.h"
 #include "core/parallel.h"
+#include "core/progress_reporter.h"
 #include "vantage/error.h"
 #include "verify/binomial.h"
 #include "verify/limits.h"

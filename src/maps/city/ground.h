@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "maps/city/footprint.h"
 #include "geo/local_frame.h"
+#include "maps/city/footprint.h"
 #include "maps/terrain/surface.h"
 #include "vantage/geometry.h"
 #include "vantage/progress.h"

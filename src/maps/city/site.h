@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "geo/local_frame.h"
 #include "maps/city/footprint.h"
 #include "maps/city/occluders.h"
 #include "maps/city/region.h"
-#include "geo/local_frame.h"
 #include "maps/osm/extract.h"
 #include "maps/osm/region_filter.h"
 #include "vantage/city.h"

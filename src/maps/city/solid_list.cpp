@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <string>
 
-#include "maps/city/building_solid.h"
-#include "core/progress_reporter.h"
 #include "core/parallel.h"
+#include "core/progress_reporter.h"
+#include "maps/city/building_solid.h"
 #include "solid/solid_check.h"
 #include "vantage/error.h"
 

@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "maps/city/footprint.h"
 #include "geo/local_frame.h"
+#include "maps/city/footprint.h"
 #include "maps/osm/extract.h"
 
 namespace vantage::city {
