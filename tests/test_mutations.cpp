@@ -48,7 +48,7 @@ Mesh pipeline(const Scene& scene, const Target& goal, const Mutation& mutation =
   const PreparedScene prepared(scene);
   const TargetFrame frame = make_target_frame(goal);
   const target::LocalTarget target = target::make_local_target(frame.polygon, 1e-9, 0);
-  const RangeRegion range(frame.polygon, mutation.range);
+  const target::RangeRegion range(frame.polygon, mutation.range);
   ChartGrid grid(range, kTolerance);
   BlockerSet blockers;
   DirectionTree found(blockers, range);

@@ -75,7 +75,7 @@ TEST(SolidCheck, WeldsEqualPositions) {
   const Mesh welded = checked_solid(soup, "airspace.stl");
   EXPECT_EQ(welded.vertices.size(), 8u);
   EXPECT_EQ(welded.triangles.size(), 12u);
-  EXPECT_DOUBLE_EQ(enclosed_volume(core::welded), 6);
+  EXPECT_DOUBLE_EQ(enclosed_volume(welded), 6);
 }
 
 TEST(SolidCheck, SaysHowManyEdgesAreOpenAndWhere) {

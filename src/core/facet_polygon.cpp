@@ -7,7 +7,7 @@
 
 namespace vantage::core {
 
-void make_facet_square(const exact::Plane& plane, double range, FacetPolygon& polygon) {
+void make_facet_square(const Plane& plane, double range, FacetPolygon& polygon) {
   const double size = plane.norm();
   const Vec3 normal = plane / size, foot = normal / size;
   const Vec3 axis_1 = normal.unitOrthogonal() * (1.01 * range), axis_2 = normal.cross(axis_1);

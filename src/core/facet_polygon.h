@@ -22,7 +22,7 @@ struct FacetPolygon {
 };
 
 /// A square on the plane g . x = 1 that holds everything of it within `range` of the origin.
-void make_facet_square(const exact::Plane& plane, double range, FacetPolygon& polygon);
+void make_facet_square(const Plane& plane, double range, FacetPolygon& polygon);
 
 /// Keeps what has normal . x >= height, up to `margin`; the new edge is made by `maker`. `scratch` is for reuse.
 /// Returns whether anything was cut off.

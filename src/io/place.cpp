@@ -128,7 +128,7 @@ void to_scene_frame(RawMesh& mesh, const SceneReadOptions& options, const std::f
     if (mesh.vertices[i].cwiseAbs().maxCoeff() <= core::kMaxCoordinate) continue;
     throw Error(ErrorKind::input,
                 "vertex " + std::to_string(i) + " (counted from 0) is more than " +
-                    std::to_string(static_cast<long>(kMaxCoordinate / 1000)) + " km from the origin",
+                    std::to_string(static_cast<long>(core::kMaxCoordinate / 1000)) + " km from the origin",
                 file.string(), "check the scale, or correct the vertex");
   }
 }

@@ -108,8 +108,8 @@ Comparison compare_volumes(const Mesh& mesh_a, const Mesh& mesh_b, const std::st
   result.intersection_m3 = intersection_of(result, area * length * 1e-9);
 
   progress.begin("measuring distances");
-  const Farthest from_b = farthest_point(part_a, kOfA, b, progress.part(0, 0.5));
-  const Farthest from_a = farthest_point(part_b, kOfB, a, progress.part(0.5, 1));
+  const Farthest from_b = solid::farthest_point(part_a, kOfA, b, progress.part(0, 0.5));
+  const Farthest from_a = solid::farthest_point(part_b, kOfB, a, progress.part(0.5, 1));
   progress.finish();
   result.worst_only_a_m = from_b.at_least_m;
   result.worst_only_b_m = from_a.at_least_m;
