@@ -1,4 +1,5 @@
-// Threads: the only room that sees the thread library (oneTBB).
+// Threads. Which library makes them is chosen when vantage is built (VANTAGE_THREADS): threads_*.cpp. The results are
+// the same to the bit.
 #pragma once
 
 #include <algorithm>
@@ -20,6 +21,9 @@ void both(const std::function<void()>& first, const std::function<void()>& secon
 
 /// Runs `body` with at most `threads` threads (0: all that the machine has) for the parallel calls made inside.
 void with_threads(int threads, const std::function<void()>& body);
+
+/// How many threads parallel calls may use here.
+int thread_limit();
 
 /// Runs `body` on a thread of its own, with as many threads for the parallel calls made inside as the caller has, and
 /// calls `ask` on the caller's thread every two milliseconds meanwhile. Ends when `body` has. An exception thrown by
