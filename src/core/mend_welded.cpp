@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <queue>
 #include <tuple>
@@ -205,5 +206,15 @@ bool Mender::run() {
 }  // namespace
 
 bool mend_welded(LabelledMesh& labelled, double flat_m) { return Mender(labelled, flat_m).run(); }
+
+double flat_width(const Mesh& mesh) {
+  constexpr double kSteps = 4;
+  const Box box = bounding_box(mesh);
+  if (box.empty()) return 0;
+  const double largest = std::max(box.min.cwiseAbs().maxCoeff(), box.max.cwiseAbs().maxCoeff());
+  int exponent = 0;
+  std::frexp(largest, &exponent);  // largest < 2^exponent
+  return kSteps * std::ldexp(1.0, exponent - std::numeric_limits<double>::digits);
+}
 
 }  // namespace vantage::core

@@ -19,4 +19,8 @@ namespace vantage::core {
 /// below 2^25, of a power of two). Cost: linear, but for sorting the vertices.
 bool mend_welded(LabelledMesh& labelled, double flat_m);
 
+/// A facet narrower than this has no area for who reads its coordinates as doubles: four steps of the largest of them,
+/// the rounding of the area's own terms. Metres; 0 for an empty mesh.
+double flat_width(const Mesh& mesh);
+
 }  // namespace vantage::core

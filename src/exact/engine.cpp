@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "core/mend_welded.h"
 #include "core/number_text.h"
 #include "core/parallel.h"
 #include "exact/side.h"
@@ -39,9 +40,12 @@ void take_over(Side side, const TargetFrame& frame, double max_range, Volume& vo
     volume.hint = hint;
     return;
   }
-  volume.mesh = std::move(side.mesh);
-  for (Vec3& v : volume.mesh.vertices) v = frame.to_scene(v);
-  volume.cause_of = std::move(side.cause_of);
+  core::LabelledMesh labelled{std::move(side.mesh), std::move(side.cause_of)};
+  for (Vec3& v : labelled.mesh.vertices) v = frame.to_scene(v);
+  // At map coordinates rounding leaves narrow facets without area.
+  core::mend_welded(labelled, core::flat_width(labelled.mesh));
+  volume.mesh = std::move(labelled.mesh);
+  volume.cause_of = std::move(labelled.labels);
   volume.causes = std::move(side.causes);
 }
 

@@ -13,10 +13,6 @@
 namespace vantage::io {
 namespace {
 
-/// In double precision a facet has no area for its readers when it is narrower than this many steps of the largest
-/// coordinate: rounding of the area's own terms.
-constexpr double kFlatSteps = 4;
-
 double largest_coordinate(const Box& box) {
   return std::max(box.min.cwiseAbs().maxCoeff(), box.max.cwiseAbs().maxCoeff());
 }
@@ -81,14 +77,12 @@ StoredMesh stored_on_grid(const Volume& volume, const Box& box, const Vec3& orig
 }  // namespace
 
 StoredMesh stored_as_doubles(const Volume& volume) {
-  const Box box = bounding_box(volume.mesh);
-  const double flat = box.empty() ? 0 : kFlatSteps * spacing(largest_coordinate(box), 53);
+  const double flat = core::flat_width(volume.mesh);
   return stored(volume, flat, [](const Vec3& vertex) { return vertex; });
 }
 
 StoredMesh stored_in_units(const Volume& volume, double scale) {
-  const Box box = bounding_box(volume.mesh);
-  const double flat = box.empty() ? 0 : kFlatSteps * spacing(largest_coordinate(box), 53);
+  const double flat = core::flat_width(volume.mesh);
   // Until the number that is written reads back as the one that it was made from: at once, as a rule.
   constexpr int kRounds = 4;
   return stored(volume, flat, [&](Vec3 vertex) {

@@ -68,6 +68,17 @@ Trial::Trial(const Case& the_case, const Answer& the_answer, const JudgeOptions&
   }
 }
 
+std::optional<std::size_t> PartView::surely_hiding(const Vec3& point, Which which) const {
+  for (std::optional<std::size_t> i = inner.first_hiding(point, which); i; i = inner.first_hiding(point, which, *i + 1))
+    if (raised.hides(*i, point)) return i;
+  return std::nullopt;
+}
+
+std::optional<std::size_t> PartView::surely_hiding(const Corners& facet, Which which) const {
+  const auto found = inner.first_hiding(facet, which);
+  return found ? raised.first_hiding(facet, which) : found;
+}
+
 double small_world(double range) { return std::min(1.0, range / 20); }
 
 double strip_width(const Blockers& blockers, const SeenTarget& target, double range) {

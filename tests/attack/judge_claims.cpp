@@ -109,9 +109,9 @@ class Claims {
     if (!part.exact.in_range(p, trial_.c.range)) report(Class::out_of_range, p, "");
     const auto hidden = part.exact.first_hiding(p);
     if (!hidden) return;
-    if (const auto solid = part.inner.first_hiding(p, Which::not_thin))
+    if (const auto solid = part.surely_hiding(p, Which::not_thin))
       report(Class::over_claim, p, trial_.object_of(*solid));
-    else if (const auto thin = part.inner.first_hiding(p))
+    else if (const auto thin = part.surely_hiding(p))
       report(Class::thin_over_claim, p, trial_.object_of(*thin));
     else
       report(Class::touching, p, trial_.object_of(*hidden));
@@ -163,7 +163,7 @@ class Claims {
 
   std::optional<std::size_t> hidden(const Corners& facet, const PartView& part, Level level) const {
     if (level == as_stored) return part.exact.first_hiding(facet);
-    return part.inner.first_hiding(facet, level == smaller ? Which::all : Which::not_thin);
+    return part.surely_hiding(facet, level == smaller ? Which::all : Which::not_thin);
   }
 
   // The theorem: let no triangle of the scene meet the interior of conv(facet, target), for every facet that faces away

@@ -133,7 +133,7 @@ double lowest_over(const Trial& trial, const SeenTarget& target) {
 std::vector<View> grown_views(const Trial& trial) {
   std::vector<View> views;
   for (const PartView& part : trial.parts)
-    views.emplace_back(trial.blockers, moved_in(part.exact.target(), -part.margin));
+    views.emplace_back(trial.blockers, moved_in(part.exact.target(), -part.margin, -part.margin));
   return views;
 }
 

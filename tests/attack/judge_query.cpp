@@ -57,7 +57,7 @@ class Queries {
     const double place_margin = std::abs(answer.margin_m) / away;
     if (answer.inside) {
       if (height < 0 || !view_.exact.in_range(nearer, trial_.c.range) ||
-          (view_.exact.first_hiding(nearer) && view_.inner.first_hiding(nearer, Which::not_thin)))
+          (view_.exact.first_hiding(nearer) && view_.surely_hiding(nearer, Which::not_thin)))
         trial_.result.add({Class::query_over, place_margin, trial_.to_scene(p), ""});
       return;
     }
@@ -79,7 +79,8 @@ class Queries {
       const bool hides = view_.exact.hides(i, farther);
       if (hides) perhaps.insert(trial_.object_of(i));
       const Blocker& blocker = trial_.blockers.triangles[i];
-      if (hides && !blocker.thin && !blocker.repeat && view_.exact.hides(i, nearer) && view_.inner.hides(i, nearer))
+      if (hides && !blocker.thin && !blocker.repeat && view_.exact.hides(i, nearer) && view_.inner.hides(i, nearer) &&
+          view_.raised.hides(i, nearer))
         surely.insert(trial_.object_of(i));
     }
     const std::set<std::string> named(answer.blocked_by.begin(), answer.blocked_by.end());

@@ -121,8 +121,8 @@ bool View::hides(std::size_t i, const Vec3& point) const {
   return false;
 }
 
-std::optional<std::size_t> View::first_hiding(const Vec3& point, Which which) const {
-  for (std::size_t i = 0; i < blockers_.triangles.size(); ++i) {
+std::optional<std::size_t> View::first_hiding(const Vec3& point, Which which, std::size_t begin) const {
+  for (std::size_t i = begin; i < blockers_.triangles.size(); ++i) {
     if (which == Which::not_thin && blockers_.triangles[i].thin) continue;
     if (hides(i, point)) return i;
   }

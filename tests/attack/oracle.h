@@ -46,7 +46,8 @@ class View {
   /// Whether the triangle reaches into the interior of conv(point, target): it hides some of the target from there.
   /// Of a point target: whether the line of sight passes through the triangle.
   bool hides(std::size_t triangle, const Vec3& point) const;
-  std::optional<std::size_t> first_hiding(const Vec3& point, Which which = Which::all) const;
+  /// The first that hides, from index `begin` on.
+  std::optional<std::size_t> first_hiding(const Vec3& point, Which which = Which::all, std::size_t begin = 0) const;
   bool clear(const Vec3& point) const { return !first_hiding(point); }
 
   /// Whether every point of the facet sees all of the target past the triangle: the interior of their convex hull is

@@ -81,10 +81,10 @@ SeenTarget make_seen_target(const vantage::Target& target, double lift, const Ve
   return seen;
 }
 
-SeenTarget moved_in(const SeenTarget& target, double margin) {
+SeenTarget moved_in(const SeenTarget& target, double margin, double rise) {
   SeenTarget moved = target;
   if (target.is_point()) {
-    if (!target.all_sides) moved.corners[0] += margin * target.normal;
+    if (!target.all_sides) moved.corners[0] += rise * target.normal;
     moved.centre = moved.corners[0];
     return moved;
   }
@@ -100,8 +100,7 @@ SeenTarget moved_in(const SeenTarget& target, double margin) {
     inner = {{-3 * reach, -3 * reach}, {3 * reach, -3 * reach}, {3 * reach, 3 * reach}, {-3 * reach, 3 * reach}};
   for (const OuterLine& line : outer_lines(polygon, margin)) inner = cut(inner, line.outward, line.distance - margin);
   moved.corners.clear();
-  for (const Vector2d& p : inner)
-    moved.corners.push_back(target.centre + u * p.x() + v * p.y() + target.normal * margin);
+  for (const Vector2d& p : inner) moved.corners.push_back(target.centre + u * p.x() + v * p.y() + target.normal * rise);
   if (!moved.corners.empty()) moved.centre = mean(moved.corners);
   return moved;
 }

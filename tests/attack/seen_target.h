@@ -25,9 +25,9 @@ struct SeenTarget {
 /// out of one. Coordinates are relative to `origin`.
 SeenTarget make_seen_target(const vantage::Target& target, double lift, const Vec3& origin);
 
-/// The same with every side moved in by `margin` (below 0: out) and raised by it. May be left with fewer than 3
+/// The same with every side moved in by `margin` (below 0: out), and raised by `rise`. May be left with fewer than 3
 /// corners: then it has no area, and nothing hides it.
-SeenTarget moved_in(const SeenTarget& target, double margin);
+SeenTarget moved_in(const SeenTarget& target, double margin, double rise);
 
 /// Radius of a circle about some point that holds all corners, at most 1e-9 of it above the smallest.
 double enclosing_radius(const SeenTarget& target);

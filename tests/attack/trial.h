@@ -2,6 +2,7 @@
 #pragma once
 
 #include <deque>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,10 +16,20 @@ namespace attack {
 /// One part of the target before the scene. Local coordinates: those of Trial::blockers.
 struct PartView {
   PartView(const Blockers& blockers, const SeenTarget& target, double strip, const Vec3& engine_centre)
-      : exact(blockers, target), inner(blockers, moved_in(target, strip)), centre(engine_centre), margin(strip) {}
+      : exact(blockers, target),
+        inner(blockers, moved_in(target, strip, 0)),
+        raised(blockers, moved_in(target, strip, strip)),
+        centre(engine_centre),
+        margin(strip) {}
+
+  /// A triangle that hides the target from there whatever is excepted: moved in, and moved in and raised.
+  std::optional<std::size_t> surely_hiding(const Vec3& point, Which which = Which::all) const;
+  /// Whether either keeps clear of what lies between the facet and the target.
+  std::optional<std::size_t> surely_hiding(const Corners& facet, Which which = Which::all) const;
 
   View exact;     ///< as given, and lifted
-  View inner;     ///< moved in and raised by the margin
+  View inner;     ///< moved in by the margin
+  View raised;    ///< moved in and raised by the margin
   Vec3 centre;    ///< that the engine measures distances from
   double margin;  ///< the strip along the outline that vantage/volume.h excepts, metres
 };
