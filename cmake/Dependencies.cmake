@@ -16,19 +16,19 @@ find_package(CLI11 REQUIRED)
 find_package(nlohmann_json 3.11 REQUIRED)
 find_package(ZLIB REQUIRED)
 
-# Embree 3: the independent check and depth images only (src/verify, src/render).
+# Embree 3: the independent check and depth images only (src/verify, src/depth, src/picture).
 find_package(embree 3 REQUIRED)
 add_library(vantage_embree INTERFACE)
 add_library(vantage::embree ALIAS vantage_embree)
 target_link_libraries(vantage_embree INTERFACE embree)
 
-# Cairo: writing on pictures, and PNG (src/render only).
+# Cairo: writing on pictures, and PNG (src/picture only).
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(CAIRO REQUIRED IMPORTED_TARGET cairo>=1.16)
 
 # PROJ: coordinate reference systems (src/geo only), found here and loaded at run time. libosmium is headers; it reads
-# XML with Expat and unpacks with zlib and bzip2 (src/osm only). Clipper 6.4: outlines in the plane
-# (src/city/footprint.cpp only); its package file tells no version.
+# XML with Expat and unpacks with zlib and bzip2 (src/maps/osm only). Clipper 6.4: outlines in the plane
+# (src/maps/city/footprint.cpp only); its package file tells no version.
 pkg_check_modules(PROJ REQUIRED IMPORTED_TARGET proj>=9.1)
 find_library(VANTAGE_PROJ_LIBRARY proj HINTS ${PROJ_LIBRARY_DIRS} REQUIRED NO_CACHE)
 file(REAL_PATH ${VANTAGE_PROJ_LIBRARY} VANTAGE_PROJ_FILE)

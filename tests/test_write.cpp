@@ -347,7 +347,7 @@ TEST(WriteGlb, HasTheColoursOfThePictures) {
   const TemporaryDirectory directory;
   write_volume(awkward_volume(), directory / "v.glb");
   const Glb glb = parse_glb(read_bytes(directory / "v.glb"));
-  // src/render/palette.h, from sRGB to linear.
+  // src/picture/palette.h, from sRGB to linear.
   const std::map<std::string, Vec3> colours = {{"scene", Vec3(0.0000, 0.1683, 0.4452)},
                                                {"range", Vec3(0.7913, 0.3467, 0.0000)},
                                                {"target_plane", Vec3(0.2159, 0.2159, 0.2384)},

@@ -3,6 +3,7 @@
 
     tools/result_hashes.py PROGRAM -o after.json            the missions of docs/ and examples/, by both methods
     tools/result_hashes.py PROGRAM -o after.json --against before.json
+    tools/result_hashes.py PROGRAM -o after.json --method exact      the spheres of a town take many minutes
 
 For each mission: SHA-256 of the arrays of the PLY (vertices as doubles, facets, cause of each facet), of the causes in
 order (kind, name and area, as the report has them), and of the report without times, paths and versions. With --against
@@ -96,8 +97,10 @@ def main() -> int:
     parser.add_argument("--against", type=pathlib.Path)
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--only", default="", help="missions whose path holds this")
+    parser.add_argument("--method", choices=["exact", "spheres"], action="append", help="by this method alone")
     arguments = parser.parse_args()
-    tasks = [(m, method) for m in MISSIONS if arguments.only in str(m) for method in ("exact", "spheres")]
+    methods = arguments.method or ["exact", "spheres"]
+    tasks = [(m, method) for m in MISSIONS if arguments.only in str(m) for method in methods]
     with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
         results = dict(pool.map(lambda task: run(arguments.program, *task), tasks))
     arguments.output.write_text(json.dumps(results, indent=1) + "\n", encoding="utf-8")

@@ -1,36 +1,37 @@
 #!/usr/bin/env python3
-"""Draws house.svg: the rooms of src/, and who calls whom. No packages needed."""
+"""Draws modules.svg: the modules of src/, and the main ways in which they use each other. No packages needed."""
 
 import pathlib
 
-ROOMS = {  # name: (left, top, width, what it does)
+MODULES = {  # name: (left, top, width, what it does)
     "include/vantage": (20, 14, 1020, "the public API: values, and functions that take and return them"),
     "cli": (20, 104, 1020, "scene, inspect, compute, query, verify, compare, render, ...: parse, run, print"),
-    "mission": (20, 194, 560, "YAML to Mission, run it"),
-    "query": (600, 194, 200, "point by point, no mesh"),
-    "verify": (820, 194, 220, "shadow rays (Embree)"),
-    "spheres": (420, 284, 240, "cube map, mesh, Algorithm 1"),
-    "city": (20, 374, 380, "maps to solids on the ground (Clipper)"),
-    "render": (420, 374, 180, "depth images, pictures"),
-    "exact": (620, 374, 420, "blockers, envelope, mesh (CDT)"),
-    "osm": (20, 464, 145, "maps (libosmium)"),
-    "terrain": (180, 464, 140, "heights (GDAL)"),
-    "solid": (340, 464, 700, "booleans (Manifold), cuts, measures, files, reports"),
-    "scene": (20, 554, 1020, "files to Scene; weld, merge, hierarchy"),
-    "geo": (20, 644, 340, "where on the earth (PROJ)"),
-    "core": (380, 644, 320, "progress, and stopping"),
-    "parallel": (720, 644, 320, "threads (oneTBB)"),
+    "app": (20, 194, 580, "mission files, their run, reports, files of results"),
+    "query": (620, 194, 130, "points, no mesh"),
+    "verify": (770, 194, 130, "rays (Embree)"),
+    "picture": (920, 194, 120, "(Cairo)"),
+    "maps/city": (20, 284, 320, "maps to solids on the ground (Clipper)"),
+    "spheres": (360, 284, 240, "the method of the paper"),
+    "exact": (620, 284, 180, "the engine (CDT)"),
+    "depth": (820, 284, 220, "depth images (OpenGL)"),
+    "maps/osm": (20, 374, 150, "maps (libosmium)"),
+    "maps/terrain": (190, 374, 150, "heights (GDAL)"),
+    "solid": (360, 374, 240, "booleans (Manifold), cuts"),
+    "target": (620, 374, 180, "frame, lift, range"),
+    "io": (20, 464, 580, "mesh formats, both directions (zlib)"),
+    "scene": (620, 464, 420, "weld, merge, hierarchy"),
+    "geo": (20, 554, 260, "where on the earth (PROJ)"),
+    "core": (20, 644, 1020, "geometry, errors, progress, threads (oneTBB), whole files"),
 }
-CALLS = [("cli", "mission"), ("cli", "verify"), ("cli", "query"), ("mission", "city"), ("mission", "spheres"),
-         ("query", "exact"), ("spheres", "render"), ("spheres", "exact"), ("city", "osm"), ("city", "terrain"),
-         ("city", "solid"), ("exact", "solid"), ("render", "solid"), ("osm", "scene"), ("terrain", "scene"),
-         ("solid", "scene"), ("scene", "geo"), ("scene", "core"),
-         ("scene", "parallel")]
+USES = [("cli", "app"), ("cli", "query"), ("cli", "verify"), ("cli", "picture"), ("app", "maps/city"), ("app", "spheres"),
+        ("query", "exact"), ("picture", "depth"), ("maps/city", "maps/osm"), ("maps/city", "maps/terrain"),
+        ("spheres", "solid"), ("exact", "target"), ("depth", "scene"), ("target", "scene"), ("io", "geo"), ("io", "core"),
+        ("scene", "core"), ("geo", "core")]
 HEIGHT = 58
 
 
 def box(name):
-    left, top, width, what = ROOMS[name]
+    left, top, width, what = MODULES[name]
     fill = "#eef2f9" if name != "include/vantage" else "#fdf1e2"
     return (f'<rect x="{left}" y="{top}" width="{width}" height="{HEIGHT}" rx="7" fill="{fill}" stroke="#346ebe"/>'
             f'<text x="{left + 12}" y="{top + 25}" font-size="16" font-weight="bold">{name}</text>'
@@ -38,10 +39,10 @@ def box(name):
 
 
 def arrow(upper, lower):
-    """From the bottom of one room to the top of another, over the middle of what they share."""
-    left = max(ROOMS[upper][0], ROOMS[lower][0])
-    right = min(ROOMS[room][0] + ROOMS[room][2] for room in (upper, lower))
-    x, y0, y1 = (left + right) / 2, ROOMS[upper][1] + HEIGHT, ROOMS[lower][1] - 2
+    """From the bottom of one module to the top of another, over the middle of what they share."""
+    left = max(MODULES[upper][0], MODULES[lower][0])
+    right = min(MODULES[name][0] + MODULES[name][2] for name in (upper, lower))
+    x, y0, y1 = (left + right) / 2, MODULES[upper][1] + HEIGHT, MODULES[lower][1] - 2
     return f'<line x1="{x}" y1="{y0}" x2="{x}" y2="{y1}" stroke="#1d2b45" stroke-width="1.6" marker-end="url(#tip)"/>'
 
 
@@ -52,9 +53,9 @@ def main():
              'orient="auto">'
              '<path d="M0,0 L8,4 L0,8 z" fill="#1d2b45"/></marker></defs>',
              '<rect width="100%" height="100%" fill="white"/>']
-    parts += [box(name) for name in ROOMS]
-    parts += [arrow(*call) for call in CALLS]
-    (pathlib.Path(__file__).parent / "house.svg").write_text("\n".join(parts) + "\n</svg>\n", encoding="utf-8")
+    parts += [box(name) for name in MODULES]
+    parts += [arrow(*call) for call in USES]
+    (pathlib.Path(__file__).parent / "modules.svg").write_text("\n".join(parts) + "\n</svg>\n", encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-// Between the earth and a scene's frame. The only room that sees PROJ.
+// Between the earth and a scene's frame. The only module that sees PROJ.
 #pragma once
 
 #include <Eigen/Core>

@@ -30,7 +30,7 @@ Json material_for(CauseKind kind) {
   const auto colour_of = [](int red, int green, int blue, double opacity) {
     return std::array<double, 4>{linear(red), linear(green), linear(blue), opacity};
   };
-  // The colours of pictures (src/render/palette.h). The range, which is most of the surface, is
+  // The colours of pictures (src/picture/palette.h). The range, which is most of the surface, is
   // the most transparent.
   std::array<double, 4> colour{};
   switch (kind) {

@@ -1,4 +1,4 @@
-// Every numeric constant of this room, with where it comes from. What the user asks for (tolerance_m) is not here:
+// Every numeric constant of this module, with where it comes from. What the user asks for (tolerance_m) is not here:
 // these are allowances for rounding.
 #pragma once
 

@@ -1,4 +1,4 @@
-// The numeric constants of this room, with their derivations. Lengths in metres.
+// The numeric constants of this module, with their derivations. Lengths in metres.
 #pragma once
 
 namespace vantage::spheres::numerics {

@@ -54,12 +54,13 @@ ProgressStory follow(const std::function<void(const Progress&)>& call) {
 ProgressStory check_progress(const std::function<void(const Progress&)>& call) {
   ProgressStory story = follow(call);
   const core::ProgressReporter::AskAlways always;
-  std::set<std::size_t> stops = {1, 2, 3, 4, story.calls};
+  constexpr std::size_t kSurely = 4;
+  std::set<std::size_t> stops = {1, 2, 3, kSurely, story.calls};
   for (std::size_t i = 1; i < 12; ++i) stops.insert(std::max<std::size_t>(1, story.calls * i / 12));
   for (const std::size_t stop : stops) {
     const bool stopped = expect_stop(call, stop);
-    // On many threads there may be fewer questions next time.
-    EXPECT_TRUE(stopped || stop > story.calls / 2) << "not stopped at question " << stop << " of " << story.calls;
+    // On many threads there may be fewer questions next time: a thread that finds another one asking goes on.
+    EXPECT_TRUE(stopped || stop > kSurely) << "not stopped at question " << stop << " of " << story.calls;
   }
   return story;
 }

@@ -1,4 +1,4 @@
-// What an OpenStreetMap file holds that may hide something, read with libosmium. The only room that sees it.
+// What an OpenStreetMap file holds that may hide something, read with libosmium. The only module that sees it.
 #pragma once
 
 #include <array>
