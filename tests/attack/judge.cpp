@@ -68,15 +68,23 @@ Trial::Trial(const Case& the_case, const Answer& the_answer, const JudgeOptions&
   }
 }
 
+bool PartView::surely_hides(std::size_t triangle, const Vec3& point) const {
+  return std::all_of(inner.begin(), inner.end(), [&](const View& view) { return view.hides(triangle, point); });
+}
+
 std::optional<std::size_t> PartView::surely_hiding(const Vec3& point, Which which) const {
-  for (std::optional<std::size_t> i = inner.first_hiding(point, which); i; i = inner.first_hiding(point, which, *i + 1))
-    if (raised.hides(*i, point)) return i;
-  return std::nullopt;
+  std::optional<std::size_t> found = inner[0].first_hiding(point, which);
+  while (found && !surely_hides(*found, point)) found = inner[0].first_hiding(point, which, *found + 1);
+  return found;
 }
 
 std::optional<std::size_t> PartView::surely_hiding(const Corners& facet, Which which) const {
-  const auto found = inner.first_hiding(facet, which);
-  return found ? raised.first_hiding(facet, which) : found;
+  std::optional<std::size_t> found;
+  for (const View& view : inner) {
+    found = view.first_hiding(facet, which);
+    if (!found) break;
+  }
+  return found;
 }
 
 double small_world(double range) { return std::min(1.0, range / 20); }

@@ -79,8 +79,7 @@ class Queries {
       const bool hides = view_.exact.hides(i, farther);
       if (hides) perhaps.insert(trial_.object_of(i));
       const Blocker& blocker = trial_.blockers.triangles[i];
-      if (hides && !blocker.thin && !blocker.repeat && view_.exact.hides(i, nearer) && view_.inner.hides(i, nearer) &&
-          view_.raised.hides(i, nearer))
+      if (hides && !blocker.thin && !blocker.repeat && view_.exact.hides(i, nearer) && view_.surely_hides(i, nearer))
         surely.insert(trial_.object_of(i));
     }
     const std::set<std::string> named(answer.blocked_by.begin(), answer.blocked_by.end());

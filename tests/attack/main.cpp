@@ -100,7 +100,7 @@ JudgeOptions judge_options(std::size_t index) {
 }
 
 void print(const Finding& f, std::size_t index, const Case& c) {
-  std::printf("%s %s: scene %zu, scale %g (%s): share %.3g at (%.9g, %.9g, %.9g) %s\n",
+  std::printf("%s %s: scene %zu, scale %g (%s): share %.3g at (%.17g, %.17g, %.17g) %s\n",
               is_wrong(f.which) ? "WRONG" : "told", name_of(f.which), index, c.scale, c.kind.c_str(), f.share,
               f.place.x(), f.place.y(), f.place.z(), f.detail.c_str());
 }

@@ -1,6 +1,7 @@
 // What the parts of the judge share.
 #pragma once
 
+#include <array>
 #include <deque>
 #include <optional>
 #include <string>
@@ -17,19 +18,19 @@ namespace attack {
 struct PartView {
   PartView(const Blockers& blockers, const SeenTarget& target, double strip, const Vec3& engine_centre)
       : exact(blockers, target),
-        inner(blockers, moved_in(target, strip, 0)),
-        raised(blockers, moved_in(target, strip, strip)),
+        inner{View(blockers, moved_in(target, strip, 0)), View(blockers, moved_in(target, strip, strip)),
+              View(blockers, moved_in(target, strip, -strip))},
         centre(engine_centre),
         margin(strip) {}
 
-  /// A triangle that hides the target from there whatever is excepted: moved in, and moved in and raised.
+  /// A triangle that hides all of `inner` from there: it does so whatever is excepted.
   std::optional<std::size_t> surely_hiding(const Vec3& point, Which which = Which::all) const;
-  /// Whether either keeps clear of what lies between the facet and the target.
+  bool surely_hides(std::size_t triangle, const Vec3& point) const;
+  /// A triangle between the facet and the target, whichever of `inner` is taken for it.
   std::optional<std::size_t> surely_hiding(const Corners& facet, Which which = Which::all) const;
 
   View exact;     ///< as given, and lifted
-  View inner;     ///< moved in by the margin
-  View raised;    ///< moved in and raised by the margin
+  std::array<View, 3> inner;  ///< moved in by the margin; and raised by it, and lowered
   Vec3 centre;    ///< that the engine measures distances from
   double margin;  ///< the strip along the outline that vantage/volume.h excepts, metres
 };
