@@ -42,7 +42,7 @@ MODULES = {
     "scene": ["core"],
     "target": ["core", "scene"],
     "solid": ["core"],
-    "exact": ["core", "scene", "target", "solid"],
+    "exact": ["core", "scene", "target"],
     "query": ["core", "scene", "target", "exact"],
     "depth": ["core", "scene"],
     "spheres": ["core", "scene", "target", "solid", "depth"],

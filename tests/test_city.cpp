@@ -47,7 +47,7 @@ class CityTest : public ::testing::Test {
 const CityRecord& record_of(const City& city, const std::string& object) {
   const auto& records = city.report.records;
   const auto found =
-      std::find_if(records.begin(), records.end(), [&](const CityRecord& r) { return r.object == object; });
+      std::find_if(records.begin(), records.end(), [&](const CityRecord& r) { return r.object.source_id == object; });
   if (found == records.end()) throw std::runtime_error("no record of " + object);
   return *found;
 }
@@ -57,7 +57,8 @@ Mesh object_mesh(const Scene& scene, const std::string& name) {
   Mesh mesh;
   mesh.vertices = scene.mesh.vertices;
   for (std::size_t i = 0; i < scene.mesh.triangles.size(); ++i) {
-    if (scene.objects[scene.object_of[i]].starts_with(name)) mesh.triangles.push_back(scene.mesh.triangles[i]);
+    if (display_name(scene.objects[scene.object_of[i]]).starts_with(name))
+      mesh.triangles.push_back(scene.mesh.triangles[i]);
   }
   return mesh;
 }
@@ -76,9 +77,9 @@ TEST_F(CityTest, BuildsABlockWhereItStands) {
   options.region.radius_m = 200;
   const City city = build(map, options);
   ASSERT_EQ(city.scene.objects.size(), 3U);
-  EXPECT_EQ(city.scene.objects[0], "way/1 Block");
-  EXPECT_EQ(city.scene.objects[1], "way/2");
-  EXPECT_EQ(city.scene.objects[2], "ground");
+  EXPECT_EQ(city.scene.objects[0], (SceneObject{"Block", "way/1", ObjectKind::building}));
+  EXPECT_EQ(city.scene.objects[1], (SceneObject{"", "way/2", ObjectKind::building}));
+  EXPECT_EQ(city.scene.objects[2], (SceneObject{"ground", "", ObjectKind::ground}));
   const Box bounds = bounding_box(object_mesh(city.scene, "way/1"));
   EXPECT_NEAR((bounds.min - Vec3(10, 20, 0)).norm(), 0, 0.012);
   EXPECT_NEAR((bounds.max - Vec3(30, 50, 12)).norm(), 0, 0.012);
@@ -162,7 +163,7 @@ TEST_F(CityTest, APartOfNoBuildingStandsAlone) {
   MapText map;
   map.box(0, 0, 20, 20, {{"building:part", "yes"}, {"height", "10"}});
   const City city = build(map);
-  EXPECT_EQ(record_of(city, "way/1").kind, "building part");
+  EXPECT_EQ(record_of(city, "way/1").object.kind, ObjectKind::building_part);
   EXPECT_NEAR(object_volume(city.scene, "way/1"), 4000, 1);
 }
 

@@ -71,7 +71,8 @@ TEST(CityOccluders, Kinds) {
   const auto kinds = [](std::initializer_list<std::pair<std::string, std::string>> tags) {
     std::string all;
     for (const Geometry geometry : {Geometry::point, Geometry::line, Geometry::area}) {
-      all.append(kind_of(tagged(tags), geometry)).append("/");
+      const std::optional<ObjectKind> kind = kind_of(tagged(tags), geometry);
+      all.append(kind ? name_of(*kind) : "").append("/");
     }
     EXPECT_EQ(wanted(tagged(tags)), all != "///");
     return all;

@@ -161,9 +161,9 @@ TEST_F(CliScene, WritesEveryFormatAndAReport) {
 TEST_F(CliScene, KeepsNamesWhereTheFormatHasThem) {
   output_of({"scene", "city.osm", "-q", "-o", "scene.glb", "-o", "scene.obj"});
   for (const char* name : {"scene.glb", "scene.obj"}) {
-    const std::vector<std::string> objects = read_scene(folder_ / name).objects;
-    EXPECT_EQ(objects.at(0), "way/1 Block") << name;
-    EXPECT_EQ(objects.back(), "ground") << name;
+    const std::vector<SceneObject> objects = read_scene(folder_ / name).objects;
+    EXPECT_EQ(objects.at(0), (SceneObject{"Block", "way/1", ObjectKind::building})) << name;
+    EXPECT_EQ(objects.back(), (SceneObject{"ground", "", ObjectKind::ground})) << name;
   }
 }
 

@@ -287,10 +287,9 @@ TEST(ExactProperties, CausesAreTheObjectsThatHide) {
     if (volume.causes[c].kind != CauseKind::scene) continue;
     Scene alone;
     alone.mesh.vertices = scene.mesh.vertices;
-    alone.objects = {volume.causes[c].name};
+    alone.objects = {scene.objects[volume.causes[c].object.value()]};
     for (std::size_t i = 0; i < scene.mesh.triangles.size(); ++i)
-      if (scene.objects[scene.object_of[i]] == volume.causes[c].name)
-        alone.mesh.triangles.push_back(scene.mesh.triangles[i]);
+      if (scene.object_of[i] == volume.causes[c].object) alone.mesh.triangles.push_back(scene.mesh.triangles[i]);
     ASSERT_FALSE(alone.mesh.triangles.empty()) << volume.causes[c].name;
     const Volume of_alone = compute(alone, target);
     const MeshProbe probe(of_alone);

@@ -22,7 +22,9 @@
 namespace vantage::testing {
 namespace {
 
-bool is_building(const CityRecord& record) { return record.kind == "building" || record.kind == "building part"; }
+bool is_building(const CityRecord& record) {
+  return record.object.kind == ObjectKind::building || record.object.kind == ObjectKind::building_part;
+}
 
 using Counts = std::map<std::string, std::size_t>;
 
@@ -65,8 +67,9 @@ TEST_P(HeavyMaps, EveryBuildingIsAccountedFor) {
   std::map<std::string, const CityRecord*> records;
   for (const CityRecord& record : city_.report.records) {
     if (!is_building(record)) continue;
-    EXPECT_TRUE(records.emplace(record.object, &record).second) << record.object << " is told of twice";
-    EXPECT_EQ(record.fate != Fate::written, !record.reason.empty()) << record.object;
+    EXPECT_TRUE(records.emplace(record.object.source_id, &record).second)
+        << record.object.source_id << " is told of twice";
+    EXPECT_EQ(record.fate != Fate::written, !record.reason.empty()) << record.object.source_id;
   }
   const std::map<std::string, std::string> untagged = ways_of_untagged_relations(map_);
   std::set<std::string> stood_for;  // relations
@@ -79,7 +82,8 @@ TEST_P(HeavyMaps, EveryBuildingIsAccountedFor) {
     }
     const auto found = records.find(object.id);
     if (found != records.end()) {
-      EXPECT_EQ(found->second->kind, says_part(object.tags) ? "building part" : "building") << object.id;
+      EXPECT_EQ(found->second->object.kind, says_part(object.tags) ? ObjectKind::building_part : ObjectKind::building)
+          << object.id;
       records.erase(found);
       ++counts["told of"];
       continue;
@@ -195,22 +199,22 @@ class Comparison {
 
   void compare(const CityRecord& record) {
     ++records_;
-    const auto found = map_.areas.find(record.object);
+    const auto found = map_.areas.find(record.object.source_id);
     if (found == map_.areas.end()) return exclude(record);
     const ExportedArea& area = found->second;
     const PlainFrame frame = frame_about(area.polygons);
     const PlainPolygons plain = in_metres(area.polygons, frame);
     if (record.fate == Fate::skipped) {
       ++excluded_["skipped, " + record.reason];
-      EXPECT_TRUE(may_skip(record, area, plain, frame)) << record.object << " is skipped: " << record.reason;
+      EXPECT_TRUE(may_skip(record, area, plain, frame)) << record.object.source_id << " is skipped: " << record.reason;
       return;
     }
-    EXPECT_FALSE(is_underground(area)) << record.object;
+    EXPECT_FALSE(is_underground(area)) << record.object.source_id;
     ++compared_;
     EXPECT_TRUE(!area.is_mended || record.fate == Fate::repaired)
-        << record.object << " lacks nodes, is not closed or crosses itself";
+        << record.object.source_id << " lacks nodes, is not closed or crosses itself";
     compare_area(record, area, frame);
-    const std::string outline = parts_.outline_of(record.object);
+    const std::string outline = parts_.outline_of(record.object.source_id);
     compare_heights(record, expected_heights(area.tags, outline.empty() ? nullptr : &map_.areas.at(outline).tags));
   }
 
@@ -227,15 +231,15 @@ class Comparison {
  private:
   /// osmium-tool makes no polygon of it: it is broken, untagged, or no area. Ours has to say so, or to have mended it.
   void exclude(const CityRecord& record) {
-    const bool is_point = record.object.starts_with("node/");
-    const auto relation = map_.relations.find(record.object);
+    const bool is_point = record.object.source_id.starts_with("node/");
+    const auto relation = map_.relations.find(record.object.source_id);
     const bool is_untagged =
         relation != map_.relations.end() && !says_building(relation->second.tags) && !says_part(relation->second.tags);
     if (is_untagged) {
       ++excluded_["osmium-tool knows no untagged multipolygons"];
       return;
     }
-    EXPECT_NE(record.fate, Fate::written) << record.object << ": osmium-tool makes no area of it";
+    EXPECT_NE(record.fate, Fate::written) << record.object.source_id << ": osmium-tool makes no area of it";
     ++excluded_[std::string(is_point ? "a point, " : "no area for osmium-tool, ") +
                 (record.fate == Fate::skipped ? "skipped" : "repaired")];
   }
@@ -260,10 +264,11 @@ class Comparison {
   bool may_skip(const CityRecord& record, const ExportedArea& area, const PlainPolygons& plain,
                 const PlainFrame& frame) const {
     // A ring that says what its multipolygon says as well.
-    if (is_underground(area) || of_relations_.contains(record.object)) return true;
+    if (is_underground(area) || of_relations_.contains(record.object.source_id)) return true;
     const double whole = area.is_mended ? covered_area(plain, {plain}) : plain_area(plain);
     const double width = whole / longest_side(plain);
-    return whole < 0.05 || width < 0.01 || covered_by_parts(record.object, plain, frame, false) > 0.89 * whole;
+    return whole < 0.05 || width < 0.01 ||
+           covered_by_parts(record.object.source_id, plain, frame, false) > 0.89 * whole;
   }
 
   void compare_area(const CityRecord& record, const ExportedArea& area, const PlainFrame& frame) {
@@ -271,10 +276,10 @@ class Comparison {
     // What crosses itself is filled where it is wound round an odd number of times, as the lines of a scan are.
     const double whole = area.is_mended ? covered_area(plain, {plain}) : plain_area(plain);
     double expected = whole, allowed = 0.05 + 0.01 * whole;
-    if (!parts_.parts_of(record.object).empty()) {
-      const double all = covered_by_parts(record.object, plain, frame, false);
-      EXPECT_LT(all, 0.91 * whole) << record.object << " is built, though its parts cover it";
-      expected = whole - covered_by_parts(record.object, plain, frame, true);
+    if (!parts_.parts_of(record.object.source_id).empty()) {
+      const double all = covered_by_parts(record.object.source_id, plain, frame, false);
+      EXPECT_LT(all, 0.91 * whole) << record.object.source_id << " is built, though its parts cover it";
+      expected = whole - covered_by_parts(record.object.source_id, plain, frame, true);
       // Left-overs below 1 m2 are not built.
       allowed += 1 + 0.02 * whole;
       ++categories_["area less its parts'"];
@@ -283,18 +288,19 @@ class Comparison {
       ++categories_[area.is_mended ? "area of an outline that lacks nodes, is not closed or crosses itself"
                                    : "area of the outline"];
     }
-    EXPECT_NEAR(record.footprint_m2, expected, allowed) << record.object;
+    EXPECT_NEAR(record.footprint_m2, expected, allowed) << record.object.source_id;
   }
 
   void compare_heights(const CityRecord& record, const ExpectedHeights& expected) {
     const double base = record.base_m - record.ground_m, top = record.top_m - record.ground_m;
-    EXPECT_TRUE(expected.top.holds(top)) << record.object << " is " << top << " m high, not " << expected.top.least
-                                         << " to " << expected.top.most << " (" << expected.because << ")";
+    EXPECT_TRUE(expected.top.holds(top)) << record.object.source_id << " is " << top << " m high, not "
+                                         << expected.top.least << " to " << expected.top.most << " ("
+                                         << expected.because << ")";
     EXPECT_TRUE(expected.bottom.holds(base))
-        << record.object << " begins at " << base << " m, not " << expected.bottom.least << " to "
+        << record.object.source_id << " begins at " << base << " m, not " << expected.bottom.least << " to "
         << expected.bottom.most << " (" << expected.because << ")";
-    EXPECT_GE(base, -0.01) << record.object << " lies below its ground";
-    EXPECT_TRUE(!expected.stands || base < 0.01) << record.object << " floats";
+    EXPECT_GE(base, -0.01) << record.object.source_id << " lies below its ground";
+    EXPECT_TRUE(!expected.stands || base < 0.01) << record.object.source_id << " floats";
     const bool is_range = expected.top.least < expected.top.most || expected.bottom.least < expected.bottom.most;
     ++categories_["heights " + std::string(is_range ? "within bounds" : "exact") +
                   (expected.because.empty() ? "" : ", " + expected.because)];
@@ -385,31 +391,31 @@ Tally count_solids(const City& city, const std::string& map) {
   const std::vector<Piece> pieces = pieces_of(city.scene);
   std::map<std::string, std::size_t> object_of;
   for (std::size_t i = 0; i < city.scene.objects.size(); ++i) {
-    const std::string& name = city.scene.objects[i];
-    object_of[name.substr(0, name.find(' '))] = i;
+    object_of[city.scene.objects[i].source_id] = i;
   }
   Tally tally;
   for (const CityRecord& record : city.report.records) {
     if (!is_building(record) || record.fate == Fate::skipped) continue;
     ++tally.built;
-    const auto found = object_of.find(record.object);
+    const auto found = object_of.find(record.object.source_id);
     if (found == object_of.end()) {
-      ADD_FAILURE() << record.object << " is not in the scene";
+      ADD_FAILURE() << record.object.source_id << " is not in the scene";
       continue;
     }
     const Piece& piece = pieces[found->second];
     const bool is_solid = is_closed(piece) && least_volume(piece) > 0;
     tally.solid += is_solid;
     tally.open += record.fate == Fate::open_surface;
-    EXPECT_TRUE(is_solid || record.fate == Fate::open_surface) << map << ": " << record.object << " is no solid";
-    if (!is_solid) std::cout << "  no solid: " << record.object << ", " << record.reason << "\n";
+    EXPECT_TRUE(is_solid || record.fate == Fate::open_surface)
+        << map << ": " << record.object.source_id << " is no solid";
+    if (!is_solid) std::cout << "  no solid: " << record.object.source_id << ", " << record.reason << "\n";
     double low = INFINITY, high = -INFINITY;
     for (const Vec3& corner : piece.corners) {
       low = std::min(low, corner.z());
       high = std::max(high, corner.z());
     }
-    EXPECT_EQ(low, record.base_m) << record.object;
-    EXPECT_EQ(high, record.top_m) << record.object;
+    EXPECT_EQ(low, record.base_m) << record.object.source_id;
+    EXPECT_EQ(high, record.top_m) << record.object.source_id;
   }
   return tally;
 }

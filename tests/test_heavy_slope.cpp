@@ -103,7 +103,7 @@ double height_in(const Corners& t, double x, double y) {
 std::vector<Corners> ground_triangles(const Scene& scene) {
   std::vector<Corners> triangles;
   for (std::size_t t = 0; t < scene.mesh.triangles.size(); ++t) {
-    if (scene.objects[scene.object_of[t]] != "ground") continue;
+    if (display_name(scene.objects[scene.object_of[t]]) != "ground") continue;
     const Triangle& corners = scene.mesh.triangles[t];
     triangles.push_back(
         {scene.mesh.vertices[corners[0]], scene.mesh.vertices[corners[1]], scene.mesh.vertices[corners[2]]});
@@ -171,8 +171,7 @@ Extent ground_under(const PlainRing& ring, const std::vector<Corners>& triangles
 std::map<std::string, Extent> extents(const Scene& scene) {
   std::map<std::string, Extent> result;
   for (std::size_t t = 0; t < scene.mesh.triangles.size(); ++t) {
-    const std::string& name = scene.objects[scene.object_of[t]];
-    Extent& extent = result[name.substr(0, name.find(' '))];
+    Extent& extent = result[scene.objects[scene.object_of[t]].source_id];
     for (const std::uint32_t v : scene.mesh.triangles[t]) extent.add(scene.mesh.vertices[v].z());
   }
   return result;
@@ -228,11 +227,11 @@ TEST_F(HeavySlope, NoBuildingOfMonacoFloatsOrSinks) {
   std::size_t compared = 0, standing = 0, parts = 0, other = 0, roofs_below = 0;
   double worst = 0, steepest = 0;
   for (const CityRecord& record : city_.report.records) {
-    if (record.kind != "building" && record.kind != "building part") continue;
-    const auto found = map.areas.find(record.object);
-    if (record.fate == Fate::skipped || found == map.areas.end() || record.kind == "building part") {
+    if (record.object.kind != ObjectKind::building && record.object.kind != ObjectKind::building_part) continue;
+    const auto found = map.areas.find(record.object.source_id);
+    if (record.fate == Fate::skipped || found == map.areas.end() || record.object.kind == ObjectKind::building_part) {
       // A part stands on the ground of its building.
-      ++(record.kind == "building part" ? parts : other);
+      ++(record.object.kind == ObjectKind::building_part ? parts : other);
       continue;
     }
     Extent ground;
@@ -244,11 +243,11 @@ TEST_F(HeavySlope, NoBuildingOfMonacoFloatsOrSinks) {
       ground.add(one.highest);
     }
     ++compared;
-    EXPECT_NEAR(record.ground_m, ground.lowest, 0.01) << record.object;
-    EXPECT_EQ(extent[record.object].lowest, record.base_m) << record.object;
-    EXPECT_GE(record.base_m, record.ground_m - 0.01) << record.object;
+    EXPECT_NEAR(record.ground_m, ground.lowest, 0.01) << record.object.source_id;
+    EXPECT_EQ(extent[record.object.source_id].lowest, record.base_m) << record.object.source_id;
+    EXPECT_GE(record.base_m, record.ground_m - 0.01) << record.object.source_id;
     const bool stands = expected_heights(found->second.tags, nullptr).stands;
-    EXPECT_TRUE(!stands || record.base_m < record.ground_m + 0.01) << record.object << " floats";
+    EXPECT_TRUE(!stands || record.base_m < record.ground_m + 0.01) << record.object.source_id << " floats";
     standing += stands;
     worst = std::max(worst, std::abs(record.ground_m - ground.lowest));
     steepest = std::max(steepest, ground.highest - ground.lowest);

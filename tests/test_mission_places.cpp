@@ -261,7 +261,7 @@ TEST_F(MissionPlaces, ANamedAreaGivesItsNameToTheTarget) {
 Box ground_box(const Scene& scene) {
   Box box;
   for (std::size_t i = 0; i < scene.mesh.triangles.size(); ++i) {
-    if (scene.objects[scene.object_of[i]] != "ground") continue;
+    if (display_name(scene.objects[scene.object_of[i]]) != "ground") continue;
     for (const std::uint32_t vertex : scene.mesh.triangles[i]) box.extend(scene.mesh.vertices[vertex]);
   }
   return box;

@@ -92,7 +92,7 @@ TEST(Mutations, AnObjectLeftOutIsCaught) {
   for (const std::string name : {"wall", "house", "pole", "sign"}) {
     Scene scene = whole;
     for (std::size_t i = scene.mesh.triangles.size(); i-- > 0;) {
-      if (scene.objects[scene.object_of[i]] != name) continue;
+      if (display_name(scene.objects[scene.object_of[i]]) != name) continue;
       scene.mesh.triangles.erase(scene.mesh.triangles.begin() + std::ptrdiff_t(i));
       scene.object_of.erase(scene.object_of.begin() + std::ptrdiff_t(i));
     }

@@ -11,6 +11,7 @@
 #include "core/parallel.h"
 #include "solid/navigation.h"
 #include "solid/triangle_tree.h"
+#include "support/objects.h"
 #include "support/progress_check.h"
 #include "support/solids.h"
 #include "vantage/error.h"
@@ -281,7 +282,7 @@ TEST(Navigation, NothingIsPushedOutward) {
 /// Triangles of boxes on a ground, as scenes have them.
 Scene small_town(const Vec3& offset) {
   Scene scene;
-  scene.objects = {"ground", "north", "east", "tower"};
+  scene.objects = named({"ground", "north", "east", "tower"});
   scene.mesh.vertices = {Vec3(-200, -200, 0), Vec3(200, -200, 0), Vec3(200, 200, 0), Vec3(-200, 200, 0)};
   scene.mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
   append(scene.mesh, make_box_mesh(Vec3(-20, 15, 0), Vec3(20, 30, 12)));

@@ -9,6 +9,7 @@
 #include "io/georeference_text.h"
 #include "io/place_file.h"
 #include "support/mesh_reading.h"
+#include "support/objects.h"
 #include "support/solids.h"
 #include "support/temporary_directory.h"
 #include "vantage/scene.h"
@@ -37,7 +38,7 @@ Scene one_box() {
   Scene scene;
   scene.mesh = testing::make_box_mesh(Vec3(1, 2, 3), Vec3(4, 6, 8));
   scene.object_of.assign(scene.mesh.triangles.size(), 0);
-  scene.objects = {"way/1"};
+  scene.objects = named({"way/1"});
   return scene;
 }
 

@@ -204,6 +204,40 @@ Error refusal(const Scene& scene, const Target& target) {
   return {ErrorKind::internal, "", "", ""};
 }
 
+// The halves of a point's volume meet in a plane: their rims are one curve, as neither side may stick out of it alone.
+TEST(PointTarget, HalvesMeetWithoutAWall) {
+  Random random(911);
+  const std::array<std::pair<double, Vec3>, 4> worlds = {
+      {{1, Vec3::Zero()}, {1e-3, Vec3::Zero()}, {1e3, Vec3::Zero()}, {1, Vec3(4e5, 5e6, 100)}}};
+  for (const auto& [scale, origin] : worlds) {
+    for (int draw = 0; draw < 25; ++draw) {
+      SCOPED_TRACE(::testing::Message() << scale << " m, draw " << draw);
+      SceneBuilder scene;
+      for (int i = 0; i < 6; ++i) {
+        // Across the plane, above it and below; some begin in it.
+        const Vec3 at(random.uniform(-20, 20), random.uniform(-20, 20), random.uniform(-15, 15));
+        const Vec3 size(random.uniform(1, 9), random.uniform(1, 9), random.uniform(1, 9));
+        const double bottom = random.integer(0, 2) == 0 ? 0 : at.z();
+        if (std::abs(at.x() + size.x() / 2) < 7 && std::abs(at.y() + size.y() / 2) < 7) continue;
+        scene.box("box", origin + scale * Vec3(at.x(), at.y(), bottom),
+                  origin + scale * Vec3(at.x() + size.x(), at.y() + size.y(), bottom + size.z()));
+      }
+      const Volume volume = volume_of(scene, point(origin), 40 * scale, 0.01 * scale);
+      ASSERT_EQ(volume.outcome, Outcome::computed) << volume.reason;
+      const MeshMeasures m = measure(volume.mesh);
+      EXPECT_TRUE(m.closed && m.oriented && m.pieces == 1) << m.pieces << " pieces";
+      EXPECT_EQ(m.euler, 2);
+      double area = 0;
+      for (const Cause& cause : volume.causes) {
+        EXPECT_NE(cause.kind, CauseKind::target_plane);
+        area += cause.area_m2;
+      }
+      EXPECT_NEAR(area, m.area_m2, 1e-9 * m.area_m2);
+      EXPECT_NEAR(m.volume_m3, ray_volume(scene, volume, 40 * scale, 20000), 0.02 * m.volume_m3);
+    }
+  }
+}
+
 TEST(PointTarget, OnAWallNeedsAFront) {
   SceneBuilder builder;
   builder.ground("ground", 100).box("block", {5, -5, 0}, {15, 5, 20});

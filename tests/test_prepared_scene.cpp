@@ -12,6 +12,7 @@
 
 #include "core/parallel.h"
 #include "scene/prepared_data.h"
+#include "support/objects.h"
 #include "support/progress_check.h"
 #include "support/random.h"
 #include "support/scenes.h"
@@ -156,7 +157,7 @@ TEST(PreparedScene, ABoxBecomesSixRectangles) {
   EXPECT_EQ(s.polygons, 6u);
   EXPECT_EQ(s.bounds.min, Vec3(0, 0, 0));
   EXPECT_EQ(s.bounds.max, Vec3(4, 5, 6));
-  EXPECT_EQ(prepared.objects(), std::vector<std::string>{"block"});
+  EXPECT_EQ(names_of(prepared.objects()), std::vector<std::string>{"block"});
   expect_convex_polygons(prepared);
   EXPECT_DOUBLE_EQ(total_area(prepared), 2 * (20 + 24 + 30));
 }
@@ -215,7 +216,7 @@ TEST(PreparedScene, MergesAcrossTurnsButNotAcrossObjects) {
   scene.mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
   scene.mesh.triangles = {{0, 1, 2}, {0, 3, 2}};
   EXPECT_EQ(PreparedScene(scene).statistics().polygons, 1u);
-  scene.objects = {"left", "right"};
+  scene.objects = named({"left", "right"});
   scene.object_of = {0, 1};
   const PreparedScene prepared(scene);
   EXPECT_EQ(prepared.statistics().polygons, 2u);
@@ -324,7 +325,8 @@ TEST(PreparedScene, NamesGoWithTheirPolygons) {
   }
   for (std::size_t i = 0; i < prepared.data().polygon_count(); ++i)
     after[prepared.data().polygon_object[i]] += area_vector(polygon_of(prepared, i)).norm();
-  for (std::size_t i = 0; i < before.size(); ++i) EXPECT_NEAR(before[i], after[i], 1e-9) << scene.objects[i];
+  for (std::size_t i = 0; i < before.size(); ++i)
+    EXPECT_NEAR(before[i], after[i], 1e-9) << display_name(scene.objects[i]);
 }
 
 /// Every polygon is in one leaf, and every node holds all that is below it.

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/parallel.h"
+#include "support/objects.h"
 #include "support/random.h"
 #include "support/solids.h"
 #include "vantage/error.h"
@@ -21,7 +22,7 @@ namespace {
 
 Scene walls() {
   Scene scene;
-  scene.objects = {"east wall", "roof"};
+  scene.objects = named({"east wall", "roof"});
   scene.mesh.vertices = {{10, -5, 0},   {10, 5, 0},   {10, 5, 8},  {10, -5, 8},
                          {-20, -4, 12}, {-8, -4, 12}, {-8, 4, 12}, {-20, 4, 12}};
   scene.mesh.triangles = {{0, 1, 2}, {0, 2, 3}, {4, 5, 6}, {4, 6, 7}};
@@ -203,7 +204,7 @@ Scene soup(testing::Random& random, double scale, const Vec3& at) {
     scene.mesh.triangles.push_back({first, first + 1, first + 2});
     scene.object_of.push_back(static_cast<std::uint32_t>(random.integer(0, 11)));
   };
-  for (int i = 0; i < 12; ++i) scene.objects.push_back("object " + std::to_string(i % 9));  // some share a name
+  for (int i = 0; i < 12; ++i) scene.objects.push_back({"object " + std::to_string(i % 9)});  // some share a name
   const auto small = [&] { return random.uniform(-6, 6); };
   for (int i = 0; i < 240; ++i) {
     const double turn = random.uniform(0, 2 * M_PI), hair = std::pow(10.0, random.uniform(-9, -2));

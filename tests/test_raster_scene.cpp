@@ -10,6 +10,7 @@
 #include "geo/local_frame.h"
 #include "maps/terrain/height_grid.h"
 #include "maps/terrain/surface.h"
+#include "support/objects.h"
 #include "support/raster_writer.h"
 #include "support/shared_data.h"
 #include "support/temporary_directory.h"
@@ -56,7 +57,7 @@ TEST(RasterScene, KeepsEveryPostWhenNoErrorIsAllowed) {
   EXPECT_EQ(result.report.largest_error_m, 0);
   EXPECT_EQ(result.report.lowest_m, 0);
   EXPECT_FLOAT_EQ(static_cast<float>(result.report.highest_m), 21.7f);
-  EXPECT_EQ(result.scene.objects, std::vector<std::string>{"surface"});
+  EXPECT_EQ(names_of(result.scene.objects), std::vector<std::string>{"surface"});
   EXPECT_EQ(result.scene.object_of, std::vector<std::uint32_t>(mesh.triangles.size(), 0));
   EXPECT_EQ(result.scene.source, file);
 

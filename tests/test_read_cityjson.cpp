@@ -5,6 +5,7 @@
 
 #include "io/lod.h"
 #include "support/mesh_reading.h"
+#include "support/objects.h"
 #include "support/temporary_directory.h"
 
 namespace vantage {
@@ -62,7 +63,7 @@ void expect_error(const json& file, const std::string& problem, const std::strin
 TEST(ReadCityJson, UndoesTheTransform) {
   const RawMesh mesh = read(document());
   EXPECT_EQ(mesh.format, io::MeshFormat::cityjson);
-  EXPECT_EQ(mesh.objects, std::vector<std::string>{"b1"});
+  EXPECT_EQ(names_of(mesh.objects), std::vector<std::string>{"b1"});
   EXPECT_EQ(mesh.triangles.size(), 12u);
   EXPECT_EQ(mesh.vertices.size(), 8u);
   EXPECT_NEAR(enclosed_volume(mesh_of(mesh)), 8, 1e-12);
@@ -209,7 +210,7 @@ TEST(ReadCityJson, NamesObjectsAndLeavesPartsToThemselves) {
   objects["e"] = {{"type", "+Bench"}};
   objects["l"] = {{"type", "Road"}, {"geometry", {geometry("MultiLineString", "0", {{0, 1}})}}};
   const RawMesh mesh = read(file);
-  EXPECT_EQ(mesh.objects, std::vector<std::string>{"p1 Tower"});
+  EXPECT_EQ(names_of(mesh.objects), std::vector<std::string>{"p1 Tower"});
   EXPECT_EQ(mesh.notes, (std::vector<std::string>{"1 CityObject has neither surfaces nor parts (of \"e\")",
                                                   "1 geometry of points or lines is passed over (of \"l\")"}));
 }
@@ -285,7 +286,7 @@ TEST(ReadCityJson, ReadsTextSequences) {
   second["vertices"] = corners(1000, 1300);
   const std::string text = head.dump() + "\n" + feature.dump() + "\r\n\n" + second.dump();
   const RawMesh mesh = read_as("a.city.jsonl", text);
-  EXPECT_EQ(mesh.objects, (std::vector<std::string>{"b1", "b2"}));
+  EXPECT_EQ(names_of(mesh.objects), (std::vector<std::string>{"b1", "b2"}));
   EXPECT_EQ(mesh.triangles.size(), 24u);
   EXPECT_NEAR(enclosed_volume(mesh_of(mesh)), 8 + 27, 1e-9);
 

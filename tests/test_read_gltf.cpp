@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "support/mesh_reading.h"
+#include "support/objects.h"
 #include "support/temporary_directory.h"
 
 namespace vantage::io {
@@ -79,7 +80,7 @@ TEST(ReadGltf, ReadsEmbeddedBinaryAndExternalBuffers) {
     EXPECT_EQ(mesh.format, MeshFormat::gltf);
     EXPECT_EQ(mesh.vertices, (std::vector<Vec3>{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 1, 0), Vec3(0, 1, 0)}));
     EXPECT_EQ(mesh.triangles, (Triangles{{0, 1, 2}, {0, 2, 3}}));
-    EXPECT_EQ(mesh.objects, Names{"way/17"});
+    EXPECT_EQ(names_of(mesh.objects), Names{"way/17"});
   }
 }
 
@@ -100,7 +101,7 @@ TEST(ReadGltf, MovesMeshesByTheirNodesAndParents) {
     {"mesh": 0, "translation": [0, 10, 0], "rotation": [0, 0, 0.70710678118654752, 0.70710678118654752], "scale": [2, 3, 1]},
     {"mesh": 0, "name": "mirrored", "scale": [-1, 1, 1]}])");
   const RawMesh mesh = read(gltf);
-  EXPECT_EQ(mesh.objects, (Names{"wall", "mirrored"}));  // the first node has no name; its mesh has one
+  EXPECT_EQ(names_of(mesh.objects), (Names{"wall", "mirrored"}));  // the first node has no name; its mesh has one
   ASSERT_EQ(mesh.vertices.size(), 8u);
   EXPECT_LT((mesh.vertices[2] - Vec3(97, 12, 0)).norm(), 1e-13);
   EXPECT_EQ(mesh.vertices[6], Vec3(99, 1, 0));
@@ -149,12 +150,12 @@ TEST(ReadGltf, TakesTheDefaultScene) {
   gltf["nodes"].push_back({{"mesh", 0}, {"name", "other"}});
   gltf["scenes"] = {{{"nodes", {0}}}, {{"nodes", {1}}}};
   gltf["scene"] = 1;
-  EXPECT_EQ(read(gltf).objects, Names{"other"});
+  EXPECT_EQ(names_of(read(gltf).objects), Names{"other"});
   gltf.erase("scene");
-  EXPECT_EQ(read(gltf).objects, Names{"way/17"});
+  EXPECT_EQ(names_of(read(gltf).objects), Names{"way/17"});
   gltf.erase("scenes");
   gltf["nodes"].push_back({{"children", {1}}});
-  EXPECT_EQ(read(gltf).objects, (Names{"way/17", "other"}));
+  EXPECT_EQ(names_of(read(gltf).objects), (Names{"way/17", "other"}));
 }
 
 TEST(ReadGltf, NamesWhatIsWrong) {

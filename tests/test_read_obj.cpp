@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "support/mesh_reading.h"
+#include "support/objects.h"
 
 namespace vantage::io {
 namespace {
@@ -55,7 +56,7 @@ TEST(ReadObj, NamesObjects) {
                                             "g wall\nf 1 2 3\ng roof tiles\nf 1 2 3\ng wall\nf 1 2 3\n"
                                             "o empty\no way/265517\ng part\nf 1 2 3\no Building 17 \nf 1 2 3\n"
                                             "o Building 17\nf 1 2 3\no\nf 1 2 3\ng roof tiles\nf 1 2 3\n");
-  EXPECT_EQ(mesh.objects,
+  EXPECT_EQ(names_of(mesh.objects),
             (Names{"object 0", "wall", "roof tiles", "way/265517", "Building 17", "Building 17", "part"}));
   EXPECT_EQ(mesh.object_of, (std::vector<std::uint32_t>{0, 1, 2, 1, 3, 4, 5, 6, 2}));
 }
@@ -65,33 +66,33 @@ TEST(ReadObj, TakesTheNamesOfGroupsWhereOneObjectHoldsAll) {
   const RawMesh city = read_as("a.obj", "o city\n" + kThree +
                                             "f 1 2 3\ng house 1\nf 1 2 3\ng house 2\nf 1 2 3\nf 2\n"
                                             "g house 1\nf 1 2 3\ng\nf 1 2 3\ng empty\no\n");
-  EXPECT_EQ(city.objects, (Names{"city", "house 1", "house 2"}));
+  EXPECT_EQ(names_of(city.objects), (Names{"city", "house 1", "house 2"}));
   EXPECT_EQ(city.object_of, (std::vector<std::uint32_t>{0, 1, 2, 1, 0}));
 
   const RawMesh late = read_as("a.obj", "o city\ng one\nf 1 2 3\ng two\nf 3 2 1\n" + kThree);
-  EXPECT_EQ(late.objects, (Names{"one", "two"}));
+  EXPECT_EQ(names_of(late.objects), (Names{"one", "two"}));
   EXPECT_EQ(late.object_of, (std::vector<std::uint32_t>{0, 1}));
   // Other objects count only if they hold triangles; faces before the object have the names of their own groups.
-  EXPECT_EQ(read_as("a.obj", kThree + "o empty\nf 1 2\no city\ng one\nf 1 2 3\ng two\nf 1 2 3\n").objects,
+  EXPECT_EQ(names_of(read_as("a.obj", kThree + "o empty\nf 1 2\no city\ng one\nf 1 2 3\ng two\nf 1 2 3\n").objects),
             (Names{"one", "two"}));
-  EXPECT_EQ(read_as("a.obj", kThree + "g hill\nf 1 2 3\no city\ng one\nf 1 2 3\ng two\nf 1 2 3\n").objects,
+  EXPECT_EQ(names_of(read_as("a.obj", kThree + "g hill\nf 1 2 3\no city\ng one\nf 1 2 3\ng two\nf 1 2 3\n").objects),
             (Names{"hill", "one", "two"}));
 }
 
 TEST(ReadObj, KeepsTheNamesOfObjectsWhoseGroupsAreParts) {
   // As OpenFOAM with one zone: the group tells nothing apart.
-  EXPECT_EQ(read_as("a.obj", kThree + "o tower\ng zone0\nf 1 2 3\nf 1 2 3\n").objects, Names{"tower"});
+  EXPECT_EQ(names_of(read_as("a.obj", kThree + "o tower\ng zone0\nf 1 2 3\nf 1 2 3\n").objects), Names{"tower"});
   // As Blender with material groups.
   const RawMesh houses = read_as("a.obj", kThree +
                                               "o House\ng House_wall\nf 1 2 3\ng House_roof\nf 1 2 3\n"
                                               "o Shed\ng Shed_wall\nf 1 2 3\ng Shed_roof\nf 1 2 3\n");
-  EXPECT_EQ(houses.objects, (Names{"House", "Shed"}));
+  EXPECT_EQ(names_of(houses.objects), (Names{"House", "Shed"}));
   EXPECT_EQ(houses.object_of, (std::vector<std::uint32_t>{0, 0, 1, 1}));
   // As OSM2World: a group is the kind of the objects that follow.
   const RawMesh kinds = read_as("a.obj", kThree +
                                              "g Building\no Building0\nf 1 2 3\no Building1\nf 1 2 3\n"
                                              "g Parking\no Parking2\nf 1 2 3\ng Building\no Building3\nf 1 2 3\n");
-  EXPECT_EQ(kinds.objects, (Names{"Building0", "Building1", "Parking2", "Building3"}));
+  EXPECT_EQ(names_of(kinds.objects), (Names{"Building0", "Building1", "Parking2", "Building3"}));
 }
 
 TEST(ReadObj, CleansNames) {
@@ -100,11 +101,11 @@ TEST(ReadObj, CleansNames) {
                                             "e\x01 \x7f\nf 1 2 3\no Stra\xc3\x9f"
                                             "e \xe2\x82\xac\nf 1 2 3\n"
                                             "o \xed\xa0\x80\nf 1 2 3\n");
-  EXPECT_EQ(mesh.objects, (Names{"Stra\xc3\x9f"
-                                 "e",
-                                 "Stra\xc3\x9f"
-                                 "e \xe2\x82\xac",
-                                 "\xc3\xad\xc2\xa0\xc2\x80"}));
+  EXPECT_EQ(names_of(mesh.objects), (Names{"Stra\xc3\x9f"
+                                           "e",
+                                           "Stra\xc3\x9f"
+                                           "e \xe2\x82\xac",
+                                           "\xc3\xad\xc2\xa0\xc2\x80"}));
 }
 
 TEST(ReadObj, CutsPolygonsAndCountsFacesWithoutArea) {
@@ -119,7 +120,7 @@ TEST(ReadObj, AllowsVerticesAfterTheirFaces) {
   const RawMesh mesh =
       read_as("a.obj", "o late\nf 1 2 3\nf 1 2 3 4\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\no b\nf 1 2 3\n");
   EXPECT_EQ(mesh.triangles.size(), 4u);
-  EXPECT_EQ(mesh.objects, (Names{"late", "b"}));
+  EXPECT_EQ(names_of(mesh.objects), (Names{"late", "b"}));
   EXPECT_EQ(mesh.object_of, (std::vector<std::uint32_t>{1, 0, 0, 0}));
 }
 

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "support/mesh_reading.h"
+#include "support/objects.h"
 
 namespace vantage::io {
 namespace {
@@ -50,7 +51,7 @@ TEST(ReadPly, ReadsText) {
   EXPECT_EQ(mesh.format, MeshFormat::ply);
   EXPECT_EQ(mesh.vertices[0], Vec3(580000.123456789, 4785000.987654321, 1000.1));
   EXPECT_EQ(mesh.triangles.size(), 3u);
-  EXPECT_EQ(mesh.objects, std::vector<std::string>{"block"});
+  EXPECT_EQ(names_of(mesh.objects), std::vector<std::string>{"block"});
 }
 
 TEST(ReadPly, ReadsBothByteOrders) {

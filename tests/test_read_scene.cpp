@@ -12,6 +12,7 @@
 
 #include "io/mesh_file.h"
 #include "support/mesh_reading.h"
+#include "support/objects.h"
 #include "support/shared_data.h"
 #include "support/temporary_directory.h"
 #include "vantage/scene.h"
@@ -45,7 +46,7 @@ TEST(ReadScene, GivesTheSceneFrame) {
   write_bytes(folder / "a.obj", kObj);
   const Scene plain = read_scene(folder / "a.obj");
   EXPECT_EQ(plain.mesh.vertices[0], Vec3(1, 2, 3));
-  EXPECT_EQ(plain.objects, std::vector<std::string>{"tower"});
+  EXPECT_EQ(names_of(plain.objects), std::vector<std::string>{"tower"});
   EXPECT_EQ(plain.object_of, std::vector<std::uint32_t>{0});
   EXPECT_EQ(plain.source, folder / "a.obj");
   EXPECT_EQ(plain.up, UpAxis::z);
@@ -88,7 +89,7 @@ TEST(ReadScene, ReadsCompressedFiles) {
               gzip("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty "
                    "float z\nelement face 1\nproperty list uchar int vertex_index\nend_header\n"
                    "0 0 0 1 0 0 0 1 0 3 0 1 2"));
-  EXPECT_EQ(read_scene(folder / "t.ply.gz").objects, std::vector<std::string>{"t"});
+  EXPECT_EQ(names_of(read_scene(folder / "t.ply.gz").objects), std::vector<std::string>{"t"});
 }
 
 TEST(ReadScene, FindsBrokenCompression) {
@@ -256,7 +257,8 @@ TEST_P(ReadRealScene, HasItsTrianglesAndNames) {
   EXPECT_EQ(scene.object_of.size(), input.triangles);
   EXPECT_EQ(scene.dropped_faces, 0u);
   EXPECT_EQ(scene.objects.size(), input.objects);
-  EXPECT_EQ(std::count(scene.objects.begin(), scene.objects.end(), input.object), 1);
+  const std::vector<std::string> names = names_of(scene.objects);
+  EXPECT_EQ(std::count(names.begin(), names.end(), input.object), 1);
   for (const Triangle& triangle : scene.mesh.triangles) {
     for (const std::uint32_t corner : triangle) ASSERT_LT(corner, scene.mesh.vertices.size());
   }

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "support/mesh_reading.h"
+#include "support/objects.h"
 
 namespace vantage::io {
 namespace {
@@ -38,7 +39,7 @@ TEST(ReadStl, ReadsTextWithItsSolids) {
                               "VERTEX 0 0 0 VERTEX 1 0 0 VERTEX 1 1 0 VERTEX 0 1 0\nENDLOOP ENDFACET "
                               "ENDSOLID\n");
   EXPECT_EQ(mesh.format, MeshFormat::stl);
-  EXPECT_EQ(mesh.objects, (Names{"east wing", "part", "upper"}));
+  EXPECT_EQ(names_of(mesh.objects), (Names{"east wing", "part", "upper"}));
   EXPECT_EQ(mesh.object_of, (std::vector<std::uint32_t>{0, 0, 1, 2, 2}));
   EXPECT_EQ(mesh.vertices[2], Vec3(0, 1, 0.1));
 }
@@ -47,7 +48,7 @@ TEST(ReadStl, ReadsBinary) {
   const RawMesh mesh = read_as("tower.stl", binary(2, 2));
   EXPECT_EQ(mesh.triangles, (std::vector<Triangle>{{0, 1, 2}, {3, 4, 5}}));
   EXPECT_EQ(mesh.vertices[4], Vec3(1, 0, 0.5));
-  EXPECT_EQ(mesh.objects, Names{"tower"});
+  EXPECT_EQ(names_of(mesh.objects), Names{"tower"});
   // Some programs begin binary files with "solid" too; and the name does not matter.
   EXPECT_EQ(read_as("a", binary(2, 2, 0.5f, "solid")).triangles.size(), 2u);
 }

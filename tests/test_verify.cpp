@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/parallel.h"
+#include "support/objects.h"
 #include "support/oracle.h"
 #include "support/progress_check.h"
 #include "support/solids.h"
@@ -70,7 +71,7 @@ Example plate_example(const Vec3& shift = Vec3::Zero()) {
                                  {-50, -50, 0},   {50, -50, 0},    {50, 50, 0},     {-50, 50, 0}};
   example.scene.mesh.triangles = {{0, 1, 2}, {0, 2, 3}, {4, 5, 6}, {4, 6, 7}};
   example.scene.object_of = {0, 0, 1, 1};
-  example.scene.objects = {"plate", "ground"};
+  example.scene.objects = named({"plate", "ground"});
   example.target.vertices = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
   example.navigation.boxes = {{Vec3(-10, -10, 1), Vec3(10, 10, 10)}};
   const Mesh hidden = make_frustum({x0, y0, plate}, {x1, y1, plate}, {x0 + s * (x0 - 1), y0 + s * (y0 - 1), top},
@@ -174,7 +175,7 @@ TEST(Verify, CatchesAThinPoleBetweenTwoVertices) {
   example.target.vertices = {{-5, -5, 0}, {5, -5, 0}, {5, 5, 0}, {-5, 5, 0}};
   example.scene.mesh = make_box_mesh({-0.01, -7.01, 0}, {0.01, -6.99, 8});
   example.scene.object_of.assign(12, 0);
-  example.scene.objects = {"pole"};
+  example.scene.objects = named({"pole"});
   const Mesh box = make_box_mesh({-10, -10, 1}, {10, 10, 10});
   VerifyOptions options;
   const VerifyReport report = example.verify(box, options);

@@ -19,7 +19,7 @@ class Pieces {
       scene_.mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
       scene_.object_of.push_back(static_cast<std::uint32_t>(scene_.objects.size()));
     }
-    scene_.objects.push_back(name);
+    scene_.objects.push_back({name});
     return *this;
   }
 

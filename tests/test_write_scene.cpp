@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "support/objects.h"
 #include "support/temporary_directory.h"
 #include "vantage/error.h"
 #include "vantage/scene.h"
@@ -32,7 +33,8 @@ void add_tetrahedron(Scene& scene, const Vec3& at, double size, std::uint32_t ob
 /// nothing uses.
 Scene awkward_scene() {
   Scene scene;
-  scene.objects = {"way/265517 Straße \"7\"", "unused", "two\nlines", "", "way/265517 Straße \"7\"", "back\\slash\\"};
+  scene.objects =
+      named({"way/265517 Straße \"7\"", "unused", "two\nlines", "", "way/265517 Straße \"7\"", "back\\slash\\"});
   const Vec3 far(580000.1, 4785000.2, 1000.3);
   add_tetrahedron(scene, far, 10.0 / 3, 4);
   add_tetrahedron(scene, far + Vec3(1000.7, 0, 0), 1e-3, 0);
@@ -58,7 +60,7 @@ void expect_same_objects(const Scene& wrote, const Scene& read, double tolerance
   const std::vector<std::uint32_t> kept = {0, 2, 3, 4, 5};
   const std::vector<std::string> names = {"way/265517 Straße \"7\"", "two lines", "object 3", "way/265517 Straße \"7\"",
                                           "back\\slash\\"};
-  ASSERT_EQ(read.objects, names);
+  ASSERT_EQ(names_of(read.objects), names);
   ASSERT_EQ(read.mesh.triangles.size(), wrote.mesh.triangles.size());
   EXPECT_EQ(read.mesh.vertices.size(), wrote.mesh.vertices.size() - 1);
   for (std::uint32_t i = 0; i < kept.size(); ++i) {
@@ -82,12 +84,41 @@ TEST(WriteScene, GlbKeepsObjectsWhereverTheyLie) {
   expect_same_objects(scene, read_scene(directory / "scene.glb"), 4e-6);
 }
 
+TEST(WriteScene, ObjAndGlbKeepWhatObjectsAre) {
+  const TemporaryDirectory directory;
+  Scene scene = awkward_scene();
+  scene.objects[0] = {"Stra\u00dfe \"7\"", "way/265517", ObjectKind::building_part};
+  scene.objects[2] = {"", "node/9", ObjectKind::tree};
+  scene.objects[4] = {"ground", "", ObjectKind::other};  // of the kind that it says, not that of its name
+  scene.objects[5] = {"back\\slash\\", "", ObjectKind::wall};
+  for (const char* name : {"scene.obj", "scene.glb"}) {
+    write_scene(scene, directory / name);
+    const std::vector<SceneObject> read = read_scene(directory / name).objects;
+    ASSERT_EQ(read.size(), 5U) << name;
+    EXPECT_EQ(read[0], scene.objects[0]) << name;
+    EXPECT_EQ(read[1], scene.objects[2]) << name;
+    EXPECT_EQ(read[3], scene.objects[4]) << name;
+    EXPECT_EQ(read[4], scene.objects[5]) << name;
+  }
+}
+
+TEST(WriteScene, ARenamedObjectHasItsNewName) {
+  const TemporaryDirectory directory;
+  Scene scene = awkward_scene();
+  scene.objects[5] = {"tower", "way/1", ObjectKind::building};
+  write_scene(scene, directory / "scene.obj");
+  std::string text = testing::read_bytes(directory / "scene.obj");
+  text.replace(text.find("o way/1 tower"), 13, "o ground     ");
+  testing::write_bytes(directory / "renamed.obj", text);
+  EXPECT_EQ(read_scene(directory / "renamed.obj").objects.back(), (SceneObject{"ground", "", ObjectKind::ground}));
+}
+
 TEST(WriteScene, PlyIsOneMeshWithEveryBit) {
   const TemporaryDirectory directory;
   const Scene scene = awkward_scene();
   write_scene(scene, directory / "scene.ply");
   const Scene read = read_scene(directory / "scene.ply");
-  EXPECT_EQ(read.objects, std::vector<std::string>{"scene"});
+  EXPECT_EQ(names_of(read.objects), std::vector<std::string>{"scene"});
   ASSERT_EQ(read.mesh.triangles.size(), scene.mesh.triangles.size());
   for (std::size_t t = 0; t < read.mesh.triangles.size(); ++t) {
     for (std::size_t k = 0; k < 3; ++k) {

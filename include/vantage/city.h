@@ -105,9 +105,7 @@ struct CityOptions {
 enum class Fate { written, repaired, open_surface, skipped };
 
 struct CityRecord {
-  std::string object;  ///< "way/265517"
-  std::string name;    ///< its name tag
-  std::string kind;    ///< "building", "building part", "wall", "tower", "bridge", "tree"
+  SceneObject object;  ///< `source_id`: "way/265517"; `name`: its name tag; `kind`: building to tree
   Fate fate = Fate::written;
   std::string reason;                ///< of all but `written`; the report counts by it
   std::vector<std::string> remarks;  ///< on its tags
@@ -128,7 +126,7 @@ struct CityReport {
 };
 
 struct City {
-  Scene scene;  ///< one object per solid, named "way/265517 Empire State Building"; the ground is the object "ground"
+  Scene scene;  ///< one object per solid: that of its record; the ground is the last one, of ObjectKind::ground
   CityReport report;
 };
 

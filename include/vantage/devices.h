@@ -13,6 +13,9 @@ enum class DeviceKind {
   opengl_hardware,  ///< OpenGL on a graphics processor
 };
 
+/// "cpu", "opengl_software", "opengl_hardware".
+const char* name_of(DeviceKind kind);
+
 struct RenderDevice {
   int index = 0;  ///< in the list of render_devices: what `--device 1` names
   DeviceKind kind = DeviceKind::cpu;

@@ -18,16 +18,44 @@ namespace vantage {
 /// Which axis of a mesh file points up. A y-up file's (x, y, z) is (x, -z, y) in the scene frame.
 enum class UpAxis { y, z };
 
+/// What an object of a scene is, as far as its source says.
+enum class ObjectKind : std::uint8_t {
+  other,    ///< not known
+  ground,   ///< of a map: flat, or terrain
+  surface,  ///< all of a raster
+  building,
+  building_part,
+  wall,   ///< fence and hedge too
+  tower,  ///< mast, chimney, tank too
+  bridge,
+  tree,
+};
+
+/// Who an object is.
+struct SceneObject {
+  std::string name = {};       ///< for people: "Empire State Building"; may be empty
+  std::string source_id = {};  ///< in the source: "way/265517"; empty where the source has none
+  ObjectKind kind = ObjectKind::other;
+
+  bool operator==(const SceneObject&) const = default;
+};
+
+/// What reports, files and messages call it: "way/265517 Empire State Building".
+std::string display_name(const SceneObject& object);
+
+/// "building part", "wall", ...; "other".
+const char* name_of(ObjectKind kind);
+
 /// Any triangle soup with names. Open, non-manifold, doubled, intersecting or mis-oriented triangles are all fine: they
 /// are opaque from both sides.
 struct Scene {
   Mesh mesh;                             ///< scene frame: metres, z up
   std::vector<std::uint32_t> object_of;  ///< per triangle: index into `objects`
-  std::vector<std::string> objects;      ///< names, as in the file ("Building17", "way/265517")
-  std::filesystem::path source;          ///< the file it was read from; empty when made in memory
-  UpAxis up = UpAxis::z;                 ///< axes of that file, used when a result is written as OBJ
-  double scale = 1.0;                    ///< metres in one unit of that file, used likewise
-  bool states_axes = false;              ///< the file itself says both: an OBJ that vantage wrote
+  std::vector<SceneObject> objects;
+  std::filesystem::path source;  ///< the file it was read from; empty when made in memory
+  UpAxis up = UpAxis::z;         ///< axes of that file, used when a result is written as OBJ
+  double scale = 1.0;            ///< metres in one unit of that file, used likewise
+  bool states_axes = false;      ///< the file itself says both: an OBJ that vantage wrote
 
   // Counted while reading.
   std::size_t dropped_faces = 0;  ///< faces of the file that hold no triangle (fewer than 3 corners)
@@ -118,7 +146,7 @@ class PreparedScene {
   explicit PreparedScene(const Scene& scene, const Progress& progress = {});
 
   const SceneStatistics& statistics() const;
-  const std::vector<std::string>& objects() const;
+  const std::vector<SceneObject>& objects() const;
 
   struct Data;
   const Data& data() const { return *data_; }  ///< for the engine

@@ -38,7 +38,7 @@ struct RasterReport {
 };
 
 struct RasterScene {
-  Scene scene;  ///< one object, "surface"
+  Scene scene;  ///< one object, of ObjectKind::surface
   RasterReport report;
 };
 

@@ -20,15 +20,26 @@ enum class CauseKind : std::uint8_t {
   range,         ///< beyond it some point of the target is farther than max_range
   target_plane,  ///< the plane of the target
   navigation,    ///< a navigation limit
+  sensor,        ///< a limit of the sensor besides its range
 };
+
+/// "scene", "range", "target_plane", "navigation", "sensor".
+const char* name_of(CauseKind kind);
 
 /// One reason for part of the boundary.
 struct Cause {
   CauseKind kind = CauseKind::scene;
-  std::string
-      name;  ///< the scene object's name; "max_range"; "target plane"; "altitude min", "box 0", "keep_out 2", ...
+  std::string name;    ///< display_name of the object; "max_range"; "target plane"; "altitude min", "box 0", ...
   double area_m2 = 0;  ///< of the facets that it causes
+
+  // Of kind scene, where the method tells objects apart (the method of spheres does not).
+  std::optional<std::uint32_t> object = std::nullopt;  ///< index into Scene::objects
+  std::string source_id = {};                          ///< of it: an index means nothing without the scene
+  ObjectKind object_kind = ObjectKind::other;          ///< likewise
 };
+
+/// The cause that an object of a scene is.
+Cause cause_of_object(std::uint32_t index, const SceneObject& object);
 
 /// How a computation ended. Everything but `computed` leaves the mesh empty, and `reason` says why in a sentence.
 enum class Outcome {
@@ -40,6 +51,9 @@ enum class Outcome {
   outside_limits,   ///< the navigation limits leave nothing
   no_common_view,   ///< of a target in parts: no point sees all of them
 };
+
+/// "computed", "out_of_range", "blocked_at_once", "outside_limits", "no_common_view".
+const char* name_of(Outcome outcome);
 
 /// Work done at each stage, for reports and for those who tune.
 struct StageCounts {

@@ -122,7 +122,8 @@ Shortfall of_surface(const LoadedScene& loaded, const std::vector<Vec2>& points)
 Shortfall of(const Mission& mission, const LoadedScene& loaded) {
   const Scene& scene = loaded.scene;
   if (!scene.georeference) return {};
-  const bool has_ground = std::find(scene.objects.begin(), scene.objects.end(), "ground") != scene.objects.end();
+  const bool has_ground = std::any_of(scene.objects.begin(), scene.objects.end(),
+                                      [](const SceneObject& object) { return object.kind == ObjectKind::ground; });
   if (loaded.city) return of_map(mission, loaded, reach(mission));
   return loaded.raster || has_ground ? of_surface(loaded, reach(mission)) : Shortfall{};
 }

@@ -44,8 +44,9 @@ bool is_flat_rectangle(const Scene& scene, const std::vector<std::uint32_t>& ver
 }  // namespace
 
 std::optional<std::uint32_t> ground_object(const Scene& scene) {
-  const auto found = std::find_if(scene.objects.begin(), scene.objects.end(),
-                                  [](const std::string& name) { return name == "ground" || name == "surface"; });
+  const auto found = std::find_if(scene.objects.begin(), scene.objects.end(), [](const SceneObject& object) {
+    return object.kind == ObjectKind::ground || object.kind == ObjectKind::surface;
+  });
   if (found == scene.objects.end()) return std::nullopt;
   return static_cast<std::uint32_t>(found - scene.objects.begin());
 }

@@ -19,7 +19,7 @@ struct TerrainTooSmall {
   double missing_m = 0;
 };
 
-/// The object "ground", which scenes from maps have, or "surface", which is all of a raster's; nothing without one.
+/// The ground of a map, or the surface that is all of a raster; nothing without one.
 std::optional<std::uint32_t> ground_object(const Scene& scene);
 
 /// Extends flat ground, which goes on as it is wherever nothing is known, to hold `wanted`, and returns a sentence that

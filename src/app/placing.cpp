@@ -354,7 +354,7 @@ void check_outdoors(const std::vector<Target>& parts, const LoadedScene& loaded,
     const TargetFrame frame = make_target_frame(part);
     const auto solid = solid_round(loaded.scene, frame.origin + kClear * frame.normal);
     if (!solid) continue;
-    fail("the target lies inside " + in_quotes(loaded.scene.objects[*solid]), mission.target_place,
+    fail("the target lies inside " + in_quotes(display_name(loaded.scene.objects[*solid])), mission.target_place,
          how_to_leave_out(loaded, *solid, mission.ground_target->osm)
              .value_or("name a place outdoors; for a roof give its 'vertices', for a storey a scene that has rooms"));
   }

@@ -3,7 +3,6 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
-#include "core/names.h"
 #include "io/georeference_text.h"
 
 namespace vantage::app {
@@ -21,7 +20,7 @@ Json json_of(const Box& box) {
 Json json_of(const std::vector<Cause>& causes) {
   Json list = Json::array();
   for (const Cause& cause : causes) {
-    list.push_back({{"name", cause.name}, {"kind", core::name_of(cause.kind)}, {"area_m2", cause.area_m2}});
+    list.push_back({{"name", cause.name}, {"kind", name_of(cause.kind)}, {"area_m2", cause.area_m2}});
   }
   return list;
 }
@@ -45,7 +44,7 @@ Json json_of(const SpheresRun& run) {
   const SpheresReport& report = run.report;
   Json json;
   json["device"] = {
-      {"kind", core::name_of(report.device.kind)}, {"name", report.device.name}, {"driver", report.device.driver}};
+      {"kind", name_of(report.device.kind)}, {"name", report.device.name}, {"driver", report.device.driver}};
   if (!report.device_note.empty()) json["device"]["note"] = report.device_note;
   json["sphere"] = options.sphere == SpheresOptions::Sphere::centers ? "centers" : "conservative";
   if (options.resolution) {
@@ -81,7 +80,7 @@ std::string report_json(const Volume& volume, const MeshMeasures& measures, cons
     if (!text->empty()) report[key] = *text;
   }
   report["method"] = source.spheres ? "spheres" : "exact";
-  report["outcome"] = core::name_of(volume.outcome);
+  report["outcome"] = name_of(volume.outcome);
   report["reason"] = volume.reason;
   report["hint"] = volume.hint;
   report["notes"] = volume.notes;

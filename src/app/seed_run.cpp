@@ -98,10 +98,10 @@ std::pair<Vec3, CauseIndex> cut_vertex(const SeedVolume& volume, SpheresOptions:
 Volume finished(const SeedConfig& config, const SeedVolume& volume, SpheresOptions::Sphere sphere, Mesh mesh,
                 double radius) {
   Volume result;
-  result.causes = {{CauseKind::scene, "scene", 0},
-                   {CauseKind::range, "radius_max", 0},
-                   {CauseKind::navigation, "up_min", 0},
-                   {CauseKind::navigation, "up_max", 0}};
+  result.causes = {{CauseKind::scene, "scene"},
+                   {CauseKind::range, "radius_max"},
+                   {CauseKind::navigation, "up_min"},
+                   {CauseKind::navigation, "up_max"}};
   std::vector<CauseIndex> cause_at;
   for (Vec3& vertex : mesh.vertices) {
     const bool is_at_range = (vertex - volume.origin).norm() >= radius * (1 - kRangeRounding);
@@ -113,8 +113,6 @@ Volume finished(const SeedConfig& config, const SeedVolume& volume, SpheresOptio
     const bool is_one = cause_at[t[0]] == cause_at[t[1]] && cause_at[t[0]] == cause_at[t[2]];
     const CauseIndex cause = is_one ? cause_at[t[0]] : kScene;
     result.cause_of.push_back(cause);
-    const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
-    result.causes[cause].area_m2 += (b - a).cross(c - a).norm() / 2;
   }
   result.mesh = std::move(mesh);
   return result;

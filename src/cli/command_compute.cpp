@@ -13,7 +13,6 @@
 #include "cli/standard_streams.h"
 #include "cli/text_table.h"
 #include "core/atomic_file.h"
-#include "core/names.h"
 #include "io/writers.h"
 #include "vantage/error.h"
 #include "vantage/volume.h"
@@ -157,7 +156,7 @@ void add_causes(TextTable& table, const Volume& volume) {
   const std::size_t shown = std::min(causes.size(), kCausesListed);
   for (std::size_t i = 0; i < shown; ++i) {
     const std::string share = total > 0 ? fixed(100 * causes[i]->area_m2 / total, 1) + " %, " : "";
-    table.row(causes[i]->name, fixed(causes[i]->area_m2, 1), share + core::name_of(causes[i]->kind));
+    table.row(causes[i]->name, fixed(causes[i]->area_m2, 1), share + name_of(causes[i]->kind));
   }
   if (shown < causes.size()) table.row("and " + count(causes.size() - shown) + " more", "", "all are in the report");
 }

@@ -3,7 +3,6 @@
 
 #include "cli/command.h"
 #include "cli/text_table.h"
-#include "core/names.h"
 #include "depth/choose.h"
 #include "vantage/devices.h"
 
@@ -44,7 +43,7 @@ std::string json_text(const RenderDevices& found, const depth::ChosenDevice& cho
   json["devices"] = nlohmann::ordered_json::array();
   for (const RenderDevice& device : found.devices) {
     json["devices"].push_back({{"index", device.index},
-                               {"kind", core::name_of(device.kind)},
+                               {"kind", name_of(device.kind)},
                                {"name", device.name},
                                {"driver", device.driver},
                                {"memory_bytes", device.memory_bytes},

@@ -34,7 +34,7 @@ struct Tally {
 std::map<std::string, Tally> tallies(const CityReport& report) {
   std::map<std::string, Tally> by_kind;
   for (const CityRecord& record : report.records) {
-    Tally& tally = by_kind[record.kind];
+    Tally& tally = by_kind[name_of(record.object.kind)];
     ++tally.read;
     ++tally.fates[record.fate];
   }
@@ -47,7 +47,7 @@ std::map<std::pair<Fate, std::string>, std::pair<std::size_t, std::string>> reas
   for (const CityRecord& record : report.records) {
     if (record.fate == Fate::written) continue;
     auto& [number, first] = found[{record.fate, record.reason}];
-    if (number++ == 0) first = record.object;
+    if (number++ == 0) first = record.object.source_id;
   }
   return found;
 }
@@ -79,7 +79,7 @@ std::map<std::string, std::pair<std::size_t, std::string>> remarks(const CityRep
   for (const CityRecord& record : report.records) {
     for (const std::string& remark : record.remarks) {
       auto& [number, first] = found[kind_of_remark(remark)];
-      if (number++ == 0) first = record.object + ", " + remark;
+      if (number++ == 0) first = record.object.source_id + ", " + remark;
     }
   }
   return found;
@@ -87,9 +87,9 @@ std::map<std::string, std::pair<std::size_t, std::string>> remarks(const CityRep
 
 nlohmann::ordered_json record_json(const CityRecord& record) {
   nlohmann::ordered_json json;
-  json["object"] = record.object;
-  if (!record.name.empty()) json["name"] = record.name;
-  json["kind"] = record.kind;
+  json["object"] = record.object.source_id;
+  if (!record.object.name.empty()) json["name"] = record.object.name;
+  json["kind"] = name_of(record.object.kind);
   json["fate"] = name_of(record.fate);
   if (!record.reason.empty()) json["reason"] = record.reason;
   if (!record.remarks.empty()) json["remarks"] = record.remarks;

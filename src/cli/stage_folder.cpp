@@ -14,7 +14,6 @@
 #include "app/report.h"
 #include "cli/plain_volume.h"
 #include "core/atomic_file.h"
-#include "core/names.h"
 #include "vantage/error.h"
 #include "vantage/volume.h"
 
@@ -133,7 +132,7 @@ void StageFolder::write_story(const Mission& mission, const Volume& volume, cons
   story["mission"] = mission.file.string();
   story["target"] = mission.target.name;
   story["max_range_m"] = mission.sensor.max_range_m;
-  story["outcome"] = core::name_of(volume.outcome);
+  story["outcome"] = name_of(volume.outcome);
   story["reason"] = volume.reason;
   story["run"] = Json::parse(app::spheres_json({mission.spheres, report}));
   story["stages"] = Json::array();

@@ -1,6 +1,38 @@
-#include "core/names.h"
+// How kinds of objects, causes, outcomes and devices are called in files.
+#include "vantage/devices.h"
+#include "vantage/scene.h"
+#include "vantage/volume.h"
 
-namespace vantage::core {
+namespace vantage {
+
+const char* name_of(ObjectKind kind) {
+  switch (kind) {
+    case ObjectKind::other:
+      return "other";
+    case ObjectKind::ground:
+      return "ground";
+    case ObjectKind::surface:
+      return "surface";
+    case ObjectKind::building:
+      return "building";
+    case ObjectKind::building_part:
+      return "building part";
+    case ObjectKind::wall:
+      return "wall";
+    case ObjectKind::tower:
+      return "tower";
+    case ObjectKind::bridge:
+      return "bridge";
+    case ObjectKind::tree:
+      return "tree";
+  }
+  return "unknown";
+}
+
+std::string display_name(const SceneObject& object) {
+  if (object.source_id.empty()) return object.name;
+  return object.name.empty() ? object.source_id : object.source_id + " " + object.name;
+}
 
 const char* name_of(CauseKind kind) {
   switch (kind) {
@@ -12,6 +44,8 @@ const char* name_of(CauseKind kind) {
       return "target_plane";
     case CauseKind::navigation:
       return "navigation";
+    case CauseKind::sensor:
+      return "sensor";
   }
   return "unknown";
 }
@@ -44,4 +78,4 @@ const char* name_of(DeviceKind kind) {
   return "unknown";
 }
 
-}  // namespace vantage::core
+}  // namespace vantage

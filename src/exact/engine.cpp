@@ -79,7 +79,7 @@ void compute_point(const PreparedScene& scene, const Target& target, const Senso
   }
   const Side front = compute_side(scene, sides.front, range, options, progress);
   const Side back = compute_side(scene, *sides.back, range, options, progress);
-  take_over(join_sides(front, back, progress), sides.front, sensor.max_range_m, volume, "the point on all sides",
+  take_over(join_sides(front, back), sides.front, sensor.max_range_m, volume, "the point on all sides",
             "move the point out of what it lies in");
 }
 

@@ -31,8 +31,8 @@ Side compute_side(const PreparedScene& scene, const TargetFrame& frame, const ta
 
 /// Both sides of a point as one solid in the front's frame, without the wall between them. `back` is in the frame
 /// turned about the u axis. What is left of the wall, where the two differ by their tolerance, gets the cause of what
-/// is next to it. Throws Error(cancelled).
-Side join_sides(const Side& front, const Side& back, const core::ProgressReporter& progress);
+/// is next to it. Cost: O(n log n) in the vertices in the plane, and linear in the facets.
+Side join_sides(const Side& front, const Side& back);
 
 /// Name of the scene object that most of the boundary is due to.
 std::string widest_scene_cause(const std::vector<Cause>& causes);

@@ -149,7 +149,7 @@ class CityJsonReader {
     if (asked_ && !meets_lod(chosen, *asked_)) other_lod_.add(id);
 
     const std::size_t before = builder_.triangle_count();
-    builder_.add_object(name_of(id, object));
+    builder_.identify_object(builder_.add_object(id), identity_of(id, object));
     for (const auto& [i, lod] : candidates) {
       const Trail::Step step(trail_, "geometry", i);
       if (lod == chosen) read_geometry((*geometry)[i], vertices);
@@ -157,13 +157,29 @@ class CityJsonReader {
     if (builder_.triangle_count() == before) empty_.add(id);
   }
 
-  /// "way/1 Town hall": the id, and the name where there is one.
-  static std::string name_of(const std::string& id, const Json& object) {
+  /// What an object's type says of it (CityJSON 2.0, chapter 2).
+  static ObjectKind kind_of(std::string_view type) {
+    constexpr std::array<std::pair<std::string_view, ObjectKind>, 6> kKinds = {
+        {{"Building", ObjectKind::building},
+         {"BuildingPart", ObjectKind::building_part},
+         {"Bridge", ObjectKind::bridge},
+         {"BridgePart", ObjectKind::bridge},
+         {"BridgeConstructiveElement", ObjectKind::bridge},
+         {"SolitaryVegetationObject", ObjectKind::tree}}};
+    const auto* const found =
+        std::find_if(kKinds.begin(), kKinds.end(), [&](const auto& entry) { return entry.first == type; });
+    return found == kKinds.end() ? ObjectKind::other : found->second;
+  }
+
+  static SceneObject identity_of(const std::string& id, const Json& object) {
+    SceneObject identity{"", id, ObjectKind::other};
+    const auto type = object.find("type");
+    if (type != object.end() && type->is_string()) identity.kind = kind_of(type->get_ref<const std::string&>());
     const auto attributes = object.find("attributes");
-    if (attributes == object.end() || !attributes->is_object()) return id;
+    if (attributes == object.end() || !attributes->is_object()) return identity;
     const auto name = attributes->find("name");
-    if (name == attributes->end() || !name->is_string() || name->get<std::string>() == id) return id;
-    return id + " " + name->get<std::string>();
+    if (name != attributes->end() && name->is_string() && *name != id) identity.name = name->get<std::string>();
+    return identity;
   }
 
   static const GeometryType* find_type(std::string_view name) {

@@ -10,6 +10,7 @@
 #include "io/gltf_document.h"
 #include "io/mesh_builder.h"
 #include "io/mesh_readers.h"
+#include "io/object_text.h"
 #include "io/rounding_text.h"
 
 namespace vantage::io {
@@ -149,7 +150,11 @@ class GltfReader {
 
   void add_mesh(const Json& node, const Json& mesh, const Eigen::Affine3d& world) {
     const std::string name = document_.text(node, "name");
-    builder_.add_object(name.empty() ? document_.text(mesh, "name") : name);
+    const std::uint32_t object = builder_.add_object(name.empty() ? document_.text(mesh, "name") : name);
+    if (const auto extras = node.find("extras"); extras != node.end()) {
+      const auto stated = object_in(*extras);
+      if (stated && display_name(*stated) == name) builder_.identify_object(object, *stated);
+    }
     for (const Json& primitive : document_.array(mesh, "primitives")) {
       if (!primitive.is_object()) document_.fail("a primitive is not an object");
       const std::uint64_t mode = document_.whole(primitive, "mode").value_or(kTriangles);

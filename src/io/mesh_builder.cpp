@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/object_text.h"
 #include "io/triangulate_polygon.h"
 
 namespace vantage::io {
@@ -55,12 +56,16 @@ std::string clean_name(std::string_view name) {
 
 std::uint32_t MeshBuilder::add_object(std::string_view name) {
   object_ = static_cast<std::uint32_t>(mesh_.objects.size());
-  mesh_.objects.push_back(clean_name(name));
+  mesh_.objects.push_back(object_named(clean_name(name)));
   return object_;
 }
 
 void MeshBuilder::rename_object(std::uint32_t object, std::string_view name) {
-  mesh_.objects[object] = clean_name(name);
+  mesh_.objects[object] = object_named(clean_name(name));
+}
+
+void MeshBuilder::identify_object(std::uint32_t object, const SceneObject& identity) {
+  mesh_.objects[object] = {clean_name(identity.name), clean_name(identity.source_id), identity.kind};
 }
 
 void MeshBuilder::end_face() {
@@ -108,12 +113,13 @@ void MeshBuilder::add_late_faces() {
 void MeshBuilder::keep_used_objects() {
   std::vector<std::uint32_t> new_index(mesh_.objects.size(), kNone);
   for (const std::uint32_t object : mesh_.object_of) new_index[object] = 0;
-  std::vector<std::string> used;
+  std::vector<SceneObject> used;
   for (std::size_t i = 0; i < new_index.size(); ++i) {
     if (new_index[i] == kNone) continue;
     new_index[i] = static_cast<std::uint32_t>(used.size());
     const std::string number = std::to_string(used.size());
-    used.push_back(mesh_.objects[i].empty() ? "object " + number : std::move(mesh_.objects[i]));
+    used.push_back(std::move(mesh_.objects[i]));
+    if (display_name(used.back()).empty()) used.back().name = "object " + number;
   }
   mesh_.objects = std::move(used);
   for (std::uint32_t& object : mesh_.object_of) object = new_index[object];

@@ -50,6 +50,8 @@ class MeshBuilder {
   /// Goes back to an object.
   void set_object(std::uint32_t object) { object_ = object; }
   void rename_object(std::uint32_t object, std::string_view name);
+  /// Where the file says more than a name.
+  void identify_object(std::uint32_t object, const SceneObject& identity);
 
   // A face: begin_face, add_corner for each corner, end_face. Corners count from 0 and may be vertices that come later
   // in the file.

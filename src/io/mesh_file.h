@@ -26,7 +26,7 @@ struct RawMesh {
   std::vector<Vec3> vertices;
   std::vector<Triangle> triangles;
   std::vector<std::uint32_t> object_of;  ///< per triangle: index into `objects`
-  std::vector<std::string> objects;      ///< names, UTF-8, no control characters, not empty; may repeat
+  std::vector<SceneObject> objects;      ///< texts in UTF-8, no control characters; a name or an id; may repeat
   std::size_t dropped_faces = 0;         ///< faces with fewer than 3 corners
 
   /// The coordinate reference system of x and y, if the file names one, and where it does.

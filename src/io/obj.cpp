@@ -13,6 +13,7 @@
 #include "io/georeference_text.h"
 #include "io/mesh_builder.h"
 #include "io/mesh_readers.h"
+#include "io/object_text.h"
 #include "io/rounding_text.h"
 #include "io/text_cursor.h"
 
@@ -99,6 +100,9 @@ class ObjReader {
   }
 
   void comment(std::string_view text) {
+    if (object_ != kNoObject) {
+      if (auto stated = object_in_comment(text.substr(1))) identities_[object_] = std::move(*stated);
+    }
     try {
       read_georeference_comment(text.substr(1), georeference_);
       read_axes_comment(text.substr(1), axes_);
@@ -212,6 +216,17 @@ class ObjReader {
     return objects.size() == 1 && groups.size() > 1;
   }
 
+  /// What a comment says of an object, unless its name was changed since.
+  void name_object(std::uint32_t built, std::uint32_t object) {
+    const auto stated = identities_.find(object);
+    const bool holds = stated != identities_.end() && display_name(stated->second) == clean_name(object_names_[object]);
+    if (holds) {
+      builder_.identify_object(built, stated->second);
+    } else {
+      builder_.rename_object(built, object_names_[object]);
+    }
+  }
+
   /// Names the builder's objects. Returns for each the one that it is joined with.
   std::vector<std::uint32_t> name_parts() {
     const bool by_group = groups_are_objects();
@@ -221,7 +236,7 @@ class ObjReader {
       const Part& part = parts_[i];
       joined[i] = i;
       if (part.object == kNoObject || (by_group && !part.group.empty())) continue;  // has its group's name
-      builder_.rename_object(i, object_names_[part.object]);
+      name_object(i, part.object);
       if (first[part.object] == kNoObject) first[part.object] = i;
       joined[i] = first[part.object];
     }
@@ -239,7 +254,8 @@ class ObjReader {
   std::optional<Axes> axes_;
 
   static constexpr std::uint32_t kNoObject = std::numeric_limits<std::uint32_t>::max();
-  std::vector<std::string_view> object_names_;  // names lie in source_
+  std::vector<std::string_view> object_names_;       // names lie in source_
+  std::map<std::uint32_t, SceneObject> identities_;  // of objects, where a comment states them
   std::uint32_t object_ = kNoObject;
   std::string_view group_;
   std::vector<Part> parts_;

@@ -7,7 +7,6 @@
 #include <string>
 #include <string_view>
 
-#include "core/names.h"
 #include "core/progress_reporter.h"
 #include "io/mesh_source.h"
 #include "vantage/error.h"
@@ -19,8 +18,9 @@ constexpr std::string_view kFaces = "property list uchar int vertex_indices\npro
 constexpr std::size_t kFaceBytes = 1 + 3 * 4 + 4;
 
 std::optional<CauseKind> kind_named(std::string_view name) {
-  for (const CauseKind kind : {CauseKind::scene, CauseKind::range, CauseKind::target_plane, CauseKind::navigation}) {
-    if (name == core::name_of(kind)) return kind;
+  for (const CauseKind kind :
+       {CauseKind::scene, CauseKind::range, CauseKind::target_plane, CauseKind::navigation, CauseKind::sensor}) {
+    if (name == name_of(kind)) return kind;
   }
   return std::nullopt;
 }

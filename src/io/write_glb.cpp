@@ -5,7 +5,6 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "core/names.h"
 #include "io/georeference_text.h"
 #include "io/glb_container.h"
 #include "io/writers.h"
@@ -18,7 +17,8 @@ using Json = nlohmann::ordered_json;
 // Values of the glTF 2.0 specification.
 constexpr int kFloat = 5126, kUnsignedInt = 5125, kArrayBuffer = 34962, kElementArrayBuffer = 34963, kTriangles = 4;
 
-constexpr std::array kKinds = {CauseKind::scene, CauseKind::range, CauseKind::target_plane, CauseKind::navigation};
+constexpr std::array kKinds = {CauseKind::scene, CauseKind::range, CauseKind::target_plane, CauseKind::navigation,
+                               CauseKind::sensor};
 
 /// From the numbers that pictures and screens use (sRGB, 0 to 255) to the linear ones that glTF asks for.
 double linear(int colour) {
@@ -46,8 +46,11 @@ Json material_for(CauseKind kind) {
     case CauseKind::navigation:
       colour = colour_of(0, 158, 115, 0.4);
       break;
+    case CauseKind::sensor:
+      colour = colour_of(204, 121, 167, 0.4);
+      break;
   }
-  return {{"name", core::name_of(kind)},
+  return {{"name", name_of(kind)},
           {"pbrMetallicRoughness", {{"baseColorFactor", colour}, {"metallicFactor", 0.0}, {"roughnessFactor", 0.9}}},
           {"alphaMode", "BLEND"},
           {"doubleSided", true}};
@@ -121,7 +124,7 @@ Gltf make_gltf(const Volume& volume, const StoredMesh& stored) {
   gltf.json["asset"]["extras"]["vantage"]["rounding_m"] = stored.rounding_m;
   gltf.json["scene"] = 0;
   if (stored.mesh.empty()) {  // the specification allows no empty array, so there is no node either
-    gltf.json["scenes"] = Json::array({{{"name", std::string("no volume: ") + core::name_of(volume.outcome)}}});
+    gltf.json["scenes"] = Json::array({{{"name", std::string("no volume: ") + name_of(volume.outcome)}}});
     return gltf;
   }
   const Vec3 translation = to_y_up(stored.origin);

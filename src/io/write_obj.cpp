@@ -3,7 +3,6 @@
 #include <set>
 #include <vector>
 
-#include "core/names.h"
 #include "io/axes_text.h"
 #include "io/rounding_text.h"
 #include "io/write_place.h"
@@ -20,7 +19,7 @@ std::vector<std::string> group_names(const std::vector<Cause>& causes) {
   for (const Cause& cause : causes) {
     std::string name = one_line(cause.name);
     for (char& c : name) c = c == ' ' ? '_' : c;
-    if (name.empty()) name = core::name_of(cause.kind);
+    if (name.empty()) name = name_of(cause.kind);
     if (!taken.insert(name).second) {
       name.append("#").append(std::to_string(names.size()));
       taken.insert(name);
@@ -42,7 +41,7 @@ void check_obj_scale(const Volume& volume, double scale) {
 
 void write_obj(const Volume& volume, const StoredMesh& stored, UpAxis up, double scale, core::AtomicFile& file) {
   const auto& [vertices, triangles] = stored.mesh;
-  file.write("# vantage " VANTAGE_VERSION " visibility volume: " + std::string(core::name_of(volume.outcome)) + "\n");
+  file.write("# vantage " VANTAGE_VERSION " visibility volume: " + std::string(name_of(volume.outcome)) + "\n");
   file.write("# " + io::axes_text({up, scale}) + "\n");
   file.write(place_comment(volume.georeference, "# "));
   file.write("# " + io::rounding_text(stored.rounding_m) + "\n");

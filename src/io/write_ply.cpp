@@ -1,7 +1,6 @@
 // PLY 1.0, binary, little-endian; scene frame.
 #include <limits>
 
-#include "core/names.h"
 #include "io/rounding_text.h"
 #include "io/write_place.h"
 #include "io/writers.h"
@@ -13,16 +12,15 @@ void write_ply(const Volume& volume, const StoredMesh& stored, core::AtomicFile&
   check_count(vertices.size(), std::numeric_limits<std::int32_t>::max(), "vertices", "PLY");
 
   std::string header = "ply\nformat binary_little_endian 1.0\n";
-  header +=
-      "comment vantage " VANTAGE_VERSION " visibility volume: " + std::string(core::name_of(volume.outcome)) + "\n";
+  header += "comment vantage " VANTAGE_VERSION " visibility volume: " + std::string(name_of(volume.outcome)) + "\n";
   header += "comment vantage frame: scene, metres, z up\n";
   header += place_comment(volume.georeference, "comment ");
   header += "comment vantage tolerance_m " + exact_text(volume.tolerance_m) + "\n";
   header += "comment " + io::rounding_text(stored.rounding_m) + "\n";
   for (std::size_t i = 0; i < volume.causes.size(); ++i) {
     const Cause& cause = volume.causes[i];
-    header += "comment vantage cause " + std::to_string(i) + " " + core::name_of(cause.kind) + " " +
-              one_line(cause.name) + "\n";
+    header +=
+        "comment vantage cause " + std::to_string(i) + " " + name_of(cause.kind) + " " + one_line(cause.name) + "\n";
   }
   header += "element vertex " + std::to_string(vertices.size()) + "\n";
   header += "property double x\nproperty double y\nproperty double z\n";

@@ -5,6 +5,7 @@
 
 #include "core/volume_check.h"
 #include "io/axes_text.h"
+#include "io/object_text.h"
 #include "io/scene_writers.h"
 #include "io/write_place.h"
 #include "io/writers.h"
@@ -49,7 +50,7 @@ ObjectTriangles::ObjectTriangles(const Scene& scene)
 }
 
 std::string object_name(const Scene& scene, std::size_t object) {
-  std::string name = one_line(scene.objects[object]);
+  std::string name = one_line(display_name(scene.objects[object]));
   const bool is_blank = name.find_first_not_of(' ') == std::string::npos;
   return is_blank ? std::string("object ").append(std::to_string(object)) : name;
 }
@@ -64,6 +65,9 @@ void write_scene_obj(const Scene& scene, core::AtomicFile& file) {
   std::string vertex_lines, face_lines;
   ObjectTriangles(scene).for_each([&](std::size_t object, const std::uint32_t* first, const std::uint32_t* end) {
     vertex_lines.assign("o ").append(object_name(scene, object)).append("\n");
+    if (says_more_than_name(scene.objects[object])) {
+      vertex_lines.append("# ").append(object_comment(scene.objects[object])).append("\n");
+    }
     face_lines.clear();
     for (; first != end; ++first) {
       face_lines += 'f';

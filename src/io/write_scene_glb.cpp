@@ -8,6 +8,7 @@
 
 #include "io/georeference_text.h"
 #include "io/glb_container.h"
+#include "io/object_text.h"
 #include "io/scene_writers.h"
 #include "io/writers.h"
 
@@ -36,7 +37,7 @@ class SceneGlb {
 
   void write(core::AtomicFile& file) {
     ObjectTriangles(scene_).for_each([&](std::size_t object, const std::uint32_t* first, const std::uint32_t* end) {
-      add_object(object_name(scene_, object), first, end);
+      add_object(object, first, end);
     });
     const std::size_t positions = buffer_.size();
     buffer_ += indices_;
@@ -50,7 +51,7 @@ class SceneGlb {
     std::uint32_t index = 0;
   };
 
-  void add_object(const std::string& name, const std::uint32_t* first, const std::uint32_t* end) {
+  void add_object(std::size_t object, const std::uint32_t* first, const std::uint32_t* end) {
     const auto& [vertices, triangles] = scene_.mesh;
     Box box;
     for (const std::uint32_t* t = first; t != end; ++t) {
@@ -74,7 +75,7 @@ class SceneGlb {
       }
     }
     add_accessors(used, first_position, low, high, static_cast<std::size_t>(end - first) * 3, first_index);
-    add_node(json_text(name), origin);
+    add_node(object, origin);
   }
 
   void add_position(const Vec3& position, std::array<float, 3>& low, std::array<float, 3>& high) {
@@ -100,7 +101,8 @@ class SceneGlb {
     text.append(R"(,"count":)").append(std::to_string(indices)).append(R"(,"type":"SCALAR"})");
   }
 
-  void add_node(const std::string& name, const Vec3& origin) {
+  void add_node(std::size_t object, const Vec3& origin) {
+    const std::string name = json_text(object_name(scene_, object));
     const std::string mesh = std::to_string(count_ - 1);
     if (count_ > 1) {
       for (std::string* text : {&nodes_, &meshes_, &roots_}) *text += ",";
@@ -108,6 +110,9 @@ class SceneGlb {
     roots_ += mesh;
     nodes_.append(R"({"name":)").append(name).append(R"(,"mesh":)").append(mesh).append(R"(,"translation":)");
     append_triple(nodes_, to_y_up(origin));
+    if (says_more_than_name(scene_.objects[object])) {
+      nodes_.append(R"(,"extras":{"vantage":{"object":)").append(object_text(scene_.objects[object])).append("}}");
+    }
     nodes_ += "}";
     meshes_.append(R"({"name":)").append(name).append(R"(,"primitives":[{"attributes":{"POSITION":)");
     meshes_.append(std::to_string(2 * count_ - 2)).append(R"(},"indices":)").append(std::to_string(2 * count_ - 1));

@@ -49,6 +49,8 @@ const char* label_of(CauseKind kind) {
       return "plane of the target";
     case CauseKind::navigation:
       return "navigation limit";
+    case CauseKind::sensor:
+      return "sensor limit";
   }
   return "";
 }
@@ -223,7 +225,7 @@ std::vector<LegendEntry> legend_of(const PictureRequest& request) {
   std::vector<LegendEntry> legend;
   if (request.target != nullptr) legend.push_back({Mark::solid, kTarget, "target", ""});
   if (request.volume != nullptr && !request.volume->mesh.triangles.empty()) {
-    std::array<double, 4> area{};
+    std::array<double, 5> area{};  // by kind
     double total = 0;
     for (const Cause& cause : request.volume->causes) {
       area[static_cast<std::size_t>(cause.kind)] += cause.area_m2;

@@ -36,6 +36,8 @@ constexpr Colour colour_of(CauseKind kind) {
       return {128, 128, 134};
     case CauseKind::navigation:
       return {0, 158, 115};
+    case CauseKind::sensor:
+      return {204, 121, 167};
   }
   return kPlainVolume;
 }

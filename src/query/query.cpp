@@ -123,9 +123,9 @@ class NamedObjects {
     named_.push_back(object);
   }
   std::size_t count() const { return named_.size(); }
-  std::vector<std::string> names(const std::vector<std::string>& objects) const {
+  std::vector<std::string> names(const std::vector<SceneObject>& objects) const {
     std::vector<std::string> result;
-    for (const std::uint32_t object : named_) result.push_back(objects[object]);
+    for (const std::uint32_t object : named_) result.push_back(display_name(objects[object]));
     std::sort(result.begin(), result.end());
     result.erase(std::unique(result.begin(), result.end()), result.end());
     return result;

@@ -13,7 +13,7 @@ namespace vantage {
 
 struct PreparedScene::Data {
   SceneStatistics statistics;
-  std::vector<std::string> objects;
+  std::vector<SceneObject> objects;
   Vec3 origin =
       Vec3::Zero();  ///< scene frame; everything below is relative to it, so that large coordinates cost nothing
 

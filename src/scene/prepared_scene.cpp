@@ -203,7 +203,7 @@ PreparedScene::PreparedScene(const Scene& scene, const Progress& callback) {
   check(scene);
   auto data = std::make_shared<Data>();
   data->objects = scene.objects;
-  if (data->objects.empty()) data->objects.push_back("scene");
+  if (data->objects.empty()) data->objects.push_back({"scene", "", ObjectKind::other});
   SceneStatistics& statistics = data->statistics;
   statistics.triangles = scene.mesh.triangles.size();
   statistics.vertices = scene.mesh.vertices.size();
@@ -228,6 +228,6 @@ PreparedScene::PreparedScene(const Scene& scene, const Progress& callback) {
 
 const SceneStatistics& PreparedScene::statistics() const { return data_->statistics; }
 
-const std::vector<std::string>& PreparedScene::objects() const { return data_->objects; }
+const std::vector<SceneObject>& PreparedScene::objects() const { return data_->objects; }
 
 }  // namespace vantage

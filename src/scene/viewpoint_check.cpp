@@ -78,7 +78,8 @@ void ViewpointCheck::check(const Vec3& viewpoint, const std::string& name) const
     for (std::size_t k = 0; k < 3; ++k) corners[k] = scene_.mesh.vertices[scene_.mesh.triangles[t][k]] - viewpoint;
     if (core::squared_distance_to_triangle(Vec3::Zero(), corners[0], corners[1], corners[2]) <
         kOnSurface * kOnSurface) {
-      throw Error(ErrorKind::input, name + " lies on a surface", "object '" + scene_.objects[scene_.object_of[t]] + "'",
+      throw Error(ErrorKind::input, name + " lies on a surface",
+                  "object '" + display_name(scene_.objects[scene_.object_of[t]]) + "'",
                   "move it off the surface, by 1 mm or more");
     }
     angle[piece_of_[t]] += solid_angle(corners);
@@ -86,8 +87,8 @@ void ViewpointCheck::check(const Vec3& viewpoint, const std::string& name) const
   for (std::size_t t = 0; t < piece_of_.size(); ++t) {
     const double winding = angle[piece_of_[t]] / (4 * M_PI);
     if (winding <= kInside && winding >= kInsideOut) continue;
-    throw Error(ErrorKind::input, name + " lies inside a solid", "object '" + scene_.objects[scene_.object_of[t]] + "'",
-                "move it into the open");
+    throw Error(ErrorKind::input, name + " lies inside a solid",
+                "object '" + display_name(scene_.objects[scene_.object_of[t]]) + "'", "move it into the open");
   }
 }
 

@@ -1,16 +1,15 @@
 // The volume of a target in parts: what the volumes of all parts have in common.
 #include <algorithm>
-#include <map>
 #include <string>
 #include <utility>
 
+#include "core/causes.h"
 #include "core/pieces.h"
 #include "core/progress_reporter.h"
 #include "core/volume_check.h"
 #include "solid/clean.h"
 #include "solid/outside_limits.h"
 #include "solid/regions.h"
-#include "solid/take_over.h"
 #include "vantage/error.h"
 #include "vantage/volume.h"
 
@@ -19,22 +18,6 @@ namespace {
 
 using solid::LabelledMesh;
 using solid::Solid;
-
-/// Causes of several volumes as one list.
-class CauseList {
- public:
-  std::uint32_t add(const Cause& cause) {
-    const auto [entry, is_new] =
-        index_.try_emplace({cause.kind, cause.name}, static_cast<std::uint32_t>(causes_.size()));
-    if (is_new) causes_.push_back(cause);
-    return entry->second;
-  }
-  const std::vector<Cause>& causes() const { return causes_; }
-
- private:
-  std::map<std::pair<CauseKind, std::string>, std::uint32_t> index_;
-  std::vector<Cause> causes_;
-};
 
 void add_work(const Volume& part, Volume& result) {
   result.tolerance_m = std::max(result.tolerance_m, part.tolerance_m);
@@ -59,7 +42,7 @@ void make_empty(Outcome outcome, std::string reason, std::string hint, Volume& r
   result.causes.clear();
 }
 
-Solid solid_of(const Volume& volume, const Vec3& origin, CauseList& causes) {
+Solid solid_of(const Volume& volume, const Vec3& origin, core::CauseList& causes) {
   std::vector<std::uint32_t> merged;
   for (const Cause& cause : volume.causes) merged.push_back(causes.add(cause));
   std::vector<std::uint32_t> labels;
@@ -84,7 +67,7 @@ Volume intersect_volumes(const std::vector<Volume>& volumes, const Progress& cal
   if (volumes.size() == 1) return result;
 
   const Vec3 origin = result.frame.origin;
-  CauseList causes;
+  core::CauseList causes;
   std::vector<Solid> solids;
   double sliver = 0, rounding = 0;
   for (const Volume& volume : volumes) {
@@ -106,8 +89,10 @@ Volume intersect_volumes(const std::vector<Volume>& volumes, const Progress& cal
   // Parts share scene polygons, so most of what bounds one volume all but coincides with what bounds another.
   solid::clean_inward(labelled, origin, {},
                       solid::cleaning_limits(result.tolerance_m, rounding, bounding_box(labelled.mesh)));
-  solid::take_over(
-      std::move(labelled), causes.causes(), [](std::uint32_t label) { return label; }, result);
+  result.mesh = std::move(labelled.mesh);
+  result.cause_of = std::move(labelled.labels);
+  result.causes = causes.causes();
+  core::compact_causes(result.mesh, result.cause_of, result.causes);
   return result;
 }
 

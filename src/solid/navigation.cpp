@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/causes.h"
 #include "core/pieces.h"
 #include "core/progress_reporter.h"
 #include "core/volume_check.h"
@@ -16,7 +17,6 @@
 #include "solid/numerics.h"
 #include "solid/outside_limits.h"
 #include "solid/regions.h"
-#include "solid/take_over.h"
 #include "vantage/error.h"
 #include "vantage/volume.h"
 
@@ -78,8 +78,11 @@ void cut_volume(const Regions& regions, const core::ProgressReporter& progress, 
   const CleaningLimits limits = cleaning_limits(result.tolerance_m, volume.epsilon(), bounding_box(labelled.mesh));
   clean_inward(labelled, regions.origin, regions.surfaces, limits);
   snap_to_planes(labelled, regions.surfaces, allowance);  // what was merged went to the origin and back
-  take_over(
-      std::move(labelled), regions.causes, [&](std::uint32_t label) { return regions.surfaces[label].cause; }, result);
+  for (std::uint32_t& label : labelled.labels) label = regions.surfaces[label].cause;
+  result.mesh = std::move(labelled.mesh);
+  result.cause_of = std::move(labelled.labels);
+  result.causes = regions.causes;
+  core::compact_causes(result.mesh, result.cause_of, result.causes);
 }
 
 }  // namespace

@@ -50,7 +50,7 @@ class Builder {
 
  private:
   std::uint32_t add_cause(const std::string& name) {
-    result_.causes.push_back({CauseKind::navigation, name, 0});
+    result_.causes.push_back({CauseKind::navigation, name});
     return static_cast<std::uint32_t>(result_.causes.size() - 1);
   }
   std::uint32_t add_surface(const Surface& surface) {

@@ -55,9 +55,8 @@ void set_unseen(const Target& target, const Vec3& a, const Vec3& b, Volume& volu
 }
 
 void set_mesh(const TargetFrame& frame, solid::LabelledMesh labelled, Volume& volume) {
-  const std::array<Cause, 3> causes = {{{CauseKind::scene, "scene", 0},
-                                        {CauseKind::range, "max_range", 0},
-                                        {CauseKind::target_plane, "target plane", 0}}};
+  const std::array<Cause, 3> causes = {
+      {{CauseKind::scene, "scene"}, {CauseKind::range, "max_range"}, {CauseKind::target_plane, "target plane"}}};
   constexpr std::uint32_t kNone = ~0u;
   std::array<std::uint32_t, 3> index = {kNone, kNone, kNone};
   volume.mesh = std::move(labelled.mesh);

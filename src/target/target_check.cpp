@@ -38,7 +38,7 @@ std::string advice_for_point(const PreparedScene::Data& scene, std::uint32_t pol
 [[noreturn]] void refuse_pierced(const PreparedScene::Data& scene, const Target& target, const TargetFrame& frame,
                                  const Lengths& lengths, const Crossing& crossing, double clear) {
   const std::uint32_t object = scene.polygon_object[crossing.polygon];
-  const std::string name = "\"" + scene.objects[object] + "\"";
+  const std::string name = "\"" + display_name(scene.objects[object]) + "\"";
   const int decimals = HeightStep(lengths).decimals;
   std::string fix =
       "move the target, or raise it: offset: " + core::fixed_text(target.offset_m + clear, decimals) + " clears it";

@@ -177,7 +177,7 @@ std::string Check::cause(const Verdict& over_claimed) {
     const auto triangle = occluders_->first_hit(in_frame_of(part_, position), over_claimed.hidden);
     const bool named =
         triangle && *triangle < scene_.object_of.size() && scene_.object_of[*triangle] < scene_.objects.size();
-    return named ? scene_.objects[scene_.object_of[*triangle]] : "scene";
+    return named ? display_name(scene_.objects[scene_.object_of[*triangle]]) : "scene";
   }
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     if (!parts_[i].in_front(in_frame_of(i, position))) return "target plane";

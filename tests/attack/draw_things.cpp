@@ -8,7 +8,7 @@
 namespace attack {
 
 void SceneDrawing::object(const char* name) {
-  scene_.objects.push_back(std::string(name) + " " + std::to_string(scene_.objects.size()));
+  scene_.objects.push_back({std::string(name) + " " + std::to_string(scene_.objects.size())});
 }
 
 const Vec3& SceneDrawing::corner(int i) const {

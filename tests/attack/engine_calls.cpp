@@ -129,7 +129,7 @@ void write_case(const Case& c, const std::filesystem::path& folder) {
   std::uint32_t last = ~0u;
   for (std::size_t i = 0; i < c.scene.mesh.triangles.size(); ++i) {
     const std::uint32_t object = c.scene.object_of.empty() ? 0 : c.scene.object_of[i];
-    if (object != last) out << "o " << c.scene.objects[object] << "\n";
+    if (object != last) out << "o " << display_name(c.scene.objects[object]) << "\n";
     last = object;
     const Triangle& t = c.scene.mesh.triangles[i];
     out << "f " << t[0] + 1 << " " << t[1] + 1 << " " << t[2] + 1 << "\n";

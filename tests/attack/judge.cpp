@@ -10,22 +10,6 @@ namespace {
 
 using vantage::Outcome;
 
-const char* name_of(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::computed:
-      return "computed";
-    case Outcome::out_of_range:
-      return "out of range";
-    case Outcome::blocked_at_once:
-      return "blocked at once";
-    case Outcome::outside_limits:
-      return "outside limits";
-    case Outcome::no_common_view:
-      return "no common view";
-  }
-  return "?";
-}
-
 constexpr const char* kNames[kClasses] = {
     "over-claim", "thin over-claim", "out of range", "behind target",  "outside limits", "bad mesh",    "flat facets",
     "bad causes", "query over",      "bad outcome",  "false refusal",  "defect",         "crash",       "hang",
@@ -96,8 +80,8 @@ double strip_width(const Blockers& blockers, const SeenTarget& target, double ra
   return 1.01 * std::max(1e-9 * std::min(1.0, radius), 8 * 2.22e-16 * largest);
 }
 
-const std::string& Trial::object_of(std::size_t triangle) const {
-  return c.scene.objects[blockers.triangles[triangle].object];
+std::string Trial::object_of(std::size_t triangle) const {
+  return display_name(c.scene.objects[blockers.triangles[triangle].object]);
 }
 
 vantage::Mesh local_mesh(const Trial& trial, const vantage::Volume& volume) {

@@ -88,7 +88,7 @@ void add_box(Case& c, const std::string& name, const Vec3& low, const Vec3& high
     c.scene.mesh.triangles.push_back({first + f[0], first + f[1], first + f[2]});
     c.scene.object_of.push_back(static_cast<std::uint32_t>(c.scene.objects.size()));
   }
-  c.scene.objects.push_back(name);
+  c.scene.objects.push_back({name});
 }
 
 /// A square with a tower, a block and a pole in front of the middle of one side; an awning over part of the sky.
@@ -116,7 +116,7 @@ Case without(const Case& c, const std::string& name) {
   less.scene.mesh.triangles.clear();
   less.scene.object_of.clear();
   for (std::size_t i = 0; i < c.scene.mesh.triangles.size(); ++i) {
-    if (c.scene.objects[c.scene.object_of[i]] == name) continue;
+    if (display_name(c.scene.objects[c.scene.object_of[i]]) == name) continue;
     less.scene.mesh.triangles.push_back(c.scene.mesh.triangles[i]);
     less.scene.object_of.push_back(c.scene.object_of[i]);
   }

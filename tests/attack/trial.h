@@ -29,10 +29,10 @@ struct PartView {
   /// A triangle between the facet and the target, whichever of `inner` is taken for it.
   std::optional<std::size_t> surely_hiding(const Corners& facet, Which which = Which::all) const;
 
-  View exact;     ///< as given, and lifted
+  View exact;                 ///< as given, and lifted
   std::array<View, 3> inner;  ///< moved in by the margin; and raised by it, and lowered
-  Vec3 centre;    ///< that the engine measures distances from
-  double margin;  ///< the strip along the outline that vantage/volume.h excepts, metres
+  Vec3 centre;                ///< that the engine measures distances from
+  double margin;              ///< the strip along the outline that vantage/volume.h excepts, metres
 };
 
 class Trial {
@@ -44,7 +44,7 @@ class Trial {
   /// Heights over the target's plane below this are rounding of the oracle's own frame.
   double noise() const { return 1e-14 * std::max(blockers.largest, 1e-6); }
   Vec3 to_scene(const Vec3& local) const { return local + blockers.origin; }
-  const std::string& object_of(std::size_t triangle) const;
+  std::string object_of(std::size_t triangle) const;
 
   const Case& c;
   const Answer& answer;

@@ -22,7 +22,7 @@ void add_wall(vantage::Scene& scene, const vantage::Vec3& a, const vantage::Vec3
   scene.mesh.triangles.push_back({first, first + 2, first + 3});
   const auto object = static_cast<std::uint32_t>(scene.objects.size());
   scene.object_of.insert(scene.object_of.end(), 2, object);
-  scene.objects.emplace_back(name);
+  scene.objects.push_back({name});
 }
 
 /// A volume of a scene made in memory, and a point query. Whether both are plausible.

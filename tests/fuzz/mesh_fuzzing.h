@@ -32,7 +32,7 @@ inline void check(const io::RawMesh& mesh) {
   }
   for (std::size_t i = 0; i < used.size(); ++i) {
     require(used[i], "every object has a triangle");
-    require(!mesh.objects[i].empty(), "every object has a name");
+    require(!display_name(mesh.objects[i]).empty(), "every object has a name");
   }
 }
 

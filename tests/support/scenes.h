@@ -23,7 +23,7 @@ class SceneBuilder {
     append(scene_.mesh, mesh);
     scene_.object_of.insert(scene_.object_of.end(), mesh.triangles.size(),
                             static_cast<std::uint32_t>(scene_.objects.size()));
-    scene_.objects.push_back(name);
+    scene_.objects.push_back({name});
     return *this;
   }
   SceneBuilder& box(const std::string& name, const Vec3& min, const Vec3& max) {

@@ -5,21 +5,17 @@
 namespace vantage::city {
 namespace {
 
-void append(Scene& scene, const Mesh& mesh, const std::string& name) {
+void append(Scene& scene, const Mesh& mesh, const SceneObject& named) {
   if (mesh.empty()) return;
   const auto first = static_cast<std::uint32_t>(scene.mesh.vertices.size());
   const auto object = static_cast<std::uint32_t>(scene.objects.size());
   scene.mesh.vertices.insert(scene.mesh.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
   for (const Triangle& t : mesh.triangles) scene.mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
   scene.object_of.resize(scene.mesh.triangles.size(), object);
-  scene.objects.push_back(name);
+  scene.objects.push_back(named);
 }
 
 }  // namespace
-
-std::string object_name(const CityRecord& record) {
-  return record.name.empty() ? record.object : record.object + " " + record.name;
-}
 
 Scene assemble(const Site& site, const std::vector<Mesh>& solids, const Mesh& ground) {
   Scene scene;
@@ -32,9 +28,9 @@ Scene assemble(const Site& site, const std::vector<Mesh>& solids, const Mesh& gr
   scene.mesh.triangles.reserve(triangles);
   scene.object_of.reserve(triangles);
   for (std::size_t i = 0; i < solids.size(); ++i) {
-    append(scene, solids[i], object_name(site.items[i].record));
+    append(scene, solids[i], site.items[i].record.object);
   }
-  append(scene, ground, "ground");
+  append(scene, ground, {"ground", "", ObjectKind::ground});
   return scene;
 }
 

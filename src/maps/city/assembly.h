@@ -9,10 +9,7 @@
 
 namespace vantage::city {
 
-/// What an object is called in the scene: "way/265517 Empire State Building".
-std::string object_name(const CityRecord& record);
-
-/// One object per item that has triangles, named "way/265517 Empire State Building", then the ground.
+/// One object per item that has triangles, then the ground.
 Scene assemble(const Site& site, const std::vector<Mesh>& solids, const Mesh& ground);
 
 }  // namespace vantage::city

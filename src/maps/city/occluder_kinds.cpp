@@ -36,27 +36,27 @@ bool is_carried(const osm::Tags& tags) {
 
 }  // namespace
 
-std::string_view kind_of(const osm::Tags& tags, Geometry geometry) {
+std::optional<ObjectKind> kind_of(const osm::Tags& tags, Geometry geometry) {
   const bool line = geometry == Geometry::line, area = geometry == Geometry::area;
+  const auto no_line = [&](ObjectKind kind) { return line ? std::nullopt : std::optional(kind); };
   const bool tower = !line && is_tower(tags);
-  if (tower && !area) return "tower";
+  if (tower && !area) return ObjectKind::tower;
   // A point has no outline to build, but is told of.
-  if (says_yes(tags.get("building:part"))) return line ? "" : "building part";
-  if (says_yes(tags.get("building"))) return line ? "" : "building";
-  if (tower) return "tower";
+  if (says_yes(tags.get("building:part"))) return no_line(ObjectKind::building_part);
+  if (says_yes(tags.get("building"))) return no_line(ObjectKind::building);
+  if (tower) return ObjectKind::tower;
   const std::string_view bridge = tags.get("bridge");
-  if (line && says_yes(bridge) && is_carried(tags)) return "bridge";
+  if (line && says_yes(bridge) && is_carried(tags)) return ObjectKind::bridge;
   const bool drawn = tags.get("man_made") == "bridge" || (says_yes(bridge) && is_carried(tags));
-  if (area && drawn) return "bridge";
-  if ((line || (area && tags.get("area") == "yes")) && is_wall(tags)) return "wall";
+  if (area && drawn) return ObjectKind::bridge;
+  if ((line || (area && tags.get("area") == "yes")) && is_wall(tags)) return ObjectKind::wall;
   const std::string_view natural = tags.get("natural");
-  if (natural == (line ? "tree_row" : "tree") && !area) return "tree";
-  return "";
+  if (natural == (line ? "tree_row" : "tree") && !area) return ObjectKind::tree;
+  return std::nullopt;
 }
 
 bool wanted(const osm::Tags& tags) {
-  return !kind_of(tags, Geometry::area).empty() || !kind_of(tags, Geometry::line).empty() ||
-         !kind_of(tags, Geometry::point).empty();
+  return kind_of(tags, Geometry::area) || kind_of(tags, Geometry::line) || kind_of(tags, Geometry::point);
 }
 
 }  // namespace vantage::city

@@ -202,31 +202,31 @@ std::vector<Shape> trees_along(const osm::Tags& tags, const std::vector<Vec2>& p
 
 std::vector<Shape> shapes_of_line(const osm::Tags& tags, const std::vector<Vec2>& points, double piece_m,
                                   const OccluderDefaults& defaults, std::vector<TagRemark>& remarks) {
-  const std::string_view kind = kind_of(tags, Geometry::line);
+  const std::optional<ObjectKind> kind = kind_of(tags, Geometry::line);
   const bool finite = std::all_of(points.begin(), points.end(), [](const Vec2& p) { return p.allFinite(); });
   std::vector<Shape> shapes;
   if (finite && points.size() >= 2) {
-    if (kind == "wall") shapes = walls_along(tags, points, piece_m, defaults, remarks);
-    if (kind == "tree") shapes = trees_along(tags, points, defaults, remarks);
-    if (kind == "bridge") {
+    if (kind == ObjectKind::wall) shapes = walls_along(tags, points, piece_m, defaults, remarks);
+    if (kind == ObjectKind::tree) shapes = trees_along(tags, points, defaults, remarks);
+    if (kind == ObjectKind::bridge) {
       const bool closed = points.size() > 3 && points.front() == points.back();
       shapes = extruded(widen(points, closed, deck_width(tags, defaults, remarks)), deck_form(tags, defaults, remarks));
     }
   }
-  if (shapes.empty() && !kind.empty())
-    remarks.push_back({"too small to build", std::string(kind).append(" along a line")});
+  if (shapes.empty() && kind)
+    remarks.push_back({"too small to build", std::string(name_of(*kind)).append(" along a line")});
   return shapes;
 }
 
 std::vector<Shape> shapes_of_point(const osm::Tags& tags, const Vec2& point, const OccluderDefaults& defaults,
                                    std::vector<TagRemark>& remarks) {
-  const std::string_view kind = kind_of(tags, Geometry::point);
-  if (kind == "tree") {
+  const std::optional<ObjectKind> kind = kind_of(tags, Geometry::point);
+  if (kind == ObjectKind::tree) {
     Tree tree = tree_of(tags, defaults, remarks);
     tree.foot = point;
     return {{{}, {}, tree}};
   }
-  if (kind != "tower") return {};
+  if (kind != ObjectKind::tower) return {};
   const double diameter =
       tagged_length(tags, {"diameter", "width"}, kMostWidth, remarks).value_or(tower_size(tags, defaults).width_m);
   const double built = std::max(diameter, kLeastTower);
@@ -241,10 +241,11 @@ std::vector<Shape> shapes_of_point(const osm::Tags& tags, const Vec2& point, con
 
 std::vector<Shape> shapes_of_area(const osm::Tags& tags, const std::vector<Footprint>& area,
                                   const OccluderDefaults& defaults, std::vector<TagRemark>& remarks) {
-  const std::string_view kind = kind_of(tags, Geometry::area);
-  if (kind == "tower") return extruded(area, tower_form(tags, defaults, remarks));
-  if (kind == "bridge") return extruded(area, deck_form(tags, defaults, remarks));
-  if (kind == "wall") return extruded(area, upright(tags, wall_size(tags, defaults, remarks).height_m, remarks));
+  const std::optional<ObjectKind> kind = kind_of(tags, Geometry::area);
+  if (kind == ObjectKind::tower) return extruded(area, tower_form(tags, defaults, remarks));
+  if (kind == ObjectKind::bridge) return extruded(area, deck_form(tags, defaults, remarks));
+  if (kind == ObjectKind::wall)
+    return extruded(area, upright(tags, wall_size(tags, defaults, remarks).height_m, remarks));
   return {};
 }
 

@@ -10,16 +10,17 @@
 #include "maps/city/building_solid.h"
 #include "maps/city/footprint.h"
 #include "maps/osm/extract.h"
+#include "vantage/scene.h"
 
 namespace vantage::city {
 
 enum class Geometry { point, line, area };
 
-/// "building", "building part", "wall", "tower", "bridge", "tree", or an empty text for what hides nothing. A building
+/// What the tags make of an object, from building to tree, or nothing for what hides nothing. A building
 /// that is a tower as well is a building, but a tower where it is a point. What an object is may depend on how it is
 /// drawn: a garden with barrier=fence is a wall as a line and nothing as an area (unless area=yes says that the barrier
 /// itself is drawn).
-std::string_view kind_of(const osm::Tags& tags, Geometry geometry);
+std::optional<ObjectKind> kind_of(const osm::Tags& tags, Geometry geometry);
 
 /// Whether the tags make any of these of some geometry: for osm::ReadOptions.
 bool wanted(const osm::Tags& tags);

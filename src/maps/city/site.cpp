@@ -18,11 +18,9 @@ constexpr double kCovered = 0.9;
 /// Across an outline, metres. No building is larger; an outline that is comes of a slip of the hand.
 constexpr double kLargest = 3000;
 
-CityRecord record_of(osm::ObjectId id, const osm::Tags& tags, std::string kind) {
+CityRecord record_of(osm::ObjectId id, const osm::Tags& tags, ObjectKind kind) {
   CityRecord record;
-  record.object = osm::text(id);
-  record.name = std::string(tags.get("name"));
-  record.kind = std::move(kind);
+  record.object = {std::string(tags.get("name")), osm::text(id), kind};
   return record;
 }
 
@@ -112,8 +110,8 @@ class BuildingSorter {
     for (std::size_t i = 0; i < structures_.size(); ++i) {
       const Structure& structure = structures_[i];
       if (!belongs[i]) continue;
-      CityRecord record =
-          record_of(structure.source->id, structure.source->tags, structure.is_part ? "building part" : "building");
+      CityRecord record = record_of(structure.source->id, structure.source->tags,
+                                    structure.is_part ? ObjectKind::building_part : ObjectKind::building);
       const std::string fault = fault_of(structure);
       const std::vector<std::size_t> parts = parts_of(structure);
       if (!fault.empty()) {
@@ -204,12 +202,12 @@ class BuildingSorter {
   const BuildingDefaults& defaults_;
 };
 
-bool is_switched_on(std::string_view kind, const Occluders& occluders) {
-  if (kind == "wall") return occluders.walls;
-  if (kind == "tower") return occluders.towers;
-  if (kind == "bridge") return occluders.bridges;
-  if (kind == "tree") return occluders.trees;
-  return !kind.empty();
+bool is_switched_on(std::optional<ObjectKind> kind, const Occluders& occluders) {
+  if (kind == ObjectKind::wall) return occluders.walls;
+  if (kind == ObjectKind::tower) return occluders.towers;
+  if (kind == ObjectKind::bridge) return occluders.bridges;
+  if (kind == ObjectKind::tree) return occluders.trees;
+  return kind.has_value();
 }
 
 /// Walls, towers, bridges and trees.
@@ -225,29 +223,29 @@ class OccluderSorter {
 
   void sort(const osm::Extract& extract) {
     for (const osm::Area& area : extract.areas) {
-      const std::string_view kind = kind_of(area.tags, Geometry::area);
+      const std::optional<ObjectKind> kind = kind_of(area.tags, Geometry::area);
       if (is_building(kind) || !is_switched_on(kind, options_.occluders) || !belongs(area)) continue;
       Repairs repairs;
       const std::vector<Footprint> footprints = clean(project(area, frame_), repairs);
-      add(area.id, area.tags, kind,
+      add(area.id, area.tags, *kind,
           [&](auto& remarks) { return shapes_of_area(area.tags, footprints, defaults_, remarks); });
     }
     for (const osm::Line& line : extract.lines) {
-      const std::string_view kind = kind_of(line.tags, Geometry::line);
+      const std::optional<ObjectKind> kind = kind_of(line.tags, Geometry::line);
       if (is_building(kind) || !is_switched_on(kind, options_.occluders) || !belongs(line.points)) continue;
       std::vector<Vec2> points;
       for (const geo::LonLat& position : line.points) points.push_back(frame_.to_local(position));
-      add(line.id, line.tags, kind,
+      add(line.id, line.tags, *kind,
           [&](auto& remarks) { return shapes_of_line(line.tags, points, piece_m_, defaults_, remarks); });
     }
     for (const osm::Point& point : extract.points) {
-      const std::string_view kind = kind_of(point.tags, Geometry::point);
+      const std::optional<ObjectKind> kind = kind_of(point.tags, Geometry::point);
       if (!is_switched_on(kind, options_.occluders) || !belongs(std::vector{point.position})) continue;
       if (is_building(kind)) {
-        skip(site_, record_of(point.id, point.tags, std::string(kind)), "drawn as a point: it has no outline");
+        skip(site_, record_of(point.id, point.tags, *kind), "drawn as a point: it has no outline");
         continue;
       }
-      add(point.id, point.tags, kind, [&](auto& remarks) {
+      add(point.id, point.tags, *kind, [&](auto& remarks) {
         return shapes_of_point(point.tags, frame_.to_local(point.position), defaults_, remarks);
       });
     }
@@ -263,19 +261,21 @@ class OccluderSorter {
     return false;
   }
 
-  static bool is_building(std::string_view kind) { return kind == "building" || kind == "building part"; }
+  static bool is_building(std::optional<ObjectKind> kind) {
+    return kind == ObjectKind::building || kind == ObjectKind::building_part;
+  }
 
   template <typename MakeShapes>
-  void add(osm::ObjectId id, const osm::Tags& tags, std::string_view kind, const MakeShapes& make_shapes) {
+  void add(osm::ObjectId id, const osm::Tags& tags, ObjectKind kind, const MakeShapes& make_shapes) {
     Item item;
-    item.record = record_of(id, tags, std::string(kind));
+    item.record = record_of(id, tags, kind);
     if (is_underground(tags)) return skip(site_, std::move(item.record), kUnderground);
     std::vector<TagRemark> remarks;
     item.shapes = make_shapes(remarks);
     note_remarks(item.record, remarks);
     if (item.shapes.empty()) return skip(site_, std::move(item.record), "without a length or an area");
-    if (kind == "wall" || kind == "tree") item.stand = Item::Stand::each;
-    if (kind == "bridge") item.stand = Item::Stand::above;
+    if (kind == ObjectKind::wall || kind == ObjectKind::tree) item.stand = Item::Stand::each;
+    if (kind == ObjectKind::bridge) item.stand = Item::Stand::above;
     site_.items.push_back(std::move(item));
   }
 
@@ -288,19 +288,19 @@ class OccluderSorter {
 };
 
 /// What an object would have been, had it been read.
-std::string_view kind_of_lost(const osm::Problem& problem) {
+std::optional<ObjectKind> kind_of_lost(const osm::Problem& problem) {
   const bool is_point = problem.object.type == osm::ObjectType::node;
-  const std::string_view as_area = kind_of(problem.tags, is_point ? Geometry::point : Geometry::area);
-  return as_area.empty() && !is_point ? kind_of(problem.tags, Geometry::line) : as_area;
+  const std::optional<ObjectKind> as_area = kind_of(problem.tags, is_point ? Geometry::point : Geometry::area);
+  return !as_area && !is_point ? kind_of(problem.tags, Geometry::line) : as_area;
 }
 
 /// Objects that were wanted and of which nothing could be read.
 void skip_lost(Site& site, const osm::Extract& extract, const CityOptions& options) {
   for (const osm::Problem& problem : extract.problems) {
     if (!problem.lost) continue;
-    const std::string_view kind = kind_of_lost(problem);
+    const std::optional<ObjectKind> kind = kind_of_lost(problem);
     if (!is_switched_on(kind, options.occluders)) continue;
-    skip(site, record_of(problem.object, problem.tags, std::string(kind)), problem.what);
+    skip(site, record_of(problem.object, problem.tags, *kind), problem.what);
   }
 }
 
@@ -308,11 +308,11 @@ void skip_lost(Site& site, const osm::Extract& extract, const CityOptions& optio
 /// belong to the region when one of their members does.
 void skip_groups(Site& site, const osm::Extract& extract, const osm::RegionFilter& region) {
   std::set<std::string> built, skipped;
-  for (const Item& item : site.items) built.insert(item.record.object);
-  for (const CityRecord& record : site.skipped) skipped.insert(record.object);
+  for (const Item& item : site.items) built.insert(item.record.object.source_id);
+  for (const CityRecord& record : site.skipped) skipped.insert(record.object.source_id);
   for (const osm::BuildingRelation& relation : extract.building_relations) {
-    const std::string_view kind = kind_of(relation.tags, Geometry::area);
-    if (kind != "building" && kind != "building part") continue;
+    const std::optional<ObjectKind> kind = kind_of(relation.tags, Geometry::area);
+    if (kind != ObjectKind::building && kind != ObjectKind::building_part) continue;
     const auto has_member_in = [&](const std::set<std::string>& objects) {
       const auto is_in = [&](osm::ObjectId id) { return objects.contains(osm::text(id)); };
       return std::any_of(relation.outlines.begin(), relation.outlines.end(), is_in) ||
@@ -320,7 +320,7 @@ void skip_groups(Site& site, const osm::Extract& extract, const osm::RegionFilte
     };
     const bool is_built = has_member_in(built), is_read = is_built || has_member_in(skipped);
     if (!is_read && !region.everything()) continue;
-    skip(site, record_of(relation.id, relation.tags, std::string(kind)),
+    skip(site, record_of(relation.id, relation.tags, *kind),
          is_built  ? "its members are built in its place"
          : is_read ? "its members are skipped too"
                    : "none of its members could be read");
@@ -369,7 +369,7 @@ void note_reading_repairs(Site& site, const osm::Extract& extract) {
     if (!problem.lost && !reading_repair(problem.kind).empty()) problems[osm::text(problem.object)] = &problem;
   }
   for (Item& item : site.items) {
-    const auto found = problems.find(item.record.object);
+    const auto found = problems.find(item.record.object.source_id);
     if (found == problems.end()) continue;
     item.record.fate = Fate::repaired;
     if (item.record.reason.empty()) item.record.reason = reading_repair(found->second->kind);

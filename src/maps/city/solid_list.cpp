@@ -77,13 +77,13 @@ bool has_roof(const Item& item) {
 }
 
 void check(Item& item, std::vector<Mesh>& pieces, const Ground& ground) {
-  const std::string wrong = fault(pieces, item.record.object);
+  const std::string wrong = fault(pieces, item.record.object.source_id);
   if (wrong.empty()) return;
   if (has_roof(item)) {
     Item flat = item;
     for (Shape& shape : flat.shapes) shape.form.roof = RoofShape::flat;
     std::vector<Mesh> simpler = build(flat, ground);
-    if (fault(simpler, item.record.object).empty()) {
+    if (fault(simpler, item.record.object.source_id).empty()) {
       pieces = std::move(simpler);
       repair(item.record, "roof of its shape is no solid here: flat instead");
       return;

@@ -112,11 +112,11 @@ std::vector<Footprint> project(const osm::Area& area, const geo::LocalFrame& fra
 std::vector<Structure> structures_of(const std::vector<osm::Area>& areas, const geo::LocalFrame& frame) {
   std::vector<Structure> structures;
   for (const osm::Area& area : areas) {
-    const std::string_view kind = kind_of(area.tags, Geometry::area);
-    if (kind != "building" && kind != "building part") continue;
+    const std::optional<ObjectKind> kind = kind_of(area.tags, Geometry::area);
+    if (kind != ObjectKind::building && kind != ObjectKind::building_part) continue;
     Structure structure;
     structure.source = &area;
-    structure.is_part = kind == "building part";
+    structure.is_part = kind == ObjectKind::building_part;
     structure.footprints = clean(project(area, frame), structure.repairs);
     structure.area_m2 = area_m2(structure.footprints);
     set_bounds(structure);

@@ -220,7 +220,7 @@ RasterScene scene_from_raster(const std::filesystem::path& file, const RasterOpt
     scene.mesh = every_post(grid, std::move(posts));
   }
   scene.object_of.assign(scene.mesh.triangles.size(), 0);
-  scene.objects = {"surface"};
+  scene.objects = {{"surface", "", ObjectKind::surface}};
   scene.source = file;
   scene.georeference = Georeference{frame.origin().latitude_deg, frame.origin().longitude_deg, grid.vertical,
                                     grid.crs.code().empty() ? grid.crs.name() : grid.crs.code()};

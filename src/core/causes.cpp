@@ -1,0 +1,45 @@
+#include "core/causes.h"
+
+#include <Eigen/Geometry>
+#include <utility>
+
+namespace vantage {
+
+Cause cause_of_object(std::uint32_t index, const SceneObject& object) {
+  return {CauseKind::scene, display_name(object), 0, index, object.source_id, object.kind};
+}
+
+namespace core {
+
+std::uint32_t CauseList::add(const Cause& cause) {
+  const auto next = static_cast<std::uint32_t>(causes_.size());
+  // An object is known by its number: two may have the same name.
+  const std::string name = cause.object ? "" : cause.name;
+  const auto [entry, is_new] = index_.try_emplace({cause.kind, cause.object, name}, next);
+  if (is_new) causes_.push_back(cause);
+  return entry->second;
+}
+
+void compact_causes(const Mesh& mesh, std::vector<std::uint32_t>& cause_of, std::vector<Cause>& causes) {
+  std::vector<double> area(causes.size(), 0);
+  std::vector<bool> is_used(causes.size(), false);
+  for (std::size_t t = 0; t < cause_of.size(); ++t) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    const Vec3& corner = mesh.vertices[a];
+    area[cause_of[t]] += (mesh.vertices[b] - corner).cross(mesh.vertices[c] - corner).norm() / 2;
+    is_used[cause_of[t]] = true;
+  }
+  std::vector<std::uint32_t> number(causes.size(), 0);
+  std::vector<Cause> kept;
+  for (std::size_t cause = 0; cause < causes.size(); ++cause) {
+    if (!is_used[cause]) continue;
+    number[cause] = static_cast<std::uint32_t>(kept.size());
+    kept.push_back(std::move(causes[cause]));
+    kept.back().area_m2 = area[cause];
+  }
+  for (std::uint32_t& cause : cause_of) cause = number[cause];
+  causes = std::move(kept);
+}
+
+}  // namespace core
+}  // namespace vantage
