@@ -18,6 +18,8 @@ A comment on the line before the block says what is different:
     <!-- snippet: not run: REASON -->       what it needs that is not there
     <!-- snippet: exit 2 -->                sh: the exit code that it must end with
     <!-- snippet: mission in FOLDER -->     yaml: a mission, computed as if it lay in FOLDER
+    <!-- snippet: mission keys -->          yaml: a mission or a part of one, whose files are absent: all its keys are known
+    <!-- snippet: configuration keys -->    yaml: the same of a file for `vantage spheres`
 
 Indented blocks may not hold commands of vantage: nobody would run them.
 """
@@ -38,7 +40,9 @@ MARK = re.compile(r"^\s*<!-- snippet: (.*?) -->\s*$")
 INDENTED_COMMAND = re.compile(r"^    (?:\S*/)?vantage [a-z-]|^    python3 ")
 LANGUAGES = {"sh", "cpp", "python", "yaml", "text", "json", "csv"}
 MARKS = {"sh": r"not run: \S.*|exit \d+", "cpp": r"not run: \S.*|fragment", "python": r"not run: \S.*",
-         "yaml": r"mission in \S+"}
+         "yaml": r"mission in \S+|mission keys|configuration keys"}
+# What a part of a mission lacks.
+MISSION = {"scene": "{osm: absent.osm}", "target": "{point: [0, 0, 9]}", "sensor": "{max_range: 9}"}
 SECONDS_A_BLOCK = 120
 # Lines that need OpenGL are left out where there is none.
 NEEDS_OPENGL = re.compile(r"vantage render\b")
@@ -131,6 +135,8 @@ class Checker:
         """What went wrong; empty if nothing did."""
         if snippet.language == "cpp":
             return self.check_cpp(snippet, folder)
+        if snippet.mark.endswith(" keys"):
+            return self.check_keys(snippet, folder)
         if snippet.language == "yaml":
             mission = folder / snippet.mark.removeprefix("mission in ") / "snippet.yaml"
             mission.write_text(snippet.text, encoding="utf-8")
@@ -144,6 +150,19 @@ class Checker:
             expected = int(snippet.mark.removeprefix("exit ")) if snippet.mark else 0
         code, output = run(command, folder, self.environment)
         return "" if code == expected else f"ended with {code}, not {expected}\n{output}"
+
+    def check_keys(self, snippet: Snippet, folder: pathlib.Path) -> str:
+        """Keys are read before files: the one complaint is that a file is missing."""
+        text = snippet.text
+        is_mission = snippet.mark == "mission keys"
+        for key, value in MISSION.items() if is_mission else ():
+            if not re.search(rf"^{key}:", text, re.MULTILINE):
+                text += f"{key}: {value}\n"
+        file = folder / "keys.yaml"
+        file.write_text(text, encoding="utf-8")
+        command = ["compute", str(file), "-o", "keys.ply"] if is_mission else ["spheres", "-c", str(file)]
+        code, output = run(["vantage", *command], folder, self.environment)
+        return "" if code == 2 and "does not exist" in output.split("\n")[0] else f"ended with {code}\n{output}"
 
     def check_cpp(self, snippet: Snippet, folder: pathlib.Path) -> str:
         text = snippet.text
