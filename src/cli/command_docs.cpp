@@ -67,7 +67,9 @@ void add_docs(CLI::App& app, Command& chosen) {
       ->required()
       ->check(CLI::IsMember({"man", "completion"}))
       ->option_text("KIND");
-  command->add_option("argument", options->argument, "Of man: the folder to write to; of completion: bash, zsh or fish")
+  command
+      ->add_option("folder_or_shell", options->argument,
+                   "Of man: the folder to write to; of completion: bash, zsh or fish")
       ->required()
       ->option_text("FOLDER|SHELL");
   command->add_option("-o,--output", options->output, "Of completion: the file to write; default: standard output")
