@@ -13,6 +13,26 @@ if(TARGET vantage_cli)
   file(RELATIVE_PATH to_library ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
   set_target_properties(vantage_cli PROPERTIES INSTALL_RPATH "$ORIGIN/${to_library}")
   install(TARGETS vantage_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+
+  # Man pages and completions: the program writes them from its own options, after each link. Where it cannot run, or
+  # only slowly, there are none.
+  if(NOT CMAKE_CROSSCOMPILING AND NOT VANTAGE_SANITIZE)
+    set(share ${CMAKE_BINARY_DIR}/share)
+    set(man ${share}/man/man1)
+    set(bash ${share}/bash-completion/completions)
+    set(zsh ${share}/zsh/site-functions)
+    set(fish ${share}/fish/vendor_completions.d)
+    add_custom_command(TARGET vantage_cli POST_BUILD
+      COMMAND ${CMAKE_COMMAND} -E rm -rf ${share}
+      COMMAND ${CMAKE_COMMAND} -E make_directory ${bash} ${zsh} ${fish}
+      COMMAND vantage_cli docs man ${man}
+      COMMAND vantage_cli docs completion bash -o ${bash}/vantage
+      COMMAND vantage_cli docs completion zsh -o ${zsh}/_vantage
+      COMMAND vantage_cli docs completion fish -o ${fish}/vantage.fish
+      COMMENT "Writing man pages and completions" VERBATIM)
+    install(DIRECTORY ${man} DESTINATION ${CMAKE_INSTALL_MANDIR})
+    install(DIRECTORY ${share}/bash-completion ${share}/zsh ${share}/fish DESTINATION ${CMAKE_INSTALL_DATADIR})
+  endif()
 endif()
 
 install(EXPORT vantage-targets NAMESPACE vantage:: DESTINATION ${package_dir})

@@ -51,9 +51,9 @@ def figures(rows, split):
 
 
 def table(cases):
-    """Neighbouring max_splits that came to the same stand in one row."""
-    lines = ["| scene | range | sphere | split | texels | max_splits | targets | over-claimed, % | missed, % | spheres | "
-             "pairs that failed the Euler test | of them unresolved |",
+    """Neighbouring max_splits with the same result share a row."""
+    lines = ["| scene | range | sphere | split | texels | max_splits | targets | over, % | missed, % | spheres | "
+             "failed | unresolved |",
              "|---|---|---|---|---|---|---|---|---|---|---|---|"]
     runs = []  # (key without max_splits, first, last, figures)
     for key in sorted(cases):

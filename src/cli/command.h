@@ -36,6 +36,7 @@ void add_devices(CLI::App& app, Command& chosen);
 void add_spheres(CLI::App& app, Command& chosen);
 void add_render(CLI::App& app, Command& chosen);
 void add_scene(CLI::App& app, Command& chosen);
+void add_docs(CLI::App& app, Command& chosen);  ///< hidden: describes the commands of `app`, which must outlive it
 
 /// Options of every command.
 struct CommonOptions {

@@ -28,8 +28,8 @@ constexpr const char* kExamples =
     "  vantage spheres -c config.yaml\n"
     "  vantage render mission.yaml --volume volume.ply -o picture.png\n"
     "\n"
-    "MISSION and POINTS may be -, standard input. The mission file: docs/mission-file.md\n"
-    "All commands: docs/command-line.md\n";
+    "MISSION and POINTS may be -, standard input. docs/mission-file.md describes the mission file,\n"
+    "docs/command-line.md the commands.\n";
 
 /// One line: what an error message holds may come from a file.
 std::string one_line(std::string text) {
@@ -122,6 +122,7 @@ void add_commands(CLI::App& app, Command& chosen) {
   add_spheres(app, chosen);
   add_render(app, chosen);
   add_help(app, chosen);
+  add_docs(app, chosen);
 }
 
 int run(const std::vector<std::string>& typed) {

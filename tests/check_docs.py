@@ -1,0 +1,122 @@
+#!/usr/bin/env python3
+"""Checks the text of the documents: README.md, CONTRIBUTING.md, CHANGELOG.md and docs/.
+
+    check_docs.py [ROOT]      exit 1 and one line for each problem
+    check_docs.py --self-test
+
+- No line has more than 120 characters, web addresses not counted.
+- Every link within the project leads to a file that exists, and to a heading that it has.
+- Words that readers do not know are not used: see WORDS.
+"""
+
+import argparse
+import pathlib
+import re
+import sys
+import tempfile
+
+WIDTH = 120
+LINK = re.compile(r"\]\(([^)\s]+)\)|^\[[^\]]+\]: (\S+)$", re.MULTILINE)
+ADDRESS = re.compile(r"https?://[^\s)>]+")
+FENCED = re.compile(r"^\s*```.*?^\s*```", re.MULTILINE | re.DOTALL)
+
+# What is not said, and what is said instead.
+WORDS = {
+    r"goes before": "overrides",
+    r"sight rays?": "occlusion ray",
+    r"seed paper": "the paper",
+    r"hand's breadth": "a length in metres",
+    r"of its own accord": "without being asked",
+    r"lies? askew": "is rotated",
+    r"passed over": "ignored",
+    r"caveats?": "warnings",
+    r"chart of directions": "octahedral map",
+    r"what people know": "the thing itself",
+}
+
+
+def anchors(text: str) -> set[str]:
+    """The headings of a document, as links name them."""
+    found = set()
+    for heading in re.findall(r"^#+ (.*)$", FENCED.sub("", text), re.MULTILINE):
+        plain = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", heading).replace("`", "").strip().lower()
+        found.add(re.sub(r"[^\w\- ]", "", plain).replace(" ", "-"))
+    return found
+
+
+def documents(root: pathlib.Path) -> list[pathlib.Path]:
+    files = [root / name for name in ("README.md", "CONTRIBUTING.md", "CHANGELOG.md")]
+    return [file for file in [*files, *sorted((root / "docs").rglob("*.md"))] if file.is_file()]
+
+
+def link_problem(file: pathlib.Path, target: str) -> str:
+    """What is wrong with a link of `file`; empty if nothing is."""
+    if re.match(r"[a-z]+:", target):
+        return ""
+    path, _, anchor = target.partition("#")
+    linked = (file.parent / path) if path else file
+    if not linked.exists():
+        return f"there is no {path}"
+    if anchor and anchor not in anchors(linked.read_text(encoding="utf-8")):
+        return f"{linked.name} has no heading #{anchor}"
+    return ""
+
+
+def problems(root: pathlib.Path) -> list[str]:
+    found = []
+    for file in documents(root):
+        place = file.relative_to(root).as_posix()
+        text = file.read_text(encoding="utf-8")
+        for number, line in enumerate(text.splitlines(), 1):
+            length = len(ADDRESS.sub("", line))
+            if length > WIDTH:
+                found.append(f"{place}:{number}: {length} characters, more than {WIDTH}")
+            for word, better in WORDS.items():
+                if re.search(rf"\b({word})\b", line, re.IGNORECASE):
+                    found.append(f"{place}:{number}: '{re.search(word, line, re.IGNORECASE)[0]}'; better: {better}")
+        for match in LINK.finditer(FENCED.sub("", text)):
+            problem = link_problem(file, match[1] or match[2])
+            if problem:
+                found.append(f"{place}: {problem}")
+    return found
+
+
+# (text of a document, what is said of it; empty: nothing)
+SELF_TEST = [
+    ("x" * 120 + "\n", ""),
+    ("x" * 121 + "\n", "121 characters"),
+    ("é" * 120 + "\n", ""),
+    ("see https://example.org/" + "x" * 120 + "\n", ""),
+    ("# One, two\n[a](#one-two)\n", ""),
+    ("# One\n[a](#two)\n", "no heading #two"),
+    ("[a](b.md)\n", "no b.md"),
+    ("[a]\n\n[a]: b.md\n", "no b.md"),
+    ("[a](README.md)\n", ""),
+    ("`--method` goes before it\n", "overrides"),
+]
+
+
+def self_test() -> list[str]:
+    wrong = []
+    for text, expected in SELF_TEST:
+        with tempfile.TemporaryDirectory() as scratch:
+            root = pathlib.Path(scratch)
+            (root / "README.md").write_text(text, encoding="utf-8")
+            found = problems(root)
+        if bool(found) != bool(expected) or any(expected not in line for line in found):
+            wrong.append(f"{text[:40]!r}: expected '{expected}', got {found}")
+    return wrong
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description="Checks the text of the documents.")
+    parser.add_argument("root", nargs="?", type=pathlib.Path, default=pathlib.Path(__file__).parent.parent)
+    parser.add_argument("--self-test", action="store_true")
+    arguments = parser.parse_args()
+    found = self_test() if arguments.self_test else problems(arguments.root)
+    print("\n".join(found) if found else "the documents are in order")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
