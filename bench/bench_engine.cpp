@@ -43,7 +43,8 @@ void engine(State& state, const City& city, std::size_t index, double range, int
   const StreetTarget& street = ready->targets[index];
   std::optional<Volume> volume;
   for (auto _ : state) {
-    volume = compute_visibility(ready->prepared, street.target, {range}, {ExactOptions().tolerance_m, threads});
+    volume = compute_visibility(PreparedTarget(ready->prepared, street.target, {range}),
+                                {ExactOptions().tolerance_m, threads});
   }
   if (volume->outcome != Outcome::computed) return state.SkipWithError(volume->reason.c_str());
   state.counters["facets"] = double(volume->mesh.triangles.size());
@@ -57,7 +58,7 @@ void plain(State& state, const City& city, std::size_t index, double range, int 
   if (!ready) return state.SkipWithError(absence(city).c_str());
   const StreetTarget& street = ready->targets.at(index);
   const TargetFrame frame = make_target_frame(street.target);
-  Volume open = compute_visibility(PreparedScene{Scene{}}, street.target, {range});
+  Volume open = compute_visibility(PreparedTarget(PreparedScene{Scene{}}, street.target, {range}));
   for (Vec3& v : open.mesh.vertices) v = frame.to_local(v);
   const solid::Solid region({open.mesh, open.cause_of}, "range region");
   solid::Solid result;

@@ -41,7 +41,7 @@ void query(State& state, const City& city, double range, int threads) {
   std::size_t inside = 0;
   for (auto _ : state) {
     parallel::with_threads(threads, [&] {
-      PointQuery asked(ready->prepared, {street.target}, {range}, {});
+      PointQuery asked(PreparedTarget(ready->prepared, street.target, {range}));
       inside = 0;
       for (const PointAnswer& answer : asked.answer(points)) inside += answer.inside;
     });

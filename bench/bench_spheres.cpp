@@ -38,7 +38,7 @@ void depth(State& state, const City& city, int face_size, depth::Sampling sampli
   if (!ready) return state.SkipWithError(absence(city).c_str());
   try {
     depth::DepthRenderer& images = renderer(city, device);
-    const Vec3 viewpoint = ready->targets.front().target.vertices.front() + Vec3(0, 0, 1e-3);
+    const Vec3 viewpoint = ready->targets.front().target.parts[0].front() + Vec3(0, 0, 1e-3);
     double sum = 0;
     for (auto _ : state) {
       images.render({{&viewpoint, 1}, face_size, sampling, kDepthRange},
@@ -58,7 +58,8 @@ void spheres(State& state, const City& city, std::size_t target, double range, S
   Volume volume;
   SpheresReport report;
   for (auto _ : state) {
-    volume = compute_visibility_spheres(ready->prepared, ready->targets.at(target).target, {range}, options, &report);
+    volume = compute_visibility_spheres(PreparedTarget(ready->prepared, ready->targets.at(target).target, {range}),
+                                        options, &report);
   }
   if (volume.outcome != Outcome::computed) return state.SkipWithError(volume.reason.c_str());
   state.counters["render_ms"] = report.render_seconds * 1e3;

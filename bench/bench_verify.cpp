@@ -34,7 +34,7 @@ const City kOpenfoam{"mesh/openfoam-buildings.obj.gz", UpAxis::z, {120, 90, 1}, 
 Target square(const Vec3& centre) {
   Target target;
   for (const auto& [x, y] : {std::pair{-10, -10}, {10, -10}, {10, 10}, {-10, 10}}) {
-    target.vertices.push_back(centre + Vec3(x, y, 0));
+    target.parts[0].push_back(centre + Vec3(x, y, 0));
   }
   return target;
 }

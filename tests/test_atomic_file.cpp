@@ -12,9 +12,9 @@
 #include <thread>
 #include <vector>
 
-#include "core/atomic_file.h"
 #include "support/solids.h"
 #include "support/temporary_directory.h"
+#include "vantage/atomic_file.h"
 #include "vantage/error.h"
 #include "vantage/volume.h"
 

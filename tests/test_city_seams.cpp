@@ -211,7 +211,7 @@ TEST_F(CitySeams, AMissionIsComputedThere) {
                 "scene: {osm: city.osm, without: [trees]}\n"
                 "target: {osm: way/25}\n"
                 "sensor: {max_range: 40}\nmethod: exact\n");
-    const Volume volume = compute_mission(read_mission(folder_ / "mission.yaml"));
+    const Volume volume = run_mission(resolve_mission(read_mission(folder_ / "mission.yaml"))).volume;
     ASSERT_EQ(volume.outcome, Outcome::computed) << volume.reason;
     EXPECT_TRUE(volume.notes.empty()) << volume.notes.front();
     volumes.push_back(measure(volume.mesh).volume_m3);

@@ -6,11 +6,11 @@
 #include <iterator>
 #include <string>
 
-#include "maps/city/settings.h"
 #include "support/places.h"
+#include "vantage/city.h"
 #include "vantage/error.h"
 
-namespace vantage::city {
+namespace vantage {
 namespace {
 
 std::string manual() {
@@ -27,7 +27,7 @@ std::string number(double value) {
 Error refusal(const std::string& name, double value) {
   CityOptions options;
   try {
-    set(options, name, value, "here");
+    set_city_option(options, name, value, "here");
   } catch (const Error& error) {
     return error;
   }
@@ -36,14 +36,14 @@ Error refusal(const std::string& name, double value) {
 }
 
 TEST(CitySettings, EachSetsANumberOfItsOwnWithinItsBounds) {
-  for (const Setting& setting : settings()) {
+  for (const CitySetting& setting : city_settings()) {
     CityOptions options;
     const double before = setting.value(options);
     EXPECT_GE(before, setting.least) << setting.name;
     EXPECT_LE(before, setting.most) << setting.name;
-    set(options, setting.name, setting.most, "here");
+    set_city_option(options, setting.name, setting.most, "here");
     EXPECT_EQ(setting.value(options), setting.most) << setting.name;
-    for (const Setting& other : settings()) {
+    for (const CitySetting& other : city_settings()) {
       CityOptions untouched;
       if (&other == &setting) continue;
       EXPECT_EQ(other.value(options), other.value(untouched)) << other.name;
@@ -55,11 +55,11 @@ TEST(CitySettings, EachSetsANumberOfItsOwnWithinItsBounds) {
 
 TEST(CitySettings, OfAKind) {
   CityOptions options;
-  set(options, "levels.house", 4, "");
-  set(options, "levels.castle", 5, "");
-  set(options, "wall.fence", 3, "");
-  set(options, "tower.mast", 60, "");
-  set(options, "way.footway", 3.5, "");
+  set_city_option(options, "levels.house", 4, "");
+  set_city_option(options, "levels.castle", 5, "");
+  set_city_option(options, "wall.fence", 3, "");
+  set_city_option(options, "tower.mast", 60, "");
+  set_city_option(options, "way.footway", 3.5, "");
   EXPECT_EQ(options.defaults.levels_of.at("house"), 4);
   EXPECT_EQ(options.defaults.levels_of.at("castle"), 5) << "a kind that the table does not have";
   EXPECT_EQ(options.occluder_defaults.walls.at("fence").height_m, 3);
@@ -84,7 +84,7 @@ TEST(CitySettings, TheManualHasThemAll) {
   const std::string text = manual();
   const auto expect = [&](const std::string& row) { EXPECT_NE(text.find(row), std::string::npos) << row; };
   CityOptions options;
-  for (const Setting& setting : settings()) {
+  for (const CitySetting& setting : city_settings()) {
     expect(std::string("| `")
                .append(setting.name)
                .append("` | ")
@@ -110,4 +110,4 @@ TEST(CitySettings, TheManualHasThemAll) {
 }
 
 }  // namespace
-}  // namespace vantage::city
+}  // namespace vantage

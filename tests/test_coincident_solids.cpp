@@ -34,7 +34,7 @@ double misfit(const Mesh& mesh_a, const Mesh& mesh_b, double size) {
 }
 
 Target reversed(Target target) {
-  std::reverse(target.vertices.begin(), target.vertices.end());
+  std::reverse(target.parts[0].begin(), target.parts[0].end());
   return target;
 }
 
@@ -54,8 +54,8 @@ TEST(Compare, TheSameVolumeFromTheTargetReversed) {
   target.front = Vec3::UnitZ();
   const PreparedScene prepared(scene);
   const Sensor sensor{50.52257686141341};
-  const Volume a = compute_visibility(prepared, target, sensor),
-               b = compute_visibility(prepared, reversed(target), sensor);
+  const Volume a = compute_visibility(PreparedTarget(prepared, target, sensor)),
+               b = compute_visibility(PreparedTarget(prepared, reversed(target), sensor));
   EXPECT_LT(misfit(a.mesh, b.mesh, sensor.max_range_m), 1e-12);
   for (const bool swapped : {false, true}) {
     const Comparison c = swapped ? compare_volumes(b.mesh, a.mesh) : compare_volumes(a.mesh, b.mesh);
@@ -82,8 +82,8 @@ TEST(HeavyCompare, PairsThatDifferByRounding) {
     }
     const PreparedScene prepared(scene);
     const ExactOptions options{range * (round % 2 == 0 ? 1e-3 : 3e-4), 0};
-    const Volume a = compute_visibility(prepared, target, {range}, options);
-    Mesh b = compute_visibility(prepared, reversed(target), {range}, options).mesh;
+    const Volume a = compute_visibility(PreparedTarget(prepared, target, {range}), options);
+    Mesh b = compute_visibility(PreparedTarget(prepared, reversed(target), {range}), options).mesh;
     ASSERT_EQ(a.outcome, Outcome::computed);
     const double step = round % 4 == 0 ? 0 : std::pow(10, random.uniform(-14, -3));
     const bool grows = random.chance(0.5);

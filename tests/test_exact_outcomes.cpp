@@ -33,7 +33,7 @@ Target facade(double half_side, const Vec3& centre) {
 }
 
 Volume compute(const Scene& scene, const Target& target, double range = 50) {
-  return compute_visibility(PreparedScene(scene), target, {range}, {0.1, 0});
+  return compute_visibility(PreparedTarget(PreparedScene(scene), target, {range}), {0.1, 0});
 }
 
 struct Refusal {
@@ -43,7 +43,7 @@ struct Refusal {
 Refusal refusal(const Scene& scene, const Target& target, const Sensor& sensor = {50},
                 const ExactOptions& options = {}) {
   try {
-    const Volume volume = compute_visibility(PreparedScene(scene), target, sensor, options);
+    const Volume volume = compute_visibility(PreparedTarget(PreparedScene(scene), target, sensor), options);
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::input);
     return {error.problem(), error.where(), error.fix()};
@@ -78,12 +78,14 @@ TEST(ExactOutcomes, JustWithinRangeIsComputed) {
   for (const double over : {1e-5, 1e-3, 0.1}) {
     SCOPED_TRACE(over);
     const double range = radius * (1 + over);
-    const Volume volume = compute_visibility(PreparedScene(scene), square(30), {range}, {0.01 * range * over, 0});
+    const Volume volume =
+        compute_visibility(PreparedTarget(PreparedScene(scene), square(30), {range}), {0.01 * range * over, 0});
     ASSERT_EQ(volume.outcome, Outcome::computed);
     const MeshMeasures m = measure(volume.mesh);
     EXPECT_TRUE(m.closed && m.oriented && m.euler == 2);
+    const Target target = square(30);
     for (const Vec3& v : volume.mesh.vertices)
-      for (const Vec3& t : square(30).vertices) ASSERT_LE((v - t).norm(), range * (1 + 1e-12));
+      for (const Vec3& t : target.parts[0]) ASSERT_LE((v - t).norm(), range * (1 + 1e-12));
   }
 }
 
@@ -116,8 +118,8 @@ TEST(ExactOutcomes, TheSurfaceUnderTheTargetDoesNotBlock) {
     SCOPED_TRACE(height);
     const Volume volume = compute(scene, square(4, {0, 0, height}));
     ASSERT_EQ(volume.outcome, Outcome::computed);
-    EXPECT_NEAR(volume.lift_m, std::max(0.0, -height), 2e-6);
-    const Volume free = compute(Scene(), square(4, {0, 0, height + volume.lift_m}));
+    EXPECT_NEAR(volume.lift_m.at(0), std::max(0.0, -height), 2e-6);
+    const Volume free = compute(Scene(), square(4, {0, 0, height + volume.lift_m.at(0)}));
     EXPECT_NEAR(enclosed_volume(volume.mesh), enclosed_volume(free.mesh), 1e-6 * enclosed_volume(free.mesh));
   }
 }
@@ -234,7 +236,7 @@ TEST(ExactOutcomes, TheWayOutOfTheGroundLeadsPastWhatStandsOnIt) {
 
 TEST(ExactOutcomes, ATiltedTargetLeavesTheGroundWithItsLowestCorner) {
   Target target = square(2, {0, 0, -2});
-  for (Vec3& v : target.vertices) v.z() += 0.75 * v.x();  // from -3.5 to -0.5; the normal is (-0.6, 0, 0.8)
+  for (Vec3& v : target.parts[0]) v.z() += 0.75 * v.x();  // from -3.5 to -0.5; the normal is (-0.6, 0, 0.8)
   const Scene scene = SceneBuilder().ground("ground", 100);
   target.offset_m = offset_in(note_of_buried(scene, target));
   EXPECT_NEAR(target.offset_m, 3.5 / 0.8, 0.0011);
@@ -289,7 +291,7 @@ TEST(ExactOutcomes, BadNumbersAreRefused) {
 TEST(ExactOutcomes, ProgressIsReportedAndStops) {
   const PreparedScene scene(SceneBuilder().ground("ground", 100).box("house", {10, -5, 0}, {20, 5, 20}));
   const auto story = testing::check_progress(
-      [&](const Progress& progress) { compute_visibility(scene, square(4), {50}, {}, progress); });
+      [&](const Progress& progress) { compute_visibility(PreparedTarget(scene, square(4), {50}), {}, progress); });
   EXPECT_EQ(story.stages, (std::vector<std::string>{"finding blockers", "tracing the envelope", "triangulating"}));
 }
 

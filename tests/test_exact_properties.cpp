@@ -27,7 +27,7 @@ using testing::random_target;
 constexpr double kRange = 80, kTolerance = 0.1;
 
 Volume compute(const Scene& scene, const Target& target, double range = kRange, double tolerance = kTolerance) {
-  Volume volume = compute_visibility(PreparedScene(scene), target, Sensor{range}, {tolerance, 0});
+  Volume volume = compute_visibility(PreparedTarget(PreparedScene(scene), target, Sensor{range}), {tolerance, 0});
   EXPECT_EQ(volume.outcome, Outcome::computed) << volume.reason;
   const MeshMeasures m = measure(volume.mesh);
   EXPECT_TRUE(m.closed && m.oriented && m.euler == 2 && m.pieces == 1);
@@ -92,10 +92,10 @@ TEST(ExactProperties, AGreaterTargetNeverGrowsTheVolume) {
     const Scene scene = random_city(random, 25, 8);
     const Target great = ground_target(random);
     Target part = great;  // without a corner, or with its corners pulled in
-    if (great.vertices.size() > 3 && draw % 2) {
-      part.vertices.pop_back();
+    if (great.parts[0].size() > 3 && draw % 2) {
+      part.parts[0].pop_back();
     } else {
-      for (Vec3& v : part.vertices) v = 0.5 * v + 0.5 * great.vertices[0];
+      for (Vec3& v : part.parts[0]) v = 0.5 * v + 0.5 * great.parts[0][0];
     }
     const Volume of_great = compute(scene, great), of_part = compute(scene, part);
     const solid::Solid box = inner_box(of_great.frame);
@@ -111,15 +111,15 @@ TEST(ExactProperties, SeeingBothHalvesIsSeeingTheWhole) {
     SCOPED_TRACE(draw);
     const Scene scene = random_city(random, 25, 8);
     Target whole = random_target(random, random.integer(4, 8), random.uniform(2, 6), {0, 0, 0.1}, {0, 0, 1});
-    const auto& v = whole.vertices;
+    const auto& v = whole.parts[0];
     Target left, right;  // cut from the first vertex to another one, or to the middle of a side
     const std::size_t cut = std::size_t(random.integer(2, int(v.size()) - 2));
     const Vec3 end = draw % 2 ? v[cut] : Vec3(0.5 * (v[cut - 1] + v[cut]));
-    left.vertices.assign(v.begin(), v.begin() + std::ptrdiff_t(cut));
-    left.vertices.push_back(end);
-    right.vertices.push_back(v[0]);
-    if (draw % 2 == 0) right.vertices.push_back(end);
-    right.vertices.insert(right.vertices.end(), v.begin() + std::ptrdiff_t(cut), v.end());
+    left.parts[0].assign(v.begin(), v.begin() + std::ptrdiff_t(cut));
+    left.parts[0].push_back(end);
+    right.parts[0].push_back(v[0]);
+    if (draw % 2 == 0) right.parts[0].push_back(end);
+    right.parts[0].insert(right.parts[0].end(), v.begin() + std::ptrdiff_t(cut), v.end());
     const Volume all = compute(scene, whole);
     const solid::Solid box = inner_box(all.frame), expected = in_frame(all, all.frame);
     const solid::Solid both =
@@ -142,7 +142,7 @@ TEST(ExactProperties, RigidMotionChangesNothing) {
     Scene moved = scene;
     for (Vec3& v : moved.mesh.vertices) v = turn * v + shift;
     Target moved_target = target;
-    for (Vec3& v : moved_target.vertices) v = turn * v + shift;
+    for (Vec3& v : moved_target.parts[0]) v = turn * v + shift;
     moved_target.front = turn * *target.front;
     const Volume other = compute(moved, moved_target);
     Volume back = other;
@@ -184,15 +184,15 @@ TEST(ExactProperties, LargeCoordinatesGiveTheSameVolume) {
     Scene scene = random_city(random, 25, 8);
     Target target = ground_target(random);
     if (draw % 2) {  // sums without rounding errors
-      for (Vec3& v : target.vertices) v = (v * 1024).array().round() / 1024;
-      for (Vec3& v : target.vertices) v.z() = 0.125;
+      for (Vec3& v : target.parts[0]) v = (v * 1024).array().round() / 1024;
+      for (Vec3& v : target.parts[0]) v.z() = 0.125;
     } else {
       for (Vec3& v : scene.mesh.vertices) v *= 0.99 + 1e-3 * std::sqrt(2.0);
     }
     Scene far = scene;
     for (Vec3& v : far.mesh.vertices) v += shift;
     Target far_target = target;
-    for (Vec3& v : far_target.vertices) v += shift;
+    for (Vec3& v : far_target.parts[0]) v += shift;
     expect_same_surface(compute(scene, target), compute(far, far_target), shift);
   }
 }
@@ -204,7 +204,7 @@ TEST(ExactProperties, TheSameBitsForAnyNumberOfThreads) {
     const Target target = ground_target(random);
     Volume first;
     for (const int threads : {1, 2, 4, 0, 1}) {
-      const Volume volume = compute_visibility(scene, target, {kRange}, {0.01, threads});
+      const Volume volume = compute_visibility(PreparedTarget(scene, target, {kRange}), {0.01, threads});
       if (first.mesh.empty()) first = volume;
       ASSERT_FALSE(volume.mesh.empty());
       EXPECT_EQ(volume.mesh.vertices, first.mesh.vertices);

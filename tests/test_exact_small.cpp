@@ -42,7 +42,7 @@ Comparison expect_union(const Scene& scene, const Target& target, double reach =
   const TargetFrame frame = make_target_frame(target);
   const double across = 2 * frame.enclosing_radius_m + reach;
   const Sensor sensor{std::sqrt(2 * across * across + height * height) + 1};
-  const Volume volume = compute_visibility(PreparedScene(scene), target, sensor, {0.2, 0});
+  const Volume volume = compute_visibility(PreparedTarget(PreparedScene(scene), target, sensor), {0.2, 0});
   expect_one_closed_piece(volume);
   if (volume.mesh.empty()) return {};
   const Comparison c = testing::compare_with_union(scene, volume, testing::local_box(volume.frame, reach, height));
@@ -63,13 +63,13 @@ Target regular(int corners, double radius, const Vec3& centre, const Vec3& norma
   Target target;
   for (int k = 0; k < corners; ++k) {
     const double angle = 2 * std::numbers::pi * k / corners;
-    target.vertices.push_back(centre + radius * (std::cos(angle) * u + std::sin(angle) * v));
+    target.parts[0].push_back(centre + radius * (std::cos(angle) * u + std::sin(angle) * v));
   }
   return target;
 }
 
 TEST(ExactSmall, AnEmptySceneGivesTheRangeRegion) {
-  const Volume volume = compute_visibility(PreparedScene{Scene{}}, square(5), {50}, {1e-3, 0});
+  const Volume volume = compute_visibility(PreparedTarget(PreparedScene{Scene{}}, square(5), {50}), {1e-3, 0});
   expect_one_closed_piece(volume);
   // Four quarters of a half ball about the square's centre, between them what the vertices' balls share: by Monte
   // Carlo's slow brother, a grid.
@@ -277,7 +277,7 @@ TEST(ExactSmall, SurfacesThatCreepAboveTheTargetsPlane) {
       scene.polygon("ground", {Vec3(-60, -60, 0) + creep(), Vec3(60, -60, 0) + creep(), Vec3(0, 60, 0) + creep()});
     }
     Target target = square(0.5);
-    const Volume volume = compute_visibility(PreparedScene(scene), target, {100}, {0.2, 0});
+    const Volume volume = compute_visibility(PreparedTarget(PreparedScene(scene), target, {100}), {0.2, 0});
     expect_one_closed_piece(volume);
     const Comparison c = testing::compare_with_union(scene, volume, testing::local_box(volume.frame, 40, 40));
     EXPECT_LT(c.excessive, 1e-6 * c.volume);
@@ -287,7 +287,7 @@ TEST(ExactSmall, SurfacesThatCreepAboveTheTargetsPlane) {
 
 /// Whether the points just inside the mesh see the target, by the exact answers of query.
 void expect_facets_inside(const PreparedScene& scene, const Target& target, double range) {
-  const Volume volume = compute_visibility(scene, target, {range}, {});
+  const Volume volume = compute_visibility(PreparedTarget(scene, target, {range}), {});
   if (volume.outcome != Outcome::computed) return;  // something lies on the target
   expect_one_closed_piece(volume);
   std::vector<Vec3> points;
@@ -296,7 +296,8 @@ void expect_facets_inside(const PreparedScene& scene, const Target& target, doub
     const Vec3 middle = (v[t[0]] + v[t[1]] + v[t[2]]) / 3 - volume.frame.origin;
     if (middle.z() > 0) points.push_back(volume.frame.origin + 0.9999 * middle);
   }
-  for (const PointAnswer& answer : query_points(scene, target, {range}, {}, points)) ASSERT_TRUE(answer.inside);
+  for (const PointAnswer& answer : query_points(PreparedTarget(scene, target, {range}), {}, points))
+    ASSERT_TRUE(answer.inside);
 }
 
 /// Ranges that leave a lens of millimetres: narrower than the tolerance.
@@ -355,7 +356,7 @@ TEST(ExactSmall, TargetsFromMetresToMicrometres) {
     for (const Vec3& corner : {Vec3(-4, -4, 0), Vec3(4, -4, 0), Vec3(4, 4, 0), Vec3(-4, 4, 0)}) {
       SCOPED_TRACE(size);
       Target target = square(4);
-      for (Vec3& v : target.vertices) v = corner + size * (v - corner);
+      for (Vec3& v : target.parts[0]) v = corner + size * (v - corner);
       expect_union(plaza(), target, 12, 12);
     }
 }
@@ -365,7 +366,7 @@ TEST(ExactSmall, ThinTargets) {
     for (const double angle : {0.0, 0.3, 1.1, std::numbers::pi / 2, 2.8}) {
       SCOPED_TRACE(width);
       Target target = square(4);
-      for (Vec3& v : target.vertices) {
+      for (Vec3& v : target.parts[0]) {
         const double x = v.x(), y = width * v.y();
         v = {std::cos(angle) * x - std::sin(angle) * y, std::sin(angle) * x + std::cos(angle) * y, 0};
       }
@@ -406,9 +407,9 @@ TEST(ExactSmall, RandomBlocksOnACoarseGrid) {
       builder.box("block " + std::to_string(k), min, min + size);
     }
     Target target = square(random.integer(1, 3), {0, 0, 0});
-    if (random.chance(0.3)) target.vertices.pop_back();
+    if (random.chance(0.3)) target.parts[0].pop_back();
     if (random.chance(0.3))
-      for (Vec3& v : target.vertices) v = Vec3(v.x(), 0, v.y() + 3);  // upright
+      for (Vec3& v : target.parts[0]) v = Vec3(v.x(), 0, v.y() + 3);  // upright
     try {
       const Comparison c = expect_union(builder, target, 15, 15);
       worst = std::max(worst, c.error());

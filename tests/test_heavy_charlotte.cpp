@@ -30,7 +30,7 @@ nlohmann::json baseline() {
 Target target_of(const nlohmann::json& entry) {
   Target target;
   target.name = entry.at("name");
-  for (const auto& v : entry.at("vertices")) target.vertices.emplace_back(v[0], -v[2].get<double>(), v[1]);
+  for (const auto& v : entry.at("vertices")) target.parts[0].emplace_back(v[0], -v[2].get<double>(), v[1]);
   return target;
 }
 
@@ -47,7 +47,7 @@ TEST(HeavyCharlotte, MeetsTheReferenceVolumes) {
     for (const int range : {100, 300, 600}) {
       const std::string key = target.name + " r" + std::to_string(range);
       const double expected = reference.at(key);
-      const Volume volume = compute_visibility(scene, target, {double(range)});
+      const Volume volume = compute_visibility(PreparedTarget(scene, target, {double(range)}));
       const MeshMeasures m = measure(volume.mesh);
       EXPECT_TRUE(m.closed && m.oriented && m.euler == 2 && m.pieces == 1) << key;
       EXPECT_NEAR(m.volume_m3, expected, 0.002 * expected) << key;
@@ -67,10 +67,10 @@ TEST(HeavyCharlotte, EqualsThePlainUnionOfBlockers) {
   int compared = 0;
   for (const auto& entry : file.at("targets")) {
     const Target target = target_of(entry);
-    const Volume volume = compute_visibility(prepared, target, {100});
+    const Volume volume = compute_visibility(PreparedTarget(prepared, target, {100}));
     // The region: a coarse polyhedron in the range region, two parts in a thousand smaller, which keeps it clear of the
     // facets of the range sphere.
-    Volume region = compute_visibility(PreparedScene{Scene{}}, target, {100}, {1.0, 0});
+    Volume region = compute_visibility(PreparedTarget(PreparedScene{Scene{}}, target, {100}), {1.0, 0});
     region.frame = volume.frame;
     for (Vec3& v : region.mesh.vertices) v = volume.frame.origin + 0.998 * (v - volume.frame.origin);
     const auto start = std::chrono::steady_clock::now();

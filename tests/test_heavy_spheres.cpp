@@ -36,7 +36,7 @@ std::vector<Target> targets() {
   for (const auto& entry : file.at("targets")) {
     Target& target = result.emplace_back();
     target.name = entry.at("name").get<std::string>();
-    for (const auto& v : entry.at("vertices")) target.vertices.emplace_back(v[0], -v[2].get<double>(), v[1]);
+    for (const auto& v : entry.at("vertices")) target.parts[0].emplace_back(v[0], -v[2].get<double>(), v[1]);
   }
   return result;
 }
@@ -75,7 +75,7 @@ TEST(HeavySpheres, ConservativeSpheresOfCharlotteClaimNothingHidden) {
   Random random(31);
   ASSERT_EQ(targets().size(), 3U);
   for (const Target& target : targets()) {
-    const Vec3 from = target.vertices[0] + Vec3(0, 0, 0.5);
+    const Vec3 from = target.parts[0][0] + Vec3(0, 0, 0.5);
     SpheresOptions options;
     options.device = parse_device_choice("cpu");
     for (const bool is_grid : {false, true}) {
@@ -107,11 +107,12 @@ TEST(HeavySpheres, VolumesOfTheBaselineAreClosed) {
         options.cubemap = 40;
         options.sphere = sphere;
         SpheresReport report;
-        const Volume volume = compute_visibility_spheres(prepared, target, {double(range)}, options, &report);
+        const Volume volume =
+            compute_visibility_spheres(PreparedTarget(prepared, target, {double(range)}), options, &report);
         const MeshMeasures m = measure(volume.mesh);
         EXPECT_TRUE(m.closed && m.oriented) << target.name << " " << range;
         EXPECT_GT(m.volume_m3, 0);
-        const Volume exact = compute_visibility(prepared, target, {double(range)});
+        const Volume exact = compute_visibility(PreparedTarget(prepared, target, {double(range)}));
         std::printf("%s %d m, %s: %.0f m3 (exact %.0f), %.3f s, %zu splits, %zu unresolved\n", target.name.c_str(),
                     range, sphere == SpheresOptions::Sphere::centers ? "centers" : "conservative", m.volume_m3,
                     enclosed_volume(exact.mesh), volume.seconds.engine, report.splits, report.unresolved_pairs);

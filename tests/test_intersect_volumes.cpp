@@ -8,6 +8,7 @@
 #include "support/random.h"
 #include "support/scenes.h"
 #include "vantage/error.h"
+#include "vantage/navigation.h"
 #include "vantage/volume.h"
 
 namespace vantage {
@@ -28,7 +29,7 @@ PreparedScene courtyard() {
 }
 
 Volume volume_of(const PreparedScene& scene, const std::vector<Vec3>& polygon) {
-  return compute_visibility(scene, target_of(polygon), {kRange}, {1e-3, 0});
+  return compute_visibility(PreparedTarget(scene, target_of(polygon), {kRange}), {1e-3, 0});
 }
 
 TEST(IntersectVolumes, HalvesMakeTheWhole) {

@@ -185,7 +185,7 @@ TEST(MergedWalls, ASmallChamferIsACorner) {
   wall.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}};
   const Scene scene = SceneBuilder().add("wall", wall);
   const Target target = target_of({{-3, -3, 0}, {3, -3, 0}, {3, 3, 0}, {-3, 3, 0}});
-  const Volume volume = compute_visibility(PreparedScene(scene), target, {100});
+  const Volume volume = compute_visibility(PreparedTarget(PreparedScene(scene), target, {100}));
   EXPECT_EQ(PreparedScene(scene).statistics().polygons, 1U);
   VerifyOptions options;
   options.points = 4000;
@@ -207,7 +207,7 @@ TEST(MergedWalls, HideWhatTheirTrianglesHide) {
         const Vec3 centre = on_map ? kOnMap : Vec3(scale * random.point(-3, 3));
         Target target;
         for (const auto& [x, y] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}})
-          target.vertices.push_back(centre + 0.3 * scale * (x * u + y * v));
+          target.parts[0].push_back(centre + 0.3 * scale * (x * u + y * v));
         target.front = n;
         SceneBuilder builder;
         const double low = -5 * scale, far = 20 * scale;  // so that no wall over the target is its ground
@@ -222,11 +222,12 @@ TEST(MergedWalls, HideWhatTheirTrianglesHide) {
           builder.add("wall " + std::to_string(k), mesh_of(random, wall, OutlineDraw(random, 40).outline()));
         }
         const Scene scene = builder;
-        const Volume volume = compute_visibility(PreparedScene(scene), target, {10 * scale}, {0.1 * scale, 0});
+        const Volume volume =
+            compute_visibility(PreparedTarget(PreparedScene(scene), target, {10 * scale}), {0.1 * scale, 0});
         if (volume.outcome != Outcome::computed) continue;
         ++volumes;
         const double rounding = 1e-15 * (10 * scale + centre.cwiseAbs().maxCoeff());
-        const Verdict verdict = judge(volume, scene.mesh, target.vertices, 250, rounding, random);
+        const Verdict verdict = judge(volume, scene.mesh, target.parts[0], 250, rounding, random);
         looked += verdict.looked;
         EXPECT_EQ(verdict.hidden, 0U) << "of " << verdict.looked << ", deepest " << verdict.deepest;
       }

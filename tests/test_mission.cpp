@@ -8,43 +8,41 @@
 #include <string>
 
 #include "app/mission_parser.h"
-#include "app/nearest_name.h"
-#include "app/numbers.h"
 #include "app/yaml_tree.h"
 #include "vantage/error.h"
+#include "vantage/input.h"
 #include "vantage/mission.h"
 
 namespace vantage {
 namespace {
 
 namespace fs = std::filesystem;
-using app::NumberFault;
 using app::parse_mission;
-using app::parse_number;
-using app::ParsedMission;
 
 constexpr const char* kScene = "scene:\n  mesh: city.obj\n";
 constexpr const char* kTarget = "target:\n  vertices: [[0, 0, 0], [10, 0, 0], [10, 10, 0], [0, 10, 0]]\n";
 constexpr const char* kSensor = "sensor:\n  max_range: 100\n";
 
 /// A mission of the four texts; the first three default to right ones.
-std::string mission_text(const std::string& rest, const std::string& target = kTarget,
-                         const std::string& sensor = kSensor, const std::string& scene = kScene) {
+std::string text_of_mission(const std::string& rest, const std::string& target = kTarget,
+                            const std::string& sensor = kSensor, const std::string& scene = kScene) {
   return scene + target + sensor + rest;
 }
 
-std::string with_navigation(const std::string& line) { return mission_text("navigation:\n  " + line + "\n"); }
-std::string with_sensor(const std::string& line) { return mission_text("", kTarget, "sensor:\n  " + line + "\n"); }
+std::string with_navigation(const std::string& line) { return text_of_mission("navigation:\n  " + line + "\n"); }
+std::string with_sensor(const std::string& line) { return text_of_mission("", kTarget, "sensor:\n  " + line + "\n"); }
 std::string with_scene(const std::string& line) {
-  return mission_text("", kTarget, kSensor, "scene:\n  " + line + "\n");
+  return text_of_mission("", kTarget, kSensor, "scene:\n  " + line + "\n");
 }
 std::string with_vertices(const std::string& vertices) {
-  return mission_text("", "target:\n  vertices: " + vertices + "\n");
+  return text_of_mission("", "target:\n  vertices: " + vertices + "\n");
 }
 /// A right target with one more line.
-std::string with_target(const std::string& line) { return mission_text("", std::string(kTarget) + "  " + line + "\n"); }
+std::string with_target(const std::string& line) {
+  return text_of_mission("", std::string(kTarget) + "  " + line + "\n");
+}
 
-Mission parse(const std::string& text) { return parse_mission(text, "folder/mission.yaml").mission; }
+MissionFile parse(const std::string& text) { return parse_mission(text, "folder/mission.yaml"); }
 
 /// The Error(input) that the text brings; fails the test when there is none.
 Error refusal(const std::string& text) {
@@ -72,7 +70,7 @@ void expect_refusal(const std::string& text, const std::string& problem, const s
 }
 
 TEST(Mission, ReadsEveryKey) {
-  const ParsedMission parsed = parse_mission(R"(
+  const MissionFile mission = parse_mission(R"(
 scene: {mesh: ../city.obj, up: y, scale: 0.5}
 target:
   name: "plaza, north"
@@ -89,19 +87,18 @@ navigation:
 method: exact
 exact: {tolerance: 0.02}
 )",
-                                             "/data/missions/plaza.yaml");
-  const Mission& mission = parsed.mission;
+                                            "/data/missions/plaza.yaml");
   EXPECT_EQ(mission.file, "/data/missions/plaza.yaml");
   EXPECT_EQ(mission.scene.file, "/data/missions/../city.obj") << "missions may be a symbolic link";
   EXPECT_EQ(mission.scene.mesh.up, UpAxis::y);
   EXPECT_EQ(mission.scene.mesh.scale, 0.5);
   EXPECT_EQ(mission.target.name, "plaza, north");
-  ASSERT_EQ(mission.target.vertices.size(), 3U);
-  EXPECT_EQ(mission.target.vertices[2], Vec3(0, 10, 1));
+  ASSERT_EQ(mission.target.parts[0].size(), 3U);
+  EXPECT_EQ(mission.target.parts[0][2], Vec3(0, 10, 1));
   EXPECT_EQ(mission.target.offset_m, 0.25);
   ASSERT_TRUE(mission.target.front.has_value());
   EXPECT_EQ(*mission.target.front, Vec3(0, 0, -2));
-  EXPECT_EQ(mission.target_place, "/data/missions/plaza.yaml:5:13");
+  EXPECT_EQ(mission.places.target, "/data/missions/plaza.yaml:5:13");
   EXPECT_EQ(mission.sensor.max_range_m, 150);
   ASSERT_TRUE(mission.navigation.altitude.has_value());
   EXPECT_EQ(mission.navigation.altitude->min_m, -20);
@@ -113,22 +110,17 @@ exact: {tolerance: 0.02}
   EXPECT_EQ(mission.navigation.keep_out[0].min, Vec3(6, 7, 8));
   EXPECT_EQ(mission.exact.tolerance_m, 0.02);
 
-  ASSERT_EQ(parsed.navigation_meshes.size(), 3U);
-  EXPECT_EQ(parsed.navigation_meshes[0].file, "/data/missions/airspace.ply");
-  EXPECT_EQ(parsed.navigation_meshes[0].name, "airspace.ply");
-  const app::MeshReference &ply = parsed.navigation_meshes[0], &obj = parsed.navigation_meshes[1],
-                           &own = parsed.navigation_meshes[2];
-  EXPECT_FALSE(ply.in_scene_axes || ply.in_scene_unit) << "PLY is in the scene frame";
-  EXPECT_EQ(ply.options.up, UpAxis::z);
-  EXPECT_EQ(ply.options.scale, 1.0) << "and in metres";
-  EXPECT_TRUE(obj.in_scene_axes && obj.in_scene_unit) << "OBJ is in the axes and the unit of the scene file";
-  EXPECT_FALSE(own.in_scene_axes || own.in_scene_unit) << "unless it says otherwise";
-  EXPECT_EQ(own.options.up, UpAxis::z);
-  EXPECT_EQ(own.options.scale, 2);
+  ASSERT_EQ(mission.navigation_meshes.size(), 3U);
+  EXPECT_EQ(mission.navigation_meshes[0].file, "/data/missions/airspace.ply");
+  EXPECT_EQ(mission.navigation_meshes[0].name, "airspace.ply");
+  EXPECT_FALSE(mission.navigation_meshes[0].up || mission.navigation_meshes[0].scale);
+  EXPECT_EQ(mission.navigation_meshes[2].up, UpAxis::z);
+  EXPECT_EQ(mission.navigation_meshes[2].scale, 2);
+  EXPECT_EQ(mission.places.navigation_meshes[0], "/data/missions/plaza.yaml:14:12");
 }
 
 TEST(Mission, HasDefaults) {
-  const Mission mission = parse(mission_text(""));
+  const MissionFile mission = parse(text_of_mission(""));
   EXPECT_EQ(mission.scene.mesh.up, UpAxis::z);
   EXPECT_EQ(mission.scene.mesh.scale, 1.0);
   EXPECT_EQ(mission.target.name, "target");
@@ -139,13 +131,13 @@ TEST(Mission, HasDefaults) {
   EXPECT_EQ(mission.exact.threads, 0);
   EXPECT_TRUE(mission.file.is_absolute());
   EXPECT_EQ(mission.scene.file, mission.file.parent_path() / "city.obj");
-  EXPECT_TRUE(parse(mission_text("navigation:\n")).navigation.empty()) << "the heading alone is no limit";
+  EXPECT_TRUE(parse(text_of_mission("navigation:\n")).navigation.empty()) << "the heading alone is no limit";
 }
 
 TEST(Mission, AcceptsAByteOrderMarkAndWindowsLineEnds) {
-  std::string text = "\xEF\xBB\xBF" + mission_text("");
+  std::string text = "\xEF\xBB\xBF" + text_of_mission("");
   for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 2) text.insert(at, 1, '\r');
-  EXPECT_EQ(parse(text).target.vertices.size(), 4U);
+  EXPECT_EQ(parse(text).target.parts[0].size(), 4U);
 }
 
 TEST(Mission, AcceptsEdgesInAnyOrderAndTurn) {
@@ -157,27 +149,28 @@ TEST(Mission, AcceptsEdgesInAnyOrderAndTurn) {
 
 TEST(MissionErrors, UnknownKeysNameTheNearest) {
   expect_refusal(with_sensor("max_rnage: 100"), "unknown key 'max_rnage' in sensor", ":6:3", "'max_range'");
-  expect_refusal(mission_text("navigaton: {altitude: [1, 2]}"), "unknown key 'navigaton'", ":7:1", "'navigation'");
+  expect_refusal(text_of_mission("navigaton: {altitude: [1, 2]}"), "unknown key 'navigaton'", ":7:1", "'navigation'");
   expect_refusal(with_scene("Mesh: city.obj"), "unknown key 'Mesh' in scene", ":2:3", "'mesh'");
   expect_refusal(with_target("edge: []"), "unknown key 'edge' in target", ":5:3", "'edges'");
   expect_refusal(with_navigation("keepout: []"), "unknown key 'keepout' in navigation", ":8:3", "'keep_out'");
   expect_refusal(with_navigation("boxes: [{min: [0, 0, 0], mix: [1, 1, 1]}]"), "unknown key 'mix' in a box", ":8:28");
   expect_refusal(with_navigation("meshes: [{mesh: a.ply, units: m}]"), "unknown key 'units'", ":8:26");
-  expect_refusal(mission_text("exact: {tolerence: 1}"), "unknown key 'tolerence' in exact", ":7:9", "'tolerance'");
-  expect_refusal(mission_text("<<: 1"), "unknown key '<<'", ":7:1");
-  expect_refusal(mission_text("x\xC3\xA9: 1"), "unknown key 'x\xC3\xA9'", ":7:1");
-  expect_refusal(mission_text("\"a\\e[31m\\n\": 1"), "unknown key 'a?[31m?'", ":7:1");
-  expect_refusal(mission_text(std::string(500, 'k') + ": 1"), "unknown key 'kkk", ":7:1");
+  expect_refusal(text_of_mission("exact: {tolerence: 1}"), "unknown key 'tolerence' in exact", ":7:9", "'tolerance'");
+  expect_refusal(text_of_mission("<<: 1"), "unknown key '<<'", ":7:1");
+  expect_refusal(text_of_mission("x\xC3\xA9: 1"), "unknown key 'x\xC3\xA9'", ":7:1");
+  expect_refusal(text_of_mission("\"a\\e[31m\\n\": 1"), "unknown key 'a?[31m?'", ":7:1");
+  expect_refusal(text_of_mission(std::string(500, 'k') + ": 1"), "unknown key 'kkk", ":7:1");
 }
 
 TEST(MissionErrors, MisplacedKeysNameTheirSection) {
   expect_refusal(with_sensor("altitude: [1, 2]"), "unknown key 'altitude' in sensor", ":6:3", "belongs to navigation");
-  expect_refusal(mission_text("max_range: 3"), "unknown key 'max_range' in the mission", ":7:1", "belongs to sensor");
+  expect_refusal(text_of_mission("max_range: 3"), "unknown key 'max_range' in the mission", ":7:1",
+                 "belongs to sensor");
 }
 
 TEST(MissionErrors, KeysGivenTwice) {
   expect_refusal(with_sensor("max_range: 1\n  max_range: 2"), "key 'max_range' is given twice", ":7:3", "line 6");
-  expect_refusal(mission_text(kSensor), "key 'sensor' is given twice", ":7:1", "line 5");
+  expect_refusal(text_of_mission(kSensor), "key 'sensor' is given twice", ":7:1", "line 5");
 }
 
 TEST(MissionErrors, MissingKeysSayWhatToWrite) {
@@ -185,17 +178,17 @@ TEST(MissionErrors, MissingKeysSayWhatToWrite) {
   expect_refusal(std::string(kScene) + kSensor, "lacks the key 'target'", ":1:1", "vertices: [[x, y, z]");
   expect_refusal(std::string(kScene) + kTarget, "lacks the key 'sensor'", ":1:1", "max_range: 100");
   expect_refusal(with_scene("up: y"), "scene lacks the key 'mesh'", ":2:3", "mesh: city.obj");
-  expect_refusal(mission_text("", "target: {name: a}\n"), "target lacks the key 'vertices'", ":3:9", "vertices: [[");
-  expect_refusal(mission_text("", kTarget, "sensor: {}\n"), "sensor lacks the key 'max_range'", ":5:9",
+  expect_refusal(text_of_mission("", "target: {name: a}\n"), "target lacks the key 'vertices'", ":3:9", "vertices: [[");
+  expect_refusal(text_of_mission("", kTarget, "sensor: {}\n"), "sensor lacks the key 'max_range'", ":5:9",
                  "max_range: 100");
   expect_refusal(with_navigation("boxes: [{min: [0, 0, 0]}]"), "a box lacks the key 'max'", ":8:11", "{min:");
-  expect_refusal(mission_text("", kTarget, "sensor:\n"), "sensor must be a mapping of keys, not nothing", ":5:1");
+  expect_refusal(text_of_mission("", kTarget, "sensor:\n"), "sensor must be a mapping of keys, not nothing", ":5:1");
 }
 
 TEST(MissionErrors, WrongTypes) {
   expect_refusal("- 1\n- 2\n", "the mission must be a mapping of keys, not a list of 2", ":1:1");
   expect_refusal("just words", "the mission must be a mapping", ":1:1");
-  expect_refusal(mission_text("", kTarget, kSensor, "scene: city.obj\n"), "scene must be a mapping", ":1:8");
+  expect_refusal(text_of_mission("", kTarget, kSensor, "scene: city.obj\n"), "scene must be a mapping", ":1:8");
   expect_refusal(with_scene("mesh: [a, b]"), "scene.mesh must be a text, not a list of 2", ":2:9");
   expect_refusal(with_scene("mesh: ''"), "scene.mesh must be a text, not empty", ":2:9");
   expect_refusal(with_scene("mesh: ~"), "scene.mesh must be a text, not nothing", ":2:3");
@@ -222,16 +215,16 @@ TEST(MissionErrors, WrongTypes) {
   expect_refusal(with_navigation("boxes: []"), "navigation.boxes is an empty list", ":8:10");
   expect_refusal(with_navigation("meshes: a.ply"), "navigation.meshes must be a list", ":8:11", "[airspace.ply]");
   expect_refusal(with_navigation("meshes: [[a.ply]]"), "must be a text, not a list of 1", ":8:12");
-  expect_refusal(mission_text("navigation: 3"), "navigation must be a mapping", ":7:13");
-  expect_refusal(mission_text("exact: fine"), "exact must be a mapping", ":7:8");
-  expect_refusal(mission_text("exact: {tolerance: -1}"), "exact.tolerance must be greater than 0", ":7:20");
+  expect_refusal(text_of_mission("navigation: 3"), "navigation must be a mapping", ":7:13");
+  expect_refusal(text_of_mission("exact: fine"), "exact must be a mapping", ":7:8");
+  expect_refusal(text_of_mission("exact: {tolerance: -1}"), "exact.tolerance must be greater than 0", ":7:20");
 }
 
 TEST(MissionErrors, Methods) {
-  EXPECT_NO_THROW(parse(mission_text("method: exact")));
-  EXPECT_EQ(parse(mission_text("method: spheres")).method, Method::spheres);
-  expect_refusal(mission_text("method: sphere"), "there is no method 'sphere'", ":7:9", "method: spheres");
-  expect_refusal(mission_text("method:"), "method must be a text, not nothing", ":7:");
+  EXPECT_NO_THROW(parse(text_of_mission("method: exact")));
+  EXPECT_EQ(parse(text_of_mission("method: spheres")).method, Method::spheres);
+  expect_refusal(text_of_mission("method: sphere"), "there is no method 'sphere'", ":7:9", "method: spheres");
+  expect_refusal(text_of_mission("method:"), "method must be a text, not nothing", ":7:");
 }
 
 TEST(MissionErrors, NumbersThatAreNone) {
@@ -287,14 +280,14 @@ TEST(MissionErrors, EdgesThatDisagree) {
   expect_refusal(with_target("edges: 4"), "target.edges must be a list", ":5:10");
 }
 
-std::string with_point(const std::string& rest) { return mission_text("", "target:\n  " + rest + "\n"); }
+std::string with_point(const std::string& rest) { return text_of_mission("", "target:\n  " + rest + "\n"); }
 
 TEST(Mission, TargetOfAPoint) {
-  Mission mission = parse(with_point("point: [1, -2, 3.5]"));
+  MissionFile mission = parse(with_point("point: [1, -2, 3.5]"));
   ASSERT_TRUE(mission.target.is_point());
-  EXPECT_EQ(mission.target.vertices[0], Vec3(1, -2, 3.5));
+  EXPECT_EQ(mission.target.parts[0][0], Vec3(1, -2, 3.5));
   EXPECT_FALSE(mission.target.front.has_value());
-  EXPECT_EQ(mission.target_place, "folder/mission.yaml:4:10");
+  EXPECT_EQ(mission.places.target, "folder/mission.yaml:4:10");
   mission = parse(with_point("{name: camera, point: [1, 2, 3], front: [0, -1, 0], offset: 0.1}"));
   EXPECT_EQ(mission.target.name, "camera");
   EXPECT_EQ(mission.target.offset_m, 0.1);
@@ -338,10 +331,10 @@ TEST(MissionErrors, BrokenYaml) {
   expect_refusal("scene: [1, 2\ntarget: 3\n", "not valid YAML", ":");
   expect_refusal("scene: 'abc", "not valid YAML", ":");
   expect_refusal("%YAML 9.9\n---\na: 1\n", "not valid YAML", ":");
-  expect_refusal(mission_text("---\n" + mission_text("")), "more than one YAML document", ":8:1");
-  expect_refusal(mission_text("? [a]\n: 1\n"), "a key must be a word", ":7:3");
-  expect_refusal(mission_text("? {a: 1}\n: 1\n"), "a key must be a word", ":7:");
-  expect_refusal(mission_text("~: 1\n"), "a key must be a word", ":7:1");
+  expect_refusal(text_of_mission("---\n" + text_of_mission("")), "more than one YAML document", ":8:1");
+  expect_refusal(text_of_mission("? [a]\n: 1\n"), "a key must be a word", ":7:3");
+  expect_refusal(text_of_mission("? {a: 1}\n: 1\n"), "a key must be a word", ":7:");
+  expect_refusal(text_of_mission("~: 1\n"), "a key must be a word", ":7:1");
 }
 
 TEST(MissionErrors, EmptyFiles) {
@@ -360,7 +353,7 @@ TEST(MissionErrors, AliasesAndTags) {
   for (int i = 1; i < 60; ++i) bomb << "a" << i << ": &a" << i << " [*a" << i - 1 << ", *a" << i - 1 << "]\n";
   expect_refusal(bomb.str(), "aliases", ":2:");
   expect_refusal(with_sensor("max_range: !!float 3"), "tags", ":6:");
-  expect_refusal(mission_text("exact: !mine {}"), "tags", ":7:");
+  expect_refusal(text_of_mission("exact: !mine {}"), "tags", ":7:");
 }
 
 TEST(MissionErrors, NotText) {
@@ -425,19 +418,19 @@ TEST(MissionNumbers, AreReadAsDecimals) {
 }
 
 TEST(MissionNumbers, AreWrittenShort) {
-  EXPECT_EQ(app::shortest(0.1), "0.1");
-  EXPECT_EQ(app::shortest(-1e9), "-1e+09");
-  EXPECT_EQ(app::shortest(4785000), "4785000");
+  EXPECT_EQ(shortest(0.1), "0.1");
+  EXPECT_EQ(shortest(-1e9), "-1e+09");
+  EXPECT_EQ(shortest(4785000), "4785000");
 }
 
 TEST(NearestName, CountsSlips) {
-  EXPECT_EQ(app::edit_distance("", "abc"), 3);
-  EXPECT_EQ(app::edit_distance("max_range", "max_range"), 0);
-  EXPECT_EQ(app::edit_distance("max_rnage", "max_range"), 1) << "neighbours swapped";
-  EXPECT_EQ(app::edit_distance("Max_Range", "max_range"), 0) << "case is no slip";
-  EXPECT_EQ(app::edit_distance("kitten", "sitting"), 3);
-  EXPECT_EQ(app::nearest_name("altitud", {"boxes", "altitude", "meshes"}), "altitude");
-  EXPECT_EQ(app::nearest_name("x", {}), "");
+  EXPECT_EQ(edit_distance("", "abc"), 3);
+  EXPECT_EQ(edit_distance("max_range", "max_range"), 0);
+  EXPECT_EQ(edit_distance("max_rnage", "max_range"), 1) << "neighbours swapped";
+  EXPECT_EQ(edit_distance("Max_Range", "max_range"), 0) << "case is no slip";
+  EXPECT_EQ(edit_distance("kitten", "sitting"), 3);
+  EXPECT_EQ(nearest_name("altitud", {"boxes", "altitude", "meshes"}), "altitude");
+  EXPECT_EQ(nearest_name("x", {}), "");
 }
 
 /// A folder that goes away with the test.
@@ -486,25 +479,25 @@ TEST_F(MissionFiles, AreReadRelativeToTheMission) {
   fs::create_directory(folder_ / "meshes");
   write("meshes/city.obj", kTetrahedron);
   write("meshes/zone.obj", kTetrahedron);
-  const fs::path file = write("mission.yaml", mission_text("navigation: {meshes: [meshes/zone.obj]}", kTarget, kSensor,
-                                                           "scene: {mesh: meshes/city.obj, up: y}\n"));
-  Mission mission = read_mission(file);
-  read_mission_scene(mission);
+  const fs::path file = write("mission.yaml", text_of_mission("navigation: {meshes: [meshes/zone.obj]}", kTarget,
+                                                              kSensor, "scene: {mesh: meshes/city.obj, up: y}\n"));
+  const MissionFile written = read_mission(file);
+  const Mission mission = resolve_mission(written);
   ASSERT_EQ(mission.navigation.meshes.size(), 1U);
   EXPECT_EQ(mission.navigation.meshes[0].name, "meshes/zone.obj");
   EXPECT_EQ(mission.navigation.meshes[0].mesh.triangles.size(), 4U);
   EXPECT_EQ(mission.navigation.meshes[0].mesh.vertices.size(), 4U);
   EXPECT_NEAR(enclosed_volume(mission.navigation.meshes[0].mesh), 50.0 * 50 * 50 / 6, 1e-6);
   EXPECT_EQ(bounding_box(mission.navigation.meshes[0].mesh).min, Vec3(0, -50, 0)) << "y up, as the scene's file";
-  EXPECT_EQ(mission.scene.file, fs::canonical(folder_) / "meshes/city.obj");
-  ASSERT_EQ(mission.navigation_files.size(), 1U);
-  EXPECT_EQ(mission.navigation_files[0].path, fs::canonical(folder_) / "meshes/zone.obj");
+  EXPECT_EQ(written.scene.file, fs::canonical(folder_) / "meshes/city.obj");
+  ASSERT_EQ(written.navigation_meshes.size(), 1U);
+  EXPECT_EQ(written.navigation_meshes[0].file, fs::canonical(folder_) / "meshes/zone.obj");
 }
 
 TEST_F(MissionFiles, MayLieInALinkedFolder) {
   fs::create_directories(folder_ / "data/missions");
   write("data/city.obj", kTetrahedron);
-  write("data/missions/mission.yaml", mission_text("", kTarget, kSensor, "scene: {mesh: ../city.obj}\n"));
+  write("data/missions/mission.yaml", text_of_mission("", kTarget, kSensor, "scene: {mesh: ../city.obj}\n"));
   fs::create_directory_symlink(folder_ / "data/missions", folder_ / "here");
   EXPECT_EQ(read_mission(folder_ / "here/mission.yaml").scene.file, fs::canonical(folder_) / "data/city.obj");
 }
@@ -513,7 +506,7 @@ TEST_F(MissionFiles, ThatAreMissing) {
   expect_refusal_of(folder_ / "none.yaml", "the mission file does not exist", "none.yaml");
   expect_refusal_of(folder_, "the mission file is a folder", folder_.string());
   expect_refusal_of("/dev/null", "not a regular file", "/dev/null");
-  const fs::path file = write("mission.yaml", mission_text("navigation: {meshes: [zone.obj]}"));
+  const fs::path file = write("mission.yaml", text_of_mission("navigation: {meshes: [zone.obj]}"));
   expect_refusal_of(file, "the scene's mesh file does not exist", "mission.yaml:2:9 (" + folder_.string());
   write("city.obj", kTetrahedron);
   expect_refusal_of(file, "the navigation mesh does not exist", "mission.yaml:7:23 (" + folder_.string());

@@ -33,9 +33,7 @@ Mission placed(const std::string& rest) {
   std::ofstream(folder.path() / "mission.yaml")
       << "scene: {osm: city.osm, center: [70, 11], radius: 500}\nsensor: {max_range: 80}\n"
       << rest;
-  Mission mission = read_mission(folder.path() / "mission.yaml");
-  read_mission_scene(mission);
-  return mission;
+  return resolve_mission(read_mission(folder.path() / "mission.yaml"));
 }
 
 TEST(MissionBoxes, KeepInLiesWithinCurvedSidesAndKeepOutRoundThem) {

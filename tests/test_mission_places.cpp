@@ -51,7 +51,7 @@ class MissionPlaces : public Cli {
   }
 
   /// Written, and read as vantage reads it.
-  Mission mission(const std::string& scene, const std::string& rest) {
+  MissionFile mission(const std::string& scene, const std::string& rest) {
     write("mission.yaml", "scene: {" + scene + "}\n" + rest + kSensor80);
     return read_mission(folder_ / "mission.yaml");
   }
@@ -59,11 +59,13 @@ class MissionPlaces : public Cli {
 
   /// Placed, with its scene.
   Mission placed(const std::string& scene, const std::string& rest) {
-    Mission result = mission(scene, rest);
-    loaded_ = read_mission_scene(result);
+    Mission result = resolve_mission(mission(scene, rest));
+    loaded_ = result.loaded;
     return result;
   }
-  Volume volume(const std::string& scene, const std::string& rest) { return compute_mission(mission(scene, rest)); }
+  Volume volume(const std::string& scene, const std::string& rest) {
+    return run_mission(resolve_mission(mission(scene, rest))).volume;
+  }
 
   void expect_refused(const std::string& scene, const std::string& rest, const std::string& what,
                       const std::string& where, const std::string& fix) {
@@ -98,8 +100,8 @@ const std::vector<Vec3> kSquare = {{-10, -10, 0}, {10, -10, 0}, {10, 10, 0}, {-1
 
 double area_of(const Target& target) {
   Vec3 sum = Vec3::Zero();
-  for (std::size_t i = 1; i + 1 < target.vertices.size(); ++i) {
-    sum += (target.vertices[i] - target.vertices[0]).cross(target.vertices[i + 1] - target.vertices[0]) / 2;
+  for (std::size_t i = 1; i + 1 < target.parts[0].size(); ++i) {
+    sum += (target.parts[0][i] - target.parts[0][0]).cross(target.parts[0][i + 1] - target.parts[0][0]) / 2;
   }
   return sum.norm();
 }
@@ -149,10 +151,9 @@ TEST_F(MissionPlaces, TargetsInReferenceSystems) {
     for (const Vec3& corner : kSquare) there.push_back(in_system(system, frame_.to_lonlat(corner.head<2>()), 1.5));
     const Mission result =
         placed(map_scene(), std::string("crs: ") + system + "\ntarget: {vertices: " + list_of(there) + "}\n");
-    EXPECT_EQ(result.crs, "");
     for (std::size_t i = 0; i < kSquare.size(); ++i) {
       const Vec3 expected = kSquare[i] + Vec3(0, 0, 1.5);
-      EXPECT_NEAR((result.target.vertices[i] - expected).norm(), 0, 1e-4) << system;
+      EXPECT_NEAR((result.target.parts[0][i] - expected).norm(), 0, 1e-4) << system;
     }
   }
 }
@@ -185,30 +186,29 @@ TEST_F(MissionPlaces, LimitsInReferenceSystems) {
 
 TEST_F(MissionPlaces, AConvexAreaIsTheTargetAsItIs) {
   const Mission result = placed(map_scene(), "target: {osm: way/2}\n");
-  EXPECT_TRUE(result.other_parts.empty());
-  ASSERT_EQ(result.target.vertices.size(), 4U);
+  ASSERT_EQ(result.target.parts.size(), 1U);
+  ASSERT_EQ(result.target.parts[0].size(), 4U);
   EXPECT_NEAR(area_of(result.target), 400, 1);
-  for (const Vec3& vertex : result.target.vertices) {
+  for (const Vec3& vertex : result.target.parts[0]) {
     EXPECT_NEAR(std::abs(vertex.x()), 10, 0.012);
     EXPECT_NEAR(std::abs(vertex.y()), 10, 0.012);
     EXPECT_EQ(vertex.z(), 0);
   }
   const Volume named = volume(map_scene(), "target: {osm: way/2}\n");
-  const Volume given = volume(map_scene(), "target: {vertices: " + list_of(result.target.vertices) + "}\n");
+  const Volume given = volume(map_scene(), "target: {vertices: " + list_of(result.target.parts[0]) + "}\n");
   EXPECT_NEAR(enclosed_volume(named.mesh), enclosed_volume(given.mesh), 1e-5 * enclosed_volume(given.mesh));
 }
 
 TEST_F(MissionPlaces, AnAreaThatIsNotConvexIsItsParts) {
   const Mission whole = placed(map_scene(), "target: {osm: way/3}\n");
-  ASSERT_EQ(whole.other_parts.size(), 1U) << "an L is two rectangles";
+  ASSERT_EQ(whole.target.parts.size(), 2U) << "an L is two rectangles";
   EXPECT_EQ(whole.target.name, "way/3");
-  EXPECT_EQ(whole.other_parts[0].name, "way/3, part 2");
-  EXPECT_NEAR(area_of(whole.target) + area_of(whole.other_parts[0]), 40 * 15 + 20 * 25, 1);
-  const Volume both = compute_mission(mission(map_scene(), "target: {osm: way/3}\n"));
+  EXPECT_EQ(whole.target.part(1).name, "way/3, part 2");
+  EXPECT_NEAR(area_of(whole.target.part(0)) + area_of(whole.target.part(1)), 40 * 15 + 20 * 25, 1);
+  const Volume both = run_mission(resolve_mission(mission(map_scene(), "target: {osm: way/3}\n"))).volume;
   ASSERT_EQ(both.outcome, Outcome::computed);
-  const Volume halves[2] = {
-      volume(map_scene(), "target: {vertices: " + list_of(whole.target.vertices) + "}\n"),
-      volume(map_scene(), "target: {vertices: " + list_of(whole.other_parts[0].vertices) + "}\n")};
+  const Volume halves[2] = {volume(map_scene(), "target: {vertices: " + list_of(whole.target.parts[0]) + "}\n"),
+                            volume(map_scene(), "target: {vertices: " + list_of(whole.target.parts[1]) + "}\n")};
   const solid::TriangleTree tree(both.mesh), first(halves[0].mesh), second(halves[1].mesh);
   Random random(4404);
   Box box = bounding_box(halves[0].mesh);
@@ -233,13 +233,13 @@ TEST_F(MissionPlaces, ARectangleAboutAPlace) {
   const Mission east = placed(map_scene(), "target: {" + place + ", heading: 90}\n");
   const Mission between = placed(map_scene(), "target: {" + place + ", heading: 45}\n");
   for (const Mission* one : {&north, &east, &between}) EXPECT_NEAR(area_of(one->target), 160, 0.01);
-  for (const Vec3& vertex : north.target.vertices) {
+  for (const Vec3& vertex : north.target.parts[0]) {
     EXPECT_NEAR(std::abs(vertex.x()), 4, 1e-3);
     EXPECT_NEAR(std::abs(vertex.y()), 10, 1e-3) << "the length runs to the north";
   }
-  for (const Vec3& vertex : east.target.vertices) EXPECT_NEAR(std::abs(vertex.x()), 10, 1e-3);
+  for (const Vec3& vertex : east.target.parts[0]) EXPECT_NEAR(std::abs(vertex.x()), 10, 1e-3);
   double most = -INFINITY;
-  for (const Vec3& vertex : between.target.vertices) most = std::max(most, vertex.dot(Vec3(1, 1, 0)) / std::sqrt(2));
+  for (const Vec3& vertex : between.target.parts[0]) most = std::max(most, vertex.dot(Vec3(1, 1, 0)) / std::sqrt(2));
   EXPECT_NEAR(most, 10, 1e-3) << "45 degrees is north-east";
 }
 
@@ -277,7 +277,7 @@ TEST_F(MissionPlaces, FlatGroundIsExtendedToHoldTheTarget) {
     const Mission result = placed("osm: city.osm", "target: {osm: " + name + "}\n");
     EXPECT_EQ(loaded_.notes.size(), 1u);
     const Box ground = ground_box(loaded_.scene);
-    for (const Vec3& vertex : result.target.vertices) {
+    for (const Vec3& vertex : result.target.parts[0]) {
       EXPECT_EQ(vertex.z(), 0);
       EXPECT_GT((vertex - ground.min).head<2>().minCoeff(), 10);
       EXPECT_GT((ground.max - vertex).head<2>().minCoeff(), 10);
@@ -312,7 +312,7 @@ TEST_F(MissionPlaces, TerrainIsBuiltAsFarAsTheTarget) {
   const std::string scene = "osm: city.osm, terrain: dem.asc, error: 0.01";
   const Mission result = placed(scene, "target: {osm: way/2}\n");
   EXPECT_EQ(loaded_.notes.size(), 1u);
-  for (const Vec3& vertex : result.target.vertices) {
+  for (const Vec3& vertex : result.target.parts[0]) {
     const double north = frame_
                              .to_local(geo::LocalFrame({loaded_.scene.georeference->longitude_deg,
                                                         loaded_.scene.georeference->latitude_deg})
@@ -352,12 +352,13 @@ TEST_F(MissionPlaces, ATargetLiesOnTheSlope) {
   for (const char* const target :
        {"target: {osm: way/2}\n", "target: {center: [48.1374, 11.5755], width: 20, length: 20}\n"}) {
     const Mission result = placed(map_scene() + ", terrain: dem.asc, error: 0.01", target);
-    for (const Vec3& vertex : result.target.vertices) {
+    for (const Vec3& vertex : result.target.parts[0]) {
       EXPECT_NEAR(vertex.z(), 500 + kSlope * vertex.y(), 0.03) << target;
     }
     const Vec3 normal = make_target_frame(result.target).normal;
     EXPECT_NEAR((normal - Vec3(0, -kSlope, 1).normalized()).norm(), 0, 2e-3);
-    const Volume seen = compute_mission(mission(map_scene() + ", terrain: dem.asc, error: 0.01", target));
+    const Volume seen =
+        run_mission(resolve_mission(mission(map_scene() + ", terrain: dem.asc, error: 0.01", target))).volume;
     ASSERT_EQ(seen.outcome, Outcome::computed) << seen.reason;
     EXPECT_GT(enclosed_volume(seen.mesh), 2e5);
   }

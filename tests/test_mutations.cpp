@@ -82,7 +82,7 @@ TEST(Mutations, TheUnbrokenPipelineIsRight) {
   EXPECT_EQ(report.under_claimed, 0u);
   EXPECT_EQ(report.euler, 2);
   // And it is the engine: but for the order in which the tree was filled, nothing differs.
-  const Volume volume = compute_visibility(PreparedScene(plaza()), square(), {kRange}, {kTolerance, 1});
+  const Volume volume = compute_visibility(PreparedTarget(PreparedScene(plaza()), square(), {kRange}), {kTolerance, 1});
   EXPECT_EQ(volume.mesh.triangles.size(), mesh.triangles.size());
   EXPECT_NEAR(enclosed_volume(volume.mesh), enclosed_volume(mesh), 1e-6);
 }
@@ -127,10 +127,11 @@ TEST(Mutations, ARangeOnePercentTooLongIsCaught) {
 TEST(Mutations, SeeingTheVerticesOnlyIsCaught) {
   // The published method's mistake: the intersection of what each vertex sees. The pole between two of them is missed.
   std::vector<solid::Solid> seen;
-  for (const Vec3& vertex : square().vertices) {
+  const Target goal = square();
+  for (const Vec3& vertex : goal.parts[0]) {
     Target corner = square();
-    for (Vec3& v : corner.vertices) v = vertex + 1e-3 * (v - vertex);
-    const Volume volume = compute_visibility(PreparedScene(plaza()), corner, {kRange}, {kTolerance, 0});
+    for (Vec3& v : corner.parts[0]) v = vertex + 1e-3 * (v - vertex);
+    const Volume volume = compute_visibility(PreparedTarget(PreparedScene(plaza()), corner, {kRange}), {kTolerance, 0});
     seen.emplace_back(solid::LabelledMesh{volume.mesh, volume.cause_of}, "seen");
   }
   const VerifyReport report = check("vertices only", solid::intersect(seen).to_mesh().mesh);
@@ -139,7 +140,7 @@ TEST(Mutations, SeeingTheVerticesOnlyIsCaught) {
 
 TEST(Mutations, ATargetDrawnTooSmallIsCaught) {
   Target small = square();
-  for (Vec3& v : small.vertices) v *= 0.98;
+  for (Vec3& v : small.parts[0]) v *= 0.98;
   EXPECT_GT(check("target 2 % too small", pipeline(plaza(), small)).over_claimed, 0u);
 }
 

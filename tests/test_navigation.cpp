@@ -15,6 +15,7 @@
 #include "support/progress_check.h"
 #include "support/solids.h"
 #include "vantage/error.h"
+#include "vantage/navigation.h"
 #include "vantage/volume.h"
 
 namespace vantage {
@@ -344,8 +345,8 @@ TEST(Navigation, RandomLimitsOnEngineVolumesAgreeWithPointTests) {
   for (const Vec3& offset : {Vec3(0, 0, 0), kUtm}) {
     const PreparedScene scene(small_town(offset));
     Target target;
-    for (const Vec3& v : {Vec3(-5, -5, 0), Vec3(6, -4, 0), Vec3(0, 5, 0)}) target.vertices.push_back(v + offset);
-    const Volume volume = compute_visibility(scene, target, Sensor{60}, ExactOptions{0.1});
+    for (const Vec3& v : {Vec3(-5, -5, 0), Vec3(6, -4, 0), Vec3(0, 5, 0)}) target.parts[0].push_back(v + offset);
+    const Volume volume = compute_visibility(PreparedTarget(scene, target, Sensor{60}), ExactOptions{0.1});
     ASSERT_EQ(volume.outcome, Outcome::computed) << volume.reason;
     const Mesh before = moved(volume.mesh, offset);
     const solid::TriangleTree whole(before);
@@ -391,12 +392,12 @@ TEST(Navigation, LimitsThatTouchCornersAndEdgesOfTheVolume) {
 TEST(Navigation, WhatDoesNotChangeIsPassedThrough) {
   Volume dome = bumpy_dome(Vec3(0, 0, 0));
   dome.tolerance_m = 0.5;
-  dome.lift_m = 0.001;
+  dome.lift_m = {0.001};
   dome.counts.visible_blockers = 17;
   dome.seconds.engine = 3;
   const Volume cut = cut_to_navigation(dome, band(5, 20));
   EXPECT_EQ(cut.tolerance_m, 0.5);
-  EXPECT_EQ(cut.lift_m, 0.001);
+  EXPECT_EQ(cut.lift_m, std::vector{0.001});
   EXPECT_EQ(cut.counts.visible_blockers, 17u);
   EXPECT_EQ(cut.seconds.engine, 3);
   EXPECT_GT(cut.seconds.navigation, 0);

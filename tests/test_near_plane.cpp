@@ -74,7 +74,7 @@ struct Case {
 Case make_case(const std::vector<Vec3>& outline, const Pose& pose, double scale, const Wall& wall) {
   Case made;
   made.range = 50 * scale;
-  for (const Vec3& t : outline) made.target.vertices.push_back(pose(scale * t));
+  for (const Vec3& t : outline) made.target.parts[0].push_back(pose(scale * t));
   made.target.front = pose.turn * Vec3::UnitZ();
   const Vec3 a = scale * outline[wall.edge], b = scale * outline[(wall.edge + 1) % outline.size()];
   const Vec3 along = (b - a).normalized(), in = Vec3(-along.y(), along.x(), 0) * wall.inward;
@@ -118,7 +118,7 @@ Agreement compare_with_query(const PreparedScene& scene, const Case& made, const
     reaches.push_back(reach_of_mesh(volume, direction));
     points.emplace_back(frame.origin + 0.5 * reaches.back() * direction);
   }
-  const auto answers = query_points(scene, made.target, {made.range}, {}, points);
+  const auto answers = query_points(PreparedTarget(scene, made.target, {made.range}), {}, points);
   Agreement worst;
   for (int i = 0; i < kDirections; ++i) {
     const double seen = answers[i].margin_m + (points[i] - frame.origin).norm();
@@ -129,7 +129,7 @@ Agreement compare_with_query(const PreparedScene& scene, const Case& made, const
 }
 
 Volume compute(const PreparedScene& scene, const Case& made) {
-  Volume volume = compute_visibility(scene, made.target, {made.range}, {1e-3 * made.range, 0});
+  Volume volume = compute_visibility(PreparedTarget(scene, made.target, {made.range}), {1e-3 * made.range, 0});
   EXPECT_EQ(volume.outcome, Outcome::computed) << volume.reason;
   const MeshMeasures m = measure(volume.mesh);
   EXPECT_TRUE(m.closed && m.oriented && m.euler == 2 && m.pieces == 1);
@@ -169,7 +169,7 @@ TEST(NearPlane, WallsAHairOverTheTarget) {
 /// Nothing if the target is refused as pierced, 0 if the view is blocked at once.
 std::optional<double> volume_of(const Scene& scene, const Target& target, double range) {
   try {
-    const Volume volume = compute_visibility(PreparedScene(scene), target, {range}, {1e-3 * range, 0});
+    const Volume volume = compute_visibility(PreparedTarget(PreparedScene(scene), target, {range}), {1e-3 * range, 0});
     return volume.outcome == Outcome::computed ? enclosed_volume(volume.mesh) : 0;
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::input) << error.what();
@@ -239,7 +239,7 @@ TEST(NearPlane, SmallWorldsAreLikeLargeOnes) {
       Scene scaled = scene;
       for (Vec3& v : scaled.mesh.vertices) v *= scale;
       Target target = target_of(outline);
-      for (Vec3& v : target.vertices) v *= scale;
+      for (Vec3& v : target.parts[0]) v *= scale;
       const std::optional<double> found = volume_of(scaled, target, 50 * scale);
       ASSERT_EQ(found.has_value(), expected.has_value());
       if (!found || *expected < 1e3) continue;  // a hand's breadth is one in large worlds only

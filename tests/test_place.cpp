@@ -3,8 +3,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/report.h"
-#include "app/result_files.h"
 #include "geo/local_frame.h"
 #include "io/georeference_text.h"
 #include "io/place_file.h"
@@ -12,6 +10,7 @@
 #include "support/objects.h"
 #include "support/solids.h"
 #include "support/temporary_directory.h"
+#include "vantage/result.h"
 #include "vantage/scene.h"
 #include "vantage/volume.h"
 
@@ -78,9 +77,9 @@ TEST(Place, TravelsInVolumesAndReports) {
   expect_same(read.georeference, kPlace);
   EXPECT_EQ(bounding_box(read.mesh).max, Vec3(4, 6, 8));
 
-  app::ResultRequest request;
+  ResultRequest request;
   request.volumes = {directory / "b.stl", directory / "c.ply"};
-  app::write_results(volume, request);
+  write_results(volume, request);
   expect_same(read_scene(directory / "b.stl").georeference, kPlace);
   for (const char* name : {"b.report.json", "c.report.json"}) {
     const json report = json::parse(read_bytes(directory / name));
@@ -88,7 +87,7 @@ TEST(Place, TravelsInVolumesAndReports) {
     EXPECT_EQ(report["georeference"]["projection"], projection_text(kPlace));
   }
   volume.georeference.reset();
-  EXPECT_FALSE(json::parse(app::report_json(volume, measure(volume.mesh))).contains("georeference"));
+  EXPECT_FALSE(json::parse(report_json(volume, measure(volume.mesh))).contains("georeference"));
 }
 
 TEST(Place, IsRefusedWhenGarbled) {

@@ -31,13 +31,13 @@ constexpr double kBall = 4 * std::numbers::pi / 3;
 Target point(const Vec3& place, const std::optional<Vec3>& front = std::nullopt) {
   Target target;
   target.name = "camera";
-  target.vertices = {place};
+  target.parts[0] = {place};
   target.front = front;
   return target;
 }
 
 Volume volume_of(const Scene& scene, const Target& target, double range, double tolerance = 0.01) {
-  return compute_visibility(PreparedScene(scene), target, {range}, {.tolerance_m = tolerance});
+  return compute_visibility(PreparedTarget(PreparedScene(scene), target, {range}), {.tolerance_m = tolerance});
 }
 
 /// Volume by rays: within range, before the first hit, on the front.
@@ -51,7 +51,7 @@ double ray_volume(const Scene& scene, const Volume& volume, double range, std::s
 
 VerifyReport verified(const Scene& scene, const Target& target, const Volume& volume, double range) {
   Target raised = target;
-  raised.offset_m += volume.lift_m;
+  raised.offset_m += volume.lift_m.at(0);
   return verify_volume(scene, raised, {range}, {}, volume.mesh, {.points = 8000});
 }
 
@@ -83,7 +83,7 @@ TEST(PointTarget, AloneIsABall) {
   ASSERT_EQ(volume.causes.size(), 1U) << "no wall is left between the halves";
   EXPECT_EQ(volume.causes[0].kind, CauseKind::range);
   EXPECT_NEAR(volume.causes[0].area_m2, 4 * std::numbers::pi * 2500, 1);
-  EXPECT_EQ(volume.lift_m, 0);
+  EXPECT_EQ(volume.lift_m.at(0), 0);
   EXPECT_TRUE(volume.frame.all_sides);
 }
 
@@ -166,7 +166,7 @@ Scene plates(Random& random, int count) {
     const double angle = random.uniform(0, 2 * std::numbers::pi), away = random.uniform(15, 120);
     const Vec3 centre(away * std::cos(angle), away * std::sin(angle), random.uniform(0.5e-3, 5e-3));
     builder.polygon("plate " + std::to_string(k),
-                    random_target(random, random.integer(4, 16), random.uniform(2, 8), centre, Vec3::UnitZ()).vertices);
+                    random_target(random, random.integer(4, 16), random.uniform(2, 8), centre, Vec3::UnitZ()).parts[0]);
   }
   return builder;
 }
@@ -276,7 +276,7 @@ TEST(PointTarget, ForbidsNoSideToQueries) {
   builder.ground("ground", 100).box("block", {5, -5, 0}, {15, 5, 20});
   const PreparedScene scene(builder);
   const auto answers =
-      query_points(scene, point({0, 0, 3}), {60}, {},
+      query_points(PreparedTarget(scene, point({0, 0, 3}), {60}), {},
                    {{0, 0, 20}, {0, 0, 1}, {-10, 0, 1}, {0, 0, -5}, {20, 0, 3}, {0, 0, 70}, {0, 0, 3}});
   for (const PointAnswer& answer : answers) EXPECT_FALSE(answer.behind_target);
   EXPECT_TRUE(answers[0].inside);
@@ -292,7 +292,8 @@ TEST(PointTarget, ForbidsNoSideToQueries) {
   EXPECT_NEAR(answers[4].margin_m, -15, 1e-5);
   EXPECT_TRUE(answers[5].out_of_range);
   EXPECT_TRUE(answers[6].inside) << "the point itself";
-  const auto front = query_points(scene, point({0, 0, 3}, Vec3(0, 0, 1)), {60}, {}, {{0, 0, 20}, {0, 0, 1}});
+  const auto front =
+      query_points(PreparedTarget(scene, point({0, 0, 3}, Vec3(0, 0, 1)), {60}), {}, {{0, 0, 20}, {0, 0, 1}});
   EXPECT_TRUE(front[0].inside);
   EXPECT_TRUE(front[1].behind_target);
   EXPECT_FALSE(front[1].inside);
@@ -307,11 +308,11 @@ TEST(PointTarget, QueriesAgreeWithRays) {
     const Target target =
         point({random.uniform(-1, 1), random.uniform(-1, 1), round < 2 ? 0 : random.uniform(0.01, 30)});
     const double range = 80;
-    const TargetFrame frame = compute_visibility(prepared, target, {range}).frame;
+    const TargetFrame frame = compute_visibility(PreparedTarget(prepared, target, {range})).frame;
     const RayCaster rays(city.mesh, frame.origin);
     std::vector<Vec3> points;
     for (int i = 0; i < 2000; ++i) points.push_back(frame.origin + random.direction() * random.uniform(0.01, 90));
-    const auto answers = query_points(prepared, target, {range}, {}, points);
+    const auto answers = query_points(PreparedTarget(prepared, target, {range}), {}, points);
     for (std::size_t i = 0; i < points.size(); ++i) {
       const Vec3 way = points[i] - frame.origin;
       const double seen = rays.first_hit(way.normalized(), range), margin = seen - way.norm();
@@ -396,7 +397,7 @@ TEST(HeavyPointCities, NothingHiddenIsClaimedBesideEdges) {
       place.z() = kHeights[made % kHeights.size()];
       std::optional<Volume> volume;
       try {
-        volume = compute_visibility(prepared, point(place), {700}, {.tolerance_m = 0.1});
+        volume = compute_visibility(PreparedTarget(prepared, point(place), {700}), {.tolerance_m = 0.1});
       } catch (const Error& error) {
         ASSERT_EQ(error.kind(), ErrorKind::input) << error.what();
         continue;  // on a wall

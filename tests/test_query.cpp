@@ -14,6 +14,7 @@
 #include "support/random.h"
 #include "support/solids.h"
 #include "vantage/error.h"
+#include "vantage/navigation.h"
 #include "vantage/query.h"
 #include "vantage/volume.h"
 
@@ -32,14 +33,14 @@ Scene walls() {
 
 Target square() {
   Target target;
-  target.vertices = {{-5, -5, 0}, {5, -5, 0}, {5, 5, 0}, {-5, 5, 0}};
+  target.parts[0] = {{-5, -5, 0}, {5, -5, 0}, {5, 5, 0}, {-5, 5, 0}};
   return target;
 }
 
 TEST(Query, NamesWhatHidesAndByHowMuch) {
   const PreparedScene scene(walls());
-  const auto answers =
-      query_points(scene, square(), {50}, {}, {{0, 0, 20}, {20, 0, 1}, {-30, 0, 20}, {0, 0, 60}, {0, 0, -1}});
+  const auto answers = query_points(PreparedTarget(scene, square(), {50}), {},
+                                    {{0, 0, 20}, {20, 0, 1}, {-30, 0, 20}, {0, 0, 60}, {0, 0, -1}});
   EXPECT_TRUE(answers[0].inside);
   // Straight up the range ends where the corners are 50 m away.
   EXPECT_NEAR(answers[0].margin_m, std::sqrt(50.0 * 50 - 50) - 20, 1e-9);
@@ -58,8 +59,8 @@ TEST(Query, NamesTheLimitsThatArePassed) {
   navigation.boxes = {{Vec3(-10, -10, 0), Vec3(10, 10, 40)}};
   navigation.keep_out = {{Vec3(-1, -1, 15), Vec3(1, 1, 25)}};
   const PreparedScene scene(walls());
-  const auto answers =
-      query_points(scene, square(), {50}, navigation, {{0, 0, 10}, {0, 0, 20}, {0, 0, 35}, {0, 12, 20}, {0, 3, 2}});
+  const auto answers = query_points(PreparedTarget(scene, square(), {50}), navigation,
+                                    {{0, 0, 10}, {0, 0, 20}, {0, 0, 35}, {0, 12, 20}, {0, 3, 2}});
   EXPECT_TRUE(answers[0].inside);
   EXPECT_EQ(answers[1].outside_of, std::vector<std::string>{"keep_out 0"});
   EXPECT_EQ(answers[2].outside_of, std::vector<std::string>{"altitude max"});
@@ -73,7 +74,7 @@ TEST(Query, LimitsBoundTheMargin) {
   navigation.keep_out = {{Vec3(-1, -1, 15), Vec3(1, 1, 25)}};
   const PreparedScene scene(walls());
   const auto margin = [&](const Vec3& point) {
-    return query_points(scene, square(), {50}, navigation, {point})[0].margin_m;
+    return query_points(PreparedTarget(scene, square(), {50}), navigation, {point})[0].margin_m;
   };
   EXPECT_NEAR(margin({0, 0, 7}), 2, 1e-9);
   EXPECT_NEAR(margin({0, 0, 14}), 1, 1e-9);
@@ -102,7 +103,7 @@ TEST(Query, BoxesAndMeshesBoundTheMargin) {
                    {testing::make_box_mesh(Vec3(-40, -40, -1), Vec3(40, 40, 40)), "all"}};
   for (const Navigation& navigation : {boxes, meshes}) {
     const std::vector<Vec3> points = {{0, 0, 18}, {0, 0, 30}, {0, 0, 4}, {0, 0, 35}, {0, 0, -1}, {0, 20, 4}};
-    const auto answers = query_points(scene, square(), {50}, navigation, points);
+    const auto answers = query_points(PreparedTarget(scene, square(), {50}), navigation, points);
     const std::vector<double> expected = {8, 2, -6, -3, -11, -INFINITY};
     for (std::size_t i = 0; i < points.size(); ++i) {
       EXPECT_EQ(answers[i].inside, i < 2) << points[i].transpose();
@@ -135,7 +136,7 @@ TEST(Query, TheMarginIsWhereTheAnswerChanges) {
   std::vector<Vec3> points;
   for (int i = 0; i < 2000; ++i) points.emplace_back(side(random), side(random), up(random));
   for (const Navigation& navigation : {Navigation(), some_limits()}) {
-    const auto answers = query_points(scene, square(), {50}, navigation, points);
+    const auto answers = query_points(PreparedTarget(scene, square(), {50}), navigation, points);
     constexpr double kStep = 1e-6;
     std::vector<Vec3> before, beyond;  // two a point: away from the target's centre and towards it
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -146,8 +147,8 @@ TEST(Query, TheMarginIsWhereTheAnswerChanges) {
         beyond.push_back(points[i] + away * (margin + kStep));
       }
     }
-    const auto same = query_points(scene, square(), {50}, navigation, before);
-    const auto other = query_points(scene, square(), {50}, navigation, beyond);
+    const auto same = query_points(PreparedTarget(scene, square(), {50}), navigation, before);
+    const auto other = query_points(PreparedTarget(scene, square(), {50}), navigation, beyond);
     int inside = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
       const bool is_inside = answers[i].inside, has_boundary = std::isfinite(answers[i].margin_m);
@@ -166,7 +167,7 @@ TEST(Query, TheMarginIsWhereTheAnswerChanges) {
 
 TEST(Query, AgreesWithTheMesh) {
   const PreparedScene scene(walls());
-  const Volume whole = compute_visibility(scene, square(), {50}, {0.05, 0});
+  const Volume whole = compute_visibility(PreparedTarget(scene, square(), {50}), {0.05, 0});
   const unsigned seed = 20240817;
   std::cout << "seed " << seed << "\n";
   std::mt19937_64 random(seed);
@@ -175,7 +176,7 @@ TEST(Query, AgreesWithTheMesh) {
   for (int i = 0; i < 1000; ++i) points.emplace_back(side(random), side(random), up(random));
   for (const Navigation& navigation : {Navigation(), some_limits()}) {
     const Volume volume = cut_to_navigation(whole, navigation);
-    const auto answers = query_points(scene, square(), {50}, navigation, points);
+    const auto answers = query_points(PreparedTarget(scene, square(), {50}), navigation, points);
     int inside = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
       if (std::abs(answers[i].margin_m) < 0.1) continue;  // the mesh's own tolerance
@@ -254,7 +255,8 @@ TEST_P(QueryAtScale, ManyPointsGetTheBitsOfEachAlone) {
     const PreparedScene scene(soup(random, scale, at));
     Target target;
     target.offset_m = round == 2 ? 1e-7 * scale : 0;
-    for (const Vec3& v : square().vertices) target.vertices.push_back(at + scale * v);
+    const Target given = square();
+    for (const Vec3& v : given.parts[0]) target.parts[0].push_back(at + scale * v);
     std::vector<Vec3> points;
     for (int i = 0; i < 400; ++i) {
       const double reach = i % 4 == 3 ? 300 : 60;  // some far out of range
@@ -270,12 +272,12 @@ TEST_P(QueryAtScale, ManyPointsGetTheBitsOfEachAlone) {
       points.emplace_back(at + random.uniform(0.2, 1.2) * (middle + 1e-3 * middle.norm() * random.point(-1, 1)));
     }
     const Sensor sensor{50 * scale};
-    PointQuery query(scene, {target}, sensor, {});
+    PointQuery query(PreparedTarget(scene, target, sensor));
     for (int i = 0; i < 200; ++i) query.answer(std::span(points).subspan(first_of_bundle));
     const auto answers = query.answer(points);
     std::size_t inside = 0, blocked = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
-      expect_same(answers[i], query_points(scene, target, sensor, {}, {points[i]})[0], points[i]);
+      expect_same(answers[i], query_points(PreparedTarget(scene, target, sensor), {}, {points[i]})[0], points[i]);
       inside += answers[i].inside;
       blocked += answers[i].blocked_by.size();
     }
@@ -293,20 +295,19 @@ TEST(Query, PointsSeenFromAllSidesAndTargetsInPartsGetTheSameBits) {
   const PreparedScene scene(soup(random, 1, Vec3::Zero()));
   std::vector<Vec3> points;
   for (int i = 0; i < 300; ++i) points.push_back(random.point(-60, 60));
-  Target point, left, right;
-  point.vertices = {{0, 0, 4}};
-  left.vertices = {{-5, -5, 0}, {0, -5, 0}, {0, 5, 0}, {-5, 5, 0}};
-  right.vertices = {{0, -5, 0}, {5, -5, 0}, {0, 5, 0}};
-  for (const std::vector<Target>& parts : {std::vector<Target>{point}, std::vector<Target>{left, right}}) {
-    PointQuery query(scene, parts, {50}, some_limits());
+  Target two;
+  two.parts = {{{-5, -5, 0}, {0, -5, 0}, {0, 5, 0}, {-5, 5, 0}}, {{0, -5, 0}, {5, -5, 0}, {0, 5, 0}}};
+  for (const Target& target : {Target::point({0, 0, 4}), two}) {
+    const PreparedTarget prepared(scene, target, {50});
+    PointQuery query(prepared, some_limits());
     query.answer(points);
     const auto answers = query.answer(points);
     for (std::size_t i = 0; i < points.size(); ++i) {
-      PointQuery fresh(scene, parts, {50}, some_limits());
+      PointQuery fresh(prepared, some_limits());
       expect_same(answers[i], fresh.answer({&points[i], 1})[0], points[i]);
       bool sees_all = true;
-      for (const Target& part : parts) {
-        sees_all = sees_all && query_points(scene, part, {50}, some_limits(), {points[i]})[0].inside;
+      for (std::size_t part = 0; part < target.parts.size(); ++part) {
+        sees_all = sees_all && query_points(prepared.part(part), some_limits(), {points[i]})[0].inside;
       }
       EXPECT_EQ(answers[i].inside, sees_all);
     }
@@ -320,8 +321,9 @@ TEST(Query, ThreadsChangeNoBit) {
   for (int i = 0; i < 4000; ++i) points.push_back(random.point(-60, 60));
   std::vector<std::vector<PointAnswer>> answers(2);
   for (const int threads : {1, 4}) {
-    parallel::with_threads(
-        threads, [&] { answers[threads == 1 ? 0 : 1] = query_points(scene, square(), {50}, some_limits(), points); });
+    parallel::with_threads(threads, [&] {
+      answers[threads == 1 ? 0 : 1] = query_points(PreparedTarget(scene, square(), {50}), some_limits(), points);
+    });
   }
   for (std::size_t i = 0; i < points.size(); ++i) expect_same(answers[0][i], answers[1][i], points[i]);
 }
@@ -331,7 +333,8 @@ TEST(Query, TellsTheMarginHoweverFarAway) {
   Navigation zone;
   zone.meshes = {{testing::make_box_mesh(Vec3(-9, -9, 0), Vec3(9, 9, 32)), "zone"}};
   for (const double far : {1e9, 1e149, 1e151, 1e155, 1e200, 1.7e308}) {
-    const auto answers = query_points(scene, square(), {50}, zone, {{0, 0, far}, {far, 0, 1}, {0, 0, -far}});
+    const auto answers =
+        query_points(PreparedTarget(scene, square(), {50}), zone, {{0, 0, far}, {far, 0, 1}, {0, 0, -far}});
     EXPECT_NEAR(answers[0].margin_m / -far, 1, 1e-7) << far;
     EXPECT_TRUE(answers[0].out_of_range);
     EXPECT_FALSE(answers[0].behind_target);
@@ -343,7 +346,7 @@ TEST(Query, TellsTheMarginHoweverFarAway) {
   }
   const double most = std::numeric_limits<double>::max();
   for (const double sign : {1.0, -1.0}) {
-    const auto answer = query_points(scene, square(), {50}, {}, {Vec3(most, most, sign * most)})[0];
+    const auto answer = query_points(PreparedTarget(scene, square(), {50}), {}, {Vec3(most, most, sign * most)})[0];
     EXPECT_TRUE(std::isfinite(answer.margin_m)) << answer.margin_m;
     EXPECT_LT(answer.margin_m, -1e308);
     EXPECT_EQ(answer.behind_target, sign < 0);
@@ -352,17 +355,17 @@ TEST(Query, TellsTheMarginHoweverFarAway) {
 
 TEST(Query, RefusesNoPartsAndRangesWithoutBound) {
   const PreparedScene scene(walls());
-  EXPECT_THROW(PointQuery(scene, {}, {50}, {}), Error);
-  EXPECT_THROW(PointQuery(scene, {square()}, {1e10}, {}), Error);
-  EXPECT_THROW(PointQuery(scene, {square()}, {NAN}, {}), Error);
+  EXPECT_THROW(PointQuery(PreparedTarget(scene, {}, {50}), {}), Error);
+  EXPECT_THROW(PointQuery(PreparedTarget(scene, {square()}, {1e10}), {}), Error);
+  EXPECT_THROW(PointQuery(PreparedTarget(scene, {square()}, {NAN}), {}), Error);
 }
 
 TEST(Query, RefusesPointsThatAreNotNumbers) {
-  EXPECT_THROW(query_points(PreparedScene(walls()), square(), {50}, {}, {{NAN, 0, 0}}), Error);
+  EXPECT_THROW(query_points(PreparedTarget(PreparedScene(walls()), square(), {50}), {}, {{NAN, 0, 0}}), Error);
 }
 
 TEST(Query, OutOfReachOfEveryone) {
-  const auto answers = query_points(PreparedScene(walls()), square(), {6}, {}, {{0, 0, 1}});
+  const auto answers = query_points(PreparedTarget(PreparedScene(walls()), square(), {6}), {}, {{0, 0, 1}});
   EXPECT_TRUE(answers[0].out_of_range);
   EXPECT_FALSE(answers[0].inside);
   EXPECT_EQ(answers[0].margin_m, -INFINITY);

@@ -87,7 +87,9 @@ TEST_F(RenderPicture, ShowsTheTargetWhereItIs) {
 
 TEST_F(RenderPicture, ShowsEveryPartOfTheTarget) {
   EXPECT_FALSE(is_red(at(render(), -20, 25)));
-  request_.other_parts = {testing::target_of({{-25, 20, 0}, {-15, 20, 0}, {-15, 30, 0}, {-25, 30, 0}})};
+  Target target = *request_.target;
+  target.parts.push_back({{-25, 20, 0}, {-15, 20, 0}, {-15, 30, 0}, {-25, 30, 0}});
+  request_.target = &target;
   const Picture picture = render();
   EXPECT_TRUE(is_red(at(picture, -20, 25)));
   EXPECT_TRUE(is_red(at(picture, 0, 0)));
@@ -109,7 +111,7 @@ TEST_F(RenderPicture, MovesTheTargetByItsOffset) {
   target_ = testing::target_of({{-5, 0, 5}, {5, 0, 5}, {5, 0, 15}, {-5, 0, 15}});
   target_.front = Vec3(0, -1, 0);
   EXPECT_TRUE(is_red(at(render(), 0, 10)));
-  target_.vertices = {{-5, -5, 10}, {5, -5, 10}, {5, 5, 10}, {-5, 5, 10}};
+  target_.parts[0] = {{-5, -5, 10}, {5, -5, 10}, {5, 5, 10}, {-5, 5, 10}};
   target_.front.reset();
   target_.offset_m = 20;
   request_.view.kind = PictureView::Kind::top;
@@ -223,7 +225,7 @@ TEST_F(RenderPicture, KeepsItsDetailFarFromTheOrigin) {
   const Picture here = render();
   const Vec3 far(580000, 4785000, 200);
   for (Vec3& vertex : scene_.mesh.vertices) vertex += far;
-  for (Vec3& vertex : target_.vertices) vertex += far;
+  for (Vec3& vertex : target_.parts[0]) vertex += far;
   for (Vec3& point : request_.frame) point += far;
   const Picture there = render();
   EXPECT_TRUE(is_red(at(there, 4.5, 4.5)));

@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "app/result_files.h"
 #include "core/progress_reporter.h"
 #include "support/solids.h"
 #include "support/temporary_directory.h"
 #include "vantage/error.h"
+#include "vantage/result.h"
 
 namespace vantage::app {
 namespace {

@@ -22,7 +22,7 @@ class RiseOverFacets : public ::testing::Test {
  protected:
   RiseOverFacets() {
     Target target;
-    target.vertices = {{-1, -1, 0.5}, {1, -1, 0.5}, {0, 1, 0.5}};
+    target.parts[0] = {{-1, -1, 0.5}, {1, -1, 0.5}, {0, 1, 0.5}};
     const TargetFrame frame = make_target_frame(target);
     const PreparedScene prepared(testing::random_city(random_, 30, 3));
     const target::LocalTarget local = target::make_local_target(frame.polygon, 1e-9, 0);

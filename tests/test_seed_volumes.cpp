@@ -11,10 +11,10 @@
 #include <numeric>
 #include <sstream>
 
-#include "app/seed_run.h"
 #include "depth/depth.h"
 #include "support/cli_fixture.h"
 #include "support/shared_data.h"
+#include "vantage/willis.h"
 
 namespace vantage::testing {
 namespace {

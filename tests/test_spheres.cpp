@@ -61,8 +61,8 @@ Result run(const Scene& scene, const Target& target, const SpheresOptions& optio
       result.meshes.push_back(stage.mesh ? *stage.mesh : Mesh());
     };
   }
-  result.volume =
-      spheres::compute_visibility(PreparedScene(scene), target, {range}, options, renderer, &result.report, sink, {});
+  result.volume = spheres::compute_visibility(PreparedTarget(PreparedScene(scene), target, {range}), options, renderer,
+                                              &result.report, sink, {});
   result.images = renderer.images;
   result.requests = renderer.requests;
   return result;
@@ -110,7 +110,7 @@ TEST(Spheres, OpenGroundNeedsNoSplit) {
   EXPECT_EQ(result.report.unresolved_pairs, 0U);
   EXPECT_EQ(result.requests, 1);
   EXPECT_EQ(result.images, 3);
-  const Volume exact = compute_visibility(PreparedScene(scene), triangle(), {kRange});
+  const Volume exact = compute_visibility(PreparedTarget(PreparedScene(scene), triangle(), {kRange}));
   const double truth = enclosed_volume(exact.mesh), found = enclosed_volume(result.volume.mesh);
   EXPECT_LT(found, truth);
   EXPECT_GT(found, 0.97 * truth);
@@ -270,8 +270,8 @@ TEST(Spheres, ConservativeVolumesLieInWhatTheVerticesSee) {
     if (result.volume.outcome != Outcome::computed) continue;
     expect_sound(result.volume);
     expect_seen(scene, result.volume, corners_of(result.volume), 60);
-    const Volume exact = compute_visibility(PreparedScene(scene), target, {kRange});
-    EXPECT_EQ(result.volume.lift_m, std::max(exact.lift_m, 1e-6));
+    const Volume exact = compute_visibility(PreparedTarget(PreparedScene(scene), target, {kRange}));
+    EXPECT_EQ(result.volume.lift_m.at(0), std::max(exact.lift_m.at(0), 1e-6));
   }
 }
 
@@ -337,11 +337,12 @@ TEST(Spheres, RefusesOptionsOutOfRange) {
 TEST(Spheres, RefusesTargetsAsTheExactEngineDoes) {
   SceneBuilder scene;
   scene.ground("ground", 200).box("block", {-1, 1, -1}, {1, 3, 5});
-  const std::string exact = problem_of([&] { compute_visibility(PreparedScene(scene), triangle(), {kRange}); });
+  const std::string exact =
+      problem_of([&] { compute_visibility(PreparedTarget(PreparedScene(scene), triangle(), {kRange})); });
   EXPECT_EQ(problem_of([&] { run(scene, triangle(), coarse(4)); }), exact);
   EXPECT_NE(exact.find("block"), std::string::npos);
   EXPECT_EQ(problem_of([&] { run(scene, triangle(), coarse(4), false, -1); }),
-            problem_of([&] { compute_visibility(PreparedScene(scene), triangle(), {-1}); }));
+            problem_of([&] { compute_visibility(PreparedTarget(PreparedScene(scene), triangle(), {-1})); }));
 }
 
 TEST(Spheres, PointsAreRaisedAndRefusedAsTheExactEngineDoes) {
@@ -349,11 +350,11 @@ TEST(Spheres, PointsAreRaisedAndRefusedAsTheExactEngineDoes) {
   const Vec3 up = Vec3(-0.3, -0.1, 1).normalized();
   slope.polygon("slope", {{-100, -100, -40}, {100, -100, 20}, {100, 100, 40}, {-100, 100, -20}});
   const Target under = target_of({{3.3, 7.7, 1.759}});  // by a millimetre
-  const Volume exact = compute_visibility(PreparedScene(slope), under, {kRange});
+  const Volume exact = compute_visibility(PreparedTarget(PreparedScene(slope), under, {kRange}));
   const Result found = run(slope, under, coarse(10));
   expect_sound(found.volume);
-  EXPECT_GT(found.volume.lift_m, 1e-3);
-  EXPECT_EQ(found.volume.lift_m, exact.lift_m);
+  EXPECT_GT(found.volume.lift_m.at(0), 1e-3);
+  EXPECT_EQ(found.volume.lift_m.at(0), exact.lift_m.at(0));
   for (const Vec3& v : found.volume.mesh.vertices) EXPECT_GT(v.dot(up), 0);
 
   SceneBuilder block;
@@ -361,7 +362,8 @@ TEST(Spheres, PointsAreRaisedAndRefusedAsTheExactEngineDoes) {
   Target along_ground = target_of({{0, 0, 0}});
   along_ground.front = Vec3(0, 1, 0);
   for (const Target& target : {target_of({{10, 0, 5}}), target_of({{9.999, 0, 5}}), along_ground}) {
-    const std::string refusal = problem_of([&] { compute_visibility(PreparedScene(block), target, {kRange}); });
+    const std::string refusal =
+        problem_of([&] { compute_visibility(PreparedTarget(PreparedScene(block), target, {kRange})); });
     EXPECT_NE(refusal.find("stands on or passes through the target"), std::string::npos) << refusal;
     EXPECT_EQ(problem_of([&] { run(block, target, coarse(4)); }), refusal);
   }
@@ -407,8 +409,8 @@ TEST(Spheres, StopsWhenTold) {
   const SceneBuilder scene = bar_across();
   BruteDepth renderer(scene.scene().mesh);
   const auto story = testing::check_progress([&](const Progress& progress) {
-    spheres::compute_visibility(PreparedScene(scene), triangle(), {kRange}, coarse(12), renderer, nullptr, {},
-                                progress);
+    spheres::compute_visibility(PreparedTarget(PreparedScene(scene), triangle(), {kRange}), coarse(12), renderer,
+                                nullptr, {}, progress);
   });
   EXPECT_EQ(story.stages.front(), "making spheres");
   EXPECT_EQ(story.last_fraction.at("intersecting spheres"), 1);

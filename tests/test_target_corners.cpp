@@ -63,7 +63,7 @@ Drawn draw_target(Random& random, double scale, bool on_map) {
   drawn.centre = on_map ? kOnMap : Vec3(scale * random.point(-3, 3));
   const OutlineDraw draw(random);
   drawn.places = draw.places();
-  for (const Vector2d& p : draw.outline()) drawn.target.vertices.push_back(drawn.at(p));
+  for (const Vector2d& p : draw.outline()) drawn.target.parts[0].push_back(drawn.at(p));
   drawn.target.front = drawn.n;
   return drawn;
 }
@@ -80,7 +80,7 @@ TEST(TargetCorners, TheFrameHoldsEveryVertex) {
       for (int draw = 0; draw < 300; ++draw) {
         SCOPED_TRACE(std::to_string(scale) + (on_map ? " m on the map, draw " : " m, draw ") + std::to_string(draw));
         Drawn drawn = draw_target(random, scale, on_map);
-        auto& vertices = drawn.target.vertices;
+        auto& vertices = drawn.target.parts[0];
         if (random.chance(0.5)) std::reverse(vertices.begin(), vertices.end());
         std::rotate(vertices.begin(), vertices.begin() + random.integer(0, int(vertices.size()) - 1), vertices.end());
         TargetFrame frame;
@@ -153,7 +153,7 @@ TEST(TargetCorners, WhatIsClaimedSeesEveryVertex) {
         const PreparedScene prepared(scene);
         Volume volume;
         try {
-          volume = compute_visibility(prepared, drawn.target, {30 * scale}, {0.1 * scale, 0});
+          volume = compute_visibility(PreparedTarget(prepared, drawn.target, {30 * scale}), {0.1 * scale, 0});
         } catch (const Error& error) {
           ASSERT_NE(error.problem().find("same point"), std::string::npos) << error.problem();
           continue;
@@ -162,7 +162,7 @@ TEST(TargetCorners, WhatIsClaimedSeesEveryVertex) {
         ++volumes;
         const MeshMeasures m = measure(volume.mesh);
         EXPECT_TRUE(m.closed && m.oriented && m.euler == 2 && m.pieces == 1);
-        const Verdict verdict = judge(volume, scene.mesh, drawn.target.vertices, 250, rounding(drawn), random);
+        const Verdict verdict = judge(volume, scene.mesh, drawn.target.parts[0], 250, rounding(drawn), random);
         looked += verdict.looked;
         EXPECT_EQ(verdict.hidden, 0U) << "of " << verdict.looked << ", deepest " << verdict.deepest;
       }
@@ -178,8 +178,8 @@ std::size_t wrong_answers(const Scene& scene, const Target& target, double range
   for (int x = -9; x <= 9; ++x)
     for (int y = -9; y <= 9; ++y)
       for (int z = 1; z <= 6; ++z) points.emplace_back(10.3 * x, 10.7 * y, 9.1 * z);
-  const auto answers = query_points(PreparedScene(scene), target, {range}, {}, points);
-  const ClipOracle oracle(scene.mesh, target.vertices);
+  const auto answers = query_points(PreparedTarget(PreparedScene(scene), target, {range}), {}, points);
+  const ClipOracle oracle(scene.mesh, target.parts[0]);
   std::size_t wrong = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (answers[i].out_of_range) continue;
@@ -195,15 +195,15 @@ TEST(TargetCorners, ChamfersAreCorners) {
   Target all;
   for (const auto& [x, y] : {std::pair{-50, -50}, {50, -50}, {50, 50}, {-50, 50}}) {
     const Vec3 corner(x, y, 0), first(x * y > 0 ? 0 : x, x * y > 0 ? y : 0, 0);
-    all.vertices.push_back(corner - cut / 50 * first);
-    all.vertices.push_back(corner - cut / 50 * (corner - first));
+    all.parts[0].push_back(corner - cut / 50 * first);
+    all.parts[0].push_back(corner - cut / 50 * (corner - first));
   }
   const Target square = target_of({{-50, -50, 0}, {50, -50, 0}, {50, 50, 0}, {-50, 50, 0}});
-  const double right = enclosed_volume(compute_visibility(PreparedScene(scene), square, {200}).mesh);
+  const double right = enclosed_volume(compute_visibility(PreparedTarget(PreparedScene(scene), square, {200})).mesh);
   for (const Target& target : {one, all}) {
-    const Volume volume = compute_visibility(PreparedScene(scene), target, {200});
+    const Volume volume = compute_visibility(PreparedTarget(PreparedScene(scene), target, {200}));
     ASSERT_EQ(volume.outcome, Outcome::computed);
-    EXPECT_EQ(volume.frame.polygon.size(), target.vertices.size());
+    EXPECT_EQ(volume.frame.polygon.size(), target.parts[0].size());
     EXPECT_NEAR(enclosed_volume(volume.mesh), right, 1e-5 * right);
     EXPECT_EQ(wrong_answers(scene, target, 200), 0U);
   }
@@ -214,11 +214,11 @@ TEST(TargetCorners, AFilletOfSixtyVerticesIsACorner) {
   Target target = target_of({{-2500, -2500, 0}, {2500, -2500, 0}});
   for (int k = 0; k < 60; ++k) {
     const double angle = k / 59.0 * std::numbers::pi / 2, r = 9.5e-3;
-    target.vertices.emplace_back(2500 - r + r * std::cos(angle), 2500 - r + r * std::sin(angle), 0);
+    target.parts[0].emplace_back(2500 - r + r * std::cos(angle), 2500 - r + r * std::sin(angle), 0);
   }
-  target.vertices.emplace_back(-2500, 2500, 0);
+  target.parts[0].emplace_back(-2500, 2500, 0);
   const TargetFrame frame = make_target_frame(target);
-  for (const Vec3& vertex : target.vertices) EXPECT_LT(outside(frame.polygon, frame.to_local(vertex).head<2>()), 1e-11);
+  for (const Vec3& vertex : target.parts[0]) EXPECT_LT(outside(frame.polygon, frame.to_local(vertex).head<2>()), 1e-11);
 }
 
 TEST(TargetCorners, SidesThatBulgeInwardsAreStraightOrRefused) {
@@ -233,7 +233,7 @@ TEST(TargetCorners, SidesThatBulgeInwardsAreStraightOrRefused) {
         outline.insert(outline.begin() + 1, points.begin(), points.end());
         const Vec3 n = random.direction(), u = n.unitOrthogonal(), v = n.cross(u);
         Target target;
-        for (const Vector2d& p : outline) target.vertices.push_back(scale * (p.x() * u + p.y() * v));
+        for (const Vector2d& p : outline) target.parts[0].push_back(scale * (p.x() * u + p.y() * v));
         target.front = n;
         if (depth > 2e-9) {
           EXPECT_THROW(make_target_frame(target), Error);
@@ -241,7 +241,7 @@ TEST(TargetCorners, SidesThatBulgeInwardsAreStraightOrRefused) {
         }
         const TargetFrame frame = make_target_frame(target);
         EXPECT_LE(frame.polygon.size(), depth > 1e-12 ? 4U : outline.size());
-        for (const Vec3& vertex : target.vertices)
+        for (const Vec3& vertex : target.parts[0])
           EXPECT_LT(outside(frame.polygon, frame.to_local(vertex).head<2>()), 1e-14 * scale);
       }
     }

@@ -21,14 +21,14 @@ using testing::Random;
 Target target_of(std::vector<Vec3> vertices) {
   Target target;
   target.name = "plaza";
-  target.vertices = std::move(vertices);
+  target.parts[0] = std::move(vertices);
   return target;
 }
 
 Target square() { return target_of({{0, 0, 2}, {4, 0, 2}, {4, 4, 2}, {0, 4, 2}}); }
 
 Target reversed(Target target) {
-  std::reverse(target.vertices.begin(), target.vertices.end());
+  std::reverse(target.parts[0].begin(), target.parts[0].end());
   return target;
 }
 
@@ -38,7 +38,7 @@ Target regular(int corners, double radius, const Vec3& centre, const Vec3& norma
   Target target = target_of({});
   for (int k = 0; k < corners; ++k) {
     const double angle = 2 * std::numbers::pi * k / corners;
-    target.vertices.push_back(centre + radius * (std::cos(angle) * u + std::sin(angle) * v));
+    target.parts[0].push_back(centre + radius * (std::cos(angle) * u + std::sin(angle) * v));
   }
   return target;
 }
@@ -93,7 +93,7 @@ std::string refusal(const Target& target) {
 TEST(TargetFrame, HorizontalTargetKeepsTheScenesAxes) {
   const Target target = square();
   const TargetFrame frame = make_target_frame(target);
-  expect_frame(frame, target.vertices, 0);
+  expect_frame(frame, target.parts[0], 0);
   EXPECT_EQ(frame.normal, Vec3(0, 0, 1));
   EXPECT_EQ(frame.axis_u, Vec3(1, 0, 0));
   EXPECT_EQ(frame.axis_v, Vec3(0, 1, 0));
@@ -106,12 +106,12 @@ TEST(TargetFrame, EitherTurnLooksUp) {
   const TargetFrame one = make_target_frame(square()), other = make_target_frame(reversed(square()));
   EXPECT_EQ(other.normal, Vec3(0, 0, 1));
   EXPECT_EQ(one.origin, other.origin);
-  expect_frame(other, square().vertices, 0);
+  expect_frame(other, square().parts[0], 0);
   const Vec3 tilted = Vec3(1, -2, 0.1).normalized();
   const Target slope = regular(5, 10, {3, 4, 5}, tilted);
   for (const Target& target : {slope, reversed(slope)}) {
     const TargetFrame frame = make_target_frame(target);
-    expect_frame(frame, slope.vertices, 0);
+    expect_frame(frame, slope.parts[0], 0);
     EXPECT_LT((frame.normal - tilted).norm(), 1e-12);
   }
 }
@@ -126,10 +126,10 @@ TEST(TargetFrame, VerticalTargetLooksToWhereItRunsCounterClockwise) {
   const Target facade = target_of({{0, 0, 0}, {6, 0, 0}, {6, 0, 3}, {0, 0, 3}});
   TargetFrame frame = make_target_frame(facade);
   EXPECT_LT((frame.normal - Vec3(0, -1, 0)).norm(), 1e-12);
-  expect_frame(frame, facade.vertices, 0);
+  expect_frame(frame, facade.parts[0], 0);
   frame = make_target_frame(reversed(facade));
   EXPECT_LT((frame.normal - Vec3(0, 1, 0)).norm(), 1e-12);
-  expect_frame(frame, facade.vertices, 0);
+  expect_frame(frame, facade.parts[0], 0);
 }
 
 TEST(TargetFrame, AlmostVerticalCountsAsVerticalWithinOneInAMillion) {
@@ -142,8 +142,8 @@ TEST(TargetFrame, FrontIsObeyed) {
   Target target = square();
   target.front = Vec3(5, 3, -0.1);
   EXPECT_EQ(make_target_frame(target).normal, Vec3(0, 0, -1));
-  expect_frame(make_target_frame(target), target.vertices, 0);
-  expect_frame(make_target_frame(reversed(target)), target.vertices, 0);
+  expect_frame(make_target_frame(target), target.parts[0], 0);
+  expect_frame(make_target_frame(reversed(target)), target.parts[0], 0);
   for (const double length : {1e-100, 1e100}) {
     target.front = Vec3(0, 0, length);
     EXPECT_EQ(make_target_frame(target).normal, Vec3(0, 0, 1));
@@ -160,7 +160,7 @@ TEST(TargetFrame, OffsetMovesTowardsTheFront) {
   Target target = square();
   target.offset_m = 1.5;
   EXPECT_LT((make_target_frame(target).origin - Vec3(2, 2, 3.5)).norm(), 1e-12);
-  expect_frame(make_target_frame(target), target.vertices, 1.5);
+  expect_frame(make_target_frame(target), target.parts[0], 1.5);
   target.front = Vec3(0, 0, -1);
   EXPECT_LT((make_target_frame(target).origin - Vec3(2, 2, 0.5)).norm(), 1e-12);
   target.offset_m = -0.25;
@@ -176,18 +176,18 @@ TEST(TargetFrame, CollinearVerticesAreDropped) {
   const auto refined = [](const Target& triangle) {
     Target finer = target_of({});
     for (int i = 0; i < 3; ++i) {
-      finer.vertices.push_back(triangle.vertices[i]);
-      finer.vertices.push_back(0.5 * (triangle.vertices[i] + triangle.vertices[(i + 1) % 3]));
+      finer.parts[0].push_back(triangle.parts[0][i]);
+      finer.parts[0].push_back(0.5 * (triangle.parts[0][i] + triangle.parts[0][(i + 1) % 3]));
     }
     return finer;
   };
   const Target triangle = regular(3, 7, {0, 0, 0}, {0.3, -0.4, 0.7});
-  expect_frame(make_target_frame(refined(triangle)), triangle.vertices, 0);
+  expect_frame(make_target_frame(refined(triangle)), triangle.parts[0], 0);
   // On a map the coordinates are rounded to a nanometre: a vertex that this puts outside is a corner.
   const Target on_map = refined(regular(3, 7, {580000, 4785000, 1000}, {0.3, -0.4, 0.7}));
   const TargetFrame frame = make_target_frame(on_map);
   EXPECT_LE(frame.polygon.size(), 6U);
-  for (const Vec3& vertex : on_map.vertices) {
+  for (const Vec3& vertex : on_map.parts[0]) {
     const Vector2d v = frame.to_local(vertex).head<2>();
     for (std::size_t i = 0; i < frame.polygon.size(); ++i) {
       const Vector2d &a = frame.polygon[i], side = frame.polygon[(i + 1) % frame.polygon.size()] - a;
@@ -200,7 +200,7 @@ TEST(TargetFrame, SixtyFourVerticesAreTheMost) {
   for (const Vec3& normal : {Vec3(0, 0, 1), Vec3(1, 0, 0), Vec3(1, 2, 3)}) {
     const Target target = regular(64, 30, {1, 2, 3}, normal);
     const TargetFrame frame = make_target_frame(target);
-    expect_frame(frame, target.vertices, 0);
+    expect_frame(frame, target.parts[0], 0);
     EXPECT_NEAR(frame.enclosing_radius_m, 30, 1e-9);
     EXPECT_LT((frame.origin - Vec3(1, 2, 3)).norm(), 1e-9);
   }
@@ -219,12 +219,12 @@ TEST(TargetFrame, RandomTargetsOfAnyShapeAndPlace) {
     for (int k = 0; k < corners; ++k) angles.push_back((k + random.uniform(0.1, 0.9)) * 2 * std::numbers::pi / corners);
     Target target = target_of({});
     for (const double angle : angles)
-      target.vertices.push_back(centre + 40 * (std::cos(angle) * u + squeeze * std::sin(angle) * v));
+      target.parts[0].push_back(centre + 40 * (std::cos(angle) * u + squeeze * std::sin(angle) * v));
     target.front = normal;
     target.offset_m = random.uniform(-1, 1);
     const TargetFrame frame = make_target_frame(random.chance(0.5) ? target : reversed(target));
     EXPECT_GT(frame.normal.dot(normal), 1 - 1e-9);
-    expect_frame(frame, target.vertices, target.offset_m, 1e-7);
+    expect_frame(frame, target.parts[0], target.offset_m, 1e-7);
   }
 }
 
@@ -237,7 +237,7 @@ TEST(TargetFrame, OfAPointSeenFromAllSides) {
   Target target = target_of({{1e6, 2, 3.7}});
   const TargetFrame frame = make_target_frame(target);
   EXPECT_TRUE(frame.all_sides);
-  EXPECT_EQ(frame.origin, target.vertices[0]);
+  EXPECT_EQ(frame.origin, target.parts[0][0]);
   EXPECT_EQ(frame.normal, Vec3::UnitZ());
   EXPECT_EQ(frame.axis_u, Vec3::UnitX());
   EXPECT_EQ(frame.axis_v, Vec3::UnitY());
@@ -264,7 +264,7 @@ TEST(TargetFrame, OfAPointWithAFront) {
 TEST(TargetFrame, RefusesWhatIsNotFinite) {
   for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()}) {
     Target target = square();
-    target.vertices[2].y() = bad;
+    target.parts[0][2].y() = bad;
     EXPECT_EQ(refusal(target), "vertex 2 has a coordinate that is not finite");
     target = square();
     target.offset_m = bad;
@@ -285,7 +285,7 @@ TEST(TargetFrame, RefusesAFrontThatTellsNothing) {
 
 TEST(TargetFrame, RefusesRepeatedVerticesAndSaysWhich) {
   Target target = square();
-  target.vertices.push_back(target.vertices[1]);
+  target.parts[0].push_back(target.parts[0][1]);
   EXPECT_EQ(refusal(target), "vertex 1 and vertex 4 are the same point");
   target = target_of({{0, 0, 0}, {1, 0, 0}, {1, 0, 1e-12}, {0, 1, 0}});
   EXPECT_EQ(refusal(target), "vertex 1 and vertex 2 are the same point");
@@ -300,17 +300,17 @@ TEST(TargetFrame, RefusesZeroArea) {
 TEST(TargetFrame, RefusesWhatIsNotPlanarAndSaysByHowMuch) {
   // Lifting one corner of a square by h moves it h/4 off the mean plane; each of the others moves as much.
   Target target = square();
-  target.vertices[2].z() += 0.0039;
-  expect_frame(make_target_frame(target), target.vertices, 0, 2e-3);
-  target.vertices[2].z() += 0.0003;
+  target.parts[0][2].z() += 0.0039;
+  expect_frame(make_target_frame(target), target.parts[0], 0, 2e-3);
+  target.parts[0][2].z() += 0.0003;
   const std::string problem = refusal(target);
   EXPECT_NE(problem.find("the vertices are not in one plane: vertex "), std::string::npos) << problem;
   EXPECT_NE(problem.find("is off by 0.00105 m"), std::string::npos) << problem;
   // One in a million of the extent is forgiven.
   target = regular(8, 50e3, {0, 0, 0}, {0, 0, 1});
-  target.vertices[3].z() += 0.1;
+  target.parts[0][3].z() += 0.1;
   EXPECT_NO_THROW(make_target_frame(target));
-  target.vertices[3].z() += 0.3;
+  target.parts[0][3].z() += 0.3;
   EXPECT_NE(refusal(target).find("vertex 3 is off by 0.2"), std::string::npos) << refusal(target);
 }
 
@@ -330,7 +330,7 @@ TEST(TargetFrame, RefusesWhatIsNotConvexAndSaysWhere) {
 TEST(TargetFrame, RefusesAStarThatTurnsOneWayOnly) {
   const Target pentagon = regular(5, 5, {0, 0, 0}, {0, 0, 1});
   Target star = pentagon;
-  for (int k = 0; k < 5; ++k) star.vertices[k] = pentagon.vertices[2 * k % 5];
+  for (int k = 0; k < 5; ++k) star.parts[0][k] = pentagon.parts[0][2 * k % 5];
   EXPECT_NE(refusal(star).find("winds round more than once"), std::string::npos) << refusal(star);
   EXPECT_NE(refusal(reversed(star)).find("winds round more than once"), std::string::npos);
 }

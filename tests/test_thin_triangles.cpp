@@ -44,7 +44,7 @@ TEST(ThinTriangles, HideWhateverTheirWidth) {
         const Vec3 centre = on_map ? kOnMap : Vec3(scale * random.point(-3, 3));
         Target target;
         for (const auto& [x, y] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}})
-          target.vertices.push_back(centre + 0.1 * scale * (x * u + y * v));
+          target.parts[0].push_back(centre + 0.1 * scale * (x * u + y * v));
         target.front = n;
         SceneBuilder builder;
         double size = 0;
@@ -64,13 +64,13 @@ TEST(ThinTriangles, HideWhateverTheirWidth) {
         const Scene scene = builder;
         const PreparedScene prepared(scene);
         EXPECT_EQ(prepared.statistics().degenerate_triangles, 0U);
-        const Volume volume = compute_visibility(prepared, target, {3 * scale}, {0.03 * scale, 0});
+        const Volume volume = compute_visibility(PreparedTarget(prepared, target, {3 * scale}), {0.03 * scale, 0});
         if (volume.outcome != Outcome::computed) continue;
         ++volumes;
         const MeshMeasures m = measure(volume.mesh);
         EXPECT_TRUE(m.closed && m.oriented && m.euler == 2 && m.pieces == 1);
         const double rounding = 1e-15 * (10 * scale + centre.cwiseAbs().maxCoeff());
-        const Verdict verdict = judge(volume, scene.mesh, target.vertices, 250, rounding, random);
+        const Verdict verdict = judge(volume, scene.mesh, target.parts[0], 250, rounding, random);
         looked += verdict.looked;
         EXPECT_EQ(verdict.hidden, 0U) << "of " << verdict.looked << ", deepest " << verdict.deepest;
       }

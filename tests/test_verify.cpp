@@ -72,13 +72,13 @@ Example plate_example(const Vec3& shift = Vec3::Zero()) {
   example.scene.mesh.triangles = {{0, 1, 2}, {0, 2, 3}, {4, 5, 6}, {4, 6, 7}};
   example.scene.object_of = {0, 0, 1, 1};
   example.scene.objects = named({"plate", "ground"});
-  example.target.vertices = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+  example.target.parts[0] = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
   example.navigation.boxes = {{Vec3(-10, -10, 1), Vec3(10, 10, 10)}};
   const Mesh hidden = make_frustum({x0, y0, plate}, {x1, y1, plate}, {x0 + s * (x0 - 1), y0 + s * (y0 - 1), top},
                                    {x1 + s * (x1 + 1), y1 + s * (y1 + 1), top});
   example.truth = box_with_pit(make_box_mesh({-10, -10, 1}, {10, 10, 10}), hidden);
   for (Vec3& vertex : example.scene.mesh.vertices) vertex += shift;
-  for (Vec3& vertex : example.target.vertices) vertex += shift;
+  for (Vec3& vertex : example.target.parts[0]) vertex += shift;
   for (Vec3& vertex : example.truth.vertices) vertex += shift;
   example.navigation.boxes[0].min += shift;
   example.navigation.boxes[0].max += shift;
@@ -172,7 +172,7 @@ TEST(Verify, CatchesAVolumeThatIsInflatedShrunkOrMirrored) {
 
 TEST(Verify, CatchesAThinPoleBetweenTwoVertices) {
   Example example = plate_example();
-  example.target.vertices = {{-5, -5, 0}, {5, -5, 0}, {5, 5, 0}, {-5, 5, 0}};
+  example.target.parts[0] = {{-5, -5, 0}, {5, -5, 0}, {5, 5, 0}, {-5, 5, 0}};
   example.scene.mesh = make_box_mesh({-0.01, -7.01, 0}, {0.01, -6.99, 8});
   example.scene.object_of.assign(12, 0);
   example.scene.objects = named({"pole"});
@@ -208,7 +208,7 @@ TEST(Verify, ForgivesRangeFacetsInsideTheSphere) {
   Example example = plate_example();
   example.navigation = {};
   example.scene.mesh.triangles.clear();
-  for (Vec3& vertex : example.target.vertices) vertex *= 1e-4;
+  for (Vec3& vertex : example.target.parts[0]) vertex *= 1e-4;
   example.sensor.max_range_m = 20;
   const Mesh dome = testing::make_hemisphere(Vec3::Zero(), 20 - 2e-4, 96, 24).mesh;
   VerifyOptions options;
@@ -242,14 +242,15 @@ TEST(Verify, TheSurfaceUnderTheTargetDoesNotCount) {
 TEST(Verify, ATargetInPartsMustBeSeenInAllOfThem) {
   for (const Vec3& shift : {Vec3(0, 0, 0), Vec3(580000, 4785000, 1000)}) {
     const Example whole = plate_example(shift);
-    std::vector<Target> halves = {whole.target, whole.target};  // the target reaches from -1 to 1
-    for (const int i : {1, 2}) halves[0].vertices[i].x() = shift.x() + 0.25;
-    for (const int i : {0, 3}) halves[1].vertices[i].x() = shift.x() + 0.25;
-    const auto verify = [&](const std::vector<Target>& parts, const Mesh& volume) {
-      return verify_volume(whole.scene, parts, whole.sensor, whole.navigation, volume);
+    Target halves = whole.target;  // the target reaches from -1 to 1
+    halves.parts.push_back(halves.parts[0]);
+    for (const int i : {1, 2}) halves.parts[0][i].x() = shift.x() + 0.25;
+    for (const int i : {0, 3}) halves.parts[1][i].x() = shift.x() + 0.25;
+    const auto verify = [&](const Target& target, const Mesh& volume) {
+      return verify_volume(whole.scene, target, whole.sensor, whole.navigation, volume);
     };
     expect_right(verify(halves, whole.truth));
-    const VerifyReport half = verify({halves[0]}, whole.truth);
+    const VerifyReport half = verify(halves.part(0), whole.truth);
     EXPECT_EQ(half.over_claimed, 0u);
     EXPECT_GT(half.under_claimed, 10u) << "of one part alone more is seen";
     const VerifyReport uncut = verify(halves, make_box_mesh(shift + Vec3(-10, -10, 1), shift + Vec3(10, 10, 10)));
@@ -258,10 +259,9 @@ TEST(Verify, ATargetInPartsMustBeSeenInAllOfThem) {
   }
   // A second part that stands upright, and sees only what lies to the south of it.
   const Example example = plate_example();
-  Target wall;
-  wall.vertices = {{-1, 1, 0}, {1, 1, 0}, {1, 1, 2}, {-1, 1, 2}};
-  wall.front = Vec3(0, -1, 0);
-  const std::vector<Target> both = {example.target, wall};
+  Target both = example.target;
+  both.parts.push_back({{-1, 1, 0}, {1, 1, 0}, {1, 1, 2}, {-1, 1, 2}});
+  both.front = Vec3(0, -1, 1);
   Navigation low;
   low.boxes = {{Vec3(-10, -10, 1), Vec3(10, 10, 4)}};  // under the plate nothing is hidden
   expect_right(verify_volume(example.scene, both, example.sensor, low, make_box_mesh({-10, -10, 1}, {10, 1, 4})));
@@ -269,7 +269,12 @@ TEST(Verify, ATargetInPartsMustBeSeenInAllOfThem) {
       verify_volume(example.scene, both, example.sensor, low, make_box_mesh({-10, -10, 1}, {10, 10, 4}));
   EXPECT_GT(north.over_claimed, 100u);
   EXPECT_EQ(north.worst_over_cause, "target plane");
-  EXPECT_THROW(verify_volume(example.scene, std::vector<Target>(), example.sensor, {}, example.truth), Error);
+  Target none = example.target;
+  none.parts.clear();
+  EXPECT_THROW(verify_volume(example.scene, none, example.sensor, {}, example.truth), Error);
+  VerifyOptions two_lifts;
+  two_lifts.lift_m = {0, 0};
+  EXPECT_THROW(verify_volume(example.scene, example.target, example.sensor, {}, example.truth, two_lifts), Error);
 }
 
 TEST(Verify, DoesNotDependOnThreads) {
@@ -305,7 +310,7 @@ TEST(Verify, AgreesWithAPlainLoop) {
     const VerifyReport report = example.verify(box, options);
     if (report.over_claimed == 0) continue;
     ++hidden;
-    EXPECT_FALSE(testing::sees_all(example.scene, example.target.vertices, report.worst_over_point, 2000));
+    EXPECT_FALSE(testing::sees_all(example.scene, example.target.parts[0], report.worst_over_point, 2000));
   }
   EXPECT_GT(hidden, 0);
 }
@@ -341,7 +346,7 @@ TEST(Verify, RefusesBadInput) {
   EXPECT_TRUE(refuses([](Example& e, VerifyOptions&) { e.truth = {}; }));
   EXPECT_TRUE(refuses([](Example& e, VerifyOptions&) { e.sensor.max_range_m = 0; }));
   EXPECT_TRUE(refuses([](Example& e, VerifyOptions&) { e.sensor.max_range_m = std::nan(""); }));
-  EXPECT_TRUE(refuses([](Example& e, VerifyOptions&) { e.target.vertices.resize(2); }));
+  EXPECT_TRUE(refuses([](Example& e, VerifyOptions&) { e.target.parts[0].resize(2); }));
   EXPECT_TRUE(refuses([](Example& e, VerifyOptions&) { e.navigation.altitude = Navigation::Altitude{5, 1}; }));
   EXPECT_TRUE(refuses([](Example& e, VerifyOptions&) { e.scene.mesh.triangles[0][1] = 99; }));
   EXPECT_TRUE(refuses([](Example&, VerifyOptions& o) { o.depth_tolerance = -1; }));

@@ -37,7 +37,7 @@ class RandomRays {
     Target target;
     for (int i = 0; i < corners; ++i) {
       const double turn = 2 * std::numbers::pi * i / corners;
-      target.vertices.push_back(centre + radius * (std::cos(turn) * u + std::sin(turn) * v));
+      target.parts[0].push_back(centre + radius * (std::cos(turn) * u + std::sin(turn) * v));
     }
     target.front = normal;
     return target;

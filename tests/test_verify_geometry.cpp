@@ -28,7 +28,7 @@ const FlatTriangle kFlat({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
 
 Target square(double half, double height = 0) {
   Target target;
-  target.vertices = {{-half, -half, height}, {half, -half, height}, {half, half, height}, {-half, half, height}};
+  target.parts[0] = {{-half, -half, height}, {half, -half, height}, {half, half, height}, {-half, half, height}};
   return target;
 }
 
@@ -190,7 +190,7 @@ TEST(VerifyClosedMesh, AgreesWithASphereAndAPlainLoop) {
 TEST(VerifyTarget, LooksUpFromTheGroundWhicheverWayItIsDrawn) {
   Target target = square(2, 5);
   EXPECT_NEAR(TargetView(target).normal().z(), 1, 1e-15);
-  std::reverse(target.vertices.begin(), target.vertices.end());
+  std::reverse(target.parts[0].begin(), target.parts[0].end());
   EXPECT_NEAR(TargetView(target).normal().z(), 1, 1e-15);
   target.front = Vec3(0.1, 0, -1);
   target.offset_m = 0.25;
@@ -205,15 +205,15 @@ TEST(VerifyTarget, LooksUpFromTheGroundWhicheverWayItIsDrawn) {
 
 TEST(VerifyTarget, AFacadeLooksToWhereItRunsCounterClockwise) {
   Target target;
-  target.vertices = {{0, 0, 0}, {4, 0, 0}, {4, 0, 3}, {0, 0, 3}};
+  target.parts[0] = {{0, 0, 0}, {4, 0, 0}, {4, 0, 3}, {0, 0, 3}};
   EXPECT_NEAR(TargetView(target).normal().y(), -1, 1e-15);
-  std::reverse(target.vertices.begin(), target.vertices.end());
+  std::reverse(target.parts[0].begin(), target.parts[0].end());
   EXPECT_NEAR(TargetView(target).normal().y(), 1, 1e-15);
 }
 
 TEST(VerifyTarget, InteriorPointsCoverThePolygonEvenly) {
   Target target;
-  target.vertices = {{0, 0, 0}, {4, 0, 0}, {4, 1, 0}, {2, 3, 0}, {0, 1, 0}};
+  target.parts[0] = {{0, 0, 0}, {4, 0, 0}, {4, 1, 0}, {2, 3, 0}, {0, 1, 0}};
   const TargetView view(target);
   Vec3 sum = Vec3::Zero();
   constexpr int kSide = 400;
@@ -230,18 +230,18 @@ TEST(VerifyTarget, InteriorPointsCoverThePolygonEvenly) {
 
 TEST(VerifyTarget, RefusesWhatIsNoConvexPolygon) {
   Target target = square(1);
-  target.vertices.resize(2);
+  target.parts[0].resize(2);
   EXPECT_THROW(TargetView{target}, Error);
   target = square(1);
-  target.vertices[2] = {-0.5, -0.5, 0};
+  target.parts[0][2] = {-0.5, -0.5, 0};
   EXPECT_THROW(TargetView{target}, Error);  // a dart
   target = square(1);
-  target.vertices[2].z() = 0.1;
+  target.parts[0][2].z() = 0.1;
   EXPECT_THROW(TargetView{target}, Error);  // not planar
   target = square(1);
   target.front = Vec3(1, 1, 0);
   EXPECT_THROW(TargetView{target}, Error);  // edge-on
-  target.vertices = {{0, 0, 0}, {1, 1, 1}, {2, 2, 2}};
+  target.parts[0] = {{0, 0, 0}, {1, 1, 1}, {2, 2, 2}};
   EXPECT_THROW(TargetView{target}, Error);  // no area
 }
 

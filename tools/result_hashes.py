@@ -79,7 +79,8 @@ def run(program: str, mission: pathlib.Path, method: str) -> tuple[str, dict]:
             return name, {"error": done.stderr.strip().splitlines()[:1]}
         report = stripped(json.loads(done.stdout))
         arrays = arrays_of(ply) if ply.exists() else {}
-        return name, {**arrays, "causes": hash_of(report["causes"]), "report": report}
+        return name, {**arrays, "causes": hash_of([{key: cause[key] for key in ("name", "kind", "area_m2")} for cause in report["causes"]]),
+                "report": report}
 
 
 def differences(before: dict, after: dict) -> tuple[list[str], list[str]]:

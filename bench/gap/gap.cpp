@@ -63,7 +63,7 @@ Outcome run_case(const solid::Solid& exact, const Vec3& origin, const PreparedSc
                  double range, const SpheresOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   SpheresReport report;
-  const Volume volume = compute_visibility_spheres(scene, target, {range}, options, &report);
+  const Volume volume = compute_visibility_spheres(PreparedTarget(scene, target, {range}), options, &report);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const solid::Solid claimed = volume.mesh.empty() ? solid::Solid() : solid_of(volume, origin);
   const double both = solid::intersect(claimed, exact).volume();
@@ -78,7 +78,7 @@ Outcome run_case(const solid::Solid& exact, const Vec3& origin, const PreparedSc
 
 void run_target(const Request& request, const std::string& city, std::size_t number, double range,
                 const PreparedScene& scene, const Target& target) {
-  const Volume volume = compute_visibility(scene, target, {range}, {1e-3, 0});
+  const Volume volume = compute_visibility(PreparedTarget(scene, target, {range}), {1e-3, 0});
   const Vec3 origin = volume.frame.origin;
   const solid::Solid exact = solid_of(volume, origin);
   for (const std::string& sphere : request.spheres)

@@ -42,8 +42,8 @@ std::vector<StreetTarget> baseline_targets() {
   std::vector<StreetTarget> targets;
   for (const auto& entry : baseline.at("targets")) {
     StreetTarget found{{}, Vec3::Zero(), 0};
-    for (const auto& v : entry.at("vertices")) found.target.vertices.emplace_back(v[0], -v[2].get<double>(), v[1]);
-    for (const Vec3& v : found.target.vertices) found.centre += v / double(found.target.vertices.size());
+    for (const auto& v : entry.at("vertices")) found.target.parts[0].emplace_back(v[0], -v[2].get<double>(), v[1]);
+    for (const Vec3& v : found.target.parts[0]) found.centre += v / double(found.target.parts[0].size());
     targets.push_back(found);
   }
   return targets;
@@ -53,7 +53,7 @@ std::vector<StreetTarget> baseline_targets() {
 std::vector<StreetTarget> roof_target() {
   const Vec3 centre(120, 90, 30.01);
   StreetTarget found{{}, centre, 0};
-  found.target.vertices = {centre + Vec3(11.547, 0, 0), centre + Vec3(-5.7735, 10, 0), centre + Vec3(-5.7735, -10, 0)};
+  found.target.parts[0] = {centre + Vec3(11.547, 0, 0), centre + Vec3(-5.7735, 10, 0), centre + Vec3(-5.7735, -10, 0)};
   return {found};
 }
 

@@ -81,14 +81,14 @@ Target triangle(const Vec3& centre, double side, double turn) {
   Target target;
   for (int k = 0; k < 3; ++k) {
     const double angle = turn + 2 * std::numbers::pi * k / 3;
-    target.vertices.push_back(centre + side / std::sqrt(3) * Vec3(std::cos(angle), std::sin(angle), 0));
+    target.parts[0].push_back(centre + side / std::sqrt(3) * Vec3(std::cos(angle), std::sin(angle), 0));
   }
   return target;
 }
 
 bool is_seen(const PreparedScene& prepared, const Target& target) {
   try {
-    return compute_visibility(prepared, target, {50}, {0.1, 0}).outcome == Outcome::computed;
+    return compute_visibility(PreparedTarget(prepared, target, {50}), {0.1, 0}).outcome == Outcome::computed;
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::input) throw;
     return false;  // pierced

@@ -101,8 +101,31 @@ struct CityOptions {
   OccluderDefaults occluder_defaults;
 };
 
+/// A number of BuildingDefaults or OccluderDefaults by its name: for command lines, missions and the table in
+/// docs/scene.md.
+struct CitySetting {
+  const char* name;
+  double& (*value)(CityOptions&);
+  double least, most;
+  const char* meaning;  ///< with the unit
+};
+
+/// Those that are single numbers.
+const std::vector<CitySetting>& city_settings();
+
+/// `name`: one of `city_settings()`, or one of a kind: "levels.KIND" (storeys of building=KIND), "wall.KIND" (height of
+/// barrier=KIND), "tower.KIND" (height of man_made=KIND or tower:type=KIND), "way.KIND" (width of a bridge that carries
+/// highway=KIND). Throws Error(input) for an unknown name and a value out of range, with `where`.
+void set_city_option(CityOptions& options, const std::string& name, double value, const std::string& where);
+
+/// Switches off "walls", "towers", "bridges" or "trees". Throws Error(input) for another word.
+void leave_out(Occluders& occluders, const std::string& kind, const std::string& where);
+
 /// What became of an object that was read and wanted.
 enum class Fate { written, repaired, open_surface, skipped };
+
+/// "written", "repaired", "open_surface", "skipped".
+const char* name_of(Fate fate);
 
 struct CityRecord {
   SceneObject object;  ///< `source_id`: "way/265517"; `name`: its name tag; `kind`: building to tree
@@ -124,6 +147,18 @@ struct CityReport {
   std::vector<std::string> notes;      ///< on the file and the terrain: voids filled, missing references, not sorted
   double read_seconds = 0, build_seconds = 0;  ///< checking is part of building
 };
+
+/// What became of the objects of one kind.
+struct CityTally {
+  std::size_t read = 0;
+  std::map<Fate, std::size_t> fates;
+};
+
+/// By name_of(ObjectKind).
+std::map<std::string, CityTally> tally_by_kind(const CityReport& report);
+
+/// Of what was not simply written, by fate and reason: how many, and the `source_id` of the first.
+std::map<std::pair<Fate, std::string>, std::pair<std::size_t, std::string>> reasons(const CityReport& report);
 
 struct City {
   Scene scene;  ///< one object per solid: that of its record; the ground is the last one, of ObjectKind::ground

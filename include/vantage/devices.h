@@ -51,4 +51,13 @@ struct DeviceChoice {
 /// "auto", "cpu", "opengl", "gpu" or an index; throws Error(input) for anything else.
 DeviceChoice parse_device_choice(const std::string& text);
 
+/// Which of the devices found `choice` means, and why it is not a graphics processor where one would hope for it.
+struct ChosenDevice {
+  RenderDevice device;
+  std::string note;
+};
+
+/// Throws Error(input), with what is there, when it insists on a device that is not.
+ChosenDevice choose_device(const RenderDevices& found, const DeviceChoice& choice);
+
 }  // namespace vantage

@@ -1,4 +1,8 @@
-// Mission files: docs/mission-file.md.
+// Missions: what a mission file says, what it means in its scene, and what comes of it.
+//
+//     read_mission(file) -> MissionFile -> resolve_mission -> Mission -> run_mission -> Result
+//
+// Each step leaves its input as it was. Mission files are described in docs/mission-file.md.
 #pragma once
 
 #include <array>
@@ -23,70 +27,116 @@ enum class Method {
   spheres,  ///< compute_visibility_spheres
 };
 
-/// A target by what people know. It is laid on the scene's ground: in the plane nearest to the ground under it, raised
-/// until no ground under it lies above that.
+/// "exact", "spheres".
+const char* name_of(Method method);
+
+/// A target that is given by an object of the map or a place on the earth. It is laid on the scene's ground: in the
+/// plane nearest to the ground under it, raised until no ground under it lies above that.
 struct GroundTarget {
   std::string osm;  ///< an area of the scene's map, "way/123"; not convex: its convex parts; or
-  std::optional<std::array<double, 2>> center_deg;  ///< latitude and longitude (WGS 84) of a rectangle's centre
-  double width_m = 0, length_m = 0;                 ///< > 0; the length runs along the heading
-  double heading_deg = 0;                           ///< clockwise from north
+  std::optional<std::array<double, 2>> center_deg = std::nullopt;  ///< latitude and longitude (WGS 84) of a
+                                                                   ///< rectangle's centre
+  double width_m = 0, length_m = 0;                                ///< > 0; the length runs along the heading
+  double heading_deg = 0;                                          ///< clockwise from north
 };
 
-/// Where a navigation mesh was read from, and what read_mission_scene has still to settle about it.
-struct NavigationFile {
-  std::filesystem::path path;
-  std::string place;           ///< "mission.yaml:9:13", for messages
-  bool in_scene_axes = false;  ///< the mesh is in the axes of the scene's file, which is not read yet: OBJ
-  bool in_scene_unit = false;  ///< likewise
-  std::optional<Georeference> georeference;  ///< of the frame that it is in, as its file says
+/// A mesh to stay in, as a mission file names it.
+struct NavigationMeshFile {
+  std::filesystem::path file;  ///< absolute
+  std::string name;            ///< as written in the mission; in causes and messages
+  /// Of the file. Where they are not given: an OBJ says it itself or has those of the scene's file, and other formats
+  /// are in the scene frame.
+  std::optional<UpAxis> up = std::nullopt;
+  std::optional<double> scale = std::nullopt;
 };
 
-/// A mission file, read and checked. Paths are absolute; navigation meshes are read.
-struct Mission {
-  std::filesystem::path file;
-  SceneSource scene;
-  Target target;
-  std::vector<Target> other_parts;  ///< of a target that is not convex: the volume is that of all parts together
+/// Where in a mission file things are said ("mission.yaml:9:13"), for messages. Empty for a mission made in memory.
+struct MissionPlaces {
+  std::string scene, terrain, target;
+  std::vector<std::string> navigation_meshes;
+};
 
-  /// What read_mission_scene resolves. Until then the coordinates of the target and of the boxes are in this reference
-  /// system ("EPSG:4326": longitude, latitude, z); empty: the scene frame. With a GroundTarget the target is not there.
-  std::string crs;
-  std::optional<GroundTarget> ground_target;
+/// What a mission file says, checked by itself: no other file has been opened.
+struct MissionFile {
+  std::filesystem::path file;  ///< for messages and reports
+  SceneSource scene;           ///< paths are absolute
 
+  /// Of the coordinates of the target and of the boxes ("EPSG:4326": longitude, latitude, z); empty: the scene frame.
+  std::string crs = {};
+  Target target;                                             ///< with a ground_target only name, offset and front count
+  std::optional<GroundTarget> ground_target = std::nullopt;  ///< says where the target lies
   Sensor sensor;
-  Navigation navigation;
+  Navigation navigation;  ///< without meshes
+  std::vector<NavigationMeshFile> navigation_meshes = {};
   Method method = Method::exact;
-  ExactOptions exact;
-  SpheresOptions spheres;                        ///< but for the threads: those of `exact` count for both methods
-  std::vector<NavigationFile> navigation_files;  ///< of navigation.meshes, in the same order
-  std::string target_place;  ///< "mission.yaml:9:13": put in front of the place in errors about the target
+  ExactOptions exact;      ///< but for the threads: RunOptions::threads
+  SpheresOptions spheres;  ///< likewise
+  MissionPlaces places = {};
 };
 
 /// Throws Error(input) with file, line and column for: a missing or unreadable file, YAML that does not parse, an
 /// unknown key (with the nearest known one), a wrong type, a number that is NaN or infinite, a missing required key,
-/// edges that do not describe the vertices' polygon, and all that make_target_frame and the navigation checks refuse.
-Mission read_mission(const std::filesystem::path& file);
+/// edges that do not describe the vertices' polygon, a file that it names and that is not there, and all that
+/// make_target_frame and the navigation checks refuse.
+MissionFile read_mission(const std::filesystem::path& file);
 
 /// The same of a mission file's text, which came from elsewhere. `file` stands for it in messages and reports; paths in
 /// the text start from its folder, the current one where it has none.
-Mission read_mission_text(std::string_view text, const std::filesystem::path& file);
+MissionFile read_mission_text(std::string_view text, const std::filesystem::path& file);
 
-/// Reads the mission's scene, and puts what the mission gives on the earth or by name into its frame: afterwards `crs`
-/// and `ground_target` are empty, `target`, `other_parts` and the boxes complete. Boxes lie askew in the frame: a box
-/// to stay in becomes the largest one of the frame inside it, a box to stay out of the smallest round it. Navigation
-/// meshes in OBJ take the axes and the unit of the scene's file; those that say where on the earth they lie are moved
-/// there, where the scene says so too. A target of the map without a name of its own gets the object's. Ground that
-/// ends under a target that is laid on it is extended: flat ground as it is, a map's terrain by building more of it
-/// (LoadedScene::notes). Throws as load_scene does, and Error(input) with the place in the mission file for: a scene
-/// that does not say where on the earth it lies, a position without a value, an object that the map does not have, a
-/// target farther off the ground than max_range or beyond ground that cannot be extended, a navigation mesh whose
-/// heights are measured from another level than the scene's, and all that make_target_frame refuses.
-LoadedScene read_mission_scene(Mission& mission, const Progress& progress = {});
+/// The text of a mission file that reads back as the same mission. Paths below `folder`, where the text is to be
+/// written, are relative to it.
+std::string mission_text(const MissionFile& mission, const std::filesystem::path& folder);
 
-/// All that `vantage compute` does but writing: reads the scene, prepares it, computes, cuts. Fills Volume::seconds.
-/// Uses at most `mission.exact.threads` threads for all of it. Throws as read_scene, the method and
-/// cut_to_navigation do, with the place in the mission file put in front of errors about the target. Cost: the sum of
-/// theirs; the scene is read and prepared anew each time, so use those functions for many targets of one scene.
-Volume compute_mission(const Mission& mission, const Progress& progress = {});
+/// The files that a mission was read from, and those it names: not to be overwritten by its results.
+std::vector<std::filesystem::path> input_files(const MissionFile& mission);
+
+/// A mission in its scene: everything is in the scene frame.
+struct Mission {
+  MissionFile file;    ///< as written
+  LoadedScene loaded;  ///< the scene, and what reading or building it told
+  Target target;
+  Sensor sensor;
+  Navigation navigation;
+  double read_seconds = 0;  ///< that reading and resolving took
+};
+
+/// Reads the mission's scene, and puts what the mission gives on the earth or by name into its frame. Boxes lie askew
+/// in the frame: a box to stay in becomes the largest one of the frame inside it, a box to stay out of the smallest
+/// round it. Navigation meshes that say where on the earth they lie are moved there, where the scene says so too. A
+/// target of the map without a name of its own gets the object's. Ground that ends under a target that is laid on it is
+/// extended: flat ground as it is, a map's terrain by building more of it (LoadedScene::notes).
+///
+/// Throws as load_scene does, and Error(input) with the place in the mission file for: a scene that does not say where
+/// on the earth it lies, a position without a value, an object that the map does not have, a target farther off the
+/// ground than max_range or beyond ground that cannot be extended, a navigation mesh whose heights are measured from
+/// another level than the scene's, and all that make_target_frame refuses.
+Mission resolve_mission(const MissionFile& mission, const Progress& progress = {});
+
+/// What to know before relying on the mission's results, a sentence each: LoadedScene::notes; that map, raster or
+/// ground end within the range, where what would hide part of the target is missing; that a target looks as if it were
+/// given in degrees, lies far off the scene or is looked at from under the ground; that the scene seems to lie on its
+/// side. `volume`: the mission's, where there is one. Cost: linear in the scene's triangles.
+std::vector<std::string> mission_warnings(const Mission& mission, const Volume* volume = nullptr);
+
+struct RunOptions {
+  int threads = 0;   ///< at most; 0: as many as the machine has
+  StageSink stages;  ///< those of the spheres method
+};
+
+struct Result {
+  Volume volume;                         ///< its notes hold mission_warnings too
+  SceneStatistics scene;                 ///< what preparing found
+  std::optional<SpheresReport> spheres;  ///< what the spheres method did, where it was used
+};
+
+/// Prepares the scene and the target, computes, and cuts to the navigation limits. Throws as the method, PreparedTarget
+/// and cut_to_navigation do, with the place in the mission file put in front of errors about the target. Cost: the sum
+/// of theirs; the scene is prepared anew each time, so use those functions for many targets of one scene.
+Result run_mission(const Mission& mission, const RunOptions& options = {}, const Progress& progress = {});
+
+/// PreparedTarget of a mission; errors about the target begin with its place in the mission file, and advise what fits
+/// the object that stands in the way. `scene`: the mission's.
+PreparedTarget prepare_target(const Mission& mission, const PreparedScene& scene);
 
 }  // namespace vantage

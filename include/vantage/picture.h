@@ -35,11 +35,10 @@ inline constexpr int kSmallestPicture = 64, kLargestPicture = 4096;
 
 /// What to draw, and how.
 struct PictureRequest {
-  const Target* target = nullptr;   ///< drawn where it is given, `offset_m` applied; three vertices or more, or one
-  std::vector<Target> other_parts;  ///< of a target in parts: drawn as `target` is
-  const Volume* volume = nullptr;   ///< its mesh, `cause_of` and `causes`; without causes it has one colour
-  const Mesh* solid = nullptr;      ///< instead of a volume: any mesh, in one colour
-  Navigation navigation;            ///< its boxes are drawn as thin lines
+  const Target* target = nullptr;  ///< drawn where it is given, `offset_m` applied
+  const Volume* volume = nullptr;  ///< its mesh, `cause_of` and `causes`; without causes it has one colour
+  const Mesh* solid = nullptr;     ///< instead of a volume: any mesh, in one colour
+  Navigation navigation;           ///< its boxes are drawn as thin lines
   PictureView view;
   int width = 1600, height = 1200;  ///< pixels, kSmallestPicture to kLargestPicture
   bool draw_scene = true;

@@ -7,8 +7,7 @@
 #include <vector>
 
 #include "vantage/constraints.h"
-#include "vantage/scene.h"
-#include "vantage/target.h"
+#include "vantage/prepared_target.h"
 
 namespace vantage {
 
@@ -28,10 +27,8 @@ struct PointAnswer {
 /// learns of the scene with the first points makes the later ones quick: some microseconds each in a city.
 class PointQuery {
  public:
-  /// A target in parts is seen where all its parts are. Holds on to the scene; the rest is copied. Throws Error(input)
-  /// for targets and ranges as compute_visibility does, for no parts, and for a range beyond 1e9 m.
-  PointQuery(const PreparedScene& scene, const std::vector<Target>& parts, const Sensor& sensor,
-             const Navigation& navigation);
+  /// A target in parts is seen where all its parts are. Holds on to the target and its scene.
+  explicit PointQuery(const PreparedTarget& target, const Navigation& navigation = {});
   ~PointQuery();
   PointQuery(PointQuery&&) noexcept;
   PointQuery& operator=(PointQuery&&) noexcept;
@@ -48,8 +45,8 @@ class PointQuery {
   std::unique_ptr<Data> data_;
 };
 
-/// PointQuery for a target of one part and one portion of points.
-std::vector<PointAnswer> query_points(const PreparedScene& scene, const Target& target, const Sensor& sensor,
-                                      const Navigation& navigation, const std::vector<Vec3>& points);
+/// PointQuery for one portion of points.
+std::vector<PointAnswer> query_points(const PreparedTarget& target, const Navigation& navigation,
+                                      const std::vector<Vec3>& points);
 
 }  // namespace vantage

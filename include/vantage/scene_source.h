@@ -38,6 +38,9 @@ struct LoadedScene {
   std::vector<std::string> notes;      ///< what read_mission_scene changed to fit the target: a sentence each
 };
 
+/// What is worth a sentence of the scene and its source, besides LoadedScene::notes.
+std::vector<std::string> notes_of(const LoadedScene& loaded);
+
 /// Throws as the function of its kind does.
 LoadedScene load_scene(const SceneSource& source, const Progress& progress = {});
 

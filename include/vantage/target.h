@@ -1,4 +1,4 @@
-// What must be seen: a polygon, whole, or a single point.
+// What must be seen, whole: one or more convex polygons, or a single point.
 #pragma once
 
 #include <optional>
@@ -9,18 +9,26 @@
 
 namespace vantage {
 
-/// A convex planar polygon or a point, as the user states it. See docs/theory.md for what "seen" means.
+/// As the user states it, in the scene frame, metres. See docs/theory.md for what "seen" means.
 struct Target {
   std::string name = "target";
-  std::vector<Vec3> vertices;  ///< 3 to 64, scene frame, metres; in order round the polygon, either turn. One: a point
-  double offset_m = 0.0;  ///< the target is moved this far along its normal, towards the front, before anything else
+  /// Convex planar polygons of 3 to 64 vertices, in order round the polygon, either turn; all of them must be seen. One
+  /// part of a single vertex is a point. Default: one part, which has no vertices yet.
+  std::vector<std::vector<Vec3>> parts = std::vector<std::vector<Vec3>>(1);
+  double offset_m = 0.0;      ///< each part is moved this far along its normal, towards the front, before anything else
   std::optional<Vec3> front;  ///< a vector on the side that is looked at (any length, not in the polygon's plane).
                               ///< Default: the side that faces up; for a vertical polygon (normal within 1e-6 of
                               ///< horizontal) the side from which the vertices run counter-clockwise.
                               ///< A point is seen from the half-space on this side only; without `front` from all
                               ///< sides, and its normal is up
 
-  bool is_point() const { return vertices.size() == 1; }
+  static Target polygon(std::vector<Vec3> vertices);
+  static Target point(const Vec3& place);
+
+  bool is_point() const { return parts.size() == 1 && parts[0].size() == 1; }
+
+  /// A target of that part alone; the second goes by the name of "NAME, part 2".
+  Target part(std::size_t index) const;
 };
 
 /// A checked target with its frame. Viewpoints have local z > 0, but for a point that is seen from all sides.
@@ -41,17 +49,17 @@ struct TargetFrame {
   }
 };
 
-/// Checks a target and makes its frame, `offset_m` applied. The scene plays no part here.
+/// Checks a part of a target and makes its frame, `offset_m` applied. The scene plays no role here.
 ///
 /// The polygon of the frame is the convex hull of the vertices, in the plane of their mean. It never loses a corner:
 /// every vertex lies in it, but for 2^-50 of the extent, which is the rounding of its coordinates. A vertex is left out
 /// where it lies inside the line between the corners beside it, by at most 1e-9 of the extent (and 2^-50 of the largest
 /// coordinate); so much larger the polygon may be than what its vertices bound.
 ///
-/// Throws Error(input) for: no vertices, 2 or more than 64, a coordinate that is not finite, repeated vertices (which;
-/// those nearer to each other than 1e-9 of the extent), zero area, not planar (by how much; allowed: 1e-6 of the
-/// extent, at least 1 mm), not convex by more than said above (which vertex), a `front` that is zero or lies in the
-/// plane.
-TargetFrame make_target_frame(const Target& target);
+/// Throws Error(input) for: no such part, no vertices, 2 or more than 64, one vertex beside other parts, a coordinate
+/// that is not finite, repeated vertices (which; those nearer to each other than 1e-9 of the extent), zero area, not
+/// planar (by how much; allowed: 1e-6 of the extent, at least 1 mm), not convex by more than said above (which vertex),
+/// a `front` that is zero or lies in the plane.
+TargetFrame make_target_frame(const Target& target, std::size_t part = 0);
 
 }  // namespace vantage

@@ -20,8 +20,9 @@ struct VerifyOptions {
   double depth_tolerance = 1e-6;  ///< a point counts as claimed wrongly, or wrongly not, when it lies deeper on the
                                   ///< wrong side of the surface than this times its distance to the target's centre
   double tolerance_m = 0.01;  ///< of the volume (ExactOptions): what lies within it of the range limit may be unclaimed
-  double rounding_m = 0;      ///< of the volume's file (Scene::rounding_m): what lies no deeper on the wrong side than
-                              ///< this, besides what the depth tolerance allows, does not count
+  std::vector<double> lift_m = {};  ///< how far each part of the target was raised (Volume::lift_m); empty: not at all
+  double rounding_m = 0;  ///< of the volume's file (Scene::rounding_m): what lies no deeper on the wrong side than
+                          ///< this, besides what the depth tolerance allows, does not count
 };
 
 struct VerifyReport {
@@ -44,26 +45,23 @@ struct VerifyReport {
                                  ///< find the mesh open at them
   long euler = 0;
   std::uint64_t seed = 0;
+
+  bool is_solid() const { return closed && oriented && flat_facets == 0; }
+  bool is_right() const { return over_claimed == 0 && is_solid(); }
 };
 
 /// Checks `volume` (any closed mesh, scene frame) against the scene by shadow rays to the target's vertices, edges and
 /// interior, and to where scene geometry reaches between the viewpoint and the target. Grazing is allowed: a hit closer
 /// to a triangle's border than 1e-9 of its size does not count. Hits lower than 1 mm over the target itself count as
 /// the surface that it lies on. A volume is right when nothing is over-claimed and its mesh is a closed, oriented
-/// surface for whoever reads it; see docs/verification.md. Where the engine raised the target (Volume::lift_m), raise
-/// it here too: add that to `target.offset_m`.
+/// surface for whoever reads it; see docs/verification.md. What is claimed must see every part of the target whole, and
+/// what is not must miss some of one. Depths are told by the distance to the first part's centre. The parts are looked
+/// at one after the other, so that memory is that of one.
 ///
 /// The report depends on the seed, not on the number of threads (TBB; the caller's arena). Cost: points times samples
 /// shadow rays, a few tenths of a microsecond each and thread. Throws Error(input) for a mesh that is not closed or a
 /// target, sensor, limit or option that is wrong in itself, Error(cancelled) when told to stop.
 VerifyReport verify_volume(const Scene& scene, const Target& target, const Sensor& sensor, const Navigation& navigation,
                            const Mesh& volume, const VerifyOptions& options = {}, const Progress& progress = {});
-
-/// The same of a target in parts, one or more: what is claimed must see every part whole, and what is not must miss
-/// some of one. Depths are told by the distance to the first part's centre. Cost: that of each part, one after the
-/// other; memory is that of one.
-VerifyReport verify_volume(const Scene& scene, const std::vector<Target>& parts, const Sensor& sensor,
-                           const Navigation& navigation, const Mesh& volume, const VerifyOptions& options = {},
-                           const Progress& progress = {});
 
 }  // namespace vantage

@@ -9,6 +9,7 @@
 
 #include "vantage/constraints.h"
 #include "vantage/geometry.h"
+#include "vantage/prepared_target.h"
 #include "vantage/progress.h"
 #include "vantage/scene.h"
 #include "vantage/target.h"
@@ -81,10 +82,9 @@ struct Volume {
   std::vector<std::uint32_t> cause_of;  ///< per triangle: index into `causes`
   std::vector<Cause> causes;
 
-  double tolerance_m = 0;  ///< bound on how far range facets lie inside the true range region
-  double lift_m = 0;  ///< the target was raised this far to clear the surface that it lies on (rounding of the input);
-                      ///< less than 2.01 mm; where max_range is less than 20 m, in proportion
-  TargetFrame frame;  ///< of the target as used, lift included
+  double tolerance_m = 0;          ///< bound on how far range facets lie inside the true range region
+  std::vector<double> lift_m;      ///< how far each part of the target was raised: PreparedTarget::lift_m
+  TargetFrame frame;               ///< of the target's first part as used, lift included
   std::vector<std::string> notes;  ///< what to know before relying on it, a sentence each: the target seems to be under
                                    ///< the ground. compute_mission adds its own: the map ends within the range
   std::optional<Georeference> georeference;  ///< of the scene; compute_mission fills it in, and writers write it
@@ -108,34 +108,12 @@ struct ExactOptions {
 /// Cost: it grows with what is seen from the target and with the facets of the range sphere (in proportion to max_range
 /// over tolerance), hardly with the size of the scene. Milliseconds in ordinary streets; bench/results has figures.
 ///
-/// Throws Error(input) for a bad target (see make_target_frame), a pierced target (object, place, smallest offset that
-/// clears it), a max_range or tolerance that is not positive and finite, a tolerance so fine for this range that the
-/// mesh would have too many facets; Error(cancelled) when told to stop; Error(internal) when the boundary could not be
-/// triangulated safely: no volume rather than a wrong one. A target that seems to lie under the ground is told in
-/// `notes`.
-Volume compute_visibility(const PreparedScene& scene, const Target& target, const Sensor& sensor,
-                          const ExactOptions& options = {}, const Progress& progress = {});
-
-/// Cuts a volume to the navigation limits. The result may have several pieces; each is closed. Facets keep their
-/// causes; cut faces are CauseKind::navigation. An empty result is Outcome::outside_limits with a reason. Adds its time
-/// to `navigation` and `total` of the volume's Seconds. Uses the threads of the caller's arena (TBB).
-///
-/// Cost: one boolean operation, O(n log n) in the facets of the volume and the limits, and the check of each mesh for
-/// self-intersections, O(m log m) in its triangles.
-///
-/// Throws Error(input) for limits that are wrong in themselves (a reversed, empty or not finite altitude band or box, a
-/// mesh that is open, inside out or intersects itself) and for a volume whose arrays do not fit together;
-/// Error(cancelled) when told to stop; Error(internal) when a boolean operation fails.
-Volume cut_to_navigation(const Volume& volume, const Navigation& navigation, const Progress& progress = {});
-
-/// What all the volumes claim: that of a target in parts is the intersection of its parts' volumes. May have several
-/// pieces, each closed; facets keep their causes, and causes of the same kind and name become one. Tolerance and lift
-/// are the largest of the volumes', the frame is the first one's, seconds and counts are sums, notes are those of all.
-/// Where one of the volumes is empty, so is the result, with its outcome and reason; where they have nothing in common,
-/// Outcome::no_common_view.
-/// Throws Error(input) for no volumes and for one whose arrays do not fit together; Error(cancelled) when told to stop;
-/// Error(internal) when a boolean operation fails. Cost: a boolean operation per volume, O(n log n) in the facets.
-Volume intersect_volumes(const std::vector<Volume>& volumes, const Progress& progress = {});
+/// Throws Error(input) for a target of several parts (compute_volume of vantage/navigation.h takes these), a tolerance
+/// that is not positive and finite, a tolerance so fine for this range that the mesh would have too many facets;
+/// Error(cancelled) when told to stop; Error(internal) when the boundary could not be triangulated safely: no volume
+/// rather than a wrong one.
+Volume compute_visibility(const PreparedTarget& target, const ExactOptions& options = {},
+                          const Progress& progress = {});
 
 /// Topology and size of a closed mesh. `euler` is V - E + F over all pieces: 2 per piece of genus 0.
 struct MeshMeasures {
@@ -151,6 +129,20 @@ struct MeshMeasures {
 /// triangle uses do not count, and vertices are told apart by index, not by position. Cost: linear in the triangles,
 /// but for sorting the edges at each vertex. Throws Error(input) naming the triangle when an index is out of range.
 MeshMeasures measure(const Mesh& mesh);
+
+/// Holes in a mesh.
+struct OpenEdges {
+  std::size_t count = 0;
+  Vec3 middle_of_first = Vec3::Zero();  ///< of one of them, if there is any
+};
+
+/// Edges with an odd number of triangles, where vertices at exactly the same position count as one (STL has no shared
+/// vertices, other formats repeat them at seams) and triangles with two corners in one place are left out. A mesh
+/// without any encloses something, even where two of its pieces touch. Cost: O(n log n).
+OpenEdges find_open_edges(const Mesh& mesh);
+
+/// A mesh as a volume with a single cause of that name, to write or to cut.
+Volume volume_of_mesh(Mesh mesh, const std::string& cause);
 
 /// What a written file holds.
 struct WrittenVolume {

@@ -51,8 +51,8 @@ std::optional<std::uint32_t> ground_object(const Scene& scene) {
   return static_cast<std::uint32_t>(found - scene.objects.begin());
 }
 
-std::optional<std::string> make_room(LoadedScene& loaded, const Mission& mission, const PlanBox& wanted) {
-  Scene& scene = loaded.scene;
+std::optional<std::string> make_room(Mission& mission, const PlanBox& wanted) {
+  Scene& scene = mission.loaded.scene;
   const auto ground = ground_object(scene);
   if (!ground) return std::nullopt;
   const std::vector<std::uint32_t> vertices = vertices_of(scene, *ground);
@@ -65,17 +65,16 @@ std::optional<std::string> make_room(LoadedScene& loaded, const Mission& mission
   const double missing = sticks_out(wanted, box);
   if (missing <= 0) return std::nullopt;
   const double away = apart(wanted, box);
-  const bool is_of_map = mission.ground_target && !mission.ground_target->osm.empty();
+  const bool is_of_map = mission.file.ground_target && !mission.file.ground_target->osm.empty();
   if (away > mission.sensor.max_range_m && !is_of_map) {
-    fail_off_ground(loaded, mission,
-                    "the target lies " + std::to_string(std::lround(away)) +
-                        " m from the scene's ground, farther than max_range: nothing would hide it");
+    fail_off_ground(mission, "the target lies " + std::to_string(std::lround(away)) +
+                                 " m from the scene's ground, farther than max_range: nothing would hide it");
   }
-  if (loaded.city && !mission.scene.city.terrain.empty()) throw TerrainTooSmall{missing};
+  if (mission.loaded.city && !mission.file.scene.city.terrain.empty()) throw TerrainTooSmall{missing};
   if (!is_flat_rectangle(scene, vertices, box)) {
-    fail_off_ground(loaded, mission, "the target reaches beyond the scene's ground");
+    fail_off_ground(mission, "the target reaches beyond the scene's ground");
   }
-  const Vec2 margin = Vec2::Constant(mission.scene.city.ground_margin_m);
+  const Vec2 margin = Vec2::Constant(mission.file.scene.city.ground_margin_m);
   const PlanBox larger{box.min.cwiseMin(wanted.min - margin), box.max.cwiseMax(wanted.max + margin)};
   for (const std::uint32_t vertex : vertices) {
     Vec3& at = scene.mesh.vertices[vertex];
@@ -85,8 +84,9 @@ std::optional<std::string> make_room(LoadedScene& loaded, const Mission& mission
          std::to_string(std::lround(std::ceil(missing))) + " m beyond it: the map has nothing to build out there";
 }
 
-void fail_off_ground(const LoadedScene& loaded, const Mission& mission, const std::string& problem) {
-  const CityRegion& region = mission.scene.city.region;
+void fail_off_ground(const Mission& mission, const std::string& problem) {
+  const LoadedScene& loaded = mission.loaded;
+  const CityRegion& region = mission.file.scene.city.region;
   const bool is_part = region.center_deg || region.bbox_deg;
   std::string fix = "make the scene of a larger area, or move the target";
   if (loaded.city || loaded.raster) {
@@ -95,7 +95,7 @@ void fail_off_ground(const LoadedScene& loaded, const Mission& mission, const st
                   : "all of the " + what + " is used already: check the target's place, or take a " + what +
                         " that reaches farther";
   }
-  throw Error(ErrorKind::input, problem, mission.target_place, fix);
+  throw Error(ErrorKind::input, problem, mission.file.places.target, fix);
 }
 
 }  // namespace vantage::app

@@ -6,13 +6,13 @@
 #include <utility>
 
 #include "app/input_file.h"
-#include "app/numbers.h"
-#include "app/run_mission.h"
+#include "app/places.h"
 #include "app/scene_section.h"
 #include "app/schema.h"
 #include "app/spheres_section.h"
 #include "app/value_reader.h"
 #include "vantage/error.h"
+#include "vantage/input.h"
 
 namespace vantage::app {
 namespace {
@@ -23,7 +23,7 @@ class MissionParser : private ValueReader {
  public:
   explicit MissionParser(const fs::path& file) : ValueReader(file.string()), path_(file) {}
 
-  ParsedMission parse(std::string_view text);
+  MissionFile parse(std::string_view text);
 
  private:
   // Sections.
@@ -33,7 +33,7 @@ class MissionParser : private ValueReader {
   void parse_navigation(const YamlNode& node);
   void parse_method(const YamlNode& node);
   void parse_exact(const YamlNode& node);
-  MeshReference mesh_reference(const YamlNode& node);
+  void add_mesh(const YamlNode& node);
   Navigation::Altitude altitude(const YamlNode& node) const;
   std::vector<Box> boxes(const YamlNode& node, const std::string& what) const;
   Box box(const YamlNode& node, const std::string& what) const;
@@ -49,7 +49,7 @@ class MissionParser : private ValueReader {
   const YamlNode& require(const YamlNode& map, Section section, std::string_view key, const std::string& fix) const;
 
   fs::path path_;
-  ParsedMission parsed_;
+  MissionFile mission_;
 };
 
 const char* const kVerticesForm =
@@ -67,13 +67,13 @@ std::string edge_text(std::size_t from, std::size_t to) {
   return text;
 }
 
-ParsedMission MissionParser::parse(std::string_view mission_text) {
+MissionFile MissionParser::parse(std::string_view mission_text) {
   const YamlNode root = parse_yaml(mission_text, file());
   check_keys(root, Section::mission, file());
-  parsed_.mission.file = fs::absolute(path_);
+  mission_.file = fs::absolute(path_);
 
   if (const YamlNode* method = find(root, "method")) parse_method(*method);
-  if (const YamlNode* crs = find(root, "crs")) parsed_.mission.crs = text(*crs, "crs");
+  if (const YamlNode* crs = find(root, "crs")) mission_.crs = text(*crs, "crs");
   parse_scene(require(root, Section::mission, "scene", "write 'scene:' and below it, indented, 'mesh: city.obj'"));
   parse_target(require(root, Section::mission, "target",
                        "write 'target:' and below it, indented, 'vertices: [[x, y, z], [x, y, z], [x, y, z]]'"));
@@ -81,39 +81,33 @@ ParsedMission MissionParser::parse(std::string_view mission_text) {
       require(root, Section::mission, "sensor", "write 'sensor:' and below it, indented, 'max_range: 100' (metres)"));
   if (const YamlNode* navigation = find(root, "navigation")) parse_navigation(*navigation);
   if (const YamlNode* exact = find(root, "exact")) parse_exact(*exact);
-  if (const YamlNode* spheres = find(root, "spheres")) parse_spheres(*spheres, *this, parsed_.mission.spheres);
-  return std::move(parsed_);
+  if (const YamlNode* spheres = find(root, "spheres")) parse_spheres(*spheres, *this, mission_.spheres);
+  return std::move(mission_);
 }
 
 void MissionParser::parse_scene(const YamlNode& node) {
   // Not made shorter here: "a/../b" is not "b" where a is a symbolic link.
-  SceneSection section = parse_scene_section(node, *this, parsed_.mission.file.parent_path());
-  parsed_.mission.scene = std::move(section.source);
-  parsed_.scene_where = std::move(section.where);
-  parsed_.terrain_where = std::move(section.terrain_where);
+  SceneSection section = parse_scene_section(node, *this, mission_.file.parent_path());
+  mission_.scene = std::move(section.source);
+  mission_.places.scene = std::move(section.where);
+  mission_.places.terrain = std::move(section.terrain_where);
 }
 
-MeshReference MissionParser::mesh_reference(const YamlNode& node) {
+void MissionParser::add_mesh(const YamlNode& node) {
   const YamlNode& mesh =
       require(node, Section::mesh, "mesh", "write 'mesh: city.obj'; the path starts from the mission file");
-  MeshReference reference;
-  reference.name = text(mesh, "navigation.meshes.mesh");
-  reference.where = place_in(file(), mesh.place);
-  reference.file = parsed_.mission.file.parent_path() / reference.name;
-  // What `compute` writes must come back as a navigation mesh where it was: OBJ in the axes and the unit of the scene
-  // file, PLY and STL in the scene frame.
-  const YamlNode* const up = find(node, "up");
-  const YamlNode* const scale = find(node, "scale");
-  if (up) reference.options.up = parse_up_axis(*up, *this, "navigation.meshes.up");
-  if (scale) reference.options.scale = positive(*scale, "navigation.meshes.scale");
-  reference.in_scene_axes = is_obj(reference.file) && !up;
-  reference.in_scene_unit = is_obj(reference.file) && !scale;
-  return reference;
+  NavigationMeshFile named;
+  named.name = text(mesh, "navigation.meshes.mesh");
+  named.file = mission_.file.parent_path() / named.name;
+  if (const YamlNode* up = find(node, "up")) named.up = parse_up_axis(*up, *this, "navigation.meshes.up");
+  if (const YamlNode* scale = find(node, "scale")) named.scale = positive(*scale, "navigation.meshes.scale");
+  mission_.navigation_meshes.push_back(std::move(named));
+  mission_.places.navigation_meshes.push_back(place_in(file(), mesh.place));
 }
 
 void MissionParser::parse_target(const YamlNode& node) {
   check_keys(node, Section::target, file());
-  Target& target = parsed_.mission.target;
+  Target& target = mission_.target;
   if (const YamlNode* name = find(node, "name")) target.name = text(*name, "target.name");
   const YamlNode* point = find(node, "point");
   const bool is_on_ground = find(node, "osm") || find(node, "center");
@@ -123,12 +117,12 @@ void MissionParser::parse_target(const YamlNode& node) {
   if (const YamlNode* offset = find(node, "offset")) target.offset_m = length(*offset, "target.offset");
   if (const YamlNode* front = find(node, "front")) target.front = vector(*front, "target.front");
   check_target(place);
-  if (const YamlNode* edges = find(node, "edges")) check_edges(*edges, target.vertices.size());
+  if (const YamlNode* edges = find(node, "edges")) check_edges(*edges, target.parts[0].size());
 }
 
 /// Returns the node that stands for the target in messages.
 const YamlNode& MissionParser::parse_vertices(const YamlNode& node) {
-  Target& target = parsed_.mission.target;
+  Target& target = mission_.target;
   for (const char* key : {"width", "length", "heading"}) {
     if (const YamlNode* entry = find(node, key)) {
       fail(*entry, std::string("target.") + key + " is of a rectangle, and the target has no 'center'",
@@ -138,7 +132,7 @@ const YamlNode& MissionParser::parse_vertices(const YamlNode& node) {
   const YamlNode& vertices = require(node, Section::target, "vertices", kVerticesForm);
   list(vertices, "target.vertices", kVerticesForm);
   for (std::size_t i = 0; i < vertices.items.size(); ++i) {
-    target.vertices.push_back(vector(vertices.items[i], indexed("target.vertices", i)));
+    target.parts[0].push_back(vector(vertices.items[i], indexed("target.vertices", i)));
   }
   if (target.is_point()) {
     fail(vertices, "a polygon needs at least 3 vertices, this one has 1",
@@ -159,13 +153,13 @@ void MissionParser::refuse_beside(const YamlNode& node, const char* key, std::in
 
 /// Where it lies is found out when the scene is read.
 const YamlNode& MissionParser::parse_ground_target(const YamlNode& node) {
-  GroundTarget& ground = parsed_.mission.ground_target.emplace();
+  GroundTarget& ground = mission_.ground_target.emplace();
   if (const YamlNode* osm = find(node, "osm")) {
     refuse_beside(node, "osm", {"vertices", "edges", "center", "width", "length", "heading"},
                   "keep 'osm' for an area of the map, or give the target yourself");
     ground.osm = text(*osm, "target.osm");
-    if (find(node, "name") == nullptr) parsed_.mission.target.name = ground.osm;
-    if (parsed_.mission.scene.kind != SceneSource::Kind::map) {
+    if (find(node, "name") == nullptr) mission_.target.name = ground.osm;
+    if (mission_.scene.kind != SceneSource::Kind::map) {
       fail(*osm, "target.osm names an object of a map, and the scene is none",
            "write 'scene: {osm: city.osm.pbf}', or give the target's vertices");
     }
@@ -184,7 +178,7 @@ const YamlNode& MissionParser::parse_ground_target(const YamlNode& node) {
 const YamlNode& MissionParser::parse_point(const YamlNode& node, const YamlNode& point) {
   refuse_beside(node, "point", {"vertices", "edges", "osm", "center"},
                 "keep 'point' for a single point, or 'vertices' for a polygon");
-  parsed_.mission.target.vertices = {vector(point, "target.point")};
+  mission_.target.parts = {{vector(point, "target.point")}};
   const YamlNode* offset = find(node, "offset");
   if (offset != nullptr && find(node, "front") == nullptr) {
     fail(*offset, "a point without 'front' has no side to be moved towards by 'offset'",
@@ -195,10 +189,12 @@ const YamlNode& MissionParser::parse_point(const YamlNode& node, const YamlNode&
 
 /// The checks that need no scene, told with the place of the vertices or the point.
 void MissionParser::check_target(const YamlNode& place) {
-  Mission& mission = parsed_.mission;
-  mission.target_place = place_in(file(), place.place);
-  if (!mission.crs.empty() || mission.ground_target) return;  // place_mission does it
-  with_place(mission.target_place, [&] { return make_target_frame(mission.target); });
+  mission_.places.target = place_in(file(), place.place);
+  if (!mission_.crs.empty() || mission_.ground_target) return;  // georeference() does it
+  with_place(mission_.places.target, [&] {
+    for (std::size_t i = 0; i < mission_.target.parts.size(); ++i) make_target_frame(mission_.target, i);
+    return 0;
+  });
 }
 
 /// The edges must be the polygon's own: each joins neighbours in `vertices`, none is missing, none stands twice. Which
@@ -250,13 +246,13 @@ void MissionParser::parse_sensor(const YamlNode& node) {
   check_keys(node, Section::sensor, file());
   const YamlNode& range =
       require(node, Section::sensor, "max_range", "write 'max_range: 100': metres, to every point of the target");
-  parsed_.mission.sensor.max_range_m = positive(range, "sensor.max_range");
+  mission_.sensor.max_range_m = positive(range, "sensor.max_range");
 }
 
 void MissionParser::parse_navigation(const YamlNode& node) {
   if (node.kind == YamlNode::Kind::null) return;  // the heading alone: no limits
   check_keys(node, Section::navigation, file());
-  Navigation& navigation = parsed_.mission.navigation;
+  Navigation& navigation = mission_.navigation;
   if (const YamlNode* band = find(node, "altitude")) navigation.altitude = altitude(*band);
   if (const YamlNode* keep_in = find(node, "boxes")) {
     navigation.boxes = boxes(*keep_in, "navigation.boxes");
@@ -273,14 +269,14 @@ void MissionParser::parse_navigation(const YamlNode& node) {
   for (const YamlNode& item : list(*meshes, "navigation.meshes", "write a list of mesh files: [airspace.ply]")) {
     if (item.kind == YamlNode::Kind::map) {
       check_keys(item, Section::mesh, file());
-      parsed_.navigation_meshes.push_back(mesh_reference(item));
+      add_mesh(item);
       continue;
     }
     YamlNode map;  // the short form, a path alone
     map.kind = YamlNode::Kind::map;
     map.place = item.place;
     map.entries.push_back({"mesh", item.place, item});
-    parsed_.navigation_meshes.push_back(mesh_reference(map));
+    add_mesh(map);
   }
 }
 
@@ -331,7 +327,7 @@ void MissionParser::check_extent(const YamlNode& node, const std::string& what, 
 void MissionParser::parse_method(const YamlNode& node) {
   const std::string method = text(node, "method");
   if (method == "spheres") {
-    parsed_.mission.method = Method::spheres;
+    mission_.method = Method::spheres;
   } else if (method != "exact") {
     fail(node, "there is no method " + in_quotes(method), "write 'method: exact' or 'method: spheres'");
   }
@@ -340,7 +336,7 @@ void MissionParser::parse_method(const YamlNode& node) {
 void MissionParser::parse_exact(const YamlNode& node) {
   check_keys(node, Section::exact, file());
   if (const YamlNode* tolerance = find(node, "tolerance")) {
-    parsed_.mission.exact.tolerance_m = positive(*tolerance, "exact.tolerance");
+    mission_.exact.tolerance_m = positive(*tolerance, "exact.tolerance");
   }
 }
 
@@ -352,6 +348,6 @@ const YamlNode& MissionParser::require(const YamlNode& map, Section section, std
 
 }  // namespace
 
-ParsedMission parse_mission(std::string_view text, const fs::path& file) { return MissionParser(file).parse(text); }
+MissionFile parse_mission(std::string_view text, const fs::path& file) { return MissionParser(file).parse(text); }
 
 }  // namespace vantage::app

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <utility>
 
-#include "app/scene_caveats.h"
+#include "app/scene_warnings.h"
 
 namespace vantage::app {
 namespace {

@@ -1,11 +1,13 @@
-#include "app/report.h"
-
+#include <algorithm>
 #include <array>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "io/georeference_text.h"
+#include "vantage/error.h"
+#include "vantage/result.h"
 
-namespace vantage::app {
+namespace vantage {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -20,7 +22,13 @@ Json json_of(const Box& box) {
 Json json_of(const std::vector<Cause>& causes) {
   Json list = Json::array();
   for (const Cause& cause : causes) {
-    list.push_back({{"name", cause.name}, {"kind", name_of(cause.kind)}, {"area_m2", cause.area_m2}});
+    Json entry = {{"name", cause.name}, {"kind", name_of(cause.kind)}, {"area_m2", cause.area_m2}};
+    if (cause.object) {
+      entry["object"] = *cause.object;
+      if (!cause.source_id.empty()) entry["source_id"] = cause.source_id;
+      entry["object_kind"] = name_of(cause.object_kind);
+    }
+    list.push_back(std::move(entry));
   }
   return list;
 }
@@ -93,7 +101,7 @@ std::string report_json(const Volume& volume, const MeshMeasures& measures, cons
   report["closed"] = measures.closed;
   report["oriented"] = measures.oriented;
   report["tolerance_m"] = volume.tolerance_m;
-  report["lift_m"] = volume.lift_m;
+  report["lift_m"] = volume.lift_m.empty() ? 0 : *std::max_element(volume.lift_m.begin(), volume.lift_m.end());
   if (volume.georeference) report["georeference"] = io::georeference_json(*volume.georeference);
   report["bounding_box"] = json_of(measures.bounds);
   report["causes"] = json_of(volume.causes);
@@ -103,4 +111,28 @@ std::string report_json(const Volume& volume, const MeshMeasures& measures, cons
   return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-}  // namespace vantage::app
+ReportSource report_source(const Mission& mission, const Result& result) {
+  ReportSource source;
+  source.mission = mission.file.file.string();
+  source.scene = mission.file.scene.file.string();
+  source.target = mission.target.name;
+  if (result.spheres) source.spheres = SpheresRun{mission.file.spheres, *result.spheres};
+  return source;
+}
+
+std::optional<double> reported_lift_m(const std::filesystem::path& volume_file) {
+  constexpr double kMostLift = 0.01;  // metres; a target is raised by no more than 2.01 mm
+  std::filesystem::path volume = volume_file;
+  if (volume.extension() == ".gz") volume.replace_extension();
+  const std::filesystem::path report = report_file(volume);
+  std::ifstream in(report);
+  if (!in) return std::nullopt;
+  const Json json = Json::parse(in, nullptr, false);
+  const double lift =
+      json.is_object() && json.contains("lift_m") && json["lift_m"].is_number() ? json["lift_m"].get<double>() : -1;
+  if (lift >= 0 && lift <= kMostLift) return lift;
+  throw Error(ErrorKind::input, "the report beside the volume gives no lift_m from 0 to 0.01", report.string(),
+              "write it again with \"vantage compute\", or say how far the target was raised with --lift");
+}
+
+}  // namespace vantage

@@ -1,18 +1,18 @@
-#include "app/result_files.h"
-
 #include <algorithm>
 #include <chrono>
 #include <iterator>
 #include <memory>
 #include <utility>
 
-#include "core/atomic_file.h"
 #include "core/progress_reporter.h"
 #include "core/volume_check.h"
 #include "io/writers.h"
+#include "vantage/atomic_file.h"
 #include "vantage/error.h"
+#include "vantage/output.h"
+#include "vantage/result.h"
 
-namespace vantage::app {
+namespace vantage {
 
 std::filesystem::path report_file(const std::filesystem::path& volume_file) {
   return std::filesystem::path(volume_file).replace_extension(".report.json");
@@ -26,11 +26,11 @@ WrittenResults write_results(Volume& volume, const ResultRequest& request, const
   WrittenResults result;
   result.measures = has_volume ? core::measure_sound(volume.mesh) : measure(volume.mesh);
 
-  std::vector<std::unique_ptr<core::AtomicFile>> files;
+  std::vector<std::unique_ptr<AtomicFile>> files;
   if (has_volume) {
     for (const std::filesystem::path& file : request.volumes) {
       progress.report(result.written.size(), request.volumes.size() + 1);
-      io::StagedVolume staged = io::stage_volume(volume, file, request.obj_up, request.obj_scale);
+      StagedVolume staged = stage_volume(volume, file, request.obj_up, request.obj_scale);
       staged.files.front()->seal();
       std::move(staged.files.begin(), staged.files.end(), std::back_inserter(files));
       result.written.push_back(staged.report);
@@ -48,12 +48,12 @@ WrittenResults write_results(Volume& volume, const ResultRequest& request, const
     const std::filesystem::path report = report_file(file);
     const auto is_same = [&](const auto& other) { return other.lexically_normal() == report.lexically_normal(); };
     if (std::any_of(result.reports.begin(), result.reports.end(), is_same)) continue;
-    files.push_back(std::make_unique<core::AtomicFile>(report));
+    files.push_back(std::make_unique<AtomicFile>(report));
     files.back()->write(text);
     result.reports.push_back(report);
   }
-  core::commit_all(files);
+  commit_all(files);
   return result;
 }
 
-}  // namespace vantage::app
+}  // namespace vantage

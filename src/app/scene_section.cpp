@@ -6,10 +6,10 @@
 #include <initializer_list>
 #include <utility>
 
-#include "app/numbers.h"
-#include "app/run_mission.h"
+#include "app/places.h"
 #include "app/schema.h"
-#include "maps/city/settings.h"
+#include "vantage/city.h"
+#include "vantage/input.h"
 
 namespace vantage::app {
 namespace {
@@ -115,7 +115,7 @@ class SceneParser {
     CityOptions& city = section_.source.city;
     if (const YamlNode* without = take("without", {Kind::map}, "maps")) {
       for (const YamlNode& kind : reader_.list(*without, "scene.without", "write a list: [trees, walls]")) {
-        city::leave_out(city.occluders, reader_.text(kind, "scene.without"), place_in(reader_.file(), kind.place));
+        leave_out(city.occluders, reader_.text(kind, "scene.without"), place_in(reader_.file(), kind.place));
       }
     }
     const YamlNode* const defaults = take("defaults", {Kind::map}, "maps");
@@ -125,8 +125,8 @@ class SceneParser {
                    "write {level: 3.2, levels.house: 2}");
     }
     for (const YamlEntry& entry : defaults->entries) {
-      city::set(city, entry.key, reader_.number(entry.value, "scene.defaults." + entry.key),
-                place_in(reader_.file(), entry.place));
+      set_city_option(city, entry.key, reader_.number(entry.value, "scene.defaults." + entry.key),
+                      place_in(reader_.file(), entry.place));
     }
   }
 

@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <array>
 
-#include "app/nearest_name.h"
-#include "app/numbers.h"
 #include "vantage/error.h"
+#include "vantage/input.h"
 
 namespace vantage::app {
 namespace {

@@ -6,10 +6,10 @@
 #include <string>
 #include <utility>
 
-#include "app/numbers.h"
-#include "app/run_mission.h"
+#include "app/places.h"
 #include "app/schema.h"
 #include "spheres/sphere_maker.h"
+#include "vantage/input.h"
 
 namespace vantage::app {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/numbers.h"
+#include "vantage/input.h"
 
 namespace vantage::app {
 

@@ -8,8 +8,8 @@
 #include <istream>
 #include <streambuf>
 
-#include "app/numbers.h"
 #include "vantage/error.h"
+#include "vantage/input.h"
 
 namespace vantage::app {
 namespace {

@@ -7,9 +7,9 @@
 #include <cstdio>
 #include <cstring>
 
-#include "app/numbers.h"
-#include "core/parallel.h"
 #include "vantage/error.h"
+#include "vantage/input.h"
+#include "vantage/threads.h"
 
 namespace vantage::cli {
 namespace {
@@ -57,17 +57,17 @@ void add_common_options(CLI::App& command, CommonOptions& options) {
 
 int with_threads(const CommonOptions& options, const Command& command) {
   int exit_code = kSuccess;
-  parallel::with_threads(options.threads, [&] { exit_code = command(); });
+  vantage::with_threads(options.threads, [&] { exit_code = command(); });
   return exit_code;
 }
 
 double positive_option(const std::string& name, const std::string& text) {
-  const app::ParsedNumber parsed = app::parse_number(text);
-  if (parsed.fault == app::NumberFault::none && parsed.value > 0) return parsed.value;
+  const ParsedNumber parsed = parse_number(text);
+  if (parsed.fault == NumberFault::none && parsed.value > 0) return parsed.value;
   const std::string advice =
-      parsed.fault == app::NumberFault::none ? "write a number greater than 0" : app::number_advice(text, parsed.fault);
-  throw Error(ErrorKind::input, name + " must be a positive number, not " + app::in_quotes(text),
-              "command line, " + name, advice);
+      parsed.fault == NumberFault::none ? "write a number greater than 0" : number_advice(text, parsed.fault);
+  throw Error(ErrorKind::input, name + " must be a positive number, not " + in_quotes(text), "command line, " + name,
+              advice);
 }
 
 void print(std::string_view text) {

@@ -3,21 +3,19 @@
 #include <filesystem>
 #include <iterator>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
 #include <vector>
 
-#include "app/input_file.h"
-#include "app/into_frame.h"
 #include "cli/command.h"
-#include "cli/output_check.h"
-#include "cli/plain_volume.h"
 #include "cli/progress_line.h"
 #include "cli/text_table.h"
-#include "io/writers.h"
 #include "vantage/compare.h"
 #include "vantage/error.h"
+#include "vantage/input.h"
+#include "vantage/json.h"
+#include "vantage/output.h"
+#include "vantage/result.h"
 #include "vantage/volume.h"
 
 namespace vantage::cli {
@@ -52,7 +50,7 @@ struct Options {
 /// How OBJ files are read and written.
 SceneReadOptions obj_options(const Options& options) {
   const std::array<const std::string*, 4> files = {&options.file_a, &options.file_b, &options.only_a, &options.only_b};
-  const bool has_obj = std::any_of(files.begin(), files.end(), [](const auto* f) { return app::is_obj(*f); });
+  const bool has_obj = std::any_of(files.begin(), files.end(), [](const auto* f) { return is_obj(*f); });
   if (!has_obj && !(options.up.empty() && options.scale.empty())) {
     throw Error(ErrorKind::input, "--up and --scale are for OBJ files, and none is named", "command line",
                 "leave them out: PLY and STL are in the scene frame, and glTF is y up");
@@ -78,51 +76,23 @@ void check_outputs(const Options& options) {
 /// Both or none; returns the files that were written.
 std::vector<std::string> write(const Options& options, Comparison& comparison, const std::optional<Georeference>& place,
                                const SceneReadOptions& obj) {
-  std::vector<std::unique_ptr<core::AtomicFile>> files;
+  std::vector<std::unique_ptr<AtomicFile>> files;
   std::vector<std::string> written;
   const auto stage = [&](const std::string& output, Mesh& mesh, const std::string& input) {
     if (output.empty() || mesh.empty()) return;
-    Volume volume = plain_volume(std::move(mesh), "only in " + fs::path(input).filename().string());
+    Volume volume = volume_of_mesh(std::move(mesh), "only in " + fs::path(input).filename().string());
     volume.georeference = place;
-    io::StagedVolume staged = io::stage_volume(volume, output, obj.up, obj.scale);
+    StagedVolume staged = stage_volume(volume, output, obj.up, obj.scale);
     std::move(staged.files.begin(), staged.files.end(), std::back_inserter(files));
     written.push_back(output);
   };
   stage(options.only_a, comparison.only_a, options.file_a);
   stage(options.only_b, comparison.only_b, options.file_b);
-  core::commit_all(files);
+  commit_all(files);
   return written;
 }
 
 double percent(double part, double whole) { return 100 * part / whole; }
-
-std::string json_text(const Options& options, const Comparison& c, const std::vector<std::string>& written) {
-  const auto point = [](double distance, const Vec3& p) -> nlohmann::ordered_json {
-    if (distance == 0) return nullptr;
-    return {p.x(), p.y(), p.z()};
-  };
-  nlohmann::ordered_json json;
-  json["a"] = options.file_a;
-  json["b"] = options.file_b;
-  json["volume_a_m3"] = c.volume_a_m3;
-  json["volume_b_m3"] = c.volume_b_m3;
-  json["intersection_m3"] = c.intersection_m3;
-  json["intersection_percent_of_a"] = percent(c.intersection_m3, c.volume_a_m3);
-  json["intersection_percent_of_b"] = percent(c.intersection_m3, c.volume_b_m3);
-  json["only_a_m3"] = c.only_a_m3;
-  json["only_a_percent"] = percent(c.only_a_m3, c.volume_a_m3);
-  json["only_b_m3"] = c.only_b_m3;
-  json["only_b_percent"] = percent(c.only_b_m3, c.volume_b_m3);
-  json["worst_only_a_m"] = c.worst_only_a_m;
-  json["worst_only_a_bound_m"] = c.worst_only_a_bound_m;
-  json["worst_only_a_point"] = point(c.worst_only_a_m, c.worst_only_a_point);
-  json["worst_only_b_m"] = c.worst_only_b_m;
-  json["worst_only_b_bound_m"] = c.worst_only_b_bound_m;
-  json["worst_only_b_point"] = point(c.worst_only_b_m, c.worst_only_b_point);
-  json["written"] = written;
-  // A name is bytes from the command line, and JSON takes UTF-8 only: others are replaced rather than refused.
-  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
-}
 
 std::string share_text(double part, double whole, const char* of) {
   return "m3, " + fixed(percent(part, whole), 4) + " % of " + of;
@@ -162,23 +132,24 @@ std::string table_text(const Options& options, const Comparison& c, const std::v
 }
 
 int run(const Options& options) {
-  app::check_readable(options.file_a, "the first mesh", "");
-  app::check_readable(options.file_b, "the second mesh", "");
+  check_readable(options.file_a, "the first mesh", "");
+  check_readable(options.file_b, "the second mesh", "");
   const SceneReadOptions obj = obj_options(options);
   check_outputs(options);
   ProgressLine progress(options.common);
-  const app::MeshInFrame a = app::read_into_frame(options.file_a, obj, {}, progress.callback());
-  const app::MeshInFrame b = app::read_into_frame(options.file_b, obj, a.georeference, progress.callback());
+  const VolumeFile a = read_volume(options.file_a, obj, {}, progress.callback());
+  const VolumeFile b = read_volume(options.file_b, obj, a.volume.georeference, progress.callback());
   if (!options.common.quiet) std::for_each(b.notes.begin(), b.notes.end(), note);
-  Comparison comparison = compare_volumes(a.mesh, b.mesh, options.file_a, options.file_b, progress.callback());
+  Comparison comparison =
+      compare_volumes(a.volume.mesh, b.volume.mesh, options.file_a, options.file_b, progress.callback());
   stop_if_interrupted();
   const std::vector<std::string> written =
-      write(options, comparison, a.georeference ? a.georeference : b.georeference, obj);
+      write(options, comparison, a.volume.georeference ? a.volume.georeference : b.volume.georeference, obj);
   const bool is_turn_doubtful =
-      (app::is_obj(options.file_a) || app::is_obj(options.file_b)) && options.up.empty() &&
+      (is_obj(options.file_a) || is_obj(options.file_b)) && options.up.empty() &&
       comparison.intersection_m3 < 0.5 * std::min(comparison.volume_a_m3, comparison.volume_b_m3);
   if (options.json) {
-    print(json_text(options, comparison, written));
+    print(json_text(comparison, options.file_a, options.file_b, written));
   } else if (!options.common.quiet) {
     print(table_text(options, comparison, written, is_turn_doubtful));
   }

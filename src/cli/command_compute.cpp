@@ -4,24 +4,22 @@
 #include <optional>
 #include <set>
 
-#include "app/result_files.h"
-#include "app/run_mission.h"
 #include "cli/command.h"
-#include "cli/output_check.h"
 #include "cli/progress_line.h"
-#include "cli/stage_folder.h"
 #include "cli/standard_streams.h"
 #include "cli/text_table.h"
-#include "core/atomic_file.h"
-#include "io/writers.h"
+#include "vantage/atomic_file.h"
 #include "vantage/error.h"
+#include "vantage/mission.h"
+#include "vantage/output.h"
+#include "vantage/result.h"
+#include "vantage/stages.h"
 #include "vantage/volume.h"
 
 namespace vantage::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using app::MissionRun;
 
 constexpr const char* kExamples =
     "EXAMPLES\n"
@@ -66,7 +64,7 @@ void check_outputs(const Options& options) {
   for (const std::string& output : options.outputs) {
     if (!is_standard_stream(output)) {
       check_volume_output(output);
-      check_can_write(app::report_file(output));
+      check_can_write(report_file(output));
     }
     if (!seen.insert(fs::path(output).lexically_normal()).second) {
       throw Error(ErrorKind::input, "an output is named twice", output, "give each -o a name of its own");
@@ -88,10 +86,8 @@ void check_outputs(const Options& options) {
   if (!options.report.empty()) check_can_write(options.report);
 }
 
-/// What the command line says goes before what the mission says.
-Mission with_options(const Mission& read, const Options& options) {
-  Mission mission = read;
-  mission.exact.threads = options.common.threads;
+/// The command line overrides what the mission says.
+MissionFile with_options(MissionFile mission, const Options& options) {
   if (!options.method.empty()) mission.method = options.method == "spheres" ? Method::spheres : Method::exact;
   if (!options.device.empty()) mission.spheres.device = parse_device_choice(options.device);
   if (mission.method == Method::spheres) return mission;
@@ -103,24 +99,15 @@ Mission with_options(const Mission& read, const Options& options) {
   return mission;
 }
 
-app::ReportSource source_of(const Mission& mission, const MissionRun& run) {
-  app::ReportSource source;
-  source.mission = mission.file.string();
-  source.scene = mission.scene.file.string();
-  source.target = mission.target.name;
-  if (run.spheres) source.spheres = app::SpheresRun{mission.spheres, *run.spheres};
-  return source;
-}
-
 /// `files`: the outputs, with the one that is on its way to standard output.
-app::WrittenResults write(const std::vector<std::string>& files, const Mission& mission, MissionRun& run,
-                          const Progress& progress) {
-  app::ResultRequest request;
+WrittenResults write(const std::vector<std::string>& files, const Mission& mission, Result& run,
+                     const Progress& progress) {
+  ResultRequest request;
   request.volumes.assign(files.begin(), files.end());
-  request.obj_up = run.loaded.scene.up;
-  request.obj_scale = run.loaded.scene.scale;
-  request.source = source_of(mission, run);
-  return app::write_results(run.volume, request, progress);
+  request.obj_up = mission.loaded.scene.up;
+  request.obj_scale = mission.loaded.scene.scale;
+  request.source = report_source(mission, run);
+  return write_results(run.volume, request, progress);
 }
 
 std::vector<const Cause*> by_area(const Volume& volume) {
@@ -171,13 +158,15 @@ void add_spheres(TextTable& table, const SpheresReport& report) {
 
 /// How much the exact engine raised the target; 0 for none.
 void add_lift(TextTable& table, const Volume& volume) {
-  if (volume.lift_m > 0) {
-    table.row("lift", fixed(1e3 * volume.lift_m, 3), "mm that the target was raised to clear the surface it lies on");
+  double lift_m = 0;
+  for (const double of_part : volume.lift_m) lift_m = std::max(lift_m, of_part);
+  if (lift_m > 0) {
+    table.row("lift", fixed(1e3 * lift_m, 3), "mm that the target was raised to clear the surface it lies on");
   }
 }
 
 /// What everyone wants to know, in five lines: target, volume, mesh, causes, time. And the lift where there is one.
-void add_essentials(TextTable& table, const Mission& mission, const MissionRun& run, const MeshMeasures& measures) {
+void add_essentials(TextTable& table, const Mission& mission, const Result& run, const MeshMeasures& measures) {
   const Volume& volume = run.volume;
   table.heading("target '" + mission.target.name + "', range " + fixed(mission.sensor.max_range_m, 1) + " m" +
                 (run.spheres ? ", visibility spheres, " + run.spheres->device.name : ""));
@@ -195,7 +184,7 @@ void add_essentials(TextTable& table, const Mission& mission, const MissionRun& 
   table.row("time", duration(volume.seconds.total), "");
 }
 
-void add_times(TextTable& table, const MissionRun& run) {
+void add_times(TextTable& table, const Result& run) {
   const Seconds& seconds = run.volume.seconds;
   table.heading("time");
   table.row("start", duration(loading_seconds()), "loading the program and its libraries");
@@ -213,7 +202,7 @@ void add_times(TextTable& table, const MissionRun& run) {
   table.row("total", duration(seconds.total), "");
 }
 
-std::string summary(const Mission& mission, const MissionRun& run, const MeshMeasures& measures, bool verbose) {
+std::string summary(const Mission& mission, const Result& run, const MeshMeasures& measures, bool verbose) {
   TextTable table;
   add_essentials(table, mission, run, measures);
   if (!verbose) return table.text();
@@ -230,7 +219,7 @@ std::string summary(const Mission& mission, const MissionRun& run, const MeshMea
 }
 
 /// STL and GLB have single precision only: with map coordinates that may be far less than what was computed.
-void warn_of_rounding(const Options& options, const Volume& volume, const app::WrittenResults& written) {
+void warn_of_rounding(const Options& options, const Volume& volume, const WrittenResults& written) {
   if (options.common.quiet) return;
   for (std::size_t i = 0; i < written.written.size(); ++i) {
     const double rounding = written.written[i].rounding_m;
@@ -241,7 +230,7 @@ void warn_of_rounding(const Options& options, const Volume& volume, const app::W
 }
 
 /// All that is written but standard output, and what people are told of it.
-std::string list_of_files(const Options& options, const MissionRun& run, const app::WrittenResults& written) {
+std::string list_of_files(const Options& options, const Result& run, const WrittenResults& written) {
   std::string text;
   for (const std::string& output : options.outputs) {
     if (run.volume.outcome == Outcome::computed && !is_standard_stream(output)) text += "wrote " + output + "\n";
@@ -265,7 +254,7 @@ void tell_of_no_volume(const Options& options, const Volume& volume) {
 }
 
 /// Standard output holds the report, or the volume, or the summary.
-void tell(const Options& options, const Mission& mission, const MissionRun& run, const app::WrittenResults& written,
+void tell(const Options& options, const Mission& mission, const Result& run, const WrittenResults& written,
           const OutgoingFile* outgoing) {
   const bool has_volume = run.volume.outcome == Outcome::computed;
   if (options.json) {
@@ -288,14 +277,13 @@ void tell(const Options& options, const Mission& mission, const MissionRun& run,
 int run(const Options& options) {
   check_outputs(options);
   const double start = seconds_since_start();
-  const Mission read = read_mission_argument(options.mission_file);
-  const double mission_seconds = seconds_since_start() - start;
+  const MissionFile file = with_options(read_mission_argument(options.mission_file), options);
+  const std::vector<fs::path> inputs = input_files(file);
   for (const std::string& output : options.outputs) {
-    check_not_an_input(output, input_files(read));
-    check_not_an_input(app::report_file(output), input_files(read));
+    check_not_an_input(output, inputs);
+    check_not_an_input(report_file(output), inputs);
   }
-  if (!options.report.empty()) check_not_an_input(options.report, input_files(read));
-  Mission mission = with_options(read, options);
+  if (!options.report.empty()) check_not_an_input(options.report, inputs);
   std::optional<StageFolder> stages;
   if (!options.stages.empty()) stages.emplace(options.stages);
   std::optional<OutgoingFile> outgoing;
@@ -303,20 +291,23 @@ int run(const Options& options) {
   std::vector<std::string> files = options.outputs;
   if (outgoing) std::replace(files.begin(), files.end(), std::string("-"), outgoing->path().string());
 
-  MissionRun run;
-  app::WrittenResults written;
+  Mission mission;
+  Result run;
+  WrittenResults written;
   {
     ProgressLine progress(options.common);
-    run = app::run_mission(mission, progress.callback(), stages ? stages->sink() : StageSink());
-    run.volume.seconds.read += mission_seconds;
+    mission = resolve_mission(file, progress.callback());
+    const double read_seconds = seconds_since_start() - start;
+    run = run_mission(mission, {options.common.threads, stages ? stages->sink() : StageSink()}, progress.callback());
+    run.volume.seconds.read = read_seconds;
     run.volume.seconds.total = seconds_since_start();  // with all that lies between; writing is added
-    if (stages) stages->write_story(mission, run.volume, *run.spheres);
+    if (stages) stages->write_story(mission, run);
     written = write(files, mission, run, progress.callback());
     if (stages) stages->commit();
   }
-  if (outgoing) std::erase(written.reports, app::report_file(outgoing->path()));
+  if (outgoing) std::erase(written.reports, report_file(outgoing->path()));
   if (!options.report.empty()) {
-    core::write_whole_file(options.report, app::report_json(run.volume, written.measures, source_of(mission, run)));
+    write_whole_file(options.report, report_json(run.volume, written.measures, report_source(mission, run)));
   }
   tell(options, mission, run, written, outgoing ? &*outgoing : nullptr);
   return options.fail_empty && run.volume.outcome != Outcome::computed ? kCheckFailed : kSuccess;

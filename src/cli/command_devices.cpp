@@ -1,10 +1,9 @@
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "cli/command.h"
 #include "cli/text_table.h"
-#include "depth/choose.h"
 #include "vantage/devices.h"
+#include "vantage/json.h"
 
 namespace vantage::cli {
 namespace {
@@ -33,30 +32,12 @@ const char* kind_remark(DeviceKind kind) {
   return "";
 }
 
-std::string why(const depth::ChosenDevice& chosen, const std::string& asked) {
+std::string why(const ChosenDevice& chosen, const std::string& asked) {
   if (!chosen.note.empty()) return chosen.note;
   return asked == "auto" ? "the first graphics processor" : "asked for by --device " + asked;
 }
 
-std::string json_text(const RenderDevices& found, const depth::ChosenDevice& chosen, const std::string& reason) {
-  nlohmann::ordered_json json;
-  json["devices"] = nlohmann::ordered_json::array();
-  for (const RenderDevice& device : found.devices) {
-    json["devices"].push_back({{"index", device.index},
-                               {"kind", name_of(device.kind)},
-                               {"name", device.name},
-                               {"driver", device.driver},
-                               {"memory_bytes", device.memory_bytes},
-                               {"largest_face_size", device.largest_face_size}});
-  }
-  json["used"] = chosen.device.index;
-  json["why"] = reason;
-  json["why_no_opengl"] = found.why_no_opengl;
-  // A name is bytes from a driver, and JSON takes UTF-8 only: others are replaced rather than refused.
-  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
-}
-
-std::string table_text(const RenderDevices& found, const depth::ChosenDevice& chosen, const std::string& reason) {
+std::string table_text(const RenderDevices& found, const ChosenDevice& chosen, const std::string& reason) {
   TextTable table;
   for (const RenderDevice& device : found.devices) {
     table.heading("device " + std::to_string(device.index) + ": " + device.name);
@@ -82,7 +63,7 @@ std::string table_text(const RenderDevices& found, const depth::ChosenDevice& ch
 int run(const Options& options) {
   const DeviceChoice choice = parse_device_choice(options.device);
   const RenderDevices found = render_devices();
-  const depth::ChosenDevice chosen = depth::choose_device(found, choice);
+  const ChosenDevice chosen = choose_device(found, choice);
   const std::string reason = why(chosen, options.device);
   print(options.json ? json_text(found, chosen, reason) : table_text(found, chosen, reason));
   return kSuccess;

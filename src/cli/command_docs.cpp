@@ -6,7 +6,7 @@
 #include "cli/command_table.h"
 #include "cli/completion.h"
 #include "cli/man_page.h"
-#include "core/atomic_file.h"
+#include "vantage/atomic_file.h"
 #include "vantage/error.h"
 
 namespace vantage::cli {
@@ -31,7 +31,7 @@ void write_man_pages(const std::vector<CommandRow>& table, const fs::path& folde
     throw Error(ErrorKind::output, "the folder cannot be made: " + error.message(), folder.string(),
                 "name a folder that may be written");
   }
-  for (const ManPage& page : man_pages(table)) core::write_whole_file(folder / page.file, page.text);
+  for (const ManPage& page : man_pages(table)) write_whole_file(folder / page.file, page.text);
 }
 
 std::string completion(const std::vector<CommandRow>& table, const std::string& shell) {
@@ -52,7 +52,7 @@ int run(const CLI::App& app, const Options& options) {
   if (options.output.empty()) {
     print(text);
   } else {
-    core::write_whole_file(options.output, text);
+    write_whole_file(options.output, text);
   }
   return kSuccess;
 }

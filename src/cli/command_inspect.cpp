@@ -1,13 +1,12 @@
 #include <algorithm>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "cli/command.h"
 #include "cli/progress_line.h"
 #include "cli/scene_options.h"
 #include "cli/scene_report.h"
 #include "cli/text_table.h"
-#include "io/georeference_text.h"
+#include "vantage/json.h"
 #include "vantage/scene.h"
 
 namespace vantage::cli {
@@ -28,30 +27,6 @@ struct Options {
   SceneOptions scene;
   bool json = false;
 };
-
-std::string json_text(const LoadedScene& loaded, const SceneStatistics& found) {
-  const Scene& scene = loaded.scene;
-  const auto vector = [](const Vec3& v) { return nlohmann::ordered_json{v.x(), v.y(), v.z()}; };
-  nlohmann::ordered_json json;
-  json["file"] = scene.source.string();
-  json["triangles"] = found.triangles;
-  json["vertices"] = found.vertices;
-  json["objects"] = found.objects;
-  json["dropped_faces"] = scene.dropped_faces;
-  json["welded_vertices"] = found.welded_vertices;
-  json["degenerate_triangles"] = found.degenerate_triangles;
-  json["duplicate_triangles"] = found.duplicate_triangles;
-  json["open_edges"] = found.open_edges;
-  json["nonmanifold_edges"] = found.nonmanifold_edges;
-  json["misoriented_edges"] = found.misoriented_edges;
-  json["polygons"] = found.polygons;
-  json["bounds"] = {{"min", vector(found.bounds.min)}, {"max", vector(found.bounds.max)}};
-  if (scene.georeference) json["georeference"] = io::georeference_json(*scene.georeference);
-  json["notes"] = notes_of(loaded);
-  add_source(json, loaded);
-  // A name is bytes from a file, and JSON takes UTF-8 only: others are replaced rather than refused.
-  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
-}
 
 void add_place(TextTable& table, const Georeference& place) {
   table.heading("where it lies: metres east, north and up of this origin (WGS 84)");

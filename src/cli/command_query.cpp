@@ -9,18 +9,17 @@
 #include <optional>
 #include <span>
 
-#include "app/input_file.h"
-#include "app/numbers.h"
-#include "app/run_mission.h"
 #include "cli/command.h"
 #include "cli/interrupt.h"
-#include "cli/output_check.h"
 #include "cli/point_table.h"
 #include "cli/progress_line.h"
 #include "cli/row_reader.h"
 #include "cli/standard_streams.h"
-#include "core/atomic_file.h"
+#include "vantage/atomic_file.h"
 #include "vantage/error.h"
+#include "vantage/input.h"
+#include "vantage/mission.h"
+#include "vantage/output.h"
 #include "vantage/query.h"
 
 namespace vantage::cli {
@@ -61,7 +60,7 @@ class Source {
  public:
   explicit Source(const std::string& file) {
     if (is_standard_stream(file)) return;
-    app::check_readable(file, "the points file", "");
+    check_readable(file, "the points file", "");
     descriptor_ = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
     if (descriptor_ >= 0) return;
     throw Error(ErrorKind::input, std::string("the points file cannot be read: ") + std::strerror(errno), file,
@@ -97,7 +96,7 @@ class Sink {
   }
 
  private:
-  std::optional<core::AtomicFile> file_;
+  std::optional<AtomicFile> file_;
 };
 
 TableOptions table_options(const Options& options) {
@@ -105,10 +104,10 @@ TableOptions table_options(const Options& options) {
   result.lonlat = options.lonlat;
   result.json = options.json;
   if (options.z.empty()) return result;
-  const app::ParsedNumber z = app::parse_number(options.z);
-  if (z.fault != app::NumberFault::none) {
-    throw Error(ErrorKind::input, "--z must be a number, not " + app::in_quotes(options.z), "command line, --z",
-                app::number_advice(options.z, z.fault));
+  const ParsedNumber z = parse_number(options.z);
+  if (z.fault != NumberFault::none) {
+    throw Error(ErrorKind::input, "--z must be a number, not " + in_quotes(options.z), "command line, --z",
+                number_advice(options.z, z.fault));
   }
   result.z = z.value;
   return result;
@@ -168,11 +167,11 @@ void check_streams(const Options& options) {
 int run(const Options& options) {
   check_streams(options);
   const TableOptions columns = table_options(options);
-  Mission mission = read_mission_argument(options.mission_file);
-  if (!options.is_to_stdout()) check_not_an_input(options.output_file, input_files(mission));
+  const MissionFile file = read_mission_argument(options.mission_file);
+  if (!options.is_to_stdout()) check_not_an_input(options.output_file, input_files(file));
   const bool is_from_stdin = is_standard_stream(options.points_file);
   const bool is_quiet = options.common.quiet;
-  if (mission.method == Method::spheres && !is_quiet) {
+  if (file.method == Method::spheres && !is_quiet) {
     note("the mission's method is spheres; queries are always answered exactly, for the whole target");
   }
   if (is_from_stdin && !is_quiet && ::isatty(STDIN_FILENO) == 1) {
@@ -190,13 +189,10 @@ int run(const Options& options) {
   if (portion.rows.empty()) portion = parsed(table, reader.next());  // the header came alone
   if (!is_quiet) tell_of_columns(table);
 
-  const Scene scene = read_mission_scene(mission, progress.callback()).scene;
+  const Mission mission = resolve_mission(file, progress.callback());
+  const Scene& scene = mission.loaded.scene;
   if (table.is_lonlat() && !is_quiet) tell_of_heights(scene);
-  std::vector<Target> parts = mission.other_parts;
-  parts.insert(parts.begin(), mission.target);
-  PointQuery query = app::with_place(mission.target_place, [&] {
-    return PointQuery(PreparedScene(scene, progress.callback()), parts, mission.sensor, mission.navigation);
-  });
+  PointQuery query(prepare_target(mission, PreparedScene(scene, progress.callback())), mission.navigation);
   Sink sink(options);
   std::string text = table.beginning();
   while (!portion.rows.empty()) {

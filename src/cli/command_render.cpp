@@ -2,18 +2,17 @@
 #include <memory>
 #include <optional>
 
-#include "app/caveats.h"
-#include "app/input_file.h"
-#include "app/numbers.h"
-#include "app/run_mission.h"
 #include "cli/command.h"
-#include "cli/output_check.h"
 #include "cli/picture_options.h"
 #include "cli/progress_line.h"
 #include "cli/stage_sheet.h"
 #include "cli/standard_streams.h"
 #include "vantage/error.h"
+#include "vantage/input.h"
+#include "vantage/mission.h"
+#include "vantage/output.h"
 #include "vantage/picture.h"
+#include "vantage/result.h"
 
 namespace vantage::cli {
 namespace {
@@ -45,34 +44,30 @@ void check_output(const std::string& output) {
   if (is_standard_stream(output)) return;
   std::error_code error;
   if (format_extension(output) != ".png" && !fs::is_directory(output, error)) {
-    throw Error(ErrorKind::input, "pictures are written as PNG, not as " + app::in_quotes(output), output,
+    throw Error(ErrorKind::input, "pictures are written as PNG, not as " + in_quotes(output), output,
                 "give the output a name that ends in .png");
   }
   check_can_write(output);
 }
 
-Picture picture(const Options& options, Mission& mission, const PictureView& view, std::array<int, 2> size,
+/// The volume of the file, or else the computed one, with what people should know of it.
+Volume volume_to_draw(const Options& options, const Mission& mission, const Progress& progress) {
+  if (options.volume_file.empty()) return run_mission(mission, {options.common.threads, {}}, progress).volume;
+  VolumeFile read = read_volume(options.volume_file, mission.loaded.scene, progress);
+  if (!options.common.quiet) std::for_each(read.notes.begin(), read.notes.end(), note);
+  read.volume.notes = mission_warnings(mission, &read.volume);
+  return std::move(read.volume);
+}
+
+Picture picture(const Options& options, const Mission& mission, const PictureView& view, std::array<int, 2> size,
                 const Progress& progress) {
-  Volume volume;
-  Scene scene;
-  if (!options.volume_file.empty()) {
-    app::check_readable(options.volume_file, "the volume", "");  // before the scene, which takes longer
-    LoadedScene loaded = read_mission_scene(mission, progress);
-    std::vector<std::string> notes;
-    volume = read_volume(options.volume_file, loaded.scene, progress, &notes);
-    if (!options.common.quiet) std::for_each(notes.begin(), notes.end(), note);
-    volume.notes = app::caveats(mission, loaded, &volume);
-    scene = std::move(loaded.scene);
-  } else {
-    app::MissionRun run = app::run_mission(mission, progress);
-    volume = std::move(run.volume);
-    scene = std::move(run.loaded.scene);
-    if (volume.outcome != Outcome::computed && !options.common.quiet) note("no volume: " + volume.reason);
+  const Volume volume = volume_to_draw(options, mission, progress);
+  if (!options.common.quiet) {
+    if (volume.outcome != Outcome::computed) note("no volume: " + volume.reason);
+    std::for_each(volume.notes.begin(), volume.notes.end(), note);
   }
-  if (!options.common.quiet) std::for_each(volume.notes.begin(), volume.notes.end(), note);
   PictureRequest request;
   request.target = &mission.target;
-  request.other_parts = mission.other_parts;
   request.volume = &volume;
   request.navigation = mission.navigation;
   request.view = view;
@@ -81,14 +76,12 @@ Picture picture(const Options& options, Mission& mission, const PictureView& vie
   request.title = mission.target.name;
   request.subtitle = picture_subtitle(mission, &volume);
   request.notes = volume.notes;
-  return render_picture(scene, request, progress);
+  return render_picture(mission.loaded.scene, request, progress);
 }
 
-Picture sheet(const Options& options, Mission& mission, const PictureView& view, std::array<int, 2> size,
+Picture sheet(const Options& options, const Mission& mission, const PictureView& view, std::array<int, 2> size,
               const Progress& progress) {
-  const std::vector<StageFile> stages = read_stages(options.stages);
-  const Scene scene = read_mission_scene(mission, progress).scene;
-  return stage_sheet(mission, scene, stages, view, size, progress);
+  return stage_sheet(mission, read_stages(options.stages), view, size, progress);
 }
 
 int run(const Options& options) {
@@ -97,10 +90,12 @@ int run(const Options& options) {
   const std::array<int, 2> size =
       parse_size(!options.size.empty() ? options.size : (is_sheet ? kPanelSize : kPictureSize));
   check_output(options.output);
-  Mission mission = read_mission_argument(options.mission_file);
-  mission.exact.threads = options.common.threads;
-  std::vector<fs::path> inputs = input_files(mission);
-  if (!options.volume_file.empty()) inputs.emplace_back(options.volume_file);
+  const MissionFile file = read_mission_argument(options.mission_file);
+  std::vector<fs::path> inputs = input_files(file);
+  if (!options.volume_file.empty()) {
+    inputs.emplace_back(options.volume_file);
+    check_readable(options.volume_file, "the volume");  // before the scene, which takes longer
+  }
   check_not_an_input(options.output, inputs);
   std::optional<OutgoingFile> outgoing;
   if (is_standard_stream(options.output)) outgoing.emplace(".png");
@@ -108,6 +103,7 @@ int run(const Options& options) {
     ProgressLine progress(options.common);
     const auto draw = is_sheet ? sheet : picture;
     const Progress follow = progress.callback();
+    const Mission mission = resolve_mission(file, follow);
     write_png(draw(options, mission, view, size, follow), outgoing ? outgoing->path() : fs::path(options.output),
               follow);
   }

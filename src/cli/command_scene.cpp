@@ -2,15 +2,15 @@
 #include <memory>
 #include <set>
 
-#include "app/result_files.h"
 #include "cli/command.h"
-#include "cli/output_check.h"
 #include "cli/progress_line.h"
 #include "cli/scene_options.h"
 #include "cli/scene_report.h"
-#include "core/atomic_file.h"
-#include "io/scene_writers.h"
+#include "vantage/atomic_file.h"
 #include "vantage/error.h"
+#include "vantage/json.h"
+#include "vantage/output.h"
+#include "vantage/result.h"
 #include "vantage/scene_source.h"
 
 namespace vantage::cli {
@@ -57,18 +57,18 @@ int run(const Options& options) {
   ProgressLine progress(options.common);
   const LoadedScene loaded = load_scene(source, progress.callback());
 
-  std::vector<std::unique_ptr<core::AtomicFile>> files;
+  std::vector<std::unique_ptr<AtomicFile>> files;
   for (const std::string& output : options.outputs) {
-    for (auto& file : io::stage_scene(loaded.scene, output)) files.push_back(std::move(file));
+    for (auto& file : stage_scene(loaded.scene, output)) files.push_back(std::move(file));
     if (!loaded.city) continue;
-    files.push_back(std::make_unique<core::AtomicFile>(app::report_file(output)));
-    files.back()->write(scene_json(loaded));
+    files.push_back(std::make_unique<AtomicFile>(report_file(output)));
+    files.back()->write(json_text(loaded));
     files.back()->seal();
   }
   stop_if_interrupted();
-  core::commit_all(files);
+  commit_all(files);
   if (options.json) {
-    print(scene_json(loaded));
+    print(json_text(loaded));
   } else if (!options.common.quiet) {
     print(scene_table(loaded, source.file));
   }

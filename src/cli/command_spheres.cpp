@@ -1,23 +1,18 @@
 #include <memory>
 #include <set>
 
-#include "app/seed_run.h"
 #include "cli/command.h"
-#include "cli/output_check.h"
 #include "cli/progress_line.h"
 #include "cli/text_table.h"
-#include "io/writers.h"
 #include "vantage/devices.h"
 #include "vantage/error.h"
+#include "vantage/output.h"
+#include "vantage/willis.h"
 
 namespace vantage::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using app::SeedConfig;
-using app::SeedResult;
-using app::SeedRun;
-using app::SeedVolume;
 
 constexpr const char* kExamples =
     "EXAMPLES\n"
@@ -35,7 +30,7 @@ struct Options {
 
 /// Runs `action`; an error about an output is told with the place in the file that names it.
 template <typename Action>
-auto at_output(const SeedVolume& volume, const Action& action) {
+auto at_output(const WillisVolume& volume, const Action& action) {
   try {
     return action();
   } catch (const Error& error) {
@@ -45,11 +40,11 @@ auto at_output(const SeedVolume& volume, const Action& action) {
 }
 
 /// All that can be known to go wrong with the outputs before anything is computed.
-void check_outputs(const SeedConfig& config) {
+void check_outputs(const WillisConfig& config) {
   std::vector<fs::path> inputs = {config.file};
-  for (const app::SeedMesh& mesh : config.meshes) inputs.push_back(mesh.file);
+  for (const WillisMesh& mesh : config.meshes) inputs.push_back(mesh.file);
   std::set<fs::path> seen;
-  for (const SeedVolume& volume : config.volumes) {
+  for (const WillisVolume& volume : config.volumes) {
     at_output(volume, [&] {
       check_volume_output(volume.output);
       check_not_an_input(volume.output, inputs);
@@ -60,20 +55,20 @@ void check_outputs(const SeedConfig& config) {
   }
 }
 
-void write(const SeedConfig& config, const std::vector<SeedResult>& results) {
-  std::vector<std::unique_ptr<core::AtomicFile>> files;
+void write(const WillisConfig& config, const std::vector<WillisResult>& results) {
+  std::vector<std::unique_ptr<AtomicFile>> files;
   for (std::size_t i = 0; i < results.size(); ++i) {
     at_output(config.volumes[i], [&] {
-      io::StagedVolume staged = io::stage_volume(results[i].volume, config.volumes[i].output, config.up, 1.0);
+      StagedVolume staged = stage_volume(results[i].volume, config.volumes[i].output, config.up, 1.0);
       staged.files.front()->seal();
       std::move(staged.files.begin(), staged.files.end(), std::back_inserter(files));
     });
   }
-  core::commit_all(files);
+  commit_all(files);
 }
 
-std::string summary(const SeedConfig& config, const SeedRun& run) {
-  const std::vector<SeedResult>& results = run.results;
+std::string summary(const WillisConfig& config, const WillisRun& run) {
+  const std::vector<WillisResult>& results = run.results;
   TextTable table;
   for (std::size_t i = 0; i < results.size(); ++i) {
     const MeshMeasures& measures = results[i].measures;
@@ -84,7 +79,7 @@ std::string summary(const SeedConfig& config, const SeedRun& run) {
   }
   std::string text = "device: " + run.device.name + (run.device_note.empty() ? "" : " (" + run.device_note + ")") +
                      "\n" + table.text();
-  for (const SeedVolume& volume : config.volumes) text += "wrote " + volume.output.string() + "\n";
+  for (const WillisVolume& volume : config.volumes) text += "wrote " + volume.output.string() + "\n";
   return text;
 }
 
@@ -93,15 +88,15 @@ int run_command(const Options& options) {
   spheres.device = parse_device_choice(options.device);
   spheres.sphere = options.sphere == "centers" ? SpheresOptions::Sphere::centers : SpheresOptions::Sphere::conservative;
   spheres.threads = options.common.threads;
-  const SeedConfig config = app::read_seed_config(options.config_file);
+  const WillisConfig config = read_willis_config(options.config_file);
   check_outputs(config);
   if (!options.common.quiet) {
     for (const std::string& warning : config.warnings) note(warning);
   }
-  SeedRun run;
+  WillisRun run;
   {
     ProgressLine progress(options.common);
-    run = app::run_seed_config(config, spheres, progress.callback());
+    run = run_willis_config(config, spheres, progress.callback());
     write(config, run.results);
   }
   if (!options.common.quiet) print(summary(config, run));

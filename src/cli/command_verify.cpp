@@ -1,19 +1,16 @@
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <vector>
 
-#include "app/caveats.h"
-#include "app/input_file.h"
-#include "app/into_frame.h"
-#include "app/run_mission.h"
 #include "cli/command.h"
-#include "cli/open_edges.h"
 #include "cli/progress_line.h"
 #include "cli/standard_streams.h"
 #include "cli/text_table.h"
+#include "vantage/input.h"
+#include "vantage/json.h"
+#include "vantage/mission.h"
+#include "vantage/result.h"
 #include "vantage/verify.h"
 #include "vantage/volume.h"
 
@@ -41,59 +38,10 @@ struct Options {
 
 constexpr double kMostLift = 0.01;  // metres; compute raises a target by no more than 2 mm
 
-/// How far `compute` raised the target to clear its surface: from the report beside the volume, 0 where there is none.
-double reported_lift(const std::filesystem::path& volume_file) {
-  std::filesystem::path report = volume_file;
-  if (report.extension() == ".gz") report.replace_extension();
-  report.replace_extension(".report.json");
-  std::ifstream in(report);
-  if (!in) return 0;
-  const nlohmann::json json = nlohmann::json::parse(in, nullptr, false);
-  const auto lift = json.is_object() ? json.find("lift_m") : json.end();
-  if (json.is_object() && lift != json.end() && lift->is_number() && lift->get<double>() >= 0 &&
-      lift->get<double>() <= kMostLift)
-    return lift->get<double>();
-  throw Error(ErrorKind::input, "the report beside the volume gives no lift_m from 0 to 0.01", report.string(),
-              "write it again with \"vantage compute\", or say how far the target was raised with --lift");
-}
-
-bool is_solid(const VerifyReport& report) { return report.closed && report.oriented && report.flat_facets == 0; }
-
-bool is_right(const VerifyReport& report) { return report.over_claimed == 0 && is_solid(report); }
-
 /// What is known of the volume besides its mesh.
 struct Given {
   double lift_m = 0, rounding_m = 0;
 };
-
-std::string json_text(const VerifyReport& report, const Given& given, const OpenEdges& holes) {
-  const auto point = [](const Vec3& p) { return nlohmann::ordered_json{p.x(), p.y(), p.z()}; };
-  nlohmann::ordered_json json;
-  json["right"] = is_right(report);
-  json["closed"] = report.closed;
-  json["open_edges"] = holes.count;
-  json["open_edge_at"] = holes.count > 0 ? point(holes.middle_of_first) : nlohmann::ordered_json();
-  json["oriented"] = report.oriented;
-  json["flat_facets"] = report.flat_facets;
-  json["euler"] = report.euler;
-  json["points"] = report.points;
-  json["inside"] = report.inside;
-  json["rays"] = report.rays;
-  json["over_claimed"] = report.over_claimed;
-  json["under_claimed"] = report.under_claimed;
-  json["worst_over_depth_m"] = report.worst_over_depth_m;
-  json["worst_over_point"] = point(report.worst_over_point);
-  json["worst_over_cause"] = report.worst_over_cause;
-  json["worst_under_depth_m"] = report.worst_under_depth_m;
-  json["worst_under_point"] = point(report.worst_under_point);
-  json["over_claim_bound"] = report.over_claim_bound;
-  json["bound_points"] = report.bound_points;
-  json["seed"] = report.seed;
-  json["lift_m"] = given.lift_m;
-  json["rounding_m"] = given.rounding_m;
-  // A name is bytes from a file, and JSON takes UTF-8 only: others are replaced rather than refused.
-  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
-}
 
 std::string table_text(const VerifyReport& report, const Given& given, const OpenEdges& holes,
                        const std::string& file) {
@@ -137,54 +85,50 @@ std::string table_text(const VerifyReport& report, const Given& given, const Ope
               "uniform over the volume; the count of over-claims also has points near the surface, which this leaves "
               "out");
   }
-  table.heading(is_right(report)
+  table.heading(report.is_right()
                     ? "nothing wrong was found"
-                    : (is_solid(report) ? "WRONG: the volume over-claims" : "WRONG: the mesh is not a closed solid"));
+                    : (report.is_solid() ? "WRONG: the volume over-claims" : "WRONG: the mesh is not a closed solid"));
   return table.text();
 }
 
 int run(const Options& options) {
-  app::check_readable(options.volume_file, "the volume", "");
-  Mission mission = read_mission_argument(options.mission_file);
+  check_readable(options.volume_file, "the volume");
+  const MissionFile file = read_mission_argument(options.mission_file);
   ProgressLine progress(options.common);
-  const LoadedScene loaded = read_mission_scene(mission, progress.callback());
-  const Scene& scene = loaded.scene;
-  const std::vector<std::string> doubts = app::caveats(mission, loaded);
-  if (!options.common.quiet) std::for_each(doubts.begin(), doubts.end(), note);
-
-  const app::MeshInFrame read = app::read_into_frame(options.volume_file, scene, progress.callback());
-  if (!options.common.quiet) std::for_each(read.notes.begin(), read.notes.end(), note);
-  const Mesh& volume = read.mesh;
+  const Mission mission = resolve_mission(file, progress.callback());
+  const std::vector<std::string> warnings = mission_warnings(mission);
+  const VolumeFile read = read_volume(options.volume_file, mission.loaded.scene, progress.callback());
+  if (!options.common.quiet) {
+    std::for_each(warnings.begin(), warnings.end(), note);
+    std::for_each(read.notes.begin(), read.notes.end(), note);
+  }
+  const Mesh& volume = read.volume.mesh;
   const OpenEdges holes = find_open_edges(volume);
-  const Given given{options.lift_m < 0 ? reported_lift(options.volume_file) : options.lift_m, read.rounding_m};
+  VerifyOptions verify_options;
+  verify_options.points = options.points;
+  verify_options.seed = options.seed;
+  verify_options.tolerance_m = file.exact.tolerance_m;
+  verify_options.rounding_m = read.rounding_m;
+  const double lift_m = options.lift_m < 0 ? reported_lift_m(options.volume_file).value_or(0) : options.lift_m;
+  verify_options.lift_m.assign(mission.target.parts.size(), lift_m);
+  const Given given{lift_m, read.rounding_m};
 
   VerifyReport report;
   if (holes.count == 0) {
-    VerifyOptions verify_options;
-    verify_options.points = options.points;
-    verify_options.seed = options.seed;
-    verify_options.tolerance_m = mission.exact.tolerance_m;
-    verify_options.rounding_m = given.rounding_m;
-    std::vector<Target> parts = mission.other_parts;
-    parts.insert(parts.begin(), mission.target);
-    for (Target& part : parts) part.offset_m += given.lift_m;
-    report = app::with_place(mission.target_place, [&] {
-      return verify_volume(scene, parts, mission.sensor, mission.navigation, volume, verify_options,
-                           progress.callback());
-    });
+    report = verify_volume(mission.loaded.scene, mission.target, mission.sensor, mission.navigation, volume,
+                           verify_options, progress.callback());
   } else {  // a mesh with holes has no inside to try points in
     report.euler = measure(volume).euler;
     report.seed = options.seed;
   }
   if (options.json) {
-    print(json_text(report, given, holes));
+    print(json_text(report, holes, given.lift_m, given.rounding_m));
   } else if (!options.common.quiet) {
-    if (!mission.other_parts.empty()) {
-      note("the target has " + std::to_string(mission.other_parts.size() + 1) + " convex parts: all must be seen");
-    }
+    const std::size_t parts = mission.target.parts.size();
+    if (parts > 1) note("the target has " + std::to_string(parts) + " convex parts: all must be seen");
     print(table_text(report, given, holes, options.volume_file));
   }
-  return is_right(report) ? kSuccess : kCheckFailed;
+  return report.is_right() ? kSuccess : kCheckFailed;
 }
 
 }  // namespace

@@ -4,12 +4,9 @@
 #include <charconv>
 #include <cmath>
 
-#include "app/input_file.h"
-#include "app/into_frame.h"
-#include "app/numbers.h"
 #include "cli/text_table.h"
-#include "io/read_causes.h"
 #include "vantage/error.h"
+#include "vantage/input.h"
 
 namespace vantage::cli {
 namespace {
@@ -21,10 +18,10 @@ namespace {
 
 std::vector<double> numbers(const std::string& text) {
   std::vector<double> values;
-  for (const std::string_view part : app::split_at_commas(text)) {
-    const app::ParsedNumber parsed = app::parse_number(part);
-    if (parsed.fault != app::NumberFault::none) {
-      refuse_view("the view's " + app::in_quotes(part) + " is no number");
+  for (const std::string_view part : split_at_commas(text)) {
+    const ParsedNumber parsed = parse_number(part);
+    if (parsed.fault != NumberFault::none) {
+      refuse_view("the view's " + in_quotes(part) + " is no number");
     }
     values.push_back(parsed.value);
   }
@@ -68,7 +65,7 @@ PictureView parse_view(const std::vector<std::string>& given) {
     view.kind = PictureView::Kind::from;
     view.from = {values[0], values[1], values[2]};
   } else {
-    refuse_view("no view is called " + app::in_quotes(kind));
+    refuse_view("no view is called " + in_quotes(kind));
   }
   return view;
 }
@@ -81,7 +78,7 @@ std::array<int, 2> parse_size(const std::string& text) {
   const auto second = is_cross ? std::from_chars(first.ptr + 1, end, size[1]) : first;
   const auto in_range = [](int pixels) { return pixels >= kSmallestPicture && pixels <= kLargestPicture; };
   if (is_cross && second.ec == std::errc() && second.ptr == end && in_range(size[0]) && in_range(size[1])) return size;
-  throw Error(ErrorKind::input, app::in_quotes(text) + " is no size of a picture", "command line, --size",
+  throw Error(ErrorKind::input, in_quotes(text) + " is no size of a picture", "command line, --size",
               "write WIDTHxHEIGHT in pixels, " + std::to_string(kSmallestPicture) + " to " +
                   std::to_string(kLargestPicture) + " each: 1600x1200");
 }
@@ -96,18 +93,7 @@ std::string picture_subtitle(const Mission& mission, const Volume* volume) {
   } else if (volume != nullptr) {
     text += dot + grouped(enclosed_volume(volume->mesh)) + "\u2009m\u00b3";
   }
-  return text + dot + mission.scene.file.filename().string();
-}
-
-Volume read_volume(const std::string& file, const Scene& scene, const Progress& progress,
-                   std::vector<std::string>* notes) {
-  app::check_readable(file, "the volume", "");
-  Volume volume;
-  app::MeshInFrame read = app::read_into_frame(file, scene, progress);
-  volume.mesh = std::move(read.mesh);
-  if (notes) *notes = std::move(read.notes);
-  io::read_causes(file, volume);
-  return volume;
+  return text + dot + mission.file.scene.file.filename().string();
 }
 
 }  // namespace vantage::cli

@@ -20,9 +20,4 @@ std::array<int, 2> parse_size(const std::string& text);
 /// "range 300 m": what is written under a picture's title. `volume` may be null.
 std::string picture_subtitle(const Mission& mission, const Volume* volume);
 
-/// A volume or any other mesh in the frame of the scene, with its causes where it has some. `notes` takes those of
-/// MeshInFrame.
-Volume read_volume(const std::string& file, const Scene& scene, const Progress& progress,
-                   std::vector<std::string>* notes = nullptr);
-
 }  // namespace vantage::cli

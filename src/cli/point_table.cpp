@@ -3,17 +3,14 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <set>
 
-#include "app/numbers.h"
 #include "vantage/error.h"
+#include "vantage/input.h"
+#include "vantage/json.h"
 
 namespace vantage::cli {
 namespace {
-
-using app::in_quotes;
-using app::NumberFault;
 
 constexpr std::array<const char*, 6> kAnswers = {"inside",       "margin_m",      "blocked_by",
                                                  "out_of_range", "behind_target", "outside_of"};
@@ -25,7 +22,7 @@ std::string lower_case(std::string text) {
 
 /// Begins like a name and is no spelling of infinity or not-a-number, which is a point's mistake, not a header.
 bool is_word(const std::string& field) {
-  if (field.empty() || app::parse_number(field).fault != NumberFault::not_a_number) return false;
+  if (field.empty() || parse_number(field).fault != NumberFault::not_a_number) return false;
   const auto c = static_cast<unsigned char>(field.front());
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c >= 0x80;
 }
@@ -40,12 +37,12 @@ std::optional<std::size_t> find_column(const std::vector<std::string>& names,
 }
 
 /// The plain cases at once; what is left is parse_number's.
-app::ParsedNumber number_in(std::string_view text) {
+ParsedNumber number_in(std::string_view text) {
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   const bool is_whole = end == text.data() + text.size() && error == std::errc();
   if (is_whole && std::isfinite(value)) return {value, NumberFault::none};
-  return app::parse_number(text);
+  return parse_number(text);
 }
 
 void append_number(std::string& text, double value) {
@@ -83,10 +80,6 @@ void append_names(std::string& text, const std::vector<std::string>& names) {
 }
 
 /// Bytes that are not UTF-8 are replaced rather than refused.
-std::string json_text(const nlohmann::json& value) {
-  return value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
-
 const char* truth(bool value) { return value ? "true" : "false"; }
 
 }  // namespace
@@ -159,11 +152,11 @@ Vec3 PointTable::coordinates(const Row& row) {
     }
     const std::string plain = fields_[column].is_quoted ? fields_[column].plain() : std::string();
     const std::string_view text = fields_[column].is_quoted ? std::string_view(plain) : fields_[column].text;
-    const app::ParsedNumber parsed = number_in(text);
+    const ParsedNumber parsed = number_in(text);
     if (parsed.fault != NumberFault::none) {
       fail(name + (parsed.fault == NumberFault::not_finite ? " is not finite: " : " is not a number: ") +
                in_quotes(text),
-           row, app::number_advice(text, parsed.fault));
+           row, number_advice(text, parsed.fault));
     }
     point[static_cast<Eigen::Index>(axis)] = parsed.value;
   }
@@ -251,7 +244,7 @@ void PointTable::append_json(std::string& text, const Vec3& coordinates, const P
     text += ", ";
   }
   text.append("\"inside\": ").append(truth(answer.inside)).append(", \"margin_m\": ");
-  text += std::isfinite(answer.margin_m) ? app::shortest(answer.margin_m) : "null";
+  text += std::isfinite(answer.margin_m) ? shortest(answer.margin_m) : "null";
   text.append(", \"blocked_by\": ").append(json_text(answer.blocked_by));
   text.append(", \"out_of_range\": ").append(truth(answer.out_of_range));
   text.append(", \"behind_target\": ").append(truth(answer.behind_target));

@@ -5,11 +5,10 @@
 #include <cmath>
 #include <string_view>
 
-#include "app/input_file.h"
-#include "app/numbers.h"
 #include "cli/command.h"
-#include "maps/city/settings.h"
+#include "vantage/city.h"
 #include "vantage/error.h"
+#include "vantage/input.h"
 
 namespace vantage::cli {
 namespace {
@@ -21,15 +20,15 @@ namespace {
 template <std::size_t N>
 std::array<double, N> numbers(const std::string& text, const std::string& option, const std::string& form) {
   std::array<double, N> values{};
-  const std::vector<std::string_view> parts = app::split_at_commas(text);
+  const std::vector<std::string_view> parts = split_at_commas(text);
   bool is_good = parts.size() == N;
   for (std::size_t i = 0; i < N && is_good; ++i) {
-    const app::ParsedNumber parsed = app::parse_number(parts[i]);
+    const ParsedNumber parsed = parse_number(parts[i]);
     values[i] = parsed.value;
-    is_good = parsed.fault == app::NumberFault::none;
+    is_good = parsed.fault == NumberFault::none;
   }
   if (!is_good) {
-    fail(app::in_quotes(text).append(" is not ").append(form), option,
+    fail(in_quotes(text).append(" is not ").append(form), option,
          "write numbers joined by commas, in quotes if there are blanks: " + form);
   }
   return values;
@@ -50,8 +49,8 @@ void apply(const std::string& setting, CityOptions& options) {
   const std::size_t sign = setting.find('=');
   if (sign == std::string::npos)
     fail("'" + setting + "' sets nothing", where, "write --set NAME=VALUE, such as level=3.2");
-  city::set(options, setting.substr(0, sign), positive_option(where, setting.substr(sign + 1)),
-            "command line, " + where);
+  set_city_option(options, setting.substr(0, sign), positive_option(where, setting.substr(sign + 1)),
+                  "command line, " + where);
 }
 
 std::array<int, 4> window_of(const std::string& text) {
@@ -73,7 +72,7 @@ SceneSource source_of(const SceneOptions& options) {
   source.city.region = region_of(options);
   source.city.terrain = options.terrain;
   for (const std::string& setting : options.settings) apply(setting, source.city);
-  for (const std::string& kind : options.without) city::leave_out(source.city.occluders, kind, "--without " + kind);
+  for (const std::string& kind : options.without) leave_out(source.city.occluders, kind, "--without " + kind);
   const CityRegion& region = source.city.region;
   source.raster.region = {region.center_deg, region.radius_m, region.bbox_deg, {}};
   if (!options.window.empty()) source.raster.region.pixels = window_of(options.window);
@@ -114,7 +113,7 @@ void check_options(const SceneOptions& options, SceneSource::Kind kind) {
 }  // namespace
 
 SceneSource scene_source(const SceneOptions& options, const std::string& what) {
-  app::check_readable(options.input, what, "");
+  check_readable(options.input, what, "");
   SceneSource source = source_of(options);
   check_options(options, source.kind);
   return source;

@@ -1,15 +1,9 @@
 #include "cli/stage_sheet.h"
 
-#include <fstream>
-#include <nlohmann/json.hpp>
-
-#include "app/input_file.h"
-#include "app/run_mission.h"
 #include "cli/picture_options.h"
-#include "cli/plain_volume.h"
 #include "cli/text_table.h"
-#include "vantage/error.h"
-#include "vantage/volume.h"
+#include "vantage/navigation.h"
+#include "vantage/result.h"
 
 namespace vantage::cli {
 namespace {
@@ -18,25 +12,12 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMostSteps = 12;  // of each kind: more is told, not drawn
 constexpr int kColumns = 4;
-constexpr const char* kAgain = "write the folder again with \"vantage compute --method spheres --stages FOLDER\"";
-
-StageFile stage_of(const nlohmann::json& json, const fs::path& folder) {
-  StageFile stage;
-  stage.kind = json.at("kind").get<std::string>();
-  stage.name = json.at("name").get<std::string>();
-  if (json.contains("file") && json.at("file").is_string() && !json.at("file").get<std::string>().empty()) {
-    stage.mesh = folder / json.at("file").get<std::string>();
-  }
-  if (json.contains("euler") && json.at("euler").is_number_integer()) stage.euler = json.at("euler").get<long>();
-  return stage;
-}
 
 /// Draws panels of one frame.
 class SheetMaker {
  public:
-  SheetMaker(const Mission& mission, const Scene& scene, const PictureView& view, std::array<int, 2> size,
-             const Progress& progress)
-      : mission_(mission), scene_(scene), view_(view), size_(size), progress_(progress) {}
+  SheetMaker(const Mission& mission, const PictureView& view, std::array<int, 2> size, const Progress& progress)
+      : mission_(mission), scene_(mission.loaded.scene), view_(view), size_(size), progress_(progress) {}
 
   void make(const std::vector<StageFile>& stages) {
     load(stages);
@@ -52,22 +33,20 @@ class SheetMaker {
   void load(const std::vector<StageFile>& stages) {
     for (const StageFile& stage : stages) {
       if (stage.mesh.empty()) continue;
-      if (stage.kind == "result") result_ = read_volume(stage.mesh.string(), scene_, progress_);
+      if (stage.kind == "result") result_ = read_volume(stage.mesh, scene_, progress_).volume;
       if (stage.kind == "sphere" && frame_.empty()) {
-        frame_ = read_volume(stage.mesh.string(), scene_, progress_).mesh.vertices;
+        frame_ = read_volume(stage.mesh, scene_, progress_).volume.mesh.vertices;
       }
     }
     frame_.insert(frame_.end(), result_.mesh.vertices.begin(), result_.mesh.vertices.end());
-    frame_.insert(frame_.end(), mission_.target.vertices.begin(), mission_.target.vertices.end());
-    for (const Target& part : mission_.other_parts) {
-      frame_.insert(frame_.end(), part.vertices.begin(), part.vertices.end());
+    for (const std::vector<Vec3>& part : mission_.target.parts) {
+      frame_.insert(frame_.end(), part.begin(), part.end());
     }
   }
 
   void panel(const std::string& caption, const Volume* volume, const PictureView& view, bool with_limits) {
     PictureRequest request;
     request.target = &mission_.target;
-    request.other_parts = mission_.other_parts;
     request.volume = volume;
     request.view = view;
     request.width = size_[0];
@@ -98,7 +77,7 @@ class SheetMaker {
         ++left;
         continue;
       }
-      const Volume volume = read_volume(stage.mesh.string(), scene_, progress_);
+      const Volume volume = read_volume(stage.mesh, scene_, progress_).volume;
       panel(stage.name + ", Euler number " + std::to_string(stage.euler), &volume, view_, false);
       ++drawn;
     }
@@ -113,7 +92,7 @@ class SheetMaker {
     panel("result", &result_, view_, false);
     if (mission_.navigation.empty()) return;
     panel("where the vehicle may fly", nullptr, view_, true);
-    const Volume whole = result_.causes.empty() ? plain_volume(result_.mesh, "scene") : result_;
+    const Volume whole = result_.causes.empty() ? volume_of_mesh(result_.mesh, "scene") : result_;
     const Volume cut = cut_to_navigation(whole, mission_.navigation, progress_);
     panel(cut.mesh.empty() ? "navigable result: empty" : "navigable result", &cut, view_, true);
   }
@@ -129,25 +108,9 @@ class SheetMaker {
 
 }  // namespace
 
-std::vector<StageFile> read_stages(const fs::path& folder) {
-  const fs::path file = folder / "stages.json";
-  app::check_readable(file, "the story of the stages", "");
-  std::vector<StageFile> stages;
-  try {
-    std::ifstream stream(file);
-    const nlohmann::json json = nlohmann::json::parse(stream);
-    for (const nlohmann::json& stage : json.at("stages")) stages.push_back(stage_of(stage, folder));
-  } catch (const nlohmann::json::exception& error) {
-    throw Error(ErrorKind::input, std::string("the story of the stages is garbled: ") + error.what(),
-                file.string() + ", stage " + std::to_string(stages.size()), kAgain);
-  }
-  if (stages.empty()) throw Error(ErrorKind::input, "the story of the stages is empty", file.string(), kAgain);
-  return stages;
-}
-
-Picture stage_sheet(const Mission& mission, const Scene& scene, const std::vector<StageFile>& stages,
-                    const PictureView& view, std::array<int, 2> size, const Progress& progress) {
-  SheetMaker maker(mission, scene, view, size, progress);
+Picture stage_sheet(const Mission& mission, const std::vector<StageFile>& stages, const PictureView& view,
+                    std::array<int, 2> size, const Progress& progress) {
+  SheetMaker maker(mission, view, size, progress);
   maker.make(stages);
   return arrange_sheet(maker.panels, kColumns, mission.target.name, picture_subtitle(mission, nullptr) + maker.note);
 }

@@ -17,7 +17,7 @@ namespace vantage::cli {
 
 namespace fs = std::filesystem;
 
-Mission read_mission_argument(const std::string& argument) {
+MissionFile read_mission_argument(const std::string& argument) {
   if (!is_standard_stream(argument)) return read_mission(argument);
   constexpr std::streamsize kMost = std::streamsize{2} << 20;  // the parser takes half, and says so
   std::string text(static_cast<std::size_t>(kMost), '\0');
@@ -26,7 +26,7 @@ Mission read_mission_argument(const std::string& argument) {
     throw Error(ErrorKind::input, "the mission cannot be read", "standard input", "send it again");
   }
   text.resize(static_cast<std::size_t>(std::cin.gcount()));
-  Mission mission = read_mission_text(text, "standard input");
+  MissionFile mission = read_mission_text(text, "standard input");
   mission.file = "standard input";  // and not a file of that name in the current folder
   return mission;
 }

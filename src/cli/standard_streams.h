@@ -11,7 +11,7 @@ namespace vantage::cli {
 inline bool is_standard_stream(const std::string& file) { return file == "-"; }
 
 /// Reads the mission that the argument MISSION names; "-" is standard input, where paths start from the current folder.
-Mission read_mission_argument(const std::string& argument);
+MissionFile read_mission_argument(const std::string& argument);
 
 /// A file on the way to standard output: it is written in a folder of its own, which goes away with the object, and
 /// sent when it is whole. So a run that fails sends nothing.

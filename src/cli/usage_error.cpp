@@ -4,13 +4,10 @@
 #include <optional>
 #include <string_view>
 
-#include "app/nearest_name.h"
-#include "app/numbers.h"
+#include "vantage/input.h"
 
 namespace vantage::cli {
 namespace {
-
-using app::in_quotes;
 
 constexpr const char* kWhere = "command line";
 
@@ -54,8 +51,8 @@ std::string nearest_option(const CLI::App& command, const std::string& word) {
   for (const std::string& name : names) {
     if (long_form.size() > 3 && name.starts_with(long_form)) return name;  // "--out", "-output"
   }
-  const std::string nearest(app::nearest_name(word, std::vector<std::string_view>(names.begin(), names.end())));
-  const auto slips = static_cast<std::size_t>(app::edit_distance(word, nearest));
+  const std::string nearest(nearest_name(word, std::vector<std::string_view>(names.begin(), names.end())));
+  const auto slips = static_cast<std::size_t>(edit_distance(word, nearest));
   return slips <= 1 + word.size() / 4 ? nearest : "";
 }
 
@@ -94,7 +91,7 @@ const CLI::App* find_command(const CLI::App& app, const std::string& name) {
 Error unknown_command(const CLI::App& app, const std::string& word) {
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
-  const std::string_view nearest = app::nearest_name(word, std::vector<std::string_view>(names.begin(), names.end()));
+  const std::string_view nearest = nearest_name(word, std::vector<std::string_view>(names.begin(), names.end()));
   return {ErrorKind::input, "there is no command " + in_quotes(word), kWhere,
           "did you mean '" + std::string(nearest) + "'? 'vantage --help' lists the commands"};
 }

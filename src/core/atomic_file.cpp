@@ -1,4 +1,4 @@
-#include "core/atomic_file.h"
+#include "vantage/atomic_file.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -12,7 +12,7 @@
 
 #include "vantage/error.h"
 
-namespace vantage::core {
+namespace vantage {
 namespace {
 
 constexpr std::size_t kBufferBytes = 1 << 20;
@@ -182,4 +182,4 @@ void write_whole_file(const std::filesystem::path& file, std::string_view bytes)
   output.commit();
 }
 
-}  // namespace vantage::core
+}  // namespace vantage

@@ -3,10 +3,20 @@
 #include <Eigen/Geometry>
 #include <utility>
 
+#include "vantage/geometry.h"
+
 namespace vantage {
 
 Cause cause_of_object(std::uint32_t index, const SceneObject& object) {
   return {CauseKind::scene, display_name(object), 0, index, object.source_id, object.kind};
+}
+
+Volume volume_of_mesh(Mesh mesh, const std::string& cause) {
+  Volume volume;
+  volume.causes = {{CauseKind::scene, cause, surface_area(mesh)}};
+  volume.cause_of.assign(mesh.triangles.size(), 0);
+  volume.mesh = std::move(mesh);
+  return volume;
 }
 
 namespace core {

@@ -90,34 +90,6 @@ class FallbackRenderer : public DepthRenderer {
 
 }  // namespace
 
-ChosenDevice choose_device(const RenderDevices& found, const DeviceChoice& choice) {
-  const RenderDevice& cpu = found.devices.front();
-  const RenderDevice* hardware = first_of(found, DeviceKind::opengl_hardware);
-  const RenderDevice* software = first_of(found, DeviceKind::opengl_software);
-  switch (choice.kind) {
-    case DeviceChoice::Kind::automatic:
-      if (hardware) return {*hardware, ""};
-      return {cpu, why_the_cpu(found)};
-    case DeviceChoice::Kind::cpu:
-      return {cpu, ""};
-    case DeviceChoice::Kind::opengl:
-      if (hardware) return {*hardware, ""};
-      if (software) return {*software, ""};
-      throw_not_there(found, "there is no OpenGL device", "install what is missing, or take --device auto or cpu");
-    case DeviceChoice::Kind::gpu:
-      if (hardware) return {*hardware, ""};
-      throw_not_there(found, "there is no graphics processor",
-                      "install its driver with EGL, or take --device auto, cpu or opengl");
-    case DeviceChoice::Kind::index:
-      for (const RenderDevice& device : found.devices) {
-        if (device.index == choice.index) return {device, ""};
-      }
-      throw_not_there(found, "there is no device " + std::to_string(choice.index),
-                      "take one of those, or --device auto; 'vantage devices' lists them");
-  }
-  throw Error(ErrorKind::internal, "an unknown choice of device", kWhere, "");
-}
-
 ChosenRenderer make_depth_renderer(const BackEnds& back_ends, const DeviceChoice& choice) {
   ChosenDevice chosen = choose_device(back_ends.found, choice);
   std::unique_ptr<DepthRenderer> renderer;
@@ -149,3 +121,37 @@ ChosenRenderer make_depth_renderer(const PreparedScene& scene, const DeviceChoic
 }
 
 }  // namespace vantage::depth
+
+namespace vantage {
+
+using namespace depth;
+
+ChosenDevice choose_device(const RenderDevices& found, const DeviceChoice& choice) {
+  const RenderDevice& cpu = found.devices.front();
+  const RenderDevice* hardware = first_of(found, DeviceKind::opengl_hardware);
+  const RenderDevice* software = first_of(found, DeviceKind::opengl_software);
+  switch (choice.kind) {
+    case DeviceChoice::Kind::automatic:
+      if (hardware) return {*hardware, ""};
+      return {cpu, why_the_cpu(found)};
+    case DeviceChoice::Kind::cpu:
+      return {cpu, ""};
+    case DeviceChoice::Kind::opengl:
+      if (hardware) return {*hardware, ""};
+      if (software) return {*software, ""};
+      throw_not_there(found, "there is no OpenGL device", "install what is missing, or take --device auto or cpu");
+    case DeviceChoice::Kind::gpu:
+      if (hardware) return {*hardware, ""};
+      throw_not_there(found, "there is no graphics processor",
+                      "install its driver with EGL, or take --device auto, cpu or opengl");
+    case DeviceChoice::Kind::index:
+      for (const RenderDevice& device : found.devices) {
+        if (device.index == choice.index) return {device, ""};
+      }
+      throw_not_there(found, "there is no device " + std::to_string(choice.index),
+                      "take one of those, or --device auto; 'vantage devices' lists them");
+  }
+  throw Error(ErrorKind::internal, "an unknown choice of device", kWhere, "");
+}
+
+}  // namespace vantage

@@ -1,4 +1,4 @@
-// compute_visibility: one target of a prepared scene, checked, lifted off its surface, and its outcome told.
+// compute_visibility: one prepared target, and how it ended.
 #include <Eigen/Geometry>
 #include <chrono>
 #include <cmath>
@@ -8,9 +8,8 @@
 #include "core/parallel.h"
 #include "exact/side.h"
 #include "target/lengths.h"
-#include "target/point_target.h"
+#include "target/prepared_target_data.h"
 #include "target/range_check.h"
-#include "target/target_check.h"
 #include "vantage/error.h"
 #include "vantage/volume.h"
 
@@ -22,11 +21,15 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-void check(const Sensor& sensor, const ExactOptions& options) {
-  target::check_sensor(sensor);
-  if (!(options.tolerance_m > 0) || !std::isfinite(options.tolerance_m))
+void check(const PreparedTarget& target, const ExactOptions& options) {
+  if (!(options.tolerance_m > 0) || !std::isfinite(options.tolerance_m)) {
     throw Error(ErrorKind::input, "tolerance must be a positive, finite number of metres", "exact options",
                 "give for example 0.01");
+  }
+  if (target.part_count() > 1) {
+    throw Error(ErrorKind::input, "the target has " + std::to_string(target.part_count()) + " parts", "target",
+                "use compute_volume, or compute each part and intersect the volumes");
+  }
 }
 
 /// Makes the result of what was computed in `frame`. `what` and `hint` are for a view that is blocked at once.
@@ -49,53 +52,48 @@ void take_over(Side side, const TargetFrame& frame, double max_range, Volume& vo
   volume.causes = std::move(side.causes);
 }
 
-void compute_polygon(const PreparedScene& scene, const Target& target, const Sensor& sensor,
-                     const ExactOptions& options, const core::ProgressReporter& progress, Volume& volume) {
-  target::Clearance clearance = target::clear_target(scene.data(), target, volume.frame, sensor.max_range_m);
-  volume.lift_m = clearance.lift_m;
-  volume.notes = std::move(clearance.notes);
-  volume.frame.origin += volume.frame.normal * volume.lift_m;
-  if (!target::can_reach(volume.frame, sensor)) return target::set_out_of_range(volume.frame, sensor, volume);
-  target::move_into_range(volume.frame, sensor.max_range_m);
+void compute_polygon(const PreparedTarget& target, const ExactOptions& options, const core::ProgressReporter& progress,
+                     Volume& volume) {
+  const Sensor& sensor = target.sensor();
+  if (!target.data().parts[0].is_reachable) return target::set_out_of_range(volume.frame, sensor, volume);
   const target::RangeRegion range(volume.frame.polygon, sensor.max_range_m);
-  take_over(compute_side(scene, volume.frame, range, options, progress), volume.frame, sensor.max_range_m, volume,
-            "the target's front",
+  take_over(compute_side(target.scene(), volume.frame, range, options, progress), volume.frame, sensor.max_range_m,
+            volume, "the target's front",
             "the target looks into what it lies on: turn it round with front:, or raise it with offset:");
 }
 
-void compute_point(const PreparedScene& scene, const Target& target, const Sensor& sensor, const ExactOptions& options,
-                   const core::ProgressReporter& progress, Volume& volume) {
-  const target::PointSides sides = target::make_point_sides(scene.data(), target, volume.frame, sensor.max_range_m);
-  volume.lift_m = sides.lift;
-  volume.notes = sides.notes;
-  volume.frame.origin = sides.front.origin;
+void compute_point(const PreparedTarget& target, const ExactOptions& options, const core::ProgressReporter& progress,
+                   Volume& volume) {
+  const double max_range = target.sensor().max_range_m;
+  const target::PointSides& sides = *target.data().parts[0].sides;
   // Of the point itself: the triangle would cost micrometres.
-  const target::RangeRegion range(volume.frame.polygon, sensor.max_range_m);
+  const target::RangeRegion range(volume.frame.polygon, max_range);
   if (!sides.back) {
-    take_over(compute_side(scene, sides.front, range, options, progress), sides.front, sensor.max_range_m, volume,
+    take_over(compute_side(target.scene(), sides.front, range, options, progress), sides.front, max_range, volume,
               "the point's front",
               "the point looks into what it lies on: turn it round with front:, or move it with offset:");
     return;
   }
-  const Side front = compute_side(scene, sides.front, range, options, progress);
-  const Side back = compute_side(scene, *sides.back, range, options, progress);
-  take_over(join_sides(front, back), sides.front, sensor.max_range_m, volume, "the point on all sides",
+  const Side front = compute_side(target.scene(), sides.front, range, options, progress);
+  const Side back = compute_side(target.scene(), *sides.back, range, options, progress);
+  take_over(join_sides(front, back), sides.front, max_range, volume, "the point on all sides",
             "move the point out of what it lies in");
 }
 
 }  // namespace
 
-Volume compute_visibility(const PreparedScene& scene, const Target& target, const Sensor& sensor,
-                          const ExactOptions& options, const Progress& callback) {
+Volume compute_visibility(const PreparedTarget& target, const ExactOptions& options, const Progress& callback) {
   const auto start = Clock::now();
   const core::ProgressReporter progress(callback);
-  check(sensor, options);
+  check(target, options);
   Volume volume;
   volume.tolerance_m = options.tolerance_m;
-  volume.frame = make_target_frame(target);
-  volume.counts.scene_polygons = scene.data().polygon_count();
+  volume.frame = target.frame();
+  volume.lift_m = {target.lift_m()};
+  volume.notes = target.notes();
+  volume.counts.scene_polygons = target.scene().data().polygon_count();
   parallel::with_threads(options.threads, [&] {
-    (target.is_point() ? compute_point : compute_polygon)(scene, target, sensor, options, progress, volume);
+    (target.target().is_point() ? compute_point : compute_polygon)(target, options, progress, volume);
   });
   volume.seconds.engine = volume.seconds.total = seconds_since(start);
   return volume;

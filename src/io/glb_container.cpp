@@ -14,7 +14,7 @@ constexpr std::size_t kHeaderBytes = 12, kChunkHeaderBytes = 8, kAlignment = 4;
 
 std::size_t padded(std::size_t size) { return (size + kAlignment - 1) / kAlignment * kAlignment; }
 
-void write_chunk(core::AtomicFile& file, std::uint32_t type, std::string_view content, char padding) {
+void write_chunk(AtomicFile& file, std::uint32_t type, std::string_view content, char padding) {
   std::string header;
   append_little_endian(header, static_cast<std::uint32_t>(padded(content.size())));
   append_little_endian(header, type);
@@ -25,7 +25,7 @@ void write_chunk(core::AtomicFile& file, std::uint32_t type, std::string_view co
 
 }  // namespace
 
-void write_glb_container(std::string_view json, std::string_view buffer, core::AtomicFile& file) {
+void write_glb_container(std::string_view json, std::string_view buffer, AtomicFile& file) {
   std::size_t size = kHeaderBytes + kChunkHeaderBytes + padded(json.size());
   if (!buffer.empty()) size += kChunkHeaderBytes + padded(buffer.size());
   check_count(size, std::numeric_limits<std::uint32_t>::max(), "bytes", "GLB");

@@ -3,11 +3,11 @@
 
 #include <string_view>
 
-#include "core/atomic_file.h"
+#include "vantage/atomic_file.h"
 
 namespace vantage::io {
 
 /// Writes both as chunks behind GLB's header. Throws Error(output) when they take 4 GiB or more.
-void write_glb_container(std::string_view json, std::string_view buffer, core::AtomicFile& file);
+void write_glb_container(std::string_view json, std::string_view buffer, AtomicFile& file);
 
 }  // namespace vantage::io

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/atomic_file.h"
+#include "vantage/atomic_file.h"
 #include "vantage/scene.h"
 
 namespace vantage::io {
@@ -35,12 +35,8 @@ class ObjectTriangles {
 /// The name of an object for a file: on one line, never empty.
 std::string object_name(const Scene& scene, std::size_t object);
 
-void write_scene_obj(const Scene& scene, core::AtomicFile& file);
-void write_scene_ply(const Scene& scene, core::AtomicFile& file);
-void write_scene_glb(const Scene& scene, core::AtomicFile& file);
-
-/// Does all that write_scene does but the last step: the caller gives the files to commit_all. Throws as write_scene
-/// does.
-std::vector<std::unique_ptr<core::AtomicFile>> stage_scene(const Scene& scene, const std::filesystem::path& file);
+void write_scene_obj(const Scene& scene, AtomicFile& file);
+void write_scene_ply(const Scene& scene, AtomicFile& file);
+void write_scene_glb(const Scene& scene, AtomicFile& file);
 
 }  // namespace vantage::io

@@ -145,7 +145,7 @@ Gltf make_gltf(const Volume& volume, const StoredMesh& stored) {
 
 }  // namespace
 
-void write_glb(const Volume& volume, const StoredMesh& stored, core::AtomicFile& file) {
+void write_glb(const Volume& volume, const StoredMesh& stored, AtomicFile& file) {
   const Gltf gltf = make_gltf(volume, stored);
   write_glb_container(gltf.json.dump(-1, ' ', false, Json::error_handler_t::replace), gltf.buffer, file);
 }

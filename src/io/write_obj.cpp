@@ -39,7 +39,7 @@ void check_obj_scale(const Volume& volume, double scale) {
               "give the length of the scene file's unit in metres");
 }
 
-void write_obj(const Volume& volume, const StoredMesh& stored, UpAxis up, double scale, core::AtomicFile& file) {
+void write_obj(const Volume& volume, const StoredMesh& stored, UpAxis up, double scale, AtomicFile& file) {
   const auto& [vertices, triangles] = stored.mesh;
   file.write("# vantage " VANTAGE_VERSION " visibility volume: " + std::string(name_of(volume.outcome)) + "\n");
   file.write("# " + io::axes_text({up, scale}) + "\n");

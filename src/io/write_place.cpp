@@ -12,12 +12,12 @@ std::string place_comment(const std::optional<Georeference>& georeference, const
   return line.append("\n");
 }
 
-std::unique_ptr<core::AtomicFile> stage_place(const io::PlaceFile& content, const std::filesystem::path& mesh_file) {
+std::unique_ptr<AtomicFile> stage_place(const io::PlaceFile& content, const std::filesystem::path& mesh_file) {
   if (output_extension(mesh_file) != ".stl") return nullptr;
   const std::filesystem::path file = io::place_file(mesh_file);
   std::error_code ignored;
   if (!content.georeference && !content.rounding_m && !std::filesystem::exists(file, ignored)) return nullptr;
-  auto output = std::make_unique<core::AtomicFile>(file);
+  auto output = std::make_unique<AtomicFile>(file);
   output->write(io::place_file_text(content));
   return output;
 }

@@ -7,7 +7,7 @@
 
 namespace vantage::io {
 
-void write_ply(const Volume& volume, const StoredMesh& stored, core::AtomicFile& file) {
+void write_ply(const Volume& volume, const StoredMesh& stored, AtomicFile& file) {
   const auto& [vertices, triangles] = stored.mesh;
   check_count(vertices.size(), std::numeric_limits<std::int32_t>::max(), "vertices", "PLY");
 

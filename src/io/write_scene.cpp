@@ -10,6 +10,7 @@
 #include "io/write_place.h"
 #include "io/writers.h"
 #include "vantage/error.h"
+#include "vantage/output.h"
 
 namespace vantage {
 namespace io {
@@ -56,7 +57,7 @@ std::string object_name(const Scene& scene, std::size_t object) {
 }
 
 /// Each object's vertices come before its faces, where they are not another's already.
-void write_scene_obj(const Scene& scene, core::AtomicFile& file) {
+void write_scene_obj(const Scene& scene, AtomicFile& file) {
   const std::vector<Vec3>& vertices = scene.mesh.vertices;
   const std::vector<Triangle>& triangles = scene.mesh.triangles;
   file.write("# vantage " VANTAGE_VERSION " scene\n# " + io::axes_text({}) + "\n");
@@ -86,7 +87,7 @@ void write_scene_obj(const Scene& scene, core::AtomicFile& file) {
   });
 }
 
-void write_scene_ply(const Scene& scene, core::AtomicFile& file) {
+void write_scene_ply(const Scene& scene, AtomicFile& file) {
   const auto& [vertices, triangles] = scene.mesh;
   UsedVertices used(scene.mesh);
   std::string vertex_rows, face_rows;
@@ -116,11 +117,14 @@ void write_scene_ply(const Scene& scene, core::AtomicFile& file) {
   file.write(face_rows);
 }
 
-std::vector<std::unique_ptr<core::AtomicFile>> stage_scene(const Scene& scene, const std::filesystem::path& file) {
+}  // namespace io
+
+std::vector<std::unique_ptr<AtomicFile>> stage_scene(const Scene& scene, const std::filesystem::path& file) {
+  using namespace io;
   const std::string extension = output_extension(file);
   check_scene(scene);
-  std::vector<std::unique_ptr<core::AtomicFile>> files;
-  files.push_back(std::make_unique<core::AtomicFile>(file));
+  std::vector<std::unique_ptr<AtomicFile>> files;
+  files.push_back(std::make_unique<AtomicFile>(file));
   if (extension == ".obj") write_scene_obj(scene, *files.back());
   if (extension == ".ply") write_scene_ply(scene, *files.back());
   if (extension == ".glb") write_scene_glb(scene, *files.back());
@@ -129,10 +133,6 @@ std::vector<std::unique_ptr<core::AtomicFile>> stage_scene(const Scene& scene, c
   return files;
 }
 
-}  // namespace io
-
-void write_scene(const Scene& scene, const std::filesystem::path& file) {
-  core::commit_all(io::stage_scene(scene, file));
-}
+void write_scene(const Scene& scene, const std::filesystem::path& file) { commit_all(stage_scene(scene, file)); }
 
 }  // namespace vantage

@@ -35,7 +35,7 @@ class SceneGlb {
  public:
   explicit SceneGlb(const Scene& scene) : scene_(scene), local_(scene.mesh.vertices.size()) {}
 
-  void write(core::AtomicFile& file) {
+  void write(AtomicFile& file) {
     ObjectTriangles(scene_).for_each([&](std::size_t object, const std::uint32_t* first, const std::uint32_t* end) {
       add_object(object, first, end);
     });
@@ -153,6 +153,6 @@ class SceneGlb {
 
 }  // namespace
 
-void write_scene_glb(const Scene& scene, core::AtomicFile& file) { SceneGlb(scene).write(file); }
+void write_scene_glb(const Scene& scene, AtomicFile& file) { SceneGlb(scene).write(file); }
 
 }  // namespace vantage::io

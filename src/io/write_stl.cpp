@@ -6,7 +6,7 @@
 
 namespace vantage::io {
 
-void write_stl_mesh(const Mesh& mesh, std::string_view content, core::AtomicFile& file) {
+void write_stl_mesh(const Mesh& mesh, std::string_view content, AtomicFile& file) {
   const auto& [vertices, triangles] = mesh;
   check_count(triangles.size(), std::numeric_limits<std::uint32_t>::max(), "triangles", "STL");
 
@@ -29,8 +29,6 @@ void write_stl_mesh(const Mesh& mesh, std::string_view content, core::AtomicFile
   }
 }
 
-void write_stl(const StoredMesh& stored, core::AtomicFile& file) {
-  write_stl_mesh(stored.mesh, "visibility volume", file);
-}
+void write_stl(const StoredMesh& stored, AtomicFile& file) { write_stl_mesh(stored.mesh, "visibility volume", file); }
 
 }  // namespace vantage::io

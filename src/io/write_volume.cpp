@@ -13,6 +13,7 @@
 #include "io/write_place.h"
 #include "io/writers.h"
 #include "vantage/error.h"
+#include "vantage/output.h"
 
 namespace vantage {
 namespace io {
@@ -72,12 +73,14 @@ StoredMesh stored_for(const Volume& volume, const std::filesystem::path& file, c
 }
 
 }  // namespace
+}  // namespace io
 
 StagedVolume stage_volume(const Volume& volume, const std::filesystem::path& file, UpAxis obj_up, double obj_scale) {
+  using namespace io;
   const std::string extension = output_extension(file);
   core::check_volume(volume);
   if (extension == ".obj") check_obj_scale(volume, obj_scale);
-  auto output = std::make_unique<core::AtomicFile>(file);
+  auto output = std::make_unique<AtomicFile>(file);
   const StoredMesh stored = stored_for(volume, file, extension, obj_scale);
   if (extension == ".ply") write_ply(volume, stored, *output);
   if (extension == ".obj") write_obj(volume, stored, obj_up, obj_scale, *output);
@@ -92,11 +95,9 @@ StagedVolume stage_volume(const Volume& volume, const std::filesystem::path& fil
   return staged;
 }
 
-}  // namespace io
-
 WrittenVolume write_volume(const Volume& volume, const std::filesystem::path& file, UpAxis obj_up, double obj_scale) {
-  const io::StagedVolume staged = io::stage_volume(volume, file, obj_up, obj_scale);
-  core::commit_all(staged.files);
+  const StagedVolume staged = stage_volume(volume, file, obj_up, obj_scale);
+  commit_all(staged.files);
   return staged.report;
 }
 

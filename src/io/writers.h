@@ -12,31 +12,21 @@
 #include <type_traits>
 #include <vector>
 
-#include "core/atomic_file.h"
 #include "io/stored_mesh.h"
+#include "vantage/atomic_file.h"
 #include "vantage/volume.h"
 
 namespace vantage::io {
 
-/// A volume that is written but not in place yet.
-struct StagedVolume {
-  std::vector<std::unique_ptr<core::AtomicFile>> files;  ///< the volume's first; for STL the one beside it too
-  WrittenVolume report;
-};
-
-/// Does all that write_volume does but the last step: the caller gives the files to commit_all. Throws as write_volume
-/// does.
-StagedVolume stage_volume(const Volume& volume, const std::filesystem::path& file, UpAxis obj_up, double obj_scale);
-
-void write_ply(const Volume& volume, const StoredMesh& stored, core::AtomicFile& file);
+void write_ply(const Volume& volume, const StoredMesh& stored, AtomicFile& file);
 /// Throws Error(input) for a `scale` (metres in one unit of the file) that cannot be written in.
 void check_obj_scale(const Volume& volume, double scale);
-void write_obj(const Volume& volume, const StoredMesh& stored, UpAxis up, double scale, core::AtomicFile& file);
-void write_stl(const StoredMesh& stored, core::AtomicFile& file);
-void write_glb(const Volume& volume, const StoredMesh& stored, core::AtomicFile& file);
+void write_obj(const Volume& volume, const StoredMesh& stored, UpAxis up, double scale, AtomicFile& file);
+void write_stl(const StoredMesh& stored, AtomicFile& file);
+void write_glb(const Volume& volume, const StoredMesh& stored, AtomicFile& file);
 
 /// A mesh as binary STL; `content` says in the header what it is.
-void write_stl_mesh(const Mesh& mesh, std::string_view content, core::AtomicFile& file);
+void write_stl_mesh(const Mesh& mesh, std::string_view content, AtomicFile& file);
 /// The extension in lower case when it is one of those that can be written. Throws Error(input) for another, unless
 /// `file` is a directory, which AtomicFile refuses with a better message.
 std::string output_extension(const std::filesystem::path& file);

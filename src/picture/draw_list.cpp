@@ -30,9 +30,9 @@ constexpr int kGridCells = 9;                             // or so, across the d
 
 using Outline = std::vector<Vec3>;
 
-Outline outline_of(const Target& target) {
-  if (target.vertices.size() < 3) return target.vertices;
-  const TargetFrame frame = make_target_frame(target);
+Outline outline_of(const Target& target, std::size_t part) {
+  if (target.parts[part].size() < 3) return target.parts[part];
+  const TargetFrame frame = make_target_frame(target, part);
   Outline points;
   for (const Eigen::Vector2d& p : frame.polygon) points.push_back(frame.to_scene({p.x(), p.y(), 0}));
   return points;
@@ -41,8 +41,8 @@ Outline outline_of(const Target& target) {
 /// A polygon or a point for each part of the target.
 std::vector<Outline> target_outlines(const PictureRequest& request) {
   std::vector<Outline> outlines;
-  if (request.target != nullptr) outlines.push_back(outline_of(*request.target));
-  for (const Target& part : request.other_parts) outlines.push_back(outline_of(part));
+  if (request.target == nullptr) return outlines;
+  for (std::size_t i = 0; i < request.target->parts.size(); ++i) outlines.push_back(outline_of(*request.target, i));
   return outlines;
 }
 

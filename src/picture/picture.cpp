@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "core/atomic_file.h"
 #include "core/progress_reporter.h"
 #include "depth/depth.h"
 #include "depth/gl_context.h"
@@ -12,6 +11,7 @@
 #include "picture/draw_list.h"
 #include "picture/gl_picture.h"
 #include "picture/sight.h"
+#include "vantage/atomic_file.h"
 #include "vantage/error.h"
 
 namespace vantage {
@@ -122,7 +122,7 @@ Picture render_picture(const Scene& scene, const PictureRequest& request, const 
 void write_png(const Picture& picture, const std::filesystem::path& file, const Progress& callback) {
   const core::ProgressReporter progress(callback, file);
   progress.begin("writing the picture");
-  core::AtomicFile output(file);
+  AtomicFile output(file);
   output.write(Canvas(picture).png(progress));
   progress.finish();
   output.commit();

@@ -16,10 +16,8 @@
 #include "query/blocker_index.h"
 #include "query/limits.h"
 #include "target/lengths.h"
-#include "target/point_target.h"
-#include "target/range_check.h"
+#include "target/prepared_target_data.h"
 #include "target/range_region.h"
-#include "target/target_check.h"
 #include "vantage/error.h"
 
 namespace vantage {
@@ -30,8 +28,6 @@ using namespace target;
 using query::BlockerIndex;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kLargestRange = 1e9;  // metres; as scenes
-
 /// Squares of larger coordinates may overflow.
 constexpr double kSquarable = 1e150;
 
@@ -268,24 +264,22 @@ PointAnswer look(Side& side, const Vec3& scene_point) {
 using Sides = std::vector<std::unique_ptr<Side>>;
 
 /// One side; both of a point that is seen from all sides, the front first.
-Sides make_sides(const PreparedScene::Data& scene, const Target& target, double max_range,
+Sides make_sides(const PreparedTarget::Data& target, const PreparedTarget::Data::Part& part,
                  const query::Limits& limits) {
-  TargetFrame frame = make_target_frame(target);
+  const PreparedScene::Data& scene = target.scene.data();
+  const double max_range = target.sensor.max_range_m;
   Sides result;
-  if (target.is_point()) {
-    const PointSides sides = make_point_sides(scene, target, frame, max_range);
-    const RangeRegion range(frame.polygon, max_range);  // of the point itself, not of the triangle that stands for it
+  if (part.sides) {
+    const PointSides& sides = *part.sides;
+    const RangeRegion range(part.frame.polygon, max_range);  // of the point, not of the triangle that stands for it
     result.push_back(std::make_unique<Side>(scene, limits, sides.front, range, max_range, true));
     if (sides.back) result.push_back(std::make_unique<Side>(scene, limits, *sides.back, range, max_range, true));
     return result;
   }
-  frame.origin += frame.normal * clear_target(scene, target, frame, max_range).lift_m;
   // Where no point at all is in range the centre may be out of range itself: look from the circle's centre, as the
   // engine does.
-  const bool reachable = can_reach(frame, {max_range});
-  if (reachable) move_into_range(frame, max_range);
-  const RangeRegion range(frame.polygon, reachable ? max_range : 2 * frame.enclosing_radius_m);
-  result.push_back(std::make_unique<Side>(scene, limits, frame, range, max_range, reachable));
+  const RangeRegion range(part.frame.polygon, part.is_reachable ? max_range : 2 * part.frame.enclosing_radius_m);
+  result.push_back(std::make_unique<Side>(scene, limits, part.frame, range, max_range, part.is_reachable));
   return result;
 }
 
@@ -336,21 +330,16 @@ void narrow(PointAnswer& answer, const PointAnswer& other) {
 }  // namespace
 
 struct PointQuery::Data {
-  PreparedScene scene;
+  PreparedTarget target;
   query::Limits limits;
   std::vector<Sides> parts;
 };
 
-PointQuery::PointQuery(const PreparedScene& scene, const std::vector<Target>& parts, const Sensor& sensor,
-                       const Navigation& navigation)
-    : data_(std::make_unique<Data>(Data{scene, query::Limits(navigation), {}})) {
-  check_sensor(sensor);
-  if (sensor.max_range_m > kLargestRange) {
-    throw Error(ErrorKind::input, "max_range is larger than 1e9 m", "sensor", "give metres");
-  }
-  if (parts.empty()) throw Error(ErrorKind::input, "the target has no parts", "query", "give one or more");
-  for (const Target& part : parts) {
-    data_->parts.push_back(make_sides(data_->scene.data(), part, sensor.max_range_m, data_->limits));
+PointQuery::PointQuery(const PreparedTarget& target, const Navigation& navigation)
+    : data_(std::make_unique<Data>(Data{target, query::Limits(navigation), {}})) {
+  const PreparedTarget::Data& prepared = data_->target.data();
+  for (const PreparedTarget::Data::Part& part : prepared.parts) {
+    data_->parts.push_back(make_sides(prepared, part, data_->limits));
   }
 }
 PointQuery::~PointQuery() = default;
@@ -375,9 +364,9 @@ std::vector<PointAnswer> PointQuery::answer(std::span<const Vec3> points) {
   return answers;
 }
 
-std::vector<PointAnswer> query_points(const PreparedScene& scene, const Target& target, const Sensor& sensor,
-                                      const Navigation& navigation, const std::vector<Vec3>& points) {
-  return PointQuery(scene, {target}, sensor, navigation).answer(points);
+std::vector<PointAnswer> query_points(const PreparedTarget& target, const Navigation& navigation,
+                                      const std::vector<Vec3>& points) {
+  return PointQuery(target, navigation).answer(points);
 }
 
 }  // namespace vantage

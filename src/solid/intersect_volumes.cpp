@@ -11,7 +11,7 @@
 #include "solid/outside_limits.h"
 #include "solid/regions.h"
 #include "vantage/error.h"
-#include "vantage/volume.h"
+#include "vantage/navigation.h"
 
 namespace vantage {
 namespace {
@@ -21,7 +21,7 @@ using solid::Solid;
 
 void add_work(const Volume& part, Volume& result) {
   result.tolerance_m = std::max(result.tolerance_m, part.tolerance_m);
-  result.lift_m = std::max(result.lift_m, part.lift_m);
+  result.lift_m.insert(result.lift_m.end(), part.lift_m.begin(), part.lift_m.end());
   result.counts.candidate_blockers += part.counts.candidate_blockers;
   result.counts.visible_blockers += part.counts.visible_blockers;
   result.counts.visible_facets += part.counts.visible_facets;

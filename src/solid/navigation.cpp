@@ -18,7 +18,7 @@
 #include "solid/outside_limits.h"
 #include "solid/regions.h"
 #include "vantage/error.h"
-#include "vantage/volume.h"
+#include "vantage/navigation.h"
 
 namespace vantage {
 namespace solid {

@@ -8,15 +8,14 @@
 
 namespace vantage {
 
-Volume compute_visibility_spheres(const PreparedScene& scene, const Target& target, const Sensor& sensor,
-                                  const SpheresOptions& options, SpheresReport* report, const StageSink& stages,
-                                  const Progress& progress) {
+Volume compute_visibility_spheres(const PreparedTarget& target, const SpheresOptions& options, SpheresReport* report,
+                                  const StageSink& stages, const Progress& progress) {
   spheres::check_options(options);  // before a device is looked for
   Volume volume;
   parallel::with_threads(options.threads, [&] {
-    const depth::ChosenRenderer chosen = depth::make_depth_renderer(scene, options.device);
+    const depth::ChosenRenderer chosen = depth::make_depth_renderer(target.scene(), options.device);
     const RenderDevice hoped = chosen.renderer->device();
-    volume = spheres::compute_visibility(scene, target, sensor, options, *chosen.renderer, report, stages, progress);
+    volume = spheres::compute_visibility(target, options, *chosen.renderer, report, stages, progress);
     if (!report) return;
     report->device_note = chosen.note;
     if (report->device.index != hoped.index) report->device_note = hoped.name + " failed on the way, the CPU went on";

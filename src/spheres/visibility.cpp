@@ -12,10 +12,9 @@
 #include "spheres/algorithm.h"
 #include "spheres/numerics.h"
 #include "target/lengths.h"
-#include "target/point_target.h"
+#include "target/prepared_target_data.h"
 #include "target/range_check.h"
 #include "target/range_region.h"
-#include "target/target_check.h"
 #include "vantage/error.h"
 
 namespace vantage::spheres {
@@ -28,10 +27,10 @@ using Clock = std::chrono::steady_clock;
 /// midpoint of an edge has only its place.
 std::string point_name(const Target& target, const Vec3& place) {
   std::size_t nearest = 0;
-  const Vec3 moved = target.vertices[0] - place;
+  const Vec3 moved = target.parts[0][0] - place;
   double least = moved.squaredNorm();
-  for (std::size_t i = 1; i < target.vertices.size(); ++i) {
-    const double distance = (target.vertices[i] - place).squaredNorm();
+  for (std::size_t i = 1; i < target.parts[0].size(); ++i) {
+    const double distance = (target.parts[0][i] - place).squaredNorm();
     if (distance < least) least = distance, nearest = i;
   }
   return "vertex " + std::to_string(nearest) + " at (" + core::fixed_text(place.x(), 2) + ", " +
@@ -76,24 +75,17 @@ void set_mesh(const TargetFrame& frame, solid::LabelledMesh labelled, Volume& vo
   }
 }
 
-/// How far the target is raised, or why it cannot be seen where it lies: as the exact method says, points too. At the
-/// least off the surface that it lies on: seen from a point of its own plane a polygon has no depth.
-target::Clearance clearance_of(const PreparedScene::Data& scene, const Target& target, const TargetFrame& frame,
-                               double max_range) {
-  target::Clearance clearance;
-  if (target.is_point()) {
-    target::PointSides sides = target::make_point_sides(scene, target, frame, max_range);
-    clearance = {sides.lift, std::move(sides.notes)};
-  } else {
-    clearance = target::clear_target(scene, target, frame, max_range);
-  }
-  clearance.lift_m = std::max(clearance.lift_m, target::lengths_of(scene, frame, max_range).clear);
-  return clearance;
+/// How far the target is raised: as for the exact method, but at the least off the surface that it lies on. Seen from
+/// a point of its own plane a polygon has no depth.
+double lift_of(const PreparedTarget& target) {
+  const TargetFrame& frame = target.data().parts[0].given;
+  const double clear = target::lengths_of(target.scene().data(), frame, target.sensor().max_range_m).clear;
+  return std::max(target.lift_m(), clear);
 }
 
 void compute(const Target& target, const Sensor& sensor, const SpheresOptions& options, depth::DepthRenderer& renderer,
              SpheresReport& report, const StageSink& stages, const core::ProgressReporter& progress, Volume& volume) {
-  const bool front_only = target.vertices.size() > 1 || target.front;
+  const bool front_only = !target.is_point() || target.front;
   const SphereMaker maker(renderer, options, sensor.max_range_m, volume.frame, front_only);
   Intersection found = intersect_spheres(volume.frame, maker, options, report, stages, progress);
   progress.finish();
@@ -109,27 +101,29 @@ void compute(const Target& target, const Sensor& sensor, const SpheresOptions& o
 
 }  // namespace
 
-Volume compute_visibility(const PreparedScene& scene, const Target& target, const Sensor& sensor,
-                          const SpheresOptions& options, depth::DepthRenderer& renderer, SpheresReport* report,
-                          const StageSink& stages, const Progress& callback) {
+Volume compute_visibility(const PreparedTarget& target, const SpheresOptions& options, depth::DepthRenderer& renderer,
+                          SpheresReport* report, const StageSink& stages, const Progress& callback) {
   const core::ProgressReporter progress(callback);
   const auto start = Clock::now();
-  target::check_sensor(sensor);
   check_options(options);
+  if (target.part_count() > 1) {
+    throw Error(ErrorKind::input, "the target has " + std::to_string(target.part_count()) + " parts", "target",
+                "compute each part and intersect the volumes");
+  }
+  const Sensor& sensor = target.sensor();
   SpheresReport own_report;
   SpheresReport& told = report ? *report : own_report;
   told = {};
   Volume volume;
   volume.tolerance_m = range_tolerance(options, sensor.max_range_m);
-  volume.frame = make_target_frame(target);
-  target::Clearance clearance = clearance_of(scene.data(), target, volume.frame, sensor.max_range_m);
-  volume.lift_m = clearance.lift_m;
-  volume.notes = std::move(clearance.notes);
-  volume.frame.origin += volume.frame.normal * volume.lift_m;
-  volume.counts.scene_polygons = scene.data().polygon_count();
+  volume.frame = target.data().parts[0].given;
+  volume.lift_m = {lift_of(target)};
+  volume.notes = target.notes();
+  volume.frame.origin += volume.frame.normal * volume.lift_m[0];
+  volume.counts.scene_polygons = target.scene().data().polygon_count();
   if (target::can_reach(volume.frame, sensor)) {
     target::move_into_range(volume.frame, sensor.max_range_m);
-    compute(target, sensor, options, renderer, told, stages, progress, volume);
+    compute(target.target(), sensor, options, renderer, told, stages, progress, volume);
   } else {
     target::set_out_of_range(volume.frame, sensor, volume);
   }

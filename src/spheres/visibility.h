@@ -7,9 +7,8 @@
 namespace vantage::spheres {
 
 /// As compute_visibility_spheres, but for SpheresReport::device_note. Runs in the caller's arena.
-Volume compute_visibility(const PreparedScene& scene, const Target& target, const Sensor& sensor,
-                          const SpheresOptions& options, depth::DepthRenderer& renderer, SpheresReport* report,
-                          const StageSink& stages, const Progress& progress);
+Volume compute_visibility(const PreparedTarget& target, const SpheresOptions& options, depth::DepthRenderer& renderer,
+                          SpheresReport* report, const StageSink& stages, const Progress& progress);
 
 /// As visibility_sphere.
 Mesh visibility_sphere(const Vec3& viewpoint, double radius_m, const SpheresOptions& options,

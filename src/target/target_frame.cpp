@@ -32,7 +32,7 @@ constexpr double kRounding = 0x1p-50;
 std::string vertex_name(std::size_t index) { return "vertex " + std::to_string(index); }
 
 void check_vertices(const Target& target) {
-  const auto& v = target.vertices;
+  const auto& v = target.parts[0];
   if (v.size() < 3 && !target.is_point())
     refuse(target, "a target needs at least 3 vertices, this one has " + std::to_string(v.size()),
            "add vertices, or give one alone for a point");
@@ -53,7 +53,7 @@ double extent_of(const std::vector<Vec3>& vertices) {
 }
 
 void check_repeats(const Target& target, double extent) {
-  const auto& v = target.vertices;
+  const auto& v = target.parts[0];
   for (std::size_t i = 0; i < v.size(); ++i)
     for (std::size_t j = i + 1; j < v.size(); ++j)
       if ((v[i] - v[j]).norm() <= 1e-9 * extent || v[i] == v[j])
@@ -69,7 +69,7 @@ Vec3 area_vector(const std::vector<Vec3>& vertices) {
 }
 
 void check_planar(const Target& target, const Vec3& normal, double extent) {
-  const auto& v = target.vertices;
+  const auto& v = target.parts[0];
   Vec3 centre = Vec3::Zero();
   for (const Vec3& p : v) centre += (p - v[0]) / double(v.size());
   double worst = 0;
@@ -141,7 +141,7 @@ std::vector<Vector2d> corners_of(const Target& target, const std::vector<Vec3>& 
     refuse(target, "not convex: the outline winds round more than once, starting at " + vertex_name(index[0]),
            "give the vertices in order round the polygon");
   double largest = 0;
-  for (const Vec3& v : target.vertices) largest = std::max(largest, v.cwiseAbs().maxCoeff());
+  for (const Vec3& v : target.parts[0]) largest = std::max(largest, v.cwiseAbs().maxCoeff());
   const core::CornerSlack slack{kStraight * extent + kRounding * largest, kRounding * extent};
   const auto is_corner = core::find_corners(polygon, Vec3::UnitZ(), slack);
   if (!is_corner)
@@ -159,18 +159,45 @@ TargetFrame make_point_frame(const Target& target) {
   make_axes(frame, target.front ? target.front->normalized() : Vec3::UnitZ());
   frame.polygon = {Vector2d::Zero()};
   frame.all_sides = !target.front;
-  frame.origin = target.vertices[0] + frame.normal * target.offset_m;
+  frame.origin = target.parts[0][0] + frame.normal * target.offset_m;
   return frame;
 }
 
 }  // namespace
 
-TargetFrame make_target_frame(const Target& target) {
+Target Target::polygon(std::vector<Vec3> vertices) {
+  Target target;
+  target.parts = {std::move(vertices)};
+  return target;
+}
+
+Target Target::point(const Vec3& place) { return polygon({place}); }
+
+Target Target::part(std::size_t index) const {
+  Target part;
+  part.name = index == 0 ? name : name + ", part " + std::to_string(index + 1);
+  part.parts = {parts.at(index)};
+  part.offset_m = offset_m;
+  part.front = front;
+  return part;
+}
+
+TargetFrame make_target_frame(const Target& target, std::size_t part) {
+  if (part >= target.parts.size()) {
+    refuse(target, "the target has no part " + std::to_string(part + 1), "give one polygon or more");
+  }
+  if (target.parts.size() > 1) {
+    if (target.parts[part].size() == 1) {
+      refuse(target, "part " + std::to_string(part + 1) + " of the target is a point",
+             "give polygons, or one point alone");
+    }
+    return make_target_frame(target.part(part));
+  }
   check_vertices(target);
   if (target.is_point()) return make_point_frame(target);
-  const double extent = extent_of(target.vertices);
+  const double extent = extent_of(target.parts[0]);
   check_repeats(target, extent);
-  const Vec3 area = area_vector(target.vertices);
+  const Vec3 area = area_vector(target.parts[0]);
   if (area.norm() <= 1e-9 * extent * extent)
     refuse(target, "the polygon has no area", "its vertices must not lie on one line");
   const Vec3 own_normal = area.normalized();
@@ -178,11 +205,11 @@ TargetFrame make_target_frame(const Target& target) {
 
   TargetFrame frame;
   make_axes(frame, front_normal(target, own_normal));
-  const Vec3 anchor = target.vertices[0];
+  const Vec3 anchor = target.parts[0][0];
   std::vector<Vec3> outline;
   std::vector<std::size_t> index;
-  for (std::size_t i = 0; i < target.vertices.size(); ++i) {
-    const Vec3 d = target.vertices[i] - anchor;
+  for (std::size_t i = 0; i < target.parts[0].size(); ++i) {
+    const Vec3 d = target.parts[0][i] - anchor;
     outline.emplace_back(frame.axis_u.dot(d), frame.axis_v.dot(d), 0);
     index.push_back(i);
   }
@@ -193,7 +220,7 @@ TargetFrame make_target_frame(const Target& target) {
   std::vector<Vector2d> polygon = corners_of(target, outline, index, extent);
 
   double height = 0;  // of the plane over the anchor: the mean, which is zero for an exactly planar polygon
-  for (const Vec3& v : target.vertices) height += frame.normal.dot(v - anchor) / double(target.vertices.size());
+  for (const Vec3& v : target.parts[0]) height += frame.normal.dot(v - anchor) / double(target.parts[0].size());
   const auto circle = target::smallest_enclosing_circle(polygon);
   const Vector2d centre = 0.5 * (circle.centre + target::centroid(polygon));
   for (Vector2d& p : polygon) p -= centre;

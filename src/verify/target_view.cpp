@@ -53,10 +53,10 @@ bool runs_on_back(const Target& target, const Vec3& normal) {
 }  // namespace
 
 TargetView::TargetView(const Target& target) {
-  if (target.vertices.size() < 3 && !target.is_point()) {
+  if (target.parts[0].size() < 3 && !target.is_point()) {
     fail(target, "the target has fewer than 3 vertices", "give at least 3, or one for a point");
   }
-  for (const Vec3& vertex : target.vertices) {
+  for (const Vec3& vertex : target.parts[0]) {
     if (!vertex.allFinite()) fail(target, "a vertex of the target is not finite", "give numbers");
   }
   if (!std::isfinite(target.offset_m)) fail(target, "the offset of the target is not finite", "give a number");
@@ -64,12 +64,12 @@ TargetView::TargetView(const Target& target) {
     set_point(target);
     return;
   }
-  origin_ = target.vertices[0] + mean([&target] {
+  origin_ = target.parts[0][0] + mean([&target] {
               std::vector<Vec3> offsets;
-              for (const Vec3& vertex : target.vertices) offsets.push_back(vertex - target.vertices[0]);
+              for (const Vec3& vertex : target.parts[0]) offsets.push_back(vertex - target.parts[0][0]);
               return offsets;
             }());
-  for (const Vec3& vertex : target.vertices) vertices_.push_back(vertex - origin_);
+  for (const Vec3& vertex : target.parts[0]) vertices_.push_back(vertex - origin_);
   set_plane(target);
   check_shape(target);
 
@@ -91,7 +91,7 @@ void TargetView::set_point(const Target& target) {
   }
   all_sides_ = !target.front;
   normal_ = target.front ? target.front->normalized() : Vec3(Vec3::UnitZ());
-  origin_ = target.vertices[0];
+  origin_ = target.parts[0][0];
   centre_ = target.offset_m * normal_;
   vertices_ = {centre_};
 }

@@ -233,18 +233,29 @@ void check_arguments(const Sensor& sensor, const VerifyOptions& options) {
   require(options.target_samples >= 0, "the number of target samples is negative", "verify target_samples");
 }
 
+/// The parts, each raised as it was for the volume.
+std::vector<Target> raised_parts(const Target& target, const std::vector<double>& lift_m) {
+  if (target.parts.empty()) throw Error(ErrorKind::input, "the target has no parts", "verify", "give one or more");
+  if (!lift_m.empty() && lift_m.size() != target.parts.size()) {
+    throw Error(ErrorKind::input,
+                "there are " + std::to_string(lift_m.size()) + " lifts for " + std::to_string(target.parts.size()) +
+                    " parts of the target",
+                "verify lift", "give one for each part, or none");
+  }
+  std::vector<Target> parts;
+  for (std::size_t i = 0; i < target.parts.size(); ++i) {
+    parts.push_back(target.part(i));
+    if (!lift_m.empty()) parts.back().offset_m += lift_m[i];
+  }
+  return parts;
+}
+
 }  // namespace
 
 VerifyReport verify_volume(const Scene& scene, const Target& target, const Sensor& sensor, const Navigation& navigation,
-                           const Mesh& volume, const VerifyOptions& options, const Progress& progress) {
-  return verify_volume(scene, std::vector<Target>{target}, sensor, navigation, volume, options, progress);
-}
-
-VerifyReport verify_volume(const Scene& scene, const std::vector<Target>& parts, const Sensor& sensor,
-                           const Navigation& navigation, const Mesh& volume, const VerifyOptions& options,
-                           const Progress& callback) {
+                           const Mesh& volume, const VerifyOptions& options, const Progress& callback) {
   check_arguments(sensor, options);
-  if (parts.empty()) throw Error(ErrorKind::input, "the target has no parts", "verify", "give one or more");
+  const std::vector<Target> parts = raised_parts(target, options.lift_m);
   Check check(scene, parts, sensor, navigation, volume, options);
   std::vector<Verdict> verdicts(options.points, Verdict(Random(options.seed, 0)));
   const core::ProgressReporter progress(callback);

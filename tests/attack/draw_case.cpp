@@ -208,12 +208,12 @@ void draw_limits(Random& random, const Pose& pose, Case& c) {
 /// Two convex parts along a diagonal; or the target twice, once moved.
 void draw_parts(Random& random, Case& c) {
   vantage::Target& whole = c.parts[0];
-  if (whole.vertices.size() < 4) return;
+  if (whole.parts[0].size() < 4) return;
   vantage::Target other = whole;
-  const auto cut = static_cast<std::ptrdiff_t>(random.integer(2, static_cast<int>(whole.vertices.size()) - 2));
-  other.vertices = {whole.vertices[0]};
-  other.vertices.insert(other.vertices.end(), whole.vertices.begin() + cut, whole.vertices.end());
-  whole.vertices.erase(whole.vertices.begin() + cut + 1, whole.vertices.end());
+  const auto cut = static_cast<std::ptrdiff_t>(random.integer(2, static_cast<int>(whole.parts[0].size()) - 2));
+  other.parts[0] = {whole.parts[0][0]};
+  other.parts[0].insert(other.parts[0].end(), whole.parts[0].begin() + cut, whole.parts[0].end());
+  whole.parts[0].erase(whole.parts[0].begin() + cut + 1, whole.parts[0].end());
   whole.front = other.front = c.parts[0].front;
   c.parts.push_back(other);
   c.kind += ", parts";
@@ -221,15 +221,15 @@ void draw_parts(Random& random, Case& c) {
 
 void draw_target(Random& random, const Pose& pose, const std::vector<Vec3>& outline, Case& c) {
   vantage::Target target;
-  for (const Vec3& p : outline) target.vertices.push_back(pose(p));
+  for (const Vec3& p : outline) target.parts[0].push_back(pose(p));
   target.front = pose.rotation * Vec3::UnitZ();
   if (pose.rotation.isIdentity() && random.chance(0.5)) target.front.reset();
   if (random.chance(0.05)) target.front = pose.rotation * Vec3(0, 0, -1), c.kind += ", from below";
-  if (random.chance(0.3)) std::reverse(target.vertices.begin(), target.vertices.end());
+  if (random.chance(0.3)) std::reverse(target.parts[0].begin(), target.parts[0].end());
   if (random.chance(0.15))
     target.offset_m = random.pick({1e-9, 1e-6, 1e-3 * pose.scale, 0.05 * pose.scale, 0.3 * pose.scale});
   if (random.chance(0.06)) {
-    target.vertices = {pose(random.chance(0.3) ? Vec3(0, 0, random.uniform(0, 0.5)) : outline[0])};
+    target.parts[0] = {pose(random.chance(0.3) ? Vec3(0, 0, random.uniform(0, 0.5)) : outline[0])};
     c.kind += ", point";
     if (random.chance(0.6)) target.front.reset();
     if (!target.front) target.offset_m = 0;

@@ -7,6 +7,7 @@
 #include "vantage/compare.h"
 #include "vantage/error.h"
 #include "vantage/mission.h"
+#include "vantage/navigation.h"
 #include "vantage/scene_source.h"
 
 namespace attack {
@@ -15,7 +16,7 @@ namespace {
 using namespace vantage;
 
 Volume compute(const Case& c, const Target& target) {
-  return compute_visibility(PreparedScene(c.scene), target, Sensor{c.range}, {c.tolerance, 1});
+  return compute_visibility(PreparedTarget(PreparedScene(c.scene), target, Sensor{c.range}), {c.tolerance, 1});
 }
 
 bool holds(const std::string& text, const char* words) { return text.find(words) != std::string::npos; }
@@ -60,10 +61,10 @@ void write_mission(const Case& c, const Target& target, const std::filesystem::p
   std::ofstream out(file);
   out << "scene: {mesh: scene.obj}\ntarget:\n";
   if (target.is_point()) {
-    out << "  point: " << list(target.vertices[0]) << "\n";
+    out << "  point: " << list(target.parts[0][0]) << "\n";
   } else {
     out << "  vertices:\n";
-    for (const Vec3& v : target.vertices) out << "    - " << list(v) << "\n";
+    for (const Vec3& v : target.parts[0]) out << "    - " << list(v) << "\n";
   }
   if (target.offset_m != 0) out << "  offset: " << number(target.offset_m) << "\n";
   if (target.front) out << "  front: " << list(*target.front) << "\n";
@@ -96,7 +97,7 @@ Answer ask_engine(const Case& c) {
 std::optional<std::vector<PointAnswer>> ask_query(const Case& c, std::size_t part, const std::vector<Vec3>& points,
                                                   std::string& message) {
   try {
-    return query_points(PreparedScene(c.scene), c.parts[part], Sensor{c.range}, {}, points);
+    return query_points(PreparedTarget(PreparedScene(c.scene), c.parts[part], Sensor{c.range}), {}, points);
   } catch (const std::exception& error) {
     message = error.what();
     return std::nullopt;
@@ -106,7 +107,7 @@ std::optional<std::vector<PointAnswer>> ask_query(const Case& c, std::size_t par
 std::string reversed_differs(const Case& c, const Volume& volume) {
   Target target = c.parts[0];
   target.front = volume.frame.normal;
-  target.vertices.assign(c.parts[0].vertices.rbegin(), c.parts[0].vertices.rend());
+  target.parts[0].assign(c.parts[0].parts[0].rbegin(), c.parts[0].parts[0].rend());
   try {
     const Volume reversed = compute(c, target);
     if (reversed.outcome != volume.outcome) return "the outcome is another one";
@@ -139,14 +140,13 @@ void write_case(const Case& c, const std::filesystem::path& folder) {
 }
 
 Case read_case(const std::filesystem::path& file) {
-  Mission mission = read_mission(file);
+  const vantage::Mission mission = resolve_mission(read_mission(file));
   Case c;
   c.kind = "mission";
-  c.scene = read_mission_scene(mission).scene;
-  c.parts.push_back(mission.target);
-  c.parts.insert(c.parts.end(), mission.other_parts.begin(), mission.other_parts.end());
+  c.scene = mission.loaded.scene;
+  for (std::size_t i = 0; i < mission.target.parts.size(); ++i) c.parts.push_back(mission.target.part(i));
   c.range = mission.sensor.max_range_m;
-  c.tolerance = mission.exact.tolerance_m;
+  c.tolerance = mission.file.exact.tolerance_m;
   c.navigation = mission.navigation;
   return c;
 }

@@ -161,7 +161,7 @@ class Attack {
          << "drawn as scene " << index << " of seed " << options_.seed << " at scale " << c.scale << ": " << c.kind
          << "\nvantage_attack --mission " << (place / "mission.yaml").string() << "\n";
     std::printf("      %zu triangles, %zu corners: %s\n", small.scene.mesh.triangles.size(),
-                small.parts[0].vertices.size(), place.c_str());
+                small.parts[0].parts[0].size(), place.c_str());
   }
 
   Options options_;

@@ -70,9 +70,9 @@ class Minimiser {
   }
 
   void drop_corners(std::size_t part) {
-    for (std::size_t at = 0; best_.parts[part].vertices.size() > 3 && at < best_.parts[part].vertices.size();) {
+    for (std::size_t at = 0; best_.parts[part].parts[0].size() > 3 && at < best_.parts[part].parts[0].size();) {
       Case c = best_;
-      c.parts[part].vertices.erase(c.parts[part].vertices.begin() + static_cast<std::ptrdiff_t>(at));
+      c.parts[part].parts[0].erase(c.parts[part].parts[0].begin() + static_cast<std::ptrdiff_t>(at));
       if (!keep_if_failing(c)) ++at;
     }
   }

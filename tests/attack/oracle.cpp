@@ -39,9 +39,9 @@ double least_height(const Corners& t) {
 
 Blockers::Blockers(const vantage::Scene& scene, const std::vector<vantage::Target>& targets) {
   std::vector<Vec3> stored = scene.mesh.vertices;
-  for (const vantage::Target& t : targets) stored.insert(stored.end(), t.vertices.begin(), t.vertices.end());
+  for (const vantage::Target& t : targets) stored.insert(stored.end(), t.parts[0].begin(), t.parts[0].end());
   for (int axis = 0; axis < 3; ++axis) {
-    const double near = targets[0].vertices[0][axis];
+    const double near = targets[0].parts[0][0][axis];
     const bool exact =
         std::all_of(stored.begin(), stored.end(), [&](const Vec3& p) { return subtracts_exactly(p[axis], near); });
     if (exact) origin[axis] = near;

@@ -26,7 +26,7 @@ SeenTarget seen_point(const vantage::Target& target, double lift, const Vec3& or
   SeenTarget seen;
   seen.normal = target.front ? target.front->normalized() : Vec3::UnitZ();
   seen.all_sides = !target.front;
-  seen.corners = {target.vertices[0] - origin + seen.normal * (target.offset_m + lift)};
+  seen.corners = {target.parts[0][0] - origin + seen.normal * (target.offset_m + lift)};
   seen.centre = seen.corners[0];
   return seen;
 }
@@ -70,7 +70,7 @@ std::vector<OuterLine> outer_lines(const std::vector<Vector2d>& polygon, double 
 SeenTarget make_seen_target(const vantage::Target& target, double lift, const Vec3& origin) {
   if (target.is_point()) return seen_point(target, lift, origin);
   SeenTarget seen;
-  for (const Vec3& v : target.vertices) seen.corners.push_back(v - origin);
+  for (const Vec3& v : target.parts[0]) seen.corners.push_back(v - origin);
   const Vec3 own = area_vector(seen.corners).normalized();
   const bool turned = target.front ? own.dot(*target.front) < 0 : own.z() < -1e-6;
   seen.normal = turned ? Vec3(-own) : own;

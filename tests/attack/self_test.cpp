@@ -104,7 +104,7 @@ Case make_case(double scale, const Vec3& shift) {
   for (Vec3& v : c.scene.mesh.vertices) v = scale * v + shift;
   vantage::Target target;
   for (const Vec3& p : {Vec3(-1, -1, 0), Vec3(1, -1, 0), Vec3(1.2, 0.7, 0), Vec3(0, 1, 0), Vec3(-1, 1, 0)})
-    target.vertices.push_back(scale * p + shift);
+    target.parts[0].push_back(scale * p + shift);
   c.parts = {target};
   c.range = 10 * scale;
   c.tolerance = 0.2 * scale;
@@ -170,15 +170,15 @@ class WrongAnswers {
     must_find(Class::out_of_range, "a volume larger by 1e-2", scaled(right_, 1.01));
     must_find(Class::under_claim, "a volume smaller by 1e-3", scaled(right_, 1 - 1e-3));
     Case small_target = case_;
-    small_target.parts[0].vertices.erase(small_target.parts[0].vertices.begin() + 2);
+    small_target.parts[0].parts[0].erase(small_target.parts[0].parts[0].begin() + 2);
     must_find(Class::over_claim, "a target that has lost a corner", ask_engine(small_target));
     Case limited = case_;
-    const double height = case_.parts[0].vertices[0].z();
+    const double height = case_.parts[0].parts[0][0].z();
     limited.navigation.altitude = {height + case_.scale, height + 3 * case_.scale};
     must_find(Class::outside_limits, "a volume that was not cut", right_, &limited);
     Case two = case_;
     two.parts.push_back(two.parts[0]);
-    for (Vec3& v : two.parts[1].vertices) v.x() += 0.5 * case_.scale;
+    for (Vec3& v : two.parts[1].parts[0]) v.x() += 0.5 * case_.scale;
     Answer one_part = right_;
     one_part.parts.push_back(right_.parts[0]);
     must_find(Class::over_claim, "a volume of the first part alone", one_part, &two);

@@ -35,13 +35,13 @@ bool between_walls() {
   vantage::Target target;
   target.vertices = {{-5, -5, 0}, {5, -5, 0}, {0, 5, 0}};
   const vantage::Sensor sensor{50};
-  const vantage::Volume volume = vantage::compute_visibility(prepared, target, sensor);
+  const vantage::Volume volume = vantage::compute_visibility(PreparedTarget(prepared, target, sensor));
 
   const vantage::MeshMeasures measures = vantage::measure(volume.mesh);
   std::printf("volume %.1f m3, %zu facets, %zu causes\n", measures.volume_m3, measures.facets, volume.causes.size());
   // Two walls take something away from the half ball, but not all of it.
   const double half_ball = 2.0 / 3.0 * std::acos(-1.0) * 50 * 50 * 50;
-  const auto above = vantage::query_points(prepared, target, sensor, {}, {{0, 0, 20}, {0, 30, 5}});
+  const auto above = vantage::query_points(PreparedTarget(prepared, target, sensor), {}, {{0, 0, 20}, {0, 30, 5}});
   return measures.closed && measures.euler == 2 && measures.volume_m3 > 0.1 * half_ball &&
          measures.volume_m3 < 0.9 * half_ball && above[0].inside && !above[1].inside &&
          above[1].blocked_by == std::vector<std::string>{"north wall"};

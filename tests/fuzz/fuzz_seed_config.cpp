@@ -7,26 +7,26 @@
 #include <set>
 #include <string_view>
 
-#include "app/seed_config.h"
 #include "vantage/error.h"
+#include "vantage/willis.h"
 
 namespace {
 
-using vantage::app::SeedConfig;
-using vantage::app::SeedMesh;
-using vantage::app::SeedVolume;
+using vantage::WillisConfig;
+using vantage::WillisMesh;
+using vantage::WillisVolume;
 
 void require(bool holds) {
   if (!holds) std::abort();
 }
 
-void check_mesh(const SeedMesh& mesh) {
+void check_mesh(const WillisMesh& mesh) {
   require(mesh.file.is_absolute() && !mesh.where.empty());
   require(mesh.position.allFinite() && mesh.scale.allFinite() && mesh.scale.minCoeff() > 0);
   require((mesh.rotation * mesh.rotation.transpose() - Eigen::Matrix3d::Identity()).norm() < 1e-9);
 }
 
-void check_volume(const SeedVolume& volume) {
+void check_volume(const WillisVolume& volume) {
   require(volume.texels >= 1 && volume.texels <= 8192);
   require(volume.origin.allFinite());
   require(std::abs(volume.front.norm() - 1) < 1e-9 && std::abs(volume.up.norm() - 1) < 1e-9);
@@ -37,11 +37,11 @@ void check_volume(const SeedVolume& volume) {
   require(volume.output.is_absolute() && !volume.where.empty() && !volume.output_where.empty());
 }
 
-void check_accepted(const SeedConfig& config) {
+void check_accepted(const WillisConfig& config) {
   require(!config.meshes.empty() && !config.volumes.empty());
-  for (const SeedMesh& mesh : config.meshes) check_mesh(mesh);
+  for (const WillisMesh& mesh : config.meshes) check_mesh(mesh);
   std::set<std::filesystem::path> outputs;
-  for (const SeedVolume& volume : config.volumes) {
+  for (const WillisVolume& volume : config.volumes) {
     check_volume(volume);
     require(outputs.insert(volume.output).second);
   }
@@ -52,7 +52,7 @@ void check_accepted(const SeedConfig& config) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   try {
-    check_accepted(vantage::app::parse_seed_config(text, "config.yaml"));
+    check_accepted(vantage::parse_willis_config(text, "config.yaml"));
   } catch (const vantage::Error& error) {
     require(error.kind() == vantage::ErrorKind::input);
     require(!error.problem().empty() && !error.where().empty() && !error.fix().empty());

@@ -25,7 +25,7 @@ Vec3 on_surface(const Mesh& mesh, Random& random) {
 
 Verdict judge(const Volume& volume, const Mesh& scene, std::vector<Vec3> polygon, int count, double margin,
               Random& random) {
-  for (Vec3& vertex : polygon) vertex += volume.lift_m * volume.frame.normal;
+  for (Vec3& vertex : polygon) vertex += volume.lift_m.at(0) * volume.frame.normal;
   const ClipOracle oracle(scene, polygon);
   const MeshProbe probe(volume);
   const Vec3& centre = volume.frame.origin;

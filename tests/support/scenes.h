@@ -51,7 +51,7 @@ class SceneBuilder {
 
 inline Target target_of(std::vector<Vec3> vertices) {
   Target target;
-  target.vertices = std::move(vertices);
+  target.parts[0] = std::move(vertices);
   return target;
 }
 
@@ -63,7 +63,7 @@ inline Target random_target(Random& random, int corners, double radius, const Ve
   Target target;
   for (int k = 0; k < corners; ++k) {
     const double angle = start + step * (k + random.uniform(-0.3, 0.3));
-    target.vertices.push_back(centre + radius * (std::cos(angle) * u + std::sin(angle) * v));
+    target.parts[0].push_back(centre + radius * (std::cos(angle) * u + std::sin(angle) * v));
   }
   return target;
 }

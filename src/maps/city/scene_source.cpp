@@ -25,6 +25,12 @@ SceneSource::Kind source_kind(const std::filesystem::path& file) {
   return SceneSource::Kind::mesh;
 }
 
+std::vector<std::string> notes_of(const LoadedScene& loaded) {
+  std::vector<std::string> notes = loaded.scene.notes;
+  if (loaded.city) notes.insert(notes.end(), loaded.city->notes.begin(), loaded.city->notes.end());
+  return notes;
+}
+
 LoadedScene load_scene(const SceneSource& source, const Progress& progress) {
   LoadedScene loaded;
   switch (source.kind) {

@@ -1,12 +1,11 @@
-#include "maps/city/settings.h"
-
 #include <cstdio>
 #include <functional>
 #include <map>
 
+#include "vantage/city.h"
 #include "vantage/error.h"
 
-namespace vantage::city {
+namespace vantage {
 namespace {
 
 constexpr double kLeastLevels = 0.5, kMostLevels = 200;
@@ -53,8 +52,8 @@ bool set_of_kind(CityOptions& options, const std::string& name, double value, co
 
 }  // namespace
 
-const std::vector<Setting>& settings() {
-  static const std::vector<Setting> kSettings = {
+const std::vector<CitySetting>& city_settings() {
+  static const std::vector<CitySetting> kSettings = {
       {"level", [](CityOptions& o) -> double& { return o.defaults.level_m; }, 1, 20, "height of a storey, m"},
       {"levels", [](CityOptions& o) -> double& { return o.defaults.levels; }, kLeastLevels, kMostLevels,
        "storeys of a building without height and levels"},
@@ -82,8 +81,8 @@ const std::vector<Setting>& settings() {
   return kSettings;
 }
 
-void set(CityOptions& options, const std::string& name, double value, const std::string& where) {
-  for (const Setting& setting : settings()) {
+void set_city_option(CityOptions& options, const std::string& name, double value, const std::string& where) {
+  for (const CitySetting& setting : city_settings()) {
     if (name != setting.name) continue;
     check(value, setting.least, setting.most, name, where);
     setting.value(options) = value;
@@ -91,7 +90,7 @@ void set(CityOptions& options, const std::string& name, double value, const std:
   }
   if (set_of_kind(options, name, value, where)) return;
   std::string known;
-  for (const Setting& setting : settings()) known.append(setting.name).append(", ");
+  for (const CitySetting& setting : city_settings()) known.append(setting.name).append(", ");
   throw Error(ErrorKind::input, "there is no default '" + name + "'", where,
               "the defaults are: " + known + "and of a kind levels.house, wall.fence, tower.mast, way.footway");
 }
@@ -111,4 +110,4 @@ void leave_out(Occluders& occluders, const std::string& kind, const std::string&
   }
 }
 
-}  // namespace vantage::city
+}  // namespace vantage

@@ -1,0 +1,60 @@
+// Files that are written whole or not at all.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace vantage {
+
+/// Collects what is written in a temporary file beside the target; commit() puts it in the target's place in one step.
+/// When anything fails, or commit() is never called, the target stays as it was and the temporary file is removed.
+/// A target that is a symbolic link is followed; an existing file's permissions are kept.
+class AtomicFile {
+ public:
+  /// Throws Error(input) for a directory, Error(output) for a missing directory, a target that is a device, a pipe or a
+  /// socket, or a place where no file can be made.
+  explicit AtomicFile(const std::filesystem::path& target);
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+  ~AtomicFile();
+
+  /// Throws Error(output), for instance when the disk is full.
+  void write(std::string_view bytes);
+
+  /// Brings everything to the disk, so that only putting it in place is left; commit() does it where it was not done.
+  /// No write() may follow. Throws Error(output).
+  void seal();
+
+  /// Puts the file in place. Call once, last. Throws Error(output).
+  void commit();
+
+ private:
+  friend void commit_all(const std::vector<std::unique_ptr<AtomicFile>>& files);
+
+  void flush();
+  void put_in_place();
+  void keep_old();
+  bool give_back();
+  [[noreturn]] void fail(const std::string& problem, int error_number) const;
+
+  std::filesystem::path asked_, target_, temporary_;
+  std::filesystem::path kept_;  // a second name of the old file, while a set is put in place
+  bool replaces_ = false;       // there is an old file
+  std::vector<char> buffer_;
+  int descriptor_ = -1;
+};
+
+/// Commits a set of files: all of them, or none. Each is whole on the disk before the first is put in place; where one
+/// cannot be put there, those before it are taken back. Old files are kept under a second name meanwhile: on a file
+/// system without hard links those already replaced stay so, and the error names them. Call once, last; the files must
+/// differ. Throws Error(output).
+void commit_all(const std::vector<std::unique_ptr<AtomicFile>>& files);
+
+/// Writes `bytes` to `file` as AtomicFile does.
+void write_whole_file(const std::filesystem::path& file, std::string_view bytes);
+
+}  // namespace vantage

@@ -1,0 +1,39 @@
+// Volumes as solids: cut to navigation limits, and intersected.
+#pragma once
+
+#include <vector>
+
+#include "vantage/constraints.h"
+#include "vantage/prepared_target.h"
+#include "vantage/progress.h"
+#include "vantage/volume.h"
+
+namespace vantage {
+
+/// Cuts a volume to the navigation limits. The result may have several pieces; each is closed. Facets keep their
+/// causes; cut faces are CauseKind::navigation. An empty result is Outcome::outside_limits with a reason. Adds its time
+/// to `navigation` and `total` of the volume's Seconds. Uses the threads of the caller's arena (TBB).
+///
+/// Cost: one boolean operation, O(n log n) in the facets of the volume and the limits, and the check of each mesh for
+/// self-intersections, O(m log m) in its triangles.
+///
+/// Throws Error(input) for limits that are wrong in themselves (a reversed, empty or not finite altitude band or box, a
+/// mesh that is open, inside out or intersects itself) and for a volume whose arrays do not fit together;
+/// Error(cancelled) when told to stop; Error(internal) when a boolean operation fails.
+Volume cut_to_navigation(const Volume& volume, const Navigation& navigation, const Progress& progress = {});
+
+/// What all the volumes claim: that of a target in parts is the intersection of its parts' volumes. May have several
+/// pieces, each closed; facets keep their causes, and causes of the same kind and name become one. Tolerance and lift
+/// are the largest of the volumes', the frame is the first one's, seconds and counts are sums, notes are those of all.
+/// Where one of the volumes is empty, so is the result, with its outcome and reason; where they have nothing in common,
+/// Outcome::no_common_view.
+/// Throws Error(input) for no volumes and for one whose arrays do not fit together; Error(cancelled) when told to stop;
+/// Error(internal) when a boolean operation fails. Cost: a boolean operation per volume, O(n log n) in the facets.
+Volume intersect_volumes(const std::vector<Volume>& volumes, const Progress& progress = {});
+
+/// All that a vehicle may use: compute_visibility of each part of the target, intersected, and cut to the navigation
+/// limits. Throws as these do. Cost: the sum of theirs.
+Volume compute_volume(const PreparedTarget& target, const Navigation& navigation = {}, const ExactOptions& options = {},
+                      const Progress& progress = {});
+
+}  // namespace vantage

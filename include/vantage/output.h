@@ -1,0 +1,41 @@
+// Results on the disk: found out before a long computation whether they can be written, and written all or none.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "vantage/atomic_file.h"
+#include "vantage/scene.h"
+#include "vantage/volume.h"
+
+namespace vantage {
+
+/// Throws Error(output or input) unless a file can be made at `file`: its folder exists and takes new files, `file` is
+/// no folder and no device, and an existing file is not write-protected.
+void check_can_write(const std::filesystem::path& file);
+
+/// What chooses the format: the extension in lower case, ".ply".
+std::string format_extension(const std::filesystem::path& file);
+
+/// check_can_write, and the extension must be one that write_volume knows.
+void check_volume_output(const std::filesystem::path& file);
+
+/// Throws Error(input) if `output` is one of the `inputs`: writing it would destroy what it was made from.
+void check_not_an_input(const std::filesystem::path& output, const std::vector<std::filesystem::path>& inputs);
+
+/// A volume that is written but not in place yet: give the files to commit_all.
+struct StagedVolume {
+  std::vector<std::unique_ptr<AtomicFile>> files;  ///< the volume's first; for STL the one beside it too
+  WrittenVolume report;
+};
+
+/// Does all that write_volume does but the last step. Throws as write_volume does.
+StagedVolume stage_volume(const Volume& volume, const std::filesystem::path& file, UpAxis obj_up = UpAxis::z,
+                          double obj_scale = 1.0);
+
+/// Does all that write_scene does but the last step: give the files to commit_all. Throws as write_scene does.
+std::vector<std::unique_ptr<AtomicFile>> stage_scene(const Scene& scene, const std::filesystem::path& file);
+
+}  // namespace vantage

@@ -1,0 +1,93 @@
+// Results as files: volumes with reports beside them, and volumes read again.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "vantage/mission.h"
+#include "vantage/progress.h"
+#include "vantage/spheres.h"
+#include "vantage/volume.h"
+
+namespace vantage {
+
+// ---- reports
+// ----------------------------------------------------------------------------------------------------------
+
+/// How the spheres method was run.
+struct SpheresRun {
+  SpheresOptions options;
+  SpheresReport report;
+};
+
+/// What the volume was made from, for the report; empty entries are left out.
+struct ReportSource {
+  std::string mission;                               ///< file
+  std::string scene;                                 ///< file
+  std::string target;                                ///< name
+  std::string volume;                                ///< the file that holds the volume
+  std::optional<SpheresRun> spheres = std::nullopt;  ///< the method was spheres; else it was exact
+};
+
+/// The part of a report that tells of the spheres method: a JSON object.
+std::string spheres_json(const SpheresRun& run);
+
+/// A JSON object, UTF-8, two spaces of indentation, a newline at the end. Lengths are metres in the scene frame.
+/// `causes` are in the order of Volume::causes, so that the facet property of a PLY file indexes them. `bounding_box`
+/// is null for an empty volume; `georeference` is there when the scene has one. Bytes of names that are not UTF-8 are
+/// replaced.
+std::string report_json(const Volume& volume, const MeshMeasures& measures, const ReportSource& source = {});
+
+/// Of a mission's result; `volume` is left empty.
+ReportSource report_source(const Mission& mission, const Result& result);
+
+// ---- files
+// ------------------------------------------------------------------------------------------------------------
+
+struct ResultRequest {
+  std::vector<std::filesystem::path> volumes;  ///< files to write; each extension chooses a format, see write_volume
+  UpAxis obj_up = UpAxis::z;                   ///< as Scene::up
+  double obj_scale = 1.0;                      ///< as Scene::scale
+  ReportSource source;                         ///< `volume` is filled in for each report
+};
+
+struct WrittenResults {
+  MeshMeasures measures;
+  std::vector<WrittenVolume> written;          ///< of each file that is asked for; empty when there is no volume
+  std::vector<std::filesystem::path> reports;  ///< those written
+  std::string report;                          ///< text of the first file's
+};
+
+/// "volume.ply" has its report in "volume.report.json".
+std::filesystem::path report_file(const std::filesystem::path& volume_file);
+
+/// Writes the volume to every file that is asked for, and a report beside each; only the reports when there is no
+/// volume. First of all it is measured. All files are written or none: when anything fails, old ones stay as they were.
+/// Fills Volume::seconds.write (until all is ready on the disk) and adds it to the total. Throws Error(internal) for a
+/// volume that is not closed and oriented, Error(cancelled) when told to stop, and as write_volume does.
+WrittenResults write_results(Volume& volume, const ResultRequest& request, const Progress& progress = {});
+
+/// A volume, or any other mesh, as its file says.
+struct VolumeFile {
+  Volume volume;                   ///< mesh and georeference; `cause_of` and `causes` where the file has them (PLY)
+  double rounding_m = 0;           ///< Scene::rounding_m
+  std::vector<std::string> notes;  ///< for people: that it was moved, that its heights do not fit
+};
+
+/// How far `compute` raised the target of a volume, by the report beside its file: the largest lift of its parts.
+/// Nothing where there is no report. Throws Error(input) for one that does not say it.
+std::optional<double> reported_lift_m(const std::filesystem::path& volume_file);
+
+/// Reads a mesh into a frame. OBJ is in the axes and the unit of `obj`, unless it says them; other formats say it
+/// themselves. A mesh that says where on the earth it lies is moved about the origin of `frame`, where there is one;
+/// any other is taken to be in the frame. Heights stay as they are. Throws as read_scene does, and Error(input) for a
+/// mesh that lies more than 100 km away and for causes that are out of range.
+VolumeFile read_volume(const std::filesystem::path& file, const SceneReadOptions& obj = {},
+                       const std::optional<Georeference>& frame = {}, const Progress& progress = {});
+
+/// The same for what was computed in a scene: OBJ as the scene's own file.
+VolumeFile read_volume(const std::filesystem::path& file, const Scene& scene, const Progress& progress = {});
+
+}  // namespace vantage

@@ -1,0 +1,190 @@
+#include "vantage/json.h"
+
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "io/georeference_text.h"
+
+namespace vantage {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json json_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+Json json_of(const Box& box) { return {{"min", json_of(box.min)}, {"max", json_of(box.max)}}; }
+
+std::string dumped(const Json& json, int indentation) {
+  return json.dump(indentation, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Json record_json(const CityRecord& record) {
+  Json json;
+  json["object"] = record.object.source_id;
+  if (!record.object.name.empty()) json["name"] = record.object.name;
+  json["kind"] = name_of(record.object.kind);
+  json["fate"] = name_of(record.fate);
+  if (!record.reason.empty()) json["reason"] = record.reason;
+  if (!record.remarks.empty()) json["remarks"] = record.remarks;
+  if (record.fate != Fate::skipped) {
+    json["ground_m"] = record.ground_m;
+    json["base_m"] = record.base_m;
+    json["top_m"] = record.top_m;
+    json["footprint_m2"] = record.footprint_m2;
+  }
+  return json;
+}
+
+void add_city(Json& json, const CityReport& report) {
+  for (const auto& [kind, tally] : tally_by_kind(report)) {
+    Json counts;
+    counts["read"] = tally.read;
+    for (const Fate fate : {Fate::written, Fate::repaired, Fate::open_surface, Fate::skipped}) {
+      const auto entry = tally.fates.find(fate);
+      counts[name_of(fate)] = entry == tally.fates.end() ? 0 : entry->second;
+    }
+    json["kinds"][kind] = counts;
+  }
+  for (const auto& [key, found] : reasons(report)) json["reasons"][name_of(key.first)][key.second] = found.first;
+  json["outside"] = report.outside;
+  json["map_bounds_deg"] = report.bounds_deg;  // west, south, east, north
+  json["seconds"] = {{"read", report.read_seconds}, {"build", report.build_seconds}};
+  json["records"] = Json::array();
+  for (const CityRecord& record : report.records) json["records"].push_back(record_json(record));
+}
+
+void add_raster(Json& json, const RasterReport& report) {
+  json["raster"] = {{"columns", report.columns},     {"rows", report.rows},
+                    {"voids", report.voids},         {"lowest_m", report.lowest_m},
+                    {"highest_m", report.highest_m}, {"largest_error_m", report.largest_error_m}};
+}
+
+void add_source(Json& json, const LoadedScene& loaded) {
+  if (loaded.city) add_city(json, *loaded.city);
+  if (loaded.raster) add_raster(json, *loaded.raster);
+}
+
+double percent(double part, double whole) { return 100 * part / whole; }
+
+}  // namespace
+
+std::string json_text(std::string_view text) { return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace); }
+
+std::string json_text(const std::vector<std::string>& texts) {
+  return Json(texts).dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string json_text(const LoadedScene& loaded) {
+  Json json;
+  json["source"] = loaded.scene.source.string();
+  if (const auto& place = loaded.scene.georeference) {
+    json["georeference"] = {{"latitude_deg", place->latitude_deg},
+                            {"longitude_deg", place->longitude_deg},
+                            {"vertical", place->vertical},
+                            {"source_crs", place->source_crs},
+                            {"projection", projection_text(*place)}};
+  }
+  json["triangles"] = loaded.scene.mesh.triangles.size();
+  json["objects"] = loaded.scene.objects.size();
+  const Box box = bounding_box(loaded.scene.mesh);
+  json["bounds"] = json_of(box);
+  json["notes"] = notes_of(loaded);
+  add_source(json, loaded);
+  return dumped(json, 1);
+}
+
+std::string json_text(const LoadedScene& loaded, const SceneStatistics& found) {
+  const Scene& scene = loaded.scene;
+  Json json;
+  json["file"] = scene.source.string();
+  json["triangles"] = found.triangles;
+  json["vertices"] = found.vertices;
+  json["objects"] = found.objects;
+  json["dropped_faces"] = scene.dropped_faces;
+  json["welded_vertices"] = found.welded_vertices;
+  json["degenerate_triangles"] = found.degenerate_triangles;
+  json["duplicate_triangles"] = found.duplicate_triangles;
+  json["open_edges"] = found.open_edges;
+  json["nonmanifold_edges"] = found.nonmanifold_edges;
+  json["misoriented_edges"] = found.misoriented_edges;
+  json["polygons"] = found.polygons;
+  json["bounds"] = json_of(found.bounds);
+  if (scene.georeference) json["georeference"] = io::georeference_json(*scene.georeference);
+  json["notes"] = notes_of(loaded);
+  add_source(json, loaded);
+  return dumped(json, 2);
+}
+
+std::string json_text(const VerifyReport& report, const OpenEdges& open_edges, double lift_m, double rounding_m) {
+  Json json;
+  json["right"] = report.is_right();
+  json["closed"] = report.closed;
+  json["open_edges"] = open_edges.count;
+  json["open_edge_at"] = open_edges.count > 0 ? json_of(open_edges.middle_of_first) : Json(nullptr);
+  json["oriented"] = report.oriented;
+  json["flat_facets"] = report.flat_facets;
+  json["euler"] = report.euler;
+  json["points"] = report.points;
+  json["inside"] = report.inside;
+  json["rays"] = report.rays;
+  json["over_claimed"] = report.over_claimed;
+  json["under_claimed"] = report.under_claimed;
+  json["worst_over_depth_m"] = report.worst_over_depth_m;
+  json["worst_over_point"] = json_of(report.worst_over_point);
+  json["worst_over_cause"] = report.worst_over_cause;
+  json["worst_under_depth_m"] = report.worst_under_depth_m;
+  json["worst_under_point"] = json_of(report.worst_under_point);
+  json["over_claim_bound"] = report.over_claim_bound;
+  json["bound_points"] = report.bound_points;
+  json["seed"] = report.seed;
+  json["lift_m"] = lift_m;
+  json["rounding_m"] = rounding_m;
+  return dumped(json, 2);
+}
+
+std::string json_text(const Comparison& c, const std::string& file_a, const std::string& file_b,
+                      const std::vector<std::string>& written) {
+  const auto point = [](double distance, const Vec3& p) -> Json {
+    if (distance == 0) return nullptr;
+    return {p.x(), p.y(), p.z()};
+  };
+  Json json;
+  json["a"] = file_a;
+  json["b"] = file_b;
+  json["volume_a_m3"] = c.volume_a_m3;
+  json["volume_b_m3"] = c.volume_b_m3;
+  json["intersection_m3"] = c.intersection_m3;
+  json["intersection_percent_of_a"] = percent(c.intersection_m3, c.volume_a_m3);
+  json["intersection_percent_of_b"] = percent(c.intersection_m3, c.volume_b_m3);
+  json["only_a_m3"] = c.only_a_m3;
+  json["only_a_percent"] = percent(c.only_a_m3, c.volume_a_m3);
+  json["only_b_m3"] = c.only_b_m3;
+  json["only_b_percent"] = percent(c.only_b_m3, c.volume_b_m3);
+  json["worst_only_a_m"] = c.worst_only_a_m;
+  json["worst_only_a_bound_m"] = c.worst_only_a_bound_m;
+  json["worst_only_a_point"] = point(c.worst_only_a_m, c.worst_only_a_point);
+  json["worst_only_b_m"] = c.worst_only_b_m;
+  json["worst_only_b_bound_m"] = c.worst_only_b_bound_m;
+  json["worst_only_b_point"] = point(c.worst_only_b_m, c.worst_only_b_point);
+  json["written"] = written;
+  return dumped(json, 2);
+}
+
+std::string json_text(const RenderDevices& found, const ChosenDevice& chosen, const std::string& reason) {
+  Json json;
+  json["devices"] = Json::array();
+  for (const RenderDevice& device : found.devices) {
+    json["devices"].push_back({{"index", device.index},
+                               {"kind", name_of(device.kind)},
+                               {"name", device.name},
+                               {"driver", device.driver},
+                               {"memory_bytes", device.memory_bytes},
+                               {"largest_face_size", device.largest_face_size}});
+  }
+  json["used"] = chosen.device.index;
+  json["why"] = reason;
+  json["why_no_opengl"] = found.why_no_opengl;
+  return dumped(json, 2);
+}
+
+}  // namespace vantage

@@ -1,0 +1,23 @@
+// Places in mission files, for messages.
+#pragma once
+
+#include <string>
+
+#include "vantage/error.h"
+
+namespace vantage::app {
+
+/// Calls `action` and returns what it returns. An Error(input) from it is thrown on with `place` (of the mission file)
+/// put in front of its own `where`: the engine knows the objects, but not the file that named the target.
+template <typename Action>
+auto with_place(const std::string& place, const Action& action) {
+  try {
+    return action();
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::input || place.empty()) throw;
+    throw Error(error.kind(), error.problem(), error.where().empty() ? place : place + ", " + error.where(),
+                error.fix());
+  }
+}
+
+}  // namespace vantage::app

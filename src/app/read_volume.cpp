@@ -1,0 +1,90 @@
+#include <cmath>
+
+#include "app/input_file.h"
+#include "app/navigation_meshes.h"
+#include "geo/local_frame.h"
+#include "io/read_causes.h"
+#include "vantage/error.h"
+#include "vantage/input.h"
+#include "vantage/result.h"
+
+namespace vantage {
+namespace app {
+namespace {
+
+/// Whether z = 0 is surely not the same height: one counts from flat ground, and the other is known not to.
+bool is_on_another_level(const Georeference& a, const Georeference& b) {
+  const bool is_known = !a.vertical.empty() && !b.vertical.empty();
+  return is_known && (a.vertical == kFlatGround) != (b.vertical == kFlatGround);
+}
+
+/// Refuses a mesh of another city.
+void check_near(const Georeference& mesh, const Georeference& frame, const std::string& name, const std::string& where,
+                const char* fix) {
+  const double distance =
+      geo::geodesic_m({mesh.longitude_deg, mesh.latitude_deg}, {frame.longitude_deg, frame.latitude_deg});
+  if (distance <= geo::kFarthestM) return;
+  throw Error(ErrorKind::input, name + " lies " + std::to_string(std::lround(distance / 1000)) + " km away", where,
+              fix);
+}
+
+std::string levels_text(const Georeference& mesh, const Georeference& scene) {
+  return "measured from another level (" + mesh.vertical + ") than the scene's (" + scene.vertical + ")";
+}
+
+}  // namespace
+
+std::vector<KeepInMesh> placed_navigation_meshes(const std::vector<NavigationMesh>& meshes, const Scene& scene) {
+  std::vector<KeepInMesh> placed;
+  for (const NavigationMesh& given : meshes) {
+    KeepInMesh& keep_in = placed.emplace_back(given.keep_in);
+    for (Vec3& v : keep_in.mesh.vertices) {
+      if (given.in_scene_axes && scene.up == UpAxis::y) v = Vec3(v.x(), -v.z(), v.y());
+      if (given.in_scene_unit) v *= scene.scale;
+    }
+    if (!given.georeference || !scene.georeference) continue;
+    check_near(*given.georeference, *scene.georeference, in_quotes(keep_in.name), given.place,
+               "give a mesh of the scene's surroundings");
+    if (is_on_another_level(*given.georeference, *scene.georeference)) {
+      throw Error(
+          ErrorKind::input,
+          "the heights of " + in_quotes(keep_in.name) + " are " + levels_text(*given.georeference, *scene.georeference),
+          given.place, "make it for a scene with the same ground as this one's");
+    }
+    geo::move_origin(keep_in.mesh.vertices, *given.georeference, *scene.georeference);
+  }
+  return placed;
+}
+
+}  // namespace app
+
+using namespace app;
+
+VolumeFile read_volume(const std::filesystem::path& file, const SceneReadOptions& obj,
+                       const std::optional<Georeference>& frame, const Progress& progress) {
+  Scene read = read_scene(file, is_obj(file) ? obj : SceneReadOptions{}, progress);
+  VolumeFile result;
+  result.volume.mesh = std::move(read.mesh);
+  result.volume.georeference = std::move(read.georeference);
+  result.rounding_m = read.rounding_m.value_or(0);
+  io::read_causes(file, result.volume);
+  if (!frame || !result.volume.georeference) return result;
+  check_near(*result.volume.georeference, *frame, "the mesh", file.string(),
+             "give the mesh that goes with the other input");
+  if (geo::move_origin(result.volume.mesh.vertices, *result.volume.georeference, *frame)) {
+    result.notes.push_back(file.string() +
+                           " lies about another origin on the earth: it was moved into the frame (the same map differs "
+                           "by a tenth of a millimetre from one frame to another, and shadows by more)");
+  }
+  if (is_on_another_level(*result.volume.georeference, *frame)) {
+    result.notes.push_back("the heights of " + file.string() + " are " +
+                           levels_text(*result.volume.georeference, *frame) + ": they are taken as they are");
+  }
+  return result;
+}
+
+VolumeFile read_volume(const std::filesystem::path& file, const Scene& scene, const Progress& progress) {
+  return read_volume(file, {scene.up, scene.scale}, scene.georeference, progress);
+}
+
+}  // namespace vantage

@@ -1,0 +1,93 @@
+#include <algorithm>
+#include <utility>
+
+#include "app/pierced_advice.h"
+#include "app/places.h"
+#include "core/parallel.h"
+#include "core/stopwatch.h"
+#include "vantage/error.h"
+#include "vantage/mission.h"
+#include "vantage/navigation.h"
+
+namespace vantage {
+namespace {
+
+/// Errors about devices are of no place in the mission's target.
+bool is_about_target(const Error& error) { return error.where().starts_with("target"); }
+
+Volume compute(const Mission& mission, const PreparedTarget& target, const StageSink& stages, Result& result,
+               const Progress& progress) {
+  if (mission.file.method == Method::exact) {
+    ExactOptions options = mission.file.exact;
+    options.threads = 0;  // those of the arena that the mission runs in
+    return compute_volume(target, {}, options, progress);
+  }
+  SpheresOptions options = mission.file.spheres;
+  options.threads = 0;
+  const auto georeferenced = [&](const SphereStage& stage) {
+    SphereStage copy = stage;
+    copy.georeference = mission.loaded.scene.georeference;
+    stages(copy);
+  };
+  const StageSink sink = stages ? StageSink(georeferenced) : StageSink();
+  std::vector<Volume> volumes;
+  for (std::size_t i = 0; i < target.part_count(); ++i) {
+    volumes.push_back(compute_visibility_spheres(target.part(i), options, &result.spheres.emplace(), sink, progress));
+  }
+  return volumes.size() == 1 ? std::move(volumes[0]) : intersect_volumes(volumes, progress);
+}
+
+Result run(const Mission& mission, const StageSink& stages, const Progress& progress) {
+  Result result;
+  Seconds seconds;
+  core::Stopwatch stopwatch;
+  const Scene& scene = mission.loaded.scene;
+  seconds.read = mission.read_seconds;
+  const PreparedScene prepared(scene, progress);
+  result.scene = prepared.statistics();
+  seconds.prepare = stopwatch.lap();
+
+  const PreparedTarget target = prepare_target(mission, prepared);
+  try {
+    result.volume = compute(mission, target, stages, result, progress);
+  } catch (const Error& error) {
+    if (mission.file.method == Method::spheres && !is_about_target(error)) throw;
+    app::with_place(mission.file.places.target, [&]() -> int { throw error; });
+  }
+  seconds.engine = stopwatch.lap();
+
+  if (result.volume.outcome == Outcome::computed && !mission.navigation.empty()) {
+    result.volume = app::with_place(mission.file.file.string(),
+                                    [&] { return cut_to_navigation(result.volume, mission.navigation, progress); });
+    seconds.navigation = stopwatch.lap();
+  }
+  seconds.total = seconds.read + seconds.prepare + seconds.engine + seconds.navigation;
+  result.volume.seconds = seconds;
+  result.volume.georeference = scene.georeference;
+  std::vector<std::string> warnings = mission_warnings(mission, &result.volume);
+  result.volume.notes.insert(result.volume.notes.end(), warnings.begin(), warnings.end());
+  return result;
+}
+
+}  // namespace
+
+const char* name_of(Method method) { return method == Method::spheres ? "spheres" : "exact"; }
+
+PreparedTarget prepare_target(const Mission& mission, const PreparedScene& scene) {
+  const auto& ground = mission.file.ground_target;
+  return app::with_place(mission.file.places.target, [&] {
+    try {
+      return PreparedTarget(scene, mission.target, mission.sensor);
+    } catch (const target::PiercedTarget& error) {
+      throw app::explained(error, mission.loaded, ground ? ground->osm : "");
+    }
+  });
+}
+
+Result run_mission(const Mission& mission, const RunOptions& options, const Progress& progress) {
+  Result result;
+  parallel::with_threads(options.threads, [&] { result = run(mission, options.stages, progress); });
+  return result;
+}
+
+}  // namespace vantage

@@ -1,0 +1,170 @@
+#include "app/scene_warnings.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "core/triangle_distance.h"
+#include "vantage/input.h"
+
+namespace vantage::app {
+namespace {
+
+using Corners = std::array<Vec3, 3>;
+
+/// Calls `visit` with the corners of each triangle until it returns false.
+template <typename Visit>
+void for_triangles(const Mesh& mesh, const Visit& visit) {
+  for (const Triangle& triangle : mesh.triangles) {
+    if (!visit(Corners{mesh.vertices[triangle[0]], mesh.vertices[triangle[1]], mesh.vertices[triangle[2]]})) return;
+  }
+}
+
+/// "350 m", "14.2 km".
+std::string distance_text(double metres) {
+  if (metres < 1000) return shortest(std::round(metres)) + " m";
+  return shortest(std::round(metres / 100) / 10) + " km";
+}
+
+Box target_box(const Target& target) {
+  Box box;
+  for (std::size_t i = 0; i < target.parts.size(); ++i) {
+    const Vec3 offset =
+        target.offset_m == 0 ? Vec3::Zero() : Vec3(target.offset_m * make_target_frame(target, i).normal);
+    for (const Vec3& vertex : target.parts[i]) box.extend(vertex + offset);
+  }
+  return box;
+}
+
+/// Distance of the nearest triangle, or less than `enough` if one is as near as that.
+double nearest(const Mesh& mesh, const Vec3& point, double enough) {
+  double least = std::numeric_limits<double>::infinity();
+  for_triangles(mesh, [&](const Corners& corners) {
+    const auto& [a, b, c] = corners;
+    const Vec3 low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
+    const double to_box = (low - point).cwiseMax(point - high).cwiseMax(0).squaredNorm();
+    if (to_box < least) least = std::min(least, core::squared_distance_to_triangle(point, a, b, c));
+    return least > enough * enough;
+  });
+  return std::sqrt(least);
+}
+
+/// That no triangle of the scene is so near that it could matter.
+std::optional<std::string> far_off(const Mission& mission, const Scene& scene) {
+  const Box target = target_box(mission.target);
+  const Vec3 middle = (target.min + target.max) / 2;
+  const double enough = mission.sensor.max_range_m + (target.max - target.min).norm() / 2;
+  const double distance = nearest(scene.mesh, middle, enough);
+  if (distance <= enough) return std::nullopt;
+  return "nothing of the scene is within max_range of the target, so nothing hides it: the nearest triangle is " +
+         distance_text(distance) + " away; check the target's coordinates" +
+         (scene.georeference ? "" : ", scene.up and scene.scale, and whether scene and target have the same origin");
+}
+
+/// Of triangles whose normals are within 11 degrees of an axis: what share of all area.
+Vec3 facing_axes(const Mesh& mesh) {
+  constexpr double kAlong = 0.98;
+  Vec3 facing = Vec3::Zero();
+  double all = 0;
+  for_triangles(mesh, [&](const Corners& corners) {
+    const Vec3 normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+    const double area = normal.norm();
+    all += area;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (std::abs(normal[axis]) > kAlong * area) facing[axis] += area;
+    }
+    return true;
+  });
+  return all > 0 ? Vec3(facing / all) : facing;
+}
+
+/// glTF is y up, whatever the mission says.
+std::string turning_advice(const Scene& scene) {
+  const std::string extension = scene.source.extension().string();
+  if (extension == ".gltf" || extension == ".glb") return "export it again with the axes of glTF, y up";
+  return scene.up == UpAxis::y ? "give scene.up: z" : "give scene.up: y";
+}
+
+/// Whether some of the mesh lies straight below a point, by more than `on`.
+bool has_below(const Mesh& mesh, const Vec3& point, double on) {
+  bool found = false;
+  for_triangles(mesh, [&](const Corners& corners) {
+    const auto cross = [&](const Vec3& a, const Vec3& b) {
+      return (a.x() - point.x()) * (b.y() - point.y()) - (a.y() - point.y()) * (b.x() - point.x());
+    };
+    const auto& [a, b, c] = corners;
+    const double of_a = cross(b, c), of_b = cross(c, a), of_c = cross(a, b), sum = of_a + of_b + of_c;
+    const bool is_inside = (of_a >= 0 && of_b >= 0 && of_c >= 0) || (of_a <= 0 && of_b <= 0 && of_c <= 0);
+    if (!is_inside) return true;
+    const double height =
+        sum != 0 ? (of_a * a.z() + of_b * b.z() + of_c * c.z()) / sum : std::min({a.z(), b.z(), c.z()});
+    found = height < point.z() - on;
+    return !found;
+  });
+  return found;
+}
+
+/// That the target is looked at from below, where nothing is: not even ground.
+std::optional<std::string> from_below(const Mission& mission, const Scene& scene) {
+  constexpr double kDown = -0.5;  // of the normal: less than 60 degrees from straight down
+  const TargetFrame frame = make_target_frame(mission.target);
+  if (frame.all_sides || frame.normal.z() > kDown) return std::nullopt;
+  const double on = std::min(2e-3, 0.01 * frame.enclosing_radius_m);  // the surface that it lies on is no nearer
+  std::vector<Vec3> probes{frame.origin};
+  for (const auto& corner : frame.polygon) probes.push_back(frame.to_scene({0.99 * corner.x(), 0.99 * corner.y(), 0}));
+  if (std::any_of(probes.begin(), probes.end(), [&](const Vec3& probe) { return has_below(scene.mesh, probe, on); })) {
+    return std::nullopt;
+  }
+  return "the target is looked at from below, and nothing of the scene lies below it: positions under the ground count "
+         "as free; leave target.front out, or turn it round, to look from above";
+}
+
+std::optional<std::string> below_all(const Scene& scene, const Volume* volume) {
+  // A target under the ground is told by the method itself.
+  if (volume == nullptr || volume->mesh.empty() || !volume->notes.empty()) return std::nullopt;
+  const Box box = bounding_box(volume->mesh), all = bounding_box(scene.mesh);
+  constexpr double kTouch = 1e-3;  // of the volume's height
+  if (box.max.z() > all.min.z() + kTouch * (box.max.z() - box.min.z())) return std::nullopt;
+  return "the whole volume lies below the scene, whose lowest point is at z = " +
+         std::to_string(std::lround(all.min.z())) +
+         " m: positions under the ground count as free; check the target's z, target.front and scene.up";
+}
+
+}  // namespace
+
+// Of cities, most of what there is faces up or down, and the heights are the smallest
+// of the three sizes. A single facade is like that too, on its side: but not so high.
+std::optional<std::string> on_its_side(const LoadedScene& loaded) {
+  constexpr double kShare = 0.45, kMore = 3.5;  // real cities: 0.5 to 0.77, and 4 to 30 times the other two
+  constexpr double kTooHigh = 100;              // metres
+  const Scene& scene = loaded.scene;
+  if (loaded.city || loaded.raster || scene.georeference || scene.states_axes) return std::nullopt;
+  const Box box = bounding_box(scene.mesh);
+  const Vec3 size = box.max - box.min;
+  if (size.z() < kTooHigh || 2 * size.y() > std::min(size.x(), size.z())) return std::nullopt;
+  const Vec3 facing = facing_axes(scene.mesh);
+  if (facing.y() < kShare || facing.y() < kMore * std::max(facing.x(), facing.z())) return std::nullopt;
+  return "the scene seems to lie on its side: it is " + distance_text(size.z()) + " high and " +
+         distance_text(size.y()) + " deep, and " + std::to_string(std::lround(100 * facing.y())) +
+         " % of its area is upright and faces along y; if so, " + turning_advice(scene);
+}
+
+std::vector<std::string> scene_warnings(const Mission& mission, const Volume* volume) {
+  const LoadedScene& loaded = mission.loaded;
+  std::vector<std::string> sentences;
+  if (loaded.scene.mesh.empty() || mission.target.parts.at(0).empty()) return sentences;
+  if (const auto side = on_its_side(loaded)) sentences.push_back(*side);
+  if (const auto away = far_off(mission, loaded.scene)) {
+    sentences.push_back(*away);
+  } else if (const auto below = from_below(mission, loaded.scene)) {
+    sentences.push_back(*below);
+  } else if (const auto under = below_all(loaded.scene, volume)) {
+    sentences.push_back(*under);
+  }
+  return sentences;
+}
+
+}  // namespace vantage::app

@@ -1,0 +1,20 @@
+// What makes a mission's result nonsense though nothing in it is wrong by itself: a target far off the scene, a scene
+// that lies on its side, a volume under the ground.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "vantage/mission.h"
+
+namespace vantage::app {
+
+/// Sentences for people, none where all is as usual. `volume` may be null or empty. Cost: linear in the scene's
+/// triangles.
+std::vector<std::string> scene_warnings(const Mission& mission, const Volume* volume);
+
+/// Of these the one that tells that the scene seems to lie on its side, with what to do.
+std::optional<std::string> on_its_side(const LoadedScene& loaded);
+
+}  // namespace vantage::app

@@ -1,0 +1,207 @@
+#include <stdlib.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <system_error>
+#include <utility>
+
+#include "vantage/atomic_file.h"
+#include "vantage/error.h"
+#include "vantage/input.h"
+#include "vantage/result.h"
+#include "vantage/stages.h"
+#include "vantage/volume.h"
+
+namespace vantage {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kStory = "stages.json";
+
+const char* name_of(SphereStage::Kind kind) {
+  switch (kind) {
+    case SphereStage::Kind::sphere:
+      return "sphere";
+    case SphereStage::Kind::pair:
+      return "pair";
+    case SphereStage::Kind::split:
+      return "split";
+    case SphereStage::Kind::partial:
+      return "partial";
+    case SphereStage::Kind::result:
+      return "result";
+  }
+  return "unknown";
+}
+
+constexpr const char* kAgain = "write the folder again with \"vantage compute --method spheres --stages FOLDER\"";
+
+StageFile stage_of(const nlohmann::json& json, const fs::path& folder) {
+  StageFile stage;
+  stage.kind = json.at("kind").get<std::string>();
+  stage.name = json.at("name").get<std::string>();
+  if (json.contains("file") && json.at("file").is_string() && !json.at("file").get<std::string>().empty()) {
+    stage.mesh = folder / json.at("file").get<std::string>();
+  }
+  if (json.contains("euler") && json.at("euler").is_number_integer()) stage.euler = json.at("euler").get<long>();
+  return stage;
+}
+
+/// "007_pair_0-1.ply".
+std::string file_name(std::size_t order, std::string name) {
+  std::array<char, 32> number;
+  std::snprintf(number.data(), number.size(), "%03zu_", order);
+  std::replace(name.begin(), name.end(), ' ', '_');
+  return number.data() + name + ".ply";
+}
+
+Json json_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+/// Whether --stages writes files of this name: stages.json, and numbered meshes.
+bool is_stage_file(const fs::directory_entry& entry) {
+  std::error_code error;
+  const std::string name = entry.path().filename().string();
+  const std::size_t digits = std::min(name.find_first_not_of("0123456789"), name.size());
+  const bool is_mesh = digits >= 3 && name[digits] == '_' && entry.path().extension() == ".ply";
+  return (is_mesh || name == kStory) && entry.is_regular_file(error);
+}
+
+/// Without a slash at the end, which would make the folder its own parent.
+fs::path without_slash(const fs::path& folder) { return folder.has_filename() ? folder : folder.parent_path(); }
+
+}  // namespace
+
+StageFolder::StageFolder(fs::path folder) : asked_(std::move(folder)), folder_(without_slash(asked_)) {
+  std::error_code error;
+  const fs::file_status status = fs::status(folder_, error);
+  if (folder_.empty() || (fs::exists(status) && !fs::is_directory(status)))
+    throw Error(ErrorKind::input, "the place of the stages is not a folder", asked_.string(),
+                "name a folder for --stages; it is made if it does not exist");
+  if (fs::exists(status)) check_replaceable();
+  if (fs::is_symlink(folder_, error)) folder_ = fs::canonical(folder_, error);
+  const fs::path parent = folder_.has_parent_path() ? folder_.parent_path() : fs::path(".");
+  std::string pattern = (parent / ".vantage-stages-XXXXXX").string();
+  if (::mkdtemp(pattern.data()) == nullptr) fail("the folder of the stages cannot be made", errno);
+  temporary_ = pattern;
+  // As other programs make folders; mkdtemp makes it private.
+  fs::permissions(temporary_, fs::exists(status) ? status.permissions() : fs::perms(0755), error);
+}
+
+StageFolder::~StageFolder() {
+  std::error_code ignored;
+  if (!temporary_.empty()) fs::remove_all(temporary_, ignored);
+}
+
+void StageFolder::fail(const std::string& problem, int error_number) const {
+  throw Error(ErrorKind::output, problem + ": " + std::strerror(error_number), asked_.string(),
+              "name a folder that can be written, on a disk with room");
+}
+
+/// The old folder is removed as a whole: nothing in it may be anybody else's.
+void StageFolder::check_replaceable() const {
+  const auto refuse = [&](const std::string& reason) {
+    throw Error(ErrorKind::input, "the folder of the stages holds other things: " + reason, asked_.string(),
+                "name an empty or a new folder, or one that holds what --stages wrote and nothing else");
+  };
+  std::error_code error;
+  fs::directory_iterator entry(folder_, error);
+  if (error) fail("the folder of the stages cannot be read", error.value());
+  bool is_empty = true, has_story = false;
+  for (; entry != fs::directory_iterator(); entry.increment(error)) {
+    if (!is_stage_file(*entry)) refuse(entry->path().filename().string());
+    is_empty = false;
+    has_story |= entry->path().filename() == kStory;
+  }
+  if (error) fail("the folder of the stages cannot be read", error.value());
+  if (!is_empty && !has_story) refuse(std::string("no ") + kStory);
+}
+
+StageSink StageFolder::sink() {
+  return [this](const SphereStage& stage) { add(stage); };
+}
+
+void StageFolder::add(const SphereStage& stage) {
+  Told told{name_of(stage.kind),   stage.name,      "",           stage.points, stage.euler,
+            stage.component_euler, stage.volume_m3, stage.seconds};
+  if (stage.mesh && !stage.mesh->empty()) {
+    told.file = file_name(stages_.size(), stage.name);
+    Volume volume = volume_of_mesh(*stage.mesh, stage.name);
+    volume.georeference = stage.georeference;
+    write_volume(volume, temporary_ / told.file);
+  }
+  stages_.push_back(std::move(told));
+}
+
+void StageFolder::write_story(const Mission& mission, const Result& result) {
+  Json story;
+  story["version"] = VANTAGE_VERSION;
+  story["mission"] = mission.file.file.string();
+  story["target"] = mission.target.name;
+  story["max_range_m"] = mission.sensor.max_range_m;
+  story["outcome"] = vantage::name_of(result.volume.outcome);
+  story["reason"] = result.volume.reason;
+  story["run"] = Json::parse(spheres_json({mission.file.spheres, *result.spheres}));
+  story["stages"] = Json::array();
+  for (std::size_t i = 0; i < stages_.size(); ++i) {
+    const Told& told = stages_[i];
+    Json points = Json::array();
+    for (const Vec3& point : told.points) points.push_back(json_of(point));
+    Json stage = {{"order", i}, {"kind", told.kind}, {"name", told.name}, {"points", points}};
+    if (told.kind != "split") {
+      stage["euler"] = told.euler;
+      stage["component_euler"] = told.component_euler;
+      stage["volume_m3"] = told.volume_m3;
+      stage["seconds"] = told.seconds;
+      stage["file"] = told.file.empty() ? Json(nullptr) : Json(told.file);
+    }
+    story["stages"].push_back(std::move(stage));
+  }
+  write_whole_file(temporary_ / kStory, story.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  std::error_code error;
+  if (fs::exists(folder_, error)) check_replaceable();  // the run may have taken long
+}
+
+void StageFolder::commit() {
+  // A full folder cannot be renamed over: the old one steps aside first, and comes back if that fails.
+  std::error_code error;
+  const fs::path aside = temporary_.string() + "-old";
+  const bool is_replacing = fs::exists(folder_, error);
+  if (is_replacing) {
+    check_replaceable();
+    fs::rename(folder_, aside, error);
+    if (error) fail("the old folder of the stages cannot be replaced", error.value());
+  }
+  fs::rename(temporary_, folder_, error);
+  if (error) {
+    std::error_code ignored;
+    if (is_replacing) fs::rename(aside, folder_, ignored);
+    fail("the folder of the stages cannot be put in place", error.value());
+  }
+  temporary_.clear();
+  if (is_replacing) fs::remove_all(aside, error);
+}
+
+std::vector<StageFile> read_stages(const fs::path& folder) {
+  const fs::path file = folder / "stages.json";
+  check_readable(file, "the story of the stages", "");
+  std::vector<StageFile> stages;
+  try {
+    std::ifstream stream(file);
+    const nlohmann::json json = nlohmann::json::parse(stream);
+    for (const nlohmann::json& stage : json.at("stages")) stages.push_back(stage_of(stage, folder));
+  } catch (const nlohmann::json::exception& error) {
+    throw Error(ErrorKind::input, std::string("the story of the stages is garbled: ") + error.what(),
+                file.string() + ", stage " + std::to_string(stages.size()), kAgain);
+  }
+  if (stages.empty()) throw Error(ErrorKind::input, "the story of the stages is empty", file.string(), kAgain);
+  return stages;
+}
+
+}  // namespace vantage

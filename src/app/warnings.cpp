@@ -1,0 +1,156 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <numbers>
+
+#include "app/scene_warnings.h"
+#include "geo/local_frame.h"
+#include "geo/longitudes.h"
+#include "vantage/mission.h"
+
+namespace vantage {
+namespace {
+
+using Vec2 = Eigen::Vector2d;
+
+std::string metres(double length) { return std::to_string(std::lround(std::ceil(length))) + " m"; }
+
+std::vector<Vec3> corners(const Target& target) {
+  std::vector<Vec3> points;
+  for (const std::vector<Vec3>& part : target.parts) points.insert(points.end(), part.begin(), part.end());
+  return points;
+}
+
+/// Where boxes and meshes let the vehicle fly, in plan.
+Box flying_area(const Navigation& navigation) {
+  const double everywhere = std::numeric_limits<double>::infinity();
+  Box area{Vec3::Constant(-everywhere), Vec3::Constant(everywhere)};
+  const auto cut = [&](const Box& box) {
+    area.min = area.min.cwiseMax(box.min);
+    area.max = area.max.cwiseMin(box.max);
+  };
+  Box boxes;
+  for (const Box& box : navigation.boxes) {
+    boxes.extend(box.min);
+    boxes.extend(box.max);
+  }
+  if (!navigation.boxes.empty()) cut(boxes);
+  for (const KeepInMesh& mesh : navigation.meshes) cut(bounding_box(mesh.mesh));
+  return area;
+}
+
+/// Points in plan round all that can lie between the target and where it is looked at from.
+std::vector<Vec2> reach(const Mission& mission) {
+  constexpr int kDirections = 64;
+  const Box area = flying_area(mission.navigation);
+  std::vector<Vec2> points;
+  for (const Vec3& corner : corners(mission.target)) {
+    points.emplace_back(corner.head<2>());
+    for (int i = 0; i < kDirections; ++i) {
+      const double angle = 2 * std::numbers::pi * i / kDirections;
+      const Vec2 far = corner.head<2>() + mission.sensor.max_range_m * Vec2(std::cos(angle), std::sin(angle));
+      points.push_back(far.cwiseMax(area.min.head<2>()).cwiseMin(area.max.head<2>()));
+    }
+  }
+  return points;
+}
+
+double beyond(const std::vector<Vec2>& points, const Vec2& centre, double radius) {
+  double most = 0;
+  for (const Vec2& p : points) most = std::max(most, (p - centre).norm() - radius);
+  return most;
+}
+
+/// How far the points reach out of a rectangle of the earth (west, south, east, north), metres.
+double beyond(const std::vector<Vec2>& points, const std::array<double, 4>& degrees, const geo::LocalFrame& frame) {
+  const auto [west, south, east, north] = degrees;
+  if (geo::LongitudeRange{west, east}.width_deg() > 180) {  // round a pole
+    const bool is_south = south + north < 0;
+    const geo::LonLat pole{0, is_south ? -90.0 : 90.0};
+    return beyond(points, frame.to_local(pole), geo::geodesic_m(pole, {0, is_south ? north : south}));
+  }
+  const Vec2 sw = frame.to_local({west, south}), se = frame.to_local({east, south});
+  const Vec2 ne = frame.to_local({east, north}), nw = frame.to_local({west, north});
+  const Vec2 min(std::max(sw.x(), nw.x()), std::max(sw.y(), se.y()));
+  const Vec2 max(std::min(se.x(), ne.x()), std::min(ne.y(), nw.y()));
+  double most = 0;
+  for (const Vec2& p : points) most = std::max({most, (min - p).maxCoeff(), (p - max).maxCoeff()});
+  return most;
+}
+
+/// How far the range reaches beyond what is known, and what would mend it.
+struct Shortfall {
+  double metres = 0;
+  std::string known;  ///< "the part of the map that is used"
+  std::string fix;
+};
+
+Shortfall of_map(const Mission& mission, const std::vector<Vec2>& points) {
+  const LoadedScene& loaded = mission.loaded;
+  const CityRegion& region = mission.file.scene.city.region;
+  const Georeference& place = *loaded.scene.georeference;
+  const geo::LocalFrame frame({place.longitude_deg, place.latitude_deg});
+  const std::string part = "the part of the map that is used";
+  if (region.center_deg) {
+    const Vec2 centre = frame.to_local({(*region.center_deg)[1], (*region.center_deg)[0]});
+    const double missing = beyond(points, centre, region.radius_m);
+    if (missing > 0) return {missing, part, "give scene.radius " + metres(region.radius_m + missing) + " or more"};
+  }
+  if (region.bbox_deg) {
+    const double missing = beyond(points, *region.bbox_deg, frame);
+    if (missing > 0) return {missing, part, "give a larger scene.bbox"};
+  }
+  return {beyond(points, loaded.city->bounds_deg, frame), "the map", "take an extract that reaches farther"};
+}
+
+/// Of a raster, or of a map's scene that was written to a file: it ends where its surface does.
+Shortfall of_surface(const LoadedScene& loaded, const std::vector<Vec2>& points) {
+  const Box box = bounding_box(loaded.scene.mesh);
+  double most = 0;
+  for (const Vec2& p : points) {
+    most = std::max({most, (box.min.head<2>() - p).maxCoeff(), (p - box.max.head<2>()).maxCoeff()});
+  }
+  if (loaded.raster) return {most, "the raster", "take more of it, or one that reaches farther"};
+  return {most, "the scene's ground", "make the scene of a larger area"};
+}
+
+/// Nothing is known of other meshes: they may be all that there is.
+Shortfall of(const Mission& mission) {
+  const LoadedScene& loaded = mission.loaded;
+  const Scene& scene = loaded.scene;
+  if (!scene.georeference) return {};
+  const bool has_ground = std::any_of(scene.objects.begin(), scene.objects.end(),
+                                      [](const SceneObject& object) { return object.kind == ObjectKind::ground; });
+  if (loaded.city) return of_map(mission, reach(mission));
+  return loaded.raster || has_ground ? of_surface(loaded, reach(mission)) : Shortfall{};
+}
+
+}  // namespace
+
+std::vector<std::string> mission_warnings(const Mission& mission, const Volume* volume) {
+  constexpr double kTolerance = 1;  // metre: rounding of degrees, and corners of extracts
+  constexpr double kTiny = 0.01;    // metre: a target of street size in degrees is 1e-4 across
+  constexpr double kLargestDegree = 180;
+  std::vector<std::string> sentences = mission.loaded.notes;
+  const Shortfall shortfall = of(mission);
+  if (shortfall.metres > kTolerance) {
+    sentences.push_back("the range reaches " + metres(shortfall.metres) + " beyond " + shortfall.known +
+                        ": what stands out there hides nothing, and the volume may claim too much; " + shortfall.fix);
+  }
+  Box box;
+  for (const Vec3& corner : mission.target.parts.at(0)) box.extend(corner);
+  const double across = (box.max - box.min).norm();
+  if (mission.loaded.scene.georeference && !mission.target.is_point() && across < kTiny &&
+      box.min.cwiseAbs().maxCoeff() <= kLargestDegree) {
+    char size[32];
+    std::snprintf(size, sizeof size, "%.2g", across * 1000);
+    sentences.push_back(std::string("the target is ") + size +
+                        " mm across: if its vertices are longitudes and latitudes, say so with 'crs: EPSG:4326'");
+  }
+  for (std::string& sentence : app::scene_warnings(mission, volume)) sentences.push_back(std::move(sentence));
+  return sentences;
+}
+
+}  // namespace vantage

@@ -1,0 +1,8 @@
+#include "core/parallel.h"
+#include "vantage/threads.h"
+
+namespace vantage {
+
+void with_threads(int threads, const std::function<void()>& action) { parallel::with_threads(threads, action); }
+
+}  // namespace vantage

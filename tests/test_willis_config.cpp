@@ -1,0 +1,190 @@
+// Configuration files of the published program: what they say, what is refused, and the volumes that it computed.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "support/mesh_reading.h"
+#include "vantage/willis.h"
+
+namespace vantage::testing {
+namespace {
+
+// As their tools write it: blanks before colons, comments, a comma in a key, blocks again and again.
+constexpr const char* kAsTheirs = R"(world_coord_sys:
+  id: world
+  origin: [0.0, 0.0, 0.0]
+  up: [0.0, 1.0, 0.0]
+  front: [1.0, 0.0, 0.0]
+
+mesh:
+  id: battcave
+  position : [0.0, 0.0, 0.0]
+  scale : 1.0
+  orientation axis, angle: [1, 0, 0, 0]
+  format : OBJ
+  filename : /maps/battcave.obj
+
+visibility_vol:
+  id: 2
+  width: 40
+  height: 40
+  fov_degrees: 90
+  # x, z, -y
+  origin: [-14.638578, 0.500000, -9.623141]
+  front: [1.0, 0.0, 0.0]
+  up: [0.0, 1.0, 0.0]
+  # max height of visibility volume above ground plane [meters]
+  up_max: 1000.0
+  # min height of visibility volume above ground plane [meters]
+  up_min: -1.0
+  radius_max: 100.000000
+  output_file: /out/v_002.obj
+
+visibility_vol:
+  id: Volume 3
+  width: 8
+  height: 8
+  origin: [1, 2, 3]
+  output_file: sub/v.ply
+)";
+
+TEST(WillisConfig, ReadsWhatTheirToolsWrite) {
+  const WillisConfig config = parse_willis_config(kAsTheirs, "/folder/config.yaml");
+  EXPECT_TRUE(config.warnings.empty());
+  EXPECT_EQ(config.up, UpAxis::y);
+  ASSERT_EQ(config.meshes.size(), 1U);
+  EXPECT_EQ(config.meshes[0].file, "/maps/battcave.obj");
+  EXPECT_EQ(config.meshes[0].where, "/folder/config.yaml:13:14");
+  EXPECT_EQ(config.meshes[0].rotation, Eigen::Matrix3d::Identity());
+  ASSERT_EQ(config.volumes.size(), 2U);
+  const WillisVolume& first = config.volumes[0];
+  EXPECT_EQ(first.name, "volume 2");
+  EXPECT_EQ(first.texels, 40);
+  EXPECT_EQ(first.origin, Vec3(-14.638578, 0.5, -9.623141));
+  EXPECT_EQ(first.up_min, -1);
+  EXPECT_EQ(first.up_max, 1000);
+  EXPECT_EQ(first.radius_max, 100);
+  EXPECT_EQ(first.output, "/out/v_002.obj");
+  EXPECT_EQ(first.where, "/folder/config.yaml:21:11");
+}
+
+TEST(WillisConfig, HasDefaults) {
+  const WillisConfig config = parse_willis_config(kAsTheirs, "/folder/config.yaml");
+  const WillisVolume& second = config.volumes.at(1);
+  EXPECT_EQ(second.name, "volume Volume 3");
+  EXPECT_EQ(second.front, Vec3::UnitX());
+  EXPECT_EQ(second.up, Vec3::UnitY());
+  EXPECT_EQ(second.up_min, -INFINITY);
+  EXPECT_EQ(second.up_max, INFINITY);
+  EXPECT_EQ(second.radius_max, INFINITY);
+  EXPECT_EQ(second.output, "/folder/sub/v.ply");
+  const WillisConfig least = parse_willis_config(
+      "visibility_vol: {width: 4, height: 4, origin: [0, 0, 0], output_file: v.obj}\nmesh: {filename: a.obj}\n", "c");
+  EXPECT_EQ(least.up, UpAxis::y);
+  EXPECT_EQ(least.meshes[0].scale, Vec3::Ones());
+  EXPECT_EQ(least.volumes[0].name, "volume at line 1");
+}
+
+TEST(WillisConfig, PlacesMeshes) {
+  const WillisConfig config = parse_willis_config(
+      "mesh: {filename: a.obj, scale: [1, 2, 3], position: [4, 5, 6], 'orientation axis, angle': [0, 0, 2, 450]}\n"
+      "mesh: {filename: b.ply, format: ply, material: stone}\n"
+      "visibility_vol: {width: 4, height: 4, origin: [0, 0, 0], front: [1, 5, 0], output_file: v.obj}\n",
+      "c");
+  ASSERT_EQ(config.meshes.size(), 2U);
+  EXPECT_EQ(config.meshes[0].scale, Vec3(1, 2, 3));
+  EXPECT_EQ(config.meshes[0].position, Vec3(4, 5, 6));
+  EXPECT_LT((config.meshes[0].rotation * Vec3::UnitX() - Vec3::UnitY()).norm(), 1e-15);
+  EXPECT_EQ(config.volumes[0].front, Vec3::UnitX()) << "made level";
+  EXPECT_TRUE(config.warnings.empty());
+}
+
+TEST(WillisConfig, TellsKeysThatMeanNothing) {
+  const WillisConfig config = parse_willis_config(
+      "light: {intensity: 3}\nmesh: {filename: a.obj, colour: red}\n"
+      "visibility_vol: {width: 4, height: 4, origin: [0, 0, 0], output_file: v.obj}\n",
+      "c.yaml");
+  ASSERT_EQ(config.warnings.size(), 2U);
+  EXPECT_EQ(config.warnings[0], "c.yaml:1:1: unknown key 'light' in the configuration means nothing here");
+  EXPECT_EQ(config.warnings[1].rfind("c.yaml:2:25: unknown key 'colour'", 0), 0U) << config.warnings[1];
+}
+
+/// Expects an input error of kAsTheirs with `from` replaced by `to`.
+void expect_refused(const std::string& from, const std::string& to, const std::string& problem,
+                    const std::string& where) {
+  std::string text = kAsTheirs;
+  const std::size_t at = text.find(from);
+  ASSERT_NE(at, std::string::npos) << from;
+  text.replace(at, from.size(), to);
+  expect_input_error([&] { parse_willis_config(text, "c.yaml"); }, problem, where);
+}
+
+TEST(WillisConfig, RefusesCubesThatAreNone) {
+  expect_refused("fov_degrees: 90", "fov_degrees: 60", "must be 90, not 60", "c.yaml:19:16");
+  expect_refused("width: 40", "width: 80", "height is 40, but width is 80", "c.yaml:18:11");
+  expect_refused("width: 40", "width: 0", "whole number from 1 to 8192, not '0'", "c.yaml:17:10");
+  expect_refused("width: 40", "width: 100000", "not '100000'", "c.yaml:17:10");
+  expect_refused("width: 40", "width: 40.5", "not '40.5'", "c.yaml:17:10");
+  expect_refused("width: 40", "width: -3", "not '-3'", "c.yaml:17:10");
+  expect_refused("height: 40", "height:", "must be a number, not nothing", "c.yaml:18:3");
+  expect_refused("  front: [1.0, 0.0, 0.0]\n  up: [0.0", "  front: [0, 2, 0]\n  up: [0.0", "front is parallel to up",
+                 "c.yaml:22:10");
+  expect_refused("  up: [0.0, 1.0, 0.0]\n  # max", "  up: [0, 0, 0]\n  # max", "up has length 0", "c.yaml:23:7");
+}
+
+TEST(WillisConfig, RefusesNumbersThatAreNone) {
+  expect_refused("-14.638578", ".nan", "visibility_vol.origin.x is not finite", "c.yaml:21:12");
+  expect_refused("-14.638578", "-inf", "is not finite", "c.yaml:21:12");
+  expect_refused("-14.638578", "1e400", "beyond what a double holds", "c.yaml:21:12");
+  expect_refused("-14.638578", "1e12", "too large", "c.yaml:21:12");
+  expect_refused("-14.638578, ", "", "must be three numbers, not a list of 2", "c.yaml:21:11");
+  expect_refused("radius_max: 100", "radius_max: -100", "must be greater than 0", "c.yaml:28:15");
+  expect_refused("radius_max: 100.000000", "radius_max: .inf", "is not finite", "c.yaml:28:15");
+  expect_refused("up_min: -1.0", "up_min: 1000", "not below up_max", "c.yaml:27:11");
+  expect_refused("up_min: -1.0", "up_min: 0.6", "viewpoint of volume 2 lies at height 0.5, not between",
+                 "c.yaml:21:11");
+  expect_refused("scale : 1.0", "scale : 0", "mesh.scale must be greater than 0", "c.yaml:10:11");
+  expect_refused("scale : 1.0", "scale : [1, -1, 1]", "mesh.scale must be greater than 0", "c.yaml:10:11");
+  expect_refused("[1, 0, 0, 0]", "[0, 0, 0, 90]", "axis of length 0", "c.yaml:11:28");
+  expect_refused("[1, 0, 0, 0]", "[1, 0, 0]", "must be four numbers", "c.yaml:11:28");
+}
+
+TEST(WillisConfig, RefusesWhatIsMissingOrMeantOtherwise) {
+  expect_refused("  filename : /maps/battcave.obj\n", "", "mesh lacks the key 'filename'", "c.yaml:8:3");
+  expect_refused("  output_file: /out/v_002.obj\n", "", "lacks the key 'output_file'", "c.yaml:16:3");
+  expect_refused("  origin: [1, 2, 3]\n", "", "lacks the key 'origin'", "c.yaml:32:3");
+  expect_refused("format : OBJ", "format : DAE", "must be OBJ, PLY or STL, not 'DAE'", "c.yaml:12:12");
+  expect_refused("radius_max: 100", "radius_mx: 100", "unknown key 'radius_mx'", "c.yaml:28:3");
+  expect_refused("sub/v.ply", "/out/./v_002.obj", "two volumes have the same output_file", "c.yaml:36:16");
+  expect_refused("up: [0.0, 1.0, 0.0]\n  front", "up: [1, 0, 0]\n  front", "must be the y axis or the z axis",
+                 "c.yaml:4:7");
+  expect_refused("origin: [0.0, 0.0, 0.0]", "origin: [0, 0, 1]", "must be [0, 0, 0]", "c.yaml:3:11");
+  expect_refused("width: 40", "width: 40\n  width: 40", "key 'width' is given twice", "c.yaml:18:3");
+  expect_refused("world_coord_sys:", "world_coord_sys: {}\nworld_coord_sys:", "given twice", "c.yaml:2:1");
+  expect_input_error([] { parse_willis_config("mesh: {filename: a.obj}\n", "c"); }, "lacks a block 'visibility_vol'",
+                     "c:1:1");
+  expect_input_error(
+      [] {
+        parse_willis_config("visibility_vol: {width: 4, height: 4, origin: [0, 0, 0], output_file: v.obj}\n", "c");
+      },
+      "lacks a block 'mesh'", "c:1:1");
+  expect_input_error([] { parse_willis_config("mesh: 3\n", "c"); }, "mesh must be a mapping of keys, not '3'", "c:1:7");
+  expect_input_error([] { parse_willis_config("", "c"); }, "the configuration file is empty", "c");
+}
+
+TEST(WillisConfig, BoundsTheNumberOfBlocks) {
+  std::string text = "mesh: {filename: a.obj}\n";
+  const auto add = [&](int from, int to) {
+    for (int i = from; i < to; ++i) {
+      text += "visibility_vol: {width: 4, height: 4, origin: [0,0,0], output_file: v" + std::to_string(i) + ".obj}\n";
+    }
+  };
+  add(0, 500);
+  EXPECT_EQ(parse_willis_config(text, "c").volumes.size(), 500U);
+  add(500, 10001);
+  expect_input_error([&] { parse_willis_config(text, "c"); }, "more than 10000 keys", "c");
+}
+
+}  // namespace
+}  // namespace vantage::testing
