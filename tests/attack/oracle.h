@@ -11,7 +11,7 @@
 
 namespace attack {
 
-/// A scene triangle with an area, relative to the oracle's origin.
+/// A scene triangle that is wider than rounding (vantage/volume.h), relative to the oracle's origin.
 struct Blocker {
   Corners corners;
   vantage::Box box;

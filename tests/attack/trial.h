@@ -29,18 +29,18 @@ struct PartView {
   /// A triangle between the facet and the target, whichever of `inner` is taken for it.
   std::optional<std::size_t> surely_hiding(const Corners& facet, Which which = Which::all) const;
 
-  View exact;     ///< as given, and lifted
+  View exact;                 ///< as given, and lifted
   std::array<View, 3> inner;  ///< moved in by the margin; and raised by it, and lowered
-  Vec3 centre;    ///< that the engine measures distances from
-  double margin;  ///< the strip along the outline that vantage/volume.h excepts, metres
+  Vec3 centre;                ///< that the engine measures distances from
+  double margin;              ///< the strip along the outline that vantage/volume.h excepts, metres
 };
 
 class Trial {
  public:
   Trial(const Case& the_case, const Answer& the_answer, const JudgeOptions& the_options);
 
-  /// What storing coordinates of this size may move a vertex of the mesh by: metres.
-  double rounding() const { return 2 * 2.3e-16 * blockers.largest; }
+  /// What vantage/volume.h excepts for the coordinates of the mesh: five roundings of the largest, metres.
+  double rounding() const { return 5 * 2.23e-16 * blockers.largest; }
   /// Heights over the target's plane below this are rounding of the oracle's own frame.
   double noise() const { return 1e-14 * std::max(blockers.largest, 1e-6); }
   Vec3 to_scene(const Vec3& local) const { return local + blockers.origin; }
