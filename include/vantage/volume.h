@@ -94,6 +94,10 @@ struct ExactOptions {
 ///     of 5e6 m). What reaches no farther into the outline, or through the plane, counts as standing on it
 ///   - triangles of the scene that are no wider than 2^-50 of their longest side or of the scene's size, at most
 ///     1e-9 m: they hide nothing
+///   - corners of the scene, which merging triangles to polygons takes for 2^-46 of the scene's size off, at most 1e-9
+///   m,
+///     in two directions. What hides the target from the distance h ends the view late by that times D / h at the
+///     distance D: more than 1e-9 of the distance only nearer than a metre
 ///   - the coordinates of the mesh, which are rounded: a point must be deeper by five roundings of the largest (6e-9 m
 ///     at 5e6 m). That is more than 1e-6 of the distance only nearer to the target than 6 mm
 ///

@@ -29,6 +29,8 @@ Vec3 normal_at(const Corners& t, int corner) {
   return (t[(corner + 1) % 3] - t[corner]).cross(t[(corner + 2) % 3] - t[corner]);
 }
 
+}  // namespace
+
 double distance_to_triangle(const Vec3& p, const Corners& t) {
   const int base = start_of_shortest_side(t);
   const Vec3 normal = normal_at(t, base);
@@ -39,8 +41,6 @@ double distance_to_triangle(const Vec3& p, const Corners& t) {
   return std::min(
       {distance_to_segment(p, t[0], t[1]), distance_to_segment(p, t[1], t[2]), distance_to_segment(p, t[2], t[0])});
 }
-
-}  // namespace
 
 MeshFaults faults(const vantage::Mesh& mesh) {
   MeshFaults found;

@@ -75,7 +75,9 @@ Blockers::Blockers(const vantage::Scene& scene, const std::vector<vantage::Targe
   }
   if (triangles.empty()) return;
   middle = 0.5 * (bounds.min + bounds.max);
-  const double no_width = std::min(kThin, kNoWidth * 0.5 * (bounds.max - bounds.min).maxCoeff());
+  const double size = 0.5 * (bounds.max - bounds.min).maxCoeff();
+  merging = 2 * std::min(1e-9, 0x1p-46 * size);
+  const double no_width = std::min(kThin, kNoWidth * size);
   std::erase_if(triangles, [&](const Blocker& blocker) { return least_height(blocker.corners) <= no_width; });
 }
 
