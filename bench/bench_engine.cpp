@@ -1,10 +1,12 @@
 // How long one target takes once the scene is prepared, against a plain union of blockers; and preparing a large city.
 // Names: engine/<scene>/<target>/<range>/<threads>. Times are of compute_visibility alone; a summary with the ratios is
-// made by bench/run.sh.
+// made by bench/run.sh. sheets/<shape>/<count> is no city: open triangles over the target that share an axis or a
+// point.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <string>
@@ -93,6 +95,37 @@ void prepare(State& state, const City& city) {
   state.counters["peak_MB"] = peak_memory() / 1e6;  // the scene as read included
 }
 
+/// Each has the corner `foot`; those of a fan share the axis up to `tip` too.
+Scene sheets(int count, bool fan) {
+  const Vec3 foot(0.1, 0.2, 4), tip(5, 1, 8);
+  Scene scene;
+  scene.objects = {{"sheets"}};
+  for (int k = 0; k < count; ++k) {
+    // The golden ratio spreads numbers evenly, in no order.
+    const double angle = 2 * M_PI * k / count, rise = std::fmod(0.6180339887 * k, 1), reach = 1 + 3 * rise;
+    const Vec3 out(reach * std::cos(angle), reach * std::sin(angle), 5 * std::fmod(0.7548776662 * k, 1));
+    const Vec3 beside(-std::sin(angle), std::cos(angle), 0.3);
+    const auto first = static_cast<std::uint32_t>(scene.mesh.vertices.size());
+    scene.mesh.vertices.insert(scene.mesh.vertices.end(),
+                               {foot, fan ? tip : Vec3(foot + 4 * out + 0.1 * beside), foot + (fan ? 1 : 4) * out});
+    scene.mesh.triangles.push_back({first, first + 1, first + 2});
+  }
+  scene.object_of.assign(scene.mesh.triangles.size(), 0);
+  return scene;
+}
+
+void many_sheets(State& state, int count, bool fan) {
+  const PreparedScene scene(sheets(count, fan));
+  Target target;
+  target.parts[0] = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+  reset_peak_memory();
+  std::optional<Volume> volume;
+  for (auto _ : state) volume = compute_visibility(PreparedTarget(scene, target, {40}), {0.02, 1});
+  if (volume->outcome != Outcome::computed) return state.SkipWithError(volume->reason.c_str());
+  state.counters["visible_blockers"] = double(volume->counts.visible_blockers);
+  state.counters["peak_MB"] = peak_memory() / 1e6;
+}
+
 double least(const std::vector<double>& values) { return *std::min_element(values.begin(), values.end()); }
 
 /// CPU time is of all threads of the process: it does not grow when others use the machine.
@@ -128,6 +161,11 @@ const bool registered = [] {
   add_engine(kFlorence, {300, 600});
   add_engine(kMunichRepeated, {300});
   add_engine(kOpenfoam, {200});
+  for (const bool fan : {true, false})
+    for (const int count : {1000, 3482})
+      add(
+          std::string("sheets/") + (fan ? "fan/" : "star/") + std::to_string(count),
+          [count, fan](State& state) { many_sheets(state, count, fan); }, 1);
   for (int target = 0; target < kCharlotte.targets; ++target)
     for (const int threads : {1, 0})
       add(

@@ -113,7 +113,7 @@ struct SceneStatistics {
   std::size_t vertices = 0;         ///< as read
   std::size_t welded_vertices = 0;  ///< distinct positions
   std::size_t objects = 0;
-  std::size_t degenerate_triangles = 0;  ///< no wider than rounding (docs/theory.md, "What is dropped"); dropped
+  std::size_t degenerate_triangles = 0;  ///< no wider than rounding (docs/theory.md, "What is dropped and merged")
   std::size_t duplicate_triangles = 0;   ///< same three positions, either turn; dropped
   std::size_t open_edges = 0;            ///< edges with one triangle, after welding
   std::size_t nonmanifold_edges = 0;     ///< edges with more than two triangles

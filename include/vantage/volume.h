@@ -99,11 +99,21 @@ struct ExactOptions {
 };
 
 /// The exact visibility volume by docs/theory.md, before navigation cuts. Safe to call from many threads on one scene.
-/// Guaranteed from the inside: no point of the result, deeper than 1e-6 of its distance to the target, has any part of
-/// the target hidden or out of range, but for a strip of nanometres along the target's outline. The strip is 1e-9 of
-/// the target's radius wide, at most 1e-9 m, or eight roundings of the largest coordinate where that is more (9e-9 m at
-/// map coordinates of 5e6 m); what reaches no farther inside the outline counts as standing on it. Fills everything of
-/// the result; of Seconds `engine` and `total`.
+/// Fills everything of the result; of Seconds `engine` and `total`.
+///
+/// Guaranteed from the inside: no point of the result, deeper than 1e-6 of its distance to the target's centre, has any
+/// part of the target hidden or out of range, but for what numbers cannot tell:
+///   - a strip along the target's outline, and a layer above and below its plane. Both are 1e-9 of the target's radius
+///     wide, at most 1e-9 m, or eight roundings of the largest coordinate where that is more (9e-9 m at map coordinates
+///     of 5e6 m). What reaches no farther into the outline, or through the plane, counts as standing on it
+///   - triangles of the scene that are no wider than 2^-50 of their longest side or of the scene's size, at most
+///     1e-9 m: they hide nothing
+///   - corners of the scene, which merging triangles to polygons takes for 2^-46 of the scene's size off, at most 1e-9
+///   m,
+///     in two directions. What hides the target from the distance h ends the view late by that times D / h at the
+///     distance D: more than 1e-9 of the distance only nearer than a metre
+///   - the coordinates of the mesh, which are rounded: a point must be deeper by five roundings of the largest (6e-9 m
+///     at 5e6 m). That is more than 1e-6 of the distance only nearer to the target than 6 mm
 ///
 /// Cost: it grows with what is seen from the target and with the facets of the range sphere (in proportion to max_range
 /// over tolerance), hardly with the size of the scene. Milliseconds in ordinary streets; bench/results has figures.

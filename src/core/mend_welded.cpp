@@ -29,6 +29,7 @@ class Mender {
         first_(first_at_position(vertices_)) {}
 
   bool run();
+  bool has_flaws() const;
 
  private:
   struct Waiting {
@@ -41,7 +42,6 @@ class Mender {
 
   bool is_collapsed(const Triangle& t) const { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
   bool is_flat(const Triangle& t) const;
-  bool has_flaws() const;
   void weld();
   void remove(std::uint32_t t);
   bool cancel(std::uint32_t t);
@@ -206,6 +206,26 @@ bool Mender::run() {
 }  // namespace
 
 bool mend_welded(LabelledMesh& labelled, double flat_m) { return Mender(labelled, flat_m).run(); }
+
+std::optional<double> mend_for_doubles(LabelledMesh& labelled) {
+  const double flat = flat_width(labelled.mesh);
+  if (!Mender(labelled, flat).has_flaws()) return std::nullopt;
+  LabelledMesh mended = labelled;
+  mend_welded(mended, flat);
+  if (!Mender(mended, flat).has_flaws()) {
+    labelled = std::move(mended);
+    return flat;
+  }
+  // A grid as coarse as that: what is flat on it is so exactly, and turning sides comes to an end.
+  double moved = 0;
+  for (Vec3& vertex : labelled.mesh.vertices) {
+    const Vec3 place = (vertex / flat).array().round() * flat;
+    moved = std::max(moved, (place - vertex).norm());
+    vertex = place;
+  }
+  mend_welded(labelled, 0);
+  return moved;
+}
 
 double flat_width(const Mesh& mesh) {
   constexpr double kSteps = 4;

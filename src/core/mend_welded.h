@@ -2,6 +2,8 @@
 // must be for its readers: closed, and without facets that have no area.
 #pragma once
 
+#include <optional>
+
 #include "core/labelled_mesh.h"
 
 namespace vantage::core {
@@ -18,6 +20,12 @@ namespace vantage::core {
 /// anything was changed. With `flat_m` 0 differences and products of coordinates should be exact (whole multiples,
 /// below 2^25, of a power of two). Cost: linear, but for sorting the vertices.
 bool mend_welded(LabelledMesh& labelled, double flat_m);
+
+/// The same for who reads the coordinates as doubles: no facet is narrower than flat_width(). Where the world is so
+/// small beside its coordinates that narrow facets only turn into others, no facet is without area at the least: the
+/// vertices go to a grid of four steps of the largest coordinate first. Returns how far a point of the surface may have
+/// moved, metres: at most four of those steps; nothing where nothing was changed.
+std::optional<double> mend_for_doubles(LabelledMesh& labelled);
 
 /// A facet narrower than this has no area for who reads its coordinates as doubles: four steps of the largest of them,
 /// the rounding of the area's own terms. Metres; 0 for an empty mesh.

@@ -110,10 +110,12 @@ void BlockerBuilder::add_own_plane(const Vec3& normal) {
     const double h = height_of(target_.vertices[i]);
     on_polygon_[i] = is_over ? h >= own_low - target_.slack : h <= own_high + target_.slack;
   }
+  const std::size_t before = planes_->size();
   if (is_over)
     add(normal, own_low);
   else
     add(-normal, -own_high);
+  if (planes_->size() == before) on_polygon_.assign(on_polygon_.size(), 0);
 }
 
 // Through each edge of the target the one plane that touches the polygon and has it on the far side. Not where that is
@@ -169,9 +171,20 @@ void BlockerBuilder::add_polygon_edge_planes(const Vec3& polygon_normal) {
       if (!std::isfinite(slope)) continue;
       const Vec3 m = inward + slope * normal;
       const double scale = 1 / m.norm();
-      add(m * scale, m.dot(a) * scale);
+      add_edge_plane(m * scale, m.dot(a) * scale);
     }
   }
+}
+
+// An edge that is not much longer than its ends are rounded has a direction of its own. Over the length of a needle a
+// plane about it leaves corners of the polygon on the near side: it goes back to those, and hides more.
+void BlockerBuilder::add_edge_plane(const Vec3& normal, double height) {
+  double nearest = kInfinity;
+  for (const Vec3& o : polygon_) nearest = std::min(nearest, normal.dot(o));
+  if (nearest >= height - target_.rounding) return add(normal, height);
+  for (const Vector2d& t : target_.vertices)
+    if (normal.head<2>().dot(t) > nearest + target_.slack) return;
+  add(normal, nearest);
 }
 
 }  // namespace vantage::exact

@@ -30,6 +30,7 @@ class BlockerBuilder {
   void add_own_plane(const Vec3& normal);
   void add_target_edge_planes();
   void add_polygon_edge_planes(const Vec3& polygon_normal);
+  void add_edge_plane(const Vec3& normal, double height);
   void add(const Vec3& normal, double height);
   bool same(const Plane& kept, const Plane& plane) const;
 

@@ -4,15 +4,15 @@
 #include <algorithm>
 
 #include "core/number_text.h"
-#include "target/numerics.h"
 #include "vantage/error.h"
 
 namespace vantage::exact {
 namespace {
 
-constexpr int kTrial = 16;        // lines of the grid on which the facets' depth below the sphere is measured
-constexpr int kMostLines = 2500;  // 25 million triangles at most
-constexpr double kSafety = 0.9;   // the depth falls with the square of the spacing only in the limit
+constexpr int kTrial = 16;           // lines of the grid on which the facets' depth below the sphere is measured
+constexpr int kMostLines = 2500;     // 25 million triangles at most
+constexpr double kLeastSnap = 1e-8;  // a hundred times numerics::kSnap: the same cells for all snapping up to this
+constexpr double kSafety = 0.9;      // the depth falls with the square of the spacing only in the limit
 
 double line_at(int i, int n) {
   if (i == n) return 1;
@@ -71,10 +71,10 @@ int ChartGrid::locate(double coordinate) const {
   return lines_[i] == x ? -i : -i - 1;
 }
 
-void ChartGrid::mark(const ChartPoint& from, const ChartPoint& to) {
-  constexpr double kMargin = 4 * numerics::kWidestSnap;
-  const int i0 = locate(std::min(from.x(), to.x()) - kMargin), i1 = locate(std::max(from.x(), to.x()) + kMargin);
-  const int j0 = locate(std::min(from.y(), to.y()) - kMargin), j1 = locate(std::max(from.y(), to.y()) + kMargin);
+void ChartGrid::mark(const ChartPoint& from, const ChartPoint& to, double snap) {
+  const double margin = 4 * std::max(snap, kLeastSnap);
+  const int i0 = locate(std::min(from.x(), to.x()) - margin), i1 = locate(std::max(from.x(), to.x()) + margin);
+  const int j0 = locate(std::min(from.y(), to.y()) - margin), j1 = locate(std::max(from.y(), to.y()) + margin);
   for (int j = j0; j <= j1; ++j)
     for (int i = i0; i <= i1; ++i)
       if (has_cell(i, j)) states_[index(i, j)] = mixed;

@@ -51,8 +51,8 @@ class ChartGrid {
   /// The line at or below a coordinate.
   int locate(double coordinate) const;
 
-  /// Marks the cells that a short segment may touch as mixed.
-  void mark(const ChartPoint& from, const ChartPoint& to);
+  /// Marks the cells that a short segment may touch as mixed, with its ends moved by up to `snap`.
+  void mark(const ChartPoint& from, const ChartPoint& to, double snap);
 
   /// Settles the cells that no crease touches: `is_range_at` is asked once for each connected run of them.
   void settle(const std::function<bool(const ChartPoint&)>& is_range_at);

@@ -16,7 +16,7 @@ double turn_of(const ChartPoint& p) {
 }  // namespace
 
 ConstraintGraph::ConstraintGraph(const Skeleton& skeleton, ChartGrid& grid, const IsRange& is_range, double snap)
-    : grid_(grid), snapper_(2 * skeleton.planar.size() + 16 * skeleton.curved.size() + 1024, snap) {
+    : grid_(grid), snap_(snap), snapper_(2 * skeleton.planar.size() + 16 * skeleton.curved.size() + 1024, snap) {
   for (const ChartPoint& corner :
        {ChartPoint(0, 0), ChartPoint(1, 0), ChartPoint(0, 1), ChartPoint(-1, 0), ChartPoint(0, -1)})
     snapper_.add(corner);
@@ -68,7 +68,7 @@ void ConstraintGraph::add_crease(const Vec3& from, const Vec3& to, bool on_spher
     const ChartPoint next = to_chart(stop);
     const std::uint32_t next_vertex = add_crease_point(stop, next);
     add_edge(vertex, next_vertex);
-    if (on_sphere) grid_.mark(previous, next);
+    if (on_sphere) grid_.mark(previous, next, snap_);
     previous = next, vertex = next_vertex;
   }
 }

@@ -57,6 +57,7 @@ class ConstraintGraph {
   void add_horizon();
 
   ChartGrid& grid_;
+  double snap_;
   VertexSnapper snapper_;
   std::vector<Edge> edges_;
   std::vector<std::uint32_t> nodes_;

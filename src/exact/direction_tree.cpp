@@ -9,12 +9,13 @@
 namespace vantage::exact {
 namespace {
 
-constexpr std::size_t kLongList = 16;   // leaves with more blockers than this are split,
-constexpr std::uint32_t kDeepest = 14;  // but not below 2^-14 of a quadrant
-constexpr double kFutile = 1.9;         // A split that makes the lists this much longer in all is of no use,
-constexpr std::uint32_t kPatience = 4;  // and after so many of them in a row there are no more.
-constexpr std::size_t kVeryLong = 400;  // But lists this long are split whatever it makes of them.
-constexpr double kRounding = 1e-13;     // bounds are good to this fraction
+constexpr std::size_t kLongList = 16;     // leaves with more blockers than this are split,
+constexpr std::uint32_t kDeepest = 14;    // but not below 2^-14 of a quadrant
+constexpr double kFutile = 1.9;           // A split that makes the lists this much longer in all is of no use,
+constexpr std::uint32_t kPatience = 4;    // and after so many of them in a row there are no more.
+constexpr std::size_t kVeryLong = 400;    // But lists this long are split whatever it makes of them.
+constexpr std::size_t kMostRepeats = 32;  // All splits may add so many entries for each blocker; in cities 11.
+constexpr double kRounding = 1e-13;       // bounds are good to this fraction
 
 using Corners = DirectionTree::Corners;
 
@@ -185,10 +186,7 @@ bool DirectionTree::insert_below(std::uint32_t at, std::uint32_t index, std::spa
     planes = surface.planes;
   }
   if (leaf) {
-    const Node& node = nodes_[at];
-    if (node.leaf.count() > kLongList && node.depth < kDeepest &&
-        node.futile_splits < (node.leaf.count() > kVeryLong ? kDeepest : kPatience))
-      split(at);
+    if (is_worth_splitting(nodes_[at])) split(at);
     return true;
   }
   bool shown = false;
@@ -200,6 +198,14 @@ bool DirectionTree::insert_below(std::uint32_t at, std::uint32_t index, std::spa
   }
   nodes_[at].bound = std::max(nodes_[at].bound, bound);
   return shown;
+}
+
+// The shadows of sheets that share an edge run side by side through the same cells: no split separates them, and lists
+// would be repeated until memory ends. So what all splits add is bounded, in proportion to the blockers.
+bool DirectionTree::is_worth_splitting(const Node& node) const {
+  if (node.leaf.count() <= kLongList || node.depth == kDeepest) return false;
+  if (repeats_ > kMostRepeats * blockers_.count()) return false;
+  return node.futile_splits < (node.leaf.count() > kVeryLong ? kDeepest : kPatience);
 }
 
 // False when the blocker is hidden all over the cell.
@@ -241,6 +247,7 @@ void DirectionTree::split(std::uint32_t at) {
   std::size_t listed = 0;
   for (std::uint32_t child = first; child < std::uint32_t(nodes_.size()); ++child) listed += nodes_[child].leaf.count();
   const bool futile = double(listed) > kFutile * double(leaf.count());
+  repeats_ += std::max(listed, leaf.count()) - leaf.count();
   for (std::uint32_t child = first; child < std::uint32_t(nodes_.size()); ++child)
     nodes_[child].futile_splits = futile ? nodes_[at].futile_splits + 1 : 0;
 }

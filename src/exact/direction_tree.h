@@ -90,12 +90,14 @@ class DirectionTree {
   bool insert_below(std::uint32_t node, std::uint32_t index, std::span<const std::uint32_t> planes,
                     const Footprint* footprint);
   bool insert_into(Node& node, std::uint32_t index, const Surface& surface);
+  bool is_worth_splitting(const Node& node) const;
   void split(std::uint32_t node);
   void add_node(const ChartCell& cell, double bound, std::uint32_t depth);
 
   const BlockerSet& blockers_;
   const target::RangeRegion& range_;
   std::vector<Node> nodes_;
+  std::size_t repeats_ = 0;       // entries of lists that all splits together have added
   std::vector<Surface> scratch_;  // one per level
   std::vector<Corners> corners_;
   Footprint footprint_, listed_footprint_;  // of what is inserted; of what a split deals out

@@ -46,7 +46,7 @@ void take_over(Side side, const TargetFrame& frame, double max_range, Volume& vo
   core::LabelledMesh labelled{std::move(side.mesh), std::move(side.cause_of)};
   for (Vec3& v : labelled.mesh.vertices) v = frame.to_scene(v);
   // At map coordinates rounding leaves narrow facets without area.
-  core::mend_welded(labelled, core::flat_width(labelled.mesh));
+  core::mend_for_doubles(labelled);
   volume.mesh = std::move(labelled.mesh);
   volume.cause_of = std::move(labelled.labels);
   volume.causes = std::move(side.causes);

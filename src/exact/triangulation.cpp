@@ -156,7 +156,7 @@ Boundary triangulate_boundary(const Skeleton& skeleton, const BlockerSet& blocke
     } catch (const BorderSplit& split) {
       // Cells round about are triangulated with the rest: more of them each time, as what splits one edge goes on.
       for (const ChartPoint& p : split.places)
-        grid.mark(p - ChartPoint::Constant(width), p + ChartPoint::Constant(width));
+        grid.mark(p - ChartPoint::Constant(width), p + ChartPoint::Constant(width), snap);
       width *= 2;
     } catch (const CannotTriangulate& failure) {
       if (snap >= numerics::kWidestSnap)

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -24,9 +25,10 @@ double spacing(double number, int digits) {
   return std::ldexp(1.0, exponent - digits);
 }
 
-/// Moves the vertices to `place(vertex)` and makes the mesh whole for readers.
-template <typename Place>
-StoredMesh stored(const Volume& volume, double flat, const Place& place) {
+/// Moves the vertices to `place(vertex)` and makes the mesh whole for readers: `mend` says how far a point of the
+/// surface moved for it, or nothing where nothing had to be changed.
+template <typename Place, typename Mend>
+StoredMesh stored(const Volume& volume, const Place& place, const Mend& mend) {
   StoredMesh result;
   core::LabelledMesh labelled{volume.mesh, volume.cause_of};
   for (Vec3& vertex : labelled.mesh.vertices) {
@@ -42,8 +44,9 @@ StoredMesh stored(const Volume& volume, double flat, const Place& place) {
       if (normal(labelled.mesh, t).dot(normal(volume.mesh, t)) < 0) ++result.turned_facets;
     }
   }
-  result.is_mended = core::mend_welded(labelled, flat);
-  if (result.is_mended) result.rounding_m += flat;
+  const std::optional<double> moved = mend(labelled);
+  result.is_mended = moved.has_value();
+  result.rounding_m += moved.value_or(0);
   result.mesh = std::move(labelled.mesh);
   result.cause_of = std::move(labelled.labels);
   return result;
@@ -62,8 +65,11 @@ StoredMesh stored_on_grid(const Volume& volume, const Box& box, const Vec3& orig
   // Origin and number must also add up exactly where they are read.
   const double step = std::max({spacing(largest, kFloatDigits), spacing(largest_coordinate(box), kDoubleDigits),
                                 static_cast<double>(std::numeric_limits<float>::min())});
-  StoredMesh result = stored(volume, 0, [&](const Vec3& vertex) {
+  const auto place = [&](const Vec3& vertex) {
     return Vec3(origin + ((vertex - origin) / step).array().round().matrix() * step);
+  };
+  StoredMesh result = stored(volume, place, [](core::LabelledMesh& labelled) {
+    return core::mend_welded(labelled, 0) ? std::optional<double>(0) : std::nullopt;
   });
   result.origin = origin;
   if (result.mesh.empty()) {
@@ -77,17 +83,28 @@ StoredMesh stored_on_grid(const Volume& volume, const Box& box, const Vec3& orig
 }  // namespace
 
 StoredMesh stored_as_doubles(const Volume& volume) {
-  const double flat = core::flat_width(volume.mesh);
-  return stored(volume, flat, [](const Vec3& vertex) { return vertex; });
+  return stored(
+      volume, [](const Vec3& vertex) { return vertex; }, core::mend_for_doubles);
 }
 
 StoredMesh stored_in_units(const Volume& volume, double scale) {
-  const double flat = core::flat_width(volume.mesh);
   // Until the number that is written reads back as the one that it was made from: at once, as a rule.
   constexpr int kRounds = 4;
-  return stored(volume, flat, [&](Vec3 vertex) {
+  const auto place = [&](Vec3 vertex) {
     for (int round = 0; round < kRounds; ++round) vertex = vertex / scale * scale;
     return vertex;
+  };
+  return stored(volume, place, [&](core::LabelledMesh& labelled) {
+    const std::optional<double> moved = core::mend_for_doubles(labelled);
+    if (!moved) return moved;
+    // Where mending moved vertices the numbers are others.
+    double again = 0;
+    for (Vec3& vertex : labelled.mesh.vertices) {
+      const Vec3 stored_place = place(vertex);
+      again = std::max(again, (stored_place - vertex).norm());
+      vertex = stored_place;
+    }
+    return std::optional<double>(*moved + again);
   });
 }
 

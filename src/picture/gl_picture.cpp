@@ -257,29 +257,19 @@ class Painter {
     gl_.Viewport(0, 0, view_.width, view_.height);
   }
 
-  static void lap(const char* w) {
-    static clock_t l = 0;
-    clock_t n = clock();
-    if (l && n - l > 60000) fprintf(stderr, "LAP %s %.3f\n", w, (n - l) / 1e6);
-    l = n;
-  }
   void pace() {
-    lap("draw");
     progress_.check();
     if (Clock::now() - settled_ > kMostQueue) settle();
   }
 
   /// Waits until all is drawn.
   void settle() {
-    lap("before settle");
     GLsync fence = gl_.FenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
     const auto end = [&] { gl_.DeleteSync(fence); };
     try {
       while (gl_.ClientWaitSync(fence, GL_SYNC_FLUSH_COMMANDS_BIT, kGlance) == GL_TIMEOUT_EXPIRED) {
-        lap("wait");
         progress_.check();
       }
-      lap("waited");
     } catch (...) {
       end();
       throw;
@@ -423,7 +413,6 @@ class Painter {
     const auto report = [&](double part) { progress_.report((frame + part) / kFrames); };
     set_frame(frame);
     shadows();
-    lap("shadows end");
     report(0.3);
     scene();
     report(0.5);

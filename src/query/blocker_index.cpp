@@ -125,9 +125,6 @@ void BlockerIndex::build_blockers(const PreparedScene::Data& scene, const Target
           blocker.plane_count = static_cast<std::uint32_t>(piece.planes.size() - planes_before);
           blocker.object = scene.polygon_object[polygon];
           blocker.leaf = leaf;
-          for (std::size_t p = planes_before; p < piece.planes.size(); ++p) {
-            blocker.widest = std::max(blocker.widest, piece.planes[p].cwiseAbs().sum());
-          }
           piece.blockers.push_back(blocker);
         }
       }

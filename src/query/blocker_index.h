@@ -24,7 +24,6 @@ class BlockerIndex {
     std::uint32_t first_plane = 0, plane_count = 0;
     std::uint32_t object = 0;  ///< of the scene
     std::uint32_t leaf = 0;    ///< node of the scene's hierarchy that holds the polygon
-    double widest = 0;         ///< the greatest sum |x| + |y| + |z| of its planes
   };
   struct Entry {
     float bound;            ///< of the inverse distance at which it begins, for directions with |x| + |y| + |z| = 1
@@ -43,6 +42,9 @@ class BlockerIndex {
 
   const Blocker& blocker(std::uint32_t index) const { return blockers_[index]; }
   const exact::Plane& plane(std::uint32_t index) const { return planes_[index]; }
+  std::span<const exact::Plane> planes_of(const Blocker& blocker) const {
+    return {planes_.data() + blocker.first_plane, blocker.plane_count};
+  }
 
   /// Calls visit(entry, bound) for what may be met along `direction` (unit length, z >= 0), in order of falling bound,
   /// until it returns false. `bound`: no smaller than the least of g . direction over the blocker's planes g, as

@@ -172,12 +172,9 @@ class Sight {
         clipped.clear();
         ++work;
         if (!builder.build(corners, planes, clipped)) continue;
-        double least = kInfinity, widest = 0;
-        for (const Plane& plane : planes) {
-          least = std::min(least, plane.dot(direction_));
-          widest = std::max(widest, plane.cwiseAbs().sum());
-        }
-        take(least, widest, side_.scene.polygon_object[polygon]);
+        double least = kInfinity;
+        for (const Plane& plane : planes) least = std::min(least, plane.dot(direction_));
+        take(least, planes, side_.scene.polygon_object[polygon]);
       }
     });
     reach.work += work;
@@ -196,16 +193,21 @@ class Sight {
         least = std::min(least, index.plane(blocker.first_plane + p).dot(direction_));
       }
       if (!is_low(least) && overlap(side_.scene.bvh.nodes[blocker.leaf].bounds, pyramid_)) {
-        take(least, blocker.widest, blocker.object);
+        take(least, index.planes_of(blocker), blocker.object);
       }
       return true;
     });
   }
 
-  /// A blocker that begins at 1 / least along the line.
-  void take(double least, double widest, std::uint32_t object) {
+  /// A blocker that begins at 1 / least along the line. It hides the target from what is behind all of its planes; each
+  /// is sure to its own rounding, which of a plane that passes the centre of a thin target within nanometres is wide.
+  void take(double least, std::span<const Plane> planes, std::uint32_t object) {
     gauge_ = std::max(gauge_, least);
-    if (least * distance_ > 1 + tie_margin(widest, distance_)) named_.add(object);
+    if (!(least * distance_ > 1) || named_.has(object)) return;
+    const bool hides = std::all_of(planes.begin(), planes.end(), [&](const Plane& plane) {
+      return plane.dot(direction_) * distance_ > 1 + tie_margin(plane, distance_);
+    });
+    if (hides) named_.add(object);
   }
 
   Side& side_;

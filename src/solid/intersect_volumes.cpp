@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/causes.h"
+#include "core/mend_welded.h"
 #include "core/pieces.h"
 #include "core/progress_reporter.h"
 #include "core/volume_check.h"
@@ -89,6 +90,7 @@ Volume intersect_volumes(const std::vector<Volume>& volumes, const Progress& cal
   // Parts share scene polygons, so most of what bounds one volume all but coincides with what bounds another.
   solid::clean_inward(labelled, origin, {},
                       solid::cleaning_limits(result.tolerance_m, rounding, bounding_box(labelled.mesh)));
+  core::mend_for_doubles(labelled);
   result.mesh = std::move(labelled.mesh);
   result.cause_of = std::move(labelled.labels);
   result.causes = causes.causes();

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/causes.h"
+#include "core/mend_welded.h"
 #include "core/pieces.h"
 #include "core/progress_reporter.h"
 #include "core/volume_check.h"
@@ -77,6 +78,7 @@ void cut_volume(const Regions& regions, const core::ProgressReporter& progress, 
   snap_to_planes(labelled, regions.surfaces, allowance);
   const CleaningLimits limits = cleaning_limits(result.tolerance_m, volume.epsilon(), bounding_box(labelled.mesh));
   clean_inward(labelled, regions.origin, regions.surfaces, limits);
+  core::mend_for_doubles(labelled);
   snap_to_planes(labelled, regions.surfaces, allowance);  // what was merged went to the origin and back
   for (std::uint32_t& label : labelled.labels) label = regions.surfaces[label].cause;
   result.mesh = std::move(labelled.mesh);

@@ -49,8 +49,8 @@ inline constexpr double kShrink = 1e-9;
 /// g being the shadow's plane; for a point (|g| up to 1e4) at 100 m a millimetre, by which the facets at it are tilted.
 inline constexpr double kSnap = 1e-10;
 
-/// The most that vertices are snapped when the triangulation cannot be built otherwise: 10 micrometres at 1 km.
-inline constexpr double kWidestSnap = 1e-8;
+/// The most that vertices are snapped when the triangulation cannot be built otherwise: 0.1 mm at 1 km.
+inline constexpr double kWidestSnap = 1e-7;
 
 /// Polygons under the target that stand above its plane elsewhere are left at least this far below, in metres: where a
 /// surface that is almost the target's plane comes through it should be away from the target. Less in small worlds.

@@ -16,17 +16,31 @@ double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
   return (p - a - along * ab).norm();
 }
 
-double distance_to_triangle(const Vec3& p, const Corners& t) {
-  const Vec3 normal = (t[1] - t[0]).cross(t[2] - t[0]);
-  const double length = normal.norm();
-  bool over = length > 0;
-  for (int k = 0; k < 3 && over; ++k) over = normal.dot((t[(k + 1) % 3] - t[k]).cross(p - t[k])) >= 0;
-  if (over) return std::abs(normal.dot(p - t[0])) / length;
-  return std::min(
-      {distance_to_segment(p, t[0], t[1]), distance_to_segment(p, t[1], t[2]), distance_to_segment(p, t[2], t[0])});
+/// The corner that the shortest side runs from. A needle of 40 km is tilted by a micrometre when its normal is taken of
+/// two long sides.
+int start_of_shortest_side(const Corners& t) {
+  int shortest = 0;
+  for (int k = 1; k < 3; ++k)
+    if ((t[(k + 1) % 3] - t[k]).squaredNorm() < (t[(shortest + 1) % 3] - t[shortest]).squaredNorm()) shortest = k;
+  return shortest;
+}
+
+Vec3 normal_at(const Corners& t, int corner) {
+  return (t[(corner + 1) % 3] - t[corner]).cross(t[(corner + 2) % 3] - t[corner]);
 }
 
 }  // namespace
+
+double distance_to_triangle(const Vec3& p, const Corners& t) {
+  const int base = start_of_shortest_side(t);
+  const Vec3 normal = normal_at(t, base);
+  const double length = normal.norm();
+  bool over = length > 0;
+  for (int k = 0; k < 3 && over; ++k) over = normal.dot((t[(k + 1) % 3] - t[k]).cross(p - t[k])) >= 0;
+  if (over) return std::abs(normal.dot(p - t[base])) / length;
+  return std::min(
+      {distance_to_segment(p, t[0], t[1]), distance_to_segment(p, t[1], t[2]), distance_to_segment(p, t[2], t[0])});
+}
 
 MeshFaults faults(const vantage::Mesh& mesh) {
   MeshFaults found;
@@ -122,9 +136,10 @@ double ClosedMesh::last_exit(const Vec3& from, const Vec3& direction) const {
     const Vec3 a = t[0] - from, b = t[1] - from, c = t[2] - from;
     const double ab = a.cross(b).dot(direction), bc = b.cross(c).dot(direction), ca = c.cross(a).dot(direction);
     if (std::min({ab, bc, ca}) < 0) continue;  // leaving: the facet looks away
-    const Vec3 normal = (b - a).cross(c - a);
+    const int base = start_of_shortest_side(t);
+    const Vec3 normal = normal_at(t, base);
     const double rise = normal.dot(direction);
-    if (rise > 0) last = std::max(last, normal.dot(a) / rise);
+    if (rise > 0) last = std::max(last, normal.dot(t[base] - from) / rise);
   }
   return last;
 }

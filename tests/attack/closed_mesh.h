@@ -46,4 +46,6 @@ class ClosedMesh {
   double extent_ = 0;
 };
 
+double distance_to_triangle(const Vec3& point, const Corners& triangle);
+
 }  // namespace attack

@@ -110,18 +110,24 @@ class Claims {
     const auto hidden = part.exact.first_hiding(p);
     if (!hidden) return;
     if (const auto solid = part.surely_hiding(p, Which::not_thin))
-      report(Class::over_claim, p, trial_.object_of(*solid));
+      report(Class::over_claim, p, trial_.object_of(*solid), merged_by(*solid, p, part));
     else if (const auto thin = part.surely_hiding(p))
-      report(Class::thin_over_claim, p, trial_.object_of(*thin));
+      report(Class::thin_over_claim, p, trial_.object_of(*thin), merged_by(*thin, p, part));
     else
       report(Class::touching, p, trial_.object_of(*hidden));
   }
 
+  /// How late the triangle may end the view because its corners were merged: vantage/volume.h.
+  double merged_by(std::size_t triangle, const Vec3& p, const PartView& part) const {
+    const double near = distance_to_triangle(part.centre, trial_.blockers.triangles[triangle].corners);
+    return near > 0 ? trial_.blockers.merging * (p - part.centre).norm() / near : 0;
+  }
+
   /// Only what lies deeper than the guarantee allows counts.
-  void report(Class which, const Vec3& p, const std::string& detail) {
+  void report(Class which, const Vec3& p, const std::string& detail, double late = 0) {
     const double away = (p - trial_.parts[0].centre).norm();
     const double share = mesh_.distance(p) / away;
-    if (share > kDepth + trial_.rounding() / away) {
+    if (share > kDepth + (trial_.rounding() + late) / away) {
       trial_.result.add({which, share, trial_.to_scene(p), detail});
     } else {
       const Vec3& centre = trial_.parts[0].centre;

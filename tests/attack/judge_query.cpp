@@ -42,7 +42,8 @@ class Queries {
     if (!target.all_sides && target.normal.dot(direction) < 0 && random.chance(0.95)) direction = -direction;
     double away = random.magnitude(1e-3, 1.2) * trial_.c.range;
     const double end = mesh_.last_exit(view_.centre, direction);
-    if (end > 0 && random.chance(0.7)) away = end * (1 + random.sign() * random.magnitude(3e-6, 0.3));
+    if (end > 1e-9 * trial_.c.range && random.chance(0.7))
+      away = end * (1 + random.sign() * random.magnitude(3e-6, 0.3));
     return view_.centre + away * direction;
   }
 
@@ -56,8 +57,10 @@ class Queries {
     if (std::abs(height) < 1e-5 * away) return;
     const double place_margin = std::abs(answer.margin_m) / away;
     if (answer.inside) {
+      // Wrong deep inside what is claimed, or deep inside what is hidden.
+      const bool is_deep = answer.margin_m > step * away;
       if (height < 0 || !view_.exact.in_range(nearer, trial_.c.range) ||
-          (view_.exact.first_hiding(nearer) && view_.surely_hiding(nearer, Which::not_thin)))
+          (is_deep ? is_surely_hidden(p) : is_hidden_all_round(p, step * away)))
         trial_.result.add({Class::query_over, place_margin, trial_.to_scene(p), ""});
       return;
     }
@@ -65,6 +68,25 @@ class Queries {
     if (!target.is_point() && height > 0 && view_.exact.in_range(farther, trial_.c.range) && view_.exact.clear(farther))
       trial_.result.add({Class::query_under, place_margin, trial_.to_scene(p), names(answer)});
     if (!target.is_point() && height > 0) check_names(nearer, farther, answer);
+  }
+
+  bool is_surely_hidden(const Vec3& p) const {
+    return view_.exact.first_hiding(p) && view_.surely_hiding(p, Which::not_thin);
+  }
+
+  /// Whether the target is hidden from there, and from so far away in any of some directions: towards the centre and
+  /// the corners of the target, along the axes, and away from its plane.
+  bool is_hidden_all_round(const Vec3& p, double radius) const {
+    const SeenTarget& target = view_.exact.target();
+    std::vector<Vec3> directions{view_.centre - p, target.normal, -target.normal};
+    for (const Vec3& corner : target.corners) directions.push_back(corner - p);
+    for (int axis = 0; axis < 3; ++axis) {
+      directions.push_back(Vec3::Unit(axis));
+      directions.push_back(-Vec3::Unit(axis));
+    }
+    return is_surely_hidden(p) && std::all_of(directions.begin(), directions.end(), [&](const Vec3& direction) {
+             return is_surely_hidden(p + radius * direction.normalized());
+           });
   }
 
   static std::string names(const PointAnswer& answer) {

@@ -30,9 +30,17 @@ bool apart(const vantage::Box& a, const vantage::Box& b) {
   return (a.min.array() >= b.max.array()).any() || (a.max.array() <= b.min.array()).any();
 }
 
-double least_height(const Corners& t) {
-  const double twice_area = (t[1] - t[0]).cross(t[2] - t[0]).norm();
-  return twice_area / std::max({(t[1] - t[0]).norm(), (t[2] - t[1]).norm(), (t[0] - t[2]).norm()});
+/// Of what vantage/volume.h takes for nothing: in parts of the longest side, and of the scene's size.
+constexpr double kNoWidth = 1.01 * 0x1p-50;
+
+double longest_side(const Corners& t) {
+  return std::max({(t[1] - t[0]).norm(), (t[2] - t[1]).norm(), (t[0] - t[2]).norm()});
+}
+
+double least_height(const Corners& t) { return (t[1] - t[0]).cross(t[2] - t[0]).norm() / longest_side(t); }
+
+bool has_width(const Corners& t) {
+  return !collinear(t[0], t[1], t[2]) && least_height(t) > kNoWidth * longest_side(t);
 }
 
 }  // namespace
@@ -55,7 +63,7 @@ Blockers::Blockers(const vantage::Scene& scene, const std::vector<vantage::Targe
       blocker.corners[k] = scene.mesh.vertices[scene.mesh.triangles[i][k]] - origin;
       blocker.box.extend(blocker.corners[k]);
     }
-    if (collinear(blocker.corners[0], blocker.corners[1], blocker.corners[2])) continue;
+    if (!has_width(blocker.corners)) continue;
     blocker.object = scene.object_of.empty() ? 0 : scene.object_of[i];
     blocker.thin = least_height(blocker.corners) <= kThin;
     std::array<std::array<double, 3>, 3> places;
@@ -65,7 +73,12 @@ Blockers::Blockers(const vantage::Scene& scene, const std::vector<vantage::Targe
     triangles.push_back(blocker);
     bounds.extend(blocker.box);
   }
-  if (!triangles.empty()) middle = 0.5 * (bounds.min + bounds.max);
+  if (triangles.empty()) return;
+  middle = 0.5 * (bounds.min + bounds.max);
+  const double size = 0.5 * (bounds.max - bounds.min).maxCoeff();
+  merging = 2 * std::min(1e-9, 0x1p-46 * size);
+  const double no_width = std::min(kThin, kNoWidth * size);
+  std::erase_if(triangles, [&](const Blocker& blocker) { return least_height(blocker.corners) <= no_width; });
 }
 
 View::View(const Blockers& blockers, SeenTarget target) : blockers_(blockers), target_(std::move(target)) {

@@ -11,7 +11,7 @@
 
 namespace attack {
 
-/// A scene triangle with an area, relative to the oracle's origin.
+/// A scene triangle that is wider than rounding (vantage/volume.h), relative to the oracle's origin.
 struct Blocker {
   Corners corners;
   vantage::Box box;
@@ -30,6 +30,7 @@ struct Blockers {
   Vec3 origin = Vec3::Zero();
   std::vector<Blocker> triangles;
   Vec3 middle = Vec3::Zero();  ///< of the triangles' bounding box
+  double merging = 0;          ///< how far merging may take corners to be off: vantage/volume.h, metres
   double largest = 0;          ///< the greatest coordinate of scene and targets as stored, metres
 };
 

@@ -44,23 +44,44 @@ std::vector<Vector2d> cut(const std::vector<Vector2d>& polygon, const Vector2d& 
   return kept;
 }
 
-/// A side, or several that together are too short to tell their direction.
+double turn(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
+  return (b.x() - a.x()) * (c.y() - b.y()) - (b.y() - a.y()) * (c.x() - b.x());
+}
+
+/// The corners of the convex hull, counter-clockwise: without the dents that rounding makes of a round outline.
+std::vector<Vector2d> hull_of(std::vector<Vector2d> points) {
+  const auto before = [](const Vector2d& a, const Vector2d& b) {
+    return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
+  };
+  std::sort(points.begin(), points.end(), before);
+  std::vector<Vector2d> hull;
+  for (int side = 0; side < 2; ++side) {
+    const std::size_t first = hull.size();
+    for (const Vector2d& p : points) {
+      while (hull.size() >= first + 2 && turn(hull[hull.size() - 2], hull.back(), p) <= 0) hull.pop_back();
+      hull.push_back(p);
+    }
+    hull.pop_back();
+    std::reverse(points.begin(), points.end());
+  }
+  return hull;
+}
+
 struct OuterLine {
   Vector2d outward;
   double distance;
 };
 
-std::vector<OuterLine> outer_lines(const std::vector<Vector2d>& polygon, double margin) {
+/// The lines of the sides. All of a convex outline lies behind each of them, also behind that of a side that is too
+/// short to tell its direction; and what is some way behind all of them is so far from the outline.
+std::vector<OuterLine> outer_lines(const std::vector<Vector2d>& polygon) {
   std::vector<OuterLine> lines;
-  const std::size_t n = polygon.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    const Vector2d from = polygon[i];
-    Vector2d along = polygon[(i + 1) % n] - from;
-    // Of a side hardly longer than the margin the direction is noise: take that of the chord about it.
-    for (std::size_t k = 1; k < n / 2 && along.norm() < 1e3 * std::abs(margin); ++k)
-      along = polygon[(i + 1 + k) % n] - polygon[(i + n - k) % n];
+  const std::vector<Vector2d> hull = hull_of(polygon);
+  for (std::size_t i = 0; i < hull.size(); ++i) {
+    const Vector2d along = hull[(i + 1) % hull.size()] - hull[i];
+    if (!(along.norm() > 0)) continue;
     const Vector2d outward = Vector2d(along.y(), -along.x()).normalized();
-    lines.push_back({outward, outward.dot(from)});
+    lines.push_back({outward, outward.dot(hull[i])});
   }
   return lines;
 }
@@ -98,7 +119,7 @@ SeenTarget moved_in(const SeenTarget& target, double margin, double rise) {
   std::vector<Vector2d> inner = polygon;
   if (margin < 0)
     inner = {{-3 * reach, -3 * reach}, {3 * reach, -3 * reach}, {3 * reach, 3 * reach}, {-3 * reach, 3 * reach}};
-  for (const OuterLine& line : outer_lines(polygon, margin)) inner = cut(inner, line.outward, line.distance - margin);
+  for (const OuterLine& line : outer_lines(polygon)) inner = cut(inner, line.outward, line.distance - margin);
   moved.corners.clear();
   for (const Vector2d& p : inner) moved.corners.push_back(target.centre + u * p.x() + v * p.y() + target.normal * rise);
   if (!moved.corners.empty()) moved.centre = mean(moved.corners);

@@ -39,8 +39,8 @@ class Trial {
  public:
   Trial(const Case& the_case, const Answer& the_answer, const JudgeOptions& the_options);
 
-  /// What storing coordinates of this size may move a vertex of the mesh by: metres.
-  double rounding() const { return 2 * 2.3e-16 * blockers.largest; }
+  /// What vantage/volume.h excepts for the coordinates of the mesh: five roundings of the largest, metres.
+  double rounding() const { return 5 * 2.23e-16 * blockers.largest; }
   /// Heights over the target's plane below this are rounding of the oracle's own frame.
   double noise() const { return 1e-14 * std::max(blockers.largest, 1e-6); }
   Vec3 to_scene(const Vec3& local) const { return local + blockers.origin; }
