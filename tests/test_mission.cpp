@@ -119,6 +119,57 @@ exact: {tolerance: 0.02}
   EXPECT_EQ(mission.places.navigation_meshes[0], "/data/missions/plaza.yaml:14:12");
 }
 
+TEST(Mission, OfSeveralPolygons) {
+  const MissionFile mission = parse(text_of_mission(
+      "", "target: {parts: [[[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[5, 0, 0], [6, 0, 0], [6, 1, 0], [5, 1, 0]]]}\n"));
+  ASSERT_EQ(mission.target.parts.size(), 2U);
+  EXPECT_EQ(mission.target.parts[1][2], Vec3(6, 1, 0));
+  const Error error =
+      refusal(text_of_mission("", "target: {parts: [[[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[1, 1, 1]]]}\n"));
+  EXPECT_NE(error.where().find("mission.yaml:3:"), std::string::npos) << error.what();
+  EXPECT_EQ(refusal(text_of_mission("", "target: {parts: []}\n")).kind(), ErrorKind::input);
+}
+
+// What is written reads back as the same text: nothing that a mission says is lost.
+TEST(Mission, TextReadsBackAsTheSameMission) {
+  const std::string scenes[] = {
+      "scene: {mesh: ../city.obj, up: y, scale: 0.3048, lod: '2.2', crs: 'EPSG:28992', origin: [52, 4.3]}\n",
+      "scene: {osm: city.osm.pbf, center: [48.1, 11.5], radius: 600, terrain: dem.tif, error: 0.25,\n"
+      "        without: [trees, walls], defaults: {level: 3.25, levels.house: 3, wall.fence: 2, way.path: 1.5}}\n",
+      "scene: {osm: 'a \"b\".osm', bbox: [11.1, 48, 11.2, 48.1]}\n",
+      "scene: {raster: dsm.tif, center: [48.1, 11.5], radius: 100, error: 0.125, origin: [48.1, 11.5]}\n"};
+  const std::string targets[] = {
+      "target: {name: \"the 'plaza': north\", vertices: [[0.1, 1e-9, 1], [1e6, 0, 1], [0, 10, 1]], offset: 0.25, "
+      "front: "
+      "[0, 0, -2]}\n",
+      "target: {point: [1, 2, 3]}\n", "target: {center: [48.1, 11.5], width: 5, length: 7.5, heading: 30}\n",
+      "target: {parts: [[[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[5, 0, 0], [6, 0, 0], [6, 1, 0]]]}\n"};
+  const std::string rest[] = {
+      "sensor: {max_range: 0.1}\n",
+      "sensor: {max_range: 150}\nnavigation:\n  altitude: [-20, 120]\n  boxes: [{min: [0, 1, 2], max: [3, 4, 5]}]\n"
+      "  keep_out: [{min: [6, 7, 8], max: [9, 10, 11]}]\n  meshes: [airspace.ply, {mesh: old.obj, up: y, scale: 2}]\n"
+      "method: spheres\nexact: {tolerance: 0.02}\nspheres: {sphere: centers, cubemap: 100, resolution: [160, 80],\n"
+      "  merge: 0.001, split: always, max_splits: 3, min_edge: 0.25, device: cpu}\n"};
+  for (const std::string& scene : scenes) {
+    for (const std::string& target : targets) {
+      for (const std::string& more : rest) {
+        SCOPED_TRACE(scene + target + more);
+        const MissionFile read = parse_mission(scene + target + more, "/data/missions/one.yaml");
+        const std::string text = mission_text(read, "/data/missions");
+        const MissionFile again = parse_mission(text, "/data/missions/two.yaml");
+        EXPECT_EQ(mission_text(again, "/data/missions"), text);
+        EXPECT_EQ(again.scene.file, read.scene.file);
+        EXPECT_EQ(again.target.parts, read.target.parts);
+        EXPECT_EQ(again.target.name, read.target.name);
+        EXPECT_EQ(again.sensor.max_range_m, read.sensor.max_range_m);
+        EXPECT_EQ(again.navigation_meshes.size(), read.navigation_meshes.size());
+        EXPECT_EQ(again.scene.city.defaults.levels_of, read.scene.city.defaults.levels_of);
+        EXPECT_EQ(again.spheres.resolution, read.spheres.resolution);
+      }
+    }
+  }
+}
+
 TEST(Mission, HasDefaults) {
   const MissionFile mission = parse(text_of_mission(""));
   EXPECT_EQ(mission.scene.mesh.up, UpAxis::z);

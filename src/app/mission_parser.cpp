@@ -42,6 +42,7 @@ class MissionParser : private ValueReader {
   void refuse_beside(const YamlNode& node, const char* key, std::initializer_list<const char*> others,
                      const char* fix) const;
   const YamlNode& parse_vertices(const YamlNode& node);
+  const YamlNode& parse_parts(const YamlNode& node, const YamlNode& parts);
   const YamlNode& parse_ground_target(const YamlNode& node);
   const YamlNode& parse_point(const YamlNode& node, const YamlNode& point);
   void check_target(const YamlNode& place);
@@ -111,13 +112,30 @@ void MissionParser::parse_target(const YamlNode& node) {
   if (const YamlNode* name = find(node, "name")) target.name = text(*name, "target.name");
   const YamlNode* point = find(node, "point");
   const bool is_on_ground = find(node, "osm") || find(node, "center");
+  const YamlNode* parts = find(node, "parts");
   const YamlNode& place = point          ? parse_point(node, *point)
+                          : parts        ? parse_parts(node, *parts)
                           : is_on_ground ? parse_ground_target(node)
                                          : parse_vertices(node);
   if (const YamlNode* offset = find(node, "offset")) target.offset_m = length(*offset, "target.offset");
   if (const YamlNode* front = find(node, "front")) target.front = vector(*front, "target.front");
   check_target(place);
   if (const YamlNode* edges = find(node, "edges")) check_edges(*edges, target.parts[0].size());
+}
+
+const YamlNode& MissionParser::parse_parts(const YamlNode& node, const YamlNode& parts) {
+  const char* const form = "write a list of polygons: [[[x, y, z], [x, y, z], [x, y, z]], [[x, y, z], ...]]";
+  refuse_beside(node, "parts", {"vertices", "edges", "osm", "center"}, "keep 'parts' for several polygons");
+  mission_.target.parts.clear();
+  for (std::size_t i = 0; i < list(parts, "target.parts", form).size(); ++i) {
+    const std::string what = indexed("target.parts", i);
+    std::vector<Vec3>& part = mission_.target.parts.emplace_back();
+    list(parts.items[i], what, form);
+    for (std::size_t k = 0; k < parts.items[i].items.size(); ++k) {
+      part.push_back(vector(parts.items[i].items[k], indexed(what, k)));
+    }
+  }
+  return parts;
 }
 
 /// Returns the node that stands for the target in messages.
@@ -155,7 +173,7 @@ void MissionParser::refuse_beside(const YamlNode& node, const char* key, std::in
 const YamlNode& MissionParser::parse_ground_target(const YamlNode& node) {
   GroundTarget& ground = mission_.ground_target.emplace();
   if (const YamlNode* osm = find(node, "osm")) {
-    refuse_beside(node, "osm", {"vertices", "edges", "center", "width", "length", "heading"},
+    refuse_beside(node, "osm", {"vertices", "edges", "parts", "center", "width", "length", "heading"},
                   "keep 'osm' for an area of the map, or give the target yourself");
     ground.osm = text(*osm, "target.osm");
     if (find(node, "name") == nullptr) mission_.target.name = ground.osm;
@@ -166,7 +184,8 @@ const YamlNode& MissionParser::parse_ground_target(const YamlNode& node) {
     return *osm;
   }
   const YamlNode& center = *find(node, "center");
-  refuse_beside(node, "center", {"vertices", "edges"}, "keep 'center' for a rectangle, or 'vertices' for a polygon");
+  refuse_beside(node, "center", {"vertices", "edges", "parts"},
+                "keep 'center' for a rectangle, or 'vertices' for a polygon");
   ground.center_deg = parse_lat_lon(center, *this, "target.center");
   const std::string form = "write 'width: 20' and 'length: 30' (metres), and 'heading: 45' (degrees from north)";
   ground.width_m = positive(require(node, Section::target, "width", form), "target.width");
@@ -176,7 +195,7 @@ const YamlNode& MissionParser::parse_ground_target(const YamlNode& node) {
 }
 
 const YamlNode& MissionParser::parse_point(const YamlNode& node, const YamlNode& point) {
-  refuse_beside(node, "point", {"vertices", "edges", "osm", "center"},
+  refuse_beside(node, "point", {"vertices", "edges", "parts", "osm", "center"},
                 "keep 'point' for a single point, or 'vertices' for a polygon");
   mission_.target.parts = {{vector(point, "target.point")}};
   const YamlNode* offset = find(node, "offset");

@@ -1,0 +1,235 @@
+// A MissionFile as the text that read_mission_text reads.
+#include <map>
+#include <string>
+#include <string_view>
+
+#include "vantage/city.h"
+#include "vantage/input.h"
+#include "vantage/json.h"
+#include "vantage/mission.h"
+
+namespace vantage {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A YAML text in double quotes: what JSON writes is YAML.
+std::string quoted(const std::string& text) { return json_text(std::string_view(text)); }
+
+template <typename Numbers>
+std::string list_of(const Numbers& numbers) {
+  std::string text;
+  for (const auto number : numbers) text += (text.empty() ? "" : ", ") + shortest(static_cast<double>(number));
+  return "[" + text + "]";
+}
+
+std::string polygon(const std::vector<Vec3>& vertices) {
+  std::string text;
+  for (const Vec3& vertex : vertices) text += (text.empty() ? "" : ", ") + list_of(vertex);
+  return "[" + text + "]";
+}
+
+const char* axis(UpAxis up) { return up == UpAxis::y ? "y" : "z"; }
+
+/// Keys of one section, each on a line of its own.
+class Section {
+ public:
+  explicit Section(const char* name) : name_(name) {}
+
+  void add(const std::string& key, const std::string& value) { text_ += "  " + key + ": " + value + "\n"; }
+  void add(const std::string& key, double value) { add(key, shortest(value)); }
+
+  /// Nothing when it has no keys.
+  std::string text() const { return text_.empty() ? "" : name_ + ":\n" + text_; }
+
+ private:
+  std::string name_, text_;
+};
+
+class Writer {
+ public:
+  Writer(const MissionFile& mission, const fs::path& folder) : mission_(mission), folder_(fs::absolute(folder)) {}
+
+  std::string text() const {
+    std::string text = mission_.crs.empty() ? "" : "crs: " + quoted(mission_.crs) + "\n";
+    text += scene() + target() + "sensor:\n  max_range: " + shortest(mission_.sensor.max_range_m) + "\n" + navigation();
+    text += std::string("method: ") + name_of(mission_.method) + "\n";
+    text += "exact:\n  tolerance: " + shortest(mission_.exact.tolerance_m) + "\n";
+    return text + spheres();
+  }
+
+ private:
+  /// Relative to the folder where it lies in it.
+  std::string path(const fs::path& file) const {
+    const fs::path relative = file.lexically_relative(folder_);
+    const bool is_below = !relative.empty() && *relative.begin() != "..";
+    return quoted((is_below ? relative : file).string());
+  }
+
+  std::string scene() const {
+    const SceneSource& source = mission_.scene;
+    Section section("scene");
+    switch (source.kind) {
+      case SceneSource::Kind::mesh:
+        section.add("mesh", path(source.file));
+        if (source.mesh.up == UpAxis::y) section.add("up", "y");
+        if (source.mesh.scale != 1) section.add("scale", source.mesh.scale);
+        if (!source.mesh.lod.empty()) section.add("lod", quoted(source.mesh.lod));
+        if (!source.mesh.crs.empty()) section.add("crs", quoted(source.mesh.crs));
+        if (source.mesh.origin_deg) section.add("origin", list_of(*source.mesh.origin_deg));
+        break;
+      case SceneSource::Kind::map:
+        section.add("osm", path(source.file));
+        add_region(source.city.region, section);
+        add_city(source.city, section);
+        break;
+      case SceneSource::Kind::raster:
+        section.add("raster", path(source.file));
+        add_region({source.raster.region.center_deg, source.raster.region.radius_m, source.raster.region.bbox_deg},
+                   section);
+        section.add("error", source.raster.max_error_m);
+        if (source.raster.origin_deg) section.add("origin", list_of(*source.raster.origin_deg));
+        break;
+    }
+    return section.text();
+  }
+
+  static void add_region(const CityRegion& region, Section& section) {
+    if (region.center_deg) {
+      section.add("center", list_of(*region.center_deg));
+      section.add("radius", region.radius_m);
+    }
+    if (region.bbox_deg) section.add("bbox", list_of(*region.bbox_deg));
+  }
+
+  void add_city(const CityOptions& city, Section& section) const {
+    if (!city.terrain.empty()) section.add("terrain", path(city.terrain));
+    section.add("error", city.terrain_error_m);
+    std::string without;
+    const Occluders& occluders = city.occluders;
+    for (const auto& [is_on, name] : {std::pair{occluders.walls, "walls"},
+                                      {occluders.towers, "towers"},
+                                      {occluders.bridges, "bridges"},
+                                      {occluders.trees, "trees"}}) {
+      if (!is_on) without += (without.empty() ? "" : ", ") + std::string(name);
+    }
+    if (!without.empty()) section.add("without", "[" + without + "]");
+    const std::string defaults = changed_defaults(city);
+    if (!defaults.empty()) section.add("defaults", "{" + defaults + "}");
+  }
+
+  static std::string changed_defaults(const CityOptions& city) {
+    std::string text;
+    const auto add = [&](const std::string& name, double value) {
+      text += (text.empty() ? "" : ", ") + quoted(name) + ": " + shortest(value);
+    };
+    CityOptions asked = city, plain;
+    for (const CitySetting& setting : city_settings()) {
+      if (setting.value(asked) != setting.value(plain)) add(setting.name, setting.value(asked));
+    }
+    const auto add_kinds = [&](const std::string& family, const auto& kinds, const auto& usual, const auto& value_of) {
+      for (const auto& [kind, value] : kinds) {
+        const auto found = usual.find(kind);
+        if (found == usual.end() || value_of(found->second) != value_of(value)) add(family + kind, value_of(value));
+      }
+    };
+    const auto itself = [](double value) { return value; };
+    const auto height = [](const OccluderDefaults::Size& size) { return size.height_m; };
+    add_kinds("levels.", asked.defaults.levels_of, plain.defaults.levels_of, itself);
+    add_kinds("wall.", asked.occluder_defaults.walls, plain.occluder_defaults.walls, height);
+    add_kinds("tower.", asked.occluder_defaults.towers, plain.occluder_defaults.towers, height);
+    add_kinds("way.", asked.occluder_defaults.ways, plain.occluder_defaults.ways, itself);
+    return text;
+  }
+
+  std::string target() const {
+    const Target& target = mission_.target;
+    Section section("target");
+    section.add("name", quoted(target.name));
+    if (const auto& ground = mission_.ground_target) {
+      if (ground->center_deg) {
+        section.add("center", list_of(*ground->center_deg));
+        section.add("width", ground->width_m);
+        section.add("length", ground->length_m);
+        section.add("heading", ground->heading_deg);
+      } else {
+        section.add("osm", ground->osm);
+      }
+    } else if (target.is_point()) {
+      section.add("point", list_of(target.parts[0][0]));
+    } else if (target.parts.size() == 1) {
+      section.add("vertices", polygon(target.parts[0]));
+    } else {
+      std::string parts;
+      for (const std::vector<Vec3>& part : target.parts) parts += (parts.empty() ? "" : ", ") + polygon(part);
+      section.add("parts", "[" + parts + "]");
+    }
+    if (target.offset_m != 0) section.add("offset", target.offset_m);
+    if (target.front) section.add("front", list_of(*target.front));
+    return section.text();
+  }
+
+  static std::string boxes(const std::vector<Box>& boxes) {
+    std::string text;
+    for (const Box& box : boxes) {
+      text += (text.empty() ? "" : ", ") + ("{min: " + list_of(box.min) + ", max: " + list_of(box.max)) + "}";
+    }
+    return "[" + text + "]";
+  }
+
+  std::string navigation() const {
+    const Navigation& limits = mission_.navigation;
+    Section section("navigation");
+    if (limits.altitude) section.add("altitude", list_of(std::array{limits.altitude->min_m, limits.altitude->max_m}));
+    if (!limits.boxes.empty()) section.add("boxes", boxes(limits.boxes));
+    if (!limits.keep_out.empty()) section.add("keep_out", boxes(limits.keep_out));
+    std::string meshes;
+    for (const NavigationMeshFile& mesh : mission_.navigation_meshes) {
+      meshes += (meshes.empty() ? "" : ", ") + ("{mesh: " + path(mesh.file));
+      if (mesh.up) meshes += std::string(", up: ") + axis(*mesh.up);
+      if (mesh.scale) meshes += ", scale: " + shortest(*mesh.scale);
+      meshes += "}";
+    }
+    if (!meshes.empty()) section.add("meshes", "[" + meshes + "]");
+    return section.text();
+  }
+
+  std::string spheres() const {
+    const SpheresOptions& options = mission_.spheres;
+    Section section("spheres");
+    section.add("sphere", options.sphere == SpheresOptions::Sphere::centers ? "centers" : "conservative");
+    section.add("cubemap", options.cubemap);
+    if (options.resolution) section.add("resolution", list_of(*options.resolution));
+    section.add("merge", options.merge);
+    section.add("split", options.split == SpheresOptions::Split::always ? "always" : "euler");
+    section.add("max_splits", options.max_splits);
+    section.add("min_edge", options.min_edge_m);
+    section.add("device", text_of(options.device));
+    return section.text();
+  }
+
+  static std::string text_of(const DeviceChoice& device) {
+    switch (device.kind) {
+      case DeviceChoice::Kind::automatic:
+        return "auto";
+      case DeviceChoice::Kind::cpu:
+        return "cpu";
+      case DeviceChoice::Kind::opengl:
+        return "opengl";
+      case DeviceChoice::Kind::gpu:
+        return "gpu";
+      case DeviceChoice::Kind::index:
+        return quoted(std::to_string(device.index));
+    }
+    return "auto";
+  }
+
+  const MissionFile& mission_;
+  fs::path folder_;
+};
+
+}  // namespace
+
+std::string mission_text(const MissionFile& mission, const fs::path& folder) { return Writer(mission, folder).text(); }
+
+}  // namespace vantage
