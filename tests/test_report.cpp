@@ -16,7 +16,7 @@ TEST(Report, TellsWhatWasComputed) {
   Volume volume = vantage::testing::make_hemisphere(Vec3(1, 2, 3), 10);
   volume.causes[1].area_m2 = 12.5;
   volume.tolerance_m = 0.02;
-  volume.lift_m.at(0) = {1e-4};
+  volume.lift_m = {1e-4};
   volume.counts = {11, 12, 13, 14, 15};
   volume.seconds = {0.1, 0.2, 0.3, 0.4, 0.5, 1.5};
   const MeshMeasures measures = measure(volume.mesh);

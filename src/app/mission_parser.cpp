@@ -126,8 +126,9 @@ void MissionParser::parse_target(const YamlNode& node) {
 const YamlNode& MissionParser::parse_parts(const YamlNode& node, const YamlNode& parts) {
   const char* const form = "write a list of polygons: [[[x, y, z], [x, y, z], [x, y, z]], [[x, y, z], ...]]";
   refuse_beside(node, "parts", {"vertices", "edges", "osm", "center"}, "keep 'parts' for several polygons");
+  if (list(parts, "target.parts", form).empty()) fail(parts, "target.parts is an empty list", form);
   mission_.target.parts.clear();
-  for (std::size_t i = 0; i < list(parts, "target.parts", form).size(); ++i) {
+  for (std::size_t i = 0; i < parts.items.size(); ++i) {
     const std::string what = indexed("target.parts", i);
     std::vector<Vec3>& part = mission_.target.parts.emplace_back();
     list(parts.items[i], what, form);
