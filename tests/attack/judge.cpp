@@ -44,7 +44,7 @@ Trial::Trial(const Case& the_case, const Answer& the_answer, const JudgeOptions&
     : c(the_case), answer(the_answer), options(the_options), blockers(c.scene, c.parts), random(c.seed ^ 0x6a75646765) {
   for (std::size_t k = 0; k < c.parts.size(); ++k) {
     const bool made = k < answer.parts.size();
-    const double lift = made ? answer.parts[k].lift_m.at(0) : 0;
+    const double lift = made && !answer.parts[k].lift_m.empty() ? answer.parts[k].lift_m[0] : 0;
     const SeenTarget target = make_seen_target(c.parts[k], lift, blockers.origin);
     const Vec3 centre = made ? Vec3(answer.parts[k].frame.origin - blockers.origin) : target.centre;
     parts.emplace_back(blockers, target, strip_width(blockers, target, c.range), centre);
