@@ -135,6 +135,9 @@ struct Result {
 /// of theirs; the scene is prepared anew each time, so use those functions for many targets of one scene.
 Result run_mission(const Mission& mission, const RunOptions& options = {}, const Progress& progress = {});
 
+/// SHA-256 of what is asked, in the scene frame: docs/hashes.md. 64 hexadecimal digits.
+std::string mission_hash(const Mission& mission);
+
 /// PreparedTarget of a mission; errors about the target begin with its place in the mission file, and advise what fits
 /// the object that stands in the way. `scene`: the mission's.
 PreparedTarget prepare_target(const Mission& mission, const PreparedScene& scene);

@@ -71,7 +71,9 @@ WrittenResults write_results(Volume& volume, const ResultRequest& request, const
 
 /// A volume, or any other mesh, as its file says.
 struct VolumeFile {
-  Volume volume;                   ///< mesh and georeference; `cause_of` and `causes` where the file has them (PLY)
+  Volume volume;  ///< mesh and georeference; `cause_of` and `causes` where the file has them (PLY); provenance,
+                  ///< tolerance and lifts where it states them: PLY, OBJ, GLB, and the file beside an STL
+  std::string volume_hash;         ///< as stated; empty: not
   double rounding_m = 0;           ///< Scene::rounding_m
   std::vector<std::string> notes;  ///< for people: that it was moved, that its heights do not fit
 };

@@ -70,6 +70,15 @@ struct Seconds {
   double read = 0, prepare = 0, engine = 0, navigation = 0, write = 0, total = 0;
 };
 
+/// What a volume was computed for. It travels in the volume's files, so that they can be judged wherever they are.
+struct VolumeProvenance {
+  std::string version;  ///< of vantage
+  std::string method;   ///< "exact", "spheres"
+  Target target;        ///< as given, in the scene frame
+  Sensor sensor;
+  std::string scene_hash, mission_hash;  ///< docs/hashes.md; empty where they were not made
+};
+
 /// The result. `mesh` is closed, oriented outward, in the scene frame. Before navigation cuts it is one piece of genus
 /// 0 and star-shaped about every point of the target: the segment from any point inside to any point of the target
 /// stays inside.
@@ -86,8 +95,9 @@ struct Volume {
   std::vector<double> lift_m;      ///< how far each part of the target was raised: PreparedTarget::lift_m
   TargetFrame frame;               ///< of the target's first part as used, lift included
   std::vector<std::string> notes;  ///< what to know before relying on it, a sentence each: the target seems to be under
-                                   ///< the ground. compute_mission adds its own: the map ends within the range
-  std::optional<Georeference> georeference;  ///< of the scene; compute_mission fills it in, and writers write it
+                                   ///< the ground. run_mission adds its own: the map ends within the range
+  std::optional<Georeference> georeference;    ///< of the scene; run_mission fills it in, and writers write it
+  std::optional<VolumeProvenance> provenance;  ///< run_mission adds the hashes
   StageCounts counts;
   Seconds seconds;
 };

@@ -67,7 +67,12 @@ VolumeFile read_volume(const std::filesystem::path& file, const SceneReadOptions
   result.volume.mesh = std::move(read.mesh);
   result.volume.georeference = std::move(read.georeference);
   result.rounding_m = read.rounding_m.value_or(0);
-  io::read_causes(file, result.volume);
+  if (auto stated = io::read_causes(file, result.volume)) {
+    result.volume.provenance = std::move(stated->provenance);
+    result.volume.tolerance_m = stated->tolerance_m;
+    result.volume.lift_m = std::move(stated->lift_m);
+    result.volume_hash = std::move(stated->volume_hash);
+  }
   if (!frame || !result.volume.georeference) return result;
   check_near(*result.volume.georeference, *frame, "the mesh", file.string(),
              "give the mesh that goes with the other input");

@@ -5,6 +5,7 @@
 
 #include "io/georeference_text.h"
 #include "vantage/error.h"
+#include "vantage/hash.h"
 #include "vantage/result.h"
 
 namespace vantage {
@@ -100,6 +101,11 @@ std::string report_json(const Volume& volume, const MeshMeasures& measures, cons
   report["euler"] = measures.euler;
   report["closed"] = measures.closed;
   report["oriented"] = measures.oriented;
+  if (volume.provenance && !volume.provenance->scene_hash.empty()) {
+    report["scene_hash"] = volume.provenance->scene_hash;
+    report["mission_hash"] = volume.provenance->mission_hash;
+    report["volume_hash"] = volume_hash(volume.mesh);
+  }
   report["tolerance_m"] = volume.tolerance_m;
   report["lift_m"] = volume.lift_m.empty() ? 0 : *std::max_element(volume.lift_m.begin(), volume.lift_m.end());
   if (volume.georeference) report["georeference"] = io::georeference_json(*volume.georeference);

@@ -6,6 +6,7 @@
 #include "core/parallel.h"
 #include "core/stopwatch.h"
 #include "vantage/error.h"
+#include "vantage/hash.h"
 #include "vantage/mission.h"
 #include "vantage/navigation.h"
 
@@ -64,6 +65,10 @@ Result run(const Mission& mission, const StageSink& stages, const Progress& prog
   seconds.total = seconds.read + seconds.prepare + seconds.engine + seconds.navigation;
   result.volume.seconds = seconds;
   result.volume.georeference = scene.georeference;
+  if (result.volume.provenance) {
+    result.volume.provenance->scene_hash = scene_hash(scene);
+    result.volume.provenance->mission_hash = mission_hash(mission);
+  }
   std::vector<std::string> warnings = mission_warnings(mission, &result.volume);
   result.volume.notes.insert(result.volume.notes.end(), warnings.begin(), warnings.end());
   return result;

@@ -7,6 +7,7 @@
 #include "cli/progress_line.h"
 #include "cli/standard_streams.h"
 #include "cli/text_table.h"
+#include "vantage/hash.h"
 #include "vantage/input.h"
 #include "vantage/json.h"
 #include "vantage/mission.h"
@@ -91,6 +92,27 @@ std::string table_text(const VerifyReport& report, const Given& given, const Ope
   return table.text();
 }
 
+/// How far the target was raised: what the command line says, or else the file, or else the report beside it.
+std::vector<double> lifts(const Options& options, const VolumeFile& read, const Mission& mission) {
+  const std::size_t parts = mission.target.parts.size();
+  if (options.lift_m >= 0) return std::vector(parts, options.lift_m);
+  if (read.volume.lift_m.size() == parts) return read.volume.lift_m;
+  return std::vector(parts, reported_lift_m(options.volume_file).value_or(0));
+}
+
+/// That the file is of another scene or mission, or was changed since.
+std::vector<std::string> doubts(const VolumeFile& read, const Mission& mission) {
+  std::vector<std::string> sentences;
+  if (!read.volume.provenance) return sentences;
+  const VolumeProvenance& made = *read.volume.provenance;
+  if (!made.scene_hash.empty() && made.scene_hash != scene_hash(mission.loaded.scene)) {
+    sentences.emplace_back("the file says that the volume was computed in another scene than the mission's");
+  } else if (!made.mission_hash.empty() && made.mission_hash != mission_hash(mission)) {
+    sentences.emplace_back("the file says that the volume was computed for another mission");
+  }
+  return sentences;
+}
+
 int run(const Options& options) {
   check_readable(options.volume_file, "the volume");
   const MissionFile file = read_mission_argument(options.mission_file);
@@ -101,6 +123,8 @@ int run(const Options& options) {
   if (!options.common.quiet) {
     std::for_each(warnings.begin(), warnings.end(), note);
     std::for_each(read.notes.begin(), read.notes.end(), note);
+    const std::vector<std::string> other = doubts(read, mission);
+    std::for_each(other.begin(), other.end(), note);
   }
   const Mesh& volume = read.volume.mesh;
   const OpenEdges holes = find_open_edges(volume);
@@ -109,9 +133,8 @@ int run(const Options& options) {
   verify_options.seed = options.seed;
   verify_options.tolerance_m = file.exact.tolerance_m;
   verify_options.rounding_m = read.rounding_m;
-  const double lift_m = options.lift_m < 0 ? reported_lift_m(options.volume_file).value_or(0) : options.lift_m;
-  verify_options.lift_m.assign(mission.target.parts.size(), lift_m);
-  const Given given{lift_m, read.rounding_m};
+  verify_options.lift_m = lifts(options, read, mission);
+  const Given given{*std::max_element(verify_options.lift_m.begin(), verify_options.lift_m.end()), read.rounding_m};
 
   VerifyReport report;
   if (holes.count == 0) {

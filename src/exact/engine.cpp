@@ -91,6 +91,7 @@ Volume compute_visibility(const PreparedTarget& target, const ExactOptions& opti
   volume.frame = target.frame();
   volume.lift_m = {target.lift_m()};
   volume.notes = target.notes();
+  volume.provenance = {VANTAGE_VERSION, "exact", target.target(), target.sensor(), "", ""};
   volume.counts.scene_polygons = target.scene().data().polygon_count();
   parallel::with_threads(options.threads, [&] {
     (target.target().is_point() ? compute_point : compute_polygon)(target, options, progress, volume);

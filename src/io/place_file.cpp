@@ -19,6 +19,7 @@ std::string place_file_text(const PlaceFile& content) {
   json["vantage"]["georeference"] = nullptr;
   if (content.georeference) json["vantage"]["georeference"] = georeference_json(*content.georeference);
   if (content.rounding_m) json["vantage"]["rounding_m"] = *content.rounding_m;
+  if (!content.volume.empty()) json["vantage"]["volume"] = nlohmann::ordered_json::parse(content.volume);
   return json.dump(2, ' ', true, nlohmann::json::error_handler_t::replace) + "\n";
 }
 

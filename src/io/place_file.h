@@ -18,6 +18,7 @@ std::filesystem::path place_file(const std::filesystem::path& mesh_file);
 struct PlaceFile {
   std::optional<Georeference> georeference;
   std::optional<double> rounding_m;  ///< of a volume
+  std::string volume;                ///< JSON of statement_json; empty: nothing is stated
 };
 
 /// {"vantage": {"georeference": {…}, "rounding_m": …}}; null in place of the object when there is none.

@@ -62,20 +62,21 @@ double area(const Mesh& mesh, const Triangle& t) {
 
 }  // namespace
 
-void read_causes(const std::filesystem::path& file, Volume& volume) {
+std::optional<VolumeStatement> read_causes(const std::filesystem::path& file, Volume& volume) {
   volume.cause_of.clear();
   volume.causes.clear();
   const Progress nobody;
   core::ProgressReporter progress(nobody, file);
   const io::MeshSource source = io::load_mesh_source(file, progress);
+  std::optional<VolumeStatement> statement = read_statement(source, progress);
   const std::string_view bytes = source.bytes();
-  if (bytes.substr(0, 36) != "ply\nformat binary_little_endian 1.0\n") return;
+  if (bytes.substr(0, 36) != "ply\nformat binary_little_endian 1.0\n") return statement;
   const std::size_t place = bytes.find(kFaces);
   const std::size_t faces = volume.mesh.triangles.size(), size = faces * kFaceBytes;
-  if (place == std::string_view::npos || bytes.size() < place + kFaces.size() + size) return;
+  if (place == std::string_view::npos || bytes.size() < place + kFaces.size() + size) return statement;
 
   std::vector<Cause> causes = causes_in(bytes.substr(0, place));
-  if (causes.empty()) return;
+  if (causes.empty()) return statement;
   const std::string_view rows = bytes.substr(bytes.size() - size);
   std::vector<std::uint32_t> cause_of(faces);
   for (std::size_t t = 0; t < faces; ++t) {
@@ -90,6 +91,7 @@ void read_causes(const std::filesystem::path& file, Volume& volume) {
   }
   volume.cause_of = std::move(cause_of);
   volume.causes = std::move(causes);
+  return statement;
 }
 
 }  // namespace vantage::io

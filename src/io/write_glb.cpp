@@ -7,6 +7,7 @@
 
 #include "io/georeference_text.h"
 #include "io/glb_container.h"
+#include "io/volume_statement.h"
 #include "io/writers.h"
 
 namespace vantage::io {
@@ -118,10 +119,24 @@ void add_primitive(Gltf& gltf, const Volume& volume, const StoredMesh& stored, C
                         {"mode", kTriangles}});
 }
 
+/// The mesh with its facets by kind of cause, as the primitives have them.
+Mesh in_file_order(const Volume& volume, const StoredMesh& stored) {
+  Mesh mesh{stored.mesh.vertices, {}};
+  for (const CauseKind kind : kKinds) {
+    for (std::size_t t = 0; t < stored.mesh.triangles.size(); ++t) {
+      if (volume.causes[stored.cause_of[t]].kind == kind) mesh.triangles.push_back(stored.mesh.triangles[t]);
+    }
+  }
+  return mesh;
+}
+
 Gltf make_gltf(const Volume& volume, const StoredMesh& stored) {
   Gltf gltf;
   gltf.json["asset"] = {{"version", "2.0"}, {"generator", "vantage " VANTAGE_VERSION}};
   gltf.json["asset"]["extras"]["vantage"]["rounding_m"] = stored.rounding_m;
+  if (auto statement = statement_json(volume, in_file_order(volume, stored))) {
+    gltf.json["asset"]["extras"]["vantage"]["volume"] = std::move(*statement);
+  }
   gltf.json["scene"] = 0;
   if (stored.mesh.empty()) {  // the specification allows no empty array, so there is no node either
     gltf.json["scenes"] = Json::array({{{"name", std::string("no volume: ") + name_of(volume.outcome)}}});

@@ -5,6 +5,7 @@
 
 #include "io/axes_text.h"
 #include "io/rounding_text.h"
+#include "io/volume_statement.h"
 #include "io/write_place.h"
 #include "io/writers.h"
 #include "vantage/error.h"
@@ -29,6 +30,16 @@ std::vector<std::string> group_names(const std::vector<Cause>& causes) {
   return names;
 }
 
+/// The mesh with its facets in the order of the groups.
+Mesh in_file_order(const StoredMesh& stored, const std::vector<std::vector<std::size_t>>& facets_of) {
+  Mesh mesh{stored.mesh.vertices, {}};
+  mesh.triangles.reserve(stored.mesh.triangles.size());
+  for (const std::vector<std::size_t>& facets : facets_of) {
+    for (const std::size_t t : facets) mesh.triangles.push_back(stored.mesh.triangles[t]);
+  }
+  return mesh;
+}
+
 }  // namespace
 
 void check_obj_scale(const Volume& volume, double scale) {
@@ -41,10 +52,13 @@ void check_obj_scale(const Volume& volume, double scale) {
 
 void write_obj(const Volume& volume, const StoredMesh& stored, UpAxis up, double scale, AtomicFile& file) {
   const auto& [vertices, triangles] = stored.mesh;
+  std::vector<std::vector<std::size_t>> facets_of(volume.causes.size());
+  for (std::size_t t = 0; t < triangles.size(); ++t) facets_of[stored.cause_of[t]].push_back(t);
   file.write("# vantage " VANTAGE_VERSION " visibility volume: " + std::string(name_of(volume.outcome)) + "\n");
   file.write("# " + io::axes_text({up, scale}) + "\n");
   file.write(place_comment(volume.georeference, "# "));
   file.write("# " + io::rounding_text(stored.rounding_m) + "\n");
+  file.write(statement_comments(volume, in_file_order(stored, facets_of), "# "));
 
   for (const Vec3& vertex : vertices) {
     std::string line("v");
@@ -54,8 +68,6 @@ void write_obj(const Volume& volume, const StoredMesh& stored, UpAxis up, double
     file.write(line.append("\n"));
   }
 
-  std::vector<std::vector<std::size_t>> facets_of(volume.causes.size());
-  for (std::size_t t = 0; t < triangles.size(); ++t) facets_of[stored.cause_of[t]].push_back(t);
   const std::vector<std::string> names = group_names(volume.causes);
   for (std::size_t cause = 0; cause < facets_of.size(); ++cause) {
     if (facets_of[cause].empty()) continue;

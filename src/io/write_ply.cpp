@@ -2,6 +2,7 @@
 #include <limits>
 
 #include "io/rounding_text.h"
+#include "io/volume_statement.h"
 #include "io/write_place.h"
 #include "io/writers.h"
 
@@ -17,6 +18,7 @@ void write_ply(const Volume& volume, const StoredMesh& stored, AtomicFile& file)
   header += place_comment(volume.georeference, "comment ");
   header += "comment vantage tolerance_m " + exact_text(volume.tolerance_m) + "\n";
   header += "comment " + io::rounding_text(stored.rounding_m) + "\n";
+  header += statement_comments(volume, stored.mesh, "comment ");
   for (std::size_t i = 0; i < volume.causes.size(); ++i) {
     const Cause& cause = volume.causes[i];
     header +=

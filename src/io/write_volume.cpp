@@ -5,11 +5,13 @@
 #include <charconv>
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "core/volume_check.h"
+#include "io/volume_statement.h"
 #include "io/write_place.h"
 #include "io/writers.h"
 #include "vantage/error.h"
@@ -89,7 +91,10 @@ StagedVolume stage_volume(const Volume& volume, const std::filesystem::path& fil
   StagedVolume staged;
   staged.report = {stored.rounding_m, stored.mesh.triangles.size(), stored.turned_facets};
   staged.files.push_back(std::move(output));
-  if (auto beside = stage_place({volume.georeference, stored.rounding_m}, file)) {
+  const auto stated = extension == ".stl" ? statement_json(volume, stored.mesh) : std::nullopt;
+  const std::string statement =
+      stated ? stated->dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace) : "";
+  if (auto beside = stage_place({volume.georeference, stored.rounding_m, statement}, file)) {
     staged.files.push_back(std::move(beside));
   }
   return staged;

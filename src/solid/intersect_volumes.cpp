@@ -22,6 +22,10 @@ using solid::Solid;
 
 void add_work(const Volume& part, Volume& result) {
   result.tolerance_m = std::max(result.tolerance_m, part.tolerance_m);
+  if (result.provenance && part.provenance) {
+    const auto& parts = part.provenance->target.parts;
+    result.provenance->target.parts.insert(result.provenance->target.parts.end(), parts.begin(), parts.end());
+  }
   result.lift_m.insert(result.lift_m.end(), part.lift_m.begin(), part.lift_m.end());
   result.counts.candidate_blockers += part.counts.candidate_blockers;
   result.counts.visible_blockers += part.counts.visible_blockers;

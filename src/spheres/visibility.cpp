@@ -119,6 +119,7 @@ Volume compute_visibility(const PreparedTarget& target, const SpheresOptions& op
   volume.frame = target.data().parts[0].given;
   volume.lift_m = {lift_of(target)};
   volume.notes = target.notes();
+  volume.provenance = {VANTAGE_VERSION, "spheres", target.target(), sensor, "", ""};
   volume.frame.origin += volume.frame.normal * volume.lift_m[0];
   volume.counts.scene_polygons = target.scene().data().polygon_count();
   if (target::can_reach(volume.frame, sensor)) {

@@ -1,0 +1,46 @@
+// docs/hashes.md
+#include "vantage/hash.h"
+
+#include "core/sha256.h"
+#include "vantage/error.h"
+
+namespace vantage {
+namespace {
+
+void add_corners(const Mesh& mesh, std::size_t triangle, core::Sha256& hash) {
+  for (const std::uint32_t corner : mesh.triangles[triangle]) {
+    if (corner >= mesh.vertices.size()) {
+      throw Error(ErrorKind::input, "vertex index " + std::to_string(corner) + " is out of range",
+                  "triangle " + std::to_string(triangle), "give indices of the mesh's own vertices");
+    }
+    for (const double coordinate : mesh.vertices[corner]) hash.add(coordinate);
+  }
+}
+
+}  // namespace
+
+std::string scene_hash(const Scene& scene) {
+  const std::vector<Triangle>& triangles = scene.mesh.triangles;
+  if (!scene.object_of.empty() && scene.object_of.size() != triangles.size()) {
+    throw Error(ErrorKind::input, "the scene names objects for another number of triangles", "object_of",
+                "give one object for each triangle, or none");
+  }
+  core::Sha256 hash;
+  hash.add("vantage scene 1\n");
+  hash.add(static_cast<std::uint64_t>(triangles.size()));
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    add_corners(scene.mesh, t, hash);
+    hash.add(scene.object_of.empty() ? std::uint32_t{0} : scene.object_of[t]);
+  }
+  return hash.hex();
+}
+
+std::string volume_hash(const Mesh& mesh) {
+  core::Sha256 hash;
+  hash.add("vantage volume 1\n");
+  hash.add(static_cast<std::uint64_t>(mesh.triangles.size()));
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) add_corners(mesh, t, hash);
+  return hash.hex();
+}
+
+}  // namespace vantage

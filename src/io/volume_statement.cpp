@@ -1,0 +1,140 @@
+#include "io/volume_statement.h"
+
+#include <cmath>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "io/place_file.h"
+#include "vantage/error.h"
+#include "vantage/hash.h"
+
+namespace vantage::io {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::string_view kMark = "vantage volume: ";
+constexpr std::size_t kLine = 160;  // some readers of PLY take no more than a kilobyte
+
+Json json_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+Vec3 vector_of(const Json& json) {
+  const Vec3 v(json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>());
+  if (!v.allFinite() || json.size() != 3) throw std::invalid_argument("a point is not three numbers");
+  return v;
+}
+
+double length_of(const Json& json) {
+  const double value = json.get<double>();
+  if (!(value >= 0) || !std::isfinite(value)) throw std::invalid_argument("a length is negative");
+  return value;
+}
+
+VolumeStatement parse(const Json& json) {
+  VolumeStatement statement;
+  VolumeProvenance& made = statement.provenance;
+  made.version = json.at("version").get<std::string>();
+  made.method = json.at("method").get<std::string>();
+  const Json& target = json.at("target");
+  made.target.name = target.at("name").get<std::string>();
+  made.target.parts.clear();
+  for (const Json& part : target.at("parts")) {
+    std::vector<Vec3>& vertices = made.target.parts.emplace_back();
+    for (const Json& vertex : part) vertices.push_back(vector_of(vertex));
+  }
+  made.target.offset_m = target.at("offset_m").get<double>();
+  if (target.contains("front")) made.target.front = vector_of(target.at("front"));
+  made.sensor.max_range_m = length_of(json.at("max_range_m"));
+  statement.tolerance_m = length_of(json.at("tolerance_m"));
+  for (const Json& lift : json.at("lift_m")) statement.lift_m.push_back(length_of(lift));
+  if (statement.lift_m.size() != made.target.parts.size()) throw std::invalid_argument("not one lift for each part");
+  made.scene_hash = json.value("scene_hash", "");
+  made.mission_hash = json.value("mission_hash", "");
+  statement.volume_hash = json.at("volume_hash").get<std::string>();
+  return statement;
+}
+
+/// The text of the comments that hold a statement; `start` begins each line.
+std::string joined_comments(std::string_view text, std::string_view start) {
+  const std::string mark = std::string(start).append(kMark);
+  std::string joined;
+  for (std::size_t at = text.find(mark); at != std::string_view::npos; at = text.find(mark, at)) {
+    at += mark.size();
+    const std::size_t end = std::min(text.find_first_of("\r\n", at), text.size());
+    joined += text.substr(at, end - at);
+  }
+  return joined;
+}
+
+/// The comments at the head of an OBJ, the header of a PLY, the JSON of a GLB.
+std::string statement_text(const MeshSource& source, const core::ProgressReporter& progress) {
+  const std::string_view bytes = source.bytes();
+  if (bytes.starts_with("ply")) return joined_comments(bytes.substr(0, bytes.find("end_header")), "comment ");
+  if (bytes.starts_with("# vantage ")) return joined_comments(bytes.substr(0, bytes.find("\nv ")), "# ");
+  Json json;
+  if (bytes.starts_with("glTF")) {
+    constexpr std::size_t kJsonAt = 20, kLengthAt = 12;
+    std::uint32_t length = 0;
+    if (bytes.size() < kJsonAt) return {};
+    std::memcpy(&length, bytes.data() + kLengthAt, sizeof length);
+    json = Json::parse(bytes.substr(kJsonAt, length), nullptr, false);
+    if (!json.is_object() || !json.contains("asset") || !json["asset"].is_object()) return {};
+    json = json["asset"].value("extras", Json::object());
+  } else {
+    std::error_code ignored;
+    const std::filesystem::path beside = place_file(source.file());
+    if (!std::filesystem::exists(beside, ignored)) return {};
+    json = Json::parse(read_file_bytes(beside, progress), nullptr, false);
+  }
+  if (!json.is_object() || !json.contains("vantage") || !json["vantage"].is_object()) return {};
+  return json["vantage"].contains("volume") ? json["vantage"]["volume"].dump() : std::string();
+}
+
+}  // namespace
+
+std::optional<Json> statement_json(const Volume& volume, const Mesh& stored) {
+  if (!volume.provenance) return std::nullopt;
+  const VolumeProvenance& made = *volume.provenance;
+  Json target = {{"name", made.target.name}, {"parts", Json::array()}, {"offset_m", made.target.offset_m}};
+  for (const std::vector<Vec3>& part : made.target.parts) {
+    Json vertices = Json::array();
+    for (const Vec3& vertex : part) vertices.push_back(json_of(vertex));
+    target["parts"].push_back(std::move(vertices));
+  }
+  if (made.target.front) target["front"] = json_of(*made.target.front);
+  Json json = {{"version", made.version},           {"method", made.method},
+               {"target", std::move(target)},       {"max_range_m", made.sensor.max_range_m},
+               {"tolerance_m", volume.tolerance_m}, {"lift_m", volume.lift_m}};
+  if (!made.scene_hash.empty()) json["scene_hash"] = made.scene_hash;
+  if (!made.mission_hash.empty()) json["mission_hash"] = made.mission_hash;
+  json["volume_hash"] = volume_hash(stored);
+  return json;
+}
+
+std::string statement_comments(const Volume& volume, const Mesh& stored, const char* start) {
+  const auto json = statement_json(volume, stored);
+  if (!json) return {};
+  const std::string text = json->dump(-1, ' ', true, Json::error_handler_t::replace);
+  std::string lines;
+  for (std::size_t at = 0; at < text.size();) {
+    // No line ends with a blank, which some programs take away.
+    std::size_t length = std::min(kLine, text.size() - at);
+    while (length > 1 && at + length < text.size() && text[at + length - 1] == ' ') --length;
+    lines.append(start).append(kMark).append(text, at, length).append("\n");
+    at += length;
+  }
+  return lines;
+}
+
+std::optional<VolumeStatement> read_statement(const MeshSource& source, const core::ProgressReporter& progress) {
+  const std::string text = statement_text(source, progress);
+  if (text.empty()) return std::nullopt;
+  try {
+    return parse(Json::parse(text));
+  } catch (const std::exception& problem) {
+    throw Error(ErrorKind::input, std::string("what vantage wrote about the volume is garbled: ") + problem.what(),
+                source.file().string(), "write the volume again with \"vantage compute\"");
+  }
+}
+
+}  // namespace vantage::io

@@ -1,0 +1,155 @@
+// What travels in a volume's file: what it was computed for, and its hash.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include "support/scenes.h"
+#include "support/temporary_directory.h"
+#include "vantage/error.h"
+#include "vantage/hash.h"
+#include "vantage/navigation.h"
+#include "vantage/result.h"
+#include "vantage/verify.h"
+
+namespace vantage {
+namespace {
+
+using testing::read_bytes;
+using testing::SceneBuilder;
+using testing::TemporaryDirectory;
+using testing::write_bytes;
+
+Scene yard() {
+  return SceneBuilder()
+      .ground("ground", 60)
+      .box("shed", {4, 4, 0}, {8, 9, 5})
+      .box("tower", {-20, -9, 0}, {-12, -4, 30});
+}
+
+/// Two squares that lie on the ground, and so are raised.
+Target two_squares() {
+  Target target;
+  target.name = "two \"squares\"";
+  target.parts = {{{-2, -2, 0}, {0, -2, 0}, {0, 0, 0}, {-2, 0, 0}}, {{0.5, 0.25, 0}, {2, 0.25, 0}, {2, 2, 0}}};
+  target.front = Vec3(0, 0, 1);
+  return target;
+}
+
+class Provenance : public ::testing::TestWithParam<const char*> {
+ protected:
+  Provenance() {
+    volume_ = compute_volume(PreparedTarget(PreparedScene(scene_), two_squares(), {40}));
+    volume_.provenance->scene_hash = scene_hash(scene_);
+    volume_.provenance->mission_hash = std::string(64, 'a');
+  }
+
+  TemporaryDirectory folder_;
+  Scene scene_ = yard();
+  Volume volume_;
+};
+
+TEST_P(Provenance, TravelsInTheFile) {
+  ASSERT_EQ(volume_.outcome, Outcome::computed) << volume_.reason;
+  const std::filesystem::path file = folder_ / GetParam();
+  write_volume(volume_, file, UpAxis::y, 0.3048);
+  const VolumeFile read = read_volume(file);
+  ASSERT_TRUE(read.volume.provenance.has_value());
+  const VolumeProvenance& made = *read.volume.provenance;
+  EXPECT_EQ(made.version, VANTAGE_VERSION);
+  EXPECT_EQ(made.method, "exact");
+  EXPECT_EQ(made.target.name, two_squares().name);
+  EXPECT_EQ(made.target.parts, two_squares().parts);
+  EXPECT_EQ(made.target.front, two_squares().front);
+  EXPECT_EQ(made.sensor.max_range_m, 40);
+  EXPECT_EQ(made.scene_hash, scene_hash(scene_));
+  EXPECT_EQ(made.mission_hash, std::string(64, 'a'));
+  EXPECT_EQ(read.volume.tolerance_m, volume_.tolerance_m);
+  ASSERT_EQ(read.volume.lift_m.size(), 2U);
+  EXPECT_EQ(read.volume.lift_m, volume_.lift_m);
+  EXPECT_GT(read.volume.lift_m[0], 0);
+}
+
+TEST_P(Provenance, TheHashIsThatOfWhatIsRead) {
+  const std::filesystem::path file = folder_ / GetParam();
+  write_volume(volume_, file, UpAxis::y, 0.3048);
+  const VolumeFile read = read_volume(file);
+  EXPECT_EQ(read.volume_hash.size(), 64U);
+  EXPECT_EQ(volume_hash(read.volume.mesh), read.volume_hash);
+}
+
+TEST_P(Provenance, AMovedFileIsJudgedAlike) {
+  const std::string name = GetParam();
+  write_volume(volume_, folder_ / name);
+  std::filesystem::create_directory(folder_ / "elsewhere");
+  const std::filesystem::path moved = folder_ / "elsewhere" / ("renamed" + name.substr(name.find('.')));
+  std::filesystem::rename(folder_ / name, moved);
+  const std::filesystem::path beside = (folder_ / name).string() + ".place.json";
+  if (std::filesystem::exists(beside)) std::filesystem::rename(beside, moved.string() + ".place.json");
+  const VolumeFile read = read_volume(moved);
+  VerifyOptions options;
+  options.points = 4000;
+  options.lift_m = read.volume.lift_m;
+  options.rounding_m = read.rounding_m;
+  const VerifyReport report = verify_volume(scene_, two_squares(), {40}, {}, read.volume.mesh, options);
+  EXPECT_TRUE(report.is_right()) << report.over_claimed << " over-claimed, because of " << report.worst_over_cause;
+  options.lift_m.clear();
+  EXPECT_GT(verify_volume(scene_, two_squares(), {40}, {}, read.volume.mesh, options).over_claimed, 0U)
+      << "what the file says is needed: the target lies on the ground";
+}
+
+TEST_P(Provenance, AGarbledStatementIsRefused) {
+  const std::filesystem::path file = folder_ / GetParam();
+  write_volume(volume_, file);
+  const bool is_beside = std::string(GetParam()).ends_with(".stl");
+  const std::filesystem::path holder = is_beside ? std::filesystem::path(file.string() + ".place.json") : file;
+  std::string bytes = read_bytes(holder);
+  const std::size_t at = bytes.find("max_range_m");
+  ASSERT_NE(at, std::string::npos);
+  bytes.replace(at, 11, "max_range_x");
+  write_bytes(holder, bytes);
+  try {
+    read_volume(file);
+    ADD_FAILURE() << "not refused";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::input);
+    EXPECT_NE(error.where().find(file.filename().string()), std::string::npos) << error.what();
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Formats, Provenance, ::testing::Values("v.ply", "v.obj", "v.glb", "v.stl"),
+                         [](const auto& parameter) { return std::string(parameter.param).substr(2); });
+
+TEST(ProvenanceOfPly, LinesAreShort) {
+  const TemporaryDirectory folder;
+  Target many;
+  for (int i = 0; i < 60; ++i) many.parts[0].emplace_back(3 * std::cos(0.1 * i), 3 * std::sin(0.1 * i), 0.1);
+  write_volume(compute_visibility(PreparedTarget(PreparedScene(yard()), many, {20})), folder / "v.ply");
+  std::istringstream header(read_bytes(folder / "v.ply"));
+  int lines = 0;
+  for (std::string line; std::getline(header, line) && line != "end_header"; ++lines) EXPECT_LT(line.size(), 256U);
+  EXPECT_GT(lines, 20);
+  EXPECT_EQ(read_volume(folder / "v.ply").volume.provenance->target.parts, many.parts);
+}
+
+TEST(MissionHash, DependsOnWhatIsAskedAlone) {
+  const TemporaryDirectory folder;
+  write_scene(yard(), folder / "yard.obj");
+  const auto hash = [&](const std::string& name, const std::string& more) {
+    write_bytes(folder / name, "# a comment\nscene: {mesh: yard.obj}\n" + more);
+    return mission_hash(resolve_mission(read_mission(folder / name)));
+  };
+  const std::string target = "target: {name: a, vertices: [[0, 0, 1], [1, 0, 1], [0, 1, 1]]}\n";
+  const std::string range = "sensor: {max_range: 30}\n";
+  const std::string plain = hash("one.yaml", target + range);
+  EXPECT_EQ(plain.size(), 64U);
+  EXPECT_EQ(hash("two.yaml", range + "target: {name: b, vertices: [[0, 0, 1.0], [1, 0, 1], [-0, 1, 1]]}\n"), plain);
+  EXPECT_NE(hash("one.yaml", target + "sensor: {max_range: 31}\n"), plain);
+  EXPECT_NE(hash("one.yaml", target + range + "navigation: {altitude: [1, 20]}\n"), plain);
+  EXPECT_NE(hash("one.yaml", target + range + "exact: {tolerance: 0.02}\n"), plain);
+  EXPECT_NE(hash("one.yaml", target + range + "method: spheres\n"), plain);
+}
+
+}  // namespace
+}  // namespace vantage
