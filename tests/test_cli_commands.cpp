@@ -263,6 +263,16 @@ TEST_F(CliVerify, LooksFromWhereTheTargetWasRaisedTo) {
   const auto report = nlohmann::json::parse(output_of({"verify", "low.yaml", "low.ply", "--points", "500", "--json"}));
   EXPECT_NEAR(report.at("lift_m").get<double>(), 0.0015, 2e-6);
   EXPECT_EQ(run({"verify", "low.yaml", "low.ply", "--points", "500", "--lift", "0"}).exit_code, 1);
+  fs::rename(folder_ / "low.ply", folder_ / "renamed.ply");
+  EXPECT_EQ(run({"verify", "low.yaml", "renamed.ply", "--points", "500"}).exit_code, 0) << "the file says it";
+
+  // A file without the statement, as older ones: the report beside it says it.
+  std::string bytes = content(folder_ / "renamed.ply");
+  for (std::size_t at; (at = bytes.find("comment vantage volume: ")) != std::string::npos;) {
+    bytes.erase(at, bytes.find('\n', at) + 1 - at);
+  }
+  write("low.ply", bytes);
+  EXPECT_EQ(run({"verify", "low.yaml", "low.ply", "--points", "500"}).exit_code, 0);
   fs::remove(folder_ / "low.report.json");
   EXPECT_EQ(run({"verify", "low.yaml", "low.ply", "--points", "500"}).exit_code, 1);
   EXPECT_EQ(run({"verify", "low.yaml", "low.ply", "--points", "500", "--lift", "0.001501"}).exit_code, 0);

@@ -78,7 +78,7 @@ TEST(SceneHash, RefusesIndicesOutOfRange) {
 }
 
 TEST(VolumeHash, IsThatOfTheBytesInTheDocument) {
-  EXPECT_EQ(volume_hash(two_triangles().mesh), "4f16b6ad9023c6e35abd495e7cce181250f1187e1df006189427cec08685bf4c");
+  EXPECT_EQ(volume_hash(two_triangles().mesh), "5b3b8d54c522045e7e19e6ed2fbf79b199de1013ef583f201aaad8584862a442");
 }
 
 }  // namespace

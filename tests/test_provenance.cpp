@@ -28,11 +28,13 @@ Scene yard() {
       .box("tower", {-20, -9, 0}, {-12, -4, 30});
 }
 
-/// Two squares that lie on the ground, and so are raised.
+/// The first lies under the ground, by less than surfaces are planar, and so is raised.
 Target two_squares() {
   Target target;
   target.name = "two \"squares\"";
-  target.parts = {{{-2, -2, 0}, {0, -2, 0}, {0, 0, 0}, {-2, 0, 0}}, {{0.5, 0.25, 0}, {2, 0.25, 0}, {2, 2, 0}}};
+  constexpr double kUnder = -0.0015;
+  target.parts = {{{-2, -2, kUnder}, {0, -2, kUnder}, {0, 0, kUnder}, {-2, 0, kUnder}},
+                  {{0.5, 0.25, 0}, {2, 0.25, 0}, {2, 2, 0}}};
   target.front = Vec3(0, 0, 1);
   return target;
 }
@@ -96,7 +98,7 @@ TEST_P(Provenance, AMovedFileIsJudgedAlike) {
   EXPECT_TRUE(report.is_right()) << report.over_claimed << " over-claimed, because of " << report.worst_over_cause;
   options.lift_m.clear();
   EXPECT_GT(verify_volume(scene_, two_squares(), {40}, {}, read.volume.mesh, options).over_claimed, 0U)
-      << "what the file says is needed: the target lies on the ground";
+      << "what the file says is needed";
 }
 
 TEST_P(Provenance, AGarbledStatementIsRefused) {
@@ -116,6 +118,31 @@ TEST_P(Provenance, AGarbledStatementIsRefused) {
     EXPECT_EQ(error.kind(), ErrorKind::input);
     EXPECT_NE(error.where().find(file.filename().string()), std::string::npos) << error.what();
   }
+}
+
+TEST_P(Provenance, ARoundingThatCannotBeIsNotAllowed) {
+  const std::filesystem::path file = folder_ / GetParam();
+  write_volume(volume_, file);
+  const double stated = read_volume(file).rounding_m;
+  const std::filesystem::path holder =
+      std::string(GetParam()).ends_with(".stl") ? std::filesystem::path(file.string() + ".place.json") : file;
+  std::string bytes = read_bytes(holder);
+  std::size_t at = bytes.find("rounding_m");
+  ASSERT_NE(at, std::string::npos);
+  at = bytes.find_first_of("0123456789", at);
+  ASSERT_NE(at, std::string::npos);
+  bytes[at] = '9';  // metres, whatever the rest of the number was
+  const std::size_t end = bytes.find_first_not_of("0123456789", at);
+  for (std::size_t i = end; i < bytes.size() && std::string("0123456789.e-+").find(bytes[i]) != std::string::npos;
+       ++i) {
+    bytes[i] = ' ';
+  }
+  write_bytes(holder, bytes);
+  const VolumeFile read = read_volume(file);
+  EXPECT_LT(read.rounding_m, 1e-3);
+  EXPECT_GE(read.rounding_m, stated);
+  ASSERT_EQ(read.notes.size(), 1U);
+  EXPECT_NE(read.notes[0].find("rounding"), std::string::npos);
 }
 
 INSTANTIATE_TEST_SUITE_P(Formats, Provenance, ::testing::Values("v.ply", "v.obj", "v.glb", "v.stl"),

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "app/input_file.h"
@@ -60,6 +61,22 @@ std::vector<KeepInMesh> placed_navigation_meshes(const std::vector<NavigationMes
 
 using namespace app;
 
+namespace {
+
+/// No rounding to a format's numbers, and no mending of what it left, moves a surface farther: metres. Whoever made a
+/// file may write any number into it.
+double most_rounding(const std::filesystem::path& file, const Mesh& mesh) {
+  constexpr double kSteps = 64;  // of the largest coordinate; a handful is usual
+  const std::string name = file.filename().string();
+  const bool is_single = name.find(".stl") != std::string::npos || name.find(".glb") != std::string::npos ||
+                         name.find(".gltf") != std::string::npos;
+  double largest = 0;
+  for (const Vec3& vertex : mesh.vertices) largest = std::max(largest, vertex.cwiseAbs().maxCoeff());
+  return kSteps * std::ldexp(largest, is_single ? -24 : -53);
+}
+
+}  // namespace
+
 VolumeFile read_volume(const std::filesystem::path& file, const SceneReadOptions& obj,
                        const std::optional<Georeference>& frame, const Progress& progress) {
   Scene read = read_scene(file, is_obj(file) ? obj : SceneReadOptions{}, progress);
@@ -67,6 +84,11 @@ VolumeFile read_volume(const std::filesystem::path& file, const SceneReadOptions
   result.volume.mesh = std::move(read.mesh);
   result.volume.georeference = std::move(read.georeference);
   result.rounding_m = read.rounding_m.value_or(0);
+  if (const double most = most_rounding(file, result.volume.mesh); result.rounding_m > most) {
+    result.notes.push_back(file.string() + " states a rounding of " + shortest(result.rounding_m) +
+                           " m, more than its numbers can be rounded by: " + shortest(most) + " m is allowed");
+    result.rounding_m = most;
+  }
   if (auto stated = io::read_causes(file, result.volume)) {
     result.volume.provenance = std::move(stated->provenance);
     result.volume.tolerance_m = stated->tolerance_m;
