@@ -51,8 +51,8 @@ void add_common_options(CLI::App& command, CommonOptions& options) {
   command.add_option("--threads", options.threads, "Threads to use; 0 (default): as many as the machine has")
       ->check(CLI::Range(0, 1024))
       ->option_text("N");
-  command.add_flag("--progress", options.progress, "Tell each stage on standard error, even if it is no terminal");
-  command.add_flag("-q,--quiet", options.quiet, "Print nothing but errors and results that were asked for");
+  command.add_flag("--progress", options.progress, "Report each stage on standard error, even if it is not a terminal");
+  command.add_flag("-q,--quiet", options.quiet, "Suppress all output except errors and requested results");
 }
 
 int with_threads(const CommonOptions& options, const Command& command) {

@@ -159,7 +159,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_compare(CLI::App& app, Command& chosen) {
-  CLI::App* command = app.add_subcommand("compare", "Say how two closed volumes differ");
+  CLI::App* command = app.add_subcommand("compare", "Measure the difference between two closed volumes");
   auto options = std::make_shared<Options>();
   command->add_option("a", options->file_a, "A closed mesh: PLY, OBJ, STL, glTF or GLB; may be compressed with gzip")
       ->required()

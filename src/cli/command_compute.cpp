@@ -336,14 +336,14 @@ void add_compute(CLI::App& app, Command& chosen) {
       ->option_text("DEVICE");
   command->add_option("--stages", options->stages, "Of the method of spheres: write its steps to this folder")
       ->option_text("FOLDER");
-  command->add_option("--format", options->format, "Of what -o - writes: ply, obj, stl or glb")
+  command->add_option("--format", options->format, "Format for -o -: ply, obj, stl or glb")
       ->check(CLI::IsMember({"ply", "obj", "stl", "glb"}))
       ->option_text("FORMAT");
-  command->add_option("--report", options->report, "Where the report of -o - goes; default: nowhere")
+  command->add_option("--report", options->report, "File for the report of -o -; default: none is written")
       ->option_text("FILE");
-  command->add_flag("--fail-empty", options->fail_empty, "Exit with code 1 where there is no volume");
+  command->add_flag("--fail-empty", options->fail_empty, "Exit with code 1 if there is no volume");
   command->add_flag("--json", options->json, "Print the report instead of a summary");
-  command->add_flag("-v,--verbose", options->verbose, "Print all causes, sizes and times, not five lines");
+  command->add_flag("-v,--verbose", options->verbose, "Print all causes, sizes and times instead of five lines");
   finish<Options>(*command, options, kExamples, chosen, run);
 }
 

@@ -77,7 +77,7 @@ void add_devices(CLI::App& app, Command& chosen) {
   auto options = std::make_shared<Options>();
   command
       ->add_option("--device", options->device,
-                   "Which one is asked for: auto (default), cpu, opengl, gpu, or the number of a device")
+                   "Device to choose: auto (default), cpu, opengl, gpu, or the number of a device")
       ->option_text("DEVICE");
   command->add_flag("--json", options->json, "Print JSON instead of a table");
   finish<Options>(*command, options, kExamples, chosen, run);

@@ -80,7 +80,7 @@ int run(const Options& options) {
 
 void add_inspect(CLI::App& app, Command& chosen) {
   CLI::App* command =
-      app.add_subcommand("inspect", "Show what a mesh, a map or a height raster holds, and what is wrong with it");
+      app.add_subcommand("inspect", "Show what a mesh, a map or a height raster contains, and what is wrong with it");
   auto options = std::make_shared<Options>();
   command
       ->add_option(

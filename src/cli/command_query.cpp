@@ -211,7 +211,8 @@ int run(const Options& options) {
 }  // namespace
 
 void add_query(CLI::App& app, Command& chosen) {
-  CLI::App* command = app.add_subcommand("query", "Say of each point whether it sees the whole target, and why not");
+  CLI::App* command =
+      app.add_subcommand("query", "Test for each point whether the whole target is visible from it, and if not, why");
   auto options = std::make_shared<Options>();
   command->add_option("mission", options->mission_file, "The mission; - for standard input")
       ->required()
@@ -224,9 +225,9 @@ void add_query(CLI::App& app, Command& chosen) {
                    "Write the answers to a file; -, the default, is standard output")
       ->option_text("FILE");
   command->add_flag("--lonlat", options->lonlat, "The points are longitude and latitude in degrees, WGS 84");
-  command->add_option("--z", options->z, "One height for all points, which then have no column z")
+  command->add_option("--z", options->z, "One height for all points; the table then needs no column z")
       ->option_text("METRES");
-  command->add_flag("--json", options->json, "Write a JSON array of objects, one a line");
+  command->add_flag("--json", options->json, "Write a JSON array of objects, one per line");
   finish<Options>(*command, options, kExamples, chosen, run);
 }
 

@@ -134,8 +134,7 @@ void add_render(CLI::App& app, Command& chosen) {
   command->add_option("-o,--output", options->output, "Where to write: .png, or - for standard output")
       ->required()
       ->option_text("FILE");
-  CLI::Option* volume =
-      command->add_option("--volume", options->volume_file, "The volume; computed when it is not given");
+  CLI::Option* volume = command->add_option("--volume", options->volume_file, "The volume; computed if not given");
   volume->option_text("FILE");
   command
       ->add_option("--view", options->view,

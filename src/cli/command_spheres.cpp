@@ -19,7 +19,8 @@ constexpr const char* kExamples =
     "  vantage spheres -c config.yaml\n"
     "  vantage spheres -c config.yaml --sphere conservative --device cpu\n"
     "\n"
-    "Runs a configuration file of the program published with the seed paper: a visibility sphere for each block\n"
+    "Runs a configuration file of the program published with the paper of Willis et al.: a visibility sphere for each "
+    "block\n"
     "visibility_vol, written where its output_file says (.obj in world axes; .ply, .stl, .glb). Paths start from the\n"
     "configuration file. All files are written, or none. The keys: docs/seed-config.md\n";
 
@@ -106,14 +107,15 @@ int run_command(const Options& options) {
 }  // namespace
 
 void add_spheres(CLI::App& app, Command& chosen) {
-  CLI::App* command = app.add_subcommand("spheres", "Run a configuration file of the program of the seed paper");
+  CLI::App* command = app.add_subcommand(
+      "spheres", "Run a configuration file of the program published with the paper of Willis et al.");
   auto options = std::make_shared<Options>();
   command->add_option("-c,--config", options->config_file, "The configuration file")->required()->option_text("FILE");
   command->add_option("--device", options->device, "auto (default), cpu, opengl, gpu, or a number of 'vantage devices'")
       ->option_text("DEVICE");
   command
       ->add_option("--sphere", options->sphere,
-                   "centers (default): joins texel centres, as that program does; conservative: an inner bound")
+                   "centers (default): connect texel centres, like the published program; conservative: an inner bound")
       ->check(CLI::IsMember({"centers", "conservative"}))
       ->option_text("KIND");
   finish<Options>(*command, options, kExamples, chosen, run_command);

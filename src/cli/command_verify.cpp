@@ -172,8 +172,9 @@ void add_verify(CLI::App& app, Command& chosen) {
       ->option_text("N");
   command->add_option("--seed", options->seed, "Seed of the random points (default 1)")->option_text("S");
   command
-      ->add_option("--lift", options->lift_m,
-                   "How far compute raised the target (default: lift_m of the report beside the volume, or 0)")
+      ->add_option(
+          "--lift", options->lift_m,
+          "How far compute raised the target (default: as the volume's file or the report beside it says, or 0)")
       ->check(CLI::Range(0.0, kMostLift))
       ->option_text("METRES");
   command->add_flag("--json", options->json, "Print JSON instead of a table");

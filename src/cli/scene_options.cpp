@@ -122,7 +122,8 @@ SceneSource scene_source(const SceneOptions& options, const std::string& what) {
 void add_scene_options(CLI::App& command, SceneOptions& options) {
   command.add_option("--center", options.center, "Centre of the area, degrees (WGS 84); with --radius")
       ->option_text("LAT,LON");
-  command.add_option("--radius", options.radius, "Of the area; what reaches into it is built, whole")
+  command
+      .add_option("--radius", options.radius, "Radius of the area; an object that is partly inside is built completely")
       ->option_text("METRES");
   command.add_option("--bbox", options.bbox, "The area as a box, degrees")->option_text("W,S,E,N");
   command.add_option("--window", options.window, "Part of a raster, in posts")->option_text("COLUMN,ROW,COLUMNS,ROWS");
@@ -131,9 +132,9 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
   command
       .add_option(
           "--error", options.error,
-          "How far the ground may differ from the raster at its posts, vertically (0.5; of a raster alone 0.25)")
+          "Largest vertical difference of the ground from the raster at its posts (0.5; of a raster alone 0.25)")
       ->option_text("METRES");
-  command.add_option("--set", options.settings, "A default for what the map does not say, see docs/scene.md")
+  command.add_option("--set", options.settings, "A value to use where the map has no tag, see docs/scene.md")
       ->allow_extra_args(false)
       ->option_text("NAME=VALUE");
   command.add_option("--without", options.without, "Leave out walls, towers, bridges or trees")

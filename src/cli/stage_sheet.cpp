@@ -8,8 +8,6 @@
 namespace vantage::cli {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr std::size_t kMostSteps = 12;  // of each kind: more is told, not drawn
 constexpr int kColumns = 4;
 
