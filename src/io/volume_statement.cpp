@@ -19,7 +19,7 @@ constexpr std::size_t kLine = 160;  // some readers of PLY take no more than a k
 Json json_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 Vec3 vector_of(const Json& json) {
-  const Vec3 v(json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>());
+  Vec3 v(json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>());
   if (!v.allFinite() || json.size() != 3) throw std::invalid_argument("a point is not three numbers");
   return v;
 }
