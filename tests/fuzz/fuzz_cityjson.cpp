@@ -2,10 +2,10 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace vantage::io;
-  const auto with_lod = [](const MeshSource& source, const auto& progress, const core::ReadLimits& limits) {
+  const auto with_lod = [](const MeshSource& source, const auto& progress, const vantage::core::ReadLimits& limits) {
     return read_cityjson(source, progress, limits, "1");
   };
-  const auto without = [](const MeshSource& source, const auto& progress, const core::ReadLimits& limits) {
+  const auto without = [](const MeshSource& source, const auto& progress, const vantage::core::ReadLimits& limits) {
     return read_cityjson(source, progress, limits);
   };
   vantage::fuzzing::read(without, "/nowhere/fuzz.city.json", data, size);

@@ -15,16 +15,17 @@ void require(bool holds) {
   if (!holds) std::abort();
 }
 
-void check_accepted(const vantage::app::ParsedMission& parsed) {
-  const vantage::Mission& mission = parsed.mission;
+void check_accepted(const vantage::MissionFile& mission) {
   require(mission.scene.file.is_absolute());
-  const std::size_t corners = mission.target.vertices.size();
-  if (mission.ground_target) {
-    require(corners == 0);  // the scene says where it lies
-  } else if (mission.crs.empty()) {
-    require(corners == 1 || (corners >= 3 && corners <= 64));
+  require(!mission.target.parts.empty());
+  for (const std::vector<vantage::Vec3>& part : mission.target.parts) {
+    if (mission.ground_target) {
+      require(part.empty());  // the scene says where it lies
+    } else if (mission.crs.empty()) {
+      require(part.size() == 1 || (part.size() >= 3 && part.size() <= 64));
+    }
+    for (const vantage::Vec3& vertex : part) require(vertex.allFinite());
   }
-  for (const vantage::Vec3& vertex : mission.target.vertices) require(vertex.allFinite());
   require(std::isfinite(mission.sensor.max_range_m) && mission.sensor.max_range_m > 0);
   require(std::isfinite(mission.exact.tolerance_m) && mission.exact.tolerance_m > 0);
   require(mission.scene.mesh.scale > 0);
