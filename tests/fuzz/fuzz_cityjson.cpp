@@ -2,12 +2,12 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace vantage::io;
-  const auto with_lod = [](const MeshSource& source, const auto& progress, const vantage::core::ReadLimits& limits) {
+  const auto with_lod = [](const MeshSource& source, const vantage::core::ProgressReporter& progress,
+                           const vantage::core::ReadLimits& limits) {
     return read_cityjson(source, progress, limits, "1");
   };
-  const auto without = [](const MeshSource& source, const auto& progress, const vantage::core::ReadLimits& limits) {
-    return read_cityjson(source, progress, limits);
-  };
+  const auto without = [](const MeshSource& source, const vantage::core::ProgressReporter& progress,
+                          const vantage::core::ReadLimits& limits) { return read_cityjson(source, progress, limits); };
   vantage::fuzzing::read(without, "/nowhere/fuzz.city.json", data, size);
   vantage::fuzzing::read(with_lod, "/nowhere/fuzz.city.json", data, size);
   return 0;
