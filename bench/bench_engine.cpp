@@ -15,6 +15,7 @@
 #include "core/parallel.h"
 #include "core/progress_reporter.h"
 #include "support/cities.h"
+#include "support/internals.h"
 #include "support/memory.h"
 #include "support/plain_union.h"
 #include "vantage/error.h"

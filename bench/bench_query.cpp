@@ -8,6 +8,7 @@
 
 #include "core/parallel.h"
 #include "support/cities.h"
+#include "support/internals.h"
 #include "vantage/query.h"
 
 namespace vantage::bench {

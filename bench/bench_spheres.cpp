@@ -12,6 +12,7 @@
 
 #include "depth/depth.h"
 #include "support/cities.h"
+#include "support/internals.h"
 #include "vantage/error.h"
 #include "vantage/spheres.h"
 

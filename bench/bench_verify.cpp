@@ -44,9 +44,9 @@ void shadow_rays(benchmark::State& state, const City& city) {
   const auto file = vantage::testing::shared_data(city.file);
   if (!std::filesystem::exists(file)) return state.SkipWithError("the scene is absent: set VANTAGE_SHARED");
   const Scene scene = vantage::read_scene(file, {city.up, 1.0});
-  const vantage::verify::TargetView view(square(city.target));
-  const vantage::verify::Occluders occluders(scene, view, city.range);
-  vantage::verify::Random random(1, 0);
+  const vantage::internal::verify::TargetView view(square(city.target));
+  const vantage::internal::verify::Occluders occluders(scene, view, city.range);
+  vantage::internal::verify::Random random(1, 0);
   std::vector<std::pair<Vec3, Vec3>> rays;
   while (rays.size() < 100000) {
     const Vec3 cube(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform());

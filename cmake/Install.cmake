@@ -3,9 +3,13 @@ include(CMakePackageConfigHelpers)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/vantage)
 
-install(TARGETS vantage EXPORT vantage-targets
+list(TRANSFORM VANTAGE_BUILT_COMPONENTS PREPEND vantage_ OUTPUT_VARIABLE libraries)
+install(TARGETS vantage ${libraries} EXPORT vantage-targets
         LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
+        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
         INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+# They lie side by side, wherever that is.
+set_target_properties(${libraries} PROPERTIES INSTALL_RPATH "$ORIGIN")
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/vantage DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
         FILES_MATCHING PATTERN "*.h")
 if(TARGET vantage_cli)
@@ -36,6 +40,14 @@ if(TARGET vantage_cli)
 endif()
 
 install(EXPORT vantage-targets NAMESPACE vantage:: DESTINATION ${package_dir})
+set(VANTAGE_SHARED ${BUILD_SHARED_LIBS})
+if(NOT VANTAGE_SHARED)
+  set(VANTAGE_SHARED OFF)
+endif()
+set(VANTAGE_INSTALLED_MANIFOLD_USED OFF)
+if(VANTAGE_WITH_SOLID AND VANTAGE_INSTALLED_MANIFOLD)
+  set(VANTAGE_INSTALLED_MANIFOLD_USED ON)
+endif()
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/vantage-config.cmake.in
                               ${CMAKE_CURRENT_BINARY_DIR}/vantage-config.cmake INSTALL_DESTINATION ${package_dir})
 write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/vantage-config-version.cmake
@@ -48,7 +60,7 @@ install(FILES ${CMAKE_CURRENT_BINARY_DIR}/vantage-config.cmake ${CMAKE_CURRENT_B
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/THIRD-PARTY-NOTICES.txt
         DESTINATION ${CMAKE_INSTALL_DOCDIR})
 set(licences "cdt/LICENSE=CDT" "cdt/LICENSE-predicates.txt=CDT-predicates" "cdt/LICENSE-LLVM.txt=CDT-LLVM")
-if(NOT VANTAGE_INSTALLED_MANIFOLD)  # else it is linked from where it is installed
+if(VANTAGE_WITH_SOLID AND NOT VANTAGE_INSTALLED_MANIFOLD)  # else it is linked from where it is installed
   list(APPEND licences "manifold/LICENSE=Manifold")
 endif()
 foreach(licence IN LISTS licences)

@@ -37,6 +37,7 @@ class NotIn(NamedTuple):
 # src/ ("scene/prepared_data.h"), never by ../. What a module may include comes before it: there are no circles.
 MODULES = {
     "core": [],
+    "options": ["core"],
     "geo": ["core"],
     "io": ["core", "geo"],
     "scene": ["core"],
@@ -45,13 +46,16 @@ MODULES = {
     "exact": ["core", "scene", "target"],
     "query": ["core", "scene", "target", "exact"],
     "depth": ["core", "scene"],
-    "spheres": ["core", "scene", "target", "solid", "depth"],
+    "spheres": ["core", "options", "scene", "target", "solid", "depth"],
     "picture": ["core", "depth"],
     "verify": [],
     "maps/osm": ["core", "geo"],
     "maps/terrain": ["core", "geo"],
     "maps/city": ["core", "geo", "solid", "maps/osm", "maps/terrain"],
-    "app": ["core", "geo", "io", "scene", "target", "solid", "depth", "spheres", "maps/osm", "maps/terrain", "maps/city"],
+    "app": ["core", "options", "geo", "io", "scene", "target", "app/components"],
+    # What may be missing from a build: each file here has a counterpart without_<component>.cpp.
+    "app/components": ["core", "geo", "io", "scene", "app", "solid", "depth", "spheres",
+                       "maps/osm", "maps/terrain", "maps/city"],
     "cli": [],  # the program stands on the public API
 }
 # The check shares no geometry code with what it checks: of the core it has threads and progress alone.

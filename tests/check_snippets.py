@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Compiles and runs the snippets of the documents: README.md, CONTRIBUTING.md and docs/.
 
-    check_snippets.py --program build/bin/vantage [--library FILE --compiler C++ --include FOLDER...] [ROOT] [FILE...]
+    check_snippets.py --program build/bin/vantage [--library FILE... --compiler C++ --include FOLDER...] [ROOT] [FILE...]
     check_snippets.py --self-test
 
 Each fenced block has a language:
@@ -10,7 +10,7 @@ Each fenced block has a language:
           share the folder. `vantage` and `build/bin/vantage` are the program that was built. It must end with code 0.
 - cpp     is compiled against the public headers. A block with main() is linked and run in the folder examples/plaza.
 - python  runs in the same folder as sh.
-- yaml, text, json, csv   are not run.
+- yaml, text, json, csv, cmake   are not run.
 
 A comment on the line before the block says what is different:
 
@@ -38,7 +38,7 @@ from typing import NamedTuple
 FENCE = re.compile(r"^(\s*)```(\w*)\s*$")
 MARK = re.compile(r"^\s*<!-- snippet: (.*?) -->\s*$")
 INDENTED_COMMAND = re.compile(r"^    (?:\S*/)?vantage [a-z-]|^    python3 ")
-LANGUAGES = {"sh", "cpp", "python", "yaml", "text", "json", "csv"}
+LANGUAGES = {"sh", "cpp", "python", "yaml", "text", "json", "csv", "cmake"}
 MARKS = {"sh": r"not run: \S.*|exit \d+", "cpp": r"not run: \S.*|fragment", "python": r"not run: \S.*",
          "yaml": r"mission in \S+|mission keys|configuration keys"}
 # What a part of a mission lacks.
@@ -57,7 +57,7 @@ class Snippet(NamedTuple):
 
 class Tools(NamedTuple):
     program: pathlib.Path | None = None
-    library: pathlib.Path | None = None
+    libraries: tuple[pathlib.Path, ...] = ()
     compiler: str = "c++"
     includes: tuple[str, ...] = ()
 
@@ -173,11 +173,12 @@ class Checker:
         source.write_text(text, encoding="utf-8")
         command = [self.tools.compiler, "-std=c++20", str(source), f"-I{self.root / 'include'}"]
         command += [f"-isystem{include}" for include in self.tools.includes]
-        is_program = re.search(r"\bint main\(", text) and self.tools.library
+        is_program = re.search(r"\bint main\(", text) and self.tools.libraries
         if not is_program:
             code, output = run([*command, "-fsyntax-only"], folder, self.environment)
             return "" if code == 0 else f"does not compile\n{output}"
-        command += ["-o", str(folder / "snippet"), str(self.tools.library), f"-Wl,-rpath,{self.tools.library.parent}"]
+        command += ["-o", str(folder / "snippet"), *map(str, self.tools.libraries)]
+        command += [f"-Wl,-rpath,{place}" for place in sorted({library.parent for library in self.tools.libraries})]
         code, output = run(command, folder, self.environment)
         if code != 0:
             return f"does not compile\n{output}"
@@ -256,12 +257,12 @@ def main() -> int:
     parser.add_argument("root", nargs="?", type=pathlib.Path, default=pathlib.Path(__file__).parent.parent)
     parser.add_argument("files", nargs="*", help="documents, as paths from ROOT; default: all")
     parser.add_argument("--program", type=pathlib.Path)
-    parser.add_argument("--library", type=pathlib.Path)
+    parser.add_argument("--library", type=pathlib.Path, action="append", default=[])
     parser.add_argument("--compiler", default="c++")
     parser.add_argument("--include", action="append", default=[])
     parser.add_argument("--self-test", action="store_true")
     arguments = parser.parse_args()
-    tools = Tools(arguments.program and arguments.program.resolve(), arguments.library and arguments.library.resolve(),
+    tools = Tools(arguments.program and arguments.program.resolve(), tuple(file.resolve() for file in arguments.library),
                   arguments.compiler, tuple(filter(None, arguments.include)))
     if arguments.self_test:
         problems = self_test(tools)

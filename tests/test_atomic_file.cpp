@@ -18,7 +18,7 @@
 #include "vantage/error.h"
 #include "vantage/volume.h"
 
-namespace vantage::core {
+namespace vantage::internal::core {
 namespace {
 
 using vantage::testing::read_bytes;
@@ -229,4 +229,4 @@ TEST(AtomicFile, AFullDiskLeavesTheOldFile) {
 }
 
 }  // namespace
-}  // namespace vantage::core
+}  // namespace vantage::internal::core

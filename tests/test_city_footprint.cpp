@@ -10,7 +10,7 @@
 #include "support/random.h"
 #include "support/rings.h"
 
-namespace vantage::city {
+namespace vantage::internal::city {
 namespace {
 
 using testing::inside;
@@ -249,4 +249,4 @@ TEST(CityFootprint, RandomTangles) {
 }
 
 }  // namespace
-}  // namespace vantage::city
+}  // namespace vantage::internal::city

@@ -7,7 +7,7 @@
 #include "maps/city/building_form.h"
 #include "support/random.h"
 
-namespace vantage::city {
+namespace vantage::internal::city {
 namespace {
 
 using vantage::testing::Random;
@@ -248,4 +248,4 @@ TEST(CityForm, RandomTagsAlwaysMakeAForm) {
 }
 
 }  // namespace
-}  // namespace vantage::city
+}  // namespace vantage::internal::city

@@ -11,7 +11,7 @@
 #include "support/random.h"
 #include "vantage/error.h"
 
-namespace vantage::city {
+namespace vantage::internal::city {
 namespace {
 
 using vantage::testing::Random;
@@ -207,4 +207,4 @@ TEST(CityOccluders, RandomTagsAndLines) {
 }
 
 }  // namespace
-}  // namespace vantage::city
+}  // namespace vantage::internal::city

@@ -17,7 +17,7 @@
 #include "support/rings.h"
 #include "vantage/error.h"
 
-namespace vantage::city {
+namespace vantage::internal::city {
 namespace {
 
 using testing::inside;
@@ -445,4 +445,4 @@ TEST(CitySolid, NearlyDegenerateOutlines) {
 }
 
 }  // namespace
-}  // namespace vantage::city
+}  // namespace vantage::internal::city

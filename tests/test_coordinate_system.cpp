@@ -11,7 +11,7 @@
 #include "support/temporary_directory.h"
 #include "vantage/error.h"
 
-namespace vantage::geo {
+namespace vantage::internal::geo {
 namespace {
 
 /// Points of the self-test of RDNAPTRANS 2008, the transformation of the Dutch mapping agency.
@@ -175,4 +175,4 @@ TEST(CoordinateSystem, SaysWhenTheDatabaseIsMissing) {
 }
 
 }  // namespace
-}  // namespace vantage::geo
+}  // namespace vantage::internal::geo

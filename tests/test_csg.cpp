@@ -12,7 +12,7 @@
 #include "vantage/error.h"
 #include "vantage/volume.h"
 
-namespace vantage::solid {
+namespace vantage::internal::solid {
 namespace {
 
 using vantage::testing::first_open_edge;
@@ -215,4 +215,4 @@ TEST(Csg, AsksAndMayBeStopped) {
 }
 
 }  // namespace
-}  // namespace vantage::solid
+}  // namespace vantage::internal::solid

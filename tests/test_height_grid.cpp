@@ -21,7 +21,7 @@
 #include "support/temporary_directory.h"
 #include "vantage/error.h"
 
-namespace vantage::terrain {
+namespace vantage::internal::terrain {
 namespace {
 
 using testing::make_raster;
@@ -497,4 +497,4 @@ TEST(HeightGrid, ReadsLidarRasters) {
 }
 
 }  // namespace
-}  // namespace vantage::terrain
+}  // namespace vantage::internal::terrain

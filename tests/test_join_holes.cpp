@@ -10,7 +10,7 @@
 #include "io/triangulate_polygon.h"
 #include "support/random.h"
 
-namespace vantage::io {
+namespace vantage::internal::io {
 namespace {
 
 using Ring = std::vector<Vec3>;
@@ -133,4 +133,4 @@ TEST(JoinHoles, CoversRandomPolygonsInSpace) {
 }
 
 }  // namespace
-}  // namespace vantage::io
+}  // namespace vantage::internal::io

@@ -16,7 +16,7 @@
 #include "support/random.h"
 #include "vantage/error.h"
 
-namespace vantage::geo {
+namespace vantage::internal::geo {
 namespace {
 
 constexpr double kRadiusM = 2000;
@@ -174,4 +174,4 @@ TEST(LocalFrame, RefusesWhatIsNoPlace) {
 }
 
 }  // namespace
-}  // namespace vantage::geo
+}  // namespace vantage::internal::geo

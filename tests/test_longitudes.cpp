@@ -8,7 +8,7 @@
 #include "geo/longitudes.h"
 #include "support/random.h"
 
-namespace vantage::geo {
+namespace vantage::internal::geo {
 namespace {
 
 LongitudeRange range_of(const std::vector<double>& longitudes) {
@@ -68,4 +68,4 @@ TEST(Longitudes, RangesMeetAcrossTheAntimeridian) {
 }
 
 }  // namespace
-}  // namespace vantage::geo
+}  // namespace vantage::internal::geo

@@ -17,7 +17,7 @@
 #include "support/osm_maps.h"
 #include "support/shared_data.h"
 
-namespace vantage::osm {
+namespace vantage::internal::osm {
 namespace {
 
 using testing::read_bytes;
@@ -238,4 +238,4 @@ TEST(OsmGrid, EveryWayIsTheLineItShouldBe) {
 }
 
 }  // namespace
-}  // namespace vantage::osm
+}  // namespace vantage::internal::osm

@@ -8,7 +8,7 @@
 #include "support/osm_maps.h"
 #include "support/shared_data.h"
 
-namespace vantage::osm {
+namespace vantage::internal::osm {
 namespace {
 
 using testing::doubled_area;
@@ -341,4 +341,4 @@ TEST(OsmFixtures, HolesOfMultipolygonsAreHoles) {
 }
 
 }  // namespace
-}  // namespace vantage::osm
+}  // namespace vantage::internal::osm

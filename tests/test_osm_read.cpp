@@ -8,7 +8,7 @@
 #include "support/osm_maps.h"
 #include "support/shared_data.h"
 
-namespace vantage::osm {
+namespace vantage::internal::osm {
 namespace {
 
 using testing::expect_map_error;
@@ -223,4 +223,4 @@ TEST(OsmRead, NamesObjects) {
 }
 
 }  // namespace
-}  // namespace vantage::osm
+}  // namespace vantage::internal::osm

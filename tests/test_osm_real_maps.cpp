@@ -16,7 +16,7 @@
 #include "support/osm_maps.h"
 #include "support/shared_data.h"
 
-namespace vantage::osm {
+namespace vantage::internal::osm {
 namespace {
 
 using nlohmann::json;
@@ -295,4 +295,4 @@ TEST(HeavyOsmRealMaps, ASmallPartIsReadFaster) {
 }
 
 }  // namespace
-}  // namespace vantage::osm
+}  // namespace vantage::internal::osm

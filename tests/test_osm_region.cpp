@@ -13,7 +13,7 @@
 #include "support/osm_maps.h"
 #include "support/shared_data.h"
 
-namespace vantage::osm {
+namespace vantage::internal::osm {
 namespace {
 
 using testing::extract_of;
@@ -232,4 +232,4 @@ TEST(OsmRegion, PartAndRestMakeTheWholeMap) {
 }
 
 }  // namespace
-}  // namespace vantage::osm
+}  // namespace vantage::internal::osm

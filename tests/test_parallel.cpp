@@ -9,7 +9,7 @@
 
 #include "core/parallel.h"
 
-namespace vantage::parallel {
+namespace vantage::internal::parallel {
 namespace {
 
 /// The threads that a loop with plenty of work for many runs on.
@@ -69,4 +69,4 @@ TEST(Parallel, ThrowsOnWhatEitherThrowsWhenTheWorkIsDone) {
 }
 
 }  // namespace
-}  // namespace vantage::parallel
+}  // namespace vantage::internal::parallel

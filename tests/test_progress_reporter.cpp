@@ -12,7 +12,7 @@
 #include "support/progress_check.h"
 #include "vantage/error.h"
 
-namespace vantage::core {
+namespace vantage::internal::core {
 namespace {
 
 struct Told {
@@ -164,4 +164,4 @@ TEST(ProgressReporter, ANoEndsALoopOnAllThreads) {
 }
 
 }  // namespace
-}  // namespace vantage::core
+}  // namespace vantage::internal::core

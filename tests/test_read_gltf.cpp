@@ -7,7 +7,7 @@
 #include "support/objects.h"
 #include "support/temporary_directory.h"
 
-namespace vantage::io {
+namespace vantage::internal::io {
 namespace {
 
 using nlohmann::json;
@@ -311,4 +311,4 @@ TEST(ReadGltf, ReadsManyNestedNodesInLinearTime) {
 }
 
 }  // namespace
-}  // namespace vantage::io
+}  // namespace vantage::internal::io

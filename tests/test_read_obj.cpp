@@ -3,7 +3,7 @@
 #include "support/mesh_reading.h"
 #include "support/objects.h"
 
-namespace vantage::io {
+namespace vantage::internal::io {
 namespace {
 
 using testing::expect_input_error;
@@ -157,4 +157,4 @@ TEST(ReadObj, RefusesPolygonsWithTooManyCorners) {
 }
 
 }  // namespace
-}  // namespace vantage::io
+}  // namespace vantage::internal::io

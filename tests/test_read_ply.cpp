@@ -6,7 +6,7 @@
 #include "support/mesh_reading.h"
 #include "support/objects.h"
 
-namespace vantage::io {
+namespace vantage::internal::io {
 namespace {
 
 using testing::bytes_of;
@@ -179,4 +179,4 @@ TEST(ReadPly, PassesOverElementsWithoutProperties) {
 }
 
 }  // namespace
-}  // namespace vantage::io
+}  // namespace vantage::internal::io

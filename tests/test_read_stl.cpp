@@ -5,7 +5,7 @@
 #include "support/mesh_reading.h"
 #include "support/objects.h"
 
-namespace vantage::io {
+namespace vantage::internal::io {
 namespace {
 
 using testing::bytes_of;
@@ -73,4 +73,4 @@ TEST(ReadStl, NamesThePlaceOfWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace vantage::io
+}  // namespace vantage::internal::io

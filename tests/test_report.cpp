@@ -7,7 +7,7 @@
 #include "support/solids.h"
 #include "vantage/result.h"
 
-namespace vantage::app {
+namespace vantage::internal::app {
 namespace {
 
 using nlohmann::json;
@@ -86,4 +86,4 @@ TEST(Report, SurvivesNamesThatAreNotUtf8) {
 }
 
 }  // namespace
-}  // namespace vantage::app
+}  // namespace vantage::internal::app

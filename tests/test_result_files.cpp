@@ -12,7 +12,7 @@
 #include "vantage/error.h"
 #include "vantage/result.h"
 
-namespace vantage::app {
+namespace vantage::internal::app {
 namespace {
 
 using vantage::testing::make_hemisphere;
@@ -138,4 +138,4 @@ TEST(ResultFiles, WithoutAVolumeOnlyReportsAreWritten) {
 }
 
 }  // namespace
-}  // namespace vantage::app
+}  // namespace vantage::internal::app

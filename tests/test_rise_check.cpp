@@ -12,7 +12,7 @@
 #include "support/random.h"
 #include "support/scenes.h"
 
-namespace vantage::exact {
+namespace vantage::internal::exact {
 namespace {
 
 using testing::Random;
@@ -105,4 +105,4 @@ TEST_F(RiseOverFacets, IsCloseToWhatIsSeen) {
 }
 
 }  // namespace
-}  // namespace vantage::exact
+}  // namespace vantage::internal::exact

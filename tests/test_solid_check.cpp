@@ -15,7 +15,7 @@
 #include "support/solids.h"
 #include "vantage/error.h"
 
-namespace vantage::solid {
+namespace vantage::internal::solid {
 namespace {
 
 using vantage::testing::append;
@@ -290,4 +290,4 @@ TEST(TriangleTree, WindingNumbersOfADome) {
 }
 
 }  // namespace
-}  // namespace vantage::solid
+}  // namespace vantage::internal::solid

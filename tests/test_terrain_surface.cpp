@@ -17,7 +17,7 @@
 #include "support/tiling.h"
 #include "vantage/error.h"
 
-namespace vantage::terrain {
+namespace vantage::internal::terrain {
 namespace {
 
 using testing::make_raster;
@@ -332,4 +332,4 @@ TEST(HeavyTriangulate, AMillionPostsInSeconds) {
 }
 
 }  // namespace
-}  // namespace vantage::terrain
+}  // namespace vantage::internal::terrain

@@ -11,7 +11,7 @@
 #include "support/random.h"
 #include "support/tiling.h"
 
-namespace vantage::terrain {
+namespace vantage::internal::terrain {
 namespace {
 
 /// No vertex lies inside the circle round a triangle, beyond rounding.
@@ -226,4 +226,4 @@ TEST(Tin, FoldingKeepsTheErrorAndTheNetwork) {
 }
 
 }  // namespace
-}  // namespace vantage::terrain
+}  // namespace vantage::internal::terrain

@@ -9,7 +9,7 @@
 
 #include "io/triangulate_polygon.h"
 
-namespace vantage::io {
+namespace vantage::internal::io {
 namespace {
 
 using Indices = std::vector<std::array<std::uint32_t, 3>>;
@@ -168,4 +168,4 @@ TEST(TriangulatePolygon, EndsInBoundedTime) {
 }
 
 }  // namespace
-}  // namespace vantage::io
+}  // namespace vantage::internal::io

@@ -13,7 +13,7 @@
 #include "verify/occluders.h"
 #include "verify/target_view.h"
 
-namespace vantage::verify {
+namespace vantage::internal::verify {
 namespace {
 
 using testing::Oracle;
@@ -135,4 +135,4 @@ TEST(HeavyVerify, AimedRaysFindWhatRandomRaysFind) {
 }
 
 }  // namespace
-}  // namespace vantage::verify
+}  // namespace vantage::internal::verify

@@ -18,7 +18,7 @@
 #include "verify/view_pyramid.h"
 #include "verify/viewpoints.h"
 
-namespace vantage::verify {
+namespace vantage::internal::verify {
 namespace {
 
 using testing::append;
@@ -353,4 +353,4 @@ TEST(VerifyViewpoints, AreUniformInsideAndCoverEveryFacet) {
 }
 
 }  // namespace
-}  // namespace vantage::verify
+}  // namespace vantage::internal::verify

@@ -5,7 +5,7 @@
 #include "core/weld.h"
 #include "support/solids.h"
 
-namespace vantage::core {
+namespace vantage::internal::core {
 namespace {
 
 /// Every triangle with corners of its own, as in STL.
@@ -49,4 +49,4 @@ TEST(Weld, DropsTrianglesWithTwoCornersInOnePlace) {
 }
 
 }  // namespace
-}  // namespace vantage::core
+}  // namespace vantage::internal::core

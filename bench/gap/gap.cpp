@@ -15,6 +15,7 @@
 
 #include "solid/csg.h"
 #include "support/cities.h"
+#include "support/internals.h"
 #include "vantage/error.h"
 #include "vantage/spheres.h"
 #include "vantage/volume.h"

@@ -1,4 +1,5 @@
 #include "support/plain_union.h"
+#include "support/internals.h"
 
 #include <manifold/manifold.h>
 

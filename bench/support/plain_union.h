@@ -3,6 +3,7 @@
 
 #include "core/progress_reporter.h"
 #include "solid/csg.h"
+#include "support/internals.h"
 #include "vantage/scene.h"
 #include "vantage/target.h"
 

@@ -8,12 +8,14 @@
 #include <string_view>
 #include <vector>
 
+#include "vantage/export.h"
+
 namespace vantage {
 
 /// Collects what is written in a temporary file beside the target; commit() puts it in the target's place in one step.
 /// When anything fails, or commit() is never called, the target stays as it was and the temporary file is removed.
 /// A target that is a symbolic link is followed; an existing file's permissions are kept.
-class AtomicFile {
+class VANTAGE_API AtomicFile {
  public:
   /// Throws Error(input) for a directory, Error(output) for a missing directory, a target that is a device, a pipe or a
   /// socket, or a place where no file can be made.
@@ -52,9 +54,9 @@ class AtomicFile {
 /// cannot be put there, those before it are taken back. Old files are kept under a second name meanwhile: on a file
 /// system without hard links those already replaced stay so, and the error names them. Call once, last; the files must
 /// differ. Throws Error(output).
-void commit_all(const std::vector<std::unique_ptr<AtomicFile>>& files);
+VANTAGE_API void commit_all(const std::vector<std::unique_ptr<AtomicFile>>& files);
 
 /// Writes `bytes` to `file` as AtomicFile does.
-void write_whole_file(const std::filesystem::path& file, std::string_view bytes);
+VANTAGE_API void write_whole_file(const std::filesystem::path& file, std::string_view bytes);
 
 }  // namespace vantage

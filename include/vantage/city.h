@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "vantage/export.h"
 #include "vantage/georeference.h"
 #include "vantage/progress.h"
 #include "vantage/scene.h"
@@ -111,21 +112,21 @@ struct CitySetting {
 };
 
 /// Those that are single numbers.
-const std::vector<CitySetting>& city_settings();
+VANTAGE_API const std::vector<CitySetting>& city_settings();
 
 /// `name`: one of `city_settings()`, or one of a kind: "levels.KIND" (storeys of building=KIND), "wall.KIND" (height of
 /// barrier=KIND), "tower.KIND" (height of man_made=KIND or tower:type=KIND), "way.KIND" (width of a bridge that carries
 /// highway=KIND). Throws Error(input) for an unknown name and a value out of range, with `where`.
-void set_city_option(CityOptions& options, const std::string& name, double value, const std::string& where);
+VANTAGE_API void set_city_option(CityOptions& options, const std::string& name, double value, const std::string& where);
 
 /// Switches off "walls", "towers", "bridges" or "trees". Throws Error(input) for another word.
-void leave_out(Occluders& occluders, const std::string& kind, const std::string& where);
+VANTAGE_API void leave_out(Occluders& occluders, const std::string& kind, const std::string& where);
 
 /// What became of an object that was read and wanted.
 enum class Fate { written, repaired, open_surface, skipped };
 
 /// "written", "repaired", "open_surface", "skipped".
-const char* name_of(Fate fate);
+VANTAGE_API const char* name_of(Fate fate);
 
 struct CityRecord {
   SceneObject object;  ///< `source_id`: "way/265517"; `name`: its name tag; `kind`: building to tree
@@ -155,10 +156,11 @@ struct CityTally {
 };
 
 /// By name_of(ObjectKind).
-std::map<std::string, CityTally> tally_by_kind(const CityReport& report);
+VANTAGE_API std::map<std::string, CityTally> tally_by_kind(const CityReport& report);
 
 /// Of what was not simply written, by fate and reason: how many, and the `source_id` of the first.
-std::map<std::pair<Fate, std::string>, std::pair<std::size_t, std::string>> reasons(const CityReport& report);
+VANTAGE_API std::map<std::pair<Fate, std::string>, std::pair<std::size_t, std::string>> reasons(
+    const CityReport& report);
 
 struct City {
   Scene scene;  ///< one object per solid: that of its record; the ground is the last one, of ObjectKind::ground
@@ -169,6 +171,7 @@ struct City {
 /// all that reading refuses; a region without an area, out of range, or outside the file (says its bounds, and when
 /// latitude and longitude are the wrong way round); nothing to build in it (says how far the nearest building is); a
 /// terrain that cannot be used (docs/scene.md). Error(cancelled) when told to stop.
-City build_city(const std::filesystem::path& file, const CityOptions& options = {}, const Progress& progress = {});
+VANTAGE_API City build_city(const std::filesystem::path& file, const CityOptions& options = {},
+                            const Progress& progress = {});
 
 }  // namespace vantage

@@ -7,6 +7,7 @@
 
 #include <string>
 
+#include "vantage/export.h"
 #include "vantage/geometry.h"
 #include "vantage/progress.h"
 
@@ -32,7 +33,7 @@ struct Comparison {
 /// where that would take too long, as between volumes that differ by a hair in very many places, they are farther
 /// apart. Uses the threads of the caller's arena (TBB). Cost: the check of each mesh for self-intersections and two
 /// boolean operations, O(n log n) in their facets, and the distances of what differs: seconds for half a million.
-Comparison compare_volumes(const Mesh& a, const Mesh& b, const std::string& name_a = "A",
-                           const std::string& name_b = "B", const Progress& progress = {});
+VANTAGE_API Comparison compare_volumes(const Mesh& a, const Mesh& b, const std::string& name_a = "A",
+                                       const std::string& name_b = "B", const Progress& progress = {});
 
 }  // namespace vantage

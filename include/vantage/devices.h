@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "vantage/export.h"
+
 namespace vantage {
 
 enum class DeviceKind {
@@ -14,7 +16,7 @@ enum class DeviceKind {
 };
 
 /// "cpu", "opengl_software", "opengl_hardware".
-const char* name_of(DeviceKind kind);
+VANTAGE_API const char* name_of(DeviceKind kind);
 
 struct RenderDevice {
   int index = 0;  ///< in the list of render_devices: what `--device 1` names
@@ -33,7 +35,7 @@ struct RenderDevices {
 
 /// Looks for devices: loads libEGL at run time, asks for its platforms, opens a context on each device. Never throws
 /// for what is missing. Tens of milliseconds.
-RenderDevices render_devices();
+VANTAGE_API RenderDevices render_devices();
 
 /// Which device to use.
 struct DeviceChoice {
@@ -49,7 +51,7 @@ struct DeviceChoice {
 };
 
 /// "auto", "cpu", "opengl", "gpu" or an index; throws Error(input) for anything else.
-DeviceChoice parse_device_choice(const std::string& text);
+VANTAGE_API DeviceChoice parse_device_choice(const std::string& text);
 
 /// Which of the devices found `choice` means, and why it is not a graphics processor where one would hope for it.
 struct ChosenDevice {
@@ -58,6 +60,6 @@ struct ChosenDevice {
 };
 
 /// Throws Error(input), with what is there, when it insists on a device that is not.
-ChosenDevice choose_device(const RenderDevices& found, const DeviceChoice& choice);
+VANTAGE_API ChosenDevice choose_device(const RenderDevices& found, const DeviceChoice& choice);
 
 }  // namespace vantage

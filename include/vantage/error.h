@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "vantage/export.h"
+
 namespace vantage {
 
 /// What kind of failure an Error tells of; the program's exit code follows from it.
@@ -16,7 +18,7 @@ enum class ErrorKind {
 
 /// Thrown by every public function that fails. Three short lines for the person who must fix it: what is wrong, where
 /// (file, line, object), and what to do. `what()` returns the three joined by newlines; `where` and `fix` may be empty.
-class Error : public std::runtime_error {
+class VANTAGE_API Error : public std::runtime_error {
  public:
   Error(ErrorKind kind, std::string problem, std::string where, std::string fix);
 

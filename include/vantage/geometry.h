@@ -7,6 +7,8 @@
 #include <limits>
 #include <vector>
 
+#include "vantage/export.h"
+
 namespace vantage {
 
 using Vec3 = Eigen::Vector3d;
@@ -38,12 +40,12 @@ struct Mesh {
 };
 
 /// Of the triangles: a vertex that none of them uses does not count. Indices must be in range.
-Box bounding_box(const Mesh& mesh);
+VANTAGE_API Box bounding_box(const Mesh& mesh);
 
 /// Volume enclosed by a closed, outward-oriented mesh, in cubic metres (divergence theorem, about the first vertex).
-double enclosed_volume(const Mesh& mesh);
+VANTAGE_API double enclosed_volume(const Mesh& mesh);
 
 /// Sum of the triangles' areas, in square metres.
-double surface_area(const Mesh& mesh);
+VANTAGE_API double surface_area(const Mesh& mesh);
 
 }  // namespace vantage

@@ -4,6 +4,8 @@
 #include <Eigen/Core>
 #include <string>
 
+#include "vantage/export.h"
+
 namespace vantage {
 
 /// The scene frame of a scene that has a place on the earth: x east, y north, z up, in metres, from an origin in
@@ -24,9 +26,9 @@ inline constexpr const char* kFlatGround = "flat ground";
 /// x and y in the scene frame of a point that is given on the earth (WGS 84, degrees), exact to 15 nm. Takes about two
 /// microseconds: a geodesic is solved. Throws Error(input) for a latitude beyond 90 or a longitude beyond 180 degrees,
 /// and for a point more than 100 km from the origin, where distances in the frame are no longer good.
-Eigen::Vector2d scene_position(const Georeference& georeference, double longitude_deg, double latitude_deg);
+VANTAGE_API Eigen::Vector2d scene_position(const Georeference& georeference, double longitude_deg, double latitude_deg);
 
 /// PROJ's words for the horizontal part: "+proj=aeqd +lat_0=… +lon_0=… +datum=WGS84 +units=m +type=crs".
-std::string projection_text(const Georeference& georeference);
+VANTAGE_API std::string projection_text(const Georeference& georeference);
 
 }  // namespace vantage

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "vantage/export.h"
 #include "vantage/geometry.h"
 #include "vantage/scene.h"
 
@@ -11,10 +12,10 @@ namespace vantage {
 /// SHA-256 (FIPS 180-4) of the scene's triangles: the corners as doubles in the scene frame and the index of the
 /// object, in order. 64 hexadecimal digits. Names, vertices that no triangle uses and how the vertices are numbered do
 /// not count. Throws Error(input) for an index out of range. Cost: linear; 0.3 s for a million triangles.
-std::string scene_hash(const Scene& scene);
+VANTAGE_API std::string scene_hash(const Scene& scene);
 
 /// SHA-256 of a volume's mesh: the corners of its facets as doubles, in order. Causes and how the vertices are numbered
 /// do not count. 64 hexadecimal digits. Throws Error(input) for an index out of range.
-std::string volume_hash(const Mesh& mesh);
+VANTAGE_API std::string volume_hash(const Mesh& mesh);
 
 }  // namespace vantage

@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "vantage/export.h"
+
 namespace vantage {
 
 enum class NumberFault {
@@ -22,38 +24,39 @@ struct ParsedNumber {
 
 /// The number that the whole of `text` spells: an optional sign, decimal digits with at most one point, an optional
 /// exponent. No blanks, no 0x10, no 1_000, no 1,5, no 1:30. Never throws.
-ParsedNumber parse_number(std::string_view text);
+VANTAGE_API ParsedNumber parse_number(std::string_view text);
 
 /// The parts of `text` between commas, without the blanks round them: of "51.5, -0.09" two.
-std::vector<std::string_view> split_at_commas(std::string_view text);
+VANTAGE_API std::vector<std::string_view> split_at_commas(std::string_view text);
 
 /// What to write instead of `text`, which parse_number refused for `fault`: one sentence, without a full stop.
-std::string number_advice(std::string_view text, NumberFault fault);
+VANTAGE_API std::string number_advice(std::string_view text, NumberFault fault);
 
 /// `text` in single quotes, fit for one line of an error message: control characters shown as '?', cut after 60 bytes.
-std::string in_quotes(std::string_view text);
+VANTAGE_API std::string in_quotes(std::string_view text);
 
 /// The shortest decimal that reads back as `value`; independent of the locale.
-std::string shortest(double value);
+VANTAGE_API std::string shortest(double value);
 
 // ---- names
 // ------------------------------------------------------------------------------------------------------------
 
 /// Number of insertions, deletions, replacements and swaps of neighbours that turn `a` into `b` (optimal string
 /// alignment distance), upper and lower case taken as equal. Cost: O(|a| |b|).
-int edit_distance(std::string_view a, std::string_view b);
+VANTAGE_API int edit_distance(std::string_view a, std::string_view b);
 
 /// The entry of `names` with the smallest edit distance to `word`, the first one on a tie; empty for no names.
-std::string_view nearest_name(std::string_view word, const std::vector<std::string_view>& names);
+VANTAGE_API std::string_view nearest_name(std::string_view word, const std::vector<std::string_view>& names);
 
 // ---- files
 // ------------------------------------------------------------------------------------------------------------
 
 /// Throws Error(input), with `where` and the file as the place, unless `file` exists, is no folder and no device, and
 /// may be read. `what` begins the message: "the scene's mesh".
-void check_readable(const std::filesystem::path& file, const std::string& what, const std::string& where = {});
+VANTAGE_API void check_readable(const std::filesystem::path& file, const std::string& what,
+                                const std::string& where = {});
 
 /// Whether the name ends in .obj or .obj.gz, whatever the case of the letters.
-bool is_obj(const std::filesystem::path& file);
+VANTAGE_API bool is_obj(const std::filesystem::path& file);
 
 }  // namespace vantage

@@ -8,6 +8,7 @@
 
 #include "vantage/compare.h"
 #include "vantage/devices.h"
+#include "vantage/export.h"
 #include "vantage/scene_source.h"
 #include "vantage/verify.h"
 #include "vantage/volume.h"
@@ -15,23 +16,24 @@
 namespace vantage {
 
 /// A text as a JSON value, and a list of them; on one line.
-std::string json_text(std::string_view text);
-std::string json_text(const std::vector<std::string>& texts);
+VANTAGE_API std::string json_text(std::string_view text);
+VANTAGE_API std::string json_text(const std::vector<std::string>& texts);
 
 /// A scene as it was read or built: of a map with a record for each object.
-std::string json_text(const LoadedScene& loaded);
+VANTAGE_API std::string json_text(const LoadedScene& loaded);
 
 /// The same with what preparing it found.
-std::string json_text(const LoadedScene& loaded, const SceneStatistics& statistics);
+VANTAGE_API std::string json_text(const LoadedScene& loaded, const SceneStatistics& statistics);
 
 /// `lift_m`, `rounding_m`: what the check allowed; `open_edges`: of the mesh.
-std::string json_text(const VerifyReport& report, const OpenEdges& open_edges, double lift_m, double rounding_m);
+VANTAGE_API std::string json_text(const VerifyReport& report, const OpenEdges& open_edges, double lift_m,
+                                  double rounding_m);
 
 /// `written`: files that hold what one of the two claims alone.
-std::string json_text(const Comparison& comparison, const std::string& file_a, const std::string& file_b,
-                      const std::vector<std::string>& written);
+VANTAGE_API std::string json_text(const Comparison& comparison, const std::string& file_a, const std::string& file_b,
+                                  const std::vector<std::string>& written);
 
 /// `reason`: why `chosen` was.
-std::string json_text(const RenderDevices& found, const ChosenDevice& chosen, const std::string& reason);
+VANTAGE_API std::string json_text(const RenderDevices& found, const ChosenDevice& chosen, const std::string& reason);
 
 }  // namespace vantage

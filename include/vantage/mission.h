@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "vantage/constraints.h"
+#include "vantage/export.h"
 #include "vantage/scene.h"
 #include "vantage/scene_source.h"
 #include "vantage/spheres.h"
@@ -28,7 +29,7 @@ enum class Method {
 };
 
 /// "exact", "spheres".
-const char* name_of(Method method);
+VANTAGE_API const char* name_of(Method method);
 
 /// A target that is given by an object of the map or a place on the earth. It is laid on the scene's ground: in the
 /// plane nearest to the ground under it, raised until no ground under it lies above that.
@@ -78,18 +79,18 @@ struct MissionFile {
 /// unknown key (with the nearest known one), a wrong type, a number that is NaN or infinite, a missing required key,
 /// edges that do not describe the vertices' polygon, a file that it names and that is not there, and all that
 /// make_target_frame and the navigation checks refuse.
-MissionFile read_mission(const std::filesystem::path& file);
+VANTAGE_API MissionFile read_mission(const std::filesystem::path& file);
 
 /// The same of a mission file's text, which came from elsewhere. `file` stands for it in messages and reports; paths in
 /// the text start from its folder, the current one where it has none.
-MissionFile read_mission_text(std::string_view text, const std::filesystem::path& file);
+VANTAGE_API MissionFile read_mission_text(std::string_view text, const std::filesystem::path& file);
 
 /// The text of a mission file that reads back as the same mission. Paths below `folder`, where the text is to be
 /// written, are relative to it.
-std::string mission_text(const MissionFile& mission, const std::filesystem::path& folder);
+VANTAGE_API std::string mission_text(const MissionFile& mission, const std::filesystem::path& folder);
 
 /// The files that a mission was read from, and those it names: not to be overwritten by its results.
-std::vector<std::filesystem::path> input_files(const MissionFile& mission);
+VANTAGE_API std::vector<std::filesystem::path> input_files(const MissionFile& mission);
 
 /// A mission in its scene: everything is in the scene frame.
 struct Mission {
@@ -111,13 +112,13 @@ struct Mission {
 /// on the earth it lies, a position without a value, an object that the map does not have, a target farther off the
 /// ground than max_range or beyond ground that cannot be extended, a navigation mesh whose heights are measured from
 /// another level than the scene's, and all that make_target_frame refuses.
-Mission resolve_mission(const MissionFile& mission, const Progress& progress = {});
+VANTAGE_API Mission resolve_mission(const MissionFile& mission, const Progress& progress = {});
 
 /// What to know before relying on the mission's results, a sentence each: LoadedScene::notes; that map, raster or
 /// ground end within the range, where what would hide part of the target is missing; that a target looks as if it were
 /// given in degrees, lies far off the scene or is looked at from under the ground; that the scene seems to lie on its
 /// side. `volume`: the mission's, where there is one. Cost: linear in the scene's triangles.
-std::vector<std::string> mission_warnings(const Mission& mission, const Volume* volume = nullptr);
+VANTAGE_API std::vector<std::string> mission_warnings(const Mission& mission, const Volume* volume = nullptr);
 
 struct RunOptions {
   int threads = 0;   ///< at most; 0: as many as the machine has
@@ -133,13 +134,13 @@ struct Result {
 /// Prepares the scene and the target, computes, and cuts to the navigation limits. Throws as the method, PreparedTarget
 /// and cut_to_navigation do, with the place in the mission file put in front of errors about the target. Cost: the sum
 /// of theirs; the scene is prepared anew each time, so use those functions for many targets of one scene.
-Result run_mission(const Mission& mission, const RunOptions& options = {}, const Progress& progress = {});
+VANTAGE_API Result run_mission(const Mission& mission, const RunOptions& options = {}, const Progress& progress = {});
 
 /// SHA-256 of what is asked, in the scene frame: docs/hashes.md. 64 hexadecimal digits.
-std::string mission_hash(const Mission& mission);
+VANTAGE_API std::string mission_hash(const Mission& mission);
 
 /// PreparedTarget of a mission; errors about the target begin with its place in the mission file, and advise what fits
 /// the object that stands in the way. `scene`: the mission's.
-PreparedTarget prepare_target(const Mission& mission, const PreparedScene& scene);
+VANTAGE_API PreparedTarget prepare_target(const Mission& mission, const PreparedScene& scene);
 
 }  // namespace vantage

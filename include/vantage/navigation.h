@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "vantage/constraints.h"
+#include "vantage/export.h"
 #include "vantage/prepared_target.h"
 #include "vantage/progress.h"
 #include "vantage/volume.h"
@@ -20,7 +21,7 @@ namespace vantage {
 /// Throws Error(input) for limits that are wrong in themselves (a reversed, empty or not finite altitude band or box, a
 /// mesh that is open, inside out or intersects itself) and for a volume whose arrays do not fit together;
 /// Error(cancelled) when told to stop; Error(internal) when a boolean operation fails.
-Volume cut_to_navigation(const Volume& volume, const Navigation& navigation, const Progress& progress = {});
+VANTAGE_API Volume cut_to_navigation(const Volume& volume, const Navigation& navigation, const Progress& progress = {});
 
 /// What all the volumes claim: that of a target in parts is the intersection of its parts' volumes. May have several
 /// pieces, each closed; facets keep their causes, and causes of the same kind and name become one. Tolerance and lift
@@ -29,11 +30,11 @@ Volume cut_to_navigation(const Volume& volume, const Navigation& navigation, con
 /// Outcome::no_common_view.
 /// Throws Error(input) for no volumes and for one whose arrays do not fit together; Error(cancelled) when told to stop;
 /// Error(internal) when a boolean operation fails. Cost: a boolean operation per volume, O(n log n) in the facets.
-Volume intersect_volumes(const std::vector<Volume>& volumes, const Progress& progress = {});
+VANTAGE_API Volume intersect_volumes(const std::vector<Volume>& volumes, const Progress& progress = {});
 
 /// All that a vehicle may use: compute_visibility of each part of the target, intersected, and cut to the navigation
 /// limits. Throws as these do. Cost: the sum of theirs.
-Volume compute_volume(const PreparedTarget& target, const Navigation& navigation = {}, const ExactOptions& options = {},
-                      const Progress& progress = {});
+VANTAGE_API Volume compute_volume(const PreparedTarget& target, const Navigation& navigation = {},
+                                  const ExactOptions& options = {}, const Progress& progress = {});
 
 }  // namespace vantage

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "vantage/atomic_file.h"
+#include "vantage/export.h"
 #include "vantage/scene.h"
 #include "vantage/volume.h"
 
@@ -14,16 +15,17 @@ namespace vantage {
 
 /// Throws Error(output or input) unless a file can be made at `file`: its folder exists and takes new files, `file` is
 /// no folder and no device, and an existing file is not write-protected.
-void check_can_write(const std::filesystem::path& file);
+VANTAGE_API void check_can_write(const std::filesystem::path& file);
 
 /// What chooses the format: the extension in lower case, ".ply".
-std::string format_extension(const std::filesystem::path& file);
+VANTAGE_API std::string format_extension(const std::filesystem::path& file);
 
 /// check_can_write, and the extension must be one that write_volume knows.
-void check_volume_output(const std::filesystem::path& file);
+VANTAGE_API void check_volume_output(const std::filesystem::path& file);
 
 /// Throws Error(input) if `output` is one of the `inputs`: writing it would destroy what it was made from.
-void check_not_an_input(const std::filesystem::path& output, const std::vector<std::filesystem::path>& inputs);
+VANTAGE_API void check_not_an_input(const std::filesystem::path& output,
+                                    const std::vector<std::filesystem::path>& inputs);
 
 /// A volume that is written but not in place yet: give the files to commit_all.
 struct StagedVolume {
@@ -32,10 +34,10 @@ struct StagedVolume {
 };
 
 /// Does all that write_volume does but the last step. Throws as write_volume does.
-StagedVolume stage_volume(const Volume& volume, const std::filesystem::path& file, UpAxis obj_up = UpAxis::z,
-                          double obj_scale = 1.0);
+VANTAGE_API StagedVolume stage_volume(const Volume& volume, const std::filesystem::path& file,
+                                      UpAxis obj_up = UpAxis::z, double obj_scale = 1.0);
 
 /// Does all that write_scene does but the last step: give the files to commit_all. Throws as write_scene does.
-std::vector<std::unique_ptr<AtomicFile>> stage_scene(const Scene& scene, const std::filesystem::path& file);
+VANTAGE_API std::vector<std::unique_ptr<AtomicFile>> stage_scene(const Scene& scene, const std::filesystem::path& file);
 
 }  // namespace vantage

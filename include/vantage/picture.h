@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "vantage/constraints.h"
+#include "vantage/export.h"
 #include "vantage/geometry.h"
 #include "vantage/progress.h"
 #include "vantage/scene.h"
@@ -58,7 +59,7 @@ struct Picture {
 /// the same machine gives the same bytes. Throws Error(input) where there is no OpenGL 4.5 (with what to install), and
 /// for a size out of range, a view or meshes that make no sense; Error(cancelled) when told to stop. Cost: some
 /// seconds where OpenGL is emulated, in proportion to the pixels and to the triangles near the volume.
-Picture render_picture(const Scene& scene, const PictureRequest& request, const Progress& progress = {});
+VANTAGE_API Picture render_picture(const Scene& scene, const PictureRequest& request, const Progress& progress = {});
 
 /// A panel of a figure sheet.
 struct PicturePanel {
@@ -68,11 +69,11 @@ struct PicturePanel {
 
 /// Panels in rows, lettered (a), (b), ..., with their captions underneath and a title on top. All panels must have the
 /// size of the first; Error(input) otherwise, or when there is none.
-Picture arrange_sheet(const std::vector<PicturePanel>& panels, int columns, const std::string& title,
-                      const std::string& subtitle);
+VANTAGE_API Picture arrange_sheet(const std::vector<PicturePanel>& panels, int columns, const std::string& title,
+                                  const std::string& subtitle);
 
 /// PNG, 8 bits a channel. Written whole or not at all; throws Error(output), Error(input) as AtomicFile does, and
 /// Error(cancelled) when told to stop.
-void write_png(const Picture& picture, const std::filesystem::path& file, const Progress& progress = {});
+VANTAGE_API void write_png(const Picture& picture, const std::filesystem::path& file, const Progress& progress = {});
 
 }  // namespace vantage

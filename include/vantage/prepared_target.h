@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "vantage/constraints.h"
+#include "vantage/export.h"
 #include "vantage/scene.h"
 #include "vantage/target.h"
 
@@ -14,7 +15,7 @@ namespace vantage {
 
 /// A target in a scene, with the range it is looked at from. Immutable and cheap to copy (a shared handle); any number
 /// of threads may use it at once. Holds on to the scene.
-class PreparedTarget {
+class VANTAGE_API PreparedTarget {
  public:
   /// Checks the target and finds how far each part must be raised to clear the surface that it lies on: rounding of
   /// the input, less than 2.01 mm; where max_range is less than 20 m, in proportion. Throws Error(input) for a bad

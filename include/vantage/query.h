@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "vantage/constraints.h"
+#include "vantage/export.h"
 #include "vantage/prepared_target.h"
 
 namespace vantage {
@@ -25,7 +26,7 @@ struct PointAnswer {
 
 /// Answers questions about points, for one target in one scene: as many as there are, in portions of any size. What it
 /// learns of the scene with the first points makes the later ones quick: some microseconds each in a city.
-class PointQuery {
+class VANTAGE_API PointQuery {
  public:
   /// A target in parts is seen where all its parts are. Holds on to the target and its scene.
   explicit PointQuery(const PreparedTarget& target, const Navigation& navigation = {});
@@ -46,7 +47,7 @@ class PointQuery {
 };
 
 /// PointQuery for one portion of points.
-std::vector<PointAnswer> query_points(const PreparedTarget& target, const Navigation& navigation,
-                                      const std::vector<Vec3>& points);
+VANTAGE_API std::vector<PointAnswer> query_points(const PreparedTarget& target, const Navigation& navigation,
+                                                  const std::vector<Vec3>& points);
 
 }  // namespace vantage

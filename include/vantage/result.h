@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "vantage/export.h"
 #include "vantage/mission.h"
 #include "vantage/progress.h"
 #include "vantage/spheres.h"
@@ -32,16 +33,17 @@ struct ReportSource {
 };
 
 /// The part of a report that tells of the spheres method: a JSON object.
-std::string spheres_json(const SpheresRun& run);
+VANTAGE_API std::string spheres_json(const SpheresRun& run);
 
 /// A JSON object, UTF-8, two spaces of indentation, a newline at the end. Lengths are metres in the scene frame.
 /// `causes` are in the order of Volume::causes, so that the facet property of a PLY file indexes them. `bounding_box`
 /// is null for an empty volume; `georeference` is there when the scene has one. Bytes of names that are not UTF-8 are
 /// replaced.
-std::string report_json(const Volume& volume, const MeshMeasures& measures, const ReportSource& source = {});
+VANTAGE_API std::string report_json(const Volume& volume, const MeshMeasures& measures,
+                                    const ReportSource& source = {});
 
 /// Of a mission's result; `volume` is left empty.
-ReportSource report_source(const Mission& mission, const Result& result);
+VANTAGE_API ReportSource report_source(const Mission& mission, const Result& result);
 
 // ---- files
 // ------------------------------------------------------------------------------------------------------------
@@ -61,13 +63,13 @@ struct WrittenResults {
 };
 
 /// "volume.ply" has its report in "volume.report.json".
-std::filesystem::path report_file(const std::filesystem::path& volume_file);
+VANTAGE_API std::filesystem::path report_file(const std::filesystem::path& volume_file);
 
 /// Writes the volume to every file that is asked for, and a report beside each; only the reports when there is no
 /// volume. First of all it is measured. All files are written or none: when anything fails, old ones stay as they were.
 /// Fills Volume::seconds.write (until all is ready on the disk) and adds it to the total. Throws Error(internal) for a
 /// volume that is not closed and oriented, Error(cancelled) when told to stop, and as write_volume does.
-WrittenResults write_results(Volume& volume, const ResultRequest& request, const Progress& progress = {});
+VANTAGE_API WrittenResults write_results(Volume& volume, const ResultRequest& request, const Progress& progress = {});
 
 /// A volume, or any other mesh, as its file says.
 struct VolumeFile {
@@ -80,16 +82,17 @@ struct VolumeFile {
 
 /// How far `compute` raised the target of a volume, by the report beside its file: the largest lift of its parts.
 /// Nothing where there is no report. Throws Error(input) for one that does not say it.
-std::optional<double> reported_lift_m(const std::filesystem::path& volume_file);
+VANTAGE_API std::optional<double> reported_lift_m(const std::filesystem::path& volume_file);
 
 /// Reads a mesh into a frame. OBJ is in the axes and the unit of `obj`, unless it says them; other formats say it
 /// themselves. A mesh that says where on the earth it lies is moved about the origin of `frame`, where there is one;
 /// any other is taken to be in the frame. Heights stay as they are. Throws as read_scene does, and Error(input) for a
 /// mesh that lies more than 100 km away and for causes that are out of range.
-VolumeFile read_volume(const std::filesystem::path& file, const SceneReadOptions& obj = {},
-                       const std::optional<Georeference>& frame = {}, const Progress& progress = {});
+VANTAGE_API VolumeFile read_volume(const std::filesystem::path& file, const SceneReadOptions& obj = {},
+                                   const std::optional<Georeference>& frame = {}, const Progress& progress = {});
 
 /// The same for what was computed in a scene: OBJ as the scene's own file.
-VolumeFile read_volume(const std::filesystem::path& file, const Scene& scene, const Progress& progress = {});
+VANTAGE_API VolumeFile read_volume(const std::filesystem::path& file, const Scene& scene,
+                                   const Progress& progress = {});
 
 }  // namespace vantage

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "vantage/export.h"
 #include "vantage/geometry.h"
 #include "vantage/georeference.h"
 #include "vantage/progress.h"
@@ -41,10 +42,10 @@ struct SceneObject {
 };
 
 /// What reports, files and messages call it: "way/265517 Empire State Building".
-std::string display_name(const SceneObject& object);
+VANTAGE_API std::string display_name(const SceneObject& object);
 
 /// "building part", "wall", ...; "other".
-const char* name_of(ObjectKind kind);
+VANTAGE_API const char* name_of(ObjectKind kind);
 
 /// Any triangle soup with names. Open, non-manifold, doubled, intersecting or mis-oriented triangles are all fine: they
 /// are opaque from both sides.
@@ -104,8 +105,8 @@ struct SceneReadOptions {
 /// positive and finite; a CRS that is unknown or has no value at the scene, an origin that is out of range, a
 /// georeference of vantage that is garbled. Error(cancelled) when told to stop. Cost: linear in the file, on one
 /// thread, but for polygons of many corners: the square of these.
-Scene read_scene(const std::filesystem::path& file, const SceneReadOptions& options = {},
-                 const Progress& progress = {});
+VANTAGE_API Scene read_scene(const std::filesystem::path& file, const SceneReadOptions& options = {},
+                             const Progress& progress = {});
 
 /// What preparing found in a scene, and what `vantage inspect` shows.
 struct SceneStatistics {
@@ -133,12 +134,12 @@ struct SceneStatistics {
 ///
 /// Throws Error(input) for an unknown extension, a directory, a scene without triangles, and one whose arrays do not
 /// fit together; Error(output) when the file cannot be written or the format cannot hold that much. Cost: linear.
-void write_scene(const Scene& scene, const std::filesystem::path& file);
+VANTAGE_API void write_scene(const Scene& scene, const std::filesystem::path& file);
 
 /// A scene ready for visibility queries: welded, cleaned, coplanar neighbours merged into convex polygons, indexed by a
 /// bounding volume hierarchy. Immutable and cheap to copy (a shared handle); any number of threads may use it at once.
 /// Cost: O(n log n) in the triangles, once per scene. The Scene's triangles are copied; the Scene may be dropped.
-class PreparedScene {
+class VANTAGE_API PreparedScene {
  public:
   /// Uses the threads of the caller's arena (TBB); the result does not depend on their number. Throws Error(input) for
   /// an index out of range, `object_of` of the wrong length, a vertex that is not finite or farther than 1e9 m from the

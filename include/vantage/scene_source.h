@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "vantage/city.h"
+#include "vantage/export.h"
 #include "vantage/progress.h"
 #include "vantage/scene.h"
 #include "vantage/terrain.h"
@@ -29,7 +30,7 @@ struct SceneSource {
 
 /// Told by the name: .osm, .pbf (also .osm.gz, .osm.bz2) are maps; .tif, .tiff, .hgt, .asc, .vrt, .img and those zipped
 /// are rasters; all else are meshes. Case does not count.
-SceneSource::Kind source_kind(const std::filesystem::path& file);
+VANTAGE_API SceneSource::Kind source_kind(const std::filesystem::path& file);
 
 struct LoadedScene {
   Scene scene;
@@ -39,9 +40,9 @@ struct LoadedScene {
 };
 
 /// What is worth a sentence of the scene and its source, besides LoadedScene::notes.
-std::vector<std::string> notes_of(const LoadedScene& loaded);
+VANTAGE_API std::vector<std::string> notes_of(const LoadedScene& loaded);
 
 /// Throws as the function of its kind does.
-LoadedScene load_scene(const SceneSource& source, const Progress& progress = {});
+VANTAGE_API LoadedScene load_scene(const SceneSource& source, const Progress& progress = {});
 
 }  // namespace vantage

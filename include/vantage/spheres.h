@@ -12,6 +12,7 @@
 
 #include "vantage/constraints.h"
 #include "vantage/devices.h"
+#include "vantage/export.h"
 #include "vantage/geometry.h"
 #include "vantage/georeference.h"
 #include "vantage/progress.h"
@@ -79,12 +80,12 @@ struct SpheresReport {
 /// Errors as compute_visibility, and Error(input) for options out of range, a device that was insisted on and is not
 /// there. Cost: one depth image of six faces per vertex, and booleans of meshes of at most 12 cubemap^2 triangles, a
 /// tenth to a third of them where facets are joined.
-Volume compute_visibility_spheres(const PreparedTarget& target, const SpheresOptions& options = {},
-                                  SpheresReport* report = nullptr, const StageSink& stages = {},
-                                  const Progress& progress = {});
+VANTAGE_API Volume compute_visibility_spheres(const PreparedTarget& target, const SpheresOptions& options = {},
+                                              SpheresReport* report = nullptr, const StageSink& stages = {},
+                                              const Progress& progress = {});
 
 /// The visibility sphere of one viewpoint (scene frame): closed, genus 0, star-shaped about it, within `radius_m`.
-Mesh visibility_sphere(const PreparedScene& scene, const Vec3& viewpoint, double radius_m,
-                       const SpheresOptions& options = {}, const Progress& progress = {});
+VANTAGE_API Mesh visibility_sphere(const PreparedScene& scene, const Vec3& viewpoint, double radius_m,
+                                   const SpheresOptions& options = {}, const Progress& progress = {});
 
 }  // namespace vantage

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "vantage/export.h"
 #include "vantage/mission.h"
 #include "vantage/spheres.h"
 
@@ -13,7 +14,7 @@ namespace vantage {
 /// A folder of numbered meshes (000_sphere_0.ply, scene frame) and stages.json. It is made under another name beside
 /// its place, and put there by commit() as a whole; before that, and when anything fails, what was there stays. An
 /// older folder is replaced only if it is empty, or holds a stages.json and nothing but files of such names.
-class StageFolder {
+class VANTAGE_API StageFolder {
  public:
   /// Throws Error(input) for a place that is taken by something else, Error(output) where no folder can be made.
   explicit StageFolder(std::filesystem::path folder);
@@ -55,6 +56,6 @@ struct StageFile {
 };
 
 /// Reads `folder`/stages.json. Throws Error(input) for a missing or garbled file, naming the stage.
-std::vector<StageFile> read_stages(const std::filesystem::path& folder);
+VANTAGE_API std::vector<StageFile> read_stages(const std::filesystem::path& folder);
 
 }  // namespace vantage

@@ -5,12 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "vantage/export.h"
 #include "vantage/geometry.h"
 
 namespace vantage {
 
 /// As the user states it, in the scene frame, metres. See docs/theory.md for what "seen" means.
-struct Target {
+struct VANTAGE_API Target {
   std::string name = "target";
   /// Convex planar polygons of 3 to 64 vertices, in order round the polygon, either turn; all of them must be seen. One
   /// part of a single vertex is a point. Default: one part, which has no vertices yet.
@@ -60,6 +61,6 @@ struct TargetFrame {
 /// that is not finite, repeated vertices (which; those nearer to each other than 1e-9 of the extent), zero area, not
 /// planar (by how much; allowed: 1e-6 of the extent, at least 1 mm), not convex by more than said above (which vertex),
 /// a `front` that is zero or lies in the plane.
-TargetFrame make_target_frame(const Target& target, std::size_t part = 0);
+VANTAGE_API TargetFrame make_target_frame(const Target& target, std::size_t part = 0);
 
 }  // namespace vantage

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "vantage/export.h"
 #include "vantage/georeference.h"
 #include "vantage/progress.h"
 #include "vantage/scene.h"
@@ -54,7 +55,7 @@ struct RasterScene {
 /// Throws Error(input) naming the file for all that makes a raster unusable (docs/terrain.md: among others no
 /// coordinate reference system, a region that it does not cover, no value in it), for options out of range, and where
 /// GDAL is not installed; Error(cancelled) when told to stop. Cost: n log n in the posts.
-RasterScene scene_from_raster(const std::filesystem::path& file, const RasterOptions& options = {},
-                              const Progress& progress = {});
+VANTAGE_API RasterScene scene_from_raster(const std::filesystem::path& file, const RasterOptions& options = {},
+                                          const Progress& progress = {});
 
 }  // namespace vantage

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "vantage/constraints.h"
+#include "vantage/export.h"
 #include "vantage/progress.h"
 #include "vantage/scene.h"
 #include "vantage/target.h"
@@ -61,7 +62,8 @@ struct VerifyReport {
 /// The report depends on the seed, not on the number of threads (TBB; the caller's arena). Cost: points times samples
 /// shadow rays, a few tenths of a microsecond each and thread. Throws Error(input) for a mesh that is not closed or a
 /// target, sensor, limit or option that is wrong in itself, Error(cancelled) when told to stop.
-VerifyReport verify_volume(const Scene& scene, const Target& target, const Sensor& sensor, const Navigation& navigation,
-                           const Mesh& volume, const VerifyOptions& options = {}, const Progress& progress = {});
+VANTAGE_API VerifyReport verify_volume(const Scene& scene, const Target& target, const Sensor& sensor,
+                                       const Navigation& navigation, const Mesh& volume,
+                                       const VerifyOptions& options = {}, const Progress& progress = {});
 
 }  // namespace vantage

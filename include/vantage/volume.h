@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "vantage/constraints.h"
+#include "vantage/export.h"
 #include "vantage/geometry.h"
 #include "vantage/prepared_target.h"
 #include "vantage/progress.h"
@@ -25,7 +26,7 @@ enum class CauseKind : std::uint8_t {
 };
 
 /// "scene", "range", "target_plane", "navigation", "sensor".
-const char* name_of(CauseKind kind);
+VANTAGE_API const char* name_of(CauseKind kind);
 
 /// One reason for part of the boundary.
 struct Cause {
@@ -40,7 +41,7 @@ struct Cause {
 };
 
 /// The cause that an object of a scene is.
-Cause cause_of_object(std::uint32_t index, const SceneObject& object);
+VANTAGE_API Cause cause_of_object(std::uint32_t index, const SceneObject& object);
 
 /// How a computation ended. Everything but `computed` leaves the mesh empty, and `reason` says why in a sentence.
 enum class Outcome {
@@ -54,7 +55,7 @@ enum class Outcome {
 };
 
 /// "computed", "out_of_range", "blocked_at_once", "outside_limits", "no_common_view".
-const char* name_of(Outcome outcome);
+VANTAGE_API const char* name_of(Outcome outcome);
 
 /// Work done at each stage, for reports and for those who tune.
 struct StageCounts {
@@ -132,8 +133,8 @@ struct ExactOptions {
 /// that is not positive and finite, a tolerance so fine for this range that the mesh would have too many facets;
 /// Error(cancelled) when told to stop; Error(internal) when the boundary could not be triangulated safely: no volume
 /// rather than a wrong one.
-Volume compute_visibility(const PreparedTarget& target, const ExactOptions& options = {},
-                          const Progress& progress = {});
+VANTAGE_API Volume compute_visibility(const PreparedTarget& target, const ExactOptions& options = {},
+                                      const Progress& progress = {});
 
 /// Topology and size of a closed mesh. `euler` is V - E + F over all pieces: 2 per piece of genus 0.
 struct MeshMeasures {
@@ -148,7 +149,7 @@ struct MeshMeasures {
 /// Measures any mesh, closed or not; volume and Euler number mean something for a closed one only. Vertices that no
 /// triangle uses do not count, and vertices are told apart by index, not by position. Cost: linear in the triangles,
 /// but for sorting the edges at each vertex. Throws Error(input) naming the triangle when an index is out of range.
-MeshMeasures measure(const Mesh& mesh);
+VANTAGE_API MeshMeasures measure(const Mesh& mesh);
 
 /// Holes in a mesh.
 struct OpenEdges {
@@ -159,10 +160,10 @@ struct OpenEdges {
 /// Edges with an odd number of triangles, where vertices at exactly the same position count as one (STL has no shared
 /// vertices, other formats repeat them at seams) and triangles with two corners in one place are left out. A mesh
 /// without any encloses something, even where two of its pieces touch. Cost: O(n log n).
-OpenEdges find_open_edges(const Mesh& mesh);
+VANTAGE_API OpenEdges find_open_edges(const Mesh& mesh);
 
 /// A mesh as a volume with a single cause of that name, to write or to cut.
-Volume volume_of_mesh(Mesh mesh, const std::string& cause);
+VANTAGE_API Volume volume_of_mesh(Mesh mesh, const std::string& cause);
 
 /// What a written file holds.
 struct WrittenVolume {
@@ -191,7 +192,7 @@ struct WrittenVolume {
 /// written, the format cannot hold that many facets or nothing of the volume is left in it, and Error(input) for an
 /// unknown extension, a directory, a volume whose arrays do not fit together, or a scale that is not positive, not
 /// finite or so small that coordinates overflow.
-WrittenVolume write_volume(const Volume& volume, const std::filesystem::path& file, UpAxis obj_up = UpAxis::z,
-                           double obj_scale = 1.0);
+VANTAGE_API WrittenVolume write_volume(const Volume& volume, const std::filesystem::path& file,
+                                       UpAxis obj_up = UpAxis::z, double obj_scale = 1.0);
 
 }  // namespace vantage

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "vantage/devices.h"
+#include "vantage/export.h"
 #include "vantage/geometry.h"
 #include "vantage/progress.h"
 #include "vantage/scene.h"
@@ -52,10 +53,10 @@ struct WillisConfig {
 
 /// Parses and checks the text of a configuration file. `file` gives the folder that relative paths start from and the
 /// name in messages; neither it nor what it names is opened. Throws Error(input) with file, line and column.
-WillisConfig parse_willis_config(std::string_view text, const std::filesystem::path& file);
+VANTAGE_API WillisConfig parse_willis_config(std::string_view text, const std::filesystem::path& file);
 
 /// Reads a configuration file, and checks that the meshes that it names can be read.
-WillisConfig read_willis_config(const std::filesystem::path& file);
+VANTAGE_API WillisConfig read_willis_config(const std::filesystem::path& file);
 
 struct WillisResult {
   Volume volume;  ///< scene frame; causes: the scene, radius_max, up_min, up_max
@@ -78,6 +79,7 @@ struct WillisRun {
 ///
 /// Throws Error(input) as read_scene and visibility_sphere do, and for a viewpoint on a surface or inside a solid, with
 /// the place in the file put in front.
-WillisRun run_willis_config(const WillisConfig& config, const SpheresOptions& options, const Progress& progress = {});
+VANTAGE_API WillisRun run_willis_config(const WillisConfig& config, const SpheresOptions& options,
+                                        const Progress& progress = {});
 
 }  // namespace vantage

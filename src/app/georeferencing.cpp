@@ -1,30 +1,23 @@
 #include "app/georeferencing.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
 
-#include "app/ground_room.h"
-#include "app/pierced_advice.h"
+#include "app/components/maps.h"
 #include "app/places.h"
 #include "geo/local_frame.h"
-#include "io/mesh_builder.h"
-#include "maps/city/footprint.h"
-#include "maps/city/region.h"
-#include "maps/osm/extract.h"
-#include "maps/terrain/surface.h"
 #include "vantage/error.h"
 #include "vantage/input.h"
 
-namespace vantage::app {
+namespace vantage::internal::app {
 namespace {
 
-using city::Vec2;
+using Vec2 = Eigen::Vector2d;
 
 [[noreturn]] void fail(const std::string& problem, const std::string& where, const std::string& fix) {
   throw Error(ErrorKind::input, problem, where, fix);
@@ -142,246 +135,6 @@ void check_near(const Mission& mission, const Placer& placer) {
   }
 }
 
-// ---- targets on the ground ------------------------------------------------------------------------------------------
-
-/// The triangles of the ground.
-terrain::Surface ground_of(const Mission& mission) {
-  const Scene& scene = mission.loaded.scene;
-  const auto ground = ground_object(scene);
-  if (!ground) {
-    fail("the scene has no object 'ground' to put the target on", mission.file.places.target,
-         "give the target's vertices, or a scene that is made from a map; PLY and STL keep no objects, OBJ and GLB do");
-  }
-  Mesh mesh;
-  std::vector<std::uint32_t> renamed(scene.mesh.vertices.size(), UINT32_MAX);
-  for (std::size_t i = 0; i < scene.mesh.triangles.size(); ++i) {
-    if (scene.object_of[i] != *ground) continue;
-    Triangle triangle = scene.mesh.triangles[i];
-    for (std::uint32_t& vertex : triangle) {
-      if (renamed[vertex] == UINT32_MAX) {
-        renamed[vertex] = static_cast<std::uint32_t>(mesh.vertices.size());
-        mesh.vertices.push_back(scene.mesh.vertices[vertex]);
-      }
-      vertex = renamed[vertex];
-    }
-    mesh.triangles.push_back(triangle);
-  }
-  return terrain::Surface(std::move(mesh));
-}
-
-/// z = slope . (x, y) + level.
-struct Plane {
-  Vec2 slope = Vec2::Zero();
-  double level = 0;
-
-  double at(const Vec2& p) const { return slope.dot(p) + level; }
-};
-
-/// The plane nearest to the ground at a ring's corners and the middles of its sides, raised until no ground under the
-/// ring lies above it.
-Plane ground_plane(const terrain::Surface& ground, const city::Ring& ring, const Mission& mission) {
-  const char* const beyond = "the target reaches beyond the scene's ground";
-  std::vector<Vec2> samples;
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    samples.push_back(ring[i]);
-    samples.push_back((ring[i] + ring[(i + 1) % ring.size()]) / 2);
-  }
-  Vec2 middle = Vec2::Zero();
-  for (const Vec2& sample : samples) middle += sample / double(samples.size());
-  Eigen::MatrixXd rows(samples.size(), 3);
-  Eigen::VectorXd heights(samples.size());
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    const auto height = ground.height(samples[i]);
-    if (!height) fail_off_ground(mission, beyond);
-    rows.row(static_cast<Eigen::Index>(i)) << samples[i].x() - middle.x(), samples[i].y() - middle.y(), 1;
-    heights[static_cast<Eigen::Index>(i)] = *height;
-  }
-  const Eigen::Vector3d fit = rows.colPivHouseholderQr().solve(heights);
-  Plane plane{fit.head<2>(), fit.z() - fit.head<2>().dot(middle)};
-  Mesh tilted = ground.mesh();
-  for (Vec3& vertex : tilted.vertices) vertex.z() -= plane.at(vertex.head<2>());
-  const auto range = terrain::Surface(std::move(tilted)).range(ring);
-  if (!range) fail_off_ground(mission, beyond);
-  plane.level += range->highest;
-  return plane;
-}
-
-city::Ring rectangle(const GroundTarget& wanted, const geo::LocalFrame& frame) {
-  const Vec2 centre = frame.to_local({(*wanted.center_deg)[1], (*wanted.center_deg)[0]});
-  const double heading = wanted.heading_deg * M_PI / 180;
-  const Vec2 along(std::sin(heading), std::cos(heading)), across(along.y(), -along.x());
-  const Vec2 a = along * wanted.length_m / 2, b = across * wanted.width_m / 2;
-  return {centre - a - b, centre - a + b, centre + a + b, centre + a - b};
-}
-
-bool is_closed(const osm::Line& line) {
-  const geo::LonLat &first = line.points.front(), &last = line.points.back();
-  return line.points.size() > 3 && first.longitude_deg == last.longitude_deg && first.latitude_deg == last.latitude_deg;
-}
-
-/// The polygons of an object of the map: an area, or any closed way.
-std::vector<osm::Polygon> polygons_of(const osm::Extract& extract, osm::ObjectId id) {
-  std::vector<osm::Polygon> polygons;
-  for (const osm::Area& area : extract.areas) {
-    if (area.id != id) continue;
-    polygons.insert(polygons.end(), area.polygons.begin(), area.polygons.end());
-  }
-  for (const osm::Line& line : extract.lines) {
-    if (line.id == id && is_closed(line)) polygons.push_back({{line.points.begin(), line.points.end() - 1}, {}});
-  }
-  return polygons;
-}
-
-city::Ring projected(const osm::Ring& ring, const geo::LocalFrame& frame) {
-  city::Ring result;
-  for (const geo::LonLat& position : ring) result.push_back(frame.to_local(position));
-  return result;
-}
-
-/// Of an object of the map: "Zuccotti Park"; empty where it has none.
-std::string name_of(const osm::Extract& extract, osm::ObjectId id) {
-  for (const osm::Area& area : extract.areas) {
-    if (area.id == id && area.tags.has("name")) return io::clean_name(area.tags.get("name"));
-  }
-  for (const osm::Line& line : extract.lines) {
-    if (line.id == id && line.tags.has("name")) return io::clean_name(line.tags.get("name"));
-  }
-  return {};
-}
-
-/// The outlines of an object of the map. What is in a hole, a building maybe, is no part of it and need not be seen. A
-/// target that has no name of its own gets the object's.
-std::vector<city::Footprint> outlines(Mission& mission, const std::string& name, const geo::LocalFrame& frame,
-                                      const Progress& progress) {
-  const auto id = osm::parse_object_id(name);
-  if (!id) fail(in_quotes(name) + " is no object of a map", mission.file.places.target, "write 'osm: way/123'");
-  osm::ReadOptions options;
-  options.region = city::checked_region(mission.file.scene.city.region);
-  const osm::Extract extract = osm::read_extract(mission.file.scene.file, options, progress);
-  std::vector<city::Footprint> rough;
-  for (const osm::Polygon& polygon : polygons_of(extract, *id)) {
-    city::Footprint footprint{projected(polygon.outer, frame), {}};
-    for (const osm::Ring& hole : polygon.holes) footprint.holes.push_back(projected(hole, frame));
-    rough.push_back(std::move(footprint));
-  }
-  if (rough.empty()) {
-    const bool is_part = options.region.has_value();
-    fail((is_part ? "the scene's part of the map has no area " : "the map has no area ") + name,
-         mission.file.places.target,
-         "name a tagged closed way or a multipolygon of " + mission.file.scene.file.filename().string() +
-             (is_part ? ", or choose a larger area of the map" : ""));
-  }
-  city::Repairs repairs;
-  std::vector<city::Footprint> outlines = city::clean(rough, repairs);
-  if (outlines.empty()) fail(name + " has no area", mission.file.places.target, "name another object");
-  const std::string known_as = name_of(extract, *id);
-  if (mission.target.name == name && !known_as.empty()) mission.target.name = known_as + " (" + name + ")";
-  return outlines;
-}
-
-/// A rectangle that is on the ground only with latitude and longitude the other way round.
-void check_order(const Mission& mission, const GroundTarget& wanted, const terrain::Surface& ground,
-                 const geo::LocalFrame& frame) {
-  const auto [latitude, longitude] = *wanted.center_deg;
-  const Vec2 centre = frame.to_local({longitude, latitude});
-  if (ground.height(centre) || std::abs(longitude) > 90 || !ground.height(frame.to_local({latitude, longitude})))
-    return;
-  fail("the target's centre lies " + std::to_string(std::lround(centre.norm())) +
-           " m from the scene's origin, off its ground",
-       mission.file.places.target,
-       "latitude and longitude are the wrong way round: write center: [latitude, longitude]");
-}
-
-PlanBox plan_box(const std::vector<city::Footprint>& areas) {
-  PlanBox box{areas.front().outer.front(), areas.front().outer.front()};
-  for (const city::Footprint& area : areas) {
-    for (const Vec2& corner : area.outer) {
-      box.min = box.min.cwiseMin(corner);
-      box.max = box.max.cwiseMax(corner);
-    }
-  }
-  return box;
-}
-
-std::vector<Vec3> on_plane(const city::Ring& ring, const Plane& plane) {
-  std::vector<Vec3> vertices;
-  for (const Vec2& p : ring) vertices.emplace_back(p.x(), p.y(), plane.at(p));
-  return vertices;
-}
-
-/// A convex polygon as parts with no more corners than a target may have.
-std::vector<city::Ring> halved(const city::Ring& piece) {
-  constexpr std::ptrdiff_t kMostCorners = 64;
-  const auto corners = static_cast<std::ptrdiff_t>(piece.size());
-  if (corners <= kMostCorners) return {piece};
-  city::Ring first(piece.begin(), piece.begin() + corners / 2 + 1), second(piece.begin() + corners / 2, piece.end());
-  second.push_back(piece.front());
-  std::vector<city::Ring> parts = halved(first);
-  for (city::Ring& part : halved(second)) parts.push_back(std::move(part));
-  return parts;
-}
-
-/// Whether a place is wound round by a facet seen from above. Of facets that share a side, one holds a place on it.
-bool holds(const std::array<Vec3, 3>& facet, const Vec3& at) {
-  bool inside = false;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Vec3 &a = facet[i], &b = facet[(i + 1) % 3];
-    if ((a.y() > at.y()) == (b.y() > at.y())) continue;
-    if (at.x() < a.x() + (b.x() - a.x()) * (at.y() - a.y()) / (b.y() - a.y())) inside = !inside;
-  }
-  return inside;
-}
-
-/// The first object that a point lies in: of its facets on the vertical line through the point an odd number is above,
-/// and an even number in all, or else it is not closed there. Nothing where the point is in the open.
-std::optional<std::uint32_t> solid_round(const Scene& scene, const Vec3& at) {
-  std::vector<std::size_t> above(scene.objects.size(), 0), all(scene.objects.size(), 0);
-  for (std::size_t i = 0; i < scene.mesh.triangles.size(); ++i) {
-    std::array<Vec3, 3> facet;
-    for (std::size_t k = 0; k < 3; ++k) facet[k] = scene.mesh.vertices[scene.mesh.triangles[i][k]];
-    if (!holds(facet, at)) continue;
-    const Vec3 normal = (facet[1] - facet[0]).cross(facet[2] - facet[0]);
-    ++all[scene.object_of[i]];
-    above[scene.object_of[i]] += normal.dot(at - facet[0]) * normal.z() < 0;
-  }
-  for (std::size_t object = 0; object < all.size(); ++object) {
-    if (all[object] % 2 == 0 && above[object] % 2 == 1) return static_cast<std::uint32_t>(object);
-  }
-  return std::nullopt;
-}
-
-/// From inside a building its walls are all that is seen, and a volume all the same.
-void check_outdoors(const Mission& mission) {
-  constexpr double kClear = 1e-3;  // metres: the target may lie on the floor of a building
-  const Scene& scene = mission.loaded.scene;
-  for (std::size_t i = 0; i < mission.target.parts.size(); ++i) {
-    const TargetFrame frame = make_target_frame(mission.target, i);
-    const auto solid = solid_round(scene, frame.origin + kClear * frame.normal);
-    if (!solid) continue;
-    fail("the target lies inside " + in_quotes(display_name(scene.objects[*solid])), mission.file.places.target,
-         how_to_leave_out(mission.loaded, *solid, mission.file.ground_target->osm)
-             .value_or("name a place outdoors; for a roof give its 'vertices', for a storey a scene that has rooms"));
-  }
-}
-
-void put_on_ground(Mission& mission, const geo::LocalFrame& frame, const Progress& progress) {
-  const GroundTarget& wanted = *mission.file.ground_target;
-  if (wanted.center_deg) check_order(mission, wanted, ground_of(mission), frame);
-  const std::vector<city::Footprint> areas = wanted.osm.empty()
-                                                 ? std::vector<city::Footprint>{{rectangle(wanted, frame), {}}}
-                                                 : outlines(mission, wanted.osm, frame, progress);
-  if (auto note = make_room(mission, plan_box(areas))) mission.loaded.notes.push_back(std::move(*note));
-  const terrain::Surface ground = ground_of(mission);
-  mission.target.parts.clear();
-  for (const city::Footprint& area : areas) {
-    const Plane plane = ground_plane(ground, area.outer, mission);
-    for (const city::Ring& piece : city::convex_pieces(area)) {
-      for (const city::Ring& small : halved(piece)) mission.target.parts.push_back(on_plane(small, plane));
-    }
-  }
-  check_outdoors(mission);
-}
-
 }  // namespace
 
 void georeference(Mission& mission, const Progress& progress) {
@@ -407,4 +160,4 @@ void georeference(Mission& mission, const Progress& progress) {
   });
 }
 
-}  // namespace vantage::app
+}  // namespace vantage::internal::app

@@ -3,7 +3,7 @@
 
 #include "vantage/mission.h"
 
-namespace vantage::app {
+namespace vantage::internal::app {
 
 /// Turns the coordinates of `mission.file.crs` into the scene frame and puts `mission.file.ground_target` on the
 /// ground: afterwards target and boxes are in the frame, and the target's parts are checked. Does nothing where neither
@@ -13,4 +13,4 @@ namespace vantage::app {
 /// extended to hold the target (`loaded.notes`); throws TerrainTooSmall where terrain has to be.
 void georeference(Mission& mission, const Progress& progress);
 
-}  // namespace vantage::app
+}  // namespace vantage::internal::app

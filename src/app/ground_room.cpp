@@ -6,7 +6,7 @@
 
 #include "vantage/error.h"
 
-namespace vantage::app {
+namespace vantage::internal::app {
 namespace {
 
 using Vec2 = Eigen::Vector2d;
@@ -98,4 +98,4 @@ void fail_off_ground(const Mission& mission, const std::string& problem) {
   throw Error(ErrorKind::input, problem, mission.file.places.target, fix);
 }
 
-}  // namespace vantage::app
+}  // namespace vantage::internal::app

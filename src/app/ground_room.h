@@ -7,7 +7,7 @@
 
 #include "vantage/mission.h"
 
-namespace vantage::app {
+namespace vantage::internal::app {
 
 /// A rectangle in plan, scene frame.
 struct PlanBox {
@@ -30,4 +30,4 @@ std::optional<std::string> make_room(Mission& mission, const PlanBox& wanted);
 /// Throws Error(input): the target, or a place of it, is off the ground, and how to get more of that.
 [[noreturn]] void fail_off_ground(const Mission& mission, const std::string& problem);
 
-}  // namespace vantage::app
+}  // namespace vantage::internal::app

@@ -10,7 +10,7 @@
 #include "app/yaml_tree.h"
 #include "vantage/error.h"
 
-namespace vantage::app {
+namespace vantage::internal::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -41,4 +41,4 @@ std::string read_text(const fs::path& file, const std::string& name) {
   return text;
 }
 
-}  // namespace vantage::app
+}  // namespace vantage::internal::app

@@ -109,7 +109,7 @@ std::string json_text(const LoadedScene& loaded, const SceneStatistics& found) {
   json["misoriented_edges"] = found.misoriented_edges;
   json["polygons"] = found.polygons;
   json["bounds"] = json_of(found.bounds);
-  if (scene.georeference) json["georeference"] = io::georeference_json(*scene.georeference);
+  if (scene.georeference) json["georeference"] = internal::io::georeference_json(*scene.georeference);
   json["notes"] = notes_of(loaded);
   add_source(json, loaded);
   return dumped(json, 2);

@@ -68,7 +68,7 @@ std::string mission_hash(const Mission& mission) {
   } else {
     json["options"] = {{"tolerance_m", number(mission.file.exact.tolerance_m)}};
   }
-  core::Sha256 hash;
+  internal::core::Sha256 hash;
   hash.add("vantage mission 1\n");
   hash.add(json.dump());
   return hash.hex();

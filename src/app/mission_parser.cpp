@@ -14,7 +14,7 @@
 #include "vantage/error.h"
 #include "vantage/input.h"
 
-namespace vantage::app {
+namespace vantage::internal::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -370,4 +370,4 @@ const YamlNode& MissionParser::require(const YamlNode& map, Section section, std
 
 MissionFile parse_mission(std::string_view text, const fs::path& file) { return MissionParser(file).parse(text); }
 
-}  // namespace vantage::app
+}  // namespace vantage::internal::app

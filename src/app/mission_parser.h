@@ -7,10 +7,10 @@
 #include "app/yaml_tree.h"
 #include "vantage/mission.h"
 
-namespace vantage::app {
+namespace vantage::internal::app {
 
 /// Parses and checks the text of a mission file. `file` gives the folder that relative paths start from and the name in
 /// messages; it is not opened. Throws as read_mission does, but for what only the named files can tell.
 MissionFile parse_mission(std::string_view text, const std::filesystem::path& file);
 
-}  // namespace vantage::app
+}  // namespace vantage::internal::app

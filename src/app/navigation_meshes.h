@@ -8,7 +8,7 @@
 
 #include "vantage/mission.h"
 
-namespace vantage::app {
+namespace vantage::internal::app {
 
 /// A mesh to stay in, as its file and the mission say.
 struct NavigationMesh {
@@ -23,4 +23,4 @@ struct NavigationMesh {
 /// scene's.
 std::vector<KeepInMesh> placed_navigation_meshes(const std::vector<NavigationMesh>& meshes, const Scene& scene);
 
-}  // namespace vantage::app
+}  // namespace vantage::internal::app

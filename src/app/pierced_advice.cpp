@@ -7,7 +7,7 @@
 
 #include "app/scene_warnings.h"
 
-namespace vantage::app {
+namespace vantage::internal::app {
 namespace {
 
 /// What scene.without calls them.
@@ -41,4 +41,4 @@ Error explained(const target::PiercedTarget& error, const LoadedScene& loaded, c
   return {error.kind(), error.problem(), error.where(), *advice};
 }
 
-}  // namespace vantage::app
+}  // namespace vantage::internal::app

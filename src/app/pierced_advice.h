@@ -8,7 +8,7 @@
 #include "target/target_check.h"
 #include "vantage/mission.h"
 
-namespace vantage::app {
+namespace vantage::internal::app {
 
 /// How to leave out an object of a map; nothing for buildings, and in other scenes. `object`: of the scene.
 /// `target_object`: the map's object that is the target ("way/123"), or empty: its own fence may stand on its outline.
@@ -18,4 +18,4 @@ std::optional<std::string> how_to_leave_out(const LoadedScene& loaded, std::uint
 /// The same error with advice that fits the object, or the scene where that seems to lie on its side.
 Error explained(const target::PiercedTarget& error, const LoadedScene& loaded, const std::string& target_object);
 
-}  // namespace vantage::app
+}  // namespace vantage::internal::app

@@ -32,11 +32,11 @@ const char* what_of(SceneSource::Kind kind) {
 
 MissionFile read_mission(const fs::path& file) {
   check_readable(file, "the mission file", "");
-  return read_mission_text(app::read_text(file, "mission file"), file);
+  return read_mission_text(internal::app::read_text(file, "mission file"), file);
 }
 
 MissionFile read_mission_text(std::string_view text, const fs::path& file) {
-  MissionFile mission = app::parse_mission(text, file);
+  MissionFile mission = internal::app::parse_mission(text, file);
   SceneSource& scene = mission.scene;
   check_readable(scene.file, what_of(scene.kind), mission.places.scene);
   scene.file = with_true_folder(scene.file);

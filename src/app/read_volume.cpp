@@ -9,8 +9,7 @@
 #include "vantage/input.h"
 #include "vantage/result.h"
 
-namespace vantage {
-namespace app {
+namespace vantage::internal::app {
 namespace {
 
 /// Whether z = 0 is surely not the same height: one counts from flat ground, and the other is known not to.
@@ -57,9 +56,11 @@ std::vector<KeepInMesh> placed_navigation_meshes(const std::vector<NavigationMes
   return placed;
 }
 
-}  // namespace app
+}  // namespace vantage::internal::app
 
-using namespace app;
+namespace vantage {
+
+using namespace internal::app;
 
 namespace {
 
@@ -89,7 +90,7 @@ VolumeFile read_volume(const std::filesystem::path& file, const SceneReadOptions
                            " m, more than its numbers can be rounded by: " + shortest(most) + " m is allowed");
     result.rounding_m = most;
   }
-  if (auto stated = io::read_causes(file, result.volume)) {
+  if (auto stated = internal::io::read_causes(file, result.volume)) {
     result.volume.provenance = std::move(stated->provenance);
     result.volume.tolerance_m = stated->tolerance_m;
     result.volume.lift_m = std::move(stated->lift_m);
@@ -98,7 +99,7 @@ VolumeFile read_volume(const std::filesystem::path& file, const SceneReadOptions
   if (!frame || !result.volume.georeference) return result;
   check_near(*result.volume.georeference, *frame, "the mesh", file.string(),
              "give the mesh that goes with the other input");
-  if (geo::move_origin(result.volume.mesh.vertices, *result.volume.georeference, *frame)) {
+  if (internal::geo::move_origin(result.volume.mesh.vertices, *result.volume.georeference, *frame)) {
     result.notes.push_back(file.string() +
                            " lies about another origin on the earth: it was moved into the frame (the same map differs "
                            "by a tenth of a millimetre from one frame to another, and shadows by more)");

@@ -7,6 +7,7 @@
 #include "vantage/error.h"
 #include "vantage/hash.h"
 #include "vantage/result.h"
+#include "vantage/version.h"
 
 namespace vantage {
 namespace {
@@ -108,7 +109,7 @@ std::string report_json(const Volume& volume, const MeshMeasures& measures, cons
   }
   report["tolerance_m"] = volume.tolerance_m;
   report["lift_m"] = volume.lift_m.empty() ? 0 : *std::max_element(volume.lift_m.begin(), volume.lift_m.end());
-  if (volume.georeference) report["georeference"] = io::georeference_json(*volume.georeference);
+  if (volume.georeference) report["georeference"] = internal::io::georeference_json(*volume.georeference);
   report["bounding_box"] = json_of(measures.bounds);
   report["causes"] = json_of(volume.causes);
   if (source.spheres) report["spheres"] = json_of(*source.spheres);

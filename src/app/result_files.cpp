@@ -20,11 +20,11 @@ std::filesystem::path report_file(const std::filesystem::path& volume_file) {
 
 WrittenResults write_results(Volume& volume, const ResultRequest& request, const Progress& callback) {
   const auto start = std::chrono::steady_clock::now();
-  const core::ProgressReporter progress(callback);
+  const internal::core::ProgressReporter progress(callback);
   progress.begin("writing");
   const bool has_volume = volume.outcome == Outcome::computed;
   WrittenResults result;
-  result.measures = has_volume ? core::measure_sound(volume.mesh) : measure(volume.mesh);
+  result.measures = has_volume ? internal::core::measure_sound(volume.mesh) : measure(volume.mesh);
 
   std::vector<std::unique_ptr<AtomicFile>> files;
   if (has_volume) {

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "app/components/solid.h"
+#include "app/components/spheres.h"
 #include "app/pierced_advice.h"
 #include "app/places.h"
 #include "core/parallel.h"
@@ -8,7 +10,6 @@
 #include "vantage/error.h"
 #include "vantage/hash.h"
 #include "vantage/mission.h"
-#include "vantage/navigation.h"
 
 namespace vantage {
 namespace {
@@ -21,7 +22,7 @@ Volume compute(const Mission& mission, const PreparedTarget& target, const Stage
   if (mission.file.method == Method::exact) {
     ExactOptions options = mission.file.exact;
     options.threads = 0;  // those of the arena that the mission runs in
-    return compute_volume(target, {}, options, progress);
+    return internal::app::exact_volume(target, options, progress);
   }
   SpheresOptions options = mission.file.spheres;
   options.threads = 0;
@@ -33,15 +34,15 @@ Volume compute(const Mission& mission, const PreparedTarget& target, const Stage
   const StageSink sink = stages ? StageSink(georeferenced) : StageSink();
   std::vector<Volume> volumes;
   for (std::size_t i = 0; i < target.part_count(); ++i) {
-    volumes.push_back(compute_visibility_spheres(target.part(i), options, &result.spheres.emplace(), sink, progress));
+    volumes.push_back(internal::app::spheres_volume(target.part(i), options, result.spheres.emplace(), sink, progress));
   }
-  return volumes.size() == 1 ? std::move(volumes[0]) : intersect_volumes(volumes, progress);
+  return internal::app::joined(std::move(volumes), progress);
 }
 
 Result run(const Mission& mission, const StageSink& stages, const Progress& progress) {
   Result result;
   Seconds seconds;
-  core::Stopwatch stopwatch;
+  internal::core::Stopwatch stopwatch;
   const Scene& scene = mission.loaded.scene;
   seconds.read = mission.read_seconds;
   const PreparedScene prepared(scene, progress);
@@ -53,13 +54,14 @@ Result run(const Mission& mission, const StageSink& stages, const Progress& prog
     result.volume = compute(mission, target, stages, result, progress);
   } catch (const Error& error) {
     if (mission.file.method == Method::spheres && !is_about_target(error)) throw;
-    app::with_place(mission.file.places.target, [&]() -> int { throw error; });
+    internal::app::with_place(mission.file.places.target, [&]() -> int { throw error; });
   }
   seconds.engine = stopwatch.lap();
 
   if (result.volume.outcome == Outcome::computed && !mission.navigation.empty()) {
-    result.volume = app::with_place(mission.file.file.string(),
-                                    [&] { return cut_to_navigation(result.volume, mission.navigation, progress); });
+    result.volume = internal::app::with_place(mission.file.file.string(), [&] {
+      return internal::app::within_limits(result.volume, mission.navigation, progress);
+    });
     seconds.navigation = stopwatch.lap();
   }
   seconds.total = seconds.read + seconds.prepare + seconds.engine + seconds.navigation;
@@ -80,18 +82,18 @@ const char* name_of(Method method) { return method == Method::spheres ? "spheres
 
 PreparedTarget prepare_target(const Mission& mission, const PreparedScene& scene) {
   const auto& ground = mission.file.ground_target;
-  return app::with_place(mission.file.places.target, [&] {
+  return internal::app::with_place(mission.file.places.target, [&] {
     try {
       return PreparedTarget(scene, mission.target, mission.sensor);
-    } catch (const target::PiercedTarget& error) {
-      throw app::explained(error, mission.loaded, ground ? ground->osm : "");
+    } catch (const internal::target::PiercedTarget& error) {
+      throw internal::app::explained(error, mission.loaded, ground ? ground->osm : "");
     }
   });
 }
 
 Result run_mission(const Mission& mission, const RunOptions& options, const Progress& progress) {
   Result result;
-  parallel::with_threads(options.threads, [&] { result = run(mission, options.stages, progress); });
+  internal::parallel::with_threads(options.threads, [&] { result = run(mission, options.stages, progress); });
   return result;
 }
 

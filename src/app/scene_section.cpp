@@ -11,7 +11,7 @@
 #include "vantage/city.h"
 #include "vantage/input.h"
 
-namespace vantage::app {
+namespace vantage::internal::app {
 namespace {
 
 using Kind = SceneSource::Kind;
@@ -164,4 +164,4 @@ std::array<double, 2> parse_lat_lon(const YamlNode& node, const ValueReader& rea
   return {latitude, longitude};
 }
 
-}  // namespace vantage::app
+}  // namespace vantage::internal::app

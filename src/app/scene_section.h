@@ -8,7 +8,7 @@
 #include "app/value_reader.h"
 #include "vantage/scene_source.h"
 
-namespace vantage::app {
+namespace vantage::internal::app {
 
 struct SceneSection {
   SceneSource source;         ///< paths start from the mission's folder
@@ -23,4 +23,4 @@ UpAxis parse_up_axis(const YamlNode& node, const ValueReader& reader, const std:
 /// "[latitude, longitude]" in degrees, in range.
 std::array<double, 2> parse_lat_lon(const YamlNode& node, const ValueReader& reader, const std::string& what);
 
-}  // namespace vantage::app
+}  // namespace vantage::internal::app

@@ -10,7 +10,7 @@
 #include "core/triangle_distance.h"
 #include "vantage/input.h"
 
-namespace vantage::app {
+namespace vantage::internal::app {
 namespace {
 
 using Corners = std::array<Vec3, 3>;
@@ -167,4 +167,4 @@ std::vector<std::string> scene_warnings(const Mission& mission, const Volume* vo
   return sentences;
 }
 
-}  // namespace vantage::app
+}  // namespace vantage::internal::app

@@ -8,7 +8,7 @@
 
 #include "vantage/mission.h"
 
-namespace vantage::app {
+namespace vantage::internal::app {
 
 /// Sentences for people, none where all is as usual. `volume` may be null or empty. Cost: linear in the scene's
 /// triangles.
@@ -17,4 +17,4 @@ std::vector<std::string> scene_warnings(const Mission& mission, const Volume* vo
 /// Of these the one that tells that the scene seems to lie on its side, with what to do.
 std::optional<std::string> on_its_side(const LoadedScene& loaded);
 
-}  // namespace vantage::app
+}  // namespace vantage::internal::app

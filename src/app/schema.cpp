@@ -6,7 +6,7 @@
 #include "vantage/error.h"
 #include "vantage/input.h"
 
-namespace vantage::app {
+namespace vantage::internal::app {
 namespace {
 
 struct SectionKeys {
@@ -114,4 +114,4 @@ std::string describe(const YamlNode& node) {
   return (node.is_quoted ? "the text " : "") + in_quotes(node.text);
 }
 
-}  // namespace vantage::app
+}  // namespace vantage::internal::app

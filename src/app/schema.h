@@ -8,7 +8,7 @@
 
 #include "app/yaml_tree.h"
 
-namespace vantage::app {
+namespace vantage::internal::app {
 
 /// The sections of a mission file. A section's keys, and nothing else, may stand in its map.
 enum class Section { mission, scene, target, sensor, navigation, box, mesh, exact, spheres };
@@ -32,4 +32,4 @@ void check_keys(const YamlNode& node, Section section, const std::string& file);
 /// What a node is, for messages: "a list", "the text 'abc'", "nothing".
 std::string describe(const YamlNode& node);
 
-}  // namespace vantage::app
+}  // namespace vantage::internal::app

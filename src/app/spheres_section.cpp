@@ -8,10 +8,10 @@
 
 #include "app/places.h"
 #include "app/schema.h"
-#include "spheres/sphere_maker.h"
+#include "options/spheres_options.h"
 #include "vantage/input.h"
 
-namespace vantage::app {
+namespace vantage::internal::app {
 namespace {
 
 int whole_number(const YamlNode& node, const ValueReader& reader, const std::string& what) {
@@ -42,7 +42,7 @@ void parse_spheres(const YamlNode& node, const ValueReader& reader, SpheresOptio
   const YamlNode* last = &node;  // what is out of range is told of the key that brought it
   const auto check = [&] {
     with_place(place_in(reader.file(), last->place), [&] {
-      spheres::check_options(options);
+      options::check_options(options);
       return 0;
     });
   };
@@ -80,4 +80,4 @@ void parse_spheres(const YamlNode& node, const ValueReader& reader, SpheresOptio
   });
 }
 
-}  // namespace vantage::app
+}  // namespace vantage::internal::app

@@ -5,10 +5,10 @@
 #include "app/yaml_tree.h"
 #include "vantage/spheres.h"
 
-namespace vantage::app {
+namespace vantage::internal::app {
 
 /// Takes over what the section says. Throws Error(input) with the place in the file for an unknown key, a wrong type
 /// and a value out of range.
 void parse_spheres(const YamlNode& node, const ValueReader& reader, SpheresOptions& options);
 
-}  // namespace vantage::app
+}  // namespace vantage::internal::app

@@ -15,6 +15,7 @@
 #include "vantage/input.h"
 #include "vantage/result.h"
 #include "vantage/stages.h"
+#include "vantage/version.h"
 #include "vantage/volume.h"
 
 namespace vantage {

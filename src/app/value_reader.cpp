@@ -5,7 +5,7 @@
 
 #include "vantage/input.h"
 
-namespace vantage::app {
+namespace vantage::internal::app {
 
 double ValueReader::number(const YamlNode& node, const std::string& what) const {
   if (node.kind != YamlNode::Kind::scalar || node.is_quoted) {
@@ -71,4 +71,4 @@ const std::vector<YamlNode>& ValueReader::list(const YamlNode& node, const std::
   return node.items;
 }
 
-}  // namespace vantage::app
+}  // namespace vantage::internal::app

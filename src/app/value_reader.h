@@ -9,7 +9,7 @@
 #include "app/yaml_tree.h"
 #include "vantage/geometry.h"
 
-namespace vantage::app {
+namespace vantage::internal::app {
 
 /// Largest length that a file may state, in metres: beyond it a coordinate leaves the solar system's inner planets, and
 /// squares of lengths begin to lose the millimetres that the engine promises.
@@ -40,4 +40,4 @@ class ValueReader {
   std::string file_;
 };
 
-}  // namespace vantage::app
+}  // namespace vantage::internal::app

@@ -64,12 +64,13 @@ double beyond(const std::vector<Vec2>& points, const Vec2& centre, double radius
 }
 
 /// How far the points reach out of a rectangle of the earth (west, south, east, north), metres.
-double beyond(const std::vector<Vec2>& points, const std::array<double, 4>& degrees, const geo::LocalFrame& frame) {
+double beyond(const std::vector<Vec2>& points, const std::array<double, 4>& degrees,
+              const internal::geo::LocalFrame& frame) {
   const auto [west, south, east, north] = degrees;
-  if (geo::LongitudeRange{west, east}.width_deg() > 180) {  // round a pole
+  if (internal::geo::LongitudeRange{west, east}.width_deg() > 180) {  // round a pole
     const bool is_south = south + north < 0;
-    const geo::LonLat pole{0, is_south ? -90.0 : 90.0};
-    return beyond(points, frame.to_local(pole), geo::geodesic_m(pole, {0, is_south ? north : south}));
+    const internal::geo::LonLat pole{0, is_south ? -90.0 : 90.0};
+    return beyond(points, frame.to_local(pole), internal::geo::geodesic_m(pole, {0, is_south ? north : south}));
   }
   const Vec2 sw = frame.to_local({west, south}), se = frame.to_local({east, south});
   const Vec2 ne = frame.to_local({east, north}), nw = frame.to_local({west, north});
@@ -91,7 +92,7 @@ Shortfall of_map(const Mission& mission, const std::vector<Vec2>& points) {
   const LoadedScene& loaded = mission.loaded;
   const CityRegion& region = mission.file.scene.city.region;
   const Georeference& place = *loaded.scene.georeference;
-  const geo::LocalFrame frame({place.longitude_deg, place.latitude_deg});
+  const internal::geo::LocalFrame frame({place.longitude_deg, place.latitude_deg});
   const std::string part = "the part of the map that is used";
   if (region.center_deg) {
     const Vec2 centre = frame.to_local({(*region.center_deg)[1], (*region.center_deg)[0]});
@@ -149,7 +150,7 @@ std::vector<std::string> mission_warnings(const Mission& mission, const Volume* 
     sentences.push_back(std::string("the target is ") + size +
                         " mm across: if its vertices are longitudes and latitudes, say so with 'crs: EPSG:4326'");
   }
-  for (std::string& sentence : app::scene_warnings(mission, volume)) sentences.push_back(std::move(sentence));
+  for (std::string& sentence : internal::app::scene_warnings(mission, volume)) sentences.push_back(std::move(sentence));
   return sentences;
 }
 

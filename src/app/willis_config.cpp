@@ -13,7 +13,7 @@
 
 namespace vantage {
 
-using namespace app;
+using namespace internal::app;
 
 namespace {
 

@@ -11,7 +11,7 @@
 #include "vantage/error.h"
 #include "vantage/input.h"
 
-namespace vantage::app {
+namespace vantage::internal::app {
 namespace {
 
 std::string save_as_utf8(const YamlDialect& dialect) {
@@ -250,4 +250,4 @@ YamlNode parse_yaml(std::string_view text, const std::string& file, const YamlDi
   }
 }
 
-}  // namespace vantage::app
+}  // namespace vantage::internal::app

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace vantage::app {
+namespace vantage::internal::app {
 
 /// Where something stands in a text file, counted from 1.
 struct Place {
@@ -57,4 +57,4 @@ YamlNode parse_yaml(std::string_view text, const std::string& file, const YamlDi
 /// "mission.yaml:4:9", as compilers write it.
 std::string place_in(const std::string& file, Place place);
 
-}  // namespace vantage::app
+}  // namespace vantage::internal::app

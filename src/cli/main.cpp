@@ -12,6 +12,7 @@
 #include "cli/interrupt.h"
 #include "cli/usage_error.h"
 #include "vantage/error.h"
+#include "vantage/version.h"
 
 namespace vantage::cli {
 namespace {

@@ -5,6 +5,8 @@
 #include <sstream>
 #include <string_view>
 
+#include "vantage/version.h"
+
 namespace vantage::cli {
 namespace {
 

@@ -6,7 +6,7 @@
 
 #include "core/parallel.h"
 
-namespace vantage::core {
+namespace vantage::internal::core {
 namespace {
 
 constexpr std::size_t kLeafSize = 4;
@@ -158,4 +158,4 @@ Bvh build_bvh(const std::vector<Bounds>& items, std::vector<std::uint32_t>& orde
   return {Builder(items, order).run()};
 }
 
-}  // namespace vantage::core
+}  // namespace vantage::internal::core

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace vantage::core {
+namespace vantage::internal::core {
 
 /// Axis-aligned box in single precision, rounded outward: it holds the double box that it was made from.
 struct Bounds {
@@ -27,4 +27,4 @@ struct Bvh {
 /// Deterministic for any number of threads. Cost: O(n log n).
 Bvh build_bvh(const std::vector<Bounds>& items, std::vector<std::uint32_t>& order);
 
-}  // namespace vantage::core
+}  // namespace vantage::internal::core

@@ -19,7 +19,9 @@ Volume volume_of_mesh(Mesh mesh, const std::string& cause) {
   return volume;
 }
 
-namespace core {
+}  // namespace vantage
+
+namespace vantage::internal::core {
 
 std::uint32_t CauseList::add(const Cause& cause) {
   const auto next = static_cast<std::uint32_t>(causes_.size());
@@ -51,5 +53,4 @@ void compact_causes(const Mesh& mesh, std::vector<std::uint32_t>& cause_of, std:
   causes = std::move(kept);
 }
 
-}  // namespace core
-}  // namespace vantage
+}  // namespace vantage::internal::core

@@ -11,13 +11,13 @@
 
 #include "vantage/volume.h"
 
-namespace vantage::core {
+namespace vantage::internal::core {
 
 /// Causes, each once. Those of one object are the same, and without an object those of one kind and name.
 class CauseList {
  public:
   /// The number of the cause: a new one, unless it is there.
-  std::uint32_t add(const Cause& cause);
+  VANTAGE_INTERNAL_API std::uint32_t add(const Cause& cause);
 
   const std::vector<Cause>& causes() const { return causes_; }
 
@@ -28,6 +28,7 @@ class CauseList {
 
 /// Measures the causes' areas and drops those that no triangle has. `cause_of`: per triangle of `mesh`, an index into
 /// `causes`; numbered anew.
-void compact_causes(const Mesh& mesh, std::vector<std::uint32_t>& cause_of, std::vector<Cause>& causes);
+VANTAGE_INTERNAL_API void compact_causes(const Mesh& mesh, std::vector<std::uint32_t>& cause_of,
+                                         std::vector<Cause>& causes);
 
-}  // namespace vantage::core
+}  // namespace vantage::internal::core

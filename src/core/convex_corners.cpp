@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace vantage::core {
+namespace vantage::internal::core {
 namespace {
 
 class CornerSearch {
@@ -105,4 +105,4 @@ std::optional<std::vector<bool>> find_corners(std::span<const Vec3> polygon, con
   return CornerSearch(polygon, normal, slack).run();
 }
 
-}  // namespace vantage::core
+}  // namespace vantage::internal::core

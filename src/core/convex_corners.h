@@ -7,7 +7,7 @@
 
 #include "vantage/geometry.h"
 
-namespace vantage::core {
+namespace vantage::internal::core {
 
 /// How far a vertex that is no corner may lie from the outline of the corners, in metres.
 struct CornerSlack {
@@ -29,4 +29,4 @@ std::optional<std::vector<bool>> find_corners(std::span<const Vec3> polygon, con
 /// Distance of b from the line through a and c: positive on its right, seen from `normal`.
 double distance_right_of(const Vec3& a, const Vec3& c, const Vec3& b, const Vec3& normal);
 
-}  // namespace vantage::core
+}  // namespace vantage::internal::core

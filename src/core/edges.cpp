@@ -7,7 +7,7 @@
 
 #include "vantage/error.h"
 
-namespace vantage::core {
+namespace vantage::internal::core {
 namespace {
 
 void check_indices(const std::vector<Triangle>& triangles, std::size_t vertices) {
@@ -66,4 +66,4 @@ void DisjointSets::join(std::uint32_t a, std::uint32_t b) {
   --count_;
 }
 
-}  // namespace vantage::core
+}  // namespace vantage::internal::core

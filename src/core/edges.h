@@ -7,7 +7,7 @@
 
 #include "vantage/geometry.h"
 
-namespace vantage::core {
+namespace vantage::internal::core {
 
 /// One side of one triangle. A triangle with a repeated vertex has a side with low == high.
 struct EdgeUse {
@@ -42,4 +42,4 @@ class DisjointSets {
   std::size_t count_;
 };
 
-}  // namespace vantage::core
+}  // namespace vantage::internal::core

@@ -5,7 +5,7 @@
 
 #include "vantage/error.h"
 
-namespace vantage::core {
+namespace vantage::internal::core {
 
 void make_facet_square(const Plane& plane, double range, FacetPolygon& polygon) {
   const double size = plane.norm();
@@ -52,4 +52,4 @@ bool clip_facet(FacetPolygon& polygon, const Vec3& normal, double height, double
   return true;
 }
 
-}  // namespace vantage::core
+}  // namespace vantage::internal::core

@@ -7,7 +7,7 @@
 
 #include "core/plane.h"
 
-namespace vantage::core {
+namespace vantage::internal::core {
 
 /// Corners in order; edge i runs from corner i to the next one and knows what made it.
 struct FacetPolygon {
@@ -29,4 +29,4 @@ void make_facet_square(const Plane& plane, double range, FacetPolygon& polygon);
 bool clip_facet(FacetPolygon& polygon, const Vec3& normal, double height, double margin, std::uint32_t maker,
                 FacetPolygon& scratch);
 
-}  // namespace vantage::core
+}  // namespace vantage::internal::core

@@ -7,7 +7,7 @@
 namespace vantage {
 namespace {
 
-void add_corners(const Mesh& mesh, std::size_t triangle, core::Sha256& hash) {
+void add_corners(const Mesh& mesh, std::size_t triangle, internal::core::Sha256& hash) {
   for (const std::uint32_t corner : mesh.triangles[triangle]) {
     if (corner >= mesh.vertices.size()) {
       throw Error(ErrorKind::input, "vertex index " + std::to_string(corner) + " is out of range",
@@ -25,7 +25,7 @@ std::string scene_hash(const Scene& scene) {
     throw Error(ErrorKind::input, "the scene names objects for another number of triangles", "object_of",
                 "give one object for each triangle, or none");
   }
-  core::Sha256 hash;
+  internal::core::Sha256 hash;
   hash.add("vantage scene 1\n");
   hash.add(static_cast<std::uint64_t>(triangles.size()));
   for (std::size_t t = 0; t < triangles.size(); ++t) {
@@ -36,7 +36,7 @@ std::string scene_hash(const Scene& scene) {
 }
 
 std::string volume_hash(const Mesh& mesh) {
-  core::Sha256 hash;
+  internal::core::Sha256 hash;
   hash.add("vantage volume 1\n");
   hash.add(static_cast<std::uint64_t>(mesh.triangles.size()));
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) add_corners(mesh, t, hash);

@@ -6,7 +6,7 @@
 
 #include "vantage/geometry.h"
 
-namespace vantage::core {
+namespace vantage::internal::core {
 
 /// A mesh with one label per triangle.
 struct LabelledMesh {
@@ -14,4 +14,4 @@ struct LabelledMesh {
   std::vector<std::uint32_t> labels;  ///< parallel to mesh.triangles
 };
 
-}  // namespace vantage::core
+}  // namespace vantage::internal::core

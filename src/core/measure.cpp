@@ -6,7 +6,7 @@
 namespace vantage {
 
 MeshMeasures measure(const Mesh& mesh) {
-  const std::vector<core::EdgeUse> uses = core::edge_uses(mesh.triangles, mesh.vertices.size());
+  const std::vector<internal::core::EdgeUse> uses = internal::core::edge_uses(mesh.triangles, mesh.vertices.size());
 
   MeshMeasures result;
   std::vector<bool> used(mesh.vertices.size(), false);
@@ -21,13 +21,13 @@ MeshMeasures measure(const Mesh& mesh) {
 
   long edges = 0;
   result.closed = result.oriented = true;
-  core::DisjointSets pieces(mesh.triangles.size());
-  core::for_each_edge(uses, [&](std::span<const core::EdgeUse> edge) {
+  internal::core::DisjointSets pieces(mesh.triangles.size());
+  internal::core::for_each_edge(uses, [&](std::span<const internal::core::EdgeUse> edge) {
     ++edges;
     const bool pair = edge.size() == 2 && edge[0].low != edge[0].high;
     result.closed = result.closed && pair;
     result.oriented = result.oriented && pair && edge[0].forward != edge[1].forward;
-    for (const core::EdgeUse& use : edge) pieces.join(edge[0].triangle, use.triangle);
+    for (const internal::core::EdgeUse& use : edge) pieces.join(edge[0].triangle, use.triangle);
   });
 
   result.facets = mesh.triangles.size();

@@ -16,7 +16,7 @@
 #include "core/stars.h"
 #include "core/weld.h"
 
-namespace vantage::core {
+namespace vantage::internal::core {
 namespace {
 
 class Mender {
@@ -237,4 +237,4 @@ double flat_width(const Mesh& mesh) {
   return kSteps * std::ldexp(1.0, exponent - std::numeric_limits<double>::digits);
 }
 
-}  // namespace vantage::core
+}  // namespace vantage::internal::core

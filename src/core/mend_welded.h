@@ -6,7 +6,7 @@
 
 #include "core/labelled_mesh.h"
 
-namespace vantage::core {
+namespace vantage::internal::core {
 
 /// Tells vertices apart by position and changes the mesh so that no facet is flat: narrower than `flat_m`, or without
 /// any area where that is 0. A closed mesh stays closed: each edge is run as often in one direction as in the other.
@@ -31,4 +31,4 @@ std::optional<double> mend_for_doubles(LabelledMesh& labelled);
 /// the rounding of the area's own terms. Metres; 0 for an empty mesh.
 double flat_width(const Mesh& mesh);
 
-}  // namespace vantage::core
+}  // namespace vantage::internal::core

@@ -4,7 +4,7 @@
 #include <charconv>
 #include <string>
 
-namespace vantage::core {
+namespace vantage::internal::core {
 
 /// With so many decimals: fixed_text(3, 3) is "3.000".
 inline std::string fixed_text(double value, int decimals) {
@@ -20,4 +20,4 @@ inline std::string metres_text(double value) {
   return std::string(text, end) + " m";
 }
 
-}  // namespace vantage::core
+}  // namespace vantage::internal::core

@@ -7,14 +7,15 @@
 namespace vantage {
 
 OpenEdges find_open_edges(const Mesh& mesh) {
-  const Mesh joined = core::welded(mesh);
+  const Mesh joined = internal::core::welded(mesh);
   OpenEdges open;
-  core::for_each_edge(
-      core::edge_uses(joined.triangles, joined.vertices.size()), [&](std::span<const core::EdgeUse> edge) {
-        if (edge.size() % 2 == 0) return;
-        if (open.count++ > 0) return;
-        open.middle_of_first = 0.5 * (joined.vertices[edge.front().low] + joined.vertices[edge.front().high]);
-      });
+  internal::core::for_each_edge(internal::core::edge_uses(joined.triangles, joined.vertices.size()),
+                                [&](std::span<const internal::core::EdgeUse> edge) {
+                                  if (edge.size() % 2 == 0) return;
+                                  if (open.count++ > 0) return;
+                                  open.middle_of_first =
+                                      0.5 * (joined.vertices[edge.front().low] + joined.vertices[edge.front().high]);
+                                });
   return open;
 }
 

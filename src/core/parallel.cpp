@@ -4,7 +4,7 @@
 #include <exception>
 #include <future>
 
-namespace vantage::parallel {
+namespace vantage::internal::parallel {
 
 void run_while_asking(const std::function<void()>& body, const std::function<void()>& ask) {
   constexpr std::chrono::milliseconds kPause{2};
@@ -24,4 +24,4 @@ void run_while_asking(const std::function<void()>& body, const std::function<voi
   running.get();
 }
 
-}  // namespace vantage::parallel
+}  // namespace vantage::internal::parallel

@@ -6,7 +6,7 @@
 
 #include "core/edges.h"
 
-namespace vantage::core {
+namespace vantage::internal::core {
 namespace {
 
 constexpr std::uint32_t kUnused = std::numeric_limits<std::uint32_t>::max();
@@ -79,4 +79,4 @@ void drop_slivers(LabelledMesh& labelled, double thickness_m) {
   drop_unused_vertices(mesh);
 }
 
-}  // namespace vantage::core
+}  // namespace vantage::internal::core

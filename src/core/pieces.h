@@ -7,7 +7,7 @@
 #include "core/labelled_mesh.h"
 #include "vantage/geometry.h"
 
-namespace vantage::core {
+namespace vantage::internal::core {
 
 struct Piece {
   std::size_t vertices = 0, facets = 0;
@@ -32,4 +32,4 @@ void drop_slivers(LabelledMesh& labelled, double thickness_m);
 /// Numbers the vertices anew, in their order, without those that no triangle uses.
 void drop_unused_vertices(Mesh& mesh);
 
-}  // namespace vantage::core
+}  // namespace vantage::internal::core

@@ -3,10 +3,10 @@
 
 #include "vantage/geometry.h"
 
-namespace vantage::core {
+namespace vantage::internal::core {
 
 /// The plane g . x = 1. `g` is an inverse length: on the direction d the plane is met at distance 1 / (g . d), so that
 /// g . d is the inverse depth.
 using Plane = Vec3;
 
-}  // namespace vantage::core
+}  // namespace vantage::internal::core

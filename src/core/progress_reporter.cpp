@@ -7,7 +7,7 @@
 
 #include "vantage/error.h"
 
-namespace vantage::core {
+namespace vantage::internal::core {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -113,4 +113,4 @@ void ProgressBridge::rethrow() const {
   if (thrown_) std::rethrow_exception(thrown_);
 }
 
-}  // namespace vantage::core
+}  // namespace vantage::internal::core

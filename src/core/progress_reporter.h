@@ -8,9 +8,10 @@
 #include <mutex>
 #include <string>
 
+#include "vantage/export.h"
 #include "vantage/progress.h"
 
-namespace vantage::core {
+namespace vantage::internal::core {
 
 /// Tells a Progress callback how far the work is, and stops the work when the callback says so.
 ///
@@ -18,7 +19,7 @@ namespace vantage::core {
 /// called by one thread at a time, at the beginning and at the end of a stage and else every 10 ms at most. The
 /// fraction of a stage does not fall. Once the callback has returned false it is not called again, and every member
 /// throws Error(cancelled), on all threads. A default reporter does nothing.
-class ProgressReporter {
+class VANTAGE_INTERNAL_API ProgressReporter {
  public:
   ProgressReporter() = default;
 
@@ -103,7 +104,7 @@ class ProgressCounter {
 };
 
 /// For libraries that ask by a plain function, from any thread, through which nothing may be thrown.
-class ProgressBridge {
+class VANTAGE_INTERNAL_API ProgressBridge {
  public:
   /// Keeps a reference to `progress`.
   explicit ProgressBridge(const ProgressReporter& progress) : progress_(progress) {}
@@ -121,4 +122,4 @@ class ProgressBridge {
   std::exception_ptr thrown_;
 };
 
-}  // namespace vantage::core
+}  // namespace vantage::internal::core

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace vantage::core {
+namespace vantage::internal::core {
 
 struct ReadLimits {
   /// Decompressed bytes of one file. A whole city of 100 million triangles is about 4 GB as OBJ.
@@ -28,4 +28,4 @@ struct ReadLimits {
 /// what lies beyond is a wrong scale or garbage, and its square or cube would overflow further on.
 inline constexpr double kMaxCoordinate = 1e9;
 
-}  // namespace vantage::core
+}  // namespace vantage::internal::core

@@ -4,7 +4,7 @@
 #include <bit>
 #include <cstring>
 
-namespace vantage::core {
+namespace vantage::internal::core {
 namespace {
 
 constexpr std::array<std::uint32_t, 64> kRound = {
@@ -100,4 +100,4 @@ void Sha256::take_block(const std::uint8_t* block) {
   for (std::size_t i = 0; i < state_.size(); ++i) state_[i] += add[i];
 }
 
-}  // namespace vantage::core
+}  // namespace vantage::internal::core

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace vantage::core {
+namespace vantage::internal::core {
 
 class Sha256 {
  public:
@@ -31,4 +31,4 @@ class Sha256 {
   std::uint64_t bytes_ = 0;
 };
 
-}  // namespace vantage::core
+}  // namespace vantage::internal::core

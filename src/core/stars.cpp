@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace vantage::core {
+namespace vantage::internal::core {
 
 Stars::Stars(const std::vector<Triangle>& triangles, std::size_t vertices)
     : first_(vertices + 1, 0), triangles_(3 * triangles.size()), changed_(vertices, kNone) {
@@ -37,4 +37,4 @@ void Stars::remove(std::uint32_t vertex, std::uint32_t triangle) {
   star.erase(std::remove(star.begin(), star.end(), triangle), star.end());
 }
 
-}  // namespace vantage::core
+}  // namespace vantage::internal::core

@@ -8,7 +8,7 @@
 
 #include "vantage/geometry.h"
 
-namespace vantage::core {
+namespace vantage::internal::core {
 
 /// Holds indices only: who changes a triangle tells so. Building: linear time. A change: linear in the vertex's
 /// triangles.
@@ -36,4 +36,4 @@ class Stars {
   std::vector<std::vector<std::uint32_t>> stars_;  // of the vertices that have changed
 };
 
-}  // namespace vantage::core
+}  // namespace vantage::internal::core

@@ -3,7 +3,7 @@
 
 #include <chrono>
 
-namespace vantage::core {
+namespace vantage::internal::core {
 
 class Stopwatch {
  public:
@@ -22,4 +22,4 @@ class Stopwatch {
   Clock::time_point start_ = Clock::now(), last_ = start_;
 };
 
-}  // namespace vantage::core
+}  // namespace vantage::internal::core

@@ -4,7 +4,7 @@
 #include <charconv>
 #include <cmath>
 
-namespace vantage::core {
+namespace vantage::internal::core {
 
 std::string number_text(double number) {
   // Beyond 2^53 there are no decimals, and fixed notation would only be long.
@@ -31,4 +31,4 @@ std::string count_text(std::size_t count, const char* one, const char* many) {
   return std::to_string(count).append(" ").append(count == 1 ? one : many);
 }
 
-}  // namespace vantage::core
+}  // namespace vantage::internal::core

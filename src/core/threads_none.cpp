@@ -3,7 +3,7 @@
 
 #include "core/parallel.h"
 
-namespace vantage::parallel {
+namespace vantage::internal::parallel {
 
 void for_ranges(std::size_t count, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body) {
   for (std::size_t begin = 0; begin < count; begin += grain) body(begin, std::min(count, begin + grain));
@@ -18,4 +18,4 @@ void with_threads(int, const std::function<void()>& body) { body(); }
 
 int thread_limit() { return 1; }
 
-}  // namespace vantage::parallel
+}  // namespace vantage::internal::parallel

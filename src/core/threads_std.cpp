@@ -10,7 +10,7 @@
 
 #include "core/parallel.h"
 
-namespace vantage::parallel {
+namespace vantage::internal::parallel {
 namespace {
 
 /// The threads that work for one call of with_threads, and for the parallel calls inside of it.
@@ -139,4 +139,4 @@ void with_threads(int threads, const std::function<void()>& body) {
 
 int thread_limit() { return crew().limit; }
 
-}  // namespace vantage::parallel
+}  // namespace vantage::internal::parallel

@@ -10,7 +10,7 @@
 
 #include "core/parallel.h"
 
-namespace vantage::parallel {
+namespace vantage::internal::parallel {
 
 void for_ranges(std::size_t count, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body) {
   tbb::parallel_for(
@@ -38,4 +38,4 @@ void with_threads(int threads, const std::function<void()>& body) {
 
 int thread_limit() { return tbb::this_task_arena::max_concurrency(); }
 
-}  // namespace vantage::parallel
+}  // namespace vantage::internal::parallel

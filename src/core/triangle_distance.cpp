@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
-namespace vantage::core {
+namespace vantage::internal::core {
 namespace {
 
 double squared_distance_to_edge(const Vec3& point, const Vec3& start, const Vec3& end) {
@@ -27,4 +27,4 @@ double squared_distance_to_triangle(const Vec3& point, const Vec3& a, const Vec3
   return std::min(of_edges, height * height / normal.squaredNorm());  // of a sliver rounding may say more
 }
 
-}  // namespace vantage::core
+}  // namespace vantage::internal::core

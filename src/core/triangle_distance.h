@@ -3,9 +3,9 @@
 
 #include "vantage/geometry.h"
 
-namespace vantage::core {
+namespace vantage::internal::core {
 
 /// Square of the distance from `point` to the nearest point of the closed triangle abc, which may have no area.
 double squared_distance_to_triangle(const Vec3& point, const Vec3& a, const Vec3& b, const Vec3& c);
 
-}  // namespace vantage::core
+}  // namespace vantage::internal::core

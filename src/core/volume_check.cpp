@@ -6,7 +6,7 @@
 
 #include "vantage/error.h"
 
-namespace vantage::core {
+namespace vantage::internal::core {
 
 void check_labelled(const Mesh& mesh, const Labels& labels) {
   const auto refuse = [&](const std::string& problem, const std::string& where) {
@@ -47,4 +47,4 @@ MeshMeasures measure_sound(const Mesh& mesh) {
               "written");
 }
 
-}  // namespace vantage::core
+}  // namespace vantage::internal::core

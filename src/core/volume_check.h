@@ -7,7 +7,7 @@
 
 #include "vantage/volume.h"
 
-namespace vantage::core {
+namespace vantage::internal::core {
 
 /// What each triangle of a mesh belongs to.
 struct Labels {
@@ -23,10 +23,10 @@ struct Labels {
 void check_labelled(const Mesh& mesh, const Labels& labels);
 
 /// The same of a volume and its causes.
-void check_volume(const Volume& volume);
+VANTAGE_INTERNAL_API void check_volume(const Volume& volume);
 
 /// Measures what the engine or a cut made. Throws Error(internal) unless it is closed and oriented: it must not be
 /// written then.
-MeshMeasures measure_sound(const Mesh& mesh);
+VANTAGE_INTERNAL_API MeshMeasures measure_sound(const Mesh& mesh);
 
-}  // namespace vantage::core
+}  // namespace vantage::internal::core

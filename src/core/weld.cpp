@@ -9,7 +9,7 @@
 
 #include "core/edges.h"
 
-namespace vantage::core {
+namespace vantage::internal::core {
 namespace {
 
 /// The vertices in the order of their coordinates, those in one place in the order of their indices.
@@ -137,4 +137,4 @@ void split_where_pieces_touch(Mesh& mesh) {
   }
 }
 
-}  // namespace vantage::core
+}  // namespace vantage::internal::core

@@ -3,7 +3,7 @@
 
 #include "vantage/geometry.h"
 
-namespace vantage::core {
+namespace vantage::internal::core {
 
 /// The mesh with one vertex for each position (exactly equal coordinates, which must not be NaN), in the order of the
 /// coordinates, and without the triangles that have two corners in one place. Cost: O(n log n).
@@ -17,4 +17,4 @@ std::vector<std::uint32_t> first_at_position(const std::vector<Vec3>& vertices);
 /// must be closed. Vertices that are new come last. Cost: linear, but for sorting the edges at each vertex.
 void split_where_pieces_touch(Mesh& mesh);
 
-}  // namespace vantage::core
+}  // namespace vantage::internal::core

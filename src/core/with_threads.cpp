@@ -3,6 +3,8 @@
 
 namespace vantage {
 
-void with_threads(int threads, const std::function<void()>& action) { parallel::with_threads(threads, action); }
+void with_threads(int threads, const std::function<void()>& action) {
+  internal::parallel::with_threads(threads, action);
+}
 
 }  // namespace vantage

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace vantage::depth {
+namespace vantage::internal::depth {
 namespace {
 
 // Neighbours overlap by this much in u, so that rounding leaves no crack between them.
@@ -62,4 +62,4 @@ void draw_at_centers(const FaceBand& band, std::span<const Vec3> corners, std::s
   }
 }
 
-}  // namespace vantage::depth
+}  // namespace vantage::internal::depth

@@ -6,10 +6,10 @@
 
 #include "depth/face_view.h"
 
-namespace vantage::depth {
+namespace vantage::internal::depth {
 
 /// Raises every texel of the band whose centre the polygon covers to at least its inverse depth there. `corners` are
 /// what FaceClip made of it: (right, up, forward); `inverse_depths` holds the rows of the band.
 void draw_at_centers(const FaceBand& band, std::span<const Vec3> corners, std::span<float> inverse_depths);
 
-}  // namespace vantage::depth
+}  // namespace vantage::internal::depth

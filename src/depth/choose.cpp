@@ -9,7 +9,7 @@
 #include "depth/gl_depth.h"
 #include "vantage/error.h"
 
-namespace vantage::depth {
+namespace vantage::internal::depth {
 namespace {
 
 constexpr const char* kWhere = "choosing a device";
@@ -120,11 +120,11 @@ ChosenRenderer make_depth_renderer(const PreparedScene& scene, const DeviceChoic
   return make_depth_renderer(back_ends, choice);
 }
 
-}  // namespace vantage::depth
+}  // namespace vantage::internal::depth
 
 namespace vantage {
 
-using namespace depth;
+using namespace internal::depth;
 
 ChosenDevice choose_device(const RenderDevices& found, const DeviceChoice& choice) {
   const RenderDevice& cpu = found.devices.front();

@@ -7,7 +7,7 @@
 
 #include "depth/depth.h"
 
-namespace vantage::depth {
+namespace vantage::internal::depth {
 
 struct BackEnds {
   RenderDevices found;  ///< the CPU first
@@ -18,4 +18,4 @@ struct BackEnds {
 /// What make_depth_renderer does, with given back ends.
 ChosenRenderer make_depth_renderer(const BackEnds& back_ends, const DeviceChoice& choice);
 
-}  // namespace vantage::depth
+}  // namespace vantage::internal::depth

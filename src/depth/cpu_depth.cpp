@@ -12,7 +12,7 @@
 #include "depth/ray_caster.h"
 #include "depth/seen_scene.h"
 
-namespace vantage::depth {
+namespace vantage::internal::depth {
 namespace {
 
 // Texels along a side of a face from which on rasterising all polygons in range is faster than a ray for each texel.
@@ -124,4 +124,4 @@ std::unique_ptr<DepthRenderer> make_cpu_depth_renderer(const PreparedScene& scen
   return std::make_unique<CpuDepthRenderer>(scene);
 }
 
-}  // namespace vantage::depth
+}  // namespace vantage::internal::depth

@@ -6,7 +6,7 @@
 
 #include "depth/depth.h"
 
-namespace vantage::depth {
+namespace vantage::internal::depth {
 
 /// What render_devices() says about the processor.
 RenderDevice cpu_device();
@@ -16,4 +16,4 @@ RenderDevice cpu_device();
 /// ahead, of which there are several only while they fit into 64 MB.
 std::unique_ptr<DepthRenderer> make_cpu_depth_renderer(const PreparedScene& scene);
 
-}  // namespace vantage::depth
+}  // namespace vantage::internal::depth

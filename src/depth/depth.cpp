@@ -1,6 +1,6 @@
 #include "depth/depth.h"
 
-namespace vantage::depth {
+namespace vantage::internal::depth {
 
 const std::array<CubeFace, 6>& cube_faces() {
   static const std::array<CubeFace, 6> kFaces = [] {
@@ -10,4 +10,4 @@ const std::array<CubeFace, 6>& cube_faces() {
   return kFaces;
 }
 
-}  // namespace vantage::depth
+}  // namespace vantage::internal::depth

@@ -13,7 +13,7 @@
 #include "vantage/geometry.h"
 #include "vantage/scene.h"
 
-namespace vantage::depth {
+namespace vantage::internal::depth {
 
 /// A face of the cube: texel (column i, row j) of an n x n face looks along
 ///   forward + u * right + v * up,  u = (2 i + 1) / n - 1,  v = (2 j + 1) / n - 1,
@@ -67,6 +67,6 @@ struct ChosenRenderer {
 /// The renderer of the device that `choice` asks for. Where it does not insist, falls back to the CPU, also later, in
 /// the middle of a request, and `note` or the renderer's device() says so. Throws Error(input) where it insists and the
 /// device is not there or cannot hold the scene.
-ChosenRenderer make_depth_renderer(const PreparedScene& scene, const DeviceChoice& choice);
+VANTAGE_INTERNAL_API ChosenRenderer make_depth_renderer(const PreparedScene& scene, const DeviceChoice& choice);
 
-}  // namespace vantage::depth
+}  // namespace vantage::internal::depth

@@ -4,7 +4,7 @@
 
 #include "vantage/error.h"
 
-namespace vantage::depth {
+namespace vantage::internal::depth {
 
 void check_request(const DepthRequest& request, const RenderDevice& device) {
   if (request.face_size < 1 || request.face_size > device.largest_face_size) {
@@ -25,4 +25,4 @@ void check_request(const DepthRequest& request, const RenderDevice& device) {
   }
 }
 
-}  // namespace vantage::depth
+}  // namespace vantage::internal::depth

@@ -6,7 +6,7 @@
 #include "depth/gl_context.h"
 #include "vantage/devices.h"
 
-namespace vantage::depth {
+namespace vantage::internal::depth {
 
 struct DeviceList {
   RenderDevices found;               ///< the CPU first, then those of `opengl` in their order
@@ -15,4 +15,4 @@ struct DeviceList {
 
 DeviceList list_devices();
 
-}  // namespace vantage::depth
+}  // namespace vantage::internal::depth

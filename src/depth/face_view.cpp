@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace vantage::depth {
+namespace vantage::internal::depth {
 namespace {
 
 /// Keeps what has side(point) >= 0.
@@ -55,4 +55,4 @@ std::span<const Vec3> FaceClip::clip(const SeenPolygon& polygon) {
   return points_;
 }
 
-}  // namespace vantage::depth
+}  // namespace vantage::internal::depth

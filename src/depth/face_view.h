@@ -9,7 +9,7 @@
 #include "core/bvh.h"
 #include "depth/depth.h"
 
-namespace vantage::depth {
+namespace vantage::internal::depth {
 
 /// Surfaces nearer than this to the viewpoint, along a face's forward, touch it and hide nothing: metres. Ten times
 /// what preparing a scene may move a surface by (1e-9 m).
@@ -93,4 +93,4 @@ void for_each_polygon(const core::Bvh& bvh, const Vec3& eye, double range, const
   }
 }
 
-}  // namespace vantage::depth
+}  // namespace vantage::internal::depth

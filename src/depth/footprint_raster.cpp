@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace vantage::depth {
+namespace vantage::internal::depth {
 namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
@@ -138,4 +138,4 @@ void FootprintRaster::draw_row(int row, const std::vector<Corner>& part) {
   }
 }
 
-}  // namespace vantage::depth
+}  // namespace vantage::internal::depth

@@ -16,7 +16,7 @@
 
 #include "depth/face_view.h"
 
-namespace vantage::depth {
+namespace vantage::internal::depth {
 
 class FootprintRaster {
  public:
@@ -51,4 +51,4 @@ class FootprintRaster {
   double rounding_ = 0;  ///< of the interpolated inverse depths of the polygon at hand
 };
 
-}  // namespace vantage::depth
+}  // namespace vantage::internal::depth

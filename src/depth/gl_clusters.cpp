@@ -3,7 +3,7 @@
 #include "depth/depth.h"
 #include "scene/prepared_data.h"
 
-namespace vantage::depth {
+namespace vantage::internal::depth {
 namespace {
 
 // Fewer draw more commands, more draw more triangles in vain.
@@ -83,4 +83,4 @@ void append_commands(const std::vector<TriangleCluster>& clusters, const Vec3& e
   }
 }
 
-}  // namespace vantage::depth
+}  // namespace vantage::internal::depth

@@ -7,7 +7,7 @@
 #include "vantage/geometry.h"
 #include "vantage/scene.h"
 
-namespace vantage::depth {
+namespace vantage::internal::depth {
 
 struct TriangleCluster {
   std::uint32_t first, count;  ///< indices, three a triangle
@@ -32,4 +32,4 @@ struct DrawCommand {
 void append_commands(const std::vector<TriangleCluster>& clusters, const Vec3& eye, double range, int face,
                      std::vector<DrawCommand>& commands);
 
-}  // namespace vantage::depth
+}  // namespace vantage::internal::depth

@@ -8,7 +8,7 @@
 #include "depth/depth.h"
 #include "depth/gl_library.h"
 
-namespace vantage::depth {
+namespace vantage::internal::depth {
 namespace {
 
 constexpr const char* kInstall =
@@ -372,4 +372,4 @@ GlCurrent::~GlCurrent() {
   if (api_ != EGL_OPENGL_API) egl.BindAPI(api_);
 }
 
-}  // namespace vantage::depth
+}  // namespace vantage::internal::depth

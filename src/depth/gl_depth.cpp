@@ -13,7 +13,7 @@
 #include "depth/gl_shaders.h"
 #include "scene/prepared_data.h"
 
-namespace vantage::depth {
+namespace vantage::internal::depth {
 namespace {
 
 constexpr int kPatienceSeconds = 300;       // for the images of one pass
@@ -299,4 +299,4 @@ std::unique_ptr<DepthRenderer> make_gl_depth_renderer(const PreparedScene& scene
   return std::make_unique<GlDepthRenderer>(scene, device, limits, std::move(library));
 }
 
-}  // namespace vantage::depth
+}  // namespace vantage::internal::depth

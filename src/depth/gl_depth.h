@@ -7,7 +7,7 @@
 #include "depth/depth.h"
 #include "depth/gl_context.h"
 
-namespace vantage::depth {
+namespace vantage::internal::depth {
 
 /// What the renderer may take of the device's memory.
 ///   scene:  24 bytes for each vertex and 12 for each triangle, and 20 for each cluster of triangles and face
@@ -26,4 +26,4 @@ std::unique_ptr<DepthRenderer> make_gl_depth_renderer(const PreparedScene& scene
                                                       const GlDepthLimits& limits,
                                                       std::shared_ptr<const GlLibrary> library = nullptr);
 
-}  // namespace vantage::depth
+}  // namespace vantage::internal::depth

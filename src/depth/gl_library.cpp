@@ -2,7 +2,7 @@
 
 #include <dlfcn.h>
 
-namespace vantage::depth {
+namespace vantage::internal::depth {
 
 std::shared_ptr<const GlLibrary> load_gl_library(std::string& why_not, const char* file) {
   void* const handle = dlopen(file, RTLD_NOW | RTLD_LOCAL);
@@ -38,4 +38,4 @@ std::shared_ptr<const GlLibrary> load_gl_library(std::string& why_not, const cha
   return library;
 }
 
-}  // namespace vantage::depth
+}  // namespace vantage::internal::depth

@@ -11,7 +11,7 @@
 #include <memory>
 #include <string>
 
-namespace vantage::depth {
+namespace vantage::internal::depth {
 
 // EGL 1.4, and what its extensions add (may be null).
 #define VANTAGE_EGL_FUNCTIONS(X)                \
@@ -144,4 +144,4 @@ struct GlLibrary {
 /// what to install. The library stays loaded until the program ends: drivers leave threads and exit handlers behind.
 std::shared_ptr<const GlLibrary> load_gl_library(std::string& why_not, const char* file = "libEGL.so.1");
 
-}  // namespace vantage::depth
+}  // namespace vantage::internal::depth

@@ -2,7 +2,7 @@
 
 #include "depth/depth.h"
 
-namespace vantage::depth {
+namespace vantage::internal::depth {
 
 GlObjects::~GlObjects() {
   for (const GLuint program : programs_) gl_.DeleteProgram(program);
@@ -86,4 +86,4 @@ GLuint GlObjects::program(const std::string& name, const ShaderSources& sources)
   return programs_.back();
 }
 
-}  // namespace vantage::depth
+}  // namespace vantage::internal::depth

@@ -7,12 +7,13 @@
 #include "depth/gl_context.h"
 #include "depth/gl_library.h"
 #include "depth/gl_program.h"
+#include "vantage/export.h"
 
-namespace vantage::depth {
+namespace vantage::internal::depth {
 
 /// Makes objects of a context, which must be current; its end deletes them all. Throws DeviceFailure for a program that
 /// does not build or a framebuffer that the device refuses.
-class GlObjects {
+class VANTAGE_INTERNAL_API GlObjects {
  public:
   explicit GlObjects(const GlContext& context) : context_(context), gl_(context.gl()) {}
   ~GlObjects();
@@ -37,4 +38,4 @@ class GlObjects {
   std::vector<GLuint> textures_, buffers_, arrays_, framebuffers_, programs_, queries_;
 };
 
-}  // namespace vantage::depth
+}  // namespace vantage::internal::depth

@@ -4,7 +4,7 @@
 
 #include "depth/depth.h"
 
-namespace vantage::depth {
+namespace vantage::internal::depth {
 namespace {
 
 GLuint compile(const GlContext& context, const std::string& name, GLenum stage, const char* header,
@@ -47,4 +47,4 @@ GLuint make_program(const GlContext& context, const std::string& name, const Sha
   throw DeviceFailure(context.device().name + " does not link the shaders of " + name + ": " + log.data());
 }
 
-}  // namespace vantage::depth
+}  // namespace vantage::internal::depth

@@ -6,7 +6,7 @@
 #include "depth/gl_context.h"
 #include "depth/gl_library.h"
 
-namespace vantage::depth {
+namespace vantage::internal::depth {
 
 /// GLSL of a program's stages.
 struct ShaderSources {
@@ -20,4 +20,4 @@ struct ShaderSources {
 /// message. The context must be current.
 GLuint make_program(const GlContext& context, const std::string& name, const ShaderSources& sources);
 
-}  // namespace vantage::depth
+}  // namespace vantage::internal::depth

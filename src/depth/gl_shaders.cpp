@@ -1,6 +1,6 @@
 #include "depth/gl_shaders.h"
 
-namespace vantage::depth {
+namespace vantage::internal::depth {
 namespace {
 
 // Coordinates relative to the eye are taken in double precision, and rounded once: exact to 2^-24 of their size,
@@ -259,4 +259,4 @@ void main() {
 ShaderSources centers_shaders() { return {kVertex, kCentersGeometry, kCentersFragment}; }
 ShaderSources nearest_shaders() { return {kVertex, kNearestGeometry, kNearestFragment}; }
 
-}  // namespace vantage::depth
+}  // namespace vantage::internal::depth

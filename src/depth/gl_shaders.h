@@ -3,7 +3,7 @@
 
 #include "depth/gl_program.h"
 
-namespace vantage::depth {
+namespace vantage::internal::depth {
 
 /// What the depth image holds, for an inverse depth of 1/m: a power of two, so that dividing by it is exact. Also the
 /// least depth, in metres, that an image holds: less is nothing that a scene is exact to.
@@ -16,4 +16,4 @@ ShaderSources centers_shaders();
 /// texels the nearest point of what the triangle and the texel's pyramid share.
 ShaderSources nearest_shaders();
 
-}  // namespace vantage::depth
+}  // namespace vantage::internal::depth

@@ -9,7 +9,7 @@
 
 #include "vantage/error.h"
 
-namespace vantage::depth {
+namespace vantage::internal::depth {
 namespace {
 
 constexpr int kPacket = 8;
@@ -164,4 +164,4 @@ void RayCaster::cast(const FaceBand& band, const Vec3& eye, double range, std::s
   }
 }
 
-}  // namespace vantage::depth
+}  // namespace vantage::internal::depth

@@ -8,7 +8,7 @@
 
 #include "depth/seen_scene.h"
 
-namespace vantage::depth {
+namespace vantage::internal::depth {
 
 /// Of Embree: "3.13.5".
 std::string ray_caster_version();
@@ -38,4 +38,4 @@ class RayCaster {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace vantage::depth
+}  // namespace vantage::internal::depth

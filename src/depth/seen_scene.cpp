@@ -7,7 +7,7 @@
 
 #include "core/parallel.h"
 
-namespace vantage::depth {
+namespace vantage::internal::depth {
 namespace {
 
 /// Twice the largest distance of a corner from the mean plane (Newell's normal): the triangles that were merged into
@@ -53,4 +53,4 @@ SeenPolygon SeenScene::polygon(std::uint32_t number, const Vec3& eye, std::vecto
   return {storage, kRounding * largest + unevenness_[number]};
 }
 
-}  // namespace vantage::depth
+}  // namespace vantage::internal::depth

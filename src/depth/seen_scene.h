@@ -8,7 +8,7 @@
 #include "depth/face_view.h"
 #include "scene/prepared_data.h"
 
-namespace vantage::depth {
+namespace vantage::internal::depth {
 
 class SeenScene {
  public:
@@ -25,4 +25,4 @@ class SeenScene {
   std::vector<float> unevenness_;  ///< per polygon: how far its surface may leave the hull of its border, metres
 };
 
-}  // namespace vantage::depth
+}  // namespace vantage::internal::depth

@@ -7,7 +7,7 @@
 
 #include "target/numerics.h"
 
-namespace vantage::exact {
+namespace vantage::internal::exact {
 namespace {
 
 using Eigen::Vector2d;
@@ -187,4 +187,4 @@ void BlockerBuilder::add_edge_plane(const Vec3& normal, double height) {
   add(normal, nearest);
 }
 
-}  // namespace vantage::exact
+}  // namespace vantage::internal::exact

@@ -9,7 +9,7 @@
 #include "core/plane.h"
 #include "target/local_target.h"
 
-namespace vantage::exact {
+namespace vantage::internal::exact {
 
 /// Of a blocker: g . x = 1 bounds what it hides. Hidden points have g . x > 1 for all of its planes.
 using core::Plane;
@@ -42,4 +42,4 @@ class BlockerBuilder {
   bool grown_ = false;  // hides more than the polygon does
 };
 
-}  // namespace vantage::exact
+}  // namespace vantage::internal::exact

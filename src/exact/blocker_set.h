@@ -7,7 +7,7 @@
 
 #include "exact/blocker.h"
 
-namespace vantage::exact {
+namespace vantage::internal::exact {
 
 /// Blocker i owns the planes [first[i], first[i + 1]) and likewise its corners.
 struct BlockerSet {
@@ -48,4 +48,4 @@ struct BlockerSet {
   }
 };
 
-}  // namespace vantage::exact
+}  // namespace vantage::internal::exact

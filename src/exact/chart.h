@@ -16,7 +16,7 @@
 
 #include "vantage/geometry.h"
 
-namespace vantage::exact {
+namespace vantage::internal::exact {
 
 using ChartPoint = Eigen::Vector2d;
 
@@ -90,4 +90,4 @@ inline bool below(const CellCorners& low, const CellCorners& high) {
 #endif
 }
 
-}  // namespace vantage::exact
+}  // namespace vantage::internal::exact

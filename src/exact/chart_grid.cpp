@@ -6,7 +6,7 @@
 #include "core/number_text.h"
 #include "vantage/error.h"
 
-namespace vantage::exact {
+namespace vantage::internal::exact {
 namespace {
 
 constexpr int kTrial = 16;           // lines of the grid on which the facets' depth below the sphere is measured
@@ -133,4 +133,4 @@ ChartPoint ChartGrid::inside(int i, int j) const {
   return {between(i), between(j)};
 }
 
-}  // namespace vantage::exact
+}  // namespace vantage::internal::exact

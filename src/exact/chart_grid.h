@@ -10,7 +10,7 @@
 #include "exact/chart.h"
 #include "target/range_region.h"
 
-namespace vantage::exact {
+namespace vantage::internal::exact {
 
 /// Lines at |a| = line(i), i = 0..n, so spaced that the cells are about equal in angle. The horizon |a| + |b| = 1 runs
 /// through the nodes with |i| + |j| = n, so cells are squares, or halves of squares at the horizon.
@@ -86,4 +86,4 @@ class ChartGrid {
   std::vector<std::pair<int, int>> mixed_cells_;
 };
 
-}  // namespace vantage::exact
+}  // namespace vantage::internal::exact

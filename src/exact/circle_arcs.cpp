@@ -5,7 +5,7 @@
 #include "exact/segment_cover.h"
 #include "target/numerics.h"
 
-namespace vantage::exact {
+namespace vantage::internal::exact {
 namespace {
 
 constexpr double kTurn = 2 * M_PI;
@@ -78,4 +78,4 @@ void CircleArcs::subtract_blocker(std::span<const Plane> planes, bool owns_ties)
   for (const Interval& part : hidden.parts()) parts_.subtract(part.begin, part.end);
 }
 
-}  // namespace vantage::exact
+}  // namespace vantage::internal::exact

@@ -7,7 +7,7 @@
 #include "exact/blocker.h"
 #include "exact/interval_set.h"
 
-namespace vantage::exact {
+namespace vantage::internal::exact {
 
 /// centre + radius (cos(angle) axis_1 + sin(angle) axis_2), metres.
 struct SpaceCircle {
@@ -46,4 +46,4 @@ class CircleArcs {
   std::vector<Arc> arcs_;
 };
 
-}  // namespace vantage::exact
+}  // namespace vantage::internal::exact

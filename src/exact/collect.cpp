@@ -7,7 +7,7 @@
 #include "exact/segment_cover.h"
 #include "target/numerics.h"
 
-namespace vantage::exact {
+namespace vantage::internal::exact {
 namespace {
 
 // A polygon that reaches this far over a plane, in metres, does so whatever rounding does.
@@ -154,4 +154,4 @@ void collect_blockers(const PreparedScene::Data& scene, const TargetFrame& frame
   }
 }
 
-}  // namespace vantage::exact
+}  // namespace vantage::internal::exact

@@ -7,7 +7,7 @@
 #include "scene/prepared_data.h"
 #include "vantage/target.h"
 
-namespace vantage::exact {
+namespace vantage::internal::exact {
 
 /// Walks the scene's hierarchy by distance from the target's centre; skips what is behind the target, out of range or
 /// hidden behind what was found before. Fills `blockers` and inserts into `tree`, which must refer to `blockers`.
@@ -16,4 +16,4 @@ void collect_blockers(const PreparedScene::Data& scene, const TargetFrame& frame
                       const target::RangeRegion& range, BlockerSet& blockers, DirectionTree& tree,
                       const core::ProgressReporter& progress);
 
-}  // namespace vantage::exact
+}  // namespace vantage::internal::exact

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-namespace vantage::exact {
+namespace vantage::internal::exact {
 namespace {
 
 // Monotone in the angle round the diamond.
@@ -142,4 +142,4 @@ void ConstraintGraph::add_horizon() {
   for (std::size_t k = 0; k < horizon.size(); ++k) add_edge(horizon[k], horizon[(k + 1) % horizon.size()]);
 }
 
-}  // namespace vantage::exact
+}  // namespace vantage::internal::exact

@@ -11,7 +11,7 @@
 #include "exact/envelope.h"
 #include "exact/vertex_snapper.h"
 
-namespace vantage::exact {
+namespace vantage::internal::exact {
 
 /// Answers whether the boundary in the direction of a chart point is range sphere.
 using IsRange = std::function<bool(const ChartPoint&)>;
@@ -66,4 +66,4 @@ class ConstraintGraph {
   std::vector<int> steps_;  // for reuse
 };
 
-}  // namespace vantage::exact
+}  // namespace vantage::internal::exact

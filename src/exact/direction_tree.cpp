@@ -6,7 +6,7 @@
 
 #include "exact/segment_cover.h"
 
-namespace vantage::exact {
+namespace vantage::internal::exact {
 namespace {
 
 constexpr std::size_t kLongList = 16;     // leaves with more blockers than this are split,
@@ -316,4 +316,4 @@ const DirectionTree::Leaf& DirectionTree::leaf_at(const ChartPoint& point) const
   return nodes_[at].leaf;
 }
 
-}  // namespace vantage::exact
+}  // namespace vantage::internal::exact

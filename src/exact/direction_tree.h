@@ -11,7 +11,7 @@
 #include "exact/footprint.h"
 #include "target/range_region.h"
 
-namespace vantage::exact {
+namespace vantage::internal::exact {
 
 /// In each cell a blocker is reduced to the planes that can be its least there, most often one or two. A few champions,
 /// blockers that rise high over all of the cell, bound the envelope from below. What stays under a champion everywhere
@@ -103,4 +103,4 @@ class DirectionTree {
   Footprint footprint_, listed_footprint_;  // of what is inserted; of what a split deals out
 };
 
-}  // namespace vantage::exact
+}  // namespace vantage::internal::exact

@@ -11,12 +11,13 @@
 #include "target/prepared_target_data.h"
 #include "target/range_check.h"
 #include "vantage/error.h"
+#include "vantage/version.h"
 #include "vantage/volume.h"
 
 namespace vantage {
 namespace {
 
-using namespace exact;
+using namespace internal::exact;
 using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
@@ -36,38 +37,39 @@ void check(const PreparedTarget& target, const ExactOptions& options) {
 void take_over(Side side, const TargetFrame& frame, double max_range, Volume& volume, const std::string& what,
                const std::string& hint) {
   volume.counts = side.counts;
-  const double near = target::hands_breadth(max_range);
+  const double near = internal::target::hands_breadth(max_range);
   if (side.blocked_within(near)) {
     volume.outcome = Outcome::blocked_at_once;
-    volume.reason = '"' + widest_scene_cause(side.causes) + "\" covers " + what + " within " + core::metres_text(near);
+    volume.reason =
+        '"' + widest_scene_cause(side.causes) + "\" covers " + what + " within " + internal::core::metres_text(near);
     volume.hint = hint;
     return;
   }
-  core::LabelledMesh labelled{std::move(side.mesh), std::move(side.cause_of)};
+  internal::core::LabelledMesh labelled{std::move(side.mesh), std::move(side.cause_of)};
   for (Vec3& v : labelled.mesh.vertices) v = frame.to_scene(v);
   // At map coordinates rounding leaves narrow facets without area.
-  core::mend_for_doubles(labelled);
+  internal::core::mend_for_doubles(labelled);
   volume.mesh = std::move(labelled.mesh);
   volume.cause_of = std::move(labelled.labels);
   volume.causes = std::move(side.causes);
 }
 
-void compute_polygon(const PreparedTarget& target, const ExactOptions& options, const core::ProgressReporter& progress,
-                     Volume& volume) {
+void compute_polygon(const PreparedTarget& target, const ExactOptions& options,
+                     const internal::core::ProgressReporter& progress, Volume& volume) {
   const Sensor& sensor = target.sensor();
-  if (!target.data().parts[0].is_reachable) return target::set_out_of_range(volume.frame, sensor, volume);
-  const target::RangeRegion range(volume.frame.polygon, sensor.max_range_m);
+  if (!target.data().parts[0].is_reachable) return internal::target::set_out_of_range(volume.frame, sensor, volume);
+  const internal::target::RangeRegion range(volume.frame.polygon, sensor.max_range_m);
   take_over(compute_side(target.scene(), volume.frame, range, options, progress), volume.frame, sensor.max_range_m,
             volume, "the target's front",
             "the target looks into what it lies on: turn it round with front:, or raise it with offset:");
 }
 
-void compute_point(const PreparedTarget& target, const ExactOptions& options, const core::ProgressReporter& progress,
-                   Volume& volume) {
+void compute_point(const PreparedTarget& target, const ExactOptions& options,
+                   const internal::core::ProgressReporter& progress, Volume& volume) {
   const double max_range = target.sensor().max_range_m;
-  const target::PointSides& sides = *target.data().parts[0].sides;
+  const internal::target::PointSides& sides = *target.data().parts[0].sides;
   // Of the point itself: the triangle would cost micrometres.
-  const target::RangeRegion range(volume.frame.polygon, max_range);
+  const internal::target::RangeRegion range(volume.frame.polygon, max_range);
   if (!sides.back) {
     take_over(compute_side(target.scene(), sides.front, range, options, progress), sides.front, max_range, volume,
               "the point's front",
@@ -84,7 +86,7 @@ void compute_point(const PreparedTarget& target, const ExactOptions& options, co
 
 Volume compute_visibility(const PreparedTarget& target, const ExactOptions& options, const Progress& callback) {
   const auto start = Clock::now();
-  const core::ProgressReporter progress(callback);
+  const internal::core::ProgressReporter progress(callback);
   check(target, options);
   Volume volume;
   volume.tolerance_m = options.tolerance_m;
@@ -93,7 +95,7 @@ Volume compute_visibility(const PreparedTarget& target, const ExactOptions& opti
   volume.notes = target.notes();
   volume.provenance = {VANTAGE_VERSION, "exact", target.target(), target.sensor(), "", ""};
   volume.counts.scene_polygons = target.scene().data().polygon_count();
-  parallel::with_threads(options.threads, [&] {
+  internal::parallel::with_threads(options.threads, [&] {
     (target.target().is_point() ? compute_point : compute_polygon)(target, options, progress, volume);
   });
   volume.seconds.engine = volume.seconds.total = seconds_since(start);

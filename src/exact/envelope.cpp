@@ -11,7 +11,7 @@
 #include "exact/segment_cover.h"
 #include "target/numerics.h"
 
-namespace vantage::exact {
+namespace vantage::internal::exact {
 namespace {
 
 // Pieces of an edge shorter than this, in metres, are rounding. Less in small worlds.
@@ -449,4 +449,4 @@ Skeleton trace_envelope(const BlockerSet& blockers, const DirectionTree& tree, c
   return skeleton;
 }
 
-}  // namespace vantage::exact
+}  // namespace vantage::internal::exact

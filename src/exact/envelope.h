@@ -7,7 +7,7 @@
 #include "exact/direction_tree.h"
 #include "target/range_region.h"
 
-namespace vantage::exact {
+namespace vantage::internal::exact {
 
 /// The one-skeleton of the envelope as points in the target's frame. Between creases the boundary is a plane or a ball.
 struct Skeleton {
@@ -30,4 +30,4 @@ struct CurveSampling {
 Skeleton trace_envelope(const BlockerSet& blockers, const DirectionTree& tree, const target::RangeRegion& range,
                         const CurveSampling& sampling, const core::ProgressReporter& progress);
 
-}  // namespace vantage::exact
+}  // namespace vantage::internal::exact

@@ -8,7 +8,7 @@
 
 #include "exact/chart.h"
 
-namespace vantage::exact {
+namespace vantage::internal::exact {
 
 /// The cone over a convex polygon, as far as it decides which cells of the chart the polygon misses.
 class Footprint {
@@ -50,4 +50,4 @@ class Footprint {
   std::vector<Vec3> corners_, sides_;
 };
 
-}  // namespace vantage::exact
+}  // namespace vantage::internal::exact

@@ -7,7 +7,7 @@
 #include "exact/direction_tree.h"
 #include "target/range_region.h"
 
-namespace vantage::exact {
+namespace vantage::internal::exact {
 
 /// What bounds the view in one direction.
 struct GaugeValue {
@@ -33,4 +33,4 @@ inline GaugeValue evaluate_gauge(const BlockerSet& blockers, const DirectionTree
   return greatest;
 }
 
-}  // namespace vantage::exact
+}  // namespace vantage::internal::exact

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace vantage::exact {
+namespace vantage::internal::exact {
 
 struct Interval {
   double begin, end;
@@ -53,4 +53,4 @@ class IntervalSet {
   std::vector<Interval> parts_, scratch_;
 };
 
-}  // namespace vantage::exact
+}  // namespace vantage::internal::exact

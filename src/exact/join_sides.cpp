@@ -17,7 +17,7 @@
 #include "exact/side.h"
 #include "vantage/error.h"
 
-namespace vantage::exact {
+namespace vantage::internal::exact {
 namespace {
 
 using Vec2 = Eigen::Vector2d;
@@ -359,4 +359,4 @@ Side join_sides(const Side& front, const Side& back) {
   return joined;
 }
 
-}  // namespace vantage::exact
+}  // namespace vantage::internal::exact

@@ -11,7 +11,7 @@
 #include "exact/rise_check.h"
 #include "target/numerics.h"
 
-namespace vantage::exact {
+namespace vantage::internal::exact {
 namespace {
 
 // When refinement has made this many times the triangles that it began with, no more are split: corners are drawn in.
@@ -305,4 +305,4 @@ QuadrantMesh mesh_quadrant(int quadrant, const ConstraintGraph& graph, const Cha
   }
 }
 
-}  // namespace vantage::exact
+}  // namespace vantage::internal::exact

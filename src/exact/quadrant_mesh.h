@@ -9,7 +9,7 @@
 #include "exact/direction_tree.h"
 #include "target/range_region.h"
 
-namespace vantage::exact {
+namespace vantage::internal::exact {
 
 /// What is not range cells. A vertex below the graph's point count is the graph's, others index `added` after that.
 struct QuadrantMesh {
@@ -44,4 +44,4 @@ struct CannotTriangulate {
   std::string why;
 };
 
-}  // namespace vantage::exact
+}  // namespace vantage::internal::exact

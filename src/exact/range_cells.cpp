@@ -2,7 +2,7 @@
 
 #include "target/numerics.h"
 
-namespace vantage::exact {
+namespace vantage::internal::exact {
 namespace {
 
 class Cutter {
@@ -65,4 +65,4 @@ RangeCells cut_range_cells(ConstraintGraph& graph, const ChartGrid& grid, const 
   return Cutter(graph, grid, range).run();
 }
 
-}  // namespace vantage::exact
+}  // namespace vantage::internal::exact

@@ -6,7 +6,7 @@
 #include "exact/constraint_graph.h"
 #include "target/range_region.h"
 
-namespace vantage::exact {
+namespace vantage::internal::exact {
 
 /// Triangles on the range sphere.
 struct RangeCells {
@@ -18,4 +18,4 @@ struct RangeCells {
 /// Numbers the nodes of the graph's grid that have no vertex yet.
 RangeCells cut_range_cells(ConstraintGraph& graph, const ChartGrid& grid, const target::RangeRegion& range);
 
-}  // namespace vantage::exact
+}  // namespace vantage::internal::exact

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace vantage::exact {
+namespace vantage::internal::exact {
 
 double RiseCheck::greatest_rise(int quadrant, const std::array<ChartPoint, 3>& points,
                                 const std::array<double, 3>& gauges, double allowed) {
@@ -59,4 +59,4 @@ double RiseCheck::rise_of(std::uint32_t blocker, double allowed) {
   return least;
 }
 
-}  // namespace vantage::exact
+}  // namespace vantage::internal::exact

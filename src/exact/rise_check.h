@@ -6,7 +6,7 @@
 
 #include "exact/direction_tree.h"
 
-namespace vantage::exact {
+namespace vantage::internal::exact {
 
 /// One for each thread.
 class RiseCheck {
@@ -36,4 +36,4 @@ class RiseCheck {
   std::vector<Weights> rises_, part_, scratch_;
 };
 
-}  // namespace vantage::exact
+}  // namespace vantage::internal::exact

@@ -7,7 +7,7 @@
 #include "exact/interval_set.h"
 #include "target/numerics.h"
 
-namespace vantage::exact {
+namespace vantage::internal::exact {
 
 /// How far g . x may differ from 1 for points x within `reach` metres before a plane counts as apart from them: the tie
 /// width, plus the rounding of the product for planes that pass close to the centre. `sum`: |x| + |y| + |z| of g.
@@ -42,4 +42,4 @@ inline Interval hidden_part(const Vec3& from, const Vec3& to, double reach, std:
   return hidden;
 }
 
-}  // namespace vantage::exact
+}  // namespace vantage::internal::exact

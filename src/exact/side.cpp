@@ -10,7 +10,7 @@
 #include "exact/triangulation.h"
 #include "target/lengths.h"
 
-namespace vantage::exact {
+namespace vantage::internal::exact {
 namespace {
 
 double area_of(const Mesh& mesh, const Triangle& t) {
@@ -85,4 +85,4 @@ std::string widest_scene_cause(const std::vector<Cause>& causes) {
   return widest->name;
 }
 
-}  // namespace vantage::exact
+}  // namespace vantage::internal::exact

@@ -10,7 +10,7 @@
 #include "vantage/scene.h"
 #include "vantage/volume.h"
 
-namespace vantage::exact {
+namespace vantage::internal::exact {
 
 struct Side {
   Mesh mesh;  ///< target's frame, closed
@@ -37,4 +37,4 @@ Side join_sides(const Side& front, const Side& back);
 /// Name of the scene object that most of the boundary is due to.
 std::string widest_scene_cause(const std::vector<Cause>& causes);
 
-}  // namespace vantage::exact
+}  // namespace vantage::internal::exact

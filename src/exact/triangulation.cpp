@@ -10,7 +10,7 @@
 #include "target/numerics.h"
 #include "vantage/error.h"
 
-namespace vantage::exact {
+namespace vantage::internal::exact {
 namespace {
 
 /// Thrown when the triangulation has split an edge of a range cell there.
@@ -166,4 +166,4 @@ Boundary triangulate_boundary(const Skeleton& skeleton, const BlockerSet& blocke
     }
 }
 
-}  // namespace vantage::exact
+}  // namespace vantage::internal::exact

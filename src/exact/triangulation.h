@@ -9,7 +9,7 @@
 #include "exact/envelope.h"
 #include "target/range_region.h"
 
-namespace vantage::exact {
+namespace vantage::internal::exact {
 
 /// The boundary in the target's frame: closed, outward oriented, genus 0, star-shaped about the origin.
 struct Boundary {
@@ -27,4 +27,4 @@ Boundary triangulate_boundary(const Skeleton& skeleton, const BlockerSet& blocke
                               const target::RangeRegion& range, ChartGrid& grid, double tolerance,
                               const core::ProgressReporter& progress);
 
-}  // namespace vantage::exact
+}  // namespace vantage::internal::exact

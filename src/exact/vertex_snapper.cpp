@@ -3,7 +3,7 @@
 #include <bit>
 #include <cmath>
 
-namespace vantage::exact {
+namespace vantage::internal::exact {
 namespace {
 
 constexpr std::uint32_t kNone = ~0u;
@@ -63,4 +63,4 @@ void VertexSnapper::grow() {
   }
 }
 
-}  // namespace vantage::exact
+}  // namespace vantage::internal::exact

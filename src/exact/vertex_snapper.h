@@ -6,7 +6,7 @@
 
 #include "exact/chart.h"
 
-namespace vantage::exact {
+namespace vantage::internal::exact {
 
 /// Gives points indices; a point within `snap` of an earlier one gets that one's index. Coordinates that close
 /// to an axis are put on it, and points that close to the horizon |a| + |b| = 1 are on the horizon.
@@ -32,4 +32,4 @@ class VertexSnapper {
   std::vector<std::uint32_t> heads_;  // hash table of buckets
 };
 
-}  // namespace vantage::exact
+}  // namespace vantage::internal::exact

@@ -7,7 +7,7 @@
 #include "geo/proj_library.h"
 #include "vantage/error.h"
 
-namespace vantage::geo {
+namespace vantage::internal::geo {
 namespace {
 
 struct ContextDeleter {
@@ -231,4 +231,4 @@ std::optional<std::string> CoordinateSystem::area_without(LonLat position) const
   return is_inside ? std::nullopt : std::optional(data_->area_name);
 }
 
-}  // namespace vantage::geo
+}  // namespace vantage::internal::geo

@@ -1,59 +1,13 @@
 #include "geo/local_frame.h"
 
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <numbers>
 
 #include "geo/proj_library.h"
 #include "vantage/error.h"
+#include "vantage/input.h"
 
-namespace vantage {
-namespace {
-
-/// The shortest decimal that reads back as `value`, whatever the locale.
-std::string decimal(double value) {
-  std::array<char, 32> text{};
-  const auto end = std::to_chars(text.begin(), text.end(), value).ptr;
-  return {text.begin(), end};
-}
-
-}  // namespace
-
-std::string projection_text(const Georeference& georeference) {
-  return "+proj=aeqd +lat_0=" + decimal(georeference.latitude_deg) + " +lon_0=" + decimal(georeference.longitude_deg) +
-         " +datum=WGS84 +units=m +type=crs";
-}
-
-Eigen::Vector2d scene_position(const Georeference& georeference, double longitude_deg, double latitude_deg) {
-  const geo::LocalFrame frame({georeference.longitude_deg, georeference.latitude_deg});
-  const auto is_near = [&](double longitude, double latitude) {
-    return std::abs(latitude) <= 90 && std::abs(longitude) <= 180 &&
-           frame.to_local({longitude, latitude}).norm() <= geo::kFarthestM;
-  };
-  const auto refuse = [&](const std::string& problem, const std::string& fix) {
-    throw Error(ErrorKind::input,
-                "longitude " + decimal(longitude_deg) + ", latitude " + decimal(latitude_deg) + problem, "position",
-                fix);
-  };
-  constexpr const char* kOrder = "give the longitude before the latitude";
-  const bool is_valid = std::abs(latitude_deg) <= 90 && std::abs(longitude_deg) <= 180;  // not-a-number is not
-  if (!is_valid) {
-    refuse(" is no place on the earth", is_near(latitude_deg, longitude_deg)
-                                            ? kOrder
-                                            : "give a longitude in -180 to 180 and a latitude in -90 to 90");
-  }
-  const Eigen::Vector2d position = frame.to_local({longitude_deg, latitude_deg});
-  if (position.norm() > geo::kFarthestM) {
-    refuse(" lies " + std::to_string(std::lround(position.norm() / 1000)) + " km from the scene's origin",
-           is_near(latitude_deg, longitude_deg)
-               ? kOrder
-               : "give positions within 100 km of it, in WGS 84: longitude before latitude");
-  }
-  return position;
-}
-
-namespace geo {
+namespace vantage::internal::geo {
 
 struct LocalFrame::Data {
   LonLat origin;
@@ -65,7 +19,7 @@ LocalFrame::LocalFrame(LonLat origin) {
   const bool valid = std::abs(origin.latitude_deg) <= 90 && std::abs(origin.longitude_deg) <= 180;
   if (!valid) {
     throw Error(ErrorKind::input,
-                "latitude " + decimal(origin.latitude_deg) + ", longitude " + decimal(origin.longitude_deg) +
+                "latitude " + shortest(origin.latitude_deg) + ", longitude " + shortest(origin.longitude_deg) +
                     " is no place on the earth",
                 "origin of the scene frame",
                 std::abs(origin.longitude_deg) <= 90 && std::abs(origin.latitude_deg) <= 180
@@ -85,7 +39,7 @@ LonLat LocalFrame::origin() const { return data_->origin; }
 Eigen::Vector2d LocalFrame::to_local(LonLat position) const {
   if (!(std::abs(position.latitude_deg) <= 90) || !std::isfinite(position.longitude_deg)) {
     throw Error(ErrorKind::input,
-                "latitude " + decimal(position.latitude_deg) + ", longitude " + decimal(position.longitude_deg) +
+                "latitude " + shortest(position.latitude_deg) + ", longitude " + shortest(position.longitude_deg) +
                     " is no place on the earth",
                 "position", "correct it; is its coordinate reference system the right one?");
   }
@@ -127,5 +81,4 @@ bool move_origin(std::vector<Vec3>& points, const Georeference& from, const Geor
   return true;
 }
 
-}  // namespace geo
-}  // namespace vantage
+}  // namespace vantage::internal::geo

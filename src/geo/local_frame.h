@@ -10,7 +10,7 @@
 #include "vantage/geometry.h"
 #include "vantage/georeference.h"
 
-namespace vantage::geo {
+namespace vantage::internal::geo {
 
 /// Degrees, WGS 84, in this order everywhere in the library (mission files say [lat, lon] where they name a centre).
 struct LonLat {
@@ -87,4 +87,4 @@ class CoordinateSystem {
   std::unique_ptr<Data> data_;
 };
 
-}  // namespace vantage::geo
+}  // namespace vantage::internal::geo

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <iterator>
 
-namespace vantage::geo {
+namespace vantage::internal::geo {
 
 double LongitudeRange::middle_deg() const {
   if (west <= east) return (west + east) / 2;
@@ -47,4 +47,4 @@ LongitudeRange LongitudeSpan::range() const {
   return range;
 }
 
-}  // namespace vantage::geo
+}  // namespace vantage::internal::geo

@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-namespace vantage::geo {
+namespace vantage::internal::geo {
 
 /// From `west` eastwards to `east`, degrees in -180 to 180; west > east: across the antimeridian.
 struct LongitudeRange {
@@ -34,4 +34,4 @@ class LongitudeSpan {
   std::vector<Bin> bins_ = std::vector<Bin>(kBins);
 };
 
-}  // namespace vantage::geo
+}  // namespace vantage::internal::geo

@@ -12,7 +12,7 @@
 #error "which PROJ?"
 #endif
 
-namespace vantage::geo {
+namespace vantage::internal::geo {
 namespace {
 
 /// Empty where all is there.
@@ -41,4 +41,4 @@ const ProjLibrary& proj() {
               VANTAGE_PROJ_NAME, "install libproj25 (Debian 12), or build vantage with the PROJ that is there");
 }
 
-}  // namespace vantage::geo
+}  // namespace vantage::internal::geo

@@ -5,7 +5,7 @@
 #include <geodesic.h>
 #include <proj.h>
 
-namespace vantage::geo {
+namespace vantage::internal::geo {
 
 #define VANTAGE_PROJ_FUNCTIONS(X)     \
   X(geod_init)                        \
@@ -47,4 +47,4 @@ struct ProjLibrary {
 /// where PROJ is not installed, or lacks a function.
 const ProjLibrary& proj();
 
-}  // namespace vantage::geo
+}  // namespace vantage::internal::geo

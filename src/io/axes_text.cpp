@@ -4,7 +4,7 @@
 #include <charconv>
 #include <cmath>
 
-namespace vantage::io {
+namespace vantage::internal::io {
 namespace {
 
 constexpr std::string_view kMark = "vantage axes: ", kUpAndUnit = " up, unit ", kMetres = " m";
@@ -48,4 +48,4 @@ void read_axes_comment(std::string_view comment, std::optional<Axes>& known) {
   known = axes;
 }
 
-}  // namespace vantage::io
+}  // namespace vantage::internal::io

@@ -8,7 +8,7 @@
 #include "vantage/geometry.h"
 #include "vantage/scene.h"
 
-namespace vantage::io {
+namespace vantage::internal::io {
 
 struct Axes {
   UpAxis up = UpAxis::z;
@@ -29,4 +29,4 @@ struct AxesProblem {
   std::string text;
 };
 
-}  // namespace vantage::io
+}  // namespace vantage::internal::io

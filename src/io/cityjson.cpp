@@ -13,7 +13,7 @@
 #include "io/mesh_builder.h"
 #include "io/mesh_readers.h"
 
-namespace vantage::io {
+namespace vantage::internal::io {
 namespace {
 
 using cityjson::Finding;
@@ -363,4 +363,4 @@ RawMesh read_cityjson(const MeshSource& source, const core::ProgressReporter& pr
   return CityJsonReader(source, progress, limits, lod).read();
 }
 
-}  // namespace vantage::io
+}  // namespace vantage::internal::io

@@ -7,7 +7,7 @@
 #include <unordered_map>
 #include <utility>
 
-namespace vantage::io::cityjson {
+namespace vantage::internal::io::cityjson {
 namespace {
 
 struct PositionHash {
@@ -180,4 +180,4 @@ std::vector<double> numbers(const Json& array, std::size_t count, const char* wh
   return result;
 }
 
-}  // namespace vantage::io::cityjson
+}  // namespace vantage::internal::io::cityjson

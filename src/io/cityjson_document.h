@@ -10,7 +10,7 @@
 #include "io/cityjson_trail.h"
 #include "io/mesh_builder.h"
 
-namespace vantage::io::cityjson {
+namespace vantage::internal::io::cityjson {
 
 using Json = nlohmann::json;
 
@@ -64,4 +64,4 @@ std::size_t index_below(const Json& value, std::size_t count, const char* what, 
 /// `count` finite numbers.
 std::vector<double> numbers(const Json& array, std::size_t count, const char* what, const Trail& trail);
 
-}  // namespace vantage::io::cityjson
+}  // namespace vantage::internal::io::cityjson

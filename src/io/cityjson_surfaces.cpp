@@ -7,7 +7,7 @@
 
 #include "io/join_holes.h"
 
-namespace vantage::io::cityjson {
+namespace vantage::internal::io::cityjson {
 namespace {
 
 // What val3dity (H. Ledoux, 2018) allows by default for a surface to count as flat.
@@ -137,4 +137,4 @@ void SurfaceBuilder::add_notes(std::vector<std::string>& notes) const {
                       "holes lie outside their surfaces and are left out");
 }
 
-}  // namespace vantage::io::cityjson
+}  // namespace vantage::internal::io::cityjson

@@ -10,7 +10,7 @@
 #include "io/mesh_builder.h"
 #include "io/shell_check.h"
 
-namespace vantage::io::cityjson {
+namespace vantage::internal::io::cityjson {
 
 /// What is wrong in a way that a soup may be, counted, with the object where it is first.
 class Finding {
@@ -58,4 +58,4 @@ class SurfaceBuilder {
   double farthest_m_ = 0;  // of a surface's corners from its plane
 };
 
-}  // namespace vantage::io::cityjson
+}  // namespace vantage::internal::io::cityjson

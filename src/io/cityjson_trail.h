@@ -11,7 +11,7 @@
 #include "io/text_cursor.h"
 #include "vantage/error.h"
 
-namespace vantage::io::cityjson {
+namespace vantage::internal::io::cityjson {
 
 /// "city.json, CityObject "b1", geometry 0, shell 0, surface 3": pushed and popped on the way.
 class Trail {
@@ -52,4 +52,4 @@ class Trail {
   std::vector<std::pair<const char*, std::size_t>> steps_;
 };
 
-}  // namespace vantage::io::cityjson
+}  // namespace vantage::internal::io::cityjson

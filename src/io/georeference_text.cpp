@@ -6,7 +6,7 @@
 
 #include "io/text_cursor.h"
 
-namespace vantage::io {
+namespace vantage::internal::io {
 namespace {
 
 constexpr const char* kProblem = "the georeference of vantage in it cannot be read: ";
@@ -79,4 +79,4 @@ const nlohmann::json* georeference_in(const nlohmann::json& object) {
   return found == ours->end() ? nullptr : &*found;
 }
 
-}  // namespace vantage::io
+}  // namespace vantage::internal::io

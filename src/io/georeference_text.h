@@ -6,16 +6,17 @@
 #include <string>
 #include <string_view>
 
+#include "vantage/export.h"
 #include "vantage/georeference.h"
 
-namespace vantage::io {
+namespace vantage::internal::io {
 
 /// What stands before the JSON text in a comment of an OBJ or PLY file.
 inline constexpr std::string_view kGeoreferenceMark = "vantage georeference:";
 
 /// {"latitude_deg": …, "longitude_deg": …, "vertical": …, "source_crs": …, "projection": …}; the numbers read back
 /// exactly. "projection" is what projection_text says, for other programs; it is not read.
-nlohmann::ordered_json georeference_json(const Georeference& georeference);
+VANTAGE_INTERNAL_API nlohmann::ordered_json georeference_json(const Georeference& georeference);
 /// The same as text on one line, in ASCII.
 std::string georeference_text(const Georeference& georeference);
 
@@ -36,4 +37,4 @@ struct GeoreferenceProblem {
   std::string text;
 };
 
-}  // namespace vantage::io
+}  // namespace vantage::internal::io

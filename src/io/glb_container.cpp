@@ -5,7 +5,7 @@
 
 #include "io/writers.h"
 
-namespace vantage::io {
+namespace vantage::internal::io {
 namespace {
 
 // Values of the glTF 2.0 specification.
@@ -39,4 +39,4 @@ void write_glb_container(std::string_view json, std::string_view buffer, AtomicF
   if (!buffer.empty()) write_chunk(file, kBinChunk, buffer, '\0');
 }
 
-}  // namespace vantage::io
+}  // namespace vantage::internal::io

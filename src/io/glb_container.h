@@ -5,9 +5,9 @@
 
 #include "vantage/atomic_file.h"
 
-namespace vantage::io {
+namespace vantage::internal::io {
 
 /// Writes both as chunks behind GLB's header. Throws Error(output) when they take 4 GiB or more.
 void write_glb_container(std::string_view json, std::string_view buffer, AtomicFile& file);
 
-}  // namespace vantage::io
+}  // namespace vantage::internal::io

@@ -13,7 +13,7 @@
 #include "io/object_text.h"
 #include "io/rounding_text.h"
 
-namespace vantage::io {
+namespace vantage::internal::io {
 namespace {
 
 using gltf::Accessor;
@@ -247,4 +247,4 @@ RawMesh read_gltf(const MeshSource& source, const core::ProgressReporter& progre
   return GltfReader(source, progress, limits).read();
 }
 
-}  // namespace vantage::io
+}  // namespace vantage::internal::io

@@ -11,7 +11,7 @@
 #include "io/mesh_readers.h"
 #include "io/text_cursor.h"
 
-namespace vantage::io::gltf {
+namespace vantage::internal::io::gltf {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "glTF buffers are read as little-endian");
@@ -400,4 +400,4 @@ std::filesystem::path Document::file_below(const std::string& relative, const st
                "put that file beside the glTF file, or in a folder below, and correct the \"uri\" of the buffer");
 }
 
-}  // namespace vantage::io::gltf
+}  // namespace vantage::internal::io::gltf

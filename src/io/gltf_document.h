@@ -11,7 +11,7 @@
 
 #include "io/mesh_source.h"
 
-namespace vantage::io::gltf {
+namespace vantage::internal::io::gltf {
 
 using Json = nlohmann::json;
 
@@ -98,4 +98,4 @@ class Document {
   std::uint64_t buffer_bytes_ = 0;
 };
 
-}  // namespace vantage::io::gltf
+}  // namespace vantage::internal::io::gltf

@@ -7,7 +7,7 @@
 
 #include "io/triangulate_polygon.h"
 
-namespace vantage::io {
+namespace vantage::internal::io {
 namespace {
 
 using Point = Eigen::Vector2d;
@@ -161,4 +161,4 @@ std::vector<std::uint32_t> join_holes(const std::vector<Vec3>& points, const std
   return joiner.border();
 }
 
-}  // namespace vantage::io
+}  // namespace vantage::internal::io

@@ -7,7 +7,7 @@
 
 #include "vantage/geometry.h"
 
-namespace vantage::io {
+namespace vantage::internal::io {
 
 /// Joins the holes of a polygon to its border by edges that are run twice, as triangulate_polygon takes them: a bridge
 /// runs from the hole's corner that lies farthest along an axis of the polygon's plane to a corner of the border that
@@ -24,4 +24,4 @@ namespace vantage::io {
 std::vector<std::uint32_t> join_holes(const std::vector<Vec3>& points, const std::vector<std::size_t>& ends,
                                       std::size_t& left_out);
 
-}  // namespace vantage::io
+}  // namespace vantage::internal::io

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-namespace vantage::io {
+namespace vantage::internal::io {
 namespace {
 
 using nlohmann::json;
@@ -107,4 +107,4 @@ json parse_json(std::string_view text, const core::ProgressReporter& progress, c
   return builder.take();
 }
 
-}  // namespace vantage::io
+}  // namespace vantage::internal::io

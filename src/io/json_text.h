@@ -10,7 +10,7 @@
 #include "core/progress_reporter.h"
 #include "core/read_limits.h"
 
-namespace vantage::io {
+namespace vantage::internal::io {
 
 /// Why a text is no JSON, or too much of it. Line and column count from 1; 0 where there is none.
 struct JsonProblem {
@@ -23,4 +23,4 @@ struct JsonProblem {
 nlohmann::json parse_json(std::string_view text, const core::ProgressReporter& progress,
                           const core::ReadLimits& limits);
 
-}  // namespace vantage::io
+}  // namespace vantage::internal::io

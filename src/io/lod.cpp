@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace vantage::io {
+namespace vantage::internal::io {
 
 std::optional<double> parse_lod(std::string_view text) {
   double value = 0;
@@ -38,4 +38,4 @@ double choose_lod(const std::vector<double>& levels, std::optional<double> asked
   return above;
 }
 
-}  // namespace vantage::io
+}  // namespace vantage::internal::io

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace vantage::io {
+namespace vantage::internal::io {
 
 /// A level of detail as a number: 2.2. Nothing for a text that is none.
 std::optional<double> parse_lod(std::string_view text);
@@ -17,4 +17,4 @@ double choose_lod(const std::vector<double>& levels, std::optional<double> asked
 /// Whether a level is what was asked for, or refines it.
 bool meets_lod(double level, double asked);
 
-}  // namespace vantage::io
+}  // namespace vantage::internal::io

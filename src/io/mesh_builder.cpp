@@ -6,7 +6,7 @@
 #include "io/object_text.h"
 #include "io/triangulate_polygon.h"
 
-namespace vantage::io {
+namespace vantage::internal::io {
 namespace {
 
 bool is_continuation(char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; }
@@ -166,4 +166,4 @@ void MeshBuilder::fail_out_of_range(std::uint64_t vertex, std::uint64_t place) c
        "export the mesh again; it is cut off or garbled");
 }
 
-}  // namespace vantage::io
+}  // namespace vantage::internal::io

@@ -11,8 +11,9 @@
 
 #include "io/mesh_file.h"
 #include "io/mesh_source.h"
+#include "vantage/export.h"
 
-namespace vantage::io {
+namespace vantage::internal::io {
 
 /// Makes a RawMesh. Places are lines or bytes of the file, for messages.
 class MeshBuilder {
@@ -115,6 +116,6 @@ class MeshBuilder {
 
 /// A name for reports and files: UTF-8 (bytes that are not are taken as Latin-1), control characters become spaces,
 /// spaces at the ends go.
-std::string clean_name(std::string_view name);
+VANTAGE_INTERNAL_API std::string clean_name(std::string_view name);
 
-}  // namespace vantage::io
+}  // namespace vantage::internal::io

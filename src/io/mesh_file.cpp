@@ -10,7 +10,7 @@
 #include "io/text_cursor.h"
 #include "vantage/error.h"
 
-namespace vantage::io {
+namespace vantage::internal::io {
 namespace {
 
 /// Whether the first statement, comments aside, is one of those that OBJ files begin with.
@@ -92,31 +92,31 @@ RawMesh read_mesh_file(const std::filesystem::path& file, const Progress& callba
   }
 }
 
-}  // namespace vantage::io
+}  // namespace vantage::internal::io
 
 namespace vantage {
 
 Scene read_scene(const std::filesystem::path& file, const SceneReadOptions& options, const Progress& progress) {
-  io::RawMesh raw = io::read_mesh_file(file, progress, {}, options.lod);
+  internal::io::RawMesh raw = internal::io::read_mesh_file(file, progress, {}, options.lod);
   const bool was_projected = !raw.crs.empty() || !options.crs.empty();
   SceneReadOptions used = options;
   if (raw.axes) {
     used.up = raw.axes->up;
     used.scale = raw.axes->unit_m;
     if ((options.up == UpAxis::y && used.up == UpAxis::z) || (options.scale != 1 && options.scale != used.scale)) {
-      raw.notes.push_back("the file says \"" + io::axes_text(*raw.axes) + "\": taken so");
+      raw.notes.push_back("the file says \"" + internal::io::axes_text(*raw.axes) + "\": taken so");
     }
   }
-  io::to_scene_frame(raw, used, file);
+  internal::io::to_scene_frame(raw, used, file);
   Scene result;
   result.mesh.vertices = std::move(raw.vertices);
   result.mesh.triangles = std::move(raw.triangles);
   result.object_of = std::move(raw.object_of);
   result.objects = std::move(raw.objects);
   result.source = file;
-  result.up = raw.format == io::MeshFormat::gltf       ? UpAxis::y
-              : raw.format == io::MeshFormat::cityjson ? UpAxis::z
-                                                       : used.up;
+  result.up = raw.format == internal::io::MeshFormat::gltf       ? UpAxis::y
+              : raw.format == internal::io::MeshFormat::cityjson ? UpAxis::z
+                                                                 : used.up;
   result.scale = was_projected ? 1 : used.scale;
   result.states_axes = raw.axes.has_value();
   result.dropped_faces = raw.dropped_faces;

@@ -14,7 +14,7 @@
 #include "vantage/progress.h"
 #include "vantage/scene.h"
 
-namespace vantage::io {
+namespace vantage::internal::io {
 
 enum class MeshFormat { obj, ply, stl, gltf, cityjson };
 
@@ -47,4 +47,4 @@ RawMesh read_mesh_file(const std::filesystem::path& file, const Progress& progre
 /// coordinate is then beyond kMaxCoordinate, and for places as read_scene does.
 void to_scene_frame(RawMesh& mesh, const SceneReadOptions& options, const std::filesystem::path& file);
 
-}  // namespace vantage::io
+}  // namespace vantage::internal::io

@@ -7,7 +7,7 @@
 
 #include "io/mesh_file.h"
 
-namespace vantage::io {
+namespace vantage::internal::io {
 
 /// What the content is, or else what the name says. Throws Error(input) when neither tells.
 MeshFormat mesh_format(const MeshSource& source);
@@ -33,4 +33,4 @@ bool is_binary_stl(std::string_view bytes);
 /// Whether the content is text that begins with "solid".
 bool is_ascii_stl(std::string_view bytes);
 
-}  // namespace vantage::io
+}  // namespace vantage::internal::io

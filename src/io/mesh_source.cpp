@@ -11,7 +11,7 @@
 
 #include "vantage/error.h"
 
-namespace vantage::io {
+namespace vantage::internal::io {
 namespace {
 
 constexpr std::string_view kGzipMagic = "\x1f\x8b";
@@ -163,4 +163,4 @@ MeshSource load_mesh_source(const std::filesystem::path& file, const core::Progr
   return MeshSource(file, std::move(plain), true);
 }
 
-}  // namespace vantage::io
+}  // namespace vantage::internal::io

@@ -10,7 +10,7 @@
 #include "core/progress_reporter.h"
 #include "core/read_limits.h"
 
-namespace vantage::io {
+namespace vantage::internal::io {
 
 /// A file's content, decompressed.
 class MeshSource {
@@ -50,4 +50,4 @@ MeshSource load_mesh_source(const std::filesystem::path& file, const core::Progr
 std::string decompress_gzip(std::string_view compressed, const std::filesystem::path& file,
                             const core::ProgressReporter& progress, const core::ReadLimits& limits = {});
 
-}  // namespace vantage::io
+}  // namespace vantage::internal::io

@@ -17,7 +17,7 @@
 #include "io/rounding_text.h"
 #include "io/text_cursor.h"
 
-namespace vantage::io {
+namespace vantage::internal::io {
 namespace {
 
 // Statements that add no polygon.
@@ -271,4 +271,4 @@ RawMesh read_obj(const MeshSource& source, const core::ProgressReporter& progres
   return ObjReader(source, progress, limits).read();
 }
 
-}  // namespace vantage::io
+}  // namespace vantage::internal::io

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-namespace vantage::io {
+namespace vantage::internal::io {
 namespace {
 
 using Json = nlohmann::json;
@@ -81,4 +81,4 @@ SceneObject object_named(std::string name) {
   return object;
 }
 
-}  // namespace vantage::io
+}  // namespace vantage::internal::io

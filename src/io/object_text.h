@@ -8,7 +8,7 @@
 
 #include "vantage/scene.h"
 
-namespace vantage::io {
+namespace vantage::internal::io {
 
 /// Whether the name that a file format has does not tell all.
 bool says_more_than_name(const SceneObject& object);
@@ -30,4 +30,4 @@ std::optional<SceneObject> object_in_comment(std::string_view comment);
 /// maps and to rasters, are of these kinds: so other programs may pass such scenes on.
 SceneObject object_named(std::string name);
 
-}  // namespace vantage::io
+}  // namespace vantage::internal::io

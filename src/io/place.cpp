@@ -7,7 +7,7 @@
 #include "io/mesh_file.h"
 #include "vantage/error.h"
 
-namespace vantage::io {
+namespace vantage::internal::io {
 namespace {
 
 constexpr double kFootM = 0.3048;  // the foot of the US survey differs by 2 ppm
@@ -133,4 +133,4 @@ void to_scene_frame(RawMesh& mesh, const SceneReadOptions& options, const std::f
   }
 }
 
-}  // namespace vantage::io
+}  // namespace vantage::internal::io

@@ -6,7 +6,7 @@
 #include "io/rounding_text.h"
 #include "vantage/error.h"
 
-namespace vantage::io {
+namespace vantage::internal::io {
 
 std::filesystem::path place_file(const std::filesystem::path& mesh_file) {
   std::filesystem::path name = mesh_file;
@@ -42,4 +42,4 @@ PlaceFile read_place_file(const MeshSource& mesh, const core::ProgressReporter& 
   }
 }
 
-}  // namespace vantage::io
+}  // namespace vantage::internal::io

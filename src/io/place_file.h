@@ -9,7 +9,7 @@
 #include "io/mesh_source.h"
 #include "vantage/georeference.h"
 
-namespace vantage::io {
+namespace vantage::internal::io {
 
 /// "city.stl.place.json" for "city.stl" and "city.stl.gz".
 std::filesystem::path place_file(const std::filesystem::path& mesh_file);
@@ -27,4 +27,4 @@ std::string place_file_text(const PlaceFile& content);
 /// Reads the file beside `mesh`; nothing when there is none. Throws Error(input) for one that cannot be read.
 PlaceFile read_place_file(const MeshSource& mesh, const core::ProgressReporter& progress);
 
-}  // namespace vantage::io
+}  // namespace vantage::internal::io

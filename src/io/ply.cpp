@@ -10,7 +10,7 @@
 #include "io/ply_header.h"
 #include "io/text_cursor.h"
 
-namespace vantage::io {
+namespace vantage::internal::io {
 namespace {
 
 using ply::Element;
@@ -276,4 +276,4 @@ RawMesh read_ply(const MeshSource& source, const core::ProgressReporter& progres
   return PlyReader<BinaryValues>(source, header, progress, limits).read();
 }
 
-}  // namespace vantage::io
+}  // namespace vantage::internal::io

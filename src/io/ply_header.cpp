@@ -7,7 +7,7 @@
 #include "io/rounding_text.h"
 #include "io/text_cursor.h"
 
-namespace vantage::io::ply {
+namespace vantage::internal::io::ply {
 namespace {
 
 constexpr std::array<std::pair<std::string_view, Type>, 16> kTypes = {{
@@ -186,4 +186,4 @@ std::size_t Element::smallest_row(Encoding encoding) const {
 
 Header read_header(const MeshSource& source) { return HeaderReader(source).read(); }
 
-}  // namespace vantage::io::ply
+}  // namespace vantage::internal::io::ply

@@ -10,7 +10,7 @@
 #include "io/mesh_source.h"
 #include "vantage/georeference.h"
 
-namespace vantage::io::ply {
+namespace vantage::internal::io::ply {
 
 enum class Encoding { ascii, little_endian, big_endian };
 
@@ -49,4 +49,4 @@ struct Header {
 /// Reads and checks a header. Throws Error(input) with the line for whatever it does not understand.
 Header read_header(const MeshSource& source);
 
-}  // namespace vantage::io::ply
+}  // namespace vantage::internal::io::ply

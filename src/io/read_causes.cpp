@@ -11,7 +11,7 @@
 #include "io/mesh_source.h"
 #include "vantage/error.h"
 
-namespace vantage::io {
+namespace vantage::internal::io {
 namespace {
 
 constexpr std::string_view kFaces = "property list uchar int vertex_indices\nproperty uint cause\nend_header\n";
@@ -94,4 +94,4 @@ std::optional<VolumeStatement> read_causes(const std::filesystem::path& file, Vo
   return statement;
 }
 
-}  // namespace vantage::io
+}  // namespace vantage::internal::io

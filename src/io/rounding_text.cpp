@@ -8,7 +8,7 @@
 
 #include "io/text_cursor.h"
 
-namespace vantage::io {
+namespace vantage::internal::io {
 namespace {
 
 constexpr std::string_view kMark = "vantage rounding_m ";
@@ -47,4 +47,4 @@ std::optional<double> rounding_in(const nlohmann::json& object) {
   return checked(found->is_number() ? found->get<double>() : -1);
 }
 
-}  // namespace vantage::io
+}  // namespace vantage::internal::io

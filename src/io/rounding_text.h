@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace vantage::io {
+namespace vantage::internal::io {
 
 /// "vantage rounding_m 1.5e-05": a comment; the number reads back exactly.
 std::string rounding_text(double rounding_m);
@@ -24,4 +24,4 @@ struct RoundingProblem {
   std::string text;
 };
 
-}  // namespace vantage::io
+}  // namespace vantage::internal::io

@@ -10,7 +10,7 @@
 #include "vantage/atomic_file.h"
 #include "vantage/scene.h"
 
-namespace vantage::io {
+namespace vantage::internal::io {
 
 /// The triangles of a scene, object by object; those of one object in the scene's order.
 class ObjectTriangles {
@@ -39,4 +39,4 @@ void write_scene_obj(const Scene& scene, AtomicFile& file);
 void write_scene_ply(const Scene& scene, AtomicFile& file);
 void write_scene_glb(const Scene& scene, AtomicFile& file);
 
-}  // namespace vantage::io
+}  // namespace vantage::internal::io

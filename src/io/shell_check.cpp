@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
-namespace vantage::io {
+namespace vantage::internal::io {
 
 ShellCheck::Result ShellCheck::result() {
   std::sort(edges_.begin(), edges_.end(),
@@ -19,4 +19,4 @@ ShellCheck::Result ShellCheck::result() {
   return misoriented ? Result::misoriented : Result::closed;
 }
 
-}  // namespace vantage::io
+}  // namespace vantage::internal::io

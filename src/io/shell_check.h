@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace vantage::io {
+namespace vantage::internal::io {
 
 /// Collects the rings of a shell's polygons, borders and holes alike, as they turn in the file.
 class ShellCheck {
@@ -28,4 +28,4 @@ class ShellCheck {
   std::vector<Edge> edges_;
 };
 
-}  // namespace vantage::io
+}  // namespace vantage::internal::io

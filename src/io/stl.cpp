@@ -8,7 +8,7 @@
 #include "io/mesh_readers.h"
 #include "io/text_cursor.h"
 
-namespace vantage::io {
+namespace vantage::internal::io {
 namespace {
 
 constexpr std::size_t kHeader = 80, kFacet = 50;
@@ -151,4 +151,4 @@ RawMesh read_stl(const MeshSource& source, const core::ProgressReporter& progres
   return ascii ? AsciiStlReader(source, progress, limits).read() : read_binary(source, progress, limits);
 }
 
-}  // namespace vantage::io
+}  // namespace vantage::internal::io

@@ -11,7 +11,7 @@
 #include "core/mend_welded.h"
 #include "vantage/error.h"
 
-namespace vantage::io {
+namespace vantage::internal::io {
 namespace {
 
 double largest_coordinate(const Box& box) {
@@ -122,4 +122,4 @@ StoredMesh stored_as_local_floats(const Volume& volume) {
   return stored_on_grid(volume, box, ((box.min + box.max) / (2 * unit)).array().round() * unit);
 }
 
-}  // namespace vantage::io
+}  // namespace vantage::internal::io

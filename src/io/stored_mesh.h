@@ -7,7 +7,7 @@
 
 #include "vantage/volume.h"
 
-namespace vantage::io {
+namespace vantage::internal::io {
 
 /// Told apart by position the vertices make a closed mesh, as that of the volume was, without facets that have no area.
 struct StoredMesh {
@@ -29,4 +29,4 @@ StoredMesh stored_as_floats(const Volume& volume);
 /// Single precision, about an origin in the middle of the volume.
 StoredMesh stored_as_local_floats(const Volume& volume);
 
-}  // namespace vantage::io
+}  // namespace vantage::internal::io

@@ -3,7 +3,7 @@
 #include <locale.h>
 #include <stdlib.h>
 
-namespace vantage::io {
+namespace vantage::internal::io {
 
 double number_out_of_range(std::string_view number) {
   // Plain strtod would expect a comma in some locales.
@@ -11,4 +11,4 @@ double number_out_of_range(std::string_view number) {
   return ::strtod_l(std::string(number).c_str(), nullptr, kPlain);
 }
 
-}  // namespace vantage::io
+}  // namespace vantage::internal::io

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace vantage::io {
+namespace vantage::internal::io {
 
 /// The value of a number that is too large (infinite) or too small (zero, or nearly) for std::from_chars, which does
 /// not say which.
@@ -116,4 +116,4 @@ inline std::string in_quotes(std::string_view word) {
   return text + (word.size() > kLongest ? "...\"" : "\"");
 }
 
-}  // namespace vantage::io
+}  // namespace vantage::internal::io

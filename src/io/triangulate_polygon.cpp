@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
-namespace vantage::io {
+namespace vantage::internal::io {
 namespace {
 
 using Point = Eigen::Vector2d;
@@ -153,4 +153,4 @@ void triangulate_polygon(const std::vector<Vec3>& points, std::vector<std::array
   EarClipper(project_polygon(points, points.size()), triangles).run();
 }
 
-}  // namespace vantage::io
+}  // namespace vantage::internal::io

@@ -7,7 +7,7 @@
 
 #include "vantage/geometry.h"
 
-namespace vantage::io {
+namespace vantage::internal::io {
 
 /// The corners in a plane: about the first of them, projected along the largest component of the Newell normal of the
 /// first `border` corners, which then run counter-clockwise.
@@ -26,4 +26,4 @@ std::vector<Eigen::Vector2d> project_polygon(const std::vector<Vec3>& points, st
 /// Cost: linear for a convex polygon, up to quadratic in the corners otherwise.
 void triangulate_polygon(const std::vector<Vec3>& points, std::vector<std::array<std::uint32_t, 3>>& triangles);
 
-}  // namespace vantage::io
+}  // namespace vantage::internal::io

@@ -8,7 +8,7 @@
 #include "vantage/error.h"
 #include "vantage/hash.h"
 
-namespace vantage::io {
+namespace vantage::internal::io {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -137,4 +137,4 @@ std::optional<VolumeStatement> read_statement(const MeshSource& source, const co
   }
 }
 
-}  // namespace vantage::io
+}  // namespace vantage::internal::io

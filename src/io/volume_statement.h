@@ -11,7 +11,7 @@
 #include "io/mesh_source.h"
 #include "vantage/volume.h"
 
-namespace vantage::io {
+namespace vantage::internal::io {
 
 struct VolumeStatement {
   VolumeProvenance provenance;
@@ -30,4 +30,4 @@ std::string statement_comments(const Volume& volume, const Mesh& stored, const c
 /// Throws Error(input) for a statement that is garbled.
 std::optional<VolumeStatement> read_statement(const MeshSource& source, const core::ProgressReporter& progress);
 
-}  // namespace vantage::io
+}  // namespace vantage::internal::io

@@ -9,8 +9,9 @@
 #include "io/glb_container.h"
 #include "io/volume_statement.h"
 #include "io/writers.h"
+#include "vantage/version.h"
 
-namespace vantage::io {
+namespace vantage::internal::io {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -165,4 +166,4 @@ void write_glb(const Volume& volume, const StoredMesh& stored, AtomicFile& file)
   write_glb_container(gltf.json.dump(-1, ' ', false, Json::error_handler_t::replace), gltf.buffer, file);
 }
 
-}  // namespace vantage::io
+}  // namespace vantage::internal::io

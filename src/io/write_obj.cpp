@@ -9,8 +9,9 @@
 #include "io/write_place.h"
 #include "io/writers.h"
 #include "vantage/error.h"
+#include "vantage/version.h"
 
-namespace vantage::io {
+namespace vantage::internal::io {
 namespace {
 
 /// Group names end at white space, so that becomes "_"; a name that is taken gets the number of its cause.
@@ -80,4 +81,4 @@ void write_obj(const Volume& volume, const StoredMesh& stored, UpAxis up, double
   }
 }
 
-}  // namespace vantage::io
+}  // namespace vantage::internal::io

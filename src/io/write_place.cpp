@@ -3,7 +3,7 @@
 #include "io/georeference_text.h"
 #include "io/writers.h"
 
-namespace vantage::io {
+namespace vantage::internal::io {
 
 std::string place_comment(const std::optional<Georeference>& georeference, const char* start) {
   if (!georeference) return {};
@@ -22,4 +22,4 @@ std::unique_ptr<AtomicFile> stage_place(const io::PlaceFile& content, const std:
   return output;
 }
 
-}  // namespace vantage::io
+}  // namespace vantage::internal::io

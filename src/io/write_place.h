@@ -10,7 +10,7 @@
 #include "vantage/atomic_file.h"
 #include "vantage/georeference.h"
 
-namespace vantage::io {
+namespace vantage::internal::io {
 
 /// A line for OBJ or the header of PLY, `start` ("# ", "comment ") before it; nothing without a place.
 std::string place_comment(const std::optional<Georeference>& georeference, const char* start);
@@ -20,4 +20,4 @@ std::string place_comment(const std::optional<Georeference>& georeference, const
 /// holds null.
 std::unique_ptr<AtomicFile> stage_place(const io::PlaceFile& content, const std::filesystem::path& mesh_file);
 
-}  // namespace vantage::io
+}  // namespace vantage::internal::io

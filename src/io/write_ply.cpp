@@ -5,8 +5,9 @@
 #include "io/volume_statement.h"
 #include "io/write_place.h"
 #include "io/writers.h"
+#include "vantage/version.h"
 
-namespace vantage::io {
+namespace vantage::internal::io {
 
 void write_ply(const Volume& volume, const StoredMesh& stored, AtomicFile& file) {
   const auto& [vertices, triangles] = stored.mesh;
@@ -45,4 +46,4 @@ void write_ply(const Volume& volume, const StoredMesh& stored, AtomicFile& file)
   }
 }
 
-}  // namespace vantage::io
+}  // namespace vantage::internal::io

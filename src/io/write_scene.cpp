@@ -11,9 +11,9 @@
 #include "io/writers.h"
 #include "vantage/error.h"
 #include "vantage/output.h"
+#include "vantage/version.h"
 
-namespace vantage {
-namespace io {
+namespace vantage::internal::io {
 namespace {
 
 void check_scene(const Scene& scene) {
@@ -117,10 +117,12 @@ void write_scene_ply(const Scene& scene, AtomicFile& file) {
   file.write(face_rows);
 }
 
-}  // namespace io
+}  // namespace vantage::internal::io
+
+namespace vantage {
 
 std::vector<std::unique_ptr<AtomicFile>> stage_scene(const Scene& scene, const std::filesystem::path& file) {
-  using namespace io;
+  using namespace internal::io;
   const std::string extension = output_extension(file);
   check_scene(scene);
   std::vector<std::unique_ptr<AtomicFile>> files;

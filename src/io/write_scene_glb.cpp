@@ -11,8 +11,9 @@
 #include "io/object_text.h"
 #include "io/scene_writers.h"
 #include "io/writers.h"
+#include "vantage/version.h"
 
-namespace vantage::io {
+namespace vantage::internal::io {
 namespace {
 
 // Values of the glTF 2.0 specification.
@@ -155,4 +156,4 @@ class SceneGlb {
 
 void write_scene_glb(const Scene& scene, AtomicFile& file) { SceneGlb(scene).write(file); }
 
-}  // namespace vantage::io
+}  // namespace vantage::internal::io

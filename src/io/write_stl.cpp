@@ -3,8 +3,9 @@
 #include <limits>
 
 #include "io/writers.h"
+#include "vantage/version.h"
 
-namespace vantage::io {
+namespace vantage::internal::io {
 
 void write_stl_mesh(const Mesh& mesh, std::string_view content, AtomicFile& file) {
   const auto& [vertices, triangles] = mesh;
@@ -31,4 +32,4 @@ void write_stl_mesh(const Mesh& mesh, std::string_view content, AtomicFile& file
 
 void write_stl(const StoredMesh& stored, AtomicFile& file) { write_stl_mesh(stored.mesh, "visibility volume", file); }
 
-}  // namespace vantage::io
+}  // namespace vantage::internal::io

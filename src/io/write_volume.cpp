@@ -17,8 +17,7 @@
 #include "vantage/error.h"
 #include "vantage/output.h"
 
-namespace vantage {
-namespace io {
+namespace vantage::internal::io {
 
 void check_count(std::uint64_t count, std::uint64_t limit, const char* what, const char* format) {
   if (count <= limit) return;
@@ -75,12 +74,14 @@ StoredMesh stored_for(const Volume& volume, const std::filesystem::path& file, c
 }
 
 }  // namespace
-}  // namespace io
+}  // namespace vantage::internal::io
+
+namespace vantage {
 
 StagedVolume stage_volume(const Volume& volume, const std::filesystem::path& file, UpAxis obj_up, double obj_scale) {
-  using namespace io;
+  using namespace internal::io;
   const std::string extension = output_extension(file);
-  core::check_volume(volume);
+  internal::core::check_volume(volume);
   if (extension == ".obj") check_obj_scale(volume, obj_scale);
   auto output = std::make_unique<AtomicFile>(file);
   const StoredMesh stored = stored_for(volume, file, extension, obj_scale);

@@ -16,7 +16,7 @@
 #include "vantage/atomic_file.h"
 #include "vantage/volume.h"
 
-namespace vantage::io {
+namespace vantage::internal::io {
 
 void write_ply(const Volume& volume, const StoredMesh& stored, AtomicFile& file);
 /// Throws Error(input) for a `scale` (metres in one unit of the file) that cannot be written in.
@@ -59,4 +59,4 @@ void append_little_endian(std::string& bytes, Number number) {
   for (unsigned i = 0; i < sizeof(Number); ++i) bytes.push_back(static_cast<char>(bits >> (8 * i) & 0xff));
 }
 
-}  // namespace vantage::io
+}  // namespace vantage::internal::io

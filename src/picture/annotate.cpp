@@ -7,7 +7,7 @@
 #include "picture/canvas.h"
 #include "picture/draw_list.h"
 
-namespace vantage::picture {
+namespace vantage::internal::picture {
 namespace {
 
 // In units of the font's size.
@@ -290,4 +290,4 @@ Picture annotated(const Picture& picture, const Annotation& annotation, const Vi
   return canvas.picture();
 }
 
-}  // namespace vantage::picture
+}  // namespace vantage::internal::picture

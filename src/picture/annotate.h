@@ -8,7 +8,7 @@
 #include "picture/view.h"
 #include "vantage/picture.h"
 
-namespace vantage::picture {
+namespace vantage::internal::picture {
 
 struct LegendEntry {
   enum class Mark { film, solid, line };
@@ -33,4 +33,4 @@ Insets insets_of(const Annotation& annotation, int width, int height);
 
 Picture annotated(const Picture& picture, const Annotation& annotation, const View& view);
 
-}  // namespace vantage::picture
+}  // namespace vantage::internal::picture

@@ -5,7 +5,7 @@
 
 #include "vantage/error.h"
 
-namespace vantage::picture {
+namespace vantage::internal::picture {
 namespace {
 
 constexpr const char* kBuiltInFont = "@cairo:";
@@ -196,4 +196,4 @@ std::string Canvas::png(const core::ProgressReporter& progress) const {
   return std::move(stream.bytes);
 }
 
-}  // namespace vantage::picture
+}  // namespace vantage::internal::picture

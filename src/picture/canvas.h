@@ -10,7 +10,7 @@
 #include "picture/palette.h"
 #include "vantage/picture.h"
 
-namespace vantage::picture {
+namespace vantage::internal::picture {
 
 /// Text and simple shapes. Lengths are pixels, right and down from the upper left corner. Fonts: DejaVu Sans; without
 /// it whatever sans the machine has, and without any, what Cairo brings along. Throws Error(internal) when Cairo fails.
@@ -56,4 +56,4 @@ class Canvas {
 /// `text` without control characters, and with '?' for what is not UTF-8.
 std::string printable(const std::string& text);
 
-}  // namespace vantage::picture
+}  // namespace vantage::internal::picture

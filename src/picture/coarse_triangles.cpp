@@ -8,7 +8,7 @@
 
 #include "core/parallel.h"
 
-namespace vantage::picture {
+namespace vantage::internal::picture {
 namespace {
 
 using Corners = std::array<std::uint32_t, 3>;
@@ -64,4 +64,4 @@ std::vector<Eigen::Vector3f> coarse_triangles(const std::vector<DrawVertex>& tri
   return result;
 }
 
-}  // namespace vantage::picture
+}  // namespace vantage::internal::picture

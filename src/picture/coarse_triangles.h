@@ -7,7 +7,7 @@
 #include "core/progress_reporter.h"
 #include "picture/draw_list.h"
 
-namespace vantage::picture {
+namespace vantage::internal::picture {
 
 /// Corners, three for each triangle: all vertices of a cell of a grid become their mean, and triangles that then have
 /// two corners in one place, or are there already, are left out. Nothing moves by more than the diagonal of a cell;
@@ -15,4 +15,4 @@ namespace vantage::picture {
 std::vector<Eigen::Vector3f> coarse_triangles(const std::vector<DrawVertex>& triangles, float cell,
                                               const core::ProgressReporter& progress = {});
 
-}  // namespace vantage::picture
+}  // namespace vantage::internal::picture

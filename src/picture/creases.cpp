@@ -9,7 +9,7 @@
 
 #include "core/parallel.h"
 
-namespace vantage::picture {
+namespace vantage::internal::picture {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
@@ -120,4 +120,4 @@ std::vector<Crease> find_creases(const Mesh& mesh, std::span<const std::uint8_t>
   return creases;
 }
 
-}  // namespace vantage::picture
+}  // namespace vantage::internal::picture

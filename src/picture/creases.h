@@ -9,7 +9,7 @@
 #include "picture/view.h"
 #include "vantage/geometry.h"
 
-namespace vantage::picture {
+namespace vantage::internal::picture {
 
 /// Pixels of a crease in a picture of 1600 x 1200.
 inline double crease_width(double strength) { return 1.2 + 0.7 * strength; }
@@ -35,4 +35,4 @@ std::vector<Crease> find_creases(const Mesh& mesh, std::span<const std::uint8_t>
 std::vector<Crease> thin_out(const std::vector<Crease>& creases, const View& view, double unit,
                              const core::ProgressReporter& progress = {});
 
-}  // namespace vantage::picture
+}  // namespace vantage::internal::picture

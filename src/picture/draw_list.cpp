@@ -12,7 +12,7 @@
 #include "picture/palette.h"
 #include "picture/sight.h"
 
-namespace vantage::picture {
+namespace vantage::internal::picture {
 namespace {
 
 // Over the radius of what is framed:
@@ -434,4 +434,4 @@ DrawList make_draw_list(const Scene& scene, const PictureRequest& request, const
   return Builder(scene, request, extent, view, sight, progress).build();
 }
 
-}  // namespace vantage::picture
+}  // namespace vantage::internal::picture

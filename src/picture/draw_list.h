@@ -10,7 +10,7 @@
 #include "vantage/geometry.h"
 #include "vantage/picture.h"
 
-namespace vantage::picture {
+namespace vantage::internal::picture {
 
 class Sight;
 
@@ -64,4 +64,4 @@ DrawList make_draw_list(const Scene& scene, const PictureRequest& request, const
 /// 1, 2 or 5 times a power of ten, the largest that is at most `length` (> 0).
 double round_length(double length);
 
-}  // namespace vantage::picture
+}  // namespace vantage::internal::picture

@@ -20,7 +20,7 @@
 #include "picture/gl_picture_shaders.h"
 #include "vantage/error.h"
 
-namespace vantage::picture {
+namespace vantage::internal::picture {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -480,4 +480,4 @@ std::vector<std::uint8_t> draw_picture(const depth::GlContext& context, const Dr
   return Painter(context, list, view, progress).paint();
 }
 
-}  // namespace vantage::picture
+}  // namespace vantage::internal::picture

@@ -9,7 +9,7 @@
 #include "picture/draw_list.h"
 #include "picture/view.h"
 
-namespace vantage::picture {
+namespace vantage::internal::picture {
 
 /// Rows from the top, RGB, 8 bits a channel: the mean of several frames, each moved by a part of a pixel and lit from
 /// directions of its own. Throws DeviceFailure; Error(cancelled). Takes about 70 bytes of the device's memory for each
@@ -17,4 +17,4 @@ namespace vantage::picture {
 std::vector<std::uint8_t> draw_picture(const depth::GlContext& context, const DrawList& list, const View& view,
                                        const core::ProgressReporter& progress);
 
-}  // namespace vantage::picture
+}  // namespace vantage::internal::picture

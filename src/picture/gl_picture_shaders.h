@@ -2,7 +2,7 @@
 // origin. Colours are what is shown (sRGB values): pictures are composed as a printer lays ink, not as light adds up.
 #pragma once
 
-namespace vantage::picture::shaders {
+namespace vantage::internal::picture::shaders {
 
 inline constexpr const char* kHeader = R"(#version 450 core
 #define SKY 9
@@ -263,4 +263,4 @@ void main() {
 }
 )";
 
-}  // namespace vantage::picture::shaders
+}  // namespace vantage::internal::picture::shaders

@@ -7,7 +7,7 @@
 
 #include "vantage/volume.h"
 
-namespace vantage::picture {
+namespace vantage::internal::picture {
 
 struct Colour {
   std::uint8_t red = 0, green = 0, blue = 0;
@@ -48,4 +48,4 @@ inline std::uint32_t packed(Colour colour, double opacity = 1) {
   return std::uint32_t{colour.red} | std::uint32_t{colour.green} << 8 | std::uint32_t{colour.blue} << 16 | alpha << 24;
 }
 
-}  // namespace vantage::picture
+}  // namespace vantage::internal::picture

@@ -17,7 +17,7 @@
 namespace vantage {
 namespace {
 
-using namespace picture;
+using namespace internal::picture;
 
 void check(const PictureRequest& request) {
   for (const int size : {request.width, request.height}) {
@@ -61,17 +61,20 @@ void check_volume(const Volume& volume) {
 }
 
 /// Draws on the first device that is able to, graphics processors first.
-std::vector<std::uint8_t> draw(const DrawList& list, const View& view, const core::ProgressReporter& progress) {
+std::vector<std::uint8_t> draw(const DrawList& list, const View& view,
+                               const internal::core::ProgressReporter& progress) {
   std::string why;
-  std::vector<depth::GlDeviceInfo> devices = depth::gl_devices(why);
-  std::stable_sort(devices.begin(), devices.end(), [](const depth::GlDeviceInfo& a, const depth::GlDeviceInfo& b) {
-    return a.device.kind == DeviceKind::opengl_hardware && b.device.kind != DeviceKind::opengl_hardware;
-  });
-  for (const depth::GlDeviceInfo& device : devices) {
+  std::vector<internal::depth::GlDeviceInfo> devices = internal::depth::gl_devices(why);
+  std::stable_sort(devices.begin(), devices.end(),
+                   [](const internal::depth::GlDeviceInfo& a, const internal::depth::GlDeviceInfo& b) {
+                     return a.device.kind == DeviceKind::opengl_hardware &&
+                            b.device.kind != DeviceKind::opengl_hardware;
+                   });
+  for (const internal::depth::GlDeviceInfo& device : devices) {
     try {
-      const depth::GlContext context(device);
+      const internal::depth::GlContext context(device);
       return draw_picture(context, list, view, progress);
-    } catch (const depth::DeviceFailure& failure) {
+    } catch (const internal::depth::DeviceFailure& failure) {
       why = device.device.name + ": " + failure.what();
     }
   }
@@ -83,7 +86,7 @@ std::vector<std::uint8_t> draw(const DrawList& list, const View& view, const cor
 }  // namespace
 
 Picture render_picture(const Scene& scene, const PictureRequest& request, const Progress& callback) {
-  const core::ProgressReporter progress(callback);
+  const internal::core::ProgressReporter progress(callback);
   progress.begin("preparing the picture");
   check(request);
   check_indices(scene.mesh, "scene");
@@ -120,7 +123,7 @@ Picture render_picture(const Scene& scene, const PictureRequest& request, const 
 }
 
 void write_png(const Picture& picture, const std::filesystem::path& file, const Progress& callback) {
-  const core::ProgressReporter progress(callback, file);
+  const internal::core::ProgressReporter progress(callback, file);
   progress.begin("writing the picture");
   AtomicFile output(file);
   output.write(Canvas(picture).png(progress));

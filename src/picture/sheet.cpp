@@ -9,7 +9,7 @@
 namespace vantage {
 namespace {
 
-using namespace picture;
+using namespace internal::picture;
 
 void check(const std::vector<PicturePanel>& panels, int columns) {
   const auto refuse = [](const std::string& problem, const std::string& where, const std::string& fix) {

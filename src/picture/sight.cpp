@@ -9,7 +9,7 @@
 #include <new>
 #include <numbers>
 
-namespace vantage::picture {
+namespace vantage::internal::picture {
 namespace {
 
 constexpr int kAzimuths = 24;
@@ -113,4 +113,4 @@ double best_azimuth(const Sight& sight, const PictureExtent& extent, const std::
   return std::remainder(best - 180, 360) + 180;
 }
 
-}  // namespace vantage::picture
+}  // namespace vantage::internal::picture

@@ -8,7 +8,7 @@
 #include "picture/draw_list.h"
 #include "vantage/geometry.h"
 
-namespace vantage::picture {
+namespace vantage::internal::picture {
 
 /// Rays against the scene's triangles, in single precision: good enough for where to stand, and for nothing else.
 class Sight {
@@ -35,4 +35,4 @@ class Sight {
 double best_azimuth(const Sight& sight, const PictureExtent& extent, const std::vector<Vec3>& target,
                     double elevation_deg, double preferred, const core::ProgressReporter& progress = {});
 
-}  // namespace vantage::picture
+}  // namespace vantage::internal::picture

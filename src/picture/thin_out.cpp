@@ -7,7 +7,7 @@
 #include "core/parallel.h"
 #include "picture/creases.h"
 
-namespace vantage::picture {
+namespace vantage::internal::picture {
 namespace {
 
 constexpr double kCell = 14;       // pixels (of a picture of 1600 x 1200) along a side of the cells that are counted
@@ -100,4 +100,4 @@ std::vector<Crease> thin_out(const std::vector<Crease>& creases, const View& vie
   return result;
 }
 
-}  // namespace vantage::picture
+}  // namespace vantage::internal::picture

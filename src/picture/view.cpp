@@ -7,7 +7,7 @@
 
 #include "vantage/error.h"
 
-namespace vantage::picture {
+namespace vantage::internal::picture {
 namespace {
 
 constexpr double kMargin = 1.03;      // of what is framed
@@ -106,4 +106,4 @@ View make_view(const PictureView& request, int width, int height, const Insets& 
   return view;
 }
 
-}  // namespace vantage::picture
+}  // namespace vantage::internal::picture

@@ -7,7 +7,7 @@
 #include "vantage/geometry.h"
 #include "vantage/picture.h"
 
-namespace vantage::picture {
+namespace vantage::internal::picture {
 
 /// Pixels that annotation takes from each side of a picture.
 struct Insets {
@@ -43,4 +43,4 @@ inline constexpr double kPreferredAzimuth = 235;
 View make_view(const PictureView& view, int width, int height, const Insets& insets, const std::vector<Vec3>& points,
                const Vec3& centre, const Box& bounds);
 
-}  // namespace vantage::picture
+}  // namespace vantage::internal::picture

@@ -7,7 +7,7 @@
 #include "core/parallel.h"
 #include "exact/collect.h"
 
-namespace vantage::query {
+namespace vantage::internal::query {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -196,4 +196,4 @@ void BlockerIndex::divide(Cell& cell) {
   cell.children.store(children.release(), std::memory_order_release);
 }
 
-}  // namespace vantage::query
+}  // namespace vantage::internal::query

@@ -11,7 +11,7 @@
 #include "exact/blocker.h"
 #include "scene/prepared_data.h"
 
-namespace vantage::query {
+namespace vantage::internal::query {
 
 /// Holds the planes of every blocker, built once, and a tree of triangular cells over the hemisphere of directions. A
 /// cell lists the blockers that may hide something there, with a bound of how near they begin, nearest first. Cells are
@@ -86,4 +86,4 @@ class BlockerIndex {
   std::size_t most_entries_ = 0;
 };
 
-}  // namespace vantage::query
+}  // namespace vantage::internal::query

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-namespace vantage::query {
+namespace vantage::internal::query {
 namespace {
 
 bool strictly_inside(const Box& box, const Vec3& p) {
@@ -123,4 +123,4 @@ std::vector<std::string> Limits::broken(const Vec3& point) const {
   return broken;
 }
 
-}  // namespace vantage::query
+}  // namespace vantage::internal::query

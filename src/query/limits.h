@@ -6,7 +6,7 @@
 
 #include "vantage/constraints.h"
 
-namespace vantage::query {
+namespace vantage::internal::query {
 
 /// A line of sight: from the target's centre to the front. Scene frame.
 struct SightLine {
@@ -39,4 +39,4 @@ class Limits {
   std::vector<Box> mesh_boxes_;
 };
 
-}  // namespace vantage::query
+}  // namespace vantage::internal::query

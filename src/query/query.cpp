@@ -23,15 +23,15 @@
 namespace vantage {
 namespace {
 
-using namespace exact;
-using namespace target;
-using query::BlockerIndex;
+using namespace internal::exact;
+using namespace internal::target;
+using internal::query::BlockerIndex;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Squares of larger coordinates may overflow.
 constexpr double kSquarable = 1e150;
 
-bool overlap(const core::Bounds& bounds, const Box& box) {
+bool overlap(const internal::core::Bounds& bounds, const Box& box) {
   bool apart = false;
   for (int a = 0; a < 3; ++a) apart = apart || bounds.min[a] > box.max[a] || bounds.max[a] < box.min[a];
   return !apart;
@@ -44,7 +44,7 @@ void for_each_leaf(const PreparedScene::Data& scene, const Box& box, std::vector
   stack.assign(scene.bvh.nodes.empty() ? 0 : 1, 0);
   while (!stack.empty()) {
     const std::uint32_t at = stack.back();
-    const core::BvhNode& node = scene.bvh.nodes[at];
+    const internal::core::BvhNode& node = scene.bvh.nodes[at];
     stack.pop_back();
     if (!overlap(node.bounds, box)) continue;
     if (node.leaf()) {
@@ -65,16 +65,17 @@ struct Reach {
   std::atomic<std::size_t> work = 0;    ///< blockers built without the index
 };
 
-target::LocalTarget local_target(const PreparedScene::Data& scene, const TargetFrame& frame, double max_range) {
+internal::target::LocalTarget local_target(const PreparedScene::Data& scene, const TargetFrame& frame,
+                                           double max_range) {
   const Lengths lengths = lengths_of(scene, frame, max_range);
-  return target::make_local_target(frame.polygon, lengths.slack, lengths.rounding);
+  return internal::target::make_local_target(frame.polygon, lengths.slack, lengths.rounding);
 }
 
 /// What one side of a target asks of the scene; shared by all threads.
 struct Side {
   /// `range_region` is about the frame's origin.
-  Side(const PreparedScene::Data& scene_data, const query::Limits& navigation, const TargetFrame& target_frame,
-       const RangeRegion& range_region, double max_range, bool reachable)
+  Side(const PreparedScene::Data& scene_data, const internal::query::Limits& navigation,
+       const TargetFrame& target_frame, const RangeRegion& range_region, double max_range, bool reachable)
       : scene(scene_data),
         limits(navigation),
         frame(target_frame),
@@ -86,9 +87,9 @@ struct Side {
   }
 
   const PreparedScene::Data& scene;
-  const query::Limits& limits;
+  const internal::query::Limits& limits;
   TargetFrame frame;
-  target::LocalTarget target;
+  internal::target::LocalTarget target;
   RangeRegion range;
   bool is_reachable;  // else no point at all is in range
   std::array<Reach, 2> reaches;
@@ -165,9 +166,9 @@ class Sight {
     std::vector<Plane> planes;
     std::size_t work = 0;
     for_each_leaf(side_.scene, pyramid_, stack, [&](std::uint32_t leaf) {
-      const core::BvhNode& node = side_.scene.bvh.nodes[leaf];
+      const internal::core::BvhNode& node = side_.scene.bvh.nodes[leaf];
       for (std::uint32_t polygon = node.first; polygon < node.first + node.count; ++polygon) {
-        target::local_polygon(side_.scene, side_.frame, polygon, corners);
+        internal::target::local_polygon(side_.scene, side_.frame, polygon, corners);
         planes.clear();
         clipped.clear();
         ++work;
@@ -256,7 +257,7 @@ PointAnswer look(Side& side, const Vec3& scene_point) {
   answer.blocked_by = named.names(side.scene.objects);
   answer.inside =
       !answer.behind_target && !answer.out_of_range && answer.blocked_by.empty() && answer.outside_of.empty();
-  const query::SightLine line{
+  const internal::query::SightLine line{
       frame.origin, frame.axis_u * direction.x() + frame.axis_v * direction.y() + frame.normal * direction.z(),
       side.is_reachable ? 1 / sight.gauge() : 0};
   answer.margin_m = side.limits.signed_margin(line, sign * bearing.distance, answer.inside);
@@ -267,7 +268,7 @@ using Sides = std::vector<std::unique_ptr<Side>>;
 
 /// One side; both of a point that is seen from all sides, the front first.
 Sides make_sides(const PreparedTarget::Data& target, const PreparedTarget::Data::Part& part,
-                 const query::Limits& limits) {
+                 const internal::query::Limits& limits) {
   const PreparedScene::Data& scene = target.scene.data();
   const double max_range = target.sensor.max_range_m;
   Sides result;
@@ -305,7 +306,7 @@ void look_from_all(const Sides& sides, std::span<const Vec3> points, std::span<P
   // Portions that grow, as what the first ones cost decides about the index.
   for (std::size_t done = 0, portion = 16; done < points.size(); done += portion, portion *= 2) {
     const std::size_t count = std::min(portion, points.size() - done);
-    parallel::for_ranges(count, 64, [&](std::size_t begin, std::size_t end) {
+    internal::parallel::for_ranges(count, 64, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = done + begin; i < done + end; ++i) {
         const bool is_behind = sides.size() > 1 && sides[0]->frame.to_local(points[i]).z() < 0;
         answers[i] = look(*sides[is_behind ? 1 : 0], points[i]);
@@ -333,12 +334,12 @@ void narrow(PointAnswer& answer, const PointAnswer& other) {
 
 struct PointQuery::Data {
   PreparedTarget target;
-  query::Limits limits;
+  internal::query::Limits limits;
   std::vector<Sides> parts;
 };
 
 PointQuery::PointQuery(const PreparedTarget& target, const Navigation& navigation)
-    : data_(std::make_unique<Data>(Data{target, query::Limits(navigation), {}})) {
+    : data_(std::make_unique<Data>(Data{target, internal::query::Limits(navigation), {}})) {
   const PreparedTarget::Data& prepared = data_->target.data();
   for (const PreparedTarget::Data::Part& part : prepared.parts) {
     data_->parts.push_back(make_sides(prepared, part, data_->limits));

@@ -7,7 +7,7 @@
 #include "core/convex_corners.h"
 #include "core/parallel.h"
 
-namespace vantage::scene {
+namespace vantage::internal::scene {
 namespace {
 
 constexpr std::size_t kLargestPolygon = 32;  // corners; blockers cost in proportion
@@ -241,4 +241,4 @@ ConvexPolygons merge_coplanar(const std::vector<Vec3>& vertices, const std::vect
   return Merger(vertices, triangles, object_of, slack_m).run(statistics);
 }
 
-}  // namespace vantage::scene
+}  // namespace vantage::internal::scene

@@ -7,7 +7,7 @@
 #include "vantage/geometry.h"
 #include "vantage/scene.h"
 
-namespace vantage::scene {
+namespace vantage::internal::scene {
 
 struct ConvexPolygons {
   std::vector<std::uint32_t> first;     ///< per polygon, into `vertices`; one more than there are polygons
@@ -28,4 +28,4 @@ struct ConvexPolygons {
 ConvexPolygons merge_coplanar(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles,
                               const std::vector<std::uint32_t>& object_of, double slack_m, SceneStatistics& statistics);
 
-}  // namespace vantage::scene
+}  // namespace vantage::internal::scene

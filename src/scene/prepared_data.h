@@ -21,7 +21,7 @@ struct PreparedScene::Data {
   std::vector<std::uint32_t> first_vertex;  ///< per polygon, into `polygon_vertices`; one more than there are polygons
   std::vector<std::uint32_t> polygon_vertices;  ///< convex, planar, in order round the polygon
   std::vector<std::uint32_t> polygon_object;    ///< index into `objects`
-  core::Bvh bvh;                                ///< over the polygons, which are in its leaf order
+  internal::core::Bvh bvh;                      ///< over the polygons, which are in its leaf order
 
   std::vector<std::uint32_t> first_incident;  ///< per vertex, into `incident`; one more than there are vertices
   std::vector<std::uint32_t> incident;        ///< polygons that have the vertex as a corner

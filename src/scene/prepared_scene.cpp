@@ -133,11 +133,12 @@ CleanTriangles weld_and_clean(const Scene& scene, const std::vector<char>& has_a
   return clean;
 }
 
-core::Bounds bounds_of(const PreparedScene::Data& data, const scene::ConvexPolygons& polygons, std::size_t i) {
+internal::core::Bounds bounds_of(const PreparedScene::Data& data, const internal::scene::ConvexPolygons& polygons,
+                                 std::size_t i) {
   Box box;
   for (std::uint32_t k = polygons.first[i]; k < polygons.first[i + 1]; ++k)
     box.extend(data.vertices[polygons.vertices[k]]);
-  core::Bounds bounds;
+  internal::core::Bounds bounds;
   for (int a = 0; a < 3; ++a) {
     bounds.min[a] = std::nextafterf(float(box.min[a]), -INFINITY);
     bounds.max[a] = std::nextafterf(float(box.max[a]), INFINITY);
@@ -145,13 +146,13 @@ core::Bounds bounds_of(const PreparedScene::Data& data, const scene::ConvexPolyg
   return bounds;
 }
 
-void store_in_leaf_order(PreparedScene::Data& data, const scene::ConvexPolygons& polygons) {
-  std::vector<core::Bounds> bounds(polygons.count());
-  parallel::for_ranges(polygons.count(), 4096, [&](std::size_t begin, std::size_t end) {
+void store_in_leaf_order(PreparedScene::Data& data, const internal::scene::ConvexPolygons& polygons) {
+  std::vector<internal::core::Bounds> bounds(polygons.count());
+  internal::parallel::for_ranges(polygons.count(), 4096, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) bounds[i] = bounds_of(data, polygons, i);
   });
   std::vector<std::uint32_t> order;
-  data.bvh = core::build_bvh(bounds, order);
+  data.bvh = internal::core::build_bvh(bounds, order);
   data.first_vertex.reserve(order.size() + 1);
   data.first_vertex.push_back(0);
   data.polygon_vertices.reserve(polygons.vertices.size());
@@ -190,9 +191,9 @@ void check(const Scene& scene) {
   for (std::size_t i = 0; i < scene.mesh.vertices.size(); ++i) {
     const Vec3& v = scene.mesh.vertices[i];
     if (!v.allFinite()) refuse("vertex " + std::to_string(i) + " is not finite", "give three numbers");
-    if (v.cwiseAbs().maxCoeff() > core::kMaxCoordinate)
+    if (v.cwiseAbs().maxCoeff() > internal::core::kMaxCoordinate)
       refuse("vertex " + std::to_string(i) + " is more than " +
-                 std::to_string(static_cast<long>(core::kMaxCoordinate / 1000)) + " km from the origin",
+                 std::to_string(static_cast<long>(internal::core::kMaxCoordinate / 1000)) + " km from the origin",
              "give coordinates in metres");
   }
 }
@@ -211,13 +212,13 @@ PreparedScene::PreparedScene(const Scene& scene, const Progress& callback) {
   const Extent extent = extent_of(scene.mesh);
   statistics.bounds = extent.bounds;
   if (!statistics.bounds.empty()) data->origin = 0.5 * (statistics.bounds.min + statistics.bounds.max);
-  const core::ProgressReporter progress(callback);
+  const internal::core::ProgressReporter progress(callback);
   progress.begin("preparing the scene");
   const CleanTriangles clean = weld_and_clean(scene, extent.has_area, *data);
   statistics.welded_vertices = data->vertices.size();
   progress.report(0.3);
-  const auto polygons = scene::merge_coplanar(data->vertices, clean.triangles, clean.object_of,
-                                              slack_of(kBent, statistics.bounds), statistics);
+  const auto polygons = internal::scene::merge_coplanar(data->vertices, clean.triangles, clean.object_of,
+                                                        slack_of(kBent, statistics.bounds), statistics);
   statistics.polygons = polygons.count();
   progress.report(0.7);
   store_in_leaf_order(*data, polygons);

@@ -10,7 +10,7 @@
 #include "core/triangle_distance.h"
 #include "vantage/error.h"
 
-namespace vantage::scene {
+namespace vantage::internal::scene {
 namespace {
 
 // From inside, the winding number of a closed surface is 1. What is left out of a building without a floor spans less
@@ -92,4 +92,4 @@ void ViewpointCheck::check(const Vec3& viewpoint, const std::string& name) const
   }
 }
 
-}  // namespace vantage::scene
+}  // namespace vantage::internal::scene

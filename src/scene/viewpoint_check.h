@@ -7,7 +7,7 @@
 
 #include "vantage/scene.h"
 
-namespace vantage::scene {
+namespace vantage::internal::scene {
 
 /// Nearer than this to a triangle a viewpoint lies on it, metres. Single-precision depths and the rounding of files
 /// tell no less apart.
@@ -21,10 +21,10 @@ inline constexpr double kOnSurface = 1e-3;
 /// Pieces whose triangles are turned at random are not noticed. Cost: linear in the triangles, each time.
 class ViewpointCheck {
  public:
-  explicit ViewpointCheck(const Scene& scene);
+  VANTAGE_INTERNAL_API explicit ViewpointCheck(const Scene& scene);
 
   /// Throws Error(input) that names the object. `name` begins the message: "the viewpoint of volume 2".
-  void check(const Vec3& viewpoint, const std::string& name) const;
+  VANTAGE_INTERNAL_API void check(const Vec3& viewpoint, const std::string& name) const;
 
  private:
   const Scene& scene_;
@@ -32,4 +32,4 @@ class ViewpointCheck {
   std::size_t pieces_ = 0;
 };
 
-}  // namespace vantage::scene
+}  // namespace vantage::internal::scene

@@ -18,7 +18,7 @@
 #include "core/triangle_distance.h"
 #include "solid/numerics.h"
 
-namespace vantage::solid {
+namespace vantage::internal::solid {
 namespace {
 
 using Corners = std::array<Vec3, 3>;
@@ -425,4 +425,4 @@ Cleaning clean_inward(LabelledMesh& labelled, const Vec3& origin, std::span<cons
   return Cleaner(labelled, origin, surfaces, limits).run();
 }
 
-}  // namespace vantage::solid
+}  // namespace vantage::internal::solid

@@ -7,7 +7,7 @@
 #include "solid/csg.h"
 #include "solid/regions.h"
 
-namespace vantage::solid {
+namespace vantage::internal::solid {
 
 struct CleaningLimits {
   double distance_m = 0;   ///< edges shorter than this go, and facets narrower
@@ -34,4 +34,4 @@ CleaningLimits cleaning_limits(double tolerance_m, double allowance_m, const Box
 Cleaning clean_inward(LabelledMesh& labelled, const Vec3& origin, std::span<const Surface> surfaces,
                       const CleaningLimits& limits);
 
-}  // namespace vantage::solid
+}  // namespace vantage::internal::solid

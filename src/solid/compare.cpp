@@ -16,9 +16,9 @@
 namespace vantage {
 namespace {
 
-using solid::Farthest;
-using solid::LabelledMesh;
-using solid::Solid;
+using internal::solid::Farthest;
+using internal::solid::LabelledMesh;
+using internal::solid::Solid;
 
 /// Volumes from elsewhere may pass through themselves in a few facets: they can be compared all the same, where these
 /// are no larger a part of the whole area. (Of 54 spheres, pairs and results of ours, of up to 91,530 facets, none
@@ -44,7 +44,7 @@ std::vector<std::array<Vec3, 3>> canonical(const Mesh& mesh) {
     std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end(), less), corners.end());
     triangles.push_back(corners);
   }
-  parallel::sort(triangles, [&](const auto& a, const auto& b) {
+  internal::parallel::sort(triangles, [&](const auto& a, const auto& b) {
     return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), less);
   });
   return triangles;
@@ -77,11 +77,11 @@ double intersection_of(const Comparison& c, double allowance) {
 
 Comparison compare_volumes(const Mesh& mesh_a, const Mesh& mesh_b, const std::string& name_a, const std::string& name_b,
                            const Progress& callback) {
-  const core::ProgressReporter progress(callback);
+  const internal::core::ProgressReporter progress(callback);
   progress.begin("checking the first mesh");
-  Mesh a = solid::checked_solid(mesh_a, name_a, progress, kFolds);
+  Mesh a = internal::solid::checked_solid(mesh_a, name_a, progress, kFolds);
   progress.begin("checking the second mesh");
-  Mesh b = solid::checked_solid(mesh_b, name_b, progress, kFolds);
+  Mesh b = internal::solid::checked_solid(mesh_b, name_b, progress, kFolds);
   const Box box = bounds_of(a, b);
   const Vec3 origin = (box.min + box.max) / 2;
   for (Mesh* mesh : {&a, &b}) {
@@ -108,8 +108,8 @@ Comparison compare_volumes(const Mesh& mesh_a, const Mesh& mesh_b, const std::st
   result.intersection_m3 = intersection_of(result, area * length * 1e-9);
 
   progress.begin("measuring distances");
-  const Farthest from_b = solid::farthest_point(part_a, kOfA, b, progress.part(0, 0.5));
-  const Farthest from_a = solid::farthest_point(part_b, kOfB, a, progress.part(0.5, 1));
+  const Farthest from_b = internal::solid::farthest_point(part_a, kOfA, b, progress.part(0, 0.5));
+  const Farthest from_a = internal::solid::farthest_point(part_b, kOfB, a, progress.part(0.5, 1));
   progress.finish();
   result.worst_only_a_m = from_b.at_least_m;
   result.worst_only_b_m = from_a.at_least_m;

@@ -8,7 +8,7 @@ namespace vantage {
 Volume compute_volume(const PreparedTarget& target, const Navigation& navigation, const ExactOptions& options,
                       const Progress& progress) {
   Volume volume;
-  parallel::with_threads(options.threads, [&] {
+  internal::parallel::with_threads(options.threads, [&] {
     std::vector<Volume> volumes;
     for (std::size_t i = 0; i < target.part_count(); ++i) {
       volumes.push_back(compute_visibility(target.part(i), options, progress));

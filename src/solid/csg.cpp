@@ -10,7 +10,7 @@
 #include "core/progress_reporter.h"
 #include "vantage/error.h"
 
-namespace vantage::solid {
+namespace vantage::internal::solid {
 
 struct Solid::Impl {
   manifold::Manifold manifold;  // evaluated, status NoError
@@ -211,4 +211,4 @@ Solid make_box(const Box& box, const BoxLabels& labels) {
   return Solid(result, "box");
 }
 
-}  // namespace vantage::solid
+}  // namespace vantage::internal::solid

@@ -12,9 +12,10 @@
 
 #include "core/labelled_mesh.h"
 #include "core/progress_reporter.h"
+#include "vantage/export.h"
 #include "vantage/geometry.h"
 
-namespace vantage::solid {
+namespace vantage::internal::solid {
 
 using core::LabelledMesh;
 
@@ -35,16 +36,16 @@ class Solid {
   /// are told apart by index, not by position. Parts turned inside out are cavities; self-intersections are not looked
   /// for (see solid_check.h). `name` is for messages. Throws Error(input) when the mesh is not closed, an index or a
   /// label is out of range, or a coordinate is not finite.
-  explicit Solid(const LabelledMesh& labelled, const std::string& name = "mesh");
+  VANTAGE_INTERNAL_API explicit Solid(const LabelledMesh& labelled, const std::string& name = "mesh");
 
   /// The boundary: closed, and strictly so (two triangles per edge by index; where pieces touch, vertices are doubled).
-  LabelledMesh to_mesh() const;
+  VANTAGE_INTERNAL_API LabelledMesh to_mesh() const;
 
-  bool empty() const;
+  VANTAGE_INTERNAL_API bool empty() const;
   std::size_t facets() const;
-  double volume() const;   ///< cubic metres
-  double area() const;     ///< square metres
-  double epsilon() const;  ///< metres, see above
+  double volume() const;                        ///< cubic metres
+  double area() const;                          ///< square metres
+  VANTAGE_INTERNAL_API double epsilon() const;  ///< metres, see above
   Box bounds() const;
   long euler() const;  ///< V - E + F over all pieces
 
@@ -60,12 +61,12 @@ class Solid {
 /// calling thread while the operation runs, and throw Error(cancelled) when told to stop and Error(internal), with
 /// Manifold's status, when an operation fails.
 Solid unite(const Solid& a, const Solid& b, const core::ProgressReporter& progress = {});
-Solid intersect(const Solid& a, const Solid& b, const core::ProgressReporter& progress = {});
+VANTAGE_INTERNAL_API Solid intersect(const Solid& a, const Solid& b, const core::ProgressReporter& progress = {});
 Solid subtract(const Solid& a, const Solid& b, const core::ProgressReporter& progress = {});
 /// Of any number of operands, smallest first. The union of none is empty.
 Solid unite(std::span<const Solid> operands, const core::ProgressReporter& progress = {});
 /// Of at least one operand.
-Solid intersect(std::span<const Solid> operands, const core::ProgressReporter& progress = {});
+VANTAGE_INTERNAL_API Solid intersect(std::span<const Solid> operands, const core::ProgressReporter& progress = {});
 
 /// Labels of a box's sides.
 struct BoxLabels {
@@ -74,4 +75,4 @@ struct BoxLabels {
 /// An axis-aligned box; its corners are those given, bit for bit. Needs min < max on every axis.
 Solid make_box(const Box& box, const BoxLabels& labels);
 
-}  // namespace vantage::solid
+}  // namespace vantage::internal::solid

@@ -5,7 +5,7 @@
 #include "solid/csg.h"
 #include "vantage/geometry.h"
 
-namespace vantage::solid {
+namespace vantage::internal::solid {
 
 struct Farthest {
   double at_least_m = 0;  ///< the distance of `point` from the other solid
@@ -20,4 +20,4 @@ struct Farthest {
 Farthest farthest_point(const LabelledMesh& region, std::uint32_t own, const Mesh& other,
                         const core::ProgressReporter& progress = {});
 
-}  // namespace vantage::solid
+}  // namespace vantage::internal::solid

@@ -17,8 +17,8 @@
 namespace vantage {
 namespace {
 
-using solid::LabelledMesh;
-using solid::Solid;
+using internal::solid::LabelledMesh;
+using internal::solid::Solid;
 
 void add_work(const Volume& part, Volume& result) {
   result.tolerance_m = std::max(result.tolerance_m, part.tolerance_m);
@@ -47,13 +47,13 @@ void make_empty(Outcome outcome, std::string reason, std::string hint, Volume& r
   result.causes.clear();
 }
 
-Solid solid_of(const Volume& volume, const Vec3& origin, core::CauseList& causes) {
+Solid solid_of(const Volume& volume, const Vec3& origin, internal::core::CauseList& causes) {
   std::vector<std::uint32_t> merged;
   for (const Cause& cause : volume.causes) merged.push_back(causes.add(cause));
   std::vector<std::uint32_t> labels;
   labels.reserve(volume.cause_of.size());
   for (const std::uint32_t cause : volume.cause_of) labels.push_back(merged[cause]);
-  return Solid(solid::moved_to_origin(volume.mesh, std::move(labels), origin), "the volume");
+  return Solid(internal::solid::moved_to_origin(volume.mesh, std::move(labels), origin), "the volume");
 }
 
 }  // namespace
@@ -63,7 +63,7 @@ Volume intersect_volumes(const std::vector<Volume>& volumes, const Progress& cal
   Volume result = volumes.front();
   for (std::size_t i = 1; i < volumes.size(); ++i) add_work(volumes[i], result);
   for (std::size_t i = 0; i < volumes.size(); ++i) {
-    core::check_volume(volumes[i]);
+    internal::core::check_volume(volumes[i]);
     if (volumes[i].outcome == Outcome::computed && !volumes[i].mesh.empty()) continue;
     const std::string part = "part " + std::to_string(i + 1) + " of the target: ";
     make_empty(volumes[i].outcome, part + volumes[i].reason, volumes[i].hint, result);
@@ -72,18 +72,18 @@ Volume intersect_volumes(const std::vector<Volume>& volumes, const Progress& cal
   if (volumes.size() == 1) return result;
 
   const Vec3 origin = result.frame.origin;
-  core::CauseList causes;
+  internal::core::CauseList causes;
   std::vector<Solid> solids;
   double sliver = 0, rounding = 0;
   for (const Volume& volume : volumes) {
     solids.push_back(solid_of(volume, origin, causes));
-    sliver = std::max(sliver, solid::sliver_thickness(solids.back()));
+    sliver = std::max(sliver, internal::solid::sliver_thickness(solids.back()));
     rounding = std::max(rounding, solids.back().epsilon());
   }
-  const core::ProgressReporter progress(callback);
+  const internal::core::ProgressReporter progress(callback);
   progress.begin("parts");
-  LabelledMesh labelled = solid::intersect(solids, progress).to_mesh();
-  core::drop_slivers(labelled, sliver);
+  LabelledMesh labelled = internal::solid::intersect(solids, progress).to_mesh();
+  internal::core::drop_slivers(labelled, sliver);
   if (labelled.mesh.empty()) {
     make_empty(Outcome::no_common_view,
                "no position sees all " + std::to_string(volumes.size()) + " parts of the target",
@@ -92,13 +92,14 @@ Volume intersect_volumes(const std::vector<Volume>& volumes, const Progress& cal
   }
   for (Vec3& vertex : labelled.mesh.vertices) vertex += origin;
   // Parts share scene polygons, so most of what bounds one volume all but coincides with what bounds another.
-  solid::clean_inward(labelled, origin, {},
-                      solid::cleaning_limits(result.tolerance_m, rounding, bounding_box(labelled.mesh)));
-  core::mend_for_doubles(labelled);
+  internal::solid::clean_inward(
+      labelled, origin, {},
+      internal::solid::cleaning_limits(result.tolerance_m, rounding, bounding_box(labelled.mesh)));
+  internal::core::mend_for_doubles(labelled);
   result.mesh = std::move(labelled.mesh);
   result.cause_of = std::move(labelled.labels);
   result.causes = causes.causes();
-  core::compact_causes(result.mesh, result.cause_of, result.causes);
+  internal::core::compact_causes(result.mesh, result.cause_of, result.causes);
   return result;
 }
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-namespace vantage::solid {
+namespace vantage::internal::solid {
 namespace {
 
 /// Sum of a[i] x[i] <= b, in up to three dimensions.
@@ -103,4 +103,4 @@ std::optional<Vec3> kernel_point(const std::vector<HalfSpace>& half_spaces, cons
   return is_behind_all ? std::optional(point) : std::nullopt;
 }
 
-}  // namespace vantage::solid
+}  // namespace vantage::internal::solid

@@ -6,7 +6,7 @@
 
 #include "vantage/geometry.h"
 
-namespace vantage::solid {
+namespace vantage::internal::solid {
 
 /// The half-space behind it: normal · x <= at. The normal has length 1.
 struct HalfSpace {
@@ -19,4 +19,4 @@ struct HalfSpace {
 /// expected time linear in the half-spaces. The same input gives the same point.
 std::optional<Vec3> kernel_point(const std::vector<HalfSpace>& half_spaces, const Box& box, double margin);
 
-}  // namespace vantage::solid
+}  // namespace vantage::internal::solid

@@ -7,7 +7,7 @@
 #include "solid/solid_check.h"
 #include "vantage/error.h"
 
-namespace vantage::solid {
+namespace vantage::internal::solid {
 namespace {
 
 /// One pair of limits; `what` and `axis` are for the message: "the altitude band", "".
@@ -67,4 +67,4 @@ std::vector<Mesh> check_navigation(const Navigation& navigation, const core::Pro
   return meshes;
 }
 
-}  // namespace vantage::solid
+}  // namespace vantage::internal::solid

@@ -21,8 +21,7 @@
 #include "vantage/error.h"
 #include "vantage/navigation.h"
 
-namespace vantage {
-namespace solid {
+namespace vantage::internal::solid {
 namespace {
 
 std::vector<Solid> solids_of(const std::vector<Region>& regions) {
@@ -88,20 +87,23 @@ void cut_volume(const Regions& regions, const core::ProgressReporter& progress, 
 }
 
 }  // namespace
-}  // namespace solid
+}  // namespace vantage::internal::solid
+
+namespace vantage {
 
 Volume cut_to_navigation(const Volume& volume, const Navigation& navigation, const Progress& callback) {
   const auto start = std::chrono::steady_clock::now();
-  const core::ProgressReporter progress(callback);
+  const internal::core::ProgressReporter progress(callback);
   progress.begin("navigation");
-  const std::vector<Mesh> meshes = solid::check_navigation(navigation, progress.part(0, 0.3));
+  const std::vector<Mesh> meshes = internal::solid::check_navigation(navigation, progress.part(0, 0.3));
   Volume result = volume;
   if (volume.outcome != Outcome::computed || volume.mesh.empty() || navigation.empty()) return result;
 
-  core::check_volume(volume);
+  internal::core::check_volume(volume);
   const Box bounds = measure(volume.mesh).bounds;
-  const solid::Regions regions = solid::make_regions(volume.causes, bounds, navigation, meshes);
-  if (!regions.kept.empty() || !regions.forbidden.empty()) solid::cut_volume(regions, progress.part(0.3, 1), result);
+  const internal::solid::Regions regions = internal::solid::make_regions(volume.causes, bounds, navigation, meshes);
+  if (!regions.kept.empty() || !regions.forbidden.empty())
+    internal::solid::cut_volume(regions, progress.part(0.3, 1), result);
   progress.finish();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   result.seconds.navigation += seconds;

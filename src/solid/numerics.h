@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-namespace vantage::solid::numerics {
+namespace vantage::internal::solid::numerics {
 
 /// Parts of a navigation mesh that meet less deeply than this times the diagonal of the mesh's bounding box count as
 /// touching. Single-precision files round each coordinate by 6e-8 of its size, so two walls drawn flush may cross by
@@ -72,4 +72,4 @@ constexpr std::size_t kMostFacetsOfCell = 2000;
 /// How far behind all facets that point must lie, in parts of the space that they lie in: well above rounding.
 constexpr double kKernelMargin = 1e-10;
 
-}  // namespace vantage::solid::numerics
+}  // namespace vantage::internal::solid::numerics

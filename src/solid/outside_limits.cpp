@@ -5,7 +5,7 @@
 #include "core/text.h"
 #include "solid/numerics.h"
 
-namespace vantage::solid {
+namespace vantage::internal::solid {
 namespace {
 
 bool negligible(const Solid& solid, double thickness) {
@@ -79,4 +79,4 @@ Emptiness explain_emptiness(const Solid& volume, const Regions& regions, const c
 
 double sliver_thickness(const Solid& volume) { return numerics::kSliverEpsilons * volume.epsilon(); }
 
-}  // namespace vantage::solid
+}  // namespace vantage::internal::solid

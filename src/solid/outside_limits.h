@@ -5,7 +5,7 @@
 
 #include "solid/regions.h"
 
-namespace vantage::solid {
+namespace vantage::internal::solid {
 
 struct Emptiness {
   std::string reason, hint;
@@ -17,4 +17,4 @@ Emptiness explain_emptiness(const Solid& volume, const Regions& regions, const c
 /// A piece of what is cut from `volume` whose volume is less than this times its area is rounding error. Metres.
 double sliver_thickness(const Solid& volume);
 
-}  // namespace vantage::solid
+}  // namespace vantage::internal::solid

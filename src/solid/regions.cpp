@@ -8,7 +8,7 @@
 #include "core/text.h"
 #include "solid/numerics.h"
 
-namespace vantage::solid {
+namespace vantage::internal::solid {
 namespace {
 
 /// Where the solids are moved to: booleans round to a part of the largest coordinate. A multiple of a power of two
@@ -145,4 +145,4 @@ Regions make_regions(const std::vector<Cause>& volume_causes, const Box& bounds,
   return builder.take();
 }
 
-}  // namespace vantage::solid
+}  // namespace vantage::internal::solid

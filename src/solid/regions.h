@@ -9,7 +9,7 @@
 #include "solid/csg.h"
 #include "vantage/volume.h"
 
-namespace vantage::solid {
+namespace vantage::internal::solid {
 
 /// What a label stands for: a cause and, for a side of a box, the plane that its facets must lie in.
 struct Surface {
@@ -44,4 +44,4 @@ Regions make_regions(const std::vector<Cause>& volume_causes, const Box& bounds,
 /// The mesh with its vertices relative to `origin`.
 LabelledMesh moved_to_origin(const Mesh& mesh, std::vector<std::uint32_t> labels, const Vec3& origin);
 
-}  // namespace vantage::solid
+}  // namespace vantage::internal::solid

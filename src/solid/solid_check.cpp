@@ -17,7 +17,7 @@
 #include "solid/triangle_tree.h"
 #include "vantage/error.h"
 
-namespace vantage::solid {
+namespace vantage::internal::solid {
 namespace {
 
 [[noreturn]] void refuse(const std::string& problem, const std::string& where, const std::string& fix) {
@@ -236,4 +236,4 @@ Mesh checked_solid(const Mesh& mesh, const std::string& name, const core::Progre
   return result;
 }
 
-}  // namespace vantage::solid
+}  // namespace vantage::internal::solid

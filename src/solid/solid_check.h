@@ -6,9 +6,10 @@
 
 #include "core/progress_reporter.h"
 #include "solid/csg.h"
+#include "vantage/export.h"
 #include "vantage/geometry.h"
 
-namespace vantage::solid {
+namespace vantage::internal::solid {
 
 /// `mesh` with vertices at equal positions welded and triangles without extent in their indices dropped: ready for
 /// Solid. Touching parts and cavities are fine. Throws Error(input), `name` in `where`, for a mesh that
@@ -18,7 +19,7 @@ namespace vantage::solid {
 ///   - is inside out or has parts that overlap, so that some space counts other than once or not at all.
 /// Triangles that pass through others are let be where they make up no more than `folds` of the mesh's area.
 /// Error(cancelled) when told to stop. Cost: O(n log n) for meshes as they are drawn.
-Mesh checked_solid(const Mesh& mesh, const std::string& name, const core::ProgressReporter& progress = {},
-                   double folds = 0);
+VANTAGE_INTERNAL_API Mesh checked_solid(const Mesh& mesh, const std::string& name,
+                                        const core::ProgressReporter& progress = {}, double folds = 0);
 
-}  // namespace vantage::solid
+}  // namespace vantage::internal::solid

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace vantage::solid {
+namespace vantage::internal::solid {
 namespace {
 
 using Corners = std::array<Vec3, 3>;
@@ -87,4 +87,4 @@ Contact contact_of(const Corners& a, const Corners& b, int shared, double distan
   return shared >= 2 ? Contact::none : Contact::touching;
 }
 
-}  // namespace vantage::solid
+}  // namespace vantage::internal::solid

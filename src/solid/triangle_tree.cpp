@@ -9,7 +9,7 @@
 #include "core/triangle_distance.h"
 #include "vantage/error.h"
 
-namespace vantage::solid {
+namespace vantage::internal::solid {
 namespace {
 
 core::Bounds rounded_outward(const Box& box) {
@@ -150,4 +150,4 @@ int TriangleTree::winding_number(const Vec3& point) const {
   throw Error(ErrorKind::internal, "no ray keeps clear of the edges of a mesh", "", "");
 }
 
-}  // namespace vantage::solid
+}  // namespace vantage::internal::solid

@@ -7,7 +7,7 @@
 #include "core/bvh.h"
 #include "vantage/geometry.h"
 
-namespace vantage::solid {
+namespace vantage::internal::solid {
 
 /// Refers to the mesh, which must outlive it. The mesh should lie about the origin: boxes are single precision. Any
 /// number of threads may ask at once. Building: O(n log n).
@@ -67,4 +67,4 @@ void TriangleTree::for_each_near(const Box& box, double margin, const Visit& vis
   }
 }
 
-}  // namespace vantage::solid
+}  // namespace vantage::internal::solid

@@ -6,10 +6,11 @@
 #include <utility>
 
 #include "core/pieces.h"
+#include "options/spheres_options.h"
 #include "spheres/numerics.h"
 #include "target/lengths.h"
 
-namespace vantage::spheres {
+namespace vantage::internal::spheres {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -126,7 +127,7 @@ class Run {
 
   // The last edges first, so that few spheres wait at any time however often edges are halved.
   void take_batch() {
-    const std::size_t facets = std::max<std::size_t>(1, facet_count(options_));
+    const std::size_t facets = std::max<std::size_t>(1, options::facet_count(options_));
     const std::size_t most = std::max<std::size_t>(1, kBatchFacets / facets);
     std::vector<Edge> batch;
     std::vector<std::uint32_t> missing;
@@ -305,4 +306,4 @@ Intersection intersect_spheres(const TargetFrame& frame, const SphereMaker& make
   return Run(frame, maker, options, report, stages, progress).run();
 }
 
-}  // namespace vantage::spheres
+}  // namespace vantage::internal::spheres

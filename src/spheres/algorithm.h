@@ -12,7 +12,7 @@
 #include "vantage/spheres.h"
 #include "vantage/target.h"
 
-namespace vantage::spheres {
+namespace vantage::internal::spheres {
 
 struct Intersection {
   solid::LabelledMesh mesh;      ///< target's frame; labels are SphereLabel; closed; may be empty
@@ -27,4 +27,4 @@ struct Intersection {
 Intersection intersect_spheres(const TargetFrame& frame, const SphereMaker& maker, const SpheresOptions& options,
                                SpheresReport& report, const StageSink& stages, const core::ProgressReporter& progress);
 
-}  // namespace vantage::spheres
+}  // namespace vantage::internal::spheres

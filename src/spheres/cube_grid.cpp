@@ -6,7 +6,7 @@
 
 #include "depth/depth.h"
 
-namespace vantage::spheres {
+namespace vantage::internal::spheres {
 namespace {
 
 std::array<int, 3> whole(const Vec3& v) { return {int(v.x()), int(v.y()), int(v.z())}; }
@@ -107,4 +107,4 @@ FaceCell CubeGrid::across(int face, int side, int k) const {
   return texel_at(real(axes.forward) * (1 - 0.5 / n_) + out + ((2.0 * k + 1) / n_ - 1) * (1 - 0.1 / n_) * along);
 }
 
-}  // namespace vantage::spheres
+}  // namespace vantage::internal::spheres

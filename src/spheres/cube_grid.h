@@ -6,7 +6,7 @@
 
 #include "vantage/geometry.h"
 
-namespace vantage::spheres {
+namespace vantage::internal::spheres {
 
 /// A texel corner as a point of the lattice {0..n}^3 on the surface of the cube: n (d + 1) / 2.
 using Lattice = std::array<int, 3>;
@@ -50,4 +50,4 @@ class CubeGrid {
   std::array<Axes, 6> axes_;
 };
 
-}  // namespace vantage::spheres
+}  // namespace vantage::internal::spheres

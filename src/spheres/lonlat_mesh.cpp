@@ -12,7 +12,7 @@
 #include "spheres/sphere_mesh.h"
 #include "spheres/texel_depths.h"
 
-namespace vantage::spheres {
+namespace vantage::internal::spheres {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -160,12 +160,6 @@ class CellBounds {
 
 }  // namespace
 
-int face_size_for(const std::array<int, 2>& grid) {
-  const double step = std::min(2 * kPi / grid[0], kPi / grid[1]);
-  // A texel is widest in the middle of its face: 2 / n.
-  return 2 * int(std::ceil(2 / step));
-}
-
 StarMesh join_lonlat(const CubeMap& cube, const std::array<int, 2>& size, double range_m) {
   const LonLatGrid grid(size);
   const CubeGrid texels(cube.face_size);
@@ -203,4 +197,4 @@ StarMesh bound_lonlat(const CubeMap& cube, const std::array<int, 2>& size, doubl
   return star;
 }
 
-}  // namespace vantage::spheres
+}  // namespace vantage::internal::spheres

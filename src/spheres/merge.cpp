@@ -5,7 +5,7 @@
 
 #include "core/parallel.h"
 
-namespace vantage::spheres {
+namespace vantage::internal::spheres {
 namespace {
 
 /// Vertices [left, right] x [bottom, top] of a face, both ends included.
@@ -280,4 +280,4 @@ void drop_unused_vertices(StarMesh& star) {
     for (std::uint32_t& v : t) v = index[v];
 }
 
-}  // namespace vantage::spheres
+}  // namespace vantage::internal::spheres

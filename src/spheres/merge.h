@@ -12,7 +12,7 @@
 
 #include "spheres/star_mesh.h"
 
-namespace vantage::spheres {
+namespace vantage::internal::spheres {
 
 /// The vertices of one face as a grid of cells x cells quadrilaterals.
 struct FaceGrid {
@@ -34,4 +34,4 @@ void add_merged_facets(StarMesh& star, const std::vector<FaceGrid>& faces, const
 /// Drops the vertices that no facet uses.
 void drop_unused_vertices(StarMesh& star);
 
-}  // namespace vantage::spheres
+}  // namespace vantage::internal::spheres

@@ -1,7 +1,7 @@
 // The numeric constants of this module, with their derivations. Lengths in metres.
 #pragma once
 
-namespace vantage::spheres::numerics {
+namespace vantage::internal::spheres::numerics {
 
 /// A sphere mesh reaches at least this far along the longest axis of every direction, so that its facets have an area
 /// and it is star-shaped about the viewpoint, also where a surface begins at the viewpoint itself. It is the one
@@ -25,4 +25,4 @@ inline constexpr double kAngle = 1e-9;
 /// A piece whose volume is less than its area times this many epsilons of the booleans is rounding error, not space.
 inline constexpr double kSliverEpsilons = 10;
 
-}  // namespace vantage::spheres::numerics
+}  // namespace vantage::internal::spheres::numerics

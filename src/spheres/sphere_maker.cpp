@@ -1,86 +1,21 @@
 #include "spheres/sphere_maker.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <fstream>
 #include <numbers>
 #include <string>
 
+#include "options/spheres_options.h"
 #include "spheres/sphere_mesh.h"
 #include "vantage/error.h"
 
-namespace vantage::spheres {
+namespace vantage::internal::spheres {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kLargestFace = 8192;
-constexpr int kMostSplits = 16;
-/// Peak memory of a run with three spheres cut to the front, over the facets of one whole sphere: 620 to 710 bytes
-/// (Charlotte, 300 m range, faces of 300 and 200 texels).
-constexpr double kBytesPerFacet = 700;
-constexpr double kLargestMerge = 0.05;
-
-[[noreturn]] void refuse(const std::string& problem, const std::string& fix) {
-  throw Error(ErrorKind::input, problem, "spheres", fix);
-}
-
-int face_size(const SpheresOptions& options) {
-  return options.resolution ? face_size_for(*options.resolution) : options.cubemap;
-}
-
-void check_grid(const std::array<int, 2>& grid) {
-  if (grid[0] < 3 || grid[1] < 2)
-    refuse("resolution must be at least [3, 2], not [" + std::to_string(grid[0]) + ", " + std::to_string(grid[1]) + "]",
-           "give the samples in longitude and latitude, such as [160, 80]");
-  constexpr int kMost = 4 * kLargestFace;  // beyond it face_size_for might overflow
-  if (grid[0] > kMost || grid[1] > kMost || face_size_for(grid) > kLargestFace)
-    refuse("resolution is too fine: [" + std::to_string(grid[0]) + ", " + std::to_string(grid[1]) +
-               "] needs cube faces of more than " + std::to_string(kLargestFace) + " texels a side",
-           "give at most [12800, 6400]");
-}
-
-/// Of the machine, or as much of it as the control group (a container, a batch job) may use; version 2, "max" for all.
-double memory_bytes() {
-  const double machine = double(::sysconf(_SC_PHYS_PAGES)) * double(::sysconf(_SC_PAGESIZE));
-  double group = 0;
-  std::ifstream limit("/sys/fs/cgroup/memory.max");
-  return limit >> group ? std::min(machine, group) : machine;
-}
-
-void check_memory(const SpheresOptions& options) {
-  const double texels = 6 * std::pow(double(face_size(options)), 2);
-  const double needed = kBytesPerFacet * double(facet_count(options)) + 4 * texels;
-  const double there = memory_bytes();
-  if (needed <= there) return;
-  const auto gigabytes = [](double bytes) { return std::to_string(std::lround(std::ceil(bytes / 1e9))) + " GB"; };
-  refuse("spheres of " + std::to_string(facet_count(options)) + " facets need some " + gigabytes(needed) +
-             " of memory, and " + gigabytes(there) + " are there",
-         "lower cubemap or resolution");
-}
-
 }  // namespace
-
-void check_options(const SpheresOptions& options) {
-  if (options.resolution) {
-    check_grid(*options.resolution);
-  } else if (options.cubemap < 1 || options.cubemap > kLargestFace) {
-    refuse("cubemap must be from 1 to " + std::to_string(kLargestFace) + ", not " + std::to_string(options.cubemap),
-           "give the texels along a face's side, such as 200");
-  }
-  if (options.max_splits < 0 || options.max_splits > kMostSplits)
-    refuse(
-        "max_splits must be from 0 to " + std::to_string(kMostSplits) + ", not " + std::to_string(options.max_splits),
-        "give how often an edge may be halved, such as 6");
-  if (!(options.min_edge_m > 0) || !std::isfinite(options.min_edge_m))
-    refuse("min_edge must be a positive, finite number of metres", "give for example 0.5");
-  if (!(options.merge >= 0) || options.merge > kLargestMerge)
-    refuse("merge must be from 0 to 0.05", "give the part of its distance that a facet may be off, such as 0.00025");
-  check_memory(options);
-}
 
 double range_tolerance(const SpheresOptions& options, double range_m) {
   // Half the diagonal of the widest cell of directions.
@@ -96,11 +31,6 @@ double range_tolerance(const SpheresOptions& options, double range_m) {
   return range_m * std::min(sagitta + joined, 1.0);
 }
 
-std::size_t facet_count(const SpheresOptions& options) {
-  if (options.resolution) return 2 * std::size_t((*options.resolution)[0]) * ((*options.resolution)[1] - 1);
-  return 12 * std::size_t(options.cubemap) * options.cubemap;
-}
-
 SphereMaker::SphereMaker(depth::DepthRenderer& renderer, const SpheresOptions& options, double range_m,
                          const TargetFrame& frame, bool front_only)
     : renderer_(renderer),
@@ -108,7 +38,7 @@ SphereMaker::SphereMaker(depth::DepthRenderer& renderer, const SpheresOptions& o
       range_m_(range_m),
       frame_(frame),
       front_only_(front_only),
-      face_size_(face_size(options)) {}
+      face_size_(options::face_size(options)) {}
 
 StarMesh SphereMaker::tessellated(std::span<const float> inverse_depths) const {
   const CubeMap cube{face_size_, inverse_depths};
@@ -145,4 +75,4 @@ void SphereMaker::make(const std::vector<Vec3>& points, const std::function<void
   });
 }
 
-}  // namespace vantage::spheres
+}  // namespace vantage::internal::spheres

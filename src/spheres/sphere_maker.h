@@ -10,7 +10,7 @@
 #include "vantage/spheres.h"
 #include "vantage/target.h"
 
-namespace vantage::spheres {
+namespace vantage::internal::spheres {
 
 struct Sphere {
   solid::LabelledMesh mesh;  ///< in the maker's frame; labels are SphereLabel
@@ -18,14 +18,8 @@ struct Sphere {
   double seconds = 0;        ///< rendering and tessellation
 };
 
-/// Throws Error(input) for options out of range, and for a mesh that would need more memory than there is.
-void check_options(const SpheresOptions& options);
-
 /// The greatest distance at which facets on the range sphere lie inside it.
 double range_tolerance(const SpheresOptions& options, double range_m);
-
-/// Facets of a whole sphere.
-std::size_t facet_count(const SpheresOptions& options);
 
 class SphereMaker {
  public:
@@ -50,4 +44,4 @@ class SphereMaker {
   int face_size_;
 };
 
-}  // namespace vantage::spheres
+}  // namespace vantage::internal::spheres

@@ -10,7 +10,7 @@
 #include "spheres/numerics.h"
 #include "spheres/texel_depths.h"
 
-namespace vantage::spheres {
+namespace vantage::internal::spheres {
 namespace {
 
 /// The point t d with t = 1 / w, no nearer than the floor and no farther than the range.
@@ -196,4 +196,4 @@ StarMesh bound_corners(const CubeMap& cube, double range_m, const Vec3* front, d
   return star;
 }
 
-}  // namespace vantage::spheres
+}  // namespace vantage::internal::spheres

@@ -10,7 +10,7 @@
 
 #include "spheres/star_mesh.h"
 
-namespace vantage::spheres {
+namespace vantage::internal::spheres {
 
 struct CubeMap {
   int face_size = 0;                      ///< n, texels along a side
@@ -43,8 +43,4 @@ StarMesh join_lonlat(const CubeMap& cube, const std::array<int, 2>& grid, double
 /// which bulges towards the pole, so texels are also counted to the cell below. `front` as above.
 StarMesh bound_lonlat(const CubeMap& cube, const std::array<int, 2>& grid, double range_m, const Vec3* front = nullptr);
 
-/// Face size of the cube map that a longitude and latitude grid is made from: texels at most half as wide as the
-/// smaller of the grid's two steps.
-int face_size_for(const std::array<int, 2>& grid);
-
-}  // namespace vantage::spheres
+}  // namespace vantage::internal::spheres

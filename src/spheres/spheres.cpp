@@ -3,6 +3,7 @@
 
 #include "core/parallel.h"
 #include "depth/depth.h"
+#include "options/spheres_options.h"
 #include "spheres/sphere_maker.h"
 #include "spheres/visibility.h"
 
@@ -10,12 +11,12 @@ namespace vantage {
 
 Volume compute_visibility_spheres(const PreparedTarget& target, const SpheresOptions& options, SpheresReport* report,
                                   const StageSink& stages, const Progress& progress) {
-  spheres::check_options(options);  // before a device is looked for
+  internal::options::check_options(options);  // before a device is looked for
   Volume volume;
-  parallel::with_threads(options.threads, [&] {
-    const depth::ChosenRenderer chosen = depth::make_depth_renderer(target.scene(), options.device);
+  internal::parallel::with_threads(options.threads, [&] {
+    const internal::depth::ChosenRenderer chosen = internal::depth::make_depth_renderer(target.scene(), options.device);
     const RenderDevice hoped = chosen.renderer->device();
-    volume = spheres::compute_visibility(target, options, *chosen.renderer, report, stages, progress);
+    volume = internal::spheres::compute_visibility(target, options, *chosen.renderer, report, stages, progress);
     if (!report) return;
     report->device_note = chosen.note;
     if (report->device.index != hoped.index) report->device_note = hoped.name + " failed on the way, the CPU went on";
@@ -25,11 +26,11 @@ Volume compute_visibility_spheres(const PreparedTarget& target, const SpheresOpt
 
 Mesh visibility_sphere(const PreparedScene& scene, const Vec3& viewpoint, double radius_m,
                        const SpheresOptions& options, const Progress& progress) {
-  spheres::check_options(options);
+  internal::options::check_options(options);
   Mesh mesh;
-  parallel::with_threads(options.threads, [&] {
-    const depth::ChosenRenderer chosen = depth::make_depth_renderer(scene, options.device);
-    mesh = spheres::visibility_sphere(viewpoint, radius_m, options, *chosen.renderer, progress);
+  internal::parallel::with_threads(options.threads, [&] {
+    const internal::depth::ChosenRenderer chosen = internal::depth::make_depth_renderer(scene, options.device);
+    mesh = internal::spheres::visibility_sphere(viewpoint, radius_m, options, *chosen.renderer, progress);
   });
   return mesh;
 }

@@ -8,7 +8,7 @@
 #include "core/parallel.h"
 #include "spheres/numerics.h"
 
-namespace vantage::spheres {
+namespace vantage::internal::spheres {
 namespace {
 
 constexpr std::size_t kGrain = 1 << 13;
@@ -162,4 +162,4 @@ double reach(const StarMesh& star, const Placement& placement) {
   return farthest;
 }
 
-}  // namespace vantage::spheres
+}  // namespace vantage::internal::spheres

@@ -7,7 +7,7 @@
 #include "solid/csg.h"
 #include "vantage/geometry.h"
 
-namespace vantage::spheres {
+namespace vantage::internal::spheres {
 
 /// What a facet of a sphere stands for; also the labels of the solids.
 enum SphereLabel : std::uint32_t { kScene = 0, kRange = 1, kTargetPlane = 2 };
@@ -33,4 +33,4 @@ solid::LabelledMesh placed(const StarMesh& star, const Placement& placement);
 /// How far the mesh goes from the viewpoint; with `front_only` how high above the plane.
 double reach(const StarMesh& star, const Placement& placement);
 
-}  // namespace vantage::spheres
+}  // namespace vantage::internal::spheres

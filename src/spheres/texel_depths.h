@@ -7,7 +7,7 @@
 #include "spheres/numerics.h"
 #include "spheres/sphere_mesh.h"
 
-namespace vantage::spheres {
+namespace vantage::internal::spheres {
 
 /// Nearest inverse depths, where texels behind the target count as empty.
 class TexelDepths {
@@ -34,4 +34,4 @@ class TexelDepths {
   double half_;
 };
 
-}  // namespace vantage::spheres
+}  // namespace vantage::internal::spheres

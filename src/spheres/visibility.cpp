@@ -8,6 +8,7 @@
 
 #include "core/number_text.h"
 #include "core/progress_reporter.h"
+#include "options/spheres_options.h"
 #include "scene/prepared_data.h"
 #include "spheres/algorithm.h"
 #include "spheres/numerics.h"
@@ -16,8 +17,9 @@
 #include "target/range_check.h"
 #include "target/range_region.h"
 #include "vantage/error.h"
+#include "vantage/version.h"
 
-namespace vantage::spheres {
+namespace vantage::internal::spheres {
 namespace {
 
 using core::metres_text;
@@ -105,7 +107,7 @@ Volume compute_visibility(const PreparedTarget& target, const SpheresOptions& op
                           SpheresReport* report, const StageSink& stages, const Progress& callback) {
   const core::ProgressReporter progress(callback);
   const auto start = Clock::now();
-  check_options(options);
+  options::check_options(options);
   if (target.part_count() > 1) {
     throw Error(ErrorKind::input, "the target has " + std::to_string(target.part_count()) + " parts", "target",
                 "compute each part and intersect the volumes");
@@ -140,7 +142,7 @@ Mesh visibility_sphere(const Vec3& viewpoint, double radius_m, const SpheresOpti
     throw Error(ErrorKind::input, "the viewpoint has a coordinate that is not finite", "visibility sphere",
                 "give three finite numbers");
   target::check_sensor({radius_m});
-  check_options(options);
+  options::check_options(options);
   TargetFrame frame;
   frame.origin = viewpoint;
   frame.axis_u = Vec3::UnitX(), frame.axis_v = Vec3::UnitY(), frame.normal = Vec3::UnitZ();
@@ -153,4 +155,4 @@ Mesh visibility_sphere(const Vec3& viewpoint, double radius_m, const SpheresOpti
   return mesh;
 }
 
-}  // namespace vantage::spheres
+}  // namespace vantage::internal::spheres

@@ -4,14 +4,14 @@
 #include "depth/depth.h"
 #include "vantage/spheres.h"
 
-namespace vantage::spheres {
+namespace vantage::internal::spheres {
 
 /// As compute_visibility_spheres, but for SpheresReport::device_note. Runs in the caller's arena.
 Volume compute_visibility(const PreparedTarget& target, const SpheresOptions& options, depth::DepthRenderer& renderer,
                           SpheresReport* report, const StageSink& stages, const Progress& progress);
 
 /// As visibility_sphere.
-Mesh visibility_sphere(const Vec3& viewpoint, double radius_m, const SpheresOptions& options,
-                       depth::DepthRenderer& renderer, const Progress& progress);
+VANTAGE_INTERNAL_API Mesh visibility_sphere(const Vec3& viewpoint, double radius_m, const SpheresOptions& options,
+                                            depth::DepthRenderer& renderer, const Progress& progress);
 
-}  // namespace vantage::spheres
+}  // namespace vantage::internal::spheres

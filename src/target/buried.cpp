@@ -9,7 +9,7 @@
 #include "target/column.h"
 #include "target/numerics.h"
 
-namespace vantage::target {
+namespace vantage::internal::target {
 namespace {
 
 // What of the scene is straight over and under a point: the nearest over it, and whether anything, or anything of
@@ -142,4 +142,4 @@ std::optional<std::string> buried_note(const PreparedScene::Data& scene, const T
   return note;
 }
 
-}  // namespace vantage::target
+}  // namespace vantage::internal::target

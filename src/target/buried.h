@@ -8,7 +8,7 @@
 #include "target/lengths.h"
 #include "vantage/target.h"
 
-namespace vantage::target {
+namespace vantage::internal::target {
 
 /// A sentence for people where nothing of the scene is below the target and what is above all of it is either all that
 /// there is or spreads over most of the scene: it names that object, and the smallest offset that brings the target out
@@ -17,4 +17,4 @@ namespace vantage::target {
 std::optional<std::string> buried_note(const PreparedScene::Data& scene, const Target& target, const TargetFrame& frame,
                                        const Lengths& lengths);
 
-}  // namespace vantage::target
+}  // namespace vantage::internal::target

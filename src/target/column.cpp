@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-namespace vantage::target {
+namespace vantage::internal::target {
 
 Column::Column(const PreparedScene::Data& scene, const TargetFrame& frame, const Lengths& lengths, double floor)
     : scene_(scene),
@@ -106,4 +106,4 @@ double clear_height(const std::vector<Crossing>& crossings, const Lengths& lengt
   }
 }
 
-}  // namespace vantage::target
+}  // namespace vantage::internal::target

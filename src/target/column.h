@@ -10,7 +10,7 @@
 #include "target/local_target.h"
 #include "vantage/target.h"
 
-namespace vantage::target {
+namespace vantage::internal::target {
 
 /// The heights at which a scene polygon crosses the column.
 struct Crossing {
@@ -64,4 +64,4 @@ struct HeightStep {
 /// The smallest height from `from` on, in whole steps, at which nothing crosses.
 double clear_height(const std::vector<Crossing>& crossings, const Lengths& lengths, double from = 0);
 
-}  // namespace vantage::target
+}  // namespace vantage::internal::target

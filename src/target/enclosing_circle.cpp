@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace vantage::target {
+namespace vantage::internal::target {
 namespace {
 
 using Eigen::Vector2d;
@@ -53,4 +53,4 @@ Vector2d centroid(const std::vector<Vector2d>& polygon) {
   return polygon[0] + sum / area;
 }
 
-}  // namespace vantage::target
+}  // namespace vantage::internal::target

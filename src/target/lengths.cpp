@@ -6,7 +6,7 @@
 
 #include "target/numerics.h"
 
-namespace vantage::target {
+namespace vantage::internal::target {
 namespace {
 
 // Of coordinates as given, of those about the scene's origin, and of those in the target's frame.
@@ -30,4 +30,4 @@ double hands_breadth(double max_range) {
   return numerics::kHandsBreadth * std::min(1.0, max_range / numerics::kFullRange);
 }
 
-}  // namespace vantage::target
+}  // namespace vantage::internal::target

@@ -4,7 +4,7 @@
 #include "scene/prepared_data.h"
 #include "vantage/target.h"
 
-namespace vantage::target {
+namespace vantage::internal::target {
 
 /// Metres. A scene, its target and its range scaled by the same factor give the same results, as long as all of them
 /// are so small, or all so large, that caps do not come between.
@@ -21,4 +21,4 @@ Lengths lengths_of(const PreparedScene::Data& scene, const TargetFrame& frame, d
 /// A volume that ends this close to the target is of no use to anyone: the view is blocked at once.
 double hands_breadth(double max_range);
 
-}  // namespace vantage::target
+}  // namespace vantage::internal::target

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace vantage::target {
+namespace vantage::internal::target {
 
 using Eigen::Vector2d;
 
@@ -32,4 +32,4 @@ void local_polygon(const PreparedScene::Data& scene, const TargetFrame& frame, s
   }
 }
 
-}  // namespace vantage::target
+}  // namespace vantage::internal::target

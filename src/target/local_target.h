@@ -9,7 +9,7 @@
 #include "vantage/geometry.h"
 #include "vantage/target.h"
 
-namespace vantage::target {
+namespace vantage::internal::target {
 
 /// The target in its own frame, with what every blocker needs of it worked out once. `centre` is the origin.
 struct LocalTarget {
@@ -30,4 +30,4 @@ LocalTarget make_local_target(const std::vector<Eigen::Vector2d>& polygon, doubl
 void local_polygon(const PreparedScene::Data& scene, const TargetFrame& frame, std::uint32_t polygon,
                    std::vector<Vec3>& corners);
 
-}  // namespace vantage::target
+}  // namespace vantage::internal::target

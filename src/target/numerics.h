@@ -5,7 +5,7 @@
 // 1e3 * 2^-53 = 1e-13 m, and a short chain of operations on well-shaped input stays under 1e-11 m.
 #pragma once
 
-namespace vantage::numerics {
+namespace vantage::internal::numerics {
 
 /// Points this near to the target's plane, to the line of one of its edges, or to a plane that touches the target are
 /// on it: far above what rounding costs in worlds of metres, and far below any feature of a scene. Times the radius of
@@ -67,4 +67,4 @@ inline constexpr double kMostRaise = 5;
 /// worlds.
 inline constexpr double kHandsBreadth = 0.1;
 
-}  // namespace vantage::numerics
+}  // namespace vantage::internal::numerics

@@ -8,7 +8,7 @@
 #include "target/numerics.h"
 #include "target/target_check.h"
 
-namespace vantage::target {
+namespace vantage::internal::target {
 namespace {
 
 TargetFrame with_triangle(TargetFrame frame, double radius) {
@@ -60,4 +60,4 @@ PointSides make_point_sides(const PreparedScene::Data& scene, const Target& targ
   return sides;
 }
 
-}  // namespace vantage::target
+}  // namespace vantage::internal::target

@@ -8,7 +8,7 @@
 #include "scene/prepared_data.h"
 #include "vantage/target.h"
 
-namespace vantage::target {
+namespace vantage::internal::target {
 
 /// Circumradius of the triangle that stands for a point, in metres. What sees all of the triangle sees the point, so
 /// nothing is claimed wrongly; what is lost at silhouettes is this times how many times farther the viewpoint is than
@@ -30,4 +30,4 @@ struct PointSides {
 PointSides make_point_sides(const PreparedScene::Data& scene, const Target& target, const TargetFrame& frame,
                             double max_range);
 
-}  // namespace vantage::target
+}  // namespace vantage::internal::target

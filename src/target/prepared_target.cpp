@@ -21,18 +21,19 @@ Part prepare(const PreparedScene::Data& scene, const Target& target, const Senso
   part.given = part.frame = make_target_frame(target);
   std::vector<std::string> own;
   if (target.is_point()) {
-    part.sides = target::make_point_sides(scene, target, part.frame, sensor.max_range_m);
+    part.sides = internal::target::make_point_sides(scene, target, part.frame, sensor.max_range_m);
     part.lift_m = part.sides->lift;
     own = part.sides->notes;
     part.frame.origin = part.sides->front.origin;
     part.is_reachable = true;
   } else {
-    target::Clearance clearance = target::clear_target(scene, target, part.frame, sensor.max_range_m);
+    internal::target::Clearance clearance =
+        internal::target::clear_target(scene, target, part.frame, sensor.max_range_m);
     part.lift_m = clearance.lift_m;
     own = std::move(clearance.notes);
     part.frame.origin += part.frame.normal * part.lift_m;
-    part.is_reachable = target::can_reach(part.frame, sensor);
-    if (part.is_reachable) target::move_into_range(part.frame, sensor.max_range_m);
+    part.is_reachable = internal::target::can_reach(part.frame, sensor);
+    if (part.is_reachable) internal::target::move_into_range(part.frame, sensor.max_range_m);
   }
   for (std::string& note : own) {
     if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(std::move(note));
@@ -43,7 +44,7 @@ Part prepare(const PreparedScene::Data& scene, const Target& target, const Senso
 }  // namespace
 
 PreparedTarget::PreparedTarget(const PreparedScene& scene, const Target& target, const Sensor& sensor) {
-  target::check_sensor(sensor);
+  internal::target::check_sensor(sensor);
   if (sensor.max_range_m > kLargestRange) {
     throw Error(ErrorKind::input, "max_range is larger than 1e9 m", "sensor", "give metres");
   }

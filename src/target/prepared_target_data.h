@@ -15,8 +15,8 @@ struct PreparedTarget::Data {
     TargetFrame given;  ///< without lift
     TargetFrame frame;  ///< as used: raised, and with its origin inside the range of all vertices
     double lift_m = 0;
-    bool is_reachable = false;                ///< some point is within range of all of it
-    std::optional<target::PointSides> sides;  ///< of a point
+    bool is_reachable = false;                          ///< some point is within range of all of it
+    std::optional<internal::target::PointSides> sides;  ///< of a point
   };
 
   PreparedScene scene;

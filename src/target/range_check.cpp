@@ -5,7 +5,7 @@
 #include "core/number_text.h"
 #include "vantage/error.h"
 
-namespace vantage::target {
+namespace vantage::internal::target {
 
 void check_sensor(const Sensor& sensor) {
   if (sensor.max_range_m > 0 && std::isfinite(sensor.max_range_m)) return;
@@ -25,4 +25,4 @@ void set_out_of_range(const TargetFrame& frame, const Sensor& sensor, Volume& vo
   volume.hint = "raise max_range, or split the target";
 }
 
-}  // namespace vantage::target
+}  // namespace vantage::internal::target

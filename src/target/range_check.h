@@ -5,7 +5,7 @@
 #include "vantage/target.h"
 #include "vantage/volume.h"
 
-namespace vantage::target {
+namespace vantage::internal::target {
 
 /// Throws Error(input) unless the range is a positive, finite number.
 void check_sensor(const Sensor& sensor);
@@ -16,4 +16,4 @@ bool can_reach(const TargetFrame& frame, const Sensor& sensor);
 /// The outcome where none is.
 void set_out_of_range(const TargetFrame& frame, const Sensor& sensor, Volume& volume);
 
-}  // namespace vantage::target
+}  // namespace vantage::internal::target

@@ -2,7 +2,7 @@
 
 #include "target/enclosing_circle.h"
 
-namespace vantage::target {
+namespace vantage::internal::target {
 
 RangeRegion::RangeRegion(const std::vector<Eigen::Vector2d>& polygon, double max_range)
     : centres_(polygon), radius_(max_range) {
@@ -78,4 +78,4 @@ void move_into_range(TargetFrame& frame, double max_range) {
   for (auto& v : frame.polygon) v -= shift;
 }
 
-}  // namespace vantage::target
+}  // namespace vantage::internal::target

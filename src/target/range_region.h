@@ -6,7 +6,7 @@
 #include "core/plane.h"
 #include "vantage/target.h"
 
-namespace vantage::target {
+namespace vantage::internal::target {
 
 class RangeRegion {
  public:
@@ -51,4 +51,4 @@ class RangeRegion {
 /// the target's outline, so the origin keeps as far from it as the range allows. The range exceeds the circle's radius.
 void move_into_range(TargetFrame& frame, double max_range);
 
-}  // namespace vantage::target
+}  // namespace vantage::internal::target

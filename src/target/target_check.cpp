@@ -10,7 +10,7 @@
 #include "target/numerics.h"
 #include "vantage/error.h"
 
-namespace vantage::target {
+namespace vantage::internal::target {
 namespace {
 
 std::string describe(const Vec3& place, int decimals) {
@@ -162,4 +162,4 @@ void refuse_steep_nearby(const PreparedScene::Data& scene, const Target& target,
   }
 }
 
-}  // namespace vantage::target
+}  // namespace vantage::internal::target

@@ -10,7 +10,7 @@
 #include "vantage/error.h"
 #include "vantage/target.h"
 
-namespace vantage::target {
+namespace vantage::internal::target {
 
 /// Scene geometry stands on the target or passes through it. Those who know what the object is may have better advice.
 class PiercedTarget : public Error {
@@ -46,4 +46,4 @@ double height_off_surface(const PreparedScene::Data& scene, const TargetFrame& f
 void refuse_steep_nearby(const PreparedScene::Data& scene, const Target& target, const TargetFrame& frame,
                          double max_range);
 
-}  // namespace vantage::target
+}  // namespace vantage::internal::target

@@ -80,7 +80,8 @@ void check_planar(const Target& target, const Vec3& normal, double extent) {
   }
   if (worst > std::max(kPlanarAtLeast, kPlanarFraction * extent))
     refuse(target,
-           "the vertices are not in one plane: " + vertex_name(culprit) + " is off by " + core::metres_text(worst),
+           "the vertices are not in one plane: " + vertex_name(culprit) + " is off by " +
+               internal::core::metres_text(worst),
            "move it onto the plane of the others, or split the target");
 }
 
@@ -142,8 +143,8 @@ std::vector<Vector2d> corners_of(const Target& target, const std::vector<Vec3>& 
            "give the vertices in order round the polygon");
   double largest = 0;
   for (const Vec3& v : target.parts[0]) largest = std::max(largest, v.cwiseAbs().maxCoeff());
-  const core::CornerSlack slack{kStraight * extent + kRounding * largest, kRounding * extent};
-  const auto is_corner = core::find_corners(polygon, Vec3::UnitZ(), slack);
+  const internal::core::CornerSlack slack{kStraight * extent + kRounding * largest, kRounding * extent};
+  const auto is_corner = internal::core::find_corners(polygon, Vec3::UnitZ(), slack);
   if (!is_corner)
     refuse(target, "not convex: the outline turns the wrong way at " + vertex_name(index[worst_turn(polygon)]),
            "give the vertices in order round a convex polygon; split a concave one into convex targets");
@@ -221,8 +222,8 @@ TargetFrame make_target_frame(const Target& target, std::size_t part) {
 
   double height = 0;  // of the plane over the anchor: the mean, which is zero for an exactly planar polygon
   for (const Vec3& v : target.parts[0]) height += frame.normal.dot(v - anchor) / double(target.parts[0].size());
-  const auto circle = target::smallest_enclosing_circle(polygon);
-  const Vector2d centre = 0.5 * (circle.centre + target::centroid(polygon));
+  const auto circle = internal::target::smallest_enclosing_circle(polygon);
+  const Vector2d centre = 0.5 * (circle.centre + internal::target::centroid(polygon));
   for (Vector2d& p : polygon) p -= centre;
   frame.polygon = std::move(polygon);
   frame.enclosing_radius_m = circle.radius;

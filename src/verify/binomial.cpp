@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace vantage::verify {
+namespace vantage::internal::verify {
 namespace {
 
 /// Probability of `hits` or fewer in `trials`, each with probability 0 < share < 1. Sums upwards from zero hits in
@@ -32,4 +32,4 @@ double upper_share_bound(std::size_t hits, std::size_t trials, double confidence
   return high;
 }
 
-}  // namespace vantage::verify
+}  // namespace vantage::internal::verify

@@ -12,7 +12,7 @@
 #include "vantage/error.h"
 #include "verify/tolerances.h"
 
-namespace vantage::verify {
+namespace vantage::internal::verify {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -242,4 +242,4 @@ bool BoxIndex::any_within(const std::vector<HalfSpace>& region, Caller<bool> cal
   return impl_->root && any_below(impl_->root, region, call, visitor);
 }
 
-}  // namespace vantage::verify
+}  // namespace vantage::internal::verify

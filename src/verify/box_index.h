@@ -10,7 +10,7 @@
 
 #include "vantage/geometry.h"
 
-namespace vantage::verify {
+namespace vantage::internal::verify {
 
 /// The points x with normal · x >= offset.
 struct HalfSpace {
@@ -65,4 +65,4 @@ class BoxIndex {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace vantage::verify
+}  // namespace vantage::internal::verify

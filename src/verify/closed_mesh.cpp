@@ -11,7 +11,7 @@
 #include "vantage/error.h"
 #include "verify/random.h"
 
-namespace vantage::verify {
+namespace vantage::internal::verify {
 namespace {
 
 constexpr int kDirections = 24;  // tried before a point counts as lying on the surface
@@ -187,4 +187,4 @@ double ClosedMesh::distance_to_surface(const Vec3& point) const {
   return nearest;
 }
 
-}  // namespace vantage::verify
+}  // namespace vantage::internal::verify

@@ -9,7 +9,7 @@
 #include "verify/box_index.h"
 #include "verify/segment.h"
 
-namespace vantage::verify {
+namespace vantage::internal::verify {
 
 /// What the edges of a mesh tell, with vertices in one place taken for one.
 struct Topology {
@@ -47,4 +47,4 @@ class ClosedMesh {
   std::optional<BoxIndex> index_;  ///< always there; made last, when the size is known
 };
 
-}  // namespace vantage::verify
+}  // namespace vantage::internal::verify

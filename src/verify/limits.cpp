@@ -4,7 +4,7 @@
 
 #include "vantage/error.h"
 
-namespace vantage::verify {
+namespace vantage::internal::verify {
 namespace {
 
 void check(const std::vector<Box>& boxes, const std::string& name) {
@@ -57,4 +57,4 @@ std::optional<std::string> Limits::broken_by(const Vec3& point) const {
   return std::nullopt;
 }
 
-}  // namespace vantage::verify
+}  // namespace vantage::internal::verify

@@ -8,7 +8,7 @@
 #include "vantage/constraints.h"
 #include "verify/closed_mesh.h"
 
-namespace vantage::verify {
+namespace vantage::internal::verify {
 
 class Limits {
  public:
@@ -24,4 +24,4 @@ class Limits {
   std::vector<ClosedMesh> meshes_;
 };
 
-}  // namespace vantage::verify
+}  // namespace vantage::internal::verify

@@ -9,7 +9,7 @@
 #include "verify/tolerances.h"
 #include "verify/view_pyramid.h"
 
-namespace vantage::verify {
+namespace vantage::internal::verify {
 namespace {
 
 FlatTriangle local_triangle(const Mesh& mesh, std::size_t number, const Vec3& origin) {
@@ -138,4 +138,4 @@ std::optional<std::size_t> Occluders::first_hit(const Vec3& viewpoint, const Vec
   return first;
 }
 
-}  // namespace vantage::verify
+}  // namespace vantage::internal::verify

@@ -10,7 +10,7 @@
 #include "verify/segment.h"
 #include "verify/target_view.h"
 
-namespace vantage::verify {
+namespace vantage::internal::verify {
 
 class Occluders {
  public:
@@ -54,4 +54,4 @@ class Occluders {
   std::optional<BoxIndex> index_;  ///< always there; made last, when the triangles are known
 };
 
-}  // namespace vantage::verify
+}  // namespace vantage::internal::verify

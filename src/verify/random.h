@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-namespace vantage::verify {
+namespace vantage::internal::verify {
 
 class Random {
  public:
@@ -26,4 +26,4 @@ class Random {
   std::uint64_t state_;
 };
 
-}  // namespace vantage::verify
+}  // namespace vantage::internal::verify

@@ -6,7 +6,7 @@
 
 #include "verify/tolerances.h"
 
-namespace vantage::verify {
+namespace vantage::internal::verify {
 
 FlatTriangle::FlatTriangle(const Vec3& a, const Vec3& b, const Vec3& c)
     : corner(a), edge1(b - a), edge2(c - a), normal(edge1.cross(edge2)) {
@@ -79,4 +79,4 @@ double distance(const Vec3& point, const FlatTriangle& triangle) {
                    distance_to_edge(point, triangle.second(), triangle.edge2 - triangle.edge1)});
 }
 
-}  // namespace vantage::verify
+}  // namespace vantage::internal::verify

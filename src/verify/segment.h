@@ -3,7 +3,7 @@
 
 #include "vantage/geometry.h"
 
-namespace vantage::verify {
+namespace vantage::internal::verify {
 
 struct Segment {
   Segment(const Vec3& from_point, const Vec3& to_point)
@@ -47,4 +47,4 @@ Meeting meet(const Segment& segment, const FlatTriangle& triangle);
 /// Distance from a point to the nearest point of the (closed) triangle, in metres.
 double distance(const Vec3& point, const FlatTriangle& triangle);
 
-}  // namespace vantage::verify
+}  // namespace vantage::internal::verify

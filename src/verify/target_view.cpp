@@ -8,7 +8,7 @@
 #include "vantage/error.h"
 #include "verify/tolerances.h"
 
-namespace vantage::verify {
+namespace vantage::internal::verify {
 namespace {
 
 constexpr double kVertical = 1e-6;      // normal this close to horizontal: a vertical target (vantage/target.h)
@@ -178,4 +178,4 @@ Vec3 TargetView::interior(double u, double v) const {
   return vertices_[0] + reach * (across - vertices_[0]);
 }
 
-}  // namespace vantage::verify
+}  // namespace vantage::internal::verify

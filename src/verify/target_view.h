@@ -6,7 +6,7 @@
 #include "vantage/target.h"
 #include "verify/box_index.h"
 
-namespace vantage::verify {
+namespace vantage::internal::verify {
 
 class TargetView {
  public:
@@ -51,4 +51,4 @@ class TargetView {
   std::vector<double> fan_area_;  ///< running sum over the triangles (0, i, i + 1), relative to the whole
 };
 
-}  // namespace vantage::verify
+}  // namespace vantage::internal::verify

@@ -3,7 +3,7 @@
 
 #include <limits>
 
-namespace vantage::verify {
+namespace vantage::internal::verify {
 
 /// Unit roundoff of a double.
 inline constexpr double kRoundoff = std::numeric_limits<double>::epsilon() / 2;
@@ -43,4 +43,4 @@ inline constexpr double kRangeSlack = 1e-9;
 /// their sum.
 inline constexpr double kBoxGrowth = 1.0 / (1 << 18);
 
-}  // namespace vantage::verify
+}  // namespace vantage::internal::verify

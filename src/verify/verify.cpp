@@ -20,13 +20,13 @@
 namespace vantage {
 namespace {
 
-using verify::ClosedMesh;
-using verify::Limits;
-using verify::Occluders;
-using verify::Random;
-using verify::TargetView;
-using verify::Viewpoint;
-using verify::Viewpoints;
+using internal::verify::ClosedMesh;
+using internal::verify::Limits;
+using internal::verify::Occluders;
+using internal::verify::Random;
+using internal::verify::TargetView;
+using internal::verify::Viewpoint;
+using internal::verify::Viewpoints;
 
 constexpr int kRandomEdgePoints = 2;  // an edge, besides its quarter points
 
@@ -152,7 +152,7 @@ Verdict Check::draw(std::size_t number) const {
   verdict.uniform = viewpoint.uniform && *claimed;
   // A claim may reach as far as the range; a point that is not claimed counts only where the facets of the range
   // sphere, which lie inside it by up to the tolerance, cannot be the reason.
-  const double range = *claimed ? max_range_ * (1 + verify::kRangeSlack) : max_range_ - options_.tolerance_m;
+  const double range = *claimed ? max_range_ * (1 + internal::verify::kRangeSlack) : max_range_ - options_.tolerance_m;
   verdict.good = permitted(viewpoint.position, range);
   return verdict;
 }
@@ -206,7 +206,7 @@ VerifyReport Check::report(const std::vector<Verdict>& verdicts) {
     if (verdict.over && (!worst_over || verdict.depth > worst_over->depth)) worst_over = &verdict;
     if (verdict.under && (!worst_under || verdict.depth > worst_under->depth)) worst_under = &verdict;
   }
-  report.over_claim_bound = verify::upper_share_bound(uniform_over, report.bound_points);
+  report.over_claim_bound = internal::verify::upper_share_bound(uniform_over, report.bound_points);
   if (worst_over) {
     report.worst_over_depth_m = worst_over->depth;
     report.worst_over_point = worst_over->position + view_.origin();
@@ -258,11 +258,11 @@ VerifyReport verify_volume(const Scene& scene, const Target& target, const Senso
   const std::vector<Target> parts = raised_parts(target, options.lift_m);
   Check check(scene, parts, sensor, navigation, volume, options);
   std::vector<Verdict> verdicts(options.points, Verdict(Random(options.seed, 0)));
-  const core::ProgressReporter progress(callback);
+  const internal::core::ProgressReporter progress(callback);
   progress.begin("verify");
-  core::ProgressCounter counter(progress, options.points * (parts.size() + 1));
+  internal::core::ProgressCounter counter(progress, options.points * (parts.size() + 1));
   const auto for_all = [&](const auto& act) {
-    parallel::for_ranges(options.points, 16, [&](std::size_t begin, std::size_t end) {
+    internal::parallel::for_ranges(options.points, 16, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         act(i);
         counter.add();
@@ -274,7 +274,7 @@ VerifyReport verify_volume(const Scene& scene, const Target& target, const Senso
     check.turn_to(part);
     for_all([&](std::size_t i) { check.look(verdicts[i]); });
   }
-  parallel::for_ranges(options.points, 16, [&](std::size_t begin, std::size_t end) {
+  internal::parallel::for_ranges(options.points, 16, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) check.settle(verdicts[i]);
   });
   return check.report(verdicts);

@@ -2,7 +2,7 @@
 
 #include <Eigen/Geometry>
 
-namespace vantage::verify {
+namespace vantage::internal::verify {
 namespace {
 
 /// Sutherland and Hodgman, "Reentrant polygon clipping", CACM 1974: the part of a convex polygon in a half space.
@@ -51,4 +51,4 @@ std::optional<Vec3> ViewPyramid::aim(const FlatTriangle& triangle, double lowest
   return apex_ + apex_height_ / drop * (middle - apex_);
 }
 
-}  // namespace vantage::verify
+}  // namespace vantage::internal::verify

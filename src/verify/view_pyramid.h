@@ -10,7 +10,7 @@
 #include "verify/segment.h"
 #include "verify/target_view.h"
 
-namespace vantage::verify {
+namespace vantage::internal::verify {
 
 class ViewPyramid {
  public:
@@ -30,4 +30,4 @@ class ViewPyramid {
   std::vector<HalfSpace> sides_;
 };
 
-}  // namespace vantage::verify
+}  // namespace vantage::internal::verify

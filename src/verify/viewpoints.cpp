@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace vantage::verify {
+namespace vantage::internal::verify {
 namespace {
 
 constexpr int kDraws = 256;  // attempts at a point inside before one outside is taken
@@ -93,4 +93,4 @@ Vec3 Viewpoints::on_facet(std::size_t facet, Random& random) const {
   return triangle.corner + reach * ((1 - across) * triangle.edge1 + across * triangle.edge2);
 }
 
-}  // namespace vantage::verify
+}  // namespace vantage::internal::verify

@@ -7,7 +7,7 @@
 #include "verify/random.h"
 #include "verify/target_view.h"
 
-namespace vantage::verify {
+namespace vantage::internal::verify {
 
 struct Viewpoint {
   Vec3 position;         ///< local
@@ -38,4 +38,4 @@ class Viewpoints {
   std::vector<double> area_;  ///< running sum over the facets, m2
 };
 
-}  // namespace vantage::verify
+}  // namespace vantage::internal::verify

@@ -1,4 +1,5 @@
 #include "fuzz/mesh_fuzzing.h"
+#include "support/internals.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace vantage;  // NOLINT(google-build-using-namespace): this function is the whole program

@@ -39,7 +39,7 @@ void check_accepted(const vantage::MissionFile& mission) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   try {
-    check_accepted(vantage::app::parse_mission(text, "mission.yaml"));
+    check_accepted(vantage::internal::app::parse_mission(text, "mission.yaml"));
   } catch (const vantage::Error& error) {
     require(error.kind() == vantage::ErrorKind::input);
     require(!error.problem().empty() && !error.where().empty() && !error.fix().empty());

@@ -1,6 +1,6 @@
 #include "fuzz/mesh_fuzzing.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  vantage::fuzzing::read(vantage::io::read_obj, "/nowhere/fuzz.obj", data, size);
+  vantage::fuzzing::read(vantage::internal::io::read_obj, "/nowhere/fuzz.obj", data, size);
   return 0;
 }

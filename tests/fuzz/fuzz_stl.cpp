@@ -1,6 +1,6 @@
 #include "fuzz/mesh_fuzzing.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  vantage::fuzzing::read(vantage::io::read_stl, "/nowhere/fuzz.stl", data, size);
+  vantage::fuzzing::read(vantage::internal::io::read_stl, "/nowhere/fuzz.stl", data, size);
   return 0;
 }

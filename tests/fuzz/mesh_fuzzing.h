@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "io/mesh_readers.h"
+#include "support/internals.h"
 #include "vantage/error.h"
 
 namespace vantage::fuzzing {

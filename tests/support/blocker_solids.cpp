@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "support/internals.h"
 #include "support/trim.h"
 
 namespace vantage::testing {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "solid/csg.h"
+#include "support/internals.h"
 #include "vantage/scene.h"
 #include "vantage/volume.h"
 

@@ -1,4 +1,5 @@
 #include "support/brute_depth.h"
+#include "support/internals.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

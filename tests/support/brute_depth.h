@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "depth/depth.h"
+#include "support/internals.h"
 #include "vantage/scene.h"
 
 namespace vantage::testing {

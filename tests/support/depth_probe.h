@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "depth/depth.h"
+#include "support/internals.h"
 
 namespace vantage::testing {
 

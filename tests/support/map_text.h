@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "geo/local_frame.h"
+#include "support/internals.h"
 
 namespace vantage::testing {
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "support/internals.h"
 #include "support/random.h"
 #include "vantage/volume.h"
 #include "verify/closed_mesh.h"

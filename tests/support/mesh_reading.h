@@ -8,6 +8,7 @@
 #include <string>
 
 #include "io/mesh_readers.h"
+#include "support/internals.h"
 #include "vantage/error.h"
 
 namespace vantage::testing {

@@ -1,5 +1,6 @@
 #include "support/osm_maps.h"
 
+#include "support/internals.h"
 #include "support/run_program.h"
 
 namespace vantage::testing {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "maps/osm/extract.h"
+#include "support/internals.h"
 #include "support/temporary_directory.h"
 #include "vantage/error.h"
 

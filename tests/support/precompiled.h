@@ -19,5 +19,7 @@
 #include <string>
 #include <vector>
 
+#include "support/internals.h"
 #include "vantage/scene.h"
+#include "vantage/version.h"
 #include "vantage/volume.h"

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/progress_reporter.h"
+#include "support/internals.h"
 #include "vantage/error.h"
 
 namespace vantage::testing {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "maps/city/footprint.h"
+#include "support/internals.h"
 
 namespace vantage::testing {
 

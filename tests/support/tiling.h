@@ -10,7 +10,7 @@
 
 #include "maps/terrain/tin.h"
 
-namespace vantage::terrain {
+namespace vantage::internal::terrain {
 
 using Vec2 = Eigen::Vector2d;
 
@@ -65,4 +65,4 @@ inline Tin unit_square(double side = 1) {
   return Tin({Vec3(0, 0, 0), Vec3(side, 0, 0), Vec3(side, side, 0), Vec3(0, side, 0)});
 }
 
-}  // namespace vantage::terrain
+}  // namespace vantage::internal::terrain

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 
+#include "support/internals.h"
 #include "support/solids.h"
 
 namespace vantage::testing {

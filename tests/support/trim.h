@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "solid/csg.h"
+#include "support/internals.h"
 
 namespace vantage::testing {
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-namespace vantage::city {
+namespace vantage::internal::city {
 namespace {
 
 void append(Scene& scene, const Mesh& mesh, const SceneObject& named) {
@@ -34,4 +34,4 @@ Scene assemble(const Site& site, const std::vector<Mesh>& solids, const Mesh& gr
   return scene;
 }
 
-}  // namespace vantage::city
+}  // namespace vantage::internal::city

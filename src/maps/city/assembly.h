@@ -7,9 +7,9 @@
 #include "maps/city/site.h"
 #include "vantage/scene.h"
 
-namespace vantage::city {
+namespace vantage::internal::city {
 
 /// One object per item that has triangles, then the ground.
 Scene assemble(const Site& site, const std::vector<Mesh>& solids, const Mesh& ground);
 
-}  // namespace vantage::city
+}  // namespace vantage::internal::city

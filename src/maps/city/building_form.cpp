@@ -4,7 +4,7 @@
 #include <cmath>
 #include <initializer_list>
 
-namespace vantage::city {
+namespace vantage::internal::city {
 namespace {
 
 constexpr double kHighest = 1500;    // metres: twice what stands; beyond it a unit or a digit is wrong
@@ -213,4 +213,4 @@ BuildingForm read_form(const osm::Tags& tags, const osm::Tags* outline, const Bu
   return FormReader(tags, outline, defaults, remarks).read();
 }
 
-}  // namespace vantage::city
+}  // namespace vantage::internal::city

@@ -9,7 +9,7 @@
 #include "maps/osm/extract.h"
 #include "vantage/city.h"
 
-namespace vantage::city {
+namespace vantage::internal::city {
 
 enum class RoofShape {
   flat,
@@ -85,4 +85,4 @@ std::optional<RoofName> parse_roof_shape(std::string_view text);
 BuildingForm read_form(const osm::Tags& tags, const osm::Tags* outline, const BuildingDefaults& defaults,
                        std::vector<TagRemark>& remarks);
 
-}  // namespace vantage::city
+}  // namespace vantage::internal::city

@@ -9,7 +9,7 @@
 #include "maps/city/roof_surface.h"
 #include "vantage/error.h"
 
-namespace vantage::city {
+namespace vantage::internal::city {
 namespace {
 
 constexpr double kNoWall = 1e-6;  // of the height: a lower wall is none, and roof and floor meet
@@ -141,4 +141,4 @@ Solid make_solid(const Footprint& footprint, const BuildingForm& form, double gr
   return {Closing(surface, whole, ground_m).run(), surface.repair};
 }
 
-}  // namespace vantage::city
+}  // namespace vantage::internal::city

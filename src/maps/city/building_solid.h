@@ -8,7 +8,7 @@
 #include "maps/city/footprint.h"
 #include "vantage/geometry.h"
 
-namespace vantage::city {
+namespace vantage::internal::city {
 
 struct Solid {
   Mesh mesh;           ///< closed, outward-oriented, free of self-intersections; edge-connected pieces share no vertex
@@ -24,4 +24,4 @@ struct Solid {
 /// the same.
 Solid make_solid(const Footprint& footprint, const BuildingForm& form, double ground_m);
 
-}  // namespace vantage::city
+}  // namespace vantage::internal::city

@@ -21,12 +21,12 @@ using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 /// What of the file does not belong to one building.
-std::vector<std::string> notes_on(const osm::Extract& extract) {
+std::vector<std::string> notes_on(const internal::osm::Extract& extract) {
   std::vector<std::string> notes;
   std::size_t nodes = 0, members = 0;
-  for (const osm::Problem& problem : extract.problems) {
-    nodes += problem.kind == osm::Problem::Kind::missing_nodes;
-    members += problem.kind == osm::Problem::Kind::missing_members;
+  for (const internal::osm::Problem& problem : extract.problems) {
+    nodes += problem.kind == internal::osm::Problem::Kind::missing_nodes;
+    members += problem.kind == internal::osm::Problem::Kind::missing_members;
   }
   if (nodes > 0) notes.push_back(std::to_string(nodes) + " ways refer to nodes that are not in the file");
   if (members > 0) notes.push_back(std::to_string(members) + " relations refer to ways that are not in the file");
@@ -37,36 +37,38 @@ std::vector<std::string> notes_on(const osm::Extract& extract) {
 }  // namespace
 
 City build_city(const std::filesystem::path& file, const CityOptions& options, const Progress& progress) {
-  const auto region = city::checked_region(options.region);
+  const auto region = internal::city::checked_region(options.region);
   City result;
 
   auto start = Clock::now();
-  const osm::Extract extract = osm::read_extract(file, {city::with_margin(region), city::wanted}, progress);
-  city::check_overlap(options.region, extract, file);
-  const geo::LocalFrame frame(city::frame_origin(options.region, extract));
+  const internal::osm::Extract extract =
+      internal::osm::read_extract(file, {internal::city::with_margin(region), internal::city::wanted}, progress);
+  internal::city::check_overlap(options.region, extract, file);
+  const internal::geo::LocalFrame frame(internal::city::frame_origin(options.region, extract));
   result.report.notes = notes_on(extract);
   result.report.read_seconds = seconds_since(start);
 
   start = Clock::now();
-  city::Site site = city::make_site(extract, osm::RegionFilter(region), frame, options);
+  internal::city::Site site = internal::city::make_site(extract, internal::osm::RegionFilter(region), frame, options);
   result.report.outside = site.outside.objects;
   result.report.bounds_deg = extract.bounds_deg;
-  if (site.items.empty()) city::fail_empty(options.region, extract, site.outside, site.skipped, file);
-  const city::Vec2 margin = city::Vec2::Constant(options.ground_margin_m);
-  const city::Vec2 min = site.min - margin, max = site.max + margin;
-  const city::Ground ground = options.terrain.empty()
-                                  ? city::Ground::plane(min, max)
-                                  : city::Ground::from_file(options.terrain, frame, min, max, options.terrain_error_m,
-                                                            result.report.notes, progress);
-  const std::vector<Mesh> solids = city::build_solids(site, ground, progress);
+  if (site.items.empty()) internal::city::fail_empty(options.region, extract, site.outside, site.skipped, file);
+  const internal::city::Vec2 margin = internal::city::Vec2::Constant(options.ground_margin_m);
+  const internal::city::Vec2 min = site.min - margin, max = site.max + margin;
+  const internal::city::Ground ground =
+      options.terrain.empty()
+          ? internal::city::Ground::plane(min, max)
+          : internal::city::Ground::from_file(options.terrain, frame, min, max, options.terrain_error_m,
+                                              result.report.notes, progress);
+  const std::vector<Mesh> solids = internal::city::build_solids(site, ground, progress);
   result.report.build_seconds = seconds_since(start);
 
-  const geo::LonLat origin = frame.origin();
+  const internal::geo::LonLat origin = frame.origin();
   result.report.georeference = {origin.latitude_deg, origin.longitude_deg, ground.vertical(), "EPSG:4326"};
-  result.scene = city::assemble(site, solids, ground.mesh());
+  result.scene = internal::city::assemble(site, solids, ground.mesh());
   result.scene.source = file;
   result.scene.georeference = result.report.georeference;
-  for (city::Item& item : site.items) result.report.records.push_back(std::move(item.record));
+  for (internal::city::Item& item : site.items) result.report.records.push_back(std::move(item.record));
   for (CityRecord& record : site.skipped) result.report.records.push_back(std::move(record));
   return result;
 }

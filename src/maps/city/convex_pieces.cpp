@@ -7,7 +7,7 @@
 #include "maps/city/grid_rings.h"
 #include "maps/city/triangulate.h"
 
-namespace vantage::city {
+namespace vantage::internal::city {
 namespace {
 
 /// Corners by index, counter-clockwise.
@@ -92,4 +92,4 @@ class Joiner {
 
 std::vector<Ring> convex_pieces(const Footprint& footprint) { return Joiner(footprint).run(); }
 
-}  // namespace vantage::city
+}  // namespace vantage::internal::city

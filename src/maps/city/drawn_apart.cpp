@@ -7,7 +7,7 @@
 
 #include "vantage/error.h"
 
-namespace vantage::city {
+namespace vantage::internal::city {
 namespace {
 
 // Distances to try, in metres: what is least seen first.
@@ -141,4 +141,4 @@ std::vector<GridRing> drawn_apart(const std::vector<GridRing>& rings) {
               "please report this with the map");
 }
 
-}  // namespace vantage::city
+}  // namespace vantage::internal::city

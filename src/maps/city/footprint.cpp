@@ -11,7 +11,7 @@
 #include "maps/city/triangulate.h"
 #include "vantage/error.h"
 
-namespace vantage::city {
+namespace vantage::internal::city {
 namespace {
 
 using ClipperLib::IntPoint;
@@ -550,4 +550,4 @@ std::vector<Footprint> widen(const std::vector<Vec2>& line, bool closed, double 
   return to_footprints(result, grid);
 }
 
-}  // namespace vantage::city
+}  // namespace vantage::internal::city

@@ -6,7 +6,9 @@
 #include <cstddef>
 #include <vector>
 
-namespace vantage::city {
+#include "vantage/export.h"
+
+namespace vantage::internal::city {
 
 using Vec2 = Eigen::Vector2d;
 using Ring = std::vector<Vec2>;  ///< open: the first point is not repeated
@@ -48,6 +50,6 @@ std::vector<Footprint> widen(const std::vector<Vec2>& line, bool closed, double 
 
 /// Convex pieces that cover a footprint and overlap only along their sides: few of them, none narrower than need be
 /// (triangulated, then joined while convex: Hertel and Mehlhorn, 1983). One when the footprint is convex without holes.
-std::vector<Ring> convex_pieces(const Footprint& footprint);
+VANTAGE_INTERNAL_API std::vector<Ring> convex_pieces(const Footprint& footprint);
 
-}  // namespace vantage::city
+}  // namespace vantage::internal::city

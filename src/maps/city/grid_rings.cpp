@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace vantage::city {
+namespace vantage::internal::city {
 namespace {
 
 /// The sides of some rings, in the order of the corners that they begin at.
@@ -155,4 +155,4 @@ std::vector<Touch> touches_of(const std::vector<GridRing>& rings) {
   return result;
 }
 
-}  // namespace vantage::city
+}  // namespace vantage::internal::city

@@ -7,7 +7,7 @@
 
 #include "maps/city/footprint.h"
 
-namespace vantage::city {
+namespace vantage::internal::city {
 
 /// In units of kGrid about an origin of the object's own. Up to 2 kLargest, so that no product below overflows.
 struct GridPoint {
@@ -75,4 +75,4 @@ struct Touch {
 /// All of them: where two corners are in one place, each lies on two sides of the other.
 std::vector<Touch> touches_of(const std::vector<GridRing>& rings);
 
-}  // namespace vantage::city
+}  // namespace vantage::internal::city

@@ -7,7 +7,7 @@
 #include "maps/terrain/height_grid.h"
 #include "vantage/error.h"
 
-namespace vantage::city {
+namespace vantage::internal::city {
 namespace {
 
 std::string with_digits(const char* format, double value) {
@@ -70,4 +70,4 @@ const Mesh& Ground::mesh() const { return surface_ ? surface_->mesh() : plane_; 
 
 const std::string& Ground::vertical() const { return vertical_; }
 
-}  // namespace vantage::city
+}  // namespace vantage::internal::city

@@ -12,7 +12,7 @@
 #include "vantage/geometry.h"
 #include "vantage/progress.h"
 
-namespace vantage::city {
+namespace vantage::internal::city {
 
 class Ground {
  public:
@@ -36,4 +36,4 @@ class Ground {
   std::string vertical_;
 };
 
-}  // namespace vantage::city
+}  // namespace vantage::internal::city

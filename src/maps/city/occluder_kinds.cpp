@@ -3,7 +3,7 @@
 
 #include "maps/city/occluders.h"
 
-namespace vantage::city {
+namespace vantage::internal::city {
 namespace {
 
 template <std::size_t N>
@@ -59,4 +59,4 @@ bool wanted(const osm::Tags& tags) {
   return kind_of(tags, Geometry::area) || kind_of(tags, Geometry::line) || kind_of(tags, Geometry::point);
 }
 
-}  // namespace vantage::city
+}  // namespace vantage::internal::city

@@ -8,7 +8,7 @@
 
 #include "maps/city/tree.h"
 
-namespace vantage::city {
+namespace vantage::internal::city {
 namespace {
 
 constexpr double kMostHeight = 700;  // metres: of masts the highest ever
@@ -254,4 +254,4 @@ Solid make_solid(const Shape& shape, double ground_m) {
   return make_solid(shape.footprint, shape.form, ground_m);
 }
 
-}  // namespace vantage::city
+}  // namespace vantage::internal::city

@@ -12,7 +12,7 @@
 #include "maps/osm/extract.h"
 #include "vantage/scene.h"
 
-namespace vantage::city {
+namespace vantage::internal::city {
 
 enum class Geometry { point, line, area };
 
@@ -60,4 +60,4 @@ std::vector<Shape> shapes_of_area(const osm::Tags& tags, const std::vector<Footp
 /// As make_solid does it for buildings; `ground_m`: z of the ground that the heights count from.
 Solid make_solid(const Shape& shape, double ground_m);
 
-}  // namespace vantage::city
+}  // namespace vantage::internal::city

@@ -11,7 +11,7 @@
 #include "geo/longitudes.h"
 #include "vantage/error.h"
 
-namespace vantage::city {
+namespace vantage::internal::city {
 namespace {
 
 using geo::LonLat;
@@ -240,4 +240,4 @@ LonLat frame_origin(const CityRegion& region, const osm::Extract& extract) {
   return {longitudes(b).middle_deg(), latitude};
 }
 
-}  // namespace vantage::city
+}  // namespace vantage::internal::city

@@ -9,7 +9,7 @@
 #include "maps/osm/extract.h"
 #include "vantage/city.h"
 
-namespace vantage::city {
+namespace vantage::internal::city {
 
 /// Throws Error(input) for what cannot be right in any file: numbers out of range, no area, circle and box at once.
 std::optional<osm::Region> checked_region(const CityRegion& region);
@@ -35,4 +35,4 @@ struct Outside {
 /// Origin of the frame: the middle of what is asked for, or else of the areas that were read.
 geo::LonLat frame_origin(const CityRegion& region, const osm::Extract& extract);
 
-}  // namespace vantage::city
+}  // namespace vantage::internal::city

@@ -23,7 +23,7 @@
 
 #include "maps/city/building_form.h"
 
-namespace vantage::city {
+namespace vantage::internal::city {
 namespace {
 
 struct Known {
@@ -114,4 +114,4 @@ std::optional<RoofName> parse_roof_shape(std::string_view text) {
   return RoofName{found->shape, found->same};
 }
 
-}  // namespace vantage::city
+}  // namespace vantage::internal::city

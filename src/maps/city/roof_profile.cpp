@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-namespace vantage::city {
+namespace vantage::internal::city {
 namespace {
 
 constexpr double kSideWithin = std::numbers::pi / 6;  // of a direction that means a side of the rectangle
@@ -216,4 +216,4 @@ BuildingForm settled(const BuildingForm& form, const RoofFrame& frame) {
   return result;
 }
 
-}  // namespace vantage::city
+}  // namespace vantage::internal::city

@@ -20,7 +20,7 @@
 #include "maps/city/building_form.h"
 #include "maps/city/footprint.h"
 
-namespace vantage::city {
+namespace vantage::internal::city {
 
 /// The rectangle that a roof is drawn over.
 struct RoofFrame {
@@ -55,4 +55,4 @@ BuildingForm settled(const BuildingForm& form, const RoofFrame& frame);
 /// How many chords an arc of this radius and angle takes so that it strays no more than 5 cm from them: 4 to 16.
 int arc_chords(double radius_m, double angle);
 
-}  // namespace vantage::city
+}  // namespace vantage::internal::city

@@ -10,7 +10,7 @@
 
 #include "maps/city/triangulate.h"
 
-namespace vantage::city {
+namespace vantage::internal::city {
 namespace {
 
 constexpr double kOnCrease = 1e-4;        // metres of height within which a corner lies on a crease
@@ -290,4 +290,4 @@ RoofSurface roof_surface(const Footprint& footprint, const Grid& grid, const std
   return lowered(flat_surface(grid, rings), planes, frame, form.roof_m);
 }
 
-}  // namespace vantage::city
+}  // namespace vantage::internal::city

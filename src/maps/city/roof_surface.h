@@ -8,7 +8,7 @@
 #include "maps/city/roof_profile.h"
 #include "vantage/geometry.h"
 
-namespace vantage::city {
+namespace vantage::internal::city {
 
 struct RoofSurface {
   std::vector<Vec2> points;     ///< scene frame
@@ -25,4 +25,4 @@ struct RoofSurface {
 RoofSurface roof_surface(const Footprint& footprint, const Grid& grid, const std::vector<GridRing>& rings,
                          const BuildingForm& form, const RoofFrame& frame);
 
-}  // namespace vantage::city
+}  // namespace vantage::internal::city

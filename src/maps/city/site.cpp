@@ -10,7 +10,7 @@
 
 #include "maps/city/structures.h"
 
-namespace vantage::city {
+namespace vantage::internal::city {
 namespace {
 
 /// Parts that cover this share of their building stand for all of it.
@@ -394,4 +394,4 @@ Site make_site(const osm::Extract& extract, const osm::RegionFilter& region, con
   return site;
 }
 
-}  // namespace vantage::city
+}  // namespace vantage::internal::city

@@ -12,7 +12,7 @@
 #include "maps/osm/region_filter.h"
 #include "vantage/city.h"
 
-namespace vantage::city {
+namespace vantage::internal::city {
 
 /// One object of the scene.
 struct Item {
@@ -38,4 +38,4 @@ struct Site {
 Site make_site(const osm::Extract& extract, const osm::RegionFilter& region, const geo::LocalFrame& frame,
                const CityOptions& options);
 
-}  // namespace vantage::city
+}  // namespace vantage::internal::city

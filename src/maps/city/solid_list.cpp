@@ -9,7 +9,7 @@
 #include "solid/solid_check.h"
 #include "vantage/error.h"
 
-namespace vantage::city {
+namespace vantage::internal::city {
 namespace {
 
 constexpr std::size_t kGrain = 64;
@@ -132,4 +132,4 @@ std::vector<Mesh> build_solids(Site& site, const Ground& ground, const Progress&
   return solids;
 }
 
-}  // namespace vantage::city
+}  // namespace vantage::internal::city

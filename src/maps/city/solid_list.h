@@ -8,7 +8,7 @@
 #include "vantage/geometry.h"
 #include "vantage/progress.h"
 
-namespace vantage::city {
+namespace vantage::internal::city {
 
 /// One mesh per item, on the ground; fills the records' heights, repairs and faults. Every shape of an item is checked
 /// to be closed, outward-oriented and free of self-intersection; shapes of one item may overlap, as a wall's pieces do.
@@ -16,4 +16,4 @@ namespace vantage::city {
 /// as it is, an open surface, and the record says why. Uses the threads of the caller's arena. Throws Error(cancelled).
 std::vector<Mesh> build_solids(Site& site, const Ground& ground, const Progress& progress);
 
-}  // namespace vantage::city
+}  // namespace vantage::internal::city

@@ -7,7 +7,7 @@
 
 #include "maps/city/occluders.h"
 
-namespace vantage::city {
+namespace vantage::internal::city {
 namespace {
 
 /// Side of the squares by which outlines are looked up, metres: about a block's.
@@ -157,4 +157,4 @@ std::vector<Footprint> uncovered(const Structure& building, const std::vector<St
   return rest;
 }
 
-}  // namespace vantage::city
+}  // namespace vantage::internal::city

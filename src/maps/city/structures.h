@@ -10,7 +10,7 @@
 #include "maps/city/footprint.h"
 #include "maps/osm/extract.h"
 
-namespace vantage::city {
+namespace vantage::internal::city {
 
 /// A building or a building part.
 struct Structure {
@@ -41,4 +41,4 @@ void assign_parts(std::vector<Structure>& structures, const std::vector<osm::Bui
 std::vector<Footprint> uncovered(const Structure& building, const std::vector<Structure>& structures,
                                  const std::vector<std::size_t>& parts);
 
-}  // namespace vantage::city
+}  // namespace vantage::internal::city

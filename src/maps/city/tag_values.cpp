@@ -7,7 +7,7 @@
 
 #include "maps/city/building_form.h"
 
-namespace vantage::city {
+namespace vantage::internal::city {
 namespace {
 
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
@@ -165,4 +165,4 @@ std::optional<double> parse_direction_deg(std::string_view text) {
   return 22.5 * static_cast<double>(wind - winds.begin());
 }
 
-}  // namespace vantage::city
+}  // namespace vantage::internal::city

@@ -6,7 +6,7 @@
 
 #include "maps/city/occluders.h"
 
-namespace vantage::city {
+namespace vantage::internal::city {
 namespace {
 
 constexpr std::uint32_t kSides = 8;
@@ -58,4 +58,4 @@ Mesh tree_mesh(const Tree& tree, double ground_m) {
   return revolved(tree.foot, girdles, ground_m + tree.top_m);
 }
 
-}  // namespace vantage::city
+}  // namespace vantage::internal::city

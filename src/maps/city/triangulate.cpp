@@ -4,7 +4,7 @@
 
 #include "vantage/error.h"
 
-namespace vantage::city {
+namespace vantage::internal::city {
 namespace {
 
 bool is_strictly_convex(const GridRing& ring) {
@@ -62,4 +62,4 @@ std::vector<Triangle> triangulate(const std::vector<GridRing>& rings) {
   }
 }
 
-}  // namespace vantage::city
+}  // namespace vantage::internal::city

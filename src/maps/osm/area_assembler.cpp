@@ -18,7 +18,7 @@
 #include "maps/osm/assembly_plane.h"
 #include "maps/osm/map_objects.h"
 
-namespace vantage::osm {
+namespace vantage::internal::osm {
 namespace {
 
 std::string place_text(LonLat position) {
@@ -270,4 +270,4 @@ std::vector<Polygon> raw_polygon(const osmium::Way& way) {
   return {Polygon{to_ring(std::move(places), true, plane), {}}};
 }
 
-}  // namespace vantage::osm
+}  // namespace vantage::internal::osm

@@ -10,7 +10,7 @@
 
 #include "maps/osm/extract.h"
 
-namespace vantage::osm {
+namespace vantage::internal::osm {
 
 /// A way that is a member of a multipolygon, and what it turned out to be.
 struct MemberWay {
@@ -39,4 +39,4 @@ std::vector<LonLat> positions(const osmium::Way& way);
 /// when all its positions lie on one line.
 std::vector<Polygon> raw_polygon(const osmium::Way& way);
 
-}  // namespace vantage::osm
+}  // namespace vantage::internal::osm

@@ -8,7 +8,7 @@
 
 #include "maps/osm/map_objects.h"
 
-namespace vantage::osm {
+namespace vantage::internal::osm {
 namespace {
 
 constexpr double kPolar = 85;  // degrees of latitude, from where on a pole's own map is the better one
@@ -81,4 +81,4 @@ LonLat AssemblyPlane::from_plane(osmium::Location location) const {
   return to_lonlat(location);
 }
 
-}  // namespace vantage::osm
+}  // namespace vantage::internal::osm

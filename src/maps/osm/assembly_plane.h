@@ -9,7 +9,7 @@
 
 #include "maps/osm/extract.h"
 
-namespace vantage::osm {
+namespace vantage::internal::osm {
 
 /// A plane in which the ways of one object hang together: longitude and latitude; the same turned by half a circle,
 /// where the ways reach across the antimeridian; for ways near a pole, a map with the pole in its middle.
@@ -32,4 +32,4 @@ class AssemblyPlane {
   std::vector<Place> corners_;  ///< about a pole: of all nodes, by place in the plane
 };
 
-}  // namespace vantage::osm
+}  // namespace vantage::internal::osm

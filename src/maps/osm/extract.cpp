@@ -16,7 +16,7 @@
 #include "maps/osm/trouble.h"
 #include "vantage/error.h"
 
-namespace vantage::osm {
+namespace vantage::internal::osm {
 namespace {
 
 using Kind = Problem::Kind;
@@ -178,4 +178,4 @@ Extract read_extract(const std::filesystem::path& file, const ReadOptions& optio
   return ExtractBuilder(objects, region, options).build(watch);
 }
 
-}  // namespace vantage::osm
+}  // namespace vantage::internal::osm

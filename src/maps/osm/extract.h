@@ -13,7 +13,7 @@
 #include "geo/local_frame.h"
 #include "vantage/progress.h"
 
-namespace vantage::osm {
+namespace vantage::internal::osm {
 
 using geo::LonLat;
 
@@ -139,4 +139,4 @@ struct Extract {
 /// Error(cancelled) when told to stop.
 Extract read_extract(const std::filesystem::path& file, const ReadOptions& options = {}, const Progress& progress = {});
 
-}  // namespace vantage::osm
+}  // namespace vantage::internal::osm

@@ -17,7 +17,7 @@
 
 #include "vantage/error.h"
 
-namespace vantage::osm {
+namespace vantage::internal::osm {
 namespace {
 
 constexpr std::string_view kAgain = "download or export the map again";
@@ -144,4 +144,4 @@ void read_objects(const MapFile& file, osmium::osm_entity_bits::type kinds, cons
   }
 }
 
-}  // namespace vantage::osm
+}  // namespace vantage::internal::osm

@@ -9,7 +9,7 @@
 
 #include "core/progress_reporter.h"
 
-namespace vantage::osm {
+namespace vantage::internal::osm {
 
 /// A file that looks like one that can be read, by its first bytes; its name does not matter.
 struct MapFile {
@@ -27,4 +27,4 @@ MapFile open_map_file(const std::filesystem::path& path);
 void read_objects(const MapFile& file, osmium::osm_entity_bits::type kinds, const core::ProgressReporter& progress,
                   const std::function<void(const osmium::memory::Buffer&)>& handle);
 
-}  // namespace vantage::osm
+}  // namespace vantage::internal::osm

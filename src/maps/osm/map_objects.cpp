@@ -10,7 +10,7 @@
 #include "geo/longitudes.h"
 #include "maps/osm/meaning.h"
 
-namespace vantage::osm {
+namespace vantage::internal::osm {
 namespace {
 
 struct NodeEntry {
@@ -248,4 +248,4 @@ MapObjects load_objects(const MapFile& file, bool (*wanted)(const Tags&), const 
   return Loader(file, wanted, progress).load();
 }
 
-}  // namespace vantage::osm
+}  // namespace vantage::internal::osm

@@ -13,7 +13,7 @@
 #include "maps/osm/map_file.h"
 #include "maps/osm/versions.h"
 
-namespace vantage::osm {
+namespace vantage::internal::osm {
 
 /// A way that is wanted, or a member of a multipolygon that may be.
 struct KeptWay {
@@ -50,4 +50,4 @@ RelationKind kind_of(const Tags& tags);
 /// wanted is not kept, but for the positions of nodes (24 bytes each) and the ids of ways. Throws as read_objects.
 MapObjects load_objects(const MapFile& file, bool (*wanted)(const Tags&), const core::ProgressReporter& progress);
 
-}  // namespace vantage::osm
+}  // namespace vantage::internal::osm

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-namespace vantage::osm {
+namespace vantage::internal::osm {
 namespace {
 
 using Tag = std::pair<std::string, std::string>;
@@ -100,4 +100,4 @@ Tags common_tags(const std::vector<Tags>& all) {
   return common;
 }
 
-}  // namespace vantage::osm
+}  // namespace vantage::internal::osm

@@ -3,7 +3,7 @@
 
 #include "maps/osm/extract.h"
 
-namespace vantage::osm {
+namespace vantage::internal::osm {
 
 /// Tagged building or building:part, and not as "no".
 bool means_building(const Tags& tags);
@@ -27,4 +27,4 @@ bool says_the_same(const Tags& a, const Tags& b);
 /// The tags that all of them have. Of none: none.
 Tags common_tags(const std::vector<Tags>& all);
 
-}  // namespace vantage::osm
+}  // namespace vantage::internal::osm

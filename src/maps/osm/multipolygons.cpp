@@ -7,7 +7,7 @@
 
 #include "maps/osm/meaning.h"
 
-namespace vantage::osm {
+namespace vantage::internal::osm {
 namespace {
 
 using Kind = Problem::Kind;
@@ -132,4 +132,4 @@ void Multipolygons::add_building(const osmium::Relation& relation, const Tags& t
   if (!empty) extract_.building_relations.push_back(std::move(building));
 }
 
-}  // namespace vantage::osm
+}  // namespace vantage::internal::osm

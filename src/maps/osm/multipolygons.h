@@ -13,7 +13,7 @@
 #include "maps/osm/selection.h"
 #include "maps/osm/trouble.h"
 
-namespace vantage::osm {
+namespace vantage::internal::osm {
 
 /// Builds the areas of multipolygons, and knows which of their ways say nothing of their own.
 class Multipolygons {
@@ -53,4 +53,4 @@ class Multipolygons {
   std::unordered_map<std::int64_t, Absorbed> absorbed_;
 };
 
-}  // namespace vantage::osm
+}  // namespace vantage::internal::osm

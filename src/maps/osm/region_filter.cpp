@@ -6,7 +6,7 @@
 
 #include "vantage/error.h"
 
-namespace vantage::osm {
+namespace vantage::internal::osm {
 namespace {
 
 constexpr double kSemiMajor = 6378137.0;                         // metres, WGS 84
@@ -183,4 +183,4 @@ double RegionFilter::distance_m(LonLat position) const {
 
 double RegionFilter::distance_m(LonLat from, LonLat to) const { return nearest_m(side(from, to), 0, 1); }
 
-}  // namespace vantage::osm
+}  // namespace vantage::internal::osm

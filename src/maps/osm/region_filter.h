@@ -6,7 +6,7 @@
 
 #include "maps/osm/extract.h"
 
-namespace vantage::osm {
+namespace vantage::internal::osm {
 
 /// Metres on the WGS 84 ellipsoid: the arc over the chord between two points of it, bent by the earth's mean radius.
 /// The radius enters only by the difference of arc and chord, d^3 / 24 R^2, so a mean one does: the error is
@@ -55,4 +55,4 @@ class RegionFilter {
   std::array<double, 3> centre_{};  ///< the same, metres, earth-centred
 };
 
-}  // namespace vantage::osm
+}  // namespace vantage::internal::osm

@@ -5,7 +5,7 @@
 
 #include "maps/osm/meaning.h"
 
-namespace vantage::osm {
+namespace vantage::internal::osm {
 namespace {
 
 /// Calls `visit` with the ends of each side; once, with the same position twice, where there is but one.
@@ -92,4 +92,4 @@ void Selection::measure(const osmium::Way& way) {
   for_sides(way, [this](LonLat from, LonLat to) { nearest_ = std::min(nearest_, region_.distance_m(from, to)); });
 }
 
-}  // namespace vantage::osm
+}  // namespace vantage::internal::osm

@@ -10,7 +10,7 @@
 #include "maps/osm/map_objects.h"
 #include "maps/osm/region_filter.h"
 
-namespace vantage::osm {
+namespace vantage::internal::osm {
 
 /// An object lies in the region when it reaches into it: a corner or some of a side does, or it is an area about the
 /// region's centre. What belongs to one type=building relation is taken together: a tower without the parts that
@@ -43,4 +43,4 @@ class Selection {
   double nearest_ = std::numeric_limits<double>::infinity();
 };
 
-}  // namespace vantage::osm
+}  // namespace vantage::internal::osm

@@ -3,7 +3,7 @@
 
 #include "maps/osm/extract.h"
 
-namespace vantage::osm {
+namespace vantage::internal::osm {
 
 std::string text(ObjectId id) {
   const char* const type = id.type == ObjectType::node ? "node/" : id.type == ObjectType::way ? "way/" : "relation/";
@@ -38,4 +38,4 @@ bool Tags::has(std::string_view key) const {
   return std::any_of(all.begin(), all.end(), [key](const auto& tag) { return tag.first == key; });
 }
 
-}  // namespace vantage::osm
+}  // namespace vantage::internal::osm

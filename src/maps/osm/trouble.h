@@ -6,7 +6,7 @@
 
 #include "maps/osm/extract.h"
 
-namespace vantage::osm {
+namespace vantage::internal::osm {
 
 /// Gathers sentences about an object. The first kind counts: name causes before what follows from them.
 class Trouble {
@@ -32,4 +32,4 @@ class Trouble {
   std::string what_;
 };
 
-}  // namespace vantage::osm
+}  // namespace vantage::internal::osm

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace vantage::osm {
+namespace vantage::internal::osm {
 
 /// Objects of one type by id. `Entry` has id, version and visible (false: deleted in this version).
 template <class Entry>
@@ -60,4 +60,4 @@ class Versions {
   std::size_t deleted_ = 0, superseded_ = 0;
 };
 
-}  // namespace vantage::osm
+}  // namespace vantage::internal::osm

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace vantage::terrain {
+namespace vantage::internal::terrain {
 namespace {
 
 /// The nearest value in some direction; distance 0: none yet.
@@ -79,4 +79,4 @@ std::size_t fill_voids(std::vector<float>& heights, int columns, int rows) {
   }
 }
 
-}  // namespace vantage::terrain
+}  // namespace vantage::internal::terrain

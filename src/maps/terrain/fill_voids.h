@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace vantage::terrain {
+namespace vantage::internal::terrain {
 
 /// Replaces each value that is not a number by the mean of the nearest values in eight directions (along rows, columns
 /// and diagonals), weighted by the inverse of their distance in posts; where none of the eight meets a value, filled
@@ -11,4 +11,4 @@ namespace vantage::terrain {
 /// all. Cost: linear in the posts, per round.
 std::size_t fill_voids(std::vector<float>& heights, int columns, int rows);
 
-}  // namespace vantage::terrain
+}  // namespace vantage::internal::terrain

@@ -8,7 +8,7 @@
 
 #include "vantage/error.h"
 
-namespace vantage::terrain {
+namespace vantage::internal::terrain {
 namespace {
 
 constexpr int kFailure = 3;  // CE_Failure; CE_Fatal, after which GDAL ends the program, is 4
@@ -93,4 +93,4 @@ void GdalMessages::handle(int severity, int /*number*/, const char* message) noe
   }
 }
 
-}  // namespace vantage::terrain
+}  // namespace vantage::internal::terrain

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace vantage::terrain {
+namespace vantage::internal::terrain {
 
 // Handles are opaque in the C API; names and types are those of gdal.h, ogr_srs_api.h, cpl_error.h, cpl_vsi.h and
 // cpl_string.h, the same from GDAL 3.1 on.
@@ -73,4 +73,4 @@ class GdalMessages {
   std::string first_error_;
 };
 
-}  // namespace vantage::terrain
+}  // namespace vantage::internal::terrain

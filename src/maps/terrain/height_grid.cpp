@@ -15,7 +15,7 @@
 #include "maps/terrain/raster_file.h"
 #include "vantage/error.h"
 
-namespace vantage::terrain {
+namespace vantage::internal::terrain {
 namespace {
 
 constexpr std::int64_t kMaxPosts = std::int64_t(1) << 28;
@@ -287,4 +287,4 @@ HeightGrid read_height_pixels(const std::filesystem::path& file, const PixelWind
   return read_pixels(raster, std::move(grid), pixels, progress);
 }
 
-}  // namespace vantage::terrain
+}  // namespace vantage::internal::terrain

@@ -11,7 +11,7 @@
 #include "geo/local_frame.h"
 #include "vantage/progress.h"
 
-namespace vantage::terrain {
+namespace vantage::internal::terrain {
 
 /// A rectangle of posts (samples), in the raster's own coordinate reference system. Immutable after reading.
 struct HeightGrid {
@@ -61,4 +61,4 @@ HeightGrid read_height_grid(const std::filesystem::path& file, const std::option
 HeightGrid read_height_pixels(const std::filesystem::path& file, const PixelWindow& pixels,
                               const Progress& progress = {});
 
-}  // namespace vantage::terrain
+}  // namespace vantage::internal::terrain

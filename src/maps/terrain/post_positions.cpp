@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <numbers>
 
-namespace vantage::terrain {
+namespace vantage::internal::terrain {
 namespace {
 
 constexpr std::size_t kNodes = 9;  // per direction
@@ -118,4 +118,4 @@ std::vector<Eigen::Vector2d> post_positions(const HeightGrid& grid, const geo::L
   return positions;
 }
 
-}  // namespace vantage::terrain
+}  // namespace vantage::internal::terrain

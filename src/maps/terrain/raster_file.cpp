@@ -8,7 +8,7 @@
 
 #include "vantage/error.h"
 
-namespace vantage::terrain {
+namespace vantage::internal::terrain {
 namespace {
 
 namespace fs = std::filesystem;
@@ -185,4 +185,4 @@ std::vector<float> RasterFile::read(const PixelWindow& pixels, const std::functi
   return heights;
 }
 
-}  // namespace vantage::terrain
+}  // namespace vantage::internal::terrain

@@ -11,7 +11,7 @@
 #include "maps/terrain/gdal_library.h"
 #include "maps/terrain/height_grid.h"
 
-namespace vantage::terrain {
+namespace vantage::internal::terrain {
 
 struct DatasetCloser {
   const GdalLibrary* library = nullptr;
@@ -55,4 +55,4 @@ class RasterFile {
   bool is_srtm_ = false;
 };
 
-}  // namespace vantage::terrain
+}  // namespace vantage::internal::terrain

@@ -15,8 +15,7 @@
 #include "vantage/error.h"
 #include "vantage/terrain.h"
 
-namespace vantage {
-namespace terrain {
+namespace vantage::internal::terrain {
 namespace {
 
 namespace fs = std::filesystem;
@@ -189,18 +188,20 @@ Mesh simplified(const HeightGrid& grid, const std::vector<Vec3>& posts, double m
 }
 
 }  // namespace
-}  // namespace terrain
+}  // namespace vantage::internal::terrain
+
+namespace vantage {
 
 RasterScene scene_from_raster(const std::filesystem::path& file, const RasterOptions& options,
                               const Progress& callback) {
-  using namespace terrain;
+  using namespace internal::terrain;
   check(options, file);
   const HeightGrid grid = read(file, options.region, callback);
   if (grid.columns < 2 || grid.rows < 2) {
     refuse("the region has a single row or column of posts, which is no surface", file, "give a larger region");
   }
-  const geo::LocalFrame frame(origin_of(grid, options, file));
-  core::ProgressReporter progress(callback, file);
+  const internal::geo::LocalFrame frame(origin_of(grid, options, file));
+  internal::core::ProgressReporter progress(callback, file);
   progress.begin("triangulating the surface");
   std::vector<Vec3> posts = posts_of(grid, frame);
 

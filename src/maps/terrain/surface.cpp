@@ -8,7 +8,7 @@
 
 #include "vantage/error.h"
 
-namespace vantage::terrain {
+namespace vantage::internal::terrain {
 namespace {
 
 // Of a place in the coordinates of a triangle (1 is a corner): what rounding may put outside it.
@@ -213,4 +213,4 @@ std::optional<Surface::Range> Surface::range(const std::vector<Eigen::Vector2d>&
   return range;
 }
 
-}  // namespace vantage::terrain
+}  // namespace vantage::internal::terrain

@@ -9,21 +9,22 @@
 
 #include "geo/local_frame.h"
 #include "maps/terrain/height_grid.h"
+#include "vantage/export.h"
 #include "vantage/geometry.h"
 #include "vantage/progress.h"
 
-namespace vantage::terrain {
+namespace vantage::internal::terrain {
 
 /// A piecewise linear terrain over a rectangle of a local frame. Any number of threads may ask at once.
 class Surface {
  public:
   /// Triangles that span the rectangle [min, max] of their vertices; none overlap, all counter-clockwise seen from
   /// above. Made by `triangulate`.
-  explicit Surface(Mesh mesh);
+  VANTAGE_INTERNAL_API explicit Surface(Mesh mesh);
 
   const Mesh& mesh() const { return mesh_; }
   /// Nothing outside; the border belongs to it. Cost: constant, about a microsecond.
-  std::optional<double> height(const Eigen::Vector2d& at) const;
+  VANTAGE_INTERNAL_API std::optional<double> height(const Eigen::Vector2d& at) const;
   /// The lowest and the highest height over a polygon (its boundary and inside), exactly but for rounding: they are
   /// reached at a corner, at a vertex of the terrain inside, or where a side crosses an edge of the terrain. Nothing
   /// where the polygon sticks out of the surface, or has no corner. `ring`: open, either turn; may cross itself (inside
@@ -32,7 +33,7 @@ class Surface {
   struct Range {
     double lowest, highest;
   };
-  std::optional<Range> range(const std::vector<Eigen::Vector2d>& ring) const;
+  VANTAGE_INTERNAL_API std::optional<Range> range(const std::vector<Eigen::Vector2d>& ring) const;
 
  private:
   /// Lists of things by cell of a regular grid, one after the other.
@@ -73,4 +74,4 @@ struct Triangulation {
 Triangulation triangulate(const HeightGrid& grid, const geo::LocalFrame& frame, const Eigen::Vector2d& min,
                           const Eigen::Vector2d& max, double max_error_m, const Progress& progress = {});
 
-}  // namespace vantage::terrain
+}  // namespace vantage::internal::terrain

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-namespace vantage::terrain {
+namespace vantage::internal::terrain {
 namespace {
 
 double orientation(const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -275,4 +275,4 @@ void Tin::drop(std::uint32_t candidate, std::uint32_t facet) {
   }
 }
 
-}  // namespace vantage::terrain
+}  // namespace vantage::internal::terrain

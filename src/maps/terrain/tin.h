@@ -10,7 +10,7 @@
 
 #include "vantage/geometry.h"
 
-namespace vantage::terrain {
+namespace vantage::internal::terrain {
 
 /// An incremental Delaunay triangulation of points over a rectangle (Bowyer, Watson, 1981, with exact predicates), and
 /// greedy insertion into it: Garland and Heckbert, "Fast polygonal approximation of terrains and height fields", 1995,
@@ -98,4 +98,4 @@ class Tin {
   std::vector<std::uint32_t> starting_at_, ending_at_;  ///< per vertex of the rim, the new facet whose edge does
 };
 
-}  // namespace vantage::terrain
+}  // namespace vantage::internal::terrain

@@ -12,7 +12,7 @@
 
 #include "maps/terrain/tin.h"
 
-namespace vantage::terrain {
+namespace vantage::internal::terrain {
 namespace {
 
 /// By how much the opposite angles of a quadrilateral may miss a half turn when its corners count as on one circle. In
@@ -116,4 +116,4 @@ void Tin::fold_up(double max_error) {
   }
 }
 
-}  // namespace vantage::terrain
+}  // namespace vantage::internal::terrain

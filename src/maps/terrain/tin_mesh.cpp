@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace vantage::terrain {
+namespace vantage::internal::terrain {
 
 void grow(Tin& tin, double max_error_m, const core::ProgressReporter& progress) {
   double first = -1;
@@ -47,4 +47,4 @@ double largest_error(const Surface& surface, const std::vector<Vec3>& points) {
   return largest;
 }
 
-}  // namespace vantage::terrain
+}  // namespace vantage::internal::terrain

@@ -8,7 +8,7 @@
 #include "maps/terrain/tin.h"
 #include "vantage/geometry.h"
 
-namespace vantage::terrain {
+namespace vantage::internal::terrain {
 
 /// Inserts its candidates, worst first, down to the error. Throws Error(cancelled).
 void grow(Tin& tin, double max_error_m, const core::ProgressReporter& progress);
@@ -19,4 +19,4 @@ Mesh mesh_of(const Tin& tin, const std::vector<bool>& wanted);
 /// Vertical, over all of these points; infinite where there is no surface under one.
 double largest_error(const Surface& surface, const std::vector<Vec3>& points);
 
-}  // namespace vantage::terrain
+}  // namespace vantage::internal::terrain

@@ -15,7 +15,7 @@
 #include "maps/terrain/tin_mesh.h"
 #include "vantage/error.h"
 
-namespace vantage::terrain {
+namespace vantage::internal::terrain {
 namespace {
 
 constexpr double kOnBorder_m = 0.01;  // a post so near counts as on the border: facets must not be slivers
@@ -143,4 +143,4 @@ Triangulation triangulate(const HeightGrid& grid, const geo::LocalFrame& frame, 
   return result;
 }
 
-}  // namespace vantage::terrain
+}  // namespace vantage::internal::terrain

@@ -27,7 +27,7 @@ constexpr double kRangeRounding = 1e-6;
 Scene read_world(const WillisConfig& config, const Progress& progress) {
   Scene world;
   for (const WillisMesh& mesh : config.meshes) {
-    const Scene part = app::with_place(mesh.where, [&] { return read_scene(mesh.file, {}, progress); });
+    const Scene part = internal::app::with_place(mesh.where, [&] { return read_scene(mesh.file, {}, progress); });
     const auto first_vertex = static_cast<std::uint32_t>(world.mesh.vertices.size());
     const auto first_object = static_cast<std::uint32_t>(world.objects.size());
     for (const Vec3& given : part.mesh.vertices) {
@@ -58,23 +58,23 @@ class TurnedRenderer {
   TurnedRenderer(const Scene& world, const DeviceChoice& device, const Progress& progress)
       : world_(world), device_(device), progress_(progress) {}
 
-  depth::DepthRenderer& along(const Matrix& axes) {
+  internal::depth::DepthRenderer& along(const Matrix& axes) {
     if (!chosen_.renderer || axes != axes_) {
       Scene turned = world_;
       for (Vec3& v : turned.mesh.vertices) v = axes * v;
-      chosen_ = depth::make_depth_renderer(PreparedScene(turned, progress_), device_);
+      chosen_ = internal::depth::make_depth_renderer(PreparedScene(turned, progress_), device_);
       axes_ = axes;
     }
     return *chosen_.renderer;
   }
 
-  const depth::ChosenRenderer& chosen() const { return chosen_; }
+  const internal::depth::ChosenRenderer& chosen() const { return chosen_; }
 
  private:
   const Scene& world_;
   const DeviceChoice& device_;
   const Progress& progress_;
-  depth::ChosenRenderer chosen_;
+  internal::depth::ChosenRenderer chosen_;
   Matrix axes_;
 };
 
@@ -125,12 +125,13 @@ WillisResult compute(const WillisConfig& config, const WillisVolume& volume, con
   options.cubemap = volume.texels;
   options.resolution.reset();
   options.merge = 0;  // theirs has every texel
-  Mesh mesh = spheres::visibility_sphere(axes * volume.origin, radius, options, renderer.along(axes), progress);
+  Mesh mesh =
+      internal::spheres::visibility_sphere(axes * volume.origin, radius, options, renderer.along(axes), progress);
   for (Vec3& v : mesh.vertices) v = axes.transpose() * v;
 
   WillisResult result;
   result.volume = finished(config, volume, options.sphere, std::move(mesh), radius);
-  result.measures = core::measure_sound(result.volume.mesh);
+  result.measures = internal::core::measure_sound(result.volume.mesh);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
 }
@@ -139,16 +140,16 @@ WillisResult compute(const WillisConfig& config, const WillisVolume& volume, con
 
 WillisRun run_willis_config(const WillisConfig& config, const SpheresOptions& options, const Progress& progress) {
   const Scene world = read_world(config, progress);
-  const scene::ViewpointCheck check(world);
+  const internal::scene::ViewpointCheck check(world);
   for (const WillisVolume& volume : config.volumes) {
-    app::with_place(volume.where, [&] { check.check(volume.origin, "the viewpoint of " + volume.name); });
+    internal::app::with_place(volume.where, [&] { check.check(volume.origin, "the viewpoint of " + volume.name); });
   }
   const Box bounds = bounding_box(world.mesh);
   TurnedRenderer renderer(world, options.device, progress);
   WillisRun run;
   for (const WillisVolume& volume : config.volumes) {
-    run.results.push_back(
-        app::with_place(volume.where, [&] { return compute(config, volume, bounds, renderer, options, progress); }));
+    run.results.push_back(internal::app::with_place(
+        volume.where, [&] { return compute(config, volume, bounds, renderer, options, progress); }));
   }
   run.device = renderer.chosen().renderer->device();
   run.device_note = renderer.chosen().note;

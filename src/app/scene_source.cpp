@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "app/components/maps.h"
+
 namespace vantage {
 namespace {
 
@@ -32,24 +34,16 @@ std::vector<std::string> notes_of(const LoadedScene& loaded) {
 }
 
 LoadedScene load_scene(const SceneSource& source, const Progress& progress) {
-  LoadedScene loaded;
   switch (source.kind) {
+    case SceneSource::Kind::map:
+      return internal::app::load_map(source, progress);
+    case SceneSource::Kind::raster:
+      return internal::app::load_raster(source, progress);
     case SceneSource::Kind::mesh:
-      loaded.scene = read_scene(source.file, source.mesh, progress);
       break;
-    case SceneSource::Kind::map: {
-      City city = build_city(source.file, source.city, progress);
-      loaded.scene = std::move(city.scene);
-      loaded.city = std::move(city.report);
-      break;
-    }
-    case SceneSource::Kind::raster: {
-      RasterScene raster = scene_from_raster(source.file, source.raster, progress);
-      loaded.scene = std::move(raster.scene);
-      loaded.raster = raster.report;
-      break;
-    }
   }
+  LoadedScene loaded;
+  loaded.scene = read_scene(source.file, source.mesh, progress);
   return loaded;
 }
 

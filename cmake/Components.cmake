@@ -1,0 +1,134 @@
+# The libraries: vantage::core and what stands on it, each built where VANTAGE_COMPONENTS names it, and vantage::vantage,
+# which is all of them. docs/architecture.md shows the modules of each. Shared or static as BUILD_SHARED_LIBS says.
+
+# vantage_component(NAME  MODULES folders of src/...  [SOURCES more files]  [LINK targets that an installed static library
+# needs as well]  [BUILD targets that only the build needs]  [REQUIRES other components])
+function(vantage_component name)
+  cmake_parse_arguments(PARSE_ARGV 1 part "" "" "MODULES;SOURCES;LINK;BUILD;REQUIRES")
+  set(sources ${part_SOURCES})
+  foreach(module IN LISTS part_MODULES)
+    file(GLOB_RECURSE found CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${module}/*.cpp)
+    list(APPEND sources ${found})
+  endforeach()
+  list(FILTER sources EXCLUDE REGEX "/src/core/threads_|/src/app/components/")
+  list(REMOVE_ITEM sources ${VANTAGE_HELPER_SOURCES})
+  list(APPEND sources ${part_SOURCES})
+  list(REMOVE_DUPLICATES sources)
+
+  # Compiled once: for the library, and for the tests, which see what is hidden.
+  add_library(vantage_${name}_objects OBJECT ${sources})
+  target_include_directories(vantage_${name}_objects PRIVATE ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/src)
+  target_compile_features(vantage_${name}_objects PRIVATE cxx_std_20)
+  target_link_libraries(vantage_${name}_objects PRIVATE Eigen3::Eigen ${part_LINK} ${part_BUILD} vantage::options)
+  set_target_properties(vantage_${name}_objects PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+
+  add_library(vantage_${name} $<TARGET_OBJECTS:vantage_${name}_objects>)
+  add_library(vantage::${name} ALIAS vantage_${name})
+  target_include_directories(vantage_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
+                                                    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_compile_features(vantage_${name} PUBLIC cxx_std_20)
+  list(TRANSFORM part_REQUIRES PREPEND vantage_ OUTPUT_VARIABLE required)
+  target_link_libraries(vantage_${name} PUBLIC Eigen3::Eigen ${required} PRIVATE ${part_LINK})
+  foreach(target IN LISTS part_BUILD)
+    target_link_libraries(vantage_${name} PRIVATE $<BUILD_INTERFACE:${target}>)
+  endforeach()
+  if(BUILD_SHARED_LIBS)
+    target_link_libraries(vantage_${name} PRIVATE vantage_helpers)
+    if(NOT VANTAGE_SANITIZE)
+      target_link_options(vantage_${name} PRIVATE LINKER:--no-undefined)
+    endif()
+  endif()
+  # Until 1.0 a minor version may break programs, as the package version file says too. What a library merely passes on
+  # is not linked to it: `core` alone needs few others.
+  set_target_properties(vantage_${name} PROPERTIES
+    EXPORT_NAME ${name} LINKER_LANGUAGE CXX VERSION ${PROJECT_VERSION}
+    SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+  target_link_options(vantage_${name} PRIVATE LINKER:--as-needed LINKER:--exclude-libs,ALL)
+  target_link_libraries(vantage INTERFACE vantage_${name})
+  set_property(GLOBAL APPEND PROPERTY VANTAGE_BUILT_COMPONENTS ${name})
+endfunction()
+
+add_library(vantage INTERFACE)
+add_library(vantage::vantage ALIAS vantage)
+set(source ${PROJECT_SOURCE_DIR}/src)
+
+# Helpers without a state of their own, of which every shared library takes in what it uses: they need not be exported.
+set(VANTAGE_HELPER_SOURCES)
+foreach(file core/bvh core/convex_corners core/edges core/facet_polygon core/mend_welded core/pieces core/sha256 core/stars
+             core/text core/triangle_distance core/weld geo/coordinate_system geo/local_frame geo/longitudes
+             geo/proj_library options/spheres_options target/lengths target/range_check target/range_region)
+  list(APPEND VANTAGE_HELPER_SOURCES ${source}/${file}.cpp)
+endforeach()
+add_library(vantage_helpers STATIC EXCLUDE_FROM_ALL ${VANTAGE_HELPER_SOURCES})
+target_include_directories(vantage_helpers PRIVATE ${PROJECT_SOURCE_DIR}/include ${source})
+# PROJ is loaded when it is needed, not linked: src/geo/proj_library.h.
+target_include_directories(vantage_helpers SYSTEM PRIVATE ${PROJ_INCLUDE_DIRS})
+set_source_files_properties(${source}/geo/proj_library.cpp PROPERTIES COMPILE_DEFINITIONS
+  "VANTAGE_PROJ_NAME=\"${VANTAGE_PROJ_NAME}\";VANTAGE_PROJ_FILE=\"${VANTAGE_PROJ_FILE}\"")
+target_link_libraries(vantage_helpers PRIVATE Eigen3::Eigen vantage::options)
+set_target_properties(vantage_helpers PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+
+vantage_component(core
+  MODULES core options geo io scene target exact query
+  SOURCES ${source}/core/threads_${VANTAGE_THREADS}.cpp
+  LINK ${VANTAGE_THREAD_TARGETS} ZLIB::ZLIB ${CMAKE_DL_LIBS}
+  BUILD nlohmann_json::nlohmann_json vantage::cdt)
+if(NOT BUILD_SHARED_LIBS)
+  target_sources(vantage_core PRIVATE $<TARGET_OBJECTS:vantage_helpers>)
+endif()
+
+if(VANTAGE_WITH_SOLID)
+  vantage_component(solid MODULES solid LINK ${VANTAGE_THREAD_TARGETS} BUILD manifold::manifold
+                    REQUIRES core)
+  if(NOT BUILD_SHARED_LIBS AND NOT VANTAGE_INSTALLED_MANIFOLD)
+    target_sources(vantage_solid PRIVATE $<TARGET_OBJECTS:manifold>)  # ours is not installed by itself
+  endif()
+endif()
+if(VANTAGE_WITH_MAPS)
+  vantage_component(maps MODULES maps LINK EXPAT::EXPAT BZip2::BZip2 ZLIB::ZLIB Threads::Threads PkgConfig::CLIPPER
+                    ${CMAKE_DL_LIBS} BUILD vantage::osmium vantage::cdt REQUIRES core solid)
+endif()
+if(VANTAGE_WITH_DEPTH)
+  vantage_component(depth MODULES depth spheres LINK embree ${CMAKE_DL_LIBS} REQUIRES core solid)
+endif()
+if(VANTAGE_WITH_PICTURE)
+  vantage_component(picture MODULES picture LINK embree PkgConfig::CAIRO REQUIRES core depth)
+endif()
+if(VANTAGE_WITH_VERIFY)
+  vantage_component(verify MODULES verify LINK embree REQUIRES core)
+endif()
+if(VANTAGE_WITH_APP)
+  # What missions need of a component that is not built is an error that says so.
+  set(bridges ${source}/app/components)
+  set(app_sources)
+  set(app_requires core)
+  if(VANTAGE_WITH_SOLID)
+    list(APPEND app_sources ${bridges}/solid.cpp)
+    list(APPEND app_requires solid)
+  else()
+    list(APPEND app_sources ${bridges}/without_solid.cpp)
+  endif()
+  if(VANTAGE_WITH_MAPS)
+    list(APPEND app_sources ${bridges}/maps.cpp ${bridges}/ground_target.cpp)
+    list(APPEND app_requires maps)
+  else()
+    list(APPEND app_sources ${bridges}/without_maps.cpp)
+  endif()
+  if(VANTAGE_WITH_DEPTH)
+    list(APPEND app_sources ${bridges}/spheres.cpp ${bridges}/run_willis.cpp)
+    list(APPEND app_requires depth)
+  else()
+    list(APPEND app_sources ${bridges}/without_spheres.cpp)
+  endif()
+  vantage_component(app MODULES app SOURCES ${app_sources} LINK yaml-cpp BUILD nlohmann_json::nlohmann_json
+                    REQUIRES ${app_requires})
+endif()
+get_property(VANTAGE_BUILT_COMPONENTS GLOBAL PROPERTY VANTAGE_BUILT_COMPONENTS)
+
+# All that is hidden, for tests and fuzz targets only.
+list(TRANSFORM VANTAGE_BUILT_COMPONENTS REPLACE "(.+)" "$<TARGET_OBJECTS:vantage_\\1_objects>" OUTPUT_VARIABLE objects)
+add_library(vantage_inside STATIC EXCLUDE_FROM_ALL ${objects} $<TARGET_OBJECTS:vantage_helpers>)
+foreach(component IN LISTS VANTAGE_BUILT_COMPONENTS)
+  target_link_libraries(vantage_inside PUBLIC $<TARGET_PROPERTY:vantage_${component}_objects,LINK_LIBRARIES>)
+endforeach()
+target_include_directories(vantage_inside PUBLIC ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/src)

@@ -1,0 +1,16 @@
+// What missions need of the component `maps`: maps.cpp, or without_maps.cpp in builds without it.
+#pragma once
+
+#include "geo/local_frame.h"
+#include "vantage/mission.h"
+
+namespace vantage::internal::app {
+
+/// A scene of a map or a raster. Throws what build_city and scene_from_raster throw.
+LoadedScene load_map(const SceneSource& source, const Progress& progress);
+LoadedScene load_raster(const SceneSource& source, const Progress& progress);
+
+/// Lays the target that `mission.file.ground_target` describes on the ground of the scene, in `frame`.
+void put_on_ground(Mission& mission, const geo::LocalFrame& frame, const Progress& progress);
+
+}  // namespace vantage::internal::app

@@ -1,0 +1,23 @@
+#include "app/components/solid.h"
+
+#include <utility>
+
+#include "solid/solid_check.h"
+
+namespace vantage::internal::app {
+
+Mesh checked_keep_in(const Mesh& mesh, const std::string& name) { return solid::checked_solid(mesh, name); }
+
+Volume exact_volume(const PreparedTarget& target, const ExactOptions& options, const Progress& progress) {
+  return compute_volume(target, {}, options, progress);
+}
+
+Volume joined(std::vector<Volume> volumes, const Progress& progress) {
+  return volumes.size() == 1 ? std::move(volumes[0]) : intersect_volumes(volumes, progress);
+}
+
+Volume within_limits(const Volume& volume, const Navigation& navigation, const Progress& progress) {
+  return cut_to_navigation(volume, navigation, progress);
+}
+
+}  // namespace vantage::internal::app

@@ -1,0 +1,23 @@
+// What missions need of the component `solid`: solid.cpp, or without_solid.cpp in builds without it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "vantage/navigation.h"
+
+namespace vantage::internal::app {
+
+/// A mesh to keep in, closed and turned the right way round. Throws Error(input) for one that bounds nothing.
+Mesh checked_keep_in(const Mesh& mesh, const std::string& name);
+
+/// The exact volume of a target of any number of parts.
+Volume exact_volume(const PreparedTarget& target, const ExactOptions& options, const Progress& progress);
+
+/// What all volumes share.
+Volume joined(std::vector<Volume> volumes, const Progress& progress);
+
+/// As cut_to_navigation.
+Volume within_limits(const Volume& volume, const Navigation& navigation, const Progress& progress);
+
+}  // namespace vantage::internal::app

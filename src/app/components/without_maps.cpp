@@ -1,0 +1,18 @@
+#include "app/components/maps.h"
+#include "app/components/missing.h"
+
+namespace vantage::internal::app {
+
+LoadedScene load_map(const SceneSource& source, const Progress&) {
+  throw_missing("maps", "maps", source.file.string());
+}
+
+LoadedScene load_raster(const SceneSource& source, const Progress&) {
+  throw_missing("maps", "rasters", source.file.string());
+}
+
+void put_on_ground(Mission& mission, const geo::LocalFrame&, const Progress&) {
+  throw_missing("maps", "targets on the ground", mission.file.places.target);
+}
+
+}  // namespace vantage::internal::app

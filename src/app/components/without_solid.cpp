@@ -1,0 +1,24 @@
+#include <utility>
+
+#include "app/components/missing.h"
+#include "app/components/solid.h"
+
+namespace vantage::internal::app {
+
+Mesh checked_keep_in(const Mesh&, const std::string& name) { throw_missing("solid", "navigation meshes", name); }
+
+Volume exact_volume(const PreparedTarget& target, const ExactOptions& options, const Progress& progress) {
+  if (target.part_count() > 1) throw_missing("solid", "targets of several parts", "target.parts");
+  return compute_visibility(target, options, progress);
+}
+
+Volume joined(std::vector<Volume> volumes, const Progress&) {
+  if (volumes.size() != 1) throw_missing("solid", "targets of several parts", "target.parts");
+  return std::move(volumes[0]);
+}
+
+Volume within_limits(const Volume&, const Navigation&, const Progress&) {
+  throw_missing("solid", "navigation limits", "navigation");
+}
+
+}  // namespace vantage::internal::app

@@ -1,0 +1,46 @@
+// Missions in a build without solid, maps and depth: they are read, written and run, and what needs one of these is refused.
+#include <cstdio>
+#include <string>
+
+#include "vantage/error.h"
+#include "vantage/mission.h"
+#include "vantage/result.h"
+
+namespace {
+
+/// Whether running a mission is refused for want of `component`.
+bool is_refused(const std::string& text, const std::string& folder, const std::string& component) try {
+  vantage::run_mission(vantage::resolve_mission(vantage::read_mission_text(text, folder + "/mission.yaml")));
+  std::printf("%s is not missed\n", component.c_str());
+  return false;
+} catch (const vantage::Error& error) {
+  return error.problem().find("no component '" + component + "'") != std::string::npos;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  if (argc < 3) return 2;
+  const std::string folder = argv[1];  // with plaza.obj
+  const std::string start = "scene: {mesh: plaza.obj}\nsensor: {max_range: 40}\n";
+  const std::string square = "target: {vertices: [[-4, -4, 0], [4, -4, 0], [4, 4, 0], [-4, 4, 0]]}\n";
+
+  const vantage::MissionFile file = vantage::read_mission_text(start + square, folder + "/mission.yaml");
+  const std::string text = vantage::mission_text(file, folder);
+  const vantage::MissionFile again = vantage::read_mission_text(text, folder + "/mission.yaml");
+  const vantage::Mission mission = vantage::resolve_mission(again);
+  vantage::Result result = vantage::run_mission(mission);
+  vantage::write_results(result.volume, {{argv[2]}, {}, 1, vantage::report_source(mission, result)});
+  if (vantage::read_volume(argv[2]).volume.mesh.triangles.size() != result.volume.mesh.triangles.size()) return 1;
+
+  const std::string parts =
+      "target: {parts: [[[-4, -4, 0], [4, -4, 0], [4, 4, 0], [-4, 4, 0]], [[4, -4, 0], [8, -4, 0], [8, 4, 0]]]}\n";
+  const bool all_refused = is_refused(start + parts, folder, "solid") &&
+                           is_refused(start + square + "navigation: {altitude: [3, 50]}\n", folder, "solid") &&
+                           is_refused(start + square + "method: spheres\n", folder, "depth") &&
+                           is_refused("scene: {osm: town.osm}\nsensor: {max_range: 40}\n" + square, folder, "maps");
+  return all_refused ? 0 : 1;
+} catch (const vantage::Error& error) {
+  std::puts(error.what());
+  return 2;
+}
