@@ -126,7 +126,8 @@ std::optional<std::pair<Vec3, double>> SurfaceSearch::cut(const Patch& patch) co
 
 /// Along the cut, where there is one and not too often in a row, or else across the longest side.
 void SurfaceSearch::split(const Patch& patch, std::vector<Patch>& pieces) const {
-  const auto& [c, d] = std::tie(patch.corners, patch.distances);
+  const Corners& c = patch.corners;
+  const std::array<double, 3>& d = patch.distances;
   const auto point = [&](std::size_t i, std::size_t j, double share) { return Vec3(c[i] + share * (c[j] - c[i])); };
   const auto add = [&](const Corners& corners, const std::array<double, 3>& distances) {
     pieces.push_back(make_patch(corners, distances, patch.depth + 1));
