@@ -10,8 +10,8 @@ JOBS ?= $(shell nproc)
 WERROR ?= $(if $(CI),ON,OFF)
 CONFIGURE_FLAGS ?=
 
-configure = cmake --preset $(1) -DVANTAGE_WERROR=$(WERROR) $(CONFIGURE_FLAGS) --log-level=WARNING >/dev/null
-compile = $(call configure,$(1)) && cmake --build --preset $(1) --parallel $(JOBS) --target $(2)
+configure = cmake --preset $(1) -DVANTAGE_WERROR=$(WERROR) $(2) $(CONFIGURE_FLAGS) --log-level=WARNING >/dev/null
+compile = $(call configure,$(1),$(3)) && cmake --build --preset $(1) --parallel $(JOBS) --target $(2)
 
 .PHONY: help
 help:  ## this list
@@ -33,23 +33,23 @@ build: prepare  ## the program, at build/bin/vantage
 	@$(call compile,release,vantage_cli)
 
 .PHONY: test
-test: everything  ## build and run all tests
+test: tested  ## build and run all tests
 	ctest --preset release --parallel $(JOBS)
 
 .PHONY: check
-check: everything tools  ## before a commit: build, unit tests, format, and lint of what changed
+check: everything  ## before a commit: build, unit tests, format, and lint of what changed
 	@ctest --preset release --parallel $(JOBS) --label-exclude 'heavy|consumer'
 	@status=0; scripts/format.sh --check || status=1; JOBS=$(JOBS) scripts/lint.sh --changed || status=1; exit $$status
 
 .PHONY: asan
-asan: prepare  ## unit tests under AddressSanitizer and UndefinedBehaviorSanitizer
-	@$(call compile,asan,all)
+asan: tools  ## unit tests under AddressSanitizer and UndefinedBehaviorSanitizer (ALL=1: also those that take long there)
+	@$(call compile,asan,vantage_tests,-DVANTAGE_SANITIZE_ALL=$(if $(ALL),ON,OFF))
 	ctest --preset asan --parallel $(JOBS)
 
 .PHONY: tsan
-tsan: prepare  ## the tests of what runs on threads under ThreadSanitizer (ALL=1: all unit tests)
-	@$(call compile,tsan,vantage_tests)
-	ctest --preset tsan --parallel $(JOBS) $(if $(ALL),,--tests-regex 'Thread|Parallel|ProgressReporter')
+tsan: tools  ## the tests of what runs on threads under ThreadSanitizer
+	@$(call compile,tsan,vantage_thread_tests)
+	ctest --preset tsan --parallel $(JOBS)
 
 .PHONY: bench
 bench: everything  ## the benchmarks (RECORD=1 keeps the figures in bench/results)
@@ -57,13 +57,14 @@ bench: everything  ## the benchmarks (RECORD=1 keeps the figures in bench/result
 	bench/run.sh $(if $(RECORD),,--no-file)
 
 .PHONY: fuzz
-fuzz: prepare tools  ## each fuzz target for a minute (SECONDS_EACH=60)
+fuzz: tools  ## each fuzz target for a minute (SECONDS_EACH=60)
 	@$(call compile,fuzz,all)
 	scripts/fuzz.sh $(or $(SECONDS_EACH),60)
 
 .PHONY: nightly
-nightly: everything tools  ## what takes too long for every change: all of lint, 2,000 degenerate scenes (SEED=N; else the date)
+nightly: everything  ## what takes too long for every change: all of lint, all tests sanitized, 2,000 degenerate scenes (SEED=N; else the date)
 	@$(MAKE) --no-print-directory lint ALL=1
+	@$(MAKE) --no-print-directory asan ALL=1
 	build/bin/vantage_attack --scenes $(or $(SCENES),2000) --seed $(or $(SEED),$(shell date +%Y%m%d)) \
 	  --jobs $(JOBS) --out build/attack
 
@@ -76,7 +77,7 @@ format: tools  ## format our sources in place
 	@scripts/format.sh
 
 .PHONY: lint
-lint: everything tools  ## formatting, and clang-tidy over the library and the program (ALL=1: tests and benchmarks too)
+lint: everything  ## formatting, and clang-tidy over the library and the program (ALL=1: tests and benchmarks too)
 	@status=0; scripts/format.sh --check || status=1; \
 	  JOBS=$(JOBS) scripts/lint.sh $(if $(ALL),,--library) || status=1; exit $$status
 
@@ -84,9 +85,16 @@ lint: everything tools  ## formatting, and clang-tidy over the library and the p
 clean:  ## remove all builds; fetched sources stay
 	rm -rf build build-*/
 
+# All that the installed packages allow: `make build` needs neither those of the tests nor those of the benchmarks.
+.PHONY: tested
+tested:
+	@scripts/install_packages.sh --tests
+	@scripts/fetch_sources.sh
+	@$(call compile,release,all vantage_tests)
+
 .PHONY: everything
-everything: prepare
-	@$(call compile,release,all)
+everything: tools
+	@$(call compile,release,all vantage_tests vantage_bench)
 
 .PHONY: prepare
 prepare:
@@ -96,3 +104,4 @@ prepare:
 .PHONY: tools
 tools:
 	@scripts/install_packages.sh --tools
+	@scripts/fetch_sources.sh

@@ -8,7 +8,7 @@ target_compile_options(vantage_options INTERFACE -Wall -Wextra -Wshadow -ffp-con
 if(VANTAGE_WERROR)
   target_compile_options(vantage_options INTERFACE -Werror)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-    # GCC 12 finds overflows in the standard library's strings that are not there (its bug 105651).
+    # GCC 12 warns of overflows in the standard library's strings that cannot happen.
     target_compile_options(vantage_options INTERFACE -Wno-error=stringop-overflow -Wno-error=restrict)
   endif()
 endif()

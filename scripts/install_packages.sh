@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that are missing; does nothing, and asks for no rights, when all are there.
-#   scripts/install_packages.sh            what building and testing need
-#   scripts/install_packages.sh --tools    and clang with its tools, for fuzzing, formatting and lint
+#   scripts/install_packages.sh            what building needs
+#   scripts/install_packages.sh --tests    and what the tests need
+#   scripts/install_packages.sh --tools    and what developers need: benchmarks, sanitizers, fuzzing, formatting, lint
 # VANTAGE_NO_INSTALL=1 skips the check, for those who bring their own.
 set -euo pipefail
 
 packages=(
   # building
-  g++ make cmake ninja-build ccache pkg-config
+  g++ make cmake ninja-build pkg-config
   # scripts/fetch_sources.sh
   python3 python3-pip ca-certificates
   # libraries
@@ -18,16 +19,16 @@ packages=(
   libcairo2-dev fonts-dejavu-core
   # maps and terrain; GDAL is loaded when there is one
   libosmium2-dev libproj-dev proj-data libpolyclipping-dev libgdal32
-  # tests and benchmarks
-  libgtest-dev libbenchmark-dev osmium-tool
 )
-tools=(clang libclang-rt-14-dev clang-format clang-tidy)
+tests=(libgtest-dev osmium-tool)
+tools=(libbenchmark-dev ccache clang libclang-rt-14-dev clang-format clang-tidy)
 
 [ -z "${VANTAGE_NO_INSTALL:-}" ] || exit 0
 case "${1:-}" in
   "") ;;
-  --tools) packages+=("${tools[@]}") ;;
-  *) echo "usage: $0 [--tools]" >&2; exit 2 ;;
+  --tests) packages+=("${tests[@]}") ;;
+  --tools) packages+=("${tests[@]}" "${tools[@]}") ;;
+  *) echo "usage: $0 [--tests|--tools]" >&2; exit 2 ;;
 esac
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
   echo "not a Debian system: please install the equivalents of: ${packages[*]}" >&2
