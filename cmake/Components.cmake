@@ -56,7 +56,7 @@ set(source ${PROJECT_SOURCE_DIR}/src)
 set(VANTAGE_HELPER_SOURCES)
 foreach(file core/bvh core/convex_corners core/edges core/facet_polygon core/mend_welded core/pieces core/sha256 core/stars
              core/text core/triangle_distance core/weld geo/coordinate_system geo/local_frame geo/longitudes
-             geo/proj_library options/spheres_options target/lengths target/range_check target/range_region)
+             geo/proj_library options/spheres_options target/enclosing_circle target/lengths target/range_check target/range_region)
   list(APPEND VANTAGE_HELPER_SOURCES ${source}/${file}.cpp)
 endforeach()
 add_library(vantage_helpers STATIC EXCLUDE_FROM_ALL ${VANTAGE_HELPER_SOURCES})

@@ -51,7 +51,8 @@ def problems(symbols: set[str], headers: str, listed: list[str]) -> list[str]:
     wrong = []
     internals = {symbol for symbol in symbols if symbol.startswith("vantage::internal::")}
     for symbol in sorted(symbols - internals):
-        missing = [part for part in symbol.split("::")[1:] if part.lstrip("~") not in declared]
+        names = [re.sub(r"^~|\W+$", "", part) for part in symbol.split("::")[1:]]  # destructors, operators
+        missing = [name for name in names if name not in declared]
         if missing:
             wrong.append(f"{symbol}: exported, but no public header declares {missing[0]}")
     for symbol in sorted(internals - set(listed)):
@@ -67,6 +68,7 @@ def self_test() -> list[str]:
     headers = "namespace vantage { class A { void f(); }; int g(); }  // hidden"
     cases = [
         ({"vantage::A::f", "vantage::g"}, [], ""),
+        ({"vantage::A::~A", "vantage::A::operator=="}, [], "no public header declares operator"),
         ({"vantage::hidden"}, [], "no public header declares hidden"),
         ({"vantage::A::secret"}, [], "no public header declares secret"),
         ({"vantage::internal::io::h"}, [], "not in the list"),

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/parallel.h"
+#include "options/spheres_options.h"
 #include "spheres/cube_grid.h"
 #include "spheres/numerics.h"
 #include "spheres/sphere_mesh.h"
@@ -256,8 +257,8 @@ TEST(SphereMesh, IsTheSameOnAnyNumberOfThreads) {
 TEST(SphereMesh, TexelsForAGridAreAtMostHalfItsStep) {
   for (const std::array<int, 2> grid : {std::array{160, 80}, {3, 2}, {1000, 30}, {30, 1000}}) {
     const double step = std::min(2 * std::numbers::pi / grid[0], std::numbers::pi / grid[1]);
-    EXPECT_LE(2.0 / spheres::face_size_for(grid), step / 2);
-    EXPECT_GE(2.0 / (spheres::face_size_for(grid) - 2.1), step / 2);
+    EXPECT_LE(2.0 / options::face_size_for(grid), step / 2);
+    EXPECT_GE(2.0 / (options::face_size_for(grid) - 2.1), step / 2);
   }
 }
 
