@@ -26,14 +26,14 @@ namespace {
 
 using city::Vec2;
 
-[[noreturn]] void fail(const std::string& problem, const std::string& where, const std::string& fix) {
-  throw Error(ErrorKind::input, problem, where, fix);
+[[noreturn]] void fail(ErrorCode code, const std::string& problem, const std::string& where, const std::string& fix) {
+  throw Error(code, problem, where, fix);
 }
 
 geo::LocalFrame frame_of(const Mission& mission) {
   const Scene& scene = mission.loaded.scene;
   if (!scene.georeference) {
-    fail("the scene does not say where on the earth it lies", mission.file.file.string(),
+    fail(ErrorCode::not_georeferenced, "the scene does not say where on the earth it lies", mission.file.file.string(),
          "give the target and the limits in the scene frame, or a scene with a place: a map (scene.osm), CityJSON with "
          "a "
          "reference system, a raster, or a mesh with 'crs' or written by 'vantage scene'");
@@ -112,7 +112,8 @@ class Placer {
 void check_near(const Box& box, const std::string& name, const Placer& placer, const std::string& where) {
   const Vec2 nearest = Vec2::Zero().cwiseMax(box.min.head<2>()).cwiseMin(box.max.head<2>());
   if (nearest.norm() <= geo::kFarthestM) return;
-  fail(name + " lies " + std::to_string(std::lround(nearest.norm() / 1000)) + " km from the scene's origin", where,
+  fail(ErrorCode::too_far_away,
+       name + " lies " + std::to_string(std::lround(nearest.norm() / 1000)) + " km from the scene's origin", where,
        placer.order_advice());
 }
 
@@ -122,7 +123,8 @@ void place_boxes(Navigation& navigation, const Placer& placer, const std::string
     Box& box = navigation.boxes[i];
     box = placer.inside(box);
     if ((box.min.array() >= box.max.array()).any()) {
-      fail("a box of navigation.boxes is too small or too askew to hold a box of the scene frame", where,
+      fail(ErrorCode::limits_empty,
+           "a box of navigation.boxes is too small or too askew to hold a box of the scene frame", where,
            "make it larger, or give it in the scene frame");
     }
   }
@@ -137,7 +139,8 @@ void check_near(const Mission& mission, const Placer& placer) {
   for (const Vec3& vertex : mission.target.parts.at(0)) {
     const double distance = vertex.head<2>().norm();
     if (distance <= geo::kFarthestM) continue;
-    fail("the target lies " + std::to_string(std::lround(distance / 1000)) + " km from the scene's origin",
+    fail(ErrorCode::too_far_away,
+         "the target lies " + std::to_string(std::lround(distance / 1000)) + " km from the scene's origin",
          mission.file.places.target, placer.order_advice());
   }
 }
@@ -149,7 +152,7 @@ terrain::Surface ground_of(const Mission& mission) {
   const Scene& scene = mission.loaded.scene;
   const auto ground = ground_object(scene);
   if (!ground) {
-    fail("the scene has no object 'ground' to put the target on", mission.file.places.target,
+    fail(ErrorCode::ground_missing, "the scene has no object 'ground' to put the target on", mission.file.places.target,
          "give the target's vertices, or a scene that is made from a map; PLY and STL keep no objects, OBJ and GLB do");
   }
   Mesh mesh;
@@ -254,7 +257,9 @@ std::string name_of(const osm::Extract& extract, osm::ObjectId id) {
 std::vector<city::Footprint> outlines(Mission& mission, const std::string& name, const geo::LocalFrame& frame,
                                       const Progress& progress) {
   const auto id = osm::parse_object_id(name);
-  if (!id) fail(in_quotes(name) + " is no object of a map", mission.file.places.target, "write 'osm: way/123'");
+  if (!id)
+    fail(ErrorCode::value_syntax, in_quotes(name) + " is no object of a map", mission.file.places.target,
+         "write 'osm: way/123'");
   osm::ReadOptions options;
   options.region = city::checked_region(mission.file.scene.city.region);
   const osm::Extract extract = osm::read_extract(mission.file.scene.file, options, progress);
@@ -266,14 +271,16 @@ std::vector<city::Footprint> outlines(Mission& mission, const std::string& name,
   }
   if (rough.empty()) {
     const bool is_part = options.region.has_value();
-    fail((is_part ? "the scene's part of the map has no area " : "the map has no area ") + name,
+    fail(ErrorCode::map_object_missing,
+         (is_part ? "the scene's part of the map has no area " : "the map has no area ") + name,
          mission.file.places.target,
          "name a tagged closed way or a multipolygon of " + mission.file.scene.file.filename().string() +
              (is_part ? ", or choose a larger area of the map" : ""));
   }
   city::Repairs repairs;
   std::vector<city::Footprint> outlines = city::clean(rough, repairs);
-  if (outlines.empty()) fail(name + " has no area", mission.file.places.target, "name another object");
+  if (outlines.empty())
+    fail(ErrorCode::map_object_missing, name + " has no area", mission.file.places.target, "name another object");
   const std::string known_as = name_of(extract, *id);
   if (mission.target.name == name && !known_as.empty()) mission.target.name = known_as + " (" + name + ")";
   return outlines;
@@ -286,7 +293,8 @@ void check_order(const Mission& mission, const GroundTarget& wanted, const terra
   const Vec2 centre = frame.to_local({longitude, latitude});
   if (ground.height(centre) || std::abs(longitude) > 90 || !ground.height(frame.to_local({latitude, longitude})))
     return;
-  fail("the target's centre lies " + std::to_string(std::lround(centre.norm())) +
+  fail(ErrorCode::target_off_ground,
+       "the target's centre lies " + std::to_string(std::lround(centre.norm())) +
            " m from the scene's origin, off its ground",
        mission.file.places.target,
        "latitude and longitude are the wrong way round: write center: [latitude, longitude]");
@@ -358,9 +366,12 @@ void check_outdoors(const Mission& mission) {
     const TargetFrame frame = make_target_frame(mission.target, i);
     const auto solid = solid_round(scene, frame.origin + kClear * frame.normal);
     if (!solid) continue;
-    fail("the target lies inside " + in_quotes(display_name(scene.objects[*solid])), mission.file.places.target,
-         how_to_leave_out(mission.loaded, *solid, mission.file.ground_target->osm)
-             .value_or("name a place outdoors; for a roof give its 'vertices', for a storey a scene that has rooms"));
+    throw Error(
+        ErrorCode::target_inside_solid, "the target lies inside " + in_quotes(display_name(scene.objects[*solid])),
+        mission.file.places.target,
+        how_to_leave_out(mission.loaded, *solid, mission.file.ground_target->osm)
+            .value_or("name a place outdoors; for a roof give its 'vertices', for a storey a scene that has rooms"),
+        *solid);
   }
 }
 

@@ -31,21 +31,21 @@ Eigen::Vector2d scene_position(const Georeference& georeference, double longitud
     return std::abs(latitude) <= 90 && std::abs(longitude) <= 180 &&
            frame.to_local({longitude, latitude}).norm() <= geo::kFarthestM;
   };
-  const auto refuse = [&](const std::string& problem, const std::string& fix) {
-    throw Error(ErrorKind::input,
-                "longitude " + decimal(longitude_deg) + ", latitude " + decimal(latitude_deg) + problem, "position",
-                fix);
+  const auto refuse = [&](ErrorCode code, const std::string& problem, const std::string& fix) {
+    throw Error(code, "longitude " + decimal(longitude_deg) + ", latitude " + decimal(latitude_deg) + problem,
+                "position", fix);
   };
   constexpr const char* kOrder = "give the longitude before the latitude";
   const bool is_valid = std::abs(latitude_deg) <= 90 && std::abs(longitude_deg) <= 180;  // not-a-number is not
   if (!is_valid) {
-    refuse(" is no place on the earth", is_near(latitude_deg, longitude_deg)
-                                            ? kOrder
-                                            : "give a longitude in -180 to 180 and a latitude in -90 to 90");
+    refuse(
+        ErrorCode::not_on_earth, " is no place on the earth",
+        is_near(latitude_deg, longitude_deg) ? kOrder : "give a longitude in -180 to 180 and a latitude in -90 to 90");
   }
   const Eigen::Vector2d position = frame.to_local({longitude_deg, latitude_deg});
   if (position.norm() > geo::kFarthestM) {
-    refuse(" lies " + std::to_string(std::lround(position.norm() / 1000)) + " km from the scene's origin",
+    refuse(ErrorCode::too_far_away,
+           " lies " + std::to_string(std::lround(position.norm() / 1000)) + " km from the scene's origin",
            is_near(latitude_deg, longitude_deg)
                ? kOrder
                : "give positions within 100 km of it, in WGS 84: longitude before latitude");
@@ -64,7 +64,7 @@ LocalFrame::LocalFrame(LonLat origin) {
   // Written so that not-a-number is refused too.
   const bool valid = std::abs(origin.latitude_deg) <= 90 && std::abs(origin.longitude_deg) <= 180;
   if (!valid) {
-    throw Error(ErrorKind::input,
+    throw Error(ErrorCode::not_on_earth,
                 "latitude " + decimal(origin.latitude_deg) + ", longitude " + decimal(origin.longitude_deg) +
                     " is no place on the earth",
                 "origin of the scene frame",
@@ -84,7 +84,7 @@ LonLat LocalFrame::origin() const { return data_->origin; }
 
 Eigen::Vector2d LocalFrame::to_local(LonLat position) const {
   if (!(std::abs(position.latitude_deg) <= 90) || !std::isfinite(position.longitude_deg)) {
-    throw Error(ErrorKind::input,
+    throw Error(ErrorCode::not_on_earth,
                 "latitude " + decimal(position.latitude_deg) + ", longitude " + decimal(position.longitude_deg) +
                     " is no place on the earth",
                 "position", "correct it; is its coordinate reference system the right one?");
@@ -98,7 +98,7 @@ Eigen::Vector2d LocalFrame::to_local(LonLat position) const {
 
 LonLat LocalFrame::to_lonlat(const Eigen::Vector2d& local) const {
   if (!local.allFinite()) {
-    throw Error(ErrorKind::input, "a point that is not finite has no place on the earth", "scene frame",
+    throw Error(ErrorCode::coordinate_not_finite, "a point that is not finite has no place on the earth", "scene frame",
                 "correct its coordinates");
   }
   const double azimuth_deg = std::atan2(local.x(), local.y()) * 180 / std::numbers::pi;
@@ -115,7 +115,8 @@ void check_origin(LonLat origin, LonLat middle, const std::string& where) {
   if (distance <= kFarthestM) return;
   const LonLat swapped{origin.latitude_deg, origin.longitude_deg};
   const bool is_swapped = std::abs(swapped.latitude_deg) <= 90 && geodesic_m(swapped, middle) <= kFarthestM;
-  throw Error(ErrorKind::input, "the origin lies " + std::to_string(std::lround(distance / 1000)) + " km away", where,
+  throw Error(ErrorCode::too_far_away, "the origin lies " + std::to_string(std::lround(distance / 1000)) + " km away",
+              where,
               is_swapped ? "latitude and longitude are the wrong way round: give the latitude first"
                          : "give an origin nearby, or none: then it is the middle");
 }
