@@ -20,6 +20,7 @@ function(vantage_component name)
   target_include_directories(vantage_${name}_objects PRIVATE ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/src)
   target_compile_features(vantage_${name}_objects PRIVATE cxx_std_20)
   target_link_libraries(vantage_${name}_objects PRIVATE Eigen3::Eigen ${part_LINK} ${part_BUILD} vantage::options)
+  target_precompile_headers(vantage_${name}_objects PRIVATE ${PROJECT_SOURCE_DIR}/src/precompiled.h)
   set_target_properties(vantage_${name}_objects PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
 
   add_library(vantage_${name} $<TARGET_OBJECTS:vantage_${name}_objects>)

@@ -11,6 +11,7 @@
 #include "support/map_text.h"
 #include "support/shared_data.h"
 #include "support/temporary_directory.h"
+#include "support/wording.h"
 #include "vantage/city.h"
 #include "vantage/error.h"
 
@@ -29,16 +30,8 @@ class CityTest : public ::testing::Test {
     return build_city(folder_ / "city.osm", options);
   }
 
-  void expect_refused(const MapText& map, const CityOptions& options, const std::string& problem,
-                      const std::string& fix) {
-    try {
-      build(map, options);
-      ADD_FAILURE() << "not refused: " << problem;
-    } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::input);
-      EXPECT_NE(error.problem().find(problem), std::string::npos) << error.what();
-      EXPECT_NE(error.fix().find(fix), std::string::npos) << error.what();
-    }
+  void expect_refused(const MapText& map, const CityOptions& options, ErrorCode code) {
+    testing::expect_error([&] { build(map, options); }, code);
   }
 
   TemporaryDirectory folder_;
@@ -102,7 +95,7 @@ TEST_F(CityTest, PartsReplaceTheOutlineTheyLieIn) {
   EXPECT_NEAR(object_volume(city.scene, "way/3"), 20 * 20 * 80, 40);
   EXPECT_NEAR(record_of(city, "way/3").base_m, 20, 1e-9);
   EXPECT_EQ(record_of(city, "way/1").fate, Fate::skipped);
-  EXPECT_EQ(record_of(city, "way/1").reason, "its parts are built in its place");
+  testing::expect_wording(record_of(city, "way/1").reason);
 }
 
 TEST_F(CityTest, WhatPartsLeaveOpenIsBuilt) {
@@ -142,7 +135,7 @@ TEST_F(CityTest, PartsReplaceEveryOutlineTheyLieIn) {
   map.box(0, 0, 40, 40, {{"building:part", "yes"}, {"height", "50"}});
   map.box(0, 0, 100, 40, {{"building:part", "yes"}, {"location", "underground"}});
   const City city = build(map);
-  EXPECT_EQ(record_of(city, "way/2").reason, "its parts are built in its place");
+  testing::expect_wording(record_of(city, "way/2").reason);
   EXPECT_EQ(record_of(city, "way/1").fate, Fate::repaired);
   EXPECT_NEAR(record_of(city, "way/1").footprint_m2, 60 * 40, 3) << "what is underground covers nothing";
   EXPECT_NEAR(object_volume(city.scene, "way/3"), 40 * 40 * 50, 30);
@@ -155,8 +148,8 @@ TEST_F(CityTest, TellsOfPointsAndGroups) {
   map.relation({{"way", outline, "outline"}}, {{"type", "building"}, {"building", "yes"}});
   const City city = build(map);
   EXPECT_EQ(city.report.records.size(), 3U);
-  EXPECT_EQ(record_of(city, "node/5").reason, "drawn as a point: it has no outline");
-  EXPECT_EQ(record_of(city, "relation/1").reason, "its members are built in its place");
+  testing::expect_wording(record_of(city, "node/5").reason);
+  testing::expect_wording(record_of(city, "relation/1").reason);
 }
 
 TEST_F(CityTest, APartOfNoBuildingStandsAlone) {
@@ -194,11 +187,11 @@ TEST_F(CityTest, SaysWhatItMadeUp) {
   const City city = build(map);
   const CityRecord &open = record_of(city, "way/1"), &torn = record_of(city, "way/2"), &wall = record_of(city, "way/3");
   EXPECT_EQ(open.fate, Fate::repaired);
-  EXPECT_EQ(open.reason, "outline that is not closed: a straight side closes it");
+  testing::expect_wording(open.reason);
   ASSERT_EQ(open.remarks.size(), 1U);
-  EXPECT_NE(open.remarks[0].find("a straight side of 20.0 m"), std::string::npos) << open.remarks[0];
+  testing::expect_wording(open.remarks[0]);
   EXPECT_EQ(torn.fate, Fate::repaired);
-  EXPECT_EQ(torn.reason, "some of its nodes are not in the file: built from the others");
+  testing::expect_wording(torn.reason);
   EXPECT_EQ(wall.fate, Fate::repaired);
   EXPECT_NEAR(object_volume(city.scene, "way/2"), 200 * 9, 5);
 }
@@ -221,7 +214,7 @@ TEST_F(CityTest, ScribblesCostNeitherTimeNorTheOthers) {
   const City city = build(map);
   EXPECT_NE(record_of(city, "way/5").fate, Fate::skipped);
   EXPECT_EQ(record_of(city, "way/1").fate, Fate::written);
-  EXPECT_EQ(record_of(city, "way/2").reason, "outline that crosses itself more than a thousand times");
+  testing::expect_wording(record_of(city, "way/2").reason);
   EXPECT_EQ(record_of(city, "way/3").fate, Fate::repaired);
   EXPECT_EQ(record_of(city, "way/4").fate, Fate::written);
   EXPECT_EQ(object_mesh(city.scene, "way/4").triangles.size(), 1899U * 12) << "each side is a box";
@@ -237,7 +230,7 @@ TEST_F(CityTest, SkipsWhatIsNoBuildingAndSaysWhy) {
   const City city = build(map);
   EXPECT_EQ(record_of(city, "way/2").reason, "underground");
   EXPECT_EQ(record_of(city, "way/3").fate, Fate::skipped) << "a line";
-  EXPECT_EQ(record_of(city, "way/4").reason, "outline more than 3 km across");
+  testing::expect_wording(record_of(city, "way/4").reason);
   EXPECT_THROW(record_of(city, "way/5"), std::runtime_error) << "not a building at all";
   std::map<Fate, int> fates;
   for (const CityRecord& record : city.report.records) ++fates[record.fate];
@@ -254,7 +247,7 @@ TEST_F(CityTest, WhatLiesUndergroundIsNotBuilt) {
   const CityRecord& doubtful = record_of(city, "way/1");
   EXPECT_EQ(doubtful.fate, Fate::written) << "a layer alone does not say that it cannot be seen";
   ASSERT_EQ(doubtful.remarks.size(), 1U);
-  EXPECT_EQ(doubtful.remarks[0], "layer=-1: its layer is not used");
+  testing::expect_wording(doubtful.remarks[0]);
 }
 
 TEST_F(CityTest, DefaultsCanBeSet) {
@@ -312,21 +305,21 @@ TEST_F(CityTest, RefusesRegionsThatHoldNothing) {
   CityOptions options;
   options.region.radius_m = 50;
   options.region.center_deg = {48.1374, 11.5955};
-  expect_refused(map, options, "nothing to build in the area", "the nearest of 1 objects is 14");
+  expect_refused(map, options, ErrorCode::region_empty);
   options.region.center_deg = {11.5755, 48.1374};
-  expect_refused(map, options, "outside the map", "the wrong way round: write 48.1374,11.5755");
+  expect_refused(map, options, ErrorCode::region_outside);
   options.region.center_deg = {47, 11};
-  expect_refused(map, options, "outside the map", "the map holds latitude 48.13");
+  expect_refused(map, options, ErrorCode::region_outside);
   options.region.center_deg = {148, 11};
-  expect_refused(map, options, "no place at latitude 148", "write the latitude first: 11,148");
+  expect_refused(map, options, ErrorCode::not_on_earth);
   options.region.center_deg = {48.1374, 11.5755};
   options.region.radius_m = 0;
-  expect_refused(map, options, "radius", "more than 0");
+  expect_refused(map, options, ErrorCode::region_invalid);
   options.region = {};
   options.region.bbox_deg = {11.6, 48.1, 11.5, 48.2};
-  expect_refused(map, options, "the box holds nothing", "west,south,east,north");
+  expect_refused(map, options, ErrorCode::region_invalid);
   options.region.bbox_deg = {48.1, 11.5, 48.2, 11.6};
-  expect_refused(map, options, "outside the map", "the wrong way round");
+  expect_refused(map, options, ErrorCode::region_outside);
 }
 
 TEST_F(CityTest, SaysWhyNothingCanBeBuilt) {
@@ -335,14 +328,13 @@ TEST_F(CityTest, SaysWhyNothingCanBeBuilt) {
   map.box(30, 0, 50, 20, {{"building", "yes"}, {"location", "underground"}});
   map.node(30, 30, {{"building", "yes"}});
   map.relation({{"way", cellar, "outline"}}, {{"type", "building"}, {"building", "yes"}});
-  expect_refused(map, {}, "nothing that the map holds can be built",
-                 "underground (2), drawn as a point: it has no outline (1), its members are skipped too (1)");
+  expect_refused(map, {}, ErrorCode::map_empty);
   map.box(1000, 0, 1020, 20, {{"building", "yes"}});
   CityOptions options;
   options.region.center_deg = {48.1374, 11.5755};
   options.region.radius_m = 100;
-  expect_refused(map, options, "nothing to build in the area", "the nearest of 1 objects is 10");
-  expect_refused(map, options, "nothing to build in the area", "near it: underground (2)");
+  expect_refused(map, options, ErrorCode::region_empty);
+  expect_refused(map, options, ErrorCode::region_empty);
 }
 
 TEST_F(CityTest, GroupsBelongToTheRegionThatTheirMembersDo) {
@@ -363,7 +355,7 @@ TEST_F(CityTest, GroupsBelongToTheRegionThatTheirMembersDo) {
 TEST_F(CityTest, RefusesAMapWithoutBuildings) {
   MapText map;
   map.line({{0, 0}, {100, 0}}, {{"highway", "residential"}});
-  expect_refused(map, {}, "holds no building", "give an extract with buildings");
+  expect_refused(map, {}, ErrorCode::map_empty);
 }
 
 TEST_F(CityTest, StandsOnTerrain) {

@@ -6,6 +6,7 @@
 
 #include "maps/city/building_form.h"
 #include "support/random.h"
+#include "support/wording.h"
 
 namespace vantage::internal::city {
 namespace {
@@ -18,8 +19,9 @@ struct Reading {
   BuildingForm form;
   std::vector<TagRemark> remarks;
 
-  bool has(const std::string& kind) const {
-    return std::any_of(remarks.begin(), remarks.end(), [&](const TagRemark& r) { return r.kind == kind; });
+  bool has(TagFault fault, const std::string& key = "") const {
+    return std::any_of(remarks.begin(), remarks.end(),
+                       [&](const TagRemark& r) { return r.fault == fault && r.key == key; });
   }
 };
 
@@ -116,7 +118,8 @@ TEST(CityForm, HeightsAndTheirOrder) {
   EXPECT_EQ(read({{"building", "yes"}, {"building:levels", "2"}, {"roof:height", "4"}}).form.top_m, 10);
   const Reading part = read({{"building:part", "yes"}, {"height", "100"}, {"min_height", "5;5.5"}});
   EXPECT_EQ(part.form.bottom_m, 5.5);
-  EXPECT_EQ(read({{"building:part", "yes"}, {"building:levels", "6"}, {"building:min_level", "2"}}).form.bottom_m, 6);
+  const Reading above = read({{"building:part", "yes"}, {"building:levels", "6"}, {"building:min_level", "2"}});
+  EXPECT_EQ(above.form.bottom_m, 6);
   const Reading storeys =
       read({{"building:part", "yes"}, {"height", "84"}, {"building:levels", "21"}, {"building:min_level", "20"}});
   EXPECT_NEAR(storeys.form.bottom_m, 80, 1e-9) << "levels of 4 m";
@@ -134,46 +137,46 @@ TEST(CityForm, NonsenseIsRemarkedOnAndTakenAsUntagged) {
   const Reading concrete = read({{"building", "yes"}, {"height", "concrete"}, {"building:levels", "concrete"}});
   EXPECT_EQ(concrete.form.top_m, 9);
   ASSERT_EQ(concrete.remarks.size(), 2u);
-  EXPECT_EQ(concrete.remarks[0].kind, "height that is no length");
-  EXPECT_EQ(concrete.remarks[0].what, "height=concrete: taken as untagged");
-  EXPECT_EQ(concrete.remarks[1].kind, "levels that are no number");
+  EXPECT_TRUE(concrete.has(TagFault::no_value, "height"));
+  EXPECT_TRUE(concrete.has(TagFault::no_value, "building:levels"));
+  vantage::testing::expect_wording(concrete.remarks[0].what);
   const Reading negative = read({{"building", "yes"}, {"height", "-12"}, {"building:levels", "2"}});
   EXPECT_EQ(negative.form.top_m, 6);
-  EXPECT_TRUE(negative.has("negative height"));
-  EXPECT_TRUE(read({{"building", "yes"}, {"height", "0"}}).has("height of zero"));
+  EXPECT_TRUE(negative.has(TagFault::negative, "height"));
+  EXPECT_TRUE(read({{"building", "yes"}, {"height", "0"}}).has(TagFault::zero, "height"));
   EXPECT_EQ(read({{"building", "yes"}, {"height", "0"}, {"est_height", "7"}}).form.top_m, 7);
-  EXPECT_TRUE(read({{"building", "yes"}, {"height", "99999"}}).has("height beyond belief"));
-  EXPECT_TRUE(read({{"building", "yes"}, {"building:levels", "0"}}).has("no levels and no height"));
+  EXPECT_TRUE(read({{"building", "yes"}, {"height", "99999"}}).has(TagFault::beyond_belief, "height"));
+  EXPECT_TRUE(read({{"building", "yes"}, {"building:levels", "0"}}).has(TagFault::zero, "building:levels"));
   EXPECT_EQ(read({{"building", "yes"}, {"building:levels", "0"}}).form.top_m, 9);
   EXPECT_EQ(read({{"building", "yes"}, {"building:levels", "0"}, {"roof:height", "4"}}).form.top_m, 4);
   const Reading below = read({{"building", "retail"}, {"height", "19.9"}, {"building:min_level", "-1"}});
   EXPECT_EQ(below.form.bottom_m, 0);
-  EXPECT_TRUE(below.has("negative levels"));
+  EXPECT_TRUE(below.has(TagFault::negative, "building:min_level"));
   const Reading many = read({{"building", "yes"}, {"roof:shape", "many"}, {"roof:direction", "up"}});
   EXPECT_EQ(many.form.roof, RoofShape::flat);
-  EXPECT_TRUE(many.has("unknown roof shape"));
+  EXPECT_TRUE(many.has(TagFault::unknown_roof, "roof:shape"));
 }
 
 TEST(CityForm, MinHeightNotBelowHeight) {
   const Reading above = read({{"building:part", "yes"}, {"height", "48"}, {"min_height", "51"}});
   EXPECT_EQ(above.form.bottom_m, 0);
   EXPECT_EQ(above.form.top_m, 48);
-  EXPECT_TRUE(above.has("min_height not below height"));
+  EXPECT_TRUE(above.has(TagFault::bottom_too_high, "min_height"));
   const Reading equal = read({{"building:part", "yes"}, {"height", "5"}, {"min_height", "5"}});
   EXPECT_EQ(equal.form.bottom_m, 4.5);
   EXPECT_EQ(equal.form.top_m, 5);
-  EXPECT_TRUE(equal.has("min_height not below height"));
+  EXPECT_TRUE(equal.has(TagFault::bottom_too_high, "min_height"));
   EXPECT_EQ(read({{"building:part", "yes"}, {"height", "5"}, {"min_height", "4.995"}}).form.bottom_m, 4.5);
   const Reading levels = read({{"building:part", "yes"}, {"building:levels", "2"}, {"building:min_level", "2"}});
   EXPECT_EQ(levels.form.bottom_m, 6);
   EXPECT_EQ(levels.form.top_m, 12);
-  EXPECT_TRUE(levels.has("building:levels not above building:min_level"));
+  EXPECT_TRUE(levels.has(TagFault::bottom_too_high, "building:levels"));
   const Reading dome =
       read({{"building", "church"}, {"min_height", "18"}, {"roof:shape", "dome"}, {"roof:height", "5"}});
   EXPECT_EQ(dome.form.bottom_m, 18);
   EXPECT_EQ(dome.form.top_m, 23);
   EXPECT_EQ(dome.form.roof_m, 5);
-  EXPECT_TRUE(dome.has("no height above the bottom"));
+  EXPECT_TRUE(dome.has(TagFault::no_height, "min_height"));
   EXPECT_EQ(read({{"building:part", "yes"}, {"min_height", "13"}}).form.top_m, 16);
 }
 
@@ -184,7 +187,7 @@ TEST(CityForm, Roofs) {
   EXPECT_EQ(gabled.form.roof_m, 9 - 7.9);
   const Reading high = read({{"building", "yes"}, {"height", "9"}, {"roof:shape", "hipped"}, {"roof:height", "11"}});
   EXPECT_EQ(high.form.roof_m, 9);
-  EXPECT_TRUE(high.has("roof higher than the building"));
+  EXPECT_TRUE(high.has(TagFault::roof_too_high, "roof:height"));
   const Reading open = read({{"building", "house"}, {"roof:shape", "gabled"}});
   ASSERT_TRUE(open.form.pitch);
   EXPECT_EQ(open.form.pitch->angle_deg, 30);
@@ -194,8 +197,8 @@ TEST(CityForm, Roofs) {
   EXPECT_EQ(angle.form.pitch->angle_deg, 45);
   EXPECT_EQ(angle.form.pitch->most_share, 1);
   EXPECT_FALSE(angle.form.pitch->on_top);
-  EXPECT_TRUE(
-      read({{"building", "yes"}, {"roof:shape", "gabled"}, {"roof:angle", "95"}}).has("roof angle that is none"));
+  EXPECT_TRUE(read({{"building", "yes"}, {"roof:shape", "gabled"}, {"roof:angle", "95"}})
+                  .has(TagFault::no_value, "roof:angle"));
   const Reading turned = read({{"building", "yes"},
                                {"roof:shape", "skillion"},
                                {"roof:height", "2"},
@@ -205,8 +208,8 @@ TEST(CityForm, Roofs) {
   EXPECT_TRUE(turned.form.roof_across);
   EXPECT_TRUE(turned.remarks.empty());
   EXPECT_TRUE(read({{"building", "yes"}, {"roof:shape", "gabled"}, {"roof:orientation", "2"}})
-                  .has("roof orientation that is none"));
-  EXPECT_TRUE(read({{"building", "yes"}, {"roof:shape", "skillion"}}).has("skillion roof without a direction"));
+                  .has(TagFault::no_value, "roof:orientation"));
+  EXPECT_TRUE(read({{"building", "yes"}, {"roof:shape", "skillion"}}).has(TagFault::no_direction, "roof:shape"));
   EXPECT_EQ(read({{"building", "yes"}, {"roof:shape", "gabled"}, {"roof:height", "0"}}).form.roof, RoofShape::flat);
 }
 

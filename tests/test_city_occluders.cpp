@@ -33,8 +33,9 @@ struct Built {
     for (const Shape& shape : shapes) sum += enclosed_volume(make_solid(shape, 0).mesh);
     return sum;
   }
-  bool has(const std::string& kind) const {
-    return std::any_of(remarks.begin(), remarks.end(), [&](const TagRemark& r) { return r.kind == kind; });
+  bool has(TagFault fault, const std::string& key = "") const {
+    return std::any_of(remarks.begin(), remarks.end(),
+                       [&](const TagRemark& r) { return r.fault == fault && r.key == key; });
   }
 };
 
@@ -110,12 +111,12 @@ TEST(CityOccluders, Walls) {
   EXPECT_EQ(garden.shapes[0].footprint.holes.size(), 1u) << "the garden stays open";
   EXPECT_NEAR(garden.volume(), (21 * 11 - 19 * 9) * 1.5, 0.05);
   const Built nonsense = line({{"barrier", "fence"}, {"height", "tall"}, {"width", "-1"}}, kStraight);
-  EXPECT_TRUE(nonsense.has("height that is no length"));
-  EXPECT_TRUE(nonsense.has("width not above zero"));
+  EXPECT_TRUE(nonsense.has(TagFault::no_value, "height"));
+  EXPECT_TRUE(nonsense.has(TagFault::negative, "width"));
   EXPECT_NEAR(nonsense.box().max.z(), 1.5, 1e-12);
-  EXPECT_TRUE(line({{"barrier", "wall"}}, {{3, 3}, {3, 3}}).has("too small to build"));
+  EXPECT_TRUE(line({{"barrier", "wall"}}, {{3, 3}, {3, 3}}).has(TagFault::too_small));
   EXPECT_TRUE(line({{"barrier", "wall"}}, {}).shapes.empty());
-  EXPECT_TRUE(line({{"barrier", "wall"}}, {{0, 0}, {std::nan(""), 1}}).has("too small to build"));
+  EXPECT_TRUE(line({{"barrier", "wall"}}, {{0, 0}, {std::nan(""), 1}}).has(TagFault::too_small));
 }
 
 TEST(CityOccluders, WallsInPiecesForSlopes) {
@@ -136,8 +137,8 @@ TEST(CityOccluders, Towers) {
   EXPECT_NEAR(point({{"man_made", "tower"}, {"tower:type", "lighting"}}).box().max.z(), 15, 1e-9);
   EXPECT_NEAR(point({{"man_made", "mast"}}).box().max.z(), 25, 1e-9);
   const Built odd = point({{"man_made", "chimney"}, {"diameter", "1,5-2,5"}, {"height", "-4"}});
-  EXPECT_TRUE(odd.has("diameter that is no length"));
-  EXPECT_TRUE(odd.has("negative height"));
+  EXPECT_TRUE(odd.has(TagFault::no_value, "diameter"));
+  EXPECT_TRUE(odd.has(TagFault::negative, "height"));
   EXPECT_NEAR(odd.box().max.z(), 30, 1e-9);
   const Built silo = point({{"man_made", "silo"}, {"height", "12"}, {"roof:shape", "dome"}, {"roof:height", "3"}});
   EXPECT_LT(silo.volume(), 12 * kPi * 9);
@@ -158,9 +159,10 @@ TEST(CityOccluders, BridgesCanBeLookedUnder) {
   EXPECT_NEAR(line({{"bridge", "yes"}, {"highway", "steps"}, {"min_height", "5;5.5"}}, kStraight).box().min.z(), 5.5,
               1e-12);
   const Built below = line({{"bridge", "yes"}, {"highway", "footway"}, {"layer", "-2"}}, kStraight);
-  EXPECT_TRUE(below.has("bridge below the ground"));
+  EXPECT_TRUE(below.has(TagFault::below_ground, "layer"));
   EXPECT_NEAR(below.box().min.z(), 0, 1e-12);
-  EXPECT_TRUE(line({{"bridge", "yes"}, {"highway", "footway"}, {"layer", "x"}}, kStraight).has("layer that is none"));
+  EXPECT_TRUE(
+      line({{"bridge", "yes"}, {"highway", "footway"}, {"layer", "x"}}, kStraight).has(TagFault::no_value, "layer"));
   EXPECT_NEAR(line({{"bridge", "yes"}, {"highway", "primary_link"}}, kStraight).volume(), 100, 0.05);
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "support/places.h"
+#include "support/wording.h"
 #include "vantage/city.h"
 #include "vantage/error.h"
 
@@ -24,15 +25,9 @@ std::string number(double value) {
   return text;
 }
 
-Error refusal(const std::string& name, double value) {
+Error refusal(const std::string& name, double value, ErrorCode code) {
   CityOptions options;
-  try {
-    set_city_option(options, name, value, "here");
-  } catch (const Error& error) {
-    return error;
-  }
-  ADD_FAILURE() << name << " was taken";
-  return {ErrorKind::internal, "", "", ""};
+  return testing::expect_error([&] { set_city_option(options, name, value, "here"); }, code, "here");
 }
 
 TEST(CitySettings, EachSetsANumberOfItsOwnWithinItsBounds) {
@@ -48,8 +43,9 @@ TEST(CitySettings, EachSetsANumberOfItsOwnWithinItsBounds) {
       if (&other == &setting) continue;
       EXPECT_EQ(other.value(options), other.value(untouched)) << other.name;
     }
-    EXPECT_NE(refusal(setting.name, setting.most * 1.01).fix().find(number(setting.least)), std::string::npos);
-    refusal(setting.name, setting.least * 0.99);
+    const Error above = refusal(setting.name, setting.most * 1.01, ErrorCode::value_out_of_range);
+    EXPECT_NE(above.fix().find(number(setting.least)), std::string::npos) << above.what();
+    refusal(setting.name, setting.least * 0.99, ErrorCode::value_out_of_range);
   }
 }
 
@@ -70,14 +66,15 @@ TEST(CitySettings, OfAKind) {
 
 TEST(CitySettings, RefusesWhatIsNone) {
   for (const char* name : {"", "levles", "levels.", ".house", "floor.house", "wall"}) {
-    const Error error = refusal(name, 3);
-    EXPECT_EQ(error.where(), "here");
+    const Error error = refusal(name, 3, ErrorCode::unknown_choice);
     EXPECT_NE(error.fix().find("roof_pitch"), std::string::npos) << name;
   }
-  EXPECT_NE(refusal("tower.eiffel", 300).fix().find("lighthouse"), std::string::npos) << "it would never be looked up";
-  EXPECT_NE(refusal("wall.fence", -1).problem().find("wall.fence"), std::string::npos);
-  refusal("levels.house", 0);
-  refusal("way.footway", 1e6);
+  const Error unknown = refusal("tower.eiffel", 300, ErrorCode::unknown_choice);  // it would never be looked up
+  EXPECT_NE(unknown.fix().find("lighthouse"), std::string::npos) << unknown.what();
+  const Error negative = refusal("wall.fence", -1, ErrorCode::value_out_of_range);
+  EXPECT_NE(negative.problem().find("wall.fence"), std::string::npos) << negative.what();
+  refusal("levels.house", 0, ErrorCode::value_out_of_range);
+  refusal("way.footway", 1e6, ErrorCode::value_out_of_range);
 }
 
 TEST(CitySettings, TheManualHasThemAll) {

@@ -118,7 +118,7 @@ TEST(CityJsonFiles, DelftLiesWhereItsMetadataSay) {
   }
   EXPECT_LT(scene.mesh.vertices[0].head<2>().norm(), 400);
   EXPECT_EQ(scene.notes.size(), 1u);
-  EXPECT_NE(scene.notes[0].find("160 shells of solids are not closed"), std::string::npos) << scene.notes[0];
+  EXPECT_EQ(scene.notes[0].rfind("160 shells", 0), 0U) << scene.notes[0];
 }
 
 TEST(CityJsonFiles, TakesTheHighestLevelOfDetailUnlessAsked) {
@@ -130,15 +130,14 @@ TEST(CityJsonFiles, TakesTheHighestLevelOfDetailUnlessAsked) {
   EXPECT_EQ(highest.mesh.triangles, two.mesh.triangles);
   EXPECT_FALSE(highest.georeference);
   EXPECT_TRUE(highest.notes.empty());
-  testing::expect_input_error([&] { read_scene(file, {.lod = "3"}); }, "no CityObject has a geometry of LoD 3",
-                              "multi_lod.city.json");
+  testing::expect_code([&] { read_scene(file, {.lod = "3"}); }, ErrorCode::level_of_detail_missing,
+                       "multi_lod.city.json");
 }
 
 TEST(CityJsonFiles, SaysWhatIsInvalid) {
   const std::string name = "cityjson/twobuildings_invalid.city.json";
   VANTAGE_REQUIRE_SHARED(name);
-  testing::expect_input_error([&] { read_scene(shared_data(name)); },
-                              "\"CityObjects\" is missing; there is \"City Objects\"", "twobuildings_invalid");
+  testing::expect_code([&] { read_scene(shared_data(name)); }, ErrorCode::mesh_syntax, "twobuildings_invalid");
 }
 
 TEST(CityJsonFiles, GoThroughEveryFormat) {

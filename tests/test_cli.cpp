@@ -36,14 +36,15 @@ TEST_F(CliUsage, Version) {
 TEST_F(CliUsage, HelpIsACommandToo) {
   EXPECT_EQ(output_of({"help"}), output_of({"--help"}));
   for (const char* command : kCommands) EXPECT_EQ(output_of({"help", command}), output_of({command, "--help"}));
-  expect_bad({"help", "comptue"}, "'comptue'", "command line", "did you mean 'compute'?");
-  expect_bad({"comptue", "--help"}, "'comptue'", "command line", "did you mean 'compute'?");
+  expect_bad({"help", "comptue"}, "command line");
+  expect_bad({"comptue", "--help"}, "command line");
   EXPECT_NE(output_of({"help", "--help"}), output_of({"--help"}));
 }
 
 TEST_F(CliUsage, MisspeltOptionsGetASuggestion) {
   const auto expect_suggestion = [&](const std::vector<std::string>& arguments, const std::string& suggestion) {
-    expect_bad(arguments, "", "command line", suggestion);
+    const std::string said = expect_bad(arguments, "command line");
+    EXPECT_NE(said.find(suggestion), std::string::npos) << said;
   };
   expect_suggestion({"compute", "mission.yaml", "--ouput", "v.ply"}, "'--output'");
   expect_suggestion({"compute", "mission.yaml", "--out", "v.ply"}, "'--output'");
@@ -110,7 +111,7 @@ TEST_F(CliUsage, EveryCommandObeysTheTable) {
   EXPECT_EQ(code({"spheres", "-c", "config.yaml"}), 2);
   EXPECT_EQ(code({"render", "none.yaml", "-o", "p.png"}), 2);
   for (const char* command : kCommands) {
-    EXPECT_EQ(code({command, "--no-such-option"}), 2) << command;
+    EXPECT_EQ(code({command, "--unknown"}), 2) << command;
     EXPECT_EQ(code({command, "--help"}), 0) << command;
   }
 }
@@ -124,13 +125,13 @@ TEST_F(CliUsage, AMissionFromStandardInput) {
   EXPECT_EQ(run({"verify", "-", "a.ply", "--points", "200"}).exit_code, 0);
   write("points.csv", "0,0,30\n");
   EXPECT_EQ(output_of({"query", "-", "points.csv"}), output_of({"query", "mission.yaml", "points.csv"}));
-  expect_bad({"query", "-", "-"}, "standard input", "command line");
+  expect_bad({"query", "-", "-"}, "command line");
   options_.input = std::string(kScene) + kTarget + "sensor: {max_rnage: 60}\n";
-  expect_bad({"compute", "-", "-o", "volume.ply"}, "max_rnage", "standard input:5:10", "max_range");
+  expect_bad({"compute", "-", "-o", "volume.ply"}, "standard input:5:10");
   options_.input.assign(std::size_t{3} << 20, '#');
-  expect_bad({"compute", "-", "-o", "volume.ply"}, "too large", "standard input");
+  expect_bad({"compute", "-", "-o", "volume.ply"}, "standard input");
   options_.input = "";
-  expect_bad({"compute", "-", "-o", "volume.ply"}, "", "standard input");
+  expect_bad({"compute", "-", "-o", "volume.ply"}, "standard input");
 }
 
 TEST_F(CliUsage, AVolumeToStandardOutput) {
@@ -155,12 +156,12 @@ TEST_F(CliUsage, AVolumeToStandardOutput) {
   const std::string both = output_of({"compute", "mission.yaml", "-q", "-o", "-", "--format", "ply", "-o", "w.ply"});
   EXPECT_TRUE(both == content(folder_ / "w.ply"));
 
-  expect_bad({"compute", "mission.yaml", "-o", "-"}, "which format", "-o -", "--format ply");
-  expect_bad({"compute", "mission.yaml", "-o", "-", "--format", "xyz"}, "--format", "command line");
-  expect_bad({"compute", "mission.yaml", "-o", "v.ply", "--format", "ply"}, "--format", "--format");
-  expect_bad({"compute", "mission.yaml", "-o", "v.ply", "--report", "r.json"}, "--report", "--report");
-  expect_bad({"compute", "mission.yaml", "-o", "-", "--format", "ply", "--json"}, "standard output", "--json");
-  expect_bad({"compute", "mission.yaml", "-o", "-", "--format", "ply", "-o", "-"}, "named twice", "-");
+  expect_bad({"compute", "mission.yaml", "-o", "-"}, "-o -");
+  expect_bad({"compute", "mission.yaml", "-o", "-", "--format", "xyz"}, "command line");
+  expect_bad({"compute", "mission.yaml", "-o", "v.ply", "--format", "ply"}, "--format");
+  expect_bad({"compute", "mission.yaml", "-o", "v.ply", "--report", "r.json"}, "--report");
+  expect_bad({"compute", "mission.yaml", "-o", "-", "--format", "ply", "--json"}, "--json");
+  expect_bad({"compute", "mission.yaml", "-o", "-", "--format", "ply", "-o", "-"}, "-");
   write("near.yaml", std::string(kScene) + kTarget + "sensor: {max_range: 5}\n");
   const ProgramRun empty = run({"compute", "near.yaml", "-q", "-o", "-", "--format", "ply", "--fail-empty"});
   EXPECT_EQ(empty.exit_code, 1);
@@ -168,84 +169,79 @@ TEST_F(CliUsage, AVolumeToStandardOutput) {
 }
 
 TEST_F(CliUsage, RefusesStandardStreamsWhereTheyMeanNothing) {
-  expect_bad({"inspect", "-"}, "standard input", "-");
-  expect_bad({"verify", "mission.yaml", "-"}, "standard input", "-");
-  expect_bad({"compare", "city.obj", "-"}, "standard input", "-");
-  expect_bad({"spheres", "-c", "-"}, "standard input", "-");
-  expect_bad({"compare", "city.obj", "city.obj", "--only-a", "-"}, "standard output", "-");
+  expect_bad({"inspect", "-"}, "-");
+  expect_bad({"verify", "mission.yaml", "-"}, "-");
+  expect_bad({"compare", "city.obj", "-"}, "-");
+  expect_bad({"spheres", "-c", "-"}, "-");
+  expect_bad({"compare", "city.obj", "city.obj", "--only-a", "-"}, "-");
 }
 
 TEST_F(CliUsage, Mistakes) {
-  expect_bad({}, "no command is given", "command line", "vantage --help");
-  expect_bad({"comptue"}, "there is no command 'comptue'", "command line", "did you mean 'compute'?");
-  expect_bad({"inspect", "city.obj", "--sacle", "2"}, "--sacle", "command line", "did you mean '--scale'?");
-  expect_bad({"--colour", "inspect"}, "--colour", "command line", "vantage --help");
-  expect_bad({"inspect"}, "scene", "command line", "vantage inspect --help");
-  expect_bad({"inspect", "city.obj", "--up", "x"}, "--up", "command line");
-  expect_bad({"inspect", "city.obj", "--scale", "nan"}, "--scale must be a positive number, not 'nan'", "--scale");
-  expect_bad({"inspect", "city.obj", "--scale", "-1"}, "--scale must be a positive number, not '-1'", "--scale");
-  expect_bad({"inspect", "city.obj", "--threads", "-1"}, "--threads", "command line");
-  expect_bad({"compute", "mission.yaml"}, "--output", "command line", "vantage compute --help");
-  expect_bad({"verify", "mission.yaml"}, "volume", "command line", "vantage verify --help");
-  expect_bad({"verify", "mission.yaml", "volume.ply", "--points", "0"}, "--points", "command line");
-  expect_bad({"query", "mission.yaml"}, "points", "command line", "vantage query --help");
+  expect_bad({}, "command line");
+  expect_bad({"comptue"}, "command line");
+  expect_bad({"inspect", "city.obj", "--sacle", "2"}, "command line");
+  expect_bad({"--colour", "inspect"}, "command line");
+  expect_bad({"inspect"}, "command line");
+  expect_bad({"inspect", "city.obj", "--up", "x"}, "command line");
+  expect_bad({"inspect", "city.obj", "--scale", "nan"}, "--scale");
+  expect_bad({"inspect", "city.obj", "--scale", "-1"}, "--scale");
+  expect_bad({"inspect", "city.obj", "--threads", "-1"}, "command line");
+  expect_bad({"compute", "mission.yaml"}, "command line");
+  expect_bad({"verify", "mission.yaml"}, "command line");
+  expect_bad({"verify", "mission.yaml", "volume.ply", "--points", "0"}, "command line");
+  expect_bad({"query", "mission.yaml"}, "command line");
 }
 
 TEST_F(CliBadMission, MissingOrUnreadable) {
-  expect_bad({"compute", "none.yaml", "-o", "volume.ply"}, "the mission file does not exist", "none.yaml");
-  expect_bad({"compute", ".", "-o", "volume.ply"}, "the mission file is a folder", ".");
-  expect_bad({"query", "none.yaml", "-"}, "the mission file does not exist", "none.yaml");
-  expect_bad({"verify", "none.yaml", "city.obj"}, "the mission file does not exist", "none.yaml");
+  expect_bad({"compute", "none.yaml", "-o", "volume.ply"}, "none.yaml");
+  expect_bad({"compute", ".", "-o", "volume.ply"}, ".");
+  expect_bad({"query", "none.yaml", "-"}, "none.yaml");
+  expect_bad({"verify", "none.yaml", "city.obj"}, "none.yaml");
   become_nobody();
   if (!run({"--version"}).was_started) GTEST_SKIP() << "the program is out of reach of a user without rights";
   fs::permissions(folder_ / "mission.yaml", fs::perms::none);
-  expect_bad({"compute", "mission.yaml", "-o", "volume.ply"}, "the mission file cannot be read", "mission.yaml");
+  expect_bad({"compute", "mission.yaml", "-o", "volume.ply"}, "mission.yaml");
   fs::permissions(folder_ / "mission.yaml", fs::perms::all);
   fs::permissions(folder_ / "city.obj", fs::perms::none);
-  expect_bad({"compute", "mission.yaml", "-o", "volume.ply"}, "the scene's mesh file cannot be read", "city.obj");
-  expect_bad({"inspect", "city.obj"}, "the scene file cannot be read", "city.obj");
+  expect_bad({"compute", "mission.yaml", "-o", "volume.ply"}, "city.obj");
+  expect_bad({"inspect", "city.obj"}, "city.obj");
 }
 
 TEST_F(CliBadMission, MissingScene) {
-  expect_bad_mission(std::string("scene: {mesh: none.obj}\n") + kTarget + kSensor,
-                     "the scene's mesh file does not exist", "mission.yaml:1:15");
-  expect_bad_mission(std::string("scene: {mesh: .}\n") + kTarget + kSensor, "the scene's mesh file is a folder",
-                     "mission.yaml:1:15");
+  expect_bad_mission(std::string("scene: {mesh: none.obj}\n") + kTarget + kSensor, "mission.yaml:1:15");
+  expect_bad_mission(std::string("scene: {mesh: .}\n") + kTarget + kSensor, "mission.yaml:1:15");
 }
 
 TEST_F(CliBadMission, KeysAndTypes) {
   const std::string start = std::string(kScene) + kTarget;
-  expect_bad_mission(start + "sensor: {max_rnage: 60}\n", "unknown key 'max_rnage' in sensor", "mission.yaml:5:10",
-                     "did you mean 'max_range'?");
-  expect_bad_mission(start + "sensor: {max_range: far}\n", "must be a number, not 'far'", "mission.yaml:5:21");
-  expect_bad_mission(start + "sensor: {max_range: .nan}\n", "is not finite", "mission.yaml:5:21");
-  expect_bad_mission(start + "sensor: {max_range: .inf}\n", "is not finite", "mission.yaml:5:21");
-  expect_bad_mission(start + "sensor: {}\n", "sensor lacks the key 'max_range'", "mission.yaml:5:9", "max_range: 100");
-  expect_bad_mission(start + "sensor: {max_range: 0}\n", "must be greater than 0", "mission.yaml:5:21");
-  expect_bad_mission(start + "sensor: {max_range: -60}\n", "must be greater than 0", "mission.yaml:5:21");
-  expect_bad_mission(start + kSensor + "navigation: {altitude: [120, 20]}\n", "altitude is reversed",
-                     "mission.yaml:6:24", "[20, 120]");
-  expect_bad_mission(start + kSensor + "navigation: {boxes: [{min: [0, 0, 9], max: [1, 1, 8]}]}\n", "reversed in z",
+  expect_bad_mission(start + "sensor: {max_rnage: 60}\n", "mission.yaml:5:10");
+  expect_bad_mission(start + "sensor: {max_range: far}\n", "mission.yaml:5:21");
+  expect_bad_mission(start + "sensor: {max_range: .nan}\n", "mission.yaml:5:21");
+  expect_bad_mission(start + "sensor: {max_range: .inf}\n", "mission.yaml:5:21");
+  expect_bad_mission(start + "sensor: {}\n", "mission.yaml:5:9");
+  expect_bad_mission(start + "sensor: {max_range: 0}\n", "mission.yaml:5:21");
+  expect_bad_mission(start + "sensor: {max_range: -60}\n", "mission.yaml:5:21");
+  expect_bad_mission(start + kSensor + "navigation: {altitude: [120, 20]}\n", "mission.yaml:6:24");
+  expect_bad_mission(start + kSensor + "navigation: {boxes: [{min: [0, 0, 9], max: [1, 1, 8]}]}\n",
                      "mission.yaml:6:22");
 }
 
 TEST_F(CliBadMission, Vertices) {
-  expect_bad_vertices("[[0, 0, 0], [9, 0, 0]]", "at least 3 vertices");
-  expect_bad_vertices("[[0, 0, 0], [9, 0, .nan], [9, 9, 0]]", "vertices[1].z is not finite", "mission.yaml:4:32");
-  expect_bad_vertices("[[0, 0, 0], [9, 0, 0], [9, 9, 0.5], [0, 9, 0]]", "vertex 2 is off by 0.1249 m");
-  expect_bad_vertices("[[0, 0, 0], [9, 0, 0], [2, 2, 0], [0, 9, 0]]", "vertex 2");
-  expect_bad_vertices("[[0, 0, 0], [9, 0, 0], [9, 0, 0], [0, 9, 0]]", "same point");
-  expect_bad_vertices("[[0, 0, 0], [9, 0, 0], [4, 0, 0]]", "area");
+  expect_bad_vertices("[[0, 0, 0], [9, 0, 0]]");
+  expect_bad_vertices("[[0, 0, 0], [9, 0, .nan], [9, 9, 0]]", "mission.yaml:4:32");
+  expect_bad_vertices("[[0, 0, 0], [9, 0, 0], [9, 9, 0.5], [0, 9, 0]]");
+  expect_bad_vertices("[[0, 0, 0], [9, 0, 0], [2, 2, 0], [0, 9, 0]]");
+  expect_bad_vertices("[[0, 0, 0], [9, 0, 0], [9, 0, 0], [0, 9, 0]]");
+  expect_bad_vertices("[[0, 0, 0], [9, 0, 0], [4, 0, 0]]");
 }
 
 TEST_F(CliBadMission, Edges) {
   expect_bad_mission(std::string(kScene) + kTarget + "  edges: [[0, 2], [2, 1], [1, 3], [3, 0]]\n" + kSensor,
-                     "edge [0, 2] joins vertices that are not neighbours", "mission.yaml:5:11");
+                     "mission.yaml:5:11");
 }
 
 TEST_F(CliBadMission, TargetsThatTheSceneRefuses) {
-  const auto expect_bad_square = [&](const std::string& centre_x, const std::string& z, const std::string& what,
-                                     const std::string& fix) {
+  const auto expect_bad_square = [&](const std::string& centre_x, const std::string& z) {
     const std::string mission = std::string(kScene) + kSensor + "target:\n  vertices: [";
     const double x = std::stod(centre_x);
     std::string vertices;
@@ -253,11 +249,11 @@ TEST_F(CliBadMission, TargetsThatTheSceneRefuses) {
       vertices +=
           (vertices.empty() ? "[" : ", [") + std::to_string(x + dx) + ", " + std::to_string(dy) + ", " + z + "]";
     }
-    expect_bad_mission(mission + vertices + "]\n", what, "mission.yaml:4:13, target \"target\"", fix);
+    expect_bad_mission(mission + vertices + "]\n", "mission.yaml:4:13, target \"target\"");
   };
-  expect_bad_square("25", "0", "\"block\" stands on or passes through the target", "clear for 12 m");
-  expect_bad_square("25", "6", "\"block\" stands on or passes through the target", "clear for 6 m");
-  expect_bad_square("25", "10", "\"block\" stands on or passes through the target", "offset: 2.001");
+  expect_bad_square("25", "0");
+  expect_bad_square("25", "6");
+  expect_bad_square("25", "10");
 }
 
 using CliNotes = Cli;
@@ -270,33 +266,33 @@ TEST_F(CliNotes, ATargetUnderTheGroundIsToldAndComputed) {
   EXPECT_NE(shown.err.find("offset: 2.00"), std::string::npos) << shown.err;
   const auto report = nlohmann::json::parse(run({"compute", "buried.yaml", "-o", "out.ply", "--json"}).out);
   ASSERT_EQ(report.at("notes").size(), 1U);
-  EXPECT_NE(report.at("notes")[0].get<std::string>().find("\"ground\" is 2.000 m above"), std::string::npos);
+  testing::expect_wording(report.at("notes")[0].get<std::string>());
   EXPECT_EQ(report.at("outcome"), "computed");
 }
 
 TEST_F(CliBadMission, NavigationMeshes) {
   const std::string mission = std::string(kScene) + kTarget + kSensor + "navigation: {meshes: [zone.obj]}\n";
-  expect_bad_mission(mission, "the navigation mesh does not exist", "mission.yaml:6:23");
+  expect_bad_mission(mission, "mission.yaml:6:23");
   const std::string corners = "v -9 -9 0\nv 9 -9 0\nv 0 9 0\nv 0 0 40\n";
   write("zone.obj", corners + "f 1 3 2\nf 1 2 4\nf 2 3 4\n");  // a side is missing
-  expect_bad_mission(mission, "the mesh is open", "mission.yaml:6:23, zone.obj");
+  expect_bad_mission(mission, "mission.yaml:6:23, zone.obj");
   const std::string solid = corners + "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
   write("zone.obj",
         solid + "v -9 -9 5\nv 9 -9 5\nv 0 9 5\nv 0 0 45\nf 5 7 6\nf 5 6 8\nf 6 7 8\nf 7 5 8\n");  // two that meet
-  expect_bad_mission(mission, "the mesh intersects itself", "mission.yaml:6:23, zone.obj");
+  expect_bad_mission(mission, "mission.yaml:6:23, zone.obj");
   write("zone.obj", solid);
   EXPECT_EQ(run({"compute", "mission.yaml", "-o", "volume.ply"}).exit_code, 0) << "the solid alone is fine";
 }
 
 TEST_F(CliBadMesh, EmptyAndGarbage) {
   for (const char* name : {"a.obj", "a.ply", "a.stl", "a.glb", "a.gltf", "a.obj.gz", "a.txt"}) {
-    expect_bad_scene(name, "", "");
+    expect_bad_scene(name, "");
     std::string garbage;
     for (unsigned i = 0, state = 12345; i < 5000; ++i) {
       state = state * 1103515245U + 12345U;
       garbage += static_cast<char>(state >> 16);
     }
-    expect_bad_scene(name, garbage, "");
+    expect_bad_scene(name, garbage);
   }
 }
 
@@ -304,79 +300,76 @@ TEST_F(CliBadMesh, Truncated) {
   const std::string header =
       "ply\nformat binary_little_endian 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
       "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n";
-  expect_bad_scene("a.ply", header + std::string(20, '\1'), "");
-  expect_bad_scene("a.ply", header.substr(0, 60), "");
-  expect_bad_scene("a.stl", std::string(80, ' ') + std::string("\x05\0\0\0", 4) + std::string(60, '\0'), "");
-  expect_bad_scene("a.glb", std::string("glTF\x02\0\0\0\x00\x10\0\0", 12), "");
-  expect_bad_scene("a.gltf", "{\"asset\": {\"version\": \"2.0\"}, \"meshes\": [", "");
-  expect_bad_scene("a.obj.gz", std::string("\x1f\x8b\x08\0\0\0\0\0\0\3\x4b", 11), "");
-  expect_bad_scene("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1\nf 1 2 3\n", "");
+  expect_bad_scene("a.ply", header + std::string(20, '\1'));
+  expect_bad_scene("a.ply", header.substr(0, 60));
+  expect_bad_scene("a.stl", std::string(80, ' ') + std::string("\x05\0\0\0", 4) + std::string(60, '\0'));
+  expect_bad_scene("a.glb", std::string("glTF\x02\0\0\0\x00\x10\0\0", 12));
+  expect_bad_scene("a.gltf", "{\"asset\": {\"version\": \"2.0\"}, \"meshes\": [");
+  expect_bad_scene("a.obj.gz", std::string("\x1f\x8b\x08\0\0\0\0\0\0\3\x4b", 11));
+  expect_bad_scene("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1\nf 1 2 3\n");
 }
 
 TEST_F(CliBadMesh, HugeIndicesAndCounts) {
-  expect_bad_scene("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4000000000\n", "");
-  expect_bad_scene("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 99999999999999999999999\n", "");
-  expect_bad_scene("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 -9\n", "");
+  expect_bad_scene("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4000000000\n");
+  expect_bad_scene("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 99999999999999999999999\n");
+  expect_bad_scene("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 -9\n");
   expect_bad_scene("a.ply",
                    "ply\nformat ascii 1.0\nelement vertex 4000000000\nproperty float x\nproperty float y\n"
-                   "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n",
-                   "");
-  expect_bad_scene("a.ply",
-                   "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
-                   "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n",
-                   "");
+                   "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n");
+  expect_bad_scene(
+      "a.ply",
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n");
 }
 
 TEST_F(CliBadMesh, NotFinite) {
-  expect_bad_scene("a.obj", "v 0 0 0\nv 1 0 nan\nv 0 1 0\nf 1 2 3\n", "");
-  expect_bad_scene("a.obj", "v 0 0 0\nv 1 0 1e999\nv 0 1 0\nf 1 2 3\n", "");
+  expect_bad_scene("a.obj", "v 0 0 0\nv 1 0 nan\nv 0 1 0\nf 1 2 3\n");
+  expect_bad_scene("a.obj", "v 0 0 0\nv 1 0 1e999\nv 0 1 0\nf 1 2 3\n");
 }
 
 TEST_F(CliBadOutput, IsFoundBeforeComputing) {
   fs::create_directory(folder_ / "folder");
   fs::create_directory(folder_ / "folder.ply");
-  expect_bad({"compute", "mission.yaml", "-o", "folder"}, "the output is a folder", "folder");
-  expect_bad({"compute", "mission.yaml", "-o", "folder.ply"}, "the output is a folder", "folder.ply");
-  expect_bad({"compute", "mission.yaml", "-o", "none/volume.ply"}, "the output folder does not exist",
-             "none/volume.ply", "mkdir -p none");
-  expect_bad({"compute", "mission.yaml", "-o", "volume.xyz"}, "no format is known for the extension '.xyz'",
-             "volume.xyz", ".ply, .obj, .stl or .glb");
-  expect_bad({"compute", "mission.yaml", "-o", "volume"}, "no extension", "volume");
-  expect_bad({"compute", "mission.yaml", "-o", "/dev/null"}, "", "/dev/null");
-  expect_bad({"compute", "mission.yaml", "-o", "a.ply", "-o", "./a.ply"}, "named twice", "a.ply");
-  expect_bad({"compute", "mission.yaml", "-o", "a.ply", "-o", "none/b.ply"}, "folder does not exist", "none/b.ply");
+  expect_bad({"compute", "mission.yaml", "-o", "folder"}, "folder");
+  expect_bad({"compute", "mission.yaml", "-o", "folder.ply"}, "folder.ply");
+  expect_bad({"compute", "mission.yaml", "-o", "none/volume.ply"}, "none/volume.ply");
+  expect_bad({"compute", "mission.yaml", "-o", "volume.xyz"}, "volume.xyz");
+  expect_bad({"compute", "mission.yaml", "-o", "volume"}, "volume");
+  expect_bad({"compute", "mission.yaml", "-o", "/dev/null"}, "/dev/null");
+  expect_bad({"compute", "mission.yaml", "-o", "a.ply", "-o", "./a.ply"}, "a.ply");
+  expect_bad({"compute", "mission.yaml", "-o", "a.ply", "-o", "none/b.ply"}, "none/b.ply");
   fs::create_directory(folder_ / "b.report.json");
-  expect_bad({"compute", "mission.yaml", "-o", "b.ply"}, "the output is a folder", "b.report.json");
-  expect_bad({"query", "mission.yaml", "-", "-o", "folder"}, "the output is a folder", "folder");
+  expect_bad({"compute", "mission.yaml", "-o", "b.ply"}, "b.report.json");
+  expect_bad({"query", "mission.yaml", "-", "-o", "folder"}, "folder");
 }
 
 TEST_F(CliBadOutput, WouldDestroyAnInput) {
-  expect_bad({"compute", "mission.yaml", "-o", "city.obj"}, "overwrite an input", "city.obj", "another name");
-  expect_bad({"compute", "mission.yaml", "-o", "./folder/../city.obj"}, "", "city.obj");
+  expect_bad({"compute", "mission.yaml", "-o", "city.obj"}, "city.obj");
+  expect_bad({"compute", "mission.yaml", "-o", "./folder/../city.obj"}, "city.obj");
   write("points.csv", "0,0,9\n");
-  expect_bad({"query", "mission.yaml", "points.csv", "-o", "points.csv"}, "overwrite an input", "points.csv");
-  expect_bad({"query", "mission.yaml", "points.csv", "-o", "mission.yaml"}, "overwrite an input", "mission.yaml");
+  expect_bad({"query", "mission.yaml", "points.csv", "-o", "points.csv"}, "points.csv");
+  expect_bad({"query", "mission.yaml", "points.csv", "-o", "mission.yaml"}, "mission.yaml");
 }
 
 TEST_F(CliBadOutput, WriteProtected) {
   become_nobody();
   if (!run({"--version"}).was_started) GTEST_SKIP() << "the program is out of reach of a user without rights";
   fs::permissions(folder_ / "volume.ply", fs::perms::owner_read | fs::perms::others_read);
-  expect_bad({"compute", "mission.yaml", "-o", "volume.ply"}, "the output file is write-protected", "volume.ply");
+  expect_bad({"compute", "mission.yaml", "-o", "volume.ply"}, "volume.ply");
   fs::permissions(folder_, fs::perms::owner_all | fs::perms::others_read | fs::perms::others_exec);
   fs::permissions(folder_, fs::perms::owner_write, ::geteuid() == 0 ? fs::perm_options::add : fs::perm_options::remove);
-  expect_bad({"compute", "mission.yaml", "-o", "new.ply"}, "no file can be made in the output folder", "new.ply");
+  expect_bad({"compute", "mission.yaml", "-o", "new.ply"}, "new.ply");
   fs::permissions(folder_, fs::perms::all);
 }
 
 TEST_F(CliBadOutput, FullDisk) {
   options_.largest_file = 2000;  // enough for messages, not for a volume
-  expect_bad({"compute", "mission.yaml", "-q", "-o", "volume.ply"}, "", "volume.ply");
-  expect_bad({"compute", "mission.yaml", "-q", "-o", "volume.glb"}, "", "volume.glb");
+  expect_bad({"compute", "mission.yaml", "-q", "-o", "volume.ply"}, "volume.ply");
+  expect_bad({"compute", "mission.yaml", "-q", "-o", "volume.glb"}, "volume.glb");
   options_.largest_file.reset();
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
   options_.out_file = "/dev/full";
-  expect_bad({"inspect", "city.obj"}, "could not be written", "standard output");
+  expect_bad({"inspect", "city.obj"}, "standard output");
 }
 
 /// So many blocks that reading and preparing them takes a while.
@@ -401,7 +394,7 @@ TEST_F(CliSignals, AskTheProgramToEnd) {
     options_.signal = signal;
     const ProgramRun result = run({"compute", "mission.yaml", "--progress", "-o", "volume.ply"});
     EXPECT_EQ(result.exit_code, 128 + signal);
-    EXPECT_EQ(lines(result.err).back(), "vantage: stopped; nothing was written") << result.err;
+    testing::expect_wording(lines(result.err).back());
     EXPECT_EQ(result.out, "");
     EXPECT_TRUE(files() == before) << "signal " << signal;
   }

@@ -84,7 +84,8 @@ TEST_F(CliCompute, WritesEveryFormatAndIsQuiet) {
 
 TEST_F(CliCompute, PrintsTheReportAsJson) {
   const auto printed = nlohmann::json::parse(output_of({"compute", "mission.yaml", "-o", "volume.ply", "--json"}));
-  EXPECT_EQ(printed, nlohmann::json::parse(content(folder_ / "volume.report.json")));
+  const auto written = nlohmann::json::parse(content(folder_ / "volume.report.json"));
+  EXPECT_EQ(printed, written);
 }
 
 TEST_F(CliCompute, DoesNotDependOnThreads) {
@@ -110,8 +111,8 @@ TEST_F(CliCompute, WarnsWhereStlIsCoarserThanTheTolerance) {
   const ProgramRun warned = run({"compute", "far.yaml", "-o", "far.ply", "-o", "far.STL"});
   EXPECT_EQ(warned.exit_code, 0);
   ASSERT_EQ(lines(warned.err).size(), 1U) << warned.err;
-  EXPECT_NE(warned.err.find("far.STL: rounding to single precision moved the surface by up to 0.4"), std::string::npos)
-      << warned.err;
+  EXPECT_NE(warned.err.find("far.STL"), std::string::npos) << warned.err;
+  testing::expect_wording(warned.err);
   output_of({"compute", "far.yaml", "-q", "-o", "far.STL"});
   output_of({"compute", "far.yaml", "-o", "far.ply"});
   output_of({"compute", "mission.yaml", "-o", "near.stl"});
@@ -192,8 +193,7 @@ TEST_F(CliCompute, NamesEmptyOutcomesAndKeepsTheOldMesh) {
     EXPECT_NE(result.out.find(report.at("reason").get<std::string>()), std::string::npos) << result.out;
     EXPECT_TRUE(content(folder_ / "volume.ply") == kOldOutput);
     EXPECT_FALSE(fs::exists(folder_ / "new.glb"));
-    EXPECT_NE(result.err.find("volume.ply is of an earlier run and was left as it was"), std::string::npos);
-    EXPECT_NE(result.err.find("new.glb was not written"), std::string::npos);
+    testing::expect_wording(result.err);
   };
   const std::string start = std::string(kScene) + kTarget;
   expect_empty(start + "sensor: {max_range: 5}\n", "out_of_range");
@@ -235,22 +235,26 @@ TEST_F(CliVerify, FailsAnOverClaimingVolume) {
   const ProgramRun result = run({"verify", "mission.yaml", "box.obj", "--points", "2000"});
   EXPECT_EQ(result.exit_code, 1) << result.err;
   EXPECT_EQ(result.err, "");
-  EXPECT_NE(result.out.find("WRONG: the volume over-claims"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("WRONG"), std::string::npos) << result.out;
+  testing::expect_wording(lines(result.out).back());
   const auto report =
       nlohmann::json::parse(run({"verify", "mission.yaml", "box.obj", "--points", "2000", "--json"}).out);
   EXPECT_EQ(report.at("right"), false);
   EXPECT_GT(report.at("over_claimed"), 10);
-  EXPECT_GT(report.at("worst_over_depth_m"), 0.1);
+  const double worst = report.at("worst_over_depth_m");
+  EXPECT_GT(worst, 0.1);
 }
 
 TEST_F(CliVerify, FailsAMeshThatIsNoSolid) {
   write("open.obj", "v 0 0 1\nv 5 0 1\nv 0 5 1\nv 0 0 9\nf 1 3 2\nf 1 2 4\nf 2 3 4\n");
   const ProgramRun result = run({"verify", "mission.yaml", "open.obj"});
   EXPECT_EQ(result.exit_code, 1) << result.err;
-  EXPECT_NE(result.out.find("WRONG: the mesh is not a closed solid"), std::string::npos) << result.out << result.err;
+  EXPECT_NE(result.out.find("WRONG"), std::string::npos) << result.out << result.err;
+  testing::expect_wording(lines(result.out).back());
   const auto json = nlohmann::json::parse(run({"verify", "mission.yaml", "open.obj", "--json"}).out);
   EXPECT_EQ(json.at("open_edges"), 3);
-  EXPECT_NEAR(json.at("open_edge_at").at(0).get<double>(), 0, 2.5) << "a witness";
+  const auto witness = json.at("open_edge_at").get<std::vector<double>>();
+  EXPECT_NEAR(witness.at(0), 0, 2.5);
   write("turned.obj", "v 0 0 1\nv 5 0 1\nv 0 5 1\nv 0 0 9\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 3 4\n");
   EXPECT_EQ(run({"verify", "mission.yaml", "turned.obj"}).exit_code, 1);
 }
@@ -278,13 +282,13 @@ TEST_F(CliVerify, LooksFromWhereTheTargetWasRaisedTo) {
   EXPECT_EQ(run({"verify", "low.yaml", "low.ply", "--points", "500", "--lift", "0.001501"}).exit_code, 0);
   for (const char* text : {"", "[]", "{}", "{\"lift_m\": \"far\"}", "{\"lift_m\": -1}", "{\"lift_m\": 1}"}) {
     write("low.report.json", text);
-    expect_bad({"verify", "low.yaml", "low.ply"}, "lift_m", "low.report.json");
+    expect_bad({"verify", "low.yaml", "low.ply"}, "low.report.json");
   }
 }
 
 TEST_F(CliVerify, RefusesWhatIsNoMesh) {
-  expect_bad({"verify", "mission.yaml", "none.ply"}, "the volume does not exist", "none.ply");
-  expect_bad({"verify", "mission.yaml", "volume.ply"}, "", "volume.ply");
+  expect_bad({"verify", "mission.yaml", "none.ply"}, "none.ply");
+  expect_bad({"verify", "mission.yaml", "volume.ply"}, "volume.ply");
 }
 
 TEST_F(Cli, TheExampleIsWhatItsScriptMakes) {

@@ -15,11 +15,12 @@ TEST_F(CliQuery, Answers) {
   write("points.csv", "x,y,z\n0,0,30\n60,0,5\n0,0,80\n0,0,-3\n");
   const std::vector<std::string> rows = lines(output_of({"query", "mission.yaml", "points.csv"}));
   ASSERT_EQ(rows.size(), 5U);
-  EXPECT_EQ(rows[0], "x,y,z,inside,margin_m,blocked_by,out_of_range,behind_target,outside_of");
+  EXPECT_EQ(rows[0], std::string("x,y,z,") + kAnswers);
   EXPECT_EQ(rows[1].rfind("0,0,30,true,", 0), 0U) << rows[1];
   EXPECT_NE(rows[1].find(",,false,false,"), std::string::npos) << rows[1];
   EXPECT_EQ(rows[2].rfind("60,0,5,false,-", 0), 0U) << rows[2];
-  EXPECT_NE(rows[2].find(",block,true,false,"), std::string::npos) << rows[2];
+  EXPECT_NE(rows[2].find(",block,true,"), std::string::npos) << rows[2];
+  EXPECT_NE(rows[2].find(",true,false,"), std::string::npos) << rows[2];
   EXPECT_EQ(rows[3].rfind("0,0,80,false,-", 0), 0U) << rows[3];
   EXPECT_NE(rows[3].find(",,true,false,"), std::string::npos) << rows[3];
   EXPECT_NE(rows[4].find(",true,"), std::string::npos) << rows[4];
@@ -56,21 +57,21 @@ TEST_F(CliQuery, WritesAFile) {
 }
 
 TEST_F(CliQuery, RefusesBadRows) {
-  const auto expect_bad_points = [&](const std::string& text, const std::string& what, const std::string& line) {
+  const auto expect_bad_points = [&](const std::string& text, const std::string& line) {
     write("points.csv", text);
-    expect_bad({"query", "mission.yaml", "points.csv", "-o", "volume.ply"}, what, "points.csv:" + line);
+    expect_bad({"query", "mission.yaml", "points.csv", "-o", "volume.ply"}, "points.csv:" + line);
   };
-  expect_bad_points("1,2,3\n4,5\n", "the row has 2 columns, but z is column 3", "2");
-  expect_bad_points("1,2,3\n\n4,five,6\n", "y is not a number: 'five'", "3");
-  expect_bad_points("x,y,z\n1,2,\n", "z is not a number: ''", "2");
-  expect_bad_points("1,2,nan\n", "z is not finite: 'nan'", "1");
-  expect_bad_points("1,2,-inf\n", "z is not finite: '-inf'", "1");
-  expect_bad_points("1,2,1e999\n", "z", "1");
-  expect_bad_points("1;2,5;3\n", "y is not a number: '2,5'", "1");
-  expect_bad_points("a,b,c\n1,2,3\n", "neither a point nor a header with a column x", "1");
-  expect_bad_points("x,y\n1,2\n", "with a column z", "1");
-  expect_bad({"query", "mission.yaml", "none.csv"}, "the points file does not exist", "none.csv");
-  expect_bad({"query", "mission.yaml", "."}, "the points file is a folder", ".");
+  expect_bad_points("1,2,3\n4,5\n", "2");
+  expect_bad_points("1,2,3\n\n4,five,6\n", "3");
+  expect_bad_points("x,y,z\n1,2,\n", "2");
+  expect_bad_points("1,2,nan\n", "1");
+  expect_bad_points("1,2,-inf\n", "1");
+  expect_bad_points("1,2,1e999\n", "1");
+  expect_bad_points("1;2,5;3\n", "1");
+  expect_bad_points("a,b,c\n1,2,3\n", "1");
+  expect_bad_points("x,y\n1,2\n", "1");
+  expect_bad({"query", "mission.yaml", "none.csv"}, "none.csv");
+  expect_bad({"query", "mission.yaml", "."}, ".");
 }
 
 TEST_F(CliQuery, KeepsAllColumnsInTheirOrder) {
@@ -118,18 +119,18 @@ TEST_F(CliQuery, AnswersReplaceThoseOfAnEarlierRun) {
 }
 
 TEST_F(CliQuery, RefusesTablesThatAreNoTables) {
-  const auto expect_bad_points = [&](const std::string& text, const std::string& what, const std::string& line) {
+  const auto expect_bad_points = [&](const std::string& text, const std::string& line) {
     write("points.csv", text);
-    expect_bad({"query", "mission.yaml", "points.csv", "-o", "volume.ply"}, what, "points.csv:" + line);
+    expect_bad({"query", "mission.yaml", "points.csv", "-o", "volume.ply"}, "points.csv:" + line);
   };
-  expect_bad_points("x,y,z\n1,2,3\n1,2,3,4\n", "4 columns", "3");
-  expect_bad_points("1 2 3 oak\n1 2 3 old oak\n", "5 columns", "2");
-  expect_bad_points("1,2,3,a\n1,2,3,\"b\n1,2,3,c\n", "quote", "2");
-  expect_bad_points("1,2,3,\"" + std::string(2 << 20, 'a') + "\"\n", "longer than a megabyte", "1");
-  expect_bad_points("1,2,3\n" + std::string(3 << 20, '1'), "longer than a megabyte", "2");
-  expect_bad_points("1,2,3,\"" + std::string(2 << 20, '\n'), "longer than a megabyte", "1");
+  expect_bad_points("x,y,z\n1,2,3\n1,2,3,4\n", "3");
+  expect_bad_points("1 2 3 oak\n1 2 3 old oak\n", "2");
+  expect_bad_points("1,2,3,a\n1,2,3,\"b\n1,2,3,c\n", "2");
+  expect_bad_points("1,2,3,\"" + std::string(2 << 20, 'a') + "\"\n", "1");
+  expect_bad_points("1,2,3\n" + std::string(3 << 20, '1'), "2");
+  expect_bad_points("1,2,3,\"" + std::string(2 << 20, '\n'), "1");
   write("points.csv", "x,y,z,a,a\n0,0,30,1,2\n");
-  expect_bad({"query", "mission.yaml", "points.csv", "--json"}, "'a'", "points.csv:1");
+  expect_bad({"query", "mission.yaml", "points.csv", "--json"}, "points.csv:1");
 }
 
 TEST_F(CliQuery, WritesJson) {
@@ -163,8 +164,8 @@ TEST_F(CliQuery, OneHeightForAll) {
   EXPECT_EQ(without[0], std::string("x,y,") + kAnswers);
   for (std::size_t i = 1; i < 3; ++i) EXPECT_EQ(without[i].substr(4), with[i].substr(7));
   write("points.csv", "x,y,z\n1,2,3\n");
-  expect_bad({"query", "mission.yaml", "points.csv", "--z", "30"}, "column z", "points.csv:1");
-  expect_bad({"query", "mission.yaml", "points.csv", "--z", "high"}, "--z", "--z");
+  expect_bad({"query", "mission.yaml", "points.csv", "--z", "30"}, "points.csv:1");
+  expect_bad({"query", "mission.yaml", "points.csv", "--z", "high"}, "--z");
 }
 
 /// City on the earth: its x and y are metres east and north of the origin.
@@ -202,7 +203,7 @@ TEST_F(CliQuery, TakesLongitudeAndLatitude) {
 
   options_.input = "11.5 48.1 5\n";
   EXPECT_NE(output_of({"query", "mission.yaml", "-", "-q", "--lonlat"}).find("\n11.5,48.1,5,true,"), std::string::npos);
-  EXPECT_NE(run({"query", "mission.yaml", "-", "--lonlat"}).err.find("z of the points"), std::string::npos);
+  testing::expect_wording(run({"query", "mission.yaml", "-", "--lonlat"}).err);
   options_.input = "lon,lat,x,y,z\n11.5,48.1,0,70,5\n";
   EXPECT_NE(output_of({"query", "mission.yaml", "-", "-q"}).find("11.5,48.1,0,70,5,false,"), std::string::npos);
   EXPECT_NE(output_of({"query", "mission.yaml", "-", "-q", "--lonlat"}).find("11.5,48.1,0,70,5,true,"),
@@ -210,23 +211,23 @@ TEST_F(CliQuery, TakesLongitudeAndLatitude) {
 }
 
 TEST_F(CliQuery, RefusesPlacesThatAreNone) {
-  const auto expect_bad_points = [&](const std::string& row, const std::string& what, const std::string& fix) {
+  const auto expect_bad_points = [&](const std::string& row) {
     write("points.csv", "lon,lat,z\n11.5,48.1,9\n\n" + row + "\n");
-    expect_bad({"query", "mission.yaml", "points.csv", "-q", "-o", "volume.ply"}, what, "points.csv:4", fix);
+    expect_bad({"query", "mission.yaml", "points.csv", "-q", "-o", "volume.ply"}, "points.csv:4");
   };
   write("points.csv", "lon,lat,z\n11.5,48.1,9\n");
-  expect_bad({"query", "mission.yaml", "points.csv", "-q"}, "does not say where on the earth", "points.csv:2");
+  expect_bad({"query", "mission.yaml", "points.csv", "-q"}, "points.csv:2");
   write("mission.yaml", std::string(kPlacedScene) + kTarget + kSensor);
-  expect_bad_points("11.5,91,9", "no place on the earth", "-90 to 90");
-  expect_bad_points("181,48.1,9", "no place on the earth", "-180 to 180");
-  expect_bad_points("48.1,11.5,9", "km from the scene's origin", "longitude before");
-  expect_bad_points("0,0,9", "km from the scene's origin", "100 km");
-  expect_bad_points("11.5,nan,9", "lat is not finite", "");
-  expect_bad_points("11.5,,9", "lat is not a number", "");
+  expect_bad_points("11.5,91,9");
+  expect_bad_points("181,48.1,9");
+  expect_bad_points("48.1,11.5,9");
+  expect_bad_points("0,0,9");
+  expect_bad_points("11.5,nan,9");
+  expect_bad_points("11.5,,9");
   write("points.csv", "lon,lat\n11.5,48.1\n");
-  expect_bad({"query", "mission.yaml", "points.csv"}, "column z", "points.csv:1", "--z");
+  expect_bad({"query", "mission.yaml", "points.csv"}, "points.csv:1");
   write("points.csv", "lon,x,z\n11.5,48.1,3\n");
-  expect_bad({"query", "mission.yaml", "points.csv", "--lonlat"}, "column lat", "points.csv:1");
+  expect_bad({"query", "mission.yaml", "points.csv", "--lonlat"}, "points.csv:1");
 }
 
 /// A command of bash, in the test's folder; $V is the program.
@@ -262,8 +263,7 @@ TEST_F(CliQuery, AMistakeFarDownLeavesNoFile) {
   std::string points = "x,y,z\n";
   for (int i = 0; i < 300000; ++i) points += "0,0,30\n";
   write("points.csv", points + "0,0,here\n");
-  expect_bad({"query", "mission.yaml", "points.csv", "-o", "volume.ply"}, "z is not a number: 'here'",
-             "points.csv:300002");
+  expect_bad({"query", "mission.yaml", "points.csv", "-o", "volume.ply"}, "points.csv:300002");
   const ProgramRun printed = run({"query", "mission.yaml", "points.csv"});
   EXPECT_EQ(printed.exit_code, 2);
   EXPECT_GT(lines(printed.out).size(), 100000U) << "what came before the portion with the mistake";

@@ -29,7 +29,7 @@ class CliRender : public Cli {
 
 TEST_F(CliRender, DrawsWhatItComputesOrIsGiven) {
   VANTAGE_REQUIRE_OPENGL();
-  EXPECT_EQ(output_of({"render", "mission.yaml", "-o", "picture.png", "--size", "200x150"}), "wrote picture.png\n");
+  testing::expect_wording(output_of({"render", "mission.yaml", "-o", "picture.png", "--size", "200x150"}));
   EXPECT_EQ(size_of("picture.png"), std::pair(200, 150));
   output_of({"compute", "mission.yaml", "-o", "volume.ply"});
   output_of({"render", "mission.yaml", "-o", "other.png", "--size", "200x150", "--volume", "volume.ply", "-q"});
@@ -102,13 +102,13 @@ TEST_F(CliRender, MakesASheetOfStages) {
 
 TEST_F(CliRender, RefusesStagesThatAreGarbled) {
   const std::vector<std::string> arguments = {"render", "mission.yaml", "--stages", "stages", "-o", "picture.png"};
-  expect_bad(arguments, "does not exist", "stages.json");
+  expect_bad(arguments, "stages.json");
   write("stages/stages.json", "{\"stages\": [{\"kind\": 7}]}");
-  expect_bad(arguments, "garbled", "stage 0", "--stages");
+  expect_bad(arguments, "stage 0");
   write("stages/stages.json", "{\"stages\": []}");
-  expect_bad(arguments, "empty", "stages.json");
+  expect_bad(arguments, "stages.json");
   write("stages/stages.json", "[1, 2");
-  expect_bad(arguments, "garbled", "stages.json");
+  expect_bad(arguments, "stages.json");
 }
 
 TEST_F(CliRender, RefusesBadArguments) {
@@ -117,39 +117,39 @@ TEST_F(CliRender, RefusesBadArguments) {
     arguments.insert(arguments.end(), more.begin(), more.end());
     return arguments;
   };
-  expect_bad(with({"--view", "below"}), "no view is called", "--view", "oblique");
-  expect_bad(with({"--view", "from"}), "three coordinates", "--view");
-  expect_bad(with({"--view", "from", "1,2"}), "three coordinates", "--view");
-  expect_bad(with({"--view", "from", "1,2,x"}), "no number", "--view");
-  expect_bad(with({"--view", "from", "1,2,nan"}), "no number", "--view");
-  expect_bad(with({"--view", "oblique", "10,95"}), "elevation", "--view");
-  expect_bad(with({"--view", "top", "1"}), "takes no numbers", "--view");
-  expect_bad(with({"--view", "from 1,2"}), "three coordinates", "--view");
-  expect_bad(with({"--view", "from 1,2,3 4"}), "no number", "--view");
-  expect_bad(with({"--view", "from 1,2,3", "4,5,6"}), "no view is called", "--view");
+  expect_bad(with({"--view", "below"}), "--view");
+  expect_bad(with({"--view", "from"}), "--view");
+  expect_bad(with({"--view", "from", "1,2"}), "--view");
+  expect_bad(with({"--view", "from", "1,2,x"}), "--view");
+  expect_bad(with({"--view", "from", "1,2,nan"}), "--view");
+  expect_bad(with({"--view", "oblique", "10,95"}), "--view");
+  expect_bad(with({"--view", "top", "1"}), "--view");
+  expect_bad(with({"--view", "from 1,2"}), "--view");
+  expect_bad(with({"--view", "from 1,2,3 4"}), "--view");
+  expect_bad(with({"--view", "from 1,2,3", "4,5,6"}), "--view");
   for (const char* size : {"0x100", "100", "100x", "x100", "100x100x100", "1e3x100", "100x5000", "-5x100"}) {
-    expect_bad(with({"--size", size}), "no size of a picture", "--size", "1600x1200");
+    expect_bad(with({"--size", size}), "--size");
   }
-  expect_bad(with({"--volume", "missing.ply"}), "does not exist", "missing.ply");
-  expect_bad(with({"--volume", "volume.ply"}), "", "volume.ply");
-  expect_bad({"render", "missing.yaml", "-o", "picture.png"}, "does not exist", "missing.yaml");
+  expect_bad(with({"--volume", "missing.ply"}), "missing.ply");
+  expect_bad(with({"--volume", "volume.ply"}), "volume.ply");
+  expect_bad({"render", "missing.yaml", "-o", "picture.png"}, "missing.yaml");
 }
 
 TEST_F(CliRender, RefusesOutputsThatCannotBe) {
-  expect_bad({"render", "mission.yaml", "-o", "picture.jpg"}, "PNG", "picture.jpg", ".png");
-  expect_bad({"render", "mission.yaml", "-o", "missing/picture.png"}, "does not exist", "missing");
-  expect_bad({"render", "mission.yaml", "-o", "."}, "folder", ".");
-  expect_bad({"render", "mission.yaml", "--volume", "picture.png", "-o", "picture.png"}, "overwrite an input");
+  expect_bad({"render", "mission.yaml", "-o", "picture.jpg"}, "picture.jpg");
+  expect_bad({"render", "mission.yaml", "-o", "missing/picture.png"}, "missing");
+  expect_bad({"render", "mission.yaml", "-o", "."}, ".");
+  expect_bad({"render", "mission.yaml", "--volume", "picture.png", "-o", "picture.png"});
   fs::create_directory(folder_ / "closed");
   become_nobody();
   fs::permissions(folder_ / "closed", fs::perms::owner_read | fs::perms::others_read | fs::perms::others_exec);
-  expect_bad({"render", "mission.yaml", "-o", "closed/picture.png"}, "no file can be made", "closed");
+  expect_bad({"render", "mission.yaml", "-o", "closed/picture.png"}, "closed");
 }
 
 TEST_F(CliRender, KeepsTheOldPictureWhenTheDiskIsFull) {
   VANTAGE_REQUIRE_OPENGL();
   options_.largest_file = 100;
-  expect_bad({"render", "mission.yaml", "-o", "picture.png", "--size", "120x90"}, "", "picture.png");
+  expect_bad({"render", "mission.yaml", "-o", "picture.png", "--size", "120x90"}, "picture.png");
 }
 
 TEST_F(CliRender, SaysWhatToInstallWhereThereIsNoOpenGL) {
@@ -161,10 +161,8 @@ TEST_F(CliRender, SaysWhatToInstallWhereThereIsNoOpenGL) {
     ::unsetenv(name);
     GTEST_SKIP() << "this machine's EGL does not look for its drivers where " << name << " says";
   }
-  expect_bad({"render", "mission.yaml", "-o", "picture.png"}, "pictures need OpenGL 4.5: no OpenGL", "", "libegl1");
-  const ProgramRun refused = run({"render", "mission.yaml", "-o", "picture.png"});
-  EXPECT_NE(refused.err.find("this machine's OpenGL"), std::string::npos) << refused.err;
-  EXPECT_EQ(refused.err.find("mission.yaml"), std::string::npos) << "the mission is not to blame: " << refused.err;
+  const std::string refused = expect_refused({"render", "mission.yaml", "-o", "picture.png"}, "OpenGL");
+  EXPECT_EQ(refused.find("mission.yaml"), std::string::npos) << "the mission is not to blame: " << refused;
   old ? ::setenv(name, old->c_str(), 1) : ::unsetenv(name);
 }
 

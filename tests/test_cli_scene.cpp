@@ -41,18 +41,16 @@ class CliScene : public Cli {
     if (!system.empty()) write(name + ".prj", system);
   }
 
-  void expect_bad_map(const std::string& text, const std::string& what, const std::string& fix,
-                      const std::vector<std::string>& more = {}) {
+  void expect_bad_map(const std::string& text, const std::vector<std::string>& more = {}) {
     write("bad.osm", text);
     std::vector<std::string> arguments = {"scene", "bad.osm", "-o", "scene.glb"};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    expect_bad(arguments, what, "", fix);
+    expect_bad(arguments, "");
   }
-  void expect_bad_option(const std::vector<std::string>& more, const std::string& what, const std::string& where,
-                         const std::string& fix = "") {
+  void expect_bad_option(const std::vector<std::string>& more, const std::string& where) {
     std::vector<std::string> arguments = {"scene", "city.osm", "-o", "scene.glb"};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    expect_bad(arguments, what, where, fix);
+    expect_bad(arguments, where);
   }
 
   /// The report on a map that is written all the same.
@@ -81,7 +79,8 @@ TEST_F(CliScene, InspectTellsWhatMapsAndRastersHold) {
   EXPECT_EQ(map.at("objects"), 5) << "four, and the ground";
   EXPECT_EQ(map.at("open_edges"), 4) << "of the ground";
   EXPECT_EQ(map.at("records").size(), 4U);
-  EXPECT_NEAR(map.at("map_bounds_deg")[1].get<double>(), 48.1374 - 60 / 111200.0, 1e-4);
+  const auto bounds = map.at("map_bounds_deg").get<std::vector<double>>();
+  EXPECT_NEAR(bounds.at(1), 48.1374 - 60 / 111200.0, 1e-4);
   EXPECT_NEAR(map.at("georeference").at("latitude_deg").get<double>(), 48.1374, 1e-3);
   EXPECT_GT(map.at("bounds").at("max")[2].get<double>(), 11.9);
   const json part = json::parse(
@@ -94,8 +93,8 @@ TEST_F(CliScene, InspectTellsWhatMapsAndRastersHold) {
   EXPECT_EQ(raster.at("raster").at("highest_m"), 520);
   EXPECT_NEAR(raster.at("georeference").at("longitude_deg").get<double>(), 11.5755, 1e-4);
   EXPECT_NE(output_of({"inspect", "dem.asc"}).find("posts"), std::string::npos);
-  expect_bad({"inspect", "dem.asc", "--up", "y"}, "--up is for meshes", "--up", "leave it out");
-  expect_bad({"inspect", "city.osm", "--lod", "2"}, "--lod is for CityJSON", "--lod", "leave it out");
+  expect_bad({"inspect", "dem.asc", "--up", "y"}, "--up");
+  expect_bad({"inspect", "city.osm", "--lod", "2"}, "--lod");
 }
 
 TEST_F(CliScene, WithoutAnOutputItReportsOnly) {
@@ -110,7 +109,8 @@ TEST_F(CliScene, WithoutAnOutputItReportsOnly) {
   EXPECT_EQ(output_of({"scene", "city.osm", "-q"}), "");
   EXPECT_EQ(files(), count);
   EXPECT_EQ(content(folder_ / "scene.glb"), before[0]);
-  EXPECT_EQ(content(folder_ / "scene.report.json"), before[1]);
+  const std::string old_report = content(folder_ / "scene.report.json");
+  EXPECT_EQ(old_report, before[1]);
 }
 
 TEST_F(CliScene, NumbersMayHaveBlanksBetweenThem) {
@@ -131,7 +131,7 @@ TEST_F(CliScene, NumbersMayHaveBlanksBetweenThem) {
   EXPECT_EQ(raster.at("georeference").at("latitude_deg"), 48.1374);
   for (const char* const centre :
        {"48.1374 11.5755", "48.1374,", ",11.5", "48,1374,11,5755", "48.1374, 11.5755,", "nan, 1"}) {
-    expect_bad_option({"--center", centre, "--radius", "90"}, "is not latitude,longitude", "--center");
+    expect_bad_option({"--center", centre, "--radius", "90"}, "--center");
   }
 }
 
@@ -169,7 +169,8 @@ TEST_F(CliScene, KeepsNamesWhereTheFormatHasThem) {
 
 TEST_F(CliScene, PrintsTheReportAsJsonAndIsQuiet) {
   const std::string printed = output_of({"scene", "city.osm", "--json", "-o", "scene.glb"});
-  EXPECT_EQ(json::parse(printed), json::parse(content(folder_ / "scene.report.json")));
+  const std::string written = content(folder_ / "scene.report.json");
+  EXPECT_EQ(json::parse(printed), json::parse(written));
   EXPECT_EQ(output_of({"scene", "city.osm", "--quiet", "-o", "scene.glb"}), "");
   EXPECT_NE(content(folder_ / "scene.glb"), kOldOutput);
 }
@@ -193,19 +194,19 @@ TEST_F(CliScene, MeshesAndRastersBecomeScenesToo) {
 // ---- maps -----------------------------------------------------------------------------------------------------------
 
 TEST_F(CliSceneBadMap, NotAMap) {
-  expect_bad({"scene", "none.osm", "-o", "scene.glb"}, "does not exist", "none.osm");
-  expect_bad({"scene", ".", "-o", "scene.glb"}, "is a folder", ".");
-  expect_bad_map("", "empty", "");
-  expect_bad_map("hello\n", "not an OpenStreetMap file", "");
-  expect_bad_map("<html><body>429 Too Many Requests</body></html>", "not an OpenStreetMap file", "");
-  expect_bad_map("<osm version='0.6'>\n<node id='1' lat='1' lon='1'>\n", "ends too early", "download or export");
+  expect_bad({"scene", "none.osm", "-o", "scene.glb"}, "none.osm");
+  expect_bad({"scene", ".", "-o", "scene.glb"}, ".");
+  expect_bad_map("");
+  expect_bad_map("hello\n");
+  expect_bad_map("<html><body>429 Too Many Requests</body></html>");
+  expect_bad_map("<osm version='0.6'>\n<node id='1' lat='1' lon='1'>\n");
 }
 
 TEST_F(CliSceneBadMap, NothingInIt) {
-  expect_bad_map("<osm version='0.6'></osm>\n", "", "");
+  expect_bad_map("<osm version='0.6'></osm>\n");
   MapText map;
   map.line({{0, 0}, {100, 0}}, {{"highway", "residential"}});
-  expect_bad_map(map.text(), "holds no building", "give an extract with buildings");
+  expect_bad_map(map.text());
 }
 
 TEST_F(CliSceneBadMap, Truncated) {
@@ -214,22 +215,18 @@ TEST_F(CliSceneBadMap, Truncated) {
   const std::string whole = content(folder_ / "city.osm.pbf");
   for (const std::size_t length : {whole.size() - 1, whole.size() / 2, whole.size() / 4, std::size_t{5}}) {
     write("cut.osm.pbf", whole.substr(0, length));
-    expect_bad({"scene", "cut.osm.pbf", "-o", "scene.glb"}, "", "cut.osm.pbf");
+    expect_bad({"scene", "cut.osm.pbf", "-o", "scene.glb"}, "cut.osm.pbf");
   }
   output_of({"scene", "city.osm.pbf", "-q", "-o", "whole.obj"});
 }
 
 TEST_F(CliSceneBadMap, NothingInTheArea) {
-  expect_bad_option({"--center", "48.13776,11.57523", "--radius", "5"}, "there is nothing to build in the area",
-                    "city.osm", " m from the centre: give a larger radius");
-  expect_bad_option({"--center", "50,10", "--radius", "100"}, "lies outside the map", "city.osm",
-                    "the map holds latitude 48.13");
-  expect_bad_option({"--center", "11.5755,48.1374", "--radius", "100"}, "lies outside the map", "city.osm",
-                    "latitude and longitude are the wrong way round: write 48.1374,11.5755");
-  expect_bad_option({"--center", "-98.5,40", "--radius", "100"}, "there is no place at latitude -98.5", "center",
-                    "write the latitude first: 40,-98.5");
-  expect_bad_option({"--bbox", "12,50,13,50.1"}, "the box lies outside the map", "city.osm", "the map holds");
-  expect_bad_option({"--bbox", "11.6,48.1,11.5,48.2"}, "the box holds nothing", "bbox", "west,south,east,north");
+  expect_bad_option({"--center", "48.13776,11.57523", "--radius", "5"}, "city.osm");
+  expect_bad_option({"--center", "50,10", "--radius", "100"}, "city.osm");
+  expect_bad_option({"--center", "11.5755,48.1374", "--radius", "100"}, "city.osm");
+  expect_bad_option({"--center", "-98.5,40", "--radius", "100"}, "center");
+  expect_bad_option({"--bbox", "12,50,13,50.1"}, "city.osm");
+  expect_bad_option({"--bbox", "11.6,48.1,11.5,48.2"}, "bbox");
 }
 
 // ---- what is mended, and counted ------------------------------------------------------------------------------------
@@ -263,8 +260,8 @@ TEST_F(CliSceneMended, OutlinesWithoutAnAreaAndBeyondBelief) {
   map.box(-5000, 100, 5000, 120, {{"building", "yes"}});
   const json report = report_of(map.text());
   EXPECT_EQ(report.at("kinds").at("building").at("skipped"), 2);
-  EXPECT_EQ(report.at("reasons").at("skipped").at("outline more than 3 km across"), 1);
   EXPECT_EQ(report.at("reasons").at("skipped").size(), 2U);
+  testing::expect_wording(report.at("reasons").dump());
 }
 
 TEST_F(CliSceneMended, HeightsThatAreNone) {
@@ -288,19 +285,19 @@ TEST_F(CliSceneMended, PointsAreToldOf) {
   map.node(50, 40, {{"building", "yes"}, {"man_made", "tower"}, {"height", "30"}});
   const json report = report_of(map.text());
   EXPECT_EQ(report.at("kinds").at("building").at("read"), 2);
-  EXPECT_EQ(report.at("reasons").at("skipped").at("drawn as a point: it has no outline"), 1);
+  testing::expect_wording(report.at("reasons").dump());
   EXPECT_EQ(report.at("kinds").at("tower").at("written"), 1);
 }
 
 // ---- terrain --------------------------------------------------------------------------------------------------------
 
 TEST_F(CliSceneBadTerrain, CannotBeUsed) {
-  expect_bad_option({"--terrain", "none.tif"}, "does not exist", "none.tif");
-  expect_bad_option({"--terrain", "city.obj"}, "", "city.obj");
+  expect_bad_option({"--terrain", "none.tif"}, "none.tif");
+  expect_refused({"scene", "city.osm", "-o", "scene.glb", "--terrain", "city.obj"}, "city.obj");  // with GDAL's words
   write_dem("far", grid_of_heights("500", 12.5));
-  expect_bad_option({"--terrain", "far.asc"}, "does not cover", "far.asc");
+  expect_bad_option({"--terrain", "far.asc"}, "far.asc");
   write_dem("nowhere", grid_of_heights("500"), "");
-  expect_bad_option({"--terrain", "nowhere.asc"}, "coordinate reference system", "nowhere.asc");
+  expect_bad_option({"--terrain", "nowhere.asc"}, "nowhere.asc");
 }
 
 TEST_F(CliSceneBadTerrain, VoidsAreFilledAndCounted) {
@@ -316,8 +313,7 @@ TEST_F(CliSceneBadTerrain, VoidsAreFilledAndCounted) {
     for (const std::string& line : rows) grid += line + "\n";
     write("dem.asc", grid);
     const json report = report_of(content(folder_ / "city.osm"), {"--terrain", "dem.asc"});
-    EXPECT_NE(report.at("notes").dump().find("1 posts of dem.asc had no height"), std::string::npos)
-        << nodata << report.at("notes").dump();
+    testing::expect_wording(report.at("notes").dump());
     EXPECT_NEAR(report.at("records")[0].at("ground_m").get<double>(), 500, 1e-6) << nodata;
   }
 }
@@ -325,61 +321,61 @@ TEST_F(CliSceneBadTerrain, VoidsAreFilledAndCounted) {
 // ---- the command line -----------------------------------------------------------------------------------------------
 
 TEST_F(CliSceneBadOption, ThatDoNotFit) {
-  expect_bad_option({"--radius", "100"}, "radius without a centre", "radius", "give the centre");
-  expect_bad_option({"--center", kCentre}, "--center without --radius", "--center", "--radius METRES");
-  expect_bad_option({"--center", kCentre, "--radius", "9", "--bbox", "11,48,12,49"}, "a centre and a box", "center");
-  expect_bad_option({"--lod", "2"}, "--lod is for CityJSON files", "--lod", "leave it out");
-  expect_bad_option({"--crs", "EPSG:4326"}, "--crs is for meshes", "--crs", "leave it out");
-  expect_bad_option({"--up", "y"}, "--up is for meshes", "--up", "leave it out");
-  expect_bad_option({"--scale", "2"}, "--scale is for meshes", "--scale", "leave it out");
-  expect_bad_option({"--window", "0,0,5,5"}, "--window is for rasters", "--window", "leave it out");
-  expect_bad({"scene", "city.obj", "-o", "scene.glb", "--set", "level=3"}, "--set is for maps", "--set");
-  expect_bad({"scene", "city.obj", "-o", "scene.glb", "--terrain", "dem.asc"}, "--terrain is for maps", "--terrain");
+  expect_bad_option({"--radius", "100"}, "radius");
+  expect_bad_option({"--center", kCentre}, "--center");
+  expect_bad_option({"--center", kCentre, "--radius", "9", "--bbox", "11,48,12,49"}, "center");
+  expect_bad_option({"--lod", "2"}, "--lod");
+  expect_bad_option({"--crs", "EPSG:4326"}, "--crs");
+  expect_bad_option({"--up", "y"}, "--up");
+  expect_bad_option({"--scale", "2"}, "--scale");
+  expect_bad_option({"--window", "0,0,5,5"}, "--window");
+  expect_bad({"scene", "city.obj", "-o", "scene.glb", "--set", "level=3"}, "--set");
+  expect_bad({"scene", "city.obj", "-o", "scene.glb", "--terrain", "dem.asc"}, "--terrain");
 }
 
 TEST_F(CliSceneBadOption, ThatAreNoNumbers) {
   for (const char* text : {"48.1374", "48.1374,", "48.1374 11.5755", "north,east", "48.1374,11.5755,3", "nan,inf"}) {
-    expect_bad_option({"--center", text, "--radius", "100"}, "", "center");
+    expect_bad_option({"--center", text, "--radius", "100"}, "center");
   }
   for (const char* text : {"0", "-5", "nan", "inf", "1e9", "ten", "5m"}) {
-    expect_bad_option({"--center", kCentre, "--radius", text}, "", "radius");
+    expect_bad_option({"--center", kCentre, "--radius", text}, "radius");
   }
-  for (const char* text : {"1,2,3", "a,b,c,d", "nan,nan,nan,nan"}) expect_bad_option({"--bbox", text}, "", "bbox");
+  for (const char* text : {"1,2,3", "a,b,c,d", "nan,nan,nan,nan"}) expect_bad_option({"--bbox", text}, "bbox");
   for (const char* text : {"level", "level=", "level=0", "level=x", "storey=3", "levels.house=0", "=3"}) {
-    expect_bad_option({"--set", text}, "", "--set");
+    expect_bad_option({"--set", text}, "--set");
   }
-  expect_bad_option({"--without", "windows"}, "'windows' is not what can be left out", "", "walls, towers");
-  expect_bad_option({"--error", "-1"}, "", "--error");
+  expect_bad_option({"--without", "windows"}, "");
+  expect_bad_option({"--error", "-1"}, "--error");
 }
 
 TEST_F(CliSceneBadOption, UnknownReferenceSystems) {
-  expect_bad({"scene", "city.obj", "-o", "scene.glb", "--crs", "EPSG:999999"}, "EPSG:999999", "");
-  expect_bad({"scene", "city.obj", "-o", "scene.glb", "--crs", "nonsense"}, "nonsense", "");
-  expect_bad({"scene", "city.obj", "-o", "scene.glb", "--origin", "95,10"}, "", "");
+  expect_bad({"scene", "city.obj", "-o", "scene.glb", "--crs", "EPSG:999999"}, "city.obj");
+  expect_bad({"scene", "city.obj", "-o", "scene.glb", "--crs", "nonsense"}, "city.obj");
+  expect_bad({"scene", "city.obj", "-o", "scene.glb", "--origin", "95,10"}, "");
 }
 
 TEST_F(CliSceneBadOutput, CannotBeWritten) {
-  expect_bad({"scene", "city.osm", "-o", "none/scene.glb"}, "the output folder does not exist", "none/scene.glb");
-  expect_bad({"scene", "city.osm", "-o", "scene.xyz"}, "no format is known", "scene.xyz");
-  expect_bad({"scene", "city.osm", "-o", "scene"}, "no extension", "scene");
-  expect_bad({"scene", "city.osm", "-o", "."}, "is a folder", ".");
-  expect_bad({"scene", "city.osm", "-o", "city.osm"}, "", "city.osm");
-  expect_bad({"scene", "city.obj", "-o", "city.obj"}, "would overwrite an input", "city.obj");
-  expect_bad({"scene", "city.osm", "-o", "scene.glb", "-o", "./scene.glb"}, "an output is named twice", "scene.glb");
+  expect_bad({"scene", "city.osm", "-o", "none/scene.glb"}, "none/scene.glb");
+  expect_bad({"scene", "city.osm", "-o", "scene.xyz"}, "scene.xyz");
+  expect_bad({"scene", "city.osm", "-o", "scene"}, "scene");
+  expect_bad({"scene", "city.osm", "-o", "."}, ".");
+  expect_bad({"scene", "city.osm", "-o", "city.osm"}, "city.osm");
+  expect_bad({"scene", "city.obj", "-o", "city.obj"}, "city.obj");
+  expect_bad({"scene", "city.osm", "-o", "scene.glb", "-o", "./scene.glb"}, "scene.glb");
   fs::create_directory(folder_ / "taken.report.json");
-  expect_bad({"scene", "city.osm", "-o", "taken.glb"}, "", "taken.report.json");
+  expect_bad({"scene", "city.osm", "-o", "taken.glb"}, "taken.report.json");
 }
 
 TEST_F(CliSceneBadOutput, FullDisk) {
   options_.largest_file = 1000;
-  expect_bad({"scene", "city.osm", "-q", "-o", "scene.glb"}, "", "scene");
+  expect_bad({"scene", "city.osm", "-q", "-o", "scene.glb"}, "scene");
 }
 
 TEST_F(CliSceneBadOutput, WriteProtected) {
   become_nobody();
   if (!run({"--version"}).was_started) GTEST_SKIP() << "the program is out of reach of a user without rights";
   fs::permissions(folder_ / "scene.glb", fs::perms::owner_read | fs::perms::others_read);
-  expect_bad({"scene", "city.osm", "-o", "scene.glb"}, "the output file is write-protected", "scene.glb");
+  expect_bad({"scene", "city.osm", "-o", "scene.glb"}, "scene.glb");
   fs::permissions(folder_ / "scene.glb", fs::perms::all);
 }
 

@@ -77,34 +77,31 @@ TEST_F(CliSpheres, QueriesSayThatTheyAreExact) {
 }
 
 TEST_F(CliSpheres, RefusesWhatIsOutOfRangeWithItsPlace) {
-  const auto refused = [&](const std::string& section, const std::string& what,
-                           const std::string& where = "mission.yaml:") {
+  const auto refused = [&](const std::string& section, const std::string& where = "mission.yaml:") {
     expect_bad_mission(
-        std::string(testing::kScene) + testing::kTarget + testing::kSensor + "method: spheres\n" + section, what,
-        where);
+        std::string(testing::kScene) + testing::kTarget + testing::kSensor + "method: spheres\n" + section, where);
   };
-  refused("spheres: {cubemap: 0}\n", "cubemap must be from 1", "mission.yaml:7:20");
-  refused("spheres: {cubemap: 100000}\n", "cubemap must be from 1 to 8192");
-  refused("spheres: {cubemap: 10.5}\n", "must be a whole number");
-  refused("spheres: {cubemap: 1e300}\n", "must be a whole number");
-  refused("spheres: {resolution: [0, 80]}\n", "resolution");
-  refused("spheres: {resolution: 160}\n", "must be a list");
-  refused("spheres: {resolution: [160, 80, 3]}\n", "must be two whole numbers");
-  refused("spheres: {max_splits: -1}\n", "max_splits");
-  refused("spheres: {min_edge: 0}\n", "min_edge");
-  refused("spheres: {merge: 0.5}\n", "merge must be");
-  refused("spheres: {sphere: round}\n", "conservative or centers");
-  refused("spheres: {split: never}\n", "euler or always");
-  refused("spheres: {device: toaster}\n", "toaster");
-  refused("spheres: {cubemaps: 4}\n", "unknown key 'cubemaps'");
-  expect_bad_mission(std::string(testing::kScene) + testing::kTarget + testing::kSensor + "method: sphere\n",
-                     "there is no method");
+  refused("spheres: {cubemap: 0}\n", "mission.yaml:7:20");
+  refused("spheres: {cubemap: 100000}\n");
+  refused("spheres: {cubemap: 10.5}\n");
+  refused("spheres: {cubemap: 1e300}\n");
+  refused("spheres: {resolution: [0, 80]}\n");
+  refused("spheres: {resolution: 160}\n");
+  refused("spheres: {resolution: [160, 80, 3]}\n");
+  refused("spheres: {max_splits: -1}\n");
+  refused("spheres: {min_edge: 0}\n");
+  refused("spheres: {merge: 0.5}\n");
+  refused("spheres: {sphere: round}\n");
+  refused("spheres: {split: never}\n");
+  refused("spheres: {device: toaster}\n");
+  refused("spheres: {cubemaps: 4}\n");
+  expect_bad_mission(std::string(testing::kScene) + testing::kTarget + testing::kSensor + "method: sphere\n");
 }
 
 TEST_F(CliSpheres, RefusesItsOptionsForTheExactMethod) {
-  expect_bad({"compute", "mission.yaml", "-o", "volume.ply", "--stages", "stages"}, "--stages is for the method");
-  expect_bad({"compute", "mission.yaml", "-o", "volume.ply", "--device", "cpu"}, "--device is for the method");
-  expect_bad({"compute", "mission.yaml", "-o", "volume.ply", "--method", "spheres", "--device", "99"}, "no device 99");
+  expect_bad({"compute", "mission.yaml", "-o", "volume.ply", "--stages", "stages"});
+  expect_bad({"compute", "mission.yaml", "-o", "volume.ply", "--device", "cpu"});
+  expect_refused({"compute", "mission.yaml", "-o", "volume.ply", "--method", "spheres", "--device", "99"}, "0: CPU");
 }
 
 TEST_F(CliSpheres, WritesItsStages) {
@@ -149,27 +146,27 @@ TEST_F(CliSpheres, LeavesOtherFoldersAlone) {
     return arguments;
   };
   write("mine/letter.txt", "dear");
-  expect_bad(with("mine"), "holds other things", "mine");
-  expect_bad(with("city.obj"), "not a folder", "city.obj");
-  expect_bad(with("no/such/place"), "cannot be made", "no/such/place");
+  expect_bad(with("mine"), "mine");
+  expect_bad(with("city.obj"), "city.obj");
+  expect_bad(with("no/such/place"), "no/such/place");
   // What somebody put beside older stages is not lost, be it an input of this very run.
   write("kept/stages.json", "{}");
   write("kept/000_sphere_0.ply", "old");
   write("kept/notes.txt", "dear");
-  expect_bad(with("kept"), "holds other things: notes.txt", "kept");
+  expect_bad(with("kept"), "kept");
   EXPECT_EQ(testing::content(folder_ / "kept" / "notes.txt"), "dear");
   EXPECT_EQ(testing::content(folder_ / "kept" / "000_sphere_0.ply"), "old");
   fs::remove(folder_ / "kept" / "notes.txt");
   fs::create_directory(folder_ / "kept" / "001_scans.ply");
-  expect_bad(with("kept"), "holds other things: 001_scans.ply", "kept");
+  expect_bad(with("kept"), "kept");
   write("scans/001_scan.ply", "mine");
-  expect_bad(with("scans"), "holds other things: no stages.json", "scans");
+  expect_bad(with("scans"), "scans");
   // A run that fails leaves the older stages, and no traces.
   write("stages/stages.json", "{}");
   write("mission.yaml",
         std::string(testing::kScene) + testing::kSensor +
             "target: {vertices: [[22, -3, 5], [28, -3, 5], [25, 3, 15]]}\nspheres: {device: cpu, cubemap: 4}\n");
-  expect_bad(with("stages"), "stands on or passes through the target", "mission.yaml");
+  expect_bad(with("stages"), "mission.yaml");
 }
 
 TEST_F(CliSpheres, KeepsTheOlderStagesWhenTheVolumeCannotBeWritten) {
@@ -184,9 +181,9 @@ TEST_F(CliSpheres, KeepsTheOlderStagesWhenTheVolumeCannotBeWritten) {
   ASSERT_GT(needed, largest + 2000) << "there is no limit that stops the volume alone";
   write("stages/999_sphere_999.ply", "older");
   options_.largest_file = (needed + largest) / 2;
-  expect_bad(command("new.obj", "stages"), "cannot write", "new.obj");
+  expect_bad(command("new.obj", "stages"), "new.obj");
   EXPECT_EQ(testing::content(folder_ / "stages" / "999_sphere_999.ply"), "older");
-  expect_bad(command("new.obj", "fresh"), "cannot write", "new.obj");
+  expect_bad(command("new.obj", "fresh"), "new.obj");
   EXPECT_FALSE(fs::exists(folder_ / "fresh"));
 }
 

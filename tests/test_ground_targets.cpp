@@ -9,6 +9,7 @@
 #include "geo/local_frame.h"
 #include "support/map_text.h"
 #include "support/temporary_directory.h"
+#include "support/wording.h"
 #include "vantage/error.h"
 #include "vantage/mission.h"
 
@@ -42,16 +43,8 @@ class GroundTargetTest : public ::testing::Test {
     return mission;
   }
 
-  void expect_refused(const std::string& text, const std::string& problem, const std::string& fix) {
-    try {
-      placed(text);
-      ADD_FAILURE() << "not refused: " << problem;
-    } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::input);
-      EXPECT_NE(error.problem().find(problem), std::string::npos) << error.what();
-      EXPECT_NE(error.where().find("mission.yaml:3:"), std::string::npos) << error.what();
-      EXPECT_NE(error.fix().find(fix), std::string::npos) << error.what();
-    }
+  void expect_refused(const std::string& text, ErrorCode code) {
+    testing::expect_error([&] { placed(text); }, code, "mission.yaml:3:");
   }
 
   static std::string at(double east, double north) {
@@ -74,9 +67,9 @@ double area_of(const Target& target) {
 }
 
 TEST_F(GroundTargetTest, IndoorsIsRefused) {
-  expect_refused("target: {osm: way/1}\n", "the target lies inside 'way/1'", "outdoors");
-  expect_refused("target: {center: " + at(2, -3) + ", width: 4, length: 6, heading: 20}\n", "inside 'way/1'",
-                 "outdoors");
+  expect_refused("target: {osm: way/1}\n", ErrorCode::target_inside_solid);
+  expect_refused("target: {center: " + at(2, -3) + ", width: 4, length: 6, heading: 20}\n",
+                 ErrorCode::target_inside_solid);
   const Mission below = placed("target: {center: " + at(110, 0) + ", width: 4, length: 6}\n");
   EXPECT_NEAR(area_of(below.target), 24, 1e-6) << "under a roof on posts is outdoors";
 }
@@ -94,7 +87,7 @@ TEST_F(GroundTargetTest, FarAwayIsMostLikelyTheWrongOrder) {
   expect_refused(
       "target: {vertices: [[48.1374, 11.5755, 0], [48.1375, 11.5755, 0], [48.1374, 11.5756, 0]]}\n"
       "crs: EPSG:4326\n",
-      "km from the scene's origin", "longitude before the latitude");
+      ErrorCode::too_far_away);
 }
 
 /// EPSG:6360 measures in feet of the US survey.

@@ -14,6 +14,7 @@
 
 #include "geo/local_frame.h"
 #include "support/random.h"
+#include "support/wording.h"
 #include "vantage/error.h"
 
 namespace vantage::internal::geo {
@@ -127,8 +128,7 @@ TEST(LocalFrame, IsTheProjectionThatIsNamed) {
     proj_destroy(named);
   }
   proj_context_destroy(context);
-  EXPECT_EQ(projection_text({40.7484, -73.9857, "", ""}),
-            "+proj=aeqd +lat_0=40.7484 +lon_0=-73.9857 +datum=WGS84 +units=m +type=crs");
+  testing::expect_wording(projection_text({40.7484, -73.9857, "", ""}));
 }
 
 TEST(LocalFrame, TakesTwoMicrosecondsForAPosition) {
@@ -149,22 +149,11 @@ TEST(LocalFrame, TakesTwoMicrosecondsForAPosition) {
 #endif
 }
 
-std::string fix_of_origin(LonLat origin) {
-  try {
-    const LocalFrame frame(origin);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::input);
-    return error.fix();
-  }
-  return "no error";
-}
-
 TEST(LocalFrame, RefusesWhatIsNoPlace) {
   const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
-  EXPECT_EQ(fix_of_origin({40.7, -173.9}), "latitude comes first: give them the other way round");
-  for (const LonLat bad : {LonLat{0, 90.1}, {180.5, 0}, {nan, 0}, {0, nan}, {infinity, 0}, {0, -infinity}}) {
-    const std::string fix = fix_of_origin(bad);
-    EXPECT_TRUE(fix.find("give") == 0 || fix.find("latitude comes first") == 0) << fix;
+  for (const LonLat bad :
+       {LonLat{40.7, -173.9}, {0, 90.1}, {180.5, 0}, {nan, 0}, {0, nan}, {infinity, 0}, {0, -infinity}}) {
+    testing::expect_error([&] { const LocalFrame frame(bad); }, ErrorCode::not_on_earth, "origin");
   }
   const LocalFrame frame({0, 90});  // a pole is a place
   EXPECT_NEAR(frame.to_local({0, 89.99}).y(), -1116.9, 0.1);

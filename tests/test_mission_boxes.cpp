@@ -66,8 +66,9 @@ TEST(MissionBoxes, KeepInLiesWithinCurvedSidesAndKeepOutRoundThem) {
 }
 
 TEST(MissionBoxes, ATargetOfTheMapIsCalledByItsId) {
-  EXPECT_EQ(placed("target: {osm: way/2}\n").target.name, "way/2");
-  EXPECT_EQ(placed("target: {osm: way/2, name: pitch}\n").target.name, "pitch");
+  const Mission unnamed = placed("target: {osm: way/2}\n"), named = placed("target: {osm: way/2, name: pitch}\n");
+  EXPECT_EQ(unnamed.target.name, "way/2");
+  EXPECT_EQ(named.target.name, "pitch");
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "support/random.h"
 #include "support/shared_data.h"
 #include "support/temporary_directory.h"
+#include "support/wording.h"
 #include "vantage/error.h"
 #include "vantage/mission.h"
 
@@ -210,7 +211,7 @@ TEST_F(MissionWarnings, AVolumeBelowAllOfTheSceneIsTold) {
   EXPECT_TRUE(notes(slab.text(), target, 40, "", "navigation: {altitude: [-20, 1]}\n").empty());
   const std::vector<std::string> below = notes(slab.text(), target, 40, "", "navigation: {altitude: [-20, -3]}\n");
   ASSERT_EQ(below.size(), 1u);
-  EXPECT_TRUE(has(below[0], "below the scene")) << below[0];
+  testing::expect_wording(below);
 }
 
 TEST(MissionWarningsOfExamples, AreNone) {

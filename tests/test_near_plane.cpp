@@ -172,7 +172,7 @@ std::optional<double> volume_of(const Scene& scene, const Target& target, double
     const Volume volume = compute_visibility(PreparedTarget(PreparedScene(scene), target, {range}), {1e-3 * range, 0});
     return volume.outcome == Outcome::computed ? enclosed_volume(volume.mesh) : 0;
   } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::input) << error.what();
+    EXPECT_EQ(error.code(), ErrorCode::target_pierced) << error.what();
     return std::nullopt;
   }
 }

@@ -10,6 +10,7 @@
 #include "core/parallel.h"
 #include "core/progress_reporter.h"
 #include "support/progress_check.h"
+#include "support/wording.h"
 #include "vantage/error.h"
 
 namespace vantage::internal::core {
@@ -32,15 +33,7 @@ struct Listener {
   };
 };
 
-ErrorKind kind_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.kind();
-  }
-  ADD_FAILURE() << "nothing was thrown";
-  return ErrorKind::internal;
-}
+void expect_cancelled(const std::function<void()>& action) { testing::expect_code(action, ErrorCode::cancelled); }
 
 TEST(ProgressReporter, WithoutAListenerDoesNothing) {
   const Progress nobody;
@@ -113,12 +106,12 @@ TEST(ProgressReporter, NoIsForAllCopiesAndForGood) {
     part.report(0.5);
     ADD_FAILURE() << "went on";
   } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::cancelled);
+    EXPECT_EQ(error.code(), ErrorCode::cancelled);
     EXPECT_EQ(error.where(), "city.obj");
   }
-  EXPECT_EQ(kind_of([&] { progress.check(); }), ErrorKind::cancelled);
-  EXPECT_EQ(kind_of([&] { progress.begin("more"); }), ErrorKind::cancelled);
-  EXPECT_EQ(kind_of([&] { part.finish(); }), ErrorKind::cancelled);
+  expect_cancelled([&] { progress.check(); });
+  expect_cancelled([&] { progress.begin("more"); });
+  expect_cancelled([&] { part.finish(); });
   EXPECT_EQ(asked, 2);
 }
 
@@ -152,13 +145,12 @@ TEST(ProgressReporter, ANoEndsALoopOnAllThreads) {
   std::atomic<int> done = 0, asked = 0;
   const Progress soon_no = [&](std::string_view, double) { return ++asked < 10; };
   const ProgressReporter progress(soon_no);
-  EXPECT_EQ(kind_of([&] {
-              parallel::for_ranges(1000000, 1, [&](std::size_t, std::size_t) {
-                progress.check();
-                ++done;
-              });
-            }),
-            ErrorKind::cancelled);
+  expect_cancelled([&] {
+    parallel::for_ranges(1000000, 1, [&](std::size_t, std::size_t) {
+      progress.check();
+      ++done;
+    });
+  });
   EXPECT_EQ(asked, 10);
   EXPECT_LT(done, 500000);
 }

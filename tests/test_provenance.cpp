@@ -171,8 +171,10 @@ TEST(MissionHash, DependsOnWhatIsAskedAlone) {
   const std::string range = "sensor: {max_range: 30}\n";
   const std::string plain = hash("one.yaml", target + range);
   EXPECT_EQ(plain.size(), 64U);
-  EXPECT_EQ(hash("two.yaml", range + "target: {name: b, vertices: [[0, 0, 1.0], [1, 0, 1], [-0, 1, 1]]}\n"), plain);
-  EXPECT_NE(hash("one.yaml", target + "sensor: {max_range: 31}\n"), plain);
+  const std::string same = "target: {name: b, vertices: [[0, 0, 1.0], [1, 0, 1], [-0, 1, 1]]}\n";
+  EXPECT_EQ(hash("two.yaml", range + same), plain);
+  const std::string farther = "sensor: {max_range: 31}\n";
+  EXPECT_NE(hash("one.yaml", target + farther), plain);
   EXPECT_NE(hash("one.yaml", target + range + "navigation: {altitude: [1, 20]}\n"), plain);
   EXPECT_NE(hash("one.yaml", target + range + "exact: {tolerance: 0.02}\n"), plain);
   EXPECT_NE(hash("one.yaml", target + range + "method: spheres\n"), plain);

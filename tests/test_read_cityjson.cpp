@@ -13,7 +13,7 @@ namespace {
 
 using io::RawMesh;
 using nlohmann::json;
-using testing::expect_input_error;
+using testing::expect_error;
 using testing::read_as;
 
 /// A cube of 2 m as a Solid whose vertices are those of corners(), from `first` on.
@@ -56,8 +56,13 @@ RawMesh read(const json& file, const std::string& lod = "") {
 
 Mesh mesh_of(const RawMesh& raw) { return {raw.vertices, raw.triangles}; }
 
-void expect_error(const json& file, const std::string& problem, const std::string& where = "a.city.json") {
-  expect_input_error([&] { read(file); }, problem, where);
+void expect_notes(const RawMesh& mesh, std::size_t count) {
+  EXPECT_EQ(mesh.notes.size(), count);
+  testing::expect_wording(mesh.notes);
+}
+
+void expect_error(const json& file, ErrorCode code, const std::string& where = "a.city.json") {
+  expect_error([&] { read(file); }, code, where);
 }
 
 TEST(ReadCityJson, UndoesTheTransform) {
@@ -99,7 +104,7 @@ TEST(ReadCityJson, KeepsCavities) {
   EXPECT_NEAR(enclosed_volume(mesh_of(mesh)), 64 - 8, 1e-12);
   EXPECT_TRUE(mesh.notes.empty());
   boundaries[1] = cube_shell(8);
-  EXPECT_EQ(read(file).notes, std::vector<std::string>{"1 shell of a solid is inside out (of \"b1\")"});
+  expect_notes(read(file), 1);
 }
 
 TEST(ReadCityJson, LeavesHolesOpen) {
@@ -130,11 +135,10 @@ TEST(ReadCityJson, ChoosesTheLevelOfDetail) {
   EXPECT_EQ(read(file).triangles.size(), 14u);
   const RawMesh ground = read(file, "0");
   EXPECT_EQ(ground.triangles.size(), 4u);
-  EXPECT_EQ(ground.notes,
-            std::vector<std::string>{"1 CityObject has no geometry of LoD 0: the nearest is taken (of \"b2\")"});
+  expect_notes(ground, 1);
   EXPECT_TRUE(read(file, "1").notes.size() == 1);
-  expect_input_error([&] { read(file, "3"); }, "no CityObject has a geometry of LoD 3", "a.city.json");
-  expect_input_error([&] { read(file, "high"); }, "no level of detail: \"high\"", "a.city.json");
+  expect_error([&] { read(file, "3"); }, ErrorCode::level_of_detail_missing, "a.city.json");
+  expect_error([&] { read(file, "high"); }, ErrorCode::value_syntax, "a.city.json");
 }
 
 TEST(ReadCityJson, PlacesInstancesOfTemplates) {
@@ -162,14 +166,15 @@ TEST(ReadCityJson, PlacesInstancesOfTemplates) {
     return bad;
   };
   const std::string where = "CityObject \"t1\", geometry 0";
-  expect_error(with("template", 1), "refers to template 1, but there are only 1", where);
-  expect_error(with("boundaries", {8}), "refers to vertex 8, but there are only 8", where);
-  expect_error(with("boundaries", {1, 2}), "hold no single vertex", where);
-  expect_error(with("transformationMatrix", {1, 0, 0}), "is not an array of 16 numbers", where);
-  expect_error(with("transformationMatrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1, 0, 0, 1}), "last row", where);
+  expect_error(with("template", 1), ErrorCode::mesh_syntax, where);
+  expect_error(with("boundaries", {8}), ErrorCode::mesh_syntax, where);
+  expect_error(with("boundaries", {1, 2}), ErrorCode::mesh_syntax, where);
+  expect_error(with("transformationMatrix", {1, 0, 0}), ErrorCode::mesh_syntax, where);
+  expect_error(with("transformationMatrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1, 0, 0, 1}), ErrorCode::mesh_syntax,
+               where);
   json nested = file;
   nested["geometry-templates"]["templates"][0] = instance;
-  expect_error(nested, "its template is an instance itself", where);
+  expect_error(nested, ErrorCode::mesh_syntax, where);
   json many = file;
   many["CityObjects"]["t1"]["geometry"] = std::vector<json>(200, instance);
   const core::ProgressReporter progress;
@@ -181,7 +186,7 @@ TEST(ReadCityJson, PlacesInstancesOfTemplates) {
   json surfaces = std::vector<json>(1000, {{0, 1, 2}});
   many["geometry-templates"]["templates"][0]["boundaries"] = surfaces;
   const io::MeshSource large("a", many.dump());
-  expect_input_error([&] { io::read_cityjson(large, progress, limits); }, "its instances repeat templates", "\"t1\"");
+  expect_error([&] { io::read_cityjson(large, progress, limits); }, ErrorCode::mesh_too_large, "\"t1\"");
 }
 
 TEST(ReadCityJson, TurnsMirroredInstancesBack) {
@@ -211,8 +216,7 @@ TEST(ReadCityJson, NamesObjectsAndLeavesPartsToThemselves) {
   objects["l"] = {{"type", "Road"}, {"geometry", {geometry("MultiLineString", "0", {{0, 1}})}}};
   const RawMesh mesh = read(file);
   EXPECT_EQ(names_of(mesh.objects), std::vector<std::string>{"p1 Tower"});
-  EXPECT_EQ(mesh.notes, (std::vector<std::string>{"1 CityObject has neither surfaces nor parts (of \"e\")",
-                                                  "1 geometry of points or lines is passed over (of \"l\")"}));
+  expect_notes(mesh, 2);
 }
 
 TEST(ReadCityJson, NotesWhatIsWrongInAWayThatASoupMayBe) {
@@ -220,27 +224,25 @@ TEST(ReadCityJson, NotesWhatIsWrongInAWayThatASoupMayBe) {
   json& shell = file["CityObjects"]["b1"]["geometry"][0]["boundaries"][0];
   const json sound = shell;
   shell.erase(5);
-  EXPECT_EQ(read(file).notes, std::vector<std::string>{"1 shell of a solid is not closed (of \"b1\")"});
+  expect_notes(read(file), 1);
   shell = sound;
   std::reverse(shell[5][0].begin(), shell[5][0].end());
-  EXPECT_EQ(read(file).notes,
-            std::vector<std::string>{"1 shell of a solid has surfaces that face the wrong way (of \"b1\")"});
+  expect_notes(read(file), 1);
   for (std::size_t i = 0; i < 5; ++i) std::reverse(shell[i][0].begin(), shell[i][0].end());
-  EXPECT_EQ(read(file).notes, std::vector<std::string>{"1 shell of a solid is inside out (of \"b1\")"});
+  expect_notes(read(file), 1);
 
   file = document();
   file["vertices"][7][2] = 260;
   const RawMesh bent = read(file);
   EXPECT_EQ(bent.triangles.size(), 12u);
-  EXPECT_EQ(bent.notes,
-            std::vector<std::string>{"1 surface is not flat to 1 cm, a corner lies up to 0.15 m off (of \"b1\")"});
+  expect_notes(bent, 1);
 
   file = document();
   file["vertices"].push_back({900, 0, 0});
   file["vertices"].push_back({950, 0, 0});
   file["vertices"].push_back({900, 50, 0});
   file["CityObjects"]["b1"]["geometry"] = json::array({geometry("MultiSurface", "1", {{{0, 1, 3, 2}, {8, 9, 10}}})});
-  EXPECT_EQ(read(file).notes, std::vector<std::string>{"1 hole lies outside its surface and is left out (of \"b1\")"});
+  expect_notes(read(file), 1);
 }
 
 TEST(ReadCityJson, TakesRepeatedCornersAsOne) {
@@ -269,7 +271,7 @@ TEST(ReadCityJson, ReadsAllVersions) {
   EXPECT_EQ(bounding_box(mesh_of(mesh)).max, Vec3(200, 200, 200));
   for (const json& version : {json("0.9"), json("1.00"), json("3.0"), json("")}) {
     file["version"] = version;
-    expect_error(file, "its version " + version.dump() + " cannot be read; 1.0, 1.1 and 2.0 can");
+    expect_error(file, ErrorCode::mesh_unsupported);
   }
 }
 
@@ -290,27 +292,25 @@ TEST(ReadCityJson, ReadsTextSequences) {
   EXPECT_EQ(mesh.triangles.size(), 24u);
   EXPECT_NEAR(enclosed_volume(mesh_of(mesh)), 8 + 27, 1e-9);
 
-  expect_input_error([&] { read_as("a.city.jsonl", text.substr(text.find('\n') + 1)); }, "begins with a feature",
-                     "line 1");
+  expect_error([&] { read_as("a.city.jsonl", text.substr(text.find('\n') + 1)); }, ErrorCode::mesh_syntax, "line 1");
   second["CityObjects"]["b2"]["geometry"][0]["boundaries"][0][0][0][0] = 8;
-  expect_input_error([&] { read_as("a.jsonl", head.dump() + "\n\n" + second.dump()); }, "refers to vertex 8",
-                     "a.jsonl, line 3, CityObject \"b2\", geometry 0, shell 0, surface 0, ring 0");
-  expect_input_error([&] { read_as("a.jsonl", head.dump() + "\n" + feature.dump() + "\n{]"); }, "parse error",
-                     "a.jsonl, line 3, column 2");
-  expect_input_error([&] { read_as("a.jsonl", head.dump() + "\n" + feature.dump() + "\n" + head.dump()); },
-                     "not of type CityJSONFeature", "line 3");
+  expect_error([&] { read_as("a.jsonl", head.dump() + "\n\n" + second.dump()); }, ErrorCode::mesh_syntax,
+               "a.jsonl, line 3, CityObject \"b2\", geometry 0, shell 0, surface 0, ring 0");
+  expect_error([&] { read_as("a.jsonl", head.dump() + "\n" + feature.dump() + "\n{]"); }, ErrorCode::mesh_syntax,
+               "a.jsonl, line 3, column 2");
+  expect_error([&] { read_as("a.jsonl", head.dump() + "\n" + feature.dump() + "\n" + head.dump()); },
+               ErrorCode::mesh_syntax, "line 3");
 }
 
 TEST(ReadCityJson, SaysWhereTheJsonEnds) {
-  expect_input_error([] { read_as("a.city.json", "{\"type\": \"CityJSON\",\n  \"version\" \"2.0\"}"); }, "parse error",
-                     "a.city.json, line 2, column 17");
-  expect_input_error([] { read_as("a.json", "hello"); }, "not a valid CityJSON file: parse error", "line 1, column 1");
-  expect_input_error([] { read_as("a.json", "[]"); }, "its JSON is not an object", "a.json");
-  expect_input_error([] { read_as("a.json", "{}"); }, "\"type\" is missing", "a.json");
-  expect_input_error([] { read_as("a.json", R"({"type": "FeatureCollection"})"); }, "its type is \"FeatureCollection\"",
-                     "a.json");
+  expect_error([] { read_as("a.city.json", "{\"type\": \"CityJSON\",\n  \"version\" \"2.0\"}"); },
+               ErrorCode::mesh_syntax, "a.city.json, line 2, column 17");
+  expect_error([] { read_as("a.json", "hello"); }, ErrorCode::mesh_syntax, "line 1, column 1");
+  expect_error([] { read_as("a.json", "[]"); }, ErrorCode::mesh_syntax, "a.json");
+  expect_error([] { read_as("a.json", "{}"); }, ErrorCode::mesh_syntax, "a.json");
+  expect_error([] { read_as("a.json", R"({"type": "FeatureCollection"})"); }, ErrorCode::mesh_syntax, "a.json");
   const std::string deep = R"({"type":"CityJSON","a":)" + std::string(200, '[');
-  expect_input_error([&] { read_as("a.json", deep); }, "nested deeper than 100 levels", "a.json");
+  expect_error([&] { read_as("a.json", deep); }, ErrorCode::mesh_syntax, "a.json");
 }
 
 TEST(ReadCityJson, NamesWhatIsWrongInTheDocument) {
@@ -319,22 +319,22 @@ TEST(ReadCityJson, NamesWhatIsWrongInTheDocument) {
     file.merge_patch(patch);
     return file;
   };
-  expect_error(with({{"version", nullptr}}), "\"version\" is missing");
-  expect_error(with({{"vertices", nullptr}}), "\"vertices\" is missing");
-  expect_error(with({{"vertices", 7}}), "\"vertices\" is not an array");
-  expect_error(with({{"vertices", {{1, 2, 3}, {1, 2}}}}), "vertex 1 (counted from 0) is not an array of three numbers");
-  expect_error(with({{"transform", nullptr}}), "\"transform\" is missing");
-  expect_error(with({{"transform", {{"scale", nullptr}}}}), "\"scale\" is missing");
-  expect_error(with({{"transform", {{"scale", {1, 1}}}}}), "\"scale\" is not an array of 3 numbers");
-  expect_error(with({{"transform", {{"scale", {1, 0, 1}}}}}), "a \"scale\" of the transform is 0");
+  expect_error(with({{"version", nullptr}}), ErrorCode::mesh_syntax);
+  expect_error(with({{"vertices", nullptr}}), ErrorCode::mesh_syntax);
+  expect_error(with({{"vertices", 7}}), ErrorCode::mesh_syntax);
+  expect_error(with({{"vertices", {{1, 2, 3}, {1, 2}}}}), ErrorCode::mesh_syntax);
+  expect_error(with({{"transform", nullptr}}), ErrorCode::mesh_syntax);
+  expect_error(with({{"transform", {{"scale", nullptr}}}}), ErrorCode::mesh_syntax);
+  expect_error(with({{"transform", {{"scale", {1, 1}}}}}), ErrorCode::mesh_syntax);
+  expect_error(with({{"transform", {{"scale", {1, 0, 1}}}}}), ErrorCode::mesh_syntax);
   expect_error(with({{"transform", {{"scale", {1, 1e300, 1}}, {"translate", {0, 1e308, "x"}}}}}),
-               "\"translate\" is not an array of 3 numbers");
-  expect_error(with({{"metadata", {{"referenceSystem", 7415}}}}), "\"referenceSystem\" is not a text");
+               ErrorCode::mesh_syntax);
+  expect_error(with({{"metadata", {{"referenceSystem", 7415}}}}), ErrorCode::mesh_syntax);
   json misspelt = document();
   misspelt["City Objects"] = misspelt["CityObjects"];
   misspelt.erase("CityObjects");
-  expect_error(misspelt, "\"CityObjects\" is missing; there is \"City Objects\"");
-  expect_error(with({{"CityObjects", {{"b1", nullptr}}}}), "holds no surfaces (0 CityObjects)");
+  expect_error(misspelt, ErrorCode::mesh_syntax);
+  expect_error(with({{"CityObjects", {{"b1", nullptr}}}}), ErrorCode::mesh_empty);
 }
 
 TEST(ReadCityJson, NamesWhatIsWrongInAGeometry) {
@@ -344,26 +344,26 @@ TEST(ReadCityJson, NamesWhatIsWrongInAGeometry) {
     file[json::json_pointer("/CityObjects/b1" + std::string(pointer))] = value;
     return file;
   };
-  expect_error(with("/geometry/0/type", "Sphere"), "its geometry type \"Sphere\" is unknown", where);
-  expect_error(with("/geometry/0/type", 3), "\"type\" is missing", where);
-  expect_error(with("/geometry/0/lod", "high"), "is no level of detail", where);
-  expect_error(with("/geometry/0/boundaries", "x"), "\"boundaries\" is not an array", where);
-  expect_error(with("/geometry", 5), "\"geometry\" is not an array", "CityObject \"b1\"");
-  expect_error(with("", 5), "it is not an object", "CityObject \"b1\"");
-  expect_error(with("/type", nullptr), "\"type\" is missing", "CityObject \"b1\"");
+  expect_error(with("/geometry/0/type", "Sphere"), ErrorCode::mesh_syntax, where);
+  expect_error(with("/geometry/0/type", 3), ErrorCode::mesh_syntax, where);
+  expect_error(with("/geometry/0/lod", "high"), ErrorCode::mesh_syntax, where);
+  expect_error(with("/geometry/0/boundaries", "x"), ErrorCode::mesh_syntax, where);
+  expect_error(with("/geometry", 5), ErrorCode::mesh_syntax, "CityObject \"b1\"");
+  expect_error(with("", 5), ErrorCode::mesh_syntax, "CityObject \"b1\"");
+  expect_error(with("/type", nullptr), ErrorCode::mesh_syntax, "CityObject \"b1\"");
 
   const std::string ring = where + ", shell 0, surface 3, ring 0";
   const std::string at = "/geometry/0/boundaries/0/3/0";
-  expect_error(with(at.c_str(), {1, 2}), "a ring has 2 vertices, not 3 or more", ring);
-  expect_error(with(at.c_str(), {1, 2, 8}), "it refers to vertex 8, but there are only 8", ring);
-  expect_error(with(at.c_str(), {1, 2, -1}), "it refers to vertex -1, but there are only 8", ring);
-  expect_error(with(at.c_str(), {1, 2, 0.5}), "the number of a vertex is not a whole number", ring);
-  expect_error(with(at.c_str(), {1, 2, nullptr}), "the number of a vertex is not a whole number", ring);
-  expect_error(with(at.c_str(), {{1, 2, 3}}), "nested deeper than its type", ring);
-  expect_error(with(at.c_str(), 1), "nested less deep than its type", ring);
-  expect_error(with("/geometry/0/boundaries/0/3", json::array()), "a surface has no rings", "surface 3");
-  expect_error(with("/geometry/0/boundaries", cube_shell()), "nested less deep", "shell 0, surface 0, ring 0");
-  expect_error(with("/geometry/0/type", "MultiSurface"), "nested deeper", "surface 0, ring 0");
+  expect_error(with(at.c_str(), {1, 2}), ErrorCode::mesh_syntax, ring);
+  expect_error(with(at.c_str(), {1, 2, 8}), ErrorCode::mesh_syntax, ring);
+  expect_error(with(at.c_str(), {1, 2, -1}), ErrorCode::mesh_syntax, ring);
+  expect_error(with(at.c_str(), {1, 2, 0.5}), ErrorCode::mesh_syntax, ring);
+  expect_error(with(at.c_str(), {1, 2, nullptr}), ErrorCode::mesh_syntax, ring);
+  expect_error(with(at.c_str(), {{1, 2, 3}}), ErrorCode::mesh_syntax, ring);
+  expect_error(with(at.c_str(), 1), ErrorCode::mesh_syntax, ring);
+  expect_error(with("/geometry/0/boundaries/0/3", json::array()), ErrorCode::mesh_syntax, "surface 3");
+  expect_error(with("/geometry/0/boundaries", cube_shell()), ErrorCode::mesh_syntax, "shell 0, surface 0, ring 0");
+  expect_error(with("/geometry/0/type", "MultiSurface"), ErrorCode::mesh_syntax, "surface 0, ring 0");
 }
 
 TEST(ReadCityJson, KeepsWithinItsLimits) {
@@ -371,11 +371,10 @@ TEST(ReadCityJson, KeepsWithinItsLimits) {
   core::ReadLimits limits;
   limits.corners = 3;
   const io::MeshSource source("a.city.json", document().dump());
-  expect_input_error([&] { io::read_cityjson(source, progress, limits); }, "a surface has 4 corners; at most 3",
-                     "surface 0");
+  expect_error([&] { io::read_cityjson(source, progress, limits); }, ErrorCode::mesh_too_large, "surface 0");
   limits = {};
   limits.json_values = 20;
-  expect_input_error([&] { io::read_cityjson(source, progress, limits); }, "more than 20 values", "a.city.json");
+  expect_error([&] { io::read_cityjson(source, progress, limits); }, ErrorCode::mesh_syntax, "a.city.json");
 }
 
 TEST(ReadCityJson, IsToldByItsContent) {
@@ -384,12 +383,13 @@ TEST(ReadCityJson, IsToldByItsContent) {
     return io::mesh_format(io::MeshSource(name, bytes));
   };
   EXPECT_EQ(format("a", " {\n\"type\" : \"CityJSON\""), MeshFormat::cityjson);
-  EXPECT_EQ(format("a.gltf", "{\"version\": \"2.0\", \"type\":\"CityJSON\"}"), MeshFormat::cityjson);
+  const std::string document = R"({"version": "2.0", "type":"CityJSON"})";
+  EXPECT_EQ(format("a.gltf", document), MeshFormat::cityjson);
   EXPECT_EQ(format("a", "{\"type\":\"CityJSONFeature\"}"), MeshFormat::cityjson);
   EXPECT_EQ(format("a", "{\"note\":\"CityJSON\"}"), MeshFormat::gltf);
   EXPECT_EQ(format("a.gltf", "{}"), MeshFormat::gltf);
   EXPECT_EQ(format("a.json", "{\"asset\": {}}"), MeshFormat::gltf);
-  EXPECT_EQ(format("a.city.json", "{}"), MeshFormat::cityjson);
+  EXPECT_EQ(format("b.city.json", "{}"), MeshFormat::cityjson);
   EXPECT_EQ(format("a.city.jsonl.gz", "?"), MeshFormat::cityjson);
 }
 

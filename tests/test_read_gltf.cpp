@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::json;
 using testing::bytes_of;
-using testing::expect_input_error;
+using testing::expect_error;
 using testing::read_as;
 
 using Names = std::vector<std::string>;
@@ -66,8 +66,8 @@ std::string glb(const json& gltf, const std::string& bytes = square()) {
 
 RawMesh read(const json& gltf) { return read_as("a.gltf", embedded(gltf).dump()); }
 
-void expect_error(const json& gltf, const std::string& problem) {
-  expect_input_error([&] { read_as("bad.gltf", gltf.dump()); }, problem, "bad.gltf");
+void expect_error(const json& gltf, ErrorCode code) {
+  expect_error([&] { read_as("bad.gltf", gltf.dump()); }, code, "bad.gltf");
 }
 
 TEST(ReadGltf, ReadsEmbeddedBinaryAndExternalBuffers) {
@@ -119,7 +119,7 @@ TEST(ReadGltf, ReadsStripsFansAndUnindexedTriangles) {
   primitive["mode"] = 6;
   EXPECT_EQ(read(gltf).triangles, (Triangles{{0, 1, 2}, {0, 2, 3}}));
   primitive["mode"] = 1;  // lines
-  expect_error(embedded(gltf), "holds no triangles");
+  expect_error(embedded(gltf), ErrorCode::mesh_empty);
 }
 
 TEST(ReadGltf, AddsOnlyVerticesThatAreUsed) {
@@ -164,69 +164,71 @@ TEST(ReadGltf, NamesWhatIsWrong) {
     gltf[json::json_pointer(pointer)] = value;
     return gltf;
   };
-  expect_error(with("/asset/version", "1.0"), "glTF version \"1.0\" cannot be read");
-  expect_error(with("/asset", 7), "\"asset\" is not an object");
-  expect_error(with("/nodes", 7), "\"nodes\" is not an array");
-  expect_error(with("/nodes/0", 7), "an item of \"nodes\" is not an object");
-  expect_error(with("/nodes/0/mesh", 1), "there is no \"meshes\" number 1, only 1");
-  expect_error(with("/nodes/0/mesh", -1), "\"mesh\" is not a whole number");
-  expect_error(with("/nodes/0/mesh", 0.5), "\"mesh\" is not a whole number");
-  expect_error(with("/nodes/0/mesh", 1e300), "\"mesh\" is not a whole number");
-  expect_error(with("/nodes/0/name", 7), "\"name\" is not a text");
-  expect_error(with("/nodes/0/children", {0}), "node 0 has two parents");
-  expect_error(with("/nodes/0/matrix", {1, 2}), "\"matrix\" of a node has a wrong length");
-  expect_error(with("/nodes/0/scale", {1, 2, "3"}), "other than numbers");
-  expect_error(with("/meshes/0/primitives/0", 7), "a primitive is not an object");
-  expect_error(with("/accessors/0/count", 5), "accessor 0 goes beyond the end of its buffer view");
-  expect_error(with("/accessors/0/count", 9007199254740992), "accessor 0 goes beyond");
-  expect_error(with("/accessors/0/byteOffset", 9007199254740992), "accessor 0 goes beyond");
-  expect_error(with("/accessors/0/componentType", 5124), "accessor 0 has an unknown type");
-  expect_error(with("/accessors/0/componentType", 4294967296 + 5126), "accessor 0 has an unknown type");
-  expect_error(with("/accessors/0/type", "VEC2"), "positions are not of type VEC3");
-  expect_error(with("/accessors/0/sparse", {{"count", 1}}), "no sparse \"indices\"");
-  expect_error(with("/accessors/1/componentType", 5122), "indices are not unsigned whole numbers");
-  expect_error(with("/bufferViews/0/byteStride", 4), "accessor 0 has a wrong byte stride");
-  expect_error(with("/bufferViews/0/byteLength", 61), "buffer view 0 goes beyond the end of its buffer");
-  expect_error(with("/buffers/0/byteLength", 61), "buffer 0 announces 61 bytes, but has only 60");
-  expect_error(with("/buffers/0/uri", "data:;base64,%%%"), "buffer 0 is no valid base64");
-  expect_error(with("/buffers/0/uri", "data:,abc"), "a data URI without base64");
-  expect_error(with("/buffers/0/uri", "https://example.org/a.bin"), "has its data at \"https://example.org/a.bin\"");
-  expect_error(document(), "buffer 0 has no \"uri\"");
-  expect_error(with("/extensionsRequired", {"KHR_draco_mesh_compression"}), "extension \"KHR_draco_mesh_compression\"");
-  expect_error(with("/extensionsUsed", {"EXT_mesh_gpu_instancing"}), "extension \"EXT_mesh_gpu_instancing\"");
-  expect_error(json(), "its JSON is not an object");
-  expect_input_error([] { read_as("bad.gltf", R"({"asset": )"); }, "parse error at line 1, column 11", "bad.gltf");
-  expect_input_error([] { read_as("bad.gltf", "{" + std::string(1000000, '[')); }, "", "bad.gltf");
-  expect_input_error([] { read_as("bad.gltf", "{\"a\":" + std::string(1000000, '[')); }, "deeper than 100", "bad.gltf");
+  expect_error(with("/asset/version", "1.0"), ErrorCode::mesh_unsupported);
+  expect_error(with("/asset", 7), ErrorCode::mesh_syntax);
+  expect_error(with("/nodes", 7), ErrorCode::mesh_syntax);
+  expect_error(with("/nodes/0", 7), ErrorCode::mesh_syntax);
+  expect_error(with("/nodes/0/mesh", 1), ErrorCode::mesh_syntax);
+  expect_error(with("/nodes/0/mesh", -1), ErrorCode::mesh_syntax);
+  expect_error(with("/nodes/0/mesh", 0.5), ErrorCode::mesh_syntax);
+  expect_error(with("/nodes/0/mesh", 1e300), ErrorCode::mesh_syntax);
+  expect_error(with("/nodes/0/name", 7), ErrorCode::mesh_syntax);
+  expect_error(with("/nodes/0/children", {0}), ErrorCode::mesh_syntax);
+  expect_error(with("/nodes/0/matrix", {1, 2}), ErrorCode::mesh_syntax);
+  expect_error(with("/nodes/0/scale", {1, 2, "3"}), ErrorCode::mesh_syntax);
+  expect_error(with("/meshes/0/primitives/0", 7), ErrorCode::mesh_syntax);
+  expect_error(with("/accessors/0/count", 5), ErrorCode::mesh_syntax);
+  expect_error(with("/accessors/0/count", 9007199254740992), ErrorCode::mesh_syntax);
+  expect_error(with("/accessors/0/byteOffset", 9007199254740992), ErrorCode::mesh_syntax);
+  expect_error(with("/accessors/0/componentType", 5124), ErrorCode::mesh_syntax);
+  expect_error(with("/accessors/0/componentType", 4294967296 + 5126), ErrorCode::mesh_syntax);
+  expect_error(with("/accessors/0/type", "VEC2"), ErrorCode::mesh_syntax);
+  expect_error(with("/accessors/0/sparse", {{"count", 1}}), ErrorCode::mesh_syntax);
+  expect_error(with("/accessors/1/componentType", 5122), ErrorCode::mesh_syntax);
+  expect_error(with("/bufferViews/0/byteStride", 4), ErrorCode::mesh_syntax);
+  expect_error(with("/bufferViews/0/byteLength", 61), ErrorCode::mesh_syntax);
+  expect_error(with("/buffers/0/byteLength", 61), ErrorCode::mesh_syntax);
+  expect_error(with("/buffers/0/uri", "data:;base64,%%%"), ErrorCode::mesh_syntax);
+  expect_error(with("/buffers/0/uri", "data:,abc"), ErrorCode::mesh_syntax);
+  expect_error(with("/buffers/0/uri", "https://example.org/a.bin"), ErrorCode::mesh_unsupported);
+  expect_error(document(), ErrorCode::mesh_syntax);
+  expect_error(with("/extensionsRequired", {"KHR_draco_mesh_compression"}), ErrorCode::mesh_unsupported);
+  expect_error(with("/extensionsUsed", {"EXT_mesh_gpu_instancing"}), ErrorCode::mesh_unsupported);
+  expect_error(json(), ErrorCode::mesh_syntax);
+  expect_error([] { read_as("bad.gltf", R"({"asset": )"); }, ErrorCode::mesh_syntax);
+  expect_error([] { read_as("bad.gltf", "{" + std::string(1000000, '[')); }, ErrorCode::mesh_syntax);
+  expect_error([] { read_as("bad.gltf", "{\"a\":" + std::string(1000000, '[')); }, ErrorCode::mesh_syntax);
 }
 
 TEST(ReadGltf, FindsIndicesAndCoordinatesThatAreWrong) {
   std::string bytes = square();
   bytes.replace(58, 2, bytes_of(std::uint16_t{4}));
-  expect_error(embedded(document(), bytes), "refers to vertex 4, but has only 4");
+  expect_error(embedded(document(), bytes), ErrorCode::mesh_syntax);
   bytes = square();
   bytes.replace(4, 4, bytes_of(std::numeric_limits<float>::quiet_NaN()));
-  expect_error(embedded(document(), bytes), "a coordinate of vertex 0 is not finite");
+  expect_error(embedded(document(), bytes), ErrorCode::coordinate_not_finite);
 }
 
 TEST(ReadGltf, FindsBrokenBinaryFiles) {
   const std::string good = glb(document());
-  const auto expect = [](std::string bytes, const std::string& problem, const std::string& where) {
-    expect_input_error([&] { read_as("bad.glb", bytes); }, problem, where);
+  const auto expect = [](const std::string& bytes, ErrorCode code, const std::string& where) {
+    expect_error([&] { read_as("bad.glb", bytes); }, code, where);
   };
-  for (std::size_t size = 4; size < good.size(); size += 7) expect(good.substr(0, size), "", "bad.glb, byte");
+  for (std::size_t size = 4; size < good.size(); size += 7) {
+    testing::expect_code([&] { read_as("bad.glb", good.substr(0, size)); }, ErrorCode::mesh_syntax, "bad.glb, byte");
+  }
   std::string bad = good;
   bad[4] = 1;
-  expect(bad, "GLB version 1", "byte 4");
+  expect(bad, ErrorCode::mesh_unsupported, "byte 4");
   bad = good;
   bad.replace(8, 4, bytes_of(static_cast<std::uint32_t>(good.size() + 1)));
-  expect(bad, "announces", "byte 8");
+  expect(bad, ErrorCode::mesh_syntax, "byte 8");
   bad = good;
   bad.replace(12, 4, bytes_of(0xffffffffu));
-  expect(bad, "a GLB chunk of 4294967295 bytes goes beyond", "byte 12");
+  expect(bad, ErrorCode::mesh_syntax, "byte 12");
   bad = good;
   bad.replace(16, 4, "BIN ");
-  expect(bad, "unexpected type", "byte 16");
+  expect(bad, ErrorCode::mesh_syntax, "byte 16");
 }
 
 TEST(ReadGltf, StopsMeshesThatRepeatWithoutEnd) {
@@ -238,9 +240,9 @@ TEST(ReadGltf, StopsMeshesThatRepeatWithoutEnd) {
   EXPECT_EQ(read(gltf).triangles.size(), 202u);
   core::ReadLimits limits;
   limits.repeated_triangles = 100;
-  expect_input_error([&] { read_as("a.gltf", embedded(gltf).dump(), limits); }, "to more than 120 triangles", "a.gltf");
+  expect_error([&] { read_as("a.gltf", embedded(gltf).dump(), limits); }, ErrorCode::mesh_too_large);
   limits.json_values = 50;
-  expect_input_error([&] { read_as("a.gltf", embedded(gltf).dump(), limits); }, "more than 50 values", "a.gltf");
+  expect_error([&] { read_as("a.gltf", embedded(gltf).dump(), limits); }, ErrorCode::mesh_syntax);
 }
 
 TEST(ReadGltf, NamesABufferFileThatIsMissing) {
@@ -248,10 +250,10 @@ TEST(ReadGltf, NamesABufferFileThatIsMissing) {
   json gltf = document();
   gltf["buffers"][0]["uri"] = "gone.bin";
   testing::write_bytes(folder / "a.gltf", gltf.dump());
-  expect_input_error([&] { read_mesh_file(folder / "a.gltf"); }, "does not exist", "gone.bin");
+  expect_error([&] { read_mesh_file(folder / "a.gltf"); }, ErrorCode::file_not_found);
   gltf["buffers"][0]["uri"] = ".";
   testing::write_bytes(folder / "a.gltf", gltf.dump());
-  expect_input_error([&] { read_mesh_file(folder / "a.gltf"); }, "is a directory", "");
+  expect_error([&] { read_mesh_file(folder / "a.gltf"); }, ErrorCode::not_a_file);
 }
 
 // Whoever made the file shall not choose what else of the disk is read.
@@ -284,7 +286,7 @@ TEST(ReadGltf, ReadsBuffersBelowItsOwnFolderOnly) {
         std::string("data/../../secret.bin"), std::string("data/link.bin"), std::string("up/secret.bin"),
         absolute + "/secret.bin", std::string("../city2/twin.bin"), std::string("/etc/passwd"),
         std::string("%2Fetc%2Fpasswd"), std::string("/dev/zero"), std::string("../gone.bin")}) {
-    expect_input_error([&] { read(uri, file); }, uri, "a.gltf");
+    expect_error([&] { read(uri, file); }, ErrorCode::mesh_unsupported);
   }
   // A link to the glTF file finds what is beside the file.
   fs::create_directories(folder / "links");

@@ -235,12 +235,12 @@ std::string small_config(const std::string& volume, const std::string& mesh = "f
 
 class SpheresCommand : public Cli {
  protected:
-  void expect_bad_config(const std::string& text, const std::string& what,
+  void expect_bad_config(const std::string& text,
                          const std::string& where = "config.yaml:3:", const std::vector<std::string>& more = {}) {
     write("config.yaml", text);
     std::vector<std::string> arguments = {"spheres", "-c", "config.yaml"};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    expect_bad(arguments, what, where);
+    expect_bad(arguments, where);
   }
 };
 
@@ -334,32 +334,33 @@ TEST_F(SpheresCommand, TellsUnknownKeys) {
   const ProgramRun loud = run({"spheres", "-c", "config.yaml"});
   EXPECT_EQ(loud.exit_code, 0);
   EXPECT_NE(loud.err.find("config.yaml:3:"), std::string::npos) << loud.err;
-  EXPECT_NE(loud.err.find("unknown key 'colour'"), std::string::npos) << loud.err;
+  EXPECT_NE(loud.err.find("'colour'"), std::string::npos) << loud.err;
+  testing::expect_wording(loud.err);
   EXPECT_EQ(output_of({"spheres", "-c", "config.yaml", "-q"}), "");
 }
 
 TEST_F(SpheresCommand, RefusesBadViewpoints) {
-  expect_bad_config(small_config("origin: [25, 0, 6], output_file: volume.ply"), "lies inside a solid", "block");
-  expect_bad_config(small_config("origin: [25, 0, 6], output_file: volume.ply"), "volume at line 3");
-  expect_bad_config(small_config("origin: [0, 0, 0], output_file: volume.ply"), "lies on a surface", "ground");
-  expect_bad_config(small_config("origin: [0, .nan, 0], output_file: volume.ply"), "not finite");
-  expect_bad_config(small_config("origin: [0, 0, 3], fov_degrees: 91, output_file: volume.ply"), "must be 90");
+  expect_bad_config(small_config("origin: [25, 0, 6], output_file: volume.ply"), "block");
+  expect_bad_config(small_config("origin: [25, 0, 6], output_file: volume.ply"));
+  expect_bad_config(small_config("origin: [0, 0, 0], output_file: volume.ply"), "ground");
+  expect_bad_config(small_config("origin: [0, .nan, 0], output_file: volume.ply"));
+  expect_bad_config(small_config("origin: [0, 0, 3], fov_degrees: 91, output_file: volume.ply"));
 }
 
 TEST_F(SpheresCommand, RefusesBadFiles) {
   const std::string origin = "origin: [0, 0, 3], radius_max: 9, output_file: ";
-  expect_bad_config(small_config(origin + "v.ply", "filename: none.obj"), "the mesh does not exist", "config.yaml:2:");
-  expect_bad_config(small_config(origin + "v.ply", "filename: config.yaml"), "", "config.yaml");
-  expect_bad_config(small_config(origin + "v.txt"), "no format is known");
-  expect_bad_config(small_config(origin + "nowhere/v.ply"), "output folder does not exist");
-  expect_bad_config(small_config(origin + "city.obj"), "would overwrite an input");
-  expect_bad_config(small_config(origin + "."), "folder");
-  expect_bad({"spheres", "-c", "none.yaml"}, "the configuration file does not exist", "none.yaml");
-  expect_bad({"spheres", "-c", "."}, "the configuration file is a folder", ".");
-  expect_bad({"spheres"}, "config", "command line");
-  expect_bad_config(small_config(origin + "v.ply"), "", "", {"--sphere", "round"});
-  expect_bad_config(small_config(origin + "v.ply"), "", "", {"--device", "abacus"});
-  expect_bad_config(small_config(origin + "v.ply"), "", "", {"--device", "99"});
+  expect_bad_config(small_config(origin + "v.ply", "filename: none.obj"), "config.yaml:2:");
+  expect_bad_config(small_config(origin + "v.ply", "filename: config.yaml"), "config.yaml");
+  expect_bad_config(small_config(origin + "v.txt"));
+  expect_bad_config(small_config(origin + "nowhere/v.ply"));
+  expect_bad_config(small_config(origin + "city.obj"));
+  expect_bad_config(small_config(origin + "."));
+  expect_bad({"spheres", "-c", "none.yaml"}, "none.yaml");
+  expect_bad({"spheres", "-c", "."}, ".");
+  expect_bad({"spheres"}, "command line");
+  expect_bad_config(small_config(origin + "v.ply"), "", {"--sphere", "round"});
+  expect_bad_config(small_config(origin + "v.ply"), "", {"--device", "abacus"});
+  expect_refused({"spheres", "-c", "config.yaml", "--device", "99"}, "0: CPU");  // with this machine's devices
 }
 
 TEST_F(SpheresCommand, WritesAllOrNothing) {
@@ -369,13 +370,13 @@ TEST_F(SpheresCommand, WritesAllOrNothing) {
   const std::string block = "visibility_vol: {width: 8, height: 8, up: [0, 0, 1], origin: [0, 0, 3], radius_max: 20, ";
   expect_bad_config("world_coord_sys: {up: [0, 0, 1]}\nmesh: {filename: city.obj}\n" + block +
                         "output_file: open/v.ply}\n" + block + "output_file: gone/v.ply}\n",
-                    "folder does not exist", "config.yaml:4:");
+                    "config.yaml:4:");
   // The disk is full while the second is written.
   options_.largest_file = 60000;
   write("config.yaml", "world_coord_sys: {up: [0, 0, 1]}\nmesh: {filename: city.obj}\n" + block +
                            "output_file: open/v.ply}\nvisibility_vol: {width: 40, height: 40, up: [0, 0, 1], origin: "
                            "[0, 0, 3], radius_max: 20, output_file: open/w.ply}\n");
-  expect_bad({"spheres", "-c", "config.yaml"}, "", "open/w.ply");
+  expect_bad({"spheres", "-c", "config.yaml"}, "open/w.ply");
   EXPECT_EQ(content(folder_ / "open/v.ply"), kOldOutput);
   EXPECT_FALSE(fs::exists(folder_ / "open/w.ply"));
 }
@@ -386,7 +387,7 @@ TEST_F(SpheresCommand, KnowsOneFileByTwoNames) {
   const std::string block = "visibility_vol: {width: 8, height: 8, up: [0, 0, 1], origin: [0, 0, 3], radius_max: 20, ";
   expect_bad_config("world_coord_sys: {up: [0, 0, 1]}\nmesh: {filename: city.obj}\n" + block +
                         "output_file: open/v.ply}\n" + block + "output_file: alias/v.ply}\n",
-                    "two volumes are written to one file", "config.yaml:4:");
+                    "config.yaml:4:");
 }
 
 }  // namespace

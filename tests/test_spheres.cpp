@@ -14,6 +14,7 @@
 #include "support/progress_check.h"
 #include "support/random.h"
 #include "support/scenes.h"
+#include "support/wording.h"
 #include "vantage/error.h"
 #include "vantage/volume.h"
 
@@ -297,25 +298,15 @@ TEST(Spheres, OutcomesAreToldNotThrown) {
   EXPECT_FALSE(unseen.volume.hint.empty());
 }
 
-template <typename Action>
-std::string problem_of(const Action& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::input);
-    return error.problem();
-  }
-  return "nothing was thrown";
-}
-
 TEST(Spheres, RefusesOptionsOutOfRange) {
   SceneBuilder scene;
   scene.ground("ground", 200);
   const auto refused = [&](const std::string& what, const auto& change) {
     SpheresOptions options;
     change(options);
-    const std::string problem = problem_of([&] { run(scene, triangle(), options); });
-    EXPECT_NE(problem.find(what), std::string::npos) << problem;
+    const Error error =
+        testing::expect_error([&] { run(scene, triangle(), options); }, ErrorCode::value_out_of_range, "spheres");
+    EXPECT_NE(error.problem().find(what), std::string::npos) << error.problem();
   };
   refused("cubemap", [](SpheresOptions& o) { o.cubemap = 0; });
   refused("cubemap", [](SpheresOptions& o) { o.cubemap = 100000; });
@@ -331,18 +322,23 @@ TEST(Spheres, RefusesOptionsOutOfRange) {
   refused("merge", [](SpheresOptions& o) { o.merge = 0.06; });
   refused("merge", [](SpheresOptions& o) { o.merge = NAN; });
   // Within the limits, but some 800 million facets: no machine of today holds that.
-  refused("of memory", [](SpheresOptions& o) { o.cubemap = 8192; });
+  SpheresOptions large;
+  large.cubemap = 8192;
+  testing::expect_code([&] { run(scene, triangle(), large); }, ErrorCode::out_of_memory, "spheres");
 }
 
 TEST(Spheres, RefusesTargetsAsTheExactEngineDoes) {
   SceneBuilder scene;
   scene.ground("ground", 200).box("block", {-1, 1, -1}, {1, 3, 5});
-  const std::string exact =
-      problem_of([&] { compute_visibility(PreparedTarget(PreparedScene(scene), triangle(), {kRange})); });
-  EXPECT_EQ(problem_of([&] { run(scene, triangle(), coarse(4)); }), exact);
-  EXPECT_NE(exact.find("block"), std::string::npos);
-  EXPECT_EQ(problem_of([&] { run(scene, triangle(), coarse(4), false, -1); }),
-            problem_of([&] { compute_visibility(PreparedTarget(PreparedScene(scene), triangle(), {-1})); }));
+  const Error exact =
+      testing::expect_error([&] { compute_visibility(PreparedTarget(PreparedScene(scene), triangle(), {kRange})); },
+                            ErrorCode::target_pierced);
+  EXPECT_EQ(exact.object(), 1U) << "the block";
+  EXPECT_STREQ(testing::error_of([&] { run(scene, triangle(), coarse(4)); }).what(), exact.what());
+  const Error no_range =
+      testing::expect_error([&] { compute_visibility(PreparedTarget(PreparedScene(scene), triangle(), {-1})); },
+                            ErrorCode::value_out_of_range);
+  EXPECT_STREQ(testing::error_of([&] { run(scene, triangle(), coarse(4), false, -1); }).what(), no_range.what());
 }
 
 TEST(Spheres, PointsAreRaisedAndRefusedAsTheExactEngineDoes) {
@@ -362,10 +358,9 @@ TEST(Spheres, PointsAreRaisedAndRefusedAsTheExactEngineDoes) {
   Target along_ground = target_of({{0, 0, 0}});
   along_ground.front = Vec3(0, 1, 0);
   for (const Target& target : {target_of({{10, 0, 5}}), target_of({{9.999, 0, 5}}), along_ground}) {
-    const std::string refusal =
-        problem_of([&] { compute_visibility(PreparedTarget(PreparedScene(block), target, {kRange})); });
-    EXPECT_NE(refusal.find("stands on or passes through the target"), std::string::npos) << refusal;
-    EXPECT_EQ(problem_of([&] { run(block, target, coarse(4)); }), refusal);
+    const Error refusal = testing::expect_error(
+        [&] { compute_visibility(PreparedTarget(PreparedScene(block), target, {kRange})); }, ErrorCode::target_pierced);
+    EXPECT_STREQ(testing::error_of([&] { run(block, target, coarse(4)); }).what(), refusal.what());
   }
 }
 

@@ -10,6 +10,7 @@
 #include "support/oracle.h"
 #include "support/progress_check.h"
 #include "support/solids.h"
+#include "support/wording.h"
 #include "vantage/error.h"
 #include "vantage/verify.h"
 
@@ -328,29 +329,28 @@ TEST(Verify, ReportsProgressAndStops) {
 
 TEST(Verify, RefusesBadInput) {
   const Example example = plate_example();
-  const auto refuses = [&](auto&& change) {
+  const auto refused = [&](const std::function<void(Example&, VerifyOptions&)>& change) {
     Example bad = example;
     VerifyOptions options;
     options.points = 8;
     change(bad, options);
-    try {
-      bad.verify(bad.truth, options);
-      return false;
-    } catch (const Error& error) {
-      return error.kind() == ErrorKind::input && !error.problem().empty() && !error.where().empty() &&
-             !error.fix().empty();
-    }
+    return testing::code_of([&] { bad.verify(bad.truth, options); });
   };
-  EXPECT_FALSE(refuses([](Example&, VerifyOptions&) {}));
-  EXPECT_TRUE(refuses([](Example& e, VerifyOptions&) { e.truth.triangles.pop_back(); }));
-  EXPECT_TRUE(refuses([](Example& e, VerifyOptions&) { e.truth = {}; }));
-  EXPECT_TRUE(refuses([](Example& e, VerifyOptions&) { e.sensor.max_range_m = 0; }));
-  EXPECT_TRUE(refuses([](Example& e, VerifyOptions&) { e.sensor.max_range_m = std::nan(""); }));
-  EXPECT_TRUE(refuses([](Example& e, VerifyOptions&) { e.target.parts[0].resize(2); }));
-  EXPECT_TRUE(refuses([](Example& e, VerifyOptions&) { e.navigation.altitude = Navigation::Altitude{5, 1}; }));
-  EXPECT_TRUE(refuses([](Example& e, VerifyOptions&) { e.scene.mesh.triangles[0][1] = 99; }));
-  EXPECT_TRUE(refuses([](Example&, VerifyOptions& o) { o.depth_tolerance = -1; }));
-  EXPECT_TRUE(refuses([](Example&, VerifyOptions& o) { o.target_samples = -1; }));
+  EXPECT_EQ(refused([](Example&, VerifyOptions&) {}), std::nullopt);
+  EXPECT_EQ(refused([](Example& e, VerifyOptions&) { e.truth.triangles.pop_back(); }), ErrorCode::mesh_not_closed);
+  EXPECT_EQ(refused([](Example& e, VerifyOptions&) { e.truth = {}; }), ErrorCode::mesh_empty);
+  EXPECT_EQ(refused([](Example& e, VerifyOptions&) { e.sensor.max_range_m = 0; }), ErrorCode::value_out_of_range);
+  EXPECT_EQ(refused([](Example& e, VerifyOptions&) { e.sensor.max_range_m = std::nan(""); }),
+            ErrorCode::value_out_of_range);
+  EXPECT_EQ(refused([](Example& e, VerifyOptions&) { e.target.parts[0].resize(2); }), ErrorCode::target_vertex_count);
+  EXPECT_EQ(refused([](Example& e, VerifyOptions&) {
+              e.navigation.altitude = Navigation::Altitude{5, 1};
+            }),
+            ErrorCode::limits_reversed);
+  EXPECT_EQ(refused([](Example& e, VerifyOptions&) { e.scene.mesh.triangles[0][1] = 99; }),
+            ErrorCode::index_out_of_range);
+  EXPECT_EQ(refused([](Example&, VerifyOptions& o) { o.depth_tolerance = -1; }), ErrorCode::value_out_of_range);
+  EXPECT_EQ(refused([](Example&, VerifyOptions& o) { o.target_samples = -1; }), ErrorCode::value_out_of_range);
 }
 
 }  // namespace

@@ -39,8 +39,8 @@ class Pieces {
   void expect_open(const Vec3& viewpoint) const {
     EXPECT_NO_THROW(scene::ViewpointCheck(scene_).check(viewpoint, "the viewpoint"));
   }
-  void expect_refused(const Vec3& viewpoint, const std::string& problem, const std::string& object) const {
-    expect_input_error([&] { scene::ViewpointCheck(scene_).check(viewpoint, "the viewpoint"); }, problem, object);
+  void expect_refused(const Vec3& viewpoint, ErrorCode code, const std::string& object) const {
+    expect_error([&] { scene::ViewpointCheck(scene_).check(viewpoint, "the viewpoint"); }, code, object);
   }
 
  private:
@@ -49,8 +49,8 @@ class Pieces {
 
 TEST(ViewpointCheck, TellsInsideFromOutside) {
   const Pieces cube = Pieces().add_cube("Building17");
-  cube.expect_refused({0, 0, 0}, "the viewpoint lies inside a solid", "Building17");
-  cube.expect_refused({0.9, -0.9, 0.9}, "lies inside a solid", "Building17");
+  cube.expect_refused({0, 0, 0}, ErrorCode::viewpoint_inside_solid, "Building17");
+  cube.expect_refused({0.9, -0.9, 0.9}, ErrorCode::viewpoint_inside_solid, "Building17");
   for (const Vec3& outside : {Vec3(1.1, 0, 0), Vec3(-1.01, -1.01, -1.01), Vec3(0, 0, 1.01), Vec3(50, 2, 1)}) {
     cube.expect_open(outside);
   }
@@ -58,13 +58,13 @@ TEST(ViewpointCheck, TellsInsideFromOutside) {
 
 TEST(ViewpointCheck, KnowsSolidsTurnedInsideOut) {
   const Pieces cube = Pieces().add_cube("box", true, true);
-  cube.expect_refused({0.2, 0.3, -0.4}, "inside a solid", "box");
+  cube.expect_refused({0.2, 0.3, -0.4}, ErrorCode::viewpoint_inside_solid, "box");
   cube.expect_open({1.1, 0, 0});
 }
 
 TEST(ViewpointCheck, KnowsBuildingsWithoutFloor) {
   const Pieces building = Pieces().add_cube("hall", false);
-  building.expect_refused({0, 0, -0.95}, "inside a solid", "hall");
+  building.expect_refused({0, 0, -0.95}, ErrorCode::viewpoint_inside_solid, "hall");
   building.expect_open({0, 0, -1.05});
   building.expect_open({1.05, 0, -0.95});
 }
@@ -90,15 +90,15 @@ TEST(ViewpointCheck, StandsOnOpenGroundAndInValleys) {
   city.add_cube("block");
   city.expect_open({3, 0, -1});
   city.expect_open({3, 0, -1.4});
-  city.expect_refused({0.5, 0.5, -0.5}, "inside a solid", "block");
+  city.expect_refused({0.5, 0.5, -0.5}, ErrorCode::viewpoint_inside_solid, "block");
 }
 
 TEST(ViewpointCheck, RefusesSurfaces) {
   const Pieces cube = Pieces().add_cube("block");
-  cube.expect_refused({1, 0.3, 0.2}, "the viewpoint lies on a surface", "block");
-  cube.expect_refused({1.0005, 0.3, 0.2}, "on a surface", "block");
-  cube.expect_refused({1, 1, 1}, "on a surface", "block");         // a corner
-  cube.expect_refused({1, 1.0009, 0.4}, "on a surface", "block");  // beside an edge
+  cube.expect_refused({1, 0.3, 0.2}, ErrorCode::viewpoint_on_surface, "block");
+  cube.expect_refused({1.0005, 0.3, 0.2}, ErrorCode::viewpoint_on_surface, "block");
+  cube.expect_refused({1, 1, 1}, ErrorCode::viewpoint_on_surface, "block");         // a corner
+  cube.expect_refused({1, 1.0009, 0.4}, ErrorCode::viewpoint_on_surface, "block");  // beside an edge
   cube.expect_open({1.002, 0.3, 0.2});
   cube.expect_open({1.001, 1.001, 0.4});
   // In the plane of a face, beside it.
@@ -108,8 +108,8 @@ TEST(ViewpointCheck, RefusesSurfaces) {
 TEST(ViewpointCheck, BearsDegenerateTriangles) {
   Pieces needle;
   needle.add("needle", {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {5, 5, 5}}, {{0, 1, 2}, {3, 3, 3}});
-  needle.expect_refused({0.5, 0, 0}, "on a surface", "needle");
-  needle.expect_refused({5, 5, 5}, "on a surface", "needle");
+  needle.expect_refused({0.5, 0, 0}, ErrorCode::viewpoint_on_surface, "needle");
+  needle.expect_refused({5, 5, 5}, ErrorCode::viewpoint_on_surface, "needle");
   needle.expect_open({0.5, 0.01, 0});
   needle.expect_open({-1, 0, 0});
 }

@@ -49,13 +49,15 @@ visibility_vol:
   output_file: sub/v.ply
 )";
 
+const std::filesystem::path kFolder = "/folder";
+
 TEST(WillisConfig, ReadsWhatTheirToolsWrite) {
-  const WillisConfig config = parse_willis_config(kAsTheirs, "/folder/config.yaml");
+  const WillisConfig config = parse_willis_config(kAsTheirs, kFolder / "c.yaml");
   EXPECT_TRUE(config.warnings.empty());
   EXPECT_EQ(config.up, UpAxis::y);
   ASSERT_EQ(config.meshes.size(), 1U);
   EXPECT_EQ(config.meshes[0].file, "/maps/battcave.obj");
-  EXPECT_EQ(config.meshes[0].where, "/folder/config.yaml:13:14");
+  EXPECT_EQ(config.meshes[0].where, kFolder / "c.yaml:13:14");
   EXPECT_EQ(config.meshes[0].rotation, Eigen::Matrix3d::Identity());
   ASSERT_EQ(config.volumes.size(), 2U);
   const WillisVolume& first = config.volumes[0];
@@ -66,11 +68,11 @@ TEST(WillisConfig, ReadsWhatTheirToolsWrite) {
   EXPECT_EQ(first.up_max, 1000);
   EXPECT_EQ(first.radius_max, 100);
   EXPECT_EQ(first.output, "/out/v_002.obj");
-  EXPECT_EQ(first.where, "/folder/config.yaml:21:11");
+  EXPECT_EQ(first.where, kFolder / "c.yaml:21:11");
 }
 
 TEST(WillisConfig, HasDefaults) {
-  const WillisConfig config = parse_willis_config(kAsTheirs, "/folder/config.yaml");
+  const WillisConfig config = parse_willis_config(kAsTheirs, kFolder / "c.yaml");
   const WillisVolume& second = config.volumes.at(1);
   EXPECT_EQ(second.name, "volume Volume 3");
   EXPECT_EQ(second.front, Vec3::UnitX());
@@ -78,12 +80,12 @@ TEST(WillisConfig, HasDefaults) {
   EXPECT_EQ(second.up_min, -INFINITY);
   EXPECT_EQ(second.up_max, INFINITY);
   EXPECT_EQ(second.radius_max, INFINITY);
-  EXPECT_EQ(second.output, "/folder/sub/v.ply");
+  EXPECT_EQ(second.output, kFolder / "sub/v.ply");
   const WillisConfig least = parse_willis_config(
       "visibility_vol: {width: 4, height: 4, origin: [0, 0, 0], output_file: v.obj}\nmesh: {filename: a.obj}\n", "c");
   EXPECT_EQ(least.up, UpAxis::y);
   EXPECT_EQ(least.meshes[0].scale, Vec3::Ones());
-  EXPECT_EQ(least.volumes[0].name, "volume at line 1");
+  expect_wording(least.volumes[0].name);
 }
 
 TEST(WillisConfig, PlacesMeshes) {
@@ -106,71 +108,69 @@ TEST(WillisConfig, TellsKeysThatMeanNothing) {
       "visibility_vol: {width: 4, height: 4, origin: [0, 0, 0], output_file: v.obj}\n",
       "c.yaml");
   ASSERT_EQ(config.warnings.size(), 2U);
-  EXPECT_EQ(config.warnings[0], "c.yaml:1:1: unknown key 'light' in the configuration means nothing here");
-  EXPECT_EQ(config.warnings[1].rfind("c.yaml:2:25: unknown key 'colour'", 0), 0U) << config.warnings[1];
+  EXPECT_EQ(config.warnings[0].rfind("c.yaml:1:1:", 0), 0U) << config.warnings[0];
+  EXPECT_EQ(config.warnings[1].rfind("c.yaml:2:25:", 0), 0U) << config.warnings[1];
+  expect_wording(config.warnings);
 }
 
 /// Expects an input error of kAsTheirs with `from` replaced by `to`.
-void expect_refused(const std::string& from, const std::string& to, const std::string& problem,
-                    const std::string& where) {
+void expect_refused(const std::string& from, const std::string& to, ErrorCode code, const std::string& where) {
   std::string text = kAsTheirs;
   const std::size_t at = text.find(from);
   ASSERT_NE(at, std::string::npos) << from;
   text.replace(at, from.size(), to);
-  expect_input_error([&] { parse_willis_config(text, "c.yaml"); }, problem, where);
+  expect_error([&] { parse_willis_config(text, "c.yaml"); }, code, where);
 }
 
 TEST(WillisConfig, RefusesCubesThatAreNone) {
-  expect_refused("fov_degrees: 90", "fov_degrees: 60", "must be 90, not 60", "c.yaml:19:16");
-  expect_refused("width: 40", "width: 80", "height is 40, but width is 80", "c.yaml:18:11");
-  expect_refused("width: 40", "width: 0", "whole number from 1 to 8192, not '0'", "c.yaml:17:10");
-  expect_refused("width: 40", "width: 100000", "not '100000'", "c.yaml:17:10");
-  expect_refused("width: 40", "width: 40.5", "not '40.5'", "c.yaml:17:10");
-  expect_refused("width: 40", "width: -3", "not '-3'", "c.yaml:17:10");
-  expect_refused("height: 40", "height:", "must be a number, not nothing", "c.yaml:18:3");
-  expect_refused("  front: [1.0, 0.0, 0.0]\n  up: [0.0", "  front: [0, 2, 0]\n  up: [0.0", "front is parallel to up",
+  expect_refused("fov_degrees: 90", "fov_degrees: 60", ErrorCode::value_unsupported, "c.yaml:19:16");
+  expect_refused("width: 40", "width: 80", ErrorCode::value_unsupported, "c.yaml:18:11");
+  expect_refused("width: 40", "width: 0", ErrorCode::value_out_of_range, "c.yaml:17:10");
+  expect_refused("width: 40", "width: 100000", ErrorCode::value_out_of_range, "c.yaml:17:10");
+  expect_refused("width: 40", "width: 40.5", ErrorCode::value_out_of_range, "c.yaml:17:10");
+  expect_refused("width: 40", "width: -3", ErrorCode::value_out_of_range, "c.yaml:17:10");
+  expect_refused("height: 40", "height:", ErrorCode::wrong_type, "c.yaml:18:3");
+  expect_refused("  front: [1.0, 0.0, 0.0]\n  up: [0.0", "  front: [0, 2, 0]\n  up: [0.0", ErrorCode::direction_invalid,
                  "c.yaml:22:10");
-  expect_refused("  up: [0.0, 1.0, 0.0]\n  # max", "  up: [0, 0, 0]\n  # max", "up has length 0", "c.yaml:23:7");
+  expect_refused("  up: [0.0, 1.0, 0.0]\n  # max", "  up: [0, 0, 0]\n  # max", ErrorCode::direction_invalid,
+                 "c.yaml:23:7");
 }
 
 TEST(WillisConfig, RefusesNumbersThatAreNone) {
-  expect_refused("-14.638578", ".nan", "visibility_vol.origin.x is not finite", "c.yaml:21:12");
-  expect_refused("-14.638578", "-inf", "is not finite", "c.yaml:21:12");
-  expect_refused("-14.638578", "1e400", "beyond what a double holds", "c.yaml:21:12");
-  expect_refused("-14.638578", "1e12", "too large", "c.yaml:21:12");
-  expect_refused("-14.638578, ", "", "must be three numbers, not a list of 2", "c.yaml:21:11");
-  expect_refused("radius_max: 100", "radius_max: -100", "must be greater than 0", "c.yaml:28:15");
-  expect_refused("radius_max: 100.000000", "radius_max: .inf", "is not finite", "c.yaml:28:15");
-  expect_refused("up_min: -1.0", "up_min: 1000", "not below up_max", "c.yaml:27:11");
-  expect_refused("up_min: -1.0", "up_min: 0.6", "viewpoint of volume 2 lies at height 0.5, not between",
-                 "c.yaml:21:11");
-  expect_refused("scale : 1.0", "scale : 0", "mesh.scale must be greater than 0", "c.yaml:10:11");
-  expect_refused("scale : 1.0", "scale : [1, -1, 1]", "mesh.scale must be greater than 0", "c.yaml:10:11");
-  expect_refused("[1, 0, 0, 0]", "[0, 0, 0, 90]", "axis of length 0", "c.yaml:11:28");
-  expect_refused("[1, 0, 0, 0]", "[1, 0, 0]", "must be four numbers", "c.yaml:11:28");
+  expect_refused("-14.638578", ".nan", ErrorCode::value_out_of_range, "c.yaml:21:12");
+  expect_refused("-14.638578", "-inf", ErrorCode::value_out_of_range, "c.yaml:21:12");
+  expect_refused("-14.638578", "1e400", ErrorCode::value_out_of_range, "c.yaml:21:12");
+  expect_refused("-14.638578", "1e12", ErrorCode::value_out_of_range, "c.yaml:21:12");
+  expect_refused("-14.638578, ", "", ErrorCode::wrong_type, "c.yaml:21:11");
+  expect_refused("radius_max: 100", "radius_max: -100", ErrorCode::value_out_of_range, "c.yaml:28:15");
+  expect_refused("radius_max: 100.000000", "radius_max: .inf", ErrorCode::value_out_of_range, "c.yaml:28:15");
+  expect_refused("up_min: -1.0", "up_min: 1000", ErrorCode::limits_reversed, "c.yaml:27:11");
+  expect_refused("up_min: -1.0", "up_min: 0.6", ErrorCode::limits_empty, "c.yaml:21:11");
+  expect_refused("scale : 1.0", "scale : 0", ErrorCode::value_out_of_range, "c.yaml:10:11");
+  expect_refused("scale : 1.0", "scale : [1, -1, 1]", ErrorCode::value_out_of_range, "c.yaml:10:11");
+  expect_refused("[1, 0, 0, 0]", "[0, 0, 0, 90]", ErrorCode::direction_invalid, "c.yaml:11:28");
+  expect_refused("[1, 0, 0, 0]", "[1, 0, 0]", ErrorCode::wrong_type, "c.yaml:11:28");
 }
 
 TEST(WillisConfig, RefusesWhatIsMissingOrMeantOtherwise) {
-  expect_refused("  filename : /maps/battcave.obj\n", "", "mesh lacks the key 'filename'", "c.yaml:8:3");
-  expect_refused("  output_file: /out/v_002.obj\n", "", "lacks the key 'output_file'", "c.yaml:16:3");
-  expect_refused("  origin: [1, 2, 3]\n", "", "lacks the key 'origin'", "c.yaml:32:3");
-  expect_refused("format : OBJ", "format : DAE", "must be OBJ, PLY or STL, not 'DAE'", "c.yaml:12:12");
-  expect_refused("radius_max: 100", "radius_mx: 100", "unknown key 'radius_mx'", "c.yaml:28:3");
-  expect_refused("sub/v.ply", "/out/./v_002.obj", "two volumes have the same output_file", "c.yaml:36:16");
-  expect_refused("up: [0.0, 1.0, 0.0]\n  front", "up: [1, 0, 0]\n  front", "must be the y axis or the z axis",
-                 "c.yaml:4:7");
-  expect_refused("origin: [0.0, 0.0, 0.0]", "origin: [0, 0, 1]", "must be [0, 0, 0]", "c.yaml:3:11");
-  expect_refused("width: 40", "width: 40\n  width: 40", "key 'width' is given twice", "c.yaml:18:3");
-  expect_refused("world_coord_sys:", "world_coord_sys: {}\nworld_coord_sys:", "given twice", "c.yaml:2:1");
-  expect_input_error([] { parse_willis_config("mesh: {filename: a.obj}\n", "c"); }, "lacks a block 'visibility_vol'",
-                     "c:1:1");
-  expect_input_error(
+  expect_refused("  filename : /maps/battcave.obj\n", "", ErrorCode::missing_key, "c.yaml:8:3");
+  expect_refused("  output_file: /out/v_002.obj\n", "", ErrorCode::missing_key, "c.yaml:16:3");
+  expect_refused("  origin: [1, 2, 3]\n", "", ErrorCode::missing_key, "c.yaml:32:3");
+  expect_refused("format : OBJ", "format : DAE", ErrorCode::value_unsupported, "c.yaml:12:12");
+  expect_refused("radius_max: 100", "radius_mx: 100", ErrorCode::unknown_key, "c.yaml:28:3");
+  expect_refused("sub/v.ply", "/out/./v_002.obj", ErrorCode::output_named_twice, "c.yaml:36:16");
+  expect_refused("up: [0.0, 1.0, 0.0]\n  front", "up: [1, 0, 0]\n  front", ErrorCode::value_unsupported, "c.yaml:4:7");
+  expect_refused("origin: [0.0, 0.0, 0.0]", "origin: [0, 0, 1]", ErrorCode::value_unsupported, "c.yaml:3:11");
+  expect_refused("width: 40", "width: 40\n  width: 40", ErrorCode::duplicate_key, "c.yaml:18:3");
+  expect_refused("world_coord_sys:", "world_coord_sys: {}\nworld_coord_sys:", ErrorCode::duplicate_key, "c.yaml:2:1");
+  expect_error([] { parse_willis_config("mesh: {filename: a.obj}\n", "c"); }, ErrorCode::missing_key, "c:1:1");
+  expect_error(
       [] {
         parse_willis_config("visibility_vol: {width: 4, height: 4, origin: [0, 0, 0], output_file: v.obj}\n", "c");
       },
-      "lacks a block 'mesh'", "c:1:1");
-  expect_input_error([] { parse_willis_config("mesh: 3\n", "c"); }, "mesh must be a mapping of keys, not '3'", "c:1:7");
-  expect_input_error([] { parse_willis_config("", "c"); }, "the configuration file is empty", "c");
+      ErrorCode::missing_key, "c:1:1");
+  expect_error([] { parse_willis_config("mesh: 3\n", "c"); }, ErrorCode::wrong_type, "c:1:7");
+  expect_error([] { parse_willis_config("", "c"); }, ErrorCode::file_empty, "c");
 }
 
 TEST(WillisConfig, BoundsTheNumberOfBlocks) {
@@ -183,7 +183,7 @@ TEST(WillisConfig, BoundsTheNumberOfBlocks) {
   add(0, 500);
   EXPECT_EQ(parse_willis_config(text, "c").volumes.size(), 500U);
   add(500, 10001);
-  expect_input_error([&] { parse_willis_config(text, "c"); }, "more than 10000 keys", "c");
+  expect_error([&] { parse_willis_config(text, "c"); }, ErrorCode::yaml_unsupported, "c");
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "support/objects.h"
 #include "support/temporary_directory.h"
+#include "support/wording.h"
 #include "vantage/error.h"
 #include "vantage/scene.h"
 
@@ -172,28 +173,22 @@ TEST(WriteScene, GlbIsWhatTheSpecificationAsksFor) {
 
 TEST(WriteScene, RefusesWhatDoesNotFitTogether) {
   const TemporaryDirectory directory;
-  const auto problem = [&](const Scene& scene, const char* name) {
-    try {
-      write_scene(scene, directory / name);
-    } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::input);
-      return error.problem() + " | " + error.where();
-    }
-    return std::string("none");
+  const auto expect_refused = [&](const Scene& scene, const char* name, ErrorCode code, const std::string& where) {
+    testing::expect_error([&] { write_scene(scene, directory / name); }, code, where);
   };
-  EXPECT_EQ(problem(Scene(), "a.obj"), "the scene holds no triangles | ");
+  expect_refused(Scene(), "a.obj", ErrorCode::mesh_empty, "");
   Scene scene = awkward_scene();
-  EXPECT_EQ(problem(scene, "a.xyz"), "unknown output format \".xyz\" | " + (directory / "a.xyz").string());
+  expect_refused(scene, "a.xyz", ErrorCode::output_format_unknown, (directory / "a.xyz").string());
   scene.object_of[3] = 6;
-  EXPECT_EQ(problem(scene, "a.obj"), "its object index is out of range | triangle 3");
+  expect_refused(scene, "a.obj", ErrorCode::index_out_of_range, "triangle 3");
   scene.object_of.pop_back();
-  EXPECT_EQ(problem(scene, "a.obj"), "the scene has 24 triangles but objects of 23 | ");
+  expect_refused(scene, "a.obj", ErrorCode::array_sizes_differ, "");
   scene = awkward_scene();
   scene.mesh.triangles[7][1] = 25;
-  EXPECT_EQ(problem(scene, "a.obj"), "a vertex index is out of range | triangle 7");
+  expect_refused(scene, "a.obj", ErrorCode::index_out_of_range, "triangle 7");
   scene = awkward_scene();
   scene.mesh.vertices[2].y() = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(problem(scene, "a.glb"), "a coordinate is not finite | vertex 2");
+  expect_refused(scene, "a.glb", ErrorCode::coordinate_not_finite, "vertex 2");
   EXPECT_TRUE(std::filesystem::is_empty(directory.path()));
 }
 

@@ -43,7 +43,8 @@ const City& city_named(const std::string& name) {
                                                              {"etoile", &kEtoile}};
   const auto found = kCities.find(name);
   if (found == kCities.end())
-    throw Error(ErrorKind::input, "no city is called " + name, "--cities", "see the first lines of bench/gap/gap.cpp");
+    throw Error(ErrorCode::unknown_choice, "no city is called " + name, "--cities",
+                "see the first lines of bench/gap/gap.cpp");
   return *found->second;
 }
 

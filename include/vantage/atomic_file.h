@@ -17,8 +17,8 @@ namespace vantage {
 /// A target that is a symbolic link is followed; an existing file's permissions are kept.
 class VANTAGE_API AtomicFile {
  public:
-  /// Throws Error(input) for a directory, Error(output) for a missing directory, a target that is a device, a pipe or a
-  /// socket, or a place where no file can be made.
+  /// Throws ErrorCode::output_not_a_file for a directory, a device, a pipe or a socket, and output_unwritable for a
+  /// missing directory or a place where no file can be made.
   explicit AtomicFile(const std::filesystem::path& target);
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;

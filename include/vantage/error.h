@@ -1,8 +1,13 @@
 // The one exception type of vantage.
 #pragma once
 
+#include <cstdint>
+#include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
+#include <string_view>
+#include <utility>
 
 #include "vantage/export.h"
 
@@ -16,20 +21,174 @@ enum class ErrorKind {
   internal,   ///< a defect of vantage itself: an invariant did not hold
 };
 
+/// What is wrong, for programs: a code says what the person must mend, not which function noticed it. Codes and their
+/// names stay as they are from version to version, the words of messages may change. docs/errors.md says for each what
+/// to do.
+enum class ErrorCode {
+  // files that are read
+  file_not_found,      ///< a file or folder that is named does not exist
+  not_a_file,          ///< a folder, a device or a pipe stands where a file is needed
+  file_unreadable,     ///< a file cannot be opened, or not be read to its end
+  file_empty,          ///< a file has no content
+  file_too_large,      ///< a file is larger than what is read of its kind
+  file_changed,        ///< a file shrank while it was read
+  compression_broken,  ///< the gzip or bzip2 data of a file is cut off or corrupt
+  stdin_not_possible,  ///< a file cannot come from standard input here
+  out_of_memory,       ///< there is not enough memory for what is asked
+  record_garbled,      ///< what vantage itself wrote into a file was changed
+
+  // meshes in files
+  mesh_format_unknown,      ///< a mesh file is of no format that is read
+  mesh_syntax,              ///< a mesh file breaks the rules of its format
+  mesh_unsupported,         ///< a mesh file is valid, but uses what cannot be read here
+  mesh_empty,               ///< a mesh has no triangles
+  mesh_too_large,           ///< a mesh has more vertices, triangles or corners than can be handled
+  level_of_detail_missing,  ///< no object of a CityJSON file has the level of detail that is asked for
+
+  // coordinates and arrays
+  coordinate_not_finite,  ///< a coordinate is infinite or not a number
+  coordinate_too_large,   ///< a coordinate is too far from the origin
+  index_out_of_range,     ///< a triangle, object, cause or label index is out of range
+  array_sizes_differ,     ///< arrays that belong together have different lengths
+  nothing_given,          ///< an empty list is passed where something is needed
+
+  // solids
+  mesh_not_closed,         ///< an edge of a mesh has an odd number of triangles
+  mesh_not_oriented,       ///< neighbouring triangles of a mesh turn different ways
+  mesh_inside_out,         ///< the triangles of a mesh, or of a part of it, face inward
+  mesh_intersects_itself,  ///< triangles of a mesh pass through others, or parts of it overlap
+  mesh_without_inside,     ///< a closed mesh encloses no space
+
+  // mission files and other YAML
+  not_utf8_text,     ///< a YAML file is not UTF-8 text
+  yaml_syntax,       ///< a file is not valid YAML
+  yaml_unsupported,  ///< a file uses YAML that is not understood here, as aliases and tags
+  unknown_key,       ///< there is no such key
+  duplicate_key,     ///< a key is given twice
+  missing_key,       ///< a key is missing that must be there
+  conflicting_keys,  ///< keys or options are given that exclude each other
+  not_applicable,    ///< a key or an option is for another kind of input
+
+  // values of keys, options and fields
+  wrong_type,          ///< a value is of the wrong type, as a list where a number belongs
+  not_a_number,        ///< a text stands where a number belongs
+  value_out_of_range,  ///< a number is too large, too small or not finite
+  value_syntax,        ///< a value is not written in the form that is needed
+  value_unsupported,   ///< the value is that of another program or method and cannot be followed here
+  unknown_choice,      ///< a word is none of those to choose from
+  edges_mismatch,      ///< the edges of a target do not fit its vertices
+
+  // targets
+  target_vertex_count,       ///< a target has too few or too many vertices
+  target_vertices_coincide,  ///< two vertices of a target are the same point
+  target_not_planar,         ///< the vertices of a target are not in one plane
+  target_not_convex,         ///< a target is not convex, or its vertices are not in order
+  target_without_area,       ///< the vertices of a target lie on one line
+  target_parts_invalid,      ///< a target lacks the part that is asked for, or mixes a point with other parts
+  target_of_parts,           ///< a target has several parts, and the function takes one
+  target_pierced,            ///< scene geometry stands on a target or passes through it
+  target_inside_solid,       ///< a target lies inside a solid of the scene
+  target_off_ground,         ///< a target reaches beyond the ground of the scene
+  direction_invalid,         ///< a direction is zero, or parallel to what it must not be parallel to
+  tolerance_too_fine,        ///< a tolerance would take too many facets at this range
+
+  // viewpoints
+  viewpoint_on_surface,    ///< a viewpoint lies on a surface of the scene
+  viewpoint_inside_solid,  ///< a viewpoint lies inside a solid of the scene
+
+  // limits
+  limits_reversed,  ///< a lower limit is above the upper one
+  limits_empty,     ///< limits leave no room between them
+  heights_differ,   ///< the heights of two files are measured from different levels
+
+  // places on the earth
+  not_georeferenced,  ///< a scene or raster does not say where on the earth it lies
+  not_on_earth,       ///< a latitude or longitude is no place on the earth
+  too_far_away,       ///< a place is too far from the scene
+  crs_unknown,        ///< there is no such coordinate reference system
+  crs_unusable,       ///< a coordinate reference system cannot be converted to longitudes and latitudes
+  crs_missing,        ///< coordinates are given without their coordinate reference system
+  library_missing,    ///< a library that is loaded when it is needed is not installed
+
+  // maps
+  map_format_unknown,  ///< a file is no OpenStreetMap file
+  map_syntax,          ///< an OpenStreetMap file is cut off or garbled
+  map_empty,           ///< a map holds nothing that can be built
+  map_object_missing,  ///< a map has no such area
+  ground_missing,      ///< a scene has no ground to put a target on
+  region_invalid,      ///< a region is no region: reversed, without extent, too large or given twice
+  region_outside,      ///< a region lies outside the map or raster
+  region_empty,        ///< nothing in a region can be used
+
+  // rasters
+  raster_unreadable,        ///< a file is no raster that can be read, or is damaged
+  raster_not_heights,       ///< a raster holds something other than heights in metres
+  raster_grid_unsupported,  ///< the rows of a raster do not run east, or its pixels have no size
+  raster_too_large,         ///< a region has more posts of a raster than can be handled
+
+  // devices and pictures
+  device_missing,  ///< there is no such device, or none that can do what is asked
+  device_failed,   ///< a device that was insisted on cannot go on
+
+  // the command line
+  unknown_command,      ///< there is no such command
+  unknown_option,       ///< a command has no such option
+  command_line_syntax,  ///< an argument is missing, or one too many
+  table_syntax,         ///< a row of a table of points cannot be read
+
+  // output
+  output_name_missing,      ///< an output has no file name
+  output_format_unknown,    ///< the name of an output does not end in a known format
+  output_not_a_file,        ///< an output is a folder, a device, a pipe or a terminal
+  output_folder_missing,    ///< the folder of an output does not exist
+  output_named_twice,       ///< two results would be written to one file
+  output_overwrites_input,  ///< an output would overwrite an input of the same run
+  folder_in_use,            ///< a folder that would be replaced holds other things
+  output_unwritable,        ///< a result cannot be written: no permission, no room, or a fault of the disk
+  format_too_small,         ///< the format of an output cannot hold the result
+
+  // the run itself
+  component_missing,  ///< this build of vantage lacks a component that is needed
+  cancelled,          ///< the caller asked to stop
+  internal_defect,    ///< a defect of vantage: an invariant did not hold
+};
+
+/// All codes, in the order of their declaration.
+std::span<const ErrorCode> error_codes();
+
+/// "target-not-convex".
+const char* name_of(ErrorCode code);
+
+/// The code of that name, if there is one.
+std::optional<ErrorCode> error_code(std::string_view name);
+
+/// Each code is of one kind.
+ErrorKind kind_of(ErrorCode code);
+
 /// Thrown by every public function that fails. Three short lines for the person who must fix it: what is wrong, where
 /// (file, line, object), and what to do. `what()` returns the three joined by newlines; `where` and `fix` may be empty.
 class VANTAGE_API Error : public std::runtime_error {
  public:
-  Error(ErrorKind kind, std::string problem, std::string where, std::string fix);
+  Error(ErrorCode code, std::string problem, std::string where, std::string fix,
+        std::optional<std::uint32_t> object = std::nullopt);
 
-  ErrorKind kind() const { return kind_; }
+  ErrorCode code() const { return code_; }
+  ErrorKind kind() const { return kind_of(code_); }
   const std::string& problem() const { return problem_; }
   const std::string& where() const { return where_; }
   const std::string& fix() const { return fix_; }
+  /// Index of the object of the scene that is in the way: of ErrorCode::target_pierced, target_inside_solid,
+  /// viewpoint_on_surface and viewpoint_inside_solid.
+  std::optional<std::uint32_t> object() const { return object_; }
+
+  /// The same error with other words for the place or for what to do, for callers who know more of it.
+  Error with_where(std::string where) const { return {code_, problem_, std::move(where), fix_, object_}; }
+  Error with_fix(std::string fix) const { return {code_, problem_, where_, std::move(fix), object_}; }
 
  private:
-  ErrorKind kind_;
+  ErrorCode code_;
   std::string problem_, where_, fix_;
+  std::optional<std::uint32_t> object_;
 };
 
 }  // namespace vantage

@@ -95,7 +95,7 @@ void fail_off_ground(const Mission& mission, const std::string& problem) {
                   : "all of the " + what + " is used already: check the target's place, or take a " + what +
                         " that reaches farther";
   }
-  throw Error(ErrorKind::input, problem, mission.file.places.target, fix);
+  throw Error(ErrorCode::target_off_ground, problem, mission.file.places.target, fix);
 }
 
 }  // namespace vantage::internal::app

@@ -126,7 +126,8 @@ void MissionParser::parse_target(const YamlNode& node) {
 const YamlNode& MissionParser::parse_parts(const YamlNode& node, const YamlNode& parts) {
   const char* const form = "write a list of polygons: [[[x, y, z], [x, y, z], [x, y, z]], [[x, y, z], ...]]";
   refuse_beside(node, "parts", {"vertices", "edges", "osm", "center"}, "keep 'parts' for several polygons");
-  if (list(parts, "target.parts", form).empty()) fail(parts, "target.parts is an empty list", form);
+  if (list(parts, "target.parts", form).empty())
+    fail(ErrorCode::nothing_given, parts, "target.parts is an empty list", form);
   mission_.target.parts.clear();
   for (std::size_t i = 0; i < parts.items.size(); ++i) {
     const std::string what = indexed("target.parts", i);
@@ -144,7 +145,8 @@ const YamlNode& MissionParser::parse_vertices(const YamlNode& node) {
   Target& target = mission_.target;
   for (const char* key : {"width", "length", "heading"}) {
     if (const YamlNode* entry = find(node, key)) {
-      fail(*entry, std::string("target.") + key + " is of a rectangle, and the target has no 'center'",
+      fail(ErrorCode::not_applicable, *entry,
+           std::string("target.") + key + " is of a rectangle, and the target has no 'center'",
            "write 'center: [latitude, longitude]'");
     }
   }
@@ -154,7 +156,7 @@ const YamlNode& MissionParser::parse_vertices(const YamlNode& node) {
     target.parts[0].push_back(vector(vertices.items[i], indexed("target.vertices", i)));
   }
   if (target.is_point()) {
-    fail(vertices, "a polygon needs at least 3 vertices, this one has 1",
+    fail(ErrorCode::target_vertex_count, vertices, "a polygon needs at least 3 vertices, this one has 1",
          "add vertices, or write 'point: [x, y, z]' for a single point");
   }
   return vertices;
@@ -165,7 +167,7 @@ void MissionParser::refuse_beside(const YamlNode& node, const char* key, std::in
                                   const char* fix) const {
   for (const char* other : others) {
     if (const YamlNode* entry = find(node, other)) {
-      fail(*entry, std::string("target has both '") + key + "' and '" + other + "'", fix);
+      fail(ErrorCode::conflicting_keys, *entry, std::string("target has both '") + key + "' and '" + other + "'", fix);
     }
   }
 }
@@ -179,7 +181,7 @@ const YamlNode& MissionParser::parse_ground_target(const YamlNode& node) {
     ground.osm = text(*osm, "target.osm");
     if (find(node, "name") == nullptr) mission_.target.name = ground.osm;
     if (mission_.scene.kind != SceneSource::Kind::map) {
-      fail(*osm, "target.osm names an object of a map, and the scene is none",
+      fail(ErrorCode::not_applicable, *osm, "target.osm names an object of a map, and the scene is none",
            "write 'scene: {osm: city.osm.pbf}', or give the target's vertices");
     }
     return *osm;
@@ -201,7 +203,7 @@ const YamlNode& MissionParser::parse_point(const YamlNode& node, const YamlNode&
   mission_.target.parts = {{vector(point, "target.point")}};
   const YamlNode* offset = find(node, "offset");
   if (offset != nullptr && find(node, "front") == nullptr) {
-    fail(*offset, "a point without 'front' has no side to be moved towards by 'offset'",
+    fail(ErrorCode::conflicting_keys, *offset, "a point without 'front' has no side to be moved towards by 'offset'",
          "move the point itself, or give 'front', the side that is looked at");
   }
   return point;
@@ -228,13 +230,13 @@ void MissionParser::check_edges(const YamlNode& node, std::size_t vertex_count) 
     const YamlNode& item = node.items[i];
     const std::string what = indexed("target.edges", i);
     if (list(item, what, "write a pair of vertex numbers, such as [0, 1]").size() != 2) {
-      fail(item, what + " must be a pair of vertex numbers, not " + describe(item), fix);
+      fail(ErrorCode::wrong_type, item, what + " must be a pair of vertex numbers, not " + describe(item), fix);
     }
     std::size_t ends[2];
     for (std::size_t k = 0; k < 2; ++k) {
       const double value = number(item.items[k], what);
       if (value < 0 || value >= static_cast<double>(vertex_count) || value != std::floor(value)) {
-        fail(item.items[k],
+        fail(ErrorCode::edges_mismatch, item.items[k],
              what + " names vertex " + shortest(value) + ", but the vertices are 0 to " +
                  std::to_string(vertex_count - 1),
              fix);
@@ -245,18 +247,18 @@ void MissionParser::check_edges(const YamlNode& node, std::size_t vertex_count) 
     const bool is_forward = (ends[0] + 1) % vertex_count == ends[1];
     const bool is_backward = (ends[1] + 1) % vertex_count == ends[0];
     if (!is_forward && !is_backward) {
-      fail(item, "target.edges and target.vertices disagree: edge " + pair + " joins vertices that are not neighbours",
-           fix);
+      fail(ErrorCode::edges_mismatch, item,
+           "target.edges and target.vertices disagree: edge " + pair + " joins vertices that are not neighbours", fix);
     }
     const YamlNode*& seen = edge_from[is_forward ? ends[0] : ends[1]];
-    if (seen != nullptr) fail(item, "target.edges lists the edge " + pair + " twice", fix);
+    if (seen != nullptr) fail(ErrorCode::edges_mismatch, item, "target.edges lists the edge " + pair + " twice", fix);
     seen = &item;
   }
   const auto missing = std::find(edge_from.begin(), edge_from.end(), nullptr);
   if (missing != edge_from.end()) {
     const auto from = static_cast<std::size_t>(missing - edge_from.begin());
     fail(
-        node,
+        ErrorCode::edges_mismatch, node,
         "target.edges and target.vertices disagree: edge " + edge_text(from, (from + 1) % vertex_count) + " is missing",
         fix);
   }
@@ -278,7 +280,8 @@ void MissionParser::parse_navigation(const YamlNode& node) {
     navigation.boxes = boxes(*keep_in, "navigation.boxes");
     // "Cut to the union of no boxes" would leave nothing, and "no limit" is not what the key says either.
     if (navigation.boxes.empty()) {
-      fail(*keep_in, "navigation.boxes is an empty list", "give at least one box, or leave the key out for no limit");
+      fail(ErrorCode::nothing_given, *keep_in, "navigation.boxes is an empty list",
+           "give at least one box, or leave the key out for no limit");
     }
   }
   if (const YamlNode* keep_out = find(node, "keep_out")) {
@@ -303,16 +306,17 @@ void MissionParser::parse_navigation(const YamlNode& node) {
 Navigation::Altitude MissionParser::altitude(const YamlNode& node) const {
   const std::string form = "write the lowest and the highest altitude in metres: [20, 120]";
   if (list(node, "navigation.altitude", form).size() != 2) {
-    fail(node, "navigation.altitude must be two numbers, not " + describe(node), form);
+    fail(ErrorCode::wrong_type, node, "navigation.altitude must be two numbers, not " + describe(node), form);
   }
   const double low = length(node.items[0], "navigation.altitude[0]");
   const double high = length(node.items[1], "navigation.altitude[1]");
   if (low > high) {
-    fail(node, "navigation.altitude is reversed: " + shortest(low) + " is above " + shortest(high),
+    fail(ErrorCode::limits_reversed, node,
+         "navigation.altitude is reversed: " + shortest(low) + " is above " + shortest(high),
          "write the lower altitude first: [" + shortest(high) + ", " + shortest(low) + "]");
   }
   if (low == high) {
-    fail(node, "navigation.altitude holds no air: both limits are " + shortest(low), form);
+    fail(ErrorCode::limits_empty, node, "navigation.altitude holds no air: both limits are " + shortest(low), form);
   }
   return {low, high};
 }
@@ -325,7 +329,8 @@ std::vector<Box> MissionParser::boxes(const YamlNode& node, const std::string& w
 }
 
 Box MissionParser::box(const YamlNode& node, const std::string& what) const {
-  if (node.kind != YamlNode::Kind::map) fail(node, what + " must be a mapping, not " + describe(node), kBoxForm);
+  if (node.kind != YamlNode::Kind::map)
+    fail(ErrorCode::wrong_type, node, what + " must be a mapping, not " + describe(node), kBoxForm);
   check_keys(node, Section::box, file());
   const YamlNode& min = require(node, Section::box, "min", kBoxForm);
   const YamlNode& max = require(node, Section::box, "max", kBoxForm);
@@ -340,7 +345,8 @@ void MissionParser::check_extent(const YamlNode& node, const std::string& what, 
   if (box.min[axis] < box.max[axis]) return;
   const bool is_reversed = box.min[axis] > box.max[axis];
   const std::string name(1, "xyz"[axis]), low = shortest(box.min[axis]), high = shortest(box.max[axis]);
-  fail(node, what + (is_reversed ? " is reversed in " : " is flat in ") + name + ": min " + low + ", max " + high,
+  fail(is_reversed ? ErrorCode::limits_reversed : ErrorCode::limits_empty, node,
+       what + (is_reversed ? " is reversed in " : " is flat in ") + name + ": min " + low + ", max " + high,
        is_reversed ? "swap the two " + name + " values" : "give min and max different " + name + " values");
 }
 
@@ -349,7 +355,8 @@ void MissionParser::parse_method(const YamlNode& node) {
   if (method == "spheres") {
     mission_.method = Method::spheres;
   } else if (method != "exact") {
-    fail(node, "there is no method " + in_quotes(method), "write 'method: exact' or 'method: spheres'");
+    fail(ErrorCode::unknown_choice, node, "there is no method " + in_quotes(method),
+         "write 'method: exact' or 'method: spheres'");
   }
 }
 
@@ -363,7 +370,8 @@ void MissionParser::parse_exact(const YamlNode& node) {
 const YamlNode& MissionParser::require(const YamlNode& map, Section section, std::string_view key,
                                        const std::string& fix) const {
   if (const YamlNode* node = find(map, key)) return *node;
-  fail(map, std::string(section_name(section)) + " lacks the key '" + std::string(key) + "'", fix);
+  fail(ErrorCode::missing_key, map, std::string(section_name(section)) + " lacks the key '" + std::string(key) + "'",
+       fix);
 }
 
 }  // namespace

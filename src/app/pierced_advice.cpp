@@ -34,11 +34,11 @@ std::optional<std::string> how_to_leave_out(const LoadedScene& loaded, std::uint
          "]}, or give the vertices of a polygon beside it";
 }
 
-Error explained(const target::PiercedTarget& error, const LoadedScene& loaded, const std::string& target_object) {
-  std::optional<std::string> advice = how_to_leave_out(loaded, error.object(), target_object);
+Error explained(const Error& error, const LoadedScene& loaded, const std::string& target_object) {
+  std::optional<std::string> advice;
+  if (error.object()) advice = how_to_leave_out(loaded, *error.object(), target_object);
   if (!advice) advice = on_its_side(loaded);
-  if (!advice) return error;
-  return {error.kind(), error.problem(), error.where(), *advice};
+  return advice ? error.with_fix(*advice) : error;
 }
 
 }  // namespace vantage::internal::app

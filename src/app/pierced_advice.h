@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "target/target_check.h"
+#include "vantage/error.h"
 #include "vantage/mission.h"
 
 namespace vantage::internal::app {
@@ -15,7 +15,8 @@ namespace vantage::internal::app {
 std::optional<std::string> how_to_leave_out(const LoadedScene& loaded, std::uint32_t object,
                                             const std::string& target_object);
 
-/// The same error with advice that fits the object, or the scene where that seems to lie on its side.
-Error explained(const target::PiercedTarget& error, const LoadedScene& loaded, const std::string& target_object);
+/// The same error, ErrorCode::target_pierced, with advice that fits the object, or the scene where that seems to lie on
+/// its side.
+Error explained(const Error& error, const LoadedScene& loaded, const std::string& target_object);
 
 }  // namespace vantage::internal::app

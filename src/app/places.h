@@ -15,8 +15,7 @@ auto with_place(const std::string& place, const Action& action) {
     return action();
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::input || place.empty()) throw;
-    throw Error(error.kind(), error.problem(), error.where().empty() ? place : place + ", " + error.where(),
-                error.fix());
+    throw error.with_where(error.where().empty() ? place : place + ", " + error.where());
   }
 }
 

@@ -24,8 +24,8 @@ void check_near(const Georeference& mesh, const Georeference& frame, const std::
   const double distance =
       geo::geodesic_m({mesh.longitude_deg, mesh.latitude_deg}, {frame.longitude_deg, frame.latitude_deg});
   if (distance <= geo::kFarthestM) return;
-  throw Error(ErrorKind::input, name + " lies " + std::to_string(std::lround(distance / 1000)) + " km away", where,
-              fix);
+  throw Error(ErrorCode::too_far_away, name + " lies " + std::to_string(std::lround(distance / 1000)) + " km away",
+              where, fix);
 }
 
 std::string levels_text(const Georeference& mesh, const Georeference& scene) {
@@ -47,7 +47,7 @@ std::vector<KeepInMesh> placed_navigation_meshes(const std::vector<NavigationMes
                "give a mesh of the scene's surroundings");
     if (is_on_another_level(*given.georeference, *scene.georeference)) {
       throw Error(
-          ErrorKind::input,
+          ErrorCode::heights_differ,
           "the heights of " + in_quotes(keep_in.name) + " are " + levels_text(*given.georeference, *scene.georeference),
           given.place, "make it for a scene with the same ground as this one's");
     }

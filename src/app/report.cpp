@@ -138,7 +138,7 @@ std::optional<double> reported_lift_m(const std::filesystem::path& volume_file) 
   const double lift =
       json.is_object() && json.contains("lift_m") && json["lift_m"].is_number() ? json["lift_m"].get<double>() : -1;
   if (lift >= 0 && lift <= kMostLift) return lift;
-  throw Error(ErrorKind::input, "the report beside the volume gives no lift_m from 0 to 0.01", report.string(),
+  throw Error(ErrorCode::record_garbled, "the report beside the volume gives no lift_m from 0 to 0.01", report.string(),
               "write it again with \"vantage compute\", or say how far the target was raised with --lift");
 }
 

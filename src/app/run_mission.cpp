@@ -14,9 +14,6 @@
 namespace vantage {
 namespace {
 
-/// Errors about devices are of no place in the mission's target.
-bool is_about_target(const Error& error) { return error.where().starts_with("target"); }
-
 Volume compute(const Mission& mission, const PreparedTarget& target, const StageSink& stages, Result& result,
                const Progress& progress) {
   if (mission.file.method == Method::exact) {
@@ -53,7 +50,9 @@ Result run(const Mission& mission, const StageSink& stages, const Progress& prog
   try {
     result.volume = compute(mission, target, stages, result, progress);
   } catch (const Error& error) {
-    if (mission.file.method == Method::spheres && !is_about_target(error)) throw;
+    // The target itself is checked by now. The exact method may still find it too large for the tolerance; the method
+    // of spheres refuses only its options and devices, which the mission names elsewhere.
+    if (mission.file.method == Method::spheres) throw;
     internal::app::with_place(mission.file.places.target, [&]() -> int { throw error; });
   }
   seconds.engine = stopwatch.lap();
@@ -85,7 +84,8 @@ PreparedTarget prepare_target(const Mission& mission, const PreparedScene& scene
   return internal::app::with_place(mission.file.places.target, [&] {
     try {
       return PreparedTarget(scene, mission.target, mission.sensor);
-    } catch (const internal::target::PiercedTarget& error) {
+    } catch (const Error& error) {
+      if (error.code() != ErrorCode::target_pierced) throw;
       throw internal::app::explained(error, mission.loaded, ground ? ground->osm : "");
     }
   });

@@ -42,7 +42,8 @@ class SceneParser {
       const YamlNode* const entry = find(node_, key);
       if (!entry) continue;
       if (named) {
-        reader_.fail(*entry, std::string("scene has both '") + first + "' and '" + key + "'", "keep one of them");
+        reader_.fail(ErrorCode::conflicting_keys, *entry,
+                     std::string("scene has both '") + first + "' and '" + key + "'", "keep one of them");
       }
       named = entry;
       first = key;
@@ -51,7 +52,7 @@ class SceneParser {
       section_.where = place_in(reader_.file(), entry->place);
     }
     if (!named) {
-      reader_.fail(node_, "scene lacks the key 'mesh'",
+      reader_.fail(ErrorCode::missing_key, node_, "scene lacks the key 'mesh'",
                    "write 'mesh: city.obj', 'osm: city.osm.pbf' or 'raster: dsm.tif'; the path starts from the mission "
                    "file");
     }
@@ -61,7 +62,8 @@ class SceneParser {
   const YamlNode* take(const char* key, std::initializer_list<Kind> kinds, const char* what) const {
     const YamlNode* const entry = find(node_, key);
     if (!entry || std::find(kinds.begin(), kinds.end(), section_.source.kind) != kinds.end()) return entry;
-    reader_.fail(*entry, std::string("scene.") + key + " is for " + what + ", and this scene is none", "leave it out");
+    reader_.fail(ErrorCode::not_applicable, *entry,
+                 std::string("scene.") + key + " is for " + what + ", and this scene is none", "leave it out");
   }
 
   void parse_mesh_options() {
@@ -85,13 +87,16 @@ class SceneParser {
     if (center) region.center_deg = parse_lat_lon(*center, reader_, "scene.center");
     if (radius) region.radius_m = reader_.positive(*radius, "scene.radius");
     if (center && !radius)
-      reader_.fail(*center, "scene has a 'center' without a 'radius'", "add 'radius: 600' (metres)");
-    if (radius && !center) reader_.fail(*radius, "scene has a 'radius' without a 'center'", kLatLonForm);
+      reader_.fail(ErrorCode::missing_key, *center, "scene has a 'center' without a 'radius'",
+                   "add 'radius: 600' (metres)");
+    if (radius && !center)
+      reader_.fail(ErrorCode::missing_key, *radius, "scene has a 'radius' without a 'center'", kLatLonForm);
     if (box) {
-      if (center) reader_.fail(*box, "scene has both 'center' and 'bbox'", "keep one of them");
+      if (center)
+        reader_.fail(ErrorCode::conflicting_keys, *box, "scene has both 'center' and 'bbox'", "keep one of them");
       const char* const form = "write degrees: [west, south, east, north]";
       if (reader_.list(*box, "scene.bbox", form).size() != 4) {
-        reader_.fail(*box, "scene.bbox must be four numbers, not " + describe(*box), form);
+        reader_.fail(ErrorCode::wrong_type, *box, "scene.bbox must be four numbers, not " + describe(*box), form);
       }
       std::array<double, 4>& bounds = region.bbox_deg.emplace();
       for (std::size_t i = 0; i < 4; ++i) bounds[i] = reader_.number(box->items[i], "scene.bbox");
@@ -121,7 +126,7 @@ class SceneParser {
     const YamlNode* const defaults = take("defaults", {Kind::map}, "maps");
     if (!defaults) return;
     if (defaults->kind != YamlNode::Kind::map) {
-      reader_.fail(*defaults, "scene.defaults must be a mapping, not " + describe(*defaults),
+      reader_.fail(ErrorCode::wrong_type, *defaults, "scene.defaults must be a mapping, not " + describe(*defaults),
                    "write {level: 3.2, levels.house: 2}");
     }
     for (const YamlEntry& entry : defaults->entries) {
@@ -146,18 +151,19 @@ UpAxis parse_up_axis(const YamlNode& node, const ValueReader& reader, const std:
   const std::string axis = reader.text(node, what);
   if (axis == "y") return UpAxis::y;
   if (axis == "z") return UpAxis::z;
-  reader.fail(node, what + " must be y or z, not " + in_quotes(axis),
+  reader.fail(ErrorCode::unknown_choice, node, what + " must be y or z, not " + in_quotes(axis),
               "write the axis of the file that points up: y or z");
 }
 
 std::array<double, 2> parse_lat_lon(const YamlNode& node, const ValueReader& reader, const std::string& what) {
   if (reader.list(node, what, kLatLonForm).size() != 2) {
-    reader.fail(node, what + " must be two numbers, not " + describe(node), kLatLonForm);
+    reader.fail(ErrorCode::wrong_type, node, what + " must be two numbers, not " + describe(node), kLatLonForm);
   }
   const double latitude = reader.number(node.items[0], what), longitude = reader.number(node.items[1], what);
   if (std::abs(latitude) > 90 || std::abs(longitude) > 180) {
     const bool is_swapped = std::abs(longitude) <= 90 && std::abs(latitude) <= 180;
-    reader.fail(node, what + " is no place: latitude " + shortest(latitude) + ", longitude " + shortest(longitude),
+    reader.fail(ErrorCode::not_on_earth, node,
+                what + " is no place: latitude " + shortest(latitude) + ", longitude " + shortest(longitude),
                 is_swapped ? "write the latitude first: [" + shortest(longitude) + ", " + shortest(latitude) + "]"
                            : std::string(kLatLonForm));
   }

@@ -68,7 +68,7 @@ const SectionKeys* owner_of(std::string_view key, Section section) {
     fix = "'" + entry.key + "' belongs to " + std::string(owner->name) + "; the nearest key here is '" +
           std::string(nearest) + "'" + known;
   }
-  throw Error(ErrorKind::input, "unknown key " + in_quotes(entry.key) + " in " + std::string(row(section).name),
+  throw Error(ErrorCode::unknown_key, "unknown key " + in_quotes(entry.key) + " in " + std::string(row(section).name),
               place_in(file, entry.place), fix);
 }
 
@@ -87,7 +87,8 @@ const YamlNode* find(const YamlNode& map, std::string_view key) {
 
 void check_keys(const YamlNode& node, Section section, const std::string& file) {
   if (node.kind != YamlNode::Kind::map) {
-    fail_at(node, file, std::string(section_name(section)) + " must be a mapping of keys, not " + describe(node),
+    fail_at(ErrorCode::wrong_type, node, file,
+            std::string(section_name(section)) + " must be a mapping of keys, not " + describe(node),
             "write its keys, indented, as 'key: value': " + joined(known_keys(section)));
   }
   for (const YamlEntry& entry : node.entries) {
@@ -96,8 +97,9 @@ void check_keys(const YamlNode& node, Section section, const std::string& file) 
   }
 }
 
-void fail_at(const YamlNode& node, const std::string& file, const std::string& problem, const std::string& fix) {
-  throw Error(ErrorKind::input, problem, place_in(file, node.place), fix);
+void fail_at(ErrorCode code, const YamlNode& node, const std::string& file, const std::string& problem,
+             const std::string& fix) {
+  throw Error(code, problem, place_in(file, node.place), fix);
 }
 
 std::string describe(const YamlNode& node) {

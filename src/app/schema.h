@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/yaml_tree.h"
+#include "vantage/error.h"
 
 namespace vantage::internal::app {
 
@@ -26,7 +27,7 @@ const YamlNode* find(const YamlNode& map, std::string_view key);
 void check_keys(const YamlNode& node, Section section, const std::string& file);
 
 /// Throws Error(input) at `node`.
-[[noreturn]] void fail_at(const YamlNode& node, const std::string& file, const std::string& problem,
+[[noreturn]] void fail_at(ErrorCode code, const YamlNode& node, const std::string& file, const std::string& problem,
                           const std::string& fix);
 
 /// What a node is, for messages: "a list", "the text 'abc'", "nothing".

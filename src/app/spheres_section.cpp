@@ -17,7 +17,8 @@ namespace {
 int whole_number(const YamlNode& node, const ValueReader& reader, const std::string& what) {
   const double value = reader.number(node, what);
   if (value != std::floor(value) || std::abs(value) > std::numeric_limits<int>::max()) {
-    reader.fail(node, what + " must be a whole number, not " + shortest(value), "write it without a fraction");
+    reader.fail(ErrorCode::wrong_type, node, what + " must be a whole number, not " + shortest(value),
+                "write it without a fraction");
   }
   return static_cast<int>(value);
 }
@@ -30,7 +31,8 @@ Value one_of(const YamlNode& node, const ValueReader& reader, const std::string&
     if (text == name) return value;
   }
   const std::string names = std::string(values[0].first) + " or " + values[1].first;
-  reader.fail(node, what + " must be " + names + ", not " + in_quotes(text), "write " + names);
+  reader.fail(ErrorCode::unknown_choice, node, what + " must be " + names + ", not " + in_quotes(text),
+              "write " + names);
 }
 
 }  // namespace
@@ -61,7 +63,7 @@ void parse_spheres(const YamlNode& node, const ValueReader& reader, SpheresOptio
   take("resolution", [&](const YamlNode& value, const std::string& what) {
     const char* const form = "write the samples in longitude and latitude: [160, 80]";
     if (reader.list(value, what, form).size() != 2) {
-      reader.fail(value, what + " must be two whole numbers, not " + describe(value), form);
+      reader.fail(ErrorCode::wrong_type, value, what + " must be two whole numbers, not " + describe(value), form);
     }
     options.resolution = {whole_number(value.items[0], reader, what + "[0]"),
                           whole_number(value.items[1], reader, what + "[1]")};

@@ -83,7 +83,7 @@ StageFolder::StageFolder(fs::path folder) : asked_(std::move(folder)), folder_(w
   std::error_code error;
   const fs::file_status status = fs::status(folder_, error);
   if (folder_.empty() || (fs::exists(status) && !fs::is_directory(status)))
-    throw Error(ErrorKind::input, "the place of the stages is not a folder", asked_.string(),
+    throw Error(ErrorCode::not_a_file, "the place of the stages is not a folder", asked_.string(),
                 "name a folder for --stages; it is made if it does not exist");
   if (fs::exists(status)) check_replaceable();
   if (fs::is_symlink(folder_, error)) folder_ = fs::canonical(folder_, error);
@@ -101,14 +101,14 @@ StageFolder::~StageFolder() {
 }
 
 void StageFolder::fail(const std::string& problem, int error_number) const {
-  throw Error(ErrorKind::output, problem + ": " + std::strerror(error_number), asked_.string(),
+  throw Error(ErrorCode::output_unwritable, problem + ": " + std::strerror(error_number), asked_.string(),
               "name a folder that can be written, on a disk with room");
 }
 
 /// The old folder is removed as a whole: nothing in it may be anybody else's.
 void StageFolder::check_replaceable() const {
   const auto refuse = [&](const std::string& reason) {
-    throw Error(ErrorKind::input, "the folder of the stages holds other things: " + reason, asked_.string(),
+    throw Error(ErrorCode::folder_in_use, "the folder of the stages holds other things: " + reason, asked_.string(),
                 "name an empty or a new folder, or one that holds what --stages wrote and nothing else");
   };
   std::error_code error;
@@ -198,10 +198,10 @@ std::vector<StageFile> read_stages(const fs::path& folder) {
     const nlohmann::json json = nlohmann::json::parse(stream);
     for (const nlohmann::json& stage : json.at("stages")) stages.push_back(stage_of(stage, folder));
   } catch (const nlohmann::json::exception& error) {
-    throw Error(ErrorKind::input, std::string("the story of the stages is garbled: ") + error.what(),
+    throw Error(ErrorCode::record_garbled, std::string("the story of the stages is garbled: ") + error.what(),
                 file.string() + ", stage " + std::to_string(stages.size()), kAgain);
   }
-  if (stages.empty()) throw Error(ErrorKind::input, "the story of the stages is empty", file.string(), kAgain);
+  if (stages.empty()) throw Error(ErrorCode::record_garbled, "the story of the stages is empty", file.string(), kAgain);
   return stages;
 }
 

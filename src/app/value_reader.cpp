@@ -9,27 +9,31 @@ namespace vantage::internal::app {
 
 double ValueReader::number(const YamlNode& node, const std::string& what) const {
   if (node.kind != YamlNode::Kind::scalar || node.is_quoted) {
-    fail(node, what + " must be a number, not " + describe(node), "write a plain decimal number, such as 12.5");
+    fail(ErrorCode::wrong_type, node, what + " must be a number, not " + describe(node),
+         "write a plain decimal number, such as 12.5");
   }
   const ParsedNumber parsed = parse_number(node.text);
   switch (parsed.fault) {
     case NumberFault::none:
       return parsed.value;
     case NumberFault::not_finite:
-      fail(node, what + " is not finite: " + in_quotes(node.text), number_advice(node.text, parsed.fault));
+      fail(ErrorCode::value_out_of_range, node, what + " is not finite: " + in_quotes(node.text),
+           number_advice(node.text, parsed.fault));
     case NumberFault::out_of_range:
-      fail(node, what + " is beyond what a double holds: " + in_quotes(node.text),
+      fail(ErrorCode::value_out_of_range, node, what + " is beyond what a double holds: " + in_quotes(node.text),
            number_advice(node.text, parsed.fault));
     case NumberFault::not_a_number:
       break;
   }
-  fail(node, what + " must be a number, not " + in_quotes(node.text), number_advice(node.text, parsed.fault));
+  fail(ErrorCode::not_a_number, node, what + " must be a number, not " + in_quotes(node.text),
+       number_advice(node.text, parsed.fault));
 }
 
 double ValueReader::length(const YamlNode& node, const std::string& what) const {
   const double value = number(node, what);
   if (std::abs(value) > kMaxLength) {
-    fail(node, what + " is too large: " + shortest(value) + ", at most " + shortest(kMaxLength),
+    fail(ErrorCode::value_out_of_range, node,
+         what + " is too large: " + shortest(value) + ", at most " + shortest(kMaxLength),
          "lengths are in metres; far from the origin use a local frame");
   }
   return value;
@@ -37,13 +41,15 @@ double ValueReader::length(const YamlNode& node, const std::string& what) const 
 
 double ValueReader::positive(const YamlNode& node, const std::string& what) const {
   const double value = length(node, what);
-  if (value <= 0) fail(node, what + " must be greater than 0, not " + shortest(value), "write a positive number");
+  if (value <= 0)
+    fail(ErrorCode::value_out_of_range, node, what + " must be greater than 0, not " + shortest(value),
+         "write a positive number");
   return value;
 }
 
 Vec3 ValueReader::vector(const YamlNode& node, const std::string& what, const char* form) const {
   if (node.kind != YamlNode::Kind::sequence || node.items.size() != 3) {
-    fail(node, what + " must be three numbers, not " + describe(node), form);
+    fail(ErrorCode::wrong_type, node, what + " must be three numbers, not " + describe(node), form);
   }
   Vec3 result;
   for (int axis = 0; axis < 3; ++axis) {
@@ -54,20 +60,23 @@ Vec3 ValueReader::vector(const YamlNode& node, const std::string& what, const ch
 
 std::string ValueReader::text(const YamlNode& node, const std::string& what) const {
   if (node.kind != YamlNode::Kind::scalar || node.text.empty()) {
-    fail(node, what + " must be a text, not " + (node.kind == YamlNode::Kind::scalar ? "empty" : describe(node)),
+    fail(ErrorCode::wrong_type, node,
+         what + " must be a text, not " + (node.kind == YamlNode::Kind::scalar ? "empty" : describe(node)),
          "write a word; put it in quotes if it holds blanks, colons or brackets");
   }
   const bool has_control = std::any_of(node.text.begin(), node.text.end(),
                                        [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; });
   if (has_control) {
-    fail(node, what + " holds a control character: " + in_quotes(node.text), "write it without tabs and line breaks");
+    fail(ErrorCode::value_syntax, node, what + " holds a control character: " + in_quotes(node.text),
+         "write it without tabs and line breaks");
   }
   return node.text;
 }
 
 const std::vector<YamlNode>& ValueReader::list(const YamlNode& node, const std::string& what,
                                                const std::string& fix) const {
-  if (node.kind != YamlNode::Kind::sequence) fail(node, what + " must be a list, not " + describe(node), fix);
+  if (node.kind != YamlNode::Kind::sequence)
+    fail(ErrorCode::wrong_type, node, what + " must be a list, not " + describe(node), fix);
   return node.items;
 }
 

@@ -7,6 +7,7 @@
 
 #include "app/schema.h"
 #include "app/yaml_tree.h"
+#include "vantage/error.h"
 #include "vantage/geometry.h"
 
 namespace vantage::internal::app {
@@ -32,8 +33,9 @@ class ValueReader {
   std::string text(const YamlNode& node, const std::string& what) const;  ///< not empty, no control characters
   const std::vector<YamlNode>& list(const YamlNode& node, const std::string& what, const std::string& fix) const;
 
-  [[noreturn]] void fail(const YamlNode& node, const std::string& problem, const std::string& fix) const {
-    fail_at(node, file_, problem, fix);
+  [[noreturn]] void fail(ErrorCode code, const YamlNode& node, const std::string& problem,
+                         const std::string& fix) const {
+    fail_at(code, node, file_, problem, fix);
   }
 
  private:

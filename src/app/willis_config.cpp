@@ -80,10 +80,11 @@ WillisConfig SeedConfigParser::parse(std::string_view text) {
     if (entry.key == "visibility_vol") parse_volume(entry.value);
   }
   if (config_.meshes.empty()) {
-    fail(root, "the configuration lacks a block 'mesh'", "write 'mesh:' and below it, indented, 'filename: city.obj'");
+    fail(ErrorCode::missing_key, root, "the configuration lacks a block 'mesh'",
+         "write 'mesh:' and below it, indented, 'filename: city.obj'");
   }
   if (config_.volumes.empty()) {
-    fail(root, "the configuration lacks a block 'visibility_vol': there is nothing to compute",
+    fail(ErrorCode::missing_key, root, "the configuration lacks a block 'visibility_vol': there is nothing to compute",
          "write 'visibility_vol:' and below it, indented, width, height, origin and output_file");
   }
   return std::move(config_);
@@ -95,7 +96,7 @@ void SeedConfigParser::check_block(const YamlNode& node, const Block& block) {
   std::string known;
   for (const std::string_view key : block.keys) known.append(known.empty() ? "" : ", ").append(key);
   if (node.kind != YamlNode::Kind::map) {
-    fail(node, std::string(block.name) + " must be a mapping of keys, not " + describe(node),
+    fail(ErrorCode::wrong_type, node, std::string(block.name) + " must be a mapping of keys, not " + describe(node),
          "write its keys, indented, as 'key: value': " + known);
   }
   for (const YamlEntry& entry : node.entries) {
@@ -107,7 +108,7 @@ void SeedConfigParser::check_block(const YamlNode& node, const Block& block) {
     const int slips = nearest.size() < 5 ? 1 : 2;
     if (edit_distance(entry.key, nearest) <= slips) {
       throw Error(
-          ErrorKind::input, problem, place_in(file(), entry.place),
+          ErrorCode::unknown_key, problem, place_in(file(), entry.place),
           "did you mean '" + std::string(nearest) + "'? (keys of " + std::string(block.name) + ": " + known + ")");
     }
     config_.warnings.push_back(place_in(file(), entry.place) + ": " + problem + " means nothing here");
@@ -117,28 +118,31 @@ void SeedConfigParser::check_block(const YamlNode& node, const Block& block) {
 const YamlNode& SeedConfigParser::require(const YamlNode& map, const Block& block, std::string_view key,
                                           const std::string& fix) const {
   if (const YamlNode* node = find(map, key)) return *node;
-  fail(map, std::string(block.name) + " lacks the key '" + std::string(key) + "'", fix);
+  fail(ErrorCode::missing_key, map, std::string(block.name) + " lacks the key '" + std::string(key) + "'", fix);
 }
 
 void SeedConfigParser::parse_world(const YamlNode& node) {
   check_block(node, kWorld);
   if (const YamlNode* origin = find(node, "origin")) {
     if (vector(*origin, "world_coord_sys.origin", kVectorForm) != Vec3::Zero()) {
-      fail(*origin, "world_coord_sys.origin must be [0, 0, 0]", "give the other coordinates from that origin");
+      fail(ErrorCode::value_unsupported, *origin, "world_coord_sys.origin must be [0, 0, 0]",
+           "give the other coordinates from that origin");
     }
   }
   Vec3 up = Vec3::UnitY(), front = Vec3::UnitX();
   if (const YamlNode* given = find(node, "up")) {
     up = direction(*given, "world_coord_sys.up");
     if (up != Vec3::UnitY() && up != Vec3::UnitZ()) {
-      fail(*given, "world_coord_sys.up must be the y axis or the z axis", "write [0, 1, 0] or [0, 0, 1]");
+      fail(ErrorCode::value_unsupported, *given, "world_coord_sys.up must be the y axis or the z axis",
+           "write [0, 1, 0] or [0, 0, 1]");
     }
     config_.up = up == Vec3::UnitY() ? UpAxis::y : UpAxis::z;
   }
   if (const YamlNode* given = find(node, "front")) {  // it names no direction of anything; only nonsense is refused
     front = direction(*given, "world_coord_sys.front");
     if (front.cross(up).norm() < kParallel) {
-      fail(*given, "world_coord_sys.front is parallel to up", "write a direction at right angles to up");
+      fail(ErrorCode::direction_invalid, *given, "world_coord_sys.front is parallel to up",
+           "write a direction at right angles to up");
     }
   }
 }
@@ -156,7 +160,7 @@ void SeedConfigParser::parse_mesh(const YamlNode& node) {
                    [](char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; });
     static constexpr std::array<std::string_view, 3> kFormats = {"OBJ", "PLY", "STL"};
     if (std::find(kFormats.begin(), kFormats.end(), word) == kFormats.end()) {
-      fail(*format, "mesh.format must be OBJ, PLY or STL, not " + in_quotes(format->text),
+      fail(ErrorCode::value_unsupported, *format, "mesh.format must be OBJ, PLY or STL, not " + in_quotes(format->text),
            "convert the mesh to one of these");
     }
   }
@@ -171,20 +175,23 @@ void SeedConfigParser::parse_mesh(const YamlNode& node) {
 Vec3 SeedConfigParser::scale_of(const YamlNode& node) const {
   if (node.kind != YamlNode::Kind::sequence) return Vec3::Constant(positive(node, "mesh.scale"));
   Vec3 scale = vector(node, "mesh.scale", "write one number, or three in brackets: [x, y, z]");
-  if (scale.minCoeff() <= 0) fail(node, "mesh.scale must be greater than 0 in each axis", "write positive numbers");
+  if (scale.minCoeff() <= 0)
+    fail(ErrorCode::value_out_of_range, node, "mesh.scale must be greater than 0 in each axis",
+         "write positive numbers");
   return scale;
 }
 
 Eigen::Matrix3d SeedConfigParser::rotation_of(const YamlNode& node) const {
   const char* const form = "write the axis and the angle in degrees: [x, y, z, angle]";
   const std::string what = "mesh.orientation axis, angle";
-  if (list(node, what, form).size() != 4) fail(node, what + " must be four numbers, not " + describe(node), form);
+  if (list(node, what, form).size() != 4)
+    fail(ErrorCode::wrong_type, node, what + " must be four numbers, not " + describe(node), form);
   Vec3 axis;
   for (int i = 0; i < 3; ++i) axis[i] = length(node.items[static_cast<std::size_t>(i)], what);
   const double degrees = length(node.items[3], what);
   if (degrees == 0) return Eigen::Matrix3d::Identity();
   if (axis.stableNorm() < std::numeric_limits<double>::min()) {
-    fail(node, what + " has an axis of length 0", "write an axis that is not [0, 0, 0]");
+    fail(ErrorCode::direction_invalid, node, what + " has an axis of length 0", "write an axis that is not [0, 0, 0]");
   }
   // The remainder first: an angle of many turns would lose its digits.
   return Eigen::AngleAxisd(std::remainder(degrees, 360.0) * M_PI / 180, axis.stableNormalized()).toRotationMatrix();
@@ -194,7 +201,7 @@ Eigen::Matrix3d SeedConfigParser::rotation_of(const YamlNode& node) const {
 Vec3 SeedConfigParser::direction(const YamlNode& node, const std::string& what) const {
   const Vec3 given = vector(node, what, kVectorForm);
   if (given.stableNorm() < std::numeric_limits<double>::min()) {
-    fail(node, what + " has length 0", "write a direction, such as [1, 0, 0]");
+    fail(ErrorCode::direction_invalid, node, what + " has length 0", "write a direction, such as [1, 0, 0]");
   }
   return given.stableNormalized();
 }
@@ -220,14 +227,14 @@ void SeedConfigParser::parse_cube(const YamlNode& node, WillisVolume& volume) {
   volume.texels = texels(width, "visibility_vol.width");
   if (texels(height, "visibility_vol.height") != volume.texels) {
     fail(
-        height,
+        ErrorCode::value_unsupported, height,
         "visibility_vol.height is " + height.text + ", but width is " + width.text + ": the faces of a cube are square",
         "write the same number for both");
   }
   if (const YamlNode* fov = find(node, "fov_degrees")) {
     const double degrees = number(*fov, "visibility_vol.fov_degrees");
     if (degrees != 90) {
-      fail(*fov, "visibility_vol.fov_degrees must be 90, not " + shortest(degrees),
+      fail(ErrorCode::value_unsupported, *fov, "visibility_vol.fov_degrees must be 90, not " + shortest(degrees),
            "write 90, or leave the key out: six faces of 90 degrees make a cube, all else leaves gaps or overlaps");
     }
   }
@@ -237,7 +244,8 @@ void SeedConfigParser::parse_cube(const YamlNode& node, WillisVolume& volume) {
   if (front) volume.front = direction(*front, "visibility_vol.front");
   const Vec3 level = volume.front - volume.front.dot(volume.up) * volume.up;
   if (level.norm() < kParallel) {
-    fail(front ? *front : *up, "visibility_vol.front is parallel to up", "write a front at right angles to up");
+    fail(ErrorCode::direction_invalid, front ? *front : *up, "visibility_vol.front is parallel to up",
+         "write a front at right angles to up");
   }
   if (level != volume.front) volume.front = level.normalized();
 }
@@ -245,7 +253,7 @@ void SeedConfigParser::parse_cube(const YamlNode& node, WillisVolume& volume) {
 int SeedConfigParser::texels(const YamlNode& node, const std::string& what) const {
   const double value = number(node, what);
   if (value != std::floor(value) || value < 1 || value > kMostTexels) {
-    fail(node,
+    fail(ErrorCode::value_out_of_range, node,
          what + " must be a whole number from 1 to " + std::to_string(kMostTexels) + ", not " + in_quotes(node.text),
          "write the texels along a face's side, such as 40");
   }
@@ -258,7 +266,8 @@ void SeedConfigParser::parse_limits(const YamlNode& node, WillisVolume& volume) 
   if (low) volume.up_min = length(*low, "visibility_vol.up_min");
   if (high) volume.up_max = length(*high, "visibility_vol.up_max");
   if (volume.up_min >= volume.up_max) {
-    fail(*low, "visibility_vol.up_min is " + shortest(volume.up_min) + ", not below up_max, " + shortest(volume.up_max),
+    fail(ErrorCode::limits_reversed, *low,
+         "visibility_vol.up_min is " + shortest(volume.up_min) + ", not below up_max, " + shortest(volume.up_max),
          "write the lower height as up_min");
   }
   if (const YamlNode* radius = find(node, "radius_max")) {
@@ -266,7 +275,7 @@ void SeedConfigParser::parse_limits(const YamlNode& node, WillisVolume& volume) 
   }
   const double height = volume.origin.dot(volume.up);
   if (height <= volume.up_min || height >= volume.up_max) {
-    throw Error(ErrorKind::input,
+    throw Error(ErrorCode::limits_empty,
                 "the viewpoint of " + volume.name + " lies at height " + shortest(height) +
                     ", not between up_min and up_max: nothing would be left",
                 volume.where, "mend origin, up_min or up_max; heights are along up, from the world's origin");
@@ -280,7 +289,8 @@ void SeedConfigParser::parse_output(const YamlNode& node, WillisVolume& volume) 
   volume.output = config_.file.parent_path() / volume.output_name;
   const auto [first, is_new] = outputs_.emplace(volume.output.lexically_normal(), volume.output_where);
   if (!is_new) {
-    fail(output, "two volumes have the same output_file " + in_quotes(volume.output_name),
+    fail(ErrorCode::output_named_twice, output,
+         "two volumes have the same output_file " + in_quotes(volume.output_name),
          "give each a name of its own; the first is at " + first->second);
   }
 }

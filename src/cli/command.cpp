@@ -64,10 +64,11 @@ int with_threads(const CommonOptions& options, const Command& command) {
 double positive_option(const std::string& name, const std::string& text) {
   const ParsedNumber parsed = parse_number(text);
   if (parsed.fault == NumberFault::none && parsed.value > 0) return parsed.value;
+  const bool is_number = parsed.fault != NumberFault::not_a_number;
   const std::string advice =
       parsed.fault == NumberFault::none ? "write a number greater than 0" : number_advice(text, parsed.fault);
-  throw Error(ErrorKind::input, name + " must be a positive number, not " + in_quotes(text), "command line, " + name,
-              advice);
+  throw Error(is_number ? ErrorCode::value_out_of_range : ErrorCode::not_a_number,
+              name + " must be a positive number, not " + in_quotes(text), "command line, " + name, advice);
 }
 
 void print(std::string_view text) {
@@ -75,7 +76,7 @@ void print(std::string_view text) {
   const bool is_written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
   if (is_written) return;
   if (errno == EPIPE) throw ClosedPipe();
-  throw Error(ErrorKind::output, std::string("the result could not be written: ") + std::strerror(errno),
+  throw Error(ErrorCode::output_unwritable, std::string("the result could not be written: ") + std::strerror(errno),
               "standard output", "make room on the disk, or send it elsewhere");
 }
 

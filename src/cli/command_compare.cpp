@@ -52,7 +52,7 @@ SceneReadOptions obj_options(const Options& options) {
   const std::array<const std::string*, 4> files = {&options.file_a, &options.file_b, &options.only_a, &options.only_b};
   const bool has_obj = std::any_of(files.begin(), files.end(), [](const auto* f) { return is_obj(*f); });
   if (!has_obj && !(options.up.empty() && options.scale.empty())) {
-    throw Error(ErrorKind::input, "--up and --scale are for OBJ files, and none is named", "command line",
+    throw Error(ErrorCode::not_applicable, "--up and --scale are for OBJ files, and none is named", "command line",
                 "leave them out: PLY and STL are in the scene frame, and glTF is y up");
   }
   SceneReadOptions result;
@@ -69,7 +69,8 @@ void check_outputs(const Options& options) {
   }
   if (!options.only_a.empty() &&
       fs::path(options.only_a).lexically_normal() == fs::path(options.only_b).lexically_normal()) {
-    throw Error(ErrorKind::input, "an output is named twice", options.only_a, "give --only-a and --only-b two names");
+    throw Error(ErrorCode::output_named_twice, "an output is named twice", options.only_a,
+                "give --only-a and --only-b two names");
   }
 }
 

@@ -54,8 +54,9 @@ struct Options {
   bool is_to_stdout() const { return std::any_of(outputs.begin(), outputs.end(), is_standard_stream); }
 };
 
-[[noreturn]] void fail_option(const std::string& problem, const std::string& option, const std::string& fix) {
-  throw Error(ErrorKind::input, problem, "command line, " + option, fix);
+[[noreturn]] void fail_option(ErrorCode code, const std::string& problem, const std::string& option,
+                              const std::string& fix) {
+  throw Error(code, problem, "command line, " + option, fix);
 }
 
 /// All that can be known to go wrong with the outputs before anything is computed.
@@ -67,21 +68,25 @@ void check_outputs(const Options& options) {
       check_can_write(report_file(output));
     }
     if (!seen.insert(fs::path(output).lexically_normal()).second) {
-      throw Error(ErrorKind::input, "an output is named twice", output, "give each -o a name of its own");
+      throw Error(ErrorCode::output_named_twice, "an output is named twice", output, "give each -o a name of its own");
     }
   }
   if (!options.is_to_stdout()) {
-    if (!options.format.empty()) fail_option("--format is for -o -", "--format", "name a file with that extension");
+    if (!options.format.empty())
+      fail_option(ErrorCode::not_applicable, "--format is for -o -", "--format", "name a file with that extension");
     if (!options.report.empty()) {
-      fail_option("--report is for -o -", "--report", "leave it out: a report is written beside each file");
+      fail_option(ErrorCode::not_applicable, "--report is for -o -", "--report",
+                  "leave it out: a report is written beside each file");
     }
     return;
   }
   if (options.format.empty()) {
-    fail_option("-o - does not say in which format", "-o -", "add --format ply, obj, stl or glb");
+    fail_option(ErrorCode::missing_key, "-o - does not say in which format", "-o -",
+                "add --format ply, obj, stl or glb");
   }
   if (options.json) {
-    fail_option("-o - and --json both want standard output", "--json", "write the report to a file with --report");
+    fail_option(ErrorCode::conflicting_keys, "-o - and --json both want standard output", "--json",
+                "write the report to a file with --report");
   }
   if (!options.report.empty()) check_can_write(options.report);
 }
@@ -93,7 +98,8 @@ MissionFile with_options(MissionFile mission, const Options& options) {
   if (mission.method == Method::spheres) return mission;
   const char* const unused = !options.stages.empty() ? "--stages" : !options.device.empty() ? "--device" : nullptr;
   if (unused) {
-    throw Error(ErrorKind::input, std::string(unused) + " is for the method of spheres, and this mission's is exact",
+    throw Error(ErrorCode::not_applicable,
+                std::string(unused) + " is for the method of spheres, and this mission's is exact",
                 "command line, " + std::string(unused), "add --method spheres, or leave it out");
   }
   return mission;

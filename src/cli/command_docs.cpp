@@ -28,7 +28,7 @@ void write_man_pages(const std::vector<CommandRow>& table, const fs::path& folde
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) {
-    throw Error(ErrorKind::output, "the folder cannot be made: " + error.message(), folder.string(),
+    throw Error(ErrorCode::output_unwritable, "the folder cannot be made: " + error.message(), folder.string(),
                 "name a folder that may be written");
   }
   for (const ManPage& page : man_pages(table)) write_whole_file(folder / page.file, page.text);
@@ -38,7 +38,7 @@ std::string completion(const std::vector<CommandRow>& table, const std::string& 
   if (shell == "bash") return bash_completion(table);
   if (shell == "zsh") return zsh_completion(table);
   if (shell == "fish") return fish_completion(table);
-  throw Error(ErrorKind::input, "there is no completion for the shell '" + shell + "'", "command line, SHELL",
+  throw Error(ErrorCode::unknown_choice, "there is no completion for the shell '" + shell + "'", "command line, SHELL",
               "name bash, zsh or fish");
 }
 

@@ -63,8 +63,8 @@ class Source {
     check_readable(file, "the points file", "");
     descriptor_ = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
     if (descriptor_ >= 0) return;
-    throw Error(ErrorKind::input, std::string("the points file cannot be read: ") + std::strerror(errno), file,
-                "check its permissions");
+    throw Error(ErrorCode::file_unreadable, std::string("the points file cannot be read: ") + std::strerror(errno),
+                file, "check its permissions");
   }
   ~Source() {
     if (descriptor_ != STDIN_FILENO) ::close(descriptor_);
@@ -106,7 +106,7 @@ TableOptions table_options(const Options& options) {
   if (options.z.empty()) return result;
   const ParsedNumber z = parse_number(options.z);
   if (z.fault != NumberFault::none) {
-    throw Error(ErrorKind::input, "--z must be a number, not " + in_quotes(options.z), "command line, --z",
+    throw Error(ErrorCode::not_a_number, "--z must be a number, not " + in_quotes(options.z), "command line, --z",
                 number_advice(options.z, z.fault));
   }
   result.z = z.value;
@@ -156,7 +156,7 @@ std::string answered(PointTable& table, const Portion& portion, const Scene& sce
 void check_streams(const Options& options) {
   const bool is_from_stdin = is_standard_stream(options.points_file);
   if (is_from_stdin && is_standard_stream(options.mission_file)) {
-    throw Error(ErrorKind::input, "the mission and the points cannot both come from standard input",
+    throw Error(ErrorCode::stdin_not_possible, "the mission and the points cannot both come from standard input",
                 "command line, MISSION and POINTS", "write one of them to a file");
   }
   if (options.is_to_stdout()) return;

@@ -44,7 +44,7 @@ void check_output(const std::string& output) {
   if (is_standard_stream(output)) return;
   std::error_code error;
   if (format_extension(output) != ".png" && !fs::is_directory(output, error)) {
-    throw Error(ErrorKind::input, "pictures are written as PNG, not as " + in_quotes(output), output,
+    throw Error(ErrorCode::output_format_unknown, "pictures are written as PNG, not as " + in_quotes(output), output,
                 "give the output a name that ends in .png");
   }
   check_can_write(output);

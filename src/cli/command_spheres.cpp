@@ -36,7 +36,7 @@ auto at_output(const WillisVolume& volume, const Action& action) {
     return action();
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::input && error.kind() != ErrorKind::output) throw;
-    throw Error(error.kind(), error.problem(), volume.output_where + ", " + error.where(), error.fix());
+    throw error.with_where(volume.output_where + ", " + error.where());
   }
 }
 
@@ -50,7 +50,7 @@ void check_outputs(const WillisConfig& config) {
       check_volume_output(volume.output);
       check_not_an_input(volume.output, inputs);
       if (seen.insert(fs::weakly_canonical(volume.output)).second) return;
-      throw Error(ErrorKind::input, "two volumes are written to one file", volume.output.string(),
+      throw Error(ErrorCode::output_named_twice, "two volumes are written to one file", volume.output.string(),
                   "give each output_file a name of its own");
     });
   }

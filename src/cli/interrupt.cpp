@@ -36,7 +36,7 @@ InterruptGuard::~InterruptGuard() {
 int noted_signal() { return g_signal.load(); }
 
 void stop_if_interrupted() {
-  if (noted_signal() != 0) throw Error(ErrorKind::cancelled, "stopped by a signal", "", "");
+  if (noted_signal() != 0) throw Error(ErrorCode::cancelled, "stopped by a signal", "", "");
 }
 
 }  // namespace vantage::cli

@@ -11,8 +11,8 @@
 namespace vantage::cli {
 namespace {
 
-[[noreturn]] void refuse_view(const std::string& problem) {
-  throw Error(ErrorKind::input, problem, "command line, --view",
+[[noreturn]] void refuse_view(ErrorCode code, const std::string& problem) {
+  throw Error(code, problem, "command line, --view",
               "write --view top, --view oblique, --view oblique AZIMUTH,ELEVATION or --view from X,Y,Z");
 }
 
@@ -21,7 +21,7 @@ std::vector<double> numbers(const std::string& text) {
   for (const std::string_view part : split_at_commas(text)) {
     const ParsedNumber parsed = parse_number(part);
     if (parsed.fault != NumberFault::none) {
-      refuse_view("the view's " + in_quotes(part) + " is no number");
+      refuse_view(ErrorCode::not_a_number, "the view's " + in_quotes(part) + " is no number");
     }
     values.push_back(parsed.value);
   }
@@ -53,19 +53,21 @@ PictureView parse_view(const std::vector<std::string>& given) {
   const std::string& kind = words[0];
   const std::vector<double> values = words.size() > 1 ? numbers(words[1]) : std::vector<double>{};
   if (kind == "top") {
-    if (!values.empty()) refuse_view("the view from the top takes no numbers");
+    if (!values.empty()) refuse_view(ErrorCode::value_syntax, "the view from the top takes no numbers");
     view.kind = PictureView::Kind::top;
   } else if (kind == "oblique") {
-    if (values.size() > 2) refuse_view("an oblique view takes two numbers at most");
+    if (values.size() > 2) refuse_view(ErrorCode::value_syntax, "an oblique view takes two numbers at most");
     if (!values.empty()) view.azimuth_deg = values[0];
     if (values.size() > 1) view.elevation_deg = values[1];
-    if (std::abs(view.elevation_deg) > 90) refuse_view("the view's elevation is beyond 90 degrees");
+    if (std::abs(view.elevation_deg) > 90)
+      refuse_view(ErrorCode::value_out_of_range, "the view's elevation is beyond 90 degrees");
   } else if (kind == "from") {
-    if (values.size() != 3) refuse_view("the view from a point needs its three coordinates, joined by commas");
+    if (values.size() != 3)
+      refuse_view(ErrorCode::value_syntax, "the view from a point needs its three coordinates, joined by commas");
     view.kind = PictureView::Kind::from;
     view.from = {values[0], values[1], values[2]};
   } else {
-    refuse_view("no view is called " + in_quotes(kind));
+    refuse_view(ErrorCode::unknown_choice, "no view is called " + in_quotes(kind));
   }
   return view;
 }
@@ -78,7 +80,7 @@ std::array<int, 2> parse_size(const std::string& text) {
   const auto second = is_cross ? std::from_chars(first.ptr + 1, end, size[1]) : first;
   const auto in_range = [](int pixels) { return pixels >= kSmallestPicture && pixels <= kLargestPicture; };
   if (is_cross && second.ec == std::errc() && second.ptr == end && in_range(size[0]) && in_range(size[1])) return size;
-  throw Error(ErrorKind::input, in_quotes(text) + " is no size of a picture", "command line, --size",
+  throw Error(ErrorCode::value_syntax, in_quotes(text) + " is no size of a picture", "command line, --size",
               "write WIDTHxHEIGHT in pixels, " + std::to_string(kSmallestPicture) + " to " +
                   std::to_string(kLargestPicture) + " each: 1600x1200");
 }

@@ -106,7 +106,8 @@ PointTable::PointTable(const RowReader& reader, const Row& first, const TableOpt
   std::set<std::string> seen;
   for (const std::string& name : names_) {
     if (seen.insert(name).second) continue;
-    fail("two columns are named " + in_quotes(name) + ", which JSON cannot hold", first, "give each a name of its own");
+    fail(ErrorCode::duplicate_key, "two columns are named " + in_quotes(name) + ", which JSON cannot hold", first,
+         "give each a name of its own");
   }
 }
 
@@ -120,14 +121,17 @@ void PointTable::take_header(const std::vector<Field>& fields, const Row& row) {
   for (const auto& column : column_) {
     if (column && !is_lonlat_) names_[*column] = lower_case(names_[*column]);
   }
-  if (options_.z && z) fail("the points have a column z, and --z gives another", row, "leave one of them out");
+  if (options_.z && z)
+    fail(ErrorCode::conflicting_keys, "the points have a column z, and --z gives another", row,
+         "leave one of them out");
   const std::array<const char*, 3> axes = {is_lonlat_ ? "lon" : "x", is_lonlat_ ? "lat" : "y", "z"};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (column_[axis] || (axis == 2 && options_.z)) continue;
     const std::string form = is_lonlat_
                                  ? "begin with the header 'lon,lat,z', or with a point such as 11.57,48.14,30"
                                  : "begin with the header 'x,y,z' or 'lon,lat,z', or with a point such as 1.5,2,30";
-    fail("the first row is neither a point nor a header with a column " + std::string(axes[axis]), row,
+    fail(ErrorCode::table_syntax,
+         "the first row is neither a point nor a header with a column " + std::string(axes[axis]), row,
          axis == 2 ? form + "; --z gives one height for all points" : form);
   }
 }
@@ -136,7 +140,8 @@ Vec3 PointTable::coordinates(const Row& row) {
   reader_.split(row.text, fields_);
   while (fields_.size() > names_.size() && fields_.back().text.empty()) fields_.pop_back();
   if (fields_.size() > names_.size()) {
-    fail("the row has " + std::to_string(fields_.size()) + " columns, but the first row has " +
+    fail(ErrorCode::table_syntax,
+         "the row has " + std::to_string(fields_.size()) + " columns, but the first row has " +
              std::to_string(names_.size()),
          row, "write the same columns in every row; put a text that holds the separator in double quotes");
   }
@@ -146,7 +151,8 @@ Vec3 PointTable::coordinates(const Row& row) {
     const std::size_t column = *column_[axis];
     const std::string& name = names_[column];
     if (column >= fields_.size()) {
-      fail("the row has " + std::to_string(fields_.size()) + " columns, but " + name + " is column " +
+      fail(ErrorCode::table_syntax,
+           "the row has " + std::to_string(fields_.size()) + " columns, but " + name + " is column " +
                std::to_string(column + 1),
            row, "write all coordinates in every row, separated like the first row");
     }
@@ -154,7 +160,8 @@ Vec3 PointTable::coordinates(const Row& row) {
     const std::string_view text = fields_[column].is_quoted ? std::string_view(plain) : fields_[column].text;
     const ParsedNumber parsed = number_in(text);
     if (parsed.fault != NumberFault::none) {
-      fail(name + (parsed.fault == NumberFault::not_finite ? " is not finite: " : " is not a number: ") +
+      fail(ErrorCode::not_a_number,
+           name + (parsed.fault == NumberFault::not_finite ? " is not finite: " : " is not a number: ") +
                in_quotes(text),
            row, number_advice(text, parsed.fault));
     }
@@ -166,7 +173,8 @@ Vec3 PointTable::coordinates(const Row& row) {
 Vec3 PointTable::scene_point(const Vec3& coordinates, const std::optional<Georeference>& place, const Row& row) const {
   if (!is_lonlat_) return coordinates;
   if (!place) {
-    fail("the points are longitudes and latitudes, but the scene does not say where on the earth it lies", row,
+    fail(ErrorCode::not_georeferenced,
+         "the points are longitudes and latitudes, but the scene does not say where on the earth it lies", row,
          "give x, y and z in the scene frame, or a scene with a place: a map, CityJSON with a reference system, a "
          "raster, or a mesh with 'crs' or written by 'vantage scene'");
   }
@@ -175,7 +183,7 @@ Vec3 PointTable::scene_point(const Vec3& coordinates, const std::optional<Georef
     return {xy.x(), xy.y(), coordinates.z()};
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::input) throw;
-    fail(error.problem(), row, error.fix());
+    fail(error.code(), error.problem(), row, error.fix());
   }
 }
 
@@ -251,8 +259,8 @@ void PointTable::append_json(std::string& text, const Vec3& coordinates, const P
   text.append(", \"outside_of\": ").append(json_text(answer.outside_of)).append("}");
 }
 
-void PointTable::fail(const std::string& problem, const Row& row, const std::string& fix) const {
-  throw Error(ErrorKind::input, problem, reader_.file() + ":" + std::to_string(row.line), fix);
+void PointTable::fail(ErrorCode code, const std::string& problem, const Row& row, const std::string& fix) const {
+  throw Error(code, problem, reader_.file() + ":" + std::to_string(row.line), fix);
 }
 
 }  // namespace vantage::cli

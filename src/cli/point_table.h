@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cli/row_reader.h"
+#include "vantage/error.h"
 #include "vantage/georeference.h"
 #include "vantage/query.h"
 
@@ -53,7 +54,7 @@ class PointTable {
   void append_csv(std::string& text, const Vec3& coordinates, const PointAnswer& answer) const;
   void append_json(std::string& text, const Vec3& coordinates, const PointAnswer& answer);
   std::optional<std::size_t> axis_of(std::size_t column) const;
-  [[noreturn]] void fail(const std::string& problem, const Row& row, const std::string& fix) const;
+  [[noreturn]] void fail(ErrorCode code, const std::string& problem, const Row& row, const std::string& fix) const;
 
   const RowReader& reader_;
   TableOptions options_;

@@ -113,7 +113,8 @@ void RowReader::read_more() {
     const int reason = errno;
     text_.resize(before + static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
     if (count < 0 && reason != EINTR) {
-      fail(std::string("the points cannot be read: ") + std::strerror(reason), "check where they come from");
+      fail(ErrorCode::file_unreadable, std::string("the points cannot be read: ") + std::strerror(reason),
+           "check where they come from");
     }
     if (count == 0) is_at_end_ = true;
     check_();
@@ -129,7 +130,7 @@ void RowReader::take_rows() {
     std::size_t end = end_of_row(text.substr(taken_), is_in_quotes);
     if (end == std::string_view::npos) {
       if (!is_at_end_) return;
-      if (is_in_quotes) fail("a quote is not closed", "write \" at the end of the field");
+      if (is_in_quotes) fail(ErrorCode::table_syntax, "a quote is not closed", "write \" at the end of the field");
       end = text.size() - taken_;
     }
     if (end > kLongestRow) fail_of_length();
@@ -165,11 +166,12 @@ std::size_t RowReader::end_of_row(std::string_view text, bool& is_in_quotes) {
 }
 
 void RowReader::fail_of_length() const {
-  fail("the row is longer than a megabyte", "is a quote not closed? Begin each point on a line of its own");
+  fail(ErrorCode::table_syntax, "the row is longer than a megabyte",
+       "is a quote not closed? Begin each point on a line of its own");
 }
 
-void RowReader::fail(const std::string& problem, const std::string& fix) const {
-  throw Error(ErrorKind::input, problem, file_ + ":" + std::to_string(line_), fix);
+void RowReader::fail(ErrorCode code, const std::string& problem, const std::string& fix) const {
+  throw Error(code, problem, file_ + ":" + std::to_string(line_), fix);
 }
 
 }  // namespace vantage::cli

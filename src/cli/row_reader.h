@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "vantage/error.h"
+
 namespace vantage::cli {
 
 struct Row {
@@ -46,7 +48,7 @@ class RowReader {
   void take_rows();
   std::size_t end_of_row(std::string_view text, bool& is_in_quotes);
   [[noreturn]] void fail_of_length() const;
-  [[noreturn]] void fail(const std::string& problem, const std::string& fix) const;
+  [[noreturn]] void fail(ErrorCode code, const std::string& problem, const std::string& fix) const;
 
   int descriptor_;
   std::string file_;

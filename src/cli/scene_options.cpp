@@ -13,8 +13,8 @@
 namespace vantage::cli {
 namespace {
 
-[[noreturn]] void fail(const std::string& problem, const std::string& option, const std::string& fix) {
-  throw Error(ErrorKind::input, problem, "command line, " + option, fix);
+[[noreturn]] void fail(ErrorCode code, const std::string& problem, const std::string& option, const std::string& fix) {
+  throw Error(code, problem, "command line, " + option, fix);
 }
 
 template <std::size_t N>
@@ -28,7 +28,7 @@ std::array<double, N> numbers(const std::string& text, const std::string& option
     is_good = parsed.fault == NumberFault::none;
   }
   if (!is_good) {
-    fail(in_quotes(text).append(" is not ").append(form), option,
+    fail(ErrorCode::value_syntax, in_quotes(text).append(" is not ").append(form), option,
          "write numbers joined by commas, in quotes if there are blanks: " + form);
   }
   return values;
@@ -39,7 +39,8 @@ CityRegion region_of(const SceneOptions& options) {
   if (!options.center.empty()) region.center_deg = numbers<2>(options.center, "--center", "latitude,longitude");
   if (!options.bbox.empty()) region.bbox_deg = numbers<4>(options.bbox, "--bbox", "west,south,east,north");
   if (!options.radius.empty()) region.radius_m = positive_option("--radius", options.radius);
-  if (region.center_deg && options.radius.empty()) fail("--center without --radius", "--center", "add --radius METRES");
+  if (region.center_deg && options.radius.empty())
+    fail(ErrorCode::missing_key, "--center without --radius", "--center", "add --radius METRES");
   return region;
 }
 
@@ -48,7 +49,7 @@ void apply(const std::string& setting, CityOptions& options) {
   const std::string where = "--set " + setting;
   const std::size_t sign = setting.find('=');
   if (sign == std::string::npos)
-    fail("'" + setting + "' sets nothing", where, "write --set NAME=VALUE, such as level=3.2");
+    fail(ErrorCode::value_syntax, "'" + setting + "' sets nothing", where, "write --set NAME=VALUE, such as level=3.2");
   set_city_option(options, setting.substr(0, sign), positive_option(where, setting.substr(sign + 1)),
                   "command line, " + where);
 }
@@ -58,7 +59,8 @@ std::array<int, 4> window_of(const std::string& text) {
   const std::array<double, 4> values = numbers<4>(text, "--window", "column,row,columns,rows");
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (values[i] != std::floor(values[i]) || std::abs(values[i]) > 1e9) {
-      fail("'" + text + "' is not a window", "--window", "give whole numbers: column,row,columns,rows");
+      fail(ErrorCode::value_syntax, "'" + text + "' is not a window", "--window",
+           "give whole numbers: column,row,columns,rows");
     }
     window[i] = static_cast<int>(values[i]);
   }
@@ -94,7 +96,8 @@ void check_options(const SceneOptions& options, SceneSource::Kind kind) {
   using Kind = SceneSource::Kind;
   const auto only_for = [&](bool is_given, const char* option, std::initializer_list<Kind> kinds, const char* what) {
     if (!is_given || std::find(kinds.begin(), kinds.end(), kind) != kinds.end()) return;
-    fail(std::string(option) + " is for " + what + ", and " + options.input + " is none", option, "leave it out");
+    fail(ErrorCode::not_applicable, std::string(option) + " is for " + what + ", and " + options.input + " is none",
+         option, "leave it out");
   };
   only_for(!options.center.empty(), "--center", {Kind::map, Kind::raster}, "maps and rasters");
   only_for(!options.bbox.empty(), "--bbox", {Kind::map, Kind::raster}, "maps and rasters");

@@ -23,7 +23,7 @@ MissionFile read_mission_argument(const std::string& argument) {
   std::string text(static_cast<std::size_t>(kMost), '\0');
   std::cin.read(text.data(), kMost);
   if (std::cin.bad()) {
-    throw Error(ErrorKind::input, "the mission cannot be read", "standard input", "send it again");
+    throw Error(ErrorCode::file_unreadable, "the mission cannot be read", "standard input", "send it again");
   }
   text.resize(static_cast<std::size_t>(std::cin.gcount()));
   MissionFile mission = read_mission_text(text, "standard input");
@@ -33,15 +33,15 @@ MissionFile read_mission_argument(const std::string& argument) {
 
 OutgoingFile::OutgoingFile(const std::string& extension) {
   if (extension != ".obj" && ::isatty(STDOUT_FILENO) == 1) {
-    throw Error(ErrorKind::input, "standard output is a terminal, and a " + extension + " file is no text",
+    throw Error(ErrorCode::output_not_a_file, "standard output is a terminal, and a " + extension + " file is no text",
                 "command line, -o", "send it to a program or a file: vantage ... -o - | PROGRAM");
   }
   std::error_code error;
   const fs::path temporary = fs::temp_directory_path(error);
   std::string pattern = ((error ? fs::path("/tmp") : temporary) / "vantage-XXXXXX").string();
   if (::mkdtemp(pattern.data()) == nullptr) {
-    throw Error(ErrorKind::output, std::string("no temporary file can be made: ") + std::strerror(errno), pattern,
-                "make room there, or set TMPDIR to a folder that can be written");
+    throw Error(ErrorCode::output_unwritable, std::string("no temporary file can be made: ") + std::strerror(errno),
+                pattern, "make room there, or set TMPDIR to a folder that can be written");
   }
   folder_ = pattern;
   path_ = folder_ / ("result" + extension);
@@ -60,7 +60,8 @@ void OutgoingFile::send() const {
     print(std::string_view(part).substr(0, static_cast<std::size_t>(stream.gcount())));
   } while (stream);
   if (stream.bad() || !stream.eof()) {
-    throw Error(ErrorKind::output, "the result cannot be read back", path_.string(), "try again, or write to a file");
+    throw Error(ErrorCode::output_unwritable, "the result cannot be read back", path_.string(),
+                "try again, or write to a file");
   }
 }
 

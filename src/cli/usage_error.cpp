@@ -76,7 +76,7 @@ Error unknown_option_error(const CLI::App& app, const CLI::App& command, const s
     fix = is_root ? "name the command first, as in 'vantage " + other + " " + option + "'"
                   : "it is an option of 'vantage " + other + "'; " + list;
   }
-  return {ErrorKind::input, name + " has no option " + in_quotes(option), kWhere, fix};
+  return {ErrorCode::unknown_option, name + " has no option " + in_quotes(option), kWhere, fix};
 }
 
 }  // namespace
@@ -92,19 +92,19 @@ Error unknown_command(const CLI::App& app, const std::string& word) {
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
   const std::string_view nearest = nearest_name(word, std::vector<std::string_view>(names.begin(), names.end()));
-  return {ErrorKind::input, "there is no command " + in_quotes(word), kWhere,
+  return {ErrorCode::unknown_command, "there is no command " + in_quotes(word), kWhere,
           "did you mean '" + std::string(nearest) + "'? 'vantage --help' lists the commands"};
 }
 
 Error usage_error(const CLI::App& app, const CLI::ParseError& error, const std::vector<std::string>& arguments) {
-  if (arguments.empty()) return {ErrorKind::input, "no command is given", kWhere, "see 'vantage --help'"};
+  if (arguments.empty()) return {ErrorCode::command_line_syntax, "no command is given", kWhere, "see 'vantage --help'"};
   const CLI::App* command = find_command(app, arguments.front());
   const std::vector<std::string> rest(arguments.begin() + (command ? 1 : 0), arguments.end());
   // CLI11 may complain of something else first, say of the required option that was misspelt.
   if (const auto option = unknown_option(command ? *command : app, rest)) {
     return unknown_option_error(app, command ? *command : app, *option);
   }
-  return {ErrorKind::input, error.what(), kWhere,
+  return {ErrorCode::command_line_syntax, error.what(), kWhere,
           command ? "see 'vantage " + command->get_name() + " --help'" : "see 'vantage --help'"};
 }
 

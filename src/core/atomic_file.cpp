@@ -61,15 +61,16 @@ void synchronise_folder(const std::filesystem::path& file) {
 }  // namespace
 
 AtomicFile::AtomicFile(const std::filesystem::path& target) : asked_(target), target_(resolved(target)) {
-  if (target.empty()) throw Error(ErrorKind::input, "no output file was named", "", "give the name of a file");
+  if (target.empty())
+    throw Error(ErrorCode::output_name_missing, "no output file was named", "", "give the name of a file");
   struct stat old {};
   const bool exists = ::stat(target_.c_str(), &old) == 0;
   if (!exists && errno == ELOOP) fail("cannot create the file", ELOOP);
   if ((exists && S_ISDIR(old.st_mode)) || target_.filename().empty()) {
-    throw Error(ErrorKind::input, "the output is a directory", asked_.string(), "give the name of a file");
+    throw Error(ErrorCode::output_not_a_file, "the output is a directory", asked_.string(), "give the name of a file");
   }
   if (exists && !S_ISREG(old.st_mode)) {
-    throw Error(ErrorKind::output, "the output is a device, a pipe or a socket, not a file", asked_.string(),
+    throw Error(ErrorCode::output_not_a_file, "the output is a device, a pipe or a socket, not a file", asked_.string(),
                 "give the name of a file");
   }
   // A rename would replace a file that its owner has protected.
@@ -98,7 +99,7 @@ AtomicFile::~AtomicFile() {
 }
 
 void AtomicFile::fail(const std::string& problem, int error_number) const {
-  throw Error(ErrorKind::output, problem + ": " + std::strerror(error_number), asked_.string(),
+  throw Error(ErrorCode::output_unwritable, problem + ": " + std::strerror(error_number), asked_.string(),
               advice_for(error_number));
 }
 
@@ -172,7 +173,7 @@ void commit_all(const std::vector<std::unique_ptr<AtomicFile>>& files) {
       if (!files[done]->give_back()) lost += (lost.empty() ? "" : ", ") + files[done]->asked_.string();
     }
     if (lost.empty()) throw;
-    throw Error(error.kind(), error.problem(), error.where(), "write elsewhere; already replaced: " + lost);
+    throw error.with_fix("write elsewhere; already replaced: " + lost);
   }
 }
 

@@ -15,26 +15,27 @@ namespace fs = std::filesystem;
 void check_readable(const fs::path& file, const std::string& what, const std::string& where) {
   const std::string place = where.empty() ? file.string() : where + " (" + file.string() + ")";
   if (file == "-") {
-    throw Error(ErrorKind::input, what + " cannot come from standard input", place,
+    throw Error(ErrorCode::stdin_not_possible, what + " cannot come from standard input", place,
                 "name a file; only a command's MISSION and the POINTS of query may be -");
   }
   std::error_code error;
   const fs::file_status status = fs::status(file, error);
   if (status.type() == fs::file_type::not_found) {
     throw Error(
-        ErrorKind::input, what + " does not exist", place,
+        ErrorCode::file_not_found, what + " does not exist", place,
         where.empty() ? "check the path" : "check the path; it starts from the folder of the file that names it");
   }
-  if (error) throw Error(ErrorKind::input, what + " cannot be reached: " + error.message(), place, "check the path");
+  if (error)
+    throw Error(ErrorCode::file_unreadable, what + " cannot be reached: " + error.message(), place, "check the path");
   if (fs::is_directory(status)) {
-    throw Error(ErrorKind::input, what + " is a folder", place, "name a file in it");
+    throw Error(ErrorCode::not_a_file, what + " is a folder", place, "name a file in it");
   }
   if (!fs::is_regular_file(status)) {
-    throw Error(ErrorKind::input, what + " is not a regular file", place,
+    throw Error(ErrorCode::not_a_file, what + " is not a regular file", place,
                 "name a file on disk, not a pipe or a device");
   }
   if (::access(file.c_str(), R_OK) != 0) {
-    throw Error(ErrorKind::input, what + " cannot be read: " + std::strerror(errno), place,
+    throw Error(ErrorCode::file_unreadable, what + " cannot be read: " + std::strerror(errno), place,
                 "change its permissions, or name another file");
   }
 }

@@ -14,7 +14,7 @@ void check_indices(const std::vector<Triangle>& triangles, std::size_t vertices)
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     for (const std::uint32_t v : triangles[t]) {
       if (v < vertices) continue;
-      throw Error(ErrorKind::input,
+      throw Error(ErrorCode::index_out_of_range,
                   "triangle " + std::to_string(t) + " names vertex " + std::to_string(v) + ", but there are only " +
                       std::to_string(vertices),
                   "", "number the vertices of a mesh from 0");

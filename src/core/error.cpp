@@ -15,11 +15,13 @@ std::string joined(const std::string& problem, const std::string& where, const s
 
 }  // namespace
 
-Error::Error(ErrorKind kind, std::string problem, std::string where, std::string fix)
+Error::Error(ErrorCode code, std::string problem, std::string where, std::string fix,
+             std::optional<std::uint32_t> object)
     : std::runtime_error(joined(problem, where, fix)),
-      kind_(kind),
+      code_(code),
       problem_(std::move(problem)),
       where_(std::move(where)),
-      fix_(std::move(fix)) {}
+      fix_(std::move(fix)),
+      object_(object) {}
 
 }  // namespace vantage

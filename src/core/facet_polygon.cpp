@@ -20,7 +20,8 @@ bool clip_facet(FacetPolygon& polygon, const Vec3& normal, double height, double
                 FacetPolygon& scratch) {
   const std::size_t n = polygon.corners.size();
   constexpr std::size_t kMost = 512;  // a square, cut by the planes of two blockers: about 270 at most
-  if (n > kMost) throw Error(ErrorKind::internal, "a facet has too many corners", "envelope", "please report this");
+  if (n > kMost)
+    throw Error(ErrorCode::internal_defect, "a facet has too many corners", "envelope", "please report this");
   std::array<double, kMost> values;
   bool any_inside = false, any_outside = false;
   for (std::size_t i = 0; i < n; ++i) {

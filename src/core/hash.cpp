@@ -10,7 +10,7 @@ namespace {
 void add_corners(const Mesh& mesh, std::size_t triangle, internal::core::Sha256& hash) {
   for (const std::uint32_t corner : mesh.triangles[triangle]) {
     if (corner >= mesh.vertices.size()) {
-      throw Error(ErrorKind::input, "vertex index " + std::to_string(corner) + " is out of range",
+      throw Error(ErrorCode::index_out_of_range, "vertex index " + std::to_string(corner) + " is out of range",
                   "triangle " + std::to_string(triangle), "give indices of the mesh's own vertices");
     }
     for (const double coordinate : mesh.vertices[corner]) hash.add(coordinate);
@@ -22,7 +22,7 @@ void add_corners(const Mesh& mesh, std::size_t triangle, internal::core::Sha256&
 std::string scene_hash(const Scene& scene) {
   const std::vector<Triangle>& triangles = scene.mesh.triangles;
   if (!scene.object_of.empty() && scene.object_of.size() != triangles.size()) {
-    throw Error(ErrorKind::input, "the scene names objects for another number of triangles", "object_of",
+    throw Error(ErrorCode::array_sizes_differ, "the scene names objects for another number of triangles", "object_of",
                 "give one object for each triangle, or none");
   }
   internal::core::Sha256 hash;

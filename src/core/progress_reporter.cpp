@@ -29,7 +29,7 @@ struct ProgressReporter::State {
 
   void throw_if_cancelled() const {
     if (!cancelled) return;
-    throw Error(ErrorKind::cancelled, std::string("cancelled while ") + stage.load(), where, "");
+    throw Error(ErrorCode::cancelled, std::string("cancelled while ") + stage.load(), where, "");
   }
 
   const Progress& progress;

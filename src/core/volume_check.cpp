@@ -9,25 +9,28 @@
 namespace vantage::internal::core {
 
 void check_labelled(const Mesh& mesh, const Labels& labels) {
-  const auto refuse = [&](const std::string& problem, const std::string& where) {
-    throw Error(ErrorKind::input, problem, where, labels.fix);
+  const auto refuse = [&](ErrorCode code, const std::string& problem, const std::string& where) {
+    throw Error(code, problem, where, labels.fix);
   };
   if (labels.of.size() != mesh.triangles.size()) {
-    refuse(std::string("the ").append(labels.owner) + " has " + std::to_string(mesh.triangles.size()) +
+    refuse(ErrorCode::array_sizes_differ,
+           std::string("the ").append(labels.owner) + " has " + std::to_string(mesh.triangles.size()) +
                " triangles but " + labels.name + "s of " + std::to_string(labels.of.size()),
            "");
   }
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-    if (!mesh.vertices[v].allFinite()) refuse("a coordinate is not finite", "vertex " + std::to_string(v));
+    if (!mesh.vertices[v].allFinite())
+      refuse(ErrorCode::coordinate_not_finite, "a coordinate is not finite", "vertex " + std::to_string(v));
   }
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const Triangle& triangle = mesh.triangles[t];
     const auto beyond = [&](std::uint32_t v) { return v >= mesh.vertices.size(); };
     if (std::any_of(triangle.begin(), triangle.end(), beyond)) {
-      refuse("a vertex index is out of range", "triangle " + std::to_string(t));
+      refuse(ErrorCode::index_out_of_range, "a vertex index is out of range", "triangle " + std::to_string(t));
     }
     if (labels.of[t] >= labels.count) {
-      refuse(std::string("its ").append(labels.name) + " index is out of range", "triangle " + std::to_string(t));
+      refuse(ErrorCode::index_out_of_range, std::string("its ").append(labels.name) + " index is out of range",
+             "triangle " + std::to_string(t));
     }
   }
 }
@@ -40,7 +43,7 @@ void check_volume(const Volume& volume) {
 MeshMeasures measure_sound(const Mesh& mesh) {
   MeshMeasures measures = measure(mesh);
   if (measures.closed && measures.oriented) return measures;
-  throw Error(ErrorKind::internal,
+  throw Error(ErrorCode::internal_defect,
               measures.closed ? "the volume's facets do not all face outward" : "the volume is not closed",
               std::to_string(measures.facets) + " facets, Euler number " + std::to_string(measures.euler),
               "this is a defect of vantage: please report it together with the mission and its meshes; nothing was "

@@ -31,7 +31,8 @@ const RenderDevice* first_of(const RenderDevices& found, DeviceKind kind) {
 
 [[noreturn]] void throw_not_there(const RenderDevices& found, const std::string& problem, const std::string& advice) {
   const std::string reason = found.why_no_opengl.empty() ? "" : ": " + found.why_no_opengl;
-  throw Error(ErrorKind::input, problem + reason, std::string(kWhere) + "; there is " + list_of(found), advice);
+  throw Error(ErrorCode::device_missing, problem + reason, std::string(kWhere) + "; there is " + list_of(found),
+              advice);
 }
 
 std::string why_the_cpu(const RenderDevices& found) {
@@ -44,7 +45,7 @@ bool insists(const DeviceChoice& choice) { return choice.kind != DeviceChoice::K
 
 Error insisted_failure(const RenderDevice& device, const DeviceFailure& failure) {
   return {
-      ErrorKind::input, std::string("the device cannot go on: ") + failure.what(), "device " + device.name,
+      ErrorCode::device_failed, std::string("the device cannot go on: ") + failure.what(), "device " + device.name,
       "take another device (--device), --device auto, which falls back to the CPU, smaller faces, or a smaller scene"};
 }
 
@@ -151,7 +152,7 @@ ChosenDevice choose_device(const RenderDevices& found, const DeviceChoice& choic
       throw_not_there(found, "there is no device " + std::to_string(choice.index),
                       "take one of those, or --device auto; 'vantage devices' lists them");
   }
-  throw Error(ErrorKind::internal, "an unknown choice of device", kWhere, "");
+  throw Error(ErrorCode::internal_defect, "an unknown choice of device", kWhere, "");
 }
 
 }  // namespace vantage

@@ -8,20 +8,21 @@ namespace vantage::internal::depth {
 
 void check_request(const DepthRequest& request, const RenderDevice& device) {
   if (request.face_size < 1 || request.face_size > device.largest_face_size) {
-    throw Error(ErrorKind::input,
+    throw Error(ErrorCode::value_out_of_range,
                 "a face of a depth image cannot have " + std::to_string(request.face_size) + " texels",
                 "device " + device.name, "take 1 to " + std::to_string(device.largest_face_size) + " texels a side");
   }
   if (!(request.range_m > 0)) {
-    throw Error(ErrorKind::input, "the range of a depth image must be positive",
+    throw Error(ErrorCode::value_out_of_range, "the range of a depth image must be positive",
                 "range " + std::to_string(request.range_m), "give a range in metres");
   }
   constexpr double kFarthest = 1e9;  // as for the vertices of a scene
   for (std::size_t i = 0; i < request.viewpoints.size(); ++i) {
     const Vec3& v = request.viewpoints[i];
     if (v.allFinite() && v.cwiseAbs().maxCoeff() <= kFarthest) continue;
-    throw Error(ErrorKind::input, "a viewpoint is not finite or is farther than 1e9 m from the origin",
-                "viewpoint " + std::to_string(i), "check its coordinates");
+    throw Error(v.allFinite() ? ErrorCode::coordinate_too_large : ErrorCode::coordinate_not_finite,
+                "a viewpoint is not finite or is farther than 1e9 m from the origin", "viewpoint " + std::to_string(i),
+                "check its coordinates");
   }
 }
 

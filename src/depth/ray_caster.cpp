@@ -34,7 +34,7 @@ void pass_skipped(const RTCFilterFunctionNArguments* arguments) {
 void check(RTCDevice device) {
   const RTCError code = rtcGetDeviceError(device);
   if (code == RTC_ERROR_NONE) return;
-  throw Error(ErrorKind::input, "Embree failed with error " + std::to_string(static_cast<int>(code)),
+  throw Error(ErrorCode::out_of_memory, "Embree failed with error " + std::to_string(static_cast<int>(code)),
               "indexing the scene for ray casting", "free some memory, or take a smaller scene");
 }
 

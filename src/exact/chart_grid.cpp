@@ -53,7 +53,8 @@ ChartGrid::ChartGrid(const target::RangeRegion& region, double tolerance) {
   const double needed = kTrial * std::sqrt(deepest_on_trial_grid(region) / (kSafety * tolerance));
   if (!(needed <= kMostLines)) {
     const double least = tolerance * (needed / kMostLines) * (needed / kMostLines);
-    throw Error(ErrorKind::input, "the tolerance is too fine for this range: the mesh would have too many facets",
+    throw Error(ErrorCode::tolerance_too_fine,
+                "the tolerance is too fine for this range: the mesh would have too many facets",
                 "tolerance " + core::metres_text(tolerance) + " at range " + core::metres_text(region.radius()),
                 "give a tolerance of at least " + core::metres_text(1.001 * least));
   }

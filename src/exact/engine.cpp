@@ -24,12 +24,12 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 
 void check(const PreparedTarget& target, const ExactOptions& options) {
   if (!(options.tolerance_m > 0) || !std::isfinite(options.tolerance_m)) {
-    throw Error(ErrorKind::input, "tolerance must be a positive, finite number of metres", "exact options",
+    throw Error(ErrorCode::value_out_of_range, "tolerance must be a positive, finite number of metres", "exact options",
                 "give for example 0.01");
   }
   if (target.part_count() > 1) {
-    throw Error(ErrorKind::input, "the target has " + std::to_string(target.part_count()) + " parts", "target",
-                "use compute_volume, or compute each part and intersect the volumes");
+    throw Error(ErrorCode::target_of_parts, "the target has " + std::to_string(target.part_count()) + " parts",
+                "target", "use compute_volume, or compute each part and intersect the volumes");
   }
 }
 

@@ -34,7 +34,7 @@ double turn(const Vec2& a, const Vec2& b, const Vec2& c) { return cross(b - a, c
 int sign(double value) { return (value > 0) - (value < 0); }
 
 [[noreturn]] void fail() {
-  throw Error(ErrorKind::internal, "the two sides of the point could not be joined", "target",
+  throw Error(ErrorCode::internal_defect, "the two sides of the point could not be joined", "target",
               "please report this with the mission and the scene");
 }
 

@@ -160,8 +160,8 @@ Boundary triangulate_boundary(const Skeleton& skeleton, const BlockerSet& blocke
       width *= 2;
     } catch (const CannotTriangulate& failure) {
       if (snap >= numerics::kWidestSnap)
-        throw Error(ErrorKind::internal, "the creases could not be triangulated: " + failure.why, "triangulation",
-                    "please report this with the mission and the scene");
+        throw Error(ErrorCode::internal_defect, "the creases could not be triangulated: " + failure.why,
+                    "triangulation", "please report this with the mission and the scene");
       snap *= 10;
     }
 }

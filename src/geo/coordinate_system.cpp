@@ -87,7 +87,7 @@ Object CoordinateSystem::Data::create(const std::string& text) const {
     system.reset(proj().proj_create(context.get(), in_words_of_proj(text).c_str()));
   }
   if (system && proj().proj_is_crs(system.get())) return system;
-  throw Error(ErrorKind::input,
+  throw Error(ErrorCode::crs_unknown,
               "no known coordinate reference system: " + in_quotes(text) +
                   (message.empty() ? "" : " (" + in_quotes(message) + ")"),
               where, "give an EPSG code, as in EPSG:4326, or a WKT or PROJ text");
@@ -158,7 +158,7 @@ Eigen::Vector2d CoordinateSystem::Data::transform(const Eigen::Vector2d& from, P
   problem << "(" << from.x() << ", " << from.y() << ") has no counterpart "
           << (direction == PJ_FWD ? "on the earth in " : "in ") << name;
   if (fault) problem << ": " << proj().proj_context_errno_string(context.get(), fault);
-  throw Error(ErrorKind::input, problem.str(), where,
+  throw Error(ErrorCode::too_far_away, problem.str(), where,
               "check the coordinates, their order (east before north, longitude before latitude) and their system");
 }
 
@@ -173,7 +173,8 @@ CoordinateSystem::CoordinateSystem(const std::string& text, const std::string& w
 
   if (!proj().proj_context_get_database_path(context)) {
     throw Error(
-        ErrorKind::input, "PROJ's database of coordinate reference systems, proj.db, is not to be found", where,
+        ErrorCode::library_missing, "PROJ's database of coordinate reference systems, proj.db, is not to be found",
+        where,
         "install proj-data and libproj25 (Debian); if PROJ_DATA or PROJ_LIB is set, unset it or let it name the "
         "folder that holds proj.db");
   }
@@ -189,8 +190,9 @@ CoordinateSystem::CoordinateSystem(const std::string& text, const std::string& w
   const PJ_TYPE type = system ? proj().proj_get_type(plain ? plain.get() : system.get()) : PJ_TYPE_UNKNOWN;
   data_->geographic = is_one_of(type, {PJ_TYPE_GEOGRAPHIC_2D_CRS, PJ_TYPE_GEOGRAPHIC_3D_CRS});
   if (!data_->geographic && type != PJ_TYPE_PROJECTED_CRS) {
-    throw Error(ErrorKind::input, data_->name + " is neither a geographic nor a projected coordinate reference system",
-                where, "give one with longitude and latitude, or with eastings and northings");
+    throw Error(ErrorCode::crs_unusable,
+                data_->name + " is neither a geographic nor a projected coordinate reference system", where,
+                "give one with longitude and latitude, or with eastings and northings");
   }
   const Object wgs84(proj().proj_create(context, "EPSG:4326"));
   Object operation;
@@ -199,7 +201,7 @@ CoordinateSystem::CoordinateSystem(const std::string& text, const std::string& w
   }
   if (operation) data_->to_wgs84.reset(proj().proj_normalize_for_visualization(context, operation.get()));
   if (!data_->to_wgs84) {
-    throw Error(ErrorKind::input,
+    throw Error(ErrorCode::crs_unusable,
                 "PROJ knows no way from " + data_->name + " to WGS 84" +
                     (data_->message.empty() ? "" : ": " + in_quotes(data_->message)),
                 where, "convert the data to EPSG:4326 or to a projected system such as UTM");

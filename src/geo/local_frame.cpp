@@ -18,7 +18,7 @@ LocalFrame::LocalFrame(LonLat origin) {
   // Written so that not-a-number is refused too.
   const bool valid = std::abs(origin.latitude_deg) <= 90 && std::abs(origin.longitude_deg) <= 180;
   if (!valid) {
-    throw Error(ErrorKind::input,
+    throw Error(ErrorCode::not_on_earth,
                 "latitude " + shortest(origin.latitude_deg) + ", longitude " + shortest(origin.longitude_deg) +
                     " is no place on the earth",
                 "origin of the scene frame",
@@ -38,7 +38,7 @@ LonLat LocalFrame::origin() const { return data_->origin; }
 
 Eigen::Vector2d LocalFrame::to_local(LonLat position) const {
   if (!(std::abs(position.latitude_deg) <= 90) || !std::isfinite(position.longitude_deg)) {
-    throw Error(ErrorKind::input,
+    throw Error(ErrorCode::not_on_earth,
                 "latitude " + shortest(position.latitude_deg) + ", longitude " + shortest(position.longitude_deg) +
                     " is no place on the earth",
                 "position", "correct it; is its coordinate reference system the right one?");
@@ -52,7 +52,7 @@ Eigen::Vector2d LocalFrame::to_local(LonLat position) const {
 
 LonLat LocalFrame::to_lonlat(const Eigen::Vector2d& local) const {
   if (!local.allFinite()) {
-    throw Error(ErrorKind::input, "a point that is not finite has no place on the earth", "scene frame",
+    throw Error(ErrorCode::coordinate_not_finite, "a point that is not finite has no place on the earth", "scene frame",
                 "correct its coordinates");
   }
   const double azimuth_deg = std::atan2(local.x(), local.y()) * 180 / std::numbers::pi;
@@ -69,7 +69,8 @@ void check_origin(LonLat origin, LonLat middle, const std::string& where) {
   if (distance <= kFarthestM) return;
   const LonLat swapped{origin.latitude_deg, origin.longitude_deg};
   const bool is_swapped = std::abs(swapped.latitude_deg) <= 90 && geodesic_m(swapped, middle) <= kFarthestM;
-  throw Error(ErrorKind::input, "the origin lies " + std::to_string(std::lround(distance / 1000)) + " km away", where,
+  throw Error(ErrorCode::too_far_away, "the origin lies " + std::to_string(std::lround(distance / 1000)) + " km away",
+              where,
               is_swapped ? "latitude and longitude are the wrong way round: give the latitude first"
                          : "give an origin nearby, or none: then it is the middle");
 }

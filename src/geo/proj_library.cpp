@@ -37,7 +37,7 @@ const ProjLibrary& proj() {
   static ProjLibrary library;
   static const std::string why_not = load(library);
   if (why_not.empty()) return library;
-  throw Error(ErrorKind::input, why_not + ", and where a scene lies on the earth is worked out with it",
+  throw Error(ErrorCode::library_missing, why_not + ", and where a scene lies on the earth is worked out with it",
               VANTAGE_PROJ_NAME, "install libproj25 (Debian 12), or build vantage with the PROJ that is there");
 }
 

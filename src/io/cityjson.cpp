@@ -62,7 +62,7 @@ class CityJsonReader {
     if (lod.empty()) return;
     asked_ = parse_lod(lod);
     if (!asked_) {
-      throw Error(ErrorKind::input, "no level of detail: " + in_quotes(lod), source.file().string(),
+      throw Error(ErrorCode::value_syntax, "no level of detail: " + in_quotes(lod), source.file().string(),
                   "give a number as in CityJSON, such as 1 or 2.2");
     }
   }
@@ -106,7 +106,7 @@ class CityJsonReader {
         where.append(", line ").append(std::to_string(line > 0 ? line : problem.line));
         where.append(", column ").append(std::to_string(problem.column));
       }
-      throw Error(ErrorKind::input, "not a valid CityJSON file: " + problem.text, where, Trail::kGarbled);
+      throw Error(ErrorCode::mesh_syntax, "not a valid CityJSON file: " + problem.text, where, Trail::kGarbled);
     }
   }
 
@@ -241,8 +241,9 @@ class CityJsonReader {
     read_surfaces(template_of(geometry), header_.template_vertices, placement);
     const std::size_t room = limits_.repeated_triangles + source_.bytes().size() / 3;
     if (builder_.triangle_count() > room) {
-      trail_.fail("its instances repeat templates to more than " + std::to_string(room) + " triangles",
-                  "cut the file to the part that is needed");
+      trail_.fail_as(ErrorCode::mesh_too_large,
+                     "its instances repeat templates to more than " + std::to_string(room) + " triangles",
+                     "cut the file to the part that is needed");
     }
   }
 
@@ -295,13 +296,14 @@ class CityJsonReader {
     if (any) return;
     std::string levels;
     for (const double lod : found_lods_) levels.append(levels.empty() ? "" : ", ").append(lod_text(lod));
-    throw Error(ErrorKind::input, "no CityObject has a geometry of LoD " + lod_text(*asked_), source_.file().string(),
-                "ask for one that the file has: " + levels);
+    throw Error(ErrorCode::level_of_detail_missing, "no CityObject has a geometry of LoD " + lod_text(*asked_),
+                source_.file().string(), "ask for one that the file has: " + levels);
   }
 
   RawMesh finish() {
     if (builder_.triangle_count() == 0) {
-      source_.fail("the CityJSON file holds no surfaces (" + std::to_string(objects_) + " CityObjects)",
+      source_.fail(ErrorCode::mesh_empty,
+                   "the CityJSON file holds no surfaces (" + std::to_string(objects_) + " CityObjects)",
                    "give a file whose CityObjects have surfaces or solids");
     }
     RawMesh mesh = builder_.finish();

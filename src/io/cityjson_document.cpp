@@ -50,8 +50,9 @@ void check_version(const Json& root, const Trail& trail) {
   for (const std::string_view known : {"1.0", "1.1", "2.0"}) {
     if (text == known || (text.starts_with(known) && text[known.size()] == '.')) return;
   }
-  trail.fail("its version " + io::in_quotes(text) + " cannot be read; 1.0, 1.1 and 2.0 can",
-             "convert the file, for instance with 'cjio upgrade'");
+  trail.fail_as(ErrorCode::mesh_unsupported,
+                "its version " + io::in_quotes(text) + " cannot be read; 1.0, 1.1 and 2.0 can",
+                "convert the file, for instance with 'cjio upgrade'");
 }
 
 void read_transform(const Json& root, Header& header, const Trail& trail) {
@@ -138,7 +139,9 @@ Vertices read_vertices(const Json& root, const Header& header, const Trail& trai
   std::vector<Vec3> vertices = positions(required(root, "vertices", Json::value_t::array, trail), "vertex", trail);
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     if (header.has_transform) vertices[i] = vertices[i].cwiseProduct(header.scale) + header.translate;
-    if (!vertices[i].allFinite()) trail.fail("vertex " + std::to_string(i) + " (counted from 0) is not finite");
+    if (!vertices[i].allFinite())
+      trail.fail_as(ErrorCode::coordinate_not_finite,
+                    "vertex " + std::to_string(i) + " (counted from 0) is not finite");
   }
   return Vertices(std::move(vertices));
 }

@@ -65,9 +65,10 @@ void SurfaceBuilder::add(std::vector<Ring>& rings) {
   std::size_t corners = 0;
   for (const Ring& ring : rings) corners += ring.size();
   if (corners > limits_.corners) {
-    trail_.fail("a surface has " + std::to_string(corners) + " corners; at most " + std::to_string(limits_.corners) +
-                    " can be read",
-                "cut it into smaller ones");
+    trail_.fail_as(ErrorCode::mesh_too_large,
+                   "a surface has " + std::to_string(corners) + " corners; at most " + std::to_string(limits_.corners) +
+                       " can be read",
+                   "cut it into smaller ones");
   }
   builder_.begin_face(0);
   if (!has_border || rings.size() == 1) {

@@ -36,11 +36,14 @@ class Trail {
   const std::string& object() const { return object_; }
 
   [[noreturn]] void fail(std::string problem, std::string fix = kGarbled) const {
+    fail_as(ErrorCode::mesh_syntax, std::move(problem), std::move(fix));
+  }
+  [[noreturn]] void fail_as(ErrorCode code, std::string problem, std::string fix = kGarbled) const {
     std::string where = source_.file().string();
     if (line_ > 0) where += ", line " + std::to_string(line_);
     if (!object_.empty()) where += ", CityObject " + in_quotes(object_);
     for (const auto& [what, index] : steps_) where.append(", ").append(what).append(" ").append(std::to_string(index));
-    throw Error(ErrorKind::input, "not a valid CityJSON file: " + std::move(problem), where, std::move(fix));
+    throw Error(code, "not a valid CityJSON file: " + std::move(problem), where, std::move(fix));
   }
 
   static constexpr const char* kGarbled = "export the file again, and check it with cjval or val3dity";

@@ -200,7 +200,8 @@ class GltfReader {
   void check_total(std::uint64_t more) const {
     const std::uint64_t room = limits_.repeated_triangles + document_.buffer_bytes() / 3;
     if (builder_.triangle_count() + more > room) {
-      document_.fail("its nodes repeat its meshes to more than " + std::to_string(room) + " triangles");
+      document_.fail_as(ErrorCode::mesh_too_large,
+                        "its nodes repeat its meshes to more than " + std::to_string(room) + " triangles");
     }
   }
 
@@ -219,7 +220,9 @@ class GltfReader {
     if (known.primitive != primitive_) {
       const Vec3 position(positions.number(index, 0), positions.number(index, 1), positions.number(index, 2));
       const Vec3 moved = world * position;
-      if (!moved.allFinite()) document_.fail("a coordinate of vertex " + std::to_string(index) + " is not finite");
+      if (!moved.allFinite())
+        document_.fail_as(ErrorCode::coordinate_not_finite,
+                          "a coordinate of vertex " + std::to_string(index) + " is not finite");
       known = {primitive_, builder_.add_vertex(moved, 0)};
     }
     return known.vertex;

@@ -175,30 +175,34 @@ Document::Document(const MeshSource& source, const core::ProgressReporter& progr
   check_version_and_extensions();
 }
 
-void Document::fail(std::string problem) const {
-  source_.fail("not a valid glTF file: " + std::move(problem), kGarbled);
+void Document::fail_as(ErrorCode code, std::string problem) const {
+  source_.fail(code, "not a valid glTF file: " + std::move(problem), kGarbled);
 }
 
 /// GLB: a header of 12 bytes, then chunks, each with its length and type before it: JSON, and perhaps a buffer.
 void Document::split_glb() {
   const std::string_view bytes = source_.bytes();
   is_glb_ = true;
-  if (bytes.size() < 20) source_.fail_at_byte(bytes.size(), "the GLB file ends in its header", kGarbled);
+  if (bytes.size() < 20)
+    source_.fail_at_byte(ErrorCode::mesh_syntax, bytes.size(), "the GLB file ends in its header", kGarbled);
   const auto version = load<std::uint32_t>(bytes.data() + 4), length = load<std::uint32_t>(bytes.data() + 8);
   if (version != 2) {
-    source_.fail_at_byte(4, "GLB version " + std::to_string(version) + " cannot be read",
+    source_.fail_at_byte(ErrorCode::mesh_unsupported, 4, "GLB version " + std::to_string(version) + " cannot be read",
                          "export the mesh as glTF 2.0");
   }
   if (length > bytes.size()) {
     source_.fail_at_byte(
-        8, "the GLB file announces " + std::to_string(length) + " bytes, but has only " + std::to_string(bytes.size()),
+        ErrorCode::mesh_syntax, 8,
+        "the GLB file announces " + std::to_string(length) + " bytes, but has only " + std::to_string(bytes.size()),
         kGarbled);
   }
   const auto chunk = [&](std::uint64_t at, std::string_view type) {
     const std::uint64_t size = load<std::uint32_t>(bytes.data() + at);
-    if (bytes.substr(at + 4, 4) != type) source_.fail_at_byte(at + 4, "a GLB chunk of unexpected type", kGarbled);
+    if (bytes.substr(at + 4, 4) != type)
+      source_.fail_at_byte(ErrorCode::mesh_syntax, at + 4, "a GLB chunk of unexpected type", kGarbled);
     if (size > bytes.size() - at - 8) {
-      source_.fail_at_byte(at, "a GLB chunk of " + std::to_string(size) + " bytes goes beyond the end of the file",
+      source_.fail_at_byte(ErrorCode::mesh_syntax, at,
+                           "a GLB chunk of " + std::to_string(size) + " bytes goes beyond the end of the file",
                            kGarbled);
     }
     return bytes.substr(at + 8, size);
@@ -221,10 +225,12 @@ void Document::check_version_and_extensions() const {
   const Json asset = root_.value("asset", Json::object());
   if (!asset.is_object()) fail("\"asset\" is not an object");
   if (const std::string version = text(asset, "version"); !version.starts_with("2.")) {
-    source_.fail("glTF version " + in_quotes(version) + " cannot be read", "export the mesh as glTF 2.0");
+    source_.fail(ErrorCode::mesh_unsupported, "glTF version " + in_quotes(version) + " cannot be read",
+                 "export the mesh as glTF 2.0");
   }
   const auto refuse = [&](std::string_view name) {
-    source_.fail("the glTF file uses the extension " + in_quotes(name) + ", which cannot be read",
+    source_.fail(ErrorCode::mesh_unsupported,
+                 "the glTF file uses the extension " + in_quotes(name) + ", which cannot be read",
                  "export the mesh without it, or as OBJ or PLY");
   };
   for (const Json& used : array(root_, "extensionsUsed")) {
@@ -368,7 +374,8 @@ std::string_view Document::buffer(std::uint64_t index) {
 
 std::string_view Document::external_file(const std::string& uri) {
   if (uri.find("://") != std::string::npos) {
-    source_.fail("the glTF file has its data at " + in_quotes(uri), "download it and refer to the file");
+    source_.fail(ErrorCode::mesh_unsupported, "the glTF file has its data at " + in_quotes(uri),
+                 "download it and refer to the file");
   }
   const std::string relative = decode_percent(uri);
   if (relative.find('\0') != std::string::npos) fail("a buffer's \"uri\" holds a zero byte");
@@ -389,14 +396,17 @@ std::filesystem::path Document::file_below(const std::string& relative, const st
   const fs::path folder = source_.file().has_parent_path() ? source_.file().parent_path() : fs::path(".");
   std::error_code error;
   fs::path path = fs::weakly_canonical(folder / relative, error);
-  if (error) source_.fail("the path " + in_quotes(uri) + " of a buffer leads nowhere: " + error.message(), kGarbled);
+  if (error)
+    source_.fail(ErrorCode::mesh_syntax,
+                 "the path " + in_quotes(uri) + " of a buffer leads nowhere: " + error.message(), kGarbled);
   const auto is_below = [&path](const fs::path& base) {
     return !base.empty() && std::mismatch(base.begin(), base.end(), path.begin(), path.end()).first == base.end();
   };
   // The glTF file may be a link itself, with its buffers beside the one or the other.
   if (is_below(fs::weakly_canonical(folder, error))) return path;
   if (is_below(fs::weakly_canonical(source_.file(), error).parent_path())) return path;
-  source_.fail("the glTF file has its data in " + in_quotes(uri) + ", which is not in its own folder",
+  source_.fail(ErrorCode::mesh_unsupported,
+               "the glTF file has its data in " + in_quotes(uri) + ", which is not in its own folder",
                "put that file beside the glTF file, or in a folder below, and correct the \"uri\" of the buffer");
 }
 

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "io/mesh_source.h"
 
@@ -60,7 +61,8 @@ class Document {
   /// Bytes of all buffers that were used so far.
   std::uint64_t buffer_bytes() const { return buffer_bytes_; }
 
-  [[noreturn]] void fail(std::string problem) const;
+  [[noreturn]] void fail(std::string problem) const { fail_as(ErrorCode::mesh_syntax, std::move(problem)); }
+  [[noreturn]] void fail_as(ErrorCode code, std::string problem) const;
 
   /// The items of an array that may be missing.
   const Json& array(const Json& object, const char* key) const;

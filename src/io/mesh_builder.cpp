@@ -73,7 +73,7 @@ void MeshBuilder::end_face() {
   if (corners_.size() < 3) {
     ++mesh_.dropped_faces;
   } else if (corners_.size() > limits_.corners) {
-    fail(place_,
+    fail(ErrorCode::mesh_too_large, place_,
          "a face has " + std::to_string(corners_.size()) + " corners; at most " + std::to_string(limits_.corners) +
              " can be read",
          "triangulate the mesh on export");
@@ -131,7 +131,8 @@ RawMesh MeshBuilder::finish(const std::vector<std::uint32_t>& joined) {
     for (std::uint32_t& object : mesh_.object_of) object = joined[object];
   }
   if (mesh_.triangles.empty()) {
-    source_.fail("the file holds no triangles (" + std::to_string(mesh_.vertices.size()) + " vertices, " +
+    source_.fail(ErrorCode::mesh_empty,
+                 "the file holds no triangles (" + std::to_string(mesh_.vertices.size()) + " vertices, " +
                      std::to_string(mesh_.dropped_faces) + " faces with fewer than 3 corners)",
                  "export a surface mesh with faces");
   }
@@ -139,28 +140,28 @@ RawMesh MeshBuilder::finish(const std::vector<std::uint32_t>& joined) {
   return std::move(mesh_);
 }
 
-void MeshBuilder::fail(std::uint64_t place, std::string problem, std::string fix) const {
-  if (unit_ == PlaceUnit::line) source_.fail_at_line(place, std::move(problem), std::move(fix));
-  source_.fail_at_byte(place, std::move(problem), std::move(fix));
+void MeshBuilder::fail(ErrorCode code, std::uint64_t place, std::string problem, std::string fix) const {
+  if (unit_ == PlaceUnit::line) source_.fail_at_line(code, place, std::move(problem), std::move(fix));
+  source_.fail_at_byte(code, place, std::move(problem), std::move(fix));
 }
 
 void MeshBuilder::fail_not_finite(const Vec3& vertex, std::uint64_t place) const {
   const int axis = std::isfinite(vertex.x()) ? (std::isfinite(vertex.y()) ? 2 : 1) : 0;
-  fail(place,
+  fail(ErrorCode::coordinate_not_finite, place,
        std::string("the ") + "xyz"[axis] + " coordinate of vertex " +
            std::to_string(mesh_.vertices.size() + first_index_) + " is not finite",
        "correct the coordinate or remove the vertex and its faces");
 }
 
 void MeshBuilder::fail_too_many(std::uint64_t place) const {
-  fail(place, "the mesh has more than " + std::to_string(kMaxVertices) + " vertices",
+  fail(ErrorCode::mesh_too_large, place, "the mesh has more than " + std::to_string(kMaxVertices) + " vertices",
        "cut the mesh to the part that is needed");
 }
 
 void MeshBuilder::fail_out_of_range(std::uint64_t vertex, std::uint64_t place) const {
   // `vertex` may be the highest 64-bit number: the sum wraps where the file's own number did.
   const std::uint64_t number = vertex + first_index_;
-  fail(place,
+  fail(ErrorCode::mesh_syntax, place,
        "a face refers to vertex " + std::to_string(number) + ", but the file has only " +
            std::to_string(mesh_.vertices.size()) + (first_index_ == 0 ? " (counted from 0)" : ""),
        "export the mesh again; it is cut off or garbled");

@@ -11,6 +11,7 @@
 
 #include "io/mesh_file.h"
 #include "io/mesh_source.h"
+#include "vantage/error.h"
 #include "vantage/export.h"
 
 namespace vantage::internal::io {
@@ -93,7 +94,7 @@ class MeshBuilder {
   void add_face();
   void add_late_faces();
   void keep_used_objects();
-  [[noreturn]] void fail(std::uint64_t place, std::string problem, std::string fix) const;
+  [[noreturn]] void fail(ErrorCode code, std::uint64_t place, std::string problem, std::string fix) const;
   [[noreturn]] void fail_not_finite(const Vec3& vertex, std::uint64_t place) const;
   [[noreturn]] void fail_too_many(std::uint64_t place) const;
   [[noreturn]] void fail_out_of_range(std::uint64_t vertex, std::uint64_t place) const;

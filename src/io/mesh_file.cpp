@@ -48,7 +48,7 @@ MeshFormat mesh_format(const MeshSource& source) {
   if (extension == ".gltf" || extension == ".glb") return MeshFormat::gltf;
   if (named_json) return MeshFormat::cityjson;
   source.fail(
-      "the format of the mesh file is unknown",
+      ErrorCode::mesh_format_unknown, "the format of the mesh file is unknown",
       "give an OBJ, PLY, STL, glTF, GLB or CityJSON file; it may be compressed with gzip. Of a map or a raster of "
       "heights 'vantage scene' makes a scene, and missions take them as scene.osm and scene.raster");
 }
@@ -69,9 +69,10 @@ RawMesh read_any(const MeshSource& source, const core::ProgressReporter& progres
         return read_cityjson(source, progress, limits, lod);
     }
   } catch (const std::bad_alloc&) {
-    source.fail("there is not enough memory to read the mesh", "cut the mesh to the part that is needed");
+    source.fail(ErrorCode::out_of_memory, "there is not enough memory to read the mesh",
+                "cut the mesh to the part that is needed");
   }
-  throw Error(ErrorKind::internal, "a mesh format without a reader", source.file().string(), "");
+  throw Error(ErrorCode::internal_defect, "a mesh format without a reader", source.file().string(), "");
 }
 
 RawMesh read_mesh_file(const std::filesystem::path& file, const Progress& callback, const core::ReadLimits& limits,
@@ -87,7 +88,7 @@ RawMesh read_mesh_file(const std::filesystem::path& file, const Progress& callba
     }
     return mesh;
   } catch (const std::bad_alloc&) {
-    throw Error(ErrorKind::input, "there is not enough memory to load the file", file.string(),
+    throw Error(ErrorCode::out_of_memory, "there is not enough memory to load the file", file.string(),
                 "cut the mesh to the part that is needed");
   }
 }

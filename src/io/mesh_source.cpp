@@ -21,8 +21,8 @@ std::filesystem::path without_gz(const std::filesystem::path& file) {
   return file.extension() == ".gz" ? file.stem() : file.filename();
 }
 
-[[noreturn]] void fail(const std::filesystem::path& file, std::string problem, std::string fix) {
-  throw Error(ErrorKind::input, std::move(problem), file.string(), std::move(fix));
+[[noreturn]] void fail(ErrorCode code, const std::filesystem::path& file, std::string problem, std::string fix) {
+  throw Error(code, std::move(problem), file.string(), std::move(fix));
 }
 
 /// An open file descriptor.
@@ -65,16 +65,16 @@ std::string MeshSource::extension() const {
   return extension;
 }
 
-void MeshSource::fail(std::string problem, std::string fix) const {
-  io::fail(file_, std::move(problem), std::move(fix));
+void MeshSource::fail(ErrorCode code, std::string problem, std::string fix) const {
+  io::fail(code, file_, std::move(problem), std::move(fix));
 }
 
-void MeshSource::fail_at_line(std::uint64_t line, std::string problem, std::string fix) const {
-  throw Error(ErrorKind::input, std::move(problem), file_.string() + ", line " + std::to_string(line), std::move(fix));
+void MeshSource::fail_at_line(ErrorCode code, std::uint64_t line, std::string problem, std::string fix) const {
+  throw Error(code, std::move(problem), file_.string() + ", line " + std::to_string(line), std::move(fix));
 }
 
-void MeshSource::fail_at_byte(std::uint64_t byte, std::string problem, std::string fix) const {
-  throw Error(ErrorKind::input, std::move(problem),
+void MeshSource::fail_at_byte(ErrorCode code, std::uint64_t byte, std::string problem, std::string fix) const {
+  throw Error(code, std::move(problem),
               file_.string() + ", byte " + std::to_string(byte) + (compressed_ ? " of the decompressed content" : ""),
               std::move(fix));
 }
@@ -83,17 +83,19 @@ std::string read_file_bytes(const std::filesystem::path& file, const core::Progr
   // O_NONBLOCK: opening a pipe that nobody writes to would wait for ever.
   const Descriptor descriptor(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   if (descriptor.get() < 0) {
-    if (errno == ENOENT) fail(file, "the file does not exist", "correct the path");
-    fail(file, std::string("the file cannot be opened: ") + std::strerror(errno),
+    if (errno == ENOENT) fail(ErrorCode::file_not_found, file, "the file does not exist", "correct the path");
+    fail(ErrorCode::file_unreadable, file, std::string("the file cannot be opened: ") + std::strerror(errno),
          "check the path and the file's permissions");
   }
   struct stat status {};
   if (::fstat(descriptor.get(), &status) != 0) {
-    fail(file, std::string("the file cannot be read: ") + std::strerror(errno), "check the file and its disk");
+    fail(ErrorCode::file_unreadable, file, std::string("the file cannot be read: ") + std::strerror(errno),
+         "check the file and its disk");
   }
-  if (S_ISDIR(status.st_mode)) fail(file, "the file is a directory", "name a file in it");
-  if (!S_ISREG(status.st_mode)) fail(file, "the file is not a regular file", "write it to a file first");
-  if (status.st_size == 0) fail(file, "the file is empty", "export the mesh again");
+  if (S_ISDIR(status.st_mode)) fail(ErrorCode::not_a_file, file, "the file is a directory", "name a file in it");
+  if (!S_ISREG(status.st_mode))
+    fail(ErrorCode::not_a_file, file, "the file is not a regular file", "write it to a file first");
+  if (status.st_size == 0) fail(ErrorCode::file_empty, file, "the file is empty", "export the mesh again");
 
   progress.begin("read file");
   std::string bytes(static_cast<std::size_t>(status.st_size), '\0');
@@ -102,9 +104,12 @@ std::string read_file_bytes(const std::filesystem::path& file, const core::Progr
     const ssize_t got = ::read(descriptor.get(), bytes.data() + done, std::min(kChunk, bytes.size() - done));
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) {
-      fail(file, std::string("the file cannot be read: ") + std::strerror(errno), "check the file and its disk");
+      fail(ErrorCode::file_unreadable, file, std::string("the file cannot be read: ") + std::strerror(errno),
+           "check the file and its disk");
     }
-    if (got == 0) fail(file, "the file shrank while it was read", "wait until it is written, then try again");
+    if (got == 0)
+      fail(ErrorCode::file_changed, file, "the file shrank while it was read",
+           "wait until it is written, then try again");
     done += static_cast<std::size_t>(got);
     progress.report(done, bytes.size());
   }
@@ -137,13 +142,13 @@ std::string decompress_gzip(std::string_view compressed, const std::filesystem::
     progress.report(used, compressed.size());
 
     if (filled > limit) {
-      fail(file, "the gzip data grows beyond " + std::to_string(limit) + " bytes",
+      fail(ErrorCode::file_too_large, file, "the gzip data grows beyond " + std::to_string(limit) + " bytes",
            "decompress the file and cut the mesh to the part that is needed");
     }
     if (result == Z_MEM_ERROR) throw std::bad_alloc();
-    if (result == Z_BUF_ERROR) fail(file, "the gzip data ends too early", again);
+    if (result == Z_BUF_ERROR) fail(ErrorCode::compression_broken, file, "the gzip data ends too early", again);
     if (result != Z_OK && result != Z_STREAM_END) {
-      fail(file, "the gzip data is corrupt near byte " + std::to_string(used), again);
+      fail(ErrorCode::compression_broken, file, "the gzip data is corrupt near byte " + std::to_string(used), again);
     }
     if (result != Z_STREAM_END) continue;
     // Another member may follow; zeros are padding.
@@ -159,7 +164,7 @@ MeshSource load_mesh_source(const std::filesystem::path& file, const core::Progr
   std::string bytes = read_file_bytes(file, progress);
   if (!bytes.starts_with(kGzipMagic)) return MeshSource(file, std::move(bytes));
   std::string plain = decompress_gzip(bytes, file, progress, limits);
-  if (plain.empty()) fail(file, "the compressed file is empty", "export the mesh again");
+  if (plain.empty()) fail(ErrorCode::file_empty, file, "the compressed file is empty", "export the mesh again");
   return MeshSource(file, std::move(plain), true);
 }
 

@@ -9,6 +9,7 @@
 
 #include "core/progress_reporter.h"
 #include "core/read_limits.h"
+#include "vantage/error.h"
 
 namespace vantage::internal::io {
 
@@ -27,9 +28,9 @@ class MeshSource {
   std::string extension() const;
 
   // Each throws Error(input) that names the file and the place in it.
-  [[noreturn]] void fail(std::string problem, std::string fix) const;
-  [[noreturn]] void fail_at_line(std::uint64_t line, std::string problem, std::string fix) const;
-  [[noreturn]] void fail_at_byte(std::uint64_t byte, std::string problem, std::string fix) const;
+  [[noreturn]] void fail(ErrorCode code, std::string problem, std::string fix) const;
+  [[noreturn]] void fail_at_line(ErrorCode code, std::uint64_t line, std::string problem, std::string fix) const;
+  [[noreturn]] void fail_at_byte(ErrorCode code, std::uint64_t byte, std::string problem, std::string fix) const;
 
  private:
   std::filesystem::path file_;

@@ -60,8 +60,8 @@ class ObjReader {
     bool has_triangles = false;
   };
 
-  [[noreturn]] void fail(std::string problem, std::string fix) {
-    source_.fail_at_line(text_.line(), std::move(problem), std::move(fix));
+  [[noreturn]] void fail(ErrorCode code, std::string problem, std::string fix) {
+    source_.fail_at_line(code, text_.line(), std::move(problem), std::move(fix));
   }
 
   /// Blanks, and line ends with a backslash before them.
@@ -95,7 +95,8 @@ class ObjReader {
     } else if (std::find(kPassedOver.begin(), kPassedOver.end(), keyword) != kPassedOver.end()) {
       pass_over();
     } else {
-      fail("unknown statement " + in_quotes(keyword), "check that this is an OBJ file; remove the line if it is");
+      fail(ErrorCode::mesh_syntax, "unknown statement " + in_quotes(keyword),
+           "check that this is an OBJ file; remove the line if it is");
     }
   }
 
@@ -108,11 +109,11 @@ class ObjReader {
       read_axes_comment(text.substr(1), axes_);
       read_rounding_comment(text.substr(1), rounding_);
     } catch (const GeoreferenceProblem& problem) {
-      fail(problem.text, "correct or remove the line; the mesh is read without");
+      fail(ErrorCode::record_garbled, problem.text, "correct or remove the line; the mesh is read without");
     } catch (const RoundingProblem& problem) {
-      fail(problem.text, "correct or remove the line");
+      fail(ErrorCode::record_garbled, problem.text, "correct or remove the line");
     } catch (const AxesProblem& problem) {
-      fail(problem.text, "correct or remove the line, and say how it is with up and scale");
+      fail(ErrorCode::record_garbled, problem.text, "correct or remove the line, and say how it is with up and scale");
     }
   }
 
@@ -137,9 +138,10 @@ class ObjReader {
     Vec3 position;
     for (int i = 0; i < 3; ++i) {
       skip_blanks();
-      if (text_.at_line_end()) fail("a vertex has only " + std::to_string(i) + " coordinates", kGarbled);
+      if (text_.at_line_end())
+        fail(ErrorCode::mesh_syntax, "a vertex has only " + std::to_string(i) + " coordinates", kGarbled);
       if (!text_.number(position[i]) || !text_.at_word_end())
-        fail(in_quotes(text_.word_around()) + " is no coordinate", kGarbled);
+        fail(ErrorCode::mesh_syntax, in_quotes(text_.word_around()) + " is no coordinate", kGarbled);
     }
     pass_over();
     builder_.add_vertex(position, line);
@@ -153,7 +155,8 @@ class ObjReader {
       corner();
       skip_blanks();
     }
-    if (text_.at_end() && builder_.corner_count() < 3) fail("the file ends within a face", kGarbled);
+    if (text_.at_end() && builder_.corner_count() < 3)
+      fail(ErrorCode::mesh_syntax, "the file ends within a face", kGarbled);
     text_.rest_of_line();
     builder_.end_face();
     if (builder_.corner_count() >= 3) parts_[part_].has_triangles = true;
@@ -163,11 +166,13 @@ class ObjReader {
   /// vertex.
   void corner() {
     std::int64_t number = 0;
-    if (!text_.integer(number)) fail(in_quotes(text_.word()) + " is no vertex number", kGarbled);
-    if (number == 0) fail("a face refers to vertex 0; vertices count from 1", kGarbled);
+    if (!text_.integer(number))
+      fail(ErrorCode::mesh_syntax, in_quotes(text_.word()) + " is no vertex number", kGarbled);
+    if (number == 0) fail(ErrorCode::mesh_syntax, "a face refers to vertex 0; vertices count from 1", kGarbled);
     const auto count = static_cast<std::int64_t>(builder_.vertex_count());
     if (number < -count) {
-      fail("a face refers to vertex " + std::to_string(number) + ", but only " + std::to_string(count) +
+      fail(ErrorCode::mesh_syntax,
+           "a face refers to vertex " + std::to_string(number) + ", but only " + std::to_string(count) +
                " come before it",
            kGarbled);
     }
@@ -176,7 +181,8 @@ class ObjReader {
       std::int64_t ignored = 0;
       text_.integer(ignored);
     }
-    if (!text_.at_word_end() && text_.peek() != '\\') fail(in_quotes(text_.word_around()) + " in a face", kGarbled);
+    if (!text_.at_word_end() && text_.peek() != '\\')
+      fail(ErrorCode::mesh_syntax, in_quotes(text_.word_around()) + " in a face", kGarbled);
   }
 
   /// Each "o" starts an object, whatever its name: two buildings may have the same. One without a name ends it.

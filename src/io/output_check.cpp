@@ -21,8 +21,9 @@ void try_to_make_a_file_in(const fs::path& folder, const fs::path& file) {
   std::string trial = (folder / ".vantage-XXXXXX").string();
   const int descriptor = ::mkstemp(trial.data());
   if (descriptor < 0) {
-    throw Error(ErrorKind::output, std::string("no file can be made in the output folder: ") + std::strerror(errno),
-                file.string(), "make the folder writable, or write elsewhere");
+    throw Error(ErrorCode::output_unwritable,
+                std::string("no file can be made in the output folder: ") + std::strerror(errno), file.string(),
+                "make the folder writable, or write elsewhere");
   }
   ::close(descriptor);
   ::unlink(trial.c_str());
@@ -31,7 +32,7 @@ void try_to_make_a_file_in(const fs::path& folder, const fs::path& file) {
 /// "-" where it means nothing; a file of that name is "./-".
 void check_is_no_stream(const fs::path& file) {
   if (file != "-") return;
-  throw Error(ErrorKind::input, "standard output is not taken here", "-",
+  throw Error(ErrorCode::output_not_a_file, "standard output is not taken here", "-",
               "name a file; only the -o of compute, query and render takes -");
 }
 
@@ -42,24 +43,25 @@ void check_can_write(const fs::path& file) {
   std::error_code error;
   const fs::file_status status = fs::status(file, error);
   if (fs::is_directory(status)) {
-    throw Error(ErrorKind::input, "the output is a folder", file.string(),
+    throw Error(ErrorCode::output_not_a_file, "the output is a folder", file.string(),
                 "name a file, such as " + (file / "volume.ply").string());
   }
   if (fs::exists(status) && !fs::is_regular_file(status)) {
-    throw Error(ErrorKind::input, "the output is not a regular file", file.string(), "name a file on disk");
+    throw Error(ErrorCode::output_not_a_file, "the output is not a regular file", file.string(), "name a file on disk");
   }
   if (!file.has_filename()) {
-    throw Error(ErrorKind::input, "the output has no file name", in_quotes(file.string()),
+    throw Error(ErrorCode::output_name_missing, "the output has no file name", in_quotes(file.string()),
                 "name a file, such as volume.ply");
   }
   const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
   if (!fs::is_directory(folder, error)) {
-    throw Error(ErrorKind::input, "the output folder does not exist", file.string(),
+    throw Error(ErrorCode::output_folder_missing, "the output folder does not exist", file.string(),
                 "make it first: mkdir -p " + folder.string());
   }
   if (fs::exists(status) && ::access(file.c_str(), W_OK) != 0) {
-    throw Error(ErrorKind::output, std::string("the output file is write-protected: ") + std::strerror(errno),
-                file.string(), "change its permissions, or name another file");
+    throw Error(ErrorCode::output_unwritable,
+                std::string("the output file is write-protected: ") + std::strerror(errno), file.string(),
+                "change its permissions, or name another file");
   }
   try_to_make_a_file_in(folder, file);
 }
@@ -82,7 +84,7 @@ void check_volume_output(const fs::path& file) {
     const std::string problem = extension.empty()
                                     ? "the output has no extension, so that its format is unknown"
                                     : "no format is known for the extension " + in_quotes(file.extension().string());
-    throw Error(ErrorKind::input, problem, file.string(), "write .ply, .obj, .stl or .glb");
+    throw Error(ErrorCode::output_format_unknown, problem, file.string(), "write .ply, .obj, .stl or .glb");
   }
   check_can_write(file);
 }
@@ -91,8 +93,8 @@ void check_not_an_input(const fs::path& output, const std::vector<fs::path>& inp
   for (const fs::path& input : inputs) {
     std::error_code error;
     if (!fs::equivalent(output, input, error) || error) continue;
-    throw Error(ErrorKind::input, "the output would overwrite an input of the same run", output.string(),
-                "give the output another name");
+    throw Error(ErrorCode::output_overwrites_input, "the output would overwrite an input of the same run",
+                output.string(), "give the output another name");
   }
 }
 

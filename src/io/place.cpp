@@ -86,7 +86,7 @@ void put_at(RawMesh& mesh, geo::LonLat origin, const std::filesystem::path& file
   const Box box = bounds_of(mesh);
   const double farthest = std::max(box.min.head<2>().cwiseAbs().maxCoeff(), box.max.head<2>().cwiseAbs().maxCoeff());
   if (farthest > geo::kFarthestM) {
-    throw Error(ErrorKind::input,
+    throw Error(ErrorCode::crs_missing,
                 "the mesh goes " + std::to_string(std::lround(farthest / 1000)) +
                     " km from its origin: its coordinates are no metres about the origin that is given",
                 file.string(), "name their coordinate system with crs, as in EPSG:28992");
@@ -97,7 +97,7 @@ void put_at(RawMesh& mesh, geo::LonLat origin, const std::filesystem::path& file
 void find_place(RawMesh& mesh, const SceneReadOptions& options, const std::filesystem::path& file) {
   if (!mesh.crs.empty() || !options.crs.empty()) {
     if (mesh.georeference) {
-      throw Error(ErrorKind::input, "a coordinate system is given for a mesh that is in a local frame already",
+      throw Error(ErrorCode::not_applicable, "a coordinate system is given for a mesh that is in a local frame already",
                   "crs of " + file.string(), "leave crs out: the file says where it lies");
     }
     project(mesh, options, file);
@@ -116,7 +116,7 @@ void find_place(RawMesh& mesh, const SceneReadOptions& options, const std::files
 
 void to_scene_frame(RawMesh& mesh, const SceneReadOptions& options, const std::filesystem::path& file) {
   if (!(options.scale > 0) || !std::isfinite(options.scale)) {
-    throw Error(ErrorKind::input, "the scale of a mesh must be positive and finite", file.string(),
+    throw Error(ErrorCode::value_out_of_range, "the scale of a mesh must be positive and finite", file.string(),
                 "give the length of the file's unit in metres");
   }
   const bool y_up = mesh.format == MeshFormat::gltf || (options.up == UpAxis::y && mesh.format != MeshFormat::cityjson);
@@ -126,7 +126,7 @@ void to_scene_frame(RawMesh& mesh, const SceneReadOptions& options, const std::f
   find_place(mesh, options, file);
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     if (mesh.vertices[i].cwiseAbs().maxCoeff() <= core::kMaxCoordinate) continue;
-    throw Error(ErrorKind::input,
+    throw Error(ErrorCode::coordinate_too_large,
                 "vertex " + std::to_string(i) + " (counted from 0) is more than " +
                     std::to_string(static_cast<long>(core::kMaxCoordinate / 1000)) + " km from the origin",
                 file.string(), "check the scale, or correct the vertex");

@@ -36,9 +36,10 @@ PlaceFile read_place_file(const MeshSource& mesh, const core::ProgressReporter& 
     content.rounding_m = rounding_in(json);
     return content;
   } catch (const RoundingProblem& problem) {
-    throw Error(ErrorKind::input, problem.text, file.string(), "correct or remove the file");
+    throw Error(ErrorCode::record_garbled, problem.text, file.string(), "correct or remove the file");
   } catch (const GeoreferenceProblem& problem) {
-    throw Error(ErrorKind::input, problem.text, file.string(), "correct or remove the file; the mesh is read without");
+    throw Error(ErrorCode::record_garbled, problem.text, file.string(),
+                "correct or remove the file; the mesh is read without");
   }
 }
 

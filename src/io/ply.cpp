@@ -52,7 +52,7 @@ class AsciiValues {
     return value;
   }
   [[noreturn]] void fail(std::string problem) const {
-    source_.fail_at_line(text_.line(), std::move(problem), kGarbled);
+    source_.fail_at_line(ErrorCode::mesh_syntax, text_.line(), std::move(problem), kGarbled);
   }
 
  private:
@@ -108,7 +108,9 @@ class BinaryValues {
         return value<std::uint32_t>();
     }
   }
-  [[noreturn]] void fail(std::string problem) const { source_.fail_at_byte(place(), std::move(problem), kGarbled); }
+  [[noreturn]] void fail(std::string problem) const {
+    source_.fail_at_byte(ErrorCode::mesh_syntax, place(), std::move(problem), kGarbled);
+  }
 
  private:
   const char* take(std::uint64_t size) {
@@ -158,8 +160,10 @@ class PlyReader {
         rows(element, [&](const Property& property, std::size_t) { pass_over(property); });
       }
     }
-    if (!has_vertices) source_.fail("the PLY file has no element \"vertex\"", "export a mesh");
-    if (!has_faces) source_.fail("the PLY file has no element \"face\"", "export a surface mesh, not a point cloud");
+    if (!has_vertices) source_.fail(ErrorCode::mesh_empty, "the PLY file has no element \"vertex\"", "export a mesh");
+    if (!has_faces)
+      source_.fail(ErrorCode::mesh_empty, "the PLY file has no element \"face\"",
+                   "export a surface mesh, not a point cloud");
     RawMesh mesh = builder_.finish();
     mesh.georeference = header_.georeference;
     mesh.rounding_m = header_.rounding_m;
@@ -212,7 +216,8 @@ class PlyReader {
       const std::string name(1, "xyz"[axis]);
       const int index = element.find(name);
       if (index < 0 || element.properties[static_cast<std::size_t>(index)].is_list) {
-        source_.fail("the PLY file's vertices have no coordinate \"" + name + "\"", "export the mesh with x, y and z");
+        source_.fail(ErrorCode::mesh_syntax, "the PLY file's vertices have no coordinate \"" + name + "\"",
+                     "export the mesh with x, y and z");
       }
       axis_of[static_cast<std::size_t>(index)] = axis;
     }
@@ -236,7 +241,7 @@ class PlyReader {
     if (corners < 0) corners = element.find("vertex_index");
     if (corners < 0 || !element.properties[static_cast<std::size_t>(corners)].is_list ||
         !ply::is_integer(element.properties[static_cast<std::size_t>(corners)].type)) {
-      source_.fail("the PLY file's faces have no list of whole numbers \"vertex_indices\"",
+      source_.fail(ErrorCode::mesh_syntax, "the PLY file's faces have no list of whole numbers \"vertex_indices\"",
                    "export the mesh with faces");
     }
     builder_.reserve(builder_.vertex_count(), element.count);

@@ -68,7 +68,7 @@ class HeaderReader {
 
  private:
   [[noreturn]] void fail(std::string problem) {
-    source_.fail_at_line(text_.line(), "not a valid PLY header: " + std::move(problem),
+    source_.fail_at_line(ErrorCode::mesh_syntax, text_.line(), "not a valid PLY header: " + std::move(problem),
                          "export the mesh again; the file is cut off or garbled");
   }
 
@@ -77,9 +77,10 @@ class HeaderReader {
       read_georeference_comment(text, header_.georeference);
       read_rounding_comment(text, header_.rounding_m);
     } catch (const GeoreferenceProblem& problem) {
-      source_.fail_at_line(text_.line(), problem.text, "correct or remove the comment; the mesh is read without");
+      source_.fail_at_line(ErrorCode::record_garbled, text_.line(), problem.text,
+                           "correct or remove the comment; the mesh is read without");
     } catch (const RoundingProblem& problem) {
-      source_.fail_at_line(text_.line(), problem.text, "correct or remove the comment");
+      source_.fail_at_line(ErrorCode::record_garbled, text_.line(), problem.text, "correct or remove the comment");
     }
   }
 

@@ -82,7 +82,7 @@ std::optional<VolumeStatement> read_causes(const std::filesystem::path& file, Vo
   for (std::size_t t = 0; t < faces; ++t) {
     cause_of[t] = little_endian(rows.substr(t * kFaceBytes + 13, 4));
     if (cause_of[t] >= causes.size()) {
-      throw Error(ErrorKind::input,
+      throw Error(ErrorCode::record_garbled,
                   "facet " + std::to_string(t) + " has cause " + std::to_string(cause_of[t]) + ", but the file names " +
                       std::to_string(causes.size()),
                   file.string(), "write the volume again with \"vantage compute\"");

@@ -31,9 +31,9 @@ std::uint64_t binary_length(std::string_view bytes) {
 RawMesh read_binary(const MeshSource& source, const core::ProgressReporter& progress, const core::ReadLimits& limits) {
   const std::string_view bytes = source.bytes();
   if (bytes.size() < kCountEnd)
-    source.fail_at_byte(bytes.size(), "the binary STL ends in its header", "export it again");
+    source.fail_at_byte(ErrorCode::mesh_syntax, bytes.size(), "the binary STL ends in its header", "export it again");
   if (binary_length(bytes) != bytes.size()) {
-    source.fail_at_byte(kHeader,
+    source.fail_at_byte(ErrorCode::mesh_syntax, kHeader,
                         "the binary STL announces " + std::to_string(value_at<std::uint32_t>(bytes, kHeader)) +
                             " facets, which take " + std::to_string(binary_length(bytes)) + " bytes, but has " +
                             std::to_string(bytes.size()),
@@ -72,7 +72,8 @@ class AsciiStlReader {
 
  private:
   [[noreturn]] void fail(std::string problem) {
-    source_.fail_at_line(text_.line(), std::move(problem), "export the mesh again; the file is cut off or garbled");
+    source_.fail_at_line(ErrorCode::mesh_syntax, text_.line(), std::move(problem),
+                         "export the mesh again; the file is cut off or garbled");
   }
 
   /// The next word in lower case.

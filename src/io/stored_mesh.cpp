@@ -59,7 +59,7 @@ StoredMesh stored_on_grid(const Volume& volume, const Box& box, const Vec3& orig
   const Box local{box.min - origin, box.max - origin};
   const double largest = largest_coordinate(local);
   if (largest > static_cast<double>(std::numeric_limits<float>::max())) {
-    throw Error(ErrorKind::output, "the volume's coordinates are too large for single precision", "",
+    throw Error(ErrorCode::format_too_small, "the volume's coordinates are too large for single precision", "",
                 "write .ply or .obj");
   }
   // Origin and number must also add up exactly where they are read.
@@ -73,7 +73,7 @@ StoredMesh stored_on_grid(const Volume& volume, const Box& box, const Vec3& orig
   });
   result.origin = origin;
   if (result.mesh.empty()) {
-    throw Error(ErrorKind::output,
+    throw Error(ErrorCode::format_too_small,
                 "nothing of the volume is left in single precision: at these coordinates it is coarse", "",
                 "write .ply or .obj");
   }

@@ -132,7 +132,8 @@ std::optional<VolumeStatement> read_statement(const MeshSource& source, const co
   try {
     return parse(Json::parse(text));
   } catch (const std::exception& problem) {
-    throw Error(ErrorKind::input, std::string("what vantage wrote about the volume is garbled: ") + problem.what(),
+    throw Error(ErrorCode::record_garbled,
+                std::string("what vantage wrote about the volume is garbled: ") + problem.what(),
                 source.file().string(), "write the volume again with \"vantage compute\"");
   }
 }

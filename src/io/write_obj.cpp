@@ -47,8 +47,8 @@ void check_obj_scale(const Volume& volume, double scale) {
   double largest = 0;
   for (const Vec3& vertex : volume.mesh.vertices) largest = std::max(largest, vertex.cwiseAbs().maxCoeff());
   if (scale > 0 && std::isfinite(scale) && std::isfinite(largest / scale)) return;
-  throw Error(ErrorKind::input, "the volume cannot be written in units of " + exact_text(scale) + " m", "scale",
-              "give the length of the scene file's unit in metres");
+  throw Error(ErrorCode::value_out_of_range, "the volume cannot be written in units of " + exact_text(scale) + " m",
+              "scale", "give the length of the scene file's unit in metres");
 }
 
 void write_obj(const Volume& volume, const StoredMesh& stored, UpAxis up, double scale, AtomicFile& file) {

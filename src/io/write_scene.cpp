@@ -18,7 +18,7 @@ namespace {
 
 void check_scene(const Scene& scene) {
   constexpr const char* kFix = "give a scene as read, or mend what was changed in it";
-  if (scene.mesh.triangles.empty()) throw Error(ErrorKind::input, "the scene holds no triangles", "", kFix);
+  if (scene.mesh.triangles.empty()) throw Error(ErrorCode::mesh_empty, "the scene holds no triangles", "", kFix);
   core::check_labelled(scene.mesh, {scene.object_of, scene.objects.size(), "scene", "object", kFix});
 }
 

@@ -21,7 +21,7 @@ namespace vantage::internal::io {
 
 void check_count(std::uint64_t count, std::uint64_t limit, const char* what, const char* format) {
   if (count <= limit) return;
-  throw Error(ErrorKind::output, std::to_string(count) + " " + what + " are too many for " + format,
+  throw Error(ErrorCode::format_too_small, std::to_string(count) + " " + what + " are too many for " + format,
               "at most " + std::to_string(limit), "write another format or compute with a larger tolerance");
 }
 
@@ -52,7 +52,7 @@ std::string output_extension(const std::filesystem::path& file) {
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   const bool known = extension == ".ply" || extension == ".obj" || extension == ".stl" || extension == ".glb";
   if (known || std::filesystem::is_directory(file, ignored)) return extension;
-  throw Error(ErrorKind::input,
+  throw Error(ErrorCode::output_format_unknown,
               extension.empty() ? "the output file has no extension"
                                 : "unknown output format \"" + file.extension().string() + "\"",
               file.string(), "name a file that ends in .ply, .obj, .stl or .glb");
@@ -69,7 +69,7 @@ StoredMesh stored_for(const Volume& volume, const std::filesystem::path& file, c
     if (extension == ".obj" && obj_scale != 1) return stored_in_units(volume, obj_scale);
     return stored_as_doubles(volume);
   } catch (const Error& error) {
-    throw Error(error.kind(), error.problem(), file.string(), error.fix());
+    throw error.with_where(file.string());
   }
 }
 

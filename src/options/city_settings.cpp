@@ -15,7 +15,7 @@ void check(double value, double least, double most, const std::string& name, con
   if (value >= least && value <= most) return;
   char text[128];
   std::snprintf(text, sizeof text, "give a number from %g to %g", least, most);
-  throw Error(ErrorKind::input, std::string(name).append(" cannot be that"), where, text);
+  throw Error(ErrorCode::value_out_of_range, std::string(name).append(" cannot be that"), where, text);
 }
 
 /// The height of a kind that has sizes. One that is not in the table would never be looked up.
@@ -25,7 +25,7 @@ double& height_of(std::map<std::string, OccluderDefaults::Size, std::less<>>& si
   if (found != sizes.end()) return found->second.height_m;
   std::string known;
   for (const auto& [other, size] : sizes) known.append(known.empty() ? "" : ", ").append(other);
-  throw Error(ErrorKind::input, "there is no default '" + name + "'", where, "the kinds are: " + known);
+  throw Error(ErrorCode::unknown_choice, "there is no default '" + name + "'", where, "the kinds are: " + known);
 }
 
 /// "levels.house" and the like; false when the name is none of these.
@@ -91,7 +91,7 @@ void set_city_option(CityOptions& options, const std::string& name, double value
   if (set_of_kind(options, name, value, where)) return;
   std::string known;
   for (const CitySetting& setting : city_settings()) known.append(setting.name).append(", ");
-  throw Error(ErrorKind::input, "there is no default '" + name + "'", where,
+  throw Error(ErrorCode::unknown_choice, "there is no default '" + name + "'", where,
               "the defaults are: " + known + "and of a kind levels.house, wall.fence, tower.mast, way.footway");
 }
 
@@ -105,7 +105,7 @@ void leave_out(Occluders& occluders, const std::string& kind, const std::string&
   } else if (kind == "trees") {
     occluders.trees = false;
   } else {
-    throw Error(ErrorKind::input, "'" + kind + "' is not what can be left out", where,
+    throw Error(ErrorCode::unknown_choice, "'" + kind + "' is not what can be left out", where,
                 "write walls, towers, bridges or trees");
   }
 }

@@ -20,17 +20,19 @@ constexpr int kMostSplits = 16;
 constexpr double kBytesPerFacet = 700;
 constexpr double kLargestMerge = 0.05;
 
-[[noreturn]] void refuse(const std::string& problem, const std::string& fix) {
-  throw Error(ErrorKind::input, problem, "spheres", fix);
+[[noreturn]] void refuse(ErrorCode code, const std::string& problem, const std::string& fix) {
+  throw Error(code, problem, "spheres", fix);
 }
 
 void check_grid(const std::array<int, 2>& grid) {
   if (grid[0] < 3 || grid[1] < 2)
-    refuse("resolution must be at least [3, 2], not [" + std::to_string(grid[0]) + ", " + std::to_string(grid[1]) + "]",
+    refuse(ErrorCode::value_out_of_range,
+           "resolution must be at least [3, 2], not [" + std::to_string(grid[0]) + ", " + std::to_string(grid[1]) + "]",
            "give the samples in longitude and latitude, such as [160, 80]");
   constexpr int kMost = 4 * kLargestFace;  // beyond it face_size_for might overflow
   if (grid[0] > kMost || grid[1] > kMost || face_size_for(grid) > kLargestFace)
-    refuse("resolution is too fine: [" + std::to_string(grid[0]) + ", " + std::to_string(grid[1]) +
+    refuse(ErrorCode::value_out_of_range,
+           "resolution is too fine: [" + std::to_string(grid[0]) + ", " + std::to_string(grid[1]) +
                "] needs cube faces of more than " + std::to_string(kLargestFace) + " texels a side",
            "give at most [12800, 6400]");
 }
@@ -49,7 +51,8 @@ void check_memory(const SpheresOptions& options) {
   const double there = memory_bytes();
   if (needed <= there) return;
   const auto gigabytes = [](double bytes) { return std::to_string(std::lround(std::ceil(bytes / 1e9))) + " GB"; };
-  refuse("spheres of " + std::to_string(facet_count(options)) + " facets need some " + gigabytes(needed) +
+  refuse(ErrorCode::out_of_memory,
+         "spheres of " + std::to_string(facet_count(options)) + " facets need some " + gigabytes(needed) +
              " of memory, and " + gigabytes(there) + " are there",
          "lower cubemap or resolution");
 }
@@ -75,17 +78,21 @@ void check_options(const SpheresOptions& options) {
   if (options.resolution) {
     check_grid(*options.resolution);
   } else if (options.cubemap < 1 || options.cubemap > kLargestFace) {
-    refuse("cubemap must be from 1 to " + std::to_string(kLargestFace) + ", not " + std::to_string(options.cubemap),
+    refuse(ErrorCode::value_out_of_range,
+           "cubemap must be from 1 to " + std::to_string(kLargestFace) + ", not " + std::to_string(options.cubemap),
            "give the texels along a face's side, such as 200");
   }
   if (options.max_splits < 0 || options.max_splits > kMostSplits)
     refuse(
+        ErrorCode::value_out_of_range,
         "max_splits must be from 0 to " + std::to_string(kMostSplits) + ", not " + std::to_string(options.max_splits),
         "give how often an edge may be halved, such as 6");
   if (!(options.min_edge_m > 0) || !std::isfinite(options.min_edge_m))
-    refuse("min_edge must be a positive, finite number of metres", "give for example 0.5");
+    refuse(ErrorCode::value_out_of_range, "min_edge must be a positive, finite number of metres",
+           "give for example 0.5");
   if (!(options.merge >= 0) || options.merge > kLargestMerge)
-    refuse("merge must be from 0 to 0.05", "give the part of its distance that a facet may be off, such as 0.00025");
+    refuse(ErrorCode::value_out_of_range, "merge must be from 0 to 0.05",
+           "give the part of its distance that a facet may be off, such as 0.00025");
   check_memory(options);
 }
 

@@ -101,8 +101,8 @@ void Canvas::start() {
 
 void Canvas::check(cairo_status_t status, const char* doing) const {
   if (status == CAIRO_STATUS_SUCCESS) return;
-  throw Error(ErrorKind::internal, std::string("Cairo failed in ") + doing + ": " + cairo_status_to_string(status), "",
-              "");
+  throw Error(ErrorCode::internal_defect,
+              std::string("Cairo failed in ") + doing + ": " + cairo_status_to_string(status), "", "");
 }
 
 void Canvas::set_colour(Colour colour, double opacity) {

@@ -23,7 +23,7 @@ void check(const PictureRequest& request) {
   for (const int size : {request.width, request.height}) {
     if (size >= kSmallestPicture && size <= kLargestPicture) continue;
     throw Error(
-        ErrorKind::input, "a picture cannot be " + std::to_string(size) + " pixels wide or high",
+        ErrorCode::value_out_of_range, "a picture cannot be " + std::to_string(size) + " pixels wide or high",
         "size " + std::to_string(request.width) + "x" + std::to_string(request.height),
         "take " + std::to_string(kSmallestPicture) + " to " + std::to_string(kLargestPicture) + " pixels each way");
   }
@@ -34,7 +34,7 @@ void check_indices(const Mesh& mesh, const std::string& what) {
     for (const std::uint32_t v : mesh.triangles[t]) {
       if (v < mesh.vertices.size() && mesh.vertices[v].allFinite()) continue;
       throw Error(
-          ErrorKind::input,
+          v < mesh.vertices.size() ? ErrorCode::coordinate_not_finite : ErrorCode::index_out_of_range,
           "triangle " + std::to_string(t) + " of the " + what + " has a vertex that does not exist or is not finite",
           what, "pass a mesh whose indices are in range and whose coordinates are finite");
     }
@@ -46,7 +46,9 @@ void check_objects(const Scene& scene) {
   if (scene.object_of.empty() || (scene.object_of.size() == scene.mesh.triangles.size() &&
                                   std::none_of(scene.object_of.begin(), scene.object_of.end(), is_bad)))
     return;
-  throw Error(ErrorKind::input, "the scene's objects do not fit its triangles", "scene",
+  throw Error(scene.object_of.size() == scene.mesh.triangles.size() ? ErrorCode::index_out_of_range
+                                                                    : ErrorCode::array_sizes_differ,
+              "the scene's objects do not fit its triangles", "scene",
               "pass an object in range for each triangle, or none at all");
 }
 
@@ -56,7 +58,9 @@ void check_volume(const Volume& volume) {
   if (volume.cause_of.empty() || (volume.cause_of.size() == volume.mesh.triangles.size() &&
                                   std::none_of(volume.cause_of.begin(), volume.cause_of.end(), is_bad)))
     return;
-  throw Error(ErrorKind::input, "the volume's causes do not fit its triangles", "volume",
+  throw Error(volume.cause_of.size() == volume.mesh.triangles.size() ? ErrorCode::index_out_of_range
+                                                                     : ErrorCode::array_sizes_differ,
+              "the volume's causes do not fit its triangles", "volume",
               "pass a cause in range for each triangle, or none at all");
 }
 
@@ -78,7 +82,7 @@ std::vector<std::uint8_t> draw(const DrawList& list, const View& view,
       why = device.device.name + ": " + failure.what();
     }
   }
-  throw Error(ErrorKind::input, "pictures need OpenGL 4.5: " + why, "this machine's OpenGL",
+  throw Error(ErrorCode::device_missing, "pictures need OpenGL 4.5: " + why, "this machine's OpenGL",
               devices.empty() ? "install libegl1 and libgl1-mesa-dri (Debian): no graphics processor is needed"
                               : "ask for a smaller picture, or mend the driver");
 }

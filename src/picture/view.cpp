@@ -45,7 +45,7 @@ void place(View& view, const PictureView& request, const Vec3& centre, const Box
   }
   view.focus_m = (request.from - centre).norm();
   if (!request.from.allFinite() || view.focus_m < 1e-3) {
-    throw Error(ErrorKind::input, "the camera stands where the target's centre is", "the view from X,Y,Z",
+    throw Error(ErrorCode::direction_invalid, "the camera stands where the target's centre is", "the view from X,Y,Z",
                 "take it a few metres away");
   }
   look_along(view, request.from - centre);

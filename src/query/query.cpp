@@ -352,7 +352,8 @@ PointQuery& PointQuery::operator=(PointQuery&&) noexcept = default;
 std::vector<PointAnswer> PointQuery::answer(std::span<const Vec3> points) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (points[i].allFinite()) continue;
-    throw Error(ErrorKind::input, "a coordinate is not finite", "point " + std::to_string(i), "give three numbers");
+    throw Error(ErrorCode::coordinate_not_finite, "a coordinate is not finite", "point " + std::to_string(i),
+                "give three numbers");
   }
   std::vector<PointAnswer> answers(points.size()), of_part;
   for (std::size_t part = 0; part < data_->parts.size(); ++part) {

@@ -78,17 +78,18 @@ void ViewpointCheck::check(const Vec3& viewpoint, const std::string& name) const
     for (std::size_t k = 0; k < 3; ++k) corners[k] = scene_.mesh.vertices[scene_.mesh.triangles[t][k]] - viewpoint;
     if (core::squared_distance_to_triangle(Vec3::Zero(), corners[0], corners[1], corners[2]) <
         kOnSurface * kOnSurface) {
-      throw Error(ErrorKind::input, name + " lies on a surface",
+      throw Error(ErrorCode::viewpoint_on_surface, name + " lies on a surface",
                   "object '" + display_name(scene_.objects[scene_.object_of[t]]) + "'",
-                  "move it off the surface, by 1 mm or more");
+                  "move it off the surface, by 1 mm or more", scene_.object_of[t]);
     }
     angle[piece_of_[t]] += solid_angle(corners);
   }
   for (std::size_t t = 0; t < piece_of_.size(); ++t) {
     const double winding = angle[piece_of_[t]] / (4 * M_PI);
     if (winding <= kInside && winding >= kInsideOut) continue;
-    throw Error(ErrorKind::input, name + " lies inside a solid",
-                "object '" + display_name(scene_.objects[scene_.object_of[t]]) + "'", "move it into the open");
+    throw Error(ErrorCode::viewpoint_inside_solid, name + " lies inside a solid",
+                "object '" + display_name(scene_.objects[scene_.object_of[t]]) + "'", "move it into the open",
+                scene_.object_of[t]);
   }
 }
 

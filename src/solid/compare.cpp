@@ -68,7 +68,7 @@ double intersection_of(const Comparison& c, double allowance) {
   constexpr double kRounding = 1e-14;  // of the volumes: less than that is nothing
   const double by_a = c.volume_a_m3 - c.only_a_m3, by_b = c.volume_b_m3 - c.only_b_m3;
   if (std::abs(by_a - by_b) > allowance) {
-    throw Error(ErrorKind::internal, "the two differences do not leave the same intersection", "comparison", "");
+    throw Error(ErrorCode::internal_defect, "the two differences do not leave the same intersection", "comparison", "");
   }
   return by_a <= kRounding * (c.volume_a_m3 + c.volume_b_m3) ? 0 : by_a;
 }

@@ -82,10 +82,10 @@ Status evaluate(const manifold::Manifold& lazy, const core::ProgressReporter& pr
 
 Solid evaluated(const manifold::Manifold& lazy, const char* operation, const core::ProgressReporter& progress) {
   const Status status = evaluate(lazy, progress);
-  if (status == Status::Cancelled) throw Error(ErrorKind::cancelled, "cancelled", operation, "");
+  if (status == Status::Cancelled) throw Error(ErrorCode::cancelled, "cancelled", operation, "");
   if (status != Status::NoError) {
-    throw Error(ErrorKind::internal, std::string("a boolean operation on solids failed: ") + name_of(status), operation,
-                "");
+    throw Error(ErrorCode::internal_defect, std::string("a boolean operation on solids failed: ") + name_of(status),
+                operation, "");
   }
   return wrap(lazy);
 }
@@ -100,7 +100,7 @@ std::vector<manifold::Manifold> manifolds_of(std::span<const Solid> operands) {
 manifold::MeshGL64 to_mesh_gl(const LabelledMesh& labelled, const std::string& name) {
   const auto& [mesh, labels] = labelled;
   if (labels.size() != mesh.triangles.size()) {
-    throw Error(ErrorKind::internal, "labels and triangles differ in number", name, "");
+    throw Error(ErrorCode::internal_defect, "labels and triangles differ in number", name, "");
   }
   manifold::MeshGL64 gl;
   gl.vertProperties.reserve(3 * mesh.vertices.size());
@@ -110,7 +110,7 @@ manifold::MeshGL64 to_mesh_gl(const LabelledMesh& labelled, const std::string& n
   // A face id is carried through every operation, and Manifold never joins facets whose ids differ.
   gl.faceID.reserve(labels.size());
   for (const std::uint32_t label : labels) {
-    if (label > kMaxLabel) throw Error(ErrorKind::internal, "a label is too large", name, "");
+    if (label > kMaxLabel) throw Error(ErrorCode::internal_defect, "a label is too large", name, "");
     gl.faceID.push_back(label);
   }
   return gl;
@@ -124,7 +124,7 @@ Solid::Solid(const LabelledMesh& labelled, const std::string& name) {
   const manifold::Manifold manifold(to_mesh_gl(labelled, name));
   const Status status = manifold.Status();
   if (status != Status::NoError) {
-    throw Error(ErrorKind::input, std::string("the mesh does not bound a solid: ") + name_of(status), name,
+    throw Error(ErrorCode::mesh_not_closed, std::string("the mesh does not bound a solid: ") + name_of(status), name,
                 "give a closed mesh whose triangles all face outward");
   }
   impl_ = std::make_shared<const Impl>(Impl{manifold});
@@ -184,14 +184,14 @@ Solid unite(std::span<const Solid> operands, const core::ProgressReporter& progr
 }
 
 Solid intersect(std::span<const Solid> operands, const core::ProgressReporter& progress) {
-  if (operands.empty()) throw Error(ErrorKind::internal, "an intersection needs an operand", "", "");
+  if (operands.empty()) throw Error(ErrorCode::internal_defect, "an intersection needs an operand", "", "");
   return evaluated(manifold::Manifold::BatchBoolean(manifolds_of(operands), manifold::OpType::Intersect),
                    "intersection", progress);
 }
 
 Solid make_box(const Box& box, const BoxLabels& labels) {
   if (!(box.min.array() < box.max.array()).all()) {
-    throw Error(ErrorKind::internal, "a box must have min < max on every axis", "", "");
+    throw Error(ErrorCode::internal_defect, "a box must have min < max on every axis", "", "");
   }
   LabelledMesh result;
   // Bit i of a corner's index says whether it lies at the far end of axis i.

@@ -59,7 +59,8 @@ Solid solid_of(const Volume& volume, const Vec3& origin, internal::core::CauseLi
 }  // namespace
 
 Volume intersect_volumes(const std::vector<Volume>& volumes, const Progress& callback) {
-  if (volumes.empty()) throw Error(ErrorKind::input, "there are no volumes to intersect", "", "give at least one");
+  if (volumes.empty())
+    throw Error(ErrorCode::nothing_given, "there are no volumes to intersect", "", "give at least one");
   Volume result = volumes.front();
   for (std::size_t i = 1; i < volumes.size(); ++i) add_work(volumes[i], result);
   for (std::size_t i = 0; i < volumes.size(); ++i) {

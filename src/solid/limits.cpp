@@ -12,15 +12,17 @@ namespace {
 
 /// One pair of limits; `what` and `axis` are for the message: "the altitude band", "".
 void check_pair(double min, double max, const std::string& what, const std::string& axis, const std::string& where) {
-  const auto refuse = [&](const std::string& problem, const char* fix) {
-    throw Error(ErrorKind::input, std::string(what).append(" ").append(problem), where, fix);
+  const auto refuse = [&](ErrorCode code, const std::string& problem, const char* fix) {
+    throw Error(code, std::string(what).append(" ").append(problem), where, fix);
   };
   const std::string of_axis = axis.empty() ? "" : std::string(" in ").append(axis);
   if (!std::isfinite(min) || !std::isfinite(max)) {
-    refuse(std::string("is not finite").append(of_axis), "give numbers; leave a limit out where there is none");
+    refuse(ErrorCode::value_out_of_range, std::string("is not finite").append(of_axis),
+           "give numbers; leave a limit out where there is none");
   }
   if (min > max) {
-    refuse(std::string("is reversed")
+    refuse(ErrorCode::limits_reversed,
+           std::string("is reversed")
                .append(of_axis)
                .append(": min ")
                .append(core::number_text(min))
@@ -29,7 +31,8 @@ void check_pair(double min, double max, const std::string& what, const std::stri
            "swap the two");
   }
   if (min == max) {
-    refuse(std::string("is empty").append(of_axis).append(": min and max are both ").append(core::number_text(min)),
+    refuse(ErrorCode::limits_empty,
+           std::string("is empty").append(of_axis).append(": min and max are both ").append(core::number_text(min)),
            "give a max above the min");
   }
 }

@@ -47,7 +47,7 @@ void snap_to_planes(LabelledMesh& labelled, const std::vector<Surface>& surfaces
     for (const std::uint32_t v : mesh.triangles[t]) {
       double& coordinate = mesh.vertices[v][*surface.axis];
       if (std::abs(coordinate - surface.at) > allowance) {
-        throw Error(ErrorKind::internal, "a cut face does not lie in its plane", "navigation", "");
+        throw Error(ErrorCode::internal_defect, "a cut face does not lie in its plane", "navigation", "");
       }
       coordinate = surface.at;
     }

@@ -147,7 +147,7 @@ int TriangleTree::winding_number(const Vec3& point) const {
     int winding = 0;
     if (crossings(point, Vec3(r * std::cos(azimuth), r * std::sin(azimuth), z), winding)) return winding;
   }
-  throw Error(ErrorKind::internal, "no ray keeps clear of the edges of a mesh", "", "");
+  throw Error(ErrorCode::internal_defect, "no ray keeps clear of the edges of a mesh", "", "");
 }
 
 }  // namespace vantage::internal::solid

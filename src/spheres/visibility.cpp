@@ -109,8 +109,8 @@ Volume compute_visibility(const PreparedTarget& target, const SpheresOptions& op
   const auto start = Clock::now();
   options::check_options(options);
   if (target.part_count() > 1) {
-    throw Error(ErrorKind::input, "the target has " + std::to_string(target.part_count()) + " parts", "target",
-                "compute each part and intersect the volumes");
+    throw Error(ErrorCode::target_of_parts, "the target has " + std::to_string(target.part_count()) + " parts",
+                "target", "compute each part and intersect the volumes");
   }
   const Sensor& sensor = target.sensor();
   SpheresReport own_report;
@@ -139,8 +139,8 @@ Mesh visibility_sphere(const Vec3& viewpoint, double radius_m, const SpheresOpti
                        depth::DepthRenderer& renderer, const Progress& callback) {
   const core::ProgressReporter progress(callback);
   if (!viewpoint.allFinite())
-    throw Error(ErrorKind::input, "the viewpoint has a coordinate that is not finite", "visibility sphere",
-                "give three finite numbers");
+    throw Error(ErrorCode::coordinate_not_finite, "the viewpoint has a coordinate that is not finite",
+                "visibility sphere", "give three finite numbers");
   target::check_sensor({radius_m});
   options::check_options(options);
   TargetFrame frame;

@@ -46,7 +46,7 @@ Part prepare(const PreparedScene::Data& scene, const Target& target, const Senso
 PreparedTarget::PreparedTarget(const PreparedScene& scene, const Target& target, const Sensor& sensor) {
   internal::target::check_sensor(sensor);
   if (sensor.max_range_m > kLargestRange) {
-    throw Error(ErrorKind::input, "max_range is larger than 1e9 m", "sensor", "give metres");
+    throw Error(ErrorCode::value_out_of_range, "max_range is larger than 1e9 m", "sensor", "give metres");
   }
   auto data = std::make_shared<Data>(Data{scene, target, sensor, {}, {}});
   if (target.parts.empty()) make_target_frame(target);  // throws

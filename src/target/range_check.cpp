@@ -9,7 +9,7 @@ namespace vantage::internal::target {
 
 void check_sensor(const Sensor& sensor) {
   if (sensor.max_range_m > 0 && std::isfinite(sensor.max_range_m)) return;
-  throw Error(ErrorKind::input, "max_range must be a positive, finite number of metres", "sensor",
+  throw Error(ErrorCode::value_out_of_range, "max_range must be a positive, finite number of metres", "sensor",
               "give the farthest distance at which the target can be seen");
 }
 

@@ -47,9 +47,8 @@ std::string advice_for_point(const PreparedScene::Data& scene, std::uint32_t pol
           core::fixed_text(clear, 0) + " m";
   }
   if (frame.all_sides) fix = advice_for_point(scene, crossing.polygon);
-  throw PiercedTarget(name + " stands on or passes through the target",
-                      "target \"" + target.name + "\", at " + describe(frame.to_scene(crossing.place), decimals), fix,
-                      object);
+  throw Error(ErrorCode::target_pierced, name + " stands on or passes through the target",
+              "target \"" + target.name + "\", at " + describe(frame.to_scene(crossing.place), decimals), fix, object);
 }
 
 /// Finds how high polygons rise above the target's plane that hardly do.

@@ -3,26 +3,12 @@
 
 #include <cstdint>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "scene/prepared_data.h"
-#include "vantage/error.h"
 #include "vantage/target.h"
 
 namespace vantage::internal::target {
-
-/// Scene geometry stands on the target or passes through it. Those who know what the object is may have better advice.
-class PiercedTarget : public Error {
- public:
-  PiercedTarget(std::string problem, std::string where, std::string fix, std::uint32_t object)
-      : Error(ErrorKind::input, std::move(problem), std::move(where), std::move(fix)), object_(object) {}
-
-  std::uint32_t object() const { return object_; }  ///< of the scene
-
- private:
-  std::uint32_t object_;
-};
 
 struct Clearance {
   double lift_m = 0;               ///< the target must be raised this far
@@ -30,9 +16,9 @@ struct Clearance {
 };
 
 /// How far the target must be raised to clear the surface that it lies on, and polygons within range that rise less
-/// than Lengths::clear above its plane: 0 to Lengths::lift and three times Lengths::clear. Throws PiercedTarget when
-/// scene geometry stands on the target or passes through it (names the object, the place and the smallest offset that
-/// clears it).
+/// than Lengths::clear above its plane: 0 to Lengths::lift and three times Lengths::clear. Throws
+/// ErrorCode::target_pierced when scene geometry stands on the target or passes through it (names the object, the place
+/// and the smallest offset that clears it).
 Clearance clear_target(const PreparedScene::Data& scene, const Target& target, const TargetFrame& frame,
                        double max_range);
 
@@ -41,8 +27,8 @@ Clearance clear_target(const PreparedScene::Data& scene, const Target& target, c
 /// small polygon about it.
 double height_off_surface(const PreparedScene::Data& scene, const TargetFrame& frame, double max_range);
 
-/// Throws Error(input) when a steep surface passes within Lengths::lift of a point that is seen from all sides: which
-/// side of it is meant rounding would decide.
+/// Throws ErrorCode::target_pierced when a steep surface passes within Lengths::lift of a point that is seen from all
+/// sides: which side of it is meant rounding would decide.
 void refuse_steep_nearby(const PreparedScene::Data& scene, const Target& target, const TargetFrame& frame,
                          double max_range);
 

@@ -25,8 +25,8 @@ constexpr double kStraight = 1e-9;
 // may lose of a corner.
 constexpr double kRounding = 0x1p-50;
 
-[[noreturn]] void refuse(const Target& target, std::string problem, std::string fix) {
-  throw Error(ErrorKind::input, std::move(problem), "target \"" + target.name + "\"", std::move(fix));
+[[noreturn]] void refuse(ErrorCode code, const Target& target, std::string problem, std::string fix) {
+  throw Error(code, std::move(problem), "target \"" + target.name + "\"", std::move(fix));
 }
 
 std::string vertex_name(std::size_t index) { return "vertex " + std::to_string(index); }
@@ -34,16 +34,21 @@ std::string vertex_name(std::size_t index) { return "vertex " + std::to_string(i
 void check_vertices(const Target& target) {
   const auto& v = target.parts[0];
   if (v.size() < 3 && !target.is_point())
-    refuse(target, "a target needs at least 3 vertices, this one has " + std::to_string(v.size()),
+    refuse(ErrorCode::target_vertex_count, target,
+           "a target needs at least 3 vertices, this one has " + std::to_string(v.size()),
            "add vertices, or give one alone for a point");
   if (v.size() > 64)
-    refuse(target, "a target has at most 64 vertices, this one has " + std::to_string(v.size()), "simplify it");
+    refuse(ErrorCode::target_vertex_count, target,
+           "a target has at most 64 vertices, this one has " + std::to_string(v.size()), "simplify it");
   for (std::size_t i = 0; i < v.size(); ++i)
     if (!v[i].allFinite())
-      refuse(target, vertex_name(i) + " has a coordinate that is not finite", "give three finite numbers");
-  if (!std::isfinite(target.offset_m)) refuse(target, "offset is not finite", "give metres along the normal");
+      refuse(ErrorCode::coordinate_not_finite, target, vertex_name(i) + " has a coordinate that is not finite",
+             "give three finite numbers");
+  if (!std::isfinite(target.offset_m))
+    refuse(ErrorCode::value_out_of_range, target, "offset is not finite", "give metres along the normal");
   if (target.front && (!target.front->allFinite() || target.front->norm() == 0))
-    refuse(target, "front is zero or not finite", "give a vector on the side that is looked at, such as [0, 0, 1]");
+    refuse(ErrorCode::direction_invalid, target, "front is zero or not finite",
+           "give a vector on the side that is looked at, such as [0, 0, 1]");
 }
 
 double extent_of(const std::vector<Vec3>& vertices) {
@@ -57,7 +62,8 @@ void check_repeats(const Target& target, double extent) {
   for (std::size_t i = 0; i < v.size(); ++i)
     for (std::size_t j = i + 1; j < v.size(); ++j)
       if ((v[i] - v[j]).norm() <= 1e-9 * extent || v[i] == v[j])
-        refuse(target, vertex_name(i) + " and " + vertex_name(j) + " are the same point", "drop one of them");
+        refuse(ErrorCode::target_vertices_coincide, target,
+               vertex_name(i) + " and " + vertex_name(j) + " are the same point", "drop one of them");
 }
 
 // Twice the area vector, about the first vertex so that large coordinates do not cancel.
@@ -79,7 +85,7 @@ void check_planar(const Target& target, const Vec3& normal, double extent) {
     if (off > worst) worst = off, culprit = i;
   }
   if (worst > std::max(kPlanarAtLeast, kPlanarFraction * extent))
-    refuse(target,
+    refuse(ErrorCode::target_not_planar, target,
            "the vertices are not in one plane: " + vertex_name(culprit) + " is off by " +
                internal::core::metres_text(worst),
            "move it onto the plane of the others, or split the target");
@@ -89,7 +95,8 @@ Vec3 front_normal(const Target& target, const Vec3& normal) {
   if (target.front) {
     const double side = target.front->normalized().dot(normal);
     if (std::abs(side) < 1e-6)
-      refuse(target, "front lies in the plane of the target", "give a vector that points away from the looked-at side");
+      refuse(ErrorCode::direction_invalid, target, "front lies in the plane of the target",
+             "give a vector that points away from the looked-at side");
     return side > 0 ? normal : Vec3(-normal);
   }
   return normal.z() < -kVerticalNormal ? Vec3(-normal) : normal;
@@ -139,14 +146,16 @@ double whole_turn(const std::vector<Vec3>& polygon) {
 std::vector<Vector2d> corners_of(const Target& target, const std::vector<Vec3>& polygon,
                                  const std::vector<std::size_t>& index, double extent) {
   if (whole_turn(polygon) > 3 * std::numbers::pi)
-    refuse(target, "not convex: the outline winds round more than once, starting at " + vertex_name(index[0]),
+    refuse(ErrorCode::target_not_convex, target,
+           "not convex: the outline winds round more than once, starting at " + vertex_name(index[0]),
            "give the vertices in order round the polygon");
   double largest = 0;
   for (const Vec3& v : target.parts[0]) largest = std::max(largest, v.cwiseAbs().maxCoeff());
   const internal::core::CornerSlack slack{kStraight * extent + kRounding * largest, kRounding * extent};
   const auto is_corner = internal::core::find_corners(polygon, Vec3::UnitZ(), slack);
   if (!is_corner)
-    refuse(target, "not convex: the outline turns the wrong way at " + vertex_name(index[worst_turn(polygon)]),
+    refuse(ErrorCode::target_not_convex, target,
+           "not convex: the outline turns the wrong way at " + vertex_name(index[worst_turn(polygon)]),
            "give the vertices in order round a convex polygon; split a concave one into convex targets");
   std::vector<Vector2d> corners;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -185,11 +194,12 @@ Target Target::part(std::size_t index) const {
 
 TargetFrame make_target_frame(const Target& target, std::size_t part) {
   if (part >= target.parts.size()) {
-    refuse(target, "the target has no part " + std::to_string(part + 1), "give one polygon or more");
+    refuse(ErrorCode::target_parts_invalid, target, "the target has no part " + std::to_string(part + 1),
+           "give one polygon or more");
   }
   if (target.parts.size() > 1) {
     if (target.parts[part].size() == 1) {
-      refuse(target, "part " + std::to_string(part + 1) + " of the target is a point",
+      refuse(ErrorCode::target_parts_invalid, target, "part " + std::to_string(part + 1) + " of the target is a point",
              "give polygons, or one point alone");
     }
     return make_target_frame(target.part(part));
@@ -200,7 +210,7 @@ TargetFrame make_target_frame(const Target& target, std::size_t part) {
   check_repeats(target, extent);
   const Vec3 area = area_vector(target.parts[0]);
   if (area.norm() <= 1e-9 * extent * extent)
-    refuse(target, "the polygon has no area", "its vertices must not lie on one line");
+    refuse(ErrorCode::target_without_area, target, "the polygon has no area", "its vertices must not lie on one line");
   const Vec3 own_normal = area.normalized();
   check_planar(target, own_normal, extent);
 

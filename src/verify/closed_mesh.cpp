@@ -16,19 +16,21 @@ namespace {
 
 constexpr int kDirections = 24;  // tried before a point counts as lying on the surface
 
-[[noreturn]] void fail(const std::string& problem, const std::string& name, const std::string& fix) {
-  throw Error(ErrorKind::input, problem, name, fix);
+[[noreturn]] void fail(ErrorCode code, const std::string& problem, const std::string& name, const std::string& fix) {
+  throw Error(code, problem, name, fix);
 }
 
 void check_numbers(const Mesh& mesh, const std::string& name) {
-  if (mesh.empty()) fail("the mesh has no triangles", name, "give a closed mesh");
+  if (mesh.empty()) fail(ErrorCode::mesh_empty, "the mesh has no triangles", name, "give a closed mesh");
   for (const Vec3& vertex : mesh.vertices) {
-    if (!vertex.allFinite()) fail("a vertex of the mesh is not finite", name, "write the mesh again");
+    if (!vertex.allFinite())
+      fail(ErrorCode::coordinate_not_finite, "a vertex of the mesh is not finite", name, "write the mesh again");
   }
   for (const Triangle& triangle : mesh.triangles) {
     for (const std::uint32_t corner : triangle) {
       if (corner >= mesh.vertices.size()) {
-        fail("triangle corner " + std::to_string(corner) + " does not exist: the mesh has " +
+        fail(ErrorCode::index_out_of_range,
+             "triangle corner " + std::to_string(corner) + " does not exist: the mesh has " +
                  std::to_string(mesh.vertices.size()) + " vertices",
              name, "write the mesh again");
       }
@@ -117,7 +119,8 @@ Topology checked_topology(const Mesh& mesh, const std::string& name) {
     where.precision(10);
     where << name << ", edge from (" << mesh.vertices[by_position.first_odd[0]].transpose() << ") to ("
           << mesh.vertices[by_position.first_odd[1]].transpose() << ")";
-    fail("the mesh is not closed: " + std::to_string(by_position.odd_edges) + " edges have an odd number of triangles",
+    fail(ErrorCode::mesh_not_closed,
+         "the mesh is not closed: " + std::to_string(by_position.odd_edges) + " edges have an odd number of triangles",
          where.str(), "give a closed mesh: every edge between two triangles");
   }
   return by_position.topology;

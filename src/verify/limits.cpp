@@ -11,7 +11,7 @@ void check(const std::vector<Box>& boxes, const std::string& name) {
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     const bool ordered = (boxes[i].min.array() < boxes[i].max.array()).all();  // false for NaN too
     if (ordered) continue;
-    throw Error(ErrorKind::input, "the box is reversed or flat", name + " " + std::to_string(i),
+    throw Error(ErrorCode::limits_reversed, "the box is reversed or flat", name + " " + std::to_string(i),
                 "give min smaller than max on every axis");
   }
 }
@@ -28,7 +28,7 @@ bool strictly_within(const Box& box, const Vec3& point) {
 
 Limits::Limits(const Navigation& navigation, const Vec3& origin) : navigation_(navigation), origin_(origin) {
   if (navigation_.altitude && !(navigation_.altitude->min_m < navigation_.altitude->max_m)) {
-    throw Error(ErrorKind::input, "the altitude band is reversed or empty", "navigation altitude",
+    throw Error(ErrorCode::limits_reversed, "the altitude band is reversed or empty", "navigation altitude",
                 "give the lower altitude first");
   }
   check(navigation_.boxes, "box");

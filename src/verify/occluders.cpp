@@ -16,8 +16,10 @@ FlatTriangle local_triangle(const Mesh& mesh, std::size_t number, const Vec3& or
   std::array<Vec3, 3> corners;
   for (int i = 0; i < 3; ++i) {
     const std::uint32_t index = mesh.triangles[number][i];
-    if (index >= mesh.vertices.size() || !mesh.vertices[index].allFinite()) {
-      throw Error(ErrorKind::input, "a corner of the triangle does not exist or is not finite",
+    const bool is_there = index < mesh.vertices.size();
+    if (!is_there || !mesh.vertices[index].allFinite()) {
+      throw Error(is_there ? ErrorCode::coordinate_not_finite : ErrorCode::index_out_of_range,
+                  "a corner of the triangle does not exist or is not finite",
                   "scene triangle " + std::to_string(number), "read the scene again");
     }
     corners[i] = mesh.vertices[index] - origin;

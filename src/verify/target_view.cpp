@@ -15,8 +15,8 @@ constexpr double kVertical = 1e-6;      // normal this close to horizontal: a ve
 constexpr double kPlanar = 1e-6;        // of the extent, and
 constexpr double kPlanarMetres = 1e-3;  // at least this (vantage/target.h)
 
-[[noreturn]] void fail(const Target& target, const std::string& problem, const std::string& fix) {
-  throw Error(ErrorKind::input, problem, "target '" + target.name + "'", fix);
+[[noreturn]] void fail(ErrorCode code, const Target& target, const std::string& problem, const std::string& fix) {
+  throw Error(code, problem, "target '" + target.name + "'", fix);
 }
 
 /// Newell: the sum of the cross products of neighbouring vertices; twice the area long.
@@ -43,7 +43,8 @@ bool runs_on_back(const Target& target, const Vec3& normal) {
   if (target.front) {
     const double along = normal.dot(*target.front);
     if (!(std::abs(along) > kVertical * target.front->norm())) {
-      fail(target, "the front lies in the plane of the target", "give a vector that points to the side to look from");
+      fail(ErrorCode::direction_invalid, target, "the front lies in the plane of the target",
+           "give a vector that points to the side to look from");
     }
     return along < 0;
   }
@@ -54,12 +55,15 @@ bool runs_on_back(const Target& target, const Vec3& normal) {
 
 TargetView::TargetView(const Target& target) {
   if (target.parts[0].size() < 3 && !target.is_point()) {
-    fail(target, "the target has fewer than 3 vertices", "give at least 3, or one for a point");
+    fail(ErrorCode::target_vertex_count, target, "the target has fewer than 3 vertices",
+         "give at least 3, or one for a point");
   }
   for (const Vec3& vertex : target.parts[0]) {
-    if (!vertex.allFinite()) fail(target, "a vertex of the target is not finite", "give numbers");
+    if (!vertex.allFinite())
+      fail(ErrorCode::coordinate_not_finite, target, "a vertex of the target is not finite", "give numbers");
   }
-  if (!std::isfinite(target.offset_m)) fail(target, "the offset of the target is not finite", "give a number");
+  if (!std::isfinite(target.offset_m))
+    fail(ErrorCode::value_out_of_range, target, "the offset of the target is not finite", "give a number");
   if (target.is_point()) {
     set_point(target);
     return;
@@ -87,7 +91,8 @@ TargetView::TargetView(const Target& target) {
 
 void TargetView::set_point(const Target& target) {
   if (target.front && !(target.front->allFinite() && target.front->norm() > 0)) {
-    fail(target, "the front is zero or not finite", "give a vector that points to the side to look from");
+    fail(ErrorCode::direction_invalid, target, "the front is zero or not finite",
+         "give a vector that points to the side to look from");
   }
   all_sides_ = !target.front;
   normal_ = target.front ? target.front->normalized() : Vec3(Vec3::UnitZ());
@@ -99,7 +104,8 @@ void TargetView::set_point(const Target& target) {
 void TargetView::set_plane(const Target& target) {
   const double size = extent(vertices_);
   const Vec3 area = newell(vertices_);
-  if (!(area.norm() > 1e-12 * size * size)) fail(target, "the target has no area", "give vertices round a polygon");
+  if (!(area.norm() > 1e-12 * size * size))
+    fail(ErrorCode::target_without_area, target, "the target has no area", "give vertices round a polygon");
   normal_ = area.normalized();
   if (runs_on_back(target, normal_)) {
     normal_ = -normal_;
@@ -109,7 +115,8 @@ void TargetView::set_plane(const Target& target) {
   for (Vec3& vertex : vertices_) {
     const double off = height(vertex);
     if (std::abs(off) > std::max(kPlanar * size, kPlanarMetres)) {
-      fail(target, "the target is not planar: a vertex lies " + std::to_string(std::abs(off)) + " m off its plane",
+      fail(ErrorCode::target_not_planar, target,
+           "the target is not planar: a vertex lies " + std::to_string(std::abs(off)) + " m off its plane",
            "move the vertices into one plane");
     }
     vertex += (target.offset_m - off) * normal_;
@@ -130,7 +137,8 @@ void TargetView::drop_reflex_vertices(const Target& target, double slack) {
       i = (i + 1) % count;
       continue;
     }
-    if (depth > slack * chord.norm()) fail(target, "the target is not convex", "split it into convex targets");
+    if (depth > slack * chord.norm())
+      fail(ErrorCode::target_not_convex, target, "the target is not convex", "split it into convex targets");
     vertices_.erase(vertices_.begin() + static_cast<std::ptrdiff_t>(i));
     i = (i + count - 2) % (count - 1);
     straight = 0;
@@ -140,7 +148,8 @@ void TargetView::drop_reflex_vertices(const Target& target, double slack) {
 void TargetView::check_shape(const Target& target) {
   for (std::size_t i = 0; i < vertices_.size(); ++i) {
     const Vec3 edge = vertices_[(i + 1) % vertices_.size()] - vertices_[i];
-    if (!(edge.norm() > 0)) fail(target, "a vertex of the target is repeated", "give each vertex once");
+    if (!(edge.norm() > 0))
+      fail(ErrorCode::target_vertices_coincide, target, "a vertex of the target is repeated", "give each vertex once");
   }
   const double slack = kPlanar * extent(vertices_);
   drop_reflex_vertices(target, slack);
@@ -148,7 +157,7 @@ void TargetView::check_shape(const Target& target) {
     const Vec3 inwards = normal_.cross(vertices_[(i + 1) % vertices_.size()] - vertices_[i]).normalized();
     for (const Vec3& vertex : vertices_) {
       if (inwards.dot(vertex - vertices_[i]) < -slack) {
-        fail(target, "the target is not convex", "split it into convex targets");
+        fail(ErrorCode::target_not_convex, target, "the target is not convex", "split it into convex targets");
       }
     }
   }

@@ -221,7 +221,7 @@ VerifyReport Check::report(const std::vector<Verdict>& verdicts) {
 
 void check_arguments(const Sensor& sensor, const VerifyOptions& options) {
   const auto require = [](bool holds, const char* problem, const char* where) {
-    if (!holds) throw Error(ErrorKind::input, problem, where, "give a positive, finite number");
+    if (!holds) throw Error(ErrorCode::value_out_of_range, problem, where, "give a positive, finite number");
   };
   require(std::isfinite(sensor.max_range_m) && sensor.max_range_m > 0, "the range is not positive and finite",
           "sensor max_range");
@@ -235,9 +235,10 @@ void check_arguments(const Sensor& sensor, const VerifyOptions& options) {
 
 /// The parts, each raised as it was for the volume.
 std::vector<Target> raised_parts(const Target& target, const std::vector<double>& lift_m) {
-  if (target.parts.empty()) throw Error(ErrorKind::input, "the target has no parts", "verify", "give one or more");
+  if (target.parts.empty())
+    throw Error(ErrorCode::target_parts_invalid, "the target has no parts", "verify", "give one or more");
   if (!lift_m.empty() && lift_m.size() != target.parts.size()) {
-    throw Error(ErrorKind::input,
+    throw Error(ErrorCode::array_sizes_differ,
                 "there are " + std::to_string(lift_m.size()) + " lifts for " + std::to_string(target.parts.size()) +
                     " parts of the target",
                 "verify lift", "give one for each part, or none");

@@ -20,8 +20,8 @@ namespace {
 
 using city::Vec2;
 
-[[noreturn]] void fail(const std::string& problem, const std::string& where, const std::string& fix) {
-  throw Error(ErrorKind::input, problem, where, fix);
+[[noreturn]] void fail(ErrorCode code, const std::string& problem, const std::string& where, const std::string& fix) {
+  throw Error(code, problem, where, fix);
 }
 
 /// The triangles of the ground.
@@ -29,7 +29,7 @@ terrain::Surface ground_of(const Mission& mission) {
   const Scene& scene = mission.loaded.scene;
   const auto ground = ground_object(scene);
   if (!ground) {
-    fail("the scene has no object 'ground' to put the target on", mission.file.places.target,
+    fail(ErrorCode::ground_missing, "the scene has no object 'ground' to put the target on", mission.file.places.target,
          "give the target's vertices, or a scene that is made from a map; PLY and STL keep no objects, OBJ and GLB do");
   }
   Mesh mesh;
@@ -101,14 +101,15 @@ std::vector<city::Footprint> outlines(Mission& mission, const std::string& name,
   const SceneSource& source = mission.file.scene;
   const auto found = city::outlines_of_object(source.file, source.city.region, name, frame, progress);
   const std::string& place = mission.file.places.target;
-  if (!found) fail(in_quotes(name) + " is no object of a map", place, "write 'osm: way/123'");
+  if (!found) fail(ErrorCode::value_syntax, in_quotes(name) + " is no object of a map", place, "write 'osm: way/123'");
   if (!found->is_area) {
     const bool is_part = source.city.region.center_deg || source.city.region.bbox_deg;
-    fail((is_part ? "the scene's part of the map has no area " : "the map has no area ") + name, place,
+    fail(ErrorCode::map_object_missing,
+         (is_part ? "the scene's part of the map has no area " : "the map has no area ") + name, place,
          "name a tagged closed way or a multipolygon of " + source.file.filename().string() +
              (is_part ? ", or choose a larger area of the map" : ""));
   }
-  if (found->outlines.empty()) fail(name + " has no area", place, "name another object");
+  if (found->outlines.empty()) fail(ErrorCode::map_object_missing, name + " has no area", place, "name another object");
   const std::string known_as = io::clean_name(found->name);
   if (mission.target.name == name && !known_as.empty()) mission.target.name = known_as + " (" + name + ")";
   return found->outlines;
@@ -121,7 +122,8 @@ void check_order(const Mission& mission, const GroundTarget& wanted, const terra
   const Vec2 centre = frame.to_local({longitude, latitude});
   if (ground.height(centre) || std::abs(longitude) > 90 || !ground.height(frame.to_local({latitude, longitude})))
     return;
-  fail("the target's centre lies " + std::to_string(std::lround(centre.norm())) +
+  fail(ErrorCode::target_off_ground,
+       "the target's centre lies " + std::to_string(std::lround(centre.norm())) +
            " m from the scene's origin, off its ground",
        mission.file.places.target,
        "latitude and longitude are the wrong way round: write center: [latitude, longitude]");
@@ -193,9 +195,12 @@ void check_outdoors(const Mission& mission) {
     const TargetFrame frame = make_target_frame(mission.target, i);
     const auto solid = solid_round(scene, frame.origin + kClear * frame.normal);
     if (!solid) continue;
-    fail("the target lies inside " + in_quotes(display_name(scene.objects[*solid])), mission.file.places.target,
-         how_to_leave_out(mission.loaded, *solid, mission.file.ground_target->osm)
-             .value_or("name a place outdoors; for a roof give its 'vertices', for a storey a scene that has rooms"));
+    throw Error(
+        ErrorCode::target_inside_solid, "the target lies inside " + in_quotes(display_name(scene.objects[*solid])),
+        mission.file.places.target,
+        how_to_leave_out(mission.loaded, *solid, mission.file.ground_target->osm)
+            .value_or("name a place outdoors; for a roof give its 'vertices', for a storey a scene that has rooms"),
+        *solid);
   }
 }
 

@@ -26,7 +26,7 @@ class FormReader {
   BuildingForm read() {
     read_roof();
     const std::optional<double> height = first_height();
-    levels_ = number({"building:levels", "building:part:levels"}, "levels", parse_levels, kMostLevels);
+    levels_ = number({"building:levels", "building:part:levels"}, parse_levels, kMostLevels);
     read_bottom(height);
     if (height) {
       form_.top_m = *height;
@@ -37,7 +37,7 @@ class FormReader {
     fit_roof();
     // Many lie underground, but not all: to leave one out that does not would let a volume claim too much.
     if (parse_levels(tags_.get("layer")).value_or(0) < 0) {
-      remark("building below the ground", "layer", tags_.get("layer"), "its layer is not used");
+      remark(TagFault::below_ground, "layer", tags_.get("layer"), "its layer is not used");
     }
     if (on_posts_ && !bottom_tagged_) form_.deck_m = defaults_.roof_deck_m;
     return form_;
@@ -54,33 +54,30 @@ class FormReader {
     return "";
   }
 
-  void remark(std::string_view kind, std::string_view key, std::string_view value, std::string_view outcome) {
-    remarks_.push_back({std::string(kind), std::string(key).append("=").append(value).append(": ").append(outcome)});
+  void remark(TagFault fault, std::string_view key, std::string_view value, std::string_view outcome) {
+    remarks_.push_back(
+        {fault, std::string(key), std::string(key).append("=").append(value).append(": ").append(outcome)});
   }
 
-  /// The first of the keys that has a value from 0 to `most`; others are remarked on. `what`: for people.
+  /// The first of the keys that has a value from 0 to `most`; others are remarked on.
   template <typename Parse>
-  std::optional<double> number(std::initializer_list<std::string_view> keys, std::string_view what, const Parse& parse,
-                               double most) {
+  std::optional<double> number(std::initializer_list<std::string_view> keys, const Parse& parse, double most) {
     for (const std::string_view key : keys) {
       const std::string_view value = tags_.get(key);
       if (value.empty()) continue;
       const std::optional<double> result = parse(value);
       if (result && *result >= 0 && *result <= most) return result;
-      const std::string name(what);
-      const std::string kind = !result       ? name + (what == "levels" ? " that are no number" : " that is no length")
-                               : *result < 0 ? "negative " + name
-                                             : name + " beyond belief";
-      remark(kind, key, value, "taken as untagged");
+      const TagFault fault = !result ? TagFault::no_value : *result < 0 ? TagFault::negative : TagFault::beyond_belief;
+      remark(fault, key, value, "taken as untagged");
     }
     return std::nullopt;
   }
 
   std::optional<double> first_height() {
     for (const std::string_view key : {"height", "building:height", "est_height"}) {
-      const std::optional<double> height = number({key}, "height", parse_length_m, kHighest);
+      const std::optional<double> height = number({key}, parse_length_m, kHighest);
       if (height && *height >= kThinnest) return height;
-      if (height) remark("height of zero", key, tags_.get(key), "taken as untagged");
+      if (height) remark(TagFault::zero, key, tags_.get(key), "taken as untagged");
     }
     return std::nullopt;
   }
@@ -89,10 +86,9 @@ class FormReader {
     const std::string_view value = tags_.get(tags_.has("roof:shape") ? "roof:shape" : "building:roof:shape");
     if (!value.empty()) {
       const std::optional<RoofName> name = parse_roof_shape(value);
-      if (!name) remark("unknown roof shape", "roof:shape", value, "taken as flat");
+      if (!name) remark(TagFault::unknown_roof, "roof:shape", value, "taken as flat");
       if (name && !name->same) {
-        remark("roof shape built as the closest one", "roof:shape", value,
-               std::string("built as ").append(text(name->shape)));
+        remark(TagFault::other_roof, "roof:shape", value, std::string("built as ").append(text(name->shape)));
       }
       if (name) form_.roof = name->shape;
     }
@@ -102,23 +98,22 @@ class FormReader {
         tags_.get(tags_.has("roof:direction") ? "roof:direction" : "roof:slope:direction");
     form_.roof_direction_deg = parse_direction_deg(direction);
     if (!direction.empty() && !form_.roof_direction_deg) {
-      remark("roof direction that is none", "roof:direction", direction, "taken as untagged");
+      remark(TagFault::no_value, "roof:direction", direction, "taken as untagged");
     }
     if (form_.roof == RoofShape::skillion && !form_.roof_direction_deg) {
-      remark("skillion roof without a direction", "roof:shape", value, "falls across the outline's shorter side");
+      remark(TagFault::no_direction, "roof:shape", value, "falls across the outline's shorter side");
     }
     const std::string_view orientation = tags_.get("roof:orientation");
     form_.roof_across = orientation == "across";
     if (!orientation.empty() && orientation != "across" && orientation != "along") {
-      remark("roof orientation that is none", "roof:orientation", orientation, "taken as along");
+      remark(TagFault::no_value, "roof:orientation", orientation, "taken as along");
     }
   }
 
   void read_roof_height() {
-    roof_m_ = number({"roof:height", "building:roof:height"}, "roof height", parse_length_m, kHighest);
+    roof_m_ = number({"roof:height", "building:roof:height"}, parse_length_m, kHighest);
     if (roof_m_ && *roof_m_ == 0) form_.roof = RoofShape::flat;
-    const std::optional<double> levels =
-        number({"roof:levels", "building:roof:levels"}, "levels", parse_levels, kMostLevels);
+    const std::optional<double> levels = number({"roof:levels", "building:roof:levels"}, parse_levels, kMostLevels);
     if (!roof_m_ && levels && *levels > 0) roof_m_ = *levels * defaults_.roof_level_m;
     if (roof_m_ || form_.roof == RoofShape::flat) return;
     const bool round = form_.roof == RoofShape::dome || form_.roof == RoofShape::onion;
@@ -129,15 +124,15 @@ class FormReader {
     if (degrees && *degrees > 0 && *degrees <= kSteepest) {
       form_.pitch = {*degrees, false, 1};
     } else {
-      remark("roof angle that is none", "roof:angle", angle, "taken as untagged");
+      remark(TagFault::no_value, "roof:angle", angle, "taken as untagged");
     }
   }
 
   void read_bottom(const std::optional<double>& height) {
-    if (const auto bottom = number({"min_height"}, "min_height", parse_length_m, kHighest)) {
+    if (const auto bottom = number({"min_height"}, parse_length_m, kHighest)) {
       form_.bottom_m = *bottom;
       bottom_key_ = "min_height";
-    } else if (const auto level = number({"building:min_level"}, "levels", parse_levels, kMostLevels)) {
+    } else if (const auto level = number({"building:min_level"}, parse_levels, kMostLevels)) {
       // A building that says both its height and its levels says how high a level is.
       const bool own = height && levels_ && *levels_ > *level && *height > roof_m_.value_or(0);
       min_level_ = *level;
@@ -152,7 +147,7 @@ class FormReader {
     if (form_.bottom_m <= form_.top_m - kThinnest) return;
     const bool equal = std::abs(form_.bottom_m - form_.top_m) < kThinnest;
     form_.bottom_m = equal ? std::max(0.0, form_.top_m - defaults_.roof_deck_m) : 0;
-    remark(std::string(bottom_key_).append(" not below height"), bottom_key_, tags_.get(bottom_key_),
+    remark(TagFault::bottom_too_high, bottom_key_, tags_.get(bottom_key_),
            equal ? "taken as a deck below the height" : "taken as standing on the ground");
   }
 
@@ -160,19 +155,19 @@ class FormReader {
   void stack_levels() {
     double levels = levels_ ? *levels_ : default_levels();
     if (levels_ && *levels_ <= min_level_ && min_level_ > 0) {
-      remark("building:levels not above building:min_level", "building:levels", tags_.get("building:levels"),
+      remark(TagFault::bottom_too_high, "building:levels", tags_.get("building:levels"),
              "taken as counted from building:min_level");
       levels += min_level_;
     }
     const double roof = roof_m_.value_or(0);
     double walls = levels * defaults_.level_m;
     if (walls + roof < kThinnest || (walls < kThinnest && form_.pitch)) {
-      remark("no levels and no height", "building:levels", tags_.get("building:levels"), "taken as untagged");
+      remark(TagFault::zero, "building:levels", tags_.get("building:levels"), "taken as untagged");
       walls = std::max(default_levels(), 1.0) * defaults_.level_m;
     }
     if (form_.bottom_m > 0 && (walls < form_.bottom_m || walls + roof < form_.bottom_m + kThinnest)) {
       walls = form_.bottom_m + (roof >= kThinnest ? 0 : defaults_.level_m);
-      remark("no height above the bottom", bottom_key_, tags_.get(bottom_key_),
+      remark(TagFault::no_height, bottom_key_, tags_.get(bottom_key_),
              roof >= kThinnest ? "the roof stands on it" : "taken as one level high");
     }
     form_.top_m = walls + roof;
@@ -190,7 +185,7 @@ class FormReader {
     const double most = form_.top_m - form_.bottom_m;
     if (*roof_m_ > most + kRounding) {
       const std::string_view key = tags_.has("roof:height") ? "roof:height" : "roof:levels";
-      remark("roof higher than the building", key, tags_.get(key), "taken as all of the height");
+      remark(TagFault::roof_too_high, key, tags_.get(key), "taken as all of the height");
     }
     form_.roof_m = *roof_m_ > most - kRounding ? most : *roof_m_;
   }

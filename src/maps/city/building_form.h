@@ -53,8 +53,25 @@ struct BuildingForm {
 };
 
 /// What was not as it should be in an object's tags; each kind is counted in the report.
+/// What is wrong with a tag.
+enum class TagFault {
+  no_value,         ///< no length, number, angle or word that the key may have
+  negative,         ///< below zero, or zero where that is as wrong
+  zero,             ///< a height of zero
+  beyond_belief,    ///< too large
+  unknown_roof,     ///< a roof shape that is not known
+  other_roof,       ///< a roof shape that is built as the closest one
+  no_direction,     ///< a skillion roof that does not say where it falls
+  below_ground,     ///< a layer below the ground
+  bottom_too_high,  ///< the bottom is not below the top
+  no_height,        ///< nothing is left between bottom and top
+  roof_too_high,    ///< the roof is higher than the building
+  too_small,        ///< nothing is left to build
+};
+
 struct TagRemark {
-  std::string kind;  ///< "height that is no length", "unknown roof shape", "min_height not below height", …
+  TagFault fault;
+  std::string key;   ///< "height"; empty for a thing as a whole
   std::string what;  ///< "height=concrete: taken as untagged"
 };
 

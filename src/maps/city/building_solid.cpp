@@ -132,7 +132,8 @@ Solid make_solid(const Footprint& footprint, const BuildingForm& form, double gr
   const RoofFrame frame = open ? roof_frame(footprint, form) : RoofFrame{};
   const BuildingForm whole = settled(form, frame);
   if (!(whole.top_m > whole.bottom_m)) {
-    throw Error(ErrorKind::internal, "a building's top is not above its bottom", "building", "please report this");
+    throw Error(ErrorCode::internal_defect, "a building's top is not above its bottom", "building",
+                "please report this");
   }
   const Grid grid(footprint);
   std::vector<GridRing> rings{grid.to_grid(footprint.outer)};

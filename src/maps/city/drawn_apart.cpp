@@ -137,8 +137,8 @@ std::vector<GridRing> drawn_apart(const std::vector<GridRing>& rings) {
     const Meeting meeting = meeting_of(result);
     if (!meeting.crossing && !meeting.touching) return result;
   }
-  throw Error(ErrorKind::internal, "a footprint touches itself where there is no room to draw it apart", "footprint",
-              "please report this with the map");
+  throw Error(ErrorCode::internal_defect, "a footprint touches itself where there is no room to draw it apart",
+              "footprint", "please report this with the map");
 }
 
 }  // namespace vantage::internal::city

@@ -169,7 +169,8 @@ class Clipping {
     for (const GridRing* ring : clip_) clipper.AddPath(to_path(*ring, scale_), ClipperLib::ptClip, true);
     Paths paths;
     if (!clipper.Execute(what, paths, fill, fill)) {
-      throw Error(ErrorKind::internal, "outlines could not be clipped", "outline", "please report this with the map");
+      throw Error(ErrorCode::internal_defect, "outlines could not be clipped", "outline",
+                  "please report this with the map");
     }
     std::vector<GridRing> rings;
     for (const Path& path : paths) {
@@ -219,7 +220,8 @@ std::vector<GridPolygon> settled(std::vector<GridPolygon> polygons) {
     for (const GridRing& ring : rings) clipping.add(ring);
     polygons = clipping.run(ClipperLib::ctUnion, ClipperLib::pftEvenOdd, true);
   }
-  throw Error(ErrorKind::internal, "an outline goes on crossing itself", "outline", "please report this with the map");
+  throw Error(ErrorCode::internal_defect, "an outline goes on crossing itself", "outline",
+              "please report this with the map");
 }
 
 /// Takes out what is too small to build, holes too. Returns how many.

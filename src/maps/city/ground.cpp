@@ -52,7 +52,7 @@ terrain::Surface::Range Ground::range(const std::vector<Footprint>& footprints) 
   for (const Footprint& footprint : footprints) {
     const auto range = surface_->range(footprint.outer);
     if (!range) {
-      throw Error(ErrorKind::internal, "the ground does not reach under an outline", "", "please report this");
+      throw Error(ErrorCode::internal_defect, "the ground does not reach under an outline", "", "please report this");
     }
     all = {std::min(all.lowest, range->lowest), std::max(all.highest, range->highest)};
   }
@@ -62,7 +62,8 @@ terrain::Surface::Range Ground::range(const std::vector<Footprint>& footprints) 
 double Ground::height(const Vec2& at) const {
   if (!surface_) return 0;
   const auto height = surface_->height(at);
-  if (!height) throw Error(ErrorKind::internal, "the ground does not reach under a point", "", "please report this");
+  if (!height)
+    throw Error(ErrorCode::internal_defect, "the ground does not reach under a point", "", "please report this");
   return *height;
 }
 

@@ -47,8 +47,8 @@ std::string reasons_of(const std::vector<CityRecord>& skipped) {
   return text;
 }
 
-[[noreturn]] void fail(const std::string& problem, const std::string& where, const std::string& fix) {
-  throw Error(ErrorKind::input, problem, where, fix);
+[[noreturn]] void fail(ErrorCode code, const std::string& problem, const std::string& where, const std::string& fix) {
+  throw Error(code, problem, where, fix);
 }
 
 geo::LongitudeRange longitudes(const Bounds& b) { return {b[0], b[2]}; }
@@ -94,13 +94,14 @@ std::optional<osm::Region> checked_circle(const CityRegion& region) {
   const auto [latitude, longitude] = *region.center_deg;
   if (!(std::abs(latitude) <= 90) || !(std::abs(longitude) <= 180)) {
     const bool is_swapped = std::abs(longitude) <= 90 && std::abs(latitude) <= 180;
-    fail(formatted("there is no place at latitude %g, longitude %g", latitude, longitude), "center",
+    fail(ErrorCode::not_on_earth, formatted("there is no place at latitude %g, longitude %g", latitude, longitude),
+         "center",
          is_swapped ? "write the latitude first: " + formatted("%g,%g", longitude, latitude)
                     : "give degrees: the latitude from -90 to 90, then the longitude from -180 to 180");
   }
   if (!(region.radius_m > 0) || !(region.radius_m <= kMostRadius)) {
-    fail("a radius of " + formatted("%g m", region.radius_m, 0) + " is not one to build", "radius",
-         "give metres, more than 0 and at most 50000");
+    fail(ErrorCode::region_invalid, "a radius of " + formatted("%g m", region.radius_m, 0) + " is not one to build",
+         "radius", "give metres, more than 0 and at most 50000");
   }
   return osm::Region{{{LonLat{longitude, latitude}, region.radius_m}}, {}};
 }
@@ -110,7 +111,7 @@ std::optional<osm::Region> checked_box(const Bounds& b) {
   // One across the antimeridian has its west at the higher number: so has one whose ends were mixed up.
   const bool is_reversed = b[0] > b[2] && longitudes(b).width_deg() > 180;
   if (!in_range || is_reversed || b[0] == b[2] || !(b[1] < b[3])) {
-    fail("the box holds nothing: " + bounds_text(b), "bbox",
+    fail(ErrorCode::region_invalid, "the box holds nothing: " + bounds_text(b), "bbox",
          "give degrees as west,south,east,north: the lower longitude, the lower latitude, the higher ones");
   }
   const double nearest_equator = b[1] <= 0 && b[3] >= 0 ? 0 : std::min(std::abs(b[1]), std::abs(b[3]));
@@ -120,7 +121,8 @@ std::optional<osm::Region> checked_box(const Bounds& b) {
                            : longitudes(b).width_deg() * std::cos((b[1] + b[3]) / 2 * M_PI / 180);
   const double across = std::max(b[3] - b[1], width) * 111.0;
   if (across > 2 * kMostRadius / 1e3) {
-    fail("the box is " + formatted("%.0f km across", across, 0), "bbox", "give one of at most 100 km");
+    fail(ErrorCode::region_invalid, "the box is " + formatted("%.0f km across", across, 0), "bbox",
+         "give one of at most 100 km");
   }
   return osm::Region{{}, b};
 }
@@ -161,10 +163,11 @@ LonLat middle_round_pole(const osm::Extract& extract, double latitude_deg) {
 
 std::optional<osm::Region> checked_region(const CityRegion& region) {
   if (region.center_deg && region.bbox_deg) {
-    fail("a centre and a box at once", "center, bbox", "give a centre with a radius, or a box");
+    fail(ErrorCode::conflicting_keys, "a centre and a box at once", "center, bbox",
+         "give a centre with a radius, or a box");
   }
   if (!region.center_deg && region.radius_m != 0)
-    fail("a radius without a centre", "radius", "give the centre as well");
+    fail(ErrorCode::missing_key, "a radius without a centre", "radius", "give the centre as well");
   if (region.center_deg) return checked_circle(region);
   if (region.bbox_deg) return checked_box(*region.bbox_deg);
   return {};
@@ -190,14 +193,15 @@ void check_overlap(const CityRegion& region, const osm::Extract& extract, const 
   if (region.center_deg) {
     const auto [latitude, longitude] = *region.center_deg;
     if (overlap(box_round(*region.center_deg, region.radius_m), known)) return;
-    fail(formatted("the centre, latitude %g, longitude %g, lies outside the map", latitude, longitude), file.string(),
+    fail(ErrorCode::region_outside,
+         formatted("the centre, latitude %g, longitude %g, lies outside the map", latitude, longitude), file.string(),
          holds(known, longitude, latitude)
              ? "latitude and longitude are the wrong way round: write " + formatted("%g,%g", longitude, latitude)
              : "the map holds " + bounds_text(known));
   }
   if (region.bbox_deg && !overlap(*region.bbox_deg, known)) {
     const Bounds& b = *region.bbox_deg;
-    fail("the box lies outside the map", file.string(),
+    fail(ErrorCode::region_outside, "the box lies outside the map", file.string(),
          overlap({b[1], b[0], b[3], b[2]}, known)
              ? "latitude and longitude are the wrong way round: write west,south,east,north"
              : "the map holds " + bounds_text(known));
@@ -213,15 +217,15 @@ void Outside::add(std::size_t more, double nearest) {
 void fail_empty(const CityRegion& region, const osm::Extract& extract, const Outside& outside,
                 const std::vector<CityRecord>& skipped, const std::filesystem::path& file) {
   if (outside.objects == 0 && skipped.empty()) {
-    fail("the map holds no building and nothing else to build", file.string(),
+    fail(ErrorCode::map_empty, "the map holds no building and nothing else to build", file.string(),
          "give an extract with buildings; it has " + std::to_string(extract.nodes) + " nodes and " +
              std::to_string(extract.ways) + " ways, " + bounds_text(extract.bounds_deg));
   }
   if (outside.objects == 0) {
-    fail("nothing that the map holds can be built", file.string(),
+    fail(ErrorCode::map_empty, "nothing that the map holds can be built", file.string(),
          "correct it, or give another one; it is skipped because of: " + reasons_of(skipped));
   }
-  fail("there is nothing to build in the area", file.string(),
+  fail(ErrorCode::region_empty, "there is nothing to build in the area", file.string(),
        "the nearest of " + std::to_string(outside.objects) + " objects is " +
            formatted("%.0f m", outside.nearest_m, 0) +
            (region.center_deg ? " from the centre: give a larger radius, or another centre"

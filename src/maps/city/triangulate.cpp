@@ -57,7 +57,7 @@ std::vector<Triangle> triangulate(const std::vector<GridRing>& rings) {
     }
     return result;
   } catch (const CDT::Error& error) {
-    throw Error(ErrorKind::internal, std::string("an outline could not be triangulated: ").append(error.what()),
+    throw Error(ErrorCode::internal_defect, std::string("an outline could not be triangulated: ").append(error.what()),
                 "outline", "please report this with the map");
   }
 }

@@ -171,7 +171,7 @@ Extract read_extract(const std::filesystem::path& file, const ReadOptions& optio
   core::ProgressReporter watch(progress, file);
   const MapObjects objects = load_objects(map, options.wanted, watch);
   if (objects.nodes + objects.ways_in_file + objects.relations_in_file == 0) {
-    throw Error(ErrorKind::input, "the map is empty: there is no node, way or relation in it", file.string(),
+    throw Error(ErrorCode::map_empty, "the map is empty: there is no node, way or relation in it", file.string(),
                 "download or export the map again");
   }
   watch.begin("assemble areas");

@@ -23,8 +23,8 @@ namespace {
 constexpr std::string_view kAgain = "download or export the map again";
 constexpr std::string_view kFormats = "give an .osm, .osm.gz, .osm.bz2 or .osm.pbf file";
 
-[[noreturn]] void fail(const std::string& where, std::string problem, std::string_view fix) {
-  throw Error(ErrorKind::input, std::move(problem), where, std::string(fix));
+[[noreturn]] void fail(ErrorCode code, const std::string& where, std::string problem, std::string_view fix) {
+  throw Error(code, std::move(problem), where, std::string(fix));
 }
 
 /// The first bytes of a regular file.
@@ -33,8 +33,8 @@ std::string first_bytes(const std::filesystem::path& path) {
   // O_NONBLOCK: opening a pipe that nobody writes to would wait for ever.
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (descriptor < 0) {
-    if (errno == ENOENT) fail(where, "the file does not exist", "correct the path");
-    fail(where, std::string("the file cannot be opened: ") + std::strerror(errno),
+    if (errno == ENOENT) fail(ErrorCode::file_not_found, where, "the file does not exist", "correct the path");
+    fail(ErrorCode::file_unreadable, where, std::string("the file cannot be opened: ") + std::strerror(errno),
          "check the path and the file's permissions");
   }
   struct stat status {};
@@ -42,10 +42,13 @@ std::string first_bytes(const std::filesystem::path& path) {
   std::array<char, 4096> bytes{};
   const ssize_t got = known && S_ISREG(status.st_mode) ? ::read(descriptor, bytes.data(), bytes.size()) : 0;
   ::close(descriptor);
-  if (known && S_ISDIR(status.st_mode)) fail(where, "the file is a directory", "name a file in it");
-  if (known && !S_ISREG(status.st_mode)) fail(where, "the file is not a regular file", "write it to a file first");
-  if (!known || got < 0) fail(where, "the file cannot be read", "check the file and its disk");
-  if (got == 0) fail(where, "the file is empty", kAgain);
+  if (known && S_ISDIR(status.st_mode))
+    fail(ErrorCode::not_a_file, where, "the file is a directory", "name a file in it");
+  if (known && !S_ISREG(status.st_mode))
+    fail(ErrorCode::not_a_file, where, "the file is not a regular file", "write it to a file first");
+  if (!known || got < 0)
+    fail(ErrorCode::file_unreadable, where, "the file cannot be read", "check the file and its disk");
+  if (got == 0) fail(ErrorCode::file_empty, where, "the file is empty", kAgain);
   return {bytes.data(), static_cast<std::size_t>(got)};
 }
 
@@ -98,19 +101,21 @@ bool is_pbf(std::string_view bytes) {
     const std::string place = error.line > 0 ? where + ", line " + std::to_string(error.line) : where;
     const bool cut_off = error.error_code == XML_ERROR_NO_ELEMENTS || error.error_code == XML_ERROR_UNCLOSED_TOKEN ||
                          error.error_code == XML_ERROR_UNCLOSED_CDATA_SECTION;
-    fail(place, cut_off ? "the file ends too early" : "the XML is broken: " + error.error_string, kAgain);
+    fail(ErrorCode::map_syntax, place, cut_off ? "the file ends too early" : "the XML is broken: " + error.error_string,
+         kAgain);
   } catch (const osmium::gzip_error& error) {
     const bool cut_off = error.gzip_error_code == Z_BUF_ERROR;
-    fail(where, cut_off ? "the gzip data ends too early" : std::string("the gzip data is corrupt: ") + error.what(),
-         kAgain);
+    fail(ErrorCode::compression_broken, where,
+         cut_off ? "the gzip data ends too early" : std::string("the gzip data is corrupt: ") + error.what(), kAgain);
   } catch (const osmium::bzip2_error& error) {
     const bool cut_off = error.bzip2_error_code == BZ_UNEXPECTED_EOF;
-    fail(where, cut_off ? "the bzip2 data ends too early" : std::string("the bzip2 data is corrupt: ") + error.what(),
-         kAgain);
+    fail(ErrorCode::compression_broken, where,
+         cut_off ? "the bzip2 data ends too early" : std::string("the bzip2 data is corrupt: ") + error.what(), kAgain);
   } catch (const std::bad_alloc&) {
-    fail(where, "the file does not fit into memory, or is garbled", "cut it to the part that is needed");
+    fail(ErrorCode::out_of_memory, where, "the file does not fit into memory, or is garbled",
+         "cut it to the part that is needed");
   } catch (const std::exception& error) {
-    fail(where, std::string("the file is cut off or garbled: ") + error.what(), kAgain);
+    fail(ErrorCode::map_syntax, where, std::string("the file is cut off or garbled: ") + error.what(), kAgain);
   }
 }
 
@@ -125,7 +130,8 @@ MapFile open_map_file(const std::filesystem::path& path) {
   if (root == "osm") return {path, "osm"};
   std::string_view fix = kFormats;
   if (root == "osmChange") fix = "apply it to a map first (osmium apply-changes)";
-  fail(path.string(), "the file is not an OpenStreetMap file: it looks like " + guess(bytes, root), fix);
+  fail(ErrorCode::map_format_unknown, path.string(),
+       "the file is not an OpenStreetMap file: it looks like " + guess(bytes, root), fix);
 }
 
 void read_objects(const MapFile& file, osmium::osm_entity_bits::type kinds, const core::ProgressReporter& progress,

@@ -36,8 +36,8 @@ bool is_on_earth(LonLat position) {
   return std::abs(position.latitude_deg) <= 90 && std::abs(position.longitude_deg) <= 180;  // false for NaN
 }
 
-[[noreturn]] void fail(std::string problem, std::string fix) {
-  throw Error(ErrorKind::input, std::move(problem), "the region", std::move(fix));
+[[noreturn]] void fail(ErrorCode code, std::string problem, std::string fix) {
+  throw Error(code, std::move(problem), "the region", std::move(fix));
 }
 
 using Plane = std::array<double, 2>;
@@ -56,18 +56,20 @@ RegionFilter::RegionFilter(const std::optional<Region>& region) {
   if (region->box_deg) {
     const auto& [west, south, east, north] = *region->box_deg;
     if (!is_on_earth({west, south}) || !is_on_earth({east, north})) {
-      fail("the box is not on the earth", "give west, south, east, north in degrees");
+      fail(ErrorCode::not_on_earth, "the box is not on the earth", "give west, south, east, north in degrees");
     }
-    if (!(south < north) || west == east) fail("the box has no extent", "give west, south, east, north in degrees");
+    if (!(south < north) || west == east)
+      fail(ErrorCode::region_invalid, "the box has no extent", "give west, south, east, north in degrees");
     box_ = region->box_deg;
     const double width = west < east ? east - west : east - west + 360;
     centre = {std::remainder(west + width / 2, 360), (south + north) / 2};
   }
   if (region->circle) {
     circle_ = Circle{region->circle->first, region->circle->second};
-    if (!is_on_earth(circle_->centre)) fail("the centre is not on the earth", "give its degrees");
+    if (!is_on_earth(circle_->centre))
+      fail(ErrorCode::not_on_earth, "the centre is not on the earth", "give its degrees");
     if (!(circle_->radius_m > 0) || !std::isfinite(circle_->radius_m)) {
-      fail("the radius is not above zero", "give it in metres");
+      fail(ErrorCode::region_invalid, "the radius is not above zero", "give it in metres");
     }
     centre = circle_->centre;
   }

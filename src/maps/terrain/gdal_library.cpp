@@ -39,8 +39,7 @@ std::vector<std::string> gdal_library_names() {
 }
 
 const GdalLibrary* load_gdal_library(std::string& why_not, const std::vector<std::string>& names) {
-  const std::string remedy = "; install libgdal32 (Debian 12), or GDAL 3.1 or later";
-  why_not = "GDAL is not installed" + remedy;
+  why_not = "GDAL is not installed";
   for (const std::string& name : names) {
     void* const handle = dlopen(name.c_str(), RTLD_LAZY | RTLD_LOCAL);
     if (!handle) continue;
@@ -48,7 +47,7 @@ const GdalLibrary* load_gdal_library(std::string& why_not, const std::vector<std
     std::unique_ptr<GdalLibrary> library = functions_of(handle, missing);
     if (!missing.empty()) {
       why_not = "GDAL is too old: ";
-      why_not.append(name).append(" lacks ").append(missing).append(remedy);
+      why_not.append(name).append(" lacks ").append(missing);
       continue;
     }
     {
@@ -64,9 +63,8 @@ const GdalLibrary& gdal(const std::filesystem::path& file) {
   static std::string why_not;
   static const GdalLibrary* const library = load_gdal_library(why_not, gdal_library_names());
   if (!library) {
-    const std::size_t remedy = why_not.find("; ");
-    throw Error(ErrorKind::input, "rasters are read with GDAL: " + why_not.substr(0, remedy), file.string(),
-                why_not.substr(remedy + 2));
+    throw Error(ErrorCode::library_missing, "rasters are read with GDAL: " + why_not, file.string(),
+                "install libgdal32 (Debian 12), or GDAL 3.1 or later");
   }
   return *library;
 }

@@ -47,8 +47,8 @@ struct GdalLibrary {
 std::vector<std::string> gdal_library_names();
 
 /// Loads the first of `names` that is there, with its drivers registered. Null when there is none or it lacks a
-/// function; `why_not` then is a sentence with what to install. Stays loaded until the program ends: GDAL keeps state
-/// for threads and for the exit. Takes about 0.1 s the first time.
+/// function; `why_not` then says which. Stays loaded until the program ends: GDAL keeps state for threads and for the
+/// exit. Takes about 0.1 s the first time.
 const GdalLibrary* load_gdal_library(std::string& why_not, const std::vector<std::string>& names);
 
 /// The same with the usual names, once per program. Throws Error(input) for `file`, which is what was to be read.

@@ -80,7 +80,7 @@ bool is_swapped(const HeightGrid& grid, const Window& window) {
   const geo::LocalFrame frame(window.origin);
   const auto edges = outline({-0.5, -0.5}, {grid.columns - 0.5, grid.rows - 0.5});
   throw Error(
-      ErrorKind::input,
+      ErrorCode::region_outside,
       "the raster does not cover the area: it has " +
           bounds_text(edges, [&](const Eigen::Vector2d& p) { return grid.position(p); }) + ", the area " +
           bounds_text(outline(window.min, window.max), [&](const Eigen::Vector2d& p) { return frame.to_lonlat(p); }),
@@ -123,7 +123,8 @@ std::pair<Range, Range> columns_and_rows(const HeightGrid& grid, const Window& w
 
 PixelWindow pixels_of(const HeightGrid& grid, const Window& window) {
   if (!window.min.allFinite() || !window.max.allFinite() || !(window.min.array() < window.max.array()).all()) {
-    throw Error(ErrorKind::input, "the area has no extent", grid.file.string(), "give it a width and a length");
+    throw Error(ErrorCode::region_invalid, "the area has no extent", grid.file.string(),
+                "give it a width and a length");
   }
   std::pair<Range, Range> ranges;
   try {
@@ -188,8 +189,8 @@ double unit_m(const RasterFile& raster, const geo::CoordinateSystem& crs, const 
   for (const char* foot : {"us survey foot", "us survey feet", "us-ft", "ftus", "us_ft", "foot_us", "us-foot"}) {
     if (unit == foot) return 1200.0 / 3937 * upward;
   }
-  throw Error(ErrorKind::input, "the raster's unit of height is '" + raster.unit().substr(0, 40) + "'", file.string(),
-              "convert the heights to metres with gdal_calc.py");
+  throw Error(ErrorCode::raster_not_heights, "the raster's unit of height is '" + raster.unit().substr(0, 40) + "'",
+              file.string(), "convert the heights to metres with gdal_calc.py");
 }
 
 std::string vertical_text(const RasterFile& raster, const geo::CoordinateSystem& crs,
@@ -216,7 +217,7 @@ HeightGrid describe(const RasterFile& raster, const std::filesystem::path& file)
 HeightGrid read_pixels(const RasterFile& raster, HeightGrid grid, const PixelWindow& pixels, const Progress& callback) {
   const std::string place = grid.file.string();
   if (std::int64_t(pixels.columns) * pixels.rows > kMaxPosts) {
-    throw Error(ErrorKind::input,
+    throw Error(ErrorCode::raster_too_large,
                 "the area has " + std::to_string(std::int64_t(pixels.columns) * pixels.rows) +
                     " posts of the raster; at most " + std::to_string(kMaxPosts) + " can be read",
                 place, "make the area smaller, or the raster coarser with gdalwarp -tr");
@@ -236,7 +237,7 @@ HeightGrid read_pixels(const RasterFile& raster, HeightGrid grid, const PixelWin
   grid.rows = pixels.rows;
   grid.voids = fill_voids(grid.heights_m, grid.columns, grid.rows);
   if (std::isnan(grid.heights_m.front())) {
-    throw Error(ErrorKind::input, "the raster has no value in the area: all of its posts are void", place,
+    throw Error(ErrorCode::region_empty, "the raster has no value in the area: all of its posts are void", place,
                 "give a raster that has heights there");
   }
   return grid;
@@ -279,7 +280,7 @@ HeightGrid read_height_pixels(const std::filesystem::path& file, const PixelWind
   HeightGrid grid = describe(raster, file);
   const auto fits = [](int first, int count, int all) { return first >= 0 && count > 0 && count <= all - first; };
   if (!fits(pixels.first_column, pixels.columns, grid.columns) || !fits(pixels.first_row, pixels.rows, grid.rows)) {
-    throw Error(ErrorKind::input,
+    throw Error(ErrorCode::region_outside,
                 "the window of pixels is empty or sticks out of the raster, which has " + std::to_string(grid.columns) +
                     " columns and " + std::to_string(grid.rows) + " rows",
                 file.string(), "give the first column and row, counted from 0, and how many of each");

@@ -33,10 +33,10 @@ void check_regular(const fs::path& file) {
   std::error_code error;
   const fs::file_status status = fs::status(file, error);
   if (!fs::exists(status)) {
-    throw Error(ErrorKind::input, "the raster does not exist", file.string(), "check the path");
+    throw Error(ErrorCode::file_not_found, "the raster does not exist", file.string(), "check the path");
   }
   if (!fs::is_regular_file(status)) {
-    throw Error(ErrorKind::input, "the raster is not a regular file", file.string(), "name a file on disk");
+    throw Error(ErrorCode::not_a_file, "the raster is not a regular file", file.string(), "name a file on disk");
   }
 }
 
@@ -84,8 +84,8 @@ RasterFile::RasterFile(const fs::path& file) : file_(file), library_((check_regu
       std::string_view(library_.GDALGetDriverShortName(library_.GDALGetDatasetDriver(dataset_.get()))) == "SRTMHGT";
 }
 
-void RasterFile::fail(const std::string& problem, const std::string& fix) const {
-  throw Error(ErrorKind::input, problem, file_.string(), fix);
+void RasterFile::fail(ErrorCode code, const std::string& problem, const std::string& fix) const {
+  throw Error(code, problem, file_.string(), fix);
 }
 
 void RasterFile::open() {
@@ -95,6 +95,7 @@ void RasterFile::open() {
               DatasetCloser{&library_}};
   if (!dataset_) {
     fail(
+        ErrorCode::raster_unreadable,
         "not a raster that GDAL can read" + (messages.first_error().empty() ? "" : " (" + messages.first_error() + ")"),
         "give a GeoTIFF, an SRTM .hgt under its own name (N43E007.hgt), or another raster of heights");
   }
@@ -108,14 +109,18 @@ void RasterFile::check_bands() const {
     return library_.GDALGetRasterColorInterpretation(library_.GDALGetRasterBand(dataset_.get(), band));
   };
   if (count == 0)
-    fail("the raster has no band", "give a file with one band of heights; convert it with gdal_translate");
-  if (colour(1) == kPalette || colour(1) == kRed) fail("this is a picture, not heights", "give a raster of heights");
+    fail(ErrorCode::raster_not_heights, "the raster has no band",
+         "give a file with one band of heights; convert it with gdal_translate");
+  if (colour(1) == kPalette || colour(1) == kRed)
+    fail(ErrorCode::raster_not_heights, "this is a picture, not heights", "give a raster of heights");
   if (count > 1 && !(count == 2 && colour(2) == kAlpha)) {
-    fail("the raster has " + std::to_string(count) + " bands; heights have one", "choose one with gdal_translate -b");
+    fail(ErrorCode::raster_not_heights, "the raster has " + std::to_string(count) + " bands; heights have one",
+         "choose one with gdal_translate -b");
   }
   const int type = library_.GDALGetRasterDataType(library_.GDALGetRasterBand(dataset_.get(), 1));
   if (type >= kFirstComplex && type <= kLastComplex) {
-    fail("the raster's values are complex numbers, not heights", "give a raster of heights");
+    fail(ErrorCode::raster_not_heights, "the raster's values are complex numbers, not heights",
+         "give a raster of heights");
   }
 }
 
@@ -125,29 +130,34 @@ void RasterFile::read_georeference() {
   void* const system = library_.GDALGetSpatialRef(dataset_.get());
   const bool placed = library_.GDALGetGeoTransform(dataset_.get(), transform) == 0;
   if (!placed && !system) {
-    fail("the raster does not say where on the earth it lies",
+    fail(ErrorCode::not_georeferenced, "the raster does not say where on the earth it lies",
          "give a georeferenced one, or assign its place and its "
          "system with gdal_translate -a_ullr and -a_srs");
   }
-  if (!placed) fail("the raster does not say where its corner lies", "assign it with gdal_translate -a_ullr");
+  if (!placed)
+    fail(ErrorCode::not_georeferenced, "the raster does not say where its corner lies",
+         "assign it with gdal_translate -a_ullr");
   if (!system) {
-    fail("the raster has no coordinate reference system",
+    fail(ErrorCode::crs_missing, "the raster has no coordinate reference system",
          "assign it, as in gdal_translate -a_srs EPSG:4326 in out.tif");
   }
   if (transform[2] != 0 || transform[4] != 0) {
-    fail("the raster's rows do not run east (it is rotated or sheared)", "straighten it with gdalwarp");
+    fail(ErrorCode::raster_grid_unsupported, "the raster's rows do not run east (it is rotated or sheared)",
+         "straighten it with gdalwarp");
   }
   corner_ = {transform[0], transform[3]};
   pixel_ = {transform[1], transform[5]};
   if (!corner_.allFinite() || !pixel_.allFinite() || pixel_.x() == 0 || pixel_.y() == 0) {
-    fail("the raster's pixels have no size", "assign it with gdal_translate -a_ullr");
+    fail(ErrorCode::raster_grid_unsupported, "the raster's pixels have no size",
+         "assign it with gdal_translate -a_ullr");
   }
   char* wkt = nullptr;
   const char* const options[] = {"FORMAT=WKT2_2019", nullptr};
   const bool exported = library_.OSRExportToWktEx(system, &wkt, options) == 0;
   const std::unique_ptr<char, void (*)(void*)> text(wkt, library_.VSIFree);
   if (!exported || !text) {
-    fail("the raster's coordinate reference system cannot be read", "assign it with gdal_translate -a_srs");
+    fail(ErrorCode::crs_unusable, "the raster's coordinate reference system cannot be read",
+         "assign it with gdal_translate -a_srs");
   }
   crs_wkt_ = text.get();
 }
@@ -162,7 +172,8 @@ void RasterFile::read_rows(const PixelWindow& pixels, int begin, int end, float*
                                  end - begin, into, pixels.columns, end - begin, type, 0, 0) == 0;
   };
   if (!get(band_, values.data(), kFloat64) || !get(library_.GDALGetMaskBand(band_), mask.data(), kByte)) {
-    fail("the raster is damaged: it cannot be read to its end" +
+    fail(ErrorCode::raster_unreadable,
+         "the raster is damaged: it cannot be read to its end" +
              (messages.first_error().empty() ? "" : " (" + messages.first_error() + ")"),
          "fetch it again");
   }

@@ -10,6 +10,7 @@
 
 #include "maps/terrain/gdal_library.h"
 #include "maps/terrain/height_grid.h"
+#include "vantage/error.h"
 
 namespace vantage::internal::terrain {
 
@@ -42,7 +43,7 @@ class RasterFile {
   void check_bands() const;
   void read_georeference();
   void read_rows(const PixelWindow& pixels, int begin, int end, float* heights) const;
-  [[noreturn]] void fail(const std::string& problem, const std::string& fix) const;
+  [[noreturn]] void fail(ErrorCode code, const std::string& problem, const std::string& fix) const;
 
   std::filesystem::path file_;
   const GdalLibrary& library_;

@@ -20,20 +20,22 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void refuse(const std::string& problem, const fs::path& file, const std::string& fix) {
-  throw Error(ErrorKind::input, problem, file.string(), fix);
+[[noreturn]] void refuse(ErrorCode code, const std::string& problem, const fs::path& file, const std::string& fix) {
+  throw Error(code, problem, file.string(), fix);
 }
 
 void check(const RasterOptions& options, const fs::path& file) {
   const RasterRegion& region = options.region;
   if (int(region.center_deg.has_value()) + int(region.bbox_deg.has_value()) + int(region.pixels.has_value()) > 1) {
-    refuse("the region is given in more than one way", file, "give a centre, a box or pixels");
+    refuse(ErrorCode::region_invalid, "the region is given in more than one way", file,
+           "give a centre, a box or pixels");
   }
   if (region.center_deg && !(region.radius_m > 0 && region.radius_m < 1e6)) {
-    refuse("the region has no extent", file, "give a radius above 0 and below 1000 km");
+    refuse(ErrorCode::region_invalid, "the region has no extent", file, "give a radius above 0 and below 1000 km");
   }
   if (!(options.max_error_m >= 0)) {
-    refuse("the error allowed to the surface is negative or not a number", file, "give metres, 0 or more");
+    refuse(ErrorCode::value_out_of_range, "the error allowed to the surface is negative or not a number", file,
+           "give metres, 0 or more");
   }
 }
 
@@ -44,7 +46,7 @@ Window window_round(const std::array<double, 4>& bbox_deg, const fs::path& file)
   const bool valid = std::abs(west) <= 180 && std::abs(given_east) <= 180 && south >= -90 && north <= 90 &&
                      south < north && east > west;
   if (!valid) {
-    refuse("the box has no area or is not on the earth", file,
+    refuse(ErrorCode::region_invalid, "the box has no area or is not on the earth", file,
            "give west, south, east and north in degrees, in this order");
   }
   const double middle = std::remainder((west + east) / 2, 360);
@@ -160,7 +162,8 @@ std::vector<bool> inside_border(const Tin& tin, std::uint32_t border_size) {
     }
   }
   if (crossings != border_size) {
-    throw Error(ErrorKind::internal, "the border of a raster is not among the edges of its triangles", "terrain", "");
+    throw Error(ErrorCode::internal_defect, "the border of a raster is not among the edges of its triangles", "terrain",
+                "");
   }
   return inside;
 }
@@ -198,7 +201,8 @@ RasterScene scene_from_raster(const std::filesystem::path& file, const RasterOpt
   check(options, file);
   const HeightGrid grid = read(file, options.region, callback);
   if (grid.columns < 2 || grid.rows < 2) {
-    refuse("the region has a single row or column of posts, which is no surface", file, "give a larger region");
+    refuse(ErrorCode::region_invalid, "the region has a single row or column of posts, which is no surface", file,
+           "give a larger region");
   }
   const internal::geo::LocalFrame frame(origin_of(grid, options, file));
   internal::core::ProgressReporter progress(callback, file);

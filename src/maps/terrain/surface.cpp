@@ -52,7 +52,7 @@ bool is_inside(const std::vector<Eigen::Vector2d>& ring, const Eigen::Vector2d& 
 }  // namespace
 
 Surface::Surface(Mesh mesh) : mesh_(std::move(mesh)) {
-  if (mesh_.empty()) throw Error(ErrorKind::internal, "a surface without triangles", "terrain", "");
+  if (mesh_.empty()) throw Error(ErrorCode::internal_defect, "a surface without triangles", "terrain", "");
   const Box box = bounding_box(mesh_);
   min_ = flat(box.min);
   max_ = flat(box.max);

@@ -67,7 +67,7 @@ Samples sample(const HeightGrid& grid, const geo::LocalFrame& frame, const Eigen
     const Eigen::Vector2d at = grid.column_row(frame.to_lonlat(corners[i]));
     const Eigen::Vector2d last(grid.columns - 1, grid.rows - 1);
     if (at.minCoeff() < -0.5 - 1e-6 || (last - at).minCoeff() < -0.5 - 1e-6) {
-      throw Error(ErrorKind::input, "the raster does not cover the area of the terrain", grid.file.string(),
+      throw Error(ErrorCode::region_outside, "the raster does not cover the area of the terrain", grid.file.string(),
                   "read it with the area as its window");
     }
     samples.corners[i] = lifted(corners[i], grid.height_m(at));
@@ -121,12 +121,12 @@ std::vector<Tin::Middle> middles(const HeightGrid& grid, const Samples& samples,
 Triangulation triangulate(const HeightGrid& grid, const geo::LocalFrame& frame, const Eigen::Vector2d& min,
                           const Eigen::Vector2d& max, double max_error_m, const Progress& callback) {
   if (!min.allFinite() || !max.allFinite() || !((max - min).minCoeff() > 2 * kOnBorder_m)) {
-    throw Error(ErrorKind::input, "the area of the terrain has no extent", grid.file.string(),
+    throw Error(ErrorCode::region_invalid, "the area of the terrain has no extent", grid.file.string(),
                 "give it a width and a length");
   }
   if (!(max_error_m >= 0)) {
-    throw Error(ErrorKind::input, "the error allowed to the terrain is negative or not a number", grid.file.string(),
-                "give metres, 0 or more");
+    throw Error(ErrorCode::value_out_of_range, "the error allowed to the terrain is negative or not a number",
+                grid.file.string(), "give metres, 0 or more");
   }
   core::ProgressReporter progress(callback, grid.file);
   progress.begin("triangulating the terrain");
