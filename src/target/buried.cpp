@@ -129,7 +129,7 @@ std::optional<std::string> buried_note(const PreparedScene::Data& scene, const T
   const std::optional<Cover> cover = cover_over(scene, frame, lengths.lift);
   if (!cover) return std::nullopt;
   const int decimals = HeightStep(lengths).decimals;
-  std::string note = "nothing of the scene is exact::below target \"" + target.name + "\", and \"" +
+  std::string note = "nothing of the scene is below target \"" + target.name + "\", and \"" +
                      display_name(scene.objects[cover->object]) + "\" is " + core::fixed_text(cover->height, decimals) +
                      " m above it: if that is the ground, the target is under it; check the scene's up axis and scale";
   const auto height = height_over_ground(scene, frame, lengths, cover->object);
