@@ -9,6 +9,7 @@
 #include "vantage/constraints.h"
 #include "vantage/scene.h"
 #include "vantage/target.h"
+#include "vantage/warning.h"
 
 namespace vantage {
 
@@ -29,10 +30,10 @@ class PreparedTarget {
 
   /// Of a part as it is used, lift included.
   const TargetFrame& frame(std::size_t part = 0) const;
-  double lift_m(std::size_t part) const;          ///< how far it was raised
-  double lift_m() const;                          ///< the largest
-  const std::vector<std::string>& notes() const;  ///< what to know before relying on results, a sentence each: the
-                                                  ///< target seems to be under the ground
+  double lift_m(std::size_t part) const;      ///< how far it was raised
+  double lift_m() const;                      ///< the largest
+  const std::vector<Warning>& notes() const;  ///< what to know before relying on results: the target seems to be
+                                              ///< under the ground
 
   /// The same of one part alone.
   PreparedTarget part(std::size_t index) const;

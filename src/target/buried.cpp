@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "core/number_text.h"
@@ -124,8 +125,8 @@ std::optional<Cover> cover_over(const PreparedScene::Data& scene, const TargetFr
 
 }  // namespace
 
-std::optional<std::string> buried_note(const PreparedScene::Data& scene, const Target& target, const TargetFrame& frame,
-                                       const Lengths& lengths) {
+std::optional<Warning> buried_note(const PreparedScene::Data& scene, const Target& target, const TargetFrame& frame,
+                                   const Lengths& lengths) {
   const std::optional<Cover> cover = cover_over(scene, frame, lengths.lift);
   if (!cover) return std::nullopt;
   const int decimals = HeightStep(lengths).decimals;
@@ -139,7 +140,7 @@ std::optional<std::string> buried_note(const PreparedScene::Data& scene, const T
                             : "offset: " + core::fixed_text(target.offset_m + *height, decimals);
     note += " clears it";
   }
-  return note;
+  return Warning{WarningCode::target_underground, std::move(note)};
 }
 
 }  // namespace vantage::target
