@@ -189,7 +189,7 @@ TEST_F(CityTest, SaysWhatItMadeUp) {
   EXPECT_EQ(open.fate, Fate::repaired);
   testing::expect_wording(open.reason);
   ASSERT_EQ(open.remarks.size(), 1U);
-  testing::expect_wording(open.remarks[0]);
+  testing::expect_wording(open.remarks[0].text);
   EXPECT_EQ(torn.fate, Fate::repaired);
   testing::expect_wording(torn.reason);
   EXPECT_EQ(wall.fate, Fate::repaired);
@@ -247,7 +247,7 @@ TEST_F(CityTest, WhatLiesUndergroundIsNotBuilt) {
   const CityRecord& doubtful = record_of(city, "way/1");
   EXPECT_EQ(doubtful.fate, Fate::written) << "a layer alone does not say that it cannot be seen";
   ASSERT_EQ(doubtful.remarks.size(), 1U);
-  testing::expect_wording(doubtful.remarks[0]);
+  testing::expect_wording(doubtful.remarks[0].text);
 }
 
 TEST_F(CityTest, DefaultsCanBeSet) {

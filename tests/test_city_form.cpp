@@ -139,7 +139,7 @@ TEST(CityForm, NonsenseIsRemarkedOnAndTakenAsUntagged) {
   ASSERT_EQ(concrete.remarks.size(), 2u);
   EXPECT_TRUE(concrete.has(TagFault::no_value, "height"));
   EXPECT_TRUE(concrete.has(TagFault::no_value, "building:levels"));
-  vantage::testing::expect_wording(concrete.remarks[0].what);
+  vantage::testing::expect_wording(concrete.remarks[0].for_people().text);
   const Reading negative = read({{"building", "yes"}, {"height", "-12"}, {"building:levels", "2"}});
   EXPECT_EQ(negative.form.top_m, 6);
   EXPECT_TRUE(negative.has(TagFault::negative, "height"));

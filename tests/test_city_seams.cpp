@@ -213,7 +213,7 @@ TEST_F(CitySeams, AMissionIsComputedThere) {
                 "sensor: {max_range: 40}\nmethod: exact\n");
     const Volume volume = run_mission(resolve_mission(read_mission(folder_ / "mission.yaml"))).volume;
     ASSERT_EQ(volume.outcome, Outcome::computed) << volume.reason;
-    EXPECT_TRUE(volume.notes.empty()) << volume.notes.front();
+    EXPECT_TRUE(volume.notes.empty()) << volume.notes.front().text;
     volumes.push_back(measure(volume.mesh).volume_m3);
     EXPECT_NEAR(volumes.back(), volumes.front(), 0.01 * volumes.front());
   }

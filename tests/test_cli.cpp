@@ -266,6 +266,7 @@ TEST_F(CliNotes, ATargetUnderTheGroundIsToldAndComputed) {
   EXPECT_NE(shown.err.find("offset: 2.00"), std::string::npos) << shown.err;
   const auto report = nlohmann::json::parse(run({"compute", "buried.yaml", "-o", "out.ply", "--json"}).out);
   ASSERT_EQ(report.at("notes").size(), 1U);
+  EXPECT_EQ(report.at("note_codes"), nlohmann::json({name_of(WarningCode::target_underground)}));
   testing::expect_wording(report.at("notes")[0].get<std::string>());
   EXPECT_EQ(report.at("outcome"), "computed");
 }

@@ -139,6 +139,8 @@ TEST_F(CliPlaces, TellsWhereTheMapEndsWithinTheRange) {
     write("short.yaml", "scene: {osm: city.osm" + scene + "}\ntarget: {osm: way/2}\n" + rest);
     const auto report = nlohmann::json::parse(run({"compute", "short.yaml", "-o", "out.ply", "--json"}).out);
     EXPECT_LE(report.at("notes").size(), 1U);
+    EXPECT_EQ(report.at("note_codes").size(), report.at("notes").size());
+    for (const std::string code : report.at("note_codes")) EXPECT_EQ(code, name_of(WarningCode::range_beyond_data));
     return report.at("notes").empty() ? std::string() : report.at("notes")[0].get<std::string>();
   };
   const std::string centre = ", center: [48.1374, 11.5755], radius: ";

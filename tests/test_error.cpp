@@ -71,16 +71,29 @@ TEST(ErrorCodes, SayOfWhichKindTheyAre) {
   EXPECT_EQ(number[ErrorKind::output], 2);
 }
 
+/// The codes in the tables of the document, before its section of warnings or in it.
+std::vector<std::string> documented(bool warnings) {
+  std::ifstream stream(testing::source_folder() / "docs" / "errors.md");
+  std::vector<std::string> codes;
+  bool is_there = !warnings;
+  for (std::string line; std::getline(stream, line);) {
+    if (line == "## Warnings") is_there = warnings;
+    if (is_there && line.starts_with("| `")) codes.push_back(line.substr(3, line.find('`', 3) - 3));
+  }
+  return codes;
+}
+
 // Programs go by the names: none may be renamed or left out. New ones are added to the document.
 TEST(ErrorCodes, AreThoseOfTheDocument) {
-  std::ifstream stream(testing::source_folder() / "docs" / "errors.md");
-  std::vector<std::string> documented, declared;
-  for (std::string line; std::getline(stream, line);) {
-    if (!line.starts_with("| `")) continue;
-    documented.push_back(line.substr(3, line.find('`', 3) - 3));
-  }
+  std::vector<std::string> declared;
   for (const ErrorCode code : error_codes()) declared.emplace_back(name_of(code));
-  EXPECT_EQ(documented, declared);
+  EXPECT_EQ(documented(false), declared);
+}
+
+TEST(WarningCodes, AreThoseOfTheDocument) {
+  std::vector<std::string> declared;
+  for (const WarningCode code : warning_codes()) declared.emplace_back(name_of(code));
+  EXPECT_EQ(documented(true), declared);
 }
 
 // A code that nothing throws would be a promise to nobody.

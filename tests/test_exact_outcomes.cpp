@@ -198,8 +198,10 @@ std::string note_of_buried(const Scene& scene, const Target& target) {
   const Volume volume = compute(scene, target);
   EXPECT_EQ(volume.outcome, Outcome::computed) << volume.reason;
   EXPECT_EQ(volume.notes.size(), 1U);
-  if (!volume.notes.empty()) testing::expect_wording(volume.notes[0]);
-  return volume.notes.empty() ? "" : volume.notes[0];
+  if (volume.notes.empty()) return "";
+  EXPECT_EQ(volume.notes[0].code, WarningCode::target_underground);
+  testing::expect_wording(volume.notes[0].text);
+  return volume.notes[0].text;
 }
 
 TEST(ExactOutcomes, UnderTheGroundIsToldAndComputed) {

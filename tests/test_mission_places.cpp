@@ -286,7 +286,8 @@ TEST_F(MissionPlaces, FlatGroundIsExtendedToHoldTheTarget) {
     const Volume seen = volume("osm: city.osm", "target: {osm: " + name + "}\n");
     ASSERT_EQ(seen.outcome, Outcome::computed) << seen.reason;
     ASSERT_FALSE(seen.notes.empty());
-    EXPECT_NE(seen.notes[0].find("extended"), std::string::npos) << seen.notes[0];
+    EXPECT_EQ(seen.notes[0].code, WarningCode::ground_extended);
+    testing::expect_wording(seen.notes[0].text);
   }
   // By its place in degrees, a little off the ground; and in a scene that was written to a file.
   const geo::LonLat at = frame_.to_lonlat({80, 10});
@@ -312,7 +313,9 @@ TEST_F(MissionPlaces, TerrainIsBuiltAsFarAsTheTarget) {
   write("city.osm", map.text());
   const std::string scene = "osm: city.osm, terrain: dem.asc, error: 0.01";
   const Mission result = placed(scene, "target: {osm: way/2}\n");
-  EXPECT_EQ(loaded_.notes.size(), 1u);
+  ASSERT_EQ(loaded_.notes.size(), 1u);
+  EXPECT_EQ(loaded_.notes[0].code, WarningCode::ground_extended);
+  testing::expect_wording(loaded_.notes[0].text);
   for (const Vec3& vertex : result.target.parts[0]) {
     const double north = frame_
                              .to_local(geo::LocalFrame({loaded_.scene.georeference->longitude_deg,

@@ -106,8 +106,8 @@ bool has(const std::string& text, const std::string& part) { return text.find(pa
 class MissionWarnings : public ::testing::Test {
  protected:
   /// The notes of the computed volume.
-  std::vector<std::string> notes(const std::string& obj, const std::string& target, double range,
-                                 const std::string& scene = "", const std::string& more = "") {
+  std::vector<Warning> notes(const std::string& obj, const std::string& target, double range,
+                             const std::string& scene = "", const std::string& more = "") {
     write_bytes(folder_ / "scene.obj", obj);
     std::ostringstream text;
     text.imbue(std::locale::classic());
@@ -134,17 +134,19 @@ TEST_F(MissionWarnings, ATargetOffTheSceneIsTold) {
       const auto at = [&](double x) {
         return vertices(square(0.1 * scale, offset + Vec3(x * scale, 0, 0.01 * scale)));
       };
-      const std::vector<std::string> near = notes(obj, at(0), scale);
-      EXPECT_TRUE(near.empty()) << near.front();
+      const std::vector<Warning> near = notes(obj, at(0), scale);
+      EXPECT_TRUE(near.empty()) << near.front().text;
       EXPECT_TRUE(notes(obj, at(1.9), scale).empty());  // the ground's rim is within range
-      const std::vector<std::string> far = notes(obj, at(14), scale);
+      const std::vector<Warning> far = notes(obj, at(14), scale);
       ASSERT_EQ(far.size(), 1u);
-      EXPECT_TRUE(has(far[0], "max_range")) << far[0];
+      EXPECT_EQ(far[0].code, WarningCode::range_beyond_scene) << far[0].text;
     }
   }
-  const std::vector<std::string> far = notes(city(0).text(), vertices(square(5, {14300, 0, 0})), 100);
+  const std::vector<Warning> far = notes(city(0).text(), vertices(square(5, {14300, 0, 0})), 100);
   ASSERT_EQ(far.size(), 1u);
-  EXPECT_TRUE(has(far[0], "14 km")) << far[0];  // from 300 m
+  EXPECT_EQ(far[0].code, WarningCode::range_beyond_scene);
+  EXPECT_TRUE(has(far[0].text, "14 km")) << far[0].text;  // from 300 m
+  testing::expect_wording(far[0].text);
 }
 
 TEST_F(MissionWarnings, ASceneOnItsSideIsTold) {
@@ -156,16 +158,15 @@ TEST_F(MissionWarnings, ASceneOnItsSideIsTold) {
     EXPECT_TRUE(notes(boxes.text(true), target, 100, ", up: y").empty());
     const std::string beside = vertices(square(5, {0, 200, 0}));
     for (const bool y_up : {true, false}) {
-      const std::vector<std::string> lying = notes(boxes.text(y_up), beside, 400, y_up ? "" : ", up: y");
+      const std::vector<Warning> lying = notes(boxes.text(y_up), beside, 400, y_up ? "" : ", up: y");
       ASSERT_FALSE(lying.empty());
-      EXPECT_TRUE(has(lying[0], y_up ? "scene.up: y" : "scene.up: z")) << lying[0];
+      EXPECT_EQ(lying[0].code, WarningCode::scene_on_its_side);
+      EXPECT_TRUE(has(lying[0].text, y_up ? "scene.up: y" : "scene.up: z")) << lying[0].text;
+      if (turn == 0) testing::expect_wording(lying[0].text);
     }
-    try {
-      notes(boxes.text(true), vertices(square(5)), 100);
-      ADD_FAILURE() << "the ground stands on the target";
-    } catch (const Error& error) {
-      EXPECT_TRUE(has(error.fix(), "scene.up: y")) << error.what();
-    }
+    const Error error = testing::expect_code([&] { notes(boxes.text(true), vertices(square(5)), 100); },
+                                             ErrorCode::target_pierced);  // by the ground, which stands upright
+    EXPECT_TRUE(has(error.fix(), "scene.up: y")) << error.what();
   }
 }
 
@@ -188,9 +189,11 @@ TEST_F(MissionWarnings, ATargetOnTheGroundLookedAtFromBelowIsTold) {
   Boxes flat;
   flat.ground(100);
   flat.box({30, 0, 5}, {5, 5, 5});
-  const std::vector<std::string> under = notes(flat.text(), vertices(square(5)) + down, 50);
+  const std::vector<Warning> under = notes(flat.text(), vertices(square(5)) + down, 50);
   ASSERT_EQ(under.size(), 1u);
-  EXPECT_TRUE(has(under[0], "target.front")) << under[0];
+  EXPECT_EQ(under[0].code, WarningCode::target_from_below);
+  EXPECT_TRUE(has(under[0].text, "target.front")) << under[0].text;
+  testing::expect_wording(under[0].text);
   EXPECT_TRUE(notes(flat.text(), vertices(square(5)), 50).empty());
   EXPECT_TRUE(notes(flat.text(), vertices(square(5)) + ", front: [0, 0, 1]", 50).empty());
 
@@ -209,15 +212,16 @@ TEST_F(MissionWarnings, AVolumeBelowAllOfTheSceneIsTold) {
   const std::string target = vertices({{28, 0, -2}, {32, 0, -2}, {30, 0, 3}}) + ", front: [0, 1, 0]";
   EXPECT_TRUE(notes(slab.text(), target, 40).empty());
   EXPECT_TRUE(notes(slab.text(), target, 40, "", "navigation: {altitude: [-20, 1]}\n").empty());
-  const std::vector<std::string> below = notes(slab.text(), target, 40, "", "navigation: {altitude: [-20, -3]}\n");
+  const std::vector<Warning> below = notes(slab.text(), target, 40, "", "navigation: {altitude: [-20, -3]}\n");
   ASSERT_EQ(below.size(), 1u);
-  testing::expect_wording(below);
+  EXPECT_EQ(below[0].code, WarningCode::volume_below_scene);
+  testing::expect_wording(below[0].text);
 }
 
 TEST(MissionWarningsOfExamples, AreNone) {
   for (const char* file : {"examples/plaza/mission.yaml", "examples/town/mission.yaml"}) {
     EXPECT_EQ(run_mission(resolve_mission(read_mission(testing::source_folder() / file))).volume.notes,
-              std::vector<std::string>())
+              std::vector<Warning>())
         << file;
   }
 }
@@ -230,7 +234,7 @@ TEST(MissionWarningsOfExamples, AreNoneInTheGallery) {
       if (entry.path().extension() != ".yaml") continue;
       if (entry.path().stem() == "empire_state_outlines") continue;  // its map is made by a script
       const Mission mission = resolve_mission(read_mission(entry.path()));
-      EXPECT_EQ(scene_warnings(mission, nullptr), std::vector<std::string>()) << entry.path();
+      EXPECT_EQ(scene_warnings(mission, nullptr), std::vector<Warning>()) << entry.path();
     }
   }
 }

@@ -251,7 +251,8 @@ TEST(PointTarget, UnderTheGround) {
   const Volume volume = volume_of(builder, point({0, 0, -4}), 60);
   EXPECT_EQ(volume.outcome, Outcome::computed);
   ASSERT_EQ(volume.notes.size(), 1U);
-  EXPECT_NE(volume.notes[0].find("z = 0.00"), std::string::npos) << volume.notes[0];
+  EXPECT_EQ(volume.notes[0].code, WarningCode::target_underground);
+  EXPECT_NE(volume.notes[0].text.find("z = 0.00"), std::string::npos) << volume.notes[0].text;
   expect_right(builder, point({0, 0, -4}), 60);
 }
 

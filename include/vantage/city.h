@@ -128,13 +128,19 @@ enum class Fate { written, repaired, open_surface, skipped };
 /// "written", "repaired", "open_surface", "skipped".
 VANTAGE_API const char* name_of(Fate fate);
 
+/// On something that is drawn or tagged in another way than it should be.
+struct CityRemark {
+  std::string text;  ///< "height=concrete: taken as untagged"
+  std::string sort;  ///< the same for all remarks of a sort: "height: taken as untagged"
+};
+
 struct CityRecord {
   SceneObject object;  ///< `source_id`: "way/265517"; `name`: its name tag; `kind`: building to tree
   Fate fate = Fate::written;
-  std::string reason;                ///< of all but `written`; the report counts by it
-  std::vector<std::string> remarks;  ///< on its tags
-  double ground_m = 0;               ///< z it stands on
-  double base_m = 0, top_m = 0;      ///< lowest and highest z
+  std::string reason;               ///< of all but `written`; the report counts by it
+  std::vector<CityRemark> remarks;  ///< on its tags
+  double ground_m = 0;              ///< z it stands on
+  double base_m = 0, top_m = 0;     ///< lowest and highest z
   double footprint_m2 = 0;
 };
 

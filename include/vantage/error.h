@@ -154,13 +154,13 @@ enum class ErrorCode {
 };
 
 /// All codes, in the order of their declaration.
-std::span<const ErrorCode> error_codes();
+VANTAGE_API std::span<const ErrorCode> error_codes();
 
 /// "target-not-convex".
-const char* name_of(ErrorCode code);
+VANTAGE_API const char* name_of(ErrorCode code);
 
 /// The code of that name, if there is one.
-std::optional<ErrorCode> error_code(std::string_view name);
+VANTAGE_API std::optional<ErrorCode> error_code(std::string_view name);
 
 /// Each code is of one kind.
 ErrorKind kind_of(ErrorCode code);

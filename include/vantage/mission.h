@@ -19,6 +19,7 @@
 #include "vantage/spheres.h"
 #include "vantage/target.h"
 #include "vantage/volume.h"
+#include "vantage/warning.h"
 
 namespace vantage {
 
@@ -114,11 +115,11 @@ struct Mission {
 /// another level than the scene's, and all that make_target_frame refuses.
 VANTAGE_API Mission resolve_mission(const MissionFile& mission, const Progress& progress = {});
 
-/// What to know before relying on the mission's results, a sentence each: LoadedScene::notes; that map, raster or
+/// What to know before relying on the mission's results: LoadedScene::notes; that map, raster or
 /// ground end within the range, where what would hide part of the target is missing; that a target looks as if it were
 /// given in degrees, lies far off the scene or is looked at from under the ground; that the scene seems to lie on its
 /// side. `volume`: the mission's, where there is one. Cost: linear in the scene's triangles.
-VANTAGE_API std::vector<std::string> mission_warnings(const Mission& mission, const Volume* volume = nullptr);
+VANTAGE_API std::vector<Warning> mission_warnings(const Mission& mission, const Volume* volume = nullptr);
 
 struct RunOptions {
   int threads = 0;   ///< at most; 0: as many as the machine has

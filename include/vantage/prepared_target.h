@@ -10,6 +10,7 @@
 #include "vantage/export.h"
 #include "vantage/scene.h"
 #include "vantage/target.h"
+#include "vantage/warning.h"
 
 namespace vantage {
 
@@ -30,10 +31,10 @@ class VANTAGE_API PreparedTarget {
 
   /// Of a part as it is used, lift included.
   const TargetFrame& frame(std::size_t part = 0) const;
-  double lift_m(std::size_t part) const;          ///< how far it was raised
-  double lift_m() const;                          ///< the largest
-  const std::vector<std::string>& notes() const;  ///< what to know before relying on results, a sentence each: the
-                                                  ///< target seems to be under the ground
+  double lift_m(std::size_t part) const;      ///< how far it was raised
+  double lift_m() const;                      ///< the largest
+  const std::vector<Warning>& notes() const;  ///< what to know before relying on results: the target seems to be
+                                              ///< under the ground
 
   /// The same of one part alone.
   PreparedTarget part(std::size_t index) const;

@@ -11,6 +11,7 @@
 #include "vantage/progress.h"
 #include "vantage/scene.h"
 #include "vantage/terrain.h"
+#include "vantage/warning.h"
 
 namespace vantage {
 
@@ -36,7 +37,7 @@ struct LoadedScene {
   Scene scene;
   std::optional<CityReport> city;      ///< of a map
   std::optional<RasterReport> raster;  ///< of a raster
-  std::vector<std::string> notes;      ///< what read_mission_scene changed to fit the target: a sentence each
+  std::vector<Warning> notes;          ///< what resolve_mission changed to fit the target
 };
 
 /// What is worth a sentence of the scene and its source, besides LoadedScene::notes.

@@ -31,4 +31,5 @@
 #include "vantage/verify.h"
 #include "vantage/version.h"
 #include "vantage/volume.h"
+#include "vantage/warning.h"
 #include "vantage/willis.h"

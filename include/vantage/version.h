@@ -10,7 +10,8 @@
 
 namespace vantage {
 
-/// VANTAGE_VERSION of the library that the program runs with; until 1.0 a library of another minor version does not fit.
+/// VANTAGE_VERSION of the library that the program runs with; until 1.0 a library of another minor version does not
+/// fit.
 VANTAGE_API const char* version();
 
 }  // namespace vantage

@@ -14,6 +14,7 @@
 #include "vantage/progress.h"
 #include "vantage/scene.h"
 #include "vantage/target.h"
+#include "vantage/warning.h"
 
 namespace vantage {
 
@@ -92,11 +93,11 @@ struct Volume {
   std::vector<std::uint32_t> cause_of;  ///< per triangle: index into `causes`
   std::vector<Cause> causes;
 
-  double tolerance_m = 0;          ///< bound on how far range facets lie inside the true range region
-  std::vector<double> lift_m;      ///< how far each part of the target was raised: PreparedTarget::lift_m
-  TargetFrame frame;               ///< of the target's first part as used, lift included
-  std::vector<std::string> notes;  ///< what to know before relying on it, a sentence each: the target seems to be under
-                                   ///< the ground. run_mission adds its own: the map ends within the range
+  double tolerance_m = 0;      ///< bound on how far range facets lie inside the true range region
+  std::vector<double> lift_m;  ///< how far each part of the target was raised: PreparedTarget::lift_m
+  TargetFrame frame;           ///< of the target's first part as used, lift included
+  std::vector<Warning> notes;  ///< what to know before relying on it: the target seems to be under the ground.
+                               ///< run_mission adds its own: the map ends within the range
   std::optional<Georeference> georeference;    ///< of the scene; run_mission fills it in, and writers write it
   std::optional<VolumeProvenance> provenance;  ///< run_mission adds the hashes
   StageCounts counts;

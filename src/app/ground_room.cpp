@@ -51,7 +51,7 @@ std::optional<std::uint32_t> ground_object(const Scene& scene) {
   return static_cast<std::uint32_t>(found - scene.objects.begin());
 }
 
-std::optional<std::string> make_room(Mission& mission, const PlanBox& wanted) {
+std::optional<Warning> make_room(Mission& mission, const PlanBox& wanted) {
   Scene& scene = mission.loaded.scene;
   const auto ground = ground_object(scene);
   if (!ground) return std::nullopt;
@@ -80,8 +80,9 @@ std::optional<std::string> make_room(Mission& mission, const PlanBox& wanted) {
     Vec3& at = scene.mesh.vertices[vertex];
     for (int axis = 0; axis < 2; ++axis) at[axis] = at[axis] == box.min[axis] ? larger.min[axis] : larger.max[axis];
   }
-  return "the flat ground was extended to hold the target, which reaches " +
-         std::to_string(std::lround(std::ceil(missing))) + " m beyond it: the map has nothing to build out there";
+  return Warning{WarningCode::ground_extended, "the flat ground was extended to hold the target, which reaches " +
+                                                   std::to_string(std::lround(std::ceil(missing))) +
+                                                   " m beyond it: the map has nothing to build out there"};
 }
 
 void fail_off_ground(const Mission& mission, const std::string& problem) {

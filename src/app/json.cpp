@@ -25,7 +25,7 @@ Json record_json(const CityRecord& record) {
   json["kind"] = name_of(record.object.kind);
   json["fate"] = name_of(record.fate);
   if (!record.reason.empty()) json["reason"] = record.reason;
-  if (!record.remarks.empty()) json["remarks"] = record.remarks;
+  for (const CityRemark& remark : record.remarks) json["remarks"].push_back(remark.text);
   if (record.fate != Fate::skipped) {
     json["ground_m"] = record.ground_m;
     json["base_m"] = record.base_m;

@@ -37,7 +37,7 @@ std::optional<std::string> how_to_leave_out(const LoadedScene& loaded, std::uint
 Error explained(const Error& error, const LoadedScene& loaded, const std::string& target_object) {
   std::optional<std::string> advice;
   if (error.object()) advice = how_to_leave_out(loaded, *error.object(), target_object);
-  if (!advice) advice = on_its_side(loaded);
+  if (const auto side = on_its_side(loaded); side && !advice) advice = side->text;
   return advice ? error.with_fix(*advice) : error;
 }
 

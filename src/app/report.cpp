@@ -93,7 +93,12 @@ std::string report_json(const Volume& volume, const MeshMeasures& measures, cons
   report["outcome"] = name_of(volume.outcome);
   report["reason"] = volume.reason;
   report["hint"] = volume.hint;
-  report["notes"] = volume.notes;
+  report["notes"] = Json::array();
+  report["note_codes"] = Json::array();
+  for (const Warning& note : volume.notes) {
+    report["notes"].push_back(note.text);
+    report["note_codes"].push_back(name_of(note.code));
+  }
   report["volume_m3"] = measures.volume_m3;
   report["area_m2"] = measures.area_m2;
   report["pieces"] = measures.pieces;

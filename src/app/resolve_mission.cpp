@@ -64,8 +64,9 @@ Mission resolve_mission(const MissionFile& file, const Progress& progress) {
     SceneSource larger = file.scene;
     larger.city.ground_margin_m += farther;
     LoadedScene loaded = load_scene(larger, progress);
-    loaded.notes.push_back("the ground was built " + std::to_string(std::lround(farther)) +
-                           " m farther to hold the target: the map has nothing to build out there");
+    loaded.notes.push_back(
+        {WarningCode::ground_extended, "the ground was built " + std::to_string(std::lround(farther)) +
+                                           " m farther to hold the target: the map has nothing to build out there"});
     return finished(assembled(file, meshes, std::move(loaded), progress));
   }
 }

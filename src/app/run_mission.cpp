@@ -70,7 +70,7 @@ Result run(const Mission& mission, const StageSink& stages, const Progress& prog
     result.volume.provenance->scene_hash = scene_hash(scene);
     result.volume.provenance->mission_hash = mission_hash(mission);
   }
-  std::vector<std::string> warnings = mission_warnings(mission, &result.volume);
+  std::vector<Warning> warnings = mission_warnings(mission, &result.volume);
   result.volume.notes.insert(result.volume.notes.end(), warnings.begin(), warnings.end());
   return result;
 }

@@ -53,15 +53,17 @@ double nearest(const Mesh& mesh, const Vec3& point, double enough) {
 }
 
 /// That no triangle of the scene is so near that it could matter.
-std::optional<std::string> far_off(const Mission& mission, const Scene& scene) {
+std::optional<Warning> far_off(const Mission& mission, const Scene& scene) {
   const Box target = target_box(mission.target);
   const Vec3 middle = (target.min + target.max) / 2;
   const double enough = mission.sensor.max_range_m + (target.max - target.min).norm() / 2;
   const double distance = nearest(scene.mesh, middle, enough);
   if (distance <= enough) return std::nullopt;
-  return "nothing of the scene is within max_range of the target, so nothing hides it: the nearest triangle is " +
-         distance_text(distance) + " away; check the target's coordinates" +
-         (scene.georeference ? "" : ", scene.up and scene.scale, and whether scene and target have the same origin");
+  return Warning{
+      WarningCode::range_beyond_scene,
+      "nothing of the scene is within max_range of the target, so nothing hides it: the nearest triangle is " +
+          distance_text(distance) + " away; check the target's coordinates" +
+          (scene.georeference ? "" : ", scene.up and scene.scale, and whether scene and target have the same origin")};
 }
 
 /// Of triangles whose normals are within 11 degrees of an axis: what share of all area.
@@ -108,7 +110,7 @@ bool has_below(const Mesh& mesh, const Vec3& point, double on) {
 }
 
 /// That the target is looked at from below, where nothing is: not even ground.
-std::optional<std::string> from_below(const Mission& mission, const Scene& scene) {
+std::optional<Warning> from_below(const Mission& mission, const Scene& scene) {
   constexpr double kDown = -0.5;  // of the normal: less than 60 degrees from straight down
   const TargetFrame frame = make_target_frame(mission.target);
   if (frame.all_sides || frame.normal.z() > kDown) return std::nullopt;
@@ -118,26 +120,31 @@ std::optional<std::string> from_below(const Mission& mission, const Scene& scene
   if (std::any_of(probes.begin(), probes.end(), [&](const Vec3& probe) { return has_below(scene.mesh, probe, on); })) {
     return std::nullopt;
   }
-  return "the target is looked at from below, and nothing of the scene lies below it: positions under the ground count "
-         "as free; leave target.front out, or turn it round, to look from above";
+  return Warning{
+      WarningCode::target_from_below,
+      "the target is looked at from below, and nothing of the scene lies below it: positions under the ground count "
+      "as free; leave target.front out, or turn it round, to look from above"};
 }
 
-std::optional<std::string> below_all(const Scene& scene, const Volume* volume) {
+std::optional<Warning> below_all(const Scene& scene, const Volume* volume) {
+  if (volume == nullptr || volume->mesh.empty()) return std::nullopt;
   // A target under the ground is told by the method itself.
-  if (volume == nullptr || volume->mesh.empty() || !volume->notes.empty()) return std::nullopt;
+  const auto is_told = [](const Warning& note) { return note.code == WarningCode::target_underground; };
+  if (std::any_of(volume->notes.begin(), volume->notes.end(), is_told)) return std::nullopt;
   const Box box = bounding_box(volume->mesh), all = bounding_box(scene.mesh);
   constexpr double kTouch = 1e-3;  // of the volume's height
   if (box.max.z() > all.min.z() + kTouch * (box.max.z() - box.min.z())) return std::nullopt;
-  return "the whole volume lies below the scene, whose lowest point is at z = " +
-         std::to_string(std::lround(all.min.z())) +
-         " m: positions under the ground count as free; check the target's z, target.front and scene.up";
+  return Warning{WarningCode::volume_below_scene,
+                 "the whole volume lies below the scene, whose lowest point is at z = " +
+                     std::to_string(std::lround(all.min.z())) +
+                     " m: positions under the ground count as free; check the target's z, target.front and scene.up"};
 }
 
 }  // namespace
 
 // Of cities, most of what there is faces up or down, and the heights are the smallest
 // of the three sizes. A single facade is like that too, on its side: but not so high.
-std::optional<std::string> on_its_side(const LoadedScene& loaded) {
+std::optional<Warning> on_its_side(const LoadedScene& loaded) {
   constexpr double kShare = 0.45, kMore = 3.5;  // real cities: 0.5 to 0.77, and 4 to 30 times the other two
   constexpr double kTooHigh = 100;              // metres
   const Scene& scene = loaded.scene;
@@ -147,24 +154,25 @@ std::optional<std::string> on_its_side(const LoadedScene& loaded) {
   if (size.z() < kTooHigh || 2 * size.y() > std::min(size.x(), size.z())) return std::nullopt;
   const Vec3 facing = facing_axes(scene.mesh);
   if (facing.y() < kShare || facing.y() < kMore * std::max(facing.x(), facing.z())) return std::nullopt;
-  return "the scene seems to lie on its side: it is " + distance_text(size.z()) + " high and " +
-         distance_text(size.y()) + " deep, and " + std::to_string(std::lround(100 * facing.y())) +
-         " % of its area is upright and faces along y; if so, " + turning_advice(scene);
+  return Warning{WarningCode::scene_on_its_side,
+                 "the scene seems to lie on its side: it is " + distance_text(size.z()) + " high and " +
+                     distance_text(size.y()) + " deep, and " + std::to_string(std::lround(100 * facing.y())) +
+                     " % of its area is upright and faces along y; if so, " + turning_advice(scene)};
 }
 
-std::vector<std::string> scene_warnings(const Mission& mission, const Volume* volume) {
+std::vector<Warning> scene_warnings(const Mission& mission, const Volume* volume) {
   const LoadedScene& loaded = mission.loaded;
-  std::vector<std::string> sentences;
-  if (loaded.scene.mesh.empty() || mission.target.parts.at(0).empty()) return sentences;
-  if (const auto side = on_its_side(loaded)) sentences.push_back(*side);
+  std::vector<Warning> warnings;
+  if (loaded.scene.mesh.empty() || mission.target.parts.at(0).empty()) return warnings;
+  if (const auto side = on_its_side(loaded)) warnings.push_back(*side);
   if (const auto away = far_off(mission, loaded.scene)) {
-    sentences.push_back(*away);
+    warnings.push_back(*away);
   } else if (const auto below = from_below(mission, loaded.scene)) {
-    sentences.push_back(*below);
+    warnings.push_back(*below);
   } else if (const auto under = below_all(loaded.scene, volume)) {
-    sentences.push_back(*under);
+    warnings.push_back(*under);
   }
-  return sentences;
+  return warnings;
 }
 
 }  // namespace vantage::internal::app

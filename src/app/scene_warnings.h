@@ -10,11 +10,11 @@
 
 namespace vantage::internal::app {
 
-/// Sentences for people, none where all is as usual. `volume` may be null or empty. Cost: linear in the scene's
+/// None where all is as usual. `volume` may be null or empty. Cost: linear in the scene's
 /// triangles.
-std::vector<std::string> scene_warnings(const Mission& mission, const Volume* volume);
+std::vector<Warning> scene_warnings(const Mission& mission, const Volume* volume);
 
 /// Of these the one that tells that the scene seems to lie on its side, with what to do.
-std::optional<std::string> on_its_side(const LoadedScene& loaded);
+std::optional<Warning> on_its_side(const LoadedScene& loaded);
 
 }  // namespace vantage::internal::app

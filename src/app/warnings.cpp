@@ -130,15 +130,17 @@ Shortfall of(const Mission& mission) {
 
 }  // namespace
 
-std::vector<std::string> mission_warnings(const Mission& mission, const Volume* volume) {
+std::vector<Warning> mission_warnings(const Mission& mission, const Volume* volume) {
   constexpr double kTolerance = 1;  // metre: rounding of degrees, and corners of extracts
   constexpr double kTiny = 0.01;    // metre: a target of street size in degrees is 1e-4 across
   constexpr double kLargestDegree = 180;
-  std::vector<std::string> sentences = mission.loaded.notes;
+  std::vector<Warning> warnings = mission.loaded.notes;
   const Shortfall shortfall = of(mission);
   if (shortfall.metres > kTolerance) {
-    sentences.push_back("the range reaches " + metres(shortfall.metres) + " beyond " + shortfall.known +
-                        ": what stands out there hides nothing, and the volume may claim too much; " + shortfall.fix);
+    warnings.push_back({WarningCode::range_beyond_data,
+                        "the range reaches " + metres(shortfall.metres) + " beyond " + shortfall.known +
+                            ": what stands out there hides nothing, and the volume may claim too much; " +
+                            shortfall.fix});
   }
   Box box;
   for (const Vec3& corner : mission.target.parts.at(0)) box.extend(corner);
@@ -147,11 +149,12 @@ std::vector<std::string> mission_warnings(const Mission& mission, const Volume* 
       box.min.cwiseAbs().maxCoeff() <= kLargestDegree) {
     char size[32];
     std::snprintf(size, sizeof size, "%.2g", across * 1000);
-    sentences.push_back(std::string("the target is ") + size +
-                        " mm across: if its vertices are longitudes and latitudes, say so with 'crs: EPSG:4326'");
+    warnings.push_back({WarningCode::target_in_degrees,
+                        std::string("the target is ") + size +
+                            " mm across: if its vertices are longitudes and latitudes, say so with 'crs: EPSG:4326'"});
   }
-  for (std::string& sentence : internal::app::scene_warnings(mission, volume)) sentences.push_back(std::move(sentence));
-  return sentences;
+  for (Warning& warning : internal::app::scene_warnings(mission, volume)) warnings.push_back(std::move(warning));
+  return warnings;
 }
 
 }  // namespace vantage

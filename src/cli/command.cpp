@@ -82,4 +82,8 @@ void print(std::string_view text) {
 
 void note(const std::string& text) { std::fprintf(stderr, "vantage: %s\n", text.c_str()); }
 
+void notes(const std::vector<Warning>& warnings) {
+  for (const Warning& warning : warnings) note(warning.text);
+}
+
 }  // namespace vantage::cli

@@ -7,6 +7,9 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
+
+#include "vantage/warning.h"
 
 namespace vantage::cli {
 
@@ -77,5 +80,6 @@ double loading_seconds();
 
 /// Writes a line to standard error.
 void note(const std::string& text);
+void notes(const std::vector<Warning>& warnings);  ///< a line each
 
 }  // namespace vantage::cli

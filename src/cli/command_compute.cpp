@@ -274,7 +274,7 @@ void tell(const Options& options, const Mission& mission, const Result& run, con
       print(text);
     }
   }
-  if (!options.common.quiet) std::for_each(run.volume.notes.begin(), run.volume.notes.end(), note);
+  if (!options.common.quiet) notes(run.volume.notes);
   warn_of_rounding(options, run.volume, written);
   if (!has_volume) tell_of_no_volume(options, run.volume);
   if (outgoing && has_volume) outgoing->send();

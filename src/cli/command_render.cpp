@@ -64,7 +64,7 @@ Picture picture(const Options& options, const Mission& mission, const PictureVie
   const Volume volume = volume_to_draw(options, mission, progress);
   if (!options.common.quiet) {
     if (volume.outcome != Outcome::computed) note("no volume: " + volume.reason);
-    std::for_each(volume.notes.begin(), volume.notes.end(), note);
+    notes(volume.notes);
   }
   PictureRequest request;
   request.target = &mission.target;
@@ -75,7 +75,7 @@ Picture picture(const Options& options, const Mission& mission, const PictureVie
   request.height = size[1];
   request.title = mission.target.name;
   request.subtitle = picture_subtitle(mission, &volume);
-  request.notes = volume.notes;
+  for (const Warning& warning : volume.notes) request.notes.push_back(warning.text);
   return render_picture(mission.loaded.scene, request, progress);
 }
 

@@ -118,10 +118,10 @@ int run(const Options& options) {
   const MissionFile file = read_mission_argument(options.mission_file);
   ProgressLine progress(options.common);
   const Mission mission = resolve_mission(file, progress.callback());
-  const std::vector<std::string> warnings = mission_warnings(mission);
+  const std::vector<Warning> warnings = mission_warnings(mission);
   const VolumeFile read = read_volume(options.volume_file, mission.loaded.scene, progress.callback());
   if (!options.common.quiet) {
-    std::for_each(warnings.begin(), warnings.end(), note);
+    notes(warnings);
     std::for_each(read.notes.begin(), read.notes.end(), note);
     const std::vector<std::string> other = doubts(read, mission);
     std::for_each(other.begin(), other.end(), note);

@@ -22,23 +22,12 @@ void add_tally(TextTable& table, const std::string& kind, const CityTally& tally
   table.row(kind, count(tally.read), remark);
 }
 
-/// A remark without the value that it quotes and without numbers, so that remarks of a kind can be counted.
-std::string kind_of_remark(const std::string& remark) {
-  const std::size_t value = remark.find('=');
-  const std::size_t end = remark.find(": ", value == std::string::npos ? 0 : value);
-  std::string kind = remark;
-  if (value != std::string::npos && end != std::string::npos) kind = remark.substr(0, value) + remark.substr(end);
-  kind.erase(std::remove_if(kind.begin(), kind.end(), [](unsigned char c) { return std::isdigit(c) != 0; }),
-             kind.end());
-  return kind;
-}
-
 std::map<std::string, std::pair<std::size_t, std::string>> remarks(const CityReport& report) {
   std::map<std::string, std::pair<std::size_t, std::string>> found;
   for (const CityRecord& record : report.records) {
-    for (const std::string& remark : record.remarks) {
-      auto& [number, first] = found[kind_of_remark(remark)];
-      if (number++ == 0) first = record.object.source_id + ", " + remark;
+    for (const CityRemark& remark : record.remarks) {
+      auto& [number, first] = found[remark.sort];
+      if (number++ == 0) first = record.object.source_id + ", " + remark.text;
     }
   }
   return found;

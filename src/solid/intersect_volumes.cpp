@@ -33,7 +33,7 @@ void add_work(const Volume& part, Volume& result) {
   result.counts.constraint_edges += part.counts.constraint_edges;
   result.seconds.engine += part.seconds.engine;
   result.seconds.total += part.seconds.total;
-  for (const std::string& note : part.notes) {
+  for (const Warning& note : part.notes) {
     if (std::find(result.notes.begin(), result.notes.end(), note) == result.notes.end()) result.notes.push_back(note);
   }
 }

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "core/number_text.h"
@@ -124,12 +125,12 @@ std::optional<Cover> cover_over(const PreparedScene::Data& scene, const TargetFr
 
 }  // namespace
 
-std::optional<std::string> buried_note(const PreparedScene::Data& scene, const Target& target, const TargetFrame& frame,
-                                       const Lengths& lengths) {
+std::optional<Warning> buried_note(const PreparedScene::Data& scene, const Target& target, const TargetFrame& frame,
+                                   const Lengths& lengths) {
   const std::optional<Cover> cover = cover_over(scene, frame, lengths.lift);
   if (!cover) return std::nullopt;
   const int decimals = HeightStep(lengths).decimals;
-  std::string note = "nothing of the scene is exact::below target \"" + target.name + "\", and \"" +
+  std::string note = "nothing of the scene is below target \"" + target.name + "\", and \"" +
                      display_name(scene.objects[cover->object]) + "\" is " + core::fixed_text(cover->height, decimals) +
                      " m above it: if that is the ground, the target is under it; check the scene's up axis and scale";
   const auto height = height_over_ground(scene, frame, lengths, cover->object);
@@ -139,7 +140,7 @@ std::optional<std::string> buried_note(const PreparedScene::Data& scene, const T
                             : "offset: " + core::fixed_text(target.offset_m + *height, decimals);
     note += " clears it";
   }
-  return note;
+  return Warning{WarningCode::target_underground, std::move(note)};
 }
 
 }  // namespace vantage::internal::target

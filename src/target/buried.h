@@ -7,6 +7,7 @@
 #include "scene/prepared_data.h"
 #include "target/lengths.h"
 #include "vantage/target.h"
+#include "vantage/warning.h"
 
 namespace vantage::internal::target {
 
@@ -14,7 +15,7 @@ namespace vantage::internal::target {
 /// there is or spreads over most of the scene: it names that object, and the smallest offset that brings the target out
 /// where there is one of a few metres. A scene may be anything, a canopy alone too: such a target is computed like any
 /// other.
-std::optional<std::string> buried_note(const PreparedScene::Data& scene, const Target& target, const TargetFrame& frame,
-                                       const Lengths& lengths);
+std::optional<Warning> buried_note(const PreparedScene::Data& scene, const Target& target, const TargetFrame& frame,
+                                   const Lengths& lengths);
 
 }  // namespace vantage::internal::target

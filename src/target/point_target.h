@@ -2,11 +2,11 @@
 #pragma once
 
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "scene/prepared_data.h"
 #include "vantage/target.h"
+#include "vantage/warning.h"
 
 namespace vantage::internal::target {
 
@@ -20,7 +20,7 @@ inline constexpr double kPointRadius = 5e-4;
 
 struct PointSides {
   double lift = 0;                  ///< the point was raised this far along its normal
-  std::vector<std::string> notes;   ///< what people should know of where it lies
+  std::vector<Warning> notes;       ///< what people should know of where it lies
   TargetFrame front;                ///< the triangle, lift included; looks along the point's normal if it has a front
   std::optional<TargetFrame> back;  ///< the same, turned about the u axis; for a point that is seen from all sides
 };

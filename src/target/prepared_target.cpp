@@ -16,10 +16,10 @@ constexpr double kLargestRange = 1e9;  // metres; as scenes
 using Part = PreparedTarget::Data::Part;
 
 Part prepare(const PreparedScene::Data& scene, const Target& target, const Sensor& sensor,
-             std::vector<std::string>& notes) {
+             std::vector<Warning>& notes) {
   Part part;
   part.given = part.frame = make_target_frame(target);
-  std::vector<std::string> own;
+  std::vector<Warning> own;
   if (target.is_point()) {
     part.sides = internal::target::make_point_sides(scene, target, part.frame, sensor.max_range_m);
     part.lift_m = part.sides->lift;
@@ -35,7 +35,7 @@ Part prepare(const PreparedScene::Data& scene, const Target& target, const Senso
     part.is_reachable = internal::target::can_reach(part.frame, sensor);
     if (part.is_reachable) internal::target::move_into_range(part.frame, sensor.max_range_m);
   }
-  for (std::string& note : own) {
+  for (Warning& note : own) {
     if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(std::move(note));
   }
   return part;
@@ -63,7 +63,7 @@ const Sensor& PreparedTarget::sensor() const { return data_->sensor; }
 std::size_t PreparedTarget::part_count() const { return data_->parts.size(); }
 const TargetFrame& PreparedTarget::frame(std::size_t part) const { return data_->parts.at(part).frame; }
 double PreparedTarget::lift_m(std::size_t part) const { return data_->parts.at(part).lift_m; }
-const std::vector<std::string>& PreparedTarget::notes() const { return data_->notes; }
+const std::vector<Warning>& PreparedTarget::notes() const { return data_->notes; }
 
 double PreparedTarget::lift_m() const {
   double most = 0;

@@ -7,6 +7,7 @@
 
 #include "target/point_target.h"
 #include "vantage/prepared_target.h"
+#include "vantage/warning.h"
 
 namespace vantage {
 
@@ -23,7 +24,7 @@ struct PreparedTarget::Data {
   Target target;
   Sensor sensor;
   std::vector<Part> parts;
-  std::vector<std::string> notes;
+  std::vector<Warning> notes;
 };
 
 }  // namespace vantage

@@ -2,17 +2,17 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "scene/prepared_data.h"
 #include "vantage/target.h"
+#include "vantage/warning.h"
 
 namespace vantage::internal::target {
 
 struct Clearance {
-  double lift_m = 0;               ///< the target must be raised this far
-  std::vector<std::string> notes;  ///< what people should know of where it lies: buried_note
+  double lift_m = 0;           ///< the target must be raised this far
+  std::vector<Warning> notes;  ///< what people should know of where it lies: buried_note
 };
 
 /// How far the target must be raised to clear the surface that it lies on, and polygons within range that rise less

@@ -12,10 +12,12 @@
 #include <vector>
 
 #include "vantage/error.h"
+#include "vantage/warning.h"
 
 namespace vantage {
 
 inline void PrintTo(ErrorCode code, std::ostream* out) { *out << name_of(code); }
+inline void PrintTo(WarningCode code, std::ostream* out) { *out << name_of(code); }
 
 }  // namespace vantage
 

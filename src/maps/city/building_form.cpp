@@ -55,8 +55,7 @@ class FormReader {
   }
 
   void remark(TagFault fault, std::string_view key, std::string_view value, std::string_view outcome) {
-    remarks_.push_back(
-        {fault, std::string(key), std::string(key).append("=").append(value).append(": ").append(outcome)});
+    remarks_.push_back({fault, std::string(key), std::string(value), std::string(outcome)});
   }
 
   /// The first of the keys that has a value from 0 to `most`; others are remarked on.

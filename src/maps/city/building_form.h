@@ -71,8 +71,13 @@ enum class TagFault {
 
 struct TagRemark {
   TagFault fault;
-  std::string key;   ///< "height"; empty for a thing as a whole
-  std::string what;  ///< "height=concrete: taken as untagged"
+  std::string key, value;  ///< "height", "concrete"; empty for a thing as a whole
+  std::string outcome;     ///< "taken as untagged"
+
+  CityRemark for_people() const {
+    return key.empty() ? CityRemark{outcome, outcome}
+                       : CityRemark{key + "=" + value + ": " + outcome, key + ": " + outcome};
+  }
 };
 
 /// "48.5", "48.5 m", "48,5m", "160 ft", "160'", "5'11\"", "0.2 km", "5;5.5" (the largest counts: what hides more);

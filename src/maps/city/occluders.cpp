@@ -29,8 +29,7 @@ std::optional<double> tagged_length(const osm::Tags& tags, std::initializer_list
     const std::optional<double> length = parse_length_m(value);
     if (length && *length > 0 && *length <= most) return std::max(*length, kLeastSize);
     const TagFault fault = !length ? TagFault::no_value : *length <= 0 ? TagFault::negative : TagFault::beyond_belief;
-    remarks.push_back(
-        {fault, std::string(key), std::string(key).append("=").append(value).append(": taken as untagged")});
+    remarks.push_back({fault, std::string(key), std::string(value), "taken as untagged"});
   }
   return std::nullopt;
 }
@@ -97,9 +96,8 @@ BuildingForm upright(const osm::Tags& tags, double height_m, std::vector<TagRema
   if (bottom && *bottom < height_m) {
     form.bottom_m = *bottom;
   } else if (bottom) {
-    remarks.push_back(
-        {TagFault::bottom_too_high, "min_height",
-         std::string("min_height=").append(tags.get("min_height")).append(": taken as standing on the ground")});
+    remarks.push_back({TagFault::bottom_too_high, "min_height", std::string(tags.get("min_height")),
+                       "taken as standing on the ground"});
   }
   return form;
 }
@@ -139,9 +137,9 @@ BuildingForm deck_form(const osm::Tags& tags, const OccluderDefaults& defaults, 
   const std::optional<double> layers = parse_levels(layer);
   constexpr double kMostLayers = 10;
   if (!layer.empty() && (!layers || std::abs(*layers) > kMostLayers)) {
-    remarks.push_back({TagFault::no_value, "layer", std::string("layer=").append(layer).append(": taken as untagged")});
+    remarks.push_back({TagFault::no_value, "layer", std::string(layer), "taken as untagged"});
   } else if (layers && *layers < 0) {
-    remarks.push_back({TagFault::below_ground, "layer", std::string("layer=").append(layer).append(": taken as 0")});
+    remarks.push_back({TagFault::below_ground, "layer", std::string(layer), "taken as 0"});
   }
   const bool valid = layers && *layers != 0 && std::abs(*layers) <= kMostLayers;
   form.bottom_m = defaults.layer_m * (valid ? std::max(*layers, 0.0) : 1);
@@ -214,7 +212,7 @@ std::vector<Shape> shapes_of_line(const osm::Tags& tags, const std::vector<Vec2>
     }
   }
   if (shapes.empty() && kind)
-    remarks.push_back({TagFault::too_small, "", std::string(name_of(*kind)).append(" along a line")});
+    remarks.push_back({TagFault::too_small, "", "", std::string(name_of(*kind)).append(" along a line")});
   return shapes;
 }
 

@@ -53,7 +53,7 @@ std::string repair_of(const Repairs& repairs) {
 }
 
 void note_remarks(CityRecord& record, const std::vector<TagRemark>& remarks) {
-  for (const TagRemark& remark : remarks) record.remarks.push_back(remark.what);
+  for (const TagRemark& remark : remarks) record.remarks.push_back(remark.for_people());
 }
 
 /// Calls `visit` with the ends of each side; a single position is a side from it to itself.
@@ -164,7 +164,7 @@ class BuildingSorter {
     std::vector<Footprint> rest = uncovered(building, structures_, grounded);
     char text[96];
     std::snprintf(text, sizeof text, "its parts cover %.0f %% of it", 100 * share);
-    record.remarks.emplace_back(text);
+    record.remarks.push_back({text, "its parts cover some of it"});
     record.fate = Fate::repaired;
     record.reason = "parts leave some of it open: that is built by its own tags";
     add(building, std::move(record), std::move(rest));
@@ -373,7 +373,7 @@ void note_reading_repairs(Site& site, const osm::Extract& extract) {
     if (found == problems.end()) continue;
     item.record.fate = Fate::repaired;
     if (item.record.reason.empty()) item.record.reason = reading_repair(found->second->kind);
-    item.record.remarks.push_back(found->second->what);
+    item.record.remarks.push_back({found->second->what, std::string(reading_repair(found->second->kind))});
   }
 }
 

@@ -1,0 +1,37 @@
+// What to know before relying on a result, though nothing is wrong by itself.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "vantage/export.h"
+
+namespace vantage {
+
+/// What a warning tells, for programs. Codes and their names stay as they are from version to version, the words may
+/// change: docs/errors.md.
+enum class WarningCode {
+  range_beyond_data,   ///< the range reaches beyond the map, the raster or the ground: what hides there is missing
+  range_beyond_scene,  ///< nothing of the scene is within range of the target
+  scene_on_its_side,   ///< the scene seems to lie on its side
+  target_in_degrees,   ///< the target is so small that its vertices seem to be longitudes and latitudes
+  target_underground,  ///< the target seems to lie under the ground
+  target_from_below,   ///< the target is looked at from below, where nothing of the scene is
+  volume_below_scene,  ///< the whole volume lies below the scene
+  ground_extended,     ///< the ground was made larger to hold the target
+};
+
+/// All codes, in the order of their declaration.
+VANTAGE_API std::span<const WarningCode> warning_codes();
+
+/// "range-beyond-data".
+VANTAGE_API const char* name_of(WarningCode code);
+
+struct Warning {
+  WarningCode code;
+  std::string text;  ///< a sentence for people, without a full stop
+
+  bool operator==(const Warning&) const = default;
+};
+
+}  // namespace vantage
