@@ -57,9 +57,9 @@ bench: everything  ## the benchmarks (RECORD=1 keeps the figures in bench/result
 	bench/run.sh $(if $(RECORD),,--no-file)
 
 .PHONY: fuzz
-fuzz: tools  ## each fuzz target for a minute (SECONDS_EACH=60)
-	@$(call compile,fuzz,all)
-	scripts/fuzz.sh $(or $(SECONDS_EACH),60)
+fuzz: tools  ## each fuzz target for a minute (SECONDS_EACH=60; PRESET=asan: in the build of `make asan`, not guided)
+	@$(call compile,$(or $(PRESET),fuzz),vantage_fuzzers)
+	BUILD=build-$(or $(PRESET),fuzz) scripts/fuzz.sh $(or $(SECONDS_EACH),60)
 
 .PHONY: nightly
 nightly: everything  ## what takes too long for every change: all of lint, all tests sanitized, 2,000 degenerate scenes (SEED=N; else the date)

@@ -22,8 +22,8 @@ if(VANTAGE_SANITIZE)
     target_compile_options(vantage_options INTERFACE -Wno-maybe-uninitialized)
   endif()
 endif()
-if(VANTAGE_BUILD_FUZZERS)
-  add_compile_options(-fsanitize=fuzzer-no-link)  # coverage, for the fuzzer to be guided by
+if(VANTAGE_FUZZ_COVERAGE)
+  add_compile_options(-fsanitize=fuzzer-no-link)  # for the fuzzer to be guided by
 endif()
 
 if(PROJECT_IS_TOP_LEVEL AND NOT CMAKE_CXX_COMPILER_LAUNCHER)

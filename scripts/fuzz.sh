@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
 # Runs every fuzz target for some seconds (default 60) each; exit 1 if any crashes, hangs, leaks or takes too much memory.
-#   scripts/fuzz.sh [SECONDS]
+#   scripts/fuzz.sh [SECONDS]       BUILD: the folder of the build (build-fuzz)
 # Seeds: tests/fuzz/seeds/<subject>/, words: tests/fuzz/<subject>.dict, both optional. What is found on the way is kept in
-# build-fuzz/corpus/, what fails in build-fuzz/findings/.
+# $BUILD/corpus/, what fails in $BUILD/findings/.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 duration=${1:-60}
+build=${BUILD:-build-fuzz}
 shopt -s nullglob
 targets=(tests/fuzz/fuzz_*.cpp)
 if [ ${#targets[@]} -eq 0 ]; then
@@ -19,15 +20,15 @@ total=0
 for target in "${targets[@]}"; do
   name=$(basename "$target" .cpp)
   subject=${name#fuzz_}
-  corpus=build-fuzz/corpus/$subject findings=build-fuzz/findings/$subject
+  corpus=$build/corpus/$subject findings=$build/findings/$subject
   mkdir -p "$corpus" "$findings"
   options=(-max_total_time="$duration" -timeout=10 -rss_limit_mb=2048 -max_len=65536 -print_final_stats=1
     -artifact_prefix="$findings/")
   seeds=(tests/fuzz/seeds/"$subject"/)
   [ -d "${seeds[0]}" ] || seeds=()
   [ ! -e "tests/fuzz/$subject.dict" ] || options+=(-dict="tests/fuzz/$subject.dict")
-  log=build-fuzz/$subject.log
-  if "build-fuzz/bin/fuzz/$name" "${options[@]}" "$corpus" "${seeds[@]}" >"$log" 2>&1 </dev/null; then
+  log=$build/$subject.log
+  if "$build/bin/fuzz/$name" "${options[@]}" "$corpus" "${seeds[@]}" >"$log" 2>&1 </dev/null; then
     runs=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")
     total=$((total + runs))
     echo "$name: $runs inputs, nothing found"

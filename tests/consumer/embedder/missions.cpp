@@ -14,7 +14,8 @@ bool is_refused(const std::string& text, const std::string& folder, const std::s
   std::printf("%s is not missed\n", component.c_str());
   return false;
 } catch (const vantage::Error& error) {
-  if (error.problem().find("no component '" + component + "'") != std::string::npos) return true;
+  const bool names_it = error.problem().find("'" + component + "'") != std::string::npos;
+  if (error.code() == vantage::ErrorCode::component_missing && names_it) return true;
   std::printf("instead of the lack of %s: %s\n", component.c_str(), error.what());
   return false;
 }
