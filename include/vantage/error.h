@@ -163,7 +163,7 @@ VANTAGE_API const char* name_of(ErrorCode code);
 VANTAGE_API std::optional<ErrorCode> error_code(std::string_view name);
 
 /// Each code is of one kind.
-ErrorKind kind_of(ErrorCode code);
+VANTAGE_API ErrorKind kind_of(ErrorCode code);
 
 /// Thrown by every public function that fails. Three short lines for the person who must fix it: what is wrong, where
 /// (file, line, object), and what to do. `what()` returns the three joined by newlines; `where` and `fix` may be empty.
