@@ -1,5 +1,5 @@
 // Configuration files of the program published with Willis, Hague, Wolek, Brink, "GPU-Accelerated 3D Polygon Visibility
-// Volumes", 2024: docs/seed-config.md.
+// Volumes", 2024: docs/willis-config.md.
 #pragma once
 
 #include <filesystem>

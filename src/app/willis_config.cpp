@@ -1,4 +1,4 @@
-// docs/seed-config.md describes every key.
+// docs/willis-config.md describes every key.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -27,7 +27,7 @@ constexpr double kParallel = 1e-6;
 constexpr const char* kVectorForm = "write three numbers in brackets: [x, y, z]";
 
 const YamlDialect& dialect() {
-  static const YamlDialect kDialect = {"configuration file", "docs/seed-config.md", {"mesh", "visibility_vol"}};
+  static const YamlDialect kDialect = {"configuration file", "docs/willis-config.md", {"mesh", "visibility_vol"}};
   return kDialect;
 }
 
@@ -46,9 +46,9 @@ const Block kVolume = {
     {"id", "width", "height", "fov_degrees", "origin", "front", "up", "up_max", "up_min", "radius_max", "output_file"},
     {}};
 
-class SeedConfigParser : private ValueReader {
+class WillisConfigParser : private ValueReader {
  public:
-  explicit SeedConfigParser(const fs::path& file) : ValueReader(file.string()) { config_.file = fs::absolute(file); }
+  explicit WillisConfigParser(const fs::path& file) : ValueReader(file.string()) { config_.file = fs::absolute(file); }
 
   WillisConfig parse(std::string_view text);
 
@@ -71,7 +71,7 @@ class SeedConfigParser : private ValueReader {
   std::map<fs::path, std::string> outputs_;  // and where each is named
 };
 
-WillisConfig SeedConfigParser::parse(std::string_view text) {
+WillisConfig WillisConfigParser::parse(std::string_view text) {
   const YamlNode root = parse_yaml(text, file(), dialect());
   check_block(root, kFile);
   if (const YamlNode* world = find(root, "world_coord_sys")) parse_world(*world);
@@ -92,7 +92,7 @@ WillisConfig SeedConfigParser::parse(std::string_view text) {
 
 /// Keys that nobody knows are told and passed over, as the published program does; one slip from a key that is read, a
 /// cut or a limit would silently be lost.
-void SeedConfigParser::check_block(const YamlNode& node, const Block& block) {
+void WillisConfigParser::check_block(const YamlNode& node, const Block& block) {
   std::string known;
   for (const std::string_view key : block.keys) known.append(known.empty() ? "" : ", ").append(key);
   if (node.kind != YamlNode::Kind::map) {
@@ -115,13 +115,13 @@ void SeedConfigParser::check_block(const YamlNode& node, const Block& block) {
   }
 }
 
-const YamlNode& SeedConfigParser::require(const YamlNode& map, const Block& block, std::string_view key,
-                                          const std::string& fix) const {
+const YamlNode& WillisConfigParser::require(const YamlNode& map, const Block& block, std::string_view key,
+                                            const std::string& fix) const {
   if (const YamlNode* node = find(map, key)) return *node;
   fail(ErrorCode::missing_key, map, std::string(block.name) + " lacks the key '" + std::string(key) + "'", fix);
 }
 
-void SeedConfigParser::parse_world(const YamlNode& node) {
+void WillisConfigParser::parse_world(const YamlNode& node) {
   check_block(node, kWorld);
   if (const YamlNode* origin = find(node, "origin")) {
     if (vector(*origin, "world_coord_sys.origin", kVectorForm) != Vec3::Zero()) {
@@ -147,7 +147,7 @@ void SeedConfigParser::parse_world(const YamlNode& node) {
   }
 }
 
-void SeedConfigParser::parse_mesh(const YamlNode& node) {
+void WillisConfigParser::parse_mesh(const YamlNode& node) {
   check_block(node, kMesh);
   WillisMesh mesh;
   const YamlNode& name = require(node, kMesh, "filename", "write 'filename: city.obj'");
@@ -172,7 +172,7 @@ void SeedConfigParser::parse_mesh(const YamlNode& node) {
   config_.meshes.push_back(std::move(mesh));
 }
 
-Vec3 SeedConfigParser::scale_of(const YamlNode& node) const {
+Vec3 WillisConfigParser::scale_of(const YamlNode& node) const {
   if (node.kind != YamlNode::Kind::sequence) return Vec3::Constant(positive(node, "mesh.scale"));
   Vec3 scale = vector(node, "mesh.scale", "write one number, or three in brackets: [x, y, z]");
   if (scale.minCoeff() <= 0)
@@ -181,7 +181,7 @@ Vec3 SeedConfigParser::scale_of(const YamlNode& node) const {
   return scale;
 }
 
-Eigen::Matrix3d SeedConfigParser::rotation_of(const YamlNode& node) const {
+Eigen::Matrix3d WillisConfigParser::rotation_of(const YamlNode& node) const {
   const char* const form = "write the axis and the angle in degrees: [x, y, z, angle]";
   const std::string what = "mesh.orientation axis, angle";
   if (list(node, what, form).size() != 4)
@@ -198,7 +198,7 @@ Eigen::Matrix3d SeedConfigParser::rotation_of(const YamlNode& node) const {
 }
 
 /// A vector of length 1.
-Vec3 SeedConfigParser::direction(const YamlNode& node, const std::string& what) const {
+Vec3 WillisConfigParser::direction(const YamlNode& node, const std::string& what) const {
   const Vec3 given = vector(node, what, kVectorForm);
   if (given.stableNorm() < std::numeric_limits<double>::min()) {
     fail(ErrorCode::direction_invalid, node, what + " has length 0", "write a direction, such as [1, 0, 0]");
@@ -206,7 +206,7 @@ Vec3 SeedConfigParser::direction(const YamlNode& node, const std::string& what) 
   return given.stableNormalized();
 }
 
-void SeedConfigParser::parse_volume(const YamlNode& node) {
+void WillisConfigParser::parse_volume(const YamlNode& node) {
   check_block(node, kVolume);
   WillisVolume volume;
   const YamlNode* id = find(node, "id");
@@ -221,7 +221,7 @@ void SeedConfigParser::parse_volume(const YamlNode& node) {
   config_.volumes.push_back(std::move(volume));
 }
 
-void SeedConfigParser::parse_cube(const YamlNode& node, WillisVolume& volume) {
+void WillisConfigParser::parse_cube(const YamlNode& node, WillisVolume& volume) {
   const YamlNode& width = require(node, kVolume, "width", "write 'width: 40', the texels along a face's side");
   const YamlNode& height = require(node, kVolume, "height", "write 'height: 40', the same as width");
   volume.texels = texels(width, "visibility_vol.width");
@@ -250,7 +250,7 @@ void SeedConfigParser::parse_cube(const YamlNode& node, WillisVolume& volume) {
   if (level != volume.front) volume.front = level.normalized();
 }
 
-int SeedConfigParser::texels(const YamlNode& node, const std::string& what) const {
+int WillisConfigParser::texels(const YamlNode& node, const std::string& what) const {
   const double value = number(node, what);
   if (value != std::floor(value) || value < 1 || value > kMostTexels) {
     fail(ErrorCode::value_out_of_range, node,
@@ -260,7 +260,7 @@ int SeedConfigParser::texels(const YamlNode& node, const std::string& what) cons
   return static_cast<int>(value);
 }
 
-void SeedConfigParser::parse_limits(const YamlNode& node, WillisVolume& volume) {
+void WillisConfigParser::parse_limits(const YamlNode& node, WillisVolume& volume) {
   const YamlNode* low = find(node, "up_min");
   const YamlNode* high = find(node, "up_max");
   if (low) volume.up_min = length(*low, "visibility_vol.up_min");
@@ -282,7 +282,7 @@ void SeedConfigParser::parse_limits(const YamlNode& node, WillisVolume& volume) 
   }
 }
 
-void SeedConfigParser::parse_output(const YamlNode& node, WillisVolume& volume) {
+void WillisConfigParser::parse_output(const YamlNode& node, WillisVolume& volume) {
   const YamlNode& output = require(node, kVolume, "output_file", "write 'output_file: volume.obj'");
   volume.output_name = text(output, "visibility_vol.output_file");
   volume.output_where = place_in(file(), output.place);
@@ -298,7 +298,7 @@ void SeedConfigParser::parse_output(const YamlNode& node, WillisVolume& volume) 
 }  // namespace
 
 WillisConfig parse_willis_config(std::string_view text, const fs::path& file) {
-  return SeedConfigParser(file).parse(text);
+  return WillisConfigParser(file).parse(text);
 }
 
 WillisConfig read_willis_config(const fs::path& file) {

@@ -122,7 +122,7 @@ bool is_explained_by_snapping(const Mesh& scene, const Vec3& from, const Texel& 
   return low - kAgree <= theirs && theirs <= high + kAgree;
 }
 
-class SeedVolumes : public Cli {
+class WillisVolumes : public Cli {
  protected:
   void run_config(const Vec3& viewpoint, const std::string& sphere) {
     std::ostringstream text;
@@ -186,24 +186,24 @@ class SeedVolumes : public Cli {
   }
 };
 
-TEST_F(SeedVolumes, AgreeWithTheirsOfTarget2) {
+TEST_F(WillisVolumes, AgreeWithTheirsOfTarget2) {
   VANTAGE_REQUIRE_SHARED("battcave/v_002.obj");
   compare("v_002.obj");
 }
 
-TEST_F(SeedVolumes, AgreeWithTheirsOfTarget3) {
+TEST_F(WillisVolumes, AgreeWithTheirsOfTarget3) {
   VANTAGE_REQUIRE_SHARED("battcave/v_003.obj");
   compare("v_003.obj");
 }
 
-TEST_F(SeedVolumes, AgreeWithTheirsOfTarget5) {
+TEST_F(WillisVolumes, AgreeWithTheirsOfTarget5) {
   VANTAGE_REQUIRE_SHARED("battcave/v_005.obj");
   compare("v_005.obj");
 }
 
 // The safe sphere keeps to the floor, the range and what is in sight: from the viewpoint to the middles of its facets
 // nothing is in the way. Theirs, which joins texel centres, shows that the check would notice.
-TEST_F(SeedVolumes, ConservativeOnesClaimNothingHidden) {
+TEST_F(WillisVolumes, ConservativeOnesClaimNothingHidden) {
   VANTAGE_REQUIRE_SHARED("battcave/v_002.obj");
   const Vec3 viewpoint(-14.638578, 0.5, -9.623141);
   const Scene scene = read_scene(shared_data("battcave/battcave.obj"));
