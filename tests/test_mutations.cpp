@@ -49,7 +49,7 @@ Mesh pipeline(const Scene& scene, const Target& goal, const Mutation& mutation =
   const TargetFrame frame = make_target_frame(goal);
   const target::LocalTarget target = target::make_local_target(frame.polygon, 1e-9, 0);
   const target::RangeRegion range(frame.polygon, mutation.range);
-  ChartGrid grid(range, kTolerance);
+  OctahedralGrid grid(range, kTolerance);
   BlockerSet blockers;
   DirectionTree found(blockers, range);
   const core::ProgressReporter progress;

@@ -17,7 +17,7 @@ namespace vantage::internal::verify {
 namespace {
 
 using testing::Oracle;
-using testing::Sight;
+using testing::Visibility;
 
 class RandomRays {
  public:
@@ -89,12 +89,12 @@ TEST(HeavyVerify, AgreesWithAPlainLoopOverCharlotte) {
     const Oracle oracle(scene.mesh, polygon, view.normal());
     for (int k = 0; k < kRays; ++k) {
       const Vec3 to = rays.target_point(view), from = rays.viewpoint(view, to, kRange);
-      const Sight truth = oracle.look(from + view.origin(), to + view.origin());
-      hidden += truth == Sight::hidden;
-      clear += truth == Sight::clear;
-      grazing += truth == Sight::grazing;
-      if (truth == Sight::grazing) continue;
-      ASSERT_EQ(occluders.hide(from, to), truth == Sight::hidden)
+      const Visibility truth = oracle.look(from + view.origin(), to + view.origin());
+      hidden += truth == Visibility::hidden;
+      clear += truth == Visibility::clear;
+      grazing += truth == Visibility::grazing;
+      if (truth == Visibility::grazing) continue;
+      ASSERT_EQ(occluders.hide(from, to), truth == Visibility::hidden)
           << "target " << i << " ray " << k << " from " << from.transpose() << " to " << to.transpose();
     }
   }

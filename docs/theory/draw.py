@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Draws the pictures of ../theory.md as SVG, from the formulas that the text gives. No packages needed.
 
-    draw.py        writes blocker.svg, star.svg and chart.svg beside itself
+    draw.py        writes blocker.svg, star.svg and octahedral_map.svg beside itself
 """
 
 import math
@@ -204,7 +204,7 @@ def chart():
     drawing.text((0.56, 0.52), "horizon |a| + |b| = 1", DARK, "start", 13)
     drawing.text((0.42, -0.13), "a wall", BLUE, "end", 13)
     drawing.text((-0.5, -0.2), "a tower", BLUE, "end", 13)
-    drawing.write("chart.svg")
+    drawing.write("octahedral_map.svg")
 
 
 if __name__ == "__main__":

@@ -12,7 +12,7 @@ namespace vantage::internal::exact {
 /// Blocker i owns the planes [first[i], first[i + 1]) and likewise its corners.
 struct BlockerSet {
   std::vector<Plane> planes;
-  std::vector<std::uint8_t> live;  ///< per plane: 0 where a neighbour of the polygon hides all of its facet
+  std::vector<std::uint8_t> visible;  ///< per plane: 0 where a neighbour of the polygon hides all of its facet
   std::vector<std::uint32_t> first{0};
   std::vector<Vec3> corners;  ///< of the scene polygon, clipped to the target's front; none where more is hidden
   std::vector<std::uint32_t> first_corner{0};
@@ -27,13 +27,13 @@ struct BlockerSet {
     return {corners.data() + first_corner[blocker], first_corner[blocker + 1] - first_corner[blocker]};
   }
 
-  /// Ends a blocker whose planes and corners have been appended; its planes are live.
+  /// Ends a blocker whose planes and corners have been appended; its planes are visible.
   void close(std::uint32_t scene_polygon) {
     first.push_back(std::uint32_t(planes.size()));
     first_corner.push_back(std::uint32_t(corners.size()));
     polygon.push_back(scene_polygon);
     confined.push_back(0);
-    live.resize(planes.size(), 1);
+    visible.resize(planes.size(), 1);
   }
 
   /// Takes the last one back.
@@ -43,7 +43,7 @@ struct BlockerSet {
     polygon.pop_back();
     confined.pop_back();
     planes.resize(first.back());
-    live.resize(first.back());
+    visible.resize(first.back());
     corners.resize(first_corner.back());
   }
 };

@@ -49,7 +49,7 @@ class Neighbours {
     // Where the target's plane cuts the polygon, its planes touch it at corners that no neighbour knows.
     if (std::any_of(corners.begin(), corners.end(), [&](const Vec3& c) { return c.z() < -target_.slack; })) return;
     const auto vertices = scene_.corners_of(polygon);
-    std::size_t live_others = 0, own_planes = 0;
+    std::size_t visible_others = 0, own_planes = 0;
     for (std::uint32_t k = blockers.first[blockers.count() - 1]; k < blockers.planes.size(); ++k) {
       const double margin = touch_margin(blockers.planes[k], reach_);
       touched_.clear();
@@ -63,10 +63,10 @@ class Neighbours {
         return other != polygon && hides(other, blockers.planes[k], 1 - kNear * blockers.planes[k].norm());
       };
       const auto candidates = touched_.empty() ? std::span<const std::uint32_t>() : scene_.polygons_at(touched_[0]);
-      blockers.live[k] = std::none_of(candidates.begin(), candidates.end(), hidden);
-      live_others += blockers.live[k];
+      blockers.visible[k] = std::none_of(candidates.begin(), candidates.end(), hidden);
+      visible_others += blockers.visible[k];
     }
-    blockers.confined.back() = own_planes == 1 && live_others == 0;
+    blockers.confined.back() = own_planes == 1 && visible_others == 0;
   }
 
  private:

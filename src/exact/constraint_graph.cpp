@@ -8,17 +8,17 @@ namespace vantage::internal::exact {
 namespace {
 
 // Monotone in the angle round the diamond.
-double turn_of(const ChartPoint& p) {
+double turn_of(const OctahedralPoint& p) {
   if (p.y() >= 0) return p.x() > 0 ? p.y() : 2 - p.y();
   return p.x() < 0 ? 2 - p.y() : 4 + p.y();
 }
 
 }  // namespace
 
-ConstraintGraph::ConstraintGraph(const Skeleton& skeleton, ChartGrid& grid, const IsRange& is_range, double snap)
+ConstraintGraph::ConstraintGraph(const Skeleton& skeleton, OctahedralGrid& grid, const IsRange& is_range, double snap)
     : grid_(grid), snap_(snap), snapper_(2 * skeleton.planar.size() + 16 * skeleton.curved.size() + 1024, snap) {
-  for (const ChartPoint& corner :
-       {ChartPoint(0, 0), ChartPoint(1, 0), ChartPoint(0, 1), ChartPoint(-1, 0), ChartPoint(0, -1)})
+  for (const OctahedralPoint& corner : {OctahedralPoint(0, 0), OctahedralPoint(1, 0), OctahedralPoint(0, 1),
+                                        OctahedralPoint(-1, 0), OctahedralPoint(0, -1)})
     snapper_.add(corner);
   at_node_.assign(points().size(), true);
   nodes_.assign(std::size_t(2 * grid_.size() + 1) * (2 * grid_.size() + 1), kNone);
@@ -45,14 +45,14 @@ void ConstraintGraph::add_creases(const Skeleton& skeleton) {
     for (std::size_t i = 0; i + 1 < line.size(); ++i) add_crease(line[i], line[i + 1], true);
 }
 
-std::uint32_t ConstraintGraph::add_crease_point(const Vec3& point, const ChartPoint& in_chart) {
-  const std::uint32_t vertex = snapper_.add(in_chart);
+std::uint32_t ConstraintGraph::add_crease_point(const Vec3& point, const OctahedralPoint& in_octahedral) {
+  const std::uint32_t vertex = snapper_.add(in_octahedral);
   if (crease_gauges_.size() <= vertex) crease_gauges_.resize(vertex + 1);
   crease_gauges_[vertex] = std::max(crease_gauges_[vertex], 1 / point.lpNorm<1>());
   return vertex;
 }
 
-// A straight line in space is straight in the chart but for bends where it crosses the planes x = 0 and y = 0.
+// A straight line in space is straight in the octahedral map but for bends where it crosses the planes x = 0 and y = 0.
 void ConstraintGraph::add_crease(const Vec3& from, const Vec3& to, bool on_sphere) {
   std::array<double, 4> stops{0, 1, 1, 1};
   int count = 1;
@@ -61,11 +61,11 @@ void ConstraintGraph::add_crease(const Vec3& from, const Vec3& to, bool on_spher
       stops[count++] = from[axis] / (from[axis] - to[axis]);
   if (count == 3 && stops[2] < stops[1]) std::swap(stops[1], stops[2]);
   stops[count] = 1;
-  ChartPoint previous = to_chart(from);
+  OctahedralPoint previous = to_octahedral(from);
   std::uint32_t vertex = add_crease_point(from, previous);
   for (int i = 1; i <= count; ++i) {
     const Vec3 stop = stops[i] == 1 ? to : Vec3(from + stops[i] * (to - from));
-    const ChartPoint next = to_chart(stop);
+    const OctahedralPoint next = to_octahedral(stop);
     const std::uint32_t next_vertex = add_crease_point(stop, next);
     add_edge(vertex, next_vertex);
     if (on_sphere) grid_.mark(previous, next, snap_);
@@ -83,17 +83,17 @@ std::uint32_t ConstraintGraph::vertex_at(int i, int j) {
   return slot;
 }
 
-// The edges between cells that are cut in two and the rest of the chart.
+// The edges between cells that are cut in two and the rest of the octahedral map.
 void ConstraintGraph::add_border() {
   const int n = grid_.size();
   for (int j = -n; j <= n; ++j) {
     const int width = j < n ? grid_.row_width(j) : 0, width_below = j > -n ? grid_.row_width(j - 1) : 0;
-    for (const ChartGrid::Run& run : grid_.range_runs(j)) {
+    for (const OctahedralGrid::Run& run : grid_.range_runs(j)) {
       if (run.begin > -width) add_edge(vertex_at(run.begin, j), vertex_at(run.begin, j + 1));
       if (run.end < width) add_edge(vertex_at(run.end, j), vertex_at(run.end, j + 1));
       for (int i : {run.begin, run.end - 1})
         if (grid_.at_horizon(i, j)) {
-          const ChartGrid::Corners c = ChartGrid::corners(i, j);
+          const OctahedralGrid::Corners c = OctahedralGrid::corners(i, j);
           vertex_at(c.a1, c.b0);
           vertex_at(c.a0, c.b1);
         }
@@ -103,11 +103,11 @@ void ConstraintGraph::add_border() {
 }
 
 // Along line j: where just one of the rows below and above it has a cell that is cut in two, and both have cells.
-void ConstraintGraph::add_steps(std::span<const ChartGrid::Run> below, std::span<const ChartGrid::Run> above, int width,
-                                int j) {
+void ConstraintGraph::add_steps(std::span<const OctahedralGrid::Run> below, std::span<const OctahedralGrid::Run> above,
+                                int width, int j) {
   steps_.clear();
   for (const auto& runs : {below, above})
-    for (const ChartGrid::Run& run : runs)
+    for (const OctahedralGrid::Run& run : runs)
       for (int end : {run.begin, run.end}) steps_.push_back(std::clamp(end, -width, width));
   std::sort(steps_.begin(), steps_.end());
   for (std::size_t k = 0; k + 1 < steps_.size(); k += 2)
@@ -121,7 +121,7 @@ void ConstraintGraph::add_fill(const IsRange& is_range) {
         vertex_at(a, b);
 }
 
-// Triangles must not pass over the axes, where the chart bends.
+// Triangles must not pass over the axes, where the octahedral map bends.
 void ConstraintGraph::add_axes() {
   for (int axis = 0; axis < 2; ++axis) {
     std::vector<std::uint32_t> on_axis;

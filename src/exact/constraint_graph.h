@@ -1,4 +1,4 @@
-// The points and edges of the chart that the triangulation must hold.
+// The points and edges of the octahedral map that the triangulation must hold.
 #pragma once
 
 #include <cstdint>
@@ -7,16 +7,16 @@
 #include <utility>
 #include <vector>
 
-#include "exact/chart_grid.h"
 #include "exact/envelope.h"
+#include "exact/octahedral_grid.h"
 #include "exact/vertex_snapper.h"
 
 namespace vantage::internal::exact {
 
-/// Answers whether the boundary in the direction of a chart point is range sphere.
-using IsRange = std::function<bool(const ChartPoint&)>;
+/// Answers whether the boundary in the direction of a point of the map is range sphere.
+using IsRange = std::function<bool(const OctahedralPoint&)>;
 
-/// Creases, split where they cross the chart's axes; the border of the cells that are cut in two; the axes; the
+/// Creases, split where they cross the map's axes; the border of the cells that are cut in two; the axes; the
 /// horizon; and free points on the range sphere among the creases, so that triangles there are no larger than cells.
 class ConstraintGraph {
  public:
@@ -24,9 +24,9 @@ class ConstraintGraph {
   static constexpr std::uint32_t kNone = ~0u;
 
   /// Marks and settles the cells of `grid`. Points closer than `snap` become one.
-  ConstraintGraph(const Skeleton& skeleton, ChartGrid& grid, const IsRange& is_range, double snap);
+  ConstraintGraph(const Skeleton& skeleton, OctahedralGrid& grid, const IsRange& is_range, double snap);
 
-  const std::vector<ChartPoint>& points() const { return snapper_.points(); }
+  const std::vector<OctahedralPoint>& points() const { return snapper_.points(); }
   bool on_horizon(std::uint32_t vertex) const { return snapper_.on_horizon(vertex); }
   const std::vector<Edge>& edges() const { return edges_; }
 
@@ -47,16 +47,17 @@ class ConstraintGraph {
  private:
   void add_edge(std::uint32_t a, std::uint32_t b);
   void add_crease(const Vec3& from, const Vec3& to, bool on_sphere);
-  std::uint32_t add_crease_point(const Vec3& point, const ChartPoint& in_chart);
+  std::uint32_t add_crease_point(const Vec3& point, const OctahedralPoint& in_octahedral);
   void add_creases(const Skeleton& skeleton);
   std::uint32_t vertex_at(int i, int j);
   void add_border();
-  void add_steps(std::span<const ChartGrid::Run> below, std::span<const ChartGrid::Run> above, int width, int j);
+  void add_steps(std::span<const OctahedralGrid::Run> below, std::span<const OctahedralGrid::Run> above, int width,
+                 int j);
   void add_fill(const IsRange& is_range);
   void add_axes();
   void add_horizon();
 
-  ChartGrid& grid_;
+  OctahedralGrid& grid_;
   double snap_;
   VertexSnapper snapper_;
   std::vector<Edge> edges_;

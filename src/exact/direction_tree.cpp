@@ -28,7 +28,7 @@ DirectionTree::DirectionTree(const BlockerSet& blockers, const target::RangeRegi
   for (std::uint32_t root = 0; root < 4; ++root) split(root);
 }
 
-void DirectionTree::add_node(const ChartCell& cell, double bound, std::uint32_t depth) {
+void DirectionTree::add_node(const OctahedralCell& cell, double bound, std::uint32_t depth) {
   const QuadrantLinear below_range = on_quadrant(range_.supporting_plane(cell.centre_direction()), cell.quadrant);
   Node& node = nodes_.emplace_back();
   node.cell = cell;
@@ -78,22 +78,22 @@ bool DirectionTree::stays_under(std::span<const Corners> low, std::span<const Co
 }
 
 bool DirectionTree::hidden_in(const Node& node, const Surface& surface) {
-  return std::any_of(node.champions.begin(), node.champions.end(), [&](const Surface& champion) {
-    return !champion.values.empty() && below(surface.least, champion.least) &&
-           stays_under(surface.values, champion.values);
+  return std::any_of(node.dominators.begin(), node.dominators.end(), [&](const Surface& dominator) {
+    return !dominator.values.empty() && below(surface.least, dominator.least) &&
+           stays_under(surface.values, dominator.values);
   });
 }
 
-void DirectionTree::consider_champion(Node& node, const Surface& surface) {
+void DirectionTree::consider_dominator(Node& node, const Surface& surface) {
   const double least = *std::min_element(surface.least.begin(), surface.least.end());
   node.bound = std::max(node.bound, least);
   double middle = std::numeric_limits<double>::infinity();
   for (const Corners& v : surface.values) middle = std::min(middle, v[0] + v[1] + v[2] + v[3]);
   const std::array<double, 2> scores{least, middle};
   for (std::size_t i = 0; i < 2; ++i)
-    if (scores[i] > node.champion_score[i]) {
-      node.champion_score[i] = scores[i];
-      node.champions[i] = surface;
+    if (scores[i] > node.dominator_score[i]) {
+      node.dominator_score[i] = scores[i];
+      node.dominators[i] = surface;
     }
 }
 
@@ -128,7 +128,7 @@ void DirectionTree::add_to_leaf(Leaf& leaf, std::uint32_t index, const Surface& 
 
 bool DirectionTree::hides_box(const Vec3& centre, const std::array<Vec3, 3>& half_extents) const {
   if (centre.z() <= 0) return false;
-  for (std::uint32_t blocker : leaf_at(to_chart(centre)).blockers) {
+  for (std::uint32_t blocker : leaf_at(to_octahedral(centre)).blockers) {
     bool hides = true;
     for (const Plane& plane : blockers_.planes_of(blocker)) {
       double least = plane.dot(centre);
@@ -147,7 +147,7 @@ bool DirectionTree::hides_hull(std::span<const Vec3> points) const {
   Vec3 centre = Vec3::Zero();
   for (const Vec3& point : points) centre += point / double(points.size());
   if (centre.z() <= 0) return false;
-  for (std::uint32_t blocker : leaf_at(to_chart(centre)).blockers) {
+  for (std::uint32_t blocker : leaf_at(to_octahedral(centre)).blockers) {
     bool hides = true;
     for (const Plane& plane : blockers_.planes_of(blocker)) {
       for (const Vec3& point : points) hides = hides && plane.dot(point) > 1 + tie_margin(plane, range_.radius());
@@ -210,7 +210,7 @@ bool DirectionTree::is_worth_splitting(const Node& node) const {
 
 // False when the blocker is hidden all over the cell.
 bool DirectionTree::insert_into(Node& node, std::uint32_t index, const Surface& surface) {
-  if (std::none_of(surface.planes.begin(), surface.planes.end(), [&](std::uint32_t k) { return blockers_.live[k]; }))
+  if (std::none_of(surface.planes.begin(), surface.planes.end(), [&](std::uint32_t k) { return blockers_.visible[k]; }))
     return false;
   if (hidden_in(node, surface)) return false;
   if (node.first_child == 0) {
@@ -218,12 +218,12 @@ bool DirectionTree::insert_into(Node& node, std::uint32_t index, const Surface& 
       if (below(surface.least, node.leaf.least[i]) && stays_under(surface.values, node.leaf.values_of(i))) return false;
     add_to_leaf(node.leaf, index, surface);
   }
-  consider_champion(node, surface);
+  consider_dominator(node, surface);
   return true;
 }
 
 void DirectionTree::split(std::uint32_t at) {
-  const ChartCell cell = nodes_[at].cell;
+  const OctahedralCell cell = nodes_[at].cell;
   const double half = cell.size / 2, bound = nodes_[at].bound;
   const std::uint32_t depth = nodes_[at].depth + 1, first = std::uint32_t(nodes_.size());
   add_node({cell.quadrant, cell.a, cell.b, half}, bound, depth);
@@ -259,7 +259,7 @@ std::vector<const DirectionTree::Leaf*> DirectionTree::leaves() const {
   return result;
 }
 
-void DirectionTree::leaves_over(int quadrant, const std::array<ChartPoint, 3>& triangle,
+void DirectionTree::leaves_over(int quadrant, const std::array<OctahedralPoint, 3>& triangle,
                                 std::vector<const Leaf*>& found) const {
   std::array<Eigen::Vector2d, 3> corners;
   for (int i = 0; i < 3; ++i) corners[i] = triangle[i].cwiseAbs();
@@ -277,7 +277,7 @@ void DirectionTree::leaves_over(int quadrant, const std::array<ChartPoint, 3>& t
   open[count++] = std::uint32_t(quadrant);
   while (count > 0) {
     const Node& node = nodes_[open[--count]];
-    const ChartCell& cell = node.cell;
+    const OctahedralCell& cell = node.cell;
     if (low.x() > cell.a + cell.size || high.x() < cell.a || low.y() > cell.b + cell.size || high.y() < cell.b)
       continue;
     const bool apart =
@@ -303,11 +303,11 @@ std::vector<std::uint32_t> DirectionTree::listed_between(const Vec3& normal, dou
   return found;
 }
 
-const DirectionTree::Leaf& DirectionTree::leaf_at(const ChartPoint& point) const {
+const DirectionTree::Leaf& DirectionTree::leaf_at(const OctahedralPoint& point) const {
   const double a = std::abs(point.x()), b = std::abs(point.y());
   std::uint32_t at = std::uint32_t(quadrant_of(point.x(), point.y()));
   while (nodes_[at].first_child != 0) {
-    const ChartCell& cell = nodes_[at].cell;
+    const OctahedralCell& cell = nodes_[at].cell;
     const double half = cell.size / 2;
     std::uint32_t child = (a >= cell.a + half ? 1u : 0u) + (b >= cell.b + half ? 2u : 0u);
     if (child >= nodes_[at].child_count) child = a - cell.a > b - cell.b ? 1 : 2;  // beyond the horizon by rounding

@@ -1,4 +1,4 @@
-// Which blockers may be seen in which directions: a quadtree over the chart that culls what is hidden.
+// Which blockers may be seen in which directions: a quadtree over the octahedral map that culls what is hidden.
 #pragma once
 
 #include <array>
@@ -7,16 +7,16 @@
 #include <vector>
 
 #include "exact/blocker_set.h"
-#include "exact/chart.h"
 #include "exact/footprint.h"
+#include "exact/octahedral_map.h"
 #include "target/range_region.h"
 
 namespace vantage::internal::exact {
 
-/// In each cell a blocker is reduced to the planes that can be its least there, most often one or two. A few champions,
-/// blockers that rise high over all of the cell, bound the envelope from below. What stays under a champion everywhere
-/// in the cell cannot be seen there; comparing planes at the cell's corners decides that. Leaves list the blockers that
-/// may be seen and split while the lists are long: the tree is fine only where much is in view.
+/// In each cell a blocker is reduced to the planes that can be its least there, most often one or two. A few
+/// dominators, blockers that rise high over all of the cell, bound the envelope from below. What stays under a
+/// dominator everywhere in the cell cannot be seen there; comparing planes at the cell's corners decides that. Leaves
+/// list the blockers that may be seen and split while the lists are long: the tree is fine only where much is in view.
 class DirectionTree {
  public:
   /// Keeps references to both.
@@ -50,11 +50,11 @@ class DirectionTree {
     }
   };
   std::vector<const Leaf*> leaves() const;
-  const Leaf& leaf_at(const ChartPoint& point) const;
+  const Leaf& leaf_at(const OctahedralPoint& point) const;
 
-  /// Appends the leaves of one quadrant whose cells a triangle of the chart meets, and perhaps some that it only nearly
-  /// meets.
-  void leaves_over(int quadrant, const std::array<ChartPoint, 3>& triangle, std::vector<const Leaf*>& found) const;
+  /// Appends the leaves of one quadrant whose cells a triangle of the octahedral map meets, and perhaps some that it
+  /// only nearly meets.
+  void leaves_over(int quadrant, const std::array<OctahedralPoint, 3>& triangle, std::vector<const Leaf*>& found) const;
 
   /// The blockers listed in cells that a direction with low <= normal . direction <= high (|x| + |y| + z = 1) may lie
   /// in, ascending.
@@ -68,11 +68,11 @@ class DirectionTree {
     Corners least{};
   };
   struct Node {
-    ChartCell cell;
-    double bound = 0;                  // constant lower bound on the envelope
-    Corners range{};                   // linear lower bound on the range region's gauge
-    std::array<Surface, 2> champions;  // of greatest least value; greatest at the middle
-    std::array<double, 2> champion_score{};
+    OctahedralCell cell;
+    double bound = 0;                   // constant lower bound on the envelope
+    Corners range{};                    // linear lower bound on the range region's gauge
+    std::array<Surface, 2> dominators;  // of greatest least value; greatest at the middle
+    std::array<double, 2> dominator_score{};
     Leaf leaf;
     std::uint32_t first_child = 0;  // 0: a leaf
     std::uint32_t child_count = 0;
@@ -83,7 +83,7 @@ class DirectionTree {
   bool reduce(const Node& node, std::span<const std::uint32_t> planes, Surface& surface);
   static bool stays_under(std::span<const Corners> low, std::span<const Corners> high);
   static bool hidden_in(const Node& node, const Surface& surface);
-  static void consider_champion(Node& node, const Surface& surface);
+  static void consider_dominator(Node& node, const Surface& surface);
   static void add_to_leaf(Leaf& leaf, std::uint32_t index, const Surface& surface);
 
   const Footprint* footprint_of(std::uint32_t blocker, Footprint& footprint) const;
@@ -92,7 +92,7 @@ class DirectionTree {
   bool insert_into(Node& node, std::uint32_t index, const Surface& surface);
   bool is_worth_splitting(const Node& node) const;
   void split(std::uint32_t node);
-  void add_node(const ChartCell& cell, double bound, std::uint32_t depth);
+  void add_node(const OctahedralCell& cell, double bound, std::uint32_t depth);
 
   const BlockerSet& blockers_;
   const target::RangeRegion& range_;

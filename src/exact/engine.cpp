@@ -6,7 +6,7 @@
 #include "core/mend_welded.h"
 #include "core/number_text.h"
 #include "core/parallel.h"
-#include "exact/side.h"
+#include "exact/half_space_volume.h"
 #include "target/lengths.h"
 #include "target/prepared_target_data.h"
 #include "target/range_check.h"
@@ -34,10 +34,10 @@ void check(const PreparedTarget& target, const ExactOptions& options) {
 }
 
 /// Makes the result of what was computed in `frame`. `what` and `hint` are for a view that is blocked at once.
-void take_over(Side side, const TargetFrame& frame, double max_range, Volume& volume, const std::string& what,
-               const std::string& hint) {
+void fill_volume(HalfSpaceVolume side, const TargetFrame& frame, double max_range, Volume& volume,
+                 const std::string& what, const std::string& hint) {
   volume.counts = side.counts;
-  const double near = internal::target::hands_breadth(max_range);
+  const double near = internal::target::min_useful_depth(max_range);
   if (side.blocked_within(near)) {
     volume.outcome = Outcome::blocked_at_once;
     volume.reason =
@@ -59,9 +59,9 @@ void compute_polygon(const PreparedTarget& target, const ExactOptions& options,
   const Sensor& sensor = target.sensor();
   if (!target.data().parts[0].is_reachable) return internal::target::set_out_of_range(volume.frame, sensor, volume);
   const internal::target::RangeRegion range(volume.frame.polygon, sensor.max_range_m);
-  take_over(compute_side(target.scene(), volume.frame, range, options, progress), volume.frame, sensor.max_range_m,
-            volume, "the target's front",
-            "the target looks into what it lies on: turn it round with front:, or raise it with offset:");
+  fill_volume(compute_half_space(target.scene(), volume.frame, range, options, progress), volume.frame,
+              sensor.max_range_m, volume, "the target's front",
+              "the target looks into what it lies on: turn it round with front:, or raise it with offset:");
 }
 
 void compute_point(const PreparedTarget& target, const ExactOptions& options,
@@ -71,15 +71,15 @@ void compute_point(const PreparedTarget& target, const ExactOptions& options,
   // Of the point itself: the triangle would cost micrometres.
   const internal::target::RangeRegion range(volume.frame.polygon, max_range);
   if (!sides.back) {
-    take_over(compute_side(target.scene(), sides.front, range, options, progress), sides.front, max_range, volume,
-              "the point's front",
-              "the point looks into what it lies on: turn it round with front:, or move it with offset:");
+    fill_volume(compute_half_space(target.scene(), sides.front, range, options, progress), sides.front, max_range,
+                volume, "the point's front",
+                "the point looks into what it lies on: turn it round with front:, or move it with offset:");
     return;
   }
-  const Side front = compute_side(target.scene(), sides.front, range, options, progress);
-  const Side back = compute_side(target.scene(), *sides.back, range, options, progress);
-  take_over(join_sides(front, back), sides.front, max_range, volume, "the point on all sides",
-            "move the point out of what it lies in");
+  const HalfSpaceVolume front = compute_half_space(target.scene(), sides.front, range, options, progress);
+  const HalfSpaceVolume back = compute_half_space(target.scene(), *sides.back, range, options, progress);
+  fill_volume(join_half_spaces(front, back), sides.front, max_range, volume, "the point on all sides",
+              "move the point out of what it lies in");
 }
 
 }  // namespace

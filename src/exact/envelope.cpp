@@ -42,17 +42,17 @@ struct FacetTable {
   std::vector<Place> places;
 };
 
-struct Sighting {
+struct VisiblePlane {
   std::uint32_t plane, blocker;
   Place place;
-  bool operator<(const Sighting& other) const {
+  bool operator<(const VisiblePlane& other) const {
     return plane != other.plane ? plane < other.plane : place.leaf < other.place.leaf;
   }
 };
 
 // The facet of a plane is swept from the corners where the plane touches its polygon, away from the target. For a point
 // o of B(C) and a target point t every plane g of C has g . o >= 1 >= g . t, so o + s (o - t) is in B(C) too: where a
-// rival holds those corners it hides the whole facet, if it does not coincide with it.
+// competitor holds those corners it hides the whole facet, if it does not coincide with it.
 class ContactTest {
  public:
   ContactTest(const BlockerSet& blockers, const DirectionTree& tree, double reach)
@@ -66,14 +66,14 @@ class ContactTest {
     for (const Vec3& corner : blockers_.corners_of(blocker))
       if (std::abs(plane.dot(corner) - 1) <= margin) touched_.push_back(corner), middle += corner;
     if (touched_.empty() || middle.z() <= 0) return false;
-    for (std::uint32_t rival : tree_.leaf_at(to_chart(middle)).blockers)
-      if (rival != blocker && hides(rival, plane, rival < blocker)) return true;
+    for (std::uint32_t competitor : tree_.leaf_at(to_octahedral(middle)).blockers)
+      if (competitor != blocker && hides(competitor, plane, competitor < blocker)) return true;
     return false;
   }
 
  private:
-  bool hides(std::uint32_t rival, const Plane& own, bool owns_ties) const {
-    for (const Plane& plane : blockers_.planes_of(rival)) {
+  bool hides(std::uint32_t competitor, const Plane& own, bool owns_ties) const {
+    for (const Plane& plane : blockers_.planes_of(competitor)) {
       const double margin = tie_margin(plane, reach_);
       for (const Vec3& corner : touched_)
         if (plane.dot(corner) - 1 < -margin) return false;
@@ -108,20 +108,20 @@ bool plane_hidden(const DirectionTree::Leaf& leaf, std::size_t own, std::uint32_
 
 FacetTable find_facets(const BlockerSet& blockers, const std::vector<const DirectionTree::Leaf*>& leaves) {
   constexpr std::size_t kLeaves = 16;  // that one thread takes at a time
-  std::vector<std::vector<Sighting>> found(leaves.size() / kLeaves + 1);
+  std::vector<std::vector<VisiblePlane>> found(leaves.size() / kLeaves + 1);
   parallel::for_ranges(found.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t c = begin; c < end; ++c)
       for (std::size_t l = c * kLeaves; l < std::min(leaves.size(), (c + 1) * kLeaves); ++l)
         for (std::size_t i = 0; i < leaves[l]->count(); ++i)
           for (std::uint32_t k = leaves[l]->first_plane[i]; k < leaves[l]->first_plane[i + 1]; ++k)
-            if (blockers.live[leaves[l]->planes[k]] && !plane_hidden(*leaves[l], i, k))
+            if (blockers.visible[leaves[l]->planes[k]] && !plane_hidden(*leaves[l], i, k))
               found[c].push_back({leaves[l]->planes[k], leaves[l]->blockers[i], {std::uint32_t(l), k}});
   });
-  std::vector<Sighting> sightings;
-  for (const auto& some : found) sightings.insert(sightings.end(), some.begin(), some.end());
-  parallel::sort(sightings, std::less<>());
+  std::vector<VisiblePlane> visible_planes;
+  for (const auto& some : found) visible_planes.insert(visible_planes.end(), some.begin(), some.end());
+  parallel::sort(visible_planes, std::less<>());
   FacetTable table;
-  for (const Sighting& s : sightings) {
+  for (const VisiblePlane& s : visible_planes) {
     if (table.facets.empty() || table.facets.back().plane != s.plane)
       table.facets.push_back({s.plane, s.blocker, std::uint32_t(table.places.size()), 0});
     table.places.push_back(s.place);
@@ -153,8 +153,8 @@ class FacetTracer {
   Result trace(const Facet& facet) {
     Result result;
     if (contact_.hidden(facet.blocker, facet.plane) || !make_polygon(facet)) return result;
-    gather_rivals(facet);
-    if (!cut_by_rivals(facet)) return result;
+    gather_competitors(facet);
+    if (!cut_by_competitors(facet)) return result;
     trace_own_edges(result);
     trace_crossings(facet, result);
     trace_range(facet, result);
@@ -163,7 +163,7 @@ class FacetTracer {
   }
 
  private:
-  static constexpr std::uint32_t kNoRival = ~0u;
+  static constexpr std::uint32_t kNoCompetitor = ~0u;
 
   const Plane& plane_of(const Facet& facet) const { return blockers_.planes[facet.plane]; }
   double reach() const { return range_.radius(); }
@@ -184,50 +184,51 @@ class FacetTracer {
   }
 
   // The blockers that may rise over the facet's plane where the facet may be seen.
-  void gather_rivals(const Facet& facet) {
-    rivals_.clear();
+  void gather_competitors(const Facet& facet) {
+    competitors_.clear();
     seen_.resize(blockers_.count(), ~0u);
     for (std::uint32_t p = facet.first_place; p < facet.first_place + facet.place_count; ++p) {
       const DirectionTree::Leaf& leaf = *leaves_[table_.places[p].leaf];
       const CellCorners& own = leaf.values[table_.places[p].plane];
       for (std::size_t i = 0; i < leaf.count(); ++i) {
-        const std::uint32_t rival = leaf.blockers[i];
-        if (rival == facet.blocker || seen_[rival] == facet.plane) continue;
+        const std::uint32_t competitor = leaf.blockers[i];
+        if (competitor == facet.blocker || seen_[competitor] == facet.plane) continue;
         const auto values = leaf.values_of(i);
         if (std::any_of(values.begin(), values.end(), [&](const CellCorners& v) { return below(v, own); })) continue;
-        seen_[rival] = facet.plane;
-        rivals_.push_back(rival);
+        seen_[competitor] = facet.plane;
+        competitors_.push_back(competitor);
       }
     }
   }
 
-  struct Cut {  // what a rival hides of the polygon
-    std::uint32_t rival;
+  struct Cut {  // what a competitor hides of the polygon
+    std::uint32_t competitor;
     double area;
     Box bounds;
     core::FacetPolygon polygon;
   };
 
-  // Cuts out of a copy of the facet what each rival hides. False when one of them hides all of it. Rivals that hide
-  // nothing of it are dropped, and the others sorted: what hides much ends the work on most edges at once.
-  bool cut_by_rivals(const Facet& facet) {
+  // Cuts out of a copy of the facet what each competitor hides. False when one of them hides all of it. Competitors
+  // that hide nothing of it are dropped, and the others sorted: what hides much ends the work on most edges at once.
+  bool cut_by_competitors(const Facet& facet) {
     cut_count_ = 0;
-    for (std::uint32_t rival : rivals_) {
+    for (std::uint32_t competitor : competitors_) {
       if (cuts_.size() == cut_count_) cuts_.emplace_back();
       Cut& cut = cuts_[cut_count_];
-      const Overlap overlap = cut_by(rival, facet.blocker, cut.polygon);
+      const Overlap overlap = cut_by(competitor, facet.blocker, cut.polygon);
       if (overlap == Overlap::all) return false;
       if (overlap == Overlap::none) continue;
-      cut.rival = rival;
+      cut.competitor = competitor;
       cut.area = area_of(cut.polygon);
       cut.bounds = Box();
       for (const Vec3& corner : cut.polygon.corners) cut.bounds.extend(corner);
       ++cut_count_;
     }
-    std::sort(cuts_.begin(), cuts_.begin() + std::ptrdiff_t(cut_count_),
-              [](const Cut& a, const Cut& b) { return a.area != b.area ? a.area > b.area : a.rival < b.rival; });
-    rivals_.clear();
-    for (std::size_t c = 0; c < cut_count_; ++c) rivals_.push_back(cuts_[c].rival);
+    std::sort(cuts_.begin(), cuts_.begin() + std::ptrdiff_t(cut_count_), [](const Cut& a, const Cut& b) {
+      return a.area != b.area ? a.area > b.area : a.competitor < b.competitor;
+    });
+    competitors_.clear();
+    for (std::size_t c = 0; c < cut_count_; ++c) competitors_.push_back(cuts_[c].competitor);
     return true;
   }
 
@@ -238,11 +239,11 @@ class FacetTracer {
     return 0.5 * sum.norm();
   }
 
-  enum class Overlap { none, part, all };  // what a rival hides
+  enum class Overlap { none, part, all };  // what a competitor hides
 
-  Overlap cut_by(std::uint32_t rival, std::uint32_t blocker, core::FacetPolygon& cut) {
+  Overlap cut_by(std::uint32_t competitor, std::uint32_t blocker, core::FacetPolygon& cut) {
     bool copied = false;
-    for (const Plane& plane : blockers_.planes_of(rival)) {
+    for (const Plane& plane : blockers_.planes_of(competitor)) {
       const double margin = tie_margin(plane, reach());
       double low = std::numeric_limits<double>::infinity(), high = -low;
       for (const Vec3& corner : polygon_.corners) {
@@ -251,7 +252,7 @@ class FacetTracer {
       }
       if (high <= margin) {
         const bool tie = low >= -margin;
-        if (!tie || rival > blocker) return Overlap::none;
+        if (!tie || competitor > blocker) return Overlap::none;
       } else if (low < -margin) {
         if (!copied) cut = polygon_, copied = true;
         core::clip_facet(cut, plane, 1, margin, std::uint32_t(&plane - blockers_.planes.data()), scratch_);
@@ -266,25 +267,25 @@ class FacetTracer {
     for (std::size_t i = 0; i < polygon_.corners.size(); ++i) {
       if (polygon_.makers[i] >= core::FacetPolygon::kHorizon) continue;
       const Vec3 &from = polygon_.corners[i], &to = polygon_.corners[(i + 1) % polygon_.corners.size()];
-      trace_edge(from, to, kNoRival, result);
+      trace_edge(from, to, kNoCompetitor, result);
     }
   }
 
-  // Where a rival's surface comes out of this facet. The blocker with the lower index reports it.
+  // Where a competitor's surface comes out of this facet. The blocker with the lower index reports it.
   void trace_crossings(const Facet& facet, Result& result) {
     for (std::size_t c = 0; c < cut_count_; ++c) {
       const Cut& cut = cuts_[c];
-      if (cut.rival < facet.blocker) continue;
+      if (cut.competitor < facet.blocker) continue;
       const auto& corners = cut.polygon.corners;
       for (std::size_t i = 0; i < corners.size(); ++i) {
         const std::uint32_t maker = cut.polygon.makers[i];
-        if (maker < blockers_.first[cut.rival] || maker >= blockers_.first[cut.rival + 1]) continue;
-        trace_edge(corners[i], corners[(i + 1) % corners.size()], cut.rival, result);
+        if (maker < blockers_.first[cut.competitor] || maker >= blockers_.first[cut.competitor + 1]) continue;
+        trace_edge(corners[i], corners[(i + 1) % corners.size()], cut.competitor, result);
       }
     }
   }
 
-  // Adds what of from -> to is in range and not hidden by any rival but `other`.
+  // Adds what of from -> to is in range and not hidden by any competitor but `other`.
   void trace_edge(const Vec3& from, const Vec3& to, std::uint32_t other, Result& result) {
     const double length = (to - from).norm();
     if (length < shortest_) return;
@@ -294,8 +295,8 @@ class FacetTracer {
     for (std::size_t c = 0; c < cut_count_; ++c) {
       const Cut& cut = cuts_[c];
       const bool apart = (cut.bounds.min.array() > high.array()).any() || (cut.bounds.max.array() < low.array()).any();
-      if (apart || cut.rival == other) continue;
-      const Interval hidden = hidden_part(from, to, reach(), blockers_.planes_of(cut.rival));
+      if (apart || cut.competitor == other) continue;
+      const Interval hidden = hidden_part(from, to, reach(), blockers_.planes_of(cut.competitor));
       shown_.subtract(hidden.begin, hidden.end);
       if (shown_.empty()) return;
     }
@@ -342,9 +343,9 @@ class FacetTracer {
       for (std::uint32_t maker : polygon_.makers)
         if (maker < core::FacetPolygon::kHorizon) arcs.keep(blockers_.planes[maker], 1);
       keep_in_other_balls(ball, arcs);
-      for (std::uint32_t rival : rivals_) {
+      for (std::uint32_t competitor : competitors_) {
         if (arcs.empty()) break;
-        arcs.subtract_blocker(blockers_.planes_of(rival), rival < facet.blocker);
+        arcs.subtract_blocker(blockers_.planes_of(competitor), competitor < facet.blocker);
       }
       add_arcs(circle, arcs, shortest_, sampling_, result.curved);
     }
@@ -385,7 +386,7 @@ class FacetTracer {
 
   ContactTest contact_;
   core::FacetPolygon polygon_, scratch_;
-  std::vector<std::uint32_t> rivals_;
+  std::vector<std::uint32_t> competitors_;
   std::vector<std::uint32_t> seen_;  // per blocker: the facet's plane that it was last gathered for
   std::vector<Cut> cuts_;
   std::size_t cut_count_ = 0;

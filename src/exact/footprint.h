@@ -6,11 +6,11 @@
 #include <span>
 #include <vector>
 
-#include "exact/chart.h"
+#include "exact/octahedral_map.h"
 
 namespace vantage::internal::exact {
 
-/// The cone over a convex polygon, as far as it decides which cells of the chart the polygon misses.
+/// The cone over a convex polygon, as far as it decides which cells of the octahedral map the polygon misses.
 class Footprint {
  public:
   /// Corners in order, z >= 0, in a plane that does not pass through the origin.
@@ -27,7 +27,7 @@ class Footprint {
   }
 
   /// True only if no direction of the cell meets the polygon.
-  bool misses(const ChartCell& cell) const {
+  bool misses(const OctahedralCell& cell) const {
     const double sx = cell.quadrant & 1 ? -1 : 1, sy = cell.quadrant & 2 ? -1 : 1;
     bool left = true, right = true, under = true, over = true;
     for (const Vec3& c : corners_) {

@@ -18,7 +18,7 @@ struct GaugeValue {
 
 /// The greatest inverse depth over the range region and the blockers that the tree lists. Exact to rounding.
 inline GaugeValue evaluate_gauge(const BlockerSet& blockers, const DirectionTree& tree,
-                                 const target::RangeRegion& range, const ChartPoint& point) {
+                                 const target::RangeRegion& range, const OctahedralPoint& point) {
   const Vec3 direction = to_direction(point);
   GaugeValue greatest{range.gauge(direction), GaugeValue::kRange};
   const DirectionTree::Leaf& leaf = tree.leaf_at(point);

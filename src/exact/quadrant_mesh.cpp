@@ -8,7 +8,7 @@
 
 #include "core/parallel.h"
 #include "exact/gauge.h"
-#include "exact/rise_check.h"
+#include "exact/over_claim_bound.h"
 #include "target/numerics.h"
 
 namespace vantage::internal::exact {
@@ -18,15 +18,15 @@ namespace {
 constexpr std::size_t kMostGrowth = 4;
 // The gauge may rise this fraction above a triangle before it counts as over-claimed: less than the final shrinking.
 constexpr double kSafe = 0.5 * numerics::kShrink;
-// Where it rises less than this (0.1 mm at 1 km), or the triangle is narrower than that in the chart, the triangle's
-// corners are drawn in; otherwise a crease is missing and the triangle is split.
+// Where it rises less than this (0.1 mm at 1 km), or the triangle is narrower than that in the octahedral map, the
+// triangle's corners are drawn in; otherwise a crease is missing and the triangle is split.
 constexpr double kSmallRise = 1e-7;
 constexpr double kThinnest = 1e-8;
 constexpr std::size_t kGrain = 256;  // directions that one thread takes at a time
 
 class QuadrantMesher {
  public:
-  QuadrantMesher(int quadrant, const ConstraintGraph& graph, const ChartGrid& grid, const Envelope& envelope,
+  QuadrantMesher(int quadrant, const ConstraintGraph& graph, const OctahedralGrid& grid, const Envelope& envelope,
                  double snap)
       : quadrant_(quadrant),
         graph_(graph),
@@ -72,9 +72,9 @@ class QuadrantMesher {
   bool on_horizon(std::uint32_t v) const { return is_own(v) && graph_.on_horizon(in_graph(v)); }
   /// Whether a triangle in a range cell may have this corner: a node, or where an edge between nodes was split.
   bool may_bound_cell(std::uint32_t v) const { return !is_own(v) || graph_.at_node(in_graph(v)); }
-  ChartPoint point(std::uint32_t v) const { return {cdt_.vertices[v].x, cdt_.vertices[v].y}; }
-  ChartPoint centre_of(const Triangle& t) const { return (point(t[0]) + point(t[1]) + point(t[2])) / 3; }
-  GaugeValue gauge_at(const ChartPoint& p) const {
+  OctahedralPoint point(std::uint32_t v) const { return {cdt_.vertices[v].x, cdt_.vertices[v].y}; }
+  OctahedralPoint centre_of(const Triangle& t) const { return (point(t[0]) + point(t[1]) + point(t[2])) / 3; }
+  GaugeValue gauge_at(const OctahedralPoint& p) const {
     return evaluate_gauge(envelope_.blockers, envelope_.tree, envelope_.range, p);
   }
 
@@ -86,7 +86,7 @@ class QuadrantMesher {
     envelope_.progress.check();
     most_triangles_ = kMostGrowth * cdt_.triangles.size() + 1000;
     while (refine()) envelope_.progress.check();
-    draw_in_tilted();
+    tighten_tilted();
   }
 
   // The graph's vertices in the quadrant, and its edges between them.
@@ -130,7 +130,7 @@ class QuadrantMesher {
       for (std::size_t k = begin; k < end; ++k)
         fresh_[k].gauge = gauge_at(centre_of(known_[fresh_[k].triangle].vertices));
     });
-    std::vector<ChartPoint> added;
+    std::vector<OctahedralPoint> added;
     for (const Fresh& fresh : fresh_) {
       known_[fresh.triangle].blocker = fresh.gauge.blocker;
       known_[fresh.triangle].gauge = fresh.gauge.value;
@@ -155,7 +155,7 @@ class QuadrantMesher {
 
   Place place_of(const Triangle& t) const {
     if (t[0] < kSuper || t[1] < kSuper || t[2] < kSuper) return Place::outside;
-    const ChartPoint centre = centre_of(t);
+    const OctahedralPoint centre = centre_of(t);
     // Rounding leaves slivers between the points of one side of the horizon.
     if (on_horizon(t[0]) && on_horizon(t[1]) && on_horizon(t[2]) && centre.cwiseAbs().sum() > 1 - 1e-9)
       return Place::outside;
@@ -166,7 +166,7 @@ class QuadrantMesher {
   }
 
   // `gauge` is that at the triangle's centre.
-  void improve(const Triangle& t, const GaugeValue& gauge, std::vector<ChartPoint>& added) {
+  void improve(const Triangle& t, const GaugeValue& gauge, std::vector<OctahedralPoint>& added) {
     const double claimed = (gauges_[t[0]] + gauges_[t[1]] + gauges_[t[2]]) / 3;
     const double rise = gauge.value / claimed - 1;
     const bool deep = gauge.blocker == GaugeValue::kRange && too_deep(t);
@@ -174,12 +174,12 @@ class QuadrantMesher {
     if ((rise > kSmallRise || deep) && cdt_.triangles.size() <= most_triangles_ && has_room(t))
       added.push_back(centre_of(t));
     else if (rise > kSafe)
-      draw_in(t, gauge.value, rise);
+      tighten(t, gauge.value, rise);
   }
 
   // A greater gauge only makes the volume smaller. Either all corners by twice the rise or the far ones to the gauge:
   // what takes less.
-  void draw_in(const Triangle& t, double gauge, double rise) {
+  void tighten(const Triangle& t, double gauge, double rise) {
     const double least = std::min({gauges_[t[0]], gauges_[t[1]], gauges_[t[2]]});
     const double level = gauge * (1 + kSafe);
     const bool to_level = level < least * (1 + 2 * rise);
@@ -191,10 +191,10 @@ class QuadrantMesher {
   // distance goes through it, and the vertex may lie well behind the crease: the facets that end there are tilted. What
   // then rises above them, wherever it is, is found here, and covered. A facet that lies on the gauge in its middle is
   // not tilted, and one on the range sphere cannot be: where its rim has moved, it claims that much sideways at most.
-  void draw_in_tilted() {
+  void tighten_tilted() {
     std::vector<double> rises(known_.size(), 0);
     parallel::for_ranges(known_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-      RiseCheck check(envelope_.blockers, envelope_.tree);
+      OverClaimBound check(envelope_.blockers, envelope_.tree);
       for (std::size_t i = begin; i < end; ++i) {
         const Known& known = known_[i];
         if (known.place != Place::kept || known.blocker == GaugeValue::kRange) continue;
@@ -215,7 +215,7 @@ class QuadrantMesher {
 
   // Whether a triangle is worth splitting: in one that is no wider than what snapping moves, a crease cannot be found.
   bool has_room(const Triangle& t) const {
-    const ChartPoint a = point(t[1]) - point(t[0]), b = point(t[2]) - point(t[0]), c = b - a;
+    const OctahedralPoint a = point(t[1]) - point(t[0]), b = point(t[2]) - point(t[0]), c = b - a;
     const double longest = std::sqrt(std::max({a.squaredNorm(), b.squaredNorm(), c.squaredNorm()}));
     return std::abs(a.x() * b.y() - a.y() * b.x()) > kThinnest * longest;
   }
@@ -269,7 +269,7 @@ class QuadrantMesher {
       result_.base.emplace_back(renamed(from), renamed(to));
       return;
     }
-    const ChartPoint a = point(from), b = point(to);
+    const OctahedralPoint a = point(from), b = point(to);
     const bool on_axis = (a.x() == 0 && b.x() == 0) || (a.y() == 0 && b.y() == 0);
     if (!on_axis || !is_own(from) || !is_own(to))
       throw CannotTriangulate{"a crease has split the border of a quadrant"};
@@ -283,7 +283,7 @@ class QuadrantMesher {
 
   int quadrant_;
   const ConstraintGraph& graph_;
-  const ChartGrid& grid_;
+  const OctahedralGrid& grid_;
   const Envelope& envelope_;
   CDT::Triangulation<double> cdt_;
   std::size_t most_triangles_ = 0;
@@ -296,8 +296,8 @@ class QuadrantMesher {
 
 }  // namespace
 
-QuadrantMesh mesh_quadrant(int quadrant, const ConstraintGraph& graph, const ChartGrid& grid, const Envelope& envelope,
-                           double snap) {
+QuadrantMesh mesh_quadrant(int quadrant, const ConstraintGraph& graph, const OctahedralGrid& grid,
+                           const Envelope& envelope, double snap) {
   try {
     return QuadrantMesher(quadrant, graph, grid, envelope, snap).run();
   } catch (const CDT::Error& error) {

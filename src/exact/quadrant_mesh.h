@@ -1,4 +1,4 @@
-// The triangulation of one quadrant of the chart: docs/theory.md, "Triangulation".
+// The triangulation of one quadrant of the octahedral map: docs/theory.md, "Triangulation".
 #pragma once
 
 #include <string>
@@ -15,12 +15,12 @@ namespace vantage::internal::exact {
 struct QuadrantMesh {
   std::vector<Triangle> triangles;
   std::vector<std::uint32_t> blocker_of;    ///< per triangle: index of the blocker, or GaugeValue::kRange
-  std::vector<ChartPoint> added;            ///< vertices that refinement made
+  std::vector<OctahedralPoint> added;       ///< vertices that refinement made
   std::vector<double> added_gauge;          ///< the inverse depth there
   std::vector<std::uint32_t> graph_vertex;  ///< the graph's vertices that lie in the quadrant
   std::vector<double> graph_gauge;          ///< the inverse depth there; neighbouring quadrants may know a greater one
   std::vector<ConstraintGraph::Edge> base;  ///< edges on the horizon, as the triangles run them
-  std::vector<ChartPoint> border_splits;    ///< where an edge of a range cell had to be split
+  std::vector<OctahedralPoint> border_splits;  ///< where an edge of a range cell had to be split
 };
 
 /// The envelope that is meshed, and how finely.
@@ -36,8 +36,8 @@ struct Envelope {
 /// Triangles that lie more than the tolerance inside the sphere get a point in the middle, and so do those above which
 /// the gauge rises (a crease that rounding has lost), until there are none. Points closer than `snap` cannot be told
 /// apart. Throws CannotTriangulate, and Error(cancelled).
-QuadrantMesh mesh_quadrant(int quadrant, const ConstraintGraph& graph, const ChartGrid& grid, const Envelope& envelope,
-                           double snap);
+QuadrantMesh mesh_quadrant(int quadrant, const ConstraintGraph& graph, const OctahedralGrid& grid,
+                           const Envelope& envelope, double snap);
 
 /// Creases meet in a way that the triangulation has no place for; wider snapping may help.
 struct CannotTriangulate {

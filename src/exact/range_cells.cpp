@@ -7,19 +7,19 @@ namespace {
 
 class Cutter {
  public:
-  Cutter(ConstraintGraph& graph, const ChartGrid& grid, const target::RangeRegion& range)
+  Cutter(ConstraintGraph& graph, const OctahedralGrid& grid, const target::RangeRegion& range)
       : graph_(graph), grid_(grid), range_(range) {}
 
   RangeCells run() {
     const int n = grid_.size();
     std::size_t count = 0;
     for (int j = -n; j < n; ++j)
-      for (const ChartGrid::Run& run : grid_.range_runs(j)) count += std::size_t(run.end - run.begin);
+      for (const OctahedralGrid::Run& run : grid_.range_runs(j)) count += std::size_t(run.end - run.begin);
     cells_.triangles.reserve(2 * count);
     cells_.vertices.reserve(graph_.points().size() + count + 4 * std::size_t(n));
     cells_.vertices.resize(graph_.points().size());
     for (int j = -n; j < n; ++j)
-      for (const ChartGrid::Run& run : grid_.range_runs(j))
+      for (const OctahedralGrid::Run& run : grid_.range_runs(j))
         for (int i = run.begin; i < run.end; ++i) cut(i, j);
     return std::move(cells_);
   }
@@ -27,7 +27,7 @@ class Cutter {
  private:
   void cut(int i, int j) {
     // The diagonal from (a1, b0) to (a0, b1) is the short one in space.
-    const ChartGrid::Corners c = ChartGrid::corners(i, j);
+    const OctahedralGrid::Corners c = OctahedralGrid::corners(i, j);
     const bool mirrored = (i >= 0) != (j >= 0);
     const std::uint32_t p = vertex_at(c.a1, c.b0), q = vertex_at(c.a0, c.b1);
     add(vertex_at(c.a0, c.b0), p, q, mirrored);
@@ -53,7 +53,7 @@ class Cutter {
   }
 
   ConstraintGraph& graph_;
-  const ChartGrid& grid_;
+  const OctahedralGrid& grid_;
   const target::RangeRegion& range_;
   std::size_t ball_ = 0;
   RangeCells cells_;
@@ -61,7 +61,7 @@ class Cutter {
 
 }  // namespace
 
-RangeCells cut_range_cells(ConstraintGraph& graph, const ChartGrid& grid, const target::RangeRegion& range) {
+RangeCells cut_range_cells(ConstraintGraph& graph, const OctahedralGrid& grid, const target::RangeRegion& range) {
   return Cutter(graph, grid, range).run();
 }
 

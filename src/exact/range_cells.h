@@ -16,6 +16,6 @@ struct RangeCells {
 };
 
 /// Numbers the nodes of the graph's grid that have no vertex yet.
-RangeCells cut_range_cells(ConstraintGraph& graph, const ChartGrid& grid, const target::RangeRegion& range);
+RangeCells cut_range_cells(ConstraintGraph& graph, const OctahedralGrid& grid, const target::RangeRegion& range);
 
 }  // namespace vantage::internal::exact

@@ -15,7 +15,7 @@ namespace {
 
 /// Thrown when the triangulation has split an edge of a range cell there.
 struct BorderSplit {
-  std::vector<ChartPoint> places;
+  std::vector<OctahedralPoint> places;
 };
 
 // Whether every edge is run as often one way as the other: a sum over the edges that is zero for a closed, oriented
@@ -38,7 +38,7 @@ bool is_closed(const Mesh& mesh) {
 
 class BoundaryBuilder {
  public:
-  BoundaryBuilder(const Skeleton& skeleton, const Envelope& envelope, ChartGrid& grid, double snap)
+  BoundaryBuilder(const Skeleton& skeleton, const Envelope& envelope, OctahedralGrid& grid, double snap)
       : envelope_(envelope), grid_(grid), snap_(snap), graph_(skeleton, grid, is_range(), snap) {}
 
   Boundary run() {
@@ -59,7 +59,7 @@ class BoundaryBuilder {
 
  private:
   IsRange is_range() const {
-    return [this](const ChartPoint& p) {
+    return [this](const OctahedralPoint& p) {
       return evaluate_gauge(envelope_.blockers, envelope_.tree, envelope_.range, p).blocker == GaugeValue::kRange;
     };
   }
@@ -71,7 +71,7 @@ class BoundaryBuilder {
   }
 
   void check_borders() const {
-    std::vector<ChartPoint> places;
+    std::vector<OctahedralPoint> places;
     for (const QuadrantMesh& quadrant : quadrants_)
       places.insert(places.end(), quadrant.border_splits.begin(), quadrant.border_splits.end());
     if (!places.empty()) throw BorderSplit{std::move(places)};
@@ -90,7 +90,7 @@ class BoundaryBuilder {
       result_.mesh.vertices[v] = lifted(graph_.points()[v], gauges[v], graph_.on_horizon(v));
   }
 
-  static Vec3 lifted(const ChartPoint& point, double gauge, bool horizon) {
+  static Vec3 lifted(const OctahedralPoint& point, double gauge, bool horizon) {
     Vec3 direction = to_direction(point);
     if (horizon) direction.z() = 0;
     return direction * ((1 - numerics::kShrink) / gauge);
@@ -133,7 +133,7 @@ class BoundaryBuilder {
   }
 
   const Envelope& envelope_;
-  ChartGrid& grid_;
+  OctahedralGrid& grid_;
   double snap_;
   ConstraintGraph graph_;
   std::array<QuadrantMesh, 4> quadrants_;
@@ -145,7 +145,7 @@ class BoundaryBuilder {
 }  // namespace
 
 Boundary triangulate_boundary(const Skeleton& skeleton, const BlockerSet& blockers, const DirectionTree& tree,
-                              const target::RangeRegion& range, ChartGrid& grid, double tolerance,
+                              const target::RangeRegion& range, OctahedralGrid& grid, double tolerance,
                               const core::ProgressReporter& progress) {
   const Envelope envelope{blockers, tree, range, tolerance, progress};
   // Where creases meet at less than the snapping distance the triangulation may find no place for their crossing; wider
@@ -155,8 +155,8 @@ Boundary triangulate_boundary(const Skeleton& skeleton, const BlockerSet& blocke
       return BoundaryBuilder(skeleton, envelope, grid, snap).run();
     } catch (const BorderSplit& split) {
       // Cells round about are triangulated with the rest: more of them each time, as what splits one edge goes on.
-      for (const ChartPoint& p : split.places)
-        grid.mark(p - ChartPoint::Constant(width), p + ChartPoint::Constant(width), snap);
+      for (const OctahedralPoint& p : split.places)
+        grid.mark(p - OctahedralPoint::Constant(width), p + OctahedralPoint::Constant(width), snap);
       width *= 2;
     } catch (const CannotTriangulate& failure) {
       if (snap >= numerics::kWidestSnap)

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "core/progress_reporter.h"
-#include "exact/chart_grid.h"
 #include "exact/direction_tree.h"
 #include "exact/envelope.h"
+#include "exact/octahedral_grid.h"
 #include "target/range_region.h"
 
 namespace vantage::internal::exact {
@@ -21,10 +21,10 @@ struct Boundary {
   std::size_t constraint_edges = 0;
 };
 
-/// Cells of the grid that hold nothing but range sphere are cut in two; the rest of the chart is triangulated quadrant
-/// by quadrant. Every vertex is lifted to where the gauge says.
+/// Cells of the grid that hold nothing but range sphere are cut in two; the rest of the octahedral map is triangulated
+/// quadrant by quadrant. Every vertex is lifted to where the gauge says.
 Boundary triangulate_boundary(const Skeleton& skeleton, const BlockerSet& blockers, const DirectionTree& tree,
-                              const target::RangeRegion& range, ChartGrid& grid, double tolerance,
+                              const target::RangeRegion& range, OctahedralGrid& grid, double tolerance,
                               const core::ProgressReporter& progress);
 
 }  // namespace vantage::internal::exact

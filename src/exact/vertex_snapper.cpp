@@ -24,13 +24,13 @@ std::size_t VertexSnapper::slot_of(std::int64_t x, std::int64_t y) const {
   return (h * 0xbf58476d1ce4e5b9ull >> 20) & (heads_.size() - 1);
 }
 
-std::uint32_t VertexSnapper::find(std::int64_t x, std::int64_t y, const ChartPoint& point) const {
+std::uint32_t VertexSnapper::find(std::int64_t x, std::int64_t y, const OctahedralPoint& point) const {
   for (std::uint32_t i = heads_[slot_of(x, y)]; i != kNone; i = next_[i])
     if ((points_[i] - point).cwiseAbs().maxCoeff() <= snap_) return i;
   return kNone;
 }
 
-std::uint32_t VertexSnapper::add(ChartPoint point) {
+std::uint32_t VertexSnapper::add(OctahedralPoint point) {
   const double sum = std::abs(point.x()) + std::abs(point.y());
   for (const int axis : {0, 1}) {
     if (std::abs(point[axis]) > snap_) continue;

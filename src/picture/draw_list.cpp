@@ -9,8 +9,8 @@
 
 #include "core/parallel.h"
 #include "picture/creases.h"
+#include "picture/occlusion_rays.h"
 #include "picture/palette.h"
-#include "picture/sight.h"
 
 namespace vantage::internal::picture {
 namespace {
@@ -196,12 +196,12 @@ double ground_height(const Scene& scene, const Eigen::Vector2d& focus, double ra
 class Builder {
  public:
   Builder(const Scene& scene, const PictureRequest& request, const PictureExtent& extent, const View& view,
-          const Sight& sight, const core::ProgressReporter& progress)
+          const OcclusionRays& occlusion_rays, const core::ProgressReporter& progress)
       : scene_(scene),
         request_(request),
         extent_(extent),
         view_(view),
-        sight_(sight),
+        occlusion_rays_(occlusion_rays),
         progress_(progress),
         unit_(std::sqrt(1.0 * view.width * view.height) / 1386) {
     list_.origin = extent.centre;
@@ -307,7 +307,7 @@ class Builder {
     points.push_back(extent_.centre);
     for (const Vec3& point : points) {
       const Vec3 towards = view_.perspective ? Vec3(view_.eye - point) : view_.back;
-      sight_.each_hit(point + 0.05 * Vec3::UnitZ(), towards, !view_.perspective, [&](std::uint32_t triangle) {
+      occlusion_rays_.each_hit(point + 0.05 * Vec3::UnitZ(), towards, !view_.perspective, [&](std::uint32_t triangle) {
         double& opacity = opacities[parts.of[triangle]];
         opacity = std::min(opacity, kGlass);
         return true;
@@ -395,7 +395,7 @@ class Builder {
   const PictureRequest& request_;
   const PictureExtent& extent_;
   const View& view_;
-  const Sight& sight_;
+  const OcclusionRays& occlusion_rays_;
   const core::ProgressReporter& progress_;
   double unit_;  // pixels of the picture for one of a picture of 1600 x 1200
   DrawList list_;
@@ -430,8 +430,8 @@ PictureExtent find_extent(const Scene& scene, const PictureRequest& request, con
 }
 
 DrawList make_draw_list(const Scene& scene, const PictureRequest& request, const PictureExtent& extent,
-                        const View& view, const Sight& sight, const core::ProgressReporter& progress) {
-  return Builder(scene, request, extent, view, sight, progress).build();
+                        const View& view, const OcclusionRays& occlusion_rays, const core::ProgressReporter& progress) {
+  return Builder(scene, request, extent, view, occlusion_rays, progress).build();
 }
 
 }  // namespace vantage::internal::picture

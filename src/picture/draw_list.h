@@ -12,7 +12,7 @@
 
 namespace vantage::internal::picture {
 
-class Sight;
+class OcclusionRays;
 
 /// A corner of a triangle; three in a row make one.
 struct DrawVertex {
@@ -59,7 +59,8 @@ PictureExtent find_extent(const Scene& scene, const PictureRequest& request,
                           const core::ProgressReporter& progress = {});
 /// Parts of the scene that hide the target are drawn as of glass.
 DrawList make_draw_list(const Scene& scene, const PictureRequest& request, const PictureExtent& extent,
-                        const View& view, const Sight& sight, const core::ProgressReporter& progress = {});
+                        const View& view, const OcclusionRays& occlusion_rays,
+                        const core::ProgressReporter& progress = {});
 
 /// 1, 2 or 5 times a power of ten, the largest that is at most `length` (> 0).
 double round_length(double length);

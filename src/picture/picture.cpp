@@ -10,7 +10,7 @@
 #include "picture/canvas.h"
 #include "picture/draw_list.h"
 #include "picture/gl_picture.h"
-#include "picture/sight.h"
+#include "picture/occlusion_rays.h"
 #include "vantage/atomic_file.h"
 #include "vantage/error.h"
 
@@ -107,13 +107,14 @@ Picture render_picture(const Scene& scene, const PictureRequest& request, const 
   progress.check();
   Box bounds = bounding_box(scene.mesh);
   bounds.extend(extent.framed);
-  const Sight sight(scene.mesh, extent.centre, progress.part(0, 0));
+  const OcclusionRays occlusion_rays(scene.mesh, extent.centre, progress.part(0, 0));
   PictureView from = request.view;
   if (from.kind == PictureView::Kind::oblique && !from.azimuth_deg) {
-    from.azimuth_deg = best_azimuth(sight, extent, extent.target, from.elevation_deg, kPreferredAzimuth, progress);
+    from.azimuth_deg =
+        best_azimuth(occlusion_rays, extent, extent.target, from.elevation_deg, kPreferredAzimuth, progress);
   }
   const View view = make_view(from, request.width, request.height, insets, extent.points, extent.centre, bounds);
-  const DrawList list = make_draw_list(scene, request, extent, view, sight, progress);
+  const DrawList list = make_draw_list(scene, request, extent, view, occlusion_rays, progress);
   annotation.grid_m = list.grid_m;
 
   progress.begin("drawing the picture");

@@ -27,7 +27,7 @@ double winding_number(const Mesh& mesh, const Vec3& point) {
   return sum / (2 * M_PI);
 }
 
-void add_box_crossings(const Box& box, const SightLine& line, std::vector<double>& out) {
+void add_box_crossings(const Box& box, const ViewRay& line, std::vector<double>& out) {
   for (int axis = 0; axis < 3; ++axis) {
     if (line.direction[axis] == 0) continue;
     out.push_back((box.min[axis] - line.origin[axis]) / line.direction[axis]);
@@ -37,7 +37,7 @@ void add_box_crossings(const Box& box, const SightLine& line, std::vector<double
 
 /// Where the line passes a triangle, or nearly: a crossing too many does no harm, one too few would. Triangles that the
 /// line slides along are left out; where they end it passes their neighbours.
-void add_mesh_crossings(const Mesh& mesh, const SightLine& line, std::vector<double>& out) {
+void add_mesh_crossings(const Mesh& mesh, const ViewRay& line, std::vector<double>& out) {
   constexpr double kNear = 1e-9;  // of the triangle's size
   for (const Triangle& t : mesh.triangles) {
     const Vec3 a = mesh.vertices[t[0]] - line.origin, u = mesh.vertices[t[1]] - mesh.vertices[t[0]],
@@ -66,7 +66,7 @@ Limits::Limits(Navigation navigation) : navigation_(std::move(navigation)) {
 }
 
 /// The line within reach, cut wherever it passes a limit: between neighbours all of it is allowed or none.
-std::vector<double> Limits::cut_line(const SightLine& line) const {
+std::vector<double> Limits::cut_line(const ViewRay& line) const {
   std::vector<double> cuts;
   if (navigation_.altitude) {
     Box band;
@@ -84,7 +84,7 @@ std::vector<double> Limits::cut_line(const SightLine& line) const {
   return cuts;
 }
 
-double Limits::signed_margin(const SightLine& line, double at, bool is_inside) const {
+double Limits::signed_margin(const ViewRay& line, double at, bool is_inside) const {
   if (!(line.reach > 0)) return -INFINITY;
   const std::vector<double> cuts = cut_line(line);
   std::vector<Part> parts;

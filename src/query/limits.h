@@ -9,7 +9,7 @@
 namespace vantage::internal::query {
 
 /// A line of sight: from the target's centre to the front. Scene frame.
-struct SightLine {
+struct ViewRay {
   Vec3 origin, direction;  ///< unit length
   double reach = 0;        ///< metres from the origin up to which the whole target is visible and in range; 0: nowhere
 
@@ -30,10 +30,10 @@ class Limits {
   /// there is no such part. The origin, where the line ends on the target, does not count as boundary. `is_inside`:
   /// what is known of the point by tests of its own, which this follows. Cost: as broken() for each crossing with a
   /// limit that lies nearer than that boundary.
-  double signed_margin(const SightLine& line, double at, bool is_inside) const;
+  double signed_margin(const ViewRay& line, double at, bool is_inside) const;
 
  private:
-  std::vector<double> cut_line(const SightLine& line) const;
+  std::vector<double> cut_line(const ViewRay& line) const;
 
   Navigation navigation_;
   std::vector<Box> mesh_boxes_;

@@ -135,10 +135,10 @@ class NamedObjects {
 };
 
 /// Looks along one line from the target's centre.
-class Sight {
+class RayQuery {
  public:
   /// `direction` is local and of unit length. What hides some of the target from the point at `distance` is named.
-  Sight(Side& side, const Vec3& direction, double distance, NamedObjects& named)
+  RayQuery(Side& side, const Vec3& direction, double distance, NamedObjects& named)
       : side_(side), direction_(direction), distance_(distance), named_(named), gauge_(side.range.gauge(direction)) {
     named_.clear(side.scene.objects.size());
     const double farthest = std::max(distance, 1 / gauge_);
@@ -253,11 +253,11 @@ PointAnswer look(Side& side, const Vec3& scene_point) {
   // The line goes to the front always: for a point behind the target it is the other half of the line through it.
   const double sign = answer.behind_target ? -1 : 1;
   const Vec3 direction = bearing.distance > 0 ? Vec3(sign * bearing.direction) : Vec3::UnitZ();
-  const Sight sight(side, direction, answer.behind_target ? 0 : bearing.distance, named);
+  const RayQuery sight(side, direction, answer.behind_target ? 0 : bearing.distance, named);
   answer.blocked_by = named.names(side.scene.objects);
   answer.inside =
       !answer.behind_target && !answer.out_of_range && answer.blocked_by.empty() && answer.outside_of.empty();
-  const internal::query::SightLine line{
+  const internal::query::ViewRay line{
       frame.origin, frame.axis_u * direction.x() + frame.axis_v * direction.y() + frame.normal * direction.z(),
       side.is_reachable ? 1 / sight.gauge() : 0};
   answer.margin_m = side.limits.signed_margin(line, sign * bearing.distance, answer.inside);

@@ -224,7 +224,7 @@ void mark_used(const FaceGrid& grid, const std::vector<Rectangle>& rectangles, b
 
 /// Draws in every vertex of the rectangles by the tolerance, once: what a facet between them may rise over those that
 /// it replaces.
-void draw_in(StarMesh& star, const std::vector<FaceGrid>& faces, const std::vector<FaceSplitter>& splits,
+void tighten(StarMesh& star, const std::vector<FaceGrid>& faces, const std::vector<FaceSplitter>& splits,
              double tolerance) {
   std::vector<std::uint8_t> is_drawn_in(star.rays.size(), 0);
   for (std::size_t f = 0; f < faces.size(); ++f)
@@ -247,7 +247,7 @@ void add_merged_facets(StarMesh& star, const std::vector<FaceGrid>& faces, const
   });
   std::vector<std::uint8_t> is_used(star.rays.size(), 0);
   for (std::size_t f = 0; f < faces.size(); ++f) mark_used(faces[f], splits[f].whole(), rules.keeps_borders, is_used);
-  if (rules.is_inward) draw_in(star, faces, splits, rules.tolerance);
+  if (rules.is_inward) tighten(star, faces, splits, rules.tolerance);
 
   std::vector<std::vector<Triangle>> facets(faces.size());
   parallel::for_ranges(faces.size(), 1, [&](std::size_t begin, std::size_t end) {

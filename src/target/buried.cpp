@@ -15,10 +15,10 @@ namespace {
 
 // What of the scene is straight over and under a point: the nearest over it, and whether anything, or anything of
 // `object`, is under it. What passes through the point, up to `near`, is under it.
-class Plumb {
+class VerticalProbe {
  public:
-  Plumb(const PreparedScene::Data& scene, const Vec3& point, double near,
-        std::optional<std::uint32_t> object = std::nullopt)
+  VerticalProbe(const PreparedScene::Data& scene, const Vec3& point, double near,
+                std::optional<std::uint32_t> object = std::nullopt)
       : scene_(scene), point_(point - scene.origin), near_(near), object_(object) {
     if (!scene.bvh.nodes.empty()) visit(0);
   }
@@ -91,7 +91,7 @@ std::optional<double> height_over_ground(const PreparedScene::Data& scene, const
     const double height = clear_height(crossings, lengths, step.past(top));
     if (height <= tried) continue;
     tried = height;
-    if (Plumb(scene, frame.origin + height * frame.normal, lengths.lift, ground).object_below) return height;
+    if (VerticalProbe(scene, frame.origin + height * frame.normal, lengths.lift, ground).object_below) return height;
   }
   return std::nullopt;
 }
@@ -110,10 +110,10 @@ std::optional<Cover> cover_over(const PreparedScene::Data& scene, const TargetFr
     highest = std::max(highest, probes.back().z());
   }
   for (const Vec3& probe : probes) {
-    const Plumb plumb(scene, probe, near);
-    if (plumb.anything_below || !std::isfinite(plumb.nearest_above)) return std::nullopt;
+    const VerticalProbe vertical(scene, probe, near);
+    if (vertical.anything_below || !std::isfinite(vertical.nearest_above)) return std::nullopt;
   }
-  const Plumb first(scene, probes[0], near);
+  const VerticalProbe first(scene, probes[0], near);
   const Box all = scene.statistics.bounds;
   const std::uint32_t object = scene.polygon_object[first.polygon_above];
   const Box over = object_bounds(scene, object);

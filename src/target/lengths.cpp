@@ -26,8 +26,8 @@ Lengths lengths_of(const PreparedScene::Data& scene, const TargetFrame& frame, d
   return {rounding, slack, clear, std::max(numerics::kMaxLift * small, 4 * clear)};
 }
 
-double hands_breadth(double max_range) {
-  return numerics::kHandsBreadth * std::min(1.0, max_range / numerics::kFullRange);
+double min_useful_depth(double max_range) {
+  return numerics::kMinUsefulDepth * std::min(1.0, max_range / numerics::kFullRange);
 }
 
 }  // namespace vantage::internal::target

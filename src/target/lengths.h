@@ -19,6 +19,6 @@ struct Lengths {
 Lengths lengths_of(const PreparedScene::Data& scene, const TargetFrame& frame, double max_range);
 
 /// A volume that ends this close to the target is of no use to anyone: the view is blocked at once.
-double hands_breadth(double max_range);
+double min_useful_depth(double max_range);
 
 }  // namespace vantage::internal::target

@@ -42,7 +42,7 @@ inline constexpr double kTie = 1e-10;
 /// the wrong owner nor the rounding of a crease leaves a point outside the true volume.
 inline constexpr double kShrink = 1e-9;
 
-/// Vertices of the direction chart (which spans [-1, 1]) closer than this are one vertex: 0.1 micrometres at 1 km.
+/// Vertices of the octahedral map (which spans [-1, 1]) closer than this are one vertex: 0.1 micrometres at 1 km.
 /// Well-shaped crossings agree to 1e-14, but those of nearly parallel planes do not, and creases that miss each other's
 /// ends are slow to triangulate. What snapping moves, refinement finds, or the check of the finished facets: a vertex
 /// that is moved by this much across the crease in front of a shadow stands, at a distance d, kSnap d |g| d behind it,
@@ -65,6 +65,6 @@ inline constexpr double kMostRaise = 5;
 
 /// A volume that ends this close to the target is of no use to anyone: the view is blocked at once. Less in small
 /// worlds.
-inline constexpr double kHandsBreadth = 0.1;
+inline constexpr double kMinUsefulDepth = 0.1;
 
 }  // namespace vantage::internal::numerics

@@ -37,7 +37,7 @@ bool Oracle::on_surface(const Vec3& hit) const {
 }
 
 // Moeller and Trumbore, "Fast, minimum storage ray/triangle intersection", JGT 1997.
-Sight Oracle::look(const Vec3& viewpoint, const Vec3& target_point) const {
+Visibility Oracle::look(const Vec3& viewpoint, const Vec3& target_point) const {
   const Vec3 from = viewpoint - origin_, direction = target_point - viewpoint;
   bool touched = false;
   for (const Corners& triangle : triangles_) {
@@ -56,14 +56,14 @@ Sight Oracle::look(const Vec3& viewpoint, const Vec3& target_point) const {
     const bool parallel = !(std::abs(determinant) > kBand * size);
     const bool inner = u > kBand && v > kBand && u + v < 1 - kBand && s > kBand && s < 1 - kBand;
     if (!parallel && on_surface(from + s * direction)) continue;
-    if (!parallel && inner) return Sight::hidden;
+    if (!parallel && inner) return Visibility::hidden;
     touched = true;
   }
-  return touched ? Sight::grazing : Sight::clear;
+  return touched ? Visibility::grazing : Visibility::clear;
 }
 
 bool Oracle::sees_all(const Vec3& viewpoint, int samples, std::uint64_t seed) const {
-  const auto hidden = [&](const Vec3& local) { return look(viewpoint, local + origin_) == Sight::hidden; };
+  const auto hidden = [&](const Vec3& local) { return look(viewpoint, local + origin_) == Visibility::hidden; };
   for (std::size_t i = 0; i < polygon_.size(); ++i) {
     const Vec3 edge = polygon_[(i + 1) % polygon_.size()] - polygon_[i];
     for (int k = 0; k < 6; ++k) {

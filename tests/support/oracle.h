@@ -10,7 +10,7 @@
 
 namespace vantage::testing {
 
-enum class Sight {
+enum class Visibility {
   clear,    ///< nothing on the open segment
   hidden,   ///< a triangle's interior is crossed, well away from its border
   grazing,  ///< neither: something is touched, or nearly (relative to its size: 1e-7)
@@ -24,7 +24,7 @@ class Oracle {
 
   /// What lies between a viewpoint and a target point. Hits lower than 1 mm over the polygon (1 mm margin) are the
   /// surface that the target lies on and do not count.
-  Sight look(const Vec3& viewpoint, const Vec3& target_point) const;
+  Visibility look(const Vec3& viewpoint, const Vec3& target_point) const;
 
   /// Whether none of the polygon's vertices, 5 points an edge and `samples` random points inside is hidden.
   bool sees_all(const Vec3& viewpoint, int samples, std::uint64_t seed = 1) const;

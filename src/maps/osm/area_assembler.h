@@ -22,7 +22,7 @@ struct MemberWay {
 
 struct Assembly {
   std::vector<Polygon> polygons;  ///< empty: nothing could be assembled
-  std::string trouble;  ///< why not, for people: "the ring is open at 7.41, 1.11 (way/714801)"; empty when it could
+  std::string problem;  ///< why not, for people: "the ring is open at 7.41, 1.11 (way/714801)"; empty when it could
 };
 
 /// Assembles a closed way. Positions that are undefined are left out; one that touches itself becomes several polygons

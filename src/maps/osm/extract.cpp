@@ -11,9 +11,9 @@
 #include "maps/osm/map_objects.h"
 #include "maps/osm/meaning.h"
 #include "maps/osm/multipolygons.h"
+#include "maps/osm/problem_builder.h"
 #include "maps/osm/region_filter.h"
 #include "maps/osm/selection.h"
-#include "maps/osm/trouble.h"
 #include "vantage/error.h"
 
 namespace vantage::internal::osm {
@@ -76,9 +76,9 @@ class ExtractBuilder {
 
   void add(const Point& point) {
     if (!std::isfinite(point.position.latitude_deg)) {
-      Trouble trouble;
-      trouble.add(Kind::degenerate, "its position is nowhere on the earth");
-      extract_.problems.push_back(trouble.problem(point.id, point.tags, true));
+      ProblemBuilder problem;
+      problem.add(Kind::degenerate, "its position is nowhere on the earth");
+      extract_.problems.push_back(problem.build(point.id, point.tags, true));
     } else if (selection_.holds(point)) {
       extract_.points.push_back(point);
     } else {
@@ -110,36 +110,36 @@ class ExtractBuilder {
       if (!absorbed) selection_.leave_out(way);
       return;
     }
-    Trouble trouble;
-    trouble.add_share(Kind::missing_nodes, kept.missing, way.nodes().size(), "nodes", "not in the file");
-    trouble.add_share(Kind::missing_nodes, kept.off_earth, way.nodes().size(), "nodes", "nowhere on the earth");
-    bool there = meaning.area && add_area(kept, tags, trouble);
-    there = (meaning.line && add_line(kept, tags, trouble)) || there;
+    ProblemBuilder problem;
+    problem.add_share(Kind::missing_nodes, kept.missing, way.nodes().size(), "nodes", "not in the file");
+    problem.add_share(Kind::missing_nodes, kept.off_earth, way.nodes().size(), "nodes", "nowhere on the earth");
+    bool there = meaning.area && add_area(kept, tags, problem);
+    there = (meaning.line && add_line(kept, tags, problem)) || there;
     if (absorbed) {
       if (!absorbed->reported || !means_area(tags)) return;
-      trouble.add(Kind::repeated_outline, (absorbed->hole ? "it is tagged like " : "it bounds ") + text(absorbed->by) +
+      problem.add(Kind::repeated_outline, (absorbed->hole ? "it is tagged like " : "it bounds ") + text(absorbed->by) +
                                               (absorbed->hole ? ", whose hole it bounds" : ", which stands for it"));
     } else if (!meaning.area && !meaning.line) {
-      trouble.add(Kind::open_outline, "it is tagged as an area, but not closed");
+      problem.add(Kind::open_outline, "it is tagged as an area, but not closed");
     }
-    if (!trouble.empty()) extract_.problems.push_back(trouble.problem(id, tags, !there));
+    if (!problem.empty()) extract_.problems.push_back(problem.build(id, tags, !there));
   }
 
-  bool add_area(const KeptWay& kept, const Tags& tags, Trouble& trouble) {
+  bool add_area(const KeptWay& kept, const Tags& tags, ProblemBuilder& problem) {
     const osmium::Way& way = *kept.way;
     Assembly assembly;
     if (kept.closed) assembly = assemble(way);
     if (assembly.polygons.empty()) {
       assembly.polygons = raw_polygon(way);
       if (assembly.polygons.empty()) {
-        trouble.add(Kind::degenerate, "its positions bound no area");
+        problem.add(Kind::degenerate, "its positions bound no area");
         return false;
       }
       const Ring& ring = assembly.polygons.front().outer;
       if (kept.closed) {
-        trouble.add(Kind::broken_multipolygon, assembly.trouble + "; taken as it is drawn");
+        problem.add(Kind::broken_multipolygon, assembly.problem + "; taken as it is drawn");
       } else {
-        trouble.add(Kind::open_outline, "it is not closed; a straight side of " +
+        problem.add(Kind::open_outline, "it is not closed; a straight side of " +
                                             metres_text(distance_m(ring.front(), ring.back())) + " closes it");
       }
     }
@@ -147,10 +147,10 @@ class ExtractBuilder {
     return true;
   }
 
-  bool add_line(const KeptWay& kept, const Tags& tags, Trouble& trouble) {
+  bool add_line(const KeptWay& kept, const Tags& tags, ProblemBuilder& problem) {
     std::vector<LonLat> points = positions(*kept.way);
     if (points.size() < 2) {
-      trouble.add(Kind::degenerate, "it has no two different positions");
+      problem.add(Kind::degenerate, "it has no two different positions");
       return false;
     }
     extract_.lines.push_back({{ObjectType::way, kept.way->id()}, tags, std::move(points)});

@@ -90,7 +90,7 @@ bool is_pbf(std::string_view bytes) {
   return bytes.size() >= 15 && bytes.substr(4, 11) == "\x0a\x09OSMHeader";
 }
 
-/// Why reading stopped, from what libosmium threw. Its own sentences name the format but not always the trouble.
+/// Why reading stopped, from what libosmium threw. Its own sentences name the format, but not always what is wrong.
 [[noreturn]] void explain(const MapFile& file) {
   const std::string where = file.path.string();
   try {

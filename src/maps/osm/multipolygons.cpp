@@ -33,11 +33,11 @@ void Multipolygons::add(const osmium::Relation& relation) {
     selection_.leave_out(relation);
     return;
   }
-  Trouble trouble;
+  ProblemBuilder problem;
   const std::string type(tags.get("type"));
-  trouble.add(Kind::broken_multipolygon, type.empty() ? std::string("it is a relation without a type")
+  problem.add(Kind::broken_multipolygon, type.empty() ? std::string("it is a relation without a type")
                                                       : "its type is " + type + ", not multipolygon");
-  extract_.problems.push_back(trouble.problem(id_of(relation), tags, true));
+  extract_.problems.push_back(problem.build(id_of(relation), tags, true));
 }
 
 std::optional<Multipolygons::Absorbed> Multipolygons::absorbed(std::int64_t way) const {
@@ -69,15 +69,15 @@ void Multipolygons::add_multipolygon(const osmium::Relation& relation, Tags tags
     if (!old_style) selection_.leave_out(relation);  // else its ways are counted
     return;
   }
-  Trouble trouble;
-  trouble.add_share(Kind::missing_members, members.ways - members.there.size(), members.ways, "ways",
+  ProblemBuilder problem;
+  problem.add_share(Kind::missing_members, members.ways - members.there.size(), members.ways, "ways",
                     "not in the file");
-  trouble.add_share(Kind::missing_nodes, members.missing_nodes, members.nodes, "nodes", "not in the file");
-  trouble.add_share(Kind::missing_nodes, members.off_earth, members.nodes, "nodes", "nowhere on the earth");
+  problem.add_share(Kind::missing_nodes, members.missing_nodes, members.nodes, "nodes", "not in the file");
+  problem.add_share(Kind::missing_nodes, members.off_earth, members.nodes, "nodes", "nowhere on the earth");
   Assembly assembly = assemble(relation, members.there);
   if (assembly.polygons.empty()) {
-    trouble.add(Kind::broken_multipolygon, assembly.trouble);
-    extract_.problems.push_back(trouble.problem(id_of(relation), tags, true));  // its ways stand for themselves
+    problem.add(Kind::broken_multipolygon, assembly.problem);
+    extract_.problems.push_back(problem.build(id_of(relation), tags, true));  // its ways stand for themselves
     return;
   }
   if (old_style) {
@@ -89,7 +89,7 @@ void Multipolygons::add_multipolygon(const osmium::Relation& relation, Tags tags
     if (wanted_ != nullptr && !wanted_(tags)) return;  // its ways mean different things: each on its own
   }
   absorb(relation, tags, old_style, members.there);
-  if (!trouble.empty()) extract_.problems.push_back(trouble.problem(id_of(relation), tags, false));
+  if (!problem.empty()) extract_.problems.push_back(problem.build(id_of(relation), tags, false));
   extract_.areas.push_back({id_of(relation), std::move(tags), std::move(assembly.polygons)});
 }
 
@@ -124,11 +124,11 @@ void Multipolygons::add_building(const osmium::Relation& relation, const Tags& t
     }
     (outline ? building.outlines : building.parts).push_back(id);
   }
-  Trouble trouble;
-  trouble.add_share(Kind::missing_members, missing, named, "outlines and parts", "not in the file");
+  ProblemBuilder problem;
+  problem.add_share(Kind::missing_members, missing, named, "outlines and parts", "not in the file");
   const bool empty = building.outlines.empty() && building.parts.empty();
-  if (empty && trouble.empty()) trouble.add(Kind::degenerate, "it has neither an outline nor parts");
-  if (!trouble.empty()) extract_.problems.push_back(trouble.problem(building.id, tags, empty));
+  if (empty && problem.empty()) problem.add(Kind::degenerate, "it has neither an outline nor parts");
+  if (!problem.empty()) extract_.problems.push_back(problem.build(building.id, tags, empty));
   if (!empty) extract_.building_relations.push_back(std::move(building));
 }
 

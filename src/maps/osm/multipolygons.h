@@ -10,8 +10,8 @@
 #include "maps/osm/area_assembler.h"
 #include "maps/osm/extract.h"
 #include "maps/osm/map_objects.h"
+#include "maps/osm/problem_builder.h"
 #include "maps/osm/selection.h"
-#include "maps/osm/trouble.h"
 
 namespace vantage::internal::osm {
 

@@ -9,15 +9,15 @@
 namespace vantage::internal::exact {
 
 /// One for each thread.
-class RiseCheck {
+class OverClaimBound {
  public:
   /// Keeps references.
-  RiseCheck(const BlockerSet& blockers, const DirectionTree& tree) : blockers_(blockers), tree_(tree) {}
+  OverClaimBound(const BlockerSet& blockers, const DirectionTree& tree) : blockers_(blockers), tree_(tree) {}
 
   /// An upper bound on how far, in parts of the distance, a facet reaches into a blocker: 0 where none of them holds
-  /// more than `allowed` of it. The facet has its corners at `points` of one quadrant of the chart, with these inverse
-  /// depths. Range is not looked at: its gauge is convex.
-  double greatest_rise(int quadrant, const std::array<ChartPoint, 3>& points, const std::array<double, 3>& gauges,
+  /// more than `allowed` of it. The facet has its corners at `points` of one quadrant of the octahedral map, with these
+  /// inverse depths. Range is not looked at: its gauge is convex.
+  double greatest_rise(int quadrant, const std::array<OctahedralPoint, 3>& points, const std::array<double, 3>& gauges,
                        double allowed);
 
  private:

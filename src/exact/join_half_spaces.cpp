@@ -14,7 +14,7 @@
 #include "core/causes.h"
 #include "core/edges.h"
 #include "core/pieces.h"
-#include "exact/side.h"
+#include "exact/half_space_volume.h"
 #include "vantage/error.h"
 
 namespace vantage::internal::exact {
@@ -54,9 +54,9 @@ struct Corner {
 
 class Joiner {
  public:
-  explicit Joiner(Side& joined) : joined_(joined), mesh_(joined.mesh) {}
+  explicit Joiner(HalfSpaceVolume& joined) : joined_(joined), mesh_(joined.mesh) {}
 
-  void run(const Side& front, const Side& back, const std::vector<std::uint32_t>& of_front,
+  void run(const HalfSpaceVolume& front, const HalfSpaceVolume& back, const std::vector<std::uint32_t>& of_front,
            const std::vector<std::uint32_t>& of_back, std::uint32_t wall) {
     wall_ = wall;
     const Rim rim = add(front, of_front, 1);
@@ -88,7 +88,7 @@ class Joiner {
   }
 
   /// Adds a side's surface without its wall, and returns its rim in the order in which the surface runs it.
-  Rim add(const Side& side, const std::vector<std::uint32_t>& number, double direction) {
+  Rim add(const HalfSpaceVolume& side, const std::vector<std::uint32_t>& number, double direction) {
     const auto shift = static_cast<std::uint32_t>(mesh_.vertices.size());
     for (const Vec3& v : side.mesh.vertices) mesh_.vertices.emplace_back(v.x(), direction * v.y(), direction * v.z());
     Rim rim;
@@ -119,7 +119,7 @@ class Joiner {
     return rim;
   }
 
-  /// Where the rim crosses the axes: it has vertices there, as the chart's quadrants end there.
+  /// Where the rim crosses the axes: it has vertices there, as the map's quadrants end there.
   std::array<std::size_t, 5> find_axes(const Rim& rim) const {
     std::array<std::size_t, 5> places{};
     std::size_t found = 0;
@@ -295,7 +295,7 @@ class Joiner {
     if (other != rim.triangle_from.end() && other->second == t) other->second = last;
   }
 
-  Side& joined_;
+  HalfSpaceVolume& joined_;
   Mesh& mesh_;
   std::uint32_t wall_ = 0;
   std::array<Rim, 2> rims_;
@@ -305,7 +305,7 @@ class Joiner {
 };
 
 /// Gives what is left of the wall the causes of its neighbours, from the rim inwards.
-void dissolve_wall(Side& side) {
+void dissolve_wall(HalfSpaceVolume& side) {
   const auto is_wall = [&](std::uint32_t t) { return side.causes[side.cause_of[t]].kind == CauseKind::target_plane; };
   std::vector<std::vector<std::uint32_t>> neighbours(side.mesh.triangles.size());
   std::vector<std::uint32_t> front;
@@ -344,8 +344,8 @@ std::vector<std::uint32_t> numbers_of(const std::vector<Cause>& causes, core::Ca
 
 }  // namespace
 
-Side join_sides(const Side& front, const Side& back) {
-  Side joined;
+HalfSpaceVolume join_half_spaces(const HalfSpaceVolume& front, const HalfSpaceVolume& back) {
+  HalfSpaceVolume joined;
   core::CauseList list;
   const std::vector<std::uint32_t> of_front = numbers_of(front.causes, list), of_back = numbers_of(back.causes, list);
   const std::uint32_t wall = list.add({CauseKind::target_plane, "target plane"});

@@ -1,4 +1,4 @@
-#include "exact/side.h"
+#include "exact/half_space_volume.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -18,7 +18,8 @@ double area_of(const Mesh& mesh, const Triangle& t) {
   return 0.5 * (v[t[1]] - v[t[0]]).cross(v[t[2]] - v[t[0]]).norm();
 }
 
-void add_causes(const PreparedScene& scene, const BlockerSet& blockers, const Boundary& boundary, Side& side) {
+void add_causes(const PreparedScene& scene, const BlockerSet& blockers, const Boundary& boundary,
+                HalfSpaceVolume& side) {
   constexpr std::uint32_t kNone = ~0u;
   std::vector<std::uint32_t> of_object(scene.objects().size(), kNone);
   std::uint32_t range = kNone, plane = kNone;
@@ -48,11 +49,12 @@ void add_causes(const PreparedScene& scene, const BlockerSet& blockers, const Bo
 
 }  // namespace
 
-Side compute_side(const PreparedScene& scene, const TargetFrame& frame, const target::RangeRegion& range,
-                  const ExactOptions& options, const core::ProgressReporter& progress) {
+HalfSpaceVolume compute_half_space(const PreparedScene& scene, const TargetFrame& frame,
+                                   const target::RangeRegion& range, const ExactOptions& options,
+                                   const core::ProgressReporter& progress) {
   const target::Lengths lengths = target::lengths_of(scene.data(), frame, range.radius());
   const target::LocalTarget target = target::make_local_target(frame.polygon, lengths.slack, lengths.rounding);
-  ChartGrid grid(range, options.tolerance_m);
+  OctahedralGrid grid(range, options.tolerance_m);
   progress.begin("finding blockers");
   BlockerSet blockers;
   DirectionTree tree(blockers, range);
@@ -68,7 +70,7 @@ Side compute_side(const PreparedScene& scene, const TargetFrame& frame, const ta
   Boundary boundary = triangulate_boundary(skeleton, blockers, tree, range, grid, options.tolerance_m, progress);
   progress.finish();
 
-  Side side;
+  HalfSpaceVolume side;
   side.counts = {scene.data().polygon_count(), blockers.count(), skeleton.visible_blockers, skeleton.visible_facets,
                  boundary.constraint_edges};
   add_causes(scene, blockers, boundary, side);

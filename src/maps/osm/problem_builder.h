@@ -9,7 +9,7 @@
 namespace vantage::internal::osm {
 
 /// Gathers sentences about an object. The first kind counts: name causes before what follows from them.
-class Trouble {
+class ProblemBuilder {
  public:
   void add(Problem::Kind kind, const std::string& sentence) {
     if (what_.empty()) kind_ = kind;
@@ -18,14 +18,14 @@ class Trouble {
 
   /// "3 of 12 nodes are not in the file"; nothing for a count of 0.
   void add_share(Problem::Kind kind, std::size_t count, std::size_t total, const std::string& things,
-                 const std::string& trouble) {
+                 const std::string& problem) {
     if (count == 0) return;
     const std::string numbers = std::to_string(count).append(" of ").append(std::to_string(total));
-    add(kind, numbers + " " + things + (count == 1 ? " is " : " are ") + trouble);
+    add(kind, numbers + " " + things + (count == 1 ? " is " : " are ") + problem);
   }
 
   bool empty() const { return what_.empty(); }
-  Problem problem(ObjectId object, const Tags& tags, bool lost) const { return {object, kind_, what_, lost, tags}; }
+  Problem build(ObjectId object, const Tags& tags, bool lost) const { return {object, kind_, what_, lost, tags}; }
 
  private:
   Problem::Kind kind_ = Problem::Kind::missing_nodes;

@@ -1,4 +1,4 @@
-#include "exact/chart_grid.h"
+#include "exact/octahedral_grid.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -30,9 +30,11 @@ double depth_below(const Vec3& a, const Vec3& b, const Vec3& c, double radius) {
 
 double deepest_on_trial_grid(const target::RangeRegion& range) {
   double deepest = 0;
-  const auto depth = [&](const ChartPoint& p, const ChartPoint& q, const ChartPoint& r) {
+  const auto depth = [&](const OctahedralPoint& p, const OctahedralPoint& q, const OctahedralPoint& r) {
     const std::size_t ball = range.nearest_ball(to_direction((p + q + r) / 3));
-    const auto lift = [&](const ChartPoint& x) { return Vec3(to_direction(x) / range.gauge(ball, to_direction(x))); };
+    const auto lift = [&](const OctahedralPoint& x) {
+      return Vec3(to_direction(x) / range.gauge(ball, to_direction(x)));
+    };
     return depth_below(lift(p), lift(q), lift(r), range.radius());
   };
   for (int quadrant = 0; quadrant < 4; ++quadrant)
@@ -49,7 +51,7 @@ double deepest_on_trial_grid(const target::RangeRegion& range) {
 
 }  // namespace
 
-ChartGrid::ChartGrid(const target::RangeRegion& region, double tolerance) {
+OctahedralGrid::OctahedralGrid(const target::RangeRegion& region, double tolerance) {
   const double needed = kTrial * std::sqrt(deepest_on_trial_grid(region) / (kSafety * tolerance));
   if (!(needed <= kMostLines)) {
     const double least = tolerance * (needed / kMostLines) * (needed / kMostLines);
@@ -63,7 +65,7 @@ ChartGrid::ChartGrid(const target::RangeRegion& region, double tolerance) {
   states_.assign(std::size_t(2 * n_) * (2 * n_), unknown);
 }
 
-int ChartGrid::locate(double coordinate) const {
+int OctahedralGrid::locate(double coordinate) const {
   const double x = std::min(std::abs(coordinate), 1.0);
   int i = std::clamp(int(std::atan2(x, 1 - x) * (2 / M_PI) * n_), 0, n_ - 1);
   while (i > 0 && lines_[i] > x) --i;
@@ -72,7 +74,7 @@ int ChartGrid::locate(double coordinate) const {
   return lines_[i] == x ? -i : -i - 1;
 }
 
-void ChartGrid::mark(const ChartPoint& from, const ChartPoint& to, double snap) {
+void OctahedralGrid::mark(const OctahedralPoint& from, const OctahedralPoint& to, double snap) {
   const double margin = 4 * std::max(snap, kLeastSnap);
   const int i0 = locate(std::min(from.x(), to.x()) - margin), i1 = locate(std::max(from.x(), to.x()) + margin);
   const int j0 = locate(std::min(from.y(), to.y()) - margin), j1 = locate(std::max(from.y(), to.y()) + margin);
@@ -81,7 +83,7 @@ void ChartGrid::mark(const ChartPoint& from, const ChartPoint& to, double snap) 
       if (has_cell(i, j)) states_[index(i, j)] = mixed;
 }
 
-void ChartGrid::settle(const std::function<bool(const ChartPoint&)>& is_range_at) {
+void OctahedralGrid::settle(const std::function<bool(const OctahedralPoint&)>& is_range_at) {
   runs_.clear();
   mixed_cells_.clear();
   first_run_.assign(1, 0);
@@ -92,7 +94,7 @@ void ChartGrid::settle(const std::function<bool(const ChartPoint&)>& is_range_at
   }
 }
 
-void ChartGrid::settle_row(int j, const std::function<bool(const ChartPoint&)>& is_range_at) {
+void OctahedralGrid::settle_row(int j, const std::function<bool(const OctahedralPoint&)>& is_range_at) {
   const int width = row_width(j), width_below = has_cell(0, j - 1) ? row_width(j - 1) : 0;
   std::uint8_t* const row = &states_[index(0, j)];
   const std::uint8_t* const below = width_below ? &states_[index(0, j - 1)] : nullptr;
@@ -112,7 +114,7 @@ void ChartGrid::settle_row(int j, const std::function<bool(const ChartPoint&)>& 
   }
 }
 
-void ChartGrid::list_row(int j) {
+void OctahedralGrid::list_row(int j) {
   const int width = row_width(j);
   const std::uint8_t* const row = &states_[index(0, j)];
   for (int i = -width; i < width;) {
@@ -125,7 +127,7 @@ void ChartGrid::list_row(int j) {
 }
 
 // A point inside a cell.
-ChartPoint ChartGrid::inside(int i, int j) const {
+OctahedralPoint OctahedralGrid::inside(int i, int j) const {
   const double shift = at_horizon(i, j) ? 1.0 / 3 : 0.5;  // halves of squares at the horizon
   const auto between = [&](int k) {
     const double low = line(k), high = line(k + 1);

@@ -1,4 +1,4 @@
-// A regular grid over the chart for the parts of the boundary that are range sphere.
+// A regular grid over the octahedral map for the parts of the boundary that are range sphere.
 #pragma once
 
 #include <cstdint>
@@ -7,18 +7,18 @@
 #include <utility>
 #include <vector>
 
-#include "exact/chart.h"
+#include "exact/octahedral_map.h"
 #include "target/range_region.h"
 
 namespace vantage::internal::exact {
 
 /// Lines at |a| = line(i), i = 0..n, so spaced that the cells are about equal in angle. The horizon |a| + |b| = 1 runs
 /// through the nodes with |i| + |j| = n, so cells are squares, or halves of squares at the horizon.
-class ChartGrid {
+class OctahedralGrid {
  public:
   /// Fine enough that the triangles on the range sphere lie at most `tolerance` inside it.
   /// Throws Error(input) when that would take more cells than can be handled.
-  ChartGrid(const target::RangeRegion& region, double tolerance);
+  OctahedralGrid(const target::RangeRegion& region, double tolerance);
 
   enum State : std::uint8_t {
     unknown,
@@ -29,7 +29,7 @@ class ChartGrid {
 
   int size() const { return n_; }
   double line(int i) const { return i < 0 ? -lines_[-i] : lines_[i]; }
-  ChartPoint node(int i, int j) const { return {line(i), line(j)}; }
+  OctahedralPoint node(int i, int j) const { return {line(i), line(j)}; }
 
   /// Row j has the cells -row_width <= i < row_width.
   int row_width(int j) const { return n_ - ring(j); }
@@ -52,10 +52,10 @@ class ChartGrid {
   int locate(double coordinate) const;
 
   /// Marks the cells that a short segment may touch as mixed, with its ends moved by up to `snap`.
-  void mark(const ChartPoint& from, const ChartPoint& to, double snap);
+  void mark(const OctahedralPoint& from, const OctahedralPoint& to, double snap);
 
   /// Settles the cells that no crease touches: `is_range_at` is asked once for each connected run of them.
-  void settle(const std::function<bool(const ChartPoint&)>& is_range_at);
+  void settle(const std::function<bool(const OctahedralPoint&)>& is_range_at);
 
   /// Cells begin <= i < end of one row.
   struct Run {
@@ -73,9 +73,9 @@ class ChartGrid {
 
  private:
   static int ring(int i) { return i >= 0 ? i : -1 - i; }
-  void settle_row(int j, const std::function<bool(const ChartPoint&)>& is_range_at);
+  void settle_row(int j, const std::function<bool(const OctahedralPoint&)>& is_range_at);
   void list_row(int j);
-  ChartPoint inside(int i, int j) const;
+  OctahedralPoint inside(int i, int j) const;
   std::size_t index(int i, int j) const { return std::size_t(j + n_) * (2 * n_) + std::size_t(i + n_); }
 
   int n_;

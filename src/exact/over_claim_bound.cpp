@@ -1,12 +1,12 @@
-#include "exact/rise_check.h"
+#include "exact/over_claim_bound.h"
 
 #include <algorithm>
 #include <limits>
 
 namespace vantage::internal::exact {
 
-double RiseCheck::greatest_rise(int quadrant, const std::array<ChartPoint, 3>& points,
-                                const std::array<double, 3>& gauges, double allowed) {
+double OverClaimBound::greatest_rise(int quadrant, const std::array<OctahedralPoint, 3>& points,
+                                     const std::array<double, 3>& gauges, double allowed) {
   for (std::size_t i = 0; i < 3; ++i) corners_[i] = to_direction(points[i]) / gauges[i];
   leaves_.clear();
   tree_.leaves_over(quadrant, points, leaves_);
@@ -16,7 +16,7 @@ double RiseCheck::greatest_rise(int quadrant, const std::array<ChartPoint, 3>& p
 }
 
 // The few planes that the leaf keeps of a blocker nearly always tell that it stays under the facet.
-double RiseCheck::rise_in(const DirectionTree::Leaf& leaf, double allowed) {
+double OverClaimBound::rise_in(const DirectionTree::Leaf& leaf, double allowed) {
   const auto stays_under = [&](std::uint32_t plane) {
     return rise_of_plane(blockers_.planes[plane]).maxCoeff() <= allowed;
   };
@@ -30,7 +30,7 @@ double RiseCheck::rise_in(const DirectionTree::Leaf& leaf, double allowed) {
 
 // Over the facet each plane of the blocker rises linearly. Where all of them rise more than is allowed is a convex
 // part of the facet, and the blocker rises there no more than any one plane does.
-double RiseCheck::rise_of(std::uint32_t blocker, double allowed) {
+double OverClaimBound::rise_of(std::uint32_t blocker, double allowed) {
   rises_.clear();
   for (const Plane& plane : blockers_.planes_of(blocker)) {
     const Weights rise = rise_of_plane(plane);

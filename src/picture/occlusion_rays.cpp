@@ -1,4 +1,4 @@
-#include "picture/sight.h"
+#include "picture/occlusion_rays.h"
 
 #include <embree3/rtcore.h>
 
@@ -21,7 +21,7 @@ constexpr double kStart = 0.05;         // metres: what a point lies on does not
 
 }  // namespace
 
-struct Sight::Rays {
+struct OcclusionRays::Rays {
   RTCDevice device = rtcNewDevice(nullptr);
   RTCScene scene = rtcNewScene(device);
   ~Rays() {
@@ -30,7 +30,7 @@ struct Sight::Rays {
   }
 };
 
-Sight::Sight(const Mesh& mesh, const Vec3& origin, const core::ProgressReporter& progress)
+OcclusionRays::OcclusionRays(const Mesh& mesh, const Vec3& origin, const core::ProgressReporter& progress)
     : rays_(std::make_unique<Rays>()), origin_(origin) {
   RTCGeometry geometry = rtcNewGeometry(rays_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
   auto* vertices =
@@ -56,10 +56,10 @@ Sight::Sight(const Mesh& mesh, const Vec3& origin, const core::ProgressReporter&
   bridge.rethrow();
 }
 
-Sight::~Sight() = default;
+OcclusionRays::~OcclusionRays() = default;
 
-void Sight::each_hit(const Vec3& point, const Vec3& towards, bool to_infinity,
-                     const std::function<bool(std::uint32_t)>& visit) const {
+void OcclusionRays::each_hit(const Vec3& point, const Vec3& towards, bool to_infinity,
+                             const std::function<bool(std::uint32_t)>& visit) const {
   const double length = towards.norm();
   const Eigen::Vector3f from = (point - origin_).cast<float>(), along = (towards / length).cast<float>();
   float start = static_cast<float>(kStart);
@@ -79,7 +79,7 @@ void Sight::each_hit(const Vec3& point, const Vec3& towards, bool to_infinity,
   }
 }
 
-double best_azimuth(const Sight& sight, const PictureExtent& extent, const std::vector<Vec3>& target,
+double best_azimuth(const OcclusionRays& occlusion_rays, const PictureExtent& extent, const std::vector<Vec3>& target,
                     double elevation_deg, double preferred, const core::ProgressReporter& progress) {
   std::vector<Vec3> samples;
   const std::size_t stride = std::max<std::size_t>(1, extent.points.size() / kSamples);
@@ -90,7 +90,7 @@ double best_azimuth(const Sight& sight, const PictureExtent& extent, const std::
     for (const Vec3& point : points) {
       progress.check();
       bool is_hidden = false;
-      sight.each_hit(point + kStart * Vec3::UnitZ(), towards, true, [&](std::uint32_t) {
+      occlusion_rays.each_hit(point + kStart * Vec3::UnitZ(), towards, true, [&](std::uint32_t) {
         is_hidden = true;
         return false;
       });

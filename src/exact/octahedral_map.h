@@ -1,4 +1,4 @@
-// The chart of viewing directions: the upper half of the octahedron |x| + |y| + |z| = 1, seen from above.
+// The octahedral map of viewing directions: the upper half of the octahedron |x| + |y| + |z| = 1, seen from above.
 //
 // A direction d with z >= 0 is the point (x, y) / (|x| + |y| + z) of the diamond |a| + |b| <= 1. In each quadrant the
 // map is projective, so straight lines stay straight and a plane's inverse depth g . d is linear in (a, b) when d is
@@ -18,14 +18,14 @@
 
 namespace vantage::internal::exact {
 
-using ChartPoint = Eigen::Vector2d;
+using OctahedralPoint = Eigen::Vector2d;
 
-inline ChartPoint to_chart(const Vec3& direction) {
+inline OctahedralPoint to_octahedral(const Vec3& direction) {
   return direction.head<2>() / (std::abs(direction.x()) + std::abs(direction.y()) + direction.z());
 }
 
 /// The direction with |x| + |y| + z = 1. Heights that rounding leaves below zero are zero.
-inline Vec3 to_direction(const ChartPoint& p) {
+inline Vec3 to_direction(const OctahedralPoint& p) {
   return {p.x(), p.y(), std::max(0.0, 1 - std::abs(p.x()) - std::abs(p.y()))};
 }
 
@@ -47,7 +47,7 @@ using CellCorners = std::array<double, 4>;
 
 /// A square of a quadrant, [a, a + size] x [b, b + size] in |a|, |b|; when it straddles the horizon |a| + |b| = 1, the
 /// half of it that is above.
-struct ChartCell {
+struct OctahedralCell {
   int quadrant;
   double a, b, size;
   bool at_horizon() const { return a + b + size >= 1; }  // exact: cells are dyadic

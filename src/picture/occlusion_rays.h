@@ -11,13 +11,13 @@
 namespace vantage::internal::picture {
 
 /// Rays against the scene's triangles, in single precision: good enough for where to stand, and for nothing else.
-class Sight {
+class OcclusionRays {
  public:
   /// Throws Error(cancelled).
-  Sight(const Mesh& mesh, const Vec3& origin, const core::ProgressReporter& progress = {});
-  ~Sight();
-  Sight(const Sight&) = delete;
-  Sight& operator=(const Sight&) = delete;
+  OcclusionRays(const Mesh& mesh, const Vec3& origin, const core::ProgressReporter& progress = {});
+  ~OcclusionRays();
+  OcclusionRays(const OcclusionRays&) = delete;
+  OcclusionRays& operator=(const OcclusionRays&) = delete;
 
   /// Calls `visit` with each triangle between `point` and a viewer in direction `towards` (to infinity) or, as a
   /// difference of points, at its end. Stops when `visit` returns false.
@@ -32,7 +32,7 @@ class Sight {
 
 /// Degrees round from the east from where, at this elevation, the scene hides least of the target and the volume; of
 /// equals the one nearest to `preferred`.
-double best_azimuth(const Sight& sight, const PictureExtent& extent, const std::vector<Vec3>& target,
+double best_azimuth(const OcclusionRays& occlusion_rays, const PictureExtent& extent, const std::vector<Vec3>& target,
                     double elevation_deg, double preferred, const core::ProgressReporter& progress = {});
 
 }  // namespace vantage::internal::picture

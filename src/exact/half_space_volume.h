@@ -12,7 +12,7 @@
 
 namespace vantage::internal::exact {
 
-struct Side {
+struct HalfSpaceVolume {
   Mesh mesh;  ///< target's frame, closed
   std::vector<std::uint32_t> cause_of;
   std::vector<Cause> causes;
@@ -26,13 +26,14 @@ struct Side {
 
 /// The frame's polygon has at least 3 vertices; `range` is about the frame's origin. Throws Error(cancelled), and
 /// Error(input) for a tolerance too fine for the range.
-Side compute_side(const PreparedScene& scene, const TargetFrame& frame, const target::RangeRegion& range,
-                  const ExactOptions& options, const core::ProgressReporter& progress);
+HalfSpaceVolume compute_half_space(const PreparedScene& scene, const TargetFrame& frame,
+                                   const target::RangeRegion& range, const ExactOptions& options,
+                                   const core::ProgressReporter& progress);
 
 /// Both sides of a point as one solid in the front's frame, without the wall between them. `back` is in the frame
 /// turned about the u axis. What is left of the wall, where the two differ by their tolerance, gets the cause of what
 /// is next to it. Cost: O(n log n) in the vertices in the plane, and linear in the facets.
-Side join_sides(const Side& front, const Side& back);
+HalfSpaceVolume join_half_spaces(const HalfSpaceVolume& front, const HalfSpaceVolume& back);
 
 /// Name of the scene object that most of the boundary is due to.
 std::string widest_scene_cause(const std::vector<Cause>& causes);

@@ -1,4 +1,4 @@
-// RiseCheck: how far blockers rise above facets, against looking at many places.
+// OverClaimBound: how far blockers rise above facets, against looking at many places.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 
 #include "exact/collect.h"
 #include "exact/gauge.h"
-#include "exact/rise_check.h"
+#include "exact/over_claim_bound.h"
 #include "scene/prepared_data.h"
 #include "support/random.h"
 #include "support/scenes.h"
@@ -31,9 +31,9 @@ class RiseOverFacets : public ::testing::Test {
     collect_blockers(prepared.data(), frame, local, *range_, blockers_, *tree_, {});
   }
 
-  GaugeValue gauge_at(const ChartPoint& p) const { return evaluate_gauge(blockers_, *tree_, *range_, p); }
+  GaugeValue gauge_at(const OctahedralPoint& p) const { return evaluate_gauge(blockers_, *tree_, *range_, p); }
 
-  ChartPoint draw(int quadrant) {
+  OctahedralPoint draw(int quadrant) {
     for (;;) {
       const double a = random_.uniform(0, 1), b = random_.uniform(0, 1);
       if (a + b < 1) return {quadrant & 1 ? -a : a, quadrant & 2 ? -b : b};
@@ -41,16 +41,16 @@ class RiseOverFacets : public ::testing::Test {
   }
 
   /// A triangle about a random place, small ones as often as large ones.
-  std::array<ChartPoint, 3> draw_triangle(int quadrant) {
-    const ChartPoint about = draw(quadrant);
+  std::array<OctahedralPoint, 3> draw_triangle(int quadrant) {
+    const OctahedralPoint about = draw(quadrant);
     const double size = random_.chance(0.5) ? 0.02 : 0.5;
-    std::array<ChartPoint, 3> points;
-    for (ChartPoint& p : points) p = about + size * (draw(quadrant) - about);
+    std::array<OctahedralPoint, 3> points;
+    for (OctahedralPoint& p : points) p = about + size * (draw(quadrant) - about);
     return points;
   }
 
   /// The greatest rise of a blocker over the facet at the places of a fine grid.
-  double looked_up(const std::array<ChartPoint, 3>& points, const std::array<double, 3>& gauges) const {
+  double looked_up(const std::array<OctahedralPoint, 3>& points, const std::array<double, 3>& gauges) const {
     constexpr int kSteps = 60;
     double greatest = 0;
     for (int i = 0; i <= kSteps; ++i)
@@ -70,11 +70,11 @@ class RiseOverFacets : public ::testing::Test {
 };
 
 TEST_F(RiseOverFacets, IsNeverLessThanWhatIsSeen) {
-  RiseCheck check(blockers_, *tree_);
+  OverClaimBound check(blockers_, *tree_);
   int risen = 0, level = 0;
   for (int round = 0; round < 800; ++round) {
     const int quadrant = round % 4;
-    const std::array<ChartPoint, 3> points = draw_triangle(quadrant);
+    const std::array<OctahedralPoint, 3> points = draw_triangle(quadrant);
     std::array<double, 3> gauges;
     for (std::size_t i = 0; i < 3; ++i)
       gauges[i] = gauge_at(points[i]).value * (random_.chance(0.3) ? random_.uniform(1, 1.5) : 1);
@@ -91,10 +91,10 @@ TEST_F(RiseOverFacets, IsNeverLessThanWhatIsSeen) {
 }
 
 TEST_F(RiseOverFacets, IsCloseToWhatIsSeen) {
-  RiseCheck check(blockers_, *tree_);
+  OverClaimBound check(blockers_, *tree_);
   double bounds = 0, sights = 0;
   for (int round = 0; round < 400; ++round) {
-    const std::array<ChartPoint, 3> points = draw_triangle(round % 4);
+    const std::array<OctahedralPoint, 3> points = draw_triangle(round % 4);
     std::array<double, 3> gauges;
     for (std::size_t i = 0; i < 3; ++i) gauges[i] = gauge_at(points[i]).value;
     bounds += check.greatest_rise(round % 4, points, gauges, 1e-9);
