@@ -62,7 +62,7 @@ fuzz: tools  ## each fuzz target for a minute (SECONDS_EACH=60; PRESET=asan: in 
 	BUILD=build-$(or $(PRESET),fuzz) scripts/fuzz.sh $(or $(SECONDS_EACH),60)
 
 .PHONY: nightly
-nightly: everything  ## what takes too long for every change: all of lint, all tests sanitized, 2,000 degenerate scenes (SEED=N; else the date)
+nightly: everything  ## what takes too long for every change: lint of all, all unit tests sanitized, 2,000 scenes of the attack
 	@$(MAKE) --no-print-directory lint ALL=1
 	@$(MAKE) --no-print-directory asan ALL=1
 	build/bin/vantage_attack --scenes $(or $(SCENES),2000) --seed $(or $(SEED),$(shell date +%Y%m%d)) \

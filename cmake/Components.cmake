@@ -1,8 +1,8 @@
-# The libraries: vantage::core and what stands on it, each built where VANTAGE_COMPONENTS names it, and vantage::vantage,
-# which is all of them. docs/architecture.md shows the modules of each. Shared or static as BUILD_SHARED_LIBS says.
+# The libraries: vantage::core and what stands on it, each built where VANTAGE_COMPONENTS names it, and
+# vantage::vantage, which is all of them. docs/libraries.md lists them. Shared or static as BUILD_SHARED_LIBS says.
 
-# vantage_component(NAME  MODULES folders of src/...  [SOURCES more files]  [LINK targets that an installed static library
-# needs as well]  [BUILD targets that only the build needs]  [REQUIRES other components])
+# vantage_component(NAME  MODULES folders of src/...  [SOURCES more files]  [LINK targets that an installed static
+# library needs as well]  [BUILD targets that only the build needs]  [REQUIRES other components])
 function(vantage_component name)
   cmake_parse_arguments(PARSE_ARGV 1 part "" "" "MODULES;SOURCES;LINK;BUILD;REQUIRES")
   set(sources ${part_SOURCES})
@@ -53,11 +53,13 @@ add_library(vantage INTERFACE)
 add_library(vantage::vantage ALIAS vantage)
 set(source ${PROJECT_SOURCE_DIR}/src)
 
-# Helpers without a state of their own, of which every shared library takes in what it uses: they need not be exported.
+# Helpers of which every shared library takes in what it uses: they need not be exported. They have no state of their
+# own, but for PROJ, which each library then loads for itself.
 set(VANTAGE_HELPER_SOURCES)
-foreach(file core/bvh core/convex_corners core/edges core/facet_polygon core/mend_welded core/pieces core/sha256 core/stars
-             core/text core/triangle_distance core/weld geo/coordinate_system geo/local_frame geo/longitudes
-             geo/proj_library options/spheres_options target/enclosing_circle target/lengths target/range_check target/range_region)
+foreach(file core/bvh core/convex_corners core/edges core/facet_polygon core/mend_welded core/pieces core/sha256
+             core/stars core/text core/triangle_distance core/weld geo/coordinate_system geo/local_frame
+             geo/longitudes geo/proj_library options/spheres_options target/enclosing_circle target/lengths
+             target/range_check target/range_region)
   list(APPEND VANTAGE_HELPER_SOURCES ${source}/${file}.cpp)
 endforeach()
 add_library(vantage_helpers STATIC EXCLUDE_FROM_ALL ${VANTAGE_HELPER_SOURCES})
@@ -79,10 +81,13 @@ if(NOT BUILD_SHARED_LIBS)
 endif()
 
 if(VANTAGE_WITH_SOLID)
-  vantage_component(solid MODULES solid LINK ${VANTAGE_THREAD_TARGETS} BUILD manifold::manifold
-                    REQUIRES core)
-  if(NOT BUILD_SHARED_LIBS AND NOT VANTAGE_INSTALLED_MANIFOLD)
-    target_sources(vantage_solid PRIVATE $<TARGET_OBJECTS:manifold>)  # ours is not installed by itself
+  if(VANTAGE_INSTALLED_MANIFOLD)
+    vantage_component(solid MODULES solid LINK manifold::manifold ${VANTAGE_THREAD_TARGETS} REQUIRES core)
+  else()
+    vantage_component(solid MODULES solid LINK ${VANTAGE_THREAD_TARGETS} BUILD manifold::manifold REQUIRES core)
+    if(NOT BUILD_SHARED_LIBS)
+      target_sources(vantage_solid PRIVATE $<TARGET_OBJECTS:manifold>)  # ours is not installed by itself
+    endif()
   endif()
 endif()
 if(VANTAGE_WITH_MAPS)

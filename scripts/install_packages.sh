@@ -8,7 +8,7 @@ set -euo pipefail
 
 packages=(
   # building
-  g++ make cmake ninja-build pkg-config
+  g++ make cmake ninja-build ccache pkg-config
   # scripts/fetch_sources.sh
   python3 python3-pip ca-certificates
   # libraries
@@ -21,7 +21,7 @@ packages=(
   libosmium2-dev libproj-dev proj-data libpolyclipping-dev libgdal32
 )
 tests=(libgtest-dev osmium-tool)
-tools=(libbenchmark-dev ccache clang libclang-rt-14-dev clang-format clang-tidy)
+tools=(libbenchmark-dev clang libclang-rt-14-dev clang-format clang-tidy)
 
 [ -z "${VANTAGE_NO_INSTALL:-}" ] || exit 0
 case "${1:-}" in

@@ -83,7 +83,7 @@ StageFolder::StageFolder(fs::path folder) : asked_(std::move(folder)), folder_(w
   std::error_code error;
   const fs::file_status status = fs::status(folder_, error);
   if (folder_.empty() || (fs::exists(status) && !fs::is_directory(status)))
-    throw Error(ErrorCode::not_a_file, "the place of the stages is not a folder", asked_.string(),
+    throw Error(ErrorCode::output_folder_missing, "the place of the stages is not a folder", asked_.string(),
                 "name a folder for --stages; it is made if it does not exist");
   if (fs::exists(status)) check_replaceable();
   if (fs::is_symlink(folder_, error)) folder_ = fs::canonical(folder_, error);

@@ -34,7 +34,9 @@ void pass_skipped(const RTCFilterFunctionNArguments* arguments) {
 void check(RTCDevice device) {
   const RTCError code = rtcGetDeviceError(device);
   if (code == RTC_ERROR_NONE) return;
-  throw Error(ErrorCode::out_of_memory, "Embree failed with error " + std::to_string(static_cast<int>(code)),
+  const bool is_memory = code == RTC_ERROR_OUT_OF_MEMORY;
+  throw Error(is_memory ? ErrorCode::out_of_memory : ErrorCode::internal_defect,
+              "Embree failed with error " + std::to_string(static_cast<int>(code)),
               "indexing the scene for ray casting", "free some memory, or take a smaller scene");
 }
 

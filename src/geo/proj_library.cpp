@@ -7,7 +7,7 @@
 
 #include "vantage/error.h"
 
-// Set by CMakeLists.txt: the name that the library of these headers has on the system, and where it was found.
+// Set by cmake/Components.cmake: the name that the library of these headers has on the system, and where it was found.
 #if !defined(VANTAGE_PROJ_NAME) || !defined(VANTAGE_PROJ_FILE)
 #error "which PROJ?"
 #endif

@@ -134,7 +134,9 @@ struct BoxIndex::Impl {
   void check() const {
     const RTCError code = rtcGetDeviceError(device);
     if (code == RTC_ERROR_NONE) return;
-    throw Error(ErrorCode::out_of_memory, "Embree failed with error " + std::to_string(static_cast<int>(code)),
+    const bool is_memory = code == RTC_ERROR_OUT_OF_MEMORY;
+    throw Error(is_memory ? ErrorCode::out_of_memory : ErrorCode::internal_defect,
+                "Embree failed with error " + std::to_string(static_cast<int>(code)),
                 "building the index of the check over " + std::to_string(bounds.size()) + " triangles",
                 "free some memory, or check a smaller scene");
   }

@@ -1,5 +1,5 @@
 // What missions need of the component `depth`: spheres.cpp, or without_spheres.cpp in builds without it. The latter
-// also has the public run_willis_config, whose definition else is in app/run_willis.cpp.
+// also has the public run_willis_config, whose definition else is in run_willis.cpp.
 #pragma once
 
 #include "vantage/spheres.h"
