@@ -187,10 +187,11 @@ TEST(Compare, RefusesWhatIsNoSolid) {
                                                      {&index, ErrorCode::index_out_of_range},
                                                      {&infinite, ErrorCode::coordinate_not_finite}};
   const Mesh empty;
-  for (const auto& [bad, expected] : cases) {
+  for (const auto& [mesh, expected] : cases) {
+    const Mesh& bad = *mesh;
     for (const bool is_first : {true, false}) {
       const Error error = testing::error_of(
-          [&] { compare_volumes(is_first ? *bad : good, is_first ? good : *bad, "first.ply", "second.ply"); });
+          [&] { compare_volumes(is_first ? bad : good, is_first ? good : bad, "first.ply", "second.ply"); });
       EXPECT_EQ(error.code(), expected) << error.what();
       EXPECT_EQ(error.where().rfind(is_first ? "first.ply" : "second.ply", 0), 0U) << error.what();
     }
