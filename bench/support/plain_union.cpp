@@ -1,5 +1,4 @@
 #include "support/plain_union.h"
-#include "support/internals.h"
 
 #include <manifold/manifold.h>
 
@@ -8,6 +7,8 @@
 #include <array>
 #include <cmath>
 #include <vector>
+
+#include "support/internals.h"
 
 namespace vantage::bench {
 namespace {

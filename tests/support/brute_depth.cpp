@@ -1,10 +1,11 @@
 #include "support/brute_depth.h"
-#include "support/internals.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <utility>
+
+#include "support/internals.h"
 
 namespace vantage::testing {
 namespace {

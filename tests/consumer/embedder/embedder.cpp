@@ -1,4 +1,5 @@
-// What an embedder does with `core` alone: a scene from arrays and one from a mesh file, an exact volume, queries, a mesh.
+// What an embedder does with `core` alone: a scene from arrays and one from a mesh file, an exact volume, queries, a
+// mesh.
 #include <cmath>
 #include <cstdio>
 #include <string>

@@ -1,4 +1,5 @@
-// Missions in a build without solid, maps and depth: they are read, written and run, and what needs one of these is refused.
+// Missions in a build without solid, maps and depth: they are read, written and run, and what needs one of these is
+// refused.
 #include <cstdio>
 #include <string>
 
@@ -38,10 +39,11 @@ int main(int argc, char** argv) try {
 
   const std::string parts =
       "target: {parts: [[[-4, -4, 0], [4, -4, 0], [4, 4, 0], [-4, 4, 0]], [[4, -4, 0], [8, -4, 0], [8, 4, 0]]]}\n";
-  const bool all_refused = is_refused(start + parts, folder, "solid") &&
-                           is_refused(start + square + "navigation: {altitude: [3, 50]}\n", folder, "solid") &&
-                           is_refused(start + square + "method: spheres\n", folder, "depth") &&
-                           is_refused("scene: {osm: ../town/town.osm}\nsensor: {max_range: 40}\n" + square, folder, "maps");
+  const bool all_refused =
+      is_refused(start + parts, folder, "solid") &&
+      is_refused(start + square + "navigation: {altitude: [3, 50]}\n", folder, "solid") &&
+      is_refused(start + square + "method: spheres\n", folder, "depth") &&
+      is_refused("scene: {osm: ../town/town.osm}\nsensor: {max_range: 40}\n" + square, folder, "maps");
   return all_refused ? 0 : 1;
 } catch (const vantage::Error& error) {
   std::puts(error.what());
