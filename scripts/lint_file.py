@@ -41,7 +41,7 @@ def options_of(build, file):
             skip = 1
         elif word not in ("-c", "-MD", "-Winvalid-pch", file):
             options.append(word)
-    return options, folder
+    return [*options, "-Wno-unknown-warning-option"], folder  # they may be another compiler's
 
 
 def fingerprint(options, folder, file, checks):
@@ -64,9 +64,7 @@ def main():
         clean = None  # it is checked every time then, and clang-tidy itself says what is wrong
     if clean and clean.exists():
         return 0
-    # The options are those of another compiler, maybe.
-    command = ["clang-tidy", "--quiet", *([f"--checks={checks}"] if checks else []), file, "--", *options,
-               "-Wno-unknown-warning-option"]
+    command = ["clang-tidy", "--quiet", *([f"--checks={checks}"] if checks else []), file, "--", *options]
     result = subprocess.run(command, cwd=folder, timeout=TIMEOUT_S)
     if result.returncode == 0 and clean:
         cache.mkdir(parents=True, exist_ok=True)
