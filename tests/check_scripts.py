@@ -99,7 +99,7 @@ class Scripts(unittest.TestCase):
         for cwd in (self.tree, link):
             code, text = self.run_script("lint.sh", cwd=cwd)
             self.assertEqual(code, 0, text)
-            self.assertIn(f"checked --quiet {file} -- -DX\n", text)
+            self.assertIn(f"checked --quiet {file} -- -DX ", text)
             self.assertIn("lint: 1 files clean", text)
 
     def test_lint_checks_again_what_has_changed(self):
