@@ -30,7 +30,7 @@ Eigen::Vector2d scene_position(const Georeference& georeference, double longitud
         ErrorCode::not_on_earth, " is no place on the earth",
         is_near(latitude_deg, longitude_deg) ? kOrder : "give a longitude in -180 to 180 and a latitude in -90 to 90");
   }
-  const Eigen::Vector2d position = frame.to_local({longitude_deg, latitude_deg});
+  Eigen::Vector2d position = frame.to_local({longitude_deg, latitude_deg});
   if (position.norm() > internal::geo::kFarthestM) {
     refuse(ErrorCode::too_far_away,
            " lies " + std::to_string(std::lround(position.norm() / 1000)) + " km from the scene's origin",
