@@ -6,6 +6,7 @@
 #include <map>
 #include <regex>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -102,10 +103,13 @@ TEST(ErrorCodes, AreAllThrown) {
   std::string text;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(source)) {
     if (entry.path().filename() == "error_codes.cpp" || !entry.is_regular_file()) continue;
-    text += testing::read_bytes(entry.path());
+    std::istringstream lines(testing::read_bytes(entry.path()));
+    for (std::string line; std::getline(lines, line);) {
+      const bool only_compares = line.find("= ErrorCode::") != std::string::npos;  // == and !=
+      if (!only_compares) text += line.substr(0, line.find("//")) + "\n";
+    }
   }
   for (const ErrorCode code : error_codes()) {
-    if (code == ErrorCode::component_missing) continue;  // of builds that leave something out
     std::string name = name_of(code);
     std::replace(name.begin(), name.end(), '-', '_');
     EXPECT_TRUE(std::regex_search(text, std::regex("ErrorCode::" + name + "\\b"))) << name;

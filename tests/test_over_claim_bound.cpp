@@ -92,16 +92,16 @@ TEST_F(RiseOverFacets, IsNeverLessThanWhatIsSeen) {
 
 TEST_F(RiseOverFacets, IsCloseToWhatIsSeen) {
   OverClaimBound check(blockers_, *tree_);
-  double bounds = 0, sights = 0;
+  double bounds = 0, seen = 0;
   for (int round = 0; round < 400; ++round) {
     const std::array<OctahedralPoint, 3> points = draw_triangle(round % 4);
     std::array<double, 3> gauges;
     for (std::size_t i = 0; i < 3; ++i) gauges[i] = gauge_at(points[i]).value;
     bounds += check.greatest_rise(round % 4, points, gauges, 1e-9);
-    sights += looked_up(points, gauges);
+    seen += looked_up(points, gauges);
   }
-  EXPECT_GT(sights, 1);
-  EXPECT_LT(bounds, 2 * sights);
+  EXPECT_GT(seen, 1);
+  EXPECT_LT(bounds, 2 * seen);
 }
 
 }  // namespace

@@ -174,8 +174,8 @@ def star():
     drawing.write("star.svg")
 
 
-def chart():
-    """The chart seen from above, with the planes of a wall and of a pole: straight in each quadrant."""
+def octahedral_map():
+    """The octahedral map seen from above, with the planes of a wall and of a pole: straight in each quadrant."""
     drawing = Drawing(-1.25, -1.2, 1.25, 1.2, 230)
     drawing.polygon([(1, 0), (0, 1), (-1, 0), (0, -1)], "#f4f6fa", 1, DARK)
     drawing.line([(-1, 0), (1, 0)], GREY, 1, "4,4")
@@ -210,4 +210,4 @@ def chart():
 if __name__ == "__main__":
     blocker()
     star()
-    chart()
+    octahedral_map()

@@ -45,8 +45,8 @@ void ConstraintGraph::add_creases(const Skeleton& skeleton) {
     for (std::size_t i = 0; i + 1 < line.size(); ++i) add_crease(line[i], line[i + 1], true);
 }
 
-std::uint32_t ConstraintGraph::add_crease_point(const Vec3& point, const OctahedralPoint& in_octahedral) {
-  const std::uint32_t vertex = snapper_.add(in_octahedral);
+std::uint32_t ConstraintGraph::add_crease_point(const Vec3& point, const OctahedralPoint& on_map) {
+  const std::uint32_t vertex = snapper_.add(on_map);
   if (crease_gauges_.size() <= vertex) crease_gauges_.resize(vertex + 1);
   crease_gauges_[vertex] = std::max(crease_gauges_[vertex], 1 / point.lpNorm<1>());
   return vertex;

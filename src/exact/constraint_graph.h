@@ -47,7 +47,7 @@ class ConstraintGraph {
  private:
   void add_edge(std::uint32_t a, std::uint32_t b);
   void add_crease(const Vec3& from, const Vec3& to, bool on_sphere);
-  std::uint32_t add_crease_point(const Vec3& point, const OctahedralPoint& in_octahedral);
+  std::uint32_t add_crease_point(const Vec3& point, const OctahedralPoint& on_map);
   void add_creases(const Skeleton& skeleton);
   std::uint32_t vertex_at(int i, int j);
   void add_border();

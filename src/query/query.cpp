@@ -253,13 +253,13 @@ PointAnswer look(Side& side, const Vec3& scene_point) {
   // The line goes to the front always: for a point behind the target it is the other half of the line through it.
   const double sign = answer.behind_target ? -1 : 1;
   const Vec3 direction = bearing.distance > 0 ? Vec3(sign * bearing.direction) : Vec3::UnitZ();
-  const RayQuery sight(side, direction, answer.behind_target ? 0 : bearing.distance, named);
+  const RayQuery ray(side, direction, answer.behind_target ? 0 : bearing.distance, named);
   answer.blocked_by = named.names(side.scene.objects);
   answer.inside =
       !answer.behind_target && !answer.out_of_range && answer.blocked_by.empty() && answer.outside_of.empty();
   const internal::query::ViewRay line{
       frame.origin, frame.axis_u * direction.x() + frame.axis_v * direction.y() + frame.normal * direction.z(),
-      side.is_reachable ? 1 / sight.gauge() : 0};
+      side.is_reachable ? 1 / ray.gauge() : 0};
   answer.margin_m = side.limits.signed_margin(line, sign * bearing.distance, answer.inside);
   return answer;
 }
