@@ -66,7 +66,7 @@ get_filename_component(VANTAGE_PROJ_NAME ${VANTAGE_PROJ_FILE} NAME)
 string(REGEX REPLACE "^(lib.*\\.so\\.[0-9]+).*" "\\1" VANTAGE_PROJ_NAME ${VANTAGE_PROJ_NAME})
 
 # libosmium is headers; it reads XML with Expat and unpacks with zlib and bzip2 (src/maps/osm only). Clipper 6.4: outlines in
-# the plane (src/maps/city/footprint.cpp only); its package file tells no version.
+# the plane (src/maps/city/clipping.cpp only); its package file tells no version.
 if(VANTAGE_WITH_MAPS)
   pkg_check_modules(CLIPPER REQUIRED IMPORTED_TARGET polyclipping)
   find_package(EXPAT REQUIRED)

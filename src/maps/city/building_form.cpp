@@ -66,7 +66,7 @@ class FormReader {
       if (value.empty()) continue;
       const std::optional<double> result = parse(value);
       if (result && *result >= 0 && *result <= most) return result;
-      const TagFault fault = !result ? TagFault::no_value : *result < 0 ? TagFault::negative : TagFault::beyond_belief;
+      const TagFault fault = !result ? TagFault::no_value : *result < 0 ? TagFault::negative : TagFault::too_large;
       remark(fault, key, value, "taken as untagged");
     }
     return std::nullopt;

@@ -52,13 +52,12 @@ struct BuildingForm {
   double deck_m = 0;
 };
 
-/// What was not as it should be in an object's tags; each kind is counted in the report.
 /// What is wrong with a tag.
 enum class TagFault {
   no_value,         ///< no length, number, angle or word that the key may have
   negative,         ///< below zero, or zero where that is as wrong
   zero,             ///< a height of zero
-  beyond_belief,    ///< too large
+  too_large,        ///< more than anything that is built
   unknown_roof,     ///< a roof shape that is not known
   other_roof,       ///< a roof shape that is built as the closest one
   no_direction,     ///< a skillion roof that does not say where it falls

@@ -1,5 +1,4 @@
-// Outlines in the plane: cleaned, so that every later step may trust them. The only file that sees Clipper is
-// footprint.cpp.
+// Outlines in the plane: cleaned, so that every later step may trust them.
 #pragma once
 
 #include <Eigen/Core>

@@ -103,15 +103,15 @@ Ring Grid::to_metres(const GridRing& ring) const {
   return result;
 }
 
-Place place_of(const GridPoint& point, const GridRing& ring) {
+PointLocation locate(const GridPoint& point, const GridRing& ring) {
   bool inside = false;
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const GridPoint &a = ring[i], &b = ring[(i + 1) % ring.size()];
-    if (on_segment(point, a, b)) return Place::boundary;
+    if (on_segment(point, a, b)) return PointLocation::boundary;
     // The side passes the point's height, and does so to its east.
     if ((a.y > point.y) != (b.y > point.y) && (turn(point, a, b) > 0) == (b.y > a.y)) inside = !inside;
   }
-  return inside ? Place::inside : Place::outside;
+  return inside ? PointLocation::inside : PointLocation::outside;
 }
 
 double signed_area(const GridRing& ring) {

@@ -54,8 +54,8 @@ class Grid {
   Vec2 origin_ = Vec2::Zero();
 };
 
-enum class Place { inside, boundary, outside };
-Place place_of(const GridPoint& point, const GridRing& ring);  ///< by the even-odd rule
+enum class PointLocation { inside, boundary, outside };
+PointLocation locate(const GridPoint& point, const GridRing& ring);  ///< by the even-odd rule
 
 double signed_area(const GridRing& ring);  ///< in units of the grid, squared
 

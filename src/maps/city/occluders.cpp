@@ -28,7 +28,7 @@ std::optional<double> tagged_length(const osm::Tags& tags, std::initializer_list
     if (value.empty()) continue;
     const std::optional<double> length = parse_length_m(value);
     if (length && *length > 0 && *length <= most) return std::max(*length, kLeastSize);
-    const TagFault fault = !length ? TagFault::no_value : *length <= 0 ? TagFault::negative : TagFault::beyond_belief;
+    const TagFault fault = !length ? TagFault::no_value : *length <= 0 ? TagFault::negative : TagFault::too_large;
     remarks.push_back({fault, std::string(key), std::string(value), "taken as untagged"});
   }
   return std::nullopt;
