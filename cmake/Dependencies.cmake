@@ -54,12 +54,12 @@ endif()
 # Cairo: writing on pictures, and PNG (src/picture only).
 find_package(PkgConfig REQUIRED)
 if(VANTAGE_WITH_PICTURE)
-  pkg_check_modules(CAIRO REQUIRED IMPORTED_TARGET cairo>=1.16)
+  pkg_check_modules(VANTAGE_CAIRO REQUIRED IMPORTED_TARGET cairo>=1.16)
 endif()
 
 # PROJ: coordinate reference systems (src/geo only), found here and loaded at run time.
-pkg_check_modules(PROJ REQUIRED IMPORTED_TARGET proj>=9.1)
-find_library(VANTAGE_PROJ_LIBRARY proj HINTS ${PROJ_LIBRARY_DIRS} REQUIRED NO_CACHE)
+pkg_check_modules(VANTAGE_PROJ REQUIRED IMPORTED_TARGET proj>=9.1)
+find_library(VANTAGE_PROJ_LIBRARY proj HINTS ${VANTAGE_PROJ_LIBRARY_DIRS} REQUIRED NO_CACHE)
 file(REAL_PATH ${VANTAGE_PROJ_LIBRARY} VANTAGE_PROJ_FILE)
 # The name that stands for its binary interface: libproj.so.25 of libproj.so.25.9.1.1.
 get_filename_component(VANTAGE_PROJ_NAME ${VANTAGE_PROJ_FILE} NAME)
@@ -68,7 +68,7 @@ string(REGEX REPLACE "^(lib.*\\.so\\.[0-9]+).*" "\\1" VANTAGE_PROJ_NAME ${VANTAG
 # libosmium is headers; it reads XML with Expat and unpacks with zlib and bzip2 (src/maps/osm only). Clipper 6.4: outlines in
 # the plane (src/maps/city/clipping.cpp only); its package file tells no version.
 if(VANTAGE_WITH_MAPS)
-  pkg_check_modules(CLIPPER REQUIRED IMPORTED_TARGET polyclipping)
+  pkg_check_modules(VANTAGE_CLIPPER REQUIRED IMPORTED_TARGET polyclipping)
   find_package(EXPAT REQUIRED)
   find_package(BZip2 REQUIRED)
   find_path(OSMIUM_INCLUDE_DIR osmium/version.hpp REQUIRED)
