@@ -101,9 +101,13 @@ TEST(AtomicFile, RefusesADirectory) {
   EXPECT_TRUE(directory.names().empty());
 }
 
-TEST(AtomicFile, RefusesAMissingDirectory) {
+TEST(AtomicFile, SaysThatTheFolderIsMissing) {
   const TemporaryDirectory directory;
-  expect_error([&] { write_whole_file(directory / "no/such/out.ply", "x"); }, ErrorCode::output_unwritable, "out.ply");
+  expect_error([&] { AtomicFile file(directory / "none/a.ply"); }, ErrorCode::output_folder_missing, "none/a.ply");
+  expect_error([&] { write_whole_file(directory / "no/such/out.ply", "x"); }, ErrorCode::output_folder_missing,
+               "out.ply");
+  write_bytes(directory / "file", "");
+  expect_error([&] { AtomicFile file(directory / "file/a.ply"); }, ErrorCode::output_folder_missing, "file/a.ply");
 }
 
 TEST(AtomicFile, RefusesDevicesAndPipes) {

@@ -145,7 +145,7 @@ TEST(CityForm, NonsenseIsRemarkedOnAndTakenAsUntagged) {
   EXPECT_TRUE(negative.has(TagFault::negative, "height"));
   EXPECT_TRUE(read({{"building", "yes"}, {"height", "0"}}).has(TagFault::zero, "height"));
   EXPECT_EQ(read({{"building", "yes"}, {"height", "0"}, {"est_height", "7"}}).form.top_m, 7);
-  EXPECT_TRUE(read({{"building", "yes"}, {"height", "99999"}}).has(TagFault::beyond_belief, "height"));
+  EXPECT_TRUE(read({{"building", "yes"}, {"height", "99999"}}).has(TagFault::too_large, "height"));
   EXPECT_TRUE(read({{"building", "yes"}, {"building:levels", "0"}}).has(TagFault::zero, "building:levels"));
   EXPECT_EQ(read({{"building", "yes"}, {"building:levels", "0"}}).form.top_m, 9);
   EXPECT_EQ(read({{"building", "yes"}, {"building:levels", "0"}, {"roof:height", "4"}}).form.top_m, 4);

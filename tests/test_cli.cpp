@@ -55,6 +55,7 @@ TEST_F(CliUsage, MisspeltOptionsGetASuggestion) {
   expect_suggestion({"verify", "mission.yaml", "v.ply", "-points", "9"}, "'--points'");
   expect_suggestion({"scene", "city.osm", "--centre", "1,2", "-o", "a.glb"}, "'--center'");
   expect_suggestion({"compute", "mission.yaml", "-o", "v.ply", "--points", "9"}, "'vantage verify'");
+  expect_suggestion({"scene", "city.osm", "--center", "48.1,", "11.5", "-o", "a.glb"}, "48.1,11.5");
   expect_suggestion({"--verison"}, "'--version'");
   expect_suggestion({"compute", "mission.yaml", "-o", "v.ply", "--xyzzy"}, "vantage compute --help");
   expect_suggestion({"compute", "mission.yaml", "-o", "v.ply", "extra.ply"}, "vantage compute --help");

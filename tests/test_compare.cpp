@@ -9,6 +9,7 @@
 #include <random>
 #include <string>
 
+#include "solid/csg.h"
 #include "solid/triangle_tree.h"
 #include "support/progress_check.h"
 #include "support/random.h"
@@ -112,6 +113,22 @@ TEST(Compare, NestedBoxes) {
   EXPECT_TRUE(c.only_b.empty());
   EXPECT_EQ(c.worst_only_b_m, 0);
   EXPECT_NEAR(c.worst_only_a_m, std::sqrt(25.0 + 25 + 25), 1e-9) << "from (10, 10, 10) to (5, 5, 5)";
+}
+
+TEST(Compare, FindsTheBottomOfAPit) {
+  // Every corner of the pit lies on the box with the pit; the farthest point is in the middle of its mouth.
+  const Mesh whole = box({0, 0, 0}, {100, 100, 60}), pit = box({20, 20, 40}, {80, 80, 60});
+  const Mesh with_pit = solid::subtract(solid::Solid({whole, std::vector<std::uint32_t>(whole.triangles.size())}),
+                                        solid::Solid({pit, std::vector<std::uint32_t>(pit.triangles.size())}))
+                            .to_mesh()
+                            .mesh;
+  const Comparison c = compared(whole, with_pit);
+  EXPECT_NEAR(c.only_a_m3, 60 * 60 * 20, 1e-6);
+  EXPECT_NEAR(c.worst_only_a_m, 20, 0.2);
+  EXPECT_GE(c.worst_only_a_bound_m, 20 - 1e-9);
+  EXPECT_LE(c.worst_only_a_bound_m, 20.4);
+  EXPECT_NEAR(c.worst_only_a_point.z(), 60, 1);
+  EXPECT_EQ(c.worst_only_b_m, 0);
 }
 
 TEST(Compare, DisjointAndTouching) {

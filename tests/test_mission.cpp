@@ -94,9 +94,9 @@ exact: {tolerance: 0.02}
   ASSERT_TRUE(mission.navigation.altitude.has_value());
   EXPECT_EQ(mission.navigation.altitude->min_m, -20);
   EXPECT_EQ(mission.navigation.altitude->max_m, 120);
-  ASSERT_EQ(mission.navigation.boxes.size(), 2U);
-  EXPECT_EQ(mission.navigation.boxes[0].max, Vec3(3, 4, 5));
-  EXPECT_EQ(mission.navigation.boxes[1].min, Vec3(.5, .5, .5));
+  ASSERT_EQ(mission.navigation.keep_in.size(), 2U);
+  EXPECT_EQ(mission.navigation.keep_in[0].max, Vec3(3, 4, 5));
+  EXPECT_EQ(mission.navigation.keep_in[1].min, Vec3(.5, .5, .5));
   ASSERT_EQ(mission.navigation.keep_out.size(), 1U);
   EXPECT_EQ(mission.navigation.keep_out[0].min, Vec3(6, 7, 8));
   EXPECT_EQ(mission.exact.tolerance_m, 0.02);

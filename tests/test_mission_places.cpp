@@ -170,8 +170,8 @@ TEST_F(MissionPlaces, LimitsInReferenceSystems) {
       placed(map_scene(), "crs: EPSG:4326\ntarget: {vertices: " + list_of(there) +
                               "}\nnavigation:\n  boxes: [{min: " + corner(low, 5) + ", max: " + corner(high, 60) +
                               "}]\n  keep_out: [{min: " + corner(out, 0) + ", max: " + corner(high, 30) + "}]\n");
-  ASSERT_EQ(result.navigation.boxes.size(), 1U);
-  const Box &keep = result.navigation.boxes[0], &avoid = result.navigation.keep_out.at(0);
+  ASSERT_EQ(result.navigation.keep_in.size(), 1U);
+  const Box &keep = result.navigation.keep_in[0], &avoid = result.navigation.keep_out.at(0);
   EXPECT_NEAR((keep.min - Vec3(-40, -40, 5)).norm(), 0, 0.01);
   EXPECT_NEAR((keep.max - Vec3(40, 40, 60)).norm(), 0, 0.01);
   EXPECT_NEAR((avoid.min - Vec3(5, 5, 0)).norm(), 0, 0.01);

@@ -132,7 +132,7 @@ TEST(Navigation, HemisphereSlabHasTheRightVolumeAndAreas) {
 TEST(Navigation, KeepsWhatLiesWithinTheLimits) {
   const Volume dome = bumpy_dome(Vec3(0, 0, 0));
   Navigation navigation = band(0, 500);  // the floor lies in the lower limit
-  navigation.boxes = {box(-200, -200, -1, 200, 200, 300)};
+  navigation.keep_in = {box(-200, -200, -1, 200, 200, 300)};
   navigation.keep_out = {box(150, 0, 0, 200, 10, 10)};
   const Volume cut = cut_to_navigation(dome, navigation);
   EXPECT_EQ(cut.mesh.vertices, dome.mesh.vertices);
@@ -156,13 +156,13 @@ TEST(Navigation, BoxCornersAreExact) {
   for (const Vec3& offset : {Vec3(0, 0, 0), kUtm}) {
     const Volume dome = bumpy_dome(offset);
     Navigation navigation;
-    navigation.boxes = {box(-9.7, -8.3, 5.1, 11.9, 7.7, 21.3, offset)};  // wholly inside
+    navigation.keep_in = {box(-9.7, -8.3, 5.1, 11.9, 7.7, 21.3, offset)};  // wholly inside
     const Volume cut = cut_to_navigation(dome, navigation);
     expect_sound(cut);
     const MeshMeasures measures = measure(cut.mesh);
     EXPECT_EQ(measures.vertices, 8u);
-    EXPECT_EQ(measures.bounds.min, navigation.boxes[0].min);
-    EXPECT_EQ(measures.bounds.max, navigation.boxes[0].max);
+    EXPECT_EQ(measures.bounds.min, navigation.keep_in[0].min);
+    EXPECT_EQ(measures.bounds.max, navigation.keep_in[0].max);
     ASSERT_EQ(cut.causes.size(), 1u);
     EXPECT_EQ(cut.causes[0].name, "box 0");
     EXPECT_NEAR(measures.volume_m3, 21.6 * 16 * 16.2, 1e-5);
@@ -172,8 +172,8 @@ TEST(Navigation, BoxCornersAreExact) {
 TEST(Navigation, BoxesAreUnited) {
   const Volume dome = bumpy_dome(Vec3(0, 0, 0));
   Navigation navigation;
-  navigation.boxes = {box(-20, -5, 1, 0, 5, 10), box(0, -5, 1, 20, 5, 10), box(10, -5, 5, 15, 5, 20),
-                      box(-20, 20, 1, -10, 30, 5), box(500, 500, 0, 501, 501, 1)};
+  navigation.keep_in = {box(-20, -5, 1, 0, 5, 10), box(0, -5, 1, 20, 5, 10), box(10, -5, 5, 15, 5, 20),
+                        box(-20, 20, 1, -10, 30, 5), box(500, 500, 0, 501, 501, 1)};
   const Volume cut = cut_to_navigation(dome, navigation);
   expect_sound(cut);
   EXPECT_EQ(measure(cut.mesh).pieces, 2u);
@@ -224,7 +224,7 @@ TEST(Navigation, AllLimitsTogetherAgreeWithPointTests) {
   for (const Vec3& offset : {Vec3(0, 0, 0), kUtm}) {
     const Volume dome = bumpy_dome(offset, 36, 12);
     Navigation navigation = band(offset.z() + 3, offset.z() + 45);
-    navigation.boxes = {box(-50, -50, 0, 10, 50, 50, offset), box(0, -20, -5, 70, 20, 30, offset)};
+    navigation.keep_in = {box(-50, -50, 0, 10, 50, 50, offset), box(0, -20, -5, 70, 20, 30, offset)};
     navigation.keep_out = {box(-20, -20, 0, -5, 15, 25, offset), box(20, -60, 10, 30, 60, 90, offset)};
     Mesh mesh = make_box_mesh(Vec3(-45, -40, -10), Vec3(50, 40, 100));
     const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.4, Vec3(1, 2, 3).normalized()).toRotationMatrix();
@@ -250,7 +250,7 @@ TEST(Navigation, AllLimitsTogetherAgreeWithPointTests) {
       const Vec3 m = turn.transpose() * (p - offset);
       const bool in_mesh = m.x() > -45 && m.x() < 50 && m.y() > -40 && m.y() < 40 && m.z() > -10 && m.z() < 100;
       inside += in_mesh && p.z() >= navigation.altitude->min_m && p.z() <= navigation.altitude->max_m &&
-                in_any(navigation.boxes, p) && !in_any(navigation.keep_out, p) && inside_star(dome, p);
+                in_any(navigation.keep_in, p) && !in_any(navigation.keep_out, p) && inside_star(dome, p);
     }
     const double share = double(inside) / kPoints, domain = 180.0 * 180 * 80;
     const double deviation = domain * std::sqrt(share * (1 - share) / kPoints);
@@ -268,10 +268,10 @@ TEST(Navigation, NothingIsPushedOutward) {
   for (int i = 0; i < 20; ++i) {
     Navigation navigation = band(kUtm.z() + 10 + 8 * uniform(random), kUtm.z() + 30 + 8 * uniform(random));
     const Vec3 centre = kUtm + Vec3(40 * uniform(random), 40 * uniform(random), 20);
-    navigation.boxes = {{centre - Vec3(30, 25, 40), centre + Vec3(30, 25, 40)}};
+    navigation.keep_in = {{centre - Vec3(30, 25, 40), centre + Vec3(30, 25, 40)}};
     const Volume cut = cut_to_navigation(dome, navigation);
     expect_sound(cut);
-    const Box& b = navigation.boxes[0];
+    const Box& b = navigation.keep_in[0];
     for (const Vec3& v : cut.mesh.vertices) {
       EXPECT_GE(v.z(), navigation.altitude->min_m);
       EXPECT_LE(v.z(), navigation.altitude->max_m);
@@ -319,7 +319,7 @@ Navigation random_limits(std::mt19937& random, const Volume& volume) {
   };
   Navigation navigation;
   if (random() % 2 == 0) navigation.altitude = {random_box().min.z(), bounds.max.z() + 1};
-  for (std::size_t i = random() % 4; i > 0; --i) navigation.boxes.push_back(random_box());
+  for (std::size_t i = random() % 4; i > 0; --i) navigation.keep_in.push_back(random_box());
   for (std::size_t i = random() % 3; i > 0; --i) navigation.keep_out.push_back(random_box());
   return navigation;
 }
@@ -329,7 +329,8 @@ bool within_limits(const Navigation& navigation, const Vec3& p) {
     return (p.array() >= b.min.array()).all() && (p.array() <= b.max.array()).all();
   };
   if (navigation.altitude && (p.z() < navigation.altitude->min_m || p.z() > navigation.altitude->max_m)) return false;
-  if (!navigation.boxes.empty() && std::none_of(navigation.boxes.begin(), navigation.boxes.end(), in)) return false;
+  if (!navigation.keep_in.empty() && std::none_of(navigation.keep_in.begin(), navigation.keep_in.end(), in))
+    return false;
   return std::none_of(navigation.keep_out.begin(), navigation.keep_out.end(), in);
 }
 
@@ -384,7 +385,7 @@ TEST(Navigation, LimitsThatTouchCornersAndEdgesOfTheVolume) {
     EXPECT_EQ(measure(cut.mesh).bounds.min.z(), std::max(low, 0.0));
   }
   Navigation quarter;
-  quarter.boxes = {box(0, 0, 0, 20, 20, 20)};
+  quarter.keep_in = {box(0, 0, 0, 20, 20, 20)};
   const Volume cut = cut_to_navigation(dome, quarter);
   expect_sound(cut);
   EXPECT_NEAR(measure(cut.mesh).volume_m3, measure(dome.mesh).volume_m3 / 4, 1e-9);
@@ -430,12 +431,12 @@ TEST(Navigation, SaysWhyNothingIsLeft) {
   expect_nothing_left(band(5, 20.5));
 
   Navigation boxes;
-  boxes.boxes = {box(500, 0, 0, 600, 10, 999)};
+  boxes.keep_in = {box(500, 0, 0, 600, 10, 999)};
   expect_nothing_left(boxes);
-  boxes.boxes.push_back(box(95, 105, 590, 120, 130, 700));  // meets its bounds only
+  boxes.keep_in.push_back(box(95, 105, 590, 120, 130, 700));  // meets its bounds only
   expect_nothing_left(boxes);
   boxes.altitude = {520, 530};
-  boxes.boxes = {box(0, 0, 540, 600, 10, 999)};
+  boxes.keep_in = {box(0, 0, 540, 600, 10, 999)};
   expect_nothing_left(boxes);
 
   Navigation meshes;
@@ -460,9 +461,9 @@ TEST(Navigation, RefusesReversedLimits) {
   expect_refused(band(20, NAN), ErrorCode::value_out_of_range, "navigation.altitude");
   expect_refused(band(-INFINITY, 20), ErrorCode::value_out_of_range, "navigation.altitude");
   Navigation navigation;
-  navigation.boxes = {box(0, 0, 0, 1, 1, 1), box(0, 30, 0, 1, 10, 1)};
+  navigation.keep_in = {box(0, 0, 0, 1, 1, 1), box(0, 30, 0, 1, 10, 1)};
   expect_refused(navigation, ErrorCode::limits_reversed, "navigation.boxes[1]");
-  navigation.boxes.clear();
+  navigation.keep_in.clear();
   navigation.keep_out = {box(0, 0, 5, 1, 1, 5)};
   expect_refused(navigation, ErrorCode::limits_empty, "navigation.keep_out[0]");
   navigation.keep_out = {Box()};
@@ -532,7 +533,7 @@ TEST(Navigation, ItsTimeIsPartOfTheTotal) {
 TEST(Navigation, DoesNotDependOnThreads) {
   const Volume dome = bumpy_dome(kUtm, 400, 100);
   Navigation navigation = band(kUtm.z() + 5, kUtm.z() + 50);
-  navigation.boxes = {box(-50, -50, 0, 10, 50, 50, kUtm), box(0, -20, -5, 70, 20, 30, kUtm)};
+  navigation.keep_in = {box(-50, -50, 0, 10, 50, 50, kUtm), box(0, -20, -5, 70, 20, 30, kUtm)};
   navigation.keep_out = {box(-20, -20, 0, -5, 15, 25, kUtm)};
   Volume one;
   parallel::with_threads(1, [&] { one = cut_to_navigation(dome, navigation); });

@@ -1,6 +1,7 @@
 // What travels in a volume's file: what it was computed for, and its hash.
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -142,7 +143,29 @@ TEST_P(Provenance, ARoundingThatCannotBeIsNotAllowed) {
   EXPECT_LT(read.rounding_m, 1e-3);
   EXPECT_GE(read.rounding_m, stated);
   ASSERT_EQ(read.notes.size(), 1U);
-  EXPECT_NE(read.notes[0].find("rounding"), std::string::npos);
+  EXPECT_EQ(read.notes[0].code, WarningCode::rounding_overstated);
+}
+
+/// Where the first coordinate of a volume's file stands.
+std::size_t first_coordinate(const std::string& name, const std::string& bytes) {
+  if (name == "v.ply") return bytes.find("end_header\n") + 11;
+  if (name == "v.obj") return bytes.find_first_of("0123456789", bytes.find("\nv "));
+  if (name == "v.stl") return 84 + 3 * sizeof(float);  // behind the header and the facet's normal
+  std::uint32_t json_bytes = 0;
+  std::memcpy(&json_bytes, bytes.data() + 12, sizeof json_bytes);
+  return 20 + json_bytes + 8;
+}
+
+TEST_P(Provenance, AChangedMeshIsNoticed) {
+  const std::filesystem::path file = folder_ / GetParam();
+  write_volume(volume_, file);
+  EXPECT_TRUE(read_volume(file).notes.empty());
+  std::string bytes = read_bytes(file);
+  bytes[first_coordinate(GetParam(), bytes)] ^= 1;  // of an OBJ 2 becomes 3
+  write_bytes(file, bytes);
+  const VolumeFile changed = read_volume(file);
+  ASSERT_EQ(changed.notes.size(), 1U);
+  EXPECT_EQ(changed.notes[0].code, WarningCode::volume_changed);
 }
 
 INSTANTIATE_TEST_SUITE_P(Formats, Provenance, ::testing::Values("v.ply", "v.obj", "v.glb", "v.stl"),

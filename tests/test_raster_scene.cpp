@@ -161,7 +161,7 @@ TEST(RasterScene, RefusesWhatMakesNoScene) {
   EXPECT_EQ(refused([](RasterOptions& o) {
               o.region.pixels = {0, 0, 5, 5}, o.region.bbox_deg = {9, 45, 10, 46};
             }),
-            ErrorCode::region_invalid);
+            ErrorCode::conflicting_keys);
   EXPECT_EQ(refused([](RasterOptions& o) { o.max_error_m = -1; }), ErrorCode::value_out_of_range);
   EXPECT_EQ(refused([](RasterOptions& o) { o.origin_deg = {91, 0}; }), ErrorCode::not_on_earth);
   EXPECT_EQ(refused([](RasterOptions& o) {

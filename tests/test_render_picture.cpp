@@ -214,7 +214,7 @@ TEST_F(RenderPicture, StandsWhereTheTargetIsSeenUnlessToldWhere) {
 
 TEST_F(RenderPicture, DrawsNavigationBoxes) {
   const Picture without = render();
-  request_.navigation.boxes = {Box{{-30, 10, 5}, {-10, 30, 15}}};
+  request_.navigation.keep_in = {Box{{-30, 10, 5}, {-10, 30, 15}}};
   const Picture with = render();
   const Pixel edge = at(with, -10, 20);
   EXPECT_NE(edge, at(without, -10, 20));

@@ -74,15 +74,15 @@ Example plate_example(const Vec3& shift = Vec3::Zero()) {
   example.scene.object_of = {0, 0, 1, 1};
   example.scene.objects = named({"plate", "ground"});
   example.target.parts[0] = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
-  example.navigation.boxes = {{Vec3(-10, -10, 1), Vec3(10, 10, 10)}};
+  example.navigation.keep_in = {{Vec3(-10, -10, 1), Vec3(10, 10, 10)}};
   const Mesh hidden = make_frustum({x0, y0, plate}, {x1, y1, plate}, {x0 + s * (x0 - 1), y0 + s * (y0 - 1), top},
                                    {x1 + s * (x1 + 1), y1 + s * (y1 + 1), top});
   example.truth = box_with_pit(make_box_mesh({-10, -10, 1}, {10, 10, 10}), hidden);
   for (Vec3& vertex : example.scene.mesh.vertices) vertex += shift;
   for (Vec3& vertex : example.target.parts[0]) vertex += shift;
   for (Vec3& vertex : example.truth.vertices) vertex += shift;
-  example.navigation.boxes[0].min += shift;
-  example.navigation.boxes[0].max += shift;
+  example.navigation.keep_in[0].min += shift;
+  example.navigation.keep_in[0].max += shift;
   return example;
 }
 
@@ -264,7 +264,7 @@ TEST(Verify, ATargetInPartsMustBeSeenInAllOfThem) {
   both.parts.push_back({{-1, 1, 0}, {1, 1, 0}, {1, 1, 2}, {-1, 1, 2}});
   both.front = Vec3(0, -1, 1);
   Navigation low;
-  low.boxes = {{Vec3(-10, -10, 1), Vec3(10, 10, 4)}};  // under the plate nothing is hidden
+  low.keep_in = {{Vec3(-10, -10, 1), Vec3(10, 10, 4)}};  // under the plate nothing is hidden
   expect_right(verify_volume(example.scene, both, example.sensor, low, make_box_mesh({-10, -10, 1}, {10, 1, 4})));
   const VerifyReport north =
       verify_volume(example.scene, both, example.sensor, low, make_box_mesh({-10, -10, 1}, {10, 10, 4}));
@@ -327,6 +327,17 @@ TEST(Verify, ReportsProgressAndStops) {
   EXPECT_GT(story.last_fraction.at("verify"), 0.9);
 }
 
+TEST(Verify, ReportsAMeshWithHoles) {
+  Example example = plate_example();
+  example.truth.triangles.pop_back();
+  const VerifyReport report = example.verify(example.truth);
+  EXPECT_FALSE(report.closed);
+  EXPECT_FALSE(report.is_right());
+  EXPECT_EQ(report.open_edges.count, 3U);
+  EXPECT_EQ(report.open_edges.count, find_open_edges(example.truth).count);
+  EXPECT_EQ(report.points, 0U);
+}
+
 TEST(Verify, RefusesBadInput) {
   const Example example = plate_example();
   const auto refused = [&](const std::function<void(Example&, VerifyOptions&)>& change) {
@@ -337,7 +348,6 @@ TEST(Verify, RefusesBadInput) {
     return testing::code_of([&] { bad.verify(bad.truth, options); });
   };
   EXPECT_EQ(refused([](Example&, VerifyOptions&) {}), std::nullopt);
-  EXPECT_EQ(refused([](Example& e, VerifyOptions&) { e.truth.triangles.pop_back(); }), ErrorCode::mesh_not_closed);
   EXPECT_EQ(refused([](Example& e, VerifyOptions&) { e.truth = {}; }), ErrorCode::mesh_empty);
   EXPECT_EQ(refused([](Example& e, VerifyOptions&) { e.sensor.max_range_m = 0; }), ErrorCode::value_out_of_range);
   EXPECT_EQ(refused([](Example& e, VerifyOptions&) { e.sensor.max_range_m = std::nan(""); }),

@@ -21,7 +21,7 @@ namespace vantage {
 struct BuildingDefaults {
   double level_m = 3.0;  ///< height of a storey (building:levels counts them)
   double levels = 3;     ///< storeys of a building that has neither height nor levels
-  /// Storeys by the value of building=*, which goes before `levels`.
+  /// Storeys by the value of building=*, which overrides `levels`.
   std::map<std::string, double> levels_of = {{"house", 2},          {"detached", 2}, {"semidetached_house", 2},
                                              {"terrace", 2},        {"bungalow", 1}, {"farm", 2},
                                              {"garage", 1},         {"garages", 1},  {"carport", 1},

@@ -25,11 +25,11 @@ struct Navigation {
     double min_m = 0.0, max_m = 0.0;  ///< scene z, min < max
   };
   std::optional<Altitude> altitude;
-  std::vector<Box> boxes;          ///< the volume is cut to their union
+  std::vector<Box> keep_in;        ///< the volume is cut to their union
   std::vector<Box> keep_out;       ///< each is taken away
   std::vector<KeepInMesh> meshes;  ///< the volume is cut to each
 
-  bool empty() const { return !altitude && boxes.empty() && keep_out.empty() && meshes.empty(); }
+  bool empty() const { return !altitude && keep_in.empty() && keep_out.empty() && meshes.empty(); }
 };
 
 }  // namespace vantage

@@ -116,7 +116,7 @@ enum class ErrorCode {
   map_empty,           ///< a map holds nothing that can be built
   map_object_missing,  ///< a map has no such area
   ground_missing,      ///< a scene has no ground to put a target on
-  region_invalid,      ///< a region is no region: reversed, without extent, too large or given twice
+  region_invalid,      ///< a region is no region: reversed, without extent or too large
   region_outside,      ///< a region lies outside the map or raster
   region_empty,        ///< nothing in a region can be used
 
@@ -190,5 +190,13 @@ class VANTAGE_API Error : public std::runtime_error {
   std::string problem_, where_, fix_;
   std::optional<std::uint32_t> object_;
 };
+
+/// The three lines as the program prints them: "PROBLEM", "  where: PLACE" and "  what to do: ADVICE", each ended by a
+/// newline; lines that would be empty are left out. Control characters, which may come from a file, become blanks.
+VANTAGE_API std::string message_of(const Error& error);
+
+/// What a program should exit with: 2 for bad input and for output that could not be written, 3 for a defect of
+/// vantage, 130 when the caller asked to stop, as after Ctrl-C.
+VANTAGE_API int exit_code(ErrorKind kind);
 
 }  // namespace vantage

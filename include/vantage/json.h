@@ -25,9 +25,7 @@ VANTAGE_API std::string json_text(const LoadedScene& loaded);
 /// The same with what preparing it found.
 VANTAGE_API std::string json_text(const LoadedScene& loaded, const SceneStatistics& statistics);
 
-/// `lift_m`, `rounding_m`: what the check allowed; `open_edges`: of the mesh.
-VANTAGE_API std::string json_text(const VerifyReport& report, const OpenEdges& open_edges, double lift_m,
-                                  double rounding_m);
+VANTAGE_API std::string json_text(const VerifyReport& report);
 
 /// `written`: files that hold what one of the two claims alone.
 VANTAGE_API std::string json_text(const Comparison& comparison, const std::string& file_a, const std::string& file_b,

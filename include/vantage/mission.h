@@ -13,7 +13,10 @@
 #include <vector>
 
 #include "vantage/constraints.h"
+#include "vantage/error.h"
 #include "vantage/export.h"
+#include "vantage/prepared_target.h"
+#include "vantage/progress.h"
 #include "vantage/scene.h"
 #include "vantage/scene_source.h"
 #include "vantage/spheres.h"
@@ -95,7 +98,7 @@ VANTAGE_API std::vector<std::filesystem::path> input_files(const MissionFile& mi
 
 /// A mission in its scene: everything is in the scene frame.
 struct Mission {
-  MissionFile file;    ///< as written
+  MissionFile as_written;
   LoadedScene loaded;  ///< the scene, and what reading or building it told
   Target target;
   Sensor sensor;
@@ -134,8 +137,13 @@ struct Result {
 
 /// Prepares the scene and the target, computes, and cuts to the navigation limits. Throws as the method, PreparedTarget
 /// and cut_to_navigation do, with the place in the mission file put in front of errors about the target. Cost: the sum
-/// of theirs; the scene is prepared anew each time, so use those functions for many targets of one scene.
+/// of theirs; the scene is prepared anew each time.
 VANTAGE_API Result run_mission(const Mission& mission, const RunOptions& options = {}, const Progress& progress = {});
+
+/// The same of a target that is prepared already, by prepare_target of this mission: to compute and query without
+/// preparing twice. Seconds::prepare is 0.
+VANTAGE_API Result run_mission(const Mission& mission, const PreparedTarget& target, const RunOptions& options = {},
+                               const Progress& progress = {});
 
 /// SHA-256 of what is asked, in the scene frame: docs/hashes.md. 64 hexadecimal digits.
 VANTAGE_API std::string mission_hash(const Mission& mission);

@@ -10,7 +10,9 @@
 #include "vantage/mission.h"
 #include "vantage/progress.h"
 #include "vantage/spheres.h"
+#include "vantage/verify.h"
 #include "vantage/volume.h"
+#include "vantage/warning.h"
 
 namespace vantage {
 
@@ -42,18 +44,26 @@ VANTAGE_API std::string spheres_json(const SpheresRun& run);
 VANTAGE_API std::string report_json(const Volume& volume, const MeshMeasures& measures,
                                     const ReportSource& source = {});
 
-/// Of a mission's result; `volume` is left empty.
-VANTAGE_API ReportSource report_source(const Mission& mission, const Result& result);
-
 // ---- files
 // ------------------------------------------------------------------------------------------------------------
 
+/// What write_results writes; result_request makes that of a mission.
 struct ResultRequest {
   std::vector<std::filesystem::path> volumes;  ///< files to write; each extension chooses a format, see write_volume
   UpAxis obj_up = UpAxis::z;                   ///< as Scene::up
   double obj_scale = 1.0;                      ///< as Scene::scale
-  ReportSource source;                         ///< `volume` is filled in for each report
+  ReportSource source = {};                    ///< `volume` is filled in for each report
 };
+
+/// Of a mission's result: an OBJ is written in the axes and the unit of the scene's file.
+VANTAGE_API ResultRequest result_request(const Mission& mission, const Result& result,
+                                         std::vector<std::filesystem::path> volumes);
+
+/// To call before a long computation: throws, as check_volume_output, check_can_write and check_not_an_input do, unless
+/// each volume and the report beside it can be written. `inputs`: of the mission, see input_files. Throws Error(input)
+/// for a file that is named twice.
+VANTAGE_API void check_result_files(const std::vector<std::filesystem::path>& volumes,
+                                    const std::vector<std::filesystem::path>& inputs);
 
 struct WrittenResults {
   MeshMeasures measures;
@@ -73,16 +83,13 @@ VANTAGE_API WrittenResults write_results(Volume& volume, const ResultRequest& re
 
 /// A volume, or any other mesh, as its file says.
 struct VolumeFile {
+  std::filesystem::path file;
   Volume volume;  ///< mesh and georeference; `cause_of` and `causes` where the file has them (PLY); provenance,
                   ///< tolerance and lifts where it states them: PLY, OBJ, GLB, and the file beside an STL
-  std::string volume_hash;         ///< as stated; empty: not
-  double rounding_m = 0;           ///< Scene::rounding_m
-  std::vector<std::string> notes;  ///< for people: that it was moved, that its heights do not fit
+  std::string volume_hash;     ///< as stated; empty: not
+  double rounding_m = 0;       ///< Scene::rounding_m
+  std::vector<Warning> notes;  ///< that the mesh was changed or moved, that its heights do not fit
 };
-
-/// How far `compute` raised the target of a volume, by the report beside its file: the largest lift of its parts.
-/// Nothing where there is no report. Throws Error(input) for one that does not say it.
-VANTAGE_API std::optional<double> reported_lift_m(const std::filesystem::path& volume_file);
 
 /// Reads a mesh into a frame. OBJ is in the axes and the unit of `obj`, unless it says them; other formats say it
 /// themselves. A mesh that says where on the earth it lies is moved about the origin of `frame`, where there is one;
@@ -94,5 +101,14 @@ VANTAGE_API VolumeFile read_volume(const std::filesystem::path& file, const Scen
 /// The same for what was computed in a scene: OBJ as the scene's own file.
 VANTAGE_API VolumeFile read_volume(const std::filesystem::path& file, const Scene& scene,
                                    const Progress& progress = {});
+
+/// Why the file may not be what the mission's volume is: it was computed in another scene or for another mission. Cost:
+/// scene_hash.
+VANTAGE_API std::vector<Warning> volume_warnings(const VolumeFile& read, const Mission& mission);
+
+/// How verify_volume has to judge a file for a mission: the mission's tolerance, and the lifts and the rounding that
+/// the file states. A file without lifts has them from the report beside it, "volume.report.json", and none without
+/// that. Throws Error(input) for a report that cannot be read.
+VANTAGE_API VerifyOptions verify_options(const VolumeFile& read, const Mission& mission);
 
 }  // namespace vantage

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "vantage/error.h"
 #include "vantage/export.h"
 #include "vantage/geometry.h"
 #include "vantage/georeference.h"
@@ -81,7 +82,7 @@ struct SceneReadOptions {
   /// by the highest of its refinements ("2.2").
   std::string lod = {};
 
-  /// The coordinate reference system of the file's x and y: "EPSG:28992", a WKT or PROJ text. Goes before what a
+  /// The coordinate reference system of the file's x and y: "EPSG:28992", a WKT or PROJ text. Overrides what a
   /// CityJSON file says; a file whose georeference vantage wrote has none. z stays as it is.
   std::string crs = {};
 
@@ -92,7 +93,7 @@ struct SceneReadOptions {
 
 /// Reads .obj, .ply (ASCII, binary of either byte order), .stl (ASCII, binary), .gltf and .glb, and CityJSON 1.0 to 2.0
 /// (.city.json, .json, and as text sequence .city.jsonl; see docs/scene.md); each may be compressed with gzip
-/// (".obj.gz"). An OBJ that vantage wrote says its axes and unit itself, which go before `up` and `scale`. The format
+/// (".obj.gz"). An OBJ that vantage wrote says its axes and unit itself, which override `up` and `scale`. The format
 /// is told by the content, then by the name. Polygons with more than three corners are triangulated. Coordinates keep
 /// double precision where the format has it. glTF is always y up, CityJSON z up: `up` is not used for them. In OBJ
 /// files an object is what "o" begins; where one such object holds all that is in any, and groups ("g") subdivide it,

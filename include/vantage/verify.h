@@ -7,10 +7,12 @@
 #include <vector>
 
 #include "vantage/constraints.h"
+#include "vantage/error.h"
 #include "vantage/export.h"
 #include "vantage/progress.h"
 #include "vantage/scene.h"
 #include "vantage/target.h"
+#include "vantage/volume.h"
 
 namespace vantage {
 
@@ -41,27 +43,32 @@ struct VerifyReport {
   std::string worst_over_cause;  ///< what is wrong there: the name of an object that hides the target, "max_range",
                                  ///< "target plane" or a navigation limit; empty when nothing is
   bool closed = false;           ///< every edge has an even number of facets, with vertices in one place taken for one,
+  OpenEdges open_edges;          ///< those that have not: then no points are tried
   bool oriented = false;         ///< and is run as often in one direction as in the other
   std::size_t flat_facets = 0;   ///< facets without area, or with two corners in one place: readers that weld vertices
                                  ///< find the mesh open at them
   long euler = 0;
   std::uint64_t seed = 0;
+  double lift_m = 0, rounding_m = 0;  ///< what was allowed: the largest lift of a part, and the file's rounding
 
   bool is_solid() const { return closed && oriented && flat_facets == 0; }
   bool is_right() const { return over_claimed == 0 && is_solid(); }
 };
 
-/// Checks `volume` (any closed mesh, scene frame) against the scene by shadow rays to the target's vertices, edges and
+/// Checks `volume` (any mesh, scene frame) against the scene by shadow rays to the target's vertices, edges and
 /// interior, and to where scene geometry reaches between the viewpoint and the target. Grazing is allowed: a hit closer
 /// to a triangle's border than 1e-9 of its size does not count. Hits lower than 1 mm over the target itself count as
 /// the surface that it lies on. A volume is right when nothing is over-claimed and its mesh is a closed, oriented
-/// surface for whoever reads it; see docs/verification.md. What is claimed must see every part of the target whole, and
+/// surface for whoever reads it; see docs/verification.md. Of a mesh with holes, which has no inside, only that is
+/// reported. What is claimed must see every part of the target whole, and
 /// what is not must miss some of one. Depths are told by the distance to the first part's centre. The parts are looked
 /// at one after the other, so that memory is that of one.
 ///
 /// The report depends on the seed, not on the number of threads (TBB; the caller's arena). Cost: points times samples
-/// shadow rays, a few tenths of a microsecond each and thread. Throws Error(input) for a mesh that is not closed or a
-/// target, sensor, limit or option that is wrong in itself, Error(cancelled) when told to stop.
+/// shadow rays, a few tenths of a microsecond each and thread. Throws Error(input) for a mesh without triangles, with
+/// an index out of range or a coordinate that is not finite, and for a target, sensor, limit or option that is wrong in
+/// itself; Error(cancelled) when told to stop. For a volume read from a file, verify_options of vantage/result.h gives
+/// the options that fit it.
 VANTAGE_API VerifyReport verify_volume(const Scene& scene, const Target& target, const Sensor& sensor,
                                        const Navigation& navigation, const Mesh& volume,
                                        const VerifyOptions& options = {}, const Progress& progress = {});

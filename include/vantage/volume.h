@@ -102,6 +102,9 @@ struct Volume {
   std::optional<VolumeProvenance> provenance;  ///< run_mission adds the hashes
   StageCounts counts;
   Seconds seconds;
+
+  /// Whether no position sees the whole target; `reason` says why.
+  bool empty() const { return mesh.empty(); }
 };
 
 struct ExactOptions {

@@ -19,6 +19,13 @@ enum class WarningCode {
   target_from_below,   ///< the target is looked at from below, where nothing of the scene is
   volume_below_scene,  ///< the whole volume lies below the scene
   ground_extended,     ///< the ground was made larger to hold the target
+  // of a volume's file
+  volume_changed,           ///< the mesh is not the one that the file was written with
+  volume_of_other_scene,    ///< the volume was computed in another scene
+  volume_of_other_mission,  ///< the volume was computed for another mission
+  volume_moved,             ///< the volume lies about another origin on the earth and was moved
+  heights_differ,           ///< heights are measured from another level than the scene's
+  rounding_overstated,      ///< the file states a larger rounding than its numbers can have
 };
 
 /// All codes, in the order of their declaration.

@@ -26,7 +26,8 @@ using Vec2 = Eigen::Vector2d;
 geo::LocalFrame frame_of(const Mission& mission) {
   const Scene& scene = mission.loaded.scene;
   if (!scene.georeference) {
-    fail(ErrorCode::not_georeferenced, "the scene does not say where on the earth it lies", mission.file.file.string(),
+    fail(ErrorCode::not_georeferenced, "the scene does not say where on the earth it lies",
+         mission.as_written.file.string(),
          "give the target and the limits in the scene frame, or a scene with a place: a map (scene.osm), CityJSON with "
          "a "
          "reference system, a raster, or a mesh with 'crs' or written by 'vantage scene'");
@@ -38,7 +39,7 @@ geo::LocalFrame frame_of(const Mission& mission) {
 class Placer {
  public:
   Placer(const Mission& mission, const geo::LocalFrame& frame)
-      : frame_(frame), system_(mission.file.crs, mission.file.file.string()) {}
+      : frame_(frame), system_(mission.as_written.crs, mission.as_written.file.string()) {}
 
   Vec3 operator()(const Vec3& position) const {
     const Vec2 local = place(position.head<2>());
@@ -111,9 +112,10 @@ void check_near(const Box& box, const std::string& name, const Placer& placer, c
 }
 
 void place_boxes(Navigation& navigation, const Placer& placer, const std::string& where) {
-  for (std::size_t i = 0; i < navigation.boxes.size(); ++i) {
-    check_near(placer.around(navigation.boxes[i]), "box " + std::to_string(i) + " of navigation.boxes", placer, where);
-    Box& box = navigation.boxes[i];
+  for (std::size_t i = 0; i < navigation.keep_in.size(); ++i) {
+    check_near(placer.around(navigation.keep_in[i]), "box " + std::to_string(i) + " of navigation.boxes", placer,
+               where);
+    Box& box = navigation.keep_in[i];
     box = placer.inside(box);
     if ((box.min.array() >= box.max.array()).any()) {
       fail(ErrorCode::limits_empty,
@@ -134,16 +136,16 @@ void check_near(const Mission& mission, const Placer& placer) {
     if (distance <= geo::kFarthestM) continue;
     fail(ErrorCode::too_far_away,
          "the target lies " + std::to_string(std::lround(distance / 1000)) + " km from the scene's origin",
-         mission.file.places.target, placer.order_advice());
+         mission.as_written.places.target, placer.order_advice());
   }
 }
 
 }  // namespace
 
 void georeference(Mission& mission, const Progress& progress) {
-  const std::string& crs = mission.file.crs;
-  const std::string& place = mission.file.places.target;
-  if (crs.empty() && !mission.file.ground_target) return;
+  const std::string& crs = mission.as_written.crs;
+  const std::string& place = mission.as_written.places.target;
+  if (crs.empty() && !mission.as_written.ground_target) return;
   const geo::LocalFrame frame = frame_of(mission);
   if (!crs.empty()) {
     const Placer placer(mission, frame);
@@ -154,9 +156,9 @@ void georeference(Mission& mission, const Progress& progress) {
       return 0;
     });
     check_near(mission, placer);
-    place_boxes(mission.navigation, placer, mission.file.file.string());
+    place_boxes(mission.navigation, placer, mission.as_written.file.string());
   }
-  if (mission.file.ground_target) put_on_ground(mission, frame, progress);
+  if (mission.as_written.ground_target) put_on_ground(mission, frame, progress);
   with_place(place, [&] {
     for (std::size_t i = 0; i < mission.target.parts.size(); ++i) make_target_frame(mission.target, i);
     return 0;

@@ -65,16 +65,16 @@ std::optional<Warning> make_room(Mission& mission, const PlanBox& wanted) {
   const double missing = sticks_out(wanted, box);
   if (missing <= 0) return std::nullopt;
   const double away = apart(wanted, box);
-  const bool is_of_map = mission.file.ground_target && !mission.file.ground_target->osm.empty();
+  const bool is_of_map = mission.as_written.ground_target && !mission.as_written.ground_target->osm.empty();
   if (away > mission.sensor.max_range_m && !is_of_map) {
     fail_off_ground(mission, "the target lies " + std::to_string(std::lround(away)) +
                                  " m from the scene's ground, farther than max_range: nothing would hide it");
   }
-  if (mission.loaded.city && !mission.file.scene.city.terrain.empty()) throw TerrainTooSmall{missing};
+  if (mission.loaded.city && !mission.as_written.scene.city.terrain.empty()) throw TerrainTooSmall{missing};
   if (!is_flat_rectangle(scene, vertices, box)) {
     fail_off_ground(mission, "the target reaches beyond the scene's ground");
   }
-  const Vec2 margin = Vec2::Constant(mission.file.scene.city.ground_margin_m);
+  const Vec2 margin = Vec2::Constant(mission.as_written.scene.city.ground_margin_m);
   const PlanBox larger{box.min.cwiseMin(wanted.min - margin), box.max.cwiseMax(wanted.max + margin)};
   for (const std::uint32_t vertex : vertices) {
     Vec3& at = scene.mesh.vertices[vertex];
@@ -87,7 +87,7 @@ std::optional<Warning> make_room(Mission& mission, const PlanBox& wanted) {
 
 void fail_off_ground(const Mission& mission, const std::string& problem) {
   const LoadedScene& loaded = mission.loaded;
-  const CityRegion& region = mission.file.scene.city.region;
+  const CityRegion& region = mission.as_written.scene.city.region;
   const bool is_part = region.center_deg || region.bbox_deg;
   std::string fix = "make the scene of a larger area, or move the target";
   if (loaded.city || loaded.raster) {
@@ -96,7 +96,7 @@ void fail_off_ground(const Mission& mission, const std::string& problem) {
                   : "all of the " + what + " is used already: check the target's place, or take a " + what +
                         " that reaches farther";
   }
-  throw Error(ErrorCode::target_off_ground, problem, mission.file.places.target, fix);
+  throw Error(ErrorCode::target_off_ground, problem, mission.as_written.places.target, fix);
 }
 
 }  // namespace vantage::internal::app

@@ -115,12 +115,12 @@ std::string json_text(const LoadedScene& loaded, const SceneStatistics& found) {
   return dumped(json, 2);
 }
 
-std::string json_text(const VerifyReport& report, const OpenEdges& open_edges, double lift_m, double rounding_m) {
+std::string json_text(const VerifyReport& report) {
   Json json;
   json["right"] = report.is_right();
   json["closed"] = report.closed;
-  json["open_edges"] = open_edges.count;
-  json["open_edge_at"] = open_edges.count > 0 ? json_of(open_edges.middle_of_first) : Json(nullptr);
+  json["open_edges"] = report.open_edges.count;
+  json["open_edge_at"] = report.open_edges.count > 0 ? json_of(report.open_edges.middle_of_first) : Json(nullptr);
   json["oriented"] = report.oriented;
   json["flat_facets"] = report.flat_facets;
   json["euler"] = report.euler;
@@ -137,8 +137,8 @@ std::string json_text(const VerifyReport& report, const OpenEdges& open_edges, d
   json["over_claim_bound"] = report.over_claim_bound;
   json["bound_points"] = report.bound_points;
   json["seed"] = report.seed;
-  json["lift_m"] = lift_m;
-  json["rounding_m"] = rounding_m;
+  json["lift_m"] = report.lift_m;
+  json["rounding_m"] = report.rounding_m;
   return dumped(json, 2);
 }
 

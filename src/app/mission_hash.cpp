@@ -25,7 +25,7 @@ Json json_of(const std::vector<Box>& boxes) {
 }
 
 Json json_of(const Navigation& limits) {
-  Json json = {{"boxes", json_of(limits.boxes)}, {"keep_out", json_of(limits.keep_out)}};
+  Json json = {{"boxes", json_of(limits.keep_in)}, {"keep_out", json_of(limits.keep_out)}};
   json["altitude"] = limits.altitude ? Json{number(limits.altitude->min_m), number(limits.altitude->max_m)} : Json();
   json["meshes"] = Json::array();
   for (const KeepInMesh& mesh : limits.meshes) json["meshes"].push_back(volume_hash(mesh.mesh));
@@ -62,11 +62,11 @@ std::string mission_hash(const Mission& mission) {
   Json json = {{"target", json_of(mission.target)},
                {"sensor", {{"max_range_m", number(mission.sensor.max_range_m)}}},
                {"limits", json_of(mission.navigation)},
-               {"method", name_of(mission.file.method)}};
-  if (mission.file.method == Method::spheres) {
-    json["options"] = json_of(mission.file.spheres);
+               {"method", name_of(mission.as_written.method)}};
+  if (mission.as_written.method == Method::spheres) {
+    json["options"] = json_of(mission.as_written.spheres);
   } else {
-    json["options"] = {{"tolerance_m", number(mission.file.exact.tolerance_m)}};
+    json["options"] = {{"tolerance_m", number(mission.as_written.exact.tolerance_m)}};
   }
   internal::core::Sha256 hash;
   hash.add("vantage mission 1\n");

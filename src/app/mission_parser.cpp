@@ -277,9 +277,9 @@ void MissionParser::parse_navigation(const YamlNode& node) {
   Navigation& navigation = mission_.navigation;
   if (const YamlNode* band = find(node, "altitude")) navigation.altitude = altitude(*band);
   if (const YamlNode* keep_in = find(node, "boxes")) {
-    navigation.boxes = boxes(*keep_in, "navigation.boxes");
+    navigation.keep_in = boxes(*keep_in, "navigation.boxes");
     // "Cut to the union of no boxes" would leave nothing, and "no limit" is not what the key says either.
-    if (navigation.boxes.empty()) {
+    if (navigation.keep_in.empty()) {
       fail(ErrorCode::nothing_given, *keep_in, "navigation.boxes is an empty list",
            "give at least one box, or leave the key out for no limit");
     }

@@ -181,7 +181,7 @@ class Writer {
     const Navigation& limits = mission_.navigation;
     Section section("navigation");
     if (limits.altitude) section.add("altitude", list_of(std::array{limits.altitude->min_m, limits.altitude->max_m}));
-    if (!limits.boxes.empty()) section.add("boxes", boxes(limits.boxes));
+    if (!limits.keep_in.empty()) section.add("boxes", boxes(limits.keep_in));
     if (!limits.keep_out.empty()) section.add("keep_out", boxes(limits.keep_out));
     std::string meshes;
     for (const NavigationMeshFile& mesh : mission_.navigation_meshes) {

@@ -6,6 +6,7 @@
 #include "geo/local_frame.h"
 #include "io/read_causes.h"
 #include "vantage/error.h"
+#include "vantage/hash.h"
 #include "vantage/input.h"
 #include "vantage/result.h"
 
@@ -82,12 +83,14 @@ VolumeFile read_volume(const std::filesystem::path& file, const SceneReadOptions
                        const std::optional<Georeference>& frame, const Progress& progress) {
   Scene read = read_scene(file, is_obj(file) ? obj : SceneReadOptions{}, progress);
   VolumeFile result;
+  result.file = file;
   result.volume.mesh = std::move(read.mesh);
   result.volume.georeference = std::move(read.georeference);
   result.rounding_m = read.rounding_m.value_or(0);
   if (const double most = most_rounding(file, result.volume.mesh); result.rounding_m > most) {
-    result.notes.push_back(file.string() + " states a rounding of " + shortest(result.rounding_m) +
-                           " m, more than its numbers can be rounded by: " + shortest(most) + " m is allowed");
+    result.notes.push_back({WarningCode::rounding_overstated,
+                            file.string() + " states a rounding of " + shortest(result.rounding_m) +
+                                " m, more than its numbers can be rounded by: " + shortest(most) + " m is allowed"});
     result.rounding_m = most;
   }
   if (auto stated = internal::io::read_causes(file, result.volume)) {
@@ -95,18 +98,25 @@ VolumeFile read_volume(const std::filesystem::path& file, const SceneReadOptions
     result.volume.tolerance_m = stated->tolerance_m;
     result.volume.lift_m = std::move(stated->lift_m);
     result.volume_hash = std::move(stated->volume_hash);
+    if (!result.volume_hash.empty() && volume_hash(result.volume.mesh) != result.volume_hash) {
+      result.notes.push_back({WarningCode::volume_changed,
+                              file.string() + " was changed since vantage wrote it: its mesh is not the one it names"});
+    }
   }
   if (!frame || !result.volume.georeference) return result;
   check_near(*result.volume.georeference, *frame, "the mesh", file.string(),
              "give the mesh that goes with the other input");
   if (internal::geo::move_origin(result.volume.mesh.vertices, *result.volume.georeference, *frame)) {
-    result.notes.push_back(file.string() +
-                           " lies about another origin on the earth: it was moved into the frame (the same map differs "
-                           "by a tenth of a millimetre from one frame to another, and shadows by more)");
+    result.notes.push_back(
+        {WarningCode::volume_moved,
+         file.string() +
+             " lies about another origin on the earth: it was moved into the frame (the same map differs by a tenth of "
+             "a millimetre from one frame to another, and shadows by more)"});
   }
   if (is_on_another_level(*result.volume.georeference, *frame)) {
-    result.notes.push_back("the heights of " + file.string() + " are " +
-                           levels_text(*result.volume.georeference, *frame) + ": they are taken as they are");
+    result.notes.push_back({WarningCode::heights_differ, "the heights of " + file.string() + " are " +
+                                                             levels_text(*result.volume.georeference, *frame) +
+                                                             ": they are taken as they are"});
   }
   return result;
 }

@@ -1,10 +1,8 @@
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "io/georeference_text.h"
-#include "vantage/error.h"
 #include "vantage/hash.h"
 #include "vantage/result.h"
 #include "vantage/version.h"
@@ -121,30 +119,6 @@ std::string report_json(const Volume& volume, const MeshMeasures& measures, cons
   report["counts"] = json_of(volume.counts);
   report["seconds"] = json_of(volume.seconds);
   return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-}
-
-ReportSource report_source(const Mission& mission, const Result& result) {
-  ReportSource source;
-  source.mission = mission.file.file.string();
-  source.scene = mission.file.scene.file.string();
-  source.target = mission.target.name;
-  if (result.spheres) source.spheres = SpheresRun{mission.file.spheres, *result.spheres};
-  return source;
-}
-
-std::optional<double> reported_lift_m(const std::filesystem::path& volume_file) {
-  constexpr double kMostLift = 0.01;  // metres; a target is raised by no more than 2.01 mm
-  std::filesystem::path volume = volume_file;
-  if (volume.extension() == ".gz") volume.replace_extension();
-  const std::filesystem::path report = report_file(volume);
-  std::ifstream in(report);
-  if (!in) return std::nullopt;
-  const Json json = Json::parse(in, nullptr, false);
-  const double lift =
-      json.is_object() && json.contains("lift_m") && json["lift_m"].is_number() ? json["lift_m"].get<double>() : -1;
-  if (lift >= 0 && lift <= kMostLift) return lift;
-  throw Error(ErrorCode::record_garbled, "the report beside the volume gives no lift_m from 0 to 0.01", report.string(),
-              "write it again with \"vantage compute\", or say how far the target was raised with --lift");
 }
 
 }  // namespace vantage

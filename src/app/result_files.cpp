@@ -1,10 +1,11 @@
 #include <algorithm>
-#include <chrono>
 #include <iterator>
 #include <memory>
+#include <set>
 #include <utility>
 
 #include "core/progress_reporter.h"
+#include "core/stopwatch.h"
 #include "core/volume_check.h"
 #include "io/writers.h"
 #include "vantage/atomic_file.h"
@@ -18,8 +19,32 @@ std::filesystem::path report_file(const std::filesystem::path& volume_file) {
   return std::filesystem::path(volume_file).replace_extension(".report.json");
 }
 
+ResultRequest result_request(const Mission& mission, const Result& result, std::vector<std::filesystem::path> volumes) {
+  ResultRequest request{std::move(volumes), mission.loaded.scene.up, mission.loaded.scene.scale};
+  ReportSource& source = request.source;
+  source.mission = mission.as_written.file.string();
+  source.scene = mission.as_written.scene.file.string();
+  source.target = mission.target.name;
+  if (result.spheres) source.spheres = SpheresRun{mission.as_written.spheres, *result.spheres};
+  return request;
+}
+
+void check_result_files(const std::vector<std::filesystem::path>& volumes,
+                        const std::vector<std::filesystem::path>& inputs) {
+  std::set<std::filesystem::path> seen;
+  for (const std::filesystem::path& volume : volumes) {
+    check_volume_output(volume);
+    check_can_write(report_file(volume));
+    if (!seen.insert(volume.lexically_normal()).second) {
+      throw Error(ErrorCode::output_named_twice, "an output is named twice", volume.string(),
+                  "give each output a name of its own");
+    }
+    for (const std::filesystem::path& output : {volume, report_file(volume)}) check_not_an_input(output, inputs);
+  }
+}
+
 WrittenResults write_results(Volume& volume, const ResultRequest& request, const Progress& callback) {
-  const auto start = std::chrono::steady_clock::now();
+  const internal::core::Stopwatch stopwatch;
   const internal::core::ProgressReporter progress(callback);
   progress.begin("writing");
   const bool has_volume = volume.outcome == Outcome::computed;
@@ -37,7 +62,7 @@ WrittenResults write_results(Volume& volume, const ResultRequest& request, const
     }
   }
   progress.finish();
-  volume.seconds.write = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  volume.seconds.write = stopwatch.seconds();
   volume.seconds.total += volume.seconds.write;
 
   for (const std::filesystem::path& file : request.volumes) {

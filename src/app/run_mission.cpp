@@ -16,12 +16,12 @@ namespace {
 
 Volume compute(const Mission& mission, const PreparedTarget& target, const StageSink& stages, Result& result,
                const Progress& progress) {
-  if (mission.file.method == Method::exact) {
-    ExactOptions options = mission.file.exact;
+  if (mission.as_written.method == Method::exact) {
+    ExactOptions options = mission.as_written.exact;
     options.threads = 0;  // those of the arena that the mission runs in
     return internal::app::exact_volume(target, options, progress);
   }
-  SpheresOptions options = mission.file.spheres;
+  SpheresOptions options = mission.as_written.spheres;
   options.threads = 0;
   const auto georeferenced = [&](const SphereStage& stage) {
     SphereStage copy = stage;
@@ -36,29 +36,27 @@ Volume compute(const Mission& mission, const PreparedTarget& target, const Stage
   return internal::app::joined(std::move(volumes), progress);
 }
 
-Result run(const Mission& mission, const StageSink& stages, const Progress& progress) {
+/// `prepare_seconds`: that preparing the scene took; `stopwatch`: its last lap ended with that.
+Result run(const Mission& mission, const PreparedTarget& target, double prepare_seconds,
+           internal::core::Stopwatch& stopwatch, const StageSink& stages, const Progress& progress) {
   Result result;
   Seconds seconds;
-  internal::core::Stopwatch stopwatch;
   const Scene& scene = mission.loaded.scene;
   seconds.read = mission.read_seconds;
-  const PreparedScene prepared(scene, progress);
-  result.scene = prepared.statistics();
-  seconds.prepare = stopwatch.lap();
-
-  const PreparedTarget target = prepare_target(mission, prepared);
+  seconds.prepare = prepare_seconds;
+  result.scene = target.scene().statistics();
   try {
     result.volume = compute(mission, target, stages, result, progress);
   } catch (const Error& error) {
     // The target itself is checked by now. The exact method may still find it too large for the tolerance; the method
     // of spheres refuses only its options and devices, which the mission names elsewhere.
-    if (mission.file.method == Method::spheres) throw;
-    internal::app::with_place(mission.file.places.target, [&]() -> int { throw error; });
+    if (mission.as_written.method == Method::spheres) throw;
+    internal::app::with_place(mission.as_written.places.target, [&]() -> int { throw error; });
   }
   seconds.engine = stopwatch.lap();
 
   if (result.volume.outcome == Outcome::computed && !mission.navigation.empty()) {
-    result.volume = internal::app::with_place(mission.file.file.string(), [&] {
+    result.volume = internal::app::with_place(mission.as_written.file.string(), [&] {
       return internal::app::within_limits(result.volume, mission.navigation, progress);
     });
     seconds.navigation = stopwatch.lap();
@@ -80,8 +78,8 @@ Result run(const Mission& mission, const StageSink& stages, const Progress& prog
 const char* name_of(Method method) { return method == Method::spheres ? "spheres" : "exact"; }
 
 PreparedTarget prepare_target(const Mission& mission, const PreparedScene& scene) {
-  const auto& ground = mission.file.ground_target;
-  return internal::app::with_place(mission.file.places.target, [&] {
+  const auto& ground = mission.as_written.ground_target;
+  return internal::app::with_place(mission.as_written.places.target, [&] {
     try {
       return PreparedTarget(scene, mission.target, mission.sensor);
     } catch (const Error& error) {
@@ -93,7 +91,23 @@ PreparedTarget prepare_target(const Mission& mission, const PreparedScene& scene
 
 Result run_mission(const Mission& mission, const RunOptions& options, const Progress& progress) {
   Result result;
-  internal::parallel::with_threads(options.threads, [&] { result = run(mission, options.stages, progress); });
+  internal::parallel::with_threads(options.threads, [&] {
+    internal::core::Stopwatch stopwatch;
+    const PreparedScene scene(mission.loaded.scene, progress);
+    const double prepare_seconds = stopwatch.lap();
+    const PreparedTarget target = prepare_target(mission, scene);
+    result = run(mission, target, prepare_seconds, stopwatch, options.stages, progress);
+  });
+  return result;
+}
+
+Result run_mission(const Mission& mission, const PreparedTarget& target, const RunOptions& options,
+                   const Progress& progress) {
+  Result result;
+  internal::parallel::with_threads(options.threads, [&] {
+    internal::core::Stopwatch stopwatch;
+    result = run(mission, target, 0, stopwatch, options.stages, progress);
+  });
   return result;
 }
 

@@ -143,12 +143,12 @@ void StageFolder::add(const SphereStage& stage) {
 void StageFolder::write_story(const Mission& mission, const Result& result) {
   Json story;
   story["version"] = VANTAGE_VERSION;
-  story["mission"] = mission.file.file.string();
+  story["mission"] = mission.as_written.file.string();
   story["target"] = mission.target.name;
   story["max_range_m"] = mission.sensor.max_range_m;
   story["outcome"] = vantage::name_of(result.volume.outcome);
   story["reason"] = result.volume.reason;
-  story["run"] = Json::parse(spheres_json({mission.file.spheres, *result.spheres}));
+  story["run"] = Json::parse(spheres_json({mission.as_written.spheres, *result.spheres}));
   story["stages"] = Json::array();
   for (std::size_t i = 0; i < stages_.size(); ++i) {
     const Told& told = stages_[i];

@@ -32,11 +32,11 @@ Box flying_area(const Navigation& navigation) {
     area.max = area.max.cwiseMin(box.max);
   };
   Box boxes;
-  for (const Box& box : navigation.boxes) {
+  for (const Box& box : navigation.keep_in) {
     boxes.extend(box.min);
     boxes.extend(box.max);
   }
-  if (!navigation.boxes.empty()) cut(boxes);
+  if (!navigation.keep_in.empty()) cut(boxes);
   for (const KeepInMesh& mesh : navigation.meshes) cut(bounding_box(mesh.mesh));
   return area;
 }
@@ -90,7 +90,7 @@ struct Shortfall {
 
 Shortfall of_map(const Mission& mission, const std::vector<Vec2>& points) {
   const LoadedScene& loaded = mission.loaded;
-  const CityRegion& region = mission.file.scene.city.region;
+  const CityRegion& region = mission.as_written.scene.city.region;
   const Georeference& place = *loaded.scene.georeference;
   const internal::geo::LocalFrame frame({place.longitude_deg, place.latitude_deg});
   const std::string part = "the part of the map that is used";

@@ -140,7 +140,10 @@ int run(const Options& options) {
   ProgressLine progress(options.common);
   const VolumeFile a = read_volume(options.file_a, obj, {}, progress.callback());
   const VolumeFile b = read_volume(options.file_b, obj, a.volume.georeference, progress.callback());
-  if (!options.common.quiet) std::for_each(b.notes.begin(), b.notes.end(), note);
+  if (!options.common.quiet) {
+    notes(a.notes);
+    notes(b.notes);
+  }
   Comparison comparison =
       compare_volumes(a.volume.mesh, b.volume.mesh, options.file_a, options.file_b, progress.callback());
   stop_if_interrupted();

@@ -1,8 +1,9 @@
 #include <algorithm>
 #include <cstdio>
+#include <functional>
+#include <iterator>
 #include <memory>
 #include <optional>
-#include <set>
 
 #include "cli/command.h"
 #include "cli/progress_line.h"
@@ -51,6 +52,12 @@ struct Options {
   std::string format, report;  // of what goes to standard output; empty: not given
   bool json = false, verbose = false, fail_empty = false;
 
+  /// The outputs but for standard output.
+  std::vector<fs::path> files() const {
+    std::vector<fs::path> files;
+    std::copy_if(outputs.begin(), outputs.end(), std::back_inserter(files), std::not_fn(is_standard_stream));
+    return files;
+  }
   bool is_to_stdout() const { return std::any_of(outputs.begin(), outputs.end(), is_standard_stream); }
 };
 
@@ -61,15 +68,9 @@ struct Options {
 
 /// All that can be known to go wrong with the outputs before anything is computed.
 void check_outputs(const Options& options) {
-  std::set<fs::path> seen;
-  for (const std::string& output : options.outputs) {
-    if (!is_standard_stream(output)) {
-      check_volume_output(output);
-      check_can_write(report_file(output));
-    }
-    if (!seen.insert(fs::path(output).lexically_normal()).second) {
-      throw Error(ErrorCode::output_named_twice, "an output is named twice", output, "give each -o a name of its own");
-    }
+  check_result_files(options.files(), {});
+  if (options.outputs.size() > options.files().size() + 1) {
+    fail_option(ErrorCode::output_named_twice, "standard output is named twice", "-o -", "leave one out");
   }
   if (!options.is_to_stdout()) {
     if (!options.format.empty())
@@ -103,17 +104,6 @@ MissionFile with_options(MissionFile mission, const Options& options) {
                 "command line, " + std::string(unused), "add --method spheres, or leave it out");
   }
   return mission;
-}
-
-/// `files`: the outputs, with the one that is on its way to standard output.
-WrittenResults write(const std::vector<std::string>& files, const Mission& mission, Result& run,
-                     const Progress& progress) {
-  ResultRequest request;
-  request.volumes.assign(files.begin(), files.end());
-  request.obj_up = mission.loaded.scene.up;
-  request.obj_scale = mission.loaded.scene.scale;
-  request.source = report_source(mission, run);
-  return write_results(run.volume, request, progress);
 }
 
 std::vector<const Cause*> by_area(const Volume& volume) {
@@ -285,17 +275,14 @@ int run(const Options& options) {
   const double start = seconds_since_start();
   const MissionFile file = with_options(read_mission_argument(options.mission_file), options);
   const std::vector<fs::path> inputs = input_files(file);
-  for (const std::string& output : options.outputs) {
-    check_not_an_input(output, inputs);
-    check_not_an_input(report_file(output), inputs);
-  }
+  check_result_files(options.files(), inputs);
   if (!options.report.empty()) check_not_an_input(options.report, inputs);
   std::optional<StageFolder> stages;
   if (!options.stages.empty()) stages.emplace(options.stages);
   std::optional<OutgoingFile> outgoing;
   if (options.is_to_stdout()) outgoing.emplace("." + options.format);
-  std::vector<std::string> files = options.outputs;
-  if (outgoing) std::replace(files.begin(), files.end(), std::string("-"), outgoing->path().string());
+  std::vector<fs::path> files(options.outputs.begin(), options.outputs.end());
+  if (outgoing) std::replace(files.begin(), files.end(), fs::path("-"), outgoing->path());
 
   Mission mission;
   Result run;
@@ -308,12 +295,13 @@ int run(const Options& options) {
     run.volume.seconds.read = read_seconds;
     run.volume.seconds.total = seconds_since_start();  // with all that lies between; writing is added
     if (stages) stages->write_story(mission, run);
-    written = write(files, mission, run, progress.callback());
+    written = write_results(run.volume, result_request(mission, run, files), progress.callback());
     if (stages) stages->commit();
   }
   if (outgoing) std::erase(written.reports, report_file(outgoing->path()));
   if (!options.report.empty()) {
-    write_whole_file(options.report, report_json(run.volume, written.measures, report_source(mission, run)));
+    write_whole_file(options.report,
+                     report_json(run.volume, written.measures, result_request(mission, run, {}).source));
   }
   tell(options, mission, run, written, outgoing ? &*outgoing : nullptr);
   return options.fail_empty && run.volume.outcome != Outcome::computed ? kCheckFailed : kSuccess;

@@ -54,7 +54,7 @@ void check_output(const std::string& output) {
 Volume volume_to_draw(const Options& options, const Mission& mission, const Progress& progress) {
   if (options.volume_file.empty()) return run_mission(mission, {options.common.threads, {}}, progress).volume;
   VolumeFile read = read_volume(options.volume_file, mission.loaded.scene, progress);
-  if (!options.common.quiet) std::for_each(read.notes.begin(), read.notes.end(), note);
+  if (!options.common.quiet) notes(read.notes);
   read.volume.notes = mission_warnings(mission, &read.volume);
   return std::move(read.volume);
 }

@@ -46,7 +46,8 @@ void check_outputs(const Options& options) {
     check_volume_output(output);
     check_not_an_input(output, {options.scene.input, options.scene.terrain});
     if (!seen.insert(fs::path(output).lexically_normal()).second) {
-      throw Error(ErrorCode::output_named_twice, "an output is named twice", output, "give each -o a name of its own");
+      throw Error(ErrorCode::output_named_twice, "an output is named twice", output,
+                  "give each output a name of its own");
     }
   }
 }

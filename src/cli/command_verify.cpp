@@ -1,5 +1,3 @@
-#include <algorithm>
-#include <filesystem>
 #include <memory>
 #include <vector>
 
@@ -7,7 +5,6 @@
 #include "cli/progress_line.h"
 #include "cli/standard_streams.h"
 #include "cli/text_table.h"
-#include "vantage/hash.h"
 #include "vantage/input.h"
 #include "vantage/json.h"
 #include "vantage/mission.h"
@@ -39,13 +36,8 @@ struct Options {
 
 constexpr double kMostLift = 0.01;  // metres; compute raises a target by no more than 2 mm
 
-/// What is known of the volume besides its mesh.
-struct Given {
-  double lift_m = 0, rounding_m = 0;
-};
-
-std::string table_text(const VerifyReport& report, const Given& given, const OpenEdges& holes,
-                       const std::string& file) {
+std::string table_text(const VerifyReport& report, const std::string& file) {
+  const OpenEdges& holes = report.open_edges;
   TextTable table;
   table.heading(file);
   table.row("closed", report.closed ? "yes" : "NO",
@@ -56,11 +48,11 @@ std::string table_text(const VerifyReport& report, const Given& given, const Ope
   if (report.flat_facets > 0) {
     table.row("flat facets", count(report.flat_facets), "without area: programs that join vertices find holes there");
   }
-  if (given.lift_m > 0) {
-    table.row("lift", fixed(given.lift_m, 6), "metres that the target was raised to clear its surface");
+  if (report.lift_m > 0) {
+    table.row("lift", fixed(report.lift_m, 6), "metres that the target was raised to clear its surface");
   }
-  if (given.rounding_m > 0) {
-    table.row("rounding", fixed(given.rounding_m, 6),
+  if (report.rounding_m > 0) {
+    table.row("rounding", fixed(report.rounding_m, 6),
               "metres that the file says its numbers moved the surface: allowed");
   }
   if (report.points > 0) {
@@ -92,27 +84,6 @@ std::string table_text(const VerifyReport& report, const Given& given, const Ope
   return table.text();
 }
 
-/// How far the target was raised: what the command line says, or else the file, or else the report beside it.
-std::vector<double> lifts(const Options& options, const VolumeFile& read, const Mission& mission) {
-  const std::size_t parts = mission.target.parts.size();
-  if (options.lift_m >= 0) return std::vector(parts, options.lift_m);
-  if (read.volume.lift_m.size() == parts) return read.volume.lift_m;
-  return std::vector(parts, reported_lift_m(options.volume_file).value_or(0));
-}
-
-/// That the file is of another scene or mission, or was changed since.
-std::vector<std::string> doubts(const VolumeFile& read, const Mission& mission) {
-  std::vector<std::string> sentences;
-  if (!read.volume.provenance) return sentences;
-  const VolumeProvenance& made = *read.volume.provenance;
-  if (!made.scene_hash.empty() && made.scene_hash != scene_hash(mission.loaded.scene)) {
-    sentences.emplace_back("the file says that the volume was computed in another scene than the mission's");
-  } else if (!made.mission_hash.empty() && made.mission_hash != mission_hash(mission)) {
-    sentences.emplace_back("the file says that the volume was computed for another mission");
-  }
-  return sentences;
-}
-
 int run(const Options& options) {
   check_readable(options.volume_file, "the volume");
   const MissionFile file = read_mission_argument(options.mission_file);
@@ -122,34 +93,21 @@ int run(const Options& options) {
   const VolumeFile read = read_volume(options.volume_file, mission.loaded.scene, progress.callback());
   if (!options.common.quiet) {
     notes(warnings);
-    std::for_each(read.notes.begin(), read.notes.end(), note);
-    const std::vector<std::string> other = doubts(read, mission);
-    std::for_each(other.begin(), other.end(), note);
+    notes(read.notes);
+    notes(volume_warnings(read, mission));
   }
-  const Mesh& volume = read.volume.mesh;
-  const OpenEdges holes = find_open_edges(volume);
-  VerifyOptions verify_options;
+  VerifyOptions verify_options = vantage::verify_options(read, mission);
   verify_options.points = options.points;
   verify_options.seed = options.seed;
-  verify_options.tolerance_m = file.exact.tolerance_m;
-  verify_options.rounding_m = read.rounding_m;
-  verify_options.lift_m = lifts(options, read, mission);
-  const Given given{*std::max_element(verify_options.lift_m.begin(), verify_options.lift_m.end()), read.rounding_m};
-
-  VerifyReport report;
-  if (holes.count == 0) {
-    report = verify_volume(mission.loaded.scene, mission.target, mission.sensor, mission.navigation, volume,
-                           verify_options, progress.callback());
-  } else {  // a mesh with holes has no inside to try points in
-    report.euler = measure(volume).euler;
-    report.seed = options.seed;
-  }
+  if (options.lift_m >= 0) verify_options.lift_m.assign(mission.target.parts.size(), options.lift_m);
+  const VerifyReport report = verify_volume(mission.loaded.scene, mission.target, mission.sensor, mission.navigation,
+                                            read.volume.mesh, verify_options, progress.callback());
   if (options.json) {
-    print(json_text(report, holes, given.lift_m, given.rounding_m));
+    print(json_text(report));
   } else if (!options.common.quiet) {
     const std::size_t parts = mission.target.parts.size();
     if (parts > 1) note("the target has " + std::to_string(parts) + " convex parts: all must be seen");
-    print(table_text(report, given, holes, options.volume_file));
+    print(table_text(report, options.volume_file));
   }
   return report.is_right() ? kSuccess : kCheckFailed;
 }

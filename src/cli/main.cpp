@@ -32,35 +32,11 @@ constexpr const char* kExamples =
     "MISSION and POINTS may be -, standard input. docs/mission-file.md describes the mission file,\n"
     "docs/command-line.md the commands.\n";
 
-/// One line: what an error message holds may come from a file.
-std::string one_line(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }, ' ');
-  return text;
-}
-
-void print_error(const std::string& problem, const std::string& where, const std::string& fix) {
-  std::fprintf(stderr, "vantage: %s\n  where: %s\n  what to do: %s\n", one_line(problem).c_str(),
-               one_line(where).c_str(), one_line(fix).c_str());
-}
-
-int exit_code(ErrorKind kind) {
-  switch (kind) {
-    case ErrorKind::input:
-    case ErrorKind::output:
-      return kBadInput;
-    case ErrorKind::cancelled:
-      return kSignalled + noted_signal();
-    case ErrorKind::internal:
-      break;
-  }
-  return kDefect;
-}
-
 int print_error(const Error& error, const std::string& name) {
   const std::string command = name.empty() ? "vantage" : "vantage " + name;
-  print_error(error.problem(), error.where().empty() ? command : error.where(),
-              error.fix().empty() ? "see '" + command + " --help'" : error.fix());
+  const Error told = error.with_where(error.where().empty() ? command : error.where())
+                         .with_fix(error.fix().empty() ? "see '" + command + " --help'" : error.fix());
+  std::fprintf(stderr, "vantage: %s", message_of(told).c_str());
   return exit_code(error.kind());
 }
 
@@ -73,15 +49,15 @@ int run_guarded(const Command& command, const std::string& name) {
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::cancelled) return print_error(error, name);
     note("stopped; nothing was written");
-    return exit_code(error.kind());
+    return kSignalled + noted_signal();
   } catch (const std::bad_alloc&) {
-    print_error("the memory is used up", "vantage " + name,
-                "take a smaller scene, a shorter max_range, or a machine with more memory");
-    return kBadInput;
+    return print_error(Error(ErrorCode::out_of_memory, "the memory is used up", "",
+                             "take a smaller scene, a shorter max_range, or a machine with more memory"),
+                       name);
   } catch (const std::exception& error) {
-    print_error(std::string("unexpected failure: ") + error.what(), "vantage " + name,
-                "this is a defect of vantage: please report it together with the input");
-    return kDefect;
+    return print_error(Error(ErrorCode::internal_defect, std::string("unexpected failure: ") + error.what(), "",
+                             "this is a defect of vantage: please report it together with the input"),
+                       name);
   }
 }
 

@@ -95,7 +95,7 @@ std::string picture_subtitle(const Mission& mission, const Volume* volume) {
   } else if (volume != nullptr) {
     text += dot + grouped(enclosed_volume(volume->mesh)) + "\u2009m\u00b3";
   }
-  return text + dot + mission.file.scene.file.filename().string();
+  return text + dot + mission.as_written.scene.file.filename().string();
 }
 
 }  // namespace vantage::cli

@@ -104,6 +104,14 @@ Error usage_error(const CLI::App& app, const CLI::ParseError& error, const std::
   if (const auto option = unknown_option(command ? *command : app, rest)) {
     return unknown_option_error(app, command ? *command : app, *option);
   }
+  const auto split =
+      std::find_if(rest.begin(), rest.end(), [](const std::string& word) { return word.ends_with(','); });
+  if (split != rest.end() && split + 1 != rest.end()) {
+    const std::string whole = *split + *(split + 1);
+    return {ErrorCode::command_line_syntax,
+            in_quotes(*split) + " and " + in_quotes(*(split + 1)) + " are two arguments", kWhere,
+            "write them without the blank, " + whole + ", or in quotes"};
+  }
   return {ErrorCode::command_line_syntax, error.what(), kWhere,
           command ? "see 'vantage " + command->get_name() + " --help'" : "see 'vantage --help'"};
 }

@@ -99,8 +99,9 @@ AtomicFile::~AtomicFile() {
 }
 
 void AtomicFile::fail(const std::string& problem, int error_number) const {
-  throw Error(ErrorCode::output_unwritable, problem + ": " + std::strerror(error_number), asked_.string(),
-              advice_for(error_number));
+  const bool lacks_folder = error_number == ENOENT || error_number == ENOTDIR;
+  throw Error(lacks_folder ? ErrorCode::output_folder_missing : ErrorCode::output_unwritable,
+              problem + ": " + std::strerror(error_number), asked_.string(), advice_for(error_number));
 }
 
 void AtomicFile::write(std::string_view bytes) {

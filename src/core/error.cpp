@@ -1,5 +1,6 @@
 #include "vantage/error.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace vantage {
@@ -23,5 +24,32 @@ Error::Error(ErrorCode code, std::string problem, std::string where, std::string
       where_(std::move(where)),
       fix_(std::move(fix)),
       object_(object) {}
+
+std::string message_of(const Error& error) {
+  std::string text;
+  const auto add_line = [&text](const char* start, std::string line) {
+    if (line.empty()) return;
+    std::replace_if(
+        line.begin(), line.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }, ' ');
+    text += start + line + "\n";
+  };
+  add_line("", error.problem());
+  add_line("  where: ", error.where());
+  add_line("  what to do: ", error.fix());
+  return text;
+}
+
+int exit_code(ErrorKind kind) {
+  switch (kind) {
+    case ErrorKind::input:
+    case ErrorKind::output:
+      return 2;
+    case ErrorKind::cancelled:
+      return 130;  // as shells report SIGINT
+    case ErrorKind::internal:
+      break;
+  }
+  return 3;
+}
 
 }  // namespace vantage

@@ -13,7 +13,7 @@ struct ShaderSources {
   const char* vertex;
   const char* geometry;  ///< null: none
   const char* fragment;
-  const char* header = "";  ///< goes before each of them
+  const char* header = "";  ///< put in front of each of them
 };
 
 /// A program that ends with the context. Throws DeviceFailure with what the driver's compiler says; `name` is for that

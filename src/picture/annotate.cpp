@@ -240,8 +240,9 @@ std::vector<LegendEntry> legend_of(const PictureRequest& request) {
   } else if (request.solid != nullptr && !request.solid->triangles.empty()) {
     legend.push_back({Mark::film, kPlainVolume, "volume", ""});
   }
-  if (!request.navigation.boxes.empty()) {
-    legend.push_back({Mark::line, kBox, request.navigation.boxes.size() > 1 ? "navigable boxes" : "navigable box", ""});
+  if (!request.navigation.keep_in.empty()) {
+    legend.push_back(
+        {Mark::line, kBox, request.navigation.keep_in.size() > 1 ? "navigable boxes" : "navigable box", ""});
   }
   if (!request.navigation.keep_out.empty()) legend.push_back({Mark::line, kKeepOut, "keep out", ""});
   return legend;

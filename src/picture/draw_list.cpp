@@ -88,7 +88,7 @@ std::vector<Vec3> framed_points(const Scene& scene, const PictureRequest& reques
   }
   Box bounds;
   for (const Vec3& point : points) bounds.extend(point);
-  for (const Box& box : request.navigation.boxes) {
+  for (const Box& box : request.navigation.keep_in) {
     const double size = bounds.empty() ? 0 : (bounds.max - bounds.min).norm();
     if (size > 0 && (box.max - box.min).norm() > kLargestBox * size) continue;
     for (const Vec3& corner : corners_of(box)) points.push_back(corner);
@@ -220,7 +220,7 @@ class Builder {
     light_ball(middle);
     volume();
     target();
-    for (const Box& box : request_.navigation.boxes) wire(box, kBox);
+    for (const Box& box : request_.navigation.keep_in) wire(box, kBox);
     for (const Box& box : request_.navigation.keep_out) wire(box, kKeepOut);
     return std::move(list_);
   }

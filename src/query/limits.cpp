@@ -74,7 +74,7 @@ std::vector<double> Limits::cut_line(const ViewRay& line) const {
     band.max = {INFINITY, INFINITY, navigation_.altitude->max_m};
     add_box_crossings(band, line, cuts);
   }
-  for (const Box& box : navigation_.boxes) add_box_crossings(box, line, cuts);
+  for (const Box& box : navigation_.keep_in) add_box_crossings(box, line, cuts);
   for (const Box& box : navigation_.keep_out) add_box_crossings(box, line, cuts);
   for (const KeepInMesh& mesh : navigation_.meshes) add_mesh_crossings(mesh.mesh, line, cuts);
   std::erase_if(cuts, [&](double cut) { return !(cut > 0 && cut < line.reach); });
@@ -110,7 +110,7 @@ std::vector<std::string> Limits::broken(const Vec3& point) const {
     if (point.z() < navigation_.altitude->min_m) broken.push_back("altitude min");
     if (point.z() > navigation_.altitude->max_m) broken.push_back("altitude max");
   }
-  const auto& boxes = navigation_.boxes;
+  const auto& boxes = navigation_.keep_in;
   if (!boxes.empty() && std::none_of(boxes.begin(), boxes.end(), [&](const Box& box) { return inside(box, point); }))
     broken.push_back("boxes");
   for (std::size_t i = 0; i < navigation_.keep_out.size(); ++i)

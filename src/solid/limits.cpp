@@ -54,7 +54,7 @@ void check_limits(const Navigation& navigation) {
   if (navigation.altitude) {
     check_pair(navigation.altitude->min_m, navigation.altitude->max_m, "the altitude band", "", "navigation.altitude");
   }
-  check_boxes(navigation.boxes, "box", "boxes");
+  check_boxes(navigation.keep_in, "box", "boxes");
   check_boxes(navigation.keep_out, "keep_out", "keep_out");
 }
 

@@ -139,7 +139,7 @@ Regions make_regions(const std::vector<Cause>& volume_causes, const Box& bounds,
                      const std::vector<Mesh>& meshes) {
   Builder builder(volume_causes, bounds);
   if (navigation.altitude) builder.add_altitude(*navigation.altitude);
-  builder.add_boxes(navigation.boxes);
+  builder.add_boxes(navigation.keep_in);
   for (std::size_t i = 0; i < meshes.size(); ++i) builder.add_mesh(meshes[i], navigation.meshes[i].name);
   for (std::size_t i = 0; i < navigation.keep_out.size(); ++i) builder.add_keep_out(navigation.keep_out[i], i);
   return builder.take();

@@ -55,8 +55,6 @@ std::vector<std::uint32_t> first_at_position(const std::vector<Vec3>& vertices) 
 struct EdgeSurvey {
   Topology topology;
   bool all_twice = true;
-  std::size_t odd_edges = 0;
-  std::array<std::uint32_t, 2> first_odd{};
 };
 
 /// `names`: the identity of each vertex. Triangles with two corners of one name are left out.
@@ -82,6 +80,7 @@ EdgeSurvey survey(const Mesh& mesh, const std::vector<std::uint32_t>& names) {
   std::sort(edges.begin(), edges.end(),
             [](const Edge& a, const Edge& b) { return std::pair(a.low, a.high) < std::pair(b.low, b.high); });
   EdgeSurvey result;
+  OpenEdges& open = result.topology.open_edges;
   result.topology.oriented = true;
   long distinct = 0;
   for (std::size_t i = 0, end = 0; i < edges.size(); i = end) {
@@ -90,9 +89,10 @@ EdgeSurvey survey(const Mesh& mesh, const std::vector<std::uint32_t>& names) {
     ++distinct;
     result.all_twice &= end - i == 2;
     result.topology.oriented &= turns == 0;
-    if ((end - i) % 2 == 1 && result.odd_edges++ == 0) result.first_odd = {edges[i].low, edges[i].high};
+    if ((end - i) % 2 == 0) continue;
+    if (open.count++ == 0) open.middle_of_first = 0.5 * (mesh.vertices[edges[i].low] + mesh.vertices[edges[i].high]);
   }
-  result.topology.closed = result.odd_edges == 0;
+  result.topology.closed = open.count == 0;
   result.topology.euler = std::count(used.begin(), used.end(), true) - distinct + faces;
   return result;
 }
@@ -106,26 +106,6 @@ std::size_t count_flat(const Mesh& mesh, const std::vector<std::uint32_t>& place
       }));
 }
 
-Topology checked_topology(const Mesh& mesh, const std::string& name) {
-  std::vector<std::uint32_t> names(mesh.vertices.size());
-  std::iota(names.begin(), names.end(), 0u);
-  const EdgeSurvey by_index = survey(mesh, names);
-  const std::vector<std::uint32_t> places = first_at_position(mesh.vertices);
-  EdgeSurvey by_position = survey(mesh, places);
-  by_position.topology.flat = count_flat(mesh, places);
-  if (by_index.all_twice) by_position.topology.euler = by_index.topology.euler;
-  if (!by_position.topology.closed) {
-    std::ostringstream where;
-    where.precision(10);
-    where << name << ", edge from (" << mesh.vertices[by_position.first_odd[0]].transpose() << ") to ("
-          << mesh.vertices[by_position.first_odd[1]].transpose() << ")";
-    fail(ErrorCode::mesh_not_closed,
-         "the mesh is not closed: " + std::to_string(by_position.odd_edges) + " edges have an odd number of triangles",
-         where.str(), "give a closed mesh: every edge between two triangles");
-  }
-  return by_position.topology;
-}
-
 /// A fixed direction for each attempt: membership is a function of the point alone.
 Vec3 direction(int attempt) {
   Random random(0x5eed, static_cast<std::uint64_t>(attempt));
@@ -136,9 +116,29 @@ Vec3 direction(int attempt) {
 
 }  // namespace
 
-ClosedMesh::ClosedMesh(const Mesh& mesh, const Vec3& origin, const std::string& name) {
+Topology topology_of(const Mesh& mesh, const std::string& name) {
   check_numbers(mesh, name);
-  topology_ = checked_topology(mesh, name);
+  std::vector<std::uint32_t> names(mesh.vertices.size());
+  std::iota(names.begin(), names.end(), 0u);
+  const EdgeSurvey by_index = survey(mesh, names);
+  const std::vector<std::uint32_t> places = first_at_position(mesh.vertices);
+  Topology topology = survey(mesh, places).topology;
+  topology.flat = count_flat(mesh, places);
+  if (by_index.all_twice) topology.euler = by_index.topology.euler;
+  return topology;
+}
+
+ClosedMesh::ClosedMesh(const Mesh& mesh, const Vec3& origin, const std::string& name)
+    : topology_(topology_of(mesh, name)) {
+  if (!topology_.closed) {
+    const OpenEdges& open = topology_.open_edges;
+    std::ostringstream where;
+    where.precision(10);
+    where << name << ", edge with its middle at (" << open.middle_of_first.transpose() << ")";
+    fail(ErrorCode::mesh_not_closed,
+         "the mesh is not closed: " + std::to_string(open.count) + " edges have an odd number of triangles",
+         where.str(), "give a closed mesh: every edge between two triangles");
+  }
   std::vector<Box> boxes;
   for (const Triangle& triangle : mesh.triangles) {
     triangles_.emplace_back(mesh.vertices[triangle[0]] - origin, mesh.vertices[triangle[1]] - origin,

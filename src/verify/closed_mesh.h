@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "vantage/geometry.h"
+#include "vantage/volume.h"
 #include "verify/box_index.h"
 #include "verify/segment.h"
 
@@ -17,7 +18,12 @@ struct Topology {
   bool oriented = false;  ///< as many of them run it forwards as backwards
   std::size_t flat = 0;   ///< triangles without area, or with two corners in one place; the latter are left out above
   long euler = 0;         ///< V - E + F; by indices, where they make a surface of two triangles to an edge
+  OpenEdges open_edges;   ///< those with an odd number of triangles
 };
+
+/// Throws Error(input) for a mesh that has no triangles, an index out of range or a coordinate that is not finite.
+/// `name` is for messages.
+Topology topology_of(const Mesh& mesh, const std::string& name);
 
 class ClosedMesh {
  public:

@@ -31,7 +31,7 @@ Limits::Limits(const Navigation& navigation, const Vec3& origin) : navigation_(n
     throw Error(ErrorCode::limits_reversed, "the altitude band is reversed or empty", "navigation altitude",
                 "give the lower altitude first");
   }
-  check(navigation_.boxes, "box");
+  check(navigation_.keep_in, "box");
   check(navigation_.keep_out, "keep_out");
   for (const KeepInMesh& keep_in : navigation_.meshes) {
     meshes_.emplace_back(keep_in.mesh, origin, "keep-in mesh '" + keep_in.name + "'");
@@ -45,7 +45,7 @@ std::optional<std::string> Limits::broken_by(const Vec3& point) const {
     if (scene_point.z() > navigation_.altitude->max_m) return "altitude max";
   }
   const auto holds = [&scene_point](const Box& box) { return within(box, scene_point); };
-  if (!navigation_.boxes.empty() && std::none_of(navigation_.boxes.begin(), navigation_.boxes.end(), holds)) {
+  if (!navigation_.keep_in.empty() && std::none_of(navigation_.keep_in.begin(), navigation_.keep_in.end(), holds)) {
     return "box";
   }
   for (std::size_t i = 0; i < navigation_.keep_out.size(); ++i) {

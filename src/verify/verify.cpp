@@ -30,6 +30,20 @@ using internal::verify::Viewpoints;
 
 constexpr int kRandomEdgePoints = 2;  // an edge, besides its quarter points
 
+/// What is known before any point is tried.
+VerifyReport report_of_mesh(const internal::verify::Topology& topology, const VerifyOptions& options) {
+  VerifyReport report;
+  report.seed = options.seed;
+  if (!options.lift_m.empty()) report.lift_m = *std::max_element(options.lift_m.begin(), options.lift_m.end());
+  report.rounding_m = options.rounding_m;
+  report.closed = topology.closed;
+  report.open_edges = topology.open_edges;
+  report.oriented = topology.closed && topology.oriented;
+  report.flat_facets = topology.flat;
+  report.euler = topology.euler;
+  return report;
+}
+
 struct Verdict {
   explicit Verdict(Random numbers) : random(numbers) {}
 
@@ -186,13 +200,8 @@ std::string Check::cause(const Verdict& over_claimed) {
 }
 
 VerifyReport Check::report(const std::vector<Verdict>& verdicts) {
-  VerifyReport report;
-  report.seed = options_.seed;
+  VerifyReport report = report_of_mesh(volume_.topology(), options_);
   report.points = verdicts.size();
-  report.closed = volume_.topology().closed;
-  report.oriented = volume_.topology().oriented;
-  report.flat_facets = volume_.topology().flat;
-  report.euler = volume_.topology().euler;
   const Verdict* worst_over = nullptr;
   const Verdict* worst_under = nullptr;
   std::size_t uniform_over = 0;
@@ -257,6 +266,8 @@ VerifyReport verify_volume(const Scene& scene, const Target& target, const Senso
                            const Mesh& volume, const VerifyOptions& options, const Progress& callback) {
   check_arguments(sensor, options);
   const std::vector<Target> parts = raised_parts(target, options.lift_m);
+  const internal::verify::Topology topology = internal::verify::topology_of(volume, "volume");
+  if (!topology.closed) return report_of_mesh(topology, options);  // it has no inside to try points in
   Check check(scene, parts, sensor, navigation, volume, options);
   std::vector<Verdict> verdicts(options.points, Verdict(Random(options.seed, 0)));
   const internal::core::ProgressReporter progress(callback);

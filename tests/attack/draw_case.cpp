@@ -201,7 +201,7 @@ void draw_limits(Random& random, const Pose& pose, Case& c) {
     const double low = random.uniform(-0.2, 0.4) * c.range;
     c.navigation.altitude = {origin.z() + low, origin.z() + low + random.uniform(0.1, 0.8) * c.range};
   }
-  if (random.chance(0.4)) c.navigation.boxes = {draw_box(random, pose, c.range), draw_box(random, pose, c.range)};
+  if (random.chance(0.4)) c.navigation.keep_in = {draw_box(random, pose, c.range), draw_box(random, pose, c.range)};
   if (random.chance(0.4)) c.navigation.keep_out = {draw_box(random, pose, 0.5 * c.range)};
 }
 

@@ -51,8 +51,8 @@ void write_navigation(const Navigation& navigation, std::ostream& out) {
   out << "navigation:\n";
   if (navigation.altitude)
     out << "  altitude: [" << number(navigation.altitude->min_m) << ", " << number(navigation.altitude->max_m) << "]\n";
-  if (!navigation.boxes.empty()) out << "  boxes:\n";
-  for (const Box& box : navigation.boxes) write_box(out, box);
+  if (!navigation.keep_in.empty()) out << "  boxes:\n";
+  for (const Box& box : navigation.keep_in) write_box(out, box);
   if (!navigation.keep_out.empty()) out << "  keep_out:\n";
   for (const Box& box : navigation.keep_out) write_box(out, box);
 }
@@ -146,7 +146,7 @@ Case read_case(const std::filesystem::path& file) {
   c.scene = mission.loaded.scene;
   for (std::size_t i = 0; i < mission.target.parts.size(); ++i) c.parts.push_back(mission.target.part(i));
   c.range = mission.sensor.max_range_m;
-  c.tolerance = mission.file.exact.tolerance_m;
+  c.tolerance = mission.as_written.exact.tolerance_m;
   c.navigation = mission.navigation;
   return c;
 }

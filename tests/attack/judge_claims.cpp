@@ -146,7 +146,7 @@ class Claims {
       return (p.array() > box.min.array()).all() && (p.array() < box.max.array()).all();
     };
     if (limits.altitude && (p.z() < limits.altitude->min_m || p.z() > limits.altitude->max_m)) return "altitude";
-    if (!limits.boxes.empty() && std::none_of(limits.boxes.begin(), limits.boxes.end(), holds)) return "boxes";
+    if (!limits.keep_in.empty() && std::none_of(limits.keep_in.begin(), limits.keep_in.end(), holds)) return "boxes";
     if (std::any_of(limits.keep_out.begin(), limits.keep_out.end(), holds_inside)) return "keep_out";
     return {};
   }

@@ -29,7 +29,8 @@ terrain::Surface ground_of(const Mission& mission) {
   const Scene& scene = mission.loaded.scene;
   const auto ground = ground_object(scene);
   if (!ground) {
-    fail(ErrorCode::ground_missing, "the scene has no object 'ground' to put the target on", mission.file.places.target,
+    fail(ErrorCode::ground_missing, "the scene has no object 'ground' to put the target on",
+         mission.as_written.places.target,
          "give the target's vertices, or a scene that is made from a map; PLY and STL keep no objects, OBJ and GLB do");
   }
   Mesh mesh;
@@ -98,9 +99,9 @@ city::Ring rectangle(const GroundTarget& wanted, const geo::LocalFrame& frame) {
 /// target that has no name of its own gets the object's.
 std::vector<city::Footprint> outlines(Mission& mission, const std::string& name, const geo::LocalFrame& frame,
                                       const Progress& progress) {
-  const SceneSource& source = mission.file.scene;
+  const SceneSource& source = mission.as_written.scene;
   const auto found = city::outlines_of_object(source.file, source.city.region, name, frame, progress);
-  const std::string& place = mission.file.places.target;
+  const std::string& place = mission.as_written.places.target;
   if (!found) fail(ErrorCode::value_syntax, in_quotes(name) + " is no object of a map", place, "write 'osm: way/123'");
   if (!found->is_area) {
     const bool is_part = source.city.region.center_deg || source.city.region.bbox_deg;
@@ -125,7 +126,7 @@ void check_order(const Mission& mission, const GroundTarget& wanted, const terra
   fail(ErrorCode::target_off_ground,
        "the target's centre lies " + std::to_string(std::lround(centre.norm())) +
            " m from the scene's origin, off its ground",
-       mission.file.places.target,
+       mission.as_written.places.target,
        "latitude and longitude are the wrong way round: write center: [latitude, longitude]");
 }
 
@@ -197,8 +198,8 @@ void check_outdoors(const Mission& mission) {
     if (!solid) continue;
     throw Error(
         ErrorCode::target_inside_solid, "the target lies inside " + in_quotes(display_name(scene.objects[*solid])),
-        mission.file.places.target,
-        how_to_leave_out(mission.loaded, *solid, mission.file.ground_target->osm)
+        mission.as_written.places.target,
+        how_to_leave_out(mission.loaded, *solid, mission.as_written.ground_target->osm)
             .value_or("name a place outdoors; for a roof give its 'vertices', for a storey a scene that has rooms"),
         *solid);
   }
@@ -207,7 +208,7 @@ void check_outdoors(const Mission& mission) {
 }  // namespace
 
 void put_on_ground(Mission& mission, const geo::LocalFrame& frame, const Progress& progress) {
-  const GroundTarget& wanted = *mission.file.ground_target;
+  const GroundTarget& wanted = *mission.as_written.ground_target;
   if (wanted.center_deg) check_order(mission, wanted, ground_of(mission), frame);
   const std::vector<city::Footprint> areas = wanted.osm.empty()
                                                  ? std::vector<city::Footprint>{{rectangle(wanted, frame), {}}}

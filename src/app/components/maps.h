@@ -10,7 +10,7 @@ namespace vantage::internal::app {
 LoadedScene load_map(const SceneSource& source, const Progress& progress);
 LoadedScene load_raster(const SceneSource& source, const Progress& progress);
 
-/// Lays the target that `mission.file.ground_target` describes on the ground of the scene, in `frame`.
+/// Lays the target that `mission.as_written.ground_target` describes on the ground of the scene, in `frame`.
 void put_on_ground(Mission& mission, const geo::LocalFrame& frame, const Progress& progress);
 
 }  // namespace vantage::internal::app

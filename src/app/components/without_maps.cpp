@@ -12,7 +12,7 @@ LoadedScene load_raster(const SceneSource& source, const Progress&) {
 }
 
 void put_on_ground(Mission& mission, const geo::LocalFrame&, const Progress&) {
-  throw_missing("maps", "targets on the ground", mission.file.places.target);
+  throw_missing("maps", "targets on the ground", mission.as_written.places.target);
 }
 
 }  // namespace vantage::internal::app

@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 void check(const RasterOptions& options, const fs::path& file) {
   const RasterRegion& region = options.region;
   if (int(region.center_deg.has_value()) + int(region.bbox_deg.has_value()) + int(region.pixels.has_value()) > 1) {
-    refuse(ErrorCode::region_invalid, "the region is given in more than one way", file,
+    refuse(ErrorCode::conflicting_keys, "the region is given in more than one way", file,
            "give a centre, a box or pixels");
   }
   if (region.center_deg && !(region.radius_m > 0 && region.radius_m < 1e6)) {

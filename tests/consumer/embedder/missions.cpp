@@ -34,7 +34,7 @@ int main(int argc, char** argv) try {
   const vantage::MissionFile again = vantage::read_mission_text(text, folder + "/mission.yaml");
   const vantage::Mission mission = vantage::resolve_mission(again);
   vantage::Result result = vantage::run_mission(mission);
-  vantage::write_results(result.volume, {{argv[2]}, {}, 1, vantage::report_source(mission, result)});
+  vantage::write_results(result.volume, vantage::result_request(mission, result, {argv[2]}));
   if (vantage::read_volume(argv[2]).volume.mesh.triangles.size() != result.volume.mesh.triangles.size()) return 1;
 
   const std::string parts =

@@ -52,15 +52,11 @@ bool between_walls() {
 bool compute_and_verify(const char* mission_file, const char* volume_file) {
   const vantage::Mission mission = vantage::resolve_mission(vantage::read_mission(mission_file));
   vantage::Result result = vantage::run_mission(mission);
-  vantage::write_results(
-      result.volume,
-      {{volume_file}, mission.loaded.scene.up, mission.loaded.scene.scale, vantage::report_source(mission, result)});
+  vantage::write_results(result.volume, vantage::result_request(mission, result, {volume_file}));
 
   const vantage::VolumeFile written = vantage::read_volume(volume_file, mission.loaded.scene);
-  vantage::VerifyOptions options;
+  vantage::VerifyOptions options = vantage::verify_options(written, mission);
   options.points = 500;
-  options.lift_m = result.volume.lift_m;
-  options.rounding_m = written.rounding_m;
   const vantage::VerifyReport report = vantage::verify_volume(mission.loaded.scene, mission.target, mission.sensor,
                                                               mission.navigation, written.volume.mesh, options);
   std::printf("%s: %zu points, %zu over-claimed\n", volume_file, report.points, report.over_claimed);
