@@ -150,6 +150,11 @@ class VANTAGE_API PreparedScene {
   const SceneStatistics& statistics() const;
   const std::vector<SceneObject>& objects() const;
 
+  /// The scene's triangles are merged to `statistics().polygons` convex polygons. The corners of one of them in order,
+  /// in the scene frame, and the index of its object. Throws Error(input) for an index out of range.
+  std::vector<Vec3> polygon(std::uint32_t index) const;
+  std::uint32_t object_of_polygon(std::uint32_t index) const;
+
   struct Data;
   const Data& data() const { return *data_; }  ///< for the engine
 

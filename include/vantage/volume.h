@@ -81,6 +81,9 @@ struct VolumeProvenance {
   std::string scene_hash, mission_hash;  ///< docs/hashes.md; empty where they were not made
 };
 
+/// In Volume::polygon_of: none.
+constexpr std::uint32_t kNoPolygon = 0xFFFFFFFF;
+
 /// The result. `mesh` is closed, oriented outward, in the scene frame. Before navigation cuts it is one piece of genus
 /// 0 and star-shaped about every point of the target: the segment from any point inside to any point of the target
 /// stays inside.
@@ -92,6 +95,10 @@ struct Volume {
   Mesh mesh;
   std::vector<std::uint32_t> cause_of;  ///< per triangle: index into `causes`
   std::vector<Cause> causes;
+  /// Per triangle: the convex polygon of the scene that hides the target beyond it (PreparedScene::polygon), or
+  /// kNoPolygon where the cause is no object of the scene. Empty where it is not known: the method of spheres does not
+  /// tell it, and files do not hold it.
+  std::vector<std::uint32_t> polygon_of;
 
   double tolerance_m = 0;      ///< bound on how far range facets lie inside the true range region
   std::vector<double> lift_m;  ///< how far each part of the target was raised: PreparedTarget::lift_m

@@ -38,6 +38,12 @@ void check_labelled(const Mesh& mesh, const Labels& labels) {
 void check_volume(const Volume& volume) {
   check_labelled(volume.mesh, {volume.cause_of, volume.causes.size(), "volume", "cause",
                                "give a volume as computed, or mend what was changed in it"});
+  if (!volume.polygon_of.empty() && volume.polygon_of.size() != volume.mesh.triangles.size()) {
+    throw Error(ErrorCode::array_sizes_differ,
+                "there are " + std::to_string(volume.polygon_of.size()) + " polygons for " +
+                    std::to_string(volume.mesh.triangles.size()) + " triangles",
+                "volume", "give a volume as computed, or leave polygon_of empty");
+  }
 }
 
 MeshMeasures measure_sound(const Mesh& mesh) {

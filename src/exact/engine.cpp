@@ -2,6 +2,7 @@
 #include <Eigen/Geometry>
 #include <chrono>
 #include <cmath>
+#include <numeric>
 
 #include "core/mend_welded.h"
 #include "core/number_text.h"
@@ -45,12 +46,17 @@ void fill_volume(HalfSpaceVolume side, const TargetFrame& frame, double max_rang
     volume.hint = hint;
     return;
   }
-  internal::core::LabelledMesh labelled{std::move(side.mesh), std::move(side.cause_of)};
+  std::vector<std::uint32_t> facets(side.cause_of.size());
+  std::iota(facets.begin(), facets.end(), 0u);
+  internal::core::LabelledMesh labelled{std::move(side.mesh), std::move(facets)};
   for (Vec3& v : labelled.mesh.vertices) v = frame.to_scene(v);
   // At map coordinates rounding leaves narrow facets without area.
   internal::core::mend_for_doubles(labelled);
   volume.mesh = std::move(labelled.mesh);
-  volume.cause_of = std::move(labelled.labels);
+  for (const std::uint32_t facet : labelled.labels) {
+    volume.cause_of.push_back(side.cause_of[facet]);
+    volume.polygon_of.push_back(side.polygon_of[facet]);
+  }
   volume.causes = std::move(side.causes);
 }
 

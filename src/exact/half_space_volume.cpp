@@ -31,18 +31,21 @@ void add_causes(const PreparedScene& scene, const BlockerSet& blockers, const Bo
     return slot;
   };
   side.cause_of.reserve(boundary.blocker_of.size());
+  side.polygon_of.reserve(boundary.blocker_of.size());
   for (std::size_t i = 0; i < boundary.blocker_of.size(); ++i) {
     const std::uint32_t blocker = boundary.blocker_of[i];
-    std::uint32_t index;
+    std::uint32_t index, polygon = kNoPolygon;
     if (blocker == Boundary::kRange) {
       index = number(range, [] { return Cause{CauseKind::range, "max_range"}; });
     } else if (blocker == Boundary::kTargetPlane) {
       index = number(plane, [] { return Cause{CauseKind::target_plane, "target plane"}; });
     } else {
-      const std::uint32_t object = scene.data().polygon_object[blockers.polygon[blocker]];
+      polygon = blockers.polygon[blocker];
+      const std::uint32_t object = scene.data().polygon_object[polygon];
       index = number(of_object[object], [&] { return cause_of_object(object, scene.objects()[object]); });
     }
     side.cause_of.push_back(index);
+    side.polygon_of.push_back(polygon);
     side.causes[index].area_m2 += area_of(boundary.mesh, boundary.mesh.triangles[i]);
   }
 }

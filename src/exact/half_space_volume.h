@@ -13,8 +13,8 @@
 namespace vantage::internal::exact {
 
 struct HalfSpaceVolume {
-  Mesh mesh;  ///< target's frame, closed
-  std::vector<std::uint32_t> cause_of;
+  Mesh mesh;                                        ///< target's frame, closed
+  std::vector<std::uint32_t> cause_of, polygon_of;  ///< as in Volume
   std::vector<Cause> causes;
   StageCounts counts;
   double height = 0;        ///< up to which the mesh reaches over the target's plane, metres

@@ -101,6 +101,7 @@ class Joiner {
       }
       mesh_.triangles.push_back({a + shift, b + shift, c + shift});
       joined_.cause_of.push_back(number[side.cause_of[t]]);
+      joined_.polygon_of.push_back(side.polygon_of[t]);
     }
     const auto first = std::find_if(next.begin(), next.end(), [&](const auto& edge) {
       return mesh_.vertices[edge.first].y() == 0 && mesh_.vertices[edge.first].x() > 0;
@@ -261,6 +262,7 @@ class Joiner {
     if (outer_ > 0) std::swap(b, c);
     mesh_.triangles.push_back({a, b, c});
     joined_.cause_of.push_back(wall_);
+    joined_.polygon_of.push_back(kNoPolygon);
   }
 
   // ---- new vertices on the rims -------------------------------------------------------------------------------------
@@ -289,6 +291,7 @@ class Joiner {
       last = static_cast<std::uint32_t>(mesh_.triangles.size());
       mesh_.triangles.push_back({chain[k], chain[k + 1], top});
       joined_.cause_of.push_back(joined_.cause_of[t]);
+      joined_.polygon_of.push_back(joined_.polygon_of[t]);
     }
     // The triangle may have another edge on the rim.
     const auto other = rim.triangle_from.find(chain.back());
@@ -323,6 +326,7 @@ void dissolve_wall(HalfSpaceVolume& side) {
     for (const std::uint32_t t : neighbours[front[next]]) {
       if (!is_wall(t)) continue;
       side.cause_of[t] = side.cause_of[front[next]];
+      side.polygon_of[t] = side.polygon_of[front[next]];
       front.push_back(t);
     }
   }

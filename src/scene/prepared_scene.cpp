@@ -203,6 +203,14 @@ void check(const Scene& scene) {
   }
 }
 
+void check_polygon(const PreparedScene::Data& data, std::uint32_t index) {
+  if (index < data.polygon_count()) return;
+  throw Error(
+      ErrorCode::index_out_of_range,
+      "there is no polygon " + std::to_string(index) + ": the scene has " + std::to_string(data.polygon_count()),
+      "scene", "count polygons from 0");
+}
+
 }  // namespace
 
 PreparedScene::PreparedScene(const Scene& scene, const Progress& callback) {
@@ -235,5 +243,18 @@ PreparedScene::PreparedScene(const Scene& scene, const Progress& callback) {
 const SceneStatistics& PreparedScene::statistics() const { return data_->statistics; }
 
 const std::vector<SceneObject>& PreparedScene::objects() const { return data_->objects; }
+
+std::vector<Vec3> PreparedScene::polygon(std::uint32_t index) const {
+  check_polygon(*data_, index);
+  std::vector<Vec3> corners;
+  for (const std::uint32_t vertex : data_->corners_of(index))
+    corners.push_back(data_->vertices[vertex] + data_->origin);
+  return corners;
+}
+
+std::uint32_t PreparedScene::object_of_polygon(std::uint32_t index) const {
+  check_polygon(*data_, index);
+  return data_->polygon_object[index];
+}
 
 }  // namespace vantage

@@ -35,12 +35,13 @@ bool names(const Triangle& triangle, std::uint32_t vertex) {
 
 class Cleaner {
  public:
-  Cleaner(LabelledMesh& labelled, const Vec3& origin, std::span<const Surface> surfaces, const CleaningLimits& limits)
+  Cleaner(LabelledMesh& labelled, const Vec3& origin, std::span<const FacetSource> sources,
+          const CleaningLimits& limits)
       : labelled_(labelled),
         vertices_(labelled.mesh.vertices),
         triangles_(labelled.mesh.triangles),
         origin_(origin),
-        surfaces_(surfaces),
+        sources_(sources),
         limits_(limits),
         allowance_(limits.allowance_m) {}
 
@@ -69,7 +70,7 @@ class Cleaner {
   Corners corners(std::uint32_t t) const {
     return {vertices_[triangles_[t][0]], vertices_[triangles_[t][1]], vertices_[triangles_[t][2]]};
   }
-  const Surface* plane_of(std::uint32_t t) const;
+  const FacetSource* plane_of(std::uint32_t t) const;
   std::size_t merge_short_edges();
   std::size_t mend_narrow_facets();
   std::optional<Narrow> find_narrow(std::uint32_t t) const;
@@ -98,7 +99,7 @@ class Cleaner {
   std::vector<Vec3>& vertices_;  // relative to origin_ between begin() and finish()
   std::vector<Triangle>& triangles_;
   Vec3 origin_;
-  std::span<const Surface> surfaces_;
+  std::span<const FacetSource> sources_;
   CleaningLimits limits_;
   double allowance_;  // of the merge that is tried
   std::optional<core::Stars> stars_;
@@ -143,10 +144,10 @@ void Cleaner::finish() {
 }
 
 /// The plane that a facet must stay in, if there is one.
-const Surface* Cleaner::plane_of(std::uint32_t t) const {
-  if (surfaces_.empty()) return nullptr;
-  const Surface& surface = surfaces_[labelled_.labels[t]];
-  return surface.axis ? &surface : nullptr;
+const FacetSource* Cleaner::plane_of(std::uint32_t t) const {
+  if (sources_.empty()) return nullptr;
+  const FacetSource& source = sources_[labelled_.labels[t]];
+  return source.axis ? &source : nullptr;
 }
 
 /// Whether the mesh stays closed with two triangles to an edge: the two vertices may have no common neighbours but the
@@ -172,7 +173,7 @@ bool Cleaner::can_merge(std::uint32_t u, std::uint32_t v) const {
 /// a tetrahedron; where the place lies behind the facet that is taken from the solid, else it is added, and no point of
 /// it is farther outside than the place.
 std::optional<double> Cleaner::raise_of_facet(std::uint32_t t, std::uint32_t moving, const Vec3& place) const {
-  const Surface* const plane = plane_of(t);
+  const FacetSource* const plane = plane_of(t);
   if (plane && place[*plane->axis] != plane->at - origin_[*plane->axis]) return std::nullopt;
   const Corners old = corners(t);
   const Vec3 normal = (old[1] - old[0]).cross(old[2] - old[0]);
@@ -211,7 +212,7 @@ std::optional<Vec3> Cleaner::place_behind(std::uint32_t u, std::uint32_t v) cons
   struct Plane {
     Vec3 normal;
     double at;
-    const Surface* kept;
+    const FacetSource* kept;
   };
   std::vector<Plane> planes;
   for_each_moving(u, v, [&](std::uint32_t t, std::uint32_t) {
@@ -420,9 +421,9 @@ CleaningLimits cleaning_limits(double tolerance_m, double allowance_m, const Box
   return {std::max(wanted, numerics::kCleanEpsilons * resolved), allowance_m};
 }
 
-Cleaning clean_inward(LabelledMesh& labelled, const Vec3& origin, std::span<const Surface> surfaces,
+Cleaning clean_inward(LabelledMesh& labelled, const Vec3& origin, std::span<const FacetSource> sources,
                       const CleaningLimits& limits) {
-  return Cleaner(labelled, origin, surfaces, limits).run();
+  return Cleaner(labelled, origin, sources, limits).run();
 }
 
 }  // namespace vantage::internal::solid

@@ -28,10 +28,10 @@ CleaningLimits cleaning_limits(double tolerance_m, double allowance_m, const Box
 /// it: what a merge adds is thinner than the allowance, or than a hundredth of the distance where the two are no
 /// farther apart. All merges together add no more than ten allowances and a hundredth of the distance. No point of the
 /// surface moves by more than numerics::kFarthestMove distances. The mesh must be closed with two triangles to an edge,
-/// as to_mesh makes it, and stays so; it is in the scene frame, where `surfaces` (by label; none: no planes) say which
+/// as to_mesh makes it, and stays so; it is in the scene frame, where `sources` (by label; none: no planes) say which
 /// facets lie in a plane: those stay in it. `origin`: near the mesh. docs/theory.md, "Cleaning", has the argument.
 /// Cost: linear, but for what is merged.
-Cleaning clean_inward(LabelledMesh& labelled, const Vec3& origin, std::span<const Surface> surfaces,
+Cleaning clean_inward(LabelledMesh& labelled, const Vec3& origin, std::span<const FacetSource> sources,
                       const CleaningLimits& limits);
 
 }  // namespace vantage::internal::solid

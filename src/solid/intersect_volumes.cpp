@@ -17,6 +17,7 @@
 namespace vantage {
 namespace {
 
+using internal::solid::FacetSourceList;
 using internal::solid::LabelledMesh;
 using internal::solid::Solid;
 
@@ -44,16 +45,14 @@ void make_empty(Outcome outcome, std::string reason, std::string hint, Volume& r
   result.hint = std::move(hint);
   result.mesh = {};
   result.cause_of.clear();
+  result.polygon_of.clear();
   result.causes.clear();
 }
 
-Solid solid_of(const Volume& volume, const Vec3& origin, internal::core::CauseList& causes) {
+Solid solid_of(const Volume& volume, const Vec3& origin, internal::core::CauseList& causes, FacetSourceList& sources) {
   std::vector<std::uint32_t> merged;
   for (const Cause& cause : volume.causes) merged.push_back(causes.add(cause));
-  std::vector<std::uint32_t> labels;
-  labels.reserve(volume.cause_of.size());
-  for (const std::uint32_t cause : volume.cause_of) labels.push_back(merged[cause]);
-  return Solid(internal::solid::moved_to_origin(volume.mesh, std::move(labels), origin), "the volume");
+  return Solid(internal::solid::moved_to_origin(volume.mesh, sources.add(volume, merged), origin), "the volume");
 }
 
 }  // namespace
@@ -74,10 +73,11 @@ Volume intersect_volumes(const std::vector<Volume>& volumes, const Progress& cal
 
   const Vec3 origin = result.frame.origin;
   internal::core::CauseList causes;
+  FacetSourceList sources;
   std::vector<Solid> solids;
   double sliver = 0, rounding = 0;
   for (const Volume& volume : volumes) {
-    solids.push_back(solid_of(volume, origin, causes));
+    solids.push_back(solid_of(volume, origin, causes, sources));
     sliver = std::max(sliver, internal::solid::sliver_thickness(solids.back()));
     rounding = std::max(rounding, solids.back().epsilon());
   }
@@ -97,10 +97,10 @@ Volume intersect_volumes(const std::vector<Volume>& volumes, const Progress& cal
       labelled, origin, {},
       internal::solid::cleaning_limits(result.tolerance_m, rounding, bounding_box(labelled.mesh)));
   internal::core::mend_for_doubles(labelled);
-  result.mesh = std::move(labelled.mesh);
-  result.cause_of = std::move(labelled.labels);
-  result.causes = causes.causes();
-  internal::core::compact_causes(result.mesh, result.cause_of, result.causes);
+  internal::solid::set_mesh(std::move(labelled), sources.sources(), causes.causes(), result);
+  const bool has_polygons =
+      std::none_of(volumes.begin(), volumes.end(), [](const Volume& volume) { return volume.polygon_of.empty(); });
+  if (!has_polygons) result.polygon_of.clear();
   return result;
 }
 

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -39,17 +40,17 @@ Solid cut(const Solid& volume, const Regions& regions, const core::ProgressRepor
 
 /// Puts the corners of cut faces into their planes exactly, where rounding left them beside it. `labelled` is in the
 /// scene frame already.
-void snap_to_planes(LabelledMesh& labelled, const std::vector<Surface>& surfaces, double allowance) {
+void snap_to_planes(LabelledMesh& labelled, const std::vector<FacetSource>& sources, double allowance) {
   auto& [mesh, labels] = labelled;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const Surface& surface = surfaces[labels[t]];
-    if (!surface.axis) continue;
+    const FacetSource& source = sources[labels[t]];
+    if (!source.axis) continue;
     for (const std::uint32_t v : mesh.triangles[t]) {
-      double& coordinate = mesh.vertices[v][*surface.axis];
-      if (std::abs(coordinate - surface.at) > allowance) {
+      double& coordinate = mesh.vertices[v][*source.axis];
+      if (std::abs(coordinate - source.at) > allowance) {
         throw Error(ErrorCode::internal_defect, "a cut face does not lie in its plane", "navigation", "");
       }
-      coordinate = surface.at;
+      coordinate = source.at;
     }
   }
 }
@@ -60,11 +61,14 @@ void make_empty(const Emptiness& emptiness, Volume& result) {
   result.hint = emptiness.hint;
   result.mesh = {};
   result.cause_of.clear();
+  result.polygon_of.clear();
   result.causes.clear();
 }
 
-void cut_volume(const Regions& regions, const core::ProgressReporter& progress, Volume& result) {
-  const Solid volume(moved_to_origin(result.mesh, result.cause_of, regions.origin), "the volume");
+/// `labels`: of the volume's facets, see Regions::sources.
+void cut_volume(const Regions& regions, std::vector<std::uint32_t> labels, const core::ProgressReporter& progress,
+                Volume& result) {
+  const Solid volume(moved_to_origin(result.mesh, std::move(labels), regions.origin), "the volume");
   const Solid remaining = cut(volume, regions, progress);
   LabelledMesh labelled = remaining.to_mesh();
   core::drop_slivers(labelled, sliver_thickness(volume));
@@ -74,16 +78,14 @@ void cut_volume(const Regions& regions, const core::ProgressReporter& progress, 
   for (Vec3& vertex : labelled.mesh.vertices) vertex += regions.origin;
   const double rounding = std::numeric_limits<double>::epsilon() * regions.origin.cwiseAbs().maxCoeff();
   const double allowance = numerics::kSnapEpsilons * (volume.epsilon() + rounding);
-  snap_to_planes(labelled, regions.surfaces, allowance);
+  snap_to_planes(labelled, regions.sources, allowance);
   const CleaningLimits limits = cleaning_limits(result.tolerance_m, volume.epsilon(), bounding_box(labelled.mesh));
-  clean_inward(labelled, regions.origin, regions.surfaces, limits);
+  clean_inward(labelled, regions.origin, regions.sources, limits);
   core::mend_for_doubles(labelled);
-  snap_to_planes(labelled, regions.surfaces, allowance);  // what was merged went to the origin and back
-  for (std::uint32_t& label : labelled.labels) label = regions.surfaces[label].cause;
-  result.mesh = std::move(labelled.mesh);
-  result.cause_of = std::move(labelled.labels);
-  result.causes = regions.causes;
-  core::compact_causes(result.mesh, result.cause_of, result.causes);
+  snap_to_planes(labelled, regions.sources, allowance);  // what was merged went to the origin and back
+  const bool has_polygons = !result.polygon_of.empty();
+  set_mesh(std::move(labelled), regions.sources, regions.causes, result);
+  if (!has_polygons) result.polygon_of.clear();
 }
 
 }  // namespace
@@ -101,9 +103,14 @@ Volume cut_to_navigation(const Volume& volume, const Navigation& navigation, con
 
   internal::core::check_volume(volume);
   const Box bounds = measure(volume.mesh).bounds;
-  const internal::solid::Regions regions = internal::solid::make_regions(volume.causes, bounds, navigation, meshes);
+  std::vector<std::uint32_t> causes(volume.causes.size());
+  std::iota(causes.begin(), causes.end(), 0u);
+  internal::solid::FacetSourceList sources;
+  std::vector<std::uint32_t> labels = sources.add(volume, causes);
+  const internal::solid::Regions regions =
+      internal::solid::make_regions(volume.causes, sources.sources(), bounds, navigation, meshes);
   if (!regions.kept.empty() || !regions.forbidden.empty())
-    internal::solid::cut_volume(regions, progress.part(0.3, 1), result);
+    internal::solid::cut_volume(regions, std::move(labels), progress.part(0.3, 1), result);
   progress.finish();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   result.seconds.navigation += seconds;

@@ -42,10 +42,11 @@ Emptiness explain_region(const Region& region, const Solid& left, const std::str
   switch (region.kind) {
     case RegionKind::altitude:
       return explain_altitude(region, left, origin);
-    case RegionKind::boxes:
-      return {(region.name == "boxes" ? "no box meets " : region.name + " does not meet ") + left_name +
-                  span_text(left, origin),
+    case RegionKind::box:
+      return {region.name + " does not meet " + left_name + span_text(left, origin),
               "move or enlarge a box so that it overlaps this"};
+    case RegionKind::boxes:
+      return {"no box meets " + left_name + span_text(left, origin), "move or enlarge a box so that it overlaps this"};
     case RegionKind::mesh:
       return {region.name + " does not meet " + left_name + span_text(left, origin),
               "check its place and its axes: the scene frame, metres, z up"};

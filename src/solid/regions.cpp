@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/causes.h"
 #include "core/text.h"
 #include "solid/numerics.h"
 
@@ -33,10 +34,11 @@ using SideCauses = std::array<std::uint32_t, 6>;
 
 class Builder {
  public:
-  Builder(const std::vector<Cause>& volume_causes, const Box& bounds) : bounds_(bounds) {
+  Builder(const std::vector<Cause>& volume_causes, const std::vector<FacetSource>& volume_sources, const Box& bounds)
+      : bounds_(bounds) {
     result_.origin = local_origin(bounds);
     result_.causes = volume_causes;
-    for (std::uint32_t i = 0; i < volume_causes.size(); ++i) result_.surfaces.push_back({i});
+    result_.sources = volume_sources;
     const Vec3 overshoot = Vec3::Constant(numerics::kOvershoot * (bounds.max - bounds.min).norm());
     outer_ = {bounds.min - overshoot, bounds.max + overshoot};
   }
@@ -53,9 +55,9 @@ class Builder {
     result_.causes.push_back({CauseKind::navigation, name});
     return static_cast<std::uint32_t>(result_.causes.size() - 1);
   }
-  std::uint32_t add_surface(const Surface& surface) {
-    result_.surfaces.push_back(surface);
-    return static_cast<std::uint32_t>(result_.surfaces.size() - 1);
+  std::uint32_t add_source(const FacetSource& source) {
+    result_.sources.push_back(source);
+    return static_cast<std::uint32_t>(result_.sources.size() - 1);
   }
   Solid make_side_labelled_box(const Box& box, const SideCauses& causes);
   Solid make_box_of_one_cause(const Box& box, const std::string& name);
@@ -68,8 +70,8 @@ class Builder {
 Solid Builder::make_side_labelled_box(const Box& box, const SideCauses& causes) {
   BoxLabels labels;
   for (unsigned axis = 0; axis < 3; ++axis) {
-    labels.min[axis] = add_surface({causes[axis], axis, box.min[axis]});
-    labels.max[axis] = add_surface({causes[axis + 3], axis, box.max[axis]});
+    labels.min[axis] = add_source({causes[axis], axis, box.min[axis]});
+    labels.max[axis] = add_source({causes[axis + 3], axis, box.max[axis]});
   }
   const Box near{box.min.cwiseMax(outer_.min) - result_.origin, box.max.cwiseMin(outer_.max) - result_.origin};
   // A box thinner than the last digit of a large coordinate.
@@ -110,12 +112,13 @@ void Builder::add_boxes(const std::vector<Box>& boxes) {
       solids.push_back(make_box_of_one_cause(boxes[i], std::string("box ").append(std::to_string(i))));
     }
   }
-  result_.kept.push_back({RegionKind::boxes, boxes.size() == 1 ? "box 0" : "boxes", unite(solids)});
+  const bool is_one = boxes.size() == 1;
+  result_.kept.push_back({is_one ? RegionKind::box : RegionKind::boxes, is_one ? "box 0" : "boxes", unite(solids)});
 }
 
 void Builder::add_mesh(const Mesh& mesh, const std::string& name) {
   const std::string full_name = std::string("mesh ").append(name);
-  const std::uint32_t label = add_surface({add_cause(full_name)});
+  const std::uint32_t label = add_source({add_cause(full_name)});
   std::vector<std::uint32_t> labels(mesh.triangles.size(), label);
   result_.kept.push_back({RegionKind::mesh, std::string("the ").append(full_name),
                           Solid(moved_to_origin(mesh, std::move(labels), result_.origin), name)});
@@ -135,9 +138,36 @@ LabelledMesh moved_to_origin(const Mesh& mesh, std::vector<std::uint32_t> labels
   return result;
 }
 
-Regions make_regions(const std::vector<Cause>& volume_causes, const Box& bounds, const Navigation& navigation,
-                     const std::vector<Mesh>& meshes) {
-  Builder builder(volume_causes, bounds);
+std::vector<std::uint32_t> FacetSourceList::add(const Volume& volume, const std::vector<std::uint32_t>& cause) {
+  std::vector<std::uint32_t> labels;
+  labels.reserve(volume.cause_of.size());
+  for (std::size_t t = 0; t < volume.cause_of.size(); ++t) {
+    const FacetSource source{.cause = cause[volume.cause_of[t]],
+                             .polygon = volume.polygon_of.empty() ? kNoPolygon : volume.polygon_of[t]};
+    const auto next = static_cast<std::uint32_t>(sources_.size());
+    const auto [entry, is_new] = index_.try_emplace({source.cause, source.polygon}, next);
+    if (is_new) sources_.push_back(source);
+    labels.push_back(entry->second);
+  }
+  return labels;
+}
+
+void set_mesh(LabelledMesh labelled, const std::vector<FacetSource>& sources, std::vector<Cause> causes,
+              Volume& volume) {
+  volume.cause_of.clear();
+  volume.polygon_of.clear();
+  for (const std::uint32_t label : labelled.labels) {
+    volume.cause_of.push_back(sources[label].cause);
+    volume.polygon_of.push_back(sources[label].polygon);
+  }
+  volume.mesh = std::move(labelled.mesh);
+  volume.causes = std::move(causes);
+  core::compact_causes(volume.mesh, volume.cause_of, volume.causes);
+}
+
+Regions make_regions(const std::vector<Cause>& volume_causes, const std::vector<FacetSource>& volume_sources,
+                     const Box& bounds, const Navigation& navigation, const std::vector<Mesh>& meshes) {
+  Builder builder(volume_causes, volume_sources, bounds);
   if (navigation.altitude) builder.add_altitude(*navigation.altitude);
   builder.add_boxes(navigation.keep_in);
   for (std::size_t i = 0; i < meshes.size(); ++i) builder.add_mesh(meshes[i], navigation.meshes[i].name);

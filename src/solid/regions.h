@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "solid/csg.h"
@@ -11,14 +13,33 @@
 
 namespace vantage::internal::solid {
 
-/// What a label stands for: a cause and, for a side of a box, the plane that its facets must lie in.
-struct Surface {
+/// What a label stands for: a cause with the polygon of the scene, or a side of a box, in whose plane its facets must
+/// lie.
+struct FacetSource {
   std::uint32_t cause = 0;
   std::optional<Eigen::Index> axis = std::nullopt;
   double at = 0;  ///< scene frame
+  std::uint32_t polygon = kNoPolygon;
 };
 
-enum class RegionKind { altitude, boxes, mesh, keep_out };
+/// What the facets of volumes are due to, each pair of cause and polygon once.
+class FacetSourceList {
+ public:
+  /// Labels for the triangles of a volume. `cause`: its number for each of the volume's causes.
+  std::vector<std::uint32_t> add(const Volume& volume, const std::vector<std::uint32_t>& cause);
+
+  const std::vector<FacetSource>& sources() const { return sources_; }
+
+ private:
+  std::vector<FacetSource> sources_;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> index_;
+};
+
+/// Gives the volume the mesh, and the causes and polygons that its labels stand for.
+void set_mesh(LabelledMesh labelled, const std::vector<FacetSource>& sources, std::vector<Cause> causes,
+              Volume& volume);
+
+enum class RegionKind { altitude, box, boxes, mesh, keep_out };
 
 /// Space to stay in or out of. All boxes to stay in are one region, since the volume is cut to their union.
 struct Region {
@@ -29,17 +50,17 @@ struct Region {
 };
 
 struct Regions {
-  Vec3 origin = Vec3::Zero();     ///< scene frame; the solids are relative to it
-  std::vector<Cause> causes;      ///< those of the volume, then those of the limits
-  std::vector<Surface> surfaces;  ///< by label; the first ones are the volume's causes in order
-  std::vector<Region> kept;       ///< the volume is cut to each
-  std::vector<Region> forbidden;  ///< each is taken away
+  Vec3 origin = Vec3::Zero();        ///< scene frame; the solids are relative to it
+  std::vector<Cause> causes;         ///< those of the volume, then those of the limits
+  std::vector<FacetSource> sources;  ///< by label; the first ones are the volume's
+  std::vector<Region> kept;          ///< the volume is cut to each
+  std::vector<Region> forbidden;     ///< each is taken away
 };
 
 /// Leaves out every limit that a volume with these bounds keeps anyway. `meshes` are the navigation's, checked and
 /// welded. Boxes are clipped a little outside the bounds, where that changes nothing, to keep coordinates small.
-Regions make_regions(const std::vector<Cause>& volume_causes, const Box& bounds, const Navigation& navigation,
-                     const std::vector<Mesh>& meshes);
+Regions make_regions(const std::vector<Cause>& volume_causes, const std::vector<FacetSource>& volume_sources,
+                     const Box& bounds, const Navigation& navigation, const std::vector<Mesh>& meshes);
 
 /// The mesh with its vertices relative to `origin`.
 LabelledMesh moved_to_origin(const Mesh& mesh, std::vector<std::uint32_t> labels, const Vec3& origin);
