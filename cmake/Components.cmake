@@ -19,7 +19,8 @@ function(vantage_component name)
   add_library(vantage_${name}_objects OBJECT ${sources})
   target_include_directories(vantage_${name}_objects PRIVATE ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/src)
   target_compile_features(vantage_${name}_objects PRIVATE cxx_std_20)
-  target_link_libraries(vantage_${name}_objects PRIVATE Eigen3::Eigen ${part_LINK} ${part_BUILD} vantage::options)
+  target_link_libraries(vantage_${name}_objects PRIVATE
+    Eigen3::Eigen fmt::fmt-header-only ${part_LINK} ${part_BUILD} vantage::options)
   target_precompile_headers(vantage_${name}_objects PRIVATE ${PROJECT_SOURCE_DIR}/src/precompiled.h)
   set_target_properties(vantage_${name}_objects PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
 
@@ -68,7 +69,7 @@ target_include_directories(vantage_helpers PRIVATE ${PROJECT_SOURCE_DIR}/include
 target_include_directories(vantage_helpers SYSTEM PRIVATE ${VANTAGE_PROJ_INCLUDE_DIRS})
 set_source_files_properties(${source}/geo/proj_library.cpp PROPERTIES COMPILE_DEFINITIONS
   "VANTAGE_PROJ_NAME=\"${VANTAGE_PROJ_NAME}\";VANTAGE_PROJ_FILE=\"${VANTAGE_PROJ_FILE}\"")
-target_link_libraries(vantage_helpers PRIVATE Eigen3::Eigen vantage::options)
+target_link_libraries(vantage_helpers PRIVATE Eigen3::Eigen fmt::fmt-header-only vantage::options)
 set_target_properties(vantage_helpers PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
 
 vantage_component(core

@@ -38,6 +38,7 @@ if(VANTAGE_THREADS STREQUAL tbb)
   set(VANTAGE_HAS_TBB ON)
 endif()
 find_package(nlohmann_json 3.11 REQUIRED)
+find_package(fmt 9.1 REQUIRED)  # the headers alone: no library is linked
 find_package(ZLIB REQUIRED)
 if(VANTAGE_WITH_APP)
   find_package(yaml-cpp REQUIRED)

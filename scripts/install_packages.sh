@@ -12,7 +12,7 @@ packages=(
   # scripts/fetch_sources.sh
   python3 python3-pip ca-certificates
   # libraries
-  libeigen3-dev libtbb-dev libyaml-cpp-dev libcli11-dev nlohmann-json3-dev zlib1g-dev libembree-dev
+  libeigen3-dev libtbb-dev libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libfmt-dev zlib1g-dev libembree-dev
   # rendering: headers only, the libraries themselves are loaded when there are any; and Mesa, which needs no GPU
   libegl-dev libgl-dev libegl1 libgl1-mesa-dri
   # pictures

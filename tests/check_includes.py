@@ -58,8 +58,8 @@ MODULES = {
                        "maps/osm", "maps/terrain", "maps/city"],
     "cli": [],  # the program stands on the public API
 }
-# The check shares no geometry code with what it checks: of the core it has threads and progress alone.
-VERIFY_HEADERS = ["core/parallel.h", "core/progress_reporter.h"]
+# The check shares no geometry code with what it checks: of the core it has threads, progress and text alone.
+VERIFY_HEADERS = ["core/format.h", "core/parallel.h", "core/progress_reporter.h"]
 
 # Paths are relative to the root, with forward slashes; headers as written between the quotes.
 RULES = [
@@ -77,6 +77,9 @@ RULES = [
     OnlyIn(r"CLI/", r"src/cli/", "only src/cli sees CLI11"),
     OnlyIn(r"yaml-cpp/", r"src/app/", "only src/app sees yaml-cpp"),
     OnlyIn(r"zlib\.h", r"src/io/", "only src/io sees zlib"),
+    OnlyIn(r"fmt/", r"src/(core/format\.h|cli/text_table\.cpp)",
+           "only src/core/format.h, and src/cli/text_table.cpp, which may not include it, see libfmt"),
+    OnlyIn(r"core/format\.h", r".*\.cpp", "only source files include libfmt: it takes long to compile"),
     OnlyIn(r"nlohmann/", r"src/(io|app)/", "only src/io and src/app see nlohmann/json"),
     NotIn(r"src/verify/", rf"(?!(verify|vantage)/|({'|'.join(map(re.escape, VERIFY_HEADERS))})$)({'|'.join(MODULES)})/",
           "the check shares no geometry code with what it checks"),
@@ -147,6 +150,11 @@ CASES = [
     ("src/cli/main.cpp", "yaml-cpp/yaml.h", False),
     ("src/io/gzip.cpp", "zlib.h", True),
     ("src/app/report.cpp", "zlib.h", False),
+    ("src/core/format.h", "fmt/format.h", True),
+    ("src/cli/text_table.cpp", "fmt/format.h", True),
+    ("src/app/report.cpp", "fmt/format.h", False),
+    ("src/verify/verify.cpp", "core/format.h", True),
+    ("src/exact/engine.h", "core/format.h", False),
     ("src/app/report.cpp", "nlohmann/json.hpp", True),
     ("src/exact/engine.cpp", "nlohmann/json.hpp", False),
     ("src/verify/verify.cpp", "core/progress_reporter.h", True),

@@ -6,7 +6,6 @@
 #include <zlib.h>
 
 #include <algorithm>
-#include <clocale>
 #include <random>
 #include <set>
 
@@ -209,16 +208,6 @@ TEST(ReadScene, SurvivesMutations) {
   }
   EXPECT_GT(read, 1000);
   EXPECT_GT(refused, 1000);
-}
-
-TEST(ReadScene, ReadsNumbersTheSameInAnyLocale) {
-  const char* const with_comma[] = {"de_DE.UTF-8", "de_DE.utf8", "fr_FR.UTF-8", "fr_FR.utf8"};
-  const bool found = std::any_of(std::begin(with_comma), std::end(with_comma),
-                                 [](const char* name) { return std::setlocale(LC_NUMERIC, name) != nullptr; });
-  if (!found) GTEST_SKIP() << "no locale with a decimal comma is installed";
-  const io::RawMesh mesh = testing::read_as("a.obj", "v 0.5 1.5e-400 1.5e-320\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-  std::setlocale(LC_NUMERIC, "C");
-  EXPECT_EQ(mesh.vertices[0], Vec3(0.5, 0, 1.5e-320));
 }
 
 TEST(ReadScene, ReportsProgressAndCanBeCancelled) {

@@ -1,7 +1,6 @@
 #include <stdlib.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -10,6 +9,7 @@
 #include <system_error>
 #include <utility>
 
+#include "core/format.h"
 #include "vantage/atomic_file.h"
 #include "vantage/error.h"
 #include "vantage/input.h"
@@ -57,10 +57,8 @@ StageFile stage_of(const nlohmann::json& json, const fs::path& folder) {
 
 /// "007_pair_0-1.ply".
 std::string file_name(std::size_t order, std::string name) {
-  std::array<char, 32> number;
-  std::snprintf(number.data(), number.size(), "%03zu_", order);
   std::replace(name.begin(), name.end(), ' ', '_');
-  return number.data() + name + ".ply";
+  return internal::core::format("{:03}_{}.ply", order, name);
 }
 
 Json json_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }

@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <numbers>
 
 #include "app/scene_warnings.h"
+#include "core/format.h"
 #include "geo/local_frame.h"
 #include "geo/longitudes.h"
 #include "vantage/mission.h"
@@ -147,11 +147,10 @@ std::vector<Warning> mission_warnings(const Mission& mission, const Volume* volu
   const double across = (box.max - box.min).norm();
   if (mission.loaded.scene.georeference && !mission.target.is_point() && across < kTiny &&
       box.min.cwiseAbs().maxCoeff() <= kLargestDegree) {
-    char size[32];
-    std::snprintf(size, sizeof size, "%.2g", across * 1000);
     warnings.push_back({WarningCode::target_in_degrees,
-                        std::string("the target is ") + size +
-                            " mm across: if its vertices are longitudes and latitudes, say so with 'crs: EPSG:4326'"});
+                        internal::core::format("the target is {:.2g} mm across: if its vertices are longitudes and "
+                                               "latitudes, say so with 'crs: EPSG:4326'",
+                                               across * 1000)});
   }
   for (Warning& warning : internal::app::scene_warnings(mission, volume)) warnings.push_back(std::move(warning));
   return warnings;

@@ -1,9 +1,7 @@
 #include "cli/scene_report.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
-#include <cstdio>
 #include <map>
 #include <utility>
 #include <vector>
@@ -69,8 +67,7 @@ std::string scene_table(const LoadedScene& loaded, const std::filesystem::path& 
   TextTable table;
   table.heading(file.string());
   if (const auto& place = loaded.scene.georeference) {
-    char origin[96];
-    std::snprintf(origin, sizeof origin, "%.6f, %.6f", place->latitude_deg, place->longitude_deg);
+    const std::string origin = fixed(place->latitude_deg, 6) + ", " + fixed(place->longitude_deg, 6);
     table.row("origin", origin, "latitude, longitude; x east, y north, metres");
     if (!place->vertical.empty()) table.row("z from", place->vertical, "");
   }

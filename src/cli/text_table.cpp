@@ -1,8 +1,8 @@
 #include "cli/text_table.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <array>
-#include <cstdio>
 
 namespace vantage::cli {
 namespace {
@@ -18,9 +18,7 @@ std::size_t width(const std::string& text) {
 std::string count(std::size_t number) { return std::to_string(number); }
 
 std::string fixed(double value, int digits) {
-  std::array<char, 400> text;  // the longest double has 309 digits before the point
-  std::snprintf(text.data(), text.size(), "%.*f", std::clamp(digits, 0, 20), value);
-  const std::string shown = text.data();
+  const std::string shown = fmt::format("{:.{}f}", value, std::clamp(digits, 0, 20));
   // "-0.00" is a rounding's sign, not the number's.
   return shown.find_first_of("123456789") == std::string::npos && shown.front() == '-' ? shown.substr(1) : shown;
 }

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "core/format.h"
 #include "vantage/error.h"
 
 namespace vantage::internal::depth {
@@ -14,7 +15,7 @@ void check_request(const DepthRequest& request, const RenderDevice& device) {
   }
   if (!(request.range_m > 0)) {
     throw Error(ErrorCode::value_out_of_range, "the range of a depth image must be positive",
-                "range " + std::to_string(request.range_m), "give a range in metres");
+                core::format("range {:f}", request.range_m), "give a range in metres");
   }
   constexpr double kFarthest = 1e9;  // as for the vertices of a scene
   for (std::size_t i = 0; i < request.viewpoints.size(); ++i) {

@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "core/mend_welded.h"
-#include "core/number_text.h"
+#include "core/text.h"
 #include "core/parallel.h"
 #include "exact/half_space_volume.h"
 #include "target/lengths.h"

@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
-#include "core/number_text.h"
+#include "core/text.h"
 #include "vantage/error.h"
 
 namespace vantage::internal::exact {

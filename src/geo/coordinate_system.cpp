@@ -1,8 +1,8 @@
 #include <array>
 #include <cmath>
 #include <initializer_list>
-#include <sstream>
 
+#include "core/format.h"
 #include "geo/local_frame.h"
 #include "geo/proj_library.h"
 #include "vantage/error.h"
@@ -152,13 +152,10 @@ Eigen::Vector2d CoordinateSystem::Data::transform(const Eigen::Vector2d& from, P
   const PJ_COORD to = proj().proj_trans(to_wgs84.get(), direction, position);
   if (from.allFinite() && std::isfinite(to.xy.x) && std::isfinite(to.xy.y)) return {to.xy.x, to.xy.y};
   const int fault = proj().proj_errno(to_wgs84.get());
-  std::ostringstream problem;
-  problem.imbue(std::locale::classic());
-  problem.precision(12);
-  problem << "(" << from.x() << ", " << from.y() << ") has no counterpart "
-          << (direction == PJ_FWD ? "on the earth in " : "in ") << name;
-  if (fault) problem << ": " << proj().proj_context_errno_string(context.get(), fault);
-  throw Error(ErrorCode::too_far_away, problem.str(), where,
+  std::string problem = core::format("({:.12g}, {:.12g}) has no counterpart {}{}", from.x(), from.y(),
+                                     direction == PJ_FWD ? "on the earth in " : "in ", name);
+  if (fault) problem.append(": ").append(proj().proj_context_errno_string(context.get(), fault));
+  throw Error(ErrorCode::too_far_away, problem, where,
               "check the coordinates, their order (east before north, longitude before latitude) and their system");
 }
 

@@ -1,8 +1,9 @@
 #include "io/axes_text.h"
 
-#include <array>
 #include <charconv>
 #include <cmath>
+
+#include "vantage/input.h"
 
 namespace vantage::internal::io {
 namespace {
@@ -32,11 +33,9 @@ std::optional<Axes> parse(std::string_view text) {
 }  // namespace
 
 std::string axes_text(const Axes& axes) {
-  std::array<char, 32> number{};
-  const auto end = std::to_chars(number.begin(), number.end(), axes.unit_m).ptr;
   std::string text(kMark);
   text.append(axes.up == UpAxis::y ? "y" : "z").append(kUpAndUnit);
-  return text.append(number.begin(), end).append(kMetres);
+  return text.append(shortest(axes.unit_m)).append(kMetres);
 }
 
 void read_axes_comment(std::string_view comment, std::optional<Axes>& known) {

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/format.h"
 #include "io/cityjson_document.h"
 #include "io/cityjson_surfaces.h"
 #include "io/json_text.h"
@@ -37,7 +38,7 @@ const std::array<GeometryType, 5> kSurfaceTypes = {{{"MultiSurface", {"surface"}
 
 std::string lod_text(double lod) {
   if (lod == kNoLod) return "none";
-  std::string text = std::to_string(lod);  // "2.200000"
+  std::string text = core::format("{:f}", lod);  // "2.200000"
   text.erase(text.find_last_not_of('0') + 1);
   if (text.back() == '.') text.pop_back();
   return text;

@@ -2,9 +2,8 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
-#include <charconv>
 
+#include "core/format.h"
 #include "io/join_holes.h"
 
 namespace vantage::internal::io::cityjson {
@@ -18,11 +17,6 @@ using Ring = std::vector<std::uint32_t>;
 void drop_repeated_corners(Ring& ring) {
   ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
   while (ring.size() > 1 && ring.front() == ring.back()) ring.pop_back();
-}
-
-std::string two_decimals(double number) {
-  std::array<char, 64> text;
-  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), number, std::chars_format::fixed, 2).ptr};
 }
 
 }  // namespace
@@ -133,7 +127,7 @@ void SurfaceBuilder::add_notes(std::vector<std::string>& notes) const {
                     "shells of solids have surfaces that face the wrong way");
   inside_out_.note(notes, "shell of a solid is inside out", "shells of solids are inside out");
   not_flat_.note(notes, "surface is not flat to 1 cm,", "surfaces are not flat to 1 cm,",
-                 " a corner lies up to " + two_decimals(farthest_m_) + " m off");
+                 core::format(" a corner lies up to {:.2f} m off", farthest_m_));
   holes_outside_.note(notes, "hole lies outside its surface and is left out",
                       "holes lie outside their surfaces and are left out");
 }

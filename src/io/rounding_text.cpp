@@ -1,12 +1,12 @@
 #include "io/rounding_text.h"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "io/text_cursor.h"
+#include "vantage/input.h"
 
 namespace vantage::internal::io {
 namespace {
@@ -21,11 +21,7 @@ double checked(double rounding) {
 
 }  // namespace
 
-std::string rounding_text(double rounding_m) {
-  std::array<char, 32> number{};
-  const auto end = std::to_chars(number.begin(), number.end(), rounding_m).ptr;
-  return std::string(kMark).append(number.begin(), end);
-}
+std::string rounding_text(double rounding_m) { return std::string(kMark).append(shortest(rounding_m)); }
 
 void read_rounding_comment(std::string_view comment, std::optional<double>& known) {
   while (!comment.empty() && TextCursor::is_blank(comment.front())) comment.remove_prefix(1);

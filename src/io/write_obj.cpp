@@ -9,6 +9,7 @@
 #include "io/write_place.h"
 #include "io/writers.h"
 #include "vantage/error.h"
+#include "vantage/input.h"
 #include "vantage/version.h"
 
 namespace vantage::internal::io {
@@ -47,7 +48,7 @@ void check_obj_scale(const Volume& volume, double scale) {
   double largest = 0;
   for (const Vec3& vertex : volume.mesh.vertices) largest = std::max(largest, vertex.cwiseAbs().maxCoeff());
   if (scale > 0 && std::isfinite(scale) && std::isfinite(largest / scale)) return;
-  throw Error(ErrorCode::value_out_of_range, "the volume cannot be written in units of " + exact_text(scale) + " m",
+  throw Error(ErrorCode::value_out_of_range, "the volume cannot be written in units of " + shortest(scale) + " m",
               "scale", "give the length of the scene file's unit in metres");
 }
 
@@ -64,7 +65,7 @@ void write_obj(const Volume& volume, const StoredMesh& stored, UpAxis up, double
   for (const Vec3& vertex : vertices) {
     std::string line("v");
     for (const double coordinate : up == UpAxis::y ? to_y_up(vertex) : vertex) {
-      line.append(" ").append(exact_text(coordinate / scale));
+      line.append(" ").append(shortest(coordinate / scale));
     }
     file.write(line.append("\n"));
   }

@@ -5,6 +5,7 @@
 #include "io/volume_statement.h"
 #include "io/write_place.h"
 #include "io/writers.h"
+#include "vantage/input.h"
 #include "vantage/version.h"
 
 namespace vantage::internal::io {
@@ -17,7 +18,7 @@ void write_ply(const Volume& volume, const StoredMesh& stored, AtomicFile& file)
   header += "comment vantage " VANTAGE_VERSION " visibility volume: " + std::string(name_of(volume.outcome)) + "\n";
   header += "comment vantage frame: scene, metres, z up\n";
   header += place_comment(volume.georeference, "comment ");
-  header += "comment vantage tolerance_m " + exact_text(volume.tolerance_m) + "\n";
+  header += "comment vantage tolerance_m " + shortest(volume.tolerance_m) + "\n";
   header += "comment " + io::rounding_text(stored.rounding_m) + "\n";
   header += statement_comments(volume, stored.mesh, "comment ");
   for (std::size_t i = 0; i < volume.causes.size(); ++i) {

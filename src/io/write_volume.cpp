@@ -31,12 +31,6 @@ void append_exact(std::string& text, double number) {
   text.append(digits.data(), end);
 }
 
-std::string exact_text(double number) {
-  std::string text;
-  append_exact(text, number);
-  return text;
-}
-
 std::string one_line(std::string_view text) {
   std::string line(text);
   for (char& c : line) {

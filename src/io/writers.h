@@ -38,10 +38,7 @@ void check_count(std::uint64_t count, std::uint64_t limit, const char* what, con
 /// From the scene frame, z up, to axes with y up: (x, y, z) becomes (x, z, -y).
 inline Vec3 to_y_up(const Vec3& v) { return {v.x(), v.z(), -v.y()}; }
 
-/// The shortest text that reads back as the same number: at most 17 significant digits.
-std::string exact_text(double number);
-
-/// The same, at the end of `text`.
+/// Appends the shortest text that reads back as the same number: shortest(), without a string for each.
 void append_exact(std::string& text, double number);
 
 /// `text` on one line: control characters become spaces.

@@ -1,7 +1,7 @@
-#include <cstdio>
 #include <functional>
 #include <map>
 
+#include "core/format.h"
 #include "vantage/city.h"
 #include "vantage/error.h"
 
@@ -13,9 +13,8 @@ constexpr double kLowest = 0.05, kHighest = 700, kWidest = 200;  // metres, as o
 
 void check(double value, double least, double most, const std::string& name, const std::string& where) {
   if (value >= least && value <= most) return;
-  char text[128];
-  std::snprintf(text, sizeof text, "give a number from %g to %g", least, most);
-  throw Error(ErrorCode::value_out_of_range, std::string(name).append(" cannot be that"), where, text);
+  throw Error(ErrorCode::value_out_of_range, std::string(name).append(" cannot be that"), where,
+              internal::core::format("give a number from {:g} to {:g}", least, most));
 }
 
 /// The height of a kind that has sizes. One that is not in the table would never be looked up.

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 
+#include "core/format.h"
 #include "picture/canvas.h"
 #include "picture/draw_list.h"
 
@@ -25,18 +25,13 @@ constexpr double kBarRoom = 11, kLongBarRoom = 15.5;  // for it in the last row 
 double font_size(int width, int height) { return std::max(9.0, 25 * std::min(width / 1600.0, height / 1200.0)); }
 
 std::string percent(double share) {
-  std::array<char, 32> text{};
   if (share > 0 && share < 0.005) return "<\u20091\u2009%";
-  std::snprintf(text.data(), text.size(), "%.0f\u2009%%", 100 * share);
-  return text.data();
+  return core::format("{:.0f}\u2009%", 100 * share);
 }
 
 /// "200 m", "0.5 m", "2 km".
 std::string length_text(double metres) {
-  std::array<char, 32> text{};
-  const bool far = metres >= 1000;
-  std::snprintf(text.data(), text.size(), "%g\u2009%s", far ? metres / 1000 : metres, far ? "km" : "m");
-  return text.data();
+  return metres >= 1000 ? core::format("{:g}\u2009km", metres / 1000) : core::format("{:g}\u2009m", metres);
 }
 
 const char* label_of(CauseKind kind) {

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "core/number_text.h"
+#include "core/text.h"
 #include "core/progress_reporter.h"
 #include "options/spheres_options.h"
 #include "scene/prepared_data.h"
@@ -35,8 +35,7 @@ std::string point_name(const Target& target, const Vec3& place) {
     const double distance = (target.parts[0][i] - place).squaredNorm();
     if (distance < least) least = distance, nearest = i;
   }
-  return "vertex " + std::to_string(nearest) + " at (" + core::fixed_text(place.x(), 2) + ", " +
-         core::fixed_text(place.y(), 2) + ", " + core::fixed_text(place.z(), 2) + ")";
+  return "vertex " + std::to_string(nearest) + " at " + core::fixed_text(place, 2);
 }
 
 void set_blocked(const Target& target, const Vec3& place, double max_range, Volume& volume) {

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/number_text.h"
+#include "core/format.h"
 #include "target/column.h"
 #include "target/numerics.h"
 
@@ -130,15 +130,14 @@ std::optional<Warning> buried_note(const PreparedScene::Data& scene, const Targe
   const std::optional<Cover> cover = cover_over(scene, frame, lengths.lift);
   if (!cover) return std::nullopt;
   const int decimals = HeightStep(lengths).decimals;
-  std::string note = "nothing of the scene is below target \"" + target.name + "\", and \"" +
-                     display_name(scene.objects[cover->object]) + "\" is " + core::fixed_text(cover->height, decimals) +
-                     " m above it: if that is the ground, the target is under it; check the scene's up axis and scale";
+  std::string note = core::format(
+      "nothing of the scene is below target \"{}\", and \"{}\" is {:.{}f} m above it: if that is the ground, the "
+      "target is under it; check the scene's up axis and scale",
+      target.name, display_name(scene.objects[cover->object]), cover->height, decimals);
   const auto height = height_over_ground(scene, frame, lengths, cover->object);
   if (height && *height <= numerics::kMostRaise) {
-    note += ", or raise the target: ";
-    note += frame.all_sides ? "z = " + core::fixed_text(frame.origin.z() + *height, decimals)
-                            : "offset: " + core::fixed_text(target.offset_m + *height, decimals);
-    note += " clears it";
+    note += core::format(", or raise the target: {}{:.{}f} clears it", frame.all_sides ? "z = " : "offset: ",
+                         *height + (frame.all_sides ? frame.origin.z() : target.offset_m), decimals);
   }
   return Warning{WarningCode::target_underground, std::move(note)};
 }

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/number_text.h"
+#include "core/text.h"
 #include "vantage/error.h"
 
 namespace vantage::internal::target {

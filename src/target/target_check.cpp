@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/number_text.h"
+#include "core/format.h"
+#include "core/text.h"
 #include "target/buried.h"
 #include "target/column.h"
 #include "target/numerics.h"
@@ -12,11 +13,6 @@
 
 namespace vantage::internal::target {
 namespace {
-
-std::string describe(const Vec3& place, int decimals) {
-  return "(" + core::fixed_text(place.x(), decimals) + ", " + core::fixed_text(place.y(), decimals) + ", " +
-         core::fixed_text(place.z(), decimals) + ")";
-}
 
 // A point without a front may lie on a wall, of which the user alone knows the outer side.
 std::string advice_for_point(const PreparedScene::Data& scene, std::uint32_t polygon) {
@@ -26,13 +22,11 @@ std::string advice_for_point(const PreparedScene::Data& scene, std::uint32_t pol
   for (std::uint32_t k = begin + 1; k + 1 < end; ++k)
     normal += (corner(k) - corner(begin)).cross(corner(k + 1) - corner(begin));
   normal.normalize();
-  std::string text;
-  for (int axis = 0; axis < 3; ++axis) {
-    if (axis > 0) text += ", ";
-    text += core::fixed_text(std::round(normal[axis] * 1000) / 1000 + 0.0, 3);  // the sum keeps "-0.000" out
-  }
-  return "if the point lies on that surface, say which side is looked at: front: [" + text +
-         "] or its opposite; else move it off";
+  for (double& along : normal) along = std::round(along * 1000) / 1000 + 0.0;  // the sum keeps "-0.000" out
+  return core::format(
+      "if the point lies on that surface, say which side is looked at: front: [{:.3f}, {:.3f}, {:.3f}] or its "
+      "opposite; else move it off",
+      normal.x(), normal.y(), normal.z());
 }
 
 [[noreturn]] void refuse_pierced(const PreparedScene::Data& scene, const Target& target, const TargetFrame& frame,
@@ -41,14 +35,16 @@ std::string advice_for_point(const PreparedScene::Data& scene, std::uint32_t pol
   const std::string name = "\"" + display_name(scene.objects[object]) + "\"";
   const int decimals = HeightStep(lengths).decimals;
   std::string fix =
-      "move the target, or raise it: offset: " + core::fixed_text(target.offset_m + clear, decimals) + " clears it";
+      core::format("move the target, or raise it: offset: {:.{}f} clears it", target.offset_m + clear, decimals);
   if (clear > numerics::kMostRaise) {
-    fix = "move the target off it, or give a polygon that leaves it out: over the target nothing is clear for " +
-          core::fixed_text(clear, 0) + " m";
+    fix = core::format(
+        "move the target off it, or give a polygon that leaves it out: over the target nothing is clear for {:.0f} m",
+        clear);
   }
   if (frame.all_sides) fix = advice_for_point(scene, crossing.polygon);
   throw Error(ErrorCode::target_pierced, name + " stands on or passes through the target",
-              "target \"" + target.name + "\", at " + describe(frame.to_scene(crossing.place), decimals), fix, object);
+              "target \"" + target.name + "\", at " + core::fixed_text(frame.to_scene(crossing.place), decimals), fix,
+              object);
 }
 
 /// Finds how high polygons rise above the target's plane that hardly do.

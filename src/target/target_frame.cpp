@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "core/convex_corners.h"
-#include "core/number_text.h"
+#include "core/text.h"
 #include "target/enclosing_circle.h"
 #include "vantage/error.h"
 #include "vantage/target.h"

@@ -1,23 +1,13 @@
 #include "maps/city/ground.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <limits>
 
+#include "core/format.h"
 #include "maps/terrain/height_grid.h"
 #include "vantage/error.h"
 
 namespace vantage::internal::city {
-namespace {
-
-std::string with_digits(const char* format, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
-
-}  // namespace
-
 Ground Ground::plane(const Vec2& min, const Vec2& max) {
   Ground ground;
   ground.plane_.vertices = {{min.x(), min.y(), 0}, {max.x(), min.y(), 0}, {max.x(), max.y(), 0}, {min.x(), max.y(), 0}};
@@ -36,9 +26,9 @@ Ground Ground::from_file(const std::filesystem::path& file, const geo::LocalFram
     notes.push_back(std::to_string(grid.voids) + " posts of " + name +
                     " had no height and were filled from their neighbours");
   }
-  notes.push_back("the ground is " + std::to_string(triangulation.surface.mesh().triangles.size()) + " triangles for " +
-                  std::to_string(triangulation.posts) + " posts of " + name + ", off by at most " +
-                  with_digits("%.2f", triangulation.largest_error_m) + " m");
+  notes.push_back(core::format("the ground is {} triangles for {} posts of {}, off by at most {:.2f} m",
+                               triangulation.surface.mesh().triangles.size(), triangulation.posts, name,
+                               triangulation.largest_error_m));
   Ground ground;
   ground.surface_ = std::move(triangulation.surface);
   ground.vertical_ = grid.vertical.empty() ? "as in " + name : grid.vertical;

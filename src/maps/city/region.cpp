@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <map>
 #include <string>
 #include <utility>
 
+#include "core/format.h"
 #include "geo/longitudes.h"
 #include "vantage/error.h"
 
@@ -19,16 +19,8 @@ using Bounds = std::array<double, 4>;  // west, south, east, north
 
 constexpr double kMostRadius = 50e3;  // metres: beyond it the frame's distances are no longer good to a decimetre
 
-std::string formatted(const char* format, double a, double b) {
-  char text[96];
-  std::snprintf(text, sizeof text, format, a, b);
-  return text;
-}
-
 std::string bounds_text(const Bounds& b) {
-  char text[160];
-  std::snprintf(text, sizeof text, "latitude %.5f to %.5f, longitude %.5f to %.5f", b[1], b[3], b[0], b[2]);
-  return text;
+  return core::format("latitude {:.5f} to {:.5f}, longitude {:.5f} to {:.5f}", b[1], b[3], b[0], b[2]);
 }
 
 /// "underground (2), outline without an area (1)": the three commonest, and how many other reasons there are.
@@ -94,14 +86,14 @@ std::optional<osm::Region> checked_circle(const CityRegion& region) {
   const auto [latitude, longitude] = *region.center_deg;
   if (!(std::abs(latitude) <= 90) || !(std::abs(longitude) <= 180)) {
     const bool is_swapped = std::abs(longitude) <= 90 && std::abs(latitude) <= 180;
-    fail(ErrorCode::not_on_earth, formatted("there is no place at latitude %g, longitude %g", latitude, longitude),
-         "center",
-         is_swapped ? "write the latitude first: " + formatted("%g,%g", longitude, latitude)
+    fail(ErrorCode::not_on_earth,
+         core::format("there is no place at latitude {:g}, longitude {:g}", latitude, longitude), "center",
+         is_swapped ? "write the latitude first: " + core::format("{:g},{:g}", longitude, latitude)
                     : "give degrees: the latitude from -90 to 90, then the longitude from -180 to 180");
   }
   if (!(region.radius_m > 0) || !(region.radius_m <= kMostRadius)) {
-    fail(ErrorCode::region_invalid, "a radius of " + formatted("%g m", region.radius_m, 0) + " is not one to build",
-         "radius", "give metres, more than 0 and at most 50000");
+    fail(ErrorCode::region_invalid, core::format("a radius of {:g} m is not one to build", region.radius_m), "radius",
+         "give metres, more than 0 and at most 50000");
   }
   return osm::Region{{{LonLat{longitude, latitude}, region.radius_m}}, {}};
 }
@@ -121,7 +113,7 @@ std::optional<osm::Region> checked_box(const Bounds& b) {
                            : longitudes(b).width_deg() * std::cos((b[1] + b[3]) / 2 * M_PI / 180);
   const double across = std::max(b[3] - b[1], width) * 111.0;
   if (across > 2 * kMostRadius / 1e3) {
-    fail(ErrorCode::region_invalid, "the box is " + formatted("%.0f km across", across, 0), "bbox",
+    fail(ErrorCode::region_invalid, core::format("the box is {:.0f} km across", across), "bbox",
          "give one of at most 100 km");
   }
   return osm::Region{{}, b};
@@ -194,9 +186,10 @@ void check_overlap(const CityRegion& region, const osm::Extract& extract, const 
     const auto [latitude, longitude] = *region.center_deg;
     if (overlap(box_round(*region.center_deg, region.radius_m), known)) return;
     fail(ErrorCode::region_outside,
-         formatted("the centre, latitude %g, longitude %g, lies outside the map", latitude, longitude), file.string(),
+         core::format("the centre, latitude {:g}, longitude {:g}, lies outside the map", latitude, longitude),
+         file.string(),
          holds(known, longitude, latitude)
-             ? "latitude and longitude are the wrong way round: write " + formatted("%g,%g", longitude, latitude)
+             ? "latitude and longitude are the wrong way round: write " + core::format("{:g},{:g}", longitude, latitude)
              : "the map holds " + bounds_text(known));
   }
   if (region.bbox_deg && !overlap(*region.bbox_deg, known)) {
@@ -227,7 +220,7 @@ void fail_empty(const CityRegion& region, const osm::Extract& extract, const Out
   }
   fail(ErrorCode::region_empty, "there is nothing to build in the area", file.string(),
        "the nearest of " + std::to_string(outside.objects) + " objects is " +
-           formatted("%.0f m", outside.nearest_m, 0) +
+           core::format("{:.0f} m", outside.nearest_m) +
            (region.center_deg ? " from the centre: give a larger radius, or another centre"
                               : " from the box: give a larger box") +
            "; the map holds " + bounds_text(extract.bounds_deg) +

@@ -3,11 +3,11 @@
 #include "maps/city/site.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <limits>
 #include <map>
 #include <set>
 
+#include "core/format.h"
 #include "maps/city/structures.h"
 
 namespace vantage::internal::city {
@@ -162,9 +162,8 @@ class BuildingSorter {
     std::copy_if(parts.begin(), parts.end(), std::back_inserter(grounded),
                  [&](std::size_t part) { return form_of(structures_[part]).bottom_m <= 0; });
     std::vector<Footprint> rest = uncovered(building, structures_, grounded);
-    char text[96];
-    std::snprintf(text, sizeof text, "its parts cover %.0f %% of it", 100 * share);
-    record.remarks.push_back({text, "its parts cover some of it"});
+    record.remarks.push_back(
+        {core::format("its parts cover {:.0f} % of it", 100 * share), "its parts cover some of it"});
     record.fate = Fate::repaired;
     record.reason = "parts leave some of it open: that is built by its own tags";
     add(building, std::move(record), std::move(rest));

@@ -8,13 +8,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <osmium/area/assembler.hpp>
 #include <osmium/area/problem_reporter.hpp>
 #include <osmium/builder/osm_object_builder.hpp>
 #include <osmium/osm/area.hpp>
 #include <utility>
 
+#include "core/format.h"
 #include "maps/osm/assembly_plane.h"
 #include "maps/osm/map_objects.h"
 
@@ -22,9 +22,7 @@ namespace vantage::internal::osm {
 namespace {
 
 std::string place_text(LonLat position) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%.7f, %.7f", position.longitude_deg, position.latitude_deg);
-  return text;
+  return core::format("{:.7f}, {:.7f}", position.longitude_deg, position.latitude_deg);
 }
 
 /// Collects what the assembler complains of: how often, and where first.

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
+#include "core/format.h"
 #include "core/progress_reporter.h"
 #include "maps/osm/area_assembler.h"
 #include "maps/osm/map_file.h"
@@ -20,12 +20,6 @@ namespace vantage::internal::osm {
 namespace {
 
 using Kind = Problem::Kind;
-
-std::string metres_text(double metres) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f m", metres);
-  return text;
-}
 
 class ExtractBuilder {
  public:
@@ -139,8 +133,8 @@ class ExtractBuilder {
       if (kept.closed) {
         problem.add(Kind::broken_multipolygon, assembly.problem + "; taken as it is drawn");
       } else {
-        problem.add(Kind::open_outline, "it is not closed; a straight side of " +
-                                            metres_text(distance_m(ring.front(), ring.back())) + " closes it");
+        problem.add(Kind::open_outline, core::format("it is not closed; a straight side of {:.1f} m closes it",
+                                                     distance_m(ring.front(), ring.back())));
       }
     }
     extract_.areas.push_back({{ObjectType::way, way.id()}, tags, std::move(assembly.polygons)});

@@ -7,9 +7,9 @@
 #include <cstddef>
 #include <functional>
 #include <limits>
-#include <sstream>
 #include <utility>
 
+#include "core/format.h"
 #include "core/progress_reporter.h"
 #include "maps/terrain/fill_voids.h"
 #include "maps/terrain/raster_file.h"
@@ -58,12 +58,8 @@ std::string bounds_text(const std::vector<Eigen::Vector2d>& points, const ToPosi
     } catch (const Error&) {  // a corner beyond the projection: the others tell enough
     }
   }
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  text.precision(7);
-  text << "latitude " << latitude.low << " to " << latitude.high << ", longitude " << longitude.low << " to "
-       << longitude.high;
-  return text.str();
+  return core::format("latitude {:.7g} to {:.7g}, longitude {:.7g} to {:.7g}", latitude.low, latitude.high,
+                      longitude.low, longitude.high);
 }
 
 /// Whether the raster holds the window's origin with latitude and longitude the other way round.
