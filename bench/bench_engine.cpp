@@ -5,7 +5,6 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <functional>
 #include <optional>
@@ -14,6 +13,7 @@
 
 #include "core/parallel.h"
 #include "core/progress_reporter.h"
+#include "core/stopwatch.h"
 #include "support/cities.h"
 #include "support/internals.h"
 #include "support/memory.h"
@@ -66,10 +66,8 @@ void plain(State& state, const City& city, std::size_t index, double range, int 
   const solid::Solid region({open.mesh, open.cause_of}, "range region");
   solid::Solid result;
   for (auto _ : state) {
-    const auto start = std::chrono::steady_clock::now();
-    const Progress is_in_time = [&](std::string_view, double) {
-      return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() < kPlainSeconds;
-    };
+    const core::Stopwatch stopwatch;
+    const Progress is_in_time = [&](std::string_view, double) { return stopwatch.seconds() < kPlainSeconds; };
     try {
       parallel::with_threads(threads, [&] {
         result = plain_visibility(ready->scene, frame, region, range, core::ProgressReporter(is_in_time));

@@ -3,14 +3,15 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numbers>
 #include <random>
 #include <string>
 
+#include "core/stopwatch.h"
 #include "solid/csg.h"
 #include "solid/triangle_tree.h"
+#include "support/internals.h"
 #include "support/progress_check.h"
 #include "support/random.h"
 #include "support/shared_data.h"
@@ -273,9 +274,9 @@ TEST(HeavyCompare, BigMeshesThatShareMostFacets) {
     if (v.minCoeff() > 0) v *= 0.99;
   }
   ASSERT_GT(a.triangles.size(), 500000U);
-  const auto start = std::chrono::steady_clock::now();
+  const core::Stopwatch stopwatch;
   const Comparison c = compare_volumes(a, b);
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double seconds = stopwatch.seconds();
   std::cout << "seconds " << seconds << "\n";
   EXPECT_EQ(c.only_b_m3, 0);
   EXPECT_NEAR(c.only_a_m3, enclosed_volume(a) - enclosed_volume(b), 1e-3);

@@ -2,16 +2,17 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <functional>
 #include <string>
 #include <vector>
 
+#include "core/stopwatch.h"
 #include "depth/cpu_depth.h"
 #include "depth/device_list.h"
 #include "depth/gl_depth.h"
 #include "support/depth_probe.h"
+#include "support/internals.h"
 #include "support/random.h"
 #include "support/shared_data.h"
 
@@ -42,13 +43,13 @@ std::vector<Vec3> random_viewpoints(const PreparedScene& scene, Random& random, 
 std::vector<float> render_all(depth::DepthRenderer& renderer, const std::vector<Vec3>& viewpoints, int size,
                               Sampling sampling) {
   std::vector<float> all;
-  const auto begin = std::chrono::steady_clock::now();
+  const core::Stopwatch stopwatch;
   renderer.render({viewpoints, size, sampling, kRange}, [&](std::size_t, std::span<const float> image) {
     all.insert(all.end(), image.begin(), image.end());
   });
-  const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
+  const double took_ms = stopwatch.seconds() * 1000;
   std::cout << "  " << renderer.device().name << ", " << viewpoints.size() << " cube maps of " << size
-            << " texels a side: " << took.count() << " ms\n";
+            << " texels a side: " << took_ms << " ms\n";
   return all;
 }
 

@@ -1,13 +1,14 @@
 // The three targets of charlotte/baseline.json: brute-force reference volumes, and the plain union of blockers.
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cstdio>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "core/stopwatch.h"
 #include "support/blocker_solids.h"
+#include "support/internals.h"
 #include "support/scenes.h"
 #include "support/shared_data.h"
 #include "vantage/scene.h"
@@ -73,9 +74,9 @@ TEST(HeavyCharlotte, EqualsThePlainUnionOfBlockers) {
     Volume region = compute_visibility(PreparedTarget(PreparedScene{Scene{}}, target, {100}), {1.0, 0});
     region.frame = volume.frame;
     for (Vec3& v : region.mesh.vertices) v = volume.frame.origin + 0.998 * (v - volume.frame.origin);
-    const auto start = std::chrono::steady_clock::now();
+    const core::Stopwatch stopwatch;
     const testing::Comparison c = testing::compare_with_union(scene, volume, testing::local_solid(region));
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const double seconds = stopwatch.seconds();
     EXPECT_LT(c.error(), 1e-6) << target.name;
     EXPECT_GT(c.blockers, 100u);
     std::printf("%s: %.3f m3 by the union of %zu blockers, %.2g m3 missing, %.2g m3 too much; %.1f s\n",

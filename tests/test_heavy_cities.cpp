@@ -7,7 +7,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -17,7 +16,9 @@
 #include <string>
 #include <vector>
 
+#include "core/stopwatch.h"
 #include "support/aimed_check.h"
+#include "support/internals.h"
 #include "support/random.h"
 #include "support/scenes.h"
 #include "support/shared_data.h"
@@ -230,7 +231,7 @@ class HeavyCities : public ::testing::TestWithParam<City> {
 TEST_P(HeavyCities, NothingIsOverClaimed) {
   const City& city = GetParam();
   VANTAGE_REQUIRE_SHARED(city.file);
-  const auto start = std::chrono::steady_clock::now();
+  const core::Stopwatch stopwatch;
   const Scene scene = read_scene(shared_data(city.file), {.up = city.up});
   const PreparedScene prepared(scene);
   Random random(1000 + city.index);
@@ -251,7 +252,7 @@ TEST_P(HeavyCities, NothingIsOverClaimed) {
                   target.parts[0].size(), 2 * volume.frame.enclosing_radius_m, sensor.max_range_m);
     check(scene, target, sensor, volume, what);
   }
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double seconds = stopwatch.seconds();
   std::printf(
       "%s: %zu targets, %zu points, %zu inside, %zu rays; over-claimed %zu (worst %.3g m), under-claimed %zu (worst "
       "%.3g "

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <chrono>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -13,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "core/stopwatch.h"
 #include "support/osm_maps.h"
 #include "support/shared_data.h"
 
@@ -278,9 +278,9 @@ TEST(HeavyOsmRealMaps, ASmallPartIsReadFaster) {
   const auto fastest = [&map](const ReadOptions& options, std::size_t& areas) {
     double best = HUGE_VAL;
     for (int i = 0; i < 3; ++i) {
-      const auto start = std::chrono::steady_clock::now();
+      const core::Stopwatch stopwatch;
       areas = read_extract(map, options).areas.size();
-      best = std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+      best = std::min(best, stopwatch.seconds());
     }
     return best;
   };

@@ -1,15 +1,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <string>
 
+#include "core/stopwatch.h"
 #include "geo/local_frame.h"
 #include "maps/terrain/height_grid.h"
 #include "maps/terrain/surface.h"
+#include "support/internals.h"
 #include "support/objects.h"
 #include "support/raster_writer.h"
 #include "support/shared_data.h"
@@ -176,12 +177,12 @@ TEST(RasterScene, SurfaceOfDelft) {
     for (const double error_m : {0.0, 0.25, 1.0}) {
       RasterOptions options;
       options.max_error_m = error_m;
-      const auto start = std::chrono::steady_clock::now();
+      const core::Stopwatch stopwatch;
       const RasterScene result = scene_from_raster(testing::shared_data(file), options);
-      const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+      const double seconds = stopwatch.seconds();
       std::cout << file << ", " << error_m << " m: " << result.report.columns << " x " << result.report.rows
                 << " posts, " << result.report.voids << " voids, " << result.scene.mesh.triangles.size()
-                << " triangles, largest error " << result.report.largest_error_m << " m, " << seconds.count() << " s\n";
+                << " triangles, largest error " << result.report.largest_error_m << " m, " << seconds << " s\n";
       EXPECT_LE(result.report.largest_error_m, error_m + 1e-6);
       const Box box = bounding_box(result.scene.mesh);
       const double spacing = std::string(file) == "dsm/dsm.tif" ? 1 : 0.5;

@@ -2,12 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <string>
 #include <vector>
 
+#include "core/stopwatch.h"
 #include "maps/terrain/post_positions.h"
 #include "maps/terrain/surface.h"
 #include "support/random.h"
@@ -281,23 +281,18 @@ TEST(Triangulate, RefusesWhatMakesNoTerrain) {
   }
 }
 
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
 TEST(Triangulate, MonacoOnTheShuttlesHeights) {
   VANTAGE_REQUIRE_SHARED("osm-terrain/N43E007.hgt.zip");
   const geo::LonLat monaco{7.42, 43.735};
   const Vec2 half(1000, 1000);
-  auto start = std::chrono::steady_clock::now();
+  core::Stopwatch stopwatch;
   const HeightGrid grid =
       read_height_grid(testing::shared_data("osm-terrain/N43E007.hgt.zip"), Window{monaco, -half, half});
-  const double read_s = seconds_since(start);
-  start = std::chrono::steady_clock::now();
+  const double read_s = stopwatch.lap();
   const Triangulation result = triangulate(grid, geo::LocalFrame(monaco), -half, half, 0.5);
   std::cout << "2 x 2 km: " << result.posts << " posts, " << grid.voids << " voids, "
             << result.surface.mesh().triangles.size() << " triangles, largest error " << result.largest_error_m
-            << " m; read in " << read_s << " s, triangulated in " << seconds_since(start) << " s\n";
+            << " m; read in " << read_s << " s, triangulated in " << stopwatch.lap() << " s\n";
   expect_tiling(result.surface.mesh(), -half, half);
   EXPECT_LE(result.largest_error_m, 0.5 + 1e-3);
   EXPECT_LT(result.surface.mesh().triangles.size(), 2 * result.posts);
@@ -323,10 +318,10 @@ TEST(HeavyTriangulate, AMillionPostsInSeconds) {
   const geo::LonLat origin{7.5, 43.5};
   const Vec2 half(39000, 50000);
   for (const double error_m : {20.0, 5.0, 1.0}) {
-    const auto start = std::chrono::steady_clock::now();
+    const core::Stopwatch stopwatch;
     const Triangulation result = triangulate(grid, geo::LocalFrame(origin), -half, half, error_m);
     std::cout << result.posts << " posts, " << error_m << " m: " << result.surface.mesh().triangles.size()
-              << " triangles, largest error " << result.largest_error_m << " m, " << seconds_since(start) << " s\n";
+              << " triangles, largest error " << result.largest_error_m << " m, " << stopwatch.seconds() << " s\n";
     EXPECT_LE(result.largest_error_m, error_m * 1.01);
   }
 }

@@ -6,13 +6,13 @@
 // with a fixed seed (support/street_targets.h). The splits go up: a case that no further split can change is not
 // computed again, its figures are repeated.
 #include <CLI/CLI.hpp>
-#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
 
+#include "core/stopwatch.h"
 #include "solid/csg.h"
 #include "support/cities.h"
 #include "support/internals.h"
@@ -63,10 +63,10 @@ struct Outcome {
 
 Outcome run_case(const solid::Solid& exact, const Vec3& origin, const PreparedScene& scene, const Target& target,
                  double range, const SpheresOptions& options) {
-  const auto start = std::chrono::steady_clock::now();
+  const core::Stopwatch stopwatch;
   SpheresReport report;
   const Volume volume = compute_visibility_spheres(PreparedTarget(scene, target, {range}), options, &report);
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double seconds = stopwatch.seconds();
   const solid::Solid claimed = volume.mesh.empty() ? solid::Solid() : solid_of(volume, origin);
   const double both = solid::intersect(claimed, exact).volume();
   // With max_splits 0 no pair is tested, and nothing is known of them.

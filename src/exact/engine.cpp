@@ -1,12 +1,12 @@
 // compute_visibility: one prepared target, and how it ended.
 #include <Eigen/Geometry>
-#include <chrono>
 #include <cmath>
 #include <numeric>
 
 #include "core/mend_welded.h"
-#include "core/text.h"
 #include "core/parallel.h"
+#include "core/stopwatch.h"
+#include "core/text.h"
 #include "exact/half_space_volume.h"
 #include "target/lengths.h"
 #include "target/prepared_target_data.h"
@@ -19,9 +19,6 @@ namespace vantage {
 namespace {
 
 using namespace internal::exact;
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 void check(const PreparedTarget& target, const ExactOptions& options) {
   if (!(options.tolerance_m > 0) || !std::isfinite(options.tolerance_m)) {
@@ -91,7 +88,7 @@ void compute_point(const PreparedTarget& target, const ExactOptions& options,
 }  // namespace
 
 Volume compute_visibility(const PreparedTarget& target, const ExactOptions& options, const Progress& callback) {
-  const auto start = Clock::now();
+  const internal::core::Stopwatch stopwatch;
   const internal::core::ProgressReporter progress(callback);
   check(target, options);
   Volume volume;
@@ -104,7 +101,7 @@ Volume compute_visibility(const PreparedTarget& target, const ExactOptions& opti
   internal::parallel::with_threads(options.threads, [&] {
     (target.target().is_point() ? compute_point : compute_polygon)(target, options, progress, volume);
   });
-  volume.seconds.engine = volume.seconds.total = seconds_since(start);
+  volume.seconds.engine = volume.seconds.total = stopwatch.seconds();
   return volume;
 }
 

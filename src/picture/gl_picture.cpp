@@ -7,7 +7,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
@@ -15,6 +14,7 @@
 #include <ctime>
 #include <numbers>
 
+#include "core/stopwatch.h"
 #include "depth/gl_objects.h"
 #include "picture/coarse_triangles.h"
 #include "picture/gl_picture_shaders.h"
@@ -22,8 +22,6 @@
 
 namespace vantage::internal::picture {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr int kSky = 9, kSun = 2;  // lights of a frame, as in the shaders
 constexpr int kSkyMapSize = 512, kSunMapSize = 2048;
@@ -39,10 +37,10 @@ constexpr std::array<std::array<int, 2>, 8> kShifts = {
 constexpr int kFrames = static_cast<int>(kShifts.size());
 
 // Where the processor draws, whatever waits to be drawn must be done before a picture can be given up.
-constexpr GLsizei kPartVertices = 6 << 13;           // drawn at a time: whole triangles, and whole lines
-constexpr int kPartPixels = 1 << 18;                 // likewise, of passes over all pixels
-constexpr std::chrono::milliseconds kMostQueue{40};  // of work that is handed over before it is waited for
-constexpr GLuint64 kGlance = 10'000'000;             // nanoseconds
+constexpr GLsizei kPartVertices = 6 << 13;  // drawn at a time: whole triangles, and whole lines
+constexpr int kPartPixels = 1 << 18;        // likewise, of passes over all pixels
+constexpr double kMostQueueSeconds = 0.04;  // of work that is handed over before it is waited for
+constexpr GLuint64 kGlance = 10'000'000;    // nanoseconds
 
 /// As `Frame` in the shaders (std140).
 struct FrameBlock {
@@ -259,7 +257,7 @@ class Painter {
 
   void pace() {
     progress_.check();
-    if (Clock::now() - settled_ > kMostQueue) settle();
+    if (queued_.seconds() > kMostQueueSeconds) settle();
   }
 
   /// Waits until all is drawn.
@@ -275,7 +273,7 @@ class Painter {
       throw;
     }
     end();
-    settled_ = Clock::now();
+    queued_ = {};
   }
 
   void begin(GLuint target, bool with_depth) {
@@ -469,7 +467,7 @@ class Painter {
   Batch solids_, skylit_, volume_, target_, ground_lines_, creases_, lines_;
   int layers_ = kMostLayers;
   GLuint screen_ = 0, frame_block_ = 0, layer_query_ = 0;
-  Clock::time_point settled_ = Clock::now();
+  core::Stopwatch queued_;  ///< since all was drawn
 };
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include "solid/navigation.h"
 
 #include <Eigen/Geometry>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -14,6 +13,7 @@
 #include "core/mend_welded.h"
 #include "core/pieces.h"
 #include "core/progress_reporter.h"
+#include "core/stopwatch.h"
 #include "core/volume_check.h"
 #include "solid/clean.h"
 #include "solid/numerics.h"
@@ -94,7 +94,7 @@ void cut_volume(const Regions& regions, std::vector<std::uint32_t> labels, const
 namespace vantage {
 
 Volume cut_to_navigation(const Volume& volume, const Navigation& navigation, const Progress& callback) {
-  const auto start = std::chrono::steady_clock::now();
+  const internal::core::Stopwatch stopwatch;
   const internal::core::ProgressReporter progress(callback);
   progress.begin("navigation");
   const std::vector<Mesh> meshes = internal::solid::check_navigation(navigation, progress.part(0, 0.3));
@@ -112,7 +112,7 @@ Volume cut_to_navigation(const Volume& volume, const Navigation& navigation, con
   if (!regions.kept.empty() || !regions.forbidden.empty())
     internal::solid::cut_volume(regions, std::move(labels), progress.part(0.3, 1), result);
   progress.finish();
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double seconds = stopwatch.seconds();
   result.seconds.navigation += seconds;
   result.seconds.total += seconds;
   return result;

@@ -1,11 +1,11 @@
 #include "spheres/algorithm.h"
 
 #include <algorithm>
-#include <chrono>
 #include <string>
 #include <utility>
 
 #include "core/pieces.h"
+#include "core/stopwatch.h"
 #include "options/spheres_options.h"
 #include "spheres/numerics.h"
 #include "target/lengths.h"
@@ -13,15 +13,12 @@
 namespace vantage::internal::spheres {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using solid::LabelledMesh;
 using solid::Solid;
 
 /// Spheres of this many facets in all are made before their pairs are looked at: enough for a renderer to overlap its
 /// work, and few enough to hold them all.
 constexpr std::size_t kBatchFacets = 4'000'000;
-
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 /// A mesh without what is only rounding, and what it is made of.
 struct Shape {
@@ -92,12 +89,12 @@ class Run {
     std::vector<Vec3> places;
     for (const std::uint32_t i : which) places.push_back(points_[i].place);
     progress_.begin("making spheres");
-    auto start = Clock::now();
+    core::Stopwatch stopwatch;
     maker_.make(places, [&](std::size_t k, Sphere sphere) {
-      report_.render_seconds += seconds_since(start);
+      report_.render_seconds += stopwatch.lap();
       progress_.report(k, places.size());
       take_sphere(which[k], std::move(sphere));
-      start = Clock::now();
+      stopwatch.lap();  // taking it is no rendering
     });
   }
 
@@ -108,9 +105,9 @@ class Run {
     const bool sees_nothing = maker_.range_m() > 2 * near && sphere.reach_m < near;
     if (sees_nothing && !result_.blocked) result_.blocked = points_[point].place;
     if (result_.blocked) return;
-    const auto start = Clock::now();
+    const core::Stopwatch stopwatch;
     points_[point].sphere.emplace(sphere.mesh, "a visibility sphere");
-    report_.boolean_seconds += seconds_since(start);
+    report_.boolean_seconds += stopwatch.seconds();
     if (!stages_) return;
     const Shape shape = shape_of(std::move(sphere.mesh), 0);
     tell(SphereStage::Kind::sphere, "sphere " + std::to_string(point), {point}, &shape, sphere.seconds);
@@ -173,10 +170,10 @@ class Run {
     bool is_sphere = options_.split == SpheresOptions::Split::euler;
     std::optional<Solid> pair;
     if (must_test()) {
-      const auto start = Clock::now();
+      const core::Stopwatch stopwatch;
       pair = solid::intersect(*points_[edge.from].sphere, *points_[edge.to].sphere, still());
       const Shape shape = shape_of(*pair);
-      const double seconds = seconds_since(start);
+      const double seconds = stopwatch.seconds();
       report_.boolean_seconds += seconds;
       ++report_.pairs;
       tell(SphereStage::Kind::pair, "pair " + name_of(edge), {edge.from, edge.to}, &shape, seconds);
@@ -228,11 +225,11 @@ class Run {
 
   void intersect_waiting() {
     if (waiting_.empty()) return;
-    const auto start = Clock::now();
+    const core::Stopwatch stopwatch;
     if (partial_) waiting_.insert(waiting_.begin(), *partial_);
     partial_ = waiting_.size() == 1 ? waiting_.front() : solid::intersect(waiting_, still());
     waiting_.clear();
-    const double seconds = seconds_since(start);
+    const double seconds = stopwatch.seconds();
     report_.boolean_seconds += seconds;
     if (partial_->empty()) {
       is_empty_ = true;
@@ -244,10 +241,10 @@ class Run {
   void finish() {
     if (!is_empty_) intersect_waiting();
     if (is_empty_) return;
-    const auto start = Clock::now();
+    const core::Stopwatch stopwatch;
     Shape shape = shape_of(*partial_);
     if (shape.empty()) result_.unseen = {points_[last_].place, points_[last_].place};
-    const double seconds = seconds_since(start);
+    const double seconds = stopwatch.seconds();
     report_.boolean_seconds += seconds;
     tell(SphereStage::Kind::result, "result", {}, &shape, seconds);
     result_.mesh = std::move(shape.labelled);

@@ -1,22 +1,16 @@
 #include "spheres/sphere_maker.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numbers>
 #include <string>
 
+#include "core/stopwatch.h"
 #include "options/spheres_options.h"
 #include "spheres/sphere_mesh.h"
 #include "vantage/error.h"
 
 namespace vantage::internal::spheres {
-namespace {
-
-using Clock = std::chrono::steady_clock;
-
-}  // namespace
-
 double range_tolerance(const SpheresOptions& options, double range_m) {
   // Half the diagonal of the widest cell of directions.
   double half_diagonal = std::numbers::sqrt2 / options.cubemap;
@@ -64,14 +58,14 @@ void SphereMaker::make(const std::vector<Vec3>& points, const std::function<void
   placement.to_mesh.row(1) = frame_.axis_v;
   placement.to_mesh.row(2) = frame_.normal;
   placement.front_only = front_only_;
-  auto start = Clock::now();
+  core::Stopwatch stopwatch;
   renderer_.render(request, [&](std::size_t index, std::span<const float> inverse_depths) {
     const StarMesh star = tessellated(inverse_depths);
     placement.viewpoint = points[index];
     Sphere sphere{placed(star, placement), reach(star, placement), 0};
-    sphere.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    sphere.seconds = stopwatch.lap();
     sink(index, std::move(sphere));
-    start = Clock::now();
+    stopwatch.lap();  // what was done with it is not its time
   });
 }
 

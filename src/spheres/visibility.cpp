@@ -2,12 +2,12 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <chrono>
 #include <string>
 #include <utility>
 
-#include "core/text.h"
 #include "core/progress_reporter.h"
+#include "core/stopwatch.h"
+#include "core/text.h"
 #include "options/spheres_options.h"
 #include "scene/prepared_data.h"
 #include "spheres/algorithm.h"
@@ -23,7 +23,6 @@ namespace vantage::internal::spheres {
 namespace {
 
 using core::metres_text;
-using Clock = std::chrono::steady_clock;
 
 /// "vertex 2 at (10.00, 4.50, 0.00)" for a corner of the target as used, by the number that the user gave it; a
 /// midpoint of an edge has only its place.
@@ -105,7 +104,7 @@ void compute(const Target& target, const Sensor& sensor, const SpheresOptions& o
 Volume compute_visibility(const PreparedTarget& target, const SpheresOptions& options, depth::DepthRenderer& renderer,
                           SpheresReport* report, const StageSink& stages, const Progress& callback) {
   const core::ProgressReporter progress(callback);
-  const auto start = Clock::now();
+  const core::Stopwatch stopwatch;
   options::check_options(options);
   if (target.part_count() > 1) {
     throw Error(ErrorCode::target_of_parts, "the target has " + std::to_string(target.part_count()) + " parts",
@@ -130,7 +129,7 @@ Volume compute_visibility(const PreparedTarget& target, const SpheresOptions& op
     target::set_out_of_range(volume.frame, sensor, volume);
   }
   told.device = renderer.device();  // only now: it may have changed on the way
-  volume.seconds.engine = volume.seconds.total = std::chrono::duration<double>(Clock::now() - start).count();
+  volume.seconds.engine = volume.seconds.total = stopwatch.seconds();
   return volume;
 }
 

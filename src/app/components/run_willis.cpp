@@ -1,10 +1,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <utility>
 
 #include "app/places.h"
+#include "core/stopwatch.h"
 #include "core/volume_check.h"
 #include "depth/depth.h"
 #include "scene/viewpoint_check.h"
@@ -119,7 +119,7 @@ Volume finished(const WillisConfig& config, const WillisVolume& volume, SpheresO
 
 WillisResult compute(const WillisConfig& config, const WillisVolume& volume, const Box& bounds,
                      TurnedRenderer& renderer, SpheresOptions options, const Progress& progress) {
-  const auto start = std::chrono::steady_clock::now();
+  const internal::core::Stopwatch stopwatch;
   const Matrix axes = cube_axes(volume);
   const double radius = std::isfinite(volume.radius_max) ? volume.radius_max : farthest_corner(bounds, volume.origin);
   options.cubemap = volume.texels;
@@ -132,7 +132,7 @@ WillisResult compute(const WillisConfig& config, const WillisVolume& volume, con
   WillisResult result;
   result.volume = finished(config, volume, options.sphere, std::move(mesh), radius);
   result.measures = internal::core::measure_sound(result.volume.mesh);
-  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  result.seconds = stopwatch.seconds();
   return result;
 }
 

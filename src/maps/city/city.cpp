@@ -2,9 +2,9 @@
 #include "vantage/city.h"
 
 #include <algorithm>
-#include <chrono>
 #include <utility>
 
+#include "core/stopwatch.h"
 #include "maps/city/assembly.h"
 #include "maps/city/ground.h"
 #include "maps/city/region.h"
@@ -15,10 +15,6 @@
 
 namespace vantage {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 /// What of the file does not belong to one building.
 std::vector<std::string> notes_on(const internal::osm::Extract& extract) {
@@ -40,15 +36,14 @@ City build_city(const std::filesystem::path& file, const CityOptions& options, c
   const auto region = internal::city::checked_region(options.region);
   City result;
 
-  auto start = Clock::now();
+  internal::core::Stopwatch stopwatch;
   const internal::osm::Extract extract =
       internal::osm::read_extract(file, {internal::city::with_margin(region), internal::city::wanted}, progress);
   internal::city::check_overlap(options.region, extract, file);
   const internal::geo::LocalFrame frame(internal::city::frame_origin(options.region, extract));
   result.report.notes = notes_on(extract);
-  result.report.read_seconds = seconds_since(start);
+  result.report.read_seconds = stopwatch.lap();
 
-  start = Clock::now();
   internal::city::Site site = internal::city::make_site(extract, internal::osm::RegionFilter(region), frame, options);
   result.report.outside = site.outside.objects;
   result.report.bounds_deg = extract.bounds_deg;
@@ -61,7 +56,7 @@ City build_city(const std::filesystem::path& file, const CityOptions& options, c
           : internal::city::Ground::from_file(options.terrain, frame, min, max, options.terrain_error_m,
                                               result.report.notes, progress);
   const std::vector<Mesh> solids = internal::city::build_solids(site, ground, progress);
-  result.report.build_seconds = seconds_since(start);
+  result.report.build_seconds = stopwatch.lap();
 
   const internal::geo::LonLat origin = frame.origin();
   result.report.georeference = {origin.latitude_deg, origin.longitude_deg, ground.vertical(), "EPSG:4326"};
