@@ -11,8 +11,6 @@
 namespace vantage::internal::terrain {
 namespace {
 
-constexpr int kFailure = 3;  // CE_Failure; CE_Fatal, after which GDAL ends the program, is 4
-
 thread_local GdalMessages* innermost = nullptr;
 
 std::unique_ptr<GdalLibrary> functions_of(void* handle, std::string& missing) {
@@ -80,7 +78,7 @@ GdalMessages::~GdalMessages() {
 }
 
 void GdalMessages::handle(int severity, int /*number*/, const char* message) noexcept {
-  if (severity < kFailure || !message || !innermost || !innermost->first_error_.empty()) return;
+  if (severity < gdal_values::kFailure || !message || !innermost || !innermost->first_error_.empty()) return;
   try {
     innermost->first_error_.assign(message).resize(std::min<std::size_t>(innermost->first_error_.size(), 200));
   } catch (const std::bad_alloc&) {  // a message less

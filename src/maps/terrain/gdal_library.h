@@ -9,7 +9,7 @@
 namespace vantage::internal::terrain {
 
 // Handles are opaque in the C API; names and types are those of gdal.h, ogr_srs_api.h, cpl_error.h, cpl_vsi.h and
-// cpl_string.h, the same from GDAL 3.1 on.
+// cpl_string.h, the same from GDAL 3.1 on: tests/gdal_prototypes.cpp. Enumerations are passed as int.
 #define VANTAGE_GDAL_FUNCTIONS(X)                                                                           \
   X(void, GDALAllRegister, ())                                                                              \
   X(void*, GDALOpenEx, (const char*, unsigned, const char* const*, const char* const*, const char* const*)) \
@@ -42,6 +42,16 @@ struct GdalLibrary {
   VANTAGE_GDAL_FUNCTIONS(VANTAGE_MEMBER)
 #undef VANTAGE_MEMBER
 };
+
+/// Of flags and enumerations.
+namespace gdal_values {
+inline constexpr unsigned kOpenRaster = 0x02, kOpenVerbose = 0x40;  // GDAL_OF_RASTER, GDAL_OF_VERBOSE_ERROR
+inline constexpr int kRead = 0;                                     // GDALRWFlag
+inline constexpr int kByte = 1, kFloat64 = 7;                       // GDALDataType
+inline constexpr int kFirstComplex = 8, kLastComplex = 11;          // GDALDataType
+inline constexpr int kPalette = 2, kRed = 3, kAlpha = 6;            // GDALColorInterp
+inline constexpr int kFailure = 3;  // CPLErr; CE_Fatal, after which GDAL ends the program, is 4
+}  // namespace gdal_values
 
 /// The names that are tried: of GDAL 3.6 (Debian 12) first, then of its neighbours.
 std::vector<std::string> gdal_library_names();

@@ -13,12 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Of gdal.h.
-constexpr unsigned kOpenRaster = 0x02, kOpenVerbose = 0x40;  // GDAL_OF_*
-constexpr int kRead = 0;                                     // GF_Read
-constexpr int kByte = 1, kFloat64 = 7;                       // GDALDataType
-constexpr int kFirstComplex = 8, kLastComplex = 11;
-constexpr int kPalette = 2, kRed = 3, kAlpha = 6;  // GDALColorInterp
+using namespace gdal_values;
 
 constexpr double kUsualVoids[] = {-9999, -32768};  // what files use for "no value", often without declaring it
 
