@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/bvh.h"
+#include "core/walk_bvh.h"
 #include "depth/depth.h"
 
 namespace vantage::internal::depth {
@@ -56,13 +57,8 @@ class FaceClip {
 /// `eye` is relative to the scene's origin.
 template <typename Visit>
 void for_each_polygon(const core::Bvh& bvh, const Vec3& eye, double range, const FaceClip& clip, const Visit& visit) {
-  if (bvh.nodes.empty()) return;
-  thread_local std::vector<std::uint32_t> stack;
-  stack.assign(1, 0);
   const double reach = range * (1 + 1e-12);
-  while (!stack.empty()) {
-    const core::BvhNode& node = bvh.nodes[stack.back()];
-    stack.pop_back();
+  const auto is_seen = [&](const core::BvhNode& node) {
     Vec3 centre, half;
     double square = 0;
     for (int a = 0; a < 3; ++a) {
@@ -72,25 +68,18 @@ void for_each_polygon(const core::Bvh& bvh, const Vec3& eye, double range, const
       const double gap = low > 0 ? low : high < 0 ? -high : 0;
       square += gap * gap;
     }
-    if (square > reach * reach || !clip.may_meet(centre, half)) continue;
-    if (node.leaf()) {
-      for (std::uint32_t i = 0; i < node.count; ++i) visit(node.first + i);
-      continue;
+    return square <= reach * reach && clip.may_meet(centre, half);
+  };
+  // The nearer child first: what it covers spares work on what lies behind.
+  const auto distance = [&](const core::Bounds& b) {
+    double sum = 0;
+    for (int a = 0; a < 3; ++a) {
+      const double offset = 0.5 * (double{b.min[a]} + double{b.max[a]}) - eye[a];
+      sum += offset * offset;
     }
-    // The nearer child first: what it covers spares work on what lies behind.
-    const auto distance = [&](std::uint32_t child) {
-      const core::Bounds& b = bvh.nodes[child].bounds;
-      double sum = 0;
-      for (int a = 0; a < 3; ++a) {
-        const double offset = 0.5 * (double(b.min[a]) + double(b.max[a])) - eye[a];
-        sum += offset * offset;
-      }
-      return sum;
-    };
-    const bool left_first = distance(node.first) <= distance(node.first + 1);
-    stack.push_back(node.first + (left_first ? 1 : 0));
-    stack.push_back(node.first + (left_first ? 0 : 1));
-  }
+    return sum;
+  };
+  core::walk_nearer_first(bvh, distance, is_seen, visit);
 }
 
 }  // namespace vantage::internal::depth

@@ -1,5 +1,6 @@
 #include "depth/gl_clusters.h"
 
+#include "core/walk_bvh.h"
 #include "depth/depth.h"
 #include "scene/prepared_data.h"
 
@@ -14,11 +15,11 @@ struct Range {
 };
 
 /// Of the polygons under a node: they lie together, the left child's first.
-Range polygons_under(const std::vector<core::BvhNode>& nodes, std::size_t node) {
-  std::size_t first = node, last = node;
-  while (!nodes[first].leaf()) first = nodes[first].first;
-  while (!nodes[last].leaf()) last = nodes[last].first + 1;
-  return {nodes[first].first, std::size_t(nodes[last].first) + nodes[last].count};
+Range polygons_under(const std::vector<core::BvhNode>& nodes, const core::BvhNode& node) {
+  const core::BvhNode *first = &node, *last = &node;
+  while (!first->leaf()) first = &nodes[first->first];
+  while (!last->leaf()) last = &nodes[last->first + 1];
+  return {first->first, std::size_t{last->first} + last->count};
 }
 
 void append_cluster(const PreparedScene::Data& data, const Range& polygons, ClusteredTriangles& result) {
@@ -49,20 +50,13 @@ bool may_show(const CubeFace& face, const Vec3& centre, const Vec3& half) {
 
 ClusteredTriangles cluster_triangles(const PreparedScene::Data& data) {
   ClusteredTriangles result;
-  const std::vector<core::BvhNode>& nodes = data.bvh.nodes;
-  std::vector<std::size_t> pending;
-  if (!nodes.empty()) pending.push_back(0);
-  while (!pending.empty()) {
-    const std::size_t node = pending.back();
-    pending.pop_back();
-    const Range polygons = polygons_under(nodes, node);
-    if (nodes[node].leaf() || polygons.end - polygons.begin <= kClusterPolygons) {
-      append_cluster(data, polygons, result);
-    } else {
-      pending.push_back(nodes[node].first + 1);
-      pending.push_back(nodes[node].first);
-    }
-  }
+  const auto is_too_large = [&](const core::BvhNode& node) {
+    const Range polygons = polygons_under(data.bvh.nodes, node);
+    if (!node.leaf() && polygons.end - polygons.begin > kClusterPolygons) return true;
+    append_cluster(data, polygons, result);
+    return false;
+  };
+  core::walk_bvh(data.bvh, is_too_large, [](std::uint32_t) {});
   return result;
 }
 

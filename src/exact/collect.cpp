@@ -2,8 +2,8 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <queue>
 
+#include "core/walk_bvh.h"
 #include "exact/segment_cover.h"
 #include "target/numerics.h"
 
@@ -12,15 +12,6 @@ namespace {
 
 // A polygon that reaches this far over a plane, in metres, does so whatever rounding does.
 constexpr double kNear = 1e-7;
-
-struct Entry {
-  double distance;
-  std::uint32_t node;
-  bool operator<(const Entry& other) const {  // the queue serves the nearest first
-    if (distance != other.distance) return distance > other.distance;
-    return node > other.node;
-  }
-};
 
 double distance_to(const core::Bounds& bounds, const Vec3& point) {
   double sum = 0;
@@ -104,7 +95,6 @@ class Neighbours {
 void collect_blockers(const PreparedScene::Data& scene, const TargetFrame& frame, const target::LocalTarget& target,
                       const target::RangeRegion& range, BlockerSet& blockers, DirectionTree& tree,
                       const core::ProgressReporter& progress) {
-  if (scene.bvh.nodes.empty()) return;
   const Vec3 centre = frame.origin - scene.origin;
   const double reach = std::max(range.radius(), target.radius);  // a segment from the region to the target stays within
   // The scene's axes in the target's frame.
@@ -113,16 +103,8 @@ void collect_blockers(const PreparedScene::Data& scene, const TargetFrame& frame
   BlockerBuilder builder(target);
   Neighbours neighbours(scene, frame, target, range.radius());
   std::vector<Vec3> corners;
-  std::priority_queue<Entry> queue;
-  const auto push = [&](std::uint32_t node) {
-    const double distance = distance_to(scene.bvh.nodes[node].bounds, centre);
-    if (distance <= reach) queue.push({distance, node});
-  };
-  push(0);
   std::size_t steps = 0;
-  while (!queue.empty()) {
-    const core::BvhNode& node = scene.bvh.nodes[queue.top().node];
-    queue.pop();
+  const auto may_show = [&](const core::BvhNode& node) {
     if (++steps % 1024 == 0) progress.check();
     Vec3 middle = Vec3::Zero();
     std::array<Vec3, 3> half;
@@ -133,25 +115,22 @@ void collect_blockers(const PreparedScene::Data& scene, const TargetFrame& frame
       half[a] = axes[a] * (0.5 * (high - low));
       above += std::abs(half[a].z());
     }
-    if (middle.z() + above <= target.slack) continue;  // behind the target
-    if (tree.hides_box(middle, half)) continue;
-    if (!node.leaf()) {
-      push(node.first);
-      push(node.first + 1);
-      continue;
-    }
-    for (std::uint32_t polygon = node.first; polygon < node.first + node.count; ++polygon) {
-      target::local_polygon(scene, frame, polygon, corners);
-      if (tree.hides_hull(corners)) continue;
-      const std::size_t planes = blockers.planes.size();
-      if (!builder.build(corners, blockers.planes, blockers.corners)) continue;
-      if (blockers.planes.size() == planes)  // it hides everything
-        blockers.planes.emplace_back(0, 0, 1 / (numerics::kGrazing * target.clearance));
-      blockers.close(polygon);
-      neighbours.mark_hidden(polygon, corners, blockers);
-      if (!tree.insert(std::uint32_t(blockers.count() - 1))) blockers.drop_last();
-    }
-  }
+    const bool is_behind_target = middle.z() + above <= target.slack;
+    return !is_behind_target && !tree.hides_box(middle, half);
+  };
+  const auto add = [&](std::uint32_t polygon) {
+    target::local_polygon(scene, frame, polygon, corners);
+    if (tree.hides_hull(corners)) return;
+    const std::size_t planes = blockers.planes.size();
+    if (!builder.build(corners, blockers.planes, blockers.corners)) return;
+    if (blockers.planes.size() == planes)  // it hides everything
+      blockers.planes.emplace_back(0, 0, 1 / (numerics::kGrazing * target.clearance));
+    blockers.close(polygon);
+    neighbours.mark_hidden(polygon, corners, blockers);
+    if (!tree.insert(static_cast<std::uint32_t>(blockers.count() - 1))) blockers.drop_last();
+  };
+  const auto distance = [&](const core::Bounds& bounds) { return distance_to(bounds, centre); };
+  core::walk_nearest_first(scene.bvh, distance, reach, may_show, add);
 }
 
 }  // namespace vantage::internal::exact

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "core/parallel.h"
+#include "core/walk_bvh.h"
 #include "exact/blocker.h"
 #include "exact/collect.h"
 #include "exact/segment_cover.h"
@@ -37,23 +38,23 @@ bool overlap(const internal::core::Bounds& bounds, const Box& box) {
   return !apart;
 }
 
-/// Calls visit(leaf) for the leaves of the scene's hierarchy that overlap a box relative to the scene's origin.
+/// Calls visit(polygon) for the polygons of the leaves that overlap a box relative to the scene's origin.
 template <typename Visit>
-void for_each_leaf(const PreparedScene::Data& scene, const Box& box, std::vector<std::uint32_t>& stack,
-                   const Visit& visit) {
-  stack.assign(scene.bvh.nodes.empty() ? 0 : 1, 0);
-  while (!stack.empty()) {
-    const std::uint32_t at = stack.back();
-    const internal::core::BvhNode& node = scene.bvh.nodes[at];
-    stack.pop_back();
-    if (!overlap(node.bounds, box)) continue;
-    if (node.leaf()) {
-      visit(at);
-    } else {
-      stack.push_back(node.first + 1);
-      stack.push_back(node.first);
-    }
-  }
+void for_each_polygon(const PreparedScene::Data& scene, const Box& box, const Visit& visit) {
+  internal::core::walk_bvh(
+      scene.bvh, [&](const internal::core::BvhNode& node) { return overlap(node.bounds, box); }, visit);
+}
+
+/// Those leaves themselves.
+std::vector<std::uint32_t> leaves_in(const PreparedScene::Data& scene, const Box& box) {
+  std::vector<std::uint32_t> leaves;
+  const auto enter = [&](const internal::core::BvhNode& node) {
+    if (!overlap(node.bounds, box)) return false;
+    if (node.leaf()) leaves.push_back(static_cast<std::uint32_t>(&node - scene.bvh.nodes.data()));
+    return !node.leaf();
+  };
+  internal::core::walk_bvh(scene.bvh, enter, [](std::uint32_t) {});
+  return leaves;
 }
 
 /// What blocks from points up to some distance.
@@ -161,22 +162,18 @@ class RayQuery {
  private:
   void walk(Reach& reach) {
     BlockerBuilder builder(side_.target);
-    std::vector<std::uint32_t> stack;
     std::vector<Vec3> corners, clipped;
     std::vector<Plane> planes;
     std::size_t work = 0;
-    for_each_leaf(side_.scene, pyramid_, stack, [&](std::uint32_t leaf) {
-      const internal::core::BvhNode& node = side_.scene.bvh.nodes[leaf];
-      for (std::uint32_t polygon = node.first; polygon < node.first + node.count; ++polygon) {
-        internal::target::local_polygon(side_.scene, side_.frame, polygon, corners);
-        planes.clear();
-        clipped.clear();
-        ++work;
-        if (!builder.build(corners, planes, clipped)) continue;
-        double least = kInfinity;
-        for (const Plane& plane : planes) least = std::min(least, plane.dot(direction_));
-        take(least, planes, side_.scene.polygon_object[polygon]);
-      }
+    for_each_polygon(side_.scene, pyramid_, [&](std::uint32_t polygon) {
+      internal::target::local_polygon(side_.scene, side_.frame, polygon, corners);
+      planes.clear();
+      clipped.clear();
+      ++work;
+      if (!builder.build(corners, planes, clipped)) return;
+      double least = kInfinity;
+      for (const Plane& plane : planes) least = std::min(least, plane.dot(direction_));
+      take(least, planes, side_.scene.polygon_object[polygon]);
     });
     reach.work += work;
   }
@@ -292,11 +289,8 @@ void consider_index(const Side& side, Reach& reach) {
   constexpr std::size_t kLittle = 1000;  // blockers, about a millisecond
   if (reach.index || reach.work < kLittle) return;
   if (reach.leaves.empty()) {
-    std::vector<std::uint32_t> stack;
-    for_each_leaf(side.scene, side.box_within(reach.metres), stack, [&](std::uint32_t leaf) {
-      reach.leaves.push_back(leaf);
-      reach.polygons += side.scene.bvh.nodes[leaf].count;
-    });
+    reach.leaves = leaves_in(side.scene, side.box_within(reach.metres));
+    for (const std::uint32_t leaf : reach.leaves) reach.polygons += side.scene.bvh.nodes[leaf].count;
   }
   if (reach.work < reach.polygons) return;
   reach.index = std::make_unique<BlockerIndex>(side.scene, side.frame, side.target, reach.leaves, reach.metres);

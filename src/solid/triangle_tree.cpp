@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/triangle_distance.h"
+#include "core/walk_bvh.h"
 #include "vantage/error.h"
 
 namespace vantage::internal::solid {
@@ -79,61 +80,34 @@ TriangleTree::TriangleTree(const Mesh& mesh) : mesh_(mesh) {
 }
 
 TriangleTree::Nearest TriangleTree::nearest(const Vec3& point) const {
-  struct Waiting {
-    std::uint32_t node;
-    double nearest;
-  };
   double best = std::numeric_limits<double>::infinity();
   std::uint32_t triangle = 0;
-  std::vector<Waiting> stack{{0, 0.0}};
-  while (!stack.empty()) {
-    const Waiting waiting = stack.back();
-    stack.pop_back();
-    if (waiting.nearest >= best) continue;
-    const core::BvhNode& node = bvh_.nodes[waiting.node];
-    if (node.leaf()) {
-      for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+  core::walk_nearer_first(
+      bvh_, [&](const core::Bounds& bounds) { return squared_distance(bounds, point); },
+      [&](const core::BvhNode&, double squared) { return squared < best; },
+      [&](std::uint32_t i) {
         const Triangle& t = mesh_.triangles[order_[i]];
         const double squared =
             core::squared_distance_to_triangle(point, mesh_.vertices[t[0]], mesh_.vertices[t[1]], mesh_.vertices[t[2]]);
-        if (squared >= best) continue;
+        if (squared >= best) return;
         best = squared;
         triangle = order_[i];
-      }
-      continue;
-    }
-    Waiting near{node.first, squared_distance(bvh_.nodes[node.first].bounds, point)};
-    Waiting far{node.first + 1, squared_distance(bvh_.nodes[node.first + 1].bounds, point)};
-    if (far.nearest < near.nearest) std::swap(near, far);
-    stack.push_back(far);
-    stack.push_back(near);
-  }
+      });
   return {std::sqrt(best), triangle};
 }
 
 bool TriangleTree::crossings(const Vec3& point, const Vec3& direction, int& winding) const {
   const Vec3 inverse = direction.cwiseInverse();
   winding = 0;
-  std::vector<std::uint32_t> stack{0};
-  while (!stack.empty()) {
-    const core::BvhNode& node = bvh_.nodes[stack.back()];
-    stack.pop_back();
-    if (!ray_meets(node.bounds, point, inverse)) continue;
-    if (!node.leaf()) {
-      stack.push_back(node.first + 1);
-      stack.push_back(node.first);
-      continue;
-    }
-    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-      const Triangle& t = mesh_.triangles[order_[i]];
-      const Hit hit =
-          ray_hits(direction, mesh_.vertices[t[0]] - point, mesh_.vertices[t[1]] - point, mesh_.vertices[t[2]] - point);
-      if (hit == Hit::unclear) return false;
-      if (hit == Hit::from_back) ++winding;   // leaving a solid
-      if (hit == Hit::from_front) --winding;  // entering one
-    }
-  }
-  return true;
+  const auto enter = [&](const core::BvhNode& node) { return ray_meets(node.bounds, point, inverse); };
+  return core::walk_bvh(bvh_, enter, [&](std::uint32_t i) {
+    const Triangle& t = mesh_.triangles[order_[i]];
+    const Hit hit =
+        ray_hits(direction, mesh_.vertices[t[0]] - point, mesh_.vertices[t[1]] - point, mesh_.vertices[t[2]] - point);
+    if (hit == Hit::from_back) ++winding;   // leaving a solid
+    if (hit == Hit::from_front) --winding;  // entering one
+    return hit != Hit::unclear;
+  });
 }
 
 int TriangleTree::winding_number(const Vec3& point) const {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/bvh.h"
+#include "core/walk_bvh.h"
 #include "vantage/geometry.h"
 
 namespace vantage::internal::solid {
@@ -49,22 +50,11 @@ void TriangleTree::for_each_near(const Box& box, double margin, const Visit& vis
     }
     return true;
   };
-  std::vector<std::uint32_t> stack;
-  if (!bvh_.nodes.empty()) stack.push_back(0);
-  while (!stack.empty()) {
-    const core::BvhNode& node = bvh_.nodes[stack.back()];
-    stack.pop_back();
-    if (!near(node.bounds.min, node.bounds.max)) continue;
-    if (!node.leaf()) {
-      stack.push_back(node.first + 1);
-      stack.push_back(node.first);
-      continue;
-    }
-    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-      const Box item = triangle_box(mesh_, order_[i]);
-      if (near(item.min, item.max)) visit(order_[i]);
-    }
-  }
+  const auto enter = [&](const core::BvhNode& node) { return near(node.bounds.min, node.bounds.max); };
+  core::walk_bvh(bvh_, enter, [&](std::uint32_t i) {
+    const Box item = triangle_box(mesh_, order_[i]);
+    if (near(item.min, item.max)) visit(order_[i]);
+  });
 }
 
 }  // namespace vantage::internal::solid

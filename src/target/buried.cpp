@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/format.h"
+#include "core/walk_bvh.h"
 #include "target/column.h"
 #include "target/numerics.h"
 
@@ -20,25 +21,18 @@ class VerticalProbe {
   VerticalProbe(const PreparedScene::Data& scene, const Vec3& point, double near,
                 std::optional<std::uint32_t> object = std::nullopt)
       : scene_(scene), point_(point - scene.origin), near_(near), object_(object) {
-    if (!scene.bvh.nodes.empty()) visit(0);
+    const auto is_in_line = [this](const core::BvhNode& node) {
+      const core::Bounds& box = node.bounds;
+      return point_.x() >= box.min[0] && point_.x() <= box.max[0] && point_.y() >= box.min[1] &&
+             point_.y() <= box.max[1];
+    };
+    core::walk_bvh(scene.bvh, is_in_line, [this](std::uint32_t polygon) { test(polygon); });
   }
   bool anything_below = false, object_below = false;
   double nearest_above = INFINITY;
   std::uint32_t polygon_above = 0;
 
  private:
-  void visit(std::uint32_t at) {
-    const core::BvhNode& node = scene_.bvh.nodes[at];
-    for (int a = 0; a < 2; ++a)
-      if (point_[a] < node.bounds.min[a] || point_[a] > node.bounds.max[a]) return;
-    if (!node.leaf()) {
-      visit(node.first);
-      visit(node.first + 1);
-      return;
-    }
-    for (std::uint32_t polygon = node.first; polygon < node.first + node.count; ++polygon) test(polygon);
-  }
-
   void test(std::uint32_t polygon) {
     const std::uint32_t begin = scene_.first_vertex[polygon], end = scene_.first_vertex[polygon + 1];
     const auto corner = [&](std::uint32_t k) -> const Vec3& { return scene_.vertices[scene_.polygon_vertices[k]]; };

@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "core/walk_bvh.h"
+
 namespace vantage::internal::target {
 
 Column::Column(const PreparedScene::Data& scene, const TargetFrame& frame, const Lengths& lengths, double floor)
@@ -16,21 +18,10 @@ Column::Column(const PreparedScene::Data& scene, const TargetFrame& frame, const
 
 std::vector<Crossing> Column::crossings(double ceiling) {
   std::vector<Crossing> found;
-  if (!scene_.bvh.nodes.empty()) visit(0, ceiling, found);
+  core::walk_bvh(
+      scene_.bvh, [&](const core::BvhNode& node) { return meets(node.bounds, ceiling); },
+      [&](std::uint32_t polygon) { add_crossing(polygon, ceiling, found); });
   return found;
-}
-
-void Column::visit(std::uint32_t at, double ceiling, std::vector<Crossing>& found) {
-  const core::BvhNode& node = scene_.bvh.nodes[at];
-  if (!meets(node.bounds, ceiling)) return;
-  if (!node.leaf()) {
-    visit(node.first, ceiling, found);
-    visit(node.first + 1, ceiling, found);
-    return;
-  }
-  for (std::uint32_t polygon = node.first; polygon < node.first + node.count; ++polygon) {
-    add_crossing(polygon, ceiling, found);
-  }
 }
 
 bool Column::meets(const core::Bounds& bounds, double ceiling) const {

@@ -30,7 +30,6 @@ class Column {
   std::vector<Crossing> crossings(double ceiling);
 
  private:
-  void visit(std::uint32_t at, double ceiling, std::vector<Crossing>& found);
   bool meets(const core::Bounds& bounds, double ceiling) const;
   void add_crossing(std::uint32_t polygon, double ceiling, std::vector<Crossing>& found);
 

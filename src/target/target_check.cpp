@@ -6,6 +6,7 @@
 
 #include "core/format.h"
 #include "core/text.h"
+#include "core/walk_bvh.h"
 #include "target/buried.h"
 #include "target/column.h"
 #include "target/numerics.h"
@@ -61,29 +62,24 @@ class LowSurfaces {
   /// Of polygons within reach: their highest corners that are above the plane by at most what the target may be raised
   /// by, ascending.
   std::vector<double> tops() {
-    if (!scene_.bvh.nodes.empty()) visit(0);
+    core::walk_bvh(
+        scene_.bvh, [this](const core::BvhNode& node) { return is_low_and_near(node.bounds); },
+        [this](std::uint32_t polygon) { add_top(polygon); });
     std::sort(tops_.begin(), tops_.end());
     return std::move(tops_);
   }
 
  private:
-  void visit(std::uint32_t at) {
-    const core::BvhNode& node = scene_.bvh.nodes[at];
+  bool is_low_and_near(const core::Bounds& bounds) const {
     double middle = 0, half = 0, square = 0;
     for (int a = 0; a < 3; ++a) {
-      const double low = node.bounds.min[a] - centre_[a], high = node.bounds.max[a] - centre_[a];
+      const double low = bounds.min[a] - centre_[a], high = bounds.max[a] - centre_[a];
       middle += frame_.normal[a] * 0.5 * (low + high);
       half += std::abs(frame_.normal[a]) * 0.5 * (high - low);
       const double away = std::max({0.0, low, -high});
       square += away * away;
     }
-    if (middle + half <= slack_ || middle - half > most_ || square > reach_ * reach_) return;
-    if (!node.leaf()) {
-      visit(node.first);
-      visit(node.first + 1);
-      return;
-    }
-    for (std::uint32_t polygon = node.first; polygon < node.first + node.count; ++polygon) add_top(polygon);
+    return middle + half > slack_ && middle - half <= most_ && square <= reach_ * reach_;
   }
 
   void add_top(std::uint32_t polygon) {
