@@ -271,8 +271,7 @@ class QuadrantMesher {
     }
     const OctahedralPoint a = point(from), b = point(to);
     const bool on_axis = (a.x() == 0 && b.x() == 0) || (a.y() == 0 && b.y() == 0);
-    if (!on_axis || !is_own(from) || !is_own(to))
-      throw CannotTriangulate{"a crease has split the border of a quadrant"};
+    if (!on_axis || !is_own(from) || !is_own(to)) result_.failure = "a crease has split the border of a quadrant";
   }
 
   // Cells are cut in two without looking at the triangulation: it must not have split their edges.
@@ -300,8 +299,10 @@ QuadrantMesh mesh_quadrant(int quadrant, const ConstraintGraph& graph, const Oct
                            const Envelope& envelope, double snap) {
   try {
     return QuadrantMesher(quadrant, graph, grid, envelope, snap).run();
-  } catch (const CDT::Error& error) {
-    throw CannotTriangulate{error.what()};
+  } catch (const CDT::Error& error) {  // the library's only way to say so: nobody else need know that it throws
+    QuadrantMesh failed;
+    failed.failure = error.what();
+    return failed;
   }
 }
 

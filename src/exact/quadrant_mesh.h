@@ -21,6 +21,7 @@ struct QuadrantMesh {
   std::vector<double> graph_gauge;          ///< the inverse depth there; neighbouring quadrants may know a greater one
   std::vector<ConstraintGraph::Edge> base;  ///< edges on the horizon, as the triangles run them
   std::vector<OctahedralPoint> border_splits;  ///< where an edge of a range cell had to be split
+  std::string failure;  ///< if not empty, creases meet in a way that the triangulation has no place for: the reason
 };
 
 /// The envelope that is meshed, and how finely.
@@ -35,13 +36,8 @@ struct Envelope {
 /// A constrained Delaunay triangulation of the graph's creases in quadrant 0..3 (bit 0: a < 0, bit 1: b < 0).
 /// Triangles that lie more than the tolerance inside the sphere get a point in the middle, and so do those above which
 /// the gauge rises (a crease that rounding has lost), until there are none. Points closer than `snap` cannot be told
-/// apart. Throws CannotTriangulate, and Error(cancelled).
+/// apart: if it fails, a larger one may help. Throws Error(cancelled).
 QuadrantMesh mesh_quadrant(int quadrant, const ConstraintGraph& graph, const OctahedralGrid& grid,
                            const Envelope& envelope, double snap);
-
-/// Creases meet in a way that the triangulation has no place for; wider snapping may help.
-struct CannotTriangulate {
-  std::string why;
-};
 
 }  // namespace vantage::internal::exact

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
 
 #include "core/parallel.h"
 #include "exact/gauge.h"
@@ -13,9 +14,11 @@
 namespace vantage::internal::exact {
 namespace {
 
-/// Thrown when the triangulation has split an edge of a range cell there.
-struct BorderSplit {
-  std::vector<OctahedralPoint> places;
+/// A boundary, or what to change before the next attempt.
+struct Attempt {
+  Boundary boundary;
+  std::string failure;                         ///< if not empty, creases meet in a way that needs wider snapping
+  std::vector<OctahedralPoint> border_splits;  ///< where the triangulation has split edges of range cells
 };
 
 // Whether every edge is run as often one way as the other: a sum over the edges that is zero for a closed, oriented
@@ -41,10 +44,16 @@ class BoundaryBuilder {
   BoundaryBuilder(const Skeleton& skeleton, const Envelope& envelope, OctahedralGrid& grid, double snap)
       : envelope_(envelope), grid_(grid), snap_(snap), graph_(skeleton, grid, is_range(), snap) {}
 
-  Boundary run() {
+  Attempt run() {
     result_.constraint_edges = graph_.edges().size();
     parallel::both([&] { mesh_quadrants(); }, [&] { cells_ = cut_range_cells(graph_, grid_, envelope_.range); });
-    check_borders();
+    Attempt attempt;
+    for (const QuadrantMesh& quadrant : quadrants_) {
+      if (attempt.failure.empty()) attempt.failure = quadrant.failure;
+      attempt.border_splits.insert(attempt.border_splits.end(), quadrant.border_splits.begin(),
+                                   quadrant.border_splits.end());
+    }
+    if (!attempt.failure.empty() || !attempt.border_splits.empty()) return attempt;
     result_.mesh.vertices = std::move(cells_.vertices);
     result_.mesh.triangles = std::move(cells_.triangles);
     result_.blocker_of.assign(result_.mesh.triangles.size(), Boundary::kRange);
@@ -53,8 +62,9 @@ class BoundaryBuilder {
     for (const QuadrantMesh& quadrant : quadrants_) add(quadrant);
     emit_base();
     drop_unused_vertices();
-    if (!is_closed(result_.mesh)) throw CannotTriangulate{"the parts of the mesh do not meet"};
-    return std::move(result_);
+    if (!is_closed(result_.mesh)) attempt.failure = "the parts of the mesh do not meet";
+    attempt.boundary = std::move(result_);
+    return attempt;
   }
 
  private:
@@ -68,13 +78,6 @@ class BoundaryBuilder {
     parallel::for_ranges(4, 1, [&](std::size_t begin, std::size_t end) {
       for (std::size_t q = begin; q < end; ++q) quadrants_[q] = mesh_quadrant(int(q), graph_, grid_, envelope_, snap_);
     });
-  }
-
-  void check_borders() const {
-    std::vector<OctahedralPoint> places;
-    for (const QuadrantMesh& quadrant : quadrants_)
-      places.insert(places.end(), quadrant.border_splits.begin(), quadrant.border_splits.end());
-    if (!places.empty()) throw BorderSplit{std::move(places)};
   }
 
   // The mesh has the vertices of the graph first, then those of the cells, then those that refinement added. On the
@@ -151,19 +154,21 @@ Boundary triangulate_boundary(const Skeleton& skeleton, const BlockerSet& blocke
   // Where creases meet at less than the snapping distance the triangulation may find no place for their crossing; wider
   // snapping makes them one. What that moves, refinement finds.
   double snap = numerics::kSnap, width = 1.0 / grid.size();
-  for (;;) try {
-      return BoundaryBuilder(skeleton, envelope, grid, snap).run();
-    } catch (const BorderSplit& split) {
+  for (;;) {
+    Attempt attempt = BoundaryBuilder(skeleton, envelope, grid, snap).run();
+    if (attempt.failure.empty() && attempt.border_splits.empty()) return std::move(attempt.boundary);
+    if (attempt.failure.empty()) {
       // Cells round about are triangulated with the rest: more of them each time, as what splits one edge goes on.
-      for (const OctahedralPoint& p : split.places)
+      for (const OctahedralPoint& p : attempt.border_splits)
         grid.mark(p - OctahedralPoint::Constant(width), p + OctahedralPoint::Constant(width), snap);
       width *= 2;
-    } catch (const CannotTriangulate& failure) {
-      if (snap >= numerics::kWidestSnap)
-        throw Error(ErrorCode::internal_defect, "the creases could not be triangulated: " + failure.why,
-                    "triangulation", "please report this with the mission and the scene");
+    } else if (snap < numerics::kWidestSnap) {
       snap *= 10;
+    } else {
+      throw Error(ErrorCode::internal_defect, "the creases could not be triangulated: " + attempt.failure,
+                  "triangulation", "please report this with the mission and the scene");
     }
+  }
 }
 
 }  // namespace vantage::internal::exact
