@@ -19,18 +19,13 @@ namespace {
 
 using Vec2 = Eigen::Vector2d;
 
-[[noreturn]] void fail(ErrorCode code, const std::string& problem, const std::string& where, const std::string& fix) {
-  throw Error(code, problem, where, fix);
-}
-
 geo::LocalFrame frame_of(const Mission& mission) {
   const Scene& scene = mission.loaded.scene;
   if (!scene.georeference) {
-    fail(ErrorCode::not_georeferenced, "the scene does not say where on the earth it lies",
-         mission.as_written.file.string(),
-         "give the target and the limits in the scene frame, or a scene with a place: a map (scene.osm), CityJSON with "
-         "a "
-         "reference system, a raster, or a mesh with 'crs' or written by 'vantage scene'");
+    throw Error(
+        ErrorCode::not_georeferenced, "the scene does not say where on the earth it lies", mission.as_written.file.string(),
+        "give the target and the limits in the scene frame, or a scene with a place: a map (scene.osm), CityJSON with "
+        "a reference system, a raster, or a mesh with 'crs' or written by 'vantage scene'");
   }
   return geo::LocalFrame({scene.georeference->longitude_deg, scene.georeference->latitude_deg});
 }
@@ -106,9 +101,9 @@ class Placer {
 void check_near(const Box& box, const std::string& name, const Placer& placer, const std::string& where) {
   const Vec2 nearest = Vec2::Zero().cwiseMax(box.min.head<2>()).cwiseMin(box.max.head<2>());
   if (nearest.norm() <= geo::kFarthestM) return;
-  fail(ErrorCode::too_far_away,
-       name + " lies " + std::to_string(std::lround(nearest.norm() / 1000)) + " km from the scene's origin", where,
-       placer.order_advice());
+  throw Error(ErrorCode::too_far_away,
+              name + " lies " + std::to_string(std::lround(nearest.norm() / 1000)) + " km from the scene's origin",
+              where, placer.order_advice());
 }
 
 void place_boxes(Navigation& navigation, const Placer& placer, const std::string& where) {
@@ -118,9 +113,9 @@ void place_boxes(Navigation& navigation, const Placer& placer, const std::string
     Box& box = navigation.keep_in[i];
     box = placer.inside(box);
     if ((box.min.array() >= box.max.array()).any()) {
-      fail(ErrorCode::limits_empty,
-           "a box of navigation.boxes is too small or too askew to hold a box of the scene frame", where,
-           "make it larger, or give it in the scene frame");
+      throw Error(ErrorCode::limits_empty,
+                  "a box of navigation.boxes is too small or too askew to hold a box of the scene frame", where,
+                  "make it larger, or give it in the scene frame");
     }
   }
   for (std::size_t i = 0; i < navigation.keep_out.size(); ++i) {
@@ -134,9 +129,9 @@ void check_near(const Mission& mission, const Placer& placer) {
   for (const Vec3& vertex : mission.target.parts.at(0)) {
     const double distance = vertex.head<2>().norm();
     if (distance <= geo::kFarthestM) continue;
-    fail(ErrorCode::too_far_away,
-         "the target lies " + std::to_string(std::lround(distance / 1000)) + " km from the scene's origin",
-         mission.as_written.places.target, placer.order_advice());
+    throw Error(ErrorCode::too_far_away,
+                "the target lies " + std::to_string(std::lround(distance / 1000)) + " km from the scene's origin",
+                mission.as_written.places.target, placer.order_advice());
   }
 }
 

@@ -20,10 +20,6 @@ std::string save_as_utf8(const YamlDialect& dialect) {
 
 std::string see_example(const YamlDialect& dialect) { return "compare with the example in " + dialect.page; }
 
-[[noreturn]] void fail(ErrorCode code, const std::string& problem, const std::string& where, const std::string& fix) {
-  throw Error(code, problem, where, fix);
-}
-
 /// Length of the UTF-8 sequence that starts at `at`, or 0 when there is none (bad lead or continuation byte, overlong
 /// form, surrogate, beyond U+10FFFF). Source: RFC 3629, section 4.
 std::size_t utf8_length(std::string_view text, std::size_t at) {
@@ -50,13 +46,14 @@ std::size_t utf8_length(std::string_view text, std::size_t at) {
 /// yaml-cpp replaces bad bytes without a word and takes byte 4 for the end of the file, so both are caught here.
 void check_is_text(std::string_view text, const std::string& file, const YamlDialect& dialect) {
   if (text.size() > kMaxYamlBytes) {
-    fail(ErrorCode::file_too_large,
-         "the " + dialect.name + " is too large: " + std::to_string(text.size()) + " bytes, at most " +
-             std::to_string(kMaxYamlBytes),
-         file, "give the " + dialect.name + ", not a mesh; geometry belongs into mesh files that it names");
+    throw Error(ErrorCode::file_too_large,
+                "the " + dialect.name + " is too large: " + std::to_string(text.size()) + " bytes, at most " +
+                    std::to_string(kMaxYamlBytes),
+                file, "give the " + dialect.name + ", not a mesh; geometry belongs into mesh files that it names");
   }
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {
-    fail(ErrorCode::not_utf8_text, "the " + dialect.name + " is UTF-16 text, not UTF-8", file, save_as_utf8(dialect));
+    throw Error(ErrorCode::not_utf8_text, "the " + dialect.name + " is UTF-16 text, not UTF-8", file,
+                save_as_utf8(dialect));
   }
   int line = 1;
   std::size_t line_start = 0;
@@ -66,9 +63,10 @@ void check_is_text(std::string_view text, const std::string& file, const YamlDia
     const std::size_t length = is_control ? 0 : utf8_length(text, at);
     if (length == 0) {
       const std::string what = is_control ? "a control character" : "a byte that is not UTF-8";
-      fail(ErrorCode::not_utf8_text,
-           "the " + dialect.name + " is not text: it holds " + what + " (byte value " + std::to_string(byte) + ")",
-           place_in(file, {line, static_cast<int>(at - line_start) + 1}), save_as_utf8(dialect));
+      throw Error(
+          ErrorCode::not_utf8_text,
+          "the " + dialect.name + " is not text: it holds " + what + " (byte value " + std::to_string(byte) + ")",
+          place_in(file, {line, static_cast<int>(at - line_start) + 1}), save_as_utf8(dialect));
     }
     at += length;
     if (byte == '\n') {
@@ -91,8 +89,8 @@ class TreeBuilder : public YAML::EventHandler {
   void OnNull(const YAML::Mark& mark, YAML::anchor_t) override { add(make(YamlNode::Kind::null, mark)); }
 
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override {
-    fail(ErrorCode::yaml_unsupported, "YAML aliases (*name) are not understood in a " + dialect_.name, at(mark),
-         "write the value out where it is used");
+    throw Error(ErrorCode::yaml_unsupported, "YAML aliases (*name) are not understood in a " + dialect_.name, at(mark),
+                "write the value out where it is used");
   }
 
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t, const std::string& value) override {
@@ -136,15 +134,16 @@ class TreeBuilder : public YAML::EventHandler {
 
   void refuse_tag(const YAML::Mark& mark, const std::string& tag) const {
     if (tag.empty() || tag == "?" || tag == "!") return;
-    fail(ErrorCode::yaml_unsupported, "YAML tags (" + in_quotes(tag) + ") are not understood in a " + dialect_.name,
-         at(mark), "write the value without the tag");
+    throw Error(ErrorCode::yaml_unsupported,
+                "YAML tags (" + in_quotes(tag) + ") are not understood in a " + dialect_.name, at(mark),
+                "write the value without the tag");
   }
 
   void open(YamlNode node) {
     if (static_cast<int>(open_.size()) >= kMaxYamlDepth) {
-      fail(ErrorCode::yaml_unsupported,
-           "the " + dialect_.name + " nests more than " + std::to_string(kMaxYamlDepth) + " levels deep",
-           place_in(file_, node.place), see_example(dialect_));
+      throw Error(ErrorCode::yaml_unsupported,
+                  "the " + dialect_.name + " nests more than " + std::to_string(kMaxYamlDepth) + " levels deep",
+                  place_in(file_, node.place), see_example(dialect_));
     }
     if (expects_key()) refuse_key(node);
     open_.push_back({std::move(node), {}, {}, false});
@@ -161,7 +160,7 @@ class TreeBuilder : public YAML::EventHandler {
   }
 
   [[noreturn]] void refuse_key(const YamlNode& node) const {
-    fail(ErrorCode::yaml_syntax, "a key must be a word", place_in(file_, node.place), see_example(dialect_));
+    throw Error(ErrorCode::yaml_syntax, "a key must be a word", place_in(file_, node.place), see_example(dialect_));
   }
 
   void add(YamlNode node) {
@@ -184,8 +183,8 @@ class TreeBuilder : public YAML::EventHandler {
       parent.has_key = false;
       const std::size_t most = may_repeat() ? kMaxRepeated : kMaxEntries;
       if (parent.node.entries.size() > most) {
-        fail(ErrorCode::yaml_unsupported, "a mapping has more than " + std::to_string(most) + " keys",
-             place_in(file_, parent.node.place), see_example(dialect_));
+        throw Error(ErrorCode::yaml_unsupported, "a mapping has more than " + std::to_string(most) + " keys",
+                    place_in(file_, parent.node.place), see_example(dialect_));
       }
     }
   }
@@ -201,8 +200,8 @@ class TreeBuilder : public YAML::EventHandler {
     const auto first = std::find_if(map.entries.begin(), map.entries.end(),
                                     [&](const YamlEntry& entry) { return entry.key == key.text; });
     if (first == map.entries.end()) return;
-    fail(ErrorCode::duplicate_key, "key " + in_quotes(key.text) + " is given twice", place_in(file_, key.place),
-         "keep one of them; the first is at line " + std::to_string(first->place.line));
+    throw Error(ErrorCode::duplicate_key, "key " + in_quotes(key.text) + " is given twice", place_in(file_, key.place),
+                "keep one of them; the first is at line " + std::to_string(first->place.line));
   }
 
   /// No map of a mission has more than a dozen keys. Bounds the cost of looking for a key given twice.
@@ -238,19 +237,19 @@ YamlNode parse_yaml(std::string_view text, const std::string& file, const YamlDi
     YAML::Parser parser(stream);
     TreeBuilder builder(file, dialect);
     if (!parser.HandleNextDocument(builder))
-      fail(ErrorCode::file_empty, "the " + dialect.name + " is empty", file, see_example(dialect));
+      throw Error(ErrorCode::file_empty, "the " + dialect.name + " is empty", file, see_example(dialect));
     YamlNode root = builder.take_root();
     TreeBuilder rest(file, dialect);
     if (parser.HandleNextDocument(rest)) {
-      fail(ErrorCode::yaml_unsupported, "the " + dialect.name + " holds more than one YAML document",
-           place_in(file, rest.take_root().place), "keep one in a file: remove the '---' between them");
+      throw Error(ErrorCode::yaml_unsupported, "the " + dialect.name + " holds more than one YAML document",
+                  place_in(file, rest.take_root().place), "keep one in a file: remove the '---' between them");
     }
     return root;
   } catch (const YAML::Exception& error) {
     const Place place{error.mark.line + 1, error.mark.column + 1};
-    fail(ErrorCode::yaml_syntax, "the " + dialect.name + " is not valid YAML: " + error.msg,
-         error.mark.is_null() ? file : place_in(file, place),
-         "check brackets, colons and indentation (blanks, not tabs) here and on the line before");
+    throw Error(ErrorCode::yaml_syntax, "the " + dialect.name + " is not valid YAML: " + error.msg,
+                error.mark.is_null() ? file : place_in(file, place),
+                "check brackets, colons and indentation (blanks, not tabs) here and on the line before");
   }
 }
 

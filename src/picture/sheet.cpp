@@ -12,18 +12,16 @@ namespace {
 using namespace internal::picture;
 
 void check(const std::vector<PicturePanel>& panels, int columns) {
-  const auto refuse = [](ErrorCode code, const std::string& problem, const std::string& where, const std::string& fix) {
-    throw Error(code, problem, where, fix);
-  };
-  if (panels.empty()) refuse(ErrorCode::nothing_given, "a figure sheet without panels", "panels", "pass one at least");
+  if (panels.empty())
+    throw Error(ErrorCode::nothing_given, "a figure sheet without panels", "panels", "pass one at least");
   if (columns < 1)
-    refuse(ErrorCode::value_out_of_range, "a figure sheet of " + std::to_string(columns) + " columns", "columns",
-           "pass 1 or more");
+    throw Error(ErrorCode::value_out_of_range, "a figure sheet of " + std::to_string(columns) + " columns", "columns",
+                "pass 1 or more");
   for (std::size_t i = 1; i < panels.size(); ++i) {
     if (panels[i].picture.width == panels[0].picture.width && panels[i].picture.height == panels[0].picture.height)
       continue;
-    refuse(ErrorCode::array_sizes_differ, "the panels of a figure sheet differ in size", "panel " + std::to_string(i),
-           "draw all in the first's size");
+    throw Error(ErrorCode::array_sizes_differ, "the panels of a figure sheet differ in size",
+                "panel " + std::to_string(i), "draw all in the first's size");
   }
 }
 

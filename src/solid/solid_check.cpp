@@ -20,10 +20,6 @@
 namespace vantage::internal::solid {
 namespace {
 
-[[noreturn]] void refuse(ErrorCode code, const std::string& problem, const std::string& where, const std::string& fix) {
-  throw Error(code, problem, where, fix);
-}
-
 /// A mesh under examination: welded, about the origin.
 class Examination {
  public:
@@ -81,29 +77,31 @@ void Examination::check_edges() const {
                             core::point_text(local_.vertices[first.low] + centre_) + " to " +
                             core::point_text(local_.vertices[first.high] + centre_);
   if (single > 0) {
-    refuse(ErrorCode::mesh_not_closed,
-           "the mesh is open: " + core::count_text(single, "edge has", "edges have") + " only one triangle", where,
-           "close its holes, so that every edge has two triangles");
+    throw Error(ErrorCode::mesh_not_closed,
+                "the mesh is open: " + core::count_text(single, "edge has", "edges have") + " only one triangle", where,
+                "close its holes, so that every edge has two triangles");
   }
   if (crowded > 0) {
-    refuse(ErrorCode::mesh_not_closed,
-           "the mesh is not closed: " + core::count_text(crowded, "edge has", "edges have") +
-               " an odd number of triangles",
-           where, "remove inner and doubled faces, so that every edge has two triangles");
+    throw Error(ErrorCode::mesh_not_closed,
+                "the mesh is not closed: " + core::count_text(crowded, "edge has", "edges have") +
+                    " an odd number of triangles",
+                where, "remove inner and doubled faces, so that every edge has two triangles");
   }
-  refuse(ErrorCode::mesh_not_oriented,
-         "the triangles turn different ways: at " + core::count_text(turned, "edge", "edges") + " neighbours disagree",
-         where, "make all triangles face outward");
+  throw Error(
+      ErrorCode::mesh_not_oriented,
+      "the triangles turn different ways: at " + core::count_text(turned, "edge", "edges") + " neighbours disagree",
+      where, "make all triangles face outward");
 }
 
 void Examination::check_volume() const {
   const double volume = enclosed_volume(local_);
   if (volume > surface_area(local_) * distance_) return;
   if (volume >= -surface_area(local_) * distance_) {
-    refuse(ErrorCode::mesh_without_inside, "the mesh encloses no space", name_, "give a closed mesh with an inside");
+    throw Error(ErrorCode::mesh_without_inside, "the mesh encloses no space", name_,
+                "give a closed mesh with an inside");
   }
-  refuse(ErrorCode::mesh_inside_out, "the mesh is inside out: its triangles face inward", name_,
-         "flip its triangles (reverse their corners)");
+  throw Error(ErrorCode::mesh_inside_out, "the mesh is inside out: its triangles face inward", name_,
+              "flip its triangles (reverse their corners)");
 }
 
 int Examination::shared_corners(std::size_t a, std::size_t b) const {
@@ -156,13 +154,13 @@ bool Examination::check_contacts(const TriangleTree& tree, const core::ProgressR
   if (folded <= folds * whole) return false;
   const auto t = static_cast<std::size_t>(first - crossing.begin());
   const auto triangles = std::count_if(crossing.begin(), crossing.end(), crosses);
-  refuse(ErrorCode::mesh_intersects_itself,
-         "the mesh intersects itself: " +
-             core::count_text(static_cast<std::size_t>(triangles), "triangle passes", "triangles pass") +
-             " through others",
-         name_ + ", first the triangles at " + core::point_text(middle(t) + centre_) + " and " +
-             core::point_text(middle(*first) + centre_),
-         "unite its overlapping parts into one solid");
+  throw Error(ErrorCode::mesh_intersects_itself,
+              "the mesh intersects itself: " +
+                  core::count_text(static_cast<std::size_t>(triangles), "triangle passes", "triangles pass") +
+                  " through others",
+              name_ + ", first the triangles at " + core::point_text(middle(t) + centre_) + " and " +
+                  core::point_text(middle(*first) + centre_),
+              "unite its overlapping parts into one solid");
 }
 
 /// Triangles from which the winding number is known everywhere, when none passes through another: the largest of each
@@ -203,13 +201,13 @@ void Examination::check_windings(const TriangleTree& tree, const core::ProgressR
       const Vec3 point = middle(t) + normal.normalized() * side;
       const int winding = tree.winding_number(point);
       if (winding > 1) {
-        refuse(ErrorCode::mesh_intersects_itself,
-               "parts of the mesh overlap: there is space that lies inside two of them", place(point),
-               "unite its parts into one solid");
+        throw Error(ErrorCode::mesh_intersects_itself,
+                    "parts of the mesh overlap: there is space that lies inside two of them", place(point),
+                    "unite its parts into one solid");
       }
       if (winding < 0) {
-        refuse(ErrorCode::mesh_inside_out, "a part of the mesh is inside out: its triangles face inward", place(point),
-               "flip that part's triangles, or put it inside another part if it is a hole");
+        throw Error(ErrorCode::mesh_inside_out, "a part of the mesh is inside out: its triangles face inward",
+                    place(point), "flip that part's triangles, or put it inside another part if it is a hole");
       }
     }
   }
@@ -218,18 +216,18 @@ void Examination::check_windings(const TriangleTree& tree, const core::ProgressR
 }  // namespace
 
 Mesh checked_solid(const Mesh& mesh, const std::string& name, const core::ProgressReporter& progress, double folds) {
-  if (mesh.empty()) refuse(ErrorCode::mesh_empty, "the mesh has no triangles", name, "give a closed mesh");
+  if (mesh.empty()) throw Error(ErrorCode::mesh_empty, "the mesh has no triangles", name, "give a closed mesh");
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
     if (!mesh.vertices[v].allFinite()) {
-      refuse(ErrorCode::coordinate_not_finite, "a coordinate is not finite", name + ", vertex " + std::to_string(v),
-             "give numbers");
+      throw Error(ErrorCode::coordinate_not_finite, "a coordinate is not finite",
+                  name + ", vertex " + std::to_string(v), "give numbers");
     }
   }
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto beyond = [&](std::uint32_t v) { return v >= mesh.vertices.size(); };
     if (std::any_of(mesh.triangles[t].begin(), mesh.triangles[t].end(), beyond)) {
-      refuse(ErrorCode::index_out_of_range, "a vertex index is out of range", name + ", triangle " + std::to_string(t),
-             "mend the mesh");
+      throw Error(ErrorCode::index_out_of_range, "a vertex index is out of range",
+                  name + ", triangle " + std::to_string(t), "mend the mesh");
     }
   }
   Mesh result = core::welded(mesh);

@@ -16,23 +16,19 @@ namespace {
 
 constexpr int kDirections = 24;  // tried before a point counts as lying on the surface
 
-[[noreturn]] void fail(ErrorCode code, const std::string& problem, const std::string& name, const std::string& fix) {
-  throw Error(code, problem, name, fix);
-}
-
 void check_numbers(const Mesh& mesh, const std::string& name) {
-  if (mesh.empty()) fail(ErrorCode::mesh_empty, "the mesh has no triangles", name, "give a closed mesh");
+  if (mesh.empty()) throw Error(ErrorCode::mesh_empty, "the mesh has no triangles", name, "give a closed mesh");
   for (const Vec3& vertex : mesh.vertices) {
     if (!vertex.allFinite())
-      fail(ErrorCode::coordinate_not_finite, "a vertex of the mesh is not finite", name, "write the mesh again");
+      throw Error(ErrorCode::coordinate_not_finite, "a vertex of the mesh is not finite", name, "write the mesh again");
   }
   for (const Triangle& triangle : mesh.triangles) {
     for (const std::uint32_t corner : triangle) {
       if (corner >= mesh.vertices.size()) {
-        fail(ErrorCode::index_out_of_range,
-             "triangle corner " + std::to_string(corner) + " does not exist: the mesh has " +
-                 std::to_string(mesh.vertices.size()) + " vertices",
-             name, "write the mesh again");
+        throw Error(ErrorCode::index_out_of_range,
+                    "triangle corner " + std::to_string(corner) + " does not exist: the mesh has " +
+                        std::to_string(mesh.vertices.size()) + " vertices",
+                    name, "write the mesh again");
       }
     }
   }
@@ -135,9 +131,9 @@ ClosedMesh::ClosedMesh(const Mesh& mesh, const Vec3& origin, const std::string& 
     std::ostringstream where;
     where.precision(10);
     where << name << ", edge with its middle at (" << open.middle_of_first.transpose() << ")";
-    fail(ErrorCode::mesh_not_closed,
-         "the mesh is not closed: " + std::to_string(open.count) + " edges have an odd number of triangles",
-         where.str(), "give a closed mesh: every edge between two triangles");
+    throw Error(ErrorCode::mesh_not_closed,
+                "the mesh is not closed: " + std::to_string(open.count) + " edges have an odd number of triangles",
+                where.str(), "give a closed mesh: every edge between two triangles");
   }
   std::vector<Box> boxes;
   for (const Triangle& triangle : mesh.triangles) {

@@ -20,18 +20,14 @@ namespace {
 
 using city::Vec2;
 
-[[noreturn]] void fail(ErrorCode code, const std::string& problem, const std::string& where, const std::string& fix) {
-  throw Error(code, problem, where, fix);
-}
-
 /// The triangles of the ground.
 terrain::Surface ground_of(const Mission& mission) {
   const Scene& scene = mission.loaded.scene;
   const auto ground = ground_object(scene);
   if (!ground) {
-    fail(ErrorCode::ground_missing, "the scene has no object 'ground' to put the target on",
-         mission.as_written.places.target,
-         "give the target's vertices, or a scene that is made from a map; PLY and STL keep no objects, OBJ and GLB do");
+    throw Error(
+        ErrorCode::ground_missing, "the scene has no object 'ground' to put the target on", mission.as_written.places.target,
+        "give the target's vertices, or a scene that is made from a map; PLY and STL keep no objects, OBJ and GLB do");
   }
   Mesh mesh;
   std::vector<std::uint32_t> renamed(scene.mesh.vertices.size(), UINT32_MAX);
@@ -102,15 +98,17 @@ std::vector<city::Footprint> outlines(Mission& mission, const std::string& name,
   const SceneSource& source = mission.as_written.scene;
   const auto found = city::outlines_of_object(source.file, source.city.region, name, frame, progress);
   const std::string& place = mission.as_written.places.target;
-  if (!found) fail(ErrorCode::value_syntax, in_quotes(name) + " is no object of a map", place, "write 'osm: way/123'");
+  if (!found)
+    throw Error(ErrorCode::value_syntax, in_quotes(name) + " is no object of a map", place, "write 'osm: way/123'");
   if (!found->is_area) {
     const bool is_part = source.city.region.center_deg || source.city.region.bbox_deg;
-    fail(ErrorCode::map_object_missing,
-         (is_part ? "the scene's part of the map has no area " : "the map has no area ") + name, place,
-         "name a tagged closed way or a multipolygon of " + source.file.filename().string() +
-             (is_part ? ", or choose a larger area of the map" : ""));
+    throw Error(ErrorCode::map_object_missing,
+                (is_part ? "the scene's part of the map has no area " : "the map has no area ") + name, place,
+                "name a tagged closed way or a multipolygon of " + source.file.filename().string() +
+                    (is_part ? ", or choose a larger area of the map" : ""));
   }
-  if (found->outlines.empty()) fail(ErrorCode::map_object_missing, name + " has no area", place, "name another object");
+  if (found->outlines.empty())
+    throw Error(ErrorCode::map_object_missing, name + " has no area", place, "name another object");
   const std::string known_as = io::clean_name(found->name);
   if (mission.target.name == name && !known_as.empty()) mission.target.name = known_as + " (" + name + ")";
   return found->outlines;
@@ -123,11 +121,11 @@ void check_order(const Mission& mission, const GroundTarget& wanted, const terra
   const Vec2 centre = frame.to_local({longitude, latitude});
   if (ground.height(centre) || std::abs(longitude) > 90 || !ground.height(frame.to_local({latitude, longitude})))
     return;
-  fail(ErrorCode::target_off_ground,
-       "the target's centre lies " + std::to_string(std::lround(centre.norm())) +
-           " m from the scene's origin, off its ground",
-       mission.as_written.places.target,
-       "latitude and longitude are the wrong way round: write center: [latitude, longitude]");
+  throw Error(ErrorCode::target_off_ground,
+              "the target's centre lies " + std::to_string(std::lround(centre.norm())) +
+                  " m from the scene's origin, off its ground",
+              mission.as_written.places.target,
+              "latitude and longitude are the wrong way round: write center: [latitude, longitude]");
 }
 
 PlanBox plan_box(const std::vector<city::Footprint>& areas) {

@@ -39,10 +39,6 @@ std::string reasons_of(const std::vector<CityRecord>& skipped) {
   return text;
 }
 
-[[noreturn]] void fail(ErrorCode code, const std::string& problem, const std::string& where, const std::string& fix) {
-  throw Error(code, problem, where, fix);
-}
-
 geo::LongitudeRange longitudes(const Bounds& b) { return {b[0], b[2]}; }
 
 bool holds(const Bounds& b, double latitude, double longitude) {
@@ -86,14 +82,14 @@ std::optional<osm::Region> checked_circle(const CityRegion& region) {
   const auto [latitude, longitude] = *region.center_deg;
   if (!(std::abs(latitude) <= 90) || !(std::abs(longitude) <= 180)) {
     const bool is_swapped = std::abs(longitude) <= 90 && std::abs(latitude) <= 180;
-    fail(ErrorCode::not_on_earth,
-         core::format("there is no place at latitude {:g}, longitude {:g}", latitude, longitude), "center",
-         is_swapped ? "write the latitude first: " + core::format("{:g},{:g}", longitude, latitude)
-                    : "give degrees: the latitude from -90 to 90, then the longitude from -180 to 180");
+    throw Error(ErrorCode::not_on_earth,
+                core::format("there is no place at latitude {:g}, longitude {:g}", latitude, longitude), "center",
+                is_swapped ? "write the latitude first: " + core::format("{:g},{:g}", longitude, latitude)
+                           : "give degrees: the latitude from -90 to 90, then the longitude from -180 to 180");
   }
   if (!(region.radius_m > 0) || !(region.radius_m <= kMostRadius)) {
-    fail(ErrorCode::region_invalid, core::format("a radius of {:g} m is not one to build", region.radius_m), "radius",
-         "give metres, more than 0 and at most 50000");
+    throw Error(ErrorCode::region_invalid, core::format("a radius of {:g} m is not one to build", region.radius_m),
+                "radius", "give metres, more than 0 and at most 50000");
   }
   return osm::Region{{{LonLat{longitude, latitude}, region.radius_m}}, {}};
 }
@@ -103,8 +99,8 @@ std::optional<osm::Region> checked_box(const Bounds& b) {
   // One across the antimeridian has its west at the higher number: so has one whose ends were mixed up.
   const bool is_reversed = b[0] > b[2] && longitudes(b).width_deg() > 180;
   if (!in_range || is_reversed || b[0] == b[2] || !(b[1] < b[3])) {
-    fail(ErrorCode::region_invalid, "the box holds nothing: " + bounds_text(b), "bbox",
-         "give degrees as west,south,east,north: the lower longitude, the lower latitude, the higher ones");
+    throw Error(ErrorCode::region_invalid, "the box holds nothing: " + bounds_text(b), "bbox",
+                "give degrees as west,south,east,north: the lower longitude, the lower latitude, the higher ones");
   }
   const double nearest_equator = b[1] <= 0 && b[3] >= 0 ? 0 : std::min(std::abs(b[1]), std::abs(b[3]));
   // Round a pole a box is as wide as the circle of its lower latitude; else its middle tells enough.
@@ -113,8 +109,8 @@ std::optional<osm::Region> checked_box(const Bounds& b) {
                            : longitudes(b).width_deg() * std::cos((b[1] + b[3]) / 2 * M_PI / 180);
   const double across = std::max(b[3] - b[1], width) * 111.0;
   if (across > 2 * kMostRadius / 1e3) {
-    fail(ErrorCode::region_invalid, core::format("the box is {:.0f} km across", across), "bbox",
-         "give one of at most 100 km");
+    throw Error(ErrorCode::region_invalid, core::format("the box is {:.0f} km across", across), "bbox",
+                "give one of at most 100 km");
   }
   return osm::Region{{}, b};
 }
@@ -155,11 +151,11 @@ LonLat middle_round_pole(const osm::Extract& extract, double latitude_deg) {
 
 std::optional<osm::Region> checked_region(const CityRegion& region) {
   if (region.center_deg && region.bbox_deg) {
-    fail(ErrorCode::conflicting_keys, "a centre and a box at once", "center, bbox",
-         "give a centre with a radius, or a box");
+    throw Error(ErrorCode::conflicting_keys, "a centre and a box at once", "center, bbox",
+                "give a centre with a radius, or a box");
   }
   if (!region.center_deg && region.radius_m != 0)
-    fail(ErrorCode::missing_key, "a radius without a centre", "radius", "give the centre as well");
+    throw Error(ErrorCode::missing_key, "a radius without a centre", "radius", "give the centre as well");
   if (region.center_deg) return checked_circle(region);
   if (region.bbox_deg) return checked_box(*region.bbox_deg);
   return {};
@@ -185,19 +181,19 @@ void check_overlap(const CityRegion& region, const osm::Extract& extract, const 
   if (region.center_deg) {
     const auto [latitude, longitude] = *region.center_deg;
     if (overlap(box_round(*region.center_deg, region.radius_m), known)) return;
-    fail(ErrorCode::region_outside,
-         core::format("the centre, latitude {:g}, longitude {:g}, lies outside the map", latitude, longitude),
-         file.string(),
-         holds(known, longitude, latitude)
-             ? "latitude and longitude are the wrong way round: write " + core::format("{:g},{:g}", longitude, latitude)
-             : "the map holds " + bounds_text(known));
+    throw Error(ErrorCode::region_outside,
+                core::format("the centre, latitude {:g}, longitude {:g}, lies outside the map", latitude, longitude),
+                file.string(),
+                holds(known, longitude, latitude) ? "latitude and longitude are the wrong way round: write " +
+                                                        core::format("{:g},{:g}", longitude, latitude)
+                                                  : "the map holds " + bounds_text(known));
   }
   if (region.bbox_deg && !overlap(*region.bbox_deg, known)) {
     const Bounds& b = *region.bbox_deg;
-    fail(ErrorCode::region_outside, "the box lies outside the map", file.string(),
-         overlap({b[1], b[0], b[3], b[2]}, known)
-             ? "latitude and longitude are the wrong way round: write west,south,east,north"
-             : "the map holds " + bounds_text(known));
+    throw Error(ErrorCode::region_outside, "the box lies outside the map", file.string(),
+                overlap({b[1], b[0], b[3], b[2]}, known)
+                    ? "latitude and longitude are the wrong way round: write west,south,east,north"
+                    : "the map holds " + bounds_text(known));
   }
 }
 
@@ -210,21 +206,21 @@ void Outside::add(std::size_t more, double nearest) {
 void fail_empty(const CityRegion& region, const osm::Extract& extract, const Outside& outside,
                 const std::vector<CityRecord>& skipped, const std::filesystem::path& file) {
   if (outside.objects == 0 && skipped.empty()) {
-    fail(ErrorCode::map_empty, "the map holds no building and nothing else to build", file.string(),
-         "give an extract with buildings; it has " + std::to_string(extract.nodes) + " nodes and " +
-             std::to_string(extract.ways) + " ways, " + bounds_text(extract.bounds_deg));
+    throw Error(ErrorCode::map_empty, "the map holds no building and nothing else to build", file.string(),
+                "give an extract with buildings; it has " + std::to_string(extract.nodes) + " nodes and " +
+                    std::to_string(extract.ways) + " ways, " + bounds_text(extract.bounds_deg));
   }
   if (outside.objects == 0) {
-    fail(ErrorCode::map_empty, "nothing that the map holds can be built", file.string(),
-         "correct it, or give another one; it is skipped because of: " + reasons_of(skipped));
+    throw Error(ErrorCode::map_empty, "nothing that the map holds can be built", file.string(),
+                "correct it, or give another one; it is skipped because of: " + reasons_of(skipped));
   }
-  fail(ErrorCode::region_empty, "there is nothing to build in the area", file.string(),
-       "the nearest of " + std::to_string(outside.objects) + " objects is " +
-           core::format("{:.0f} m", outside.nearest_m) +
-           (region.center_deg ? " from the centre: give a larger radius, or another centre"
-                              : " from the box: give a larger box") +
-           "; the map holds " + bounds_text(extract.bounds_deg) +
-           (skipped.empty() ? "" : "; skipped in the area or near it: " + reasons_of(skipped)));
+  throw Error(ErrorCode::region_empty, "there is nothing to build in the area", file.string(),
+              "the nearest of " + std::to_string(outside.objects) + " objects is " +
+                  core::format("{:.0f} m", outside.nearest_m) +
+                  (region.center_deg ? " from the centre: give a larger radius, or another centre"
+                                     : " from the box: give a larger box") +
+                  "; the map holds " + bounds_text(extract.bounds_deg) +
+                  (skipped.empty() ? "" : "; skipped in the area or near it: " + reasons_of(skipped)));
 }
 
 LonLat frame_origin(const CityRegion& region, const osm::Extract& extract) {
