@@ -13,13 +13,16 @@
 #include "support/internals.h"
 #include "support/map_text.h"
 #include "support/mesh_reading.h"
+#include "support/solids.h"
 #include "support/temporary_directory.h"
 #include "support/wording.h"
 #include "vantage/city.h"
+#include "vantage/geometry.h"
 #include "vantage/input.h"
 #include "vantage/json.h"
 #include "vantage/mission.h"
 #include "vantage/result.h"
+#include "verify/closed_mesh.h"
 
 namespace vantage {
 namespace {
@@ -68,6 +71,12 @@ TEST_F(LocaleTest, RangesOfDepthImages) {
     device.largest_face_size = 8;
     depth::check_request(request, device);
   });
+}
+
+TEST_F(LocaleTest, EdgesOfOpenMeshes) {
+  Mesh mesh = testing::make_box_mesh({-1.5, -1.5, -1.5}, {1.5, 1.5, 1.5});
+  mesh.triangles.pop_back();
+  expect_same_error(ErrorCode::mesh_not_closed, [&] { verify::ClosedMesh(mesh, Vec3::Zero(), "volume"); });
 }
 
 TEST_F(LocaleTest, LevelsOfDetail) {

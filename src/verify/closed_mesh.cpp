@@ -6,8 +6,8 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
-#include <sstream>
 
+#include "core/format.h"
 #include "vantage/error.h"
 #include "verify/random.h"
 
@@ -128,12 +128,11 @@ ClosedMesh::ClosedMesh(const Mesh& mesh, const Vec3& origin, const std::string& 
     : topology_(topology_of(mesh, name)) {
   if (!topology_.closed) {
     const OpenEdges& open = topology_.open_edges;
-    std::ostringstream where;
-    where.precision(10);
-    where << name << ", edge with its middle at (" << open.middle_of_first.transpose() << ")";
+    const Vec3& at = open.middle_of_first;
     throw Error(ErrorCode::mesh_not_closed,
                 "the mesh is not closed: " + std::to_string(open.count) + " edges have an odd number of triangles",
-                where.str(), "give a closed mesh: every edge between two triangles");
+                core::format("{}, edge with its middle at ({:.10g}, {:.10g}, {:.10g})", name, at.x(), at.y(), at.z()),
+                "give a closed mesh: every edge between two triangles");
   }
   std::vector<Box> boxes;
   for (const Triangle& triangle : mesh.triangles) {
