@@ -35,7 +35,8 @@ std::string describe(const StreetTarget& target) {
   const Vec3& c = target.centre;
   const int length = std::snprintf(text, sizeof text, "centre (%.1f %.1f %.1f)", c.x(), c.y(), c.z());
   if (target.enclosed > 0)  // not known of the baseline's
-    std::snprintf(text + length, sizeof text - std::size_t(length), ", enclosed %.0f %%", 100 * target.enclosed);
+    std::snprintf(text + length, sizeof text - static_cast<std::size_t>(length), ", enclosed %.0f %%",
+                  100 * target.enclosed);
   return text;
 }
 
@@ -50,8 +51,8 @@ void engine(State& state, const City& city, std::size_t index, double range, int
                                 {ExactOptions().tolerance_m, threads});
   }
   if (volume->outcome != Outcome::computed) return state.SkipWithError(volume->reason.c_str());
-  state.counters["facets"] = double(volume->mesh.triangles.size());
-  state.counters["visible_blockers"] = double(volume->counts.visible_blockers);
+  state.counters["facets"] = static_cast<double>(volume->mesh.triangles.size());
+  state.counters["visible_blockers"] = static_cast<double>(volume->counts.visible_blockers);
   state.counters["volume_m3"] = enclosed_volume(volume->mesh);
   state.SetLabel(describe(street));
 }
@@ -77,7 +78,7 @@ void plain(State& state, const City& city, std::size_t index, double range, int 
       return state.SkipWithError(error.kind() == ErrorKind::cancelled ? "given up: it took too long" : error.what());
     }
   }
-  state.counters["facets"] = double(result.facets());
+  state.counters["facets"] = static_cast<double>(result.facets());
   state.counters["volume_m3"] = result.volume();
   state.SetLabel(describe(street));
 }
@@ -90,7 +91,7 @@ void prepare(State& state, const City& city) {
     const PreparedScene ready(scene);
     benchmark::DoNotOptimize(ready.statistics().polygons);
   }
-  state.counters["triangles"] = double(scene.mesh.triangles.size());
+  state.counters["triangles"] = static_cast<double>(scene.mesh.triangles.size());
   state.counters["peak_MB"] = peak_memory() / 1e6;  // the scene as read included
 }
 
@@ -121,7 +122,7 @@ void many_sheets(State& state, int count, bool fan) {
   std::optional<Volume> volume;
   for (auto _ : state) volume = compute_visibility(PreparedTarget(scene, target, {40}), {0.02, 1});
   if (volume->outcome != Outcome::computed) return state.SkipWithError(volume->reason.c_str());
-  state.counters["visible_blockers"] = double(volume->counts.visible_blockers);
+  state.counters["visible_blockers"] = static_cast<double>(volume->counts.visible_blockers);
   state.counters["peak_MB"] = peak_memory() / 1e6;
 }
 

@@ -47,9 +47,9 @@ void query(State& state, const City& city, double range, int threads) {
       for (const PointAnswer& answer : asked.answer(points)) inside += answer.inside;
     });
   }
-  state.counters["inside"] = double(inside);
-  state.counters["points_per_second"] =
-      benchmark::Counter(double(kPoints) * double(state.iterations()), benchmark::Counter::kIsRate);
+  state.counters["inside"] = static_cast<double>(inside);
+  state.counters["points_per_second"] = benchmark::Counter(
+      static_cast<double>(kPoints) * static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
 }
 
 const bool registered = [] {

@@ -65,7 +65,7 @@ void spheres(State& state, const City& city, std::size_t target, double range, S
   if (volume.outcome != Outcome::computed) return state.SkipWithError(volume.reason.c_str());
   state.counters["render_ms"] = report.render_seconds * 1e3;
   state.counters["boolean_ms"] = report.boolean_seconds * 1e3;
-  state.counters["facets"] = double(volume.mesh.triangles.size());
+  state.counters["facets"] = static_cast<double>(volume.mesh.triangles.size());
   state.counters["volume_m3"] = enclosed_volume(volume.mesh);
   state.SetLabel(report.device.name);
 }

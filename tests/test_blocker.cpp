@@ -31,7 +31,9 @@ Corner cross(const Corner& a, const Corner& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 std::int64_t dot(const Corner& a, const Corner& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Vec3 to_vec(const Corner& a) { return {double(a[0]), double(a[1]), double(a[2])}; }
+Vec3 to_vec(const Corner& a) {
+  return {static_cast<double>(a[0]), static_cast<double>(a[1]), static_cast<double>(a[2])};
+}
 
 std::pair<std::int64_t, std::int64_t> extent(const Corners& body, const Corner& axis) {
   std::int64_t low = dot(body[0], axis), high = low;
@@ -108,7 +110,7 @@ bool pierces(const Corners& target, const Corners& polygon) {
 
 target::LocalTarget local_target(const Corners& target) {
   std::vector<Vector2d> polygon;
-  for (const Corner& t : target) polygon.emplace_back(double(t[0]), double(t[1]));
+  for (const Corner& t : target) polygon.emplace_back(static_cast<double>(t[0]), static_cast<double>(t[1]));
   return target::make_local_target(polygon, 1e-9, 0);
 }
 
@@ -152,7 +154,8 @@ Corners random_polygon(Random& random, const Corners& target) {
     const int reach = random.integer(2, 6), low = random.chance(0.4) ? -3 : 0, high = random.integer(1, 5);
     Corners polygon;
     for (int k = 0; k < 3; ++k) polygon.push_back(random_corner(random, reach, low, high));
-    const std::size_t i = std::size_t(random.integer(0, int(target.size()) - 1)), j = (i + 1) % target.size();
+    const std::size_t i = static_cast<std::size_t>(random.integer(0, static_cast<int>(target.size()) - 1)),
+                      j = (i + 1) % target.size();
     switch (random.integer(0, 7)) {
       case 0:  // a shared corner
         polygon[0] = target[i];
@@ -207,8 +210,8 @@ Corner random_viewpoint(Random& random, const Corners& target, const Corners& po
     Corner p = random_corner(random, 14, 1, 14);
     const int kind = random.integer(0, 2);
     if (kind > 0) {
-      const Corner& o = polygon[std::size_t(random.integer(0, int(polygon.size()) - 1))];
-      const Corner& t = target[std::size_t(random.integer(0, int(target.size()) - 1))];
+      const Corner& o = polygon[static_cast<std::size_t>(random.integer(0, static_cast<int>(polygon.size()) - 1))];
+      const Corner& t = target[static_cast<std::size_t>(random.integer(0, static_cast<int>(target.size()) - 1))];
       const int s = random.integer(0, 3);
       for (int a = 0; a < 3; ++a) p[a] = o[a] + s * (o[a] - t[a]);
       if (kind == 2) p[random.integer(0, 2)] += random.chance(0.5) ? 1 : -1;
@@ -221,7 +224,7 @@ TEST(Blocker, AgreesWithTheExactOracleOnAGrid) {
   Random random(7);
   int inside = 0, outside = 0, boundary = 0, pierced = 0;
   for (int draw = 0; draw < 4000; ++draw) {
-    const Corners& target = targets()[std::size_t(draw) % targets().size()];
+    const Corners& target = targets()[static_cast<std::size_t>(draw) % targets().size()];
     const Corners polygon = random_polygon(random, target);
     if (pierces(target, polygon)) {
       ++pierced;
@@ -307,8 +310,8 @@ TEST(Blocker, AgreesWithTheOracleForAnyShape) {
     for (int k = 0; k < 30; ++k) {
       Vec3 p = random.point(-80, 80);
       if (random.chance(0.7)) {
-        const Vec3& o = polygon[std::size_t(random.integer(0, int(polygon.size()) - 1))];
-        const Vec3& t = target[std::size_t(random.integer(0, int(target.size()) - 1))];
+        const Vec3& o = polygon[static_cast<std::size_t>(random.integer(0, static_cast<int>(polygon.size()) - 1))];
+        const Vec3& t = target[static_cast<std::size_t>(random.integer(0, static_cast<int>(target.size()) - 1))];
         p = o + random.uniform(0, 3) * (o - t) + random.uniform(0, 1) * random.direction();
       }
       if (p.z() < 0.01) continue;
@@ -330,7 +333,7 @@ TEST(Blocker, AgreesWithTheOracleForAnyShape) {
 TEST(Blocker, EveryPlaneKeepsTargetAndPolygonApart) {
   Random random(13);
   for (int draw = 0; draw < 3000; ++draw) {
-    const Corners& target = targets()[std::size_t(draw) % targets().size()];
+    const Corners& target = targets()[static_cast<std::size_t>(draw) % targets().size()];
     const Corners polygon = random_polygon(random, target);
     std::vector<Vec3> corners;
     for (const Corner& c : polygon) corners.push_back(to_vec(c));

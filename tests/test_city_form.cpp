@@ -237,7 +237,8 @@ TEST(CityForm, RandomTagsAlwaysMakeAForm) {
   for (int round = 0; round < 20000; ++round) {
     osm::Tags tags;
     for (const std::string& key : keys) {
-      if (random.chance(0.5)) tags.all.emplace_back(key, values[random.integer(0, int(values.size()) - 1)]);
+      if (random.chance(0.5))
+        tags.all.emplace_back(key, values[random.integer(0, static_cast<int>(values.size()) - 1)]);
     }
     std::vector<TagRemark> remarks;
     const BuildingForm form = read_form(tags, nullptr, BuildingDefaults(), remarks);

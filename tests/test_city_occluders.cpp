@@ -190,11 +190,12 @@ TEST(CityOccluders, RandomTagsAndLines) {
       {{"natural", "tree"}}, {{"natural", "tree_row"}}, {{"man_made", "water_tower"}, {"roof:shape", "cone"}},
       {{"man_made", "mast"}}};
   for (int round = 0; round < 60; ++round) {
-    osm::Tags tags{kinds[static_cast<std::size_t>(random.integer(0, int(kinds.size()) - 1))]};
+    osm::Tags tags{kinds[static_cast<std::size_t>(random.integer(0, static_cast<int>(kinds.size()) - 1))]};
     for (const char* key :
          {"height", "width", "min_height", "diameter", "layer", "lanes", "diameter_crown", "roof:height"}) {
       if (random.chance(0.4))
-        tags.all.emplace_back(key, values[static_cast<std::size_t>(random.integer(0, int(values.size()) - 1))]);
+        tags.all.emplace_back(key,
+                              values[static_cast<std::size_t>(random.integer(0, static_cast<int>(values.size()) - 1))]);
     }
     std::vector<Vec2> points;
     for (int i = random.integer(2, 9); i > 0; --i) points.emplace_back(random.uniform(0, 40), random.uniform(0, 40));

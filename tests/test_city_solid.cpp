@@ -184,7 +184,8 @@ void expect_profile(const Footprint& footprint, const BuildingForm& form, const 
     }
   }
   const double cell = 4 * size.prod() / (kSteps * kSteps);
-  const double error = 0.02 * sum * cell + 6 * std::sqrt(double(hits)) * cell * (form.top_m - form.bottom_m) / 4;
+  const double error =
+      0.02 * sum * cell + 6 * std::sqrt(static_cast<double>(hits)) * cell * (form.top_m - form.bottom_m) / 4;
   EXPECT_NEAR(enclosed_volume(solid.mesh), sum * cell, error + chord * stretch * area_m2(footprint)) << what;
 }
 
@@ -362,7 +363,7 @@ Footprint draw_footprint(Random& random) {
   for (Ring& hole : rough.holes) hole = moved(hole, angle, offset);
   std::vector<Footprint> footprints = cleaned(rough);
   if (footprints.empty()) return draw_footprint(random);
-  return footprints[random.integer(0, int(footprints.size()) - 1)];
+  return footprints[random.integer(0, static_cast<int>(footprints.size()) - 1)];
 }
 
 BuildingForm draw_form(Random& random, RoofShape shape) {

@@ -127,12 +127,12 @@ TEST_F(CliSpheres, WritesItsStages) {
   const auto count = [&] {
     return std::distance(fs::directory_iterator(folder_ / "stages"), fs::directory_iterator());
   };
-  EXPECT_EQ(std::size_t(count()), files);
+  EXPECT_EQ(static_cast<std::size_t>(count()), files);
 
   // Again, with fewer: nothing of the old ones stays, and nothing beside the folder either.
   write("stages/999_sphere_999.ply", "old");
   output_of({"compute", "mission.yaml", "--method", "spheres", "-q", "-o", "volume.ply", "--stages", "stages"});
-  EXPECT_EQ(std::size_t(count()), files);
+  EXPECT_EQ(static_cast<std::size_t>(count()), files);
   for (const auto& entry : fs::directory_iterator(folder_))
     EXPECT_EQ(entry.path().filename().string().find(".vantage"), std::string::npos) << entry.path();
 }

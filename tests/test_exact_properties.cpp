@@ -113,13 +113,13 @@ TEST(ExactProperties, SeeingBothHalvesIsSeeingTheWhole) {
     Target whole = random_target(random, random.integer(4, 8), random.uniform(2, 6), {0, 0, 0.1}, {0, 0, 1});
     const auto& v = whole.parts[0];
     Target left, right;  // cut from the first vertex to another one, or to the middle of a side
-    const std::size_t cut = std::size_t(random.integer(2, int(v.size()) - 2));
+    const std::size_t cut = static_cast<std::size_t>(random.integer(2, static_cast<int>(v.size()) - 2));
     const Vec3 end = draw % 2 ? v[cut] : Vec3(0.5 * (v[cut - 1] + v[cut]));
-    left.parts[0].assign(v.begin(), v.begin() + std::ptrdiff_t(cut));
+    left.parts[0].assign(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(cut));
     left.parts[0].push_back(end);
     right.parts[0].push_back(v[0]);
     if (draw % 2 == 0) right.parts[0].push_back(end);
-    right.parts[0].insert(right.parts[0].end(), v.begin() + std::ptrdiff_t(cut), v.end());
+    right.parts[0].insert(right.parts[0].end(), v.begin() + static_cast<std::ptrdiff_t>(cut), v.end());
     const Volume all = compute(scene, whole);
     const solid::Solid box = inner_box(all.frame), expected = in_frame(all, all.frame);
     const solid::Solid both =

@@ -89,7 +89,7 @@ TEST_F(GlContexts, DevicesAreDescribed) {
   EXPECT_EQ(why_, "");
   for (std::size_t i = 0; i < found.size(); ++i) {
     const RenderDevice& device = found[i].device;
-    EXPECT_EQ(device.index, int(i));
+    EXPECT_EQ(device.index, static_cast<int>(i));
     EXPECT_NE(device.kind, DeviceKind::cpu);
     EXPECT_NE(device.name, "");
     EXPECT_NE(device.driver, "");
@@ -214,7 +214,7 @@ TEST_F(GlContexts, GraphicsProcessorsOfOneKindAreSeveral) {
   ASSERT_EQ(found.size(), 2U) << why_;
   EXPECT_EQ(found[1].device.index, 1);
   EXPECT_EQ(found[1].device.kind, DeviceKind::opengl_hardware);
-  EXPECT_EQ(found[1].device.memory_bytes, std::size_t(2) << 20);
+  EXPECT_EQ(found[1].device.memory_bytes, static_cast<std::size_t>(2) << 20);
   // The same file of the kernel: the same processor.
   broken_->egl.QueryDeviceStringEXT = [](EGLDeviceEXT, EGLint name) -> const char* {
     return name == EGL_EXTENSIONS ? "EGL_EXT_device_drm" : "/dev/dri/card0";

@@ -89,7 +89,7 @@ Excess check_nearest(Random& random, depth::DepthRenderer& renderer, const Scene
   Excess result;
   for (const Texel& t : some_texels(random, face_size, most)) {
     const double u = centre_of(t.column, face_size), v = centre_of(t.row, face_size);
-    const double reported = depths[(std::size_t(t.face) * face_size + t.row) * face_size + t.column];
+    const double reported = depths[(static_cast<std::size_t>(t.face) * face_size + t.row) * face_size + t.column];
     const double exact = std::min(inverse_depth_over(faces[t.face], u, v, 1.0 / face_size), 0x1p27);
     const double along = inverse_depth_along(faces[t.face], u + random.uniform(-1, 1) / face_size,
                                              v + random.uniform(-1, 1) / face_size);
@@ -120,7 +120,7 @@ Agreement check_centers(Random& random, depth::DepthRenderer& renderer, const Sc
   const auto faces = all_faces(scene, eye);
   Agreement result;
   for (const Texel& t : some_texels(random, face_size, most)) {
-    const double reported = depths[(std::size_t(t.face) * face_size + t.row) * face_size + t.column];
+    const double reported = depths[(static_cast<std::size_t>(t.face) * face_size + t.row) * face_size + t.column];
     const double exact =
         inverse_depth_along(faces[t.face], centre_of(t.column, face_size), centre_of(t.row, face_size));
     ++result.texels;
@@ -263,7 +263,7 @@ TEST_F(GlDepth, RadialErrorFarAwayAndAtMapCoordinates) {
   std::size_t seen = 0, silhouettes = 0;
   for (const Texel& t : some_texels(random, n, 1 << 20)) {
     const double u = centre_of(t.column, n), v = centre_of(t.row, n);
-    const double reported = depths[(std::size_t(t.face) * n + t.row) * n + t.column];
+    const double reported = depths[(static_cast<std::size_t>(t.face) * n + t.row) * n + t.column];
     const double exact = inverse_depth_along(faces[t.face], u, v);
     if (exact == 0 && reported == 0) continue;
     ++seen;
@@ -324,7 +324,7 @@ TEST_F(GlDepth, WhatIsOutOfRangeMayBeLeftOut) {
   const std::vector<float> near = cube_map(*gl, eye, 40, Sampling::nearest, 30);
   for (std::size_t i = 0; i < all.size(); ++i) {
     EXPECT_LE(near[i], all[i]);
-    const int column = int(i % 40), row = int(i / 40 % 40);
+    const int column = static_cast<int>(i % 40), row = static_cast<int>(i / 40 % 40);
     const double reach = std::hypot(1.0, centre_of(column, 40), centre_of(row, 40));
     if (reach / all[i] < 28) {
       EXPECT_EQ(near[i], all[i]);
@@ -344,7 +344,7 @@ TEST_F(GlDepth, AViewpointOnASurfaceSeesWhatIsAbove) {
       const double u = centre_of(t.column, n), v = centre_of(t.row, n);
       const depth::CubeFace& axes = depth::cube_faces()[t.face];
       const double upward = (axes.forward + u * axes.right + v * axes.up).z();
-      const double q = depths[(std::size_t(t.face) * n + t.row) * n + t.column];
+      const double q = depths[(static_cast<std::size_t>(t.face) * n + t.row) * n + t.column];
       EXPECT_GE(q, inverse_depth_along(faces[t.face], u, v));  // of the block
       if (upward > 3.0 / n) {
         EXPECT_LT(q, 1) << "face " << t.face << ", " << u << ", " << v;

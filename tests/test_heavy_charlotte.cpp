@@ -48,7 +48,7 @@ TEST(HeavyCharlotte, MeetsTheReferenceVolumes) {
     for (const int range : {100, 300, 600}) {
       const std::string key = target.name + " r" + std::to_string(range);
       const double expected = reference.at(key);
-      const Volume volume = compute_visibility(PreparedTarget(scene, target, {double(range)}));
+      const Volume volume = compute_visibility(PreparedTarget(scene, target, {static_cast<double>(range)}));
       const MeshMeasures m = measure(volume.mesh);
       EXPECT_TRUE(m.closed && m.oriented && m.euler == 2 && m.pieces == 1) << key;
       EXPECT_NEAR(m.volume_m3, expected, 0.002 * expected) << key;

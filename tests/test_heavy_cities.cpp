@@ -120,7 +120,8 @@ class TargetDraw {
   /// roof; its normal, upward for a roof.
   std::pair<Vec3, Vec3> surface_point(Kind kind) {
     for (;;) {
-      const std::size_t i = std::size_t(random_.integer(0, int(scene_.mesh.triangles.size()) - 1));
+      const std::size_t i =
+          static_cast<std::size_t>(random_.integer(0, static_cast<int>(scene_.mesh.triangles.size()) - 1));
       const Triangle& t = scene_.mesh.triangles[i];
       const auto& v = scene_.mesh.vertices;
       const Vec3 area = 0.5 * (v[t[1]] - v[t[0]]).cross(v[t[2]] - v[t[0]]);
@@ -239,7 +240,7 @@ TEST_P(HeavyCities, NothingIsOverClaimed) {
   const std::size_t share = all_targets_ / kCityCount + (city.index < all_targets_ % kCityCount);
   const std::size_t count = all_targets_ ? share : city.targets;
   for (std::size_t k = 0; k < count; ++k) {
-    const auto kind = TargetDraw::Kind(k % 3);
+    const auto kind = static_cast<TargetDraw::Kind>(k % 3);
     Target target;
     Sensor sensor;
     const Volume volume = draw_volume(prepared, draw, kind, random, target, sensor);
@@ -258,8 +259,8 @@ TEST_P(HeavyCities, NothingIsOverClaimed) {
       "%.3g "
       "m), beside edges worst %.3g of the distance; engine %.1f ms a target; %.1f s in all\n",
       city.name, totals_.targets, totals_.points, totals_.inside, totals_.rays, totals_.over, totals_.worst_over,
-      totals_.under, totals_.worst_under, totals_.worst_aimed, 1e3 * totals_.engine_seconds / double(totals_.targets),
-      seconds);
+      totals_.under, totals_.worst_under, totals_.worst_aimed,
+      1e3 * totals_.engine_seconds / static_cast<double>(totals_.targets), seconds);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, HeavyCities, ::testing::ValuesIn(kCities),

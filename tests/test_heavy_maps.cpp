@@ -448,7 +448,7 @@ TEST(HeavyMapsTogether, AreClosedAndOriented) {
   }
   std::cout << "all: " << all.solid << " of " << all.built << "; " << all.open << " open surfaces\n";
   EXPECT_GT(all.built, 50000u);
-  EXPECT_GE(double(all.solid), 0.995 * double(all.built));
+  EXPECT_GE(static_cast<double>(all.solid), 0.995 * static_cast<double>(all.built));
 }
 
 std::string test_name(const ::testing::TestParamInfo<const char*>& test) {

@@ -29,7 +29,8 @@ constexpr double kError = 0.5;  // metres: how far the ground may be from the po
 std::string first_of_zip(const std::string& bytes) {
   const auto number = [&](std::size_t at, int count) {
     std::uint32_t value = 0;
-    for (int i = 0; i < count; ++i) value |= std::uint32_t(static_cast<unsigned char>(bytes.at(at + i))) << (8 * i);
+    for (int i = 0; i < count; ++i)
+      value |= static_cast<std::uint32_t>(static_cast<unsigned char>(bytes.at(at + i))) << (8 * i);
     return value;
   };
   const std::size_t start = 30 + number(26, 2) + number(28, 2);
@@ -201,7 +202,7 @@ TEST_F(HeavySlope, TheGroundOfMonacoKeepsToThePosts) {
   double worst = 0, highest = 0;
   for (long row = 0; row <= 1200; ++row) {
     for (long column = 0; column <= 1200; ++column) {
-      const std::array<double, 2> at = {7 + double(column) / 1200, 44 - double(row) / 1200};
+      const std::array<double, 2> at = {7 + static_cast<double>(column) / 1200, 44 - static_cast<double>(row) / 1200};
       if (at[0] < 7.40 || at[0] > 7.45 || at[1] < 43.71 || at[1] > 43.76) continue;
       const auto [x, y] = to_metres(at);
       for (const Corners& t : ground_) {

@@ -54,7 +54,7 @@ int count_over_claimed(const Scene& scene, const Mesh& mesh, const Vec3& from, d
     if (k % 2 == 0) {
       point = probe.draw(random);
     } else {  // just within the boundary, where a bound is wrong first
-      const Triangle& t = mesh.triangles[random.integer(0, int(mesh.triangles.size()) - 1)];
+      const Triangle& t = mesh.triangles[random.integer(0, static_cast<int>(mesh.triangles.size()) - 1)];
       double a = random.uniform(0, 1), b = random.uniform(0, 1);
       if (a + b > 1) a = 1 - a, b = 1 - b;
       const Vec3& corner = mesh.vertices[t[0]];
@@ -107,12 +107,12 @@ TEST(HeavySpheres, VolumesOfTheBaselineAreClosed) {
         options.cubemap = 40;
         options.sphere = sphere;
         SpheresReport report;
-        const Volume volume =
-            compute_visibility_spheres(PreparedTarget(prepared, target, {double(range)}), options, &report);
+        const Volume volume = compute_visibility_spheres(PreparedTarget(prepared, target, {static_cast<double>(range)}),
+                                                         options, &report);
         const MeshMeasures m = measure(volume.mesh);
         EXPECT_TRUE(m.closed && m.oriented) << target.name << " " << range;
         EXPECT_GT(m.volume_m3, 0);
-        const Volume exact = compute_visibility(PreparedTarget(prepared, target, {double(range)}));
+        const Volume exact = compute_visibility(PreparedTarget(prepared, target, {static_cast<double>(range)}));
         std::printf("%s %d m, %s: %.0f m3 (exact %.0f), %.3f s, %zu splits, %zu unresolved\n", target.name.c_str(),
                     range, sphere == SpheresOptions::Sphere::centers ? "centers" : "conservative", m.volume_m3,
                     enclosed_volume(exact.mesh), volume.seconds.engine, report.splits, report.unresolved_pairs);

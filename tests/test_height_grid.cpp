@@ -358,7 +358,8 @@ TEST(HeightGrid, SaysWhenAFileIsCutShort) {
   VANTAGE_REQUIRE_SHARED("dsm/dsm.tif");
   const testing::TemporaryDirectory folder;
   const std::string bytes = testing::read_bytes(testing::shared_data("dsm/dsm.tif"));
-  for (const std::size_t kept : {std::size_t(8), std::size_t(400), bytes.size() / 2, std::size_t(156000)}) {
+  for (const std::size_t kept : {static_cast<std::size_t>(8), static_cast<std::size_t>(400), bytes.size() / 2,
+                                 static_cast<std::size_t>(156000)}) {
     testing::write_bytes(folder / "cut.tif", bytes.substr(0, kept));
     testing::expect_code([&] { read_height_grid(folder / "cut.tif", {}); }, ErrorCode::raster_unreadable, "cut.tif");
   }

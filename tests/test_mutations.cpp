@@ -93,8 +93,8 @@ TEST(Mutations, AnObjectLeftOutIsCaught) {
     Scene scene = whole;
     for (std::size_t i = scene.mesh.triangles.size(); i-- > 0;) {
       if (display_name(scene.objects[scene.object_of[i]]) != name) continue;
-      scene.mesh.triangles.erase(scene.mesh.triangles.begin() + std::ptrdiff_t(i));
-      scene.object_of.erase(scene.object_of.begin() + std::ptrdiff_t(i));
+      scene.mesh.triangles.erase(scene.mesh.triangles.begin() + static_cast<std::ptrdiff_t>(i));
+      scene.object_of.erase(scene.object_of.begin() + static_cast<std::ptrdiff_t>(i));
     }
     const VerifyReport report = check("without the " + name, pipeline(scene, square()));
     EXPECT_GT(report.over_claimed, 0u);

@@ -252,7 +252,7 @@ TEST(Navigation, AllLimitsTogetherAgreeWithPointTests) {
       inside += in_mesh && p.z() >= navigation.altitude->min_m && p.z() <= navigation.altitude->max_m &&
                 in_any(navigation.keep_in, p) && !in_any(navigation.keep_out, p) && inside_star(dome, p);
     }
-    const double share = double(inside) / kPoints, domain = 180.0 * 180 * 80;
+    const double share = static_cast<double>(inside) / kPoints, domain = 180.0 * 180 * 80;
     const double deviation = domain * std::sqrt(share * (1 - share) / kPoints);
     EXPECT_NEAR(measure(cut.mesh).volume_m3, share * domain, 4 * deviation) << "seed " << seed;
     EXPECT_GT(inside, 500);

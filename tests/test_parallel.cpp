@@ -35,7 +35,7 @@ TEST(Parallel, WorkOnAThreadOfItsOwnKeepsToTheCallersNumber) {
       run_while_asking([&] { seen = workers(); }, [] {});
       EXPECT_EQ(seen.count(std::this_thread::get_id()), 0u);
       EXPECT_GE(seen.size(), 1u);
-      EXPECT_LE(seen.size(), std::size_t(threads));
+      EXPECT_LE(seen.size(), static_cast<std::size_t>(threads));
     });
   }
 }

@@ -68,7 +68,8 @@ TEST(PictureNotes, AreWrittenUnderTheSubtitle) {
     int first = picture.height, last = -1;
     for (int row = 0; row < picture.height; ++row) {
       for (int column = 0; column < picture.width; ++column) {
-        const std::uint8_t* const pixel = &picture.rgba[4 * (std::size_t(row) * 800 + std::size_t(column))];
+        const std::uint8_t* const pixel =
+            &picture.rgba[4 * (static_cast<std::size_t>(row) * 800 + static_cast<std::size_t>(column))];
         if (pixel[0] < pixel[2] + 60) continue;
         first = std::min(first, row);
         last = std::max(last, row);

@@ -130,7 +130,8 @@ Mesh random_wall(Random& random, const Vec3& corner, const Vec3& across, const V
     for (int i = 0; i <= n; ++i) mesh.vertices.push_back(corner + i * across + j * up);
   for (int j = 0; j < m; ++j)
     for (int i = 0; i < n; ++i) {
-      const auto a = std::uint32_t(j * (n + 1) + i), b = a + 1, c = a + std::uint32_t(n) + 1, d = c + 1;
+      const auto a = static_cast<std::uint32_t>(j * (n + 1) + i), b = a + 1, c = a + static_cast<std::uint32_t>(n) + 1,
+                 d = c + 1;
       std::array<Triangle, 2> two = {Triangle{a, b, d}, Triangle{a, d, c}};
       if (random.chance(0.5)) two = {Triangle{a, b, c}, Triangle{b, d, c}};
       for (Triangle t : two) {
@@ -139,7 +140,8 @@ Mesh random_wall(Random& random, const Vec3& corner, const Vec3& across, const V
       }
     }
   for (std::size_t i = mesh.triangles.size(); i > 1; --i)
-    std::swap(mesh.triangles[i - 1], mesh.triangles[std::size_t(random.integer(0, int(i) - 1))]);
+    std::swap(mesh.triangles[i - 1],
+              mesh.triangles[static_cast<std::size_t>(random.integer(0, static_cast<int>(i) - 1))]);
   return mesh;
 }
 
@@ -276,7 +278,7 @@ TEST(PreparedScene, MergingKeepsAreaAndWhatIsHidden) {
     const std::size_t clean = scene.mesh.triangles.size();
     const double area = surface_area(scene.mesh);
     for (int k = 0; k < 6; ++k) {  // dirt: doubled and degenerate triangles
-      const Triangle t = scene.mesh.triangles[std::size_t(random.integer(0, int(clean) - 1))];
+      const Triangle t = scene.mesh.triangles[static_cast<std::size_t>(random.integer(0, static_cast<int>(clean) - 1))];
       scene.mesh.triangles.push_back(k % 2 ? Triangle{t[2], t[1], t[0]} : Triangle{t[0], t[1], t[0]});
       scene.object_of.push_back(0);
     }
@@ -341,7 +343,7 @@ TEST(PreparedScene, TheHierarchyHoldsEverything) {
     std::vector<int> seen(data.polygon_count());
     const auto holds = [](const core::Bounds& outer, const Vec3& min, const Vec3& max) {
       for (int a = 0; a < 3; ++a)
-        if (double(outer.min[a]) > min[a] || double(outer.max[a]) < max[a]) return false;
+        if (static_cast<double>(outer.min[a]) > min[a] || static_cast<double>(outer.max[a]) < max[a]) return false;
       return true;
     };
     std::size_t visited = 0;
@@ -366,7 +368,7 @@ TEST(PreparedScene, TheHierarchyHoldsEverything) {
     };
     visit(visit, 0);
     EXPECT_EQ(visited, data.bvh.nodes.size());
-    EXPECT_EQ(std::count(seen.begin(), seen.end(), 1), std::ptrdiff_t(seen.size()));
+    EXPECT_EQ(std::count(seen.begin(), seen.end(), 1), static_cast<std::ptrdiff_t>(seen.size()));
   }
 }
 
@@ -421,7 +423,7 @@ TEST(PreparedScene, WhatHidesNothingDoesNotMoveTheOrigin) {
   scene.mesh.vertices.push_back(Vec3::Zero());  // used by no triangle
   EXPECT_EQ(PreparedScene(scene).data().origin, clean.data().origin);
   EXPECT_EQ(PreparedScene(scene).statistics().bounds.min, utm);
-  const auto stray = std::uint32_t(scene.mesh.vertices.size() - 1);
+  const auto stray = static_cast<std::uint32_t>(scene.mesh.vertices.size() - 1);
   scene.mesh.triangles.push_back({stray, stray, stray});
   scene.object_of.push_back(0);
   const PreparedScene prepared(scene);

@@ -72,7 +72,7 @@ TEST(RasterScene, KeepsEveryPostWhenNoErrorIsAllowed) {
   const geo::CoordinateSystem utm("EPSG:32632", "test");
   for (int row = 0; row < 25; ++row) {
     for (int column = 0; column < 30; ++column) {
-      const Vec3& vertex = mesh.vertices[std::size_t(row) * 30 + std::size_t(column)];
+      const Vec3& vertex = mesh.vertices[static_cast<std::size_t>(row) * 30 + static_cast<std::size_t>(column)];
       const Eigen::Vector2d expected = frame.to_local(utm.to_lonlat({500005 + 10 * column, 4999995 - 10 * row}));
       EXPECT_LT((vertex.head<2>() - expected).norm(), 1e-4);
       EXPECT_NEAR(vertex.z(), block(column, row), 1e-5);
@@ -186,10 +186,13 @@ TEST(RasterScene, SurfaceOfDelft) {
       EXPECT_LE(result.report.largest_error_m, error_m + 1e-6);
       const Box box = bounding_box(result.scene.mesh);
       const double spacing = std::string(file) == "dsm/dsm.tif" ? 1 : 0.5;
-      const double size = std::hypot(double(result.report.columns - 1), double(result.report.rows - 1)) * spacing;
+      const double size =
+          std::hypot(static_cast<double>(result.report.columns - 1), static_cast<double>(result.report.rows - 1)) *
+          spacing;
       EXPECT_NEAR((box.max - box.min).head<2>().norm(), size, 0.15 * size);  // turned against the grid
       EXPECT_NEAR(flat_area(result.scene.mesh),
-                  double(result.report.columns - 1) * double(result.report.rows - 1) * spacing * spacing,
+                  static_cast<double>(result.report.columns - 1) * static_cast<double>(result.report.rows - 1) *
+                      spacing * spacing,
                   0.001 * size * size);
     }
   }

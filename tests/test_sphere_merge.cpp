@@ -101,7 +101,7 @@ TEST(SphereMerge, StaysCloseAndInsideWhereThatIsPromised) {
 TEST(SphereMerge, FollowsTheRangeFromWithin) {
   Random random(12);
   for (const int n : {32, 40, 41}) {
-    const std::vector<float> nothing(6 * std::size_t(n) * n, 0);
+    const std::vector<float> nothing(6 * static_cast<std::size_t>(n) * n, 0);
     const StarMesh ball = bound_corners({n, nothing}, kRange, nullptr, kMerge);
     EXPECT_LT(2 * ball.triangles.size(), 12U * n * n + 100);
     for (int k = 0; k < 500; ++k) {

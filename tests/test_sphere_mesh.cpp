@@ -54,7 +54,7 @@ StarMesh make(const Form& form, const CubeMap& cube, const Vec3* front = nullptr
 }
 
 std::vector<float> random_depths(Random& random, int n) {
-  std::vector<float> inverse(6 * std::size_t(n) * n);
+  std::vector<float> inverse(6 * static_cast<std::size_t>(n) * n);
   for (float& w : inverse) {
     const int kind = random.integer(0, 9);
     w = kind == 0 ? 0 : kind == 1 ? INFINITY : kind == 2 ? 1e-3F : static_cast<float>(1 / random.uniform(0.01, 80));
@@ -85,7 +85,7 @@ double reach(const Mesh& mesh, const Vec3& direction) {
 
 TEST(SphereMesh, HasTheStatedNumbersOfVerticesAndFacets) {
   for (const int n : {1, 2, 3, 8}) {
-    const std::vector<float> nothing(6 * std::size_t(n) * n, 0);
+    const std::vector<float> nothing(6 * static_cast<std::size_t>(n) * n, 0);
     const StarMesh centers = join_centers({n, nothing}, kRange), corners = bound_corners({n, nothing}, kRange);
     EXPECT_EQ(centers.rays.size(), 6U * n * n);
     EXPECT_EQ(centers.triangles.size(), 12U * n * n - 4);
@@ -207,7 +207,7 @@ TEST(SphereMesh, ConservativeOnesLieInWhatIsSeen) {
         mesh = placed(make(form, {n, w}, front_only ? &up : nullptr), placement).mesh;
       });
       for (int k = 0; k < 400; ++k) {
-        const Vec3& corner = scene.mesh.vertices[random.integer(0, int(scene.mesh.vertices.size()) - 1)];
+        const Vec3& corner = scene.mesh.vertices[random.integer(0, static_cast<int>(scene.mesh.vertices.size()) - 1)];
         Vec3 direction = random.direction();
         if (k % 2 == 1) direction = (corner - from + 0.2 * random.direction()).normalized();
         if (front_only && direction.z() < 0) direction.z() *= -1;

@@ -171,7 +171,7 @@ TEST(Spheres, TwoPiecesAreNoSphere) {
     return stage.kind == SphereStage::Kind::pair && stage.component_euler.size() > 1;
   });
   ASSERT_NE(pair, result.stages.end());
-  EXPECT_EQ(pair->euler, 2 * long(pair->component_euler.size()));
+  EXPECT_EQ(pair->euler, 2 * static_cast<long>(pair->component_euler.size()));
   EXPECT_GT(result.report.splits, 0U);
 }
 

@@ -82,7 +82,8 @@ TEST(TargetCorners, TheFrameHoldsEveryVertex) {
         Drawn drawn = draw_target(random, scale, on_map);
         auto& vertices = drawn.target.parts[0];
         if (random.chance(0.5)) std::reverse(vertices.begin(), vertices.end());
-        std::rotate(vertices.begin(), vertices.begin() + random.integer(0, int(vertices.size()) - 1), vertices.end());
+        std::rotate(vertices.begin(), vertices.begin() + random.integer(0, static_cast<int>(vertices.size()) - 1),
+                    vertices.end());
         TargetFrame frame;
         try {
           frame = make_target_frame(drawn.target);
@@ -125,7 +126,8 @@ Scene draw_scene(Random& random, const Drawn& drawn) {
   for (int k = 0; k < 8; ++k) {
     Vector2d at(random.uniform(-2, 2), random.uniform(-2, 2));
     if (!drawn.places.empty() && random.chance(0.8)) {
-      at = drawn.places[std::size_t(random.integer(0, int(drawn.places.size()) - 1))] * random.uniform(1.15, 1.6);
+      at = drawn.places[static_cast<std::size_t>(random.integer(0, static_cast<int>(drawn.places.size()) - 1))] *
+           random.uniform(1.15, 1.6);
     } else if (at.norm() < 1.2) {
       at *= 1.2 / at.norm() + 0.3;
     }

@@ -43,7 +43,7 @@ TEST(PostPositions, AreRightToATenthOfAMillimetre) {
     for (int row = 0; row < 60; ++row) {
       for (int column = 0; column < 70; ++column) {
         const Vec2 exact = frame.to_local(grid.position(Vec2(column, row)));
-        const auto post = std::size_t(row) * 70 + std::size_t(column);
+        const auto post = static_cast<std::size_t>(row) * 70 + static_cast<std::size_t>(column);
         worst_m = std::max(worst_m, (positions[post] - exact).norm());
       }
     }
@@ -166,7 +166,7 @@ TEST(Triangulate, KeepsTheErrorOverTheExactRectangle) {
     const Mesh& mesh = result.surface.mesh();
     expect_tiling(mesh, min, max);
     EXPECT_LE(result.largest_error_m, error_m + 1e-3);
-    EXPECT_NEAR(double(result.posts), 85 * 63, 200);
+    EXPECT_NEAR(static_cast<double>(result.posts), 85 * 63, 200);
     EXPECT_GT(mesh.triangles.size(), before);
     before = mesh.triangles.size();
     // At every post, by other means.
@@ -197,7 +197,7 @@ double worst_over_cells(const HeightGrid& grid, const geo::LocalFrame& frame, co
   for (int row = 0; row < grid.rows; ++row) {
     for (int column = 0; column < grid.columns; ++column) {
       const Vec2 at = frame.to_local(grid.position(Vec2(column, row)));
-      posts.emplace_back(Vec3(at.x(), at.y(), double(grid.at(column, row))));
+      posts.emplace_back(Vec3(at.x(), at.y(), static_cast<double>(grid.at(column, row))));
       if ((at - min).minCoeff() < 0.02 || (max - at).minCoeff() < 0.02) posts.back().reset();
     }
   }
@@ -207,9 +207,9 @@ double worst_over_cells(const HeightGrid& grid, const geo::LocalFrame& frame, co
     const Vec3 middle = (a + b) / 2;
     worst = std::max(worst, std::abs(surface.height(middle.head<2>()).value() - middle.z()));
   };
-  for (std::size_t a = 0; a + std::size_t(grid.columns) + 1 < posts.size(); ++a) {
-    const std::size_t b = a + 1, c = b + std::size_t(grid.columns), d = c - 1;
-    if (b % std::size_t(grid.columns) == 0 || !posts[a] || !posts[b] || !posts[c] || !posts[d]) continue;
+  for (std::size_t a = 0; a + static_cast<std::size_t>(grid.columns) + 1 < posts.size(); ++a) {
+    const std::size_t b = a + 1, c = b + static_cast<std::size_t>(grid.columns), d = c - 1;
+    if (b % static_cast<std::size_t>(grid.columns) == 0 || !posts[a] || !posts[b] || !posts[c] || !posts[d]) continue;
     ++cells;
     look(*posts[a], *posts[a]);
     look(*posts[a], *posts[b]);
@@ -227,7 +227,7 @@ TEST(Triangulate, TheGroundBetweenPostsDoesNotDependOnTheFrame) {
   for (const char* srs : {"EPSG:4326", "EPSG:32632", "EPSG:28992"}) {
     for (const bool in_steps : {false, true}) {  // whole metres, many posts in the plane of their neighbours
       TestRaster raster = make_raster(40, 36, [&](int column, int row) {
-        if (in_steps) return double(random.integer(0, 2) + (column > 20 ? column / 3 : 0));
+        if (in_steps) return static_cast<double>(random.integer(0, 2) + (column > 20 ? column / 3 : 0));
         return 5 * ((column + row) % 2) + random.uniform(-4, 4);  // saddles
       });
       raster.srs = srs;
@@ -302,8 +302,8 @@ TEST(Triangulate, MonacoOnTheShuttlesHeights) {
     for (int column = 0; column < grid.columns; ++column) {
       const Vec2 at = geo::LocalFrame(monaco).to_local(grid.position(Vec2(column, row)));
       if (at.cwiseAbs().maxCoeff() > 1000) continue;
-      lowest = std::min(lowest, double(grid.at(column, row)));
-      highest = std::max(highest, double(grid.at(column, row)));
+      lowest = std::min(lowest, static_cast<double>(grid.at(column, row)));
+      highest = std::max(highest, static_cast<double>(grid.at(column, row)));
     }
   }
   EXPECT_NEAR(range->lowest, lowest, 0.5);

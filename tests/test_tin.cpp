@@ -37,8 +37,8 @@ void expect_mutual_neighbours(const Tin& tin) {
     for (std::size_t i = 0; i < 3; ++i) {
       if (facet.neighbour[i] == Tin::kNone) continue;
       const Tin::Facet& beyond = tin.facets()[facet.neighbour[i]];
-      const auto back =
-          std::size_t(std::find(beyond.neighbour.begin(), beyond.neighbour.end(), f) - beyond.neighbour.begin());
+      const auto back = static_cast<std::size_t>(std::find(beyond.neighbour.begin(), beyond.neighbour.end(), f) -
+                                                 beyond.neighbour.begin());
       ASSERT_LT(back, 3u);
       ASSERT_EQ(beyond.corner[(back + 1) % 3], facet.corner[(i + 2) % 3]);
       ASSERT_EQ(beyond.corner[(back + 2) % 3], facet.corner[(i + 1) % 3]);
@@ -143,7 +143,7 @@ TEST(Tin, FoldsPointsOnACircleIntoTheirUpperHull) {
     }
     std::vector<Vec3> shuffled = ring;
     for (std::size_t i = shuffled.size(); i > 1; --i) {
-      std::swap(shuffled[i - 1], shuffled[std::size_t(random.integer(0, int(i) - 1))]);
+      std::swap(shuffled[i - 1], shuffled[static_cast<std::size_t>(random.integer(0, static_cast<int>(i) - 1))]);
     }
     Tin tin = unit_square(1000);
     for (const Vec3& point : shuffled) tin.insert(point);

@@ -113,10 +113,11 @@ void run(const Request& request) {
     }
     const Scene scene = read_city(city);
     const PreparedScene prepared(scene);
-    const auto targets = name == "baseline" ? prepared_city(kCharlotte)->targets
-                                            : find_street_targets(scene, prepared, {}, std::size_t(request.targets));
+    const auto targets = name == "baseline"
+                             ? prepared_city(kCharlotte)->targets
+                             : find_street_targets(scene, prepared, {}, static_cast<std::size_t>(request.targets));
     std::fprintf(stderr, "%s: %zu targets\n", name.c_str(), targets.size());
-    for (std::size_t i = std::size_t(request.skip); i < targets.size(); ++i)
+    for (std::size_t i = static_cast<std::size_t>(request.skip); i < targets.size(); ++i)
       for (const double range : request.ranges) run_target(request, name, i + 1, range, prepared, targets[i].target);
   }
 }

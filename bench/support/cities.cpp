@@ -26,7 +26,7 @@ Scene repeat(const Scene& scene, int tiles) {
   for (int i = 0; i < tiles; ++i)
     for (int j = 0; j < tiles; ++j) {
       const Vec3 shift((i - middle) * size.x(), (j - middle) * size.y(), 0);
-      const auto first = std::uint32_t(repeated.mesh.vertices.size());
+      const auto first = static_cast<std::uint32_t>(repeated.mesh.vertices.size());
       for (const Vec3& v : scene.mesh.vertices) repeated.mesh.vertices.push_back(v + shift);
       for (const Triangle& t : scene.mesh.triangles)
         repeated.mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
@@ -43,7 +43,7 @@ std::vector<StreetTarget> baseline_targets() {
   for (const auto& entry : baseline.at("targets")) {
     StreetTarget found{{}, Vec3::Zero(), 0};
     for (const auto& v : entry.at("vertices")) found.target.parts[0].emplace_back(v[0], -v[2].get<double>(), v[1]);
-    for (const Vec3& v : found.target.parts[0]) found.centre += v / double(found.target.parts[0].size());
+    for (const Vec3& v : found.target.parts[0]) found.centre += v / static_cast<double>(found.target.parts[0].size());
     targets.push_back(found);
   }
   return targets;
@@ -83,9 +83,10 @@ const PreparedCity* prepared_city(const City& city) {
   }
   Scene scene = read_city(city);
   PreparedScene ready(scene);
-  auto targets = &city == &kCharlotte  ? baseline_targets()
-                 : &city == &kOpenfoam ? roof_target()
-                                       : find_street_targets(scene, ready, city.search, std::size_t(city.targets));
+  auto targets = &city == &kCharlotte ? baseline_targets()
+                 : &city == &kOpenfoam
+                     ? roof_target()
+                     : find_street_targets(scene, ready, city.search, static_cast<std::size_t>(city.targets));
   return keep({std::move(scene), std::move(ready), std::move(targets)});
 }
 

@@ -61,7 +61,7 @@ double enclosed_share(const std::vector<Wall>& walls, const Vec2& centre, double
         break;
       }
   }
-  return double(stopped) / kDirections;
+  return static_cast<double>(stopped) / kDirections;
 }
 
 /// Whether nothing lies over a point at `height` or more.
@@ -104,7 +104,9 @@ std::vector<StreetTarget> find_street_targets(const Scene& scene, const Prepared
   const double ground = bounds.min.z(), eye = ground + 2;
   const std::vector<Wall> walls = walls_at(scene.mesh, eye);
   std::mt19937_64 engine(search.seed);
-  const auto draw = [&] { return double(engine() >> 11) * 0x1p-53; };  // the same with every standard library
+  const auto draw = [&] {
+    return static_cast<double>(engine() >> 11) * 0x1p-53;
+  };  // the same with every standard library
   std::vector<StreetTarget> found;
   for (int attempt = 0; attempt < 20000 && found.size() < count; ++attempt) {
     const double x = draw(), y = draw(), turn = 2 * std::numbers::pi * draw();

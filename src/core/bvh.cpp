@@ -60,12 +60,12 @@ class Builder {
       }
     }
     nodes[node].bounds = bounds;
-    nodes[node].first = std::uint32_t(begin);
-    nodes[node].count = std::uint32_t(end - begin);
+    nodes[node].first = static_cast<std::uint32_t>(begin);
+    nodes[node].count = static_cast<std::uint32_t>(end - begin);
     if (end - begin <= kLeafSize) return;
     const std::size_t middle = partition(begin, end, centres);
     const std::size_t left = nodes.size();
-    nodes[node].first = std::uint32_t(left);
+    nodes[node].first = static_cast<std::uint32_t>(left);
     nodes[node].count = 0;
     nodes.resize(left + 2);
     if (end - begin < kParallelSize) {
@@ -84,7 +84,7 @@ class Builder {
 
   // Puts a subtree built apart under `node`: its root replaces the node, the rest goes to the end.
   static void append(std::vector<BvhNode>& nodes, std::size_t node, const std::vector<BvhNode>& subtree) {
-    const std::uint32_t shift = std::uint32_t(nodes.size()) - 1;
+    const std::uint32_t shift = static_cast<std::uint32_t>(nodes.size()) - 1;
     const auto moved = [&](BvhNode n) {
       if (!n.leaf()) n.first += shift;
       return n;
@@ -94,7 +94,7 @@ class Builder {
   }
 
   int bin_of(const Split& split, std::uint32_t item) const {
-    return std::clamp(int((centre(items_[item], split.axis) - split.low) * split.scale), 0, kBins - 1);
+    return std::clamp(static_cast<int>((centre(items_[item], split.axis) - split.low) * split.scale), 0, kBins - 1);
   }
 
   // Reorders [begin, end) and returns where the right half starts.
@@ -103,7 +103,7 @@ class Builder {
     if (split.axis >= 0) {
       const auto middle = std::stable_partition(order_.begin() + begin, order_.begin() + end,
                                                 [&](std::uint32_t item) { return bin_of(split, item) <= split.bin; });
-      const std::size_t at = std::size_t(middle - order_.begin());
+      const std::size_t at = static_cast<std::size_t>(middle - order_.begin());
       if (at != begin && at != end) return at;
     }
     return begin + (end - begin) / 2;  // all centres coincide
@@ -130,7 +130,7 @@ class Builder {
       for (int bin = kBins - 1; bin > 0; --bin) {
         extend(right, bounds[bin]);
         right_count += count[bin];
-        right_cost[bin] = right_count ? half_area(right) * float(right_count) : 0;
+        right_cost[bin] = right_count ? half_area(right) * static_cast<float>(right_count) : 0;
       }
       Bounds left = empty_bounds();
       std::size_t left_count = 0;
@@ -138,7 +138,7 @@ class Builder {
         extend(left, bounds[bin]);
         left_count += count[bin];
         if (left_count == 0 || left_count == end - begin) continue;
-        const float cost = half_area(left) * float(left_count) + right_cost[bin + 1];
+        const float cost = half_area(left) * static_cast<float>(left_count) + right_cost[bin + 1];
         if (cost < best_cost) best_cost = cost, split.bin = bin, best = split;
       }
     }

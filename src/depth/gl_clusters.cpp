@@ -23,7 +23,7 @@ Range polygons_under(const std::vector<core::BvhNode>& nodes, const core::BvhNod
 }
 
 void append_cluster(const PreparedScene::Data& data, const Range& polygons, ClusteredTriangles& result) {
-  TriangleCluster cluster{std::uint32_t(result.indices.size()), 0, {}};
+  TriangleCluster cluster{static_cast<std::uint32_t>(result.indices.size()), 0, {}};
   for (std::size_t polygon = polygons.begin; polygon < polygons.end; ++polygon) {
     const auto corners = data.corners_of(polygon);
     for (std::size_t k = 1; k + 1 < corners.size(); ++k) {
@@ -31,7 +31,7 @@ void append_cluster(const PreparedScene::Data& data, const Range& polygons, Clus
     }
     for (const std::uint32_t vertex : corners) cluster.bounds.extend(data.vertices[vertex]);
   }
-  cluster.count = std::uint32_t(result.indices.size()) - cluster.first;
+  cluster.count = static_cast<std::uint32_t>(result.indices.size()) - cluster.first;
   if (cluster.count > 0) result.clusters.push_back(cluster);
 }
 
@@ -72,7 +72,7 @@ void append_commands(const std::vector<TriangleCluster>& clusters, const Vec3& e
     if (drawn && follows)
       commands.back().count += cluster.count;
     else if (drawn)
-      commands.push_back({cluster.count, 1, cluster.first, 0, std::uint32_t(face)});
+      commands.push_back({cluster.count, 1, cluster.first, 0, static_cast<std::uint32_t>(face)});
     follows = drawn;
   }
 }

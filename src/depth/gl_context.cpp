@@ -114,7 +114,7 @@ std::vector<EGLDeviceEXT> platform_devices(const EglFunctions& egl) {
 std::string kernel_file(const EglFunctions& egl, int platform_device) {
   if (platform_device == GlDeviceInfo::kSurfaceless || !egl.QueryDeviceStringEXT) return "";
   const std::vector<EGLDeviceEXT> devices = platform_devices(egl);
-  if (std::size_t(platform_device) >= devices.size()) return "";
+  if (static_cast<std::size_t>(platform_device) >= devices.size()) return "";
   const EGLDeviceEXT device = devices[platform_device];
   if (!lists(text(egl.QueryDeviceStringEXT(device, EGL_EXTENSIONS)), "EGL_EXT_device_drm")) return "";
   return text(egl.QueryDeviceStringEXT(device, EGL_DRM_DEVICE_FILE_EXT));
@@ -157,7 +157,7 @@ RenderDevice describe(const GlContext& context) {
       gl.GetIntegerv(kDedicatedMemoryNvx, kib.data());
     else if (context.has_extension("GL_ATI_meminfo"))
       gl.GetIntegerv(kTextureFreeMemoryAti, kib.data());
-    device.memory_bytes = kib[0] > 0 ? std::size_t(kib[0]) * 1024 : 0;
+    device.memory_bytes = kib[0] > 0 ? static_cast<std::size_t>(kib[0]) * 1024 : 0;
   }
   context.check("asking the device for its limits");
   return device;
@@ -183,7 +183,7 @@ void try_device(int platform_device, const std::shared_ptr<const GlLibrary>& lib
     const GlContext context(candidate.info, library);
     const GlCurrent current(context);
     candidate.info.device = describe(context);
-    candidate.info.device.index = int(found.size());
+    candidate.info.device.index = static_cast<int>(found.size());
     candidate.kernel_file = kernel_file(library->egl, platform_device);
     for (const Found& other : found) {
       if (same_device(other, candidate)) return;
@@ -206,7 +206,7 @@ std::vector<GlDeviceInfo> gl_devices(std::string& why_none, const std::shared_pt
   std::vector<Found> found;
   std::string reasons;
   if (has_device_platform(library->egl, extensions)) {
-    const int count = int(platform_devices(library->egl).size());
+    const int count = static_cast<int>(platform_devices(library->egl).size());
     for (int i = 0; i < count; ++i) try_device(i, library, found, reasons);
   }
   if (found.empty() && has_surfaceless_platform(library->egl, extensions)) {
@@ -253,7 +253,7 @@ void GlContext::open() {
     }
   } else if (has_device_platform(egl, known)) {
     const std::vector<EGLDeviceEXT> devices = platform_devices(egl);
-    if (info_.platform_device >= 0 && std::size_t(info_.platform_device) < devices.size()) {
+    if (info_.platform_device >= 0 && static_cast<std::size_t>(info_.platform_device) < devices.size()) {
       display_ = egl.GetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, devices[info_.platform_device], nullptr);
     }
   }
@@ -323,7 +323,7 @@ bool GlContext::has_extension(std::string_view name) const {
   GLint count = 0;
   gl.GetIntegerv(GL_NUM_EXTENSIONS, &count);
   for (GLint i = 0; i < count; ++i) {
-    if (text(gl.GetStringi(GL_EXTENSIONS, GLuint(i))) == name) return true;
+    if (text(gl.GetStringi(GL_EXTENSIONS, static_cast<GLuint>(i))) == name) return true;
   }
   return false;
 }
@@ -342,7 +342,8 @@ void GlContext::check(std::string_view doing) const {
   }
   if (error == GL_OUT_OF_MEMORY) throw DeviceFailure(name + " ran out of memory while " + std::string(doing));
   std::array<GLchar, 512> message{};
-  gl.GetDebugMessageLog(1, GLsizei(message.size()), nullptr, nullptr, nullptr, nullptr, nullptr, message.data());
+  gl.GetDebugMessageLog(1, static_cast<GLsizei>(message.size()), nullptr, nullptr, nullptr, nullptr, nullptr,
+                        message.data());
   throw DeviceFailure(name + " failed while " + std::string(doing) + ": " + gl_error_name(error) +
                       (message[0] ? " (" + text(message.data()) + ")" : ""));
 }

@@ -105,10 +105,11 @@ void GlDepthRenderer::upload(const PreparedScene::Data& data) {
   }
   const GlFunctions& gl = context_.gl();
   std::array<GLuint, 3> buffers{};
-  gl.CreateBuffers(GLsizei(buffers.size()), buffers.data());
+  gl.CreateBuffers(static_cast<GLsizei>(buffers.size()), buffers.data());
   // A buffer of no bytes is an error.
   const auto fill = [&](GLuint buffer, std::size_t bytes, const void* content) {
-    gl.NamedBufferStorage(buffer, GLsizeiptr(std::max<std::size_t>(bytes, 1)), bytes > 0 ? content : nullptr, 0);
+    gl.NamedBufferStorage(buffer, static_cast<GLsizeiptr>(std::max<std::size_t>(bytes, 1)),
+                          bytes > 0 ? content : nullptr, 0);
   };
   constexpr std::array<std::uint32_t, 6> faces{0, 1, 2, 3, 4, 5};
   fill(buffers[0], vertex_bytes, data.vertices.data());
@@ -141,7 +142,8 @@ GlDepthRenderer::Program GlDepthRenderer::build(const char* name, const ShaderSo
     const CubeFace& cube_face = cube_faces()[face];
     const std::array<const Vec3*, 3> rows{&cube_face.right, &cube_face.up, &cube_face.forward};
     for (std::size_t row = 0; row < 3; ++row) {
-      for (int column = 0; column < 3; ++column) axes[9 * face + 3 * row + column] = float((*rows[row])[column]);
+      for (int column = 0; column < 3; ++column)
+        axes[9 * face + 3 * row + column] = static_cast<float>((*rows[row])[column]);
     }
   }
   gl.ProgramUniformMatrix3fv(program.id, gl.GetUniformLocation(program.id, "faces"), 6, GL_TRUE, axes.data());
@@ -187,7 +189,8 @@ void GlDepthRenderer::prepare_images(int face_size) {
   gl.NamedFramebufferReadBuffer(framebuffer_, GL_NONE);
   for (Slot& slot : slots_) {
     gl.CreateBuffers(1, &slot.buffer);
-    gl.NamedBufferStorage(slot.buffer, GLsizeiptr(pass_bytes), nullptr, GL_MAP_READ_BIT | GL_CLIENT_STORAGE_BIT);
+    gl.NamedBufferStorage(slot.buffer, static_cast<GLsizeiptr>(pass_bytes), nullptr,
+                          GL_MAP_READ_BIT | GL_CLIENT_STORAGE_BIT);
   }
   context_.check("setting aside " + mib(kCopiesOnDevice * pass_bytes) + " for images");
   if (gl.CheckNamedFramebufferStatus(framebuffer_, GL_DRAW_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
@@ -212,17 +215,17 @@ void GlDepthRenderer::submit(const DepthRequest& request, const Pass& pass) {
     gl.UseProgram(program.id);
     gl.ProgramUniform3d(program.id, program.eye, eye.x(), eye.y(), eye.z());
     gl.ProgramUniform1i(program.id, program.first_face, pass.first_face);
-    gl.ProgramUniform1f(program.id, program.face_size, float(face_size_));
-    gl.NamedBufferData(command_buffer_, GLsizeiptr(sizeof(DrawCommand) * commands_.size()), commands_.data(),
-                       GL_STREAM_DRAW);
+    gl.ProgramUniform1f(program.id, program.face_size, static_cast<float>(face_size_));
+    gl.NamedBufferData(command_buffer_, static_cast<GLsizeiptr>(sizeof(DrawCommand) * commands_.size()),
+                       commands_.data(), GL_STREAM_DRAW);
     gl.BindBuffer(GL_DRAW_INDIRECT_BUFFER, command_buffer_);
     gl.BindVertexArray(vertex_array_);
-    gl.MultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, nullptr, GLsizei(commands_.size()), 0);
+    gl.MultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, nullptr, static_cast<GLsizei>(commands_.size()), 0);
   }
   Slot& slot = slots_[pass.slot];
   gl.BindBuffer(GL_PIXEL_PACK_BUFFER, slot.buffer);
   const std::size_t bytes = kTexelBytes * face_size_ * face_size_ * pass.faces;
-  gl.GetTextureImage(image_, 0, GL_DEPTH_COMPONENT, GL_FLOAT, GLsizei(bytes), nullptr);
+  gl.GetTextureImage(image_, 0, GL_DEPTH_COMPONENT, GL_FLOAT, static_cast<GLsizei>(bytes), nullptr);
   slot.fence = gl.FenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
   gl.Flush();
   context_.check("drawing depth images");
@@ -246,12 +249,12 @@ void GlDepthRenderer::collect(const Pass& pass, std::span<float> depths) {
   const GlFunctions& gl = context_.gl();
   Slot& slot = slots_[pass.slot];
   wait(slot);
-  const std::size_t face = std::size_t(face_size_) * face_size_, count = face * pass.faces;
+  const std::size_t face = static_cast<std::size_t>(face_size_) * face_size_, count = face * pass.faces;
   const auto* const mapped = static_cast<const float*>(
-      gl.MapNamedBufferRange(slot.buffer, 0, GLsizeiptr(kTexelBytes * count), GL_MAP_READ_BIT));
+      gl.MapNamedBufferRange(slot.buffer, 0, static_cast<GLsizeiptr>(kTexelBytes * count), GL_MAP_READ_BIT));
   context_.check("reading depth images back");
   if (!mapped) throw DeviceFailure(device_.name + " does not let its depth images be read");
-  constexpr float scale = float(1 / kDepthScale);
+  constexpr float scale = static_cast<float>(1 / kDepthScale);
   std::transform(mapped, mapped + count, depths.data() + face * pass.first_face,
                  [](float depth) { return depth * scale; });
   if (gl.UnmapNamedBuffer(slot.buffer) != GL_TRUE) {
@@ -269,11 +272,11 @@ void GlDepthRenderer::render(const DepthRequest& request, const DepthSink& sink)
   for (Slot& slot : slots_) {  // a sink that threw leaves images behind
     if (slot.fence) gl.DeleteSync(std::exchange(slot.fence, nullptr));
   }
-  std::vector<float> depths(6 * std::size_t(face_size_) * face_size_);
+  std::vector<float> depths(6 * static_cast<std::size_t>(face_size_) * face_size_);
   const int passes = 6 / faces_at_once_;
   const std::size_t total = request.viewpoints.size() * passes;
   const auto pass_of = [&](std::size_t i) {
-    return Pass{i / passes, int(i % passes) * faces_at_once_, faces_at_once_, int(i % 2)};
+    return Pass{i / passes, static_cast<int>(i % passes) * faces_at_once_, faces_at_once_, static_cast<int>(i % 2)};
   };
   for (std::size_t i = 0; i <= total; ++i) {
     if (i < total) submit(request, pass_of(i));

@@ -15,7 +15,7 @@ namespace vantage::internal::depth {
 /// As many faces at once (6, 3, 2 or 1) as `image_bytes` allows. Main memory holds 24 bytes more for each texel of a
 /// side squared: the depths that the sink gets.
 struct GlDepthLimits {
-  std::size_t image_bytes = std::size_t(1) << 30;
+  std::size_t image_bytes = static_cast<std::size_t>(1) << 30;
   std::size_t device_bytes = 0;  ///< scene and images together; 0: nine tenths of what the device says it has
 };
 

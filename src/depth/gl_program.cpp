@@ -12,14 +12,14 @@ GLuint compile(const GlContext& context, const std::string& name, GLenum stage, 
   const GlFunctions& gl = context.gl();
   const GLuint shader = gl.CreateShader(stage);
   const std::array<const char*, 2> parts{header, source};
-  gl.ShaderSource(shader, GLsizei(parts.size()), parts.data(), nullptr);
+  gl.ShaderSource(shader, static_cast<GLsizei>(parts.size()), parts.data(), nullptr);
   gl.CompileShader(shader);
   GLint compiled = GL_FALSE;
   gl.GetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
   context.check("compiling the shaders of " + name);
   if (compiled == GL_TRUE) return shader;
   std::array<GLchar, 1024> log{};
-  gl.GetShaderInfoLog(shader, GLsizei(log.size()), nullptr, log.data());
+  gl.GetShaderInfoLog(shader, static_cast<GLsizei>(log.size()), nullptr, log.data());
   throw DeviceFailure(context.device().name + " does not compile the shaders of " + name + ": " + log.data());
 }
 
@@ -43,7 +43,7 @@ GLuint make_program(const GlContext& context, const std::string& name, const Sha
   context.check("linking the shaders of " + name);
   if (linked == GL_TRUE) return program;
   std::array<GLchar, 1024> log{};
-  gl.GetProgramInfoLog(program, GLsizei(log.size()), nullptr, log.data());
+  gl.GetProgramInfoLog(program, static_cast<GLsizei>(log.size()), nullptr, log.data());
   throw DeviceFailure(context.device().name + " does not link the shaders of " + name + ": " + log.data());
 }
 

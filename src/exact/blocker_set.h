@@ -29,8 +29,8 @@ struct BlockerSet {
 
   /// Ends a blocker whose planes and corners have been appended; its planes are visible.
   void close(std::uint32_t scene_polygon) {
-    first.push_back(std::uint32_t(planes.size()));
-    first_corner.push_back(std::uint32_t(corners.size()));
+    first.push_back(static_cast<std::uint32_t>(planes.size()));
+    first_corner.push_back(static_cast<std::uint32_t>(corners.size()));
     polygon.push_back(scene_polygon);
     confined.push_back(0);
     visible.resize(planes.size(), 1);

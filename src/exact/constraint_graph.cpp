@@ -21,7 +21,7 @@ ConstraintGraph::ConstraintGraph(const Skeleton& skeleton, OctahedralGrid& grid,
                                         OctahedralPoint(-1, 0), OctahedralPoint(0, -1)})
     snapper_.add(corner);
   at_node_.assign(points().size(), true);
-  nodes_.assign(std::size_t(2 * grid_.size() + 1) * (2 * grid_.size() + 1), kNone);
+  nodes_.assign(static_cast<std::size_t>(2 * grid_.size() + 1) * (2 * grid_.size() + 1), kNone);
   node(0, 0) = 0;
   add_creases(skeleton);
   grid_.settle(is_range);

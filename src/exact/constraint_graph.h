@@ -41,7 +41,7 @@ class ConstraintGraph {
   /// The vertex at a node of the grid; kNone where there is none yet.
   std::uint32_t& node(int i, int j) {
     const int n = grid_.size();
-    return nodes_[std::size_t(j + n) * (2 * n + 1) + std::size_t(i + n)];
+    return nodes_[static_cast<std::size_t>(j + n) * (2 * n + 1) + static_cast<std::size_t>(i + n)];
   }
 
  private:

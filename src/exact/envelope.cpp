@@ -115,7 +115,7 @@ FacetTable find_facets(const BlockerSet& blockers, const std::vector<const Direc
         for (std::size_t i = 0; i < leaves[l]->count(); ++i)
           for (std::uint32_t k = leaves[l]->first_plane[i]; k < leaves[l]->first_plane[i + 1]; ++k)
             if (blockers.visible[leaves[l]->planes[k]] && !plane_hidden(*leaves[l], i, k))
-              found[c].push_back({leaves[l]->planes[k], leaves[l]->blockers[i], {std::uint32_t(l), k}});
+              found[c].push_back({leaves[l]->planes[k], leaves[l]->blockers[i], {static_cast<std::uint32_t>(l), k}});
   });
   std::vector<VisiblePlane> visible_planes;
   for (const auto& some : found) visible_planes.insert(visible_planes.end(), some.begin(), some.end());
@@ -123,7 +123,7 @@ FacetTable find_facets(const BlockerSet& blockers, const std::vector<const Direc
   FacetTable table;
   for (const VisiblePlane& s : visible_planes) {
     if (table.facets.empty() || table.facets.back().plane != s.plane)
-      table.facets.push_back({s.plane, s.blocker, std::uint32_t(table.places.size()), 0});
+      table.facets.push_back({s.plane, s.blocker, static_cast<std::uint32_t>(table.places.size()), 0});
     table.places.push_back(s.place);
     ++table.facets.back().place_count;
   }
@@ -224,7 +224,7 @@ class FacetTracer {
       for (const Vec3& corner : cut.polygon.corners) cut.bounds.extend(corner);
       ++cut_count_;
     }
-    std::sort(cuts_.begin(), cuts_.begin() + std::ptrdiff_t(cut_count_), [](const Cut& a, const Cut& b) {
+    std::sort(cuts_.begin(), cuts_.begin() + static_cast<std::ptrdiff_t>(cut_count_), [](const Cut& a, const Cut& b) {
       return a.area != b.area ? a.area > b.area : a.competitor < b.competitor;
     });
     competitors_.clear();
@@ -255,7 +255,7 @@ class FacetTracer {
         if (!tie || competitor > blocker) return Overlap::none;
       } else if (low < -margin) {
         if (!copied) cut = polygon_, copied = true;
-        core::clip_facet(cut, plane, 1, margin, std::uint32_t(&plane - blockers_.planes.data()), scratch_);
+        core::clip_facet(cut, plane, 1, margin, static_cast<std::uint32_t>(&plane - blockers_.planes.data()), scratch_);
         if (cut.empty()) return Overlap::none;
       }
     }
@@ -370,7 +370,7 @@ class FacetTracer {
     const double by_sagitta = 2 * std::acos(std::max(0.0, 1 - sampling.sagitta_m / circle.radius));
     const double step = std::min(by_sagitta, sampling.length_m / circle.radius);
     for (const Interval& part : arcs.parts()) {
-      const int pieces = std::max(1, int(std::ceil(part.length() / step)));
+      const int pieces = std::max(1, static_cast<int>(std::ceil(part.length() / step)));
       std::vector<Vec3>& line = out.emplace_back();
       for (int i = 0; i <= pieces; ++i) line.push_back(circle.at(part.begin + part.length() * i / pieces));
     }

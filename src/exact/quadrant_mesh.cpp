@@ -65,7 +65,7 @@ class QuadrantMesher {
     GaugeValue gauge;
   };
 
-  std::uint32_t own_count() const { return std::uint32_t(result_.graph_vertex.size()); }
+  std::uint32_t own_count() const { return static_cast<std::uint32_t>(result_.graph_vertex.size()); }
   bool is_own(std::uint32_t v) const { return v - kSuper < own_count(); }
   /// The graph's vertex; only of its own.
   std::uint32_t in_graph(std::uint32_t v) const { return result_.graph_vertex[v - kSuper]; }
@@ -119,7 +119,7 @@ class QuadrantMesher {
     gauges_.resize(cdt_.vertices.size());
     exact_gauges_.resize(cdt_.vertices.size());
     parallel::for_ranges(gauges_.size() - first_vertex, kGrain, [&](std::size_t begin, std::size_t end) {
-      for (auto v = std::uint32_t(first_vertex + begin); v < first_vertex + end; ++v) {
+      for (auto v = static_cast<std::uint32_t>(first_vertex + begin); v < first_vertex + end; ++v) {
         if (v < kSuper) continue;
         exact_gauges_[v] = gauge_at(point(v)).value;
         gauges_[v] = is_own(v) ? std::max(exact_gauges_[v], graph_.crease_gauge(in_graph(v))) : exact_gauges_[v];
@@ -228,7 +228,8 @@ class QuadrantMesher {
     for (int i = 0; i < 3; ++i) v[i] = to_direction(point(t[i])) / exact_gauges_[t[i]];
     const std::array<double, 3> square{(v[2] - v[1]).squaredNorm(), (v[0] - v[2]).squaredNorm(),
                                        (v[1] - v[0]).squaredNorm()};
-    const std::size_t longest = std::size_t(std::max_element(square.begin(), square.end()) - square.begin());
+    const std::size_t longest =
+        static_cast<std::size_t>(std::max_element(square.begin(), square.end()) - square.begin());
     // The deepest point is the middle of the circumcircle, or of the longest edge where that is outside.
     const bool obtuse = 2 * square[longest] >= square[0] + square[1] + square[2];
     const Vec3 middle = 0.5 * (v[(longest + 1) % 3] + v[(longest + 2) % 3]);
@@ -242,7 +243,7 @@ class QuadrantMesher {
   }
 
   std::uint32_t renamed(std::uint32_t v) const {
-    return is_own(v) ? in_graph(v) : std::uint32_t(graph_.points().size()) + (v - kSuper - own_count());
+    return is_own(v) ? in_graph(v) : static_cast<std::uint32_t>(graph_.points().size()) + (v - kSuper - own_count());
   }
 
   void collect_triangles() {

@@ -14,9 +14,9 @@ class Cutter {
     const int n = grid_.size();
     std::size_t count = 0;
     for (int j = -n; j < n; ++j)
-      for (const OctahedralGrid::Run& run : grid_.range_runs(j)) count += std::size_t(run.end - run.begin);
+      for (const OctahedralGrid::Run& run : grid_.range_runs(j)) count += static_cast<std::size_t>(run.end - run.begin);
     cells_.triangles.reserve(2 * count);
-    cells_.vertices.reserve(graph_.points().size() + count + 4 * std::size_t(n));
+    cells_.vertices.reserve(graph_.points().size() + count + 4 * static_cast<std::size_t>(n));
     cells_.vertices.resize(graph_.points().size());
     for (int j = -n; j < n; ++j)
       for (const OctahedralGrid::Run& run : grid_.range_runs(j))
@@ -44,7 +44,7 @@ class Cutter {
   std::uint32_t vertex_at(int i, int j) {
     std::uint32_t& slot = graph_.node(i, j);
     if (slot == ConstraintGraph::kNone) {
-      slot = std::uint32_t(cells_.vertices.size());
+      slot = static_cast<std::uint32_t>(cells_.vertices.size());
       Vec3 direction = to_direction(grid_.node(i, j));
       if (std::abs(i) + std::abs(j) == grid_.size()) direction.z() = 0;
       cells_.vertices.push_back(direction * ((1 - numerics::kShrink) / range_.gauge(direction, ball_)));

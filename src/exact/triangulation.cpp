@@ -76,7 +76,8 @@ class BoundaryBuilder {
 
   void mesh_quadrants() {
     parallel::for_ranges(4, 1, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t q = begin; q < end; ++q) quadrants_[q] = mesh_quadrant(int(q), graph_, grid_, envelope_, snap_);
+      for (std::size_t q = begin; q < end; ++q)
+        quadrants_[q] = mesh_quadrant(static_cast<int>(q), graph_, grid_, envelope_, snap_);
     });
   }
 
@@ -101,8 +102,8 @@ class BoundaryBuilder {
 
   void add(const QuadrantMesh& quadrant) {
     auto& mesh = result_.mesh;
-    const std::uint32_t points = std::uint32_t(graph_.points().size());
-    const std::uint32_t shift = std::uint32_t(mesh.vertices.size()) - points;
+    const std::uint32_t points = static_cast<std::uint32_t>(graph_.points().size());
+    const std::uint32_t shift = static_cast<std::uint32_t>(mesh.vertices.size()) - points;
     const auto renamed = [&](std::uint32_t v) { return v < points ? v : v + shift; };
     for (std::size_t i = 0; i < quadrant.added.size(); ++i)
       mesh.vertices.push_back(lifted(quadrant.added[i], quadrant.added_gauge[i], false));
@@ -113,7 +114,7 @@ class BoundaryBuilder {
   }
 
   void emit_base() {
-    const std::uint32_t centre = std::uint32_t(result_.mesh.vertices.size());
+    const std::uint32_t centre = static_cast<std::uint32_t>(result_.mesh.vertices.size());
     result_.mesh.vertices.push_back(Vec3::Zero());
     for (const auto& [from, to] : base_) {
       result_.mesh.triangles.push_back({centre, to, from});

@@ -19,7 +19,8 @@ VertexSnapper::VertexSnapper(std::size_t expected, double snap) : snap_(snap), b
 }
 
 std::size_t VertexSnapper::slot_of(std::int64_t x, std::int64_t y) const {
-  std::uint64_t h = std::uint64_t(x) * 0x9e3779b97f4a7c15ull + std::uint64_t(y) * 0xc2b2ae3d27d4eb4full;
+  std::uint64_t h =
+      static_cast<std::uint64_t>(x) * 0x9e3779b97f4a7c15ull + static_cast<std::uint64_t>(y) * 0xc2b2ae3d27d4eb4full;
   h ^= h >> 29;
   return (h * 0xbf58476d1ce4e5b9ull >> 20) & (heads_.size() - 1);
 }
@@ -50,7 +51,7 @@ std::uint32_t VertexSnapper::add(OctahedralPoint point) {
   points_.push_back(point);
   horizon_.push_back(horizon);
   next_.push_back(heads_[slot]);
-  heads_[slot] = std::uint32_t(points_.size() - 1);
+  heads_[slot] = static_cast<std::uint32_t>(points_.size() - 1);
   return heads_[slot];
 }
 

@@ -22,7 +22,9 @@ class VertexSnapper {
  private:
   std::uint32_t find(std::int64_t x, std::int64_t y, const OctahedralPoint& point) const;
   std::size_t slot_of(std::int64_t x, std::int64_t y) const;
-  std::int64_t bucket_of(double coordinate) const { return std::int64_t(std::floor(coordinate / bucket_)); }
+  std::int64_t bucket_of(double coordinate) const {
+    return static_cast<std::int64_t>(std::floor(coordinate / bucket_));
+  }
   void grow();
 
   double snap_, bucket_;

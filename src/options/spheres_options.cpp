@@ -39,15 +39,15 @@ void check_grid(const std::array<int, 2>& grid) {
 
 /// Of the machine, or as much of it as the control group (a container, a batch job) may use; version 2, "max" for all.
 double memory_bytes() {
-  const double machine = double(::sysconf(_SC_PHYS_PAGES)) * double(::sysconf(_SC_PAGESIZE));
+  const double machine = static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
   double group = 0;
   std::ifstream limit("/sys/fs/cgroup/memory.max");
   return limit >> group ? std::min(machine, group) : machine;
 }
 
 void check_memory(const SpheresOptions& options) {
-  const double texels = 6 * std::pow(double(face_size(options)), 2);
-  const double needed = kBytesPerFacet * double(facet_count(options)) + 4 * texels;
+  const double texels = 6 * std::pow(static_cast<double>(face_size(options)), 2);
+  const double needed = kBytesPerFacet * static_cast<double>(facet_count(options)) + 4 * texels;
   const double there = memory_bytes();
   if (needed <= there) return;
   const auto gigabytes = [](double bytes) { return std::to_string(std::lround(std::ceil(bytes / 1e9))) + " GB"; };
@@ -62,7 +62,7 @@ void check_memory(const SpheresOptions& options) {
 int face_size_for(const std::array<int, 2>& grid) {
   const double step = std::min(2 * std::numbers::pi / grid[0], std::numbers::pi / grid[1]);
   // A texel is widest in the middle of its face: 2 / n.
-  return 2 * int(std::ceil(2 / step));
+  return 2 * static_cast<int>(std::ceil(2 / step));
 }
 
 int face_size(const SpheresOptions& options) {
@@ -70,8 +70,9 @@ int face_size(const SpheresOptions& options) {
 }
 
 std::size_t facet_count(const SpheresOptions& options) {
-  if (options.resolution) return 2 * std::size_t((*options.resolution)[0]) * ((*options.resolution)[1] - 1);
-  return 12 * std::size_t(options.cubemap) * options.cubemap;
+  if (options.resolution)
+    return 2 * static_cast<std::size_t>((*options.resolution)[0]) * ((*options.resolution)[1] - 1);
+  return 12 * static_cast<std::size_t>(options.cubemap) * options.cubemap;
 }
 
 void check_options(const SpheresOptions& options) {

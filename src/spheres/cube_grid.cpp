@@ -9,9 +9,13 @@
 namespace vantage::internal::spheres {
 namespace {
 
-std::array<int, 3> whole(const Vec3& v) { return {int(v.x()), int(v.y()), int(v.z())}; }
+std::array<int, 3> whole(const Vec3& v) {
+  return {static_cast<int>(v.x()), static_cast<int>(v.y()), static_cast<int>(v.z())};
+}
 
-Vec3 real(const std::array<int, 3>& v) { return {double(v[0]), double(v[1]), double(v[2])}; }
+Vec3 real(const std::array<int, 3>& v) {
+  return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
+}
 
 }  // namespace
 
@@ -37,7 +41,8 @@ Lattice CubeGrid::lattice(const FaceCell& corner) const {
 // The bottom square, row by row; then the rings above it; then the top square.
 std::uint32_t CubeGrid::corner_index(const Lattice& at) const {
   const auto [x, y, z] = at;
-  const std::uint32_t side = std::uint32_t(n_) + 1, square = side * side, ring = 4 * std::uint32_t(n_);
+  const std::uint32_t side = static_cast<std::uint32_t>(n_) + 1, square = side * side,
+                      ring = 4 * static_cast<std::uint32_t>(n_);
   if (z == 0) return y * side + x;
   if (z == n_) return square + ring * (n_ - 1) + y * side + x;
   int along;
@@ -84,10 +89,10 @@ Vec3 CubeGrid::texel_direction(const FaceCell& texel) const {
 FaceCell CubeGrid::texel_at(const Vec3& direction) const {
   Eigen::Index axis;
   const double longest = direction.cwiseAbs().maxCoeff(&axis);
-  FaceCell cell{int(2 * axis) + (direction[axis] < 0), 0, 0};
+  FaceCell cell{static_cast<int>(2 * axis) + (direction[axis] < 0), 0, 0};
   const Axes& axes = axes_[cell.face];
   const auto index = [&](const std::array<int, 3>& along) {
-    return std::clamp(int(std::floor((real(along).dot(direction) / longest + 1) * n_ / 2)), 0, n_ - 1);
+    return std::clamp(static_cast<int>(std::floor((real(along).dot(direction) / longest + 1) * n_ / 2)), 0, n_ - 1);
   };
   cell.column = index(axes.right);
   cell.row = index(axes.up);

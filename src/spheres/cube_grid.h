@@ -21,7 +21,7 @@ class CubeGrid {
   explicit CubeGrid(int face_size);
 
   int size() const { return n_; }
-  std::size_t corner_count() const { return 6 * std::size_t(n_) * n_ + 2; }
+  std::size_t corner_count() const { return 6 * static_cast<std::size_t>(n_) * n_ + 2; }
 
   Lattice lattice(const FaceCell& corner) const;
   /// 0 to corner_count - 1, the same for all faces that have the corner.
@@ -33,7 +33,7 @@ class CubeGrid {
   Vec3 direction(const Lattice& at) const;  ///< longest component 1
 
   std::uint32_t texel_index(const FaceCell& texel) const {
-    return (std::uint32_t(texel.face) * n_ + texel.row) * n_ + texel.column;
+    return (static_cast<std::uint32_t>(texel.face) * n_ + texel.row) * n_ + texel.column;
   }
   Vec3 texel_direction(const FaceCell& texel) const;  ///< of its centre; longest component 1
   /// The texel that holds a direction (any length).

@@ -27,13 +27,13 @@ class LonLatGrid {
   int columns() const { return columns_; }
   int bands() const { return bands_; }
   double step() const { return 2 * kPi / columns_; }
-  std::uint32_t south() const { return 1 + std::uint32_t(columns_) * (bands_ - 1); }
+  std::uint32_t south() const { return 1 + static_cast<std::uint32_t>(columns_) * (bands_ - 1); }
   std::uint32_t vertex(int ring, int column) const {
     if (ring == 0) return 0;
     if (ring == bands_) return south();
-    return 1 + std::uint32_t(ring - 1) * columns_ + std::uint32_t(column % columns_);
+    return 1 + static_cast<std::uint32_t>(ring - 1) * columns_ + static_cast<std::uint32_t>(column % columns_);
   }
-  double latitude(int ring) const { return kPi * (0.5 - double(ring) / bands_); }
+  double latitude(int ring) const { return kPi * (0.5 - static_cast<double>(ring) / bands_); }
 
   Vec3 direction(int ring, int column) const {
     if (ring == 0) return Vec3::UnitZ();
@@ -69,7 +69,7 @@ StarMesh make_mesh(const LonLatGrid& grid) {
   StarMesh star;
   star.rays.resize(grid.south() + 1);
   star.at_range.resize(grid.south() + 1);
-  star.triangles.reserve(2 * std::size_t(grid.columns()) * (grid.bands() - 1));
+  star.triangles.reserve(2 * static_cast<std::size_t>(grid.columns()) * (grid.bands() - 1));
   grid.add_triangles(star);
   return star;
 }
@@ -78,7 +78,8 @@ StarMesh make_mesh(const LonLatGrid& grid) {
 class CellBounds {
  public:
   explicit CellBounds(const LonLatGrid& grid)
-      : grid_(grid), bound_(std::size_t(grid.columns()) * grid.bands(), std::numeric_limits<double>::infinity()) {
+      : grid_(grid),
+        bound_(static_cast<std::size_t>(grid.columns()) * grid.bands(), std::numeric_limits<double>::infinity()) {
     const auto bulged = [&](double latitude) { return std::atan(std::tan(latitude) / std::cos(grid.step() / 2)); };
     for (int band = 0; band < grid.bands(); ++band) {
       const double north = grid.latitude(band), south = grid.latitude(band + 1);
@@ -96,7 +97,7 @@ class CellBounds {
     for (int a = 0; a < 3; ++a)
       if (a != texel.face / 2) low[a] -= 1.0 / n, high[a] += 1.0 / n;
     const Vec3 nearest = Vec3::Zero().cwiseMax(low).cwiseMin(high);
-    const double radius = nearest.norm() / double(inverse_depth);
+    const double radius = nearest.norm() / static_cast<double>(inverse_depth);
 
     // The sine of the latitude, z / |d|, is monotone in z, and in the distance from the axis: its extremes are at the
     // ends of z, with the nearest and the farthest point from the axis.
@@ -111,9 +112,9 @@ class CellBounds {
 
     double from = 0, to = 2 * kPi;
     if (near > 0) longitudes(low, high, from, to);
-    const auto column = [&](double longitude) { return int(std::floor(longitude / grid_.step())); };
+    const auto column = [&](double longitude) { return static_cast<int>(std::floor(longitude / grid_.step())); };
     const int begin = column(from - numerics::kAngle), count = column(to + numerics::kAngle) - begin + 1;
-    for (auto band = int(first - south_.begin()); band < int(last - north_.begin()); ++band)
+    for (auto band = static_cast<int>(first - south_.begin()); band < static_cast<int>(last - north_.begin()); ++band)
       for (int k = 0; k < std::min(count, grid_.columns()); ++k) lower(band, begin + k, radius);
   }
 
@@ -130,7 +131,7 @@ class CellBounds {
  private:
   std::size_t cell(int band, int column) const {
     const int n = grid_.columns();
-    return std::size_t(band) * n + std::size_t((column % n + n) % n);
+    return static_cast<std::size_t>(band) * n + static_cast<std::size_t>((column % n + n) % n);
   }
 
   // The least of what all threads say: the same in any order.
@@ -181,10 +182,10 @@ StarMesh bound_lonlat(const CubeMap& cube, const std::array<int, 2>& size, doubl
   const TexelDepths depths(cube, texels, front);
   CellBounds bounds(grid);
   const int n = cube.face_size;
-  parallel::for_ranges(6 * std::size_t(n), 16, [&](std::size_t begin, std::size_t end) {
+  parallel::for_ranges(6 * static_cast<std::size_t>(n), 16, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       for (int column = 0; column < n; ++column) {
-        const FaceCell texel{int(k) / n, column, int(k) % n};
+        const FaceCell texel{static_cast<int>(k) / n, column, static_cast<int>(k) % n};
         bounds.add_texel(texels, texel, depths.nearest(texel));
       }
     }

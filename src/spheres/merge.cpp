@@ -43,7 +43,7 @@ class FaceSplitter {
 
   void join_cells() {
     std::vector<Rectangle> joined;
-    single_.assign(std::size_t(grid_.cells) * grid_.cells, 0);
+    single_.assign(static_cast<std::size_t>(grid_.cells) * grid_.cells, 0);
     for (const Rectangle& r : whole_) {
       if (r.is_cell() && !is_at_range(r)) {
         single(r.left, r.bottom) = 1;
@@ -61,7 +61,7 @@ class FaceSplitter {
   const std::vector<Rectangle>& flat() const { return flat_; }    ///< of these, what was joined because it is flat
 
  private:
-  std::uint8_t& single(int column, int row) { return single_[std::size_t(row) * grid_.cells + column]; }
+  std::uint8_t& single(int column, int row) { return single_[static_cast<std::size_t>(row) * grid_.cells + column]; }
 
   /// From a cell on to the right or upwards; takes its cells from those that are still single.
   Rectangle longest_strip(const Rectangle& cell) {
@@ -79,7 +79,7 @@ class FaceSplitter {
     return strip;
   }
 
-  double at(int column, int row) const { return inverse_[std::size_t(row) * side_ + column]; }
+  double at(int column, int row) const { return inverse_[static_cast<std::size_t>(row) * side_ + column]; }
 
   void halve(const Rectangle& r) {
     const int column = r.left + r.width() / 2, row = r.bottom + r.height() / 2;
@@ -96,7 +96,7 @@ class FaceSplitter {
   bool is_at_range(const Rectangle& r) const {
     for (int row = r.bottom; row <= r.top; ++row)
       for (int column = r.left; column <= r.right; ++column)
-        if (!at_range_[std::size_t(row) * side_ + column]) return false;
+        if (!at_range_[static_cast<std::size_t>(row) * side_ + column]) return false;
     return true;
   }
 
@@ -145,10 +145,10 @@ class FaceSplitter {
 /// The vertices on the border of a rectangle that some facet uses, counter-clockwise as (column, row).
 void border_of(const Rectangle& r, const FaceGrid& grid, const std::vector<std::uint8_t>& is_used,
                std::vector<std::uint32_t>& border) {
-  const std::size_t side = std::size_t(grid.cells) + 1;
+  const std::size_t side = static_cast<std::size_t>(grid.cells) + 1;
   border.clear();
   const auto take = [&](int column, int row) {
-    const std::uint32_t v = grid.vertex[std::size_t(row) * side + column];
+    const std::uint32_t v = grid.vertex[static_cast<std::size_t>(row) * side + column];
     if (is_used[v]) border.push_back(v);
   };
   for (int i = r.left; i < r.right; ++i) take(i, r.bottom);
@@ -160,10 +160,11 @@ void border_of(const Rectangle& r, const FaceGrid& grid, const std::vector<std::
 /// Where the four corners are in the border.
 std::array<std::size_t, 4> corner_places(const Rectangle& r, const FaceGrid& grid,
                                          const std::vector<std::uint32_t>& border) {
-  const std::size_t side = std::size_t(grid.cells) + 1;
+  const std::size_t side = static_cast<std::size_t>(grid.cells) + 1;
   const auto place = [&](int column, int row) {
-    return std::size_t(std::find(border.begin(), border.end(), grid.vertex[std::size_t(row) * side + column]) -
-                       border.begin());
+    return static_cast<std::size_t>(
+        std::find(border.begin(), border.end(), grid.vertex[static_cast<std::size_t>(row) * side + column]) -
+        border.begin());
   };
   return {place(r.left, r.bottom), place(r.right, r.bottom), place(r.right, r.top), place(r.left, r.top)};
 }
@@ -206,16 +207,19 @@ void add_facets(const StarMesh& star, const Rectangle& r, const FaceGrid& grid, 
     return;
   }
   if (r.width() == 1 || r.height() == 1) return add_strip(r, border, corner_places(r, grid, border), facets);
-  const std::size_t side = std::size_t(grid.cells) + 1;
-  const std::uint32_t middle = grid.vertex[std::size_t((r.bottom + r.top) / 2) * side + (r.left + r.right) / 2];
+  const std::size_t side = static_cast<std::size_t>(grid.cells) + 1;
+  const std::uint32_t middle =
+      grid.vertex[static_cast<std::size_t>((r.bottom + r.top) / 2) * side + (r.left + r.right) / 2];
   for (std::size_t k = 0; k < border.size(); ++k)
     facets.push_back({middle, border[(k + 1) % border.size()], border[k]});
 }
 
 void mark_used(const FaceGrid& grid, const std::vector<Rectangle>& rectangles, bool keeps_border,
                std::vector<std::uint8_t>& is_used) {
-  const std::size_t side = std::size_t(grid.cells) + 1;
-  const auto mark = [&](int column, int row) { is_used[grid.vertex[std::size_t(row) * side + column]] = 1; };
+  const std::size_t side = static_cast<std::size_t>(grid.cells) + 1;
+  const auto mark = [&](int column, int row) {
+    is_used[grid.vertex[static_cast<std::size_t>(row) * side + column]] = 1;
+  };
   for (const Rectangle& r : rectangles)
     mark(r.left, r.bottom), mark(r.right, r.bottom), mark(r.left, r.top), mark(r.right, r.top);
   if (!keeps_border) return;
@@ -231,7 +235,7 @@ void tighten(StarMesh& star, const std::vector<FaceGrid>& faces, const std::vect
     for (const Rectangle& r : splits[f].flat())
       for (int row = r.bottom; row <= r.top; ++row)
         for (int column = r.left; column <= r.right; ++column)
-          is_drawn_in[faces[f].vertex[std::size_t(row) * (faces[f].cells + 1) + column]] = 1;
+          is_drawn_in[faces[f].vertex[static_cast<std::size_t>(row) * (faces[f].cells + 1) + column]] = 1;
   for (std::size_t v = 0; v < star.rays.size(); ++v)
     if (is_drawn_in[v]) star.rays[v] *= 1 - tolerance;
 }

@@ -32,8 +32,8 @@ std::size_t row_grain(int n) { return std::max<std::size_t>(1, std::size_t{1 << 
 /// Runs `body(face, row)` for rows 0 to rows - 1 of all faces.
 template <typename Body>
 void for_face_rows(int rows, int n, const Body& body) {
-  parallel::for_ranges(6 * std::size_t(rows), row_grain(n), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) body(int(k / rows), int(k % rows));
+  parallel::for_ranges(6 * static_cast<std::size_t>(rows), row_grain(n), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) body(static_cast<int>(k / rows), static_cast<int>(k % rows));
   });
 }
 
@@ -119,12 +119,12 @@ std::vector<FaceGrid> corner_grids(const CubeGrid& grid) {
 
 void add_centre_facets(const CubeGrid& grid, StarMesh& star) {
   const int n = grid.size();
-  const std::size_t inner = std::size_t(n - 1) * (n - 1);
+  const std::size_t inner = static_cast<std::size_t>(n - 1) * (n - 1);
   star.triangles.resize(12 * inner);
   for_face_rows(n - 1, n, [&](int face, int row) {
     for (int column = 0; column + 1 < n; ++column) {
       const std::uint32_t a = grid.texel_index({face, column, row}), b = a + 1, d = a + n, c = d + 1;
-      const std::size_t at = 2 * (face * inner + std::size_t(row) * (n - 1) + column);
+      const std::size_t at = 2 * (face * inner + static_cast<std::size_t>(row) * (n - 1) + column);
       star.triangles[at] = {a, c, b};
       star.triangles[at + 1] = {a, d, c};
     }
@@ -133,11 +133,11 @@ void add_centre_facets(const CubeGrid& grid, StarMesh& star) {
 
 void add_texel_facets(const CubeGrid& grid, StarMesh& star) {
   const int n = grid.size();
-  star.triangles.resize(12 * std::size_t(n) * n);
+  star.triangles.resize(12 * static_cast<std::size_t>(n) * n);
   for_face_rows(n, n, [&](int face, int row) {
     for (int column = 0; column < n; ++column) {
       const auto corner = [&](int i, int j) { return grid.corner_index(grid.lattice({face, column + i, row + j})); };
-      set_texel_triangles(star, 2 * std::size_t(grid.texel_index({face, column, row})),
+      set_texel_triangles(star, 2 * static_cast<std::size_t>(grid.texel_index({face, column, row})),
                           {corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)});
     }
   });
@@ -149,7 +149,7 @@ StarMesh join_centers(const CubeMap& cube, double range_m, double merge) {
   const int n = cube.face_size;
   const CubeGrid grid(n);
   StarMesh star;
-  resize(star, 6 * std::size_t(n) * n);
+  resize(star, 6 * static_cast<std::size_t>(n) * n);
   for_face_rows(n, n, [&](int face, int row) {
     for (int column = 0; column < n; ++column) {
       const std::uint32_t vertex = grid.texel_index({face, column, row});

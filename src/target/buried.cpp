@@ -44,7 +44,7 @@ class VerticalProbe {
       left += side >= 0, right += side <= 0;
       area += a.cross(b);
     }
-    if ((left != int(end - begin) && right != int(end - begin)) || area.z() == 0) return;
+    if ((left != static_cast<int>(end - begin) && right != static_cast<int>(end - begin)) || area.z() == 0) return;
     const double height = area.dot(corner(begin) - point_) / area.z();
     if (height <= near_) {
       anything_below = true;

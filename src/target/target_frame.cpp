@@ -77,7 +77,7 @@ Vec3 area_vector(const std::vector<Vec3>& vertices) {
 void check_planar(const Target& target, const Vec3& normal, double extent) {
   const auto& v = target.parts[0];
   Vec3 centre = Vec3::Zero();
-  for (const Vec3& p : v) centre += (p - v[0]) / double(v.size());
+  for (const Vec3& p : v) centre += (p - v[0]) / static_cast<double>(v.size());
   double worst = 0;
   std::size_t culprit = 0;
   for (std::size_t i = 0; i < v.size(); ++i) {
@@ -231,7 +231,8 @@ TargetFrame make_target_frame(const Target& target, std::size_t part) {
   std::vector<Vector2d> polygon = corners_of(target, outline, index, extent);
 
   double height = 0;  // of the plane over the anchor: the mean, which is zero for an exactly planar polygon
-  for (const Vec3& v : target.parts[0]) height += frame.normal.dot(v - anchor) / double(target.parts[0].size());
+  for (const Vec3& v : target.parts[0])
+    height += frame.normal.dot(v - anchor) / static_cast<double>(target.parts[0].size());
   const auto circle = internal::target::smallest_enclosing_circle(polygon);
   const Vector2d centre = 0.5 * (circle.centre + internal::target::centroid(polygon));
   for (Vector2d& p : polygon) p -= centre;

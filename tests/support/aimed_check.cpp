@@ -35,8 +35,9 @@ class AimedCheck {
     for (std::size_t i = 0; i < scene_.mesh.triangles.size(); ++i)
       if ((v[scene_.mesh.triangles[i][0]] - eye).norm() < 1.2 * range_) near.push_back(i);
     for (std::size_t i = 0; i < tries && !near.empty(); i += kLooksAtAnEdge) {
-      const Triangle& t = scene_.mesh.triangles[near[std::size_t(random_.integer(0, int(near.size()) - 1))]];
-      const std::size_t side = std::size_t(random_.integer(0, 2));
+      const Triangle& t =
+          scene_.mesh.triangles[near[static_cast<std::size_t>(random_.integer(0, static_cast<int>(near.size()) - 1))]];
+      const std::size_t side = static_cast<std::size_t>(random_.integer(0, 2));
       // As often near an end of the edge as along it: that is where creases meet.
       const double share = random_.chance(0.5) ? random_.uniform(0, 1) : std::pow(10, random_.uniform(-6, 0));
       const Vec3 way = v[t[side]] + share * (v[t[(side + 1) % 3]] - v[t[side]]) - eye;

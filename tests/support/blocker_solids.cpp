@@ -99,7 +99,7 @@ solid::Solid blocker_solid(const std::array<Vec3, 3>& triangle, const std::vecto
     const Real length = n.head<3>().norm();
     if (!(length > 1e-15L)) continue;  // the plane at infinity
     const Vec3 normal = (n.head<3>() / -length).cast<double>();
-    solid = trim(solid, normal, double(n[3] / length), 0);
+    solid = trim(solid, normal, static_cast<double>(n[3] / length), 0);
     if (solid.empty()) break;
   }
   return solid;

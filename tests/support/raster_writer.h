@@ -14,7 +14,9 @@ struct TestRaster {
   std::vector<float> values;  ///< row by row, from the north
   /// Of GDAL: x of the upper left corner, pixel width, 0, its y, 0, pixel height (negative).
   std::array<double, 6> transform = {500000, 10, 0, 5000000, 0, -10};
-  float& at(int column, int row) { return values[std::size_t(row) * std::size_t(columns) + std::size_t(column)]; }
+  float& at(int column, int row) {
+    return values[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column)];
+  }
 
   std::string srs = "EPSG:32632";  ///< empty: none
   std::string nodata;              ///< "-9999", "nan"; empty: none declared

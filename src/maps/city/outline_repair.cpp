@@ -113,7 +113,7 @@ bool is_tangled(const std::vector<GridRing>& rings, bool closed) {
   std::vector<Side> sides;
   for (const GridRing& ring : rings) {
     const auto at = [&](std::size_t i) {
-      return Vec2(double(ring[i % ring.size()].x), double(ring[i % ring.size()].y));
+      return Vec2(static_cast<double>(ring[i % ring.size()].x), static_cast<double>(ring[i % ring.size()].y));
     };
     for (std::size_t i = 0; i + (closed ? 0 : 1) < ring.size(); ++i) {
       const Vec2 a = at(i), b = at(i + 1);

@@ -163,7 +163,7 @@ bool RegionFilter::meets(LonLat from, LonLat to) const {
   if (polar_ && box_) {  // whose sides are curves in the plane, and the side one in the box
     constexpr int kSteps = 64;
     for (int i = 1; i < kSteps; ++i) {
-      if (contains(from_plane(at(whole.from, whole.along, double(i) / kSteps)))) return true;
+      if (contains(from_plane(at(whole.from, whole.along, static_cast<double>(i) / kSteps)))) return true;
     }
     return false;
   }

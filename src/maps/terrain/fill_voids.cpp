@@ -31,12 +31,12 @@ struct Mean {
 /// Looks in four of the eight directions, along the row and to the three posts of the row before; `backward` sweeps
 /// from the last post to the first, which gives the other four. Adds to one mean for each void, in the order of posts.
 void sweep(const std::vector<float>& heights, int columns, int rows, bool backward, std::vector<Mean>& means) {
-  const auto width = std::size_t(columns), count = heights.size();
+  const auto width = static_cast<std::size_t>(columns), count = heights.size();
   const auto diagonal = static_cast<float>(std::numbers::sqrt2);
   // Per column, as seen from the row that is being swept: along the column, and along the two diagonals.
   std::vector<std::array<Nearest, 3>> seen(width), next(width);
   std::size_t voids = 0;
-  for (std::size_t row = 0; row < std::size_t(rows); ++row) {
+  for (std::size_t row = 0; row < static_cast<std::size_t>(rows); ++row) {
     Nearest along;
     next.assign(width, {});
     for (std::size_t column = 0; column < width; ++column) {

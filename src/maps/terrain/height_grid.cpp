@@ -18,7 +18,7 @@
 namespace vantage::internal::terrain {
 namespace {
 
-constexpr std::int64_t kMaxPosts = std::int64_t(1) << 28;
+constexpr std::int64_t kMaxPosts = static_cast<std::int64_t>(1) << 28;
 constexpr int kMarginPosts = 2;
 constexpr float kImpossible_m = 12000;  // no place on the earth is so high or deep
 constexpr int kSideSamples = 32;        // of an outline, whose image is curved
@@ -212,9 +212,9 @@ HeightGrid describe(const RasterFile& raster, const std::filesystem::path& file)
 
 HeightGrid read_pixels(const RasterFile& raster, HeightGrid grid, const PixelWindow& pixels, const Progress& callback) {
   const std::string place = grid.file.string();
-  if (std::int64_t(pixels.columns) * pixels.rows > kMaxPosts) {
+  if (static_cast<std::int64_t>(pixels.columns) * pixels.rows > kMaxPosts) {
     throw Error(ErrorCode::raster_too_large,
-                "the area has " + std::to_string(std::int64_t(pixels.columns) * pixels.rows) +
+                "the area has " + std::to_string(static_cast<std::int64_t>(pixels.columns) * pixels.rows) +
                     " posts of the raster; at most " + std::to_string(kMaxPosts) + " can be read",
                 place, "make the area smaller, or the raster coarser with gdalwarp -tr");
   }

@@ -25,7 +25,8 @@ struct HeightGrid {
   std::string vertical;          ///< what the heights are measured from, as far as the file says
 
   float at(int column, int row) const {
-    return heights_m[std::size_t(row) * std::size_t(columns) + std::size_t(column)];
+    return heights_m[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+                     static_cast<std::size_t>(column)];
   }
   /// Bilinear, at a place given in columns and rows. Outside the posts, the value on their border.
   double height_m(const Eigen::Vector2d& column_row) const;

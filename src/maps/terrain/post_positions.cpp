@@ -21,7 +21,7 @@ class Nodes {
  public:
   explicit Nodes(double length) {
     for (std::size_t i = 0; i < kNodes; ++i) {
-      places_[i] = length / 2 * (1 - std::cos(std::numbers::pi * double(i) / (kNodes - 1)));
+      places_[i] = length / 2 * (1 - std::cos(std::numbers::pi * static_cast<double>(i) / (kNodes - 1)));
     }
   }
   double operator[](std::size_t i) const { return places_[i]; }

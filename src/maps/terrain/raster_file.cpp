@@ -159,7 +159,7 @@ void RasterFile::read_georeference() {
 
 void RasterFile::read_rows(const PixelWindow& pixels, int begin, int end, float* heights) const {
   const GdalMessages messages(library_);
-  const std::size_t count = std::size_t(end - begin) * std::size_t(pixels.columns);
+  const std::size_t count = static_cast<std::size_t>(end - begin) * static_cast<std::size_t>(pixels.columns);
   std::vector<double> values(count);
   std::vector<unsigned char> mask(count);
   const auto get = [&](void* band, void* into, int type) {
@@ -182,11 +182,12 @@ void RasterFile::read_rows(const PixelWindow& pixels, int begin, int end, float*
 
 std::vector<float> RasterFile::read(const PixelWindow& pixels, const std::function<void(int)>& done) const {
   const int at_once = std::max(1, (1 << 20) / pixels.columns);
-  std::vector<float> heights(std::size_t(pixels.columns) * std::size_t(pixels.rows));
+  std::vector<float> heights(static_cast<std::size_t>(pixels.columns) * static_cast<std::size_t>(pixels.rows));
   for (int begin = 0; begin < pixels.rows; begin += at_once) {
     done(begin);
     const int end = std::min(pixels.rows, begin + at_once);
-    read_rows(pixels, begin, end, heights.data() + std::size_t(begin) * std::size_t(pixels.columns));
+    read_rows(pixels, begin, end,
+              heights.data() + static_cast<std::size_t>(begin) * static_cast<std::size_t>(pixels.columns));
   }
   return heights;
 }

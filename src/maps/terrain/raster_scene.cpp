@@ -26,7 +26,9 @@ namespace fs = std::filesystem;
 
 void check(const RasterOptions& options, const fs::path& file) {
   const RasterRegion& region = options.region;
-  if (int(region.center_deg.has_value()) + int(region.bbox_deg.has_value()) + int(region.pixels.has_value()) > 1) {
+  if (static_cast<int>(region.center_deg.has_value()) + static_cast<int>(region.bbox_deg.has_value()) +
+          static_cast<int>(region.pixels.has_value()) >
+      1) {
     refuse(ErrorCode::conflicting_keys, "the region is given in more than one way", file,
            "give a centre, a box or pixels");
   }

@@ -58,7 +58,7 @@ Surface::Surface(Mesh mesh) : mesh_(std::move(mesh)) {
   max_ = flat(box.max);
   // About one vertex a cell, cells about square.
   const Eigen::Vector2d size = max_ - min_;
-  const double cell_m = std::sqrt(size.x() * size.y() / double(mesh_.vertices.size()));
+  const double cell_m = std::sqrt(size.x() * size.y() / static_cast<double>(mesh_.vertices.size()));
   columns_ = std::clamp(static_cast<int>(std::min(size.x() / cell_m, 1e6)), 1, kMaxCells);
   rows_ = std::clamp(static_cast<int>(std::min(size.y() / cell_m, 1e6)), 1, kMaxCells);
   cells_per_m_ = {columns_ / size.x(), rows_ / size.y()};
@@ -119,13 +119,13 @@ void Surface::index_triangles() {
       for (int column = cell_column(left - hair); column <= cell_column(right + hair); ++column) add(cell(column, row));
     }
   };
-  fill_cells(triangles_.first, triangles_.items, std::size_t(columns_) * std::size_t(rows_), mesh_.triangles.size(),
-             cells_of);
+  fill_cells(triangles_.first, triangles_.items, static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_),
+             mesh_.triangles.size(), cells_of);
 }
 
 void Surface::index_vertices() {
-  fill_cells(vertices_.first, vertices_.items, std::size_t(columns_) * std::size_t(rows_), mesh_.vertices.size(),
-             [&](std::uint32_t v, const auto& add) {
+  fill_cells(vertices_.first, vertices_.items, static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_),
+             mesh_.vertices.size(), [&](std::uint32_t v, const auto& add) {
                add(cell(cell_column(mesh_.vertices[v].x()), cell_row(mesh_.vertices[v].y())));
              });
 }

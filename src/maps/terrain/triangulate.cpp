@@ -32,7 +32,7 @@ void add_crossings(const HeightGrid& grid, const geo::LocalFrame& frame, const E
   std::vector<double> parts;
   Eigen::Vector2d before = cell_at(0);
   for (int i = 1; i <= steps; ++i) {
-    const Eigen::Vector2d after = cell_at(double(i) / steps);
+    const Eigen::Vector2d after = cell_at(static_cast<double>(i) / steps);
     for (int axis = 0; axis < 2; ++axis) {
       const double low = std::min(before[axis], after[axis]), high = std::max(before[axis], after[axis]);
       for (double line = std::ceil(low); line < high; ++line) {
