@@ -37,7 +37,10 @@ Vec3 to_vec(const Corner& a) {
 
 std::pair<std::int64_t, std::int64_t> extent(const Corners& body, const Corner& axis) {
   std::int64_t low = dot(body[0], axis), high = low;
-  for (const Corner& c : body) low = std::min(low, dot(c, axis)), high = std::max(high, dot(c, axis));
+  for (const Corner& c : body) {
+    low = std::min(low, dot(c, axis));
+    high = std::max(high, dot(c, axis));
+  }
   return {low, high};
 }
 
@@ -161,7 +164,8 @@ Corners random_polygon(Random& random, const Corners& target) {
         polygon[0] = target[i];
         break;
       case 1:  // a shared edge: a wall on the target's outline
-        polygon[0] = target[i], polygon[1] = target[j];
+        polygon[0] = target[i];
+        polygon[1] = target[j];
         break;
       case 2:  // an edge on the line of a target edge, beyond it
         for (int a = 0; a < 3; ++a) polygon[0][a] = 2 * target[j][a] - target[i][a];
@@ -173,7 +177,8 @@ Corners random_polygon(Random& random, const Corners& target) {
         for (int a = 0; a < 3; ++a) polygon[1][a] = 3 * polygon[0][a] - 2 * polygon[1][a];
         break;
       case 4:  // upright
-        polygon[1] = polygon[0], polygon[1][2] += random.integer(1, 4);
+        polygon[1] = polygon[0];
+        polygon[1][2] += random.integer(1, 4);
         break;
       case 5:  // level
         polygon[1][2] = polygon[2][2] = polygon[0][2];
@@ -238,7 +243,8 @@ TEST(Blocker, AgreesWithTheExactOracleOnAGrid) {
       const double d = depth(planes, to_vec(p));
       const bool hidden = overlap(p, target, polygon);
       boundary += std::abs(d) < 1e-9;  // both answers are right there
-      inside += hidden, outside += !hidden;
+      inside += hidden;
+      outside += !hidden;
       ASSERT_TRUE(hidden ? d > -1e-9 : d < 1e-9)
           << describe(target, polygon, p) << "\noracle " << hidden << " depth " << d;
     }
@@ -273,8 +279,14 @@ double separation(const Vec3& p, const std::vector<Vec3>& target, const std::vec
     if (!(axis.norm() > 1e-12)) continue;
     const Vec3 m = axis.normalized();
     double high = -1e300, low = 1e300, own_high = -1e300, own_low = 1e300;
-    for (const Vec3& v : pyramid) high = std::max(high, m.dot(v)), low = std::min(low, m.dot(v));
-    for (const Vec3& v : polygon) own_high = std::max(own_high, m.dot(v)), own_low = std::min(own_low, m.dot(v));
+    for (const Vec3& v : pyramid) {
+      high = std::max(high, m.dot(v));
+      low = std::min(low, m.dot(v));
+    }
+    for (const Vec3& v : polygon) {
+      own_high = std::max(own_high, m.dot(v));
+      own_low = std::min(own_low, m.dot(v));
+    }
     widest = std::max({widest, own_low - high, low - own_high});
   }
   return widest;
@@ -320,7 +332,8 @@ TEST(Blocker, AgreesWithTheOracleForAnyShape) {
         ++skipped;
         continue;
       }
-      inside += apart<0, outside += apart> 0;
+      inside += apart < 0;
+      outside += apart > 0;
       ASSERT_EQ(apart<0, d> 0) << "draw " << draw << ": apart by " << apart << " depth " << d;
     }
   }

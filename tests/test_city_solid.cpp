@@ -52,7 +52,10 @@ std::vector<Footprint> cleaned(const Footprint& rough) {
 
 BuildingForm form_of(RoofShape shape, double bottom, double top, double roof) {
   BuildingForm form;
-  form.bottom_m = bottom, form.top_m = top, form.roof_m = roof, form.roof = shape;
+  form.bottom_m = bottom;
+  form.top_m = top;
+  form.roof_m = roof;
+  form.roof = shape;
   return form;
 }
 

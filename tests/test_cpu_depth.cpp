@@ -211,7 +211,10 @@ Vec3 point_of(Random& random, const std::array<Vec3, 3>& t) {
   if (kind == 0) return t[random.integer(0, 2)];
   double a = random.uniform(0, 1), b = random.uniform(0, 1) * (1 - a);
   if (kind <= 3) b = 0;
-  if (kind == 4) a = std::pow(10, random.uniform(-9, 0)), b = 0;
+  if (kind == 4) {
+    a = std::pow(10, random.uniform(-9, 0));
+    b = 0;
+  }
   const int first = random.integer(0, 2);
   const Vec3 &p = t[first], &q = t[(first + 1) % 3], &r = t[(first + 2) % 3];
   return p + a * (q - p) + b * (r - p);

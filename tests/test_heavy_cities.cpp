@@ -210,8 +210,11 @@ class HeavyCities : public ::testing::TestWithParam<City> {
                                        << aimed.worst_place.transpose() << ", beside an edge";
     totals_.worst_aimed = std::max(totals_.worst_aimed, aimed.worst_share);
     ++totals_.targets;
-    totals_.points += report.points, totals_.inside += report.inside, totals_.rays += report.rays;
-    totals_.over += report.over_claimed, totals_.under += report.under_claimed;
+    totals_.points += report.points;
+    totals_.inside += report.inside;
+    totals_.rays += report.rays;
+    totals_.over += report.over_claimed;
+    totals_.under += report.under_claimed;
     totals_.worst_over = std::max(totals_.worst_over, report.worst_over_depth_m);
     totals_.worst_under = std::max(totals_.worst_under, report.worst_under_depth_m);
     totals_.engine_seconds += volume.seconds.engine;

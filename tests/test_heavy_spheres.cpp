@@ -56,7 +56,10 @@ int count_over_claimed(const Scene& scene, const Mesh& mesh, const Vec3& from, d
     } else {  // just within the boundary, where a bound is wrong first
       const Triangle& t = mesh.triangles[random.integer(0, static_cast<int>(mesh.triangles.size()) - 1)];
       double a = random.uniform(0, 1), b = random.uniform(0, 1);
-      if (a + b > 1) a = 1 - a, b = 1 - b;
+      if (a + b > 1) {
+        a = 1 - a;
+        b = 1 - b;
+      }
       const Vec3& corner = mesh.vertices[t[0]];
       point = corner + a * (mesh.vertices[t[1]] - corner) + b * (mesh.vertices[t[2]] - corner);
       point = from + (1 - 1e-5) * (point - from);

@@ -223,8 +223,16 @@ TEST(HeightGrid, ConvertsUnitsScalesAndOffsets) {
   };
   EXPECT_FLOAT_EQ(first_height([](TestRaster& r) { r.unit = "ft"; }), 8839.2f);
   EXPECT_FLOAT_EQ(first_height([](TestRaster& r) { r.unit = "US survey foot"; }), 29000.0f * 1200 / 3937);
-  EXPECT_FLOAT_EQ(first_height([](TestRaster& r) { r.scale = 0.1, r.unit = "metre"; }), 2900);
-  EXPECT_FLOAT_EQ(first_height([](TestRaster& r) { r.scale = 0.1, r.offset = -100; }), 2800);
+  EXPECT_FLOAT_EQ(first_height([](TestRaster& r) {
+                    r.scale = 0.1;
+                    r.unit = "metre";
+                  }),
+                  2900);
+  EXPECT_FLOAT_EQ(first_height([](TestRaster& r) {
+                    r.scale = 0.1;
+                    r.offset = -100;
+                  }),
+                  2800);
   EXPECT_FLOAT_EQ(first_height([](TestRaster& r) { r.srs = "EPSG:6318+6360", r.transform = {-74, 1, 0, 41, 0, -1}; }),
                   29000.0f * 1200 / 3937);  // the heights of the compound system are in feet
   TestRaster raster = make_raster(3, 3, plane);
@@ -328,11 +336,19 @@ TEST(HeightGrid, RefusesWhatIsNoRasterOfHeights) {
   EXPECT_EQ(refused([](TestRaster&) {}), std::nullopt);
   EXPECT_EQ(refused([](TestRaster& r) { r.srs.clear(); }), ErrorCode::crs_missing);
   EXPECT_EQ(refused([](TestRaster& r) { r.placed = false; }), ErrorCode::not_georeferenced);
-  EXPECT_EQ(refused([](TestRaster& r) { r.placed = false, r.srs.clear(); }), ErrorCode::not_georeferenced);
+  EXPECT_EQ(refused([](TestRaster& r) {
+              r.placed = false;
+              r.srs.clear();
+            }),
+            ErrorCode::not_georeferenced);
   EXPECT_EQ(refused([](TestRaster& r) { r.transform[2] = 1; }), ErrorCode::raster_grid_unsupported);
   EXPECT_EQ(refused([](TestRaster& r) { r.transform[1] = 0; }), ErrorCode::raster_grid_unsupported);
   EXPECT_EQ(refused([](TestRaster& r) { r.bands = 3; }), ErrorCode::raster_not_heights);
-  EXPECT_EQ(refused([](TestRaster& r) { r.bands = 3, r.colour = "Red"; }), ErrorCode::raster_not_heights);
+  EXPECT_EQ(refused([](TestRaster& r) {
+              r.bands = 3;
+              r.colour = "Red";
+            }),
+            ErrorCode::raster_not_heights);
   EXPECT_EQ(refused([](TestRaster& r) { r.type = "CInt16"; }), ErrorCode::raster_not_heights);
   EXPECT_EQ(refused([](TestRaster& r) { std::fill(r.values.begin(), r.values.end(), kNan); }), ErrorCode::region_empty);
   EXPECT_EQ(refused([](TestRaster& r) { r.srs = "LOCAL_CS[&quot;mine&quot;,UNIT[&quot;m&quot;,1]]"; }),

@@ -141,7 +141,9 @@ TEST(MergedWalls, HoldTheirTriangles) {
         ASSERT_LT(loss.farthest, 10 * 0x1p-46 * scale);
         ASSERT_LT(std::abs(loss.more_area), 100 * 0x1p-46 * scale * scale);
         const SceneStatistics& s = PreparedScene(scene).statistics();
-        ++walls, triangles += s.triangles - s.degenerate_triangles, polygons += s.polygons;
+        ++walls;
+        triangles += s.triangles - s.degenerate_triangles;
+        polygons += s.polygons;
       }
     }
   }

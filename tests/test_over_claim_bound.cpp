@@ -80,7 +80,8 @@ TEST_F(RiseOverFacets, IsNeverLessThanWhatIsSeen) {
       gauges[i] = gauge_at(points[i]).value * (random_.chance(0.3) ? random_.uniform(1, 1.5) : 1);
     const double seen = looked_up(points, gauges), found = check.greatest_rise(quadrant, points, gauges, 1e-9);
     EXPECT_GE(found, seen - 1e-9) << round;
-    risen += seen > 1e-9, level += found == 0;
+    risen += seen > 1e-9;
+    level += found == 0;
     if (found == 0) continue;
     // Covered, nothing rises any more.
     for (double& gauge : gauges) gauge *= 1 + found;

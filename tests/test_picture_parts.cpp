@@ -107,8 +107,14 @@ TEST(PictureView, ClipCoordinatesAgreeWithPixelsAndDepths) {
       EXPECT_NEAR(ndc.y(), 1 - (view.pixel(point).y() - 0.5) / 150, 1e-3);
       EXPECT_GT(ndc.z(), 0);
       EXPECT_LT(ndc.z(), 1);
-      if (view.depth(point) < nearest_depth) nearest_depth = view.depth(point), nearest = ndc.z();
-      if (view.depth(point) > farthest_depth) farthest_depth = view.depth(point), farthest = ndc.z();
+      if (view.depth(point) < nearest_depth) {
+        nearest_depth = view.depth(point);
+        nearest = ndc.z();
+      }
+      if (view.depth(point) > farthest_depth) {
+        farthest_depth = view.depth(point);
+        farthest = ndc.z();
+      }
     }
     EXPECT_GT(nearest, farthest) << "depth is reversed";
   }

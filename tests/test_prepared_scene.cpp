@@ -294,7 +294,8 @@ TEST(PreparedScene, MergingKeepsAreaAndWhatIsHidden) {
     for (int k = 0; k < 2000; ++k) {
       const Vec3 from = random.point(-8, 8), to = random.point(-8, 8);
       const Hit was = crosses_any(before, from, to), is = crosses_any(after, from, to);
-      hidden += was == Hit::yes, free += was == Hit::no;
+      hidden += was == Hit::yes;
+      free += was == Hit::no;
       // A segment through a diagonal that merging removed is unsure before and not after; never yes against no.
       EXPECT_FALSE((was == Hit::yes && is == Hit::no) || (was == Hit::no && is == Hit::yes));
     }

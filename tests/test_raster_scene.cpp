@@ -152,7 +152,8 @@ TEST(RasterScene, RefusesWhatMakesNoScene) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(refused([](RasterOptions& o) { o.region.center_deg = {45, 9}; }), ErrorCode::region_invalid);
   EXPECT_EQ(refused([&](RasterOptions& o) {
-              o.region.center_deg = {45, 9}, o.region.radius_m = nan;
+              o.region.center_deg = {45, 9};
+              o.region.radius_m = nan;
             }),
             ErrorCode::region_invalid);
   EXPECT_EQ(refused([](RasterOptions& o) { o.region.bbox_deg = {9, 45, 9, 46}; }), ErrorCode::region_invalid);
@@ -166,7 +167,8 @@ TEST(RasterScene, RefusesWhatMakesNoScene) {
   EXPECT_EQ(refused([](RasterOptions& o) { o.max_error_m = -1; }), ErrorCode::value_out_of_range);
   EXPECT_EQ(refused([](RasterOptions& o) { o.origin_deg = {91, 0}; }), ErrorCode::not_on_earth);
   EXPECT_EQ(refused([](RasterOptions& o) {
-              o.region.center_deg = {9, 45}, o.region.radius_m = 10;
+              o.region.center_deg = {9, 45};
+              o.region.radius_m = 10;
             }),
             ErrorCode::region_outside);  // the other way round
 }

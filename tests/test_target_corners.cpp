@@ -59,7 +59,8 @@ Drawn draw_target(Random& random, double scale, bool on_map) {
   Drawn drawn;
   drawn.scale = scale;
   drawn.n = random.chance(0.5) ? Vec3::UnitZ() : random.direction();
-  drawn.u = drawn.n.unitOrthogonal(), drawn.v = drawn.n.cross(drawn.u);
+  drawn.u = drawn.n.unitOrthogonal();
+  drawn.v = drawn.n.cross(drawn.u);
   drawn.centre = on_map ? kOnMap : Vec3(scale * random.point(-3, 3));
   const OutlineDraw draw(random);
   drawn.places = draw.places();
@@ -92,7 +93,8 @@ TEST(TargetCorners, TheFrameHoldsEveryVertex) {
           continue;  // the smallest chamfers
         }
         ASSERT_NO_THROW(verify::TargetView{drawn.target});
-        ++made, dropped += vertices.size() - frame.polygon.size();
+        ++made;
+        dropped += vertices.size() - frame.polygon.size();
         for (const Vec3& vertex : vertices) {
           const Vec3 local = frame.to_local(vertex);
           ASSERT_LT(outside(frame.polygon, local.head<2>()), rounding(drawn));

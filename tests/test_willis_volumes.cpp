@@ -117,7 +117,8 @@ bool is_explained_by_snapping(const Mesh& scene, const Vec3& from, const Texel& 
       at[axis] += 2 * kSnap * ((across++ == 0 ? step % 3 : step / 3) - 1);
     }
     const double hit = first_hit(scene, from, at.normalized());
-    low = std::min(low, hit), high = std::max(high, hit);
+    low = std::min(low, hit);
+    high = std::max(high, hit);
   }
   return low - kAgree <= theirs && theirs <= high + kAgree;
 }
@@ -298,7 +299,10 @@ TEST_F(SpheresCommand, PlacesTheMesh) {
   const Scene volume = read_scene(folder_ / "v.obj");
   double left = 0, right = 0, low = INFINITY;
   for (const Vec3& v : volume.mesh.vertices) {
-    if (std::abs(v.y()) < 5 && std::abs(v.z() - 103) < 6) left = std::min(left, v.x()), right = std::max(right, v.x());
+    if (std::abs(v.y()) < 5 && std::abs(v.z() - 103) < 6) {
+      left = std::min(left, v.x());
+      right = std::max(right, v.x());
+    }
     low = std::min(low, v.z());
   }
   EXPECT_NEAR(left, -20, 1e-3);
@@ -313,7 +317,10 @@ TEST_F(SpheresCommand, CutsHeights) {
     output_of({"spheres", "-c", "config.yaml", "--sphere", sphere});
     const Scene volume = read_scene(folder_ / (sphere + ".ply"));
     double low = INFINITY, high = -INFINITY;
-    for (const Vec3& v : volume.mesh.vertices) low = std::min(low, v.z()), high = std::max(high, v.z());
+    for (const Vec3& v : volume.mesh.vertices) {
+      low = std::min(low, v.z());
+      high = std::max(high, v.z());
+    }
     EXPECT_NEAR(low, 1, 1e-9);
     EXPECT_NEAR(high, 9, 1e-9);
   }

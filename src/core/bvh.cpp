@@ -139,7 +139,11 @@ class Builder {
         left_count += count[bin];
         if (left_count == 0 || left_count == end - begin) continue;
         const float cost = half_area(left) * static_cast<float>(left_count) + right_cost[bin + 1];
-        if (cost < best_cost) best_cost = cost, split.bin = bin, best = split;
+        if (cost < best_cost) {
+          best_cost = cost;
+          split.bin = bin;
+          best = split;
+        }
       }
     }
     return best;

@@ -18,7 +18,10 @@ struct FacetPolygon {
   std::vector<std::uint32_t> makers;  ///< index of the plane that cut the edge, or one of the above
 
   bool empty() const { return corners.size() < 3; }
-  void clear() { corners.clear(), makers.clear(); }
+  void clear() {
+    corners.clear();
+    makers.clear();
+  }
 };
 
 /// A square on the plane g . x = 1 that holds everything of it within `range` of the origin.

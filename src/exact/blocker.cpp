@@ -101,7 +101,8 @@ void BlockerBuilder::add_own_plane(const Vec3& normal) {
   }
   for (const Vec3& o : polygon_) {
     const double h = normal.dot(o);
-    own_low = std::min(own_low, h), own_high = std::max(own_high, h);
+    own_low = std::min(own_low, h);
+    own_high = std::max(own_high, h);
   }
   on_polygon_.assign(target_.vertices.size(), 0);
   const bool is_over = high <= own_low + target_.slack, is_under = low >= own_high - target_.slack;

@@ -69,7 +69,8 @@ void ConstraintGraph::add_crease(const Vec3& from, const Vec3& to, bool on_spher
     const std::uint32_t next_vertex = add_crease_point(stop, next);
     add_edge(vertex, next_vertex);
     if (on_sphere) grid_.mark(previous, next, snap_);
-    previous = next, vertex = next_vertex;
+    previous = next;
+    vertex = next_vertex;
   }
 }
 

@@ -64,7 +64,10 @@ class ContactTest {
     Vec3 middle = Vec3::Zero();
     touched_.clear();
     for (const Vec3& corner : blockers_.corners_of(blocker))
-      if (std::abs(plane.dot(corner) - 1) <= margin) touched_.push_back(corner), middle += corner;
+      if (std::abs(plane.dot(corner) - 1) <= margin) {
+        touched_.push_back(corner);
+        middle += corner;
+      }
     if (touched_.empty() || middle.z() <= 0) return false;
     for (std::uint32_t competitor : tree_.leaf_at(to_octahedral(middle)).blockers)
       if (competitor != blocker && hides(competitor, plane, competitor < blocker)) return true;
@@ -248,13 +251,17 @@ class FacetTracer {
       double low = std::numeric_limits<double>::infinity(), high = -low;
       for (const Vec3& corner : polygon_.corners) {
         const double value = plane.dot(corner) - 1;
-        low = std::min(low, value), high = std::max(high, value);
+        low = std::min(low, value);
+        high = std::max(high, value);
       }
       if (high <= margin) {
         const bool tie = low >= -margin;
         if (!tie || competitor > blocker) return Overlap::none;
       } else if (low < -margin) {
-        if (!copied) cut = polygon_, copied = true;
+        if (!copied) {
+          cut = polygon_;
+          copied = true;
+        }
         core::clip_facet(cut, plane, 1, margin, static_cast<std::uint32_t>(&plane - blockers_.planes.data()), scratch_);
         if (cut.empty()) return Overlap::none;
       }

@@ -130,7 +130,10 @@ class BoundaryBuilder {
       for (std::uint32_t v : t) renamed[v] = 0;
     std::uint32_t count = 0;
     for (std::uint32_t v = 0; v < renamed.size(); ++v)
-      if (renamed[v] != kNone) mesh.vertices[count] = mesh.vertices[v], renamed[v] = count++;
+      if (renamed[v] != kNone) {
+        mesh.vertices[count] = mesh.vertices[v];
+        renamed[v] = count++;
+      }
     mesh.vertices.resize(count);
     for (Triangle& t : mesh.triangles)
       for (std::uint32_t& v : t) v = renamed[v];

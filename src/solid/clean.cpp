@@ -229,7 +229,10 @@ std::optional<Vec3> Cleaner::place_behind(std::uint32_t u, std::uint32_t v) cons
     const Plane* front = nullptr;
     for (const Plane& plane : planes) {
       const double height = plane.normal.dot(place) - plane.at;
-      if (!plane.kept && height > farthest) farthest = height, front = &plane;
+      if (!plane.kept && height > farthest) {
+        farthest = height;
+        front = &plane;
+      }
       if (plane.kept) place[*plane.kept->axis] = plane.kept->at - origin_[*plane.kept->axis];
     }
     if (farthest <= limits_.allowance_m / 2) return place;

@@ -63,7 +63,9 @@ bool CubeGrid::on_face(const Lattice& at, int face, int& column, int& row) const
   int forward = 0, right = 0, up = 0;
   for (int a = 0; a < 3; ++a) {
     const int d = 2 * at[a] - n_;
-    forward += d * axes.forward[a], right += d * axes.right[a], up += d * axes.up[a];
+    forward += d * axes.forward[a];
+    right += d * axes.right[a];
+    up += d * axes.up[a];
   }
   column = (right + n_) / 2;
   row = (up + n_) / 2;

@@ -95,7 +95,10 @@ class CellBounds {
     const Vec3 centre = cube.texel_direction(texel);
     Vec3 low = centre, high = centre;
     for (int a = 0; a < 3; ++a)
-      if (a != texel.face / 2) low[a] -= 1.0 / n, high[a] += 1.0 / n;
+      if (a != texel.face / 2) {
+        low[a] -= 1.0 / n;
+        high[a] += 1.0 / n;
+      }
     const Vec3 nearest = Vec3::Zero().cwiseMax(low).cwiseMin(high);
     const double radius = nearest.norm() / static_cast<double>(inverse_depth);
 
@@ -149,9 +152,11 @@ class CellBounds {
     for (int corner = 1; corner < 4; ++corner) {
       const double x = corner & 1 ? high.x() : low.x(), y = corner & 2 ? high.y() : low.y();
       const double turn = std::remainder(std::atan2(y, x) - base, 2 * kPi);
-      least = std::min(least, turn), most = std::max(most, turn);
+      least = std::min(least, turn);
+      most = std::max(most, turn);
     }
-    from = base + least, to = base + most;
+    from = base + least;
+    to = base + most;
   }
 
   const LonLatGrid& grid_;

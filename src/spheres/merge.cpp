@@ -188,9 +188,11 @@ void add_strip(const Rectangle& r, const std::vector<std::uint32_t>& border, con
     const bool on_near =
         j + 1 == far.size() || (i + 1 < near.size() && (i + 1) * (far.size() - 1) <= (j + 1) * (near.size() - 1));
     if (on_near) {
-      facets.push_back({near[i], far[j], near[i + 1]}), ++i;
+      facets.push_back({near[i], far[j], near[i + 1]});
+      ++i;
     } else {
-      facets.push_back({near[i], far[j], far[j + 1]}), ++j;
+      facets.push_back({near[i], far[j], far[j + 1]});
+      ++j;
     }
   }
 }
@@ -220,10 +222,19 @@ void mark_used(const FaceGrid& grid, const std::vector<Rectangle>& rectangles, b
   const auto mark = [&](int column, int row) {
     is_used[grid.vertex[static_cast<std::size_t>(row) * side + column]] = 1;
   };
-  for (const Rectangle& r : rectangles)
-    mark(r.left, r.bottom), mark(r.right, r.bottom), mark(r.left, r.top), mark(r.right, r.top);
+  for (const Rectangle& r : rectangles) {
+    mark(r.left, r.bottom);
+    mark(r.right, r.bottom);
+    mark(r.left, r.top);
+    mark(r.right, r.top);
+  }
   if (!keeps_border) return;
-  for (int i = 0; i <= grid.cells; ++i) mark(i, 0), mark(i, grid.cells), mark(0, i), mark(grid.cells, i);
+  for (int i = 0; i <= grid.cells; ++i) {
+    mark(i, 0);
+    mark(i, grid.cells);
+    mark(0, i);
+    mark(grid.cells, i);
+  }
 }
 
 /// Draws in every vertex of the rectangles by the tolerance, once: what a facet between them may rise over those that
@@ -247,7 +258,10 @@ void add_merged_facets(StarMesh& star, const std::vector<FaceGrid>& faces, const
   for (const FaceGrid& grid : faces) splits.emplace_back(star, grid, rules.tolerance);
   parallel::for_ranges(faces.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end; ++f)
-      if (faces[f].cells > 0) splits[f].split({0, 0, faces[f].cells, faces[f].cells}), splits[f].join_cells();
+      if (faces[f].cells > 0) {
+        splits[f].split({0, 0, faces[f].cells, faces[f].cells});
+        splits[f].join_cells();
+      }
   });
   std::vector<std::uint8_t> is_used(star.rays.size(), 0);
   for (std::size_t f = 0; f < faces.size(); ++f) mark_used(faces[f], splits[f].whole(), rules.keeps_borders, is_used);

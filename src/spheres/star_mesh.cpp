@@ -86,7 +86,10 @@ class FrontHalf {
     std::array<std::uint32_t, 4> corner{};
     std::array<bool, 4> on_plane{};
     int count = 0;
-    const auto take = [&](std::uint32_t v, bool on) { corner[count] = v, on_plane[count++] = on; };
+    const auto take = [&](std::uint32_t v, bool on) {
+      corner[count] = v;
+      on_plane[count++] = on;
+    };
     for (int i = 0; i < 3; ++i) {
       const std::uint32_t a = t[i], b = t[(i + 1) % 3];
       if (height(a) >= 0) take(a, height(a) == 0);

@@ -32,7 +32,10 @@ std::string point_name(const Target& target, const Vec3& place) {
   double least = moved.squaredNorm();
   for (std::size_t i = 1; i < target.parts[0].size(); ++i) {
     const double distance = (target.parts[0][i] - place).squaredNorm();
-    if (distance < least) least = distance, nearest = i;
+    if (distance < least) {
+      least = distance;
+      nearest = i;
+    }
   }
   return "vertex " + std::to_string(nearest) + " at " + core::fixed_text(place, 2);
 }
@@ -143,7 +146,9 @@ Mesh visibility_sphere(const Vec3& viewpoint, double radius_m, const SpheresOpti
   options::check_options(options);
   TargetFrame frame;
   frame.origin = viewpoint;
-  frame.axis_u = Vec3::UnitX(), frame.axis_v = Vec3::UnitY(), frame.normal = Vec3::UnitZ();
+  frame.axis_u = Vec3::UnitX();
+  frame.axis_v = Vec3::UnitY();
+  frame.normal = Vec3::UnitZ();
   const SphereMaker maker(renderer, options, radius_m, frame, false);
   progress.begin("making spheres");
   Mesh mesh;

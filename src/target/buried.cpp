@@ -41,7 +41,8 @@ class VerticalProbe {
     for (std::uint32_t k = begin; k < end; ++k) {
       const Vec3 a = corner(k) - point_, b = corner(k + 1 == end ? begin : k + 1) - point_;
       const double side = a.x() * b.y() - a.y() * b.x();
-      left += side >= 0, right += side <= 0;
+      left += side >= 0;
+      right += side <= 0;
       area += a.cross(b);
     }
     if ((left != static_cast<int>(end - begin) && right != static_cast<int>(end - begin)) || area.z() == 0) return;

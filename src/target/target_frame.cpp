@@ -82,7 +82,10 @@ void check_planar(const Target& target, const Vec3& normal, double extent) {
   std::size_t culprit = 0;
   for (std::size_t i = 0; i < v.size(); ++i) {
     const double off = std::abs(normal.dot(v[i] - v[0] - centre));
-    if (off > worst) worst = off, culprit = i;
+    if (off > worst) {
+      worst = off;
+      culprit = i;
+    }
   }
   if (worst > std::max(kPlanarAtLeast, kPlanarFraction * extent))
     refuse(ErrorCode::target_not_planar, target,

@@ -65,7 +65,8 @@ void SceneDrawing::houses() {
         break;
     }
     const Vec3 high = low + size;
-    last_low = low, last_high = high;
+    last_low = low;
+    last_high = high;
     box(low, high, random_.chance(0.3));
     if (!random_.chance(0.4)) continue;
     const double ridge = high.z() + random_.uniform(0.1, 1), x = 0.5 * (low.x() + high.x());
@@ -79,7 +80,10 @@ void SceneDrawing::houses() {
 void SceneDrawing::roof() {
   object("block");
   Vec3 low = outline_[0], high = low;
-  for (const Vec3& p : outline_) low = low.cwiseMin(p), high = high.cwiseMax(p);
+  for (const Vec3& p : outline_) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
   const double margin = random_.pick({0.0, 0.0, 1e-9, 0.2, 1.0});
   low -= Vec3(margin, margin, random_.uniform(0.3, 4));
   high += Vec3(margin, margin, random_.chance(0.7) ? 0 : -std::abs(tiny()));
@@ -224,7 +228,10 @@ void draw_target(Random& random, const Pose& pose, const std::vector<Vec3>& outl
   for (const Vec3& p : outline) target.parts[0].push_back(pose(p));
   target.front = pose.rotation * Vec3::UnitZ();
   if (pose.rotation.isIdentity() && random.chance(0.5)) target.front.reset();
-  if (random.chance(0.05)) target.front = pose.rotation * Vec3(0, 0, -1), c.kind += ", from below";
+  if (random.chance(0.05)) {
+    target.front = pose.rotation * Vec3(0, 0, -1);
+    c.kind += ", from below";
+  }
   if (random.chance(0.3)) std::reverse(target.parts[0].begin(), target.parts[0].end());
   if (random.chance(0.15))
     target.offset_m = random.pick({1e-9, 1e-6, 1e-3 * pose.scale, 0.05 * pose.scale, 0.3 * pose.scale});

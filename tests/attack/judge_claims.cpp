@@ -60,7 +60,10 @@ class Claims {
   Vec3 place_on(const Corners& t) {
     Random& random = trial_.random;
     double u = random.uniform(0, 1), v = random.uniform(0, 1);
-    if (u + v > 1) u = 1 - u, v = 1 - v;
+    if (u + v > 1) {
+      u = 1 - u;
+      v = 1 - v;
+    }
     double w = 1 - u - v;
     const double near = random.magnitude(1e-9, 0.1);
     switch (random.integer(0, 3)) {
@@ -68,10 +71,14 @@ class Claims {
         u = v = w = 1.0 / 3;
         break;
       case 1:
-        u *= near, v *= near, w = 1 - u - v;
+        u *= near;
+        v *= near;
+        w = 1 - u - v;
         break;
       case 2:
-        w *= near, u = (1 - w) * u / (u + v), v = 1 - w - u;
+        w *= near;
+        u = (1 - w) * u / (u + v);
+        v = 1 - w - u;
         break;
       default:
         break;

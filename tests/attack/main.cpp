@@ -71,9 +71,11 @@ Options parse(int count, char** words) {
       options.first = number();
     else if (word == "--seed")
       options.seed = number();
-    else if (word == "--only")
-      options.first = number(), options.scenes = 1, options.told = true;
-    else if (word == "--mission")
+    else if (word == "--only") {
+      options.first = number();
+      options.scenes = 1;
+      options.told = true;
+    } else if (word == "--mission")
       options.mission = value();
     else if (word == "--out")
       options.out = value();

@@ -63,7 +63,9 @@ class AimedCheck {
       const Vec3 place = eye + (seen + share * (claimed - seen)) * direction;
       const double depth = probe_.depth(place), relative = depth / (place - frame.origin).norm();
       if (relative <= report_.worst_share) continue;
-      report_.worst_depth = depth, report_.worst_share = relative, report_.worst_place = place;
+      report_.worst_depth = depth;
+      report_.worst_share = relative;
+      report_.worst_place = place;
     }
   }
 

@@ -66,7 +66,8 @@ std::vector<Homogeneous> half_spaces(const std::vector<Vec3>& polygon, const std
         n.normalize();
         Real low = 0, high = 0;
         for (const Homogeneous& g : generators) {
-          low = std::min(low, n.dot(g)), high = std::max(high, n.dot(g));
+          low = std::min(low, n.dot(g));
+          high = std::max(high, n.dot(g));
           if (low < -1e-12L && high > 1e-12L) break;
         }
         if (low < -1e-12L && high > 1e-12L) continue;

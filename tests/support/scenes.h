@@ -91,7 +91,8 @@ inline Scene random_city(Random& random, int blocks, double clearing) {
     for (Triangle& t : mesh.triangles)
       if (random.chance(0.2)) std::swap(t[0], t[1]);
     builder.add("block " + std::to_string(made++), mesh);
-    previous_min = min, previous_max = max;
+    previous_min = min;
+    previous_max = max;
   }
   return builder;
 }

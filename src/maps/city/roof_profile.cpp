@@ -52,7 +52,10 @@ RoofFrame least_rectangle(const Ring& hull) {
     const RoofFrame frame = frame_along(hull, (hull[(i + 1) % hull.size()] - hull[i]).normalized());
     const double area = frame.half_length * frame.half_width;
     // Of equal ones the first, though rounding differs.
-    if (area < least * (1 - 1e-9)) least = area, best = frame;
+    if (area < least * (1 - 1e-9)) {
+      least = area;
+      best = frame;
+    }
   }
   return best;
 }
