@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -102,7 +103,7 @@ Scene sheets(int count, bool fan) {
   scene.objects = {{"sheets"}};
   for (int k = 0; k < count; ++k) {
     // The golden ratio spreads numbers evenly, in no order.
-    const double angle = 2 * M_PI * k / count, rise = std::fmod(0.6180339887 * k, 1), reach = 1 + 3 * rise;
+    const double angle = 2 * std::numbers::pi * k / count, rise = std::fmod(0.6180339887 * k, 1), reach = 1 + 3 * rise;
     const Vec3 out(reach * std::cos(angle), reach * std::sin(angle), 5 * std::fmod(0.7548776662 * k, 1));
     const Vec3 beside(-std::sin(angle), std::cos(angle), 0.3);
     const auto first = static_cast<std::uint32_t>(scene.mesh.vertices.size());

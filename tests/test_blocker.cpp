@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <string>
 
 #include "exact/blocker.h"
@@ -297,7 +298,7 @@ std::vector<Vec3> random_ring(Random& random, int corners, const Vec3& centre, c
   const Vec3 u = normal.unitOrthogonal(), v = normal.cross(u);
   std::vector<Vec3> ring;
   for (int k = 0; k < corners; ++k) {
-    const double angle = 2 * M_PI * (k + random.uniform(-0.2, 0.2)) / corners;
+    const double angle = 2 * std::numbers::pi * (k + random.uniform(-0.2, 0.2)) / corners;
     ring.push_back(centre + 10 * (std::cos(angle) * u + squeeze * std::sin(angle) * v));
   }
   return ring;

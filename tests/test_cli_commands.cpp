@@ -1,4 +1,6 @@
 // What the commands answer.
+#include <numbers>
+
 #include "support/cli_fixture.h"
 #include "vantage/geometry.h"
 
@@ -42,8 +44,8 @@ TEST_F(CliCompute, WritesVolumeAndReport) {
   EXPECT_EQ(report.at("euler"), 2);
   EXPECT_EQ(report.at("pieces"), 1);
   // Within the half ball about the target's centre, and not without the air straight above.
-  EXPECT_LT(report.at("volume_m3").get<double>(), 2.0 / 3 * 3.14159266 * 60 * 60 * 60);
-  EXPECT_GT(report.at("volume_m3").get<double>(), 0.5 * 2 / 3 * 3.14159266 * 52 * 52 * 52);
+  EXPECT_LT(report.at("volume_m3").get<double>(), 2.0 / 3 * std::numbers::pi * 60 * 60 * 60);
+  EXPECT_GT(report.at("volume_m3").get<double>(), 0.5 * 2 / 3 * std::numbers::pi * 52 * 52 * 52);
   EXPECT_GT(report.at("seconds").at("total").get<double>(), 0.0);
   EXPECT_EQ(report.at("target"), "square");
 }

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -397,7 +398,8 @@ TEST(NearestDepth, MergedPolygonsAreBoundedToo) {
                centre = random.point(-5, 5);
     std::vector<Vec3> corners;
     for (int i = 0; i < 16; ++i)
-      corners.emplace_back(centre + 9 * std::cos(i * M_PI / 8) * u + 9 * std::sin(i * M_PI / 8) * v);
+      corners.emplace_back(centre + 9 * std::cos(i * std::numbers::pi / 8) * u +
+                           9 * std::sin(i * std::numbers::pi / 8) * v);
     const Scene scene = shifted(SceneBuilder().polygon("disc", corners), shift);
     const DepthMap map = render_scene(scene, shift, 20, Sampling::nearest);
     for (const auto& triangle : seen_from(scene.mesh, shift)) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iostream>
 #include <limits>
+#include <numbers>
 #include <random>
 #include <tuple>
 #include <vector>
@@ -187,7 +188,7 @@ TEST(Query, AgreesWithTheMesh) {
         winding += std::atan2(a.dot(b.cross(c)), a.norm() * b.norm() * c.norm() + a.dot(b) * c.norm() +
                                                      b.dot(c) * a.norm() + c.dot(a) * b.norm());
       }
-      EXPECT_EQ(answers[i].inside, winding > M_PI) << points[i].transpose();
+      EXPECT_EQ(answers[i].inside, winding > std::numbers::pi) << points[i].transpose();
       EXPECT_EQ(answers[i].inside, answers[i].margin_m > 0) << points[i].transpose();
       inside += answers[i].inside;
     }
@@ -208,7 +209,7 @@ Scene soup(testing::Random& random, double scale, const Vec3& at) {
   for (int i = 0; i < 12; ++i) scene.objects.push_back({"object " + std::to_string(i % 9)});  // some share a name
   const auto small = [&] { return random.uniform(-6, 6); };
   for (int i = 0; i < 240; ++i) {
-    const double turn = random.uniform(0, 2 * M_PI), hair = std::pow(10.0, random.uniform(-9, -2));
+    const double turn = random.uniform(0, 2 * std::numbers::pi), hair = std::pow(10.0, random.uniform(-9, -2));
     const Vec3 o = random.uniform(17, 60) * Vec3(std::cos(turn), std::sin(turn), 0), up(0, 0, 1);
     const Vec3 along(small(), small(), 0), high = random.uniform(0, 25) * up;
     switch (i % 6) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -103,7 +104,7 @@ TEST(Surface, RangeOverAPolygonIsExact) {
     std::vector<Vec2> ring;  // a star, convex or not
     const int corners = random.integer(3, 9);
     for (int i = 0; i < corners; ++i) {
-      const double angle = 2 * M_PI * i / corners, radius = size * random.uniform(0.2, 1);
+      const double angle = 2 * std::numbers::pi * i / corners, radius = size * random.uniform(0.2, 1);
       ring.push_back(middle + radius * Vec2(std::cos(angle), std::sin(angle)));
     }
     if (random.chance(0.3)) std::reverse(ring.begin(), ring.end());

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -138,7 +139,7 @@ TEST(Tin, FoldsPointsOnACircleIntoTheirUpperHull) {
     const int count = random.integer(4, 9);
     std::vector<Vec3> ring;  // counter-clockwise
     for (int i = 0; i < count; ++i) {
-      const double angle = 2 * M_PI * (i + random.uniform(-0.2, 0.2)) / count;
+      const double angle = 2 * std::numbers::pi * (i + random.uniform(-0.2, 0.2)) / count;
       ring.emplace_back(500 + std::cos(angle), 500 + std::sin(angle), random.uniform(-3, 3));
     }
     std::vector<Vec3> shuffled = ring;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "scene/viewpoint_check.h"
 #include "support/mesh_reading.h"
@@ -76,7 +77,7 @@ TEST(ViewpointCheck, StandsOnOpenGroundAndInValleys) {
   std::vector<Triangle> triangles;
   constexpr std::uint32_t kSides = 16;
   for (std::uint32_t i = 0; i < kSides; ++i) {
-    const double angle = 2 * M_PI * i / kSides;
+    const double angle = 2 * std::numbers::pi * i / kSides;
     vertices.emplace_back(10 * std::cos(angle), 10 * std::sin(angle), 20);
     triangles.push_back({0, 1 + i, 1 + (i + 1) % kSides});
   }

@@ -1,6 +1,7 @@
 #include "exact/circle_arcs.h"
 
 #include <cmath>
+#include <numbers>
 
 #include "exact/segment_cover.h"
 #include "target/numerics.h"
@@ -8,7 +9,7 @@
 namespace vantage::internal::exact {
 namespace {
 
-constexpr double kTurn = 2 * M_PI;
+constexpr double kTurn = 2 * std::numbers::pi;
 
 double unrolled(double angle) {
   angle = std::fmod(angle, kTurn);

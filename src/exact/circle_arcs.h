@@ -1,6 +1,7 @@
 // A circle in space and the parts of it that half-spaces leave.
 #pragma once
 
+#include <numbers>
 #include <span>
 #include <vector>
 
@@ -20,7 +21,7 @@ struct SpaceCircle {
 /// A circle's part, cut by half-spaces m . x >= h. Angles run from 0 to 2 pi; parts that pass 0 are split there.
 class CircleArcs {
  public:
-  explicit CircleArcs(const SpaceCircle& circle) : circle_(circle) { parts_.assign(0, 2 * M_PI); }
+  explicit CircleArcs(const SpaceCircle& circle) : circle_(circle) { parts_.assign(0, 2 * std::numbers::pi); }
 
   /// Keeps what has normal . x >= height.
   void keep(const Vec3& normal, double height);

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "core/causes.h"
@@ -65,7 +66,7 @@ HalfSpaceVolume compute_half_space(const PreparedScene& scene, const TargetFrame
   progress.begin("tracing the envelope");
   // Seen from the centre a chord must also stay well within a cell of the grid: a region may be no wider than the
   // tolerance.
-  const double widest = 0.1 * range.inner_radius() * M_PI / 2 / grid.size();
+  const double widest = 0.1 * range.inner_radius() * std::numbers::pi / 2 / grid.size();
   const CurveSampling sampling{std::min(options.tolerance_m * 0.5, widest),
                                std::sqrt(8 * range.radius() * options.tolerance_m)};
   const Skeleton skeleton = trace_envelope(blockers, tree, range, sampling, progress);

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 namespace vantage::internal::query {
@@ -24,7 +25,7 @@ double winding_number(const Mesh& mesh, const Vec3& point) {
     const double la = a.norm(), lb = b.norm(), lc = c.norm();
     sum += std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
   }
-  return sum / (2 * M_PI);
+  return sum / (2 * std::numbers::pi);
 }
 
 void add_box_crossings(const Box& box, const ViewRay& line, std::vector<double>& out) {

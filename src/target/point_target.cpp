@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "target/numerics.h"
@@ -21,7 +22,7 @@ TargetFrame with_triangle(TargetFrame frame, double radius) {
 // Scenes are full of surfaces near the horizontal and the vertical through a point, and the engine is coarse beside
 // geometry that all but lies in its plane. This one is steeper than roofs are, and along no street.
 TargetFrame tilted(const TargetFrame& frame) {
-  constexpr double kTilt = 70 * M_PI / 180, kAzimuth = 0.4142;
+  constexpr double kTilt = 70 * std::numbers::pi / 180, kAzimuth = 0.4142;
   TargetFrame result = frame;
   result.normal = {std::sin(kTilt) * std::cos(kAzimuth), std::sin(kTilt) * std::sin(kAzimuth), std::cos(kTilt)};
   result.axis_u = Vec3(-std::sin(kAzimuth), std::cos(kAzimuth), 0);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <string>
 #include <utility>
 
@@ -67,7 +68,7 @@ Bounds brought_back(Bounds b) {
 std::array<double, 2> degrees_of(double radius_m, double latitude_deg) {
   constexpr double kMetresPerDegree = 111000;
   const double latitude = radius_m / kMetresPerDegree;
-  const double shrink = std::cos(latitude_deg * M_PI / 180);
+  const double shrink = std::cos(latitude_deg * std::numbers::pi / 180);
   const bool holds_pole = std::abs(latitude_deg) + latitude >= 90;
   return {holds_pole ? 180 : std::min(180.0, latitude / shrink), latitude};
 }
@@ -106,7 +107,7 @@ std::optional<osm::Region> checked_box(const Bounds& b) {
   // Round a pole a box is as wide as the circle of its lower latitude; else its middle tells enough.
   const double width = longitudes(b).width_deg() > 180
                            ? 2 * (90 - nearest_equator)
-                           : longitudes(b).width_deg() * std::cos((b[1] + b[3]) / 2 * M_PI / 180);
+                           : longitudes(b).width_deg() * std::cos((b[1] + b[3]) / 2 * std::numbers::pi / 180);
   const double across = std::max(b[3] - b[1], width) * 111.0;
   if (across > 2 * kMostRadius / 1e3) {
     throw Error(ErrorCode::region_invalid, core::format("the box is {:.0f} km across", across), "bbox",
