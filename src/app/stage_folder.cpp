@@ -90,7 +90,7 @@ StageFolder::StageFolder(fs::path folder) : asked_(std::move(folder)), folder_(w
   if (::mkdtemp(pattern.data()) == nullptr) fail("the folder of the stages cannot be made", errno);
   temporary_ = pattern;
   // As other programs make folders; mkdtemp makes it private.
-  fs::permissions(temporary_, fs::exists(status) ? status.permissions() : fs::perms(0755), error);
+  fs::permissions(temporary_, fs::exists(status) ? status.permissions() : static_cast<fs::perms>(0755), error);
 }
 
 StageFolder::~StageFolder() {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numbers>
 
 #include "app/input_file.h"
 #include "app/value_reader.h"
@@ -194,7 +195,8 @@ Eigen::Matrix3d WillisConfigParser::rotation_of(const YamlNode& node) const {
     fail(ErrorCode::direction_invalid, node, what + " has an axis of length 0", "write an axis that is not [0, 0, 0]");
   }
   // The remainder first: an angle of many turns would lose its digits.
-  return Eigen::AngleAxisd(std::remainder(degrees, 360.0) * M_PI / 180, axis.stableNormalized()).toRotationMatrix();
+  return Eigen::AngleAxisd(std::remainder(degrees, 360.0) * std::numbers::pi / 180, axis.stableNormalized())
+      .toRotationMatrix();
 }
 
 /// A vector of length 1.

@@ -123,7 +123,7 @@ void DirectionTree::add_to_leaf(Leaf& leaf, std::uint32_t index, const Surface& 
   leaf.least.push_back(surface.least);
   leaf.planes.insert(leaf.planes.end(), surface.planes.begin(), surface.planes.end());
   leaf.values.insert(leaf.values.end(), surface.values.begin(), surface.values.end());
-  leaf.first_plane.push_back(std::uint32_t(leaf.planes.size()));
+  leaf.first_plane.push_back(static_cast<std::uint32_t>(leaf.planes.size()));
 }
 
 bool DirectionTree::hides_box(const Vec3& centre, const std::array<Vec3, 3>& half_extents) const {
@@ -145,7 +145,7 @@ bool DirectionTree::hides_box(const Vec3& centre, const std::array<Vec3, 3>& hal
 
 bool DirectionTree::hides_hull(std::span<const Vec3> points) const {
   Vec3 centre = Vec3::Zero();
-  for (const Vec3& point : points) centre += point / double(points.size());
+  for (const Vec3& point : points) centre += point / static_cast<double>(points.size());
   if (centre.z() <= 0) return false;
   for (std::uint32_t blocker : leaf_at(to_octahedral(centre)).blockers) {
     bool hides = true;
@@ -225,18 +225,18 @@ bool DirectionTree::insert_into(Node& node, std::uint32_t index, const Surface& 
 void DirectionTree::split(std::uint32_t at) {
   const OctahedralCell cell = nodes_[at].cell;
   const double half = cell.size / 2, bound = nodes_[at].bound;
-  const std::uint32_t depth = nodes_[at].depth + 1, first = std::uint32_t(nodes_.size());
+  const std::uint32_t depth = nodes_[at].depth + 1, first = static_cast<std::uint32_t>(nodes_.size());
   add_node({cell.quadrant, cell.a, cell.b, half}, bound, depth);
   add_node({cell.quadrant, cell.a + half, cell.b, half}, bound, depth);
   add_node({cell.quadrant, cell.a, cell.b + half, half}, bound, depth);
   if (!cell.at_horizon()) add_node({cell.quadrant, cell.a + half, cell.b + half, half}, bound, depth);
   nodes_[at].first_child = first;
-  nodes_[at].child_count = std::uint32_t(nodes_.size()) - first;
+  nodes_[at].child_count = static_cast<std::uint32_t>(nodes_.size()) - first;
   const Leaf leaf = std::move(nodes_[at].leaf);
   nodes_[at].leaf = Leaf();
   for (std::size_t i = 0; i < leaf.count(); ++i) {
     const Footprint* footprint = footprint_of(leaf.blockers[i], listed_footprint_);
-    for (std::uint32_t child = first; child < std::uint32_t(nodes_.size()); ++child) {
+    for (std::uint32_t child = first; child < static_cast<std::uint32_t>(nodes_.size()); ++child) {
       if (footprint && footprint->misses(nodes_[child].cell)) continue;
       Surface& surface = scratch_[depth];
       const std::span<const std::uint32_t> planes(leaf.planes.data() + leaf.first_plane[i],
@@ -245,10 +245,11 @@ void DirectionTree::split(std::uint32_t at) {
     }
   }
   std::size_t listed = 0;
-  for (std::uint32_t child = first; child < std::uint32_t(nodes_.size()); ++child) listed += nodes_[child].leaf.count();
-  const bool futile = double(listed) > kFutile * double(leaf.count());
+  for (std::uint32_t child = first; child < static_cast<std::uint32_t>(nodes_.size()); ++child)
+    listed += nodes_[child].leaf.count();
+  const bool futile = static_cast<double>(listed) > kFutile * static_cast<double>(leaf.count());
   repeats_ += std::max(listed, leaf.count()) - leaf.count();
-  for (std::uint32_t child = first; child < std::uint32_t(nodes_.size()); ++child)
+  for (std::uint32_t child = first; child < static_cast<std::uint32_t>(nodes_.size()); ++child)
     nodes_[child].futile_splits = futile ? nodes_[at].futile_splits + 1 : 0;
 }
 
@@ -274,7 +275,7 @@ void DirectionTree::leaves_over(int quadrant, const std::array<OctahedralPoint, 
   }
   std::array<std::uint32_t, 4 * (kDeepest + 1)> open;
   std::size_t count = 0;
-  open[count++] = std::uint32_t(quadrant);
+  open[count++] = static_cast<std::uint32_t>(quadrant);
   while (count > 0) {
     const Node& node = nodes_[open[--count]];
     const OctahedralCell& cell = node.cell;
@@ -305,7 +306,7 @@ std::vector<std::uint32_t> DirectionTree::listed_between(const Vec3& normal, dou
 
 const DirectionTree::Leaf& DirectionTree::leaf_at(const OctahedralPoint& point) const {
   const double a = std::abs(point.x()), b = std::abs(point.y());
-  std::uint32_t at = std::uint32_t(quadrant_of(point.x(), point.y()));
+  std::uint32_t at = static_cast<std::uint32_t>(quadrant_of(point.x(), point.y()));
   while (nodes_[at].first_child != 0) {
     const OctahedralCell& cell = nodes_[at].cell;
     const double half = cell.size / 2;

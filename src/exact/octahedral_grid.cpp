@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <numbers>
 
 #include "core/text.h"
 #include "vantage/error.h"
@@ -16,7 +17,7 @@ constexpr double kSafety = 0.9;      // the depth falls with the square of the s
 
 double line_at(int i, int n) {
   if (i == n) return 1;
-  const double t = std::tan(M_PI / 2 * i / n);
+  const double t = std::tan(std::numbers::pi / 2 * i / n);
   return t / (1 + t);
 }
 
@@ -60,14 +61,14 @@ OctahedralGrid::OctahedralGrid(const target::RangeRegion& region, double toleran
                 "tolerance " + core::metres_text(tolerance) + " at range " + core::metres_text(region.radius()),
                 "give a tolerance of at least " + core::metres_text(1.001 * least));
   }
-  n_ = std::max(8, int(std::ceil(needed)));
+  n_ = std::max(8, static_cast<int>(std::ceil(needed)));
   for (int i = 0; i <= n_; ++i) lines_.push_back(line_at(i, n_));
-  states_.assign(std::size_t(2 * n_) * (2 * n_), unknown);
+  states_.assign(static_cast<std::size_t>(2 * n_) * (2 * n_), unknown);
 }
 
 int OctahedralGrid::locate(double coordinate) const {
   const double x = std::min(std::abs(coordinate), 1.0);
-  int i = std::clamp(int(std::atan2(x, 1 - x) * (2 / M_PI) * n_), 0, n_ - 1);
+  int i = std::clamp(static_cast<int>(std::atan2(x, 1 - x) * (2 / std::numbers::pi) * n_), 0, n_ - 1);
   while (i > 0 && lines_[i] > x) --i;
   while (i + 1 < n_ && lines_[i + 1] <= x) ++i;
   if (coordinate >= 0) return i;
@@ -90,7 +91,7 @@ void OctahedralGrid::settle(const std::function<bool(const OctahedralPoint&)>& i
   for (int j = -n_; j < n_; ++j) {
     settle_row(j, is_range_at);
     list_row(j);
-    first_run_.push_back(std::uint32_t(runs_.size()));
+    first_run_.push_back(static_cast<std::uint32_t>(runs_.size()));
   }
 }
 
@@ -106,11 +107,12 @@ void OctahedralGrid::settle_row(int j, const std::function<bool(const Octahedral
     const int begin = i;
     State state = unknown;  // that of a settled cell below, if there is one
     for (; i < width && row[i] == unknown; ++i)
-      if (state == unknown && i >= -width_below && i < width_below && below[i] >= range) state = State(below[i]);
+      if (state == unknown && i >= -width_below && i < width_below && below[i] >= range)
+        state = static_cast<State>(below[i]);
     if (state == unknown) state = is_range_at(inside(begin + (i - begin) / 2, j)) ? range : blocked;
     // Cells of the range are not looked at again: where a rim were missing, all that it bounds would be over-claimed.
     if (state == range && !(is_range_at(inside(begin, j)) && is_range_at(inside(i - 1, j)))) state = mixed;
-    std::fill(row + begin, row + i, std::uint8_t(state));
+    std::fill(row + begin, row + i, static_cast<std::uint8_t>(state));
   }
 }
 

@@ -45,7 +45,7 @@ class OctahedralGrid {
   }
 
   /// Cell (i, j) lies between the lines i and i + 1, j and j + 1; -n <= i, j < n.
-  State state(int i, int j) const { return State(states_[index(i, j)]); }
+  State state(int i, int j) const { return static_cast<State>(states_[index(i, j)]); }
   bool is_range(int i, int j) const { return has_cell(i, j) && state(i, j) == range; }
 
   /// The line at or below a coordinate.
@@ -76,7 +76,9 @@ class OctahedralGrid {
   void settle_row(int j, const std::function<bool(const OctahedralPoint&)>& is_range_at);
   void list_row(int j);
   OctahedralPoint inside(int i, int j) const;
-  std::size_t index(int i, int j) const { return std::size_t(j + n_) * (2 * n_) + std::size_t(i + n_); }
+  std::size_t index(int i, int j) const {
+    return static_cast<std::size_t>(j + n_) * (2 * n_) + static_cast<std::size_t>(i + n_);
+  }
 
   int n_;
   std::vector<double> lines_;

@@ -67,7 +67,7 @@ class Merger {
       for (std::size_t i = begin; i < end; ++i)
         for (std::uint32_t c = 0; c < 3; ++c) {
           const std::uint32_t a = triangles_[i][c], b = triangles_[i][(c + 1) % 3];
-          sides[3 * i + c] = {std::min(a, b), std::max(a, b), std::uint32_t(3 * i + c)};
+          sides[3 * i + c] = {std::min(a, b), std::max(a, b), static_cast<std::uint32_t>(3 * i + c)};
         }
     });
     parallel::sort(sides, std::less<>());
@@ -216,7 +216,7 @@ class Merger {
       for (std::size_t k = 0; k < loop.size(); ++k) {
         if (!is_corner || (*is_corner)[k]) result.vertices.push_back(loop[k]);
       }
-      result.first.push_back(std::uint32_t(result.vertices.size()));
+      result.first.push_back(static_cast<std::uint32_t>(result.vertices.size()));
       result.object.push_back(object_of_[i]);
     }
     return result;

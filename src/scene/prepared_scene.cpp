@@ -47,7 +47,7 @@ class Welder {
     for (int a = 0; a < 3; ++a) hash = mix(hash + 0x9e3779b97f4a7c15ull + std::bit_cast<std::uint64_t>(p[a]));
     for (std::size_t slot = hash & mask_;; slot = (slot + 1) & mask_) {
       if (slots_[slot] == kFree) {
-        slots_[slot] = std::uint32_t(points.size());
+        slots_[slot] = static_cast<std::uint32_t>(points.size());
         points.push_back(p);
         return slots_[slot];
       }
@@ -140,8 +140,8 @@ internal::core::Bounds bounds_of(const PreparedScene::Data& data, const internal
     box.extend(data.vertices[polygons.vertices[k]]);
   internal::core::Bounds bounds;
   for (int a = 0; a < 3; ++a) {
-    bounds.min[a] = std::nextafterf(float(box.min[a]), -INFINITY);
-    bounds.max[a] = std::nextafterf(float(box.max[a]), INFINITY);
+    bounds.min[a] = std::nextafterf(static_cast<float>(box.min[a]), -INFINITY);
+    bounds.max[a] = std::nextafterf(static_cast<float>(box.max[a]), INFINITY);
   }
   return bounds;
 }
@@ -160,7 +160,7 @@ void store_in_leaf_order(PreparedScene::Data& data, const internal::scene::Conve
   for (std::uint32_t i : order) {
     data.polygon_vertices.insert(data.polygon_vertices.end(), polygons.vertices.begin() + polygons.first[i],
                                  polygons.vertices.begin() + polygons.first[i + 1]);
-    data.first_vertex.push_back(std::uint32_t(data.polygon_vertices.size()));
+    data.first_vertex.push_back(static_cast<std::uint32_t>(data.polygon_vertices.size()));
     data.polygon_object.push_back(polygons.object[i]);
   }
 }

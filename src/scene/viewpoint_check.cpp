@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <tuple>
 
@@ -85,7 +86,7 @@ void ViewpointCheck::check(const Vec3& viewpoint, const std::string& name) const
     angle[piece_of_[t]] += solid_angle(corners);
   }
   for (std::size_t t = 0; t < piece_of_.size(); ++t) {
-    const double winding = angle[piece_of_[t]] / (4 * M_PI);
+    const double winding = angle[piece_of_[t]] / (4 * std::numbers::pi);
     if (winding <= kInside && winding >= kInsideOut) continue;
     throw Error(ErrorCode::viewpoint_inside_solid, name + " lies inside a solid",
                 "object '" + display_name(scene_.objects[scene_.object_of[t]]) + "'", "move it into the open",

@@ -41,7 +41,10 @@ std::size_t RangeRegion::nearest_ball(const Vec3& direction) const {
   double greatest = 0;
   for (std::size_t ball = 0; ball < centres_.size(); ++ball) {
     const double g = gauge(ball, direction);
-    if (g > greatest) greatest = g, best = ball;
+    if (g > greatest) {
+      greatest = g;
+      best = ball;
+    }
   }
   return best;
 }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -64,7 +65,7 @@ Plane ground_plane(const terrain::Surface& ground, const city::Ring& ring, const
     samples.push_back((ring[i] + ring[(i + 1) % ring.size()]) / 2);
   }
   Vec2 middle = Vec2::Zero();
-  for (const Vec2& sample : samples) middle += sample / double(samples.size());
+  for (const Vec2& sample : samples) middle += sample / static_cast<double>(samples.size());
   Eigen::MatrixXd rows(samples.size(), 3);
   Eigen::VectorXd heights(samples.size());
   for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -85,7 +86,7 @@ Plane ground_plane(const terrain::Surface& ground, const city::Ring& ring, const
 
 city::Ring rectangle(const GroundTarget& wanted, const geo::LocalFrame& frame) {
   const Vec2 centre = frame.to_local({(*wanted.center_deg)[1], (*wanted.center_deg)[0]});
-  const double heading = wanted.heading_deg * M_PI / 180;
+  const double heading = wanted.heading_deg * std::numbers::pi / 180;
   const Vec2 along(std::sin(heading), std::cos(heading)), across(along.y(), -along.x());
   const Vec2 a = along * wanted.length_m / 2, b = across * wanted.width_m / 2;
   return {centre - a - b, centre - a + b, centre + a + b, centre + a - b};
