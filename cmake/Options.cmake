@@ -4,7 +4,8 @@ add_library(vantage::options ALIAS vantage_options)
 # -ffp-contract=off: a fused multiply-add rounds differently from one compiler to the next, and the exact predicates of
 # the triangulation rely on plain IEEE arithmetic.
 # -fno-semantic-interposition: lets the shared library inline its own functions.
-target_compile_options(vantage_options INTERFACE -Wall -Wextra -Wshadow -ffp-contract=off -fno-semantic-interposition)
+target_compile_options(vantage_options INTERFACE -Wall -Wextra -Wshadow -ffp-contract=off -fno-semantic-interposition
+                       $<$<CXX_COMPILER_ID:Clang>:-Wcomma>)
 if(VANTAGE_WERROR AND VANTAGE_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # Neither -Werror nor silence: GCC's manual says that sanitizers make warnings find what is not there (in <regex>, in
   # the standard library's strings). The build without sanitizers has the same files and judges them.

@@ -47,6 +47,12 @@ if [ ${#compiled[@]} -eq 0 ]; then
   echo "lint: none of the files is among the ${#known[@]} that $build/compile_commands.json compiles" >&2
   exit 1
 fi
+# clang-tidy 20 has modernize-use-std-numbers for this.
+mapfile -t headers < <(git ls-files '*.h' 2>/dev/null)
+if grep -nE '\<M_(E|LOG2E|LOG10E|LN2|LN10|PI|PI_2|PI_4|1_PI|2_PI|2_SQRTPI|SQRT2|SQRT1_2)\>|\<3\.1415|\<6\.2831|\<1\.5707|\<2\.7182|\<1\.4142' "${compiled[@]}" "${headers[@]}"; then
+  echo "lint: such constants are in <numbers>" >&2
+  exit 1
+fi
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
 # Its own counts of suppressed warnings in system headers go to standard error: noise.

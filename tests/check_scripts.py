@@ -131,6 +131,15 @@ class Scripts(unittest.TestCase):
         for _ in range(2):
             self.assertEqual(self.run_script("lint.sh")[0], 1, "a finding is not forgotten")
 
+    def test_lint_finds_constants_that_the_library_has(self):
+        file = self.tree / "src" / "room" / "a.cpp"
+        self.prepare_lint(file)
+        for line, is_fine in (("double turn = 6.28318;\n", False), ("double pi = M_PI;\n", False), ("int M_PIN;\n", True)):
+            file.write_text(line)
+            code, text = self.run_script("lint.sh")
+            self.assertEqual(code == 0, is_fine, text)
+            self.assertEqual("<numbers>" in text, not is_fine, text)
+
     def test_lint_fails_where_git_does(self):
         self.prepare_lint(self.tree / "src" / "room" / "a.cpp")
         shutil.rmtree(self.tree / ".git")

@@ -31,8 +31,8 @@ TEST(Sha256, DoesNotDependOnHowTheBytesArrive) {
   const std::string text(200, 'x');
   for (std::size_t split = 0; split <= text.size(); ++split) {
     core::Sha256 hash;
-    hash.add(std::string_view(text).substr(0, split));
-    hash.add(std::string_view(text).substr(split));
+    hash.add(std::string_view{text}.substr(0, split));
+    hash.add(std::string_view{text}.substr(split));
     EXPECT_EQ(hash.hex(), sha256(text)) << split;
   }
 }

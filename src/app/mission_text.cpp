@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// A YAML text in double quotes: what JSON writes is YAML.
-std::string quoted(const std::string& text) { return json_text(std::string_view(text)); }
+std::string quoted(const std::string& text) { return json_text(std::string_view{text}); }
 
 template <typename Numbers>
 std::string list_of(const Numbers& numbers) {

@@ -157,7 +157,7 @@ Vec3 PointTable::coordinates(const Row& row) {
            row, "write all coordinates in every row, separated like the first row");
     }
     const std::string plain = fields_[column].is_quoted ? fields_[column].plain() : std::string();
-    const std::string_view text = fields_[column].is_quoted ? std::string_view(plain) : fields_[column].text;
+    const std::string_view text = fields_[column].is_quoted ? std::string_view{plain} : fields_[column].text;
     const ParsedNumber parsed = number_in(text);
     if (parsed.fault != NumberFault::none) {
       fail(ErrorCode::not_a_number,

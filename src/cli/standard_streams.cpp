@@ -57,7 +57,7 @@ void OutgoingFile::send() const {
   std::string part(std::size_t{1} << 20, '\0');
   do {
     stream.read(part.data(), static_cast<std::streamsize>(part.size()));
-    print(std::string_view(part).substr(0, static_cast<std::size_t>(stream.gcount())));
+    print(std::string_view{part}.substr(0, static_cast<std::size_t>(stream.gcount())));
   } while (stream);
   if (stream.bad() || !stream.eof()) {
     throw Error(ErrorCode::output_unwritable, "the result cannot be read back", path_.string(),

@@ -355,10 +355,10 @@ std::string_view Document::buffer(std::uint64_t index) {
     bytes = glb_buffer_;
   } else if (uri.starts_with("data:")) {
     const std::size_t comma = uri.find(',');
-    if (comma == std::string::npos || !std::string_view(uri).substr(0, comma).ends_with(";base64")) {
+    if (comma == std::string::npos || !std::string_view{uri}.substr(0, comma).ends_with(";base64")) {
       fail(name + " is a data URI without base64");
     }
-    auto decoded = decode_base64(std::string_view(uri).substr(comma + 1));
+    auto decoded = decode_base64(std::string_view{uri}.substr(comma + 1));
     if (!decoded) fail(name + " is no valid base64");
     bytes = contents_[std::to_string(index)] = std::move(*decoded);
   } else {

@@ -159,7 +159,7 @@ std::optional<double> parse_direction_deg(std::string_view text) {
     rest.remove_prefix(word->size());
     while (!rest.empty() && (rest.front() == '-' || rest.front() == '_' || rest.front() == ' ')) rest.remove_prefix(1);
   }
-  const std::string_view name = rest.empty() ? std::string_view(initials) : std::string_view(value);
+  const std::string_view name = rest.empty() ? std::string_view{initials} : std::string_view{value};
   const auto wind = std::find(winds.begin(), winds.end(), name);
   if (wind == winds.end()) return std::nullopt;
   return 22.5 * static_cast<double>(wind - winds.begin());

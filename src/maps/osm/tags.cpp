@@ -13,7 +13,7 @@ std::string text(ObjectId id) {
 std::optional<ObjectId> parse_object_id(std::string_view text) {
   for (const ObjectType type : {ObjectType::node, ObjectType::way, ObjectType::relation}) {
     const std::string prefix = osm::text(ObjectId{type, 0});  // "way/0"
-    const std::string_view long_form = std::string_view(prefix).substr(0, prefix.size() - 1);
+    const std::string_view long_form = std::string_view{prefix}.substr(0, prefix.size() - 1);
     std::string_view number;
     if (text.starts_with(long_form)) {
       number = text.substr(long_form.size());
@@ -31,7 +31,7 @@ std::optional<ObjectId> parse_object_id(std::string_view text) {
 
 std::string_view Tags::get(std::string_view key) const {
   const auto found = std::find_if(all.begin(), all.end(), [key](const auto& tag) { return tag.first == key; });
-  return found == all.end() ? std::string_view() : std::string_view(found->second);
+  return found == all.end() ? std::string_view() : std::string_view{found->second};
 }
 
 bool Tags::has(std::string_view key) const {
