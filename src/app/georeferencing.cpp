@@ -23,7 +23,8 @@ geo::LocalFrame frame_of(const Mission& mission) {
   const Scene& scene = mission.loaded.scene;
   if (!scene.georeference) {
     throw Error(
-        ErrorCode::not_georeferenced, "the scene does not say where on the earth it lies", mission.as_written.file.string(),
+        ErrorCode::not_georeferenced, "the scene does not say where on the earth it lies",
+        mission.as_written.file.string(),
         "give the target and the limits in the scene frame, or a scene with a place: a map (scene.osm), CityJSON with "
         "a reference system, a raster, or a mesh with 'crs' or written by 'vantage scene'");
   }

@@ -27,7 +27,8 @@ terrain::Surface ground_of(const Mission& mission) {
   const auto ground = ground_object(scene);
   if (!ground) {
     throw Error(
-        ErrorCode::ground_missing, "the scene has no object 'ground' to put the target on", mission.as_written.places.target,
+        ErrorCode::ground_missing, "the scene has no object 'ground' to put the target on",
+        mission.as_written.places.target,
         "give the target's vertices, or a scene that is made from a map; PLY and STL keep no objects, OBJ and GLB do");
   }
   Mesh mesh;
