@@ -154,7 +154,7 @@ void draw_north(Canvas& canvas, const View& view, double font) {
   const double room = (kEdge + kArrow + 1.25) * font;  // the letter beyond the tip included, wherever it points
   const Eigen::Vector2d centre(view.width - room, room);
   const double size = std::clamp(flat.norm(), 0.35, 1.0) * length;
-  const Eigen::Vector2d along = flat.norm() > 1e-6 ? Eigen::Vector2d(flat.normalized()) : Eigen::Vector2d(0, -1);
+  const Eigen::Vector2d along = flat.norm() > 1e-6 ? flat.normalized() : Eigen::Vector2d(0, -1);
   const Eigen::Vector2d across(-along.y(), along.x());
   const Eigen::Vector2d tip = centre + size * along, tail = centre - 0.75 * size * along,
                         waist = centre - 0.45 * size * along;

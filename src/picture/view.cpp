@@ -17,7 +17,7 @@ constexpr double kNearest = 1e-3;     // of the distance to the focus
 void look_along(View& view, const Vec3& back) {
   view.back = back.normalized();
   const Vec3 right = Vec3::UnitZ().cross(view.back);
-  view.right = right.norm() > 1e-9 ? Vec3(right.normalized()) : Vec3(Vec3::UnitX());  // from above: north is up
+  view.right = right.norm() > 1e-9 ? right.normalized() : Vec3(Vec3::UnitX());  // from above: north is up
   view.up = view.back.cross(view.right);
 }
 

@@ -372,7 +372,7 @@ void note_reading_repairs(Site& site, const osm::Extract& extract) {
     if (found == problems.end()) continue;
     item.record.fate = Fate::repaired;
     if (item.record.reason.empty()) item.record.reason = reading_repair(found->second->kind);
-    item.record.remarks.push_back({found->second->what, std::string(reading_repair(found->second->kind))});
+    item.record.remarks.push_back({found->second->what, reading_repair(found->second->kind)});
   }
 }
 

@@ -35,6 +35,11 @@ void check_regular(const fs::path& file) {
   }
 }
 
+const GdalLibrary& library_for(const fs::path& file) {
+  check_regular(file);  // first: no library is needed to say that there is no file
+  return gdal(file);
+}
+
 /// The only file in an archive that may be a raster, by its extension.
 std::string raster_in_archive(const GdalLibrary& library, const std::string& archive) {
   const std::unique_ptr<char*, void (*)(char**)> names(library.VSIReadDir(archive.c_str()), library.CSLDestroy);
@@ -64,7 +69,7 @@ void DatasetCloser::operator()(void* dataset) const {
   library->GDALClose(dataset);
 }
 
-RasterFile::RasterFile(const fs::path& file) : file_(file), library_((check_regular(file), gdal(file))) {
+RasterFile::RasterFile(const fs::path& file) : file_(file), library_(library_for(file)) {
   const GdalMessages messages(library_);
   open();
   check_bands();
