@@ -152,8 +152,14 @@ std::string describe(const Target& target, const Sensor& sensor) {
   out.precision(17);
   const auto put = [&](const Vec3& v) { out << "[" << v.x() << ", " << v.y() << ", " << v.z() << "]"; };
   out << "\ntarget: {vertices: [";
-  for (const Vec3& v : target.parts[0]) put(v), out << (&v == &target.parts[0].back() ? "]" : ", ");
-  if (target.front) out << ", front: ", put(*target.front);
+  for (const Vec3& v : target.parts[0]) {
+    put(v);
+    out << (&v == &target.parts[0].back() ? "]" : ", ");
+  }
+  if (target.front) {
+    out << ", front: ";
+    put(*target.front);
+  }
   out << ", offset: " << target.offset_m << "}\nsensor: {max_range: " << sensor.max_range_m << "}\n";
   return out.str();
 }
