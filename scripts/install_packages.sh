@@ -20,7 +20,7 @@ packages=(
   # maps and terrain; GDAL is loaded when there is one
   libosmium2-dev libproj-dev proj-data libpolyclipping-dev libgdal32
 )
-tests=(libgtest-dev osmium-tool)
+tests=(libgtest-dev osmium-tool locales)  # of locales one with a decimal comma is made
 tools=(libbenchmark-dev clang libclang-rt-14-dev clang-format clang-tidy)
 
 [ -z "${VANTAGE_NO_INSTALL:-}" ] || exit 0
