@@ -22,11 +22,7 @@ namespace {
 class Mender {
  public:
   Mender(LabelledMesh& labelled, double flat)
-      : labelled_(labelled),
-        vertices_(labelled.mesh.vertices),
-        triangles_(labelled.mesh.triangles),
-        flat_(flat),
-        first_(first_at_position(vertices_)) {}
+      : labelled_(labelled), vertices_(labelled.mesh.vertices), triangles_(labelled.mesh.triangles), flat_(flat) {}
 
   bool run();
   bool has_flaws() const;
@@ -42,7 +38,7 @@ class Mender {
 
   bool is_collapsed(const Triangle& t) const { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
   bool is_flat(const Triangle& t) const;
-  void weld();
+  void weld(const std::vector<std::uint32_t>& first);
   void remove(std::uint32_t t);
   bool cancel(std::uint32_t t);
   std::size_t longest_side(std::uint32_t t) const;
@@ -58,7 +54,6 @@ class Mender {
   std::vector<Vec3>& vertices_;
   std::vector<Triangle>& triangles_;
   double flat_;
-  std::vector<std::uint32_t> first_;  // per vertex: the first one in the same place
   std::optional<Stars> stars_;
   std::vector<char> gone_;
   std::priority_queue<Waiting> flat_facets_;
@@ -72,10 +67,9 @@ bool Mender::is_flat(const Triangle& t) const {
   return normal.squaredNorm() <= flat_ * flat_ * longest;
 }
 
+// A facet with two corners in one place is flat too. So a mesh without flaws is told without sorting its vertices.
 bool Mender::has_flaws() const {
-  return std::any_of(triangles_.begin(), triangles_.end(), [&](const Triangle& t) {
-    return is_collapsed({first_[t[0]], first_[t[1]], first_[t[2]]}) || is_flat(t);
-  });
+  return std::any_of(triangles_.begin(), triangles_.end(), [&](const Triangle& t) { return is_flat(t); });
 }
 
 void Mender::remove(std::uint32_t t) {
@@ -83,9 +77,9 @@ void Mender::remove(std::uint32_t t) {
   for (const std::uint32_t v : triangles_[t]) stars_->remove(v, t);
 }
 
-/// One vertex for each place; facets with two corners in one place go.
-void Mender::weld() {
-  for (Triangle& t : triangles_) t = {first_[t[0]], first_[t[1]], first_[t[2]]};
+/// One vertex for each place; facets with two corners in one place go. `first`: per vertex the first one in its place.
+void Mender::weld(const std::vector<std::uint32_t>& first) {
+  for (Triangle& t : triangles_) t = {first[t[0]], first[t[1]], first[t[2]]};
   std::size_t kept = 0;
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
     if (is_collapsed(triangles_[t])) continue;
@@ -189,10 +183,11 @@ void Mender::finish() {
 
 bool Mender::run() {
   if (!has_flaws()) return false;
-  weld();
+  const std::vector<std::uint32_t> first = first_at_position(vertices_);
+  weld(first);
   std::vector<char> is_welded(vertices_.size(), 0);
-  for (std::uint32_t v = 0; v < first_.size(); ++v) {
-    if (first_[v] != v) is_welded[first_[v]] = 1;
+  for (std::uint32_t v = 0; v < first.size(); ++v) {
+    if (first[v] != v) is_welded[first[v]] = 1;
   }
   for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
     const auto& [a, b, c] = triangles_[t];

@@ -13,8 +13,7 @@ namespace vantage::internal::core {
 ///   - A facet with two corners in one place goes.
 ///   - Two facets on the same corners that face each other go.
 ///   - A flat facet goes, and the one across its longest side gets its third corner. No point of the surface moves by
-///   more
-///     than `flat_m` for it.
+///     more than `flat_m` for it.
 /// In the result vertices in one place are one vertex where their facets hang together, and several where pieces only
 /// touch: two triangles to an edge, as far as that can be. A mesh without such facets is left as it is. Returns whether
 /// anything was changed. With `flat_m` 0 differences and products of coordinates should be exact (whole multiples,
