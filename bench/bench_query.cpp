@@ -6,10 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "core/parallel.h"
 #include "support/cities.h"
-#include "support/internals.h"
 #include "vantage/query.h"
+#include "vantage/threads.h"
 
 namespace vantage::bench {
 namespace {
@@ -41,7 +40,7 @@ void query(State& state, const City& city, double range, int threads) {
   const std::vector<Vec3> points = points_about(street.centre, range);
   std::size_t inside = 0;
   for (auto _ : state) {
-    parallel::with_threads(threads, [&] {
+    with_threads(threads, [&] {
       PointQuery asked(PreparedTarget(ready->prepared, street.target, {range}));
       inside = 0;
       for (const PointAnswer& answer : asked.answer(points)) inside += answer.inside;

@@ -63,7 +63,8 @@ VERIFY_HEADERS = ["core/format.h", "core/parallel.h", "core/progress_reporter.h"
 
 # Paths are relative to the root, with forward slashes; headers as written between the quotes.
 RULES = [
-    OnlyIn(r"manifold/", r"src/solid/csg\.(h|cpp)", "only src/solid/csg.* sees Manifold"),
+    OnlyIn(r"manifold/", r"src/solid/csg\.(h|cpp)|bench/support/plain_union\.cpp",
+           "only src/solid/csg.*, and the benchmarks' plain union, see Manifold"),
     OnlyIn(r"embree", r"src/(verify|depth|picture)/", "only src/verify, src/depth and src/picture see Embree"),
     OnlyIn(r"(EGL|GL|KHR)/", r"src/(depth|picture)/gl_", "only the files gl_* see OpenGL and EGL"),
     OnlyIn(r"cairo", r"src/picture/", "only src/picture sees Cairo"),
@@ -74,17 +75,19 @@ RULES = [
     OnlyIn(r"polyclipping/|clipper\.hpp", r"src/maps/city/clipping\.cpp",
            "only src/maps/city/clipping.cpp sees Clipper"),
     OnlyIn(r"(oneapi/)?tbb[/.]", r"src/core/threads_tbb\.cpp", "only src/core/threads_tbb.cpp sees oneTBB"),
-    OnlyIn(r"CLI/", r"src/cli/", "only src/cli sees CLI11"),
+    OnlyIn(r"CLI/", r"src/cli/|bench/gap/", "only programs see CLI11"),
     OnlyIn(r"yaml-cpp/", r"src/app/", "only src/app sees yaml-cpp"),
     OnlyIn(r"zlib\.h", r"src/io/", "only src/io sees zlib"),
     OnlyIn(r"fmt/", r"src/(core/format\.h|cli/text_table\.cpp)",
            "only src/core/format.h, and src/cli/text_table.cpp, which may not include it, see libfmt"),
     OnlyIn(r"core/format\.h", r".*\.cpp", "only source files include libfmt: it takes long to compile"),
-    OnlyIn(r"nlohmann/", r"src/(io|app)/", "only src/io and src/app see nlohmann/json"),
+    OnlyIn(r"nlohmann/", r"src/(io|app)/|bench/support/cities\.cpp", "only src/io, src/app and bench see nlohmann/json"),
     NotIn(r"src/verify/", rf"(?!(verify|vantage)/|({'|'.join(map(re.escape, VERIFY_HEADERS))})$)({'|'.join(MODULES)})/",
           "the check shares no geometry code with what it checks"),
     NotIn(r"tests/attack/", r"(?!(vantage|Eigen|sys)/).*/",
           "the attack needs the public headers, Eigen and the standard library: it shares nothing with what it judges"),
+    NotIn(r"bench/(?!(kernels|progress)/)", rf"({'|'.join(MODULES)})/|support/internals\.h",
+          "benchmarks stand on the public API; only bench/kernels and bench/progress look behind it"),
     NotIn(r"include/", r"(?!(vantage|Eigen)/).*[./]", "public headers need each other, Eigen and the standard library"),
 ] + [
     NotIn(rf"src/{module}/[^/]*$", rf"(?!({'|'.join([module, *below])})/[^/]*$)({'|'.join(MODULES)})/",
@@ -94,9 +97,9 @@ RULES = [
 
 
 def violations(root: pathlib.Path) -> list[str]:
-    """One line for each include under src/, include/ and tests/attack/ that breaks a rule."""
+    """One line for each include under src/, include/, bench/ and tests/attack/ that breaks a rule."""
     found = []
-    for folder in ("src", "include", "tests/attack"):
+    for folder in ("src", "include", "bench", "tests/attack"):
         for file in sorted((root / folder).rglob("*")):
             if file.suffix not in (".h", ".cpp"):
                 continue
@@ -168,6 +171,9 @@ CASES = [
     ("include/vantage/scene.h", "vector", True),
     ("include/vantage/scene.h", "core/bvh.h", False),
     ("include/vantage/scene.h", "boost/any.hpp", False),
+    ("bench/bench_query.cpp", "vantage/query.h", True),
+    ("bench/bench_query.cpp", "support/internals.h", False),
+    ("bench/kernels/bench_depth_images.cpp", "depth/depth.h", True),
     ("tests/attack/judge.cpp", "vantage/volume.h", True),
     ("tests/attack/judge.cpp", "trial.h", True),
     ("tests/attack/judge.cpp", "exact/blocker.h", False),

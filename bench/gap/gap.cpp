@@ -12,11 +12,9 @@
 #include <string>
 #include <vector>
 
-#include "core/stopwatch.h"
-#include "solid/csg.h"
 #include "support/cities.h"
-#include "support/internals.h"
 #include "vantage/error.h"
+#include "vantage/navigation.h"
 #include "vantage/spheres.h"
 #include "vantage/volume.h"
 
@@ -48,44 +46,33 @@ const City& city_named(const std::string& name) {
   return *found->second;
 }
 
-/// About a local origin, so that booleans lose nothing to large coordinates.
-solid::Solid solid_of(const Volume& volume, const Vec3& origin) {
-  solid::LabelledMesh labelled{volume.mesh, std::vector<std::uint32_t>(volume.mesh.triangles.size(), 0)};
-  for (Vec3& v : labelled.mesh.vertices) v -= origin;
-  return solid::Solid(labelled);
-}
-
 /// What a run came to, but for the name of the case.
-struct Outcome {
-  std::string figures;
+struct RunFigures {
+  std::string text;
   bool settled = false;  ///< more splits would change nothing: no pair was left that fails the test
 };
 
-Outcome run_case(const solid::Solid& exact, const Vec3& origin, const PreparedScene& scene, const Target& target,
-                 double range, const SpheresOptions& options) {
-  const core::Stopwatch stopwatch;
+RunFigures run_case(const Volume& exact, const PreparedTarget& target, const SpheresOptions& options) {
   SpheresReport report;
-  const Volume volume = compute_visibility_spheres(PreparedTarget(scene, target, {range}), options, &report);
-  const double seconds = stopwatch.seconds();
-  const solid::Solid claimed = volume.mesh.empty() ? solid::Solid() : solid_of(volume, origin);
-  const double both = solid::intersect(claimed, exact).volume();
+  const Volume claimed = compute_visibility_spheres(target, options, &report);
+  const double exact_m3 = enclosed_volume(exact.mesh), claimed_m3 = enclosed_volume(claimed.mesh);
+  const double both_m3 = claimed.mesh.empty() ? 0 : enclosed_volume(intersect_volumes({claimed, exact}).mesh);
   // With max_splits 0 no pair is tested, and nothing is known of them.
   const bool is_tested = options.split == SpheresOptions::Split::euler && report.pairs > 0;
-  char figures[256];
-  std::snprintf(figures, sizeof figures, "%.6f,%.6f,%.6f,%.6f,%zu,%zu,%zu,%zu,%ld,%.4f", exact.volume(),
-                claimed.volume(), claimed.volume() - both, exact.volume() - both, report.spheres, report.pairs,
-                report.splits, report.unresolved_pairs, claimed.euler(), seconds);
-  return {figures, is_tested && report.unresolved_pairs == 0};
+  char text[256];
+  std::snprintf(text, sizeof text, "%.6f,%.6f,%.6f,%.6f,%zu,%zu,%zu,%zu,%ld,%.4f", exact_m3, claimed_m3,
+                claimed_m3 - both_m3, exact_m3 - both_m3, report.spheres, report.pairs, report.splits,
+                report.unresolved_pairs, measure(claimed.mesh).euler, claimed.seconds.total);
+  return {text, is_tested && report.unresolved_pairs == 0};
 }
 
 void run_target(const Request& request, const std::string& city, std::size_t number, double range,
                 const PreparedScene& scene, const Target& target) {
-  const Volume volume = compute_visibility(PreparedTarget(scene, target, {range}), {1e-3, 0});
-  const Vec3 origin = volume.frame.origin;
-  const solid::Solid exact = solid_of(volume, origin);
+  const PreparedTarget prepared(scene, target, {range});
+  const Volume exact = compute_visibility(prepared, {1e-3, 0});
   for (const std::string& sphere : request.spheres)
     for (const int size : request.sizes) {
-      Outcome outcome;
+      RunFigures figures;
       for (const int splits : request.splits) {
         SpheresOptions options;
         options.sphere = sphere == "centers" ? SpheresOptions::Sphere::centers : SpheresOptions::Sphere::conservative;
@@ -93,9 +80,9 @@ void run_target(const Request& request, const std::string& city, std::size_t num
         options.merge = request.merge;
         options.cubemap = size;
         options.max_splits = splits;
-        if (!outcome.settled) outcome = run_case(exact, origin, scene, target, range, options);
+        if (!figures.settled) figures = run_case(exact, prepared, options);
         std::printf("%s,%zu,%g,%s,%s,%d,%d,%s\n", city.c_str(), number, range, sphere.c_str(), request.split.c_str(),
-                    size, splits, outcome.figures.c_str());
+                    size, splits, figures.text.c_str());
         std::fflush(stdout);
       }
     }

@@ -5,10 +5,12 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
+#include <future>
 #include <vector>
 
-#include "support/internals.h"
+#include "vantage/threads.h"
 
 namespace vantage::bench {
 namespace {
@@ -33,23 +35,29 @@ double distance_to_box(const std::vector<Vec3>& points) {
 }
 
 /// The convex hull of points; empty when they all lie in one plane.
-solid::Solid convex_hull(const std::vector<Vec3>& points) {
+manifold::Manifold convex_hull(const std::vector<Vec3>& points) {
   std::vector<manifold::vec3> positions;
   positions.reserve(points.size());
   for (const Vec3& p : points) positions.emplace_back(p.x(), p.y(), p.z());
-  const manifold::MeshGL64 hull = manifold::Manifold::Hull(positions).GetMeshGL64();
-  solid::LabelledMesh result;
-  for (std::size_t i = 0; i < hull.NumVert(); ++i) {
-    const manifold::vec3 p = hull.GetVertPos(i);
-    result.mesh.vertices.emplace_back(p.x, p.y, p.z);
-  }
-  for (std::size_t i = 0; i < hull.NumTri(); ++i) {
-    const auto t = hull.GetTriVerts(i);
-    result.mesh.triangles.push_back(
-        {static_cast<std::uint32_t>(t.x), static_cast<std::uint32_t>(t.y), static_cast<std::uint32_t>(t.z)});
-  }
-  result.labels.assign(result.mesh.triangles.size(), 0);
-  return solid::Solid(result, "convex hull");
+  return manifold::Manifold::Hull(positions);
+}
+
+manifold::Manifold solid_of(const Mesh& mesh) {
+  manifold::MeshGL64 gl;
+  for (const Vec3& v : mesh.vertices) gl.vertProperties.insert(gl.vertProperties.end(), {v.x(), v.y(), v.z()});
+  for (const Triangle& t : mesh.triangles) gl.triVerts.insert(gl.triVerts.end(), {t[0], t[1], t[2]});
+  return manifold::Manifold(gl);
+}
+
+/// Manifold evaluates lazily: here, on another thread, while this one asks. Whether it came to an end.
+bool is_evaluated(const manifold::Manifold& lazy, int threads, const std::function<bool()>& goes_on) {
+  manifold::ExecutionContext context;
+  const manifold::Manifold watched = lazy.WithContext(context);
+  std::future<void> work =
+      std::async(std::launch::async, [&] { with_threads(threads, [&] { (void)watched.Status(); }); });
+  while (work.wait_for(std::chrono::milliseconds(5)) != std::future_status::ready)
+    if (!goes_on()) context.Cancel();
+  return lazy.Status() == manifold::Manifold::Error::NoError;
 }
 
 }  // namespace
@@ -57,12 +65,12 @@ solid::Solid convex_hull(const std::vector<Vec3>& points) {
 // A polygon O hides { o + l (o - t) } for all o of it, t of the target and l >= 0, which is convex. What has l <= s is
 // the hull of the corners o and (1 + s) o - s t, and l <= s holds within the range when (1 + s) is at least the range
 // over the least distance of O from the target.
-solid::Solid plain_visibility(const Scene& scene, const TargetFrame& frame, const solid::Solid& region,
-                              double max_range, const core::ProgressReporter& progress) {
+PlainVolume plain_visibility(const Scene& scene, const TargetFrame& frame, const Mesh& region, double max_range,
+                             int threads, const std::function<bool()>& goes_on) {
   double radius = 0;
   for (const Eigen::Vector2d& t : frame.polygon) radius = std::max(radius, t.norm());
   constexpr double kNearest = 0.1;  // metres; keeps the hull of what comes closer finite
-  std::vector<solid::Solid> blockers;
+  std::vector<manifold::Manifold> blockers;
   std::vector<Vec3> corners;
   for (const Triangle& t : scene.mesh.triangles) {
     std::array<Vec3, 3> triangle;
@@ -75,10 +83,13 @@ solid::Solid plain_visibility(const Scene& scene, const TargetFrame& frame, cons
     corners = polygon;
     for (const Vec3& o : polygon)
       for (const Eigen::Vector2d& v : frame.polygon) corners.push_back((1 + far) * o - far * Vec3(v.x(), v.y(), 0));
-    solid::Solid blocker = convex_hull(corners);
-    if (!blocker.empty()) blockers.push_back(std::move(blocker));
+    const manifold::Manifold blocker = convex_hull(corners);
+    if (!blocker.IsEmpty()) blockers.push_back(blocker);
   }
-  return solid::subtract(region, solid::unite(blockers, progress), progress);
+  const manifold::Manifold result =
+      solid_of(region) - manifold::Manifold::BatchBoolean(blockers, manifold::OpType::Add);
+  if (!is_evaluated(result, threads, goes_on)) return {};
+  return {result.NumTri(), result.Volume(), true};
 }
 
 }  // namespace vantage::bench
