@@ -191,7 +191,7 @@ TEST_F(CliScene, MeshesAndRastersBecomeScenesToo) {
   EXPECT_NEAR(read_scene(folder_ / "placed.obj").georeference.value().longitude_deg, 11.5755, 1e-12);
 }
 
-// ---- maps -----------------------------------------------------------------------------------------------------------
+// ---- maps ----
 
 TEST_F(CliSceneBadMap, NotAMap) {
   expect_bad({"scene", "none.osm", "-o", "scene.glb"}, "none.osm");
@@ -229,7 +229,7 @@ TEST_F(CliSceneBadMap, NothingInTheArea) {
   expect_bad_option({"--bbox", "11.6,48.1,11.5,48.2"}, "bbox");
 }
 
-// ---- what is mended, and counted ------------------------------------------------------------------------------------
+// ---- what is mended, and counted ----
 
 TEST_F(CliSceneMended, OutlinesThatCrossThemselves) {
   MapText map;
@@ -289,7 +289,7 @@ TEST_F(CliSceneMended, PointsAreToldOf) {
   EXPECT_EQ(report.at("kinds").at("tower").at("written"), 1);
 }
 
-// ---- terrain --------------------------------------------------------------------------------------------------------
+// ---- terrain ----
 
 TEST_F(CliSceneBadTerrain, CannotBeUsed) {
   expect_bad_option({"--terrain", "none.tif"}, "none.tif");
@@ -318,7 +318,7 @@ TEST_F(CliSceneBadTerrain, VoidsAreFilledAndCounted) {
   }
 }
 
-// ---- the command line -----------------------------------------------------------------------------------------------
+// ---- the command line ----
 
 TEST_F(CliSceneBadOption, ThatDoNotFit) {
   expect_bad_option({"--radius", "100"}, "radius");

@@ -49,7 +49,7 @@ class HeavyMaps : public ::testing::TestWithParam<const char*> {
   City city_;
 };
 
-// ---- every building accounted for -----------------------------------------------------------------------------------
+// ---- every building accounted for ----
 
 /// Ways that an untagged multipolygon relation is made of: it has their tags, and stands for them.
 std::map<std::string, std::string> ways_of_untagged_relations(const OsmiumMap& map) {
@@ -103,7 +103,7 @@ TEST_P(HeavyMaps, EveryBuildingIsAccountedFor) {
   std::cout << GetParam() << ": osmium-tool lists " << map_.tagged.size() << "; " << text(counts) << "\n";
 }
 
-// ---- heights and areas ----------------------------------------------------------------------------------------------
+// ---- heights and areas ----
 
 /// Which buildings each part lies in: the one that a relation names, and all that hold at least half of it.
 class PartsOfBuildings {
@@ -322,7 +322,7 @@ TEST_P(HeavyMaps, HeightsAndAreasFollowFromTagsAndCorners) {
   comparison.print(GetParam());
 }
 
-// ---- closed solids --------------------------------------------------------------------------------------------------
+// ---- closed solids ----
 
 /// The triangles of one object, its corners numbered by position.
 struct Piece {

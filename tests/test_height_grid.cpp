@@ -400,7 +400,7 @@ TEST(HeightGrid, SaysWhenGdalIsMissing) {
   testing::expect_wording(why_not);
 }
 
-// ---- real files --------------------------------------------------------------------------------------------------
+// ---- real files ----
 
 template <typename Number>
 Number number_at(const std::string& bytes, std::size_t place, std::endian order) {

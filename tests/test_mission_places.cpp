@@ -105,7 +105,7 @@ double area_of(const Target& target) {
   return sum.norm();
 }
 
-// ---- scenes ---------------------------------------------------------------------------------------------------------
+// ---- scenes ----
 
 TEST_F(MissionPlaces, AMapIsTheSceneThatTheCommandWrites) {
   const std::string target = "target: {vertices: " + list_of(kSquare) + "}\n";
@@ -130,7 +130,7 @@ TEST_F(MissionPlaces, ARasterIsAScene) {
   EXPECT_GT(enclosed_volume(result.mesh), 1e5);
 }
 
-// ---- reference systems ----------------------------------------------------------------------------------------------
+// ---- reference systems ----
 
 /// East and north by PROJ itself.
 Vec3 in_system(const char* system, const geo::LonLat& at, double z) {
@@ -181,7 +181,7 @@ TEST_F(MissionPlaces, LimitsInReferenceSystems) {
   }
 }
 
-// ---- targets by name ------------------------------------------------------------------------------------------------
+// ---- targets by name ----
 
 TEST_F(MissionPlaces, AConvexAreaIsTheTargetAsItIs) {
   const Mission result = placed(map_scene(), "target: {osm: way/2}\n");
@@ -257,7 +257,7 @@ TEST_F(MissionPlaces, ANamedAreaGivesItsNameToTheTarget) {
   EXPECT_EQ(report.at("target"), unnamed.target.name);
 }
 
-// ---- the ground under it --------------------------------------------------------------------------------------------
+// ---- the ground under it ----
 
 Box ground_box(const Scene& scene) {
   Box box;
@@ -326,7 +326,7 @@ TEST_F(MissionPlaces, TerrainIsBuiltAsFarAsTheTarget) {
   }
 }
 
-// ---- what stands on it ----------------------------------------------------------------------------------------------
+// ---- what stands on it ----
 
 TEST_F(CliMissionPlaces, WhatStandsOnATargetCanBeLeftOut) {
   MapText map(kCentre);
@@ -351,7 +351,7 @@ TEST_F(CliMissionPlaces, WhatStandsOnATargetCanBeLeftOut) {
   EXPECT_EQ(without_trees.outcome, Outcome::computed);
 }
 
-// ---- on a slope -----------------------------------------------------------------------------------------------------
+// ---- on a slope ----
 
 TEST_F(MissionPlaces, ATargetLiesOnTheSlope) {
   for (const char* const target :
@@ -395,7 +395,7 @@ TEST_F(CliMissionPlaces, ComputeQueryVerifyAndRenderOnASlope) {
   }
 }
 
-// ---- what is refused ------------------------------------------------------------------------------------------------
+// ---- what is refused ----
 
 TEST_F(CliMissionPlaces, TargetsThatAreNone) {
   const std::string scene = map_scene();

@@ -235,7 +235,7 @@ TEST(ReadScene, ReportsProgressAndCanBeCancelled) {
   }
 }
 
-// ---- real inputs -------------------------------------------------------------------------------------------------
+// ---- real inputs ----
 
 struct RealInput {
   const char* file;

@@ -25,7 +25,7 @@ using testing::make_raster;
 using testing::TestRaster;
 using testing::write_raster;
 
-// ---- positions ---------------------------------------------------------------------------------------------------
+// ---- positions ----
 
 TEST(PostPositions, AreRightToATenthOfAMillimetre) {
   const testing::TemporaryDirectory folder;
@@ -54,7 +54,7 @@ TEST(PostPositions, AreRightToATenthOfAMillimetre) {
   }
 }
 
-// ---- the surface -------------------------------------------------------------------------------------------------
+// ---- the surface ----
 
 /// Hills and single spikes over a square of `side` metres, in few triangles.
 Surface random_surface(testing::Random& random, double side) {
@@ -148,7 +148,7 @@ TEST(Surface, RangeMeetsEdgesBetweenCornersOfThePolygon) {
   EXPECT_EQ(roof.height({50, 30}), 10.0);
 }
 
-// ---- from rasters ------------------------------------------------------------------------------------------------
+// ---- from rasters ----
 
 double hills(double x, double y) { return 40 * std::sin(x / 90) * std::cos(y / 60) + 5 * std::sin(x / 13 + y / 17); }
 

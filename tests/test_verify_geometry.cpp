@@ -33,8 +33,7 @@ Target square(double half, double height = 0) {
   return target;
 }
 
-// ---- segments and triangles
-// -------------------------------------------------------------------------------------------
+// ---- segments and triangles ----
 
 TEST(VerifySegment, CrossesTheInterior) {
   const Meeting meeting = meet(Segment({0.25, 0.25, 3}, {0.25, 0.25, -1}), kFlat);
@@ -98,8 +97,7 @@ TEST(VerifySegment, DistanceToATriangle) {
   EXPECT_DOUBLE_EQ(distance({4, -4, 0}, kFlat), 5);              // to a corner
 }
 
-// ---- closed meshes
-// ----------------------------------------------------------------------------------------------------
+// ---- closed meshes ----
 
 TEST(VerifyClosedMesh, KnowsInsideFromOutside) {
   const Vec3 origin(580000, 4785000, 1000);
@@ -178,8 +176,7 @@ TEST(VerifyClosedMesh, AgreesWithASphereAndAPlainLoop) {
   }
 }
 
-// ---- target, limits, pyramid
-// ------------------------------------------------------------------------------------------
+// ---- target, limits, pyramid ----
 
 TEST(VerifyTarget, LooksUpFromTheGroundWhicheverWayItIsDrawn) {
   Target target = square(2, 5);
@@ -303,8 +300,7 @@ TEST(VerifyOccluders, TheSurfaceUnderTheTargetDoesNotHideIt) {
   EXPECT_FALSE(sees(-1, 1.1e-3, -2, 2));  // more
 }
 
-// ---- statistics
-// -------------------------------------------------------------------------------------------------------
+// ---- statistics ----
 
 TEST(VerifyBinomial, BoundsTheShare) {
   EXPECT_NEAR(upper_share_bound(0, 1000), 1 - std::pow(0.05, 1e-3), 1e-15);

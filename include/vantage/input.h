@@ -38,8 +38,7 @@ VANTAGE_API std::string in_quotes(std::string_view text);
 /// The shortest decimal that reads back as `value`; independent of the locale.
 VANTAGE_API std::string shortest(double value);
 
-// ---- names
-// ------------------------------------------------------------------------------------------------------------
+// ---- names ----
 
 /// Number of insertions, deletions, replacements and swaps of neighbours that turn `a` into `b` (optimal string
 /// alignment distance), upper and lower case taken as equal. Cost: O(|a| |b|).
@@ -48,8 +47,7 @@ VANTAGE_API int edit_distance(std::string_view a, std::string_view b);
 /// The entry of `names` with the smallest edit distance to `word`, the first one on a tie; empty for no names.
 VANTAGE_API std::string_view nearest_name(std::string_view word, const std::vector<std::string_view>& names);
 
-// ---- files
-// ------------------------------------------------------------------------------------------------------------
+// ---- files ----
 
 /// Throws Error(input), with `where` and the file as the place, unless `file` exists, is no folder and no device, and
 /// may be read. `what` begins the message: "the scene's mesh".

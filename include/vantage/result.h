@@ -16,8 +16,7 @@
 
 namespace vantage {
 
-// ---- reports
-// ----------------------------------------------------------------------------------------------------------
+// ---- reports ----
 
 /// How the spheres method was run.
 struct SpheresRun {
@@ -44,8 +43,7 @@ VANTAGE_API std::string spheres_json(const SpheresRun& run);
 VANTAGE_API std::string report_json(const Volume& volume, const MeshMeasures& measures,
                                     const ReportSource& source = {});
 
-// ---- files
-// ------------------------------------------------------------------------------------------------------------
+// ---- files ----
 
 /// What write_results writes; result_request makes that of a mission.
 struct ResultRequest {

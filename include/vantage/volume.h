@@ -130,10 +130,9 @@ struct ExactOptions {
 ///     of 5e6 m). What reaches no farther into the outline, or through the plane, counts as standing on it
 ///   - triangles of the scene that are no wider than 2^-50 of their longest side or of the scene's size, at most
 ///     1e-9 m: they hide nothing
-///   - corners of the scene, which merging triangles to polygons takes for 2^-46 of the scene's size off, at most 1e-9
-///   m,
-///     in two directions. What hides the target from the distance h ends the view late by that times D / h at the
-///     distance D: more than 1e-9 of the distance only nearer than a metre
+///   - corners of the scene, which merging triangles to polygons may move by 2^-46 of the scene's size, at most
+///     1e-9 m, in two directions. What hides the target from the distance h ends the view late by that times D / h at
+///     the distance D: more than 1e-9 of the distance only nearer than a metre
 ///   - the coordinates of the mesh, which are rounded: a point must be deeper by five roundings of the largest (6e-9 m
 ///     at 5e6 m). That is more than 1e-6 of the distance only nearer to the target than 6 mm
 ///
@@ -188,16 +187,15 @@ struct WrittenVolume {
 /// place taken for one as readers do, every file is closed (each edge is run as often in one direction as in the other)
 /// and has no facet without area. Rounding cannot keep inside: where it moves the surface, by up to rounding_m, the
 /// file says so, and `vantage verify` allows that much.
-///   .ply  binary, little-endian, double coordinates, facet property `cause` (index) and the causes' names in comments;
-///         scene frame
+///   .ply  binary, little-endian, double coordinates in the scene frame, facet property `cause` (index) and the causes'
+///         names in comments
 ///   .obj  a group per cause; the axes and the unit of the scene file: give Scene::up and Scene::scale (metres in one
 ///         unit, > 0), so that it loads on top of the scene. Coordinates are divided by `obj_scale`: with 1 they keep
 ///         every bit, with another they read back to within rounding
 ///   .stl  binary; scene frame. Single precision, all that the format has: far from the origin it is coarse, half a
 ///         metre between neighbouring numbers at a UTM northing of 4,785,000. Prefer another format there
 ///   .glb  a material per kind of cause; y up as the specification demands. Single precision about an origin in the
-///   middle
-///         of the volume: 0.03 mm at 600 m across, wherever it lies
+///         middle of the volume: 0.03 mm at 600 m across, wherever it lies
 /// The georeference and rounding_m go into the file, for .stl into FILE.place.json beside it (docs/scene.md).
 /// Cost: linear in the facets; the bytes are on the disk when it returns. Throws Error(output) when the file cannot be
 /// written, the format cannot hold that many facets or nothing of the volume is left in it, and Error(input) for an

@@ -36,7 +36,7 @@ std::string command_names(const std::vector<CommandRow>& table) {
   return joined(names);
 }
 
-// ---- bash -------------------------------------------------------------------
+// ---- bash ----
 
 /// What to offer for a value: sets `words` or `offer`.
 std::string bash_offer(const OptionRow& row) {
@@ -74,7 +74,7 @@ std::string bash_otherwise(const CommandRow& row) {
   return text;
 }
 
-// ---- zsh --------------------------------------------------------------------
+// ---- zsh ----
 
 /// For '...': a quote ends the string, is escaped, and begins it again.
 std::string in_quotes(const std::string& text) {
@@ -114,7 +114,7 @@ std::string zsh_command(const CommandRow& row) {
   return text + "\n      ;;\n";
 }
 
-// ---- fish -------------------------------------------------------------------
+// ---- fish ----
 
 std::string fish_quoted(const std::string& text) { return "'" + escaped(text, "'\\") + "'"; }
 

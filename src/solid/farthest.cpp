@@ -50,7 +50,7 @@ double distance(const Vec3& point, const Corners& c) {
   return std::sqrt(core::squared_distance_to_triangle(point, c[0], c[1], c[2]));
 }
 
-// ---- on the surface ----------------------------------------------------------------------------------------------
+// ---- on the surface ----
 
 /// A piece of a facet.
 struct Patch {
@@ -225,7 +225,7 @@ void SurfaceSearch::run(const LabelledMesh& region, std::uint32_t own, const cor
   for (const Patch& patch : open) answer_.settle(patch.bound);
 }
 
-// ---- inside ------------------------------------------------------------------------------------------------------
+// ---- inside ----
 
 /// A cube that the region may be in.
 struct Cell {

@@ -74,7 +74,7 @@ std::vector<std::vector<Vec2>> pieces_of(const std::vector<Vec2>& line, double p
   return pieces;
 }
 
-// ---- walls -------------------------------------------------------------------------------------------------------
+// ---- walls ----
 
 OccluderDefaults::Size wall_size(const osm::Tags& tags, const OccluderDefaults& defaults,
                                  std::vector<TagRemark>& remarks) {
@@ -115,7 +115,7 @@ std::vector<Shape> walls_along(const osm::Tags& tags, const std::vector<Vec2>& p
   return shapes;
 }
 
-// ---- towers ------------------------------------------------------------------------------------------------------
+// ---- towers ----
 
 OccluderDefaults::Size tower_size(const osm::Tags& tags, const OccluderDefaults& defaults) {
   return size_of(defaults.towers, {tags.get("tower:type"), tags.get("man_made"), "tower"});
@@ -129,7 +129,7 @@ BuildingForm tower_form(const osm::Tags& tags, const OccluderDefaults& defaults,
   return read_form(tags, nullptr, building, remarks);
 }
 
-// ---- bridges -----------------------------------------------------------------------------------------------------
+// ---- bridges ----
 
 BuildingForm deck_form(const osm::Tags& tags, const OccluderDefaults& defaults, std::vector<TagRemark>& remarks) {
   BuildingForm form;
@@ -162,7 +162,7 @@ double deck_width(const osm::Tags& tags, const OccluderDefaults& defaults, std::
   return found == defaults.ways.end() ? defaults.other_way_m : found->second;
 }
 
-// ---- trees -------------------------------------------------------------------------------------------------------
+// ---- trees ----
 
 Tree tree_of(const osm::Tags& tags, const OccluderDefaults& defaults, std::vector<TagRemark>& remarks) {
   Tree tree;
