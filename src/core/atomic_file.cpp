@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cerrno>
 #include <cstring>
+#include <set>
 #include <system_error>
 
 #include "vantage/error.h"
@@ -48,10 +49,13 @@ std::filesystem::path resolved(const std::filesystem::path& target) {
   return path;
 }
 
+std::filesystem::path folder_of(const std::filesystem::path& file) {
+  return file.has_parent_path() ? file.parent_path() : ".";
+}
+
 /// A rename must reach the disk too. Not every file system lets a folder be synchronised; by then the file is whole
 /// either way.
-void synchronise_folder(const std::filesystem::path& file) {
-  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+void synchronise(const std::filesystem::path& folder) {
   const int handle = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (handle < 0) return;
   (void)::fsync(handle);
@@ -137,12 +141,12 @@ void AtomicFile::seal() {
 void AtomicFile::put_in_place() {
   if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail("cannot put the file in place", errno);
   temporary_.clear();
-  synchronise_folder(target_);
 }
 
 void AtomicFile::commit() {
   seal();
   put_in_place();
+  synchronise(folder_of(target_));
 }
 
 void AtomicFile::keep_old() {
@@ -156,7 +160,7 @@ bool AtomicFile::give_back() {
   if (!replaces_) return ::unlink(target_.c_str()) == 0;
   if (kept_.empty() || ::rename(kept_.c_str(), target_.c_str()) != 0) return false;
   kept_.clear();
-  synchronise_folder(target_);
+  synchronise(folder_of(target_));
   return true;
 }
 
@@ -176,6 +180,9 @@ void commit_all(const std::vector<std::unique_ptr<AtomicFile>>& files) {
     if (lost.empty()) throw;
     throw error.with_fix("write elsewhere; already replaced: " + lost);
   }
+  std::set<std::filesystem::path> folders;
+  for (const auto& file : files) folders.insert(folder_of(file->target_));
+  for (const auto& folder : folders) synchronise(folder);
 }
 
 void write_whole_file(const std::filesystem::path& file, std::string_view bytes) {
