@@ -63,9 +63,12 @@ fuzz: tools  ## each fuzz target for a minute (SECONDS_EACH=60; PRESET=asan: in 
 	BUILD=build-$(or $(PRESET),fuzz) scripts/fuzz.sh $(or $(SECONDS_EACH),60)
 
 .PHONY: nightly
-nightly: everything  ## what takes too long for every change: lint of all, all unit tests sanitized, 2,000 scenes of the attack
+nightly: everything  ## what takes too long for every change: lint and sanitizers over all, static builds, a long attack
 	@$(MAKE) --no-print-directory lint ALL=1
 	@$(MAKE) --no-print-directory asan ALL=1
+	cmake --build --preset asan --parallel $(JOBS) --target vantage_attack
+	build-asan/bin/vantage_attack --scenes 200 --seed $(or $(SEED),$(shell date +%Y%m%d)) --jobs $(JOBS)
+	JOBS=$(JOBS) scripts/build_variants.sh
 	build/bin/vantage_attack --scenes $(or $(SCENES),2000) --seed $(or $(SEED),$(shell date +%Y%m%d)) \
 	  --jobs $(JOBS) --out build/attack
 
