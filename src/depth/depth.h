@@ -54,7 +54,7 @@ class DepthRenderer {
 };
 
 /// A device that cannot hold the scene or the images, or was lost. Who did not insist on it goes on with the CPU.
-class DeviceFailure : public std::runtime_error {
+class VANTAGE_INTERNAL_API DeviceFailure : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
