@@ -90,7 +90,7 @@ std::optional<std::pair<double, double>> span_at(const Mesh& mesh, const Vec2& p
 }
 
 /// Every edge has exactly two facets, also when equal positions are one; closed, outward, free of self-intersections.
-void expect_sound(const Solid& solid, const std::string& what) {
+void expect_sound(const CitySolid& solid, const std::string& what) {
   for (const Mesh& mesh : {solid.mesh, core::welded(solid.mesh)}) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, int> uses;
     for (const Triangle& t : mesh.triangles) {
@@ -149,7 +149,7 @@ const std::vector<RoofShape> kRidged = {RoofShape::flat,        RoofShape::gable
                                         RoofShape::mansard,     RoofShape::round,    RoofShape::saltbox};
 
 /// Heights at random places, and the volume, against the profile. The highest place counts as `roof_m`.
-void expect_profile(const Footprint& footprint, const BuildingForm& form, const Solid& solid, Random& random,
+void expect_profile(const Footprint& footprint, const BuildingForm& form, const CitySolid& solid, Random& random,
                     const std::string& what) {
   const RoofFrame frame = roof_frame(footprint, form);
   const double L = frame.half_length, W = frame.half_width, R = form.roof_m;
@@ -196,7 +196,7 @@ TEST(CitySolid, ExactVolumesOverARectangle) {
   // 20 x 10, walls of 6 m, roofs of 3 m: L = 10, W = 5.
   const Footprint footprint{rectangle(0, 0, 20, 10), {}};
   const auto roof_volume = [&](RoofShape shape) {
-    const Solid solid = make_solid(footprint, form_of(shape, 1, 10, 3), 50);
+    const CitySolid solid = make_solid(footprint, form_of(shape, 1, 10, 3), 50);
     expect_sound(solid, std::string(text(shape)));
     EXPECT_EQ(solid.repair, "");
     EXPECT_EQ(bounding_box(solid.mesh).min.z(), 51);
@@ -224,7 +224,7 @@ TEST(CitySolid, ExactVolumesOverARectangle) {
 TEST(CitySolid, RidgesAndDirections) {
   const Footprint footprint{rectangle(0, 0, 20, 10), {}};
   const auto height = [&](const BuildingForm& form, double x, double y) {
-    const Solid solid = make_solid(footprint, form, 0);
+    const CitySolid solid = make_solid(footprint, form, 0);
     expect_sound(solid, "");
     return span_at(solid.mesh, {x, y})->second;
   };
@@ -268,7 +268,7 @@ TEST(CitySolid, CourtyardsStayOpenUnderEveryRoof) {
   const Footprint footprint = cleaned({rectangle(0, 0, 30, 20), {rectangle(8, 6, 20, 14)}})[0];
   for (int k = 0; k < kRoofShapes; ++k) {
     const auto shape = static_cast<RoofShape>(k);
-    const Solid solid = make_solid(footprint, form_of(shape, 0, 12, 5), 0);
+    const CitySolid solid = make_solid(footprint, form_of(shape, 0, 12, 5), 0);
     expect_sound(solid, std::string(text(shape)));
     EXPECT_FALSE(span_at(solid.mesh, {14, 10})) << text(shape);
     EXPECT_TRUE(span_at(solid.mesh, {4, 10})) << text(shape);
@@ -280,7 +280,7 @@ TEST(CitySolid, CourtyardsStayOpenUnderEveryRoof) {
 TEST(CitySolid, WhatIsNotStarShapedIsNamed) {
   const Ring horseshoe = {{0, 0}, {20, 0}, {20, 20}, {15, 20}, {15, 5}, {5, 5}, {5, 20}, {0, 20}};
   for (const RoofShape shape : {RoofShape::dome, RoofShape::cone, RoofShape::onion}) {
-    const Solid solid = make_solid({horseshoe, {}}, form_of(shape, 0, 12, 5), 0);
+    const CitySolid solid = make_solid({horseshoe, {}}, form_of(shape, 0, 12, 5), 0);
     expect_sound(solid, std::string(text(shape)));
     vantage::testing::expect_wording(solid.repair);
   }
@@ -289,7 +289,7 @@ TEST(CitySolid, WhatIsNotStarShapedIsNamed) {
 
 TEST(CitySolid, ManyCornersTakeNoTime) {
   const Footprint ring = cleaned({regular(4000, 200), {regular(3, 20)}})[0];
-  const Solid dome = make_solid(ring, form_of(RoofShape::dome, 0, 50, 30), 0);
+  const CitySolid dome = make_solid(ring, form_of(RoofShape::dome, 0, 50, 30), 0);
   vantage::testing::expect_wording(dome.repair);
   EXPECT_GT(make_solid({ring.outer, {}}, form_of(RoofShape::dome, 0, 50, 30), 0).mesh.triangles.size(), 8000u);
   EXPECT_GT(make_solid(ring, form_of(RoofShape::mansard, 0, 50, 30), 0).mesh.triangles.size(), 8000u);
@@ -309,10 +309,10 @@ TEST(CitySolid, TouchingRingsAreDrawnApart) {
     for (const Footprint& footprint : cleaned(touching[k])) {
       area += area_m2(footprint);
       for (int shape = 0; shape < kRoofShapes; ++shape) {
-        const Solid solid = make_solid(footprint, form_of(static_cast<RoofShape>(shape), 2, 9, 3), 0);
+        const CitySolid solid = make_solid(footprint, form_of(static_cast<RoofShape>(shape), 2, 9, 3), 0);
         expect_sound(solid, "case " + std::to_string(k) + " roof " + std::to_string(shape));
       }
-      const Solid flat = make_solid(footprint, form_of(RoofShape::flat, 0, 1, 0), 0);
+      const CitySolid flat = make_solid(footprint, form_of(RoofShape::flat, 0, 1, 0), 0);
       EXPECT_NEAR(enclosed_volume(flat.mesh), area_m2(footprint), 0.05);
     }
     EXPECT_GT(area, 10) << k;
@@ -389,7 +389,7 @@ TEST(CitySolid, RandomFootprintsUnderEveryRoof) {
       const BuildingForm form = draw_form(random, shape);
       const std::string what = "round " + std::to_string(round) + ", " + std::string(text(shape));
       const double ground = random.chance(0.5) ? 0 : random.uniform(-50, 900);
-      const Solid solid = make_solid(footprint, form, ground);
+      const CitySolid solid = make_solid(footprint, form, ground);
       expect_sound(solid, what);
       const Box box = bounding_box(solid.mesh);
       EXPECT_NEAR(box.min.z(), ground + form.bottom_m, 1e-9) << what;

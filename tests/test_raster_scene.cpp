@@ -9,7 +9,7 @@
 #include "core/stopwatch.h"
 #include "geo/local_frame.h"
 #include "maps/terrain/height_grid.h"
-#include "maps/terrain/surface.h"
+#include "maps/terrain/triangulated_terrain.h"
 #include "support/internals.h"
 #include "support/objects.h"
 #include "support/raster_writer.h"
@@ -100,7 +100,7 @@ TEST(RasterScene, StaysWithinTheErrorUpToTheOutermostPosts) {
       EXPECT_LT(few.scene.mesh.triangles.size(), every.scene.mesh.triangles.size());
       EXPECT_LE(few.report.largest_error_m, error_m + 1e-6);
       EXPECT_EQ(few.scene.object_of.size(), few.scene.mesh.triangles.size());
-      const terrain::Surface surface(few.scene.mesh);
+      const terrain::TriangulatedTerrain surface(few.scene.mesh);
       double worst_m = 0;
       for (const Vec3& post : every.scene.mesh.vertices) {
         const auto height = surface.height(post.head<2>());

@@ -10,7 +10,7 @@
 
 #include "core/stopwatch.h"
 #include "maps/terrain/post_positions.h"
-#include "maps/terrain/surface.h"
+#include "maps/terrain/triangulated_terrain.h"
 #include "support/random.h"
 #include "support/raster_writer.h"
 #include "support/shared_data.h"
@@ -57,20 +57,20 @@ TEST(PostPositions, AreRightToATenthOfAMillimetre) {
 // ---- the surface ----
 
 /// Hills and single spikes over a square of `side` metres, in few triangles.
-Surface random_surface(testing::Random& random, double side) {
+TriangulatedTerrain random_surface(testing::Random& random, double side) {
   Tin tin = unit_square(side);
   for (int i = 0; i < 60; ++i) {
     tin.insert({random.uniform(0, side), random.uniform(0, side), random.uniform(-20, 20)});
   }
   for (int i = 0; i < 8; ++i) tin.insert({random.uniform(0, side), 0, random.uniform(-20, 20)});
   for (int i = 0; i <= 10; ++i) tin.insert({side / 2, side * i / 10, random.uniform(-20, 20)});  // vertices in line
-  return Surface(mesh_of_all(tin));
+  return TriangulatedTerrain(mesh_of_all(tin));
 }
 
-TEST(Surface, HeightIsThatOfTheTriangleThere) {
+TEST(TriangulatedTerrain, HeightIsThatOfTheTriangleThere) {
   testing::Random random(21);
   for (int run = 0; run < 20; ++run) {
-    const Surface surface = random_surface(random, 100);
+    const TriangulatedTerrain surface = random_surface(random, 100);
     for (int i = 0; i < 200; ++i) {
       const Vec2 at(random.chance(0.1) ? 100 : random.uniform(0, 100), random.chance(0.1) ? 0 : random.uniform(0, 100));
       ASSERT_TRUE(surface.height(at)) << at.transpose();
@@ -95,10 +95,10 @@ bool inside_ring(const std::vector<Vec2>& ring, const Vec2& at) {
   return std::abs(turn) > 3;
 }
 
-TEST(Surface, RangeOverAPolygonIsExact) {
+TEST(TriangulatedTerrain, RangeOverAPolygonIsExact) {
   testing::Random random(22);
   for (int run = 0; run < 60; ++run) {
-    const Surface surface = random_surface(random, 100);
+    const TriangulatedTerrain surface = random_surface(random, 100);
     const double size = random.chance(0.5) ? random.uniform(1, 10) : random.uniform(10, 45);
     const Vec2 middle(random.uniform(size, 100 - size), random.uniform(size, 100 - size));
     std::vector<Vec2> ring;  // a star, convex or not
@@ -108,7 +108,7 @@ TEST(Surface, RangeOverAPolygonIsExact) {
       ring.push_back(middle + radius * Vec2(std::cos(angle), std::sin(angle)));
     }
     if (random.chance(0.3)) std::reverse(ring.begin(), ring.end());
-    const std::optional<Surface::Range> range = surface.range(ring);
+    const std::optional<TriangulatedTerrain::Range> range = surface.range(ring);
     ASSERT_TRUE(range);
     // No place is beyond it, and places near those that reach it come close: all vertices inside, many places along the
     // sides, and many inside.
@@ -131,10 +131,10 @@ TEST(Surface, RangeOverAPolygonIsExact) {
   }
 }
 
-TEST(Surface, RangeMeetsEdgesBetweenCornersOfThePolygon) {
+TEST(TriangulatedTerrain, RangeMeetsEdgesBetweenCornersOfThePolygon) {
   // A ridge along x = 50, 10 high: a polygon across it has its corners lower, and no vertex of the terrain inside.
-  const Surface roof(Mesh{{{0, 0, 0}, {50, 0, 10}, {100, 0, 0}, {100, 100, 0}, {50, 100, 10}, {0, 100, 0}},
-                          {{0, 1, 4}, {0, 4, 5}, {1, 2, 3}, {1, 3, 4}}});
+  const TriangulatedTerrain roof(Mesh{{{0, 0, 0}, {50, 0, 10}, {100, 0, 0}, {100, 100, 0}, {50, 100, 10}, {0, 100, 0}},
+                                      {{0, 1, 4}, {0, 4, 5}, {1, 2, 3}, {1, 3, 4}}});
   const auto across = roof.range({{40, 40}, {60, 40}, {60, 60}, {40, 60}});
   EXPECT_NEAR(across->lowest, 8, 1e-12);
   EXPECT_NEAR(across->highest, 10, 1e-12);
@@ -192,8 +192,8 @@ TEST(Triangulate, KeepsTheErrorOverTheExactRectangle) {
 
 /// How far the ground is from where it should be in the cells whose posts all lie in its rectangle: at the posts, on
 /// the middles of the cells' sides, and on those of their higher diagonals.
-double worst_over_cells(const HeightGrid& grid, const geo::LocalFrame& frame, const Surface& surface, const Vec2& min,
-                        const Vec2& max) {
+double worst_over_cells(const HeightGrid& grid, const geo::LocalFrame& frame, const TriangulatedTerrain& surface,
+                        const Vec2& min, const Vec2& max) {
   std::vector<std::optional<Vec3>> posts;
   for (int row = 0; row < grid.rows; ++row) {
     for (int column = 0; column < grid.columns; ++column) {

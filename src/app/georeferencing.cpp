@@ -32,14 +32,14 @@ geo::LocalFrame frame_of(const Mission& mission) {
 }
 
 /// Positions of the mission's CRS in the frame; heights are z already, in the unit of the CRS where it has one.
-class Placer {
+class CrsConverter {
  public:
-  Placer(const Mission& mission, const geo::LocalFrame& frame)
+  CrsConverter(const Mission& mission, const geo::LocalFrame& frame)
       : frame_(frame), system_(mission.as_written.crs, mission.as_written.file.string()) {}
 
   Vec3 operator()(const Vec3& position) const {
-    const Vec2 local = place(position.head<2>());
-    return {local.x(), local.y(), placed_z(position.z())};
+    const Vec2 local = to_frame(position.head<2>());
+    return {local.x(), local.y(), z_in_frame(position.z())};
   }
 
   /// For coordinates that lead far away.
@@ -54,7 +54,7 @@ class Placer {
   Box inside(const Box& box) const {
     const auto [south, east, north, west] = sides(box);
     Box result;
-    const auto [low, high] = std::minmax({placed_z(box.min.z()), placed_z(box.max.z())});
+    const auto [low, high] = std::minmax({z_in_frame(box.min.z()), z_in_frame(box.max.z())});
     result.min = {west.max.x(), south.max.y(), low};
     result.max = {east.min.x(), north.min.y(), high};
     return result;
@@ -62,7 +62,7 @@ class Placer {
   Box around(const Box& box) const {
     Box result;
     for (const Box& side : sides(box)) result.extend(side);
-    std::tie(result.min.z(), result.max.z()) = std::minmax({placed_z(box.min.z()), placed_z(box.max.z())});
+    std::tie(result.min.z(), result.max.z()) = std::minmax({z_in_frame(box.min.z()), z_in_frame(box.max.z())});
     return result;
   }
 
@@ -71,7 +71,7 @@ class Placer {
   Box side(const Vec2& from, const Vec2& to) const {
     constexpr int kSteps = 32;
     std::vector<Vec2> points;
-    for (int i = 0; i <= kSteps; ++i) points.push_back(place(from + (to - from) * i / kSteps));
+    for (int i = 0; i <= kSteps; ++i) points.push_back(to_frame(from + (to - from) * i / kSteps));
     // Between three of its points a curve leaves the chord by about an eighth of their second difference.
     double bulge = 0;
     for (int i = 1; i < kSteps; ++i) {
@@ -91,28 +91,28 @@ class Placer {
     return {side(a, b), side(b, c), side(c, d), side(d, a)};
   }
 
-  Vec2 place(const Vec2& position) const { return frame_.to_local(system_.to_lonlat(position)); }
-  double placed_z(double z) const { return z * system_.vertical_unit_m().value_or(1); }
+  Vec2 to_frame(const Vec2& position) const { return frame_.to_local(system_.to_lonlat(position)); }
+  double z_in_frame(double z) const { return z * system_.vertical_unit_m().value_or(1); }
 
   const geo::LocalFrame& frame_;
   geo::CoordinateSystem system_;
 };
 
 /// A box of which nothing is near the scene is most likely a slip, and would keep nothing out.
-void check_near(const Box& box, const std::string& name, const Placer& placer, const std::string& where) {
+void check_near(const Box& box, const std::string& name, const CrsConverter& converter, const std::string& where) {
   const Vec2 nearest = Vec2::Zero().cwiseMax(box.min.head<2>()).cwiseMin(box.max.head<2>());
   if (nearest.norm() <= geo::kFarthestM) return;
   throw Error(ErrorCode::too_far_away,
               name + " lies " + std::to_string(std::lround(nearest.norm() / 1000)) + " km from the scene's origin",
-              where, placer.order_advice());
+              where, converter.order_advice());
 }
 
-void place_boxes(Navigation& navigation, const Placer& placer, const std::string& where) {
+void convert_boxes(Navigation& navigation, const CrsConverter& converter, const std::string& where) {
   for (std::size_t i = 0; i < navigation.keep_in.size(); ++i) {
-    check_near(placer.around(navigation.keep_in[i]), "box " + std::to_string(i) + " of navigation.boxes", placer,
+    check_near(converter.around(navigation.keep_in[i]), "box " + std::to_string(i) + " of navigation.boxes", converter,
                where);
     Box& box = navigation.keep_in[i];
-    box = placer.inside(box);
+    box = converter.inside(box);
     if ((box.min.array() >= box.max.array()).any()) {
       throw Error(ErrorCode::limits_empty,
                   "a box of navigation.boxes is too small or too askew to hold a box of the scene frame", where,
@@ -121,18 +121,18 @@ void place_boxes(Navigation& navigation, const Placer& placer, const std::string
   }
   for (std::size_t i = 0; i < navigation.keep_out.size(); ++i) {
     Box& box = navigation.keep_out[i];
-    box = placer.around(box);
-    check_near(box, "box " + std::to_string(i) + " of navigation.keep_out", placer, where);
+    box = converter.around(box);
+    check_near(box, "box " + std::to_string(i) + " of navigation.keep_out", converter, where);
   }
 }
 
-void check_near(const Mission& mission, const Placer& placer) {
+void check_near(const Mission& mission, const CrsConverter& converter) {
   for (const Vec3& vertex : mission.target.parts.at(0)) {
     const double distance = vertex.head<2>().norm();
     if (distance <= geo::kFarthestM) continue;
     throw Error(ErrorCode::too_far_away,
                 "the target lies " + std::to_string(std::lround(distance / 1000)) + " km from the scene's origin",
-                mission.as_written.places.target, placer.order_advice());
+                mission.as_written.places.target, converter.order_advice());
   }
 }
 
@@ -144,15 +144,15 @@ void georeference(Mission& mission, const Progress& progress) {
   if (crs.empty() && !mission.as_written.ground_target) return;
   const geo::LocalFrame frame = frame_of(mission);
   if (!crs.empty()) {
-    const Placer placer(mission, frame);
+    const CrsConverter converter(mission, frame);
     with_place(place, [&] {
       for (std::vector<Vec3>& part : mission.target.parts) {
-        for (Vec3& vertex : part) vertex = placer(vertex);
+        for (Vec3& vertex : part) vertex = converter(vertex);
       }
       return 0;
     });
-    check_near(mission, placer);
-    place_boxes(mission.navigation, placer, mission.as_written.file.string());
+    check_near(mission, converter);
+    convert_boxes(mission.navigation, converter, mission.as_written.file.string());
   }
   if (mission.as_written.ground_target) put_on_ground(mission, frame, progress);
   with_place(place, [&] {

@@ -6,9 +6,9 @@
 
 #include "core/parallel.h"
 #include "depth/center_raster.h"
+#include "depth/conservative_raster.h"
 #include "depth/depth_request.h"
 #include "depth/face_view.h"
-#include "depth/footprint_raster.h"
 #include "depth/ray_caster.h"
 #include "depth/seen_scene.h"
 
@@ -76,7 +76,7 @@ class CpuDepthRenderer : public DepthRenderer {
 
   void draw_footprints(const FaceBand& band, const Vec3& eye, double range, std::span<float> texels) const {
     FaceClip clip(band);
-    FootprintRaster raster(band, texels);
+    ConservativeRaster raster(band, texels);
     std::vector<Vec3> corners;
     for_each_polygon(scene_.data().bvh, eye, range, clip, [&](std::uint32_t number) {
       const SeenPolygon polygon = scene_.polygon(number, eye, corners);

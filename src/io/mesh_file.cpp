@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "io/mesh_readers.h"
-#include "io/place_file.h"
+#include "io/sidecar.h"
 #include "io/text_cursor.h"
 #include "vantage/error.h"
 
@@ -82,7 +82,7 @@ RawMesh read_mesh_file(const std::filesystem::path& file, const Progress& callba
     const MeshSource source = load_mesh_source(file, progress, limits);
     RawMesh mesh = read_any(source, progress, limits, lod);
     if (mesh.format == MeshFormat::stl) {
-      PlaceFile beside = read_place_file(source, progress);
+      Sidecar beside = read_sidecar(source, progress);
       mesh.georeference = std::move(beside.georeference);
       mesh.rounding_m = beside.rounding_m;
     }

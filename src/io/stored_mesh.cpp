@@ -25,14 +25,14 @@ double spacing(double number, int digits) {
   return std::ldexp(1.0, exponent - digits);
 }
 
-/// Moves the vertices to `place(vertex)` and makes the mesh whole for readers: `mend` says how far a point of the
+/// Moves the vertices to `transform(vertex)` and makes the mesh whole for readers: `mend` says how far a point of the
 /// surface moved for it, or nothing where nothing had to be changed.
-template <typename Place, typename Mend>
-StoredMesh stored(const Volume& volume, const Place& place, const Mend& mend) {
+template <typename Transform, typename Mend>
+StoredMesh stored(const Volume& volume, const Transform& transform, const Mend& mend) {
   StoredMesh result;
   core::LabelledMesh labelled{volume.mesh, volume.cause_of};
   for (Vec3& vertex : labelled.mesh.vertices) {
-    const Vec3 moved = place(vertex);
+    const Vec3 moved = transform(vertex);
     result.rounding_m = std::max(result.rounding_m, (moved - vertex).norm());
     vertex = moved;
   }
@@ -65,10 +65,10 @@ StoredMesh stored_on_grid(const Volume& volume, const Box& box, const Vec3& orig
   // Origin and number must also add up exactly where they are read.
   const double step = std::max({spacing(largest, kFloatDigits), spacing(largest_coordinate(box), kDoubleDigits),
                                 static_cast<double>(std::numeric_limits<float>::min())});
-  const auto place = [&](const Vec3& vertex) {
+  const auto transform = [&](const Vec3& vertex) {
     return Vec3(origin + ((vertex - origin) / step).array().round().matrix() * step);
   };
-  StoredMesh result = stored(volume, place, [](core::LabelledMesh& labelled) {
+  StoredMesh result = stored(volume, transform, [](core::LabelledMesh& labelled) {
     return core::mend_welded(labelled, 0) ? std::optional<double>(0) : std::nullopt;
   });
   result.origin = origin;
@@ -90,19 +90,19 @@ StoredMesh stored_as_doubles(const Volume& volume) {
 StoredMesh stored_in_units(const Volume& volume, double scale) {
   // Until the number that is written reads back as the one that it was made from: at once, as a rule.
   constexpr int kRounds = 4;
-  const auto place = [&](Vec3 vertex) {
+  const auto transform = [&](Vec3 vertex) {
     for (int round = 0; round < kRounds; ++round) vertex = vertex / scale * scale;
     return vertex;
   };
-  return stored(volume, place, [&](core::LabelledMesh& labelled) {
+  return stored(volume, transform, [&](core::LabelledMesh& labelled) {
     const std::optional<double> moved = core::mend_for_doubles(labelled);
     if (!moved) return moved;
     // Where mending moved vertices the numbers are others.
     double again = 0;
     for (Vec3& vertex : labelled.mesh.vertices) {
-      const Vec3 stored_place = place(vertex);
-      again = std::max(again, (stored_place - vertex).norm());
-      vertex = stored_place;
+      const Vec3 rounded = transform(vertex);
+      again = std::max(again, (rounded - vertex).norm());
+      vertex = rounded;
     }
     return std::optional<double>(*moved + again);
   });

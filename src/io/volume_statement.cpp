@@ -4,7 +4,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "io/place_file.h"
+#include "io/sidecar.h"
 #include "vantage/error.h"
 #include "vantage/hash.h"
 
@@ -82,7 +82,7 @@ std::string statement_text(const MeshSource& source, const core::ProgressReporte
     json = json["asset"].value("extras", Json::object());
   } else {
     std::error_code ignored;
-    const std::filesystem::path beside = place_file(source.file());
+    const std::filesystem::path beside = sidecar_file(source.file());
     if (!std::filesystem::exists(beside, ignored)) return {};
     json = Json::parse(read_file_bytes(beside, progress), nullptr, false);
   }

@@ -3,7 +3,7 @@
 
 #include "io/rounding_text.h"
 #include "io/volume_statement.h"
-#include "io/write_place.h"
+#include "io/write_sidecar.h"
 #include "io/writers.h"
 #include "vantage/input.h"
 #include "vantage/version.h"

@@ -7,7 +7,7 @@
 #include "io/axes_text.h"
 #include "io/object_text.h"
 #include "io/scene_writers.h"
-#include "io/write_place.h"
+#include "io/write_sidecar.h"
 #include "io/writers.h"
 #include "vantage/error.h"
 #include "vantage/output.h"
@@ -131,7 +131,7 @@ std::vector<std::unique_ptr<AtomicFile>> stage_scene(const Scene& scene, const s
   if (extension == ".ply") write_scene_ply(scene, *files.back());
   if (extension == ".glb") write_scene_glb(scene, *files.back());
   if (extension == ".stl") write_stl_mesh(scene.mesh, "scene", *files.back());
-  if (auto place = stage_place({scene.georeference, std::nullopt, {}}, file)) files.push_back(std::move(place));
+  if (auto place = stage_sidecar({scene.georeference, std::nullopt, {}}, file)) files.push_back(std::move(place));
   return files;
 }
 

@@ -12,7 +12,7 @@
 
 #include "core/volume_check.h"
 #include "io/volume_statement.h"
-#include "io/write_place.h"
+#include "io/write_sidecar.h"
 #include "io/writers.h"
 #include "vantage/error.h"
 #include "vantage/output.h"
@@ -89,7 +89,7 @@ StagedVolume stage_volume(const Volume& volume, const std::filesystem::path& fil
   const auto stated = extension == ".stl" ? statement_json(volume, stored.mesh) : std::nullopt;
   const std::string statement =
       stated ? stated->dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace) : "";
-  if (auto beside = stage_place({volume.georeference, stored.rounding_m, statement}, file)) {
+  if (auto beside = stage_sidecar({volume.georeference, stored.rounding_m, statement}, file)) {
     staged.files.push_back(std::move(beside));
   }
   return staged;

@@ -49,7 +49,7 @@ Occluders::Occluders(const Scene& scene, const TargetView& view, double max_rang
     Box box = triangle.bounds();
     box.min = box.min.cwiseMax(region.min);  // Embree is to see small numbers only
     box.max = box.max.cwiseMin(region.max);
-    if (view.is_point()) add_surface(triangle, static_cast<std::uint32_t>(i));
+    if (view.is_point()) add_if_touched(triangle, static_cast<std::uint32_t>(i));
     if ((top <= 0 && !view.all_sides()) || box.empty()) continue;
     triangles_.push_back(triangle);
     number_.push_back(static_cast<std::uint32_t>(i));
@@ -72,7 +72,7 @@ std::optional<double> Occluders::hit(const Segment& segment, const FlatTriangle&
   return meeting.position;
 }
 
-void Occluders::add_surface(const FlatTriangle& triangle, std::uint32_t number) {
+void Occluders::add_if_touched(const FlatTriangle& triangle, std::uint32_t number) {
   const Vec3 offset = view_.centre() - triangle.corner;
   const Vec3 normal = triangle.normal / triangle.normal_length;
   if (std::abs(normal.dot(offset)) > kPointSurface) return;
@@ -80,26 +80,26 @@ void Occluders::add_surface(const FlatTriangle& triangle, std::uint32_t number) 
   const double second = normal.dot(offset.cross(triangle.edge2)) / triangle.normal_length;
   const double border = std::min({second, third, 1 - second - third});
   if (border < -kGrazing) return;
-  surfaces_.push_back({normal.dot(view_.normal()) < 0 ? Vec3(-normal) : normal, number, border < kGrazing});
+  touched_.push_back({normal.dot(view_.normal()) < 0 ? Vec3(-normal) : normal, number, border < kGrazing});
 }
 
-const Occluders::Surface* Occluders::hiding_surface(const Vec3& viewpoint) const {
-  const auto hides = [&](const Surface& surface) {
-    return surface.outward.dot(viewpoint - view_.centre()) < -kPointSurface;
+const Occluders::TouchedTriangle* Occluders::hiding_touched(const Vec3& viewpoint) const {
+  const auto hides = [&](const TouchedTriangle& touched) {
+    return touched.outward.dot(viewpoint - view_.centre()) < -kPointSurface;
   };
-  const Surface* edge = nullptr;
+  const TouchedTriangle* edge = nullptr;
   bool is_over_edge = false;
-  for (const Surface& surface : surfaces_) {
-    const bool is_behind = hides(surface);
-    if (is_behind && !surface.is_edge) return &surface;
-    if (is_behind) edge = &surface;
-    if (!is_behind && surface.is_edge) is_over_edge = true;
+  for (const TouchedTriangle& touched : touched_) {
+    const bool is_behind = hides(touched);
+    if (is_behind && !touched.is_edge) return &touched;
+    if (is_behind) edge = &touched;
+    if (!is_behind && touched.is_edge) is_over_edge = true;
   }
   return is_over_edge ? nullptr : edge;
 }
 
 bool Occluders::hide(const Vec3& viewpoint, const Vec3& target_point) const {
-  if (hiding_surface(viewpoint)) return true;
+  if (hiding_touched(viewpoint)) return true;
   const Segment segment(viewpoint, target_point);
   return index_->any_along(viewpoint, target_point,
                            [&](std::uint32_t i) { return hit(segment, triangles_[i]).has_value(); });
@@ -127,7 +127,7 @@ std::optional<Vec3> Occluders::find_hidden(const Vec3& viewpoint, std::size_t& r
 }
 
 std::optional<std::size_t> Occluders::first_hit(const Vec3& viewpoint, const Vec3& target_point) const {
-  if (const Surface* surface = hiding_surface(viewpoint)) return surface->number;
+  if (const TouchedTriangle* touched = hiding_touched(viewpoint)) return touched->number;
   const Segment segment(viewpoint, target_point);
   double nearest = std::numeric_limits<double>::infinity();
   std::optional<std::size_t> first;

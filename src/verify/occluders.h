@@ -35,14 +35,14 @@ class Occluders {
 
  private:
   /// Of a triangle that a point lies on.
-  struct Surface {
+  struct TouchedTriangle {
     Vec3 outward;          ///< normal on the target's front
     std::uint32_t number;  ///< in the scene
     bool is_edge;          ///< the point lies on its border: over a ridge one sees past it
   };
   /// One that the point lies in, or one of those at whose borders it lies, if the viewpoint is behind them all.
-  const Surface* hiding_surface(const Vec3& viewpoint) const;
-  void add_surface(const FlatTriangle& triangle, std::uint32_t number);
+  const TouchedTriangle* hiding_touched(const Vec3& viewpoint) const;
+  void add_if_touched(const FlatTriangle& triangle, std::uint32_t number);
 
   /// Position of the hit on the segment; nothing where the triangle does not hide.
   std::optional<double> hit(const Segment& segment, const FlatTriangle& triangle) const;
@@ -50,7 +50,7 @@ class Occluders {
   const TargetView& view_;
   std::vector<FlatTriangle> triangles_;
   std::vector<std::uint32_t> number_;  ///< in the scene
-  std::vector<Surface> surfaces_;
+  std::vector<TouchedTriangle> touched_;
   std::optional<BoxIndex> index_;  ///< always there; made last, when the triangles are known
 };
 

@@ -12,7 +12,7 @@
 #include "app/pierced_advice.h"
 #include "io/mesh_builder.h"
 #include "maps/city/object_outlines.h"
-#include "maps/terrain/surface.h"
+#include "maps/terrain/triangulated_terrain.h"
 #include "vantage/error.h"
 #include "vantage/input.h"
 
@@ -22,7 +22,7 @@ namespace {
 using city::Vec2;
 
 /// The triangles of the ground.
-terrain::Surface ground_of(const Mission& mission) {
+terrain::TriangulatedTerrain ground_of(const Mission& mission) {
   const Scene& scene = mission.loaded.scene;
   const auto ground = ground_object(scene);
   if (!ground) {
@@ -45,7 +45,7 @@ terrain::Surface ground_of(const Mission& mission) {
     }
     mesh.triangles.push_back(triangle);
   }
-  return terrain::Surface(std::move(mesh));
+  return terrain::TriangulatedTerrain(std::move(mesh));
 }
 
 /// z = slope . (x, y) + level.
@@ -58,7 +58,7 @@ struct Plane {
 
 /// The plane nearest to the ground at a ring's corners and the middles of its sides, raised until no ground under the
 /// ring lies above it.
-Plane ground_plane(const terrain::Surface& ground, const city::Ring& ring, const Mission& mission) {
+Plane ground_plane(const terrain::TriangulatedTerrain& ground, const city::Ring& ring, const Mission& mission) {
   const char* const beyond = "the target reaches beyond the scene's ground";
   std::vector<Vec2> samples;
   for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -79,7 +79,7 @@ Plane ground_plane(const terrain::Surface& ground, const city::Ring& ring, const
   Plane plane{fit.head<2>(), fit.z() - fit.head<2>().dot(middle)};
   Mesh tilted = ground.mesh();
   for (Vec3& vertex : tilted.vertices) vertex.z() -= plane.at(vertex.head<2>());
-  const auto range = terrain::Surface(std::move(tilted)).range(ring);
+  const auto range = terrain::TriangulatedTerrain(std::move(tilted)).range(ring);
   if (!range) fail_off_ground(mission, beyond);
   plane.level += range->highest;
   return plane;
@@ -117,7 +117,7 @@ std::vector<city::Footprint> outlines(Mission& mission, const std::string& name,
 }
 
 /// A rectangle that is on the ground only with latitude and longitude the other way round.
-void check_order(const Mission& mission, const GroundTarget& wanted, const terrain::Surface& ground,
+void check_order(const Mission& mission, const GroundTarget& wanted, const terrain::TriangulatedTerrain& ground,
                  const geo::LocalFrame& frame) {
   const auto [latitude, longitude] = *wanted.center_deg;
   const Vec2 centre = frame.to_local({longitude, latitude});
@@ -214,7 +214,7 @@ void put_on_ground(Mission& mission, const geo::LocalFrame& frame, const Progres
                                                  ? std::vector<city::Footprint>{{rectangle(wanted, frame), {}}}
                                                  : outlines(mission, wanted.osm, frame, progress);
   if (auto note = make_room(mission, plan_box(areas))) mission.loaded.notes.push_back(std::move(*note));
-  const terrain::Surface ground = ground_of(mission);
+  const terrain::TriangulatedTerrain ground = ground_of(mission);
   mission.target.parts.clear();
   for (const city::Footprint& area : areas) {
     const Plane plane = ground_plane(ground, area.outer, mission);

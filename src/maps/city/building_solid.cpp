@@ -127,7 +127,7 @@ class Closing {
 
 }  // namespace
 
-Solid make_solid(const Footprint& footprint, const BuildingForm& form, double ground_m) {
+CitySolid make_solid(const Footprint& footprint, const BuildingForm& form, double ground_m) {
   const bool open = form.roof != RoofShape::flat;
   const RoofFrame frame = open ? roof_frame(footprint, form) : RoofFrame{};
   const BuildingForm whole = settled(form, frame);

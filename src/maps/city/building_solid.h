@@ -10,7 +10,7 @@
 
 namespace vantage::internal::city {
 
-struct Solid {
+struct CitySolid {
   Mesh mesh;           ///< closed, outward-oriented, free of self-intersections; edge-connected pieces share no vertex
   std::string repair;  ///< what had to be done ("dome over an outline that is not star-shaped: flat instead"); or empty
 };
@@ -22,6 +22,6 @@ struct Solid {
 /// rings, or a ring with itself, touch in a point, that point is drawn apart by 1 mm into the solid, so that no edge
 /// has four facets. Throws Error(internal) where an invariant does not hold; the caller checks with solid::check all
 /// the same.
-Solid make_solid(const Footprint& footprint, const BuildingForm& form, double ground_m);
+CitySolid make_solid(const Footprint& footprint, const BuildingForm& form, double ground_m);
 
 }  // namespace vantage::internal::city

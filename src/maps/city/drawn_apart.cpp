@@ -14,9 +14,9 @@ namespace {
 constexpr std::array<double, 9> kDistances = {0.001, 0.002, 0.0005, 0.004, 0.00025, 0.008, 0.016, 0.032, 0.064};
 
 /// The boundary as corners that know their neighbours.
-class Boundary {
+class LinkedRings {
  public:
-  explicit Boundary(const std::vector<GridRing>& rings, const std::vector<Touch>& touches) {
+  explicit LinkedRings(const std::vector<GridRing>& rings, const std::vector<Touch>& touches) {
     std::vector<std::vector<GridPoint>> on_side;  // per side: corners of others that lie on it
     std::size_t count = 0;
     for (const GridRing& ring : rings) count += ring.size();
@@ -130,10 +130,10 @@ class Boundary {
 std::vector<GridRing> drawn_apart(const std::vector<GridRing>& rings) {
   const std::vector<Touch> touches = touches_of(rings);
   if (touches.empty()) return rings;
-  Boundary boundary(rings, touches);
-  boundary.relink();
+  LinkedRings linked(rings, touches);
+  linked.relink();
   for (const double distance : kDistances) {
-    std::vector<GridRing> result = boundary.rings(distance);
+    std::vector<GridRing> result = linked.rings(distance);
     const Meeting meeting = meeting_of(result);
     if (!meeting.crossing && !meeting.touching) return result;
   }

@@ -35,10 +35,10 @@ Ground Ground::from_file(const std::filesystem::path& file, const geo::LocalFram
   return ground;
 }
 
-terrain::Surface::Range Ground::range(const std::vector<Footprint>& footprints) const {
+terrain::TriangulatedTerrain::Range Ground::range(const std::vector<Footprint>& footprints) const {
   if (!surface_) return {0, 0};
   const double infinity = std::numeric_limits<double>::infinity();
-  terrain::Surface::Range all{infinity, -infinity};
+  terrain::TriangulatedTerrain::Range all{infinity, -infinity};
   for (const Footprint& footprint : footprints) {
     const auto range = surface_->range(footprint.outer);
     if (!range) {

@@ -247,7 +247,7 @@ std::vector<Shape> shapes_of_area(const osm::Tags& tags, const std::vector<Footp
   return {};
 }
 
-Solid make_solid(const Shape& shape, double ground_m) {
+CitySolid make_solid(const Shape& shape, double ground_m) {
   if (shape.tree) return {tree_mesh(*shape.tree, ground_m), ""};
   return make_solid(shape.footprint, shape.form, ground_m);
 }

@@ -58,6 +58,6 @@ std::vector<Shape> shapes_of_area(const osm::Tags& tags, const std::vector<Footp
                                   const OccluderDefaults& defaults, std::vector<TagRemark>& remarks);
 
 /// As make_solid does it for buildings; `ground_m`: z of the ground that the heights count from.
-Solid make_solid(const Shape& shape, double ground_m);
+CitySolid make_solid(const Shape& shape, double ground_m);
 
 }  // namespace vantage::internal::city

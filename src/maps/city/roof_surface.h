@@ -16,7 +16,7 @@ struct RoofSurface {
   std::vector<Triangle> roof;   ///< counter-clockwise from above, onions' bulges excepted
   std::vector<Triangle> floor;  ///< counter-clockwise from above; with the same sides along the outline
   bool floor_is_roof = true;    ///< the two lists are the same: one height to every place
-  std::string repair;           ///< as in Solid
+  std::string repair;           ///< as in CitySolid
 };
 
 /// `rings`: the footprint's, drawn apart. `form`: settled. The creases are as exact as their ends: no corner is more

@@ -51,7 +51,7 @@ std::vector<Mesh> build(Item& item, const Ground& ground) {
   item.record.footprint_m2 = area_m2(footprints);
   std::vector<Mesh> pieces;
   for (const Shape& shape : item.shapes) {
-    Solid solid = make_solid(shape, ground_under(item, shape, ground, together));
+    CitySolid solid = make_solid(shape, ground_under(item, shape, ground, together));
     if (!solid.repair.empty()) repair(item.record, solid.repair);
     pieces.push_back(std::move(solid.mesh));
   }

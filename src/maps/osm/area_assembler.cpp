@@ -143,8 +143,8 @@ std::vector<Polygon> to_polygons(const osmium::Area& area, const AssemblyPlane& 
   return polygons;
 }
 
-/// `placed`: of each member its way, in the plane.
-void classify(std::vector<MemberWay>& members, const std::vector<const osmium::Way*>& placed,
+/// `projected`: of each member its way, in the plane.
+void classify(std::vector<MemberWay>& members, const std::vector<const osmium::Way*>& projected,
               const osmium::Area& area) {
   Sides outer_sides, inner_sides;
   for (const osmium::OuterRing& outer : area.outer_rings()) {
@@ -154,8 +154,8 @@ void classify(std::vector<MemberWay>& members, const std::vector<const osmium::W
   outer_sides.finish();
   inner_sides.finish();
   for (std::size_t i = 0; i < members.size(); ++i) {
-    members[i].outer = outer_sides.has_any_of(placed[i]->nodes());
-    members[i].inner = inner_sides.has_any_of(placed[i]->nodes());
+    members[i].outer = outer_sides.has_any_of(projected[i]->nodes());
+    members[i].inner = inner_sides.has_any_of(projected[i]->nodes());
   }
 }
 
@@ -182,9 +182,9 @@ bool has_corner(const NodeLocations& places) {
 }
 
 /// Ways with their nodes where the plane has them: the ways themselves, or copies.
-class PlacedWays {
+class ProjectedWays {
  public:
-  PlacedWays(const std::vector<const osmium::Way*>& ways, const AssemblyPlane& plane) : ways_(ways) {
+  ProjectedWays(const std::vector<const osmium::Way*>& ways, const AssemblyPlane& plane) : ways_(ways) {
     if (!plane.moves()) return;
     std::vector<std::size_t> offsets;
     for (const osmium::Way* const way : ways) {
@@ -224,11 +224,11 @@ const osmium::Relation& relation_of(const osmium::Relation& relation, const std:
 
 Assembly assemble(const osmium::Way& way) {
   const AssemblyPlane plane({&way});
-  const PlacedWays placed({&way}, plane);
+  const ProjectedWays projected({&way}, plane);
   Complaints complaints({ObjectType::way, way.id()}, plane);
   const osmium::area::AssemblerConfig config = config_with(complaints);
   osmium::memory::Buffer buffer(1 << 12, osmium::memory::Buffer::auto_grow::yes);
-  if (!osmium::area::Assembler(config)(*placed.ways().front(), buffer)) return {{}, complaints.sentence()};
+  if (!osmium::area::Assembler(config)(*projected.ways().front(), buffer)) return {{}, complaints.sentence()};
   return {to_polygons(buffer.get<osmium::Area>(0), plane), ""};
 }
 
@@ -237,15 +237,15 @@ Assembly assemble(const osmium::Relation& relation, std::vector<MemberWay>& memb
   std::vector<const osmium::Way*> ways;
   for (const MemberWay& member : members) ways.push_back(member.way);
   const AssemblyPlane plane(ways);
-  const PlacedWays placed(ways, plane);
+  const ProjectedWays projected(ways, plane);
   Complaints complaints({ObjectType::relation, relation.id()}, plane);
   const osmium::area::AssemblerConfig config = config_with(complaints);
   osmium::memory::Buffer buffer(1 << 12, osmium::memory::Buffer::auto_grow::yes);
   osmium::memory::Buffer relation_buffer(1 << 10, osmium::memory::Buffer::auto_grow::yes);
   const osmium::Relation& complete = relation_of(relation, members, relation_buffer);
-  if (!osmium::area::Assembler(config)(complete, placed.ways(), buffer)) return {{}, complaints.sentence()};
+  if (!osmium::area::Assembler(config)(complete, projected.ways(), buffer)) return {{}, complaints.sentence()};
   const auto& area = buffer.get<osmium::Area>(0);
-  classify(members, placed.ways(), area);
+  classify(members, projected.ways(), area);
   return {to_polygons(area, plane), ""};
 }
 

@@ -41,7 +41,7 @@ AssemblyPlane::AssemblyPlane(const std::vector<const osmium::Way*>& ways) {
     hemisphere_ = south > 0 ? 1 : -1;
     for_nodes([&](osmium::Location at) { corners_.emplace_back(to_plane(at), to_lonlat(at)); });
     std::stable_sort(corners_.begin(), corners_.end(),
-                     [](const Place& a, const Place& b) { return a.first < b.first; });
+                     [](const NodePosition& a, const NodePosition& b) { return a.first < b.first; });
   } else if (east - west > 180) {
     kind_ = Kind::turned;
   }
@@ -71,8 +71,9 @@ LonLat AssemblyPlane::from_plane(osmium::Location location) const {
       return to_lonlat(osmium::Location(x, location.y()));
     }
     case Kind::about_pole: {
-      const auto corner = std::lower_bound(corners_.begin(), corners_.end(), location,
-                                           [](const Place& place, osmium::Location at) { return place.first < at; });
+      const auto corner =
+          std::lower_bound(corners_.begin(), corners_.end(), location,
+                           [](const NodePosition& place, osmium::Location at) { return place.first < at; });
       if (corner != corners_.end() && corner->first == location) return corner->second;
       const double x = location.lon_without_check(), y = location.lat_without_check();
       return {std::atan2(x, -hemisphere_ * y) / kDegree, hemisphere_ * (90 - std::hypot(x, y) / kMagnified)};

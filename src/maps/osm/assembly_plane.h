@@ -25,11 +25,11 @@ class AssemblyPlane {
 
  private:
   enum class Kind { as_it_is, turned, about_pole };
-  using Place = std::pair<osmium::Location, LonLat>;
+  using NodePosition = std::pair<osmium::Location, LonLat>;
 
   Kind kind_ = Kind::as_it_is;
-  double hemisphere_ = 1;       ///< -1: about the south pole
-  std::vector<Place> corners_;  ///< about a pole: of all nodes, by place in the plane
+  double hemisphere_ = 1;              ///< -1: about the south pole
+  std::vector<NodePosition> corners_;  ///< about a pole: of all nodes, by place in the plane
 };
 
 }  // namespace vantage::internal::osm

@@ -9,9 +9,9 @@
 #include "geo/local_frame.h"
 #include "maps/terrain/height_grid.h"
 #include "maps/terrain/post_positions.h"
-#include "maps/terrain/surface.h"
 #include "maps/terrain/tin.h"
 #include "maps/terrain/tin_mesh.h"
+#include "maps/terrain/triangulated_terrain.h"
 #include "vantage/error.h"
 #include "vantage/terrain.h"
 
@@ -220,7 +220,7 @@ RasterScene scene_from_raster(const std::filesystem::path& file, const RasterOpt
   result.report.highest_m = static_cast<double>(*highest);
   Scene& scene = result.scene;
   if (options.max_error_m > 0) {
-    const Surface surface(simplified(grid, posts, options.max_error_m, progress));
+    const TriangulatedTerrain surface(simplified(grid, posts, options.max_error_m, progress));
     result.report.largest_error_m = largest_error(surface, posts);
     scene.mesh = surface.mesh();
   } else {

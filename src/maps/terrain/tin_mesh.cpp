@@ -37,7 +37,7 @@ Mesh mesh_of(const Tin& tin, const std::vector<bool>& wanted) {
   return mesh;
 }
 
-double largest_error(const Surface& surface, const std::vector<Vec3>& points) {
+double largest_error(const TriangulatedTerrain& surface, const std::vector<Vec3>& points) {
   double largest = 0;
   for (const Vec3& point : points) {
     const std::optional<double> height = surface.height(point.head<2>());

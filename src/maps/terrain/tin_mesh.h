@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "core/progress_reporter.h"
-#include "maps/terrain/surface.h"
 #include "maps/terrain/tin.h"
+#include "maps/terrain/triangulated_terrain.h"
 #include "vantage/geometry.h"
 
 namespace vantage::internal::terrain {
@@ -17,6 +17,6 @@ void grow(Tin& tin, double max_error_m, const core::ProgressReporter& progress);
 Mesh mesh_of(const Tin& tin, const std::vector<bool>& wanted);
 
 /// Vertical, over all of these points; infinite where there is no surface under one.
-double largest_error(const Surface& surface, const std::vector<Vec3>& points);
+double largest_error(const TriangulatedTerrain& surface, const std::vector<Vec3>& points);
 
 }  // namespace vantage::internal::terrain

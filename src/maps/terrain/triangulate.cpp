@@ -10,9 +10,9 @@
 
 #include "core/progress_reporter.h"
 #include "maps/terrain/post_positions.h"
-#include "maps/terrain/surface.h"
 #include "maps/terrain/tin.h"
 #include "maps/terrain/tin_mesh.h"
+#include "maps/terrain/triangulated_terrain.h"
 #include "vantage/error.h"
 
 namespace vantage::internal::terrain {
@@ -137,7 +137,7 @@ Triangulation triangulate(const HeightGrid& grid, const geo::LocalFrame& frame, 
   grow(tin, max_error_m, progress);
   tin.fold_up(max_error_m);
   std::vector<bool> all(tin.facets().size(), true);
-  Triangulation result{Surface(mesh_of(tin, all)), 0, samples.posts.size()};
+  Triangulation result{TriangulatedTerrain(mesh_of(tin, all)), 0, samples.posts.size()};
   result.largest_error_m =
       std::max(largest_error(result.surface, samples.border), largest_error(result.surface, samples.posts));
   return result;

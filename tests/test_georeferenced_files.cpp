@@ -5,7 +5,7 @@
 
 #include "geo/local_frame.h"
 #include "io/georeference_text.h"
-#include "io/place_file.h"
+#include "io/sidecar.h"
 #include "support/mesh_reading.h"
 #include "support/objects.h"
 #include "support/solids.h"

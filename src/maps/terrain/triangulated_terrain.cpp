@@ -1,4 +1,4 @@
-#include "maps/terrain/surface.h"
+#include "maps/terrain/triangulated_terrain.h"
 
 #include <algorithm>
 #include <cmath>
@@ -51,7 +51,7 @@ bool is_inside(const std::vector<Eigen::Vector2d>& ring, const Eigen::Vector2d& 
 
 }  // namespace
 
-Surface::Surface(Mesh mesh) : mesh_(std::move(mesh)) {
+TriangulatedTerrain::TriangulatedTerrain(Mesh mesh) : mesh_(std::move(mesh)) {
   if (mesh_.empty()) throw Error(ErrorCode::internal_defect, "a surface without triangles", "terrain", "");
   const Box box = bounding_box(mesh_);
   min_ = flat(box.min);
@@ -66,13 +66,13 @@ Surface::Surface(Mesh mesh) : mesh_(std::move(mesh)) {
   index_vertices();
 }
 
-int Surface::cell_column(double x) const {
+int TriangulatedTerrain::cell_column(double x) const {
   return static_cast<int>(std::clamp((x - min_.x()) * cells_per_m_.x(), 0.0, columns_ - 1.0));
 }
-int Surface::cell_row(double y) const {
+int TriangulatedTerrain::cell_row(double y) const {
   return static_cast<int>(std::clamp((y - min_.y()) * cells_per_m_.y(), 0.0, rows_ - 1.0));
 }
-std::uint32_t Surface::cell(int column, int row) const {
+std::uint32_t TriangulatedTerrain::cell(int column, int row) const {
   return static_cast<std::uint32_t>(row) * static_cast<std::uint32_t>(columns_) + static_cast<std::uint32_t>(column);
 }
 
@@ -92,7 +92,7 @@ static void fill_cells(std::vector<std::uint32_t>& first, std::vector<std::uint3
 
 /// Into the cells that each triangle meets, row by row of cells: the part of it in a row lies between the ends of its
 /// sides' parts there.
-void Surface::index_triangles() {
+void TriangulatedTerrain::index_triangles() {
   const auto cells_of = [&](std::uint32_t t, const auto& add) {
     std::array<Eigen::Vector2d, 3> corners;
     for (std::size_t i = 0; i < 3; ++i) corners[i] = flat(mesh_.vertices[mesh_.triangles[t][i]]);
@@ -123,14 +123,14 @@ void Surface::index_triangles() {
              mesh_.triangles.size(), cells_of);
 }
 
-void Surface::index_vertices() {
+void TriangulatedTerrain::index_vertices() {
   fill_cells(vertices_.first, vertices_.items, static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_),
              mesh_.vertices.size(), [&](std::uint32_t v, const auto& add) {
                add(cell(cell_column(mesh_.vertices[v].x()), cell_row(mesh_.vertices[v].y())));
              });
 }
 
-std::optional<double> Surface::height(const Eigen::Vector2d& at) const {
+std::optional<double> TriangulatedTerrain::height(const Eigen::Vector2d& at) const {
   const Eigen::Vector2d hair = (max_ - min_) * 1e-12;
   // Written so that not-a-number is outside too.
   if (!((at - min_ + hair).minCoeff() >= 0 && (max_ - at + hair).minCoeff() >= 0)) return std::nullopt;
@@ -149,7 +149,7 @@ std::optional<double> Surface::height(const Eigen::Vector2d& at) const {
 }
 
 /// Takes in the heights along a segment: at the ends of its part in each triangle.
-void Surface::widen(Range& range, const Eigen::Vector2d& from, const Eigen::Vector2d& to) const {
+void TriangulatedTerrain::widen(Range& range, const Eigen::Vector2d& from, const Eigen::Vector2d& to) const {
   const Eigen::Vector2d along = to - from;
   const auto [low, high] = std::minmax(from.y(), to.y());
   for (int row = cell_row(low); row <= cell_row(high); ++row) {
@@ -186,7 +186,7 @@ void Surface::widen(Range& range, const Eigen::Vector2d& from, const Eigen::Vect
   }
 }
 
-std::optional<Surface::Range> Surface::range(const std::vector<Eigen::Vector2d>& ring) const {
+std::optional<TriangulatedTerrain::Range> TriangulatedTerrain::range(const std::vector<Eigen::Vector2d>& ring) const {
   if (ring.empty()) return std::nullopt;
   Range range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   Eigen::Vector2d low = ring.front(), high = ring.front();

@@ -1,4 +1,4 @@
-#include "io/write_place.h"
+#include "io/write_sidecar.h"
 
 #include "io/georeference_text.h"
 #include "io/writers.h"
@@ -12,13 +12,13 @@ std::string place_comment(const std::optional<Georeference>& georeference, const
   return line.append("\n");
 }
 
-std::unique_ptr<AtomicFile> stage_place(const io::PlaceFile& content, const std::filesystem::path& mesh_file) {
+std::unique_ptr<AtomicFile> stage_sidecar(const io::Sidecar& content, const std::filesystem::path& mesh_file) {
   if (output_extension(mesh_file) != ".stl") return nullptr;
-  const std::filesystem::path file = io::place_file(mesh_file);
+  const std::filesystem::path file = io::sidecar_file(mesh_file);
   std::error_code ignored;
   if (!content.georeference && !content.rounding_m && !std::filesystem::exists(file, ignored)) return nullptr;
   auto output = std::make_unique<AtomicFile>(file);
-  output->write(io::place_file_text(content));
+  output->write(io::sidecar_text(content));
   return output;
 }
 

@@ -16,11 +16,11 @@
 namespace vantage::internal::terrain {
 
 /// A piecewise linear terrain over a rectangle of a local frame. Any number of threads may ask at once.
-class Surface {
+class TriangulatedTerrain {
  public:
   /// Triangles that span the rectangle [min, max] of their vertices; none overlap, all counter-clockwise seen from
   /// above. Made by `triangulate`.
-  VANTAGE_INTERNAL_API explicit Surface(Mesh mesh);
+  VANTAGE_INTERNAL_API explicit TriangulatedTerrain(Mesh mesh);
 
   const Mesh& mesh() const { return mesh_; }
   /// Nothing outside; the border belongs to it. Cost: constant, about a microsecond.
@@ -60,7 +60,7 @@ class Surface {
 /// folded along the diagonal that is higher in the middle: what is there is not known, and the higher ground hides
 /// more.
 struct Triangulation {
-  Surface surface;
+  TriangulatedTerrain surface;
   double largest_error_m = 0;  ///< vertical, measured at all posts in the window and where its border crosses the grid
   std::size_t posts = 0;       ///< posts in the window
 };

@@ -18,10 +18,10 @@
 
 namespace vantage::internal::depth {
 
-class FootprintRaster {
+class ConservativeRaster {
  public:
   /// Draws into rows [row_begin, row_end) of the band: `inverse_depths` holds (row_end - row_begin) * size values, 1/m.
-  FootprintRaster(const FaceBand& band, std::span<float> inverse_depths);
+  ConservativeRaster(const FaceBand& band, std::span<float> inverse_depths);
 
   /// Raises the texels that the polygon meets to at least its nearest inverse depth in them. The corners are what
   /// FaceClip made of it: (right, up, forward).

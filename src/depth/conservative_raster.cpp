@@ -1,4 +1,4 @@
-#include "depth/footprint_raster.h"
+#include "depth/conservative_raster.h"
 
 #include <algorithm>
 #include <cmath>
@@ -36,18 +36,18 @@ void keep(const std::vector<Corner>& from, std::vector<Corner>& to, const Side& 
 
 }  // namespace
 
-FootprintRaster::FootprintRaster(const FaceBand& band, std::span<float> inverse_depths)
+ConservativeRaster::ConservativeRaster(const FaceBand& band, std::span<float> inverse_depths)
     : band_(band), texels_(inverse_depths) {
   edges_.reserve(band.size + 1);
   for (int i = 0; i <= band.size; ++i) edges_.push_back(band.edge(i));
 }
 
 /// The column or row that holds a coordinate; may be beyond the face by one.
-int FootprintRaster::cell(double coordinate) const {
+int ConservativeRaster::cell(double coordinate) const {
   return static_cast<int>(std::floor(std::clamp(coordinate + 1, -1.0, 3.0) * 0.5 * band_.size));
 }
 
-void FootprintRaster::project(std::span<const Vec3> corners, double slack) {
+void ConservativeRaster::project(std::span<const Vec3> corners, double slack) {
   polygon_.clear();
   double largest = 0;
   for (const Vec3& p : corners) {
@@ -58,7 +58,7 @@ void FootprintRaster::project(std::span<const Vec3> corners, double slack) {
   rounding_ = kInterpolation * largest;
 }
 
-void FootprintRaster::draw(std::span<const Vec3> corners, double slack) {
+void ConservativeRaster::draw(std::span<const Vec3> corners, double slack) {
   if (corners.empty()) return;
   project(corners, slack);
   double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -75,20 +75,20 @@ void FootprintRaster::draw(std::span<const Vec3> corners, double slack) {
 }
 
 /// Leaves in part_ what the row of texels sees.
-void FootprintRaster::cut_row(int row) {
+void ConservativeRaster::cut_row(int row) {
   const double low = edges_[row], high = edges_[row + 1];
   keep(polygon_, half_, [low](const Corner& c) { return c.high() - low; });
   part_.clear();
   if (!half_.empty()) keep(half_, part_, [high](const Corner& c) { return high - c.low(); });
 }
 
-void FootprintRaster::raise(float* row, int first, int last, double inverse_depth) const {
+void ConservativeRaster::raise(float* row, int first, int last, double inverse_depth) const {
   const float value = rounded_up(inverse_depth + rounding_);
   for (int i = std::max(first, 0); i <= std::min(last, band_.size - 1); ++i) row[i] = std::max(row[i], value);
 }
 
 /// Leaves in hull_ the upper hull of the part in the plane (u, q), from left to right (Andrew 1979).
-void FootprintRaster::build_hull(const std::vector<Corner>& part) {
+void ConservativeRaster::build_hull(const std::vector<Corner>& part) {
   half_ = part;
   std::sort(half_.begin(), half_.end(),
             [](const Corner& a, const Corner& b) { return a.u != b.u ? a.u < b.u : a.q < b.q; });
@@ -105,7 +105,7 @@ void FootprintRaster::build_hull(const std::vector<Corner>& part) {
 }
 
 /// Along the hull from its peak to the right the largest q of a texel is at its left edge, and the other way round.
-void FootprintRaster::draw_row(int row, const std::vector<Corner>& part) {
+void ConservativeRaster::draw_row(int row, const std::vector<Corner>& part) {
   float* texels = texels_.data() + static_cast<std::size_t>(row - band_.row_begin) * band_.size;
   build_hull(part);
   std::size_t peak = 0;

@@ -1,4 +1,4 @@
-#include "io/place_file.h"
+#include "io/sidecar.h"
 
 #include <nlohmann/json.hpp>
 
@@ -8,13 +8,13 @@
 
 namespace vantage::internal::io {
 
-std::filesystem::path place_file(const std::filesystem::path& mesh_file) {
+std::filesystem::path sidecar_file(const std::filesystem::path& mesh_file) {
   std::filesystem::path name = mesh_file;
   if (name.extension() == ".gz") name.replace_extension();  // compressed, it is the same mesh
   return name += ".place.json";
 }
 
-std::string place_file_text(const PlaceFile& content) {
+std::string sidecar_text(const Sidecar& content) {
   nlohmann::ordered_json json;
   json["vantage"]["georeference"] = nullptr;
   if (content.georeference) json["vantage"]["georeference"] = georeference_json(*content.georeference);
@@ -23,15 +23,15 @@ std::string place_file_text(const PlaceFile& content) {
   return json.dump(2, ' ', true, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
-PlaceFile read_place_file(const MeshSource& mesh, const core::ProgressReporter& progress) {
-  const std::filesystem::path file = place_file(mesh.file());
+Sidecar read_sidecar(const MeshSource& mesh, const core::ProgressReporter& progress) {
+  const std::filesystem::path file = sidecar_file(mesh.file());
   std::error_code ignored;
   if (!std::filesystem::exists(file, ignored)) return {};
   try {
     const nlohmann::json json = nlohmann::json::parse(read_file_bytes(file, progress), nullptr, false);
     const auto place = georeference_in(json);
     if (!place) throw GeoreferenceProblem{"the file holds no georeference of vantage"};
-    PlaceFile content;
+    Sidecar content;
     if (!place->is_null()) content.georeference = parse_georeference(*place);
     content.rounding_m = rounding_in(json);
     return content;

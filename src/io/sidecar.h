@@ -12,19 +12,19 @@
 namespace vantage::internal::io {
 
 /// "city.stl.place.json" for "city.stl" and "city.stl.gz".
-std::filesystem::path place_file(const std::filesystem::path& mesh_file);
+std::filesystem::path sidecar_file(const std::filesystem::path& mesh_file);
 
 /// What it holds.
-struct PlaceFile {
+struct Sidecar {
   std::optional<Georeference> georeference;
   std::optional<double> rounding_m;  ///< of a volume
   std::string volume;                ///< JSON of statement_json; empty: nothing is stated
 };
 
 /// {"vantage": {"georeference": {…}, "rounding_m": …}}; null in place of the object when there is none.
-std::string place_file_text(const PlaceFile& content);
+std::string sidecar_text(const Sidecar& content);
 
 /// Reads the file beside `mesh`; nothing when there is none. Throws Error(input) for one that cannot be read.
-PlaceFile read_place_file(const MeshSource& mesh, const core::ProgressReporter& progress);
+Sidecar read_sidecar(const MeshSource& mesh, const core::ProgressReporter& progress);
 
 }  // namespace vantage::internal::io

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "io/place_file.h"
+#include "io/sidecar.h"
 #include "vantage/atomic_file.h"
 #include "vantage/georeference.h"
 
@@ -18,6 +18,6 @@ std::string place_comment(const std::optional<Georeference>& georeference, const
 /// STL has no room for a place and a rounding: they go into a second file. Nothing for another format, and where there
 /// is neither, unless there is such a file from an earlier run, which would lie; that is then replaced by one that
 /// holds null.
-std::unique_ptr<AtomicFile> stage_place(const io::PlaceFile& content, const std::filesystem::path& mesh_file);
+std::unique_ptr<AtomicFile> stage_sidecar(const io::Sidecar& content, const std::filesystem::path& mesh_file);
 
 }  // namespace vantage::internal::io
