@@ -9,11 +9,10 @@
 namespace vantage::internal::exact {
 namespace {
 
-constexpr std::size_t kLongList = 16;     // leaves with more blockers than this are split,
+constexpr std::size_t kLongList = 20;     // leaves with more blockers than this are split,
 constexpr std::uint32_t kDeepest = 14;    // but not below 2^-14 of a quadrant
-constexpr double kFutile = 1.9;           // A split that makes the lists this much longer in all is of no use,
-constexpr std::uint32_t kPatience = 4;    // and after so many of them in a row there are no more.
-constexpr std::size_t kVeryLong = 400;    // But lists this long are split whatever it makes of them.
+constexpr double kFutile = 1.6;           // A split that makes the lists this much longer in all is of little use:
+                                          // after each of them in a row a list must be twice as long to be split.
 constexpr std::size_t kMostRepeats = 32;  // All splits may add so many entries for each blocker; in cities 11.
 constexpr double kRounding = 1e-13;       // bounds are good to this fraction
 
@@ -203,9 +202,8 @@ bool DirectionTree::insert_below(std::uint32_t at, std::uint32_t index, std::spa
 // The shadows of sheets that share an edge run side by side through the same cells: no split separates them, and lists
 // would be repeated until memory ends. So what all splits add is bounded, in proportion to the blockers.
 bool DirectionTree::is_worth_splitting(const Node& node) const {
-  if (node.leaf.count() <= kLongList || node.depth == kDeepest) return false;
-  if (repeats_ > kMostRepeats * blockers_.count()) return false;
-  return node.futile_splits < (node.leaf.count() > kVeryLong ? kDeepest : kPatience);
+  if (node.leaf.count() <= kLongList << node.futile_splits || node.depth == kDeepest) return false;
+  return repeats_ <= kMostRepeats * blockers_.count();
 }
 
 // False when the blocker is hidden all over the cell.
