@@ -77,8 +77,26 @@ int OctahedralGrid::locate(double coordinate) const {
 
 void OctahedralGrid::mark(const OctahedralPoint& from, const OctahedralPoint& to, double snap) {
   const double margin = 4 * std::max(snap, kLeastSnap);
-  const int i0 = locate(std::min(from.x(), to.x()) - margin), i1 = locate(std::max(from.x(), to.x()) + margin);
+  const OctahedralPoint along = to - from;
   const int j0 = locate(std::min(from.y(), to.y()) - margin), j1 = locate(std::max(from.y(), to.y()) + margin);
+  const int i0 = locate(std::min(from.x(), to.x()) - margin), i1 = locate(std::max(from.x(), to.x()) + margin);
+  for (int j = j0; j <= j1; ++j) {
+    double left = std::min(from.x(), to.x()), right = std::max(from.x(), to.x());
+    if (i0 < i1 && j0 < j1 && along.y() != 0) {  // of a slanted segment the part in this row
+      const double enters = std::clamp((line(j) - margin - from.y()) / along.y(), 0.0, 1.0);
+      const double leaves = std::clamp((line(j + 1) + margin - from.y()) / along.y(), 0.0, 1.0);
+      left = from.x() + enters * along.x();
+      right = from.x() + leaves * along.x();
+      if (left > right) std::swap(left, right);
+    }
+    for (int i = i0; i <= i1; ++i)
+      if (has_cell(i, j) && line(i) <= right + margin && line(i + 1) >= left - margin) states_[index(i, j)] = mixed;
+  }
+}
+
+void OctahedralGrid::mark_square(const OctahedralPoint& middle, double reach) {
+  const int i0 = locate(middle.x() - reach), i1 = locate(middle.x() + reach);
+  const int j0 = locate(middle.y() - reach), j1 = locate(middle.y() + reach);
   for (int j = j0; j <= j1; ++j)
     for (int i = i0; i <= i1; ++i)
       if (has_cell(i, j)) states_[index(i, j)] = mixed;

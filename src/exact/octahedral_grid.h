@@ -51,8 +51,11 @@ class OctahedralGrid {
   /// The line at or below a coordinate.
   int locate(double coordinate) const;
 
-  /// Marks the cells that a short segment may touch as mixed, with its ends moved by up to `snap`.
+  /// Marks the cells that a segment may touch as mixed, with its ends moved by up to `snap`.
   void mark(const OctahedralPoint& from, const OctahedralPoint& to, double snap);
+
+  /// Marks the cells within `reach` of a point along either axis as mixed.
+  void mark_square(const OctahedralPoint& middle, double reach);
 
   /// Settles the cells that no crease touches: `is_range_at` is asked once for each connected run of them.
   void settle(const std::function<bool(const OctahedralPoint&)>& is_range_at);

@@ -163,8 +163,7 @@ Boundary triangulate_boundary(const Skeleton& skeleton, const BlockerSet& blocke
     if (attempt.failure.empty() && attempt.border_splits.empty()) return std::move(attempt.boundary);
     if (attempt.failure.empty()) {
       // Cells round about are triangulated with the rest: more of them each time, as what splits one edge goes on.
-      for (const OctahedralPoint& p : attempt.border_splits)
-        grid.mark(p - OctahedralPoint::Constant(width), p + OctahedralPoint::Constant(width), snap);
+      for (const OctahedralPoint& p : attempt.border_splits) grid.mark_square(p, width);
       width *= 2;
     } else if (snap < numerics::kWidestSnap) {
       snap *= 10;
