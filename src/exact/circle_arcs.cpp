@@ -1,5 +1,6 @@
 #include "exact/circle_arcs.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -10,6 +11,7 @@ namespace vantage::internal::exact {
 namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
+constexpr double kRounding = 1e-14;
 
 double unrolled(double angle) {
   angle = std::fmod(angle, kTurn);
@@ -18,65 +20,58 @@ double unrolled(double angle) {
 
 }  // namespace
 
-CircleArcs::Cut CircleArcs::cut(const Vec3& normal, double height, double margin, Arc& arc) const {
+CircleArcs::Wave CircleArcs::wave_of(const Vec3& normal, double height) const {
   const double a = circle_.radius * normal.dot(circle_.axis_1), b = circle_.radius * normal.dot(circle_.axis_2);
-  const double level = height - normal.dot(circle_.centre), amplitude = std::hypot(a, b);
-  if (level >= amplitude - margin) return Cut::none;
-  if (level <= -amplitude + margin) return Cut::all;
-  arc = {std::atan2(b, a), std::acos(std::clamp(level / amplitude, -1.0, 1.0))};
-  return Cut::some;
+  return {a, b, std::hypot(a, b), height - normal.dot(circle_.centre)};
+}
+
+CircleArcs::Cut CircleArcs::cut(const Wave& wave, double margin) {
+  if (wave.level >= wave.amplitude - margin) return Cut::none;
+  return wave.level <= -wave.amplitude + margin ? Cut::all : Cut::some;
+}
+
+// Takes out of `parts` where a wave is below its level.
+void CircleArcs::subtract_below(const Wave& wave, IntervalSet& parts) {
+  const double middle = std::atan2(wave.b, wave.a);
+  const double half_width = std::acos(std::clamp(wave.level / wave.amplitude, -1.0, 1.0));
+  const double begin = unrolled(middle + half_width), length = kTurn - 2 * half_width;
+  parts.subtract(begin, std::min(begin + length, kTurn));
+  if (begin + length > kTurn) parts.subtract(-1, begin + length - kTurn);
 }
 
 void CircleArcs::keep(const Vec3& normal, double height) {
-  Arc arc;
-  switch (cut(normal, height, 0, arc)) {
-    case Cut::all:
-      return;
-    case Cut::none:
-      parts_.assign(0, 0);
-      return;
-    case Cut::some: {  // take the rest of the circle away
-      const double begin = unrolled(arc.middle + arc.half_width), length = kTurn - 2 * arc.half_width;
-      parts_.subtract(begin, std::min(begin + length, kTurn));
-      if (begin + length > kTurn) parts_.subtract(-1, begin + length - kTurn);
-    }
-  }
+  const Wave wave = wave_of(normal, height);
+  const Cut found = cut(wave, 0);
+  if (found == Cut::none) parts_.assign(0, 0);
+  if (found == Cut::some) subtract_below(wave, parts_);
 }
 
+// What is hidden is the intersection of the arcs beyond the planes.
 void CircleArcs::subtract_blocker(std::span<const Plane> planes, bool owns_ties) {
-  arcs_.clear();
+  const double size = circle_.centre.norm() + circle_.radius;
+  if (is_clear_of(planes, size)) return;
+  hidden_.assign(0, kTurn);
   for (const Plane& plane : planes) {
-    const double margin = tie_margin(plane, circle_.centre.norm() + circle_.radius);
-    const double level = 1 - plane.dot(circle_.centre);
-    const double reach = circle_.radius * std::hypot(plane.dot(circle_.axis_1), plane.dot(circle_.axis_2));
-    if (std::abs(level) <= margin && reach <= margin) {
+    const double margin = tie_margin(plane, size);
+    const Wave wave = wave_of(plane, 1);
+    if (std::abs(wave.level) <= margin && wave.amplitude <= margin) {
       if (!owns_ties) return;
       continue;
     }
-    Arc arc;
-    switch (cut(plane, 1, margin, arc)) {
-      case Cut::none:
-        return;
-      case Cut::all:
-        break;
-      case Cut::some:
-        arcs_.push_back(arc);
-    }
+    const Cut found = cut(wave, margin);
+    if (found == Cut::some) subtract_below(wave, hidden_);
+    if (found == Cut::none || hidden_.empty()) return;
   }
-  // What is hidden is the intersection of the arcs; what stays is the union of their complements.
-  if (arcs_.empty()) {
-    parts_.assign(0, 0);
-    return;
-  }
-  IntervalSet hidden;
-  hidden.assign(0, kTurn);
-  for (const Arc& arc : arcs_) {
-    const double begin = unrolled(arc.middle + arc.half_width), length = kTurn - 2 * arc.half_width;
-    hidden.subtract(begin, std::min(begin + length, kTurn));
-    if (begin + length > kTurn) hidden.subtract(-1, begin + length - kTurn);
-    if (hidden.empty()) return;
-  }
-  for (const Interval& part : hidden.parts()) parts_.subtract(part.begin, part.end);
+  for (const Interval& part : hidden_.parts()) parts_.subtract(part.begin, part.end);
+}
+
+// Whether the circle lies wholly on the near side of one of the planes: told without an angle.
+bool CircleArcs::is_clear_of(std::span<const Plane> planes, double size) const {
+  return std::ranges::any_of(planes, [&](const Plane& plane) {
+    const double a = circle_.radius * plane.dot(circle_.axis_1), b = circle_.radius * plane.dot(circle_.axis_2);
+    const double level = 1 - plane.dot(circle_.centre), margin = tie_margin(plane, size);
+    return level > margin && (level + margin) * (level + margin) > (1 + kRounding) * (a * a + b * b);
+  });
 }
 
 }  // namespace vantage::internal::exact

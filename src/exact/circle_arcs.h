@@ -35,16 +35,18 @@ class CircleArcs {
   void drop_shorter_than(double angle) { parts_.drop_shorter_than(angle); }
 
  private:
-  /// Where amplitude cos(angle - phase) >= level: the middle of the arc and its half width.
-  struct Arc {
-    double middle, half_width;
+  /// The circle is beyond a plane where a cos(angle) + b sin(angle) >= level. The left side is `amplitude` at most.
+  struct Wave {
+    double a, b, amplitude, level;
   };
-  enum class Cut { all, none, some };
-  Cut cut(const Vec3& normal, double height, double margin, Arc& arc) const;
+  enum class Cut { all, none, some };  // of the circle is beyond
+  Wave wave_of(const Vec3& normal, double height) const;
+  static Cut cut(const Wave& wave, double margin);
+  static void subtract_below(const Wave& wave, IntervalSet& parts);
+  bool is_clear_of(std::span<const Plane> planes, double size) const;
 
   SpaceCircle circle_;
-  IntervalSet parts_;
-  std::vector<Arc> arcs_;
+  IntervalSet parts_, hidden_;
 };
 
 }  // namespace vantage::internal::exact

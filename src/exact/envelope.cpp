@@ -340,7 +340,7 @@ class FacetTracer {
       const Vec3 centre(range_.centre(ball).x(), range_.centre(ball).y(), 0);
       const bool inside = std::all_of(polygon_.corners.begin(), polygon_.corners.end(),
                                       [&](const Vec3& c) { return (c - centre).squaredNorm() <= square; });
-      if (inside) continue;
+      if (inside || is_met_elsewhere(ball)) continue;
       const double height = 1 / size - normal.dot(centre);
       if (square - height * height <= 0) return;  // the plane misses this ball, so all of it is out of range
       SpaceCircle circle{centre + height * normal, normal.unitOrthogonal(), {}, std::sqrt(square - height * height)};
@@ -349,7 +349,7 @@ class FacetTracer {
       arcs.keep(Vec3::UnitZ(), 0);
       for (std::uint32_t maker : polygon_.makers)
         if (maker < core::FacetPolygon::kHorizon) arcs.keep(blockers_.planes[maker], 1);
-      keep_in_other_balls(ball, arcs);
+      keep_in_balls(range_, ball, ball, arcs);
       for (std::uint32_t competitor : competitors_) {
         if (arcs.empty()) break;
         arcs.subtract_blocker(blockers_.planes_of(competitor), competitor < facet.blocker);
@@ -358,16 +358,22 @@ class FacetTracer {
     }
   }
 
-  // On the sphere of one ball, being inside another is being on one side of the plane half way between their centres.
-  void keep_in_other_balls(std::size_t ball, CircleArcs& arcs) const { keep_in_balls(range_, ball, ball, arcs); }
+  // Whether all of the facet is farther from another centre: then the rim is on other spheres.
+  bool is_met_elsewhere(std::size_t ball) const {
+    return std::ranges::any_of(range_.neighbours(ball), [&](std::uint32_t other) {
+      const auto side = range_.farther_from(ball, other);
+      return std::ranges::all_of(polygon_.corners, [&](const Vec3& c) { return side.normal.dot(c) < side.height; });
+    });
+  }
 
  public:
+  // On the sphere of one ball, being inside another is being on one side of the plane half way between their centres.
   static void keep_in_balls(const target::RangeRegion& range, std::size_t ball, std::size_t also, CircleArcs& arcs) {
-    const Eigen::Vector2d own = range.centre(ball);
-    for (std::size_t k = 0; k < range.ball_count() && !arcs.empty(); ++k) {
-      if (k == ball || k == also) continue;
-      const Eigen::Vector2d other = range.centre(k), across = other - own;
-      arcs.keep({across.x(), across.y(), 0}, 0.5 * (other.squaredNorm() - own.squaredNorm()));
+    for (const std::uint32_t other : range.neighbours(ball)) {
+      if (arcs.empty()) return;
+      if (other == also) continue;
+      const auto side = range.farther_from(ball, other);
+      arcs.keep(side.normal, side.height);
     }
   }
 
@@ -405,7 +411,8 @@ void trace_range_creases(const BlockerSet& blockers, const DirectionTree& tree, 
                          const CurveSampling& sampling, std::vector<std::vector<Vec3>>& out) {
   const double inner = range.inner_radius();
   for (std::size_t i = 0; i < range.ball_count(); ++i)
-    for (std::size_t j = i + 1; j < range.ball_count(); ++j) {
+    for (const std::uint32_t j : range.neighbours(i)) {
+      if (j < i) continue;
       const Eigen::Vector2d a = range.centre(i), b = range.centre(j), middle = 0.5 * (a + b),
                             along = (b - a).normalized();
       const double square = range.radius() * range.radius() - 0.25 * (b - a).squaredNorm();

@@ -1,12 +1,68 @@
 #include "target/range_region.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "core/facet_polygon.h"
 #include "target/enclosing_circle.h"
 
 namespace vantage::internal::target {
+namespace {
+
+constexpr double kRounding = 1e-15;  // of the distance from the origin
+constexpr std::size_t kFew = 8;      // so many balls are tried faster than a search among them begins
+
+}  // namespace
 
 RangeRegion::RangeRegion(const std::vector<Eigen::Vector2d>& polygon, double max_range)
     : centres_(polygon), radius_(max_range) {
   for (const Eigen::Vector2d& c : centres_) power_.push_back(max_range * max_range - c.squaredNorm());
+  find_neighbours();
+  find_opposite();
+}
+
+// Cuts the cell of each centre out of a square that holds the region. Cuts of no more than rounding are left out: the
+// cell is larger then, by nothing.
+void RangeRegion::find_neighbours() {
+  const double reach = 2.1 * radius_;
+  core::FacetPolygon cell, scratch;
+  neighbours_.resize(centres_.size());
+  for (std::uint32_t ball = 0; ball < centres_.size(); ++ball) {
+    cell.corners.assign({{-reach, -reach, 0}, {reach, -reach, 0}, {reach, reach, 0}, {-reach, reach, 0}});
+    cell.makers.assign(4, core::FacetPolygon::kFar);
+    for (std::uint32_t other = 0; other < centres_.size(); ++other) {
+      if (other == ball) continue;
+      const FartherSide side = farther_from(ball, other);
+      core::clip_facet(cell, side.normal, side.height, kRounding * reach * side.normal.lpNorm<1>(), other, scratch);
+    }
+    for (std::uint32_t other = 0; other < centres_.size(); ++other) {
+      // A ball that is met nowhere has no cell: it must not seem to be met everywhere.
+      if (other == ball || !(cell.empty() || std::ranges::count(cell.makers, other))) continue;
+      for (const auto& [from, to] : {std::pair{ball, other}, std::pair{other, ball}})
+        if (!std::ranges::count(neighbours_[from], to)) neighbours_[from].push_back(to);
+    }
+  }
+  for (auto& some : neighbours_) std::ranges::sort(some);
+}
+
+// Where to begin the search for the ball that is met first.
+void RangeRegion::find_opposite() {
+  for (std::size_t sector = 0; sector < opposite_.size(); ++sector) {
+    const double angle = 2 * M_PI * (double(sector) + 0.5) / double(opposite_.size());
+    const Eigen::Vector2d along(std::cos(angle), std::sin(angle));
+    const auto farther = [&](const auto& a, const auto& b) { return a.dot(along) < b.dot(along); };
+    opposite_[sector] = std::uint32_t(std::ranges::min_element(centres_, farther) - centres_.begin());
+  }
+}
+
+// About equal in angle.
+std::size_t RangeRegion::sector_of(const Vec3& direction) const {
+  const double x = direction.x(), y = direction.y(), sum = std::abs(x) + std::abs(y);
+  if (!(sum > 0)) return 0;
+  const double turn = y >= 0 ? 1 - x / sum : 3 + x / sum;  // 0 to 4
+  return std::min(std::size_t(turn * 0.25 * double(opposite_.size())), opposite_.size() - 1);
 }
 
 double RangeRegion::inner_radius() const {
@@ -16,6 +72,7 @@ double RangeRegion::inner_radius() const {
 }
 
 double RangeRegion::gauge(const Vec3& direction) const {
+  if (centres_.size() > kFew) return gauge(nearest_ball(direction), direction);
   double greatest = 0;
   for (std::size_t ball = 0; ball < centres_.size(); ++ball) greatest = std::max(greatest, gauge(ball, direction));
   return greatest;
@@ -26,7 +83,7 @@ double RangeRegion::gauge(const Vec3& direction, std::size_t& ball) const {
   // On the sphere about a the point direction / first is inside the ball about b when 2 x . (b - a) >= b^2 - a^2.
   const Eigen::Vector2d& a = centres_[ball];
   bool inside = true;
-  for (std::size_t k = 0; k < centres_.size(); ++k) {
+  for (const std::uint32_t k : neighbours_[ball]) {
     const Eigen::Vector2d& b = centres_[k];
     const double along = direction.x() * (b.x() - a.x()) + direction.y() * (b.y() - a.y());
     inside = inside && 2 * along >= (power_[ball] - power_[k]) * first;
@@ -36,17 +93,36 @@ double RangeRegion::gauge(const Vec3& direction, std::size_t& ball) const {
   return gauge(ball, direction);
 }
 
-std::size_t RangeRegion::nearest_ball(const Vec3& direction) const {
-  std::size_t best = 0;
-  double greatest = 0;
-  for (std::size_t ball = 0; ball < centres_.size(); ++ball) {
-    const double g = gauge(ball, direction);
-    if (g > greatest) {
-      greatest = g;
-      best = ball;
-    }
+// The centre that is farthest from direction / gauge, by way of centres that are farther and farther. The square of the
+// distance, without what is the same for all centres: next to that a small target would vanish.
+std::size_t RangeRegion::first_met(const Vec3& direction, double gauge, std::size_t ball) const {
+  const auto nearness = [&](std::size_t k) {
+    return 2 * (direction.x() * centres_[k].x() + direction.y() * centres_[k].y()) - gauge * centres_[k].squaredNorm();
+  };
+  double least = nearness(ball);
+  for (std::size_t last = centres_.size(); last != ball;) {
+    last = ball;
+    for (const std::uint32_t k : neighbours_[last])
+      if (const double other = nearness(k); other < least) {
+        least = other;
+        ball = k;
+      }
   }
-  return best;
+  return ball;
+}
+
+// A point of one sphere that is outside another ball lies beyond the other's sphere, so each step comes nearer.
+std::size_t RangeRegion::nearest_ball(const Vec3& direction) const {
+  std::size_t best = first_met(direction, direction.norm() / radius_, opposite_[sector_of(direction)]);
+  double greatest = gauge(best, direction);
+  for (;;) {
+    const std::size_t next = first_met(direction, greatest, best);
+    if (next == best) return best;
+    const double g = gauge(next, direction);
+    if (!(g > greatest)) return best;
+    greatest = g;
+    best = next;
+  }
 }
 
 core::Plane RangeRegion::supporting_plane(const Vec3& direction) const {

@@ -1,6 +1,10 @@
 // The range region: the intersection of the balls of radius max_range about the target's vertices.
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/plane.h"
@@ -17,6 +21,22 @@ class RangeRegion {
   std::size_t ball_count() const { return centres_.size(); }
   double inner_radius() const;  ///< the region holds all in front of the target that is within this of the origin
   const Eigen::Vector2d& centre(std::size_t ball) const { return centres_[ball]; }
+
+  /// The balls that bound, beside it, the part of the region's boundary that lies on a ball's sphere; ascending, and
+  /// perhaps some that do so nowhere. All centres lie in the target's plane, so these parts are the cells of a plane
+  /// diagram, in which a point belongs to the centre that is farthest from it: hardly more than two balls each.
+  std::span<const std::uint32_t> neighbours(std::size_t ball) const { return neighbours_[ball]; }
+
+  /// What is farther from one centre than from another one: x . normal >= height. So on the sphere about `from` the
+  /// points inside the ball about `to`.
+  struct FartherSide {
+    Vec3 normal;
+    double height;
+  };
+  FartherSide farther_from(std::size_t from, std::size_t to) const {
+    const Eigen::Vector2d &own = centres_[from], &other = centres_[to], across = other - own;
+    return {{across.x(), across.y(), 0}, 0.5 * across.dot(other + own)};
+  }
 
   /// Inverse depth along `direction` (any length: the gauge is homogeneous) of one ball's sphere.
   double gauge(std::size_t ball, const Vec3& direction) const {
@@ -42,9 +62,16 @@ class RangeRegion {
   bool contains(const Vec3& point) const;
 
  private:
+  void find_neighbours();
+  void find_opposite();
+  std::size_t sector_of(const Vec3& direction) const;
+  std::size_t first_met(const Vec3& direction, double gauge, std::size_t ball) const;
+
   std::vector<Eigen::Vector2d> centres_;
   std::vector<double> power_;  // radius^2 - |centre|^2
   double radius_;
+  std::vector<std::vector<std::uint32_t>> neighbours_;
+  std::array<std::uint32_t, 64> opposite_{};  // per sector of directions in the target's plane
 };
 
 /// Moves the frame's origin inside every ball. The centre of the smallest enclosing circle always is, but may lie on
