@@ -58,7 +58,7 @@ Mesh pipeline(const Scene& scene, const Target& goal, const Mutation& mutation =
   DirectionTree tree(blockers, range);
   for (std::uint32_t i = 0; i < blockers.count(); ++i) tree.insert(i);
   const CurveSampling sampling{kTolerance * 0.5, std::sqrt(8 * kRange * kTolerance)};
-  const Skeleton skeleton = trace_envelope(blockers, tree, range, sampling, progress);
+  const Skeleton skeleton = trace_envelope(blockers, tree, range, sampling, grid, progress);
   Mesh mesh = triangulate_boundary(skeleton, blockers, tree, range, grid, kTolerance, progress).mesh;
   for (Vec3& v : mesh.vertices) v = frame.to_scene(v);
   return mesh;

@@ -95,5 +95,29 @@ TEST(RangeRegion, HasFewNeighboursEach) {
   EXPECT_LE(all, 2U * (2 * 64 - 3));
 }
 
+TEST(RangeRegion, NoPointOfATriangleLiesDeeperThanTheBound) {
+  Random random(33);
+  for (int k = 0; k < 3000; ++k) {
+    const std::vector<Vector2d> polygon = draw_polygon(random);
+    const double radius = std::pow(10, random.uniform(1, 3));
+    const RangeRegion region(polygon, radius);
+    const Vec3 middle = draw_direction(random);
+    const double spread = std::pow(10, random.uniform(-3, -0.5));
+    std::array<Vec3, 3> corners;
+    for (Vec3& corner : corners) {
+      Vec3 direction = middle + spread * random.direction();
+      direction.z() = std::abs(direction.z());
+      corner = direction / region.gauge(direction);
+    }
+    const double bound = region.greatest_depth(corners);
+    for (int sample = 0; sample < 50; ++sample) {
+      Vec3 weights(random.uniform(0, 1), random.uniform(0, 1), random.uniform(0, 1));
+      weights /= weights.sum();
+      const Vec3 point = weights.x() * corners[0] + weights.y() * corners[1] + weights.z() * corners[2];
+      EXPECT_LE(radius - farthest_from(polygon, point), bound + 1e-12 * radius);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace vantage::testing

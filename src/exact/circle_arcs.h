@@ -30,6 +30,9 @@ class CircleArcs {
   /// tie), the blocker hides it only if `owns_ties`.
   void subtract_blocker(std::span<const Plane> planes, bool owns_ties);
 
+  /// Takes the angles between `begin` and `end` away.
+  void drop(double begin, double end) { parts_.subtract(begin, end); }
+
   bool empty() const { return parts_.empty(); }
   const std::vector<Interval>& parts() const { return parts_.parts(); }
   void drop_shorter_than(double angle) { parts_.drop_shorter_than(angle); }

@@ -377,13 +377,17 @@ class FacetTracer {
     }
   }
 
+  static int piece_count(const SpaceCircle& circle, const Interval& part, const CurveSampling& sampling) {
+    const double by_sagitta = 2 * std::acos(std::max(0.0, 1 - sampling.sagitta_m / circle.radius));
+    const double step = std::min(by_sagitta, sampling.length_m / circle.radius);
+    return std::max(1, int(std::ceil(part.length() / step)));
+  }
+
   static void add_arcs(const SpaceCircle& circle, CircleArcs& arcs, double shortest, const CurveSampling& sampling,
                        std::vector<std::vector<Vec3>>& out) {
     arcs.drop_shorter_than(shortest / circle.radius);
-    const double by_sagitta = 2 * std::acos(std::max(0.0, 1 - sampling.sagitta_m / circle.radius));
-    const double step = std::min(by_sagitta, sampling.length_m / circle.radius);
     for (const Interval& part : arcs.parts()) {
-      const int pieces = std::max(1, static_cast<int>(std::ceil(part.length() / step)));
+      const int pieces = piece_count(circle, part, sampling);
       std::vector<Vec3>& line = out.emplace_back();
       for (int i = 0; i <= pieces; ++i) line.push_back(circle.at(part.begin + part.length() * i / pieces));
     }
@@ -406,9 +410,34 @@ class FacetTracer {
   IntervalSet shown_;
 };
 
+// Takes out of an arc on the range sphere the pieces that the grid does without.
+void drop_where_fine(const SpaceCircle& circle, const CurveSampling& sampling, const target::RangeRegion& range,
+                     OctahedralGrid& grid, CircleArcs& arcs) {
+  const double margin = sampling.sagitta_m / range.inner_radius();  // of a chord beside its arc
+  std::vector<Interval> fine;
+  for (const Interval& part : arcs.parts()) {
+    const int pieces = FacetTracer::piece_count(circle, part, sampling);
+    Vec3 from = circle.at(part.begin);
+    for (int k = 0; k < pieces; ++k) {
+      const double begin = part.begin + part.length() * k / pieces;
+      const double end = k + 1 == pieces ? part.end : part.begin + part.length() * (k + 1) / pieces;
+      const Vec3 to = circle.at(end);
+      const bool bent = from.x() * to.x() < 0 || from.y() * to.y() < 0;  // on the map
+      if (!bent && !grid.is_coarse(range, to_octahedral(from), to_octahedral(to), margin)) {
+        if (fine.empty() || fine.back().end != begin)
+          fine.push_back({begin, end});
+        else
+          fine.back().end = end;
+      }
+      from = to;
+    }
+  }
+  for (const Interval& interval : fine) arcs.drop(interval.begin, interval.end);
+}
+
 // Where two balls of the range region meet, in sight.
 void trace_range_creases(const BlockerSet& blockers, const DirectionTree& tree, const target::RangeRegion& range,
-                         const CurveSampling& sampling, std::vector<std::vector<Vec3>>& out) {
+                         const CurveSampling& sampling, OctahedralGrid& grid, std::vector<std::vector<Vec3>>& out) {
   const double inner = range.inner_radius();
   for (std::size_t i = 0; i < range.ball_count(); ++i)
     for (const std::uint32_t j : range.neighbours(i)) {
@@ -422,6 +451,8 @@ void trace_range_creases(const BlockerSet& blockers, const DirectionTree& tree, 
       CircleArcs arcs(circle);
       arcs.keep(Vec3::UnitZ(), 0);
       FacetTracer::keep_in_balls(range, i, j, arcs);
+      // Chords as long as the sampling's are as deep as the tolerance. A wider bend would add more than that.
+      if ((b - a).norm() < 0.5 * sampling.length_m) drop_where_fine(circle, sampling, range, grid, arcs);
       if (arcs.empty()) continue;
       // Points of the circle have along . x = height, and |x| + |y| + z from `inner` to less than twice the range.
       const double height = along.dot(middle), near = height / inner, far = 0.5 * height / range.radius();
@@ -437,7 +468,7 @@ void trace_range_creases(const BlockerSet& blockers, const DirectionTree& tree, 
 }  // namespace
 
 Skeleton trace_envelope(const BlockerSet& blockers, const DirectionTree& tree, const target::RangeRegion& range,
-                        const CurveSampling& sampling, const core::ProgressReporter& progress) {
+                        const CurveSampling& sampling, OctahedralGrid& grid, const core::ProgressReporter& progress) {
   const std::vector<const DirectionTree::Leaf*> leaves = tree.leaves();
   const FacetTable table = find_facets(blockers, leaves);
   std::vector<FacetTracer::Result> results(table.facets.size());
@@ -460,7 +491,7 @@ Skeleton trace_envelope(const BlockerSet& blockers, const DirectionTree& tree, c
     if (table.facets[i].blocker != last) ++skeleton.visible_blockers;
     last = table.facets[i].blocker;
   }
-  trace_range_creases(blockers, tree, range, sampling, skeleton.curved);
+  trace_range_creases(blockers, tree, range, sampling, grid, skeleton.curved);
   return skeleton;
 }
 

@@ -5,6 +5,7 @@
 
 #include "core/progress_reporter.h"
 #include "exact/direction_tree.h"
+#include "exact/octahedral_grid.h"
 #include "target/range_region.h"
 
 namespace vantage::internal::exact {
@@ -26,8 +27,9 @@ struct CurveSampling {
 };
 
 /// Every crease inside one blocker that bounds the volume is in the result in full: leaving one out would over-claim.
-/// Parallel over facets; the result does not depend on the number of threads.
+/// Of those between balls of the range region there is what `grid` is too coarse for. Parallel over facets; the result
+/// does not depend on the number of threads.
 Skeleton trace_envelope(const BlockerSet& blockers, const DirectionTree& tree, const target::RangeRegion& range,
-                        const CurveSampling& sampling, const core::ProgressReporter& progress);
+                        const CurveSampling& sampling, OctahedralGrid& grid, const core::ProgressReporter& progress);
 
 }  // namespace vantage::internal::exact

@@ -69,7 +69,7 @@ HalfSpaceVolume compute_half_space(const PreparedScene& scene, const TargetFrame
   const double widest = 0.1 * range.inner_radius() * std::numbers::pi / 2 / grid.size();
   const CurveSampling sampling{std::min(options.tolerance_m * 0.5, widest),
                                std::sqrt(8 * range.radius() * options.tolerance_m)};
-  const Skeleton skeleton = trace_envelope(blockers, tree, range, sampling, progress);
+  const Skeleton skeleton = trace_envelope(blockers, tree, range, sampling, grid, progress);
   progress.begin("triangulating");
   Boundary boundary = triangulate_boundary(skeleton, blockers, tree, range, grid, options.tolerance_m, progress);
   progress.finish();

@@ -52,7 +52,7 @@ double deepest_on_trial_grid(const target::RangeRegion& range) {
 
 }  // namespace
 
-OctahedralGrid::OctahedralGrid(const target::RangeRegion& region, double tolerance) {
+OctahedralGrid::OctahedralGrid(const target::RangeRegion& region, double tolerance) : tolerance_(tolerance) {
   const double needed = kTrial * std::sqrt(deepest_on_trial_grid(region) / (kSafety * tolerance));
   if (!(needed <= kMostLines)) {
     const double least = tolerance * (needed / kMostLines) * (needed / kMostLines);
@@ -75,7 +75,9 @@ int OctahedralGrid::locate(double coordinate) const {
   return lines_[i] == x ? -i : -i - 1;
 }
 
-void OctahedralGrid::mark(const OctahedralPoint& from, const OctahedralPoint& to, double snap) {
+template <typename Visit>
+void OctahedralGrid::for_cells_on(const OctahedralPoint& from, const OctahedralPoint& to, double snap,
+                                  const Visit& visit) const {
   const double margin = 4 * std::max(snap, kLeastSnap);
   const OctahedralPoint along = to - from;
   const int j0 = locate(std::min(from.y(), to.y()) - margin), j1 = locate(std::max(from.y(), to.y()) + margin);
@@ -90,8 +92,36 @@ void OctahedralGrid::mark(const OctahedralPoint& from, const OctahedralPoint& to
       if (left > right) std::swap(left, right);
     }
     for (int i = i0; i <= i1; ++i)
-      if (has_cell(i, j) && line(i) <= right + margin && line(i + 1) >= left - margin) states_[index(i, j)] = mixed;
+      if (has_cell(i, j) && line(i) <= right + margin && line(i + 1) >= left - margin) visit(i, j);
   }
+}
+
+void OctahedralGrid::mark(const OctahedralPoint& from, const OctahedralPoint& to, double snap) {
+  for_cells_on(from, to, snap, [&](int i, int j) { states_[index(i, j)] = mixed; });
+}
+
+bool OctahedralGrid::is_coarse(const target::RangeRegion& region, const OctahedralPoint& from,
+                               const OctahedralPoint& to, double snap) {
+  fineness_.resize(states_.size(), not_measured);
+  bool found = false;
+  for_cells_on(from, to, snap, [&](int i, int j) {
+    std::uint8_t& known = fineness_[index(i, j)];
+    if (known == not_measured) known = is_coarse_cell(region, i, j) ? coarse : fine;
+    found = found || known == coarse;
+  });
+  return found;
+}
+
+bool OctahedralGrid::is_coarse_cell(const target::RangeRegion& region, int i, int j) const {
+  const Corners c = corners(i, j);
+  std::size_t ball = region.nearest_ball(to_direction(inside(i, j)));
+  const auto lift = [&](int a, int b) {
+    const Vec3 direction = to_direction(node(a, b));
+    return Vec3(direction / region.gauge(direction, ball));
+  };
+  const Vec3 p = lift(c.a1, c.b0), q = lift(c.a0, c.b1);
+  return region.greatest_depth({lift(c.a0, c.b0), p, q}) > tolerance_ ||
+         (!at_horizon(i, j) && region.greatest_depth({p, lift(c.a1, c.b1), q}) > tolerance_);
 }
 
 void OctahedralGrid::mark_square(const OctahedralPoint& middle, double reach) {

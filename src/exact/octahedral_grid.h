@@ -54,6 +54,12 @@ class OctahedralGrid {
   /// Marks the cells that a segment may touch as mixed, with its ends moved by up to `snap`.
   void mark(const OctahedralPoint& from, const OctahedralPoint& to, double snap);
 
+  /// Whether the two triangles of some cell that a segment may touch, with its ends moved by up to `snap`, lie farther
+  /// than the tolerance inside the region that the grid was made for. Where they do not, no crease between its balls
+  /// is needed: its gauge is convex, so triangles that pass over one are still inside.
+  bool is_coarse(const target::RangeRegion& region, const OctahedralPoint& from, const OctahedralPoint& to,
+                 double snap);
+
   /// Marks the cells within `reach` of a point along either axis as mixed.
   void mark_square(const OctahedralPoint& middle, double reach);
 
@@ -75,6 +81,9 @@ class OctahedralGrid {
   const std::vector<std::pair<int, int>>& mixed_cells() const { return mixed_cells_; }
 
  private:
+  template <typename Visit>
+  void for_cells_on(const OctahedralPoint& from, const OctahedralPoint& to, double snap, const Visit& visit) const;
+  bool is_coarse_cell(const target::RangeRegion& region, int i, int j) const;
   static int ring(int i) { return i >= 0 ? i : -1 - i; }
   void settle_row(int j, const std::function<bool(const OctahedralPoint&)>& is_range_at);
   void list_row(int j);
@@ -83,9 +92,12 @@ class OctahedralGrid {
     return static_cast<std::size_t>(j + n_) * (2 * n_) + static_cast<std::size_t>(i + n_);
   }
 
+  enum Fineness : std::uint8_t { not_measured, coarse, fine };
+
   int n_;
+  double tolerance_;
   std::vector<double> lines_;
-  std::vector<std::uint8_t> states_;
+  std::vector<std::uint8_t> states_, fineness_;  // per cell
   std::vector<Run> runs_;
   std::vector<std::uint32_t> first_run_;  // per row
   std::vector<std::pair<int, int>> mixed_cells_;

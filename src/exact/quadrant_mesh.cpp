@@ -223,23 +223,9 @@ class QuadrantMesher {
   // Whether some point of a triangle on the range sphere lies more than the tolerance inside it. Corners that were
   // drawn in do not count: no splitting would mend that.
   bool too_deep(const Triangle& t) const {
-    const target::RangeRegion& range = envelope_.range;
     std::array<Vec3, 3> v;
     for (int i = 0; i < 3; ++i) v[i] = to_direction(point(t[i])) / exact_gauges_[t[i]];
-    const std::array<double, 3> square{(v[2] - v[1]).squaredNorm(), (v[0] - v[2]).squaredNorm(),
-                                       (v[1] - v[0]).squaredNorm()};
-    const std::size_t longest =
-        static_cast<std::size_t>(std::max_element(square.begin(), square.end()) - square.begin());
-    // The deepest point is the middle of the circumcircle, or of the longest edge where that is outside.
-    const bool obtuse = 2 * square[longest] >= square[0] + square[1] + square[2];
-    const Vec3 middle = 0.5 * (v[(longest + 1) % 3] + v[(longest + 2) % 3]);
-    const Vec3 normal = (v[1] - v[0]).cross(v[2] - v[0]).normalized();
-    double farthest = 0;
-    for (std::size_t ball = 0; ball < range.ball_count(); ++ball) {
-      const Vec3 centre(range.centre(ball).x(), range.centre(ball).y(), 0);
-      farthest = std::max(farthest, obtuse ? (middle - centre).norm() : normal.dot(v[0] - centre));
-    }
-    return range.radius() - farthest > envelope_.tolerance_m;
+    return envelope_.range.greatest_depth(v) > envelope_.tolerance_m;
   }
 
   std::uint32_t renamed(std::uint32_t v) const {

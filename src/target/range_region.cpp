@@ -1,11 +1,13 @@
 #include "target/range_region.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include "core/facet_polygon.h"
+#include "core/triangle_distance.h"
 #include "target/enclosing_circle.h"
 
 namespace vantage::internal::target {
@@ -130,6 +132,21 @@ core::Plane RangeRegion::supporting_plane(const Vec3& direction) const {
   const Vec3 point = direction / gauge(ball, direction);
   const Vec3 normal = point - Vec3(centres_[ball].x(), centres_[ball].y(), 0);
   return normal / normal.dot(point);
+}
+
+// Nothing is deeper than under the ball whose sphere is nearest, and any ball bounds the depth: those of the corners
+// and of the middle are good enough.
+double RangeRegion::greatest_depth(const std::array<Vec3, 3>& corners) const {
+  double farthest = 0;
+  std::size_t last = opposite_[sector_of(corners[0])];
+  for (const Vec3& point : {corners[0], corners[1], corners[2], Vec3((corners[0] + corners[1] + corners[2]) / 3)}) {
+    const std::size_t ball = first_met(point, 1, last);
+    if (ball == last && farthest > 0) continue;
+    last = ball;
+    const Vec3 centre(centres_[ball].x(), centres_[ball].y(), 0);
+    farthest = std::max(farthest, core::squared_distance_to_triangle(centre, corners[0], corners[1], corners[2]));
+  }
+  return radius_ - std::sqrt(farthest);
 }
 
 bool RangeRegion::contains(const Vec3& point) const {
