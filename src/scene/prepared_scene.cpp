@@ -1,10 +1,12 @@
 // Scene -> PreparedScene: weld, drop what hides nothing, merge coplanar neighbours, index.
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <numeric>
-#include <unordered_set>
+#include <span>
+#include <utility>
 
 #include "core/parallel.h"
 #include "core/progress_reporter.h"
@@ -36,32 +38,44 @@ std::uint64_t mix(std::uint64_t x) {  // splitmix64's finalizer
   return x ^ (x >> 31);
 }
 
-// Maps each vertex to the first one at exactly the same place. Open addressing: half a million vertices are usual.
-class Welder {
- public:
-  explicit Welder(std::size_t count) : mask_(std::bit_ceil(2 * count + 1) - 1), slots_(mask_ + 1, kFree) {}
-
-  std::uint32_t add(const Vec3& point) {
-    const Vec3 p = point.array() + 0.0;  // -0 becomes 0
-    std::uint64_t hash = 0;
-    for (int a = 0; a < 3; ++a) hash = mix(hash + 0x9e3779b97f4a7c15ull + std::bit_cast<std::uint64_t>(p[a]));
-    for (std::size_t slot = hash & mask_;; slot = (slot + 1) & mask_) {
-      if (slots_[slot] == kFree) {
-        slots_[slot] = static_cast<std::uint32_t>(points.size());
-        points.push_back(p);
-        return slots_[slot];
-      }
-      if (points[slots_[slot]] == p) return slots_[slot];
+/// Of points in their order: for each the first one at exactly the same place. Points are dealt out by their hash, so
+/// that threads share nothing and each looks up in a small table.
+std::vector<std::uint32_t> first_at_place(const std::vector<Vec3>& points) {
+  constexpr std::size_t kBits = 6, kParts = std::size_t(1) << kBits;
+  struct Entry {
+    std::uint64_t hash;
+    std::uint32_t point;
+  };
+  std::vector<std::uint64_t> hashes(points.size());
+  internal::parallel::for_ranges(points.size(), 4096, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      for (int a = 0; a < 3; ++a)
+        hashes[i] = mix(hashes[i] + 0x9e3779b97f4a7c15ull + std::bit_cast<std::uint64_t>(points[i][a]));
+  });
+  std::array<std::size_t, kParts + 1> first{};
+  for (const std::uint64_t hash : hashes) ++first[(hash >> (64 - kBits)) + 1];
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  std::vector<Entry> entries(points.size());
+  std::array<std::size_t, kParts + 1> next = first;
+  for (std::uint32_t i = 0; i < points.size(); ++i) entries[next[hashes[i] >> (64 - kBits)]++] = {hashes[i], i};
+  std::vector<std::uint32_t> first_at(points.size());
+  internal::parallel::for_ranges(kParts, 1, [&](std::size_t part, std::size_t) {
+    const std::span<const Entry> own(entries.data() + first[part], first[part + 1] - first[part]);
+    constexpr std::uint32_t kFree = ~0u;
+    const std::size_t mask = std::bit_ceil(2 * own.size() + 1) - 1;
+    std::vector<std::uint32_t> slots(mask + 1, kFree);  // into `own`
+    for (std::uint32_t i = 0; i < own.size(); ++i) {
+      std::size_t slot = own[i].hash & mask;
+      const auto differs = [&](const Entry& e) {
+        return e.hash != own[i].hash || points[e.point] != points[own[i].point];
+      };
+      while (slots[slot] != kFree && differs(own[slots[slot]])) slot = (slot + 1) & mask;
+      if (slots[slot] == kFree) slots[slot] = i;
+      first_at[own[i].point] = own[slots[slot]].point;
     }
-  }
-
-  std::vector<Vec3> points;
-
- private:
-  static constexpr std::uint32_t kFree = ~0u;
-  std::size_t mask_;
-  std::vector<std::uint32_t> slots_;
-};
+  });
+  return first_at;
+}
 
 struct TriangleSize {
   double length;  ///< of the longest side
@@ -69,7 +83,7 @@ struct TriangleSize {
 };
 
 TriangleSize size_of(const Vec3& a, const Vec3& b, const Vec3& c) {
-  const double length = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
+  const double length = std::sqrt(std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()}));
   return {length, length > 0 ? (b - a).cross(c - a).norm() / length : 0};
 }
 
@@ -82,52 +96,103 @@ struct Extent {
 };
 
 Extent extent_of(const Mesh& mesh) {
+  constexpr std::size_t kGrain = 1 << 14;
   Extent extent;
-  extent.has_area.reserve(mesh.triangles.size());
-  for (const Triangle& t : mesh.triangles) {
-    const TriangleSize size = size_of(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]);
-    extent.has_area.push_back(size.width > kNoWidth * size.length);
-    if (!extent.has_area.back()) continue;
-    for (const std::uint32_t vertex : t) extent.bounds.extend(mesh.vertices[vertex]);
+  extent.has_area.resize(mesh.triangles.size());
+  std::vector<Box> bounds(mesh.triangles.size() / kGrain + 1);
+  internal::parallel::for_ranges(bounds.size(), 1, [&](std::size_t part, std::size_t) {
+    for (std::size_t i = part * kGrain; i < std::min(mesh.triangles.size(), (part + 1) * kGrain); ++i) {
+      const Triangle& t = mesh.triangles[i];
+      const TriangleSize size = size_of(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]);
+      extent.has_area[i] = size.width > kNoWidth * size.length;
+      if (!extent.has_area[i]) continue;
+      for (const std::uint32_t vertex : t) bounds[part].extend(mesh.vertices[vertex]);
+    }
+  });
+  for (const Box& box : bounds) {
+    if (box.empty()) continue;
+    extent.bounds.extend(box.min);
+    extent.bounds.extend(box.max);
   }
   return extent;
 }
 
-struct TriangleHash {
-  std::size_t operator()(const Triangle& t) const { return mix(mix(mix(t[0] + 0x9e3779b97f4a7c15ull) + t[1]) + t[2]); }
-};
+// Marks each triangle that has the corners of an earlier one. `triangles` may be marked already.
+void mark_duplicates(const std::vector<Triangle>& triangles, std::size_t vertices, std::vector<char>& marks,
+                     char duplicate) {
+  const auto lowest = [&](const Triangle& t) { return std::min({t[0], t[1], t[2]}); };
+  std::vector<std::uint32_t> next(vertices + 1, 0);
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+    if (!marks[i]) ++next[lowest(triangles[i]) + 1];
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  std::vector<std::uint32_t> at_vertex(next.back());
+  for (std::uint32_t i = 0; i < triangles.size(); ++i)
+    if (!marks[i]) at_vertex[next[lowest(triangles[i])]++] = i;
+  internal::parallel::for_ranges(vertices, 4096, [&](std::size_t first, std::size_t last) {
+    std::vector<std::pair<Triangle, std::uint32_t>> sorted;
+    for (std::size_t vertex = first; vertex < last; ++vertex) {
+      const std::size_t begin = vertex == 0 ? 0 : next[vertex - 1];
+      if (next[vertex] - begin < 2) continue;
+      sorted.clear();
+      for (std::size_t k = begin; k < next[vertex]; ++k) {
+        Triangle t = triangles[at_vertex[k]];
+        std::sort(t.begin(), t.end());
+        sorted.emplace_back(t, at_vertex[k]);
+      }
+      std::sort(sorted.begin(), sorted.end());
+      for (std::size_t k = 1; k < sorted.size(); ++k)
+        if (sorted[k].first == sorted[k - 1].first) marks[sorted[k].second] = duplicate;
+    }
+  });
+}
 
 struct CleanTriangles {
   std::vector<Triangle> triangles;
   std::vector<std::uint32_t> object_of;
 };
 
+// Fills in the vertices of `data`; returns each vertex's number there.
+std::vector<std::uint32_t> weld(const std::vector<Vec3>& vertices, PreparedScene::Data& data) {
+  std::vector<Vec3> points(vertices.size());
+  internal::parallel::for_ranges(points.size(), 4096, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) points[i] = (vertices[i] - data.origin).array() + 0.0;  // -0 becomes 0
+  });
+  std::vector<std::uint32_t> number = first_at_place(points);
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
+    if (number[i] != i) {
+      number[i] = number[number[i]];
+      continue;
+    }
+    number[i] = std::uint32_t(data.vertices.size());
+    data.vertices.push_back(points[i]);
+  }
+  return number;
+}
+
 CleanTriangles weld_and_clean(const Scene& scene, const std::vector<char>& has_area, PreparedScene::Data& data) {
   SceneStatistics& statistics = data.statistics;
-  Welder welder(scene.mesh.vertices.size());
-  std::vector<std::uint32_t> welded;
-  welded.reserve(scene.mesh.vertices.size());
-  for (const Vec3& v : scene.mesh.vertices) welded.push_back(welder.add(v - data.origin));
-  data.vertices = std::move(welder.points);
-
-  CleanTriangles clean;
+  const std::vector<std::uint32_t> welded = weld(scene.mesh.vertices, data);
   const double no_width = slack_of(kNoWidth, statistics.bounds);
-  std::unordered_set<Triangle, TriangleHash> seen;
-  seen.reserve(scene.mesh.triangles.size());
-  for (std::size_t i = 0; i < scene.mesh.triangles.size(); ++i) {
-    Triangle t = scene.mesh.triangles[i];
-    for (std::uint32_t& corner : t) corner = welded[corner];
-    if (!has_area[i] || size_of(data.vertices[t[0]], data.vertices[t[1]], data.vertices[t[2]]).width <= no_width) {
-      ++statistics.degenerate_triangles;
-      continue;
+  enum : char { kept, degenerate, duplicate };
+  std::vector<Triangle> triangles(scene.mesh.triangles.size());
+  std::vector<char> marks(triangles.size());
+  internal::parallel::for_ranges(triangles.size(), 4096, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      Triangle& t = triangles[i];
+      for (std::size_t k = 0; k < 3; ++k) t[k] = welded[scene.mesh.triangles[i][k]];
+      const auto width = [&] { return size_of(data.vertices[t[0]], data.vertices[t[1]], data.vertices[t[2]]).width; };
+      if (!has_area[i] || width() <= no_width) marks[i] = degenerate;
     }
-    Triangle sorted = t;
-    std::sort(sorted.begin(), sorted.end());
-    if (!seen.insert(sorted).second) {
-      ++statistics.duplicate_triangles;
-      continue;
-    }
-    clean.triangles.push_back(t);
+  });
+  mark_duplicates(triangles, data.vertices.size(), marks, duplicate);
+  CleanTriangles clean;
+  clean.triangles.reserve(triangles.size());
+  clean.object_of.reserve(triangles.size());
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    statistics.degenerate_triangles += marks[i] == degenerate;
+    statistics.duplicate_triangles += marks[i] == duplicate;
+    if (marks[i] != kept) continue;
+    clean.triangles.push_back(triangles[i]);
     clean.object_of.push_back(scene.object_of.empty() ? 0 : scene.object_of[i]);
   }
   return clean;
