@@ -5,6 +5,7 @@
 #include <string>
 #include <tuple>
 
+#include "core/parallel.h"
 #include "vantage/error.h"
 
 namespace vantage::internal::core {
@@ -39,12 +40,15 @@ std::vector<EdgeUse> edge_uses(const std::vector<Triangle>& triangles, std::size
       uses[next[std::min(from, to)]++] = {std::min(from, to), std::max(from, to), t, from < to};
     }
   }
-  for (std::size_t vertex = 0, begin = 0; vertex < vertices; begin = next[vertex++]) {
-    std::sort(uses.begin() + static_cast<std::ptrdiff_t>(begin),
-              uses.begin() + static_cast<std::ptrdiff_t>(next[vertex]), [](const EdgeUse& a, const EdgeUse& b) {
-                return std::tie(a.high, a.triangle, a.forward) < std::tie(b.high, b.triangle, b.forward);
-              });
-  }
+  parallel::for_ranges(vertices, 4096, [&](std::size_t first, std::size_t last) {
+    for (std::size_t vertex = first; vertex < last; ++vertex) {
+      const std::size_t begin = vertex == 0 ? 0 : next[vertex - 1];
+      std::sort(uses.begin() + static_cast<std::ptrdiff_t>(begin),
+                uses.begin() + static_cast<std::ptrdiff_t>(next[vertex]), [](const EdgeUse& a, const EdgeUse& b) {
+                  return std::tie(a.high, a.triangle, a.forward) < std::tie(b.high, b.triangle, b.forward);
+                });
+    }
+  });
   return uses;
 }
 

@@ -3,8 +3,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <optional>
+#include <span>
 
 #include "core/convex_corners.h"
+#include "core/edges.h"
 #include "core/parallel.h"
 
 namespace vantage::internal::scene {
@@ -12,16 +14,6 @@ namespace {
 
 constexpr std::size_t kLargestPolygon = 32;  // corners; blockers cost in proportion
 constexpr std::size_t kLargestFan = 8;       // triangles on one edge that are tried pairwise
-
-struct Side {  // one triangle's side of an edge
-  std::uint32_t low, high;
-  std::uint32_t corner;  // 3 * triangle + corner at which the edge starts
-  bool operator<(const Side& other) const {
-    if (low != other.low) return low < other.low;
-    if (high != other.high) return high < other.high;
-    return corner < other.corner;
-  }
-};
 
 struct Candidate {
   double length2;
@@ -62,36 +54,27 @@ class Merger {
   }
 
   std::vector<Candidate> find_candidates(SceneStatistics& statistics) const {
-    std::vector<Side> sides(triangles_.size() * 3);
-    parallel::for_ranges(triangles_.size(), 4096, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i)
-        for (std::uint32_t c = 0; c < 3; ++c) {
-          const std::uint32_t a = triangles_[i][c], b = triangles_[i][(c + 1) % 3];
-          sides[3 * i + c] = {std::min(a, b), std::max(a, b), static_cast<std::uint32_t>(3 * i + c)};
-        }
-    });
-    parallel::sort(sides, std::less<>());
+    const std::vector<core::EdgeUse> sides = core::edge_uses(triangles_, vertices_.size());
     std::vector<Candidate> candidates;
-    for (std::size_t begin = 0, end; begin < sides.size(); begin = end) {
-      end = begin + 1;
-      while (end < sides.size() && sides[end].low == sides[begin].low && sides[end].high == sides[begin].high) ++end;
-      const std::size_t fan = end - begin;
-      statistics.open_edges += fan == 1;
-      statistics.nonmanifold_edges += fan > 2;
-      if (fan == 2) statistics.misoriented_edges += start_of(sides[begin]) == start_of(sides[begin + 1]);
-      if (fan > kLargestFan) continue;
-      for (std::size_t i = begin; i < end; ++i)
-        for (std::size_t j = i + 1; j < end; ++j) add_candidate(sides[i], sides[j], candidates);
-    }
+    core::for_each_edge(sides, [&](std::span<const core::EdgeUse> edge) {
+      statistics.open_edges += edge.size() == 1;
+      statistics.nonmanifold_edges += edge.size() > 2;
+      if (edge.size() == 2) statistics.misoriented_edges += edge[0].forward == edge[1].forward;
+      if (edge.size() > kLargestFan) return;
+      for (std::size_t i = 0; i < edge.size(); ++i)
+        for (std::size_t j = i + 1; j < edge.size(); ++j) add_candidate(edge[i], edge[j], candidates);
+    });
     parallel::sort(candidates, std::less<>());
     return candidates;
   }
 
-  std::uint32_t start_of(const Side& side) const { return triangles_[side.corner / 3][side.corner % 3]; }
-  const Vec3& apex_of(const Side& side) const { return vertices_[triangles_[side.corner / 3][(side.corner + 2) % 3]]; }
+  const Vec3& apex_of(const core::EdgeUse& side) const {
+    const Triangle& t = triangles_[side.triangle];
+    return vertices_[*std::ranges::find_if(t, [&](std::uint32_t v) { return v != side.low && v != side.high; })];
+  }
 
-  void add_candidate(const Side& a, const Side& b, std::vector<Candidate>& out) const {
-    const std::uint32_t first = a.corner / 3, second = b.corner / 3;
+  void add_candidate(const core::EdgeUse& a, const core::EdgeUse& b, std::vector<Candidate>& out) const {
+    const std::uint32_t first = a.triangle, second = b.triangle;
     if (object_of_[first] != object_of_[second]) return;
     const Vec3 from = vertices_[a.low], edge = vertices_[a.high] - from;
     const Vec3 to_first = apex_of(a) - from, to_second = apex_of(b) - from;
