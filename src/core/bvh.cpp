@@ -1,8 +1,8 @@
 #include "core/bvh.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <limits>
-#include <numeric>
 
 #include "core/parallel.h"
 
@@ -13,53 +13,81 @@ constexpr std::size_t kLeafSize = 4;
 constexpr int kBins = 16;
 constexpr std::size_t kParallelSize = 1 << 14;
 
-Bounds empty_bounds() {
-  constexpr float inf = std::numeric_limits<float>::infinity();
-  return {{inf, inf, inf}, {-inf, -inf, -inf}};
-}
+// Four numbers are as fast as one. The fourth is zero.
+using Float4 = Eigen::Array4f;
 
-void extend(Bounds& bounds, const Bounds& other) {
-  for (int a = 0; a < 3; ++a) {
-    bounds.min[a] = std::min(bounds.min[a], other.min[a]);
-    bounds.max[a] = std::max(bounds.max[a], other.max[a]);
+struct Box4 {
+  Float4 min, max;
+
+  static Box4 empty() {
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    return {Float4::Constant(kInfinity), Float4::Constant(-kInfinity)};
   }
-}
+  static Box4 of(const Bounds& b) { return {{b.min[0], b.min[1], b.min[2], 0}, {b.max[0], b.max[1], b.max[2], 0}}; }
+  Bounds bounds() const { return {{min[0], min[1], min[2]}, {max[0], max[1], max[2]}}; }
 
-float half_area(const Bounds& b) {
-  const float x = b.max[0] - b.min[0], y = b.max[1] - b.min[1], z = b.max[2] - b.min[2];
-  return x * y + y * z + z * x;
-}
+  void extend(const Box4& other) {
+    min = min.min(other.min);
+    max = max.max(other.max);
+  }
+  Float4 centre() const { return 0.5f * (min + max); }
+  float half_area() const {
+    const Float4 size = max - min;
+    return size[0] * size[1] + size[1] * size[2] + size[2] * size[0];
+  }
+};
 
-float centre(const Bounds& b, int axis) { return 0.5f * (b.min[axis] + b.max[axis]); }
+struct Item {
+  Box4 box;
+  std::uint32_t index;
+};
+
+/// Into which bins the centre of a box falls, along each axis.
+struct Binning {
+  Float4 low, scale;  // of no extent: 0
+
+  explicit Binning(const Box4& centres) : low(centres.min) {
+    const Float4 extent = centres.max - centres.min;
+    for (int axis = 0; axis < 4; ++axis) scale[axis] = extent[axis] > 0 ? kBins / extent[axis] : 0;
+  }
+  Eigen::Array4i bins_of(const Box4& box) const {
+    return ((box.centre() - low) * scale).cast<int>().max(0).min(kBins - 1);
+  }
+};
 
 struct Split {
   int axis = -1;
   int bin = 0;  // items in bins <= bin go left
-  float low = 0, scale = 0;
+};
+
+struct Bins {
+  std::array<Box4, kBins> boxes;  // only of those that have items
+  std::array<std::size_t, kBins> count{};
 };
 
 class Builder {
  public:
-  Builder(const std::vector<Bounds>& items, std::vector<std::uint32_t>& order) : items_(items), order_(order) {}
+  explicit Builder(const std::vector<Bounds>& items) : items_(items.size()), right_(items.size()) {
+    for (std::uint32_t i = 0; i < items.size(); ++i) items_[i] = {Box4::of(items[i]), i};
+  }
 
-  std::vector<BvhNode> run() {
+  std::vector<BvhNode> run(std::vector<std::uint32_t>& order) {
     std::vector<BvhNode> nodes(1);
-    build(nodes, 0, 0, order_.size());
+    build(nodes, 0, 0, items_.size());
+    order.resize(items_.size());
+    for (std::size_t i = 0; i < items_.size(); ++i) order[i] = items_[i].index;
     return nodes;
   }
 
  private:
   void build(std::vector<BvhNode>& nodes, std::size_t node, std::size_t begin, std::size_t end) {
-    Bounds bounds = empty_bounds(), centres = empty_bounds();
+    Box4 box = Box4::empty(), centres = Box4::empty();
     for (std::size_t i = begin; i < end; ++i) {
-      const Bounds& item = items_[order_[i]];
-      extend(bounds, item);
-      for (int a = 0; a < 3; ++a) {
-        centres.min[a] = std::min(centres.min[a], centre(item, a));
-        centres.max[a] = std::max(centres.max[a], centre(item, a));
-      }
+      box.extend(items_[i].box);
+      const Float4 centre = items_[i].box.centre();
+      centres.extend({centre, centre});
     }
-    nodes[node].bounds = bounds;
+    nodes[node].bounds = box.bounds();
     nodes[node].first = static_cast<std::uint32_t>(begin);
     nodes[node].count = static_cast<std::uint32_t>(end - begin);
     if (end - begin <= kLeafSize) return;
@@ -93,73 +121,75 @@ class Builder {
     for (std::size_t i = 1; i < subtree.size(); ++i) nodes.push_back(moved(subtree[i]));
   }
 
-  int bin_of(const Split& split, std::uint32_t item) const {
-    return std::clamp(static_cast<int>((centre(items_[item], split.axis) - split.low) * split.scale), 0, kBins - 1);
-  }
-
   // Reorders [begin, end) and returns where the right half starts.
-  std::size_t partition(std::size_t begin, std::size_t end, const Bounds& centres) {
-    const Split split = best_split(begin, end, centres);
+  std::size_t partition(std::size_t begin, std::size_t end, const Box4& centres) {
+    const Binning binning(centres);
+    const Split split = best_split(begin, end, binning);
     if (split.axis >= 0) {
-      const auto middle = std::stable_partition(order_.begin() + begin, order_.begin() + end,
-                                                [&](std::uint32_t item) { return bin_of(split, item) <= split.bin; });
-      const std::size_t at = static_cast<std::size_t>(middle - order_.begin());
-      if (at != begin && at != end) return at;
+      std::size_t left = begin, right = begin;
+      for (std::size_t i = begin; i < end; ++i) {
+        if (binning.bins_of(items_[i].box)[split.axis] <= split.bin)
+          items_[left++] = items_[i];
+        else
+          right_[right++] = items_[i];
+      }
+      std::copy(right_.begin() + static_cast<std::ptrdiff_t>(begin), right_.begin() + static_cast<std::ptrdiff_t>(right),
+                items_.begin() + static_cast<std::ptrdiff_t>(left));
+      if (left != begin && left != end) return left;
     }
     return begin + (end - begin) / 2;  // all centres coincide
   }
 
-  Split best_split(std::size_t begin, std::size_t end, const Bounds& centres) const {
+  Split best_split(std::size_t begin, std::size_t end, const Binning& binning) const {
+    std::array<Bins, 3> bins;
+    for (std::size_t i = begin; i < end; ++i) {
+      const Eigen::Array4i at = binning.bins_of(items_[i].box);
+      for (int axis = 0; axis < 3; ++axis) {
+        Box4& box = bins[axis].boxes[at[axis]];
+        if (bins[axis].count[at[axis]]++ == 0)
+          box = items_[i].box;
+        else
+          box.extend(items_[i].box);
+      }
+    }
     Split best;
     float best_cost = std::numeric_limits<float>::infinity();
     for (int axis = 0; axis < 3; ++axis) {
-      const float extent = centres.max[axis] - centres.min[axis];
-      if (!(extent > 0)) continue;
-      Split split{axis, 0, centres.min[axis], kBins / extent};
-      std::array<Bounds, kBins> bounds;
-      std::array<std::size_t, kBins> count{};
-      bounds.fill(empty_bounds());
-      for (std::size_t i = begin; i < end; ++i) {
-        const int bin = bin_of(split, order_[i]);
-        extend(bounds[bin], items_[order_[i]]);
-        ++count[bin];
-      }
-      std::array<float, kBins> right_cost{};
-      Bounds right = empty_bounds();
+      const auto& [boxes, count] = bins[axis];
+      std::array<float, kBins> right_cost{};  // of what is right of a bin
+      Box4 right = Box4::empty();
       std::size_t right_count = 0;
-      for (int bin = kBins - 1; bin > 0; --bin) {
-        extend(right, bounds[bin]);
+      for (int bin = kBins - 1; bin >= 0; --bin) {
+        if (count[bin] == 0) continue;
+        right_cost[bin] = right_count ? right.half_area() * static_cast<float>(right_count) : 0;
+        right.extend(boxes[bin]);
         right_count += count[bin];
-        right_cost[bin] = right_count ? half_area(right) * static_cast<float>(right_count) : 0;
       }
-      Bounds left = empty_bounds();
+      Box4 left = Box4::empty();
       std::size_t left_count = 0;
-      for (int bin = 0; bin + 1 < kBins; ++bin) {
-        extend(left, bounds[bin]);
+      for (int bin = 0; left_count + count[bin] < end - begin; ++bin) {
+        if (count[bin] == 0) continue;  // as good as the bin before it
+        left.extend(boxes[bin]);
         left_count += count[bin];
-        if (left_count == 0 || left_count == end - begin) continue;
-        const float cost = half_area(left) * static_cast<float>(left_count) + right_cost[bin + 1];
+        const float cost = left.half_area() * static_cast<float>(left_count) + right_cost[bin];
         if (cost < best_cost) {
           best_cost = cost;
-          split.bin = bin;
-          best = split;
+          best = {axis, bin};
         }
       }
     }
     return best;
   }
 
-  const std::vector<Bounds>& items_;
-  std::vector<std::uint32_t>& order_;
+  std::vector<Item> items_, right_;  // in the order so far; those that go right, for partition
 };
 
 }  // namespace
 
 Bvh build_bvh(const std::vector<Bounds>& items, std::vector<std::uint32_t>& order) {
-  order.resize(items.size());
-  std::iota(order.begin(), order.end(), 0u);
+  order.clear();
   if (items.empty()) return {};
-  return {Builder(items, order).run()};
+  return {Builder(items).run(order)};
 }
 
 }  // namespace vantage::internal::core
