@@ -133,7 +133,8 @@ class Builder {
         else
           right_[right++] = items_[i];
       }
-      std::copy(right_.begin() + static_cast<std::ptrdiff_t>(begin), right_.begin() + static_cast<std::ptrdiff_t>(right),
+      std::copy(right_.begin() + static_cast<std::ptrdiff_t>(begin),
+                right_.begin() + static_cast<std::ptrdiff_t>(right),
                 items_.begin() + static_cast<std::ptrdiff_t>(left));
       if (left != begin && left != end) return left;
     }

@@ -380,7 +380,7 @@ class FacetTracer {
   static int piece_count(const SpaceCircle& circle, const Interval& part, const CurveSampling& sampling) {
     const double by_sagitta = 2 * std::acos(std::max(0.0, 1 - sampling.sagitta_m / circle.radius));
     const double step = std::min(by_sagitta, sampling.length_m / circle.radius);
-    return std::max(1, int(std::ceil(part.length() / step)));
+    return std::max(1, static_cast<int>(std::ceil(part.length() / step)));
   }
 
   static void add_arcs(const SpaceCircle& circle, CircleArcs& arcs, double shortest, const CurveSampling& sampling,

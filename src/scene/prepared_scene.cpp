@@ -41,7 +41,7 @@ std::uint64_t mix(std::uint64_t x) {  // splitmix64's finalizer
 /// Of points in their order: for each the first one at exactly the same place. Points are dealt out by their hash, so
 /// that threads share nothing and each looks up in a small table.
 std::vector<std::uint32_t> first_at_place(const std::vector<Vec3>& points) {
-  constexpr std::size_t kBits = 6, kParts = std::size_t(1) << kBits;
+  constexpr std::size_t kBits = 6, kParts = std::size_t{1} << kBits;
   struct Entry {
     std::uint64_t hash;
     std::uint32_t point;
@@ -163,7 +163,7 @@ std::vector<std::uint32_t> weld(const std::vector<Vec3>& vertices, PreparedScene
       number[i] = number[number[i]];
       continue;
     }
-    number[i] = std::uint32_t(data.vertices.size());
+    number[i] = static_cast<std::uint32_t>(data.vertices.size());
     data.vertices.push_back(points[i]);
   }
   return number;

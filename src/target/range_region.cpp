@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 #include "core/facet_polygon.h"
@@ -52,10 +53,11 @@ void RangeRegion::find_neighbours() {
 // Where to begin the search for the ball that is met first.
 void RangeRegion::find_opposite() {
   for (std::size_t sector = 0; sector < opposite_.size(); ++sector) {
-    const double angle = 2 * M_PI * (double(sector) + 0.5) / double(opposite_.size());
+    const double angle =
+        2 * std::numbers::pi * (static_cast<double>(sector) + 0.5) / static_cast<double>(opposite_.size());
     const Eigen::Vector2d along(std::cos(angle), std::sin(angle));
     const auto farther = [&](const auto& a, const auto& b) { return a.dot(along) < b.dot(along); };
-    opposite_[sector] = std::uint32_t(std::ranges::min_element(centres_, farther) - centres_.begin());
+    opposite_[sector] = static_cast<std::uint32_t>(std::ranges::min_element(centres_, farther) - centres_.begin());
   }
 }
 
@@ -64,7 +66,7 @@ std::size_t RangeRegion::sector_of(const Vec3& direction) const {
   const double x = direction.x(), y = direction.y(), sum = std::abs(x) + std::abs(y);
   if (!(sum > 0)) return 0;
   const double turn = y >= 0 ? 1 - x / sum : 3 + x / sum;  // 0 to 4
-  return std::min(std::size_t(turn * 0.25 * double(opposite_.size())), opposite_.size() - 1);
+  return std::min(static_cast<std::size_t>(turn * 0.25 * static_cast<double>(opposite_.size())), opposite_.size() - 1);
 }
 
 double RangeRegion::inner_radius() const {
