@@ -2,12 +2,16 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <span>
 #include <tuple>
 
 #include "core/edges.h"
+#include "core/parallel.h"
 
 namespace vantage::internal::core {
 namespace {
@@ -22,6 +26,12 @@ std::vector<std::uint32_t> order_of_positions(const std::vector<Vec3>& vertices)
   };
   std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
   return order;
+}
+
+std::uint64_t mix(std::uint64_t x) {  // splitmix64's finalizer
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebull;
+  return x ^ (x >> 31);
 }
 
 /// The uses of an edge by triangles, in pairs that have the solid between them: from each that runs it from high to low
@@ -92,14 +102,42 @@ Mesh welded(const Mesh& mesh) {
   return result;
 }
 
-std::vector<std::uint32_t> first_at_position(const std::vector<Vec3>& vertices) {
-  const std::vector<std::uint32_t> order = order_of_positions(vertices);
-  std::vector<std::uint32_t> first(vertices.size());
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const bool is_same = i > 0 && vertices[order[i]] == vertices[order[i - 1]];
-    first[order[i]] = is_same ? first[order[i - 1]] : order[i];
-  }
-  return first;
+// Points are dealt out by their hash, so that threads share nothing and each looks up in a small table.
+std::vector<std::uint32_t> first_at_position(const std::vector<Vec3>& points) {
+  constexpr std::size_t kBits = 6, kParts = std::size_t{1} << kBits;
+  struct Entry {
+    std::uint64_t hash;
+    std::uint32_t point;
+  };
+  std::vector<std::uint64_t> hashes(points.size());
+  parallel::for_ranges(points.size(), 4096, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      for (int a = 0; a < 3; ++a)
+        hashes[i] = mix(hashes[i] + 0x9e3779b97f4a7c15ull + std::bit_cast<std::uint64_t>(points[i][a] + 0.0));
+  });
+  std::array<std::size_t, kParts + 1> first{};
+  for (const std::uint64_t hash : hashes) ++first[(hash >> (64 - kBits)) + 1];
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  std::vector<Entry> entries(points.size());
+  std::array<std::size_t, kParts + 1> next = first;
+  for (std::uint32_t i = 0; i < points.size(); ++i) entries[next[hashes[i] >> (64 - kBits)]++] = {hashes[i], i};
+  std::vector<std::uint32_t> first_at(points.size());
+  parallel::for_ranges(kParts, 1, [&](std::size_t part, std::size_t) {
+    const std::span<const Entry> own(entries.data() + first[part], first[part + 1] - first[part]);
+    constexpr std::uint32_t kFree = ~0u;
+    const std::size_t mask = std::bit_ceil(2 * own.size() + 1) - 1;
+    std::vector<std::uint32_t> slots(mask + 1, kFree);  // into `own`
+    for (std::uint32_t i = 0; i < own.size(); ++i) {
+      std::size_t slot = own[i].hash & mask;
+      const auto differs = [&](const Entry& e) {
+        return e.hash != own[i].hash || points[e.point] != points[own[i].point];
+      };
+      while (slots[slot] != kFree && differs(own[slots[slot]])) slot = (slot + 1) & mask;
+      if (slots[slot] == kFree) slots[slot] = i;
+      first_at[own[i].point] = own[slots[slot]].point;
+    }
+  });
+  return first_at;
 }
 
 void split_where_pieces_touch(Mesh& mesh) {

@@ -9,7 +9,7 @@ namespace vantage::internal::core {
 /// coordinates, and without the triangles that have two corners in one place. Cost: O(n log n).
 Mesh welded(const Mesh& mesh);
 
-/// For every vertex the first one at exactly the same position. Cost: O(n log n).
+/// For every vertex the first one at exactly the same position. 0 and -0 are one. Cost: linear, on all threads.
 std::vector<std::uint32_t> first_at_position(const std::vector<Vec3>& vertices);
 
 /// The other way round: where facets round a vertex make several fans that only touch there, each fan gets a vertex of

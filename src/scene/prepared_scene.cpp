@@ -2,15 +2,14 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <numeric>
-#include <span>
 #include <utility>
 
 #include "core/parallel.h"
 #include "core/progress_reporter.h"
 #include "core/read_limits.h"
+#include "core/weld.h"
 #include "scene/convex_polygons.h"
 #include "scene/prepared_data.h"
 #include "vantage/error.h"
@@ -30,51 +29,6 @@ constexpr double kMostSlack = 1e-9;
 double slack_of(double share, const Box& bounds) {
   const double largest = bounds.empty() ? 0 : 0.5 * (bounds.max - bounds.min).maxCoeff();
   return std::min(share * largest, kMostSlack);
-}
-
-std::uint64_t mix(std::uint64_t x) {  // splitmix64's finalizer
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebull;
-  return x ^ (x >> 31);
-}
-
-/// Of points in their order: for each the first one at exactly the same place. Points are dealt out by their hash, so
-/// that threads share nothing and each looks up in a small table.
-std::vector<std::uint32_t> first_at_place(const std::vector<Vec3>& points) {
-  constexpr std::size_t kBits = 6, kParts = std::size_t{1} << kBits;
-  struct Entry {
-    std::uint64_t hash;
-    std::uint32_t point;
-  };
-  std::vector<std::uint64_t> hashes(points.size());
-  internal::parallel::for_ranges(points.size(), 4096, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
-      for (int a = 0; a < 3; ++a)
-        hashes[i] = mix(hashes[i] + 0x9e3779b97f4a7c15ull + std::bit_cast<std::uint64_t>(points[i][a]));
-  });
-  std::array<std::size_t, kParts + 1> first{};
-  for (const std::uint64_t hash : hashes) ++first[(hash >> (64 - kBits)) + 1];
-  std::partial_sum(first.begin(), first.end(), first.begin());
-  std::vector<Entry> entries(points.size());
-  std::array<std::size_t, kParts + 1> next = first;
-  for (std::uint32_t i = 0; i < points.size(); ++i) entries[next[hashes[i] >> (64 - kBits)]++] = {hashes[i], i};
-  std::vector<std::uint32_t> first_at(points.size());
-  internal::parallel::for_ranges(kParts, 1, [&](std::size_t part, std::size_t) {
-    const std::span<const Entry> own(entries.data() + first[part], first[part + 1] - first[part]);
-    constexpr std::uint32_t kFree = ~0u;
-    const std::size_t mask = std::bit_ceil(2 * own.size() + 1) - 1;
-    std::vector<std::uint32_t> slots(mask + 1, kFree);  // into `own`
-    for (std::uint32_t i = 0; i < own.size(); ++i) {
-      std::size_t slot = own[i].hash & mask;
-      const auto differs = [&](const Entry& e) {
-        return e.hash != own[i].hash || points[e.point] != points[own[i].point];
-      };
-      while (slots[slot] != kFree && differs(own[slots[slot]])) slot = (slot + 1) & mask;
-      if (slots[slot] == kFree) slots[slot] = i;
-      first_at[own[i].point] = own[slots[slot]].point;
-    }
-  });
-  return first_at;
 }
 
 struct TriangleSize {
@@ -157,7 +111,7 @@ std::vector<std::uint32_t> weld(const std::vector<Vec3>& vertices, PreparedScene
   internal::parallel::for_ranges(points.size(), 4096, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) points[i] = (vertices[i] - data.origin).array() + 0.0;  // -0 becomes 0
   });
-  std::vector<std::uint32_t> number = first_at_place(points);
+  std::vector<std::uint32_t> number = internal::core::first_at_position(points);
   for (std::uint32_t i = 0; i < points.size(); ++i) {
     if (number[i] != i) {
       number[i] = number[number[i]];
