@@ -37,8 +37,8 @@ void DirectionTree::add_node(const OctahedralCell& cell, double bound, std::uint
 }
 
 // Leaves out planes that stay above another one of the blocker's all over the cell. False, with nothing to be relied on
-// in `surface`, where one plane alone shows that the blocker is hidden.
-bool DirectionTree::reduce(const Node& node, std::span<const std::uint32_t> planes, Surface& surface) {
+// in `reduced`, where one plane alone shows that the blocker is hidden.
+bool DirectionTree::reduce(const Node& node, std::span<const std::uint32_t> planes, CellBlocker& reduced) {
   corners_.clear();
   for (std::uint32_t plane : planes) {
     const Corners& corners =
@@ -46,24 +46,24 @@ bool DirectionTree::reduce(const Node& node, std::span<const std::uint32_t> plan
     const double upper = std::max(std::max(corners[0], corners[1]), std::max(corners[2], corners[3]));
     if (upper < node.bound * (1 - kRounding) || below(corners, node.range)) return false;
   }
-  surface.planes.clear();
-  surface.values.clear();
-  surface.least.fill(std::numeric_limits<double>::infinity());
+  reduced.planes.clear();
+  reduced.values.clear();
+  reduced.least.fill(std::numeric_limits<double>::infinity());
   for (std::size_t k = 0; k < planes.size(); ++k) {
     const Corners& corners = corners_[k];
-    if (std::any_of(surface.values.begin(), surface.values.end(), [&](const Corners& v) { return below(v, corners); }))
+    if (std::any_of(reduced.values.begin(), reduced.values.end(), [&](const Corners& v) { return below(v, corners); }))
       continue;
     std::size_t kept = 0;
-    for (std::size_t i = 0; i < surface.values.size(); ++i) {
-      if (below(corners, surface.values[i])) continue;
-      surface.values[kept] = surface.values[i];
-      surface.planes[kept++] = surface.planes[i];
+    for (std::size_t i = 0; i < reduced.values.size(); ++i) {
+      if (below(corners, reduced.values[i])) continue;
+      reduced.values[kept] = reduced.values[i];
+      reduced.planes[kept++] = reduced.planes[i];
     }
-    surface.values.resize(kept);
-    surface.planes.resize(kept);
-    surface.values.push_back(corners);
-    surface.planes.push_back(planes[k]);
-    for (int c = 0; c < 4; ++c) surface.least[c] = std::min(surface.least[c], corners[c]);
+    reduced.values.resize(kept);
+    reduced.planes.resize(kept);
+    reduced.values.push_back(corners);
+    reduced.planes.push_back(planes[k]);
+    for (int c = 0; c < 4; ++c) reduced.least[c] = std::min(reduced.least[c], corners[c]);
   }
   return true;
 }
@@ -76,33 +76,33 @@ bool DirectionTree::stays_under(std::span<const Corners> low, std::span<const Co
   return true;
 }
 
-bool DirectionTree::hidden_in(const Node& node, const Surface& surface) {
-  return std::any_of(node.dominators.begin(), node.dominators.end(), [&](const Surface& dominator) {
-    return !dominator.values.empty() && below(surface.least, dominator.least) &&
-           stays_under(surface.values, dominator.values);
+bool DirectionTree::hidden_in(const Node& node, const CellBlocker& reduced) {
+  return std::any_of(node.dominators.begin(), node.dominators.end(), [&](const CellBlocker& dominator) {
+    return !dominator.values.empty() && below(reduced.least, dominator.least) &&
+           stays_under(reduced.values, dominator.values);
   });
 }
 
-void DirectionTree::consider_dominator(Node& node, const Surface& surface) {
-  const double least = *std::min_element(surface.least.begin(), surface.least.end());
+void DirectionTree::consider_dominator(Node& node, const CellBlocker& reduced) {
+  const double least = *std::min_element(reduced.least.begin(), reduced.least.end());
   node.bound = std::max(node.bound, least);
   double middle = std::numeric_limits<double>::infinity();
-  for (const Corners& v : surface.values) middle = std::min(middle, v[0] + v[1] + v[2] + v[3]);
+  for (const Corners& v : reduced.values) middle = std::min(middle, v[0] + v[1] + v[2] + v[3]);
   const std::array<double, 2> scores{least, middle};
   for (std::size_t i = 0; i < 2; ++i)
     if (scores[i] > node.dominator_score[i]) {
       node.dominator_score[i] = scores[i];
-      node.dominators[i] = surface;
+      node.dominators[i] = reduced;
     }
 }
 
 // Drops from the list what the new one hides.
-void DirectionTree::add_to_leaf(Leaf& leaf, std::uint32_t index, const Surface& surface) {
+void DirectionTree::add_to_leaf(Leaf& leaf, std::uint32_t index, const CellBlocker& reduced) {
   std::size_t kept = 0;
   std::uint32_t end = 0;
   for (std::size_t i = 0; i < leaf.count(); ++i) {
     const std::uint32_t begin = leaf.first_plane[i], count = leaf.first_plane[i + 1] - begin;
-    if (below(leaf.least[i], surface.least) && stays_under(leaf.values_of(i), surface.values)) continue;
+    if (below(leaf.least[i], reduced.least) && stays_under(leaf.values_of(i), reduced.values)) continue;
     if (begin != end) {
       std::copy_n(leaf.values.begin() + begin, count, leaf.values.begin() + end);
       std::copy_n(leaf.planes.begin() + begin, count, leaf.planes.begin() + end);
@@ -119,9 +119,9 @@ void DirectionTree::add_to_leaf(Leaf& leaf, std::uint32_t index, const Surface& 
   leaf.values.resize(end);
   leaf.least.resize(kept);
   leaf.blockers.push_back(index);
-  leaf.least.push_back(surface.least);
-  leaf.planes.insert(leaf.planes.end(), surface.planes.begin(), surface.planes.end());
-  leaf.values.insert(leaf.values.end(), surface.values.begin(), surface.values.end());
+  leaf.least.push_back(reduced.least);
+  leaf.planes.insert(leaf.planes.end(), reduced.planes.begin(), reduced.planes.end());
+  leaf.values.insert(leaf.values.end(), reduced.values.begin(), reduced.values.end());
   leaf.first_plane.push_back(static_cast<std::uint32_t>(leaf.planes.size()));
 }
 
@@ -161,28 +161,28 @@ bool DirectionTree::insert(std::uint32_t index) {
   std::vector<std::uint32_t>& all = scratch_.back().planes;
   all.resize(blockers_.first[index + 1] - blockers_.first[index]);
   std::iota(all.begin(), all.end(), blockers_.first[index]);
-  const Footprint* footprint = footprint_of(index, footprint_);
+  const PolygonCone* cone = cone_of(index, cone_);
   bool shown = false;
-  for (std::uint32_t root = 0; root < 4; ++root) shown |= insert_below(root, index, all, footprint);
+  for (std::uint32_t root = 0; root < 4; ++root) shown |= insert_below(root, index, all, cone);
   return shown;
 }
 
 // Null for a blocker that is not confined to what its polygon covers.
-const Footprint* DirectionTree::footprint_of(std::uint32_t blocker, Footprint& footprint) const {
+const PolygonCone* DirectionTree::cone_of(std::uint32_t blocker, PolygonCone& cone) const {
   if (!blockers_.confined[blocker]) return nullptr;
-  footprint.assign(blockers_.corners_of(blocker));
-  return &footprint;
+  cone.assign(blockers_.corners_of(blocker));
+  return &cone;
 }
 
 bool DirectionTree::insert_below(std::uint32_t at, std::uint32_t index, std::span<const std::uint32_t> planes,
-                                 const Footprint* footprint) {
-  if (footprint && footprint->misses(nodes_[at].cell)) return false;
+                                 const PolygonCone* cone) {
+  if (cone && cone->misses(nodes_[at].cell)) return false;
   const bool leaf = nodes_[at].first_child == 0;
-  // What a footprint confines to a few leaves is too small to matter to the cells above them.
-  if (leaf || !footprint) {
-    Surface& surface = scratch_[nodes_[at].depth];
-    if (!reduce(nodes_[at], planes, surface) || !insert_into(nodes_[at], index, surface)) return false;
-    planes = surface.planes;
+  // What a cone confines to a few leaves is too small to matter to the cells above them.
+  if (leaf || !cone) {
+    CellBlocker& reduced = scratch_[nodes_[at].depth];
+    if (!reduce(nodes_[at], planes, reduced) || !insert_into(nodes_[at], index, reduced)) return false;
+    planes = reduced.planes;
   }
   if (leaf) {
     if (is_worth_splitting(nodes_[at])) split(at);
@@ -192,7 +192,7 @@ bool DirectionTree::insert_below(std::uint32_t at, std::uint32_t index, std::spa
   double bound = std::numeric_limits<double>::infinity();
   const std::uint32_t first = nodes_[at].first_child, count = nodes_[at].child_count;
   for (std::uint32_t child = first; child < first + count; ++child) {
-    shown |= insert_below(child, index, planes, footprint);
+    shown |= insert_below(child, index, planes, cone);
     bound = std::min(bound, nodes_[child].bound);
   }
   nodes_[at].bound = std::max(nodes_[at].bound, bound);
@@ -207,16 +207,16 @@ bool DirectionTree::is_worth_splitting(const Node& node) const {
 }
 
 // False when the blocker is hidden all over the cell.
-bool DirectionTree::insert_into(Node& node, std::uint32_t index, const Surface& surface) {
-  if (std::none_of(surface.planes.begin(), surface.planes.end(), [&](std::uint32_t k) { return blockers_.visible[k]; }))
+bool DirectionTree::insert_into(Node& node, std::uint32_t index, const CellBlocker& reduced) {
+  if (std::none_of(reduced.planes.begin(), reduced.planes.end(), [&](std::uint32_t k) { return blockers_.visible[k]; }))
     return false;
-  if (hidden_in(node, surface)) return false;
+  if (hidden_in(node, reduced)) return false;
   if (node.first_child == 0) {
     for (std::size_t i = 0; i < node.leaf.count(); ++i)
-      if (below(surface.least, node.leaf.least[i]) && stays_under(surface.values, node.leaf.values_of(i))) return false;
-    add_to_leaf(node.leaf, index, surface);
+      if (below(reduced.least, node.leaf.least[i]) && stays_under(reduced.values, node.leaf.values_of(i))) return false;
+    add_to_leaf(node.leaf, index, reduced);
   }
-  consider_dominator(node, surface);
+  consider_dominator(node, reduced);
   return true;
 }
 
@@ -233,13 +233,13 @@ void DirectionTree::split(std::uint32_t at) {
   const Leaf leaf = std::move(nodes_[at].leaf);
   nodes_[at].leaf = Leaf();
   for (std::size_t i = 0; i < leaf.count(); ++i) {
-    const Footprint* footprint = footprint_of(leaf.blockers[i], listed_footprint_);
+    const PolygonCone* cone = cone_of(leaf.blockers[i], listed_cone_);
     for (std::uint32_t child = first; child < static_cast<std::uint32_t>(nodes_.size()); ++child) {
-      if (footprint && footprint->misses(nodes_[child].cell)) continue;
-      Surface& surface = scratch_[depth];
+      if (cone && cone->misses(nodes_[child].cell)) continue;
+      CellBlocker& reduced = scratch_[depth];
       const std::span<const std::uint32_t> planes(leaf.planes.data() + leaf.first_plane[i],
                                                   leaf.first_plane[i + 1] - leaf.first_plane[i]);
-      if (reduce(nodes_[child], planes, surface)) insert_into(nodes_[child], leaf.blockers[i], surface);
+      if (reduce(nodes_[child], planes, reduced)) insert_into(nodes_[child], leaf.blockers[i], reduced);
     }
   }
   std::size_t listed = 0;

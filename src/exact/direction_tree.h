@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "exact/blocker_set.h"
-#include "exact/footprint.h"
 #include "exact/octahedral_map.h"
+#include "exact/polygon_cone.h"
 #include "target/range_region.h"
 
 namespace vantage::internal::exact {
@@ -62,16 +62,16 @@ class DirectionTree {
 
  private:
   /// A blocker over a cell: the planes that matter there, and the least of them at each corner.
-  struct Surface {
+  struct CellBlocker {
     std::vector<std::uint32_t> planes;
     std::vector<Corners> values;
     Corners least{};
   };
   struct Node {
     OctahedralCell cell;
-    double bound = 0;                   // constant lower bound on the envelope
-    Corners range{};                    // linear lower bound on the range region's gauge
-    std::array<Surface, 2> dominators;  // of greatest least value; greatest at the middle
+    double bound = 0;                       // constant lower bound on the envelope
+    Corners range{};                        // linear lower bound on the range region's gauge
+    std::array<CellBlocker, 2> dominators;  // of greatest least value; greatest at the middle
     std::array<double, 2> dominator_score{};
     Leaf leaf;
     std::uint32_t first_child = 0;  // 0: a leaf
@@ -80,16 +80,16 @@ class DirectionTree {
     std::uint32_t futile_splits = 0;  // of the last ancestors in a row
   };
 
-  bool reduce(const Node& node, std::span<const std::uint32_t> planes, Surface& surface);
+  bool reduce(const Node& node, std::span<const std::uint32_t> planes, CellBlocker& reduced);
   static bool stays_under(std::span<const Corners> low, std::span<const Corners> high);
-  static bool hidden_in(const Node& node, const Surface& surface);
-  static void consider_dominator(Node& node, const Surface& surface);
-  static void add_to_leaf(Leaf& leaf, std::uint32_t index, const Surface& surface);
+  static bool hidden_in(const Node& node, const CellBlocker& reduced);
+  static void consider_dominator(Node& node, const CellBlocker& reduced);
+  static void add_to_leaf(Leaf& leaf, std::uint32_t index, const CellBlocker& reduced);
 
-  const Footprint* footprint_of(std::uint32_t blocker, Footprint& footprint) const;
+  const PolygonCone* cone_of(std::uint32_t blocker, PolygonCone& cone) const;
   bool insert_below(std::uint32_t node, std::uint32_t index, std::span<const std::uint32_t> planes,
-                    const Footprint* footprint);
-  bool insert_into(Node& node, std::uint32_t index, const Surface& surface);
+                    const PolygonCone* cone);
+  bool insert_into(Node& node, std::uint32_t index, const CellBlocker& reduced);
   bool is_worth_splitting(const Node& node) const;
   void split(std::uint32_t node);
   void add_node(const OctahedralCell& cell, double bound, std::uint32_t depth);
@@ -97,10 +97,10 @@ class DirectionTree {
   const BlockerSet& blockers_;
   const target::RangeRegion& range_;
   std::vector<Node> nodes_;
-  std::size_t repeats_ = 0;       // entries of lists that all splits together have added
-  std::vector<Surface> scratch_;  // one per level
+  std::size_t repeats_ = 0;           // entries of lists that all splits together have added
+  std::vector<CellBlocker> scratch_;  // one per level
   std::vector<Corners> corners_;
-  Footprint footprint_, listed_footprint_;  // of what is inserted; of what a split deals out
+  PolygonCone cone_, listed_cone_;  // of what is inserted; of what a split deals out
 };
 
 }  // namespace vantage::internal::exact

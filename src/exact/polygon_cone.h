@@ -11,7 +11,7 @@
 namespace vantage::internal::exact {
 
 /// The cone over a convex polygon, as far as it decides which cells of the octahedral map the polygon misses.
-class Footprint {
+class PolygonCone {
  public:
   /// Corners in order, z >= 0, in a plane that does not pass through the origin.
   void assign(std::span<const Vec3> corners) {

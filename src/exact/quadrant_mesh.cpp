@@ -48,7 +48,7 @@ class QuadrantMesher {
  private:
   static constexpr std::uint32_t kSuper = 3;  // the library's own vertices come first
 
-  enum class Place : std::uint8_t { outside, range_cell, kept };
+  enum class Region : std::uint8_t { outside, range_cell, kept };
 
   /// What is known of one triangle of the triangulation, the gauge at its centre among it; valid while its vertices
   /// stay the same.
@@ -56,7 +56,7 @@ class QuadrantMesher {
     Triangle vertices{};
     std::uint32_t blocker = 0;
     double gauge = 0;
-    Place place = Place::outside;
+    Region region = Region::outside;
   };
 
   /// A new triangle, and the gauge at its centre.
@@ -148,21 +148,21 @@ class QuadrantMesher {
       const auto& v = cdt_.triangles[i].vertices;
       const Triangle t{v[0], v[1], v[2]};
       if (known_[i].vertices == t) continue;
-      known_[i] = {t, 0, 0, place_of(t)};
-      if (known_[i].place == Place::kept) fresh_.push_back({i, {}});
+      known_[i] = {t, 0, 0, region_of(t)};
+      if (known_[i].region == Region::kept) fresh_.push_back({i, {}});
     }
   }
 
-  Place place_of(const Triangle& t) const {
-    if (t[0] < kSuper || t[1] < kSuper || t[2] < kSuper) return Place::outside;
+  Region region_of(const Triangle& t) const {
+    if (t[0] < kSuper || t[1] < kSuper || t[2] < kSuper) return Region::outside;
     const OctahedralPoint centre = centre_of(t);
     // Rounding leaves slivers between the points of one side of the horizon.
     if (on_horizon(t[0]) && on_horizon(t[1]) && on_horizon(t[2]) && centre.cwiseAbs().sum() > 1 - 1e-9)
-      return Place::outside;
+      return Region::outside;
     if (may_bound_cell(t[0]) && may_bound_cell(t[1]) && may_bound_cell(t[2]) &&
         grid_.is_range(grid_.locate(centre.x()), grid_.locate(centre.y())))
-      return Place::range_cell;
-    return Place::kept;
+      return Region::range_cell;
+    return Region::kept;
   }
 
   // `gauge` is that at the triangle's centre.
@@ -197,7 +197,7 @@ class QuadrantMesher {
       OverClaimBound check(envelope_.blockers, envelope_.tree);
       for (std::size_t i = begin; i < end; ++i) {
         const Known& known = known_[i];
-        if (known.place != Place::kept || known.blocker == GaugeValue::kRange) continue;
+        if (known.region != Region::kept || known.blocker == GaugeValue::kRange) continue;
         const auto& [a, b, c] = known.vertices;
         const double claimed = (gauges_[a] + gauges_[b] + gauges_[c]) / 3;
         if (std::abs(known.gauge / claimed - 1) > kSafe)
@@ -234,16 +234,16 @@ class QuadrantMesher {
 
   void collect_triangles() {
     for (std::size_t i = 0; i < known_.size(); ++i) {
-      if (known_[i].place != Place::kept) continue;
+      if (known_[i].region != Region::kept) continue;
       const Triangle& t = known_[i].vertices;
       result_.triangles.push_back({renamed(t[0]), renamed(t[1]), renamed(t[2])});
       result_.blocker_of.push_back(known_[i].blocker);
       for (int e = 0; e < 3; ++e) {
         const std::uint32_t from = t[e], to = t[(e + 1) % 3];
-        const Place beyond = known_[cdt_.triangles[i].neighbors[e]].place;
-        if (beyond == Place::outside)
+        const Region beyond = known_[cdt_.triangles[i].neighbors[e]].region;
+        if (beyond == Region::outside)
           close(from, to);
-        else if (beyond == Place::range_cell)
+        else if (beyond == Region::range_cell)
           check_border(from, to);
       }
     }
