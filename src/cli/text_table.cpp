@@ -1,8 +1,9 @@
 #include "cli/text_table.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <array>
+#include <charconv>
+#include <limits>
 
 namespace vantage::cli {
 namespace {
@@ -18,7 +19,11 @@ std::size_t width(const std::string& text) {
 std::string count(std::size_t number) { return std::to_string(number); }
 
 std::string fixed(double value, int digits) {
-  const std::string shown = fmt::format("{:.{}f}", value, std::clamp(digits, 0, 20));
+  constexpr int kMostDigits = 20;
+  std::array<char, std::numeric_limits<double>::max_exponent10 + kMostDigits + 4> text;  // a sign, a point, the first
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed,
+                                 std::clamp(digits, 0, kMostDigits));
+  const std::string shown(text.data(), end.ptr);
   // "-0.00" is a rounding's sign, not the number's.
   return shown.find_first_of("123456789") == std::string::npos && shown.front() == '-' ? shown.substr(1) : shown;
 }
