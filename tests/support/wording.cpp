@@ -94,6 +94,15 @@ class Golden : public ::testing::Environment {
                               << "; where the new words are right, see tests/support/wording.h";
   }
 
+  /// Of a test that ran to its end: no entry may be left of a call that it does not make any more.
+  void expect_no_more_than_called(const std::string& test) const {
+    if (is_updating()) return;
+    const auto calls = calls_.find(test);
+    const Key next(test, (calls == calls_.end() ? 0 : calls->second) + 1);
+    EXPECT_FALSE(entries_.contains(next)) << "[" << test << " " << next.second << "] of " << golden_file().string()
+                                          << " is of a call that the test does not make; see tests/support/wording.h";
+  }
+
   const std::map<Key, std::string>& entries() const { return entries_; }
 
   /// Entries of tests that ran are replaced, those of tests that are no more are dropped.
@@ -116,8 +125,17 @@ class Golden : public ::testing::Environment {
   std::map<std::string, int> calls_;
 };
 
+class AfterEachTest : public ::testing::EmptyTestEventListener {
+  void OnTestEnd(const ::testing::TestInfo& test) override {
+    if (test.result()->Passed()) Golden::instance().expect_no_more_than_called(name_of_test(test));
+  }
+};
+
 // Made before the tests run: an environment that is added later is not torn down.
-[[maybe_unused]] const Golden& golden_at_start = Golden::instance();
+[[maybe_unused]] const Golden& golden_at_start = []() -> const Golden& {
+  ::testing::UnitTest::GetInstance()->listeners().Append(new AfterEachTest);
+  return Golden::instance();
+}();
 
 TEST(Wording, OfNoTestThatIsNoMore) {
   std::set<std::string> all;
