@@ -73,8 +73,10 @@ std::optional<std::size_t> PartView::surely_hiding(const Corners& facet, Which w
 
 double small_world(double range) { return std::min(1.0, range / 20); }
 
+double point_radius(double range) { return 5e-4 * small_world(range); }
+
 double strip_width(const Blockers& blockers, const SeenTarget& target, double range) {
-  const double radius = target.is_point() ? 5e-4 * small_world(range) : enclosing_radius(target);
+  const double radius = target.is_point() ? point_radius(range) : enclosing_radius(target);
   const double largest = (target.centre + blockers.origin).cwiseAbs().maxCoeff() +
                          (target.centre - blockers.middle).cwiseAbs().maxCoeff() + radius + range;
   return 1.01 * std::max(1e-9 * std::min(1.0, radius), 8 * 2.22e-16 * largest);

@@ -130,6 +130,15 @@ double lowest_over(const Trial& trial, const SeenTarget& target) {
   return lowest;
 }
 
+/// Whether something is so near to a point that it hides part of what stands for the point.
+bool is_beside_point(const Trial& trial) {
+  const SeenTarget& target = trial.parts[0].exact.target();
+  if (!target.is_point()) return false;
+  return std::ranges::any_of(trial.blockers.triangles, [&](const Blocker& blocker) {
+    return distance_to_triangle(target.centre, blocker.corners) <= point_radius(trial.c.range);
+  });
+}
+
 std::vector<View> grown_views(const Trial& trial) {
   std::vector<View> views;
   for (const PartView& part : trial.parts)
@@ -147,6 +156,7 @@ void judge_losses(Trial& trial) {
 void judge_outcome(Trial& trial) {
   const Outcome outcome = trial.answer.volume.outcome;
   if (outcome == Outcome::outside_limits) return;
+  if (outcome == Outcome::blocked_at_once && is_beside_point(trial)) return;
   const double least = outcome == Outcome::blocked_at_once ? 0.1 * small_world(trial.c.range) : 0;
   const Vec3 p = find_clear(trial, grown_views(trial), least, 400);
   if (p.allFinite()) trial.result.add({Class::bad_outcome, 0, trial.to_scene(p), trial.result.status});

@@ -61,6 +61,9 @@ double strip_width(const Blockers& blockers, const SeenTarget& target, double ra
 /// What becomes smaller with a range of less than 20 m does so by this.
 double small_world(double range);
 
+/// The engine looks at a triangle of this circumradius for a point, as docs/theory.md states; metres.
+double point_radius(double range);
+
 /// The volume's mesh about the oracle's origin; an empty one where an index is out of range.
 vantage::Mesh local_mesh(const Trial& trial, const vantage::Volume& volume);
 
