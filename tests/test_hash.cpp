@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/sha256.h"
+#include "support/random.h"
 #include "vantage/error.h"
 #include "vantage/hash.h"
 
@@ -35,6 +36,26 @@ TEST(Sha256, DoesNotDependOnHowTheBytesArrive) {
     hash.add(std::string_view{text}.substr(split));
     EXPECT_EQ(hash.hex(), sha256(text)) << split;
   }
+}
+
+TEST(Sha256, InstructionsForItAgreeWithPlainCode) {
+  testing::Random random(51);
+  std::string bytes(64 * 20, ' ');
+  for (char& byte : bytes) byte = static_cast<char>(random.integer(-128, 127));
+  core::Sha256State by_processor{1, 2, 3, 4, 5, 6, 7, 8}, plain = by_processor;
+  if (!core::sha256_blocks_by_processor(by_processor, bytes.data(), 20)) GTEST_SKIP() << "this processor has none";
+  for (std::size_t at = 0; at < bytes.size(); at += 64) core::sha256_block(plain, bytes.data() + at);
+  EXPECT_EQ(by_processor, plain);
+}
+
+TEST(Sha256, PlainCodeGivesThePublishedDigest) {
+  // "abc", the bit that ends it, and its length in bits: FIPS 180-4, 5.1.1.
+  std::string block = "abc\x80" + std::string(59, '\0') + '\x18';
+  core::Sha256State state{0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a,
+                          0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
+  core::sha256_block(state, block.data());
+  EXPECT_EQ(state, (core::Sha256State{0xba7816bf, 0x8f01cfea, 0x414140de, 0x5dae2223, 0xb00361a3, 0x96177a9c,
+                                      0xb410ff61, 0xf20015ad}));
 }
 
 Scene two_triangles() {

@@ -1,6 +1,8 @@
 // docs/hashes.md
 #include "vantage/hash.h"
 
+#include <span>
+
 #include "core/sha256.h"
 #include "vantage/error.h"
 
@@ -13,7 +15,7 @@ void add_corners(const Mesh& mesh, std::size_t triangle, internal::core::Sha256&
       throw Error(ErrorCode::index_out_of_range, "vertex index " + std::to_string(corner) + " is out of range",
                   "triangle " + std::to_string(triangle), "give indices of the mesh's own vertices");
     }
-    for (const double coordinate : mesh.vertices[corner]) hash.add(coordinate);
+    hash.add(std::span(mesh.vertices[corner].data(), 3));
   }
 }
 
