@@ -46,11 +46,11 @@ void CircleArcs::keep(const Vec3& normal, double height) {
   if (found == Cut::some) subtract_below(wave, parts_);
 }
 
-// What is hidden is the intersection of the arcs beyond the planes.
+// What is hidden is the intersection of the arcs beyond the planes, and of what is left: soon it is nothing.
 void CircleArcs::subtract_blocker(std::span<const Plane> planes, bool owns_ties) {
   const double size = circle_.centre.norm() + circle_.radius;
   if (is_clear_of(planes, size)) return;
-  hidden_.assign(0, kTurn);
+  hidden_ = parts_;
   for (const Plane& plane : planes) {
     const double margin = tie_margin(plane, size);
     const Wave wave = wave_of(plane, 1);
