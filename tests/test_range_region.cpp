@@ -19,10 +19,11 @@ std::vector<Vector2d> draw_polygon(Random& random) {
   const int count = random.chance(0.3) ? 64 : random.integer(3, 40), kind = random.integer(0, 2);
   const double wide = std::pow(10, random.uniform(-2, 0.5)), narrow = random.chance(0.3) ? wide : 0.1 * wide;
   std::vector<double> angles;
-  for (int k = 0; k < count; ++k)
+  for (int k = 0; k < count; ++k) {
     angles.push_back(kind == 0                         ? 2 * M_PI * k / count
                      : kind == 1 || random.chance(0.5) ? random.uniform(0, 2 * M_PI)
                                                        : random.uniform(1, 1.001));
+  }
   std::sort(angles.begin(), angles.end());
   const Vector2d middle(random.uniform(-0.3, 0.3) * wide, random.uniform(-0.3, 0.3) * narrow);
   std::vector<Vector2d> polygon;
@@ -95,7 +96,7 @@ TEST(RangeRegion, HasFewNeighboursEach) {
   EXPECT_LE(all, 2U * (2 * 64 - 3));
 }
 
-TEST(RangeRegion, NoPointOfATriangleLiesDeeperThanTheBound) {
+TEST(RangeRegion, KnowsOfAnyPointOfATriangleThatLiesDeep) {
   Random random(33);
   for (int k = 0; k < 3000; ++k) {
     const std::vector<Vector2d> polygon = draw_polygon(random);
@@ -109,13 +110,30 @@ TEST(RangeRegion, NoPointOfATriangleLiesDeeperThanTheBound) {
       direction.z() = std::abs(direction.z());
       corner = direction / region.gauge(direction);
     }
-    const double bound = region.greatest_depth(corners);
+    double deepest = 0;
     for (int sample = 0; sample < 50; ++sample) {
       Vec3 weights(random.uniform(0, 1), random.uniform(0, 1), random.uniform(0, 1));
       weights /= weights.sum();
       const Vec3 point = weights.x() * corners[0] + weights.y() * corners[1] + weights.z() * corners[2];
-      EXPECT_LE(radius - farthest_from(polygon, point), bound + 1e-12 * radius);
+      deepest = std::max(deepest, radius - farthest_from(polygon, point));
     }
+    EXPECT_TRUE(region.is_deeper_than(deepest - 1e-12 * radius, corners));
+  }
+}
+
+// Else all creases between balls would be in the mesh.
+TEST(RangeRegion, SmallTrianglesAreNotDeep) {
+  Random random(34);
+  for (int k = 0; k < 1000; ++k) {
+    const RangeRegion region(draw_polygon(random), 100);
+    const Vec3 middle = draw_direction(random).normalized();
+    std::array<Vec3, 3> corners;
+    for (Vec3& corner : corners) {
+      Vec3 direction = middle + 1e-4 * random.direction();
+      direction.z() = std::abs(direction.z());
+      corner = direction / region.gauge(direction);
+    }
+    EXPECT_FALSE(region.is_deeper_than(0.01, corners));
   }
 }
 

@@ -120,8 +120,8 @@ bool OctahedralGrid::is_coarse_cell(const target::RangeRegion& region, int i, in
     return Vec3(direction / region.gauge(direction, ball));
   };
   const Vec3 p = lift(c.a1, c.b0), q = lift(c.a0, c.b1);
-  return region.greatest_depth({lift(c.a0, c.b0), p, q}) > tolerance_ ||
-         (!at_horizon(i, j) && region.greatest_depth({p, lift(c.a1, c.b1), q}) > tolerance_);
+  return region.is_deeper_than(tolerance_, {lift(c.a0, c.b0), p, q}) ||
+         (!at_horizon(i, j) && region.is_deeper_than(tolerance_, {p, lift(c.a1, c.b1), q}));
 }
 
 void OctahedralGrid::mark_square(const OctahedralPoint& middle, double reach) {

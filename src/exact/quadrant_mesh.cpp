@@ -225,7 +225,7 @@ class QuadrantMesher {
   bool too_deep(const Triangle& t) const {
     std::array<Vec3, 3> v;
     for (int i = 0; i < 3; ++i) v[i] = to_direction(point(t[i])) / exact_gauges_[t[i]];
-    return envelope_.range.greatest_depth(v) > envelope_.tolerance_m;
+    return envelope_.range.is_deeper_than(envelope_.tolerance_m, v);
   }
 
   std::uint32_t renamed(std::uint32_t v) const {

@@ -136,19 +136,19 @@ core::Plane RangeRegion::supporting_plane(const Vec3& direction) const {
   return normal / normal.dot(point);
 }
 
-// Nothing is deeper than under the ball whose sphere is nearest, and any ball bounds the depth: those of the corners
-// and of the middle are good enough.
-double RangeRegion::greatest_depth(const std::array<Vec3, 3>& corners) const {
-  double farthest = 0;
-  std::size_t last = opposite_[sector_of(corners[0])];
-  for (const Vec3& point : {corners[0], corners[1], corners[2], Vec3((corners[0] + corners[1] + corners[2]) / 3)}) {
-    const std::size_t ball = first_met(point, 1, last);
-    if (ball == last && farthest > 0) continue;
-    last = ball;
-    const Vec3 centre(centres_[ball].x(), centres_[ball].y(), 0);
-    farthest = std::max(farthest, core::squared_distance_to_triangle(centre, corners[0], corners[1], corners[2]));
+// Nothing is deeper than under the ball whose sphere is nearest, and any ball bounds the depth: those of the middle and
+// of the corners are good enough, and mostly the first of them tells.
+bool RangeRegion::is_deeper_than(double depth, const std::array<Vec3, 3>& corners) const {
+  std::size_t last = centres_.size(), start = opposite_[sector_of(corners[0])];
+  for (const Vec3& point : {Vec3((corners[0] + corners[1] + corners[2]) / 3), corners[0], corners[1], corners[2]}) {
+    start = first_met(point, 1, start);
+    if (start == last) continue;
+    last = start;
+    const Vec3 centre(centres_[last].x(), centres_[last].y(), 0);
+    const double nearest = std::sqrt(core::squared_distance_to_triangle(centre, corners[0], corners[1], corners[2]));
+    if (radius_ - nearest <= depth) return false;
   }
-  return radius_ - std::sqrt(farthest);
+  return true;
 }
 
 bool RangeRegion::contains(const Vec3& point) const {

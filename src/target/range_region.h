@@ -58,8 +58,8 @@ class RangeRegion {
   /// A plane that touches the region where `direction` leaves it: g . d <= gauge(d) for every d, with equality there.
   core::Plane supporting_plane(const Vec3& direction) const;
 
-  /// A bound on how far the points of a triangle lie inside the region's boundary.
-  double greatest_depth(const std::array<Vec3, 3>& corners) const;
+  /// Whether a point of a triangle may lie farther inside the region's boundary than `depth`.
+  bool is_deeper_than(double depth, const std::array<Vec3, 3>& corners) const;
 
   /// Whether a point is within max_range of all vertices.
   bool contains(const Vec3& point) const;
