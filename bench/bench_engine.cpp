@@ -32,9 +32,10 @@ std::string describe(const StreetTarget& target) {
   char text[96];
   const Vec3& c = target.centre;
   const int length = std::snprintf(text, sizeof text, "centre (%.1f %.1f %.1f)", c.x(), c.y(), c.z());
-  if (target.enclosed > 0)  // not known of the baseline's
+  if (target.enclosed > 0) {  // not known of the baseline's
     std::snprintf(text + length, sizeof text - static_cast<std::size_t>(length), ", enclosed %.0f %%",
                   100 * target.enclosed);
+  }
   return text;
 }
 
@@ -124,10 +125,11 @@ void add(const std::string& name, const std::function<void(State&)>& body, int i
   auto* entry = benchmark::RegisterBenchmark(name.c_str(), body);
   entry->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
   entry->Repetitions(kRepetitions)->ReportAggregatesOnly(true)->ComputeStatistics("min", least);
-  if (iterations)
+  if (iterations) {
     entry->Iterations(iterations)->Repetitions(3);
-  else
+  } else {
     entry->MinTime(0.1);
+  }
 }
 
 std::string case_name(const char* method, const City& city, std::size_t target, int range, int threads) {
@@ -136,32 +138,40 @@ std::string case_name(const char* method, const City& city, std::size_t target, 
 }
 
 void add_engine(const City& city, const std::vector<int>& ranges) {
-  for (int target = 0; target < city.targets; ++target)
-    for (const int range : ranges)
-      for (const int threads : {1, 0})
+  for (int target = 0; target < city.targets; ++target) {
+    for (const int range : ranges) {
+      for (const int threads : {1, 0}) {
         add(case_name("engine", city, target, range, threads),
             [&city, target, range, threads](State& state) { engine(state, city, target, range, threads); });
+      }
+    }
+  }
 }
 
 const bool registered = [] {
-  for (const City* city : {&kMunich, &kMunichRepeated})
+  for (const City* city : {&kMunich, &kMunichRepeated}) {
     add(
         std::string("prepare/") + city->name, [city](State& state) { prepare(state, *city); }, 1);
+  }
   add_engine(kCharlotte, {100, 300, 600});
   add_engine(kMunich, {300, 600});
   add_engine(kFlorence, {300, 600});
   add_engine(kMunichRepeated, {300});
   add_engine(kOpenfoam, {200});
-  for (const bool fan : {true, false})
-    for (const int count : {1000, 3482})
+  for (const bool fan : {true, false}) {
+    for (const int count : {1000, 3482}) {
       add(
           std::string("sheets/") + (fan ? "fan/" : "star/") + std::to_string(count),
           [count, fan](State& state) { many_sheets(state, count, fan); }, 1);
-  for (int target = 0; target < kCharlotte.targets; ++target)
-    for (const int threads : {1, 0})
+    }
+  }
+  for (int target = 0; target < kCharlotte.targets; ++target) {
+    for (const int threads : {1, 0}) {
       add(
           case_name("plain", kCharlotte, target, 100, threads),
           [target, threads](State& state) { plain(state, kCharlotte, target, 100, threads); }, 1);
+    }
+  }
   return true;
 }();
 

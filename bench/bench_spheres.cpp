@@ -39,9 +39,9 @@ void add(const std::string& name, const std::function<void(State&)>& body) {
 }
 
 const bool registered = [] {
-  for (std::size_t target = 0; target < 3; ++target)
-    for (const int range : {100, 300})
-      for (const int size : {40, 200})
+  for (std::size_t target = 0; target < 3; ++target) {
+    for (const int range : {100, 300}) {
+      for (const int size : {40, 200}) {
         for (const auto& [word, sphere] : {std::pair{"conservative", SpheresOptions::Sphere::conservative},
                                            std::pair{"centers", SpheresOptions::Sphere::centers}}) {
           SpheresOptions options;
@@ -52,6 +52,9 @@ const bool registered = [] {
                   std::to_string(size) + "/" + word,
               [target, range, options](State& state) { spheres(state, kCharlotte, target, range, options); });
         }
+      }
+    }
+  }
   return true;
 }();
 

@@ -12,6 +12,7 @@
 #include <string>
 
 #include "exact/blocker.h"
+#include "support/internals.h"
 #include "support/random.h"
 
 namespace vantage {
@@ -95,18 +96,20 @@ bool pierces(const Corners& target, const Corners& polygon) {
   if (!above || feet.empty()) return false;
   std::vector<std::array<std::int64_t, 2>> axes;
   for (const Corner& edge : edges_of(target)) axes.push_back({edge[1], -edge[0]});
-  for (const Corner& f : feet)
+  for (const Corner& f : feet) {
     for (const Corner& g : feet)
       axes.push_back({f[1] * g[2] - g[1] * f[2], g[0] * f[2] - f[0] * g[2]});  // across the footprint
+  }
   for (const auto& axis : axes) {
     if (axis[0] == 0 && axis[1] == 0) continue;
     bool left = true, right = true;  // of the target's extent
-    for (const Corner& t : target)
+    for (const Corner& t : target) {
       for (const Corner& f : feet) {
         const std::int64_t on_target = axis[0] * t[0] + axis[1] * t[1], foot = axis[0] * f[0] + axis[1] * f[1];
         left = left && foot <= on_target * f[2];
         right = right && foot >= on_target * f[2];
       }
+    }
     if (left || right) return false;
   }
   return true;

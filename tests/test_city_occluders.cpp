@@ -193,9 +193,10 @@ TEST(CityOccluders, RandomTagsAndLines) {
     osm::Tags tags{kinds[static_cast<std::size_t>(random.integer(0, static_cast<int>(kinds.size()) - 1))]};
     for (const char* key :
          {"height", "width", "min_height", "diameter", "layer", "lanes", "diameter_crown", "roof:height"}) {
-      if (random.chance(0.4))
+      if (random.chance(0.4)) {
         tags.all.emplace_back(key,
                               values[static_cast<std::size_t>(random.integer(0, static_cast<int>(values.size()) - 1))]);
+      }
     }
     std::vector<Vec2> points;
     for (int i = random.integer(2, 9); i > 0; --i) points.emplace_back(random.uniform(0, 40), random.uniform(0, 40));

@@ -3,6 +3,7 @@
 #include <csignal>
 
 #include "support/cli_fixture.h"
+#include "vantage/version.h"
 
 namespace vantage::testing {
 namespace {
@@ -379,9 +380,10 @@ std::string large_city() {
   std::ostringstream text;
   for (int block = 0; block < 5000; ++block) {
     const int x = 20 + block % 70 * 10, y = 20 + block / 70 * 10;
-    for (int z : {0, 9})
+    for (int z : {0, 9}) {
       text << "v " << x << ' ' << y << ' ' << z << "\nv " << x + 5 << ' ' << y << ' ' << z << "\nv " << x + 5 << ' '
            << y + 5 << ' ' << z << "\nv " << x << ' ' << y + 5 << ' ' << z << '\n';
+    }
     text << "f -4 -3 -2 -1\nf -8 -7 -3 -4\nf -7 -6 -2 -3\nf -6 -5 -1 -2\nf -5 -8 -4 -1\n";
   }
   return text.str();

@@ -397,9 +397,10 @@ TEST(NearestDepth, MergedPolygonsAreBoundedToo) {
     const Vec3 normal = random.direction(), u = normal.unitOrthogonal(), v = normal.cross(u),
                centre = random.point(-5, 5);
     std::vector<Vec3> corners;
-    for (int i = 0; i < 16; ++i)
+    for (int i = 0; i < 16; ++i) {
       corners.emplace_back(centre + 9 * std::cos(i * std::numbers::pi / 8) * u +
                            9 * std::sin(i * std::numbers::pi / 8) * v);
+    }
     const Scene scene = shifted(SceneBuilder().polygon("disc", corners), shift);
     const DepthMap map = render_scene(scene, shift, 20, Sampling::nearest);
     for (const auto& triangle : seen_from(scene.mesh, shift)) {

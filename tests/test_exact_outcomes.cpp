@@ -257,7 +257,7 @@ TEST(ExactOutcomes, NoOffsetBringsABuriedFacadeOut) {
 TEST(ExactOutcomes, ACanopyAloneIsComputed) {
   const Scene canopy = SceneBuilder().box("canopy", {-6, -6, 5}, {6, 6, 5.2});
   const Scene sail = SceneBuilder().polygon("sail", {{-9, -8, 6}, {9, -7, 7}, {1, 9, 8}});
-  for (const Scene* scene : {&canopy, &sail})
+  for (const Scene* scene : {&canopy, &sail}) {
     for (const Target& target : {square(3), facade(3, {0, 0, 0})}) {
       const Volume volume = compute(*scene, target);
       ASSERT_EQ(volume.outcome, Outcome::computed) << volume.reason;
@@ -265,6 +265,7 @@ TEST(ExactOutcomes, ACanopyAloneIsComputed) {
       EXPECT_EQ(report.over_claimed, 0U) << report.worst_over_depth_m;
       EXPECT_EQ(report.under_claimed, 0U) << report.worst_under_depth_m;
     }
+  }
 }
 
 TEST(ExactOutcomes, UnderARoofIsNotUnderTheGround) {

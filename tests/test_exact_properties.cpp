@@ -226,12 +226,13 @@ TEST(ExactProperties, EverySegmentToTheTargetStaysInside) {
     for (int k = 0; k < 60; ++k) {
       const Vec3 p = probe.draw(random);
       if (probe.depth(p) < 1e-6 * (p - goals[0]).norm()) continue;
-      for (const Vec3& goal : goals)
+      for (const Vec3& goal : goals) {
         for (int i = 1; i < 12; ++i) {
           const Vec3 q = p + i / 12.0 * (goal - p);
           if (farthest_vertex(volume.frame, q) > kRange - kTolerance) continue;
           ASSERT_GT(probe.depth(q), -1e-6 * (q - goals[0]).norm()) << p.transpose() << " to " << goal.transpose();
         }
+      }
     }
   }
 }
@@ -259,12 +260,14 @@ TEST(ExactProperties, RangeFacetsKeepTheTolerance) {
       for (std::size_t i = 0; i < volume.mesh.triangles.size(); ++i) {
         if (volume.causes[volume.cause_of[i]].kind != CauseKind::range) continue;
         const Triangle& t = volume.mesh.triangles[i];
-        for (int a = 0; a <= 6; ++a)
-          for (int b = 0; a + b <= 6; ++b)
+        for (int a = 0; a <= 6; ++a) {
+          for (int b = 0; a + b <= 6; ++b) {
             worst = std::max(worst, below_sphere(volume, range,
                                                  (a * volume.mesh.vertices[t[0]] + b * volume.mesh.vertices[t[1]] +
                                                   (6 - a - b) * volume.mesh.vertices[t[2]]) /
                                                      6));
+          }
+        }
       }
       EXPECT_GT(worst, 0.05 * tolerance);
       EXPECT_LT(worst, tolerance + 1e-8 * range);  // the finished mesh is shrunk by 1e-9

@@ -75,12 +75,13 @@ TEST(ExactSmall, AnEmptySceneGivesTheRangeRegion) {
   // Carlo's slow brother, a grid.
   double expected = 0;
   const int n = 400;
-  for (int i = 0; i < n; ++i)
+  for (int i = 0; i < n; ++i) {
     for (int j = 0; j < n; ++j) {  // the tower over each cell reaches up to the nearest of the four spheres
       const double x = (i + 0.5) / n * 50, y = (j + 0.5) / n * 50;
       const double rest = 2500 - (x + 5) * (x + 5) - (y + 5) * (y + 5);
       if (rest > 0) expected += 4 * std::sqrt(rest) * 2500 / (n * n);
     }
+  }
   EXPECT_NEAR(enclosed_volume(volume.mesh), expected, 2e-4 * expected);
   ASSERT_EQ(volume.causes.size(), 2u);
 }
@@ -230,7 +231,7 @@ TEST(ExactSmall, SurfacesThatAllButContinueTheTarget) {
 /// Quadrilaterals that are flat only to the noise on their corners, as map coordinates and rounded files have it.
 TEST(ExactSmall, HousesThatAreNotQuitePlanar) {
   Random random(53);
-  for (const double noise : {0.0, 1e-11, 1e-10, 3e-10, 1e-9, 3e-9, 1e-8, 1e-7, 1e-6, 1e-4})
+  for (const double noise : {0.0, 1e-11, 1e-10, 3e-10, 1e-9, 3e-9, 1e-8, 1e-7, 1e-6, 1e-4}) {
     for (int draw = 0; draw < 6; ++draw) {
       SCOPED_TRACE(noise);
       const double angle = random.uniform(0, 6), w = random.uniform(2, 5), l = random.uniform(3, 9),
@@ -257,6 +258,7 @@ TEST(ExactSmall, HousesThatAreNotQuitePlanar) {
       }
       expect_union(SceneBuilder().ground("ground", 60).add("house", house), square(1.5), 30, 30);
     }
+  }
 }
 
 /// Ground, or the foot of a wall, within nanometres to micrometres of the target's plane: creases run along the
@@ -352,17 +354,18 @@ Scene plaza() {
 }
 
 TEST(ExactSmall, TargetsFromMetresToMicrometres) {
-  for (const double size : {1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6})
+  for (const double size : {1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6}) {
     for (const Vec3& corner : {Vec3(-4, -4, 0), Vec3(4, -4, 0), Vec3(4, 4, 0), Vec3(-4, 4, 0)}) {
       SCOPED_TRACE(size);
       Target target = square(4);
       for (Vec3& v : target.parts[0]) v = corner + size * (v - corner);
       expect_union(plaza(), target, 12, 12);
     }
+  }
 }
 
 TEST(ExactSmall, ThinTargets) {
-  for (const double width : {1e-1, 1e-2, 1e-3, 1e-4, 1e-5})
+  for (const double width : {1e-1, 1e-2, 1e-3, 1e-4, 1e-5}) {
     for (const double angle : {0.0, 0.3, 1.1, std::numbers::pi / 2, 2.8}) {
       SCOPED_TRACE(width);
       Target target = square(4);
@@ -372,6 +375,7 @@ TEST(ExactSmall, ThinTargets) {
       }
       expect_union(plaza(), target, 12, 12);
     }
+  }
 }
 
 TEST(ExactSmall, SmallTargetsInRandomCities) {

@@ -59,9 +59,10 @@ double centre_of(int index, int face_size) { return (2 * index + 1.0) / face_siz
 std::vector<Texel> some_texels(Random& random, int face_size, int most) {
   std::vector<Texel> texels;
   if (6 * face_size * face_size <= most) {
-    for (int face = 0; face < 6; ++face)
+    for (int face = 0; face < 6; ++face) {
       for (int row = 0; row < face_size; ++row)
         for (int column = 0; column < face_size; ++column) texels.push_back({face, row, column});
+    }
     return texels;
   }
   for (int i = 0; i < most; ++i) {
@@ -268,10 +269,11 @@ TEST_F(GlDepth, RadialErrorFarAwayAndAtMapCoordinates) {
     if (exact == 0 && reported == 0) continue;
     ++seen;
     const double error = std::abs(1 / reported - 1 / exact) * std::sqrt(1 + u * u + v * v);
-    if (error < 0.5)
+    if (error < 0.5) {
       worst = std::max(worst, error);  // beyond: one wall for another, at a silhouette
-    else
+    } else {
       ++silhouettes;
+    }
   }
   std::cout << "worst radial error at 600 m: " << worst << " m over " << seen << " texels, " << silhouettes
             << " at silhouettes\n";

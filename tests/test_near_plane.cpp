@@ -139,12 +139,12 @@ Volume compute(const PreparedScene& scene, const Case& made) {
 /// Bases from nothing to a tenth of a millimetre over the plane, in parts of a world of metres: nothing is lost that
 /// the wall leaves when it stands on the plane, and query and mesh agree.
 TEST(NearPlane, WallsAHairOverTheTarget) {
-  for (const double scale : {1e-3, 1e-1, 1.0, 1e2, 1e4})
+  for (const double scale : {1e-3, 1e-1, 1.0, 1e2, 1e4}) {
     for (const Vec3& shift : {kOrigin, kMap}) {
       const bool on_map = shift != kOrigin;
       if (on_map && scale < 1) continue;  // coordinates are a nanometre apart there
-      for (const Pose& pose : poses(shift, on_map ? ", on a map" : ""))
-        for (const auto& outline : outlines())
+      for (const Pose& pose : poses(shift, on_map ? ", on a map" : "")) {
+        for (const auto& outline : outlines()) {
           for (std::size_t edge = 0; edge < outline.size(); edge += 2) {
             const double overhang = edge % 4 == 0 ? 7 : 0;
             double whole = 0;
@@ -163,7 +163,10 @@ TEST(NearPlane, WallsAHairOverTheTarget) {
               EXPECT_LT(a.under, 1e-6);
             }
           }
+        }
+      }
     }
+  }
 }
 
 /// Nothing if the target is refused as pierced, 0 if the view is blocked at once.
@@ -184,8 +187,8 @@ TEST(NearPlane, WallsWithinTheSlackStandOnTheEdge) {
     Vec3 shift;
     double scale, slack;
   };
-  for (const World& world : {World{kOrigin, 1e-3, 4e-12}, World{kOrigin, 1, 1e-9}, World{kMap, 1, 8.9e-9}})
-    for (const Pose& pose : poses(world.shift, world.shift == kOrigin ? "" : ", on a map"))
+  for (const World& world : {World{kOrigin, 1e-3, 4e-12}, World{kOrigin, 1, 1e-9}, World{kMap, 1, 8.9e-9}}) {
+    for (const Pose& pose : poses(world.shift, world.shift == kOrigin ? "" : ", on a map")) {
       for (const auto& outline : outlines()) {
         SCOPED_TRACE(pose.name + ", " + std::to_string(outline.size()) + " corners, scale " +
                      std::to_string(world.scale));
@@ -205,6 +208,8 @@ TEST(NearPlane, WallsWithinTheSlackStandOnTheEdge) {
         ASSERT_TRUE(inside);
         EXPECT_LT(*inside, 0.8 * *whole);
       }
+    }
+  }
 }
 
 /// A few walls on, beside and just inside the target's edges, ground, and a block; some of it a hair over the plane.

@@ -53,13 +53,14 @@ class RiseOverFacets : public ::testing::Test {
   double looked_up(const std::array<OctahedralPoint, 3>& points, const std::array<double, 3>& gauges) const {
     constexpr int kSteps = 60;
     double greatest = 0;
-    for (int i = 0; i <= kSteps; ++i)
+    for (int i = 0; i <= kSteps; ++i) {
       for (int j = 0; i + j <= kSteps; ++j) {
         const double a = static_cast<double>(i) / kSteps, b = static_cast<double>(j) / kSteps, c = 1 - a - b;
         const GaugeValue gauge = gauge_at(a * points[0] + b * points[1] + c * points[2]);
         if (gauge.blocker == GaugeValue::kRange) continue;
         greatest = std::max(greatest, gauge.value / (a * gauges[0] + b * gauges[1] + c * gauges[2]) - 1);
       }
+    }
     return greatest;
   }
 

@@ -12,6 +12,7 @@
 
 #include "core/parallel.h"
 #include "scene/prepared_data.h"
+#include "support/internals.h"
 #include "support/objects.h"
 #include "support/progress_check.h"
 #include "support/random.h"
@@ -128,7 +129,7 @@ Mesh random_wall(Random& random, const Vec3& corner, const Vec3& across, const V
   Mesh mesh;
   for (int j = 0; j <= m; ++j)
     for (int i = 0; i <= n; ++i) mesh.vertices.push_back(corner + i * across + j * up);
-  for (int j = 0; j < m; ++j)
+  for (int j = 0; j < m; ++j) {
     for (int i = 0; i < n; ++i) {
       const auto a = static_cast<std::uint32_t>(j * (n + 1) + i), b = a + 1, c = a + static_cast<std::uint32_t>(n) + 1,
                  d = c + 1;
@@ -139,9 +140,11 @@ Mesh random_wall(Random& random, const Vec3& corner, const Vec3& across, const V
         mesh.triangles.push_back(t);
       }
     }
-  for (std::size_t i = mesh.triangles.size(); i > 1; --i)
+  }
+  for (std::size_t i = mesh.triangles.size(); i > 1; --i) {
     std::swap(mesh.triangles[i - 1],
               mesh.triangles[static_cast<std::size_t>(random.integer(0, static_cast<int>(i) - 1))]);
+  }
   return mesh;
 }
 

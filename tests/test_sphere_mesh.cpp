@@ -105,9 +105,10 @@ TEST(SphereMesh, IsClosedOfGenusZeroAndStarShapedWhateverTheDepths) {
       const std::vector<float> inverse = random_depths(random, n);
       const StarMesh star = make(form, {n, inverse});
       expect_sphere(placed(star, {}).mesh, form.name);
-      for (const Triangle& t : star.triangles)
+      for (const Triangle& t : star.triangles) {
         ASSERT_GT(star.rays[t[0]].normalized().dot(star.rays[t[1]].normalized().cross(star.rays[t[2]].normalized())), 0)
             << form.name << ", " << n;
+      }
     }
   }
 }

@@ -10,6 +10,7 @@
 
 #include "support/claimed_points.h"
 #include "support/clip_oracle.h"
+#include "support/internals.h"
 #include "support/outlines.h"
 #include "support/random.h"
 #include "support/scenes.h"
@@ -179,9 +180,10 @@ TEST(TargetCorners, WhatIsClaimedSeesEveryVertex) {
 /// The answers for points of a grid, which share the target's frame with the engine, against the definition.
 std::size_t wrong_answers(const Scene& scene, const Target& target, double range) {
   std::vector<Vec3> points;
-  for (int x = -9; x <= 9; ++x)
+  for (int x = -9; x <= 9; ++x) {
     for (int y = -9; y <= 9; ++y)
       for (int z = 1; z <= 6; ++z) points.emplace_back(10.3 * x, 10.7 * y, 9.1 * z);
+  }
   const auto answers = query_points(PreparedTarget(PreparedScene(scene), target, {range}), {}, points);
   const ClipOracle oracle(scene.mesh, target.parts[0]);
   std::size_t wrong = 0;

@@ -40,9 +40,10 @@ const City& city_named(const std::string& name) {
                                                              {"florence", &kFlorence},
                                                              {"etoile", &kEtoile}};
   const auto found = kCities.find(name);
-  if (found == kCities.end())
+  if (found == kCities.end()) {
     throw Error(ErrorCode::unknown_choice, "no city is called " + name, "--cities",
                 "see the first lines of bench/gap/gap.cpp");
+  }
   return *found->second;
 }
 
@@ -70,7 +71,7 @@ void run_target(const Request& request, const std::string& city, std::size_t num
                 const PreparedScene& scene, const Target& target) {
   const PreparedTarget prepared(scene, target, {range});
   const Volume exact = compute_visibility(prepared, {1e-3, 0});
-  for (const std::string& sphere : request.spheres)
+  for (const std::string& sphere : request.spheres) {
     for (const int size : request.sizes) {
       RunFigures figures;
       for (const int splits : request.splits) {
@@ -86,6 +87,7 @@ void run_target(const Request& request, const std::string& city, std::size_t num
         std::fflush(stdout);
       }
     }
+  }
 }
 
 void run(const Request& request) {

@@ -51,11 +51,11 @@ void depth(State& state, const City& city, int face_size, depth::Sampling sampli
 }
 
 const bool registered = [] {
-  for (const City* city : {&kCharlotte, &kMunichRepeated})
-    for (const int size : {40, 200, 512, 2048})
+  for (const City* city : {&kCharlotte, &kMunichRepeated}) {
+    for (const int size : {40, 200, 512, 2048}) {
       for (const auto& [word, sampling] :
-           {std::pair{"centers", depth::Sampling::centers}, std::pair{"nearest", depth::Sampling::nearest}})
-        for (const auto& device : kDevices)
+           {std::pair{"centers", depth::Sampling::centers}, std::pair{"nearest", depth::Sampling::nearest}}) {
+        for (const auto& device : kDevices) {
           benchmark::RegisterBenchmark(
               (std::string("depth/") + city->name + "/" + std::to_string(size) + "/" + word + "/" + device.first)
                   .c_str(),
@@ -68,6 +68,10 @@ const bool registered = [] {
               ->Repetitions(5)
               ->ReportAggregatesOnly(true)
               ->MinTime(0.05);
+        }
+      }
+    }
+  }
   return true;
 }();
 

@@ -23,7 +23,7 @@ Scene repeat(const Scene& scene, int tiles) {
   const Box bounds = bounding_box(scene.mesh);
   const Vec3 size = bounds.max - bounds.min;
   const int middle = tiles / 2;
-  for (int i = 0; i < tiles; ++i)
+  for (int i = 0; i < tiles; ++i) {
     for (int j = 0; j < tiles; ++j) {
       const Vec3 shift((i - middle) * size.x(), (j - middle) * size.y(), 0);
       const auto first = static_cast<std::uint32_t>(repeated.mesh.vertices.size());
@@ -32,6 +32,7 @@ Scene repeat(const Scene& scene, int tiles) {
         repeated.mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
       repeated.object_of.insert(repeated.object_of.end(), scene.object_of.begin(), scene.object_of.end());
     }
+  }
   return repeated;
 }
 

@@ -55,11 +55,12 @@ double enclosed_share(const std::vector<Wall>& walls, const Vec2& centre, double
   for (int k = 0; k < kDirections; ++k) {
     const double angle = 2 * std::numbers::pi * k / kDirections;
     const Vec2 reach = within * Vec2(std::cos(angle), std::sin(angle));
-    for (const Wall& wall : near)
+    for (const Wall& wall : near) {
       if (meets(centre, reach, wall)) {
         ++stopped;
         break;
       }
+    }
   }
   return static_cast<double>(stopped) / kDirections;
 }

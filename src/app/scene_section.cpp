@@ -86,9 +86,10 @@ class SceneParser {
     const YamlNode* const box = take("bbox", {Kind::map, Kind::raster}, what);
     if (center) region.center_deg = parse_lat_lon(*center, reader_, "scene.center");
     if (radius) region.radius_m = reader_.positive(*radius, "scene.radius");
-    if (center && !radius)
+    if (center && !radius) {
       reader_.fail(ErrorCode::missing_key, *center, "scene has a 'center' without a 'radius'",
                    "add 'radius: 600' (metres)");
+    }
     if (radius && !center)
       reader_.fail(ErrorCode::missing_key, *radius, "scene has a 'radius' without a 'center'", kLatLonForm);
     if (box) {

@@ -80,9 +80,10 @@ fs::path without_slash(const fs::path& folder) { return folder.has_filename() ? 
 StageFolder::StageFolder(fs::path folder) : asked_(std::move(folder)), folder_(without_slash(asked_)) {
   std::error_code error;
   const fs::file_status status = fs::status(folder_, error);
-  if (folder_.empty() || (fs::exists(status) && !fs::is_directory(status)))
+  if (folder_.empty() || (fs::exists(status) && !fs::is_directory(status))) {
     throw Error(ErrorCode::output_folder_missing, "the place of the stages is not a folder", asked_.string(),
                 "name a folder for --stages; it is made if it does not exist");
+  }
   if (fs::exists(status)) check_replaceable();
   if (fs::is_symlink(folder_, error)) folder_ = fs::canonical(folder_, error);
   const fs::path parent = folder_.has_parent_path() ? folder_.parent_path() : fs::path(".");

@@ -41,9 +41,10 @@ double ValueReader::length(const YamlNode& node, const std::string& what) const 
 
 double ValueReader::positive(const YamlNode& node, const std::string& what) const {
   const double value = length(node, what);
-  if (value <= 0)
+  if (value <= 0) {
     fail(ErrorCode::value_out_of_range, node, what + " must be greater than 0, not " + shortest(value),
          "write a positive number");
+  }
   return value;
 }
 

@@ -176,9 +176,10 @@ void WillisConfigParser::parse_mesh(const YamlNode& node) {
 Vec3 WillisConfigParser::scale_of(const YamlNode& node) const {
   if (node.kind != YamlNode::Kind::sequence) return Vec3::Constant(positive(node, "mesh.scale"));
   Vec3 scale = vector(node, "mesh.scale", "write one number, or three in brackets: [x, y, z]");
-  if (scale.minCoeff() <= 0)
+  if (scale.minCoeff() <= 0) {
     fail(ErrorCode::value_out_of_range, node, "mesh.scale must be greater than 0 in each axis",
          "write positive numbers");
+  }
   return scale;
 }
 

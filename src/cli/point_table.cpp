@@ -121,9 +121,10 @@ void PointTable::take_header(const std::vector<Field>& fields, const Row& row) {
   for (const auto& column : column_) {
     if (column && !is_lonlat_) names_[*column] = lower_case(names_[*column]);
   }
-  if (options_.z && z)
+  if (options_.z && z) {
     fail(ErrorCode::conflicting_keys, "the points have a column z, and --z gives another", row,
          "leave one of them out");
+  }
   const std::array<const char*, 3> axes = {is_lonlat_ ? "lon" : "x", is_lonlat_ ? "lat" : "y", "z"};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (column_[axis] || (axis == 2 && options_.z)) continue;

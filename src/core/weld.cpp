@@ -111,9 +111,10 @@ std::vector<std::uint32_t> first_at_position(const std::vector<Vec3>& points) {
   };
   std::vector<std::uint64_t> hashes(points.size());
   parallel::for_ranges(points.size(), 4096, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
+    for (std::size_t i = begin; i < end; ++i) {
       for (int a = 0; a < 3; ++a)
         hashes[i] = mix(hashes[i] + 0x9e3779b97f4a7c15ull + std::bit_cast<std::uint64_t>(points[i][a] + 0.0));
+    }
   });
   std::array<std::size_t, kParts + 1> first{};
   for (const std::uint64_t hash : hashes) ++first[(hash >> (64 - kBits)) + 1];

@@ -56,9 +56,10 @@ std::uint32_t ConstraintGraph::add_crease_point(const Vec3& point, const Octahed
 void ConstraintGraph::add_crease(const Vec3& from, const Vec3& to, bool on_sphere) {
   std::array<double, 4> stops{0, 1, 1, 1};
   int count = 1;
-  for (int axis = 0; axis < 2; ++axis)
+  for (int axis = 0; axis < 2; ++axis) {
     if ((from[axis] < 0 && to[axis] > 0) || (from[axis] > 0 && to[axis] < 0))
       stops[count++] = from[axis] / (from[axis] - to[axis]);
+  }
   if (count == 3 && stops[2] < stops[1]) std::swap(stops[1], stops[2]);
   stops[count] = 1;
   OctahedralPoint previous = to_octahedral(from);
@@ -92,12 +93,13 @@ void ConstraintGraph::add_border() {
     for (const OctahedralGrid::Run& run : grid_.range_runs(j)) {
       if (run.begin > -width) add_edge(vertex_at(run.begin, j), vertex_at(run.begin, j + 1));
       if (run.end < width) add_edge(vertex_at(run.end, j), vertex_at(run.end, j + 1));
-      for (int i : {run.begin, run.end - 1})
+      for (int i : {run.begin, run.end - 1}) {
         if (grid_.at_horizon(i, j)) {
           const OctahedralGrid::Corners c = OctahedralGrid::corners(i, j);
           vertex_at(c.a1, c.b0);
           vertex_at(c.a0, c.b1);
         }
+      }
     }
     add_steps(grid_.range_runs(j - 1), grid_.range_runs(j), std::min(width, width_below), j);
   }
@@ -107,19 +109,22 @@ void ConstraintGraph::add_border() {
 void ConstraintGraph::add_steps(std::span<const OctahedralGrid::Run> below, std::span<const OctahedralGrid::Run> above,
                                 int width, int j) {
   steps_.clear();
-  for (const auto& runs : {below, above})
+  for (const auto& runs : {below, above}) {
     for (const OctahedralGrid::Run& run : runs)
       for (int end : {run.begin, run.end}) steps_.push_back(std::clamp(end, -width, width));
+  }
   std::sort(steps_.begin(), steps_.end());
   for (std::size_t k = 0; k + 1 < steps_.size(); k += 2)
     for (int i = steps_[k]; i < steps_[k + 1]; ++i) add_edge(vertex_at(i, j), vertex_at(i + 1, j));
 }
 
 void ConstraintGraph::add_fill(const IsRange& is_range) {
-  for (const auto& [i, j] : grid_.mixed_cells())
-    for (const auto& [a, b] : {std::pair{i, j}, {i + 1, j}, {i, j + 1}, {i + 1, j + 1}})
+  for (const auto& [i, j] : grid_.mixed_cells()) {
+    for (const auto& [a, b] : {std::pair{i, j}, {i + 1, j}, {i, j + 1}, {i + 1, j + 1}}) {
       if (std::abs(a) + std::abs(b) <= grid_.size() && node(a, b) == kNone && is_range(grid_.node(a, b)))
         vertex_at(a, b);
+    }
+  }
 }
 
 // Triangles must not pass over the axes, where the octahedral map bends.

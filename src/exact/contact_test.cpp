@@ -18,11 +18,12 @@ bool ContactTest::hidden(std::uint32_t blocker, std::uint32_t index) {
   const double margin = touch_margin(plane, reach_);
   Vec3 middle = Vec3::Zero();
   touched_.clear();
-  for (const Vec3& corner : blockers_.corners_of(blocker))
+  for (const Vec3& corner : blockers_.corners_of(blocker)) {
     if (std::abs(plane.dot(corner) - 1) <= margin) {
       touched_.push_back(corner);
       middle += corner;
     }
+  }
   if (touched_.empty() || middle.z() <= 0) return false;
   for (std::uint32_t competitor : tree_.leaf_at(to_octahedral(middle)).blockers)
     if (competitor != blocker && hides(competitor, plane, competitor < blocker)) return true;

@@ -89,11 +89,12 @@ void DirectionTree::consider_dominator(Node& node, const CellBlocker& reduced) {
   double middle = std::numeric_limits<double>::infinity();
   for (const Corners& v : reduced.values) middle = std::min(middle, v[0] + v[1] + v[2] + v[3]);
   const std::array<double, 2> scores{least, middle};
-  for (std::size_t i = 0; i < 2; ++i)
+  for (std::size_t i = 0; i < 2; ++i) {
     if (scores[i] > node.dominator_score[i]) {
       node.dominator_score[i] = scores[i];
       node.dominators[i] = reduced;
     }
+  }
 }
 
 // Drops from the list what the new one hides.

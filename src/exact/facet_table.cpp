@@ -37,12 +37,16 @@ FacetTable find_facets(const BlockerSet& blockers, const std::vector<const Direc
   constexpr std::size_t kLeaves = 16;  // that one thread takes at a time
   std::vector<std::vector<VisiblePlane>> found(leaves.size() / kLeaves + 1);
   parallel::for_ranges(found.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t c = begin; c < end; ++c)
-      for (std::size_t l = c * kLeaves; l < std::min(leaves.size(), (c + 1) * kLeaves); ++l)
-        for (std::size_t i = 0; i < leaves[l]->count(); ++i)
-          for (std::uint32_t k = leaves[l]->first_plane[i]; k < leaves[l]->first_plane[i + 1]; ++k)
+    for (std::size_t c = begin; c < end; ++c) {
+      for (std::size_t l = c * kLeaves; l < std::min(leaves.size(), (c + 1) * kLeaves); ++l) {
+        for (std::size_t i = 0; i < leaves[l]->count(); ++i) {
+          for (std::uint32_t k = leaves[l]->first_plane[i]; k < leaves[l]->first_plane[i + 1]; ++k) {
             if (blockers.visible[leaves[l]->planes[k]] && !plane_hidden(*leaves[l], i, k))
               found[c].push_back({leaves[l]->planes[k], leaves[l]->blockers[i], {static_cast<std::uint32_t>(l), k}});
+          }
+        }
+      }
+    }
   });
   std::vector<VisiblePlane> visible_planes;
   for (const auto& some : found) visible_planes.insert(visible_planes.end(), some.begin(), some.end());

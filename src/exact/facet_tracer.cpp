@@ -167,9 +167,10 @@ void FacetTracer::trace_edge(const Vec3& from, const Vec3& to, std::uint32_t oth
     if (shown_.empty()) return;
   }
   shown_.drop_shorter_than(shortest_ / length);
-  for (const Interval& part : shown_.parts())
+  for (const Interval& part : shown_.parts()) {
     result.planar.push_back({part.begin == 0 ? from : Vec3(from + part.begin * (to - from)),
                              part.end == 1 ? to : Vec3(from + part.end * (to - from))});
+  }
 }
 
 void FacetTracer::keep_in_range(const Vec3& from, const Vec3& to) {

@@ -38,8 +38,8 @@ double deepest_on_trial_grid(const target::RangeRegion& range) {
     };
     return depth_below(lift(p), lift(q), lift(r), range.radius());
   };
-  for (int quadrant = 0; quadrant < 4; ++quadrant)
-    for (int i = 0; i < kTrial; ++i)
+  for (int quadrant = 0; quadrant < 4; ++quadrant) {
+    for (int i = 0; i < kTrial; ++i) {
       for (int j = 0; i + j < kTrial; ++j) {
         const double sa = quadrant & 1 ? -1 : 1, sb = quadrant & 2 ? -1 : 1;
         const double a0 = sa * line_at(i, kTrial), a1 = sa * line_at(i + 1, kTrial);
@@ -47,6 +47,8 @@ double deepest_on_trial_grid(const target::RangeRegion& range) {
         deepest = std::max(deepest, depth({a0, b0}, {a1, b0}, {a0, b1}));
         if (i + j + 1 < kTrial) deepest = std::max(deepest, depth({a1, b0}, {a1, b1}, {a0, b1}));
       }
+    }
+  }
   return deepest;
 }
 
@@ -127,9 +129,10 @@ bool OctahedralGrid::is_coarse_cell(const target::RangeRegion& region, int i, in
 void OctahedralGrid::mark_square(const OctahedralPoint& middle, double reach) {
   const int i0 = locate(middle.x() - reach), i1 = locate(middle.x() + reach);
   const int j0 = locate(middle.y() - reach), j1 = locate(middle.y() + reach);
-  for (int j = j0; j <= j1; ++j)
+  for (int j = j0; j <= j1; ++j) {
     for (int i = i0; i <= i1; ++i)
       if (has_cell(i, j)) states_[index(i, j)] = mixed;
+  }
 }
 
 void OctahedralGrid::settle(const std::function<bool(const OctahedralPoint&)>& is_range_at) {
@@ -154,9 +157,10 @@ void OctahedralGrid::settle_row(int j, const std::function<bool(const Octahedral
     }
     const int begin = i;
     State state = unknown;  // that of a settled cell below, if there is one
-    for (; i < width && row[i] == unknown; ++i)
+    for (; i < width && row[i] == unknown; ++i) {
       if (state == unknown && i >= -width_below && i < width_below && below[i] >= range)
         state = static_cast<State>(below[i]);
+    }
     if (state == unknown) state = is_range_at(inside(begin + (i - begin) / 2, j)) ? range : blocked;
     // Cells of the range are not looked at again: where a rim were missing, all that it bounds would be over-claimed.
     if (state == range && !(is_range_at(inside(begin, j)) && is_range_at(inside(i - 1, j)))) state = mixed;

@@ -21,10 +21,11 @@ double OverClaimBound::rise_in(const DirectionTree::Leaf& leaf, double allowed) 
     return rise_of_plane(blockers_.planes[plane]).maxCoeff() <= allowed;
   };
   double greatest = 0;
-  for (std::size_t i = 0; i < leaf.count(); ++i)
+  for (std::size_t i = 0; i < leaf.count(); ++i) {
     if (std::none_of(leaf.planes.begin() + leaf.first_plane[i], leaf.planes.begin() + leaf.first_plane[i + 1],
                      stays_under))
       greatest = std::max(greatest, rise_of(leaf.blockers[i], allowed));
+  }
   return greatest;
 }
 

@@ -94,11 +94,12 @@ class QuadrantMesher {
     const double sa = quadrant_ & 1 ? -1 : 1, sb = quadrant_ & 2 ? -1 : 1;
     constexpr std::uint32_t kNone = ConstraintGraph::kNone;
     std::vector<std::uint32_t> local(graph_.points().size(), kNone);
-    for (std::uint32_t v = 0; v < local.size(); ++v)
+    for (std::uint32_t v = 0; v < local.size(); ++v) {
       if (sa * graph_.points()[v].x() >= 0 && sb * graph_.points()[v].y() >= 0) {
         local[v] = own_count();
         result_.graph_vertex.push_back(v);
       }
+    }
     std::vector<ConstraintGraph::Edge> edges;
     for (const auto& [a, b] : graph_.edges())
       if (local[a] != kNone && local[b] != kNone) edges.emplace_back(local[a], local[b]);
@@ -171,10 +172,11 @@ class QuadrantMesher {
     const double rise = gauge.value / claimed - 1;
     const bool deep = gauge.blocker == GaugeValue::kRange && too_deep(t);
     if (rise <= kSafe && !deep) return;
-    if ((rise > kSmallRise || deep) && cdt_.triangles.size() <= most_triangles_ && has_room(t))
+    if ((rise > kSmallRise || deep) && cdt_.triangles.size() <= most_triangles_ && has_room(t)) {
       added.push_back(centre_of(t));
-    else if (rise > kSafe)
+    } else if (rise > kSafe) {
       tighten(t, gauge.value, rise);
+    }
   }
 
   // A greater gauge only makes the volume smaller. Either all corners by twice the rise or the far ones to the gauge:
@@ -200,9 +202,10 @@ class QuadrantMesher {
         if (known.region != Region::kept || known.blocker == GaugeValue::kRange) continue;
         const auto& [a, b, c] = known.vertices;
         const double claimed = (gauges_[a] + gauges_[b] + gauges_[c]) / 3;
-        if (std::abs(known.gauge / claimed - 1) > kSafe)
+        if (std::abs(known.gauge / claimed - 1) > kSafe) {
           rises[i] = check.greatest_rise(quadrant_, {point(a), point(b), point(c)},
                                          {gauges_[a], gauges_[b], gauges_[c]}, kSafe);
+        }
       }
     });
     std::vector<double> greatest(gauges_.size(), 0);
@@ -241,10 +244,11 @@ class QuadrantMesher {
       for (int e = 0; e < 3; ++e) {
         const std::uint32_t from = t[e], to = t[(e + 1) % 3];
         const Region beyond = known_[cdt_.triangles[i].neighbors[e]].region;
-        if (beyond == Region::outside)
+        if (beyond == Region::outside) {
           close(from, to);
-        else if (beyond == Region::range_cell)
+        } else if (beyond == Region::range_cell) {
           check_border(from, to);
+        }
       }
     }
   }

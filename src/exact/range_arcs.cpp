@@ -33,10 +33,11 @@ void drop_where_fine(const SpaceCircle& circle, const CurveSampling& sampling, c
       const Vec3 to = circle.at(end);
       const bool bent = from.x() * to.x() < 0 || from.y() * to.y() < 0;  // on the map
       if (!bent && !grid.is_coarse(range, to_octahedral(from), to_octahedral(to), margin)) {
-        if (fine.empty() || fine.back().end != begin)
+        if (fine.empty() || fine.back().end != begin) {
           fine.push_back({begin, end});
-        else
+        } else {
           fine.back().end = end;
+        }
       }
       from = to;
     }
@@ -72,7 +73,7 @@ void add_arcs(const SpaceCircle& circle, CircleArcs& arcs, double shortest, cons
 void trace_range_creases(const BlockerSet& blockers, const DirectionTree& tree, const target::RangeRegion& range,
                          const CurveSampling& sampling, OctahedralGrid& grid, std::vector<std::vector<Vec3>>& out) {
   const double inner = range.inner_radius();
-  for (std::size_t i = 0; i < range.ball_count(); ++i)
+  for (std::size_t i = 0; i < range.ball_count(); ++i) {
     for (const std::uint32_t j : range.neighbours(i)) {
       if (j < i) continue;
       const Eigen::Vector2d a = range.centre(i), b = range.centre(j), middle = 0.5 * (a + b),
@@ -96,6 +97,7 @@ void trace_range_creases(const BlockerSet& blockers, const DirectionTree& tree, 
       }
       add_arcs(circle, arcs, shortest_piece(range), sampling, out);
     }
+  }
 }
 
 }  // namespace vantage::internal::exact

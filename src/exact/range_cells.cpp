@@ -18,9 +18,10 @@ class Cutter {
     cells_.triangles.reserve(2 * count);
     cells_.vertices.reserve(graph_.points().size() + count + 4 * static_cast<std::size_t>(n));
     cells_.vertices.resize(graph_.points().size());
-    for (int j = -n; j < n; ++j)
+    for (int j = -n; j < n; ++j) {
       for (const OctahedralGrid::Run& run : grid_.range_runs(j))
         for (int i = run.begin; i < run.end; ++i) cut(i, j);
+    }
     return std::move(cells_);
   }
 
@@ -31,10 +32,11 @@ class Cutter {
     const bool mirrored = (i >= 0) != (j >= 0);
     const std::uint32_t p = vertex_at(c.a1, c.b0), q = vertex_at(c.a0, c.b1);
     add(vertex_at(c.a0, c.b0), p, q, mirrored);
-    if (!grid_.at_horizon(i, j))
+    if (!grid_.at_horizon(i, j)) {
       add(p, vertex_at(c.a1, c.b1), q, mirrored);
-    else
+    } else {
       cells_.base.push_back(mirrored ? ConstraintGraph::Edge{q, p} : ConstraintGraph::Edge{p, q});
+    }
   }
 
   void add(std::uint32_t a, std::uint32_t b, std::uint32_t c, bool mirrored) {

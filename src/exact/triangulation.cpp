@@ -31,11 +31,12 @@ bool is_closed(const Mesh& mesh) {
   std::vector<std::uint64_t> marks(mesh.vertices.size());
   for (std::size_t v = 0; v < marks.size(); ++v) marks[v] = spread(v);
   std::uint64_t sum = 0;
-  for (const Triangle& t : mesh.triangles)
+  for (const Triangle& t : mesh.triangles) {
     for (int e = 0; e < 3; ++e) {
       const std::uint64_t from = t[e], to = t[(e + 1) % 3];
       sum += marks[from] * (to * to) - marks[to] * (from * from);
     }
+  }
   return sum == 0;
 }
 
@@ -85,11 +86,12 @@ class BoundaryBuilder {
   // axes the quadrant that draws a vertex in more decides.
   void lift_graph() {
     std::vector<double> gauges(graph_.points().size(), 0);
-    for (const QuadrantMesh& quadrant : quadrants_)
+    for (const QuadrantMesh& quadrant : quadrants_) {
       for (std::size_t i = 0; i < quadrant.graph_vertex.size(); ++i) {
         double& gauge = gauges[quadrant.graph_vertex[i]];
         gauge = std::max(gauge, quadrant.graph_gauge[i]);
       }
+    }
     for (std::uint32_t v = 0; v < gauges.size(); ++v)
       result_.mesh.vertices[v] = lifted(graph_.points()[v], gauges[v], graph_.on_horizon(v));
   }
@@ -129,11 +131,12 @@ class BoundaryBuilder {
     for (const Triangle& t : mesh.triangles)
       for (std::uint32_t v : t) renamed[v] = 0;
     std::uint32_t count = 0;
-    for (std::uint32_t v = 0; v < renamed.size(); ++v)
+    for (std::uint32_t v = 0; v < renamed.size(); ++v) {
       if (renamed[v] != kNone) {
         mesh.vertices[count] = mesh.vertices[v];
         renamed[v] = count++;
       }
+    }
     mesh.vertices.resize(count);
     for (Triangle& t : mesh.triangles)
       for (std::uint32_t& v : t) v = renamed[v];

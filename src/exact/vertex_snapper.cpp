@@ -43,9 +43,10 @@ std::uint32_t VertexSnapper::add(OctahedralPoint point) {
   if (horizon) point /= sum;
   const std::int64_t x0 = bucket_of(point.x() - snap_), x1 = bucket_of(point.x() + snap_);
   const std::int64_t y0 = bucket_of(point.y() - snap_), y1 = bucket_of(point.y() + snap_);
-  for (std::int64_t x = x0; x <= x1; ++x)
+  for (std::int64_t x = x0; x <= x1; ++x) {
     for (std::int64_t y = y0; y <= y1; ++y)
       if (const std::uint32_t found = find(x, y, point); found != kNone) return found;
+  }
   if (2 * points_.size() > heads_.size()) grow();
   const std::size_t slot = slot_of(bucket_of(point.x()), bucket_of(point.y()));
   points_.push_back(point);

@@ -139,9 +139,10 @@ Vertices read_vertices(const Json& root, const Header& header, const Trail& trai
   std::vector<Vec3> vertices = positions(required(root, "vertices", Json::value_t::array, trail), "vertex", trail);
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     if (header.has_transform) vertices[i] = vertices[i].cwiseProduct(header.scale) + header.translate;
-    if (!vertices[i].allFinite())
+    if (!vertices[i].allFinite()) {
       trail.fail_as(ErrorCode::coordinate_not_finite,
                     "vertex " + std::to_string(i) + " (counted from 0) is not finite");
+    }
   }
   return Vertices(std::move(vertices));
 }

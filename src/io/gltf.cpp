@@ -220,9 +220,10 @@ class GltfReader {
     if (known.primitive != primitive_) {
       const Vec3 position(positions.number(index, 0), positions.number(index, 1), positions.number(index, 2));
       const Vec3 moved = world * position;
-      if (!moved.allFinite())
+      if (!moved.allFinite()) {
         document_.fail_as(ErrorCode::coordinate_not_finite,
                           "a coordinate of vertex " + std::to_string(index) + " is not finite");
+      }
       known = {primitive_, builder_.add_vertex(moved, 0)};
     }
     return known.vertex;

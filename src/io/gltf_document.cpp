@@ -396,9 +396,10 @@ std::filesystem::path Document::file_below(const std::string& relative, const st
   const fs::path folder = source_.file().has_parent_path() ? source_.file().parent_path() : fs::path(".");
   std::error_code error;
   fs::path path = fs::weakly_canonical(folder / relative, error);
-  if (error)
+  if (error) {
     source_.fail(ErrorCode::mesh_syntax,
                  "the path " + in_quotes(uri) + " of a buffer leads nowhere: " + error.message(), kGarbled);
+  }
   const auto is_below = [&path](const fs::path& base) {
     return !base.empty() && std::mismatch(base.begin(), base.end(), path.begin(), path.end()).first == base.end();
   };

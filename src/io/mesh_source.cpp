@@ -107,9 +107,10 @@ std::string read_file_bytes(const std::filesystem::path& file, const core::Progr
       fail(ErrorCode::file_unreadable, file, std::string("the file cannot be read: ") + std::strerror(errno),
            "check the file and its disk");
     }
-    if (got == 0)
+    if (got == 0) {
       fail(ErrorCode::file_changed, file, "the file shrank while it was read",
            "wait until it is written, then try again");
+    }
     done += static_cast<std::size_t>(got);
     progress.report(done, bytes.size());
   }

@@ -161,9 +161,10 @@ class PlyReader {
       }
     }
     if (!has_vertices) source_.fail(ErrorCode::mesh_empty, "the PLY file has no element \"vertex\"", "export a mesh");
-    if (!has_faces)
+    if (!has_faces) {
       source_.fail(ErrorCode::mesh_empty, "the PLY file has no element \"face\"",
                    "export a surface mesh, not a point cloud");
+    }
     RawMesh mesh = builder_.finish();
     mesh.georeference = header_.georeference;
     mesh.rounding_m = header_.rounding_m;

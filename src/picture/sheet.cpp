@@ -14,9 +14,10 @@ using namespace internal::picture;
 void check(const std::vector<PicturePanel>& panels, int columns) {
   if (panels.empty())
     throw Error(ErrorCode::nothing_given, "a figure sheet without panels", "panels", "pass one at least");
-  if (columns < 1)
+  if (columns < 1) {
     throw Error(ErrorCode::value_out_of_range, "a figure sheet of " + std::to_string(columns) + " columns", "columns",
                 "pass 1 or more");
+  }
   for (std::size_t i = 1; i < panels.size(); ++i) {
     if (panels[i].picture.width == panels[0].picture.width && panels[i].picture.height == panels[0].picture.height)
       continue;

@@ -98,11 +98,12 @@ class Merger {
   // Turns the loop so that the edge between `from` and `to` is its closing edge, running back -> front. False when the
   // loop does not have that edge any more.
   static bool close_with(Loop& loop, std::uint32_t from, std::uint32_t to) {
-    for (std::size_t i = 0; i < loop.size(); ++i)
+    for (std::size_t i = 0; i < loop.size(); ++i) {
       if (loop[i] == from && loop[(i + 1) % loop.size()] == to) {
         std::rotate(loop.begin(), loop.begin() + (i + 1) % loop.size(), loop.end());
         return true;
       }
+    }
     return false;
   }
 

@@ -94,11 +94,12 @@ class CellBounds {
     const int n = cube.size();
     const Vec3 centre = cube.texel_direction(texel);
     Vec3 low = centre, high = centre;
-    for (int a = 0; a < 3; ++a)
+    for (int a = 0; a < 3; ++a) {
       if (a != texel.face / 2) {
         low[a] -= 1.0 / n;
         high[a] += 1.0 / n;
       }
+    }
     const Vec3 nearest = Vec3::Zero().cwiseMax(low).cwiseMin(high);
     const double radius = nearest.norm() / static_cast<double>(inverse_depth);
 
@@ -125,9 +126,10 @@ class CellBounds {
   double at_vertex(int ring, int column) const {
     double least = std::numeric_limits<double>::infinity();
     const bool is_pole = ring == 0 || ring == grid_.bands();
-    for (int band = std::max(ring - 1, 0); band <= std::min(ring, grid_.bands() - 1); ++band)
+    for (int band = std::max(ring - 1, 0); band <= std::min(ring, grid_.bands() - 1); ++band) {
       for (int k = 0; k < (is_pole ? grid_.columns() : 2); ++k)
         least = std::min(least, bound_[cell(band, column - 1 + k)]);
+    }
     return least;
   }
 
@@ -196,10 +198,12 @@ StarMesh bound_lonlat(const CubeMap& cube, const std::array<int, 2>& size, doubl
     }
   });
   StarMesh star = make_mesh(grid);
-  for (int ring = 0; ring <= grid.bands(); ++ring)
-    for (int column = 0; column < (ring == 0 || ring == grid.bands() ? 1 : grid.columns()); ++column)
+  for (int ring = 0; ring <= grid.bands(); ++ring) {
+    for (int column = 0; column < (ring == 0 || ring == grid.bands() ? 1 : grid.columns()); ++column) {
       set_ray(star, grid.vertex(ring, column), grid.direction(ring, column), bounds.at_vertex(ring, column), range_m,
               1 - numerics::kShrink);
+    }
+  }
   return star;
 }
 

@@ -94,9 +94,10 @@ class FaceSplitter {
   static bool has_middle(const Rectangle& r) { return r.width() >= 2 && r.height() >= 2; }
 
   bool is_at_range(const Rectangle& r) const {
-    for (int row = r.bottom; row <= r.top; ++row)
+    for (int row = r.bottom; row <= r.top; ++row) {
       for (int column = r.left; column <= r.right; ++column)
         if (!at_range_[static_cast<std::size_t>(row) * side_ + column]) return false;
+    }
     return true;
   }
 
@@ -125,9 +126,10 @@ class FaceSplitter {
     };
     // The least may yet fall after a vertex was taken: those are looked at again.
     const auto all_fit = [&] {
-      for (int row = r.bottom; row <= r.top; ++row)
+      for (int row = r.bottom; row <= r.top; ++row) {
         for (int column = r.left; column <= r.right; ++column)
           if (!fits(column, row)) return false;
+      }
       return true;
     };
     return fits((r.left + r.right) / 2, (r.bottom + r.top) / 2) && all_fit() && all_fit();
@@ -242,11 +244,14 @@ void mark_used(const FaceGrid& grid, const std::vector<Rectangle>& rectangles, b
 void tighten(StarMesh& star, const std::vector<FaceGrid>& faces, const std::vector<FaceSplitter>& splits,
              double tolerance) {
   std::vector<std::uint8_t> is_drawn_in(star.rays.size(), 0);
-  for (std::size_t f = 0; f < faces.size(); ++f)
-    for (const Rectangle& r : splits[f].flat())
-      for (int row = r.bottom; row <= r.top; ++row)
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    for (const Rectangle& r : splits[f].flat()) {
+      for (int row = r.bottom; row <= r.top; ++row) {
         for (int column = r.left; column <= r.right; ++column)
           is_drawn_in[faces[f].vertex[static_cast<std::size_t>(row) * (faces[f].cells + 1) + column]] = 1;
+      }
+    }
+  }
   for (std::size_t v = 0; v < star.rays.size(); ++v)
     if (is_drawn_in[v]) star.rays[v] *= 1 - tolerance;
 }
@@ -257,11 +262,12 @@ void add_merged_facets(StarMesh& star, const std::vector<FaceGrid>& faces, const
   std::vector<FaceSplitter> splits;
   for (const FaceGrid& grid : faces) splits.emplace_back(star, grid, rules.tolerance);
   parallel::for_ranges(faces.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t f = begin; f < end; ++f)
+    for (std::size_t f = begin; f < end; ++f) {
       if (faces[f].cells > 0) {
         splits[f].split({0, 0, faces[f].cells, faces[f].cells});
         splits[f].join_cells();
       }
+    }
   });
   std::vector<std::uint8_t> is_used(star.rays.size(), 0);
   for (std::size_t f = 0; f < faces.size(); ++f) mark_used(faces[f], splits[f].whole(), rules.keeps_borders, is_used);

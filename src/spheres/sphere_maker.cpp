@@ -37,9 +37,10 @@ SphereMaker::SphereMaker(depth::DepthRenderer& renderer, const SpheresOptions& o
 StarMesh SphereMaker::tessellated(std::span<const float> inverse_depths) const {
   const CubeMap cube{face_size_, inverse_depths};
   const Vec3* front = front_only_ ? &frame_.normal : nullptr;
-  if (options_.sphere == SpheresOptions::Sphere::centers)
+  if (options_.sphere == SpheresOptions::Sphere::centers) {
     return options_.resolution ? join_lonlat(cube, *options_.resolution, range_m_)
                                : join_centers(cube, range_m_, options_.merge);
+  }
   return options_.resolution ? bound_lonlat(cube, *options_.resolution, range_m_, front)
                              : bound_corners(cube, range_m_, front, options_.merge);
 }

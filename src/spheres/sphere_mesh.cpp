@@ -75,9 +75,10 @@ float nearest_about(const CubeGrid& grid, const TexelDepths& depths, const Latti
   for (int face = 0; face < 6; ++face) {
     int column, row;
     if (!grid.on_face(at, face, column, row)) continue;
-    for (int j = std::max(row - 1, 0); j <= std::min(row, grid.size() - 1); ++j)
+    for (int j = std::max(row - 1, 0); j <= std::min(row, grid.size() - 1); ++j) {
       for (int i = std::max(column - 1, 0); i <= std::min(column, grid.size() - 1); ++i)
         nearest = std::max(nearest, depths.nearest({face, i, j}));
+    }
   }
   return nearest;
 }
@@ -100,9 +101,10 @@ void set_texel_triangles(StarMesh& star, std::size_t at, const std::array<std::u
 std::vector<FaceGrid> centre_grids(const CubeGrid& grid) {
   const int n = grid.size();
   std::vector<FaceGrid> faces(6, {n - 1, 2.0 / n, {}});
-  for (int face = 0; face < 6; ++face)
+  for (int face = 0; face < 6; ++face) {
     for (int row = 0; row < n; ++row)
       for (int column = 0; column < n; ++column) faces[face].vertex.push_back(grid.texel_index({face, column, row}));
+  }
   return faces;
 }
 
@@ -110,10 +112,12 @@ std::vector<FaceGrid> centre_grids(const CubeGrid& grid) {
 std::vector<FaceGrid> corner_grids(const CubeGrid& grid) {
   const int n = grid.size();
   std::vector<FaceGrid> faces(6, {n, 2.0 / n, {}});
-  for (int face = 0; face < 6; ++face)
-    for (int row = 0; row <= n; ++row)
+  for (int face = 0; face < 6; ++face) {
+    for (int row = 0; row <= n; ++row) {
       for (int column = 0; column <= n; ++column)
         faces[face].vertex.push_back(grid.corner_index(grid.lattice({face, column, row})));
+    }
+  }
   return faces;
 }
 

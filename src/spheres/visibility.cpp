@@ -139,9 +139,10 @@ Volume compute_visibility(const PreparedTarget& target, const SpheresOptions& op
 Mesh visibility_sphere(const Vec3& viewpoint, double radius_m, const SpheresOptions& options,
                        depth::DepthRenderer& renderer, const Progress& callback) {
   const core::ProgressReporter progress(callback);
-  if (!viewpoint.allFinite())
+  if (!viewpoint.allFinite()) {
     throw Error(ErrorCode::coordinate_not_finite, "the viewpoint has a coordinate that is not finite",
                 "visibility sphere", "give three finite numbers");
+  }
   target::check_sensor({radius_m});
   options::check_options(options);
   TargetFrame frame;

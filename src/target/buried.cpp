@@ -64,10 +64,12 @@ class VerticalProbe {
 
 Box object_bounds(const PreparedScene::Data& scene, std::uint32_t object) {
   Box box;
-  for (std::size_t polygon = 0; polygon < scene.polygon_count(); ++polygon)
-    if (scene.polygon_object[polygon] == object)
+  for (std::size_t polygon = 0; polygon < scene.polygon_count(); ++polygon) {
+    if (scene.polygon_object[polygon] == object) {
       for (std::uint32_t k = scene.first_vertex[polygon]; k < scene.first_vertex[polygon + 1]; ++k)
         box.extend(scene.vertices[scene.polygon_vertices[k]]);
+    }
+  }
   return box;
 }
 

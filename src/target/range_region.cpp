@@ -106,11 +106,12 @@ std::size_t RangeRegion::first_met(const Vec3& direction, double gauge, std::siz
   double least = nearness(ball);
   for (std::size_t last = centres_.size(); last != ball;) {
     last = ball;
-    for (const std::uint32_t k : neighbours_[last])
+    for (const std::uint32_t k : neighbours_[last]) {
       if (const double other = nearness(k); other < least) {
         least = other;
         ball = k;
       }
+    }
   }
   return ball;
 }

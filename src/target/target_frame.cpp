@@ -33,22 +33,27 @@ std::string vertex_name(std::size_t index) { return "vertex " + std::to_string(i
 
 void check_vertices(const Target& target) {
   const auto& v = target.parts[0];
-  if (v.size() < 3 && !target.is_point())
+  if (v.size() < 3 && !target.is_point()) {
     refuse(ErrorCode::target_vertex_count, target,
            "a target needs at least 3 vertices, this one has " + std::to_string(v.size()),
            "add vertices, or give one alone for a point");
-  if (v.size() > 64)
+  }
+  if (v.size() > 64) {
     refuse(ErrorCode::target_vertex_count, target,
            "a target has at most 64 vertices, this one has " + std::to_string(v.size()), "simplify it");
-  for (std::size_t i = 0; i < v.size(); ++i)
-    if (!v[i].allFinite())
+  }
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    if (!v[i].allFinite()) {
       refuse(ErrorCode::coordinate_not_finite, target, vertex_name(i) + " has a coordinate that is not finite",
              "give three finite numbers");
+    }
+  }
   if (!std::isfinite(target.offset_m))
     refuse(ErrorCode::value_out_of_range, target, "offset is not finite", "give metres along the normal");
-  if (target.front && (!target.front->allFinite() || target.front->norm() == 0))
+  if (target.front && (!target.front->allFinite() || target.front->norm() == 0)) {
     refuse(ErrorCode::direction_invalid, target, "front is zero or not finite",
            "give a vector on the side that is looked at, such as [0, 0, 1]");
+  }
 }
 
 double extent_of(const std::vector<Vec3>& vertices) {
@@ -59,11 +64,14 @@ double extent_of(const std::vector<Vec3>& vertices) {
 
 void check_repeats(const Target& target, double extent) {
   const auto& v = target.parts[0];
-  for (std::size_t i = 0; i < v.size(); ++i)
-    for (std::size_t j = i + 1; j < v.size(); ++j)
-      if ((v[i] - v[j]).norm() <= 1e-9 * extent || v[i] == v[j])
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    for (std::size_t j = i + 1; j < v.size(); ++j) {
+      if ((v[i] - v[j]).norm() <= 1e-9 * extent || v[i] == v[j]) {
         refuse(ErrorCode::target_vertices_coincide, target,
                vertex_name(i) + " and " + vertex_name(j) + " are the same point", "drop one of them");
+      }
+    }
+  }
 }
 
 // Twice the area vector, about the first vertex so that large coordinates do not cancel.
@@ -87,19 +95,21 @@ void check_planar(const Target& target, const Vec3& normal, double extent) {
       culprit = i;
     }
   }
-  if (worst > std::max(kPlanarAtLeast, kPlanarFraction * extent))
+  if (worst > std::max(kPlanarAtLeast, kPlanarFraction * extent)) {
     refuse(ErrorCode::target_not_planar, target,
            "the vertices are not in one plane: " + vertex_name(culprit) + " is off by " +
                internal::core::metres_text(worst),
            "move it onto the plane of the others, or split the target");
+  }
 }
 
 Vec3 front_normal(const Target& target, const Vec3& normal) {
   if (target.front) {
     const double side = target.front->normalized().dot(normal);
-    if (std::abs(side) < 1e-6)
+    if (std::abs(side) < 1e-6) {
       refuse(ErrorCode::direction_invalid, target, "front lies in the plane of the target",
              "give a vector that points away from the looked-at side");
+    }
     return side > 0 ? normal : Vec3(-normal);
   }
   return normal.z() < -kVerticalNormal ? Vec3(-normal) : normal;
@@ -148,18 +158,20 @@ double whole_turn(const std::vector<Vec3>& polygon) {
 // vertex is left out only where the others' outline passes outside it. Refuses what is not convex.
 std::vector<Vector2d> corners_of(const Target& target, const std::vector<Vec3>& polygon,
                                  const std::vector<std::size_t>& index, double extent) {
-  if (whole_turn(polygon) > 3 * std::numbers::pi)
+  if (whole_turn(polygon) > 3 * std::numbers::pi) {
     refuse(ErrorCode::target_not_convex, target,
            "not convex: the outline winds round more than once, starting at " + vertex_name(index[0]),
            "give the vertices in order round the polygon");
+  }
   double largest = 0;
   for (const Vec3& v : target.parts[0]) largest = std::max(largest, v.cwiseAbs().maxCoeff());
   const internal::core::CornerSlack slack{kStraight * extent + kRounding * largest, kRounding * extent};
   const auto is_corner = internal::core::find_corners(polygon, Vec3::UnitZ(), slack);
-  if (!is_corner)
+  if (!is_corner) {
     refuse(ErrorCode::target_not_convex, target,
            "not convex: the outline turns the wrong way at " + vertex_name(index[worst_turn(polygon)]),
            "give the vertices in order round a convex polygon; split a concave one into convex targets");
+  }
   std::vector<Vector2d> corners;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     if ((*is_corner)[i]) corners.emplace_back(polygon[i].head<2>());

@@ -130,11 +130,12 @@ std::vector<Vec3> draw_outline(Random& random, double scale, std::string& kind) 
   turn(random, outline);
   const double size = random.chance(0.85) ? random.uniform(0.3, 2) : random.magnitude(0.05, 30);
   for (Vec3& p : outline) p *= size;
-  if (random.chance(0.3))  // on a grid: coordinates that a person would type
+  if (random.chance(0.3)) {  // on a grid: coordinates that a person would type
     for (Vec3& p : outline) {
       const Vec3 q = (p * 1024).array().round() / 1024;
       if (size > 0.3 && (kind == "square" || kind == "triangle" || kind == "polygon")) p = q;
     }
+  }
   return outline;
 }
 

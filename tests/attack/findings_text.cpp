@@ -19,9 +19,10 @@ std::string to_text(const Judgement& j) {
   out << std::setprecision(17) << one_line(j.status) << "\n"
       << j.viewpoints << " " << j.proved << " " << j.proved_smaller << " " << j.unproved << " " << j.untried << " "
       << j.facets << " " << j.lift << " " << j.lost << " " << j.worst_gap << "\n";
-  for (const Finding& f : j.findings)
+  for (const Finding& f : j.findings) {
     out << static_cast<int>(f.which) << " " << f.share << " " << f.place.x() << " " << f.place.y() << " " << f.place.z()
         << " " << one_line(f.detail) << "\n";
+  }
   return out.str();
 }
 

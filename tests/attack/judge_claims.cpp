@@ -24,9 +24,10 @@ class Claims {
       trial_.result.add({Class::flat_facets, 0, Vec3::Zero(), std::to_string(found.flat_facets) + " without area"});
     if (volume.cause_of.size() != volume.mesh.triangles.size())
       trial_.result.add({Class::bad_causes, 0, Vec3::Zero(), "not one cause a facet"});
-    for (const std::uint32_t cause : volume.cause_of)
+    for (const std::uint32_t cause : volume.cause_of) {
       if (cause >= volume.causes.size())
         trial_.result.add({Class::bad_causes, 0, Vec3::Zero(), "cause " + std::to_string(cause)});
+    }
     trial_.result.facets = mesh_.size();
     return !found.bad_index && found.open_edges == 0;
   }
@@ -116,12 +117,13 @@ class Claims {
     if (!part.exact.in_range(p, trial_.c.range)) report(Class::out_of_range, p, "");
     const auto hidden = part.exact.first_hiding(p);
     if (!hidden) return;
-    if (const auto solid = part.surely_hiding(p, Which::not_thin))
+    if (const auto solid = part.surely_hiding(p, Which::not_thin)) {
       report(Class::over_claim, p, trial_.object_of(*solid), merged_by(*solid, p, part));
-    else if (const auto thin = part.surely_hiding(p))
+    } else if (const auto thin = part.surely_hiding(p)) {
       report(Class::thin_over_claim, p, trial_.object_of(*thin), merged_by(*thin, p, part));
-    else
+    } else {
       report(Class::touching, p, trial_.object_of(*hidden));
+    }
   }
 
   /// How late the triangle may end the view because its corners were merged: vantage/volume.h.
@@ -194,17 +196,19 @@ class Claims {
         continue;
       }
       int reached = level;
-      for (; reached < levels; ++reached)
+      for (; reached < levels; ++reached) {
         if (!hidden(moved_in(mesh_.corners(i), part, reached == as_stored ? trial_.noise() : 2 * part.margin), part,
                     static_cast<Level>(reached)))
           break;
+      }
       ++(reached == as_stored ? result.proved : reached == smaller ? result.proved_smaller : result.unproved);
       if (reached == level) continue;
       constexpr int kFew = 12;  // more of the same tell nothing new
-      if (++failed[reached - 1] <= kFew)
+      if (++failed[reached - 1] <= kFew) {
         search(i, static_cast<Level>(reached - 1));
-      else if (reached < levels)
+      } else if (reached < levels) {
         level = reached;
+      }
     }
   }
 

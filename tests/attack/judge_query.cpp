@@ -105,12 +105,14 @@ class Queries {
         surely.insert(trial_.object_of(i));
     }
     const std::set<std::string> named(answer.blocked_by.begin(), answer.blocked_by.end());
-    for (const std::string& name : named)
+    for (const std::string& name : named) {
       if (!perhaps.contains(name))
         trial_.result.add({Class::blocked_by, 0, trial_.to_scene(farther), name + " hides nothing"});
-    for (const std::string& name : surely)
+    }
+    for (const std::string& name : surely) {
       if (!named.contains(name))
         trial_.result.add({Class::blocked_by, 0, trial_.to_scene(farther), name + " is not named"});
+    }
   }
 
   void against_mesh(const Vec3& p, const PointAnswer& answer) {
@@ -124,9 +126,10 @@ class Queries {
     const double in_range = range_along(target, view_.centre, direction, trial_.c.range - trial_.c.tolerance);
     const double gap = (std::min(asked, in_range) - reached) / std::max(asked, reached);
     const double step = kDepth + trial_.rounding() / away;
-    if (gap > 2 * step || reached > asked * (1 + step))
+    if (gap > 2 * step || reached > asked * (1 + step)) {
       trial_.result.add({Class::query_mesh, std::max(gap, (reached - asked) / reached), trial_.to_scene(p),
                          gap > 0 ? "the mesh ends sooner" : "the mesh goes on"});
+    }
   }
 
   Trial& trial_;

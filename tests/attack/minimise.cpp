@@ -57,7 +57,7 @@ class Minimiser {
   }
 
   void drop_triangles() {
-    for (std::size_t chunk = std::max<std::size_t>(best_.scene.mesh.triangles.size() / 2, 1); chunk > 0; chunk /= 2)
+    for (std::size_t chunk = std::max<std::size_t>(best_.scene.mesh.triangles.size() / 2, 1); chunk > 0; chunk /= 2) {
       for (std::size_t at = 0; at < best_.scene.mesh.triangles.size();) {
         Case c = best_;
         const std::size_t end = std::min(at + chunk, c.scene.mesh.triangles.size());
@@ -67,6 +67,7 @@ class Minimiser {
         c.scene.object_of.erase(c.scene.object_of.begin() + begin, c.scene.object_of.begin() + stop);
         if (!keep_if_failing(c)) at = end;
       }
+    }
   }
 
   void drop_corners(std::size_t part) {

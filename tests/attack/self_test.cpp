@@ -39,11 +39,12 @@ void test_signs() {
     long p[4][3];
     Vec3 q[4];
     const double unit = random.pick({1.0, 0x1p-30, 0x1p+10}), origin = random.pick({0.0, 0x1p+25});
-    for (int i = 0; i < 4; ++i)
+    for (int i = 0; i < 4; ++i) {
       for (int a = 0; a < 3; ++a) {
         p[i][a] = random.integer(-reach, reach);
         q[i][a] = origin * unit + unit * static_cast<double>(p[i][a]);
       }
+    }
     const auto d = [&](int i, int a) { return static_cast<Wide>(p[i][a] - p[0][a]); };
     const Wide x = d(1, 1) * d(2, 2) - d(1, 2) * d(2, 1), y = d(1, 2) * d(2, 0) - d(1, 0) * d(2, 2),
                z = d(1, 0) * d(2, 1) - d(1, 1) * d(2, 0);
@@ -81,9 +82,10 @@ void add_box(Case& c, const std::string& name, const Vec3& low, const Vec3& high
   constexpr std::uint32_t kFaces[12][3] = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
                                            {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
   const auto first = static_cast<std::uint32_t>(c.scene.mesh.vertices.size());
-  for (int i = 0; i < 8; ++i)
+  for (int i = 0; i < 8; ++i) {
     c.scene.mesh.vertices.emplace_back(i & 1 ? high.x() : low.x(), i & 2 ? high.y() : low.y(),
                                        i & 4 ? high.z() : low.z());
+  }
   for (const auto& f : kFaces) {
     c.scene.mesh.triangles.push_back({first + f[0], first + f[1], first + f[2]});
     c.scene.object_of.push_back(static_cast<std::uint32_t>(c.scene.objects.size()));

@@ -52,10 +52,12 @@ bool boxes_apart(std::span<const Vec3> hull, const Corners& triangle) {
 }
 
 bool flat(std::span<const Vec3> points) {
-  for (std::size_t i = 1; i < points.size(); ++i)
-    for (std::size_t j = i + 1; j < points.size(); ++j)
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    for (std::size_t j = i + 1; j < points.size(); ++j) {
       for (std::size_t k = j + 1; k < points.size(); ++k)
         if (orientation(points[0], points[i], points[j], points[k]) != 0) return false;
+    }
+  }
   return true;
 }
 
@@ -66,13 +68,16 @@ bool interior_misses(std::span<const Vec3> points, const Corners& triangle) {
   const auto& [u, v, w] = triangle;
   if (Sides(u, v, w).side(points) != 2) return true;
   const std::size_t n = points.size();
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = i + 1; j < n; ++j)
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = i + 1; j < n; ++j) {
       for (const Vec3& corner : triangle)
         if (separates(points[i], points[j], corner, points, triangle)) return true;
-  for (const Vec3& p : points)
+    }
+  }
+  for (const Vec3& p : points) {
     for (int k = 0; k < 3; ++k)
       if (separates(triangle[k], triangle[(k + 1) % 3], p, points, triangle)) return true;
+  }
   return flat(points);
 }
 
@@ -96,12 +101,14 @@ bool hull_of_two_misses(std::span<const Vec3> points, const Corners& triangle, S
     if (try_edge(i, (i + 1) % 3)) return true;
   for (int k = 3; k < n; ++k)
     if (try_edge(k, k + 1 < n ? k + 1 : 3)) return true;
-  for (int i = 0; i < n; ++i)
+  for (int i = 0; i < n; ++i) {
     for (int k = 0; k < 3; ++k)
       if (try_plane(k, (k + 1) % 3, i, true)) return true;
-  for (int i = 0; i < 3; ++i)
+  }
+  for (int i = 0; i < 3; ++i) {
     for (int k = 3; k < n; ++k)
       if (try_edge(i, k)) return true;
+  }
   return false;
 }
 

@@ -58,8 +58,8 @@ std::vector<Homogeneous> half_spaces(const std::vector<Vec3>& polygon, const std
 
   std::vector<Homogeneous> found;
   const std::size_t count = generators.size();
-  for (std::size_t i = 0; i < count; ++i)
-    for (std::size_t j = i + 1; j < count; ++j)
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t j = i + 1; j < count; ++j) {
       for (std::size_t k = j + 1; k < count; ++k) {
         Homogeneous n = orthogonal(generators[i], generators[j], generators[k]);
         if (!(n.norm() > 1e-11L)) continue;  // long doubles: the direction is good to 1e-8 at worst
@@ -75,6 +75,8 @@ std::vector<Homogeneous> half_spaces(const std::vector<Vec3>& polygon, const std
         const auto same = [&](const Homogeneous& m) { return (m - n).norm() < 1e-12L; };
         if (std::none_of(found.begin(), found.end(), same)) found.push_back(n);
       }
+    }
+  }
   for (Homogeneous& n : found) n.head<3>() /= size;
   return found;
 }

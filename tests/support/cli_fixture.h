@@ -100,7 +100,7 @@ class Cli : public ::testing::Test {
 
   /// expect_refused, and compares the words with the golden file.
   std::string expect_bad(const std::vector<std::string>& arguments, const std::string& where = "") {
-    const std::string said = expect_refused(arguments, where);
+    std::string said = expect_refused(arguments, where);
     expect_wording(said);
     return said;
   }

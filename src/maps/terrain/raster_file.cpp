@@ -108,9 +108,10 @@ void RasterFile::check_bands() const {
   const auto colour = [&](int band) {
     return library_.GDALGetRasterColorInterpretation(library_.GDALGetRasterBand(dataset_.get(), band));
   };
-  if (count == 0)
+  if (count == 0) {
     fail(ErrorCode::raster_not_heights, "the raster has no band",
          "give a file with one band of heights; convert it with gdal_translate");
+  }
   if (colour(1) == kPalette || colour(1) == kRed)
     fail(ErrorCode::raster_not_heights, "this is a picture, not heights", "give a raster of heights");
   if (count > 1 && !(count == 2 && colour(2) == kAlpha)) {
@@ -134,9 +135,10 @@ void RasterFile::read_georeference() {
          "give a georeferenced one, or assign its place and its "
          "system with gdal_translate -a_ullr and -a_srs");
   }
-  if (!placed)
+  if (!placed) {
     fail(ErrorCode::not_georeferenced, "the raster does not say where its corner lies",
          "assign it with gdal_translate -a_ullr");
+  }
   if (!system) {
     fail(ErrorCode::crs_missing, "the raster has no coordinate reference system",
          "assign it, as in gdal_translate -a_srs EPSG:4326 in out.tif");
