@@ -4,10 +4,12 @@
 #include "app/input_file.h"
 #include "app/navigation_meshes.h"
 #include "geo/local_frame.h"
+#include "io/output_formats.h"
 #include "io/read_causes.h"
 #include "vantage/error.h"
 #include "vantage/hash.h"
 #include "vantage/input.h"
+#include "vantage/output.h"
 #include "vantage/result.h"
 
 namespace vantage::internal::app {
@@ -69,9 +71,9 @@ namespace {
 /// file may write any number into it.
 double most_rounding(const std::filesystem::path& file, const Mesh& mesh) {
   constexpr double kSteps = 64;  // of the largest coordinate; a handful is usual
-  const std::string name = file.filename().string();
-  const bool is_single = name.find(".stl") != std::string::npos || name.find(".glb") != std::string::npos ||
-                         name.find(".gltf") != std::string::npos;
+  const std::filesystem::path name = format_extension(file) == ".gz" ? file.stem() : file.filename();
+  const internal::io::OutputFormat* format = internal::io::find_output_format(name);
+  const bool is_single = format ? format->is_single : format_extension(name) == ".gltf";
   double largest = 0;
   for (const Vec3& vertex : mesh.vertices) largest = std::max(largest, vertex.cwiseAbs().maxCoeff());
   return kSteps * std::ldexp(largest, is_single ? -24 : -53);

@@ -2,11 +2,11 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstring>
 #include <system_error>
 
+#include "io/output_formats.h"
 #include "vantage/error.h"
 #include "vantage/input.h"
 #include "vantage/output.h"
@@ -74,18 +74,10 @@ std::string format_extension(const fs::path& file) {
 }
 
 void check_volume_output(const fs::path& file) {
-  static constexpr std::array<std::string_view, 4> kExtensions = {".ply", ".obj", ".stl", ".glb"};
   check_is_no_stream(file);
   // A folder is told first: "out" has no extension, but that is not what is wrong with it.
   std::error_code error;
-  const std::string extension = format_extension(file);
-  const bool is_known = std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
-  if (!is_known && !fs::is_directory(file, error)) {
-    const std::string problem = extension.empty()
-                                    ? "the output has no extension, so that its format is unknown"
-                                    : "no format is known for the extension " + in_quotes(file.extension().string());
-    throw Error(ErrorCode::output_format_unknown, problem, file.string(), "write .ply, .obj, .stl or .glb");
-  }
+  if (!fs::is_directory(file, error)) (void)internal::io::output_format(file);
   check_can_write(file);
 }
 

@@ -6,6 +6,7 @@
 #include "core/volume_check.h"
 #include "io/axes_text.h"
 #include "io/object_text.h"
+#include "io/output_formats.h"
 #include "io/scene_writers.h"
 #include "io/write_sidecar.h"
 #include "io/writers.h"
@@ -123,15 +124,12 @@ namespace vantage {
 
 std::vector<std::unique_ptr<AtomicFile>> stage_scene(const Scene& scene, const std::filesystem::path& file) {
   using namespace internal::io;
-  const std::string extension = output_extension(file);
   check_scene(scene);
   std::vector<std::unique_ptr<AtomicFile>> files;
   files.push_back(std::make_unique<AtomicFile>(file));
-  if (extension == ".obj") write_scene_obj(scene, *files.back());
-  if (extension == ".ply") write_scene_ply(scene, *files.back());
-  if (extension == ".glb") write_scene_glb(scene, *files.back());
-  if (extension == ".stl") write_stl_mesh(scene.mesh, "scene", *files.back());
-  if (auto place = stage_sidecar({scene.georeference, std::nullopt, {}}, file)) files.push_back(std::move(place));
+  const OutputFormat& format = output_format(file);
+  format.write_scene(scene, *files.back());
+  if (format.has_sidecar) stage_sidecar({scene.georeference, std::nullopt, {}}, file, files);
   return files;
 }
 

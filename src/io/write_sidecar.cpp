@@ -1,7 +1,6 @@
 #include "io/write_sidecar.h"
 
 #include "io/georeference_text.h"
-#include "io/writers.h"
 
 namespace vantage::internal::io {
 
@@ -12,14 +11,13 @@ std::string place_comment(const std::optional<Georeference>& georeference, const
   return line.append("\n");
 }
 
-std::unique_ptr<AtomicFile> stage_sidecar(const io::Sidecar& content, const std::filesystem::path& mesh_file) {
-  if (output_extension(mesh_file) != ".stl") return nullptr;
-  const std::filesystem::path file = io::sidecar_file(mesh_file);
+void stage_sidecar(const Sidecar& content, const std::filesystem::path& mesh_file,
+                   std::vector<std::unique_ptr<AtomicFile>>& files) {
+  const std::filesystem::path file = sidecar_file(mesh_file);
   std::error_code ignored;
-  if (!content.georeference && !content.rounding_m && !std::filesystem::exists(file, ignored)) return nullptr;
-  auto output = std::make_unique<AtomicFile>(file);
-  output->write(io::sidecar_text(content));
-  return output;
+  if (!content.georeference && !content.rounding_m && !std::filesystem::exists(file, ignored)) return;
+  files.push_back(std::make_unique<AtomicFile>(file));
+  files.back()->write(sidecar_text(content));
 }
 
 }  // namespace vantage::internal::io

@@ -1,7 +1,5 @@
-// Checks a volume, chooses the writer by the file's extension, and holds what the writers share.
-#include <algorithm>
+// Checks a volume and has it written, and holds what the writers share.
 #include <array>
-#include <cctype>
 #include <charconv>
 #include <filesystem>
 #include <memory>
@@ -11,6 +9,7 @@
 #include <vector>
 
 #include "core/volume_check.h"
+#include "io/output_formats.h"
 #include "io/volume_statement.h"
 #include "io/write_sidecar.h"
 #include "io/writers.h"
@@ -39,29 +38,13 @@ std::string one_line(std::string_view text) {
   return line;
 }
 
-std::string output_extension(const std::filesystem::path& file) {
-  std::error_code ignored;
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  const bool known = extension == ".ply" || extension == ".obj" || extension == ".stl" || extension == ".glb";
-  if (known || std::filesystem::is_directory(file, ignored)) return extension;
-  throw Error(ErrorCode::output_format_unknown,
-              extension.empty() ? "the output file has no extension"
-                                : "unknown output format \"" + file.extension().string() + "\"",
-              file.string(), "name a file that ends in .ply, .obj, .stl or .glb");
-}
-
 namespace {
 
 /// The mesh as the file will hold it. Errors of rounding are told of the file.
-StoredMesh stored_for(const Volume& volume, const std::filesystem::path& file, const std::string& extension,
-                      double obj_scale) {
+StoredMesh stored_for(const Volume& volume, const std::filesystem::path& file, const OutputFormat& format,
+                      const ObjFrame& obj) {
   try {
-    if (extension == ".stl") return stored_as_floats(volume);
-    if (extension == ".glb") return stored_as_local_floats(volume);
-    if (extension == ".obj" && obj_scale != 1) return stored_in_units(volume, obj_scale);
-    return stored_as_doubles(volume);
+    return format.store(volume, obj);
   } catch (const Error& error) {
     throw error.with_where(file.string());
   }
@@ -74,24 +57,20 @@ namespace vantage {
 
 StagedVolume stage_volume(const Volume& volume, const std::filesystem::path& file, UpAxis obj_up, double obj_scale) {
   using namespace internal::io;
-  const std::string extension = output_extension(file);
-  internal::core::check_volume(volume);
-  if (extension == ".obj") check_obj_scale(volume, obj_scale);
   auto output = std::make_unique<AtomicFile>(file);
-  const StoredMesh stored = stored_for(volume, file, extension, obj_scale);
-  if (extension == ".ply") write_ply(volume, stored, *output);
-  if (extension == ".obj") write_obj(volume, stored, obj_up, obj_scale, *output);
-  if (extension == ".stl") write_stl(stored, *output);
-  if (extension == ".glb") write_glb(volume, stored, *output);
+  const OutputFormat& format = output_format(file);
+  internal::core::check_volume(volume);
+  if (format.extension == ".obj") check_obj_scale(volume, obj_scale);
+  const ObjFrame obj{obj_up, obj_scale};
+  const StoredMesh stored = stored_for(volume, file, format, obj);
+  format.write_volume(volume, stored, obj, *output);
   StagedVolume staged;
   staged.report = {stored.rounding_m, stored.mesh.triangles.size(), stored.turned_facets};
   staged.files.push_back(std::move(output));
-  const auto stated = extension == ".stl" ? statement_json(volume, stored.mesh) : std::nullopt;
+  const auto stated = format.has_sidecar ? statement_json(volume, stored.mesh) : std::nullopt;
   const std::string statement =
       stated ? stated->dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace) : "";
-  if (auto beside = stage_sidecar({volume.georeference, stored.rounding_m, statement}, file)) {
-    staged.files.push_back(std::move(beside));
-  }
+  if (format.has_sidecar) stage_sidecar({volume.georeference, stored.rounding_m, statement}, file, staged.files);
   return staged;
 }
 

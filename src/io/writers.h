@@ -27,9 +27,6 @@ void write_glb(const Volume& volume, const StoredMesh& stored, AtomicFile& file)
 
 /// A mesh as binary STL; `content` says in the header what it is.
 void write_stl_mesh(const Mesh& mesh, std::string_view content, AtomicFile& file);
-/// The extension in lower case when it is one of those that can be written. Throws Error(input) for another, unless
-/// `file` is a directory, which AtomicFile refuses with a better message.
-std::string output_extension(const std::filesystem::path& file);
 
 /// Throws Error(output) when a format that counts in 32 bits cannot hold that many. `limit` is the largest number
 /// allowed.
