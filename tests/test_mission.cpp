@@ -122,6 +122,25 @@ TEST(Mission, OfSeveralPolygons) {
 }
 
 // What is written reads back as the same text: nothing that a mission says is lost.
+void expect_same_boxes(const std::vector<Box>& found, const std::vector<Box>& expected) {
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    EXPECT_EQ(found[i].min, expected[i].min);
+    EXPECT_EQ(found[i].max, expected[i].max);
+  }
+}
+
+// All members are named: a limit that is added does not compile here before it is compared.
+void expect_same_limits(const Navigation& found, const Navigation& expected) {
+  const auto& [altitude, keep_in, keep_out, meshes] = found;
+  ASSERT_EQ(altitude.has_value(), expected.altitude.has_value());
+  if (altitude) EXPECT_EQ(altitude->min_m, expected.altitude->min_m);
+  if (altitude) EXPECT_EQ(altitude->max_m, expected.altitude->max_m);
+  expect_same_boxes(keep_in, expected.keep_in);
+  expect_same_boxes(keep_out, expected.keep_out);
+  EXPECT_EQ(meshes.size(), expected.meshes.size());
+}
+
 TEST(Mission, TextReadsBackAsTheSameMission) {
   const std::string scenes[] = {
       "scene: {mesh: ../city.obj, up: y, scale: 0.3048, lod: '2.2', crs: 'EPSG:28992', origin: [52, 4.3]}\n",
@@ -153,6 +172,7 @@ TEST(Mission, TextReadsBackAsTheSameMission) {
         EXPECT_EQ(again.target.parts, read.target.parts);
         EXPECT_EQ(again.target.name, read.target.name);
         EXPECT_EQ(again.sensor.max_range_m, read.sensor.max_range_m);
+        expect_same_limits(again.navigation, read.navigation);
         EXPECT_EQ(again.navigation_meshes.size(), read.navigation_meshes.size());
         EXPECT_EQ(again.scene.city.defaults.levels_of, read.scene.city.defaults.levels_of);
         EXPECT_EQ(again.spheres.resolution, read.spheres.resolution);

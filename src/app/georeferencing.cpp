@@ -107,11 +107,13 @@ void check_near(const Box& box, const std::string& name, const CrsConverter& con
               where, converter.order_advice());
 }
 
-void convert_boxes(Navigation& navigation, const CrsConverter& converter, const std::string& where) {
-  for (std::size_t i = 0; i < navigation.keep_in.size(); ++i) {
-    check_near(converter.around(navigation.keep_in[i]), "box " + std::to_string(i) + " of navigation.boxes", converter,
-               where);
-    Box& box = navigation.keep_in[i];
+// All members are named: a limit that is added does not compile here before it is converted. An
+// altitude is one of the scene frame, and meshes say themselves where they lie.
+void convert_limits(Navigation& navigation, const CrsConverter& converter, const std::string& where) {
+  auto& [altitude, keep_in, keep_out, meshes] = navigation;
+  for (std::size_t i = 0; i < keep_in.size(); ++i) {
+    check_near(converter.around(keep_in[i]), "box " + std::to_string(i) + " of navigation.boxes", converter, where);
+    Box& box = keep_in[i];
     box = converter.inside(box);
     if ((box.min.array() >= box.max.array()).any()) {
       throw Error(ErrorCode::limits_empty,
@@ -119,8 +121,8 @@ void convert_boxes(Navigation& navigation, const CrsConverter& converter, const 
                   "make it larger, or give it in the scene frame");
     }
   }
-  for (std::size_t i = 0; i < navigation.keep_out.size(); ++i) {
-    Box& box = navigation.keep_out[i];
+  for (std::size_t i = 0; i < keep_out.size(); ++i) {
+    Box& box = keep_out[i];
     box = converter.around(box);
     check_near(box, "box " + std::to_string(i) + " of navigation.keep_out", converter, where);
   }
@@ -152,7 +154,7 @@ void georeference(Mission& mission, const Progress& progress) {
       return 0;
     });
     check_near(mission, converter);
-    convert_boxes(mission.navigation, converter, mission.as_written.file.string());
+    convert_limits(mission.navigation, converter, mission.as_written.file.string());
   }
   if (mission.as_written.ground_target) put_on_ground(mission, frame, progress);
   with_place(place, [&] {

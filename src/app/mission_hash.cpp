@@ -24,11 +24,13 @@ Json json_of(const std::vector<Box>& boxes) {
   return list;
 }
 
+// All members are named: a limit that is added does not compile here before it is hashed.
 Json json_of(const Navigation& limits) {
-  Json json = {{"boxes", json_of(limits.keep_in)}, {"keep_out", json_of(limits.keep_out)}};
-  json["altitude"] = limits.altitude ? Json{number(limits.altitude->min_m), number(limits.altitude->max_m)} : Json();
+  const auto& [altitude, keep_in, keep_out, meshes] = limits;
+  Json json = {{"boxes", json_of(keep_in)}, {"keep_out", json_of(keep_out)}};
+  json["altitude"] = altitude ? Json{number(altitude->min_m), number(altitude->max_m)} : Json();
   json["meshes"] = Json::array();
-  for (const KeepInMesh& mesh : limits.meshes) json["meshes"].push_back(volume_hash(mesh.mesh));
+  for (const KeepInMesh& mesh : meshes) json["meshes"].push_back(volume_hash(mesh.mesh));
   return json;
 }
 

@@ -177,12 +177,13 @@ class Writer {
     return "[" + text + "]";
   }
 
+  // All members are named: a limit that is added does not compile here before it is written.
   std::string navigation() const {
-    const Navigation& limits = mission_.navigation;
+    const auto& [altitude, keep_in, keep_out, resolved_meshes] = mission_.navigation;
     Section section("navigation");
-    if (limits.altitude) section.add("altitude", list_of(std::array{limits.altitude->min_m, limits.altitude->max_m}));
-    if (!limits.keep_in.empty()) section.add("boxes", boxes(limits.keep_in));
-    if (!limits.keep_out.empty()) section.add("keep_out", boxes(limits.keep_out));
+    if (altitude) section.add("altitude", list_of(std::array{altitude->min_m, altitude->max_m}));
+    if (!keep_in.empty()) section.add("boxes", boxes(keep_in));
+    if (!keep_out.empty()) section.add("keep_out", boxes(keep_out));
     std::string meshes;
     for (const NavigationMeshFile& mesh : mission_.navigation_meshes) {
       meshes += (meshes.empty() ? "" : ", ") + ("{mesh: " + path(mesh.file));

@@ -66,18 +66,21 @@ Limits::Limits(Navigation navigation) : navigation_(std::move(navigation)) {
   for (const KeepInMesh& mesh : navigation_.meshes) mesh_boxes_.push_back(bounding_box(mesh.mesh));
 }
 
+// All members of Navigation are named, here and below: a limit that is added does not compile before it is answered.
+
 /// The line within reach, cut wherever it passes a limit: between neighbours all of it is allowed or none.
 std::vector<double> Limits::cut_line(const ViewRay& line) const {
+  const auto& [altitude, keep_in, keep_out, meshes] = navigation_;
   std::vector<double> cuts;
-  if (navigation_.altitude) {
+  if (altitude) {
     Box band;
-    band.min = {-INFINITY, -INFINITY, navigation_.altitude->min_m};
-    band.max = {INFINITY, INFINITY, navigation_.altitude->max_m};
+    band.min = {-INFINITY, -INFINITY, altitude->min_m};
+    band.max = {INFINITY, INFINITY, altitude->max_m};
     add_box_crossings(band, line, cuts);
   }
-  for (const Box& box : navigation_.keep_in) add_box_crossings(box, line, cuts);
-  for (const Box& box : navigation_.keep_out) add_box_crossings(box, line, cuts);
-  for (const KeepInMesh& mesh : navigation_.meshes) add_mesh_crossings(mesh.mesh, line, cuts);
+  for (const Box& box : keep_in) add_box_crossings(box, line, cuts);
+  for (const Box& box : keep_out) add_box_crossings(box, line, cuts);
+  for (const KeepInMesh& mesh : meshes) add_mesh_crossings(mesh.mesh, line, cuts);
   std::erase_if(cuts, [&](double cut) { return !(cut > 0 && cut < line.reach); });
   cuts.push_back(0);
   cuts.push_back(line.reach);
@@ -106,20 +109,20 @@ double Limits::signed_margin(const ViewRay& line, double at, bool is_inside) con
 }
 
 std::vector<std::string> Limits::broken(const Vec3& point) const {
+  const auto& [altitude, keep_in, keep_out, meshes] = navigation_;
+  const auto holds = [&](const Box& box) { return inside(box, point); };
   std::vector<std::string> broken;
-  if (navigation_.altitude) {
-    if (point.z() < navigation_.altitude->min_m) broken.push_back("altitude min");
-    if (point.z() > navigation_.altitude->max_m) broken.push_back("altitude max");
+  if (altitude) {
+    if (point.z() < altitude->min_m) broken.push_back("altitude min");
+    if (point.z() > altitude->max_m) broken.push_back("altitude max");
   }
-  const auto& boxes = navigation_.keep_in;
-  if (!boxes.empty() && std::none_of(boxes.begin(), boxes.end(), [&](const Box& box) { return inside(box, point); }))
-    broken.push_back("boxes");
-  for (std::size_t i = 0; i < navigation_.keep_out.size(); ++i)
-    if (strictly_inside(navigation_.keep_out[i], point)) broken.push_back("keep_out " + std::to_string(i));
-  for (std::size_t i = 0; i < navigation_.meshes.size(); ++i) {
-    const KeepInMesh& mesh = navigation_.meshes[i];
+  if (!keep_in.empty() && std::none_of(keep_in.begin(), keep_in.end(), holds)) broken.push_back("boxes");
+  for (std::size_t i = 0; i < keep_out.size(); ++i)
+    if (strictly_inside(keep_out[i], point)) broken.push_back("keep_out " + std::to_string(i));
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
     // Also because the winding number overflows far away.
-    if (!inside(mesh_boxes_[i], point) || winding_number(mesh.mesh, point) < 0.5) broken.push_back("mesh " + mesh.name);
+    const bool is_in = inside(mesh_boxes_[i], point) && !(winding_number(meshes[i].mesh, point) < 0.5);
+    if (!is_in) broken.push_back("mesh " + meshes[i].name);
   }
   return broken;
 }

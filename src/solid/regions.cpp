@@ -165,13 +165,15 @@ void set_mesh(LabelledMesh labelled, const std::vector<FacetSource>& sources, st
   core::compact_causes(volume.mesh, volume.cause_of, volume.causes);
 }
 
+// All members are named: a limit that is added does not compile here before it is cut.
 Regions make_regions(const std::vector<Cause>& volume_causes, const std::vector<FacetSource>& volume_sources,
                      const Box& bounds, const Navigation& navigation, const std::vector<Mesh>& meshes) {
+  const auto& [altitude, keep_in, keep_out, keep_in_meshes] = navigation;
   Builder builder(volume_causes, volume_sources, bounds);
-  if (navigation.altitude) builder.add_altitude(*navigation.altitude);
-  builder.add_boxes(navigation.keep_in);
-  for (std::size_t i = 0; i < meshes.size(); ++i) builder.add_mesh(meshes[i], navigation.meshes[i].name);
-  for (std::size_t i = 0; i < navigation.keep_out.size(); ++i) builder.add_keep_out(navigation.keep_out[i], i);
+  if (altitude) builder.add_altitude(*altitude);
+  builder.add_boxes(keep_in);
+  for (std::size_t i = 0; i < meshes.size(); ++i) builder.add_mesh(meshes[i], keep_in_meshes[i].name);
+  for (std::size_t i = 0; i < keep_out.size(); ++i) builder.add_keep_out(keep_out[i], i);
   return builder.take();
 }
 

@@ -38,21 +38,21 @@ Limits::Limits(const Navigation& navigation, const Vec3& origin) : navigation_(n
   }
 }
 
+// All members are named: a limit that is added does not compile here before it is checked.
 std::optional<std::string> Limits::broken_by(const Vec3& point) const {
+  const auto& [altitude, keep_in, keep_out, meshes] = navigation_;
   const Vec3 scene_point = point + origin_;
-  if (navigation_.altitude) {
-    if (scene_point.z() < navigation_.altitude->min_m) return "altitude min";
-    if (scene_point.z() > navigation_.altitude->max_m) return "altitude max";
+  if (altitude) {
+    if (scene_point.z() < altitude->min_m) return "altitude min";
+    if (scene_point.z() > altitude->max_m) return "altitude max";
   }
   const auto holds = [&scene_point](const Box& box) { return within(box, scene_point); };
-  if (!navigation_.keep_in.empty() && std::none_of(navigation_.keep_in.begin(), navigation_.keep_in.end(), holds)) {
-    return "box";
-  }
-  for (std::size_t i = 0; i < navigation_.keep_out.size(); ++i) {
-    if (strictly_within(navigation_.keep_out[i], scene_point)) return "keep_out " + std::to_string(i);
+  if (!keep_in.empty() && std::none_of(keep_in.begin(), keep_in.end(), holds)) return "box";
+  for (std::size_t i = 0; i < keep_out.size(); ++i) {
+    if (strictly_within(keep_out[i], scene_point)) return "keep_out " + std::to_string(i);
   }
   for (std::size_t i = 0; i < meshes_.size(); ++i) {
-    if (meshes_[i].contains(point) == false) return "mesh " + navigation_.meshes[i].name;
+    if (meshes_[i].contains(point) == false) return "mesh " + meshes[i].name;
   }
   return std::nullopt;
 }

@@ -46,15 +46,16 @@ void write_box(std::ostream& out, const Box& box) {
   out << "    - {min: " << list(box.min) << ", max: " << list(box.max) << "}\n";
 }
 
+// The attack draws no meshes to stay in.
 void write_navigation(const Navigation& navigation, std::ostream& out) {
   if (navigation.empty()) return;
+  const auto& [altitude, keep_in, keep_out, meshes] = navigation;
   out << "navigation:\n";
-  if (navigation.altitude)
-    out << "  altitude: [" << number(navigation.altitude->min_m) << ", " << number(navigation.altitude->max_m) << "]\n";
-  if (!navigation.keep_in.empty()) out << "  boxes:\n";
-  for (const Box& box : navigation.keep_in) write_box(out, box);
-  if (!navigation.keep_out.empty()) out << "  keep_out:\n";
-  for (const Box& box : navigation.keep_out) write_box(out, box);
+  if (altitude) out << "  altitude: [" << number(altitude->min_m) << ", " << number(altitude->max_m) << "]\n";
+  if (!keep_in.empty()) out << "  boxes:\n";
+  for (const Box& box : keep_in) write_box(out, box);
+  if (!keep_out.empty()) out << "  keep_out:\n";
+  for (const Box& box : keep_out) write_box(out, box);
 }
 
 void write_mission(const Case& c, const Target& target, const std::filesystem::path& file) {
