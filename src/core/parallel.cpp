@@ -4,6 +4,8 @@
 #include <exception>
 #include <future>
 
+#include "vantage/threads.h"
+
 namespace vantage::internal::parallel {
 
 void run_while_asking(const std::function<void()>& body, const std::function<void()>& ask) {
@@ -25,3 +27,11 @@ void run_while_asking(const std::function<void()>& body, const std::function<voi
 }
 
 }  // namespace vantage::internal::parallel
+
+namespace vantage {
+
+void with_threads(int threads, const std::function<void()>& action) {
+  internal::parallel::with_threads(threads, action);
+}
+
+}  // namespace vantage

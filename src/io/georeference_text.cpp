@@ -79,4 +79,11 @@ const nlohmann::json* georeference_in(const nlohmann::json& object) {
   return found == ours->end() ? nullptr : &*found;
 }
 
+std::string place_comment(const std::optional<Georeference>& georeference, const char* start) {
+  if (!georeference) return {};
+  std::string line(start);
+  line.append(kGeoreferenceMark).append(" ").append(georeference_text(*georeference));
+  return line.append("\n");
+}
+
 }  // namespace vantage::internal::io

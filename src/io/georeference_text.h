@@ -20,7 +20,11 @@ VANTAGE_INTERNAL_API nlohmann::ordered_json georeference_json(const Georeference
 /// The same as text on one line, in ASCII.
 std::string georeference_text(const Georeference& georeference);
 
-/// Reads what the two above have written; unknown keys are passed over. Throws GeoreferenceProblem.
+/// A line for OBJ or the header of PLY, `start` ("# ", "comment ") before it; nothing without a place.
+std::string place_comment(const std::optional<Georeference>& georeference, const char* start);
+
+/// Reads what georeference_json and georeference_text have written; unknown keys are passed over. Throws
+/// GeoreferenceProblem.
 Georeference parse_georeference(const nlohmann::json& json);
 Georeference parse_georeference(std::string_view text);
 

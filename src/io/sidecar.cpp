@@ -43,4 +43,13 @@ Sidecar read_sidecar(const MeshSource& mesh, const core::ProgressReporter& progr
   }
 }
 
+void stage_sidecar(const Sidecar& content, const std::filesystem::path& mesh_file,
+                   std::vector<std::unique_ptr<AtomicFile>>& files) {
+  const std::filesystem::path file = sidecar_file(mesh_file);
+  std::error_code ignored;
+  if (!content.georeference && !content.rounding_m && !std::filesystem::exists(file, ignored)) return;
+  files.push_back(std::make_unique<AtomicFile>(file));
+  files.back()->write(sidecar_text(content));
+}
+
 }  // namespace vantage::internal::io

@@ -3,10 +3,13 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "io/mesh_source.h"
+#include "vantage/atomic_file.h"
 #include "vantage/georeference.h"
 
 namespace vantage::internal::io {
@@ -26,5 +29,11 @@ std::string sidecar_text(const Sidecar& content);
 
 /// Reads the file beside `mesh`; nothing when there is none. Throws Error(input) for one that cannot be read.
 Sidecar read_sidecar(const MeshSource& mesh, const core::ProgressReporter& progress);
+
+/// Adds the file beside a mesh, of a format that has no room for a place and a rounding. Nothing where there is
+/// neither, unless there is such a file from an earlier run, which would lie; that is then replaced by one that holds
+/// null.
+void stage_sidecar(const Sidecar& content, const std::filesystem::path& mesh_file,
+                   std::vector<std::unique_ptr<AtomicFile>>& files);
 
 }  // namespace vantage::internal::io

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "io/axes_text.h"
+#include "io/georeference_text.h"
 #include "io/rounding_text.h"
 #include "io/volume_statement.h"
-#include "io/write_sidecar.h"
 #include "io/writers.h"
 #include "vantage/error.h"
 #include "vantage/input.h"

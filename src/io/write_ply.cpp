@@ -1,9 +1,9 @@
 // PLY 1.0, binary, little-endian; scene frame.
 #include <limits>
 
+#include "io/georeference_text.h"
 #include "io/rounding_text.h"
 #include "io/volume_statement.h"
-#include "io/write_sidecar.h"
 #include "io/writers.h"
 #include "vantage/input.h"
 #include "vantage/version.h"

@@ -5,10 +5,11 @@
 
 #include "core/volume_check.h"
 #include "io/axes_text.h"
+#include "io/georeference_text.h"
 #include "io/object_text.h"
 #include "io/output_formats.h"
 #include "io/scene_writers.h"
-#include "io/write_sidecar.h"
+#include "io/sidecar.h"
 #include "io/writers.h"
 #include "vantage/error.h"
 #include "vantage/output.h"

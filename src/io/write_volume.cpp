@@ -10,8 +10,8 @@
 
 #include "core/volume_check.h"
 #include "io/output_formats.h"
+#include "io/sidecar.h"
 #include "io/volume_statement.h"
-#include "io/write_sidecar.h"
 #include "io/writers.h"
 #include "vantage/error.h"
 #include "vantage/output.h"
