@@ -57,10 +57,10 @@ class Queries {
     if (std::abs(height) < 1e-5 * away) return;
     const double place_margin = std::abs(answer.margin_m) / away;
     if (answer.inside) {
-      // Wrong deep inside what is claimed, or deep inside what is hidden.
+      // Wrong deep inside what is claimed, but for the rounding of coordinates, or deep inside what is hidden.
       const bool is_deep = answer.margin_m > step * away;
       if (height < 0 || !view_.exact.in_range(nearer, trial_.c.range) ||
-          (is_deep ? is_surely_hidden(p) : is_hidden_all_round(p, step * away)))
+          is_hidden_all_round(p, is_deep ? trial_.rounding() : step * away))
         trial_.result.add({Class::query_over, place_margin, trial_.to_scene(p), ""});
       return;
     }
