@@ -77,6 +77,27 @@ TEST(ExactDegenerate, ASlopeThatContinuesANeedleHidesNothingHighAbove) {
       std::any_of(planes.begin(), planes.end(), [&](const exact::Plane& plane) { return plane.dot(high) < 1; }));
 }
 
+// A triangle beside a needle, with all of the needle within rounding of its plane: nothing ended from above what it
+// hides, and there was no volume. It hides a layer of nanometres.
+TEST(ExactDegenerate, WhatLiesInTheTargetsPlaneHidesALayer) {
+  Target needle = target_of({{499999.99495510344, 4999999.9301994443, 99.942981646086594},
+                             {499999.99613478337, 4999999.9298631251, 99.943303084912046},
+                             {500000.00504489656, 5000000.0698005557, 100.05701835391341}});
+  needle.front = {-0.36353191520084172, -0.5734484645436051, 0.73416715068367755};
+  SceneBuilder builder;
+  builder.polygon("house", {{499999.83205584303, 5000000.0501678707, 99.956025855370271},
+                            {500000.01330825617, 4999999.8558605872, 99.894004316215685},
+                            {499999.86504813237, 4999999.7639174759, 99.748775913586513}});
+  const Scene scene = builder;
+  const Sensor sensor{0.15899459519379971};
+  const ExactOptions options{0.004016045677832889};
+  const PreparedScene prepared(scene), empty{Scene{}};
+  const Volume volume = compute_visibility(PreparedTarget(prepared, needle, sensor), options);
+  const Volume open = compute_visibility(PreparedTarget(empty, needle, sensor), options);
+  ASSERT_EQ(volume.outcome, Outcome::computed);
+  EXPECT_NEAR(enclosed_volume(volume.mesh) / enclosed_volume(open.mesh), 1, 1e-4);
+}
+
 /// Walls, plates and boxes beside and over a target, of a size of about 1.
 Scene draw_things(Random& random) {
   SceneBuilder builder;

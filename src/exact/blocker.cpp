@@ -155,8 +155,7 @@ void BlockerBuilder::add_polygon_edge_planes(const Vec3& polygon_normal) {
     const Vec3 normal = (polygon_normal - polygon_normal.dot(along_edge) * along_edge).normalized();
     const Vec3 inward = normal.cross(along_edge);
     const double along_0 = inward.dot(a), across_0 = normal.dot(a);
-    double low = -kInfinity, high = kInfinity;
-    bool separates = true;
+    double low = -kInfinity, high = kInfinity, in_plane = -kInfinity;
     for (const Vector2d& t : target_.vertices) {
       const double along = inward.x() * t.x() + inward.y() * t.y() - along_0;
       const double across = normal.x() * t.x() + normal.y() * t.y() - across_0;
@@ -164,10 +163,16 @@ void BlockerBuilder::add_polygon_edge_planes(const Vec3& polygon_normal) {
         high = std::min(high, -along / across);
       else if (across < -target_.slack)
         low = std::max(low, -along / across);
-      else if (along > target_.slack)
-        separates = false;
+      else
+        in_plane = std::max(in_plane, along);
     }
-    if (!separates || low > high) continue;
+    if (in_plane > target_.slack || low > high) continue;
+    if (!std::isfinite(low) && !std::isfinite(high)) {
+      // All of the target is in the polygon's plane, beside the edge. Wherever in the slack a vertex really is, these
+      // slopes have it on the near side. Without them nothing would end from above what the polygon hides.
+      high = std::max(0.0, -in_plane) / (2 * target_.slack);
+      low = -high;
+    }
     for (double slope : {low, high}) {
       if (!std::isfinite(slope)) continue;
       const Vec3 m = inward + slope * normal;
