@@ -162,14 +162,14 @@ class ExtractBuilder {
 Extract read_extract(const std::filesystem::path& file, const ReadOptions& options, const Progress& progress) {
   const RegionFilter region(options.region);
   const MapFile map = open_map_file(file);
-  core::ProgressReporter watch(progress, file);
-  const MapObjects objects = load_objects(map, options.wanted, watch);
+  core::ProgressReporter reporter(progress, file);
+  const MapObjects objects = load_objects(map, options.wanted, reporter);
   if (objects.nodes + objects.ways_in_file + objects.relations_in_file == 0) {
     throw Error(ErrorCode::map_empty, "the map is empty: there is no node, way or relation in it", file.string(),
                 "download or export the map again");
   }
-  watch.begin("assemble areas");
-  return ExtractBuilder(objects, region, options).build(watch);
+  reporter.begin("assemble areas");
+  return ExtractBuilder(objects, region, options).build(reporter);
 }
 
 }  // namespace vantage::internal::osm
