@@ -128,10 +128,11 @@ class Builder {
     if (split.axis >= 0) {
       std::size_t left = begin, right = begin;
       for (std::size_t i = begin; i < end; ++i) {
-        if (binning.bins_of(items_[i].box)[split.axis] <= split.bin)
+        if (binning.bins_of(items_[i].box)[split.axis] <= split.bin) {
           items_[left++] = items_[i];
-        else
+        } else {
           right_[right++] = items_[i];
+        }
       }
       std::copy(right_.begin() + static_cast<std::ptrdiff_t>(begin),
                 right_.begin() + static_cast<std::ptrdiff_t>(right),
@@ -147,10 +148,11 @@ class Builder {
       const Eigen::Array4i at = binning.bins_of(items_[i].box);
       for (int axis = 0; axis < 3; ++axis) {
         Box4& box = bins[axis].boxes[at[axis]];
-        if (bins[axis].count[at[axis]]++ == 0)
+        if (bins[axis].count[at[axis]]++ == 0) {
           box = items_[i].box;
-        else
+        } else {
           box.extend(items_[i].box);
+        }
       }
     }
     Split best;

@@ -69,10 +69,11 @@ void append_commands(const std::vector<TriangleCluster>& clusters, const Vec3& e
     const Vec3 centre = 0.5 * (cluster.bounds.max + cluster.bounds.min) - eye;
     const bool near = (centre.cwiseAbs() - half).cwiseMax(0).norm() <= range * (1 + 1e-9);
     const bool drawn = near && may_show(axes, centre, half);
-    if (drawn && follows)
+    if (drawn && follows) {
       commands.back().count += cluster.count;
-    else if (drawn)
+    } else if (drawn) {
       commands.push_back({cluster.count, 1, cluster.first, 0, static_cast<std::uint32_t>(face)});
+    }
     follows = drawn;
   }
 }

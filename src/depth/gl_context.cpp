@@ -153,10 +153,11 @@ RenderDevice describe(const GlContext& context) {
   device.largest_face_size = std::min({texture, viewport[0], viewport[1], kLargestFace});
   if (device.kind == DeviceKind::opengl_hardware) {
     std::array<GLint, 4> kib{};
-    if (context.has_extension("GL_NVX_gpu_memory_info"))
+    if (context.has_extension("GL_NVX_gpu_memory_info")) {
       gl.GetIntegerv(kDedicatedMemoryNvx, kib.data());
-    else if (context.has_extension("GL_ATI_meminfo"))
+    } else if (context.has_extension("GL_ATI_meminfo")) {
       gl.GetIntegerv(kTextureFreeMemoryAti, kib.data());
+    }
     device.memory_bytes = kib[0] > 0 ? static_cast<std::size_t>(kib[0]) * 1024 : 0;
   }
   context.check("asking the device for its limits");
@@ -366,10 +367,11 @@ GlCurrent::GlCurrent(const GlContext& context) : context_(context) {
 
 GlCurrent::~GlCurrent() {
   const EglFunctions& egl = context_.library_->egl;
-  if (previous_)
+  if (previous_) {
     egl.MakeCurrent(display_, draw_, read_, previous_);
-  else
+  } else {
     egl.MakeCurrent(context_.display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+  }
   if (api_ != EGL_OPENGL_API) egl.BindAPI(api_);
 }
 

@@ -112,10 +112,11 @@ void BlockerBuilder::add_own_plane(const Vec3& normal) {
     on_polygon_[i] = is_over ? h >= own_low - target_.slack : h <= own_high + target_.slack;
   }
   const std::size_t before = planes_->size();
-  if (is_over)
+  if (is_over) {
     add(normal, own_low);
-  else
+  } else {
     add(-normal, -own_high);
+  }
   if (planes_->size() == before) on_polygon_.assign(on_polygon_.size(), 0);
 }
 
@@ -132,10 +133,11 @@ void BlockerBuilder::add_target_edge_planes() {
     for (const Vec3& o : polygon_) {
       double outside = edge.outward.dot(o.head<2>()) - edge.distance;
       if (std::abs(outside) <= target_.slack) outside = 0;
-      if (o.z() > 0)
+      if (o.z() > 0) {
         slope = std::max(slope, -outside / o.z());
-      else if (outside < 0)
+      } else if (outside < 0) {
         separates = false;  // the polygon stands on the target's plane inside this edge: only z = 0 separates them
+      }
     }
     if (separates) add({edge.outward.x(), edge.outward.y(), slope}, edge.distance);
   }
@@ -159,12 +161,13 @@ void BlockerBuilder::add_polygon_edge_planes(const Vec3& polygon_normal) {
     for (const Vector2d& t : target_.vertices) {
       const double along = inward.x() * t.x() + inward.y() * t.y() - along_0;
       const double across = normal.x() * t.x() + normal.y() * t.y() - across_0;
-      if (across > target_.slack)
+      if (across > target_.slack) {
         high = std::min(high, -along / across);
-      else if (across < -target_.slack)
+      } else if (across < -target_.slack) {
         low = std::max(low, -along / across);
-      else
+      } else {
         in_plane = std::max(in_plane, along);
+      }
     }
     if (in_plane > target_.slack || low > high) continue;
     if (!std::isfinite(low) && !std::isfinite(high)) {

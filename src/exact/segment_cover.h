@@ -33,10 +33,11 @@ inline Interval hidden_part(const Vec3& from, const Vec3& to, double reach, std:
     if (a <= margin && b <= margin) return kNone;
     if (a >= -margin && b >= -margin) continue;
     const double crossing = a / (a - b);
-    if (a < b)
+    if (a < b) {
       hidden.begin = std::max(hidden.begin, crossing);
-    else
+    } else {
       hidden.end = std::min(hidden.end, crossing);
+    }
     if (hidden.begin >= hidden.end) return kNone;
   }
   return hidden;
