@@ -4,7 +4,7 @@
 #   scripts/build_variants.sh [NAME...]     all of them, or those that are named; VARIANTS: the folder (build-variants)
 set -euo pipefail
 cd "$(dirname "$0")/.."
-folder=${VARIANTS:-build-variants}
+folder=$(realpath -m "${VARIANTS:-build-variants}")
 jobs=${JOBS:-$(nproc)}
 
 # NAME  consumer: everything or embedder  options
@@ -29,7 +29,7 @@ build_variant() {
   rm -rf "$own/prefix" "$own/consumer"
   cmake --install "$own" --prefix "$own/prefix" >/dev/null
   cmake -S "tests/consumer/$consumer" -B "$own/consumer" -G Ninja -DCMAKE_BUILD_TYPE=Release \
-    -DCMAKE_PREFIX_PATH="$PWD/$own/prefix" -DHEADERS="${headers%,}" --log-level=WARNING >/dev/null
+    -DCMAKE_PREFIX_PATH="$own/prefix" -DHEADERS="${headers%,}" --log-level=WARNING >/dev/null
   cmake --build "$own/consumer" --parallel "$jobs" | tail -n 1
   case $consumer in
     everything) "$own/consumer/consumer" "$plaza/mission.yaml" "$own/volume.ply" ;;
