@@ -34,9 +34,12 @@ class VANTAGE_API PointQuery {
   PointQuery(PointQuery&&) noexcept;
   PointQuery& operator=(PointQuery&&) noexcept;
 
-  /// Answers in the order of the points (scene frame, metres); exact, no tolerance, and the same whatever was asked
-  /// before. Uses the threads of the caller's arena (TBB); not for two callers at once. Cost: for the first points one
-  /// walk of the scene's hierarchy each; then, once, O(n) in the polygons within reach of the target; from then on in
+  /// Answers in the order of the points (scene frame, metres), the same whatever was asked before. There is no
+  /// tolerance. What compute_visibility excepts from its guarantee (vantage/volume.h) is excepted here too: within five
+  /// roundings of the largest coordinate of the boundary, a point may be called inside or outside.
+  ///
+  /// Uses the threads of the caller's arena (TBB); not for two callers at once. Cost: for the first points one walk of
+  /// the scene's hierarchy each; then, once, O(n) in the polygons within reach of the target; from then on in
   /// proportion to what may hide the target from the point. And a few passes over the triangles of each navigation
   /// mesh. Throws Error(input) for a point that is not finite.
   std::vector<PointAnswer> answer(std::span<const Vec3> points);
