@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Builds the libraries in ways that neither `make build` nor the tests use, installs each, and runs a program that finds
-# it there: all of them static, some components alone, no threads. Half an hour with nothing built: for `make nightly`.
+# it there: all of them static, some components alone, no threads. For `make nightly`.
 #   scripts/build_variants.sh [NAME...]     all of them, or those that are named; VARIANTS: the folder (build-variants)
 set -euo pipefail
 cd "$(dirname "$0")/.."
