@@ -134,8 +134,10 @@ void expect_same_boxes(const std::vector<Box>& found, const std::vector<Box>& ex
 void expect_same_limits(const Navigation& found, const Navigation& expected) {
   const auto& [altitude, keep_in, keep_out, meshes] = found;
   ASSERT_EQ(altitude.has_value(), expected.altitude.has_value());
-  if (altitude) EXPECT_EQ(altitude->min_m, expected.altitude->min_m);
-  if (altitude) EXPECT_EQ(altitude->max_m, expected.altitude->max_m);
+  if (altitude) {
+    EXPECT_EQ(altitude->min_m, expected.altitude->min_m);
+    EXPECT_EQ(altitude->max_m, expected.altitude->max_m);
+  }
   expect_same_boxes(keep_in, expected.keep_in);
   expect_same_boxes(keep_out, expected.keep_out);
   EXPECT_EQ(meshes.size(), expected.meshes.size());
