@@ -1,6 +1,6 @@
 // How long one target takes once the scene is prepared, against a plain union of blockers; and preparing a large city.
 // Names: engine/<scene>/<target>/<range>/<threads>. Times are of compute_visibility alone; a summary with the ratios is
-// made by bench/run.sh. sheets/<shape>/<count> is no city: open triangles over the target that share an axis or a
+// made by bench/run.sh. sheets/<shape>/<count> is not a city: open triangles over the target that share an axis or a
 // point.
 #include <benchmark/benchmark.h>
 

@@ -75,7 +75,7 @@ TEST(ExactOutcomes, JustWithinRangeIsComputed) {
   const Scene scene = SceneBuilder().ground("ground", 100);
   const double radius = 30 * std::sqrt(2.0);
   EXPECT_EQ(compute(scene, square(30), radius * (1 - 1e-6)).outcome, Outcome::out_of_range);
-  EXPECT_EQ(compute(scene, square(30), radius).outcome, Outcome::out_of_range);  // a single point is no volume
+  EXPECT_EQ(compute(scene, square(30), radius).outcome, Outcome::out_of_range);  // a single point is not a volume
   for (const double over : {1e-5, 1e-3, 0.1}) {
     SCOPED_TRACE(over);
     const double range = radius * (1 + over);
@@ -244,7 +244,7 @@ TEST(ExactOutcomes, ATiltedTargetLeavesTheGroundWithItsLowestCorner) {
 }
 
 TEST(ExactOutcomes, NoOffsetBringsABuriedFacadeOut) {
-  // Sideways it would pass a buried tank, and then the edge of the ground, which is no way out.
+  // Sideways it would pass a buried tank, and then the edge of the ground, which is not a way out.
   const Scene scene = SceneBuilder()
                           .ground("ground", 100)
                           .box("tank", {-9, -40, -8}, {9, -30, -2})

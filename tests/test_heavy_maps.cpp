@@ -97,7 +97,7 @@ TEST_P(HeavyMaps, EveryBuildingIsAccountedFor) {
     ++counts["ways that untagged multipolygons stand for"];
   }
   for (const auto& [id, record] : records) {
-    EXPECT_TRUE(stood_for.contains(id)) << id << " is no building that osmium-tool sees";
+    EXPECT_TRUE(stood_for.contains(id)) << id << " is not a building that osmium-tool sees";
     ++counts["untagged multipolygons"];
   }
   std::cout << GetParam() << ": osmium-tool lists " << map_.tagged.size() << "; " << text(counts) << "\n";
@@ -386,7 +386,7 @@ struct Tally {
   std::size_t built = 0, solid = 0, open = 0;
 };
 
-/// Looks at every building of a city; tells of each that is no solid.
+/// Looks at every building of a city; tells of each that is not a solid.
 Tally count_solids(const City& city, const std::string& map) {
   const std::vector<Piece> pieces = pieces_of(city.scene);
   std::map<std::string, std::size_t> object_of;
@@ -407,7 +407,7 @@ Tally count_solids(const City& city, const std::string& map) {
     tally.solid += is_solid;
     tally.open += record.fate == Fate::open_surface;
     EXPECT_TRUE(is_solid || record.fate == Fate::open_surface)
-        << map << ": " << record.object.source_id << " is no solid";
+        << map << ": " << record.object.source_id << " is not a solid";
     if (!is_solid) std::cout << "  no solid: " << record.object.source_id << ", " << record.reason << "\n";
     double low = INFINITY, high = -INFINITY;
     for (const Vec3& corner : piece.corners) {

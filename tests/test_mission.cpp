@@ -195,7 +195,7 @@ TEST(Mission, HasDefaults) {
   EXPECT_EQ(mission.exact.threads, 0);
   EXPECT_TRUE(mission.file.is_absolute());
   EXPECT_EQ(mission.scene.file, mission.file.parent_path() / "city.obj");
-  EXPECT_TRUE(parse(text_of_mission("navigation:\n")).navigation.empty()) << "the heading alone is no limit";
+  EXPECT_TRUE(parse(text_of_mission("navigation:\n")).navigation.empty()) << "the heading alone is not a limit";
 }
 
 TEST(Mission, AcceptsAByteOrderMarkAndWindowsLineEnds) {
@@ -486,7 +486,7 @@ TEST(NearestName, CountsSlips) {
   EXPECT_EQ(edit_distance("", "abc"), 3);
   EXPECT_EQ(edit_distance("max_range", "max_range"), 0);
   EXPECT_EQ(edit_distance("max_rnage", "max_range"), 1) << "neighbours swapped";
-  EXPECT_EQ(edit_distance("Max_Range", "max_range"), 0) << "case is no slip";
+  EXPECT_EQ(edit_distance("Max_Range", "max_range"), 0) << "case is not a slip";
   EXPECT_EQ(edit_distance("kitten", "sitting"), 3);
   EXPECT_EQ(nearest_name("altitud", {"boxes", "altitude", "meshes"}), "altitude");
   EXPECT_EQ(nearest_name("x", {}), "");

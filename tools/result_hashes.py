@@ -8,7 +8,8 @@
 For each mission: SHA-256 of the arrays of the PLY (vertices as doubles, facets, cause of each facet), of the causes in
 order (kind, name and area, as the report has them), and of the report without times, paths and versions. With --against
 it names every mission whose arrays, causes or report differ, and exits with 1 if there is one; keys that only one of the
-reports has are listed, and are no difference. Missions whose scene is not on this machine are left out, and listed.
+reports has are listed, and do not count as differences. Missions whose scene is not on this machine are left out, and
+listed.
 """
 
 import argparse

@@ -103,7 +103,7 @@ enum class ErrorCode {
 
   // places on the earth
   not_georeferenced,  ///< a scene or raster does not say where on the earth it lies
-  not_on_earth,       ///< a latitude or longitude is no place on the earth
+  not_on_earth,       ///< a latitude or longitude is not a place on the earth
   too_far_away,       ///< a place is too far from the scene
   crs_unknown,        ///< there is no such coordinate reference system
   crs_unusable,       ///< a coordinate reference system cannot be converted to longitudes and latitudes
@@ -116,12 +116,12 @@ enum class ErrorCode {
   map_empty,           ///< a map holds nothing that can be built
   map_object_missing,  ///< a map has no such area
   ground_missing,      ///< a scene has no ground to put a target on
-  region_invalid,      ///< a region is no region: reversed, without extent or too large
+  region_invalid,      ///< a region is not valid: reversed, without extent or too large
   region_outside,      ///< a region lies outside the map or raster
   region_empty,        ///< nothing in a region can be used
 
   // rasters
-  raster_unreadable,        ///< a file is no raster that can be read, or is damaged
+  raster_unreadable,        ///< a file is not a raster that can be read, or is damaged
   raster_not_heights,       ///< a raster holds something other than heights in metres
   raster_grid_unsupported,  ///< the rows of a raster do not run east, or its pixels have no size
   raster_too_large,         ///< a region has more posts of a raster than can be handled

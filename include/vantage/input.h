@@ -49,8 +49,8 @@ VANTAGE_API std::string_view nearest_name(std::string_view word, const std::vect
 
 // ---- files ----
 
-/// Throws Error(input), with `where` and the file as the place, unless `file` exists, is no folder and no device, and
-/// may be read. `what` begins the message: "the scene's mesh".
+/// Throws Error(input), with `where` and the file as the place, unless `file` exists, is neither a folder nor a device,
+/// and may be read. `what` begins the message: "the scene's mesh".
 VANTAGE_API void check_readable(const std::filesystem::path& file, const std::string& what,
                                 const std::string& where = {});
 

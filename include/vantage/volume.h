@@ -96,8 +96,8 @@ struct Volume {
   std::vector<std::uint32_t> cause_of;  ///< per triangle: index into `causes`
   std::vector<Cause> causes;
   /// Per triangle: the convex polygon of the scene that hides the target beyond it (PreparedScene::polygon), or
-  /// kNoPolygon where the cause is no object of the scene. Empty where it is not known: the method of spheres does not
-  /// tell it, and files do not hold it.
+  /// kNoPolygon where the cause is not an object of the scene. Empty where it is not known: the method of spheres does
+  /// not tell it, and files do not hold it.
   std::vector<std::uint32_t> polygon_of;
 
   double tolerance_m = 0;      ///< bound on how far range facets lie inside the true range region

@@ -11,64 +11,65 @@
 namespace vantage {
 namespace {
 
-using Json = nlohmann::json;  // its keys are sorted
+using SortedJson = nlohmann::json;
 
 /// Numbers are written as vantage writes them: the shortest decimal that reads back the same.
-Json number(double value) { return shortest(value + 0.0); }
+SortedJson number_text(double value) { return shortest(value + 0.0); }
 
-Json json_of(const Vec3& v) { return {number(v.x()), number(v.y()), number(v.z())}; }
+SortedJson sorted_json_of(const Vec3& v) { return {number_text(v.x()), number_text(v.y()), number_text(v.z())}; }
 
-Json json_of(const std::vector<Box>& boxes) {
-  Json list = Json::array();
-  for (const Box& box : boxes) list.push_back({json_of(box.min), json_of(box.max)});
+SortedJson sorted_json_of(const std::vector<Box>& boxes) {
+  SortedJson list = SortedJson::array();
+  for (const Box& box : boxes) list.push_back({sorted_json_of(box.min), sorted_json_of(box.max)});
   return list;
 }
 
 // All members are named: a limit that is added does not compile here before it is hashed.
-Json json_of(const Navigation& limits) {
+SortedJson sorted_json_of(const Navigation& limits) {
   const auto& [altitude, keep_in, keep_out, meshes] = limits;
-  Json json = {{"boxes", json_of(keep_in)}, {"keep_out", json_of(keep_out)}};
-  json["altitude"] = altitude ? Json{number(altitude->min_m), number(altitude->max_m)} : Json();
-  json["meshes"] = Json::array();
+  SortedJson json = {{"boxes", sorted_json_of(keep_in)}, {"keep_out", sorted_json_of(keep_out)}};
+  json["altitude"] = altitude ? SortedJson{number_text(altitude->min_m), number_text(altitude->max_m)} : SortedJson();
+  json["meshes"] = SortedJson::array();
   for (const KeepInMesh& mesh : meshes) json["meshes"].push_back(volume_hash(mesh.mesh));
   return json;
 }
 
-Json json_of(const Target& target) {
-  Json parts = Json::array();
+SortedJson sorted_json_of(const Target& target) {
+  SortedJson parts = SortedJson::array();
   for (const std::vector<Vec3>& part : target.parts) {
-    Json vertices = Json::array();
-    for (const Vec3& vertex : part) vertices.push_back(json_of(vertex));
+    SortedJson vertices = SortedJson::array();
+    for (const Vec3& vertex : part) vertices.push_back(sorted_json_of(vertex));
     parts.push_back(std::move(vertices));
   }
   return {{"parts", std::move(parts)},
-          {"offset_m", number(target.offset_m)},
-          {"front", target.front ? json_of(*target.front) : Json()}};
+          {"offset_m", number_text(target.offset_m)},
+          {"front", target.front ? sorted_json_of(*target.front) : SortedJson()}};
 }
 
-Json json_of(const SpheresOptions& options) {
-  Json json = {{"sphere", options.sphere == SpheresOptions::Sphere::centers ? "centers" : "conservative"},
-               {"cubemap", number(options.cubemap)},
-               {"merge", number(options.merge)},
-               {"split", options.split == SpheresOptions::Split::always ? "always" : "euler"},
-               {"max_splits", number(options.max_splits)},
-               {"min_edge_m", number(options.min_edge_m)}};
-  json["resolution"] =
-      options.resolution ? Json{number((*options.resolution)[0]), number((*options.resolution)[1])} : Json();
+SortedJson sorted_json_of(const SpheresOptions& options) {
+  SortedJson json = {{"sphere", options.sphere == SpheresOptions::Sphere::centers ? "centers" : "conservative"},
+                     {"cubemap", number_text(options.cubemap)},
+                     {"merge", number_text(options.merge)},
+                     {"split", options.split == SpheresOptions::Split::always ? "always" : "euler"},
+                     {"max_splits", number_text(options.max_splits)},
+                     {"min_edge_m", number_text(options.min_edge_m)}};
+  json["resolution"] = options.resolution
+                           ? SortedJson{number_text((*options.resolution)[0]), number_text((*options.resolution)[1])}
+                           : SortedJson();
   return json;
 }
 
 }  // namespace
 
 std::string mission_hash(const Mission& mission) {
-  Json json = {{"target", json_of(mission.target)},
-               {"sensor", {{"max_range_m", number(mission.sensor.max_range_m)}}},
-               {"limits", json_of(mission.navigation)},
-               {"method", name_of(mission.as_written.method)}};
+  SortedJson json = {{"target", sorted_json_of(mission.target)},
+                     {"sensor", {{"max_range_m", number_text(mission.sensor.max_range_m)}}},
+                     {"limits", sorted_json_of(mission.navigation)},
+                     {"method", name_of(mission.as_written.method)}};
   if (mission.as_written.method == Method::spheres) {
-    json["options"] = json_of(mission.as_written.spheres);
+    json["options"] = sorted_json_of(mission.as_written.spheres);
   } else {
-    json["options"] = {{"tolerance_m", number(mission.as_written.exact.tolerance_m)}};
+    json["options"] = {{"tolerance_m", number_text(mission.as_written.exact.tolerance_m)}};
   }
   internal::core::Sha256 hash;
   hash.add("vantage mission 1\n");

@@ -164,7 +164,7 @@ std::array<double, 2> parse_lat_lon(const YamlNode& node, const ValueReader& rea
   if (std::abs(latitude) > 90 || std::abs(longitude) > 180) {
     const bool is_swapped = std::abs(longitude) <= 90 && std::abs(latitude) <= 180;
     reader.fail(ErrorCode::not_on_earth, node,
-                what + " is no place: latitude " + shortest(latitude) + ", longitude " + shortest(longitude),
+                what + " is not a place: latitude " + shortest(latitude) + ", longitude " + shortest(longitude),
                 is_swapped ? "write the latitude first: [" + shortest(longitude) + ", " + shortest(latitude) + "]"
                            : std::string(kLatLonForm));
   }

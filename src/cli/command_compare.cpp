@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kExamples =
+constexpr const char* kCompareExamples =
     "FRAMES\n"
     "  PLY and STL files are in the scene frame: metres, z up. glTF is y up. An OBJ that vantage wrote says its axes\n"
     "  and unit itself; of any other say them with --up and --scale. --only-a and --only-b write likewise.\n"
@@ -40,7 +40,7 @@ constexpr const char* kExamples =
     "Where one of them claims nothing alone no mesh is written, and an older file stays. The exit code does not\n"
     "depend on how much they differ.\n";
 
-struct Options {
+struct CompareArguments {
   CommonOptions common;
   std::string file_a, file_b, only_a, only_b;
   std::string up, scale;  // empty: not given
@@ -48,7 +48,7 @@ struct Options {
 };
 
 /// How OBJ files are read and written.
-SceneReadOptions obj_options(const Options& options) {
+SceneReadOptions obj_options(const CompareArguments& options) {
   const std::array<const std::string*, 4> files = {&options.file_a, &options.file_b, &options.only_a, &options.only_b};
   const bool has_obj = std::any_of(files.begin(), files.end(), [](const auto* f) { return is_obj(*f); });
   if (!has_obj && !(options.up.empty() && options.scale.empty())) {
@@ -61,7 +61,7 @@ SceneReadOptions obj_options(const Options& options) {
   return result;
 }
 
-void check_outputs(const Options& options) {
+void check_compare_outputs(const CompareArguments& options) {
   for (const std::string& output : {options.only_a, options.only_b}) {
     if (output.empty()) continue;
     check_volume_output(output);
@@ -75,8 +75,8 @@ void check_outputs(const Options& options) {
 }
 
 /// Both or none; returns the files that were written.
-std::vector<std::string> write(const Options& options, Comparison& comparison, const std::optional<Georeference>& place,
-                               const SceneReadOptions& obj) {
+std::vector<std::string> write(const CompareArguments& options, Comparison& comparison,
+                               const std::optional<Georeference>& place, const SceneReadOptions& obj) {
   std::vector<std::unique_ptr<AtomicFile>> files;
   std::vector<std::string> written;
   const auto stage = [&](const std::string& output, Mesh& mesh, const std::string& input) {
@@ -109,7 +109,7 @@ void add_difference(TextTable& table, const char* name, double volume, double wh
   }
 }
 
-std::string table_text(const Options& options, const Comparison& c, const std::vector<std::string>& written,
+std::string table_text(const CompareArguments& options, const Comparison& c, const std::vector<std::string>& written,
                        bool is_turn_doubtful) {
   TextTable table;
   table.heading("A: " + options.file_a);
@@ -132,11 +132,11 @@ std::string table_text(const Options& options, const Comparison& c, const std::v
   return table.text();
 }
 
-int run(const Options& options) {
+int run_compare(const CompareArguments& options) {
   check_readable(options.file_a, "the first mesh", "");
   check_readable(options.file_b, "the second mesh", "");
   const SceneReadOptions obj = obj_options(options);
-  check_outputs(options);
+  check_compare_outputs(options);
   ProgressLine progress(options.common);
   const VolumeFile a = read_volume(options.file_a, obj, {}, progress.callback());
   const VolumeFile b = read_volume(options.file_b, obj, a.volume.georeference, progress.callback());
@@ -164,7 +164,7 @@ int run(const Options& options) {
 
 void add_compare(CLI::App& app, Command& chosen) {
   CLI::App* command = app.add_subcommand("compare", "Measure the difference between two closed volumes");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CompareArguments>();
   command->add_option("a", options->file_a, "A closed mesh: PLY, OBJ, STL, glTF or GLB; may be compressed with gzip")
       ->required()
       ->option_text("A");
@@ -177,7 +177,7 @@ void add_compare(CLI::App& app, Command& chosen) {
       ->option_text("AXIS");
   command->add_option("--scale", options->scale, "Metres in one unit of the OBJ files (default 1)")->option_text("S");
   command->add_flag("--json", options->json, "Print JSON instead of a table");
-  finish<Options>(*command, options, kExamples, chosen, run);
+  finish<CompareArguments>(*command, options, kCompareExamples, chosen, run_compare);
 }
 
 }  // namespace vantage::cli

@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kExamples =
+constexpr const char* kComputeExamples =
     "EXAMPLES\n"
     "  vantage compute mission.yaml -o volume.ply\n"
     "  vantage compute mission.yaml -o volume.ply -o volume.glb -o volume.obj\n"
@@ -43,7 +43,7 @@ constexpr const char* kExamples =
 
 constexpr std::size_t kCausesListed = 10, kCausesInLine = 3;
 
-struct Options {
+struct ComputeArguments {
   CommonOptions common;
   std::string mission_file;
   std::vector<std::string> outputs;
@@ -67,7 +67,7 @@ struct Options {
 }
 
 /// All that can be known to go wrong with the outputs before anything is computed.
-void check_outputs(const Options& options) {
+void check_compute_outputs(const ComputeArguments& options) {
   check_result_files(options.files(), {});
   if (options.outputs.size() > options.files().size() + 1) {
     fail_option(ErrorCode::output_named_twice, "standard output is named twice", "-o -", "leave one out");
@@ -93,7 +93,7 @@ void check_outputs(const Options& options) {
 }
 
 /// The command line overrides what the mission says.
-MissionFile with_options(MissionFile mission, const Options& options) {
+MissionFile with_options(MissionFile mission, const ComputeArguments& options) {
   if (!options.method.empty()) mission.method = options.method == "spheres" ? Method::spheres : Method::exact;
   if (!options.device.empty()) mission.spheres.device = parse_device_choice(options.device);
   if (mission.method == Method::spheres) return mission;
@@ -215,7 +215,7 @@ std::string summary(const Mission& mission, const Result& run, const MeshMeasure
 }
 
 /// STL and GLB have single precision only: with map coordinates that may be far less than what was computed.
-void warn_of_rounding(const Options& options, const Volume& volume, const WrittenResults& written) {
+void warn_of_rounding(const ComputeArguments& options, const Volume& volume, const WrittenResults& written) {
   if (options.common.quiet) return;
   for (std::size_t i = 0; i < written.written.size(); ++i) {
     const double rounding = written.written[i].rounding_m;
@@ -226,7 +226,7 @@ void warn_of_rounding(const Options& options, const Volume& volume, const Writte
 }
 
 /// All that is written but standard output, and what people are told of it.
-std::string list_of_files(const Options& options, const Result& run, const WrittenResults& written) {
+std::string list_of_files(const ComputeArguments& options, const Result& run, const WrittenResults& written) {
   std::string text;
   for (const std::string& output : options.outputs) {
     if (run.volume.outcome == Outcome::computed && !is_standard_stream(output)) text += "wrote " + output + "\n";
@@ -239,7 +239,7 @@ std::string list_of_files(const Options& options, const Result& run, const Writt
   return text;
 }
 
-void tell_of_no_volume(const Options& options, const Volume& volume) {
+void tell_of_no_volume(const ComputeArguments& options, const Volume& volume) {
   note("no volume: " + volume.reason);
   for (const std::string& output : options.outputs) {
     std::error_code error;
@@ -250,7 +250,7 @@ void tell_of_no_volume(const Options& options, const Volume& volume) {
 }
 
 /// Standard output holds the report, or the volume, or the summary.
-void tell(const Options& options, const Mission& mission, const Result& run, const WrittenResults& written,
+void tell(const ComputeArguments& options, const Mission& mission, const Result& run, const WrittenResults& written,
           const OutgoingFile* outgoing) {
   const bool has_volume = run.volume.outcome == Outcome::computed;
   if (options.json) {
@@ -270,8 +270,8 @@ void tell(const Options& options, const Mission& mission, const Result& run, con
   if (outgoing && has_volume) outgoing->send();
 }
 
-int run(const Options& options) {
-  check_outputs(options);
+int run_compute(const ComputeArguments& options) {
+  check_compute_outputs(options);
   const double start = seconds_since_start();
   const MissionFile file = with_options(read_mission_argument(options.mission_file), options);
   const std::vector<fs::path> inputs = input_files(file);
@@ -311,7 +311,7 @@ int run(const Options& options) {
 
 void add_compute(CLI::App& app, Command& chosen) {
   CLI::App* command = app.add_subcommand("compute", "Compute the visibility volume of a mission and write it");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ComputeArguments>();
   command->add_option("mission", options->mission_file, "The mission file; - for standard input")
       ->required()
       ->option_text("MISSION");
@@ -338,7 +338,7 @@ void add_compute(CLI::App& app, Command& chosen) {
   command->add_flag("--fail-empty", options->fail_empty, "Exit with code 1 if there is no volume");
   command->add_flag("--json", options->json, "Print the report instead of a summary");
   command->add_flag("-v,--verbose", options->verbose, "Print all causes, sizes and times instead of five lines");
-  finish<Options>(*command, options, kExamples, chosen, run);
+  finish<ComputeArguments>(*command, options, kComputeExamples, chosen, run_compute);
 }
 
 }  // namespace vantage::cli

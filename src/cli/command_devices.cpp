@@ -8,13 +8,13 @@
 namespace vantage::cli {
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kDevicesExamples =
     "EXAMPLES\n"
     "  vantage devices\n"
     "  vantage devices --device gpu        # is there a graphics processor? exit code 2 when not\n"
     "  vantage devices --json | jq -r '.devices[].name'\n";
 
-struct Options {
+struct DevicesArguments {
   CommonOptions common;
   std::string device = "auto";
   bool json = false;
@@ -60,7 +60,7 @@ std::string table_text(const RenderDevices& found, const ChosenDevice& chosen, c
   return table.text();
 }
 
-int run(const Options& options) {
+int run_devices(const DevicesArguments& options) {
   const DeviceChoice choice = parse_device_choice(options.device);
   const RenderDevices found = render_devices();
   const ChosenDevice chosen = choose_device(found, choice);
@@ -74,13 +74,13 @@ int run(const Options& options) {
 void add_devices(CLI::App& app, Command& chosen) {
   CLI::App* command =
       app.add_subcommand("devices", "Show what can render depth images and pictures here, and which would be used");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<DevicesArguments>();
   command
       ->add_option("--device", options->device,
                    "Device to choose: auto (default), cpu, opengl, gpu, or the number of a device")
       ->option_text("DEVICE");
   command->add_flag("--json", options->json, "Print JSON instead of a table");
-  finish<Options>(*command, options, kExamples, chosen, run);
+  finish<DevicesArguments>(*command, options, kDevicesExamples, chosen, run_devices);
 }
 
 }  // namespace vantage::cli

@@ -14,13 +14,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kExamples =
+constexpr const char* kDocsExamples =
     "EXAMPLES\n"
     "  vantage docs man build/share/man/man1\n"
     "  vantage docs completion bash > ~/.local/share/bash-completion/completions/vantage\n"
     "  source <(vantage docs completion bash)\n";
 
-struct Options {
+struct DocsArguments {
   std::string kind, argument, output;
 };
 
@@ -42,7 +42,7 @@ std::string completion(const std::vector<CommandRow>& table, const std::string& 
               "name bash, zsh or fish");
 }
 
-int run(const CLI::App& app, const Options& options) {
+int run_docs(const CLI::App& app, const DocsArguments& options) {
   const std::vector<CommandRow> table = command_table(app);
   if (options.kind == "man") {
     write_man_pages(table, options.argument);
@@ -62,7 +62,7 @@ int run(const CLI::App& app, const Options& options) {
 void add_docs(CLI::App& app, Command& chosen) {
   CLI::App* command = app.add_subcommand("docs", "Write the man pages, or the completion script of a shell");
   command->group("");  // for packagers: not in --help
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<DocsArguments>();
   command->add_option("kind", options->kind, "man or completion")
       ->required()
       ->check(CLI::IsMember({"man", "completion"}))
@@ -74,8 +74,8 @@ void add_docs(CLI::App& app, Command& chosen) {
       ->option_text("FOLDER|SHELL");
   command->add_option("-o,--output", options->output, "Of completion: the file to write; default: standard output")
       ->option_text("FILE");
-  command->footer(kExamples + exit_code_table());
-  command->callback([options, &app, &chosen] { chosen = [options, &app] { return run(app, *options); }; });
+  command->footer(kDocsExamples + exit_code_table());
+  command->callback([options, &app, &chosen] { chosen = [options, &app] { return run_docs(app, *options); }; });
 }
 
 }  // namespace vantage::cli

@@ -12,7 +12,7 @@
 namespace vantage::cli {
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kInspectExamples =
     "EXAMPLES\n"
     "  vantage inspect city.obj --up y\n"
     "  vantage inspect scan.ply.gz --scale 0.001     # a file in millimetres\n"
@@ -22,7 +22,7 @@ constexpr const char* kExamples =
     "  vantage inspect city.osm.pbf                  # what a scene of it would hold, and what became of each object\n"
     "  vantage inspect dsm.tif                       # heights and their place\n";
 
-struct Options {
+struct InspectArguments {
   CommonOptions common;
   SceneOptions scene;
   bool json = false;
@@ -67,7 +67,7 @@ std::string table_text(const LoadedScene& loaded, const SceneStatistics& found) 
   return table.text();
 }
 
-int run(const Options& options) {
+int run_inspect(const InspectArguments& options) {
   const SceneSource source = scene_source(options.scene, "the scene file");
   ProgressLine progress(options.common);
   const LoadedScene loaded = load_scene(source, progress.callback());
@@ -81,7 +81,7 @@ int run(const Options& options) {
 void add_inspect(CLI::App& app, Command& chosen) {
   CLI::App* command =
       app.add_subcommand("inspect", "Show what a mesh, a map or a height raster contains, and what is wrong with it");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<InspectArguments>();
   command
       ->add_option(
           "scene", options->scene.input,
@@ -90,7 +90,7 @@ void add_inspect(CLI::App& app, Command& chosen) {
       ->option_text("FILE");
   add_scene_options(*command, options->scene);
   command->add_flag("--json", options->json, "Print JSON instead of a table");
-  finish<Options>(*command, options, kExamples, chosen, run);
+  finish<InspectArguments>(*command, options, kInspectExamples, chosen, run_inspect);
 }
 
 }  // namespace vantage::cli

@@ -25,7 +25,7 @@
 namespace vantage::cli {
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kQueryExamples =
     "POINTS\n"
     "  A row each; commas, semicolons, tabs or blanks separate the columns. A header may name them: x, y, z in metres\n"
     "  of the scene frame, z up; or lon, lat in degrees (WGS 84) and z, for a scene that says where on the earth it\n"
@@ -37,7 +37,7 @@ constexpr const char* kExamples =
     "  inside,margin_m,blocked_by,out_of_range,behind_target,outside_of: margin_m is the signed distance to the\n"
     "  volume's boundary along the line to the target's centre, positive inside. Navigation limits bound it too, the\n"
     "  target itself does not; -inf where no point of that line is in the volume. Several names in a field are joined\n"
-    "  with ';'. With --json: an array of objects, one a line; -inf is null, and columns that are no coordinates are\n"
+    "  with ';'. With --json: an array of objects, one a line; -inf is null, and columns that are not coordinates are\n"
     "  text.\n"
     "\n"
     "EXAMPLES\n"
@@ -46,7 +46,7 @@ constexpr const char* kExamples =
     "  echo 10 20 35 | vantage query mission.yaml -\n"
     "  vantage query mission.yaml track.csv --lonlat --z 60 --json | jq '.[] | select(.inside)'\n";
 
-struct Options {
+struct QueryArguments {
   CommonOptions common;
   std::string mission_file, points_file, output_file;
   std::string z;  // as typed
@@ -81,7 +81,7 @@ class Source {
 /// Where answers go, as they come; a file is put in place when all are there.
 class Sink {
  public:
-  explicit Sink(const Options& options) {
+  explicit Sink(const QueryArguments& options) {
     if (!options.is_to_stdout()) file_.emplace(options.output_file);
   }
   void write(const std::string& text) {
@@ -99,7 +99,7 @@ class Sink {
   std::optional<AtomicFile> file_;
 };
 
-TableOptions table_options(const Options& options) {
+TableOptions table_options(const QueryArguments& options) {
   TableOptions result;
   result.lonlat = options.lonlat;
   result.json = options.json;
@@ -153,7 +153,7 @@ std::string answered(PointTable& table, const Portion& portion, const Scene& sce
   return text;
 }
 
-void check_streams(const Options& options) {
+void check_streams(const QueryArguments& options) {
   const bool is_from_stdin = is_standard_stream(options.points_file);
   if (is_from_stdin && is_standard_stream(options.mission_file)) {
     throw Error(ErrorCode::stdin_not_possible, "the mission and the points cannot both come from standard input",
@@ -164,7 +164,7 @@ void check_streams(const Options& options) {
   if (!is_from_stdin) check_not_an_input(options.output_file, {options.points_file});
 }
 
-int run(const Options& options) {
+int run_query(const QueryArguments& options) {
   check_streams(options);
   const TableOptions columns = table_options(options);
   const MissionFile file = read_mission_argument(options.mission_file);
@@ -213,7 +213,7 @@ int run(const Options& options) {
 void add_query(CLI::App& app, Command& chosen) {
   CLI::App* command =
       app.add_subcommand("query", "Test for each point whether the whole target is visible from it, and if not, why");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<QueryArguments>();
   command->add_option("mission", options->mission_file, "The mission; - for standard input")
       ->required()
       ->option_text("MISSION");
@@ -228,7 +228,7 @@ void add_query(CLI::App& app, Command& chosen) {
   command->add_option("--z", options->z, "One height for all points; the table then needs no column z")
       ->option_text("METRES");
   command->add_flag("--json", options->json, "Write a JSON array of objects, one per line");
-  finish<Options>(*command, options, kExamples, chosen, run);
+  finish<QueryArguments>(*command, options, kQueryExamples, chosen, run_query);
 }
 
 }  // namespace vantage::cli

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kExamples =
+constexpr const char* kRenderExamples =
     "EXAMPLES\n"
     "  vantage render mission.yaml -o picture.png\n"
     "  vantage render mission.yaml --volume volume.ply -o plan.png --view top\n"
@@ -34,7 +34,7 @@ constexpr const char* kExamples =
 constexpr const char* kPictureSize = "1600x1200";
 constexpr const char* kPanelSize = "640x480";
 
-struct Options {
+struct RenderArguments {
   CommonOptions common;
   std::string mission_file, volume_file, stages, output, size;
   std::vector<std::string> view;
@@ -51,7 +51,7 @@ void check_output(const std::string& output) {
 }
 
 /// The volume of the file, or else the computed one, with what people should know of it.
-Volume volume_to_draw(const Options& options, const Mission& mission, const Progress& progress) {
+Volume volume_to_draw(const RenderArguments& options, const Mission& mission, const Progress& progress) {
   if (options.volume_file.empty()) return run_mission(mission, {options.common.threads, {}}, progress).volume;
   VolumeFile read = read_volume(options.volume_file, mission.loaded.scene, progress);
   if (!options.common.quiet) notes(read.notes);
@@ -59,8 +59,8 @@ Volume volume_to_draw(const Options& options, const Mission& mission, const Prog
   return std::move(read.volume);
 }
 
-Picture picture(const Options& options, const Mission& mission, const PictureView& view, std::array<int, 2> size,
-                const Progress& progress) {
+Picture picture(const RenderArguments& options, const Mission& mission, const PictureView& view,
+                std::array<int, 2> size, const Progress& progress) {
   const Volume volume = volume_to_draw(options, mission, progress);
   if (!options.common.quiet) {
     if (volume.outcome != Outcome::computed) note("no volume: " + volume.reason);
@@ -79,12 +79,12 @@ Picture picture(const Options& options, const Mission& mission, const PictureVie
   return render_picture(mission.loaded.scene, request, progress);
 }
 
-Picture sheet(const Options& options, const Mission& mission, const PictureView& view, std::array<int, 2> size,
+Picture sheet(const RenderArguments& options, const Mission& mission, const PictureView& view, std::array<int, 2> size,
               const Progress& progress) {
   return stage_sheet(mission, read_stages(options.stages), view, size, progress);
 }
 
-int run(const Options& options) {
+int run_render(const RenderArguments& options) {
   const bool is_sheet = !options.stages.empty();
   const PictureView view = parse_view(options.view);
   const std::array<int, 2> size =
@@ -115,8 +115,8 @@ int run(const Options& options) {
   return kSuccess;
 }
 
-/// "--view top mission.yaml": the second word is no part of the view, and the mission is missing.
-void settle_mission(Options& options) {
+/// "--view top mission.yaml": the second word is not part of the view, and the mission is missing.
+void settle_mission(RenderArguments& options) {
   if (options.mission_file.empty() && options.view.size() > 1 && options.view[0] != "from") {
     options.mission_file = options.view.back();
     options.view.pop_back();
@@ -128,7 +128,7 @@ void settle_mission(Options& options) {
 
 void add_render(CLI::App& app, Command& chosen) {
   CLI::App* command = app.add_subcommand("render", "Draw the scene, the target and the volume as a PNG picture");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<RenderArguments>();
   command->add_option("mission", options->mission_file, "The mission file; - for standard input")
       ->option_text("MISSION (required)");
   command->add_option("-o,--output", options->output, "Where to write: .png, or - for standard output")
@@ -148,10 +148,10 @@ void add_render(CLI::App& app, Command& chosen) {
       ->excludes(volume)
       ->option_text("FOLDER");
   add_common_options(*command, options->common);
-  command->footer(kExamples + exit_code_table());
+  command->footer(kRenderExamples + exit_code_table());
   command->callback([options, &chosen] {
     settle_mission(*options);
-    chosen = [options] { return with_threads(options->common, [&] { return run(*options); }); };
+    chosen = [options] { return with_threads(options->common, [&] { return run_render(*options); }); };
   });
 }
 

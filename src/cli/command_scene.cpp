@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kExamples =
+constexpr const char* kSceneExamples =
     "EXAMPLES\n"
     "  vantage scene city.osm.pbf --center 40.7484,-73.9857 --radius 600 -o scene.glb\n"
     "  vantage scene city.osm.pbf --bbox -73.99,40.74,-73.97,40.76 --terrain N40W074.hgt -o scene.obj\n"
@@ -33,14 +33,14 @@ constexpr const char* kExamples =
     "the file. The place travels in the file. Beside each output of a map goes a report, scene.report.json, that says\n"
     "what became of every object. docs/scene.md has the table of defaults that --set changes.\n";
 
-struct Options {
+struct SceneArguments {
   CommonOptions common;
   SceneOptions scene;
   std::vector<std::string> outputs;
   bool json = false;
 };
 
-void check_outputs(const Options& options) {
+void check_scene_outputs(const SceneArguments& options) {
   std::set<fs::path> seen;
   for (const std::string& output : options.outputs) {
     check_volume_output(output);
@@ -52,9 +52,9 @@ void check_outputs(const Options& options) {
   }
 }
 
-int run(const Options& options) {
+int run_scene(const SceneArguments& options) {
   const SceneSource source = scene_source(options.scene, "the file");
-  check_outputs(options);
+  check_scene_outputs(options);
   ProgressLine progress(options.common);
   const LoadedScene loaded = load_scene(source, progress.callback());
 
@@ -80,7 +80,7 @@ int run(const Options& options) {
 
 void add_scene(CLI::App& app, Command& chosen) {
   CLI::App* command = app.add_subcommand("scene", "Make a scene from a map, CityJSON, a height raster or a mesh");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<SceneArguments>();
   command
       ->add_option("input", options->scene.input,
                    "OpenStreetMap (.osm, .osm.gz, .osm.bz2, .osm.pbf), CityJSON, a raster of heights (GeoTIFF, .hgt), "
@@ -94,7 +94,7 @@ void add_scene(CLI::App& app, Command& chosen) {
       ->option_text("FILE");
   add_scene_options(*command, options->scene);
   command->add_flag("--json", options->json, "Print the report instead of a summary");
-  finish<Options>(*command, options, kExamples, chosen, run);
+  finish<SceneArguments>(*command, options, kSceneExamples, chosen, run_scene);
 }
 
 }  // namespace vantage::cli

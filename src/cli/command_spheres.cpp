@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kExamples =
+constexpr const char* kSpheresExamples =
     "EXAMPLES\n"
     "  vantage spheres -c config.yaml\n"
     "  vantage spheres -c config.yaml --sphere conservative --device cpu\n"
@@ -24,7 +24,7 @@ constexpr const char* kExamples =
     "visibility_vol, written where its output_file says (.obj in world axes; .ply, .stl, .glb). Paths start from the\n"
     "configuration file. All files are written, or none. The keys: docs/willis-config.md\n";
 
-struct Options {
+struct SpheresArguments {
   CommonOptions common;
   std::string config_file, device = "auto", sphere = "centers";
 };
@@ -41,7 +41,7 @@ auto at_output(const WillisVolume& volume, const Action& action) {
 }
 
 /// All that can be known to go wrong with the outputs before anything is computed.
-void check_outputs(const WillisConfig& config) {
+void check_spheres_outputs(const WillisConfig& config) {
   std::vector<fs::path> inputs = {config.file};
   for (const WillisMesh& mesh : config.meshes) inputs.push_back(mesh.file);
   std::set<fs::path> seen;
@@ -84,13 +84,13 @@ std::string summary(const WillisConfig& config, const WillisRun& run) {
   return text;
 }
 
-int run_command(const Options& options) {
+int run_spheres(const SpheresArguments& options) {
   SpheresOptions spheres;
   spheres.device = parse_device_choice(options.device);
   spheres.sphere = options.sphere == "centers" ? SpheresOptions::Sphere::centers : SpheresOptions::Sphere::conservative;
   spheres.threads = options.common.threads;
   const WillisConfig config = read_willis_config(options.config_file);
-  check_outputs(config);
+  check_spheres_outputs(config);
   if (!options.common.quiet) {
     for (const std::string& warning : config.warnings) note(warning);
   }
@@ -109,7 +109,7 @@ int run_command(const Options& options) {
 void add_spheres(CLI::App& app, Command& chosen) {
   CLI::App* command = app.add_subcommand(
       "spheres", "Run a configuration file of the program published with the paper of Willis et al.");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<SpheresArguments>();
   command->add_option("-c,--config", options->config_file, "The configuration file")->required()->option_text("FILE");
   command->add_option("--device", options->device, "auto (default), cpu, opengl, gpu, or a number of 'vantage devices'")
       ->option_text("DEVICE");
@@ -118,7 +118,7 @@ void add_spheres(CLI::App& app, Command& chosen) {
                    "centers (default): connect texel centres, like the published program; conservative: an inner bound")
       ->check(CLI::IsMember({"centers", "conservative"}))
       ->option_text("KIND");
-  finish<Options>(*command, options, kExamples, chosen, run_command);
+  finish<SpheresArguments>(*command, options, kSpheresExamples, chosen, run_spheres);
 }
 
 }  // namespace vantage::cli

@@ -15,7 +15,7 @@
 namespace vantage::cli {
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kVerifyExamples =
     "EXAMPLES\n"
     "  vantage verify mission.yaml volume.ply\n"
     "  vantage verify mission.yaml volume.glb --points 200000 --seed 7\n"
@@ -25,7 +25,7 @@ constexpr const char* kExamples =
     "  The depth of a point is its distance to the volume's surface: how far inside the volume an over-claimed point\n"
     "  lies, how far outside of it an under-claimed one. The worst depth is the greatest that was met, not a bound.\n";
 
-struct Options {
+struct VerifyArguments {
   CommonOptions common;
   std::string mission_file, volume_file;
   std::size_t points = VerifyOptions{}.points;
@@ -84,7 +84,7 @@ std::string table_text(const VerifyReport& report, const std::string& file) {
   return table.text();
 }
 
-int run(const Options& options) {
+int run_verify(const VerifyArguments& options) {
   check_readable(options.volume_file, "the volume");
   const MissionFile file = read_mission_argument(options.mission_file);
   ProgressLine progress(options.common);
@@ -116,7 +116,7 @@ int run(const Options& options) {
 
 void add_verify(CLI::App& app, Command& chosen) {
   CLI::App* command = app.add_subcommand("verify", "Check a volume by ray casting, independently of how it was made");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<VerifyArguments>();
   command
       ->add_option("mission", options->mission_file,
                    "The mission that the volume was computed for; - for standard input")
@@ -136,7 +136,7 @@ void add_verify(CLI::App& app, Command& chosen) {
       ->check(CLI::Range(0.0, kMostLift))
       ->option_text("METRES");
   command->add_flag("--json", options->json, "Print JSON instead of a table");
-  finish<Options>(*command, options, kExamples, chosen, run);
+  finish<VerifyArguments>(*command, options, kVerifyExamples, chosen, run_verify);
 }
 
 }  // namespace vantage::cli

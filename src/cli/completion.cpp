@@ -77,7 +77,7 @@ std::string bash_otherwise(const CommandRow& row) {
 // ---- zsh ----
 
 /// For '...': a quote ends the string, is escaped, and begins it again.
-std::string in_quotes(const std::string& text) {
+std::string zsh_quoted(const std::string& text) {
   std::string result = "'";
   for (const char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return result + "'";
@@ -100,7 +100,7 @@ std::string zsh_option(const OptionRow& option) {
     if (option.kind != ValueKind::none) spec += name.starts_with("--") ? "=" : "+";
     spec += "[" + escaped(option.description, "[]:\\") + "]";
     if (option.kind != ValueKind::none) spec += zsh_value(option);
-    text += " \\\n        " + in_quotes(spec);
+    text += " \\\n        " + zsh_quoted(spec);
   }
   return text;
 }
@@ -109,7 +109,7 @@ std::string zsh_command(const CommandRow& row) {
   std::string text = "    " + row.name + ")\n      _arguments -s";
   for (const OptionRow& option : row.options) text += zsh_option(option);
   for (std::size_t i = 0; i < row.positionals.size(); ++i) {
-    text += " \\\n        " + in_quotes(std::to_string(i + 1) + zsh_value(row.positionals[i]));
+    text += " \\\n        " + zsh_quoted(std::to_string(i + 1) + zsh_value(row.positionals[i]));
   }
   return text + "\n      ;;\n";
 }
@@ -187,7 +187,7 @@ std::string zsh_completion(const std::vector<CommandRow>& table) {
   std::string names, commands;
   for (const CommandRow& row : table) {
     if (row.name.empty()) continue;
-    names += "      " + in_quotes(escaped(row.name, ":\\") + ":" + row.description) + "\n";
+    names += "      " + zsh_quoted(escaped(row.name, ":\\") + ":" + row.description) + "\n";
     commands += zsh_command(row);
   }
   std::string options;

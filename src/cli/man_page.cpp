@@ -63,7 +63,7 @@ std::string filled(const std::string& text) {
   return result + escaped(line, false) + "\n";
 }
 
-std::string joined(const std::vector<std::string>& lines) {
+std::string in_one_line(const std::vector<std::string>& lines) {
   std::string text;
   for (const std::string& line : lines) text += line + " ";
   return text;
@@ -167,7 +167,7 @@ std::string page(const CommandRow& row, const std::vector<CommandRow>& table) {
                      escaped(name, true) + " \\- " + escaped(brief, false) + "\n" + synopsis(row) +
                      ".SH DESCRIPTION\n" + filled(row.description + (row.description.ends_with('.') ? "" : "."));
   for (const HelpSection& section : row.sections) {
-    if (section.title.empty()) text += ".PP\n" + filled(joined(section.lines));
+    if (section.title.empty()) text += ".PP\n" + filled(in_one_line(section.lines));
   }
   if (row.name.empty()) text += commands(table);
   text += ".SH OPTIONS\n";
@@ -180,7 +180,7 @@ std::string page(const CommandRow& row, const std::vector<CommandRow>& table) {
     } else if (section.title == "EXAMPLES") {
       last += examples(section);
     } else if (!section.title.empty()) {
-      shown += ".SH " + section.title + "\n" + filled(joined(section.lines));
+      shown += ".SH " + section.title + "\n" + filled(in_one_line(section.lines));
     }
   }
   return text + shown + last + see_also(row, table);

@@ -21,7 +21,7 @@ std::vector<double> numbers(const std::string& text) {
   for (const std::string_view part : split_at_commas(text)) {
     const ParsedNumber parsed = parse_number(part);
     if (parsed.fault != NumberFault::none) {
-      refuse_view(ErrorCode::not_a_number, "the view's " + in_quotes(part) + " is no number");
+      refuse_view(ErrorCode::not_a_number, "the view's " + in_quotes(part) + " is not a number");
     }
     values.push_back(parsed.value);
   }
@@ -80,7 +80,7 @@ std::array<int, 2> parse_size(const std::string& text) {
   const auto second = is_cross ? std::from_chars(first.ptr + 1, end, size[1]) : first;
   const auto in_range = [](int pixels) { return pixels >= kSmallestPicture && pixels <= kLargestPicture; };
   if (is_cross && second.ec == std::errc() && second.ptr == end && in_range(size[0]) && in_range(size[1])) return size;
-  throw Error(ErrorCode::value_syntax, in_quotes(text) + " is no size of a picture", "command line, --size",
+  throw Error(ErrorCode::value_syntax, in_quotes(text) + " is not a size of a picture", "command line, --size",
               "write WIDTHxHEIGHT in pixels, " + std::to_string(kSmallestPicture) + " to " +
                   std::to_string(kLargestPicture) + " each: 1600x1200");
 }

@@ -14,7 +14,7 @@ namespace vantage::cli {
 /// Throws Error(input).
 PictureView parse_view(const std::vector<std::string>& given);
 
-/// "1600x1200". Throws Error(input) for what is no size that render_picture takes.
+/// "1600x1200". Throws Error(input) for what is not a size that render_picture takes.
 std::array<int, 2> parse_size(const std::string& text);
 
 /// "range 300 m": what is written under a picture's title. `volume` may be null.

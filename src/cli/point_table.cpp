@@ -20,7 +20,7 @@ std::string lower_case(std::string text) {
   return text;
 }
 
-/// Begins like a name and is no spelling of infinity or not-a-number, which is a point's mistake, not a header.
+/// Begins like a name and is not a spelling of infinity or not-a-number, which is a point's mistake, not a header.
 bool is_word(const std::string& field) {
   if (field.empty() || parse_number(field).fault != NumberFault::not_a_number) return false;
   const auto c = static_cast<unsigned char>(field.front());

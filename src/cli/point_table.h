@@ -39,7 +39,8 @@ class PointTable {
   /// The coordinates in a row: x, y, z or longitude, latitude, z. Throws Error(input), with the line.
   Vec3 coordinates(const Row& row);
 
-  /// The point of the scene frame. Throws Error(input), with the line, for what is no place on the earth or far away.
+  /// The point of the scene frame. Throws Error(input), with the line, for what is not a place on the earth, or far
+  /// away.
   Vec3 scene_point(const Vec3& coordinates, const std::optional<Georeference>& place, const Row& row) const;
 
   /// Before the first answer, and after the last.

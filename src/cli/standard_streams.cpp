@@ -33,7 +33,7 @@ MissionFile read_mission_argument(const std::string& argument) {
 
 OutgoingFile::OutgoingFile(const std::string& extension) {
   if (extension != ".obj" && ::isatty(STDOUT_FILENO) == 1) {
-    throw Error(ErrorCode::output_not_a_file, "standard output is a terminal, and a " + extension + " file is no text",
+    throw Error(ErrorCode::output_not_a_file, "standard output is a terminal, and a " + extension + " file is not text",
                 "command line, -o", "send it to a program or a file: vantage ... -o - | PROGRAM");
   }
   std::error_code error;

@@ -18,7 +18,7 @@ MissionFile read_mission_argument(const std::string& argument);
 class OutgoingFile {
  public:
   /// `extension` begins with a dot. Throws Error(output) where no temporary file can be made; Error(input) for a format
-  /// that is no text when standard output is a terminal.
+  /// that is not text when standard output is a terminal.
   explicit OutgoingFile(const std::string& extension);
   ~OutgoingFile();
   OutgoingFile(const OutgoingFile&) = delete;

@@ -9,7 +9,7 @@
 
 namespace vantage::internal::core {
 
-/// How far a vertex that is no corner may lie from the outline of the corners, in metres.
+/// How far a vertex that is not a corner may lie from the outline of the corners, in metres.
 struct CornerSlack {
   double inside;   ///< the outline of the corners passes outside the vertex: what it bounds grows
   double outside;  ///< the vertex is cut off: what is bounded shrinks. At least the rounding of the coordinates

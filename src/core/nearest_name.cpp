@@ -28,7 +28,7 @@ int edit_distance(std::string_view a, std::string_view b) {
 }
 
 std::string_view nearest_name(std::string_view word, const std::vector<std::string_view>& names) {
-  // A word longer than this is no slip of the pen; its beginning is enough to compare and keeps the cost bounded.
+  // A word longer than this is not a slip of the pen; its beginning is enough to compare and keeps the cost bounded.
   constexpr std::size_t kLongest = 100;
   std::string_view nearest;
   int least = std::numeric_limits<int>::max();

@@ -9,7 +9,7 @@ namespace vantage::internal::exact {
 namespace {
 
 // Planes of two blockers that differ by less than this fraction may be one plane, computed twice.
-constexpr double kSimilar = 1e-6;
+constexpr double kParallel = 1e-6;
 
 }  // namespace
 
@@ -38,7 +38,7 @@ bool ContactTest::hides(std::uint32_t competitor, const Plane& own, bool owns_ti
     // One plane, computed twice: it decides nothing but who owns it. Where the two are apart at the far end of the
     // range, whichever is in front there has a facet: the corners, which are near, do not say.
     const double apart = (plane - own).norm();
-    if (apart <= kSimilar * own.norm() && (!owns_ties || apart * reach_ > margin)) return false;
+    if (apart <= kParallel * own.norm() && (!owns_ties || apart * reach_ > margin)) return false;
   }
   return true;
 }

@@ -6,6 +6,7 @@
 #include "geo/local_frame.h"
 #include "geo/proj_library.h"
 #include "vantage/error.h"
+#include "vantage/input.h"
 
 namespace vantage::internal::geo {
 namespace {
@@ -43,15 +44,6 @@ std::string in_words_of_proj(const std::string& text) {
   }
   const bool proj_text = text.find("+proj=") != std::string::npos || text.find("+init=") != std::string::npos;
   return proj_text && text.find("+type=crs") == std::string::npos ? text + " +type=crs" : text;
-}
-
-/// For messages: one line, not longer than a line.
-std::string in_quotes(const std::string& text) {
-  std::string quoted = text.substr(0, 60);
-  for (char& c : quoted) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
-  }
-  return "'" + quoted + (text.size() > 60 ? "...'" : "'");
 }
 
 bool is_one_of(PJ_TYPE type, std::initializer_list<PJ_TYPE> types) {

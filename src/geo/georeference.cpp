@@ -27,7 +27,7 @@ Eigen::Vector2d scene_position(const Georeference& georeference, double longitud
   const bool is_valid = std::abs(latitude_deg) <= 90 && std::abs(longitude_deg) <= 180;  // not-a-number is not
   if (!is_valid) {
     refuse(
-        ErrorCode::not_on_earth, " is no place on the earth",
+        ErrorCode::not_on_earth, " is not a place on the earth",
         is_near(latitude_deg, longitude_deg) ? kOrder : "give a longitude in -180 to 180 and a latitude in -90 to 90");
   }
   Eigen::Vector2d position = frame.to_local({longitude_deg, latitude_deg});

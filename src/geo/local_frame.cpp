@@ -20,7 +20,7 @@ LocalFrame::LocalFrame(LonLat origin) {
   if (!valid) {
     throw Error(ErrorCode::not_on_earth,
                 "latitude " + shortest(origin.latitude_deg) + ", longitude " + shortest(origin.longitude_deg) +
-                    " is no place on the earth",
+                    " is not a place on the earth",
                 "origin of the scene frame",
                 std::abs(origin.longitude_deg) <= 90 && std::abs(origin.latitude_deg) <= 180
                     ? "latitude comes first: give them the other way round"
@@ -40,7 +40,7 @@ Eigen::Vector2d LocalFrame::to_local(LonLat position) const {
   if (!(std::abs(position.latitude_deg) <= 90) || !std::isfinite(position.longitude_deg)) {
     throw Error(ErrorCode::not_on_earth,
                 "latitude " + shortest(position.latitude_deg) + ", longitude " + shortest(position.longitude_deg) +
-                    " is no place on the earth",
+                    " is not a place on the earth",
                 "position", "correct it; is its coordinate reference system the right one?");
   }
   double distance = 0, azimuth_deg = 0;

@@ -63,7 +63,7 @@ class CityJsonReader {
     if (lod.empty()) return;
     asked_ = parse_lod(lod);
     if (!asked_) {
-      throw Error(ErrorCode::value_syntax, "no level of detail: " + in_quotes(lod), source.file().string(),
+      throw Error(ErrorCode::value_syntax, "no level of detail: " + shown_word(lod), source.file().string(),
                   "give a number as in CityJSON, such as 1 or 2.2");
     }
   }
@@ -197,7 +197,7 @@ class CityJsonReader {
       no_surfaces_.add(trail_.object());
       return false;
     }
-    if (!find_type(type)) trail_.fail("its geometry type " + in_quotes(type) + " is unknown");
+    if (!find_type(type)) trail_.fail("its geometry type " + shown_word(type) + " is unknown");
     return true;
   }
 
@@ -218,7 +218,7 @@ class CityJsonReader {
     const auto value = lod->is_string()   ? parse_lod(lod->get<std::string>())  // a number in version 1.0
                        : lod->is_number() ? parse_lod(lod->dump())
                                           : std::nullopt;
-    if (!value) trail_.fail("its \"lod\" " + in_quotes(lod->dump()) + " is no level of detail");
+    if (!value) trail_.fail("its \"lod\" " + shown_word(lod->dump()) + " is not a level of detail");
     return *value;
   }
 

@@ -21,7 +21,7 @@ struct PositionHash {
   }
 };
 
-std::string in_quotes(const char* key) { return std::string("\"").append(key).append("\""); }
+std::string key_text(const char* key) { return std::string("\"").append(key).append("\""); }
 
 /// Letters in lower case, the rest left out: what a misspelt key has in common with the right one.
 std::string letters(std::string_view key) {
@@ -42,7 +42,7 @@ void check_version(const Json& root, const Trail& trail) {
                "put the metadata line of the sequence before it");
   }
   if (*type != "CityJSON") {
-    trail.fail("its type is " + io::in_quotes(type->get<std::string>()), "give a CityJSON file");
+    trail.fail("its type is " + shown_word(type->get<std::string>()), "give a CityJSON file");
   }
   const auto version = root.find("version");
   if (version == root.end() || !version->is_string()) trail.fail("\"version\" is missing");
@@ -51,7 +51,7 @@ void check_version(const Json& root, const Trail& trail) {
     if (text == known || (text.starts_with(known) && text[known.size()] == '.')) return;
   }
   trail.fail_as(ErrorCode::mesh_unsupported,
-                "its version " + io::in_quotes(text) + " cannot be read; 1.0, 1.1 and 2.0 can",
+                "its version " + shown_word(text) + " cannot be read; 1.0, 1.1 and 2.0 can",
                 "convert the file, for instance with 'cjio upgrade'");
 }
 
@@ -64,7 +64,7 @@ void read_transform(const Json& root, Header& header, const Trail& trail) {
   if (!transform->is_object()) trail.fail("\"transform\" is not an object");
   const auto vector = [&](const char* key) -> Vec3 {
     const Json& array = required(*transform, key, Json::value_t::array, trail);
-    return Vec3(numbers(array, 3, in_quotes(key).c_str(), trail).data());
+    return Vec3(numbers(array, 3, key_text(key).c_str(), trail).data());
   };
   header.scale = vector("scale");
   header.translate = vector("translate");
@@ -150,14 +150,14 @@ Vertices read_vertices(const Json& root, const Header& header, const Trail& trai
 const Json& required(const Json& object, const char* key, Json::value_t type, const Trail& trail) {
   const auto found = object.find(key);
   if (found == object.end()) {
-    std::string problem = in_quotes(key) + " is missing";
+    std::string problem = key_text(key) + " is missing";
     for (const auto& [other, value] : object.items()) {
-      if (letters(other) == letters(key)) problem += "; there is " + io::in_quotes(other);
+      if (letters(other) == letters(key)) problem += "; there is " + shown_word(other);
     }
     trail.fail(std::move(problem));
   }
   if (found->type() != type) {
-    trail.fail(in_quotes(key) + (type == Json::value_t::array ? " is not an array" : " is not an object"));
+    trail.fail(key_text(key) + (type == Json::value_t::array ? " is not an array" : " is not an object"));
   }
   return *found;
 }

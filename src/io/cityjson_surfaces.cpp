@@ -25,7 +25,7 @@ void Finding::note(std::vector<std::string>& notes, const char* one, const char*
   if (count_ == 0) return;
   std::string text = std::to_string(count_);
   text.append(" ").append(count_ == 1 ? one : many).append(more);
-  notes.push_back(text.append(count_ == 1 ? " (of " : " (the first of ").append(in_quotes(first_)).append(")"));
+  notes.push_back(text.append(count_ == 1 ? " (of " : " (the first of ").append(shown_word(first_)).append(")"));
 }
 
 void SurfaceBuilder::begin_shell(bool is_cavity) {

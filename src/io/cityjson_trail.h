@@ -41,7 +41,7 @@ class Trail {
   [[noreturn]] void fail_as(ErrorCode code, std::string problem, std::string fix = kGarbled) const {
     std::string where = source_.file().string();
     if (line_ > 0) where += ", line " + std::to_string(line_);
-    if (!object_.empty()) where += ", CityObject " + in_quotes(object_);
+    if (!object_.empty()) where += ", CityObject " + shown_word(object_);
     for (const auto& [what, index] : steps_) where.append(", ").append(what).append(" ").append(std::to_string(index));
     throw Error(code, "not a valid CityJSON file: " + std::move(problem), where, std::move(fix));
   }

@@ -7,6 +7,9 @@
 
 namespace vantage::internal::io {
 
+// Values of the glTF 2.0 specification.
+constexpr int kFloat = 5126, kUnsignedInt = 5125, kArrayBuffer = 34962, kElementArrayBuffer = 34963;
+
 /// Writes both as chunks behind GLB's header. Throws Error(output) when they take 4 GiB or more.
 void write_glb_container(std::string_view json, std::string_view buffer, AtomicFile& file);
 

@@ -77,7 +77,7 @@ int base64_digit(char c) {
   return c == '+' ? 62 : c == '/' ? 63 : -1;
 }
 
-/// Nothing if the text is no base64.
+/// Nothing if the text is not base64.
 std::optional<std::string> decode_base64(std::string_view text) {
   while (text.ends_with('=')) text.remove_suffix(1);
   if (text.size() % 4 == 1) return std::nullopt;
@@ -225,12 +225,12 @@ void Document::check_version_and_extensions() const {
   const Json asset = root_.value("asset", Json::object());
   if (!asset.is_object()) fail("\"asset\" is not an object");
   if (const std::string version = text(asset, "version"); !version.starts_with("2.")) {
-    source_.fail(ErrorCode::mesh_unsupported, "glTF version " + in_quotes(version) + " cannot be read",
+    source_.fail(ErrorCode::mesh_unsupported, "glTF version " + shown_word(version) + " cannot be read",
                  "export the mesh as glTF 2.0");
   }
   const auto refuse = [&](std::string_view name) {
     source_.fail(ErrorCode::mesh_unsupported,
-                 "the glTF file uses the extension " + in_quotes(name) + ", which cannot be read",
+                 "the glTF file uses the extension " + shown_word(name) + ", which cannot be read",
                  "export the mesh without it, or as OBJ or PLY");
   };
   for (const Json& used : array(root_, "extensionsUsed")) {
@@ -359,7 +359,7 @@ std::string_view Document::buffer(std::uint64_t index) {
       fail(name + " is a data URI without base64");
     }
     auto decoded = decode_base64(std::string_view{uri}.substr(comma + 1));
-    if (!decoded) fail(name + " is no valid base64");
+    if (!decoded) fail(name + " is not valid base64");
     bytes = contents_[std::to_string(index)] = std::move(*decoded);
   } else {
     bytes = external_file(uri);
@@ -374,7 +374,7 @@ std::string_view Document::buffer(std::uint64_t index) {
 
 std::string_view Document::external_file(const std::string& uri) {
   if (uri.find("://") != std::string::npos) {
-    source_.fail(ErrorCode::mesh_unsupported, "the glTF file has its data at " + in_quotes(uri),
+    source_.fail(ErrorCode::mesh_unsupported, "the glTF file has its data at " + shown_word(uri),
                  "download it and refer to the file");
   }
   const std::string relative = decode_percent(uri);
@@ -398,7 +398,7 @@ std::filesystem::path Document::file_below(const std::string& relative, const st
   fs::path path = fs::weakly_canonical(folder / relative, error);
   if (error) {
     source_.fail(ErrorCode::mesh_syntax,
-                 "the path " + in_quotes(uri) + " of a buffer leads nowhere: " + error.message(), kGarbled);
+                 "the path " + shown_word(uri) + " of a buffer leads nowhere: " + error.message(), kGarbled);
   }
   const auto is_below = [&path](const fs::path& base) {
     return !base.empty() && std::mismatch(base.begin(), base.end(), path.begin(), path.end()).first == base.end();
@@ -407,7 +407,7 @@ std::filesystem::path Document::file_below(const std::string& relative, const st
   if (is_below(fs::weakly_canonical(folder, error))) return path;
   if (is_below(fs::weakly_canonical(source_.file(), error).parent_path())) return path;
   source_.fail(ErrorCode::mesh_unsupported,
-               "the glTF file has its data in " + in_quotes(uri) + ", which is not in its own folder",
+               "the glTF file has its data in " + shown_word(uri) + ", which is not in its own folder",
                "put that file beside the glTF file, or in a folder below, and correct the \"uri\" of the buffer");
 }
 

@@ -95,7 +95,7 @@ class ObjReader {
     } else if (std::find(kPassedOver.begin(), kPassedOver.end(), keyword) != kPassedOver.end()) {
       pass_over();
     } else {
-      fail(ErrorCode::mesh_syntax, "unknown statement " + in_quotes(keyword),
+      fail(ErrorCode::mesh_syntax, "unknown statement " + shown_word(keyword),
            "check that this is an OBJ file; remove the line if it is");
     }
   }
@@ -141,7 +141,7 @@ class ObjReader {
       if (text_.at_line_end())
         fail(ErrorCode::mesh_syntax, "a vertex has only " + std::to_string(i) + " coordinates", kGarbled);
       if (!text_.number(position[i]) || !text_.at_word_end())
-        fail(ErrorCode::mesh_syntax, in_quotes(text_.word_around()) + " is no coordinate", kGarbled);
+        fail(ErrorCode::mesh_syntax, shown_word(text_.word_around()) + " is not a valid coordinate", kGarbled);
     }
     pass_over();
     builder_.add_vertex(position, line);
@@ -167,7 +167,7 @@ class ObjReader {
   void corner() {
     std::int64_t number = 0;
     if (!text_.integer(number))
-      fail(ErrorCode::mesh_syntax, in_quotes(text_.word()) + " is no vertex number", kGarbled);
+      fail(ErrorCode::mesh_syntax, shown_word(text_.word()) + " is not a vertex number", kGarbled);
     if (number == 0) fail(ErrorCode::mesh_syntax, "a face refers to vertex 0; vertices count from 1", kGarbled);
     const auto count = static_cast<std::int64_t>(builder_.vertex_count());
     if (number < -count) {
@@ -182,7 +182,7 @@ class ObjReader {
       text_.integer(ignored);
     }
     if (!text_.at_word_end() && text_.peek() != '\\')
-      fail(ErrorCode::mesh_syntax, in_quotes(text_.word_around()) + " in a face", kGarbled);
+      fail(ErrorCode::mesh_syntax, shown_word(text_.word_around()) + " in a face", kGarbled);
   }
 
   /// Each "o" starts an object, whatever its name: two buildings may have the same. One without a name ends it.

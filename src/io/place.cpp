@@ -88,7 +88,7 @@ void put_at(RawMesh& mesh, geo::LonLat origin, const std::filesystem::path& file
   if (farthest > geo::kFarthestM) {
     throw Error(ErrorCode::crs_missing,
                 "the mesh goes " + std::to_string(std::lround(farthest / 1000)) +
-                    " km from its origin: its coordinates are no metres about the origin that is given",
+                    " km from its origin: its coordinates are not metres about the origin that is given",
                 file.string(), "name their coordinate system with crs, as in EPSG:28992");
   }
   mesh.georeference = Georeference{frame.origin().latitude_deg, frame.origin().longitude_deg, "", ""};

@@ -42,13 +42,13 @@ class AsciiValues {
   double number(Type) {
     next();
     double value = 0;
-    if (!text_.number(value) || !text_.at_word_end()) fail(in_quotes(text_.word_around()) + " is no number");
+    if (!text_.number(value) || !text_.at_word_end()) fail(shown_word(text_.word_around()) + " is not a number");
     return value;
   }
   std::int64_t integer(Type) {
     next();
     std::int64_t value = 0;
-    if (!text_.integer(value) || !text_.at_word_end()) fail(in_quotes(text_.word_around()) + " is no whole number");
+    if (!text_.integer(value) || !text_.at_word_end()) fail(shown_word(text_.word_around()) + " is not a whole number");
     return value;
   }
   [[noreturn]] void fail(std::string problem) const {
@@ -183,7 +183,7 @@ class PlyReader {
   }
 
   static std::string printable(const std::string& name) {
-    const std::string text = in_quotes(name);
+    const std::string text = shown_word(name);
     return text.substr(1, text.size() - 2);
   }
 

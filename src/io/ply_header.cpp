@@ -51,7 +51,7 @@ class HeaderReader {
       } else if (keyword == "property") {
         property();
       } else if (keyword != "comment" && keyword != "obj_info" && !(keyword.empty() && text_.at_line_end())) {
-        fail("unknown header line " + in_quotes(keyword));
+        fail("unknown header line " + shown_word(keyword));
       }
       if (keyword == "comment") comment(text_.rest_of_line());
       if (keyword == "obj_info") text_.rest_of_line();
@@ -93,7 +93,7 @@ class HeaderReader {
 
   void end_line() {
     text_.skip_blanks();
-    if (!text_.at_line_end()) fail("unexpected " + in_quotes(text_.word()));
+    if (!text_.at_line_end()) fail("unexpected " + shown_word(text_.word()));
     text_.next_line();
   }
 
@@ -106,9 +106,9 @@ class HeaderReader {
     } else if (name == "binary_big_endian") {
       header_.encoding = Encoding::big_endian;
     } else {
-      fail("unknown format " + in_quotes(name));
+      fail("unknown format " + shown_word(name));
     }
-    if (const std::string_view version = next_word(); version != "1.0") fail("unknown version " + in_quotes(version));
+    if (const std::string_view version = next_word(); version != "1.0") fail("unknown version " + shown_word(version));
   }
 
   void element() {
@@ -117,7 +117,7 @@ class HeaderReader {
     text_.skip_blanks();
     std::int64_t count = 0;
     if (!text_.integer(count) || !text_.at_word_end() || count < 0)
-      fail("bad element count " + in_quotes(text_.word()));
+      fail("bad element count " + shown_word(text_.word()));
     element.count = static_cast<std::uint64_t>(count);
     header_.elements.push_back(std::move(element));
   }
@@ -141,7 +141,7 @@ class HeaderReader {
     for (const auto& [known, type] : kTypes) {
       if (known == name) return type;
     }
-    fail("unknown type " + in_quotes(name));
+    fail("unknown type " + shown_word(name));
   }
 
   const MeshSource& source_;

@@ -12,7 +12,7 @@ namespace vantage::internal::io {
 namespace {
 
 constexpr std::string_view kMark = "vantage rounding_m ";
-constexpr const char* kGarbled = "the rounding_m of vantage in it is no length";
+constexpr const char* kGarbled = "the rounding_m of vantage in it is not a length";
 
 double checked(double rounding) {
   if (!(rounding >= 0) || !std::isfinite(rounding)) throw RoundingProblem{kGarbled};

@@ -16,7 +16,7 @@ std::string rounding_text(double rounding_m);
 void read_rounding_comment(std::string_view comment, std::optional<double>& known);
 
 /// "rounding_m" in the object "vantage" of a JSON object: glTF's "extras", files of their own. Throws RoundingProblem
-/// for one that is no length.
+/// for one that is not a length.
 std::optional<double> rounding_in(const nlohmann::json& object);
 
 /// What is wrong with such a number; whoever reads the file adds where it stands.

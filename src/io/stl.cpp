@@ -87,7 +87,7 @@ class AsciiStlReader {
   }
 
   void expect(std::string_view expected) {
-    if (keyword() != expected) fail(in_quotes(keyword_) + " where \"" + std::string(expected) + "\" belongs");
+    if (keyword() != expected) fail(shown_word(keyword_) + " where \"" + std::string(expected) + "\" belongs");
   }
 
   /// "solid name", facets, "endsolid name". A solid without a name has the file's.
@@ -99,7 +99,7 @@ class AsciiStlReader {
       progress_.tick(text_.offset(), source_.bytes().size());
       facet();
     }
-    if (keyword_ != "endsolid") fail(in_quotes(keyword_) + " where \"facet\" or \"endsolid\" belongs");
+    if (keyword_ != "endsolid") fail(shown_word(keyword_) + " where \"facet\" or \"endsolid\" belongs");
     text_.rest_of_line();
   }
 
@@ -110,7 +110,7 @@ class AsciiStlReader {
     expect("loop");
     builder_.begin_face(text_.line());
     while (keyword() == "vertex") builder_.add_corner(vertex());
-    if (keyword_ != "endloop") fail(in_quotes(keyword_) + " where \"vertex\" or \"endloop\" belongs");
+    if (keyword_ != "endloop") fail(shown_word(keyword_) + " where \"vertex\" or \"endloop\" belongs");
     builder_.end_face();
     expect("endfacet");
   }
@@ -120,7 +120,7 @@ class AsciiStlReader {
     for (int i = 0; i < 3; ++i) {
       text_.skip_spaces();
       if (!text_.number(position[i]) || !text_.at_word_end())
-        fail(in_quotes(text_.word_around()) + " is no coordinate");
+        fail(shown_word(text_.word_around()) + " is not a valid coordinate");
     }
     return builder_.add_vertex(position, text_.line());
   }

@@ -109,7 +109,7 @@ class TextCursor {
 };
 
 /// A word of the file for a message: shortened, unprintable characters as '?'.
-inline std::string in_quotes(std::string_view word) {
+inline std::string shown_word(std::string_view word) {
   constexpr std::size_t kLongest = 40;
   std::string text = "\"";
   for (const char c : word.substr(0, kLongest)) text += c >= 0x20 && c < 0x7f ? c : '?';

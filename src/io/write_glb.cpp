@@ -16,8 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Values of the glTF 2.0 specification.
-constexpr int kFloat = 5126, kUnsignedInt = 5125, kArrayBuffer = 34962, kElementArrayBuffer = 34963, kTriangles = 4;
+constexpr int kTriangles = 4;  // glTF 2.0, mesh.primitive.mode
 
 constexpr std::array kKinds = {CauseKind::scene, CauseKind::range, CauseKind::target_plane, CauseKind::navigation,
                                CauseKind::sensor};

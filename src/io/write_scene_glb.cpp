@@ -16,8 +16,6 @@
 namespace vantage::internal::io {
 namespace {
 
-// Values of the glTF 2.0 specification.
-constexpr int kFloat = 5126, kUnsignedInt = 5125, kArrayBuffer = 34962, kElementArrayBuffer = 34963;
 constexpr std::size_t kPositionBytes = 3 * sizeof(float);
 
 std::string json_text(std::string_view text) {

@@ -16,7 +16,7 @@ DeviceChoice parse_device_choice(const std::string& text) {
   const char* end = text.data() + text.size();
   const auto parsed = std::from_chars(text.data(), end, index);
   if (parsed.ec == std::errc() && parsed.ptr == end && index >= 0) return {Kind::index, index};
-  throw Error(ErrorCode::unknown_choice, "'" + text + "' is no device", "--device",
+  throw Error(ErrorCode::unknown_choice, "'" + text + "' is not a device", "--device",
               "write auto, cpu, opengl, gpu, or a number that 'vantage devices' lists");
 }
 

@@ -18,7 +18,7 @@ namespace {
 // Over the radius of what is framed:
 constexpr double kFullRadius = 1.08, kFadeRadius = 1.55;  // of the disc of ground
 constexpr double kPartFull = 0.95, kPartFade = 1.3;       // nearest point of a building
-constexpr double kTerrainSize = 3;                        // of what is no building
+constexpr double kTerrainSize = 3;                        // of what is not a building
 constexpr double kGlass = 0.3;                            // opacity of a building that hides the target
 constexpr double kGroundBand = 0.5;                       // metres about the ground's height that count as ground
 constexpr double kGroundSink = 0.05;                      // metres: a ground of the scene's own lies over ours

@@ -15,7 +15,7 @@ constexpr double kMostInk = 0.16;  // of a cell's area; from half of it on lines
 constexpr double kMostBorderInk = 0.5;  // the same for borders alone
 constexpr double kLongEnough = 120;     // pixels: what is longer is not more important
 constexpr double kLeastStrength = 0.04;
-constexpr double kMargin = 4;  // pixels round the picture
+constexpr double kMarginPixels = 4;  // round the picture
 
 struct Stroke {
   Eigen::Vector2d a, b;  ///< pixels
@@ -28,8 +28,8 @@ class InkMap {
  public:
   InkMap(const View& view, double unit)
       : size_(kCell * unit),
-        columns_(static_cast<int>(std::ceil((view.width + 2 * kMargin) / size_)) + 1),
-        rows_(static_cast<int>(std::ceil((view.height + 2 * kMargin) / size_)) + 1),
+        columns_(static_cast<int>(std::ceil((view.width + 2 * kMarginPixels) / size_)) + 1),
+        rows_(static_cast<int>(std::ceil((view.height + 2 * kMarginPixels) / size_)) + 1),
         ink_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), 0) {}
 
   /// The part of a stroke's opacity that there is room for, on average along it; that much is inked.
@@ -53,8 +53,8 @@ class InkMap {
 
  private:
   std::ptrdiff_t cell_at(const Eigen::Vector2d& pixel) const {
-    const int column = static_cast<int>(std::floor((pixel.x() + kMargin) / size_));
-    const int row = static_cast<int>(std::floor((pixel.y() + kMargin) / size_));
+    const int column = static_cast<int>(std::floor((pixel.x() + kMarginPixels) / size_));
+    const int row = static_cast<int>(std::floor((pixel.y() + kMarginPixels) / size_));
     if (column < 0 || row < 0 || column >= columns_ || row >= rows_) return -1;
     return static_cast<std::ptrdiff_t>(row) * columns_ + column;
   }
@@ -69,8 +69,8 @@ class InkMap {
 
 std::vector<Crease> thin_out(const std::vector<Crease>& creases, const View& view, double unit,
                              const core::ProgressReporter& progress) {
-  const Eigen::AlignedBox2d picture(Eigen::Vector2d(-kMargin, -kMargin),
-                                    Eigen::Vector2d(view.width + kMargin, view.height + kMargin));
+  const Eigen::AlignedBox2d picture(Eigen::Vector2d(-kMarginPixels, -kMarginPixels),
+                                    Eigen::Vector2d(view.width + kMarginPixels, view.height + kMarginPixels));
   std::vector<Crease> result;
   std::vector<Stroke> strokes;
   for (std::uint32_t i = 0; i < creases.size(); ++i) {

@@ -10,7 +10,7 @@
 namespace vantage::internal::picture {
 namespace {
 
-constexpr double kMargin = 1.03;      // of what is framed
+constexpr double kRoom = 1.03;        // of what is framed
 constexpr double kWidestTangent = 1;  // of a perspective, to each side: beyond 45 degrees it distorts
 constexpr double kNearest = 1e-3;     // of the distance to the focus
 
@@ -99,7 +99,7 @@ View make_view(const PictureView& request, int width, int height, const Insets& 
   }
   const double room_x = width - insets.left - insets.right, room_y = height - insets.top - insets.bottom;
   const double smallest = 1e-6 * (view.perspective ? 1 : view.focus_m);
-  const Eigen::Vector2d size = (kMargin * framed.sizes()).cwiseMax(smallest);
+  const Eigen::Vector2d size = (kRoom * framed.sizes()).cwiseMax(smallest);
   view.pixels = std::min(room_x / size.x(), room_y / size.y());
   view.middle =
       framed.center() + Eigen::Vector2d(insets.right - insets.left, insets.top - insets.bottom) * (0.5 / view.pixels);

@@ -94,7 +94,7 @@ class Run {
       report_.render_seconds += stopwatch.lap();
       progress_.report(k, places.size());
       take_sphere(which[k], std::move(sphere));
-      stopwatch.lap();  // taking it is no rendering
+      stopwatch.lap();  // taking it is not rendering
     });
   }
 

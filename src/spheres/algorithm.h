@@ -1,5 +1,5 @@
 // Algorithm 1 of Willis, Hague, Wolek and Brink (2024): the intersection of the visibility spheres of a polygon's
-// vertices, with edges halved while the intersection of the spheres of their ends is no topological sphere.
+// vertices, with edges halved while the intersection of the spheres of their ends is not a topological sphere.
 // docs/spheres.md says what each step means where the paper leaves it open.
 #pragma once
 

@@ -58,7 +58,8 @@ class LonLatGrid {
   int columns_, bands_;
 };
 
-void set_ray(StarMesh& star, std::uint32_t vertex, const Vec3& unit, double radius, double range_m, double shorten) {
+void set_unit_ray(StarMesh& star, std::uint32_t vertex, const Vec3& unit, double radius, double range_m,
+                  double shorten) {
   star.at_range[vertex] = radius >= range_m;
   // The floor is along the longest axis, as in the other meshes.
   const double floor = numerics::kFloor / unit.lpNorm<Eigen::Infinity>();
@@ -177,7 +178,7 @@ StarMesh join_lonlat(const CubeMap& cube, const std::array<int, 2>& size, double
       const Vec3 unit = grid.direction(ring, column);
       const double inverse = cube.inverse_depths[texels.texel_index(texels.texel_at(unit))];
       const double depth = inverse > 0 ? 1 / inverse : std::numeric_limits<double>::infinity();
-      set_ray(star, grid.vertex(ring, column), unit, depth / unit.lpNorm<Eigen::Infinity>(), range_m, 1);
+      set_unit_ray(star, grid.vertex(ring, column), unit, depth / unit.lpNorm<Eigen::Infinity>(), range_m, 1);
     }
   }
   return star;
@@ -200,8 +201,8 @@ StarMesh bound_lonlat(const CubeMap& cube, const std::array<int, 2>& size, doubl
   StarMesh star = make_mesh(grid);
   for (int ring = 0; ring <= grid.bands(); ++ring) {
     for (int column = 0; column < (ring == 0 || ring == grid.bands() ? 1 : grid.columns()); ++column) {
-      set_ray(star, grid.vertex(ring, column), grid.direction(ring, column), bounds.at_vertex(ring, column), range_m,
-              1 - numerics::kShrink);
+      set_unit_ray(star, grid.vertex(ring, column), grid.direction(ring, column), bounds.at_vertex(ring, column),
+                   range_m, 1 - numerics::kShrink);
     }
   }
   return star;

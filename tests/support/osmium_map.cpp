@@ -91,7 +91,7 @@ std::map<std::string, ExportedArea> exported_areas(const std::filesystem::path& 
   return areas;
 }
 
-/// Ways that are no polygon for osmium-tool, closed by a straight side.
+/// Ways that are not polygons for osmium-tool, closed by a straight side.
 void add_mended(OsmiumMap& map) {
   for (const ListedObject& object : map.tagged) {
     const bool is_wanted = says_building(object.tags) || says_part(object.tags);

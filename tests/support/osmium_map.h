@@ -35,7 +35,7 @@ struct ExportedArea {
   TagMap tags;
   std::vector<LonLatPolygon> polygons;
   bool is_mended =
-      false;  ///< a way that is no polygon for osmium-tool: it lacks nodes, is not closed or crosses itself
+      false;  ///< a way that is not a polygon for osmium-tool: it lacks nodes, is not closed or crosses itself
 };
 
 struct OsmiumMap {

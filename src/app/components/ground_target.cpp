@@ -93,7 +93,7 @@ city::Ring rectangle(const GroundTarget& wanted, const geo::LocalFrame& frame) {
   return {centre - a - b, centre - a + b, centre + a + b, centre + a - b};
 }
 
-/// The outlines of an object of the map. What is in a hole, a building maybe, is no part of it and need not be seen. A
+/// The outlines of an object of the map. What is in a hole, a building maybe, is not part of it and need not be seen. A
 /// target that has no name of its own gets the object's.
 std::vector<city::Footprint> outlines(Mission& mission, const std::string& name, const geo::LocalFrame& frame,
                                       const Progress& progress) {
@@ -101,7 +101,7 @@ std::vector<city::Footprint> outlines(Mission& mission, const std::string& name,
   const auto found = city::outlines_of_object(source.file, source.city.region, name, frame, progress);
   const std::string& place = mission.as_written.places.target;
   if (!found)
-    throw Error(ErrorCode::value_syntax, in_quotes(name) + " is no object of a map", place, "write 'osm: way/123'");
+    throw Error(ErrorCode::value_syntax, in_quotes(name) + " is not an object of a map", place, "write 'osm: way/123'");
   if (!found->is_area) {
     const bool is_part = source.city.region.center_deg || source.city.region.bbox_deg;
     throw Error(ErrorCode::map_object_missing,

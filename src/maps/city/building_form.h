@@ -80,9 +80,9 @@ struct TagRemark {
 };
 
 /// "48.5", "48.5 m", "48,5m", "160 ft", "160'", "5'11\"", "0.2 km", "5;5.5" (the largest counts: what hides more);
-/// nothing for what is no length. Metres; may be negative.
+/// nothing for what is not a length. Metres; may be negative.
 std::optional<double> parse_length_m(std::string_view text);
-/// "3", "2.5", "2;3" (the largest); nothing for what is no number of levels.
+/// "3", "2.5", "2;3" (the largest); nothing for what is not a number of levels.
 std::optional<double> parse_levels(std::string_view text);
 /// Degrees clockwise from north: "45", "45°", "NE", "north"; nothing else.
 std::optional<double> parse_direction_deg(std::string_view text);

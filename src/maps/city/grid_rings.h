@@ -67,7 +67,7 @@ struct Meeting {
 /// Cost: O(n log n) for outlines as they are drawn.
 Meeting meeting_of(const std::vector<GridRing>& rings);
 
-/// A corner that lies on a side of which it is no end, or on another corner.
+/// A corner that lies on a side of which it is not an end, or on another corner.
 struct Touch {
   std::size_t corner = 0;  ///< counted over all rings
   std::size_t side = 0;    ///< that begins at this corner, counted likewise

@@ -18,7 +18,7 @@ struct ObjectOutlines {
   std::string name;                 ///< its tag `name`; empty where it has none
 };
 
-/// `object`: "way/123"; nothing for a text that is no id of an object. Throws what osm::read_extract throws.
+/// `object`: "way/123"; nothing for a text that is not an id of an object. Throws what osm::read_extract throws.
 VANTAGE_INTERNAL_API std::optional<ObjectOutlines> outlines_of_object(const std::filesystem::path& file,
                                                                       const CityRegion& region,
                                                                       const std::string& object,

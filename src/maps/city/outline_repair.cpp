@@ -96,7 +96,7 @@ std::vector<GridPolygon> untangled(const GridRing& ring, Repairs& repairs) {
   const Meeting meeting = meeting_of({ring});
   if (!meeting.crossing && !meeting.touching) return {GridPolygon{ring, {}}};
   std::vector<GridPolygon> result = even_odd(ring);
-  // A ring that touches itself is no figure of eight: it goes round all of its space in one sense.
+  // A ring that touches itself is not a figure of eight: it goes round all of its space in one sense.
   const double whole = std::abs(signed_area(ring));
   repairs.self_crossing |= meeting.crossing || std::abs(area_of(result) - whole) > perimeter(ring);
   return result;

@@ -16,7 +16,7 @@
 //   round         round, rounded, barrel, barrel_vault, vault, arched
 //   saltbox       saltbox; close: gabled_height_moved
 //
-// Others (sawtooth, butterfly, many, …) are no roof of the scheme: they are taken as flat, and remarked on.
+// Others (sawtooth, butterfly, many, …) are not roofs of the scheme: they are taken as flat, and remarked on.
 #include <algorithm>
 #include <array>
 #include <string>

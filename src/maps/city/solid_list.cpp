@@ -58,7 +58,7 @@ std::vector<Mesh> build(Item& item, const Ground& ground) {
   return pieces;
 }
 
-/// What is wrong with the first piece that is no solid, or nothing.
+/// What is wrong with the first piece that is not a solid, or nothing.
 std::string fault(const std::vector<Mesh>& pieces, const std::string& name) {
   for (const Mesh& piece : pieces) {
     try {
@@ -85,7 +85,7 @@ void check(Item& item, std::vector<Mesh>& pieces, const Ground& ground) {
     std::vector<Mesh> simpler = build(flat, ground);
     if (fault(simpler, item.record.object.source_id).empty()) {
       pieces = std::move(simpler);
-      repair(item.record, "roof of its shape is no solid here: flat instead");
+      repair(item.record, "roof of its shape is not a solid here: flat instead");
       return;
     }
   }

@@ -203,7 +203,7 @@ RasterScene scene_from_raster(const std::filesystem::path& file, const RasterOpt
   check(options, file);
   const HeightGrid grid = read(file, options.region, callback);
   if (grid.columns < 2 || grid.rows < 2) {
-    refuse(ErrorCode::region_invalid, "the region has a single row or column of posts, which is no surface", file,
+    refuse(ErrorCode::region_invalid, "the region has a single row or column of posts, which is not a surface", file,
            "give a larger region");
   }
   const internal::geo::LocalFrame frame(origin_of(grid, options, file));

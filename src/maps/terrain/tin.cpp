@@ -80,7 +80,7 @@ void Tin::refine(double max_error, const std::function<void(double)>& progress) 
   }
 }
 
-/// Inserts a candidate, or for a middle the first of its own that is no vertex yet. False if there is nothing to
+/// Inserts a candidate, or for a middle the first of its own that is not a vertex yet. False if there is nothing to
 /// insert.
 bool Tin::insert_for(const Worst& worst, double max_error) {
   const std::size_t first_middle = points_.size() - middles_.size();
