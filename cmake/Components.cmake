@@ -23,6 +23,7 @@ function(vantage_component name)
     Eigen3::Eigen fmt::fmt-header-only ${part_LINK} ${part_BUILD} vantage::options)
   target_precompile_headers(vantage_${name}_objects PRIVATE ${PROJECT_SOURCE_DIR}/src/precompiled.h)
   set_target_properties(vantage_${name}_objects PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+  vantage_join_sources(vantage_${name}_objects)
 
   add_library(vantage_${name} $<TARGET_OBJECTS:vantage_${name}_objects>)
   add_library(vantage::${name} ALIAS vantage_${name})
@@ -71,6 +72,7 @@ set_source_files_properties(${source}/geo/proj_library.cpp PROPERTIES COMPILE_DE
   "VANTAGE_PROJ_NAME=\"${VANTAGE_PROJ_NAME}\";VANTAGE_PROJ_FILE=\"${VANTAGE_PROJ_FILE}\"")
 target_link_libraries(vantage_helpers PRIVATE Eigen3::Eigen fmt::fmt-header-only vantage::options)
 set_target_properties(vantage_helpers PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+vantage_join_sources(vantage_helpers)
 
 vantage_component(core
   MODULES core options geo io scene target exact query

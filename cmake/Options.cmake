@@ -22,6 +22,18 @@ if(VANTAGE_SANITIZE)
   add_compile_options(-fsanitize=${VANTAGE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${VANTAGE_SANITIZE})
 endif()
+# Several sources to a compilation: less than half of the time for a first build, more after each change. Names in the
+# anonymous namespaces of a module must differ then. Not for tests and fuzz
+# targets, which stand alone.
+function(vantage_join_sources target)
+  if(VANTAGE_JOIN_SOURCES)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+    # GCC takes a source for a header that others include too; for clang names of one source shadow those of others.
+    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>
+                                             $<$<CXX_COMPILER_ID:Clang>:-Wno-shadow>)
+  endif()
+endfunction()
+
 if(VANTAGE_FUZZ_COVERAGE)
   add_compile_options(-fsanitize=fuzzer-no-link)  # for the fuzzer to be guided by
 endif()

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Checks one source file with clang-tidy, unless the same text was found clean before.
 
-    lint_file.py BUILD_FOLDER FILE [CHECKS]     exit 1 on a finding; CHECKS: changes to .clang-tidy's list
+    lint_file.py BUILD_FOLDER FILE     exit 1 on a finding
 
 What is compared is the preprocessed text with its comments (NOLINT lives in them), without the paths of the folder that
 it was compiled in, the rules, and clang-tidy's version. A header that the build precompiles is not used: clang cannot
@@ -55,16 +55,21 @@ def fingerprint(options, folder, file, checks):
 
 def main():
     build, file = pathlib.Path(sys.argv[1]), sys.argv[2]
-    checks = sys.argv[3] if len(sys.argv) > 3 else ""
+    checks = ""
     cache = pathlib.Path(os.environ.get("VANTAGE_LINT_CACHE", pathlib.Path.home() / ".cache" / "vantage-lint"))
     options, folder = options_of(build, file)
+    if "/Unity/" in file:  # made by CMake, and joins several sources, whose names shadow each other's
+        options.append("-Wno-shadow")
+        checks = "-bugprone-suspicious-include"
     try:
         clean = cache / fingerprint(options, folder, file, checks)
     except (subprocess.SubprocessError, OSError):
         clean = None  # it is checked every time then, and clang-tidy itself says what is wrong
     if clean and clean.exists():
         return 0
-    command = ["clang-tidy", "--quiet", *([f"--checks={checks}"] if checks else []), file, "--", *options]
+    # Named: what joins several sources lies in the folder of the build, which may be anywhere.
+    rules = f"--config-file={pathlib.Path(__file__).resolve().parents[1] / '.clang-tidy'}"
+    command = ["clang-tidy", "--quiet", rules, *([f"--checks={checks}"] if checks else []), file, "--", *options]
     result = subprocess.run(command, cwd=folder, timeout=TIMEOUT_S)
     if result.returncode == 0 and clean:
         cache.mkdir(parents=True, exist_ok=True)
