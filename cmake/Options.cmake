@@ -4,8 +4,11 @@ add_library(vantage::options ALIAS vantage_options)
 # -ffp-contract=off: a fused multiply-add rounds differently from one compiler to the next, and the exact predicates of
 # the triangulation rely on plain IEEE arithmetic.
 # -fno-semantic-interposition: lets the shared library inline its own functions.
-target_compile_options(vantage_options INTERFACE -Wall -Wextra -Wshadow -ffp-contract=off -fno-semantic-interposition
+target_compile_options(vantage_options INTERFACE -Wall -Wextra -ffp-contract=off -fno-semantic-interposition
                        $<$<CXX_COMPILER_ID:Clang>:-Wcomma>)
+if(NOT (VANTAGE_JOIN_SOURCES AND CMAKE_CXX_COMPILER_ID MATCHES "Clang"))
+  target_compile_options(vantage_options INTERFACE -Wshadow)  # for clang names of one source shadow those of others
+endif()
 if(VANTAGE_WERROR AND VANTAGE_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # Neither -Werror nor silence: GCC's manual says that sanitizers make warnings find what is not there (in <regex>, in
   # the standard library's strings). The build without sanitizers has the same files and judges them.
@@ -28,9 +31,8 @@ endif()
 function(vantage_join_sources target)
   if(VANTAGE_JOIN_SOURCES)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
-    # GCC takes a source for a header that others include too; for clang names of one source shadow those of others.
-    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>
-                                             $<$<CXX_COMPILER_ID:Clang>:-Wno-shadow>)
+    # GCC takes a source for a header that others include too.
+    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   endif()
 endfunction()
 
