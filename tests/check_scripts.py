@@ -99,8 +99,25 @@ class Scripts(unittest.TestCase):
         for cwd in (self.tree, link):
             code, text = self.run_script("lint.sh", cwd=cwd)
             self.assertEqual(code, 0, text)
-            self.assertIn(f"checked --quiet {file} -- -DX ", text)
+            self.assertIn(f" {file} -- -DX ", text)
             self.assertIn("lint: 1 files clean", text)
+
+    def test_lint_checks_sources_that_are_joined(self):
+        joined = self.tree / "build" / "Unity" / "unity_0_cxx.cxx"
+        self.prepare_lint(joined)
+        joined.parent.mkdir()
+        sources = [self.tree / "src" / "room" / name for name in ("a.cpp", "b.cpp")]
+        sources[1].write_text("int b;\n", encoding="utf-8")
+        self.git("add", "src")
+        joined.write_text("".join(f'#include "{source}"\n' for source in sources), encoding="utf-8")
+        code, text = self.run_script("lint.sh")
+        self.assertEqual(code, 0, text)
+        self.assertEqual(text.count("checked --quiet"), 1, text)
+        self.assertIn(f"--config-file={self.tree / '.clang-tidy'}", text)
+        self.assertIn(f" {joined} -- -DX ", text)
+        self.assertIn("lint: 2 files clean", text)
+        sources[1].write_text("double turn = 6.28318;\n", encoding="utf-8")
+        self.assertEqual(self.run_script("lint.sh")[0], 1, "each source is looked at for constants")
 
     def test_lint_checks_again_what_has_changed(self):
         file = self.tree / "src" / "room" / "a.cpp"
