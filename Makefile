@@ -8,7 +8,7 @@ PREFIX ?= /usr/local
 JOBS ?= $(shell nproc)
 # Warnings stop the build where nobody reads them.
 WERROR ?= $(if $(CI),ON,OFF)
-# A first build takes less than half of the time so. OFF suits those who change a file and build again.
+# A first build takes less time with ON. OFF suits those who change a file and build again.
 JOIN_SOURCES ?= ON
 CONFIGURE_FLAGS ?=
 
