@@ -14,8 +14,8 @@ using CliBadMesh = Cli;
 using CliBadOutput = Cli;
 using CliSignals = Cli;
 
-constexpr std::array kCommands = {"scene",   "inspect", "compute", "query", "verify",
-                                  "compare", "devices", "spheres", "render"};
+constexpr std::array kCommands = {"scene",   "inspect", "compute", "query",   "verify",
+                                  "compare", "devices", "cameras", "spheres", "render"};
 
 TEST_F(CliUsage, HelpShowsExamples) {
   EXPECT_NE(output_of({"--help"}).find("EXAMPLES"), std::string::npos);
@@ -110,6 +110,8 @@ TEST_F(CliUsage, EveryCommandObeysTheTable) {
   EXPECT_EQ(code({"compare", "v.ply", "none.obj"}), 2);
   EXPECT_EQ(code({"devices"}), 0);
   EXPECT_EQ(code({"devices", "--device", "99"}), 2);
+  EXPECT_EQ(code({"cameras"}), 0);
+  EXPECT_EQ(code({"cameras", "none.json"}), 2);
   EXPECT_EQ(code({"spheres", "-c", "config.yaml"}), 2);
   EXPECT_EQ(code({"render", "none.yaml", "-o", "p.png"}), 2);
   for (const char* command : kCommands) {

@@ -20,14 +20,15 @@ MODULES = {  # name: (left, top, width, what it does)
     "target": (620, 374, 180, "frame, lift, range"),
     "io": (20, 464, 580, "mesh formats, both directions (zlib)"),
     "scene": (620, 464, 420, "weld, merge, hierarchy"),
-    "geo": (20, 554, 260, "where on the earth (PROJ)"),
-    "options": (300, 554, 300, "of maps, spheres, devices: names, ranges"),
+    "geo": (20, 554, 210, "where on the earth (PROJ)"),
+    "camera": (250, 554, 150, "cameras by name"),
+    "options": (420, 554, 300, "of maps, spheres, devices: names, ranges"),
     "core": (20, 644, 1020, "geometry, errors, progress, threads (oneTBB), whole files"),
 }
 USES = [("cli", "app"), ("cli", "query"), ("cli", "verify"), ("cli", "picture"), ("app", "maps/city"), ("app", "spheres"),
         ("query", "exact"), ("picture", "depth"), ("maps/city", "maps/osm"), ("maps/city", "maps/terrain"),
-        ("spheres", "solid"), ("exact", "target"), ("depth", "scene"), ("target", "scene"), ("io", "geo"), ("io", "core"),
-        ("scene", "core"), ("geo", "core"),
+        ("spheres", "solid"), ("exact", "target"), ("depth", "scene"), ("target", "scene"), ("io", "geo"),
+        ("io", "camera"), ("scene", "core"), ("geo", "core"), ("camera", "core"),
         ("options", "core")]
 HEIGHT = 58
 

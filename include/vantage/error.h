@@ -126,6 +126,10 @@ enum class ErrorCode {
   raster_grid_unsupported,  ///< the rows of a raster do not run east, or its pixels have no size
   raster_too_large,         ///< a region has more posts of a raster than can be handled
 
+  // cameras
+  camera_invalid,      ///< numbers of a camera are missing, impossible or contradict each other
+  camera_list_syntax,  ///< a file is no list of cameras that can be read
+
   // devices and pictures
   device_missing,  ///< there is no such device, or none that can do what is asked
   device_failed,   ///< a device that was insisted on cannot go on

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "vantage/camera.h"
 #include "vantage/compare.h"
 #include "vantage/devices.h"
 #include "vantage/export.h"
@@ -33,5 +34,9 @@ VANTAGE_API std::string json_text(const Comparison& comparison, const std::strin
 
 /// `reason`: why `chosen` was.
 VANTAGE_API std::string json_text(const RenderDevices& found, const ChosenDevice& chosen, const std::string& reason);
+
+/// Each camera with its field of view and its focal length in pixels. What is not known is null, and so is `problem`
+/// of a camera that can be used.
+VANTAGE_API std::string json_text(const std::vector<ListedCamera>& cameras);
 
 }  // namespace vantage

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "vantage/atomic_file.h"
+#include "vantage/camera.h"
 #include "vantage/city.h"
 #include "vantage/compare.h"
 #include "vantage/constraints.h"

@@ -64,6 +64,27 @@ void add_source(Json& json, const LoadedScene& loaded) {
   if (loaded.raster) add_raster(json, *loaded.raster);
 }
 
+Json known_or_null(double number) { return number == 0 ? Json(nullptr) : Json(number); }
+
+Json camera_json(const ListedCamera& listed) {
+  const Camera& camera = listed.camera;
+  Json json;
+  json["name"] = camera.name;
+  json["maker"] = camera.maker.empty() ? Json(nullptr) : Json(camera.maker);
+  json["model"] = camera.model.empty() ? Json(nullptr) : Json(camera.model);
+  json["width_px"] = camera.width_px == 0 ? Json(nullptr) : Json(camera.width_px);
+  json["height_px"] = camera.height_px == 0 ? Json(nullptr) : Json(camera.height_px);
+  json["sensor_width_mm"] = known_or_null(camera.sensor_width_mm);
+  json["sensor_height_mm"] = known_or_null(camera.sensor_height_mm);
+  json["focal_length_mm"] = known_or_null(camera.focal_length_mm);
+  const std::optional<Pinhole> pinhole = pinhole_if_known(listed);
+  json["fov_deg"] = pinhole ? Json(pinhole->fov_deg()) : Json(nullptr);  // horizontal, vertical
+  json["focal_px"] = pinhole && pinhole->focal_px ? Json(*pinhole->focal_px) : Json(nullptr);
+  json["source"] = camera.source;
+  json["problem"] = listed.problem.empty() ? Json(nullptr) : Json(listed.problem);
+  return json;
+}
+
 double percent(double part, double whole) { return 100 * part / whole; }
 
 }  // namespace
@@ -184,6 +205,13 @@ std::string json_text(const RenderDevices& found, const ChosenDevice& chosen, co
   json["used"] = chosen.device.index;
   json["why"] = reason;
   json["why_no_opengl"] = found.why_no_opengl;
+  return dumped(json, 2);
+}
+
+std::string json_text(const std::vector<ListedCamera>& cameras) {
+  Json json;
+  json["cameras"] = Json::array();
+  for (const ListedCamera& camera : cameras) json["cameras"].push_back(camera_json(camera));
   return dumped(json, 2);
 }
 

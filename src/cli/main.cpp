@@ -26,6 +26,7 @@ constexpr const char* kExamples =
     "  vantage verify mission.yaml volume.ply\n"
     "  vantage compare spheres.ply exact.ply\n"
     "  vantage devices\n"
+    "  vantage cameras\n"
     "  vantage spheres -c config.yaml\n"
     "  vantage render mission.yaml --volume volume.ply -o picture.png\n"
     "\n"
@@ -96,6 +97,7 @@ void add_commands(CLI::App& app, Command& chosen) {
   add_verify(app, chosen);
   add_compare(app, chosen);
   add_devices(app, chosen);
+  add_cameras(app, chosen);
   add_spheres(app, chosen);
   add_render(app, chosen);
   add_help(app, chosen);

@@ -92,6 +92,8 @@ constexpr std::array kRows = {
     Row{ErrorCode::raster_not_heights, ErrorKind::input, "raster-not-heights"},
     Row{ErrorCode::raster_grid_unsupported, ErrorKind::input, "raster-grid-unsupported"},
     Row{ErrorCode::raster_too_large, ErrorKind::input, "raster-too-large"},
+    Row{ErrorCode::camera_invalid, ErrorKind::input, "camera-invalid"},
+    Row{ErrorCode::camera_list_syntax, ErrorKind::input, "camera-list-syntax"},
     Row{ErrorCode::device_missing, ErrorKind::input, "device-missing"},
     Row{ErrorCode::device_failed, ErrorKind::input, "device-failed"},
     Row{ErrorCode::unknown_command, ErrorKind::input, "unknown-command"},

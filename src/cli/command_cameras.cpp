@@ -1,0 +1,120 @@
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "cli/command.h"
+#include "cli/text_table.h"
+#include "vantage/camera.h"
+#include "vantage/input.h"
+#include "vantage/json.h"
+
+namespace vantage::cli {
+namespace {
+
+constexpr const char* kCamerasExamples =
+    "EXAMPLES\n"
+    "  vantage cameras\n"
+    "  vantage cameras CameraMetaData.json          # a list of QGroundControl, and what is wrong in it\n"
+    "  vantage cameras sensor_data.json | grep DJI  # a list of OpenSfM: widths of sensors\n"
+    "  vantage cameras --json | jq -r '.cameras[] | .name + \": \" + .source'\n";
+
+struct CamerasArguments {
+  CommonOptions common;
+  std::string file;
+  bool json = false;
+};
+
+std::vector<ListedCamera> listed_cameras(const std::string& file) {
+  if (!file.empty()) return read_cameras(file);
+  std::vector<ListedCamera> cameras;
+  for (const Camera& camera : known_cameras()) cameras.push_back({camera, {}});
+  return cameras;
+}
+
+/// The name, then numbers. What is not known is "-".
+using CameraCells = std::array<std::string, 5>;
+
+std::string sides(const std::string& width, const std::string& height) { return width + " x " + height; }
+
+std::string side(double number) { return number > 0 ? shortest(number) : "-"; }
+
+CameraCells cells_of(const ListedCamera& listed) {
+  const Camera& camera = listed.camera;
+  CameraCells cells = {camera.name.empty() ? "-" : camera.name, "-", "-", "-", "-"};
+  if (camera.width_px > 0 || camera.height_px > 0) cells[1] = sides(side(camera.width_px), side(camera.height_px));
+  if (camera.sensor_width_mm > 0 || camera.sensor_height_mm > 0) {
+    cells[2] = sides(side(camera.sensor_width_mm), side(camera.sensor_height_mm));
+  }
+  cells[3] = side(camera.focal_length_mm);
+  if (const std::optional<Pinhole> pinhole = pinhole_if_known(listed)) {
+    const auto [horizontal, vertical] = pinhole->fov_deg();
+    cells[4] = sides(fixed(horizontal, 1), fixed(vertical, 1));
+  }
+  return cells;
+}
+
+std::size_t characters(const std::string& text) {
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+}
+
+/// Names to the left, numbers to the right.
+std::string aligned(const std::vector<CameraCells>& rows) {
+  std::array<std::size_t, std::tuple_size_v<CameraCells>> widths{};
+  for (const CameraCells& row : rows) {
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], characters(row[i]));
+  }
+  std::string text;
+  for (const CameraCells& row : rows) {
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      const std::string blanks(widths[i] - characters(row[i]), ' ');
+      text += i == 0 ? row[i] + blanks : "  " + blanks + row[i];
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+std::string cameras_table(const std::vector<ListedCamera>& cameras) {
+  std::vector<CameraCells> rows = {{"name", "picture px", "sensor mm", "focal mm", "field of view deg"}};
+  std::string problems;
+  std::size_t bad = 0;
+  for (const ListedCamera& listed : cameras) {
+    rows.push_back(cells_of(listed));
+    if (listed.problem.empty()) continue;
+    ++bad;
+    problems += "  " + listed.camera.source;
+    if (!listed.camera.name.empty()) problems += ", " + in_quotes(listed.camera.name);
+    problems += ": " + listed.problem + "\n";
+  }
+  std::string text = aligned(rows);
+  if (bad > 0) text += "\n" + count(bad) + " of " + count(cameras.size()) + " cannot be used:\n" + problems;
+  return text;
+}
+
+int run_cameras(const CamerasArguments& options) {
+  const std::vector<ListedCamera> cameras = listed_cameras(options.file);
+  print(options.json ? json_text(cameras) : cameras_table(cameras));
+  return kSuccess;
+}
+
+}  // namespace
+
+void add_cameras(CLI::App& app, Command& chosen) {
+  auto options = std::make_shared<CamerasArguments>();
+  CLI::App* command = app.add_subcommand(
+      "cameras", "List the cameras that vantage knows by name, or those of a list of QGroundControl or OpenSfM");
+  command
+      ->add_option("file", options->file,
+                   "List to read instead: CameraMetaData.json of QGroundControl or sensor_data.json of OpenSfM")
+      ->option_text("FILE");
+  command->add_flag("--json", options->json, "Print JSON instead of a table, with the source of each camera");
+  finish<CamerasArguments>(*command, options, kCamerasExamples, chosen, run_cameras);
+}
+
+}  // namespace vantage::cli
