@@ -26,8 +26,25 @@ Vec3 area_vector(const std::vector<Vec3>& polygon) {
 
 }  // namespace
 
+void clip_to_front(std::span<const Vec3> polygon, double slack, std::vector<Vec3>& clipped) {
+  clipped.clear();
+  bool above = false;
+  const auto height = [slack](const Vec3& p) { return std::abs(p.z()) <= slack ? 0.0 : p.z(); };
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vec3 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+    const double za = height(a), zb = height(b);
+    above = above || za > 0;
+    if (za >= 0) clipped.emplace_back(a.x(), a.y(), za);
+    if ((za < 0 && zb > 0) || (za > 0 && zb < 0)) {
+      const double s = za / (za - zb);
+      clipped.emplace_back(a.x() + s * (b.x() - a.x()), a.y() + s * (b.y() - a.y()), 0.0);
+    }
+  }
+  if (!above) clipped.clear();
+}
+
 bool BlockerBuilder::build(std::span<const Vec3> polygon, std::vector<Plane>& planes, std::vector<Vec3>& corners) {
-  clip(polygon);
+  clip_to_front(polygon, target_.slack, polygon_);
   if (polygon_.size() < 3) return false;
   const Vec3 area = area_vector(polygon_);
   const double size = area.norm();
@@ -41,24 +58,6 @@ bool BlockerBuilder::build(std::span<const Vec3> polygon, std::vector<Plane>& pl
   add_polygon_edge_planes(normal);
   if (!grown_) corners.insert(corners.end(), polygon_.begin(), polygon_.end());
   return true;
-}
-
-// Keeps what is above the target's plane; heights within rounding of it are set to zero.
-void BlockerBuilder::clip(std::span<const Vec3> polygon) {
-  polygon_.clear();
-  bool above = false;
-  const auto height = [this](const Vec3& p) { return std::abs(p.z()) <= target_.slack ? 0.0 : p.z(); };
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Vec3 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
-    const double za = height(a), zb = height(b);
-    above = above || za > 0;
-    if (za >= 0) polygon_.emplace_back(a.x(), a.y(), za);
-    if ((za < 0 && zb > 0) || (za > 0 && zb < 0)) {
-      const double s = za / (za - zb);
-      polygon_.emplace_back(a.x() + s * (b.x() - a.x()), a.y() + s * (b.y() - a.y()), 0.0);
-    }
-  }
-  if (!above) polygon_.clear();
 }
 
 void BlockerBuilder::add(const Vec3& normal, double height) {

@@ -14,6 +14,10 @@ namespace vantage::internal::exact {
 /// Of a blocker: g . x = 1 bounds what it hides. Hidden points have g . x > 1 for all of its planes.
 using core::Plane;
 
+/// The part of a polygon (local frame, metres) that is above the target's plane; heights within `slack` of it are set
+/// to zero. Nothing where the polygon reaches nowhere above it.
+void clip_to_front(std::span<const Vec3> polygon, double slack, std::vector<Vec3>& clipped);
+
 /// Planes of B(O) for the convex polygon O (local frame, metres, at least 3 corners, planar to rounding), clipped to
 /// z >= 0. Appends to `planes` and the clipped corners to `corners`; returns false and appends nothing when O reaches
 /// nowhere above the target's plane. Every plane holds all of B(O) on its far side (to target::LocalTarget::slack), so
@@ -26,7 +30,6 @@ class BlockerBuilder {
   bool build(std::span<const Vec3> polygon, std::vector<Plane>& planes, std::vector<Vec3>& corners);
 
  private:
-  void clip(std::span<const Vec3> polygon);
   void add_own_plane(const Vec3& normal);
   void add_target_edge_planes();
   void add_polygon_edge_planes(const Vec3& polygon_normal);
