@@ -8,6 +8,7 @@
 
 #include "vantage/constraints.h"
 #include "vantage/export.h"
+#include "vantage/fraction.h"
 #include "vantage/prepared_target.h"
 
 namespace vantage {
@@ -43,6 +44,24 @@ class VANTAGE_API PointQuery {
   /// proportion to what may hide the target from the point. And a few passes over the triangles of each navigation
   /// mesh. Throws Error(input) for a point that is not finite.
   std::vector<PointAnswer> answer(std::span<const Vec3> points);
+
+  /// How much of the target each point sees, by line of sight alone, in the order of the points; the same whatever was
+  /// asked before. Not sampled: the shadows of the scene's polygons on the target's plane are cut out of the target
+  /// (docs/theory.md, "How much is seen").
+  ///
+  /// Of a target in parts: what is seen of all parts over the sum of the parts, where a part whose back the point sees
+  /// counts as hidden. A point as a target is seen or not: 1 or 0.
+  ///
+  /// Errors: what rounding does to the coordinates of the scene, of the target and of the point (8 roundings of the
+  /// largest of them) moves the borders of shadows, the more the farther they are thrown and the more the point looks
+  /// along the target. The computation adds a few roundings of the distance between point and target, seen square to
+  /// the line of sight, along the borders. Where it cannot tell two borders apart, the seen part between them counts as
+  /// hidden.
+  ///
+  /// Threads, cost and errors thrown as answer(); beyond that, for each point, in proportion to the polygons that hide
+  /// some of the target from it, and to the pieces that these leave: in a city some ten microseconds, some milliseconds
+  /// where it looks through many gaps.
+  std::vector<PointFraction> fractions(std::span<const Vec3> points, const FractionOptions& options = {});
 
  private:
   struct Data;

@@ -124,6 +124,7 @@ void BlockerIndex::build_blockers(const PreparedScene::Data& scene, const Target
           blocker.first_plane = static_cast<std::uint32_t>(planes_before);
           blocker.plane_count = static_cast<std::uint32_t>(piece.planes.size() - planes_before);
           blocker.object = scene.polygon_object[polygon];
+          blocker.polygon = polygon;
           blocker.leaf = leaf;
           piece.blockers.push_back(blocker);
         }

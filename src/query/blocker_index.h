@@ -23,7 +23,8 @@ class BlockerIndex {
   struct Blocker {
     std::uint32_t first_plane = 0, plane_count = 0;
     std::uint32_t object = 0;  ///< of the scene
-    std::uint32_t leaf = 0;    ///< node of the scene's hierarchy that holds the polygon
+    std::uint32_t polygon = 0;
+    std::uint32_t leaf = 0;  ///< node of the scene's hierarchy that holds the polygon
   };
   struct Entry {
     float bound;            ///< of the inverse distance at which it begins, for directions with |x| + |y| + |z| = 1
