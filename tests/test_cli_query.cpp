@@ -169,8 +169,102 @@ TEST_F(CliQuery, OneHeightForAll) {
   expect_bad({"query", "mission.yaml", "points.csv", "--z", "high"}, "--z");
 }
 
+TEST_F(CliQuery, AddsHowMuchIsSeen) {
+  write("points.csv", "x,y,z\n0,0,30\n40,0,24\n60,0,5\n0,0,-3\n");
+  const auto fractions = [&](const std::string& measure) {
+    std::vector<double> values;
+    const auto rows = lines(output_of({"query", "mission.yaml", "points.csv", "--fraction", measure}));
+    EXPECT_EQ(rows.at(0), std::string("x,y,z,") + kAnswers + ",fraction");
+    const auto plain = lines(output_of({"query", "mission.yaml", "points.csv"}));
+    for (std::size_t i = 1; i < rows.size(); ++i) {
+      EXPECT_EQ(rows[i].rfind(plain.at(i) + ",", 0), 0U) << rows[i];
+      values.push_back(std::stod(rows[i].substr(plain[i].size() + 1)));
+    }
+    const auto json =
+        nlohmann::json::parse(output_of({"query", "mission.yaml", "points.csv", "--fraction", measure, "--json"}));
+    for (std::size_t i = 0; i < values.size(); ++i) EXPECT_EQ(json[i].at("fraction"), values[i]);
+    return values;
+  };
+  const auto area = fractions("area"), angle = fractions("solid_angle"), pixels = fractions("pixels");
+  for (const auto& values : {area, angle, pixels}) {
+    ASSERT_EQ(values.size(), 4U);
+    EXPECT_EQ(values[0], 1);
+    EXPECT_EQ(values[2], 0);
+    EXPECT_EQ(values[3], 0);
+  }
+  // The roof's edge at x = 20, 12 m high, is half-way between the eye and x = 0. The hidden half is the nearer one.
+  EXPECT_NEAR(area[1], 0.5, 1e-14);
+  EXPECT_LT(angle[1], 0.49);
+  EXPECT_GT(angle[1], 0.3);
+  EXPECT_LT(pixels[1], 0.49);
+  EXPECT_NE(angle[1], pixels[1]);
+  expect_bad({"query", "mission.yaml", "points.csv", "--fraction", "volume"});
+}
+
+TEST_F(CliQuery, AFractionReplacesThatOfAnEarlierRun) {
+  options_.input = "fraction,x,y,z\n2/3,0,0,30\n";
+  EXPECT_EQ(lines(output_of({"query", "mission.yaml", "-"})).at(1).rfind("2/3,0,0,30,true,", 0), 0U) << "kept";
+  const ProgramRun again = run({"query", "mission.yaml", "-", "--fraction", "area"});
+  EXPECT_EQ(lines(again.out).at(0), std::string("x,y,z,") + kAnswers + ",fraction");
+  EXPECT_EQ(lines(again.out).at(1).substr(lines(again.out).at(1).size() - 2), ",1");
+  EXPECT_NE(again.err.find("fraction"), std::string::npos) << again.err;
+}
+
+TEST_F(CliQuery, WritesSeenParts) {
+  write("points.csv", "ID,x,y,z\nhigh,0,0,30\nbehind the block,40,0,24\nbelow,0,0,-3\n");
+  const std::vector<std::string> plain = {"query", "mission.yaml", "points.csv", "--fraction", "area"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), plain.begin(), plain.end());
+    return more;
+  };
+  const std::string answers = output_of(plain);
+  const ProgramRun written = run(with({"--seen", "seen.geojson"}));
+  EXPECT_EQ(written.exit_code, 0);
+  EXPECT_EQ(written.out, answers);
+  testing::expect_wording(written.err);
+  EXPECT_EQ(run(with({"--seen", "seen.geojson", "--quiet"})).err, "");
+  const std::string text = content(folder_ / "seen.geojson");
+  const auto json = nlohmann::json::parse(text);
+  ASSERT_EQ(json.at("features").size(), 3U);
+  EXPECT_EQ(json["features"][0]["id"], "high");
+  EXPECT_EQ(json["features"][0]["geometry"]["coordinates"][0].size(), 5U) << "the whole square";
+  EXPECT_EQ(json["features"][1]["id"], "behind the block");
+  EXPECT_NEAR(json["features"][1]["properties"]["fraction"].get<double>(), 0.5, 1e-14);
+  EXPECT_EQ(json["features"][1]["geometry"]["coordinates"][0].size(), 5U) << "half of it";
+  EXPECT_TRUE(json["features"][2]["geometry"].is_null());
+  EXPECT_EQ(run(with({"--seen", "-", "-o", "answers.csv"})).out, text);
+  EXPECT_EQ(content(folder_ / "answers.csv"), answers);
+
+  fs::remove(folder_ / "answers.csv");
+  expect_bad({"query", "mission.yaml", "points.csv", "--seen", "seen.geojson"}, "--seen");
+  expect_bad(with({"--seen", "-"}), "--seen");
+  expect_bad(with({"--seen", "a.csv", "-o", "a.csv"}), "a.csv");
+  expect_bad(with({"--seen", "points.csv"}), "points.csv");
+  expect_bad(with({"--seen", "city.obj"}), "city.obj");
+  expect_bad(with({"--seen", "none/seen.geojson"}), "none");
+  write("bad.csv", "0,0,30\n0,0,high\n");
+  expect_refused({"query", "mission.yaml", "bad.csv", "--fraction", "area", "--seen", "seen.geojson"}, "bad.csv:2");
+  EXPECT_EQ(content(folder_ / "seen.geojson"), text) << "as it was";
+  write("mission.yaml", std::string(kScene) + "target: {point: [0, 0, 1]}\n" + kSensor);
+  expect_bad(with({"--seen", "seen.geojson"}), "--seen");
+}
+
 /// City on the earth: its x and y are metres east and north of the origin.
 constexpr const char* kPlacedScene = "scene: {mesh: city.obj, origin: [48.1, 11.5]}\n";
+
+TEST_F(CliQuery, WritesSeenPartsInDegrees) {
+  write("mission.yaml", std::string(kPlacedScene) + kTarget + kSensor);
+  options_.input = "0 0 30\n";
+  output_of({"query", "mission.yaml", "-", "--fraction", "area", "--seen", "seen.geojson"});
+  const auto json = nlohmann::json::parse(content(folder_ / "seen.geojson"));
+  const auto& ring = json.at("features")[0]["geometry"]["coordinates"][0];
+  ASSERT_EQ(ring.size(), 5U);
+  for (const auto& position : ring) {
+    const Eigen::Vector2d xy = scene_position({48.1, 11.5, "", ""}, position[0], position[1]);
+    EXPECT_NEAR(xy.cwiseAbs().minCoeff(), 5, 1e-7);
+    EXPECT_NEAR(xy.cwiseAbs().maxCoeff(), 5, 1e-7);
+  }
+}
 
 TEST_F(CliQuery, TakesLongitudeAndLatitude) {
   write("mission.yaml", std::string(kPlacedScene) + kTarget + kSensor);

@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "cli/command.h"
 #include "cli/interrupt.h"
@@ -17,6 +18,7 @@
 #include "cli/standard_streams.h"
 #include "vantage/atomic_file.h"
 #include "vantage/error.h"
+#include "vantage/fraction.h"
 #include "vantage/input.h"
 #include "vantage/mission.h"
 #include "vantage/output.h"
@@ -24,6 +26,8 @@
 
 namespace vantage::cli {
 namespace {
+
+namespace fs = std::filesystem;
 
 constexpr const char* kQueryExamples =
     "POINTS\n"
@@ -40,16 +44,27 @@ constexpr const char* kQueryExamples =
     "  with ';'. With --json: an array of objects, one a line; -inf is null, and columns that are not coordinates are\n"
     "  text.\n"
     "\n"
+    "FRACTION\n"
+    "  --fraction adds a last column, fraction: which part of the target the point sees, 0 to 1, by line of sight\n"
+    "  alone. It is exact, not sampled, and 1 only where nothing hides any of the target. Measured by the area of the\n"
+    "  target; by its solid_angle from the point; or by the pixels of its image, in a camera that looks along the "
+    "axis\n"
+    "  of the narrowest cone about the target. --seen also writes the seen parts, as GeoJSON polygons with holes, one\n"
+    "  feature a point: in longitude and latitude where the scene says where on the earth it lies, else in x and y of\n"
+    "  the scene frame.\n"
+    "\n"
     "EXAMPLES\n"
     "  vantage query mission.yaml points.csv\n"
     "  vantage query mission.yaml points.csv -o answers.csv\n"
     "  echo 10 20 35 | vantage query mission.yaml -\n"
-    "  vantage query mission.yaml track.csv --lonlat --z 60 --json | jq '.[] | select(.inside)'\n";
+    "  vantage query mission.yaml track.csv --lonlat --z 60 --json | jq '.[] | select(.inside)'\n"
+    "  vantage query mission.yaml points.csv --fraction solid_angle -o answers.csv --seen seen.geojson\n";
 
 struct QueryArguments {
   CommonOptions common;
   std::string mission_file, points_file, output_file;
-  std::string z;  // as typed
+  std::string fraction, seen_file;  // empty: not asked for
+  std::string z;                    // as typed
   bool lonlat = false, json = false;
 
   bool is_to_stdout() const { return output_file.empty() || is_standard_stream(output_file); }
@@ -78,11 +93,11 @@ class Source {
   int descriptor_ = STDIN_FILENO;
 };
 
-/// Where answers go, as they come; a file is put in place when all are there.
+/// Where answers go, as they come: standard output, or a file that is put in place when all are there.
 class Sink {
  public:
-  explicit Sink(const QueryArguments& options) {
-    if (!options.is_to_stdout()) file_.emplace(options.output_file);
+  Sink(const std::string& file, bool is_stdout) {
+    if (!is_stdout) file_ = std::make_unique<AtomicFile>(file);
   }
   void write(const std::string& text) {
     if (file_) {
@@ -91,18 +106,18 @@ class Sink {
       print(text);
     }
   }
-  void commit() {
-    if (file_) file_->commit();
-  }
+  /// The file, to be put in place; null for standard output.
+  std::unique_ptr<AtomicFile> release() { return std::move(file_); }
 
  private:
-  std::optional<AtomicFile> file_;
+  std::unique_ptr<AtomicFile> file_;
 };
 
 TableOptions table_options(const QueryArguments& options) {
   TableOptions result;
   result.lonlat = options.lonlat;
   result.json = options.json;
+  result.fraction = !options.fraction.empty();
   if (options.z.empty()) return result;
   const ParsedNumber z = parse_number(options.z);
   if (z.fault != NumberFault::none) {
@@ -140,17 +155,94 @@ Portion parsed(PointTable& table, std::span<const Row> rows) {
   return portion;
 }
 
-std::string answered(PointTable& table, const Portion& portion, const Scene& scene, PointQuery& query) {
-  std::vector<Vec3> points;
-  for (std::size_t i = 0; i < portion.rows.size(); ++i) {
-    points.push_back(table.scene_point(portion.coordinates[i], scene.georeference, portion.rows[i]));
+/// Answers portions of points, and writes what was asked for.
+class Answers {
+ public:
+  Answers(const QueryArguments& options, const Mission& mission, PointTable& table, const PreparedTarget& target)
+      : place_(mission.loaded.scene.georeference),
+        table_(table),
+        query_(target, mission.navigation),
+        rows_(options.output_file, options.is_to_stdout()) {
+    fraction_.measure = fraction_measure(options.fraction).value_or(FractionMeasure::area);
+    fraction_.with_polygons = !options.seen_file.empty();
+    if (!fraction_.with_polygons) return;
+    seen_ = std::make_unique<Sink>(options.seen_file, is_standard_stream(options.seen_file));
+    features_.emplace(place_, fraction_.measure);
   }
-  const std::vector<PointAnswer> answers = query.answer(points);
-  std::string text;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    table.append(text, portion.rows[i], portion.coordinates[i], answers[i]);
+
+  void begin() {
+    text_ = table_.beginning();
+    if (seen_) seen_->write(features_->beginning());
   }
-  return text;
+
+  void add(const Portion& portion) {
+    std::vector<Vec3> points;
+    for (std::size_t i = 0; i < portion.rows.size(); ++i) {
+      points.push_back(table_.scene_point(portion.coordinates[i], place_, portion.rows[i]));
+    }
+    const std::vector<PointAnswer> answers = query_.answer(points);
+    std::vector<PointFraction> fractions;
+    if (table_.has_fraction()) fractions = query_.fractions(points, fraction_);
+    std::string features;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const std::optional<double> fraction = fractions.empty() ? std::nullopt : std::optional(fractions[i].fraction);
+      table_.append(text_, portion.rows[i], portion.coordinates[i], answers[i], fraction);
+      if (seen_) features += features_->feature(fractions[i], table_.id(portion.rows[i]));
+    }
+    rows_.write(text_);
+    text_.clear();
+    if (seen_) seen_->write(features);
+  }
+
+  void end() {
+    rows_.write(text_ + table_.end());  // with the beginning where there were no points
+    if (seen_) seen_->write(features_->end());
+    std::vector<std::unique_ptr<AtomicFile>> files;
+    for (Sink* sink : {&rows_, seen_.get()}) {
+      if (std::unique_ptr<AtomicFile> file = sink ? sink->release() : nullptr) files.push_back(std::move(file));
+    }
+    commit_all(files);
+  }
+
+ private:
+  std::optional<Georeference> place_;
+  PointTable& table_;
+  PointQuery query_;
+  FractionOptions fraction_;
+  Sink rows_;
+  std::unique_ptr<Sink> seen_;
+  std::optional<SeenGeoJson> features_;
+  std::string text_;
+};
+
+void check_seen(const QueryArguments& options) {
+  if (options.seen_file.empty()) return;
+  constexpr const char* kWhere = "command line, --seen";
+  if (options.fraction.empty()) {
+    throw Error(ErrorCode::missing_key, "--seen does not say by what the seen part is measured", kWhere,
+                "add --fraction area, solid_angle or pixels");
+  }
+  if (is_standard_stream(options.seen_file)) {
+    if (!options.is_to_stdout()) return;
+    throw Error(ErrorCode::output_named_twice, "the answers and --seen both want standard output", kWhere,
+                "write one of them to a file");
+  }
+  check_can_write(options.seen_file);
+  if (!is_standard_stream(options.points_file)) check_not_an_input(options.seen_file, {options.points_file});
+  if (!options.is_to_stdout() && fs::weakly_canonical(options.seen_file) == fs::weakly_canonical(options.output_file)) {
+    throw Error(ErrorCode::output_named_twice, "an output is named twice", options.seen_file, "give each a name");
+  }
+}
+
+/// What can be said of the mission before its scene is read.
+void check_mission(const QueryArguments& options, const MissionFile& file) {
+  if (!options.is_to_stdout()) check_not_an_input(options.output_file, input_files(file));
+  if (options.seen_file.empty()) return;
+  if (!is_standard_stream(options.seen_file)) check_not_an_input(options.seen_file, input_files(file));
+  if (file.target.is_point()) {
+    throw Error(ErrorCode::not_applicable, "a single point has no part that could be drawn", "command line, --seen",
+                "leave it out, or give the target an area");
+  }
 }
 
 void check_streams(const QueryArguments& options) {
@@ -166,9 +258,10 @@ void check_streams(const QueryArguments& options) {
 
 int run_query(const QueryArguments& options) {
   check_streams(options);
+  check_seen(options);
   const TableOptions columns = table_options(options);
   const MissionFile file = read_mission_argument(options.mission_file);
-  if (!options.is_to_stdout()) check_not_an_input(options.output_file, input_files(file));
+  check_mission(options, file);
   const bool is_from_stdin = is_standard_stream(options.points_file);
   const bool is_quiet = options.common.quiet;
   if (file.method == Method::spheres && !is_quiet) {
@@ -192,19 +285,17 @@ int run_query(const QueryArguments& options) {
   const Mission mission = resolve_mission(file, progress.callback());
   const Scene& scene = mission.loaded.scene;
   if (table.is_lonlat() && !is_quiet) tell_of_heights(scene);
-  PointQuery query(prepare_target(mission, PreparedScene(scene, progress.callback())), mission.navigation);
-  Sink sink(options);
-  std::string text = table.beginning();
+  if (!options.seen_file.empty() && !scene.georeference && !is_quiet) {
+    note("the seen parts are in x, y, z of the scene frame: the scene does not say where on the earth it lies");
+  }
+  Answers answers(options, mission, table, prepare_target(mission, PreparedScene(scene, progress.callback())));
+  answers.begin();
   while (!portion.rows.empty()) {
-    text += answered(table, portion, scene, query);
-    sink.write(text);
-    text.clear();
+    answers.add(portion);
     stop_if_interrupted();
     portion = parsed(table, reader.next());
   }
-  if (!text.empty()) sink.write(text);  // there were no points
-  sink.write(table.end());
-  sink.commit();
+  answers.end();
   return kSuccess;
 }
 
@@ -228,6 +319,15 @@ void add_query(CLI::App& app, Command& chosen) {
   command->add_option("--z", options->z, "One height for all points; the table then needs no column z")
       ->option_text("METRES");
   command->add_flag("--json", options->json, "Write a JSON array of objects, one per line");
+  command
+      ->add_option("--fraction", options->fraction,
+                   "Add which part of the target each point sees, measured by area, solid angle or pixels")
+      ->option_text("MEASURE")
+      ->check(CLI::IsMember({"area", "solid_angle", "pixels"}));
+  command
+      ->add_option("--seen", options->seen_file,
+                   "Write the seen parts of the target to a GeoJSON file; - is standard output")
+      ->option_text("FILE");
   finish<QueryArguments>(*command, options, kQueryExamples, chosen, run_query);
 }
 

@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::array<const char*, 6> kAnswers = {"inside",       "margin_m",      "blocked_by",
                                                  "out_of_range", "behind_target", "outside_of"};
+constexpr const char* kFraction = "fraction";
 
 std::string lower_case(std::string text) {
   for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
@@ -99,7 +100,7 @@ PointTable::PointTable(const RowReader& reader, const Row& first, const TableOpt
     while (names_.size() < fields_.size()) names_.push_back("column_" + std::to_string(names_.size() + 1));
   }
   for (const std::string& name : names_) {
-    is_kept_.push_back(std::find(kAnswers.begin(), kAnswers.end(), name) == kAnswers.end());
+    is_kept_.push_back(!is_answer(name));
     if (!is_kept_.back()) replaced_.push_back(name);
   }
   if (!options.json) return;
@@ -109,6 +110,18 @@ PointTable::PointTable(const RowReader& reader, const Row& first, const TableOpt
     fail(ErrorCode::duplicate_key, "two columns are named " + in_quotes(name) + ", which JSON cannot hold", first,
          "give each a name of its own");
   }
+}
+
+bool PointTable::is_answer(const std::string& column) const {
+  return std::find(kAnswers.begin(), kAnswers.end(), column) != kAnswers.end() ||
+         (options_.fraction && column == kFraction);
+}
+
+std::optional<std::string> PointTable::id(const Row& row) {
+  const std::optional<std::size_t> column = has_header_ ? find_column(names_, {"id"}) : std::nullopt;
+  if (!column) return std::nullopt;
+  reader_.split(row.text, fields_);
+  return *column < fields_.size() ? fields_[*column].plain() : "";
 }
 
 void PointTable::take_header(const std::vector<Field>& fields, const Row& row) {
@@ -196,8 +209,9 @@ std::string PointTable::beginning() const {
     append_field(text, names_[i]);
     text += ',';
   }
-  for (const char* name : kAnswers) text += std::string(name) + (name == kAnswers.back() ? "\n" : ",");
-  return text;
+  for (const char* name : kAnswers) text += std::string(name) + (name == kAnswers.back() ? "" : ",");
+  if (options_.fraction) text.append(",").append(kFraction);
+  return text + "\n";
 }
 
 std::optional<std::size_t> PointTable::axis_of(std::size_t column) const {
@@ -206,17 +220,19 @@ std::optional<std::size_t> PointTable::axis_of(std::size_t column) const {
   return static_cast<std::size_t>(found - column_.begin());
 }
 
-void PointTable::append(std::string& text, const Row& row, const Vec3& coordinates, const PointAnswer& answer) {
+void PointTable::append(std::string& text, const Row& row, const Vec3& coordinates, const PointAnswer& answer,
+                        const std::optional<double>& fraction) {
   reader_.split(row.text, fields_);
   if (options_.json) {
-    append_json(text, coordinates, answer);
+    append_json(text, coordinates, answer, fraction);
   } else {
-    append_csv(text, coordinates, answer);
+    append_csv(text, coordinates, answer, fraction);
   }
   is_first_ = false;
 }
 
-void PointTable::append_csv(std::string& text, const Vec3& coordinates, const PointAnswer& answer) const {
+void PointTable::append_csv(std::string& text, const Vec3& coordinates, const PointAnswer& answer,
+                            const std::optional<double>& fraction) const {
   for (std::size_t i = 0; i < names_.size(); ++i) {
     if (!is_kept_[i]) continue;
     if (const auto axis = axis_of(i)) {
@@ -236,10 +252,15 @@ void PointTable::append_csv(std::string& text, const Vec3& coordinates, const Po
   append_names(text, answer.blocked_by);
   text.append(",").append(truth(answer.out_of_range)).append(",").append(truth(answer.behind_target)).append(",");
   append_names(text, answer.outside_of);
+  if (fraction) {
+    text += ',';
+    append_number(text, *fraction);  // all digits: what is nearly 1 must not become 1
+  }
   text += '\n';
 }
 
-void PointTable::append_json(std::string& text, const Vec3& coordinates, const PointAnswer& answer) {
+void PointTable::append_json(std::string& text, const Vec3& coordinates, const PointAnswer& answer,
+                             const std::optional<double>& fraction) {
   text += is_first_ ? "\n{" : ",\n{";
   for (std::size_t i = 0; i < names_.size(); ++i) {
     if (!is_kept_[i]) continue;
@@ -257,7 +278,9 @@ void PointTable::append_json(std::string& text, const Vec3& coordinates, const P
   text.append(", \"blocked_by\": ").append(json_text(answer.blocked_by));
   text.append(", \"out_of_range\": ").append(truth(answer.out_of_range));
   text.append(", \"behind_target\": ").append(truth(answer.behind_target));
-  text.append(", \"outside_of\": ").append(json_text(answer.outside_of)).append("}");
+  text.append(", \"outside_of\": ").append(json_text(answer.outside_of));
+  if (fraction) text.append(", \"fraction\": ").append(shortest(*fraction));
+  text += "}";
 }
 
 void PointTable::fail(ErrorCode code, const std::string& problem, const Row& row, const std::string& fix) const {

@@ -17,6 +17,7 @@ namespace vantage::cli {
 struct TableOptions {
   bool lonlat = false;      ///< longitude and latitude, not x and y
   bool json = false;        ///< write objects, not rows
+  bool fraction = false;    ///< write which part of the target is seen, too
   std::optional<double> z;  ///< of all points; then the table has no such column
 };
 
@@ -31,6 +32,8 @@ class PointTable {
   bool has_header() const { return has_header_; }
   bool is_lonlat() const { return is_lonlat_; }
 
+  bool has_fraction() const { return options_.fraction; }
+
   /// Columns of the points' table that the answers' replace: those of an earlier run, for example.
   const std::vector<std::string>& replaced() const { return replaced_; }
   /// Whether the header has x, y as well as lon, lat.
@@ -43,17 +46,24 @@ class PointTable {
   /// away.
   Vec3 scene_point(const Vec3& coordinates, const std::optional<Georeference>& place, const Row& row) const;
 
+  /// What stands in the row's column "id", in any case; nothing without one.
+  std::optional<std::string> id(const Row& row);
+
   /// Before the first answer, and after the last.
   std::string beginning() const;
   std::string end() const { return options_.json ? (is_first_ ? "]\n" : "\n]\n") : ""; }
-  /// The row with its answer.
-  void append(std::string& text, const Row& row, const Vec3& coordinates, const PointAnswer& answer);
+  /// The row with its answer; `fraction` where the options ask for it.
+  void append(std::string& text, const Row& row, const Vec3& coordinates, const PointAnswer& answer,
+              const std::optional<double>& fraction);
 
  private:
   void take_header(const std::vector<Field>& fields, const Row& row);
   void take_columns(const std::vector<std::string>& names);
-  void append_csv(std::string& text, const Vec3& coordinates, const PointAnswer& answer) const;
-  void append_json(std::string& text, const Vec3& coordinates, const PointAnswer& answer);
+  bool is_answer(const std::string& column) const;
+  void append_csv(std::string& text, const Vec3& coordinates, const PointAnswer& answer,
+                  const std::optional<double>& fraction) const;
+  void append_json(std::string& text, const Vec3& coordinates, const PointAnswer& answer,
+                   const std::optional<double>& fraction);
   std::optional<std::size_t> axis_of(std::size_t column) const;
   [[noreturn]] void fail(ErrorCode code, const std::string& problem, const Row& row, const std::string& fix) const;
 
