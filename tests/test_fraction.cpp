@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "core/parallel.h"
+#include "support/internals.h"
 #include "support/random.h"
 #include "support/scenes.h"
 #include "support/sweep_oracle.h"

@@ -1,10 +1,12 @@
 // Convex pieces joined to polygons with holes, the narrowest cone, and what is written of seen parts.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "query/join_pieces.h"
 #include "query/measure.h"
+#include "support/internals.h"
 #include "support/random.h"
 #include "vantage/fraction.h"
 #include "vantage/georeference.h"
