@@ -181,8 +181,8 @@ class Answers {
       points.push_back(table_.scene_point(portion.coordinates[i], place_, portion.rows[i]));
     }
     const std::vector<PointAnswer> answers = query_.answer(points);
-    std::vector<PointFraction> fractions;
-    if (table_.has_fraction()) fractions = query_.fractions(points, fraction_);
+    const std::vector<PointFraction> fractions =
+        table_.has_fraction() ? fractions_of(points) : std::vector<PointFraction>();
     std::string features;
     for (std::size_t i = 0; i < points.size(); ++i) {
       const std::optional<double> fraction = fractions.empty() ? std::nullopt : std::optional(fractions[i].fraction);
@@ -205,6 +205,20 @@ class Answers {
   }
 
  private:
+  /// A few at a time: where many gaps are looked through, each takes milliseconds.
+  std::vector<PointFraction> fractions_of(std::span<const Vec3> points) {
+    constexpr std::size_t kAtOnce = 256;
+    std::vector<PointFraction> result;
+    while (result.size() < points.size()) {
+      stop_if_interrupted();
+      const std::size_t count = std::min(kAtOnce, points.size() - result.size());
+      for (PointFraction& one : query_.fractions(points.subspan(result.size(), count), fraction_)) {
+        result.push_back(std::move(one));
+      }
+    }
+    return result;
+  }
+
   std::optional<Georeference> place_;
   PointTable& table_;
   PointQuery query_;
