@@ -11,7 +11,7 @@ namespace vantage::internal::exact {
 namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
-constexpr double kRounding = 1e-14;
+constexpr double kArcRounding = 1e-14;
 
 double unrolled(double angle) {
   angle = std::fmod(angle, kTurn);
@@ -70,7 +70,7 @@ bool CircleArcs::is_clear_of(std::span<const Plane> planes, double size) const {
   return std::ranges::any_of(planes, [&](const Plane& plane) {
     const double a = circle_.radius * plane.dot(circle_.axis_1), b = circle_.radius * plane.dot(circle_.axis_2);
     const double level = 1 - plane.dot(circle_.centre), margin = tie_margin(plane, size);
-    return level > margin && (level + margin) * (level + margin) > (1 + kRounding) * (a * a + b * b);
+    return level > margin && (level + margin) * (level + margin) > (1 + kArcRounding) * (a * a + b * b);
   });
 }
 

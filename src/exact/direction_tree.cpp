@@ -14,7 +14,7 @@ constexpr std::uint32_t kDeepest = 14;    // but not below 2^-14 of a quadrant
 constexpr double kFutile = 1.6;           // A split that makes the lists this much longer in all is of little use:
                                           // after each of them in a row a list must be twice as long to be split.
 constexpr std::size_t kMostRepeats = 32;  // All splits may add so many entries for each blocker; in cities 11.
-constexpr double kRounding = 1e-13;       // bounds are good to this fraction
+constexpr double kBoundRounding = 1e-13;  // bounds are good to this fraction
 
 using Corners = DirectionTree::Corners;
 
@@ -44,7 +44,7 @@ bool DirectionTree::reduce(const Node& node, std::span<const std::uint32_t> plan
     const Corners& corners =
         corners_.emplace_back(node.cell.at_corners(on_quadrant(blockers_.planes[plane], node.cell.quadrant)));
     const double upper = std::max(std::max(corners[0], corners[1]), std::max(corners[2], corners[3]));
-    if (upper < node.bound * (1 - kRounding) || below(corners, node.range)) return false;
+    if (upper < node.bound * (1 - kBoundRounding) || below(corners, node.range)) return false;
   }
   reduced.planes.clear();
   reduced.values.clear();
@@ -280,8 +280,8 @@ void DirectionTree::leaves_over(int quadrant, const std::array<OctahedralPoint, 
     const OctahedralCell& cell = node.cell;
     if (low.x() > cell.a + cell.size || high.x() < cell.a || low.y() > cell.b + cell.size || high.y() < cell.b)
       continue;
-    const bool apart =
-        std::any_of(sides.begin(), sides.end(), [&](const QuadrantLinear& s) { return cell.min_of(s) > kRounding; });
+    const bool apart = std::any_of(sides.begin(), sides.end(),
+                                   [&](const QuadrantLinear& s) { return cell.min_of(s) > kBoundRounding; });
     if (apart) continue;
     if (node.first_child == 0) found.push_back(&node.leaf);
     for (std::uint32_t child = 0; child < node.child_count; ++child) open[count++] = node.first_child + child;

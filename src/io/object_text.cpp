@@ -9,7 +9,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::string_view kMark = "vantage object:";
+constexpr std::string_view kObjectMark = "vantage object:";
 
 constexpr std::array kKinds = {ObjectKind::other,    ObjectKind::ground,        ObjectKind::surface,
                                ObjectKind::building, ObjectKind::building_part, ObjectKind::wall,
@@ -56,7 +56,7 @@ std::string object_text(const SceneObject& object) {
 }
 
 std::string object_comment(const SceneObject& object) {
-  return std::string(kMark).append(" ").append(object_text(object));
+  return std::string(kObjectMark).append(" ").append(object_text(object));
 }
 
 std::optional<SceneObject> object_in(const Json& extras) {
@@ -69,8 +69,8 @@ std::optional<SceneObject> object_in(const Json& extras) {
 
 std::optional<SceneObject> object_in_comment(std::string_view comment) {
   const std::size_t first = comment.find_first_not_of(' ');
-  if (first == std::string_view::npos || !comment.substr(first).starts_with(kMark)) return std::nullopt;
-  const Json json = Json::parse(comment.substr(first + kMark.size()), nullptr, false);
+  if (first == std::string_view::npos || !comment.substr(first).starts_with(kObjectMark)) return std::nullopt;
+  const Json json = Json::parse(comment.substr(first + kObjectMark.size()), nullptr, false);
   return json.is_discarded() ? std::nullopt : parse(json);
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 using ply::Element;
 using ply::Encoding;
-using ply::Header;
+using PlyHeader = ply::Header;
 using ply::Property;
 using ply::Type;
 
@@ -26,7 +26,7 @@ class AsciiValues {
  public:
   static constexpr MeshBuilder::PlaceUnit kUnit = MeshBuilder::PlaceUnit::line;
 
-  AsciiValues(const MeshSource& source, const Header& header)
+  AsciiValues(const MeshSource& source, const PlyHeader& header)
       : source_(source), text_(source.bytes().substr(header.data), header.data_line) {}
 
   std::uint64_t place() {
@@ -74,7 +74,7 @@ class BinaryValues {
  public:
   static constexpr MeshBuilder::PlaceUnit kUnit = MeshBuilder::PlaceUnit::byte;
 
-  BinaryValues(const MeshSource& source, const Header& header)
+  BinaryValues(const MeshSource& source, const PlyHeader& header)
       : source_(source),
         at_(header.data),
         swap_((header.encoding == Encoding::little_endian) != (std::endian::native == std::endian::little)) {}
@@ -136,7 +136,7 @@ class BinaryValues {
 template <class Values>
 class PlyReader {
  public:
-  PlyReader(const MeshSource& source, const Header& header, const core::ProgressReporter& progress,
+  PlyReader(const MeshSource& source, const PlyHeader& header, const core::ProgressReporter& progress,
             const core::ReadLimits& limits)
       : source_(source),
         header_(header),
@@ -267,7 +267,7 @@ class PlyReader {
   }
 
   const MeshSource& source_;
-  const Header& header_;
+  const PlyHeader& header_;
   const core::ProgressReporter& progress_;
   MeshBuilder builder_;
   Values values_;
@@ -277,7 +277,7 @@ class PlyReader {
 
 RawMesh read_ply(const MeshSource& source, const core::ProgressReporter& progress, const core::ReadLimits& limits) {
   progress.begin("parse PLY");
-  const Header header = ply::read_header(source);
+  const PlyHeader header = ply::read_header(source);
   if (header.encoding == Encoding::ascii) return PlyReader<AsciiValues>(source, header, progress, limits).read();
   return PlyReader<BinaryValues>(source, header, progress, limits).read();
 }

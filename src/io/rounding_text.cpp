@@ -11,26 +11,26 @@
 namespace vantage::internal::io {
 namespace {
 
-constexpr std::string_view kMark = "vantage rounding_m ";
-constexpr const char* kGarbled = "the rounding_m of vantage in it is not a length";
+constexpr std::string_view kRoundingMark = "vantage rounding_m ";
+constexpr const char* kRoundingGarbled = "the rounding_m of vantage in it is not a length";
 
 double checked(double rounding) {
-  if (!(rounding >= 0) || !std::isfinite(rounding)) throw RoundingProblem{kGarbled};
+  if (!(rounding >= 0) || !std::isfinite(rounding)) throw RoundingProblem{kRoundingGarbled};
   return rounding;
 }
 
 }  // namespace
 
-std::string rounding_text(double rounding_m) { return std::string(kMark).append(shortest(rounding_m)); }
+std::string rounding_text(double rounding_m) { return std::string(kRoundingMark).append(shortest(rounding_m)); }
 
 void read_rounding_comment(std::string_view comment, std::optional<double>& known) {
   while (!comment.empty() && TextCursor::is_blank(comment.front())) comment.remove_prefix(1);
-  if (!comment.starts_with(kMark)) return;
-  comment.remove_prefix(kMark.size());
+  if (!comment.starts_with(kRoundingMark)) return;
+  comment.remove_prefix(kRoundingMark.size());
   while (!comment.empty() && (TextCursor::is_blank(comment.back()) || comment.back() == '\r')) comment.remove_suffix(1);
   double number = -1;
   const auto [end, error] = std::from_chars(comment.data(), comment.data() + comment.size(), number);
-  if (error != std::errc() || end != comment.data() + comment.size()) throw RoundingProblem{kGarbled};
+  if (error != std::errc() || end != comment.data() + comment.size()) throw RoundingProblem{kRoundingGarbled};
   known = std::max(checked(number), known.value_or(0));
 }
 

@@ -14,7 +14,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// What g . d may come out larger than the bound from a cell's corners says, of |x| + |y| + |z| of g: the product has
 /// rounding errors of 4e-16, and the direction's place in the cell another 1e-15 or so.
-constexpr double kRounding = 1e-14;
+constexpr double kDirectionRounding = 1e-14;
 
 constexpr int kDeepest = 11;             // cells of half a milliradian
 constexpr std::size_t kFewEntries = 12;  // not worth dividing for
@@ -73,7 +73,7 @@ BlockerIndex::BlockerIndex(const PreparedScene::Data& scene, const TargetFrame& 
           const exact::Plane& plane = planes_[blockers_[b].first_plane + p];
           double greatest = -kInfinity;
           for (const Vec3& corner : root.corners) greatest = std::max(greatest, plane.dot(corner));
-          greatest += kRounding * plane.cwiseAbs().sum();
+          greatest += kDirectionRounding * plane.cwiseAbs().sum();
           if (greatest < least) {
             least = greatest;
             entry.plane = blockers_[b].first_plane + p;
@@ -179,7 +179,7 @@ void BlockerIndex::divide(Cell& cell) {
     Bounds bounds;
     for (std::uint32_t p = blocker.first_plane; p < blocker.first_plane + blocker.plane_count; ++p) {
       const exact::Plane& plane = planes_[p];
-      bounds.take(p, plane.dot(c[0]), plane.dot(c[1]), plane.dot(c[2]), kRounding * plane.cwiseAbs().sum());
+      bounds.take(p, plane.dot(c[0]), plane.dot(c[1]), plane.dot(c[2]), kDirectionRounding * plane.cwiseAbs().sum());
     }
     for (std::size_t i = 0; i < 4; ++i) {
       const Entry below{rounded_up(bounds.bound(i)), entry.blocker, bounds.plane(i)};

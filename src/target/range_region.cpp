@@ -13,8 +13,8 @@
 namespace vantage::internal::target {
 namespace {
 
-constexpr double kRounding = 1e-15;  // of the distance from the origin
-constexpr std::size_t kFew = 8;      // so many balls are tried faster than a search among them begins
+constexpr double kSphereRounding = 1e-15;  // of the distance from the origin
+constexpr std::size_t kFew = 8;            // so many balls are tried faster than a search among them begins
 
 }  // namespace
 
@@ -37,7 +37,8 @@ void RangeRegion::find_neighbours() {
     for (std::uint32_t other = 0; other < centres_.size(); ++other) {
       if (other == ball) continue;
       const FartherSide side = farther_from(ball, other);
-      core::clip_facet(cell, side.normal, side.height, kRounding * reach * side.normal.lpNorm<1>(), other, scratch);
+      core::clip_facet(cell, side.normal, side.height, kSphereRounding * reach * side.normal.lpNorm<1>(), other,
+                       scratch);
     }
     for (std::uint32_t other = 0; other < centres_.size(); ++other) {
       // A ball that is met nowhere has no cell: it must not seem to be met everywhere.

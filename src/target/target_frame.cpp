@@ -23,7 +23,7 @@ constexpr double kPlanarAtLeast = 1e-3;   // metres
 constexpr double kStraight = 1e-9;
 // Of the extent: four times what the coordinates of a vertex lose on the way into the frame, and so all that a target
 // may lose of a corner.
-constexpr double kRounding = 0x1p-50;
+constexpr double kCornerRounding = 0x1p-50;
 
 [[noreturn]] void refuse(ErrorCode code, const Target& target, std::string problem, std::string fix) {
   throw Error(code, std::move(problem), "target \"" + target.name + "\"", std::move(fix));
@@ -165,7 +165,7 @@ std::vector<Vector2d> corners_of(const Target& target, const std::vector<Vec3>& 
   }
   double largest = 0;
   for (const Vec3& v : target.parts[0]) largest = std::max(largest, v.cwiseAbs().maxCoeff());
-  const internal::core::CornerSlack slack{kStraight * extent + kRounding * largest, kRounding * extent};
+  const internal::core::CornerSlack slack{kStraight * extent + kCornerRounding * largest, kCornerRounding * extent};
   const auto is_corner = internal::core::find_corners(polygon, Vec3::UnitZ(), slack);
   if (!is_corner) {
     refuse(ErrorCode::target_not_convex, target,
