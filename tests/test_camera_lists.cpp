@@ -97,12 +97,24 @@ TEST_F(CameraLists, OfOpenSfm) {
 
 TEST_F(CameraLists, AWrongEntryIsNamedAndSpoilsNoOther) {
   std::vector<std::string> problems;
-  for (const auto& [key, value] : std::vector<std::pair<std::string, std::string>>{
-           {"canonicalName", ""},      {"canonicalName", "\" \""}, {"canonicalName", "7"},  {"brand", "[]"},
-           {"sensorWidth", ""},        {"sensorWidth", "\"13.2\""}, {"sensorWidth", "0"},    {"sensorWidth", "-13.2"},
-           {"sensorWidth", "132"},     {"sensorHeight", "13.2"},   {"sensorHeight", "null"}, {"imageWidth", "5472.5"},
-           {"imageWidth", "1e300"},    {"imageHeight", "0"},       {"imageHeight", ""},     {"focalLength", "0.3"},
-           {"focalLength", "1000000"}, {"focalLength", "true"}}) {
+  for (const auto& [key, value] : std::vector<std::pair<std::string, std::string>>{{"canonicalName", ""},
+                                                                                   {"canonicalName", "\" \""},
+                                                                                   {"canonicalName", "7"},
+                                                                                   {"brand", "[]"},
+                                                                                   {"sensorWidth", ""},
+                                                                                   {"sensorWidth", "\"13.2\""},
+                                                                                   {"sensorWidth", "0"},
+                                                                                   {"sensorWidth", "-13.2"},
+                                                                                   {"sensorWidth", "132"},
+                                                                                   {"sensorHeight", "13.2"},
+                                                                                   {"sensorHeight", "null"},
+                                                                                   {"imageWidth", "5472.5"},
+                                                                                   {"imageWidth", "1e300"},
+                                                                                   {"imageHeight", "0"},
+                                                                                   {"imageHeight", ""},
+                                                                                   {"focalLength", "0.3"},
+                                                                                   {"focalLength", "1000000"},
+                                                                                   {"focalLength", "true"}}) {
     const auto cameras = read("[" + entry_with("", "") + "," + entry_with(key, value) + "," + entry_with("", "") + "]");
     ASSERT_EQ(cameras.size(), 3U);
     EXPECT_EQ(cameras[0].problem + cameras[2].problem, "") << key << " " << value;
@@ -140,9 +152,9 @@ TEST_F(CameraLists, WhatIsNoJsonIsRefusedWithItsPlace) {
 }
 
 TEST_F(CameraLists, OtherJsonIsRefused) {
-  for (const char* text : {"[]", "{}", "7", "null", "\"text\"", "[1, 2]", "[{\"name\": \"A\"}]",
-                           R"({"fileType": "Plan", "version": 1, "mission": {}})",
-                           R"({"type": "FeatureCollection", "features": []})"}) {
+  for (const char* text :
+       {"[]", "{}", "7", "null", "\"text\"", "[1, 2]", "[{\"name\": \"A\"}]",
+        R"({"fileType": "Plan", "version": 1, "mission": {}})", R"({"type": "FeatureCollection", "features": []})"}) {
     testing::expect_code([&] { read(text); }, ErrorCode::camera_list_syntax, "list.json");
   }
   refuse("[1, 2]", ErrorCode::camera_list_syntax);
@@ -191,9 +203,9 @@ TEST_F(CameraLists, AgreeWithTheTableOfVantage) {
   VANTAGE_REQUIRE_SHARED(kQGroundControl);
   VANTAGE_REQUIRE_SHARED(kOpenSfm);
   const auto planner = read_cameras(shared_data(kQGroundControl));
-  for (const auto& [ours, theirs] : {std::pair("sony_a7r_ii_21mm", "Sony a7R II Zeiss 21mm f/2.8"),
-                                     std::pair("sentera_65r_27mm", "Sentera 65R Sensor"),
-                                     std::pair("flir_duo_pro_r_640_19mm", "Flir Duo Pro R")}) {
+  for (const auto& [ours, theirs] :
+       {std::pair("sony_a7r_ii_21mm", "Sony a7R II Zeiss 21mm f/2.8"),
+        std::pair("sentera_65r_27mm", "Sentera 65R Sensor"), std::pair("flir_duo_pro_r_640_19mm", "Flir Duo Pro R")}) {
     const Pinhole a = pinhole_of(find_camera(ours)), b = pinhole_of(named(planner, theirs).camera);
     EXPECT_NEAR(a.half_width / b.half_width, 1, 0.02) << ours;
     EXPECT_NEAR(a.half_height / b.half_height, 1, 0.02) << ours;

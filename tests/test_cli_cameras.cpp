@@ -35,9 +35,9 @@ TEST_F(CliCameras, ListsThoseThatAreKnown) {
     EXPECT_EQ(json[i].at("model"), camera.model);
     EXPECT_EQ(json[i].at("width_px"), camera.width_px);
     EXPECT_EQ(json[i].at("height_px"), camera.height_px);
-    for (const auto& [key, millimetres] : {std::pair("sensor_width_mm", camera.sensor_width_mm),
-                                           std::pair("sensor_height_mm", camera.sensor_height_mm),
-                                           std::pair("focal_length_mm", camera.focal_length_mm)}) {
+    for (const auto& [key, millimetres] :
+         {std::pair("sensor_width_mm", camera.sensor_width_mm), std::pair("sensor_height_mm", camera.sensor_height_mm),
+          std::pair("focal_length_mm", camera.focal_length_mm)}) {
       EXPECT_EQ(json[i].at(key), millimetres);
     }
     EXPECT_EQ(json[i].at("source"), camera.source);

@@ -65,9 +65,9 @@ std::optional<CameraFault> fault_of_pixel(double sensor_mm, int pixels, const ch
                        kGiveMillimetres};
   }
   if (pixel < kSmallestPixelMm) {
-    return CameraFault{format("the sensor is too small for its pixels: {} mm {} for {} pixels", number_text(sensor_mm),
-                              side, pixels),
-                       "give the millimetres of the data sheet, not inches or centimetres"};
+    return CameraFault{
+        format("the sensor is too small for its pixels: {} mm {} for {} pixels", number_text(sensor_mm), side, pixels),
+        "give the millimetres of the data sheet, not inches or centimetres"};
   }
   return std::nullopt;
 }

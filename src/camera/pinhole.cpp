@@ -72,8 +72,7 @@ Pinhole pinhole_of(const Camera& camera) {
 std::optional<Pinhole> pinhole_if_known(const ListedCamera& listed) {
   if (!listed.problem.empty()) return std::nullopt;
   const Camera complete = completed(listed.camera);
-  const bool is_known =
-      complete.focal_length_mm > 0 && complete.sensor_width_mm > 0 && complete.sensor_height_mm > 0;
+  const bool is_known = complete.focal_length_mm > 0 && complete.sensor_width_mm > 0 && complete.sensor_height_mm > 0;
   return is_known ? std::optional(pinhole_of(complete)) : std::nullopt;
 }
 
