@@ -6,12 +6,9 @@
 #include <vector>
 
 #include "vantage/geometry.h"
+#include "vantage/sensor.h"
 
 namespace vantage {
-
-struct Sensor {
-  double max_range_m = 0.0;  ///< to every point of the target; > 0, finite
-};
 
 /// A closed mesh to stay in.
 struct KeepInMesh {

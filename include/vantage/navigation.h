@@ -1,4 +1,4 @@
-// Volumes as solids: cut to navigation limits, and intersected.
+// Volumes as solids: cut to limits of the sensor and of navigation, and intersected.
 #pragma once
 
 #include <vector>
@@ -23,6 +23,15 @@ namespace vantage {
 /// Error(cancelled) when told to stop; Error(internal) when a boolean operation fails.
 VANTAGE_API Volume cut_to_navigation(const Volume& volume, const Navigation& navigation, const Progress& progress = {});
 
+/// Cuts a volume to the limits of the target's sensor, besides the range, and to the navigation limits, at once. Facets
+/// that a limit of the sensor makes are CauseKind::sensor, by the names "min_range", "incidence", "pixel", "frame",
+/// "gimbal" and "sun". As cut_to_navigation otherwise.
+///
+/// Guaranteed from the inside: the surfaces are made of facets, which take away more than the limit does, never less.
+/// How much more is in docs/camera.md. Cost: besides the boolean milliseconds, with a gimbal tens of them.
+VANTAGE_API Volume cut_to_limits(const Volume& volume, const PreparedTarget& target, const Navigation& navigation = {},
+                                 const Progress& progress = {});
+
 /// What all the volumes claim: that of a target in parts is the intersection of its parts' volumes. May have several
 /// pieces, each closed; facets keep their causes, and causes of the same kind and name become one. Tolerance and lift
 /// are the largest of the volumes', the frame is the first one's, seconds and counts are sums, notes are those of all.
@@ -32,8 +41,8 @@ VANTAGE_API Volume cut_to_navigation(const Volume& volume, const Navigation& nav
 /// Error(internal) when a boolean operation fails. Cost: a boolean operation per volume, O(n log n) in the facets.
 VANTAGE_API Volume intersect_volumes(const std::vector<Volume>& volumes, const Progress& progress = {});
 
-/// All that a vehicle may use: compute_visibility of each part of the target, intersected, and cut to the navigation
-/// limits. Throws as these do. Cost: the sum of theirs.
+/// All that a vehicle may use: compute_visibility of each part of the target, intersected, and cut to the limits of the
+/// sensor and of navigation. Throws as these do. Cost: the sum of theirs.
 VANTAGE_API Volume compute_volume(const PreparedTarget& target, const Navigation& navigation = {},
                                   const ExactOptions& options = {}, const Progress& progress = {});
 

@@ -66,7 +66,7 @@ std::optional<Warning> make_room(Mission& mission, const PlanBox& wanted) {
   if (missing <= 0) return std::nullopt;
   const double away = apart(wanted, box);
   const bool is_of_map = mission.as_written.ground_target && !mission.as_written.ground_target->osm.empty();
-  if (away > mission.sensor.max_range_m && !is_of_map) {
+  if (away > range_limit_m(mission.sensor) && !is_of_map) {
     fail_off_ground(mission, "the target lies " + std::to_string(std::lround(away)) +
                                  " m from the scene's ground, farther than max_range: nothing would hide it");
   }

@@ -55,9 +55,10 @@ Result run(const Mission& mission, const PreparedTarget& target, double prepare_
   }
   seconds.engine = stopwatch.lap();
 
-  if (result.volume.outcome == Outcome::computed && !mission.navigation.empty()) {
+  const bool is_limited = !mission.navigation.empty() || target.sensor().limits_view();
+  if (result.volume.outcome == Outcome::computed && is_limited) {
     result.volume = internal::app::with_place(mission.as_written.file.string(), [&] {
-      return internal::app::within_limits(result.volume, mission.navigation, progress);
+      return internal::app::within_limits(result.volume, target, mission.navigation, progress);
     });
     seconds.navigation = stopwatch.lap();
   }

@@ -56,7 +56,7 @@ double nearest(const Mesh& mesh, const Vec3& point, double enough) {
 std::optional<Warning> far_off(const Mission& mission, const Scene& scene) {
   const Box target = target_box(mission.target);
   const Vec3 middle = (target.min + target.max) / 2;
-  const double enough = mission.sensor.max_range_m + (target.max - target.min).norm() / 2;
+  const double enough = range_limit_m(mission.sensor) + (target.max - target.min).norm() / 2;
   const double distance = nearest(scene.mesh, middle, enough);
   if (distance <= enough) return std::nullopt;
   return Warning{

@@ -144,7 +144,7 @@ void StageFolder::write_story(const Mission& mission, const Result& result) {
   story["version"] = VANTAGE_VERSION;
   story["mission"] = mission.as_written.file.string();
   story["target"] = mission.target.name;
-  story["max_range_m"] = mission.sensor.max_range_m;
+  story["max_range_m"] = range_limit_m(mission.sensor);
   story["outcome"] = vantage::name_of(result.volume.outcome);
   story["reason"] = result.volume.reason;
   story["run"] = Json::parse(spheres_json({mission.as_written.spheres, *result.spheres}));

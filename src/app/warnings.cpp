@@ -50,7 +50,7 @@ std::vector<Vec2> reach(const Mission& mission) {
     points.emplace_back(corner.head<2>());
     for (int i = 0; i < kDirections; ++i) {
       const double angle = 2 * std::numbers::pi * i / kDirections;
-      const Vec2 far = corner.head<2>() + mission.sensor.max_range_m * Vec2(std::cos(angle), std::sin(angle));
+      const Vec2 far = corner.head<2>() + range_limit_m(mission.sensor) * Vec2(std::cos(angle), std::sin(angle));
       points.push_back(far.cwiseMax(area.min.head<2>()).cwiseMin(area.max.head<2>()));
     }
   }

@@ -164,7 +164,7 @@ void add_lift(TextTable& table, const Volume& volume) {
 /// What everyone wants to know, in five lines: target, volume, mesh, causes, time. And the lift where there is one.
 void add_essentials(TextTable& table, const Mission& mission, const Result& run, const MeshMeasures& measures) {
   const Volume& volume = run.volume;
-  table.heading("target '" + mission.target.name + "', range " + fixed(mission.sensor.max_range_m, 1) + " m" +
+  table.heading("target '" + mission.target.name + "', range " + fixed(range_limit_m(mission.sensor), 1) + " m" +
                 (run.spheres ? ", visibility spheres, " + run.spheres->device.name : ""));
   if (run.spheres && !run.spheres->device_note.empty()) table.heading("  " + run.spheres->device_note);
   if (volume.outcome == Outcome::computed) {

@@ -87,7 +87,7 @@ std::array<int, 2> parse_size(const std::string& text) {
 
 std::string picture_subtitle(const Mission& mission, const Volume* volume) {
   const std::string dot = " \u00b7 ";
-  std::string range = fixed(mission.sensor.max_range_m, 1);
+  std::string range = fixed(range_limit_m(mission.sensor), 1);
   if (range.ends_with(".0")) range.resize(range.size() - 2);
   std::string text = "range " + range + "\u2009m";
   if (volume != nullptr && volume->outcome != Outcome::computed) {

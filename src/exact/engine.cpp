@@ -61,15 +61,15 @@ void compute_polygon(const PreparedTarget& target, const ExactOptions& options,
                      const internal::core::ProgressReporter& progress, Volume& volume) {
   const Sensor& sensor = target.sensor();
   if (!target.data().parts[0].is_reachable) return internal::target::set_out_of_range(volume.frame, sensor, volume);
-  const internal::target::RangeRegion range(volume.frame.polygon, sensor.max_range_m);
+  const internal::target::RangeRegion range(volume.frame.polygon, range_limit_m(sensor));
   fill_volume(compute_half_space(target.scene(), volume.frame, range, options, progress), volume.frame,
-              sensor.max_range_m, volume, "the target's front",
+              range_limit_m(sensor), volume, "the target's front",
               "the target looks into what it lies on: turn it round with front:, or raise it with offset:");
 }
 
 void compute_point(const PreparedTarget& target, const ExactOptions& options,
                    const internal::core::ProgressReporter& progress, Volume& volume) {
-  const double max_range = target.sensor().max_range_m;
+  const double max_range = range_limit_m(target.sensor());
   const internal::target::PointSides& sides = *target.data().parts[0].sides;
   // Of the point itself: the triangle would cost micrometres.
   const internal::target::RangeRegion range(volume.frame.polygon, max_range);

@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::string_view kMark = "vantage volume: ";
+constexpr std::string_view kVolumeMark = "vantage volume: ";
 constexpr std::size_t kLine = 160;  // some readers of PLY take no more than a kilobyte
 
 Json json_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
@@ -30,6 +30,53 @@ double length_of(const Json& json) {
   return value;
 }
 
+// All members are named, here and below: a limit that is added does not compile before it is stated.
+Json limits_json(const Sensor& sensor) {
+  const auto& [max_range_m, min_range_m, incidence_deg, camera, mount, pixel, sun] = sensor;
+  Json json = Json::object();
+  if (min_range_m > 0) json["min_range_m"] = min_range_m;
+  if (incidence_deg) json["incidence_deg"] = *incidence_deg;
+  if (camera) {
+    json["camera"] = {{"half_width", camera->half_width}, {"half_height", camera->half_height}};
+    if (camera->focal_px) json["camera"]["focal_px"] = *camera->focal_px;
+    json["mount"] = {
+        {"min_pitch_deg", mount.min_pitch_deg}, {"max_pitch_deg", mount.max_pitch_deg}, {"roll_deg", mount.roll_deg}};
+    if (mount.yaw_deg) json["mount"]["yaw_deg"] = *mount.yaw_deg;
+  }
+  if (pixel) {
+    json["pixel"] = {{"size_m", pixel->size_m},
+                     {"kind", pixel->kind == PixelLimit::Kind::worst ? "worst" : "perpendicular"}};
+  }
+  if (sun) json["sun"] = {{"direction", json_of(sun->direction)}, {"exclude_deg", sun->exclude_deg}};
+  return json;
+}
+
+void read_sensor(const Json& json, Sensor& sensor) {
+  auto& [max_range_m, min_range_m, incidence_deg, camera, mount, pixel, sun] = sensor;
+  min_range_m = json.value("min_range_m", 0.0);
+  if (json.contains("incidence_deg")) incidence_deg = json.at("incidence_deg").get<double>();
+  if (json.contains("camera")) {
+    const Json& lens = json.at("camera");
+    camera.emplace();
+    camera->half_width = length_of(lens.at("half_width"));
+    camera->half_height = length_of(lens.at("half_height"));
+    if (lens.contains("focal_px")) camera->focal_px = length_of(lens.at("focal_px"));
+    const Json& angles = json.at("mount");
+    mount.min_pitch_deg = angles.at("min_pitch_deg").get<double>();
+    mount.max_pitch_deg = angles.at("max_pitch_deg").get<double>();
+    mount.roll_deg = angles.at("roll_deg").get<double>();
+    if (angles.contains("yaw_deg")) mount.yaw_deg = angles.at("yaw_deg").get<double>();
+  }
+  if (json.contains("pixel")) {
+    const bool is_worst = json.at("pixel").at("kind").get<std::string>() == "worst";
+    pixel = PixelLimit{length_of(json.at("pixel").at("size_m")),
+                       is_worst ? PixelLimit::Kind::worst : PixelLimit::Kind::perpendicular};
+  }
+  if (json.contains("sun")) {
+    sun = SunLimit{vector_of(json.at("sun").at("direction")), json.at("sun").at("exclude_deg").get<double>()};
+  }
+}
+
 VolumeStatement parse(const Json& json) {
   VolumeStatement statement;
   VolumeProvenance& made = statement.provenance;
@@ -44,7 +91,9 @@ VolumeStatement parse(const Json& json) {
   }
   made.target.offset_m = target.at("offset_m").get<double>();
   if (target.contains("front")) made.target.front = vector_of(target.at("front"));
-  made.sensor.max_range_m = length_of(json.at("max_range_m"));
+  if (json.contains("max_range_m")) made.sensor.max_range_m = length_of(json.at("max_range_m"));
+  if (json.contains("sensor")) read_sensor(json.at("sensor"), made.sensor);
+  if (!std::isfinite(range_limit_m(made.sensor))) throw std::invalid_argument("nothing limits the range");
   statement.tolerance_m = length_of(json.at("tolerance_m"));
   for (const Json& lift : json.at("lift_m")) statement.lift_m.push_back(length_of(lift));
   if (statement.lift_m.size() != made.target.parts.size()) throw std::invalid_argument("not one lift for each part");
@@ -56,7 +105,7 @@ VolumeStatement parse(const Json& json) {
 
 /// The text of the comments that hold a statement; `start` begins each line.
 std::string joined_comments(std::string_view text, std::string_view start) {
-  const std::string mark = std::string(start).append(kMark);
+  const std::string mark = std::string(start).append(kVolumeMark);
   std::string joined;
   for (std::size_t at = text.find(mark); at != std::string_view::npos; at = text.find(mark, at)) {
     at += mark.size();
@@ -102,9 +151,11 @@ std::optional<Json> statement_json(const Volume& volume, const Mesh& stored) {
     target["parts"].push_back(std::move(vertices));
   }
   if (made.target.front) target["front"] = json_of(*made.target.front);
-  Json json = {{"version", made.version},           {"method", made.method},
-               {"target", std::move(target)},       {"max_range_m", made.sensor.max_range_m},
-               {"tolerance_m", volume.tolerance_m}, {"lift_m", volume.lift_m}};
+  Json json = {{"version", made.version}, {"method", made.method}, {"target", std::move(target)}};
+  if (std::isfinite(made.sensor.max_range_m)) json["max_range_m"] = made.sensor.max_range_m;
+  if (Json sensor = limits_json(made.sensor); !sensor.empty()) json["sensor"] = std::move(sensor);
+  json["tolerance_m"] = volume.tolerance_m;
+  json["lift_m"] = volume.lift_m;
   if (!made.scene_hash.empty()) json["scene_hash"] = made.scene_hash;
   if (!made.mission_hash.empty()) json["mission_hash"] = made.mission_hash;
   json["volume_hash"] = volume_hash(stored);
@@ -120,7 +171,7 @@ std::string statement_comments(const Volume& volume, const Mesh& stored, const c
     // No line ends with a blank, which some programs take away.
     std::size_t length = std::min(kLine, text.size() - at);
     while (length > 1 && at + length < text.size() && text[at + length - 1] == ' ') --length;
-    lines.append(start).append(kMark).append(text, at, length).append("\n");
+    lines.append(start).append(kVolumeMark).append(text, at, length).append("\n");
     at += length;
   }
   return lines;

@@ -62,7 +62,8 @@ struct Part {
 
 }  // namespace
 
-Limits::Limits(Navigation navigation) : navigation_(std::move(navigation)) {
+Limits::Limits(Navigation navigation, sensor::SensorLimits sensor)
+    : navigation_(std::move(navigation)), sensor_(std::move(sensor)) {
   for (const KeepInMesh& mesh : navigation_.meshes) mesh_boxes_.push_back(bounding_box(mesh.mesh));
 }
 
@@ -81,6 +82,10 @@ std::vector<double> Limits::cut_line(const ViewRay& line) const {
   for (const Box& box : keep_in) add_box_crossings(box, line, cuts);
   for (const Box& box : keep_out) add_box_crossings(box, line, cuts);
   for (const KeepInMesh& mesh : meshes) add_mesh_crossings(mesh.mesh, line, cuts);
+  if (!sensor_.none()) {
+    const std::vector<double> changes = sensor_.changes(line.origin, line.direction, line.reach);
+    cuts.insert(cuts.end(), changes.begin(), changes.end());
+  }
   std::erase_if(cuts, [&](double cut) { return !(cut > 0 && cut < line.reach); });
   cuts.push_back(0);
   cuts.push_back(line.reach);
@@ -123,6 +128,9 @@ std::vector<std::string> Limits::broken(const Vec3& point) const {
     // Also because the winding number overflows far away.
     const bool is_in = inside(mesh_boxes_[i], point) && !(winding_number(meshes[i].mesh, point) < 0.5);
     if (!is_in) broken.push_back("mesh " + meshes[i].name);
+  }
+  if (!sensor_.none()) {
+    for (std::string& name : sensor_.broken(point)) broken.push_back(std::move(name));
   }
   return broken;
 }

@@ -1,9 +1,10 @@
-// Which navigation limits a point breaks.
+// Which limits, of navigation and of the sensor, a point breaks.
 #pragma once
 
 #include <string>
 #include <vector>
 
+#include "sensor/sensor_limits.h"
 #include "vantage/constraints.h"
 
 namespace vantage::internal::query {
@@ -18,11 +19,11 @@ struct ViewRay {
 
 class Limits {
  public:
-  explicit Limits(Navigation navigation);
+  Limits(Navigation navigation, sensor::SensorLimits sensor);
 
   /// Names as in reports: "altitude min", "altitude max", "boxes" (the point is in none of them), "keep_out 2", "mesh
-  /// NAME". Borders belong to the allowed side. Cost: linear in the triangles of the navigation meshes whose boxes hold
-  /// the point.
+  /// NAME", then the sensor's (SensorLimits::broken). Borders belong to the allowed side. Cost: linear in the triangles
+  /// of the navigation meshes whose boxes hold the point.
   std::vector<std::string> broken(const Vec3& point) const;
 
   /// Signed distance, along the line, from the point at `at` metres from its origin (negative: behind the target) to
@@ -36,6 +37,7 @@ class Limits {
   std::vector<double> cut_line(const ViewRay& line) const;
 
   Navigation navigation_;
+  sensor::SensorLimits sensor_;
   std::vector<Box> mesh_boxes_;
 };
 

@@ -162,10 +162,14 @@ void narrow(PointAnswer& answer, const PointAnswer& other) {
   answer.behind_target = answer.behind_target || other.behind_target;
 }
 
+internal::query::Limits limits_of(const PreparedTarget& target, const Navigation& navigation) {
+  return {navigation, internal::sensor::SensorLimits(internal::sensor::viewed_of(target), target.sensor())};
+}
+
 }  // namespace
 
 PointQuery::PointQuery(const PreparedTarget& target, const Navigation& navigation)
-    : data_(std::make_unique<Data>(Data{target, internal::query::Limits(navigation), {}})) {
+    : data_(std::make_unique<Data>(Data{target, limits_of(target, navigation), {}})) {
   const PreparedTarget::Data& prepared = data_->target.data();
   for (const PreparedTarget::Data::Part& part : prepared.parts) {
     data_->parts.push_back(internal::query::make_sides(prepared, part, data_->limits));

@@ -97,7 +97,7 @@ void Side::consider_indexes() {
 
 Sides make_sides(const PreparedTarget::Data& target, const PreparedTarget::Data::Part& part, const Limits& limits) {
   const PreparedScene::Data& scene = target.scene.data();
-  const double max_range = target.sensor.max_range_m;
+  const double max_range = range_limit_m(target.sensor);
   Sides result;
   if (part.sides) {
     const target::PointSides& sides = *part.sides;

@@ -14,9 +14,7 @@ Volume compute_volume(const PreparedTarget& target, const Navigation& navigation
       volumes.push_back(compute_visibility(target.part(i), options, progress));
     }
     volume = volumes.size() == 1 ? std::move(volumes[0]) : intersect_volumes(volumes, progress);
-    if (volume.outcome == Outcome::computed && !navigation.empty()) {
-      volume = cut_to_navigation(volume, navigation, progress);
-    }
+    volume = cut_to_limits(volume, target, navigation, progress);
   });
   return volume;
 }

@@ -211,4 +211,18 @@ Solid make_box(const Box& box, const BoxLabels& labels) {
   return Solid(result, "box");
 }
 
+Mesh convex_hull(std::span<const Vec3> points) {
+  std::vector<manifold::vec3> taken;
+  taken.reserve(points.size());
+  for (const Vec3& point : points) taken.emplace_back(point.x(), point.y(), point.z());
+  const manifold::MeshGL64 gl = manifold::Manifold::Hull(taken).GetMeshGL64();
+  Mesh hull;
+  for (std::size_t i = 0; i < gl.NumVert(); ++i) hull.vertices.push_back(from_manifold(gl.GetVertPos(i)));
+  for (std::size_t i = 0; i < gl.NumTri(); ++i) {
+    Triangle& triangle = hull.triangles.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) triangle[k] = static_cast<std::uint32_t>(gl.triVerts[3 * i + k]);
+  }
+  return hull;
+}
+
 }  // namespace vantage::internal::solid

@@ -75,4 +75,8 @@ struct BoxLabels {
 /// An axis-aligned box; its corners are those given, bit for bit. Needs min < max on every axis.
 Solid make_box(const Box& box, const BoxLabels& labels);
 
+/// The convex hull of points, closed and oriented; points nearer to each other or to a facet than rounding (1e-12 of
+/// the largest coordinate) may be left out. Empty where the points lie in a plane. Cost: O(n log n) expected.
+Mesh convex_hull(std::span<const Vec3> points);
+
 }  // namespace vantage::internal::solid

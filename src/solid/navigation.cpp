@@ -19,6 +19,7 @@
 #include "solid/numerics.h"
 #include "solid/outside_limits.h"
 #include "solid/regions.h"
+#include "solid/sensor_regions.h"
 #include "vantage/error.h"
 #include "vantage/navigation.h"
 
@@ -88,34 +89,47 @@ void cut_volume(const Regions& regions, std::vector<std::uint32_t> labels, const
   if (!has_polygons) result.polygon_of.clear();
 }
 
-}  // namespace
-}  // namespace vantage::internal::solid
-
-namespace vantage {
-
-Volume cut_to_navigation(const Volume& volume, const Navigation& navigation, const Progress& callback) {
-  const internal::core::Stopwatch stopwatch;
-  const internal::core::ProgressReporter progress(callback);
+/// `target`: with the sensor; may be null.
+Volume cut_to(const Volume& volume, const PreparedTarget* target, const Navigation& navigation,
+              const Progress& callback) {
+  if (navigation.empty() && !(target && target->sensor().limits_view())) return volume;
+  const core::Stopwatch stopwatch;
+  const core::ProgressReporter progress(callback);
   progress.begin("navigation");
-  const std::vector<Mesh> meshes = internal::solid::check_navigation(navigation, progress.part(0, 0.3));
+  const std::vector<Mesh> meshes = check_navigation(navigation, progress.part(0, 0.3));
   Volume result = volume;
-  if (volume.outcome != Outcome::computed || volume.mesh.empty() || navigation.empty()) return result;
+  if (volume.outcome != Outcome::computed || volume.mesh.empty()) return result;
 
-  internal::core::check_volume(volume);
+  core::check_volume(volume);
   const Box bounds = measure(volume.mesh).bounds;
   std::vector<std::uint32_t> causes(volume.causes.size());
   std::iota(causes.begin(), causes.end(), 0u);
-  internal::solid::FacetSourceList sources;
+  FacetSourceList sources;
   std::vector<std::uint32_t> labels = sources.add(volume, causes);
-  const internal::solid::Regions regions =
-      internal::solid::make_regions(volume.causes, sources.sources(), bounds, navigation, meshes);
-  if (!regions.kept.empty() || !regions.forbidden.empty())
-    internal::solid::cut_volume(regions, std::move(labels), progress.part(0.3, 1), result);
+  Regions regions = make_regions(volume.causes, sources.sources(), bounds, navigation, meshes);
+  if (target) add_sensor_regions(sensor::viewed_of(*target), target->sensor(), bounds, regions);
+  if (!regions.kept.empty() || !regions.forbidden.empty()) {
+    cut_volume(regions, std::move(labels), progress.part(0.3, 1), result);
+  }
   progress.finish();
   const double seconds = stopwatch.seconds();
   result.seconds.navigation += seconds;
   result.seconds.total += seconds;
   return result;
+}
+
+}  // namespace
+}  // namespace vantage::internal::solid
+
+namespace vantage {
+
+Volume cut_to_navigation(const Volume& volume, const Navigation& navigation, const Progress& progress) {
+  return internal::solid::cut_to(volume, nullptr, navigation, progress);
+}
+
+Volume cut_to_limits(const Volume& volume, const PreparedTarget& target, const Navigation& navigation,
+                     const Progress& progress) {
+  return internal::solid::cut_to(volume, &target, navigation, progress);
 }
 
 }  // namespace vantage

@@ -72,4 +72,17 @@ constexpr std::size_t kMostFacetsOfCell = 2000;
 /// How far behind all facets that point must lie, in parts of the space that they lie in: well above rounding.
 constexpr double kKernelMargin = 1e-10;
 
+/// Facets for the surface about a target that is nearer than the least range lie farther out by up to this part of it,
+constexpr double kMinRangeShare = 2e-3;
+
+/// and those for the largest pixel farther in by this part of the radius of the ball that they stand for: a thousandth
+/// of its volume.
+constexpr double kPixelShare = 5e-4;
+
+/// Facets of limits have no longer sides than this part of the range: what booleans cost grows with their boxes.
+constexpr double kLongestSide = 1.0 / 8;
+
+/// A camera that can look at a point from anywhere may not come nearer to it than this part of the range.
+constexpr double kLeastDistance = 1e-6;
+
 }  // namespace vantage::internal::solid::numerics

@@ -1,6 +1,7 @@
 #include "solid/outside_limits.h"
 
 #include <array>
+#include <vector>
 
 #include "core/text.h"
 #include "solid/numerics.h"
@@ -50,6 +51,10 @@ Emptiness explain_region(const Region& region, const Solid& left, const std::str
     case RegionKind::mesh:
       return {region.name + " does not meet " + left_name + span_text(left, origin),
               "check its place and its axes: the scene frame, metres, z up"};
+    case RegionKind::sensor:
+      return {"the sensor's limit '" + region.name + "' leaves nothing of " + left_name + span_text(left, origin) +
+                  (region.explanation.empty() ? "" : "; " + region.explanation),
+              "relax it, or the limits that it goes with"};
     case RegionKind::keep_out:
       break;
   }
@@ -68,12 +73,23 @@ Emptiness explain_emptiness(const Solid& volume, const Regions& regions, const c
     left = next;
     left_name = "what the limits before it leave of the volume";
   }
-  if (regions.forbidden.empty()) {
-    return {"the navigation limits leave only slivers as thin as rounding error", "widen the limits"};
+  std::vector<const Region*> keep_out;
+  for (const Region& region : regions.forbidden) {
+    if (region.kind != RegionKind::sensor) {
+      keep_out.push_back(&region);
+      continue;
+    }
+    const Solid next = subtract(left, region.solid, progress);
+    if (negligible(next, thickness)) return explain_region(region, left, left_name, regions.origin);
+    left = next;
+    left_name = "what the limits before it leave of the volume";
   }
-  const bool one = regions.forbidden.size() == 1;
-  if (!regions.kept.empty()) left_name = "what the other limits leave of the volume";
-  return {(one ? regions.forbidden[0].name + " covers " : std::string("the keep_out boxes cover ")) + left_name +
+  if (keep_out.empty()) {
+    return {"the limits leave only slivers as thin as rounding error", "widen the limits"};
+  }
+  const bool one = keep_out.size() == 1;
+  if (left_name != "the volume") left_name = "what the other limits leave of the volume";
+  return {(one ? keep_out[0]->name + " covers " : std::string("the keep_out boxes cover ")) + left_name +
               span_text(left, regions.origin),
           one ? "make it smaller" : "make them smaller"};
 }

@@ -1,4 +1,4 @@
-// Navigation limits as labelled solids.
+// What volumes are cut to, as labelled solids.
 #pragma once
 
 #include <cstdint>
@@ -39,14 +39,15 @@ class FacetSourceList {
 void set_mesh(LabelledMesh labelled, const std::vector<FacetSource>& sources, std::vector<Cause> causes,
               Volume& volume);
 
-enum class RegionKind { altitude, box, boxes, mesh, keep_out };
+enum class RegionKind { altitude, box, boxes, mesh, keep_out, sensor };
 
 /// Space to stay in or out of. All boxes to stay in are one region, since the volume is cut to their union.
 struct Region {
   RegionKind kind;
-  std::string name;  ///< "the altitude band 20 to 120 m", "box 0", "the mesh airspace.ply", "keep_out 1"
-  Solid solid;       ///< about Regions::origin; empty when it misses the volume's bounds
-  Box box = {};      ///< of the altitude band, scene frame: z alone is meant
+  std::string name;              ///< "the altitude band 20 to 120 m", "box 0", "the mesh airspace.ply", "keep_out 1"
+  Solid solid;                   ///< about Regions::origin; empty when it misses the volume's bounds
+  Box box = {};                  ///< of the altitude band, scene frame: z alone is meant
+  std::string explanation = {};  ///< of a sensor's limit: what it asks, as a clause; may be empty
 };
 
 struct Regions {

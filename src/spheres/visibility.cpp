@@ -82,19 +82,19 @@ void set_mesh(const TargetFrame& frame, solid::LabelledMesh labelled, Volume& vo
 /// a point of its own plane a polygon has no depth.
 double lift_of(const PreparedTarget& target) {
   const TargetFrame& frame = target.data().parts[0].given;
-  const double clear = target::lengths_of(target.scene().data(), frame, target.sensor().max_range_m).clear;
+  const double clear = target::lengths_of(target.scene().data(), frame, range_limit_m(target.sensor())).clear;
   return std::max(target.lift_m(), clear);
 }
 
 void compute(const Target& target, const Sensor& sensor, const SpheresOptions& options, depth::DepthRenderer& renderer,
              SpheresReport& report, const StageSink& stages, const core::ProgressReporter& progress, Volume& volume) {
   const bool front_only = !target.is_point() || target.front;
-  const SphereMaker maker(renderer, options, sensor.max_range_m, volume.frame, front_only);
+  const SphereMaker maker(renderer, options, range_limit_m(sensor), volume.frame, front_only);
   Intersection found = intersect_spheres(volume.frame, maker, options, report, stages, progress);
   progress.finish();
   const auto place = [&](const Vec3& point) { return volume.frame.to_scene(point); };
   if (found.blocked) {
-    set_blocked(target, place(*found.blocked), sensor.max_range_m, volume);
+    set_blocked(target, place(*found.blocked), range_limit_m(sensor), volume);
   } else if (found.mesh.mesh.empty()) {
     set_unseen(target, place(found.unseen[0]), place(found.unseen[1]), volume);
   } else {
@@ -118,7 +118,7 @@ Volume compute_visibility(const PreparedTarget& target, const SpheresOptions& op
   SpheresReport& told = report ? *report : own_report;
   told = {};
   Volume volume;
-  volume.tolerance_m = range_tolerance(options, sensor.max_range_m);
+  volume.tolerance_m = range_tolerance(options, range_limit_m(sensor));
   volume.frame = target.data().parts[0].given;
   volume.lift_m = {lift_of(target)};
   volume.notes = target.notes();
@@ -126,7 +126,7 @@ Volume compute_visibility(const PreparedTarget& target, const SpheresOptions& op
   volume.frame.origin += volume.frame.normal * volume.lift_m[0];
   volume.counts.scene_polygons = target.scene().data().polygon_count();
   if (target::can_reach(volume.frame, sensor)) {
-    target::move_into_range(volume.frame, sensor.max_range_m);
+    target::move_into_range(volume.frame, range_limit_m(sensor));
     compute(target.target(), sensor, options, renderer, told, stages, progress, volume);
   } else {
     target::set_out_of_range(volume.frame, sensor, volume);
@@ -143,7 +143,7 @@ Mesh visibility_sphere(const Vec3& viewpoint, double radius_m, const SpheresOpti
     throw Error(ErrorCode::coordinate_not_finite, "the viewpoint has a coordinate that is not finite",
                 "visibility sphere", "give three finite numbers");
   }
-  target::check_sensor({radius_m});
+  check_sensor({.max_range_m = radius_m});
   options::check_options(options);
   TargetFrame frame;
   frame.origin = viewpoint;

@@ -11,8 +11,6 @@
 namespace vantage {
 namespace {
 
-constexpr double kLargestRange = 1e9;  // metres; as scenes
-
 using Part = PreparedTarget::Data::Part;
 
 Part prepare(const PreparedScene::Data& scene, const Target& target, const Sensor& sensor,
@@ -21,19 +19,19 @@ Part prepare(const PreparedScene::Data& scene, const Target& target, const Senso
   part.given = part.frame = make_target_frame(target);
   std::vector<Warning> own;
   if (target.is_point()) {
-    part.sides = internal::target::make_point_sides(scene, target, part.frame, sensor.max_range_m);
+    part.sides = internal::target::make_point_sides(scene, target, part.frame, range_limit_m(sensor));
     part.lift_m = part.sides->lift;
     own = part.sides->notes;
     part.frame.origin = part.sides->front.origin;
     part.is_reachable = true;
   } else {
     internal::target::Clearance clearance =
-        internal::target::clear_target(scene, target, part.frame, sensor.max_range_m);
+        internal::target::clear_target(scene, target, part.frame, range_limit_m(sensor));
     part.lift_m = clearance.lift_m;
     own = std::move(clearance.notes);
     part.frame.origin += part.frame.normal * part.lift_m;
     part.is_reachable = internal::target::can_reach(part.frame, sensor);
-    if (part.is_reachable) internal::target::move_into_range(part.frame, sensor.max_range_m);
+    if (part.is_reachable) internal::target::move_into_range(part.frame, range_limit_m(sensor));
   }
   for (Warning& note : own) {
     if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(std::move(note));
@@ -44,9 +42,11 @@ Part prepare(const PreparedScene::Data& scene, const Target& target, const Senso
 }  // namespace
 
 PreparedTarget::PreparedTarget(const PreparedScene& scene, const Target& target, const Sensor& sensor) {
-  internal::target::check_sensor(sensor);
-  if (sensor.max_range_m > kLargestRange) {
-    throw Error(ErrorCode::value_out_of_range, "max_range is larger than 1e9 m", "sensor", "give metres");
+  check_sensor(sensor);
+  const bool needs_normal = sensor.incidence_deg || (sensor.pixel && sensor.pixel->kind == PixelLimit::Kind::worst);
+  if (needs_normal && target.is_point() && !target.front) {
+    throw Error(ErrorCode::not_applicable, "a point that is seen from all sides has no normal to measure angles from",
+                "sensor", "leave out incidence and a pixel of kind worst, or give the target a front");
   }
   auto data = std::make_shared<Data>(Data{scene, target, sensor, {}, {}});
   if (target.parts.empty()) make_target_frame(target);  // throws

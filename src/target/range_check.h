@@ -7,9 +7,6 @@
 
 namespace vantage::internal::target {
 
-/// Throws Error(input) unless the range is a positive, finite number.
-void check_sensor(const Sensor& sensor);
-
 /// Whether some point is within range of the whole target.
 bool can_reach(const TargetFrame& frame, const Sensor& sensor);
 

@@ -9,15 +9,20 @@ namespace vantage::internal::app {
 Mesh checked_keep_in(const Mesh& mesh, const std::string& name) { return solid::checked_solid(mesh, name); }
 
 Volume exact_volume(const PreparedTarget& target, const ExactOptions& options, const Progress& progress) {
-  return compute_volume(target, {}, options, progress);
+  std::vector<Volume> volumes;
+  for (std::size_t i = 0; i < target.part_count(); ++i) {
+    volumes.push_back(compute_visibility(target.part(i), options, progress));
+  }
+  return joined(std::move(volumes), progress);
 }
 
 Volume joined(std::vector<Volume> volumes, const Progress& progress) {
   return volumes.size() == 1 ? std::move(volumes[0]) : intersect_volumes(volumes, progress);
 }
 
-Volume within_limits(const Volume& volume, const Navigation& navigation, const Progress& progress) {
-  return cut_to_navigation(volume, navigation, progress);
+Volume within_limits(const Volume& volume, const PreparedTarget& target, const Navigation& navigation,
+                     const Progress& progress) {
+  return cut_to_limits(volume, target, navigation, progress);
 }
 
 }  // namespace vantage::internal::app

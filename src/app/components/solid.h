@@ -11,13 +11,14 @@ namespace vantage::internal::app {
 /// A mesh to keep in, closed and turned the right way round. Throws Error(input) for one that bounds nothing.
 Mesh checked_keep_in(const Mesh& mesh, const std::string& name);
 
-/// The exact volume of a target of any number of parts.
+/// The exact volume of a target of any number of parts, before limits besides the range.
 Volume exact_volume(const PreparedTarget& target, const ExactOptions& options, const Progress& progress);
 
 /// What all volumes share.
 Volume joined(std::vector<Volume> volumes, const Progress& progress);
 
-/// As cut_to_navigation.
-Volume within_limits(const Volume& volume, const Navigation& navigation, const Progress& progress);
+/// As cut_to_limits.
+Volume within_limits(const Volume& volume, const PreparedTarget& target, const Navigation& navigation,
+                     const Progress& progress);
 
 }  // namespace vantage::internal::app

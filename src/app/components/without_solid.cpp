@@ -17,8 +17,9 @@ Volume joined(std::vector<Volume> volumes, const Progress&) {
   return std::move(volumes[0]);
 }
 
-Volume within_limits(const Volume&, const Navigation&, const Progress&) {
-  throw_missing("solid", "navigation limits", "navigation");
+Volume within_limits(const Volume&, const PreparedTarget& target, const Navigation& navigation, const Progress&) {
+  if (!navigation.empty()) throw_missing("solid", "navigation limits", "navigation");
+  throw_missing("solid", "limits of the sensor besides its range", "sensor");
 }
 
 }  // namespace vantage::internal::app

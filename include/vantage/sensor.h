@@ -1,0 +1,68 @@
+// What the sensor can do: its range, and what a camera asks besides. docs/camera.md has the conventions, with drawings.
+#pragma once
+
+#include <limits>
+#include <optional>
+
+#include "vantage/camera.h"
+#include "vantage/export.h"
+#include "vantage/geometry.h"
+
+namespace vantage {
+
+/// Which ways the camera may look. Yaw is clockwise from the scene's +y axis (north), pitch 0 is level and -90 straight
+/// down, and a positive roll lowers the right edge of the picture.
+struct Mount {
+  std::optional<double> yaw_deg = {};              ///< empty: any
+  double min_pitch_deg = -90, max_pitch_deg = 90;  ///< both in [-90, 90]; the same: fixed
+  double roll_deg = 0;                             ///< in [-180, 180]
+
+  bool is_fixed() const { return yaw_deg && min_pitch_deg == max_pitch_deg; }
+};
+
+/// How much of the target one pixel may cover.
+struct PixelLimit {
+  enum class Kind {
+    perpendicular,  ///< d / f: as if the target were seen face on; d is the distance, f the focal length in pixels
+    worst,          ///< d * d / (f h): foreshortened, in the worst direction; h is the height over the target's plane
+  };
+  double size_m = 0;  ///< of a step from one pixel to the next; > 0
+  Kind kind = Kind::worst;
+};
+
+/// What must not shine into the camera.
+struct SunLimit {
+  Vec3 direction = Vec3::Zero();  ///< towards the sun, scene frame, of any length but 0
+  double exclude_deg = 0;         ///< no point of the target may be seen nearer to the sun than this; > 0, at most 90
+};
+
+/// The direction to the sun's centre, east, north and up, of unit length: where it is seen at 10 degrees and 1010 hPa.
+/// Seconds since 1970-01-01 UTC. Right to 0.02 degrees from 1950 to 2050, near the horizon to what refraction changes
+/// with the weather (Michalsky 1988, Saemundsson 1986).
+VANTAGE_API Vec3 sun_direction(double latitude_deg, double longitude_deg, double unix_time_s);
+
+/// What the sensor can do. What is not given does not limit. A limit holds for all of the target: for every point of
+/// every part. Viewpoints on the border of a limit keep it.
+struct Sensor {
+  double max_range_m = std::numeric_limits<double>::infinity();  ///< to every point of the target; > 0. May be infinite
+                                                                 ///< where `pixel` bounds the range
+  double min_range_m = 0;                    ///< to every point of the target; >= 0, less than the range
+  std::optional<double> incidence_deg = {};  ///< largest angle between the target's normal and the line to the
+                                             ///< viewpoint; > 0, < 90. Of a point: it needs a front
+  std::optional<Pinhole> camera = {};        ///< all parts of the target must be in one picture
+  Mount mount = {};                          ///< of the camera
+  std::optional<PixelLimit> pixel = {};      ///< needs the camera's focal length
+  std::optional<SunLimit> sun = {};
+
+  /// Whether there are limits besides the range.
+  VANTAGE_API bool limits_view() const;
+};
+
+/// The farthest that a viewpoint can be from a point of the target: max_range_m, or what the size of a pixel allows
+/// where that is less. Metres; infinity where nothing bounds it.
+VANTAGE_API double range_limit_m(const Sensor& sensor);
+
+/// Throws Error(input) for a limit that is wrong in itself, or that another one excludes whatever the target is.
+VANTAGE_API void check_sensor(const Sensor& sensor);
+
+}  // namespace vantage

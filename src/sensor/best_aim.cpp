@@ -1,0 +1,114 @@
+#include "sensor/best_aim.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace vantage::internal::sensor {
+
+double AimedView::distance(const Vec3& direction, const std::array<double, 4>& slack) const {
+  double farthest = 0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const double speed = approach(k, direction);
+    if (!(speed > 0)) return std::numeric_limits<double>::infinity();
+    farthest = std::max(farthest, (need[k] + slack[k]) / speed);
+  }
+  return farthest;
+}
+
+AimFinder::AimFinder(const std::vector<Vec3>& corners, const Pinhole& camera, const Mount& mount, double least)
+    : corners_(corners), camera_(camera), least_(least) {
+  constexpr double kDegree = std::numbers::pi / 180;
+  roll_ = mount.roll_deg * kDegree;
+  min_pitch_ = std::max(mount.min_pitch_deg * kDegree, -std::numbers::pi / 2);
+  max_pitch_ = std::min(mount.max_pitch_deg * kDegree, std::numbers::pi / 2);
+  if (mount.yaw_deg) yaw_ = *mount.yaw_deg * kDegree;
+}
+
+Aim AimFinder::allowed(Aim aim) const {
+  return {yaw_.value_or(aim.yaw), std::clamp(aim.pitch, min_pitch_, max_pitch_)};
+}
+
+bool AimFinder::is_at_limit(const Aim& aim) const { return aim.pitch <= min_pitch_ || aim.pitch >= max_pitch_; }
+
+AimedView AimFinder::view(const Aim& aim) const {
+  AimedView view{aim, picture_edges(camera_, aim, roll_), {}};
+  for (std::size_t k = 0; k < 4; ++k) {
+    view.need[k] = least_;
+    for (const Vec3& corner : corners_) view.need[k] = std::max(view.need[k], -view.edges[k].dot(corner));
+  }
+  return view;
+}
+
+/// The inverse of the distance where it is positive; below that it tells how far the direction is out of the picture.
+double AimFinder::nearness(const Aim& aim, const Vec3& direction) const {
+  const AimedView seen = view(aim);
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < 4; ++k) least = std::min(least, seen.approach(k, direction) / seen.need[k]);
+  return least;
+}
+
+/// Turns the camera until opposite edges of the picture let the target in at the same distance: Newton's method with
+/// differences.
+Aim AimFinder::balanced(Aim aim, const Vec3& direction) const {
+  constexpr int kSteps = 4;
+  constexpr double kSmall = 1e-6, kLongest = 0.3;  // radians
+  const auto imbalance = [&](const Aim& at) {
+    const AimedView seen = view(at);
+    const auto value = [&](std::size_t k) { return seen.approach(k, direction) / seen.need[k]; };
+    return Eigen::Vector2d(value(0) - value(1), value(2) - value(3));
+  };
+  for (int i = 0; i < kSteps; ++i) {
+    const Eigen::Vector2d now = imbalance(aim);
+    Eigen::Matrix2d slope;
+    slope.col(0) = (imbalance({aim.yaw + kSmall, aim.pitch}) - now) / kSmall;
+    slope.col(1) = (imbalance({aim.yaw, aim.pitch + kSmall}) - now) / kSmall;
+    if (std::abs(slope.determinant()) < 1e-12 * slope.squaredNorm()) break;
+    Eigen::Vector2d step = -slope.inverse() * now;
+    if (!step.allFinite()) break;
+    const double length = step.norm();
+    if (length > kLongest) step *= kLongest / length;
+    aim = {aim.yaw + step.x(), aim.pitch + step.y()};
+    if (length < 1e-9) break;
+  }
+  return aim;
+}
+
+/// Goes to whichever of eight neighbours is better, with steps that halve where none is.
+Aim AimFinder::climbed(Aim aim, const Vec3& direction) const {
+  constexpr double kFirst = 0.02, kLast = 1e-4;  // radians
+  constexpr double kDiagonal = std::numbers::sqrt2 / 2;
+  constexpr std::array<std::array<double, 2>, 8> kWays = {{{1, 0},
+                                                           {-1, 0},
+                                                           {0, 1},
+                                                           {0, -1},
+                                                           {kDiagonal, kDiagonal},
+                                                           {kDiagonal, -kDiagonal},
+                                                           {-kDiagonal, kDiagonal},
+                                                           {-kDiagonal, -kDiagonal}}};
+  double best = nearness(aim, direction);
+  for (double step = kFirst; step > kLast;) {
+    bool is_better = false;
+    for (const auto& [yaw, pitch] : kWays) {
+      const Aim next = allowed({aim.yaw + step * yaw, aim.pitch + step * pitch});
+      const double value = nearness(next, direction);
+      if (value <= best) continue;
+      best = value;
+      aim = next;
+      is_better = true;
+      break;
+    }
+    if (!is_better) step /= 2;
+  }
+  return aim;
+}
+
+AimedView AimFinder::best(const Vec3& direction) const {
+  const Aim at_centre = allowed(aim_along(-direction));
+  Aim start = allowed(balanced(at_centre, direction));
+  if (!(nearness(start, direction) > nearness(at_centre, direction))) start = at_centre;
+  return view(climbed(start, direction));
+}
+
+}  // namespace vantage::internal::sensor

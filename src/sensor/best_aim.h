@@ -1,0 +1,49 @@
+// The orientation from which a target is taken in from nearest by.
+#pragma once
+
+#include <vector>
+
+#include "sensor/aim.h"
+#include "vantage/export.h"
+#include "vantage/geometry.h"
+
+namespace vantage::internal::sensor {
+
+/// How near a camera with one orientation may come: along a direction d from c, a point among the corners, the target
+/// is in the picture from where all four edges have let it in, at the largest need[k] / approach_k(d) with
+/// approach_k(d) = -edges[k] . d.
+struct AimedView {
+  Aim aim;
+  PictureEdges edges = {Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+  std::array<double, 4> need{};  ///< how far c is inside of each edge's plane when a corner touches it; > 0
+
+  double approach(std::size_t edge, const Vec3& direction) const { return -edges[edge].dot(direction); }
+  /// Infinite where the direction is not in the picture. `slack`: by how much farther inside all must be, per edge.
+  VANTAGE_INTERNAL_API double distance(const Vec3& direction, const std::array<double, 4>& slack = {}) const;
+};
+
+class AimFinder {
+ public:
+  /// `corners`: about c. `least`: needs are at the least this long.
+  VANTAGE_INTERNAL_API AimFinder(const std::vector<Vec3>& corners, const Pinhole& camera, const Mount& mount,
+                                 double least);
+
+  VANTAGE_INTERNAL_API AimedView view(const Aim& aim) const;
+  /// For the viewpoints along a direction of unit length: an allowed orientation that is good, maybe not the best.
+  VANTAGE_INTERNAL_API AimedView best(const Vec3& direction) const;
+  VANTAGE_INTERNAL_API bool is_at_limit(const Aim& aim) const;
+
+ private:
+  Aim allowed(Aim aim) const;
+  double nearness(const Aim& aim, const Vec3& direction) const;
+  Aim balanced(Aim aim, const Vec3& direction) const;
+  Aim climbed(Aim aim, const Vec3& direction) const;
+
+  const std::vector<Vec3>& corners_;
+  Pinhole camera_;
+  double roll_, min_pitch_, max_pitch_;
+  std::optional<double> yaw_;
+  double least_;
+};
+
+}  // namespace vantage::internal::sensor

@@ -1,0 +1,18 @@
+// Whether a camera at a point can take in all of a target.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "sensor/aim.h"
+
+namespace vantage::internal::sensor {
+
+/// An orientation that the mount allows and that has all `corners` (positions relative to the camera) in the picture;
+/// nothing where there is none. Where the best orientation has a corner within `slack` radians of an edge of the
+/// picture either answer may come. Directions of corners in the camera itself are taken to be in the picture.
+/// Cost: some microseconds, more where the answer is close.
+std::optional<Aim> find_aim(const Pinhole& camera, const Mount& mount, std::span<const Vec3> corners,
+                            double slack = 1e-6);
+
+}  // namespace vantage::internal::sensor

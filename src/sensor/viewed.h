@@ -1,0 +1,31 @@
+// The target as a sensor looks at it: corners and normals about an origin near it.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "vantage/export.h"
+#include "vantage/geometry.h"
+#include "vantage/prepared_target.h"
+
+namespace vantage::internal::sensor {
+
+/// A convex polygon, or a single point. Positions are relative to Viewed::origin; axes of the scene.
+struct ViewedPart {
+  Vec3 centre = Vec3::Zero();  ///< strictly inside the polygon
+  std::vector<Vec3> corners;   ///< in order round the polygon
+  std::optional<Vec3> normal;  ///< unit length, to the front; none for a point that is seen from all sides
+};
+
+struct Viewed {
+  Vec3 origin = Vec3::Zero();  ///< scene frame: the first part's centre, in the convex hull of all corners
+  std::vector<ViewedPart> parts;
+  std::vector<Vec3> corners;  ///< of all parts
+
+  VANTAGE_INTERNAL_API double radius() const;  ///< of a ball about the origin that holds all corners, metres
+};
+
+/// The parts as they are used, lifts included.
+VANTAGE_INTERNAL_API Viewed viewed_of(const PreparedTarget& target);
+
+}  // namespace vantage::internal::sensor

@@ -1,0 +1,41 @@
+// Convex solids from half-spaces, on the side that is asked for.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <span>
+
+#include "solid/kernel_point.h"
+#include "vantage/geometry.h"
+
+namespace vantage::internal::solid {
+
+/// The boundary of what half-spaces share, closed and oriented. `inside`: a point strictly in all of them. They must
+/// bound a region; their normals may have any length. Every vertex lies in all of them, to rounding; where planes
+/// nearly coincide a corner may be missing. Cost: O(n log n) expected.
+Mesh intersect_half_spaces(std::span<const HalfSpace> half_spaces, const Vec3& inside);
+
+/// A convex mesh that holds `inside` is scaled about that point until the convex set with the support function `most`
+/// (the largest product of a direction with one of its points) is in it.
+template <typename Support>
+void grow_to_hold(Mesh& convex, const Vec3& inside, const Support& most) {
+  double scale = 1;
+  for (const Triangle& t : convex.triangles) {
+    const Vec3& a = convex.vertices[t[0]];
+    const Vec3 normal = (convex.vertices[t[1]] - a).cross(convex.vertices[t[2]] - a);
+    const double distance = normal.dot(a - inside);
+    if (distance > 0) scale = std::max(scale, (most(normal) - normal.dot(inside)) / distance);
+  }
+  for (Vec3& vertex : convex.vertices) vertex = inside + scale * (1 + 1e-12) * (vertex - inside);
+}
+
+/// Directions spread evenly over the sphere.
+struct SphereMesh {
+  Mesh mesh;         ///< vertices of unit length
+  double cover = 0;  ///< every direction lies within this angle of a vertex, radians
+};
+
+/// An icosahedron's facets cut in so many parts along each side: 20 n^2 facets.
+SphereMesh make_sphere(int parts);
+
+}  // namespace vantage::internal::solid

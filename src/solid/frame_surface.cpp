@@ -1,0 +1,226 @@
+#include "solid/frame_surface.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "sensor/best_aim.h"
+#include "solid/convex_body.h"
+#include "solid/halve_sides.h"
+
+namespace vantage::internal::solid {
+namespace {
+
+using sensor::AimedView;
+using sensor::AimFinder;
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr int kFirstParts = 6;       // of the icosahedron's sides: 720 facets
+constexpr double kNarrowest = 4e-3;  // radians: shorter edges are not halved
+constexpr double kRaise = 1 + 1e-9;  // what is raised is raised beyond rounding
+constexpr int kOwnPasses = 10;
+
+/// The smallest turn from one yaw to another.
+double turn(double from, double to) { return std::remainder(to - from, 2 * std::numbers::pi); }
+
+class FrameSurfaceBuilder {
+ public:
+  explicit FrameSurfaceBuilder(const FrameView& view)
+      : view_(view),
+        finder_(view.corners, view.camera, view.mount, view.least),
+        normal_length_{std::hypot(1, view.camera.half_width), std::hypot(1, view.camera.half_height)} {
+    for (const Vec3& corner : view.corners) radius_ = std::max(radius_, corner.norm());
+    // Beyond this a facet between three corners of the first sphere is out of reach everywhere.
+    cap_ = 1.2 * view.reach;
+  }
+
+  FrameSurface build();
+
+ private:
+  struct Node {
+    explicit Node(const Vec3& unit) : direction(unit) {}
+
+    Vec3 direction;
+    bool is_known = false;
+    AimedView view;   ///< of the best aim found,
+    double best = 0;  ///< and how near it lets the viewpoint come
+    double distance = 0;
+  };
+  /// Distances that its corners need for a facet to be safe.
+  using Needs = std::array<double, 3>;
+
+  bool matters(const Triangle& facet) const;
+  void settle();
+  bool is_safe(const Triangle& facet) const;
+  Needs own_needs(const Triangle& facet) const;
+  Needs shared_needs(const Triangle& facet) const;
+  bool refine();
+
+  const FrameView& view_;
+  AimFinder finder_;
+  std::array<double, 2> normal_length_;
+  double radius_ = 0, cap_ = 0;
+  std::vector<Node> nodes_;
+  std::vector<Triangle> facets_;
+};
+
+/// Whether some of a facet's directions are to the front.
+bool FrameSurfaceBuilder::matters(const Triangle& facet) const {
+  if (!view_.front) return true;
+  return std::any_of(facet.begin(), facet.end(),
+                     [&](std::uint32_t i) { return view_.front->dot(nodes_[i].direction) > 0; });
+}
+
+/// What the corners need where each has its own aim. Between them the camera is aimed at the mean of the three, by the
+/// weights l of the place p = sum l_i p_i. Of an edge's normal n let n_i be those at the corners, and m = sum l_i n_i.
+/// Then m . (v - p) is sum l_i n_i . (v - p_i), which the corners see to, and sum over pairs of
+/// l_i l_j (n_i - n_j) . (p_i - p_j), at the least a third of the least pair's. The normal of the mean aim is off from
+/// m by at most a sixth of the square of the largest turn between two corners.
+FrameSurfaceBuilder::Needs FrameSurfaceBuilder::own_needs(const Triangle& facet) const {
+  double spread = 0, farthest = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Node &a = nodes_[facet[i]], &b = nodes_[facet[(i + 1) % 3]];
+    spread = std::max(spread,
+                      std::abs(turn(a.view.aim.yaw, b.view.aim.yaw)) + std::abs(a.view.aim.pitch - b.view.aim.pitch));
+    farthest = std::max(farthest, a.distance + radius_);
+  }
+  std::array<double, 4> slack{};
+  for (std::size_t k = 0; k < 4; ++k) {
+    double least = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Node &a = nodes_[facet[i]], &b = nodes_[facet[(i + 1) % 3]];
+      least =
+          std::min(least, (a.view.edges[k] - b.view.edges[k]).dot(a.distance * a.direction - b.distance * b.direction));
+    }
+    slack[k] = -least / 3 + normal_length_[k / 2] * spread * spread / 6 * farthest;
+  }
+  Needs needs;
+  for (std::size_t i = 0; i < 3; ++i) needs[i] = nodes_[facet[i]].view.distance(nodes_[facet[i]].direction, slack);
+  return needs;
+}
+
+/// Where one aim, that of a corner, does for all: the places from which it does are convex.
+FrameSurfaceBuilder::Needs FrameSurfaceBuilder::shared_needs(const Triangle& facet) const {
+  Needs best{kNever, kNever, kNever};
+  double least = kNever;
+  for (const std::uint32_t of : facet) {
+    Needs needs;
+    double sum = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      needs[i] = nodes_[of].view.distance(nodes_[facet[i]].direction);
+      sum += std::max(needs[i], nodes_[facet[i]].distance);
+    }
+    if (!(sum < least)) continue;
+    least = sum;
+    best = needs;
+  }
+  return best;
+}
+
+bool FrameSurfaceBuilder::is_safe(const Triangle& facet) const {
+  const auto holds = [&](const Needs& needs) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (!(nodes_[facet[i]].distance >= needs[i])) return false;
+    }
+    return true;
+  };
+  return holds({cap_, cap_, cap_}) || holds(own_needs(facet)) || holds(shared_needs(facet));
+}
+
+/// Raises corners until every facet is safe. A facet that one aim makes safe stays so when corners are raised, others
+/// are asked again. Own aims are given up where they do not settle early, as what they need grows with the distances;
+/// so this ends.
+void FrameSurfaceBuilder::settle() {
+  std::vector<int> raised(nodes_.size(), 0);  // in which pass
+  for (Node& node : nodes_) node.distance = std::min(node.best * kRaise, cap_);
+  const auto cost = [&](const Triangle& facet, const Needs& needs) {
+    double sum = 0;
+    for (std::size_t i = 0; i < 3; ++i) sum += std::max(needs[i], nodes_[facet[i]].distance);
+    return sum;
+  };
+  bool is_raised = true;
+  for (int pass = 1; is_raised; ++pass) {
+    is_raised = false;
+    for (const Triangle& facet : facets_) {
+      const bool is_new =
+          std::any_of(facet.begin(), facet.end(), [&](std::uint32_t i) { return raised[i] >= pass - 1; });
+      if (!is_new || !matters(facet) || is_safe(facet)) continue;
+      const Needs own = own_needs(facet), shared = shared_needs(facet);
+      const bool takes_own = pass <= kOwnPasses && cost(facet, own) <= cost(facet, shared);
+      Needs needs = takes_own ? own : shared;
+      // No aim does: nothing is left in its directions.
+      if (!(*std::max_element(needs.begin(), needs.end()) < cap_)) needs.fill(cap_);
+      for (std::size_t i = 0; i < 3; ++i) {
+        double& distance = nodes_[facet[i]].distance;
+        if (needs[i] <= distance) continue;
+        distance = std::min(needs[i] * kRaise, cap_);
+        raised[facet[i]] = pass;
+      }
+      is_raised = true;
+    }
+  }
+}
+
+/// Halves facets that lie farther out than they have to. False where none does.
+bool FrameSurfaceBuilder::refine() {
+  const auto length = [&](std::uint32_t a, std::uint32_t b) {
+    return (nodes_[a].direction - nodes_[b].direction).norm();
+  };
+  const auto is_far_out = [&](std::uint32_t i) {
+    const Node& node = nodes_[i];
+    return node.best < view_.reach && node.distance > node.best * (1 + view_.share);
+  };
+  const auto wants = [&](const Triangle& t) {
+    return matters(t) && std::any_of(t.begin(), t.end(), is_far_out) &&
+           std::max({length(t[0], t[1]), length(t[1], t[2]), length(t[2], t[0])}) > kNarrowest;
+  };
+  const auto middle = [&](std::uint32_t a, std::uint32_t b) {
+    nodes_.push_back(Node((nodes_[a].direction + nodes_[b].direction).normalized()));
+    return static_cast<std::uint32_t>(nodes_.size() - 1);
+  };
+  std::vector<std::uint32_t> of_facet;
+  return halve_sides(facets_, wants, length, middle, of_facet);
+}
+
+FrameSurface FrameSurfaceBuilder::build() {
+  SphereMesh sphere = make_sphere(kFirstParts);
+  for (const Vec3& direction : sphere.mesh.vertices) nodes_.push_back(Node(direction));
+  facets_ = std::move(sphere.mesh.triangles);
+  do {
+    for (const Triangle& facet : facets_) {
+      if (!matters(facet)) continue;
+      for (const std::uint32_t i : facet) {
+        Node& node = nodes_[i];
+        if (node.is_known) continue;
+        node.is_known = true;
+        node.view = finder_.best(node.direction);
+        node.best = std::max(node.view.distance(node.direction), view_.least);
+      }
+    }
+    settle();
+  } while (facets_.size() < view_.most_facets && refine());
+
+  FrameSurface surface;
+  surface.least_distance = kNever;
+  for (const Node& node : nodes_) {
+    const double distance = node.is_known ? node.distance : std::max(radius_, view_.least);
+    surface.mesh.vertices.push_back(distance * node.direction);
+    if (node.is_known) surface.least_distance = std::min(surface.least_distance, node.best);
+  }
+  for (const Triangle& facet : facets_) {
+    surface.by_mount.push_back(std::all_of(facet.begin(), facet.end(), [&](std::uint32_t i) {
+      return nodes_[i].is_known && finder_.is_at_limit(nodes_[i].view.aim);
+    }));
+  }
+  surface.mesh.triangles = facets_;
+  return surface;
+}
+
+}  // namespace
+
+FrameSurface make_frame_surface(const FrameView& view) { return FrameSurfaceBuilder(view).build(); }
+
+}  // namespace vantage::internal::solid

@@ -1,0 +1,98 @@
+#include "vantage/sensor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "core/text.h"
+#include "vantage/error.h"
+
+namespace vantage {
+namespace {
+
+using internal::core::number_text;
+
+constexpr double kLargestRange = 1e9;      // metres; as scenes
+constexpr double kLargestTangent = 1e3;    // half a picture of 179.9 degrees
+constexpr double kSmallestTangent = 1e-6;  // and one of a fifth of a second of arc
+
+void require(bool holds, const char* problem, const char* where, const char* fix,
+             ErrorCode code = ErrorCode::value_out_of_range) {
+  if (!holds) throw Error(code, problem, where, fix);  // false for NaN too
+}
+
+void check_camera(const Pinhole& camera) {
+  for (const double tangent : {camera.half_width, camera.half_height}) {
+    require(tangent >= kSmallestTangent && tangent <= kLargestTangent,
+            "an angle of view of the camera is not between 0.0002 and 179.8 degrees", "sensor.camera",
+            "give the angles of view, or the size of the sensor and the focal length in the same unit");
+  }
+  require(!camera.focal_px || (*camera.focal_px > 0 && std::isfinite(*camera.focal_px)),
+          "the focal length is not a positive, finite number", "sensor.camera", "give pixels");
+}
+
+void check_mount(const Mount& mount) {
+  require(!mount.yaw_deg || std::isfinite(*mount.yaw_deg), "the yaw is not finite", "sensor.mount", "give degrees");
+  require(mount.roll_deg >= -180 && mount.roll_deg <= 180, "the roll is not between -180 and 180 degrees",
+          "sensor.mount", "give degrees; a positive roll lowers the right edge of the picture");
+  require(mount.min_pitch_deg >= -90 && mount.max_pitch_deg <= 90, "a pitch is not between -90 and 90 degrees",
+          "sensor.gimbal", "0 is level, -90 is straight down");
+  if (mount.min_pitch_deg > mount.max_pitch_deg) {
+    throw Error(ErrorCode::limits_reversed,
+                "the gimbal's pitch is reversed: " + number_text(mount.min_pitch_deg) + " is above " +
+                    number_text(mount.max_pitch_deg),
+                "sensor.gimbal", "give the lower pitch first: 0 is level, -90 is straight down");
+  }
+  require(mount.min_pitch_deg <= mount.max_pitch_deg, "a pitch is not a number", "sensor.gimbal", "give degrees");
+}
+
+void check_pixel(const Sensor& sensor) {
+  require(sensor.pixel->size_m > 0 && std::isfinite(sensor.pixel->size_m),
+          "the size of a pixel is not a positive number of metres", "sensor.pixel",
+          "give how much of the target a pixel may cover: 0.02");
+  require(sensor.camera && sensor.camera->focal_px, "the size of a pixel needs a focal length in pixels",
+          "sensor.pixel", "give a camera with its width and height in pixels", ErrorCode::missing_key);
+}
+
+}  // namespace
+
+bool Sensor::limits_view() const {
+  return min_range_m > 0 || incidence_deg || camera || sun || (pixel && pixel->kind == PixelLimit::Kind::worst);
+}
+
+double range_limit_m(const Sensor& sensor) {
+  if (!sensor.pixel || !sensor.camera || !sensor.camera->focal_px) return sensor.max_range_m;
+  return std::min(sensor.max_range_m, sensor.pixel->size_m * *sensor.camera->focal_px);
+}
+
+// All members are named: a limit that is added does not compile here before it is checked.
+void check_sensor(const Sensor& sensor) {
+  const auto& [max_range_m, min_range_m, incidence_deg, camera, mount, pixel, sun] = sensor;
+  if (camera) check_camera(*camera);
+  check_mount(mount);
+  if (pixel) check_pixel(sensor);
+  require(max_range_m > 0, "max_range must be a positive, finite number of metres", "sensor",
+          "give the farthest distance at which the target can be seen");
+  const double range_m = range_limit_m(sensor);
+  require(std::isfinite(range_m), "max_range must be a positive, finite number of metres", "sensor",
+          "give the farthest distance at which the target can be seen, or the size of a pixel, which limits it too");
+  require(range_m <= kLargestRange, "max_range is larger than 1e9 m", "sensor", "give metres");
+  require(min_range_m >= 0 && std::isfinite(min_range_m), "min_range is negative or not finite", "sensor",
+          "give metres");
+  if (min_range_m >= range_m) {
+    throw Error(ErrorCode::limits_empty,
+                "min_range is " + number_text(min_range_m) + " m, and " +
+                    (range_m < max_range_m ? "the size of a pixel allows " : "max_range is ") + number_text(range_m) +
+                    " m",
+                "sensor", "give a min_range below that");
+  }
+  require(!incidence_deg || (*incidence_deg > 0 && *incidence_deg < 90), "incidence is not between 0 and 90 degrees",
+          "sensor.incidence", "it is measured from the target's normal: 60 leaves out the last 30 degrees");
+  if (!sun) return;
+  require(sun->direction.allFinite() && sun->direction.norm() > 0, "the direction to the sun is zero or not finite",
+          "sensor.sun", "give a vector towards the sun", ErrorCode::direction_invalid);
+  require(sun->exclude_deg > 0 && sun->exclude_deg <= 90, "the angle to the sun is not between 0 and 90 degrees",
+          "sensor.sun", "give the least angle that is wanted: exclude: 20");
+}
+
+}  // namespace vantage
