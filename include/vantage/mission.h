@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "vantage/camera.h"
 #include "vantage/constraints.h"
 #include "vantage/error.h"
 #include "vantage/export.h"
@@ -45,6 +46,20 @@ struct GroundTarget {
   double heading_deg = 0;                                          ///< clockwise from north
 };
 
+/// A camera as a mission file gives it: one of these.
+struct CameraSource {
+  std::string model;                                            ///< of known_cameras()
+  std::optional<Camera> numbers = std::nullopt;                 ///< pixels, focal length and sensor width
+  std::optional<std::array<double, 2>> fov_deg = std::nullopt;  ///< horizontal and vertical; with `numbers`, which have
+                                                                ///< only pixels then, or alone
+};
+
+/// A moment, for the direction to the sun.
+struct SunTime {
+  std::string text;        ///< ISO 8601 with a zone: "2026-06-21T16:00Z", "2026-06-21T18:00+02:00"
+  double unix_time_s = 0;  ///< of it: seconds since 1970-01-01 UTC
+};
+
 /// A mesh to stay in, as a mission file names it.
 struct NavigationMeshFile {
   std::filesystem::path file;  ///< absolute
@@ -57,7 +72,7 @@ struct NavigationMeshFile {
 
 /// Where in a mission file things are said ("mission.yaml:9:13"), for messages. Empty for a mission made in memory.
 struct MissionPlaces {
-  std::string scene, terrain, target;
+  std::string scene, terrain, target, sensor;
   std::vector<std::string> navigation_meshes;
 };
 
@@ -71,7 +86,10 @@ struct MissionFile {
   Target target;                                             ///< with a ground_target only name, offset and front count
   std::optional<GroundTarget> ground_target = std::nullopt;  ///< says where the target lies
   Sensor sensor;
-  Navigation navigation;  ///< without meshes
+  std::optional<CameraSource> camera = std::nullopt;  ///< says what sensor.camera is
+  std::optional<SunTime> sun_time = std::nullopt;     ///< says where the sun stands, once the scene is known; without
+                                                      ///< it sensor.sun has the direction
+  Navigation navigation;                              ///< without meshes
   std::vector<NavigationMeshFile> navigation_meshes = {};
   Method method = Method::exact;
   ExactOptions exact;      ///< but for the threads: RunOptions::threads

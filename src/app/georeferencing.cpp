@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -128,6 +129,26 @@ void convert_limits(Navigation& navigation, const CrsConverter& converter, const
   }
 }
 
+void place_sun(Mission& mission) {
+  const SunTime& time = *mission.as_written.sun_time;
+  const std::string& place = mission.as_written.places.sensor;
+  const auto& georeference = mission.loaded.scene.georeference;
+  if (!georeference) {
+    throw Error(ErrorCode::not_georeferenced,
+                "the scene does not say where on the earth it lies, so the sun has no place", place,
+                "give sun.azimuth and sun.elevation instead of the time, or scene.origin");
+  }
+  const Vec3 direction = sun_direction(georeference->latitude_deg, georeference->longitude_deg, time.unix_time_s);
+  if (direction.z() < 0) {
+    const double elevation = std::asin(direction.z()) * 180 / std::numbers::pi;
+    throw Error(ErrorCode::value_out_of_range,
+                "the sun is below the horizon at " + time.text + ", by " +
+                    shortest(std::round(-elevation * 100) / 100) + " degrees",
+                place, "check the time and its zone, or leave the limit out");
+  }
+  mission.sensor.sun->direction = direction;
+}
+
 void check_near(const Mission& mission, const CrsConverter& converter) {
   for (const Vec3& vertex : mission.target.parts.at(0)) {
     const double distance = vertex.head<2>().norm();
@@ -141,6 +162,7 @@ void check_near(const Mission& mission, const CrsConverter& converter) {
 }  // namespace
 
 void georeference(Mission& mission, const Progress& progress) {
+  if (mission.as_written.sun_time) place_sun(mission);
   const std::string& crs = mission.as_written.crs;
   const std::string& place = mission.as_written.places.target;
   if (crs.empty() && !mission.as_written.ground_target) return;

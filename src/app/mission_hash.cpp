@@ -34,6 +34,30 @@ SortedJson sorted_json_of(const Navigation& limits) {
   return json;
 }
 
+// All members are named, as above. What is not given is left out, so that missions without it keep their hash.
+SortedJson sorted_json_of(const Sensor& sensor) {
+  const auto& [max_range_m, min_range_m, incidence_deg, camera, mount, pixel, sun] = sensor;
+  SortedJson json = {{"max_range_m", number_text(max_range_m)}};
+  if (min_range_m > 0) json["min_range_m"] = number_text(min_range_m);
+  if (incidence_deg) json["incidence_deg"] = number_text(*incidence_deg);
+  if (camera) {
+    json["camera"] = {{"half_width", number_text(camera->half_width)},
+                      {"half_height", number_text(camera->half_height)}};
+    json["camera"]["focal_px"] = camera->focal_px ? number_text(*camera->focal_px) : SortedJson();
+    json["mount"] = {{"yaw_deg", mount.yaw_deg ? number_text(*mount.yaw_deg) : SortedJson()},
+                     {"pitch_deg", {number_text(mount.min_pitch_deg), number_text(mount.max_pitch_deg)}},
+                     {"roll_deg", number_text(mount.roll_deg)}};
+  }
+  if (pixel) {
+    json["pixel"] = {{"size_m", number_text(pixel->size_m)},
+                     {"kind", pixel->kind == PixelLimit::Kind::worst ? "worst" : "perpendicular"}};
+  }
+  if (sun) {
+    json["sun"] = {{"direction", sorted_json_of(sun->direction)}, {"exclude_deg", number_text(sun->exclude_deg)}};
+  }
+  return json;
+}
+
 SortedJson sorted_json_of(const Target& target) {
   SortedJson parts = SortedJson::array();
   for (const std::vector<Vec3>& part : target.parts) {
@@ -63,7 +87,7 @@ SortedJson sorted_json_of(const SpheresOptions& options) {
 
 std::string mission_hash(const Mission& mission) {
   SortedJson json = {{"target", sorted_json_of(mission.target)},
-                     {"sensor", {{"max_range_m", number_text(mission.sensor.max_range_m)}}},
+                     {"sensor", sorted_json_of(mission.sensor)},
                      {"limits", sorted_json_of(mission.navigation)},
                      {"method", name_of(mission.as_written.method)}};
   if (mission.as_written.method == Method::spheres) {

@@ -9,6 +9,7 @@
 #include "app/places.h"
 #include "app/scene_section.h"
 #include "app/schema.h"
+#include "app/sensor_section.h"
 #include "app/spheres_section.h"
 #include "app/value_reader.h"
 #include "vantage/error.h"
@@ -265,10 +266,11 @@ void MissionParser::check_edges(const YamlNode& node, std::size_t vertex_count) 
 }
 
 void MissionParser::parse_sensor(const YamlNode& node) {
-  check_keys(node, Section::sensor, file());
-  const YamlNode& range =
-      require(node, Section::sensor, "max_range", "write 'max_range: 100': metres, to every point of the target");
-  mission_.sensor.max_range_m = positive(range, "sensor.max_range");
+  SensorSection section = parse_sensor_section(node, *this);
+  mission_.sensor = std::move(section.sensor);
+  mission_.camera = std::move(section.camera);
+  mission_.sun_time = std::move(section.sun_time);
+  mission_.places.sensor = place_in(file(), node.place);
 }
 
 void MissionParser::parse_navigation(const YamlNode& node) {

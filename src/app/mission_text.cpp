@@ -3,6 +3,7 @@
 #include <string>
 #include <string_view>
 
+#include "app/sensor_section.h"
 #include "vantage/city.h"
 #include "vantage/input.h"
 #include "vantage/json.h"
@@ -52,7 +53,7 @@ class Writer {
 
   std::string text() const {
     std::string text = mission_.crs.empty() ? "" : "crs: " + quoted(mission_.crs) + "\n";
-    text += scene() + target() + "sensor:\n  max_range: " + shortest(mission_.sensor.max_range_m) + "\n" + navigation();
+    text += scene() + target() + internal::app::sensor_section_text(mission_) + navigation();
     text += std::string("method: ") + name_of(mission_.method) + "\n";
     text += "exact:\n  tolerance: " + shortest(mission_.exact.tolerance_m) + "\n";
     return text + spheres();

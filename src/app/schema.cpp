@@ -15,8 +15,8 @@ struct SectionKeys {
   std::vector<std::string_view> keys;
 };
 
-const std::array<SectionKeys, 9>& table() {
-  static const std::array<SectionKeys, 9> kTable = {{
+const std::array<SectionKeys, 14>& table() {
+  static const std::array<SectionKeys, 14> kTable = {{
       {Section::mission,
        "the mission",
        {"scene", "crs", "target", "sensor", "navigation", "method", "exact", "spheres"}},
@@ -28,7 +28,14 @@ const std::array<SectionKeys, 9>& table() {
        "target",
        {"name", "vertices", "edges", "parts", "point", "osm", "center", "width", "length", "heading", "offset",
         "front"}},
-      {Section::sensor, "sensor", {"max_range"}},
+      {Section::sensor,
+       "sensor",
+       {"max_range", "min_range", "incidence", "camera", "fov", "mount", "gimbal", "pixel", "dori", "sun"}},
+      {Section::camera, "sensor.camera", {"model", "width", "height", "focal_length", "sensor_width"}},
+      {Section::mount, "sensor.mount", {"yaw", "pitch", "roll"}},
+      {Section::gimbal, "sensor.gimbal", {"yaw", "pitch", "roll"}},
+      {Section::pixel, "sensor.pixel", {"size", "kind"}},
+      {Section::sun, "sensor.sun", {"time", "azimuth", "elevation", "exclude"}},
       {Section::navigation, "navigation", {"altitude", "boxes", "keep_out", "meshes"}},
       {Section::box, "a box", {"min", "max"}},
       {Section::mesh, "an entry of navigation.meshes", {"mesh", "up", "scale"}},

@@ -12,7 +12,22 @@
 namespace vantage::internal::app {
 
 /// The sections of a mission file. A section's keys, and nothing else, may stand in its map.
-enum class Section { mission, scene, target, sensor, navigation, box, mesh, exact, spheres };
+enum class Section {
+  mission,
+  scene,
+  target,
+  sensor,
+  camera,
+  mount,
+  gimbal,
+  pixel,
+  sun,
+  navigation,
+  box,
+  mesh,
+  exact,
+  spheres
+};
 
 /// How messages call a section: "scene", "target"; "the mission" for the outermost one.
 std::string_view section_name(Section section);
