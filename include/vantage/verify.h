@@ -29,10 +29,12 @@ struct VerifyOptions {
 };
 
 struct VerifyReport {
-  std::size_t points = 0;          ///< viewpoints tried
-  std::size_t inside = 0;          ///< of those, claimed by the volume
-  std::size_t rays = 0;            ///< shadow rays shot
-  std::size_t over_claimed = 0;    ///< claimed, but part of the target is hidden or out of range, or a limit is broken
+  std::size_t points = 0;        ///< viewpoints tried
+  std::size_t inside = 0;        ///< of those, claimed by the volume
+  std::size_t rays = 0;          ///< shadow rays shot
+  std::size_t undecided = 0;     ///< where it stayed open whether the camera can have all of the target in one picture,
+                                 ///< and nothing else is wrong: counted as neither of the next two
+  std::size_t over_claimed = 0;  ///< claimed, but part of the target is hidden or out of range, or a limit is broken
   std::size_t under_claimed = 0;   ///< not claimed, though everything sampled was visible, by more than the tolerance
   double worst_over_depth_m = 0;   ///< how deep inside the worst over-claimed point lies
   double worst_under_depth_m = 0;  ///< how far outside the worst under-claimed point lies
@@ -41,7 +43,8 @@ struct VerifyReport {
   Vec3 worst_over_point = Vec3::Zero();   ///< scene frame
   Vec3 worst_under_point = Vec3::Zero();  ///< scene frame
   std::string worst_over_cause;  ///< what is wrong there: the name of an object that hides the target, "max_range",
-                                 ///< "target plane" or a navigation limit; empty when nothing is
+                                 ///< "target plane", a navigation limit, or a limit of the sensor by its name as in
+                                 ///< vantage/query.h; empty when nothing is
   bool closed = false;           ///< every edge has an even number of facets, with vertices in one place taken for one,
   OpenEdges open_edges;          ///< those that have not: then no points are tried
   bool oriented = false;         ///< and is run as often in one direction as in the other
@@ -61,8 +64,9 @@ struct VerifyReport {
 /// the surface that it lies on. A volume is right when nothing is over-claimed and its mesh is a closed, oriented
 /// surface for whoever reads it; see docs/verification.md. Of a mesh with holes, which has no inside, only that is
 /// reported. What is claimed must see every part of the target whole, and
-/// what is not must miss some of one. Depths are told by the distance to the first part's centre. The parts are looked
-/// at one after the other, so that memory is that of one.
+/// what is not must miss some of one. The limits of the sensor are judged by their definitions in vantage/sensor.h,
+/// with code of its own: a camera is put at the viewpoint, and its orientations are searched. Depths are told by the
+/// distance to the first part's centre. The parts are looked at one after the other, so that memory is that of one.
 ///
 /// The report depends on the seed, not on the number of threads (TBB; the caller's arena). Cost: points times samples
 /// shadow rays, a few tenths of a microsecond each and thread. Throws Error(input) for a mesh without triangles, with

@@ -148,6 +148,7 @@ std::string json_text(const VerifyReport& report) {
   json["points"] = report.points;
   json["inside"] = report.inside;
   json["rays"] = report.rays;
+  json["undecided"] = report.undecided;
   json["over_claimed"] = report.over_claimed;
   json["under_claimed"] = report.under_claimed;
   json["worst_over_depth_m"] = report.worst_over_depth_m;

@@ -60,7 +60,11 @@ std::string table_text(const VerifyReport& report, const std::string& file) {
     table.row("points tried", count(report.points), "half of them near the volume's surface");
     table.row("inside", count(report.inside), "claimed by the volume");
     table.row("rays", count(report.rays), "");
-    table.row("over-claimed", count(report.over_claimed), "claimed, but part of the target is hidden or out of range");
+    if (report.undecided > 0) {
+      table.row("undecided", count(report.undecided), "so close to the edge of the picture that no search tells");
+    }
+    table.row("over-claimed", count(report.over_claimed),
+              "claimed, but part of the target is hidden or a limit is broken");
     if (report.over_claimed > 0) {
       table.row("worst depth", fixed(report.worst_over_depth_m, 6),
                 "metres inside: from the deepest of them to the volume's surface, at " +

@@ -1,9 +1,14 @@
 // Every numeric constant of the check, with its derivation. Rounding errors and forgiven lengths never share a name.
 #pragma once
 
+#include <cstddef>
 #include <limits>
+#include <numbers>
 
 namespace vantage::internal::verify {
+
+/// In radians.
+inline constexpr double kDegree = std::numbers::pi / 180;
 
 /// Unit roundoff of a double.
 inline constexpr double kRoundoff = std::numeric_limits<double>::epsilon() / 2;
@@ -36,6 +41,38 @@ inline constexpr double kPointSurface = 1e-7;
 
 /// Relative slack of the range check: far above rounding, far below the depth tolerance of a claim.
 inline constexpr double kRangeSlack = 1e-9;
+
+/// A limit that is an angle is broken by more than this, in radians, or not at all: far above the rounding of a
+/// direction, far below what a claim that is too deep is off by.
+inline constexpr double kAngleSlack = 1e-12;
+
+/// Bound on the rounding of a direction's place in a picture, in radians: a unit vector, two turned axes and a product
+/// lose less than 30 roundoffs together.
+inline constexpr double kAngleError = 64 * kRoundoff;
+
+/// The search for an orientation gives up after so many cells, some milliseconds, ...
+inline constexpr std::size_t kMostCells = 20000;
+
+/// ... and does not halve those whose half sides, in radians, sum to less: in it a margin is linear but for 5e-13.
+inline constexpr double kSmallestCell = 1e-6;
+
+// What a computed volume may leave out at each limit besides: its surfaces are made of facets on the safe side.
+// docs/camera.md states the same figures; what they forgive is only what a volume lacks, never what it claims.
+
+/// The surface about what is too near lies farther out by up to this part of min_range.
+inline constexpr double kMinRangeLoose = 2e-3;
+
+/// The ball of the largest pixel loses up to this part of its radius.
+inline constexpr double kPixelLoose = 5e-4;
+
+/// Cones have this many sides. They stay inside the cone of the incidence and outside that of the sun: the tangent is
+/// off by the cosine of pi over this.
+inline constexpr int kConeSides = 128;
+
+/// The surface of a camera on a gimbal lies farther out by up to about 1 % of the distance to the target's centre;
+/// twice that, as the centre may be chosen in more than one way. Where the gimbal's pitch is the limit the surface runs
+/// along the lines of sight: so the same holds for what lies beside a viewpoint.
+inline constexpr double kFrameLoose = 2e-2;
 
 /// How far boxes handed to Embree are grown, relative to the largest coordinate of any query. Embree walks its
 /// hierarchy in single precision (roundoff 2^-24): the rounded origin, the rounded direction, the approximate

@@ -14,6 +14,7 @@
 #include "verify/binomial.h"
 #include "verify/limits.h"
 #include "verify/occluders.h"
+#include "verify/sensor_judge.h"
 #include "verify/tolerances.h"
 #include "verify/viewpoints.h"
 
@@ -21,9 +22,11 @@ namespace vantage {
 namespace {
 
 using internal::verify::ClosedMesh;
+using internal::verify::Finding;
 using internal::verify::Limits;
 using internal::verify::Occluders;
 using internal::verify::Random;
+using internal::verify::SensorJudge;
 using internal::verify::TargetView;
 using internal::verify::Viewpoint;
 using internal::verify::Viewpoints;
@@ -49,8 +52,9 @@ struct Verdict {
 
   Random random;  ///< of this viewpoint, as far as they are used up
   bool on_surface = false, claimed = false, uniform = false, over = false, under = false;
-  bool good = false;  ///< within the limits, and sees what has been looked at so far
-  double depth = 0;   ///< from the surface of the volume, metres; for over and under
+  bool good = false;       ///< within the limits, and sees what has been looked at so far
+  bool undecided = false;  ///< whether it is within those of the sensor; all else is good so far
+  double depth = 0;        ///< from the surface of the volume, metres; for over and under
   std::size_t rays = 0;
   Vec3 position = Vec3::Zero();        ///< in the frame of the first part
   std::optional<std::size_t> blocked;  ///< the part that the viewpoint does not see whole,
@@ -63,12 +67,12 @@ class Check {
   Check(const Scene& scene, const std::vector<Target>& parts, const Sensor& sensor, const Navigation& navigation,
         const Mesh& volume, const VerifyOptions& options)
       : options_(options),
-        max_range_(sensor.max_range_m),
         scene_(scene),
         parts_(parts.begin(), parts.end()),
+        sensor_(sensor, parts_, options.tolerance_m),
         volume_(volume, view_.origin(), "volume"),
         limits_(navigation, view_.origin()),
-        viewpoints_(volume_, view_, max_range_, options.points) {}
+        viewpoints_(volume_, view_, sensor_.range(), options.points) {}
 
   /// Chooses a viewpoint.
   Verdict draw(std::size_t number) const;
@@ -83,14 +87,14 @@ class Check {
   Vec3 in_frame_of(std::size_t part, const Vec3& position) const {
     return position + (view_.origin() - parts_[part].origin());  // nothing is rounded where the frames are the same
   }
-  bool permitted(const Vec3& position, double range) const;
+  bool in_front(const Vec3& position) const;
   bool sees(const TargetView& part, const Vec3& position, Verdict& verdict) const;
   std::string cause(const Verdict& over_claimed);
 
   VerifyOptions options_;
-  double max_range_;
   const Scene& scene_;
   std::vector<TargetView> parts_;
+  SensorJudge sensor_;
   const TargetView& view_ = parts_.front();
   ClosedMesh volume_;
   Limits limits_;
@@ -103,17 +107,15 @@ void Check::turn_to(std::size_t part) {
   if (occluders_ && part == part_) return;
   occluders_.reset();  // before the next one takes memory
   part_ = part;
-  occluders_ = std::make_unique<Occluders>(scene_, parts_[part], max_range_);
+  occluders_ = std::make_unique<Occluders>(scene_, parts_[part], sensor_.range());
 }
 
-/// All but the sight: in front (but for a point seen from all sides), `range` metres from everywhere, within the
-/// limits.
-bool Check::permitted(const Vec3& position, double range) const {
+/// Of all parts, but for a point that is seen from all sides.
+bool Check::in_front(const Vec3& position) const {
   for (std::size_t i = 0; i < parts_.size(); ++i) {
-    const Vec3 own = in_frame_of(i, position);
-    if (!parts_[i].in_front(own) || parts_[i].farthest(own) > range) return false;
+    if (!parts_[i].in_front(in_frame_of(i, position))) return false;
   }
-  return !limits_.broken_by(position);
+  return true;
 }
 
 /// `position` in the frame of the part that was turned to.
@@ -164,10 +166,11 @@ Verdict Check::draw(std::size_t number) const {
   if (!claimed) return verdict;
   verdict.claimed = *claimed;
   verdict.uniform = viewpoint.uniform && *claimed;
-  // A claim may reach as far as the range; a point that is not claimed counts only where the facets of the range
-  // sphere, which lie inside it by up to the tolerance, cannot be the reason.
-  const double range = *claimed ? max_range_ * (1 + internal::verify::kRangeSlack) : max_range_ - options_.tolerance_m;
-  verdict.good = permitted(viewpoint.position, range);
+  if (!in_front(verdict.position) || limits_.broken_by(verdict.position)) return verdict;
+  const SensorJudge::Judgement judgement =
+      *claimed ? sensor_.of_claimed(verdict.position) : sensor_.of_unclaimed(verdict.position);
+  verdict.good = judgement.finding != Finding::broken;
+  verdict.undecided = judgement.finding == Finding::undecided;
   return verdict;
 }
 
@@ -176,7 +179,8 @@ void Check::look(Verdict& verdict) const {
 }
 
 void Check::settle(Verdict& verdict) const {
-  if (verdict.on_surface || verdict.good == verdict.claimed) return;
+  if (!verdict.good) verdict.undecided = false;
+  if (verdict.on_surface || verdict.undecided || verdict.good == verdict.claimed) return;
   verdict.depth = volume_.distance_to_surface(verdict.position);
   const double allowed = options_.depth_tolerance * (verdict.position - view_.centre()).norm() + options_.rounding_m;
   const bool counts = verdict.depth > allowed;
@@ -193,10 +197,9 @@ std::string Check::cause(const Verdict& over_claimed) {
         triangle && *triangle < scene_.object_of.size() && scene_.object_of[*triangle] < scene_.objects.size();
     return named ? display_name(scene_.objects[scene_.object_of[*triangle]]) : "scene";
   }
-  for (std::size_t i = 0; i < parts_.size(); ++i) {
-    if (!parts_[i].in_front(in_frame_of(i, position))) return "target plane";
-  }
-  return limits_.broken_by(position).value_or("max_range");
+  if (!in_front(position)) return "target plane";
+  if (auto limit = limits_.broken_by(position)) return *limit;
+  return sensor_.of_claimed(position).limit;
 }
 
 VerifyReport Check::report(const std::vector<Verdict>& verdicts) {
@@ -210,6 +213,7 @@ VerifyReport Check::report(const std::vector<Verdict>& verdicts) {
     report.rays += verdict.rays;
     report.bound_points += verdict.uniform;
     uniform_over += verdict.uniform && verdict.over;
+    report.undecided += verdict.undecided;
     report.over_claimed += verdict.over;
     report.under_claimed += verdict.under;
     if (verdict.over && (!worst_over || verdict.depth > worst_over->depth)) worst_over = &verdict;
@@ -228,12 +232,10 @@ VerifyReport Check::report(const std::vector<Verdict>& verdicts) {
   return report;
 }
 
-void check_arguments(const Sensor& sensor, const VerifyOptions& options) {
+void check_arguments(const VerifyOptions& options) {
   const auto require = [](bool holds, const char* problem, const char* where) {
     if (!holds) throw Error(ErrorCode::value_out_of_range, problem, where, "give a positive, finite number");
   };
-  require(std::isfinite(sensor.max_range_m) && sensor.max_range_m > 0, "the range is not positive and finite",
-          "sensor max_range");
   require(std::isfinite(options.depth_tolerance) && options.depth_tolerance >= 0, "the depth tolerance is negative",
           "verify depth_tolerance");
   require(std::isfinite(options.tolerance_m) && options.tolerance_m >= 0, "the tolerance is negative",
@@ -264,7 +266,8 @@ std::vector<Target> raised_parts(const Target& target, const std::vector<double>
 
 VerifyReport verify_volume(const Scene& scene, const Target& target, const Sensor& sensor, const Navigation& navigation,
                            const Mesh& volume, const VerifyOptions& options, const Progress& callback) {
-  check_arguments(sensor, options);
+  check_sensor(sensor);
+  check_arguments(options);
   const std::vector<Target> parts = raised_parts(target, options.lift_m);
   const internal::verify::Topology topology = internal::verify::topology_of(volume, "volume");
   if (!topology.closed) return report_of_mesh(topology, options);  // it has no inside to try points in
