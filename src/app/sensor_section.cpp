@@ -356,7 +356,7 @@ std::optional<SunTime> parse_time(const std::string& text) {
                                          std::chrono::month(static_cast<unsigned>(number(2))),
                                          std::chrono::day(static_cast<unsigned>(number(3)))};
   if (!date.ok() || number(4) > 23 || number(5) > 59 || number(6) > 60 || number(10) > 59) return std::nullopt;
-  const double days = std::chrono::sys_days(date).time_since_epoch().count();
+  const double days = std::chrono::sys_days{date}.time_since_epoch().count();
   const double zone = (found[8] == "-" ? -1 : 1) * (number(9) * 3600.0 + number(10) * 60);
   return SunTime{text, days * 86400 + number(4) * 3600 + number(5) * 60 + number(6) - zone};
 }

@@ -162,7 +162,8 @@ std::vector<std::string> SensorLimits::broken(const Vec3& scene_point) const {
     return std::any_of(viewed_.parts.begin(), viewed_.parts.end(), breaks);
   };
   std::vector<std::string> broken;
-  if (min_range_m > 0 && some_part([&](const ViewedPart& part) { return distance_to(part, point) < min_range_m; })) {
+  if (min_range_m > 0 &&
+      some_part([&](const ViewedPart& part) { return distance_to(part, point) < sensor_.min_range_m; })) {
     broken.push_back("min_range");
   }
   if (incidence_deg && some_part([&](const ViewedPart& part) { return incidence_margin(part, point) < 0; })) {
@@ -187,7 +188,7 @@ std::vector<double> SensorLimits::changes(const Vec3& origin, const Vec3& direct
   std::vector<double> out;
   for (const ViewedPart& part : viewed_.parts) {
     if (min_range_m > 0) {
-      add_changes([&](double t) { return distance_to(part, at(t)) - min_range_m; }, -1, reach, out);
+      add_changes([&](double t) { return distance_to(part, at(t)) - sensor_.min_range_m; }, -1, reach, out);
     }
     if (incidence_deg) add_changes([&](double t) { return incidence_margin(part, at(t)); }, 1, reach, out);
     if (pixel && pixel->kind == PixelLimit::Kind::worst) {

@@ -182,13 +182,21 @@ void SensorRegions::add_pixel(const ViewedPart& part) {
   keep("pixel", std::move(half_spaces));
 }
 
+/// A polyhedron round the ball, at each corner. Its vertices matter at those corners only that lie farthest in nearly
+/// their directions.
 void SensorRegions::add_min_range(const ViewedPart& part) {
   const SphereMesh sphere = sphere_for(numerics::kMinRangeShare);
-  std::vector<HalfSpace> half_spaces;
+  const double radius = sensor_.min_range_m / std::cos(sphere.cover);
+  double extent = 0;
+  for (const Vec3& corner : part.corners) extent = std::max(extent, 2 * (corner - part.centre).norm());
+  std::vector<Vec3> points;
   for (const Vec3& direction : sphere.mesh.vertices) {
-    half_spaces.push_back({direction, most_along(part.corners, direction) + sensor_.min_range_m});
+    const double least = most_along(part.corners, direction) - 2 * sphere.cover * extent;
+    for (const Vec3& corner : part.corners) {
+      if (corner.dot(direction) >= least) points.push_back(corner + radius * direction);
+    }
   }
-  Mesh mesh = intersect_half_spaces(half_spaces, part.centre);
+  Mesh mesh = convex_hull(points);
   grow_to_hold(mesh, part.centre, [&](const Vec3& direction) {
     return most_along(part.corners, direction) + sensor_.min_range_m * direction.norm();
   });
