@@ -32,17 +32,15 @@ Vec3 sun_direction(double latitude_deg, double longitude_deg, double unix_time_s
   const double sidereal_deg = 15 * (6.697375 + 0.0657098242 * days + hours) + longitude_deg;
   const double hour_angle = sidereal_deg * kRadiansPerDegree - right_ascension;
   const double latitude = latitude_deg * kRadiansPerDegree;
-  const Vec3 direction(
+  Vec3 direction(
       -std::cos(declination) * std::sin(hour_angle),
       std::sin(declination) * std::cos(latitude) - std::cos(declination) * std::sin(latitude) * std::cos(hour_angle),
       std::sin(declination) * std::sin(latitude) + std::cos(declination) * std::cos(latitude) * std::cos(hour_angle));
   const double level = direction.head<2>().norm();
   const double elevation = std::atan2(direction.z(), level);
   const double raised = elevation + refraction_deg(elevation / kRadiansPerDegree) * kRadiansPerDegree;
-  if (level == 0) return direction;
-  Vec3 seen;
-  seen << direction.head<2>() * (std::cos(raised) / level), std::sin(raised);
-  return seen;
+  if (level > 0) direction << direction.head<2>().eval() * (std::cos(raised) / level), std::sin(raised);
+  return direction;
 }
 
 }  // namespace vantage
