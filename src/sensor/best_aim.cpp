@@ -104,11 +104,24 @@ Aim AimFinder::climbed(Aim aim, const Vec3& direction) const {
   return aim;
 }
 
+AimedView AimFinder::next_to(const Aim& aim) const { return view(allowed(aim)); }
+
 AimedView AimFinder::best(const Vec3& direction) const {
   const Aim at_centre = allowed(aim_along(-direction));
   Aim start = allowed(balanced(at_centre, direction));
   if (!(nearness(start, direction) > nearness(at_centre, direction))) start = at_centre;
+  // Next to the vertical another yaw may be much better, and no small turn leads there.
+  constexpr double kSteep = 0.8;  // radians
+  constexpr int kYaws = 24;
+  if (std::abs(at_centre.pitch) > kSteep) {
+    for (int i = 0; i < kYaws; ++i) {
+      const Aim turned = allowed({2 * std::numbers::pi * i / kYaws, at_centre.pitch});
+      if (nearness(turned, direction) > nearness(start, direction)) start = turned;
+    }
+  }
   return view(climbed(start, direction));
 }
+
+AimedView AimFinder::best_near(const Aim& aim, const Vec3& direction) const { return view(climbed(aim, direction)); }
 
 }  // namespace vantage::internal::sensor

@@ -22,6 +22,8 @@ constexpr int kFirstParts = 6;       // of the icosahedron's sides: 720 facets
 constexpr double kNarrowest = 4e-3;  // radians: shorter edges are not halved
 constexpr double kRaise = 1 + 1e-9;  // what is raised is raised beyond rounding
 constexpr int kOwnPasses = 10;
+constexpr int kVerticalAims = 12;  // in half a turn, after which the picture is the same
+constexpr double kSteep = 1.1;     // radians above or below level
 
 /// The smallest turn from one yaw to another.
 double turn(double from, double to) { return std::remainder(to - from, 2 * std::numbers::pi); }
@@ -35,6 +37,14 @@ class FrameSurfaceBuilder {
     for (const Vec3& corner : view.corners) radius_ = std::max(radius_, corner.norm());
     // Beyond this a facet between three corners of the first sphere is out of reach everywhere.
     cap_ = 1.2 * view.reach;
+    // Next to the vertical the best yaws of neighbours are far apart: there one that looks straight down, or up, for
+    // all of them does better.
+    for (const double pitch : {-std::numbers::pi / 2, std::numbers::pi / 2}) {
+      for (int i = 0; i < kVerticalAims; ++i) {
+        const AimedView vertical = finder_.next_to({std::numbers::pi * i / kVerticalAims, pitch});
+        if (std::abs(vertical.aim.pitch) > kSteep) vertical_.push_back(vertical);
+      }
+    }
   }
 
   FrameSurface build();
@@ -58,11 +68,13 @@ class FrameSurfaceBuilder {
   Needs own_needs(const Triangle& facet) const;
   Needs shared_needs(const Triangle& facet) const;
   bool refine();
+  void aim_nodes();
 
   const FrameView& view_;
   AimFinder finder_;
   std::array<double, 2> normal_length_;
   double radius_ = 0, cap_ = 0;
+  std::vector<AimedView> vertical_;
   std::vector<Node> nodes_;
   std::vector<Triangle> facets_;
 };
@@ -102,21 +114,24 @@ FrameSurfaceBuilder::Needs FrameSurfaceBuilder::own_needs(const Triangle& facet)
   return needs;
 }
 
-/// Where one aim, that of a corner, does for all: the places from which it does are convex.
+/// Where one aim, that of a corner or a vertical one, does for all: the places from which it does are convex.
 FrameSurfaceBuilder::Needs FrameSurfaceBuilder::shared_needs(const Triangle& facet) const {
   Needs best{kNever, kNever, kNever};
   double least = kNever;
-  for (const std::uint32_t of : facet) {
+  const auto consider = [&](const AimedView& view) {
     Needs needs;
     double sum = 0;
     for (std::size_t i = 0; i < 3; ++i) {
-      needs[i] = nodes_[of].view.distance(nodes_[facet[i]].direction);
+      needs[i] = view.distance(nodes_[facet[i]].direction);
       sum += std::max(needs[i], nodes_[facet[i]].distance);
     }
-    if (!(sum < least)) continue;
+    if (!(sum < least)) return;
     least = sum;
     best = needs;
-  }
+  };
+  for (const std::uint32_t of : facet) consider(nodes_[of].view);
+  if (std::abs(nodes_[facet[0]].direction.z()) < std::sin(kSteep)) return best;
+  for (const AimedView& view : vertical_) consider(view);
   return best;
 }
 
@@ -185,21 +200,44 @@ bool FrameSurfaceBuilder::refine() {
   return halve_sides(facets_, wants, length, middle, of_facet);
 }
 
+/// The best aim may be one of several that no small turn leads to: what a neighbour has found is tried too.
+void FrameSurfaceBuilder::aim_nodes() {
+  constexpr double kBetter = 1 - 1e-3;
+  for (const Triangle& facet : facets_) {
+    if (!matters(facet)) continue;
+    for (const std::uint32_t i : facet) {
+      Node& node = nodes_[i];
+      if (node.is_known) continue;
+      node.is_known = true;
+      node.view = finder_.best(node.direction);
+      node.best = std::max(node.view.distance(node.direction), view_.least);
+    }
+  }
+  const auto learn = [&](Node& node, const Node& neighbour) {
+    if (!(std::max(neighbour.view.distance(node.direction), view_.least) < kBetter * node.best)) return false;
+    node.view = finder_.best_near(neighbour.view.aim, node.direction);
+    node.best = std::max(node.view.distance(node.direction), view_.least);
+    return true;
+  };
+  for (bool is_better = true; is_better;) {
+    is_better = false;
+    for (const Triangle& facet : facets_) {
+      if (!matters(facet)) continue;
+      for (std::size_t i = 0; i < 3; ++i) {
+        Node &a = nodes_[facet[i]], &b = nodes_[facet[(i + 1) % 3]];
+        if (learn(a, b)) is_better = true;
+        if (learn(b, a)) is_better = true;
+      }
+    }
+  }
+}
+
 FrameSurface FrameSurfaceBuilder::build() {
   SphereMesh sphere = make_sphere(kFirstParts);
   for (const Vec3& direction : sphere.mesh.vertices) nodes_.push_back(Node(direction));
   facets_ = std::move(sphere.mesh.triangles);
   do {
-    for (const Triangle& facet : facets_) {
-      if (!matters(facet)) continue;
-      for (const std::uint32_t i : facet) {
-        Node& node = nodes_[i];
-        if (node.is_known) continue;
-        node.is_known = true;
-        node.view = finder_.best(node.direction);
-        node.best = std::max(node.view.distance(node.direction), view_.least);
-      }
-    }
+    aim_nodes();
     settle();
   } while (facets_.size() < view_.most_facets && refine());
 
