@@ -106,7 +106,8 @@ Aim AimFinder::climbed(Aim aim, const Vec3& direction) const {
 
 AimedView AimFinder::next_to(const Aim& aim) const { return view(allowed(aim)); }
 
-AimedView AimFinder::best(const Vec3& direction) const {
+AimedView AimFinder::best(const Vec3& direction, const std::optional<Aim>& near) const {
+  if (near) return view(climbed(*near, direction));
   const Aim at_centre = allowed(aim_along(-direction));
   Aim start = allowed(balanced(at_centre, direction));
   if (!(nearness(start, direction) > nearness(at_centre, direction))) start = at_centre;
@@ -121,7 +122,5 @@ AimedView AimFinder::best(const Vec3& direction) const {
   }
   return view(climbed(start, direction));
 }
-
-AimedView AimFinder::best_near(const Aim& aim, const Vec3& direction) const { return view(climbed(aim, direction)); }
 
 }  // namespace vantage::internal::sensor

@@ -28,13 +28,12 @@ class AimFinder {
   VANTAGE_INTERNAL_API AimFinder(const std::vector<Vec3>& corners, const Pinhole& camera, const Mount& mount,
                                  double least);
 
-  VANTAGE_INTERNAL_API AimedView view(const Aim& aim) const;
+  AimedView view(const Aim& aim) const;
   /// With the orientation that the mount allows next to the given one.
   VANTAGE_INTERNAL_API AimedView next_to(const Aim& aim) const;
   /// For the viewpoints along a direction of unit length: an allowed orientation that is good, maybe not the best.
-  VANTAGE_INTERNAL_API AimedView best(const Vec3& direction) const;
-  /// What is found near another one: as good for that direction or better.
-  VANTAGE_INTERNAL_API AimedView best_near(const Aim& aim, const Vec3& direction) const;
+  /// `near`: what is found near that one, as good for the direction or better.
+  VANTAGE_INTERNAL_API AimedView best(const Vec3& direction, const std::optional<Aim>& near = {}) const;
   VANTAGE_INTERNAL_API bool is_at_limit(const Aim& aim) const;
 
  private:

@@ -215,7 +215,7 @@ void FrameSurfaceBuilder::aim_nodes() {
   }
   const auto learn = [&](Node& node, const Node& neighbour) {
     if (!(std::max(neighbour.view.distance(node.direction), view_.least) < kBetter * node.best)) return false;
-    node.view = finder_.best_near(neighbour.view.aim, node.direction);
+    node.view = finder_.best(node.direction, neighbour.view.aim);
     node.best = std::max(node.view.distance(node.direction), view_.least);
     return true;
   };

@@ -226,7 +226,7 @@ void SensorRegions::add_sun(const ViewedPart& part) {
 void SensorRegions::add_fixed_frame() {
   const AimFinder finder(viewed_.corners, *sensor_.camera, sensor_.mount, 0);
   const sensor::Aim aim{*sensor_.mount.yaw_deg * kDegree, sensor_.mount.min_pitch_deg * kDegree};
-  const AimedView view = finder.view(aim);
+  const AimedView view = finder.next_to(aim);
   std::vector<HalfSpace> half_spaces;
   for (const Vec3& edge : view.edges) half_spaces.push_back({edge, -most_along(viewed_.corners, -edge)});
   const Vec3 back = -(view.edges[0] + view.edges[1]).normalized();
