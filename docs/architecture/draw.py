@@ -22,7 +22,8 @@ MODULES = {  # name: (left, top, width, what it does)
     "scene": (620, 464, 420, "weld, merge, hierarchy"),
     "geo": (20, 554, 210, "where on the earth (PROJ)"),
     "camera": (250, 554, 150, "cameras by name"),
-    "options": (420, 554, 300, "of maps, spheres, devices: names, ranges"),
+    "sensor": (420, 554, 240, "limits of the sensor, for points"),
+    "options": (680, 554, 300, "of maps, spheres, devices: names, ranges"),
     "core": (20, 644, 1020, "geometry, errors, progress, threads (oneTBB), whole files"),
 }
 USES = [("cli", "app"), ("cli", "query"), ("cli", "verify"), ("cli", "picture"), ("app", "maps/city"), ("app", "spheres"),

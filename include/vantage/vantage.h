@@ -25,6 +25,7 @@
 #include "vantage/result.h"
 #include "vantage/scene.h"
 #include "vantage/scene_source.h"
+#include "vantage/sensor.h"
 #include "vantage/spheres.h"
 #include "vantage/stages.h"
 #include "vantage/target.h"
