@@ -22,8 +22,7 @@ Vec3 nearest_on_segment(const Vec3& a, const Vec3& b, const Vec3& point) {
   return a + share * along;
 }
 
-/// Whether the foot of `offset`, a vector from the first corner to a point, lies in the polygon, looked at along its
-/// normal.
+/// Whether a point lies over or under the polygon, along its normal.
 bool is_over(const ViewedPart& part, const Vec3& point) {
   for (std::size_t i = 0; i < part.corners.size(); ++i) {
     const Vec3& a = part.corners[i];

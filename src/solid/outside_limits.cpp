@@ -88,7 +88,9 @@ Emptiness explain_emptiness(const Solid& volume, const Regions& regions, const c
     return {"the limits leave only slivers as thin as rounding error", "widen the limits"};
   }
   const bool one = keep_out.size() == 1;
-  if (left_name != "the volume") left_name = "what the other limits leave of the volume";
+  if (regions.kept.size() + regions.forbidden.size() > keep_out.size()) {
+    left_name = "what the other limits leave of the volume";
+  }
   return {(one ? keep_out[0]->name + " covers " : std::string("the keep_out boxes cover ")) + left_name +
               span_text(left, regions.origin),
           one ? "make it smaller" : "make them smaller"};
