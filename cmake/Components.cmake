@@ -21,7 +21,6 @@ function(vantage_component name)
   target_compile_features(vantage_${name}_objects PRIVATE cxx_std_20)
   target_link_libraries(vantage_${name}_objects PRIVATE
     Eigen3::Eigen fmt::fmt-header-only ${part_LINK} ${part_BUILD} vantage::options)
-  target_precompile_headers(vantage_${name}_objects PRIVATE ${PROJECT_SOURCE_DIR}/src/precompiled.h)
   set_target_properties(vantage_${name}_objects PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
   vantage_join_sources(vantage_${name}_objects)
 

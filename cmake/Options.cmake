@@ -42,10 +42,10 @@ endif()
 if(PROJECT_IS_TOP_LEVEL AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   find_program(VANTAGE_CCACHE ccache)
   if(VANTAGE_CCACHE)
-    # Paths below the project count as relative, so that a clone elsewhere finds what this one compiled. The sloppiness
-    # is what ccache's manual asks for where headers are precompiled.
+    # Paths below the project count as relative, so that a clone elsewhere finds what this one compiled. Headers are not
+    # precompiled: ccache would hand a header precompiled from one clone to another, where GCC does not know it again by
+    # its path, so that `#pragma once` fails.
     set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=1
-                                    CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime
                                     ${VANTAGE_CCACHE})
   endif()
 endif()

@@ -4,8 +4,7 @@
     lint_file.py BUILD_FOLDER FILE     exit 1 on a finding
 
 What is compared is the preprocessed text with its comments (NOLINT lives in them), without the paths of the folder that
-it was compiled in, the rules, and clang-tidy's version. A header that the build precompiles is not used: clang cannot
-read GCC's, and each file should include what it needs.
+it was compiled in, the rules, and clang-tidy's version.
 """
 
 import hashlib
@@ -28,18 +27,17 @@ def command_of(build, file):
 
 
 def options_of(build, file):
-    """The compiler's options for `file`, without output files and precompiled headers; and the folder."""
+    """The compiler's options for `file`, without output files; and the folder."""
     words, folder = command_of(build, file)
     # From the first option on: before it stand the compiler and what launches it.
     first = next(i for i, word in enumerate(words) if word.startswith("-") and i > 0 and words[i - 1].endswith("++"))
     options, skip = [], 0
     for i, word in enumerate(words[first:], first):
-        is_precompiled = word == "-include" and words[i + 1].endswith("/cmake_pch.hxx")
         if skip > 0:
             skip -= 1
-        elif word in ("-o", "-MT", "-MF") or is_precompiled:
+        elif word in ("-o", "-MT", "-MF"):
             skip = 1
-        elif word not in ("-c", "-MD", "-Winvalid-pch", file):
+        elif word not in ("-c", "-MD", file):
             options.append(word)
     return [*options, "-Wno-unknown-warning-option"], folder  # they may be another compiler's
 

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "solid/csg.h"
+#include "support/internals.h"
 #include "support/random.h"
 #include "support/scenes.h"
 #include "vantage/compare.h"

@@ -13,6 +13,7 @@
 #include "depth/gl_context.h"
 #include "depth/gl_depth.h"
 #include "depth/gl_library.h"
+#include "support/internals.h"
 #include "support/scenes.h"
 #include "support/wording.h"
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/sha256.h"
+#include "support/internals.h"
 #include "support/random.h"
 #include "vantage/error.h"
 #include "vantage/hash.h"

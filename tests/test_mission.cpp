@@ -9,6 +9,7 @@
 
 #include "app/mission_parser.h"
 #include "app/yaml_tree.h"
+#include "support/internals.h"
 #include "support/wording.h"
 #include "vantage/error.h"
 #include "vantage/input.h"

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/scene_warnings.h"
+#include "support/internals.h"
 #include "support/random.h"
 #include "support/shared_data.h"
 #include "support/temporary_directory.h"

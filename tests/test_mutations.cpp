@@ -12,6 +12,7 @@
 #include "exact/collect.h"
 #include "exact/triangulation.h"
 #include "solid/csg.h"
+#include "support/internals.h"
 #include "support/scenes.h"
 #include "vantage/verify.h"
 #include "vantage/volume.h"

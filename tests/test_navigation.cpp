@@ -11,6 +11,7 @@
 #include "core/parallel.h"
 #include "solid/navigation.h"
 #include "solid/triangle_tree.h"
+#include "support/internals.h"
 #include "support/objects.h"
 #include "support/progress_check.h"
 #include "support/solids.h"

@@ -8,6 +8,7 @@
 #include "picture/creases.h"
 #include "picture/draw_list.h"
 #include "picture/view.h"
+#include "support/internals.h"
 #include "support/solids.h"
 #include "support/temporary_directory.h"
 #include "support/wording.h"

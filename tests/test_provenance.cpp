@@ -13,6 +13,7 @@
 #include "vantage/navigation.h"
 #include "vantage/result.h"
 #include "vantage/verify.h"
+#include "vantage/version.h"
 
 namespace vantage {
 namespace {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/parallel.h"
+#include "support/internals.h"
 #include "support/objects.h"
 #include "support/random.h"
 #include "support/solids.h"

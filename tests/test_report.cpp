@@ -4,8 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "support/internals.h"
 #include "support/solids.h"
 #include "vantage/result.h"
+#include "vantage/version.h"
 
 namespace vantage::internal::app {
 namespace {

@@ -8,6 +8,7 @@
 
 #include "app/mission_parser.h"
 #include "app/sensor_section.h"
+#include "support/internals.h"
 #include "support/scenes.h"
 #include "support/temporary_directory.h"
 #include "support/wording.h"

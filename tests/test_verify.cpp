@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/parallel.h"
+#include "support/internals.h"
 #include "support/objects.h"
 #include "support/oracle.h"
 #include "support/progress_check.h"

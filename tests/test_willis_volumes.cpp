@@ -13,6 +13,7 @@
 
 #include "depth/depth.h"
 #include "support/cli_fixture.h"
+#include "support/internals.h"
 #include "support/shared_data.h"
 #include "vantage/willis.h"
 

@@ -13,6 +13,7 @@
 #include "support/temporary_directory.h"
 #include "support/wording.h"
 #include "vantage/error.h"
+#include "vantage/version.h"
 #include "vantage/volume.h"
 
 namespace vantage {
