@@ -133,7 +133,12 @@ void expect_same_boxes(const std::vector<Box>& found, const std::vector<Box>& ex
 
 // All members are named: a limit that is added does not compile here before it is compared.
 void expect_same_limits(const Navigation& found, const Navigation& expected) {
-  const auto& [altitude, keep_in, keep_out, meshes] = found;
+  const auto& [altitude, keep_in, keep_out, meshes, above_ground] = found;
+  ASSERT_EQ(above_ground.has_value(), expected.above_ground.has_value());
+  if (above_ground) {
+    EXPECT_EQ(above_ground->min_m, expected.above_ground->min_m);
+    EXPECT_EQ(above_ground->max_m, expected.above_ground->max_m);
+  }
   ASSERT_EQ(altitude.has_value(), expected.altitude.has_value());
   if (altitude) {
     EXPECT_EQ(altitude->min_m, expected.altitude->min_m);
@@ -159,6 +164,7 @@ TEST(Mission, TextReadsBackAsTheSameMission) {
       "target: {parts: [[[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[5, 0, 0], [6, 0, 0], [6, 1, 0]]]}\n"};
   const std::string rest[] = {
       "sensor: {max_range: 0.1}\n",
+      "sensor: {max_range: 0.1}\nnavigation: {altitude: {agl: [30.5, 120], z: [0, 80]}, ground: -2.5}\n",
       "sensor: {max_range: 150}\nnavigation:\n  altitude: [-20, 120]\n  boxes: [{min: [0, 1, 2], max: [3, 4, 5]}]\n"
       "  keep_out: [{min: [6, 7, 8], max: [9, 10, 11]}]\n  meshes: [airspace.ply, {mesh: old.obj, up: y, scale: 2}]\n"
       "method: spheres\nexact: {tolerance: 0.02}\nspheres: {sphere: centers, cubemap: 100, resolution: [160, 80],\n"

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "vantage/geometry.h"
+#include "vantage/ground.h"
 #include "vantage/sensor.h"
 
 namespace vantage {
@@ -26,7 +27,15 @@ struct Navigation {
   std::vector<Box> keep_out;       ///< each is taken away
   std::vector<KeepInMesh> meshes;  ///< the volume is cut to each
 
-  bool empty() const { return !altitude && keep_in.empty() && keep_out.empty() && meshes.empty(); }
+  /// How far a viewpoint is above the ground at its x and y. Where pieces of ground lie over each other there, it is
+  /// that far above each of them. Where there is no ground, nothing is allowed.
+  struct AboveGround {
+    double min_m = 0.0, max_m = 0.0;  ///< min < max
+    Ground ground;
+  };
+  std::optional<AboveGround> above_ground = {};
+
+  bool empty() const { return !altitude && keep_in.empty() && keep_out.empty() && meshes.empty() && !above_ground; }
 };
 
 }  // namespace vantage

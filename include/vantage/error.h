@@ -115,7 +115,7 @@ enum class ErrorCode {
   map_syntax,          ///< an OpenStreetMap file is cut off or garbled
   map_empty,           ///< a map holds nothing that can be built
   map_object_missing,  ///< a map has no such area
-  ground_missing,      ///< a scene has no ground to put a target on
+  ground_missing,      ///< a scene has no ground to put a target on, or to be above
   region_invalid,      ///< a region is not valid: reversed, without extent or too large
   region_outside,      ///< a region lies outside the map or raster
   region_empty,        ///< nothing in a region can be used

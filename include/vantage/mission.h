@@ -70,9 +70,15 @@ struct NavigationMeshFile {
   std::optional<double> scale = std::nullopt;
 };
 
+/// What heights above the ground are measured from, as a mission file names it: one of the two.
+struct GroundSource {
+  std::optional<double> plane_z_m = std::nullopt;  ///< the ground is flat and lies at this z
+  std::string object = {};                         ///< display name, name or source_id of an object of the scene
+};
+
 /// Where in a mission file things are said ("mission.yaml:9:13"), for messages. Empty for a mission made in memory.
 struct MissionPlaces {
-  std::string scene, terrain, target, sensor;
+  std::string scene, terrain, target, sensor, above_ground;
   std::vector<std::string> navigation_meshes;
 };
 
@@ -89,7 +95,8 @@ struct MissionFile {
   std::optional<CameraSource> camera = std::nullopt;  ///< says what sensor.camera is
   std::optional<SunTime> sun_time = std::nullopt;     ///< says where the sun stands, once the scene is known; without
                                                       ///< it sensor.sun has the direction
-  Navigation navigation;                              ///< without meshes
+  Navigation navigation;                              ///< without meshes, and above_ground without its ground
+  std::optional<GroundSource> ground = std::nullopt;  ///< of above_ground; without it the scene's
   std::vector<NavigationMeshFile> navigation_meshes = {};
   Method method = Method::exact;
   ExactOptions exact;      ///< but for the threads: RunOptions::threads
@@ -132,7 +139,8 @@ struct Mission {
 ///
 /// Throws as load_scene does, and Error(input) with the place in the mission file for: a scene that does not say where
 /// on the earth it lies, a position without a value, an object that the map does not have, a target farther off the
-/// ground than max_range or beyond ground that cannot be extended, a navigation mesh whose heights are measured from
+/// ground than max_range or beyond ground that cannot be extended, a limit above the ground in a scene that does not
+/// say what of it is ground, a navigation mesh whose heights are measured from
 /// another level than the scene's, and all that make_target_frame refuses.
 VANTAGE_API Mission resolve_mission(const MissionFile& mission, const Progress& progress = {});
 

@@ -22,7 +22,8 @@ struct PointAnswer {
   bool out_of_range = false;
   bool behind_target = false;  ///< never for a point that is seen from all sides
   std::vector<std::string>
-      outside_of;  ///< limits that the point breaks: "altitude min", "boxes", "keep_out 0", "mesh NAME";
+      outside_of;  ///< limits that the point breaks: "altitude min", "agl max", "ground edge", "boxes",
+                   ///< "keep_out 0", "mesh NAME";
                    ///< of the sensor "min_range", "incidence", "pixel", "frame", "gimbal", "sun"
 };
 

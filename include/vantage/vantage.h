@@ -12,6 +12,7 @@
 #include "vantage/fraction.h"
 #include "vantage/geometry.h"
 #include "vantage/georeference.h"
+#include "vantage/ground.h"
 #include "vantage/hash.h"
 #include "vantage/input.h"
 #include "vantage/json.h"

@@ -109,9 +109,9 @@ void check_near(const Box& box, const std::string& name, const CrsConverter& con
 }
 
 // All members are named: a limit that is added does not compile here before it is converted. An
-// altitude is one of the scene frame, and meshes say themselves where they lie.
+// altitude is one of the scene frame, the ground is the scene's, and meshes say themselves where they lie.
 void convert_limits(Navigation& navigation, const CrsConverter& converter, const std::string& where) {
-  auto& [altitude, keep_in, keep_out, meshes] = navigation;
+  auto& [altitude, keep_in, keep_out, meshes, above_ground] = navigation;
   for (std::size_t i = 0; i < keep_in.size(); ++i) {
     check_near(converter.around(keep_in[i]), "box " + std::to_string(i) + " of navigation.boxes", converter, where);
     Box& box = keep_in[i];

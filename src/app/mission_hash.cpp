@@ -26,11 +26,17 @@ SortedJson sorted_json_of(const std::vector<Box>& boxes) {
 
 // All members are named: a limit that is added does not compile here before it is hashed.
 SortedJson sorted_json_of(const Navigation& limits) {
-  const auto& [altitude, keep_in, keep_out, meshes] = limits;
+  const auto& [altitude, keep_in, keep_out, meshes, above_ground] = limits;
   SortedJson json = {{"boxes", sorted_json_of(keep_in)}, {"keep_out", sorted_json_of(keep_out)}};
   json["altitude"] = altitude ? SortedJson{number_text(altitude->min_m), number_text(altitude->max_m)} : SortedJson();
   json["meshes"] = SortedJson::array();
   for (const KeepInMesh& mesh : meshes) json["meshes"].push_back(volume_hash(mesh.mesh));
+  if (above_ground) {
+    const Ground& ground = above_ground->ground;
+    json["agl"] = {
+        {"range", {number_text(above_ground->min_m), number_text(above_ground->max_m)}},
+        {"ground", ground.surface ? SortedJson(volume_hash(*ground.surface)) : number_text(ground.plane_z_m)}};
+  }
   return json;
 }
 

@@ -35,7 +35,9 @@ class MissionParser : private ValueReader {
   void parse_method(const YamlNode& node);
   void parse_exact(const YamlNode& node);
   void add_mesh(const YamlNode& node);
-  Navigation::Altitude altitude(const YamlNode& node) const;
+  void parse_altitude(const YamlNode& node);
+  void parse_ground(const YamlNode& node);
+  std::array<double, 2> heights(const YamlNode& node, const std::string& what, const std::string& form) const;
   std::vector<Box> boxes(const YamlNode& node, const std::string& what) const;
   Box box(const YamlNode& node, const std::string& what) const;
   void check_extent(const YamlNode& node, const std::string& what, int axis, const Box& box) const;
@@ -277,7 +279,8 @@ void MissionParser::parse_navigation(const YamlNode& node) {
   if (node.kind == YamlNode::Kind::null) return;  // the heading alone: no limits
   check_keys(node, Section::navigation, file());
   Navigation& navigation = mission_.navigation;
-  if (const YamlNode* band = find(node, "altitude")) navigation.altitude = altitude(*band);
+  if (const YamlNode* altitude = find(node, "altitude")) parse_altitude(*altitude);
+  if (const YamlNode* ground = find(node, "ground")) parse_ground(*ground);
   if (const YamlNode* keep_in = find(node, "boxes")) {
     navigation.keep_in = boxes(*keep_in, "navigation.boxes");
     // "Cut to the union of no boxes" would leave nothing, and "no limit" is not what the key says either.
@@ -305,20 +308,58 @@ void MissionParser::parse_navigation(const YamlNode& node) {
   }
 }
 
-Navigation::Altitude MissionParser::altitude(const YamlNode& node) const {
-  const std::string form = "write the lowest and the highest altitude in metres: [20, 120]";
-  if (list(node, "navigation.altitude", form).size() != 2) {
-    fail(ErrorCode::wrong_type, node, "navigation.altitude must be two numbers, not " + describe(node), form);
+void MissionParser::parse_altitude(const YamlNode& node) {
+  Navigation& navigation = mission_.navigation;
+  const auto altitude = [&](const YamlNode& band, const std::string& what, const std::string& form) {
+    const auto [low, high] = heights(band, what, form);
+    navigation.altitude = {low, high};
+  };
+  if (node.kind != YamlNode::Kind::map) {
+    return altitude(
+        node, "navigation.altitude",
+        "write the lowest and the highest altitude in metres: [20, 120]; or {agl: [20, 120]} above the ground");
   }
-  const double low = length(node.items[0], "navigation.altitude[0]");
-  const double high = length(node.items[1], "navigation.altitude[1]");
+  check_keys(node, Section::altitude, file());
+  const YamlNode *agl = find(node, "agl"), *z = find(node, "z");
+  if (!agl && !z) {
+    fail(ErrorCode::nothing_given, node, "navigation.altitude says nothing",
+         "write {agl: [20, 120]} for heights above the ground, {z: [20, 120]} for heights in the scene, or both");
+  }
+  if (z) altitude(*z, "navigation.altitude.z", "write the lowest and the highest z in metres: [20, 120]");
+  if (!agl) return;
+  const auto [low, high] = heights(*agl, "navigation.altitude.agl",
+                                   "write the lowest and the highest height above the ground in metres: [20, 120]");
+  navigation.above_ground = {low, high, {}};
+  mission_.places.above_ground = place_in(file(), agl->place);
+}
+
+void MissionParser::parse_ground(const YamlNode& node) {
+  if (!mission_.navigation.above_ground) {
+    fail(ErrorCode::not_applicable, node, "navigation.ground is given, and no limit above the ground",
+         "write 'altitude: {agl: [20, 120]}', or leave 'ground' out");
+  }
+  GroundSource& ground = mission_.ground.emplace();
+  if (parse_number(node.text).fault == NumberFault::none && node.kind == YamlNode::Kind::scalar && !node.is_quoted) {
+    ground.plane_z_m = length(node, "navigation.ground");
+  } else {
+    ground.object = text(node, "navigation.ground");
+  }
+  mission_.places.above_ground = place_in(file(), node.place);
+}
+
+/// The lower one first.
+std::array<double, 2> MissionParser::heights(const YamlNode& node, const std::string& what,
+                                             const std::string& form) const {
+  if (list(node, what, form).size() != 2) {
+    fail(ErrorCode::wrong_type, node, what + " must be two numbers, not " + describe(node), form);
+  }
+  const double low = length(node.items[0], what + "[0]"), high = length(node.items[1], what + "[1]");
   if (low > high) {
-    fail(ErrorCode::limits_reversed, node,
-         "navigation.altitude is reversed: " + shortest(low) + " is above " + shortest(high),
-         "write the lower altitude first: [" + shortest(high) + ", " + shortest(low) + "]");
+    fail(ErrorCode::limits_reversed, node, what + " is reversed: " + shortest(low) + " is above " + shortest(high),
+         "write the lower one first: [" + shortest(high) + ", " + shortest(low) + "]");
   }
   if (low == high) {
-    fail(ErrorCode::limits_empty, node, "navigation.altitude holds no air: both limits are " + shortest(low), form);
+    fail(ErrorCode::limits_empty, node, what + " holds no air: both limits are " + shortest(low), form);
   }
   return {low, high};
 }

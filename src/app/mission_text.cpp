@@ -180,9 +180,18 @@ class Writer {
 
   // All members are named: a limit that is added does not compile here before it is written.
   std::string navigation() const {
-    const auto& [altitude, keep_in, keep_out, resolved_meshes] = mission_.navigation;
+    const auto& [altitude, keep_in, keep_out, resolved_meshes, above_ground] = mission_.navigation;
     Section section("navigation");
-    if (altitude) section.add("altitude", list_of(std::array{altitude->min_m, altitude->max_m}));
+    const std::string z = altitude ? list_of(std::array{altitude->min_m, altitude->max_m}) : "";
+    if (above_ground) {
+      const std::string agl = list_of(std::array{above_ground->min_m, above_ground->max_m});
+      section.add("altitude", "{agl: " + agl + (altitude ? ", z: " + z : "") + "}");
+    } else if (altitude) {
+      section.add("altitude", z);
+    }
+    if (const auto& ground = mission_.ground) {
+      section.add("ground", ground->plane_z_m ? shortest(*ground->plane_z_m) : quoted(ground->object));
+    }
     if (!keep_in.empty()) section.add("boxes", boxes(keep_in));
     if (!keep_out.empty()) section.add("keep_out", boxes(keep_out));
     std::string meshes;

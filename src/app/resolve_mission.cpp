@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "app/components/solid.h"
+#include "app/find_ground.h"
 #include "app/georeferencing.h"
 #include "app/ground_room.h"
 #include "app/input_file.h"
@@ -45,6 +46,7 @@ Mission assembled(const MissionFile& file, const std::vector<internal::app::Navi
   Mission mission{file, std::move(loaded), file.target, file.sensor, file.navigation, 0};
   mission.navigation.meshes = internal::app::placed_navigation_meshes(meshes, mission.loaded.scene);
   internal::app::georeference(mission, progress);
+  internal::app::find_ground(mission);
   return mission;
 }
 

@@ -15,8 +15,8 @@ struct SectionKeys {
   std::vector<std::string_view> keys;
 };
 
-const std::array<SectionKeys, 14>& table() {
-  static const std::array<SectionKeys, 14> kTable = {{
+const std::array<SectionKeys, 15>& table() {
+  static const std::array<SectionKeys, 15> kTable = {{
       {Section::mission,
        "the mission",
        {"scene", "crs", "target", "sensor", "navigation", "method", "exact", "spheres"}},
@@ -36,7 +36,8 @@ const std::array<SectionKeys, 14>& table() {
       {Section::gimbal, "sensor.gimbal", {"yaw", "pitch", "roll"}},
       {Section::pixel, "sensor.pixel", {"size", "kind"}},
       {Section::sun, "sensor.sun", {"time", "azimuth", "elevation", "exclude"}},
-      {Section::navigation, "navigation", {"altitude", "boxes", "keep_out", "meshes"}},
+      {Section::navigation, "navigation", {"altitude", "ground", "boxes", "keep_out", "meshes"}},
+      {Section::altitude, "navigation.altitude", {"agl", "z"}},
       {Section::box, "a box", {"min", "max"}},
       {Section::mesh, "an entry of navigation.meshes", {"mesh", "up", "scale"}},
       {Section::exact, "exact", {"tolerance"}},

@@ -23,6 +23,7 @@ enum class Section {
   pixel,
   sun,
   navigation,
+  altitude,
   box,
   mesh,
   exact,

@@ -65,13 +65,14 @@ struct Part {
 Limits::Limits(Navigation navigation, sensor::SensorLimits sensor)
     : navigation_(std::move(navigation)), sensor_(std::move(sensor)) {
   for (const KeepInMesh& mesh : navigation_.meshes) mesh_boxes_.push_back(bounding_box(mesh.mesh));
+  if (navigation_.above_ground) ground_.emplace(navigation_.above_ground->ground);
 }
 
 // All members of Navigation are named, here and below: a limit that is added does not compile before it is answered.
 
 /// The line within reach, cut wherever it passes a limit: between neighbours all of it is allowed or none.
 std::vector<double> Limits::cut_line(const ViewRay& line) const {
-  const auto& [altitude, keep_in, keep_out, meshes] = navigation_;
+  const auto& [altitude, keep_in, keep_out, meshes, above_ground] = navigation_;
   std::vector<double> cuts;
   if (altitude) {
     Box band;
@@ -82,6 +83,11 @@ std::vector<double> Limits::cut_line(const ViewRay& line) const {
   for (const Box& box : keep_in) add_box_crossings(box, line, cuts);
   for (const Box& box : keep_out) add_box_crossings(box, line, cuts);
   for (const KeepInMesh& mesh : meshes) add_mesh_crossings(mesh.mesh, line, cuts);
+  if (above_ground) {
+    for (const double above_m : {above_ground->min_m, above_ground->max_m}) {
+      ground_->add_crossings(line.origin, line.direction, line.reach, above_m, cuts);
+    }
+  }
   if (!sensor_.none()) {
     const std::vector<double> changes = sensor_.changes(line.origin, line.direction, line.reach);
     cuts.insert(cuts.end(), changes.begin(), changes.end());
@@ -113,14 +119,25 @@ double Limits::signed_margin(const ViewRay& line, double at, bool is_inside) con
   return is_inside ? std::max(line.reach - at, 0.0) : -INFINITY;
 }
 
+void Limits::add_broken_above_ground(const Vec3& point, std::vector<std::string>& broken) const {
+  const auto ground = ground_->at(point.x(), point.y());
+  if (!ground) {
+    broken.push_back("ground edge");
+    return;
+  }
+  if (point.z() < ground->highest_m + navigation_.above_ground->min_m) broken.push_back("agl min");
+  if (point.z() > ground->lowest_m + navigation_.above_ground->max_m) broken.push_back("agl max");
+}
+
 std::vector<std::string> Limits::broken(const Vec3& point) const {
-  const auto& [altitude, keep_in, keep_out, meshes] = navigation_;
+  const auto& [altitude, keep_in, keep_out, meshes, above_ground] = navigation_;
   const auto holds = [&](const Box& box) { return inside(box, point); };
   std::vector<std::string> broken;
   if (altitude) {
     if (point.z() < altitude->min_m) broken.push_back("altitude min");
     if (point.z() > altitude->max_m) broken.push_back("altitude max");
   }
+  if (above_ground) add_broken_above_ground(point, broken);
   if (!keep_in.empty() && std::none_of(keep_in.begin(), keep_in.end(), holds)) broken.push_back("boxes");
   for (std::size_t i = 0; i < keep_out.size(); ++i)
     if (strictly_inside(keep_out[i], point)) broken.push_back("keep_out " + std::to_string(i));

@@ -1,9 +1,11 @@
 // Which limits, of navigation and of the sensor, a point breaks.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "query/ground_heights.h"
 #include "sensor/sensor_limits.h"
 #include "vantage/constraints.h"
 
@@ -21,9 +23,10 @@ class Limits {
  public:
   Limits(Navigation navigation, sensor::SensorLimits sensor);
 
-  /// Names as in reports: "altitude min", "altitude max", "boxes" (the point is in none of them), "keep_out 2", "mesh
-  /// NAME", then the sensor's (SensorLimits::broken). Borders belong to the allowed side. Cost: linear in the triangles
-  /// of the navigation meshes whose boxes hold the point.
+  /// Names as in reports: "altitude min", "altitude max", "agl min", "agl max", "ground edge" (no ground above or below
+  /// the point), "boxes" (the point is in none of them), "keep_out 2", "mesh NAME", then the sensor's
+  /// (SensorLimits::broken). Borders belong to the allowed side. Cost: linear in the triangles of the navigation meshes
+  /// whose boxes hold the point.
   std::vector<std::string> broken(const Vec3& point) const;
 
   /// Signed distance, along the line, from the point at `at` metres from its origin (negative: behind the target) to
@@ -35,10 +38,12 @@ class Limits {
 
  private:
   std::vector<double> cut_line(const ViewRay& line) const;
+  void add_broken_above_ground(const Vec3& point, std::vector<std::string>& broken) const;
 
   Navigation navigation_;
   sensor::SensorLimits sensor_;
   std::vector<Box> mesh_boxes_;
+  std::optional<GroundHeights> ground_;  ///< where heights above it are limited
 };
 
 }  // namespace vantage::internal::query

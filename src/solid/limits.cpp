@@ -48,11 +48,33 @@ void check_boxes(const std::vector<Box>& boxes, const std::string& name, const s
   }
 }
 
+void check_ground(const Ground& ground) {
+  const auto refuse = [](const char* problem, const char* fix) {
+    throw Error(ErrorCode::value_out_of_range, problem, "navigation.ground", fix);
+  };
+  if (!std::isfinite(ground.plane_z_m)) refuse("the plane of the ground is not finite", "give its z in metres");
+  if (!ground.surface) return;
+  for (const Vec3& vertex : ground.surface->vertices) {
+    if (!vertex.allFinite()) refuse("the ground has a vertex that is not finite", "mend the ground");
+  }
+  for (const Triangle& triangle : ground.surface->triangles) {
+    for (const std::uint32_t vertex : triangle) {
+      if (vertex >= ground.surface->vertices.size()) {
+        refuse("the ground has a triangle with an index out of range", "mend the ground");
+      }
+    }
+  }
+}
+
 }  // namespace
 
 void check_limits(const Navigation& navigation) {
   if (navigation.altitude) {
     check_pair(navigation.altitude->min_m, navigation.altitude->max_m, "the altitude band", "", "navigation.altitude");
+  }
+  if (const auto& limit = navigation.above_ground) {
+    check_pair(limit->min_m, limit->max_m, "the band above the ground", "", "navigation.altitude.agl");
+    check_ground(limit->ground);
   }
   check_boxes(navigation.keep_in, "box", "boxes");
   check_boxes(navigation.keep_out, "keep_out", "keep_out");

@@ -43,6 +43,11 @@ Emptiness explain_region(const Region& region, const Solid& left, const std::str
   switch (region.kind) {
     case RegionKind::altitude:
       return explain_altitude(region, left, origin);
+    case RegionKind::above_ground:
+      return {region.name + (region.solid.empty() ? " is empty: there is no ground under " : " does not meet ") +
+                  left_name + span_text(left, origin),
+              region.solid.empty() ? "enlarge the scene, or give the ground's z: 'navigation.ground: 0'"
+                                   : "widen the band"};
     case RegionKind::box:
       return {region.name + " does not meet " + left_name + span_text(left, origin),
               "move or enlarge a box so that it overlaps this"};

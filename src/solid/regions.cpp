@@ -7,6 +7,7 @@
 
 #include "core/causes.h"
 #include "core/text.h"
+#include "solid/ground_band.h"
 #include "solid/numerics.h"
 
 namespace vantage::internal::solid {
@@ -44,6 +45,7 @@ class Builder {
   }
 
   void add_altitude(const Navigation::Altitude& altitude);
+  void add_above_ground(const Navigation::AboveGround& limit);
   void add_boxes(const std::vector<Box>& boxes);
   void add_mesh(const Mesh& mesh, const std::string& name);
   void add_keep_out(const Box& box, std::size_t index);
@@ -60,6 +62,8 @@ class Builder {
     return static_cast<std::uint32_t>(result_.sources.size() - 1);
   }
   Solid make_side_labelled_box(const Box& box, const SideCauses& causes);
+  void add_band(RegionKind kind, const std::string& name, const Box& band, const char* min_cause,
+                const char* max_cause);
   Solid make_box_of_one_cause(const Box& box, const std::string& name);
 
   Box bounds_, outer_;
@@ -85,20 +89,47 @@ Solid Builder::make_box_of_one_cause(const Box& box, const std::string& name) {
   return make_side_labelled_box(box, causes);
 }
 
+/// "20 to 120 m"
+std::string metres_from_to(double min_m, double max_m) {
+  return core::number_text(min_m) + " to " + core::number_text(max_m) + " m";
+}
+
+/// `band`: of which z alone is meant.
+void Builder::add_band(RegionKind kind, const std::string& name, const Box& band, const char* min_cause,
+                       const char* max_cause) {
+  if (contains(band, bounds_)) return;
+  if (!insides_meet(band, bounds_)) {
+    result_.kept.push_back({kind, name, Solid(), band});
+    return;
+  }
+  const std::uint32_t min = add_cause(min_cause), max = add_cause(max_cause);
+  result_.kept.push_back({kind, name, make_side_labelled_box(band, {min, min, min, max, max, max}), band});
+}
+
 void Builder::add_altitude(const Navigation::Altitude& altitude) {
   Box band = outer_;
   band.min.z() = altitude.min_m;
   band.max.z() = altitude.max_m;
-  if (contains(band, bounds_)) return;
-  std::string name("the altitude band ");
-  name.append(core::number_text(altitude.min_m)).append(" to ").append(core::number_text(altitude.max_m)).append(" m");
-  if (!insides_meet(band, bounds_)) {
-    result_.kept.push_back({RegionKind::altitude, name, Solid(), band});
-    return;
+  add_band(RegionKind::altitude, "the altitude band " + metres_from_to(altitude.min_m, altitude.max_m), band,
+           "altitude min", "altitude max");
+}
+
+void Builder::add_above_ground(const Navigation::AboveGround& limit) {
+  const auto& [min_m, max_m, ground] = limit;
+  const std::string name = "the band " + metres_from_to(min_m, max_m) + " above the ground";
+  if (!ground.surface) {
+    Box band = outer_;
+    band.min.z() = ground.plane_z_m + min_m;
+    band.max.z() = ground.plane_z_m + max_m;
+    return add_band(RegionKind::altitude, name, band, "agl min", "agl max");
   }
-  const std::uint32_t min = add_cause("altitude min"), max = add_cause("altitude max");
-  result_.kept.push_back(
-      {RegionKind::altitude, name, make_side_labelled_box(band, {min, min, min, max, max, max}), band});
+  const auto label = [&](const char* cause) { return add_source({add_cause(cause)}); };
+  GroundBandLabels labels;
+  labels.min = label("agl min");
+  labels.max = label("agl max");
+  labels.edge = label("ground edge");
+  result_.kept.push_back({RegionKind::above_ground, name,
+                          make_ground_band(*ground.surface, min_m, max_m, outer_, result_.origin, labels)});
 }
 
 void Builder::add_boxes(const std::vector<Box>& boxes) {
@@ -168,9 +199,10 @@ void set_mesh(LabelledMesh labelled, const std::vector<FacetSource>& sources, st
 // All members are named: a limit that is added does not compile here before it is cut.
 Regions make_regions(const std::vector<Cause>& volume_causes, const std::vector<FacetSource>& volume_sources,
                      const Box& bounds, const Navigation& navigation, const std::vector<Mesh>& meshes) {
-  const auto& [altitude, keep_in, keep_out, keep_in_meshes] = navigation;
+  const auto& [altitude, keep_in, keep_out, keep_in_meshes, above_ground] = navigation;
   Builder builder(volume_causes, volume_sources, bounds);
   if (altitude) builder.add_altitude(*altitude);
+  if (above_ground) builder.add_above_ground(*above_ground);
   builder.add_boxes(keep_in);
   for (std::size_t i = 0; i < meshes.size(); ++i) builder.add_mesh(meshes[i], keep_in_meshes[i].name);
   for (std::size_t i = 0; i < keep_out.size(); ++i) builder.add_keep_out(keep_out[i], i);

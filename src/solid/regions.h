@@ -39,7 +39,7 @@ class FacetSourceList {
 void set_mesh(LabelledMesh labelled, const std::vector<FacetSource>& sources, std::vector<Cause> causes,
               Volume& volume);
 
-enum class RegionKind { altitude, box, boxes, mesh, keep_out, sensor };
+enum class RegionKind { altitude, above_ground, box, boxes, mesh, keep_out, sensor };
 
 /// Space to stay in or out of. All boxes to stay in are one region, since the volume is cut to their union.
 struct Region {

@@ -31,6 +31,13 @@ Limits::Limits(const Navigation& navigation, const Vec3& origin) : navigation_(n
     throw Error(ErrorCode::limits_reversed, "the altitude band is reversed or empty", "navigation altitude",
                 "give the lower altitude first");
   }
+  if (const auto& limit = navigation_.above_ground) {
+    if (!(limit->min_m < limit->max_m)) {
+      throw Error(ErrorCode::limits_reversed, "the band above the ground is reversed or empty", "navigation altitude",
+                  "give the lower height first");
+    }
+    ground_.emplace(*limit);
+  }
   check(navigation_.keep_in, "box");
   check(navigation_.keep_out, "keep_out");
   for (const KeepInMesh& keep_in : navigation_.meshes) {
@@ -40,11 +47,14 @@ Limits::Limits(const Navigation& navigation, const Vec3& origin) : navigation_(n
 
 // All members are named: a limit that is added does not compile here before it is checked.
 std::optional<std::string> Limits::broken_by(const Vec3& point) const {
-  const auto& [altitude, keep_in, keep_out, meshes] = navigation_;
+  const auto& [altitude, keep_in, keep_out, meshes, above_ground] = navigation_;
   const Vec3 scene_point = point + origin_;
   if (altitude) {
     if (scene_point.z() < altitude->min_m) return "altitude min";
     if (scene_point.z() > altitude->max_m) return "altitude max";
+  }
+  if (ground_) {
+    if (const auto limit = ground_->broken_by(scene_point)) return *limit;
   }
   const auto holds = [&scene_point](const Box& box) { return within(box, scene_point); };
   if (!keep_in.empty() && std::none_of(keep_in.begin(), keep_in.end(), holds)) return "box";

@@ -7,6 +7,7 @@
 
 #include "vantage/constraints.h"
 #include "verify/closed_mesh.h"
+#include "verify/ground_probe.h"
 
 namespace vantage::internal::verify {
 
@@ -22,6 +23,7 @@ class Limits {
   Navigation navigation_;  ///< altitude and boxes; the meshes are in `meshes_`
   Vec3 origin_;
   std::vector<ClosedMesh> meshes_;
+  std::optional<GroundProbe> ground_;
 };
 
 }  // namespace vantage::internal::verify

@@ -1,0 +1,30 @@
+// The ground that heights are measured from.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "vantage/export.h"
+#include "vantage/geometry.h"
+#include "vantage/scene.h"
+
+namespace vantage {
+
+/// A plane, or triangles. Beyond the triangles, in plan, there is no ground.
+struct Ground {
+  double plane_z_m = 0;  ///< without triangles: the ground lies at this z everywhere
+  /// Scene frame, metres; shared, since it may be as large as the scene. Triangles may face up or down, and may lie
+  /// over each other. Vertical ones do not count.
+  std::shared_ptr<const Mesh> surface = {};
+};
+
+/// The ground of a scene: its objects of ObjectKind::ground, or else of ObjectKind::surface, which is the highest of
+/// ground, roofs and trees. Flat ground of a map goes on beyond the map: it is a plane. Nothing where the scene has no
+/// such object with triangles. Cost: linear.
+VANTAGE_API std::optional<Ground> ground_of(const Scene& scene);
+
+/// The triangles of one object. Throws Error(input) for an index out of range and an object without triangles.
+VANTAGE_API Ground ground_of(const Scene& scene, std::uint32_t object);
+
+}  // namespace vantage

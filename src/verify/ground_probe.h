@@ -1,0 +1,28 @@
+// How far a point is above the ground, for the check.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "vantage/constraints.h"
+#include "verify/box_index.h"
+
+namespace vantage::internal::verify {
+
+class GroundProbe {
+ public:
+  explicit GroundProbe(const Navigation::AboveGround& limit);
+
+  /// "agl min", "agl max" or "ground edge" where the point (scene frame) breaks it; nothing where it does not, or by
+  /// less than rounding.
+  std::optional<const char*> broken_by(const Vec3& point) const;
+
+ private:
+  double min_m_, max_m_;
+  Ground ground_;
+  double allowance_m_ = 0;  ///< for rounding
+  Box bounds_;              ///< of the triangles
+  std::optional<BoxIndex> index_;
+};
+
+}  // namespace vantage::internal::verify

@@ -1,0 +1,428 @@
+// Limits by the height above the ground: the cut, the answers for points and the check, against heights by brute force.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "support/random.h"
+#include "support/shared_data.h"
+#include "support/solids.h"
+#include "support/temporary_directory.h"
+#include "support/wording.h"
+#include "vantage/error.h"
+#include "vantage/ground.h"
+#include "vantage/mission.h"
+#include "vantage/navigation.h"
+#include "vantage/query.h"
+#include "vantage/verify.h"
+#include "vantage/volume.h"
+
+namespace vantage {
+namespace {
+
+using testing::first_open_edge;
+using testing::make_hemisphere;
+using testing::Random;
+
+/// Hills over [-extent, extent]^2: a grid with its posts moved aside, two triangles for each cell.
+Mesh make_hills(Random& random, double extent, double height, int cells, const Vec3& origin) {
+  Mesh mesh;
+  const double cell = 2 * extent / cells;
+  for (int row = 0; row <= cells; ++row) {
+    for (int column = 0; column <= cells; ++column) {
+      const bool is_inside = row > 0 && column > 0 && row < cells && column < cells;
+      const double aside = is_inside ? random.uniform(-0.3, 0.3) * cell : 0;
+      const double along = is_inside ? random.uniform(-0.3, 0.3) * cell : 0;
+      mesh.vertices.push_back(
+          origin + Vec3(column * cell - extent + aside, row * cell - extent + along, random.uniform(-height, height)));
+    }
+  }
+  const auto post = [&](int row, int column) { return static_cast<std::uint32_t>(row * (cells + 1) + column); };
+  for (int row = 0; row < cells; ++row) {
+    for (int column = 0; column < cells; ++column) {
+      mesh.triangles.push_back({post(row, column), post(row, column + 1), post(row + 1, column + 1)});
+      // Soups have triangles of either turn.
+      const bool faces_up = random.chance(0.5);
+      const Triangle other{post(row, column), post(row + 1, column + 1), post(row + 1, column)};
+      mesh.triangles.push_back(faces_up ? other : Triangle{other[0], other[2], other[1]});
+    }
+  }
+  return mesh;
+}
+
+struct Heights {
+  bool any = false;
+  double lowest = INFINITY, highest = -INFINITY;
+};
+
+/// Of all triangles that a vertical line meets, in long double.
+Heights heights_at(const Mesh& mesh, const Vec3& p) {
+  Heights heights;
+  for (const Triangle& t : mesh.triangles) {
+    long double weight[3];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3 &a = mesh.vertices[t[(k + 1) % 3]], &b = mesh.vertices[t[(k + 2) % 3]];
+      weight[k] = (static_cast<long double>(b.x()) - a.x()) * (static_cast<long double>(p.y()) - a.y()) -
+                  (static_cast<long double>(b.y()) - a.y()) * (static_cast<long double>(p.x()) - a.x());
+    }
+    const long double sum = weight[0] + weight[1] + weight[2];
+    if (sum == 0 || weight[0] / sum < 0 || weight[1] / sum < 0 || weight[2] / sum < 0) continue;
+    long double z = 0;
+    for (std::size_t k = 0; k < 3; ++k) z += weight[k] / sum * mesh.vertices[t[k]].z();
+    heights.any = true;
+    heights.lowest = std::min(heights.lowest, static_cast<double>(z));
+    heights.highest = std::max(heights.highest, static_cast<double>(z));
+  }
+  return heights;
+}
+
+Navigation above(Mesh ground, double min_m, double max_m) {
+  Navigation navigation;
+  navigation.above_ground = {min_m, max_m, Ground{0, std::make_shared<const Mesh>(std::move(ground))}};
+  return navigation;
+}
+
+/// By how much a point keeps the limit: negative where it breaks it, metres along z.
+double slack(const Navigation::AboveGround& limit, const Vec3& p) {
+  const Heights heights = heights_at(*limit.ground.surface, p);
+  if (!heights.any) return -INFINITY;
+  return std::min(p.z() - heights.highest - limit.min_m, heights.lowest + limit.max_m - p.z());
+}
+
+/// Whether an outward-oriented closed mesh holds a point: signed solid angles.
+bool holds(const Mesh& mesh, const Vec3& p) {
+  double sum = 0;
+  for (const Triangle& t : mesh.triangles) {
+    const Vec3 a = mesh.vertices[t[0]] - p, b = mesh.vertices[t[1]] - p, c = mesh.vertices[t[2]] - p;
+    const double la = a.norm(), lb = b.norm(), lc = c.norm();
+    sum += std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+  }
+  return sum > 3.14159;
+}
+
+struct Case {
+  double scale;
+  Vec3 origin;
+};
+const std::vector<Case> kCases = {
+    {1, Vec3(0, 0, 0)}, {1, Vec3(580000.1, 4785000.2, 1000.3)}, {1e-4, Vec3(0, 0, 0)}, {100, Vec3(-3000, 500, 80)}};
+
+TEST(AboveGround, TheCutIsWhatTheHeightsSay) {
+  Random random(31);
+  for (const Case& at : kCases) {
+    SCOPED_TRACE(at.scale);
+    const Volume dome = make_hemisphere(at.origin, 60 * at.scale);
+    const Navigation navigation =
+        above(make_hills(random, 50 * at.scale, 6 * at.scale, 12, at.origin), 4 * at.scale, 25 * at.scale);
+    const Volume cut = cut_to_navigation(dome, navigation);
+    ASSERT_EQ(cut.outcome, Outcome::computed) << cut.reason;
+    EXPECT_EQ(first_open_edge(cut.mesh), "");
+    const double rounding = 1e-9 * at.scale + 1e-15 * at.origin.cwiseAbs().maxCoeff() * 8;
+    int inside = 0;
+    for (int i = 0; i < 1500; ++i) {
+      const Vec3 offset = random.in_box({Vec3(-60, -60, -5), Vec3(60, 60, 40)});
+      const Vec3 p = at.origin + at.scale * offset;
+      const double by = slack(*navigation.above_ground, p);
+      if (std::abs(by) < rounding || !holds(dome.mesh, p)) continue;
+      EXPECT_EQ(holds(cut.mesh, p), by > 0) << p.transpose() << " keeps the limit by " << by;
+      inside += by > 0;
+    }
+    EXPECT_GT(inside, 100);
+  }
+}
+
+TEST(AboveGround, NoVertexLeavesTheBand) {
+  Random random(7);
+  for (const Case& at : kCases) {
+    const Volume dome = make_hemisphere(at.origin, 60 * at.scale);
+    const Navigation navigation =
+        above(make_hills(random, 50 * at.scale, 6 * at.scale, 12, at.origin), 4 * at.scale, 25 * at.scale);
+    const Volume cut = cut_to_navigation(dome, navigation);
+    const double rounding = 1e-9 * at.scale + 1e-15 * at.origin.cwiseAbs().maxCoeff() * 8;
+    for (const Vec3& v : cut.mesh.vertices) {
+      // At the border of the ground rounding decides whether there is some: a little further in there is.
+      const Vec3 inward = v + 1e-9 * (at.origin - v);
+      EXPECT_GT(slack(*navigation.above_ground, {inward.x(), inward.y(), v.z()}), -1e-6 * at.scale - rounding)
+          << v.transpose();
+    }
+  }
+}
+
+TEST(AboveGround, OfPiecesOverEachOtherAllCount) {
+  Random random(5);
+  Mesh ground = make_hills(random, 50, 3, 6, Vec3::Zero());
+  const Mesh bridge = make_hills(random, 20, 2, 3, Vec3(10, 5, 12));
+  testing::append(ground, bridge);
+  const Volume dome = make_hemisphere(Vec3::Zero(), 60);
+  const Navigation navigation = above(ground, 4, 25);
+  const Volume cut = cut_to_navigation(dome, navigation);
+  ASSERT_EQ(cut.outcome, Outcome::computed) << cut.reason;
+  EXPECT_EQ(first_open_edge(cut.mesh), "");
+  int inside = 0, between = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Vec3 p = random.in_box({Vec3(-50, -50, 0), Vec3(50, 50, 40)});
+    const double by = slack(*navigation.above_ground, p);
+    if (std::abs(by) < 1e-9 || !holds(dome.mesh, p)) continue;
+    EXPECT_EQ(holds(cut.mesh, p), by > 0) << p.transpose() << " keeps the limit by " << by;
+    inside += by > 0;
+    const Heights heights = heights_at(*navigation.above_ground->ground.surface, p);
+    between += heights.any && heights.highest > p.z() && heights.lowest < p.z();
+  }
+  EXPECT_GT(inside, 100);
+  EXPECT_GT(between, 20);
+}
+
+TEST(AboveGround, APlaneGoesOnForEver) {
+  const Volume dome = make_hemisphere(Vec3(0, 0, 100), 60);
+  Navigation navigation, altitude;
+  navigation.above_ground = {10, 30, Ground{98}};
+  altitude.altitude = {108, 128};
+  const Volume cut = cut_to_navigation(dome, navigation), expected = cut_to_navigation(dome, altitude);
+  EXPECT_EQ(cut.mesh.vertices, expected.mesh.vertices);
+  std::vector<std::string> names;
+  for (const Cause& cause : cut.causes) names.push_back(cause.name);
+  EXPECT_NE(std::find(names.begin(), names.end(), "agl min"), names.end());
+  EXPECT_NE(std::find(names.begin(), names.end(), "agl max"), names.end());
+}
+
+TEST(AboveGround, WhereThereIsNoGroundNothingIsLeft) {
+  Random random(3);
+  const Volume dome = make_hemisphere(Vec3::Zero(), 60);
+  const Volume cut = cut_to_navigation(dome, above(make_hills(random, 10, 1, 3, Vec3(500, 0, 0)), 4, 25));
+  EXPECT_EQ(cut.outcome, Outcome::outside_limits);
+  testing::expect_wording(cut.reason + "\n" + cut.hint);
+  const Volume high = cut_to_navigation(dome, above(make_hills(random, 100, 1, 3, Vec3(0, 0, 0)), 400, 425));
+  EXPECT_EQ(high.outcome, Outcome::outside_limits);
+  testing::expect_wording(high.reason + "\n" + high.hint);
+}
+
+TEST(AboveGround, WrongLimitsAreRefused) {
+  const Volume dome = make_hemisphere(Vec3::Zero(), 60);
+  const auto refused = [&](const Navigation& navigation) { cut_to_navigation(dome, navigation); };
+  Random random(3);
+  const Mesh hills = make_hills(random, 10, 1, 3, Vec3::Zero());
+  testing::expect_error([&] { refused(above(hills, 5, 4)); }, ErrorCode::limits_reversed, "navigation.altitude.agl");
+  Mesh broken = hills;
+  broken.triangles.push_back({0, 1, 1000});
+  testing::expect_error([&] { refused(above(broken, 4, 5)); }, ErrorCode::value_out_of_range, "navigation.ground");
+  broken = hills;
+  broken.vertices[3].z() = NAN;
+  testing::expect_error([&] { refused(above(broken, 4, 5)); }, ErrorCode::value_out_of_range, "navigation.ground");
+}
+
+/// Hills with a wall on them, and a target over a hill top.
+struct World {
+  Scene scene;
+  Target target;
+  Navigation navigation;
+};
+
+World make_world(Random& random, const Vec3& origin) {
+  World world;
+  world.scene.mesh = make_hills(random, 50, 4, 10, origin);
+  world.scene.object_of.assign(world.scene.mesh.triangles.size(), 0);
+  world.scene.objects = {{"hills", "", ObjectKind::ground}, {"wall", "", ObjectKind::wall}};
+  const auto first = static_cast<std::uint32_t>(world.scene.mesh.vertices.size());
+  for (const Vec3& v : {Vec3(8, -10, 0), Vec3(8, 10, 0), Vec3(8, 10, 14), Vec3(8, -10, 14)}) {
+    world.scene.mesh.vertices.push_back(origin + v);
+  }
+  world.scene.mesh.triangles.push_back({first, first + 1, first + 2});
+  world.scene.mesh.triangles.push_back({first, first + 2, first + 3});
+  world.scene.object_of.insert(world.scene.object_of.end(), 2, 1);
+  world.target = Target::polygon({origin + Vec3(-1, -1, 6), origin + Vec3(1, -1, 6), origin + Vec3(0, 1, 6)});
+  world.navigation.above_ground = {5, 30, *ground_of(world.scene)};
+  return world;
+}
+
+TEST(AboveGround, PointsAreAnsweredAsTheMeshSays) {
+  Random random(11);
+  for (const Vec3& origin : {Vec3(0, 0, 0), Vec3(580000.1, 4785000.2, 1000.3)}) {
+    const World world = make_world(random, origin);
+    const PreparedScene scene(world.scene);
+    const PreparedTarget target(scene, world.target, Sensor{.max_range_m = 60});
+    const Volume volume = compute_volume(target, world.navigation);
+    ASSERT_EQ(volume.outcome, Outcome::computed) << volume.reason;
+    std::vector<Vec3> points;
+    for (int i = 0; i < 3000; ++i) points.push_back(origin + random.in_box({Vec3(-60, -60, 6), Vec3(60, 60, 60)}));
+    PointQuery query(target, world.navigation);
+    const std::vector<PointAnswer> answers = query.answer(points);
+    int inside = 0, at_edge = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (!(std::abs(answers[i].margin_m) > 0.05)) continue;  // the range is a sphere, but not of the mesh
+      EXPECT_EQ(answers[i].inside, holds(volume.mesh, points[i])) << (points[i] - origin).transpose();
+      inside += answers[i].inside;
+      at_edge += std::count(answers[i].outside_of.begin(), answers[i].outside_of.end(), "ground edge") > 0;
+      // What the margin says is so: a little before it nothing changes along the line to the centre, behind it does.
+      if (!std::isfinite(answers[i].margin_m) || !answers[i].inside) continue;
+      const Vec3 line = target.frame(0).origin - points[i], to_centre = line.normalized();
+      const double margin = answers[i].margin_m;
+      if (margin > 0.9 * line.norm()) continue;  // the target, where the line ends, is no boundary
+      const std::vector<PointAnswer> near =
+          query.answer(std::vector<Vec3>{points[i] + 0.99 * margin * to_centre, points[i] - 0.99 * margin * to_centre,
+                                         points[i] + 1.01 * margin * to_centre, points[i] - 1.01 * margin * to_centre});
+      EXPECT_TRUE(near[0].inside && near[1].inside);
+      EXPECT_FALSE(near[2].inside && near[3].inside);
+    }
+    EXPECT_GT(inside, 100);
+    EXPECT_GT(at_edge, 100);
+  }
+}
+
+TEST(AboveGround, VerifyFindsWhatIsNotCut) {
+  Random random(13);
+  for (const Vec3& origin : {Vec3(0, 0, 0), Vec3(580000.1, 4785000.2, 1000.3)}) {
+    const World world = make_world(random, origin);
+    const PreparedScene scene(world.scene);
+    const PreparedTarget target(scene, world.target, Sensor{.max_range_m = 60});
+    const auto judged = [&](const Navigation& cut_to) {
+      const Volume volume = compute_volume(target, cut_to);
+      VerifyOptions options;
+      options.points = 3000;
+      options.lift_m = volume.lift_m;
+      return verify_volume(world.scene, world.target, Sensor{.max_range_m = 60}, world.navigation, volume.mesh,
+                           options);
+    };
+    const VerifyReport right = judged(world.navigation);
+    EXPECT_EQ(right.over_claimed, 0u);
+    EXPECT_EQ(right.under_claimed, 0u);
+    EXPECT_GT(right.inside, 300u);
+    EXPECT_GT(judged({}).over_claimed, 100u);
+    for (const int end : {0, 1}) {
+      Navigation loose = world.navigation;
+      (end == 0 ? loose.above_ground->min_m : loose.above_ground->max_m) += end == 0 ? -1 : 1;
+      const VerifyReport report = judged(loose);
+      EXPECT_GT(report.over_claimed, 0u) << "end " << end;
+      Navigation tight = world.navigation;
+      (end == 0 ? tight.above_ground->min_m : tight.above_ground->max_m) += end == 0 ? 1 : -1;
+      EXPECT_GT(judged(tight).under_claimed, 0u) << "end " << end;
+    }
+  }
+}
+
+/// Two triangles named "field", two named "dam" over them, without a word on what is ground.
+constexpr const char* kField =
+    "v -50 -50 0\nv 50 -50 0\nv 50 50 8\nv -50 50 8\no field\nf 1 2 3\nf 1 3 4\n"
+    "v -50 40 20\nv 50 40 20\nv 50 45 20\no dam\nf 5 6 7\n";
+
+class AboveGroundMission : public ::testing::Test {
+ protected:
+  AboveGroundMission() { testing::write_bytes(folder_ / "field.obj", kField); }
+
+  MissionFile read(const std::string& navigation) const {
+    const std::string text =
+        "scene: {mesh: field.obj}\ntarget: {vertices: [[0, 0, 6], [2, 0, 6], [0, 2, 6]]}\nsensor: {max_range: 40}\n"
+        "navigation: " +
+        navigation + "\n";
+    return read_mission_text(text, folder_ / "mission.yaml");
+  }
+  Mission resolve(const std::string& navigation) const { return resolve_mission(read(navigation)); }
+
+  testing::TemporaryDirectory folder_;
+};
+
+TEST_F(AboveGroundMission, TheGroundIsAnObjectOrAPlane) {
+  const Mission named = resolve("{altitude: {agl: [5, 30], z: [0, 25]}, ground: field}");
+  ASSERT_TRUE(named.navigation.above_ground && named.navigation.above_ground->ground.surface);
+  EXPECT_EQ(named.navigation.above_ground->ground.surface->triangles.size(), 2u);
+  EXPECT_EQ(named.navigation.altitude->max_m, 25);
+  const Mission plane = resolve("{altitude: {agl: [5, 30]}, ground: 1.5}");
+  EXPECT_FALSE(plane.navigation.above_ground->ground.surface);
+  EXPECT_EQ(plane.navigation.above_ground->ground.plane_z_m, 1.5);
+  // "1.5" in quotes is a name.
+  testing::expect_error([&] { resolve("{altitude: {agl: [5, 30]}, ground: '1.5'}"); }, ErrorCode::unknown_choice,
+                        "mission.yaml:4:");
+  testing::expect_error([&] { resolve("{altitude: {agl: [5, 30]}, ground: feild}"); }, ErrorCode::unknown_choice,
+                        "mission.yaml:4:");
+}
+
+TEST_F(AboveGroundMission, AMeshThatDoesNotSayWhatIsGroundIsRefused) {
+  testing::expect_error([&] { resolve("{altitude: {agl: [5, 30]}}"); }, ErrorCode::ground_missing, "mission.yaml:4:");
+}
+
+TEST_F(AboveGroundMission, WrongKeysAreRefused) {
+  const auto refuse = [&](const std::string& navigation, ErrorCode code) {
+    testing::expect_error([&] { read(navigation); }, code, "mission.yaml:4:");
+  };
+  refuse("{altitude: {agl: [30, 5]}}", ErrorCode::limits_reversed);
+  refuse("{altitude: {agl: [5, 5]}}", ErrorCode::limits_empty);
+  refuse("{altitude: {agl: 5}}", ErrorCode::wrong_type);
+  refuse("{altitude: {}}", ErrorCode::nothing_given);
+  refuse("{altitude: {alg: [5, 30]}}", ErrorCode::unknown_key);
+  refuse("{altitude: {z: [5, 30]}, ground: 0}", ErrorCode::not_applicable);
+}
+
+TEST_F(AboveGroundMission, TextAndHashHoldAllOfIt) {
+  std::set<std::string> hashes, texts;
+  for (const char* navigation :
+       {"{altitude: [5, 30]}", "{altitude: {z: [5, 31]}}", "{altitude: {agl: [5, 30]}, ground: 0}",
+        "{altitude: {agl: [5, 30]}, ground: 1}", "{altitude: {agl: [5, 30]}, ground: field}",
+        "{altitude: {agl: [5, 30]}, ground: dam}", "{altitude: {agl: [5, 30], z: [0, 20]}, ground: dam}"}) {
+    const MissionFile mission = read(navigation);
+    const std::string text = mission_text(mission, mission.file.parent_path());
+    const MissionFile again = read_mission_text(text, mission.file);
+    EXPECT_EQ(mission_text(again, mission.file.parent_path()), text);
+    EXPECT_EQ(mission_hash(resolve_mission(again)), mission_hash(resolve_mission(mission)));
+    hashes.insert(mission_hash(resolve_mission(mission)));
+    texts.insert(text);
+  }
+  EXPECT_EQ(hashes.size(), 7u);
+  EXPECT_EQ(texts.size(), 7u);
+}
+
+TEST(AboveGroundMap, OverTerrainTheVolumeKeepsItsHeights) {
+  VANTAGE_REQUIRE_SHARED("osm/monaco.osm.pbf");
+  VANTAGE_REQUIRE_SHARED("osm-terrain/N43E007.hgt.zip");
+  const std::string text = "scene: {osm: '" + testing::shared_data("osm/monaco.osm.pbf").string() + "', terrain: '" +
+                           testing::shared_data("osm-terrain/N43E007.hgt.zip").string() +
+                           "', center: [43.7384, 7.4246], radius: 350, without: [trees]}\n"
+                           "target: {center: [43.7386, 7.4250], width: 6, length: 6, offset: 30}\n"
+                           "sensor: {max_range: 200}\nnavigation: {altitude: {agl: [60, 120]}}\n";
+  const Mission mission = resolve_mission(read_mission_text(text, "mission.yaml"));
+  const auto& limit = *mission.navigation.above_ground;
+  ASSERT_TRUE(limit.ground.surface);
+  EXPECT_GT(limit.ground.surface->triangles.size(), 100u);
+  const Result result = run_mission(mission);
+  ASSERT_EQ(result.volume.outcome, Outcome::computed) << result.volume.reason;
+  double lowest = INFINITY, highest = -INFINITY;
+  for (const Vec3& v : result.volume.mesh.vertices) {
+    const Heights heights = heights_at(*limit.ground.surface, v);
+    if (!heights.any) continue;
+    lowest = std::min(lowest, v.z() - heights.highest);
+    highest = std::max(highest, v.z() - heights.lowest);
+  }
+  EXPECT_NEAR(lowest, 60, 1e-9);
+  EXPECT_NEAR(highest, 120, 1e-9);
+  VerifyOptions options;
+  options.points = 1000;
+  options.lift_m = result.volume.lift_m;
+  const VerifyReport report = verify_volume(mission.loaded.scene, mission.target, mission.sensor, mission.navigation,
+                                            result.volume.mesh, options);
+  EXPECT_TRUE(report.is_right()) << report.worst_over_cause;
+  EXPECT_EQ(report.under_claimed, 0u);
+}
+
+TEST(Ground, IsWhatTheSceneSaysItIs) {
+  Random random(2);
+  Scene scene;
+  scene.mesh = make_hills(random, 10, 1, 3, Vec3::Zero());
+  scene.object_of.assign(scene.mesh.triangles.size(), 0);
+  scene.objects = {{"hills", "", ObjectKind::other}};
+  EXPECT_FALSE(ground_of(scene));
+  EXPECT_EQ(ground_of(scene, 0).surface->triangles.size(), scene.mesh.triangles.size());
+  testing::expect_error([&] { ground_of(scene, 1); }, ErrorCode::value_out_of_range, "ground");
+  scene.objects[0].kind = ObjectKind::ground;
+  ASSERT_TRUE(ground_of(scene) && ground_of(scene)->surface);
+  for (Vec3& vertex : scene.mesh.vertices) vertex.z() = 3;
+  EXPECT_TRUE(ground_of(scene)->surface) << "level triangles of an unknown source end where they end";
+  scene.georeference.emplace().vertical = kFlatGround;
+  ASSERT_FALSE(ground_of(scene)->surface) << "the flat ground of a map does not end";
+  EXPECT_EQ(ground_of(scene)->plane_z_m, 3);
+}
+
+}  // namespace
+}  // namespace vantage
