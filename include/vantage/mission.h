@@ -22,6 +22,7 @@
 #include "vantage/scene_source.h"
 #include "vantage/spheres.h"
 #include "vantage/target.h"
+#include "vantage/visual_range.h"
 #include "vantage/volume.h"
 #include "vantage/warning.h"
 
@@ -60,6 +61,12 @@ struct SunTime {
   double unix_time_s = 0;  ///< of it: seconds since 1970-01-01 UTC
 };
 
+/// A pilot who must see the aircraft, instead of a range.
+struct PilotSight {
+  VisualRange range;        ///< says what sensor.max_range_m is
+  double eye_height_m = 0;  ///< over the target, a point: resolve_mission raises it by this
+};
+
 /// A mesh to stay in, as a mission file names it.
 struct NavigationMeshFile {
   std::filesystem::path file;  ///< absolute
@@ -93,6 +100,7 @@ struct MissionFile {
   std::optional<GroundTarget> ground_target = std::nullopt;  ///< says where the target lies
   Sensor sensor;
   std::optional<CameraSource> camera = std::nullopt;  ///< says what sensor.camera is
+  std::optional<PilotSight> vlos = std::nullopt;      ///< visual line of sight
   std::optional<SunTime> sun_time = std::nullopt;     ///< says where the sun stands, once the scene is known; without
                                                       ///< it sensor.sun has the direction
   Navigation navigation;                              ///< without meshes, and above_ground without its ground

@@ -34,6 +34,7 @@
 #include "vantage/threads.h"
 #include "vantage/verify.h"
 #include "vantage/version.h"
+#include "vantage/visual_range.h"
 #include "vantage/volume.h"
 #include "vantage/warning.h"
 #include "vantage/willis.h"

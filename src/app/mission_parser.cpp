@@ -272,6 +272,11 @@ void MissionParser::parse_sensor(const YamlNode& node) {
   mission_.sensor = std::move(section.sensor);
   mission_.camera = std::move(section.camera);
   mission_.sun_time = std::move(section.sun_time);
+  mission_.vlos = section.vlos;
+  if (mission_.vlos && !mission_.target.is_point()) {
+    fail(ErrorCode::not_applicable, node, "sensor.vlos is of a pilot, and the target is no point",
+         "give the pilot's place: 'target: {point: [x, y, z]}', or 'max_range' instead of 'vlos'");
+  }
   mission_.places.sensor = place_in(file(), node.place);
 }
 

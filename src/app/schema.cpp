@@ -15,8 +15,8 @@ struct SectionKeys {
   std::vector<std::string_view> keys;
 };
 
-const std::array<SectionKeys, 15>& table() {
-  static const std::array<SectionKeys, 15> kTable = {{
+const std::array<SectionKeys, 16>& table() {
+  static const std::array<SectionKeys, 16> kTable = {{
       {Section::mission,
        "the mission",
        {"scene", "crs", "target", "sensor", "navigation", "method", "exact", "spheres"}},
@@ -30,12 +30,13 @@ const std::array<SectionKeys, 15>& table() {
         "front"}},
       {Section::sensor,
        "sensor",
-       {"max_range", "min_range", "incidence", "camera", "fov", "mount", "gimbal", "pixel", "dori", "sun"}},
+       {"max_range", "min_range", "incidence", "camera", "fov", "mount", "gimbal", "pixel", "dori", "sun", "vlos"}},
       {Section::camera, "sensor.camera", {"model", "width", "height", "focal_length", "sensor_width"}},
       {Section::mount, "sensor.mount", {"yaw", "pitch", "roll"}},
       {Section::gimbal, "sensor.gimbal", {"yaw", "pitch", "roll"}},
       {Section::pixel, "sensor.pixel", {"size", "kind"}},
       {Section::sun, "sensor.sun", {"time", "azimuth", "elevation", "exclude"}},
+      {Section::vlos, "sensor.vlos", {"aircraft_size", "kind", "visibility", "eye_height"}},
       {Section::navigation, "navigation", {"altitude", "ground", "boxes", "keep_out", "meshes"}},
       {Section::altitude, "navigation.altitude", {"agl", "z"}},
       {Section::box, "a box", {"min", "max"}},

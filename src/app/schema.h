@@ -22,6 +22,7 @@ enum class Section {
   gimbal,
   pixel,
   sun,
+  vlos,
   navigation,
   altitude,
   box,

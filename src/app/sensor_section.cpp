@@ -40,6 +40,7 @@ class SensorParser {
   void parse_pixel(const YamlNode& pixel);
   void parse_dori(const YamlNode& dori);
   void parse_sun(const YamlNode& sun);
+  void parse_vlos(const YamlNode& vlos);
   const YamlNode& require(const YamlNode& map, const char* key, const std::string& what, const std::string& fix) const;
   std::array<double, 2> two_angles(const YamlNode& node, const std::string& what, const std::string& form) const;
   void refuse_both(const char* one, const char* other, const std::string& fix) const;
@@ -234,11 +235,36 @@ void SensorParser::parse_sun(const YamlNode& sun) {
   result_.sensor.sun = limit;
 }
 
+void SensorParser::parse_vlos(const YamlNode& vlos) {
+  check_keys(vlos, Section::vlos, reader_.file());
+  const char* const form = "write {aircraft_size: 0.35, kind: multirotor, visibility: 5000}: metres";
+  PilotSight sight;
+  sight.range.aircraft_size_m =
+      reader_.positive(require(vlos, "aircraft_size", "sensor.vlos", form), "sensor.vlos.aircraft_size");
+  sight.range.visibility_m =
+      reader_.positive(require(vlos, "visibility", "sensor.vlos", form), "sensor.vlos.visibility");
+  const YamlNode& kind = require(vlos, "kind", "sensor.vlos", form);
+  const std::string text = reader_.text(kind, "sensor.vlos.kind");
+  if (text != "multirotor" && text != "fixed_wing") {
+    reader_.fail(ErrorCode::unknown_choice, kind,
+                 "sensor.vlos.kind must be multirotor or fixed_wing, not " + in_quotes(text),
+                 "write multirotor also for a helicopter");
+  }
+  sight.range.kind = text == "multirotor" ? VisualRange::Kind::multirotor : VisualRange::Kind::fixed_wing;
+  if (const YamlNode* height = find(vlos, "eye_height")) {
+    sight.eye_height_m = reader_.positive(*height, "sensor.vlos.eye_height");
+  }
+  result_.sensor.max_range_m = visual_range_m(sight.range);
+  result_.vlos = sight;
+}
+
 SensorSection SensorParser::parse() {
   check_keys(node_, Section::sensor, reader_.file());
   Sensor& sensor = result_.sensor;
   if (const YamlNode* range = find(node_, "max_range"))
     sensor.max_range_m = reader_.positive(*range, "sensor.max_range");
+  refuse_both("max_range", "vlos", "keep the range, or let it follow from the aircraft");
+  if (const YamlNode* vlos = find(node_, "vlos")) parse_vlos(*vlos);
   if (const YamlNode* range = find(node_, "min_range"))
     sensor.min_range_m = reader_.positive(*range, "sensor.min_range");
   if (const YamlNode* angle = find(node_, "incidence")) {
@@ -261,7 +287,7 @@ SensorSection SensorParser::parse() {
   if (const YamlNode* pixel = find(node_, "pixel")) parse_pixel(*pixel);
   if (const YamlNode* dori = find(node_, "dori")) parse_dori(*dori);
   if (const YamlNode* sun = find(node_, "sun")) parse_sun(*sun);
-  if (!find(node_, "max_range") && !sensor.pixel) {
+  if (!find(node_, "max_range") && !result_.vlos && !sensor.pixel) {
     reader_.fail(ErrorCode::missing_key, node_, "sensor lacks the key 'max_range'",
                  "write 'max_range: 100': metres, to every point of the target");
   }
@@ -311,6 +337,14 @@ std::string mount_text(const Mount& mount) {
          ", roll: " + shortest(mount.roll_deg) + "}\n";
 }
 
+std::string vlos_text(const PilotSight& sight) {
+  const auto& [aircraft_size_m, kind, visibility_m] = sight.range;
+  return "  vlos: {aircraft_size: " + shortest(aircraft_size_m) +
+         ", kind: " + (kind == VisualRange::Kind::multirotor ? "multirotor" : "fixed_wing") +
+         ", visibility: " + shortest(visibility_m) +
+         (sight.eye_height_m > 0 ? ", eye_height: " + shortest(sight.eye_height_m) : "") + "}\n";
+}
+
 std::string sun_text(const MissionFile& mission) {
   const SunLimit& sun = *mission.sensor.sun;
   std::string direction;
@@ -334,7 +368,11 @@ SensorSection parse_sensor_section(const YamlNode& node, const ValueReader& read
 std::string sensor_section_text(const MissionFile& mission) {
   const auto& [max_range_m, min_range_m, incidence_deg, camera, mount, pixel, sun] = mission.sensor;
   std::string text = "sensor:\n";
-  if (std::isfinite(max_range_m)) text += "  max_range: " + shortest(max_range_m) + "\n";
+  if (mission.vlos) {
+    text += vlos_text(*mission.vlos);
+  } else if (std::isfinite(max_range_m)) {
+    text += "  max_range: " + shortest(max_range_m) + "\n";
+  }
   if (min_range_m > 0) text += "  min_range: " + shortest(min_range_m) + "\n";
   if (incidence_deg) text += "  incidence: " + shortest(*incidence_deg) + "\n";
   if (camera) text += camera_text(mission) + mount_text(mount);

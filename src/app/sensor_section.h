@@ -14,6 +14,7 @@ struct SensorSection {
   Sensor sensor;  ///< with a sun_time, without the direction to the sun
   std::optional<CameraSource> camera;
   std::optional<SunTime> sun_time;
+  std::optional<PilotSight> vlos;
 };
 
 /// Throws Error(input) with the place for what docs/mission-file.md does not allow.
