@@ -9,6 +9,7 @@
 #include "support/scenes.h"
 #include "support/temporary_directory.h"
 #include "support/wording.h"
+#include "support/zones.h"
 #include "vantage/error.h"
 #include "vantage/picture.h"
 
@@ -220,6 +221,21 @@ TEST_F(RenderPicture, DrawsNavigationBoxes) {
   EXPECT_NE(edge, at(without, -10, 20));
   EXPECT_GT(edge.green, edge.red) << edge;
   EXPECT_EQ(at(with, -20, 20), at(without, -20, 20));
+}
+
+TEST_F(RenderPicture, DrawsNavigationZones) {
+  const Picture without = render();
+  request_.navigation.keep_in_zones = {testing::zone_of({{-30, 10}, {-10, 10}, {-10, 30}, {-30, 30}}, 5, INFINITY)};
+  const Picture with = render();
+  const Pixel edge = at(with, -10, 20);
+  EXPECT_NE(edge, at(without, -10, 20));
+  EXPECT_GT(edge.green, edge.red) << edge;
+  EXPECT_EQ(at(with, -20, 20), at(without, -20, 20));
+  request_.navigation.keep_out_zones = std::move(request_.navigation.keep_in_zones);
+  request_.navigation.keep_in_zones.clear();
+  const Pixel out = at(render(), -10, 20);
+  EXPECT_NE(out, at(without, -10, 20));
+  EXPECT_NE(out, edge);
 }
 
 TEST_F(RenderPicture, KeepsItsDetailFarFromTheOrigin) {

@@ -87,6 +87,7 @@ struct GroundSource {
 struct MissionPlaces {
   std::string scene, terrain, target, sensor, above_ground;
   std::vector<std::string> navigation_meshes;
+  std::vector<std::string> keep_in_zones, keep_out_zones;
 };
 
 /// What a mission file says, checked by itself: no other file has been opened.
@@ -94,7 +95,8 @@ struct MissionFile {
   std::filesystem::path file;  ///< for messages and reports
   SceneSource scene;           ///< paths are absolute
 
-  /// Of the coordinates of the target and of the boxes ("EPSG:4326": longitude, latitude, z); empty: the scene frame.
+  /// Of the coordinates of the target and of the boxes and zones ("EPSG:4326": longitude, latitude, z); empty: the
+  /// scene frame.
   std::string crs = {};
   Target target;                                             ///< with a ground_target only name, offset and front count
   std::optional<GroundTarget> ground_target = std::nullopt;  ///< says where the target lies
@@ -141,9 +143,11 @@ struct Mission {
 
 /// Reads the mission's scene, and puts what the mission gives on the earth or by name into its frame. Boxes lie askew
 /// in the frame: a box to stay in becomes the largest one of the frame inside it, a box to stay out of the smallest
-/// round it. Navigation meshes that say where on the earth they lie are moved there, where the scene says so too. A
-/// target of the map without a name of its own gets the object's. Ground that ends under a target that is laid on it is
-/// extended: flat ground as it is, a map's terrain by building more of it (LoadedScene::notes).
+/// round it. Zones are moved corner by corner; their sides, which curve in the frame, are cut so short that a zone to
+/// stay in loses, and a zone to stay out of gains, no more than a few millimetres. Navigation meshes that say where on
+/// the earth they lie are moved there, where the scene says so too. A target of the map without a name of its own gets
+/// the object's. Ground that ends under a target that is laid on it is extended: flat ground as it is, a map's terrain
+/// by building more of it (LoadedScene::notes).
 ///
 /// Throws as load_scene does, and Error(input) with the place in the mission file for: a scene that does not say where
 /// on the earth it lies, a position without a value, an object that the map does not have, a target farther off the

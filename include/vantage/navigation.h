@@ -19,8 +19,8 @@ namespace vantage {
 /// self-intersections, O(m log m) in its triangles.
 ///
 /// Throws Error(input) for limits that are wrong in themselves (a reversed, empty or not finite altitude band or box, a
-/// mesh that is open, inside out or intersects itself) and for a volume whose arrays do not fit together;
-/// Error(cancelled) when told to stop; Error(internal) when a boolean operation fails.
+/// zone that is none, a mesh that is open, inside out or intersects itself) and for a volume whose arrays do not fit
+/// together; Error(cancelled) when told to stop; Error(internal) when a boolean operation fails.
 VANTAGE_API Volume cut_to_navigation(const Volume& volume, const Navigation& navigation, const Progress& progress = {});
 
 /// Cuts a volume to the limits of the target's sensor, besides the range, and to the navigation limits, at once. Facets

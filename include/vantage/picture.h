@@ -39,7 +39,7 @@ struct PictureRequest {
   const Target* target = nullptr;  ///< drawn where it is given, `offset_m` applied
   const Volume* volume = nullptr;  ///< its mesh, `cause_of` and `causes`; without causes it has one colour
   const Mesh* solid = nullptr;     ///< instead of a volume: any mesh, in one colour
-  Navigation navigation;           ///< its boxes are drawn as thin lines
+  Navigation navigation;           ///< its boxes and zones are drawn as thin lines
   PictureView view;
   int width = 1600, height = 1200;  ///< pixels, kSmallestPicture to kLargestPicture
   bool draw_scene = true;

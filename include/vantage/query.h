@@ -21,10 +21,10 @@ struct PointAnswer {
   std::vector<std::string> blocked_by;  ///< names of the scene objects that hide part of the target, sorted, no repeats
   bool out_of_range = false;
   bool behind_target = false;  ///< never for a point that is seen from all sides
-  std::vector<std::string>
-      outside_of;  ///< limits that the point breaks: "altitude min", "agl max", "ground edge", "boxes",
-                   ///< "keep_out 0", "mesh NAME";
-                   ///< of the sensor "min_range", "incidence", "pixel", "frame", "gimbal", "sun"
+  /// Limits that the point breaks: "altitude min", "agl max", "ground edge", "boxes" (it is in none of them; "keep_in"
+  /// where there are zones too), "keep_out 0", "keep_out zone NAME", "mesh NAME"; of the sensor "min_range",
+  /// "incidence", "pixel", "frame", "gimbal", "sun".
+  std::vector<std::string> outside_of;
 };
 
 /// Answers questions about points, for one target in one scene: as many as there are, in portions of any size. What it

@@ -11,6 +11,7 @@
 
 #include "app/components/maps.h"
 #include "app/places.h"
+#include "app/zone_places.h"
 #include "geo/local_frame.h"
 #include "vantage/error.h"
 #include "vantage/input.h"
@@ -58,6 +59,15 @@ class CrsConverter {
     const auto [low, high] = std::minmax({z_in_frame(box.min.z()), z_in_frame(box.max.z())});
     result.min = {west.max.x(), south.max.y(), low};
     result.max = {east.min.x(), north.min.y(), high};
+    return result;
+  }
+  /// A zone's sides lie askew, too, and curve: see placed_zone.
+  Zone placed(const Zone& zone, ZoneUse use) const {
+    Zone result = placed_zone(
+        zone, use, [this](const Vec2& p) { return to_frame(p); }, order_advice());
+    const auto [low, high] = std::minmax({z_in_frame(zone.min_z_m), z_in_frame(zone.max_z_m)});
+    result.min_z_m = low;
+    result.max_z_m = high;
     return result;
   }
   Box around(const Box& box) const {
@@ -108,10 +118,28 @@ void check_near(const Box& box, const std::string& name, const CrsConverter& con
               where, converter.order_advice());
 }
 
+void convert_zones(std::vector<Zone>& zones, ZoneUse use, const CrsConverter& converter,
+                   const std::vector<std::string>& places) {
+  for (std::size_t i = 0; i < zones.size(); ++i) {
+    const std::string name = std::string(use == ZoneUse::keep_in ? "keep_in" : "keep_out") + " zone " + zones[i].name;
+    with_place(i < places.size() ? places[i] : "", [&] {
+      try {
+        zones[i] = converter.placed(zones[i], use);
+      } catch (const Error& error) {
+        throw error.with_where(error.where().empty() ? name : name + ", " + error.where());
+      }
+      return 0;
+    });
+  }
+}
+
 // All members are named: a limit that is added does not compile here before it is converted. An
 // altitude is one of the scene frame, the ground is the scene's, and meshes say themselves where they lie.
-void convert_limits(Navigation& navigation, const CrsConverter& converter, const std::string& where) {
-  auto& [altitude, keep_in, keep_out, meshes, above_ground] = navigation;
+void convert_limits(Navigation& navigation, const CrsConverter& converter, const MissionFile& file) {
+  auto& [altitude, keep_in, keep_in_zones, keep_out, keep_out_zones, meshes, above_ground] = navigation;
+  const std::string where = file.file.string();
+  convert_zones(keep_in_zones, ZoneUse::keep_in, converter, file.places.keep_in_zones);
+  convert_zones(keep_out_zones, ZoneUse::keep_out, converter, file.places.keep_out_zones);
   for (std::size_t i = 0; i < keep_in.size(); ++i) {
     check_near(converter.around(keep_in[i]), "box " + std::to_string(i) + " of navigation.boxes", converter, where);
     Box& box = keep_in[i];
@@ -176,7 +204,7 @@ void georeference(Mission& mission, const Progress& progress) {
       return 0;
     });
     check_near(mission, converter);
-    convert_limits(mission.navigation, converter, mission.as_written.file.string());
+    convert_limits(mission.navigation, converter, mission.as_written);
   }
   if (mission.as_written.ground_target) put_on_ground(mission, frame, progress);
   with_place(place, [&] {

@@ -1,5 +1,6 @@
 // docs/hashes.md
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 
@@ -24,9 +25,28 @@ SortedJson sorted_json_of(const std::vector<Box>& boxes) {
   return list;
 }
 
-// All members are named: a limit that is added does not compile here before it is hashed.
+SortedJson sorted_json_of(const Zone::Ring& ring) {
+  SortedJson list = SortedJson::array();
+  for (const Eigen::Vector2d& p : ring) list.push_back({number_text(p.x()), number_text(p.y())});
+  return list;
+}
+
+SortedJson sorted_json_of(const std::vector<Zone>& zones) {
+  SortedJson list = SortedJson::array();
+  for (const Zone& zone : zones) {
+    SortedJson rings = SortedJson::array();
+    rings.push_back(sorted_json_of(zone.outer));
+    for (const Zone::Ring& hole : zone.holes) rings.push_back(sorted_json_of(hole));
+    const auto bound = [](double z) { return std::isfinite(z) ? number_text(z) : SortedJson(); };
+    list.push_back({{"rings", std::move(rings)}, {"z", {bound(zone.min_z_m), bound(zone.max_z_m)}}});
+  }
+  return list;
+}
+
+// All members are named: a limit that is added does not compile here before it is hashed. Zones are left out where
+// there are none, so that missions without them keep their hash.
 SortedJson sorted_json_of(const Navigation& limits) {
-  const auto& [altitude, keep_in, keep_out, meshes, above_ground] = limits;
+  const auto& [altitude, keep_in, keep_in_zones, keep_out, keep_out_zones, meshes, above_ground] = limits;
   SortedJson json = {{"boxes", sorted_json_of(keep_in)}, {"keep_out", sorted_json_of(keep_out)}};
   json["altitude"] = altitude ? SortedJson{number_text(altitude->min_m), number_text(altitude->max_m)} : SortedJson();
   json["meshes"] = SortedJson::array();
@@ -37,6 +57,8 @@ SortedJson sorted_json_of(const Navigation& limits) {
         {"range", {number_text(above_ground->min_m), number_text(above_ground->max_m)}},
         {"ground", ground.surface ? SortedJson(volume_hash(*ground.surface)) : number_text(ground.plane_z_m)}};
   }
+  if (!keep_in_zones.empty()) json["keep_in_zones"] = sorted_json_of(keep_in_zones);
+  if (!keep_out_zones.empty()) json["keep_out_zones"] = sorted_json_of(keep_out_zones);
   return json;
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "app/input_file.h"
+#include "app/navigation_section.h"
 #include "app/places.h"
 #include "app/scene_section.h"
 #include "app/schema.h"
@@ -34,13 +35,6 @@ class MissionParser : private ValueReader {
   void parse_navigation(const YamlNode& node);
   void parse_method(const YamlNode& node);
   void parse_exact(const YamlNode& node);
-  void add_mesh(const YamlNode& node);
-  void parse_altitude(const YamlNode& node);
-  void parse_ground(const YamlNode& node);
-  std::array<double, 2> heights(const YamlNode& node, const std::string& what, const std::string& form) const;
-  std::vector<Box> boxes(const YamlNode& node, const std::string& what) const;
-  Box box(const YamlNode& node, const std::string& what) const;
-  void check_extent(const YamlNode& node, const std::string& what, int axis, const Box& box) const;
   void check_edges(const YamlNode& node, std::size_t vertex_count) const;
   void refuse_beside(const YamlNode& node, const char* key, std::initializer_list<const char*> others,
                      const char* fix) const;
@@ -58,7 +52,6 @@ class MissionParser : private ValueReader {
 
 const char* const kVerticesForm =
     "write 'vertices: [[x, y, z], [x, y, z], [x, y, z]]', 3 to 64 points, or 'point: [x, y, z]'";
-const char* const kBoxForm = "write each box as {min: [x, y, z], max: [x, y, z]}";
 
 std::string indexed(const std::string& what, std::size_t index) { return what + "[" + std::to_string(index) + "]"; }
 
@@ -95,18 +88,6 @@ void MissionParser::parse_scene(const YamlNode& node) {
   mission_.scene = std::move(section.source);
   mission_.places.scene = std::move(section.where);
   mission_.places.terrain = std::move(section.terrain_where);
-}
-
-void MissionParser::add_mesh(const YamlNode& node) {
-  const YamlNode& mesh =
-      require(node, Section::mesh, "mesh", "write 'mesh: city.obj'; the path starts from the mission file");
-  NavigationMeshFile named;
-  named.name = text(mesh, "navigation.meshes.mesh");
-  named.file = mission_.file.parent_path() / named.name;
-  if (const YamlNode* up = find(node, "up")) named.up = parse_up_axis(*up, *this, "navigation.meshes.up");
-  if (const YamlNode* scale = find(node, "scale")) named.scale = positive(*scale, "navigation.meshes.scale");
-  mission_.navigation_meshes.push_back(std::move(named));
-  mission_.places.navigation_meshes.push_back(place_in(file(), mesh.place));
 }
 
 void MissionParser::parse_target(const YamlNode& node) {
@@ -281,121 +262,14 @@ void MissionParser::parse_sensor(const YamlNode& node) {
 }
 
 void MissionParser::parse_navigation(const YamlNode& node) {
-  if (node.kind == YamlNode::Kind::null) return;  // the heading alone: no limits
-  check_keys(node, Section::navigation, file());
-  Navigation& navigation = mission_.navigation;
-  if (const YamlNode* altitude = find(node, "altitude")) parse_altitude(*altitude);
-  if (const YamlNode* ground = find(node, "ground")) parse_ground(*ground);
-  if (const YamlNode* keep_in = find(node, "boxes")) {
-    navigation.keep_in = boxes(*keep_in, "navigation.boxes");
-    // "Cut to the union of no boxes" would leave nothing, and "no limit" is not what the key says either.
-    if (navigation.keep_in.empty()) {
-      fail(ErrorCode::nothing_given, *keep_in, "navigation.boxes is an empty list",
-           "give at least one box, or leave the key out for no limit");
-    }
-  }
-  if (const YamlNode* keep_out = find(node, "keep_out")) {
-    navigation.keep_out = boxes(*keep_out, "navigation.keep_out");
-  }
-  const YamlNode* meshes = find(node, "meshes");
-  if (meshes == nullptr) return;
-  for (const YamlNode& item : list(*meshes, "navigation.meshes", "write a list of mesh files: [airspace.ply]")) {
-    if (item.kind == YamlNode::Kind::map) {
-      check_keys(item, Section::mesh, file());
-      add_mesh(item);
-      continue;
-    }
-    YamlNode map;  // the short form, a path alone
-    map.kind = YamlNode::Kind::map;
-    map.place = item.place;
-    map.entries.push_back({"mesh", item.place, item});
-    add_mesh(map);
-  }
-}
-
-void MissionParser::parse_altitude(const YamlNode& node) {
-  Navigation& navigation = mission_.navigation;
-  const auto altitude = [&](const YamlNode& band, const std::string& what, const std::string& form) {
-    const auto [low, high] = heights(band, what, form);
-    navigation.altitude = {low, high};
-  };
-  if (node.kind != YamlNode::Kind::map) {
-    return altitude(
-        node, "navigation.altitude",
-        "write the lowest and the highest altitude in metres: [20, 120]; or {agl: [20, 120]} above the ground");
-  }
-  check_keys(node, Section::altitude, file());
-  const YamlNode *agl = find(node, "agl"), *z = find(node, "z");
-  if (!agl && !z) {
-    fail(ErrorCode::nothing_given, node, "navigation.altitude says nothing",
-         "write {agl: [20, 120]} for heights above the ground, {z: [20, 120]} for heights in the scene, or both");
-  }
-  if (z) altitude(*z, "navigation.altitude.z", "write the lowest and the highest z in metres: [20, 120]");
-  if (!agl) return;
-  const auto [low, high] = heights(*agl, "navigation.altitude.agl",
-                                   "write the lowest and the highest height above the ground in metres: [20, 120]");
-  navigation.above_ground = {low, high, {}};
-  mission_.places.above_ground = place_in(file(), agl->place);
-}
-
-void MissionParser::parse_ground(const YamlNode& node) {
-  if (!mission_.navigation.above_ground) {
-    fail(ErrorCode::not_applicable, node, "navigation.ground is given, and no limit above the ground",
-         "write 'altitude: {agl: [20, 120]}', or leave 'ground' out");
-  }
-  GroundSource& ground = mission_.ground.emplace();
-  if (parse_number(node.text).fault == NumberFault::none && node.kind == YamlNode::Kind::scalar && !node.is_quoted) {
-    ground.plane_z_m = length(node, "navigation.ground");
-  } else {
-    ground.object = text(node, "navigation.ground");
-  }
-  mission_.places.above_ground = place_in(file(), node.place);
-}
-
-/// The lower one first.
-std::array<double, 2> MissionParser::heights(const YamlNode& node, const std::string& what,
-                                             const std::string& form) const {
-  if (list(node, what, form).size() != 2) {
-    fail(ErrorCode::wrong_type, node, what + " must be two numbers, not " + describe(node), form);
-  }
-  const double low = length(node.items[0], what + "[0]"), high = length(node.items[1], what + "[1]");
-  if (low > high) {
-    fail(ErrorCode::limits_reversed, node, what + " is reversed: " + shortest(low) + " is above " + shortest(high),
-         "write the lower one first: [" + shortest(high) + ", " + shortest(low) + "]");
-  }
-  if (low == high) {
-    fail(ErrorCode::limits_empty, node, what + " holds no air: both limits are " + shortest(low), form);
-  }
-  return {low, high};
-}
-
-std::vector<Box> MissionParser::boxes(const YamlNode& node, const std::string& what) const {
-  std::vector<Box> result;
-  list(node, what, std::string("write a list of boxes, each {min: [x, y, z], max: [x, y, z]}"));
-  for (std::size_t i = 0; i < node.items.size(); ++i) result.push_back(box(node.items[i], indexed(what, i)));
-  return result;
-}
-
-Box MissionParser::box(const YamlNode& node, const std::string& what) const {
-  if (node.kind != YamlNode::Kind::map)
-    fail(ErrorCode::wrong_type, node, what + " must be a mapping, not " + describe(node), kBoxForm);
-  check_keys(node, Section::box, file());
-  const YamlNode& min = require(node, Section::box, "min", kBoxForm);
-  const YamlNode& max = require(node, Section::box, "max", kBoxForm);
-  Box result;
-  result.min = vector(min, what + ".min");
-  result.max = vector(max, what + ".max");
-  for (int axis = 0; axis < 3; ++axis) check_extent(node, what, axis, result);
-  return result;
-}
-
-void MissionParser::check_extent(const YamlNode& node, const std::string& what, int axis, const Box& box) const {
-  if (box.min[axis] < box.max[axis]) return;
-  const bool is_reversed = box.min[axis] > box.max[axis];
-  const std::string name(1, "xyz"[axis]), low = shortest(box.min[axis]), high = shortest(box.max[axis]);
-  fail(is_reversed ? ErrorCode::limits_reversed : ErrorCode::limits_empty, node,
-       what + (is_reversed ? " is reversed in " : " is flat in ") + name + ": min " + low + ", max " + high,
-       is_reversed ? "swap the two " + name + " values" : "give min and max different " + name + " values");
+  NavigationSection section = parse_navigation_section(node, *this, mission_.file.parent_path());
+  mission_.navigation = std::move(section.navigation);
+  mission_.ground = std::move(section.ground);
+  mission_.navigation_meshes = std::move(section.meshes);
+  mission_.places.navigation_meshes = std::move(section.mesh_places);
+  mission_.places.keep_in_zones = std::move(section.keep_in_places);
+  mission_.places.keep_out_zones = std::move(section.keep_out_places);
+  mission_.places.above_ground = std::move(section.above_ground_place);
 }
 
 void MissionParser::parse_method(const YamlNode& node) {

@@ -1,9 +1,13 @@
 // A MissionFile as the text that read_mission_text reads.
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <map>
 #include <string>
 #include <string_view>
 
 #include "app/sensor_section.h"
+#include "app/value_reader.h"
 #include "vantage/city.h"
 #include "vantage/input.h"
 #include "vantage/json.h"
@@ -24,9 +28,10 @@ std::string list_of(const Numbers& numbers) {
   return "[" + text + "]";
 }
 
-std::string polygon(const std::vector<Vec3>& vertices) {
+template <typename Points>
+std::string polygon(const Points& vertices) {
   std::string text;
-  for (const Vec3& vertex : vertices) text += (text.empty() ? "" : ", ") + list_of(vertex);
+  for (const auto& vertex : vertices) text += (text.empty() ? "" : ", ") + list_of(vertex);
   return "[" + text + "]";
 }
 
@@ -170,17 +175,30 @@ class Writer {
     return section.text();
   }
 
-  static std::string boxes(const std::vector<Box>& boxes) {
+  /// No height can be beyond this, nor can a file say so.
+  static double bound(double z) { return std::clamp(z, -internal::app::kMaxLength, internal::app::kMaxLength); }
+
+  static std::string zones(const std::vector<Box>& boxes, const std::vector<Zone>& zones) {
     std::string text;
     for (const Box& box : boxes) {
       text += (text.empty() ? "" : ", ") + ("{min: " + list_of(box.min) + ", max: " + list_of(box.max)) + "}";
+    }
+    for (const Zone& zone : zones) {
+      std::string holes;
+      for (const Zone::Ring& hole : zone.holes) holes += (holes.empty() ? "" : ", ") + polygon(hole);
+      text += (text.empty() ? "" : ", ") + ("{polygon: " + polygon(zone.outer));
+      if (!holes.empty()) text += ", holes: [" + holes + "]";
+      const bool any_height = std::isinf(zone.min_z_m) && std::isinf(zone.max_z_m);
+      text += any_height ? ", heights: any}"
+                         : ", z: " + list_of(std::array{bound(zone.min_z_m), bound(zone.max_z_m)}) + "}";
     }
     return "[" + text + "]";
   }
 
   // All members are named: a limit that is added does not compile here before it is written.
   std::string navigation() const {
-    const auto& [altitude, keep_in, keep_out, resolved_meshes, above_ground] = mission_.navigation;
+    const auto& [altitude, keep_in, keep_in_zones, keep_out, keep_out_zones, resolved_meshes, above_ground] =
+        mission_.navigation;
     Section section("navigation");
     const std::string z = altitude ? list_of(std::array{altitude->min_m, altitude->max_m}) : "";
     if (above_ground) {
@@ -192,8 +210,8 @@ class Writer {
     if (const auto& ground = mission_.ground) {
       section.add("ground", ground->plane_z_m ? shortest(*ground->plane_z_m) : quoted(ground->object));
     }
-    if (!keep_in.empty()) section.add("boxes", boxes(keep_in));
-    if (!keep_out.empty()) section.add("keep_out", boxes(keep_out));
+    if (!keep_in.empty() || !keep_in_zones.empty()) section.add("keep_in", zones(keep_in, keep_in_zones));
+    if (!keep_out.empty() || !keep_out_zones.empty()) section.add("keep_out", zones(keep_out, keep_out_zones));
     std::string meshes;
     for (const NavigationMeshFile& mesh : mission_.navigation_meshes) {
       meshes += (meshes.empty() ? "" : ", ") + ("{mesh: " + path(mesh.file));

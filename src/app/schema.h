@@ -25,7 +25,7 @@ enum class Section {
   vlos,
   navigation,
   altitude,
-  box,
+  zone,
   mesh,
   exact,
   spheres

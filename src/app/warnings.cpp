@@ -36,7 +36,10 @@ Box flying_area(const Navigation& navigation) {
     boxes.extend(box.min);
     boxes.extend(box.max);
   }
-  if (!navigation.keep_in.empty()) cut(boxes);
+  for (const Zone& zone : navigation.keep_in_zones) {
+    for (const Vec2& corner : zone.outer) boxes.extend(Vec3(corner.x(), corner.y(), 0));
+  }
+  if (!navigation.keep_in.empty() || !navigation.keep_in_zones.empty()) cut(boxes);
   for (const KeepInMesh& mesh : navigation.meshes) cut(bounding_box(mesh.mesh));
   return area;
 }

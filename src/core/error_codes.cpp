@@ -73,6 +73,7 @@ constexpr std::array kRows = {
     Row{ErrorCode::limits_reversed, ErrorKind::input, "limits-reversed"},
     Row{ErrorCode::limits_empty, ErrorKind::input, "limits-empty"},
     Row{ErrorCode::heights_differ, ErrorKind::input, "heights-differ"},
+    Row{ErrorCode::zone_not_simple, ErrorKind::input, "zone-not-simple"},
     Row{ErrorCode::not_georeferenced, ErrorKind::input, "not-georeferenced"},
     Row{ErrorCode::not_on_earth, ErrorKind::input, "not-on-earth"},
     Row{ErrorCode::too_far_away, ErrorKind::input, "too-far-away"},

@@ -235,11 +235,15 @@ std::vector<LegendEntry> legend_of(const PictureRequest& request) {
   } else if (request.solid != nullptr && !request.solid->triangles.empty()) {
     legend.push_back({Mark::film, kPlainVolume, "volume", ""});
   }
-  if (!request.navigation.keep_in.empty()) {
-    legend.push_back(
-        {Mark::line, kBox, request.navigation.keep_in.size() > 1 ? "navigable boxes" : "navigable box", ""});
+  const Navigation& limits = request.navigation;
+  if (!limits.keep_in.empty() || !limits.keep_in_zones.empty()) {
+    const bool is_one = limits.keep_in.size() + limits.keep_in_zones.size() == 1;
+    const char* const several = limits.keep_in_zones.empty() ? "navigable boxes" : "navigable zones";
+    const char* const one = limits.keep_in_zones.empty() ? "navigable box" : "navigable zone";
+    legend.push_back({Mark::line, kBox, is_one ? one : several, ""});
   }
-  if (!request.navigation.keep_out.empty()) legend.push_back({Mark::line, kKeepOut, "keep out", ""});
+  if (!limits.keep_out.empty() || !limits.keep_out_zones.empty())
+    legend.push_back({Mark::line, kKeepOut, "keep out", ""});
   return legend;
 }
 

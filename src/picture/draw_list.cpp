@@ -93,6 +93,14 @@ std::vector<Vec3> framed_points(const Scene& scene, const PictureRequest& reques
     if (size > 0 && (box.max - box.min).norm() > kLargestBox * size) continue;
     for (const Vec3& corner : corners_of(box)) points.push_back(corner);
   }
+  for (const Zone& zone : request.navigation.keep_in_zones) {
+    Box box;
+    for (const Eigen::Vector2d& p : zone.outer) box.extend(Vec3(p.x(), p.y(), 0));
+    box.min.z() = std::isfinite(zone.min_z_m) ? zone.min_z_m : bounds.empty() ? 0 : bounds.min.z();
+    box.max.z() = std::isfinite(zone.max_z_m) ? zone.max_z_m : bounds.empty() ? 0 : bounds.max.z();
+    if (bounds.empty() || (box.max - box.min).norm() > kLargestBox * (bounds.max - bounds.min).norm()) continue;
+    for (const Vec3& corner : corners_of(box)) points.push_back(corner);
+  }
   if (points.empty()) {
     for (const Vec3& corner : corners_of(bounding_box(scene.mesh))) points.push_back(corner);
   }
@@ -222,6 +230,8 @@ class Builder {
     target();
     for (const Box& box : request_.navigation.keep_in) wire(box, kBox);
     for (const Box& box : request_.navigation.keep_out) wire(box, kKeepOut);
+    for (const Zone& zone : request_.navigation.keep_in_zones) wire(zone, kBox);
+    for (const Zone& zone : request_.navigation.keep_out_zones) wire(zone, kKeepOut);
     return std::move(list_);
   }
 
@@ -389,6 +399,30 @@ class Builder {
         if ((i & bit) == 0) line(list_.lines, corners[i], corners[i | bit], colour, 0.95, 1.8, 0.6, 0.25);
       }
     }
+  }
+
+  void limit_line(const Vec3& from, const Vec3& to, Colour colour) {
+    line(list_.lines, from, to, colour, 0.95, 1.8, 0.6, 0.25);
+  }
+
+  /// A zone without a lower or an upper bound is drawn from the lowest or to the highest of what the picture is about.
+  /// Corners that hardly turn, as those of circles, have no upright line.
+  void wire(const Zone& zone, Colour colour) {
+    const double low = std::isfinite(zone.min_z_m) ? zone.min_z_m : std::min(extent_.framed.min.z(), zone.max_z_m);
+    const double high = std::isfinite(zone.max_z_m) ? zone.max_z_m : std::max(extent_.framed.max.z(), zone.min_z_m);
+    const auto wire_ring = [&](const Zone::Ring& ring) {
+      for (std::size_t i = 0; i < ring.size(); ++i) {
+        const Eigen::Vector2d &a = ring[i], &b = ring[(i + 1) % ring.size()];
+        for (const double z : {low, high}) limit_line({a.x(), a.y(), z}, {b.x(), b.y(), z}, colour);
+        const Eigen::Vector2d in = a - ring[(i + ring.size() - 1) % ring.size()], out = b - a;
+        constexpr double kStraight = 0.998;  // the cosine of 3.6 degrees
+        if (in.dot(out) < kStraight * in.norm() * out.norm()) {
+          limit_line({a.x(), a.y(), low}, {a.x(), a.y(), high}, colour);
+        }
+      }
+    };
+    wire_ring(zone.outer);
+    for (const Zone::Ring& hole : zone.holes) wire_ring(hole);
   }
 
   const Scene& scene_;

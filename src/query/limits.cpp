@@ -54,6 +54,62 @@ void add_mesh_crossings(const Mesh& mesh, const ViewRay& line, std::vector<doubl
   }
 }
 
+template <typename Visit>
+void for_each_side(const Zone& zone, const Visit& visit) {
+  const auto visit_ring = [&](const Zone::Ring& ring) {
+    for (std::size_t i = 0; i < ring.size(); ++i) visit(ring[i], ring[(i + 1) % ring.size()]);
+  };
+  visit_ring(zone.outer);
+  for (const Zone::Ring& hole : zone.holes) visit_ring(hole);
+}
+
+Box box_of(const Zone& zone) {
+  Box box;
+  for (const Eigen::Vector2d& p : zone.outer) box.extend(Vec3(p.x(), p.y(), 0));
+  box.min.z() = zone.min_z_m;
+  box.max.z() = zone.max_z_m;
+  return box;
+}
+
+enum class Place { outside, border, inside };
+
+/// In plan: a ray eastward crosses the sides of a polygon and its holes an odd number of times from inside.
+Place place_in(const Zone& zone, const Eigen::Vector2d& p) {
+  bool is_inside = false, is_on_side = false;
+  for_each_side(zone, [&](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+    if (std::max(a.y(), b.y()) < p.y() || std::min(a.y(), b.y()) > p.y() || std::max(a.x(), b.x()) < p.x()) return;
+    const double area = (b.x() - a.x()) * (p.y() - a.y()) - (b.y() - a.y()) * (p.x() - a.x());  // > 0: p lies left
+    if (area == 0 && std::min(a.x(), b.x()) <= p.x()) is_on_side = true;
+    if ((a.y() > p.y()) != (b.y() > p.y()) && (area > 0) == (b.y() > a.y())) is_inside = !is_inside;
+  });
+  return is_on_side ? Place::border : is_inside ? Place::inside : Place::outside;
+}
+
+bool strictly_inside(const Zone& zone, const Box& box, const Vec3& p) {
+  return strictly_inside(box, p) && place_in(zone, p.head<2>()) == Place::inside;
+}
+bool inside(const Zone& zone, const Box& box, const Vec3& p) {
+  return inside(box, p) && place_in(zone, p.head<2>()) != Place::outside;
+}
+
+/// Where the line passes a side or a height, or nearly, as for meshes.
+void add_zone_crossings(const Zone& zone, const ViewRay& line, std::vector<double>& out) {
+  constexpr double kNear = 1e-9;  // of a side's length
+  if (line.direction.z() != 0) {
+    out.push_back((zone.min_z_m - line.origin.z()) / line.direction.z());
+    out.push_back((zone.max_z_m - line.origin.z()) / line.direction.z());
+  }
+  const Eigen::Vector2d origin = line.origin.head<2>(), direction = line.direction.head<2>();
+  for_each_side(zone, [&](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+    const Eigen::Vector2d side = b - a, from = a - origin;
+    const double slope = direction.x() * side.y() - direction.y() * side.x();
+    if (slope == 0) return;
+    const double along = (from.x() * direction.y() - from.y() * direction.x()) / slope;
+    if (along < -kNear || along > 1 + kNear) return;
+    out.push_back((from.x() * side.y() - from.y() * side.x()) / slope);
+  });
+}
+
 /// The part of the line from one cut to the next.
 struct Part {
   double begin, end;
@@ -66,13 +122,15 @@ Limits::Limits(Navigation navigation, sensor::SensorLimits sensor)
     : navigation_(std::move(navigation)), sensor_(std::move(sensor)) {
   for (const KeepInMesh& mesh : navigation_.meshes) mesh_boxes_.push_back(bounding_box(mesh.mesh));
   if (navigation_.above_ground) ground_.emplace(navigation_.above_ground->ground);
+  for (const Zone& zone : navigation_.keep_in_zones) keep_in_boxes_.push_back(box_of(zone));
+  for (const Zone& zone : navigation_.keep_out_zones) keep_out_boxes_.push_back(box_of(zone));
 }
 
 // All members of Navigation are named, here and below: a limit that is added does not compile before it is answered.
 
 /// The line within reach, cut wherever it passes a limit: between neighbours all of it is allowed or none.
 std::vector<double> Limits::cut_line(const ViewRay& line) const {
-  const auto& [altitude, keep_in, keep_out, meshes, above_ground] = navigation_;
+  const auto& [altitude, keep_in, keep_in_zones, keep_out, keep_out_zones, meshes, above_ground] = navigation_;
   std::vector<double> cuts;
   if (altitude) {
     Box band;
@@ -82,6 +140,8 @@ std::vector<double> Limits::cut_line(const ViewRay& line) const {
   }
   for (const Box& box : keep_in) add_box_crossings(box, line, cuts);
   for (const Box& box : keep_out) add_box_crossings(box, line, cuts);
+  for (const Zone& zone : keep_in_zones) add_zone_crossings(zone, line, cuts);
+  for (const Zone& zone : keep_out_zones) add_zone_crossings(zone, line, cuts);
   for (const KeepInMesh& mesh : meshes) add_mesh_crossings(mesh.mesh, line, cuts);
   if (above_ground) {
     for (const double above_m : {above_ground->min_m, above_ground->max_m}) {
@@ -130,7 +190,7 @@ void Limits::add_broken_above_ground(const Vec3& point, std::vector<std::string>
 }
 
 std::vector<std::string> Limits::broken(const Vec3& point) const {
-  const auto& [altitude, keep_in, keep_out, meshes, above_ground] = navigation_;
+  const auto& [altitude, keep_in, keep_in_zones, keep_out, keep_out_zones, meshes, above_ground] = navigation_;
   const auto holds = [&](const Box& box) { return inside(box, point); };
   std::vector<std::string> broken;
   if (altitude) {
@@ -138,9 +198,17 @@ std::vector<std::string> Limits::broken(const Vec3& point) const {
     if (point.z() > altitude->max_m) broken.push_back("altitude max");
   }
   if (above_ground) add_broken_above_ground(point, broken);
-  if (!keep_in.empty() && std::none_of(keep_in.begin(), keep_in.end(), holds)) broken.push_back("boxes");
+  bool is_kept = (keep_in.empty() && keep_in_zones.empty()) || std::any_of(keep_in.begin(), keep_in.end(), holds);
+  for (std::size_t i = 0; i < keep_in_zones.size() && !is_kept; ++i) {
+    is_kept = inside(keep_in_zones[i], keep_in_boxes_[i], point);
+  }
+  if (!is_kept) broken.push_back(keep_in_zones.empty() ? "boxes" : "keep_in");
   for (std::size_t i = 0; i < keep_out.size(); ++i)
     if (strictly_inside(keep_out[i], point)) broken.push_back("keep_out " + std::to_string(i));
+  for (std::size_t i = 0; i < keep_out_zones.size(); ++i) {
+    const Zone& zone = keep_out_zones[i];
+    if (strictly_inside(zone, keep_out_boxes_[i], point)) broken.push_back("keep_out zone " + zone.name);
+  }
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     // Also because the winding number overflows far away.
     const bool is_in = inside(mesh_boxes_[i], point) && !(winding_number(meshes[i].mesh, point) < 0.5);

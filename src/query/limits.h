@@ -24,9 +24,9 @@ class Limits {
   Limits(Navigation navigation, sensor::SensorLimits sensor);
 
   /// Names as in reports: "altitude min", "altitude max", "agl min", "agl max", "ground edge" (no ground above or below
-  /// the point), "boxes" (the point is in none of them), "keep_out 2", "mesh NAME", then the sensor's
-  /// (SensorLimits::broken). Borders belong to the allowed side. Cost: linear in the triangles of the navigation meshes
-  /// whose boxes hold the point.
+  /// the point), "boxes" or "keep_in" (the point is in none of them), "keep_out 2", "keep_out zone NAME", "mesh NAME",
+  /// then the sensor's (SensorLimits::broken). Borders belong to the allowed side. Cost: linear in the corners of zones
+  /// and in the triangles of navigation meshes whose boxes hold the point.
   std::vector<std::string> broken(const Vec3& point) const;
 
   /// Signed distance, along the line, from the point at `at` metres from its origin (negative: behind the target) to
@@ -42,8 +42,8 @@ class Limits {
 
   Navigation navigation_;
   sensor::SensorLimits sensor_;
-  std::vector<Box> mesh_boxes_;
-  std::optional<GroundHeights> ground_;  ///< where heights above it are limited
+  std::vector<Box> mesh_boxes_, keep_in_boxes_, keep_out_boxes_;  ///< of meshes and of zones
+  std::optional<GroundHeights> ground_;                           ///< where heights above it are limited
 };
 
 }  // namespace vantage::internal::query

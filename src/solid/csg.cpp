@@ -1,6 +1,7 @@
 #include "solid/csg.h"
 
 #include <manifold/manifold.h>
+#include <manifold/polygon.h>
 
 #include <algorithm>
 #include <numeric>
@@ -209,6 +210,43 @@ Solid make_box(const Box& box, const BoxLabels& labels) {
     result.labels.insert(result.labels.end(), {labels.max[axis], labels.max[axis], labels.min[axis], labels.min[axis]});
   }
   return Solid(result, "box");
+}
+
+Solid make_prism(const std::vector<std::vector<Eigen::Vector2d>>& rings, double low, double high,
+                 const std::array<std::uint32_t, 3>& labels) {
+  manifold::PolygonsIdx polygons;
+  LabelledMesh result;
+  std::vector<Vec3>& vertices = result.mesh.vertices;
+  std::uint32_t count = 0;
+  for (const std::vector<Eigen::Vector2d>& ring : rings) {
+    manifold::SimplePolygonIdx& polygon = polygons.emplace_back();
+    for (const Eigen::Vector2d& p : ring) {
+      polygon.push_back({{p.x(), p.y()}, static_cast<int>(count++)});
+      vertices.emplace_back(p.x(), p.y(), low);
+    }
+  }
+  for (std::uint32_t v = 0; v < count; ++v) vertices.emplace_back(vertices[v].x(), vertices[v].y(), high);
+  const auto add = [&](const Triangle& triangle, std::uint32_t label) {
+    result.mesh.triangles.push_back(triangle);
+    result.labels.push_back(label);
+  };
+  for (const manifold::ivec3& t : manifold::TriangulateIdx(polygons)) {
+    const auto a = static_cast<std::uint32_t>(t.x), b = static_cast<std::uint32_t>(t.y),
+               c = static_cast<std::uint32_t>(t.z);
+    add({c, b, a}, labels[0]);
+    add({count + a, count + b, count + c}, labels[1]);
+  }
+  std::uint32_t first = 0;
+  for (const std::vector<Eigen::Vector2d>& ring : rings) {
+    const auto size = static_cast<std::uint32_t>(ring.size());
+    for (std::uint32_t i = 0; i < size; ++i) {
+      const std::uint32_t from = first + i, to = first + (i + 1) % size;
+      add({from, to, count + to}, labels[2]);
+      add({from, count + to, count + from}, labels[2]);
+    }
+    first += size;
+  }
+  return Solid(result, "zone");
 }
 
 Mesh convex_hull(std::span<const Vec3> points) {

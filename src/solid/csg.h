@@ -75,6 +75,12 @@ struct BoxLabels {
 /// An axis-aligned box; its corners are those given, bit for bit. Needs min < max on every axis.
 Solid make_box(const Box& box, const BoxLabels& labels);
 
+/// The space straight above a polygon, from z `low` to `high`, low < high. `rings`: the outer one counter-clockwise,
+/// those of holes clockwise; they may run along one another, not cross. The corners are those given, bit for bit.
+/// Labels of the facets at the bottom, at the top and at the sides. Cost: O(n log n) expected.
+Solid make_prism(const std::vector<std::vector<Eigen::Vector2d>>& rings, double low, double high,
+                 const std::array<std::uint32_t, 3>& labels);
+
 /// The convex hull of points, closed and oriented; points nearer to each other or to a facet than rounding (1e-12 of
 /// the largest coordinate) may be left out. Empty where the points lie in a plane. Cost: O(n log n) expected.
 Mesh convex_hull(std::span<const Vec3> points);

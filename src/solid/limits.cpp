@@ -3,6 +3,7 @@
 #include <string>
 
 #include "core/text.h"
+#include "core/zone_check.h"
 #include "solid/navigation.h"
 #include "solid/solid_check.h"
 #include "vantage/error.h"
@@ -66,6 +67,15 @@ void check_ground(const Ground& ground) {
   }
 }
 
+void check_zones(const std::vector<Zone>& zones, const char* key) {
+  for (std::size_t i = 0; i < zones.size(); ++i) {
+    if (const auto fault = core::fault_of(zones[i])) {
+      throw Error(fault->code, std::string("zone ").append(zones[i].name).append(": ").append(fault->problem),
+                  std::string("navigation.").append(key).append("[").append(std::to_string(i)).append("]"), fault->fix);
+    }
+  }
+}
+
 }  // namespace
 
 void check_limits(const Navigation& navigation) {
@@ -78,6 +88,8 @@ void check_limits(const Navigation& navigation) {
   }
   check_boxes(navigation.keep_in, "box", "boxes");
   check_boxes(navigation.keep_out, "keep_out", "keep_out");
+  check_zones(navigation.keep_in_zones, "keep_in_zones");
+  check_zones(navigation.keep_out_zones, "keep_out_zones");
 }
 
 std::vector<Mesh> check_navigation(const Navigation& navigation, const core::ProgressReporter& progress) {

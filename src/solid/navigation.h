@@ -8,8 +8,8 @@
 
 namespace vantage::internal::solid {
 
-/// Throws Error(input) for a reversed, empty or not finite altitude band or box; `where` says which one in the words of
-/// a mission file ("navigation.boxes[1]").
+/// Throws Error(input) for a reversed, empty or not finite altitude band or box and for a zone that is none; `where`
+/// says which one in the words of a mission file ("navigation.boxes[1]").
 void check_limits(const Navigation& navigation);
 
 /// check_limits, and checked_solid on every mesh. Returns the meshes, welded.

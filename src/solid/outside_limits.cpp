@@ -50,9 +50,12 @@ Emptiness explain_region(const Region& region, const Solid& left, const std::str
                                    : "widen the band"};
     case RegionKind::box:
       return {region.name + " does not meet " + left_name + span_text(left, origin),
-              "move or enlarge a box so that it overlaps this"};
+              "move or enlarge it so that it overlaps this"};
     case RegionKind::boxes:
       return {"no box meets " + left_name + span_text(left, origin), "move or enlarge a box so that it overlaps this"};
+    case RegionKind::zones:
+      return {"neither a zone nor a box to stay in meets " + left_name + span_text(left, origin),
+              "move or enlarge one so that it overlaps this"};
     case RegionKind::mesh:
       return {region.name + " does not meet " + left_name + span_text(left, origin),
               "check its place and its axes: the scene frame, metres, z up"};
@@ -96,7 +99,7 @@ Emptiness explain_emptiness(const Solid& volume, const Regions& regions, const c
   if (regions.kept.size() + regions.forbidden.size() > keep_out.size()) {
     left_name = "what the other limits leave of the volume";
   }
-  return {(one ? keep_out[0]->name + " covers " : std::string("the keep_out boxes cover ")) + left_name +
+  return {(one ? keep_out[0]->name + " covers " : std::string("the limits to stay out of cover ")) + left_name +
               span_text(left, regions.origin),
           one ? "make it smaller" : "make them smaller"};
 }

@@ -9,6 +9,7 @@
 #include "core/text.h"
 #include "solid/ground_band.h"
 #include "solid/numerics.h"
+#include "solid/zone_rings.h"
 
 namespace vantage::internal::solid {
 namespace {
@@ -30,6 +31,8 @@ bool insides_meet(const Box& a, const Box& b) {
   return (a.min.array() < b.max.array()).all() && (b.min.array() < a.max.array()).all();
 }
 
+std::string zone_name(const Zone& zone) { return std::string("zone ").append(zone.name); }
+
 /// Causes of a box's six sides: at min x, y, z, then at max x, y, z.
 using SideCauses = std::array<std::uint32_t, 6>;
 
@@ -46,9 +49,10 @@ class Builder {
 
   void add_altitude(const Navigation::Altitude& altitude);
   void add_above_ground(const Navigation::AboveGround& limit);
-  void add_boxes(const std::vector<Box>& boxes);
+  void add_kept(const std::vector<Box>& boxes, const std::vector<Zone>& zones);
   void add_mesh(const Mesh& mesh, const std::string& name);
   void add_keep_out(const Box& box, std::size_t index);
+  void add_keep_out(const Zone& zone);
 
   Regions take() { return std::move(result_); }
 
@@ -65,6 +69,7 @@ class Builder {
   void add_band(RegionKind kind, const std::string& name, const Box& band, const char* min_cause,
                 const char* max_cause);
   Solid make_box_of_one_cause(const Box& box, const std::string& name);
+  Solid make_zone(const Zone& zone, const std::string& name);
 
   Box bounds_, outer_;
   Regions result_;
@@ -132,8 +137,20 @@ void Builder::add_above_ground(const Navigation::AboveGround& limit) {
                           make_ground_band(*ground.surface, min_m, max_m, outer_, result_.origin, labels)});
 }
 
-void Builder::add_boxes(const std::vector<Box>& boxes) {
-  if (boxes.empty()) return;
+/// The part of a zone that lies about the volume, as of boxes.
+Solid Builder::make_zone(const Zone& zone, const std::string& name) {
+  const std::uint32_t cause = add_cause(name);
+  const std::array<std::uint32_t, 3> labels = {add_source({cause, 2, zone.min_z_m}),
+                                               add_source({cause, 2, zone.max_z_m}), add_source({cause})};
+  const double low = std::max(zone.min_z_m, outer_.min.z()) - result_.origin.z();
+  const double high = std::min(zone.max_z_m, outer_.max.z()) - result_.origin.z();
+  const ZoneRings rings = rings_within(zone, outer_, result_.origin);
+  if (rings.empty() || !(low < high)) return Solid();
+  return make_prism(rings, low, high, labels);
+}
+
+void Builder::add_kept(const std::vector<Box>& boxes, const std::vector<Zone>& zones) {
+  if (boxes.empty() && zones.empty()) return;
   for (const Box& box : boxes) {
     if (contains(box, bounds_)) return;
   }
@@ -143,8 +160,11 @@ void Builder::add_boxes(const std::vector<Box>& boxes) {
       solids.push_back(make_box_of_one_cause(boxes[i], std::string("box ").append(std::to_string(i))));
     }
   }
-  const bool is_one = boxes.size() == 1;
-  result_.kept.push_back({is_one ? RegionKind::box : RegionKind::boxes, is_one ? "box 0" : "boxes", unite(solids)});
+  for (const Zone& zone : zones) solids.push_back(make_zone(zone, zone_name(zone)));
+  const bool is_one = boxes.size() + zones.size() == 1;
+  const RegionKind kind = is_one ? RegionKind::box : zones.empty() ? RegionKind::boxes : RegionKind::zones;
+  const std::string name = !is_one ? "boxes" : zones.empty() ? "box 0" : zone_name(zones[0]);
+  result_.kept.push_back({kind, name, unite(solids)});
 }
 
 void Builder::add_mesh(const Mesh& mesh, const std::string& name) {
@@ -159,6 +179,12 @@ void Builder::add_keep_out(const Box& box, std::size_t index) {
   if (!insides_meet(box, bounds_)) return;
   const std::string name = std::string("keep_out ").append(std::to_string(index));
   result_.forbidden.push_back({RegionKind::keep_out, name, make_box_of_one_cause(box, name)});
+}
+
+void Builder::add_keep_out(const Zone& zone) {
+  const std::string name = std::string("keep_out ").append(zone_name(zone));
+  Solid solid = make_zone(zone, name);
+  if (!solid.empty()) result_.forbidden.push_back({RegionKind::keep_out, name, std::move(solid)});
 }
 
 }  // namespace
@@ -199,13 +225,14 @@ void set_mesh(LabelledMesh labelled, const std::vector<FacetSource>& sources, st
 // All members are named: a limit that is added does not compile here before it is cut.
 Regions make_regions(const std::vector<Cause>& volume_causes, const std::vector<FacetSource>& volume_sources,
                      const Box& bounds, const Navigation& navigation, const std::vector<Mesh>& meshes) {
-  const auto& [altitude, keep_in, keep_out, keep_in_meshes, above_ground] = navigation;
+  const auto& [altitude, keep_in, keep_in_zones, keep_out, keep_out_zones, keep_in_meshes, above_ground] = navigation;
   Builder builder(volume_causes, volume_sources, bounds);
   if (altitude) builder.add_altitude(*altitude);
   if (above_ground) builder.add_above_ground(*above_ground);
-  builder.add_boxes(keep_in);
+  builder.add_kept(keep_in, keep_in_zones);
   for (std::size_t i = 0; i < meshes.size(); ++i) builder.add_mesh(meshes[i], keep_in_meshes[i].name);
   for (std::size_t i = 0; i < keep_out.size(); ++i) builder.add_keep_out(keep_out[i], i);
+  for (const Zone& zone : keep_out_zones) builder.add_keep_out(zone);
   return builder.take();
 }
 

@@ -39,12 +39,13 @@ class FacetSourceList {
 void set_mesh(LabelledMesh labelled, const std::vector<FacetSource>& sources, std::vector<Cause> causes,
               Volume& volume);
 
-enum class RegionKind { altitude, above_ground, box, boxes, mesh, keep_out, sensor };
+enum class RegionKind { altitude, above_ground, box, boxes, zones, mesh, keep_out, sensor };
 
-/// Space to stay in or out of. All boxes to stay in are one region, since the volume is cut to their union.
+/// Space to stay in or out of. All boxes and zones to stay in are one region, since the volume is cut to their union.
 struct Region {
   RegionKind kind;
-  std::string name;              ///< "the altitude band 20 to 120 m", "box 0", "the mesh airspace.ply", "keep_out 1"
+  std::string name;              ///< "the altitude band 20 to 120 m", "box 0", "the mesh airspace.ply", "keep_out 1",
+                                 ///< "zone park"
   Solid solid;                   ///< about Regions::origin; empty when it misses the volume's bounds
   Box box = {};                  ///< of the altitude band, scene frame: z alone is meant
   std::string explanation = {};  ///< of a sensor's limit: what it asks, as a clause; may be empty
@@ -59,7 +60,8 @@ struct Regions {
 };
 
 /// Leaves out every limit that a volume with these bounds keeps anyway. `meshes` are the navigation's, checked and
-/// welded. Boxes are clipped a little outside the bounds, where that changes nothing, to keep coordinates small.
+/// welded. Boxes and zones are clipped a little outside the bounds, where that changes nothing, to keep coordinates
+/// small.
 Regions make_regions(const std::vector<Cause>& volume_causes, const std::vector<FacetSource>& volume_sources,
                      const Box& bounds, const Navigation& navigation, const std::vector<Mesh>& meshes);
 

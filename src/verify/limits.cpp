@@ -1,6 +1,7 @@
 #include "verify/limits.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "vantage/error.h"
 
@@ -24,6 +25,51 @@ bool strictly_within(const Box& box, const Vec3& point) {
   return (point.array() > box.min.array()).all() && (point.array() < box.max.array()).all();
 }
 
+using Plan = Eigen::Vector2d;
+
+void check(const std::vector<Zone>& zones, const std::string& name) {
+  const auto bounds_nothing = [](const Zone::Ring& ring) { return ring.size() < 3; };
+  for (const Zone& zone : zones) {
+    const std::string where = name + " " + zone.name;
+    if (!(zone.min_z_m < zone.max_z_m)) {  // NaN too
+      throw Error(ErrorCode::limits_reversed, "the zone is reversed or flat", where, "give the lower z first");
+    }
+    if (bounds_nothing(zone.outer) || std::any_of(zone.holes.begin(), zone.holes.end(), bounds_nothing)) {
+      throw Error(ErrorCode::zone_not_simple, "a ring of the zone has fewer than 3 corners", where,
+                  "give the corners in order");
+    }
+  }
+}
+
+/// How often the ring goes round the point, by the angles under which its sides are seen; nothing on a side.
+std::optional<int> turns_round(const Zone::Ring& ring, const Plan& point) {
+  constexpr double kFullTurn = 6.283185307179586;
+  double sum = 0;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Plan a = ring[i] - point, b = ring[(i + 1) % ring.size()] - point;
+    const double across = a.x() * b.y() - a.y() * b.x(), along = a.dot(b);
+    if (across == 0 && along <= 0) return std::nullopt;
+    sum += std::atan2(across, along);
+  }
+  return static_cast<int>(std::lround(sum / kFullTurn));
+}
+
+/// `on_border`: what to say of points on a side.
+bool contains(const Zone& zone, const Vec3& point, bool on_border) {
+  const double low = zone.min_z_m, high = zone.max_z_m, z = point.z();
+  if (z < low || z > high || (!on_border && (z == low || z == high))) return false;
+  const Plan plan = point.head<2>();
+  const std::optional<int> outer = turns_round(zone.outer, plan);
+  if (!outer) return on_border;
+  if (*outer == 0) return false;
+  for (const Zone::Ring& hole : zone.holes) {
+    const std::optional<int> turns = turns_round(hole, plan);
+    if (!turns) return on_border;
+    if (*turns != 0) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 Limits::Limits(const Navigation& navigation, const Vec3& origin) : navigation_(navigation), origin_(origin) {
@@ -39,7 +85,9 @@ Limits::Limits(const Navigation& navigation, const Vec3& origin) : navigation_(n
     ground_.emplace(*limit);
   }
   check(navigation_.keep_in, "box");
+  check(navigation_.keep_in_zones, "zone");
   check(navigation_.keep_out, "keep_out");
+  check(navigation_.keep_out_zones, "keep_out zone");
   for (const KeepInMesh& keep_in : navigation_.meshes) {
     meshes_.emplace_back(keep_in.mesh, origin, "keep-in mesh '" + keep_in.name + "'");
   }
@@ -47,7 +95,7 @@ Limits::Limits(const Navigation& navigation, const Vec3& origin) : navigation_(n
 
 // All members are named: a limit that is added does not compile here before it is checked.
 std::optional<std::string> Limits::broken_by(const Vec3& point) const {
-  const auto& [altitude, keep_in, keep_out, meshes, above_ground] = navigation_;
+  const auto& [altitude, keep_in, keep_in_zones, keep_out, keep_out_zones, meshes, above_ground] = navigation_;
   const Vec3 scene_point = point + origin_;
   if (altitude) {
     if (scene_point.z() < altitude->min_m) return "altitude min";
@@ -57,9 +105,17 @@ std::optional<std::string> Limits::broken_by(const Vec3& point) const {
     if (const auto limit = ground_->broken_by(scene_point)) return *limit;
   }
   const auto holds = [&scene_point](const Box& box) { return within(box, scene_point); };
-  if (!keep_in.empty() && std::none_of(keep_in.begin(), keep_in.end(), holds)) return "box";
+  const auto is_within = [&scene_point](const Zone& zone) { return contains(zone, scene_point, true); };
+  const bool may_be_anywhere = keep_in.empty() && keep_in_zones.empty();
+  if (!may_be_anywhere && std::none_of(keep_in.begin(), keep_in.end(), holds) &&
+      std::none_of(keep_in_zones.begin(), keep_in_zones.end(), is_within)) {
+    return keep_in_zones.empty() ? "box" : "keep_in";
+  }
   for (std::size_t i = 0; i < keep_out.size(); ++i) {
     if (strictly_within(keep_out[i], scene_point)) return "keep_out " + std::to_string(i);
+  }
+  for (const Zone& zone : keep_out_zones) {
+    if (contains(zone, scene_point, false)) return "keep_out zone " + zone.name;
   }
   for (std::size_t i = 0; i < meshes_.size(); ++i) {
     if (meshes_[i].contains(point) == false) return "mesh " + meshes[i].name;

@@ -13,14 +13,15 @@ namespace vantage::internal::verify {
 
 class Limits {
  public:
-  /// Throws Error(input) for a reversed band or box and for a keep-in mesh that is not closed.
+  /// Throws Error(input) for a reversed band, box or zone, for a zone without corners and for a keep-in mesh that is
+  /// not closed.
   Limits(const Navigation& navigation, const Vec3& origin);
 
   /// Name of the first limit that the local point breaks; nothing where it keeps them all. Borders are allowed.
   std::optional<std::string> broken_by(const Vec3& point) const;
 
  private:
-  Navigation navigation_;  ///< altitude and boxes; the meshes are in `meshes_`
+  Navigation navigation_;  ///< altitude, boxes and zones; the meshes are in `meshes_`
   Vec3 origin_;
   std::vector<ClosedMesh> meshes_;
   std::optional<GroundProbe> ground_;

@@ -199,6 +199,25 @@ vantage::Box draw_box(Random& random, const Pose& pose, double reach) {
   return box;
 }
 
+/// Round a middle in equal steps, with corners near and far: not convex, as a rule.
+vantage::Zone draw_zone(Random& random, const Pose& pose, double reach) {
+  const vantage::Box box = draw_box(random, pose, reach);
+  const Vec3 middle = (box.min + box.max) / 2, half = (box.max - box.min) / 2;
+  const int count = 3 + static_cast<int>(random.uniform(0, 6));
+  const double begin = random.uniform(0, 2 * std::numbers::pi);
+  vantage::Zone zone;
+  for (int i = 0; i < count; ++i) {
+    const double angle = begin + 2 * std::numbers::pi * i / count;
+    const double share = random.uniform(0.3, 1.5);
+    zone.outer.emplace_back(middle.x() + share * half.x() * std::cos(angle),
+                            middle.y() + share * half.y() * std::sin(angle));
+  }
+  zone.min_z_m = box.min.z();
+  zone.max_z_m = box.max.z();
+  zone.name = "drawn";
+  return zone;
+}
+
 void draw_limits(Random& random, const Pose& pose, Case& c) {
   const Vec3 origin = pose(Vec3::Zero());
   if (random.chance(0.5)) {
@@ -207,6 +226,8 @@ void draw_limits(Random& random, const Pose& pose, Case& c) {
   }
   if (random.chance(0.4)) c.navigation.keep_in = {draw_box(random, pose, c.range), draw_box(random, pose, c.range)};
   if (random.chance(0.4)) c.navigation.keep_out = {draw_box(random, pose, 0.5 * c.range)};
+  if (random.chance(0.3)) c.navigation.keep_in_zones = {draw_zone(random, pose, c.range)};
+  if (random.chance(0.3)) c.navigation.keep_out_zones = {draw_zone(random, pose, 0.5 * c.range)};
 }
 
 /// Two convex parts along a diagonal; or the target twice, once moved.

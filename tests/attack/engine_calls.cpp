@@ -46,16 +46,27 @@ void write_box(std::ostream& out, const Box& box) {
   out << "    - {min: " << list(box.min) << ", max: " << list(box.max) << "}\n";
 }
 
+// The attack draws zones without holes.
+void write_zone(std::ostream& out, const Zone& zone) {
+  out << "    - {polygon: [";
+  for (std::size_t i = 0; i < zone.outer.size(); ++i) {
+    out << (i > 0 ? ", [" : "[") << number(zone.outer[i].x()) << ", " << number(zone.outer[i].y()) << "]";
+  }
+  out << "], z: [" << number(zone.min_z_m) << ", " << number(zone.max_z_m) << "]}\n";
+}
+
 // The attack draws no meshes to stay in.
 void write_navigation(const Navigation& navigation, std::ostream& out) {
   if (navigation.empty()) return;
-  const auto& [altitude, keep_in, keep_out, meshes] = navigation;
+  const auto& [altitude, keep_in, keep_in_zones, keep_out, keep_out_zones, meshes] = navigation;
   out << "navigation:\n";
   if (altitude) out << "  altitude: [" << number(altitude->min_m) << ", " << number(altitude->max_m) << "]\n";
-  if (!keep_in.empty()) out << "  boxes:\n";
+  if (!keep_in.empty() || !keep_in_zones.empty()) out << "  keep_in:\n";
   for (const Box& box : keep_in) write_box(out, box);
-  if (!keep_out.empty()) out << "  keep_out:\n";
+  for (const Zone& zone : keep_in_zones) write_zone(out, zone);
+  if (!keep_out.empty() || !keep_out_zones.empty()) out << "  keep_out:\n";
   for (const Box& box : keep_out) write_box(out, box);
+  for (const Zone& zone : keep_out_zones) write_zone(out, zone);
 }
 
 void write_mission(const Case& c, const Target& target, const std::filesystem::path& file) {

@@ -146,6 +146,21 @@ class Claims {
     }
   }
 
+  /// Triangles from the first corner to each side cover the zone an odd number of times, and all else an even one.
+  static bool is_in_zone(const vantage::Zone& zone, const Vec3& p) {
+    if (p.z() < zone.min_z_m || p.z() > zone.max_z_m) return false;
+    const auto turn = [](const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
+      return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x()) > 0;
+    };
+    const Eigen::Vector2d at = p.head<2>();
+    bool inside = false;
+    for (std::size_t i = 1; i + 1 < zone.outer.size(); ++i) {
+      const Eigen::Vector2d &a = zone.outer[0], &b = zone.outer[i], &c = zone.outer[i + 1];
+      if (turn(a, b, at) == turn(b, c, at) && turn(b, c, at) == turn(c, a, at)) inside = !inside;
+    }
+    return inside;
+  }
+
   std::string limit_broken(const Vec3& p) const {
     const vantage::Navigation& limits = trial_.c.navigation;
     const auto holds = [&p](const vantage::Box& box) {
@@ -155,8 +170,14 @@ class Claims {
       return (p.array() > box.min.array()).all() && (p.array() < box.max.array()).all();
     };
     if (limits.altitude && (p.z() < limits.altitude->min_m || p.z() > limits.altitude->max_m)) return "altitude";
-    if (!limits.keep_in.empty() && std::none_of(limits.keep_in.begin(), limits.keep_in.end(), holds)) return "boxes";
+    const bool anywhere = limits.keep_in.empty() && limits.keep_in_zones.empty();
+    const auto zone_holds = [&p](const vantage::Zone& zone) { return is_in_zone(zone, p); };
+    if (!anywhere && std::none_of(limits.keep_in.begin(), limits.keep_in.end(), holds) &&
+        std::none_of(limits.keep_in_zones.begin(), limits.keep_in_zones.end(), zone_holds)) {
+      return "keep_in";
+    }
     if (std::any_of(limits.keep_out.begin(), limits.keep_out.end(), holds_inside)) return "keep_out";
+    if (std::any_of(limits.keep_out_zones.begin(), limits.keep_out_zones.end(), zone_holds)) return "keep_out zone";
     return {};
   }
 

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "app/mission_parser.h"
+#include "core/zone_check.h"
 #include "vantage/error.h"
 
 namespace {
@@ -32,6 +33,8 @@ void check_accepted(const vantage::MissionFile& mission) {
   if (mission.navigation.altitude) require(mission.navigation.altitude->min_m < mission.navigation.altitude->max_m);
   for (const vantage::Box& box : mission.navigation.keep_in) require((box.min.array() < box.max.array()).all());
   for (const vantage::Box& box : mission.navigation.keep_out) require((box.min.array() < box.max.array()).all());
+  for (const vantage::Zone& zone : mission.navigation.keep_in_zones) require(!vantage::internal::core::fault_of(zone));
+  for (const vantage::Zone& zone : mission.navigation.keep_out_zones) require(!vantage::internal::core::fault_of(zone));
 }
 
 }  // namespace

@@ -1,0 +1,294 @@
+#include "app/navigation_section.h"
+
+#include <array>
+#include <cstddef>
+#include <utility>
+
+#include "app/scene_section.h"
+#include "app/schema.h"
+#include "core/zone_check.h"
+#include "vantage/error.h"
+#include "vantage/input.h"
+
+namespace vantage::internal::app {
+namespace {
+
+const char* const kZoneForms =
+    "write each zone as {min: [x, y, z], max: [x, y, z]} or {polygon: [[x, y], [x, y], [x, y]], z: [low, high]}";
+const char* const kRingForm = "write the corners in order: [[x, y], [x, y], [x, y]]";
+
+std::string numbered(const std::string& what, std::size_t index) { return what + "[" + std::to_string(index) + "]"; }
+
+class NavigationParser {
+ public:
+  NavigationParser(const ValueReader& reader, const std::filesystem::path& folder) : reader_(reader), folder_(folder) {}
+
+  NavigationSection parse(const YamlNode& node);
+
+ private:
+  /// A list of zones of all kinds: boxes and others go to lists of their own.
+  struct ZoneLists {
+    std::vector<Box>& boxes;
+    std::vector<Zone>& zones;
+    std::vector<std::string>& places;
+  };
+
+  void parse_altitude(const YamlNode& node);
+  void parse_ground(const YamlNode& node);
+  std::array<double, 2> heights(const YamlNode& node, const std::string& what, const std::string& form) const;
+  const YamlNode* kept(const YamlNode& node) const;
+  void add_zones(const YamlNode& node, const std::string& what, const ZoneLists& lists) const;
+  Box box(const YamlNode& node, const std::string& what) const;
+  void check_extent(const YamlNode& node, const std::string& what, int axis, const Box& box) const;
+  Zone polygon(const YamlNode& node, const std::string& what, std::size_t index) const;
+  Zone::Ring ring(const YamlNode& node, const std::string& what) const;
+  void add_heights(const YamlNode& node, const std::string& what, Zone& zone) const;
+  void add_mesh(const YamlNode& node);
+  void refuse_beside(const YamlNode& node, const char* key, std::initializer_list<const char*> others) const;
+  const YamlNode& require(const YamlNode& map, Section section, const char* key, const std::string& fix) const;
+
+  const ValueReader& reader_;
+  const std::filesystem::path& folder_;
+  NavigationSection result_;
+};
+
+NavigationSection NavigationParser::parse(const YamlNode& node) {
+  if (node.kind == YamlNode::Kind::null) return {};  // the heading alone: no limits
+  check_keys(node, Section::navigation, reader_.file());
+  Navigation& navigation = result_.navigation;
+  if (const YamlNode* altitude = find(node, "altitude")) parse_altitude(*altitude);
+  if (const YamlNode* ground = find(node, "ground")) parse_ground(*ground);
+  if (const YamlNode* keep_in = kept(node)) {
+    const std::string what = keep_in == find(node, "boxes") ? "navigation.boxes" : "navigation.keep_in";
+    add_zones(*keep_in, what, {navigation.keep_in, navigation.keep_in_zones, result_.keep_in_places});
+    // "Cut to the union of no zones" would leave nothing, and "no limit" is not what the key says either.
+    if (keep_in->items.empty()) {
+      reader_.fail(ErrorCode::nothing_given, *keep_in, what + " is an empty list",
+                   "give at least one box or zone, or leave the key out for no limit");
+    }
+  }
+  if (const YamlNode* keep_out = find(node, "keep_out")) {
+    add_zones(*keep_out, "navigation.keep_out",
+              {navigation.keep_out, navigation.keep_out_zones, result_.keep_out_places});
+  }
+  const YamlNode* meshes = find(node, "meshes");
+  if (meshes == nullptr) return std::move(result_);
+  for (const YamlNode& item :
+       reader_.list(*meshes, "navigation.meshes", "write a list of mesh files: [airspace.ply]")) {
+    if (item.kind == YamlNode::Kind::map) {
+      check_keys(item, Section::mesh, reader_.file());
+      add_mesh(item);
+      continue;
+    }
+    YamlNode map;  // the short form, a path alone
+    map.kind = YamlNode::Kind::map;
+    map.place = item.place;
+    map.entries.push_back({"mesh", item.place, item});
+    add_mesh(map);
+  }
+  return std::move(result_);
+}
+
+/// `boxes` is the old name of `keep_in`.
+const YamlNode* NavigationParser::kept(const YamlNode& node) const {
+  const YamlNode* keep_in = find(node, "keep_in");
+  const YamlNode* boxes = find(node, "boxes");
+  if (keep_in != nullptr && boxes != nullptr) {
+    reader_.fail(ErrorCode::conflicting_keys, *boxes, "navigation.boxes is the old name of navigation.keep_in",
+                 "put all entries into 'keep_in'");
+  }
+  return keep_in != nullptr ? keep_in : boxes;
+}
+
+void NavigationParser::parse_altitude(const YamlNode& node) {
+  Navigation& navigation = result_.navigation;
+  const auto altitude = [&](const YamlNode& band, const std::string& what, const std::string& form) {
+    const auto [low, high] = heights(band, what, form);
+    navigation.altitude = {low, high};
+  };
+  if (node.kind != YamlNode::Kind::map) {
+    return altitude(
+        node, "navigation.altitude",
+        "write the lowest and the highest altitude in metres: [20, 120]; or {agl: [20, 120]} above the ground");
+  }
+  check_keys(node, Section::altitude, reader_.file());
+  const YamlNode *agl = find(node, "agl"), *z = find(node, "z");
+  if (!agl && !z) {
+    reader_.fail(
+        ErrorCode::nothing_given, node, "navigation.altitude says nothing",
+        "write {agl: [20, 120]} for heights above the ground, {z: [20, 120]} for heights in the scene, or both");
+  }
+  if (z) altitude(*z, "navigation.altitude.z", "write the lowest and the highest z in metres: [20, 120]");
+  if (!agl) return;
+  const auto [low, high] = heights(*agl, "navigation.altitude.agl",
+                                   "write the lowest and the highest height above the ground in metres: [20, 120]");
+  navigation.above_ground = {low, high, {}};
+  result_.above_ground_place = place_in(reader_.file(), agl->place);
+}
+
+void NavigationParser::parse_ground(const YamlNode& node) {
+  if (!result_.navigation.above_ground) {
+    reader_.fail(ErrorCode::not_applicable, node, "navigation.ground is given, and no limit above the ground",
+                 "write 'altitude: {agl: [20, 120]}', or leave 'ground' out");
+  }
+  GroundSource& ground = result_.ground.emplace();
+  if (parse_number(node.text).fault == NumberFault::none && node.kind == YamlNode::Kind::scalar && !node.is_quoted) {
+    ground.plane_z_m = reader_.length(node, "navigation.ground");
+  } else {
+    ground.object = reader_.text(node, "navigation.ground");
+  }
+  result_.above_ground_place = place_in(reader_.file(), node.place);
+}
+
+/// The lower one first.
+std::array<double, 2> NavigationParser::heights(const YamlNode& node, const std::string& what,
+                                                const std::string& form) const {
+  if (reader_.list(node, what, form).size() != 2) {
+    reader_.fail(ErrorCode::wrong_type, node, what + " must be two numbers, not " + describe(node), form);
+  }
+  const double low = reader_.length(node.items[0], what + "[0]"), high = reader_.length(node.items[1], what + "[1]");
+  if (low > high) {
+    reader_.fail(ErrorCode::limits_reversed, node,
+                 what + " is reversed: " + shortest(low) + " is above " + shortest(high),
+                 "write the lower one first: [" + shortest(high) + ", " + shortest(low) + "]");
+  }
+  if (low == high) {
+    reader_.fail(ErrorCode::limits_empty, node, what + " holds no air: both limits are " + shortest(low), form);
+  }
+  return {low, high};
+}
+
+void NavigationParser::add_zones(const YamlNode& node, const std::string& what, const ZoneLists& lists) const {
+  reader_.list(node, what, std::string("write a list of zones; ") + kZoneForms);
+  for (std::size_t i = 0; i < node.items.size(); ++i) {
+    const YamlNode& item = node.items[i];
+    const std::string name = numbered(what, i);
+    if (item.kind != YamlNode::Kind::map) {
+      reader_.fail(ErrorCode::wrong_type, item, name + " must be a mapping, not " + describe(item), kZoneForms);
+    }
+    check_keys(item, Section::zone, reader_.file());
+    if (find(item, "polygon") == nullptr) {
+      lists.boxes.push_back(box(item, name));
+      continue;
+    }
+    lists.zones.push_back(polygon(item, name, i));
+    lists.places.push_back(place_in(reader_.file(), item.place));
+  }
+}
+
+/// Keys that belong to another kind of zone than `key` does.
+void NavigationParser::refuse_beside(const YamlNode& node, const char* key,
+                                     std::initializer_list<const char*> others) const {
+  for (const char* other : others) {
+    if (const YamlNode* entry = find(node, other)) {
+      reader_.fail(ErrorCode::conflicting_keys, *entry,
+                   std::string("'") + other + "' and '" + key + "' are of different kinds of zones", kZoneForms);
+    }
+  }
+}
+
+Box NavigationParser::box(const YamlNode& node, const std::string& what) const {
+  const YamlNode& min = require(node, Section::zone, "min", kZoneForms);
+  const YamlNode& max = require(node, Section::zone, "max", kZoneForms);
+  refuse_beside(node, "min", {"holes", "z", "heights"});
+  Box result;
+  result.min = reader_.vector(min, what + ".min");
+  result.max = reader_.vector(max, what + ".max");
+  for (int axis = 0; axis < 3; ++axis) check_extent(node, what, axis, result);
+  return result;
+}
+
+void NavigationParser::check_extent(const YamlNode& node, const std::string& what, int axis, const Box& box) const {
+  if (box.min[axis] < box.max[axis]) return;
+  const bool is_reversed = box.min[axis] > box.max[axis];
+  const std::string name(1, "xyz"[axis]), low = shortest(box.min[axis]), high = shortest(box.max[axis]);
+  reader_.fail(is_reversed ? ErrorCode::limits_reversed : ErrorCode::limits_empty, node,
+               what + (is_reversed ? " is reversed in " : " is flat in ") + name + ": min " + low + ", max " + high,
+               is_reversed ? "swap the two " + name + " values" : "give min and max different " + name + " values");
+}
+
+Zone NavigationParser::polygon(const YamlNode& node, const std::string& what, std::size_t index) const {
+  refuse_beside(node, "polygon", {"min", "max"});
+  Zone zone;
+  zone.name = std::to_string(index);
+  zone.outer = ring(*find(node, "polygon"), what + ".polygon");
+  if (const YamlNode* holes = find(node, "holes")) {
+    const std::string name = what + ".holes";
+    reader_.list(*holes, name, "write a list of polygons: [[[x, y], [x, y], [x, y]]]");
+    for (std::size_t i = 0; i < holes->items.size(); ++i) {
+      zone.holes.push_back(ring(holes->items[i], numbered(name, i)));
+    }
+  }
+  add_heights(node, what, zone);
+  if (const auto fault = core::fault_of(zone)) {
+    reader_.fail(fault->code, node, what + ": " + fault->problem, fault->fix);
+  }
+  return zone;
+}
+
+Zone::Ring NavigationParser::ring(const YamlNode& node, const std::string& what) const {
+  Zone::Ring result;
+  reader_.list(node, what, kRingForm);
+  for (std::size_t i = 0; i < node.items.size(); ++i) {
+    const YamlNode& corner = node.items[i];
+    const std::string name = numbered(what, i);
+    if (reader_.list(corner, name, kRingForm).size() != 2) {
+      reader_.fail(ErrorCode::wrong_type, corner, name + " must be two numbers, not " + describe(corner), kRingForm);
+    }
+    result.emplace_back(reader_.length(corner.items[0], name + ".x"), reader_.length(corner.items[1], name + ".y"));
+  }
+  return result;
+}
+
+void NavigationParser::add_heights(const YamlNode& node, const std::string& what, Zone& zone) const {
+  const char* const form = "write 'z: [low, high]' in metres, or 'heights: any' for a zone without bounds";
+  const YamlNode* z = find(node, "z");
+  const YamlNode* heights = find(node, "heights");
+  if (heights != nullptr) {
+    const std::string word = reader_.text(*heights, what + ".heights");
+    if (word != "any") {
+      reader_.fail(ErrorCode::unknown_choice, *heights, what + ".heights cannot be " + in_quotes(word), form);
+    }
+    if (z != nullptr) {
+      reader_.fail(ErrorCode::conflicting_keys, *heights, what + " has both 'z' and 'heights: any'",
+                   "keep one of them");
+    }
+    return;
+  }
+  if (z == nullptr) {
+    reader_.fail(ErrorCode::missing_key, node, what + " does not say between which heights it lies", form);
+  }
+  if (reader_.list(*z, what + ".z", form).size() != 2) {
+    reader_.fail(ErrorCode::wrong_type, *z, what + ".z must be two numbers, not " + describe(*z), form);
+  }
+  zone.min_z_m = reader_.length(z->items[0], what + ".z[0]");
+  zone.max_z_m = reader_.length(z->items[1], what + ".z[1]");
+}
+
+void NavigationParser::add_mesh(const YamlNode& node) {
+  const YamlNode& mesh =
+      require(node, Section::mesh, "mesh", "write 'mesh: city.obj'; the path starts from the mission file");
+  NavigationMeshFile named;
+  named.name = reader_.text(mesh, "navigation.meshes.mesh");
+  named.file = folder_ / named.name;
+  if (const YamlNode* up = find(node, "up")) named.up = parse_up_axis(*up, reader_, "navigation.meshes.up");
+  if (const YamlNode* scale = find(node, "scale")) named.scale = reader_.positive(*scale, "navigation.meshes.scale");
+  result_.meshes.push_back(std::move(named));
+  result_.mesh_places.push_back(place_in(reader_.file(), mesh.place));
+}
+
+const YamlNode& NavigationParser::require(const YamlNode& map, Section section, const char* key,
+                                          const std::string& fix) const {
+  if (const YamlNode* node = find(map, key)) return *node;
+  reader_.fail(ErrorCode::missing_key, map,
+               std::string(section_name(section)) + " lacks the key '" + std::string(key) + "'", fix);
+}
+
+}  // namespace
+
+NavigationSection parse_navigation_section(const YamlNode& node, const ValueReader& reader,
+                                           const std::filesystem::path& folder) {
+  return NavigationParser(reader, folder).parse(node);
+}
+
+}  // namespace vantage::internal::app

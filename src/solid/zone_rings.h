@@ -1,0 +1,18 @@
+// The outlines of a zone about a volume.
+#pragma once
+
+#include <vector>
+
+#include "vantage/constraints.h"
+
+namespace vantage::internal::solid {
+
+using ZoneRings = std::vector<Zone::Ring>;
+
+/// The rings of the zone within the rectangle of `bounds` in plan, relative to `origin`: the outer one
+/// counter-clockwise, holes clockwise. Nothing within the rectangle changes, but for the rounding of corners on its
+/// border: a part of the farthest coordinate of the zone as small as that of its own rounding. Rings may run along that
+/// border, and along themselves there. Empty where the zone does not meet the rectangle.
+ZoneRings rings_within(const Zone& zone, const Box& bounds, const Vec3& origin);
+
+}  // namespace vantage::internal::solid
