@@ -59,8 +59,8 @@ set(source ${PROJECT_SOURCE_DIR}/src)
 set(VANTAGE_HELPER_SOURCES)
 foreach(file core/bvh core/convex_corners core/edges core/facet_polygon core/mend_welded core/pieces core/sha256
              core/sha256_x86 core/stars core/text core/triangle_distance core/weld core/zone_check geo/coordinate_system
-             geo/local_frame geo/longitudes geo/proj_library options/spheres_options target/enclosing_circle
-             target/lengths target/range_check target/range_region)
+             geo/local_frame geo/longitudes geo/proj_library io/json_text options/spheres_options
+             target/enclosing_circle target/lengths target/range_check target/range_region)
   list(APPEND VANTAGE_HELPER_SOURCES ${source}/${file}.cpp)
 endforeach()
 add_library(vantage_helpers STATIC EXCLUDE_FROM_ALL ${VANTAGE_HELPER_SOURCES})
@@ -69,7 +69,8 @@ target_include_directories(vantage_helpers PRIVATE ${PROJECT_SOURCE_DIR}/include
 target_include_directories(vantage_helpers SYSTEM PRIVATE ${VANTAGE_PROJ_INCLUDE_DIRS})
 set_source_files_properties(${source}/geo/proj_library.cpp PROPERTIES COMPILE_DEFINITIONS
   "VANTAGE_PROJ_NAME=\"${VANTAGE_PROJ_NAME}\";VANTAGE_PROJ_FILE=\"${VANTAGE_PROJ_FILE}\"")
-target_link_libraries(vantage_helpers PRIVATE Eigen3::Eigen fmt::fmt-header-only vantage::options)
+target_link_libraries(vantage_helpers PRIVATE
+  Eigen3::Eigen fmt::fmt-header-only nlohmann_json::nlohmann_json vantage::options)
 set_target_properties(vantage_helpers PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
 vantage_join_sources(vantage_helpers)
 
@@ -110,7 +111,7 @@ if(VANTAGE_WITH_APP)
   set(app_sources)
   set(app_requires core)
   set(solid_bridge solid)
-  set(maps_bridge maps ground_target)
+  set(maps_bridge maps ground_target kml_zones)
   set(depth_bridge spheres run_willis)
   foreach(component solid maps depth)
     string(TOUPPER ${component} name)
@@ -124,7 +125,11 @@ if(VANTAGE_WITH_APP)
     list(TRANSFORM files REPLACE "(.+)" "${source}/app/components/\\1.cpp")
     list(APPEND app_sources ${files})
   endforeach()
-  vantage_component(app MODULES app SOURCES ${app_sources} LINK yaml-cpp BUILD nlohmann_json::nlohmann_json
+  set(app_libraries yaml-cpp)
+  if(VANTAGE_WITH_MAPS)
+    list(APPEND app_libraries EXPAT::EXPAT)  # for KML
+  endif()
+  vantage_component(app MODULES app SOURCES ${app_sources} LINK ${app_libraries} BUILD nlohmann_json::nlohmann_json
                     REQUIRES ${app_requires})
 endif()
 get_property(VANTAGE_BUILT_COMPONENTS GLOBAL PROPERTY VANTAGE_BUILT_COMPONENTS)

@@ -97,10 +97,11 @@ enum class ErrorCode {
   viewpoint_inside_solid,  ///< a viewpoint lies inside a solid of the scene
 
   // limits
-  limits_reversed,  ///< a lower limit is above the upper one
-  limits_empty,     ///< limits leave no room between them
-  heights_differ,   ///< the heights of two files are measured from different levels
-  zone_not_simple,  ///< the outline of a zone crosses or touches itself, or a hole of it lies elsewhere
+  limits_reversed,   ///< a lower limit is above the upper one
+  limits_empty,      ///< limits leave no room between them
+  heights_differ,    ///< the heights of two files are measured from different levels
+  zone_not_simple,   ///< the outline of a zone crosses or touches itself, or a hole of it lies elsewhere
+  zone_file_syntax,  ///< a file is no file of zones that can be read
 
   // places on the earth
   not_georeferenced,  ///< a scene or raster does not say where on the earth it lies

@@ -83,11 +83,20 @@ struct GroundSource {
   std::string object = {};                         ///< display name, name or source_id of an object of the scene
 };
 
+/// A file of zones, as a mission file names it: GeoJSON, also of UAS zones (ED-269, ED-318), KML, or a plan of
+/// QGroundControl, of which the fences count. Positions are WGS 84.
+struct ZoneFile {
+  std::filesystem::path file;                               ///< absolute
+  std::string name;                                         ///< as written in the mission; in causes and messages
+  std::optional<std::array<double, 2>> z_m = std::nullopt;  ///< of zones that the file gives no heights for
+  bool any_height = false;                                  ///< without bounds, whatever the file says
+};
+
 /// Where in a mission file things are said ("mission.yaml:9:13"), for messages. Empty for a mission made in memory.
 struct MissionPlaces {
   std::string scene, terrain, target, sensor, above_ground;
   std::vector<std::string> navigation_meshes;
-  std::vector<std::string> keep_in_zones, keep_out_zones;
+  std::vector<std::string> keep_in_zones, keep_out_zones, keep_in_files, keep_out_files;
 };
 
 /// What a mission file says, checked by itself: no other file has been opened.
@@ -105,9 +114,12 @@ struct MissionFile {
   std::optional<PilotSight> vlos = std::nullopt;      ///< visual line of sight
   std::optional<SunTime> sun_time = std::nullopt;     ///< says where the sun stands, once the scene is known; without
                                                       ///< it sensor.sun has the direction
-  Navigation navigation;                              ///< without meshes, and above_ground without its ground
+  Navigation navigation;                              ///< without meshes and the zones of files, and above_ground
+                                                      ///< without its ground
   std::optional<GroundSource> ground = std::nullopt;  ///< of above_ground; without it the scene's
   std::vector<NavigationMeshFile> navigation_meshes = {};
+  std::vector<ZoneFile> keep_in_files = {}, keep_out_files = {};  ///< their zones go with those of `navigation`
+  std::optional<double> sea_level_m = std::nullopt;               ///< scene z of the mean sea level, where it is known
   Method method = Method::exact;
   ExactOptions exact;      ///< but for the threads: RunOptions::threads
   SpheresOptions spheres;  ///< likewise

@@ -19,6 +19,7 @@ enum class WarningCode {
   target_from_below,   ///< the target is looked at from below, where nothing of the scene is
   volume_below_scene,  ///< the whole volume lies below the scene
   ground_extended,     ///< the ground was made larger to hold the target
+  zones_left_out,      ///< a file of zones holds what was not taken as a zone
   // of a volume's file
   volume_changed,           ///< the mesh is not the one that the file was written with
   volume_of_other_scene,    ///< the volume was computed in another scene

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 }  // namespace
 
-std::string read_text(const fs::path& file, const std::string& name) {
+std::string read_text(const fs::path& file, const std::string& name, std::uintmax_t most_bytes) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream) {
     throw Error(ErrorCode::file_unreadable, "the " + name + " cannot be read: " + std::strerror(errno), file.string(),
@@ -25,19 +25,25 @@ std::string read_text(const fs::path& file, const std::string& name) {
   }
   std::error_code error;
   const std::uintmax_t size = fs::file_size(file, error);
-  if (!error && size > kMaxYamlBytes) {
+  if (!error && size > most_bytes) {
     throw Error(
         ErrorCode::file_too_large,
-        "the " + name + " is too large: " + std::to_string(size) + " bytes, at most " + std::to_string(kMaxYamlBytes),
+        "the " + name + " is too large: " + std::to_string(size) + " bytes, at most " + std::to_string(most_bytes),
         file.string(), "give the " + name + ", not a mesh");
   }
-  std::string text(kMaxYamlBytes + 1, '\0');
-  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  // In portions: what a pipe holds is not known before.
+  std::string text;
+  constexpr std::size_t kPortion = 1 << 20;
+  while (stream.good() && text.size() <= most_bytes) {
+    const std::size_t read = text.size();
+    text.resize(read + std::min<std::size_t>(kPortion, most_bytes + 1 - read));
+    stream.read(text.data() + read, static_cast<std::streamsize>(text.size() - read));
+    text.resize(read + static_cast<std::size_t>(stream.gcount()));
+  }
   if (stream.bad()) {
     throw Error(ErrorCode::file_unreadable, "the " + name + " cannot be read to its end", file.string(),
                 "check the disk that it lies on");
   }
-  text.resize(static_cast<std::size_t>(stream.gcount()));
   return text;
 }
 

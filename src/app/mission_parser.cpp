@@ -86,6 +86,7 @@ void MissionParser::parse_scene(const YamlNode& node) {
   // Not made shorter here: "a/../b" is not "b" where a is a symbolic link.
   SceneSection section = parse_scene_section(node, *this, mission_.file.parent_path());
   mission_.scene = std::move(section.source);
+  mission_.sea_level_m = section.sea_level_m;
   mission_.places.scene = std::move(section.where);
   mission_.places.terrain = std::move(section.terrain_where);
 }
@@ -266,10 +267,14 @@ void MissionParser::parse_navigation(const YamlNode& node) {
   mission_.navigation = std::move(section.navigation);
   mission_.ground = std::move(section.ground);
   mission_.navigation_meshes = std::move(section.meshes);
-  mission_.places.navigation_meshes = std::move(section.mesh_places);
-  mission_.places.keep_in_zones = std::move(section.keep_in_places);
-  mission_.places.keep_out_zones = std::move(section.keep_out_places);
-  mission_.places.above_ground = std::move(section.above_ground_place);
+  mission_.keep_in_files = std::move(section.keep_in_files);
+  mission_.keep_out_files = std::move(section.keep_out_files);
+  mission_.places.navigation_meshes = std::move(section.places.navigation_meshes);
+  mission_.places.keep_in_zones = std::move(section.places.keep_in_zones);
+  mission_.places.keep_out_zones = std::move(section.places.keep_out_zones);
+  mission_.places.keep_in_files = std::move(section.places.keep_in_files);
+  mission_.places.keep_out_files = std::move(section.places.keep_out_files);
+  mission_.places.above_ground = std::move(section.places.above_ground);
 }
 
 void MissionParser::parse_method(const YamlNode& node) {

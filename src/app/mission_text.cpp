@@ -97,6 +97,7 @@ class Writer {
         if (source.raster.origin_deg) section.add("origin", list_of(*source.raster.origin_deg));
         break;
     }
+    if (mission_.sea_level_m) section.add("sea_level", *mission_.sea_level_m);
     return section.text();
   }
 
@@ -178,7 +179,8 @@ class Writer {
   /// No height can be beyond this, nor can a file say so.
   static double bound(double z) { return std::clamp(z, -internal::app::kMaxLength, internal::app::kMaxLength); }
 
-  static std::string zones(const std::vector<Box>& boxes, const std::vector<Zone>& zones) {
+  std::string zones(const std::vector<Box>& boxes, const std::vector<Zone>& zones,
+                    const std::vector<ZoneFile>& files) const {
     std::string text;
     for (const Box& box : boxes) {
       text += (text.empty() ? "" : ", ") + ("{min: " + list_of(box.min) + ", max: " + list_of(box.max)) + "}";
@@ -191,6 +193,11 @@ class Writer {
       const bool any_height = std::isinf(zone.min_z_m) && std::isinf(zone.max_z_m);
       text += any_height ? ", heights: any}"
                          : ", z: " + list_of(std::array{bound(zone.min_z_m), bound(zone.max_z_m)}) + "}";
+    }
+    for (const ZoneFile& file : files) {
+      text += (text.empty() ? "" : ", ") + ("{file: " + path(file.file));
+      if (file.z_m) text += ", z: " + list_of(*file.z_m);
+      text += file.any_height ? ", heights: any}" : "}";
     }
     return "[" + text + "]";
   }
@@ -210,8 +217,10 @@ class Writer {
     if (const auto& ground = mission_.ground) {
       section.add("ground", ground->plane_z_m ? shortest(*ground->plane_z_m) : quoted(ground->object));
     }
-    if (!keep_in.empty() || !keep_in_zones.empty()) section.add("keep_in", zones(keep_in, keep_in_zones));
-    if (!keep_out.empty() || !keep_out_zones.empty()) section.add("keep_out", zones(keep_out, keep_out_zones));
+    const std::string kept = zones(keep_in, keep_in_zones, mission_.keep_in_files);
+    const std::string out = zones(keep_out, keep_out_zones, mission_.keep_out_files);
+    if (kept != "[]") section.add("keep_in", kept);
+    if (out != "[]") section.add("keep_out", out);
     std::string meshes;
     for (const NavigationMeshFile& mesh : mission_.navigation_meshes) {
       meshes += (meshes.empty() ? "" : ", ") + ("{mesh: " + path(mesh.file));

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <utility>
 
 #include "app/scene_section.h"
@@ -14,7 +15,9 @@ namespace vantage::internal::app {
 namespace {
 
 const char* const kZoneForms =
-    "write each zone as {min: [x, y, z], max: [x, y, z]} or {polygon: [[x, y], [x, y], [x, y]], z: [low, high]}";
+    "write each zone as {min: [x, y, z], max: [x, y, z]}, {polygon: [[x, y], [x, y], [x, y]], z: [low, high]} or "
+    "{file: zones.json}";
+const char* const kHeightsForm = "write 'z: [low, high]' in metres, or 'heights: any' for a zone without bounds";
 const char* const kRingForm = "write the corners in order: [[x, y], [x, y], [x, y]]";
 
 std::string numbered(const std::string& what, std::size_t index) { return what + "[" + std::to_string(index) + "]"; }
@@ -30,7 +33,8 @@ class NavigationParser {
   struct ZoneLists {
     std::vector<Box>& boxes;
     std::vector<Zone>& zones;
-    std::vector<std::string>& places;
+    std::vector<ZoneFile>& files;
+    std::vector<std::string>&zone_places, &file_places;
   };
 
   void parse_altitude(const YamlNode& node);
@@ -42,7 +46,13 @@ class NavigationParser {
   void check_extent(const YamlNode& node, const std::string& what, int axis, const Box& box) const;
   Zone polygon(const YamlNode& node, const std::string& what, std::size_t index) const;
   Zone::Ring ring(const YamlNode& node, const std::string& what) const;
-  void add_heights(const YamlNode& node, const std::string& what, Zone& zone) const;
+  ZoneFile file(const YamlNode& node, const YamlNode& named, const std::string& what) const;
+  /// Nothing where the node does not say.
+  struct Heights {
+    std::optional<std::array<double, 2>> z_m;
+    bool are_any = false;
+  };
+  Heights heights(const YamlNode& node, const std::string& what) const;
   void add_mesh(const YamlNode& node);
   void refuse_beside(const YamlNode& node, const char* key, std::initializer_list<const char*> others) const;
   const YamlNode& require(const YamlNode& map, Section section, const char* key, const std::string& fix) const;
@@ -60,7 +70,9 @@ NavigationSection NavigationParser::parse(const YamlNode& node) {
   if (const YamlNode* ground = find(node, "ground")) parse_ground(*ground);
   if (const YamlNode* keep_in = kept(node)) {
     const std::string what = keep_in == find(node, "boxes") ? "navigation.boxes" : "navigation.keep_in";
-    add_zones(*keep_in, what, {navigation.keep_in, navigation.keep_in_zones, result_.keep_in_places});
+    add_zones(*keep_in, what,
+              {navigation.keep_in, navigation.keep_in_zones, result_.keep_in_files, result_.places.keep_in_zones,
+               result_.places.keep_in_files});
     // "Cut to the union of no zones" would leave nothing, and "no limit" is not what the key says either.
     if (keep_in->items.empty()) {
       reader_.fail(ErrorCode::nothing_given, *keep_in, what + " is an empty list",
@@ -69,7 +81,8 @@ NavigationSection NavigationParser::parse(const YamlNode& node) {
   }
   if (const YamlNode* keep_out = find(node, "keep_out")) {
     add_zones(*keep_out, "navigation.keep_out",
-              {navigation.keep_out, navigation.keep_out_zones, result_.keep_out_places});
+              {navigation.keep_out, navigation.keep_out_zones, result_.keep_out_files, result_.places.keep_out_zones,
+               result_.places.keep_out_files});
   }
   const YamlNode* meshes = find(node, "meshes");
   if (meshes == nullptr) return std::move(result_);
@@ -123,7 +136,7 @@ void NavigationParser::parse_altitude(const YamlNode& node) {
   const auto [low, high] = heights(*agl, "navigation.altitude.agl",
                                    "write the lowest and the highest height above the ground in metres: [20, 120]");
   navigation.above_ground = {low, high, {}};
-  result_.above_ground_place = place_in(reader_.file(), agl->place);
+  result_.places.above_ground = place_in(reader_.file(), agl->place);
 }
 
 void NavigationParser::parse_ground(const YamlNode& node) {
@@ -137,7 +150,7 @@ void NavigationParser::parse_ground(const YamlNode& node) {
   } else {
     ground.object = reader_.text(node, "navigation.ground");
   }
-  result_.above_ground_place = place_in(reader_.file(), node.place);
+  result_.places.above_ground = place_in(reader_.file(), node.place);
 }
 
 /// The lower one first.
@@ -167,12 +180,17 @@ void NavigationParser::add_zones(const YamlNode& node, const std::string& what, 
       reader_.fail(ErrorCode::wrong_type, item, name + " must be a mapping, not " + describe(item), kZoneForms);
     }
     check_keys(item, Section::zone, reader_.file());
+    if (const YamlNode* named = find(item, "file")) {
+      lists.files.push_back(file(item, *named, name));
+      lists.file_places.push_back(place_in(reader_.file(), named->place));
+      continue;
+    }
     if (find(item, "polygon") == nullptr) {
       lists.boxes.push_back(box(item, name));
       continue;
     }
     lists.zones.push_back(polygon(item, name, i));
-    lists.places.push_back(place_in(reader_.file(), item.place));
+    lists.zone_places.push_back(place_in(reader_.file(), item.place));
   }
 }
 
@@ -219,7 +237,14 @@ Zone NavigationParser::polygon(const YamlNode& node, const std::string& what, st
       zone.holes.push_back(ring(holes->items[i], numbered(name, i)));
     }
   }
-  add_heights(node, what, zone);
+  const Heights given = heights(node, what);
+  if (!given.z_m && !given.are_any) {
+    reader_.fail(ErrorCode::missing_key, node, what + " does not say between which heights it lies", kHeightsForm);
+  }
+  if (given.z_m) {
+    zone.min_z_m = (*given.z_m)[0];
+    zone.max_z_m = (*given.z_m)[1];
+  }
   if (const auto fault = core::fault_of(zone)) {
     reader_.fail(fault->code, node, what + ": " + fault->problem, fault->fix);
   }
@@ -240,29 +265,45 @@ Zone::Ring NavigationParser::ring(const YamlNode& node, const std::string& what)
   return result;
 }
 
-void NavigationParser::add_heights(const YamlNode& node, const std::string& what, Zone& zone) const {
-  const char* const form = "write 'z: [low, high]' in metres, or 'heights: any' for a zone without bounds";
+NavigationParser::Heights NavigationParser::heights(const YamlNode& node, const std::string& what) const {
   const YamlNode* z = find(node, "z");
-  const YamlNode* heights = find(node, "heights");
-  if (heights != nullptr) {
-    const std::string word = reader_.text(*heights, what + ".heights");
+  const YamlNode* word_node = find(node, "heights");
+  Heights result;
+  if (word_node != nullptr) {
+    const std::string word = reader_.text(*word_node, what + ".heights");
     if (word != "any") {
-      reader_.fail(ErrorCode::unknown_choice, *heights, what + ".heights cannot be " + in_quotes(word), form);
+      reader_.fail(ErrorCode::unknown_choice, *word_node, what + ".heights cannot be " + in_quotes(word), kHeightsForm);
     }
     if (z != nullptr) {
-      reader_.fail(ErrorCode::conflicting_keys, *heights, what + " has both 'z' and 'heights: any'",
+      reader_.fail(ErrorCode::conflicting_keys, *word_node, what + " has both 'z' and 'heights: any'",
                    "keep one of them");
     }
-    return;
+    result.are_any = true;
   }
-  if (z == nullptr) {
-    reader_.fail(ErrorCode::missing_key, node, what + " does not say between which heights it lies", form);
+  if (z == nullptr) return result;
+  if (reader_.list(*z, what + ".z", kHeightsForm).size() != 2) {
+    reader_.fail(ErrorCode::wrong_type, *z, what + ".z must be two numbers, not " + describe(*z), kHeightsForm);
   }
-  if (reader_.list(*z, what + ".z", form).size() != 2) {
-    reader_.fail(ErrorCode::wrong_type, *z, what + ".z must be two numbers, not " + describe(*z), form);
+  result.z_m = {reader_.length(z->items[0], what + ".z[0]"), reader_.length(z->items[1], what + ".z[1]")};
+  return result;
+}
+
+ZoneFile NavigationParser::file(const YamlNode& node, const YamlNode& named, const std::string& what) const {
+  refuse_beside(node, "file", {"min", "max", "polygon", "holes"});
+  ZoneFile result;
+  result.name = reader_.text(named, what + ".file");
+  result.file = folder_ / result.name;
+  const Heights given = heights(node, what);
+  result.z_m = given.z_m;
+  result.any_height = given.are_any;
+  if (given.z_m && !((*given.z_m)[0] < (*given.z_m)[1])) {
+    const bool is_reversed = (*given.z_m)[0] > (*given.z_m)[1];
+    reader_.fail(is_reversed ? ErrorCode::limits_reversed : ErrorCode::limits_empty, node,
+                 what + ".z " + (is_reversed ? "is reversed" : "leaves no room") + ": " + shortest((*given.z_m)[0]) +
+                     ", " + shortest((*given.z_m)[1]),
+                 "write the lower z first");
   }
-  zone.min_z_m = reader_.length(z->items[0], what + ".z[0]");
-  zone.max_z_m = reader_.length(z->items[1], what + ".z[1]");
+  return result;
 }
 
 void NavigationParser::add_mesh(const YamlNode& node) {
@@ -274,7 +315,7 @@ void NavigationParser::add_mesh(const YamlNode& node) {
   if (const YamlNode* up = find(node, "up")) named.up = parse_up_axis(*up, reader_, "navigation.meshes.up");
   if (const YamlNode* scale = find(node, "scale")) named.scale = reader_.positive(*scale, "navigation.meshes.scale");
   result_.meshes.push_back(std::move(named));
-  result_.mesh_places.push_back(place_in(reader_.file(), mesh.place));
+  result_.places.navigation_meshes.push_back(place_in(reader_.file(), mesh.place));
 }
 
 const YamlNode& NavigationParser::require(const YamlNode& map, Section section, const char* key,

@@ -16,8 +16,8 @@ struct NavigationSection {
   Navigation navigation;  ///< without meshes; zones are named by their place in the list: "0", "1"
   std::optional<GroundSource> ground;
   std::vector<NavigationMeshFile> meshes;
-  std::vector<std::string> mesh_places, keep_in_places, keep_out_places;  ///< of meshes and of zones, in their order
-  std::string above_ground_place;                                         ///< of the ground, or else of the limit
+  std::vector<ZoneFile> keep_in_files, keep_out_files;
+  MissionPlaces places;  ///< of all these
 };
 
 /// Paths start from `folder`. Zones are checked as they are written. Throws Error(input) with the place for what

@@ -49,6 +49,14 @@ MissionFile read_mission_text(std::string_view text, const fs::path& file) {
     check_readable(mesh, "the navigation mesh", mission.places.navigation_meshes[i]);
     mesh = with_true_folder(mesh);
   }
+  const auto check_zones = [](std::vector<ZoneFile>& files, const std::vector<std::string>& places) {
+    for (std::size_t i = 0; i < files.size(); ++i) {
+      check_readable(files[i].file, "the file of zones", places[i]);
+      files[i].file = with_true_folder(files[i].file);
+    }
+  };
+  check_zones(mission.keep_in_files, mission.places.keep_in_files);
+  check_zones(mission.keep_out_files, mission.places.keep_out_files);
   return mission;
 }
 
@@ -56,6 +64,8 @@ std::vector<fs::path> input_files(const MissionFile& mission) {
   std::vector<fs::path> files = {mission.file, mission.scene.file};
   if (!mission.scene.city.terrain.empty()) files.push_back(mission.scene.city.terrain);
   for (const NavigationMeshFile& mesh : mission.navigation_meshes) files.push_back(mesh.file);
+  for (const ZoneFile& zones : mission.keep_in_files) files.push_back(zones.file);
+  for (const ZoneFile& zones : mission.keep_out_files) files.push_back(zones.file);
   return files;
 }
 

@@ -30,6 +30,7 @@ class SceneParser {
     parse_region();
     parse_ground();
     parse_city();
+    if (const YamlNode* sea = find(node_, "sea_level")) section_.sea_level_m = reader_.length(*sea, "scene.sea_level");
     return std::move(section_);
   }
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "app/value_reader.h"
@@ -11,9 +12,10 @@
 namespace vantage::internal::app {
 
 struct SceneSection {
-  SceneSource source;         ///< paths start from the mission's folder
-  std::string where;          ///< "mission.yaml:3:9": of the file's name
-  std::string terrain_where;  ///< likewise; empty without terrain
+  SceneSource source;                 ///< paths start from the mission's folder
+  std::optional<double> sea_level_m;  ///< scene z of the mean sea level
+  std::string where;                  ///< "mission.yaml:3:9": of the file's name
+  std::string terrain_where;          ///< likewise; empty without terrain
 };
 
 SceneSection parse_scene_section(const YamlNode& node, const ValueReader& reader, const std::filesystem::path& folder);

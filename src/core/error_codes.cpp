@@ -74,6 +74,7 @@ constexpr std::array kRows = {
     Row{ErrorCode::limits_empty, ErrorKind::input, "limits-empty"},
     Row{ErrorCode::heights_differ, ErrorKind::input, "heights-differ"},
     Row{ErrorCode::zone_not_simple, ErrorKind::input, "zone-not-simple"},
+    Row{ErrorCode::zone_file_syntax, ErrorKind::input, "zone-file-syntax"},
     Row{ErrorCode::not_georeferenced, ErrorKind::input, "not-georeferenced"},
     Row{ErrorCode::not_on_earth, ErrorKind::input, "not-on-earth"},
     Row{ErrorCode::too_far_away, ErrorKind::input, "too-far-away"},

@@ -21,6 +21,7 @@ constexpr std::array kWarningRows = {
     WarningRow{WarningCode::target_from_below, "target-from-below"},
     WarningRow{WarningCode::volume_below_scene, "volume-below-scene"},
     WarningRow{WarningCode::ground_extended, "ground-extended"},
+    WarningRow{WarningCode::zones_left_out, "zones-left-out"},
     WarningRow{WarningCode::volume_changed, "volume-changed"},
     WarningRow{WarningCode::volume_of_other_scene, "volume-of-other-scene"},
     WarningRow{WarningCode::volume_of_other_mission, "volume-of-other-mission"},

@@ -1,6 +1,10 @@
 // What missions need of the component `maps`: maps.cpp, or without_maps.cpp in builds without it.
 #pragma once
 
+#include <filesystem>
+#include <string_view>
+
+#include "app/zone_file.h"
 #include "geo/local_frame.h"
 #include "vantage/mission.h"
 
@@ -12,5 +16,8 @@ LoadedScene load_raster(const SceneSource& source, const Progress& progress);
 
 /// Lays the target that `mission.as_written.ground_target` describes on the ground of the scene, in `frame`.
 void put_on_ground(Mission& mission, const geo::LocalFrame& frame, const Progress& progress);
+
+/// parse_zones of a text in XML. `file` is for messages.
+ZoneList parse_kml_zones(std::string_view text, const std::filesystem::path& file);
 
 }  // namespace vantage::internal::app

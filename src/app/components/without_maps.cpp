@@ -15,4 +15,8 @@ void put_on_ground(Mission& mission, const geo::LocalFrame&, const Progress&) {
   throw_missing("maps", "targets on the ground", mission.as_written.places.target);
 }
 
+ZoneList parse_kml_zones(std::string_view, const std::filesystem::path& file) {
+  throw_missing("maps", "KML files", file.string());
+}
+
 }  // namespace vantage::internal::app

@@ -1,0 +1,206 @@
+// KML 2.2 (OGC 07-147r2): the polygons of all placemarks. XML is read with Expat, as maps are.
+#include <expat.h>
+
+#include <charconv>
+#include <cmath>
+#include <exception>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/components/maps.h"
+#include "io/mesh_builder.h"
+#include "vantage/input.h"
+
+namespace vantage::internal::app {
+namespace {
+
+class KmlReader {
+ public:
+  explicit KmlReader(const std::filesystem::path& file) : file_(file), parser_(XML_ParserCreate(nullptr)) {
+    XML_SetUserData(parser_.get(), this);
+    XML_SetElementHandler(parser_.get(), on_start, on_end);
+    XML_SetCharacterDataHandler(parser_.get(), on_text);
+    XML_SetStartDoctypeDeclHandler(parser_.get(), on_doctype);
+  }
+
+  ZoneList read(std::string_view text);
+
+ private:
+  struct FreeParser {
+    void operator()(XML_Parser parser) const { XML_ParserFree(parser); }
+  };
+  struct Position {
+    Eigen::Vector2d lonlat;
+    double altitude_m;
+  };
+
+  // Errors may not pass through Expat, which is C: they wait until it is left.
+  template <typename Action>
+  static void guarded(void* reader, const Action& action) {
+    KmlReader& self = *static_cast<KmlReader*>(reader);
+    if (self.error_) return;
+    try {
+      action(self);
+    } catch (...) {
+      self.error_ = std::current_exception();
+      XML_StopParser(self.parser_.get(), XML_FALSE);
+    }
+  }
+  static void on_start(void* reader, const char* name, const char**) {
+    guarded(reader, [&](KmlReader& self) { self.start(local_name(name)); });
+  }
+  static void on_end(void* reader, const char* name) {
+    guarded(reader, [&](KmlReader& self) { self.end(local_name(name)); });
+  }
+  static void on_text(void* reader, const char* text, int length) {
+    guarded(reader, [&](KmlReader& self) { self.text_.append(text, static_cast<std::size_t>(length)); });
+  }
+  static void on_doctype(void* reader, const char*, const char*, const char*, int) {
+    guarded(reader, [](KmlReader& self) { self.fail("a KML file has no DOCTYPE", "take it out"); });
+  }
+  /// "kml:Polygon" is "Polygon".
+  static std::string local_name(std::string_view name) { return std::string(name.substr(name.rfind(':') + 1)); }
+
+  void start(const std::string& name);
+  void end(const std::string& name);
+  void end_polygon();
+  Zone::Ring ring_of(const std::vector<Position>& positions);
+  std::vector<Position> positions() const;
+  bool is_in(const char* name) const { return !open_.empty() && open_.back() == name; }
+  std::string place() const { return "line " + std::to_string(XML_GetCurrentLineNumber(parser_.get())); }
+  [[noreturn]] void fail(const std::string& problem, const std::string& fix = "correct it",
+                         ErrorCode code = ErrorCode::zone_file_syntax) const {
+    fail_in_zones(code, file_, place(), problem, fix);
+  }
+
+  const std::filesystem::path& file_;
+  std::unique_ptr<XML_ParserStruct, FreeParser> parser_;
+  std::exception_ptr error_;
+  std::vector<std::string> open_;
+  std::string text_, name_, altitude_mode_, extrude_;
+  std::optional<ListedZone> zone_;  // of the polygon that is open
+  std::optional<double> altitude_m_;
+  bool is_level_ = true;
+  ZoneList result_;
+};
+
+ZoneList KmlReader::read(std::string_view text) {
+  const XML_Status status = XML_Parse(parser_.get(), text.data(), static_cast<int>(text.size()), XML_TRUE);
+  if (error_) std::rethrow_exception(error_);
+  if (status != XML_STATUS_OK) {
+    fail(std::string("the XML is broken: ") + XML_ErrorString(XML_GetErrorCode(parser_.get())), "save the file anew");
+  }
+  return std::move(result_);
+}
+
+void KmlReader::start(const std::string& name) {
+  constexpr std::size_t kDeepest = 100;
+  if (open_.empty() && name != "kml") {
+    fail("not a file of zones: XML about <" + io::clean_name(name) + ">", "give KML");
+  }
+  if (open_.size() >= kDeepest) fail("elements are nested deeper than 100 levels");
+  open_.push_back(name);
+  text_.clear();
+  if (name == "Placemark") name_.clear();
+  if (name == "Polygon") {
+    if (zone_) fail("a polygon is inside of another one");
+    zone_.emplace();
+    zone_->name = name_.empty() ? std::to_string(result_.zones.size()) : name_;
+    zone_->place = place();
+    altitude_mode_.clear();
+    extrude_.clear();
+    altitude_m_.reset();
+    is_level_ = true;
+  }
+}
+
+void KmlReader::end(const std::string& name) {
+  open_.pop_back();
+  if (name == "name" && is_in("Placemark")) name_ = io::clean_name(text_);
+  if (name == "altitudeMode" && is_in("Polygon")) altitude_mode_ = io::clean_name(text_);
+  if (name == "extrude" && is_in("Polygon")) extrude_ = io::clean_name(text_);
+  if (name == "coordinates" && is_in("LinearRing") && zone_) {
+    const bool is_outer = open_.size() > 1 && open_[open_.size() - 2] == "outerBoundaryIs";
+    if (is_outer && !zone_->outer.empty()) fail("a polygon has two outer boundaries");
+    Zone::Ring ring = ring_of(positions());
+    if (is_outer) {
+      zone_->outer = std::move(ring);
+    } else {
+      zone_->holes.push_back(std::move(ring));
+    }
+  }
+  if (name == "Polygon") end_polygon();
+  if (name == "Point") ++result_.left_out["point"];
+  if (name == "LineString" || name == "Track" || (name == "LinearRing" && !zone_)) ++result_.left_out["line"];
+  if (name == "Model") ++result_.left_out["model"];
+  if (name == "NetworkLink") ++result_.left_out["link to another file"];
+  text_.clear();
+}
+
+/// A polygon at one height, extruded to the ground, is a zone below that height. At other heights it is a surface, and
+/// says nothing of the space about it.
+void KmlReader::end_polygon() {
+  if (zone_->outer.empty()) fail("a polygon has no outer boundary");
+  const bool is_above_ground = altitude_mode_ == "relativeToGround", is_absolute = altitude_mode_ == "absolute";
+  if ((is_above_ground || is_absolute) && (extrude_ == "1" || extrude_ == "true") && is_level_ && altitude_m_) {
+    zone_->has_heights = true;
+    zone_->upper = ZoneHeight{*altitude_m_, is_absolute ? HeightReference::sea_level : HeightReference::ground};
+  }
+  result_.zones.push_back(std::move(*zone_));
+  zone_.reset();
+}
+
+Zone::Ring KmlReader::ring_of(const std::vector<Position>& positions) {
+  Zone::Ring closed;
+  for (const Position& p : positions) {
+    closed.push_back(p.lonlat);
+    if (!altitude_m_) altitude_m_ = p.altitude_m;
+    is_level_ = is_level_ && *altitude_m_ == p.altitude_m;
+  }
+  return opened_ring(closed, file_, place());
+}
+
+/// "longitude,latitude[,altitude]", with blanks between them and none within.
+std::vector<KmlReader::Position> KmlReader::positions() const {
+  constexpr std::string_view kBlanks = " \t\r\n";
+  std::vector<Position> positions;
+  std::string_view rest = text_;
+  for (;;) {
+    const std::size_t begin = rest.find_first_not_of(kBlanks);
+    if (begin == std::string_view::npos) return positions;
+    rest.remove_prefix(begin);
+    const std::string_view tuple = rest.substr(0, rest.find_first_of(kBlanks));
+    rest.remove_prefix(tuple.size());
+    double numbers[3] = {0, 0, 0};
+    const char *at = tuple.data(), *const end = tuple.data() + tuple.size();
+    int count = 0;
+    for (; count < 3; ++count) {
+      const auto [next, fault] = std::from_chars(at, end, numbers[count]);
+      if (fault != std::errc() || !std::isfinite(numbers[count])) {
+        at = nullptr;
+        break;
+      }
+      at = next;
+      if (at == end || *at != ',') {
+        ++count;
+        break;
+      }
+      if (count < 2) ++at;
+    }
+    if (at != end || count < 2) {
+      fail("a position is not longitude,latitude,altitude: " + in_quotes(io::clean_name(tuple.substr(0, 60))),
+           "write numbers with commas between them and no blanks");
+    }
+    positions.push_back({checked_position(numbers[0], numbers[1], file_, place()), numbers[2]});
+  }
+}
+
+}  // namespace
+
+ZoneList parse_kml_zones(std::string_view text, const std::filesystem::path& file) {
+  return KmlReader(file).read(text);
+}
+
+}  // namespace vantage::internal::app

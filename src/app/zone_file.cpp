@@ -1,0 +1,83 @@
+#include "app/zone_file.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "app/components/maps.h"
+#include "app/json_zones.h"
+#include "io/json_text.h"
+#include "vantage/input.h"
+
+namespace vantage::internal::app {
+namespace {
+
+constexpr const char* kZoneFileAdvice = "give GeoJSON, ED-269, ED-318, KML, or a .plan of QGroundControl";
+
+std::string_view without_mark(std::string_view text) {
+  constexpr std::string_view kMark = "\xEF\xBB\xBF";
+  return text.substr(text.substr(0, kMark.size()) == kMark ? kMark.size() : 0);
+}
+
+nlohmann::json json_of_zones(std::string_view text, const std::filesystem::path& file) {
+  core::ReadLimits limits;
+  try {
+    return io::parse_json(text, {}, limits);
+  } catch (const io::JsonProblem& problem) {
+    std::string place;
+    if (problem.line > 0) {
+      place = "line " + std::to_string(problem.line) + ", column " + std::to_string(problem.column);
+    }
+    fail_in_zones(ErrorCode::zone_file_syntax, file, place, "not a file of zones: " + problem.text, kZoneFileAdvice);
+  }
+}
+
+}  // namespace
+
+ZoneList parse_zones(std::string_view text, const std::filesystem::path& file) {
+  text = without_mark(text);
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  const char begin = first == std::string_view::npos ? '\0' : text[first];
+  if (begin == '<') return parse_kml_zones(text, file);
+  if (text.substr(0, 2) == "PK") {
+    fail_in_zones(ErrorCode::zone_file_syntax, file, "", "the file is a zip archive, as KMZ is",
+                  "unpack it, and give the .kml in it");
+  }
+  if (begin != '{') {
+    fail_in_zones(ErrorCode::zone_file_syntax, file, "", "not a file of zones: it is neither a JSON object nor XML",
+                  kZoneFileAdvice);
+  }
+  const nlohmann::json root = json_of_zones(text, file);
+  return root.contains("geoFence") ? plan_zones(root, file) : geojson_zones(root, file);
+}
+
+void fail_in_zones(ErrorCode code, const std::filesystem::path& file, const std::string& place,
+                   const std::string& problem, const std::string& fix) {
+  throw Error(code, problem, place.empty() ? file.string() : file.string() + ", " + place, fix);
+}
+
+Eigen::Vector2d checked_position(double longitude_deg, double latitude_deg, const std::filesystem::path& file,
+                                 const std::string& place) {
+  // Written so that not-a-number is refused too. A longitude may go on beyond the antimeridian.
+  if (std::abs(latitude_deg) <= 90 && std::abs(longitude_deg) <= 540) return {longitude_deg, latitude_deg};
+  fail_in_zones(
+      ErrorCode::not_on_earth, file, place,
+      "longitude " + shortest(longitude_deg) + ", latitude " + shortest(latitude_deg) + " is not a place on the earth",
+      "give WGS 84 positions in degrees, in the order of the format");
+}
+
+Zone::Ring opened_ring(const Zone::Ring& closed, const std::filesystem::path& file, const std::string& place) {
+  if (closed.size() < 4 || closed.front() != closed.back()) {
+    fail_in_zones(ErrorCode::zone_file_syntax, file, place,
+                  closed.size() < 4 ? "the ring has " + std::to_string(closed.size()) + " positions, 4 are the least"
+                                    : "the ring is not closed",
+                  "end each ring with its first position");
+  }
+  Zone::Ring ring;
+  for (const Eigen::Vector2d& p : closed) {
+    if (ring.empty() || ring.back() != p) ring.push_back(p);
+  }
+  if (ring.size() > 1) ring.pop_back();
+  return ring;
+}
+
+}  // namespace vantage::internal::app

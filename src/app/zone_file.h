@@ -1,0 +1,68 @@
+// Files of zones: what they say, in longitudes and latitudes (WGS 84).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "vantage/constraints.h"
+#include "vantage/error.h"
+
+namespace vantage::internal::app {
+
+enum class HeightReference { sea_level, ground, ellipsoid };
+
+struct ZoneHeight {
+  double metres = 0;
+  HeightReference from = HeightReference::sea_level;
+};
+
+/// A circle on the ellipsoid. Where a file leaves open in which unit the radius is, the two are what it may mean.
+struct ListedCircle {
+  Eigen::Vector2d centre;  ///< longitude and latitude
+  double least_radius_m = 0, radius_m = 0;
+};
+
+struct ListedZone {
+  std::string name;   ///< as the file calls it; else its number in the file
+  std::string place;  ///< in the file, for messages: "features[3]", "line 12"
+  Zone::Ring outer;   ///< longitude and latitude, degrees; neighbours differ. Empty for a circle
+  std::vector<Zone::Ring> holes;
+  std::optional<ListedCircle> circle;
+  std::optional<ZoneHeight> lower, upper;  ///< nothing: without that bound
+  bool has_heights = false;                ///< the file says between which heights; else it says nothing of them
+  std::optional<bool> is_inclusion;        ///< of a fence: to stay in or out
+};
+
+struct ZoneList {
+  std::vector<ListedZone> zones;
+  std::map<std::string, std::size_t> left_out;  ///< what is no area, by what it is: "point", "line"
+  bool has_no_heights = false;                  ///< the format has none: its zones are without bounds
+};
+
+/// Of a file of zones, decompressed or not: national zones have some ten megabytes.
+inline constexpr std::uintmax_t kMostZoneBytes = 64'000'000;
+
+/// The zones of GeoJSON (RFC 7946), of UAS zones in ED-269 and ED-318, of KML and of a plan of QGroundControl. The
+/// format is told by the content. `file` is for messages. Throws Error(zone_file_syntax) with the place for what is
+/// none of these, or breaks its rules; Error(input) for values that cannot be used.
+ZoneList parse_zones(std::string_view text, const std::filesystem::path& file);
+
+/// For readers: throws Error(input) with the file and the place in it.
+[[noreturn]] void fail_in_zones(ErrorCode code, const std::filesystem::path& file, const std::string& place,
+                                const std::string& problem, const std::string& fix);
+
+/// Checks that a position is on the earth. Throws Error(input).
+Eigen::Vector2d checked_position(double longitude_deg, double latitude_deg, const std::filesystem::path& file,
+                                 const std::string& place);
+
+/// A ring without the corner that closes it, and without corners that repeat the one before. Throws Error(input) for a
+/// ring that is not closed.
+Zone::Ring opened_ring(const Zone::Ring& closed, const std::filesystem::path& file, const std::string& place);
+
+}  // namespace vantage::internal::app

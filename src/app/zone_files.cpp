@@ -1,0 +1,283 @@
+#include "app/zone_files.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/input_file.h"
+#include "app/places.h"
+#include "app/zone_file.h"
+#include "app/zone_places.h"
+#include "core/zone_check.h"
+#include "geo/local_frame.h"
+#include "vantage/error.h"
+#include "vantage/input.h"
+
+namespace vantage::internal::app {
+namespace {
+
+using Point = Eigen::Vector2d;
+
+constexpr const char* kEllipsoidal = "ellipsoidal height";  // as geo::CoordinateSystem calls it
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr const char* kLonLatAdvice = "check the file: is it of another place, or are longitude and latitude swapped?";
+
+/// Scene z of the mean sea level, where the scene or the mission says.
+std::optional<double> sea_level_z(const Mission& mission) {
+  if (mission.as_written.sea_level_m) return mission.as_written.sea_level_m;
+  const std::string& vertical = mission.loaded.scene.georeference->vertical;
+  // A mesh whose reference system has no heights: they are measured from anywhere.
+  const bool is_as_in_mesh =
+      mission.as_written.scene.kind == SceneSource::Kind::mesh && vertical.compare(0, 6, "as in ") == 0;
+  if (vertical.empty() || vertical == kFlatGround || vertical == kEllipsoidal || is_as_in_mesh) return std::nullopt;
+  return 0.0;
+}
+
+/// No viewpoint is farther from the scene's origin.
+double farthest_viewpoint_m(const Mission& mission) {
+  double farthest = 0;
+  for (const std::vector<Vec3>& part : mission.target.parts) {
+    for (const Vec3& corner : part) farthest = std::max(farthest, corner.head<2>().norm());
+  }
+  return std::max(farthest + range_limit_m(mission.sensor), geo::kFarthestM);
+}
+
+class FileZones {
+ public:
+  FileZones(Mission& mission, const ZoneFile& file, ZoneUse use, const geo::LocalFrame& frame)
+      : mission_(mission), file_(file), use_(use), frame_(frame) {}
+
+  void add_to(std::vector<Zone>& zones);
+
+ private:
+  bool is_for_use(const ListedZone& listed) const {
+    return !listed.is_inclusion || *listed.is_inclusion == (use_ == ZoneUse::keep_in);
+  }
+  Zone placed(const ListedZone& listed) const;
+  Zone::Ring circle(const ListedCircle& circle) const;
+  void add_heights(const ListedZone& listed, bool has_none, Zone& zone) const;
+  double z_of(const std::optional<ZoneHeight>& height, double without, const std::string& place) const;
+  double distance_m(const ListedZone& listed) const;
+  Zone::Ring unwrapped(Zone::Ring ring) const;
+  void note_left_out(const ZoneList& list, std::size_t other_fences, std::size_t far) const;
+  [[noreturn]] void fail(ErrorCode code, const std::string& place, const std::string& problem,
+                         const std::string& fix) const {
+    fail_in_zones(code, file_.file, place, problem, fix);
+  }
+
+  Mission& mission_;
+  const ZoneFile& file_;
+  ZoneUse use_;
+  const geo::LocalFrame& frame_;
+};
+
+/// Longitudes within half a turn of the scene's: sides may cross the antimeridian.
+Zone::Ring FileZones::unwrapped(Zone::Ring ring) const {
+  const double origin = frame_.origin().longitude_deg;
+  for (Point& p : ring) p.x() = origin + std::remainder(p.x() - origin, 360);
+  return ring;
+}
+
+/// From the scene's origin to the box about the zone, in the frame.
+double FileZones::distance_m(const ListedZone& listed) const {
+  const auto position = [&](const Point& p) { return frame_.to_local({p.x(), p.y()}); };
+  if (listed.circle) return std::max(position(listed.circle->centre).norm() - listed.circle->radius_m, 0.0);
+  Box box;
+  for (const Point& p : listed.outer) {
+    const Point at = position(p);
+    box.extend(Vec3(at.x(), at.y(), 0));
+  }
+  return Point::Zero().cwiseMax(box.min.head<2>()).cwiseMin(box.max.head<2>()).norm();
+}
+
+/// With so many corners that the sides leave the circle by 5 cm at most, 720 corners at most. They lie on it to stay
+/// in, and a millimetre inside: that is more than the frame bends. To stay out of, the sides touch a circle a
+/// millimetre larger.
+Zone::Ring FileZones::circle(const ListedCircle& circle) const {
+  constexpr double kSagittaM = 0.05, kMarginM = 0.001;
+  constexpr int kFewest = 32, kMost = 720;
+  const bool is_kept = use_ == ZoneUse::keep_in;
+  const double radius = is_kept ? circle.least_radius_m - kMarginM : circle.radius_m + kMarginM;
+  const double wanted = std::ceil(std::numbers::pi * std::sqrt(std::max(radius, 0.0) / (2 * kSagittaM)));
+  const int count = static_cast<int>(std::clamp(wanted, 1.0 * kFewest, 1.0 * kMost));
+  const double corner_radius = is_kept ? radius : radius / std::cos(std::numbers::pi / count);
+  const geo::LocalFrame about({std::remainder(circle.centre.x(), 360), circle.centre.y()});
+  Zone::Ring ring;
+  for (int i = 0; i < count; ++i) {
+    const double angle = 2 * std::numbers::pi * i / count;
+    const geo::LonLat corner = about.to_lonlat(corner_radius * Point(std::cos(angle), std::sin(angle)));
+    ring.push_back(frame_.to_local(corner));
+  }
+  return ring;
+}
+
+double FileZones::z_of(const std::optional<ZoneHeight>& height, double without, const std::string& place) const {
+  if (!height) return without;
+  const std::string& vertical = mission_.loaded.scene.georeference->vertical;
+  const std::string level = vertical.empty() ? "an unknown level" : vertical;
+  switch (height->from) {
+    case HeightReference::sea_level:
+      if (const auto sea = sea_level_z(mission_)) return height->metres + *sea;
+      fail(ErrorCode::heights_differ, place,
+           "its heights are above mean sea level, and those of the scene above " + level,
+           "say with 'scene.sea_level' which z of the scene the mean sea level has, or write 'heights: any'");
+    case HeightReference::ellipsoid:
+      if (vertical == kEllipsoidal) return height->metres;
+      fail(ErrorCode::heights_differ, place,
+           "its heights are above the WGS 84 ellipsoid, and those of the scene above " + level,
+           "convert them to heights above mean sea level, or write 'heights: any'");
+    case HeightReference::ground:
+      break;
+  }
+  fail(ErrorCode::value_unsupported, place, "its heights are above the ground (AGL), which zones cannot have",
+       "write 'heights: any' for zones without bounds, or give the zones as polygons with 'z'");
+}
+
+void FileZones::add_heights(const ListedZone& listed, bool has_none, Zone& zone) const {
+  if (file_.any_height) return;
+  if (file_.z_m && listed.has_heights) {
+    fail(ErrorCode::conflicting_keys, listed.place, "the zone has heights of its own, and the mission gives others",
+         "leave 'z' out; 'heights: any' makes zones without bounds of it");
+  }
+  if (file_.z_m) {
+    zone.min_z_m = (*file_.z_m)[0];
+    zone.max_z_m = (*file_.z_m)[1];
+    return;
+  }
+  if (!listed.has_heights && !has_none) {
+    fail(ErrorCode::missing_key, listed.place, "the file does not say between which heights the zone lies",
+         "write 'z: [low, high]' or 'heights: any' beside 'file'");
+  }
+  zone.min_z_m = z_of(listed.lower, -kInfinity, listed.place);
+  zone.max_z_m = z_of(listed.upper, kInfinity, listed.place);
+}
+
+Zone FileZones::placed(const ListedZone& listed) const {
+  Zone zone;
+  if (listed.circle) {
+    if (listed.circle->radius_m > geo::kFarthestM) {
+      fail(ErrorCode::value_out_of_range, listed.place, "the radius of the circle is larger than 100 km",
+           "give a polygon instead");
+    }
+    if (use_ == ZoneUse::keep_in && listed.circle->least_radius_m <= 0.002) {
+      fail(ErrorCode::limits_empty, listed.place, "the circle is smaller than 2 mm", "make it larger");
+    }
+    zone.outer = circle(*listed.circle);
+    return zone;
+  }
+  zone.outer = unwrapped(listed.outer);
+  for (const Zone::Ring& hole : listed.holes) zone.holes.push_back(unwrapped(hole));
+  if (const auto fault = core::fault_of(zone)) fail(fault->code, listed.place, fault->problem, fault->fix);
+  const ToFrame to_frame = [this](const Point& p) { return frame_.to_local({p.x(), p.y()}); };
+  try {
+    return placed_zone(zone, use_, to_frame, kLonLatAdvice);
+  } catch (const Error& error) {
+    const std::string where = error.where().empty() ? "" : ", " + error.where();
+    throw error.with_where(file_.file.string() + ", " + listed.place + where);
+  }
+}
+
+void FileZones::note_left_out(const ZoneList& list, std::size_t other_fences, std::size_t far) const {
+  std::string what;
+  const auto add = [&](std::size_t count, const std::string& one, const std::string& many) {
+    if (count == 0) return;
+    what += (what.empty() ? "" : ", ") + std::to_string(count) + " " + (count == 1 ? one : many);
+  };
+  for (const auto& [kind, count] : list.left_out) {
+    const bool is_phrase = kind.find(' ') != std::string::npos;
+    add(count, kind, is_phrase ? kind : kind + "s");
+  }
+  const bool is_kept = use_ == ZoneUse::keep_in;
+  const MissionFile& mission = mission_.as_written;
+  const std::vector<ZoneFile>& others = is_kept ? mission.keep_out_files : mission.keep_in_files;
+  const bool takes_others =
+      std::any_of(others.begin(), others.end(), [this](const ZoneFile& other) { return other.file == file_.file; });
+  if (!takes_others) {
+    add(other_fences, is_kept ? "fence to stay out of" : "fence to stay in",
+        is_kept ? "fences to stay out of" : "fences to stay in");
+  }
+  add(far, "zone beyond the reach of the sensor", "zones beyond the reach of the sensor");
+  if (what.empty()) return;
+  mission_.loaded.notes.push_back({WarningCode::zones_left_out, "not taken as zones to stay " +
+                                                                    std::string(is_kept ? "in" : "out of") + " from " +
+                                                                    file_.file.filename().string() + ": " + what});
+}
+
+void FileZones::add_to(std::vector<Zone>& zones) {
+  const ZoneList list = parse_zones(read_text(file_.file, "file of zones", kMostZoneBytes), file_.file);
+  std::set<std::string> names;
+  for (const Zone& zone : zones) names.insert(zone.name);
+  std::size_t taken = 0, other_fences = 0, far = 0;
+  double nearest_m = kInfinity;
+  for (const ListedZone& listed : list.zones) {
+    if (!is_for_use(listed)) {
+      ++other_fences;
+      continue;
+    }
+    const double distance = distance_m(listed);
+    nearest_m = std::min(nearest_m, distance);
+    if (distance > farthest_viewpoint_m(mission_)) {
+      ++far;
+      continue;
+    }
+    Zone zone = placed(listed);
+    add_heights(listed, list.has_no_heights, zone);
+    const std::string name = file_.file.filename().string() + " " + listed.name;
+    zone.name = name;
+    for (int i = 2; !names.insert(zone.name).second; ++i) zone.name = name + " (" + std::to_string(i) + ")";
+    if (const auto fault = core::fault_of(zone)) fail(fault->code, listed.place, fault->problem, fault->fix);
+    zones.push_back(std::move(zone));
+    ++taken;
+  }
+  if (taken == 0 && far > 0) {
+    fail(ErrorCode::too_far_away, "",
+         "the nearest zone lies " + std::to_string(std::lround(nearest_m / 1000)) + " km from the scene's origin",
+         kLonLatAdvice);
+  }
+  if (taken == 0) {
+    const bool is_kept = use_ == ZoneUse::keep_in;
+    fail(ErrorCode::nothing_given, "",
+         other_fences > 0 ? std::string("the plan has no fence to stay ") + (is_kept ? "in" : "out of")
+                          : "the file has no areas",
+         other_fences > 0 ? std::string("name it under '") + (is_kept ? "keep_out'" : "keep_in'") + ", or add a fence"
+                          : "give polygons or circles: lines and points are no zones");
+  }
+  note_left_out(list, other_fences, far);
+}
+
+}  // namespace
+
+void add_file_zones(Mission& mission) {
+  const MissionFile& file = mission.as_written;
+  if (file.keep_in_files.empty() && file.keep_out_files.empty()) return;
+  const std::string first = !file.places.keep_in_files.empty()    ? file.places.keep_in_files[0]
+                            : !file.places.keep_out_files.empty() ? file.places.keep_out_files[0]
+                                                                  : "";
+  const auto& georeference = mission.loaded.scene.georeference;
+  if (!georeference) {
+    throw Error(ErrorCode::not_georeferenced,
+                "the scene does not say where on the earth it lies, and files of zones are in longitudes and latitudes",
+                first, "give the zones as polygons in the scene frame, or scene.origin");
+  }
+  const geo::LocalFrame frame({georeference->longitude_deg, georeference->latitude_deg});
+  const auto add = [&](const std::vector<ZoneFile>& files, const std::vector<std::string>& places, ZoneUse use,
+                       std::vector<Zone>& zones) {
+    for (std::size_t i = 0; i < files.size(); ++i) {
+      with_place(i < places.size() ? places[i] : "", [&] {
+        FileZones(mission, files[i], use, frame).add_to(zones);
+        return 0;
+      });
+    }
+  };
+  add(file.keep_in_files, file.places.keep_in_files, ZoneUse::keep_in, mission.navigation.keep_in_zones);
+  add(file.keep_out_files, file.places.keep_out_files, ZoneUse::keep_out, mission.navigation.keep_out_zones);
+}
+
+}  // namespace vantage::internal::app

@@ -1,0 +1,515 @@
+// Files of zones: GeoJSON, ED-269, ED-318, KML and plans of QGroundControl, and what becomes of them in a mission.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <numbers>
+#include <string>
+
+#include "app/zone_file.h"
+#include "geo/local_frame.h"
+#include "support/internals.h"
+#include "support/map_text.h"
+#include "support/shared_data.h"
+#include "support/temporary_directory.h"
+#include "support/wording.h"
+#include "vantage/input.h"
+#include "vantage/mission.h"
+
+namespace vantage::testing {
+namespace {
+
+using app::HeightReference;
+using app::ListedZone;
+using app::ZoneList;
+
+const std::string kSquare = "[[[11, 48], [11.001, 48], [11.001, 48.001], [11, 48.001], [11, 48]]]";
+
+ZoneList parsed(const std::string& text) { return app::parse_zones(text, "/data/zones"); }
+
+std::string feature(const std::string& geometry, const std::string& properties = "{}") {
+  return "{\"type\": \"Feature\", \"properties\": " + properties + ", \"geometry\": " + geometry + "}";
+}
+std::string polygon(const std::string& more = "") {
+  return "{\"type\": \"Polygon\", \"coordinates\": " + kSquare + more + "}";
+}
+std::string collection(const std::string& features) {
+  return "{\"type\": \"FeatureCollection\", \"features\": [" + features + "]}";
+}
+/// A feature of ED-269 with one volume.
+std::string volume(const std::string& projection, const std::string& heights) {
+  return "{\"features\": [{\"identifier\": \"Z1\", \"geometry\": [{" + heights +
+         ", \"horizontalProjection\": " + projection + "}]}]}";
+}
+const std::string kMetres =
+    "\"uomDimensions\": \"M\", \"lowerLimit\": 10, \"lowerVerticalReference\": \"AMSL\", \"upperLimit\": 120, "
+    "\"upperVerticalReference\": \"AGL\"";
+std::string plan(const std::string& polygons, const std::string& circles = "") {
+  return "{\"fileType\": \"Plan\", \"geoFence\": {\"version\": 2, \"polygons\": [" + polygons + "], \"circles\": [" +
+         circles + "]}}";
+}
+std::string kml(const std::string& body) {
+  return "<?xml version=\"1.0\"?>\n<kml xmlns=\"http://www.opengis.net/kml/2.2\"><Document>" + body +
+         "</Document></kml>";
+}
+std::string placemark(const std::string& more, const std::string& altitude = "") {
+  return "<Placemark><name>park</name><Polygon>" + more + "<outerBoundaryIs><LinearRing><coordinates>11,48" + altitude +
+         " 11.001,48" + altitude + "\n11.001,48.001" + altitude + " 11,48" + altitude +
+         "</coordinates></LinearRing></outerBoundaryIs></Polygon></Placemark>";
+}
+
+TEST(ZoneFiles, ReadsAllAreasOfGeoJson) {
+  const std::string hole =
+      "[[11.0002, 48.0002], [11.0004, 48.0002], [11.0004, 48.0002], [11.0003, 48.0004], "
+      "[11.0002, 48.0002]]";
+  const std::string with_hole =
+      "{\"type\": \"Polygon\", \"coordinates\": [" + kSquare.substr(1, kSquare.size() - 2) + ", " + hole + "]}";
+  const std::string multi = "{\"type\": \"MultiPolygon\", \"coordinates\": [" + kSquare + ", " + kSquare + "]}";
+  const std::string mixed = "{\"type\": \"GeometryCollection\", \"geometries\": [" + polygon() +
+                            ", {\"type\": \"LineString\", \"coordinates\": [[1, 2], [3, 4]]}, "
+                            "{\"type\": \"Point\", \"coordinates\": [1, 2]}]}";
+  const ZoneList list =
+      parsed("\xEF\xBB\xBF " + collection(feature(with_hole, "{\"name\": \"park\"}") + ", " + feature(multi) + ", " +
+                                          feature(mixed, "{\"id\": 7}") + ", " + feature("null")));
+  ASSERT_EQ(list.zones.size(), 4u);
+  EXPECT_EQ(list.zones[0].name, "park");
+  EXPECT_EQ(list.zones[0].outer, (Zone::Ring{{11, 48}, {11.001, 48}, {11.001, 48.001}, {11, 48.001}}));
+  ASSERT_EQ(list.zones[0].holes.size(), 1u);
+  EXPECT_EQ(list.zones[0].holes[0].size(), 3u);  // neither the corner that closes it nor the one that is there twice
+  EXPECT_FALSE(list.zones[0].has_heights);
+  EXPECT_EQ(list.zones[1].name, "1");
+  EXPECT_EQ(list.zones[2].place, "features[1].coordinates[1]");
+  EXPECT_EQ(list.zones[3].name, "7");
+  EXPECT_EQ(list.left_out.at("line"), 1u);
+  EXPECT_EQ(list.left_out.at("point"), 1u);
+  const std::string empty = "feature without a geometry";
+  EXPECT_EQ(list.left_out.at(empty), 1u);
+  EXPECT_EQ(parsed(feature(polygon())).zones.size(), 1u);
+  EXPECT_EQ(parsed(polygon()).zones.size(), 1u);
+}
+
+TEST(ZoneFiles, ReadsHeightsAndCirclesOfUasZones) {
+  const std::string layer =
+      ", \"layer\": {\"upper\": 400, \"upperReference\": \"AMSL\", \"lower\": 10, "
+      "\"lowerReference\": \"WGS84\", \"uom\": \"ft\"}";
+  const ZoneList ed318 = parsed(collection(
+      feature(polygon(layer), "{\"identifier\": \"NFZ1\"}") + ", " +
+      feature(
+          "{\"type\": \"Point\", \"coordinates\": [11, 48], \"extent\": {\"subType\": \"Circle\", \"radius\": 350}}")));
+  ASSERT_EQ(ed318.zones.size(), 2u);
+  EXPECT_EQ(ed318.zones[0].name, "NFZ1");
+  EXPECT_TRUE(ed318.zones[0].has_heights);
+  EXPECT_NEAR(ed318.zones[0].upper->metres, 121.92, 1e-9);
+  EXPECT_EQ(ed318.zones[0].upper->from, HeightReference::sea_level);
+  EXPECT_EQ(ed318.zones[0].lower->from, HeightReference::ellipsoid);
+  EXPECT_EQ(ed318.zones[1].circle->radius_m, 350);
+  EXPECT_EQ(ed318.zones[1].circle->least_radius_m, 350);
+  EXPECT_EQ(ed318.zones[1].circle->centre, Eigen::Vector2d(11, 48));
+  EXPECT_FALSE(ed318.zones[1].has_heights);
+
+  const ZoneList ed269 = parsed(volume(polygon(), kMetres));
+  ASSERT_EQ(ed269.zones.size(), 1u);
+  EXPECT_EQ(ed269.zones[0].name, "Z1");
+  EXPECT_EQ(ed269.zones[0].place, "features[0].geometry[0]");
+  EXPECT_EQ(ed269.zones[0].lower->metres, 10);
+  EXPECT_EQ(ed269.zones[0].lower->from, HeightReference::sea_level);
+  EXPECT_EQ(ed269.zones[0].upper->from, HeightReference::ground);
+  // Whether the radius is in the unit of the heights is not clear: both are kept.
+  const ZoneList feet = parsed(volume("{\"type\": \"Circle\", \"center\": [11, 48], \"radius\": 100}",
+                                      "\"uomDimensions\": \"FT\", \"lowerLimit\": null"));
+  EXPECT_NEAR(feet.zones.at(0).circle->least_radius_m, 30.48, 1e-9);
+  EXPECT_EQ(feet.zones[0].circle->radius_m, 100);
+  EXPECT_TRUE(feet.zones[0].has_heights);
+  EXPECT_FALSE(feet.zones[0].lower || feet.zones[0].upper);
+}
+
+TEST(ZoneFiles, ReadsFencesOfPlans) {
+  const ZoneList list =
+      parsed(plan("{\"inclusion\": true, \"polygon\": [[48, 11], [48, 11.001], [48.001, 11.001]]}, "
+                  "{\"inclusion\": false, \"polygon\": [[48, 11], [48, 11.001], [48.001, 11.001]]}",
+                  "{\"inclusion\": false, \"circle\": {\"center\": [48, 11], \"radius\": 463.7}}"));
+  ASSERT_EQ(list.zones.size(), 3u);
+  EXPECT_EQ(list.zones[0].outer[1], Eigen::Vector2d(11.001, 48));
+  EXPECT_EQ(list.zones[0].is_inclusion, std::optional(true));
+  EXPECT_EQ(list.zones[1].is_inclusion, std::optional(false));
+  EXPECT_EQ(list.zones[2].circle->centre, Eigen::Vector2d(11, 48));
+  EXPECT_EQ(list.zones[2].name, "circle 0");
+  EXPECT_TRUE(list.has_no_heights);
+}
+
+TEST(ZoneFiles, ReadsPolygonsOfKml) {
+  const ZoneList list =
+      parsed(kml(placemark("<altitudeMode>clampToGround</altitudeMode>", ",5") +
+                 placemark("<extrude>1</extrude><altitudeMode>absolute</altitudeMode>", ",120.5") +
+                 placemark("<extrude>1</extrude><altitudeMode>relativeToGround</altitudeMode>", ",50") +
+                 placemark("<altitudeMode>absolute</altitudeMode>", ",120") +
+                 "<Placemark><Point><coordinates>11,48</coordinates></Point></Placemark>"
+                 "<Placemark><MultiGeometry><Polygon><outerBoundaryIs><LinearRing><coordinates>1,2 3,2 3,4 1,2"
+                 "</coordinates></LinearRing></outerBoundaryIs><innerBoundaryIs><LinearRing><coordinates>"
+                 "2.1,2.1 2.2,2.1 2.2,2.2 2.1,2.1</coordinates></LinearRing></innerBoundaryIs></Polygon>"
+                 "<LineString><coordinates>1,2 3,4</coordinates></LineString></MultiGeometry></Placemark>"));
+  ASSERT_EQ(list.zones.size(), 5u);
+  EXPECT_EQ(list.zones[0].name, "park");
+  EXPECT_EQ(list.zones[0].outer, (Zone::Ring{{11, 48}, {11.001, 48}, {11.001, 48.001}}));
+  EXPECT_FALSE(list.zones[0].has_heights);
+  EXPECT_TRUE(list.zones[1].has_heights);
+  EXPECT_FALSE(list.zones[1].lower);
+  EXPECT_EQ(list.zones[1].upper->metres, 120.5);
+  EXPECT_EQ(list.zones[1].upper->from, HeightReference::sea_level);
+  EXPECT_EQ(list.zones[2].upper->from, HeightReference::ground);
+  EXPECT_FALSE(list.zones[3].has_heights);  // a surface at that height, not a space
+  EXPECT_EQ(list.zones[4].name, "4");
+  EXPECT_EQ(list.zones[4].holes.size(), 1u);
+  EXPECT_EQ(list.left_out.at("point"), 1u);
+  EXPECT_EQ(list.left_out.at("line"), 1u);
+  const std::string prefixed =
+      "<k:kml xmlns:k='a'><k:Placemark><k:Polygon><k:outerBoundaryIs><k:LinearRing><k:coordinates>1,2 3,2 3,4 1,2"
+      "</k:coordinates></k:LinearRing></k:outerBoundaryIs></k:Polygon></k:Placemark></k:kml>";
+  EXPECT_EQ(parsed(prefixed).zones.size(), 1u);
+}
+
+TEST(ZoneFiles, RefusesWhatBreaksTheFormat) {
+  const auto refuse = [](const std::string& text, ErrorCode code, const std::string& where) {
+    SCOPED_TRACE(text);
+    expect_error([&] { parsed(text); }, code, where);
+  };
+  const ErrorCode syntax = ErrorCode::zone_file_syntax;
+  refuse("", syntax, "/data/zones");
+  refuse("PK\x03\x04", syntax, "/data/zones");
+  refuse("[1, 2]", syntax, "/data/zones");
+  refuse("{\"type\": \"Feature\",\n\"geometry\": nil}", syntax, "line 2");
+  refuse("{\"a\": 1}", syntax, "/data/zones");
+  refuse("{\"type\": \"Topology\"}", syntax, "/data/zones");
+  refuse("{\"type\": 5}", syntax, "/data/zones");
+  refuse(collection("5"), syntax, "features[0]");
+  refuse(collection("{\"type\": \"Feature\"}"), syntax, "features[0]");
+  refuse(collection(feature("5")), syntax, "features[0]");
+  refuse(collection(feature("{\"type\": \"Polygon\"}")), syntax, "features[0]");
+  refuse(collection(feature("{\"type\": \"Polygon\", \"coordinates\": []}")), syntax, "features[0]");
+  refuse(collection(feature("{\"type\": \"Polygon\", \"coordinates\": [5]}")), syntax, "features[0]");
+  refuse(collection(feature("{\"type\": \"Polygon\", \"coordinates\": [[[1, 2], [3, 2], [3, 4]]]}")), syntax,
+         "features[0]");
+  refuse(collection(feature("{\"type\": \"Polygon\", \"coordinates\": [[[1, 2], [3, 2], [3, 4], [2, 4]]]}")), syntax,
+         "features[0]");
+  refuse(collection(feature("{\"type\": \"Polygon\", \"coordinates\": [[[1, 2], [3, \"a\"], [3, 4], [1, 2]]]}")),
+         syntax, "features[0]");
+  refuse(collection(feature("{\"type\": \"Polygon\", \"coordinates\": [[[1, 2], [3, 92], [3, 4], [1, 2]]]}")),
+         ErrorCode::not_on_earth, "features[0]");
+  refuse("{\"type\": \"Polygon\", \"crs\": {\"properties\": {\"name\": \"EPSG:28992\"}}, \"coordinates\": []}",
+         ErrorCode::value_unsupported, "crs");
+  const auto layer = [](const std::string& members) { return collection(feature(polygon(", \"layer\": " + members))); };
+  refuse(layer("5"), syntax, "features[0]");
+  refuse(layer("{\"upper\": 5}"), syntax, "features[0]");
+  refuse(layer("{\"upper\": 65, \"upperReference\": \"STD\", \"uom\": \"FL\"}"), ErrorCode::value_unsupported,
+         "features[0]");
+  refuse(layer("{\"upper\": 65, \"upperReference\": \"STD\", \"uom\": \"m\"}"), ErrorCode::value_unsupported,
+         "features[0]");
+  refuse(layer("{\"upper\": 65, \"uom\": \"m\"}"), syntax, "features[0]");
+  refuse(layer("{\"upper\": \"65\", \"upperReference\": \"AGL\", \"uom\": \"m\"}"), syntax, "features[0]");
+  refuse(collection(feature("{\"type\": \"Point\", \"coordinates\": [1, 2], \"extent\": {\"subType\": \"Arc\"}}")),
+         syntax, "features[0]");
+  refuse(collection(feature("{\"type\": \"Point\", \"coordinates\": [1, 2], \"extent\": {\"subType\": \"Circle\", "
+                            "\"radius\": 0}}")),
+         ErrorCode::value_out_of_range, "features[0]");
+  refuse(volume("{\"type\": \"Ellipse\"}", kMetres), syntax, "features[0].geometry[0]");
+  refuse(volume("5", kMetres), syntax, "features[0].geometry[0]");
+  refuse("{\"geoFence\": 5}", syntax, "geoFence");
+  refuse("{\"geoFence\": {\"polygon\": [[1, 2]], \"version\": 1}}", ErrorCode::value_unsupported, "geoFence");
+  refuse("{\"geoFence\": {\"polygons\": 1}}", syntax, "geoFence.polygons");
+  refuse(plan("5"), syntax, "geoFence.polygons[0]");
+  refuse(plan("{\"polygon\": []}"), syntax, "geoFence.polygons[0]");
+  refuse(plan("{\"inclusion\": true}"), syntax, "geoFence.polygons[0]");
+  refuse(plan("{\"inclusion\": true, \"polygon\": [5]}"), syntax, "geoFence.polygons[0]");
+  refuse(plan("", "{\"inclusion\": true, \"circle\": {\"center\": [1, 2]}}"), syntax, "geoFence.circles[0]");
+  refuse(plan("", "{\"inclusion\": true, \"circle\": {\"center\": [1, 2], \"radius\": -1}}"),
+         ErrorCode::value_out_of_range, "geoFence.circles[0]");
+  refuse("<html></html>", syntax, "line 1");
+  refuse("<!DOCTYPE kml [<!ENTITY a 'b'>]><kml/>", syntax, "line 1");
+  refuse("<kml><Document>", syntax, "line 1");
+  refuse(kml("<Polygon></Polygon>"), syntax, "line 2");
+  refuse(kml("<Polygon><outerBoundaryIs><LinearRing><coordinates>1,2 3, 4 5,6 1,2</coordinates></LinearRing>"
+             "</outerBoundaryIs></Polygon>"),
+         syntax, "line 2");
+  refuse(kml("<Polygon><outerBoundaryIs><LinearRing><coordinates>1,2 3,4 5,6</coordinates></LinearRing>"
+             "</outerBoundaryIs></Polygon>"),
+         syntax, "line 2");
+  std::string deep;
+  for (int i = 0; i < 200; ++i) deep += "<Folder>";
+  refuse(kml(deep), syntax, "line 2");
+}
+
+/// A mission in a map about 48 N, 11 E, with these files beside it.
+class ZoneMission {
+ public:
+  ZoneMission() {
+    MapText map({11, 48});
+    map.box(30, 0, 40, 10, {{"building", "yes"}});
+    write("city.osm", map.text());
+  }
+  void write(const std::string& name, const std::string& text) const { std::ofstream(folder_.path() / name) << text; }
+  MissionFile read(const std::string& limits, const std::string& scene = "") const {
+    write("mission.yaml", "scene: {osm: city.osm, center: [48, 11], radius: 500" + scene +
+                              "}\nsensor: {max_range: 80}\ntarget: {center: [48, 11], width: 5, length: 5}\n"
+                              "navigation:\n  " +
+                              limits + "\n");
+    return read_mission(folder_.path() / "mission.yaml");
+  }
+  Mission resolve(const std::string& limits, const std::string& scene = "") const {
+    return resolve_mission(read(limits, scene));
+  }
+  std::filesystem::path folder() const { return folder_.path(); }
+
+ private:
+  TemporaryDirectory folder_;
+};
+
+TEST(ZoneFiles, BecomeZonesOfTheMission) {
+  const ZoneMission mission;
+  const std::string layer =
+      ", \"layer\": {\"upper\": 640, \"upperReference\": \"AMSL\", \"lower\": 500, "
+      "\"lowerReference\": \"AMSL\", \"uom\": \"m\"}";
+  mission.write("zones.json", collection(feature(polygon(layer), "{\"identifier\": \"A\"}") + ", " +
+                                         feature(polygon(layer), "{\"identifier\": \"A\"}") + ", " +
+                                         feature("{\"type\": \"Point\", \"coordinates\": [11, 48]}")));
+  const Mission resolved =
+      mission.resolve("keep_in: [{file: zones.json}]\n  keep_out: [{file: zones.json}]", ", sea_level: -520");
+  ASSERT_EQ(resolved.navigation.keep_in_zones.size(), 2u);
+  const Zone& kept = resolved.navigation.keep_in_zones[0];
+  EXPECT_EQ(kept.name, "zones.json A");
+  EXPECT_EQ(resolved.navigation.keep_in_zones[1].name, "zones.json A (2)");
+  EXPECT_EQ(kept.min_z_m, -20);
+  EXPECT_EQ(kept.max_z_m, 120);
+  const geo::LocalFrame frame({11, 48});
+  const Eigen::Vector2d far = frame.to_local({11.001, 48.001});
+  double nearest = 1e9;
+  for (const Eigen::Vector2d& p : kept.outer) nearest = std::min(nearest, (p - far).norm());
+  EXPECT_LT(nearest, 0.01);
+  EXPECT_EQ(resolved.navigation.keep_out_zones.size(), 2u);
+  ASSERT_EQ(resolved.loaded.notes.size(), 2u);
+  EXPECT_EQ(resolved.loaded.notes[0].code, WarningCode::zones_left_out);
+  expect_wording({resolved.loaded.notes[0].text, resolved.loaded.notes[1].text});
+  EXPECT_EQ(resolved.as_written.navigation.keep_in_zones.size(), 0u);
+}
+
+TEST(ZoneFiles, FencesGoWhereTheyBelong) {
+  const ZoneMission mission;
+  mission.write("fence.plan",
+                plan("{\"inclusion\": true, \"polygon\": [[47.999, 10.999], [47.999, 11.001], [48.001, 11.001]]}, "
+                     "{\"inclusion\": false, \"polygon\": [[48, 11], [48, 11.001], [48.001, 11.001]]}",
+                     "{\"inclusion\": false, \"circle\": {\"center\": [48, 11], \"radius\": 20}}"));
+  const Mission kept = mission.resolve("keep_in: [{file: fence.plan}]"),
+                out = mission.resolve("keep_out: [{file: fence.plan}]");
+  ASSERT_EQ(kept.navigation.keep_in_zones.size(), 1u);
+  EXPECT_EQ(kept.navigation.keep_in_zones[0].max_z_m, INFINITY);
+  const std::string name = "fence.plan polygon 0", narrowed = "keep_in: [{file: fence.plan, z: [5, 50]}]";
+  EXPECT_EQ(kept.navigation.keep_in_zones[0].name, name);
+  EXPECT_EQ(out.navigation.keep_out_zones.size(), 2u);
+  expect_wording({kept.loaded.notes.at(0).text, out.loaded.notes.at(0).text});
+  const std::string both = "keep_in: [{file: fence.plan}]\n  keep_out: [{file: fence.plan}]";
+  EXPECT_TRUE(mission.resolve(both).loaded.notes.empty());  // all of it is taken
+  EXPECT_EQ(mission.resolve(narrowed).navigation.keep_in_zones[0].min_z_m, 5);
+}
+
+TEST(ZoneFiles, CirclesAreInscribedToStayInAndCircumscribedToStayOutOf) {
+  const ZoneMission mission;
+  const geo::LocalFrame frame({11, 48});
+  for (const auto& [longitude, latitude, radius] :
+       {std::tuple{11.0, 48.0, 1.0}, {11.001, 48.002, 463.7}, {11.2, 48.1, 25000.0}, {10.5, 48.3, 90000.0}}) {
+    const std::string circle = "{\"type\": \"Point\", \"coordinates\": [" + shortest(longitude) + ", " +
+                               shortest(latitude) +
+                               "], \"extent\": {\"subType\": \"Circle\", \"radius\": " + shortest(radius) + "}}";
+    mission.write("circle.json", circle);
+    const Mission resolved = mission.resolve(
+        "keep_in: [{file: circle.json, heights: any}]\n  keep_out: [{file: circle.json, heights: any}]");
+    const geo::LocalFrame about({longitude, latitude});
+    const auto distance = [&](const Eigen::Vector2d& p) { return about.to_local(frame.to_lonlat(p)).norm(); };
+    const auto for_each_point = [&](const Zone& zone, const auto& visit) {
+      for (std::size_t i = 0; i < zone.outer.size(); ++i) {
+        const Eigen::Vector2d a = zone.outer[i], b = zone.outer[(i + 1) % zone.outer.size()];
+        for (const double share : {0.0, 0.25, 0.5, 0.75}) visit(distance(a + share * (b - a)));
+      }
+    };
+    const double off = std::max(0.06, 1.1e-5 * radius);
+    for_each_point(resolved.navigation.keep_in_zones.at(0), [&](double d) {
+      EXPECT_LE(d, radius);
+      EXPECT_GE(d, radius - off);
+    });
+    for_each_point(resolved.navigation.keep_out_zones.at(0), [&](double d) {
+      EXPECT_GE(d, radius);
+      EXPECT_LE(d, radius + off);
+    });
+  }
+}
+
+TEST(ZoneFiles, RefusesZonesThatCannotBePlaced) {
+  const ZoneMission mission;
+  const auto refuse = [&](const std::string& text, const std::string& more, ErrorCode code, const std::string& where) {
+    SCOPED_TRACE(text);
+    mission.write("zones.json", text);
+    expect_error([&] { mission.resolve("keep_in: [{file: zones.json" + more + "}]"); }, code, where);
+  };
+  const auto layer = [](const std::string& reference) {
+    return polygon(", \"layer\": {\"upper\": 640, \"upperReference\": \"" + reference + "\", \"uom\": \"m\"}");
+  };
+  refuse(polygon(), "", ErrorCode::missing_key, "mission.yaml:5:20");
+  refuse(layer("AMSL"), "", ErrorCode::heights_differ, "zones.json");
+  refuse(layer("WGS84"), "", ErrorCode::heights_differ, "zones.json");
+  refuse(layer("AGL"), "", ErrorCode::value_unsupported, "zones.json");
+  refuse(layer("AGL"), ", z: [0, 5]", ErrorCode::conflicting_keys, "zones.json");
+  refuse("{\"type\": \"Point\", \"coordinates\": [11, 48]}", ", heights: any", ErrorCode::nothing_given, "zones.json");
+  refuse(plan("{\"inclusion\": false, \"polygon\": [[48, 11], [48, 11.001], [48.001, 11.001]]}"), "",
+         ErrorCode::nothing_given, "zones.json");
+  refuse(plan(""), "", ErrorCode::nothing_given, "zones.json");
+  // Paris; and longitude and latitude swapped.
+  refuse("{\"type\": \"Polygon\", \"coordinates\": [[[2.3, 48.8], [2.4, 48.8], [2.4, 48.9], [2.3, 48.8]]]}",
+         ", heights: any", ErrorCode::too_far_away, "zones.json");
+  refuse("{\"type\": \"Polygon\", \"coordinates\": [[[48, 11], [48.1, 11], [48.1, 11.1], [48, 11]]]}", ", heights: any",
+         ErrorCode::too_far_away, "zones.json");
+  refuse("{\"type\": \"Polygon\", \"coordinates\": [[[11, 48], [11.1, 48.1], [11.1, 48], [11, 48.1], [11, 48]]]}",
+         ", heights: any", ErrorCode::zone_not_simple, "zones.json");
+  refuse("{\"type\": \"Polygon\", \"coordinates\": [[[11, 48], [11, 48], [11.1, 48.1], [11, 48]]]}", ", heights: any",
+         ErrorCode::zone_not_simple, "zones.json");
+  refuse("{\"type\": \"Point\", \"coordinates\": [11, 48], \"extent\": {\"subType\": \"Circle\", \"radius\": 200000}}",
+         ", heights: any", ErrorCode::value_out_of_range, "zones.json");
+  refuse("{\"type\": \"Point\", \"coordinates\": [11, 48], \"extent\": {\"subType\": \"Circle\", \"radius\": 0.001}}",
+         ", heights: any", ErrorCode::limits_empty, "zones.json");
+}
+
+TEST(ZoneFiles, ZonesOutOfReachAreLeftOut) {
+  const ZoneMission mission;
+  const std::string paris =
+      "{\"type\": \"Polygon\", \"coordinates\": [[[2.3, 48.8], [2.4, 48.8], [2.4, 48.9], [2.3, 48.8]]]}";
+  mission.write("zones.json", collection(feature(paris) + ", " + feature(polygon())));
+  const Mission resolved = mission.resolve("keep_out: [{file: zones.json, heights: any}]");
+  EXPECT_EQ(resolved.navigation.keep_out_zones.size(), 1u);
+  EXPECT_EQ(resolved.navigation.keep_out_zones[0].name, "zones.json 1");
+  ASSERT_EQ(resolved.loaded.notes.size(), 1u);
+  expect_wording(resolved.loaded.notes[0].text);
+}
+
+TEST(ZoneFiles, NeedASceneOnTheEarth) {
+  const ZoneMission mission;
+  mission.write("zones.json", polygon());
+  mission.write("city.obj", "v 0 0 9\nv 1 0 9\nv 0 1 9\nf 1 2 3\n");
+  mission.write("mission.yaml",
+                "scene: {mesh: city.obj}\ntarget: {vertices: [[0, 0, 0], [1, 0, 0], [0, 1, 0]]}\n"
+                "sensor: {max_range: 9}\nnavigation: {keep_out: [{file: zones.json, heights: any}]}\n");
+  expect_error([&] { resolve_mission(read_mission(mission.folder() / "mission.yaml")); }, ErrorCode::not_georeferenced,
+               "mission.yaml:4:32");
+}
+
+/// Of a mission in a mesh in `crs`, whose middle is at these coordinates, with one zone up to 100 m above `reference`.
+Mission resolved_in(const std::string& crs, const Eigen::Vector2d& middle, double unit, const std::string& reference) {
+  const ZoneMission mission;
+  const geo::CoordinateSystem system(crs, "test");
+  const auto position = [&](double x, double y) {
+    const geo::LonLat at = system.to_lonlat(middle + unit * Eigen::Vector2d(x, y));
+    return "[" + shortest(at.longitude_deg) + ", " + shortest(at.latitude_deg) + "]";
+  };
+  mission.write("zones.json", "{\"type\": \"Polygon\", \"coordinates\": [[" + position(-20, -20) + ", " +
+                                  position(20, -20) + ", " + position(0, 20) + ", " + position(-20, -20) +
+                                  "]], \"layer\": {\"upper\": 100, \"upperReference\": \"" + reference +
+                                  "\", \"uom\": \"m\"}}");
+  const auto vertex = [&](double x, double y) {
+    return "v " + shortest(middle.x() + unit * x) + " " + shortest(middle.y() + unit * y) + " 9\n";
+  };
+  mission.write("city.obj", vertex(-9, -9) + vertex(9, -9) + vertex(0, 9) + "f 1 2 3\n");
+  mission.write("mission.yaml", "scene: {mesh: city.obj, crs: '" + crs +
+                                    "'}\ntarget: {vertices: [[0, 0, 0], [1, 0, 0], [0, 1, 0]]}\n"
+                                    "sensor: {max_range: 9}\nnavigation: {keep_out: [{file: zones.json}]}\n");
+  return resolve_mission(read_mission(mission.folder() / "mission.yaml"));
+}
+
+TEST(ZoneFiles, HeightsNeedAZeroThatIsKnown) {
+  const Eigen::Vector2d delft(85000, 447000), degrees(4.36, 52.0);
+  const auto top = [](const Mission& mission) { return mission.navigation.keep_out_zones.at(0).max_z_m; };
+  EXPECT_EQ(top(resolved_in("EPSG:7415", delft, 1, "AMSL")), 100);  // with heights above NAP
+  EXPECT_EQ(top(resolved_in("EPSG:4979", degrees, 1e-5, "WGS84")), 100);
+  const auto refuse = [&](const std::string& crs, const Eigen::Vector2d& middle, double unit, const std::string& from) {
+    expect_error([&] { resolved_in(crs, middle, unit, from); }, ErrorCode::heights_differ, "mission.yaml:4:32");
+  };
+  refuse("EPSG:28992", delft, 1, "AMSL");  // without heights
+  refuse("EPSG:7415", delft, 1, "WGS84");
+  refuse("EPSG:4979", degrees, 1e-5, "AMSL");
+}
+
+TEST(ZoneFiles, AreInputsOfTheMissionAndStayInItsText) {
+  const ZoneMission mission;
+  mission.write("in.json", polygon());
+  mission.write("out.json", polygon());
+  const MissionFile read = mission.read(
+      "keep_in: [{file: in.json, z: [1, 5]}]\n  keep_out: [{file: out.json, heights: any}, {file: in.json}]",
+      ", sea_level: -12.5");
+  const auto files = input_files(read);
+  for (const char* name : {"in.json", "out.json"}) {
+    EXPECT_TRUE(std::any_of(files.begin(), files.end(), [&](const auto& file) { return file.filename() == name; }));
+  }
+  const std::string text = mission_text(read, mission.folder());
+  const MissionFile again = read_mission_text(text, mission.folder() / "again.yaml");
+  EXPECT_EQ(mission_text(again, mission.folder()), text);
+  EXPECT_EQ(again.sea_level_m, std::optional(-12.5));
+  ASSERT_EQ(again.keep_in_files.size(), 1u);
+  EXPECT_EQ(again.keep_in_files[0].file, read.keep_in_files[0].file);
+  EXPECT_EQ(again.keep_in_files[0].z_m, (std::optional<std::array<double, 2>>({1, 5})));
+  ASSERT_EQ(again.keep_out_files.size(), 2u);
+  EXPECT_TRUE(again.keep_out_files[0].any_height);
+  EXPECT_FALSE(again.keep_out_files[1].any_height);
+
+  const auto refuse = [&](const std::string& limits, ErrorCode code) {
+    expect_error([&] { mission.read(limits); }, code, "mission.yaml:5:");
+  };
+  refuse("keep_in: [{file: none.json}]", ErrorCode::file_not_found);
+  refuse("keep_in: [{file: in.json, z: [5, 1]}]", ErrorCode::limits_reversed);
+  refuse("keep_in: [{file: in.json, polygon: []}]", ErrorCode::conflicting_keys);
+  refuse("keep_in: [{file: in.json, z: [1, 5], heights: any}]", ErrorCode::conflicting_keys);
+  refuse("keep_in: [{file: [1]}]", ErrorCode::wrong_type);
+}
+
+std::string shared_text(const std::string& file) {
+  std::ifstream stream(shared_data(file), std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+TEST(ZoneFiles, RealFilesOfUasZones) {
+  VANTAGE_REQUIRE_SHARED("airspace/ed318_Example_Collection.json");
+  const ZoneList all = parsed(shared_text("airspace/ed318_Example_Collection.json"));
+  ASSERT_EQ(all.zones.size(), 3u);
+  EXPECT_EQ(all.zones[0].name, "NFZ6547");
+  EXPECT_EQ(all.zones[0].lower->metres, 50);
+  EXPECT_EQ(all.zones[1].upper->from, HeightReference::ground);
+  EXPECT_EQ(all.zones[2].circle->radius_m, 3500);
+  const std::map<std::string, std::size_t> counts = {
+      {"Example_GeoZone_2_Layers", 2},
+      {"Example_GeoZone_Circle", 1},
+      {"Example_GeoZone_with_extension", 1},
+      {"InvalidExample_GeoZone_2_Layers", 2},  // a date and the name of a type are wrong in it, not its zones
+  };
+  for (const auto& [name, count] : counts) {
+    EXPECT_EQ(parsed(shared_text("airspace/ed318_" + name + ".json")).zones.size(), count) << name;
+  }
+}
+
+TEST(ZoneFiles, RealFilesOfPlannersAndMaps) {
+  VANTAGE_REQUIRE_SHARED("missions/PolygonGood.kml");
+  const ZoneList park = parsed(shared_text("missions/PolygonGood.kml"));
+  ASSERT_EQ(park.zones.size(), 1u);
+  EXPECT_EQ(park.zones[0].name, "Untitled Polygon");
+  EXPECT_EQ(park.zones[0].outer.size(), 4u);
+  EXPECT_FALSE(park.zones[0].has_heights);
+  const ZoneList home = parsed(shared_text("airspace/qgroundcontrol_home_base.plan"));
+  ASSERT_EQ(home.zones.size(), 2u);
+  EXPECT_EQ(home.zones[0].outer.size(), 4u);
+  EXPECT_EQ(home.zones[1].is_inclusion, std::optional(false));
+  const ZoneList simple = parsed(shared_text("missions/simple.plan"));
+  ASSERT_FALSE(simple.zones.empty());
+  EXPECT_TRUE(std::any_of(simple.zones.begin(), simple.zones.end(), [](const ListedZone& zone) {
+    return zone.circle && std::abs(zone.circle->radius_m - 463.7) < 0.1;
+  }));
+  const std::string without = "missions/qgroundcontrol_sample.plan";
+  EXPECT_TRUE(parsed(shared_text(without)).zones.empty());
+}
+
+}  // namespace
+}  // namespace vantage::testing
