@@ -334,9 +334,9 @@ TEST_F(AboveGroundMission, TheGroundIsAnObjectOrAPlane) {
   EXPECT_FALSE(plane.navigation.above_ground->ground.surface);
   EXPECT_EQ(plane.navigation.above_ground->ground.plane_z_m, 1.5);
   // "1.5" in quotes is a name.
-  testing::expect_error([&] { resolve("{altitude: {agl: [5, 30]}, ground: '1.5'}"); }, ErrorCode::unknown_choice,
+  testing::expect_error([&] { resolve("{altitude: {agl: [5, 30]}, ground: '1.5'}"); }, ErrorCode::object_missing,
                         "mission.yaml:4:");
-  testing::expect_error([&] { resolve("{altitude: {agl: [5, 30]}, ground: feild}"); }, ErrorCode::unknown_choice,
+  testing::expect_error([&] { resolve("{altitude: {agl: [5, 30]}, ground: feild}"); }, ErrorCode::object_missing,
                         "mission.yaml:4:");
 }
 

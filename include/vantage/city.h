@@ -135,7 +135,8 @@ struct CityRemark {
 };
 
 struct CityRecord {
-  SceneObject object;  ///< `source_id`: "way/265517"; `name`: its name tag; `kind`: building to tree
+  SceneObject object;    ///< `source_id`: "way/265517"; `name`: its name tag; `kind`: building to tree
+  std::string building;  ///< of a building part: `source_id` of the building that it belongs to, where it has one
   Fate fate = Fate::written;
   std::string reason;               ///< of all but `written`; the report counts by it
   std::vector<CityRemark> remarks;  ///< on its tags

@@ -118,6 +118,8 @@ enum class ErrorCode {
   map_empty,           ///< a map holds nothing that can be built
   map_object_missing,  ///< a map has no such area
   ground_missing,      ///< a scene has no ground to put a target on, or to be above
+  object_missing,      ///< a scene has no object of that name, or none at that place
+  face_missing,        ///< an object has no roof or no wall of the sort that is asked for
   region_invalid,      ///< a region is not valid: reversed, without extent or too large
   region_outside,      ///< a region lies outside the map or raster
   region_empty,        ///< nothing in a region can be used

@@ -16,6 +16,7 @@
 #include "vantage/constraints.h"
 #include "vantage/error.h"
 #include "vantage/export.h"
+#include "vantage/faces.h"
 #include "vantage/prepared_target.h"
 #include "vantage/progress.h"
 #include "vantage/scene.h"
@@ -45,6 +46,18 @@ struct GroundTarget {
                                                                    ///< rectangle's centre
   double width_m = 0, length_m = 0;                                ///< > 0; the length runs along the heading
   double heading_deg = 0;                                          ///< clockwise from north
+};
+
+/// A target that is given by faces of objects of the scene (vantage/faces.h): one of the first three says of which.
+/// Where several faces are meant, all of them must be seen.
+struct FaceTarget {
+  std::string object;  ///< SceneObject::name, source_id or display_name of one or more objects; or
+  std::string osm;     ///< an object of the scene's map, "way/123", with the parts of that building; or
+  std::optional<std::array<double, 2>> at_deg = std::nullopt;  ///< latitude and longitude (WGS 84): the highest object
+                                                               ///< there, but for the ground
+  FaceKind kind = FaceKind::roof;
+  std::optional<double> facing_deg = std::nullopt;  ///< only those that face that way: see facing()
+  std::optional<Vec3> nearest = std::nullopt;       ///< only the one that is nearest to this point
 };
 
 /// A camera as a mission file gives it: one of these.
@@ -107,8 +120,9 @@ struct MissionFile {
   /// Of the coordinates of the target and of the boxes and zones ("EPSG:4326": longitude, latitude, z); empty: the
   /// scene frame.
   std::string crs = {};
-  Target target;                                             ///< with a ground_target only name, offset and front count
+  Target target;  ///< with one of the next two only name and offset count, with a ground_target front too
   std::optional<GroundTarget> ground_target = std::nullopt;  ///< says where the target lies
+  std::optional<FaceTarget> face_target = std::nullopt;      ///< says which faces of the scene it is
   Sensor sensor;
   std::optional<CameraSource> camera = std::nullopt;  ///< says what sensor.camera is
   std::optional<PilotSight> vlos = std::nullopt;      ///< visual line of sight
@@ -162,10 +176,10 @@ struct Mission {
 /// by building more of it (LoadedScene::notes).
 ///
 /// Throws as load_scene does, and Error(input) with the place in the mission file for: a scene that does not say where
-/// on the earth it lies, a position without a value, an object that the map does not have, a target farther off the
-/// ground than max_range or beyond ground that cannot be extended, a limit above the ground in a scene that does not
-/// say what of it is ground, a navigation mesh whose heights are measured from
-/// another level than the scene's, and all that make_target_frame refuses.
+/// on the earth it lies, a position without a value, an object that the map or the scene does not have, or that has no
+/// such face, a target farther off the ground than max_range or beyond ground that cannot be extended, a limit above the
+/// ground in a scene that does not say what of it is ground, a navigation mesh whose heights are measured from another
+/// level than the scene's, and all that make_target_frame refuses.
 VANTAGE_API Mission resolve_mission(const MissionFile& mission, const Progress& progress = {});
 
 /// What to know before relying on the mission's results: LoadedScene::notes; that map, raster or

@@ -23,6 +23,9 @@ struct VANTAGE_API Target {
                               ///< A point is seen from the half-space on this side only; without `front` from all
                               ///< sides, and its normal is up
 
+  bool front_by_order = false;  ///< without `front`: each part is seen from the side from which its vertices run
+                                ///< counter-clockwise, also one that faces down. Not for a point
+
   static Target polygon(std::vector<Vec3> vertices);
   static Target point(const Vec3& place);
 

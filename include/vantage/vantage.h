@@ -9,6 +9,7 @@
 #include "vantage/devices.h"
 #include "vantage/error.h"
 #include "vantage/export.h"
+#include "vantage/faces.h"
 #include "vantage/fraction.h"
 #include "vantage/geometry.h"
 #include "vantage/georeference.h"

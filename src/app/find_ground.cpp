@@ -29,7 +29,7 @@ Ground named_ground(const Scene& scene, const std::string& name, const std::stri
   if (!found.empty()) return ground_of(scene, found.front());
   const std::string nearest(nearest_name(name, names));
   const bool is_like = !nearest.empty() && 2 * static_cast<std::size_t>(edit_distance(name, nearest)) <= name.size();
-  throw Error(ErrorCode::unknown_choice, "the scene has no object " + in_quotes(name), where,
+  throw Error(ErrorCode::object_missing, "the scene has no object " + in_quotes(name), where,
               (is_like ? "did you mean " + in_quotes(nearest) + "? " : "") +
                   std::string("'vantage inspect' lists the scene's objects"));
 }

@@ -5,11 +5,13 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
 
 #include "app/components/maps.h"
+#include "app/face_targets.h"
 #include "app/places.h"
 #include "app/zone_places.h"
 #include "geo/local_frame.h"
@@ -177,9 +179,9 @@ void place_sun(Mission& mission) {
   mission.sensor.sun->direction = direction;
 }
 
-void check_near(const Mission& mission, const CrsConverter& converter) {
-  for (const Vec3& vertex : mission.target.parts.at(0)) {
-    const double distance = vertex.head<2>().norm();
+void check_near(const Mission& mission, const std::vector<Vec3>& places, const CrsConverter& converter) {
+  for (const Vec3& place : places) {
+    const double distance = place.head<2>().norm();
     if (distance <= geo::kFarthestM) continue;
     throw Error(ErrorCode::too_far_away,
                 "the target lies " + std::to_string(std::lround(distance / 1000)) + " km from the scene's origin",
@@ -187,27 +189,36 @@ void check_near(const Mission& mission, const CrsConverter& converter) {
   }
 }
 
+/// The positions that the mission gives in its own coordinate reference system.
+void convert_positions(Mission& mission, std::optional<FaceTarget>& faces, const geo::LocalFrame& frame) {
+  const CrsConverter converter(mission, frame);
+  std::vector<Vec3> nearest;
+  with_place(mission.as_written.places.target, [&] {
+    for (std::vector<Vec3>& part : mission.target.parts) {
+      for (Vec3& vertex : part) vertex = converter(vertex);
+    }
+    if (faces && faces->nearest) nearest.push_back(*(faces->nearest = converter(*faces->nearest)));
+    return 0;
+  });
+  check_near(mission, mission.target.parts.at(0), converter);
+  check_near(mission, nearest, converter);
+  convert_limits(mission.navigation, converter, mission.as_written);
+}
+
 }  // namespace
 
 void georeference(Mission& mission, const Progress& progress) {
   if (mission.as_written.sun_time) place_sun(mission);
   const std::string& crs = mission.as_written.crs;
-  const std::string& place = mission.as_written.places.target;
-  if (crs.empty() && !mission.as_written.ground_target) return;
-  const geo::LocalFrame frame = frame_of(mission);
-  if (!crs.empty()) {
-    const CrsConverter converter(mission, frame);
-    with_place(place, [&] {
-      for (std::vector<Vec3>& part : mission.target.parts) {
-        for (Vec3& vertex : part) vertex = converter(vertex);
-      }
-      return 0;
-    });
-    check_near(mission, converter);
-    convert_limits(mission.navigation, converter, mission.as_written);
-  }
-  if (mission.as_written.ground_target) put_on_ground(mission, frame, progress);
-  with_place(place, [&] {
+  const auto& ground = mission.as_written.ground_target;
+  std::optional<FaceTarget> faces = mission.as_written.face_target;
+  if (crs.empty() && !ground && !faces) return;
+  std::optional<geo::LocalFrame> frame;
+  if (!crs.empty() || ground || faces->at_deg) frame = frame_of(mission);
+  if (!crs.empty()) convert_positions(mission, faces, *frame);
+  if (ground) put_on_ground(mission, *frame, progress);
+  if (faces) take_faces(mission, *faces, frame ? &*frame : nullptr);
+  with_place(mission.as_written.places.target, [&] {
     for (std::size_t i = 0; i < mission.target.parts.size(); ++i) make_target_frame(mission.target, i);
     return 0;
   });

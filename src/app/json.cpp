@@ -23,6 +23,7 @@ Json record_json(const CityRecord& record) {
   json["object"] = record.object.source_id;
   if (!record.object.name.empty()) json["name"] = record.object.name;
   json["kind"] = name_of(record.object.kind);
+  if (!record.building.empty()) json["building"] = record.building;
   json["fate"] = name_of(record.fate);
   if (!record.reason.empty()) json["reason"] = record.reason;
   for (const CityRemark& remark : record.remarks) json["remarks"].push_back(remark.text);

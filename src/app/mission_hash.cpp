@@ -93,9 +93,11 @@ SortedJson sorted_json_of(const Target& target) {
     for (const Vec3& vertex : part) vertices.push_back(sorted_json_of(vertex));
     parts.push_back(std::move(vertices));
   }
-  return {{"parts", std::move(parts)},
-          {"offset_m", number_text(target.offset_m)},
-          {"front", target.front ? sorted_json_of(*target.front) : SortedJson()}};
+  SortedJson json = {{"parts", std::move(parts)},
+                     {"offset_m", number_text(target.offset_m)},
+                     {"front", target.front ? sorted_json_of(*target.front) : SortedJson()}};
+  if (target.front_by_order) json["front_by_order"] = true;
+  return json;
 }
 
 SortedJson sorted_json_of(const SpheresOptions& options) {

@@ -152,8 +152,10 @@ class Writer {
   std::string target() const {
     const Target& target = mission_.target;
     Section section("target");
-    section.add("name", quoted(target.name));
-    if (const auto& ground = mission_.ground_target) {
+    if (!target.name.empty()) section.add("name", quoted(target.name));
+    if (mission_.face_target) {
+      add_faces(*mission_.face_target, section);
+    } else if (const auto& ground = mission_.ground_target) {
       if (ground->center_deg) {
         section.add("center", list_of(*ground->center_deg));
         section.add("width", ground->width_m);
@@ -174,6 +176,15 @@ class Writer {
     if (target.offset_m != 0) section.add("offset", target.offset_m);
     if (target.front) section.add("front", list_of(*target.front));
     return section.text();
+  }
+
+  static void add_faces(const FaceTarget& faces, Section& section) {
+    if (!faces.object.empty()) section.add("object", quoted(faces.object));
+    if (!faces.osm.empty()) section.add("osm", faces.osm);
+    if (faces.at_deg) section.add("at", list_of(*faces.at_deg));
+    section.add("part", name_of(faces.kind));
+    if (faces.facing_deg) section.add("facing", *faces.facing_deg);
+    if (faces.nearest) section.add("nearest", list_of(*faces.nearest));
   }
 
   /// No height can be beyond this, nor can a file say so.

@@ -90,6 +90,7 @@ VolumeStatement parse(const Json& json) {
     for (const Json& vertex : part) vertices.push_back(vector_of(vertex));
   }
   made.target.offset_m = target.at("offset_m").get<double>();
+  made.target.front_by_order = target.value("front_by_order", false);
   if (target.contains("front")) made.target.front = vector_of(target.at("front"));
   if (json.contains("max_range_m")) made.sensor.max_range_m = length_of(json.at("max_range_m"));
   if (json.contains("sensor")) read_sensor(json.at("sensor"), made.sensor);
@@ -151,6 +152,7 @@ std::optional<Json> statement_json(const Volume& volume, const Mesh& stored) {
     target["parts"].push_back(std::move(vertices));
   }
   if (made.target.front) target["front"] = json_of(*made.target.front);
+  if (made.target.front_by_order) target["front_by_order"] = true;
   Json json = {{"version", made.version}, {"method", made.method}, {"target", std::move(target)}};
   if (std::isfinite(made.sensor.max_range_m)) json["max_range_m"] = made.sensor.max_range_m;
   if (Json sensor = limits_json(made.sensor); !sensor.empty()) json["sensor"] = std::move(sensor);

@@ -112,7 +112,7 @@ Vec3 front_normal(const Target& target, const Vec3& normal) {
     }
     return side > 0 ? normal : Vec3(-normal);
   }
-  return normal.z() < -kVerticalNormal ? Vec3(-normal) : normal;
+  return normal.z() < -kVerticalNormal && !target.front_by_order ? Vec3(-normal) : normal;
 }
 
 // Axes that keep the scene's x and y for a horizontal target, so that boxes of the scene stay boxes.
@@ -204,6 +204,7 @@ Target Target::part(std::size_t index) const {
   part.parts = {parts.at(index)};
   part.offset_m = offset_m;
   part.front = front;
+  part.front_by_order = front_by_order;
   return part;
 }
 

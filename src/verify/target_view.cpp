@@ -48,7 +48,7 @@ bool runs_on_back(const Target& target, const Vec3& normal) {
     }
     return along < 0;
   }
-  return std::abs(normal.z()) > kVertical && normal.z() < 0;
+  return !target.front_by_order && std::abs(normal.z()) > kVertical && normal.z() < 0;
 }
 
 }  // namespace

@@ -187,6 +187,7 @@ class BuildingSorter {
     const BuildingForm form = form_of(structure, &remarks);
     note_remarks(record, remarks);
     item.record = std::move(record);
+    if (outline) item.record.building = osm::text(outline->source->id);
     for (Footprint& footprint : footprints) item.shapes.push_back({std::move(footprint), form, {}});
     if (outline) {
       item.standing = outline->footprints;

@@ -1,0 +1,197 @@
+#include "app/face_targets.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "app/target_section.h"
+#include "vantage/error.h"
+#include "vantage/faces.h"
+#include "vantage/input.h"
+
+namespace vantage::internal::app {
+namespace {
+
+using Vec2 = Eigen::Vector2d;
+using Objects = std::vector<std::uint32_t>;
+
+/// Up to three names that are most like a word, the nearest first: "'a', 'b'".
+std::string nearest_names(const std::string& word, const std::set<std::string>& names) {
+  std::vector<std::string_view> left(names.begin(), names.end());
+  std::string text;
+  for (int i = 0; i < 3 && !left.empty(); ++i) {
+    const std::string_view nearest = nearest_name(word, left);
+    text += (text.empty() ? "" : ", ") + in_quotes(nearest);
+    left.erase(std::find(left.begin(), left.end(), nearest));
+  }
+  return text;
+}
+
+std::string advice_for_name(const std::string& word, const std::set<std::string>& names) {
+  if (names.empty()) return "give the target's vertices: the objects of this scene have no names";
+  return "the nearest of " + std::to_string(names.size()) + " names: " + nearest_names(word, names);
+}
+
+Objects named(const Mission& mission, const std::string& name) {
+  const std::vector<SceneObject>& objects = mission.loaded.scene.objects;
+  Objects found;
+  std::set<std::string> names;
+  for (std::uint32_t i = 0; i < objects.size(); ++i) {
+    const SceneObject& object = objects[i];
+    if (object.name == name || object.source_id == name || display_name(object) == name) found.push_back(i);
+    for (const std::string& known : {object.name, object.source_id}) {
+      if (!known.empty()) names.insert(known);
+    }
+  }
+  if (!found.empty()) return found;
+  throw Error(ErrorCode::object_missing, "the scene has no object " + in_quotes(name), mission.as_written.places.target,
+              advice_for_name(name, names));
+}
+
+/// An object of the map and, of a building, its parts.
+Objects of_map(const Mission& mission, const std::string& id) {
+  const std::vector<SceneObject>& objects = mission.loaded.scene.objects;
+  std::set<std::string> wanted{id}, names;
+  std::string reason;
+  if (mission.loaded.city) {
+    for (const CityRecord& record : mission.loaded.city->records) {
+      if (record.building == id) wanted.insert(record.object.source_id);
+      if (record.object.source_id == id && record.fate == Fate::skipped) reason = record.reason;
+    }
+  }
+  Objects found;
+  for (std::uint32_t i = 0; i < objects.size(); ++i) {
+    if (objects[i].source_id.empty()) continue;
+    names.insert(objects[i].source_id);
+    if (wanted.count(objects[i].source_id) > 0) found.push_back(i);
+  }
+  if (!found.empty()) return found;
+  const std::string& place = mission.as_written.places.target;
+  if (!reason.empty()) {
+    throw Error(ErrorCode::object_missing, id + " of the map is not built: " + reason, place,
+                "name another object, or give the target's vertices");
+  }
+  throw Error(
+      ErrorCode::object_missing, "the scene has no object " + in_quotes(id) + " of the map", place,
+      "name a building, wall, tower or bridge in the part of the map that is used; " + advice_for_name(id, names));
+}
+
+/// z of a triangle at a place in plan; nothing where it is not there. Of triangles that share a side, one holds a place
+/// on it.
+std::optional<double> height_at(const Scene& scene, const Triangle& triangle, const Vec2& at) {
+  const Vec3 &a = scene.mesh.vertices[triangle[0]], &b = scene.mesh.vertices[triangle[1]],
+             &c = scene.mesh.vertices[triangle[2]];
+  bool inside = false;
+  for (const auto& [from, to] : {std::pair{a, b}, {b, c}, {c, a}}) {
+    if ((from.y() > at.y()) == (to.y() > at.y())) continue;
+    if (at.x() < from.x() + (to.x() - from.x()) * (at.y() - from.y()) / (to.y() - from.y())) inside = !inside;
+  }
+  const Vec3 normal = (b - a).cross(c - a);
+  if (!inside || normal.z() == 0) return std::nullopt;
+  return a.z() - (normal.x() * (at.x() - a.x()) + normal.y() * (at.y() - a.y())) / normal.z();
+}
+
+bool is_ground(const SceneObject& object) {
+  return object.kind == ObjectKind::ground || object.kind == ObjectKind::surface;
+}
+
+/// The highest object at a place, but for the ground.
+Objects at_place(const Mission& mission, const std::array<double, 2>& at_deg, const geo::LocalFrame& frame) {
+  const Scene& scene = mission.loaded.scene;
+  const Vec2 at = frame.to_local({at_deg[1], at_deg[0]});
+  std::optional<std::uint32_t> highest, nearest;
+  double top = -INFINITY, least = INFINITY;
+  for (std::size_t i = 0; i < scene.mesh.triangles.size(); ++i) {
+    const std::uint32_t object = scene.object_of[i];
+    if (is_ground(scene.objects[object])) continue;
+    const auto height = height_at(scene, scene.mesh.triangles[i], at);
+    if (height && *height > top) {
+      top = *height;
+      highest = object;
+    }
+    for (const std::uint32_t vertex : scene.mesh.triangles[i]) {
+      const double distance = (scene.mesh.vertices[vertex].head<2>() - at).norm();
+      if (distance >= least) continue;
+      least = distance;
+      nearest = object;
+    }
+  }
+  if (highest) return {*highest};
+  std::string fix = "write at: [latitude, longitude] of a place in the outline of an object";
+  if (nearest) {
+    fix += "; the nearest object, " + in_quotes(display_name(scene.objects[*nearest])) + ", has a corner " +
+           std::to_string(std::lround(least)) + " m away";
+  }
+  throw Error(ErrorCode::object_missing,
+              "no object of the scene lies at [" + shortest(at_deg[0]) + ", " + shortest(at_deg[1]) + "]",
+              mission.as_written.places.target, fix);
+}
+
+std::string name_of_objects(const Mission& mission, const FaceTarget& wanted, const Objects& objects) {
+  if (!wanted.object.empty()) return wanted.object;
+  const SceneObject& first = mission.loaded.scene.objects[objects.front()];
+  if (wanted.osm.empty() || first.source_id == wanted.osm) return display_name(first);
+  return wanted.osm;
+}
+
+std::string count_text(std::size_t count, const char* what) {
+  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
+std::vector<Face> wanted_faces(const Mission& mission, const FaceTarget& wanted, const Objects& objects,
+                               const std::string& name) {
+  const FaceFinder finder(mission.loaded.scene);
+  const char* const kind = name_of(wanted.kind);
+  const std::string& place = mission.as_written.places.target;
+  std::vector<Face> faces;
+  if (wanted.nearest) {
+    if (auto face = finder.nearest(objects, wanted.kind, *wanted.nearest)) faces.push_back(std::move(*face));
+  } else {
+    faces = finder.faces(objects, wanted.kind);
+  }
+  if (faces.empty()) {
+    throw Error(ErrorCode::face_missing,
+                name + " has no " + kind + " of more than 1 square metre that nothing lies against", place,
+                wanted.kind == FaceKind::roof ? "write 'part: facade', or name another object"
+                                              : "write 'part: roof', or name another object");
+  }
+  if (!wanted.facing_deg) return faces;
+  std::vector<Face> chosen = facing(faces, *wanted.facing_deg);
+  if (!chosen.empty()) return chosen;
+  std::set<std::string> directions;
+  for (const Face& face : faces) {
+    if (face.normal.head<2>().norm() < 1e-3) continue;  // level
+    const double heading = std::atan2(face.normal.x(), face.normal.y()) * 180 / std::numbers::pi;
+    directions.insert(heading_text(std::fmod(45 * std::round(heading / 45) + 360, 360)));
+  }
+  std::string known;
+  for (const std::string& direction : directions) known += (known.empty() ? "" : ", ") + direction;
+  throw Error(ErrorCode::face_missing,
+              name + " has " + count_text(faces.size(), kind) + ", none within 45 degrees of " +
+                  heading_text(*wanted.facing_deg),
+              place,
+              known.empty() ? "leave 'facing' out: they are level"
+                            : "leave 'facing' out for all of them, or choose one of: " + known);
+}
+
+}  // namespace
+
+void take_faces(Mission& mission, const FaceTarget& wanted, const geo::LocalFrame* frame) {
+  const Objects objects = wanted.at_deg         ? at_place(mission, *wanted.at_deg, *frame)
+                          : !wanted.osm.empty() ? of_map(mission, wanted.osm)
+                                                : named(mission, wanted.object);
+  const std::string name = name_of_objects(mission, wanted, objects);
+  const std::vector<Face> faces = wanted_faces(mission, wanted, objects, name);
+  std::string full = name + ", " + name_of(wanted.kind);
+  if (wanted.facing_deg) full += " facing " + heading_text(*wanted.facing_deg);
+  const double offset_m = mission.target.offset_m;
+  mission.target = target_of(faces, mission.target.name.empty() ? full : mission.target.name);
+  mission.target.offset_m = offset_m;
+}
+
+}  // namespace vantage::internal::app

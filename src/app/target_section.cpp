@@ -1,0 +1,306 @@
+// docs/mission-file.md describes every key.
+#include "app/target_section.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <initializer_list>
+#include <utility>
+
+#include "app/places.h"
+#include "app/scene_section.h"
+#include "app/schema.h"
+#include "vantage/error.h"
+#include "vantage/input.h"
+
+namespace vantage::internal::app {
+namespace {
+
+/// Clockwise from north.
+constexpr std::array<const char*, 8> kHeadings = {"north", "northeast", "east", "southeast",
+                                                  "south", "southwest", "west", "northwest"};
+constexpr double kHeadingStep = 45;  // degrees
+
+class TargetParser : private ValueReader {
+ public:
+  TargetParser(const ValueReader& reader, const MissionFile& mission) : ValueReader(reader), mission_(mission) {}
+
+  TargetSection parse(const YamlNode& node);
+
+ private:
+  void check_edges(const YamlNode& node, std::size_t vertex_count) const;
+  void refuse_beside(const YamlNode& node, const char* key, std::initializer_list<const char*> others,
+                     const char* fix) const;
+  const YamlNode& parse_vertices(const YamlNode& node);
+  const YamlNode& parse_parts(const YamlNode& node, const YamlNode& parts);
+  const YamlNode& parse_ground_target(const YamlNode& node);
+  const YamlNode& parse_faces(const YamlNode& node, const YamlNode& part);
+  double heading(const YamlNode& node) const;
+  const YamlNode& parse_point(const YamlNode& node, const YamlNode& point);
+  void check_target(const YamlNode& place);
+  void check_is_map(const YamlNode& osm) const;
+  void refuse_without_part(const YamlNode& node) const;
+  const YamlNode& require(const YamlNode& map, std::string_view key, const std::string& fix) const;
+
+  const MissionFile& mission_;
+  TargetSection section_;
+};
+
+const char* const kVerticesForm =
+    "write 'vertices: [[x, y, z], [x, y, z], [x, y, z]]', 3 to 64 points, or 'point: [x, y, z]'";
+
+std::string indexed_item(const std::string& what, std::size_t index) {
+  return what + "[" + std::to_string(index) + "]";
+}
+
+std::string edge_text(std::size_t from, std::size_t to) {
+  std::string text = "[";
+  text += std::to_string(from);
+  text += ", ";
+  text += std::to_string(to);
+  text += "]";
+  return text;
+}
+
+TargetSection TargetParser::parse(const YamlNode& node) {
+  check_keys(node, Section::target, file());
+  Target& target = section_.target;
+  if (const YamlNode* name = find(node, "name")) target.name = text(*name, "target.name");
+  const YamlNode* point = find(node, "point");
+  const bool is_on_ground = find(node, "osm") || find(node, "center");
+  const YamlNode* parts = find(node, "parts");
+  const YamlNode* part = find(node, "part");
+  if (part == nullptr) refuse_without_part(node);
+  const YamlNode& place = part           ? parse_faces(node, *part)
+                          : point        ? parse_point(node, *point)
+                          : parts        ? parse_parts(node, *parts)
+                          : is_on_ground ? parse_ground_target(node)
+                                         : parse_vertices(node);
+  if (const YamlNode* offset = find(node, "offset")) target.offset_m = length(*offset, "target.offset");
+  if (const YamlNode* front = find(node, "front")) target.front = vector(*front, "target.front");
+  check_target(place);
+  if (const YamlNode* edges = find(node, "edges")) check_edges(*edges, target.parts[0].size());
+  return std::move(section_);
+}
+
+const YamlNode& TargetParser::parse_parts(const YamlNode& node, const YamlNode& parts) {
+  const char* const form = "write a list of polygons: [[[x, y, z], [x, y, z], [x, y, z]], [[x, y, z], ...]]";
+  refuse_beside(node, "parts", {"vertices", "edges", "osm", "center"}, "keep 'parts' for several polygons");
+  if (list(parts, "target.parts", form).empty())
+    fail(ErrorCode::nothing_given, parts, "target.parts is an empty list", form);
+  section_.target.parts.clear();
+  for (std::size_t i = 0; i < parts.items.size(); ++i) {
+    const std::string what = indexed_item("target.parts", i);
+    std::vector<Vec3>& part = section_.target.parts.emplace_back();
+    list(parts.items[i], what, form);
+    for (std::size_t k = 0; k < parts.items[i].items.size(); ++k) {
+      part.push_back(vector(parts.items[i].items[k], indexed_item(what, k)));
+    }
+  }
+  return parts;
+}
+
+/// Returns the node that stands for the target in messages.
+const YamlNode& TargetParser::parse_vertices(const YamlNode& node) {
+  Target& target = section_.target;
+  for (const char* key : {"width", "length", "heading"}) {
+    if (const YamlNode* entry = find(node, key)) {
+      fail(ErrorCode::not_applicable, *entry,
+           std::string("target.") + key + " is of a rectangle, and the target has no 'center'",
+           "write 'center: [latitude, longitude]'");
+    }
+  }
+  const YamlNode& vertices = require(node, "vertices", kVerticesForm);
+  list(vertices, "target.vertices", kVerticesForm);
+  for (std::size_t i = 0; i < vertices.items.size(); ++i) {
+    target.parts[0].push_back(vector(vertices.items[i], indexed_item("target.vertices", i)));
+  }
+  if (target.is_point()) {
+    fail(ErrorCode::target_vertex_count, vertices, "a polygon needs at least 3 vertices, this one has 1",
+         "add vertices, or write 'point: [x, y, z]' for a single point");
+  }
+  return vertices;
+}
+
+/// Keys that say another thing than `key` does.
+void TargetParser::refuse_beside(const YamlNode& node, const char* key, std::initializer_list<const char*> others,
+                                 const char* fix) const {
+  for (const char* other : others) {
+    if (const YamlNode* entry = find(node, other)) {
+      fail(ErrorCode::conflicting_keys, *entry, std::string("target has both '") + key + "' and '" + other + "'", fix);
+    }
+  }
+}
+
+/// Where it lies is found out when the scene is read.
+const YamlNode& TargetParser::parse_ground_target(const YamlNode& node) {
+  GroundTarget& ground = section_.ground.emplace();
+  if (const YamlNode* osm = find(node, "osm")) {
+    refuse_beside(node, "osm", {"vertices", "edges", "parts", "center", "width", "length", "heading"},
+                  "keep 'osm' for an area of the map, or give the target yourself");
+    ground.osm = text(*osm, "target.osm");
+    if (find(node, "name") == nullptr) section_.target.name = ground.osm;
+    check_is_map(*osm);
+    return *osm;
+  }
+  const YamlNode& center = *find(node, "center");
+  refuse_beside(node, "center", {"vertices", "edges", "parts"},
+                "keep 'center' for a rectangle, or 'vertices' for a polygon");
+  ground.center_deg = parse_lat_lon(center, *this, "target.center");
+  const std::string form = "write 'width: 20' and 'length: 30' (metres), and 'heading: 45' (degrees from north)";
+  ground.width_m = positive(require(node, "width", form), "target.width");
+  ground.length_m = positive(require(node, "length", form), "target.length");
+  if (const YamlNode* heading = find(node, "heading")) ground.heading_deg = number(*heading, "target.heading");
+  return center;
+}
+
+void TargetParser::check_is_map(const YamlNode& osm) const {
+  if (mission_.scene.kind == SceneSource::Kind::map) return;
+  fail(ErrorCode::not_applicable, osm, "target.osm names an object of a map, and the scene is none",
+       "write 'scene: {osm: city.osm.pbf}', or give the target's vertices");
+}
+
+void TargetParser::refuse_without_part(const YamlNode& node) const {
+  for (const char* key : {"object", "at", "facing", "nearest"}) {
+    if (const YamlNode* entry = find(node, key)) {
+      fail(ErrorCode::missing_key, *entry, std::string("target has '") + key + "' without 'part'",
+           "add 'part: roof' or 'part: facade'");
+    }
+  }
+}
+
+/// Which faces these are is found out when the scene is read.
+const YamlNode& TargetParser::parse_faces(const YamlNode& node, const YamlNode& part) {
+  refuse_beside(node, "part", {"vertices", "edges", "parts", "point", "center", "width", "length", "heading", "front"},
+                "keep 'part' for a roof or facades of an object, which know their outer side");
+  FaceTarget& faces = section_.faces.emplace();
+  const std::string kind = text(part, "target.part");
+  if (kind != "roof" && kind != "facade") {
+    fail(ErrorCode::unknown_choice, part, "there is no part " + in_quotes(kind) + " of an object",
+         "write 'part: roof' or 'part: facade'");
+  }
+  faces.kind = kind == "roof" ? FaceKind::roof : FaceKind::facade;
+  const YamlNode *object = find(node, "object"), *osm = find(node, "osm"), *at = find(node, "at");
+  const char* const form = "write one of 'object: NAME', 'osm: way/123' and 'at: [latitude, longitude]'";
+  if (object) refuse_beside(node, "object", {"osm", "at"}, form);
+  if (osm) refuse_beside(node, "osm", {"at"}, form);
+  const YamlNode* const place = object ? object : osm ? osm : at;
+  if (place == nullptr) fail(ErrorCode::missing_key, part, "target.part does not say of which object", form);
+  if (object) faces.object = text(*object, "target.object");
+  if (osm) {
+    faces.osm = text(*osm, "target.osm");
+    check_is_map(*osm);
+  }
+  if (at) faces.at_deg = parse_lat_lon(*at, *this, "target.at");
+  if (const YamlNode* facing = find(node, "facing")) faces.facing_deg = heading(*facing);
+  if (const YamlNode* nearest = find(node, "nearest")) faces.nearest = vector(*nearest, "target.nearest");
+  if (faces.facing_deg && faces.nearest) {
+    fail(ErrorCode::conflicting_keys, *find(node, "nearest"), "target has both 'facing' and 'nearest'",
+         "keep 'nearest' for one face, 'facing' for all that face that way");
+  }
+  if (find(node, "name") == nullptr) section_.target.name.clear();
+  return *place;
+}
+
+double TargetParser::heading(const YamlNode& node) const {
+  const auto word = std::find(kHeadings.begin(), kHeadings.end(), node.text);
+  if (word != kHeadings.end()) return kHeadingStep * static_cast<double>(word - kHeadings.begin());
+  const std::string form =
+      "write north, northeast, east, southeast, south, southwest, west, northwest, or degrees "
+      "clockwise from north: 135";
+  if (node.kind != YamlNode::Kind::scalar || parse_number(node.text).fault != NumberFault::none) {
+    fail(ErrorCode::unknown_choice, node, "target.facing is no direction: " + describe(node), form);
+  }
+  const double degrees = number(node, "target.facing");
+  if (std::abs(degrees) > 360) {
+    fail(ErrorCode::value_out_of_range, node, "target.facing is beyond 360 degrees: " + shortest(degrees), form);
+  }
+  return degrees;
+}
+
+const YamlNode& TargetParser::parse_point(const YamlNode& node, const YamlNode& point) {
+  refuse_beside(node, "point", {"vertices", "edges", "parts", "osm", "center"},
+                "keep 'point' for a single point, or 'vertices' for a polygon");
+  section_.target.parts = {{vector(point, "target.point")}};
+  const YamlNode* offset = find(node, "offset");
+  if (offset != nullptr && find(node, "front") == nullptr) {
+    fail(ErrorCode::conflicting_keys, *offset, "a point without 'front' has no side to be moved towards by 'offset'",
+         "move the point itself, or give 'front', the side that is looked at");
+  }
+  return point;
+}
+
+/// The checks that need no scene, told with the place of the vertices or the point.
+void TargetParser::check_target(const YamlNode& place) {
+  section_.where = place_in(file(), place.place);
+  if (!mission_.crs.empty() || section_.ground || section_.faces) return;  // georeference() does it
+  with_place(section_.where, [&] {
+    for (std::size_t i = 0; i < section_.target.parts.size(); ++i) make_target_frame(section_.target, i);
+    return 0;
+  });
+}
+
+/// The edges must be the polygon's own: each joins neighbours in `vertices`, none is missing, none stands twice. Which
+/// way round an edge or the whole list runs does not matter.
+void TargetParser::check_edges(const YamlNode& node, std::size_t vertex_count) const {
+  const std::string fix = "list the edges as [0, 1], [1, 2], ..., [" + std::to_string(vertex_count - 1) +
+                          ", 0], or leave 'edges' out: the vertices' order says it all";
+  list(node, "target.edges", "write pairs of vertex numbers, counted from 0: [[0, 1], [1, 2], [2, 0]]");
+  std::vector<const YamlNode*> edge_from(vertex_count, nullptr);  // the edge from vertex i to vertex i + 1
+  for (std::size_t i = 0; i < node.items.size(); ++i) {
+    const YamlNode& item = node.items[i];
+    const std::string what = indexed_item("target.edges", i);
+    if (list(item, what, "write a pair of vertex numbers, such as [0, 1]").size() != 2) {
+      fail(ErrorCode::wrong_type, item, what + " must be a pair of vertex numbers, not " + describe(item), fix);
+    }
+    std::size_t ends[2];
+    for (std::size_t k = 0; k < 2; ++k) {
+      const double value = number(item.items[k], what);
+      if (value < 0 || value >= static_cast<double>(vertex_count) || value != std::floor(value)) {
+        fail(ErrorCode::edges_mismatch, item.items[k],
+             what + " names vertex " + shortest(value) + ", but the vertices are 0 to " +
+                 std::to_string(vertex_count - 1),
+             fix);
+      }
+      ends[k] = static_cast<std::size_t>(value);
+    }
+    const std::string pair = edge_text(ends[0], ends[1]);
+    const bool is_forward = (ends[0] + 1) % vertex_count == ends[1];
+    const bool is_backward = (ends[1] + 1) % vertex_count == ends[0];
+    if (!is_forward && !is_backward) {
+      fail(ErrorCode::edges_mismatch, item,
+           "target.edges and target.vertices disagree: edge " + pair + " joins vertices that are not neighbours", fix);
+    }
+    const YamlNode*& seen = edge_from[is_forward ? ends[0] : ends[1]];
+    if (seen != nullptr) fail(ErrorCode::edges_mismatch, item, "target.edges lists the edge " + pair + " twice", fix);
+    seen = &item;
+  }
+  const auto missing = std::find(edge_from.begin(), edge_from.end(), nullptr);
+  if (missing != edge_from.end()) {
+    const auto from = static_cast<std::size_t>(missing - edge_from.begin());
+    fail(
+        ErrorCode::edges_mismatch, node,
+        "target.edges and target.vertices disagree: edge " + edge_text(from, (from + 1) % vertex_count) + " is missing",
+        fix);
+  }
+}
+
+const YamlNode& TargetParser::require(const YamlNode& map, std::string_view key, const std::string& fix) const {
+  if (const YamlNode* node = find(map, key)) return *node;
+  fail(ErrorCode::missing_key, map, "target lacks the key '" + std::string(key) + "'", fix);
+}
+
+}  // namespace
+
+std::string heading_text(double heading_deg) {
+  for (std::size_t i = 0; i < kHeadings.size(); ++i) {
+    if (heading_deg == kHeadingStep * static_cast<double>(i)) return kHeadings[i];
+  }
+  return shortest(heading_deg) + " degrees from north";
+}
+
+TargetSection parse_target_section(const YamlNode& node, const ValueReader& reader, const MissionFile& mission) {
+  return TargetParser(reader, mission).parse(node);
+}
+
+}  // namespace vantage::internal::app

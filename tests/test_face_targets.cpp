@@ -1,0 +1,212 @@
+// Roofs and facades that missions name: by an object of any scene, of a map, or by a place.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+#include "geo/local_frame.h"
+#include "support/cli_fixture.h"
+#include "support/map_text.h"
+#include "support/temporary_directory.h"
+#include "support/wording.h"
+#include "vantage/error.h"
+#include "vantage/faces.h"
+#include "vantage/mission.h"
+#include "vantage/result.h"
+
+namespace vantage {
+namespace {
+
+using testing::MapText;
+using testing::TemporaryDirectory;
+using testing::write_bytes;
+
+constexpr geo::LonLat kOrigin = {11.5755, 48.1374};
+
+double area_of(const Target& target) {
+  double area = 0;
+  for (const std::vector<Vec3>& part : target.parts) {
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t i = 1; i + 1 < part.size(); ++i) sum += (part[i] - part[0]).cross(part[i + 1] - part[0]) / 2;
+    area += sum.norm();
+  }
+  return area;
+}
+
+Vec3 normal_of(const Target& target, std::size_t part = 0) { return make_target_frame(target, part).normal; }
+
+class FaceTargets : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    write_bytes(folder_ / "city.obj",
+                "o ground\nv -100 -100 0\nv 100 -100 0\nv 100 100 0\nv -100 100 0\nf 1 2 3 4\n"
+                "o town_hall\nv 20 -5 0\nv 30 -5 0\nv 30 5 0\nv 20 5 0\nv 20 -5 12\nv 30 -5 12\nv 30 5 12\nv 20 5 12\n"
+                "f 9 10 11 12\nf 5 6 10 9\nf 6 7 11 10\nf 7 8 12 11\nf 8 5 9 12\n");
+    MapText map(kOrigin);
+    map.box(-10, -10, 10, 10, {{"building", "yes"}, {"height", "12"}, {"name", "Town Hall"}});  // way/1
+    map.box(10, -10, 20, 10, {{"building", "yes"}, {"height", "6"}});                           // way/2
+    map.box(40, 0, 60, 10, {{"building", "yes"}, {"name", "School"}});                          // way/3
+    map.box(40, 0, 50, 10, {{"building:part", "yes"}, {"height", "9"}});                        // way/4
+    map.box(50, 0, 60, 10, {{"building:part", "yes"}, {"height", "15"}});                       // way/5
+    write_bytes(folder_ / "city.osm", map.text());
+  }
+
+  MissionFile file(const std::string& target, const std::string& scene) {
+    write_bytes(folder_ / "mission.yaml", "scene: " + scene + "\nsensor: {max_range: 60}\ntarget: " + target + "\n");
+    return read_mission(folder_ / "mission.yaml");
+  }
+  Mission mesh(const std::string& target) { return resolve_mission(file(target, "{mesh: city.obj}")); }
+  Mission map(const std::string& target) { return resolve_mission(file(target, "{osm: city.osm}")); }
+
+  void expect_refused(const std::string& target, ErrorCode code, const std::string& scene = "{mesh: city.obj}") {
+    SCOPED_TRACE(target);
+    testing::expect_error([&] { resolve_mission(file(target, scene)); }, code, "mission.yaml:3:");
+  }
+
+  static std::string at(double east, double north) {
+    const geo::LonLat place = geo::LocalFrame(kOrigin).to_lonlat({east, north});
+    char text[64];
+    std::snprintf(text, sizeof text, "[%.9f, %.9f]", place.latitude_deg, place.longitude_deg);
+    return text;
+  }
+
+  TemporaryDirectory folder_;
+};
+
+TEST_F(FaceTargets, OfAnObjectOfAnyScene) {
+  const Mission roof = mesh("{object: town_hall, part: roof}");
+  testing::expect_wording(roof.target.name);
+  ASSERT_EQ(roof.target.parts.size(), 1U);
+  EXPECT_EQ(area_of(roof.target), 100);
+  EXPECT_EQ(normal_of(roof.target), Vec3::UnitZ());
+  const Mission south = mesh("{object: town_hall, part: facade, facing: south, offset: 0.5}");
+  testing::expect_wording(south.target.name);
+  EXPECT_NEAR(area_of(south.target), 120, 1e-9);
+  EXPECT_TRUE(normal_of(south.target).isApprox(-Vec3::UnitY()));
+  EXPECT_EQ(make_target_frame(south.target).origin.y(), -5.5) << "an offset moves it outward";
+  for (const char* same :
+       {"{object: town_hall, part: facade, facing: 200}", "{object: town_hall, part: facade, nearest: [25, -40, 3]}"}) {
+    EXPECT_EQ(mesh(same).target.parts, south.target.parts);
+  }
+  const Mission all = mesh("{name: walls, object: town_hall, part: facade}");
+  EXPECT_EQ(all.target.name, "walls");
+  EXPECT_EQ(all.target.parts.size(), 4U) << "all of them must be seen";
+  EXPECT_EQ(run_mission(all).volume.outcome, Outcome::no_common_view);
+  const Result result = run_mission(south);
+  EXPECT_EQ(result.volume.outcome, Outcome::computed) << result.volume.reason;
+  EXPECT_TRUE(result.volume.notes.empty());
+}
+
+TEST_F(FaceTargets, OfAMap) {
+  const Mission hall = map("{osm: way/1, part: facade, facing: east}");
+  testing::expect_wording(hall.target.name);
+  EXPECT_NEAR(area_of(hall.target), 20 * 12 - 20 * 6, 0.2) << "half of it is covered";
+  for (const std::vector<Vec3>& part : hall.target.parts) {
+    for (const Vec3& corner : part) EXPECT_GE(corner.z(), 6);
+  }
+  EXPECT_EQ(run_mission(hall).volume.outcome, Outcome::computed);
+  const Mission roof = map("{osm: way/1, part: roof}");
+  EXPECT_EQ(roof.target.parts.size(), 1U);
+  // A building that is built as its parts.
+  const Mission school = map("{osm: way/3, part: roof}");
+  EXPECT_EQ(school.target.name, "way/3, roof");
+  EXPECT_NEAR(area_of(school.target), 200, 0.5);
+  EXPECT_EQ(school.target.parts.size(), 2U);
+  const Mission west = map("{osm: way/3, part: facade, facing: west}");
+  EXPECT_NEAR(area_of(west.target), 10 * 9 + 10 * 6, 0.5);
+  const std::string place = at(55, 5);
+  const Mission there = map("{at: " + place + ", part: roof}"), named = map("{object: Town Hall, part: roof}");
+  EXPECT_EQ(there.target.name, "way/5, roof");
+  const Mission east = map("{at: " + place + ", part: facade, facing: east}");
+  EXPECT_NEAR(area_of(east.target), 150, 0.5);
+  EXPECT_EQ(named.target.parts, roof.target.parts);
+}
+
+TEST_F(FaceTargets, InTheCoordinatesOfTheMission) {
+  const geo::LonLat place = geo::LocalFrame(kOrigin).to_lonlat({0, -40});
+  char text[64];
+  std::snprintf(text, sizeof text, "[%.9f, %.9f, 3]", place.longitude_deg, place.latitude_deg);
+  const std::string scene = "{osm: city.osm, center: [48.1374, 11.5755], radius: 200}\ncrs: EPSG:4326";
+  write_bytes(folder_ / "mission.yaml", "target: {osm: way/1, part: facade, nearest: " + std::string(text) +
+                                            "}\nsensor: {max_range: 60}\nscene: " + scene + "\n");
+  const Mission mission = resolve_mission(read_mission(folder_ / "mission.yaml"));
+  EXPECT_LT(normal_of(mission.target).y(), -0.99);
+}
+
+TEST_F(FaceTargets, AreWrittenAsTheyAreRead) {
+  for (const char* target : {"{object: town_hall, part: roof}", "{object: town_hall, part: facade, facing: northwest}",
+                             "{name: wall, object: town_hall, part: facade, nearest: [1, 2, 3.5], offset: 0.25}",
+                             "{object: town_hall, part: facade, facing: -20.5}"}) {
+    const MissionFile first = file(target, "{mesh: city.obj}");
+    const MissionFile again = read_mission_text(mission_text(first, folder_.path()), folder_ / "again.yaml");
+    ASSERT_TRUE(again.face_target) << target;
+    EXPECT_EQ(again.face_target->object, first.face_target->object);
+    EXPECT_EQ(again.face_target->kind, first.face_target->kind);
+    EXPECT_EQ(again.face_target->facing_deg, first.face_target->facing_deg);
+    EXPECT_EQ(again.face_target->nearest, first.face_target->nearest);
+    EXPECT_EQ(again.target.name, first.target.name);
+    EXPECT_EQ(again.target.offset_m, first.target.offset_m);
+    EXPECT_EQ(mission_hash(resolve_mission(again)), mission_hash(resolve_mission(first)));
+  }
+  const MissionFile at_place = file("{at: " + at(0, 0) + ", part: roof}", "{osm: city.osm}");
+  const MissionFile again = read_mission_text(mission_text(at_place, folder_.path()), folder_ / "again.yaml");
+  EXPECT_EQ(again.face_target->at_deg, at_place.face_target->at_deg);
+}
+
+TEST_F(FaceTargets, HaveTheHashOfTheSamePolygons) {
+  const std::string roof = mission_hash(mesh("{object: town_hall, part: roof}"));
+  const Mission south = mesh("{object: town_hall, part: facade, facing: south}");
+  EXPECT_NE(mission_hash(south), roof);
+  Mission other = south;
+  other.target.front_by_order = true;
+  EXPECT_NE(mission_hash(other), mission_hash(south));
+  Mission drawn = mesh("{vertices: [[20, -5, 12], [30, -5, 12], [30, 5, 12], [20, 5, 12]]}");
+  drawn.target.parts = mesh("{object: town_hall, part: roof}").target.parts;
+  EXPECT_EQ(mission_hash(drawn), roof);
+}
+
+TEST_F(FaceTargets, ThatAreNone) {
+  expect_refused("{object: twon_hall, part: roof}", ErrorCode::object_missing);
+  expect_refused("{osm: way/12, part: roof}", ErrorCode::object_missing, "{osm: city.osm}");
+  expect_refused("{object: ground, part: facade}", ErrorCode::face_missing);
+  expect_refused("{object: town_hall, part: roof, facing: south}", ErrorCode::face_missing);
+  expect_refused("{osm: way/2, part: facade, facing: west}", ErrorCode::face_missing, "{osm: city.osm}");
+  expect_refused("{at: " + at(0, 40) + ", part: roof}", ErrorCode::object_missing, "{osm: city.osm}");
+}
+
+TEST_F(FaceTargets, KeysThatDoNotFit) {
+  expect_refused("{object: town_hall}", ErrorCode::missing_key);
+  expect_refused("{part: roof}", ErrorCode::missing_key);
+  expect_refused("{osm: way/1, facing: south}", ErrorCode::missing_key, "{osm: city.osm}");
+  expect_refused("{object: town_hall, part: floor}", ErrorCode::unknown_choice);
+  expect_refused("{object: town_hall, part: facade, facing: sout}", ErrorCode::unknown_choice);
+  expect_refused("{object: town_hall, part: facade, facing: 400}", ErrorCode::value_out_of_range);
+  expect_refused("{object: town_hall, part: facade, facing: [1, 2]}", ErrorCode::unknown_choice);
+  expect_refused("{object: town_hall, part: facade, facing: east, nearest: [1, 2, 3]}", ErrorCode::conflicting_keys);
+  expect_refused("{object: town_hall, osm: way/1, part: roof}", ErrorCode::conflicting_keys);
+  expect_refused("{osm: way/1, part: roof}", ErrorCode::not_applicable);
+  expect_refused("{object: town_hall, part: roof, front: [0, 0, 1]}", ErrorCode::conflicting_keys);
+  expect_refused("{object: town_hall, part: roof, point: [0, 0, 1]}", ErrorCode::conflicting_keys);
+  const std::string place = "{at: [48.1, 11.5], part: roof}";
+  testing::expect_error([&] { mesh(place); }, ErrorCode::not_georeferenced, "mission.yaml");
+}
+
+class CliFaces : public testing::Cli {};
+
+TEST_F(CliFaces, ComputeQueryAndVerifyAFacade) {
+  write("mission.yaml",
+        std::string(testing::kScene) + "target: {object: block, part: facade, facing: west}\n" + testing::kSensor);
+  output_of({"compute", "mission.yaml", "-o", "wall.ply"});
+  output_of({"verify", "mission.yaml", "wall.ply", "--points", "2000"});
+  write("points.csv", "x,y,z\n0,0,6\n40,0,6\n");
+  const std::string answers = output_of({"query", "mission.yaml", "points.csv"});
+  EXPECT_NE(answers.find("0,0,6,true,"), std::string::npos) << answers;
+  EXPECT_NE(answers.find("40,0,6,false,"), std::string::npos) << answers;
+  expect_bad_mission(std::string(testing::kScene) + testing::kSensor + "target: {object: blok, part: roof}\n",
+                     "mission.yaml:3:");
+}
+
+}  // namespace
+}  // namespace vantage
