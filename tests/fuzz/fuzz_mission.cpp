@@ -20,7 +20,7 @@ void check_accepted(const vantage::MissionFile& mission) {
   require(mission.scene.file.is_absolute());
   require(!mission.target.parts.empty());
   for (const std::vector<vantage::Vec3>& part : mission.target.parts) {
-    if (mission.ground_target) {
+    if (mission.ground_target || mission.face_target) {
       require(part.empty());  // the scene says where it lies
     } else if (mission.crs.empty()) {
       require(part.size() == 1 || (part.size() >= 3 && part.size() <= 64));
