@@ -315,8 +315,9 @@ TEST(ZoneFiles, FencesGoWhereTheyBelong) {
 TEST(ZoneFiles, CirclesAreInscribedToStayInAndCircumscribedToStayOutOf) {
   const ZoneMission mission;
   const geo::LocalFrame frame({11, 48});
-  for (const auto& [longitude, latitude, radius] :
-       {std::tuple{11.0, 48.0, 1.0}, {11.001, 48.002, 463.7}, {11.2, 48.1, 25000.0}, {10.5, 48.3, 90000.0}}) {
+  for (const Vec3& drawn :
+       {Vec3(11, 48, 1), Vec3(11.001, 48.002, 463.7), Vec3(11.2, 48.1, 25000), Vec3(10.5, 48.3, 90000)}) {
+    const double longitude = drawn.x(), latitude = drawn.y(), radius = drawn.z();
     const std::string circle = "{\"type\": \"Point\", \"coordinates\": [" + shortest(longitude) + ", " +
                                shortest(latitude) +
                                "], \"extent\": {\"subType\": \"Circle\", \"radius\": " + shortest(radius) + "}}";
@@ -387,6 +388,23 @@ TEST(ZoneFiles, ZonesOutOfReachAreLeftOut) {
   EXPECT_EQ(resolved.navigation.keep_out_zones[0].name, "zones.json 1");
   ASSERT_EQ(resolved.loaded.notes.size(), 1u);
   expect_wording(resolved.loaded.notes[0].text);
+}
+
+// A side along a parallel leaves the chord between its corners by 48 km.
+TEST(ZoneFiles, LongSidesThatCurveTowardsTheSceneCount) {
+  const ZoneMission mission;
+  const auto zone = [](double south) {
+    const std::string low = shortest(south), high = shortest(south + 5);
+    return "{\"type\": \"Polygon\", \"coordinates\": [[[1, " + low + "], [21, " + low + "], [21, " + high + "], [1, " +
+           high + "], [1, " + low + "]]]}";
+  };
+  const geo::LocalFrame frame({11, 48});
+  // The nearest corners are more than 100 km away, and the side passes at 67 km.
+  mission.write("zones.json", zone(48.6));
+  ASSERT_GT(frame.to_local({1, 48.6}).norm(), 600e3);
+  ASSERT_GT(frame.to_local({1, 48.6}).y(), 100e3);
+  ASSERT_LT(frame.to_local({11, 48.6}).y(), 70e3);
+  EXPECT_EQ(mission.resolve("keep_out: [{file: zones.json, heights: any}]").navigation.keep_out_zones.size(), 1u);
 }
 
 TEST(ZoneFiles, NeedASceneOnTheEarth) {

@@ -177,9 +177,9 @@ struct Mission {
 ///
 /// Throws as load_scene does, and Error(input) with the place in the mission file for: a scene that does not say where
 /// on the earth it lies, a position without a value, an object that the map or the scene does not have, or that has no
-/// such face, a target farther off the ground than max_range or beyond ground that cannot be extended, a limit above the
-/// ground in a scene that does not say what of it is ground, a navigation mesh whose heights are measured from another
-/// level than the scene's, and all that make_target_frame refuses.
+/// such face, a target farther off the ground than max_range or beyond ground that cannot be extended, a limit above
+/// the ground in a scene that does not say what of it is ground, a navigation mesh whose heights are measured from
+/// another level than the scene's, and all that make_target_frame refuses.
 VANTAGE_API Mission resolve_mission(const MissionFile& mission, const Progress& progress = {});
 
 /// What to know before relying on the mission's results: LoadedScene::notes; that map, raster or

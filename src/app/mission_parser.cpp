@@ -43,7 +43,6 @@ class MissionParser : private ValueReader {
   MissionFile mission_;
 };
 
-
 MissionFile MissionParser::parse(std::string_view mission_text) {
   const YamlNode root = parse_yaml(mission_text, file());
   check_keys(root, Section::mission, file());

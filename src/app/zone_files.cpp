@@ -85,16 +85,27 @@ Zone::Ring FileZones::unwrapped(Zone::Ring ring) const {
   return ring;
 }
 
-/// From the scene's origin to the box about the zone, in the frame.
+/// At least so far is the zone from the scene's origin. By the box about it in the frame: its sides curve there (one of
+/// 2000 km by 80 km), so there are points on them every 10 km, between which they curve by far less than the slack.
 double FileZones::distance_m(const ListedZone& listed) const {
+  constexpr double kStepM = 10e3, kMostSteps = 2000, kSlackM = 2e3;
   const auto position = [&](const Point& p) { return frame_.to_local({p.x(), p.y()}); };
-  if (listed.circle) return std::max(position(listed.circle->centre).norm() - listed.circle->radius_m, 0.0);
-  Box box;
-  for (const Point& p : listed.outer) {
-    const Point at = position(p);
-    box.extend(Vec3(at.x(), at.y(), 0));
+  if (listed.circle) {
+    return std::max(position(listed.circle->centre).norm() - listed.circle->radius_m - kSlackM, 0.0);
   }
-  return Point::Zero().cwiseMax(box.min.head<2>()).cwiseMin(box.max.head<2>()).norm();
+  const Zone::Ring ring = unwrapped(listed.outer);
+  Box box;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Point &from = ring[i], &to = ring[(i + 1) % ring.size()];
+    const double length = (position(to) - position(from)).norm();
+    const int steps = static_cast<int>(std::clamp(std::ceil(length / kStepM), 1.0, kMostSteps));
+    for (int k = 0; k < steps; ++k) {
+      const Point at = position(from + (to - from) * k / steps);
+      box.extend(Vec3(at.x(), at.y(), 0));
+    }
+  }
+  const double distance = Point::Zero().cwiseMax(box.min.head<2>()).cwiseMin(box.max.head<2>()).norm();
+  return std::max(distance - kSlackM, 0.0);
 }
 
 /// With so many corners that the sides leave the circle by 5 cm at most, 720 corners at most. They lie on it to stay
@@ -238,7 +249,8 @@ void FileZones::add_to(std::vector<Zone>& zones) {
   }
   if (taken == 0 && far > 0) {
     fail(ErrorCode::too_far_away, "",
-         "the nearest zone lies " + std::to_string(std::lround(nearest_m / 1000)) + " km from the scene's origin",
+         "the nearest zone lies at least " + std::to_string(std::lround(nearest_m / 1000)) +
+             " km from the scene's origin",
          kLonLatAdvice);
   }
   if (taken == 0) {

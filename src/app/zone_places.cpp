@@ -161,11 +161,6 @@ void check_distance(const Zone::Ring& ring, const char* order_advice) {
 }  // namespace
 
 Zone placed_zone(const Zone& zone, ZoneUse use, const ToFrame& to_frame, const char* order_advice) {
-  const auto moved = [&](Zone::Ring ring) {
-    for (Point& p : ring) p = to_frame(p);
-    return ring;
-  };
-  check_distance(moved(zone.outer), order_advice);
   const SideCutter cutter(to_frame);
   const std::vector<double> curvings = curvings_of(zone, cutter);
   const double fine_m = fineness(curvings);
@@ -183,7 +178,7 @@ Zone placed_zone(const Zone& zone, ZoneUse use, const ToFrame& to_frame, const c
   Zone placed = zone;
   placed.outer = cut(zone.outer, true);  // what the zone holds lies to the left of its sides, and so of its holes'
   for (Zone::Ring& hole : placed.holes) hole = cut(hole, false);
-  check_distance(placed.outer, order_advice);  // a side from 179 to -179 degrees goes round the earth
+  check_distance(placed.outer, order_advice);  // with what its sides curve; one from 179 to -179 degrees goes round
   const double margin = 2 * bulge + kRoundingM;
   const double distance = use == ZoneUse::keep_in ? margin : -margin;
   const char* const narrow = "it is too narrow in places to be converted to the scene frame";

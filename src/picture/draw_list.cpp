@@ -405,9 +405,19 @@ class Builder {
     line(list_.lines, from, to, colour, 0.95, 1.8, 0.6, 0.25);
   }
 
+  /// Not so far away in plan that the picture does not show it: files of zones hold those of a country.
+  bool is_near(const Zone& zone) const {
+    Box box;
+    for (const Eigen::Vector2d& p : zone.outer) box.extend(Vec3(p.x(), p.y(), 0));
+    const Vec3 reach = Vec3::Constant(kLargestBox * (extent_.framed.max - extent_.framed.min).norm());
+    return (box.min - extent_.framed.max - reach).head<2>().maxCoeff() <= 0 &&
+           (extent_.framed.min - reach - box.max).head<2>().maxCoeff() <= 0;
+  }
+
   /// A zone without a lower or an upper bound is drawn from the lowest or to the highest of what the picture is about.
   /// Corners that hardly turn, as those of circles, have no upright line.
   void wire(const Zone& zone, Colour colour) {
+    if (!is_near(zone)) return;
     const double low = std::isfinite(zone.min_z_m) ? zone.min_z_m : std::min(extent_.framed.min.z(), zone.max_z_m);
     const double high = std::isfinite(zone.max_z_m) ? zone.max_z_m : std::max(extent_.framed.max.z(), zone.min_z_m);
     const auto wire_ring = [&](const Zone::Ring& ring) {

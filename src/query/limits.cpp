@@ -16,6 +16,11 @@ bool inside(const Box& box, const Vec3& p) {
   return (p.array() >= box.min.array()).all() && (p.array() <= box.max.array()).all();
 }
 
+/// Borders too.
+bool meet(const Box& a, const Box& b) {
+  return (a.min.array() <= b.max.array()).all() && (b.min.array() <= a.max.array()).all();
+}
+
 // Winding number by signed solid angles (Van Oosterom and Strackee 1983): 1 inside a closed outward-oriented mesh, else
 // 0.
 double winding_number(const Mesh& mesh, const Vec3& point) {
@@ -140,8 +145,16 @@ std::vector<double> Limits::cut_line(const ViewRay& line) const {
   }
   for (const Box& box : keep_in) add_box_crossings(box, line, cuts);
   for (const Box& box : keep_out) add_box_crossings(box, line, cuts);
-  for (const Zone& zone : keep_in_zones) add_zone_crossings(zone, line, cuts);
-  for (const Zone& zone : keep_out_zones) add_zone_crossings(zone, line, cuts);
+  Box within_reach;
+  within_reach.extend(line.origin);
+  within_reach.extend(line.at(line.reach));
+  const auto add_zones = [&](const std::vector<Zone>& zones, const std::vector<Box>& boxes) {
+    for (std::size_t i = 0; i < zones.size(); ++i) {
+      if (meet(boxes[i], within_reach)) add_zone_crossings(zones[i], line, cuts);
+    }
+  };
+  add_zones(keep_in_zones, keep_in_boxes_);
+  add_zones(keep_out_zones, keep_out_boxes_);
   for (const KeepInMesh& mesh : meshes) add_mesh_crossings(mesh.mesh, line, cuts);
   if (above_ground) {
     for (const double above_m : {above_ground->min_m, above_ground->max_m}) {

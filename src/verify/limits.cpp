@@ -54,10 +54,25 @@ std::optional<int> turns_round(const Zone::Ring& ring, const Plan& point) {
   return static_cast<int>(std::lround(sum / kFullTurn));
 }
 
+/// The box of a zone, without bounds where the zone has none.
+Box bounds_of(const Zone& zone) {
+  Box box;
+  for (const Plan& corner : zone.outer) {
+    box.extend(Vec3(corner.x(), corner.y(), zone.min_z_m));
+    box.extend(Vec3(corner.x(), corner.y(), zone.max_z_m));
+  }
+  return box;
+}
+
+std::vector<Box> bounds_of(const std::vector<Zone>& zones) {
+  std::vector<Box> boxes;
+  for (const Zone& zone : zones) boxes.push_back(bounds_of(zone));
+  return boxes;
+}
+
 /// `on_border`: what to say of points on a side.
-bool contains(const Zone& zone, const Vec3& point, bool on_border) {
-  const double low = zone.min_z_m, high = zone.max_z_m, z = point.z();
-  if (z < low || z > high || (!on_border && (z == low || z == high))) return false;
+bool contains(const Zone& zone, const Box& bounds, const Vec3& point, bool on_border) {
+  if (!(on_border ? within(bounds, point) : strictly_within(bounds, point))) return false;
   const Plan plan = point.head<2>();
   const std::optional<int> outer = turns_round(zone.outer, plan);
   if (!outer) return on_border;
@@ -88,6 +103,8 @@ Limits::Limits(const Navigation& navigation, const Vec3& origin) : navigation_(n
   check(navigation_.keep_in_zones, "zone");
   check(navigation_.keep_out, "keep_out");
   check(navigation_.keep_out_zones, "keep_out zone");
+  keep_in_bounds_ = bounds_of(navigation_.keep_in_zones);
+  keep_out_bounds_ = bounds_of(navigation_.keep_out_zones);
   for (const KeepInMesh& keep_in : navigation_.meshes) {
     meshes_.emplace_back(keep_in.mesh, origin, "keep-in mesh '" + keep_in.name + "'");
   }
@@ -105,17 +122,18 @@ std::optional<std::string> Limits::broken_by(const Vec3& point) const {
     if (const auto limit = ground_->broken_by(scene_point)) return *limit;
   }
   const auto holds = [&scene_point](const Box& box) { return within(box, scene_point); };
-  const auto is_within = [&scene_point](const Zone& zone) { return contains(zone, scene_point, true); };
-  const bool may_be_anywhere = keep_in.empty() && keep_in_zones.empty();
-  if (!may_be_anywhere && std::none_of(keep_in.begin(), keep_in.end(), holds) &&
-      std::none_of(keep_in_zones.begin(), keep_in_zones.end(), is_within)) {
-    return keep_in_zones.empty() ? "box" : "keep_in";
+  bool is_kept = (keep_in.empty() && keep_in_zones.empty()) || std::any_of(keep_in.begin(), keep_in.end(), holds);
+  for (std::size_t i = 0; i < keep_in_zones.size() && !is_kept; ++i) {
+    is_kept = contains(keep_in_zones[i], keep_in_bounds_[i], scene_point, true);
   }
+  if (!is_kept) return keep_in_zones.empty() ? "box" : "keep_in";
   for (std::size_t i = 0; i < keep_out.size(); ++i) {
     if (strictly_within(keep_out[i], scene_point)) return "keep_out " + std::to_string(i);
   }
-  for (const Zone& zone : keep_out_zones) {
-    if (contains(zone, scene_point, false)) return "keep_out zone " + zone.name;
+  for (std::size_t i = 0; i < keep_out_zones.size(); ++i) {
+    if (contains(keep_out_zones[i], keep_out_bounds_[i], scene_point, false)) {
+      return "keep_out zone " + keep_out_zones[i].name;
+    }
   }
   for (std::size_t i = 0; i < meshes_.size(); ++i) {
     if (meshes_[i].contains(point) == false) return "mesh " + meshes[i].name;

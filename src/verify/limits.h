@@ -23,6 +23,7 @@ class Limits {
  private:
   Navigation navigation_;  ///< altitude, boxes and zones; the meshes are in `meshes_`
   Vec3 origin_;
+  std::vector<Box> keep_in_bounds_, keep_out_bounds_;  ///< of zones
   std::vector<ClosedMesh> meshes_;
   std::optional<GroundProbe> ground_;
 };
