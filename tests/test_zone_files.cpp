@@ -404,7 +404,8 @@ TEST(ZoneFiles, LongSidesThatCurveTowardsTheSceneCount) {
   ASSERT_GT(frame.to_local({1, 48.6}).norm(), 600e3);
   ASSERT_GT(frame.to_local({1, 48.6}).y(), 100e3);
   ASSERT_LT(frame.to_local({11, 48.6}).y(), 70e3);
-  EXPECT_EQ(mission.resolve("keep_out: [{file: zones.json, heights: any}]").navigation.keep_out_zones.size(), 1u);
+  const Mission resolved = mission.resolve("keep_out: [{file: zones.json, heights: any}]");
+  EXPECT_EQ(resolved.navigation.keep_out_zones.size(), 1u);
 }
 
 TEST(ZoneFiles, NeedASceneOnTheEarth) {
