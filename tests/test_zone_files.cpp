@@ -7,6 +7,7 @@
 #include <map>
 #include <numbers>
 #include <string>
+#include <string_view>
 
 #include "app/zone_file.h"
 #include "geo/local_frame.h"
@@ -170,74 +171,85 @@ TEST(ZoneFiles, ReadsPolygonsOfKml) {
   EXPECT_EQ(parsed(prefixed).zones.size(), 1u);
 }
 
-TEST(ZoneFiles, RefusesWhatBreaksTheFormat) {
-  const auto refuse = [](const std::string& text, ErrorCode code, const std::string& where) {
-    SCOPED_TRACE(text);
-    expect_error([&] { parsed(text); }, code, where);
-  };
-  const ErrorCode syntax = ErrorCode::zone_file_syntax;
-  refuse("", syntax, "/data/zones");
-  refuse("PK\x03\x04", syntax, "/data/zones");
-  refuse("[1, 2]", syntax, "/data/zones");
-  refuse("{\"type\": \"Feature\",\n\"geometry\": nil}", syntax, "line 2");
-  refuse("{\"a\": 1}", syntax, "/data/zones");
-  refuse("{\"type\": \"Topology\"}", syntax, "/data/zones");
-  refuse("{\"type\": 5}", syntax, "/data/zones");
-  refuse(collection("5"), syntax, "features[0]");
-  refuse(collection("{\"type\": \"Feature\"}"), syntax, "features[0]");
-  refuse(collection(feature("5")), syntax, "features[0]");
-  refuse(collection(feature("{\"type\": \"Polygon\"}")), syntax, "features[0]");
-  refuse(collection(feature("{\"type\": \"Polygon\", \"coordinates\": []}")), syntax, "features[0]");
-  refuse(collection(feature("{\"type\": \"Polygon\", \"coordinates\": [5]}")), syntax, "features[0]");
-  refuse(collection(feature("{\"type\": \"Polygon\", \"coordinates\": [[[1, 2], [3, 2], [3, 4]]]}")), syntax,
+void refuse(const std::string& text, ErrorCode code, const std::string& where) {
+  SCOPED_TRACE(text);
+  expect_error([&] { parsed(text); }, code, where);
+}
+
+constexpr ErrorCode kSyntax = ErrorCode::zone_file_syntax;
+
+TEST(ZoneFiles, RefusesBrokenGeoJson) {
+  refuse("", kSyntax, "/data/zones");
+  refuse("PK\x03\x04", kSyntax, "/data/zones");
+  refuse("[1, 2]", kSyntax, "/data/zones");
+  refuse("{\"type\": \"Feature\",\n\"geometry\": nil}", kSyntax, "line 2");
+  refuse("{\"a\": 1}", kSyntax, "/data/zones");
+  refuse("{\"type\": \"Topology\"}", kSyntax, "/data/zones");
+  refuse("{\"type\": 5}", kSyntax, "/data/zones");
+  refuse(collection("5"), kSyntax, "features[0]");
+  refuse(collection("{\"type\": \"Feature\"}"), kSyntax, "features[0]");
+  refuse(collection(feature("5")), kSyntax, "features[0]");
+  refuse(collection(feature("{\"type\": \"Polygon\"}")), kSyntax, "features[0]");
+  refuse(collection(feature("{\"type\": \"Polygon\", \"coordinates\": []}")), kSyntax, "features[0]");
+  refuse(collection(feature("{\"type\": \"Polygon\", \"coordinates\": [5]}")), kSyntax, "features[0]");
+  refuse(collection(feature("{\"type\": \"Polygon\", \"coordinates\": [[[1, 2], [3, 2], [3, 4]]]}")), kSyntax,
          "features[0]");
-  refuse(collection(feature("{\"type\": \"Polygon\", \"coordinates\": [[[1, 2], [3, 2], [3, 4], [2, 4]]]}")), syntax,
+  refuse(collection(feature("{\"type\": \"Polygon\", \"coordinates\": [[[1, 2], [3, 2], [3, 4], [2, 4]]]}")), kSyntax,
          "features[0]");
   refuse(collection(feature("{\"type\": \"Polygon\", \"coordinates\": [[[1, 2], [3, \"a\"], [3, 4], [1, 2]]]}")),
-         syntax, "features[0]");
+         kSyntax, "features[0]");
   refuse(collection(feature("{\"type\": \"Polygon\", \"coordinates\": [[[1, 2], [3, 92], [3, 4], [1, 2]]]}")),
          ErrorCode::not_on_earth, "features[0]");
   refuse("{\"type\": \"Polygon\", \"crs\": {\"properties\": {\"name\": \"EPSG:28992\"}}, \"coordinates\": []}",
          ErrorCode::value_unsupported, "crs");
+}
+
+TEST(ZoneFiles, RefusesBrokenUasZones) {
   const auto layer = [](const std::string& members) { return collection(feature(polygon(", \"layer\": " + members))); };
-  refuse(layer("5"), syntax, "features[0]");
-  refuse(layer("{\"upper\": 5}"), syntax, "features[0]");
+  refuse(layer("5"), kSyntax, "features[0]");
+  refuse(layer("{\"upper\": 5}"), kSyntax, "features[0]");
   refuse(layer("{\"upper\": 65, \"upperReference\": \"STD\", \"uom\": \"FL\"}"), ErrorCode::value_unsupported,
          "features[0]");
   refuse(layer("{\"upper\": 65, \"upperReference\": \"STD\", \"uom\": \"m\"}"), ErrorCode::value_unsupported,
          "features[0]");
-  refuse(layer("{\"upper\": 65, \"uom\": \"m\"}"), syntax, "features[0]");
-  refuse(layer("{\"upper\": \"65\", \"upperReference\": \"AGL\", \"uom\": \"m\"}"), syntax, "features[0]");
+  refuse(layer("{\"upper\": 65, \"uom\": \"m\"}"), kSyntax, "features[0]");
+  refuse(layer("{\"upper\": \"65\", \"upperReference\": \"AGL\", \"uom\": \"m\"}"), kSyntax, "features[0]");
   refuse(collection(feature("{\"type\": \"Point\", \"coordinates\": [1, 2], \"extent\": {\"subType\": \"Arc\"}}")),
-         syntax, "features[0]");
+         kSyntax, "features[0]");
   refuse(collection(feature("{\"type\": \"Point\", \"coordinates\": [1, 2], \"extent\": {\"subType\": \"Circle\", "
                             "\"radius\": 0}}")),
          ErrorCode::value_out_of_range, "features[0]");
-  refuse(volume("{\"type\": \"Ellipse\"}", kMetres), syntax, "features[0].geometry[0]");
-  refuse(volume("5", kMetres), syntax, "features[0].geometry[0]");
-  refuse("{\"geoFence\": 5}", syntax, "geoFence");
+  refuse(volume("{\"type\": \"Ellipse\"}", kMetres), kSyntax, "features[0].geometry[0]");
+  refuse(volume("5", kMetres), kSyntax, "features[0].geometry[0]");
+}
+
+TEST(ZoneFiles, RefusesBrokenPlans) {
+  refuse("{\"geoFence\": 5}", kSyntax, "geoFence");
   refuse("{\"geoFence\": {\"polygon\": [[1, 2]], \"version\": 1}}", ErrorCode::value_unsupported, "geoFence");
-  refuse("{\"geoFence\": {\"polygons\": 1}}", syntax, "geoFence.polygons");
-  refuse(plan("5"), syntax, "geoFence.polygons[0]");
-  refuse(plan("{\"polygon\": []}"), syntax, "geoFence.polygons[0]");
-  refuse(plan("{\"inclusion\": true}"), syntax, "geoFence.polygons[0]");
-  refuse(plan("{\"inclusion\": true, \"polygon\": [5]}"), syntax, "geoFence.polygons[0]");
-  refuse(plan("", "{\"inclusion\": true, \"circle\": {\"center\": [1, 2]}}"), syntax, "geoFence.circles[0]");
+  refuse("{\"geoFence\": {\"polygons\": 1}}", kSyntax, "geoFence.polygons");
+  refuse(plan("5"), kSyntax, "geoFence.polygons[0]");
+  refuse(plan("{\"polygon\": []}"), kSyntax, "geoFence.polygons[0]");
+  refuse(plan("{\"inclusion\": true}"), kSyntax, "geoFence.polygons[0]");
+  refuse(plan("{\"inclusion\": true, \"polygon\": [5]}"), kSyntax, "geoFence.polygons[0]");
+  refuse(plan("", "{\"inclusion\": true, \"circle\": {\"center\": [1, 2]}}"), kSyntax, "geoFence.circles[0]");
   refuse(plan("", "{\"inclusion\": true, \"circle\": {\"center\": [1, 2], \"radius\": -1}}"),
          ErrorCode::value_out_of_range, "geoFence.circles[0]");
-  refuse("<html></html>", syntax, "line 1");
-  refuse("<!DOCTYPE kml [<!ENTITY a 'b'>]><kml/>", syntax, "line 1");
-  refuse("<kml><Document>", syntax, "line 1");
-  refuse(kml("<Polygon></Polygon>"), syntax, "line 2");
+}
+
+TEST(ZoneFiles, RefusesBrokenKml) {
+  refuse("<html></html>", kSyntax, "line 1");
+  refuse("<!DOCTYPE kml [<!ENTITY a 'b'>]><kml/>", kSyntax, "line 1");
+  refuse("<kml><Document>", kSyntax, "line 1");
+  refuse(kml("<Polygon></Polygon>"), kSyntax, "line 2");
   refuse(kml("<Polygon><outerBoundaryIs><LinearRing><coordinates>1,2 3, 4 5,6 1,2</coordinates></LinearRing>"
              "</outerBoundaryIs></Polygon>"),
-         syntax, "line 2");
+         kSyntax, "line 2");
   refuse(kml("<Polygon><outerBoundaryIs><LinearRing><coordinates>1,2 3,4 5,6</coordinates></LinearRing>"
              "</outerBoundaryIs></Polygon>"),
-         syntax, "line 2");
+         kSyntax, "line 2");
   std::string deep;
   for (int i = 0; i < 200; ++i) deep += "<Folder>";
-  refuse(kml(deep), syntax, "line 2");
+  refuse(kml(deep), kSyntax, "line 2");
 }
 
 /// A mission in a map about 48 N, 11 E, with these files beside it.
@@ -404,8 +416,24 @@ TEST(ZoneFiles, LongSidesThatCurveTowardsTheSceneCount) {
   ASSERT_GT(frame.to_local({1, 48.6}).norm(), 600e3);
   ASSERT_GT(frame.to_local({1, 48.6}).y(), 100e3);
   ASSERT_LT(frame.to_local({11, 48.6}).y(), 70e3);
-  const Mission resolved = mission.resolve("keep_out: [{file: zones.json, heights: any}]");
-  EXPECT_EQ(resolved.navigation.keep_out_zones.size(), 1u);
+  const std::string limits = "keep_out: [{file: zones.json, heights: any}]";
+  EXPECT_EQ(mission.resolve(limits).navigation.keep_out_zones.size(), 1u);
+}
+
+TEST(ZoneFiles, ReadingThemCanBeStopped) {
+  const ZoneMission mission;
+  mission.write("zones.json", polygon());
+  mission.write("zones.kml", kml(placemark("")));
+  for (const char* name : {"zones.json", "zones.kml"}) {
+    const MissionFile read = mission.read("keep_out: [{file: " + std::string(name) + ", heights: any}]");
+    bool was_reached = false;
+    const Progress stop = [&](std::string_view stage, double) {
+      was_reached = was_reached || stage == "zones";
+      return !was_reached;
+    };
+    expect_code([&] { resolve_mission(read, stop); }, ErrorCode::cancelled);
+    EXPECT_TRUE(was_reached);
+  }
 }
 
 TEST(ZoneFiles, NeedASceneOnTheEarth) {

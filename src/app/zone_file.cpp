@@ -18,10 +18,11 @@ std::string_view without_mark(std::string_view text) {
   return text.substr(text.substr(0, kMark.size()) == kMark ? kMark.size() : 0);
 }
 
-nlohmann::json json_of_zones(std::string_view text, const std::filesystem::path& file) {
+nlohmann::json json_of_zones(std::string_view text, const std::filesystem::path& file,
+                             const core::ProgressReporter& progress) {
   core::ReadLimits limits;
   try {
-    return io::parse_json(text, {}, limits);
+    return io::parse_json(text, progress, limits);
   } catch (const io::JsonProblem& problem) {
     std::string place;
     if (problem.line > 0) {
@@ -33,11 +34,11 @@ nlohmann::json json_of_zones(std::string_view text, const std::filesystem::path&
 
 }  // namespace
 
-ZoneList parse_zones(std::string_view text, const std::filesystem::path& file) {
+ZoneList parse_zones(std::string_view text, const std::filesystem::path& file, const core::ProgressReporter& progress) {
   text = without_mark(text);
   const std::size_t first = text.find_first_not_of(" \t\r\n");
   const char begin = first == std::string_view::npos ? '\0' : text[first];
-  if (begin == '<') return parse_kml_zones(text, file);
+  if (begin == '<') return parse_kml_zones(text, file, progress);
   if (text.substr(0, 2) == "PK") {
     fail_in_zones(ErrorCode::zone_file_syntax, file, "", "the file is a zip archive, as KMZ is",
                   "unpack it, and give the .kml in it");
@@ -46,7 +47,7 @@ ZoneList parse_zones(std::string_view text, const std::filesystem::path& file) {
     fail_in_zones(ErrorCode::zone_file_syntax, file, "", "not a file of zones: it is neither a JSON object nor XML",
                   kZoneFileAdvice);
   }
-  const nlohmann::json root = json_of_zones(text, file);
+  const nlohmann::json root = json_of_zones(text, file, progress);
   return root.contains("geoFence") ? plan_zones(root, file) : geojson_zones(root, file);
 }
 

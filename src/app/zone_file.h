@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/progress_reporter.h"
 #include "vantage/constraints.h"
 #include "vantage/error.h"
 
@@ -50,8 +51,9 @@ inline constexpr std::uintmax_t kMostZoneBytes = 64'000'000;
 
 /// The zones of GeoJSON (RFC 7946), of UAS zones in ED-269 and ED-318, of KML and of a plan of QGroundControl. The
 /// format is told by the content. `file` is for messages. Throws Error(zone_file_syntax) with the place for what is
-/// none of these, or breaks its rules; Error(input) for values that cannot be used.
-ZoneList parse_zones(std::string_view text, const std::filesystem::path& file);
+/// none of these, or breaks its rules; Error(input) for values that cannot be used; Error(cancelled) when told to stop.
+ZoneList parse_zones(std::string_view text, const std::filesystem::path& file,
+                     const core::ProgressReporter& progress = {});
 
 /// For readers: throws Error(input) with the file and the place in it.
 [[noreturn]] void fail_in_zones(ErrorCode code, const std::filesystem::path& file, const std::string& place,

@@ -15,6 +15,7 @@
 #include "app/places.h"
 #include "app/zone_file.h"
 #include "app/zone_places.h"
+#include "core/progress_reporter.h"
 #include "core/zone_check.h"
 #include "geo/local_frame.h"
 #include "vantage/error.h"
@@ -54,7 +55,7 @@ class FileZones {
   FileZones(Mission& mission, const ZoneFile& file, ZoneUse use, const geo::LocalFrame& frame)
       : mission_(mission), file_(file), use_(use), frame_(frame) {}
 
-  void add_to(std::vector<Zone>& zones);
+  void add_to(std::vector<Zone>& zones, const core::ProgressReporter& progress);
 
  private:
   bool is_for_use(const ListedZone& listed) const {
@@ -221,13 +222,14 @@ void FileZones::note_left_out(const ZoneList& list, std::size_t other_fences, st
                                                                     file_.file.filename().string() + ": " + what});
 }
 
-void FileZones::add_to(std::vector<Zone>& zones) {
-  const ZoneList list = parse_zones(read_text(file_.file, "file of zones", kMostZoneBytes), file_.file);
+void FileZones::add_to(std::vector<Zone>& zones, const core::ProgressReporter& progress) {
+  const ZoneList list = parse_zones(read_text(file_.file, "file of zones", kMostZoneBytes), file_.file, progress);
   std::set<std::string> names;
   for (const Zone& zone : zones) names.insert(zone.name);
   std::size_t taken = 0, other_fences = 0, far = 0;
   double nearest_m = kInfinity;
   for (const ListedZone& listed : list.zones) {
+    progress.check();
     if (!is_for_use(listed)) {
       ++other_fences;
       continue;
@@ -266,7 +268,7 @@ void FileZones::add_to(std::vector<Zone>& zones) {
 
 }  // namespace
 
-void add_file_zones(Mission& mission) {
+void add_file_zones(Mission& mission, const Progress& callback) {
   const MissionFile& file = mission.as_written;
   if (file.keep_in_files.empty() && file.keep_out_files.empty()) return;
   const std::string first = !file.places.keep_in_files.empty()    ? file.places.keep_in_files[0]
@@ -279,17 +281,20 @@ void add_file_zones(Mission& mission) {
                 first, "give the zones as polygons in the scene frame, or scene.origin");
   }
   const geo::LocalFrame frame({georeference->longitude_deg, georeference->latitude_deg});
+  const core::ProgressReporter progress(callback);
+  progress.begin("zones");
   const auto add = [&](const std::vector<ZoneFile>& files, const std::vector<std::string>& places, ZoneUse use,
                        std::vector<Zone>& zones) {
     for (std::size_t i = 0; i < files.size(); ++i) {
       with_place(i < places.size() ? places[i] : "", [&] {
-        FileZones(mission, files[i], use, frame).add_to(zones);
+        FileZones(mission, files[i], use, frame).add_to(zones, progress);
         return 0;
       });
     }
   };
   add(file.keep_in_files, file.places.keep_in_files, ZoneUse::keep_in, mission.navigation.keep_in_zones);
   add(file.keep_out_files, file.places.keep_out_files, ZoneUse::keep_out, mission.navigation.keep_out_zones);
+  progress.finish();
 }
 
 }  // namespace vantage::internal::app

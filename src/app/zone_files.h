@@ -12,7 +12,8 @@ namespace vantage::internal::app {
 ///
 /// Throws Error(input), with the places in the mission file and in the file, for: a scene without a place on the earth,
 /// a file that cannot be read, has no zone to take or none near the scene, a zone that crosses itself, zones without
-/// heights where the mission gives none, and heights that the scene cannot relate to its own.
-void add_file_zones(Mission& mission);
+/// heights where the mission gives none, and heights that the scene cannot relate to its own;
+/// Error(cancelled) when told to stop.
+void add_file_zones(Mission& mission, const Progress& progress);
 
 }  // namespace vantage::internal::app

@@ -18,7 +18,8 @@ namespace {
 
 class KmlReader {
  public:
-  explicit KmlReader(const std::filesystem::path& file) : file_(file), parser_(XML_ParserCreate(nullptr)) {
+  KmlReader(const std::filesystem::path& file, const core::ProgressReporter& progress)
+      : file_(file), progress_(progress), parser_(XML_ParserCreate(nullptr)) {
     XML_SetUserData(parser_.get(), this);
     XML_SetElementHandler(parser_.get(), on_start, on_end);
     XML_SetCharacterDataHandler(parser_.get(), on_text);
@@ -76,6 +77,7 @@ class KmlReader {
   }
 
   const std::filesystem::path& file_;
+  const core::ProgressReporter& progress_;
   std::unique_ptr<XML_ParserStruct, FreeParser> parser_;
   std::exception_ptr error_;
   std::vector<std::string> open_;
@@ -117,6 +119,7 @@ void KmlReader::start(const std::string& name) {
 }
 
 void KmlReader::end(const std::string& name) {
+  progress_.tick();
   open_.pop_back();
   if (name == "name" && is_in("Placemark")) name_ = io::clean_name(text_);
   if (name == "altitudeMode" && is_in("Polygon")) altitude_mode_ = io::clean_name(text_);
@@ -199,8 +202,9 @@ std::vector<KmlReader::Position> KmlReader::positions() const {
 
 }  // namespace
 
-ZoneList parse_kml_zones(std::string_view text, const std::filesystem::path& file) {
-  return KmlReader(file).read(text);
+ZoneList parse_kml_zones(std::string_view text, const std::filesystem::path& file,
+                         const core::ProgressReporter& progress) {
+  return KmlReader(file, progress).read(text);
 }
 
 }  // namespace vantage::internal::app

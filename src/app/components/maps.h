@@ -18,6 +18,7 @@ LoadedScene load_raster(const SceneSource& source, const Progress& progress);
 void put_on_ground(Mission& mission, const geo::LocalFrame& frame, const Progress& progress);
 
 /// parse_zones of a text in XML. `file` is for messages.
-ZoneList parse_kml_zones(std::string_view text, const std::filesystem::path& file);
+ZoneList parse_kml_zones(std::string_view text, const std::filesystem::path& file,
+                         const core::ProgressReporter& progress);
 
 }  // namespace vantage::internal::app

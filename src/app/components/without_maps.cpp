@@ -15,7 +15,7 @@ void put_on_ground(Mission& mission, const geo::LocalFrame&, const Progress&) {
   throw_missing("maps", "targets on the ground", mission.as_written.places.target);
 }
 
-ZoneList parse_kml_zones(std::string_view, const std::filesystem::path& file) {
+ZoneList parse_kml_zones(std::string_view, const std::filesystem::path& file, const core::ProgressReporter&) {
   throw_missing("maps", "KML files", file.string());
 }
 
