@@ -60,6 +60,25 @@ struct FaceTarget {
   std::optional<Vec3> nearest = std::nullopt;       ///< only the one that is nearest to this point
 };
 
+/// What the volumes of several targets become.
+enum class Combine {
+  all,   ///< what sees all targets: the intersection
+  any,   ///< what sees one of the targets, or more: the union
+  each,  ///< a volume for each target
+};
+
+/// "all", "any", "each".
+VANTAGE_API const char* name_of(Combine combine);
+
+/// One of several targets, as a mission file gives it.
+struct MissionTarget {
+  Target target;  ///< with one of the next two only name and offset count, with a ground_target front too
+  std::optional<GroundTarget> ground_target = std::nullopt;  ///< says where the target lies
+  std::optional<FaceTarget> face_target = std::nullopt;      ///< says which faces of the scene it is
+  bool both_sides = false;  ///< a position sees it that sees it from the front, or from the back
+  std::string place = {};   ///< in the mission file; empty for a mission made in memory
+};
+
 /// A camera as a mission file gives it: one of these.
 struct CameraSource {
   std::string model;                                            ///< of known_cameras()
@@ -123,6 +142,9 @@ struct MissionFile {
   Target target;  ///< with one of the next two only name and offset count, with a ground_target front too
   std::optional<GroundTarget> ground_target = std::nullopt;  ///< says where the target lies
   std::optional<FaceTarget> face_target = std::nullopt;      ///< says which faces of the scene it is
+  bool both_sides = false;                                   ///< as MissionTarget::both_sides
+  std::vector<MissionTarget> targets = {};  ///< of a mission with several: then the four above do not count
+  Combine combine = Combine::all;           ///< them, or the faces that the target means
   Sensor sensor;
   std::optional<CameraSource> camera = std::nullopt;  ///< says what sensor.camera is
   std::optional<PilotSight> vlos = std::nullopt;      ///< visual line of sight
@@ -161,7 +183,10 @@ VANTAGE_API std::vector<std::filesystem::path> input_files(const MissionFile& mi
 struct Mission {
   MissionFile as_written;
   LoadedScene loaded;  ///< the scene, and what reading or building it told
-  Target target;
+  Target target;       ///< what must be seen. With `views` all that is in them, for pictures and messages
+  /// Where more than `target` is asked: a position of the volume sees, of each list, one target whole or more. With
+  /// Combine::each there is a volume for each list. Empty: the target.
+  std::vector<std::vector<Target>> views = {};
   Sensor sensor;
   Navigation navigation;
   double read_seconds = 0;  ///< that reading and resolving took
@@ -182,6 +207,13 @@ struct Mission {
 /// another level than the scene's, and all that make_target_frame refuses.
 VANTAGE_API Mission resolve_mission(const MissionFile& mission, const Progress& progress = {});
 
+/// How many volumes a mission has: one, but with Combine::each as many as there are targets.
+VANTAGE_API std::size_t volume_count(const Mission& mission);
+
+/// The mission of one of its volumes, as if there were no others: it has the hash of a mission of that target alone.
+/// Its scene is a copy. Throws Error(input) for an index out of range.
+VANTAGE_API Mission one_volume(const Mission& mission, std::size_t index);
+
 /// What to know before relying on the mission's results: LoadedScene::notes; that map, raster or
 /// ground end within the range, where what would hide part of the target is missing; that a target looks as if it were
 /// given in degrees, lies far off the scene or is looked at from under the ground; that the scene seems to lie on its
@@ -199,13 +231,19 @@ struct Result {
   std::optional<SpheresReport> spheres;  ///< what the spheres method did, where it was used
 };
 
-/// Prepares the scene and the target, computes, and cuts to the navigation limits. Throws as the method, PreparedTarget
-/// and cut_to_navigation do, with the place in the mission file put in front of errors about the target. Cost: the sum
-/// of theirs; the scene is prepared anew each time.
+/// Prepares the scene once, then each target, computes and cuts to the limits: a result for each volume, in the order
+/// of the targets. Several are computed at once. A target that cannot be seen as it lies stops all: throws as
+/// run_mission.
+VANTAGE_API std::vector<Result> run_missions(const Mission& mission, const RunOptions& options = {},
+                                             const Progress& progress = {});
+
+/// Of a mission of one volume. Prepares the scene and the target, computes, and cuts to the navigation limits. Throws
+/// as the method, PreparedTarget and cut_to_navigation do, with the place in the mission file put in front of errors
+/// about the target. Cost: the sum of theirs; the scene is prepared anew each time.
 VANTAGE_API Result run_mission(const Mission& mission, const RunOptions& options = {}, const Progress& progress = {});
 
 /// The same of a target that is prepared already, by prepare_target of this mission: to compute and query without
-/// preparing twice. Seconds::prepare is 0.
+/// preparing twice. Seconds::prepare is 0. Not of a mission with `views`.
 VANTAGE_API Result run_mission(const Mission& mission, const PreparedTarget& target, const RunOptions& options = {},
                                const Progress& progress = {});
 
@@ -215,5 +253,8 @@ VANTAGE_API std::string mission_hash(const Mission& mission);
 /// PreparedTarget of a mission; errors about the target begin with its place in the mission file, and advise what fits
 /// the object that stands in the way. `scene`: the mission's.
 VANTAGE_API PreparedTarget prepare_target(const Mission& mission, const PreparedScene& scene);
+
+/// The targets of all `views`, prepared, list by list; without views the one target, in a list alone. Throws likewise.
+VANTAGE_API std::vector<std::vector<PreparedTarget>> prepare_views(const Mission& mission, const PreparedScene& scene);
 
 }  // namespace vantage

@@ -41,6 +41,10 @@ VANTAGE_API Volume cut_to_limits(const Volume& volume, const PreparedTarget& tar
 /// Error(internal) when a boolean operation fails. Cost: a boolean operation per volume, O(n log n) in the facets.
 VANTAGE_API Volume intersect_volumes(const std::vector<Volume>& volumes, const Progress& progress = {});
 
+/// What at least one of the volumes claims: that of targets of which one is enough. As intersect_volumes otherwise;
+/// volumes that are empty for a good reason add nothing. Where all are, so is the result, with the first one's outcome.
+VANTAGE_API Volume unite_volumes(const std::vector<Volume>& volumes, const Progress& progress = {});
+
 /// All that a vehicle may use: compute_visibility of each part of the target, intersected, and cut to the limits of the
 /// sensor and of navigation. Throws as these do. Cost: the sum of theirs.
 VANTAGE_API Volume compute_volume(const PreparedTarget& target, const Navigation& navigation = {},

@@ -27,6 +27,14 @@ struct PointAnswer {
   std::vector<std::string> outside_of;
 };
 
+/// Of a point and several targets of which it must see one whole: inside where it is for one of the targets. Else it
+/// says what is wrong with any of them; out of range, behind, and outside of a limit only where that holds for all. The
+/// margin is the largest. At least one answer.
+VANTAGE_API PointAnswer any_of(std::span<const PointAnswer> answers);
+
+/// Of a point that must see all of them: the margin is the smallest, and what is wrong with any is wrong. At least one.
+VANTAGE_API PointAnswer all_of(std::span<const PointAnswer> answers);
+
 /// Answers questions about points, for one target in one scene: as many as there are, in portions of any size. What it
 /// learns of the scene with the first points makes the later ones quick: some microseconds each in a city.
 class VANTAGE_API PointQuery {

@@ -63,6 +63,24 @@ VANTAGE_API ResultRequest result_request(const Mission& mission, const Result& r
 VANTAGE_API void check_result_files(const std::vector<std::filesystem::path>& volumes,
                                     const std::vector<std::filesystem::path>& inputs);
 
+/// The file of one volume of a mission with Combine::each: "volume.ply" becomes "volume.TARGET.ply", where TARGET is
+/// the target's name with '_' for all that is neither a letter, a digit, '-' nor '.' of ASCII. `names`: of all targets,
+/// in order; of files that would be one, the second is "volume.TARGET-2.ply".
+VANTAGE_API std::vector<std::filesystem::path> volume_files(const std::filesystem::path& file,
+                                                            const std::vector<std::string>& names);
+
+/// A row of table.csv.
+struct TableRow {
+  std::string target;              ///< name
+  std::filesystem::path file;      ///< the first that holds the volume; not used where there is none
+  const Volume* volume = nullptr;  ///< with its seconds
+  const MeshMeasures* measures = nullptr;
+};
+
+/// CSV with a header: target, outcome, reason, volume_m3, area_m2, facets, pieces, lift_m, seconds, file (its name
+/// alone). Without a volume its numbers are 0.
+VANTAGE_API std::string table_csv(const std::vector<TableRow>& rows);
+
 struct WrittenResults {
   MeshMeasures measures;
   std::vector<WrittenVolume> written;          ///< of each file that is asked for; empty when there is no volume

@@ -77,4 +77,11 @@ VANTAGE_API VerifyReport verify_volume(const Scene& scene, const Target& target,
                                        const Navigation& navigation, const Mesh& volume,
                                        const VerifyOptions& options = {}, const Progress& progress = {});
 
+/// The same of a volume for several targets: what is claimed must see, of each list, one target whole or more, within
+/// the limits of the sensor for that target. Each list has at least one; VerifyOptions::lift_m is for the parts of all
+/// targets, in their order. Depths are told by the distance to the first target's centre.
+VANTAGE_API VerifyReport verify_volume(const Scene& scene, const std::vector<std::vector<Target>>& views,
+                                       const Sensor& sensor, const Navigation& navigation, const Mesh& volume,
+                                       const VerifyOptions& options = {}, const Progress& progress = {});
+
 }  // namespace vantage

@@ -80,6 +80,8 @@ struct VolumeProvenance {
   Target target;        ///< as given, in the scene frame
   Sensor sensor;
   std::string scene_hash, mission_hash;  ///< docs/hashes.md; empty where they were not made
+  /// Of a volume for several targets, as Mission::views; `target` has no parts then.
+  std::vector<std::vector<Target>> views = {};
 };
 
 /// In Volume::polygon_of: none.

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -144,8 +145,7 @@ std::string count_text(std::size_t count, const char* what) {
 }
 
 std::vector<Face> wanted_faces(const Mission& mission, const FaceTarget& wanted, const Objects& objects,
-                               const std::string& name) {
-  const FaceFinder finder(mission.loaded.scene);
+                               const std::string& name, const FaceFinder& finder) {
   const char* const kind = name_of(wanted.kind);
   const std::string& place = mission.as_written.places.target;
   std::vector<Face> faces;
@@ -181,17 +181,26 @@ std::vector<Face> wanted_faces(const Mission& mission, const FaceTarget& wanted,
 
 }  // namespace
 
-void take_faces(Mission& mission, const FaceTarget& wanted, const geo::LocalFrame* frame) {
+std::vector<Target> face_targets(const Mission& mission, const FaceTarget& wanted, const Target& target,
+                                 const geo::LocalFrame* frame, const FaceFinder& finder, bool together) {
   const Objects objects = wanted.at_deg         ? at_place(mission, *wanted.at_deg, *frame)
                           : !wanted.osm.empty() ? of_map(mission, wanted.osm)
                                                 : named(mission, wanted.object);
-  const std::string name = name_of_objects(mission, wanted, objects);
-  const std::vector<Face> faces = wanted_faces(mission, wanted, objects, name);
-  std::string full = name + ", " + name_of(wanted.kind);
-  if (wanted.facing_deg) full += " facing " + heading_text(*wanted.facing_deg);
-  const double offset_m = mission.target.offset_m;
-  mission.target = target_of(faces, mission.target.name.empty() ? full : mission.target.name);
-  mission.target.offset_m = offset_m;
+  std::string name = name_of_objects(mission, wanted, objects);
+  const std::vector<Face> faces = wanted_faces(mission, wanted, objects, name, finder);
+  name += std::string(", ") + name_of(wanted.kind);
+  if (wanted.facing_deg) name += " facing " + heading_text(*wanted.facing_deg);
+  if (!target.name.empty()) name = target.name;
+  std::vector<Target> targets;
+  if (together || faces.size() == 1) {
+    targets.push_back(target_of(faces, name));
+  } else {
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+      targets.push_back(target_of(std::span(faces).subspan(i, 1), name + " " + std::to_string(i + 1)));
+    }
+  }
+  for (Target& one : targets) one.offset_m = target.offset_m;
+  return targets;
 }
 
 }  // namespace vantage::internal::app

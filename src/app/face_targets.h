@@ -1,14 +1,18 @@
 // Targets that are roofs and facades of the scene's objects.
 #pragma once
 
+#include <vector>
+
 #include "geo/local_frame.h"
 #include "vantage/mission.h"
 
 namespace vantage::internal::app {
 
-/// Makes `mission.target` of the faces that `wanted` means: in the scene frame, a part for each convex piece. A target
-/// without a name gets the object's and that of the part. `frame`: of the scene; needed for at_deg only. Throws
-/// Error(input), with the place in the mission file, for an object that is not there and for one without such a face.
-void take_faces(Mission& mission, const FaceTarget& wanted, const geo::LocalFrame* frame);
+/// The faces that `wanted` means, in the scene frame, each a target: of the name that `target` has, or of the object's
+/// and the part's, and with its offset. `together`: one target of all of them. `frame`: of the scene; needed for at_deg
+/// only. `finder`: of the mission's scene. Throws Error(input), with the place in the mission file, for an object that
+/// is not there and for one without such a face.
+std::vector<Target> face_targets(const Mission& mission, const FaceTarget& wanted, const Target& target,
+                                 const geo::LocalFrame* frame, const FaceFinder& finder, bool together);
 
 }  // namespace vantage::internal::app

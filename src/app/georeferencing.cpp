@@ -10,12 +10,14 @@
 #include <tuple>
 #include <vector>
 
+#include "app/combine_targets.h"
 #include "app/components/maps.h"
 #include "app/face_targets.h"
 #include "app/places.h"
 #include "app/zone_places.h"
 #include "geo/local_frame.h"
 #include "vantage/error.h"
+#include "vantage/faces.h"
 #include "vantage/input.h"
 
 namespace vantage::internal::app {
@@ -179,49 +181,112 @@ void place_sun(Mission& mission) {
   mission.sensor.sun->direction = direction;
 }
 
-void check_near(const Mission& mission, const std::vector<Vec3>& places, const CrsConverter& converter) {
+void check_near(const std::string& where, const std::vector<Vec3>& places, const CrsConverter& converter) {
   for (const Vec3& place : places) {
     const double distance = place.head<2>().norm();
     if (distance <= geo::kFarthestM) continue;
     throw Error(ErrorCode::too_far_away,
                 "the target lies " + std::to_string(std::lround(distance / 1000)) + " km from the scene's origin",
-                mission.as_written.places.target, converter.order_advice());
+                where, converter.order_advice());
   }
 }
 
 /// The positions that the mission gives in its own coordinate reference system.
-void convert_positions(Mission& mission, std::optional<FaceTarget>& faces, const geo::LocalFrame& frame) {
-  const CrsConverter converter(mission, frame);
+void convert_positions(const CrsConverter& converter, MissionTarget& given) {
   std::vector<Vec3> nearest;
-  with_place(mission.as_written.places.target, [&] {
-    for (std::vector<Vec3>& part : mission.target.parts) {
+  with_place(given.place, [&] {
+    for (std::vector<Vec3>& part : given.target.parts) {
       for (Vec3& vertex : part) vertex = converter(vertex);
     }
-    if (faces && faces->nearest) nearest.push_back(*(faces->nearest = converter(*faces->nearest)));
+    if (auto& faces = given.face_target; faces && faces->nearest) {
+      nearest.push_back(*(faces->nearest = converter(*faces->nearest)));
+    }
     return 0;
   });
-  check_near(mission, mission.target.parts.at(0), converter);
-  check_near(mission, nearest, converter);
-  convert_limits(mission.navigation, converter, mission.as_written);
+  check_near(given.place, given.target.parts.at(0), converter);
+  check_near(given.place, nearest, converter);
+}
+
+std::vector<MissionTarget> given_targets(const MissionFile& file) {
+  if (!file.targets.empty()) return file.targets;
+  return {{file.target, file.ground_target, file.face_target, file.both_sides, file.places.target}};
+}
+
+/// As the mission of that target alone, for functions of one target.
+class OneTarget {
+ public:
+  OneTarget(Mission& mission, const MissionTarget& given)
+      : mission_(mission), place_(mission.as_written.places.target) {
+    mission_.target = given.target;
+    mission_.as_written.ground_target = given.ground_target;
+    mission_.as_written.places.target = given.place;
+  }
+  ~OneTarget() {
+    mission_.as_written.ground_target = ground_;
+    mission_.as_written.places.target = place_;
+  }
+  OneTarget(const OneTarget&) = delete;
+  OneTarget& operator=(const OneTarget&) = delete;
+
+ private:
+  Mission& mission_;
+  std::optional<GroundTarget> ground_ = mission_.as_written.ground_target;
+  std::string place_;
+};
+
+/// The targets in the scene frame, those of the same list of MissionTargets in the same list.
+std::vector<std::vector<Target>> placed(Mission& mission, const std::vector<MissionTarget>& given,
+                                        const geo::LocalFrame* frame, const Progress& progress) {
+  std::vector<std::vector<Target>> targets(given.size());
+  // The ground may be extended: after that the scene stays as it is.
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    targets[i] = {given[i].target};
+    if (!given[i].ground_target) continue;
+    const OneTarget one(mission, given[i]);
+    put_on_ground(mission, *frame, progress);
+    targets[i] = {mission.target};
+  }
+  std::optional<FaceFinder> finder;
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    if (!given[i].face_target) continue;
+    if (!finder) finder.emplace(mission.loaded.scene);
+    const OneTarget one(mission, given[i]);
+    const bool together = mission.as_written.combine == Combine::all && !given[i].both_sides;
+    targets[i] = face_targets(mission, *given[i].face_target, given[i].target, frame, *finder, together);
+  }
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    with_place(given[i].place, [&] {
+      for (const Target& target : targets[i]) {
+        for (std::size_t part = 0; part < target.parts.size(); ++part) make_target_frame(target, part);
+      }
+      return 0;
+    });
+  }
+  return targets;
 }
 
 }  // namespace
 
 void georeference(Mission& mission, const Progress& progress) {
-  if (mission.as_written.sun_time) place_sun(mission);
-  const std::string& crs = mission.as_written.crs;
-  const auto& ground = mission.as_written.ground_target;
-  std::optional<FaceTarget> faces = mission.as_written.face_target;
-  if (crs.empty() && !ground && !faces) return;
+  const MissionFile& file = mission.as_written;
+  if (file.sun_time) place_sun(mission);
+  std::vector<MissionTarget> given = given_targets(file);
+  const bool needs_frame =
+      !file.crs.empty() || std::any_of(given.begin(), given.end(), [](const MissionTarget& target) {
+        return target.ground_target || (target.face_target && target.face_target->at_deg);
+      });
   std::optional<geo::LocalFrame> frame;
-  if (!crs.empty() || ground || faces->at_deg) frame = frame_of(mission);
-  if (!crs.empty()) convert_positions(mission, faces, *frame);
-  if (ground) put_on_ground(mission, *frame, progress);
-  if (faces) take_faces(mission, *faces, frame ? &*frame : nullptr);
-  with_place(mission.as_written.places.target, [&] {
-    for (std::size_t i = 0; i < mission.target.parts.size(); ++i) make_target_frame(mission.target, i);
-    return 0;
-  });
+  if (needs_frame) frame = frame_of(mission);
+  if (!file.crs.empty()) {
+    const CrsConverter converter(mission, *frame);
+    for (MissionTarget& target : given) convert_positions(converter, target);
+    convert_limits(mission.navigation, converter, file);
+  }
+  std::vector<std::vector<Target>> targets = placed(mission, given, frame ? &*frame : nullptr, progress);
+  if (file.vlos) {
+    for (std::vector<Target>& pilot : targets) pilot[0].parts[0][0].z() += file.vlos->eye_height_m;
+  }
+  combine_targets(given, std::move(targets), mission);
 }
 
 }  // namespace vantage::internal::app

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "app/combine_targets.h"
 #include "vantage/error.h"
 #include "vantage/hash.h"
 #include "vantage/result.h"
@@ -47,7 +48,10 @@ VerifyOptions verify_options(const VolumeFile& read, const Mission& mission) {
   options.tolerance_m = mission.as_written.exact.tolerance_m;
   options.rounding_m = read.rounding_m;
   options.lift_m = read.volume.lift_m;
-  const std::size_t parts = mission.target.parts.size();
+  std::size_t parts = 0;
+  for (const std::vector<Target>& view : internal::app::views_of(mission)) {
+    for (const Target& target : view) parts += target.parts.size();
+  }
   if (options.lift_m.size() != parts) options.lift_m.assign(parts, reported_lift_m(read.file).value_or(0));
   return options;
 }

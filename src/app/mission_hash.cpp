@@ -116,10 +116,20 @@ SortedJson sorted_json_of(const SpheresOptions& options) {
 }  // namespace
 
 std::string mission_hash(const Mission& mission) {
-  SortedJson json = {{"target", sorted_json_of(mission.target)},
-                     {"sensor", sorted_json_of(mission.sensor)},
+  SortedJson json = {{"sensor", sorted_json_of(mission.sensor)},
                      {"limits", sorted_json_of(mission.navigation)},
                      {"method", name_of(mission.as_written.method)}};
+  if (mission.views.empty()) {
+    json["target"] = sorted_json_of(mission.target);
+  } else {
+    json["views"] = SortedJson::array();
+    for (const std::vector<Target>& view : mission.views) {
+      SortedJson list = SortedJson::array();
+      for (const Target& target : view) list.push_back(sorted_json_of(target));
+      json["views"].push_back(std::move(list));
+    }
+    json["combine"] = volume_count(mission) > 1 ? "each" : "all";
+  }
   if (mission.as_written.method == Method::spheres) {
     json["options"] = sorted_json_of(mission.as_written.spheres);
   } else {

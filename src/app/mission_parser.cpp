@@ -31,7 +31,8 @@ class MissionParser : private ValueReader {
  private:
   // Sections.
   void parse_scene(const YamlNode& node);
-  void parse_target(const YamlNode& node);
+  void parse_targets(const YamlNode& root);
+  void parse_combine(const YamlNode& node);
   void parse_sensor(const YamlNode& node);
   void parse_navigation(const YamlNode& node);
   void parse_method(const YamlNode& node);
@@ -51,8 +52,7 @@ MissionFile MissionParser::parse(std::string_view mission_text) {
   if (const YamlNode* method = find(root, "method")) parse_method(*method);
   if (const YamlNode* crs = find(root, "crs")) mission_.crs = text(*crs, "crs");
   parse_scene(require(root, Section::mission, "scene", "write 'scene:' and below it, indented, 'mesh: city.obj'"));
-  parse_target(require(root, Section::mission, "target",
-                       "write 'target:' and below it, indented, 'vertices: [[x, y, z], [x, y, z], [x, y, z]]'"));
+  parse_targets(root);
   parse_sensor(
       require(root, Section::mission, "sensor", "write 'sensor:' and below it, indented, 'max_range: 100' (metres)"));
   if (const YamlNode* navigation = find(root, "navigation")) parse_navigation(*navigation);
@@ -70,12 +70,46 @@ void MissionParser::parse_scene(const YamlNode& node) {
   mission_.places.terrain = std::move(section.terrain_where);
 }
 
-void MissionParser::parse_target(const YamlNode& node) {
-  TargetSection section = parse_target_section(node, *this, mission_);
-  mission_.target = std::move(section.target);
-  mission_.ground_target = std::move(section.ground);
-  mission_.face_target = std::move(section.faces);
-  mission_.places.target = std::move(section.where);
+void MissionParser::parse_targets(const YamlNode& root) {
+  const YamlNode *one = find(root, "target"), *several = find(root, "targets");
+  if (const YamlNode* combine = find(root, "combine")) parse_combine(*combine);
+  if (several == nullptr) {
+    const YamlNode& node =
+        require(root, Section::mission, "target",
+                "write 'target:' and below it, indented, 'vertices: [[x, y, z], [x, y, z], [x, y, z]]'");
+    MissionTarget target = parse_target_section(node, *this, mission_);
+    mission_.target = std::move(target.target);
+    mission_.ground_target = std::move(target.ground_target);
+    mission_.face_target = std::move(target.face_target);
+    mission_.both_sides = target.both_sides;
+    mission_.places.target = std::move(target.place);
+    return;
+  }
+  if (one) {
+    fail(ErrorCode::conflicting_keys, *several, "the mission has both 'target' and 'targets'",
+         "keep 'target' for one, 'targets' for a list of them");
+  }
+  const std::string form = "write a list of targets: [{vertices: [...]}, {point: [x, y, z]}]";
+  if (list(*several, "targets", form).empty())
+    fail(ErrorCode::nothing_given, *several, "targets is an empty list", form);
+  mission_.places.target = place_in(file(), several->place);
+  for (std::size_t i = 0; i < several->items.size(); ++i) {
+    MissionTarget target = parse_target_section(several->items[i], *this, mission_);
+    const bool has_name = find(several->items[i], "name") != nullptr;
+    if (!has_name && target.target.name == Target{}.name) target.target.name += " " + std::to_string(i + 1);
+    mission_.targets.push_back(std::move(target));
+  }
+}
+
+void MissionParser::parse_combine(const YamlNode& node) {
+  const std::string word = text(node, "combine");
+  for (const Combine combine : {Combine::all, Combine::any, Combine::each}) {
+    if (word != name_of(combine)) continue;
+    mission_.combine = combine;
+    return;
+  }
+  fail(ErrorCode::unknown_choice, node, "targets cannot be combined by " + in_quotes(word),
+       "write 'combine: all', 'combine: any' or 'combine: each'");
 }
 
 void MissionParser::parse_sensor(const YamlNode& node) {
@@ -84,7 +118,11 @@ void MissionParser::parse_sensor(const YamlNode& node) {
   mission_.camera = std::move(section.camera);
   mission_.sun_time = std::move(section.sun_time);
   mission_.vlos = section.vlos;
-  if (mission_.vlos && !mission_.target.is_point()) {
+  const bool is_of_points =
+      mission_.targets.empty() ? mission_.target.is_point()
+                               : std::all_of(mission_.targets.begin(), mission_.targets.end(),
+                                             [](const MissionTarget& one) { return one.target.is_point(); });
+  if (mission_.vlos && !is_of_points) {
     fail(ErrorCode::not_applicable, node, "sensor.vlos is of a pilot, and the target is no point",
          "give the pilot's place: 'target: {point: [x, y, z]}', or 'max_range' instead of 'vlos'");
   }

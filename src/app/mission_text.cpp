@@ -45,6 +45,17 @@ class Section {
   void add(const std::string& key, const std::string& value) { text_ += "  " + key + ": " + value + "\n"; }
   void add(const std::string& key, double value) { add(key, shortest(value)); }
 
+  /// As an entry of a list.
+  std::string item() const {
+    std::string text;
+    for (std::size_t at = 0; at < text_.size();) {
+      const std::size_t end = text_.find('\n', at) + 1;
+      text.append(at == 0 ? "  - " : "    ").append(text_, at + 2, end - at - 2);
+      at = end;
+    }
+    return text;
+  }
+
   /// Nothing when it has no keys.
   std::string text() const { return text_.empty() ? "" : name_ + ":\n" + text_; }
 
@@ -58,7 +69,7 @@ class Writer {
 
   std::string text() const {
     std::string text = mission_.crs.empty() ? "" : "crs: " + quoted(mission_.crs) + "\n";
-    text += scene() + target() + internal::app::sensor_section_text(mission_) + navigation();
+    text += scene() + targets() + internal::app::sensor_section_text(mission_) + navigation();
     text += std::string("method: ") + name_of(mission_.method) + "\n";
     text += "exact:\n  tolerance: " + shortest(mission_.exact.tolerance_m) + "\n";
     return text + spheres();
@@ -149,13 +160,30 @@ class Writer {
     return text;
   }
 
-  std::string target() const {
-    const Target& target = mission_.target;
-    Section section("target");
+  std::string targets() const {
+    std::string text;
+    if (mission_.targets.empty()) {
+      Section section("target");
+      add_target({mission_.target, mission_.ground_target, mission_.face_target, mission_.both_sides}, section);
+      text = section.text();
+    } else {
+      text = "targets:\n";
+      for (const MissionTarget& target : mission_.targets) {
+        Section section("");
+        add_target(target, section);
+        text += section.item();
+      }
+    }
+    if (mission_.combine != Combine::all) text += std::string("combine: ") + name_of(mission_.combine) + "\n";
+    return text;
+  }
+
+  static void add_target(const MissionTarget& given, Section& section) {
+    const Target& target = given.target;
     if (!target.name.empty()) section.add("name", quoted(target.name));
-    if (mission_.face_target) {
-      add_faces(*mission_.face_target, section);
-    } else if (const auto& ground = mission_.ground_target) {
+    if (given.face_target) {
+      add_faces(*given.face_target, section);
+    } else if (const auto& ground = given.ground_target) {
       if (ground->center_deg) {
         section.add("center", list_of(*ground->center_deg));
         section.add("width", ground->width_m);
@@ -175,7 +203,7 @@ class Writer {
     }
     if (target.offset_m != 0) section.add("offset", target.offset_m);
     if (target.front) section.add("front", list_of(*target.front));
-    return section.text();
+    if (given.both_sides) section.add("sides", "both");
   }
 
   static void add_faces(const FaceTarget& faces, Section& section) {

@@ -44,12 +44,11 @@ std::vector<internal::app::NavigationMesh> read_navigation_meshes(const MissionF
 /// Throws app::TerrainTooSmall.
 Mission assembled(const MissionFile& file, const std::vector<internal::app::NavigationMesh>& meshes, LoadedScene loaded,
                   const Progress& progress) {
-  Mission mission{file, std::move(loaded), file.target, file.sensor, file.navigation, 0};
+  Mission mission{file, std::move(loaded), file.target, {}, file.sensor, file.navigation, 0};
   mission.navigation.meshes = internal::app::placed_navigation_meshes(meshes, mission.loaded.scene);
   internal::app::georeference(mission, progress);
   internal::app::add_file_zones(mission, progress);
   internal::app::find_ground(mission);
-  if (file.vlos) mission.target.parts[0][0].z() += file.vlos->eye_height_m;
   return mission;
 }
 

@@ -1,6 +1,11 @@
 #include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <string_view>
 #include <utility>
 
+#include "app/combine_targets.h"
 #include "app/components/solid.h"
 #include "app/components/spheres.h"
 #include "app/pierced_advice.h"
@@ -13,6 +18,8 @@
 
 namespace vantage {
 namespace {
+
+using PreparedViews = std::vector<std::vector<PreparedTarget>>;
 
 Volume compute(const Mission& mission, const PreparedTarget& target, const StageSink& stages, Result& result,
                const Progress& progress) {
@@ -36,32 +43,55 @@ Volume compute(const Mission& mission, const PreparedTarget& target, const Stage
   return internal::app::joined(std::move(volumes), progress);
 }
 
-/// `prepare_seconds`: that preparing the scene took; `stopwatch`: its last lap ended with that.
-Result run(const Mission& mission, const PreparedTarget& target, double prepare_seconds,
-           internal::core::Stopwatch& stopwatch, const StageSink& stages, const Progress& progress) {
-  Result result;
-  Seconds seconds;
-  const Scene& scene = mission.loaded.scene;
-  seconds.read = mission.read_seconds;
-  seconds.prepare = prepare_seconds;
-  result.scene = target.scene().statistics();
+/// The volume of one target, within all limits.
+Volume limited(const Mission& mission, const PreparedTarget& target, const StageSink& stages, Result& result,
+               Seconds& seconds, internal::core::Stopwatch& stopwatch, const Progress& progress) {
+  Volume volume;
   try {
-    result.volume = compute(mission, target, stages, result, progress);
+    volume = compute(mission, target, stages, result, progress);
   } catch (const Error& error) {
     // The target itself is checked by now. The exact method may still find it too large for the tolerance; the method
     // of spheres refuses only its options and devices, which the mission names elsewhere.
     if (mission.as_written.method == Method::spheres) throw;
     internal::app::with_place(mission.as_written.places.target, [&]() -> int { throw error; });
   }
-  seconds.engine = stopwatch.lap();
-
+  seconds.engine += stopwatch.lap();
   const bool is_limited = !mission.navigation.empty() || target.sensor().limits_view();
-  if (result.volume.outcome == Outcome::computed && is_limited) {
-    result.volume = internal::app::with_place(mission.as_written.file.string(), [&] {
-      return internal::app::within_limits(result.volume, target, mission.navigation, progress);
+  if (volume.outcome == Outcome::computed && is_limited) {
+    volume = internal::app::with_place(mission.as_written.file.string(), [&] {
+      return internal::app::within_limits(volume, target, mission.navigation, progress);
     });
-    seconds.navigation = stopwatch.lap();
+    seconds.navigation += stopwatch.lap();
   }
+  return volume;
+}
+
+/// What each list of targets leaves, and then what all have in common.
+Volume of_views(const Mission& mission, const PreparedViews& views, const StageSink& stages, Result& result,
+                Seconds& seconds, internal::core::Stopwatch& stopwatch, const Progress& progress) {
+  std::vector<Volume> all;
+  for (const std::vector<PreparedTarget>& view : views) {
+    std::vector<Volume> any;
+    for (const PreparedTarget& target : view) {
+      any.push_back(limited(mission, target, stages, result, seconds, stopwatch, progress));
+    }
+    all.push_back(internal::app::united(std::move(any), progress));
+  }
+  Volume volume = internal::app::joined(std::move(all), progress);
+  seconds.engine += stopwatch.lap();
+  return volume;
+}
+
+/// `prepare_seconds`: that preparing the scene took; `stopwatch`: its last lap ended with that.
+Result run(const Mission& mission, const PreparedViews& views, double prepare_seconds,
+           internal::core::Stopwatch& stopwatch, const StageSink& stages, const Progress& progress) {
+  Result result;
+  Seconds seconds;
+  const Scene& scene = mission.loaded.scene;
+  seconds.read = mission.read_seconds;
+  seconds.prepare = prepare_seconds;
+  result.scene = views.front().front().scene().statistics();
+  result.volume = of_views(mission, views, stages, result, seconds, stopwatch, progress);
   seconds.total = seconds.read + seconds.prepare + seconds.engine + seconds.navigation;
   result.volume.seconds = seconds;
   result.volume.georeference = scene.georeference;
@@ -74,15 +104,11 @@ Result run(const Mission& mission, const PreparedTarget& target, double prepare_
   return result;
 }
 
-}  // namespace
-
-const char* name_of(Method method) { return method == Method::spheres ? "spheres" : "exact"; }
-
-PreparedTarget prepare_target(const Mission& mission, const PreparedScene& scene) {
+PreparedTarget prepare(const Mission& mission, const Target& target, const PreparedScene& scene) {
   const auto& ground = mission.as_written.ground_target;
   return internal::app::with_place(mission.as_written.places.target, [&] {
     try {
-      return PreparedTarget(scene, mission.target, mission.sensor);
+      return PreparedTarget(scene, target, mission.sensor);
     } catch (const Error& error) {
       if (error.code() != ErrorCode::target_pierced) throw;
       throw internal::app::explained(error, mission.loaded, ground ? ground->osm : "");
@@ -90,14 +116,65 @@ PreparedTarget prepare_target(const Mission& mission, const PreparedScene& scene
   });
 }
 
+void check_one_volume(const Mission& mission) {
+  if (volume_count(mission) == 1) return;
+  throw Error(ErrorCode::not_applicable, "the mission asks for a volume for each of its targets",
+              mission.as_written.places.target, "write 'combine: all' or 'combine: any' for one volume");
+}
+
+/// A callback for work that goes on at several places at once: what is done of all of it, one call at a time.
+class SharedProgress {
+ public:
+  SharedProgress(const Progress& callback, std::size_t count) : callback_(callback), count_(count) {}
+
+  Progress callback() {
+    if (!callback_) return {};
+    return [this](std::string_view, double) { return tell(); };
+  }
+  void finish_one() {
+    ++done_;
+    if (callback_ && !tell()) throw Error(ErrorCode::cancelled, "cancelled", "", "");
+  }
+
+ private:
+  bool tell() {
+    const std::lock_guard lock(mutex_);
+    is_wanted_ = is_wanted_ && callback_("targets", static_cast<double>(done_) / static_cast<double>(count_));
+    return is_wanted_;
+  }
+
+  const Progress& callback_;
+  std::size_t count_;
+  std::atomic<std::size_t> done_ = 0;
+  bool is_wanted_ = true;
+  std::mutex mutex_;
+};
+
+}  // namespace
+
+const char* name_of(Method method) { return method == Method::spheres ? "spheres" : "exact"; }
+
+PreparedTarget prepare_target(const Mission& mission, const PreparedScene& scene) {
+  return prepare(mission, mission.target, scene);
+}
+
+std::vector<std::vector<PreparedTarget>> prepare_views(const Mission& mission, const PreparedScene& scene) {
+  PreparedViews views;
+  for (const std::vector<Target>& list : internal::app::views_of(mission)) {
+    views.emplace_back();
+    for (const Target& target : list) views.back().push_back(prepare(mission, target, scene));
+  }
+  return views;
+}
+
 Result run_mission(const Mission& mission, const RunOptions& options, const Progress& progress) {
+  check_one_volume(mission);
   Result result;
   internal::parallel::with_threads(options.threads, [&] {
     internal::core::Stopwatch stopwatch;
     const PreparedScene scene(mission.loaded.scene, progress);
     const double prepare_seconds = stopwatch.lap();
-    const PreparedTarget target = prepare_target(mission, scene);
-    result = run(mission, target, prepare_seconds, stopwatch, options.stages, progress);
+    result = run(mission, prepare_views(mission, scene), prepare_seconds, stopwatch, options.stages, progress);
   });
   return result;
 }
@@ -107,9 +184,45 @@ Result run_mission(const Mission& mission, const PreparedTarget& target, const R
   Result result;
   internal::parallel::with_threads(options.threads, [&] {
     internal::core::Stopwatch stopwatch;
-    result = run(mission, target, 0, stopwatch, options.stages, progress);
+    result = run(mission, {{target}}, 0, stopwatch, options.stages, progress);
   });
   return result;
+}
+
+std::vector<Result> run_missions(const Mission& mission, const RunOptions& options, const Progress& progress) {
+  const std::size_t count = volume_count(mission);
+  if (count == 1) return {run_mission(mission, options, progress)};
+  std::vector<Result> results(count);
+  internal::parallel::with_threads(options.threads, [&] {
+    internal::core::Stopwatch stopwatch;
+    const PreparedScene scene(mission.loaded.scene, progress);
+    const double prepare_seconds = stopwatch.lap();
+    std::vector<PreparedViews> prepared;
+    for (std::size_t i = 0; i < count; ++i) prepared.push_back(prepare_views(one_volume(mission, i), scene));
+    SharedProgress shared(progress, count);
+    // An exception that leaves a parallel loop also ends the loops inside the others, which would go on with half of
+    // their results: it is thrown when all are done. After the first one no more are begun.
+    std::vector<std::exception_ptr> thrown(count);
+    std::atomic<bool> has_failed = false;
+    internal::parallel::for_ranges(count, 1, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end && !has_failed; ++i) {
+        try {
+          internal::core::Stopwatch own;
+          results[i] = run(one_volume(mission, i), prepared[i], 0, own, {}, shared.callback());
+          shared.finish_one();
+        } catch (...) {
+          thrown[i] = std::current_exception();
+          has_failed = true;
+        }
+      }
+    });
+    for (const std::exception_ptr& one : thrown) {
+      if (one) std::rethrow_exception(one);
+    }
+    results.front().volume.seconds.prepare = prepare_seconds;
+    results.front().volume.seconds.total += prepare_seconds;
+  });
+  return results;
 }
 
 }  // namespace vantage

@@ -19,7 +19,7 @@ const std::array<SectionKeys, 16>& table() {
   static const std::array<SectionKeys, 16> kTable = {{
       {Section::mission,
        "the mission",
-       {"scene", "crs", "target", "sensor", "navigation", "method", "exact", "spheres"}},
+       {"scene", "crs", "target", "targets", "combine", "sensor", "navigation", "method", "exact", "spheres"}},
       {Section::scene,
        "scene",
        {"mesh", "osm", "raster", "up", "scale", "lod", "crs", "origin", "sea_level", "center", "radius", "bbox",
@@ -27,7 +27,7 @@ const std::array<SectionKeys, 16>& table() {
       {Section::target,
        "target",
        {"name", "vertices", "edges", "parts", "point", "osm", "object", "at", "part", "facing", "nearest", "center",
-        "width", "length", "heading", "offset", "front"}},
+        "width", "length", "heading", "offset", "front", "sides"}},
       {Section::sensor,
        "sensor",
        {"max_range", "min_range", "incidence", "camera", "fov", "mount", "gimbal", "pixel", "dori", "sun", "vlos"}},

@@ -25,7 +25,7 @@ class TargetParser : private ValueReader {
  public:
   TargetParser(const ValueReader& reader, const MissionFile& mission) : ValueReader(reader), mission_(mission) {}
 
-  TargetSection parse(const YamlNode& node);
+  MissionTarget parse(const YamlNode& node);
 
  private:
   void check_edges(const YamlNode& node, std::size_t vertex_count) const;
@@ -40,10 +40,11 @@ class TargetParser : private ValueReader {
   void check_target(const YamlNode& place);
   void check_is_map(const YamlNode& osm) const;
   void refuse_without_part(const YamlNode& node) const;
+  void parse_sides(const YamlNode& node, const YamlNode& sides);
   const YamlNode& require(const YamlNode& map, std::string_view key, const std::string& fix) const;
 
   const MissionFile& mission_;
-  TargetSection section_;
+  MissionTarget section_;
 };
 
 const char* const kVerticesForm =
@@ -62,7 +63,7 @@ std::string edge_text(std::size_t from, std::size_t to) {
   return text;
 }
 
-TargetSection TargetParser::parse(const YamlNode& node) {
+MissionTarget TargetParser::parse(const YamlNode& node) {
   check_keys(node, Section::target, file());
   Target& target = section_.target;
   if (const YamlNode* name = find(node, "name")) target.name = text(*name, "target.name");
@@ -78,6 +79,7 @@ TargetSection TargetParser::parse(const YamlNode& node) {
                                          : parse_vertices(node);
   if (const YamlNode* offset = find(node, "offset")) target.offset_m = length(*offset, "target.offset");
   if (const YamlNode* front = find(node, "front")) target.front = vector(*front, "target.front");
+  if (const YamlNode* sides = find(node, "sides")) parse_sides(node, *sides);
   check_target(place);
   if (const YamlNode* edges = find(node, "edges")) check_edges(*edges, target.parts[0].size());
   return std::move(section_);
@@ -134,7 +136,7 @@ void TargetParser::refuse_beside(const YamlNode& node, const char* key, std::ini
 
 /// Where it lies is found out when the scene is read.
 const YamlNode& TargetParser::parse_ground_target(const YamlNode& node) {
-  GroundTarget& ground = section_.ground.emplace();
+  GroundTarget& ground = section_.ground_target.emplace();
   if (const YamlNode* osm = find(node, "osm")) {
     refuse_beside(node, "osm", {"vertices", "edges", "parts", "center", "width", "length", "heading"},
                   "keep 'osm' for an area of the map, or give the target yourself");
@@ -152,6 +154,20 @@ const YamlNode& TargetParser::parse_ground_target(const YamlNode& node) {
   ground.length_m = positive(require(node, "length", form), "target.length");
   if (const YamlNode* heading = find(node, "heading")) ground.heading_deg = number(*heading, "target.heading");
   return center;
+}
+
+void TargetParser::parse_sides(const YamlNode& node, const YamlNode& sides) {
+  const std::string word = text(sides, "target.sides");
+  if (word != "front" && word != "both") {
+    fail(ErrorCode::unknown_choice, sides, "there are no sides " + in_quotes(word) + " of a target",
+         "write 'sides: both', or 'sides: front', the default");
+  }
+  if (word == "front") return;
+  if (find(node, "point")) {
+    fail(ErrorCode::not_applicable, sides, "a point has no sides",
+         "leave 'sides' out: without 'front' a point is seen from all sides");
+  }
+  section_.both_sides = true;
 }
 
 void TargetParser::check_is_map(const YamlNode& osm) const {
@@ -173,7 +189,7 @@ void TargetParser::refuse_without_part(const YamlNode& node) const {
 const YamlNode& TargetParser::parse_faces(const YamlNode& node, const YamlNode& part) {
   refuse_beside(node, "part", {"vertices", "edges", "parts", "point", "center", "width", "length", "heading", "front"},
                 "keep 'part' for a roof or facades of an object, which know their outer side");
-  FaceTarget& faces = section_.faces.emplace();
+  FaceTarget& faces = section_.face_target.emplace();
   const std::string kind = text(part, "target.part");
   if (kind != "roof" && kind != "facade") {
     fail(ErrorCode::unknown_choice, part, "there is no part " + in_quotes(kind) + " of an object",
@@ -232,9 +248,9 @@ const YamlNode& TargetParser::parse_point(const YamlNode& node, const YamlNode& 
 
 /// The checks that need no scene, told with the place of the vertices or the point.
 void TargetParser::check_target(const YamlNode& place) {
-  section_.where = place_in(file(), place.place);
-  if (!mission_.crs.empty() || section_.ground || section_.faces) return;  // georeference() does it
-  with_place(section_.where, [&] {
+  section_.place = place_in(file(), place.place);
+  if (!mission_.crs.empty() || section_.ground_target || section_.face_target) return;  // georeference() does it
+  with_place(section_.place, [&] {
     for (std::size_t i = 0; i < section_.target.parts.size(); ++i) make_target_frame(section_.target, i);
     return 0;
   });
@@ -299,7 +315,7 @@ std::string heading_text(double heading_deg) {
   return shortest(heading_deg) + " degrees from north";
 }
 
-TargetSection parse_target_section(const YamlNode& node, const ValueReader& reader, const MissionFile& mission) {
+MissionTarget parse_target_section(const YamlNode& node, const ValueReader& reader, const MissionFile& mission) {
   return TargetParser(reader, mission).parse(node);
 }
 

@@ -1,7 +1,6 @@
 // A target as a mission file gives it.
 #pragma once
 
-#include <optional>
 #include <string>
 
 #include "app/value_reader.h"
@@ -10,16 +9,9 @@
 
 namespace vantage::internal::app {
 
-struct TargetSection {
-  Target target;
-  std::optional<GroundTarget> ground;
-  std::optional<FaceTarget> faces;
-  std::string where;  ///< for messages
-};
-
 /// `mission`: with its scene and its `crs`. Throws Error(input) with the place for what docs/mission-file.md does not
 /// allow, and for what make_target_frame refuses.
-TargetSection parse_target_section(const YamlNode& node, const ValueReader& reader, const MissionFile& mission);
+MissionTarget parse_target_section(const YamlNode& node, const ValueReader& reader, const MissionFile& mission);
 
 /// "south"; "200 degrees from north".
 std::string heading_text(double heading_deg);

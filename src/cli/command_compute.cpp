@@ -38,6 +38,9 @@ constexpr const char* kComputeExamples =
     "With -o - the volume goes to standard output, when it is whole, and the summary to standard error; the report of\n"
     "that output is written only with --report.\n"
     "\n"
+    "A mission with 'combine: each' writes a volume for each target, NAME.TARGET.ply for -o NAME.ply, and table.csv\n"
+    "beside them with a row for each.\n"
+    "\n"
     "--stages writes each step of the spheres method as a mesh (PLY, scene frame), and stages.json. The folder is put\n"
     "in place as a whole when the run is over; an older one of the same kind is replaced.\n";
 
@@ -270,6 +273,82 @@ void tell(const ComputeArguments& options, const Mission& mission, const Result&
   if (outgoing && has_volume) outgoing->send();
 }
 
+/// What a mission with a volume for each target cannot be combined with.
+void check_each(const ComputeArguments& options) {
+  const char* const unused = options.is_to_stdout()    ? "-o -"
+                             : !options.stages.empty() ? "--stages"
+                             : options.json            ? "--json"
+                                                       : nullptr;
+  if (!unused) return;
+  fail_option(ErrorCode::not_applicable,
+              std::string(unused) + " is for one volume, and the mission asks for each target's", unused,
+              "leave it out, or write 'combine: all' or 'combine: any' in the mission");
+}
+
+std::string summary_of_each(const std::vector<TableRow>& rows) {
+  TextTable table;
+  table.heading(count(rows.size()) + (rows.size() == 1 ? " volume" : " volumes, one for each target"));
+  for (const TableRow& row : rows) {
+    const bool has_volume = row.volume->outcome == Outcome::computed;
+    table.row(row.target, has_volume ? fixed(row.measures->volume_m3, 1) : "none",
+              has_volume ? "cubic metres" : row.volume->reason);
+  }
+  return table.text();
+}
+
+int run_each(const ComputeArguments& options, const MissionFile& file, const std::vector<fs::path>& inputs) {
+  check_each(options);
+  const fs::path table = options.files().front().parent_path() / "table.csv";
+  check_can_write(table);
+  check_not_an_input(table, inputs);
+  std::vector<Result> results;
+  std::vector<WrittenResults> written;
+  std::vector<TableRow> rows;
+  std::vector<std::vector<fs::path>> files;  // of each target
+  {
+    ProgressLine progress(options.common);
+    const Mission mission = resolve_mission(file, progress.callback());
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < volume_count(mission); ++i) {
+      names.push_back(mission.views.empty() ? mission.target.name : mission.views[i].front().name);
+    }
+    files.resize(names.size());
+    for (const fs::path& output : options.files()) {
+      const std::vector<fs::path> named = volume_files(output, names);
+      check_result_files(named, inputs);
+      for (std::size_t i = 0; i < named.size(); ++i) files[i].push_back(named[i]);
+    }
+    results = run_missions(mission, {options.common.threads, {}}, progress.callback());
+    for (std::size_t i = 0; i < results.size(); ++i) {
+      ResultRequest request = result_request(mission, results[i], files[i]);
+      request.source.target = names[i];
+      written.push_back(write_results(results[i].volume, request, progress.callback()));
+    }
+    for (std::size_t i = 0; i < results.size(); ++i) {
+      rows.push_back({names[i], files[i].front(), &results[i].volume, &written[i].measures});
+    }
+    write_whole_file(table, table_csv(rows));
+  }
+  bool has_all = true;
+  for (const Result& result : results) has_all = has_all && result.volume.outcome == Outcome::computed;
+  if (!options.common.quiet) {
+    std::string text = summary_of_each(rows);
+    for (std::size_t i = 0; i < files.size(); ++i) {
+      if (results[i].volume.outcome != Outcome::computed) continue;
+      for (const fs::path& one : files[i]) text += "wrote " + one.string() + "\n";
+    }
+    print(text + "wrote " + table.string() + ", and a report beside each volume\n");
+    std::vector<Warning> warnings;
+    for (const Result& result : results) {
+      for (const Warning& warning : result.volume.notes) {
+        if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end()) warnings.push_back(warning);
+      }
+    }
+    notes(warnings);
+  }
+  return options.fail_empty && !has_all ? kCheckFailed : kSuccess;
+}
+
 int run_compute(const ComputeArguments& options) {
   check_compute_outputs(options);
   const double start = seconds_since_start();
@@ -284,6 +363,7 @@ int run_compute(const ComputeArguments& options) {
   std::vector<fs::path> files(options.outputs.begin(), options.outputs.end());
   if (outgoing) std::replace(files.begin(), files.end(), fs::path("-"), outgoing->path());
 
+  if (file.combine == Combine::each) return run_each(options, file, inputs);
   Mission mission;
   Result run;
   WrittenResults written;

@@ -10,6 +10,7 @@
 #include <span>
 #include <utility>
 
+#include "cli/chosen_target.h"
 #include "cli/command.h"
 #include "cli/interrupt.h"
 #include "cli/point_table.h"
@@ -62,7 +63,7 @@ constexpr const char* kQueryExamples =
 
 struct QueryArguments {
   CommonOptions common;
-  std::string mission_file, points_file, output_file;
+  std::string mission_file, points_file, output_file, target;
   std::string fraction, seen_file;  // empty: not asked for
   std::string z;                    // as typed
   bool lonlat = false, json = false;
@@ -113,11 +114,12 @@ class Sink {
   std::unique_ptr<AtomicFile> file_;
 };
 
-TableOptions table_options(const QueryArguments& options) {
+TableOptions table_options(const QueryArguments& options, bool has_targets) {
   TableOptions result;
   result.lonlat = options.lonlat;
   result.json = options.json;
   result.fraction = !options.fraction.empty();
+  result.target = has_targets;
   if (options.z.empty()) return result;
   const ParsedNumber z = parse_number(options.z);
   if (z.fault != NumberFault::none) {
@@ -155,13 +157,52 @@ Portion parsed(PointTable& table, std::span<const Row> rows) {
   return portion;
 }
 
+/// Answers for one volume of the mission: of one target, or of several together.
+class VolumeQuery {
+ public:
+  VolumeQuery(const std::vector<std::vector<PreparedTarget>>& views, const Navigation& navigation) {
+    for (const std::vector<PreparedTarget>& view : views) {
+      queries_.emplace_back();
+      for (const PreparedTarget& target : view) queries_.back().emplace_back(target, navigation);
+    }
+  }
+
+  std::vector<PointAnswer> answer(std::span<const Vec3> points) {
+    std::vector<std::vector<PointAnswer>> all(points.size());
+    for (std::vector<PointQuery>& view : queries_) {
+      std::vector<std::vector<PointAnswer>> any(points.size());
+      for (PointQuery& query : view) {
+        std::vector<PointAnswer> answers = query.answer(points);
+        for (std::size_t i = 0; i < points.size(); ++i) any[i].push_back(std::move(answers[i]));
+      }
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        all[i].push_back(any[i].size() == 1 ? std::move(any[i][0]) : any_of(any[i]));
+      }
+    }
+    std::vector<PointAnswer> result;
+    for (std::vector<PointAnswer>& answers : all) {
+      result.push_back(answers.size() == 1 ? std::move(answers[0]) : all_of(answers));
+    }
+    return result;
+  }
+
+  /// Where it is of one target.
+  PointQuery& single() { return queries_.front().front(); }
+
+ private:
+  std::vector<std::vector<PointQuery>> queries_;
+};
+
 /// Answers portions of points, and writes what was asked for.
 class Answers {
  public:
-  Answers(const QueryArguments& options, const Mission& mission, PointTable& table, const PreparedTarget& target)
+  /// One query for each of `targets`, the names that rows are told apart by where there are several.
+  Answers(const QueryArguments& options, const Mission& mission, PointTable& table, std::vector<std::string> targets,
+          std::vector<VolumeQuery> queries)
       : place_(mission.loaded.scene.georeference),
         table_(table),
-        query_(target, mission.navigation),
+        targets_(std::move(targets)),
+        queries_(std::move(queries)),
         rows_(options.output_file, options.is_to_stdout()) {
     fraction_.measure = fraction_measure(options.fraction).value_or(FractionMeasure::area);
     fraction_.with_polygons = !options.seen_file.empty();
@@ -180,14 +221,20 @@ class Answers {
     for (std::size_t i = 0; i < portion.rows.size(); ++i) {
       points.push_back(table_.scene_point(portion.coordinates[i], place_, portion.rows[i]));
     }
-    const std::vector<PointAnswer> answers = query_.answer(points);
-    const std::vector<PointFraction> fractions =
-        table_.has_fraction() ? fractions_of(points) : std::vector<PointFraction>();
+    std::vector<std::vector<PointAnswer>> answers;
+    std::vector<std::vector<PointFraction>> fractions;
+    for (VolumeQuery& query : queries_) {
+      answers.push_back(query.answer(points));
+      if (table_.has_fraction()) fractions.push_back(fractions_of(query.single(), points));
+    }
     std::string features;
     for (std::size_t i = 0; i < points.size(); ++i) {
-      const std::optional<double> fraction = fractions.empty() ? std::nullopt : std::optional(fractions[i].fraction);
-      table_.append(text_, portion.rows[i], portion.coordinates[i], answers[i], fraction);
-      if (seen_) features += features_->feature(fractions[i], table_.id(portion.rows[i]));
+      for (std::size_t target = 0; target < queries_.size(); ++target) {
+        const std::optional<double> fraction =
+            fractions.empty() ? std::nullopt : std::optional(fractions[target][i].fraction);
+        table_.append(text_, portion.rows[i], portion.coordinates[i], answers[target][i], fraction, targets_[target]);
+        if (seen_) features += features_->feature(fractions[target][i], table_.id(portion.rows[i]));
+      }
     }
     rows_.write(text_);
     text_.clear();
@@ -206,13 +253,13 @@ class Answers {
 
  private:
   /// A few at a time: where many gaps are looked through, each takes milliseconds.
-  std::vector<PointFraction> fractions_of(std::span<const Vec3> points) {
+  std::vector<PointFraction> fractions_of(PointQuery& query, std::span<const Vec3> points) {
     constexpr std::size_t kAtOnce = 256;
     std::vector<PointFraction> result;
     while (result.size() < points.size()) {
       stop_if_interrupted();
       const std::size_t count = std::min(kAtOnce, points.size() - result.size());
-      for (PointFraction& one : query_.fractions(points.subspan(result.size(), count), fraction_)) {
+      for (PointFraction& one : query.fractions(points.subspan(result.size(), count), fraction_)) {
         result.push_back(std::move(one));
       }
     }
@@ -221,13 +268,24 @@ class Answers {
 
   std::optional<Georeference> place_;
   PointTable& table_;
-  PointQuery query_;
+  std::vector<std::string> targets_;
+  std::vector<VolumeQuery> queries_;
   FractionOptions fraction_;
   Sink rows_;
   std::unique_ptr<Sink> seen_;
   std::optional<SeenGeoJson> features_;
   std::string text_;
 };
+
+/// Each volume of the mission, or that of --target, prepared in one scene.
+std::vector<VolumeQuery> queries_of(const Mission& mission, const PreparedScene& scene) {
+  std::vector<VolumeQuery> queries;
+  for (std::size_t i = 0; i < volume_count(mission); ++i) {
+    const Mission one = one_volume(mission, i);
+    queries.emplace_back(prepare_views(one, scene), one.navigation);
+  }
+  return queries;
+}
 
 void check_seen(const QueryArguments& options) {
   if (options.seen_file.empty()) return;
@@ -248,14 +306,28 @@ void check_seen(const QueryArguments& options) {
   }
 }
 
+[[noreturn]] void fail_seen_point() {
+  throw Error(ErrorCode::not_applicable, "a single point has no part that could be drawn", "command line, --seen",
+              "leave it out, or give the target an area");
+}
+
 /// What can be said of the mission before its scene is read.
 void check_mission(const QueryArguments& options, const MissionFile& file) {
   if (!options.is_to_stdout()) check_not_an_input(options.output_file, input_files(file));
   if (options.seen_file.empty()) return;
   if (!is_standard_stream(options.seen_file)) check_not_an_input(options.seen_file, input_files(file));
-  if (file.target.is_point()) {
-    throw Error(ErrorCode::not_applicable, "a single point has no part that could be drawn", "command line, --seen",
-                "leave it out, or give the target an area");
+  if (file.target.is_point()) fail_seen_point();
+}
+
+/// A part of one target is seen, not of several of which one is enough.
+void check_fraction(const QueryArguments& options, const Mission& mission) {
+  if (options.fraction.empty()) return;
+  for (std::size_t i = 0; i < volume_count(mission); ++i) {
+    const Mission one = one_volume(mission, i);
+    if (!options.seen_file.empty() && one.target.is_point()) fail_seen_point();
+    if (one.views.empty()) continue;
+    throw Error(ErrorCode::not_applicable, "--fraction is of one target, and the mission combines several",
+                "command line, --fraction", "leave it out, or write 'combine: each' for targets with one side");
   }
 }
 
@@ -273,8 +345,8 @@ void check_streams(const QueryArguments& options) {
 int run_query(const QueryArguments& options) {
   check_streams(options);
   check_seen(options);
-  const TableOptions columns = table_options(options);
   const MissionFile file = read_mission_argument(options.mission_file);
+  const TableOptions columns = table_options(options, file.combine == Combine::each && options.target.empty());
   check_mission(options, file);
   const bool is_from_stdin = is_standard_stream(options.points_file);
   const bool is_quiet = options.common.quiet;
@@ -296,13 +368,16 @@ int run_query(const QueryArguments& options) {
   if (portion.rows.empty()) portion = parsed(table, reader.next());  // the header came alone
   if (!is_quiet) tell_of_columns(table);
 
-  const Mission mission = resolve_mission(file, progress.callback());
+  Mission mission = resolve_mission(file, progress.callback());
+  if (!options.target.empty()) mission = of_target(mission, options.target);
+  check_fraction(options, mission);
   const Scene& scene = mission.loaded.scene;
   if (table.is_lonlat() && !is_quiet) tell_of_heights(scene);
   if (!options.seen_file.empty() && !scene.georeference && !is_quiet) {
     note("the seen parts are in x, y, z of the scene frame: the scene does not say where on the earth it lies");
   }
-  Answers answers(options, mission, table, prepare_target(mission, PreparedScene(scene, progress.callback())));
+  Answers answers(options, mission, table, target_names(mission),
+                  queries_of(mission, PreparedScene(scene, progress.callback())));
   answers.begin();
   while (!portion.rows.empty()) {
     answers.add(portion);
@@ -332,6 +407,7 @@ void add_query(CLI::App& app, Command& chosen) {
   command->add_flag("--lonlat", options->lonlat, "The points are longitude and latitude in degrees, WGS 84");
   command->add_option("--z", options->z, "One height for all points; the table then needs no column z")
       ->option_text("METRES");
+  command->add_option("--target", options->target, kTargetHelp)->option_text("NAME");
   command->add_flag("--json", options->json, "Write a JSON array of objects, one per line");
   command
       ->add_option("--fraction", options->fraction,

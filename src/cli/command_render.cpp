@@ -2,6 +2,7 @@
 #include <memory>
 #include <optional>
 
+#include "cli/chosen_target.h"
 #include "cli/command.h"
 #include "cli/picture_options.h"
 #include "cli/progress_line.h"
@@ -36,7 +37,7 @@ constexpr const char* kPanelSize = "640x480";
 
 struct RenderArguments {
   CommonOptions common;
-  std::string mission_file, volume_file, stages, output, size;
+  std::string mission_file, volume_file, stages, output, size, target;
   std::vector<std::string> view;
 };
 
@@ -50,18 +51,17 @@ void check_output(const std::string& output) {
   check_can_write(output);
 }
 
-/// The volume of the file, or else the computed one, with what people should know of it.
-Volume volume_to_draw(const RenderArguments& options, const Mission& mission, const Progress& progress) {
-  if (options.volume_file.empty()) return run_mission(mission, {options.common.threads, {}}, progress).volume;
+/// The volume of the file, with what people should know of it, and the mission of its target.
+Volume volume_of_file(const RenderArguments& options, Mission& mission, const Progress& progress) {
   VolumeFile read = read_volume(options.volume_file, mission.loaded.scene, progress);
+  mission = of_volume(std::move(mission), options.target, read);
   if (!options.common.quiet) notes(read.notes);
   read.volume.notes = mission_warnings(mission, &read.volume);
   return std::move(read.volume);
 }
 
-Picture picture(const RenderArguments& options, const Mission& mission, const PictureView& view,
+Picture picture(const RenderArguments& options, const Mission& mission, const Volume& volume, const PictureView& view,
                 std::array<int, 2> size, const Progress& progress) {
-  const Volume volume = volume_to_draw(options, mission, progress);
   if (!options.common.quiet) {
     if (volume.outcome != Outcome::computed) note("no volume: " + volume.reason);
     notes(volume.notes);
@@ -79,9 +79,30 @@ Picture picture(const RenderArguments& options, const Mission& mission, const Pi
   return render_picture(mission.loaded.scene, request, progress);
 }
 
-Picture sheet(const RenderArguments& options, const Mission& mission, const PictureView& view, std::array<int, 2> size,
-              const Progress& progress) {
-  return stage_sheet(mission, read_stages(options.stages), view, size, progress);
+/// A picture for each volume of the mission, in files of their own where there are several.
+std::vector<fs::path> draw(const RenderArguments& options, Mission mission, const PictureView& view,
+                           std::array<int, 2> size, const fs::path& output, const Progress& progress) {
+  if (!options.stages.empty()) {
+    write_png(stage_sheet(mission, read_stages(options.stages), view, size, progress), output, progress);
+    return {output};
+  }
+  if (!options.volume_file.empty()) {
+    const Volume volume = volume_of_file(options, mission, progress);
+    write_png(picture(options, mission, volume, view, size, progress), output, progress);
+    return {output};
+  }
+  if (!options.target.empty()) mission = of_target(mission, options.target);
+  const std::vector<Result> results = run_missions(mission, {options.common.threads, {}}, progress);
+  if (results.size() == 1) {
+    write_png(picture(options, mission, results[0].volume, view, size, progress), output, progress);
+    return {output};
+  }
+  const std::vector<fs::path> files = volume_files(output, target_names(mission));
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    check_can_write(files[i]);
+    write_png(picture(options, one_volume(mission, i), results[i].volume, view, size, progress), files[i], progress);
+  }
+  return files;
 }
 
 int run_render(const RenderArguments& options) {
@@ -98,20 +119,27 @@ int run_render(const RenderArguments& options) {
   }
   check_not_an_input(options.output, inputs);
   std::optional<OutgoingFile> outgoing;
-  if (is_standard_stream(options.output)) outgoing.emplace(".png");
+  if (is_standard_stream(options.output)) {
+    if (file.combine == Combine::each && options.volume_file.empty() && options.target.empty()) {
+      throw Error(ErrorCode::not_applicable, "-o - is for one picture, and the mission asks for each target's",
+                  "command line, -o", "name the target with --target, or a file");
+    }
+    outgoing.emplace(".png");
+  }
+  std::vector<fs::path> files;
   {
     ProgressLine progress(options.common);
-    const auto draw = is_sheet ? sheet : picture;
     const Progress follow = progress.callback();
-    const Mission mission = resolve_mission(file, follow);
-    write_png(draw(options, mission, view, size, follow), outgoing ? outgoing->path() : fs::path(options.output),
-              follow);
+    files = draw(options, resolve_mission(file, follow), view, size,
+                 outgoing ? outgoing->path() : fs::path(options.output), follow);
   }
   if (outgoing) {
     outgoing->send();
     return kSuccess;
   }
-  if (!options.common.quiet) print("wrote " + options.output + "\n");
+  std::string text;
+  for (const fs::path& one : files) text += "wrote " + one.string() + "\n";
+  if (!options.common.quiet) print(text);
   return kSuccess;
 }
 
@@ -147,6 +175,7 @@ void add_render(CLI::App& app, Command& chosen) {
   command->add_option("--stages", options->stages, "Draw a sheet of the stages in this folder")
       ->excludes(volume)
       ->option_text("FOLDER");
+  command->add_option("--target", options->target, kTargetHelp)->option_text("NAME");
   add_common_options(*command, options->common);
   command->footer(kRenderExamples + exit_code_table());
   command->callback([options, &chosen] {

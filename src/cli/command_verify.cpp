@@ -1,6 +1,7 @@
 #include <memory>
 #include <vector>
 
+#include "cli/chosen_target.h"
 #include "cli/command.h"
 #include "cli/progress_line.h"
 #include "cli/standard_streams.h"
@@ -27,7 +28,7 @@ constexpr const char* kVerifyExamples =
 
 struct VerifyArguments {
   CommonOptions common;
-  std::string mission_file, volume_file;
+  std::string mission_file, volume_file, target;
   std::size_t points = VerifyOptions{}.points;
   std::uint64_t seed = VerifyOptions{}.seed;
   double lift_m = -1;  // below zero: as the report says
@@ -88,13 +89,22 @@ std::string table_text(const VerifyReport& report, const std::string& file) {
   return table.text();
 }
 
+/// What must be seen of several targets.
+std::string needed_text(const std::vector<std::vector<Target>>& views) {
+  std::size_t targets = 0;
+  for (const std::vector<Target>& list : views) targets += list.size();
+  if (views.size() == 1) return "one of " + std::to_string(targets) + " targets or sides must be seen";
+  return std::to_string(views.size()) + " targets must be seen, each from one of its sides or more";
+}
+
 int run_verify(const VerifyArguments& options) {
   check_readable(options.volume_file, "the volume");
   const MissionFile file = read_mission_argument(options.mission_file);
   ProgressLine progress(options.common);
-  const Mission mission = resolve_mission(file, progress.callback());
+  const Mission resolved = resolve_mission(file, progress.callback());
+  const VolumeFile read = read_volume(options.volume_file, resolved.loaded.scene, progress.callback());
+  const Mission mission = of_volume(resolved, options.target, read);
   const std::vector<Warning> warnings = mission_warnings(mission);
-  const VolumeFile read = read_volume(options.volume_file, mission.loaded.scene, progress.callback());
   if (!options.common.quiet) {
     notes(warnings);
     notes(read.notes);
@@ -103,14 +113,22 @@ int run_verify(const VerifyArguments& options) {
   VerifyOptions verify_options = vantage::verify_options(read, mission);
   verify_options.points = options.points;
   verify_options.seed = options.seed;
-  if (options.lift_m >= 0) verify_options.lift_m.assign(mission.target.parts.size(), options.lift_m);
-  const VerifyReport report = verify_volume(mission.loaded.scene, mission.target, mission.sensor, mission.navigation,
-                                            read.volume.mesh, verify_options, progress.callback());
+  if (options.lift_m >= 0) verify_options.lift_m.assign(verify_options.lift_m.size(), options.lift_m);
+  const Scene& scene = mission.loaded.scene;
+  const VerifyReport report = mission.views.empty()
+                                  ? verify_volume(scene, mission.target, mission.sensor, mission.navigation,
+                                                  read.volume.mesh, verify_options, progress.callback())
+                                  : verify_volume(scene, mission.views, mission.sensor, mission.navigation,
+                                                  read.volume.mesh, verify_options, progress.callback());
   if (options.json) {
     print(json_text(report));
   } else if (!options.common.quiet) {
     const std::size_t parts = mission.target.parts.size();
-    if (parts > 1) note("the target has " + std::to_string(parts) + " convex parts: all must be seen");
+    if (!mission.views.empty()) {
+      note(needed_text(mission.views));
+    } else if (parts > 1) {
+      note("the target has " + std::to_string(parts) + " convex parts: all must be seen");
+    }
     print(table_text(report, options.volume_file));
   }
   return report.is_right() ? kSuccess : kCheckFailed;
@@ -139,6 +157,7 @@ void add_verify(CLI::App& app, Command& chosen) {
           "How far compute raised the target (default: as the volume's file or the report beside it says, or 0)")
       ->check(CLI::Range(0.0, kMostLift))
       ->option_text("METRES");
+  command->add_option("--target", options->target, kTargetHelp)->option_text("NAME");
   command->add_flag("--json", options->json, "Print JSON instead of a table");
   finish<VerifyArguments>(*command, options, kVerifyExamples, chosen, run_verify);
 }

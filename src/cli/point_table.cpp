@@ -15,6 +15,7 @@ namespace {
 constexpr std::array<const char*, 6> kAnswers = {"inside",       "margin_m",      "blocked_by",
                                                  "out_of_range", "behind_target", "outside_of"};
 constexpr const char* kFraction = "fraction";
+constexpr const char* kTarget = "target";
 
 std::string lower_case(std::string text) {
   for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
@@ -114,7 +115,7 @@ PointTable::PointTable(const RowReader& reader, const Row& first, const TableOpt
 
 bool PointTable::is_answer(const std::string& column) const {
   return std::find(kAnswers.begin(), kAnswers.end(), column) != kAnswers.end() ||
-         (options_.fraction && column == kFraction);
+         (options_.fraction && column == kFraction) || (options_.target && column == kTarget);
 }
 
 std::optional<std::string> PointTable::id(const Row& row) {
@@ -211,6 +212,7 @@ std::string PointTable::beginning() const {
   }
   for (const char* name : kAnswers) text += std::string(name) + (name == kAnswers.back() ? "" : ",");
   if (options_.fraction) text.append(",").append(kFraction);
+  if (options_.target) text.append(",").append(kTarget);
   return text + "\n";
 }
 
@@ -221,18 +223,18 @@ std::optional<std::size_t> PointTable::axis_of(std::size_t column) const {
 }
 
 void PointTable::append(std::string& text, const Row& row, const Vec3& coordinates, const PointAnswer& answer,
-                        const std::optional<double>& fraction) {
+                        const std::optional<double>& fraction, const std::string& target) {
   reader_.split(row.text, fields_);
   if (options_.json) {
-    append_json(text, coordinates, answer, fraction);
+    append_json(text, coordinates, answer, fraction, target);
   } else {
-    append_csv(text, coordinates, answer, fraction);
+    append_csv(text, coordinates, answer, fraction, target);
   }
   is_first_ = false;
 }
 
 void PointTable::append_csv(std::string& text, const Vec3& coordinates, const PointAnswer& answer,
-                            const std::optional<double>& fraction) const {
+                            const std::optional<double>& fraction, const std::string& target) const {
   for (std::size_t i = 0; i < names_.size(); ++i) {
     if (!is_kept_[i]) continue;
     if (const auto axis = axis_of(i)) {
@@ -256,11 +258,15 @@ void PointTable::append_csv(std::string& text, const Vec3& coordinates, const Po
     text += ',';
     append_number(text, *fraction);  // all digits: what is nearly 1 must not become 1
   }
+  if (options_.target) {
+    text += ',';
+    append_field(text, target);
+  }
   text += '\n';
 }
 
 void PointTable::append_json(std::string& text, const Vec3& coordinates, const PointAnswer& answer,
-                             const std::optional<double>& fraction) {
+                             const std::optional<double>& fraction, const std::string& target) {
   text += is_first_ ? "\n{" : ",\n{";
   for (std::size_t i = 0; i < names_.size(); ++i) {
     if (!is_kept_[i]) continue;
@@ -280,6 +286,7 @@ void PointTable::append_json(std::string& text, const Vec3& coordinates, const P
   text.append(", \"behind_target\": ").append(truth(answer.behind_target));
   text.append(", \"outside_of\": ").append(json_text(answer.outside_of));
   if (fraction) text.append(", \"fraction\": ").append(shortest(*fraction));
+  if (options_.target) text.append(", \"target\": ").append(json_text(std::string_view(target)));
   text += "}";
 }
 

@@ -18,6 +18,7 @@ struct TableOptions {
   bool lonlat = false;      ///< longitude and latitude, not x and y
   bool json = false;        ///< write objects, not rows
   bool fraction = false;    ///< write which part of the target is seen, too
+  bool target = false;      ///< write the target's name, too
   std::optional<double> z;  ///< of all points; then the table has no such column
 };
 
@@ -54,16 +55,16 @@ class PointTable {
   std::string end() const { return options_.json ? (is_first_ ? "]\n" : "\n]\n") : ""; }
   /// The row with its answer; `fraction` where the options ask for it.
   void append(std::string& text, const Row& row, const Vec3& coordinates, const PointAnswer& answer,
-              const std::optional<double>& fraction);
+              const std::optional<double>& fraction, const std::string& target);
 
  private:
   void take_header(const std::vector<Field>& fields, const Row& row);
   void take_columns(const std::vector<std::string>& names);
   bool is_answer(const std::string& column) const;
   void append_csv(std::string& text, const Vec3& coordinates, const PointAnswer& answer,
-                  const std::optional<double>& fraction) const;
+                  const std::optional<double>& fraction, const std::string& target) const;
   void append_json(std::string& text, const Vec3& coordinates, const PointAnswer& answer,
-                   const std::optional<double>& fraction);
+                   const std::optional<double>& fraction, const std::string& target);
   std::optional<std::size_t> axis_of(std::size_t column) const;
   [[noreturn]] void fail(ErrorCode code, const std::string& problem, const Row& row, const std::string& fix) const;
 

@@ -77,27 +77,59 @@ void read_sensor(const Json& json, Sensor& sensor) {
   }
 }
 
+Target target_of(const Json& json) {
+  Target target;
+  target.name = json.at("name").get<std::string>();
+  target.parts.clear();
+  for (const Json& part : json.at("parts")) {
+    std::vector<Vec3>& vertices = target.parts.emplace_back();
+    for (const Json& vertex : part) vertices.push_back(vector_of(vertex));
+  }
+  target.offset_m = json.at("offset_m").get<double>();
+  target.front_by_order = json.value("front_by_order", false);
+  if (json.contains("front")) target.front = vector_of(json.at("front"));
+  return target;
+}
+
+Json target_json(const Target& target) {
+  Json json = {{"name", target.name}, {"parts", Json::array()}, {"offset_m", target.offset_m}};
+  for (const std::vector<Vec3>& part : target.parts) {
+    Json vertices = Json::array();
+    for (const Vec3& vertex : part) vertices.push_back(json_of(vertex));
+    json["parts"].push_back(std::move(vertices));
+  }
+  if (target.front) json["front"] = json_of(*target.front);
+  if (target.front_by_order) json["front_by_order"] = true;
+  return json;
+}
+
 VolumeStatement parse(const Json& json) {
   VolumeStatement statement;
   VolumeProvenance& made = statement.provenance;
   made.version = json.at("version").get<std::string>();
   made.method = json.at("method").get<std::string>();
-  const Json& target = json.at("target");
-  made.target.name = target.at("name").get<std::string>();
-  made.target.parts.clear();
-  for (const Json& part : target.at("parts")) {
-    std::vector<Vec3>& vertices = made.target.parts.emplace_back();
-    for (const Json& vertex : part) vertices.push_back(vector_of(vertex));
+  std::size_t parts = 0;
+  if (json.contains("views")) {
+    made.target.parts.clear();
+    for (const Json& list : json.at("views")) {
+      std::vector<Target>& view = made.views.emplace_back();
+      for (const Json& target : list) {
+        view.push_back(target_of(target));
+        parts += view.back().parts.size();
+      }
+      if (view.empty()) throw std::invalid_argument("a list of targets is empty");
+    }
+    if (made.views.empty()) throw std::invalid_argument("there are no targets");
+  } else {
+    made.target = target_of(json.at("target"));
+    parts = made.target.parts.size();
   }
-  made.target.offset_m = target.at("offset_m").get<double>();
-  made.target.front_by_order = target.value("front_by_order", false);
-  if (target.contains("front")) made.target.front = vector_of(target.at("front"));
   if (json.contains("max_range_m")) made.sensor.max_range_m = length_of(json.at("max_range_m"));
   if (json.contains("sensor")) read_sensor(json.at("sensor"), made.sensor);
   if (!std::isfinite(range_limit_m(made.sensor))) throw std::invalid_argument("nothing limits the range");
   statement.tolerance_m = length_of(json.at("tolerance_m"));
   for (const Json& lift : json.at("lift_m")) statement.lift_m.push_back(length_of(lift));
-  if (statement.lift_m.size() != made.target.parts.size()) throw std::invalid_argument("not one lift for each part");
+  if (statement.lift_m.size() != parts) throw std::invalid_argument("not one lift for each part");
   made.scene_hash = json.value("scene_hash", "");
   made.mission_hash = json.value("mission_hash", "");
   statement.volume_hash = json.at("volume_hash").get<std::string>();
@@ -145,15 +177,16 @@ std::string statement_text(const MeshSource& source, const core::ProgressReporte
 std::optional<Json> statement_json(const Volume& volume, const Mesh& stored) {
   if (!volume.provenance) return std::nullopt;
   const VolumeProvenance& made = *volume.provenance;
-  Json target = {{"name", made.target.name}, {"parts", Json::array()}, {"offset_m", made.target.offset_m}};
-  for (const std::vector<Vec3>& part : made.target.parts) {
-    Json vertices = Json::array();
-    for (const Vec3& vertex : part) vertices.push_back(json_of(vertex));
-    target["parts"].push_back(std::move(vertices));
+  Json json = {{"version", made.version}, {"method", made.method}};
+  if (made.views.empty()) {
+    json["target"] = target_json(made.target);
+  } else {
+    json["views"] = Json::array();
+    for (const std::vector<Target>& list : made.views) {
+      Json& view = json["views"].emplace_back(Json::array());
+      for (const Target& target : list) view.push_back(target_json(target));
+    }
   }
-  if (made.target.front) target["front"] = json_of(*made.target.front);
-  if (made.target.front_by_order) target["front_by_order"] = true;
-  Json json = {{"version", made.version}, {"method", made.method}, {"target", std::move(target)}};
   if (std::isfinite(made.sensor.max_range_m)) json["max_range_m"] = made.sensor.max_range_m;
   if (Json sensor = limits_json(made.sensor); !sensor.empty()) json["sensor"] = std::move(sensor);
   json["tolerance_m"] = volume.tolerance_m;

@@ -124,6 +124,7 @@ struct FaceFinder::Data {
   }
 
   ObjectMesh mesh_of(std::uint32_t object) const;
+  PlanePieces pieces_of(const ObjectMesh& mesh, const Group& group, FacePlane& plane) const;
   std::vector<Face> faces_of(const ObjectMesh& mesh, std::uint32_t object, const Group& group, FaceKind kind) const;
   std::optional<Vec3> outside_of(const ObjectMesh& mesh, std::uint32_t object, const Group& group) const;
   double slack() const { return std::max(kNothing, kRounding * largest); }
@@ -188,26 +189,18 @@ std::optional<Vec3> FaceFinder::Data::outside_of(const ObjectMesh& mesh, std::ui
   return std::nullopt;
 }
 
-std::vector<Face> FaceFinder::Data::faces_of(const ObjectMesh& mesh, std::uint32_t object, const Group& group,
-                                             FaceKind kind) const {
-  if (!may_be_of_kind(group.normal, kind)) return {};
-  double area = 0;
-  for (const std::uint32_t member : group.members) area += mesh.area[member].norm();
-  if (area <= kLeastArea) return {};
-  const std::optional<Vec3> normal = outside_of(mesh, object, group);
-  if (!normal || !is_of_kind(*normal, kind)) return {};
-
-  FacePlane plane{*normal, -INFINITY, kind == FaceKind::facade, {}};
+/// The triangles of a group in one plane, merged; sets where the plane is. Corners that rounding alone puts beside it
+/// stay as they are, others are laid into it.
+PlanePieces FaceFinder::Data::pieces_of(const ObjectMesh& mesh, const Group& group, FacePlane& plane) const {
   std::vector<std::uint32_t> used;
   for (const std::uint32_t member : group.members) {
-    plane.triangles.push_back(mesh.source[member]);
     used.insert(used.end(), mesh.triangles[member].begin(), mesh.triangles[member].end());
   }
   std::sort(used.begin(), used.end());
   used.erase(std::unique(used.begin(), used.end()), used.end());
   double lowest = INFINITY;
   for (const std::uint32_t vertex : used) {
-    const double height = normal->dot(scene.mesh.vertices[vertex]);
+    const double height = plane.normal.dot(scene.mesh.vertices[vertex]);
     plane.at = std::max(plane.at, height);
     lowest = std::min(lowest, height);
   }
@@ -215,7 +208,7 @@ std::vector<Face> FaceFinder::Data::faces_of(const ObjectMesh& mesh, std::uint32
   std::vector<Vec3> vertices;
   for (const std::uint32_t vertex : used) {
     Vec3 at = scene.mesh.vertices[vertex];
-    if (!is_planar) at += (plane.at - normal->dot(at)) * *normal;
+    if (!is_planar) at += (plane.at - plane.normal.dot(at)) * plane.normal;
     vertices.push_back(at);
   }
   std::vector<Triangle> triangles;
@@ -237,11 +230,25 @@ std::vector<Face> FaceFinder::Data::faces_of(const ObjectMesh& mesh, std::uint32
     for (std::uint32_t k = merged.first[i]; k < merged.first[i + 1]; ++k) piece.push_back(vertices[merged.vertices[k]]);
     Vec3 turn = Vec3::Zero();
     for (std::size_t k = 1; k + 1 < piece.size(); ++k) turn += (piece[k] - piece[0]).cross(piece[k + 1] - piece[0]);
-    if (turn.dot(*normal) < 0) std::reverse(piece.begin(), piece.end());
+    if (turn.dot(plane.normal) < 0) std::reverse(piece.begin(), piece.end());
   }
+  return pieces;
+}
+
+std::vector<Face> FaceFinder::Data::faces_of(const ObjectMesh& mesh, std::uint32_t object, const Group& group,
+                                             FaceKind kind) const {
+  if (!may_be_of_kind(group.normal, kind)) return {};
+  double area = 0;
+  for (const std::uint32_t member : group.members) area += mesh.area[member].norm();
+  if (area <= kLeastArea) return {};
+  const std::optional<Vec3> normal = outside_of(mesh, object, group);
+  if (!normal || !is_of_kind(*normal, kind)) return {};
+
+  FacePlane plane{*normal, -INFINITY, kind == FaceKind::facade, {}};
+  for (const std::uint32_t member : group.members) plane.triangles.push_back(mesh.source[member]);
+  PlanePieces pieces = pieces_of(mesh, group, plane);
   internal::scene::cut_covered(index, boxes, plane, slack(), pieces);
   internal::scene::join_convex(pieces, *normal, slack());
-
   std::vector<Face> faces;
   for (const PlanePieces& hanging : internal::scene::connected(pieces, 1e3 * slack())) {
     Face face{object, *normal, 0, internal::scene::usable(hanging)};

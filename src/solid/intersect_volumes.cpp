@@ -1,4 +1,4 @@
-// The volume of a target in parts: what the volumes of all parts have in common.
+// The volume of a target in parts: what the volumes of all parts have in common. And of targets of which one is enough.
 #include <algorithm>
 #include <string>
 #include <utility>
@@ -21,12 +21,38 @@ using internal::solid::FacetSourceList;
 using internal::solid::LabelledMesh;
 using internal::solid::Solid;
 
+using Views = std::vector<std::vector<Target>>;
+
+Views views_of(const VolumeProvenance& made) { return made.views.empty() ? Views{{made.target}} : made.views; }
+
+/// That all of several volumes are needed: of one target, or of several.
+void state_all(const VolumeProvenance& part, VolumeProvenance& result) {
+  if (part.views.empty() && result.views.empty()) {
+    result.target.parts.insert(result.target.parts.end(), part.target.parts.begin(), part.target.parts.end());
+    return;
+  }
+  result.views = views_of(result);
+  result.target.parts.clear();
+  for (std::vector<Target>& list : views_of(part)) result.views.push_back(std::move(list));
+}
+
+/// That one of several volumes is enough. Nothing is stated where one of them needs several targets.
+void state_any(const std::vector<Volume>& volumes, Volume& result) {
+  std::vector<Target> list;
+  for (const Volume& volume : volumes) {
+    const Views views = volume.provenance ? views_of(*volume.provenance) : Views();
+    if (views.size() != 1) {
+      result.provenance.reset();
+      return;
+    }
+    list.insert(list.end(), views[0].begin(), views[0].end());
+  }
+  result.provenance->target.parts.clear();
+  result.provenance->views = {std::move(list)};
+}
+
 void add_work(const Volume& part, Volume& result) {
   result.tolerance_m = std::max(result.tolerance_m, part.tolerance_m);
-  if (result.provenance && part.provenance) {
-    const auto& parts = part.provenance->target.parts;
-    result.provenance->target.parts.insert(result.provenance->target.parts.end(), parts.begin(), parts.end());
-  }
   result.lift_m.insert(result.lift_m.end(), part.lift_m.begin(), part.lift_m.end());
   result.counts.candidate_blockers += part.counts.candidate_blockers;
   result.counts.visible_blockers += part.counts.visible_blockers;
@@ -55,16 +81,40 @@ Solid solid_of(const Volume& volume, const Vec3& origin, internal::core::CauseLi
   return Solid(internal::solid::moved_to_origin(volume.mesh, sources.add(volume, merged), origin), "the volume");
 }
 
+/// What a boolean left of the volumes' solids becomes the result's mesh.
+void finish(LabelledMesh labelled, const Vec3& origin, double rounding, const std::vector<Volume>& volumes,
+            const FacetSourceList& sources, const internal::core::CauseList& causes, Volume& result) {
+  for (Vec3& vertex : labelled.mesh.vertices) vertex += origin;
+  // Parts share scene polygons, so most of what bounds one volume all but coincides with what bounds another.
+  internal::solid::clean_inward(
+      labelled, origin, {},
+      internal::solid::cleaning_limits(result.tolerance_m, rounding, bounding_box(labelled.mesh)));
+  internal::core::mend_for_doubles(labelled);
+  internal::solid::set_mesh(std::move(labelled), sources.sources(), causes.causes(), result);
+  const bool has_polygons =
+      std::none_of(volumes.begin(), volumes.end(), [](const Volume& volume) { return volume.polygon_of.empty(); });
+  if (!has_polygons) result.polygon_of.clear();
+}
+
+bool has_volume(const Volume& volume) { return volume.outcome == Outcome::computed && !volume.mesh.empty(); }
+
+void check_any(const std::vector<Volume>& volumes, const char* what) {
+  if (volumes.empty())
+    throw Error(ErrorCode::nothing_given, std::string("there are no volumes to ") + what, "", "give at least one");
+  for (const Volume& volume : volumes) internal::core::check_volume(volume);
+}
+
 }  // namespace
 
 Volume intersect_volumes(const std::vector<Volume>& volumes, const Progress& callback) {
-  if (volumes.empty())
-    throw Error(ErrorCode::nothing_given, "there are no volumes to intersect", "", "give at least one");
+  check_any(volumes, "intersect");
   Volume result = volumes.front();
-  for (std::size_t i = 1; i < volumes.size(); ++i) add_work(volumes[i], result);
+  for (std::size_t i = 1; i < volumes.size(); ++i) {
+    if (result.provenance && volumes[i].provenance) state_all(*volumes[i].provenance, *result.provenance);
+    add_work(volumes[i], result);
+  }
   for (std::size_t i = 0; i < volumes.size(); ++i) {
-    internal::core::check_volume(volumes[i]);
-    if (volumes[i].outcome == Outcome::computed && !volumes[i].mesh.empty()) continue;
+    if (has_volume(volumes[i])) continue;
     const std::string part = "part " + std::to_string(i + 1) + " of the target: ";
     make_empty(volumes[i].outcome, part + volumes[i].reason, volumes[i].hint, result);
     return result;
@@ -91,16 +141,42 @@ Volume intersect_volumes(const std::vector<Volume>& volumes, const Progress& cal
                "choose a smaller or convex target, or a longer range", result);
     return result;
   }
-  for (Vec3& vertex : labelled.mesh.vertices) vertex += origin;
-  // Parts share scene polygons, so most of what bounds one volume all but coincides with what bounds another.
-  internal::solid::clean_inward(
-      labelled, origin, {},
-      internal::solid::cleaning_limits(result.tolerance_m, rounding, bounding_box(labelled.mesh)));
-  internal::core::mend_for_doubles(labelled);
-  internal::solid::set_mesh(std::move(labelled), sources.sources(), causes.causes(), result);
-  const bool has_polygons =
-      std::none_of(volumes.begin(), volumes.end(), [](const Volume& volume) { return volume.polygon_of.empty(); });
-  if (!has_polygons) result.polygon_of.clear();
+  finish(std::move(labelled), origin, rounding, volumes, sources, causes, result);
+  return result;
+}
+
+Volume unite_volumes(const std::vector<Volume>& volumes, const Progress& callback) {
+  check_any(volumes, "unite");
+  if (volumes.size() == 1) return volumes.front();
+  Volume result = volumes.front();
+  for (std::size_t i = 1; i < volumes.size(); ++i) add_work(volumes[i], result);
+  if (result.provenance) state_any(volumes, result);
+  const auto first = std::find_if(volumes.begin(), volumes.end(), has_volume);
+  if (first == volumes.end()) {
+    make_empty(result.outcome, "none of the " + std::to_string(volumes.size()) + " targets: " + result.reason,
+               result.hint, result);
+    return result;
+  }
+  result.outcome = Outcome::computed;
+  result.reason.clear();
+  result.hint.clear();
+  result.frame = first->frame;
+
+  const Vec3 origin = first->frame.origin;
+  internal::core::CauseList causes;
+  FacetSourceList sources;
+  std::vector<Solid> solids;
+  std::vector<Volume> used;
+  double rounding = 0;
+  for (const Volume& volume : volumes) {
+    if (!has_volume(volume)) continue;
+    solids.push_back(solid_of(volume, origin, causes, sources));
+    rounding = std::max(rounding, solids.back().epsilon());
+    used.push_back(volume);
+  }
+  const internal::core::ProgressReporter progress(callback);
+  progress.begin("targets");
+  finish(internal::solid::unite(solids, progress).to_mesh(), origin, rounding, used, sources, causes, result);
   return result;
 }
 

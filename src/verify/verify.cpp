@@ -76,12 +76,17 @@ class Check {
 
   /// Chooses a viewpoint.
   Verdict draw(std::size_t number) const;
+  /// Of a viewpoint that another check has chosen: whether it is within the limits.
+  void judge(Verdict& verdict) const;
   /// What look() looks at from now on. Not while other threads look.
   void turn_to(std::size_t part);
   void look(Verdict& verdict) const;
   /// When all parts have been looked at.
   void settle(Verdict& verdict) const;
   VerifyReport report(const std::vector<Verdict>& verdicts);
+  const Vec3& origin() const { return view_.origin(); }
+  /// What is wrong at a viewpoint that is not good.
+  std::string cause(const Verdict& over_claimed);
 
  private:
   Vec3 in_frame_of(std::size_t part, const Vec3& position) const {
@@ -89,7 +94,6 @@ class Check {
   }
   bool in_front(const Vec3& position) const;
   bool sees(const TargetView& part, const Vec3& position, Verdict& verdict) const;
-  std::string cause(const Verdict& over_claimed);
 
   VerifyOptions options_;
   const Scene& scene_;
@@ -166,12 +170,18 @@ Verdict Check::draw(std::size_t number) const {
   if (!claimed) return verdict;
   verdict.claimed = *claimed;
   verdict.uniform = viewpoint.uniform && *claimed;
-  if (!in_front(verdict.position) || limits_.broken_by(verdict.position)) return verdict;
+  judge(verdict);
+  return verdict;
+}
+
+void Check::judge(Verdict& verdict) const {
+  verdict.good = verdict.undecided = false;
+  verdict.blocked.reset();
+  if (!in_front(verdict.position) || limits_.broken_by(verdict.position)) return;
   const SensorJudge::Judgement judgement =
-      *claimed ? sensor_.of_claimed(verdict.position) : sensor_.of_unclaimed(verdict.position);
+      verdict.claimed ? sensor_.of_claimed(verdict.position) : sensor_.of_unclaimed(verdict.position);
   verdict.good = judgement.finding != Finding::broken;
   verdict.undecided = judgement.finding == Finding::undecided;
-  return verdict;
 }
 
 void Check::look(Verdict& verdict) const {
@@ -262,6 +272,188 @@ std::vector<Target> raised_parts(const Target& target, const std::vector<double>
   return parts;
 }
 
+/// Targets of which a viewpoint must see one from each list, each as its raised parts.
+using PartViews = std::vector<std::vector<std::vector<Target>>>;
+
+PartViews raised_views(const std::vector<std::vector<Target>>& views, const std::vector<double>& lift_m) {
+  std::size_t parts = 0, next = 0;
+  for (const std::vector<Target>& list : views) {
+    if (list.empty())
+      throw Error(ErrorCode::nothing_given, "a list of targets is empty", "verify", "give at least one target");
+    for (const Target& target : list) parts += target.parts.size();
+  }
+  if (views.empty())
+    throw Error(ErrorCode::nothing_given, "there are no targets", "verify", "give at least one list of them");
+  if (!lift_m.empty() && lift_m.size() != parts) {
+    throw Error(
+        ErrorCode::array_sizes_differ,
+        "there are " + std::to_string(lift_m.size()) + " lifts for " + std::to_string(parts) + " parts of the targets",
+        "verify lift", "give one for each part, or none");
+  }
+  PartViews result;
+  for (const std::vector<Target>& list : views) {
+    result.emplace_back();
+    for (const Target& target : list) {
+      std::vector<double> own;
+      if (!lift_m.empty()) {
+        own.assign(lift_m.begin() + static_cast<std::ptrdiff_t>(next),
+                   lift_m.begin() + static_cast<std::ptrdiff_t>(next + target.parts.size()));
+      }
+      next += target.parts.size();
+      result.back().push_back(raised_parts(target, own));
+    }
+  }
+  return result;
+}
+
+/// Runs something for all viewpoints, on all threads, and counts them.
+class ForAll {
+ public:
+  ForAll(std::size_t points, std::size_t rounds, const Progress& callback)
+      : points_(points), progress_(callback), counter_(begun(progress_), points * rounds) {}
+
+  template <typename Act>
+  void operator()(const Act& act) {
+    internal::parallel::for_ranges(points_, 16, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        act(i);
+        counter_.add();
+      }
+    });
+  }
+
+ private:
+  static const internal::core::ProgressReporter& begun(const internal::core::ProgressReporter& progress) {
+    progress.begin("verify");
+    return progress;
+  }
+
+  std::size_t points_;
+  internal::core::ProgressReporter progress_;
+  internal::core::ProgressCounter counter_;
+};
+
+/// What has been found of a viewpoint for the targets of one list.
+struct Seen {
+  bool good = false, undecided = false;  ///< of one of them; `undecided` only where none is good
+  std::string cause;                     ///< of a claimed viewpoint that sees none so far
+};
+
+/// The viewpoints of several targets: each chooses its share of them, and all are judged for each.
+class ManyChecks {
+ public:
+  ManyChecks(const Scene& scene, PartViews views, const Sensor& sensor, const Navigation& navigation,
+             const Mesh& volume, const VerifyOptions& options, const Progress& callback)
+      : scene_(scene),
+        views_(std::move(views)),
+        sensor_(sensor),
+        navigation_(navigation),
+        volume_(volume),
+        options_(options),
+        verdicts_(options.points, Verdict(Random(options.seed, 0))),
+        for_all_(options.points, 1 + 2 * target_count(), callback),
+        first_(scene, views_.front().front(), sensor, navigation, volume, options) {}
+
+  VerifyReport run() {
+    draw();
+    std::vector<Seen> all(options_.points, Seen{true, false, {}});
+    for (const std::vector<std::vector<Target>>& list : views_) {
+      std::vector<Seen> seen(options_.points);
+      for (const std::vector<Target>& parts : list) look(parts, seen);
+      for (std::size_t i = 0; i < all.size(); ++i) {
+        all[i].good = all[i].good && (seen[i].good || seen[i].undecided);
+        all[i].undecided = all[i].undecided || seen[i].undecided;
+        if (all[i].cause.empty() && !seen[i].good) all[i].cause = seen[i].cause;
+      }
+    }
+    for_all_([&](std::size_t i) {
+      verdicts_[i].good = all[i].good;
+      verdicts_[i].undecided = all[i].undecided;
+      first_.settle(verdicts_[i]);
+    });
+    for (Verdict& verdict : verdicts_) verdict.blocked.reset();
+    VerifyReport report = first_.report(verdicts_);
+    const Verdict* worst = nullptr;
+    for (const Verdict& verdict : verdicts_) {
+      if (verdict.over && (!worst || verdict.depth > worst->depth)) worst = &verdict;
+    }
+    if (worst) report.worst_over_cause = all[static_cast<std::size_t>(worst - verdicts_.data())].cause;
+    return report;
+  }
+
+ private:
+  std::size_t target_count() const {
+    std::size_t count = 0;
+    for (const auto& list : views_) count += list.size();
+    return count;
+  }
+
+  Check check_of(const std::vector<Target>& parts) const {
+    return {scene_, parts, sensor_, navigation_, volume_, options_};
+  }
+
+  /// Positions are in the frame of the first target.
+  void draw() {
+    std::size_t number = 0;
+    const std::size_t count = target_count();
+    for (const auto& list : views_) {
+      for (const std::vector<Target>& parts : list) {
+        const Check check = check_of(parts);
+        const Vec3 shift = check.origin() - first_.origin();
+        for_all_([&](std::size_t i) {
+          if (i / 8 % count != number) return;  // eight viewpoints make a round of all kinds
+          verdicts_[i] = check.draw(i);
+          verdicts_[i].position += shift;
+        });
+        ++number;
+      }
+    }
+  }
+
+  void look(const std::vector<Target>& parts, std::vector<Seen>& seen) {
+    Check check = check_of(parts);
+    const Vec3 shift = first_.origin() - check.origin();
+    std::vector<Verdict> own = verdicts_;
+    for (Verdict& verdict : own) verdict.position += shift;
+    for (std::size_t part = 0; part < parts.size(); ++part) {
+      check.turn_to(part);
+      internal::parallel::for_ranges(own.size(), 16, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+          if (own[i].on_surface || seen[i].good) continue;
+          if (part == 0) check.judge(own[i]);
+          check.look(own[i]);
+        }
+      });
+    }
+    std::vector<std::size_t> wrong;
+    for_all_([&](std::size_t i) {
+      verdicts_[i].rays = own[i].rays;
+      if (own[i].on_surface || seen[i].good || !own[i].good) return;
+      (own[i].undecided ? seen[i].undecided : seen[i].good) = true;
+      if (seen[i].good) seen[i].undecided = false;
+    });
+    for (std::size_t i = 0; i < own.size(); ++i) {
+      const bool needs_cause = own[i].claimed && !own[i].on_surface && !seen[i].good && !seen[i].undecided;
+      if (needs_cause && seen[i].cause.empty() && !own[i].good) wrong.push_back(i);
+    }
+    // Few: none where the volume is right.
+    std::stable_sort(wrong.begin(), wrong.end(), [&](std::size_t a, std::size_t b) {
+      return own[a].blocked.value_or(0) < own[b].blocked.value_or(0);
+    });
+    for (const std::size_t i : wrong) seen[i].cause = check.cause(own[i]);
+  }
+
+  const Scene& scene_;
+  PartViews views_;
+  const Sensor& sensor_;
+  const Navigation& navigation_;
+  const Mesh& volume_;
+  const VerifyOptions& options_;
+  std::vector<Verdict> verdicts_;
+  ForAll for_all_;
+  Check first_;
+};
+
 }  // namespace
 
 VerifyReport verify_volume(const Scene& scene, const Target& target, const Sensor& sensor, const Navigation& navigation,
@@ -273,17 +465,7 @@ VerifyReport verify_volume(const Scene& scene, const Target& target, const Senso
   if (!topology.closed) return report_of_mesh(topology, options);  // it has no inside to try points in
   Check check(scene, parts, sensor, navigation, volume, options);
   std::vector<Verdict> verdicts(options.points, Verdict(Random(options.seed, 0)));
-  const internal::core::ProgressReporter progress(callback);
-  progress.begin("verify");
-  internal::core::ProgressCounter counter(progress, options.points * (parts.size() + 1));
-  const auto for_all = [&](const auto& act) {
-    internal::parallel::for_ranges(options.points, 16, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        act(i);
-        counter.add();
-      }
-    });
-  };
+  ForAll for_all(options.points, parts.size() + 1, callback);
   for_all([&](std::size_t i) { verdicts[i] = check.draw(i); });
   for (std::size_t part = 0; part < parts.size(); ++part) {
     check.turn_to(part);
@@ -293,6 +475,17 @@ VerifyReport verify_volume(const Scene& scene, const Target& target, const Senso
     for (std::size_t i = begin; i < end; ++i) check.settle(verdicts[i]);
   });
   return check.report(verdicts);
+}
+
+VerifyReport verify_volume(const Scene& scene, const std::vector<std::vector<Target>>& views, const Sensor& sensor,
+                           const Navigation& navigation, const Mesh& volume, const VerifyOptions& options,
+                           const Progress& progress) {
+  check_sensor(sensor);
+  check_arguments(options);
+  PartViews parts = raised_views(views, options.lift_m);
+  const internal::verify::Topology topology = internal::verify::topology_of(volume, "volume");
+  if (!topology.closed) return report_of_mesh(topology, options);
+  return ManyChecks(scene, std::move(parts), sensor, navigation, volume, options, progress).run();
 }
 
 }  // namespace vantage

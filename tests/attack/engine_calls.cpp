@@ -55,12 +55,19 @@ void write_zone(std::ostream& out, const Zone& zone) {
   out << "], z: [" << number(zone.min_z_m) << ", " << number(zone.max_z_m) << "]}\n";
 }
 
-// The attack draws no meshes to stay in.
+// The attack draws no meshes to stay in, and of ground a plane alone.
 void write_navigation(const Navigation& navigation, std::ostream& out) {
   if (navigation.empty()) return;
-  const auto& [altitude, keep_in, keep_in_zones, keep_out, keep_out_zones, meshes] = navigation;
+  const auto& [altitude, keep_in, keep_in_zones, keep_out, keep_out_zones, meshes, above_ground] = navigation;
   out << "navigation:\n";
-  if (altitude) out << "  altitude: [" << number(altitude->min_m) << ", " << number(altitude->max_m) << "]\n";
+  if (altitude || above_ground) {
+    out << "  altitude: {";
+    if (altitude) out << "z: [" << number(altitude->min_m) << ", " << number(altitude->max_m) << "]";
+    if (altitude && above_ground) out << ", ";
+    if (above_ground) out << "agl: [" << number(above_ground->min_m) << ", " << number(above_ground->max_m) << "]";
+    out << "}\n";
+  }
+  if (above_ground) out << "  ground: " << number(above_ground->ground.plane_z_m) << "\n";
   if (!keep_in.empty() || !keep_in_zones.empty()) out << "  keep_in:\n";
   for (const Box& box : keep_in) write_box(out, box);
   for (const Zone& zone : keep_in_zones) write_zone(out, zone);

@@ -170,6 +170,10 @@ class Claims {
       return (p.array() > box.min.array()).all() && (p.array() < box.max.array()).all();
     };
     if (limits.altitude && (p.z() < limits.altitude->min_m || p.z() > limits.altitude->max_m)) return "altitude";
+    if (limits.above_ground) {
+      const double above = p.z() - limits.above_ground->ground.plane_z_m;
+      if (above < limits.above_ground->min_m || above > limits.above_ground->max_m) return "agl";
+    }
     const bool anywhere = limits.keep_in.empty() && limits.keep_in_zones.empty();
     const auto zone_holds = [&p](const vantage::Zone& zone) { return is_in_zone(zone, p); };
     if (!anywhere && std::none_of(limits.keep_in.begin(), limits.keep_in.end(), holds) &&

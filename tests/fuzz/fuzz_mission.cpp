@@ -16,17 +16,24 @@ void require(bool holds) {
   if (!holds) std::abort();
 }
 
-void check_accepted(const vantage::MissionFile& mission) {
-  require(mission.scene.file.is_absolute());
-  require(!mission.target.parts.empty());
-  for (const std::vector<vantage::Vec3>& part : mission.target.parts) {
-    if (mission.ground_target || mission.face_target) {
+void check_target(const vantage::MissionTarget& given, bool is_in_frame) {
+  require(!given.target.parts.empty());
+  for (const std::vector<vantage::Vec3>& part : given.target.parts) {
+    if (given.ground_target || given.face_target) {
       require(part.empty());  // the scene says where it lies
-    } else if (mission.crs.empty()) {
+    } else if (is_in_frame) {
       require(part.size() == 1 || (part.size() >= 3 && part.size() <= 64));
     }
     for (const vantage::Vec3& vertex : part) require(vertex.allFinite());
   }
+}
+
+void check_accepted(const vantage::MissionFile& mission) {
+  require(mission.scene.file.is_absolute());
+  if (mission.targets.empty()) {
+    check_target({mission.target, mission.ground_target, mission.face_target}, mission.crs.empty());
+  }
+  for (const vantage::MissionTarget& target : mission.targets) check_target(target, mission.crs.empty());
   require(std::isfinite(mission.sensor.max_range_m) && mission.sensor.max_range_m > 0);
   require(std::isfinite(mission.exact.tolerance_m) && mission.exact.tolerance_m > 0);
   require(mission.scene.mesh.scale > 0);

@@ -20,6 +20,10 @@ Volume joined(std::vector<Volume> volumes, const Progress& progress) {
   return volumes.size() == 1 ? std::move(volumes[0]) : intersect_volumes(volumes, progress);
 }
 
+Volume united(std::vector<Volume> volumes, const Progress& progress) {
+  return volumes.size() == 1 ? std::move(volumes[0]) : unite_volumes(volumes, progress);
+}
+
 Volume within_limits(const Volume& volume, const PreparedTarget& target, const Navigation& navigation,
                      const Progress& progress) {
   return cut_to_limits(volume, target, navigation, progress);

@@ -17,6 +17,9 @@ Volume exact_volume(const PreparedTarget& target, const ExactOptions& options, c
 /// What all volumes share.
 Volume joined(std::vector<Volume> volumes, const Progress& progress);
 
+/// What at least one volume holds.
+Volume united(std::vector<Volume> volumes, const Progress& progress);
+
 /// As cut_to_limits.
 Volume within_limits(const Volume& volume, const PreparedTarget& target, const Navigation& navigation,
                      const Progress& progress);

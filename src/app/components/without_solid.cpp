@@ -17,6 +17,11 @@ Volume joined(std::vector<Volume> volumes, const Progress&) {
   return std::move(volumes[0]);
 }
 
+Volume united(std::vector<Volume> volumes, const Progress&) {
+  if (volumes.size() != 1) throw_missing("solid", "several targets", "targets");
+  return std::move(volumes[0]);
+}
+
 Volume within_limits(const Volume&, const PreparedTarget& target, const Navigation& navigation, const Progress&) {
   if (!navigation.empty()) throw_missing("solid", "navigation limits", "navigation");
   throw_missing("solid", "limits of the sensor besides its range", "sensor");
