@@ -156,7 +156,7 @@ class Checker:
         text = snippet.text
         is_mission = snippet.mark == "mission keys"
         for key, value in MISSION.items() if is_mission else ():
-            if not re.search(rf"^{key}:", text, re.MULTILINE):
+            if not re.search(rf"^{key}{'s?' if key == 'target' else ''}:", text, re.MULTILINE):
                 text += f"{key}: {value}\n"
         file = folder / "keys.yaml"
         file.write_text(text, encoding="utf-8")

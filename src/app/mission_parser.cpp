@@ -118,10 +118,10 @@ void MissionParser::parse_sensor(const YamlNode& node) {
   mission_.camera = std::move(section.camera);
   mission_.sun_time = std::move(section.sun_time);
   mission_.vlos = section.vlos;
-  const bool is_of_points =
-      mission_.targets.empty() ? mission_.target.is_point()
-                               : std::all_of(mission_.targets.begin(), mission_.targets.end(),
-                                             [](const MissionTarget& one) { return one.target.is_point(); });
+  const bool is_of_points = mission_.targets.empty()
+                                ? mission_.target.is_point()
+                                : std::all_of(mission_.targets.begin(), mission_.targets.end(),
+                                              [](const MissionTarget& one) { return one.target.is_point(); });
   if (mission_.vlos && !is_of_points) {
     fail(ErrorCode::not_applicable, node, "sensor.vlos is of a pilot, and the target is no point",
          "give the pilot's place: 'target: {point: [x, y, z]}', or 'max_range' instead of 'vlos'");

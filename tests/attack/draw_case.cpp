@@ -226,7 +226,7 @@ void draw_limits(Random& random, const Pose& pose, Case& c) {
   }
   if (random.chance(0.2)) {
     const double low = random.uniform(-0.2, 0.4) * c.range, plane_z_m = origin.z() - random.uniform(0, 0.2) * c.range;
-    c.navigation.above_ground = {low, low + random.uniform(0.1, 0.8) * c.range, Ground{plane_z_m}};
+    c.navigation.above_ground = {low, low + random.uniform(0.1, 0.8) * c.range, vantage::Ground{plane_z_m}};
   }
   if (random.chance(0.4)) c.navigation.keep_in = {draw_box(random, pose, c.range), draw_box(random, pose, c.range)};
   if (random.chance(0.4)) c.navigation.keep_out = {draw_box(random, pose, 0.5 * c.range)};
