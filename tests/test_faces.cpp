@@ -414,5 +414,29 @@ TEST(Faces, NeedObjectsThatAreThere) {
   EXPECT_FALSE(FaceFinder(scene).nearest(kFirst, FaceKind::roof, Vec3::Zero()));
 }
 
+/// A wall of narrow columns, each of two quadrilaterals that meet at another height than those beside it.
+TEST(Faces, WallsWithoutWholeSharedEdgesHangTogether) {
+  Scene scene;
+  const auto add = [&](double x0, double x1, double z0, double z1) {
+    const auto first = static_cast<std::uint32_t>(scene.mesh.vertices.size());
+    for (const auto& [x, z] : {std::pair{x0, z0}, {x1, z0}, {x1, z1}, {x0, z1}}) {
+      scene.mesh.vertices.emplace_back(x, 0, z);
+    }
+    scene.mesh.triangles.push_back({first, first + 1, first + 2});
+    scene.mesh.triangles.push_back({first, first + 2, first + 3});
+  };
+  for (int i = 0; i < 50; ++i) {
+    const double split = i % 2 == 0 ? 4 : 4.01;
+    add(0.125 * i, 0.125 * (i + 1), 0, split);
+    add(0.125 * i, 0.125 * (i + 1), split, 8);
+  }
+  add(6.25, 12, 0, 8);
+  scene.object_of.assign(scene.mesh.triangles.size(), 0);
+  scene.objects = {{"wall", "", ObjectKind::other}};
+  const std::vector<Face> faces = faces_of(scene, FaceKind::facade);
+  ASSERT_EQ(faces.size(), 1u);
+  EXPECT_NEAR(faces[0].area_m2, 96, 1e-6);
+}
+
 }  // namespace
 }  // namespace vantage

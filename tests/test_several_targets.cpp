@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -255,6 +256,33 @@ TEST_F(SeveralTargets, ThatAreWrong) {
   testing::expect_error([&] { run_missions(pierced); }, ErrorCode::target_pierced, "mission.yaml:");
 }
 
+TEST_F(SeveralTargets, NamesGivenTwiceGetNumbersThatAreFree) {
+  const Mission each = of("each", {"{name: a, point: [20, 20, 5]}", "{name: a, point: [-20, -30, 5]}",
+                                   "{name: a (2), point: [30, -30, 5]}"});
+  std::set<std::string> names;
+  for (const auto& view : each.views) names.insert(view.front().name);
+  EXPECT_EQ(names, (std::set<std::string>{"a", "a (2)", "a (3)"}));
+}
+
+TEST_F(SeveralTargets, AreNotOnePreparedTarget) {
+  const Mission any = of("any", {kWest, kNorth});
+  const PreparedScene scene(any.loaded.scene);
+  testing::expect_error([&] { prepare_target(any, scene); }, ErrorCode::not_applicable);
+  const PreparedTarget alone(scene, any.views[0][0], any.sensor);
+  testing::expect_code([&] { run_mission(any, alone); }, ErrorCode::not_applicable);
+}
+
+TEST_F(SeveralTargets, PointsAreStatedWithTheirSides) {
+  const Mission all = of("all", {"{name: a, point: [20, 20, 5], front: [1, 0, 0]}", kNorth});
+  const Volume volume = run_mission(all).volume;
+  ASSERT_TRUE(volume.provenance);
+  ASSERT_EQ(volume.provenance->views.size(), 2u);
+  const auto& views = volume.provenance->views;
+  EXPECT_TRUE(std::any_of(views.begin(), views.end(), [](const std::vector<Target>& list) {
+    return list[0].is_point() && list[0].front == Vec3(1, 0, 0);
+  }));
+}
+
 TEST_F(SeveralTargets, CanBeStopped) {
   const Mission each = of("each", {kWest, kNorth, kSheet});
   int calls = 0;
@@ -369,6 +397,14 @@ TEST_F(CliTargets, EachHasAVolumeAndARow) {
   expect_bad({"verify", "mission.yaml", wall, "--target", "b square"}, "--target");
   const std::filesystem::path report = folder_ / "made.a_square.report.json";
   EXPECT_TRUE(std::filesystem::exists(report));
+}
+
+TEST_F(CliTargets, NoVolumeOverwritesAnother) {
+  write("mission.yaml", std::string(testing::kScene) + testing::kSensor +
+                            "combine: each\ntargets:\n  - {name: b.c, point: [0, 0, 5]}\n"
+                            "  - {name: c, point: [20, 0, 5]}\n");
+  expect_bad({"compute", "mission.yaml", "-o", "o.ply", "-o", "o.b.ply"}, "o.b.c.ply");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "o.c.ply"));
 }
 
 TEST_F(CliTargets, QueriesMeanTheSame) {

@@ -247,6 +247,14 @@ TEST(ZoneFiles, RefusesBrokenKml) {
   refuse(kml("<Polygon><outerBoundaryIs><LinearRing><coordinates>1,2 3,4 5,6</coordinates></LinearRing>"
              "</outerBoundaryIs></Polygon>"),
          kSyntax, "line 2");
+  const std::string corners = "1,2 3,4 5,6 1,2", inner = "1.1,2.1 1.2,2.1 1.2,2.2 1.1,2.1";
+  refuse(kml("<Polygon><outerBoundaryIs><LinearRing><coordinates>9,9 <x/>" + corners +
+             "</coordinates></LinearRing></outerBoundaryIs></Polygon>"),
+         kSyntax, "line 2");
+  refuse(kml("<Polygon><outerBoundaryIs><LinearRing><coordinates>" + corners +
+             "</coordinates></LinearRing></outerBoundaryIs><LinearRing><coordinates>" + inner +
+             "</coordinates></LinearRing></Polygon>"),
+         kSyntax, "line 2");
   std::string deep;
   for (int i = 0; i < 200; ++i) deep += "<Folder>";
   refuse(kml(deep), kSyntax, "line 2");
@@ -433,6 +441,35 @@ TEST(ZoneFiles, ReadingThemCanBeStopped) {
     };
     expect_code([&] { resolve_mission(read, stop); }, ErrorCode::cancelled);
     EXPECT_TRUE(was_reached);
+  }
+}
+
+TEST(ZoneFiles, PointsFarAwayAreWithinReachToo) {
+  const ZoneMission mission;
+  const auto square = [](const std::string& west, const std::string& east) {
+    return feature("{\"type\": \"Polygon\", \"coordinates\": [[[" + west + ", 47.9], [" + east + ", 47.9], [" + east +
+                   ", 48.1], [" + west + ", 48.1], [" + west + ", 47.9]]]}");
+  };
+  mission.write("zones.json", collection(square("10.9", "11.1") + ", " + square("12.9", "13.1")));
+  const std::string near = "{vertices: [[0, 0, 1], [4, 0, 1], [4, 4, 1]]}", far = "{point: [149000, 0, 5]}";
+  const auto resolve = [&](const std::string& targets) {
+    mission.write("mission.yaml",
+                  "scene: {osm: city.osm, center: [48, 11], radius: 500}\nsensor: {max_range: 80}\ncombine: any\n"
+                  "targets: [" +
+                      targets + "]\nnavigation: {keep_out: [{file: zones.json, heights: any}]}\n");
+    return resolve_mission(read_mission(mission.folder() / "mission.yaml"));
+  };
+  EXPECT_EQ(resolve(near).navigation.keep_out_zones.size(), 1u);
+  expect_code([&] { resolve(near + ", " + far); }, ErrorCode::too_far_away, "zones.json");
+}
+
+TEST(ZoneFiles, ZonesWiderThanHalfTheEarthAreRefused) {
+  const ZoneMission mission;
+  const std::string limits = "keep_out: [{file: zones.json, heights: any}]";
+  for (const std::string ring : {"[-90, 40], [120, 40], [120, 50], [-90, 50], [-90, 40]",
+                                 "[-90, 40], [0, 40], [120, 40], [120, 50], [0, 50], [-90, 50], [-90, 40]"}) {
+    mission.write("zones.json", "{\"type\": \"Polygon\", \"coordinates\": [[" + ring + "]]}");
+    expect_error([&] { mission.resolve(limits); }, ErrorCode::value_unsupported, "zones.json");
   }
 }
 

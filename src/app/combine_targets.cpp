@@ -1,7 +1,7 @@
 #include "app/combine_targets.h"
 
 #include <algorithm>
-#include <map>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -66,10 +66,18 @@ Target together(const std::vector<Target>& targets) {
 
 /// Names that are there twice are numbered.
 void tell_apart(std::vector<std::vector<Target>>& views) {
-  std::map<std::string, int> seen;
+  std::set<std::string> taken;
+  for (const std::vector<Target>& view : views) taken.insert(view.front().name);
+  std::set<std::string> seen;
   for (std::vector<Target>& view : views) {
-    const int number = ++seen[view.front().name];
-    if (number > 1) view.front().name += " (" + std::to_string(number) + ")";
+    std::string& name = view.front().name;
+    if (seen.insert(name).second) continue;
+    std::string numbered;
+    for (int number = 2; numbered.empty() || !taken.insert(numbered).second; ++number) {
+      numbered = name + " (" + std::to_string(number) + ")";
+    }
+    name = numbered;
+    seen.insert(name);
   }
 }
 

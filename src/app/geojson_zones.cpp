@@ -128,7 +128,8 @@ void GeoJsonReader::check_crs(const json& root) const {
   if (crs == root.end() || crs->is_null()) return;
   const std::string text = crs->dump(-1, ' ', true, json::error_handler_t::replace);
   for (const char* known : {"CRS84", "EPSG::4326", "EPSG:4326"}) {
-    if (text.find(known) != std::string::npos) return;
+    const std::size_t at = text.find(known), end = at + std::string_view(known).size();
+    if (at != std::string::npos && !(end < text.size() && text[end] >= '0' && text[end] <= '9')) return;
   }
   fail("crs", "its positions are not in WGS 84",
        "convert the file to longitudes and latitudes (ogr2ogr -t_srs EPSG:4326)", ErrorCode::value_unsupported);

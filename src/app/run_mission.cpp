@@ -154,7 +154,18 @@ class SharedProgress {
 
 const char* name_of(Method method) { return method == Method::spheres ? "spheres" : "exact"; }
 
+namespace {
+
+void check_one_target(const Mission& mission) {
+  if (mission.views.empty()) return;
+  throw Error(ErrorCode::not_applicable, "the mission has several targets, and one alone is not what it asks for",
+              mission.as_written.file.string(), "use prepare_views, and run_mission without a prepared target");
+}
+
+}  // namespace
+
 PreparedTarget prepare_target(const Mission& mission, const PreparedScene& scene) {
+  check_one_target(mission);
   return prepare(mission, mission.target, scene);
 }
 
@@ -181,6 +192,7 @@ Result run_mission(const Mission& mission, const RunOptions& options, const Prog
 
 Result run_mission(const Mission& mission, const PreparedTarget& target, const RunOptions& options,
                    const Progress& progress) {
+  check_one_target(mission);
   Result result;
   internal::parallel::with_threads(options.threads, [&] {
     internal::core::Stopwatch stopwatch;

@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 
+#include "app/combine_targets.h"
 #include "core/triangle_distance.h"
 #include "vantage/input.h"
 
@@ -53,8 +54,8 @@ double nearest(const Mesh& mesh, const Vec3& point, double enough) {
 }
 
 /// That no triangle of the scene is so near that it could matter.
-std::optional<Warning> far_off(const Mission& mission, const Scene& scene) {
-  const Box target = target_box(mission.target);
+std::optional<Warning> far_off(const Mission& mission, const Target& of, const Scene& scene) {
+  const Box target = target_box(of);
   const Vec3 middle = (target.min + target.max) / 2;
   const double enough = range_limit_m(mission.sensor) + (target.max - target.min).norm() / 2;
   const double distance = nearest(scene.mesh, middle, enough);
@@ -163,11 +164,21 @@ std::optional<Warning> on_its_side(const LoadedScene& loaded) {
 std::vector<Warning> scene_warnings(const Mission& mission, const Volume* volume) {
   const LoadedScene& loaded = mission.loaded;
   std::vector<Warning> warnings;
-  if (loaded.scene.mesh.empty() || mission.target.parts.at(0).empty()) return warnings;
+  if (loaded.scene.mesh.empty()) return warnings;
+  std::optional<Warning> away;
+  bool has_corners = false;
+  for (const std::vector<Target>& view : views_of(mission)) {
+    for (const Target& target : view) {
+      if (target.parts.at(0).empty()) continue;
+      has_corners = true;
+      if (!away) away = far_off(mission, target, loaded.scene);
+    }
+  }
+  if (!has_corners) return warnings;
   if (const auto side = on_its_side(loaded)) warnings.push_back(*side);
-  if (const auto away = far_off(mission, loaded.scene)) {
+  if (away) {
     warnings.push_back(*away);
-  } else if (const auto below = from_below(mission, loaded.scene)) {
+  } else if (const auto below = mission.target.parts.at(0).empty() ? std::nullopt : from_below(mission, loaded.scene)) {
     warnings.push_back(*below);
   } else if (const auto under = below_all(loaded.scene, volume)) {
     warnings.push_back(*under);

@@ -98,6 +98,10 @@ const YamlNode& TargetParser::parse_parts(const YamlNode& node, const YamlNode& 
     for (std::size_t k = 0; k < parts.items[i].items.size(); ++k) {
       part.push_back(vector(parts.items[i].items[k], indexed_item(what, k)));
     }
+    if (part.size() == 1) {
+      fail(ErrorCode::target_vertex_count, parts.items[i], what + " needs at least 3 vertices, and has 1",
+           "add vertices, or write 'point: [x, y, z]' for a single point");
+    }
   }
   return parts;
 }

@@ -4,6 +4,7 @@
 #include <limits>
 #include <numbers>
 
+#include "app/combine_targets.h"
 #include "app/scene_warnings.h"
 #include "core/format.h"
 #include "geo/local_frame.h"
@@ -44,12 +45,23 @@ Box flying_area(const Navigation& navigation) {
   return area;
 }
 
+std::vector<Vec3> corners_of_all(const Mission& mission) {
+  std::vector<Vec3> all;
+  for (const std::vector<Target>& view : internal::app::views_of(mission)) {
+    for (const Target& target : view) {
+      const auto own = corners(target);
+      all.insert(all.end(), own.begin(), own.end());
+    }
+  }
+  return all;
+}
+
 /// Points in plan round all that can lie between the target and where it is looked at from.
 std::vector<Vec2> reach(const Mission& mission) {
   constexpr int kDirections = 64;
   const Box area = flying_area(mission.navigation);
   std::vector<Vec2> points;
-  for (const Vec3& corner : corners(mission.target)) {
+  for (const Vec3& corner : corners_of_all(mission)) {
     points.emplace_back(corner.head<2>());
     for (int i = 0; i < kDirections; ++i) {
       const double angle = 2 * std::numbers::pi * i / kDirections;

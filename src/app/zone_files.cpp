@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/combine_targets.h"
 #include "app/input_file.h"
 #include "app/places.h"
 #include "app/zone_file.h"
@@ -44,8 +45,12 @@ std::optional<double> sea_level_z(const Mission& mission) {
 /// No viewpoint is farther from the scene's origin.
 double farthest_viewpoint_m(const Mission& mission) {
   double farthest = 0;
-  for (const std::vector<Vec3>& part : mission.target.parts) {
-    for (const Vec3& corner : part) farthest = std::max(farthest, corner.head<2>().norm());
+  for (const std::vector<Target>& view : views_of(mission)) {
+    for (const Target& target : view) {
+      for (const std::vector<Vec3>& part : target.parts) {
+        for (const Vec3& corner : part) farthest = std::max(farthest, corner.head<2>().norm());
+      }
+    }
   }
   return std::max(farthest + range_limit_m(mission.sensor), geo::kFarthestM);
 }
@@ -66,7 +71,7 @@ class FileZones {
   void add_heights(const ListedZone& listed, bool has_none, Zone& zone) const;
   double z_of(const std::optional<ZoneHeight>& height, double without, const std::string& place) const;
   double distance_m(const ListedZone& listed) const;
-  Zone::Ring unwrapped(Zone::Ring ring) const;
+  Zone::Ring unwrapped(Zone::Ring ring, const std::string& place) const;
   void note_left_out(const ZoneList& list, std::size_t other_fences, std::size_t far) const;
   [[noreturn]] void fail(ErrorCode code, const std::string& place, const std::string& problem,
                          const std::string& fix) const {
@@ -79,10 +84,28 @@ class FileZones {
   const geo::LocalFrame& frame_;
 };
 
-/// Longitudes within half a turn of the scene's: sides may cross the antimeridian.
-Zone::Ring FileZones::unwrapped(Zone::Ring ring) const {
-  const double origin = frame_.origin().longitude_deg;
-  for (Point& p : ring) p.x() = origin + std::remainder(p.x() - origin, 360);
+/// Sides may cross the antimeridian: each is taken the short way round, and all of the ring is turned to be nearest to
+/// the scene. One that is so long that either way may be meant is refused, and so is a ring that leaves no room.
+Zone::Ring FileZones::unwrapped(Zone::Ring ring, const std::string& place) const {
+  constexpr double kSurelyAcross = 300, kWidest = 180;
+  double low = INFINITY, high = -INFINITY, before = ring.empty() ? 0 : ring.front().x();
+  double unwrapped = before;
+  for (Point& p : ring) {
+    const double step = p.x() - before;
+    before = p.x();
+    if (std::abs(step) > kWidest && std::abs(step) < kSurelyAcross) low = -INFINITY;
+    unwrapped += std::abs(step) > kWidest ? std::remainder(step, 360) : step;
+    p.x() = unwrapped;
+    low = std::min(low, p.x());
+    high = std::max(high, p.x());
+  }
+  if (!(high - low <= kWidest)) {
+    fail(ErrorCode::value_unsupported, place, "the zone is wider than 180 degrees of longitude",
+         "cut it into parts, at the antimeridian and near the scene");
+  }
+  const double middle = (low + high) / 2, origin = frame_.origin().longitude_deg;
+  const double turns = origin + std::remainder(middle - origin, 360) - middle;
+  for (Point& p : ring) p.x() += turns;
   return ring;
 }
 
@@ -94,7 +117,7 @@ double FileZones::distance_m(const ListedZone& listed) const {
   if (listed.circle) {
     return std::max(position(listed.circle->centre).norm() - listed.circle->radius_m - kSlackM, 0.0);
   }
-  const Zone::Ring ring = unwrapped(listed.outer);
+  const Zone::Ring ring = unwrapped(listed.outer, listed.place);
   Box box;
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const Point &from = ring[i], &to = ring[(i + 1) % ring.size()];
@@ -184,8 +207,8 @@ Zone FileZones::placed(const ListedZone& listed) const {
     zone.outer = circle(*listed.circle);
     return zone;
   }
-  zone.outer = unwrapped(listed.outer);
-  for (const Zone::Ring& hole : listed.holes) zone.holes.push_back(unwrapped(hole));
+  zone.outer = unwrapped(listed.outer, listed.place);
+  for (const Zone::Ring& hole : listed.holes) zone.holes.push_back(unwrapped(hole, listed.place));
   if (const auto fault = core::fault_of(zone)) fail(fault->code, listed.place, fault->problem, fault->fix);
   const ToFrame to_frame = [this](const Point& p) { return frame_.to_local({p.x(), p.y()}); };
   try {

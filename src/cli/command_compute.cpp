@@ -313,11 +313,13 @@ int run_each(const ComputeArguments& options, const MissionFile& file, const std
       names.push_back(mission.views.empty() ? mission.target.name : mission.views[i].front().name);
     }
     files.resize(names.size());
+    std::vector<fs::path> all;  // checked together: a file of one output may have the name of another one's
     for (const fs::path& output : options.files()) {
       const std::vector<fs::path> named = volume_files(output, names);
-      check_result_files(named, inputs);
       for (std::size_t i = 0; i < named.size(); ++i) files[i].push_back(named[i]);
+      all.insert(all.end(), named.begin(), named.end());
     }
+    check_result_files(all, inputs);
     results = run_missions(mission, {options.common.threads, {}}, progress.callback());
     for (std::size_t i = 0; i < results.size(); ++i) {
       ResultRequest request = result_request(mission, results[i], files[i]);

@@ -9,7 +9,9 @@
 #include <numeric>
 #include <utility>
 
+#include "core/bvh.h"
 #include "core/edges.h"
+#include "core/walk_bvh.h"
 #include "core/weld.h"
 #include "scene/convex_polygons.h"
 #include "scene/face_cover.h"
@@ -58,18 +60,80 @@ struct Group {
   Vec3 normal;                         // of the largest; its turn is not the face's yet
 };
 
-/// Starts with the largest triangle, and takes in neighbours while they lie in its plane.
-std::vector<Group> groups_of(const ObjectMesh& object, const std::vector<Vec3>& vertices) {
-  const std::size_t count = object.triangles.size();
-  std::vector<std::vector<std::uint32_t>> neighbours(count);
+using Neighbours = std::vector<std::vector<std::uint32_t>>;
+using Edge = std::array<Vec3, 2>;
+
+internal::core::Bounds box_about(const Edge& edge, double margin) {
+  internal::core::Bounds bounds{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto along = static_cast<Eigen::Index>(axis);
+    const auto [low, high] = std::minmax(edge[0][along], edge[1][along]);
+    bounds.min[axis] = std::nextafterf(static_cast<float>(low - margin), -INFINITY);
+    bounds.max[axis] = std::nextafterf(static_cast<float>(high + margin), INFINITY);
+  }
+  return bounds;
+}
+
+/// Whether two edges have more than a point in common, to `slack` metres.
+bool run_together(const Edge& a, const Edge& b, double slack) {
+  const double length = (a[1] - a[0]).norm();
+  if (!(length > slack)) return false;
+  const Vec3 along = (a[1] - a[0]) / length;
+  std::array<double, 2> at{};
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Vec3 from_start = b[k] - a[0];
+    at[k] = from_start.dot(along);
+    if ((from_start - at[k] * along).norm() > slack) return false;
+  }
+  return std::min(std::max(at[0], at[1]), length) - std::max(std::min(at[0], at[1]), 0.0) > slack;
+}
+
+/// Triangles that share an edge, or a part of one: an edge may meet two shorter ones.
+Neighbours neighbours_of(const ObjectMesh& object, const std::vector<Vec3>& vertices, double slack) {
+  Neighbours neighbours(object.triangles.size());
+  std::vector<Edge> edges;
+  std::vector<std::vector<std::uint32_t>> triangles;  // of each edge
   const auto uses = internal::core::edge_uses(object.triangles, vertices.size());
   internal::core::for_each_edge(std::span(uses), [&](std::span<const internal::core::EdgeUse> edge) {
+    edges.push_back({vertices[edge[0].low], vertices[edge[0].high]});
+    triangles.emplace_back();
     for (const auto& a : edge) {
+      triangles.back().push_back(a.triangle);
       for (const auto& b : edge) {
         if (a.triangle != b.triangle) neighbours[a.triangle].push_back(b.triangle);
       }
     }
   });
+  std::vector<internal::core::Bounds> boxes;
+  for (const Edge& edge : edges) boxes.push_back(box_about(edge, slack));
+  std::vector<std::uint32_t> order;
+  const internal::core::Bvh bvh = internal::core::build_bvh(boxes, order);
+  for (std::uint32_t i = 0; i < edges.size(); ++i) {
+    const auto meets = [&](const internal::core::BvhNode& node) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (node.bounds.min[axis] > boxes[i].max[axis] || node.bounds.max[axis] < boxes[i].min[axis]) return false;
+      }
+      return true;
+    };
+    internal::core::walk_bvh(bvh, meets, [&](std::uint32_t item) {
+      const std::uint32_t other = order[item];
+      if (other <= i || !run_together(edges[i], edges[other], slack)) return;
+      for (const std::uint32_t a : triangles[i]) {
+        for (const std::uint32_t b : triangles[other]) {
+          if (a == b) continue;
+          neighbours[a].push_back(b);
+          neighbours[b].push_back(a);
+        }
+      }
+    });
+  }
+  return neighbours;
+}
+
+/// Starts with the largest triangle, and takes in neighbours while they lie in its plane.
+std::vector<Group> groups_of(const ObjectMesh& object, const std::vector<Vec3>& vertices, double slack) {
+  const std::size_t count = object.triangles.size();
+  const Neighbours neighbours = neighbours_of(object, vertices, slack);
   std::vector<std::uint32_t> order(count);
   std::iota(order.begin(), order.end(), 0U);
   std::stable_sort(order.begin(), order.end(),
@@ -303,7 +367,7 @@ std::vector<Face> FaceFinder::faces(std::span<const std::uint32_t> objects, Face
   std::vector<Face> result;
   for (const std::uint32_t object : objects) {
     const ObjectMesh mesh = data_->mesh_of(object);
-    for (const Group& group : groups_of(mesh, data_->scene.mesh.vertices)) {
+    for (const Group& group : groups_of(mesh, data_->scene.mesh.vertices, 1e3 * data_->slack())) {
       std::vector<Face> faces = data_->faces_of(mesh, object, group, kind);
       std::move(faces.begin(), faces.end(), std::back_inserter(result));
     }
@@ -320,7 +384,7 @@ std::optional<Face> FaceFinder::nearest(std::span<const std::uint32_t> objects, 
   double least = INFINITY;
   for (const std::uint32_t object : objects) {
     const ObjectMesh mesh = data_->mesh_of(object);
-    const std::vector<Group> groups = groups_of(mesh, data_->scene.mesh.vertices);
+    const std::vector<Group> groups = groups_of(mesh, data_->scene.mesh.vertices, 1e3 * data_->slack());
     // No part of a face is nearer than its triangles, but for what it was raised.
     std::vector<std::pair<double, std::size_t>> order;
     for (std::size_t i = 0; i < groups.size(); ++i) {

@@ -27,7 +27,11 @@ Views views_of(const VolumeProvenance& made) { return made.views.empty() ? Views
 
 /// That all of several volumes are needed: of one target, or of several.
 void state_all(const VolumeProvenance& part, VolumeProvenance& result) {
-  if (part.views.empty() && result.views.empty()) {
+  // Parts of one target have its side and its offset, and a point is none of several parts.
+  const Target &one = part.target, &other = result.target;
+  const bool agree = one.offset_m == other.offset_m && one.front == other.front &&
+                     one.front_by_order == other.front_by_order && !one.is_point() && !other.is_point();
+  if (part.views.empty() && result.views.empty() && agree) {
     result.target.parts.insert(result.target.parts.end(), part.target.parts.begin(), part.target.parts.end());
     return;
   }

@@ -34,7 +34,7 @@ class KmlReader {
   };
   struct Position {
     Eigen::Vector2d lonlat;
-    double altitude_m;
+    std::optional<double> altitude_m;
   };
 
   // Errors may not pass through Expat, which is C: they wait until it is left.
@@ -103,6 +103,7 @@ void KmlReader::start(const std::string& name) {
     fail("not a file of zones: XML about <" + io::clean_name(name) + ">", "give KML");
   }
   if (open_.size() >= kDeepest) fail("elements are nested deeper than 100 levels");
+  if (!open_.empty() && open_.back() == "coordinates") fail("there is an element among coordinates");
   open_.push_back(name);
   text_.clear();
   if (name == "Placemark") name_.clear();
@@ -125,7 +126,10 @@ void KmlReader::end(const std::string& name) {
   if (name == "altitudeMode" && is_in("Polygon")) altitude_mode_ = io::clean_name(text_);
   if (name == "extrude" && is_in("Polygon")) extrude_ = io::clean_name(text_);
   if (name == "coordinates" && is_in("LinearRing") && zone_) {
-    const bool is_outer = open_.size() > 1 && open_[open_.size() - 2] == "outerBoundaryIs";
+    const std::string around = open_.size() > 1 ? open_[open_.size() - 2] : "";
+    const bool is_outer = around == "outerBoundaryIs";
+    if (!is_outer && around != "innerBoundaryIs")
+      fail("a ring of a polygon is neither its outer nor an inner boundary");
     if (is_outer && !zone_->outer.empty()) fail("a polygon has two outer boundaries");
     Zone::Ring ring = ring_of(positions());
     if (is_outer) {
@@ -160,7 +164,7 @@ Zone::Ring KmlReader::ring_of(const std::vector<Position>& positions) {
   for (const Position& p : positions) {
     closed.push_back(p.lonlat);
     if (!altitude_m_) altitude_m_ = p.altitude_m;
-    is_level_ = is_level_ && *altitude_m_ == p.altitude_m;
+    is_level_ = is_level_ && p.altitude_m && *altitude_m_ == *p.altitude_m;  // false where one has no altitude
   }
   return opened_ring(closed, file_, place());
 }
@@ -196,7 +200,8 @@ std::vector<KmlReader::Position> KmlReader::positions() const {
       fail("a position is not longitude,latitude,altitude: " + in_quotes(io::clean_name(tuple.substr(0, 60))),
            "write numbers with commas between them and no blanks");
     }
-    positions.push_back({checked_position(numbers[0], numbers[1], file_, place()), numbers[2]});
+    positions.push_back({checked_position(numbers[0], numbers[1], file_, place()),
+                         count == 3 ? std::optional(numbers[2]) : std::nullopt});
   }
 }
 
