@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <set>
 #include <string>
 #include <vector>
@@ -102,7 +103,7 @@ bool holds(const Mesh& mesh, const Vec3& p) {
     const double la = a.norm(), lb = b.norm(), lc = c.norm();
     sum += std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
   }
-  return sum > 3.14159;
+  return sum > std::numbers::pi;
 }
 
 struct Case {

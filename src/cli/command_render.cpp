@@ -97,7 +97,7 @@ std::vector<fs::path> draw(const RenderArguments& options, Mission mission, cons
     write_png(picture(options, mission, results[0].volume, view, size, progress), output, progress);
     return {output};
   }
-  const std::vector<fs::path> files = volume_files(output, target_names(mission));
+  std::vector<fs::path> files = volume_files(output, target_names(mission));
   for (std::size_t i = 0; i < results.size(); ++i) {
     check_can_write(files[i]);
     write_png(picture(options, one_volume(mission, i), results[i].volume, view, size, progress), files[i], progress);

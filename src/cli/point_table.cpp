@@ -286,7 +286,7 @@ void PointTable::append_json(std::string& text, const Vec3& coordinates, const P
   text.append(", \"behind_target\": ").append(truth(answer.behind_target));
   text.append(", \"outside_of\": ").append(json_text(answer.outside_of));
   if (fraction) text.append(", \"fraction\": ").append(shortest(*fraction));
-  if (options_.target) text.append(", \"target\": ").append(json_text(std::string_view(target)));
+  if (options_.target) text.append(", \"target\": ").append(json_text(std::string_view{target}));
   text += "}";
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "vantage/error.h"
 
@@ -43,7 +44,7 @@ void check(const std::vector<Zone>& zones, const std::string& name) {
 
 /// How often the ring goes round the point, by the angles under which its sides are seen; nothing on a side.
 std::optional<int> turns_round(const Zone::Ring& ring, const Plan& point) {
-  constexpr double kFullTurn = 6.283185307179586;
+  constexpr double kFullTurn = 2 * std::numbers::pi;
   double sum = 0;
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const Plan a = ring[i] - point, b = ring[(i + 1) % ring.size()] - point;
