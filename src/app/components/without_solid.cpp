@@ -22,7 +22,7 @@ Volume united(std::vector<Volume> volumes, const Progress&) {
   return std::move(volumes[0]);
 }
 
-Volume within_limits(const Volume&, const PreparedTarget& target, const Navigation& navigation, const Progress&) {
+Volume within_limits(const Volume&, const PreparedTarget&, const Navigation& navigation, const Progress&) {
   if (!navigation.empty()) throw_missing("solid", "navigation limits", "navigation");
   throw_missing("solid", "limits of the sensor besides its range", "sensor");
 }
