@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <map>
-#include <utility>
+#include <unordered_map>
 #include <vector>
 
 #include "vantage/geometry.h"
@@ -20,9 +19,10 @@ namespace vantage::internal::solid {
 template <typename Wants, typename Length, typename Middle>
 bool halve_sides(std::vector<Triangle>& triangles, const Wants& wants, const Length& length, const Middle& middle,
                  std::vector<std::uint32_t>& of_triangle) {
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> halves;
+  std::unordered_map<std::uint64_t, std::uint32_t> halves;
   const auto side = [](const Triangle& t, std::size_t k) {
-    return std::pair(std::min(t[k], t[(k + 1) % 3]), std::max(t[k], t[(k + 1) % 3]));
+    const auto [low, high] = std::minmax(t[k], t[(k + 1) % 3]);
+    return std::uint64_t{low} << 32 | high;
   };
   const auto longest = [&](const Triangle& t) {
     std::size_t best = 0;
@@ -34,7 +34,7 @@ bool halve_sides(std::vector<Triangle>& triangles, const Wants& wants, const Len
   const auto halve = [&](const Triangle& t) {
     const auto key = side(t, longest(t));
     if (halves.contains(key)) return false;
-    halves[key] = middle(key.first, key.second);
+    halves[key] = middle(static_cast<std::uint32_t>(key >> 32), static_cast<std::uint32_t>(key));
     return true;
   };
   const auto is_touched = [&](const Triangle& t) {

@@ -20,6 +20,11 @@ class TriangleTree {
   template <typename Visit>
   void for_each_near(const Box& box, double margin, const Visit& visit) const;
 
+  /// Whether `visit(triangle)` is true for one of the triangles whose bounding boxes meet `box`; it is not called for
+  /// others.
+  template <typename Visit>
+  bool any_near(const Box& box, const Visit& visit) const;
+
   struct Nearest {
     double distance;
     std::uint32_t triangle;
@@ -43,17 +48,28 @@ class TriangleTree {
 Box triangle_box(const Mesh& mesh, std::size_t triangle);
 
 template <typename Visit>
-void TriangleTree::for_each_near(const Box& box, double margin, const Visit& visit) const {
+bool TriangleTree::any_near(const Box& box, const Visit& visit) const {
   const auto near = [&](const auto& low, const auto& high) {
     for (int axis = 0; axis < 3; ++axis) {
-      if (low[axis] > box.max[axis] + margin || high[axis] < box.min[axis] - margin) return false;
+      if (low[axis] > box.max[axis] || high[axis] < box.min[axis]) return false;
     }
     return true;
   };
   const auto enter = [&](const core::BvhNode& node) { return near(node.bounds.min, node.bounds.max); };
-  core::walk_bvh(bvh_, enter, [&](std::uint32_t i) {
+  return !core::walk_bvh(bvh_, enter, [&](std::uint32_t i) {
     const Box item = triangle_box(mesh_, order_[i]);
-    if (near(item.min, item.max)) visit(order_[i]);
+    return !(near(item.min, item.max) && visit(order_[i]));
+  });
+}
+
+template <typename Visit>
+void TriangleTree::for_each_near(const Box& box, double margin, const Visit& visit) const {
+  Box grown = box;
+  grown.min.array() -= margin;
+  grown.max.array() += margin;
+  any_near(grown, [&](std::uint32_t triangle) {
+    visit(triangle);
+    return false;
   });
 }
 
