@@ -11,6 +11,7 @@
 
 #include "support/shared_data.h"
 #include "vantage/city.h"
+#include "vantage/constraints.h"
 #include "vantage/ground.h"
 #include "vantage/navigation.h"
 
@@ -59,6 +60,13 @@ void find_ground(State& state) {
   state.counters["triangles"] = static_cast<double>(triangles);
 }
 
+void find_obstacles(State& state) {
+  if (!slope()) return state.SkipWithError("the map or the terrain of Monaco is absent");
+  std::size_t triangles = 0;
+  for (auto _ : state) triangles = obstacles_of(slope()->city.scene)->triangles.size();
+  state.counters["triangles"] = static_cast<double>(triangles);
+}
+
 void engine_alone(State& state) {
   if (!slope()) return state.SkipWithError("the map or the terrain of Monaco is absent");
   Volume volume;
@@ -86,6 +94,7 @@ const bool registered = [] {
     add(name, [limit](State& state) { cut(state, limit); });
   };
   add("prepare_ground", find_ground);
+  add("prepare_obstacles", find_obstacles);
   add("engine", engine_alone);
   add_cut("altitude", [](Navigation& navigation) { navigation.altitude = {80, 140}; });
   add_cut("agl", [](Navigation& navigation) { navigation.above_ground = {20, 120, *ground_of(slope()->city.scene)}; });
@@ -94,6 +103,13 @@ const bool registered = [] {
     zone.outer = {{-150, -150}, {150, -150}, {150, 150}, {0, 20}, {-150, 150}};
     navigation.keep_in_zones = {zone};
   });
+  add_cut("zone_agl", [](Navigation& navigation) {
+    Zone zone;
+    zone.outer = {{-150, -150}, {150, -150}, {150, 150}, {0, 20}, {-150, 150}};
+    zone.above_ground = {20, 120, *ground_of(slope()->city.scene)};
+    navigation.keep_in_zones = {zone};
+  });
+  add_cut("clearance", [](Navigation& navigation) { navigation.clearance = {10, obstacles_of(slope()->city.scene)}; });
   return true;
 }();
 

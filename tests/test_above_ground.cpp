@@ -8,6 +8,7 @@
 #include <numbers>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "support/random.h"
@@ -89,7 +90,7 @@ Navigation above(Mesh ground, double min_m, double max_m) {
 }
 
 /// By how much a point keeps the limit: negative where it breaks it, metres along z.
-double slack(const Navigation::AboveGround& limit, const Vec3& p) {
+double slack(const AboveGround& limit, const Vec3& p) {
   const Heights heights = heights_at(*limit.ground.surface, p);
   if (!heights.any) return -INFINITY;
   return std::min(p.z() - heights.highest - limit.min_m, heights.lowest + limit.max_m - p.z());
@@ -176,6 +177,62 @@ TEST(AboveGround, OfPiecesOverEachOtherAllCount) {
   }
   EXPECT_GT(inside, 100);
   EXPECT_GT(between, 20);
+}
+
+/// The same for a zone with the plan [-30, 30] by [-20, 20]: how far from its border a point is, positive inside of a
+/// zone to stay in, negative inside of one to stay out of.
+double zone_slack(const Zone& zone, bool is_kept, const Vec3& p, const Vec3& origin) {
+  const Vec3 at = p - origin;
+  const double beside = std::min(30 - std::abs(at.x()), 20 - std::abs(at.y()));
+  const Heights heights = heights_at(*zone.above_ground->ground.surface, p);
+  const auto& [min_m, max_m, ground] = *zone.above_ground;
+  if (is_kept) {
+    if (!heights.any) return -INFINITY;
+    return std::min({beside, p.z() - heights.highest - min_m, heights.lowest + max_m - p.z()});
+  }
+  if (!heights.any) return -beside;
+  return -std::min({beside, p.z() - heights.lowest - min_m, heights.highest + max_m - p.z()});
+}
+
+TEST(AboveGround, ZonesHaveHeightsToo) {
+  Random random(71);
+  for (const Vec3& origin : {Vec3(0, 0, 0), Vec3(580000.1, 4785000.2, 1000.3)}) {
+    Mesh ground = make_hills(random, 25, 3, 6, origin);  // ends inside of the zone
+    for (const bool has_bridge : {false, true}) {
+      if (has_bridge) testing::append(ground, make_hills(random, 10, 2, 3, origin + Vec3(8, 5, 9)));
+      const auto surface = std::make_shared<const Mesh>(ground);
+      for (const auto& [min_m, max_m] : {std::pair{4.0, 20.0}, {-INFINITY, 12.0}, {6.0, INFINITY}}) {
+        Zone zone;
+        for (const auto& [x, y] : {std::pair{-30, -20}, {30, -20}, {30, 20}, {-30, 20}}) {
+          zone.outer.emplace_back(origin.x() + x, origin.y() + y);
+        }
+        zone.name = "z";
+        zone.above_ground = {min_m, max_m, Ground{0, surface}};
+        for (const bool is_kept : {true, false}) {
+          SCOPED_TRACE(::testing::Message() << origin.x() << has_bridge << min_m << is_kept);
+          Navigation navigation;
+          (is_kept ? navigation.keep_in_zones : navigation.keep_out_zones) = {zone};
+          const Volume dome = make_hemisphere(origin, 60);
+          const Volume cut = cut_to_navigation(dome, navigation);
+          ASSERT_EQ(cut.outcome, Outcome::computed) << cut.reason;
+          EXPECT_EQ(first_open_edge(cut.mesh), "");
+          const PreparedTarget target(PreparedScene(Scene()), Target::point(origin), Sensor{.max_range_m = 500});
+          PointQuery query(target, navigation);
+          int inside = 0, outside = 0;
+          for (int i = 0; i < 300; ++i) {
+            const Vec3 p = origin + random.in_box({Vec3(-40, -40, 0), Vec3(40, 40, 40)});
+            const double by = zone_slack(zone, is_kept, p, origin);
+            if (std::abs(by) < 1e-6 || !holds(dome.mesh, p)) continue;
+            EXPECT_EQ(holds(cut.mesh, p), by > 0) << (p - origin).transpose() << " by " << by;
+            EXPECT_EQ(query.answer(std::vector<Vec3>{p})[0].outside_of.empty(), by > 0) << by;
+            (by > 0 ? inside : outside) += 1;
+          }
+          EXPECT_GT(inside, 5);
+          EXPECT_GT(outside, 5);
+        }
+      }
+    }
+  }
 }
 
 TEST(AboveGround, APlaneGoesOnForEver) {
@@ -305,6 +362,38 @@ TEST(AboveGround, VerifyFindsWhatIsNotCut) {
   }
 }
 
+TEST(AboveGround, VerifyJudgesZones) {
+  Random random(73);
+  const Vec3 origin(580000.1, 4785000.2, 1000.3);
+  const World world = make_world(random, origin);
+  const PreparedTarget target(PreparedScene(world.scene), world.target, Sensor{.max_range_m = 60});
+  Zone zone;
+  for (const auto& [x, y] : {std::pair{-30, -20}, {30, -20}, {30, 20}, {-30, 20}}) {
+    zone.outer.emplace_back(origin.x() + x, origin.y() + y);
+  }
+  for (const bool is_kept : {true, false}) {
+    const auto with_heights = [&](double min_m, double max_m) {
+      Navigation navigation;
+      Zone& added = (is_kept ? navigation.keep_in_zones : navigation.keep_out_zones).emplace_back(zone);
+      added.above_ground = {min_m, max_m, world.navigation.above_ground->ground};
+      return navigation;
+    };
+    const auto judged = [&](double min_m, double max_m) {
+      const Volume volume = compute_volume(target, with_heights(min_m, max_m));
+      VerifyOptions options;
+      options.points = 3000;
+      options.lift_m = volume.lift_m;
+      return verify_volume(world.scene, world.target, Sensor{.max_range_m = 60}, with_heights(5, 30), volume.mesh,
+                           options);
+    };
+    EXPECT_EQ(judged(5, 30).over_claimed, 0u);
+    EXPECT_EQ(judged(5, 30).under_claimed, 0u);
+    const VerifyReport wider = judged(4, 31), narrower = judged(6, 29);
+    EXPECT_GT((is_kept ? wider : narrower).over_claimed, 0u);
+    EXPECT_GT((is_kept ? narrower : wider).under_claimed, 0u);
+  }
+}
+
 /// Two triangles named "field", two named "dam" over them, without a word on what is ground.
 constexpr const char* kField =
     "v -50 -50 0\nv 50 -50 0\nv 50 50 8\nv -50 50 8\no field\nf 1 2 3\nf 1 3 4\n"
@@ -355,6 +444,11 @@ TEST_F(AboveGroundMission, WrongKeysAreRefused) {
   refuse("{altitude: {}}", ErrorCode::nothing_given);
   refuse("{altitude: {alg: [5, 30]}}", ErrorCode::unknown_key);
   refuse("{altitude: {z: [5, 30]}, ground: 0}", ErrorCode::not_applicable);
+  const std::string zone = "keep_out: [{polygon: [[0, 0], [9, 0], [0, 9]], ";
+  refuse("{" + zone + "agl: [30, 5]}]}", ErrorCode::limits_reversed);
+  refuse("{" + zone + "agl: [5, 5]}]}", ErrorCode::limits_empty);
+  refuse("{" + zone + "agl: 5}]}", ErrorCode::wrong_type);
+  refuse("{" + zone + "agl: [5, 30], heights: any}]}", ErrorCode::conflicting_keys);
 }
 
 TEST_F(AboveGroundMission, TextAndHashHoldAllOfIt) {
@@ -362,7 +456,9 @@ TEST_F(AboveGroundMission, TextAndHashHoldAllOfIt) {
   for (const char* navigation :
        {"{altitude: [5, 30]}", "{altitude: {z: [5, 31]}}", "{altitude: {agl: [5, 30]}, ground: 0}",
         "{altitude: {agl: [5, 30]}, ground: 1}", "{altitude: {agl: [5, 30]}, ground: field}",
-        "{altitude: {agl: [5, 30]}, ground: dam}", "{altitude: {agl: [5, 30], z: [0, 20]}, ground: dam}"}) {
+        "{altitude: {agl: [5, 30]}, ground: dam}", "{altitude: {agl: [5, 30], z: [0, 20]}, ground: dam}",
+        "{keep_out: [{polygon: [[0, 0], [9, 0], [0, 9]], agl: [0, 20]}], ground: dam}",
+        "{keep_out: [{polygon: [[0, 0], [9, 0], [0, 9]], agl: [0, 20], z: [0, 10]}], ground: dam}"}) {
     const MissionFile mission = read(navigation);
     const std::string text = mission_text(mission, mission.file.parent_path());
     const MissionFile again = read_mission_text(text, mission.file);
@@ -371,8 +467,8 @@ TEST_F(AboveGroundMission, TextAndHashHoldAllOfIt) {
     hashes.insert(mission_hash(resolve_mission(mission)));
     texts.insert(text);
   }
-  EXPECT_EQ(hashes.size(), 7u);
-  EXPECT_EQ(texts.size(), 7u);
+  EXPECT_EQ(hashes.size(), 9u);
+  EXPECT_EQ(texts.size(), 9u);
 }
 
 TEST(AboveGroundMap, OverTerrainTheVolumeKeepsItsHeights) {

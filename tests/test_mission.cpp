@@ -133,11 +133,15 @@ void expect_same_boxes(const std::vector<Box>& found, const std::vector<Box>& ex
 
 // All members are named: a limit that is added does not compile here before it is compared.
 void expect_same_limits(const Navigation& found, const Navigation& expected) {
-  const auto& [altitude, keep_in, keep_in_zones, keep_out, keep_out_zones, meshes, above_ground] = found;
+  const auto& [altitude, keep_in, keep_in_zones, keep_out, keep_out_zones, meshes, above_ground, clearance] = found;
   ASSERT_EQ(above_ground.has_value(), expected.above_ground.has_value());
   if (above_ground) {
     EXPECT_EQ(above_ground->min_m, expected.above_ground->min_m);
     EXPECT_EQ(above_ground->max_m, expected.above_ground->max_m);
+  }
+  ASSERT_EQ(clearance.has_value(), expected.clearance.has_value());
+  if (clearance) {
+    EXPECT_EQ(clearance->distance_m, expected.clearance->distance_m);
   }
   ASSERT_EQ(altitude.has_value(), expected.altitude.has_value());
   if (altitude) {

@@ -17,6 +17,7 @@
 #include "vantage/mission.h"
 #include "vantage/navigation.h"
 #include "vantage/result.h"
+#include "vantage/verify.h"
 
 namespace vantage {
 namespace {
@@ -54,6 +55,14 @@ TEST(SensorMission, ReadsEveryKey) {
   ASSERT_TRUE(sensor.sun);
   EXPECT_NEAR((sensor.sun->direction - Vec3(std::cos(30 * kDegree), 0, 0.5)).norm(), 0, 1e-12);
   EXPECT_EQ(sensor.sun->exclude_deg, 20);
+  EXPECT_FALSE(sensor.visible);
+
+  const Sensor share = parse("{max_range: 300, visible: 0.75}").sensor;
+  ASSERT_TRUE(share.visible);
+  EXPECT_EQ(share.visible->share, 0.75);
+  EXPECT_EQ(share.visible->cells, 16u);
+  const Sensor fine = parse("{max_range: 300, visible: 1, cells: 64}").sensor;
+  EXPECT_EQ(fine.visible->cells, 64u);
 }
 
 TEST(SensorMission, CamerasByNumbersAndMountsThatAreFixed) {
@@ -94,7 +103,8 @@ TEST(SensorMission, TextReadsBackAsTheSame) {
                                    "-90, yaw: any}, sun: {time: 2026-06-21T16:00Z, exclude: 20}}",
                                    "{max_range: 10, fov: [60, 40], gimbal: {yaw: 20, pitch: [-45, 0], roll: 3}}",
                                    "{max_range: 10, fov: [60, 40], mount: {yaw: 20, pitch: -45, roll: 3}, sun: "
-                                   "{azimuth: 0, elevation: 90, exclude: 5}}"}) {
+                                   "{azimuth: 0, elevation: 90, exclude: 5}}",
+                                   "{max_range: 10, visible: 0.8}", "{max_range: 10, visible: 0.05, cells: 1024}"}) {
     const MissionFile read = parse(sensor);
     const std::string text = mission_text(read, "/data");
     const MissionFile again = parse_mission(text, "/data/mission.yaml");
@@ -109,6 +119,11 @@ TEST(SensorMission, TextReadsBackAsTheSame) {
     EXPECT_EQ(again.sensor.mount.roll_deg, read.sensor.mount.roll_deg) << text;
     EXPECT_EQ(range_limit_m(again.sensor), range_limit_m(read.sensor)) << text;
     EXPECT_EQ(again.sun_time.has_value(), read.sun_time.has_value()) << text;
+    ASSERT_EQ(again.sensor.visible.has_value(), read.sensor.visible.has_value()) << text;
+    if (read.sensor.visible) {
+      EXPECT_EQ(again.sensor.visible->share, read.sensor.visible->share) << text;
+      EXPECT_EQ(again.sensor.visible->cells, read.sensor.visible->cells) << text;
+    }
   }
 }
 
@@ -166,6 +181,13 @@ TEST(SensorMission, RefusesWhatContradictsItself) {
            Case{"{max_range: 20, sun: {azimuth: 5, elevation: -1, exclude: 5}}", ErrorCode::value_out_of_range},
            Case{"{max_range: 20, sun: {azimuth: 5, elevation: 1, exclude: 0}}", ErrorCode::value_out_of_range},
            Case{"{max_range: 20, sun: {time: 2026-06-21T16:00Z, azimuth: 5, exclude: 5}}", ErrorCode::conflicting_keys},
+           Case{"{max_range: 20, cells: 16}", ErrorCode::missing_key},
+           Case{"{max_range: 20, visible: 0}", ErrorCode::value_out_of_range},
+           Case{"{max_range: 20, visible: 80}", ErrorCode::value_out_of_range},
+           Case{"{max_range: 20, visible: most}", ErrorCode::not_a_number},
+           Case{"{max_range: 20, visible: 0.8, cells: 2.5}", ErrorCode::value_out_of_range},
+           Case{"{max_range: 20, visible: 0.8, cells: 0}", ErrorCode::value_out_of_range},
+           Case{"{max_range: 20, visible: 0.8, cells: 1025}", ErrorCode::value_out_of_range},
        }) {
     SCOPED_TRACE(sensor);
     const Error error = testing::expect_error([&, text = sensor] { parse(text); }, code);
@@ -194,7 +216,8 @@ TEST(SensorMission, EveryLimitChangesTheHash) {
         "{max_range: 40, camera: {model: sony_a7r_iv_35mm}, pixel: {size: 0.01}}",
         "{max_range: 40, camera: {model: sony_a7r_iv_35mm}, pixel: {size: 0.01, kind: perpendicular}}",
         "{max_range: 40, sun: {azimuth: 0, elevation: 20, exclude: 5}}",
-        "{max_range: 40, sun: {azimuth: 1, elevation: 20, exclude: 5}}"}) {
+        "{max_range: 40, sun: {azimuth: 1, elevation: 20, exclude: 5}}", "{max_range: 40, visible: 0.8}",
+        "{max_range: 40, visible: 0.9}", "{max_range: 40, visible: 0.8, cells: 17}"}) {
     hashes.push_back(mission_hash(mission_with(sensor)));
     for (std::size_t i = 0; i + 1 < hashes.size(); ++i) EXPECT_NE(hashes[i], hashes.back()) << sensor;
   }
@@ -229,6 +252,36 @@ TEST(SensorMission, LimitsTravelInTheFile) {
     EXPECT_EQ(sensor.sun->direction, given.sun->direction);
     EXPECT_EQ(sensor.sun->exclude_deg, given.sun->exclude_deg);
   }
+}
+
+TEST(SensorMission, AShareTravelsInTheFile) {
+  const Mission mission = mission_with("{max_range: 40, visible: 0.6, cells: 12}");
+  const Result result = run_mission(mission);
+  ASSERT_EQ(result.volume.outcome, Outcome::computed) << result.volume.reason;
+  const testing::TemporaryDirectory folder;
+  for (const char* const name : {"v.ply", "v.obj", "v.glb", "v.stl"}) {
+    SCOPED_TRACE(name);
+    write_volume(result.volume, folder / name);
+    const VolumeFile read = read_volume(folder / name);
+    ASSERT_TRUE(read.volume.provenance && read.volume.provenance->sensor.visible);
+    EXPECT_EQ(read.volume.provenance->sensor.visible->share, 0.6);
+    EXPECT_EQ(read.volume.provenance->sensor.visible->cells, 12u);
+    const VerifyReport report = verify_volume(mission.loaded.scene, mission.target, read.volume.provenance->sensor, {},
+                                              read.volume.mesh, verify_options(read, mission));
+    EXPECT_TRUE(report.is_right()) << report.worst_over_cause;
+  }
+  // More is seen than of the whole target.
+  const Volume whole = run_mission(mission_with("{max_range: 40}")).volume;
+  EXPECT_GT(measure(result.volume.mesh).volume_m3, measure(whole.mesh).volume_m3);
+}
+
+TEST(SensorMission, AShareIsOfAreasAndByTheExactMethod) {
+  const std::string point = "scene: {mesh: city.obj}\ntarget: {point: [0, 0, 3]}\n";
+  testing::expect_error([&] { parse_mission(point + "sensor: {max_range: 20, visible: 0.5}\n", "/data/mission.yaml"); },
+                        ErrorCode::not_applicable, kLine);
+  Mission mission = mission_with("{max_range: 30, visible: 0.5}");
+  mission.as_written.method = Method::spheres;
+  testing::expect_error([&] { run_mission(mission); }, ErrorCode::not_applicable, kLine);
 }
 
 TEST(SensorMission, TheSpheresMethodHasThemToo) {

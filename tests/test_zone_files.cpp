@@ -16,6 +16,7 @@
 #include "support/shared_data.h"
 #include "support/temporary_directory.h"
 #include "support/wording.h"
+#include "vantage/ground.h"
 #include "vantage/input.h"
 #include "vantage/mission.h"
 
@@ -364,6 +365,20 @@ TEST(ZoneFiles, CirclesAreInscribedToStayInAndCircumscribedToStayOutOf) {
   }
 }
 
+TEST(ZoneFiles, HeightsAboveTheGroundAreMeasuredFromTheScenes) {
+  const ZoneMission mission;
+  mission.write("zones.json", polygon(", \"layer\": {\"upper\": 640, \"upperReference\": \"AGL\", \"uom\": \"m\"}"));
+  const Mission resolved = mission.resolve("keep_in: [{file: zones.json}]");
+  const Zone& zone = resolved.navigation.keep_in_zones.at(0);
+  ASSERT_TRUE(zone.above_ground);
+  EXPECT_EQ(zone.above_ground->max_m, 640);
+  EXPECT_TRUE(std::isinf(zone.above_ground->min_m));
+  EXPECT_TRUE(std::isinf(zone.max_z_m));
+  const auto ground = ground_of(resolved.loaded.scene);
+  ASSERT_TRUE(ground);
+  EXPECT_EQ(zone.above_ground->ground.plane_z_m, ground->plane_z_m);
+}
+
 TEST(ZoneFiles, RefusesZonesThatCannotBePlaced) {
   const ZoneMission mission;
   const auto refuse = [&](const std::string& text, const std::string& more, ErrorCode code, const std::string& where) {
@@ -377,7 +392,6 @@ TEST(ZoneFiles, RefusesZonesThatCannotBePlaced) {
   refuse(polygon(), "", ErrorCode::missing_key, "mission.yaml:5:20");
   refuse(layer("AMSL"), "", ErrorCode::heights_differ, "zones.json");
   refuse(layer("WGS84"), "", ErrorCode::heights_differ, "zones.json");
-  refuse(layer("AGL"), "", ErrorCode::value_unsupported, "zones.json");
   refuse(layer("AGL"), ", z: [0, 5]", ErrorCode::conflicting_keys, "zones.json");
   refuse("{\"type\": \"Point\", \"coordinates\": [11, 48]}", ", heights: any", ErrorCode::nothing_given, "zones.json");
   refuse(plan("{\"inclusion\": false, \"polygon\": [[48, 11], [48, 11.001], [48.001, 11.001]]}"), "",

@@ -3,16 +3,38 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "vantage/export.h"
 #include "vantage/geometry.h"
 #include "vantage/ground.h"
+#include "vantage/scene.h"
 #include "vantage/sensor.h"
 
 namespace vantage {
+
+/// How far a viewpoint is above the ground at its x and y. Where pieces of ground lie over each other there, it is that
+/// far above each of them. Where there is no ground, nothing is.
+struct AboveGround {
+  double min_m = 0.0, max_m = 0.0;  ///< min < max
+  Ground ground;
+};
+
+/// How far a viewpoint must be from obstacles.
+struct Clearance {
+  double distance_m = 0;                       ///< > 0; viewpoints at this distance are allowed
+  std::shared_ptr<const Mesh> obstacles = {};  ///< scene frame, metres: any triangle soup; see obstacles_of. Shared,
+                                               ///< since it may be as large as the scene
+};
+
+/// The triangles of all objects but those of ObjectKind::ground and those in `ground` (indices of objects). Where that
+/// leaves none, those of all objects. Cost: linear.
+VANTAGE_API std::shared_ptr<const Mesh> obstacles_of(const Scene& scene, const std::vector<std::uint32_t>& ground = {});
 
 /// A closed mesh to stay in.
 struct KeepInMesh {
@@ -33,6 +55,11 @@ struct Zone {
   double max_z_m = std::numeric_limits<double>::infinity();   ///< likewise; above min_z_m
   std::string name;                                           ///< for messages and for causes in reports
 
+  /// Besides the bounds of z; may be infinite. Where there is no ground, a zone to stay in holds nothing, and one to
+  /// stay out of all between the bounds of z. Where pieces of ground lie over each other, a zone to stay out of begins
+  /// at its height above the lowest one and ends at its height above the highest one.
+  std::optional<AboveGround> above_ground = {};
+
   static constexpr std::size_t kMostCorners = 20'000;
 };
 
@@ -48,18 +75,12 @@ struct Navigation {
   std::vector<Box> keep_out;         ///< each is taken away
   std::vector<Zone> keep_out_zones;  ///< likewise
   std::vector<KeepInMesh> meshes;    ///< the volume is cut to each
-
-  /// How far a viewpoint is above the ground at its x and y. Where pieces of ground lie over each other there, it is
-  /// that far above each of them. Where there is no ground, nothing is allowed.
-  struct AboveGround {
-    double min_m = 0.0, max_m = 0.0;  ///< min < max
-    Ground ground;
-  };
   std::optional<AboveGround> above_ground = {};
+  std::optional<Clearance> clearance = {};
 
   bool empty() const {
     return !altitude && keep_in.empty() && keep_in_zones.empty() && keep_out.empty() && keep_out_zones.empty() &&
-           meshes.empty() && !above_ground;
+           meshes.empty() && !above_ground && !clearance;
   }
 };
 

@@ -109,7 +109,8 @@ struct NavigationMeshFile {
   std::optional<double> scale = std::nullopt;
 };
 
-/// What heights above the ground are measured from, as a mission file names it: one of the two.
+/// What heights above the ground are measured from, as a mission file names it: one of the two. An object does not
+/// count as an obstacle either.
 struct GroundSource {
   std::optional<double> plane_z_m = std::nullopt;  ///< the ground is flat and lies at this z
   std::string object = {};                         ///< display name, name or source_id of an object of the scene
@@ -118,10 +119,11 @@ struct GroundSource {
 /// A file of zones, as a mission file names it: GeoJSON, also of UAS zones (ED-269, ED-318), KML, or a plan of
 /// QGroundControl, of which the fences count. Positions are WGS 84.
 struct ZoneFile {
-  std::filesystem::path file;                               ///< absolute
-  std::string name;                                         ///< as written in the mission; in causes and messages
-  std::optional<std::array<double, 2>> z_m = std::nullopt;  ///< of zones that the file gives no heights for
-  bool any_height = false;                                  ///< without bounds, whatever the file says
+  std::filesystem::path file;                                 ///< absolute
+  std::string name;                                           ///< as written in the mission; in causes and messages
+  std::optional<std::array<double, 2>> z_m = std::nullopt;    ///< of zones that the file gives no heights for
+  std::optional<std::array<double, 2>> agl_m = std::nullopt;  ///< likewise, above the ground
+  bool any_height = false;                                    ///< without bounds, whatever the file says
 };
 
 /// Where in a mission file things are said ("mission.yaml:9:13"), for messages. Empty for a mission made in memory.
@@ -150,9 +152,8 @@ struct MissionFile {
   std::optional<PilotSight> vlos = std::nullopt;      ///< visual line of sight
   std::optional<SunTime> sun_time = std::nullopt;     ///< says where the sun stands, once the scene is known; without
                                                       ///< it sensor.sun has the direction
-  Navigation navigation;                              ///< without meshes and the zones of files, and above_ground
-                                                      ///< without its ground
-  std::optional<GroundSource> ground = std::nullopt;  ///< of above_ground; without it the scene's
+  Navigation navigation;                              ///< without meshes, the zones of files, ground and obstacles
+  std::optional<GroundSource> ground = std::nullopt;  ///< without it the scene's
   std::vector<NavigationMeshFile> navigation_meshes = {};
   std::vector<ZoneFile> keep_in_files = {}, keep_out_files = {};  ///< their zones go with those of `navigation`
   std::optional<double> sea_level_m = std::nullopt;               ///< scene z of the mean sea level, where it is known

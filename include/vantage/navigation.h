@@ -25,7 +25,8 @@ VANTAGE_API Volume cut_to_navigation(const Volume& volume, const Navigation& nav
 
 /// Cuts a volume to the limits of the target's sensor, besides the range, and to the navigation limits, at once. Facets
 /// that a limit of the sensor makes are CauseKind::sensor, by the names "min_range", "incidence", "pixel", "frame",
-/// "gimbal" and "sun". As cut_to_navigation otherwise.
+/// "gimbal" and "sun". As cut_to_navigation otherwise. A link is no such limit: compute_visibility takes it into
+/// account.
 ///
 /// Guaranteed from the inside: the surfaces are made of facets, which take away more than the limit does, never less.
 /// How much more is in docs/camera.md. Cost: besides the boolean milliseconds, with a gimbal tens of them.
@@ -45,8 +46,24 @@ VANTAGE_API Volume intersect_volumes(const std::vector<Volume>& volumes, const P
 /// volumes that are empty for a good reason add nothing. Where all are, so is the result, with the first one's outcome.
 VANTAGE_API Volume unite_volumes(const std::vector<Volume>& volumes, const Progress& progress = {});
 
-/// All that a vehicle may use: compute_visibility of each part of the target, intersected, and cut to the limits of the
-/// sensor and of navigation. Throws as these do. Cost: the sum of theirs.
+/// The volume of a target of any number of parts, before limits besides the range: compute_visibility of each part,
+/// intersected.
+///
+/// Of a target whose sensor has a VisibleShare: what sees at least that part of its area, is within range of all of it
+/// and in front of all its parts. Guaranteed from the inside: the parts are cut into convex cells, and from each point
+/// of the result so many of them are seen whole that their area is the share or more. Parts get cells in proportion to
+/// their area, at least one each; what a cell of a part costs is rounded up to an eighth of an average cell. The result
+/// has all that so many whole cells allow but where there are more than 16 of them, or parts: then some of what is
+/// missed is rounded up. It may have several pieces and holes, and is not star-shaped. Where all cells must be seen it
+/// is the volume of the whole target. Where nothing is left, Outcome::no_common_view. Cost: a volume for each cell, and
+/// booleans in proportion to the cells times the root of what may be missed; docs/camera.md has figures.
+///
+/// Throws as compute_visibility and intersect_volumes do.
+VANTAGE_API Volume compute_parts(const PreparedTarget& target, const ExactOptions& options = {},
+                                 const Progress& progress = {});
+
+/// All that a vehicle may use: compute_parts, cut to the limits of the sensor and of navigation. Throws as these do.
+/// Cost: the sum of theirs.
 VANTAGE_API Volume compute_volume(const PreparedTarget& target, const Navigation& navigation = {},
                                   const ExactOptions& options = {}, const Progress& progress = {});
 

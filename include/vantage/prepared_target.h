@@ -39,6 +39,16 @@ class VANTAGE_API PreparedTarget {
   /// The same of one part alone.
   PreparedTarget part(std::size_t index) const;
 
+  /// One part cut into `count` convex cells of the same area, which together hold all of it: in its plane, raised as it
+  /// is, and seen from its side. Their sensor has this range, more than the radius of the part's enclosing circle, and
+  /// nothing else. Twice as many cells are halves of these where `count` is a power of two. Cells overlap by rounding,
+  /// in parts of the target's extent by 1e-12 and where the cut passes a corner by at most 1e-6. Throws Error(input)
+  /// for a point.
+  std::vector<PreparedTarget> cells(std::size_t part, std::size_t count, double max_range_m) const;
+
+  /// The same target where it is, in a scene without anything.
+  PreparedTarget alone() const;
+
   struct Data;
   const Data& data() const { return *data_; }  ///< for the methods
 

@@ -14,16 +14,20 @@
 namespace vantage {
 
 struct PointAnswer {
-  bool inside = false;  ///< the whole target is visible, in range, and the point is within the navigation limits
+  bool inside = false;  ///< the whole target, or the VisibleShare of its sensor, is visible, all of it is in range and
+                        ///< looked at from the front, and the point is within the limits
   double margin_m = 0;  ///< signed distance to the volume's boundary along the line to the target's centre, positive
                         ///< inside; navigation limits bound it too, the target itself, where the line ends, does not.
-                        ///< Minus infinity where no point of that line is in the volume
-  std::vector<std::string> blocked_by;  ///< names of the scene objects that hide part of the target, sorted, no repeats
+                        ///< Minus infinity where no point of that line is in the volume. NaN with a VisibleShare of
+                        ///< less than 1: a line may enter and leave such a volume several times
+  std::vector<std::string> blocked_by;  ///< names of the scene objects that hide part of the target, or enter the zone
+                                        ///< of a link; sorted, no repeats. With a VisibleShare none where enough is
+                                        ///< seen
   bool out_of_range = false;
   bool behind_target = false;  ///< never for a point that is seen from all sides
   /// Limits that the point breaks: "altitude min", "agl max", "ground edge", "boxes" (it is in none of them; "keep_in"
-  /// where there are zones too), "keep_out 0", "keep_out zone NAME", "mesh NAME"; of the sensor "min_range",
-  /// "incidence", "pixel", "frame", "gimbal", "sun".
+  /// where there are zones too), "keep_out 0", "keep_out zone NAME", "mesh NAME", "clearance"; of the sensor
+  /// "min_range", "incidence", "pixel", "frame", "gimbal", "sun".
   std::vector<std::string> outside_of;
 };
 
@@ -45,9 +49,15 @@ class VANTAGE_API PointQuery {
   PointQuery(PointQuery&&) noexcept;
   PointQuery& operator=(PointQuery&&) noexcept;
 
-  /// Answers in the order of the points (scene frame, metres), the same whatever was asked before. There is no
-  /// tolerance. What compute_visibility excepts from its guarantee (vantage/volume.h) is excepted here too: within five
-  /// roundings of the largest coordinate of the boundary, a point may be called inside or outside.
+  /// Answers in the order of the points (scene frame, metres), the same whatever was asked before. With a VisibleShare
+  /// inside is where fractions() by area says at least that share. So there are points inside that the volume of
+  /// compute_volume lacks: it counts cells of the target that are seen whole. There is no tolerance. What
+  /// compute_visibility excepts from its guarantee (vantage/volume.h) is excepted here too: within five roundings of
+  /// the largest coordinate of the boundary, a point may be called inside or outside.
+  ///
+  /// With a link (Sensor::link) the scene is compared with the point's own zone, an ellipsoid. Volumes leave out more
+  /// than that (docs/camera.md): so a point may be inside here, and outside of the volume, but never the reverse. Each
+  /// point costs two walks of the hierarchy along its line, some ten microseconds in a city.
   ///
   /// Uses the threads of the caller's arena (TBB); not for two callers at once. Cost: for the first points one walk of
   /// the scene's hierarchy each; then, once, O(n) in the polygons within reach of the target; from then on in
@@ -60,7 +70,8 @@ class VANTAGE_API PointQuery {
   /// (docs/theory.md, "How much is seen").
   ///
   /// Of a target in parts: what is seen of all parts over the sum of the parts, where a part whose back the point sees
-  /// counts as hidden. A point as a target is seen or not: 1 or 0.
+  /// counts as hidden. A point as a target is seen or not: 1 or 0. Throws Error(input) with a link, whose zone has no
+  /// share that is seen.
   ///
   /// Errors: what rounding does to the coordinates of the scene, of the target and of the point (8 roundings of the
   /// largest of them) moves the borders of shadows, the more the farther they are thrown and the more the point looks

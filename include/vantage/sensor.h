@@ -1,6 +1,7 @@
 // What the sensor can do: its range, and what a camera asks besides. docs/camera.md has the conventions, with drawings.
 #pragma once
 
+#include <cstddef>
 #include <limits>
 #include <optional>
 
@@ -36,6 +37,25 @@ struct SunLimit {
   double exclude_deg = 0;         ///< no point of the target may be seen nearer to the sun than this; > 0, at most 90
 };
 
+/// A radio link between the target, a point where an antenna is, and the vehicle. Its first Fresnel zone is the
+/// ellipsoid of the points over which the way is longer by at most half of a wavelength (ITU-R P.526). With a share c
+/// of its radius it is that of the points over which the way is longer by at most c * c / 2 of a wavelength, and
+/// nothing of the scene may enter its interior: so the straight way is free, too. docs/camera.md, "The zone of a radio
+/// link".
+struct RadioLink {
+  double frequency_ghz = 0;  ///< > 0, at most 3000
+  double clear = 0.6;        ///< share of the zone's radius that nothing of the scene may enter; > 0, at most 1
+};
+
+/// How much of the target, which is no point, must be seen where that is not all of it. Of a target in parts it is the
+/// share of the sum of their areas, each of which must be looked at from its front.
+struct VisibleShare {
+  double share = 1;        ///< of the target's area; > 0, at most 1
+  std::size_t cells = 16;  ///< into how many pieces of the same area it is cut, each of which counts where it is seen
+                           ///< whole: 1 to 1024. The more there are the larger, up to what is right, is the volume.
+                           ///< For volumes only: what is asked about points counts every part that is seen
+};
+
 /// The direction to the sun's centre, east, north and up, of unit length: where it is seen at 10 degrees and 1010 hPa.
 /// Seconds since 1970-01-01 UTC. Right to 0.02 degrees from 1950 to 2050, near the horizon to what refraction changes
 /// with the weather (Michalsky 1988, Saemundsson 1986).
@@ -53,8 +73,10 @@ struct Sensor {
   Mount mount = {};                          ///< of the camera
   std::optional<PixelLimit> pixel = {};      ///< needs the camera's focal length
   std::optional<SunLimit> sun = {};
+  std::optional<RadioLink> link = {};        ///< the target is a point
+  std::optional<VisibleShare> visible = {};  ///< all other limits hold for all of the target nevertheless
 
-  /// Whether there are limits besides the range.
+  /// Whether there are limits that a volume is cut to once it is computed: all but the range, and a link.
   VANTAGE_API bool limits_view() const;
 };
 

@@ -78,8 +78,8 @@ struct SpheresReport {
 /// Volume::counts stays empty but for scene_polygons. Causes name the scene as a whole: depth images know no objects.
 ///
 /// Errors as compute_visibility, and Error(input) for options out of range, a device that was insisted on and is not
-/// there. Cost: one depth image of six faces per vertex, and booleans of meshes of at most 12 cubemap^2 triangles, a
-/// tenth to a third of them where facets are joined.
+/// there, a sensor with a VisibleShare. Cost: one depth image of six faces per vertex, and booleans of meshes of at
+/// most 12 cubemap^2 triangles, a tenth to a third of them where facets are joined.
 VANTAGE_API Volume compute_visibility_spheres(const PreparedTarget& target, const SpheresOptions& options = {},
                                               SpheresReport* report = nullptr, const StageSink& stages = {},
                                               const Progress& progress = {});

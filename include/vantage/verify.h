@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,7 +36,10 @@ struct VerifyReport {
   std::size_t undecided = 0;     ///< where it stayed open whether the camera can have all of the target in one picture,
                                  ///< and nothing else is wrong: counted as neither of the next two
   std::size_t over_claimed = 0;  ///< claimed, but part of the target is hidden or out of range, or a limit is broken
-  std::size_t under_claimed = 0;   ///< not claimed, though everything sampled was visible, by more than the tolerance
+  std::size_t under_claimed = 0;  ///< not claimed, though everything sampled was visible, by more than the tolerance
+  /// Of a VisibleShare: not claimed, though so much is seen, but not all: what cutting the target into cells costs. Not
+  /// among the under-claimed.
+  std::optional<std::size_t> share_unclaimed = std::nullopt;
   double worst_over_depth_m = 0;   ///< how deep inside the worst over-claimed point lies
   double worst_under_depth_m = 0;  ///< how far outside the worst under-claimed point lies
   double over_claim_bound = 1;     ///< with 95 % confidence at most this share of the volume is over-claimed (binomial)
@@ -64,9 +68,11 @@ struct VerifyReport {
 /// the surface that it lies on. A volume is right when nothing is over-claimed and its mesh is a closed, oriented
 /// surface for whoever reads it; see docs/verification.md. Of a mesh with holes, which has no inside, only that is
 /// reported. What is claimed must see every part of the target whole, and
-/// what is not must miss some of one. The limits of the sensor are judged by their definitions in vantage/sensor.h,
-/// with code of its own: a camera is put at the viewpoint, and its orientations are searched. Depths are told by the
-/// distance to the first part's centre. The parts are looked at one after the other, so that memory is that of one.
+/// what is not must miss some of one. Where the sensor has a VisibleShare, what is claimed must see that part of the
+/// area: the shadows of the scene's triangles are cut out of it. The limits of the sensor are judged by their
+/// definitions in vantage/sensor.h, with code of its own: a camera is put at the viewpoint, and its orientations are
+/// searched. Depths are told by the distance to the first part's centre. The parts are looked at one after the other,
+/// so that memory is that of one.
 ///
 /// The report depends on the seed, not on the number of threads (TBB; the caller's arena). Cost: points times samples
 /// shadow rays, a few tenths of a microsecond each and thread. Throws Error(input) for a mesh without triangles, with

@@ -51,9 +51,9 @@ enum class Outcome {
   out_of_range,     ///< no point is within max_range of all vertices
   blocked_at_once,  ///< the front is covered by the scene within a hand's breadth (0.1 m; where max_range is less than
                     ///< 20 m, less in proportion): most likely the wrong side. Of spheres: a vertex sees nothing, or
-                    ///< no point is in all of them
+                    ///< no point is in all of them. Of a link: something enters the zone of every position
   outside_limits,   ///< the navigation limits leave nothing
-  no_common_view,   ///< of a target in parts: no point sees all of them
+  no_common_view,   ///< of a target in parts: no point sees all of them; of a VisibleShare: none sees so much
 };
 
 /// "computed", "out_of_range", "blocked_at_once", "outside_limits", "no_common_view".
@@ -87,9 +87,9 @@ struct VolumeProvenance {
 /// In Volume::polygon_of: none.
 constexpr std::uint32_t kNoPolygon = 0xFFFFFFFF;
 
-/// The result. `mesh` is closed, oriented outward, in the scene frame. Before navigation cuts it is one piece of genus
-/// 0 and star-shaped about every point of the target: the segment from any point inside to any point of the target
-/// stays inside.
+/// The result. `mesh` is closed, oriented outward, in the scene frame. Before navigation cuts, and without a
+/// VisibleShare, it is one piece of genus 0 and star-shaped about every point of the target: the segment from any point
+/// inside to any point of the target stays inside.
 struct Volume {
   Outcome outcome = Outcome::computed;
   std::string reason;  ///< empty when computed
@@ -123,8 +123,11 @@ struct ExactOptions {
   int threads = 0;  ///< 0: as many as the machine has. The result does not depend on it
 };
 
-/// The exact visibility volume by docs/theory.md, before navigation cuts. Safe to call from many threads on one scene.
-/// Fills everything of the result; of Seconds `engine` and `total`.
+/// The exact visibility volume by docs/theory.md, before navigation cuts: of the whole target, even where its sensor
+/// has a VisibleShare. That is honoured by compute_parts and compute_volume of vantage/navigation.h, as other limits
+/// besides the range are by cut_to_limits. With a link, Sensor::link, it is the volume of the positions whose zone is
+/// clear: nothing is claimed wrongly, and docs/camera.md says how much is left out. Safe to call from many threads on
+/// one scene. Fills everything of the result; of Seconds `engine` and `total`.
 ///
 /// Guaranteed from the inside: no point of the result, deeper than 1e-6 of its distance to the target's centre, has any
 /// part of the target hidden or out of range, but for what numbers cannot tell:

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "app/named_objects.h"
 #include "app/target_section.h"
 #include "vantage/error.h"
 #include "vantage/faces.h"
@@ -21,37 +22,13 @@ namespace {
 using Vec2 = Eigen::Vector2d;
 using Objects = std::vector<std::uint32_t>;
 
-/// Up to three names that are most like a word, the nearest first: "'a', 'b'".
-std::string nearest_names(const std::string& word, const std::set<std::string>& names) {
-  std::vector<std::string_view> left(names.begin(), names.end());
-  std::string text;
-  for (int i = 0; i < 3 && !left.empty(); ++i) {
-    const std::string_view nearest = nearest_name(word, left);
-    text += (text.empty() ? "" : ", ") + in_quotes(nearest);
-    left.erase(std::find(left.begin(), left.end(), nearest));
-  }
-  return text;
-}
-
-std::string advice_for_name(const std::string& word, const std::set<std::string>& names) {
-  if (names.empty()) return "give the target's vertices: the objects of this scene have no names";
-  return "the nearest of " + std::to_string(names.size()) + " names: " + nearest_names(word, names);
-}
+const char* const kNoNames = "give the target's vertices: the objects of this scene have no names";
 
 Objects named(const Mission& mission, const std::string& name) {
-  const std::vector<SceneObject>& objects = mission.loaded.scene.objects;
-  Objects found;
-  std::set<std::string> names;
-  for (std::uint32_t i = 0; i < objects.size(); ++i) {
-    const SceneObject& object = objects[i];
-    if (object.name == name || object.source_id == name || display_name(object) == name) found.push_back(i);
-    for (const std::string& known : {object.name, object.source_id}) {
-      if (!known.empty()) names.insert(known);
-    }
-  }
+  Objects found = objects_named(mission.loaded.scene, name);
   if (!found.empty()) return found;
   throw Error(ErrorCode::object_missing, "the scene has no object " + in_quotes(name), mission.as_written.places.target,
-              advice_for_name(name, names));
+              advice_for_object(mission.loaded.scene, name, kNoNames));
 }
 
 /// An object of the map and, of a building, its parts.
@@ -77,9 +54,9 @@ Objects of_map(const Mission& mission, const std::string& id) {
     throw Error(ErrorCode::object_missing, id + " of the map is not built: " + reason, place,
                 "name another object, or give the target's vertices");
   }
-  throw Error(
-      ErrorCode::object_missing, "the scene has no object " + in_quotes(id) + " of the map", place,
-      "name a building, wall, tower or bridge in the part of the map that is used; " + advice_for_name(id, names));
+  throw Error(ErrorCode::object_missing, "the scene has no object " + in_quotes(id) + " of the map", place,
+              "name a building, wall, tower or bridge in the part of the map that is used; " +
+                  advice_for_name(id, names, kNoNames));
 }
 
 /// z of a triangle at a place in plan; nothing where it is not there. Of triangles that share a side, one holds a place

@@ -1,9 +1,10 @@
 #include "app/find_ground.h"
 
+#include <algorithm>
 #include <string>
-#include <string_view>
 #include <vector>
 
+#include "app/named_objects.h"
 #include "vantage/error.h"
 #include "vantage/ground.h"
 #include "vantage/input.h"
@@ -11,47 +12,60 @@
 namespace vantage::internal::app {
 namespace {
 
-Ground named_ground(const Scene& scene, const std::string& name, const std::string& where) {
-  std::vector<std::uint32_t> found;
-  std::vector<std::string_view> names;
-  for (std::uint32_t i = 0; i < scene.objects.size(); ++i) {
-    const SceneObject& object = scene.objects[i];
-    if (name == object.name || name == object.source_id || name == display_name(object)) found.push_back(i);
-    for (const std::string& known : {std::cref(object.name), std::cref(object.source_id)}) {
-      if (!known.empty()) names.push_back(known);
-    }
-  }
+std::uint32_t named_object(const Scene& scene, const std::string& name, const std::string& where) {
+  const std::vector<std::uint32_t> found = objects_named(scene, name);
+  if (found.size() == 1) return found.front();
   if (found.size() > 1) {
     throw Error(ErrorCode::unknown_choice,
                 std::to_string(found.size()) + " objects of the scene go by the name of " + in_quotes(name), where,
                 "name one that is alone with its name, or give the ground's z");
   }
-  if (!found.empty()) return ground_of(scene, found.front());
-  const std::string nearest(nearest_name(name, names));
-  const bool is_like = !nearest.empty() && 2 * static_cast<std::size_t>(edit_distance(name, nearest)) <= name.size();
   throw Error(ErrorCode::object_missing, "the scene has no object " + in_quotes(name), where,
-              (is_like ? "did you mean " + in_quotes(nearest) + "? " : "") +
-                  std::string("'vantage inspect' lists the scene's objects"));
+              advice_for_object(scene, name, "give the ground's z: the objects of this scene have no names"));
+}
+
+Ground ground_for(const Mission& mission, const std::string& where) {
+  const Scene& scene = mission.loaded.scene;
+  if (const auto& source = mission.as_written.ground) {
+    return source->plane_z_m ? Ground{*source->plane_z_m}
+                             : ground_of(scene, named_object(scene, source->object, where));
+  }
+  if (auto ground = ground_of(scene)) return *std::move(ground);
+  throw Error(ErrorCode::ground_missing, "the scene does not say what of it is ground, so nothing is above it", where,
+              "write 'ground: 0' under 'navigation' for flat ground at z = 0, or 'ground: NAME' for an object of the "
+              "scene; or give z: 'altitude: [20, 120]'");
 }
 
 }  // namespace
 
 void find_ground(Mission& mission) {
-  auto& limit = mission.navigation.above_ground;
-  if (!limit) return;
+  Navigation& navigation = mission.navigation;
+  std::vector<AboveGround*> limits;
+  if (navigation.above_ground) limits.push_back(&*navigation.above_ground);
+  for (std::vector<Zone>* zones : {&navigation.keep_in_zones, &navigation.keep_out_zones}) {
+    for (Zone& zone : *zones) {
+      if (zone.above_ground) limits.push_back(&*zone.above_ground);
+    }
+  }
+  if (limits.empty()) return;
+  const Ground ground = ground_for(mission, mission.as_written.places.above_ground);
+  for (AboveGround* limit : limits) limit->ground = ground;
+}
+
+void find_obstacles(Mission& mission) {
+  auto& clearance = mission.navigation.clearance;
+  if (!clearance) return;
   const Scene& scene = mission.loaded.scene;
-  const std::string& where = mission.as_written.places.above_ground;
-  if (const auto& source = mission.as_written.ground) {
-    limit->ground = source->plane_z_m ? Ground{*source->plane_z_m} : named_ground(scene, source->object, where);
-    return;
+  std::vector<std::uint32_t> ground;
+  if (const auto& source = mission.as_written.ground; source && !source->plane_z_m) {
+    ground.push_back(named_object(scene, source->object, mission.as_written.places.above_ground));
   }
-  const auto ground = ground_of(scene);
-  if (!ground) {
-    throw Error(ErrorCode::ground_missing, "the scene does not say what of it is ground, so nothing is above it", where,
-                "write 'ground: 0' under 'navigation' for flat ground at z = 0, or 'ground: NAME' for an object of the "
-                "scene; or give z: 'altitude: [20, 120]'");
-  }
-  limit->ground = *ground;
+  clearance->obstacles = obstacles_of(scene, ground);
+  const bool is_all = clearance->obstacles->triangles.size() == scene.mesh.triangles.size();
+  const bool has_flat_ground = mission.loaded.city.has_value();
+  if (!is_all || has_flat_ground) return;
+  mission.loaded.notes.push_back({WarningCode::clearance_from_all,
+                                  "the scene does not say what of it is ground: the clearance is kept from all of it"});
 }
 
 }  // namespace vantage::internal::app

@@ -140,7 +140,7 @@ void convert_zones(std::vector<Zone>& zones, ZoneUse use, const CrsConverter& co
 // All members are named: a limit that is added does not compile here before it is converted. An
 // altitude is one of the scene frame, the ground is the scene's, and meshes say themselves where they lie.
 void convert_limits(Navigation& navigation, const CrsConverter& converter, const MissionFile& file) {
-  auto& [altitude, keep_in, keep_in_zones, keep_out, keep_out_zones, meshes, above_ground] = navigation;
+  auto& [altitude, keep_in, keep_in_zones, keep_out, keep_out_zones, meshes, above_ground, clearance] = navigation;
   const std::string where = file.file.string();
   convert_zones(keep_in_zones, ZoneUse::keep_in, converter, file.places.keep_in_zones);
   convert_zones(keep_out_zones, ZoneUse::keep_out, converter, file.places.keep_out_zones);

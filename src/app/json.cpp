@@ -152,6 +152,7 @@ std::string json_text(const VerifyReport& report) {
   json["undecided"] = report.undecided;
   json["over_claimed"] = report.over_claimed;
   json["under_claimed"] = report.under_claimed;
+  if (report.share_unclaimed) json["share_unclaimed"] = *report.share_unclaimed;
   json["worst_over_depth_m"] = report.worst_over_depth_m;
   json["worst_over_point"] = json_of(report.worst_over_point);
   json["worst_over_cause"] = report.worst_over_cause;

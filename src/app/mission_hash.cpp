@@ -31,14 +31,22 @@ SortedJson sorted_json_of(const Zone::Ring& ring) {
   return list;
 }
 
+SortedJson bound(double at) { return std::isfinite(at) ? number_text(at) : SortedJson(); }
+
+SortedJson sorted_json_of(const AboveGround& limit) {
+  const Ground& ground = limit.ground;
+  return {{"range", {bound(limit.min_m), bound(limit.max_m)}},
+          {"ground", ground.surface ? SortedJson(volume_hash(*ground.surface)) : number_text(ground.plane_z_m)}};
+}
+
 SortedJson sorted_json_of(const std::vector<Zone>& zones) {
   SortedJson list = SortedJson::array();
   for (const Zone& zone : zones) {
     SortedJson rings = SortedJson::array();
     rings.push_back(sorted_json_of(zone.outer));
     for (const Zone::Ring& hole : zone.holes) rings.push_back(sorted_json_of(hole));
-    const auto bound = [](double z) { return std::isfinite(z) ? number_text(z) : SortedJson(); };
     list.push_back({{"rings", std::move(rings)}, {"z", {bound(zone.min_z_m), bound(zone.max_z_m)}}});
+    if (zone.above_ground) list.back()["agl"] = sorted_json_of(*zone.above_ground);
   }
   return list;
 }
@@ -46,16 +54,15 @@ SortedJson sorted_json_of(const std::vector<Zone>& zones) {
 // All members are named: a limit that is added does not compile here before it is hashed. Zones are left out where
 // there are none, so that missions without them keep their hash.
 SortedJson sorted_json_of(const Navigation& limits) {
-  const auto& [altitude, keep_in, keep_in_zones, keep_out, keep_out_zones, meshes, above_ground] = limits;
+  const auto& [altitude, keep_in, keep_in_zones, keep_out, keep_out_zones, meshes, above_ground, clearance] = limits;
   SortedJson json = {{"boxes", sorted_json_of(keep_in)}, {"keep_out", sorted_json_of(keep_out)}};
   json["altitude"] = altitude ? SortedJson{number_text(altitude->min_m), number_text(altitude->max_m)} : SortedJson();
   json["meshes"] = SortedJson::array();
   for (const KeepInMesh& mesh : meshes) json["meshes"].push_back(volume_hash(mesh.mesh));
-  if (above_ground) {
-    const Ground& ground = above_ground->ground;
-    json["agl"] = {
-        {"range", {number_text(above_ground->min_m), number_text(above_ground->max_m)}},
-        {"ground", ground.surface ? SortedJson(volume_hash(*ground.surface)) : number_text(ground.plane_z_m)}};
+  if (above_ground) json["agl"] = sorted_json_of(*above_ground);
+  if (clearance) {
+    json["clearance"] = {{"distance_m", number_text(clearance->distance_m)},
+                         {"obstacles", volume_hash(*clearance->obstacles)}};
   }
   if (!keep_in_zones.empty()) json["keep_in_zones"] = sorted_json_of(keep_in_zones);
   if (!keep_out_zones.empty()) json["keep_out_zones"] = sorted_json_of(keep_out_zones);
@@ -64,7 +71,7 @@ SortedJson sorted_json_of(const Navigation& limits) {
 
 // All members are named, as above. What is not given is left out, so that missions without it keep their hash.
 SortedJson sorted_json_of(const Sensor& sensor) {
-  const auto& [max_range_m, min_range_m, incidence_deg, camera, mount, pixel, sun] = sensor;
+  const auto& [max_range_m, min_range_m, incidence_deg, camera, mount, pixel, sun, link, visible] = sensor;
   SortedJson json = {{"max_range_m", number_text(max_range_m)}};
   if (min_range_m > 0) json["min_range_m"] = number_text(min_range_m);
   if (incidence_deg) json["incidence_deg"] = number_text(*incidence_deg);
@@ -82,6 +89,13 @@ SortedJson sorted_json_of(const Sensor& sensor) {
   }
   if (sun) {
     json["sun"] = {{"direction", sorted_json_of(sun->direction)}, {"exclude_deg", number_text(sun->exclude_deg)}};
+  }
+  if (link) {
+    json["link"] = {{"frequency_ghz", number_text(link->frequency_ghz)}, {"clear", number_text(link->clear)}};
+  }
+  if (visible) {
+    json["visible"] = {{"share", number_text(visible->share)},
+                       {"cells", number_text(static_cast<double>(visible->cells))}};
   }
   return json;
 }

@@ -126,6 +126,15 @@ void MissionParser::parse_sensor(const YamlNode& node) {
     fail(ErrorCode::not_applicable, node, "sensor.vlos is of a pilot, and the target is no point",
          "give the pilot's place: 'target: {point: [x, y, z]}', or 'max_range' instead of 'vlos'");
   }
+  if (mission_.sensor.link && !is_of_points) {
+    fail(ErrorCode::not_applicable, node, "sensor.link is of an antenna, and the target is no point",
+         "give the antenna's place: 'target: {point: [x, y, z]}', or leave out the link");
+  }
+  if (mission_.sensor.visible && is_of_points) {
+    fail(ErrorCode::not_applicable, *find(node, "visible"),
+         "sensor.visible is a part of the target's area, and a point has none",
+         "leave 'visible' out, or give a polygon");
+  }
   mission_.places.sensor = place_in(file(), node.place);
 }
 

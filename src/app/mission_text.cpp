@@ -229,13 +229,16 @@ class Writer {
       for (const Zone::Ring& hole : zone.holes) holes += (holes.empty() ? "" : ", ") + polygon(hole);
       text += (text.empty() ? "" : ", ") + ("{polygon: " + polygon(zone.outer));
       if (!holes.empty()) text += ", holes: [" + holes + "]";
-      const bool any_height = std::isinf(zone.min_z_m) && std::isinf(zone.max_z_m);
-      text += any_height ? ", heights: any}"
-                         : ", z: " + list_of(std::array{bound(zone.min_z_m), bound(zone.max_z_m)}) + "}";
+      const bool has_z = std::isfinite(zone.min_z_m) || std::isfinite(zone.max_z_m);
+      if (has_z) text += ", z: " + list_of(std::array{bound(zone.min_z_m), bound(zone.max_z_m)});
+      if (zone.above_ground)
+        text += ", agl: " + list_of(std::array{zone.above_ground->min_m, zone.above_ground->max_m});
+      text += has_z || zone.above_ground ? "}" : ", heights: any}";
     }
     for (const ZoneFile& file : files) {
       text += (text.empty() ? "" : ", ") + ("{file: " + path(file.file));
       if (file.z_m) text += ", z: " + list_of(*file.z_m);
+      if (file.agl_m) text += ", agl: " + list_of(*file.agl_m);
       text += file.any_height ? ", heights: any}" : "}";
     }
     return "[" + text + "]";
@@ -243,7 +246,7 @@ class Writer {
 
   // All members are named: a limit that is added does not compile here before it is written.
   std::string navigation() const {
-    const auto& [altitude, keep_in, keep_in_zones, keep_out, keep_out_zones, resolved_meshes, above_ground] =
+    const auto& [altitude, keep_in, keep_in_zones, keep_out, keep_out_zones, resolved_meshes, above_ground, clearance] =
         mission_.navigation;
     Section section("navigation");
     const std::string z = altitude ? list_of(std::array{altitude->min_m, altitude->max_m}) : "";
@@ -256,6 +259,7 @@ class Writer {
     if (const auto& ground = mission_.ground) {
       section.add("ground", ground->plane_z_m ? shortest(*ground->plane_z_m) : quoted(ground->object));
     }
+    if (clearance) section.add("clearance", shortest(clearance->distance_m));
     const std::string kept = zones(keep_in, keep_in_zones, mission_.keep_in_files);
     const std::string out = zones(keep_out, keep_out_zones, mission_.keep_out_files);
     if (kept != "[]") section.add("keep_in", kept);

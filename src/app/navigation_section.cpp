@@ -1,5 +1,6 @@
 #include "app/navigation_section.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <optional>
@@ -17,7 +18,9 @@ namespace {
 const char* const kZoneForms =
     "write each zone as {min: [x, y, z], max: [x, y, z]}, {polygon: [[x, y], [x, y], [x, y]], z: [low, high]} or "
     "{file: zones.json}";
-const char* const kHeightsForm = "write 'z: [low, high]' in metres, or 'heights: any' for a zone without bounds";
+const char* const kHeightsForm =
+    "write 'z: [low, high]' in metres, 'agl: [low, high]' above the ground, or 'heights: any' for a zone without "
+    "bounds";
 const char* const kRingForm = "write the corners in order: [[x, y], [x, y], [x, y]]";
 
 std::string numbered(const std::string& what, std::size_t index) { return what + "[" + std::to_string(index) + "]"; }
@@ -49,10 +52,12 @@ class NavigationParser {
   ZoneFile file(const YamlNode& node, const YamlNode& named, const std::string& what) const;
   /// Nothing where the node does not say.
   struct Heights {
-    std::optional<std::array<double, 2>> z_m;
+    std::optional<std::array<double, 2>> z_m, agl_m;
     bool are_any = false;
   };
   Heights heights(const YamlNode& node, const std::string& what) const;
+  std::array<double, 2> zone_heights(const YamlNode& node, const std::string& what) const;
+  bool measures_from_ground() const;
   void add_mesh(const YamlNode& node);
   void refuse_beside(const YamlNode& node, const char* key, std::initializer_list<const char*> others) const;
   const YamlNode& require(const YamlNode& map, Section section, const char* key, const std::string& fix) const;
@@ -67,7 +72,6 @@ NavigationSection NavigationParser::parse(const YamlNode& node) {
   check_keys(node, Section::navigation, reader_.file());
   Navigation& navigation = result_.navigation;
   if (const YamlNode* altitude = find(node, "altitude")) parse_altitude(*altitude);
-  if (const YamlNode* ground = find(node, "ground")) parse_ground(*ground);
   if (const YamlNode* keep_in = kept(node)) {
     const std::string what = keep_in == find(node, "boxes") ? "navigation.boxes" : "navigation.keep_in";
     add_zones(*keep_in, what,
@@ -84,6 +88,11 @@ NavigationSection NavigationParser::parse(const YamlNode& node) {
               {navigation.keep_out, navigation.keep_out_zones, result_.keep_out_files, result_.places.keep_out_zones,
                result_.places.keep_out_files});
   }
+  if (const YamlNode* clearance = find(node, "clearance")) {
+    navigation.clearance = {reader_.positive(*clearance, "navigation.clearance"), {}};
+  }
+  if (result_.places.above_ground.empty()) result_.places.above_ground = place_in(reader_.file(), node.place);
+  if (const YamlNode* ground = find(node, "ground")) parse_ground(*ground);
   const YamlNode* meshes = find(node, "meshes");
   if (meshes == nullptr) return std::move(result_);
   for (const YamlNode& item :
@@ -139,13 +148,24 @@ void NavigationParser::parse_altitude(const YamlNode& node) {
   result_.places.above_ground = place_in(reader_.file(), agl->place);
 }
 
+/// Also with zones of files: whether these are measured from the ground they say themselves.
+bool NavigationParser::measures_from_ground() const {
+  const Navigation& navigation = result_.navigation;
+  const auto has_agl = [](const Zone& zone) { return zone.above_ground.has_value(); };
+  return navigation.above_ground || !result_.keep_in_files.empty() || !result_.keep_out_files.empty() ||
+         std::any_of(navigation.keep_in_zones.begin(), navigation.keep_in_zones.end(), has_agl) ||
+         std::any_of(navigation.keep_out_zones.begin(), navigation.keep_out_zones.end(), has_agl);
+}
+
 void NavigationParser::parse_ground(const YamlNode& node) {
-  if (!result_.navigation.above_ground) {
+  const bool is_number =
+      parse_number(node.text).fault == NumberFault::none && node.kind == YamlNode::Kind::scalar && !node.is_quoted;
+  if (!measures_from_ground() && (is_number || !result_.navigation.clearance)) {
     reader_.fail(ErrorCode::not_applicable, node, "navigation.ground is given, and no limit above the ground",
                  "write 'altitude: {agl: [20, 120]}', or leave 'ground' out");
   }
   GroundSource& ground = result_.ground.emplace();
-  if (parse_number(node.text).fault == NumberFault::none && node.kind == YamlNode::Kind::scalar && !node.is_quoted) {
+  if (is_number) {
     ground.plane_z_m = reader_.length(node, "navigation.ground");
   } else {
     ground.object = reader_.text(node, "navigation.ground");
@@ -238,13 +258,14 @@ Zone NavigationParser::polygon(const YamlNode& node, const std::string& what, st
     }
   }
   const Heights given = heights(node, what);
-  if (!given.z_m && !given.are_any) {
+  if (!given.z_m && !given.agl_m && !given.are_any) {
     reader_.fail(ErrorCode::missing_key, node, what + " does not say between which heights it lies", kHeightsForm);
   }
   if (given.z_m) {
     zone.min_z_m = (*given.z_m)[0];
     zone.max_z_m = (*given.z_m)[1];
   }
+  if (given.agl_m) zone.above_ground = {(*given.agl_m)[0], (*given.agl_m)[1], {}};
   if (const auto fault = core::fault_of(zone)) {
     reader_.fail(fault->code, node, what + ": " + fault->problem, fault->fix);
   }
@@ -266,26 +287,29 @@ Zone::Ring NavigationParser::ring(const YamlNode& node, const std::string& what)
 }
 
 NavigationParser::Heights NavigationParser::heights(const YamlNode& node, const std::string& what) const {
-  const YamlNode* z = find(node, "z");
-  const YamlNode* word_node = find(node, "heights");
+  const YamlNode *z = find(node, "z"), *agl = find(node, "agl");
   Heights result;
-  if (word_node != nullptr) {
+  if (const YamlNode* word_node = find(node, "heights")) {
     const std::string word = reader_.text(*word_node, what + ".heights");
     if (word != "any") {
       reader_.fail(ErrorCode::unknown_choice, *word_node, what + ".heights cannot be " + in_quotes(word), kHeightsForm);
     }
-    if (z != nullptr) {
-      reader_.fail(ErrorCode::conflicting_keys, *word_node, what + " has both 'z' and 'heights: any'",
-                   "keep one of them");
+    if (z != nullptr || agl != nullptr) {
+      reader_.fail(ErrorCode::conflicting_keys, *word_node,
+                   what + " has both '" + (z != nullptr ? "z" : "agl") + "' and 'heights: any'", "keep one of them");
     }
     result.are_any = true;
   }
-  if (z == nullptr) return result;
-  if (reader_.list(*z, what + ".z", kHeightsForm).size() != 2) {
-    reader_.fail(ErrorCode::wrong_type, *z, what + ".z must be two numbers, not " + describe(*z), kHeightsForm);
-  }
-  result.z_m = {reader_.length(z->items[0], what + ".z[0]"), reader_.length(z->items[1], what + ".z[1]")};
+  if (z != nullptr) result.z_m = zone_heights(*z, what + ".z");
+  if (agl != nullptr) result.agl_m = zone_heights(*agl, what + ".agl");
   return result;
+}
+
+std::array<double, 2> NavigationParser::zone_heights(const YamlNode& node, const std::string& what) const {
+  if (reader_.list(node, what, kHeightsForm).size() != 2) {
+    reader_.fail(ErrorCode::wrong_type, node, what + " must be two numbers, not " + describe(node), kHeightsForm);
+  }
+  return {reader_.length(node.items[0], what + "[0]"), reader_.length(node.items[1], what + "[1]")};
 }
 
 ZoneFile NavigationParser::file(const YamlNode& node, const YamlNode& named, const std::string& what) const {
@@ -295,14 +319,18 @@ ZoneFile NavigationParser::file(const YamlNode& node, const YamlNode& named, con
   result.file = folder_ / result.name;
   const Heights given = heights(node, what);
   result.z_m = given.z_m;
+  result.agl_m = given.agl_m;
   result.any_height = given.are_any;
-  if (given.z_m && !((*given.z_m)[0] < (*given.z_m)[1])) {
-    const bool is_reversed = (*given.z_m)[0] > (*given.z_m)[1];
+  const auto check = [&](const std::optional<std::array<double, 2>>& band, const char* key) {
+    if (!band || (*band)[0] < (*band)[1]) return;
+    const bool is_reversed = (*band)[0] > (*band)[1];
     reader_.fail(is_reversed ? ErrorCode::limits_reversed : ErrorCode::limits_empty, node,
-                 what + ".z " + (is_reversed ? "is reversed" : "leaves no room") + ": " + shortest((*given.z_m)[0]) +
-                     ", " + shortest((*given.z_m)[1]),
-                 "write the lower z first");
-  }
+                 what + "." + key + (is_reversed ? " is reversed" : " leaves no room") + ": " + shortest((*band)[0]) +
+                     ", " + shortest((*band)[1]),
+                 std::string("write the lower ") + (*key == 'z' ? "z" : "height") + " first");
+  };
+  check(given.z_m, "z");
+  check(given.agl_m, "agl");
   return result;
 }
 

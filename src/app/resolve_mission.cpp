@@ -49,6 +49,7 @@ Mission assembled(const MissionFile& file, const std::vector<internal::app::Navi
   internal::app::georeference(mission, progress);
   internal::app::add_file_zones(mission, progress);
   internal::app::find_ground(mission);
+  internal::app::find_obstacles(mission);
   return mission;
 }
 

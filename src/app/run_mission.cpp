@@ -28,6 +28,14 @@ Volume compute(const Mission& mission, const PreparedTarget& target, const Stage
     options.threads = 0;  // those of the arena that the mission runs in
     return internal::app::exact_volume(target, options, progress);
   }
+  if (mission.sensor.link) {
+    throw Error(ErrorCode::not_applicable, "the method of spheres knows no zones of radio links",
+                mission.as_written.places.sensor, "use 'method: exact', or leave out sensor.link");
+  }
+  if (target.sensor().visible) {
+    throw Error(ErrorCode::not_applicable, "the method of spheres cannot tell how much of a target is seen",
+                mission.as_written.places.sensor, "use 'method: exact', or leave 'visible' out");
+  }
   SpheresOptions options = mission.as_written.spheres;
   options.threads = 0;
   const auto georeferenced = [&](const SphereStage& stage) {

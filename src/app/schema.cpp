@@ -15,8 +15,8 @@ struct SectionKeys {
   std::vector<std::string_view> keys;
 };
 
-const std::array<SectionKeys, 16>& table() {
-  static const std::array<SectionKeys, 16> kTable = {{
+const std::array<SectionKeys, 17>& table() {
+  static const std::array<SectionKeys, 17> kTable = {{
       {Section::mission,
        "the mission",
        {"scene", "crs", "target", "targets", "combine", "sensor", "navigation", "method", "exact", "spheres"}},
@@ -30,16 +30,20 @@ const std::array<SectionKeys, 16>& table() {
         "width", "length", "heading", "offset", "front", "sides"}},
       {Section::sensor,
        "sensor",
-       {"max_range", "min_range", "incidence", "camera", "fov", "mount", "gimbal", "pixel", "dori", "sun", "vlos"}},
+       {"max_range", "min_range", "incidence", "camera", "fov", "mount", "gimbal", "pixel", "dori", "sun", "vlos",
+        "link", "visible", "cells"}},
       {Section::camera, "sensor.camera", {"model", "width", "height", "focal_length", "sensor_width"}},
       {Section::mount, "sensor.mount", {"yaw", "pitch", "roll"}},
       {Section::gimbal, "sensor.gimbal", {"yaw", "pitch", "roll"}},
       {Section::pixel, "sensor.pixel", {"size", "kind"}},
       {Section::sun, "sensor.sun", {"time", "azimuth", "elevation", "exclude"}},
       {Section::vlos, "sensor.vlos", {"aircraft_size", "kind", "visibility", "eye_height"}},
-      {Section::navigation, "navigation", {"altitude", "ground", "keep_in", "boxes", "keep_out", "meshes"}},
+      {Section::link, "sensor.link", {"frequency", "clear"}},
+      {Section::navigation,
+       "navigation",
+       {"altitude", "ground", "clearance", "keep_in", "boxes", "keep_out", "meshes"}},
       {Section::altitude, "navigation.altitude", {"agl", "z"}},
-      {Section::zone, "a zone", {"min", "max", "polygon", "holes", "file", "z", "heights"}},
+      {Section::zone, "a zone", {"min", "max", "polygon", "holes", "file", "z", "agl", "heights"}},
       {Section::mesh, "an entry of navigation.meshes", {"mesh", "up", "scale"}},
       {Section::exact, "exact", {"tolerance"}},
       {Section::spheres,

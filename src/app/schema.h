@@ -23,6 +23,7 @@ enum class Section {
   pixel,
   sun,
   vlos,
+  link,
   navigation,
   altitude,
   zone,

@@ -41,6 +41,8 @@ class SensorParser {
   void parse_dori(const YamlNode& dori);
   void parse_sun(const YamlNode& sun);
   void parse_vlos(const YamlNode& vlos);
+  void parse_link(const YamlNode& link);
+  void parse_share();
   const YamlNode& require(const YamlNode& map, const char* key, const std::string& what, const std::string& fix) const;
   std::array<double, 2> two_angles(const YamlNode& node, const std::string& what, const std::string& form) const;
   void refuse_both(const char* one, const char* other, const std::string& fix) const;
@@ -258,6 +260,46 @@ void SensorParser::parse_vlos(const YamlNode& vlos) {
   result_.vlos = sight;
 }
 
+void SensorParser::parse_link(const YamlNode& link) {
+  check_keys(link, Section::link, reader_.file());
+  RadioLink result;
+  const YamlNode& frequency = require(link, "frequency", "sensor.link", "write {frequency: 2.4, clear: 0.6}: GHz");
+  result.frequency_ghz = reader_.positive(frequency, "sensor.link.frequency");
+  if (const YamlNode* clear = find(link, "clear")) {
+    result.clear = reader_.positive(*clear, "sensor.link.clear");
+    if (result.clear > 1) {
+      reader_.fail(ErrorCode::value_out_of_range, *clear, "sensor.link.clear is more than all of the first zone",
+                   "write a share of the zone's radius: 0.6 is usual, 1 is all of it");
+    }
+  }
+  result_.sensor.link = result;
+}
+
+void SensorParser::parse_share() {
+  const YamlNode* const share = find(node_, "visible");
+  const YamlNode* const cells = find(node_, "cells");
+  if (cells && !share) {
+    reader_.fail(ErrorCode::missing_key, *cells, "sensor.cells needs sensor.visible",
+                 "say how much of the target must be seen, visible: 0.8, or leave 'cells' out");
+  }
+  if (!share) return;
+  VisibleShare visible;
+  visible.share = reader_.number(*share, "sensor.visible");
+  if (!(visible.share > 0 && visible.share <= 1)) {
+    reader_.fail(ErrorCode::value_out_of_range, *share, "sensor.visible is not between 0 and 1",
+                 "write the part of the target's area that must be seen: 0.8");
+  }
+  if (cells) {
+    const double count = reader_.number(*cells, "sensor.cells");
+    if (count != std::floor(count) || count < 1 || count > 1024) {
+      reader_.fail(ErrorCode::value_out_of_range, *cells, "sensor.cells is not a whole number from 1 to 1024",
+                   "write for example 16, or 64 for a larger volume in more time");
+    }
+    visible.cells = static_cast<std::size_t>(count);
+  }
+  result_.sensor.visible = visible;
+}
+
 SensorSection SensorParser::parse() {
   check_keys(node_, Section::sensor, reader_.file());
   Sensor& sensor = result_.sensor;
@@ -287,6 +329,8 @@ SensorSection SensorParser::parse() {
   if (const YamlNode* pixel = find(node_, "pixel")) parse_pixel(*pixel);
   if (const YamlNode* dori = find(node_, "dori")) parse_dori(*dori);
   if (const YamlNode* sun = find(node_, "sun")) parse_sun(*sun);
+  if (const YamlNode* link = find(node_, "link")) parse_link(*link);
+  parse_share();
   if (!find(node_, "max_range") && !result_.vlos && !sensor.pixel) {
     reader_.fail(ErrorCode::missing_key, node_, "sensor lacks the key 'max_range'",
                  "write 'max_range: 100': metres, to every point of the target");
@@ -366,7 +410,7 @@ SensorSection parse_sensor_section(const YamlNode& node, const ValueReader& read
 
 // All members are named: a limit that is added does not compile here before it is written.
 std::string sensor_section_text(const MissionFile& mission) {
-  const auto& [max_range_m, min_range_m, incidence_deg, camera, mount, pixel, sun] = mission.sensor;
+  const auto& [max_range_m, min_range_m, incidence_deg, camera, mount, pixel, sun, link, visible] = mission.sensor;
   std::string text = "sensor:\n";
   if (mission.vlos) {
     text += vlos_text(*mission.vlos);
@@ -381,6 +425,11 @@ std::string sensor_section_text(const MissionFile& mission) {
             ", kind: " + (pixel->kind == PixelLimit::Kind::worst ? "worst" : "perpendicular") + "}\n";
   }
   if (sun) text += sun_text(mission);
+  if (link)
+    text += "  link: {frequency: " + shortest(link->frequency_ghz) + ", clear: " + shortest(link->clear) + "}\n";
+  if (visible) {
+    text += "  visible: " + shortest(visible->share) + "\n  cells: " + std::to_string(visible->cells) + "\n";
+  }
   return text;
 }
 

@@ -153,6 +153,7 @@ Zone::Ring FileZones::circle(const ListedCircle& circle) const {
   return ring;
 }
 
+/// `without`: where the height is none, or is above the ground.
 double FileZones::z_of(const std::optional<ZoneHeight>& height, double without, const std::string& place) const {
   if (!height) return without;
   const std::string& vertical = mission_.loaded.scene.georeference->vertical;
@@ -171,27 +172,34 @@ double FileZones::z_of(const std::optional<ZoneHeight>& height, double without, 
     case HeightReference::ground:
       break;
   }
-  fail(ErrorCode::value_unsupported, place, "its heights are above the ground (AGL), which zones cannot have",
-       "write 'heights: any' for zones without bounds, or give the zones as polygons with 'z'");
+  return without;
 }
 
 void FileZones::add_heights(const ListedZone& listed, bool has_none, Zone& zone) const {
   if (file_.any_height) return;
-  if (file_.z_m && listed.has_heights) {
+  if ((file_.z_m || file_.agl_m) && listed.has_heights) {
     fail(ErrorCode::conflicting_keys, listed.place, "the zone has heights of its own, and the mission gives others",
-         "leave 'z' out; 'heights: any' makes zones without bounds of it");
+         std::string("leave '") + (file_.z_m ? "z" : "agl") + "' out; 'heights: any' makes zones without bounds of it");
   }
   if (file_.z_m) {
     zone.min_z_m = (*file_.z_m)[0];
     zone.max_z_m = (*file_.z_m)[1];
-    return;
   }
+  if (file_.agl_m) zone.above_ground = {(*file_.agl_m)[0], (*file_.agl_m)[1], {}};
+  if (file_.z_m || file_.agl_m) return;
   if (!listed.has_heights && !has_none) {
     fail(ErrorCode::missing_key, listed.place, "the file does not say between which heights the zone lies",
-         "write 'z: [low, high]' or 'heights: any' beside 'file'");
+         "write 'z: [low, high]', 'agl: [low, high]' or 'heights: any' beside 'file'");
   }
   zone.min_z_m = z_of(listed.lower, -kInfinity, listed.place);
   zone.max_z_m = z_of(listed.upper, kInfinity, listed.place);
+  const auto is_above_ground = [](const std::optional<ZoneHeight>& height) {
+    return height && height->from == HeightReference::ground;
+  };
+  if (!is_above_ground(listed.lower) && !is_above_ground(listed.upper)) return;
+  zone.above_ground = {is_above_ground(listed.lower) ? listed.lower->metres : -kInfinity,
+                       is_above_ground(listed.upper) ? listed.upper->metres : kInfinity,
+                       {}};
 }
 
 Zone FileZones::placed(const ListedZone& listed) const {

@@ -77,6 +77,10 @@ std::string table_text(const VerifyReport& report, const std::string& file) {
           "worst depth", fixed(report.worst_under_depth_m, 6),
           "metres outside: from the farthest of them to the volume's surface, at " + vector(report.worst_under_point));
     }
+    if (report.share_unclaimed) {
+      table.row("share unclaimed", count(*report.share_unclaimed),
+                "not claimed, though enough of the target is seen: lost to its cells");
+    }
     table.row("bound", fixed(100 * report.over_claim_bound, 4) + " %",
               "at most this share of the volume is over-claimed, with 95 % confidence");
     table.row("bound's points", count(report.bound_points),

@@ -53,7 +53,9 @@ void append_number(std::string& text, double value) {
 }
 
 /// Nine significant digits: a micrometre in a kilometre.
+/// Nothing for a number that is not known.
 void append_metres(std::string& text, double value) {
+  if (std::isnan(value)) return;
   std::array<char, 32> digits;
   const auto [end, error] =
       std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::general, 9);

@@ -69,7 +69,12 @@ std::optional<ZoneFault> fault_of_heights(const Zone& zone) {
   if (zone.min_z_m == zone.max_z_m) {
     return ZoneFault{ErrorCode::limits_empty, "z leaves no room: both heights are " + low, "give an upper z above it"};
   }
-  return std::nullopt;
+  if (!zone.above_ground || zone.above_ground->min_m < zone.above_ground->max_m) return std::nullopt;
+  const bool is_reversed = zone.above_ground->min_m > zone.above_ground->max_m;
+  return ZoneFault{is_reversed ? ErrorCode::limits_reversed : ErrorCode::limits_empty,
+                   "agl " + std::string(is_reversed ? "is reversed: " : "leaves no room: ") +
+                       shortest(zone.above_ground->min_m) + ", " + shortest(zone.above_ground->max_m),
+                   "give the lower height first"};
 }
 
 std::optional<ZoneFault> fault_of_ring(const Zone::Ring& ring, std::size_t number) {

@@ -2,12 +2,14 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "core/mend_welded.h"
 #include "core/parallel.h"
 #include "core/stopwatch.h"
 #include "core/text.h"
 #include "exact/half_space_volume.h"
+#include "exact/link_scene.h"
 #include "target/lengths.h"
 #include "target/prepared_target_data.h"
 #include "target/range_check.h"
@@ -67,20 +69,36 @@ void compute_polygon(const PreparedTarget& target, const ExactOptions& options,
               "the target looks into what it lies on: turn it round with front:, or raise it with offset:");
 }
 
+void set_at_antenna(const PreparedTarget& target, std::uint32_t polygon, Volume& volume) {
+  const PreparedScene& scene = target.scene();
+  volume.outcome = Outcome::blocked_at_once;
+  volume.reason = '"' + display_name(scene.objects()[scene.object_of_polygon(polygon)]) +
+                  "\" is so near to the antenna that it enters the zone of every position";
+  volume.hint = "raise the antenna, or give a higher frequency or a smaller share of the zone to keep clear";
+}
+
 void compute_point(const PreparedTarget& target, const ExactOptions& options,
                    const internal::core::ProgressReporter& progress, Volume& volume) {
   const double max_range = range_limit_m(target.sensor());
   const internal::target::PointSides& sides = *target.data().parts[0].sides;
   // Of the point itself: the triangle would cost micrometres.
   const internal::target::RangeRegion range(volume.frame.polygon, max_range);
+  std::optional<LinkScene> link;
+  if (target.sensor().link) link.emplace(target, range);
+  if (const auto polygon = link ? link->polygon_at_antenna() : std::nullopt) {
+    return set_at_antenna(target, *polygon, volume);
+  }
+  const auto compute = [&](const TargetFrame& side) {
+    return link ? link->compute_half_space(side, options, progress)
+                : compute_half_space(target.scene(), side, range, options, progress);
+  };
   if (!sides.back) {
-    fill_volume(compute_half_space(target.scene(), sides.front, range, options, progress), sides.front, max_range,
-                volume, "the point's front",
+    fill_volume(compute(sides.front), sides.front, max_range, volume, "the point's front",
                 "the point looks into what it lies on: turn it round with front:, or move it with offset:");
     return;
   }
-  const HalfSpaceVolume front = compute_half_space(target.scene(), sides.front, range, options, progress);
-  const HalfSpaceVolume back = compute_half_space(target.scene(), *sides.back, range, options, progress);
+  const HalfSpaceVolume front = compute(sides.front);
+  const HalfSpaceVolume back = compute(*sides.back);
   fill_volume(join_half_spaces(front, back), sides.front, max_range, volume, "the point on all sides",
               "move the point out of what it lies in");
 }

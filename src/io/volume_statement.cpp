@@ -32,7 +32,7 @@ double length_of(const Json& json) {
 
 // All members are named, here and below: a limit that is added does not compile before it is stated.
 Json limits_json(const Sensor& sensor) {
-  const auto& [max_range_m, min_range_m, incidence_deg, camera, mount, pixel, sun] = sensor;
+  const auto& [max_range_m, min_range_m, incidence_deg, camera, mount, pixel, sun, link, visible] = sensor;
   Json json = Json::object();
   if (min_range_m > 0) json["min_range_m"] = min_range_m;
   if (incidence_deg) json["incidence_deg"] = *incidence_deg;
@@ -48,11 +48,13 @@ Json limits_json(const Sensor& sensor) {
                      {"kind", pixel->kind == PixelLimit::Kind::worst ? "worst" : "perpendicular"}};
   }
   if (sun) json["sun"] = {{"direction", json_of(sun->direction)}, {"exclude_deg", sun->exclude_deg}};
+  if (link) json["link"] = {{"frequency_ghz", link->frequency_ghz}, {"clear", link->clear}};
+  if (visible) json["visible"] = {{"share", visible->share}, {"cells", visible->cells}};
   return json;
 }
 
 void read_sensor(const Json& json, Sensor& sensor) {
-  auto& [max_range_m, min_range_m, incidence_deg, camera, mount, pixel, sun] = sensor;
+  auto& [max_range_m, min_range_m, incidence_deg, camera, mount, pixel, sun, link, visible] = sensor;
   min_range_m = json.value("min_range_m", 0.0);
   if (json.contains("incidence_deg")) incidence_deg = json.at("incidence_deg").get<double>();
   if (json.contains("camera")) {
@@ -74,6 +76,13 @@ void read_sensor(const Json& json, Sensor& sensor) {
   }
   if (json.contains("sun")) {
     sun = SunLimit{vector_of(json.at("sun").at("direction")), json.at("sun").at("exclude_deg").get<double>()};
+  }
+  if (json.contains("link")) {
+    link = RadioLink{length_of(json.at("link").at("frequency_ghz")), length_of(json.at("link").at("clear"))};
+  }
+  if (json.contains("visible")) {
+    const Json& share = json.at("visible");
+    visible = VisibleShare{share.at("share").get<double>(), share.at("cells").get<std::size_t>()};
   }
 }
 

@@ -8,6 +8,7 @@
 #include "query/measure.h"
 #include "query/point_query_data.h"
 #include "query/shadow.h"
+#include "vantage/error.h"
 
 namespace vantage {
 namespace {
@@ -176,6 +177,10 @@ std::optional<FractionMeasure> fraction_measure(std::string_view name) {
 
 std::vector<PointFraction> PointQuery::fractions(std::span<const Vec3> points, const FractionOptions& options) {
   internal::query::check_finite(points);
+  if (data_->target.sensor().link) {
+    throw Error(ErrorCode::not_applicable, "the zone of a radio link is clear or not: no share of it is seen",
+                "sensor.link", "leave out the link, or ask without a fraction");
+  }
   const bool is_point = data_->target.target().is_point();
   std::vector<Sum> sums(points.size());
   std::vector<PointFraction> result(points.size());

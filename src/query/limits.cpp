@@ -115,6 +115,8 @@ void add_zone_crossings(const Zone& zone, const ViewRay& line, std::vector<doubl
   });
 }
 
+bool is_same(const Ground& a, const Ground& b) { return a.surface == b.surface && a.plane_z_m == b.plane_z_m; }
+
 /// The part of the line from one cut to the next.
 struct Part {
   double begin, end;
@@ -126,16 +128,43 @@ struct Part {
 Limits::Limits(Navigation navigation, sensor::SensorLimits sensor)
     : navigation_(std::move(navigation)), sensor_(std::move(sensor)) {
   for (const KeepInMesh& mesh : navigation_.meshes) mesh_boxes_.push_back(bounding_box(mesh.mesh));
-  if (navigation_.above_ground) ground_.emplace(navigation_.above_ground->ground);
+  if (navigation_.above_ground) add_ground(navigation_.above_ground->ground);
+  for (const std::vector<Zone>* zones : {&navigation_.keep_in_zones, &navigation_.keep_out_zones}) {
+    for (const Zone& zone : *zones) {
+      if (zone.above_ground) add_ground(zone.above_ground->ground);
+    }
+  }
+  if (navigation_.clearance) obstacles_.emplace(*navigation_.clearance);
   for (const Zone& zone : navigation_.keep_in_zones) keep_in_boxes_.push_back(box_of(zone));
   for (const Zone& zone : navigation_.keep_out_zones) keep_out_boxes_.push_back(box_of(zone));
 }
 
+void Limits::add_ground(const Ground& ground) {
+  const bool is_known =
+      std::any_of(grounds_.begin(), grounds_.end(), [&](const auto& known) { return is_same(known.first, ground); });
+  if (!is_known) grounds_.emplace_back(ground, GroundHeights(ground));
+}
+
+const GroundHeights& Limits::heights_of(const Ground& ground) const {
+  return std::find_if(grounds_.begin(), grounds_.end(), [&](const auto& known) { return is_same(known.first, ground); })
+      ->second;
+}
+
 // All members of Navigation are named, here and below: a limit that is added does not compile before it is answered.
+
+void Limits::add_above_ground_crossings(const AboveGround& limit, const ViewRay& line,
+                                        std::vector<double>& cuts) const {
+  for (const double above_m : {limit.min_m, limit.max_m}) {
+    // Of an infinite height the ends of the ground are left: any finite one has them too.
+    heights_of(limit.ground)
+        .add_crossings(line.origin, line.direction, line.reach, std::isfinite(above_m) ? above_m : 0, cuts);
+  }
+}
 
 /// The line within reach, cut wherever it passes a limit: between neighbours all of it is allowed or none.
 std::vector<double> Limits::cut_line(const ViewRay& line) const {
-  const auto& [altitude, keep_in, keep_in_zones, keep_out, keep_out_zones, meshes, above_ground] = navigation_;
+  const auto& [altitude, keep_in, keep_in_zones, keep_out, keep_out_zones, meshes, above_ground, clearance] =
+      navigation_;
   std::vector<double> cuts;
   if (altitude) {
     Box band;
@@ -150,17 +179,16 @@ std::vector<double> Limits::cut_line(const ViewRay& line) const {
   within_reach.extend(line.at(line.reach));
   const auto add_zones = [&](const std::vector<Zone>& zones, const std::vector<Box>& boxes) {
     for (std::size_t i = 0; i < zones.size(); ++i) {
-      if (meet(boxes[i], within_reach)) add_zone_crossings(zones[i], line, cuts);
+      if (!meet(boxes[i], within_reach)) continue;
+      add_zone_crossings(zones[i], line, cuts);
+      if (zones[i].above_ground) add_above_ground_crossings(*zones[i].above_ground, line, cuts);
     }
   };
   add_zones(keep_in_zones, keep_in_boxes_);
   add_zones(keep_out_zones, keep_out_boxes_);
   for (const KeepInMesh& mesh : meshes) add_mesh_crossings(mesh.mesh, line, cuts);
-  if (above_ground) {
-    for (const double above_m : {above_ground->min_m, above_ground->max_m}) {
-      ground_->add_crossings(line.origin, line.direction, line.reach, above_m, cuts);
-    }
-  }
+  if (above_ground) add_above_ground_crossings(*above_ground, line, cuts);
+  if (clearance) obstacles_->add_crossings(line.origin, line.direction, line.reach, cuts);
   if (!sensor_.none()) {
     const std::vector<double> changes = sensor_.changes(line.origin, line.direction, line.reach);
     cuts.insert(cuts.end(), changes.begin(), changes.end());
@@ -193,7 +221,7 @@ double Limits::signed_margin(const ViewRay& line, double at, bool is_inside) con
 }
 
 void Limits::add_broken_above_ground(const Vec3& point, std::vector<std::string>& broken) const {
-  const auto ground = ground_->at(point.x(), point.y());
+  const auto ground = heights_of(navigation_.above_ground->ground).at(point.x(), point.y());
   if (!ground) {
     broken.push_back("ground edge");
     return;
@@ -202,8 +230,25 @@ void Limits::add_broken_above_ground(const Vec3& point, std::vector<std::string>
   if (point.z() > ground->lowest_m + navigation_.above_ground->max_m) broken.push_back("agl max");
 }
 
+/// Of a zone to stay in.
+bool Limits::is_at_height(const Zone& zone, const Vec3& point) const {
+  if (!zone.above_ground) return true;
+  const auto ground = heights_of(zone.above_ground->ground).at(point.x(), point.y());
+  return ground && point.z() >= ground->highest_m + zone.above_ground->min_m &&
+         point.z() <= ground->lowest_m + zone.above_ground->max_m;
+}
+
+/// Of a zone to stay out of.
+bool Limits::is_clear_of_heights(const Zone& zone, const Vec3& point) const {
+  if (!zone.above_ground) return false;
+  const auto ground = heights_of(zone.above_ground->ground).at(point.x(), point.y());
+  return ground && (point.z() <= ground->lowest_m + zone.above_ground->min_m ||
+                    point.z() >= ground->highest_m + zone.above_ground->max_m);
+}
+
 std::vector<std::string> Limits::broken(const Vec3& point) const {
-  const auto& [altitude, keep_in, keep_in_zones, keep_out, keep_out_zones, meshes, above_ground] = navigation_;
+  const auto& [altitude, keep_in, keep_in_zones, keep_out, keep_out_zones, meshes, above_ground, clearance] =
+      navigation_;
   const auto holds = [&](const Box& box) { return inside(box, point); };
   std::vector<std::string> broken;
   if (altitude) {
@@ -213,20 +258,22 @@ std::vector<std::string> Limits::broken(const Vec3& point) const {
   if (above_ground) add_broken_above_ground(point, broken);
   bool is_kept = (keep_in.empty() && keep_in_zones.empty()) || std::any_of(keep_in.begin(), keep_in.end(), holds);
   for (std::size_t i = 0; i < keep_in_zones.size() && !is_kept; ++i) {
-    is_kept = inside(keep_in_zones[i], keep_in_boxes_[i], point);
+    is_kept = inside(keep_in_zones[i], keep_in_boxes_[i], point) && is_at_height(keep_in_zones[i], point);
   }
   if (!is_kept) broken.push_back(keep_in_zones.empty() ? "boxes" : "keep_in");
   for (std::size_t i = 0; i < keep_out.size(); ++i)
     if (strictly_inside(keep_out[i], point)) broken.push_back("keep_out " + std::to_string(i));
   for (std::size_t i = 0; i < keep_out_zones.size(); ++i) {
     const Zone& zone = keep_out_zones[i];
-    if (strictly_inside(zone, keep_out_boxes_[i], point)) broken.push_back("keep_out zone " + zone.name);
+    if (strictly_inside(zone, keep_out_boxes_[i], point) && !is_clear_of_heights(zone, point))
+      broken.push_back("keep_out zone " + zone.name);
   }
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     // Also because the winding number overflows far away.
     const bool is_in = inside(mesh_boxes_[i], point) && !(winding_number(meshes[i].mesh, point) < 0.5);
     if (!is_in) broken.push_back("mesh " + meshes[i].name);
   }
+  if (clearance && obstacles_->is_too_near(point)) broken.push_back("clearance");
   if (!sensor_.none()) {
     for (std::string& name : sensor_.broken(point)) broken.push_back(std::move(name));
   }

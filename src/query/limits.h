@@ -3,9 +3,11 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "query/ground_heights.h"
+#include "query/obstacle_distance.h"
 #include "sensor/sensor_limits.h"
 #include "vantage/constraints.h"
 
@@ -25,8 +27,8 @@ class Limits {
 
   /// Names as in reports: "altitude min", "altitude max", "agl min", "agl max", "ground edge" (no ground above or below
   /// the point), "boxes" or "keep_in" (the point is in none of them), "keep_out 2", "keep_out zone NAME", "mesh NAME",
-  /// then the sensor's (SensorLimits::broken). Borders belong to the allowed side. Cost: linear in the corners of zones
-  /// and in the triangles of navigation meshes whose boxes hold the point.
+  /// "clearance", then the sensor's (SensorLimits::broken). Borders belong to the allowed side. Cost: linear in the
+  /// corners of zones and in the triangles of navigation meshes whose boxes hold the point.
   std::vector<std::string> broken(const Vec3& point) const;
 
   /// Signed distance, along the line, from the point at `at` metres from its origin (negative: behind the target) to
@@ -39,11 +41,17 @@ class Limits {
  private:
   std::vector<double> cut_line(const ViewRay& line) const;
   void add_broken_above_ground(const Vec3& point, std::vector<std::string>& broken) const;
+  void add_ground(const Ground& ground);
+  const GroundHeights& heights_of(const Ground& ground) const;
+  void add_above_ground_crossings(const AboveGround& limit, const ViewRay& line, std::vector<double>& cuts) const;
+  bool is_at_height(const Zone& zone, const Vec3& point) const;
+  bool is_clear_of_heights(const Zone& zone, const Vec3& point) const;
 
   Navigation navigation_;
   sensor::SensorLimits sensor_;
   std::vector<Box> mesh_boxes_, keep_in_boxes_, keep_out_boxes_;  ///< of meshes and of zones
-  std::optional<GroundHeights> ground_;                           ///< where heights above it are limited
+  std::vector<std::pair<Ground, GroundHeights>> grounds_;         ///< of all limits above a ground, each once
+  std::optional<ObstacleDistance> obstacles_;                     ///< where a clearance from them is asked
 };
 
 }  // namespace vantage::internal::query

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <optional>
 
 #include "exact/blocker.h"
 #include "query/point_query_data.h"
@@ -123,6 +124,15 @@ class RayQuery {
   Box pyramid_;
 };
 
+/// How far a line of sight reaches, and what is in the way of the point on it.
+double look_along(Side& side, const Vec3& direction, double distance, const Vec3& scene_direction,
+                  NamedObjects& named) {
+  if (!side.link) return 1 / RayQuery(side, direction, distance, named).gauge();
+  named.clear(side.scene.objects.size());
+  side.link->for_each_entering(scene_direction, distance, [&](std::uint32_t object) { named.add(object); });
+  return side.link->reach(scene_direction, 1 / side.range.gauge(direction));
+}
+
 PointAnswer look(Side& side, const Vec3& scene_point) {
   thread_local NamedObjects named;
   PointAnswer answer;
@@ -135,13 +145,12 @@ PointAnswer look(Side& side, const Vec3& scene_point) {
   // The line goes to the front always: for a point behind the target it is the other half of the line through it.
   const double sign = answer.behind_target ? -1 : 1;
   const Vec3 direction = bearing.distance > 0 ? Vec3(sign * bearing.direction) : Vec3::UnitZ();
-  const RayQuery ray(side, direction, answer.behind_target ? 0 : bearing.distance, named);
+  const Vec3 towards = frame.axis_u * direction.x() + frame.axis_v * direction.y() + frame.normal * direction.z();
+  const double reach = look_along(side, direction, answer.behind_target ? 0 : bearing.distance, towards, named);
   answer.blocked_by = named.names(side.scene.objects);
   answer.inside =
       !answer.behind_target && !answer.out_of_range && answer.blocked_by.empty() && answer.outside_of.empty();
-  const internal::query::ViewRay line{
-      frame.origin, frame.axis_u * direction.x() + frame.axis_v * direction.y() + frame.normal * direction.z(),
-      side.is_reachable ? 1 / ray.gauge() : 0};
+  const internal::query::ViewRay line{frame.origin, towards, side.is_reachable ? reach : 0};
   answer.margin_m = side.limits.signed_margin(line, sign * bearing.distance, answer.inside);
   return answer;
 }
@@ -160,6 +169,25 @@ void narrow(PointAnswer& answer, const PointAnswer& other) {
   answer.blocked_by = std::move(blockers);
   answer.out_of_range = answer.out_of_range || other.out_of_range;
   answer.behind_target = answer.behind_target || other.behind_target;
+}
+
+/// What hides the target counts only where less than the share is seen.
+void take_share(PointQuery& query, double share, std::span<const Vec3> points, std::span<PointAnswer> answers) {
+  std::vector<std::size_t> hidden;
+  std::vector<Vec3> places;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    answers[i].margin_m = std::numeric_limits<double>::quiet_NaN();
+    if (answers[i].blocked_by.empty()) continue;
+    hidden.push_back(i);
+    places.push_back(points[i]);
+  }
+  const std::vector<PointFraction> fractions = query.fractions(places);
+  for (std::size_t k = 0; k < hidden.size(); ++k) {
+    if (!(fractions[k].fraction >= share)) continue;
+    PointAnswer& answer = answers[hidden[k]];
+    answer.blocked_by.clear();
+    answer.inside = !answer.behind_target && !answer.out_of_range && answer.outside_of.empty();
+  }
 }
 
 internal::query::Limits limits_of(const PreparedTarget& target, const Navigation& navigation) {
@@ -191,6 +219,8 @@ std::vector<PointAnswer> PointQuery::answer(std::span<const Vec3> points) {
     answer_all(data_->parts[part], points, of_part);
     for (std::size_t i = 0; i < points.size(); ++i) narrow(answers[i], of_part[i]);
   }
+  const std::optional<VisibleShare>& visible = data_->target.sensor().visible;
+  if (visible && visible->share < 1) take_share(*this, visible->share, points, answers);
   return answers;
 }
 

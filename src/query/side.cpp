@@ -104,6 +104,9 @@ Sides make_sides(const PreparedTarget::Data& target, const PreparedTarget::Data:
     const target::RangeRegion range(part.frame.polygon, max_range);  // of the point, not of the triangle for it
     result.push_back(std::make_unique<Side>(scene, limits, sides.front, range, max_range, true));
     if (sides.back) result.push_back(std::make_unique<Side>(scene, limits, *sides.back, range, max_range, true));
+    if (target.sensor.link) {
+      for (auto& side : result) side->link.emplace(scene, side->frame.origin, *target.sensor.link);
+    }
     return result;
   }
   // Where no point at all is in range the centre may be out of range itself: look from the circle's centre, as the

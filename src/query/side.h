@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include "exact/segment_cover.h"
 #include "query/blocker_index.h"
 #include "query/limits.h"
+#include "query/link_query.h"
 #include "scene/prepared_data.h"
 #include "target/local_target.h"
 #include "target/prepared_target_data.h"
@@ -51,6 +53,7 @@ struct Side {
   target::RangeRegion range;
   bool is_reachable;  // else no point at all is in range
   std::array<Reach, 2> reaches;
+  std::optional<LinkQuery> link;  ///< instead of the line of sight
 
   Bearing bearing_of(const Vec3& scene_point) const;
   bool is_behind(const Bearing& bearing) const { return !frame.all_sides && !bearing.in_front; }

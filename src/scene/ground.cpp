@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "vantage/constraints.h"
 #include "vantage/error.h"
 
 namespace vantage {
@@ -50,6 +51,15 @@ std::optional<Ground> ground_of(const Scene& scene) {
   }
   if (mesh.empty()) return std::nullopt;
   return Ground{0, std::make_shared<const Mesh>(std::move(mesh))};
+}
+
+std::shared_ptr<const Mesh> obstacles_of(const Scene& scene, const std::vector<std::uint32_t>& ground) {
+  Mesh mesh = part_of(scene, [&](std::uint32_t object) {
+    return scene.objects[object].kind != ObjectKind::ground &&
+           std::find(ground.begin(), ground.end(), object) == ground.end();
+  });
+  if (mesh.empty()) mesh = scene.mesh;
+  return std::make_shared<const Mesh>(std::move(mesh));
 }
 
 Ground ground_of(const Scene& scene, std::uint32_t object) {

@@ -155,7 +155,7 @@ bool SensorLimits::fits(const Vec3& point, const Mount& mount) const {
 // All members of Sensor are named, here and below: a limit that is added does not compile before it is answered.
 
 std::vector<std::string> SensorLimits::broken(const Vec3& scene_point) const {
-  const auto& [max_range_m, min_range_m, incidence_deg, camera, mount, pixel, sun] = sensor_;
+  const auto& [max_range_m, min_range_m, incidence_deg, camera, mount, pixel, sun, link, visible] = sensor_;
   const Vec3 point = scene_point - viewed_.origin;
   const auto some_part = [&](const auto& breaks) {
     return std::any_of(viewed_.parts.begin(), viewed_.parts.end(), breaks);
@@ -181,7 +181,7 @@ std::vector<std::string> SensorLimits::broken(const Vec3& scene_point) const {
 }
 
 std::vector<double> SensorLimits::changes(const Vec3& origin, const Vec3& direction, double reach) const {
-  const auto& [max_range_m, min_range_m, incidence_deg, camera, mount, pixel, sun] = sensor_;
+  const auto& [max_range_m, min_range_m, incidence_deg, camera, mount, pixel, sun, link, visible] = sensor_;
   const Vec3 start = origin - viewed_.origin;
   const auto at = [&](double t) { return Vec3(start + t * direction); };
   std::vector<double> out;

@@ -190,6 +190,12 @@ Solid intersect(std::span<const Solid> operands, const core::ProgressReporter& p
                    "intersection", progress);
 }
 
+Solid simplified(const Solid& solid) {
+  if (solid.empty()) return solid;
+  const Solid one(solid.to_mesh());  // of one operand
+  return evaluated(one.impl().manifold.Simplify(), "simplification", {});
+}
+
 Solid make_box(const Box& box, const BoxLabels& labels) {
   if (!(box.min.array() < box.max.array()).all()) {
     throw Error(ErrorCode::internal_defect, "a box must have min < max on every axis", "", "");

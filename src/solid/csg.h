@@ -72,6 +72,10 @@ VANTAGE_INTERNAL_API Solid intersect(std::span<const Solid> operands, const core
 struct BoxLabels {
   std::array<std::uint32_t, 3> min{}, max{};  ///< of the sides at min x, y, z and at max x, y, z
 };
+/// The same solid with what lies in one plane and has one label joined, whatever operands it came from, to within
+/// epsilon(): what follows costs less.
+Solid simplified(const Solid& solid);
+
 /// An axis-aligned box; its corners are those given, bit for bit. Needs min < max on every axis.
 Solid make_box(const Box& box, const BoxLabels& labels);
 

@@ -49,30 +49,46 @@ void check_boxes(const std::vector<Box>& boxes, const std::string& name, const s
   }
 }
 
-void check_ground(const Ground& ground) {
-  const auto refuse = [](const char* problem, const char* fix) {
-    throw Error(ErrorCode::value_out_of_range, problem, "navigation.ground", fix);
-  };
-  if (!std::isfinite(ground.plane_z_m)) refuse("the plane of the ground is not finite", "give its z in metres");
-  if (!ground.surface) return;
-  for (const Vec3& vertex : ground.surface->vertices) {
-    if (!vertex.allFinite()) refuse("the ground has a vertex that is not finite", "mend the ground");
+[[noreturn]] void refuse(const std::string& problem, const std::string& where, const char* fix) {
+  throw Error(ErrorCode::value_out_of_range, problem, where, fix);
+}
+
+/// `what`, of the mesh, is for the message: "the ground".
+void check_triangles(const Mesh& mesh, const std::string& what, const std::string& where) {
+  for (const Vec3& vertex : mesh.vertices) {
+    if (!vertex.allFinite()) refuse(what + ": a vertex is not finite", where, "mend the mesh");
   }
-  for (const Triangle& triangle : ground.surface->triangles) {
+  for (const Triangle& triangle : mesh.triangles) {
     for (const std::uint32_t vertex : triangle) {
-      if (vertex >= ground.surface->vertices.size()) {
-        refuse("the ground has a triangle with an index out of range", "mend the ground");
-      }
+      if (vertex >= mesh.vertices.size()) refuse(what + ": an index is out of range", where, "mend the mesh");
     }
   }
 }
 
+void check_ground(const Ground& ground, const std::string& where) {
+  if (!std::isfinite(ground.plane_z_m)) {
+    refuse("the plane of the ground is not finite", where, "give its z in metres");
+  }
+  if (ground.surface) check_triangles(*ground.surface, "the ground", where);
+}
+
+void check_clearance(const Clearance& clearance) {
+  const std::string where = "navigation.clearance";
+  if (!(clearance.distance_m > 0) || !std::isfinite(clearance.distance_m)) {
+    refuse("the clearance is not a positive, finite number of metres", where, "leave it out where there is none");
+  }
+  if (!clearance.obstacles) refuse("the clearance has no obstacles", where, "give those of the scene: obstacles_of");
+  check_triangles(*clearance.obstacles, "the obstacles", where);
+}
+
 void check_zones(const std::vector<Zone>& zones, const char* key) {
   for (std::size_t i = 0; i < zones.size(); ++i) {
+    const std::string where = std::string("navigation.").append(key).append("[").append(std::to_string(i)).append("]");
     if (const auto fault = core::fault_of(zones[i])) {
-      throw Error(fault->code, std::string("zone ").append(zones[i].name).append(": ").append(fault->problem),
-                  std::string("navigation.").append(key).append("[").append(std::to_string(i)).append("]"), fault->fix);
+      throw Error(fault->code, std::string("zone ").append(zones[i].name).append(": ").append(fault->problem), where,
+                  fault->fix);
     }
+    if (zones[i].above_ground) check_ground(zones[i].above_ground->ground, where);
   }
 }
 
@@ -84,8 +100,9 @@ void check_limits(const Navigation& navigation) {
   }
   if (const auto& limit = navigation.above_ground) {
     check_pair(limit->min_m, limit->max_m, "the band above the ground", "", "navigation.altitude.agl");
-    check_ground(limit->ground);
+    check_ground(limit->ground, "navigation.ground");
   }
+  if (navigation.clearance) check_clearance(*navigation.clearance);
   check_boxes(navigation.keep_in, "box", "boxes");
   check_boxes(navigation.keep_out, "keep_out", "keep_out");
   check_zones(navigation.keep_in_zones, "keep_in_zones");

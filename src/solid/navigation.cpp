@@ -16,6 +16,7 @@
 #include "core/stopwatch.h"
 #include "core/volume_check.h"
 #include "solid/clean.h"
+#include "solid/local_cut.h"
 #include "solid/numerics.h"
 #include "solid/outside_limits.h"
 #include "solid/regions.h"
@@ -32,11 +33,11 @@ std::vector<Solid> solids_of(const std::vector<Region>& regions) {
   return solids;
 }
 
-Solid cut(const Solid& volume, const Regions& regions, const core::ProgressReporter& progress) {
+LocalCut cut(const LabelledMesh& volume, const Regions& regions, const core::ProgressReporter& progress) {
   const Solid forbidden = unite(solids_of(regions.forbidden));
-  if (regions.kept.empty()) return subtract(volume, forbidden, progress);
+  if (regions.kept.empty()) return cut_locally(volume, forbidden, CutKind::keep_outside, progress);
   const Solid kept = intersect(solids_of(regions.kept));
-  return intersect(volume, forbidden.empty() ? kept : subtract(kept, forbidden), progress);
+  return cut_locally(volume, forbidden.empty() ? kept : subtract(kept, forbidden), CutKind::keep_inside, progress);
 }
 
 /// Puts the corners of cut faces into their planes exactly, where rounding left them beside it. `labelled` is in the
@@ -69,18 +70,17 @@ void make_empty(const Emptiness& emptiness, Volume& result) {
 /// `labels`: of the volume's facets, see Regions::sources.
 void cut_volume(const Regions& regions, std::vector<std::uint32_t> labels, const core::ProgressReporter& progress,
                 Volume& result) {
-  const Solid volume(moved_to_origin(result.mesh, std::move(labels), regions.origin), "the volume");
-  const Solid remaining = cut(volume, regions, progress);
-  LabelledMesh labelled = remaining.to_mesh();
-  core::drop_slivers(labelled, sliver_thickness(volume));
+  const LabelledMesh volume = moved_to_origin(result.mesh, std::move(labels), regions.origin);
+  auto [labelled, epsilon, through] = cut(volume, regions, progress);
+  core::drop_slivers(labelled, numerics::kSliverEpsilons * epsilon);
   if (labelled.mesh.empty()) {
-    return make_empty(explain_emptiness(volume, regions, progress), result);
+    return make_empty(explain_emptiness(Solid(volume, "the volume"), regions, progress), result);
   }
   for (Vec3& vertex : labelled.mesh.vertices) vertex += regions.origin;
   const double rounding = std::numeric_limits<double>::epsilon() * regions.origin.cwiseAbs().maxCoeff();
-  const double allowance = numerics::kSnapEpsilons * (volume.epsilon() + rounding);
+  const double allowance = numerics::kSnapEpsilons * (epsilon + rounding);
   snap_to_planes(labelled, regions.sources, allowance);
-  const CleaningLimits limits = cleaning_limits(result.tolerance_m, volume.epsilon(), bounding_box(labelled.mesh));
+  const CleaningLimits limits = cleaning_limits(result.tolerance_m, epsilon, bounding_box(labelled.mesh));
   clean_inward(labelled, regions.origin, regions.sources, limits);
   core::mend_for_doubles(labelled);
   snap_to_planes(labelled, regions.sources, allowance);  // what was merged went to the origin and back
@@ -108,8 +108,11 @@ Volume cut_to(const Volume& volume, const PreparedTarget* target, const Navigati
   std::vector<std::uint32_t> labels = sources.add(volume, causes);
   Regions regions = make_regions(volume.causes, sources.sources(), bounds, navigation, meshes);
   if (target) add_sensor_regions(sensor::viewed_of(*target), target->sensor(), bounds, regions);
+  if (navigation.clearance) {
+    add_clearance_region(*navigation.clearance, volume, regions, progress.part(0.3, 0.6));
+  }
   if (!regions.kept.empty() || !regions.forbidden.empty()) {
-    cut_volume(regions, std::move(labels), progress.part(0.3, 1), result);
+    cut_volume(regions, std::move(labels), progress.part(0.6, 1), result);
   }
   progress.finish();
   const double seconds = stopwatch.seconds();

@@ -79,8 +79,15 @@ constexpr double kMinRangeShare = 2e-3;
 /// of its volume.
 constexpr double kPixelShare = 5e-4;
 
+/// Balls about the corners of a target that is smaller than this part of their radius meet at an angle of less than
+/// 0.2: facets as wide as kPixelShare makes them cut off less than 0.2 % of the radius there.
+constexpr double kSmallTarget = 0.1;
+
+/// Vertices of facets that must lie inside of a curved surface are moved in by this part of their distance: rounding.
+constexpr double kInward = 1e-12;
+
 /// Facets of limits have no longer sides than this part of the range: what booleans cost grows with their boxes.
-constexpr double kLongestSide = 1.0 / 8;
+constexpr double kLongestSide = 1.0;
 
 /// A camera that can look at a point from anywhere may not come nearer to it than this part of the range.
 constexpr double kLeastDistance = 1e-6;

@@ -64,6 +64,7 @@ Emptiness explain_region(const Region& region, const Solid& left, const std::str
                   (region.explanation.empty() ? "" : "; " + region.explanation),
               "relax it, or the limits that it goes with"};
     case RegionKind::keep_out:
+    case RegionKind::clearance:
       break;
   }
   return {};

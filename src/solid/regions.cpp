@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/causes.h"
 #include "core/text.h"
+#include "solid/clearance.h"
 #include "solid/ground_band.h"
 #include "solid/numerics.h"
 #include "solid/zone_rings.h"
@@ -33,6 +35,8 @@ bool insides_meet(const Box& a, const Box& b) {
 
 std::string zone_name(const Zone& zone) { return std::string("zone ").append(zone.name); }
 
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
+
 /// Causes of a box's six sides: at min x, y, z, then at max x, y, z.
 using SideCauses = std::array<std::uint32_t, 6>;
 
@@ -48,7 +52,7 @@ class Builder {
   }
 
   void add_altitude(const Navigation::Altitude& altitude);
-  void add_above_ground(const Navigation::AboveGround& limit);
+  void add_above_ground(const AboveGround& limit);
   void add_kept(const std::vector<Box>& boxes, const std::vector<Zone>& zones);
   void add_mesh(const Mesh& mesh, const std::string& name);
   void add_keep_out(const Box& box, std::size_t index);
@@ -69,7 +73,8 @@ class Builder {
   void add_band(RegionKind kind, const std::string& name, const Box& band, const char* min_cause,
                 const char* max_cause);
   Solid make_box_of_one_cause(const Box& box, const std::string& name);
-  Solid make_zone(const Zone& zone, const std::string& name);
+  Solid make_zone(const Zone& zone, std::uint32_t cause);
+  Solid make_heights(const AboveGround& heights, std::uint32_t cause);
 
   Box bounds_, outer_;
   Regions result_;
@@ -119,7 +124,7 @@ void Builder::add_altitude(const Navigation::Altitude& altitude) {
            "altitude min", "altitude max");
 }
 
-void Builder::add_above_ground(const Navigation::AboveGround& limit) {
+void Builder::add_above_ground(const AboveGround& limit) {
   const auto& [min_m, max_m, ground] = limit;
   const std::string name = "the band " + metres_from_to(min_m, max_m) + " above the ground";
   if (!ground.surface) {
@@ -137,9 +142,8 @@ void Builder::add_above_ground(const Navigation::AboveGround& limit) {
                           make_ground_band(*ground.surface, min_m, max_m, outer_, result_.origin, labels)});
 }
 
-/// The part of a zone that lies about the volume, as of boxes.
-Solid Builder::make_zone(const Zone& zone, const std::string& name) {
-  const std::uint32_t cause = add_cause(name);
+/// The part of a zone that lies about the volume, as of boxes; but for its heights above the ground.
+Solid Builder::make_zone(const Zone& zone, std::uint32_t cause) {
   const std::array<std::uint32_t, 3> labels = {add_source({cause, 2, zone.min_z_m}),
                                                add_source({cause, 2, zone.max_z_m}), add_source({cause})};
   const double low = std::max(zone.min_z_m, outer_.min.z()) - result_.origin.z();
@@ -147,6 +151,27 @@ Solid Builder::make_zone(const Zone& zone, const std::string& name) {
   const ZoneRings rings = rings_within(zone, outer_, result_.origin);
   if (rings.empty() || !(low < high)) return Solid();
   return make_prism(rings, low, high, labels);
+}
+
+/// What lies between two heights, which may be infinite, above all of the ground above or below it. Empty where there
+/// is no ground.
+Solid Builder::make_heights(const AboveGround& heights, std::uint32_t cause) {
+  const auto& [min_m, max_m, ground] = heights;
+  const bool has_surface = ground.surface && !ground.surface->empty();
+  const Box at = has_surface ? bounding_box(*ground.surface) : Box{{0, 0, ground.plane_z_m}, {0, 0, ground.plane_z_m}};
+  // As good as infinite, and no larger than that: booleans round to a part of the largest coordinate.
+  const double low = std::max(min_m, outer_.min.z() - at.max.z() - 1);
+  const double high = std::min(max_m, outer_.max.z() - at.min.z() + 1);
+  if (!(low < high)) return Solid();
+  const std::uint32_t label = add_source({cause});
+  if (ground.surface)
+    return make_ground_band(*ground.surface, low, high, outer_, result_.origin, {label, label, label});
+  Box band = outer_;
+  band.min.z() = ground.plane_z_m + low;
+  band.max.z() = ground.plane_z_m + high;
+  SideCauses causes;
+  causes.fill(cause);
+  return make_side_labelled_box(band, causes);
 }
 
 void Builder::add_kept(const std::vector<Box>& boxes, const std::vector<Zone>& zones) {
@@ -160,7 +185,12 @@ void Builder::add_kept(const std::vector<Box>& boxes, const std::vector<Zone>& z
       solids.push_back(make_box_of_one_cause(boxes[i], std::string("box ").append(std::to_string(i))));
     }
   }
-  for (const Zone& zone : zones) solids.push_back(make_zone(zone, zone_name(zone)));
+  for (const Zone& zone : zones) {
+    const std::uint32_t cause = add_cause(zone_name(zone));
+    Solid solid = make_zone(zone, cause);
+    if (zone.above_ground && !solid.empty()) solid = intersect(solid, make_heights(*zone.above_ground, cause));
+    solids.push_back(std::move(solid));
+  }
   const bool is_one = boxes.size() + zones.size() == 1;
   const RegionKind kind = is_one ? RegionKind::box : zones.empty() ? RegionKind::boxes : RegionKind::zones;
   const std::string name = !is_one ? "boxes" : zones.empty() ? "box 0" : zone_name(zones[0]);
@@ -183,7 +213,14 @@ void Builder::add_keep_out(const Box& box, std::size_t index) {
 
 void Builder::add_keep_out(const Zone& zone) {
   const std::string name = std::string("keep_out ").append(zone_name(zone));
-  Solid solid = make_zone(zone, name);
+  const std::uint32_t cause = add_cause(name);
+  Solid solid = make_zone(zone, cause);
+  if (zone.above_ground && !solid.empty()) {
+    // What is below the lower height above all of the ground there, and what is above the upper one, is allowed.
+    const auto& [min_m, max_m, ground] = *zone.above_ground;
+    solid = subtract(solid, make_heights({-kUnbounded, min_m, ground}, cause));
+    solid = subtract(solid, make_heights({max_m, kUnbounded, ground}, cause));
+  }
   if (!solid.empty()) result_.forbidden.push_back({RegionKind::keep_out, name, std::move(solid)});
 }
 
@@ -225,7 +262,8 @@ void set_mesh(LabelledMesh labelled, const std::vector<FacetSource>& sources, st
 // All members are named: a limit that is added does not compile here before it is cut.
 Regions make_regions(const std::vector<Cause>& volume_causes, const std::vector<FacetSource>& volume_sources,
                      const Box& bounds, const Navigation& navigation, const std::vector<Mesh>& meshes) {
-  const auto& [altitude, keep_in, keep_in_zones, keep_out, keep_out_zones, keep_in_meshes, above_ground] = navigation;
+  const auto& [altitude, keep_in, keep_in_zones, keep_out, keep_out_zones, keep_in_meshes, above_ground, clearance] =
+      navigation;
   Builder builder(volume_causes, volume_sources, bounds);
   if (altitude) builder.add_altitude(*altitude);
   if (above_ground) builder.add_above_ground(*above_ground);
@@ -233,7 +271,19 @@ Regions make_regions(const std::vector<Cause>& volume_causes, const std::vector<
   for (std::size_t i = 0; i < meshes.size(); ++i) builder.add_mesh(meshes[i], keep_in_meshes[i].name);
   for (std::size_t i = 0; i < keep_out.size(); ++i) builder.add_keep_out(keep_out[i], i);
   for (const Zone& zone : keep_out_zones) builder.add_keep_out(zone);
+  static_cast<void>(clearance);  // add_clearance_region
   return builder.take();
+}
+
+void add_clearance_region(const Clearance& clearance, const Volume& volume, Regions& regions,
+                          const core::ProgressReporter& progress) {
+  regions.causes.push_back({CauseKind::navigation, "clearance"});
+  regions.sources.push_back({static_cast<std::uint32_t>(regions.causes.size() - 1)});
+  const auto label = static_cast<std::uint32_t>(regions.sources.size() - 1);
+  Solid solid = make_clearance(clearance, volume.mesh, volume.frame.origin, regions.origin, label, progress);
+  if (solid.empty()) return;
+  regions.forbidden.push_back(
+      {RegionKind::clearance, "the clearance of " + core::number_text(clearance.distance_m) + " m", std::move(solid)});
 }
 
 }  // namespace vantage::internal::solid

@@ -39,7 +39,7 @@ class FacetSourceList {
 void set_mesh(LabelledMesh labelled, const std::vector<FacetSource>& sources, std::vector<Cause> causes,
               Volume& volume);
 
-enum class RegionKind { altitude, above_ground, box, boxes, zones, mesh, keep_out, sensor };
+enum class RegionKind { altitude, above_ground, box, boxes, zones, mesh, keep_out, clearance, sensor };
 
 /// Space to stay in or out of. All boxes and zones to stay in are one region, since the volume is cut to their union.
 struct Region {
@@ -59,11 +59,15 @@ struct Regions {
   std::vector<Region> forbidden;     ///< each is taken away
 };
 
-/// Leaves out every limit that a volume with these bounds keeps anyway. `meshes` are the navigation's, checked and
-/// welded. Boxes and zones are clipped a little outside the bounds, where that changes nothing, to keep coordinates
-/// small.
+/// But for the clearance. Leaves out every limit that a volume with these bounds keeps anyway. `meshes` are the
+/// navigation's, checked and welded. Boxes and zones are clipped a little outside the bounds, where that changes
+/// nothing, to keep coordinates small.
 Regions make_regions(const std::vector<Cause>& volume_causes, const std::vector<FacetSource>& volume_sources,
                      const Box& bounds, const Navigation& navigation, const std::vector<Mesh>& meshes);
+
+/// Forbids what is nearer to obstacles than the clearance. `volume`: what is to be cut, scene frame.
+void add_clearance_region(const Clearance& clearance, const Volume& volume, Regions& regions,
+                          const core::ProgressReporter& progress);
 
 /// The mesh with its vertices relative to `origin`.
 LabelledMesh moved_to_origin(const Mesh& mesh, std::vector<std::uint32_t> labels, const Vec3& origin);

@@ -170,10 +170,29 @@ void SensorRegions::add_incidence(const ViewedPart& part) {
   keep("incidence", std::move(half_spaces));
 }
 
-/// Polytopes inside of the balls that touch the target's plane in its corners.
+/// Facets between points on the border of what the balls that touch the target's plane in its corners have in common:
+/// that is convex, so they lie in it. Where two balls meet, facets cut the edge between them off: the less, the smaller
+/// the target is beside the balls.
 void SensorRegions::add_pixel(const ViewedPart& part) {
   const double radius = sensor_.pixel->size_m * *sensor_.camera->focal_px / 2;
-  const SphereMesh sphere = sphere_for(numerics::kPixelShare);
+  SphereMesh sphere = sphere_for(numerics::kPixelShare);
+  double farthest = 0;
+  for (const Vec3& corner : part.corners) farthest = std::max(farthest, (corner - part.centre).norm());
+  if (farthest < numerics::kSmallTarget * radius) {
+    const Vec3 inside = part.centre + radius * *part.normal;
+    for (Vec3& vertex : sphere.mesh.vertices) {
+      double reach = std::numeric_limits<double>::infinity();
+      for (const Vec3& corner : part.corners) {
+        const Vec3 from = part.centre - corner;  // of `inside` from the ball's centre
+        const double along = vertex.dot(from);
+        reach = std::min(reach, std::sqrt(along * along + radius * radius - from.squaredNorm()) - along);
+      }
+      vertex = inside + (1 - numerics::kInward) * reach * vertex;
+    }
+    regions_.kept.push_back({RegionKind::sensor, "pixel", solid_of(sphere.mesh, "pixel"), {}, {}});
+    return;
+  }
+  // Polytopes inside of the balls.
   std::vector<HalfSpace> half_spaces;
   for (const Vec3& direction : sphere.mesh.vertices) {
     half_spaces.push_back({direction, radius * (direction.dot(*part.normal) + std::cos(sphere.cover)) -
@@ -252,7 +271,7 @@ void SensorRegions::add_frame() {
 
 // All members are named: a limit that is added does not compile here before it is cut.
 void add_sensor_regions(const Viewed& viewed, const Sensor& limits, const Box& bounds, Regions& regions) {
-  const auto& [max_range_m, min_range_m, incidence_deg, camera, mount, pixel, sun] = limits;
+  const auto& [max_range_m, min_range_m, incidence_deg, camera, mount, pixel, sun, link, visible] = limits;
   SensorRegions builder(viewed, limits, bounds, regions);
   for (const ViewedPart& part : viewed.parts) {
     if (incidence_deg) builder.add_incidence(part);

@@ -6,12 +6,17 @@
 #include "options/spheres_options.h"
 #include "spheres/sphere_maker.h"
 #include "spheres/visibility.h"
+#include "vantage/error.h"
 
 namespace vantage {
 
 Volume compute_visibility_spheres(const PreparedTarget& target, const SpheresOptions& options, SpheresReport* report,
                                   const StageSink& stages, const Progress& progress) {
   internal::options::check_options(options);  // before a device is looked for
+  if (target.sensor().visible) {
+    throw Error(ErrorCode::not_applicable, "the method of spheres cannot tell how much of a target is seen",
+                "sensor.visible", "use the exact method, or leave 'visible' out");
+  }
   Volume volume;
   internal::parallel::with_threads(options.threads, [&] {
     const internal::depth::ChosenRenderer chosen = internal::depth::make_depth_renderer(target.scene(), options.device);

@@ -114,6 +114,10 @@ Volume compute_visibility(const PreparedTarget& target, const SpheresOptions& op
                 "target", "compute each part and intersect the volumes");
   }
   const Sensor& sensor = target.sensor();
+  if (sensor.link) {
+    throw Error(ErrorCode::not_applicable, "the method of spheres knows no zones of radio links", "sensor.link",
+                "use 'method: exact', or leave out the link");
+  }
   SpheresReport own_report;
   SpheresReport& told = report ? *report : own_report;
   told = {};

@@ -12,8 +12,10 @@ namespace {
 
 using internal::core::number_text;
 
-constexpr double kLargestRange = 1e9;      // metres; as scenes
-constexpr double kLargestTangent = 1e3;    // half a picture of 179.9 degrees
+constexpr double kLargestRange = 1e9;       // metres; as scenes
+constexpr double kLargestTangent = 1e3;     // half a picture of 179.9 degrees
+constexpr double kHighestFrequency = 3000;  // GHz: radio waves end there (ITU Radio Regulations, 1.5)
+constexpr std::size_t kMostCells = 1024;
 constexpr double kSmallestTangent = 1e-6;  // and one of a fifth of a second of arc
 
 void require(bool holds, const char* problem, const char* where, const char* fix,
@@ -54,6 +56,20 @@ void check_pixel(const Sensor& sensor) {
           "sensor.pixel", "give a camera with its width and height in pixels", ErrorCode::missing_key);
 }
 
+void check_link(const RadioLink& link) {
+  require(link.frequency_ghz > 0 && link.frequency_ghz <= kHighestFrequency,
+          "the frequency is not between 0 and 3000 GHz", "sensor.link", "give it in GHz: 2.4");
+  require(link.clear > 0 && link.clear <= 1, "the share of the zone that must be clear is not between 0 and 1",
+          "sensor.link", "0.6 is usual, 1 is all of the first zone");
+}
+
+void check_share(const VisibleShare& visible) {
+  require(visible.share > 0 && visible.share <= 1, "the visible share is not between 0 and 1", "sensor.visible",
+          "give the part of the target's area that must be seen: 0.8");
+  require(visible.cells >= 1 && visible.cells <= kMostCells, "the number of cells is not between 1 and 1024",
+          "sensor.cells", "give for example 16, or 64 for a larger volume in more time");
+}
+
 }  // namespace
 
 bool Sensor::limits_view() const {
@@ -67,10 +83,11 @@ double range_limit_m(const Sensor& sensor) {
 
 // All members are named: a limit that is added does not compile here before it is checked.
 void check_sensor(const Sensor& sensor) {
-  const auto& [max_range_m, min_range_m, incidence_deg, camera, mount, pixel, sun] = sensor;
+  const auto& [max_range_m, min_range_m, incidence_deg, camera, mount, pixel, sun, link, visible] = sensor;
   if (camera) check_camera(*camera);
   check_mount(mount);
   if (pixel) check_pixel(sensor);
+  if (link) check_link(*link);
   require(max_range_m > 0, "max_range must be a positive, finite number of metres", "sensor",
           "give the farthest distance at which the target can be seen");
   const double range_m = range_limit_m(sensor);
@@ -88,6 +105,7 @@ void check_sensor(const Sensor& sensor) {
   }
   require(!incidence_deg || (*incidence_deg > 0 && *incidence_deg < 90), "incidence is not between 0 and 90 degrees",
           "sensor.incidence", "it is measured from the target's normal: 60 leaves out the last 30 degrees");
+  if (visible) check_share(*visible);
   if (!sun) return;
   require(sun->direction.allFinite() && sun->direction.norm() > 0, "the direction to the sun is zero or not finite",
           "sensor.sun", "give a vector towards the sun", ErrorCode::direction_invalid);

@@ -28,9 +28,11 @@ std::optional<double> height_above(const Vec3& point, const Vec3& a, const Vec3&
 
 }  // namespace
 
-GroundProbe::GroundProbe(const Navigation::AboveGround& limit)
-    : min_m_(limit.min_m), max_m_(limit.max_m), ground_(limit.ground) {
-  double largest = std::max({std::abs(min_m_), std::abs(max_m_), std::abs(ground_.plane_z_m)});
+GroundProbe::GroundProbe(const AboveGround& limit) : min_m_(limit.min_m), max_m_(limit.max_m), ground_(limit.ground) {
+  double largest = std::abs(ground_.plane_z_m);
+  for (const double height : {min_m_, max_m_}) {
+    if (std::isfinite(height)) largest = std::max(largest, std::abs(height));
+  }
   if (ground_.surface) {
     std::vector<Box> boxes;
     for (const Triangle& triangle : ground_.surface->triangles) {
@@ -47,29 +49,37 @@ GroundProbe::GroundProbe(const Navigation::AboveGround& limit)
   allowance_m_ = kRoundings * std::numeric_limits<double>::epsilon() * largest;
 }
 
+/// Of the point above the pieces of ground there.
+std::optional<GroundProbe::Heights> GroundProbe::heights(const Vec3& point) const {
+  if (!index_) return Heights{point.z() - ground_.plane_z_m, point.z() - ground_.plane_z_m};
+  Heights result{INFINITY, -INFINITY};
+  const Vec3 place(point.x(), point.y(), 0);
+  if ((place.array() < bounds_.min.array()).any() || (place.array() > bounds_.max.array()).any()) return std::nullopt;
+  index_->any_along(place - Vec3::UnitZ(), place + Vec3::UnitZ(), [&](std::uint32_t t) {
+    const Triangle& corners = ground_.surface->triangles[t];
+    const auto& at = ground_.surface->vertices;
+    const auto height = height_above(point, at[corners[0]], at[corners[1]], at[corners[2]], allowance_m_);
+    if (height) {
+      result.lowest = std::min(result.lowest, *height);
+      result.highest = std::max(result.highest, *height);
+    }
+    return false;
+  });
+  if (result.lowest > result.highest) return std::nullopt;
+  return result;
+}
+
 std::optional<const char*> GroundProbe::broken_by(const Vec3& point) const {
-  double lowest = point.z() - ground_.plane_z_m, highest = lowest;
-  if (index_) {
-    lowest = INFINITY;
-    highest = -INFINITY;
-    const Vec3 place(point.x(), point.y(), 0);
-    if ((place.array() < bounds_.min.array()).any() || (place.array() > bounds_.max.array()).any())
-      return "ground edge";
-    index_->any_along(place - Vec3::UnitZ(), place + Vec3::UnitZ(), [&](std::uint32_t t) {
-      const Triangle& corners = ground_.surface->triangles[t];
-      const auto& at = ground_.surface->vertices;
-      const auto height = height_above(point, at[corners[0]], at[corners[1]], at[corners[2]], allowance_m_);
-      if (height) {
-        lowest = std::min(lowest, *height);
-        highest = std::max(highest, *height);
-      }
-      return false;
-    });
-    if (lowest > highest) return "ground edge";
-  }
-  if (lowest < min_m_ - allowance_m_) return "agl min";
-  if (highest > max_m_ + allowance_m_) return "agl max";
+  const auto above = heights(point);
+  if (!above) return "ground edge";
+  if (above->lowest < min_m_ - allowance_m_) return "agl min";
+  if (above->highest > max_m_ + allowance_m_) return "agl max";
   return std::nullopt;
+}
+
+bool GroundProbe::is_outside_band(const Vec3& point) const {
+  const auto above = heights(point);
+  return above && (above->highest <= min_m_ + allowance_m_ || above->lowest >= max_m_ - allowance_m_);
 }
 
 }  // namespace vantage::internal::verify

@@ -35,6 +35,10 @@ void check(const std::vector<Zone>& zones, const std::string& name) {
     if (!(zone.min_z_m < zone.max_z_m)) {  // NaN too
       throw Error(ErrorCode::limits_reversed, "the zone is reversed or flat", where, "give the lower z first");
     }
+    if (zone.above_ground && !(zone.above_ground->min_m < zone.above_ground->max_m)) {
+      throw Error(ErrorCode::limits_reversed, "the zone's band above the ground is reversed or empty", where,
+                  "give the lower height first");
+    }
     if (bounds_nothing(zone.outer) || std::any_of(zone.holes.begin(), zone.holes.end(), bounds_nothing)) {
       throw Error(ErrorCode::zone_not_simple, "a ring of the zone has fewer than 3 corners", where,
                   "give the corners in order");
@@ -63,6 +67,15 @@ Box bounds_of(const Zone& zone) {
     box.extend(Vec3(corner.x(), corner.y(), zone.max_z_m));
   }
   return box;
+}
+
+std::vector<std::optional<GroundProbe>> heights_of(const std::vector<Zone>& zones) {
+  std::vector<std::optional<GroundProbe>> probes;
+  for (const Zone& zone : zones) {
+    std::optional<GroundProbe>& probe = probes.emplace_back();
+    if (zone.above_ground) probe.emplace(*zone.above_ground);
+  }
+  return probes;
 }
 
 std::vector<Box> bounds_of(const std::vector<Zone>& zones) {
@@ -106,6 +119,9 @@ Limits::Limits(const Navigation& navigation, const Vec3& origin) : navigation_(n
   check(navigation_.keep_out_zones, "keep_out zone");
   keep_in_bounds_ = bounds_of(navigation_.keep_in_zones);
   keep_out_bounds_ = bounds_of(navigation_.keep_out_zones);
+  keep_in_heights_ = heights_of(navigation_.keep_in_zones);
+  keep_out_heights_ = heights_of(navigation_.keep_out_zones);
+  if (navigation_.clearance) obstacles_.emplace(*navigation_.clearance);
   for (const KeepInMesh& keep_in : navigation_.meshes) {
     meshes_.emplace_back(keep_in.mesh, origin, "keep-in mesh '" + keep_in.name + "'");
   }
@@ -113,7 +129,8 @@ Limits::Limits(const Navigation& navigation, const Vec3& origin) : navigation_(n
 
 // All members are named: a limit that is added does not compile here before it is checked.
 std::optional<std::string> Limits::broken_by(const Vec3& point) const {
-  const auto& [altitude, keep_in, keep_in_zones, keep_out, keep_out_zones, meshes, above_ground] = navigation_;
+  const auto& [altitude, keep_in, keep_in_zones, keep_out, keep_out_zones, meshes, above_ground, clearance] =
+      navigation_;
   const Vec3 scene_point = point + origin_;
   if (altitude) {
     if (scene_point.z() < altitude->min_m) return "altitude min";
@@ -125,21 +142,29 @@ std::optional<std::string> Limits::broken_by(const Vec3& point) const {
   const auto holds = [&scene_point](const Box& box) { return within(box, scene_point); };
   bool is_kept = (keep_in.empty() && keep_in_zones.empty()) || std::any_of(keep_in.begin(), keep_in.end(), holds);
   for (std::size_t i = 0; i < keep_in_zones.size() && !is_kept; ++i) {
-    is_kept = contains(keep_in_zones[i], keep_in_bounds_[i], scene_point, true);
+    is_kept = contains(keep_in_zones[i], keep_in_bounds_[i], scene_point, true) &&
+              !(keep_in_heights_[i] && keep_in_heights_[i]->broken_by(scene_point));
   }
   if (!is_kept) return keep_in_zones.empty() ? "box" : "keep_in";
   for (std::size_t i = 0; i < keep_out.size(); ++i) {
     if (strictly_within(keep_out[i], scene_point)) return "keep_out " + std::to_string(i);
   }
   for (std::size_t i = 0; i < keep_out_zones.size(); ++i) {
-    if (contains(keep_out_zones[i], keep_out_bounds_[i], scene_point, false)) {
+    if (contains(keep_out_zones[i], keep_out_bounds_[i], scene_point, false) &&
+        !(keep_out_heights_[i] && keep_out_heights_[i]->is_outside_band(scene_point))) {
       return "keep_out zone " + keep_out_zones[i].name;
     }
   }
   for (std::size_t i = 0; i < meshes_.size(); ++i) {
     if (meshes_[i].contains(point) == false) return "mesh " + meshes[i].name;
   }
+  if (clearance && obstacles_->is_too_near(scene_point)) return "clearance";
   return std::nullopt;
+}
+
+bool Limits::may_leave_out(const Vec3& point) const {
+  constexpr double kClearanceSlack = 0.16;
+  return obstacles_ && obstacles_->is_too_near(point + origin_, kClearanceSlack);
 }
 
 }  // namespace vantage::internal::verify

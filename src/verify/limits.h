@@ -8,6 +8,7 @@
 #include "vantage/constraints.h"
 #include "verify/closed_mesh.h"
 #include "verify/ground_probe.h"
+#include "verify/obstacle_probe.h"
 
 namespace vantage::internal::verify {
 
@@ -20,12 +21,18 @@ class Limits {
   /// Name of the first limit that the local point breaks; nothing where it keeps them all. Borders are allowed.
   std::optional<std::string> broken_by(const Vec3& point) const;
 
+  /// Whether a volume may leave the point out for one of the limits, though it keeps them all: what is cut away for the
+  /// clearance reaches too far beside edges and round corners (docs/mission-file.md).
+  bool may_leave_out(const Vec3& point) const;
+
  private:
   Navigation navigation_;  ///< altitude, boxes and zones; the meshes are in `meshes_`
   Vec3 origin_;
   std::vector<Box> keep_in_bounds_, keep_out_bounds_;  ///< of zones
   std::vector<ClosedMesh> meshes_;
   std::optional<GroundProbe> ground_;
+  std::vector<std::optional<GroundProbe>> keep_in_heights_, keep_out_heights_;  ///< of zones
+  std::optional<ObstacleProbe> obstacles_;
 };
 
 }  // namespace vantage::internal::verify

@@ -2,12 +2,14 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "vantage/error.h"
+#include "verify/seen_area.h"
 #include "verify/tolerances.h"
-#include "verify/view_pyramid.h"
 
 namespace vantage::internal::verify {
 namespace {
@@ -105,17 +107,41 @@ bool Occluders::hide(const Vec3& viewpoint, const Vec3& target_point) const {
                            [&](std::uint32_t i) { return hit(segment, triangles_[i]).has_value(); });
 }
 
-std::optional<Vec3> Occluders::find_hidden(const Vec3& viewpoint, std::size_t& rays) const {
-  const ViewPyramid pyramid(viewpoint, view_);
+/// In the scene's order: how Embree arranges its hierarchy must not show in the report. The list is this thread's.
+const std::vector<std::uint32_t>& Occluders::candidates_in(const ViewPyramid& pyramid) const {
   thread_local std::vector<std::uint32_t> candidates;
   candidates.clear();
   index_->any_within(pyramid.sides(), [](std::uint32_t i) {
     candidates.push_back(i);
     return false;
   });
-  // In the scene's order: how Embree arranges its hierarchy must not show in the report.
   std::sort(candidates.begin(), candidates.end());
-  for (const std::uint32_t i : candidates) {
+  return candidates;
+}
+
+Occluders::SeenPart Occluders::seen_part(const Vec3& viewpoint) const {
+  const ViewPyramid pyramid(viewpoint, view_);
+  const PlaneAxes axes(view_);
+  std::vector<std::vector<Vec3>> corners;
+  for (const std::uint32_t i : candidates_in(pyramid)) pyramid.add_shadows(triangles_[i], kSurfaceHeight, corners);
+  std::vector<FlatPolygon> shadows;
+  for (const std::vector<Vec3>& shadow : corners) shadows.push_back(axes.flat(shadow));
+  const auto size = [](const FlatPolygon& shadow) { return std::abs(area_of(shadow)); };
+  const auto largest = std::max_element(shadows.begin(), shadows.end(),
+                                        [&](const FlatPolygon& a, const FlatPolygon& b) { return size(a) < size(b); });
+  SeenPart seen;
+  if (largest != shadows.end() && size(*largest) > 0) {
+    Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+    for (const Eigen::Vector2d& corner : *largest) middle += corner / static_cast<double>(largest->size());
+    seen.hidden = axes.place(middle);
+  }
+  seen.area_m2 = area_left(axes.flat(view_.vertices()), std::move(shadows));
+  return seen;
+}
+
+std::optional<Vec3> Occluders::find_hidden(const Vec3& viewpoint, std::size_t& rays) const {
+  const ViewPyramid pyramid(viewpoint, view_);
+  for (const std::uint32_t i : candidates_in(pyramid)) {
     // The surface that the target lies on is cut away first, so that the aim is at what may count.
     std::optional<Vec3> aim = pyramid.aim(triangles_[i], kSurfaceHeight);
     if (!aim) aim = pyramid.aim(triangles_[i], 0);

@@ -9,6 +9,7 @@
 #include "verify/box_index.h"
 #include "verify/segment.h"
 #include "verify/target_view.h"
+#include "verify/view_pyramid.h"
 
 namespace vantage::internal::verify {
 
@@ -28,6 +29,13 @@ class Occluders {
   /// target point. Adds the rays to `rays`.
   std::optional<Vec3> find_hidden(const Vec3& viewpoint, std::size_t& rays) const;
 
+  /// What a viewpoint in front of a target with an area sees of it: the shadows of all triangles are taken away.
+  struct SeenPart {
+    double area_m2 = 0;
+    std::optional<Vec3> hidden = {};  ///< a point in the largest shadow, if there is one
+  };
+  SeenPart seen_part(const Vec3& viewpoint) const;
+
   /// Number, in the scene, of the triangle that crosses the segment nearest to the viewpoint. Plain loop: for messages.
   std::optional<std::size_t> first_hit(const Vec3& viewpoint, const Vec3& target_point) const;
 
@@ -42,6 +50,7 @@ class Occluders {
   };
   /// One that the point lies in, or one of those at whose borders it lies, if the viewpoint is behind them all.
   const TouchedTriangle* hiding_touched(const Vec3& viewpoint) const;
+  const std::vector<std::uint32_t>& candidates_in(const ViewPyramid& pyramid) const;
   void add_if_touched(const FlatTriangle& triangle, std::uint32_t number);
 
   /// Position of the hit on the segment; nothing where the triangle does not hide.

@@ -66,6 +66,10 @@ double with_tangent_times(double angle, double factor) {
 }
 
 void require_planes(const Sensor& sensor, const std::vector<TargetView>& parts) {
+  if (sensor.link && !parts.front().is_point()) {
+    throw Error(ErrorCode::not_applicable, "a radio link ends in an antenna, and the target is no point", "sensor.link",
+                "give the antenna's place as a target of one point, or leave out the link");
+  }
   if (!parts.front().all_sides()) return;
   const bool is_pixel = sensor.pixel && sensor.pixel->kind == PixelLimit::Kind::worst;
   if (!sensor.incidence_deg && !is_pixel) return;
@@ -80,7 +84,7 @@ SensorJudge::SensorJudge(const Sensor& sensor, const std::vector<TargetView>& pa
     : sensor_(sensor), parts_(parts) {
   check_sensor(sensor);
   require_planes(sensor, parts);
-  const auto& [max_range_m, min_range_m, incidence_deg, camera, mount, pixel, sun] = sensor_;
+  const auto& [max_range_m, min_range_m, incidence_deg, camera, mount, pixel, sun, link, visible] = sensor_;
   pixel_range_ = pixel ? pixel->size_m * *camera->focal_px : std::numeric_limits<double>::infinity();
   range_ = std::min(max_range_m, pixel_range_);
   // A foreshortened pixel is judged by itself; else its range is one.
@@ -131,7 +135,7 @@ std::vector<Vec3> SensorJudge::directions(const Vec3& position) const {
 
 std::optional<std::string> SensorJudge::broken_by_part(const TargetView& part, const Vec3& own,
                                                        const Thresholds& than) const {
-  const auto& [max_range_m, min_range_m, incidence_deg, camera, mount, pixel, sun] = sensor_;
+  const auto& [max_range_m, min_range_m, incidence_deg, camera, mount, pixel, sun, link, visible] = sensor_;
   if (part.farthest(own) > than.max_range) return "max_range";
   if (min_range_m > 0 && distance_to(part, own) < than.min_range) return "min_range";
   for (const Vec3& vertex : part.vertices()) {

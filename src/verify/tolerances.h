@@ -46,6 +46,17 @@ inline constexpr double kRangeSlack = 1e-9;
 /// direction, far below what a claim that is too deep is off by.
 inline constexpr double kAngleSlack = 1e-12;
 
+/// What enters the zone of a radio link by less than this part of its radius touches it: nanometres, and far more than
+/// what rounding costs.
+inline constexpr double kLinkGrazing = 1e-9;
+
+/// A share of the target is missed by more than this, or not at all: the areas of cells, and the strips along their
+/// outlines that numbers cannot tell, amount to less.
+inline constexpr double kShareSlack = 1e-7;
+
+/// ... beside what coordinates are rounded by, along the outlines of all cells, in roundoffs of the largest one.
+inline constexpr double kOutlineRoundoffs = 64;
+
 /// Bound on the rounding of a direction's place in a picture, in radians: a unit vector, two turned axes and a product
 /// lose less than 30 roundoffs together.
 inline constexpr double kAngleError = 64 * kRoundoff;
@@ -73,6 +84,13 @@ inline constexpr int kConeSides = 128;
 /// twice that, as the centre may be chosen in more than one way. Where the gimbal's pitch is the limit the surface runs
 /// along the lines of sight: so the same holds for what lies beside a viewpoint.
 inline constexpr double kFrameLoose = 2e-2;
+
+/// The scene is grown by up to so many times the zone's radius: 1.25, as pieces count with their widest place, times
+/// 1.16 of their polytopes; ...
+inline constexpr double kLinkRadiusLoose = 1.45;
+
+/// ... and by a little more, in metres: the least radius, and the triangle that stands for the antenna.
+inline constexpr double kLinkLeastRadius = 5e-3;
 
 /// How far boxes handed to Embree are grown, relative to the largest coordinate of any query. Embree walks its
 /// hierarchy in single precision (roundoff 2^-24): the rounded origin, the rounded direction, the approximate

@@ -13,6 +13,7 @@
 #include "vantage/error.h"
 #include "verify/binomial.h"
 #include "verify/limits.h"
+#include "verify/link_zone.h"
 #include "verify/occluders.h"
 #include "verify/sensor_judge.h"
 #include "verify/tolerances.h"
@@ -24,6 +25,7 @@ namespace {
 using internal::verify::ClosedMesh;
 using internal::verify::Finding;
 using internal::verify::Limits;
+using internal::verify::LinkZone;
 using internal::verify::Occluders;
 using internal::verify::Random;
 using internal::verify::SensorJudge;
@@ -54,6 +56,9 @@ struct Verdict {
   bool on_surface = false, claimed = false, uniform = false, over = false, under = false;
   bool good = false;       ///< within the limits, and sees what has been looked at so far
   bool undecided = false;  ///< whether it is within those of the sensor; all else is good so far
+  double seen_m2 = 0;      ///< of the parts that have been looked at, where a share is asked
+  bool is_whole = true;    ///< likewise: all of them was seen
+  bool is_enough = false;  ///< likewise: unclaimed, sees enough, but not all
   double depth = 0;        ///< from the surface of the volume, metres; for over and under
   std::size_t rays = 0;
   Vec3 position = Vec3::Zero();        ///< in the frame of the first part
@@ -72,7 +77,11 @@ class Check {
         sensor_(sensor, parts_, options.tolerance_m),
         volume_(volume, view_.origin(), "volume"),
         limits_(navigation, view_.origin()),
-        viewpoints_(volume_, view_, sensor_.range(), options.points) {}
+        asked_link_(sensor.link),
+        viewpoints_(volume_, view_, sensor_.range(), options.points) {
+    const auto& visible = sensor.visible;
+    if (visible && visible->share < 1 && !view_.is_point()) set_share(*visible);
+  }
 
   /// Chooses a viewpoint.
   Verdict draw(std::size_t number) const;
@@ -93,7 +102,10 @@ class Check {
     return position + (view_.origin() - parts_[part].origin());  // nothing is rounded where the frames are the same
   }
   bool in_front(const Vec3& position) const;
+  void set_share(const VisibleShare& visible);
+  void look_at_share(const Vec3& position, Verdict& verdict) const;
   bool sees(const TargetView& part, const Vec3& position, Verdict& verdict) const;
+  bool has_link(const Vec3& position, Verdict& verdict) const;
 
   VerifyOptions options_;
   const Scene& scene_;
@@ -102,9 +114,12 @@ class Check {
   const TargetView& view_ = parts_.front();
   ClosedMesh volume_;
   Limits limits_;
+  std::optional<RadioLink> asked_link_;
   Viewpoints viewpoints_;
+  std::optional<double> asked_m2_;  // of all parts, less what rounding may take; where a share is asked
   std::size_t part_ = 0;
   std::unique_ptr<const Occluders> occluders_;  // of that part, once it was turned to
+  std::unique_ptr<const LinkZone> link_;        // of a target that is a point, where there is one
 };
 
 void Check::turn_to(std::size_t part) {
@@ -112,6 +127,23 @@ void Check::turn_to(std::size_t part) {
   occluders_.reset();  // before the next one takes memory
   part_ = part;
   occluders_ = std::make_unique<Occluders>(scene_, parts_[part], sensor_.range());
+  if (asked_link_ && !link_) link_ = std::make_unique<LinkZone>(scene_, view_, *asked_link_, sensor_.range());
+}
+
+void Check::set_share(const VisibleShare& visible) {
+  double area = 0, outline = 0, largest = sensor_.range();
+  for (const TargetView& part : parts_) {
+    const std::vector<Vec3>& vertices = part.vertices();
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      const Vec3 edge = vertices[(i + 1) % vertices.size()] - vertices[i];
+      outline += edge.norm();
+      area += 0.5 * (vertices[i] - part.centre()).cross(edge).dot(part.normal());
+    }
+    largest = std::max(largest, part.origin().cwiseAbs().maxCoeff());
+  }
+  outline *= std::sqrt(static_cast<double>(visible.cells));
+  const double rounding = internal::verify::kOutlineRoundoffs * internal::verify::kRoundoff * largest * outline;
+  asked_m2_ = (visible.share - internal::verify::kShareSlack) * area - rounding;
 }
 
 /// Of all parts, but for a point that is seen from all sides.
@@ -136,7 +168,7 @@ bool Check::sees(const TargetView& part, const Vec3& position, Verdict& verdict)
   for (const Vec3& vertex : vertices) {
     if (hidden(vertex)) return false;
   }
-  if (part.is_point()) return true;
+  if (part.is_point()) return has_link(position, verdict);
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     const Vec3& start = vertices[i];
     const Vec3 edge = vertices[(i + 1) % vertices.size()] - start;
@@ -161,6 +193,16 @@ bool Check::sees(const TargetView& part, const Vec3& position, Verdict& verdict)
   return false;
 }
 
+/// Of a viewpoint that sees the antenna. One that is not claimed counts only where it has more than the link needs.
+bool Check::has_link(const Vec3& position, Verdict& verdict) const {
+  if (!link_) return true;
+  const bool is_clear = verdict.claimed ? !link_->entered_by(position) : !link_->may_lack(position);
+  if (is_clear) return true;
+  verdict.blocked = part_;
+  verdict.hidden = view_.vertices()[0];
+  return false;
+}
+
 Verdict Check::draw(std::size_t number) const {
   Verdict verdict(Random(options_.seed, number));
   const Viewpoint viewpoint = viewpoints_.draw(number, verdict.random);
@@ -175,9 +217,12 @@ Verdict Check::draw(std::size_t number) const {
 }
 
 void Check::judge(Verdict& verdict) const {
-  verdict.good = verdict.undecided = false;
+  verdict.good = verdict.undecided = verdict.is_enough = false;
+  verdict.is_whole = true;
+  verdict.seen_m2 = 0;
   verdict.blocked.reset();
   if (!in_front(verdict.position) || limits_.broken_by(verdict.position)) return;
+  if (!verdict.claimed && limits_.may_leave_out(verdict.position)) return;
   const SensorJudge::Judgement judgement =
       verdict.claimed ? sensor_.of_claimed(verdict.position) : sensor_.of_unclaimed(verdict.position);
   verdict.good = judgement.finding != Finding::broken;
@@ -185,24 +230,48 @@ void Check::judge(Verdict& verdict) const {
 }
 
 void Check::look(Verdict& verdict) const {
-  if (verdict.good) verdict.good = sees(parts_[part_], in_frame_of(part_, verdict.position), verdict);
+  if (!verdict.good) return;
+  const Vec3 position = in_frame_of(part_, verdict.position);
+  if (asked_m2_) {
+    look_at_share(position, verdict);
+  } else {
+    verdict.good = sees(parts_[part_], position, verdict);
+  }
+}
+
+/// Claimed is right what sees enough, and unclaimed what does not see all: what cells cost is counted apart.
+void Check::look_at_share(const Vec3& position, Verdict& verdict) const {
+  const Occluders::SeenPart seen = occluders_->seen_part(position);
+  verdict.seen_m2 += seen.area_m2;
+  if (!verdict.claimed && verdict.is_whole) verdict.is_whole = sees(parts_[part_], position, verdict);
+  if (seen.hidden && !verdict.blocked) {
+    verdict.blocked = part_;
+    verdict.hidden = *seen.hidden;
+  }
+  if (part_ + 1 < parts_.size()) return;
+  const bool is_enough = verdict.seen_m2 >= *asked_m2_;
+  verdict.is_enough = !verdict.claimed && is_enough && !verdict.is_whole && !verdict.undecided;
+  verdict.good = verdict.claimed ? is_enough : verdict.is_whole;
 }
 
 void Check::settle(Verdict& verdict) const {
   if (!verdict.good) verdict.undecided = false;
-  if (verdict.on_surface || verdict.undecided || verdict.good == verdict.claimed) return;
+  if (verdict.on_surface || verdict.undecided) return;
+  if (verdict.good == verdict.claimed && !verdict.is_enough) return;
   verdict.depth = volume_.distance_to_surface(verdict.position);
   const double allowed = options_.depth_tolerance * (verdict.position - view_.centre()).norm() + options_.rounding_m;
   const bool counts = verdict.depth > allowed;
   verdict.over = counts && verdict.claimed;
-  verdict.under = counts && !verdict.claimed;
+  verdict.under = counts && !verdict.claimed && verdict.good;
+  verdict.is_enough = counts && verdict.is_enough;
 }
 
 std::string Check::cause(const Verdict& over_claimed) {
   const Vec3& position = over_claimed.position;
   if (over_claimed.blocked) {
     turn_to(*over_claimed.blocked);
-    const auto triangle = occluders_->first_hit(in_frame_of(part_, position), over_claimed.hidden);
+    std::optional<std::size_t> triangle = occluders_->first_hit(in_frame_of(part_, position), over_claimed.hidden);
+    if (!triangle && link_) triangle = link_->entered_by(position);
     const bool named =
         triangle && *triangle < scene_.object_of.size() && scene_.object_of[*triangle] < scene_.objects.size();
     return named ? display_name(scene_.objects[scene_.object_of[*triangle]]) : "scene";
@@ -226,6 +295,7 @@ VerifyReport Check::report(const std::vector<Verdict>& verdicts) {
     report.undecided += verdict.undecided;
     report.over_claimed += verdict.over;
     report.under_claimed += verdict.under;
+    if (asked_m2_) report.share_unclaimed = report.share_unclaimed.value_or(0) + verdict.is_enough;
     if (verdict.over && (!worst_over || verdict.depth > worst_over->depth)) worst_over = &verdict;
     if (verdict.under && (!worst_under || verdict.depth > worst_under->depth)) worst_under = &verdict;
   }
@@ -336,6 +406,7 @@ class ForAll {
 /// What has been found of a viewpoint for the targets of one list.
 struct Seen {
   bool good = false, undecided = false;  ///< of one of them; `undecided` only where none is good
+  bool enough = false;                   ///< where a share is asked: of one of them
   std::string cause;                     ///< of a claimed viewpoint that sees none so far
 };
 
@@ -356,19 +427,21 @@ class ManyChecks {
 
   VerifyReport run() {
     draw();
-    std::vector<Seen> all(options_.points, Seen{true, false, {}});
+    std::vector<Seen> all(options_.points, Seen{true, false, true, {}});
     for (const std::vector<std::vector<Target>>& list : views_) {
       std::vector<Seen> seen(options_.points);
       for (const std::vector<Target>& parts : list) look(parts, seen);
       for (std::size_t i = 0; i < all.size(); ++i) {
         all[i].good = all[i].good && (seen[i].good || seen[i].undecided);
         all[i].undecided = all[i].undecided || seen[i].undecided;
+        all[i].enough = all[i].enough && seen[i].enough;
         if (all[i].cause.empty() && !seen[i].good) all[i].cause = seen[i].cause;
       }
     }
     for_all_([&](std::size_t i) {
       verdicts_[i].good = all[i].good;
       verdicts_[i].undecided = all[i].undecided;
+      verdicts_[i].is_enough = all[i].enough && !all[i].good && !all[i].undecided && !verdicts_[i].claimed;
       first_.settle(verdicts_[i]);
     });
     for (Verdict& verdict : verdicts_) verdict.blocked.reset();
@@ -428,6 +501,7 @@ class ManyChecks {
     std::vector<std::size_t> wrong;
     for_all_([&](std::size_t i) {
       verdicts_[i].rays = own[i].rays;
+      seen[i].enough = seen[i].enough || own[i].good || own[i].is_enough;
       if (own[i].on_surface || seen[i].good || !own[i].good) return;
       (own[i].undecided ? seen[i].undecided : seen[i].good) = true;
       if (seen[i].good) seen[i].undecided = false;

@@ -51,4 +51,41 @@ std::optional<Vec3> ViewPyramid::aim(const FlatTriangle& triangle, double lowest
   return apex_ + apex_height_ / drop * (middle - apex_);
 }
 
+/// Along the lines of sight to the target's plane. Nothing where the polygon has no area or reaches up to the apex.
+std::optional<std::vector<Vec3>> ViewPyramid::thrown(const std::vector<Vec3>& polygon) const {
+  if (polygon.size() < 3) return std::nullopt;
+  std::vector<Vec3> shadow;
+  for (const Vec3& corner : polygon) {
+    const double drop = apex_height_ - view_.height(corner);
+    if (!(drop > 0)) return std::nullopt;
+    shadow.push_back(apex_ + apex_height_ / drop * (corner - apex_));
+  }
+  return shadow;
+}
+
+void ViewPyramid::add_shadows(const FlatTriangle& triangle, double lowest,
+                              std::vector<std::vector<Vec3>>& shadows) const {
+  thread_local std::vector<Vec3> polygon, low, outside, scratch;
+  polygon.assign({triangle.corner, triangle.second(), triangle.third()});
+  for (const HalfSpace& side : sides_) clip(polygon, side, scratch);
+  const auto add = [&](const std::vector<Vec3>& part) {
+    if (auto shadow = thrown(part)) shadows.push_back(std::move(*shadow));
+  };
+  HalfSpace floor = sides_.front();
+  floor.offset += lowest;
+  low = polygon;
+  clip(polygon, floor, scratch);
+  add(polygon);
+  clip(low, {-floor.normal, -floor.offset}, scratch);
+  const std::vector<Vec3>& vertices = view_.vertices();
+  for (std::size_t i = 0; i < vertices.size() && low.size() >= 3; ++i) {
+    const Vec3 inwards = view_.normal().cross(vertices[(i + 1) % vertices.size()] - vertices[i]).normalized();
+    const double offset = inwards.dot(vertices[i]) - lowest;
+    outside = low;
+    clip(outside, {-inwards, -offset}, scratch);
+    add(outside);
+    clip(low, {inwards, offset}, scratch);
+  }
+}
+
 }  // namespace vantage::internal::verify

@@ -23,7 +23,13 @@ class ViewPyramid {
   /// target's plane. Nothing when no part is.
   std::optional<Vec3> aim(const FlatTriangle& triangle, double lowest) const;
 
+  /// Adds what the triangle's part inside the pyramid hides of the target: convex polygons on its plane. What is lower
+  /// than `lowest` over it, and over the target or no farther beside it, hides nothing.
+  void add_shadows(const FlatTriangle& triangle, double lowest, std::vector<std::vector<Vec3>>& shadows) const;
+
  private:
+  std::optional<std::vector<Vec3>> thrown(const std::vector<Vec3>& polygon) const;
+
   const TargetView& view_;
   Vec3 apex_;
   double apex_height_;

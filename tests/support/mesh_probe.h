@@ -24,6 +24,9 @@ class MeshProbe {
     return mesh_->contains(point - origin_).value_or(true) ? distance : -distance;
   }
 
+  /// Whether the point is surely inside: beside facets that are narrower than rounding it may stay open.
+  bool holds(const Vec3& point) const { return mesh_->contains(point - origin_) == true; }
+
   /// A uniform point of the inside.
   Vec3 draw(Random& random) const {
     for (;;) {

@@ -9,11 +9,7 @@ namespace vantage::internal::app {
 Mesh checked_keep_in(const Mesh& mesh, const std::string& name) { return solid::checked_solid(mesh, name); }
 
 Volume exact_volume(const PreparedTarget& target, const ExactOptions& options, const Progress& progress) {
-  std::vector<Volume> volumes;
-  for (std::size_t i = 0; i < target.part_count(); ++i) {
-    volumes.push_back(compute_visibility(target.part(i), options, progress));
-  }
-  return joined(std::move(volumes), progress);
+  return compute_parts(target, options, progress);
 }
 
 Volume joined(std::vector<Volume> volumes, const Progress& progress) {

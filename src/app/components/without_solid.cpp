@@ -9,6 +9,7 @@ Mesh checked_keep_in(const Mesh&, const std::string& name) { throw_missing("soli
 
 Volume exact_volume(const PreparedTarget& target, const ExactOptions& options, const Progress& progress) {
   if (target.part_count() > 1) throw_missing("solid", "targets of several parts", "target.parts");
+  if (target.sensor().visible) throw_missing("solid", "a visible share", "sensor.visible");
   return compute_visibility(target, options, progress);
 }
 

@@ -1,0 +1,150 @@
+#include "query/link_query.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "core/walk_bvh.h"
+#include "target/fresnel_zone.h"
+
+namespace vantage::internal::query {
+namespace {
+
+/// What enters the zone by less than this part of its radius touches it.
+constexpr double kTouch = 1e-9;
+
+double box_distance(const core::Bounds& bounds, const Vec3& point) {
+  double sum = 0;
+  for (int a = 0; a < 3; ++a) {
+    const double d = std::max({0.0, bounds.min[a] - point[a], point[a] - bounds.max[a]});
+    sum += d * d;
+  }
+  return std::sqrt(sum);
+}
+
+/// The point of a convex polygon that is nearest to the origin.
+Vec3 nearest_to_origin(const std::vector<Vec3>& corners) {
+  Vec3 nearest = corners[0];
+  const auto take = [&](const Vec3& point) {
+    if (point.squaredNorm() < nearest.squaredNorm()) nearest = point;
+  };
+  Vec3 normal = Vec3::Zero();
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vec3 &from = corners[i], &to = corners[(i + 1) % corners.size()];
+    const Vec3 side = to - from;
+    const double length = side.squaredNorm();
+    take(length > 0 ? Vec3(from + std::clamp(-from.dot(side) / length, 0.0, 1.0) * side) : from);
+    if (i > 0) normal += (from - corners[0]).cross(to - corners[0]);
+  }
+  if (!(normal.squaredNorm() > 0)) return nearest;
+  const Vec3 foot = normal * (normal.dot(corners[0]) / normal.squaredNorm());
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vec3 &from = corners[i], &to = corners[(i + 1) % corners.size()];
+    if (normal.dot((to - from).cross(foot - from)) < 0) return nearest;
+  }
+  take(foot);
+  return nearest;
+}
+
+/// The zone of one position; coordinates are about the antenna. The map makes a ball of radius 1 of it.
+class LinkEllipsoid {
+ public:
+  LinkEllipsoid(const Vec3& direction, double distance, double excess)
+      : direction_(direction),
+        distance_(distance),
+        excess_(excess),
+        half_length_(0.5 * (distance + excess)),
+        radius_(0.5 * std::sqrt(excess * (2 * distance + excess))) {}
+
+  bool may_meet(const core::Bounds& bounds, const Vec3& antenna) const {
+    const Vec3 vehicle = antenna + distance_ * direction_;
+    const double sum = box_distance(bounds, antenna) + box_distance(bounds, vehicle);
+    return sum < (distance_ + excess_) * (1 + 1e-12);
+  }
+
+  Vec3 mapped(const Vec3& point) const {
+    const double along = direction_.dot(point);
+    return (along - 0.5 * distance_) / half_length_ * direction_ + (point - along * direction_) / radius_;
+  }
+  Vec3 original(const Vec3& point) const {
+    const double along = direction_.dot(point);
+    return (along * half_length_ + 0.5 * distance_) * direction_ + (point - along * direction_) * radius_;
+  }
+
+  static bool holds(const Vec3& mapped) { return mapped.squaredNorm() < 1 - 2 * kTouch; }
+
+ private:
+  Vec3 direction_;
+  double distance_, excess_, half_length_, radius_;
+};
+
+class MappedPolygon {
+ public:
+  MappedPolygon(const PreparedScene::Data& scene, const Vec3& antenna) : scene_(scene), antenna_(antenna) {}
+
+  /// Of the polygon's point that is deepest in the zone, the place on the map.
+  Vec3 deepest(std::uint32_t polygon, const LinkEllipsoid& zone) {
+    corners_.clear();
+    for (const std::uint32_t vertex : scene_.corners_of(polygon)) {
+      corners_.push_back(zone.mapped(scene_.vertices[vertex] - antenna_));
+    }
+    return nearest_to_origin(corners_);
+  }
+
+ private:
+  const PreparedScene::Data& scene_;
+  const Vec3& antenna_;
+  std::vector<Vec3> corners_;
+};
+
+}  // namespace
+
+LinkQuery::LinkQuery(const PreparedScene::Data& scene, const Vec3& antenna, const RadioLink& link)
+    : scene_(scene), antenna_(antenna - scene.origin), excess_(target::zone_excess_m(link)) {}
+
+// A point b at d from the antenna is on the border of the zone of the position at t where t = e (2 d - e) / (2 (b . u -
+// d + e)). For the deepest point of a polygon that t is less than the one that it was found for; from step to step the
+// excess at the deepest point goes to 0 as in Newton's method, from above.
+double LinkQuery::reach(const Vec3& direction, double farthest) const {
+  constexpr int kMostSteps = 60;
+  double reach = farthest;
+  MappedPolygon mapped(scene_, antenna_);
+  const auto shorten = [&](std::uint32_t polygon) {
+    for (int step = 0; step < kMostSteps && reach > 0; ++step) {
+      const LinkEllipsoid zone(direction, reach, excess_);
+      const Vec3 deepest = mapped.deepest(polygon, zone);
+      if (!LinkEllipsoid::holds(deepest)) return;
+      const Vec3 b = zone.original(deepest);
+      const double d = b.norm(), rest = b.dot(direction) - d + excess_;
+      if (2 * d <= excess_) {
+        reach = 0;  // it enters the zone of every position
+        return;
+      }
+      const double next = excess_ * (2 * d - excess_) / (2 * rest);
+      if (!(rest > 0) || !(next < reach)) return;  // rounding
+      reach = next;
+    }
+  };
+  core::walk_nearer_first(
+      scene_.bvh, [&](const core::Bounds& bounds) { return box_distance(bounds, antenna_); },
+      [&](const core::BvhNode& node) {
+        return reach > 0 && LinkEllipsoid(direction, reach, excess_).may_meet(node.bounds, antenna_);
+      },
+      shorten);
+  return reach;
+}
+
+void LinkQuery::for_each_entering(const Vec3& direction, double distance,
+                                  const std::function<void(std::uint32_t)>& visit) const {
+  const LinkEllipsoid zone(direction, distance, excess_);
+  MappedPolygon mapped(scene_, antenna_);
+  core::walk_bvh(
+      scene_.bvh, [&](const core::BvhNode& node) { return zone.may_meet(node.bounds, antenna_); },
+      [&](std::uint32_t polygon) {
+        if (LinkEllipsoid::holds(mapped.deepest(polygon, zone))) visit(scene_.polygon_object[polygon]);
+      });
+}
+
+}  // namespace vantage::internal::query

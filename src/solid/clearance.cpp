@@ -1,0 +1,208 @@
+#include "solid/clearance.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "core/edges.h"
+#include "core/grown_polygon.h"
+#include "core/weld.h"
+#include "solid/triangle_tree.h"
+
+namespace vantage::internal::solid {
+namespace {
+
+bool meet(const Box& a, const Box& b) {
+  return (a.min.array() <= b.max.array()).all() && (b.min.array() <= a.max.array()).all();
+}
+
+Box grown(Box box, double by) {
+  box.min.array() -= by;
+  box.max.array() += by;
+  return box;
+}
+
+Box box_of(const std::vector<Vec3>& points) {
+  Box box;
+  for (const Vec3& point : points) box.extend(point);
+  return box;
+}
+
+/// Preparing a scene drops triangles that hide nothing: those that are no wider than rounding. As obstacles they count.
+bool is_thin(const std::array<Vec3, 3>& corners) {
+  constexpr double kThinnest = 1e-6;  // of the longest side
+  const Vec3 u = corners[1] - corners[0], v = corners[2] - corners[0], w = corners[2] - corners[1];
+  const double longest = std::max({u.squaredNorm(), v.squaredNorm(), w.squaredNorm()});
+  return !(u.cross(v).norm() > kThinnest * longest);
+}
+
+using Polygon = std::vector<Vec3>;
+
+/// Polygons that share corners, by their numbers.
+std::vector<std::vector<std::uint32_t>> components_of(const std::vector<Polygon>& polygons) {
+  Mesh corners;
+  std::vector<std::uint32_t> polygon_of;
+  for (std::uint32_t i = 0; i < polygons.size(); ++i) {
+    corners.vertices.insert(corners.vertices.end(), polygons[i].begin(), polygons[i].end());
+    polygon_of.resize(corners.vertices.size(), i);
+  }
+  const std::vector<std::uint32_t> first = core::first_at_position(corners.vertices);
+  core::DisjointSets sets(polygons.size());
+  for (std::size_t v = 0; v < first.size(); ++v) sets.join(polygon_of[v], polygon_of[first[v]]);
+  std::vector<std::vector<std::uint32_t>> members(polygons.size());
+  for (std::uint32_t i = 0; i < polygons.size(); ++i) members[sets.find(i)].push_back(i);
+  std::erase_if(members, [](const auto& component) { return component.empty(); });
+  return members;
+}
+
+/// Whether polygons bound a convex solid: all corners lie on one side of each, and each edge is one of two polygons.
+bool bound_a_convex_solid(const std::vector<Polygon>& polygons, const std::vector<std::uint32_t>& members) {
+  constexpr std::size_t kFewest = 4, kMost = 200;
+  if (members.size() < kFewest || members.size() > kMost) return false;
+  Box box;
+  for (const std::uint32_t i : members) box.extend(box_of(polygons[i]));
+  const double slack = 1e-9 * (box.max - box.min).norm();
+  std::map<std::array<double, 6>, int> edges;
+  for (const std::uint32_t i : members) {
+    const Polygon& polygon = polygons[i];
+    Vec3 normal = Vec3::Zero();
+    for (std::size_t k = 0; k < polygon.size(); ++k) {
+      const Vec3 &from = polygon[k], &to = polygon[(k + 1) % polygon.size()];
+      normal += (from - polygon[0]).cross(to - polygon[0]);
+      const bool is_low = std::lexicographical_compare(from.begin(), from.end(), to.begin(), to.end());
+      const Vec3 &low = is_low ? from : to, &high = is_low ? to : from;
+      ++edges[{low.x(), low.y(), low.z(), high.x(), high.y(), high.z()}];
+    }
+    normal.normalize();
+    double least = 0, most = 0;
+    for (const std::uint32_t other : members) {
+      for (const Vec3& corner : polygons[other]) {
+        const double height = normal.dot(corner - polygon[0]);
+        least = std::min(least, height);
+        most = std::max(most, height);
+      }
+    }
+    if (!(std::min(-least, most) <= slack)) return false;  // NaN too
+  }
+  return std::all_of(edges.begin(), edges.end(), [](const auto& edge) { return edge.second == 2; });
+}
+
+/// Neighbours are united first: what lies inside of them is gone before the rest is looked at.
+Solid unite_neighbours(std::span<Solid> solids, const core::ProgressReporter& progress, core::ProgressCounter& done) {
+  constexpr std::size_t kFew = 8;  // for one boolean
+  if (solids.size() <= kFew) {
+    done.add(solids.size());
+    return unite(solids);
+  }
+  const auto centre = [](const Solid& solid) -> Vec3 { return solid.bounds().min + solid.bounds().max; };
+  Box centres;
+  for (const Solid& solid : solids) centres.extend(centre(solid));
+  Eigen::Index axis = 0;
+  (centres.max - centres.min).maxCoeff(&axis);
+  const std::size_t half = solids.size() / 2;
+  std::nth_element(solids.begin(), solids.begin() + static_cast<std::ptrdiff_t>(half), solids.end(),
+                   [&](const Solid& a, const Solid& b) { return centre(a)[axis] < centre(b)[axis]; });
+  // One after the other: Manifold numbers what it makes, and its results depend on these numbers.
+  const Solid low = unite_neighbours(solids.first(half), progress, done);
+  const Solid high = unite_neighbours(solids.subspan(half), progress, done);
+  // Of a few thousand facets it takes milliseconds, and needs no thread of its own to be asked from.
+  constexpr std::size_t kMany = 200;
+  return unite(low, high, solids.size() > kMany ? progress.part(1, 1) : core::ProgressReporter());
+}
+
+/// Convex polygons about `origin` that hold the triangles which reach into `near`, a box of the scene frame.
+std::vector<Polygon> polygons_near(const Mesh& obstacles, const Box& near, const Vec3& origin) {
+  std::vector<Polygon> polygons;
+  Scene scene;
+  scene.objects.emplace_back();
+  for (std::size_t t = 0; t < obstacles.triangles.size(); ++t) {
+    if (!meet(triangle_box(obstacles, t), near)) continue;
+    std::array<Vec3, 3> corners;
+    for (std::size_t k = 0; k < 3; ++k) corners[k] = obstacles.vertices[obstacles.triangles[t][k]] - origin;
+    if (is_thin(corners)) {
+      polygons.emplace_back(corners.begin(), corners.end());
+      continue;
+    }
+    const auto first = static_cast<std::uint32_t>(scene.mesh.vertices.size());
+    scene.mesh.vertices.insert(scene.mesh.vertices.end(), corners.begin(), corners.end());
+    scene.mesh.triangles.push_back({first, first + 1, first + 2});
+    scene.object_of.push_back(0);
+  }
+  if (scene.mesh.empty()) return polygons;
+  const PreparedScene prepared(scene);
+  for (std::uint32_t i = 0; i < prepared.statistics().polygons; ++i) polygons.push_back(prepared.polygon(i));
+  return polygons;
+}
+
+/// What is near the polygons of one component, as solids: one for each, or one for all of a convex solid. That is the
+/// same but for what is inside of the convex solid, which no volume reaches that does not begin there.
+template <typename ReachesVolume>
+void add_grown(const std::vector<Polygon>& polygons, const std::vector<std::uint32_t>& members, double radius,
+               const Vec3& centre, std::uint32_t label, const ReachesVolume& reaches_volume,
+               std::vector<Solid>& solids) {
+  std::vector<std::uint32_t> near;
+  for (const std::uint32_t i : members) {
+    if (reaches_volume(polygons[i])) near.push_back(i);
+  }
+  const auto add = [&](Mesh mesh) {
+    std::vector<std::uint32_t> labels(mesh.triangles.size(), label);
+    solids.push_back(Solid({std::move(mesh), std::move(labels)}, "clearance"));
+  };
+  if (!near.empty() && bound_a_convex_solid(polygons, members)) {
+    std::vector<Vec3> points;
+    Box box;
+    for (const std::uint32_t i : members) {
+      const Mesh grown = core::grow_polygon(polygons[i], radius);
+      points.insert(points.end(), grown.vertices.begin(), grown.vertices.end());
+      box.extend(box_of(polygons[i]));
+    }
+    const bool holds_centre = (centre.array() >= box.min.array()).all() && (centre.array() <= box.max.array()).all();
+    if (!holds_centre) return add(convex_hull(points));
+  }
+  for (const std::uint32_t i : near) add(core::grow_polygon(polygons[i], radius));
+}
+
+}  // namespace
+
+Solid make_clearance(const Clearance& clearance, const Mesh& volume, const Vec3& from, const Vec3& origin,
+                     std::uint32_t label, const core::ProgressReporter& progress) {
+  Mesh local = volume;
+  for (Vec3& vertex : local.vertices) vertex -= origin;
+  const Box bounds = bounding_box(local);
+  const double reach = (1 + core::kMostGrownTooFar) * clearance.distance_m;
+  // Merging moves what is in one plane but for rounding by as much, a few roundings of the largest coordinate; and
+  // hulls and booleans round to 1e-12 of that about the origin.
+  constexpr double kMerging = 1e-14, kBooleans = 4e-12;
+  const double largest = std::max(bounds.min.cwiseAbs().maxCoeff(), bounds.max.cwiseAbs().maxCoeff()) + reach;
+  const double radius = clearance.distance_m + kBooleans * largest + kMerging * origin.cwiseAbs().maxCoeff();
+
+  const Box near = grown(bounds, reach);
+  const std::vector<Polygon> polygons =
+      polygons_near(*clearance.obstacles, {near.min + origin, near.max + origin}, origin);
+  progress.report(0.2);
+  const TriangleTree tree(local);
+  const Vec3 centre = from - origin;
+  const auto reaches_volume = [&](const Polygon& polygon) {
+    const Box box = grown(box_of(polygon), reach);
+    if (!meet(box, bounds)) return false;
+    const bool is_near = tree.any_near(box, [](std::uint32_t) { return true; });
+    return is_near || tree.winding_number(polygon[0]) != 0;
+  };
+  const std::vector<std::vector<std::uint32_t>> components = components_of(polygons);
+  std::vector<Solid> solids;
+  for (const std::vector<std::uint32_t>& component : components) {
+    progress.tick();
+    add_grown(polygons, component, radius, centre, label, reaches_volume, solids);
+  }
+  progress.report(0.4);
+  const core::ProgressReporter uniting = progress.part(0.4, 1);
+  core::ProgressCounter done(uniting, solids.size());
+  return unite_neighbours(std::span(solids), uniting, done);
+}
+
+}  // namespace vantage::internal::solid

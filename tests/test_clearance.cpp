@@ -1,0 +1,392 @@
+// The clearance from obstacles: grown polygons, the cut, the answers for points and the check, against distances by
+// brute force.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "core/grown_polygon.h"
+#include "support/internals.h"
+#include "support/random.h"
+#include "support/shared_data.h"
+#include "support/solids.h"
+#include "support/temporary_directory.h"
+#include "support/wording.h"
+#include "vantage/error.h"
+#include "vantage/mission.h"
+#include "vantage/navigation.h"
+#include "vantage/query.h"
+#include "vantage/verify.h"
+#include "vantage/volume.h"
+
+namespace vantage {
+namespace {
+
+using testing::first_open_edge;
+using testing::make_hemisphere;
+using testing::Random;
+
+/// How far the polytope about a grown polygon reaches too far: beside edges, and round corners.
+constexpr double kBesideEdges = 0.083, kRoundCorners = 0.16;
+
+/// To a triangle, by its barycentric coordinates: of all points of a corner, a side or the plane.
+double distance(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const auto to_side = [&](const Vec3& from, const Vec3& to) {
+    const double length = (to - from).squaredNorm();
+    const double t = length > 0 ? std::clamp((p - from).dot(to - from) / length, 0.0, 1.0) : 0;
+    return (p - from - t * (to - from)).norm();
+  };
+  double nearest = std::min({to_side(a, b), to_side(b, c), to_side(c, a)});
+  Eigen::Matrix<double, 3, 2> sides;
+  sides << b - a, c - a;
+  const Eigen::Vector2d at = sides.colPivHouseholderQr().solve(p - a);
+  if (at.minCoeff() >= 0 && at.sum() <= 1) nearest = std::min(nearest, (sides * at - (p - a)).norm());
+  return nearest;
+}
+
+double distance(const Vec3& p, const Mesh& mesh) {
+  double nearest = INFINITY;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    nearest = std::min(nearest, distance(p, mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]));
+  }
+  return nearest;
+}
+
+double distance_to_polygon(const Vec3& p, const std::vector<Vec3>& corners) {
+  double nearest = INFINITY;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    nearest = std::min(nearest, distance(p, corners[0], corners[i], corners[(i + 1) % corners.size()]));
+  }
+  return nearest;
+}
+
+/// Whether an outward-oriented closed mesh holds a point: signed solid angles.
+bool holds(const Mesh& mesh, const Vec3& p) {
+  double sum = 0;
+  for (const Triangle& t : mesh.triangles) {
+    const Vec3 a = mesh.vertices[t[0]] - p, b = mesh.vertices[t[1]] - p, c = mesh.vertices[t[2]] - p;
+    const double la = a.norm(), lb = b.norm(), lc = c.norm();
+    sum += std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+  }
+  return sum > std::numbers::pi;
+}
+
+/// Corners on an ellipse that lies askew; 1 and 2 are a point and a line.
+std::vector<Vec3> polygon(Random& random, double size, double flatness, const Vec3& centre) {
+  const int count = random.integer(1, 9);
+  const Vec3 u = random.direction(), v = u.cross(random.direction()).normalized();
+  std::set<double> angles;
+  while (static_cast<int>(angles.size()) < count) angles.insert(random.uniform(0, 2 * std::numbers::pi));
+  std::vector<Vec3> corners;
+  for (const double angle : angles) {
+    corners.push_back(centre + size * (std::cos(angle) * u + flatness * std::sin(angle) * v));
+  }
+  return corners;
+}
+
+TEST(GrownPolygons, HoldTheGrownPolygonAndLittleMore) {
+  Random random(41);
+  for (int round = 0; round < 3000; ++round) {
+    const double size = std::pow(10.0, random.uniform(-3, 3)), radius = size * std::pow(10.0, random.uniform(-3, 2));
+    const double flatness = random.chance(0.3) ? std::pow(10.0, random.uniform(-16, -6)) : random.uniform(0, 1);
+    const Vec3 centre = random.chance(0.5) ? Vec3::Zero() : Vec3(580000.1, 4785000.2, 1000.3);
+    const std::vector<Vec3> corners = polygon(random, size, flatness, centre);
+    const Mesh grown = core::grow_polygon(corners, radius);
+    ASSERT_EQ(first_open_edge(grown), "") << round;
+    const double rounding = 1e-14 * (centre.norm() + size + radius);
+    if (radius < 1e4 * rounding) continue;
+    for (int i = 0; i < 40; ++i) {
+      Vec3 on_polygon = corners[0];
+      for (const Vec3& corner : corners) on_polygon += random.uniform(0, 1) * (corner - on_polygon);
+      const Vec3& from = random.chance(0.5) ? corners[static_cast<std::size_t>(i) % corners.size()] : on_polygon;
+      const Vec3 p = from + (radius * (1 - 1e-9) - rounding) * random.direction();
+      EXPECT_TRUE(holds(grown, p)) << round;
+    }
+    for (const Vec3& vertex : grown.vertices) {
+      EXPECT_GT(distance_to_polygon(vertex, corners), radius - rounding) << round;
+      EXPECT_LT(distance_to_polygon(vertex, corners), (1 + kRoundCorners) * radius + 100 * rounding) << round;
+    }
+  }
+}
+
+/// Houses, a wall that is open, a wire, over ground that does not count.
+Scene make_town(Random& random, double scale, const Vec3& origin) {
+  Scene scene;
+  scene.objects = {{"ground", "", ObjectKind::ground}, {"town", "", ObjectKind::other}};
+  const auto add = [&](std::vector<Vec3> corners, std::uint32_t object) {
+    const auto first = static_cast<std::uint32_t>(scene.mesh.vertices.size());
+    for (const Vec3& corner : corners) scene.mesh.vertices.push_back(origin + scale * corner);
+    for (std::uint32_t i = 2; i < corners.size(); ++i) {
+      scene.mesh.triangles.push_back({first, first + i - 1, first + i});
+      scene.object_of.push_back(object);
+    }
+  };
+  add({{-60, -60, -1}, {60, -60, -1}, {60, 60, -1}, {-60, 60, -1}}, 0);
+  for (int house = 0; house < 6; ++house) {
+    const double x = random.uniform(-40, 40), y = random.uniform(-40, 40), z = random.uniform(4, 20);
+    const double w = random.uniform(2, 8), d = random.uniform(2, 8);
+    add({{x, y, z}, {x + w, y, z}, {x + w, y + d, z}, {x, y + d, z}}, 1);
+    add({{x, y, 0}, {x + w, y, 0}, {x + w, y, z}, {x, y, z}}, 1);
+    add({{x + w, y, 0}, {x + w, y + d, 0}, {x + w, y + d, z}, {x + w, y, z}}, 1);
+    add({{x, y, 0}, {x, y + d, 0}, {x, y + d, z}, {x, y, z}}, 1);
+  }
+  add({{-30, 0, 15}, {30, 10, 22}, {30, 10, 22}}, 1);
+  for (int i = 0; i < 4; ++i) {
+    const Vec3 at = random.in_box({Vec3(-40, -40, 5), Vec3(40, 40, 30)});
+    add({at, at + random.point(-6, 6), at + random.point(-6, 6)}, 1);
+  }
+  return scene;
+}
+
+struct Case {
+  double scale;
+  Vec3 origin;
+};
+const std::vector<Case> kCases = {
+    {1, Vec3(0, 0, 0)}, {1, Vec3(580000.1, 4785000.2, 1000.3)}, {1e-4, Vec3(0, 0, 0)}, {100, Vec3(-3000, 500, 80)}};
+
+Navigation keeping(const Scene& scene, double distance_m) {
+  Navigation navigation;
+  navigation.clearance = {distance_m, obstacles_of(scene)};
+  return navigation;
+}
+
+TEST(ClearanceLimit, TheCutKeepsTheDistance) {
+  Random random(43);
+  for (const Case& at : kCases) {
+    SCOPED_TRACE(at.scale);
+    const Scene town = make_town(random, at.scale, at.origin);
+    const double asked = 4 * at.scale;
+    const Navigation navigation = keeping(town, asked);
+    ASSERT_EQ(navigation.clearance->obstacles->triangles.size(), town.mesh.triangles.size() - 2);
+    const Volume dome = make_hemisphere(at.origin, 50 * at.scale);
+    const Volume cut = cut_to_navigation(dome, navigation);
+    ASSERT_EQ(cut.outcome, Outcome::computed) << cut.reason;
+    EXPECT_EQ(first_open_edge(cut.mesh), "");
+    const double rounding = 1e-9 * at.scale + 1e-14 * at.origin.norm();
+    for (const Vec3& v : cut.mesh.vertices) {
+      EXPECT_GT(distance(v, *navigation.clearance->obstacles), asked - rounding) << v.transpose();
+    }
+    int inside = 0, cut_away = 0;
+    for (int i = 0; i < 1500; ++i) {
+      const Vec3 p = at.origin + at.scale * random.in_box({Vec3(-50, -50, 0), Vec3(50, 50, 50)});
+      if (!holds(dome.mesh, p)) continue;
+      const double far = distance(p, *navigation.clearance->obstacles);
+      if (std::abs(far - asked) < rounding) continue;
+      const bool is_left = holds(cut.mesh, p);
+      EXPECT_FALSE(is_left && far < asked) << p.transpose() << " is " << far;
+      EXPECT_FALSE(!is_left && far > (1 + kRoundCorners) * asked + rounding) << p.transpose() << " is " << far;
+      inside += is_left;
+      cut_away += !is_left;
+    }
+    EXPECT_GT(inside, 100);
+    EXPECT_GT(cut_away, 20);
+  }
+}
+
+TEST(ClearanceLimit, IsExactOverAFlatWallAndBoundedBesideItsEdge) {
+  Scene scene;
+  scene.objects = {{"wall", "", ObjectKind::wall}};
+  scene.mesh = {{{10, -200, -200}, {10, 200, -200}, {10, 200, 20}, {10, -200, 20}}, {{0, 1, 2}, {0, 2, 3}}};
+  scene.object_of = {0, 0};
+  Navigation navigation = keeping(scene, 5);
+  navigation.altitude = {0, 15};
+  const Volume cut = cut_to_navigation(make_hemisphere(Vec3::Zero(), 60), navigation);
+  Box before;
+  for (const Vec3& v : cut.mesh.vertices) {
+    if (v.x() < 10) before.extend(v);
+  }
+  EXPECT_NEAR(before.max.x(), 5, 1e-9);
+  double nearest_above = INFINITY;
+  const Volume over = cut_to_navigation(make_hemisphere(Vec3::Zero(), 60), keeping(scene, 5));
+  for (const Vec3& v : over.mesh.vertices) nearest_above = std::min(nearest_above, distance(v, scene.mesh));
+  double highest = 0;
+  for (const Vec3& v : over.mesh.vertices) {
+    if (std::abs(v.x() - 10) < 4 && v.z() < 26) highest = std::max(highest, distance(v, scene.mesh));
+  }
+  EXPECT_GT(nearest_above, 5 - 1e-9);
+  EXPECT_LT(highest, 5 * (1 + kBesideEdges));
+  EXPECT_GT(highest, 5);
+  bool is_told = false;
+  for (const Cause& cause : over.causes) is_told = is_told || (cause.name == "clearance" && cause.area_m2 > 100);
+  EXPECT_TRUE(is_told);
+}
+
+TEST(ClearanceLimit, PointsAreAnsweredByTheirDistance) {
+  Random random(47);
+  for (const Vec3& origin : {Vec3(0, 0, 0), Vec3(580000.1, 4785000.2, 1000.3)}) {
+    const Scene town = make_town(random, 1, origin);
+    const PreparedScene scene(town);
+    const Target at = Target::polygon({origin + Vec3(-1, -1, 31), origin + Vec3(1, -1, 31), origin + Vec3(0, 1, 31)});
+    Target down = at;
+    down.front = Vec3(0, 0, -1);
+    const PreparedTarget target(scene, down, Sensor{.max_range_m = 60});
+    const Navigation navigation = keeping(town, 4);
+    std::vector<Vec3> points;
+    for (int i = 0; i < 2000; ++i) points.push_back(origin + random.in_box({Vec3(-40, -40, 0), Vec3(40, 40, 30)}));
+    PointQuery query(target, navigation);
+    const std::vector<PointAnswer> answers = query.answer(points);
+    int inside = 0, too_near = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const double far = distance(points[i], *navigation.clearance->obstacles);
+      const std::vector<std::string>& names = answers[i].outside_of;
+      const bool is_near = std::find(names.begin(), names.end(), "clearance") != names.end();
+      if (std::abs(far - 4) > 1e-6) {
+        EXPECT_EQ(is_near, far < 4) << far;
+      }
+      inside += answers[i].inside;
+      too_near += is_near;
+      const Vec3 line = target.frame(0).origin - points[i], to_centre = line.normalized();
+      const double margin = answers[i].margin_m;
+      if (!answers[i].inside || !(margin > 0.01) || margin > 0.9 * line.norm()) continue;
+      const std::vector<PointAnswer> near = query.answer(
+          std::vector<Vec3>{points[i] + (1 - 1e-6) * margin * to_centre, points[i] - (1 - 1e-6) * margin * to_centre,
+                            points[i] + (1 + 1e-6) * margin * to_centre, points[i] - (1 + 1e-6) * margin * to_centre});
+      EXPECT_TRUE(near[0].inside && near[1].inside);
+      EXPECT_FALSE(near[2].inside && near[3].inside);
+    }
+    EXPECT_GT(inside, 100);
+    EXPECT_GT(too_near, 100);
+  }
+}
+
+TEST(ClearanceLimit, VerifyFindsWhatIsTooNear) {
+  Random random(53);
+  const Scene town = make_town(random, 1, Vec3::Zero());
+  Target at = Target::polygon({Vec3(-1, -1, 31), Vec3(1, -1, 31), Vec3(0, 1, 31)});
+  at.front = Vec3(0, 0, -1);
+  const PreparedTarget target(PreparedScene(town), at, Sensor{.max_range_m = 60});
+  const auto judged = [&](const Navigation& cut_to) {
+    const Volume volume = compute_volume(target, cut_to);
+    VerifyOptions options;
+    options.points = 6000;
+    options.lift_m = volume.lift_m;
+    return verify_volume(town, at, Sensor{.max_range_m = 60}, keeping(town, 4), volume.mesh, options);
+  };
+  const VerifyReport right = judged(keeping(town, 4));
+  EXPECT_EQ(right.over_claimed, 0u) << right.worst_over_cause;
+  EXPECT_EQ(right.under_claimed, 0u);
+  EXPECT_GT(right.inside, 500u);
+  EXPECT_GT(judged({}).over_claimed, 100u);
+  const VerifyReport loose = judged(keeping(town, 3.9));
+  EXPECT_GT(loose.over_claimed, 0u);
+  EXPECT_EQ(loose.worst_over_cause, "clearance");
+  EXPECT_GT(judged(keeping(town, 5)).under_claimed, 0u);
+}
+
+TEST(ClearanceLimit, LeavesNothingOfWhatItCovers) {
+  Random random(3);
+  const Scene town = make_town(random, 1, Vec3::Zero());
+  const Volume none = cut_to_navigation(make_hemisphere(Vec3::Zero(), 20), keeping(town, 100));
+  EXPECT_EQ(none.outcome, Outcome::outside_limits);
+  testing::expect_wording(none.reason + "\n" + none.hint);
+}
+
+TEST(ClearanceLimit, WrongOnesAreRefused) {
+  Random random(3);
+  const Scene town = make_town(random, 1, Vec3::Zero());
+  const Volume dome = make_hemisphere(Vec3::Zero(), 20);
+  for (const double distance : {0.0, -1.0, static_cast<double>(INFINITY), static_cast<double>(NAN)}) {
+    testing::expect_error([&] { cut_to_navigation(dome, keeping(town, distance)); }, ErrorCode::value_out_of_range,
+                          "navigation.clearance");
+  }
+  Navigation navigation;
+  navigation.clearance = {4, nullptr};
+  testing::expect_error([&] { cut_to_navigation(dome, navigation); }, ErrorCode::value_out_of_range,
+                        "navigation.clearance");
+}
+
+/// Without a word on what is ground.
+constexpr const char* kBlocks =
+    "v -50 -50 0\nv 50 -50 0\nv 50 50 0\no field\nf 1 2 3\n"
+    "v 5 5 0\nv 9 5 0\nv 9 5 8\no block\nf 4 5 6\n";
+
+class ClearanceMission : public ::testing::Test {
+ protected:
+  ClearanceMission() { testing::write_bytes(folder_ / "blocks.obj", kBlocks); }
+
+  MissionFile read(const std::string& navigation) const {
+    const std::string text =
+        "scene: {mesh: blocks.obj}\ntarget: {vertices: [[0, 0, 6], [2, 0, 6], [0, 2, 6]]}\nsensor: {max_range: 40}\n"
+        "navigation: " +
+        navigation + "\n";
+    return read_mission_text(text, folder_ / "mission.yaml");
+  }
+  Mission resolve(const std::string& navigation) const { return resolve_mission(read(navigation)); }
+
+  testing::TemporaryDirectory folder_;
+};
+
+TEST_F(ClearanceMission, IsFromAllOrFromAllButTheNamedGround) {
+  const Mission all = resolve("{clearance: 3}");
+  EXPECT_EQ(all.navigation.clearance->distance_m, 3);
+  EXPECT_EQ(all.navigation.clearance->obstacles->triangles.size(), 2u);
+  ASSERT_EQ(all.loaded.notes.size(), 1u);
+  EXPECT_EQ(all.loaded.notes[0].code, WarningCode::clearance_from_all);
+  const Mission named = resolve("{clearance: 3, ground: field}");
+  EXPECT_EQ(named.navigation.clearance->obstacles->triangles.size(), 1u);
+  EXPECT_TRUE(named.loaded.notes.empty());
+  testing::expect_error([&] { resolve("{clearance: 3, ground: feild}"); }, ErrorCode::object_missing,
+                        "mission.yaml:4:");
+}
+
+TEST_F(ClearanceMission, WrongKeysAreRefused) {
+  const auto refuse = [&](const std::string& navigation, ErrorCode code) {
+    testing::expect_error([&] { read(navigation); }, code, "mission.yaml:4:");
+  };
+  refuse("{clearance: 0}", ErrorCode::value_out_of_range);
+  refuse("{clearance: -2}", ErrorCode::value_out_of_range);
+  refuse("{clearance: near}", ErrorCode::not_a_number);
+  refuse("{clearence: 3}", ErrorCode::unknown_key);
+  refuse("{clearance: 3, ground: 0}", ErrorCode::not_applicable);
+}
+
+TEST_F(ClearanceMission, TextAndHashHoldAllOfIt) {
+  std::set<std::string> hashes, texts;
+  for (const char* navigation :
+       {"{clearance: 3}", "{clearance: 4}", "{clearance: 3, ground: field}", "{altitude: [1, 2]}"}) {
+    const MissionFile mission = read(navigation);
+    const std::string text = mission_text(mission, mission.file.parent_path());
+    const MissionFile again = read_mission_text(text, mission.file);
+    EXPECT_EQ(mission_text(again, mission.file.parent_path()), text);
+    EXPECT_EQ(mission_hash(resolve_mission(again)), mission_hash(resolve_mission(mission)));
+    hashes.insert(mission_hash(resolve_mission(mission)));
+    texts.insert(text);
+  }
+  EXPECT_EQ(hashes.size(), 4u);
+  EXPECT_EQ(texts.size(), 4u);
+}
+
+TEST(ClearanceMap, AVolumeAmongHousesKeepsItsDistance) {
+  VANTAGE_REQUIRE_SHARED("osm/monaco.osm.pbf");
+  const std::string text = "scene: {osm: '" + testing::shared_data("osm/monaco.osm.pbf").string() +
+                           "', center: [43.7384, 7.4246], radius: 300}\n"
+                           "target: {center: [43.7386, 7.4250], width: 6, length: 6, offset: 30}\n"
+                           "sensor: {max_range: 150}\nnavigation: {clearance: 10}\n";
+  const Mission mission = resolve_mission(read_mission_text(text, "mission.yaml"));
+  EXPECT_TRUE(mission.loaded.notes.empty() || mission.loaded.notes[0].code != WarningCode::clearance_from_all);
+  const Result result = run_mission(mission);
+  ASSERT_EQ(result.volume.outcome, Outcome::computed) << result.volume.reason;
+  const Mesh& obstacles = *mission.navigation.clearance->obstacles;
+  double nearest = INFINITY;
+  for (std::size_t i = 0; i < result.volume.mesh.vertices.size(); i += 50) {
+    nearest = std::min(nearest, distance(result.volume.mesh.vertices[i], obstacles));
+  }
+  EXPECT_GT(nearest, 10 - 1e-6);
+  VerifyOptions options;
+  options.points = 2000;
+  options.lift_m = result.volume.lift_m;
+  const VerifyReport report = verify_volume(mission.loaded.scene, mission.target, mission.sensor, mission.navigation,
+                                            result.volume.mesh, options);
+  EXPECT_TRUE(report.is_right()) << report.worst_over_cause;
+  EXPECT_EQ(report.under_claimed, 0u);
+}
+
+}  // namespace
+}  // namespace vantage
