@@ -78,7 +78,7 @@ RULES = [
     OnlyIn(r"polyclipping/|clipper\.hpp", r"src/maps/city/clipping\.cpp",
            "only src/maps/city/clipping.cpp sees Clipper"),
     OnlyIn(r"(oneapi/)?tbb[/.]", r"src/core/threads_tbb\.cpp", "only src/core/threads_tbb.cpp sees oneTBB"),
-    OnlyIn(r"CLI/", r"src/cli/|bench/gap/", "only programs see CLI11"),
+    OnlyIn(r"CLI/", r"src/cli/|bench/(gap|limits)/", "only programs see CLI11"),
     OnlyIn(r"yaml-cpp/", r"src/app/", "only src/app sees yaml-cpp"),
     OnlyIn(r"zlib\.h", r"src/io/", "only src/io sees zlib"),
     OnlyIn(r"fmt/", r"src/core/format\.h", "only src/core/format.h sees libfmt"),

@@ -1,0 +1,256 @@
+// How right volumes with limits of the sensor are in real cities: random targets with random limits, each judged by
+// verify_volume, which shares no geometry with the engine; and whether the judge notices a limit that was loosened.
+// A line of CSV for each volume, and a summary. docs/camera.md, "How right it is", has the figures.
+#include <CLI/CLI.hpp>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <iostream>
+#include <numbers>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "support/cities.h"
+#include "vantage/error.h"
+#include "vantage/navigation.h"
+#include "vantage/verify.h"
+
+namespace vantage::bench {
+namespace {
+
+class Draw {
+ public:
+  explicit Draw(std::uint64_t seed) : engine_(seed) {}
+  double uniform(double low, double high) { return std::uniform_real_distribution<>(low, high)(engine_); }
+  bool chance(double share) { return uniform(0, 1) < share; }
+  Vec3 direction() {
+    const double z = uniform(-1, 1), angle = uniform(0, 2 * std::numbers::pi), across = std::sqrt(1 - z * z);
+    return {across * std::cos(angle), across * std::sin(angle), z};
+  }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+/// A convex polygon of 3 to 8 corners and up to 10 m across, anywhere in the middle of the scene, level or askew.
+Target draw_target(const SceneStatistics& scene, Draw& draw) {
+  const Box& box = scene.bounds;
+  const auto between = [&](int axis, double low, double high) {
+    return box.min[axis] + draw.uniform(low, high) * (box.max[axis] - box.min[axis]);
+  };
+  const double x = between(0, 0.25, 0.75), y = between(1, 0.25, 0.75);
+  const Vec3 centre(x, y, between(2, 0.02, 0.7));
+  const Vec3 normal = draw.chance(0.4) ? Vec3::UnitZ() : draw.direction();
+  const Vec3 u = normal.unitOrthogonal(), v = normal.cross(u);
+  const int count = 3 + static_cast<int>(draw.uniform(0, 5.999));
+  const double radius = std::exp(draw.uniform(std::log(0.5), std::log(5)));
+  std::vector<double> angles;
+  for (int i = 0; i < count; ++i) angles.push_back(2 * std::numbers::pi * (i + draw.uniform(0.1, 0.9)) / count);
+  std::vector<Vec3> corners;
+  for (const double angle : angles) corners.push_back(centre + radius * (std::cos(angle) * u + std::sin(angle) * v));
+  Target target = Target::polygon(corners);
+  target.front = normal;
+  return target;
+}
+
+struct Limit {
+  const char* name;
+  std::function<void(Sensor&, Draw&)> add;
+  std::function<void(Sensor&)> loosen;  ///< by 1 %
+};
+
+void widen(Sensor& sensor) {
+  sensor.camera->half_width *= 1.01;
+  sensor.camera->half_height *= 1.01;
+}
+
+const std::vector<Limit>& limits() {
+  static const std::vector<Limit> kLimits = {
+      {"min_range", [](Sensor& s, Draw& d) { s.min_range_m = d.uniform(0.1, 0.4) * s.max_range_m; },
+       [](Sensor& s) { s.min_range_m *= 0.99; }},
+      {"incidence", [](Sensor& s, Draw& d) { s.incidence_deg = d.uniform(30, 75); },
+       [](Sensor& s) { *s.incidence_deg *= 1.01; }},
+      {"pixel",
+       [](Sensor& s, Draw& d) {
+         if (!s.camera) s.camera = pinhole_of_fov(150, 140, 20000, 15000);
+         s.pixel = PixelLimit{d.uniform(0.6, 1.2) * s.max_range_m / *s.camera->focal_px, PixelLimit::Kind::worst};
+       },
+       [](Sensor& s) { s.pixel->size_m *= 1.01; }},
+      {"sun",
+       [](Sensor& s, Draw& d) {
+         s.sun = SunLimit{d.direction(), d.uniform(10, 40)};
+         s.sun->direction.z() = std::abs(s.sun->direction.z());
+       },
+       [](Sensor& s) { s.sun->exclude_deg *= 0.99; }},
+      {"gimbal",
+       [](Sensor& s, Draw& d) {
+         s.camera = pinhole_of_fov(d.uniform(25, 80), d.uniform(20, 60), 4000, 3000);
+         s.mount = {};
+         if (d.chance(0.5)) s.mount.min_pitch_deg = d.uniform(-90, -30), s.mount.max_pitch_deg = d.uniform(-10, 60);
+       },
+       widen},
+      {"fixed",
+       [](Sensor& s, Draw& d) {
+         s.camera = pinhole_of_fov(d.uniform(40, 90), d.uniform(40, 80), 4000, 3000);
+         const double pitch = d.uniform(-90, 0);
+         s.mount = {.yaw_deg = d.uniform(0, 360), .min_pitch_deg = pitch, .max_pitch_deg = pitch};
+       },
+       widen},
+  };
+  return kLimits;
+}
+
+struct Tally {
+  std::size_t volumes = 0, empty = 0, points = 0, inside = 0, over = 0, under = 0, undecided = 0;
+  std::size_t with_over = 0;  ///< volumes
+
+  void add(const VerifyReport& report) {
+    ++volumes;
+    points += report.points;
+    inside += report.inside;
+    over += report.over_claimed;
+    under += report.under_claimed;
+    undecided += report.undecided;
+    with_over += report.over_claimed > 0;
+  }
+  void print(const std::string& name) const {
+    const double all = static_cast<double>(std::max<std::size_t>(inside + under, 1));
+    std::printf(
+        "# %s: %zu volumes with over-claims in %zu, %zu empty; %zu points, %zu inside, %zu over-claimed, "
+        "%zu under-claimed (%.3f %% of what is right), %zu undecided\n",
+        name.c_str(), with_over, volumes, empty, points, inside, over, under, 100.0 * static_cast<double>(under) / all,
+        undecided);
+  }
+};
+
+struct Options {
+  int targets = 25;
+  std::size_t points = 10000;
+  std::uint64_t seed = 1;
+  std::vector<std::string> cities = {"charlotte", "munich", "florence", "openfoam"};
+};
+
+/// A target that can be seen as it lies; draws until there is one.
+PreparedTarget draw_prepared(const PreparedCity& city, const Sensor& sensor, Draw& draw) {
+  for (;;) {
+    try {
+      return PreparedTarget(city.prepared, draw_target(city.prepared.statistics(), draw), sensor);
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::input) throw;  // pierced
+    }
+  }
+}
+
+VerifyReport judged(const PreparedCity& city, const PreparedTarget& target, const Sensor& asked, const Volume& volume,
+                    const Options& options) {
+  VerifyOptions verify;
+  verify.points = options.points;
+  verify.seed = options.seed;
+  verify.lift_m = volume.lift_m;
+  verify.tolerance_m = volume.tolerance_m;
+  return verify_volume(city.scene, target.target(), asked, {}, volume.mesh, verify);
+}
+
+void print_row(const char* city, int number, const std::string& names, const Volume& volume,
+               const VerifyReport& report) {
+  std::printf("%s,%d,%s,%zu,%.6g,%zu,%zu,%zu,%zu,%.3g,%s\n", city, number, names.c_str(), volume.mesh.triangles.size(),
+              enclosed_volume(volume.mesh), report.inside, report.over_claimed, report.under_claimed, report.undecided,
+              report.worst_over_depth_m, report.worst_over_cause.c_str());
+  std::fflush(stdout);
+}
+
+/// Random limits together, as asked.
+void run_together(const char* name, const PreparedCity& city, const Options& options, Draw& draw, Tally& tally) {
+  for (int i = 0; i < options.targets; ++i) {
+    Sensor sensor{.max_range_m = std::exp(draw.uniform(std::log(40), std::log(250)))};
+    std::string names;
+    for (const Limit& limit : limits()) {
+      const bool is_second_camera = sensor.camera && std::string(limit.name) == "fixed";
+      if (is_second_camera || !draw.chance(0.4)) continue;
+      limit.add(sensor, draw);
+      names += (names.empty() ? "" : "+") + std::string(limit.name);
+    }
+    try {
+      check_sensor(sensor);
+    } catch (const Error&) {
+      --i;  // limits that exclude each other
+      continue;
+    }
+    const PreparedTarget target = draw_prepared(city, sensor, draw);
+    const Volume volume = compute_volume(target);
+    if (volume.outcome != Outcome::computed) {
+      ++tally.empty;
+      --i;
+      continue;
+    }
+    const VerifyReport report = judged(city, target, sensor, volume, options);
+    print_row(name, i, names.empty() ? "none" : names, volume, report);
+    tally.add(report);
+  }
+}
+
+/// One limit, of which the engine is told 1 % less than the judge.
+void run_loosened(const char* name, const PreparedCity& city, const Limit& limit, const Options& options, Draw& draw,
+                  Tally& tally) {
+  for (int done = 0, tries = 0; done < 3 && tries < 100; ++tries) {
+    Sensor asked{.max_range_m = 100};
+    limit.add(asked, draw);
+    Sensor loose = asked;
+    limit.loosen(loose);
+    const PreparedTarget target = draw_prepared(city, loose, draw);
+    const Volume volume = compute_volume(target);
+    const bool is_limited = std::any_of(volume.causes.begin(), volume.causes.end(),
+                                        [](const Cause& cause) { return cause.kind == CauseKind::sensor; });
+    if (!is_limited) continue;  // the sun is behind the target
+    const VerifyReport report = judged(city, target, asked, volume, options);
+    print_row(name, done++, std::string("loosened ") + limit.name, volume, report);
+    tally.add(report);
+  }
+}
+
+int run(const Options& options) {
+  std::printf("# seed %llu\ncity,target,limits,facets,volume_m3,inside,over,under,undecided,worst_over_m,worst_cause\n",
+              static_cast<unsigned long long>(options.seed));
+  Draw draw(options.seed);
+  Tally together;
+  std::vector<Tally> loosened(limits().size());
+  for (const City* city : {&kCharlotte, &kMunich, &kFlorence, &kOpenfoam}) {
+    if (std::find(options.cities.begin(), options.cities.end(), city->name) == options.cities.end()) continue;
+    const PreparedCity* const ready = prepared_city(*city);
+    if (!ready) {
+      std::cerr << absence(*city) << "\n";
+      continue;
+    }
+    run_together(city->name, *ready, options, draw, together);
+    for (std::size_t i = 0; i < limits().size(); ++i) {
+      run_loosened(city->name, *ready, limits()[i], options, draw, loosened[i]);
+    }
+  }
+  together.print("limits together");
+  bool noticed = true;
+  for (std::size_t i = 0; i < limits().size(); ++i) {
+    loosened[i].print(std::string("loosened by 1 %: ") + limits()[i].name);
+    noticed = noticed && (loosened[i].volumes == 0 || loosened[i].over > 0);
+  }
+  return together.over == 0 && noticed ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace vantage::bench
+
+int main(int argc, char** argv) {
+  vantage::bench::Options options;
+  CLI::App app(
+      "Judges volumes with random limits of the sensor in real cities. Exit 1 where one claims wrongly, or "
+      "where the judge does not notice a limit that was loosened by 1 %.");
+  app.add_option("--targets", options.targets, "of each city")->capture_default_str();
+  app.add_option("--points", options.points, "viewpoints for each volume")->capture_default_str();
+  app.add_option("--seed", options.seed)->capture_default_str();
+  app.add_option("--cities", options.cities)->capture_default_str()->delimiter(',');
+  CLI11_PARSE(app, argc, argv);
+  return vantage::bench::run(options);
+}
