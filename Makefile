@@ -39,7 +39,7 @@ test: tested  ## build and run all tests
 	ctest --preset release --parallel $(JOBS)
 
 .PHONY: check
-check: everything  ## before a commit: build, unit tests, format, and lint of what changed
+check: tested tools  ## before a commit: build, unit tests, format, and lint of what changed
 	@ctest --preset release --parallel $(JOBS) --label-exclude 'heavy|consumer'
 	@status=0; scripts/format.sh --check || status=1; JOBS=$(JOBS) scripts/lint.sh --changed || status=1; exit $$status
 
@@ -55,7 +55,7 @@ tsan: tools  ## the tests of what runs on threads under ThreadSanitizer
 	ctest --preset tsan --parallel $(JOBS)
 
 .PHONY: bench
-bench: everything  ## the benchmarks (RECORD=1 keeps the figures in bench/results)
+bench: benchmarks  ## the benchmarks (RECORD=1 keeps the figures in bench/results)
 	build/bin/vantage_bench --benchmark_filter='-^(engine|plain|prepare|depth|spheres)/' $(BENCH_FLAGS)
 	bench/run.sh $(if $(RECORD),,--no-file)
 
@@ -65,7 +65,7 @@ fuzz: tools  ## each fuzz target for a minute (SECONDS_EACH=60; PRESET=asan: in 
 	BUILD=build-$(or $(PRESET),fuzz) scripts/fuzz.sh $(or $(SECONDS_EACH),60)
 
 .PHONY: nightly
-nightly: everything  ## what takes too long for every change: lint and sanitizers over all, static builds, a long attack
+nightly: tested benchmarks  ## what takes too long for every change: lint and sanitizers over all, static builds, a long attack
 	@$(MAKE) --no-print-directory lint ALL=1
 	@$(MAKE) --no-print-directory asan ALL=1
 	cmake --build --preset asan --parallel $(JOBS) --target vantage_attack
@@ -83,7 +83,8 @@ format: tools  ## format our sources in place
 	@scripts/format.sh
 
 .PHONY: lint
-lint: everything  ## formatting, and clang-tidy over the library and the program (ALL=1: tests and benchmarks too)
+lint: tools  ## formatting, and clang-tidy over the library and the program (ALL=1: tests and benchmarks too)
+	@$(call configure,release)
 	@status=0; scripts/format.sh --check || status=1; \
 	  JOBS=$(JOBS) scripts/lint.sh $(if $(ALL),,--library) || status=1; exit $$status
 
@@ -98,9 +99,9 @@ tested:
 	@scripts/fetch_sources.sh
 	@$(call compile,release,all vantage_tests)
 
-.PHONY: everything
-everything: tools
-	@$(call compile,release,all vantage_tests vantage_bench)
+.PHONY: benchmarks
+benchmarks: tools
+	@$(call compile,release,vantage_benchmarks)
 
 .PHONY: prepare
 prepare:

@@ -53,7 +53,7 @@ elseif(MODE STREQUAL "add_subdirectory")
   set(how -DUSE_SUBDIRECTORY=${VANTAGE_SOURCE_DIR} -DCMAKE_PREFIX_PATH=${PREFIX_PATH})
   # Compiled once more: without the optimizer, which takes half of the time.
   set(BUILD_TYPE Debug)
-  list(APPEND how -DCMAKE_CXX_FLAGS_DEBUG=-O0)
+  list(APPEND how -DCMAKE_CXX_FLAGS_DEBUG=-O0 -DVANTAGE_JOIN_SOURCES=ON)
 else()
   message(FATAL_ERROR "MODE is find_package or add_subdirectory, not '${MODE}'")
 endif()
