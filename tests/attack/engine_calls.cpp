@@ -58,7 +58,8 @@ void write_zone(std::ostream& out, const Zone& zone) {
 // The attack draws no meshes to stay in, and of ground a plane alone.
 void write_navigation(const Navigation& navigation, std::ostream& out) {
   if (navigation.empty()) return;
-  const auto& [altitude, keep_in, keep_in_zones, keep_out, keep_out_zones, meshes, above_ground] = navigation;
+  const auto& [altitude, keep_in, keep_in_zones, keep_out, keep_out_zones, meshes, above_ground, clearance] =
+      navigation;
   out << "navigation:\n";
   if (altitude || above_ground) {
     out << "  altitude: {";
@@ -67,6 +68,7 @@ void write_navigation(const Navigation& navigation, std::ostream& out) {
     if (above_ground) out << "agl: [" << number(above_ground->min_m) << ", " << number(above_ground->max_m) << "]";
     out << "}\n";
   }
+  if (clearance) out << "  clearance: " << number(clearance->distance_m) << "\n";
   if (above_ground) out << "  ground: " << number(above_ground->ground.plane_z_m) << "\n";
   if (!keep_in.empty() || !keep_in_zones.empty()) out << "  keep_in:\n";
   for (const Box& box : keep_in) write_box(out, box);
