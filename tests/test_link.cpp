@@ -184,7 +184,10 @@ Judged judge(const Scene& scene, const Volume& volume, const RadioLink& link, in
       const auto& triangle = volume.mesh.triangles[static_cast<std::size_t>(
           random.integer(0, static_cast<int>(volume.mesh.triangles.size()) - 1))];
       double u = random.uniform(0, 1), v = random.uniform(0, 1);
-      if (u + v > 1) u = 1 - u, v = 1 - v;
+      if (u + v > 1) {
+        u = 1 - u;
+        v = 1 - v;
+      }
       const Vec3 &a = volume.mesh.vertices[triangle[0]], &b = volume.mesh.vertices[triangle[1]],
                  &c = volume.mesh.vertices[triangle[2]];
       const Vec3 on_surface = a + u * (b - a) + v * (c - a);

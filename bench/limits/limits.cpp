@@ -90,7 +90,10 @@ const std::vector<Limit>& limits() {
        [](Sensor& s, Draw& d) {
          s.camera = pinhole_of_fov(d.uniform(25, 80), d.uniform(20, 60), 4000, 3000);
          s.mount = {};
-         if (d.chance(0.5)) s.mount.min_pitch_deg = d.uniform(-90, -30), s.mount.max_pitch_deg = d.uniform(-10, 60);
+         if (d.chance(0.5)) {
+           s.mount.min_pitch_deg = d.uniform(-90, -30);
+           s.mount.max_pitch_deg = d.uniform(-10, 60);
+         }
        },
        widen},
       {"fixed",
