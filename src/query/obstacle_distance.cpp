@@ -44,7 +44,7 @@ bool meets(const core::Bounds& box, const Vec3& origin, const Vec3& direction, d
       if (low > 0 || high < 0) return false;
       continue;
     }
-    const auto [near, far] = std::minmax(low / direction[axis], high / direction[axis]);
+    const auto [near, far] = std::minmax({low / direction[axis], high / direction[axis]});
     begin = std::max(begin, near);
     finish = std::min(finish, far);
   }
