@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "core/bounds_distance.h"
 #include "core/walk_bvh.h"
 #include "exact/segment_cover.h"
 #include "target/numerics.h"
@@ -12,15 +13,6 @@ namespace {
 
 // A polygon that reaches this far over a plane, in metres, does so whatever rounding does.
 constexpr double kNear = 1e-7;
-
-double distance_to(const core::Bounds& bounds, const Vec3& point) {
-  double sum = 0;
-  for (int a = 0; a < 3; ++a) {
-    const double d = std::max({0.0, bounds.min[a] - point[a], point[a] - bounds.max[a]});
-    sum += d * d;
-  }
-  return std::sqrt(sum);
-}
 
 /// Finds the planes of a blocker whose facets its polygon's neighbours hide. Where only the polygon's own plane is
 /// left, its facet is the polygon, and the blocker is confined to that. A facet is swept from the corners that its
@@ -129,7 +121,7 @@ void collect_blockers(const PreparedScene::Data& scene, const TargetFrame& frame
     neighbours.mark_hidden(polygon, corners, blockers);
     if (!tree.insert(static_cast<std::uint32_t>(blockers.count() - 1))) blockers.drop_last();
   };
-  const auto distance = [&](const core::Bounds& bounds) { return distance_to(bounds, centre); };
+  const auto distance = [&](const core::Bounds& bounds) { return core::distance_to(bounds, centre); };
   core::walk_nearest_first(scene.bvh, distance, reach, may_show, add);
 }
 

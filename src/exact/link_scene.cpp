@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/bounds_distance.h"
 #include "core/walk_bvh.h"
 #include "exact/blocker.h"
 #include "exact/direction_tree.h"
@@ -17,15 +18,6 @@
 
 namespace vantage::internal::exact {
 namespace {
-
-double distance_of(const core::Bounds& bounds, const Vec3& point) {
-  double sum = 0;
-  for (int a = 0; a < 3; ++a) {
-    const double d = std::max({0.0, bounds.min[a] - point[a], point[a] - bounds.max[a]});
-    sum += d * d;
-  }
-  return std::sqrt(sum);
-}
 
 double farthest_in(const core::Bounds& bounds, const Vec3& point) {
   double sum = 0;
@@ -123,7 +115,7 @@ std::optional<std::uint32_t> LinkScene::polygon_at_antenna() const {
   std::optional<std::uint32_t> found;
   ZonePieces pieces(radius_, clear_);
   core::walk_bvh(
-      scene_.data().bvh, [&](const core::BvhNode& node) { return distance_of(node.bounds, antenna_) <= near; },
+      scene_.data().bvh, [&](const core::BvhNode& node) { return core::distance_to(node.bounds, antenna_) <= near; },
       [&](std::uint32_t polygon) {
         if (!pieces.for_each(corners_of(polygon), [](const GrownPiece&) {})) found = polygon;
         return !found;
@@ -161,7 +153,7 @@ LinkScene::Grown LinkScene::grow(const TargetFrame& frame, const core::ProgressR
     if (is_shown) grown.polygon_of.push_back(polygon);
     hidden.add(corners);
   };
-  const auto distance = [&](const core::Bounds& bounds) { return distance_of(bounds, antenna_); };
+  const auto distance = [&](const core::Bounds& bounds) { return core::distance_to(bounds, antenna_); };
   core::walk_nearest_first(data.bvh, distance, radius_.reach(), may_show, add);
   for (std::size_t i = 0; i < grown.polygon_of.size(); ++i) grown.scene.objects.push_back({});
   return grown;

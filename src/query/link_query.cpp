@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "core/bounds_distance.h"
 #include "core/walk_bvh.h"
 #include "target/fresnel_zone.h"
 
@@ -14,15 +15,6 @@ namespace {
 
 /// What enters the zone by less than this part of its radius touches it.
 constexpr double kTouch = 1e-9;
-
-double box_distance(const core::Bounds& bounds, const Vec3& point) {
-  double sum = 0;
-  for (int a = 0; a < 3; ++a) {
-    const double d = std::max({0.0, bounds.min[a] - point[a], point[a] - bounds.max[a]});
-    sum += d * d;
-  }
-  return std::sqrt(sum);
-}
 
 /// The point of a convex polygon that is nearest to the origin.
 Vec3 nearest_to_origin(const std::vector<Vec3>& corners) {
@@ -60,7 +52,7 @@ class LinkEllipsoid {
 
   bool may_meet(const core::Bounds& bounds, const Vec3& antenna) const {
     const Vec3 vehicle = antenna + distance_ * direction_;
-    const double sum = box_distance(bounds, antenna) + box_distance(bounds, vehicle);
+    const double sum = core::distance_to(bounds, antenna) + core::distance_to(bounds, vehicle);
     return sum < (distance_ + excess_) * (1 + 1e-12);
   }
 
@@ -128,7 +120,7 @@ double LinkQuery::reach(const Vec3& direction, double farthest) const {
     }
   };
   core::walk_nearer_first(
-      scene_.bvh, [&](const core::Bounds& bounds) { return box_distance(bounds, antenna_); },
+      scene_.bvh, [&](const core::Bounds& bounds) { return core::distance_to(bounds, antenna_); },
       [&](const core::BvhNode& node) {
         return reach > 0 && LinkEllipsoid(direction, reach, excess_).may_meet(node.bounds, antenna_);
       },
