@@ -150,6 +150,8 @@ class Replacement {
   std::optional<LabelledMesh> restored(LabelledMesh cut, CutKind kind) const;
 
  private:
+  template <typename Visit>
+  void for_each_border(const Visit& visit) const;
   void give_back_pinched();
   void add_fans();
 
@@ -160,6 +162,20 @@ class Replacement {
   LabelledMesh reduced_;
   std::uint32_t first_fan_label_;
 };
+
+/// Calls `visit(from, to, group)` for the sides of a group's facets beyond which another group begins, or none.
+template <typename Visit>
+void Replacement::for_each_border(const Visit& visit) const {
+  core::for_each_edge(std::span(uses_), [&](std::span<const core::EdgeUse> edge) {
+    for (const core::EdgeUse& use : edge) {
+      const std::uint32_t group = group_of_[use.triangle];
+      if (group == kNone) continue;
+      const bool is_border = std::any_of(
+          edge.begin(), edge.end(), [&](const core::EdgeUse& other) { return group_of_[other.triangle] != group; });
+      if (is_border) visit(use.forward ? use.low : use.high, use.forward ? use.high : use.low, group);
+    }
+  });
+}
 
 Replacement::Replacement(const LabelledMesh& volume, std::vector<Group> groups, std::uint32_t free_label)
     : volume_(volume),
@@ -182,15 +198,7 @@ void Replacement::give_back_pinched() {
     is_pinched = false;
     // Of each vertex the groups for which a border begins there; few have more than two.
     std::vector<std::pair<std::uint32_t, std::uint32_t>> begins;
-    core::for_each_edge(std::span(uses_), [&](std::span<const core::EdgeUse> edge) {
-      for (const core::EdgeUse& use : edge) {
-        const std::uint32_t group = group_of_[use.triangle];
-        if (group == kNone) continue;
-        const bool is_border = std::any_of(
-            edge.begin(), edge.end(), [&](const core::EdgeUse& other) { return group_of_[other.triangle] != group; });
-        if (is_border) begins.emplace_back(use.forward ? use.low : use.high, group);
-      }
-    });
+    for_each_border([&](std::uint32_t from, std::uint32_t, std::uint32_t group) { begins.emplace_back(from, group); });
     std::sort(begins.begin(), begins.end());
     std::vector<bool> has_to_go(vertices, false);
     for (std::size_t i = 1; i < begins.size(); ++i) {
@@ -226,20 +234,12 @@ void Replacement::add_fans() {
     const auto& [a, b, c] = mesh.triangles[t];
     add({vertex(a), vertex(b), vertex(c)}, volume_.labels[t]);
   }
-  core::for_each_edge(std::span(uses_), [&](std::span<const core::EdgeUse> edge) {
-    for (const core::EdgeUse& use : edge) {
-      const std::uint32_t group = group_of_[use.triangle];
-      if (group == kNone) continue;
-      const bool is_border = std::any_of(
-          edge.begin(), edge.end(), [&](const core::EdgeUse& other) { return group_of_[other.triangle] != group; });
-      if (!is_border) continue;
-      if (apex[group] == kNone) {
-        apex[group] = static_cast<std::uint32_t>(reduced_.mesh.vertices.size());
-        reduced_.mesh.vertices.push_back(groups_[group].apex);
-      }
-      const std::uint32_t from = use.forward ? use.low : use.high, to = use.forward ? use.high : use.low;
-      add({vertex(from), vertex(to), apex[group]}, first_fan_label_ + group);
+  for_each_border([&](std::uint32_t from, std::uint32_t to, std::uint32_t group) {
+    if (apex[group] == kNone) {
+      apex[group] = static_cast<std::uint32_t>(reduced_.mesh.vertices.size());
+      reduced_.mesh.vertices.push_back(groups_[group].apex);
     }
+    add({vertex(from), vertex(to), apex[group]}, first_fan_label_ + group);
   });
 }
 
