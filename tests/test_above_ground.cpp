@@ -28,6 +28,7 @@ namespace vantage {
 namespace {
 
 using testing::first_open_edge;
+using testing::holds;
 using testing::make_hemisphere;
 using testing::Random;
 
@@ -94,17 +95,6 @@ double slack(const AboveGround& limit, const Vec3& p) {
   const Heights heights = heights_at(*limit.ground.surface, p);
   if (!heights.any) return -INFINITY;
   return std::min(p.z() - heights.highest - limit.min_m, heights.lowest + limit.max_m - p.z());
-}
-
-/// Whether an outward-oriented closed mesh holds a point: signed solid angles.
-bool holds(const Mesh& mesh, const Vec3& p) {
-  double sum = 0;
-  for (const Triangle& t : mesh.triangles) {
-    const Vec3 a = mesh.vertices[t[0]] - p, b = mesh.vertices[t[1]] - p, c = mesh.vertices[t[2]] - p;
-    const double la = a.norm(), lb = b.norm(), lc = c.norm();
-    sum += std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
-  }
-  return sum > std::numbers::pi;
 }
 
 struct Case {

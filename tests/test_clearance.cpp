@@ -29,6 +29,7 @@ namespace vantage {
 namespace {
 
 using testing::first_open_edge;
+using testing::holds;
 using testing::make_hemisphere;
 using testing::Random;
 
@@ -64,17 +65,6 @@ double distance_to_polygon(const Vec3& p, const std::vector<Vec3>& corners) {
     nearest = std::min(nearest, distance(p, corners[0], corners[i], corners[(i + 1) % corners.size()]));
   }
   return nearest;
-}
-
-/// Whether an outward-oriented closed mesh holds a point: signed solid angles.
-bool holds(const Mesh& mesh, const Vec3& p) {
-  double sum = 0;
-  for (const Triangle& t : mesh.triangles) {
-    const Vec3 a = mesh.vertices[t[0]] - p, b = mesh.vertices[t[1]] - p, c = mesh.vertices[t[2]] - p;
-    const double la = a.norm(), lb = b.norm(), lc = c.norm();
-    sum += std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
-  }
-  return sum > std::numbers::pi;
 }
 
 /// Corners on an ellipse that lies askew; 1 and 2 are a point and a line.

@@ -1,6 +1,7 @@
 // Test solids made by hand, and an obvious check that a mesh is closed and oriented.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -105,6 +106,17 @@ inline std::string first_open_edge(const Mesh& mesh) {
            " times";
   }
   return {};
+}
+
+/// Whether an outward-oriented closed mesh holds a point: signed solid angles (Van Oosterom and Strackee 1983).
+inline bool holds(const Mesh& mesh, const Vec3& p) {
+  double sum = 0;
+  for (const Triangle& t : mesh.triangles) {
+    const Vec3 a = mesh.vertices[t[0]] - p, b = mesh.vertices[t[1]] - p, c = mesh.vertices[t[2]] - p;
+    const double la = a.norm(), lb = b.norm(), lc = c.norm();
+    sum += std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+  }
+  return sum > std::numbers::pi;
 }
 
 }  // namespace vantage::testing
