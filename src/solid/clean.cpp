@@ -29,6 +29,13 @@ double width_of(const Corners& c) {
   return longest > 0 ? (c[1] - c[0]).cross(c[2] - c[0]).norm() / longest : 0;
 }
 
+/// Whether that is less than `width`; without the roots.
+bool is_narrower(const Corners& c, double width) {
+  const Vec3 u = c[1] - c[0], v = c[2] - c[0];
+  const double longest = std::max({u.squaredNorm(), v.squaredNorm(), (c[2] - c[1]).squaredNorm()});
+  return longest == 0 || u.cross(v).squaredNorm() < width * width * longest;
+}
+
 bool names(const Triangle& triangle, std::uint32_t vertex) {
   return triangle[0] == vertex || triangle[1] == vertex || triangle[2] == vertex;
 }
@@ -64,7 +71,8 @@ class Cleaner {
     Vec3 foot;                       ///< the point of the side nearest to the apex
   };
 
-  bool needs_cleaning() const;
+  bool find_suspects();
+  void suspect_all_of(std::uint32_t vertex);
   void begin();
   void finish();
   Corners corners(std::uint32_t t) const {
@@ -105,15 +113,25 @@ class Cleaner {
   std::optional<core::Stars> stars_;
   std::vector<Vec3> scene_vertices_;    // as they came
   std::vector<char> gone_;              // per triangle
+  std::vector<char> suspect_;           // per triangle: it may be narrow; all others are not, nor are their sides short
   std::vector<double> moved_, raised_;  // per vertex: how far anything has moved that is now it, and outward
   std::vector<std::uint32_t> version_;  // per vertex: how often it has moved
   Cleaning result_;
 };
 
-bool Cleaner::needs_cleaning() const {
-  return std::any_of(triangles_.begin(), triangles_.end(), [&](const Triangle& t) {
-    return width_of({vertices_[t[0]], vertices_[t[1]], vertices_[t[2]]}) < limits_.distance_m;
-  });
+/// Those that are narrow, or nearly: coordinates are still rounded in the scene frame.
+bool Cleaner::find_suspects() {
+  suspect_.resize(triangles_.size());
+  bool found = false;
+  for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
+    suspect_[t] = is_narrower(corners(t), 2 * limits_.distance_m);
+    found = found || suspect_[t];
+  }
+  return found;
+}
+
+void Cleaner::suspect_all_of(std::uint32_t vertex) {
+  for (const std::uint32_t t : stars_->of(vertex)) suspect_[t] = 1;
 }
 
 void Cleaner::begin() {
@@ -281,6 +299,7 @@ bool Cleaner::merge_at(std::uint32_t u, std::uint32_t v, const Vec3& place) {
     }
   }
   stars_->clear(u);
+  suspect_all_of(v);
   ++result_.merged;
   return true;
 }
@@ -294,7 +313,7 @@ std::size_t Cleaner::merge_short_edges() {
     if (length < limits_.distance_m) waiting.push({length, from, to, version_[from], version_[to]});
   };
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
-    if (gone_[t]) continue;
+    if (gone_[t] || !suspect_[t]) continue;
     for (std::size_t i = 0; i < 3; ++i) {
       const std::uint32_t from = triangles_[t][i], to = triangles_[t][(i + 1) % 3];
       if (from < to) add(from, to);  // the triangle on the other side has it the other way round
@@ -323,7 +342,7 @@ std::size_t Cleaner::merge_short_edges() {
 
 std::optional<Cleaner::Narrow> Cleaner::find_narrow(std::uint32_t t) const {
   const Corners c = corners(t);
-  if (width_of(c) >= limits_.distance_m) return std::nullopt;
+  if (!is_narrower(c, limits_.distance_m)) return std::nullopt;
   std::size_t longest = 0;  // the side from corner `longest` to the next
   for (std::size_t i = 1; i < 3; ++i) {
     if ((c[(i + 1) % 3] - c[i]).squaredNorm() > (c[(longest + 1) % 3] - c[longest]).squaredNorm()) longest = i;
@@ -354,6 +373,7 @@ bool Cleaner::mend(const Narrow& narrow) {
   const auto middle = static_cast<std::uint32_t>(vertices_.size());
   vertices_.push_back(foot);
   gone_.resize(triangles_.size() + 2, 0);
+  suspect_.resize(triangles_.size() + 2, 1);
   moved_.push_back(0);
   raised_.push_back(0);
   version_.push_back(0);
@@ -383,6 +403,7 @@ bool Cleaner::mend(const Narrow& narrow) {
   triangles_.resize(triangles_.size() - 2);
   labelled_.labels.resize(triangles_.size());
   gone_.resize(triangles_.size());
+  suspect_.resize(triangles_.size());
   vertices_.pop_back();
   moved_.pop_back();
   raised_.pop_back();
@@ -395,7 +416,7 @@ bool Cleaner::mend(const Narrow& narrow) {
 std::size_t Cleaner::mend_narrow_facets() {
   std::size_t mended = 0;
   for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
-    if (gone_[t]) continue;
+    if (gone_[t] || !suspect_[t]) continue;
     const std::optional<Narrow> narrow = find_narrow(t);
     if (narrow && mend(*narrow)) ++mended;
   }
@@ -403,7 +424,7 @@ std::size_t Cleaner::mend_narrow_facets() {
 }
 
 Cleaning Cleaner::run() {
-  if (!needs_cleaning()) return {};
+  if (!find_suspects()) return {};
   begin();
   constexpr int kRounds = 6;  // after three nothing changes any more, as a rule
   for (int round = 0; round < kRounds; ++round) {
