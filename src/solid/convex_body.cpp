@@ -8,6 +8,7 @@
 #include <numbers>
 #include <tuple>
 
+#include "core/parallel.h"
 #include "solid/csg.h"
 
 namespace vantage::internal::solid {
@@ -50,11 +51,13 @@ Mesh intersect_half_spaces(std::span<const HalfSpace> half_spaces, const Vec3& i
     if (distance > 0) corners.push_back(normal / distance);
   }
   // A narrow facet of the hull has no sure direction: pull its corner back into all half-spaces.
-  for (Vec3& corner : corners) {
-    double most = 0;
-    for (const Vec3& dual : duals) most = std::max(most, dual.dot(corner));
-    corner = inside + corner / std::max(most, 1.0);
-  }
+  parallel::for_ranges(corners.size(), 256, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      double most = 0;
+      for (const Vec3& dual : duals) most = std::max(most, dual.dot(corners[i]));
+      corners[i] = inside + corners[i] / std::max(most, 1.0);
+    }
+  });
   return convex_hull(corners);
 }
 

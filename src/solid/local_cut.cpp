@@ -150,32 +150,27 @@ class Replacement {
   std::optional<LabelledMesh> restored(LabelledMesh cut, CutKind kind) const;
 
  private:
-  template <typename Visit>
-  void for_each_border(const Visit& visit) const;
-  void give_back_pinched();
+  /// A side of a group's facet beyond which another group begins, or none.
+  struct Border {
+    std::uint32_t from, to, group;
+  };
+
+  void find_borders();
+  bool give_back_pinched();
+  std::size_t corners_on_border(std::uint32_t facet) const {
+    const auto& [a, b, c] = volume_.mesh.triangles[facet];
+    return std::size_t{0} + is_on_border_[a] + is_on_border_[b] + is_on_border_[c];
+  }
   void add_fans();
 
   const LabelledMesh& volume_;
   std::vector<Group> groups_;
-  std::vector<std::uint32_t> group_of_;  ///< of a facet, or kNone
-  std::vector<core::EdgeUse> uses_;
+  std::vector<std::uint32_t> group_of_;     ///< of a facet, or kNone
+  std::vector<std::uint8_t> is_on_border_;  ///< of a vertex
+  std::vector<Border> borders_;
   LabelledMesh reduced_;
   std::uint32_t first_fan_label_;
 };
-
-/// Calls `visit(from, to, group)` for the sides of a group's facets beyond which another group begins, or none.
-template <typename Visit>
-void Replacement::for_each_border(const Visit& visit) const {
-  core::for_each_edge(std::span(uses_), [&](std::span<const core::EdgeUse> edge) {
-    for (const core::EdgeUse& use : edge) {
-      const std::uint32_t group = group_of_[use.triangle];
-      if (group == kNone) continue;
-      const bool is_border = std::any_of(
-          edge.begin(), edge.end(), [&](const core::EdgeUse& other) { return group_of_[other.triangle] != group; });
-      if (is_border) visit(use.forward ? use.low : use.high, use.forward ? use.high : use.low, group);
-    }
-  });
-}
 
 Replacement::Replacement(const LabelledMesh& volume, std::vector<Group> groups, std::uint32_t free_label)
     : volume_(volume),
@@ -185,34 +180,63 @@ Replacement::Replacement(const LabelledMesh& volume, std::vector<Group> groups, 
   for (std::uint32_t g = 0; g < groups_.size(); ++g) {
     for (const std::uint32_t t : groups_[g].facets) group_of_[t] = g;
   }
-  uses_ = core::edge_uses(volume.mesh.triangles, volume.mesh.vertices.size());
-  give_back_pinched();
+  find_borders();
+  while (give_back_pinched()) find_borders();
   add_fans();
 }
 
-/// The border of a group passes each vertex once at most: a fan that has two umbrellas at a vertex would leave it open
-/// which of them belong together. Facets at other vertices are taken out of their groups.
-void Replacement::give_back_pinched() {
-  const std::size_t vertices = volume_.mesh.vertices.size();
-  for (bool is_pinched = true; is_pinched;) {
-    is_pinched = false;
-    // Of each vertex the groups for which a border begins there; few have more than two.
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> begins;
-    for_each_border([&](std::uint32_t from, std::uint32_t, std::uint32_t group) { begins.emplace_back(from, group); });
-    std::sort(begins.begin(), begins.end());
-    std::vector<bool> has_to_go(vertices, false);
-    for (std::size_t i = 1; i < begins.size(); ++i) {
-      if (begins[i] != begins[i - 1]) continue;
-      has_to_go[begins[i].first] = is_pinched = true;
-    }
-    if (!is_pinched) return;
-    for (std::uint32_t t = 0; t < group_of_.size(); ++t) {
-      const Triangle& corners = volume_.mesh.triangles[t];
-      if (std::any_of(corners.begin(), corners.end(), [&](std::uint32_t v) { return has_to_go[v]; })) {
-        group_of_[t] = kNone;
-      }
+/// A side on a border has both ends there, where facets of several groups meet, or of one and of none. Few have.
+void Replacement::find_borders() {
+  const Mesh& mesh = volume_.mesh;
+  constexpr std::uint32_t kUnseen = kNone - 1;
+  std::vector<std::uint32_t> group_at(mesh.vertices.size(), kUnseen);
+  is_on_border_.assign(mesh.vertices.size(), 0);
+  for (std::uint32_t t = 0; t < group_of_.size(); ++t) {
+    for (const std::uint32_t v : mesh.triangles[t]) {
+      if (group_at[v] == kUnseen) group_at[v] = group_of_[t];
+      if (group_at[v] != group_of_[t]) is_on_border_[v] = 1;
     }
   }
+  std::vector<Triangle> triangles;
+  std::vector<std::uint32_t> groups;
+  for (std::uint32_t t = 0; t < group_of_.size(); ++t) {
+    if (corners_on_border(t) < 2) continue;
+    triangles.push_back(mesh.triangles[t]);
+    groups.push_back(group_of_[t]);
+  }
+  borders_.clear();
+  const std::vector<core::EdgeUse> uses = core::edge_uses(triangles, mesh.vertices.size());
+  core::for_each_edge(std::span(uses), [&](std::span<const core::EdgeUse> edge) {
+    for (const core::EdgeUse& use : edge) {
+      const std::uint32_t group = groups[use.triangle];
+      if (group == kNone) continue;
+      const bool is_border = std::any_of(edge.begin(), edge.end(),
+                                         [&](const core::EdgeUse& other) { return groups[other.triangle] != group; });
+      if (is_border) borders_.push_back({use.forward ? use.low : use.high, use.forward ? use.high : use.low, group});
+    }
+  });
+}
+
+/// The border of a group passes each vertex once at most: a fan that has two umbrellas at a vertex would leave it open
+/// which of them belong together. Facets at other vertices are taken out of their groups. False where there are none.
+bool Replacement::give_back_pinched() {
+  // Of each vertex the groups for which a border begins there; few have more than two.
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> begins;
+  for (const Border& border : borders_) begins.emplace_back(border.from, border.group);
+  std::sort(begins.begin(), begins.end());
+  std::vector<char> has_to_go(volume_.mesh.vertices.size(), 0);
+  bool is_pinched = false;
+  for (std::size_t i = 1; i < begins.size(); ++i) {
+    if (begins[i] == begins[i - 1]) has_to_go[begins[i].first] = is_pinched = true;
+  }
+  if (!is_pinched) return false;
+  for (std::uint32_t t = 0; t < group_of_.size(); ++t) {
+    const Triangle& corners = volume_.mesh.triangles[t];
+    if (std::any_of(corners.begin(), corners.end(), [&](std::uint32_t v) { return has_to_go[v]; })) {
+      group_of_[t] = kNone;
+    }
+  }
+  return true;
 }
 
 void Replacement::add_fans() {
@@ -234,30 +258,49 @@ void Replacement::add_fans() {
     const auto& [a, b, c] = mesh.triangles[t];
     add({vertex(a), vertex(b), vertex(c)}, volume_.labels[t]);
   }
-  for_each_border([&](std::uint32_t from, std::uint32_t to, std::uint32_t group) {
+  for (const auto& [from, to, group] : borders_) {
     if (apex[group] == kNone) {
       apex[group] = static_cast<std::uint32_t>(reduced_.mesh.vertices.size());
       reduced_.mesh.vertices.push_back(groups_[group].apex);
     }
     add({vertex(from), vertex(to), apex[group]}, first_fan_label_ + group);
-  });
+  }
 }
 
-/// Closed, and two triangles to an edge.
-bool is_closed(const Mesh& mesh) {
+/// Whether two triangles meet at each edge between vertices below `count`.
+bool is_closed(const std::vector<Triangle>& triangles, std::size_t vertices, std::size_t count) {
   bool closed = true;
-  const std::vector<core::EdgeUse> uses = core::edge_uses(mesh.triangles, mesh.vertices.size());
+  const std::vector<core::EdgeUse> uses = core::edge_uses(triangles, vertices);
   core::for_each_edge(std::span(uses), [&](std::span<const core::EdgeUse> edge) {
-    closed = closed && edge.size() == 2 && edge[0].forward != edge[1].forward;
+    closed = closed && (edge[0].high >= count || (edge.size() == 2 && edge[0].forward != edge[1].forward));
   });
   return closed;
 }
 
+/// Leaves out vertices that no triangle has, and numbers the others as they come.
+void number_anew(Mesh& mesh) {
+  std::vector<std::uint32_t> used(mesh.vertices.size(), kNone);
+  std::vector<Vec3> vertices;
+  vertices.reserve(mesh.vertices.size());
+  for (Triangle& triangle : mesh.triangles) {
+    for (std::uint32_t& v : triangle) {
+      if (used[v] == kNone) {
+        used[v] = static_cast<std::uint32_t>(vertices.size());
+        vertices.push_back(mesh.vertices[v]);
+      }
+      v = used[v];
+    }
+  }
+  mesh.vertices = std::move(vertices);
+}
+
+// Within a group facets hang together as they did. So it is closed if it is where the boolean's vertices are.
 std::optional<LabelledMesh> Replacement::restored(LabelledMesh cut, CutKind kind) const {
   // Where the rims of fans are now. A place with two vertices is left to the check at the end.
   std::unordered_map<Position, std::uint32_t, HashPosition> rim;
   LabelledMesh result;
   result.mesh.vertices = std::move(cut.mesh.vertices);
+  const std::size_t count = result.mesh.vertices.size();
   for (std::size_t t = 0; t < cut.labels.size(); ++t) {
     const Triangle& triangle = cut.mesh.triangles[t];
     if (cut.labels[t] < first_fan_label_) {
@@ -267,36 +310,29 @@ std::optional<LabelledMesh> Replacement::restored(LabelledMesh cut, CutKind kind
     }
     for (const std::uint32_t v : triangle) rim.emplace(Position(result.mesh.vertices[v]), v);
   }
+  std::vector<Triangle> at_rim = result.mesh.triangles;
   const bool keeps_inside = kind == CutKind::keep_inside;
   std::vector<std::uint32_t> number(volume_.mesh.vertices.size(), kNone);
   for (std::uint32_t t = 0; t < group_of_.size(); ++t) {
     if (group_of_[t] == kNone || groups_[group_of_[t]].is_inside != keeps_inside) continue;
     Triangle triangle = volume_.mesh.triangles[t];
     for (std::uint32_t& v : triangle) {
-      if (number[v] == kNone) {
+      if (number[v] == kNone && is_on_border_[v]) {
         const auto known = rim.find(Position(volume_.mesh.vertices[v]));
-        number[v] = known != rim.end() ? known->second : static_cast<std::uint32_t>(result.mesh.vertices.size());
-        if (known == rim.end()) result.mesh.vertices.push_back(volume_.mesh.vertices[v]);
+        if (known == rim.end()) return std::nullopt;
+        number[v] = known->second;
+      } else if (number[v] == kNone) {
+        number[v] = static_cast<std::uint32_t>(result.mesh.vertices.size());
+        result.mesh.vertices.push_back(volume_.mesh.vertices[v]);
       }
       v = number[v];
     }
     result.mesh.triangles.push_back(triangle);
     result.labels.push_back(volume_.labels[t]);
+    if (corners_on_border(t) >= 2) at_rim.push_back(triangle);
   }
-  // Vertices of fans alone are left behind.
-  std::vector<std::uint32_t> used(result.mesh.vertices.size(), kNone);
-  std::vector<Vec3> vertices;
-  for (Triangle& triangle : result.mesh.triangles) {
-    for (std::uint32_t& v : triangle) {
-      if (used[v] == kNone) {
-        used[v] = static_cast<std::uint32_t>(vertices.size());
-        vertices.push_back(result.mesh.vertices[v]);
-      }
-      v = used[v];
-    }
-  }
-  result.mesh.vertices = std::move(vertices);
-  if (!is_closed(result.mesh)) return std::nullopt;
+  if (!is_closed(at_rim, result.mesh.vertices.size(), count)) return std::nullopt;
+  number_anew(result.mesh);
   return result;
 }
 

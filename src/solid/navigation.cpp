@@ -1,5 +1,6 @@
-// Cutting a volume to where the vehicle may fly. The limits are small solids beside a volume of perhaps a hundred
-// thousand facets, so they are combined first, and the volume goes through one boolean.
+// Cutting a volume to where the vehicle may fly. Boxes, zones and the like are small solids beside a volume of perhaps
+// a hundred thousand facets, so they are combined first. What limits of the sensor and the clearance have in common
+// costs more than to cut the volume to one after the other.
 #include "solid/navigation.h"
 
 #include <Eigen/Geometry>
@@ -27,17 +28,58 @@
 namespace vantage::internal::solid {
 namespace {
 
-std::vector<Solid> solids_of(const std::vector<Region>& regions) {
+bool stands_alone(const Region& region) {
+  return region.kind == RegionKind::sensor || region.kind == RegionKind::clearance;
+}
+
+std::vector<Solid> to_combine(const std::vector<Region>& regions) {
   std::vector<Solid> solids;
-  for (const Region& region : regions) solids.push_back(region.solid);
+  for (const Region& region : regions) {
+    if (!stands_alone(region)) solids.push_back(region.solid);
+  }
   return solids;
 }
 
+/// The volume, cut by one solid after another.
+class Cutting {
+ public:
+  Cutting(const LabelledMesh& volume, std::size_t count, core::ProgressReporter progress)
+      : result_{volume, 0, 0}, count_(static_cast<double>(count)), progress_(std::move(progress)) {}
+
+  void cut(const Solid& solid, CutKind kind) {
+    if (result_.mesh.mesh.empty()) return;
+    const core::ProgressReporter part = progress_.part(done_ / count_, (done_ + 1) / count_);
+    LocalCut next = cut_locally(result_.mesh, solid, kind, part);
+    next.epsilon = std::max(next.epsilon, result_.epsilon);
+    result_ = std::move(next);
+    ++done_;
+  }
+  LocalCut take() { return std::move(result_); }
+
+ private:
+  LocalCut result_;
+  double count_, done_ = 0;
+  core::ProgressReporter progress_;
+};
+
+/// What is kept comes first: it leaves the less.
 LocalCut cut(const LabelledMesh& volume, const Regions& regions, const core::ProgressReporter& progress) {
-  const Solid forbidden = unite(solids_of(regions.forbidden));
-  if (regions.kept.empty()) return cut_locally(volume, forbidden, CutKind::keep_outside, progress);
-  const Solid kept = intersect(solids_of(regions.kept));
-  return cut_locally(volume, forbidden.empty() ? kept : subtract(kept, forbidden), CutKind::keep_inside, progress);
+  Cutting cutting(volume, regions.kept.size() + regions.forbidden.size(), progress);
+  for (const Region& region : regions.kept) {
+    if (stands_alone(region)) cutting.cut(region.solid, CutKind::keep_inside);
+  }
+  const std::vector<Solid> kept = to_combine(regions.kept);
+  const Solid forbidden = unite(to_combine(regions.forbidden));
+  if (!kept.empty()) {
+    const Solid all = intersect(kept);
+    cutting.cut(forbidden.empty() ? all : subtract(all, forbidden), CutKind::keep_inside);
+  } else if (!forbidden.empty()) {
+    cutting.cut(forbidden, CutKind::keep_outside);
+  }
+  for (const Region& region : regions.forbidden) {
+    if (stands_alone(region)) cutting.cut(region.solid, CutKind::keep_outside);
+  }
+  return cutting.take();
 }
 
 /// Puts the corners of cut faces into their planes exactly, where rounding left them beside it. `labelled` is in the
@@ -101,7 +143,7 @@ Volume cut_to(const Volume& volume, const PreparedTarget* target, const Navigati
   if (volume.outcome != Outcome::computed || volume.mesh.empty()) return result;
 
   core::check_volume(volume);
-  const Box bounds = measure(volume.mesh).bounds;
+  const Box bounds = bounding_box(volume.mesh);
   std::vector<std::uint32_t> causes(volume.causes.size());
   std::iota(causes.begin(), causes.end(), 0u);
   FacetSourceList sources;
