@@ -19,13 +19,42 @@ struct Aim {
 /// the picture where its product with each is >= 0. Their lengths are sqrt(1 + tangent^2).
 using PictureEdges = std::array<Vec3, 4>;
 
+/// Of unit length: along the camera's axis, to the right and up in the picture.
+struct PictureAxes {
+  Vec3 ahead, right, up;
+};
+
+/// An angle with its sine and cosine: sums of such need no new ones.
+struct Angle {
+  explicit Angle(double value = 0) : radians(value), sine(std::sin(value)), cosine(std::cos(value)) {}
+
+  Angle operator+(const Angle& other) const {
+    Angle sum = *this;
+    sum.radians += other.radians;
+    sum.sine = sine * other.cosine + cosine * other.sine;
+    sum.cosine = cosine * other.cosine - sine * other.sine;
+    return sum;
+  }
+  Angle operator-() const {
+    Angle opposite = *this;
+    opposite.radians = -radians;
+    opposite.sine = -sine;
+    return opposite;
+  }
+
+  double radians, sine, cosine;
+};
+
+inline PictureAxes picture_axes(const Angle& yaw, const Angle& pitch, const Angle& roll) {
+  const Vec3 ahead(pitch.cosine * yaw.sine, pitch.cosine * yaw.cosine, pitch.sine), level(yaw.cosine, -yaw.sine, 0);
+  const Vec3 above = level.cross(ahead);
+  return {ahead, level * roll.cosine - above * roll.sine, above * roll.cosine + level * roll.sine};
+}
+
 inline PictureEdges picture_edges(const Pinhole& camera, const Aim& aim, double roll) {
-  const double cy = std::cos(aim.yaw), sy = std::sin(aim.yaw), cp = std::cos(aim.pitch), sp = std::sin(aim.pitch);
-  const Vec3 axis(cp * sy, cp * cy, sp), level(cy, -sy, 0), above = level.cross(axis);
-  const Vec3 right = level * std::cos(roll) - above * std::sin(roll);
-  const Vec3 up = above * std::cos(roll) + level * std::sin(roll);
-  return {camera.half_width * axis + right, camera.half_width * axis - right, camera.half_height * axis + up,
-          camera.half_height * axis - up};
+  const auto [ahead, right, up] = picture_axes(Angle(aim.yaw), Angle(aim.pitch), Angle(roll));
+  return {camera.half_width * ahead + right, camera.half_width * ahead - right, camera.half_height * ahead + up,
+          camera.half_height * ahead - up};
 }
 
 /// The aim along a direction. Straight up and down the yaw is 0.

@@ -38,14 +38,17 @@ class AimFinder {
 
  private:
   Aim allowed(Aim aim) const;
-  double nearness(const Aim& aim, const Vec3& direction) const;
+  double nearness(const Angle& yaw, const Angle& pitch, const Vec3& direction) const;
+  double nearness(const Aim& aim, const Vec3& direction) const {
+    return nearness(Angle(aim.yaw), Angle(aim.pitch), direction);
+  }
   Aim balanced(Aim aim, const Vec3& direction) const;
   Aim climbed(Aim aim, const Vec3& direction) const;
 
   const std::vector<Vec3>& corners_;
   Pinhole camera_;
-  double roll_, min_pitch_, max_pitch_;
-  std::optional<double> yaw_;
+  Angle roll_, min_pitch_, max_pitch_;
+  std::optional<Angle> yaw_;
   double least_;
 };
 

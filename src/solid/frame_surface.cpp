@@ -6,7 +6,9 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
+#include "core/parallel.h"
 #include "sensor/best_aim.h"
 #include "solid/convex_body.h"
 #include "solid/halve_sides.h"
@@ -203,16 +205,20 @@ bool FrameSurfaceBuilder::refine() {
 /// The best aim may be one of several that no small turn leads to: what a neighbour has found is tried too.
 void FrameSurfaceBuilder::aim_nodes() {
   constexpr double kBetter = 1 - 1e-3;
+  std::vector<std::uint32_t> unknown;
   for (const Triangle& facet : facets_) {
     if (!matters(facet)) continue;
     for (const std::uint32_t i : facet) {
-      Node& node = nodes_[i];
-      if (node.is_known) continue;
-      node.is_known = true;
+      if (!std::exchange(nodes_[i].is_known, true)) unknown.push_back(i);
+    }
+  }
+  parallel::for_ranges(unknown.size(), 64, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      Node& node = nodes_[unknown[i]];
       node.view = finder_.best(node.direction);
       node.best = std::max(node.view.distance(node.direction), view_.least);
     }
-  }
+  });
   const auto learn = [&](Node& node, const Node& neighbour) {
     if (!(std::max(neighbour.view.distance(node.direction), view_.least) < kBetter * node.best)) return false;
     node.view = finder_.best(node.direction, neighbour.view.aim);
