@@ -13,6 +13,7 @@
 #include "support/mesh_probe.h"
 #include "support/objects.h"
 #include "support/random.h"
+#include "support/scenes.h"
 #include "support/solids.h"
 #include "vantage/error.h"
 #include "vantage/navigation.h"
@@ -199,6 +200,18 @@ RandomCase random_case(testing::Random& random) {
   return result;
 }
 
+/// In the way of some viewpoints, and not on the target.
+Scene walls_about_the_origin(testing::Random& random) {
+  testing::SceneBuilder builder;
+  for (int i = 0; i < 8; ++i) {
+    const double angle = random.uniform(0, 2 * kPi), away = random.uniform(12, 50), half = random.uniform(2, 8);
+    const Vec3 middle(away * std::cos(angle), away * std::sin(angle), random.uniform(-5, 20));
+    const Vec3 aside(-half * std::sin(angle), half * std::cos(angle), 0), up(0, 0, random.uniform(2, 15));
+    builder.polygon("wall", {middle - aside, middle + aside, middle + aside + up, middle - aside + up});
+  }
+  return builder;
+}
+
 TEST(Sensor, WhatIsClaimedKeepsEveryLimit) {
   testing::Random random(20261122);
   std::size_t claimed = 0, over = 0, kept = 0, under = 0;
@@ -258,6 +271,39 @@ TEST(Sensor, TighterLimitsNeverGrowAVolume) {
   EXPECT_LT(volume(60, 15, 60, 20), loose);
   EXPECT_LE(volume(60, 10, 20, 20), loose);
   EXPECT_LE(volume(60, 10, 60, 30), loose);
+}
+
+/// Angles stay, and so do pixels of the camera; all lengths grow.
+RandomCase scaled(RandomCase made, double by) {
+  for (Vec3& vertex : made.scene.mesh.vertices) vertex *= by;
+  for (std::vector<Vec3>& part : made.target.parts) {
+    for (Vec3& vertex : part) vertex *= by;
+  }
+  made.sensor.max_range_m *= by;
+  made.sensor.min_range_m *= by;
+  if (made.sensor.pixel) made.sensor.pixel->size_m *= by;
+  return made;
+}
+
+TEST(Sensor, ScalesWithSceneRangeAndPixel) {
+  testing::Random random(20261123);
+  int compared = 0;
+  for (int round = 0; round < 7; ++round) {
+    RandomCase made = random_case(random);
+    made.scene = walls_about_the_origin(random);
+    const auto volume_of_scaled = [&](double by) {
+      const RandomCase other = scaled(made, by);
+      const PreparedTarget target(PreparedScene(other.scene), other.target, other.sensor);
+      const Volume volume = compute_volume(target, {}, {.tolerance_m = 0.02 * by});
+      return volume.empty() ? 0 : measure(volume.mesh).volume_m3 / (by * by * by);
+    };
+    const double volume = volume_of_scaled(1);
+    compared += volume > 0;
+    for (const double by : {0.01, 300.0}) {
+      EXPECT_NEAR(volume_of_scaled(by), volume, 1e-4 * volume) << "round " << round << ", " << by << " times as large";
+    }
+  }
+  EXPECT_GE(compared, 4);
 }
 
 TEST(Sensor, FacetsSayWhichLimitMakesThem) {
