@@ -7,6 +7,7 @@
 
 #include "vantage/constraints.h"
 #include "vantage/scene.h"
+#include "vantage/sensor.h"
 #include "vantage/target.h"
 
 namespace attack {
@@ -19,6 +20,7 @@ struct Case {
   std::vector<vantage::Target> parts;  ///< one or more
   double range = 0;
   double tolerance = 0;
+  vantage::Sensor sensor;  ///< its limits but for the range; of a single part, without a camera
   vantage::Navigation navigation;
 };
 

@@ -234,6 +234,33 @@ void draw_limits(Random& random, const Pose& pose, Case& c) {
   if (random.chance(0.3)) c.navigation.keep_out_zones = {draw_zone(random, pose, 0.5 * c.range)};
 }
 
+/// An antenna in the target's place, or somewhat above it. Its zone is up to a thirtieth of the range wide. Not in
+/// worlds so small that no radio wave has that length.
+bool draw_link(Random& random, const Pose& pose, Case& c) {
+  constexpr double kLightGhzMetres = 0.299792458, kMostGhz = 3000;
+  const double clear = random.uniform(0.2, 1), excess = c.range * random.magnitude(1e-7, 1e-3);
+  const double frequency = kLightGhzMetres * clear * clear / (2 * excess);
+  if (frequency > kMostGhz) return false;
+  c.sensor.link = vantage::RadioLink{frequency, clear};
+  vantage::Target& target = c.parts[0];
+  const double height = random.chance(0.3) ? 0 : random.magnitude(1e-3, 3);
+  target.parts[0] = {Vec3(target.parts[0][0] + height * pose.scale * (pose.rotation * Vec3::UnitZ()))};
+  if (random.chance(0.6)) target.front.reset();
+  if (!target.front) target.offset_m = 0;
+  c.kind += ", link";
+  return true;
+}
+
+void draw_sensor(Random& random, const Pose& pose, Case& c) {
+  if (random.chance(0.5) && draw_link(random, pose, c)) return;
+  const vantage::Target& target = c.parts[0];
+  vantage::Sensor& sensor = c.sensor;
+  if (random.chance(0.5)) sensor.min_range_m = c.range * random.magnitude(1e-3, 0.7);
+  if ((!target.is_point() || target.front) && random.chance(0.5)) sensor.incidence_deg = random.uniform(1, 89);
+  if (random.chance(0.5)) sensor.sun = vantage::SunLimit{random.direction(), random.uniform(0.5, 90)};
+  c.kind += ", sensor";
+}
+
 /// Two convex parts along a diagonal; or the target twice, once moved.
 void draw_parts(Random& random, Case& c) {
   vantage::Target& whole = c.parts[0];
@@ -292,6 +319,7 @@ Case draw_case(std::uint64_t seed, std::size_t index) {
   c.tolerance = c.range * random.magnitude(2e-3, 3e-2);
   if (random.chance(0.12)) draw_limits(random, pose, c);
   if (random.chance(0.08)) draw_parts(random, c);
+  if (c.parts.size() == 1 && random.chance(0.2)) draw_sensor(random, pose, c);
   return c;
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <numbers>
 
 #include "vantage/compare.h"
 #include "vantage/error.h"
@@ -15,8 +16,18 @@ namespace {
 
 using namespace vantage;
 
+/// What the engine itself takes: the range and a link.
+Sensor sensor_of_engine(const Case& c) { return {.max_range_m = c.range, .link = c.sensor.link}; }
+
 Volume compute(const Case& c, const Target& target) {
-  return compute_visibility(PreparedTarget(PreparedScene(c.scene), target, Sensor{c.range}), {c.tolerance, 1});
+  return compute_visibility(PreparedTarget(PreparedScene(c.scene), target, sensor_of_engine(c)), {c.tolerance, 1});
+}
+
+Volume cut(const Case& c, const Volume& volume) {
+  if (!c.sensor.limits_view()) return cut_to_navigation(volume, c.navigation);
+  Sensor sensor = c.sensor;
+  sensor.max_range_m = c.range;
+  return cut_to_limits(volume, PreparedTarget(PreparedScene(c.scene), c.parts[0], sensor), c.navigation);
 }
 
 bool holds(const std::string& text, const char* words) { return text.find(words) != std::string::npos; }
@@ -78,6 +89,23 @@ void write_navigation(const Navigation& navigation, std::ostream& out) {
   for (const Zone& zone : keep_out_zones) write_zone(out, zone);
 }
 
+// The attack draws no cameras.
+void write_sensor(const Case& c, std::ostream& out) {
+  out << "sensor:\n  max_range: " << number(c.range) << "\n";
+  if (c.sensor.min_range_m > 0) out << "  min_range: " << number(c.sensor.min_range_m) << "\n";
+  if (c.sensor.incidence_deg) out << "  incidence: " << number(*c.sensor.incidence_deg) << "\n";
+  if (const auto& sun = c.sensor.sun) {
+    const Vec3 to_sun = sun->direction.normalized();
+    const double degree = std::numbers::pi / 180;
+    out << "  sun: {azimuth: " << number(std::atan2(to_sun.x(), to_sun.y()) / degree)
+        << ", elevation: " << number(std::asin(to_sun.z()) / degree) << ", exclude: " << number(sun->exclude_deg)
+        << "}\n";
+  }
+  if (const auto& link = c.sensor.link) {
+    out << "  link: {frequency: " << number(link->frequency_ghz) << ", clear: " << number(link->clear) << "}\n";
+  }
+}
+
 void write_mission(const Case& c, const Target& target, const std::filesystem::path& file) {
   std::ofstream out(file);
   out << "scene: {mesh: scene.obj}\ntarget:\n";
@@ -89,7 +117,7 @@ void write_mission(const Case& c, const Target& target, const std::filesystem::p
   }
   if (target.offset_m != 0) out << "  offset: " << number(target.offset_m) << "\n";
   if (target.front) out << "  front: " << list(*target.front) << "\n";
-  out << "sensor: {max_range: " << number(c.range) << "}\n";
+  write_sensor(c, out);
   write_navigation(c.navigation, out);
   out << "exact: {tolerance: " << number(c.tolerance) << "}\n";
 }
@@ -101,8 +129,8 @@ Answer ask_engine(const Case& c) {
   try {
     for (const Target& part : c.parts) answer.parts.push_back(compute(c, part));
     answer.volume = c.parts.size() == 1 ? answer.parts[0] : intersect_volumes(answer.parts);
-    if (!c.navigation.empty() && answer.volume.outcome == Outcome::computed)
-      answer.volume = cut_to_navigation(answer.volume, c.navigation);
+    const bool is_cut = c.sensor.limits_view() || !c.navigation.empty();
+    if (is_cut && answer.volume.outcome == Outcome::computed) answer.volume = cut(c, answer.volume);
   } catch (const Error& error) {
     answer.thrown = true;
     answer.defect = error.kind() != ErrorKind::input;
@@ -118,7 +146,7 @@ Answer ask_engine(const Case& c) {
 std::optional<std::vector<PointAnswer>> ask_query(const Case& c, std::size_t part, const std::vector<Vec3>& points,
                                                   std::string& message) {
   try {
-    return query_points(PreparedTarget(PreparedScene(c.scene), c.parts[part], Sensor{c.range}), {}, points);
+    return query_points(PreparedTarget(PreparedScene(c.scene), c.parts[part], sensor_of_engine(c)), {}, points);
   } catch (const std::exception& error) {
     message = error.what();
     return std::nullopt;
@@ -168,6 +196,7 @@ Case read_case(const std::filesystem::path& file) {
   for (std::size_t i = 0; i < mission.target.parts.size(); ++i) c.parts.push_back(mission.target.part(i));
   c.range = mission.sensor.max_range_m;
   c.tolerance = mission.as_written.exact.tolerance_m;
+  c.sensor = mission.sensor;
   c.navigation = mission.navigation;
   return c;
 }

@@ -118,10 +118,11 @@ Judgement judge(const Case& c, const Answer& answer, const JudgeOptions& options
   result.status = name_of(answer.volume.outcome);
   if (answer.volume.outcome == Outcome::computed)
     judge_claims(trial);
-  else
+  else if (!c.sensor.link)
     judge_outcome(trial);
-  judge_losses(trial);
-  if (options.query) judge_query(trial);
+  // What a link loses and answers is judged by the line of sight alone, which is more than its zone: not at all.
+  if (!c.sensor.link) judge_losses(trial);
+  if (options.query && !c.sensor.link) judge_query(trial);
   if (options.reversed && c.parts.size() == 1 && !c.parts[0].is_point()) {
     const std::string differs = reversed_differs(c, answer.parts[0]);
     if (!differs.empty()) result.add({Class::reversed, 0, Vec3::Zero(), differs});

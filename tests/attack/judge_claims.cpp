@@ -4,6 +4,7 @@
 #include <numeric>
 #include <optional>
 
+#include "sensor_oracle.h"
 #include "trial.h"
 
 namespace attack {
@@ -43,9 +44,10 @@ class Claims {
       return std::min(static_cast<std::size_t>(at - area.begin()), mesh_.size() - 1);
     };
     for (std::size_t k = 0; k < trial_.options.facets; ++k) look_behind(draw(k % 2 == 0), 3);
+    const bool is_star_shaped = trial_.c.navigation.empty() && !trial_.c.sensor.limits_view();
     for (std::size_t k = 0; k < trial_.options.viewpoints; ++k) {
       const Vec3 q = place_on(mesh_.corners(draw(true)));
-      const Vec3 from = trial_.c.navigation.empty() ? trial_.parts[0].centre : place_on(mesh_.corners(draw(true)));
+      const Vec3 from = is_star_shaped ? trial_.parts[0].centre : place_on(mesh_.corners(draw(true)));
       check(from + std::cbrt(random.uniform(0, 1)) * (q - from));
     }
   }
@@ -109,6 +111,13 @@ class Claims {
     for (const PartView& part : trial_.parts) check(p, part);
     const std::string broken = limit_broken(trial_.to_scene(p));
     if (!broken.empty()) report(Class::outside_limits, p, broken);
+    const SeenTarget& target = trial_.parts[0].exact.target();
+    const std::string of_sensor = sensor_limit_broken(trial_.c.sensor, target, p);
+    if (!of_sensor.empty()) report(Class::outside_limits, p, of_sensor);
+    if (const auto& link = trial_.c.sensor.link) {
+      const auto entering = entering_zone(*link, trial_.blockers, target.corners[0], p);
+      if (entering) report(Class::over_claim, p, trial_.object_of(*entering) + " enters the zone");
+    }
   }
 
   void check(const Vec3& p, const PartView& part) {

@@ -43,6 +43,9 @@ class Minimiser {
     Case c = best_;
     c.navigation = {};
     if (!best_.navigation.empty()) keep_if_failing(c);
+    c = best_;
+    c.sensor = {};
+    keep_if_failing(c);
     while (best_.parts.size() > 1) {
       c = best_;
       c.parts.erase(c.parts.begin());

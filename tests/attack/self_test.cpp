@@ -146,6 +146,7 @@ class WrongAnswers {
     expect(judgement.status == "computed" && judgement.proved > 100 && judgement.unproved == 0, name_ + ": not proved");
     expect(judgement.lost < 1e-4, name_ + ": finds losses");
     put_volumes();
+    put_sensors();
     put_meshes();
     put_refusals();
   }
@@ -184,6 +185,37 @@ class WrongAnswers {
     Answer one_part = right_;
     one_part.parts.push_back(right_.parts[0]);
     must_find(Class::over_claim, "a volume of the first part alone", one_part, &two);
+  }
+
+  /// Volumes that were not cut to a limit of the sensor, and those that were.
+  void put_sensors() {
+    Case wanted = case_;
+    const auto try_limit = [&](const char* limit, const vantage::Sensor& sensor) {
+      wanted.sensor = sensor;
+      must_find(Class::outside_limits, std::string("a volume that is not cut to ") + limit, right_, &wanted);
+      const Judgement judgement = judge(wanted, ask_engine(wanted));
+      expect(judgement.status == "computed" && !judgement.wrong(), name_ + ": objects to " + limit);
+    };
+    try_limit("the least range", {.min_range_m = 0.3 * case_.range});
+    try_limit("an incidence", {.incidence_deg = 50});
+    try_limit("the sun", {.sun = vantage::SunLimit{Vec3(0.3, -0.5, -0.6), 15}});
+    put_link();
+  }
+
+  void put_link() {
+    Case wanted = case_;
+    const Vec3 centre = right_.volume.frame.origin;
+    wanted.parts[0] = vantage::Target::point(centre + 0.5 * case_.scale * Vec3::UnitZ());
+    const Answer sight = ask_engine(wanted);
+    constexpr double kLightGhzMetres = 0.299792458, kClear = 0.6;
+    const double excess = 1e-3 * case_.range;
+    wanted.sensor.link = vantage::RadioLink{kLightGhzMetres * kClear * kClear / (2 * excess), kClear};
+    const Answer link = ask_engine(wanted);
+    expect(!sight.thrown && !link.thrown, name_ + ": the link: " + sight.message + link.message);
+    if (sight.thrown || link.thrown) return;
+    expect(judge(wanted, sight).find(Class::over_claim) != nullptr, name_ + ": lets pass: a link without its zone");
+    const Judgement judgement = judge(wanted, link);
+    expect(judgement.status == "computed" && !judgement.wrong(), name_ + ": objects to a link");
   }
 
   void put_meshes() {

@@ -1,0 +1,19 @@
+// Limits of the sensor by their definitions: docs/camera.md.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "oracle.h"
+#include "vantage/sensor.h"
+
+namespace attack {
+
+/// Which of the least range, the incidence and the sun a viewpoint breaks; empty: none. Oracle's coordinates.
+std::string sensor_limit_broken(const vantage::Sensor& sensor, const SeenTarget& target, const Vec3& point);
+
+/// A triangle that enters the zone of a link between an antenna and a vehicle.
+std::optional<std::size_t> entering_zone(const vantage::RadioLink& link, const Blockers& blockers, const Vec3& antenna,
+                                         const Vec3& vehicle);
+
+}  // namespace attack
