@@ -185,6 +185,7 @@ TEST(ZoneFiles, RefusesBrokenGeoJson) {
   refuse("{\"a\": 1}", kSyntax, "/data/zones");
   refuse("{\"type\": \"Topology\"}", kSyntax, "/data/zones");
   refuse("{\"type\": 5}", kSyntax, "/data/zones");
+  refuse("{\"type\": \"Feature\", \"type\": \"Feature\"}", kSyntax, "/data/zones");
   refuse(collection("5"), kSyntax, "features[0]");
   refuse(collection("{\"type\": \"Feature\"}"), kSyntax, "features[0]");
   refuse(collection(feature("5")), kSyntax, "features[0]");

@@ -43,7 +43,9 @@ class ValueBuilder final : public nlohmann::json_sax<json> {
   bool end_object() override { return close(); }
   bool end_array() override { return close(); }
   bool key(json::string_t& name) override {
-    member_ = &(*open_.back())[std::move(name)];
+    const auto [member, is_new] = open_.back()->get_ref<json::object_t&>().try_emplace(name, nullptr);
+    if (!is_new) throw JsonProblem{"its JSON has the member \"" + name + "\" twice in one object"};
+    member_ = &member->second;
     return true;
   }
 
