@@ -407,6 +407,21 @@ TEST_F(CliTargets, NoVolumeOverwritesAnother) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "o.c.ply"));
 }
 
+TEST_F(CliTargets, TellsWhichTargetHasNoVolume) {
+  const auto targets = [&](const std::string& of_low) {
+    write("mission.yaml", std::string(testing::kScene) + testing::kSensor +
+                              "combine: each\ntargets:\n  - {name: low, " + of_low +
+                              "}\n  - {name: high, point: [0, 0, 500]}\n" + "navigation: {altitude: [495, 510]}\n");
+  };
+  targets("point: [0, 0, 502]");
+  EXPECT_EQ(run({"compute", "mission.yaml", "-o", "o.ply"}).exit_code, 0);
+  targets("point: [0, 0, 5]");
+  const auto again = run({"compute", "mission.yaml", "-o", "o.ply", "-o", "o.stl"});
+  EXPECT_EQ(again.exit_code, 0);
+  testing::expect_wording(again.err);
+  EXPECT_EQ(run({"compute", "mission.yaml", "-o", "o.ply", "--fail-empty"}).exit_code, 1);
+}
+
 TEST_F(CliTargets, QueriesMeanTheSame) {
   write("points.csv", "x,y,z\n0,0,6\n60,0,1\n");
   of("each");

@@ -242,9 +242,10 @@ std::string list_of_files(const ComputeArguments& options, const Result& run, co
   return text;
 }
 
-void tell_of_no_volume(const ComputeArguments& options, const Volume& volume) {
-  note("no volume: " + volume.reason);
-  for (const std::string& output : options.outputs) {
+/// `target`: its name where there are several, else empty.
+void tell_of_no_volume(const std::string& target, const std::vector<std::string>& outputs, const Volume& volume) {
+  note((target.empty() ? "no volume: " : "no volume of " + target + ": ") + volume.reason);
+  for (const std::string& output : outputs) {
     std::error_code error;
     note(!is_standard_stream(output) && fs::exists(output, error)
              ? output + " is of an earlier run and was left as it was"
@@ -269,7 +270,7 @@ void tell(const ComputeArguments& options, const Mission& mission, const Result&
   }
   if (!options.common.quiet) notes(run.volume.notes);
   warn_of_rounding(options, run.volume, written);
-  if (!has_volume) tell_of_no_volume(options, run.volume);
+  if (!has_volume) tell_of_no_volume({}, options.outputs, run.volume);
   if (outgoing && has_volume) outgoing->send();
 }
 
@@ -294,6 +295,29 @@ std::string summary_of_each(const std::vector<TableRow>& rows) {
               has_volume ? "cubic metres" : row.volume->reason);
   }
   return table.text();
+}
+
+/// Those that all targets have once, the others with the names of the targets that they are about.
+std::vector<Warning> warnings_of_each(const std::vector<TableRow>& rows) {
+  std::vector<Warning> result;
+  std::vector<std::string> targets;
+  for (const TableRow& row : rows) {
+    for (const Warning& warning : row.volume->notes) {
+      const auto known = std::find(result.begin(), result.end(), warning);
+      if (known == result.end()) {
+        result.push_back(warning);
+        targets.push_back(row.target);
+      } else {
+        targets[static_cast<std::size_t>(known - result.begin())] += ", " + row.target;
+      }
+    }
+  }
+  std::string all;
+  for (const TableRow& row : rows) all += (all.empty() ? "" : ", ") + row.target;
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    if (targets[i] != all) result[i].text = targets[i] + ": " + result[i].text;
+  }
+  return result;
 }
 
 int run_each(const ComputeArguments& options, const MissionFile& file, const std::vector<fs::path>& inputs) {
@@ -331,8 +355,6 @@ int run_each(const ComputeArguments& options, const MissionFile& file, const std
     }
     write_whole_file(table, table_csv(rows));
   }
-  bool has_all = true;
-  for (const Result& result : results) has_all = has_all && result.volume.outcome == Outcome::computed;
   if (!options.common.quiet) {
     std::string text = summary_of_each(rows);
     for (std::size_t i = 0; i < files.size(); ++i) {
@@ -340,13 +362,15 @@ int run_each(const ComputeArguments& options, const MissionFile& file, const std
       for (const fs::path& one : files[i]) text += "wrote " + one.string() + "\n";
     }
     print(text + "wrote " + table.string() + ", and a report beside each volume\n");
-    std::vector<Warning> warnings;
-    for (const Result& result : results) {
-      for (const Warning& warning : result.volume.notes) {
-        if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end()) warnings.push_back(warning);
-      }
-    }
-    notes(warnings);
+    notes(warnings_of_each(rows));
+  }
+  bool has_all = true;
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    if (results[i].volume.outcome == Outcome::computed) continue;
+    has_all = false;
+    std::vector<std::string> names;
+    for (const fs::path& one : files[i]) names.push_back(one.string());
+    tell_of_no_volume(rows[i].target, names, results[i].volume);
   }
   return options.fail_empty && !has_all ? kCheckFailed : kSuccess;
 }
