@@ -64,7 +64,7 @@ TEST(Sensor, TheLeastRangeTakesABallAway) {
   const double volume = volume_of(point_looking_up(), {.max_range_m = 100, .min_range_m = 60});
   const double wanted = (ball(100) - ball(60)) / 2;
   EXPECT_LE(volume, wanted);
-  EXPECT_NEAR(volume, wanted, 2e-3 * wanted);
+  EXPECT_NEAR(volume, wanted, 1e-3 * wanted);
 }
 
 TEST(Sensor, IncidenceLeavesACone) {
@@ -89,7 +89,7 @@ TEST(Sensor, ASlantedPixelIsABallOnThePlane) {
   const double wanted = ball(0.05 * *sensor.camera->focal_px / 2);
   const double volume = volume_of(point_looking_up(), sensor);
   EXPECT_LE(volume, wanted);
-  EXPECT_NEAR(volume, wanted, 2e-3 * wanted);
+  EXPECT_NEAR(volume, wanted, 1e-3 * wanted);
 }
 
 TEST(Sensor, TheSunTakesAConeAway) {
