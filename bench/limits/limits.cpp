@@ -63,6 +63,9 @@ struct Limit {
   std::function<void(Sensor&)> loosen;  ///< by 1 %
 };
 
+/// So many points in the part of a volume that a loosened limit adds: the judge must find one.
+constexpr double kPlain = 5;
+
 void widen(Sensor& sensor) {
   sensor.camera->half_width *= 1.01;
   sensor.camera->half_height *= 1.01;
@@ -110,6 +113,7 @@ const std::vector<Limit>& limits() {
 struct Tally {
   std::size_t volumes = 0, empty = 0, points = 0, inside = 0, over = 0, under = 0, undecided = 0;
   std::size_t with_over = 0;  ///< volumes
+  std::size_t unnoticed = 0;  ///< volumes with nothing over-claimed where much is
 
   void add(const VerifyReport& report) {
     ++volumes;
@@ -210,8 +214,14 @@ void run_loosened(const char* name, const PreparedCity& city, const Limit& limit
                                         [](const Cause& cause) { return cause.kind == CauseKind::sensor; });
     if (!is_limited) continue;  // the sun is behind the target
     const VerifyReport report = judged(city, target, asked, volume, options);
-    print_row(name, done++, std::string("loosened ") + limit.name, volume, report);
+    // Where the limit ends little of the volume, too little is wrong for a sample to hit it.
+    const PreparedTarget as_asked(city.prepared, target.target(), asked);
+    const double wrong_share = 1 - enclosed_volume(compute_volume(as_asked).mesh) / enclosed_volume(volume.mesh);
+    const bool is_plain = wrong_share * static_cast<double>(report.inside) >= kPlain;
+    print_row(name, done++, std::string("loosened ").append(limit.name).append(is_plain ? "" : " a little"), volume,
+              report);
     tally.add(report);
+    tally.unnoticed += is_plain && report.over_claimed == 0;
   }
 }
 
@@ -237,8 +247,9 @@ int run(const Options& options) {
   bool noticed = true;
   for (std::size_t i = 0; i < limits().size(); ++i) {
     loosened[i].print(std::string("loosened by 1 %: ") + limits()[i].name);
-    noticed = noticed && (loosened[i].volumes == 0 || loosened[i].over > 0);
+    noticed = noticed && loosened[i].unnoticed == 0;
   }
+  std::printf("# %s\n", noticed ? "every loosened limit was noticed" : "NOT every loosened limit was noticed");
   return together.over == 0 && noticed ? 0 : 1;
 }
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/edges.h"
+#include "core/pieces.h"
 #include "solid/triangle_tree.h"
 
 namespace vantage::internal::solid {
@@ -277,23 +278,6 @@ bool is_closed(const std::vector<Triangle>& triangles, std::size_t vertices, std
   return closed;
 }
 
-/// Leaves out vertices that no triangle has, and numbers the others as they come.
-void number_anew(Mesh& mesh) {
-  std::vector<std::uint32_t> used(mesh.vertices.size(), kNone);
-  std::vector<Vec3> vertices;
-  vertices.reserve(mesh.vertices.size());
-  for (Triangle& triangle : mesh.triangles) {
-    for (std::uint32_t& v : triangle) {
-      if (used[v] == kNone) {
-        used[v] = static_cast<std::uint32_t>(vertices.size());
-        vertices.push_back(mesh.vertices[v]);
-      }
-      v = used[v];
-    }
-  }
-  mesh.vertices = std::move(vertices);
-}
-
 // Within a group facets hang together as they did. So it is closed if it is where the boolean's vertices are.
 std::optional<LabelledMesh> Replacement::restored(LabelledMesh cut, CutKind kind) const {
   // Where the rims of fans are now. A place with two vertices is left to the check at the end.
@@ -332,7 +316,7 @@ std::optional<LabelledMesh> Replacement::restored(LabelledMesh cut, CutKind kind
     if (corners_on_border(t) >= 2) at_rim.push_back(triangle);
   }
   if (!is_closed(at_rim, result.mesh.vertices.size(), count)) return std::nullopt;
-  number_anew(result.mesh);
+  core::drop_unused_vertices(result.mesh);
   return result;
 }
 
