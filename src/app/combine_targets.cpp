@@ -1,5 +1,6 @@
 #include "app/combine_targets.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <set>
 #include <string>

@@ -4,6 +4,7 @@
 // large as the square root of what is missing decide.
 #include "verify/frame_search.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -1,5 +1,6 @@
 #include "verify/sensor_judge.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>

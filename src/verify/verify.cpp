@@ -1,6 +1,7 @@
 // The check of docs/verification.md: viewpoints against shadow rays.
 #include "vantage/verify.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <memory>
