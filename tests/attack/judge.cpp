@@ -120,7 +120,8 @@ Judgement judge(const Case& c, const Answer& answer, const JudgeOptions& options
     judge_claims(trial);
   else if (!c.sensor.link)
     judge_outcome(trial);
-  // What a link loses and answers is judged by the line of sight alone, which is more than its zone: not at all.
+  // Losses and answers are judged by the line of sight alone. The zone of a link takes away more, so links are left
+  // out.
   if (!c.sensor.link) judge_losses(trial);
   if (options.query && !c.sensor.link) judge_query(trial);
   if (options.reversed && c.parts.size() == 1 && !c.parts[0].is_point()) {
