@@ -63,8 +63,8 @@ struct Limit {
   std::function<void(Sensor&)> loosen;  ///< by 1 %
 };
 
-/// So many points in the part of a volume that a loosened limit adds: the judge must find one.
-constexpr double kPlain = 5;
+/// Where a loosened limit adds a part of the volume that holds so many of the points, the judge must find one of them.
+constexpr double kLeastWrongPoints = 5;
 
 void widen(Sensor& sensor) {
   sensor.camera->half_width *= 1.01;
@@ -217,11 +217,11 @@ void run_loosened(const char* name, const PreparedCity& city, const Limit& limit
     // Where the limit ends little of the volume, too little is wrong for a sample to hit it.
     const PreparedTarget as_asked(city.prepared, target.target(), asked);
     const double wrong_share = 1 - enclosed_volume(compute_volume(as_asked).mesh) / enclosed_volume(volume.mesh);
-    const bool is_plain = wrong_share * static_cast<double>(report.inside) >= kPlain;
-    print_row(name, done++, std::string("loosened ").append(limit.name).append(is_plain ? "" : " a little"), volume,
+    const bool adds_enough = wrong_share * static_cast<double>(report.inside) >= kLeastWrongPoints;
+    print_row(name, done++, std::string("loosened ").append(limit.name).append(adds_enough ? "" : " a little"), volume,
               report);
     tally.add(report);
-    tally.unnoticed += is_plain && report.over_claimed == 0;
+    tally.unnoticed += adds_enough && report.over_claimed == 0;
   }
 }
 
