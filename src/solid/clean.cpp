@@ -23,13 +23,7 @@ namespace {
 
 using Corners = std::array<Vec3, 3>;
 
-/// Twice the area over the longest side.
-double width_of(const Corners& c) {
-  const double longest = std::max({(c[1] - c[0]).norm(), (c[2] - c[1]).norm(), (c[0] - c[2]).norm()});
-  return longest > 0 ? (c[1] - c[0]).cross(c[2] - c[0]).norm() / longest : 0;
-}
-
-/// Whether that is less than `width`; without the roots.
+/// Whether twice the area over the longest side is less than `width`; without roots.
 bool is_narrower(const Corners& c, double width) {
   const Vec3 u = c[1] - c[0], v = c[2] - c[0];
   const double longest = std::max({u.squaredNorm(), v.squaredNorm(), (c[2] - c[1]).squaredNorm()});
@@ -199,7 +193,7 @@ std::optional<double> Cleaner::raise_of_facet(std::uint32_t t, std::uint32_t mov
   double raise = length > 0 ? std::max(normal.dot(place - old[0]) / length, 0.0) : limits_.distance_m;
   if (raise > allowance_) raise = std::sqrt(core::squared_distance_to_triangle(place, old[0], old[1], old[2]));
   if (raise > allowance_) return std::nullopt;
-  if (width_of(old) < numerics::kTurnable * limits_.distance_m) return raise;  // too narrow to have a direction
+  if (is_narrower(old, numerics::kTurnable * limits_.distance_m)) return raise;  // too narrow to have a direction
   Corners turned = old;
   for (std::size_t i = 0; i < 3; ++i) {
     if (triangles_[t][i] == moving) turned[i] = place;
@@ -236,7 +230,7 @@ std::optional<Vec3> Cleaner::place_behind(std::uint32_t u, std::uint32_t v) cons
   for_each_moving(u, v, [&](std::uint32_t t, std::uint32_t) {
     const Corners c = corners(t);
     const Vec3 normal = (c[1] - c[0]).cross(c[2] - c[0]).normalized();
-    const bool has_direction = width_of(c) >= numerics::kTurnable * limits_.distance_m;
+    const bool has_direction = !is_narrower(c, numerics::kTurnable * limits_.distance_m);
     if (has_direction) planes.push_back({normal, normal.dot(c[0]), plane_of(t)});
     return true;
   });

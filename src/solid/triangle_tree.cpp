@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/bounds_distance.h"
 #include "core/triangle_distance.h"
 #include "core/walk_bvh.h"
 #include "vantage/error.h"
@@ -33,15 +34,6 @@ bool ray_meets(const core::Bounds& box, const Vec3& point, const Vec3& inverse_d
   }
   // The allowance covers the rounding of the divisions; a box too many is only slower.
   return from <= to * (1 + 1e-12);
-}
-
-double squared_distance(const core::Bounds& box, const Vec3& point) {
-  double sum = 0;
-  for (unsigned axis = 0; axis < 3; ++axis) {
-    const double away = std::max({box.min[axis] - point[axis], 0.0, point[axis] - box.max[axis]});
-    sum += away * away;
-  }
-  return sum;
 }
 
 enum class Hit { miss, from_front, from_back, unclear };
@@ -83,7 +75,7 @@ TriangleTree::Nearest TriangleTree::nearest(const Vec3& point) const {
   double best = std::numeric_limits<double>::infinity();
   std::uint32_t triangle = 0;
   core::walk_nearer_first(
-      bvh_, [&](const core::Bounds& bounds) { return squared_distance(bounds, point); },
+      bvh_, [&](const core::Bounds& bounds) { return core::squared_distance_to(bounds, point); },
       [&](const core::BvhNode&, double squared) { return squared < best; },
       [&](std::uint32_t i) {
         const Triangle& t = mesh_.triangles[order_[i]];
