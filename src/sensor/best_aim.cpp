@@ -21,18 +21,16 @@ AimFinder::AimFinder(const std::vector<Vec3>& corners, const Pinhole& camera, co
     : corners_(corners), camera_(camera), least_(least) {
   constexpr double kDegree = std::numbers::pi / 180;
   roll_ = Angle(mount.roll_deg * kDegree);
-  min_pitch_ = Angle(std::max(mount.min_pitch_deg * kDegree, -std::numbers::pi / 2));
-  max_pitch_ = Angle(std::min(mount.max_pitch_deg * kDegree, std::numbers::pi / 2));
-  if (mount.yaw_deg) yaw_ = Angle(*mount.yaw_deg * kDegree);
+  min_pitch_ = std::max(mount.min_pitch_deg * kDegree, -std::numbers::pi / 2);
+  max_pitch_ = std::min(mount.max_pitch_deg * kDegree, std::numbers::pi / 2);
+  if (mount.yaw_deg) yaw_ = *mount.yaw_deg * kDegree;
 }
 
 Aim AimFinder::allowed(Aim aim) const {
-  return {yaw_ ? yaw_->radians : aim.yaw, std::clamp(aim.pitch, min_pitch_.radians, max_pitch_.radians)};
+  return {yaw_.value_or(aim.yaw), std::clamp(aim.pitch, min_pitch_, max_pitch_)};
 }
 
-bool AimFinder::is_at_limit(const Aim& aim) const {
-  return aim.pitch <= min_pitch_.radians || aim.pitch >= max_pitch_.radians;
-}
+bool AimFinder::is_at_limit(const Aim& aim) const { return aim.pitch <= min_pitch_ || aim.pitch >= max_pitch_; }
 
 AimedView AimFinder::view(const Aim& aim) const {
   AimedView view{aim, picture_edges(camera_, aim, roll_.radians), {}};
@@ -43,83 +41,97 @@ AimedView AimFinder::view(const Aim& aim) const {
   return view;
 }
 
+/// How far a place is outside of each edge's plane: what view() computes, where opposite edges share their terms.
+AimFinder::PerEdge AimFinder::across_edges(const PictureAxes& axes, const Vec3& place) const {
+  const double wide = camera_.half_width * axes.ahead.dot(place), high = camera_.half_height * axes.ahead.dot(place);
+  const double aside = axes.right.dot(place), above = axes.up.dot(place);
+  return {-wide - aside, -wide + aside, -high - above, -high + above};
+}
+
 /// The inverse of the distance where it is positive; below that it tells how far the direction is out of the picture.
-double AimFinder::nearness(const Angle& yaw, const Angle& pitch, const Vec3& direction) const {
-  const PictureAxes axes = picture_axes(yaw, pitch, roll_);
-  // What view() does, edge by edge: the products with opposite edges share their terms.
-  const auto across_edges = [&](const Vec3& x) {
-    const double wide = camera_.half_width * axes.ahead.dot(x), high = camera_.half_height * axes.ahead.dot(x);
-    const double aside = axes.right.dot(x), above = axes.up.dot(x);
-    return std::array{-wide - aside, -wide + aside, -high - above, -high + above};
-  };
-  std::array<double, 4> need{least_, least_, least_, least_};
+double AimFinder::nearness(const Aim& aim, const Vec3& direction) const {
+  const PictureAxes axes = picture_axes(Angle(aim.yaw), Angle(aim.pitch), roll_);
+  PerEdge need{least_, least_, least_, least_};
   for (const Vec3& corner : corners_) {
-    const std::array<double, 4> of_corner = across_edges(corner);
+    const PerEdge of_corner = across_edges(axes, corner);
     for (std::size_t k = 0; k < 4; ++k) need[k] = std::max(need[k], of_corner[k]);
   }
-  const std::array<double, 4> approach = across_edges(direction);
+  const PerEdge approach = across_edges(axes, direction);
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < 4; ++k) least = std::min(least, approach[k] / need[k]);
   return least;
 }
 
-/// Turns the camera until opposite edges of the picture let the target in at the same distance: Newton's method with
-/// differences.
-Aim AimFinder::balanced(Aim aim, const Vec3& direction) const {
-  constexpr int kSteps = 4;
-  constexpr double kSmall = 1e-6, kLongest = 0.3;  // radians
-  const auto imbalance = [&](const Aim& at) {
-    const AimedView seen = view(at);
-    const auto value = [&](std::size_t k) { return seen.approach(k, direction) / seen.need[k]; };
-    return Eigen::Vector2d(value(0) - value(1), value(2) - value(3));
+/// The nearness is the least of what edges and corners allow. Of each that matters near an aim, the plane that touches
+/// it there, over small turns.
+void AimFinder::nearness_planes(const Aim& aim, const Vec3& direction, std::vector<Plane2>& planes) const {
+  // A corner that is so much farther inside than another one stays so.
+  constexpr double kMatters = 0.3;
+  const Angle yaw(aim.yaw);
+  const PictureAxes axes = picture_axes(yaw, Angle(aim.pitch), roll_);
+  const Vec3 level(yaw.cosine, -yaw.sine, 0);
+  // Turning the camera is turning what it looks at the other way.
+  struct Turning {
+    PerEdge now, by_yaw, by_pitch;
   };
-  for (int i = 0; i < kSteps; ++i) {
-    const Eigen::Vector2d now = imbalance(aim);
-    Eigen::Matrix2d slope;
-    slope.col(0) = (imbalance({aim.yaw + kSmall, aim.pitch}) - now) / kSmall;
-    slope.col(1) = (imbalance({aim.yaw, aim.pitch + kSmall}) - now) / kSmall;
-    if (std::abs(slope.determinant()) < 1e-12 * slope.squaredNorm()) break;
-    Eigen::Vector2d step = -slope.inverse() * now;
-    if (!step.allFinite()) break;
-    const double length = step.norm();
-    if (length > kLongest) step *= kLongest / length;
-    aim = {aim.yaw + step.x(), aim.pitch + step.y()};
-    if (length < 1e-9) break;
+  const auto turning = [&](const Vec3& place) {
+    return Turning{across_edges(axes, place), across_edges(axes, Vec3(-place.y(), place.x(), 0)),
+                   across_edges(axes, place.cross(level))};
+  };
+  const Turning approach = turning(direction);
+  const auto add = [&](std::size_t k, double need, double need_by_yaw, double need_by_pitch) {
+    const double value = approach.now[k] / need;
+    const double by_yaw = (approach.by_yaw[k] - value * need_by_yaw) / need;
+    planes.push_back({value, {yaw_ ? 0.0 : by_yaw, (approach.by_pitch[k] - value * need_by_pitch) / need}});
+  };
+  PerEdge most{least_, least_, least_, least_};
+  for (const Vec3& corner : corners_) {
+    const PerEdge of_corner = across_edges(axes, corner);
+    for (std::size_t k = 0; k < 4; ++k) most[k] = std::max(most[k], of_corner[k]);
   }
-  return aim;
+  planes.clear();
+  for (std::size_t k = 0; k < 4; ++k) {
+    if (most[k] <= least_) add(k, least_, 0, 0);
+  }
+  for (const Vec3& corner : corners_) {
+    const Turning of_corner = turning(corner);
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (of_corner.now[k] > std::max(least_, kMatters * most[k])) {
+        add(k, of_corner.now[k], of_corner.by_yaw[k], of_corner.by_pitch[k]);
+      }
+    }
+  }
 }
 
-/// Goes to whichever of eight neighbours is better, with steps that halve where none is.
+/// Goes to the top of the planes that touch the nearness, not farther than they were found good for, again and again.
 Aim AimFinder::climbed(Aim aim, const Vec3& direction) const {
-  constexpr double kFirst = 0.02, kLast = 1e-4;  // radians
-  constexpr double kDiagonal = std::numbers::sqrt2 / 2;
-  // By no, one or a diagonal step, to one side or the other.
-  constexpr std::array<std::array<int, 2>, 8> kWays = {
-      {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {2, 2}, {2, -2}, {-2, 2}, {-2, -2}}};
-  Angle yaw(aim.yaw), pitch(aim.pitch);
-  double best = nearness(yaw, pitch, direction);
-  for (double step = kFirst; step > kLast;) {
-    const std::array kSteps = {Angle(0), Angle(step), Angle(step * kDiagonal)};
-    const auto turn_by = [&](int way) {
-      return way < 0 ? -kSteps[static_cast<std::size_t>(-way)] : kSteps[static_cast<std::size_t>(way)];
-    };
-    bool is_better = false;
-    for (const auto& [aside, up] : kWays) {
-      const Angle next_yaw = yaw_ ? *yaw_ : yaw + turn_by(aside);
-      Angle next_pitch = pitch + turn_by(up);
-      if (next_pitch.radians < min_pitch_.radians) next_pitch = min_pitch_;
-      if (next_pitch.radians > max_pitch_.radians) next_pitch = max_pitch_;
-      const double value = nearness(next_yaw, next_pitch, direction);
-      if (value <= best) continue;
+  constexpr double kFirst = 0.3, kFarthest = 0.5, kLast = 1e-3;  // radians
+  constexpr double kLeastGain = 1e-4;
+  constexpr int kMostSteps = 40;
+  std::vector<Plane2> planes;
+  double best = nearness(aim, direction), reach = kFirst;
+  bool is_new = true;
+  for (int i = 0; i < kMostSteps && reach > kLast; ++i) {
+    if (is_new) nearness_planes(aim, direction, planes);
+    constexpr double kAnywhere = std::numeric_limits<double>::infinity();
+    const Eigen::Vector2d turn =
+        rise(planes,
+             {.reach = reach, .min = {-kAnywhere, min_pitch_ - aim.pitch}, .max = {kAnywhere, max_pitch_ - aim.pitch}});
+    double hoped = std::numeric_limits<double>::infinity();
+    for (const Plane2& plane : planes) hoped = std::min(hoped, plane.at(turn));
+    if (!(hoped - best > kLeastGain * std::abs(best))) break;
+    const Aim next = allowed({aim.yaw + turn.x(), aim.pitch + turn.y()});
+    const double value = nearness(next, direction), gain = (value - best) / (hoped - best);
+    is_new = gain > 0;
+    if (is_new) {
+      aim = next;
       best = value;
-      yaw = next_yaw;
-      pitch = next_pitch;
-      is_better = true;
-      break;
     }
-    if (!is_better) step /= 2;
+    const double farthest = turn.cwiseAbs().maxCoeff();
+    if (gain < 0.25) reach = farthest / 4;
+    if (gain > 0.75) reach = std::clamp(2 * farthest, reach, kFarthest);
   }
-  return {yaw.radians, pitch.radians};
+  return aim;
 }
 
 AimedView AimFinder::next_to(const Aim& aim) const { return view(allowed(aim)); }
@@ -127,8 +139,7 @@ AimedView AimFinder::next_to(const Aim& aim) const { return view(allowed(aim)); 
 AimedView AimFinder::best(const Vec3& direction, const std::optional<Aim>& near) const {
   if (near) return view(climbed(*near, direction));
   const Aim at_centre = allowed(aim_along(-direction));
-  Aim start = allowed(balanced(at_centre, direction));
-  if (!(nearness(start, direction) > nearness(at_centre, direction))) start = at_centre;
+  Aim start = at_centre;
   // Next to the vertical another yaw may be much better, and no small turn leads there.
   constexpr double kSteep = 0.8;  // radians
   constexpr int kYaws = 24;

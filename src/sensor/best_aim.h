@@ -1,9 +1,12 @@
 // The orientation from which a target is taken in from nearest by.
 #pragma once
 
+#include <array>
+#include <optional>
 #include <vector>
 
 #include "sensor/aim.h"
+#include "sensor/rise.h"
 #include "vantage/export.h"
 #include "vantage/geometry.h"
 
@@ -37,18 +40,19 @@ class AimFinder {
   VANTAGE_INTERNAL_API bool is_at_limit(const Aim& aim) const;
 
  private:
+  using PerEdge = std::array<double, 4>;
+
   Aim allowed(Aim aim) const;
-  double nearness(const Angle& yaw, const Angle& pitch, const Vec3& direction) const;
-  double nearness(const Aim& aim, const Vec3& direction) const {
-    return nearness(Angle(aim.yaw), Angle(aim.pitch), direction);
-  }
-  Aim balanced(Aim aim, const Vec3& direction) const;
+  PerEdge across_edges(const PictureAxes& axes, const Vec3& place) const;
+  double nearness(const Aim& aim, const Vec3& direction) const;
+  void nearness_planes(const Aim& aim, const Vec3& direction, std::vector<Plane2>& planes) const;
   Aim climbed(Aim aim, const Vec3& direction) const;
 
   const std::vector<Vec3>& corners_;
   Pinhole camera_;
-  Angle roll_, min_pitch_, max_pitch_;
-  std::optional<Angle> yaw_;
+  Angle roll_;
+  double min_pitch_ = 0, max_pitch_ = 0;
+  std::optional<double> yaw_;
   double least_;
 };
 
