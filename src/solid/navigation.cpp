@@ -4,6 +4,7 @@
 #include "solid/navigation.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -62,12 +63,16 @@ class Cutting {
   core::ProgressReporter progress_;
 };
 
-/// What is kept comes first: it leaves the less.
+/// What is kept comes first, the smallest first of all: it leaves the less.
 LocalCut cut(const LabelledMesh& volume, const Regions& regions, const core::ProgressReporter& progress) {
   Cutting cutting(volume, regions.kept.size() + regions.forbidden.size(), progress);
+  std::vector<const Region*> alone;
   for (const Region& region : regions.kept) {
-    if (stands_alone(region)) cutting.cut(region.solid, CutKind::keep_inside);
+    if (stands_alone(region)) alone.push_back(&region);
   }
+  std::stable_sort(alone.begin(), alone.end(),
+                   [](const Region* a, const Region* b) { return a->solid.volume() < b->solid.volume(); });
+  for (const Region* region : alone) cutting.cut(region->solid, CutKind::keep_inside);
   const std::vector<Solid> kept = to_combine(regions.kept);
   const Solid forbidden = unite(to_combine(regions.forbidden));
   if (!kept.empty()) {
