@@ -57,10 +57,10 @@ set(source ${PROJECT_SOURCE_DIR}/src)
 # Helpers of which every shared library takes in what it uses: they need not be exported. They have no state of their
 # own, but for PROJ, which each library then loads for itself.
 set(VANTAGE_HELPER_SOURCES)
-foreach(file core/bvh core/convex_corners core/edges core/facet_polygon core/grown_polygon core/mend_welded
+foreach(file core/bvh core/convex_corners core/edges core/enclosing_circle core/facet_polygon core/grown_polygon core/mend_welded
              core/pieces core/sha256 core/sha256_x86 core/stars core/text core/triangle_distance core/weld
              core/zone_check geo/coordinate_system geo/local_frame geo/longitudes geo/proj_library io/json_text
-             options/spheres_options target/enclosing_circle target/lengths target/range_check target/range_region)
+             options/spheres_options target/lengths target/range_check target/range_region)
   list(APPEND VANTAGE_HELPER_SOURCES ${source}/${file}.cpp)
 endforeach()
 add_library(vantage_helpers STATIC EXCLUDE_FROM_ALL ${VANTAGE_HELPER_SOURCES})

@@ -95,4 +95,10 @@ SphereMesh make_sphere(int parts) {
   return sphere;
 }
 
+SphereMesh make_sphere_for(double share) {
+  // The corners of a facet that is one of n parts along each side lie within 0.77 / n of its middle.
+  const double cover = std::sqrt(2 * share);
+  return make_sphere(std::max(1, static_cast<int>(std::ceil(0.77 / cover))));
+}
+
 }  // namespace vantage::internal::solid

@@ -38,4 +38,8 @@ struct SphereMesh {
 /// An icosahedron's facets cut in so many parts along each side: 20 n^2 facets.
 SphereMesh make_sphere(int parts);
 
+/// One whose vertices leave so little between them that a ball of radius 1 and its polytope with a facet at each differ
+/// by no more than `share`.
+SphereMesh make_sphere_for(double share);
+
 }  // namespace vantage::internal::solid

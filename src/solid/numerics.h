@@ -75,13 +75,9 @@ constexpr double kKernelMargin = 1e-10;
 /// Facets for the surface about a target that is nearer than the least range lie farther out by up to this part of it,
 constexpr double kMinRangeShare = 2e-3;
 
-/// and those for the largest pixel farther in by this part of the radius of the ball that they stand for: a thousandth
-/// of its volume.
+/// and sides of those for the largest pixel farther in by this part of the distance from a point deep inside: less than
+/// a thousandth of the volume.
 constexpr double kPixelShare = 5e-4;
-
-/// Balls about the corners of a target that is smaller than this part of their radius meet at an angle of less than
-/// 0.2: facets as wide as kPixelShare makes them cut off less than 0.2 % of the radius there.
-constexpr double kSmallTarget = 0.1;
 
 /// Vertices of facets that must lie inside of a curved surface are moved in by this part of their distance: rounding.
 constexpr double kInward = 1e-12;

@@ -7,12 +7,14 @@
 #include <string>
 #include <utility>
 
+#include "core/enclosing_circle.h"
 #include "core/text.h"
 #include "sensor/best_aim.h"
 #include "solid/convex_body.h"
 #include "solid/frame_surface.h"
 #include "solid/halve_sides.h"
 #include "solid/numerics.h"
+#include "solid/star_surface.h"
 
 namespace vantage::internal::solid {
 namespace {
@@ -48,14 +50,6 @@ double most_along(const std::vector<Vec3>& corners, const Vec3& direction) {
   double most = -std::numeric_limits<double>::infinity();
   for (const Vec3& corner : corners) most = std::max(most, corner.dot(direction));
   return most;
-}
-
-/// A sphere whose vertices leave so little between them that a ball of radius 1 and its polytope with a facet at each
-/// differ by no more than `share`.
-SphereMesh sphere_for(double share) {
-  // The corners of a facet that is one of n parts along each side lie within 0.77 / n of its middle.
-  const double cover = std::sqrt(2 * share);
-  return make_sphere(std::max(1, static_cast<int>(std::ceil(0.77 / cover))));
 }
 
 class SensorRegions {
@@ -170,41 +164,40 @@ void SensorRegions::add_incidence(const ViewedPart& part) {
   keep("incidence", std::move(half_spaces));
 }
 
-/// Facets between points on the border of what the balls that touch the target's plane in its corners have in common:
-/// that is convex, so they lie in it. Where two balls meet, facets cut the edge between them off: the less, the smaller
-/// the target is beside the balls.
+/// What the balls that touch the target's plane in its corners have in common is convex.
 void SensorRegions::add_pixel(const ViewedPart& part) {
   const double radius = sensor_.pixel->size_m * *sensor_.camera->focal_px / 2;
-  SphereMesh sphere = sphere_for(numerics::kPixelShare);
-  double farthest = 0;
-  for (const Vec3& corner : part.corners) farthest = std::max(farthest, (corner - part.centre).norm());
-  if (farthest < numerics::kSmallTarget * radius) {
-    const Vec3 inside = part.centre + radius * *part.normal;
-    for (Vec3& vertex : sphere.mesh.vertices) {
-      double reach = std::numeric_limits<double>::infinity();
-      for (const Vec3& corner : part.corners) {
-        const Vec3 from = part.centre - corner;  // of `inside` from the ball's centre
-        const double along = vertex.dot(from);
-        reach = std::min(reach, std::sqrt(along * along + radius * radius - from.squaredNorm()) - along);
-      }
-      vertex = inside + (1 - numerics::kInward) * reach * vertex;
-    }
-    regions_.kept.push_back({RegionKind::sensor, "pixel", solid_of(sphere.mesh, "pixel"), {}, {}});
-    return;
+  // In the plane of their centres, which are the corners moved along the normal, no point lies deeper in all of them
+  // than the one from which the farthest is nearest.
+  const Vec3 u = any_across(*part.normal), v = part.normal->cross(u);
+  std::vector<Eigen::Vector2d> centres;
+  for (const Vec3& corner : part.corners) centres.emplace_back(u.dot(corner), v.dot(corner));
+  const core::Circle circle = core::smallest_enclosing_circle(centres);
+  Region region{RegionKind::sensor, "pixel", Solid(), {}, {}};
+  if (circle.radius < (1 - numerics::kLeastDistance) * radius) {
+    const double height = part.normal->dot(part.centre) + radius;
+    const Vec3 inside = circle.centre.x() * u + circle.centre.y() * v + height * *part.normal;
+    Mesh mesh = star_inside(
+        [&](const Vec3& direction) {
+          double reach = std::numeric_limits<double>::infinity();
+          for (const Vec3& corner : part.corners) {
+            const Vec3 from = inside - corner - radius * *part.normal;
+            const double along = direction.dot(from);
+            reach = std::min(reach, std::sqrt(along * along + radius * radius - from.squaredNorm()) - along);
+          }
+          return (1 - numerics::kInward) * reach;
+        },
+        numerics::kPixelShare);
+    for (Vec3& vertex : mesh.vertices) vertex += inside;
+    region.solid = solid_of(mesh, "pixel");
   }
-  // Polytopes inside of the balls.
-  std::vector<HalfSpace> half_spaces;
-  for (const Vec3& direction : sphere.mesh.vertices) {
-    half_spaces.push_back({direction, radius * (direction.dot(*part.normal) + std::cos(sphere.cover)) -
-                                          most_along(part.corners, -direction)});
-  }
-  keep("pixel", std::move(half_spaces));
+  regions_.kept.push_back(std::move(region));
 }
 
 /// A polyhedron round the ball, at each corner. Its vertices matter at those corners only that lie farthest in nearly
 /// their directions.
 void SensorRegions::add_min_range(const ViewedPart& part) {
-  const SphereMesh sphere = sphere_for(numerics::kMinRangeShare);
+  const SphereMesh sphere = make_sphere_for(numerics::kMinRangeShare);
   const double radius = sensor_.min_range_m / std::cos(sphere.cover);
   double extent = 0;
   for (const Vec3& corner : part.corners) extent = std::max(extent, 2 * (corner - part.centre).norm());

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <utility>
 
-#include "target/enclosing_circle.h"
+#include "core/enclosing_circle.h"
 #include "target/equal_cells.h"
 #include "target/prepared_target_data.h"
 #include "target/range_check.h"
@@ -45,8 +45,8 @@ Part prepare(const PreparedScene::Data& scene, const Target& target, const Senso
 /// its coordinates, so that cells that touch still touch.
 TargetFrame cell_frame(const TargetFrame& whole, const std::vector<Eigen::Vector2d>& polygon) {
   TargetFrame frame = whole;
-  const auto circle = internal::target::smallest_enclosing_circle(polygon);
-  const Eigen::Vector2d centre = 0.5 * (circle.centre + internal::target::centroid(polygon));
+  const auto circle = internal::core::smallest_enclosing_circle(polygon);
+  const Eigen::Vector2d centre = 0.5 * (circle.centre + internal::core::centroid(polygon));
   frame.origin = whole.to_scene({centre.x(), centre.y(), 0});
   const Eigen::Vector2d moved = whole.to_local(frame.origin).head<2>();
   frame.polygon = polygon;

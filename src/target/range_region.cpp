@@ -6,9 +6,9 @@
 #include <numbers>
 #include <utility>
 
+#include "core/enclosing_circle.h"
 #include "core/facet_polygon.h"
 #include "core/triangle_distance.h"
-#include "target/enclosing_circle.h"
 
 namespace vantage::internal::target {
 namespace {
@@ -166,7 +166,7 @@ void move_into_range(TargetFrame& frame, double max_range) {
   };
   const double allowed = 0.5 * (frame.enclosing_radius_m + max_range);
   if (farthest(Eigen::Vector2d::Zero()) <= allowed) return;
-  const Eigen::Vector2d centre = smallest_enclosing_circle(frame.polygon).centre;
+  const Eigen::Vector2d centre = core::smallest_enclosing_circle(frame.polygon).centre;
   double low = 0, high = 1;  // the distance to the farthest vertex is convex along the way
   for (int i = 0; i < 60; ++i) {
     const double middle = 0.5 * (low + high);

@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "core/convex_corners.h"
+#include "core/enclosing_circle.h"
 #include "core/text.h"
-#include "target/enclosing_circle.h"
 #include "vantage/error.h"
 #include "vantage/target.h"
 
@@ -249,8 +249,8 @@ TargetFrame make_target_frame(const Target& target, std::size_t part) {
   double height = 0;  // of the plane over the anchor: the mean, which is zero for an exactly planar polygon
   for (const Vec3& v : target.parts[0])
     height += frame.normal.dot(v - anchor) / static_cast<double>(target.parts[0].size());
-  const auto circle = internal::target::smallest_enclosing_circle(polygon);
-  const Vector2d centre = 0.5 * (circle.centre + internal::target::centroid(polygon));
+  const auto circle = internal::core::smallest_enclosing_circle(polygon);
+  const Vector2d centre = 0.5 * (circle.centre + internal::core::centroid(polygon));
   for (Vector2d& p : polygon) p -= centre;
   frame.polygon = std::move(polygon);
   frame.enclosing_radius_m = circle.radius;

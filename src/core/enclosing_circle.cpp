@@ -1,8 +1,8 @@
-#include "target/enclosing_circle.h"
+#include "core/enclosing_circle.h"
 
 #include <cmath>
 
-namespace vantage::internal::target {
+namespace vantage::internal::core {
 namespace {
 
 using Eigen::Vector2d;
@@ -53,4 +53,4 @@ Vector2d centroid(const std::vector<Vector2d>& polygon) {
   return polygon[0] + sum / area;
 }
 
-}  // namespace vantage::internal::target
+}  // namespace vantage::internal::core

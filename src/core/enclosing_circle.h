@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace vantage::internal::target {
+namespace vantage::internal::core {
 
 struct Circle {
   Eigen::Vector2d centre;
@@ -18,4 +18,4 @@ Circle smallest_enclosing_circle(const std::vector<Eigen::Vector2d>& points);
 /// Centroid of the area of a counter-clockwise polygon that has one.
 Eigen::Vector2d centroid(const std::vector<Eigen::Vector2d>& polygon);
 
-}  // namespace vantage::internal::target
+}  // namespace vantage::internal::core
