@@ -16,16 +16,18 @@
 namespace vantage::internal::solid {
 namespace {
 
+using sensor::Aim;
 using sensor::AimedView;
 using sensor::AimFinder;
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
-constexpr int kFirstParts = 6;       // of the icosahedron's sides: 720 facets
-constexpr double kNarrowest = 4e-3;  // radians: shorter edges are not halved
-constexpr double kRaise = 1 + 1e-9;  // what is raised is raised beyond rounding
-constexpr int kOwnPasses = 10;
-constexpr int kVerticalAims = 12;  // in half a turn, after which the picture is the same
-constexpr double kSteep = 1.1;     // radians above or below level
+constexpr int kFirstParts = 6;         // of the icosahedron's sides: 720 facets
+constexpr double kNarrowest = 4e-3;    // radians: shorter edges are not halved
+constexpr double kRaise = 1 + 1e-9;    // what is raised is raised beyond rounding
+constexpr int kOwnRaises = 10;         // of a facet, before it gives up its corners' own aims
+constexpr double kWorthHalving = 0.5;  // facets that take away so many times the mean of all too much
+constexpr int kVerticalAims = 12;      // in half a turn, after which the picture is the same
+constexpr double kSteep = 1.1;         // radians above or below level
 
 /// The smallest turn from one yaw to another.
 double turn(double from, double to) { return std::remainder(to - from, 2 * std::numbers::pi); }
@@ -35,7 +37,8 @@ class FrameSurfaceBuilder {
   explicit FrameSurfaceBuilder(const FrameView& view)
       : view_(view),
         finder_(view.corners, view.camera, view.mount, view.least),
-        normal_length_{std::hypot(1, view.camera.half_width), std::hypot(1, view.camera.half_height)} {
+        normal_length_{std::hypot(1, view.camera.half_width), std::hypot(1, view.camera.half_height)},
+        roll_(view.mount.roll_deg * std::numbers::pi / 180) {
     for (const Vec3& corner : view.corners) radius_ = std::max(radius_, corner.norm());
     // Beyond this a facet between three corners of the first sphere is out of reach everywhere.
     cap_ = 1.2 * view.reach;
@@ -75,6 +78,7 @@ class FrameSurfaceBuilder {
   const FrameView& view_;
   AimFinder finder_;
   std::array<double, 2> normal_length_;
+  double roll_;
   double radius_ = 0, cap_ = 0;
   std::vector<AimedView> vertical_;
   std::vector<Node> nodes_;
@@ -89,27 +93,54 @@ bool FrameSurfaceBuilder::matters(const Triangle& facet) const {
 }
 
 /// What the corners need where each has its own aim. Between them the camera is aimed at the mean of the three, by the
-/// weights l of the place p = sum l_i p_i. Of an edge's normal n let n_i be those at the corners, and m = sum l_i n_i.
-/// Then m . (v - p) is sum l_i n_i . (v - p_i), which the corners see to, and sum over pairs of
-/// l_i l_j (n_i - n_j) . (p_i - p_j), at the least a third of the least pair's. The normal of the mean aim is off from
-/// m by at most a sixth of the square of the largest turn between two corners.
+/// weights l of the place p = sum l_i p_i. How far a corner v of the target is inside of an edge's plane with the
+/// normal n, f = n . (v - p), is at the least sum l_i f_i - sum over pairs of l_i l_j f''_ij / 2 less a rest, with
+/// f''_ij the second derivative from one corner to the other, n'' . (v - p) - 2 n' . (p_i - p_j), at the facet's
+/// middle. The products l_i l_j add up to 1/3 at most. docs/theory.md has the rest, and why it is the rest.
 FrameSurfaceBuilder::Needs FrameSurfaceBuilder::own_needs(const Triangle& facet) const {
-  double spread = 0, farthest = 0;
+  struct Side {
+    double yaw, pitch;
+    Vec3 way;
+  };
+  std::array<Side, 3> sides;
+  Vec3 middle = Vec3::Zero();
+  double turned = 0, longest = 0, farthest = 0, pitch = 0;
+  const double first_yaw = nodes_[facet[0]].view.aim.yaw;
+  std::array<double, 3> yaws;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Node& node = nodes_[facet[i]];
+    yaws[i] = turn(first_yaw, node.view.aim.yaw);
+    pitch += node.view.aim.pitch / 3;
+    middle += node.distance / 3 * node.direction;
+    farthest = std::max(farthest, node.distance + radius_);
+  }
   for (std::size_t i = 0; i < 3; ++i) {
     const Node &a = nodes_[facet[i]], &b = nodes_[facet[(i + 1) % 3]];
-    spread = std::max(spread,
-                      std::abs(turn(a.view.aim.yaw, b.view.aim.yaw)) + std::abs(a.view.aim.pitch - b.view.aim.pitch));
-    farthest = std::max(farthest, a.distance + radius_);
+    sides[i] = {yaws[(i + 1) % 3] - yaws[i], b.view.aim.pitch - a.view.aim.pitch,
+                b.distance * b.direction - a.distance * a.direction};
+    turned = std::max(turned, std::abs(sides[i].yaw) + std::abs(sides[i].pitch));
+    longest = std::max(longest, sides[i].way.norm());
   }
+  const Aim mean{first_yaw + (yaws[0] + yaws[1] + yaws[2]) / 3, pitch};
+  const sensor::PictureEdges edges = sensor::picture_edges(view_.camera, mean, roll_);
+  const Vec3 level(std::cos(mean.yaw), -std::sin(mean.yaw), 0);
+  const auto by_yaw = [](const Vec3& v) { return Vec3(v.y(), -v.x(), 0); };
+  const double rest = 4.0 / 27 * turned * turned * (turned * farthest + 3 * longest);
   std::array<double, 4> slack{};
   for (std::size_t k = 0; k < 4; ++k) {
-    double least = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Node &a = nodes_[facet[i]], &b = nodes_[facet[(i + 1) % 3]];
-      least =
-          std::min(least, (a.view.edges[k] - b.view.edges[k]).dot(a.distance * a.direction - b.distance * b.direction));
+    const Vec3& n = edges[k];
+    const Vec3 n_yaw = by_yaw(n), n_pitch = level.cross(n);
+    const Vec3 n_yaw_yaw = by_yaw(n_yaw), n_yaw_pitch = by_yaw(n_pitch), n_pitch_pitch = level.cross(n_pitch);
+    double most = 0;
+    for (const Side& side : sides) {
+      const Vec3 second = side.yaw * side.yaw * n_yaw_yaw + 2 * side.yaw * side.pitch * n_yaw_pitch +
+                          side.pitch * side.pitch * n_pitch_pitch;
+      double farthest_along = -kNever;
+      for (const Vec3& corner : view_.corners) farthest_along = std::max(farthest_along, second.dot(corner));
+      most = std::max(
+          most, farthest_along - second.dot(middle) - 2 * (side.yaw * n_yaw + side.pitch * n_pitch).dot(side.way));
     }
-    slack[k] = -least / 3 + normal_length_[k / 2] * spread * spread / 6 * farthest;
+    slack[k] = most / 6 + normal_length_[k / 2] * rest;
   }
   Needs needs;
   for (std::size_t i = 0; i < 3; ++i) needs[i] = nodes_[facet[i]].view.distance(nodes_[facet[i]].direction, slack);
@@ -148,8 +179,8 @@ bool FrameSurfaceBuilder::is_safe(const Triangle& facet) const {
 }
 
 /// Raises corners until every facet is safe. A facet that one aim makes safe stays so when corners are raised, others
-/// are asked again. Own aims are given up where they do not settle early, as what they need grows with the distances;
-/// so this ends.
+/// are asked again. A facet that does not settle early gives up its own aims, as what they need grows with the
+/// distances; so this ends.
 void FrameSurfaceBuilder::settle() {
   std::vector<int> raised(nodes_.size(), 0);  // in which pass
   for (Node& node : nodes_) node.distance = std::min(node.best * kRaise, cap_);
@@ -158,15 +189,18 @@ void FrameSurfaceBuilder::settle() {
     for (std::size_t i = 0; i < 3; ++i) sum += std::max(needs[i], nodes_[facet[i]].distance);
     return sum;
   };
+  std::vector<int> own_raises(facets_.size(), 0);
   bool is_raised = true;
   for (int pass = 1; is_raised; ++pass) {
     is_raised = false;
-    for (const Triangle& facet : facets_) {
+    for (std::size_t f = 0; f < facets_.size(); ++f) {
+      const Triangle& facet = facets_[f];
       const bool is_new =
           std::any_of(facet.begin(), facet.end(), [&](std::uint32_t i) { return raised[i] >= pass - 1; });
       if (!is_new || !matters(facet) || is_safe(facet)) continue;
       const Needs own = own_needs(facet), shared = shared_needs(facet);
-      const bool takes_own = pass <= kOwnPasses && cost(facet, own) <= cost(facet, shared);
+      const bool takes_own = own_raises[f] < kOwnRaises && cost(facet, own) <= cost(facet, shared);
+      if (takes_own) ++own_raises[f];
       Needs needs = takes_own ? own : shared;
       // No aim does: nothing is left in its directions.
       if (!(*std::max_element(needs.begin(), needs.end()) < cap_)) needs.fill(cap_);
@@ -181,7 +215,8 @@ void FrameSurfaceBuilder::settle() {
   }
 }
 
-/// Halves facets that lie farther out than they have to. False where none does.
+/// Halves facets that lie farther out than they have to, of these the ones with the most space between the two. False
+/// where none does.
 bool FrameSurfaceBuilder::refine() {
   const auto length = [&](std::uint32_t a, std::uint32_t b) {
     return (nodes_[a].direction - nodes_[b].direction).norm();
@@ -190,8 +225,22 @@ bool FrameSurfaceBuilder::refine() {
     const Node& node = nodes_[i];
     return node.best < view_.reach && node.distance > node.best * (1 + view_.share);
   };
+  const auto space = [&](const Triangle& t) {
+    const Vec3& from = nodes_[t[0]].direction;
+    double sum = 0;
+    for (const std::uint32_t i : t) {
+      const Node& node = nodes_[i];
+      sum += std::max(std::pow(std::min(node.distance, view_.reach), 3) - std::pow(node.best, 3), 0.0);
+    }
+    return sum * (nodes_[t[1]].direction - from).cross(nodes_[t[2]].direction - from).norm();
+  };
+  double all = 0;
+  for (const Triangle& t : facets_) {
+    if (matters(t)) all += space(t);
+  }
+  const double least = kWorthHalving * all / static_cast<double>(facets_.size());
   const auto wants = [&](const Triangle& t) {
-    return matters(t) && std::any_of(t.begin(), t.end(), is_far_out) &&
+    return matters(t) && std::any_of(t.begin(), t.end(), is_far_out) && space(t) > least &&
            std::max({length(t[0], t[1]), length(t[1], t[2]), length(t[2], t[0])}) > kNarrowest;
   };
   const auto middle = [&](std::uint32_t a, std::uint32_t b) {

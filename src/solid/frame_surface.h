@@ -18,7 +18,7 @@ struct FrameView {
   double reach = 0;     ///< metres: no viewpoint farther from c matters
   double least = 0;     ///< metres: nor one nearer than this
   double share = 5e-3;  ///< the surface may lie so much farther out than it has to, of the distance, but where ..
-  std::size_t most_facets = 12000;  ///< .. that takes more facets than these; the last halving may go beyond
+  std::size_t most_facets = 6000;  ///< .. that takes more facets than these; the last halving may go beyond
 };
 
 /// A closed mesh, star-shaped about c: no viewpoint outside of it, on the front and within reach, has the target only
