@@ -51,6 +51,7 @@ MODULES = {
     "spheres": ["core", "options", "scene", "target", "solid", "depth"],
     "picture": ["core", "depth"],
     "verify": [],
+    "prove": [],
     "maps/osm": ["core", "geo"],
     "maps/terrain": ["core", "geo"],
     "maps/city": ["core", "geo", "solid", "maps/osm", "maps/terrain"],
@@ -71,7 +72,8 @@ RULES = [
     OnlyIn(r"(EGL|GL|KHR)/", r"src/(depth|picture)/gl_", "only the files gl_* see OpenGL and EGL"),
     OnlyIn(r"cairo", r"src/picture/", "only src/picture sees Cairo"),
     OnlyIn(r"(CDT|CDTUtils|Triangulation|(Locator)?KDTree|predicates|remove_at|portable_nth_element)\.h",
-           r"src/(exact|maps/city|maps/terrain)/", "only src/exact, src/maps/city and src/maps/terrain see CDT"),
+           r"src/(exact|maps/city|maps/terrain)/|src/prove/orientation\.cpp",
+           "only src/exact, src/maps/city, src/maps/terrain and the proof's orientation.cpp see CDT"),
     OnlyIn(r"(proj|proj_experimental|geodesic)\.h", r"src/geo/", "only src/geo sees PROJ"),
     OnlyIn(r"(osmium|protozero|bzlib)", r"src/maps/osm/", "only src/maps/osm sees libosmium"),
     OnlyIn(r"expat", r"src/(maps/osm/|app/components/kml_zones\.cpp)", "only src/maps/osm and kml_zones.cpp see Expat"),
@@ -86,6 +88,8 @@ RULES = [
     OnlyIn(r"nlohmann/", r"src/(io|app)/|bench/support/cities\.cpp", "only src/io, src/app and bench see nlohmann/json"),
     NotIn(r"src/verify/", rf"(?!(verify|vantage)/|({'|'.join(map(re.escape, VERIFY_HEADERS))})$)({'|'.join(MODULES)})/",
           "the check shares no geometry code with what it checks"),
+    NotIn(r"src/prove/", rf"(?!(prove|vantage)/|({'|'.join(map(re.escape, VERIFY_HEADERS))})$)({'|'.join(MODULES)})/",
+          "the proof shares no geometry code with what it proves"),
     NotIn(r"tests/attack/", r"(?!(vantage|Eigen|sys)/).*/",
           "the attack needs the public headers, Eigen and the standard library: it shares nothing with what it judges"),
     NotIn(r"bench/(?!(kernels|progress)/)", rf"({'|'.join(MODULES)})/|support/internals\.h",
@@ -94,7 +98,7 @@ RULES = [
 ] + [
     NotIn(rf"src/{module}/[^/]*$", rf"(?!({'|'.join([module, *below])})/[^/]*$)({'|'.join(MODULES)})/",
           f"{module} may include {', '.join(below)} only")
-    for module, below in MODULES.items() if module != "verify"
+    for module, below in MODULES.items() if module not in ("verify", "prove")
 ]
 
 

@@ -10,6 +10,7 @@
 #include "vantage/compare.h"
 #include "vantage/devices.h"
 #include "vantage/export.h"
+#include "vantage/prove.h"
 #include "vantage/scene_source.h"
 #include "vantage/verify.h"
 #include "vantage/volume.h"
@@ -27,6 +28,8 @@ VANTAGE_API std::string json_text(const LoadedScene& loaded);
 VANTAGE_API std::string json_text(const LoadedScene& loaded, const SceneStatistics& statistics);
 
 VANTAGE_API std::string json_text(const VerifyReport& report);
+
+VANTAGE_API std::string json_text(const ProofReport& report);
 
 /// `written`: files that hold what one of the two claims alone.
 VANTAGE_API std::string json_text(const Comparison& comparison, const std::string& file_a, const std::string& file_b,

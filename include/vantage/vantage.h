@@ -23,6 +23,7 @@
 #include "vantage/picture.h"
 #include "vantage/prepared_target.h"
 #include "vantage/progress.h"
+#include "vantage/prove.h"
 #include "vantage/query.h"
 #include "vantage/result.h"
 #include "vantage/scene.h"

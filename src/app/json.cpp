@@ -166,6 +166,35 @@ std::string json_text(const VerifyReport& report) {
   return dumped(json, 2);
 }
 
+std::string json_text(const ProofReport& report) {
+  Json json;
+  json["verdict"] = name_of(report.verdict());
+  json["claims"] = Json::array();
+  for (const ClaimProof& claim : report.claims) {
+    json["claims"].push_back({{"name", claim.name}, {"verdict", name_of(claim.verdict)}, {"text", claim.text}});
+  }
+  json["facets"] = report.facets;
+  json["far_facets"] = report.far_facets;
+  json["unproved"] = report.unproved;
+  json["unproved_area_share"] = report.unproved_area_share;
+  json["witness"] = nullptr;
+  if (report.witness) {
+    const HiddenView& hidden = *report.witness;
+    json["witness"] = {{"viewpoint", json_of(hidden.viewpoint)},
+                       {"target_point", json_of(hidden.target_point)},
+                       {"triangle", hidden.triangle},
+                       {"object", hidden.object},
+                       {"facet", hidden.facet},
+                       {"depth_m", hidden.depth_m}};
+  }
+  json["separations"] = report.separations;
+  json["shrink"] = report.shrink;
+  json["margin_m"] = report.margin_m;
+  json["lift_m"] = report.lift_m;
+  json["seconds"] = report.seconds;
+  return dumped(json, 2);
+}
+
 std::string json_text(const Comparison& c, const std::string& file_a, const std::string& file_b,
                       const std::vector<std::string>& written) {
   const auto point = [](double distance, const Vec3& p) -> Json {

@@ -38,11 +38,11 @@ std::string exit_code_table() {
   return "\n"
          "EXIT CODES\n"
          "  0      done\n"
-         "  1      a check failed, and what shows it is printed: verify found the volume wrong; compute --fail-empty\n"
+         "  1      a check failed, and what shows it is printed: verify or prove found it wrong; compute --fail-empty\n"
          "         found no volume\n"
          "  2      bad input, bad arguments, or a result that could not be written\n"
          "  3      a defect of vantage: please report it together with the input\n"
-         "  4      neither proved nor refuted (not used yet)\n"
+         "  4      prove neither proved nor refuted the volume\n"
          "  128+n  stopped by signal n. 130: Ctrl-C. 141: whoever read the output stopped reading\n"
          "  After 2, 3 and 128+n existing files are as they were. A second Ctrl-C ends the program at once.\n";
 }

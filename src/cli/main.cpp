@@ -95,6 +95,7 @@ void add_commands(CLI::App& app, Command& chosen) {
   add_compute(app, chosen);
   add_query(app, chosen);
   add_verify(app, chosen);
+  add_prove(app, chosen);
   add_compare(app, chosen);
   add_devices(app, chosen);
   add_cameras(app, chosen);

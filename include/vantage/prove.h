@@ -1,0 +1,78 @@
+// The proof of a volume: every facet is looked at, no sample is drawn. It shares no code with the methods.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "vantage/constraints.h"
+#include "vantage/export.h"
+#include "vantage/progress.h"
+#include "vantage/scene.h"
+#include "vantage/target.h"
+
+namespace vantage {
+
+/// `wrong` has a witness, a viewpoint that anybody can check by hand. What is not proved may be right all the same.
+enum class ProofVerdict { proved, not_proved, wrong };
+
+/// "proved", "not proved", "wrong".
+VANTAGE_API const char* name_of(ProofVerdict verdict);
+
+struct ProveOptions {
+  double shrink = 1e-6;             ///< the proof is of the volume shrunk by this part of the distance towards the
+                                    ///< target; at least 0, less than 1
+  std::vector<double> lift_m = {};  ///< how far each part of the target was raised (Volume::lift_m); empty: not at all
+};
+
+/// A place in the shrunk volume from which a point of the target is hidden.
+struct HiddenView {
+  Vec3 viewpoint = Vec3::Zero(), target_point = Vec3::Zero();  ///< scene frame
+  std::uint32_t triangle = 0;  ///< of the scene: the segment between the two passes through it
+  std::string object;          ///< its name
+  std::uint32_t facet = 0;     ///< of the volume: the viewpoint lies on it, or straight in front of it
+  double depth_m = 0;          ///< from the facet towards the target so far positions are hidden as well, at least
+};
+
+/// One of the things that a volume claims besides sight.
+struct ClaimProof {
+  std::string name;  ///< "sight", "range", "front", or a limit's name as in vantage/query.h
+  ProofVerdict verdict = ProofVerdict::not_proved;
+  std::string text;  ///< by what, or why not
+};
+
+struct ProofReport {
+  std::vector<ClaimProof> claims;
+  std::size_t facets = 0;               ///< of the volume
+  std::size_t far_facets = 0;           ///< that face away from a part of the target, summed over the parts
+  std::vector<std::uint32_t> unproved;  ///< facets of which it is not proved that the target is seen from them
+  double unproved_area_share = 0;       ///< of the whole surface
+  std::optional<HiddenView> witness;    ///< the deepest that was found; of `wrong` sight
+  std::size_t separations = 0;          ///< planes that were found between a part of the view and obstacles
+  double shrink = 0;                    ///< what was asked for
+  double margin_m = 0;  ///< a strip of the target along its outline, and what lies lower over its plane,
+                        ///< is left out: so much
+  double lift_m = 0;    ///< the largest of a part
+  double seconds = 0;
+
+  /// The worst of the claims.
+  VANTAGE_API ProofVerdict verdict() const;
+};
+
+/// Proves or refutes that every point of the volume sees the whole target and keeps its range. docs/proof.md has the
+/// theorem and what exactly is stated. `volume` is any closed mesh in the scene frame, whoever made it, cut or not;
+/// vertices in one place count as one. All parts of the target must be seen. Limits of navigation and of the sensor
+/// besides the range are named, and those without a proof are told as not proved.
+///
+/// The report does not depend on the number of threads. Cost: a few times that of the exact method, and linear in the
+/// triangles of the scene near the volume. Throws Error(input) for a target, sensor, limit or option that is wrong in
+/// itself, a sensor with a VisibleShare or a link (what these claim is not the sight of all of a target) and for a mesh
+/// that has no triangles, is not closed or not oriented, is inside out, has an index out of range or a coordinate that
+/// is not finite; Error(cancelled) when told to stop.
+VANTAGE_API ProofReport prove_volume(const Scene& scene, const Target& target, const Sensor& sensor,
+                                     const Navigation& navigation, const Mesh& volume, const ProveOptions& options = {},
+                                     const Progress& progress = {});
+
+}  // namespace vantage

@@ -1,0 +1,228 @@
+// The judge of docs/proof.md.
+#include "vantage/prove.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "core/progress_reporter.h"
+#include "prove/orientation.h"
+#include "prove/sight.h"
+#include "prove/solid_mesh.h"
+#include "prove/view.h"
+#include "vantage/error.h"
+
+namespace vantage {
+namespace {
+
+namespace prove = internal::prove;
+
+void check_options(const Target& target, const Sensor& sensor, const ProveOptions& options) {
+  check_sensor(sensor);
+  if (!(options.shrink >= 0 && options.shrink < 1)) {
+    throw Error(ErrorCode::value_out_of_range, "shrink is not a number from 0 to below 1", "shrink",
+                "give the part of the distance by which the volume is shrunk, as 1e-6");
+  }
+  if (!options.lift_m.empty() && options.lift_m.size() != target.parts.size()) {
+    throw Error(ErrorCode::array_sizes_differ, "the lifts are not as many as the target's parts", "lift_m",
+                "give one for each part, or none");
+  }
+  const char* const what = sensor.visible ? "a share of the target" : sensor.link ? "a radio link" : nullptr;
+  if (!what) return;
+  throw Error(ErrorCode::not_applicable,
+              std::string("the volume is for ") + what + ", and only the sight of a whole target can be proved",
+              sensor.visible ? "sensor.visible" : "sensor.link", "check it with 'vantage verify'");
+}
+
+class Prover {
+ public:
+  Prover(const Scene& scene, const Target& target, const Sensor& sensor, const Mesh& volume,
+         const ProveOptions& options)
+      : scene_(scene),
+        target_(target),
+        range_(range_limit_m(sensor)),
+        options_(options),
+        solid_(prove::solid_mesh(volume)) {}
+
+  ProofReport run(const internal::core::ProgressReporter& progress);
+
+ private:
+  void look_at(std::size_t part, double lift_m, const internal::core::ProgressReporter& progress);
+  std::vector<Vec3> shrunk(const prove::View& view) const;
+  void look_for_witness(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
+                        const std::vector<std::uint32_t>& numbers, const prove::View& view,
+                        const prove::SceneTree& obstacles, const std::vector<prove::OpenFacet>& open);
+
+  const Scene& scene_;
+  const Target& target_;
+  double range_;
+  const ProveOptions& options_;
+  prove::SolidMesh solid_;
+  ProofReport report_;
+  double farthest_ = 0, lowest_ = std::numeric_limits<double>::infinity();
+};
+
+std::vector<Vec3> Prover::shrunk(const prove::View& view) const {
+  std::vector<Vec3> vertices;
+  vertices.reserve(solid_.mesh.vertices.size());
+  for (const Vec3& vertex : solid_.mesh.vertices) vertices.push_back((1 - options_.shrink) * (vertex - view.origin));
+  return vertices;
+}
+
+void Prover::look_for_witness(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
+                              const std::vector<std::uint32_t>& numbers, const prove::View& view,
+                              const prove::SceneTree& obstacles, const std::vector<prove::OpenFacet>& open) {
+  constexpr std::size_t kMostFacets = 2000;  // looked at: evenly among those that are open
+  const std::size_t step = 1 + open.size() / kMostFacets;
+  for (std::size_t i = 0; i < open.size(); i += step) {
+    const auto& [a, b, c] = facets[open[i].facet];
+    const prove::TreeTriangle& obstacle = obstacles.triangles[open[i].triangle];
+    const auto blocked = prove::find_blocked({vertices[a], vertices[b], vertices[c]}, view, obstacle);
+    if (!blocked || (report_.witness && blocked->depth_m <= report_.witness->depth_m)) continue;
+    const std::uint32_t object = scene_.object_of.empty() ? 0 : scene_.object_of[obstacle.of];
+    report_.witness = HiddenView{.viewpoint = view.origin + blocked->viewpoint,
+                                 .target_point = view.origin + blocked->target_point,
+                                 .triangle = obstacle.of,
+                                 .object = object < scene_.objects.size() ? display_name(scene_.objects[object]) : "",
+                                 .facet = numbers[open[i].facet],
+                                 .depth_m = blocked->depth_m};
+  }
+}
+
+void Prover::look_at(std::size_t part, double lift_m, const internal::core::ProgressReporter& progress) {
+  const prove::View view = prove::make_view(target_, part, lift_m);
+  const std::vector<Vec3> vertices = shrunk(view);
+  Box near;
+  for (const Vec3& corner : view.corners) near.extend(corner);
+  std::vector<Triangle> facets;
+  std::vector<std::uint32_t> numbers;
+  for (std::size_t t = 0; t < solid_.mesh.triangles.size(); ++t) {
+    const Triangle& triangle = solid_.mesh.triangles[t];
+    for (const std::uint32_t v : triangle) {
+      const Vec3& at = vertices[v];
+      near.extend(at);
+      for (const Vec3& corner : view.whole) farthest_ = std::max(farthest_, (at - corner).norm());
+      if (!view.all_sides) lowest_ = std::min(lowest_, view.normal.dot(at) + view.margin_m);
+    }
+    const auto& [a, b, c] = triangle;
+    if (prove::orientation(vertices[a], vertices[b], vertices[c], Vec3::Zero()) <= 0) continue;
+    facets.push_back(triangle);
+    numbers.push_back(solid_.facet_of[t]);
+  }
+  const prove::SceneTree obstacles = prove::obstacles_in_front(scene_, view, near);
+  const prove::SightProof proof = prove::prove_sight(vertices, facets, view, obstacles, progress);
+  report_.far_facets += facets.size();
+  report_.separations += proof.separations;
+  report_.margin_m = std::max(report_.margin_m, view.margin_m);
+  report_.lift_m = std::max(report_.lift_m, lift_m);
+  for (const prove::OpenFacet& open : proof.open) report_.unproved.push_back(numbers[open.facet]);
+  look_for_witness(vertices, facets, numbers, view, obstacles, proof.open);
+}
+
+ProofReport Prover::run(const internal::core::ProgressReporter& progress) {
+  report_.facets = solid_.mesh.triangles.size();
+  report_.shrink = options_.shrink;
+  const double parts = static_cast<double>(target_.parts.size());
+  for (std::size_t part = 0; part < target_.parts.size(); ++part) {
+    const double lift = options_.lift_m.empty() ? 0 : options_.lift_m[part];
+    look_at(part, lift, progress.part(static_cast<double>(part) / parts, static_cast<double>(part + 1) / parts));
+  }
+  std::vector<std::uint32_t>& unproved = report_.unproved;
+  std::sort(unproved.begin(), unproved.end());
+  unproved.erase(std::unique(unproved.begin(), unproved.end()), unproved.end());
+  ProofVerdict sight = unproved.empty() ? ProofVerdict::proved : ProofVerdict::not_proved;
+  if (report_.witness) sight = ProofVerdict::wrong;
+  report_.claims.push_back({"sight", sight,
+                            unproved.empty() ? "what lies between a facet and the target is free, for every facet"
+                                             : "of some facets it is open, or wrong"});
+  const bool in_range = farthest_ <= range_;
+  report_.claims.push_back({"range", in_range ? ProofVerdict::proved : ProofVerdict::wrong,
+                            in_range ? "every vertex is within range of every corner of the target"
+                                     : "a vertex is farther from a corner of the target than the range"});
+  const bool in_front = lowest_ >= 0;
+  report_.claims.push_back(
+      {"front", in_front ? ProofVerdict::proved : ProofVerdict::wrong,
+       in_front ? "every vertex is in front of the target" : "a vertex is behind the target's plane"});
+  return std::move(report_);
+}
+
+/// Limits that are convex hold for all of a volume if they hold at its vertices.
+void prove_navigation(const Navigation& navigation, const Mesh& volume, std::vector<ClaimProof>& claims) {
+  const Box bounds = bounding_box(volume);
+  const auto add = [&](const std::string& name, bool holds) {
+    claims.push_back({name, holds ? ProofVerdict::proved : ProofVerdict::wrong,
+                      holds ? "it holds at every vertex" : "it does not hold at a vertex"});
+  };
+  const auto leave = [&](const std::string& name) {
+    claims.push_back({name, ProofVerdict::not_proved, "has no proof: 'vantage verify' tries points"});
+  };
+  if (navigation.altitude) {
+    add("altitude", bounds.min.z() >= navigation.altitude->min_m && bounds.max.z() <= navigation.altitude->max_m);
+  }
+  if (navigation.keep_in.size() == 1 && navigation.keep_in_zones.empty()) {
+    const Box& box = navigation.keep_in[0];
+    add("keep_in", (bounds.min.array() >= box.min.array()).all() && (bounds.max.array() <= box.max.array()).all());
+  } else if (!navigation.keep_in.empty() || !navigation.keep_in_zones.empty()) {
+    leave("keep_in");
+  }
+  if (!navigation.keep_out.empty() || !navigation.keep_out_zones.empty()) leave("keep_out");
+  if (!navigation.meshes.empty()) leave("meshes");
+  if (navigation.above_ground) leave("agl");
+  if (navigation.clearance) leave("clearance");
+}
+
+void name_limits_of_sensor(const Sensor& sensor, std::vector<ClaimProof>& claims) {
+  const auto leave = [&](bool is_given, const char* name) {
+    if (!is_given) return;
+    claims.push_back({name, ProofVerdict::not_proved, "has no proof: 'vantage verify' tries points"});
+  };
+  leave(sensor.min_range_m > 0, "min_range");
+  leave(sensor.incidence_deg.has_value(), "incidence");
+  leave(sensor.camera.has_value(), "frame");
+  leave(sensor.pixel && sensor.pixel->kind == PixelLimit::Kind::worst, "pixel");
+  leave(sensor.sun.has_value(), "sun");
+}
+
+}  // namespace
+
+const char* name_of(ProofVerdict verdict) {
+  switch (verdict) {
+    case ProofVerdict::proved:
+      return "proved";
+    case ProofVerdict::not_proved:
+      return "not proved";
+    case ProofVerdict::wrong:
+      return "wrong";
+  }
+  return "";
+}
+
+ProofVerdict ProofReport::verdict() const {
+  ProofVerdict worst = ProofVerdict::proved;
+  for (const ClaimProof& claim : claims) worst = std::max(worst, claim.verdict);
+  return worst;
+}
+
+ProofReport prove_volume(const Scene& scene, const Target& target, const Sensor& sensor, const Navigation& navigation,
+                         const Mesh& volume, const ProveOptions& options, const Progress& callback) {
+  const auto begin = std::chrono::steady_clock::now();
+  check_options(target, sensor, options);
+  const internal::core::ProgressReporter progress(callback);
+  progress.begin("prove");
+  ProofReport report = Prover(scene, target, sensor, volume, options).run(progress);
+  prove_navigation(navigation, volume, report.claims);
+  name_limits_of_sensor(sensor, report.claims);
+  if (!report.unproved.empty()) {
+    Mesh unproved{volume.vertices, {}};
+    for (const std::uint32_t facet : report.unproved) unproved.triangles.push_back(volume.triangles[facet]);
+    report.unproved_area_share = surface_area(unproved) / surface_area(volume);
+  }
+  progress.finish();
+  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return report;
+}
+
+}  // namespace vantage

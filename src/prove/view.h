@@ -1,0 +1,27 @@
+// One part of the target, and the scene in front of it.
+#pragma once
+
+#include <vector>
+
+#include "prove/scene_tree.h"
+#include "vantage/scene.h"
+#include "vantage/target.h"
+
+namespace vantage::internal::prove {
+
+/// Positions are relative to `origin`, c in docs/proof.md.
+struct View {
+  Vec3 origin = Vec3::Zero();  ///< of the part, raised; scene frame
+  Vec3 normal = Vec3::Zero();  ///< to the front; unit length
+  bool all_sides = false;
+  std::vector<Vec3> whole;    ///< the part's corners
+  std::vector<Vec3> corners;  ///< less the strip along its outline
+  double margin_m = 0;        ///< the strip's width, and the height under which obstacles do not count
+};
+
+View make_view(const Target& target, std::size_t part, double lift_m);
+
+/// The scene's triangles that reach into `near`, in front of the target by more than the margin, and cut there.
+SceneTree obstacles_in_front(const Scene& scene, const View& view, const Box& near);
+
+}  // namespace vantage::internal::prove

@@ -1,0 +1,80 @@
+// vantage prove: verdicts, witnesses and exit codes.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "support/cli_fixture.h"
+
+namespace vantage {
+namespace {
+
+class CliProve : public testing::Cli {
+ protected:
+  void SetUp() override {
+    Cli::SetUp();
+    // A block beside a square that looks up.
+    write("city.obj",
+          "o ground\nv -60 -60 0\nv 60 -60 0\nv 60 60 0\nv -60 60 0\nf 1 2 3 4\n"
+          "o block\nv 10 -5 0\nv 14 -5 0\nv 14 5 0\nv 10 5 0\nv 10 -5 12\nv 14 -5 12\nv 14 5 12\nv 10 5 12\n"
+          "f 5 8 7 6\nf 9 10 11 12\nf 5 6 10 9\nf 6 7 11 10\nf 7 8 12 11\nf 8 5 9 12\n");
+    write_mission("");
+  }
+  void write_mission(const std::string& more) {
+    write("mission.yaml",
+          "scene: {mesh: city.obj}\ntarget: {vertices: [[-2, -2, 0], [2, -2, 0], [2, 2, 0], [-2, 2, 0]]}\n"
+          "sensor: {max_range: 50}\n" +
+              more);
+  }
+};
+
+TEST_F(CliProve, ProvesWhatWasComputed) {
+  output_of({"compute", "mission.yaml", "-q", "-o", "v.ply", "-o", "v.glb", "-o", "v.stl"});
+  for (const char* name : {"v.ply", "v.glb", "v.stl"}) {
+    const std::string table = output_of({"prove", "mission.yaml", name});
+    EXPECT_NE(table.find("\nproved\n"), std::string::npos) << table;
+    const auto json = nlohmann::json::parse(output_of({"prove", "mission.yaml", name, "--json"}));
+    EXPECT_EQ(json.at("verdict"), "proved");
+    EXPECT_EQ(json.at("unproved").size(), 0U);
+    EXPECT_TRUE(json.at("witness").is_null());
+    EXPECT_GT(json.at("far_facets"), 100);
+  }
+}
+
+TEST_F(CliProve, RefutesWithAWitness) {
+  // A box over the square that reaches behind the block.
+  write("box.obj",
+        "v -4 -4 1\nv 30 -4 1\nv 30 4 1\nv -4 4 1\nv -4 -4 20\nv 30 -4 20\nv 30 4 20\nv -4 4 20\n"
+        "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n");
+  const auto run_json = run({"prove", "mission.yaml", "box.obj", "--json"});
+  EXPECT_EQ(run_json.exit_code, 1) << run_json.err;
+  const auto json = nlohmann::json::parse(run_json.out);
+  EXPECT_EQ(json.at("verdict"), "wrong");
+  EXPECT_EQ(json.at("witness").at("object"), "block");
+  EXPECT_GT(json.at("witness").at("depth_m"), 1);
+  const auto table = run({"prove", "mission.yaml", "box.obj"});
+  EXPECT_EQ(table.exit_code, 1);
+  EXPECT_NE(table.out.find("hidden from"), std::string::npos) << table.out;
+  EXPECT_NE(table.out.find("WRONG"), std::string::npos) << table.out;
+}
+
+TEST_F(CliProve, TellsWhatHasNoProof) {
+  write_mission("navigation: {keep_out: [{min: [-5, -5, 10], max: [5, 5, 15]}]}\n");
+  output_of({"compute", "mission.yaml", "-q", "-o", "v.ply"});
+  const auto result = run({"prove", "mission.yaml", "v.ply", "--json"});
+  EXPECT_EQ(result.exit_code, 4) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_EQ(json.at("verdict"), "not proved");
+  EXPECT_EQ(json.at("claims").back().at("name"), "keep_out");
+  EXPECT_EQ(json.at("unproved").size(), 0U);
+}
+
+TEST_F(CliProve, RefusesWhatItCannotJudge) {
+  write("open.obj", "v 0 0 1\nv 5 0 1\nv 0 5 1\nv 0 0 9\nf 1 3 2\nf 1 2 4\nf 2 3 4\n");
+  expect_bad({"prove", "mission.yaml", "open.obj"}, "volume");
+  expect_bad({"prove", "mission.yaml", "missing.ply"}, "missing.ply");
+  expect_bad({"prove", "mission.yaml", "city.obj", "--shrink", "2"});
+}
+
+}  // namespace
+}  // namespace vantage

@@ -1,0 +1,207 @@
+// The proof of volumes: right ones are proved, and whatever claims too much is refuted with a witness.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "support/random.h"
+#include "support/scenes.h"
+#include "support/solids.h"
+#include "support/wording.h"
+#include "vantage/error.h"
+#include "vantage/navigation.h"
+#include "vantage/prepared_target.h"
+#include "vantage/prove.h"
+#include "vantage/volume.h"
+
+namespace vantage {
+namespace {
+
+using testing::code_of;
+using testing::Random;
+using testing::random_city;
+using testing::random_target;
+
+Mesh scaled_about(Mesh mesh, const Vec3& centre, double by) {
+  for (Vec3& vertex : mesh.vertices) vertex = centre + by * (vertex - centre);
+  return mesh;
+}
+
+/// A city with a target in a clearing, and its volume.
+struct City {
+  explicit City(std::uint64_t seed, int blocks = 30) : random(seed), scene(random_city(random, blocks, 12)) {
+    target = random_target(random, 5, 2, Vec3(0, 0, 0.5), Vec3(0, 0, 1));
+    const PreparedTarget prepared(PreparedScene(scene), target, sensor);
+    volume = compute_volume(prepared);
+  }
+  ProofReport prove(const Mesh& mesh, const ProveOptions& options = {}) const {
+    return prove_volume(scene, target, sensor, {}, mesh, options);
+  }
+
+  Random random;
+  Scene scene;
+  Target target;
+  Sensor sensor{.max_range_m = 80};
+  Volume volume;
+};
+
+bool crosses(const Scene& scene, const HiddenView& view) {
+  const Triangle& t = scene.mesh.triangles[view.triangle];
+  const Vec3 &a = scene.mesh.vertices[t[0]], &b = scene.mesh.vertices[t[1]], &c = scene.mesh.vertices[t[2]];
+  const Vec3 way = view.target_point - view.viewpoint, normal = (b - a).cross(c - a);
+  const double at = normal.dot(a - view.viewpoint) / normal.dot(way);
+  const Vec3 place = view.viewpoint + at * way;
+  const auto side = [&](const Vec3& from, const Vec3& to) { return normal.dot((to - from).cross(place - from)) > 0; };
+  return at > 0 && at < 1 && side(a, b) && side(b, c) && side(c, a);
+}
+
+TEST(Prove, VolumesOfRandomCitiesAreProved) {
+  for (std::uint64_t seed = 81; seed < 89; ++seed) {
+    const City city(seed);
+    ASSERT_FALSE(city.volume.empty()) << city.volume.reason;
+    const ProofReport report = city.prove(city.volume.mesh);
+    EXPECT_EQ(report.verdict(), ProofVerdict::proved) << "seed " << seed << ": " << report.unproved.size() << " facets";
+    EXPECT_TRUE(report.unproved.empty());
+    EXPECT_FALSE(report.witness);
+    EXPECT_GT(report.far_facets, 0.9 * static_cast<double>(report.facets));
+    EXPECT_GT(report.separations, 0u);
+  }
+}
+
+/// Twice the part that the proof leaves out: refuted, by a place from which a point of the target is hidden.
+TEST(Prove, AVolumeThatIsAMillionthTooLargeIsRefuted) {
+  for (std::uint64_t seed = 81; seed < 85; ++seed) {
+    const City city(seed);
+    const ProofReport report = city.prove(scaled_about(city.volume.mesh, city.volume.frame.origin, 1.000002));
+    EXPECT_EQ(report.claims[0].verdict, ProofVerdict::wrong) << "seed " << seed;
+    ASSERT_TRUE(report.witness);
+    EXPECT_TRUE(crosses(city.scene, *report.witness));
+    EXPECT_FALSE(report.witness->object.empty());
+    EXPECT_TRUE(std::find(report.unproved.begin(), report.unproved.end(), report.witness->facet) !=
+                report.unproved.end());
+  }
+}
+
+/// The volume that is computed without an obstacle which bounds it claims what that one hides.
+TEST(Prove, AVolumeThatForgotAnObstacleIsRefuted) {
+  const City city(90);
+  std::uint32_t dropped = 0;
+  double most = 0;
+  for (const Cause& cause : city.volume.causes) {
+    if (!cause.object || cause.name == "ground" || cause.area_m2 <= most) continue;
+    most = cause.area_m2;
+    dropped = *cause.object;
+  }
+  ASSERT_GT(most, 0);
+  Scene less = city.scene;
+  less.mesh.triangles.clear();
+  less.object_of.clear();
+  for (std::size_t t = 0; t < city.scene.mesh.triangles.size(); ++t) {
+    if (city.scene.object_of[t] == dropped) continue;
+    less.mesh.triangles.push_back(city.scene.mesh.triangles[t]);
+    less.object_of.push_back(city.scene.object_of[t]);
+  }
+  const Volume more = compute_volume(PreparedTarget(PreparedScene(less), city.target, city.sensor));
+  const ProofReport report = city.prove(more.mesh);
+  EXPECT_EQ(report.verdict(), ProofVerdict::wrong);
+  ASSERT_TRUE(report.witness);
+  EXPECT_TRUE(crosses(city.scene, *report.witness));
+  EXPECT_EQ(report.witness->object, city.scene.objects[dropped].name);
+  EXPECT_GT(report.witness->depth_m, 0.01);
+  EXPECT_GT(report.unproved_area_share, 0);
+}
+
+TEST(Prove, CutVolumesAreProvedWithTheirLimits) {
+  const City city(91);
+  Navigation navigation;
+  navigation.altitude = Navigation::Altitude{10, 40};
+  navigation.keep_out = {Box{{-5, -5, 15}, {5, 5, 20}}};
+  const Volume cut = cut_to_navigation(city.volume, navigation);
+  ProofReport report = prove_volume(city.scene, city.target, city.sensor, navigation, cut.mesh);
+  EXPECT_EQ(report.claims[0].verdict, ProofVerdict::proved);
+  EXPECT_EQ(report.verdict(), ProofVerdict::not_proved);  // a box to stay out of is not convex
+  for (const ClaimProof& claim : report.claims) {
+    EXPECT_EQ(claim.verdict, claim.name == "keep_out" ? ProofVerdict::not_proved : ProofVerdict::proved) << claim.name;
+  }
+  navigation.altitude = Navigation::Altitude{10, 39.9};
+  report = prove_volume(city.scene, city.target, city.sensor, navigation, cut.mesh);
+  EXPECT_EQ(report.verdict(), ProofVerdict::wrong);
+}
+
+TEST(Prove, RangeAndFrontAreClaimsToo) {
+  City city(92, 0);
+  EXPECT_EQ(city.prove(city.volume.mesh).verdict(), ProofVerdict::proved);
+  city.sensor.max_range_m = 79.9;
+  EXPECT_EQ(city.prove(city.volume.mesh).claims[1].verdict, ProofVerdict::wrong);
+  city.sensor.max_range_m = 80;
+  Mesh lowered = city.volume.mesh;
+  for (Vec3& vertex : lowered.vertices) vertex.z() -= 1;
+  EXPECT_EQ(city.prove(lowered).claims[2].verdict, ProofVerdict::wrong);
+}
+
+TEST(Prove, AllPartsMustBeSeen) {
+  City city(93);
+  const Target first = city.target;
+  city.target.parts.push_back({{6, 0, 0.5}, {8, 0, 0.5}, {7, 2, 0.5}});
+  EXPECT_EQ(city.prove(city.volume.mesh).verdict(), ProofVerdict::wrong);
+  const Volume both = compute_volume(PreparedTarget(PreparedScene(city.scene), city.target, city.sensor));
+  EXPECT_EQ(city.prove(both.mesh).verdict(), ProofVerdict::proved);
+}
+
+TEST(Prove, APointThatIsSeenFromAllSides) {
+  City city(94);
+  city.target = Target::point({0, 0, 6});
+  const Volume round = compute_volume(PreparedTarget(PreparedScene(city.scene), city.target, city.sensor));
+  EXPECT_EQ(city.prove(round.mesh).verdict(), ProofVerdict::proved);
+  EXPECT_EQ(city.prove(scaled_about(round.mesh, Vec3(0, 0, 6), 1.00001)).verdict(), ProofVerdict::wrong);
+}
+
+TEST(Prove, TheSameOnOneThreadAndWithVerticesApart) {
+  const City city(95);
+  Mesh soup;
+  for (const Triangle& t : city.volume.mesh.triangles) {
+    const auto first = static_cast<std::uint32_t>(soup.vertices.size());
+    for (const std::uint32_t v : t) soup.vertices.push_back(city.volume.mesh.vertices[v]);
+    soup.triangles.push_back({first, first + 1, first + 2});
+  }
+  const ProofReport a = city.prove(city.volume.mesh), b = city.prove(soup);
+  EXPECT_EQ(a.verdict(), ProofVerdict::proved);
+  EXPECT_EQ(b.verdict(), ProofVerdict::proved);
+  EXPECT_EQ(a.far_facets, b.far_facets);
+}
+
+TEST(Prove, RefusesWhatIsNoSolid) {
+  const City city(96, 4);
+  const auto code = [&](const Mesh& mesh) { return code_of([&] { city.prove(mesh); }); };
+  EXPECT_EQ(code({}), ErrorCode::mesh_empty);
+  Mesh open = city.volume.mesh;
+  open.triangles.pop_back();
+  EXPECT_EQ(code(open), ErrorCode::mesh_not_closed);
+  Mesh turned = city.volume.mesh;
+  std::swap(turned.triangles[0][0], turned.triangles[0][1]);
+  EXPECT_EQ(code(turned), ErrorCode::mesh_not_oriented);
+  Mesh inside_out = city.volume.mesh;
+  for (Triangle& t : inside_out.triangles) std::swap(t[0], t[1]);
+  EXPECT_EQ(code(inside_out), ErrorCode::mesh_inside_out);
+  Mesh infinite = city.volume.mesh;
+  infinite.vertices[0].x() = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(code(infinite), ErrorCode::coordinate_not_finite);
+  Mesh beyond = city.volume.mesh;
+  beyond.triangles[0][0] = static_cast<std::uint32_t>(beyond.vertices.size());
+  EXPECT_EQ(code(beyond), ErrorCode::index_out_of_range);
+}
+
+TEST(Prove, RefusesOptionsAndSharesAndLinks) {
+  City city(97, 4);
+  EXPECT_EQ(code_of([&] { city.prove(city.volume.mesh, {.shrink = -1}); }), ErrorCode::value_out_of_range);
+  EXPECT_EQ(code_of([&] { city.prove(city.volume.mesh, {.shrink = 1}); }), ErrorCode::value_out_of_range);
+  EXPECT_EQ(code_of([&] { city.prove(city.volume.mesh, {.lift_m = {0, 0}}); }), ErrorCode::array_sizes_differ);
+  city.sensor.visible = VisibleShare{0.8};
+  EXPECT_EQ(code_of([&] { city.prove(city.volume.mesh); }), ErrorCode::not_applicable);
+}
+
+}  // namespace
+}  // namespace vantage
