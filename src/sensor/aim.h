@@ -24,25 +24,11 @@ struct PictureAxes {
   Vec3 ahead, right, up;
 };
 
-/// An angle with its sine and cosine: sums of such need no new ones.
+/// An angle with its sine and cosine.
 struct Angle {
-  explicit Angle(double value = 0) : radians(value), sine(std::sin(value)), cosine(std::cos(value)) {}
+  explicit Angle(double value = 0) : sine(std::sin(value)), cosine(std::cos(value)) {}
 
-  Angle operator+(const Angle& other) const {
-    Angle sum = *this;
-    sum.radians += other.radians;
-    sum.sine = sine * other.cosine + cosine * other.sine;
-    sum.cosine = cosine * other.cosine - sine * other.sine;
-    return sum;
-  }
-  Angle operator-() const {
-    Angle opposite = *this;
-    opposite.radians = -radians;
-    opposite.sine = -sine;
-    return opposite;
-  }
-
-  double radians, sine, cosine;
+  double sine, cosine;
 };
 
 inline PictureAxes picture_axes(const Angle& yaw, const Angle& pitch, const Angle& roll) {
@@ -51,8 +37,8 @@ inline PictureAxes picture_axes(const Angle& yaw, const Angle& pitch, const Angl
   return {ahead, level * roll.cosine - above * roll.sine, above * roll.cosine + level * roll.sine};
 }
 
-inline PictureEdges picture_edges(const Pinhole& camera, const Aim& aim, double roll) {
-  const auto [ahead, right, up] = picture_axes(Angle(aim.yaw), Angle(aim.pitch), Angle(roll));
+inline PictureEdges picture_edges(const Pinhole& camera, const Aim& aim, const Angle& roll) {
+  const auto [ahead, right, up] = picture_axes(Angle(aim.yaw), Angle(aim.pitch), roll);
   return {camera.half_width * ahead + right, camera.half_width * ahead - right, camera.half_height * ahead + up,
           camera.half_height * ahead - up};
 }

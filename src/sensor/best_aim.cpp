@@ -33,7 +33,7 @@ Aim AimFinder::allowed(Aim aim) const {
 bool AimFinder::is_at_limit(const Aim& aim) const { return aim.pitch <= min_pitch_ || aim.pitch >= max_pitch_; }
 
 AimedView AimFinder::view(const Aim& aim) const {
-  AimedView view{aim, picture_edges(camera_, aim, roll_.radians), {}};
+  AimedView view{aim, picture_edges(camera_, aim, roll_), {}};
   for (std::size_t k = 0; k < 4; ++k) {
     view.need[k] = least_;
     for (const Vec3& corner : corners_) view.need[k] = std::max(view.need[k], -view.edges[k].dot(corner));

@@ -99,7 +99,7 @@ class Search {
  private:
   const Pinhole camera_;
   const std::optional<double> yaw_;
-  const double roll_;
+  const Angle roll_;
   std::vector<Vec3> directions_;
 };
 

@@ -78,7 +78,7 @@ class FrameSurfaceBuilder {
   const FrameView& view_;
   AimFinder finder_;
   std::array<double, 2> normal_length_;
-  double roll_;
+  sensor::Angle roll_;
   double radius_ = 0, cap_ = 0;
   std::vector<AimedView> vertical_;
   std::vector<Node> nodes_;
