@@ -142,6 +142,27 @@ TEST(Prove, RangeAndFrontAreClaimsToo) {
   EXPECT_EQ(city.prove(lowered).claims[2].verdict, ProofVerdict::wrong);
 }
 
+/// As a file of single-precision numbers has it: what it says that these moved is allowed, and no more.
+TEST(Prove, AllowsWhatAFileSaysItRounded) {
+  const City city(91);
+  Navigation navigation;
+  navigation.altitude = Navigation::Altitude{10.2, 40.2};
+  Mesh rounded = cut_to_navigation(city.volume, navigation).mesh;
+  double moved = 0;
+  for (Vec3& vertex : rounded.vertices) {
+    const Vec3 was = vertex;
+    vertex = vertex.cast<float>().cast<double>();
+    moved = std::max(moved, (vertex - was).norm());
+  }
+  const auto verdict = [&](double rounding_m) {
+    const ProveOptions options{.rounding_m = rounding_m};
+    return prove_volume(city.scene, city.target, city.sensor, navigation, rounded, options).claims[3].verdict;
+  };
+  EXPECT_EQ(verdict(moved), ProofVerdict::proved);
+  EXPECT_EQ(verdict(0), ProofVerdict::wrong);
+  EXPECT_EQ(code_of([&] { verdict(-1); }), ErrorCode::value_out_of_range);
+}
+
 TEST(Prove, AllPartsMustBeSeen) {
   City city(93);
   const Target first = city.target;

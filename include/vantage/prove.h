@@ -24,6 +24,8 @@ VANTAGE_API const char* name_of(ProofVerdict verdict);
 struct ProveOptions {
   double shrink = 1e-6;             ///< the proof is of the volume shrunk by this part of the distance towards the
                                     ///< target; at least 0, less than 1
+  double rounding_m = 0;            ///< of the volume's file (Scene::rounding_m): limits may be broken by so much, and
+                                    ///< sight is wrong only where it is hidden deeper below the facet
   std::vector<double> lift_m = {};  ///< how far each part of the target was raised (Volume::lift_m); empty: not at all
 };
 
@@ -40,7 +42,7 @@ struct HiddenView {
 struct ClaimProof {
   std::string name;  ///< "sight", "range", "front", or a limit's name as in vantage/query.h
   ProofVerdict verdict = ProofVerdict::not_proved;
-  std::string text;  ///< by what, or why not
+  std::string text;  ///< by what, why not, or where it is wrong
 };
 
 struct ProofReport {
@@ -52,9 +54,10 @@ struct ProofReport {
   std::optional<HiddenView> witness;    ///< the deepest that was found; of `wrong` sight
   std::size_t separations = 0;          ///< planes that were found between a part of the view and obstacles
   double shrink = 0;                    ///< what was asked for
-  double margin_m = 0;  ///< a strip of the target along its outline, and what lies lower over its plane,
-                        ///< is left out: so much
-  double lift_m = 0;    ///< the largest of a part
+  double margin_m = 0;    ///< a strip of the target along its outline, and what lies lower over its plane,
+                          ///< is left out: so much
+  double lift_m = 0;      ///< the largest of a part
+  double rounding_m = 0;  ///< what was allowed
   double seconds = 0;
 
   /// The worst of the claims.

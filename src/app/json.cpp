@@ -190,6 +190,7 @@ std::string json_text(const ProofReport& report) {
   json["separations"] = report.separations;
   json["shrink"] = report.shrink;
   json["margin_m"] = report.margin_m;
+  json["rounding_m"] = report.rounding_m;
   json["lift_m"] = report.lift_m;
   json["seconds"] = report.seconds;
   return dumped(json, 2);

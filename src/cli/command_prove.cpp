@@ -53,6 +53,9 @@ std::string table_text(const ProofReport& report, const std::string& file) {
             "millionths of the distance: so much smaller is what is proved");
   table.row("margin", fixed(1e9 * report.margin_m, 3), "nanometres: a strip along the target's outline is left out");
   if (report.lift_m > 0) table.row("lift", fixed(report.lift_m, 6), "metres that the target was raised");
+  if (report.rounding_m > 0) {
+    table.row("rounding", fixed(report.rounding_m, 6), "metres that the file's numbers moved the surface: allowed");
+  }
   table.row("time", fixed(report.seconds, 3), "seconds");
   const ProofVerdict verdict = report.verdict();
   table.heading(verdict == ProofVerdict::proved  ? "proved"
@@ -95,12 +98,12 @@ void join(ProofReport& all, const ProofReport& one) {
 
 ProofReport prove(const Mission& mission, const VolumeFile& read, const ProveArguments& options,
                   const Progress& progress) {
-  const std::vector<double> lifts = verify_options(read, mission).lift_m;
+  const VerifyOptions known = verify_options(read, mission);
   std::optional<ProofReport> all;
   std::size_t first = 0;
   for (const Target& target : targets_of(mission)) {
-    ProveOptions prove_options{.shrink = options.shrink};
-    for (std::size_t i = 0; i < target.parts.size(); ++i) prove_options.lift_m.push_back(lifts[first + i]);
+    ProveOptions prove_options{.shrink = options.shrink, .rounding_m = known.rounding_m};
+    for (std::size_t i = 0; i < target.parts.size(); ++i) prove_options.lift_m.push_back(known.lift_m[first + i]);
     first += target.parts.size();
     const ProofReport one = prove_volume(mission.loaded.scene, target, mission.sensor, mission.navigation,
                                          read.volume.mesh, prove_options, progress);

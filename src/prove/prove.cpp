@@ -26,6 +26,10 @@ void check_options(const Target& target, const Sensor& sensor, const ProveOption
     throw Error(ErrorCode::value_out_of_range, "shrink is not a number from 0 to below 1", "shrink",
                 "give the part of the distance by which the volume is shrunk, as 1e-6");
   }
+  if (!(options.rounding_m >= 0 && std::isfinite(options.rounding_m))) {
+    throw Error(ErrorCode::value_out_of_range, "rounding_m is not a number of at least 0", "rounding_m",
+                "give how far a file's numbers moved the surface, in metres");
+  }
   if (!options.lift_m.empty() && options.lift_m.size() != target.parts.size()) {
     throw Error(ErrorCode::array_sizes_differ, "the lifts are not as many as the target's parts", "lift_m",
                 "give one for each part, or none");
@@ -35,6 +39,23 @@ void check_options(const Target& target, const Sensor& sensor, const ProveOption
   throw Error(ErrorCode::not_applicable,
               std::string("the volume is for ") + what + ", and only the sight of a whole target can be proved",
               sensor.visible ? "sensor.visible" : "sensor.link", "check it with 'vantage verify'");
+}
+
+/// The vertex at which something is largest.
+struct Worst {
+  double by = -std::numeric_limits<double>::infinity();
+  Vec3 at = Vec3::Zero();  ///< scene frame
+
+  void see(double value, const Vec3& place) {
+    if (value <= by) return;
+    by = value;
+    at = place;
+  }
+};
+
+std::string at_text(const Vec3& place) {
+  return "the vertex at " + std::to_string(place.x()) + ", " + std::to_string(place.y()) + ", " +
+         std::to_string(place.z());
 }
 
 class Prover {
@@ -62,7 +83,8 @@ class Prover {
   const ProveOptions& options_;
   prove::SolidMesh solid_;
   ProofReport report_;
-  double farthest_ = 0, lowest_ = std::numeric_limits<double>::infinity();
+  Worst farthest_;  ///< from a corner of the target, metres
+  Worst behind_;    ///< its plane, metres
 };
 
 std::vector<Vec3> Prover::shrunk(const prove::View& view) const {
@@ -81,7 +103,11 @@ void Prover::look_for_witness(const std::vector<Vec3>& vertices, const std::vect
     const auto& [a, b, c] = facets[open[i].facet];
     const prove::TreeTriangle& obstacle = obstacles.triangles[open[i].triangle];
     const auto blocked = prove::find_blocked({vertices[a], vertices[b], vertices[c]}, view, obstacle);
-    if (!blocked || (report_.witness && blocked->depth_m <= report_.witness->depth_m)) continue;
+    if (!blocked) continue;
+    const Vec3 normal = (vertices[b] - vertices[a]).cross(vertices[c] - vertices[a]).normalized();
+    const double below = blocked->depth_m * std::abs(normal.dot(blocked->viewpoint.normalized()));
+    if (options_.rounding_m > 0 && !(below > options_.rounding_m)) continue;
+    if (report_.witness && blocked->depth_m <= report_.witness->depth_m) continue;
     const std::uint32_t object = scene_.object_of.empty() ? 0 : scene_.object_of[obstacle.of];
     report_.witness = HiddenView{.viewpoint = view.origin + blocked->viewpoint,
                                  .target_point = view.origin + blocked->target_point,
@@ -104,8 +130,8 @@ void Prover::look_at(std::size_t part, double lift_m, const internal::core::Prog
     for (const std::uint32_t v : triangle) {
       const Vec3& at = vertices[v];
       near.extend(at);
-      for (const Vec3& corner : view.whole) farthest_ = std::max(farthest_, (at - corner).norm());
-      if (!view.all_sides) lowest_ = std::min(lowest_, view.normal.dot(at) + view.margin_m);
+      for (const Vec3& corner : view.whole) farthest_.see((at - corner).norm(), view.origin + at);
+      if (!view.all_sides) behind_.see(-view.normal.dot(at) - view.margin_m, view.origin + at);
     }
     const auto& [a, b, c] = triangle;
     if (prove::orientation(vertices[a], vertices[b], vertices[c], Vec3::Zero()) <= 0) continue;
@@ -125,6 +151,7 @@ void Prover::look_at(std::size_t part, double lift_m, const internal::core::Prog
 ProofReport Prover::run(const internal::core::ProgressReporter& progress) {
   report_.facets = solid_.mesh.triangles.size();
   report_.shrink = options_.shrink;
+  report_.rounding_m = options_.rounding_m;
   const double parts = static_cast<double>(target_.parts.size());
   for (std::size_t part = 0; part < target_.parts.size(); ++part) {
     const double lift = options_.lift_m.empty() ? 0 : options_.lift_m[part];
@@ -138,33 +165,43 @@ ProofReport Prover::run(const internal::core::ProgressReporter& progress) {
   report_.claims.push_back({"sight", sight,
                             unproved.empty() ? "what lies between a facet and the target is free, for every facet"
                                              : "of some facets it is open, or wrong"});
-  const bool in_range = farthest_ <= range_;
-  report_.claims.push_back({"range", in_range ? ProofVerdict::proved : ProofVerdict::wrong,
-                            in_range ? "every vertex is within range of every corner of the target"
-                                     : "a vertex is farther from a corner of the target than the range"});
-  const bool in_front = lowest_ >= 0;
-  report_.claims.push_back(
-      {"front", in_front ? ProofVerdict::proved : ProofVerdict::wrong,
-       in_front ? "every vertex is in front of the target" : "a vertex is behind the target's plane"});
+  const auto add = [&](const char* name, bool holds, const char* how, const std::string& broken) {
+    report_.claims.push_back(
+        {name, holds ? ProofVerdict::proved : ProofVerdict::wrong, holds ? std::string(how) : broken});
+  };
+  add("range", farthest_.by <= range_ + options_.rounding_m,
+      "every vertex is within range of every corner of the target",
+      at_text(farthest_.at) + " is " + std::to_string(farthest_.by) + " m from a corner of the target");
+  add("front", behind_.by <= options_.rounding_m, "every vertex is in front of the target",
+      at_text(behind_.at) + " is " + std::to_string(behind_.by) + " m behind the target's plane");
   return std::move(report_);
 }
 
 /// Limits that are convex hold for all of a volume if they hold at its vertices.
-void prove_navigation(const Navigation& navigation, const Mesh& volume, std::vector<ClaimProof>& claims) {
-  const Box bounds = bounding_box(volume);
-  const auto add = [&](const std::string& name, bool holds) {
+void prove_navigation(const Navigation& navigation, const Mesh& volume, double rounding_m,
+                      std::vector<ClaimProof>& claims) {
+  const auto add = [&](const std::string& name, const Box& box) {
+    Worst outside;
+    for (const Triangle& t : volume.triangles) {
+      for (const std::uint32_t v : t) {
+        const Vec3& at = volume.vertices[v];
+        outside.see((box.min - at).cwiseMax(at - box.max).maxCoeff(), at);
+      }
+    }
+    const bool holds = outside.by <= rounding_m;
     claims.push_back({name, holds ? ProofVerdict::proved : ProofVerdict::wrong,
-                      holds ? "it holds at every vertex" : "it does not hold at a vertex"});
+                      holds ? "it holds at every vertex"
+                            : at_text(outside.at) + " is outside by " + std::to_string(outside.by) + " m"});
   };
   const auto leave = [&](const std::string& name) {
     claims.push_back({name, ProofVerdict::not_proved, "has no proof: 'vantage verify' tries points"});
   };
   if (navigation.altitude) {
-    add("altitude", bounds.min.z() >= navigation.altitude->min_m && bounds.max.z() <= navigation.altitude->max_m);
+    const double all = std::numeric_limits<double>::infinity();
+    add("altitude", {{-all, -all, navigation.altitude->min_m}, {all, all, navigation.altitude->max_m}});
   }
   if (navigation.keep_in.size() == 1 && navigation.keep_in_zones.empty()) {
-    const Box& box = navigation.keep_in[0];
-    add("keep_in", (bounds.min.array() >= box.min.array()).all() && (bounds.max.array() <= box.max.array()).all());
+    add("keep_in", navigation.keep_in[0]);
   } else if (!navigation.keep_in.empty() || !navigation.keep_in_zones.empty()) {
     leave("keep_in");
   }
@@ -213,7 +250,7 @@ ProofReport prove_volume(const Scene& scene, const Target& target, const Sensor&
   const internal::core::ProgressReporter progress(callback);
   progress.begin("prove");
   ProofReport report = Prover(scene, target, sensor, volume, options).run(progress);
-  prove_navigation(navigation, volume, report.claims);
+  prove_navigation(navigation, volume, options.rounding_m, report.claims);
   name_limits_of_sensor(sensor, report.claims);
   if (!report.unproved.empty()) {
     Mesh unproved{volume.vertices, {}};
