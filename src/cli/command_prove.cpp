@@ -1,7 +1,12 @@
+#include <algorithm>
+#include <cstddef>
 #include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
-#include "cli/chosen_target.h"
 #include "cli/command.h"
+#include "cli/judged_volume.h"
 #include "cli/progress_line.h"
 #include "cli/standard_streams.h"
 #include "cli/text_table.h"
@@ -25,11 +30,8 @@ constexpr const char* kProveExamples =
     "and a point of the target between which the scene lies, and both are printed. Limits without a proof are named;\n"
     "'vantage verify' tries points for them. Exit code 0: all is proved. 1: something is wrong. 4: neither.\n";
 
-struct ProveArguments {
-  CommonOptions common;
-  std::string mission_file, volume_file, target;
+struct ProveArguments : JudgeArguments {
   double shrink = ProveOptions{}.shrink;
-  bool json = false;
 };
 
 std::string table_text(const ProofReport& report, const std::string& file) {
@@ -117,17 +119,8 @@ ProofReport prove(const Mission& mission, const VolumeFile& read, const ProveArg
 }
 
 int run_prove(const ProveArguments& options) {
-  check_readable(options.volume_file, "the volume");
-  const MissionFile file = read_mission_argument(options.mission_file);
   ProgressLine progress(options.common);
-  const Mission resolved = resolve_mission(file, progress.callback());
-  const VolumeFile read = read_volume(options.volume_file, resolved.loaded.scene, progress.callback());
-  const Mission mission = of_volume(resolved, options.target, read);
-  if (!options.common.quiet) {
-    notes(mission_warnings(mission));
-    notes(read.notes);
-    notes(volume_warnings(read, mission));
-  }
+  const auto [mission, read] = read_judged(options, progress);
   const ProofReport report = prove(mission, read, options, progress.callback());
   if (options.json) {
     print(json_text(report));
@@ -151,21 +144,12 @@ void add_prove(CLI::App& app, Command& chosen) {
   CLI::App* command =
       app.add_subcommand("prove", "Prove that every position of a volume sees the target, or refute it");
   auto options = std::make_shared<ProveArguments>();
-  command
-      ->add_option("mission", options->mission_file,
-                   "The mission that the volume was computed for; - for standard input")
-      ->required()
-      ->option_text("MISSION");
-  command->add_option("volume", options->volume_file, "The volume: PLY, OBJ, STL or GLB")
-      ->required()
-      ->option_text("FILE");
+  add_judge_options(*command, *options);
   command
       ->add_option("--shrink", options->shrink,
                    "The proof is of the volume smaller by this part of the distance (default 1e-6)")
       ->check(CLI::Range(0.0, 0.1))
       ->option_text("PART");
-  command->add_option("--target", options->target, kTargetHelp)->option_text("NAME");
-  command->add_flag("--json", options->json, "Print JSON instead of a table");
   finish<ProveArguments>(*command, options, kProveExamples, chosen, run_prove);
 }
 

@@ -1,8 +1,8 @@
 #include <memory>
 #include <vector>
 
-#include "cli/chosen_target.h"
 #include "cli/command.h"
+#include "cli/judged_volume.h"
 #include "cli/progress_line.h"
 #include "cli/standard_streams.h"
 #include "cli/text_table.h"
@@ -26,13 +26,10 @@ constexpr const char* kVerifyExamples =
     "  The depth of a point is its distance to the volume's surface: how far inside the volume an over-claimed point\n"
     "  lies, how far outside of it an under-claimed one. The worst depth is the greatest that was met, not a bound.\n";
 
-struct VerifyArguments {
-  CommonOptions common;
-  std::string mission_file, volume_file, target;
+struct VerifyArguments : JudgeArguments {
   std::size_t points = VerifyOptions{}.points;
   std::uint64_t seed = VerifyOptions{}.seed;
   double lift_m = -1;  // below zero: as the report says
-  bool json = false;
 };
 
 constexpr double kMostLift = 0.01;  // metres; compute raises a target by no more than 2 mm
@@ -102,18 +99,8 @@ std::string needed_text(const std::vector<std::vector<Target>>& views) {
 }
 
 int run_verify(const VerifyArguments& options) {
-  check_readable(options.volume_file, "the volume");
-  const MissionFile file = read_mission_argument(options.mission_file);
   ProgressLine progress(options.common);
-  const Mission resolved = resolve_mission(file, progress.callback());
-  const VolumeFile read = read_volume(options.volume_file, resolved.loaded.scene, progress.callback());
-  const Mission mission = of_volume(resolved, options.target, read);
-  const std::vector<Warning> warnings = mission_warnings(mission);
-  if (!options.common.quiet) {
-    notes(warnings);
-    notes(read.notes);
-    notes(volume_warnings(read, mission));
-  }
+  const auto [mission, read] = read_judged(options, progress);
   VerifyOptions verify_options = vantage::verify_options(read, mission);
   verify_options.points = options.points;
   verify_options.seed = options.seed;
@@ -143,14 +130,7 @@ int run_verify(const VerifyArguments& options) {
 void add_verify(CLI::App& app, Command& chosen) {
   CLI::App* command = app.add_subcommand("verify", "Check a volume by ray casting, independently of how it was made");
   auto options = std::make_shared<VerifyArguments>();
-  command
-      ->add_option("mission", options->mission_file,
-                   "The mission that the volume was computed for; - for standard input")
-      ->required()
-      ->option_text("MISSION");
-  command->add_option("volume", options->volume_file, "The volume: PLY, OBJ, STL or GLB")
-      ->required()
-      ->option_text("FILE");
+  add_judge_options(*command, *options);
   command->add_option("--points", options->points, "Viewpoints to try (default 20000)")
       ->check(CLI::Range(std::size_t{1}, std::size_t{10000000}))
       ->option_text("N");
@@ -161,8 +141,6 @@ void add_verify(CLI::App& app, Command& chosen) {
           "How far compute raised the target (default: as the volume's file or the report beside it says, or 0)")
       ->check(CLI::Range(0.0, kMostLift))
       ->option_text("METRES");
-  command->add_option("--target", options->target, kTargetHelp)->option_text("NAME");
-  command->add_flag("--json", options->json, "Print JSON instead of a table");
   finish<VerifyArguments>(*command, options, kVerifyExamples, chosen, run_verify);
 }
 
