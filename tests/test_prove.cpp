@@ -21,6 +21,7 @@ namespace vantage {
 namespace {
 
 using testing::code_of;
+using testing::expect_code;
 using testing::Random;
 using testing::random_city;
 using testing::random_target;
@@ -196,23 +197,25 @@ TEST(Prove, TheSameOnOneThreadAndWithVerticesApart) {
 
 TEST(Prove, RefusesWhatIsNoSolid) {
   const City city(96, 4);
-  const auto code = [&](const Mesh& mesh) { return code_of([&] { city.prove(mesh); }); };
-  EXPECT_EQ(code({}), ErrorCode::mesh_empty);
+  const auto expect = [&](const Mesh& mesh, ErrorCode code) {
+    expect_code([&] { city.prove(mesh); }, code, "volume");  // which edge it is differs from compiler to compiler
+  };
+  expect({}, ErrorCode::mesh_empty);
   Mesh open = city.volume.mesh;
   open.triangles.pop_back();
-  EXPECT_EQ(code(open), ErrorCode::mesh_not_closed);
+  expect(open, ErrorCode::mesh_not_closed);
   Mesh turned = city.volume.mesh;
   std::swap(turned.triangles[0][0], turned.triangles[0][1]);
-  EXPECT_EQ(code(turned), ErrorCode::mesh_not_oriented);
+  expect(turned, ErrorCode::mesh_not_oriented);
   Mesh inside_out = city.volume.mesh;
   for (Triangle& t : inside_out.triangles) std::swap(t[0], t[1]);
-  EXPECT_EQ(code(inside_out), ErrorCode::mesh_inside_out);
+  expect(inside_out, ErrorCode::mesh_inside_out);
   Mesh infinite = city.volume.mesh;
   infinite.vertices[0].x() = std::numeric_limits<double>::infinity();
-  EXPECT_EQ(code(infinite), ErrorCode::coordinate_not_finite);
+  expect(infinite, ErrorCode::coordinate_not_finite);
   Mesh beyond = city.volume.mesh;
   beyond.triangles[0][0] = static_cast<std::uint32_t>(beyond.vertices.size());
-  EXPECT_EQ(code(beyond), ErrorCode::index_out_of_range);
+  expect(beyond, ErrorCode::index_out_of_range);
 }
 
 TEST(Prove, RefusesOptionsAndSharesAndLinks) {
