@@ -76,5 +76,52 @@ TEST_F(CliProve, RefusesWhatItCannotJudge) {
   expect_bad({"prove", "mission.yaml", "city.obj", "--shrink", "2"});
 }
 
+TEST_F(CliProve, WritesACertificateAndItsScene) {
+  output_of({"compute", "mission.yaml", "-q", "-o", "v.ply", "-o", "v.stl"});
+  const std::string told = output_of({"prove", "mission.yaml", "v.ply", "--certificate", "v.cert"});
+  EXPECT_NE(told.find("v.cert"), std::string::npos) << told;
+  const auto json = nlohmann::json::parse(testing::content(folder_ / "v.cert"));
+  EXPECT_EQ(json.at("format"), "vantage certificate 1");
+  EXPECT_EQ(json.at("scene").at("file"), "v.scene.ply");
+  EXPECT_EQ(json.at("volume").at("file"), "v.ply");
+  ASSERT_EQ(json.at("parts").size(), 1u);
+  const auto proof = nlohmann::json::parse(output_of({"prove", "mission.yaml", "v.ply", "--json"}));
+  EXPECT_EQ(json.at("parts")[0].at("facets").size(), proof.at("far_facets"));
+
+  const auto stl = run({"prove", "mission.yaml", "v.stl", "--certificate", "stl.cert"});
+  EXPECT_EQ(stl.exit_code, 2);
+  EXPECT_NE(stl.err.find("v.stl"), std::string::npos) << stl.err;
+  const auto over = run({"prove", "mission.yaml", "v.ply", "--certificate", "v.ply"});
+  EXPECT_EQ(over.exit_code, 2) << over.err;
+  EXPECT_EQ(run({"prove", "mission.yaml", "v.ply", "--certificate", "none/v.cert"}).exit_code, 2);
+}
+
+TEST_F(CliProve, WritesNoCertificateOfWhatIsWrong) {
+  output_of({"compute", "mission.yaml", "-q", "-o", "v.ply"});
+  write_mission("navigation: {altitude: [1, 20]}\n");
+  write("v.cert", testing::kOldOutput);
+  const auto result = run({"prove", "mission.yaml", "v.ply", "--certificate", "v.cert"});
+  EXPECT_EQ(result.exit_code, 1) << result.err;
+  EXPECT_EQ(testing::content(folder_ / "v.cert"), testing::kOldOutput);
+  write("mission.yaml",
+        "scene: {mesh: city.obj}\ntarget: {vertices: [[-2, -2, 0], [2, -2, 0], [2, 2, 0], [-2, 2, 0]]}\n"
+        "sensor: {max_range: 49}\n");
+  write("v.cert", testing::kOldOutput);
+  const auto wrong = run({"prove", "mission.yaml", "v.ply", "--certificate", "v.cert"});
+  EXPECT_EQ(wrong.exit_code, 1) << wrong.err;
+  EXPECT_EQ(testing::content(folder_ / "v.cert"), testing::kOldOutput);
+}
+
+TEST_F(CliProve, ComputeWritesOnlyWhatIsProved) {
+  output_of({"compute", "mission.yaml", "-q", "-o", "v.ply", "--prove"});
+  EXPECT_GT(testing::content(folder_ / "v.ply").size(), 1000u);
+  write_mission("navigation: {meshes: [room.obj]}\n");
+  write("room.obj", "v -9 -9 1\nv 9 -9 1\nv 0 9 1\nv 0 0 20\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
+  const auto result = run({"compute", "mission.yaml", "-o", "w.ply", "--prove"});
+  EXPECT_EQ(result.exit_code, 4) << result.err;
+  EXPECT_NE(result.err.find("meshes"), std::string::npos) << result.err;
+  EXPECT_FALSE(testing::fs::exists(folder_ / "w.ply"));
+}
+
 }  // namespace
 }  // namespace vantage

@@ -27,7 +27,8 @@ VANTAGE_API std::string json_text(const LoadedScene& loaded);
 /// The same with what preparing it found.
 VANTAGE_API std::string json_text(const LoadedScene& loaded, const SceneStatistics& statistics);
 
-VANTAGE_API std::string json_text(const VerifyReport& report);
+/// `proof`: what came before the rays; null: there is none.
+VANTAGE_API std::string json_text(const VerifyReport& report, const ProofReport* proof = nullptr);
 
 VANTAGE_API std::string json_text(const ProofReport& report);
 

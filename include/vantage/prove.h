@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "vantage/certificate.h"
 #include "vantage/constraints.h"
 #include "vantage/export.h"
 #include "vantage/progress.h"
@@ -27,6 +28,7 @@ struct ProveOptions {
   double rounding_m = 0;            ///< of the volume's file (Scene::rounding_m): limits may be broken by so much, and
                                     ///< sight is wrong only where it is hidden deeper below the facet
   std::vector<double> lift_m = {};  ///< how far each part of the target was raised (Volume::lift_m); empty: not at all
+  bool certificate = false;         ///< record one: takes longer, as all of the scene goes into its tree
 };
 
 /// A place in the shrunk volume from which a point of the target is hidden.
@@ -59,6 +61,7 @@ struct ProofReport {
   double lift_m = 0;      ///< the largest of a part
   double rounding_m = 0;  ///< what was allowed
   double seconds = 0;
+  std::optional<Certificate> certificate;  ///< where sight, range and front are proved and nothing is wrong
 
   /// The worst of the claims.
   VANTAGE_API ProofVerdict verdict() const;

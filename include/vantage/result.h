@@ -9,6 +9,7 @@
 #include "vantage/export.h"
 #include "vantage/mission.h"
 #include "vantage/progress.h"
+#include "vantage/prove.h"
 #include "vantage/spheres.h"
 #include "vantage/verify.h"
 #include "vantage/volume.h"
@@ -126,5 +127,26 @@ VANTAGE_API std::vector<Warning> volume_warnings(const VolumeFile& read, const M
 /// the file states. A file without lifts has them from the report beside it, "volume.report.json", and none without
 /// that. Throws Error(input) for a report that cannot be read.
 VANTAGE_API VerifyOptions verify_options(const VolumeFile& read, const Mission& mission);
+
+// ---- proofs ----
+
+/// prove_volume for all that a mission's volume claims: each of several targets must be seen, and the certificate has
+/// the parts of all. ProveOptions::lift_m: of the parts of all targets, in order. What is told of sight is the worst.
+/// Throws Error(input) as that does, and for a mission whose volume is for one of several targets or sides.
+VANTAGE_API ProofReport prove_volume(const Mission& mission, const Mesh& volume, const ProveOptions& options = {},
+                                     const Progress& progress = {});
+
+/// "volume.cert" lies beside its scene in "volume.scene.ply".
+VANTAGE_API std::filesystem::path certificate_scene_file(const std::filesystem::path& certificate_file);
+
+/// Throws Error(input) for a volume that a certificate cannot be about: its file is no PLY. Throws as check_can_write
+/// and check_not_an_input do unless the certificate and its scene can be written.
+VANTAGE_API void check_certificate_files(const std::filesystem::path& certificate_file,
+                                         const std::filesystem::path& volume_file,
+                                         const std::vector<std::filesystem::path>& inputs);
+
+/// Writes the certificate of a volume, and its scene beside it: both or none. `volume` is as it was read.
+VANTAGE_API void write_certificate(const Certificate& certificate, const Mission& mission, const VolumeFile& volume,
+                                   const std::filesystem::path& certificate_file);
 
 }  // namespace vantage

@@ -88,6 +88,36 @@ Json camera_json(const ListedCamera& listed) {
 
 double percent(double part, double whole) { return 100 * part / whole; }
 
+Json json_of(const ProofReport& report) {
+  Json json;
+  json["verdict"] = name_of(report.verdict());
+  json["claims"] = Json::array();
+  for (const ClaimProof& claim : report.claims) {
+    json["claims"].push_back({{"name", claim.name}, {"verdict", name_of(claim.verdict)}, {"text", claim.text}});
+  }
+  json["facets"] = report.facets;
+  json["far_facets"] = report.far_facets;
+  json["unproved"] = report.unproved;
+  json["unproved_area_share"] = report.unproved_area_share;
+  json["witness"] = nullptr;
+  if (report.witness) {
+    const HiddenView& hidden = *report.witness;
+    json["witness"] = {{"viewpoint", json_of(hidden.viewpoint)},
+                       {"target_point", json_of(hidden.target_point)},
+                       {"triangle", hidden.triangle},
+                       {"object", hidden.object},
+                       {"facet", hidden.facet},
+                       {"depth_m", hidden.depth_m}};
+  }
+  json["separations"] = report.separations;
+  json["shrink"] = report.shrink;
+  json["margin_m"] = report.margin_m;
+  json["rounding_m"] = report.rounding_m;
+  json["lift_m"] = report.lift_m;
+  json["seconds"] = report.seconds;
+  return json;
+}
+
 }  // namespace
 
 std::string json_text(std::string_view text) { return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace); }
@@ -137,7 +167,7 @@ std::string json_text(const LoadedScene& loaded, const SceneStatistics& found) {
   return dumped(json, 2);
 }
 
-std::string json_text(const VerifyReport& report) {
+std::string json_text(const VerifyReport& report, const ProofReport* proof) {
   Json json;
   json["right"] = report.is_right();
   json["closed"] = report.closed;
@@ -163,38 +193,11 @@ std::string json_text(const VerifyReport& report) {
   json["seed"] = report.seed;
   json["lift_m"] = report.lift_m;
   json["rounding_m"] = report.rounding_m;
+  json["proof"] = proof ? json_of(*proof) : Json();
   return dumped(json, 2);
 }
 
-std::string json_text(const ProofReport& report) {
-  Json json;
-  json["verdict"] = name_of(report.verdict());
-  json["claims"] = Json::array();
-  for (const ClaimProof& claim : report.claims) {
-    json["claims"].push_back({{"name", claim.name}, {"verdict", name_of(claim.verdict)}, {"text", claim.text}});
-  }
-  json["facets"] = report.facets;
-  json["far_facets"] = report.far_facets;
-  json["unproved"] = report.unproved;
-  json["unproved_area_share"] = report.unproved_area_share;
-  json["witness"] = nullptr;
-  if (report.witness) {
-    const HiddenView& hidden = *report.witness;
-    json["witness"] = {{"viewpoint", json_of(hidden.viewpoint)},
-                       {"target_point", json_of(hidden.target_point)},
-                       {"triangle", hidden.triangle},
-                       {"object", hidden.object},
-                       {"facet", hidden.facet},
-                       {"depth_m", hidden.depth_m}};
-  }
-  json["separations"] = report.separations;
-  json["shrink"] = report.shrink;
-  json["margin_m"] = report.margin_m;
-  json["rounding_m"] = report.rounding_m;
-  json["lift_m"] = report.lift_m;
-  json["seconds"] = report.seconds;
-  return dumped(json, 2);
-}
+std::string json_text(const ProofReport& report) { return dumped(json_of(report), 2); }
 
 std::string json_text(const Comparison& c, const std::string& file_a, const std::string& file_b,
                       const std::vector<std::string>& written) {

@@ -11,8 +11,10 @@
 #include "cli/text_table.h"
 #include "vantage/atomic_file.h"
 #include "vantage/error.h"
+#include "vantage/input.h"
 #include "vantage/mission.h"
 #include "vantage/output.h"
+#include "vantage/prove.h"
 #include "vantage/result.h"
 #include "vantage/stages.h"
 #include "vantage/volume.h"
@@ -26,6 +28,7 @@ constexpr const char* kComputeExamples =
     "EXAMPLES\n"
     "  vantage compute mission.yaml -o volume.ply\n"
     "  vantage compute mission.yaml -o volume.ply -o volume.glb -o volume.obj\n"
+    "  vantage compute mission.yaml -o volume.ply --prove\n"
     "  vantage compute mission.yaml -o volume.stl --json | jq .volume_m3\n"
     "  vantage compute mission.yaml --method spheres -o volume.ply --stages stages/\n"
     "  make_mission | vantage compute - -o - --format ply > volume.ply\n"
@@ -53,7 +56,7 @@ struct ComputeArguments {
   std::string method, device;  // empty: as the mission says
   std::string stages;          // empty: none are wanted
   std::string format, report;  // of what goes to standard output; empty: not given
-  bool json = false, verbose = false, fail_empty = false;
+  bool json = false, verbose = false, fail_empty = false, prove = false;
 
   /// The outputs but for standard output.
   std::vector<fs::path> files() const {
@@ -320,6 +323,22 @@ std::vector<Warning> warnings_of_each(const std::vector<TableRow>& rows) {
   return result;
 }
 
+/// With --prove: says why a volume is not written, and returns the exit code; kSuccess where nothing is against it.
+int judge(const ComputeArguments& options, const Mission& mission, const Volume& volume, const Progress& progress) {
+  if (!options.prove || volume.outcome != Outcome::computed) return kSuccess;
+  const ProofReport report = prove_volume(mission, volume.mesh, ProveOptions{.lift_m = volume.lift_m}, progress);
+  if (report.verdict() == ProofVerdict::proved) {
+    if (!options.common.quiet)
+      note(mission.target.name + ": all is proved, of the volume less " + shortest(report.shrink) + " of the distance");
+    return kSuccess;
+  }
+  note("the volume of " + mission.target.name + " is not written, as not all of it is proved");
+  for (const ClaimProof& claim : report.claims) {
+    if (claim.verdict != ProofVerdict::proved) note(claim.name + ": " + name_of(claim.verdict) + ": " + claim.text);
+  }
+  return report.verdict() == ProofVerdict::wrong ? kCheckFailed : kUndecided;
+}
+
 int run_each(const ComputeArguments& options, const MissionFile& file, const std::vector<fs::path>& inputs) {
   check_each(options);
   const fs::path table = options.files().front().parent_path() / "table.csv";
@@ -345,6 +364,10 @@ int run_each(const ComputeArguments& options, const MissionFile& file, const std
     }
     check_result_files(all, inputs);
     results = run_missions(mission, {options.common.threads, {}}, progress.callback());
+    for (std::size_t i = 0; i < results.size(); ++i) {
+      const int judgement = judge(options, one_volume(mission, i), results[i].volume, progress.callback());
+      if (judgement != kSuccess) return judgement;
+    }
     for (std::size_t i = 0; i < results.size(); ++i) {
       ResultRequest request = result_request(mission, results[i], files[i]);
       request.source.target = names[i];
@@ -400,6 +423,8 @@ int run_compute(const ComputeArguments& options) {
     run = run_mission(mission, {options.common.threads, stages ? stages->sink() : StageSink()}, progress.callback());
     run.volume.seconds.read = read_seconds;
     run.volume.seconds.total = seconds_since_start();  // with all that lies between; writing is added
+    const int judgement = judge(options, mission, run.volume, progress.callback());
+    if (judgement != kSuccess) return judgement;
     if (stages) stages->write_story(mission, run);
     written = write_results(run.volume, result_request(mission, run, files), progress.callback());
     if (stages) stages->commit();
@@ -441,6 +466,8 @@ void add_compute(CLI::App& app, Command& chosen) {
       ->option_text("FORMAT");
   command->add_option("--report", options->report, "File for the report of -o -; default: none is written")
       ->option_text("FILE");
+  command->add_flag("--prove", options->prove,
+                    "Write only what 'vantage prove' proves; else the exit code is 1 or 4, as of that");
   command->add_flag("--fail-empty", options->fail_empty, "Exit with code 1 if there is no volume");
   command->add_flag("--json", options->json, "Print the report instead of a summary");
   command->add_flag("-v,--verbose", options->verbose, "Print all causes, sizes and times instead of five lines");

@@ -25,6 +25,8 @@ constexpr const char* kProveExamples =
     "EXAMPLES\n"
     "  vantage prove mission.yaml volume.ply\n"
     "  vantage prove mission.yaml edited.glb --shrink 1e-5 --json\n"
+    "  vantage prove mission.yaml volume.ply --certificate volume.cert && python3 tools/check_certificate.py "
+    "volume.cert\n"
     "\n"
     "What is proved, and of what: docs/proof.md. 'Not proved' is not 'wrong': wrong has a viewpoint inside the volume\n"
     "and a point of the target between which the scene lies, and both are printed. Limits without a proof are named;\n"
@@ -32,6 +34,7 @@ constexpr const char* kProveExamples =
 
 struct ProveArguments : JudgeArguments {
   double shrink = ProveOptions{}.shrink;
+  std::string certificate;  ///< file; empty: none is wanted
 };
 
 std::string table_text(const ProofReport& report, const std::string& file) {
@@ -66,66 +69,37 @@ std::string table_text(const ProofReport& report, const std::string& file) {
   return table.text();
 }
 
-/// The targets that must be seen, each whole; of several, all.
-std::vector<Target> targets_of(const Mission& mission) {
-  if (mission.views.empty()) return {mission.target};
-  std::vector<Target> targets;
-  for (const std::vector<Target>& list : mission.views) {
-    if (list.size() != 1) {
-      throw Error(ErrorCode::not_applicable,
-                  "the volume is for one of several targets or sides, and only the sight of all can be proved",
-                  "targets", "check it with 'vantage verify', or compute one volume for each with 'combine: each'");
-    }
-    targets.push_back(list[0]);
-  }
-  return targets;
+ProofReport prove(const JudgedVolume& judged, const ProveArguments& options, const Progress& progress) {
+  const VerifyOptions known = verify_options(judged.read, judged.mission);
+  const ProveOptions asked{.shrink = options.shrink,
+                           .rounding_m = known.rounding_m,
+                           .lift_m = known.lift_m,
+                           .certificate = !options.certificate.empty()};
+  return prove_volume(judged.mission, judged.read.volume.mesh, asked, progress);
 }
 
-/// What is wrong with the sight of one target is wrong with all.
-void join(ProofReport& all, const ProofReport& one) {
-  for (std::size_t i = 0; i < all.claims.size(); ++i) {
-    if (one.claims[i].verdict > all.claims[i].verdict) all.claims[i] = one.claims[i];
-  }
-  all.far_facets += one.far_facets;
-  all.separations += one.separations;
-  all.seconds += one.seconds;
-  all.margin_m = std::max(all.margin_m, one.margin_m);
-  all.lift_m = std::max(all.lift_m, one.lift_m);
-  if (one.unproved_area_share > all.unproved_area_share) {
-    all.unproved = one.unproved;
-    all.unproved_area_share = one.unproved_area_share;
-  }
-  if (one.witness && (!all.witness || one.witness->depth_m > all.witness->depth_m)) all.witness = one.witness;
-}
-
-ProofReport prove(const Mission& mission, const VolumeFile& read, const ProveArguments& options,
-                  const Progress& progress) {
-  const VerifyOptions known = verify_options(read, mission);
-  std::optional<ProofReport> all;
-  std::size_t first = 0;
-  for (const Target& target : targets_of(mission)) {
-    ProveOptions prove_options{.shrink = options.shrink, .rounding_m = known.rounding_m};
-    for (std::size_t i = 0; i < target.parts.size(); ++i) prove_options.lift_m.push_back(known.lift_m[first + i]);
-    first += target.parts.size();
-    const ProofReport one = prove_volume(mission.loaded.scene, target, mission.sensor, mission.navigation,
-                                         read.volume.mesh, prove_options, progress);
-    if (all) {
-      join(*all, one);
-    } else {
-      all = one;
-    }
-  }
-  return *all;
+/// What was written, or why nothing was.
+std::string save_certificate(const JudgedVolume& judged, const ProofReport& report, const std::string& file) {
+  if (!report.certificate) return "no certificate: sight, range and front must be proved, and nothing may be wrong\n";
+  write_certificate(*report.certificate, judged.mission, judged.read, file);
+  return "wrote " + file + "\nwrote " + certificate_scene_file(file).string() + "\n";
 }
 
 int run_prove(const ProveArguments& options) {
   ProgressLine progress(options.common);
-  const auto [mission, read] = read_judged(options, progress);
-  const ProofReport report = prove(mission, read, options, progress.callback());
+  const JudgedVolume judged = read_judged(options, progress);
+  if (!options.certificate.empty()) {
+    std::vector<std::filesystem::path> inputs = input_files(judged.mission.as_written);
+    inputs.emplace_back(options.volume_file);
+    check_certificate_files(options.certificate, options.volume_file, inputs);
+  }
+  const ProofReport report = prove(judged, options, progress.callback());
+  std::string saved;
+  if (!options.certificate.empty()) saved = save_certificate(judged, report, options.certificate);
   if (options.json) {
     print(json_text(report));
   } else if (!options.common.quiet) {
-    print(table_text(report, options.volume_file));
+    print(table_text(report, options.volume_file) + saved);
   }
   switch (report.verdict()) {
     case ProofVerdict::proved:
@@ -150,6 +124,10 @@ void add_prove(CLI::App& app, Command& chosen) {
                    "The proof is of the volume smaller by this part of the distance (default 1e-6)")
       ->check(CLI::Range(0.0, 0.1))
       ->option_text("PART");
+  command
+      ->add_option("--certificate", options->certificate,
+                   "Write what tools/check_certificate.py needs to check the proof, and FILE's scene beside it")
+      ->option_text("FILE");
   finish<ProveArguments>(*command, options, kProveExamples, chosen, run_prove);
 }
 

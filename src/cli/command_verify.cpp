@@ -1,4 +1,6 @@
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "cli/command.h"
@@ -6,9 +8,11 @@
 #include "cli/progress_line.h"
 #include "cli/standard_streams.h"
 #include "cli/text_table.h"
+#include "vantage/error.h"
 #include "vantage/input.h"
 #include "vantage/json.h"
 #include "vantage/mission.h"
+#include "vantage/prove.h"
 #include "vantage/result.h"
 #include "vantage/verify.h"
 #include "vantage/volume.h"
@@ -22,6 +26,10 @@ constexpr const char* kVerifyExamples =
     "  vantage verify mission.yaml volume.glb --points 200000 --seed 7\n"
     "  vantage verify mission.yaml edited.obj --json    # .obj in the axes and unit of the scene file\n"
     "\n"
+    "First of all the volume is proved, where it can be (docs/proof.md); 'vantage prove' tells more of it. Then "
+    "random\n"
+    "points are tried: also for what has no proof, and for what is missing of the volume.\n"
+    "\n"
     "DEPTHS\n"
     "  The depth of a point is its distance to the volume's surface: how far inside the volume an over-claimed point\n"
     "  lies, how far outside of it an under-claimed one. The worst depth is the greatest that was met, not a bound.\n";
@@ -34,7 +42,34 @@ struct VerifyArguments : JudgeArguments {
 
 constexpr double kMostLift = 0.01;  // metres; compute raises a target by no more than 2 mm
 
-std::string table_text(const VerifyReport& report, const std::string& file) {
+/// Of the proof that comes first, or why there is none.
+struct Proof {
+  std::optional<ProofReport> report;
+  std::string why_not;
+
+  bool is_wrong() const { return report && report->verdict() == ProofVerdict::wrong; }
+};
+
+Proof prove_first(const JudgedVolume& judged, const VerifyOptions& options, const Progress& progress) {
+  const ProveOptions asked{.rounding_m = options.rounding_m, .lift_m = options.lift_m};
+  try {
+    return {prove_volume(judged.mission, judged.read.volume.mesh, asked, progress), ""};
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::input) throw;
+    return {std::nullopt, error.problem()};
+  }
+}
+
+void add_proof(TextTable& table, const Proof& proof) {
+  if (!proof.report) {
+    table.row("proof", "none", proof.why_not);
+    return;
+  }
+  table.heading("proof, of all but a part of " + shortest(proof.report->shrink) + " of the distance");
+  for (const ClaimProof& claim : proof.report->claims) table.row(claim.name, name_of(claim.verdict), claim.text);
+}
+
+std::string table_text(const VerifyReport& report, const Proof& proof, const std::string& file) {
   const OpenEdges& holes = report.open_edges;
   TextTable table;
   table.heading(file);
@@ -53,6 +88,7 @@ std::string table_text(const VerifyReport& report, const std::string& file) {
     table.row("rounding", fixed(report.rounding_m, 6),
               "metres that the file says its numbers moved the surface: allowed");
   }
+  add_proof(table, proof);
   if (report.points > 0) {
     table.heading("rays from random points, seed " + std::to_string(report.seed));
     table.row("points tried", count(report.points), "half of them near the volume's surface");
@@ -84,7 +120,7 @@ std::string table_text(const VerifyReport& report, const std::string& file) {
               "uniform over the volume; the count of over-claims also has points near the surface, which this leaves "
               "out");
   }
-  table.heading(report.is_right()
+  table.heading(report.is_right() && !proof.is_wrong()
                     ? "nothing wrong was found"
                     : (report.is_solid() ? "WRONG: the volume over-claims" : "WRONG: the mesh is not a closed solid"));
   return table.text();
@@ -100,11 +136,13 @@ std::string needed_text(const std::vector<std::vector<Target>>& views) {
 
 int run_verify(const VerifyArguments& options) {
   ProgressLine progress(options.common);
-  const auto [mission, read] = read_judged(options, progress);
+  const JudgedVolume judged = read_judged(options, progress);
+  const auto& [mission, read] = judged;
   VerifyOptions verify_options = vantage::verify_options(read, mission);
   verify_options.points = options.points;
   verify_options.seed = options.seed;
   if (options.lift_m >= 0) verify_options.lift_m.assign(verify_options.lift_m.size(), options.lift_m);
+  const Proof proof = prove_first(judged, verify_options, progress.callback());
   const Scene& scene = mission.loaded.scene;
   const VerifyReport report = mission.views.empty()
                                   ? verify_volume(scene, mission.target, mission.sensor, mission.navigation,
@@ -112,7 +150,7 @@ int run_verify(const VerifyArguments& options) {
                                   : verify_volume(scene, mission.views, mission.sensor, mission.navigation,
                                                   read.volume.mesh, verify_options, progress.callback());
   if (options.json) {
-    print(json_text(report));
+    print(json_text(report, proof.report ? &*proof.report : nullptr));
   } else if (!options.common.quiet) {
     const std::size_t parts = mission.target.parts.size();
     if (!mission.views.empty()) {
@@ -120,15 +158,16 @@ int run_verify(const VerifyArguments& options) {
     } else if (parts > 1) {
       note("the target has " + std::to_string(parts) + " convex parts: all must be seen");
     }
-    print(table_text(report, options.volume_file));
+    print(table_text(report, proof, options.volume_file));
   }
-  return report.is_right() ? kSuccess : kCheckFailed;
+  return report.is_right() && !proof.is_wrong() ? kSuccess : kCheckFailed;
 }
 
 }  // namespace
 
 void add_verify(CLI::App& app, Command& chosen) {
-  CLI::App* command = app.add_subcommand("verify", "Check a volume by ray casting, independently of how it was made");
+  CLI::App* command =
+      app.add_subcommand("verify", "Check a volume by a proof and by ray casting, independently of how it was made");
   auto options = std::make_shared<VerifyArguments>();
   add_judge_options(*command, *options);
   command->add_option("--points", options->points, "Viewpoints to try (default 20000)")

@@ -94,17 +94,18 @@ void write_scene_ply(const Scene& scene, AtomicFile& file) {
   UsedVertices used(scene.mesh);
   std::string vertex_rows, face_rows;
   std::size_t count = 0;
-  face_rows.reserve(triangles.size() * 13);
+  face_rows.reserve(triangles.size() * 17);
   vertex_rows.reserve(vertices.size() * 24);
-  for (const Triangle& triangle : triangles) {
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
     append_little_endian(face_rows, std::uint8_t{3});
-    for (const std::uint32_t vertex : triangle) {
+    for (const std::uint32_t vertex : triangles[t]) {
       bool is_new = false;
       append_little_endian(face_rows, used.number(vertex, is_new));
       if (!is_new) continue;
       ++count;
       for (const double coordinate : vertices[vertex]) append_little_endian(vertex_rows, coordinate);
     }
+    append_little_endian(face_rows, scene.object_of[t]);
   }
   check_count(count, std::numeric_limits<std::int32_t>::max(), "vertices", "PLY");
 
@@ -114,7 +115,7 @@ void write_scene_ply(const Scene& scene, AtomicFile& file) {
   file.write("element vertex " + std::to_string(count) + "\n");
   file.write("property double x\nproperty double y\nproperty double z\n");
   file.write("element face " + std::to_string(triangles.size()) + "\n");
-  file.write("property list uchar int vertex_indices\nend_header\n");
+  file.write("property list uchar int vertex_indices\nproperty uint object\nend_header\n");
   file.write(vertex_rows);
   file.write(face_rows);
 }

@@ -28,11 +28,12 @@ class PointHull {
   std::vector<double> x_, y_, z_;
 };
 
-/// A box or a triangle.
+/// A box, or a convex polygon of three or four corners.
 class Obstacle {
  public:
   explicit Obstacle(const Box& box) : points_{box.min, box.max}, is_box_(true) {}
-  explicit Obstacle(const std::array<Vec3, 3>& corners) : points_{corners[0], corners[1], corners[2]} {}
+  explicit Obstacle(std::span<const Vec3> polygon)
+      : points_{polygon[0], polygon[1], polygon[2], polygon.back()}, is_triangle_(polygon.size() == 3) {}
 
   /// The point that lies farthest along a direction.
   Vec3 highest(const Vec3& direction) const {
@@ -41,16 +42,17 @@ class Obstacle {
               direction.z() > 0 ? points_[1].z() : points_[0].z()};
     }
     const double a = direction.dot(points_[0]), b = direction.dot(points_[1]), c = direction.dot(points_[2]);
-    return a > b ? (a > c ? points_[0] : points_[2]) : (b > c ? points_[1] : points_[2]);
+    const Vec3& highest = a > b ? (a > c ? points_[0] : points_[2]) : (b > c ? points_[1] : points_[2]);
+    return is_triangle_ || direction.dot(points_[3]) < direction.dot(highest) ? highest : points_[3];
   }
   Vec3 middle() const {
     if (is_box_) return (points_[0] + points_[1]) / 2;
-    return (points_[0] + points_[1] + points_[2]) / 3;
+    return (points_[0] + points_[1] + points_[2]) / 3;  // of a face, any point is good
   }
 
  private:
-  std::array<Vec3, 3> points_{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
-  bool is_box_ = false;
+  std::array<Vec3, 4> points_{Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+  bool is_box_ = false, is_triangle_ = false;
 };
 
 /// A direction along which all of `hull` lies farther than all of `obstacle`, whatever was rounded; nothing where none

@@ -72,6 +72,8 @@ class Prover {
 
  private:
   void look_at(std::size_t part, double lift_m, const internal::core::ProgressReporter& progress);
+  void add_certificate(std::size_t part, double lift_m, const prove::View& view,
+                       const std::vector<std::uint32_t>& numbers, const prove::SightProof& proof);
   std::vector<Vec3> shrunk(const prove::View& view) const;
   void look_for_witness(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
                         const std::vector<std::uint32_t>& numbers, const prove::View& view,
@@ -101,7 +103,7 @@ void Prover::look_for_witness(const std::vector<Vec3>& vertices, const std::vect
   const std::size_t step = 1 + open.size() / kMostFacets;
   for (std::size_t i = 0; i < open.size(); i += step) {
     const auto& [a, b, c] = facets[open[i].facet];
-    const prove::TreeTriangle& obstacle = obstacles.triangles[open[i].triangle];
+    const prove::Piece& obstacle = obstacles.pieces[open[i].piece];
     const auto blocked = prove::find_blocked({vertices[a], vertices[b], vertices[c]}, view, obstacle);
     if (!blocked) continue;
     const Vec3 normal = (vertices[b] - vertices[a]).cross(vertices[c] - vertices[a]).normalized();
@@ -119,6 +121,7 @@ void Prover::look_for_witness(const std::vector<Vec3>& vertices, const std::vect
 }
 
 void Prover::look_at(std::size_t part, double lift_m, const internal::core::ProgressReporter& progress) {
+  constexpr double kRounding = 8 * std::numeric_limits<double>::epsilon();  // of a vertex that lies in the plane
   const prove::View view = prove::make_view(target_, part, lift_m);
   const std::vector<Vec3> vertices = shrunk(view);
   Box near;
@@ -131,21 +134,42 @@ void Prover::look_at(std::size_t part, double lift_m, const internal::core::Prog
       const Vec3& at = vertices[v];
       near.extend(at);
       for (const Vec3& corner : view.whole) farthest_.see((at - corner).norm(), view.origin + at);
-      if (!view.all_sides) behind_.see(-view.normal.dot(at) - view.margin_m, view.origin + at);
+      if (!view.all_sides) behind_.see(-view.normal.dot(at) - view.margin_m - kRounding * at.norm(), view.origin + at);
     }
     const auto& [a, b, c] = triangle;
     if (prove::orientation(vertices[a], vertices[b], vertices[c], Vec3::Zero()) <= 0) continue;
     facets.push_back(triangle);
     numbers.push_back(solid_.facet_of[t]);
   }
-  const prove::SceneTree obstacles = prove::obstacles_in_front(scene_, view, near);
-  const prove::SightProof proof = prove::prove_sight(vertices, facets, view, obstacles, progress);
+  const bool is_recorded = options_.certificate;
+  const prove::SceneTree obstacles =
+      is_recorded ? prove::all_obstacles_in_front(scene_, view) : prove::obstacles_in_front(scene_, view, near);
+  const prove::SightProof proof = prove::prove_sight(vertices, facets, view, obstacles, is_recorded, progress);
   report_.far_facets += facets.size();
   report_.separations += proof.separations;
   report_.margin_m = std::max(report_.margin_m, view.margin_m);
   report_.lift_m = std::max(report_.lift_m, lift_m);
   for (const prove::OpenFacet& open : proof.open) report_.unproved.push_back(numbers[open.facet]);
   look_for_witness(vertices, facets, numbers, view, obstacles, proof.open);
+  if (is_recorded) add_certificate(part, lift_m, view, numbers, proof);
+}
+
+void Prover::add_certificate(std::size_t part, double lift_m, const prove::View& view,
+                             const std::vector<std::uint32_t>& numbers, const prove::SightProof& proof) {
+  constexpr double kSureHeight = 1.5;  // in margins: what was left out lies lower, whatever was rounded
+  if (!report_.certificate) {
+    report_.certificate = Certificate{options_.shrink, options_.rounding_m, range_, {}, {}};
+  }
+  CertificatePart& record = report_.certificate->parts.emplace_back();
+  record.target = target_.parts[part];
+  record.shift_m = target_.offset_m + lift_m;
+  record.centre = view.origin;
+  record.corners = view.corners;
+  record.normal = view.normal;
+  record.all_sides = view.all_sides;
+  record.cut_height_m = kSureHeight * view.margin_m;
+  for (const std::uint32_t facet : proof.order) record.facets.push_back(numbers[facet]);
+  record.steps = proof.steps;
 }
 
 ProofReport Prover::run(const internal::core::ProgressReporter& progress) {
@@ -177,6 +201,11 @@ ProofReport Prover::run(const internal::core::ProgressReporter& progress) {
   return std::move(report_);
 }
 
+Box box_of(const Navigation::Altitude& altitude) {
+  const double all = std::numeric_limits<double>::infinity();
+  return {{-all, -all, altitude.min_m}, {all, all, altitude.max_m}};
+}
+
 /// Limits that are convex hold for all of a volume if they hold at its vertices.
 void prove_navigation(const Navigation& navigation, const Mesh& volume, double rounding_m,
                       std::vector<ClaimProof>& claims) {
@@ -197,8 +226,7 @@ void prove_navigation(const Navigation& navigation, const Mesh& volume, double r
     claims.push_back({name, ProofVerdict::not_proved, "has no proof: 'vantage verify' tries points"});
   };
   if (navigation.altitude) {
-    const double all = std::numeric_limits<double>::infinity();
-    add("altitude", {{-all, -all, navigation.altitude->min_m}, {all, all, navigation.altitude->max_m}});
+    add("altitude", box_of(*navigation.altitude));
   }
   if (navigation.keep_in.size() == 1 && navigation.keep_in_zones.empty()) {
     add("keep_in", navigation.keep_in[0]);
@@ -209,6 +237,27 @@ void prove_navigation(const Navigation& navigation, const Mesh& volume, double r
   if (!navigation.meshes.empty()) leave("meshes");
   if (navigation.above_ground) leave("agl");
   if (navigation.clearance) leave("clearance");
+}
+
+/// Sight, range and front, the first claims, are proved, and nothing else is wrong.
+bool can_certify(const ProofReport& report) {
+  constexpr std::ptrdiff_t kFirst = 3;
+  return report.verdict() != ProofVerdict::wrong &&
+         std::all_of(report.claims.begin(), report.claims.begin() + kFirst,
+                     [](const ClaimProof& claim) { return claim.verdict == ProofVerdict::proved; });
+}
+
+/// The limits that are boxes, where they are proved.
+std::vector<CertifiedBox> certified_boxes(const Navigation& navigation, const std::vector<ClaimProof>& claims) {
+  std::vector<CertifiedBox> boxes;
+  for (const ClaimProof& claim : claims) {
+    if (claim.verdict != ProofVerdict::proved) continue;
+    if (claim.name == "altitude") boxes.push_back({claim.name, box_of(*navigation.altitude)});
+    if (claim.name == "keep_in" && navigation.keep_in.size() == 1 && navigation.keep_in_zones.empty()) {
+      boxes.push_back({claim.name, navigation.keep_in[0]});
+    }
+  }
+  return boxes;
 }
 
 void name_limits_of_sensor(const Sensor& sensor, std::vector<ClaimProof>& claims) {
@@ -252,6 +301,11 @@ ProofReport prove_volume(const Scene& scene, const Target& target, const Sensor&
   ProofReport report = Prover(scene, target, sensor, volume, options).run(progress);
   prove_navigation(navigation, volume, options.rounding_m, report.claims);
   name_limits_of_sensor(sensor, report.claims);
+  if (options.certificate && can_certify(report)) {
+    report.certificate->boxes = certified_boxes(navigation, report.claims);
+  } else {
+    report.certificate.reset();
+  }
   if (!report.unproved.empty()) {
     Mesh unproved{volume.vertices, {}};
     for (const std::uint32_t facet : report.unproved) unproved.triangles.push_back(volume.triangles[facet]);

@@ -2,47 +2,66 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 namespace vantage::internal::prove {
 namespace {
 
 constexpr std::uint32_t kMostInLeaf = 2;
 
-Vec3 middle(const TreeTriangle& triangle) {
-  const Vec3 low = triangle.corners[0].cwiseMin(triangle.corners[1]).cwiseMin(triangle.corners[2]);
-  const Vec3 high = triangle.corners[0].cwiseMax(triangle.corners[1]).cwiseMax(triangle.corners[2]);
-  return low + high;
-}
-
-void split(SceneTree& tree, std::uint32_t begin, std::uint32_t end) {
-  const auto index = tree.nodes.size();
-  tree.nodes.push_back({{}, begin, end, 0});
-  Box box, middles;
-  for (std::uint32_t i = begin; i < end; ++i) {
-    for (const Vec3& corner : tree.triangles[i].corners) box.extend(corner);
-    middles.extend(middle(tree.triangles[i]));
+class Halver {
+ public:
+  Halver(const Mesh& scene, SceneTree& tree) : tree_(tree), middles_(scene.triangles.size()) {
+    for (const Piece& piece : tree.pieces) {
+      const Triangle& t = scene.triangles[piece.of];
+      const Vec3 &a = scene.vertices[t[0]], &b = scene.vertices[t[1]], &c = scene.vertices[t[2]];
+      middles_[piece.of] = a.cwiseMin(b).cwiseMin(c) + a.cwiseMax(b).cwiseMax(c);
+    }
   }
-  tree.nodes[index].box = box;
-  if (end - begin <= kMostInLeaf) return;
-  Eigen::Index axis = 0;
-  (middles.max - middles.min).maxCoeff(&axis);
-  const std::uint32_t half = begin + (end - begin) / 2;
-  const auto at = [&](std::uint32_t i) { return tree.triangles.begin() + static_cast<std::ptrdiff_t>(i); };
-  std::nth_element(at(begin), at(half), at(end), [&](const TreeTriangle& a, const TreeTriangle& b) {
-    const double at_a = middle(a)[axis], at_b = middle(b)[axis];
-    return at_a < at_b || (at_a == at_b && a.of < b.of);
-  });
-  split(tree, begin, half);
-  tree.nodes[index].second = static_cast<std::uint32_t>(tree.nodes.size());
-  split(tree, half, end);
-}
+
+  void halve(std::uint32_t begin, std::uint32_t end) {
+    const auto at = [&](std::uint32_t i) { return tree_.pieces.begin() + static_cast<std::ptrdiff_t>(i); };
+    const auto index = tree_.nodes.size();
+    tree_.nodes.push_back({{}, begin, end, 0});
+    if (end - begin <= kMostInLeaf) {
+      std::sort(at(begin), at(end), [](const Piece& a, const Piece& b) { return a.of < b.of; });
+      for (std::uint32_t i = begin; i < end; ++i) {
+        for (const Vec3& corner : tree_.pieces[i].polygon()) tree_.nodes[index].box.extend(corner);
+      }
+      return;
+    }
+    Box spread;
+    for (std::uint32_t i = begin; i < end; ++i) spread.extend(middles_[tree_.pieces[i].of]);
+    const Vec3 size = spread.max - spread.min;
+    Eigen::Index axis = 0;
+    for (Eigen::Index k = 1; k < 3; ++k) {
+      if (size[k] > size[axis]) axis = k;
+    }
+    const std::uint32_t half = begin + (end - begin) / 2;
+    std::nth_element(at(begin), at(half), at(end), [&](const Piece& a, const Piece& b) {
+      const double at_a = middles_[a.of][axis], at_b = middles_[b.of][axis];
+      return at_a < at_b || (at_a == at_b && a.of < b.of);
+    });
+    halve(begin, half);
+    const auto second = static_cast<std::uint32_t>(tree_.nodes.size());
+    halve(half, end);
+    tree_.nodes[index].second = second;
+    for (const std::size_t child : {index + 1, static_cast<std::size_t>(second)}) {
+      tree_.nodes[index].box.extend(tree_.nodes[child].box);
+    }
+  }
+
+ private:
+  SceneTree& tree_;
+  std::vector<Vec3> middles_;  ///< per triangle of the scene: twice that of its box
+};
 
 }  // namespace
 
-SceneTree make_tree(std::vector<TreeTriangle> triangles) {
+SceneTree make_tree(const Mesh& scene, std::vector<Piece> pieces) {
   SceneTree tree;
-  tree.triangles = std::move(triangles);
-  if (!tree.triangles.empty()) split(tree, 0, static_cast<std::uint32_t>(tree.triangles.size()));
+  tree.pieces = std::move(pieces);
+  if (!tree.pieces.empty()) Halver(scene, tree).halve(0, static_cast<std::uint32_t>(tree.pieces.size()));
   return tree;
 }
 

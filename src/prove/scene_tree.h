@@ -2,31 +2,39 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "vantage/geometry.h"
 
 namespace vantage::internal::prove {
 
-struct TreeTriangle {
-  std::array<Vec3, 3> corners;  ///< about the origin that was given
-  std::uint32_t of = 0;         ///< the scene's triangle that it is, or is a part of
+/// What of a triangle lies in front of the target: a convex polygon of three or four corners, or nothing.
+struct Piece {
+  std::array<Vec3, 4> corners{Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};  ///< about View::origin
+  std::uint32_t count = 0;                                                              ///< of the corners
+  std::uint32_t of = 0;                                                                 ///< the scene's triangle
+
+  std::span<const Vec3> polygon() const { return {corners.data(), count}; }
 };
 
 /// Nodes lie in depth-first order: the first child of an inner node is the next one.
 struct TreeNode {
-  Box box;
-  std::uint32_t begin = 0, end = 0;  ///< of the triangles, in SceneTree::triangles
+  Box box;                           ///< empty where all its pieces are
+  std::uint32_t begin = 0, end = 0;  ///< of the pieces, in SceneTree::pieces
   std::uint32_t second = 0;          ///< the second child; 0: a leaf
 };
 
 struct SceneTree {
-  std::vector<TreeTriangle> triangles;
-  std::vector<TreeNode> nodes;  ///< none where there are no triangles
+  std::vector<Piece> pieces;
+  std::vector<TreeNode> nodes;  ///< none where there are no pieces
 };
 
-/// Leaves hold few triangles. Cost: O(n log n).
-SceneTree make_tree(std::vector<TreeTriangle> triangles);
+/// Halved again and again by the middles of the boxes of `scene`'s triangles, as their stored numbers add up, so that a
+/// checker of certificates builds the same tree: docs/proof.md. Leaves hold one or two pieces, by number. Cost:
+/// O(n log n).
+SceneTree make_tree(const Mesh& scene, std::vector<Piece> pieces);
 
 }  // namespace vantage::internal::prove

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "core/parallel.h"
 #include "prove/hull.h"
@@ -13,19 +14,24 @@
 namespace vantage::internal::prove {
 namespace {
 
-/// Items of a list are nodes of the tree of obstacles, or with this bit triangles.
-constexpr std::uint32_t kTriangle = 1U << 31;
+/// Items of a list are nodes of the tree of obstacles, or with this bit pieces.
+constexpr std::uint32_t kPiece = 1U << 31;
 
 using Items = std::vector<std::uint32_t>;
+
+/// CertificatePart::steps; smaller numbers are those of known planes.
+enum Step : std::int64_t { kPlane = 16, kDescend = 17, kLeave = 18, kNothing = 19 };
+constexpr std::size_t kMostKept = 16;  // known planes
 
 class SightProver {
  public:
   SightProver(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets, const View& view,
-              const SceneTree& obstacles)
+              const SceneTree& obstacles, bool is_recorded)
       : vertices_(vertices),
         facets_(facets),
         view_(view),
         obstacles_(obstacles),
+        is_recorded_(is_recorded),
         patches_(make_patches(vertices, facets)) {
     Box box = obstacles.nodes.front().box;
     for (const Vec3& vertex : vertices) box.extend(vertex);
@@ -43,22 +49,38 @@ class SightProver {
   struct Found {
     std::vector<OpenFacet> open;
     std::size_t separations = 0;
+    std::vector<std::int64_t> steps;
+  };
+  /// The planes that were found last for a patch, in a ring.
+  struct Known {
+    std::vector<Separation> planes;
+    std::size_t oldest = 0;
   };
 
   void collect(std::uint32_t patch, std::vector<std::uint32_t>& roots) const;
   PointHull hull_of(const Patch& patch) const;
   Obstacle obstacle_of(std::uint32_t item) const {
-    return (item & kTriangle) != 0 ? Obstacle(obstacles_.triangles[item & ~kTriangle].corners)
-                                   : Obstacle(obstacles_.nodes[item].box);
+    return (item & kPiece) != 0 ? Obstacle(obstacles_.pieces[item & ~kPiece].polygon())
+                                : Obstacle(obstacles_.nodes[item].box);
+  }
+  bool is_nothing(std::uint32_t item) const {
+    return (item & kPiece) != 0 ? obstacles_.pieces[item & ~kPiece].count == 0 : obstacles_.nodes[item].box.empty();
+  }
+  void record(Found& found, std::int64_t step) const {
+    if (is_recorded_) found.steps.push_back(step);
   }
   bool is_narrow(std::uint32_t node, const Patch& patch) const;
-  std::optional<Vec3> separate_by_corners(const Patch& patch, std::uint32_t triangle) const;
+  std::optional<Vec3> separate_by_corners(const Patch& patch, std::uint32_t piece) const;
+  std::optional<std::array<std::int64_t, 3>> short_way(const Vec3& way, const PointHull& hull,
+                                                       const Obstacle& obstacle) const;
+  bool is_separated(const Patch& patch, const PointHull& hull, std::uint32_t item, Known& known, Found& found) const;
   void prove(std::uint32_t patch, const Items& items, Found& found) const;
 
   const std::vector<Vec3>& vertices_;
   const std::vector<Triangle>& facets_;
   const View& view_;
   const SceneTree& obstacles_;
+  bool is_recorded_;
   Patches patches_;
   double largest_ = 0;
 };
@@ -98,11 +120,12 @@ bool SightProver::is_narrow(std::uint32_t node, const Patch& patch) const {
 
 /// Where the iteration does not end: sets that are apart are so along the normal of a face of one of them, or across an
 /// edge of each.
-std::optional<Vec3> SightProver::separate_by_corners(const Patch& patch, std::uint32_t triangle) const {
+std::optional<Vec3> SightProver::separate_by_corners(const Patch& patch, std::uint32_t piece) const {
   std::vector<Vec3> points = view_.corners;
   points.push_back(Vec3::Zero());
   for (const std::uint32_t v : facets_[patches_.order[patch.begin]]) points.push_back(vertices_[v]);
-  const std::array<Vec3, 3>& corners = obstacles_.triangles[triangle].corners;
+  const std::span<const Vec3> corners = obstacles_.pieces[piece].polygon();
+  const std::size_t count = corners.size();
   std::optional<Vec3> best;
   const auto consider = [&](const Vec3& normal) {
     const double length = normal.norm();
@@ -116,57 +139,91 @@ std::optional<Vec3> SightProver::separate_by_corners(const Patch& patch, std::ui
   };
   for (const Vec3& a : points) {
     for (const Vec3& b : points) {
-      for (std::size_t k = 0; k < 3; ++k) {
+      for (std::size_t k = 0; k < count; ++k) {
         consider((b - a).cross(corners[k] - a));
-        consider((b - a).cross(corners[(k + 1) % 3] - corners[k]));
+        consider((b - a).cross(corners[(k + 1) % count] - corners[k]));
       }
       for (const Vec3& c : points) consider((b - a).cross(c - a));
     }
-    for (std::size_t k = 0; k < 3; ++k) consider((corners[(k + 1) % 3] - corners[k]).cross(a - corners[k]));
+    for (std::size_t k = 0; k < count; ++k) consider((corners[(k + 1) % count] - corners[k]).cross(a - corners[k]));
   }
   consider((corners[1] - corners[0]).cross(corners[2] - corners[0]));
   return best;
 }
 
+/// A way with the same use in whole numbers that are as small as they can be.
+std::optional<std::array<std::int64_t, 3>> SightProver::short_way(const Vec3& way, const PointHull& hull,
+                                                                  const Obstacle& obstacle) const {
+  const Vec3 largest_one = way / way.cwiseAbs().maxCoeff();
+  for (const int bits : {4, 7, 10, 13, 16, 20, 25, 32, 45, 60}) {
+    const Vec3 whole = (largest_one * std::ldexp(1.0, bits)).array().round();
+    if (hull.lowest(whole).dot(whole) - obstacle.highest(whole).dot(whole) > unsure_along(whole, largest_)) {
+      return std::array<std::int64_t, 3>{static_cast<std::int64_t>(whole.x()), static_cast<std::int64_t>(whole.y()),
+                                         static_cast<std::int64_t>(whole.z())};
+    }
+  }
+  return std::nullopt;
+}
+
+/// By a known plane, or by a new one.
+bool SightProver::is_separated(const Patch& patch, const PointHull& hull, std::uint32_t item, Known& known,
+                               Found& found) const {
+  const Obstacle obstacle = obstacle_of(item);
+  for (std::size_t i = 0; i < known.planes.size(); ++i) {
+    const Separation& plane = known.planes[i];
+    if (!(obstacle.highest(plane.way).dot(plane.way) < plane.low)) continue;
+    record(found, static_cast<std::int64_t>(i));
+    return true;
+  }
+  std::optional<Vec3> way = separate(hull, obstacle, largest_);
+  if (!way && (item & kPiece) != 0 && patch.second == 0) way = separate_by_corners(patch, item & ~kPiece);
+  if (way && is_recorded_) {
+    const auto whole = short_way(*way, hull, obstacle);
+    if (!whole) return false;
+    found.steps.insert(found.steps.end(), {kPlane, (*whole)[0], (*whole)[1], (*whole)[2]});
+    for (Eigen::Index k = 0; k < 3; ++k) (*way)[k] = static_cast<double>((*whole)[static_cast<std::size_t>(k)]);
+  }
+  if (!way) return false;
+  ++found.separations;
+  const Separation plane{*way, hull.lowest(*way).dot(*way) - unsure_along(*way, largest_)};
+  if (known.planes.size() < kMostKept) {
+    known.planes.push_back(plane);
+  } else {
+    known.planes[known.oldest++ % kMostKept] = plane;
+  }
+  return true;
+}
+
 /// What no plane separates from all of a patch is left to its halves. Obstacles that are wide beside the patch are
 /// taken apart instead.
 void SightProver::prove(std::uint32_t index, const Items& items, Found& found) const {
-  constexpr std::size_t kMostKept = 16;
   const Patch& patch = patches_.tree[index];
   const bool is_single = patch.second == 0;
   const PointHull hull = hull_of(patch);
-  std::vector<Separation> known;
-  std::size_t oldest = 0;
+  Known known;
   Items stack(items.rbegin(), items.rend()), left;
   while (!stack.empty()) {
     const std::uint32_t item = stack.back();
     stack.pop_back();
-    const Obstacle obstacle = obstacle_of(item);
-    const bool is_known = std::any_of(known.begin(), known.end(), [&](const Separation& separation) {
-      return obstacle.highest(separation.way).dot(separation.way) < separation.low;
-    });
-    if (is_known) continue;
-    const bool is_triangle = (item & kTriangle) != 0;
-    std::optional<Vec3> way = separate(hull, obstacle, largest_);
-    if (!way && is_triangle && is_single) way = separate_by_corners(patch, item & ~kTriangle);
-    if (way) {
-      ++found.separations;
-      const Separation separation{*way, hull.lowest(*way).dot(*way) - unsure_along(*way, largest_)};
-      if (known.size() < kMostKept) {
-        known.push_back(separation);
-      } else {
-        known[oldest++ % kMostKept] = separation;
-      }
-    } else if (is_triangle && is_single) {
-      found.open.push_back({patches_.order[patch.begin], item & ~kTriangle});
+    const bool is_piece = (item & kPiece) != 0;
+    if (is_nothing(item)) {
+      record(found, kNothing);
+    } else if (is_separated(patch, hull, item, known, found)) {
+      continue;
+    } else if (is_piece && is_single) {
+      found.open.push_back({patches_.order[patch.begin], item & ~kPiece});
       return;
-    } else if (is_triangle || (!is_single && is_narrow(item, patch))) {
+    } else if (is_piece || (!is_single && is_narrow(item, patch))) {
       left.push_back(item);
-    } else if (const TreeNode& node = obstacles_.nodes[item]; node.second != 0) {
-      stack.push_back(node.second);
-      stack.push_back(item + 1);
+      record(found, kLeave);
     } else {
-      for (std::uint32_t t = node.end; t-- > node.begin;) stack.push_back(t | kTriangle);
+      record(found, kDescend);
+      const TreeNode& node = obstacles_.nodes[item];
+      if (node.second != 0) {
+        stack.insert(stack.end(), {node.second, item + 1});
+      } else {
+        for (std::uint32_t t = node.end; t-- > node.begin;) stack.push_back(t | kPiece);
+      }
     }
   }
   if (left.empty()) return;
@@ -189,15 +246,16 @@ SightProof SightProver::run(const core::ProgressReporter& progress) {
   for (const Found& part : found) {
     proof.open.insert(proof.open.end(), part.open.begin(), part.open.end());
     proof.separations += part.separations;
+    proof.steps.insert(proof.steps.end(), part.steps.begin(), part.steps.end());
   }
+  if (is_recorded_) proof.order = patches_.order;
   std::sort(proof.open.begin(), proof.open.end(),
             [](const OpenFacet& a, const OpenFacet& b) { return a.facet < b.facet; });
   return proof;
 }
 
 /// Whether a segment passes through the inside of a triangle.
-bool passes_through(const Vec3& from, const Vec3& to, const std::array<Vec3, 3>& triangle) {
-  const auto& [a, b, c] = triangle;
+bool passes_through(const Vec3& from, const Vec3& to, const Vec3& a, const Vec3& b, const Vec3& c) {
   if (orientation(a, b, c, from) * orientation(a, b, c, to) >= 0) return false;
   const int first = orientation(from, to, a, b);
   return first != 0 && orientation(from, to, b, c) == first && orientation(from, to, c, a) == first;
@@ -206,12 +264,13 @@ bool passes_through(const Vec3& from, const Vec3& to, const std::array<Vec3, 3>&
 }  // namespace
 
 SightProof prove_sight(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets, const View& view,
-                       const SceneTree& obstacles, const core::ProgressReporter& progress) {
-  if (facets.empty() || obstacles.nodes.empty()) return {};
-  return SightProver(vertices, facets, view, obstacles).run(progress);
+                       const SceneTree& obstacles, bool is_recorded, const core::ProgressReporter& progress) {
+  if (facets.empty()) return {};
+  if (obstacles.nodes.empty()) return {{}, 0, make_patches(vertices, facets).order, {}};
+  return SightProver(vertices, facets, view, obstacles, is_recorded).run(progress);
 }
 
-std::optional<Blocked> find_blocked(const std::array<Vec3, 3>& facet, const View& view, const TreeTriangle& obstacle) {
+std::optional<Blocked> find_blocked(const std::array<Vec3, 3>& facet, const View& view, const Piece& obstacle) {
   constexpr int kParts = 4;
   std::vector<Vec3> ends = view.corners;
   for (std::size_t i = 0; i < view.corners.size(); ++i) {
@@ -219,7 +278,12 @@ std::optional<Blocked> find_blocked(const std::array<Vec3, 3>& facet, const View
   }
   ends.push_back(Vec3::Zero());
   std::optional<Blocked> deepest;
-  const auto is_blocked = [&](const Vec3& from, const Vec3& to) { return passes_through(from, to, obstacle.corners); };
+  const auto is_blocked = [&](const Vec3& from, const Vec3& to) {
+    for (std::size_t i = 2; i < obstacle.count; ++i) {
+      if (passes_through(from, to, obstacle.corners[0], obstacle.corners[i - 1], obstacle.corners[i])) return true;
+    }
+    return false;
+  };
   for (int i = 0; i <= kParts; ++i) {
     for (int k = 0; i + k <= kParts; ++k) {
       const Vec3 from = facet[0] + (facet[1] - facet[0]) * i / kParts + (facet[2] - facet[0]) * k / kParts;

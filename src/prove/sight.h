@@ -13,26 +13,28 @@ namespace vantage::internal::prove {
 
 /// A facet for which no plane separates what lies between it and the target from a triangle.
 struct OpenFacet {
-  std::uint32_t facet = 0;     ///< its number among those that were given
-  std::uint32_t triangle = 0;  ///< of SceneTree::triangles: the first one that was met
+  std::uint32_t facet = 0;  ///< its number among those that were given
+  std::uint32_t piece = 0;  ///< of SceneTree::pieces: the first one that was met
 };
 
 struct SightProof {
   std::vector<OpenFacet> open;  ///< by facet
   std::size_t separations = 0;
+  std::vector<std::uint32_t> order;  ///< where it is recorded: the facets' numbers, so that patches are ranges of them
+  std::vector<std::int64_t> steps;   ///< where it is recorded: CertificatePart::steps
 };
 
 /// `vertices`, `facets`: of the shrunk volume, about View::origin; the facets that face away from there. The hull of a
 /// facet and the target is free where a plane is found between it and each obstacle; hulls of many facets at once are
-/// tried first.
+/// tried first. To be recorded, the tree must be that of all_obstacles_in_front.
 SightProof prove_sight(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets, const View& view,
-                       const SceneTree& obstacles, const core::ProgressReporter& progress);
+                       const SceneTree& obstacles, bool is_recorded, const core::ProgressReporter& progress);
 
 /// A point of a facet and one of the target between which the obstacle lies for sure.
 struct Blocked {
   Vec3 viewpoint = Vec3::Zero(), target_point = Vec3::Zero();  ///< about View::origin
   double depth_m = 0;                                          ///< towards the origin so far it is the same
 };
-std::optional<Blocked> find_blocked(const std::array<Vec3, 3>& facet, const View& view, const TreeTriangle& obstacle);
+std::optional<Blocked> find_blocked(const std::array<Vec3, 3>& facet, const View& view, const Piece& obstacle);
 
 }  // namespace vantage::internal::prove

@@ -21,7 +21,9 @@ struct View {
 
 View make_view(const Target& target, std::size_t part, double lift_m);
 
-/// The scene's triangles that reach into `near`, in front of the target by more than the margin, and cut there.
+/// What of the scene's triangles lies in front of the target by more than the margin, in a tree: of those that reach
+/// into `near`, or of all, also where nothing is left of a triangle.
 SceneTree obstacles_in_front(const Scene& scene, const View& view, const Box& near);
+SceneTree all_obstacles_in_front(const Scene& scene, const View& view);
 
 }  // namespace vantage::internal::prove

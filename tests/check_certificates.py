@@ -1,0 +1,408 @@
+#!/usr/bin/env python3
+"""Tests of tools/check_certificate.py: right certificates are accepted, and none that was tampered with.
+
+    check_certificates.py VANTAGE      # the program
+"""
+
+import copy
+import json
+import pathlib
+import random
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+SHARED = ROOT.parent / "shared" / "data"
+sys.path.insert(0, str(ROOT / "tools"))
+import check_certificate as checker  # noqa: E402
+
+VANTAGE = ""
+SQUARE = "vertices: [[-2, -2, 0.1], [2, -2, 0.1], [2, 2, 0.1], [-2, 2, 0.1]]"
+
+
+def block(low, high, first, name="block"):
+    """A box of an OBJ file, of twelve triangles; `first` is the number of its first vertex."""
+    corners = [[(low, high)[i >> k & 1][k] for k in range(3)] for i in range(8)]
+    quads = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
+    lines = [f"o {name}"] + [f"v {x} {y} {z}" for x, y, z in corners]
+    for a, b, c, d in quads:
+        lines += [f"f {a + first} {b + first} {c + first}", f"f {a + first} {c + first} {d + first}"]
+    return lines
+
+
+def city(seed=1, blocks=7, scale=1.0, origin=(0.0, 0.0, 0.0)):
+    """A ground and blocks round a clearing."""
+    numbers = random.Random(seed)
+    place = lambda p: [o + scale * x for o, x in zip(origin, p)]  # noqa: E731
+    lines = ["o ground"] + ["v {} {} {}".format(*place(p)) for p in
+                            [(-60, -60, 0), (60, -60, 0), (60, 60, 0), (-60, 60, 0)]] + ["f 1 2 3", "f 1 3 4"]
+    for i in range(blocks):
+        x, y = 0, 0
+        while max(abs(x), abs(y)) < 9:
+            x, y = numbers.uniform(-45, 45), numbers.uniform(-45, 45)
+        low, high = (x, y, 0), (x + numbers.uniform(2, 7), y + numbers.uniform(2, 7), numbers.uniform(3, 20))
+        lines += block(place(low), place(high), 5 + 8 * i)
+    return "\n".join(lines) + "\n"
+
+
+def write_ply(path, vertices, triangles, objects=None, comments=()):
+    """As vantage writes it."""
+    extra = "property uint object\n" if objects is not None else ""
+    header = "ply\nformat binary_little_endian 1.0\n" + "".join(f"comment {c}\n" for c in comments)
+    header += f"element vertex {len(vertices)}\nproperty double x\nproperty double y\nproperty double z\n"
+    header += f"element face {len(triangles)}\nproperty list uchar int vertex_indices\n{extra}end_header\n"
+    pack = checker.struct.pack
+    rows = b"".join(pack("<3d", *v) for v in vertices)
+    for i, triangle in enumerate(triangles):
+        rows += pack("<B3i", 3, *triangle) + (pack("<I", objects[i]) if objects is not None else b"")
+    path.write_bytes(header.encode() + rows)
+
+
+class Certificates(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.folder = pathlib.Path(scratch.name)
+        self.certificate = self.folder / "volume.cert"
+
+    def run_vantage(self, *arguments):
+        result = subprocess.run([VANTAGE, *arguments], cwd=self.folder, text=True, stdout=subprocess.PIPE,
+                                stderr=subprocess.STDOUT, check=False)
+        self.assertEqual(result.returncode, 0, result.stdout)
+
+    def make(self, target=SQUARE, more="", max_range=50, obj=None):
+        (self.folder / "city.obj").write_text(obj or city(), encoding="utf-8")
+        mission = f"scene: {{mesh: city.obj}}\n{target if target.startswith('target') else 'target: {' + target + '}'}\n"
+        mission += f"sensor: {{max_range: {max_range}}}\n{more}"
+        (self.folder / "mission.yaml").write_text(mission, encoding="utf-8")
+        self.prove(self.folder / "mission.yaml")
+
+    def prove(self, mission):
+        self.run_vantage("compute", str(mission), "-q", "-o", "volume.ply")
+        self.run_vantage("prove", str(mission), "volume.ply", "-q", "--certificate", "volume.cert")
+
+    def accepted(self):
+        lines = []
+        checker.check(self.certificate, lines.append)
+        return lines
+
+    def read(self):
+        return json.loads(self.certificate.read_text(encoding="utf-8"))
+
+    def refused_after(self, change, why=""):
+        """`change` alters the certificate; afterwards all is as it was."""
+        kept = self.certificate.read_text(encoding="utf-8")
+        certificate = self.read()
+        change(certificate)
+        self.assertNotEqual(certificate, self.read(), "nothing was changed")
+        self.certificate.write_text(json.dumps(certificate), encoding="utf-8")
+        with self.assertRaises((checker.Refused, checker.Unreadable)) as caught:
+            self.accepted()
+        self.certificate.write_text(kept, encoding="utf-8")
+        self.assertIn(why, str(caught.exception))
+
+    def forge(self, name, change):
+        """A mesh changed by somebody who mends the hashes and takes out what the volume says of itself."""
+        with_statement = {p: p.read_bytes() for p in self.folder.iterdir() if p.suffix in (".ply", ".cert")}
+        mesh = checker.Mesh(self.folder / name)
+        change(mesh)
+        is_scene = name.endswith("scene.ply")
+        write_ply(self.folder / name, mesh.vertices, mesh.triangles, mesh.objects if is_scene else None)
+        volume = checker.Mesh(self.folder / "volume.ply")
+        if volume.comments:
+            write_ply(volume.path, volume.vertices, volume.triangles)
+        certificate = self.read()
+        certificate["scene"]["hash"] = checker.Mesh(self.folder / "volume.scene.ply").hash(b"scene")
+        certificate["volume"]["hash"] = checker.Mesh(self.folder / "volume.ply").hash(b"volume")
+        self.certificate.write_text(json.dumps(certificate), encoding="utf-8")
+        return with_statement
+
+    def refused_with(self, name, change, why=""):
+        kept = self.forge(name, change)
+        with self.assertRaises((checker.Refused, checker.Unreadable)) as caught:
+            self.accepted()
+        for path, data in kept.items():
+            path.write_bytes(data)
+        self.assertIn(why, str(caught.exception))
+
+
+class Accepted(Certificates):
+    def test_a_city(self):
+        self.make(more="navigation: {altitude: [5, 30]}\n")
+        lines = self.accepted()
+        self.assertIn("accepted: sight, range, front, altitude", lines[-2])
+        self.assertNotIn("names no target", "".join(lines))
+
+    def test_at_all_sizes_and_places(self):
+        for scale, origin in [(1e-4, (0, 0, 0)), (1, (5e5, 5.4e6, 100)), (100, (-1e6, 2e6, 0))]:
+            corners = [[o + scale * x for o, x in zip(origin, p)] for p in [(-2, -2, .5), (2, -1.5, .5), (1, 2, .5)]]
+            with self.subTest(scale=scale):
+                self.make(f"vertices: {corners}", obj=city(2, 8, scale, origin), max_range=40 * scale)
+                self.accepted()
+
+    def test_kinds_of_targets(self):
+        for target in ["vertices: [[-3, 0, 2], [3, 1, 2], [3, 1, 6], [-3, 0, 6]]", "point: [0, 0, 4]",
+                       "point: [1, 2, 4], front: [1, 2, 3]", "vertices: [[-2, -2, 1], [3, -2, 2], [0, 3, 3]]"]:
+            with self.subTest(target=target):
+                self.make(target)
+                self.accepted()
+
+    def test_parts_and_several_targets(self):
+        parts = "parts: [[[-4, 0, 1], [-2, 0, 1], [-3, 2, 1]], [[2, 0, 1], [4, 0, 1], [3, 2, 1]]]"
+        self.make(parts)
+        self.assertEqual(len(self.accepted()), 4)
+        self.make(f"targets:\n  - {{{SQUARE}}}\n  - {{vertices: [[0, 3, 2], [2, 3, 2], [1, 3, 4]]}}\ncombine: all")
+        self.assertEqual(len(self.accepted()), 4)
+
+    def test_a_scene_that_is_far_away(self):
+        self.make(obj="\n".join(block((500, 500, 0), (510, 510, 9), 1)) + "\n")
+        self.accepted()
+
+    def test_a_real_city(self):
+        mission = ROOT / "docs" / "gallery" / "charlotte.yaml"
+        if not (SHARED / "charlotte").is_dir():
+            self.skipTest("there is no ../shared/data")
+        self.prove(mission)
+        self.accepted()
+        self.assertLess(self.certificate.stat().st_size, (self.folder / "volume.ply").stat().st_size)
+
+    def test_it_is_the_same_each_time(self):
+        self.make()
+        first = self.certificate.read_bytes()
+        self.make()
+        self.assertEqual(first, self.certificate.read_bytes())
+
+    def test_the_program(self):
+        self.make()
+        tool = [sys.executable, str(ROOT / "tools" / "check_certificate.py")]
+        run = lambda: subprocess.run(tool + [str(self.certificate)], capture_output=True, text=True, check=False)  # noqa: E731
+        self.assertEqual((run().returncode, run().stderr), (0, ""))
+        text = self.certificate.read_text(encoding="utf-8")
+        self.certificate.write_text(text.replace('"shrink":1e-06', '"shrink":0'), encoding="utf-8")
+        self.assertEqual(run().returncode, 1)
+        self.certificate.write_text(text[:len(text) // 2], encoding="utf-8")
+        self.assertEqual(run().returncode, 2)
+        self.assertNotIn("Traceback", run().stderr)
+
+
+class Tampered(Certificates):
+    """Each change is by somebody who wants a wrong volume to pass."""
+
+    def setUp(self):
+        super().setUp()
+        self.make(more="navigation: {altitude: [0, 30]}\n")
+        self.accepted()
+
+    def part(self, change, why=""):
+        self.refused_after(lambda c: change(c["parts"][0]), why)
+
+    def planes(self, part):
+        """Where new planes begin in the steps."""
+        at, found = 0, []
+        while at < len(part["steps"]):
+            if part["steps"][at] == checker.PLANE:
+                found.append(at)
+                at += 3
+            at += 1
+        return found
+
+    def test_planes(self):
+        def turn(part):
+            at = self.planes(part)[3]
+            part["steps"][at + 1:at + 4] = [-n for n in part["steps"][at + 1:at + 4]]
+
+        def move(part):
+            at = self.planes(part)[-1]
+            part["steps"][at + 1:at + 4] = part["steps"][at + 2:at + 4] + part["steps"][at + 1:at + 2]
+
+        def no_plane(part):
+            at = self.planes(part)[0]
+            part["steps"][at + 1:at + 4] = [0, 0, 0]
+
+        def another(part):
+            first, last = self.planes(part)[0], self.planes(part)[-1]
+            part["steps"][last + 1:last + 4] = part["steps"][first + 1:first + 4]
+
+        def broken(part):
+            part["steps"][self.planes(part)[0] + 1] += 0.5
+
+        for change in (turn, move, no_plane, another):
+            self.part(change, "a plane does not separate")
+        self.part(broken, "whole number")
+
+    def test_steps(self):
+        def all_known(part):
+            part["steps"] = [0 if s == checker.DESCEND else s for s in part["steps"]]
+
+        def nothing_there(part):
+            part["steps"] = [checker.NOTHING] * len(part["steps"])
+
+        def leave_all(part):
+            part["steps"] = [checker.LEAVE] * (4 * len(part["facets"]))
+
+        self.part(all_known)
+        self.part(nothing_there, "is left out")
+        self.part(leave_all, "without a plane")
+        self.part(lambda p: p.update(steps=p["steps"][:-1]), "end too early")
+        self.part(lambda p: p["steps"].append(0), "more steps")
+        self.part(lambda p: p.update(steps=[]), "end too early")
+        self.part(lambda p: p["steps"].__setitem__(0, 7), "not known")
+        self.part(lambda p: p["steps"].__setitem__(0, -1), "not known")
+
+    def test_facets(self):
+        self.part(lambda p: p["facets"].pop(), "a facet is left out")
+        self.part(lambda p: p["facets"].__setitem__(5, p["facets"][6]), "a facet is left out")
+        self.part(lambda p: p["facets"].__setitem__(0, 10**6), "a facet is left out")
+        self.part(lambda p: p["facets"].append(10**6), "does not have")
+        self.part(lambda p: p["facets"].reverse())
+        self.part(lambda p: p.update(facets=[], steps=[]), "a facet is left out")
+
+    def test_targets(self):
+        larger = [[2 * p[0], 2 * p[1], p[2]] for p in self.read()["parts"][0]["target"]]
+        self.part(lambda p: p.update(target=larger), "target is not the volume's")
+        self.part(lambda p: p.update(shift_m=1.0), "target is not the volume's")
+        self.part(lambda p: p.update(corners=[[x / 2 for x in c] for c in p["corners"]]), "smaller than the target")
+        self.part(lambda p: p.update(corners=p["corners"][:3]), "smaller than the target")
+        self.part(lambda p: p.update(corners=[[0, 0, 0]] * 4), "no area")
+        self.part(lambda p: p.update(corners=[[-9, 0, 0], [9, 0, 0]] * 2), "no area")
+        self.part(lambda p: p.update(corners=[c[:2] + [-1] for c in p["corners"]]), "stated plane")
+        self.part(lambda p: p.update(normal=[0, 0, -1]))
+        self.part(lambda p: p.update(normal=[0, 0.1, 0.995]))
+        self.part(lambda p: p.update(normal=[0, 0, 1e-9]), "unit length")
+        self.part(lambda p: p.update(cut_height_m=1.0), "left out than rounding needs")
+        self.part(lambda p: p.update(cut_height_m=-1.0), "left out than rounding needs")
+        self.part(lambda p: p.update(cut_height_m=None), "only a point")
+        self.part(lambda p: p["centre"].__setitem__(2, 50.0))
+        self.part(lambda p: p["centre"].__setitem__(0, 1.0))
+
+    def test_what_is_stated(self):
+        self.refused_after(lambda c: c.update(shrink=0))
+        self.refused_after(lambda c: c.update(shrink=-1e-5), "out of range")
+        self.refused_after(lambda c: c.update(shrink=1), "out of range")
+        self.refused_after(lambda c: c.update(max_range_m=40), "beyond the range")
+        self.refused_after(lambda c: c.update(rounding_m=100), "so much was rounded")
+        self.refused_after(lambda c: c["boxes"][0]["max"].__setitem__(2, 29), "outside of altitude")
+        self.refused_after(lambda c: c["boxes"][0]["min"].__setitem__(2, 1), "outside of altitude")
+        self.refused_after(lambda c: c.update(parts=[]))
+        self.refused_after(lambda c: c.update(format="vantage certificate 2"), "another version")
+        self.refused_after(lambda c: c.update(mission_hash="0" * 64), "another mission")
+        self.refused_after(lambda c: c["scene"].update(hash="0" * 64), "the scene is not")
+        self.refused_after(lambda c: c["volume"].update(hash="0" * 64), "the volume is not")
+        self.refused_after(lambda c: c["volume"].update(file="gone.ply"), "gone.ply")
+        self.refused_after(lambda c: c["volume"].update(file="volume.scene.ply"), "the volume is not")
+        self.refused_after(lambda c: c.pop("boxes"), "garbled")
+        self.refused_after(lambda c: c.update(shrink="much"), "garbled")
+        self.refused_after(lambda c: c["parts"][0]["centre"].__setitem__(0, float("nan")))
+
+    def test_another_scene(self):
+        def add(mesh):  # a triangle over the target
+            first = len(mesh.vertices)
+            mesh.vertices += [(-1.0, -1.0, 3.0), (1.0, -1.0, 3.0), (0.0, 1.0, 3.0)]
+            mesh.triangles.append((first, first + 1, first + 2))
+            mesh.objects.append(0)
+
+        def grow(mesh):
+            mesh.vertices = [(x, y, 1.5 * z) for x, y, z in mesh.vertices]
+
+        self.refused_with("volume.scene.ply", add)
+        self.refused_with("volume.scene.ply", grow)
+        self.refused_with("volume.scene.ply", lambda m: m.triangles.pop(20) and m.objects.pop(20))
+        shutil.copy(self.folder / "volume.ply", self.folder / "volume.scene.ply")
+        with self.assertRaisesRegex(checker.Refused, "the scene is not"):
+            self.accepted()
+
+    def test_another_volume(self):
+        def scaled(factor):
+            def change(mesh):
+                centre = self.read()["parts"][0]["centre"]
+                mesh.vertices = [tuple(c + factor * (x - c) for x, c in zip(v, centre)) for v in mesh.vertices]
+            return change
+
+        def far_vertex_out(mesh):
+            i = max(range(len(mesh.vertices)), key=lambda v: sum(x * x for x in mesh.vertices[v]))
+            mesh.vertices[i] = tuple(1.01 * x for x in mesh.vertices[i])
+
+        def shell(mesh):  # a second one, inside out and beside it
+            first = len(mesh.vertices)
+            mesh.vertices += [(x + 200, y, z) for x, y, z in mesh.vertices]
+            mesh.triangles += [(a + first, c + first, b + first) for a, b, c in mesh.triangles]
+
+        kept = self.forge("volume.ply", lambda mesh: None)
+        self.assertIn("names no target", "".join(self.accepted()))  # what was forged is in order but for the change
+        for path, data in kept.items():
+            path.write_bytes(data)
+        self.refused_with("volume.ply", scaled(1.000002))
+        self.refused_with("volume.ply", far_vertex_out)
+        self.refused_with("volume.ply", lambda m: m.triangles.pop(), "not closed")
+        self.refused_with("volume.ply", lambda m: m.triangles.clear(), "no triangles")
+        self.refused_with("volume.ply", shell)
+        self.refused_with("volume.ply", lambda m: m.__setattr__("triangles", [t[::-1] for t in m.triangles]),
+                          "inside out")
+        data = (self.folder / "volume.ply").read_bytes()
+        (self.folder / "volume.ply").write_bytes(data[:-40])
+        with self.assertRaisesRegex(checker.Unreadable, "cut short"):
+            self.accepted()
+
+    def test_a_cavity_is_no_shell_that_is_inside_out(self):
+        def tetrahedron(size, at, turned):
+            points = [tuple(a + size * x for a, x in zip(at, p)) for p in [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]]
+            faces = [(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)]
+            return points, [f[::-1] if turned else f for f in faces]
+
+        def outward(at):
+            points, triangles = tetrahedron(64, (0, 0, 0), False)
+            more, turned = tetrahedron(1, at, True)
+            checker.check_outward(points + more, checker.pieces_of(
+                dict(enumerate(triangles + [tuple(v + 4 for v in t) for t in turned]))))
+
+        outward((8, 8, 8))
+        with self.assertRaisesRegex(checker.Refused, "inside out"):
+            outward((64, 64, 64))
+
+    def test_garbage(self):
+        """Whatever is changed, the answer is one of three."""
+        seed = 20261122
+        print("seed", seed)
+        numbers = random.Random(seed)
+        texts = {p: p.read_bytes() for p in (self.certificate, self.folder / "volume.ply",
+                                             self.folder / "volume.scene.ply")}
+        answers = {"accepted": 0, "refused": 0, "unreadable": 0}
+        for _ in range(120):
+            path = numbers.choice(list(texts))
+            data = bytearray(texts[path])
+            for _ in range(numbers.choice([1, 1, 2, 10])):
+                at = numbers.randrange(len(data))
+                kind = numbers.randrange(4)
+                if kind == 0:
+                    data[at] = numbers.randrange(256)
+                elif kind == 1:
+                    del data[at:at + numbers.randrange(1, 20)]
+                elif kind == 2:
+                    data[at:at] = data[numbers.randrange(len(data)):][:numbers.randrange(1, 20)]
+                else:
+                    data[at] = ord(numbers.choice("0123456789-[]{},.\"enul"))
+            path.write_bytes(data)
+            try:
+                before = copy.deepcopy(json.loads(texts[self.certificate]))
+                self.accepted()
+                answers["accepted"] += 1
+                after = self.read()
+                for key in ("scene", "volume", "mission_hash"):
+                    self.assertEqual(before[key], after[key])
+                self.assertLessEqual(before["shrink"], after["shrink"])
+                self.assertLessEqual(before["max_range_m"], after["max_range_m"])
+            except checker.Refused:
+                answers["refused"] += 1
+            except checker.Unreadable:
+                answers["unreadable"] += 1
+            path.write_bytes(texts[path])
+        print(answers)
+        self.assertGreater(min(answers["refused"], answers["unreadable"]), 10)
+
+
+if __name__ == "__main__":
+    VANTAGE = str(pathlib.Path(sys.argv.pop(1)).resolve())
+    unittest.main()

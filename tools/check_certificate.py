@@ -1,0 +1,400 @@
+#!/usr/bin/env python3
+"""Checks the certificate of a visibility volume. Needs Python 3.8 and nothing else.
+
+    python3 check_certificate.py volume.cert
+
+Every decision is made with whole numbers: the stored ones times a power of two. Nothing of the program that computed
+the volume or the proof is used or believed. For each part of the target and a point c in it this is checked:
+
+ 1. The volume's mesh is closed: each edge is run as often one way as the other. No piece is inside out.
+ 2. It is moved towards c by a stated part of the distance, in doubles. Its far facets, those that have c strictly on
+    their inner side, are all in the certificate.
+ 3. For every far facet and every triangle of the scene, as far as that lies in front of the target, there is a plane
+    with the facet, the polygon that is to be seen and c strictly on one side, and the triangle on the other.
+
+Why that is enough: a ray from c through a point p of the volume leaves it for good through a far facet, in a point x
+at or behind p. By 3 nothing of the scene touches the hull of x and the polygon, so nothing lies between p and the
+polygon. Planes are found for groups of facets and boxes of triangles at once; the boxes are made here, from the scene.
+docs/proof.md has the format. Exit code: 0 accepted, 1 refused, 2 a file that cannot be read."""
+
+import argparse, collections, hashlib, json, math, struct, sys  # noqa: E401
+from fractions import Fraction
+from pathlib import Path
+
+MOST_FACETS = 256  # of the largest group that is tried at once
+MOST_KNOWN = 16  # planes that are kept of a group
+PLANE, DESCEND, LEAVE, NOTHING = 16, 17, 18, 19  # steps; smaller ones are numbers of known planes
+LEAST_BITS = 80  # of fractions: boxes round pieces outwards by one unit
+SIZES = {"uchar": "B", "int": "i", "uint": "I", "float": "f", "double": "d"}
+
+class Refused(Exception):
+    """The certificate does not prove what it says."""
+
+class Unreadable(Exception):
+    """A file is not what it should be."""
+
+def demand(holds, problem):
+    if not holds:
+        raise Refused(problem)
+
+class Mesh:
+    """A PLY file: binary, little-endian, triangles."""
+
+    def __init__(self, path):
+        self.path, self.comments, elements = path, [], []
+        try:
+            data = path.read_bytes()
+            end = data.index(b"end_header\n")
+            for line in data[:end].decode("utf-8", "replace").split("\n"):
+                words = line.split()
+                if line.startswith("comment "):
+                    self.comments.append(line[8:])
+                elif words[:1] == ["element"]:
+                    elements.append((words[1], int(words[2]), []))
+                elif words[:1] == ["property"]:
+                    elements[-1][2].append(words[1:])
+            if not data.startswith(b"ply\nformat binary_little_endian 1.0\n"):
+                raise ValueError("not binary and little-endian")
+            self.read_elements(data, end + len(b"end_header\n"), elements)
+        except (OSError, struct.error, LookupError, ValueError, AttributeError) as error:
+            raise Unreadable(f"{path}: is cut short, or no PLY of triangles as vantage writes it ({error})") from error
+
+    def read_elements(self, data, at, elements):
+        for name, count, properties in elements:
+            names = [p[-1] for p in properties]
+            kinds = "".join(SIZES[p[1]] + "3" + SIZES[p[2]] if p[0] == "list" else SIZES[p[0]] for p in properties)
+            row = struct.Struct("<" + kinds)
+            rows = list(row.iter_unpack(data[at:at + count * row.size]))
+            at += count * row.size
+            if len(rows) != count:
+                raise ValueError("too few rows")
+            if name == "vertex":
+                x, y, z = (names.index(axis) for axis in "xyz")
+                self.vertices = [(r[x], r[y], r[z]) for r in rows]
+            elif name == "face":
+                if properties[0][0] != "list" or any(r[0] != 3 for r in rows):
+                    raise ValueError("not all faces are triangles")
+                self.triangles = [r[1:4] for r in rows]
+                at_object = names.index("object") + 3 if "object" in names else 0  # a list of three is four numbers
+                self.objects = [r[at_object] if at_object else 0 for r in rows]
+        if any(not 0 <= v < len(self.vertices) for t in self.triangles for v in t):
+            raise ValueError("an index out of range")
+        if not all(math.isfinite(x) for v in self.vertices for x in v):
+            raise ValueError("a number that is not finite")
+
+    def hash(self, kind):
+        """docs/hashes.md"""
+        digest = hashlib.sha256(b"vantage " + kind + b" 1\n" + struct.pack("<Q", len(self.triangles)))
+        for triangle, of in zip(self.triangles, self.objects):
+            numbers = [x + 0.0 for v in triangle for x in self.vertices[v]]
+            digest.update(struct.pack("<9d", *numbers) + (struct.pack("<I", of) if kind == b"scene" else b""))
+        return digest.hexdigest()
+
+
+class Scale:
+    """Numbers times 2^bits, so that all of the given ones are whole."""
+
+    def __init__(self, points):
+        self.bits = max([LEAST_BITS] + [x.as_integer_ratio()[1].bit_length() - 1 for p in points for x in p])
+
+    def whole(self, number):
+        top, bottom = float(number).as_integer_ratio()
+        return top << (self.bits - bottom.bit_length() + 1)
+
+    def point(self, numbers):
+        return tuple(self.whole(x) for x in numbers)
+
+
+def dot(a, b):
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+def minus(a, b):
+    return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
+
+def cross(a, b):
+    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+
+
+def welded(mesh):
+    """Triangles by vertices of which no two lie in one place; without those that have two corners in one."""
+    number_of = {}
+    number = [number_of.setdefault(v, len(number_of)) for v in mesh.vertices]
+    triangles = [tuple(number[v] for v in t) for t in mesh.triangles]
+    return list(number_of), {i: t for i, t in enumerate(triangles) if len(set(t)) == 3}
+
+
+def pieces_of(triangles):
+    """The triangles of a closed mesh in groups that share vertices."""
+    edges, root = collections.Counter(), {}
+    pieces = collections.defaultdict(list)
+
+    def find(v):
+        while root.setdefault(v, v) != v:
+            root[v] = root[root[v]]
+            v = root[v]
+        return v
+
+    for a, b, c in triangles.values():
+        edges.update(((a, b), (b, c), (c, a)))
+        root[find(a)] = root[find(b)] = find(c)
+    demand(edges, "the volume has no triangles")
+    demand(all(edges[b, a] == count for (a, b), count in edges.items()), "the mesh of the volume is not closed")
+    for t in triangles.values():
+        pieces[find(t[0])].append(t)
+    return list(pieces.values())
+
+
+def winding_number(point, facets):
+    """How often facets (corners about the origin, times 3) run round a point; None where a ray meets an edge."""
+    ray, number = (7919, 104729, -1299709), 0
+    for a, b, c in facets:
+        a, b, c = minus(a, point), minus(b, point), minus(c, point)
+        sides = [dot(ray, cross(a, b)), dot(ray, cross(b, c)), dot(ray, cross(c, a))]
+        if min(sides) > 0 or max(sides) < 0:
+            ahead = dot(a, cross(b, c))
+            if ahead == 0:
+                return None
+            number += 1 if ahead > 0 and min(sides) > 0 else -1 if ahead < 0 and max(sides) < 0 else 0
+        elif min(sides) >= 0 or max(sides) <= 0:
+            return None
+    return number
+
+
+def check_outward(points, pieces):
+    """A piece that is inside out is a cavity of others, or refused."""
+    for piece in pieces:
+        if sum(dot(points[a], cross(points[b], points[c])) for a, b, c in piece) > 0:
+            continue
+        others = [[tuple(3 * x for x in points[v]) for v in t] for other in pieces if other is not piece for t in other]
+        middles = (tuple(sum(points[v][k] for v in t) for k in range(3)) for t in piece)
+        numbers = (winding_number(middle, others) for middle in middles)
+        demand(next((n for n in numbers if n is not None), 0) > 0, "a piece of the volume's mesh is inside out")
+
+
+def corners_in_front(triangle, normal, cut):
+    """What of a triangle lies higher than the cut: (x, y, z, w), for the points (x, y, z) / w."""
+    corners, over = [], [0 if cut is None else dot(normal, c) - cut for c in triangle]
+    for i, a in enumerate(triangle):
+        b, at_a, at_b = triangle[i - 2], over[i], over[i - 2]
+        if at_a >= 0:
+            corners.append(a + (1,))
+        if (at_a >= 0) != (at_b >= 0):
+            along = tuple(x * abs(at_b) + y * abs(at_a) for x, y in zip(a, b))
+            corners.append(along + (abs(at_a) + abs(at_b),))
+    return corners
+
+
+class Node:
+    """The corners of a piece of the scene, or a box that holds the children."""
+
+    def __init__(self, corners, children):
+        self.corners, self.children, self.box = corners, children, None
+        boxes = [child.box for child in children if child.box]
+        if corners or boxes:
+            self.box = [min([c[k] // c[3] for c in corners] + [b[k] for b in boxes]) for k in range(3)]
+            self.box += [max([-(-c[k] // c[3]) for c in corners] + [b[k + 3] for b in boxes]) for k in range(3)]
+
+    def is_below(self, normal, low):
+        if self.corners:
+            return all(dot(normal, c) < low * c[3] for c in self.corners)
+        return self.box is None or sum(n * self.box[k + 3 if n > 0 else k] for k, n in enumerate(normal)) < low
+
+
+def tree_of(numbers, middles, pieces):
+    """Halves by the widest axis. Which half a piece is in does not matter for what is proved, only for the steps."""
+    if len(numbers) <= 2:
+        return Node([], [pieces[i] for i in sorted(numbers)])
+    spread = [max(middles[i][k] for i in numbers) - min(middles[i][k] for i in numbers) for k in range(3)]
+    axis = spread.index(max(spread))
+    numbers.sort(key=lambda i: (middles[i][axis], i))
+    half = len(numbers) // 2
+    return Node([], [tree_of(numbers[:half], middles, pieces), tree_of(numbers[half:], middles, pieces)])
+
+
+class Replay:
+    """Goes through the steps of a part, and believes none of them."""
+
+    def __init__(self, part, points, triangles, target):
+        self.facets, self.steps, self.next, self.planes = part["facets"], part["steps"], 0, 0
+        self.points, self.triangles, self.target = points, triangles, target
+        demand(all(type(n) is int for n in self.facets + self.steps), "a step is not a whole number")
+        demand(all(i in triangles for i in self.facets), "a facet is named that the volume does not have")
+
+    def groups(self, begin, end, root):
+        if end - begin > MOST_FACETS:
+            half = begin + (end - begin) // 2
+            self.groups(begin, half, root)
+            self.groups(half, end, root)
+        elif end > begin:
+            self.separate(begin, end, [root])
+
+    def take(self):
+        demand(self.next < len(self.steps), "the steps end too early")
+        self.next += 1
+        return self.steps[self.next - 1]
+
+    def separate(self, begin, end, items):
+        vertices = {v for i in self.facets[begin:end] for v in self.triangles[i]}
+        hull = [self.points[v] for v in vertices] + self.target + [(0, 0, 0)]
+        known, found, left, stack = {}, 0, [], items[::-1]
+        while stack:
+            item, step = stack.pop(), self.take()
+            if step == NOTHING:
+                demand(item.box is None, "a part of the scene is left out that lies in front of the target")
+            elif step == DESCEND:
+                demand(item.children, "a triangle is to be taken apart")
+                stack.extend(reversed(item.children))
+            elif step == LEAVE:
+                left.append(item)
+            else:
+                if step == PLANE:
+                    step = found % MOST_KNOWN
+                    normal = (self.take(), self.take(), self.take())
+                    known[step] = (normal, min(dot(normal, p) for p in hull))
+                    found += 1
+                demand(step in known, "a step names a plane that is not known")
+                demand(item.is_below(*known[step]), "a plane does not separate what it should")
+        self.planes += found
+        if left:
+            demand(end - begin > 1, "a facet is left without a plane")
+            half = begin + (end - begin) // 2
+            self.separate(begin, half, left)
+            self.separate(half, end, left)
+
+
+def hull_of(points, normal):
+    """The corners of what points span, seen against the normal, counter-clockwise (Andrew 1979)."""
+    up = cross(normal, minus(points[1], points[0]))
+    right, chain = cross(up, normal), []
+    ordered = sorted(points, key=lambda p: (dot(right, p), dot(up, p)))
+    for half in (ordered, ordered[::-1]):
+        first = len(chain)
+        for p in half:
+            while len(chain) > first + 1 and dot(normal, cross(minus(chain[-1], chain[-2]), minus(p, chain[-2]))) <= 0:
+                chain.pop()
+            chain.append(p)
+        chain.pop()
+    return chain
+
+
+def check_target(part, scale, centre, normal, corners, allowed):
+    """That the polygon is the target, moved by the stated shift. Numbers times 2^(2 bits); returns its corners."""
+    shift, unit = scale.whole(part["shift_m"]), 1 << scale.bits
+    moved = [tuple((t - c) * unit + shift * n for t, c, n in zip(scale.point(v), centre, normal)) for v in part["target"]]
+    demand(abs(dot(normal, normal) - unit * unit) * 10**9 <= unit * unit, "the normal is not of unit length")
+    extent = max(abs(a[k] - b[k]) for a in moved for b in moved for k in range(3))
+    flat = max(extent // 10**6, unit * unit // 1000)
+    demand(all(abs(dot(normal, p)) <= flat * unit for p in moved), "the target does not lie in the stated plane")
+    demand(all(abs(dot(normal, c)) <= allowed * unit for c in corners), "the polygon does not lie in the stated plane")
+    if len(moved) == 1:
+        demand(corners == [(0, 0, 0)] and dot(moved[0], moved[0]) <= (allowed * unit)**2, "the point is another one")
+        return moved
+    hull = hull_of(corners, normal)
+    demand(len(hull) >= 3, "the polygon has no area")
+    for a, b in zip(hull, hull[1:] + hull[:1]):
+        outward = cross(minus(b, a), normal)
+        most = dot(outward, a) * unit + allowed * unit * math.isqrt(dot(outward, outward))
+        demand(all(dot(outward, p) <= most for p in moved), "the polygon is smaller than the target")
+    return moved
+
+
+def check_part(part, certificate, scene, volume, middles):
+    vertices, triangles = welded(volume)
+    kept, centre = 1 - certificate["shrink"], part["centre"]
+    shrunk = [tuple(kept * (x - c) for x, c in zip(v, centre)) for v in vertices]
+    others = [centre, part["normal"], [part["shift_m"], part["cut_height_m"] or 0.0]]
+    scale = Scale(scene.vertices + shrunk + part["target"] + part["corners"] + others)
+    points = [scale.point(v) for v in shrunk]
+    whole_centre, normal = scale.point(centre), scale.point(part["normal"])
+    corners = [scale.point(c) for c in part["corners"]]
+    unit = 1 << scale.bits
+    largest = max(map(abs, centre)) + max(abs(x) for c in part["corners"] for x in c)
+    allowed_m = 2 * max(1e-9, 2.0**-49 * largest)
+    allowed = math.ceil(Fraction(allowed_m) * unit)
+    moved = check_target(part, scale, whole_centre, normal, corners, allowed)
+    slack = allowed + math.ceil(Fraction(certificate["rounding_m"]) * unit)
+
+    check_outward(points, pieces_of(triangles))
+    used = {v for t in triangles.values() for v in t}
+    reach = math.floor(Fraction(certificate["max_range_m"]) * unit) + slack
+    for v in used:
+        away = [minus(tuple(x * unit for x in points[v]), t) for t in moved]
+        demand(all(dot(a, a) <= (reach * unit)**2 for a in away), "a vertex lies beyond the range")
+    cut = part["cut_height_m"]
+    if cut is None:
+        demand(len(part["target"]) == 1, "only a point is seen from all sides")
+    else:
+        demand(0 <= cut <= allowed_m, "more of the scene is left out than rounding needs")
+        cut = scale.whole(cut) * unit
+        demand(all(dot(normal, points[v]) >= -slack * unit for v in used), "a vertex lies behind the target")
+
+    far = {i for i, (a, b, c) in triangles.items() if dot(points[a], cross(points[b], points[c])) > 0}
+    demand(set(part["facets"]) >= far, "a facet is left out")
+    replay = Replay(part, points, triangles, corners)
+    if scene.triangles:
+        places = [minus(scale.point(v), whole_centre) for v in scene.vertices]
+        pieces = [Node(corners_in_front([places[v] for v in t], normal, cut), []) for t in scene.triangles]
+        replay.groups(0, len(replay.facets), tree_of(list(range(len(pieces))), middles, pieces))
+    demand(replay.next == len(replay.steps), "there are more steps than the facets need")
+    return len(far), replay.planes
+
+
+def check_box(box, volume, slack):
+    for k, axis in enumerate(zip(*{volume.vertices[v] for t in volume.triangles for v in t})):
+        low, high = box["min"][k], box["max"][k]
+        demand(low is None or Fraction(min(axis)) >= Fraction(low) - slack, f"a vertex is outside of {box['name']}")
+        demand(high is None or Fraction(max(axis)) <= Fraction(high) + slack, f"a vertex is outside of {box['name']}")
+
+
+def check_files(certificate, scene, volume):
+    demand(scene.hash(b"scene") == certificate["scene"]["hash"], "the scene is not the one of the certificate")
+    demand(volume.hash(b"volume") == certificate["volume"]["hash"], "the volume is not the one of the certificate")
+    rounded = [float(c.split()[2]) for c in volume.comments if c.startswith("vantage rounding_m ")]
+    demand(certificate["rounding_m"] in rounded + [0], "the volume does not say that so much was rounded")
+    pieces = [c[16:] for c in volume.comments if c.startswith("vantage volume: ")]
+    if not pieces:
+        return False
+    said = json.loads("".join(pieces))  # what the volume says of itself
+    demand(said.get("mission_hash", "") == certificate["mission_hash"], "the volume is of another mission")
+    demand(said.get("scene_hash", "") == certificate["scene"]["hash"], "the volume is of another scene")
+    views = [view[0] for view in said["views"]] if "views" in said else [said["target"]]
+    parts = [(part, view["offset_m"]) for view in views for part in view["parts"]]
+    stated = [(part, offset + lift) for (part, offset), lift in zip(parts, said["lift_m"])]
+    demand(stated == [(p["target"], p["shift_m"]) for p in certificate["parts"]], "the target is not the volume's")
+    return True
+
+
+def check(path, out=print):
+    try:
+        certificate = json.loads(path.read_text(encoding="utf-8"))
+        if certificate["format"] != "vantage certificate 1":
+            raise Unreadable(f"{path}: is a certificate of another version, {certificate['format']}")
+        scene = Mesh(path.parent / certificate["scene"]["file"])
+        volume = Mesh(path.parent / certificate["volume"]["file"])
+        is_stated = check_files(certificate, scene, volume)
+        demand(0 <= certificate["shrink"] < 1, "the shrink is out of range")
+        demand(certificate["parts"], "the certificate has no part")
+        for box in certificate["boxes"]:
+            check_box(box, volume, Fraction(certificate["rounding_m"]))
+        triangles = [[scene.vertices[v] for v in t] for t in scene.triangles]
+        middles = [[min(p[k] for p in t) + max(p[k] for p in t) for k in range(3)] for t in triangles]
+        for i, part in enumerate(certificate["parts"]):
+            facets, planes = check_part(part, certificate, scene, volume, middles)
+            out(f"part {i + 1}: {facets} far facets, {planes} planes, against {len(scene.triangles)} triangles")
+            if not is_stated:
+                out(f"  the volume names no target; this is {part['target']}, moved by {part['shift_m']} m")
+    except (OSError, LookupError, TypeError, ValueError, AttributeError, ArithmeticError, RecursionError) as error:
+        raise Unreadable(f"{path}: is no certificate, cut short or garbled ({type(error).__name__}: {error})") from error
+    names = ["sight", "range", "front"] + [box["name"] for box in certificate["boxes"]]
+    out(f"accepted: {', '.join(names)}, of the volume less {certificate['shrink']:g} of the distance to the target,")
+    out(f"within {certificate['max_range_m']:g} m. Mission {certificate['mission_hash']}")
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser(description="Check the certificate of a visibility volume.")
+    parser.add_argument("certificate", type=Path, help="with the two files that it names beside it")
+    try:
+        check(parser.parse_args().certificate)
+    except (Refused, Unreadable) as failure:
+        print(f"REFUSED: {failure}" if isinstance(failure, Refused) else f"error: {failure}", file=sys.stderr)
+        sys.exit(1 if isinstance(failure, Refused) else 2)
