@@ -93,6 +93,23 @@ TEST(PictureNotes, AreWrittenUnderTheSubtitle) {
   EXPECT_LE(red_rows(annotated(paper, annotation, view)).second, many);
 }
 
+TEST(PictureLegend, NamesMarksInsteadOfCauses) {
+  Volume volume;
+  volume.mesh = make_box_mesh({0, 0, 0}, {1, 1, 1});
+  volume.cause_of.assign(12, 0);
+  volume.causes = {{CauseKind::range, "max_range", 6}};
+  PictureRequest request;
+  request.volume = &volume;
+  EXPECT_EQ(picture::legend_of(request).size(), 1u);
+  request.marks = {{"open", {3, 4}}, {"too small", {}}, {"other", {5}}};
+  const std::vector<picture::LegendEntry> legend = picture::legend_of(request);
+  ASSERT_EQ(legend.size(), 3u);
+  EXPECT_EQ(legend[1].label, "open");
+  EXPECT_EQ(legend[1].remark, "2");
+  EXPECT_EQ(legend[2].label, "other");
+  EXPECT_EQ(legend[2].colour.red, legend[1].colour.red);
+}
+
 TEST(PictureView, ClipCoordinatesAgreeWithPixelsAndDepths) {
   const Vec3 origin(100, 200, 300);
   for (const PictureView& request : views()) {

@@ -238,6 +238,28 @@ TEST_F(RenderPicture, DrawsNavigationZones) {
   EXPECT_NE(out, edge);
 }
 
+TEST_F(RenderPicture, MarksFacets) {
+  const Volume volume = volume_of(make_box_mesh({-30, -30, 1}, {-10, 30, 10}), CauseKind::range);
+  request_.volume = &volume;
+  MarkedFacets top{"open", {}};
+  for (std::uint32_t t = 0; t < volume.mesh.triangles.size(); ++t) {
+    const Triangle& corners = volume.mesh.triangles[t];
+    const bool is_top =
+        std::all_of(corners.begin(), corners.end(), [&](std::uint32_t v) { return volume.mesh.vertices[v].z() == 10; });
+    if (is_top) top.facets.push_back(t);
+  }
+  ASSERT_EQ(top.facets.size(), 2u);
+  request_.marks = {{"open", {}}};
+  const Pixel plain = at(render(), -15, 20);
+  EXPECT_GT(plain.blue, plain.red) << plain;
+  request_.marks = {top};
+  const Pixel marked = at(render(), -15, 20);
+  EXPECT_GT(marked.red, marked.green + 20) << marked;
+  EXPECT_GT(plain.green, marked.green + 5) << plain;
+  request_.marks = {{"open", {12}}};
+  testing::expect_error([&] { render(); }, ErrorCode::index_out_of_range, "marks");
+}
+
 TEST_F(RenderPicture, KeepsItsDetailFarFromTheOrigin) {
   const Picture here = render();
   const Vec3 far(580000, 4785000, 200);

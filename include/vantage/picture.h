@@ -34,12 +34,20 @@ struct PictureView {
 /// Pixels that a picture may have each way.
 inline constexpr int kSmallestPicture = 64, kLargestPicture = 4096;
 
+/// Facets of the volume that a picture shows in a colour of their own: red, of a second group yellow, and so on in
+/// turn.
+struct MarkedFacets {
+  std::string label;                  ///< for the legend
+  std::vector<std::uint32_t> facets;  ///< by number; with none there is no entry in the legend
+};
+
 /// What to draw, and how.
 struct PictureRequest {
-  const Target* target = nullptr;  ///< drawn where it is given, `offset_m` applied
-  const Volume* volume = nullptr;  ///< its mesh, `cause_of` and `causes`; without causes it has one colour
-  const Mesh* solid = nullptr;     ///< instead of a volume: any mesh, in one colour
-  Navigation navigation;           ///< its boxes and zones are drawn as thin lines
+  const Target* target = nullptr;        ///< drawn where it is given, `offset_m` applied
+  const Volume* volume = nullptr;        ///< its mesh, `cause_of` and `causes`; without causes it has one colour
+  const Mesh* solid = nullptr;           ///< instead of a volume: any mesh, in one colour
+  std::vector<MarkedFacets> marks = {};  ///< with any, causes do not count: all else of the volume has one colour
+  Navigation navigation;                 ///< its boxes and zones are drawn as thin lines
   PictureView view;
   int width = 1600, height = 1200;  ///< pixels, kSmallestPicture to kLargestPicture
   bool draw_scene = true;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -7,6 +8,7 @@
 
 #include "cli/command.h"
 #include "cli/judged_volume.h"
+#include "cli/picture_options.h"
 #include "cli/progress_line.h"
 #include "cli/standard_streams.h"
 #include "cli/text_table.h"
@@ -14,6 +16,8 @@
 #include "vantage/input.h"
 #include "vantage/json.h"
 #include "vantage/mission.h"
+#include "vantage/output.h"
+#include "vantage/picture.h"
 #include "vantage/prove.h"
 #include "vantage/result.h"
 #include "vantage/volume.h"
@@ -25,6 +29,7 @@ constexpr const char* kProveExamples =
     "EXAMPLES\n"
     "  vantage prove mission.yaml volume.ply\n"
     "  vantage prove mission.yaml edited.glb --shrink 1e-5 --json\n"
+    "  vantage prove mission.yaml decimated.ply --picture open.png --view 'oblique 330,35'\n"
     "  vantage prove mission.yaml volume.ply --certificate volume.cert && python3 tools/check_certificate.py "
     "volume.cert\n"
     "\n"
@@ -34,7 +39,8 @@ constexpr const char* kProveExamples =
 
 struct ProveArguments : JudgeArguments {
   double shrink = ProveOptions{}.shrink;
-  std::string certificate;  ///< file; empty: none is wanted
+  std::string certificate, picture;  ///< files; empty: not wanted
+  std::string view, size;            ///< of the picture; empty: the usual ones
 };
 
 std::string table_text(const ProofReport& report, const std::string& file) {
@@ -85,17 +91,51 @@ std::string save_certificate(const JudgedVolume& judged, const ProofReport& repo
   return "wrote " + file + "\nwrote " + certificate_scene_file(file).string() + "\n";
 }
 
+/// The volume with its open facets.
+void draw(const JudgedVolume& judged, const ProofReport& report, const ProveArguments& options,
+          const Progress& progress) {
+  const Mission& mission = judged.mission;
+  PictureRequest request;
+  request.target = &mission.target;
+  request.volume = &judged.read.volume;
+  request.navigation = mission.navigation;
+  request.marks = {{"not proved to see the target", report.unproved}};
+  if (!options.view.empty()) request.view = parse_view({options.view});
+  if (!options.size.empty()) {
+    const std::array<int, 2> size = parse_size(options.size);
+    request.width = size[0];
+    request.height = size[1];
+  }
+  request.title = mission.target.name;
+  request.subtitle =
+      std::string(name_of(report.verdict())) + ", of all but a part of " + shortest(report.shrink) + " of the distance";
+  write_png(render_picture(mission.loaded.scene, request, progress), options.picture, progress);
+}
+
+void check_outputs(const JudgedVolume& judged, const ProveArguments& options) {
+  std::vector<std::filesystem::path> inputs = input_files(judged.mission.as_written);
+  inputs.emplace_back(options.volume_file);
+  if (!options.certificate.empty()) check_certificate_files(options.certificate, options.volume_file, inputs);
+  if (options.picture.empty()) return;
+  if (format_extension(options.picture) != ".png") {
+    throw Error(ErrorCode::output_format_unknown, "pictures are written as PNG", options.picture,
+                "give the picture a name that ends in .png");
+  }
+  check_can_write(options.picture);
+  check_not_an_input(options.picture, inputs);
+}
+
 int run_prove(const ProveArguments& options) {
   ProgressLine progress(options.common);
   const JudgedVolume judged = read_judged(options, progress);
-  if (!options.certificate.empty()) {
-    std::vector<std::filesystem::path> inputs = input_files(judged.mission.as_written);
-    inputs.emplace_back(options.volume_file);
-    check_certificate_files(options.certificate, options.volume_file, inputs);
-  }
+  check_outputs(judged, options);
   const ProofReport report = prove(judged, options, progress.callback());
   std::string saved;
   if (!options.certificate.empty()) saved = save_certificate(judged, report, options.certificate);
+  if (!options.picture.empty()) {
+    draw(judged, report, options, progress.callback());
+    saved += "wrote " + options.picture + "\n";
+  }
   if (options.json) {
     print(json_text(report));
   } else if (!options.common.quiet) {
@@ -128,6 +168,15 @@ void add_prove(CLI::App& app, Command& chosen) {
       ->add_option("--certificate", options->certificate,
                    "Write what tools/check_certificate.py needs to check the proof, and FILE's scene beside it")
       ->option_text("FILE");
+  command
+      ->add_option("--picture", options->picture,
+                   "Draw the volume as a PNG, with the facets that are not proved in red")
+      ->option_text("FILE");
+  command
+      ->add_option("--view", options->view,
+                   "Of the picture: 'top', 'oblique A,E' or 'from X,Y,Z', as of vantage render; in one word")
+      ->option_text("VIEW");
+  command->add_option("--size", options->size, "Of the picture, in pixels (1600x1200)")->option_text("WxH");
   finish<ProveArguments>(*command, options, kProveExamples, chosen, run_prove);
 }
 

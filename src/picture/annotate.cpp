@@ -219,7 +219,16 @@ std::vector<LegendEntry> legend_of(const PictureRequest& request) {
   using Mark = LegendEntry::Mark;
   std::vector<LegendEntry> legend;
   if (request.target != nullptr) legend.push_back({Mark::solid, kTarget, "target", ""});
-  if (request.volume != nullptr && !request.volume->mesh.triangles.empty()) {
+  const bool is_drawn = (request.volume != nullptr && !request.volume->mesh.triangles.empty()) ||
+                        (request.solid != nullptr && !request.solid->triangles.empty());
+  if (is_drawn && !request.marks.empty()) {
+    legend.push_back({Mark::film, kPlainVolume, "volume", ""});
+    for (std::size_t i = 0; i < request.marks.size(); ++i) {
+      const MarkedFacets& marks = request.marks[i];
+      if (marks.facets.empty()) continue;
+      legend.push_back({Mark::solid, kMarks[i % kMarks.size()], marks.label, std::to_string(marks.facets.size())});
+    }
+  } else if (request.volume != nullptr && !request.volume->mesh.triangles.empty()) {
     std::array<double, 5> area{};  // by kind
     double total = 0;
     for (const Cause& cause : request.volume->causes) {
@@ -232,7 +241,7 @@ std::vector<LegendEntry> legend_of(const PictureRequest& request) {
       legend.push_back({Mark::film, colour_of(cause), label_of(cause), percent(area[kind] / total)});
     }
     if (total <= 0) legend.push_back({Mark::film, kPlainVolume, "volume", ""});
-  } else if (request.solid != nullptr && !request.solid->triangles.empty()) {
+  } else if (is_drawn) {
     legend.push_back({Mark::film, kPlainVolume, "volume", ""});
   }
   const Navigation& limits = request.navigation;

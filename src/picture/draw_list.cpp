@@ -342,15 +342,18 @@ class Builder {
     if (solid == nullptr || solid->triangles.empty()) return;
     std::vector<std::uint8_t> kinds;
     const Volume* volume = request_.volume;
-    if (volume != nullptr && volume->cause_of.size() == solid->triangles.size() && !volume->causes.empty()) {
+    if (request_.marks.empty() && volume != nullptr && volume->cause_of.size() == solid->triangles.size() &&
+        !volume->causes.empty()) {
       for (const std::uint32_t cause : volume->cause_of) {
         kinds.push_back(static_cast<std::uint8_t>(volume->causes.at(cause).kind));
       }
     }
+    const std::vector<Colour> marked = mark(*solid);
     for (std::size_t t = 0; t < solid->triangles.size(); ++t) {
       progress_.tick();
       const Triangle& corners = solid->triangles[t];
-      const Colour colour = kinds.empty() ? kPlainVolume : colour_of(static_cast<CauseKind>(kinds[t]));
+      const Colour plain = marked.empty() ? kPlainVolume : marked[t];
+      const Colour colour = kinds.empty() ? plain : colour_of(static_cast<CauseKind>(kinds[t]));
       triangle(list_.volume, solid->vertices[corners[0]], solid->vertices[corners[1]], solid->vertices[corners[2]],
                packed(colour));
     }
@@ -360,6 +363,25 @@ class Builder {
       line(list_.creases, crease.a, crease.b, kCrease, crease_opacity(crease.strength), crease_width(crease.strength),
            0.35, 0);
     }
+  }
+
+  /// The colour of each facet, and lines round those that are marked: most are too small to be seen without.
+  std::vector<Colour> mark(const Mesh& solid) {
+    if (request_.marks.empty()) return {};
+    std::vector<Colour> colours(solid.triangles.size(), kPlainVolume);
+    for (std::size_t i = request_.marks.size(); i-- > 0;) {
+      const Colour colour = kMarks[i % kMarks.size()];
+      for (const std::uint32_t facet : request_.marks[i].facets) {
+        progress_.tick();
+        colours[facet] = colour;
+        const Triangle& corners = solid.triangles[facet];
+        for (std::size_t k = 0; k < 3; ++k) {
+          const Vec3 &a = solid.vertices[corners[k]], &b = solid.vertices[corners[(k + 1) % 3]];
+          line(list_.lines, a, b, colour, 0.9, 2, 0.8, 0.3);
+        }
+      }
+    }
+    return colours;
   }
 
   void target() {

@@ -2,6 +2,7 @@
 // kind of colour vision, and by their lightness in grey print.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 
@@ -25,6 +26,9 @@ inline constexpr Colour kCrease{24, 38, 66};
 inline constexpr Colour kBox{0, 110, 80};
 inline constexpr Colour kKeepOut{120, 60, 20};
 inline constexpr Colour kPlainVolume{0, 114, 178};
+
+/// Of PictureRequest::marks, in turn.
+inline constexpr std::array<Colour, 2> kMarks{Colour{232, 0, 0}, Colour{240, 200, 0}};
 
 constexpr Colour colour_of(CauseKind kind) {
   switch (kind) {

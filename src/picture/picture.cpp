@@ -2,6 +2,7 @@
 #include "vantage/picture.h"
 
 #include <algorithm>
+#include <string>
 
 #include "core/progress_reporter.h"
 #include "depth/depth.h"
@@ -64,6 +65,19 @@ void check_volume(const Volume& volume) {
               "pass a cause in range for each triangle, or none at all");
 }
 
+void check_marks(const PictureRequest& request) {
+  const Mesh* const solid = request.volume != nullptr ? &request.volume->mesh : request.solid;
+  const std::size_t facets = solid == nullptr ? 0 : solid->triangles.size();
+  for (const MarkedFacets& marks : request.marks) {
+    for (const std::uint32_t facet : marks.facets) {
+      if (facet < facets) continue;
+      throw Error(ErrorCode::index_out_of_range,
+                  "facet " + std::to_string(facet) + " is marked, and the volume has " + std::to_string(facets),
+                  "marks", "give numbers of the volume's facets");
+    }
+  }
+}
+
 /// Draws on the first device that is able to, graphics processors first.
 std::vector<std::uint8_t> draw(const DrawList& list, const View& view,
                                const internal::core::ProgressReporter& progress) {
@@ -96,6 +110,7 @@ Picture render_picture(const Scene& scene, const PictureRequest& request, const 
   check_indices(scene.mesh, "scene");
   check_objects(scene);
   if (request.volume != nullptr) check_volume(*request.volume);
+  check_marks(request);
   if (request.solid != nullptr) check_indices(*request.solid, "solid");
 
   Annotation annotation{
