@@ -197,65 +197,64 @@ class Tampered(Certificates):
         self.accepted()
 
     def part(self, change, why=""):
-        self.refused_after(lambda c: change(c["parts"][0]), why)
+        """`change` gets a part with its steps and facets as lists; a plane is a list of three numbers."""
+        def change_lists(certificate):
+            part = certificate["parts"][0]
+            steps = checker.re.findall(checker.STEP, part["steps"])
+            part["steps"] = [[int(n, 36) for n in s[1:-1].split(",")] if s[0] == "(" else s for s in steps]
+            part["facets"] = [int(n, 36) for n in part["facets"].split()]
+            change(part)
+            part["steps"] = "".join(s if isinstance(s, str) else f"({','.join(map(self.digits, s))})"
+                                    for s in part["steps"])
+            part["facets"] = " ".join(map(self.digits, part["facets"]))
+
+        self.refused_after(change_lists, why)
+
+    def digits(self, number):
+        """To the base of 36."""
+        text, rest = "", abs(number)
+        while rest or not text:
+            text, rest = "0123456789abcdefghijklmnopqrstuvwxyz"[rest % 36] + text, rest // 36
+        return "-" * (number < 0) + text
 
     def planes(self, part):
-        """Where new planes begin in the steps."""
-        at, found = 0, []
-        while at < len(part["steps"]):
-            if part["steps"][at] == checker.PLANE:
-                found.append(at)
-                at += 3
-            at += 1
-        return found
+        """Where new planes are among the steps."""
+        return [i for i, step in enumerate(part["steps"]) if isinstance(step, list)]
 
     def test_planes(self):
-        def turn(part):
-            at = self.planes(part)[3]
-            part["steps"][at + 1:at + 4] = [-n for n in part["steps"][at + 1:at + 4]]
-
-        def move(part):
-            at = self.planes(part)[-1]
-            part["steps"][at + 1:at + 4] = part["steps"][at + 2:at + 4] + part["steps"][at + 1:at + 2]
-
-        def no_plane(part):
-            at = self.planes(part)[0]
-            part["steps"][at + 1:at + 4] = [0, 0, 0]
+        def change_plane(index, change):
+            def change_part(part):
+                at = self.planes(part)[index]
+                part["steps"][at] = change(part["steps"][at])
+            return change_part
 
         def another(part):
             first, last = self.planes(part)[0], self.planes(part)[-1]
-            part["steps"][last + 1:last + 4] = part["steps"][first + 1:first + 4]
+            part["steps"][last] = part["steps"][first]
 
-        def broken(part):
-            part["steps"][self.planes(part)[0] + 1] += 0.5
-
-        for change in (turn, move, no_plane, another):
+        for change in (change_plane(3, lambda n: [-x for x in n]), change_plane(-1, lambda n: n[1:] + n[:1]),
+                       change_plane(0, lambda n: [0, 0, 0]), another):
             self.part(change, "a plane does not separate")
-        self.part(broken, "whole number")
+        self.part(change_plane(0, lambda n: n[:2]), "garbled")
+        self.refused_after(lambda c: c["parts"][0].update(steps=c["parts"][0]["steps"].replace(",", ",.", 1)), "garbled")
 
     def test_steps(self):
         def all_known(part):
-            part["steps"] = [0 if s == checker.DESCEND else s for s in part["steps"]]
-
-        def nothing_there(part):
-            part["steps"] = [checker.NOTHING] * len(part["steps"])
-
-        def leave_all(part):
-            part["steps"] = [checker.LEAVE] * (4 * len(part["facets"]))
+            part["steps"] = ["0" if s == checker.DESCEND else s for s in part["steps"]]
 
         self.part(all_known)
-        self.part(nothing_there, "is left out")
-        self.part(leave_all, "without a plane")
+        self.part(lambda p: p.update(steps=[checker.NOTHING] * len(p["steps"])), "is left out")
+        self.part(lambda p: p.update(steps=[checker.LEAVE] * 4 * len(p["facets"])), "without a plane")
         self.part(lambda p: p.update(steps=p["steps"][:-1]), "end too early")
-        self.part(lambda p: p["steps"].append(0), "more steps")
+        self.part(lambda p: p["steps"].append("0"), "more steps")
         self.part(lambda p: p.update(steps=[]), "end too early")
-        self.part(lambda p: p["steps"].__setitem__(0, 7), "not known")
-        self.part(lambda p: p["steps"].__setitem__(0, -1), "not known")
+        self.part(lambda p: p["steps"].__setitem__(0, "7"), "not known")
+        self.part(lambda p: p["steps"].insert(1, "x"), "between the steps")
 
     def test_facets(self):
         self.part(lambda p: p["facets"].pop(), "a facet is left out")
         self.part(lambda p: p["facets"].__setitem__(5, p["facets"][6]), "a facet is left out")
-        self.part(lambda p: p["facets"].__setitem__(0, 10**6), "a facet is left out")
+        self.part(lambda p: p["facets"].__setitem__(0, 10**6), "does not have")
         self.part(lambda p: p["facets"].append(10**6), "does not have")
         self.part(lambda p: p["facets"].reverse())
         self.part(lambda p: p.update(facets=[], steps=[]), "a facet is left out")

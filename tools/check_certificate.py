@@ -17,13 +17,13 @@ at or behind p. By 3 nothing of the scene touches the hull of x and the polygon,
 polygon. Planes are found for groups of facets and boxes of triangles at once; the boxes are made here, from the scene.
 docs/proof.md has the format. Exit code: 0 accepted, 1 refused, 2 a file that cannot be read."""
 
-import argparse, collections, hashlib, json, math, struct, sys  # noqa: E401
+import argparse, collections, hashlib, json, math, re, struct, sys  # noqa: E401
 from fractions import Fraction
 from pathlib import Path
 
 MOST_FACETS = 256  # of the largest group that is tried at once
 MOST_KNOWN = 16  # planes that are kept of a group
-PLANE, DESCEND, LEAVE, NOTHING = 16, 17, 18, 19  # steps; smaller ones are numbers of known planes
+DESCEND, LEAVE, NOTHING, STEP = ">", "<", ".", r"[0-9a-f<>.]|\([^()]*\)"
 LEAST_BITS = 80  # of fractions: boxes round pieces outwards by one unit
 SIZES = {"uchar": "B", "int": "i", "uint": "I", "float": "f", "double": "d"}
 
@@ -215,9 +215,9 @@ class Replay:
     """Goes through the steps of a part, and believes none of them."""
 
     def __init__(self, part, points, triangles, target):
-        self.facets, self.steps, self.next, self.planes = part["facets"], part["steps"], 0, 0
-        self.points, self.triangles, self.target = points, triangles, target
-        demand(all(type(n) is int for n in self.facets + self.steps), "a step is not a whole number")
+        self.facets, self.steps = [int(n, 36) for n in part["facets"].split()], re.findall(STEP, part["steps"])
+        self.points, self.triangles, self.target, self.next, self.planes = points, triangles, target, 0, 0
+        demand("".join(self.steps) == part["steps"], "what is between the steps is none")
         demand(all(i in triangles for i in self.facets), "a facet is named that the volume does not have")
 
     def groups(self, begin, end, root):
@@ -247,13 +247,13 @@ class Replay:
             elif step == LEAVE:
                 left.append(item)
             else:
-                if step == PLANE:
-                    step = found % MOST_KNOWN
-                    normal = (self.take(), self.take(), self.take())
-                    known[step] = (normal, min(dot(normal, p) for p in hull))
+                number = found % MOST_KNOWN if step[0] == "(" else int(step, 16)
+                if step[0] == "(":
+                    normal = [int(n, 36) for n in step[1:-1].split(",")]
+                    known[number] = (normal, min(dot(normal, p) for p in hull))
                     found += 1
-                demand(step in known, "a step names a plane that is not known")
-                demand(item.is_below(*known[step]), "a plane does not separate what it should")
+                demand(number in known, "a step names a plane that is not known")
+                demand(item.is_below(*known[number]), "a plane does not separate what it should")
         self.planes += found
         if left:
             demand(end - begin > 1, "a facet is left without a plane")
@@ -329,8 +329,8 @@ def check_part(part, certificate, scene, volume, middles):
         demand(all(dot(normal, points[v]) >= -slack * unit for v in used), "a vertex lies behind the target")
 
     far = {i for i, (a, b, c) in triangles.items() if dot(points[a], cross(points[b], points[c])) > 0}
-    demand(set(part["facets"]) >= far, "a facet is left out")
     replay = Replay(part, points, triangles, corners)
+    demand(set(replay.facets) >= far, "a facet is left out")
     if scene.triangles:
         places = [minus(scale.point(v), whole_centre) for v in scene.vertices]
         pieces = [Node(corners_in_front([places[v] for v in t], normal, cut), []) for t in scene.triangles]

@@ -1,8 +1,10 @@
 // The format is in docs/proof.md; tools/check_certificate.py reads it.
 #include "vantage/certificate.h"
 
+#include <array>
+#include <charconv>
 #include <cmath>
-#include <span>
+#include <string_view>
 
 #include "vantage/input.h"
 
@@ -41,13 +43,45 @@ std::string list_text(const std::vector<Item>& items, const Text& text) {
   return list + "]";
 }
 
+/// To the base of 36, which is what Python's int() reads as well.
+void append_whole(std::string& text, std::int64_t number) {
+  constexpr int kBase = 36;
+  std::array<char, 16> digits;  // 13 and a sign are enough
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number, kBase);
+  text.append(digits.data(), end.ptr);
+}
+
+std::string facets_text(const std::vector<std::uint32_t>& facets) {
+  std::string text = "\"";
+  for (const std::uint32_t facet : facets) {
+    if (text.size() > 1) text += ' ';
+    append_whole(text, facet);
+  }
+  return text + '"';
+}
+
+/// A character each, but for planes.
+std::string steps_text(const std::vector<std::int64_t>& steps) {
+  constexpr std::string_view kSigns = "0123456789abcdef(><.";
+  std::string text = "\"";
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const char sign = kSigns.at(static_cast<std::size_t>(steps[i]));
+    text += sign;
+    if (sign != '(') continue;
+    for (const char after : {',', ',', ')'}) {
+      append_whole(text, steps.at(++i));
+      text += after;
+    }
+  }
+  return text + '"';
+}
+
 std::string part_text(const CertificatePart& part) {
-  const auto whole = [](auto number) { return std::to_string(number); };
   return "\n  {\"target\":" + list_text(part.target, vector_text) + ",\n   \"shift_m\":" + number_text(part.shift_m) +
          ",\n   \"centre\":" + vector_text(part.centre) + ",\n   \"corners\":" + list_text(part.corners, vector_text) +
          ",\n   \"normal\":" + vector_text(part.normal) +
          ",\n   \"cut_height_m\":" + (part.all_sides ? "null" : number_text(part.cut_height_m)) +
-         ",\n   \"facets\":" + list_text(part.facets, whole) + ",\n   \"steps\":" + list_text(part.steps, whole) + "}";
+         ",\n   \"facets\":" + facets_text(part.facets) + ",\n   \"steps\":" + steps_text(part.steps) + "}";
 }
 
 std::string box_text(const CertifiedBox& box) {

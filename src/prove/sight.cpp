@@ -22,6 +22,7 @@ using Items = std::vector<std::uint32_t>;
 /// CertificatePart::steps; smaller numbers are those of known planes.
 enum Step : std::int64_t { kPlane = 16, kDescend = 17, kLeave = 18, kNothing = 19 };
 constexpr std::size_t kMostKept = 16;  // known planes
+constexpr std::size_t kMostMet = 8;    // pieces that a facet is open for, and that may give a witness
 
 class SightProver {
  public:
@@ -201,6 +202,7 @@ void SightProver::prove(std::uint32_t index, const Items& items, Found& found) c
   const bool is_single = patch.second == 0;
   const PointHull hull = hull_of(patch);
   Known known;
+  std::size_t met = 0;
   Items stack(items.rbegin(), items.rend()), left;
   while (!stack.empty()) {
     const std::uint32_t item = stack.back();
@@ -212,7 +214,7 @@ void SightProver::prove(std::uint32_t index, const Items& items, Found& found) c
       continue;
     } else if (is_piece && is_single) {
       found.open.push_back({patches_.order[patch.begin], item & ~kPiece});
-      return;
+      if (is_recorded_ || ++met == kMostMet) return;
     } else if (is_piece || (!is_single && is_narrow(item, patch))) {
       left.push_back(item);
       record(found, kLeave);
@@ -249,8 +251,9 @@ SightProof SightProver::run(const core::ProgressReporter& progress) {
     proof.steps.insert(proof.steps.end(), part.steps.begin(), part.steps.end());
   }
   if (is_recorded_) proof.order = patches_.order;
-  std::sort(proof.open.begin(), proof.open.end(),
-            [](const OpenFacet& a, const OpenFacet& b) { return a.facet < b.facet; });
+  std::sort(proof.open.begin(), proof.open.end(), [](const OpenFacet& a, const OpenFacet& b) {
+    return a.facet < b.facet || (a.facet == b.facet && a.piece < b.piece);
+  });
   return proof;
 }
 
@@ -277,6 +280,17 @@ std::optional<Blocked> find_blocked(const std::array<Vec3, 3>& facet, const View
     ends.push_back((view.corners[i] + view.corners[(i + 1) % view.corners.size()]) / 2);
   }
   ends.push_back(Vec3::Zero());
+  // And some that lie on no line of symmetry: a segment that meets an edge of two triangles passes through neither.
+  for (const double ratio : {0.37, 0.61}) {
+    Vec3 sum = Vec3::Zero();
+    double weight = 1, all = 0;
+    for (const Vec3& corner : view.corners) {
+      sum += weight * corner;
+      all += weight;
+      weight *= ratio;
+    }
+    ends.push_back(sum / all);
+  }
   std::optional<Blocked> deepest;
   const auto is_blocked = [&](const Vec3& from, const Vec3& to) {
     for (std::size_t i = 2; i < obstacle.count; ++i) {

@@ -18,7 +18,7 @@ struct OpenFacet {
 };
 
 struct SightProof {
-  std::vector<OpenFacet> open;  ///< by facet
+  std::vector<OpenFacet> open;  ///< by facet; a few of the pieces of each
   std::size_t separations = 0;
   std::vector<std::uint32_t> order;  ///< where it is recorded: the facets' numbers, so that patches are ranges of them
   std::vector<std::int64_t> steps;   ///< where it is recorded: CertificatePart::steps
