@@ -195,6 +195,32 @@ TEST(Prove, TheSameOnOneThreadAndWithVerticesApart) {
   EXPECT_EQ(a.far_facets, b.far_facets);
 }
 
+/// A face that rises by a hair from the target's plane: the views along it and the face are apart by less than what
+/// doubles lose.
+TEST(Prove, ViewsAlongAFaceThatIsNearlyInThePlaneOfTheTarget) {
+  Random random(98);
+  for (int i = 0; i < 4; ++i) {
+    City city(98, 0);
+    city.sensor.max_range_m = 110;
+    const double rise = std::pow(10.0, random.uniform(-4.6, -4.3));
+    const Vec3 at(random.uniform(100, 600), random.uniform(-600, -100), 21.47289);
+    const Eigen::Matrix3d tilt = Eigen::AngleAxisd(random.uniform(0.1, 0.4), random.direction()).toRotationMatrix();
+    const auto place = [&](double x, double y, double z) { return Vec3(at + tilt * Vec3(x, y, z)); };
+    Mesh& mesh = city.scene.mesh;
+    mesh.vertices = {place(-8, -21, 0), place(-8.2, 43, rise), place(20, 52, 0), place(-30, -25, -6)};
+    mesh.triangles = {{0, 1, 2}, {0, 3, 1}};
+    city.scene.object_of = {0, 0};
+    city.target = Target::polygon({place(-2, -2, 0), place(2, -2.1, 0), place(1.9, 2, 0), place(-1.2, 1, 0)});
+    const PreparedTarget prepared(PreparedScene(city.scene), city.target, city.sensor);
+    const Volume volume = compute_volume(prepared);
+    const ProveOptions options{.lift_m = volume.lift_m};
+    const ProofReport report = city.prove(volume.mesh, options);
+    EXPECT_EQ(report.verdict(), ProofVerdict::proved) << rise << ": " << report.unproved.size() << " facets";
+    EXPECT_NE(city.prove(scaled_about(volume.mesh, volume.frame.origin, 1.000002), options).verdict(),
+              ProofVerdict::proved);
+  }
+}
+
 TEST(Prove, RefusesWhatIsNoSolid) {
   const City city(96, 4);
   const auto expect = [&](const Mesh& mesh, ErrorCode code) {

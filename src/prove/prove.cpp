@@ -144,7 +144,7 @@ void Prover::look_at(std::size_t part, double lift_m, const internal::core::Prog
   const bool is_recorded = options_.certificate;
   const prove::SceneTree obstacles =
       is_recorded ? prove::all_obstacles_in_front(scene_, view) : prove::obstacles_in_front(scene_, view, near);
-  const prove::SightProof proof = prove::prove_sight(vertices, facets, view, obstacles, is_recorded, progress);
+  const prove::SightProof proof = prove::prove_sight(vertices, facets, view, scene_, obstacles, is_recorded, progress);
   report_.far_facets += facets.size();
   report_.separations += proof.separations;
   report_.margin_m = std::max(report_.margin_m, view.margin_m);

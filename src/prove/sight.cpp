@@ -7,6 +7,7 @@
 #include <span>
 
 #include "core/parallel.h"
+#include "prove/corner_planes.h"
 #include "prove/hull.h"
 #include "prove/orientation.h"
 #include "prove/patches.h"
@@ -27,10 +28,11 @@ constexpr std::size_t kMostMet = 8;    // pieces that a facet is open for, and t
 class SightProver {
  public:
   SightProver(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets, const View& view,
-              const SceneTree& obstacles, bool is_recorded)
+              const Scene& scene, const SceneTree& obstacles, bool is_recorded)
       : vertices_(vertices),
         facets_(facets),
         view_(view),
+        scene_(scene),
         obstacles_(obstacles),
         is_recorded_(is_recorded),
         patches_(make_patches(vertices, facets)) {
@@ -43,6 +45,7 @@ class SightProver {
   SightProof run(const core::ProgressReporter& progress);
 
  private:
+  using Whole = std::array<std::int64_t, 3>;  ///< a direction
   struct Separation {
     Vec3 way;
     double low;  ///< no point of the patch's hull lies less far along it
@@ -71,15 +74,15 @@ class SightProver {
     if (is_recorded_) found.steps.push_back(step);
   }
   bool is_narrow(std::uint32_t node, const Patch& patch) const;
-  std::optional<Vec3> separate_by_corners(const Patch& patch, std::uint32_t piece) const;
-  std::optional<std::array<std::int64_t, 3>> short_way(const Vec3& way, const PointHull& hull,
-                                                       const Obstacle& obstacle) const;
+  std::optional<Whole> separate_by_corners(const Patch& patch, std::uint32_t piece) const;
+  std::optional<Whole> short_way(const Vec3& way, const PointHull& hull, const Obstacle& obstacle) const;
   bool is_separated(const Patch& patch, const PointHull& hull, std::uint32_t item, Known& known, Found& found) const;
   void prove(std::uint32_t patch, const Items& items, Found& found) const;
 
   const std::vector<Vec3>& vertices_;
   const std::vector<Triangle>& facets_;
   const View& view_;
+  const Scene& scene_;
   const SceneTree& obstacles_;
   bool is_recorded_;
   Patches patches_;
@@ -119,48 +122,24 @@ bool SightProver::is_narrow(std::uint32_t node, const Patch& patch) const {
   return (box.max - box.min).norm() < patch.extent * ((box.min + box.max) / 2).norm();
 }
 
-/// Where the iteration does not end: sets that are apart are so along the normal of a face of one of them, or across an
-/// edge of each.
-std::optional<Vec3> SightProver::separate_by_corners(const Patch& patch, std::uint32_t piece) const {
+/// Where the search in doubles ends without a plane.
+std::optional<SightProver::Whole> SightProver::separate_by_corners(const Patch& patch, std::uint32_t piece) const {
   std::vector<Vec3> points = view_.corners;
   points.push_back(Vec3::Zero());
   for (const std::uint32_t v : facets_[patches_.order[patch.begin]]) points.push_back(vertices_[v]);
-  const std::span<const Vec3> corners = obstacles_.pieces[piece].polygon();
-  const std::size_t count = corners.size();
-  std::optional<Vec3> best;
-  const auto consider = [&](const Vec3& normal) {
-    const double length = normal.norm();
-    if (best || !(length > 0)) return;
-    for (const Vec3& way : {Vec3(normal / length), Vec3(-normal / length)}) {
-      double low = way.dot(points[0]), high = way.dot(corners[0]);
-      for (const Vec3& point : points) low = std::min(low, way.dot(point));
-      for (const Vec3& corner : corners) high = std::max(high, way.dot(corner));
-      if (low - high > unsure_along(way, largest_)) best = way;
-    }
-  };
-  for (const Vec3& a : points) {
-    for (const Vec3& b : points) {
-      for (std::size_t k = 0; k < count; ++k) {
-        consider((b - a).cross(corners[k] - a));
-        consider((b - a).cross(corners[(k + 1) % count] - corners[k]));
-      }
-      for (const Vec3& c : points) consider((b - a).cross(c - a));
-    }
-    for (std::size_t k = 0; k < count; ++k) consider((corners[(k + 1) % count] - corners[k]).cross(a - corners[k]));
-  }
-  consider((corners[1] - corners[0]).cross(corners[2] - corners[0]));
-  return best;
+  const std::vector<FineVec3> polygon = fine_corners_in_front(scene_, obstacles_.pieces[piece].of, view_);
+  return polygon.size() < 3 ? std::nullopt : find_corner_plane(points, polygon, largest_);
 }
 
 /// A way with the same use in whole numbers that are as small as they can be.
-std::optional<std::array<std::int64_t, 3>> SightProver::short_way(const Vec3& way, const PointHull& hull,
-                                                                  const Obstacle& obstacle) const {
+std::optional<SightProver::Whole> SightProver::short_way(const Vec3& way, const PointHull& hull,
+                                                         const Obstacle& obstacle) const {
   const Vec3 largest_one = way / way.cwiseAbs().maxCoeff();
   for (const int bits : {4, 7, 10, 13, 16, 20, 25, 32, 45, 60}) {
     const Vec3 whole = (largest_one * std::ldexp(1.0, bits)).array().round();
     if (hull.lowest(whole).dot(whole) - obstacle.highest(whole).dot(whole) > unsure_along(whole, largest_)) {
-      return std::array<std::int64_t, 3>{static_cast<std::int64_t>(whole.x()), static_cast<std::int64_t>(whole.y()),
-                                         static_cast<std::int64_t>(whole.z())};
+      return Whole{static_cast<std::int64_t>(whole.x()), static_cast<std::int64_t>(whole.y()),
+                   static_cast<std::int64_t>(whole.z())};
     }
   }
   return std::nullopt;
@@ -177,14 +156,16 @@ bool SightProver::is_separated(const Patch& patch, const PointHull& hull, std::u
     return true;
   }
   std::optional<Vec3> way = separate(hull, obstacle, largest_);
-  if (!way && (item & kPiece) != 0 && patch.second == 0) way = separate_by_corners(patch, item & ~kPiece);
-  if (way && is_recorded_) {
-    const auto whole = short_way(*way, hull, obstacle);
-    if (!whole) return false;
-    found.steps.insert(found.steps.end(), {kPlane, (*whole)[0], (*whole)[1], (*whole)[2]});
-    for (Eigen::Index k = 0; k < 3; ++k) (*way)[k] = static_cast<double>((*whole)[static_cast<std::size_t>(k)]);
+  std::optional<Whole> whole;
+  if (way && is_recorded_) whole = short_way(*way, hull, obstacle);
+  const bool is_found = is_recorded_ ? whole.has_value() : way.has_value();
+  if (!is_found && (item & kPiece) != 0 && patch.second == 0) whole = separate_by_corners(patch, item & ~kPiece);
+  if (whole) {
+    way = Vec3(static_cast<double>((*whole)[0]), static_cast<double>((*whole)[1]), static_cast<double>((*whole)[2]));
+    if (is_recorded_) found.steps.insert(found.steps.end(), {kPlane, (*whole)[0], (*whole)[1], (*whole)[2]});
+  } else if (!is_found) {
+    return false;
   }
-  if (!way) return false;
   ++found.separations;
   const Separation plane{*way, hull.lowest(*way).dot(*way) - unsure_along(*way, largest_)};
   if (known.planes.size() < kMostKept) {
@@ -267,10 +248,11 @@ bool passes_through(const Vec3& from, const Vec3& to, const Vec3& a, const Vec3&
 }  // namespace
 
 SightProof prove_sight(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets, const View& view,
-                       const SceneTree& obstacles, bool is_recorded, const core::ProgressReporter& progress) {
+                       const Scene& scene, const SceneTree& obstacles, bool is_recorded,
+                       const core::ProgressReporter& progress) {
   if (facets.empty()) return {};
   if (obstacles.nodes.empty()) return {{}, 0, make_patches(vertices, facets).order, {}};
-  return SightProver(vertices, facets, view, obstacles, is_recorded).run(progress);
+  return SightProver(vertices, facets, view, scene, obstacles, is_recorded).run(progress);
 }
 
 std::optional<Blocked> find_blocked(const std::array<Vec3, 3>& facet, const View& view, const Piece& obstacle) {

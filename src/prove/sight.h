@@ -28,7 +28,8 @@ struct SightProof {
 /// facet and the target is free where a plane is found between it and each obstacle; hulls of many facets at once are
 /// tried first. To be recorded, the tree must be that of all_obstacles_in_front.
 SightProof prove_sight(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets, const View& view,
-                       const SceneTree& obstacles, bool is_recorded, const core::ProgressReporter& progress);
+                       const Scene& scene, const SceneTree& obstacles, bool is_recorded,
+                       const core::ProgressReporter& progress);
 
 /// A point of a facet and one of the target between which the obstacle lies for sure.
 struct Blocked {

@@ -58,26 +58,34 @@ View make_view(const Target& target, std::size_t part, double lift_m) {
 
 namespace {
 
-/// Cut at half the height, so that rounding leaves no less than what is above all of it.
-Piece piece_in_front(const Scene& scene, std::uint32_t t, const View& view) {
+/// What of a triangle is in front, about View::origin: its corners, to `keep`. Cut at half the height, so that rounding
+/// leaves no less than what is above all of it.
+template <class Number, class Keep>
+void cut_in_front(const Scene& scene, std::uint32_t t, const View& view, const Keep& keep) {
+  using Vector = Eigen::Matrix<Number, 3, 1>;
   const double floor = view.all_sides ? -std::numeric_limits<double>::infinity() : view.margin_m;
-  Piece piece{.of = t};
-  std::array<Vec3, 3> corners;
+  const Vector normal = view.normal.cast<Number>();
+  std::array<Vector, 3> corners;
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (std::size_t k = 0; k < 3; ++k) {
-    corners[k] = scene.mesh.vertices[scene.mesh.triangles[t][k]] - view.origin;
-    const double height = view.normal.dot(corners[k]);
+    const Vec3& corner = scene.mesh.vertices[scene.mesh.triangles[t][k]];
+    corners[k] = corner.cast<Number>() - view.origin.cast<Number>();
+    const double height = view.normal.dot(corner - view.origin);
     low = std::min(low, height);
     high = std::max(high, height);
   }
-  if (high <= floor) return piece;
-  const auto keep = [&](const Vec3& corner) { piece.corners[piece.count++] = corner; };
+  if (high <= floor) return;
   for (std::size_t k = 0; k < 3; ++k) {
-    const Vec3 &a = corners[k], &b = corners[(k + 1) % 3];
-    const double at_a = view.normal.dot(a) - floor / 2, at_b = view.normal.dot(b) - floor / 2;
+    const Vector &a = corners[k], &b = corners[(k + 1) % 3];
+    const Number at_a = normal.dot(a) - Number(floor) / 2, at_b = normal.dot(b) - Number(floor) / 2;
     if (low >= floor || at_a >= 0) keep(a);
-    if (low < floor && (at_a >= 0) != (at_b >= 0)) keep(a + at_a / (at_a - at_b) * (b - a));
+    if (low < floor && (at_a >= 0) != (at_b >= 0)) keep(Vector(a + at_a / (at_a - at_b) * (b - a)));
   }
+}
+
+Piece piece_in_front(const Scene& scene, std::uint32_t t, const View& view) {
+  Piece piece{.of = t};
+  cut_in_front<double>(scene, t, view, [&](const Vec3& corner) { piece.corners[piece.count++] = corner; });
   return piece;
 }
 
@@ -99,6 +107,12 @@ SceneTree all_obstacles_in_front(const Scene& scene, const View& view) {
   std::vector<Piece> pieces;
   for (std::uint32_t t = 0; t < scene.mesh.triangles.size(); ++t) pieces.push_back(piece_in_front(scene, t, view));
   return make_tree(scene.mesh, std::move(pieces));
+}
+
+std::vector<FineVec3> fine_corners_in_front(const Scene& scene, std::uint32_t t, const View& view) {
+  std::vector<FineVec3> corners;
+  cut_in_front<long double>(scene, t, view, [&](const FineVec3& corner) { corners.push_back(corner); });
+  return corners;
 }
 
 }  // namespace vantage::internal::prove

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "prove/corner_planes.h"
 #include "prove/scene_tree.h"
 #include "vantage/scene.h"
 #include "vantage/target.h"
@@ -25,5 +26,7 @@ View make_view(const Target& target, std::size_t part, double lift_m);
 /// into `near`, or of all, also where nothing is left of a triangle.
 SceneTree obstacles_in_front(const Scene& scene, const View& view, const Box& near);
 SceneTree all_obstacles_in_front(const Scene& scene, const View& view);
+/// The same of one triangle, with more digits.
+std::vector<FineVec3> fine_corners_in_front(const Scene& scene, std::uint32_t triangle, const View& view);
 
 }  // namespace vantage::internal::prove
