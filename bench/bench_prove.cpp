@@ -1,5 +1,5 @@
-// The proof of volumes, beside the time of the engine: prove/<scene>/<target>/<range>. The scene's preparation counts
-// for neither.
+// The proof of volumes, beside the time of the engine: prove/<scene>/<target>/<range>, with maximality prove_maximal/.
+// The scene's preparation counts for neither.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ constexpr double kRange = 300;
 
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
-void prove(State& state, const City& city, std::size_t number) {
+void prove(State& state, const City& city, std::size_t number, bool maximal) {
   const PreparedCity* const ready = prepared_city(city);
   if (!ready) return state.SkipWithError(absence(city).c_str());
   if (ready->targets.size() <= number) return state.SkipWithError("no such street target was found");
@@ -36,7 +36,7 @@ void prove(State& state, const City& city, std::size_t number) {
     const Volume volume = compute_visibility(target);
     engine_s += seconds_since(begin);
     begin = Clock::now();
-    report = prove_volume(ready->scene, asked, sensor, {}, volume.mesh, {.lift_m = volume.lift_m});
+    report = prove_volume(ready->scene, asked, sensor, {}, volume.mesh, {.lift_m = volume.lift_m, .maximal = maximal});
     const double seconds = seconds_since(begin);
     proof_s += seconds;
     state.SetIterationTime(seconds);
@@ -44,15 +44,22 @@ void prove(State& state, const City& city, std::size_t number) {
   state.counters["times_engine"] = proof_s / engine_s;
   state.counters["facets"] = static_cast<double>(report.facets);
   state.counters["unproved"] = static_cast<double>(report.unproved.size());
+  if (!report.maximal) return;
+  state.counters["maximal_percent"] = 100 * report.maximal->proved_share;
+  state.counters["open"] = static_cast<double>(report.maximal->open.size());
 }
 
 const bool registered = [] {
   for (const City* city : {&kCharlotte, &kMunich, &kFlorence, &kOpenfoam}) {
     for (std::size_t number = 0; number < static_cast<std::size_t>(std::min(city->targets, 5)); ++number) {
-      const std::string name = std::string("prove/") + city->name + "/T" + std::to_string(number + 1) + "/300m";
-      benchmark::RegisterBenchmark(name.c_str(), [city, number](State& state) { prove(state, *city, number); })
-          ->Unit(benchmark::kMillisecond)
-          ->UseManualTime();
+      for (const bool maximal : {false, true}) {
+        const std::string name = std::string(maximal ? "prove_maximal/" : "prove/") + city->name + "/T" +
+                                 std::to_string(number + 1) + "/300m";
+        benchmark::RegisterBenchmark(name.c_str(),
+                                     [city, number, maximal](State& state) { prove(state, *city, number, maximal); })
+            ->Unit(benchmark::kMillisecond)
+            ->UseManualTime();
+      }
     }
   }
   return true;

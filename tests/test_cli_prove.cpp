@@ -70,6 +70,47 @@ TEST_F(CliProve, TellsWhatHasNoProof) {
   EXPECT_EQ(json.at("unproved").size(), 0U);
 }
 
+TEST_F(CliProve, TellsWhetherTheVolumeIsMaximal) {
+  output_of({"compute", "mission.yaml", "-q", "-o", "v.ply"});
+  const auto json = nlohmann::json::parse(output_of({"prove", "mission.yaml", "v.ply", "--maximal", "--json"}));
+  const auto& maximal = json.at("maximal");
+  EXPECT_GT(maximal.at("proved_share"), 0.999);
+  EXPECT_TRUE(maximal.at("conditions_hold"));
+  EXPECT_EQ(maximal.at("open").size(), 0U);
+  EXPECT_EQ(maximal.at("tolerance_m"), 0.01);
+  double sum = 0;
+  for (const auto& row : maximal.at("witnesses")) sum += row.at("area_share").get<double>();
+  EXPECT_NEAR(sum, 1, 1e-9);
+  const std::string table = output_of({"prove", "mission.yaml", "v.ply", "--maximal"});
+  EXPECT_NE(table.find("hidden"), std::string::npos) << table;
+  EXPECT_NE(table.find("condition"), std::string::npos) << table;
+  EXPECT_TRUE(nlohmann::json::parse(output_of({"prove", "mission.yaml", "v.ply", "--json"})).at("maximal").is_null());
+}
+
+/// It is safe, so the exit code is that of what is proved.
+TEST_F(CliProve, AVolumeThatIsTooSmallIsNotMaximal) {
+  write("small.obj",
+        "v -2 -2 1\nv 2 -2 1\nv 2 2 1\nv -2 2 1\nv -2 -2 9\nv 2 -2 9\nv 2 2 9\nv -2 2 9\n"
+        "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n");
+  const auto json = nlohmann::json::parse(output_of({"prove", "mission.yaml", "small.obj", "--maximal", "--json"}));
+  EXPECT_EQ(json.at("verdict"), "proved");
+  EXPECT_EQ(json.at("maximal").at("proved_share"), 0);
+  EXPECT_FALSE(json.at("maximal").at("conditions_hold"));
+  EXPECT_EQ(json.at("maximal").at("open").size(), 12U);
+}
+
+TEST_F(CliProve, OfSeveralTargetsAnyOneIsTheWitness) {
+  write("mission.yaml",
+        "scene: {mesh: city.obj}\nsensor: {max_range: 50}\n"
+        "targets:\n"
+        "  - {name: a, vertices: [[-2, -2, 0], [2, -2, 0], [2, 2, 0], [-2, 2, 0]]}\n"
+        "  - {name: b, vertices: [[-8, -2, 0], [-6, -2, 0], [-6, 2, 0], [-8, 2, 0]]}\n");
+  output_of({"compute", "mission.yaml", "-q", "-o", "v.ply"});
+  const auto json = nlohmann::json::parse(output_of({"prove", "mission.yaml", "v.ply", "--maximal", "--json"}));
+  EXPECT_GT(json.at("maximal").at("proved_share"), 0.999);
+  EXPECT_FALSE(json.at("maximal").at("conditions_hold"));
+}
+
 TEST_F(CliProve, RefusesWhatItCannotJudge) {
   write("open.obj", "v 0 0 1\nv 5 0 1\nv 0 5 1\nv 0 0 9\nf 1 3 2\nf 1 2 4\nf 2 3 4\n");
   expect_bad({"prove", "mission.yaml", "open.obj"}, "volume");

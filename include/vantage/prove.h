@@ -22,12 +22,30 @@ enum class ProofVerdict { proved, not_proved, wrong };
 /// "proved", "not proved", "wrong".
 VANTAGE_API const char* name_of(ProofVerdict verdict);
 
+/// Why no position beyond a facet belongs to the volume.
+enum class WitnessKind : std::uint8_t {
+  none,
+  navigation,        ///< a limit of navigation is broken there
+  sensor,            ///< a limit of the sensor besides its range
+  range,             ///< a corner of the target is out of range
+  hidden,            ///< one convex polygon of the scene hides something of the target from all of the facet
+  hidden_in_pieces,  ///< different ones do from pieces of the facet
+  edge_on,           ///< the facet's plane holds the target's centre: nothing is beyond it
+  target_plane,      ///< likewise: the facet lies in the target's plane
+};
+
+/// "none", "navigation", "sensor", "range", "hidden", "hidden in pieces", "edge-on", "target plane".
+VANTAGE_API const char* name_of(WitnessKind kind);
+
 struct ProveOptions {
   double shrink = 1e-6;             ///< the proof is of the volume shrunk by this part of the distance towards the
                                     ///< target; at least 0, less than 1
   double rounding_m = 0;            ///< of the volume's file (Scene::rounding_m): limits may be broken by so much, and
                                     ///< sight is wrong only where it is hidden deeper below the facet
   std::vector<double> lift_m = {};  ///< how far each part of the target was raised (Volume::lift_m); empty: not at all
+  bool maximal = false;             ///< whether the volume is as large as it can be, too
+  double tolerance_m = 0.01;        ///< for `maximal`: how far the volume's range facets may lie inside the range
+                                    ///< (ExactOptions::tolerance_m); at least 0
   bool certificate = false;         ///< record one: takes longer, as all of the scene goes into its tree
 };
 
@@ -47,6 +65,47 @@ struct ClaimProof {
   std::string text;  ///< by what, why not, or where it is wrong
 };
 
+/// Of a facet: of its area that has a witness, what most of it has.
+struct FacetWitness {
+  WitnessKind kind = WitnessKind::none;
+  std::uint32_t limit = 0;  ///< of kind navigation and sensor: in MaximalProof::limits
+  double open = 1;          ///< part of its area that has no witness
+};
+
+struct MaximalCondition {
+  std::string text;
+  bool holds = false;
+};
+
+/// Whether the volume is as large as it can be. This is no part of the verdict: a smaller volume is right, too.
+struct MaximalProof {
+  struct Row {
+    WitnessKind kind = WitnessKind::none;
+    std::string limit;       ///< of kind navigation and sensor
+    std::size_t facets = 0;  ///< of which it is the witness; of `none`: those that have none at all
+    double area_share = 0;   ///< of the whole surface
+  };
+  std::vector<Row> rows;             ///< `none` last; those without facets are left out
+  double proved_share = 0;           ///< by area, of the whole surface
+  std::vector<std::uint32_t> open;   ///< facets of which a part, or all, has no witness
+  std::vector<FacetWitness> facets;  ///< one for each of the volume's facets
+  std::vector<std::string> limits;   ///< names that the facets refer to
+  std::vector<std::string> sampled;  ///< limits that are given, and for which no facet can have a witness
+  /// With all of them, and with a witness for each facet, no position outside belongs to the volume. Else each facet is
+  /// where it must be, and a piece that is missing as a whole is not noticed.
+  std::vector<MaximalCondition> conditions;
+  double grow = 0;     ///< facets were moved out by this part of the distance from the target
+  double range_m = 0;  ///< less the tolerance: for this range it is proved
+  double tolerance_m = 0;
+  double point_radius_m = 0;  ///< of a target that is a point: a ball of this radius about it must be seen
+  double seconds = 0;
+
+  VANTAGE_API bool conditions_hold() const;
+};
+
+/// Of volumes that must claim two targets: a facet's witness is that of one of them. `volume`: the mesh.
+VANTAGE_API MaximalProof join(const MaximalProof& a, const MaximalProof& b, const Mesh& volume);
+
 struct ProofReport {
   std::vector<ClaimProof> claims;
   std::size_t facets = 0;               ///< of the volume
@@ -61,6 +120,7 @@ struct ProofReport {
   double lift_m = 0;      ///< the largest of a part
   double rounding_m = 0;  ///< what was allowed
   double seconds = 0;
+  std::optional<MaximalProof> maximal;     ///< where it was asked for
   std::optional<Certificate> certificate;  ///< where sight, range and front are proved and nothing is wrong
 
   /// The worst of the claims.
@@ -71,6 +131,8 @@ struct ProofReport {
 /// theorem and what exactly is stated. `volume` is any closed mesh in the scene frame, whoever made it, cut or not;
 /// vertices in one place count as one. All parts of the target must be seen. Limits of navigation and of the sensor
 /// besides the range are named, and those without a proof are told as not proved.
+///
+/// With `maximal` it also looks beyond the facets, for what is missing: docs/proof.md, "Maximal".
 ///
 /// The report does not depend on the number of threads. Cost: a few times that of the exact method, and linear in the
 /// triangles of the scene near the volume. Throws Error(input) for a target, sensor, limit or option that is wrong in

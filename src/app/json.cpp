@@ -1,5 +1,6 @@
 #include "vantage/json.h"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -88,6 +89,31 @@ Json camera_json(const ListedCamera& listed) {
 
 double percent(double part, double whole) { return 100 * part / whole; }
 
+Json json_of(const MaximalProof& proof) {
+  Json json;
+  json["proved_share"] = proof.proved_share;
+  json["witnesses"] = Json::array();
+  for (const MaximalProof::Row& row : proof.rows) {
+    json["witnesses"].push_back({{"kind", name_of(row.kind)},
+                                 {"limit", row.limit.empty() ? Json(nullptr) : Json(row.limit)},
+                                 {"facets", row.facets},
+                                 {"area_share", row.area_share}});
+  }
+  json["conditions"] = Json::array();
+  for (const MaximalCondition& condition : proof.conditions) {
+    json["conditions"].push_back({{"text", condition.text}, {"holds", condition.holds}});
+  }
+  json["conditions_hold"] = proof.conditions_hold();
+  json["open"] = proof.open;
+  json["sampled"] = proof.sampled;
+  json["grow"] = proof.grow;
+  json["range_m"] = std::isfinite(proof.range_m) ? Json(proof.range_m) : Json(nullptr);
+  json["tolerance_m"] = proof.tolerance_m;
+  json["point_radius_m"] = proof.point_radius_m;
+  json["seconds"] = proof.seconds;
+  return json;
+}
+
 Json json_of(const ProofReport& report) {
   Json json;
   json["verdict"] = name_of(report.verdict());
@@ -109,6 +135,7 @@ Json json_of(const ProofReport& report) {
                        {"facet", hidden.facet},
                        {"depth_m", hidden.depth_m}};
   }
+  json["maximal"] = report.maximal ? json_of(*report.maximal) : Json(nullptr);
   json["separations"] = report.separations;
   json["shrink"] = report.shrink;
   json["margin_m"] = report.margin_m;

@@ -31,7 +31,7 @@ std::vector<Target> targets_of(const Mission& mission) {
 }
 
 /// What is wrong with the sight of one target is wrong with all.
-void join(ProofReport& all, ProofReport&& one) {
+void join(ProofReport& all, ProofReport&& one, const Mesh& volume) {
   for (std::size_t i = 0; i < all.claims.size(); ++i) {
     if (one.claims[i].verdict > all.claims[i].verdict) all.claims[i] = one.claims[i];
   }
@@ -45,6 +45,7 @@ void join(ProofReport& all, ProofReport&& one) {
     all.unproved_area_share = one.unproved_area_share;
   }
   if (one.witness && (!all.witness || one.witness->depth_m > all.witness->depth_m)) all.witness = one.witness;
+  if (all.maximal && one.maximal) all.maximal = vantage::join(*all.maximal, *one.maximal, volume);
   if (!one.certificate) all.certificate.reset();
   if (!all.certificate) return;
   for (CertificatePart& part : one.certificate->parts) all.certificate->parts.push_back(std::move(part));
@@ -66,7 +67,7 @@ ProofReport prove_volume(const Mission& mission, const Mesh& volume, const Prove
     ProofReport report =
         prove_volume(mission.loaded.scene, target, mission.sensor, mission.navigation, volume, one, progress);
     if (all) {
-      join(*all, std::move(report));
+      join(*all, std::move(report), volume);
     } else {
       all = std::move(report);
     }

@@ -29,19 +29,70 @@ constexpr const char* kProveExamples =
     "EXAMPLES\n"
     "  vantage prove mission.yaml volume.ply\n"
     "  vantage prove mission.yaml edited.glb --shrink 1e-5 --json\n"
+    "  vantage prove mission.yaml volume.ply --maximal\n"
     "  vantage prove mission.yaml decimated.ply --picture open.png --view 'oblique 330,35'\n"
     "  vantage prove mission.yaml volume.ply --certificate volume.cert && python3 tools/check_certificate.py "
     "volume.cert\n"
     "\n"
     "What is proved, and of what: docs/proof.md. 'Not proved' is not 'wrong': wrong has a viewpoint inside the volume\n"
     "and a point of the target between which the scene lies, and both are printed. Limits without a proof are named;\n"
-    "'vantage verify' tries points for them. Exit code 0: all is proved. 1: something is wrong. 4: neither.\n";
+    "'vantage verify' tries points for them. Exit code 0: all is proved. 1: something is wrong. 4: neither. What\n"
+    "--maximal finds does not change it: a volume that is too small is right.\n";
 
 struct ProveArguments : JudgeArguments {
   double shrink = ProveOptions{}.shrink;
+  bool maximal = false;
   std::string certificate, picture;  ///< files; empty: not wanted
   std::string view, size;            ///< of the picture; empty: the usual ones
 };
+
+const char* meaning_of(WitnessKind kind) {
+  switch (kind) {
+    case WitnessKind::none:
+      return "no witness was found";
+    case WitnessKind::navigation:
+      return "the limit is broken beyond";
+    case WitnessKind::sensor:
+      return "the limit is broken beyond, to what docs/proof.md allows";
+    case WitnessKind::range:
+      return "a corner of the target is out of range";
+    case WitnessKind::hidden:
+      return "one flat piece of the scene hides something from all of the facet";
+    case WitnessKind::hidden_in_pieces:
+      return "different pieces of the scene do from its parts";
+    case WitnessKind::edge_on:
+      return "lines from the target's centre do not pass through";
+    case WitnessKind::target_plane:
+      return "in the target's plane: nothing is beyond";
+  }
+  return "";
+}
+
+std::string percent(double share) { return fixed(100 * share, 4) + " %"; }
+
+void add_maximal(const MaximalProof& proof, TextTable& table) {
+  table.heading("is anything missing beyond the surface?");
+  for (const MaximalProof::Row& row : proof.rows) {
+    const std::string name = row.limit.empty() ? std::string(name_of(row.kind)) : row.limit;
+    table.row(name, percent(row.area_share), meaning_of(row.kind));
+  }
+  for (const MaximalCondition& condition : proof.conditions) {
+    table.row("condition", condition.holds ? "holds" : "does not hold", condition.text);
+  }
+  for (const std::string& name : proof.sampled) {
+    table.row(name, "sampled", "no facet can have it as a witness: 'vantage verify' tries points");
+  }
+  table.row("moved out by", fixed(1e6 * proof.grow, 3), "millionths of the distance");
+  table.row("range", fixed(proof.range_m, 3), "metres: less the tolerance, " + fixed(proof.tolerance_m, 4));
+  if (proof.point_radius_m > 0) {
+    table.row("ball", fixed(1e3 * proof.point_radius_m, 3), "millimetres about the point that must be seen");
+  }
+  if (!proof.open.empty()) table.row("open facets", count(proof.open.size()), "--json lists them");
+  table.row("time", fixed(proof.seconds, 3), "seconds of those below");
+  table.row("maximal", percent(proof.proved_share),
+            proof.conditions_hold() ? "of the surface: where it is all, nothing is missing"
+                                    : "of the surface; a piece that is missing as a whole is not noticed");
+}
 
 std::string table_text(const ProofReport& report, const std::string& file) {
   TextTable table;
@@ -67,6 +118,7 @@ std::string table_text(const ProofReport& report, const std::string& file) {
   if (report.rounding_m > 0) {
     table.row("rounding", fixed(report.rounding_m, 6), "metres that the file's numbers moved the surface: allowed");
   }
+  if (report.maximal) add_maximal(*report.maximal, table);
   table.row("time", fixed(report.seconds, 3), "seconds");
   const ProofVerdict verdict = report.verdict();
   table.heading(verdict == ProofVerdict::proved  ? "proved"
@@ -80,6 +132,8 @@ ProofReport prove(const JudgedVolume& judged, const ProveArguments& options, con
   const ProveOptions asked{.shrink = options.shrink,
                            .rounding_m = known.rounding_m,
                            .lift_m = known.lift_m,
+                           .maximal = options.maximal,
+                           .tolerance_m = known.tolerance_m,
                            .certificate = !options.certificate.empty()};
   return prove_volume(judged.mission, judged.read.volume.mesh, asked, progress);
 }
@@ -100,6 +154,7 @@ void draw(const JudgedVolume& judged, const ProofReport& report, const ProveArgu
   request.volume = &judged.read.volume;
   request.navigation = mission.navigation;
   request.marks = {{"not proved to see the target", report.unproved}};
+  if (report.maximal) request.marks.push_back({"more may be seen beyond", report.maximal->open});
   if (!options.view.empty()) request.view = parse_view({options.view});
   if (!options.size.empty()) {
     const std::array<int, 2> size = parse_size(options.size);
@@ -164,13 +219,14 @@ void add_prove(CLI::App& app, Command& chosen) {
                    "The proof is of the volume smaller by this part of the distance (default 1e-6)")
       ->check(CLI::Range(0.0, 0.1))
       ->option_text("PART");
+  command->add_flag("--maximal", options->maximal, "Tell also by what part of the surface nothing can be missing");
   command
       ->add_option("--certificate", options->certificate,
                    "Write what tools/check_certificate.py needs to check the proof, and FILE's scene beside it")
       ->option_text("FILE");
   command
       ->add_option("--picture", options->picture,
-                   "Draw the volume as a PNG, with the facets that are not proved in red")
+                   "Draw the volume as a PNG: facets that are not proved are red, those without a witness yellow")
       ->option_text("FILE");
   command
       ->add_option("--view", options->view,

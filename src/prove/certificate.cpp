@@ -30,7 +30,9 @@ std::string quoted_json(const std::string& text) {
 std::string number_text(double number) { return std::isfinite(number) ? shortest(number) : "null"; }
 
 std::string vector_text(const Vec3& v) {
-  return "[" + number_text(v.x()) + "," + number_text(v.y()) + "," + number_text(v.z()) + "]";
+  std::string text = "[";
+  text.append(number_text(v.x())).append(",").append(number_text(v.y())).append(",").append(number_text(v.z()));
+  return text.append("]");
 }
 
 template <class Item, class Text>

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/progress_reporter.h"
+#include "prove/maximal.h"
 #include "prove/orientation.h"
 #include "prove/sight.h"
 #include "prove/solid_mesh.h"
@@ -29,6 +30,10 @@ void check_options(const Target& target, const Sensor& sensor, const ProveOption
   if (!(options.rounding_m >= 0 && std::isfinite(options.rounding_m))) {
     throw Error(ErrorCode::value_out_of_range, "rounding_m is not a number of at least 0", "rounding_m",
                 "give how far a file's numbers moved the surface, in metres");
+  }
+  if (!(options.tolerance_m >= 0 && std::isfinite(options.tolerance_m))) {
+    throw Error(ErrorCode::value_out_of_range, "tolerance_m is not a number of at least 0", "tolerance_m",
+                "give how far facets of the volume may lie inside its range, in metres");
   }
   if (!options.lift_m.empty() && options.lift_m.size() != target.parts.size()) {
     throw Error(ErrorCode::array_sizes_differ, "the lifts are not as many as the target's parts", "lift_m",
@@ -60,10 +65,13 @@ std::string at_text(const Vec3& place) {
 
 class Prover {
  public:
-  Prover(const Scene& scene, const Target& target, const Sensor& sensor, const Mesh& volume,
-         const ProveOptions& options)
+  Prover(const Scene& scene, const Target& target, const Sensor& sensor, const Navigation& navigation,
+         const Mesh& volume, const ProveOptions& options)
       : scene_(scene),
         target_(target),
+        sensor_(sensor),
+        navigation_(navigation),
+        volume_(volume),
         range_(range_limit_m(sensor)),
         options_(options),
         solid_(prove::solid_mesh(volume)) {}
@@ -75,12 +83,17 @@ class Prover {
   void add_certificate(std::size_t part, double lift_m, const prove::View& view,
                        const std::vector<std::uint32_t>& numbers, const prove::SightProof& proof);
   std::vector<Vec3> shrunk(const prove::View& view) const;
+  void look_beyond(const prove::View& view, const prove::SceneTree& obstacles,
+                   const internal::core::ProgressReporter& progress);
   void look_for_witness(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
                         const std::vector<std::uint32_t>& numbers, const prove::View& view,
                         const prove::SceneTree& obstacles, const std::vector<prove::OpenFacet>& open);
 
   const Scene& scene_;
   const Target& target_;
+  const Sensor& sensor_;
+  const Navigation& navigation_;
+  const Mesh& volume_;
   double range_;
   const ProveOptions& options_;
   prove::SolidMesh solid_;
@@ -133,6 +146,7 @@ void Prover::look_at(std::size_t part, double lift_m, const internal::core::Prog
     for (const std::uint32_t v : triangle) {
       const Vec3& at = vertices[v];
       near.extend(at);
+      if (options_.maximal) near.extend((1 + 3 * options_.shrink) * at);
       for (const Vec3& corner : view.whole) farthest_.see((at - corner).norm(), view.origin + at);
       if (!view.all_sides) behind_.see(-view.normal.dot(at) - view.margin_m - kRounding * at.norm(), view.origin + at);
     }
@@ -144,7 +158,9 @@ void Prover::look_at(std::size_t part, double lift_m, const internal::core::Prog
   const bool is_recorded = options_.certificate;
   const prove::SceneTree obstacles =
       is_recorded ? prove::all_obstacles_in_front(scene_, view) : prove::obstacles_in_front(scene_, view, near);
-  const prove::SightProof proof = prove::prove_sight(vertices, facets, view, scene_, obstacles, is_recorded, progress);
+  const double share = options_.maximal ? 0.5 : 1;
+  const prove::SightProof proof =
+      prove::prove_sight(vertices, facets, view, scene_, obstacles, is_recorded, progress.part(0, share));
   report_.far_facets += facets.size();
   report_.separations += proof.separations;
   report_.margin_m = std::max(report_.margin_m, view.margin_m);
@@ -152,6 +168,40 @@ void Prover::look_at(std::size_t part, double lift_m, const internal::core::Prog
   for (const prove::OpenFacet& open : proof.open) report_.unproved.push_back(numbers[open.facet]);
   look_for_witness(vertices, facets, numbers, view, obstacles, proof.open);
   if (is_recorded) add_certificate(part, lift_m, view, numbers, proof);
+  if (options_.maximal) look_beyond(view, obstacles, progress.part(0.5, 1));
+}
+
+void Prover::look_beyond(const prove::View& view, const prove::SceneTree& obstacles,
+                         const internal::core::ProgressReporter& progress) {
+  const auto begin = std::chrono::steady_clock::now();
+  std::vector<Vec3> vertices;
+  vertices.reserve(solid_.mesh.vertices.size());
+  for (const Vec3& vertex : solid_.mesh.vertices) vertices.push_back(vertex - view.origin);
+  constexpr double kPointRadius = 5e-4, kFullRange = 20;  // docs/proof.md, "Maximal"
+  const prove::LimitsBeyond limits = prove::limits_beyond(navigation_, sensor_, view);
+  const prove::Beyond beyond{.scene = scene_,
+                             .view = view,
+                             .obstacles = obstacles,
+                             .limits = limits,
+                             .range_m = range_,
+                             .tolerance_m = options_.tolerance_m,
+                             .grow = options_.shrink,
+                             .rounding_m = options_.rounding_m,
+                             .point_radius_m = kPointRadius * std::min(1.0, range_ / kFullRange)};
+  const prove::Witnesses found = prove::find_witnesses(vertices, solid_.mesh.triangles, beyond, progress);
+  MaximalProof proof;
+  proof.facets.assign(volume_.triangles.size(), {WitnessKind::edge_on, 0, 0});  // those without area
+  for (std::size_t t = 0; t < found.facets.size(); ++t) proof.facets[solid_.facet_of[t]] = found.facets[t];
+  for (const prove::LimitBeyond& limit : limits.limits) proof.limits.push_back(limit.name);
+  proof.sampled = limits.without_argument;
+  proof.conditions = prove::whole_conditions(vertices, solid_.mesh.triangles, found, beyond);
+  proof.grow = options_.shrink;
+  proof.tolerance_m = options_.tolerance_m;
+  proof.range_m = range_ - options_.tolerance_m;
+  proof.point_radius_m = view.corners.size() < 3 ? beyond.point_radius_m : 0;
+  prove::finish_maximal(volume_, proof);
+  proof.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  report_.maximal = report_.maximal ? join(*report_.maximal, proof, volume_) : proof;
 }
 
 void Prover::add_certificate(std::size_t part, double lift_m, const prove::View& view,
@@ -298,7 +348,7 @@ ProofReport prove_volume(const Scene& scene, const Target& target, const Sensor&
   check_options(target, sensor, options);
   const internal::core::ProgressReporter progress(callback);
   progress.begin("prove");
-  ProofReport report = Prover(scene, target, sensor, volume, options).run(progress);
+  ProofReport report = Prover(scene, target, sensor, navigation, volume, options).run(progress);
   prove_navigation(navigation, volume, options.rounding_m, report.claims);
   name_limits_of_sensor(sensor, report.claims);
   if (options.certificate && can_certify(report)) {
