@@ -55,7 +55,9 @@ constexpr City kCities[] = {
     {5, "openfoam_buildings", "mesh/openfoam-buildings.obj.gz", UpAxis::z, 2},
     {6, "delft_3dfier", "mesh/delft-3dfier.obj.gz", UpAxis::z, 3},
 };
-constexpr double kLeastMaximal = 0.999;  // of the surface: with a reason why the volume ends there
+// Of the surface, with a reason why the volume ends there: of one volume, and of all of a city. Faces beside a target
+// on a wall that is not quite plane have none: docs/proof.md.
+constexpr double kLeastMaximal = 0.9, kLeastMaximalOfAll = 0.999;
 constexpr std::size_t kCityCount = std::size(kCities);
 
 std::size_t from_environment(const char* name, std::size_t otherwise) {
@@ -171,7 +173,7 @@ struct Totals {
   std::size_t targets = 0, points = 0, inside = 0, over = 0, under = 0, rays = 0;
   std::size_t far_facets = 0;
   std::size_t refuted = 0, open = 0, clear = 0;  ///< volumes that are made larger, by what becomes of their sight
-  double least_maximal = 1, maximal = 0;         ///< shares of the surface with a witness: the least, their sum
+  double least_maximal = 1, area = 0, maximal_area = 0;  ///< a share of the surface; square metres
   double worst_over = 0, worst_under = 0, worst_aimed = 0, engine_seconds = 0, proof_seconds = 0;
 };
 
@@ -212,7 +214,9 @@ class HeavyCities : public ::testing::TestWithParam<City> {
     EXPECT_GE(proof.maximal->proved_share, kLeastMaximal) << what << describe(target, sensor);
     EXPECT_TRUE(proof.maximal->conditions_hold()) << what;
     totals_.least_maximal = std::min(totals_.least_maximal, proof.maximal->proved_share);
-    totals_.maximal += proof.maximal->proved_share;
+    const double area = surface_area(volume.mesh);
+    totals_.area += area;
+    totals_.maximal_area += proof.maximal->proved_share * area;
     options.maximal = false;
     Mesh larger = volume.mesh;
     for (Vec3& vertex : larger.vertices) vertex += 2e-6 * (vertex - volume.frame.origin);
@@ -297,6 +301,7 @@ TEST_P(HeavyCities, NothingIsOverClaimed) {
                   target.parts[0].size(), 2 * volume.frame.enclosing_radius_m, sensor.max_range_m);
     check(scene, target, sensor, volume, what);
   }
+  EXPECT_GE(totals_.maximal_area, kLeastMaximalOfAll * totals_.area);
   const double seconds = stopwatch.seconds();
   std::printf(
       "%s: %zu targets, %zu points, %zu inside, %zu rays; over-claimed %zu (worst %.3g m), under-claimed %zu (worst "
@@ -306,8 +311,8 @@ TEST_P(HeavyCities, NothingIsOverClaimed) {
       totals_.under, totals_.worst_under, totals_.worst_aimed,
       1e3 * totals_.engine_seconds / static_cast<double>(totals_.targets), seconds);
   std::printf("%s: %zu far facets proved, maximal %.6f %% (least %.6f %%), %.1f times the engine\n", city.name,
-              totals_.far_facets, 100 * totals_.maximal / static_cast<double>(totals_.targets),
-              100 * totals_.least_maximal, totals_.proof_seconds / totals_.engine_seconds);
+              totals_.far_facets, 100 * totals_.maximal_area / totals_.area, 100 * totals_.least_maximal,
+              totals_.proof_seconds / totals_.engine_seconds);
   std::printf("%s: made larger, sight is refuted %zu, open %zu, right %zu times\n", city.name, totals_.refuted,
               totals_.open, totals_.clear);
 }
