@@ -47,6 +47,11 @@ struct ProveOptions {
   double tolerance_m = 0.01;        ///< for `maximal`: how far the volume's range facets may lie inside the range
                                     ///< (ExactOptions::tolerance_m); at least 0
   bool certificate = false;         ///< record one: takes longer, as all of the scene goes into its tree
+
+  /// Of a target that may be seen from one side or the other, one side: how far the plane of the other one, raised as
+  /// well, lies behind its plane. At least 0. Then what lies behind is left to a call for the other side, and nothing
+  /// may lie between the planes. For targets of one part with a front.
+  std::optional<double> other_side_m = {};
 };
 
 /// A place in the shrunk volume from which a point of the target is hidden.
@@ -63,6 +68,10 @@ struct ClaimProof {
   std::string name;  ///< "sight", "range", "front", or a limit's name as in vantage/query.h
   ProofVerdict verdict = ProofVerdict::not_proved;
   std::string text;  ///< by what, why not, or where it is wrong
+
+  /// Of a limit that is wrong: a place of the volume, scene frame, that breaks it, and by how many metres at least.
+  std::optional<Vec3> place = {};
+  double broken_by_m = 0;
 };
 
 /// Of a facet: of its area that has a witness, what most of it has.
@@ -115,10 +124,12 @@ struct ProofReport {
   std::optional<HiddenView> witness;    ///< the deepest that was found; of `wrong` sight
   std::size_t separations = 0;          ///< planes that were found between a part of the view and obstacles
   double shrink = 0;                    ///< what was asked for
-  double margin_m = 0;    ///< a strip of the target along its outline, and what lies lower over its plane,
-                          ///< is left out: so much
-  double lift_m = 0;      ///< the largest of a part
-  double rounding_m = 0;  ///< what was allowed
+  double margin_m = 0;           ///< a strip of the target along its outline, and what lies lower over its plane,
+                                 ///< is left out: so much
+  double lift_m = 0;             ///< the largest of a part
+  double rounding_m = 0;         ///< what was allowed
+  double limit_tolerance_m = 0;  ///< limits besides altitude and a single box may be broken by so much (docs/proof.md):
+                                 ///< rounding_m, `shrink` times the largest distance, and rounding
   double seconds = 0;
   std::optional<MaximalProof> maximal;     ///< where it was asked for
   std::optional<Certificate> certificate;  ///< where sight, range and front are proved and nothing is wrong
@@ -129,8 +140,8 @@ struct ProofReport {
 
 /// Proves or refutes that every point of the volume sees the whole target and keeps its range. docs/proof.md has the
 /// theorem and what exactly is stated. `volume` is any closed mesh in the scene frame, whoever made it, cut or not;
-/// vertices in one place count as one. All parts of the target must be seen. Limits of navigation and of the sensor
-/// besides the range are named, and those without a proof are told as not proved.
+/// vertices in one place count as one. All parts of the target must be seen. Each limit of navigation and of the sensor
+/// is a claim of its own, and those without a proof are told as not proved.
 ///
 /// With `maximal` it also looks beyond the facets, for what is missing: docs/proof.md, "Maximal".
 ///

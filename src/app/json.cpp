@@ -119,7 +119,12 @@ Json json_of(const ProofReport& report) {
   json["verdict"] = name_of(report.verdict());
   json["claims"] = Json::array();
   for (const ClaimProof& claim : report.claims) {
-    json["claims"].push_back({{"name", claim.name}, {"verdict", name_of(claim.verdict)}, {"text", claim.text}});
+    Json one = {{"name", claim.name}, {"verdict", name_of(claim.verdict)}, {"text", claim.text}};
+    if (claim.place) {
+      one["place"] = json_of(*claim.place);
+      one["broken_by_m"] = claim.broken_by_m;
+    }
+    json["claims"].push_back(std::move(one));
   }
   json["facets"] = report.facets;
   json["far_facets"] = report.far_facets;
@@ -139,6 +144,7 @@ Json json_of(const ProofReport& report) {
   json["separations"] = report.separations;
   json["shrink"] = report.shrink;
   json["margin_m"] = report.margin_m;
+  json["limit_tolerance_m"] = report.limit_tolerance_m;
   json["rounding_m"] = report.rounding_m;
   json["lift_m"] = report.lift_m;
   json["seconds"] = report.seconds;

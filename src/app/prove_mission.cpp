@@ -15,19 +15,45 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The targets that must be seen, each whole; of several, all.
-std::vector<Target> targets_of(const Mission& mission) {
-  if (mission.views.empty()) return {mission.target};
-  std::vector<Target> targets;
+/// A target that must be seen whole, or one side of it.
+struct ProvedView {
+  Target target;
+  std::vector<double> lift_m;
+  std::optional<double> other_side_m = {};
+};
+
+/// Whether two targets are the sides of one, and how far their planes are apart.
+std::optional<double> two_sides(const std::vector<Target>& list) {
+  if (list.size() != 2 || list[0].parts.size() != 1 || list[1].parts.size() != 1) return std::nullopt;
+  const TargetFrame a = make_target_frame(list[0]), b = make_target_frame(list[1]);
+  constexpr double kRounding = 1e-12;
+  if (a.all_sides || b.all_sides || a.normal.dot(b.normal) > kRounding - 1) return std::nullopt;
+  const double apart = a.normal.dot(a.origin - b.origin);
+  const double largest = a.origin.cwiseAbs().maxCoeff() + a.enclosing_radius_m;
+  return apart >= -kRounding * largest ? std::optional(std::max(apart, 0.0)) : std::nullopt;
+}
+
+/// The views that a position must have, all of them; of the two sides of a target, the one that it is in front of.
+/// `lift_m`: of the parts of all targets.
+std::vector<ProvedView> proved_views(const Mission& mission, const std::vector<double>& lift_m) {
+  if (mission.views.empty()) return {{mission.target, lift_m}};
+  const auto lift_of = [&](std::size_t part) { return lift_m.empty() ? 0.0 : lift_m.at(part); };
+  std::vector<ProvedView> views;
+  std::size_t next = 0;
   for (const std::vector<Target>& list : mission.views) {
-    if (list.size() != 1) {
+    std::optional<double> apart = two_sides(list);
+    if (list.size() != 1 && !apart) {
       throw Error(ErrorCode::not_applicable,
-                  "the volume is for one of several targets or sides, and only the sight of all can be proved",
-                  "targets", "check it with 'vantage verify', or compute one volume for each with 'combine: each'");
+                  "the volume is for one of several targets, and only the sight of all can be proved", "targets",
+                  "check it with 'vantage verify', or compute one volume for each with 'combine: each'");
     }
-    targets.push_back(list[0]);
+    if (apart) *apart += lift_of(next) + lift_of(next + 1);  // they are raised away from each other
+    for (const Target& target : list) {
+      ProvedView& view = views.emplace_back(ProvedView{target, {}, apart});
+      for (std::size_t i = 0; i < target.parts.size(); ++i) view.lift_m.push_back(lift_of(next++));
+    }
   }
-  return targets;
+  return views;
 }
 
 /// What is wrong with the sight of one target is wrong with all.
@@ -40,6 +66,7 @@ void join(ProofReport& all, ProofReport&& one, const Mesh& volume) {
   all.seconds += one.seconds;
   all.margin_m = std::max(all.margin_m, one.margin_m);
   all.lift_m = std::max(all.lift_m, one.lift_m);
+  all.limit_tolerance_m = std::max(all.limit_tolerance_m, one.limit_tolerance_m);
   if (one.unproved_area_share > all.unproved_area_share) {
     all.unproved = one.unproved;
     all.unproved_area_share = one.unproved_area_share;
@@ -56,16 +83,12 @@ void join(ProofReport& all, ProofReport&& one, const Mesh& volume) {
 ProofReport prove_volume(const Mission& mission, const Mesh& volume, const ProveOptions& options,
                          const Progress& progress) {
   std::optional<ProofReport> all;
-  std::size_t first = 0;
-  for (const Target& target : targets_of(mission)) {
+  for (const ProvedView& view : proved_views(mission, options.lift_m)) {
     ProveOptions one = options;
-    one.lift_m.clear();
-    for (std::size_t i = 0; i < target.parts.size() && first + i < options.lift_m.size(); ++i) {
-      one.lift_m.push_back(options.lift_m[first + i]);
-    }
-    first += target.parts.size();
+    one.lift_m = view.lift_m;
+    one.other_side_m = view.other_side_m;
     ProofReport report =
-        prove_volume(mission.loaded.scene, target, mission.sensor, mission.navigation, volume, one, progress);
+        prove_volume(mission.loaded.scene, view.target, mission.sensor, mission.navigation, volume, one, progress);
     if (all) {
       join(*all, std::move(report), volume);
     } else {

@@ -35,9 +35,9 @@ constexpr const char* kProveExamples =
     "volume.cert\n"
     "\n"
     "What is proved, and of what: docs/proof.md. 'Not proved' is not 'wrong': wrong has a viewpoint inside the volume\n"
-    "and a point of the target between which the scene lies, and both are printed. Limits without a proof are named;\n"
-    "'vantage verify' tries points for them. Exit code 0: all is proved. 1: something is wrong. 4: neither. What\n"
-    "--maximal finds does not change it: a volume that is too small is right.\n";
+    "and a point of the target between which the scene lies, or a place that breaks a limit. Limits without a proof\n"
+    "are named; 'vantage verify' tries points for them. Exit code 0: all is proved. 1: something is wrong. 4:\n"
+    "neither. What --maximal finds does not change it: a volume that is too small is right.\n";
 
 struct ProveArguments : JudgeArguments {
   double shrink = ProveOptions{}.shrink;
@@ -94,7 +94,7 @@ void add_maximal(const MaximalProof& proof, TextTable& table) {
                                     : "of the surface; a piece that is missing as a whole is not noticed");
 }
 
-std::string table_text(const ProofReport& report, const std::string& file) {
+std::string table_text(const ProofReport& report, const std::string& file, bool asks_maximal) {
   TextTable table;
   table.heading(file);
   for (const ClaimProof& claim : report.claims) table.row(claim.name, name_of(claim.verdict), claim.text);
@@ -118,7 +118,11 @@ std::string table_text(const ProofReport& report, const std::string& file) {
   if (report.rounding_m > 0) {
     table.row("rounding", fixed(report.rounding_m, 6), "metres that the file's numbers moved the surface: allowed");
   }
+  if (report.claims.size() > 3) {
+    table.row("tolerance", fixed(1e6 * report.limit_tolerance_m, 3), "micrometres that a limit may be broken by");
+  }
   if (report.maximal) add_maximal(*report.maximal, table);
+  if (asks_maximal && !report.maximal) table.row("maximal", "none", "not of a volume for both sides of a target");
   table.row("time", fixed(report.seconds, 3), "seconds");
   const ProofVerdict verdict = report.verdict();
   table.heading(verdict == ProofVerdict::proved  ? "proved"
@@ -140,7 +144,9 @@ ProofReport prove(const JudgedVolume& judged, const ProveArguments& options, con
 
 /// What was written, or why nothing was.
 std::string save_certificate(const JudgedVolume& judged, const ProofReport& report, const std::string& file) {
-  if (!report.certificate) return "no certificate: sight, range and front must be proved, and nothing may be wrong\n";
+  if (!report.certificate) {
+    return "no certificate: sight, range and front must be proved, not of both sides, and nothing may be wrong\n";
+  }
   write_certificate(*report.certificate, judged.mission, judged.read, file);
   return "wrote " + file + "\nwrote " + certificate_scene_file(file).string() + "\n";
 }
@@ -194,7 +200,7 @@ int run_prove(const ProveArguments& options) {
   if (options.json) {
     print(json_text(report));
   } else if (!options.common.quiet) {
-    print(table_text(report, options.volume_file) + saved);
+    print(table_text(report, options.volume_file, options.maximal) + saved);
   }
   switch (report.verdict()) {
     case ProofVerdict::proved:

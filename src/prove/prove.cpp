@@ -9,6 +9,8 @@
 #include <utility>
 
 #include "core/progress_reporter.h"
+#include "prove/convex_polygon.h"
+#include "prove/limits.h"
 #include "prove/maximal.h"
 #include "prove/orientation.h"
 #include "prove/sight.h"
@@ -38,6 +40,16 @@ void check_options(const Target& target, const Sensor& sensor, const ProveOption
   if (!options.lift_m.empty() && options.lift_m.size() != target.parts.size()) {
     throw Error(ErrorCode::array_sizes_differ, "the lifts are not as many as the target's parts", "lift_m",
                 "give one for each part, or none");
+  }
+  if (options.other_side_m) {
+    if (!(*options.other_side_m >= 0 && std::isfinite(*options.other_side_m))) {
+      throw Error(ErrorCode::value_out_of_range, "other_side_m is not a number of at least 0", "other_side_m",
+                  "give how far the other side's plane lies behind, in metres");
+    }
+    if (target.parts.size() != 1 || (target.is_point() && !target.front)) {
+      throw Error(ErrorCode::not_applicable, "only a target of one part with a front has two sides", "other_side_m",
+                  "leave it out");
+    }
   }
   const char* const what = sensor.visible ? "a share of the target" : sensor.link ? "a radio link" : nullptr;
   if (!what) return;
@@ -79,12 +91,16 @@ class Prover {
   ProofReport run(const internal::core::ProgressReporter& progress);
 
  private:
+  static constexpr double kSightPart = 0.8;  ///< of the time, roughly
+
   void look_at(std::size_t part, double lift_m, const internal::core::ProgressReporter& progress);
   void add_certificate(std::size_t part, double lift_m, const prove::View& view,
                        const std::vector<std::uint32_t>& numbers, const prove::SightProof& proof);
-  std::vector<Vec3> shrunk(const prove::View& view) const;
   void look_beyond(const prove::View& view, const prove::SceneTree& obstacles,
                    const internal::core::ProgressReporter& progress);
+  void add_limits(const internal::core::ProgressReporter& progress);
+  std::vector<Vec3> shrunk(const prove::View& view) const;
+  prove::SolidMesh in_front(const std::vector<Vec3>& vertices, const prove::View& view);
   void look_for_witness(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
                         const std::vector<std::uint32_t>& numbers, const prove::View& view,
                         const prove::SceneTree& obstacles, const std::vector<prove::OpenFacet>& open);
@@ -107,6 +123,37 @@ std::vector<Vec3> Prover::shrunk(const prove::View& view) const {
   vertices.reserve(solid_.mesh.vertices.size());
   for (const Vec3& vertex : solid_.mesh.vertices) vertices.push_back((1 - options_.shrink) * (vertex - view.origin));
   return vertices;
+}
+
+/// The part of the facets in front of the target. Between its two sides there must be nothing.
+prove::SolidMesh Prover::in_front(const std::vector<Vec3>& vertices, const prove::View& view) {
+  const prove::HalfSpace front{-view.normal, 0};
+  const double other = (1 - options_.shrink) * *options_.other_side_m;  // as heights are
+  prove::SolidMesh part;
+  part.mesh.vertices = vertices;
+  for (std::size_t t = 0; t < solid_.mesh.triangles.size(); ++t) {
+    const auto& [a, b, c] = solid_.mesh.triangles[t];
+    const prove::CutPolygon cut = prove::cut({vertices[a], vertices[b], vertices[c]}, front);
+    const prove::ConvexPolygon between = prove::cut(cut.outside, {-view.normal, other}).inside;
+    for (const Vec3& corner : between) {
+      // Whatever passes has a place half way.
+      const Vec3 at = between.size() > 2 ? Vec3((corner + prove::middle_of(between)) / 2) : corner;
+      const double height = -view.normal.dot(at);
+      behind_.see(std::min(height, other - height) - view.margin_m, view.origin + at);
+    }
+    const auto first = static_cast<std::uint32_t>(part.mesh.vertices.size());
+    if (cut.outside.empty()) {
+      part.mesh.triangles.push_back({a, b, c});
+      part.facet_of.push_back(solid_.facet_of[t]);
+      continue;
+    }
+    part.mesh.vertices.insert(part.mesh.vertices.end(), cut.inside.begin(), cut.inside.end());
+    for (std::uint32_t k = 2; k < cut.inside.size(); ++k) {
+      part.mesh.triangles.push_back({first, first + k - 1, first + k});
+      part.facet_of.push_back(solid_.facet_of[t]);
+    }
+  }
+  return part;
 }
 
 void Prover::look_for_witness(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
@@ -136,13 +183,15 @@ void Prover::look_for_witness(const std::vector<Vec3>& vertices, const std::vect
 void Prover::look_at(std::size_t part, double lift_m, const internal::core::ProgressReporter& progress) {
   constexpr double kRounding = 8 * std::numeric_limits<double>::epsilon();  // of a vertex that lies in the plane
   const prove::View view = prove::make_view(target_, part, lift_m);
-  const std::vector<Vec3> vertices = shrunk(view);
+  std::vector<Vec3> vertices = shrunk(view);
   Box near;
   for (const Vec3& corner : view.corners) near.extend(corner);
   std::vector<Triangle> facets;
   std::vector<std::uint32_t> numbers;
-  for (std::size_t t = 0; t < solid_.mesh.triangles.size(); ++t) {
-    const Triangle& triangle = solid_.mesh.triangles[t];
+  const prove::SolidMesh judged = options_.other_side_m ? in_front(vertices, view) : solid_;
+  if (options_.other_side_m) vertices = judged.mesh.vertices;
+  for (std::size_t t = 0; t < judged.mesh.triangles.size(); ++t) {
+    const Triangle& triangle = judged.mesh.triangles[t];
     for (const std::uint32_t v : triangle) {
       const Vec3& at = vertices[v];
       near.extend(at);
@@ -153,7 +202,7 @@ void Prover::look_at(std::size_t part, double lift_m, const internal::core::Prog
     const auto& [a, b, c] = triangle;
     if (prove::orientation(vertices[a], vertices[b], vertices[c], Vec3::Zero()) <= 0) continue;
     facets.push_back(triangle);
-    numbers.push_back(solid_.facet_of[t]);
+    numbers.push_back(judged.facet_of[t]);
   }
   const bool is_recorded = options_.certificate;
   const prove::SceneTree obstacles =
@@ -168,7 +217,7 @@ void Prover::look_at(std::size_t part, double lift_m, const internal::core::Prog
   for (const prove::OpenFacet& open : proof.open) report_.unproved.push_back(numbers[open.facet]);
   look_for_witness(vertices, facets, numbers, view, obstacles, proof.open);
   if (is_recorded) add_certificate(part, lift_m, view, numbers, proof);
-  if (options_.maximal) look_beyond(view, obstacles, progress.part(0.5, 1));
+  if (options_.maximal && !options_.other_side_m) look_beyond(view, obstacles, progress.part(0.5, 1));
 }
 
 void Prover::look_beyond(const prove::View& view, const prove::SceneTree& obstacles,
@@ -229,7 +278,9 @@ ProofReport Prover::run(const internal::core::ProgressReporter& progress) {
   const double parts = static_cast<double>(target_.parts.size());
   for (std::size_t part = 0; part < target_.parts.size(); ++part) {
     const double lift = options_.lift_m.empty() ? 0 : options_.lift_m[part];
-    look_at(part, lift, progress.part(static_cast<double>(part) / parts, static_cast<double>(part + 1) / parts));
+    look_at(part, lift,
+            progress.part(kSightPart * static_cast<double>(part) / parts,
+                          kSightPart * static_cast<double>(part + 1) / parts));
   }
   std::vector<std::uint32_t>& unproved = report_.unproved;
   std::sort(unproved.begin(), unproved.end());
@@ -248,45 +299,26 @@ ProofReport Prover::run(const internal::core::ProgressReporter& progress) {
       at_text(farthest_.at) + " is " + std::to_string(farthest_.by) + " m from a corner of the target");
   add("front", behind_.by <= options_.rounding_m, "every vertex is in front of the target",
       at_text(behind_.at) + " is " + std::to_string(behind_.by) + " m behind the target's plane");
+  add_limits(progress.part(kSightPart, 1));
   return std::move(report_);
+}
+
+void Prover::add_limits(const internal::core::ProgressReporter& progress) {
+  std::vector<prove::View> parts;
+  for (std::size_t part = 0; part < target_.parts.size(); ++part) {
+    parts.push_back(prove::make_view(target_, part, options_.lift_m.empty() ? 0 : options_.lift_m[part]));
+  }
+  const prove::LimitedVolume volume(solid_.mesh, parts.front().origin, options_.shrink, options_.rounding_m);
+  report_.limit_tolerance_m = volume.tolerance_m();
+  const std::vector<ClaimProof> claims = prove::prove_limits(
+      volume, options_.other_side_m ? volume.in_front_of(Vec3::Zero(), parts.front().normal) : volume, parts, sensor_,
+      navigation_, progress);
+  report_.claims.insert(report_.claims.end(), claims.begin(), claims.end());
 }
 
 Box box_of(const Navigation::Altitude& altitude) {
   const double all = std::numeric_limits<double>::infinity();
   return {{-all, -all, altitude.min_m}, {all, all, altitude.max_m}};
-}
-
-/// Limits that are convex hold for all of a volume if they hold at its vertices.
-void prove_navigation(const Navigation& navigation, const Mesh& volume, double rounding_m,
-                      std::vector<ClaimProof>& claims) {
-  const auto add = [&](const std::string& name, const Box& box) {
-    Worst outside;
-    for (const Triangle& t : volume.triangles) {
-      for (const std::uint32_t v : t) {
-        const Vec3& at = volume.vertices[v];
-        outside.see((box.min - at).cwiseMax(at - box.max).maxCoeff(), at);
-      }
-    }
-    const bool holds = outside.by <= rounding_m;
-    claims.push_back({name, holds ? ProofVerdict::proved : ProofVerdict::wrong,
-                      holds ? "it holds at every vertex"
-                            : at_text(outside.at) + " is outside by " + std::to_string(outside.by) + " m"});
-  };
-  const auto leave = [&](const std::string& name) {
-    claims.push_back({name, ProofVerdict::not_proved, "has no proof: 'vantage verify' tries points"});
-  };
-  if (navigation.altitude) {
-    add("altitude", box_of(*navigation.altitude));
-  }
-  if (navigation.keep_in.size() == 1 && navigation.keep_in_zones.empty()) {
-    add("keep_in", navigation.keep_in[0]);
-  } else if (!navigation.keep_in.empty() || !navigation.keep_in_zones.empty()) {
-    leave("keep_in");
-  }
-  if (!navigation.keep_out.empty() || !navigation.keep_out_zones.empty()) leave("keep_out");
-  if (!navigation.meshes.empty()) leave("meshes");
-  if (navigation.above_ground) leave("agl");
-  if (navigation.clearance) leave("clearance");
 }
 
 /// Sight, range and front, the first claims, are proved, and nothing else is wrong.
@@ -308,18 +340,6 @@ std::vector<CertifiedBox> certified_boxes(const Navigation& navigation, const st
     }
   }
   return boxes;
-}
-
-void name_limits_of_sensor(const Sensor& sensor, std::vector<ClaimProof>& claims) {
-  const auto leave = [&](bool is_given, const char* name) {
-    if (!is_given) return;
-    claims.push_back({name, ProofVerdict::not_proved, "has no proof: 'vantage verify' tries points"});
-  };
-  leave(sensor.min_range_m > 0, "min_range");
-  leave(sensor.incidence_deg.has_value(), "incidence");
-  leave(sensor.camera.has_value(), "frame");
-  leave(sensor.pixel && sensor.pixel->kind == PixelLimit::Kind::worst, "pixel");
-  leave(sensor.sun.has_value(), "sun");
 }
 
 }  // namespace
@@ -349,9 +369,7 @@ ProofReport prove_volume(const Scene& scene, const Target& target, const Sensor&
   const internal::core::ProgressReporter progress(callback);
   progress.begin("prove");
   ProofReport report = Prover(scene, target, sensor, navigation, volume, options).run(progress);
-  prove_navigation(navigation, volume, options.rounding_m, report.claims);
-  name_limits_of_sensor(sensor, report.claims);
-  if (options.certificate && can_certify(report)) {
+  if (options.certificate && !options.other_side_m && can_certify(report)) {
     report.certificate->boxes = certified_boxes(navigation, report.claims);
   } else {
     report.certificate.reset();

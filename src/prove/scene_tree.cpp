@@ -9,15 +9,11 @@ namespace {
 
 constexpr std::uint32_t kMostInLeaf = 2;
 
+/// `middle`: of a piece, twice that of its box.
+template <class Middle>
 class Halver {
  public:
-  Halver(const Mesh& scene, SceneTree& tree) : tree_(tree), middles_(scene.triangles.size()) {
-    for (const Piece& piece : tree.pieces) {
-      const Triangle& t = scene.triangles[piece.of];
-      const Vec3 &a = scene.vertices[t[0]], &b = scene.vertices[t[1]], &c = scene.vertices[t[2]];
-      middles_[piece.of] = a.cwiseMin(b).cwiseMin(c) + a.cwiseMax(b).cwiseMax(c);
-    }
-  }
+  Halver(const Middle& middle, SceneTree& tree) : middle_(middle), tree_(tree) {}
 
   void halve(std::uint32_t begin, std::uint32_t end) {
     const auto at = [&](std::uint32_t i) { return tree_.pieces.begin() + static_cast<std::ptrdiff_t>(i); };
@@ -31,7 +27,7 @@ class Halver {
       return;
     }
     Box spread;
-    for (std::uint32_t i = begin; i < end; ++i) spread.extend(middles_[tree_.pieces[i].of]);
+    for (std::uint32_t i = begin; i < end; ++i) spread.extend(middle_(tree_.pieces[i]));
     const Vec3 size = spread.max - spread.min;
     Eigen::Index axis = 0;
     for (Eigen::Index k = 1; k < 3; ++k) {
@@ -39,7 +35,7 @@ class Halver {
     }
     const std::uint32_t half = begin + (end - begin) / 2;
     std::nth_element(at(begin), at(half), at(end), [&](const Piece& a, const Piece& b) {
-      const double at_a = middles_[a.of][axis], at_b = middles_[b.of][axis];
+      const double at_a = middle_(a)[axis], at_b = middle_(b)[axis];
       return at_a < at_b || (at_a == at_b && a.of < b.of);
     });
     halve(begin, half);
@@ -52,17 +48,40 @@ class Halver {
   }
 
  private:
+  const Middle& middle_;
   SceneTree& tree_;
-  std::vector<Vec3> middles_;  ///< per triangle of the scene: twice that of its box
 };
+
+template <class Middle>
+SceneTree halved(const Middle& middle, std::vector<Piece> pieces) {
+  SceneTree tree;
+  tree.pieces = std::move(pieces);
+  if (!tree.pieces.empty()) Halver(middle, tree).halve(0, static_cast<std::uint32_t>(tree.pieces.size()));
+  return tree;
+}
+
+Vec3 twice_middle(std::span<const Vec3> corners) {
+  Vec3 low = corners[0], high = low;
+  for (const Vec3& corner : corners) {
+    low = low.cwiseMin(corner);
+    high = high.cwiseMax(corner);
+  }
+  return low + high;
+}
 
 }  // namespace
 
 SceneTree make_tree(const Mesh& scene, std::vector<Piece> pieces) {
-  SceneTree tree;
-  tree.pieces = std::move(pieces);
-  if (!tree.pieces.empty()) Halver(scene, tree).halve(0, static_cast<std::uint32_t>(tree.pieces.size()));
-  return tree;
+  std::vector<Vec3> middles(scene.triangles.size());
+  for (const Piece& piece : pieces) {
+    const auto& [a, b, c] = scene.triangles[piece.of];
+    middles[piece.of] = twice_middle(std::array<Vec3, 3>{scene.vertices[a], scene.vertices[b], scene.vertices[c]});
+  }
+  return halved([&](const Piece& piece) -> const Vec3& { return middles[piece.of]; }, std::move(pieces));
+}
+
+SceneTree make_tree(std::vector<Piece> pieces) {
+  return halved([](const Piece& piece) { return twice_middle(piece.polygon()); }, std::move(pieces));
 }
 
 }  // namespace vantage::internal::prove

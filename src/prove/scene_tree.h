@@ -17,6 +17,10 @@ struct Piece {
   std::uint32_t count = 0;                                                              ///< of the corners
   std::uint32_t of = 0;                                                                 ///< the scene's triangle
 
+  static Piece triangle(const std::array<Vec3, 3>& corners, std::uint32_t of) {
+    return {{corners[0], corners[1], corners[2], Vec3::Zero()}, 3, of};
+  }
+  std::array<Vec3, 3> first_three() const { return {corners[0], corners[1], corners[2]}; }
   std::span<const Vec3> polygon() const { return {corners.data(), count}; }
 };
 
@@ -36,5 +40,7 @@ struct SceneTree {
 /// checker of certificates builds the same tree: docs/proof.md. Leaves hold one or two pieces, by number. Cost:
 /// O(n log n).
 SceneTree make_tree(const Mesh& scene, std::vector<Piece> pieces);
+/// The same by the middles of the pieces themselves. None may be empty.
+SceneTree make_tree(std::vector<Piece> pieces);
 
 }  // namespace vantage::internal::prove

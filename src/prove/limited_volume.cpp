@@ -1,0 +1,129 @@
+#include "prove/limited_volume.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "core/format.h"
+#include "core/parallel.h"
+#include "prove/convex_polygon.h"
+
+namespace vantage::internal::prove {
+namespace {
+
+/// Roundings of the largest coordinate: a position about the origin has one, and distances to planes have a few more.
+constexpr double kUnsureRoundings = 16;
+
+std::string place_text(const Vec3& place) {
+  return core::format("{:.9g}, {:.9g}, {:.9g}", place.x(), place.y(), place.z());
+}
+
+}  // namespace
+
+LimitedVolume::LimitedVolume(const Mesh& solid, const Vec3& origin, double shrink, double rounding_m)
+    : origin_(origin), rounding_m_(rounding_m) {
+  std::vector<bool> is_used(solid.vertices.size(), false);
+  double largest = 0, farthest = 0;
+  facets_.reserve(solid.triangles.size());
+  for (const Triangle& t : solid.triangles) {
+    Corners corners;
+    for (std::size_t k = 0; k < 3; ++k) {
+      corners[k] = solid.vertices[t[k]] - origin;
+      if (is_used[t[k]]) continue;
+      is_used[t[k]] = true;
+      vertices_.push_back(corners[k]);
+      box_.extend(corners[k]);
+      farthest = std::max(farthest, corners[k].norm());
+      largest = std::max(largest, solid.vertices[t[k]].cwiseAbs().maxCoeff());
+    }
+    facets_.push_back(corners);
+  }
+  closed_ = facets_;
+  largest = std::max(largest, origin.cwiseAbs().maxCoeff());
+  unsure_m_ = kUnsureRoundings * std::numeric_limits<double>::epsilon() * largest;
+  tolerance_m_ = rounding_m + shrink * farthest + unsure_m_;
+}
+
+LimitedVolume LimitedVolume::in_front_of(const Vec3& point, const Vec3& normal) const {
+  LimitedVolume front = *this;
+  front.vertices_.clear();
+  front.facets_.clear();
+  const HalfSpace half{-normal, -normal.dot(point)};
+  for (const Corners& facet : facets_) {
+    const ConvexPolygon part = cut({facet.begin(), facet.end()}, half).inside;
+    for (std::size_t k = 2; k < part.size(); ++k) front.facets_.push_back({part[0], part[k - 1], part[k]});
+    front.vertices_.insert(front.vertices_.end(), part.begin(), part.end());
+  }
+  return front;
+}
+
+std::optional<bool> LimitedVolume::is_outside(const Vec3& point) const {
+  if ((point.array() < box_.min.array()).any() || (point.array() > box_.max.array()).any()) return true;
+  const std::optional<int> turns = turns_round(closed_, point);
+  return turns ? std::optional(*turns == 0) : std::nullopt;
+}
+
+std::vector<FacetFinding> LimitedVolume::look_at_facets(const std::function<void(const Corners&, FacetFinding&)>& look,
+                                                        const core::ProgressReporter& progress) const {
+  constexpr std::size_t kGrain = 64;
+  std::vector<FacetFinding> findings(facets_.size());
+  std::atomic<std::size_t> done = 0;
+  parallel::for_ranges(facets_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f) look(facets_[f], findings[f]);
+    progress.report(done += end - begin, facets_.size());
+  });
+  return findings;
+}
+
+ClaimProof LimitedVolume::judged(const std::string& name, const std::vector<FacetFinding>& findings,
+                                 const std::string& how, const std::string& limit) const {
+  Broken worst;
+  std::size_t open = 0;
+  for (const FacetFinding& finding : findings) {
+    if (finding.is_open) ++open;
+    worst.see(finding.broken.by_m, finding.broken.at);
+  }
+  if (worst.by_m > tolerance_m_) return wrong(name, worst, limit);
+  if (open == 0) return proved(name, how);
+  return not_proved(name, "it is open for " + std::to_string(open) + " facets");
+}
+
+ClaimProof LimitedVolume::judged_at_vertices(const std::string& name, const std::function<double(const Vec3&)>& excess,
+                                             double tolerance_m) const {
+  Broken worst;
+  for (const Vec3& vertex : vertices_) worst.see(excess(vertex), vertex);
+  if (worst.by_m > tolerance_m) return wrong(name, worst, "the limit");
+  return proved(name, "it holds at every vertex, and what it allows is convex");
+}
+
+ClaimProof LimitedVolume::wrong(const std::string& name, const Broken& broken, const std::string& limit) const {
+  const Vec3 place = origin_ + broken.at;
+  return {name, ProofVerdict::wrong,
+          core::format("at {} {} is broken by {:.3g} m", place_text(place), limit, broken.by_m), place, broken.by_m};
+}
+
+std::optional<int> turns_round(const std::vector<LimitedVolume::Corners>& facets, const Vec3& point) {
+  double sum = 0;  // of signed solid angles (Van Oosterom and Strackee 1983)
+  for (const auto& [from, over, to] : facets) {
+    const Vec3 a = from - point, b = over - point, c = to - point;
+    const double la = a.norm(), lb = b.norm(), lc = c.norm();
+    sum += std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+  }
+  const double turns = sum / (2 * std::numbers::pi);
+  constexpr double kSure = 0.01;
+  if (!(std::abs(turns - std::round(turns)) < kSure)) return std::nullopt;
+  return static_cast<int>(std::lround(turns));
+}
+
+ClaimProof not_proved(const std::string& name, const std::string& why) {
+  return {name, ProofVerdict::not_proved, why + ": 'vantage verify' tries points", {}, 0};
+}
+
+ClaimProof proved(const std::string& name, const std::string& how) { return {name, ProofVerdict::proved, how, {}, 0}; }
+
+ClaimProof worse(const ClaimProof& a, const ClaimProof& b) { return b.verdict > a.verdict ? b : a; }
+
+}  // namespace vantage::internal::prove

@@ -1,0 +1,92 @@
+// A volume whose limits are proved facet by facet, and what is found of them.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/progress_reporter.h"
+#include "prove/scene_tree.h"
+#include "vantage/prove.h"
+
+namespace vantage::internal::prove {
+
+/// Where a limit is broken, and by how much at least.
+struct Broken {
+  double by_m = -std::numeric_limits<double>::infinity();
+  Vec3 at = Vec3::Zero();
+
+  void see(double metres, const Vec3& place) {
+    if (!(metres > by_m)) return;
+    by_m = metres;
+    at = place;
+  }
+};
+
+/// What an argument says of one facet.
+struct FacetFinding {
+  bool is_open = false;  ///< the argument does not cover it
+  Broken broken;         ///< the worst place on it that was looked at
+};
+
+/// Positions are relative to `origin`, near the target.
+class LimitedVolume {
+ public:
+  using Corners = std::array<Vec3, 3>;
+
+  /// `solid`: closed, in the scene frame, vertices in one place taken for one.
+  LimitedVolume(const Mesh& solid, const Vec3& origin, double shrink, double rounding_m);
+
+  /// The same, of which only what lies in front of a plane is looked at, facets and vertices; it winds round what it
+  /// did.
+  LimitedVolume in_front_of(const Vec3& point, const Vec3& normal) const;
+
+  const Vec3& origin() const { return origin_; }
+  const Box& box() const { return box_; }
+  const std::vector<Vec3>& vertices() const { return vertices_; }  ///< those that facets use
+  const std::vector<Corners>& facets() const { return facets_; }
+  double rounding_m() const { return rounding_m_; }    ///< of the volume's file
+  double tolerance_m() const { return tolerance_m_; }  ///< a place breaks a limit if by more than this
+  double unsure_m() const { return unsure_m_; }        ///< what is rounded in a coordinate, with plenty to spare
+
+  /// Whether the mesh does not wind round a point. Nothing where it is too near to the surface to tell.
+  std::optional<bool> is_outside(const Vec3& point) const;
+
+  /// Looks at every facet, with all threads.
+  std::vector<FacetFinding> look_at_facets(const std::function<void(const Corners&, FacetFinding&)>& look,
+                                           const core::ProgressReporter& progress) const;
+
+  /// The verdict on a limit: wrong where a place breaks it by more than the tolerance, else not proved where a facet is
+  /// open. `how`: by what it is proved. `limit`: what a place breaks, for the text.
+  ClaimProof judged(const std::string& name, const std::vector<FacetFinding>& findings, const std::string& how,
+                    const std::string& limit) const;
+
+  /// The same of a limit that holds in all of the volume if it holds at the vertices. `excess`: metres by which a
+  /// vertex breaks it.
+  ClaimProof judged_at_vertices(const std::string& name, const std::function<double(const Vec3&)>& excess,
+                                double tolerance_m) const;
+
+  ClaimProof wrong(const std::string& name, const Broken& broken, const std::string& limit) const;
+
+ private:
+  Vec3 origin_;
+  double rounding_m_, tolerance_m_ = 0, unsure_m_ = 0;
+  std::vector<Vec3> vertices_;
+  std::vector<Corners> facets_;
+  std::vector<Corners> closed_;  ///< all facets
+  Box box_;
+};
+
+/// How often a closed mesh winds round a point. Nothing where it is too near to the surface to tell.
+std::optional<int> turns_round(const std::vector<LimitedVolume::Corners>& facets, const Vec3& point);
+
+ClaimProof not_proved(const std::string& name, const std::string& why);
+ClaimProof proved(const std::string& name, const std::string& how);
+
+/// The worse of two verdicts on parts of one limit; of two that are alike the first one.
+ClaimProof worse(const ClaimProof& a, const ClaimProof& b);
+
+}  // namespace vantage::internal::prove

@@ -1,0 +1,80 @@
+// A convex mesh holds all of a volume if it holds the vertices. Of others it is only tried whether they hold these.
+#include "prove/limits_mesh.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include "prove/convex_polygon.h"
+#include "prove/triangle_distance.h"
+
+namespace vantage::internal::prove {
+namespace {
+
+struct Hold {
+  std::vector<LimitedVolume::Corners> facets;
+  std::vector<HalfSpace> planes;  ///< of all facets, if it is convex
+
+  Hold(const LimitedVolume& volume, const KeepInMesh& keep_in) {
+    for (const Triangle& t : keep_in.mesh.triangles) {
+      LimitedVolume::Corners& corners = facets.emplace_back();
+      for (std::size_t k = 0; k < 3; ++k) corners[k] = keep_in.mesh.vertices[t[k]] - volume.origin();
+      const Vec3 normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+      const double length = normal.norm();
+      if (length > 0) planes.push_back({normal / length, normal.dot(corners[0]) / length});
+    }
+    for (const auto& corners : facets) {
+      for (const Vec3& corner : corners) {
+        if (beyond_planes_by(corner) <= volume.tolerance_m()) continue;
+        planes.clear();
+        return;
+      }
+    }
+  }
+
+  double beyond_planes_by(const Vec3& point) const {
+    double most = -std::numeric_limits<double>::infinity();
+    for (const HalfSpace& plane : planes) most = std::max(most, plane.over(point));
+    return most;
+  }
+
+  /// Metres to it from a point outside; nothing where it is inside, or too near to tell.
+  std::optional<double> outside_by(const Vec3& point) const {
+    if (turns_round(facets, point) != 0) return std::nullopt;
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& corners : facets) {
+      least = std::min(least, nearest_points({point, point, point}, corners).distance);
+    }
+    return least;
+  }
+};
+
+}  // namespace
+
+ClaimProof prove_meshes(const LimitedVolume& volume, const std::vector<KeepInMesh>& meshes) {
+  std::optional<ClaimProof> all;
+  for (const KeepInMesh& keep_in : meshes) {
+    const Hold hold(volume, keep_in);
+    const std::string what = "the mesh " + keep_in.name;
+    ClaimProof claim = not_proved("meshes", what + " is not convex");
+    Broken worst;
+    if (!hold.planes.empty()) {
+      claim = proved("meshes", "every vertex is in each mesh, and these are convex");
+      for (const Vec3& vertex : volume.vertices()) worst.see(hold.beyond_planes_by(vertex), vertex);
+    } else {
+      constexpr std::size_t kMostPairs = 20'000'000;  // about a second
+      const std::size_t step = 1 + volume.vertices().size() * hold.facets.size() / kMostPairs;
+      for (std::size_t i = 0; i < volume.vertices().size(); i += step) {
+        const Vec3& vertex = volume.vertices()[i];
+        if (const auto by = hold.outside_by(vertex)) worst.see(*by, vertex);
+      }
+    }
+    if (worst.by_m > volume.tolerance_m()) claim = volume.wrong("meshes", worst, what);
+    all = all ? worse(*all, claim) : claim;
+  }
+  return *all;
+}
+
+}  // namespace vantage::internal::prove

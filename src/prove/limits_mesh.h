@@ -1,0 +1,14 @@
+// Closed meshes to stay in.
+#pragma once
+
+#include <vector>
+
+#include "prove/limited_volume.h"
+#include "vantage/constraints.h"
+
+namespace vantage::internal::prove {
+
+/// Of each mesh: the worst.
+ClaimProof prove_meshes(const LimitedVolume& volume, const std::vector<KeepInMesh>& meshes);
+
+}  // namespace vantage::internal::prove

@@ -1,0 +1,150 @@
+// No facet meets what is taken away, and one point of that is outside. Or every facet is covered by what is kept, and
+// that leaves no hollow. docs/proof.md has the arguments.
+#include "prove/limits_zones.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "prove/limits_ground.h"
+#include "prove/prism.h"
+
+namespace vantage::internal::prove {
+namespace {
+
+bool are_apart(const Box& a, const Box& b, double by) {
+  return (a.min.array() > b.max.array() + by).any() || (b.min.array() > a.max.array() + by).any();
+}
+
+bool has_terrain(const Zone& zone) { return zone.above_ground && zone.above_ground->ground.surface; }
+
+ConvexPolygon polygon_of(const LimitedVolume::Corners& corners) { return {corners.begin(), corners.end()}; }
+
+ClaimProof prove_clear_of(const LimitedVolume& volume, const Prism& prism, const std::string& what,
+                          const core::ProgressReporter& progress) {
+  const std::string name = "keep_out";
+  const std::string how = "no facet meets what is taken away, and it is not inside";
+  if (!(prism.low() < prism.high()) || are_apart(prism.box(), volume.box(), 0)) return proved(name, how);
+  const double plate = volume.tolerance_m() / 2;
+  const auto findings = volume.look_at_facets(
+      [&](const LimitedVolume::Corners& corners, FacetFinding& finding) {
+        const ConvexPolygon facet = polygon_of(corners);
+        if (are_apart(box_of(facet), prism.box(), 0)) return;
+        for (const ConvexPolygon& piece : prism.divide(facet, -plate, plate).inside) {
+          finding.is_open = true;
+          const Vec3 middle = middle_of(piece);
+          finding.broken.see(prism.depth(middle), middle);
+          for (const Vec3& corner : piece) finding.broken.see(prism.depth(corner), corner);
+        }
+      },
+      progress);
+  ClaimProof claim = volume.judged(name, findings, how, what);
+  if (claim.verdict != ProofVerdict::proved) return claim;
+  if (!std::isfinite(prism.low()) || !std::isfinite(prism.high())) return claim;  // no mesh winds round all of that
+  const std::optional<Vec3> deep = prism.deep_point();
+  const double depth = deep ? prism.depth(*deep) : 0;
+  if (!(depth > volume.tolerance_m()) || !prism.is_one_piece(volume.tolerance_m())) {
+    return not_proved(name, what + " is narrower than what numbers can tell");
+  }
+  const std::optional<bool> is_outside = volume.is_outside(*deep);
+  if (!is_outside) return not_proved(name, what + " may be all inside");
+  if (!*is_outside) return volume.wrong(name, {depth, *deep}, what);
+  return claim;
+}
+
+struct Kept {
+  std::vector<Prism> prisms;
+
+  double outside_by(const Vec3& point) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Prism& prism : prisms) least = std::min(least, -prism.depth(point));
+    return least;
+  }
+};
+
+/// Straight up from a point of a hollow there is a piece, and straight down as well.
+bool may_have_hollow(const std::vector<Prism>& prisms, const Box& within, double tolerance_m) {
+  const Vec3 beside(2 * tolerance_m, 2 * tolerance_m, 0);
+  for (const Prism& below : prisms) {
+    for (const Prism& above : prisms) {
+      const double low = std::max(below.high(), within.min.z()), high = std::min(above.low(), within.max.z());
+      if (!(high - low > tolerance_m)) continue;  // shallower ones are covered by what is allowed
+      const Vec3 min = below.box().min.cwiseMax(above.box().min).cwiseMax(within.min) - beside;
+      const Vec3 max = below.box().max.cwiseMin(above.box().max).cwiseMin(within.max) + beside;
+      if (min.x() <= max.x() && min.y() <= max.y()) return true;
+    }
+  }
+  return false;
+}
+
+ClaimProof prove_covered(const LimitedVolume& volume, const Kept& kept, const core::ProgressReporter& progress) {
+  const double plate = volume.tolerance_m() / 2;
+  const auto findings = volume.look_at_facets(
+      [&](const LimitedVolume::Corners& corners, FacetFinding& finding) {
+        std::vector<ConvexPolygon> left = {polygon_of(corners)};
+        for (const Prism& prism : kept.prisms) {
+          std::vector<ConvexPolygon> still;
+          for (const ConvexPolygon& piece : left) {
+            Prism::Parts parts = prism.divide(piece, plate, plate);
+            std::move(parts.outside.begin(), parts.outside.end(), std::back_inserter(still));
+          }
+          left = std::move(still);
+        }
+        for (const ConvexPolygon& piece : left) {
+          finding.is_open = true;
+          const Vec3 middle = middle_of(piece);
+          finding.broken.see(kept.outside_by(middle), middle);
+          for (const Vec3& corner : piece) finding.broken.see(kept.outside_by(corner), corner);
+        }
+      },
+      progress);
+  ClaimProof claim =
+      volume.judged("keep_in", findings, "every facet is covered by what is kept, which has no hollow", "what is kept");
+  if (claim.verdict != ProofVerdict::proved) return claim;
+  if (may_have_hollow(kept.prisms, volume.box(), volume.tolerance_m())) {
+    return not_proved("keep_in", "pieces lie over each other with a gap between, which may be a hollow");
+  }
+  return claim;
+}
+
+}  // namespace
+
+ClaimProof prove_keep_in(const LimitedVolume& volume, const Navigation& navigation,
+                         const core::ProgressReporter& progress) {
+  Kept kept;
+  for (const Box& box : navigation.keep_in) kept.prisms.emplace_back(box, volume.origin());
+  const bool is_one = navigation.keep_in.size() + navigation.keep_in_zones.size() == 1;
+  std::optional<ClaimProof> heights;
+  for (const Zone& zone : navigation.keep_in_zones) {
+    kept.prisms.emplace_back(zone, volume.origin());
+    if (!has_terrain(zone)) continue;
+    if (!is_one) return not_proved("keep_in", "one of several pieces is bounded by heights above terrain");
+    heights = prove_above_ground("keep_in", volume, *zone.above_ground, progress);
+  }
+  const ClaimProof in_plan = prove_covered(volume, kept, progress);
+  return heights ? worse(in_plan, *heights) : in_plan;
+}
+
+ClaimProof prove_keep_out(const LimitedVolume& volume, const Navigation& navigation,
+                          const core::ProgressReporter& progress) {
+  std::optional<ClaimProof> all;
+  const auto add = [&](const ClaimProof& one) { all = all ? worse(*all, one) : one; };
+  for (std::size_t i = 0; i < navigation.keep_out.size(); ++i) {
+    add(prove_clear_of(volume, Prism(navigation.keep_out[i], volume.origin()), "box " + std::to_string(i), progress));
+  }
+  for (const Zone& zone : navigation.keep_out_zones) {
+    const std::string what = "zone " + zone.name;
+    if (!has_terrain(zone)) {
+      add(prove_clear_of(volume, Prism(zone, volume.origin()), what, progress));
+      continue;
+    }
+    // It takes away no more than without the heights.
+    const ClaimProof claim = prove_clear_of(volume, Prism(zone, volume.origin()), what, progress);
+    add(claim.verdict == ProofVerdict::proved ? claim
+                                              : not_proved("keep_out", what + " is bounded by heights above terrain"));
+  }
+  return *all;
+}
+
+}  // namespace vantage::internal::prove

@@ -1,0 +1,20 @@
+// Boxes and zones to stay in and out of.
+#pragma once
+
+#include <vector>
+
+#include "core/progress_reporter.h"
+#include "prove/limited_volume.h"
+#include "vantage/constraints.h"
+
+namespace vantage::internal::prove {
+
+/// Of the union of all that the vehicle is to stay in.
+ClaimProof prove_keep_in(const LimitedVolume& volume, const Navigation& navigation,
+                         const core::ProgressReporter& progress);
+
+/// Of each box and zone that it is to stay out of: the worst.
+ClaimProof prove_keep_out(const LimitedVolume& volume, const Navigation& navigation,
+                          const core::ProgressReporter& progress);
+
+}  // namespace vantage::internal::prove

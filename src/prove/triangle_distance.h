@@ -1,0 +1,25 @@
+// The nearest points of two triangles.
+#pragma once
+
+#include <array>
+
+#include "vantage/geometry.h"
+
+namespace vantage::internal::prove {
+
+struct NearestPoints {
+  Vec3 on_a = Vec3::Zero(), on_b = Vec3::Zero();
+  double distance = 0;
+};
+
+/// The points are on the triangles to a few roundings of the coordinates, also where these are as narrow as a line, or
+/// a point. Where edges are parallel but for a part s of their length L, from about 1e-7 down, there may be nearer
+/// points: by (s L)^2 over the distance.
+NearestPoints nearest_points(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b);
+
+/// Between two boxes; 0 where they meet.
+double distance_of_boxes(const Box& a, const Box& b);
+
+Box box_of(const std::array<Vec3, 3>& corners);
+
+}  // namespace vantage::internal::prove
