@@ -75,7 +75,7 @@ set_target_properties(vantage_helpers PROPERTIES CXX_VISIBILITY_PRESET hidden VI
 vantage_join_sources(vantage_helpers)
 
 vantage_component(core
-  MODULES core options geo io scene target exact query camera sensor prove
+  MODULES core options geo io scene target exact query camera sensor prove simplify
   SOURCES ${source}/core/threads_${VANTAGE_THREADS}.cpp
   LINK ${VANTAGE_THREAD_TARGETS} ZLIB::ZLIB ${CMAKE_DL_LIBS}
   BUILD nlohmann_json::nlohmann_json vantage::cdt)

@@ -12,6 +12,7 @@
 #include "vantage/export.h"
 #include "vantage/prove.h"
 #include "vantage/scene_source.h"
+#include "vantage/simplify.h"
 #include "vantage/verify.h"
 #include "vantage/volume.h"
 
@@ -35,6 +36,10 @@ VANTAGE_API std::string json_text(const ProofReport& report);
 /// `written`: files that hold what one of the two claims alone.
 VANTAGE_API std::string json_text(const Comparison& comparison, const std::string& file_a, const std::string& file_b,
                                   const std::vector<std::string>& written);
+
+/// `volume` and `output`: the files; `written`: what the second holds.
+VANTAGE_API std::string json_text(const SimplifiedVolume& simplified, const std::string& volume,
+                                  const std::string& output, const WrittenVolume& written);
 
 /// `reason`: why `chosen` was.
 VANTAGE_API std::string json_text(const RenderDevices& found, const ChosenDevice& chosen, const std::string& reason);

@@ -29,6 +29,7 @@
 #include "vantage/scene.h"
 #include "vantage/scene_source.h"
 #include "vantage/sensor.h"
+#include "vantage/simplify.h"
 #include "vantage/spheres.h"
 #include "vantage/stages.h"
 #include "vantage/target.h"

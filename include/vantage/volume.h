@@ -113,6 +113,10 @@ struct Volume {
   StageCounts counts;
   Seconds seconds;
 
+  /// Of a volume that was made from one that was read: how far that file's numbers had moved its surface already
+  /// (VolumeFile::rounding_m). Writers add theirs.
+  double read_rounding_m = 0;
+
   /// Whether no position sees the whole target; `reason` says why.
   bool empty() const { return mesh.empty(); }
 };

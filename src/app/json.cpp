@@ -260,6 +260,25 @@ std::string json_text(const Comparison& c, const std::string& file_a, const std:
   return dumped(json, 2);
 }
 
+std::string json_text(const SimplifiedVolume& s, const std::string& volume, const std::string& output,
+                      const WrittenVolume& written) {
+  Json json;
+  json["volume"] = volume;
+  json["facets_before"] = s.facets_before;
+  json["facets"] = written.facets;
+  json["reached"] = s.reached;
+  json["volume_before_m3"] = s.volume_before_m3;
+  json["volume_after_m3"] = s.volume_after_m3;
+  json["kept_percent"] = percent(s.volume_after_m3, s.volume_before_m3);
+  json["lost_bound_m"] = s.lost_bound_m;
+  json["lost_measured_m"] = s.lost_measured_m;
+  json["pieces"] = s.pieces;
+  json["pieces_dropped"] = s.pieces_dropped;
+  json["rounding_m"] = written.rounding_m;
+  json["written"] = output;
+  return dumped(json, 2);
+}
+
 std::string json_text(const RenderDevices& found, const ChosenDevice& chosen, const std::string& reason) {
   Json json;
   json["devices"] = Json::array();

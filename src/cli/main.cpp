@@ -25,6 +25,7 @@ constexpr const char* kExamples =
     "  vantage query mission.yaml points.csv > answers.csv\n"
     "  vantage verify mission.yaml volume.ply\n"
     "  vantage compare spheres.ply exact.ply\n"
+    "  vantage simplify volume.ply --facets 500 -o small.ply\n"
     "  vantage devices\n"
     "  vantage cameras\n"
     "  vantage spheres -c config.yaml\n"
@@ -97,6 +98,7 @@ void add_commands(CLI::App& app, Command& chosen) {
   add_verify(app, chosen);
   add_prove(app, chosen);
   add_compare(app, chosen);
+  add_simplify(app, chosen);
   add_devices(app, chosen);
   add_cameras(app, chosen);
   add_spheres(app, chosen);

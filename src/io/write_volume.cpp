@@ -62,7 +62,8 @@ StagedVolume stage_volume(const Volume& volume, const std::filesystem::path& fil
   internal::core::check_volume(volume);
   if (format.extension == ".obj") check_obj_scale(volume, obj_scale);
   const ObjFrame obj{obj_up, obj_scale};
-  const StoredMesh stored = stored_for(volume, file, format, obj);
+  StoredMesh stored = stored_for(volume, file, format, obj);
+  stored.rounding_m += volume.read_rounding_m;
   format.write_volume(volume, stored, obj, *output);
   StagedVolume staged;
   staged.report = {stored.rounding_m, stored.mesh.triangles.size(), stored.turned_facets};

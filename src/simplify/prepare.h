@@ -1,0 +1,21 @@
+// The surface that is to be simplified: checked, with two facets to an edge.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/pieces.h"
+#include "vantage/geometry.h"
+
+namespace vantage::internal::simplify {
+
+struct Prepared {
+  Mesh mesh;                            ///< vertices in one place are one where their facets hang together
+  std::vector<std::uint32_t> facet_of;  ///< per triangle: its number in the mesh that was given
+  core::Pieces pieces;
+};
+
+/// Throws Error(input) as simplify_volume does.
+Prepared prepare(const Mesh& volume);
+
+}  // namespace vantage::internal::simplify

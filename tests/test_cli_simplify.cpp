@@ -1,0 +1,86 @@
+// vantage simplify: what it writes can be proved, and what its exit code says.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "support/cli_fixture.h"
+
+namespace vantage {
+namespace {
+
+class CliSimplify : public testing::Cli {
+ protected:
+  void SetUp() override {
+    Cli::SetUp();
+    write("mission.yaml",
+          std::string(testing::kScene) + testing::kTarget + testing::kSensor + "exact: {tolerance: 0.2}\n");
+    output_of({"compute", "mission.yaml", "-q", "-o", "v.ply", "-o", "v.stl"});
+  }
+};
+
+TEST_F(CliSimplify, WhatItWritesIsProved) {
+  for (const char* name : {"small.ply", "small.obj"}) {
+    const std::string table = output_of({"simplify", "v.ply", "--facets", "200", "-o", name});
+    EXPECT_NE(table.find("wrote " + std::string(name)), std::string::npos) << table;
+    EXPECT_NE(table.find("200  of "), std::string::npos) << table;
+    const auto proof = nlohmann::json::parse(output_of({"prove", "mission.yaml", name, "--json"}));
+    EXPECT_EQ(proof.at("verdict"), "proved");
+    EXPECT_EQ(proof.at("facets"), 200);
+    const auto difference = nlohmann::json::parse(output_of({"compare", name, "v.ply", "--json"}));
+    EXPECT_LT(difference.at("only_a_percent"), 1e-9);
+    EXPECT_GT(difference.at("intersection_percent_of_b"), 90);
+  }
+}
+
+/// Nobody need say again what the volume is for, and causes are those of the facets that were there.
+TEST_F(CliSimplify, TheFileSaysWhatItIsFor) {
+  output_of({"simplify", "v.ply", "--error", "0.5", "-q", "-o", "small.ply"});
+  const std::string small = testing::content(folder_ / "small.ply").substr(0, 4000),
+                    whole = testing::content(folder_ / "v.ply").substr(0, 4000);
+  for (const char* key : {"\"lift_m\"", "\"scene_hash\"", "vantage cause 0 ", "vantage rounding_m 0"}) {
+    EXPECT_NE(small.find(key), std::string::npos) << key;
+    EXPECT_NE(whole.find(key), std::string::npos) << key;
+  }
+  const auto result = run({"prove", "mission.yaml", "small.ply"});
+  EXPECT_EQ(result.exit_code, 0) << result.out;
+  EXPECT_EQ(result.err, "");  // no warning of another mission, or a mesh that was changed
+}
+
+TEST_F(CliSimplify, SinglePrecisionSaysSo) {
+  const auto json =
+      nlohmann::json::parse(output_of({"simplify", "v.stl", "--facets", "200", "-o", "small.stl", "--json"}));
+  EXPECT_GT(json.at("rounding_m"), 0);
+  const auto exact =
+      nlohmann::json::parse(output_of({"simplify", "v.ply", "--facets", "200", "-o", "b.ply", "--json"}));
+  EXPECT_EQ(exact.at("rounding_m"), 0);
+  EXPECT_EQ(exact.at("facets"), 200);
+  EXPECT_EQ(exact.at("reached"), true);
+  EXPECT_EQ(exact.at("pieces"), 1);
+  EXPECT_EQ(exact.at("written"), "b.ply");
+  EXPECT_NEAR(exact.at("kept_percent").get<double>(),
+              100 * exact.at("volume_after_m3").get<double>() / exact.at("volume_before_m3").get<double>(), 1e-9);
+  const std::string sidecar = testing::content(folder_ / "small.stl.place.json");
+  EXPECT_NE(sidecar.find("rounding_m"), std::string::npos) << sidecar;
+}
+
+TEST_F(CliSimplify, MoreFacetsThanAskedForIsOne) {
+  const auto result = run({"simplify", "v.ply", "--facets", "10", "--error", "0.1", "-o", "small.ply"});
+  EXPECT_EQ(result.exit_code, 1) << result.err;
+  EXPECT_NE(result.out.find("no more facets can go: 10 were asked for"), std::string::npos) << result.out;
+  EXPECT_EQ(run({"prove", "mission.yaml", "small.ply", "-q"}).exit_code, 0);
+}
+
+TEST_F(CliSimplify, RefusesWhatItCannotDo) {
+  expect_bad({"simplify", "v.ply", "-o", "small.ply"}, "command line");
+  expect_bad({"simplify", "v.ply", "--facets", "3", "-o", "small.ply"}, "facets");
+  expect_bad({"simplify", "v.ply", "--error", "-0.1", "-o", "small.ply"}, "error_m");
+  expect_bad({"simplify", "v.ply", "--facets", "100", "-o", "v.ply"}, "v.ply");
+  expect_bad({"simplify", "v.ply", "--facets", "100", "-o", "small.txt"}, "small.txt");
+  expect_bad({"simplify", "missing.ply", "--facets", "100", "-o", "small.ply"}, "missing.ply");
+  expect_bad({"simplify", "v.ply", "--facets", "100", "--up", "y", "-o", "small.ply"}, "command line");
+  expect_bad({"simplify", "city.obj", "--facets", "4", "-o", "small.ply"}, "city.obj");
+}
+
+}  // namespace
+}  // namespace vantage
