@@ -87,8 +87,8 @@ def main():
                                         "--json"]))
                 seconds = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - begin
                 rows = [("vantage", done["facets"], seconds)]
-                kept, unsafe, farthest = differences(arguments.vantage, python, result, volume)
-                rows[0] += (kept, unsafe, farthest, verdict(arguments.vantage, mission, result))
+                _, unsafe, farthest = differences(arguments.vantage, python, result, volume)
+                rows[0] += (done["kept_percent"], unsafe, farthest, verdict(arguments.vantage, mission, result))
                 for name, interpreter in others:
                     seconds = float(must([interpreter, HERE / "decimate.py", name, volume, facets, result]).split()[-1])
                     with open(result, "rb") as file:

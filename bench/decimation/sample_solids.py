@@ -14,14 +14,18 @@ import numpy
 from decimate import read_ply
 
 
+def dot(u, v):
+    return numpy.einsum("ijk,ijk->ij", u, v)
+
+
 def windings(points, corners):
     """By signed solid angles (Van Oosterom and Strackee 1983)."""
     turns = numpy.empty(len(points))
     for begin in range(0, len(points), 16):
         a, b, c = (corners[None, :, k] - points[begin:begin + 16, None] for k in range(3))
         la, lb, lc = (numpy.linalg.norm(v, axis=2) for v in (a, b, c))
-        dot = lambda u, v: numpy.einsum("ijk,ijk->ij", u, v)
-        angle = numpy.arctan2(dot(a, numpy.cross(b, c)), la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb)
+        whole = la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb
+        angle = numpy.arctan2(dot(a, numpy.cross(b, c)), whole)
         turns[begin:begin + 16] = angle.sum(axis=1) / (2 * numpy.pi)
     return turns
 

@@ -73,6 +73,7 @@ Prepared prepare(const Mesh& volume) {
   if (mesh.triangles.empty()) throw Error(ErrorCode::mesh_empty, "the mesh has no area", kWhere, kAdvice);
   check_edges(mesh);
   core::split_where_pieces_touch(mesh);
+  core::drop_unused_vertices(mesh);
   const double volume_m3 = enclosed_volume(mesh);
   if (volume_m3 < 0) {
     throw Error(ErrorCode::mesh_inside_out, "the mesh is inside out", kWhere, "turn its triangles round");
