@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -34,7 +35,6 @@ namespace {
 using testing::append;
 using testing::edges_through;
 using testing::exact_side;
-using testing::expect_code;
 using testing::expect_error;
 using testing::holds;
 using testing::make_box_mesh;
@@ -206,7 +206,7 @@ TEST(Simplify, FlatSidesCostNothing) {
 TEST(Simplify, NotchesMerge) {
   constexpr int kSectors = 40;
   const auto radius = [](double azimuth, double elevation) {
-    const int sector = static_cast<int>(std::lround(azimuth / (2 * 3.14159265358979) * kSectors));
+    const int sector = static_cast<int>(std::lround(azimuth / (2 * std::numbers::pi) * kSectors));
     return elevation < 1.2 && (sector == 10 || sector == 12) ? 0.2 : 1.0;
   };
   const Mesh volume = testing::make_dome(Vec3::Zero(), kSectors, 8, radius).mesh;
@@ -361,7 +361,7 @@ TEST(Simplify, HandlesStay) {
   Mesh ring;
   for (int i = 0; i < kAround; ++i) {
     for (int k = 0; k < kAcross; ++k) {
-      const double u = 2 * 3.14159265358979 * i / kAround, v = 2 * 3.14159265358979 * k / kAcross;
+      const double u = 2 * std::numbers::pi * i / kAround, v = 2 * std::numbers::pi * k / kAcross;
       ring.vertices.emplace_back((3 + std::cos(v)) * std::cos(u), (3 + std::cos(v)) * std::sin(u), std::sin(v));
     }
   }

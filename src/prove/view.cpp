@@ -75,9 +75,10 @@ void cut_in_front(const Scene& scene, std::uint32_t t, const View& view, const K
     high = std::max(high, height);
   }
   if (high <= floor) return;
+  const auto cut = static_cast<Number>(floor) / 2;
   for (std::size_t k = 0; k < 3; ++k) {
     const Vector &a = corners[k], &b = corners[(k + 1) % 3];
-    const Number at_a = normal.dot(a) - Number(floor) / 2, at_b = normal.dot(b) - Number(floor) / 2;
+    const Number at_a = normal.dot(a) - cut, at_b = normal.dot(b) - cut;
     if (low >= floor || at_a >= 0) keep(a);
     if (low < floor && (at_a >= 0) != (at_b >= 0)) keep(Vector(a + at_a / (at_a - at_b) * (b - a)));
   }
