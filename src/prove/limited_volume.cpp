@@ -24,7 +24,7 @@ std::string place_text(const Vec3& place) {
 }  // namespace
 
 LimitedVolume::LimitedVolume(const Mesh& solid, const Vec3& origin, double shrink, double rounding_m)
-    : origin_(origin), rounding_m_(rounding_m) {
+    : solid_(solid), origin_(origin), rounding_m_(rounding_m) {
   std::vector<bool> is_used(solid.vertices.size(), false);
   double largest = 0, farthest = 0;
   facets_.reserve(solid.triangles.size());

@@ -37,7 +37,7 @@ class LimitedVolume {
  public:
   using Corners = std::array<Vec3, 3>;
 
-  /// `solid`: closed, in the scene frame, vertices in one place taken for one.
+  /// `solid`: closed, in the scene frame, vertices in one place taken for one. Must outlive this.
   LimitedVolume(const Mesh& solid, const Vec3& origin, double shrink, double rounding_m);
 
   /// The same, of which only what lies in front of a plane is looked at, facets and vertices; it winds round what it
@@ -47,6 +47,7 @@ class LimitedVolume {
   const Vec3& origin() const { return origin_; }
   const Box& box() const { return box_; }
   const std::vector<Vec3>& vertices() const { return vertices_; }  ///< those that facets use
+  const Mesh& solid() const { return solid_; }                     ///< as it was given, scene frame
   const std::vector<Corners>& facets() const { return facets_; }
   double rounding_m() const { return rounding_m_; }    ///< of the volume's file
   double tolerance_m() const { return tolerance_m_; }  ///< a place breaks a limit if by more than this
@@ -72,6 +73,7 @@ class LimitedVolume {
   ClaimProof wrong(const std::string& name, const Broken& broken, const std::string& limit) const;
 
  private:
+  const Mesh& solid_;
   Vec3 origin_;
   double rounding_m_, tolerance_m_ = 0, unsure_m_ = 0;
   std::vector<Vec3> vertices_;

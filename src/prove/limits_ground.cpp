@@ -135,10 +135,11 @@ class GroundSheet {
     for (const Vec3& corner : over) is_kept = is_kept && too_far_by(piece, corner) <= volume_.tolerance_m();
     if (is_kept) return;
     finding.is_open = true;
-    // Corners may lie just beside the piece.
-    constexpr double kInwards = 1e-3;
+    // Corners may lie just beside the piece, and the limit may be broken next to one only.
     const Vec3 middle = middle_of(over);
-    for (const Vec3& corner : over) see(corner + kInwards * (middle - corner), finding);
+    for (const double inwards : {1e-3, 1e-5, 1e-7}) {
+      for (const Vec3& corner : over) see(corner + inwards * (middle - corner), finding);
+    }
   }
 
   double too_far_by(const GroundPiece& piece, const Vec3& point) const {

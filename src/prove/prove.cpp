@@ -10,9 +10,11 @@
 
 #include "core/progress_reporter.h"
 #include "prove/convex_polygon.h"
+#include "prove/limited_volume.h"
 #include "prove/limits.h"
 #include "prove/maximal.h"
 #include "prove/orientation.h"
+#include "prove/rounded_surface.h"
 #include "prove/sight.h"
 #include "prove/solid_mesh.h"
 #include "prove/view.h"
@@ -101,7 +103,7 @@ class Prover {
   void add_limits(const internal::core::ProgressReporter& progress);
   std::vector<Vec3> shrunk(const prove::View& view) const;
   prove::SolidMesh in_front(const std::vector<Vec3>& vertices, const prove::View& view);
-  void look_for_witness(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
+  void look_for_witness(const Mesh& judged, const std::vector<Triangle>& facets,
                         const std::vector<std::uint32_t>& numbers, const prove::View& view,
                         const prove::SceneTree& obstacles, const std::vector<prove::OpenFacet>& open);
 
@@ -156,20 +158,22 @@ prove::SolidMesh Prover::in_front(const std::vector<Vec3>& vertices, const prove
   return part;
 }
 
-void Prover::look_for_witness(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets,
+/// `judged`: shrunk, about View::origin, of which `facets` look away from the target and `numbers` are in the file.
+void Prover::look_for_witness(const Mesh& judged, const std::vector<Triangle>& facets,
                               const std::vector<std::uint32_t>& numbers, const prove::View& view,
                               const prove::SceneTree& obstacles, const std::vector<prove::OpenFacet>& open) {
+  if (open.empty()) return;
   constexpr std::size_t kMostFacets = 2000;  // looked at: evenly among those that are open
   const std::size_t step = 1 + open.size() / kMostFacets;
+  const prove::RoundedSurface surface(judged, options_.rounding_m);
   for (std::size_t i = 0; i < open.size(); i += step) {
     const auto& [a, b, c] = facets[open[i].facet];
     const prove::Piece& obstacle = obstacles.pieces[open[i].piece];
-    const auto blocked = prove::find_blocked({vertices[a], vertices[b], vertices[c]}, view, obstacle);
+    const auto blocked =
+        prove::find_blocked({judged.vertices[a], judged.vertices[b], judged.vertices[c]}, view, obstacle);
     if (!blocked) continue;
-    const Vec3 normal = (vertices[b] - vertices[a]).cross(vertices[c] - vertices[a]).normalized();
-    const double below = blocked->depth_m * std::abs(normal.dot(blocked->viewpoint.normalized()));
-    if (options_.rounding_m > 0 && !(below > options_.rounding_m)) continue;
     if (report_.witness && blocked->depth_m <= report_.witness->depth_m) continue;
+    if (!surface.was_below_for_sure(blocked->viewpoint, blocked->depth_m)) continue;
     const std::uint32_t object = scene_.object_of.empty() ? 0 : scene_.object_of[obstacle.of];
     report_.witness = HiddenView{.viewpoint = view.origin + blocked->viewpoint,
                                  .target_point = view.origin + blocked->target_point,
@@ -183,13 +187,14 @@ void Prover::look_for_witness(const std::vector<Vec3>& vertices, const std::vect
 void Prover::look_at(std::size_t part, double lift_m, const internal::core::ProgressReporter& progress) {
   constexpr double kRounding = 8 * std::numeric_limits<double>::epsilon();  // of a vertex that lies in the plane
   const prove::View view = prove::make_view(target_, part, lift_m);
-  std::vector<Vec3> vertices = shrunk(view);
+  prove::SolidMesh judged = solid_;
+  judged.mesh.vertices = shrunk(view);
+  if (options_.other_side_m) judged = in_front(judged.mesh.vertices, view);
+  const std::vector<Vec3>& vertices = judged.mesh.vertices;
   Box near;
   for (const Vec3& corner : view.corners) near.extend(corner);
   std::vector<Triangle> facets;
   std::vector<std::uint32_t> numbers;
-  const prove::SolidMesh judged = options_.other_side_m ? in_front(vertices, view) : solid_;
-  if (options_.other_side_m) vertices = judged.mesh.vertices;
   for (std::size_t t = 0; t < judged.mesh.triangles.size(); ++t) {
     const Triangle& triangle = judged.mesh.triangles[t];
     for (const std::uint32_t v : triangle) {
@@ -215,7 +220,7 @@ void Prover::look_at(std::size_t part, double lift_m, const internal::core::Prog
   report_.margin_m = std::max(report_.margin_m, view.margin_m);
   report_.lift_m = std::max(report_.lift_m, lift_m);
   for (const prove::OpenFacet& open : proof.open) report_.unproved.push_back(numbers[open.facet]);
-  look_for_witness(vertices, facets, numbers, view, obstacles, proof.open);
+  look_for_witness(judged.mesh, facets, numbers, view, obstacles, proof.open);
   if (is_recorded) add_certificate(part, lift_m, view, numbers, proof);
   if (options_.maximal && !options_.other_side_m) look_beyond(view, obstacles, progress.part(0.5, 1));
 }
