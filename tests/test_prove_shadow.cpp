@@ -244,7 +244,7 @@ TEST(ProveShadow, AllThatMayHideIsCollected) {
         EXPECT_TRUE(std::binary_search(found.begin(), found.end(), t)) << seed << ": " << t;
       }
     }
-    EXPECT_GT(hiding, 500u);
+    EXPECT_GT(hiding, 300u);
   }
 }
 
