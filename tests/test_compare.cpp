@@ -229,6 +229,19 @@ TEST(Compare, TakesAMeshWithAFewFolds) {
   EXPECT_NEAR(c.only_b_m3, 0, 1e-3);
 }
 
+/// Two facets lie on each other, but for a part of their size of 1e-14. Booleans turn their common edge, and so another
+/// one, over which the surface is bent.
+TEST(Compare, RefusesWhatIsFoldedFlat) {
+  const Vec3 tip(-181.78137499809492, -47.53697044929186, 47.055396690679984), apex(-12.4, -101.4, 17.5);
+  const Mesh folded{{Vec3(0, 0, 0), Vec3(0, 0, 116), Vec3(42.8, 39.2, 0), Vec3(4.78, 1.25, 32), tip, apex},
+                    {{0, 1, 2}, {1, 0, 3}, {1, 3, 4}, {2, 1, 5}, {0, 2, 5}, {3, 0, 5}, {4, 3, 5}, {1, 4, 5}}};
+  const Mesh other = box({-1, -1, -1}, {1, 1, 1});
+  testing::expect_error([&] { compare_volumes(folded, other, "folded", "other"); }, ErrorCode::mesh_intersects_itself,
+                        "folded");
+  testing::expect_error([&] { compare_volumes(other, folded, "other", "folded"); }, ErrorCode::mesh_intersects_itself,
+                        "folded");
+}
+
 TEST(Compare, CanBeFollowedAndCancelled) {
   const Mesh a = ball({0, 0, 0}, 10, 60, 30), b = ball({1, 0, 0}, 10, 60, 30);
   const auto story =

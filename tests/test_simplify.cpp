@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -11,15 +12,11 @@
 #include <vector>
 
 #include "core/parallel.h"
-#include "simplify/collapse.h"
-#include "simplify/exact.h"
-#include "simplify/facet_tree.h"
-#include "simplify/inner_point.h"
-#include "simplify/surface.h"
 #include "support/exact_crossings.h"
 #include "support/progress_check.h"
 #include "support/random.h"
 #include "support/scenes.h"
+#include "support/simplify_meshes.h"
 #include "support/solids.h"
 #include "support/wording.h"
 #include "vantage/error.h"
@@ -34,22 +31,15 @@ namespace {
 
 using testing::append;
 using testing::edges_through;
-using testing::exact_side;
 using testing::expect_error;
 using testing::holds;
 using testing::make_box_mesh;
+using testing::narrowest_fold;
 using testing::Random;
+using testing::spiky_dome;
 
 SimplifyOptions to_facets(std::size_t facets) { return {.facets = facets, .error_m = {}}; }
 SimplifyOptions to_error(double error_m) { return {.facets = {}, .error_m = error_m}; }
-
-/// A dome with deep and narrow notches, as visibility volumes have them.
-Mesh spiky_dome(Random& random, int sectors, int rings, const Vec3& origin = Vec3::Zero(), double size = 1) {
-  std::vector<double> radii;
-  for (int i = 0; i <= sectors * rings; ++i) radii.push_back(random.chance(0.3) ? random.uniform(0.1, 0.9) : 1.0);
-  std::size_t next = 0;
-  return testing::make_dome(origin, sectors, rings, [&](double, double) { return size * radii[next++]; }).mesh;
-}
 
 Mesh inside_out(Mesh mesh) {
   for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
@@ -123,6 +113,7 @@ void expect_subset(const SimplifiedVolume& result, const Mesh& volume, Random& r
     EXPECT_TRUE(holds(volume, point)) << point.transpose();
   }
   EXPECT_GT(inside, 5);
+  EXPECT_GT(narrowest_fold(result.mesh), 1e-12 * (box.max - box.min).norm());
   for (std::size_t t = 0; t < result.mesh.triangles.size(); t += 7) {  // just below facets, also of narrow spikes
     const auto& [a, b, c] = result.mesh.triangles[t];
     const Vec3 &pa = result.mesh.vertices[a], &pb = result.mesh.vertices[b], &pc = result.mesh.vertices[c];
@@ -455,138 +446,6 @@ TEST(Simplify, RefusesWhatItCannotSimplify) {
   expect_error([&] { simplify_volume(broken, to_facets(4)); }, ErrorCode::coordinate_too_large, "volume");
   Mesh flat{{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)}, {{0, 1, 2}, {0, 2, 1}}};
   expect_error([&] { simplify_volume(flat, to_error(1)); }, ErrorCode::mesh_without_inside, "volume");
-}
-
-/// Of all facets at either end of the edge, those that go included.
-TEST(SimplifyParts, APlaceMustBeInsideOfEveryFacetThatChanges) {
-  namespace simplify = internal::simplify;
-  Random random(24);
-  const Mesh mesh = spiky_dome(random, 10, 5);
-  const simplify::Surface surface(mesh, std::vector<std::uint32_t>(mesh.triangles.size(), 0));
-  simplify::Patch patch;
-  int inner = 0, only_outside_of_those_that_go = 0;
-  for (int i = 0; i < 20000; ++i) {
-    const Triangle& t =
-        mesh.triangles[static_cast<std::size_t>(random.integer(0, static_cast<int>(mesh.triangles.size()) - 1))];
-    if (!surface.find_patch(t[0], t[1], patch)) continue;
-    const Vec3 place = (mesh.vertices[t[0]] + mesh.vertices[t[1]]) / 2 + random.uniform(0, 0.2) * random.direction();
-    bool expected = true, stays = true;
-    for (const Triangle& facet : mesh.triangles) {
-      const bool has_from = std::find(facet.begin(), facet.end(), t[0]) != facet.end();
-      const bool has_to = std::find(facet.begin(), facet.end(), t[1]) != facet.end();
-      if (!has_from && !has_to) continue;
-      const auto& [a, b, c] = facet;
-      const bool is_inside = exact_side(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c], place) >= 0;
-      expected = expected && is_inside;
-      stays = stays && (is_inside || (has_from && has_to));
-    }
-    EXPECT_EQ(simplify::is_inner(surface, patch, place), expected);
-    inner += expected ? 1 : 0;
-    only_outside_of_those_that_go += stays && !expected ? 1 : 0;
-  }
-  EXPECT_GT(inner, 50);
-  EXPECT_GT(only_outside_of_those_that_go, 10);
-}
-
-TEST(SimplifyParts, TheTreeFindsFacetsWhereverTheyHaveGone) {
-  Random random(25);
-  const auto draw = [&] {
-    Box box;
-    box.extend(random.point(0, 10));
-    box.extend(box.min + random.point(0, 2));
-    return box;
-  };
-  std::vector<Box> boxes(500);
-  for (Box& box : boxes) box = draw();
-  internal::simplify::FacetTree tree(boxes);
-  for (int i = 0; i < 2000; ++i) {
-    const auto moved = static_cast<std::uint32_t>(random.integer(0, 499));
-    boxes[moved] = random.chance(0.1) ? Box{} : draw();
-    tree.update(moved, boxes[moved]);
-    const Box asked = draw();
-    std::vector<std::uint32_t> found;
-    tree.find(asked, found);
-    std::sort(found.begin(), found.end());
-    for (std::uint32_t f = 0; f < boxes.size(); ++f) {
-      const bool meets = !boxes[f].empty() && (boxes[f].min.array() <= asked.max.array()).all() &&
-                         (asked.min.array() <= boxes[f].max.array()).all();
-      EXPECT_TRUE(!meets || std::binary_search(found.begin(), found.end(), f));
-    }
-    EXPECT_LT(found.size(), 200u);
-  }
-}
-
-TEST(SimplifyParts, SidesAndMeetingsAgreeWithTheSlowSum) {
-  namespace simplify = internal::simplify;
-  Random random(21);
-  const auto draw = [&](double size) {
-    return Vec3((random.point(-3, 3)).array().round() * size + (random.chance(0.3) ? 1e-16 : 0.0));
-  };
-  int in_plane = 0, met = 0;
-  for (int i = 0; i < 4000; ++i) {
-    const double size = random.chance(0.5) ? 1 : 0.1;
-    const Vec3 a = draw(size), b = draw(size), c = draw(size), s = draw(size), e = draw(size);
-    const int side = exact_side(a, b, c, s);
-    EXPECT_EQ(simplify::side_of({a, b, c}, s), side);
-    in_plane += side == 0 ? 1 : 0;
-    const int other = exact_side(a, b, c, e);
-    if ((b - a).cross(c - a).norm() < 1e-9 || (side == 0 && other == 0)) continue;
-    const int turns[] = {exact_side(s, e, a, b), exact_side(s, e, b, c), exact_side(s, e, c, a)};
-    const bool is_left = std::all_of(turns, turns + 3, [](int turn) { return turn >= 0; });
-    const bool is_right = std::all_of(turns, turns + 3, [](int turn) { return turn <= 0; });
-    const bool expected = side * other <= 0 && (is_left || is_right);
-    EXPECT_EQ(simplify::meet(s, e, {a, b, c}), expected);
-    met += expected ? 1 : 0;
-  }
-  EXPECT_GT(in_plane, 100);
-  EXPECT_GT(met, 100);
-  // In one plane.
-  const simplify::Corners upright = {Vec3(0, 1, 0), Vec3(4, 1, 0), Vec3(0, 1, 4)};
-  EXPECT_TRUE(simplify::meet(Vec3(1, 1, 1), Vec3(1.5, 1, 1), upright));  // inside
-  EXPECT_TRUE(simplify::meet(Vec3(-1, 1, 1), Vec3(5, 1, 1), upright));   // across
-  EXPECT_TRUE(simplify::meet(Vec3(2, 1, 2), Vec3(5, 1, 5), upright));    // touches a side
-  EXPECT_TRUE(simplify::meet(Vec3(-2, 1, 0), Vec3(0, 1, 0), upright));   // touches a corner
-  EXPECT_FALSE(simplify::meet(Vec3(3, 1, 3), Vec3(5, 1, 5), upright));
-  EXPECT_FALSE(simplify::meet(Vec3(-2, 1, 0), Vec3(-1, 1, 0), upright));  // on the line of a side
-}
-
-TEST(SimplifyParts, TheNearestInnerPointIsInsideAndNearest) {
-  using internal::simplify::HalfSpace;
-  Random random(22);
-  int found_any = 0, none = 0;
-  for (int i = 0; i < 2000; ++i) {
-    std::vector<HalfSpace> half_spaces;
-    const int count = random.integer(1, 14);
-    for (int k = 0; k < count; ++k) half_spaces.push_back({random.direction(), random.uniform(-0.3, 1)});
-    const Vec3 wanted = random.point(-5, 5);
-    const auto found = internal::simplify::nearest_inner_point(half_spaces, wanted);
-    const auto excess = [&](const Vec3& p) {
-      double most = -1;
-      for (const HalfSpace& half : half_spaces) most = std::max(most, half.normal.dot(p) - half.offset);
-      return most;
-    };
-    // Dykstra's projections: slow, and nothing in common with what is tested.
-    Vec3 p = wanted;
-    std::vector<Vec3> push(half_spaces.size(), Vec3::Zero());
-    for (int round = 0; round < 3000 && found; ++round) {
-      for (std::size_t k = 0; k < half_spaces.size(); ++k) {
-        const Vec3 before = p + push[k];
-        const double out = std::max(0.0, half_spaces[k].normal.dot(before) - half_spaces[k].offset);
-        p = before - out * half_spaces[k].normal;
-        push[k] = before - p;
-      }
-    }
-    if (!found) {
-      ++none;
-      continue;
-    }
-    ++found_any;
-    EXPECT_LT(excess(*found), 1e-7);
-    if (excess(p) > 1e-9) continue;
-    EXPECT_LT((*found - p).norm(), 1e-3);
-  }
-  EXPECT_GT(found_any, 1000);
-  EXPECT_GT(none, 20);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "simplify/inner_point.h"
 
@@ -113,8 +114,17 @@ bool is_corner(const Corners& corners, const Vec3& point) {
   return corners[0] == point || corners[1] == point || corners[2] == point;
 }
 
+/// Whether two triangles with a common side lie on each other, or so nearly that writers and booleans take them for it.
+bool is_flap(const Vec3& start, const Vec3& end, const Vec3& third, const Vec3& other_third, double narrowest) {
+  if (is_folded(start, end, third, other_third)) return true;
+  const Vec3 side = (end - start).normalized();
+  const auto from_side = [&](const Vec3& point) { return Vec3(point - start - side.dot(point - start) * side); };
+  const Vec3 a = from_side(third), b = from_side(other_third);
+  return a.dot(b) > 0 && a.cross(b).squaredNorm() <= narrowest * narrowest * std::max(a.squaredNorm(), b.squaredNorm());
+}
+
 /// Of two triangles with an area: whether they have more in common than corners and sides that both have.
-bool collide(const Corners& a, const Corners& b) {
+bool collide(const Corners& a, const Corners& b, double narrowest) {
   std::array<bool, 3> is_shared_a = {}, is_shared_b = {};
   int shared = 0;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -129,7 +139,7 @@ bool collide(const Corners& a, const Corners& b) {
       if (!is_shared_a[i]) own_a = i;
       if (!is_shared_b[i]) own_b = i;
     }
-    return is_folded(a[(own_a + 1) % 3], a[(own_a + 2) % 3], a[own_a], b[own_b]);
+    return is_flap(a[(own_a + 1) % 3], a[(own_a + 2) % 3], a[own_a], b[own_b], narrowest);
   }
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t next = (i + 1) % 3;
@@ -137,6 +147,25 @@ bool collide(const Corners& a, const Corners& b) {
     if (!is_shared_b[i] && !is_shared_b[next] && meet(b[i], b[next], a)) return true;
   }
   return false;
+}
+
+/// Whether two facets that both have the new place as a corner, and a side in common, lie on each other.
+bool has_flap_round(const Surface& surface, const Patch& patch, const Vec3& place, double narrowest) {
+  thread_local std::vector<std::pair<std::uint32_t, std::uint32_t>> sides;  // opposite to the place, by their start
+  sides.clear();
+  for (std::size_t i = patch.gone; i < patch.facets.size(); ++i) {
+    const Triangle& facet = surface.facet(patch.facets[i]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (facet[k] == patch.from || facet[k] == patch.to) sides.push_back({facet[(k + 1) % 3], facet[(k + 2) % 3]});
+    }
+  }
+  std::sort(sides.begin(), sides.end());
+  const std::vector<Vec3>& vertices = surface.vertices();
+  return std::any_of(sides.begin(), sides.end(), [&](const auto& side) {
+    const auto next = std::lower_bound(sides.begin(), sides.end(), std::pair(side.second, 0U));
+    return next != sides.end() && next->first == side.second &&
+           is_flap(place, vertices[side.second], vertices[side.first], vertices[next->second], narrowest);
+  });
 }
 
 /// Whether a vertex of another piece lies in what is lost.
@@ -158,8 +187,9 @@ bool is_clean(const Surface& surface, const Patch& patch, const Vec3& place, dou
     after.push_back(surface.corners_after(patch, patch.facets[i], place));
     if (!is_wide(after.back(), narrowest_m)) return false;
   }
-  // New facets need not be compared with each other, which all have the place as a corner: where one passes through
-  // another, the side opposite to the place does, or a spoke does, and meets a facet outside of the patch, too.
+  if (has_flap_round(surface, patch, place, narrowest_m)) return false;
+  // Other new facets need not be compared with each other, which all have the place as a corner: where one passes
+  // through another, the side opposite to the place does, or a spoke does, and meets a facet outside of the patch, too.
   own = patch.facets;
   std::sort(own.begin(), own.end());
   const auto is_own = [&](std::uint32_t f) { return std::binary_search(own.begin(), own.end(), f); };
@@ -167,7 +197,7 @@ bool is_clean(const Surface& surface, const Patch& patch, const Vec3& place, dou
     near.clear();
     surface.tree().find(box_of(facet), near);
     if (std::any_of(near.begin(), near.end(),
-                    [&](std::uint32_t f) { return !is_own(f) && collide(facet, surface.corners(f)); })) {
+                    [&](std::uint32_t f) { return !is_own(f) && collide(facet, surface.corners(f), narrowest_m); })) {
       return false;
     }
   }

@@ -22,9 +22,9 @@ void find_places(const Surface& surface, const Patch& patch, std::vector<Place>&
 /// Whether `place` lies exactly on the inner side, or in the plane, of every facet of the patch.
 bool is_inner(const Surface& surface, const Patch& patch, const Vec3& place);
 
-/// Whether the patch's facets, moved to `place`, are wider than `narrowest_m`, are not folded onto their neighbours,
-/// and have no point with other facets besides the vertices and edges that they share; and no other piece lies in what
-/// is lost.
+/// Whether the patch's facets, moved to `place`, are wider than `narrowest_m`, have no point with other facets besides
+/// the vertices and edges that they share, and are not folded onto their neighbours or as near as `narrowest_m`; and no
+/// other piece lies in what is lost.
 bool is_clean(const Surface& surface, const Patch& patch, const Vec3& place, double narrowest_m);
 
 }  // namespace vantage::internal::simplify

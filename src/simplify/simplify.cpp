@@ -59,6 +59,14 @@ struct Scratch {
   std::vector<Place> places;
 };
 
+/// Facets and gaps of this width are still ones for who writes the mesh, and for booleans, whose tolerance is a part of
+/// the size of 1e-12.
+double narrowest_m(const Mesh& mesh) {
+  constexpr double kOfSize = 1e-11;
+  const Box box = bounding_box(mesh);
+  return std::max(2 * core::flat_width(mesh), kOfSize * (box.max - box.min).norm());
+}
+
 class Simplifier {
  public:
   Simplifier(const Prepared& prepared, const SimplifyOptions& options)
@@ -67,7 +75,7 @@ class Simplifier {
         lost_(surface_.slots(), worth_m(prepared.mesh, options), options.error_m.has_value()),
         stamps_(surface_.vertices().size(), 0),
         is_marked_(surface_.vertices().size(), 0),
-        narrowest_m_(2 * core::flat_width(prepared.mesh)),
+        narrowest_m_(narrowest_m(prepared.mesh)),
         wanted_(options.facets.value_or(kFewestFacets)),
         most_error_m_(options.error_m.value_or(std::numeric_limits<double>::infinity()) + narrowest_m_) {}
 

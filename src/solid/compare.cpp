@@ -62,6 +62,15 @@ Solid solid_of(Mesh mesh, std::uint32_t label, const std::string& name) {
   return Solid({std::move(mesh), std::move(labels)}, name);
 }
 
+/// Facets that lie on each other, nearer than the tolerance of booleans, are mended there, and with them what they
+/// bound.
+void check_kept(const Solid& solid, double volume_m3, double allowance, const std::string& name) {
+  if (std::abs(solid.volume() - volume_m3) <= allowance) return;
+  throw Error(ErrorCode::mesh_intersects_itself,
+              "neighbouring facets of the mesh lie on each other, so that booleans take it for another solid", name,
+              "mend it where it is folded flat");
+}
+
 /// What A does not claim alone B claims too, and the other way round: both differences must leave the same. A third
 /// boolean would take as long as either and tell nothing new.
 double intersection_of(const Comparison& c, double allowance) {
@@ -96,6 +105,9 @@ Comparison compare_volumes(const Mesh& mesh_a, const Mesh& mesh_b, const std::st
     return result;
   }
   const Solid solid_a = solid_of(a, kOfA, name_a), solid_b = solid_of(b, kOfB, name_b);
+  const double allowance = (solid_a.area() + solid_b.area()) * (box.max - box.min).norm() * 1e-9;
+  check_kept(solid_a, result.volume_a_m3, allowance, name_a);
+  check_kept(solid_b, result.volume_b_m3, allowance, name_b);
   progress.begin("subtracting the second mesh");
   const Solid only_a = subtract(solid_a, solid_b, progress);
   progress.begin("subtracting the first mesh");
@@ -104,8 +116,7 @@ Comparison compare_volumes(const Mesh& mesh_a, const Mesh& mesh_b, const std::st
   result.only_a_m3 = std::max(only_a.volume(), 0.0);
   result.only_b_m3 = std::max(only_b.volume(), 0.0);
   LabelledMesh part_a = only_a.to_mesh(), part_b = only_b.to_mesh();
-  const double area = solid_a.area() + solid_b.area(), length = (box.max - box.min).norm();
-  result.intersection_m3 = intersection_of(result, area * length * 1e-9);
+  result.intersection_m3 = intersection_of(result, allowance);
 
   progress.begin("measuring distances");
   const Farthest from_b = internal::solid::farthest_point(part_a, kOfA, b, progress.part(0, 0.5));
