@@ -1,5 +1,5 @@
 // A wrong result must be able to fail: the engine's pipeline, put together from its parts as in src/exact/engine.cpp
-// and broken on purpose, against the independent check.
+// and broken on purpose, against the independent check and the proof.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -13,7 +13,10 @@
 #include "exact/triangulation.h"
 #include "solid/csg.h"
 #include "support/internals.h"
+#include "support/ray_caster.h"
 #include "support/scenes.h"
+#include "support/solids.h"
+#include "vantage/prove.h"
 #include "vantage/verify.h"
 #include "vantage/volume.h"
 
@@ -76,8 +79,40 @@ VerifyReport check(const std::string& what, const Mesh& mesh) {
   return report;
 }
 
+ProofReport prove(const Mesh& mesh) {
+  ProveOptions options;
+  options.maximal = true;
+  options.tolerance_m = kTolerance;
+  return prove_volume(plaza(), square(), {kRange}, {}, mesh, options);
+}
+
+/// Claims too much: by the proof, whose witness a ray confirms.
+void expect_refuted(const Mesh& mesh) {
+  const Scene scene = plaza();
+  const ProofReport proof = prove(mesh);
+  ASSERT_EQ(proof.claims[0].verdict, ProofVerdict::wrong);
+  ASSERT_TRUE(proof.witness);
+  const Vec3 way = proof.witness->target_point - proof.witness->viewpoint;
+  const testing::RayCaster rays(scene.mesh, proof.witness->viewpoint);
+  EXPECT_LT(rays.first_hit(way.normalized(), way.norm()), way.norm() - 1e-3);
+  EXPECT_GT(proof.witness->depth_m, 0);
+  EXPECT_EQ(proof.witness->object, display_name(scene.objects[scene.object_of[proof.witness->triangle]]));
+}
+
+/// Claims too little: what it claims is proved, and that nothing is missing is not.
+void expect_not_maximal(const Mesh& mesh) {
+  const ProofReport proof = prove(mesh);
+  EXPECT_EQ(proof.verdict(), ProofVerdict::proved);
+  EXPECT_FALSE(proof.maximal->open.empty());
+  EXPECT_LT(proof.maximal->proved_share, 0.99);
+}
+
 TEST(Mutations, TheUnbrokenPipelineIsRight) {
   const Mesh mesh = pipeline(plaza(), square());
+  const ProofReport proof = prove(mesh);
+  EXPECT_EQ(proof.verdict(), ProofVerdict::proved);
+  EXPECT_EQ(proof.maximal->proved_share, 1);
+  EXPECT_TRUE(proof.maximal->conditions_hold());
   const VerifyReport report = check("unbroken", mesh);
   EXPECT_EQ(report.over_claimed, 0u);
   EXPECT_EQ(report.under_claimed, 0u);
@@ -97,9 +132,11 @@ TEST(Mutations, AnObjectLeftOutIsCaught) {
       scene.mesh.triangles.erase(scene.mesh.triangles.begin() + static_cast<std::ptrdiff_t>(i));
       scene.object_of.erase(scene.object_of.begin() + static_cast<std::ptrdiff_t>(i));
     }
-    const VerifyReport report = check("without the " + name, pipeline(scene, square()));
+    const Mesh mesh = pipeline(scene, square());
+    const VerifyReport report = check("without the " + name, mesh);
     EXPECT_GT(report.over_claimed, 0u);
     EXPECT_EQ(report.worst_over_cause, name);
+    expect_refuted(mesh);
   }
 }
 
@@ -107,8 +144,9 @@ TEST(Mutations, PlanesPushedAwayByOnePercentAreCaught) {
   const auto push = [](BlockerSet& blockers) {
     for (Plane& plane : blockers.planes) plane /= 1.01;
   };
-  const VerifyReport report = check("planes pushed away by 1 %", pipeline(plaza(), square(), {push}));
-  EXPECT_GT(report.over_claimed, 0u);
+  const Mesh mesh = pipeline(plaza(), square(), {push});
+  EXPECT_GT(check("planes pushed away by 1 %", mesh).over_claimed, 0u);
+  expect_refuted(mesh);
 }
 
 TEST(Mutations, OnePlaneTurnedIsCaught) {
@@ -117,14 +155,17 @@ TEST(Mutations, OnePlaneTurnedIsCaught) {
   const auto turn = [](BlockerSet& blockers) {
     for (Plane& plane : blockers.planes) plane.head<2>() *= 0.5;
   };
-  EXPECT_GT(check("planes turned", pipeline(plaza(), square(), {turn})).over_claimed, 0u);
+  const Mesh mesh = pipeline(plaza(), square(), {turn});
+  EXPECT_GT(check("planes turned", mesh).over_claimed, 0u);
+  expect_refuted(mesh);
 }
 
 TEST(Mutations, ARangeOnePercentTooLongIsCaught) {
   Mutation longer;
   longer.range = 1.01 * kRange;
-  const VerifyReport report = check("range 1 % too long", pipeline(plaza(), square(), longer));
-  EXPECT_GT(report.over_claimed, 0u);
+  const Mesh mesh = pipeline(plaza(), square(), longer);
+  EXPECT_GT(check("range 1 % too long", mesh).over_claimed, 0u);
+  EXPECT_EQ(prove(mesh).claims[1].verdict, ProofVerdict::wrong);
 }
 
 TEST(Mutations, SeeingTheVerticesOnlyIsCaught) {
@@ -137,15 +178,43 @@ TEST(Mutations, SeeingTheVerticesOnlyIsCaught) {
     const Volume volume = compute_visibility(PreparedTarget(PreparedScene(plaza()), corner, {kRange}), {kTolerance, 0});
     seen.emplace_back(solid::LabelledMesh{volume.mesh, volume.cause_of}, "seen");
   }
-  const VerifyReport report = check("vertices only", solid::intersect(seen).to_mesh().mesh);
-  EXPECT_GT(report.over_claimed, 0u);
+  const Mesh mesh = solid::intersect(seen).to_mesh().mesh;
+  EXPECT_GT(check("vertices only", mesh).over_claimed, 0u);
+  expect_refuted(mesh);
 }
 
 TEST(Mutations, ATargetDrawnTooSmallIsCaught) {
   Target small = square();
   for (Vec3& v : small.parts[0]) v *= 0.98;
-  const VerifyReport report = check("target 2 % too small", pipeline(plaza(), small));
-  EXPECT_GT(report.over_claimed, 0u);
+  const Mesh mesh = pipeline(plaza(), small);
+  EXPECT_GT(check("target 2 % too small", mesh).over_claimed, 0u);
+  expect_refuted(mesh);
+}
+
+TEST(Mutations, AnObjectThatIsNotThereIsNoticed) {
+  Scene scene = plaza();
+  testing::append(scene.mesh, testing::make_box_mesh({10, -20, 0}, {12, -18, 6}));
+  scene.object_of.resize(scene.mesh.triangles.size(), scene.object_of.front());
+  expect_not_maximal(pipeline(scene, square()));
+}
+
+TEST(Mutations, PlanesPulledNearByOnePercentAreNoticed) {
+  const auto pull = [](BlockerSet& blockers) {
+    for (Plane& plane : blockers.planes) plane *= 1.01;
+  };
+  expect_not_maximal(pipeline(plaza(), square(), {pull}));
+}
+
+TEST(Mutations, ARangeOnePercentTooShortIsNoticed) {
+  Mutation shorter;
+  shorter.range = 0.99 * kRange;
+  expect_not_maximal(pipeline(plaza(), square(), shorter));
+}
+
+TEST(Mutations, ATargetDrawnTooLargeIsNoticed) {
+  Target large = square();
+  for (Vec3& v : large.parts[0]) v *= 1.02;
+  expect_not_maximal(pipeline(plaza(), large));
 }
 
 }  // namespace

@@ -164,7 +164,7 @@ TEST(Prove, AllowsWhatAFileSaysItRounded) {
 
 /// What rounding moved along the view hides far more of it than that: still nothing is wrong for sure.
 TEST(Prove, CallsNothingWrongForWhatAFileRounded) {
-  for (std::uint64_t seed = 110; seed < 114; ++seed) {
+  for (std::uint64_t seed = 110; seed < 112; ++seed) {
     const City city(seed);
     Random random(seed);
     const auto verdict = [&](double moved_m) {
