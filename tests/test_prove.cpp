@@ -253,6 +253,8 @@ TEST(Prove, RefusesWhatIsNoSolid) {
   Mesh infinite = city.volume.mesh;
   infinite.vertices[0].x() = std::numeric_limits<double>::infinity();
   expect(infinite, ErrorCode::coordinate_not_finite);
+  infinite.vertices[0].x() = -1.001e9;
+  expect(infinite, ErrorCode::coordinate_too_large);
   Mesh beyond = city.volume.mesh;
   beyond.triangles[0][0] = static_cast<std::uint32_t>(beyond.vertices.size());
   expect(beyond, ErrorCode::index_out_of_range);

@@ -18,13 +18,20 @@ namespace {
 
 constexpr const char* kWhere = "volume";
 constexpr const char* kAdvice = "give the closed, outward mesh of a volume";
+constexpr double kFarthestM = 1e9;  // as for scenes
 
 void check_numbers(const Mesh& mesh) {
   if (mesh.triangles.empty()) throw Error(ErrorCode::mesh_empty, "the mesh has no triangles", kWhere, kAdvice);
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-    if (mesh.vertices[v].allFinite()) continue;
-    throw Error(ErrorCode::coordinate_not_finite,
-                "vertex " + std::to_string(v) + " has a coordinate that is not finite", kWhere, kAdvice);
+    if (!mesh.vertices[v].allFinite()) {
+      throw Error(ErrorCode::coordinate_not_finite,
+                  "vertex " + std::to_string(v) + " has a coordinate that is not finite", kWhere, kAdvice);
+    }
+    if (mesh.vertices[v].cwiseAbs().maxCoeff() > kFarthestM) {
+      throw Error(ErrorCode::coordinate_too_large,
+                  "vertex " + std::to_string(v) + " is farther than 1e9 m from the origin", kWhere,
+                  "move the mesh nearer to the origin");
+    }
   }
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     for (const std::uint32_t v : mesh.triangles[t]) {

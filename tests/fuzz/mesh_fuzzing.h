@@ -7,17 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "fuzz/bytes.h"
 #include "io/mesh_readers.h"
 #include "support/internals.h"
 #include "vantage/error.h"
 
 namespace vantage::fuzzing {
-
-inline void require(bool condition, const char* promise) {
-  if (condition) return;
-  std::fprintf(stderr, "broken promise: %s\n", promise);
-  std::abort();
-}
 
 inline void check(const io::RawMesh& mesh) {
   require(!mesh.triangles.empty(), "there is a triangle");
