@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iostream>
 #include <numeric>
 #include <vector>
 
 #include "prove/flat_polygons.h"
 #include "prove/shadow.h"
 #include "prove/view.h"
+#include "support/exact_crossings.h"
 #include "support/hidden_point.h"
 #include "support/random.h"
 #include "support/scenes.h"
@@ -218,6 +220,65 @@ TEST(ProveShadow, WhatIsHiddenIsConvexAndGoesOn) {
     }
   }
   EXPECT_GT(tried, 500);
+}
+
+bool passes_through(const Vec3& from, const Vec3& to, const std::array<Vec3, 3>& triangle) {
+  const auto& [a, b, c] = triangle;
+  using testing::exact_side;
+  if (exact_side(a, b, c, from) * exact_side(a, b, c, to) >= 0) return false;
+  const int first = exact_side(from, to, a, b);
+  return first != 0 && exact_side(from, to, b, c) == first && exact_side(from, to, c, a) == first;
+}
+
+/// From far along a wall, past its edge near the target, by so little that doubles do not tell: nothing is hidden that
+/// exact numbers do not hide, and far more is found than without more digits.
+TEST(ProveShadow, WhatIsHiddenAtAFlatAngleIsFoundWithMoreDigits) {
+  Random random(331);
+  int roughly = 0, finely = 0, not_hidden = 0;
+  for (int round = 0; round < 4000; ++round) {
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(random.uniform(0, 6), random.direction()).toRotationMatrix();
+    Target target;
+    target.parts[0] = {turn * Vec3(-1, -1, 0), turn * Vec3(1, -1, 0), turn * Vec3(1, 1, 0), turn * Vec3(-1, 1, 0)};
+    const View view = internal::prove::make_view(target, 0, 0);
+    const ShadowTarget looked_at = internal::prove::shadow_target(view, 0);
+    // An edge that hangs so low over the target's border; the line of sight past it to the far side rises so slowly.
+    const double low = std::pow(10.0, random.uniform(-4, -1)), beside = random.uniform(0.5, 1.5), far = 600;
+    const std::array<Vec3, 3> wall = {turn * Vec3(-9, beside, low), turn * Vec3(9, beside, low),
+                                      turn * Vec3(0, beside + random.uniform(0, 0.1), 9)};
+    Scene scene;
+    scene.mesh.vertices = {wall.begin(), wall.end()};
+    scene.mesh.triangles = {{0, 1, 2}};
+    scene.objects.push_back({"wall"});
+    const FlatPolygons polygons(scene, Vec3::Zero(), {0});
+    const FlatPolygon* const polygon = polygons.only(0);
+    ASSERT_TRUE(polygon);
+    std::array<Vec3, 3> at;
+    std::array<Hit, 3> hits;
+    bool are_hit = true;
+    for (std::size_t k = 0; k < 3 && are_hit; ++k) {
+      const double rise = std::pow(10.0, random.uniform(-9, -6));
+      at[k] = turn * Vec3(random.uniform(-2, 2), far, low * (far + 1) / (beside + 1) * (1 + rise));
+      const auto hit = internal::prove::find_hit(at[k], *polygon, looked_at);
+      are_hit = hit.has_value();
+      if (hit) hits[k] = *hit;
+    }
+    if (!are_hit) continue;
+    // What was found to be hit need not be from here.
+    if (random.chance(0.5)) at[0] -= turn * Vec3(0, 0, std::pow(10.0, random.uniform(-14, -6)));
+    roughly += internal::prove::hides(*polygon, looked_at, hits, far + 9, far) ? 1 : 0;
+    const bool is_finely = internal::prove::hides_finely(*polygon, looked_at, at, hits, far + 9, far);
+    bool is_exactly = true;
+    for (std::size_t k = 0; k < 3; ++k) is_exactly = is_exactly && passes_through(at[k], hits[k].target_point, wall);
+    if (is_finely) {
+      EXPECT_TRUE(is_exactly) << round;
+    }
+    finely += is_finely ? 1 : 0;
+    not_hidden += is_exactly ? 0 : 1;
+  }
+  std::cout << roughly << " roughly, " << finely << " finely, " << not_hidden << " not hidden\n";
+  EXPECT_GT(finely, roughly + 500);
+  EXPECT_GT(finely, 500);
+  EXPECT_GT(not_hidden, 100);
 }
 
 /// No triangle that hides something is left out.

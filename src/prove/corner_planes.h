@@ -7,12 +7,10 @@
 #include <span>
 #include <vector>
 
+#include "prove/fine.h"
 #include "vantage/geometry.h"
 
 namespace vantage::internal::prove {
-
-/// Where long double has no more digits than double, no more is found, and nothing is wrong.
-using FineVec3 = Eigen::Matrix<long double, 3, 1>;
 
 /// A direction in whole numbers along which all of the hull of `points` lies farther than all of `polygon`, whatever
 /// was rounded: sets that are apart are so along the normal of a face of one of them, or across an edge of each.

@@ -126,7 +126,10 @@ std::vector<std::uint32_t> FlatPolygons::Growth::corners() const {
 std::unique_ptr<FlatPolygon> FlatPolygons::Growth::polygon() const {
   auto made = std::make_unique<FlatPolygon>();
   made->normal = normal_;
-  for (const std::uint32_t v : corners()) made->corners.push_back(all_.positions_[v]);
+  for (const std::uint32_t v : corners()) {
+    made->corners.push_back(all_.positions_[v]);
+    made->fine_corners.push_back(all_.stored_[v].cast<long double>() - all_.origin_.cast<long double>());
+  }
   const std::size_t n = made->corners.size();
   for (std::size_t i = 0; i < n; ++i) {
     const Vec3 &a = made->corners[i], &b = made->corners[(i + 1) % n], &c = made->corners[(i + 2) % n];
@@ -140,6 +143,7 @@ std::unique_ptr<FlatPolygon> FlatPolygons::Growth::polygon() const {
     for (std::size_t i = 0; i < n; ++i) {
       nearest = std::min(nearest, distance_from_segment(p, made->corners[i], made->corners[(i + 1) % n]));
     }
+    made->outline_slack_m = std::max(made->outline_slack_m, nearest);
     made->slack_m = std::max({made->slack_m, nearest, std::abs(normal_.dot(p - made->corners[0]))});
   }
   const auto& [a, b, c] = all_.triangles_[used_[0]];
@@ -152,16 +156,16 @@ std::unique_ptr<FlatPolygon> FlatPolygons::Growth::polygon() const {
 }
 
 FlatPolygons::FlatPolygons(const Scene& scene, const Vec3& origin, std::vector<std::uint32_t> triangles)
-    : numbers_(std::move(triangles)) {
+    : origin_(origin), numbers_(std::move(triangles)) {
   std::sort(numbers_.begin(), numbers_.end());
   numbers_.erase(std::unique(numbers_.begin(), numbers_.end()), numbers_.end());
-  weld(scene, origin);
+  weld(scene);
   link();
   slots_ = std::make_unique<Slot[]>(numbers_.size());
 }
 
 /// Corners in one place are one vertex, whatever the file calls them.
-void FlatPolygons::weld(const Scene& scene, const Vec3& origin) {
+void FlatPolygons::weld(const Scene& scene) {
   std::vector<std::uint32_t> table(table_size(3 * numbers_.size()), kNone);
   const std::size_t mask = table.size() - 1;
   double largest = 0;
@@ -174,7 +178,7 @@ void FlatPolygons::weld(const Scene& scene, const Vec3& origin) {
       while (table[place] != kNone && stored_[table[place]] != at) place = (place + 1) & mask;
       if (table[place] == kNone) {
         table[place] = static_cast<std::uint32_t>(stored_.size());
-        positions_.push_back(at - origin);
+        positions_.push_back(at - origin_);
         stored_.push_back(at);
         largest = std::max({largest, at.cwiseAbs().maxCoeff(), positions_.back().cwiseAbs().maxCoeff()});
       }

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <vector>
 
+#include "prove/fine.h"
 #include "vantage/geometry.h"
 #include "vantage/scene.h"
 
@@ -18,7 +19,9 @@ struct FlatPolygon {
   std::vector<Vec3> inward;  ///< per side, from its corner to the next: to the inside, in the plane; unit length
   Vec3 normal = Vec3::Zero();
   double slack_m = 0;
-  bool is_exactly_flat = false;          ///< the corners lie in one plane, to the last bit
+  bool is_exactly_flat = false;          ///< all of them lie in one plane, to the last bit
+  double outline_slack_m = 0;            ///< of slack_m, what is within the plane
+  std::vector<FineVec3> fine_corners;    ///< the corners with more digits
   double reach_m = 0;                    ///< of the corners from the origin, at most
   std::vector<std::uint32_t> triangles;  ///< of the scene; sorted
 };
@@ -43,11 +46,12 @@ class FlatPolygons {
   class Growth;
 
   std::uint32_t slot_of(std::uint32_t triangle) const;
-  void weld(const Scene& scene, const Vec3& origin);
+  void weld(const Scene& scene);
   void link();
   template <typename Visit>
   void visit_run(std::uint32_t from, std::uint32_t to, const Visit& visit) const;
 
+  Vec3 origin_;
   std::vector<std::uint32_t> numbers_;               ///< sorted; a slot is a place in it
   std::vector<Triangle> triangles_;                  ///< by slot; of positions_
   std::vector<Vec3> positions_, stored_;             ///< about the origin; as the scene has them

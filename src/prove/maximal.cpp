@@ -202,7 +202,9 @@ bool FacetJudge::hidden_by(const Corners& piece, const FlatPolygon& polygon) {
     if (!found) return false;
     hits[k] = *found;
   }
-  return hides(polygon, shared_.target, hits, shared_.farthest_m, shared_.largest);
+  const std::array<Vec3, 3> at = {corners_[piece[0]].at, corners_[piece[1]].at, corners_[piece[2]].at};
+  return hides(polygon, shared_.target, hits, shared_.farthest_m, shared_.largest) ||
+         hides_finely(polygon, shared_.target, at, hits, shared_.farthest_m, shared_.largest);
 }
 
 bool FacetJudge::is_hidden(const Corners& piece) {

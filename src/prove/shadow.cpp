@@ -172,21 +172,73 @@ std::optional<Hit> find_hit(const Vec3& position, const FlatPolygon& polygon, co
   return best;
 }
 
+namespace {
+
+/// Whether a segment passes through a polygon, whatever was rounded: its outline and its plane are known to `unsure_m`.
+class Certainty {
+ public:
+  Certainty(const FlatPolygon& polygon, const ShadowTarget& target, double farthest_m, double unsure_m)
+      : before_reach_(polygon.reach_m + target.radius_m),
+        behind_reach_(polygon.reach_m + farthest_m),
+        unsure_(unsure_m) {}
+
+  bool passes(double depth_m, double before_m, double behind_m) const {
+    if (!(before_m > 2 * unsure_ && behind_m > 2 * unsure_)) return false;
+    // So far a segment runs along the plane while it comes nearer to it by a metre.
+    const double along = std::min(before_reach_ / (before_m - unsure_), behind_reach_ / (behind_m - unsure_));
+    return depth_m > unsure_ * (1 + 2 * along);
+  }
+  bool passes(const Hit& hit) const { return passes(hit.depth_m, hit.before_m, hit.behind_m); }
+
+ private:
+  double before_reach_, behind_reach_, unsure_;
+};
+
+constexpr double kRoundings = 32;
+
+/// A polygon's plane with more digits, and how far its corners are from that.
+struct FinePlane {
+  FineVec3 normal = FineVec3::Zero();
+  double off_m = 0;
+
+  explicit FinePlane(const std::vector<FineVec3>& corners) {
+    for (std::size_t i = 2; i < corners.size(); ++i) {
+      normal += (corners[i - 1] - corners[0]).cross(corners[i] - corners[0]);
+    }
+    normal.normalize();
+    for (const FineVec3& corner : corners) {
+      off_m = std::max(off_m, std::abs(static_cast<double>(normal.dot(corner - corners[0]))));
+    }
+  }
+};
+
+/// Where the segment that was hit passes, with more digits.
+std::optional<Hit> fine_hit(const Vec3& position, const Hit& hit, const FlatPolygon& polygon, const FinePlane& plane) {
+  const std::vector<FineVec3>& corners = polygon.fine_corners;
+  const FineVec3 from = position.cast<long double>(), to = hit.target_point.cast<long double>();
+  const long double turn = hit.is_front ? 1 : -1;
+  const long double behind = turn * plane.normal.dot(from - corners[0]);
+  const long double before = -turn * plane.normal.dot(to - corners[0]);
+  if (!(behind > 0 && before > 0)) return std::nullopt;
+  const FineVec3 through = from + behind / (behind + before) * (to - from);
+  long double depth = std::numeric_limits<long double>::infinity();
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const FineVec3 side = corners[i + 1 < corners.size() ? i + 1 : 0] - corners[i];
+    depth = std::min(depth, plane.normal.cross(side).normalized().dot(through - corners[i]));
+  }
+  return Hit{hit.target_point, static_cast<double>(depth), static_cast<double>(before), static_cast<double>(behind),
+             hit.is_front};
+}
+
+}  // namespace
+
 bool hides(const FlatPolygon& polygon, const ShadowTarget& target, const std::array<Hit, 3>& hits, double farthest_m,
            double largest) {
-  constexpr double kUnitRounding = 1.2e-16, kRoundings = 32;
-  const double unsure = polygon.slack_m + kRoundings * kUnitRounding * largest;
-  const auto is_sure = [&](double depth, double before, double behind) {
-    if (!(before > 2 * unsure && behind > 2 * unsure)) return false;
-    // So far a segment runs along the plane while it comes nearer to it by a metre.
-    const double along = std::min((polygon.reach_m + target.radius_m) / (before - unsure),
-                                  (polygon.reach_m + farthest_m) / (behind - unsure));
-    return depth > unsure * (1 + 2 * along);
-  };
+  constexpr double kUnitRounding = 1.2e-16;
+  const Certainty sure(polygon, target, farthest_m, polygon.slack_m + kRoundings * kUnitRounding * largest);
   // What a flat polygon hides is convex: each position by itself.
   if (polygon.is_exactly_flat) {
-    return std::all_of(hits.begin(), hits.end(),
-                       [&](const Hit& hit) { return is_sure(hit.depth_m, hit.before_m, hit.behind_m); });
+    return std::all_of(hits.begin(), hits.end(), [&](const Hit& hit) { return sure.passes(hit); });
   }
   // Else every segment must pass from one side of the layer that holds the polygon to the other.
   Hit least = hits[0];
@@ -196,7 +248,20 @@ bool hides(const FlatPolygon& polygon, const ShadowTarget& target, const std::ar
     least.before_m = std::min(least.before_m, hit.before_m);
     least.behind_m = std::min(least.behind_m, hit.behind_m);
   }
-  return is_sure(least.depth_m, least.before_m, least.behind_m);
+  return sure.passes(least);
+}
+
+bool hides_finely(const FlatPolygon& polygon, const ShadowTarget& target, const std::array<Vec3, 3>& positions,
+                  const std::array<Hit, 3>& hits, double farthest_m, double largest) {
+  if (!polygon.is_exactly_flat) return false;
+  const FinePlane plane(polygon.fine_corners);
+  const Certainty sure(polygon, target, farthest_m,
+                       polygon.outline_slack_m + plane.off_m + kRoundings * kFineUnitRounding * largest);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::optional<Hit> hit = fine_hit(positions[k], hits[k], polygon, plane);
+    if (!hit || !sure.passes(*hit)) return false;
+  }
+  return true;
 }
 
 void collect_hiding(const Vec3& position, const ShadowTarget& target, const SceneTree& obstacles,

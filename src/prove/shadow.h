@@ -41,6 +41,11 @@ std::optional<Hit> find_hit(const Vec3& position, const FlatPolygon& polygon, co
 bool hides(const FlatPolygon& polygon, const ShadowTarget& target, const std::array<Hit, 3>& hits, double farthest_m,
            double largest);
 
+/// The same with more digits, of an exactly flat polygon and the positions that were hit from: where the target is seen
+/// at so flat an angle that roundings hide whether it is.
+bool hides_finely(const FlatPolygon& polygon, const ShadowTarget& target, const std::array<Vec3, 3>& positions,
+                  const std::array<Hit, 3>& hits, double farthest_m, double largest);
+
 /// The triangles of the tree that may hide something of the target from a position, as numbers of the scene's
 /// triangles, each once.
 void collect_hiding(const Vec3& position, const ShadowTarget& target, const SceneTree& obstacles,
