@@ -25,6 +25,20 @@ enum Step : std::int64_t { kPlane = 16, kDescend = 17, kLeave = 18, kNothing = 1
 constexpr std::size_t kMostKept = 16;  // known planes
 constexpr std::size_t kMostMet = 8;    // pieces that a facet is open for, and that may give a witness
 
+/// Whether a segment passes through the inside of a triangle.
+bool passes_through(const Vec3& from, const Vec3& to, const Vec3& a, const Vec3& b, const Vec3& c) {
+  if (orientation(a, b, c, from) * orientation(a, b, c, to) >= 0) return false;
+  const int first = orientation(from, to, a, b);
+  return first != 0 && orientation(from, to, b, c) == first && orientation(from, to, c, a) == first;
+}
+
+bool blocks(const Piece& obstacle, const Vec3& from, const Vec3& to) {
+  for (std::size_t i = 2; i < obstacle.count; ++i) {
+    if (passes_through(from, to, obstacle.corners[0], obstacle.corners[i - 1], obstacle.corners[i])) return true;
+  }
+  return false;
+}
+
 class SightProver {
  public:
   SightProver(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets, const View& view,
@@ -76,7 +90,8 @@ class SightProver {
   bool is_narrow(std::uint32_t node, const Patch& patch) const;
   std::optional<Whole> separate_by_corners(const Patch& patch, std::uint32_t piece) const;
   std::optional<Whole> short_way(const Vec3& way, const PointHull& hull, const Obstacle& obstacle) const;
-  bool is_separated(const Patch& patch, const PointHull& hull, std::uint32_t item, Known& known, Found& found) const;
+  bool is_separated(const Patch& patch, const PointHull& hull, std::uint32_t item, bool is_open, Known& known,
+                    Found& found) const;
   void prove(std::uint32_t patch, const Items& items, Found& found) const;
 
   const std::vector<Vec3>& vertices_;
@@ -122,8 +137,11 @@ bool SightProver::is_narrow(std::uint32_t node, const Patch& patch) const {
   return (box.max - box.min).norm() < patch.extent * ((box.min + box.max) / 2).norm();
 }
 
-/// Where the search in doubles ends without a plane.
+/// Where the search in doubles ends without a plane. It takes long, and is in vain if a line of sight is blocked.
 std::optional<SightProver::Whole> SightProver::separate_by_corners(const Patch& patch, std::uint32_t piece) const {
+  const auto& [a, b, c] = facets_[patches_.order[patch.begin]];
+  const Vec3 middle = (vertices_[a] + vertices_[b] + vertices_[c]) / 3;
+  if (blocks(obstacles_.pieces[piece], middle, Vec3::Zero())) return std::nullopt;
   std::vector<Vec3> points = view_.corners;
   points.push_back(Vec3::Zero());
   for (const std::uint32_t v : facets_[patches_.order[patch.begin]]) points.push_back(vertices_[v]);
@@ -145,9 +163,9 @@ std::optional<SightProver::Whole> SightProver::short_way(const Vec3& way, const 
   return std::nullopt;
 }
 
-/// By a known plane, or by a new one.
-bool SightProver::is_separated(const Patch& patch, const PointHull& hull, std::uint32_t item, Known& known,
-                               Found& found) const {
+/// By a known plane, or by a new one. `is_open`: the facet is so already.
+bool SightProver::is_separated(const Patch& patch, const PointHull& hull, std::uint32_t item, bool is_open,
+                               Known& known, Found& found) const {
   const Obstacle obstacle = obstacle_of(item);
   for (std::size_t i = 0; i < known.planes.size(); ++i) {
     const Separation& plane = known.planes[i];
@@ -159,7 +177,8 @@ bool SightProver::is_separated(const Patch& patch, const PointHull& hull, std::u
   std::optional<Whole> whole;
   if (way && is_recorded_) whole = short_way(*way, hull, obstacle);
   const bool is_found = is_recorded_ ? whole.has_value() : way.has_value();
-  if (!is_found && (item & kPiece) != 0 && patch.second == 0) whole = separate_by_corners(patch, item & ~kPiece);
+  const bool is_last = (item & kPiece) != 0 && patch.second == 0;
+  if (!is_found && is_last && !is_open) whole = separate_by_corners(patch, item & ~kPiece);
   if (whole) {
     way = Vec3(static_cast<double>((*whole)[0]), static_cast<double>((*whole)[1]), static_cast<double>((*whole)[2]));
     if (is_recorded_) found.steps.insert(found.steps.end(), {kPlane, (*whole)[0], (*whole)[1], (*whole)[2]});
@@ -191,7 +210,7 @@ void SightProver::prove(std::uint32_t index, const Items& items, Found& found) c
     const bool is_piece = (item & kPiece) != 0;
     if (is_nothing(item)) {
       record(found, kNothing);
-    } else if (is_separated(patch, hull, item, known, found)) {
+    } else if (is_separated(patch, hull, item, met > 0, known, found)) {
       continue;
     } else if (is_piece && is_single) {
       found.open.push_back({patches_.order[patch.begin], item & ~kPiece});
@@ -238,13 +257,6 @@ SightProof SightProver::run(const core::ProgressReporter& progress) {
   return proof;
 }
 
-/// Whether a segment passes through the inside of a triangle.
-bool passes_through(const Vec3& from, const Vec3& to, const Vec3& a, const Vec3& b, const Vec3& c) {
-  if (orientation(a, b, c, from) * orientation(a, b, c, to) >= 0) return false;
-  const int first = orientation(from, to, a, b);
-  return first != 0 && orientation(from, to, b, c) == first && orientation(from, to, c, a) == first;
-}
-
 }  // namespace
 
 SightProof prove_sight(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets, const View& view,
@@ -274,21 +286,15 @@ std::optional<Blocked> find_blocked(const std::array<Vec3, 3>& facet, const View
     ends.push_back(sum / all);
   }
   std::optional<Blocked> deepest;
-  const auto is_blocked = [&](const Vec3& from, const Vec3& to) {
-    for (std::size_t i = 2; i < obstacle.count; ++i) {
-      if (passes_through(from, to, obstacle.corners[0], obstacle.corners[i - 1], obstacle.corners[i])) return true;
-    }
-    return false;
-  };
   for (int i = 0; i <= kParts; ++i) {
     for (int k = 0; i + k <= kParts; ++k) {
       const Vec3 from = facet[0] + (facet[1] - facet[0]) * i / kParts + (facet[2] - facet[0]) * k / kParts;
       for (const Vec3& to : ends) {
-        if (!is_blocked(from, to)) continue;
+        if (!blocks(obstacle, from, to)) continue;
         double hidden = 0, open = 1;  // parts of the way to the origin
         for (int step = 0; step < 30; ++step) {
           const double part = (hidden + open) / 2;
-          (is_blocked((1 - part) * from, to) ? hidden : open) = part;
+          (blocks(obstacle, (1 - part) * from, to) ? hidden : open) = part;
         }
         const double depth = hidden * from.norm();
         if (!deepest || depth > deepest->depth_m) deepest = Blocked{from, to, depth};
