@@ -272,8 +272,15 @@ TEST_F(CliVerify, LooksFromWhereTheTargetWasRaisedTo) {
   fs::rename(folder_ / "low.ply", folder_ / "renamed.ply");
   EXPECT_EQ(run({"verify", "low.yaml", "renamed.ply", "--points", "500"}).exit_code, 0) << "the file says it";
 
-  // A file without the statement, as older ones: the report beside it says it.
   std::string bytes = content(folder_ / "renamed.ply");
+  std::string raised = bytes;
+  const std::size_t lift = raised.find("\"lift_m\":[0.0") + 10;
+  raised.replace(lift, 3, "9.0");
+  write("raised.ply", raised);
+  expect_bad({"verify", "low.yaml", "raised.ply"}, "raised.ply");
+  expect_bad({"prove", "low.yaml", "raised.ply"}, "raised.ply");
+
+  // A file without the statement, as older ones: the report beside it says it.
   for (std::size_t at; (at = bytes.find("comment vantage volume: ")) != std::string::npos;) {
     bytes.erase(at, bytes.find('\n', at) + 1 - at);
   }

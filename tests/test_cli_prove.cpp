@@ -60,7 +60,7 @@ TEST_F(CliProve, ProvesWhatWasComputed) {
     EXPECT_EQ(json.at("verdict"), "proved");
     EXPECT_EQ(json.at("unproved").size(), 0U);
     EXPECT_TRUE(json.at("witness").is_null());
-    EXPECT_GT(json.at("far_facets"), 100);
+    EXPECT_GT(json.at("tested_facets"), 100);
   }
 }
 
@@ -204,7 +204,7 @@ TEST_F(CliProve, WritesACertificateAndItsScene) {
   ASSERT_EQ(json.at("parts").size(), 1u);
   const auto proof = nlohmann::json::parse(output_of({"prove", "mission.yaml", "v.ply", "--json"}));
   const auto facets = json.at("parts")[0].at("facets").get<std::string>();
-  EXPECT_EQ(1 + std::count(facets.begin(), facets.end(), ' '), proof.at("far_facets"));
+  EXPECT_EQ(1 + std::count(facets.begin(), facets.end(), ' '), proof.at("tested_facets"));
 
   const auto stl = run({"prove", "mission.yaml", "v.stl", "--certificate", "stl.cert"});
   EXPECT_EQ(stl.exit_code, 2);

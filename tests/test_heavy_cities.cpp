@@ -171,7 +171,7 @@ std::string describe(const Target& target, const Sensor& sensor) {
 
 struct Totals {
   std::size_t targets = 0, points = 0, inside = 0, over = 0, under = 0, rays = 0;
-  std::size_t far_facets = 0;
+  std::size_t tested_facets = 0;
   std::size_t refuted = 0, open = 0, clear = 0;  ///< volumes that are made larger, by what becomes of their sight
   double least_maximal = 1, area = 0, maximal_area = 0;  ///< a share of the surface; square metres
   double worst_over = 0, worst_under = 0, worst_aimed = 0, engine_seconds = 0, proof_seconds = 0;
@@ -209,7 +209,7 @@ class HeavyCities : public ::testing::TestWithParam<City> {
     ProveOptions options{.lift_m = volume.lift_m, .maximal = true, .tolerance_m = volume.tolerance_m};
     const ProofReport proof = prove_volume(scene, target, sensor, {}, volume.mesh, options);
     EXPECT_EQ(proof.verdict(), ProofVerdict::proved)
-        << what << ": " << proof.unproved.size() << " of " << proof.far_facets << " facets, "
+        << what << ": " << proof.unproved.size() << " of " << proof.tested_facets << " facets, "
         << (proof.witness ? "wrong" : "open") << describe(target, sensor);
     EXPECT_GE(proof.maximal->proved_share, kLeastMaximal) << what << describe(target, sensor);
     EXPECT_TRUE(proof.maximal->conditions_hold()) << what;
@@ -224,7 +224,7 @@ class HeavyCities : public ::testing::TestWithParam<City> {
     EXPECT_EQ(refuted.verdict(), ProofVerdict::wrong) << what << describe(target, sensor);
     const ProofVerdict sight = refuted.claims[0].verdict;
     ++(sight == ProofVerdict::wrong ? totals_.refuted : sight == ProofVerdict::proved ? totals_.clear : totals_.open);
-    totals_.far_facets += proof.far_facets;
+    totals_.tested_facets += proof.tested_facets;
     totals_.proof_seconds += proof.seconds;
   }
 
@@ -311,7 +311,7 @@ TEST_P(HeavyCities, NothingIsOverClaimed) {
       totals_.under, totals_.worst_under, totals_.worst_aimed,
       1e3 * totals_.engine_seconds / static_cast<double>(totals_.targets), seconds);
   std::printf("%s: %zu far facets proved, maximal %.6f %% (least %.6f %%), %.1f times the engine\n", city.name,
-              totals_.far_facets, 100 * totals_.maximal_area / totals_.area, 100 * totals_.least_maximal,
+              totals_.tested_facets, 100 * totals_.maximal_area / totals_.area, 100 * totals_.least_maximal,
               totals_.proof_seconds / totals_.engine_seconds);
   std::printf("%s: made larger, sight is refuted %zu, open %zu, right %zu times\n", city.name, totals_.refuted,
               totals_.open, totals_.clear);

@@ -444,6 +444,9 @@ TEST(Simplify, RefusesWhatItCannotSimplify) {
   expect_error([&] { simplify_volume(broken, to_facets(4)); }, ErrorCode::coordinate_not_finite, "volume");
   broken.vertices[3].x() = 2e9;
   expect_error([&] { simplify_volume(broken, to_facets(4)); }, ErrorCode::coordinate_too_large, "volume");
+  broken = box;
+  append(broken, inside_out(make_box_mesh({0.5, 0.5, 0.5}, {9, 0.6, 0.6})));
+  expect_error([&] { simplify_volume(broken, to_facets(4)); }, ErrorCode::mesh_inside_out, "volume");
   Mesh flat{{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)}, {{0, 1, 2}, {0, 2, 1}}};
   expect_error([&] { simplify_volume(flat, to_error(1)); }, ErrorCode::mesh_without_inside, "volume");
 }

@@ -6,15 +6,16 @@
 Every decision is made with whole numbers: the stored ones times a power of two. Nothing of the program that computed
 the volume or the proof is used or believed. For each part of the target and a point c in it this is checked:
 
- 1. The volume's mesh is closed: each edge is run as often one way as the other. No piece is inside out.
- 2. It is moved towards c by a stated part of the distance, in doubles. Its far facets, those that have c strictly on
-    their inner side, are all in the certificate.
- 3. For every far facet and every triangle of the scene, as far as that lies in front of the target, there is a plane
-    with the facet, the polygon that is to be seen and c strictly on one side, and the triangle on the other.
+ 1. The volume's mesh is closed: each edge is run as often one way as the other.
+ 2. It is moved towards c by a stated part of the distance, in doubles. Its facets are all in the certificate, but for
+    those whose plane holds c.
+ 3. For each of them and every triangle of the scene, as far as that lies in front of the target, there is a plane with
+    the facet, the polygon that is to be seen and c strictly on one side, and the triangle on the other.
 
-Why that is enough: a ray from c through a point p of the volume leaves it for good through a far facet, in a point x
-at or behind p. By 3 nothing of the scene touches the hull of x and the polygon, so nothing lies between p and the
-polygon. Planes are found for groups of facets and boxes of triangles at once; the boxes are made here, from the scene.
+Why that is enough: a ray from a point p that the volume winds round, away from c, ends where it does not. So it passes
+through such a facet, in a point x at or behind p. By 3 nothing of the scene touches the hull of x and the polygon, so
+nothing lies between p and the polygon. Planes are found for groups of facets and boxes of triangles at once; the boxes
+are made here, from the scene. That the volume was made for this target, this range and this mission it says itself.
 docs/proof.md has the format. Exit code: 0 accepted, 1 refused, 2 a file that cannot be read."""
 
 import argparse, collections, hashlib, json, math, re, struct, sys  # noqa: E401
@@ -24,6 +25,8 @@ from pathlib import Path
 MOST_FACETS = 256  # of the largest group that is tried at once
 MOST_KNOWN = 16  # planes that are kept of a group
 DESCEND, LEAVE, NOTHING, STEP = ">", "<", ".", r"[0-9a-f<>.]|\([^()]*\)"
+VERTICAL = 1e-6  # a normal that points down no more than this is taken as it is
+MOST_LIFT = 0.01  # metres that a target is raised by, at most
 LEAST_BITS = 80  # of fractions: boxes round pieces outwards by one unit
 SIZES = {"uchar": "B", "int": "i", "uint": "I", "float": "f", "double": "d"}
 
@@ -60,8 +63,12 @@ class Mesh:
             raise Unreadable(f"{path}: is cut short, or no PLY of triangles as vantage writes it ({error})") from error
 
     def read_elements(self, data, at, elements):
+        if [name for name, _, _ in elements] != ["vertex", "face"]:
+            raise ValueError("not vertices and then faces")
         for name, count, properties in elements:
             names = [p[-1] for p in properties]
+            if len(set(names)) != len(names) or any(p[0] == "list" for p in properties[name == "face":]):
+                raise ValueError("a property twice, or a list too many")
             kinds = "".join(SIZES[p[1]] + "3" + SIZES[p[2]] if p[0] == "list" else SIZES[p[0]] for p in properties)
             row = struct.Struct("<" + kinds)
             rows = list(row.iter_unpack(data[at:at + count * row.size]))
@@ -71,8 +78,9 @@ class Mesh:
             if name == "vertex":
                 x, y, z = (names.index(axis) for axis in "xyz")
                 self.vertices = [(r[x], r[y], r[z]) for r in rows]
-            elif name == "face":
-                if properties[0][0] != "list" or any(r[0] != 3 for r in rows):
+                self.is_single = any(properties[i][0] != "double" for i in (x, y, z))
+            else:
+                if properties[0][0] != "list" or names[0] != "vertex_indices" or any(r[0] != 3 for r in rows):
                     raise ValueError("not all faces are triangles")
                 self.triangles = [r[1:4] for r in rows]
                 at_object = names.index("object") + 3 if "object" in names else 0  # a list of three is four numbers
@@ -90,7 +98,6 @@ class Mesh:
             digest.update(struct.pack("<9d", *numbers) + (struct.pack("<I", of) if kind == b"scene" else b""))
         return digest.hexdigest()
 
-
 class Scale:
     """Numbers times 2^bits, so that all of the given ones are whole."""
 
@@ -104,7 +111,6 @@ class Scale:
     def point(self, numbers):
         return tuple(self.whole(x) for x in numbers)
 
-
 def dot(a, b):
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
@@ -114,7 +120,6 @@ def minus(a, b):
 def cross(a, b):
     return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
 
-
 def welded(mesh):
     """Triangles by vertices of which no two lie in one place; without those that have two corners in one."""
     number_of = {}
@@ -122,57 +127,15 @@ def welded(mesh):
     triangles = [tuple(number[v] for v in t) for t in mesh.triangles]
     return list(number_of), {i: t for i, t in enumerate(triangles) if len(set(t)) == 3}
 
-
-def pieces_of(triangles):
-    """The triangles of a closed mesh in groups that share vertices."""
-    edges, root = collections.Counter(), {}
-    pieces = collections.defaultdict(list)
-
-    def find(v):
-        while root.setdefault(v, v) != v:
-            root[v] = root[root[v]]
-            v = root[v]
-        return v
-
-    for a, b, c in triangles.values():
-        edges.update(((a, b), (b, c), (c, a)))
-        root[find(a)] = root[find(b)] = find(c)
+def check_closed(triangles):
+    edges = collections.Counter(edge for a, b, c in triangles.values() for edge in ((a, b), (b, c), (c, a)))
     demand(edges, "the volume has no triangles")
     demand(all(edges[b, a] == count for (a, b), count in edges.items()), "the mesh of the volume is not closed")
-    for t in triangles.values():
-        pieces[find(t[0])].append(t)
-    return list(pieces.values())
-
-
-def winding_number(point, facets):
-    """How often facets (corners about the origin, times 3) run round a point; None where a ray meets an edge."""
-    ray, number = (7919, 104729, -1299709), 0
-    for a, b, c in facets:
-        a, b, c = minus(a, point), minus(b, point), minus(c, point)
-        sides = [dot(ray, cross(a, b)), dot(ray, cross(b, c)), dot(ray, cross(c, a))]
-        if min(sides) > 0 or max(sides) < 0:
-            ahead = dot(a, cross(b, c))
-            if ahead == 0:
-                return None
-            number += 1 if ahead > 0 and min(sides) > 0 else -1 if ahead < 0 and max(sides) < 0 else 0
-        elif min(sides) >= 0 or max(sides) <= 0:
-            return None
-    return number
-
-
-def check_outward(points, pieces):
-    """A piece that is inside out is a cavity of others, or refused."""
-    for piece in pieces:
-        if sum(dot(points[a], cross(points[b], points[c])) for a, b, c in piece) > 0:
-            continue
-        others = [[tuple(3 * x for x in points[v]) for v in t] for other in pieces if other is not piece for t in other]
-        middles = (tuple(sum(points[v][k] for v in t) for k in range(3)) for t in piece)
-        numbers = (winding_number(middle, others) for middle in middles)
-        demand(next((n for n in numbers if n is not None), 0) > 0, "a piece of the volume's mesh is inside out")
-
 
 def corners_in_front(triangle, normal, cut):
-    """What of a triangle lies higher than the cut: (x, y, z, w), for the points (x, y, z) / w."""
+    """What of a triangle lies higher than the cut: (x, y, z, w), for the points (x, y, z) / w. Lines hide nothing."""
+    if not any(cross(minus(triangle[1], triangle[0]), minus(triangle[2], triangle[0]))):
+        return []
     corners, over = [], [0 if cut is None else dot(normal, c) - cut for c in triangle]
     for i, a in enumerate(triangle):
         b, at_a, at_b = triangle[i - 2], over[i], over[i - 2]
@@ -182,7 +145,6 @@ def corners_in_front(triangle, normal, cut):
             along = tuple(x * abs(at_b) + y * abs(at_a) for x, y in zip(a, b))
             corners.append(along + (abs(at_a) + abs(at_b),))
     return corners
-
 
 class Node:
     """The corners of a piece of the scene, or a box that holds the children."""
@@ -199,7 +161,6 @@ class Node:
             return all(dot(normal, c) < low * c[3] for c in self.corners)
         return self.box is None or sum(n * self.box[k + 3 if n > 0 else k] for k, n in enumerate(normal)) < low
 
-
 def tree_of(numbers, middles, pieces):
     """Halves by the widest axis. Which half a piece is in does not matter for what is proved, only for the steps."""
     if len(numbers) <= 2:
@@ -209,7 +170,6 @@ def tree_of(numbers, middles, pieces):
     numbers.sort(key=lambda i: (middles[i][axis], i))
     half = len(numbers) // 2
     return Node([], [tree_of(numbers[:half], middles, pieces), tree_of(numbers[half:], middles, pieces)])
-
 
 class Replay:
     """Goes through the steps of a part, and believes none of them."""
@@ -261,7 +221,6 @@ class Replay:
             self.separate(begin, half, left)
             self.separate(half, end, left)
 
-
 def hull_of(points, normal):
     """The corners of what points span, seen against the normal, counter-clockwise (Andrew 1979)."""
     up = cross(normal, minus(points[1], points[0]))
@@ -276,29 +235,54 @@ def hull_of(points, normal):
         chain.pop()
     return chain
 
+def newell(points):
+    """Normal of a polygon, of the length of twice its area."""
+    fan = [cross(minus(a, points[0]), minus(b, points[0])) for a, b in zip(points[1:], points[2:])]
+    return tuple(map(sum, zip(*fan))) if fan else (0, 0, 0)
+
+def lies_in(polygon, normal, allowed, points):
+    """Whether points lie in a convex polygon, seen against the normal, or as near to it as is allowed."""
+    hull = hull_of(polygon, normal)
+    demand(len(hull) >= 3, "a polygon has no area")
+    sides = [(a, cross(minus(b, a), normal)) for a, b in zip(hull, hull[1:] + hull[:1])]
+    return all(dot(out, minus(p, a)) <= allowed * math.isqrt(dot(out, out)) for a, out in sides for p in points)
+
+def check_front(part, view, normal, is_all_round):
+    """That the normal is that of the target, on the side that is looked at."""
+    front, way = view.get("front"), [float(x) for x in part["normal"]]
+    if len(part["target"]) == 1:
+        demand(front or is_all_round, "a point without a front is looked at from all sides")
+        demand(not (front and is_all_round), "the point has a front")
+        own = front or way
+    else:
+        own = newell([[Fraction(x) for x in v] for v in part["target"]])
+        length = math.hypot(*map(float, own))
+        turned = dot(own, front) < 0 if front else own[2] < -VERTICAL * length and not view.get("front_by_order")
+        own = [-x for x in own] if turned else own
+    own = [float(x) for x in own]
+    off = math.hypot(*cross(own, way))
+    demand(dot(own, way) > 0 and off <= 1e-6 * math.hypot(*own), "the target does not look to the stated side")
 
 def check_target(part, scale, centre, normal, corners, allowed):
     """That the polygon is the target, moved by the stated shift. Numbers times 2^(2 bits); returns its corners."""
     shift, unit = scale.whole(part["shift_m"]), 1 << scale.bits
-    moved = [tuple((t - c) * unit + shift * n for t, c, n in zip(scale.point(v), centre, normal)) for v in part["target"]]
+    given = [scale.point(v) for v in part["target"]]
+    moved = [tuple((x - c) * unit + shift * n for x, c, n in zip(v, centre, normal)) for v in given]
     demand(abs(dot(normal, normal) - unit * unit) * 10**9 <= unit * unit, "the normal is not of unit length")
-    extent = max(abs(a[k] - b[k]) for a in moved for b in moved for k in range(3))
-    flat = max(extent // 10**6, unit * unit // 1000)
-    demand(all(abs(dot(normal, p)) <= flat * unit for p in moved), "the target does not lie in the stated plane")
-    demand(all(abs(dot(normal, c)) <= allowed * unit for c in corners), "the polygon does not lie in the stated plane")
     if len(moved) == 1:
         demand(corners == [(0, 0, 0)] and dot(moved[0], moved[0]) <= (allowed * unit)**2, "the point is another one")
         return moved
-    hull = hull_of(corners, normal)
-    demand(len(hull) >= 3, "the polygon has no area")
-    for a, b in zip(hull, hull[1:] + hull[:1]):
-        outward = cross(minus(b, a), normal)
-        most = dot(outward, a) * unit + allowed * unit * math.isqrt(dot(outward, outward))
-        demand(all(dot(outward, p) <= most for p in moved), "the polygon is smaller than the target")
+    extent = max(abs(a[k] - b[k]) for a in moved for b in moved for k in range(3))
+    flat = max(extent // 10**6, unit * unit // 1000)  # a target need not be flatter; the plane is that of the mean
+    demand(all(abs(dot(normal, p)) <= flat * unit for p in moved), "the target does not lie in the stated plane")
+    demand(abs(sum(dot(normal, p) for p in moved)) <= len(moved) * allowed * unit * unit, "the plane is moved")
+    demand(all(abs(dot(normal, c)) <= allowed * unit for c in corners), "the polygon does not lie in the stated plane")
+    demand(lies_in(moved, normal, allowed * unit, [(0, 0, 0)]), "the centre is not in the target")
+    wide = [tuple(x * unit for x in c) for c in corners]
+    demand(lies_in(wide, normal, allowed * unit, moved), "the polygon is smaller than the target")
     return moved
 
-
-def check_part(part, certificate, scene, volume, middles):
+def check_part(part, view, certificate, scene, volume, middles):
     vertices, triangles = welded(volume)
     kept, centre = 1 - certificate["shrink"], part["centre"]
     shrunk = [tuple(kept * (x - c) for x, c in zip(v, centre)) for v in vertices]
@@ -308,19 +292,20 @@ def check_part(part, certificate, scene, volume, middles):
     whole_centre, normal = scale.point(centre), scale.point(part["normal"])
     corners = [scale.point(c) for c in part["corners"]]
     unit = 1 << scale.bits
-    largest = max(map(abs, centre)) + max(abs(x) for c in part["corners"] for x in c)
+    largest = max(map(abs, centre)) + max(abs(x - c) for v in part["target"] for x, c in zip(v, centre))
     allowed_m = 2 * max(1e-9, 2.0**-49 * largest)
     allowed = math.ceil(Fraction(allowed_m) * unit)
     moved = check_target(part, scale, whole_centre, normal, corners, allowed)
     slack = allowed + math.ceil(Fraction(certificate["rounding_m"]) * unit)
 
-    check_outward(points, pieces_of(triangles))
+    check_closed(triangles)
     used = {v for t in triangles.values() for v in t}
     reach = math.floor(Fraction(certificate["max_range_m"]) * unit) + slack
     for v in used:
         away = [minus(tuple(x * unit for x in points[v]), t) for t in moved]
         demand(all(dot(a, a) <= (reach * unit)**2 for a in away), "a vertex lies beyond the range")
     cut = part["cut_height_m"]
+    check_front(part, view, normal, cut is None)
     if cut is None:
         demand(len(part["target"]) == 1, "only a point is seen from all sides")
     else:
@@ -328,67 +313,80 @@ def check_part(part, certificate, scene, volume, middles):
         cut = scale.whole(cut) * unit
         demand(all(dot(normal, points[v]) >= -slack * unit for v in used), "a vertex lies behind the target")
 
-    far = {i for i, (a, b, c) in triangles.items() if dot(points[a], cross(points[b], points[c])) > 0}
+    tested = {i for i, (a, b, c) in triangles.items() if dot(points[a], cross(points[b], points[c])) != 0}
     replay = Replay(part, points, triangles, corners)
-    demand(set(replay.facets) >= far, "a facet is left out")
+    demand(set(replay.facets) >= tested, "a facet is left out")
     if scene.triangles:
         places = [minus(scale.point(v), whole_centre) for v in scene.vertices]
         pieces = [Node(corners_in_front([places[v] for v in t], normal, cut), []) for t in scene.triangles]
         replay.groups(0, len(replay.facets), tree_of(list(range(len(pieces))), middles, pieces))
     demand(replay.next == len(replay.steps), "there are more steps than the facets need")
-    return len(far), replay.planes
-
+    return len(tested), replay.planes
 
 def check_box(box, volume, slack):
+    demand(box["name"] in ("altitude", "keep_in"), "a limit is named that is no box")
     for k, axis in enumerate(zip(*{volume.vertices[v] for t in volume.triangles for v in t})):
         low, high = box["min"][k], box["max"][k]
         demand(low is None or Fraction(min(axis)) >= Fraction(low) - slack, f"a vertex is outside of {box['name']}")
         demand(high is None or Fraction(max(axis)) <= Fraction(high) + slack, f"a vertex is outside of {box['name']}")
 
-
 def check_files(certificate, scene, volume):
+    """Compares with what the volume says of itself; returns the target that each part is of."""
     demand(scene.hash(b"scene") == certificate["scene"]["hash"], "the scene is not the one of the certificate")
     demand(volume.hash(b"volume") == certificate["volume"]["hash"], "the volume is not the one of the certificate")
     rounded = [float(c.split()[2]) for c in volume.comments if c.startswith("vantage rounding_m ")]
-    demand(certificate["rounding_m"] in rounded + [0], "the volume does not say that so much was rounded")
+    largest = max((abs(x) for v in volume.vertices for x in v), default=0)
+    most = 64 * largest * 2.0**(-24 if volume.is_single else -53)
+    demand(certificate["rounding_m"] == 0 or certificate["rounding_m"] in rounded, "the volume was not rounded so much")
+    demand(0 <= certificate["rounding_m"] <= most, "the volume's numbers cannot be rounded so much")
     pieces = [c[16:] for c in volume.comments if c.startswith("vantage volume: ")]
     if not pieces:
-        return False
+        return None
     said = json.loads("".join(pieces))  # what the volume says of itself
     demand(said.get("mission_hash", "") == certificate["mission_hash"], "the volume is of another mission")
     demand(said.get("scene_hash", "") == certificate["scene"]["hash"], "the volume is of another scene")
+    demand(certificate["max_range_m"] <= said.get("max_range_m", math.inf), "the volume has a shorter range")
     views = [view[0] for view in said["views"]] if "views" in said else [said["target"]]
-    parts = [(part, view["offset_m"]) for view in views for part in view["parts"]]
-    stated = [(part, offset + lift) for (part, offset), lift in zip(parts, said["lift_m"])]
+    parts = [(part, view) for view in views for part in view["parts"]]
+    lifts = said["lift_m"]
+    demand(len(parts) == len(lifts) == len(certificate["parts"]), "the parts are not those of the volume's target")
+    demand(all(0 <= lift <= MOST_LIFT for lift in lifts), "the target was raised by more than that can be needed")
+    stated = [(part, view["offset_m"] + lift) for (part, view), lift in zip(parts, lifts)]
     demand(stated == [(p["target"], p["shift_m"]) for p in certificate["parts"]], "the target is not the volume's")
-    return True
+    return [view for _, view in parts]
 
+def number(value):
+    """Of JSON; neither a text nor what no double holds."""
+    return float(value) + 0 * value
 
 def check(path, out=print):
     try:
         certificate = json.loads(path.read_text(encoding="utf-8"))
         if certificate["format"] != "vantage certificate 1":
             raise Unreadable(f"{path}: is a certificate of another version, {certificate['format']}")
-        scene = Mesh(path.parent / certificate["scene"]["file"])
-        volume = Mesh(path.parent / certificate["volume"]["file"])
-        is_stated = check_files(certificate, scene, volume)
-        demand(0 <= certificate["shrink"] < 1, "the shrink is out of range")
+        files = [certificate[kind]["file"] for kind in ("scene", "volume")]
+        demand(all(Path(name).name == name for name in files), "a file lies in another folder")
+        scene, volume = (Mesh(path.parent / name) for name in files)
+        reach, shrink = number(certificate["max_range_m"]), number(certificate["shrink"])
+        views = check_files(certificate, scene, volume)
+        demand(0 <= shrink < 1, "the shrink is out of range")
         demand(certificate["parts"], "the certificate has no part")
         for box in certificate["boxes"]:
             check_box(box, volume, Fraction(certificate["rounding_m"]))
         triangles = [[scene.vertices[v] for v in t] for t in scene.triangles]
         middles = [[min(p[k] for p in t) + max(p[k] for p in t) for k in range(3)] for t in triangles]
         for i, part in enumerate(certificate["parts"]):
-            facets, planes = check_part(part, certificate, scene, volume, middles)
-            out(f"part {i + 1}: {facets} far facets, {planes} planes, against {len(scene.triangles)} triangles")
-            if not is_stated:
-                out(f"  the volume names no target; this is {part['target']}, moved by {part['shift_m']} m")
+            view = views[i] if views else {"front": part["normal"] if part["cut_height_m"] is not None else None}
+            facets, planes = check_part(part, view, certificate, scene, volume, middles)
+            out(f"part {i + 1}: {facets} facets, {planes} planes, against {len(scene.triangles)} triangles")
+            out(f"  {part['target']}, moved by {part['shift_m']} m along {part['normal']}")
+        boxes = [f"{box['name']} from {box['min']} to {box['max']}" for box in certificate["boxes"]]
+        out(f"accepted: {', '.join(['sight', 'range', 'front'] + boxes)},")
+        out(f"of the volume less {shrink:g} of the distance to the target, rounded by {certificate['rounding_m']:g} m,")
+        mission = certificate["mission_hash"] if views else "the volume names none; compare target and range yourself"
+        out(f"within {reach:g} m. Mission: {mission}")
     except (OSError, LookupError, TypeError, ValueError, AttributeError, ArithmeticError, RecursionError) as error:
         raise Unreadable(f"{path}: is no certificate, cut short or garbled ({type(error).__name__}: {error})") from error
-    names = ["sight", "range", "front"] + [box["name"] for box in certificate["boxes"]]
-    out(f"accepted: {', '.join(names)}, of the volume less {certificate['shrink']:g} of the distance to the target,")
-    out(f"within {certificate['max_range_m']:g} m. Mission {certificate['mission_hash']}")
-
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description="Check the certificate of a visibility volume.")

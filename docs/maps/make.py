@@ -53,7 +53,7 @@ def compute(program, case):
 def proof_of(check):
     """What the proof says: "all" and the number of facets that face away from the target, or its verdict."""
     proof = check["proof"]
-    return f"all {proof['far_facets']:,}" if proof["verdict"] == "proved" else proof["verdict"]
+    return f"all {proof['tested_facets']:,}" if proof["verdict"] == "proved" else proof["verdict"]
 
 
 def volume_rows(program, cases):

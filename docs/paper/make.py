@@ -38,7 +38,7 @@ def experiment(program, case, out):
 def proof_of(check):
     """What the proof says: "all" and the number of facets that face away from the target, or its verdict."""
     proof = check["proof"]
-    return f"all {proof['far_facets']:,}" if proof["verdict"] == "proved" else proof["verdict"]
+    return f"all {proof['tested_facets']:,}" if proof["verdict"] == "proved" else proof["verdict"]
 
 
 def row(case, reports, difference, checks):

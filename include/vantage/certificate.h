@@ -20,12 +20,12 @@ struct CertifiedBox {
 struct CertificatePart {
   std::vector<Vec3> target;           ///< as the target was given, scene frame
   double shift_m = 0;                 ///< so far along `normal` from there is what was proved
-  Vec3 centre = Vec3::Zero();         ///< scene frame: a point of the part; far facets face away from it
+  Vec3 centre = Vec3::Zero();         ///< scene frame: a point of the part; facets whose plane holds it need no test
   std::vector<Vec3> corners;          ///< of what is proved to be seen, about `centre`
   Vec3 normal = Vec3::Zero();         ///< to the side that is looked at; unit length, but for rounding
   bool all_sides = false;             ///< a point that is looked at from all sides: nothing is cut
   double cut_height_m = 0;            ///< what of the scene lies lower over the plane through `centre` does not count
-  std::vector<std::uint32_t> facets;  ///< the far ones by number, in the order in which they are halved
+  std::vector<std::uint32_t> facets;  ///< the tested ones by number, in the order in which they are halved
   /// Group by group of facets, and for each what becomes of the nodes of the scene's tree: the number of a plane that
   /// is known (0 to 15); 16 and a new plane's normal, three whole numbers; 17: to be taken apart; 18: left to the
   /// halves of the group; 19: nothing of it lies in front of the target.

@@ -118,7 +118,7 @@ VANTAGE_API MaximalProof join(const MaximalProof& a, const MaximalProof& b, cons
 struct ProofReport {
   std::vector<ClaimProof> claims;
   std::size_t facets = 0;               ///< of the volume
-  std::size_t far_facets = 0;           ///< that face away from a part of the target, summed over the parts
+  std::size_t tested_facets = 0;        ///< whose plane does not hold the centre of a part, summed over the parts
   std::vector<std::uint32_t> unproved;  ///< facets of which it is not proved that the target is seen from them
   double unproved_area_share = 0;       ///< of the whole surface
   std::optional<HiddenView> witness;    ///< the deepest that was found; of `wrong` sight

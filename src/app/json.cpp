@@ -127,7 +127,7 @@ Json json_of(const ProofReport& report) {
     json["claims"].push_back(std::move(one));
   }
   json["facets"] = report.facets;
-  json["far_facets"] = report.far_facets;
+  json["tested_facets"] = report.tested_facets;
   json["unproved"] = report.unproved;
   json["unproved_area_share"] = report.unproved_area_share;
   json["witness"] = nullptr;

@@ -12,9 +12,10 @@
 namespace vantage {
 namespace {
 
+constexpr double kMostLift = 0.01;  // metres; a target is raised by no more than 2.01 mm
+
 /// The largest lift of the target's parts, by the report beside the file, if there is one.
 std::optional<double> reported_lift_m(const std::filesystem::path& volume_file) {
-  constexpr double kMostLift = 0.01;  // metres; a target is raised by no more than 2.01 mm
   std::filesystem::path volume = volume_file;
   if (volume.extension() == ".gz") volume.replace_extension();
   const std::filesystem::path report = report_file(volume);
@@ -48,6 +49,11 @@ VerifyOptions verify_options(const VolumeFile& read, const Mission& mission) {
   options.tolerance_m = mission.as_written.exact.tolerance_m;
   options.rounding_m = read.rounding_m;
   options.lift_m = read.volume.lift_m;
+  for (const double lift : options.lift_m) {
+    if (lift <= kMostLift) continue;
+    throw Error(ErrorCode::record_garbled, "the volume says that its target was raised by more than 0.01 m",
+                read.file.string(), "compute it again: its header was changed");
+  }
   std::size_t parts = 0;
   for (const std::vector<Target>& view : internal::app::views_of(mission)) {
     for (const Target& target : view) parts += target.parts.size();

@@ -61,7 +61,7 @@ void join(ProofReport& all, ProofReport&& one, const Mesh& volume) {
   for (std::size_t i = 0; i < all.claims.size(); ++i) {
     if (one.claims[i].verdict > all.claims[i].verdict) all.claims[i] = one.claims[i];
   }
-  all.far_facets += one.far_facets;
+  all.tested_facets += one.tested_facets;
   all.separations += one.separations;
   all.seconds += one.seconds;
   all.margin_m = std::max(all.margin_m, one.margin_m);

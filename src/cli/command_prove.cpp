@@ -98,7 +98,7 @@ std::string table_text(const ProofReport& report, const std::string& file, bool 
   TextTable table;
   table.heading(file);
   for (const ClaimProof& claim : report.claims) table.row(claim.name, name_of(claim.verdict), claim.text);
-  table.row("facets", count(report.far_facets), "facing away from a part of the target, all looked at");
+  table.row("facets", count(report.tested_facets), "that a line of sight can leave the volume by, all looked at");
   if (!report.unproved.empty()) {
     table.row("open facets", count(report.unproved.size()),
               fixed(100 * report.unproved_area_share, 4) + " % of the surface");

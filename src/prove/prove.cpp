@@ -158,7 +158,7 @@ prove::SolidMesh Prover::in_front(const std::vector<Vec3>& vertices, const prove
   return part;
 }
 
-/// `judged`: shrunk, about View::origin, of which `facets` look away from the target and `numbers` are in the file.
+/// `judged`: shrunk, about View::origin, of which `facets` are tested and `numbers` are in the file.
 void Prover::look_for_witness(const Mesh& judged, const std::vector<Triangle>& facets,
                               const std::vector<std::uint32_t>& numbers, const prove::View& view,
                               const prove::SceneTree& obstacles, const std::vector<prove::OpenFacet>& open) {
@@ -174,9 +174,14 @@ void Prover::look_for_witness(const Mesh& judged, const std::vector<Triangle>& f
     if (!blocked) continue;
     if (report_.witness && blocked->depth_m <= report_.witness->depth_m) continue;
     if (!surface.was_below_for_sure(blocked->viewpoint, blocked->depth_m)) continue;
+    // As it is told: sums are rounded once more.
+    const Vec3 viewpoint = view.origin + blocked->viewpoint, target_point = view.origin + blocked->target_point;
+    const auto& [first, second, third] = scene_.mesh.triangles[obstacle.of];
+    const std::vector<Vec3>& corners = scene_.mesh.vertices;
+    if (!prove::passes_through(viewpoint, target_point, {corners[first], corners[second], corners[third]})) continue;
     const std::uint32_t object = scene_.object_of.empty() ? 0 : scene_.object_of[obstacle.of];
-    report_.witness = HiddenView{.viewpoint = view.origin + blocked->viewpoint,
-                                 .target_point = view.origin + blocked->target_point,
+    report_.witness = HiddenView{.viewpoint = viewpoint,
+                                 .target_point = target_point,
                                  .triangle = obstacle.of,
                                  .object = object < scene_.objects.size() ? display_name(scene_.objects[object]) : "",
                                  .facet = numbers[open[i].facet],
@@ -205,7 +210,7 @@ void Prover::look_at(std::size_t part, double lift_m, const internal::core::Prog
       if (!view.all_sides) behind_.see(-view.normal.dot(at) - view.margin_m - kRounding * at.norm(), view.origin + at);
     }
     const auto& [a, b, c] = triangle;
-    if (prove::orientation(vertices[a], vertices[b], vertices[c], Vec3::Zero()) <= 0) continue;
+    if (prove::orientation(vertices[a], vertices[b], vertices[c], Vec3::Zero()) == 0) continue;
     facets.push_back(triangle);
     numbers.push_back(judged.facet_of[t]);
   }
@@ -215,7 +220,7 @@ void Prover::look_at(std::size_t part, double lift_m, const internal::core::Prog
   const double share = options_.maximal ? 0.5 : 1;
   const prove::SightProof proof =
       prove::prove_sight(vertices, facets, view, scene_, obstacles, is_recorded, progress.part(0, share));
-  report_.far_facets += facets.size();
+  report_.tested_facets += facets.size();
   report_.separations += proof.separations;
   report_.margin_m = std::max(report_.margin_m, view.margin_m);
   report_.lift_m = std::max(report_.lift_m, lift_m);

@@ -25,16 +25,9 @@ enum Step : std::int64_t { kPlane = 16, kDescend = 17, kLeave = 18, kNothing = 1
 constexpr std::size_t kMostKept = 16;  // known planes
 constexpr std::size_t kMostMet = 8;    // pieces that a facet is open for, and that may give a witness
 
-/// Whether a segment passes through the inside of a triangle.
-bool passes_through(const Vec3& from, const Vec3& to, const Vec3& a, const Vec3& b, const Vec3& c) {
-  if (orientation(a, b, c, from) * orientation(a, b, c, to) >= 0) return false;
-  const int first = orientation(from, to, a, b);
-  return first != 0 && orientation(from, to, b, c) == first && orientation(from, to, c, a) == first;
-}
-
 bool blocks(const Piece& obstacle, const Vec3& from, const Vec3& to) {
   for (std::size_t i = 2; i < obstacle.count; ++i) {
-    if (passes_through(from, to, obstacle.corners[0], obstacle.corners[i - 1], obstacle.corners[i])) return true;
+    if (passes_through(from, to, {obstacle.corners[0], obstacle.corners[i - 1], obstacle.corners[i]})) return true;
   }
   return false;
 }

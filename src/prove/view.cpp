@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "prove/orientation.h"
+
 namespace vantage::internal::prove {
 
 namespace {
@@ -65,6 +67,9 @@ void cut_in_front(const Scene& scene, std::uint32_t t, const View& view, const K
   using Vector = Eigen::Matrix<Number, 3, 1>;
   const double floor = view.all_sides ? -std::numeric_limits<double>::infinity() : view.margin_m;
   const Vector normal = view.normal.cast<Number>();
+  const auto& [first, second, third] = scene.mesh.triangles[t];
+  const std::vector<Vec3>& vertices = scene.mesh.vertices;
+  if (are_on_a_line(vertices[first], vertices[second], vertices[third])) return;  // hides nothing
   std::array<Vector, 3> corners;
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (std::size_t k = 0; k < 3; ++k) {

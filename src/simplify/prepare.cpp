@@ -1,8 +1,12 @@
 #include "simplify/prepare.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "core/edges.h"
 #include "core/weld.h"
@@ -56,6 +60,44 @@ void check_edges(const Mesh& mesh) {
   });
 }
 
+/// How often triangles wind round a point (van Oosterom and Strackee 1983).
+double turns_round(const Mesh& mesh, const Vec3& point) {
+  double angle = 0;
+  for (const auto& [i, j, k] : mesh.triangles) {
+    const Vec3 a = mesh.vertices[i] - point, b = mesh.vertices[j] - point, c = mesh.vertices[k] - point;
+    const double la = a.norm(), lb = b.norm(), lc = c.norm();
+    angle += 2 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+  }
+  return angle / (4 * std::numbers::pi);
+}
+
+/// A piece that is inside out takes away: where there is nothing to take away, something would be added for those who
+/// count what a mesh winds round in either direction. Looks at some facets of each.
+void check_cavities(const Mesh& mesh, const core::Pieces& pieces) {
+  constexpr std::size_t kMostTried = 64;
+  for (std::uint32_t piece = 0; piece < pieces.pieces.size(); ++piece) {
+    if (pieces.pieces[piece].volume_m3 >= 0) continue;
+    Mesh others{mesh.vertices, {}};
+    std::vector<std::uint32_t> own;
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+      if (pieces.piece_of[t] == piece) {
+        own.push_back(t);
+      } else {
+        others.triangles.push_back(mesh.triangles[t]);
+      }
+    }
+    for (std::size_t i = 0; i < own.size(); i += 1 + own.size() / kMostTried) {
+      const auto& [a, b, c] = mesh.triangles[own[i]];
+      const Vec3 middle = (mesh.vertices[a] + mesh.vertices[b] + mesh.vertices[c]) / 3;
+      if (turns_round(others, middle) > 0.5) continue;
+      throw Error(ErrorCode::mesh_inside_out,
+                  "a piece of the mesh is inside out, at " + std::to_string(middle.x()) + ", " +
+                      std::to_string(middle.y()) + ", " + std::to_string(middle.z()),
+                  kWhere, "turn its triangles round");
+    }
+  }
+}
+
 }  // namespace
 
 Prepared prepare(const Mesh& volume) {
@@ -80,6 +122,7 @@ Prepared prepare(const Mesh& volume) {
   }
   if (volume_m3 == 0) throw Error(ErrorCode::mesh_without_inside, "the mesh encloses nothing", kWhere, kAdvice);
   prepared.pieces = core::find_pieces(mesh);
+  check_cavities(mesh, prepared.pieces);
   return prepared;
 }
 
