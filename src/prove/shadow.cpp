@@ -125,9 +125,9 @@ ShadowTarget shadow_target(const View& view, double point_radius_m) {
   ShadowTarget target;
   target.normal = view.normal;
   target.floor_m = view.all_sides ? -std::numeric_limits<double>::infinity() : view.margin_m;
-  target.is_flat = view.corners.size() >= 3;
+  target.is_flat = view.surely.size() >= 3;
   if (target.is_flat) {
-    target.faces.push_back(view.corners);
+    target.faces.push_back(view.surely);
   } else {
     const Vec3 u = point_radius_m * view.normal.unitOrthogonal(), w = point_radius_m * view.normal;
     const Vec3 v = view.normal.cross(u);

@@ -45,14 +45,16 @@ View make_view(const Target& target, std::size_t part, double lift_m) {
     }
     return corners;
   };
-  view.corners = view.whole = placed(frame.polygon);
+  view.corners = view.whole = view.surely = placed(frame.polygon);
   if (view.all_sides) return view;
   // vantage/volume.h says what numbers cannot tell.
   constexpr double kPart = 1e-9, kMost = 1e-9, kRoundings = 8;
   const double largest = view.origin.cwiseAbs().maxCoeff() + frame.enclosing_radius_m;
-  view.margin_m = std::max(std::min(kPart * frame.enclosing_radius_m, kMost),
-                           kRoundings * std::numeric_limits<double>::epsilon() * largest);
+  const double rounded = kRoundings * std::numeric_limits<double>::epsilon() * largest;
+  view.margin_m = std::max(std::min(kPart * frame.enclosing_radius_m, kMost), rounded);
   if (frame.polygon.size() < 3) return view;
+  view.surely = placed(less_strip(frame.polygon, rounded));
+  if (view.surely.size() < 3) view.surely = {Vec3::Zero()};
   view.corners = placed(less_strip(frame.polygon, view.margin_m));
   if (view.corners.size() < 3) view.corners = {Vec3::Zero()};
   return view;

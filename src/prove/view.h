@@ -17,6 +17,7 @@ struct View {
   bool all_sides = false;
   std::vector<Vec3> whole;    ///< the part's corners
   std::vector<Vec3> corners;  ///< less the strip along its outline
+  std::vector<Vec3> surely;   ///< less so much only that what is left is in the target, whatever was rounded
   double margin_m = 0;        ///< the strip's width, and the height under which obstacles do not count
 };
 
