@@ -36,7 +36,7 @@ def experiment(program, case, out):
 
 
 def proof_of(check):
-    """What the proof says: "all" and the number of facets that face away from the target, or its verdict."""
+    """What the proof says: "all" and the number of facets that were tested, or its verdict."""
     proof = check["proof"]
     return f"all {proof['tested_facets']:,}" if proof["verdict"] == "proved" else proof["verdict"]
 
