@@ -38,15 +38,17 @@ enum class WitnessKind : std::uint8_t {
 VANTAGE_API const char* name_of(WitnessKind kind);
 
 struct ProveOptions {
-  double shrink = 1e-6;             ///< the proof is of the volume shrunk by this part of the distance towards the
-                                    ///< target; at least 0, less than 1
-  double rounding_m = 0;            ///< of the volume's file (Scene::rounding_m): limits may be broken by so much, and
-                                    ///< sight is wrong only where it is hidden deeper below the facet
-  std::vector<double> lift_m = {};  ///< how far each part of the target was raised (Volume::lift_m); empty: not at all
-  bool maximal = false;             ///< whether the volume is as large as it can be, too
-  double tolerance_m = 0.01;        ///< for `maximal`: how far the volume's range facets may lie inside the range
-                                    ///< (ExactOptions::tolerance_m); at least 0
-  bool certificate = false;         ///< record one: takes longer, as all of the scene goes into its tree
+  double shrink = 1e-6;   ///< the proof is of the volume shrunk by this part of the distance towards the
+                          ///< target; at least 0, less than 1
+  double rounding_m = 0;  ///< of the volume's file (Scene::rounding_m): limits may be broken by so much, and
+                          ///< sight is wrong only where it is hidden deeper below the facet
+  /// How far each part of the target was raised (Volume::lift_m), 0 to kMostLift; empty: not at all.
+  std::vector<double> lift_m = {};
+  static constexpr double kMostLift = 0.01;
+  bool maximal = false;       ///< whether the volume is as large as it can be, too
+  double tolerance_m = 0.01;  ///< for `maximal`: how far the volume's range facets may lie inside the range
+                              ///< (ExactOptions::tolerance_m); at least 0
+  bool certificate = false;   ///< record one: takes longer, as all of the scene goes into its tree
 
   /// Of a target that may be seen from one side or the other, one side: how far the plane of the other one, raised as
   /// well, lies behind its plane. At least 0. Then what lies behind is left to a call for the other side, and nothing
@@ -69,7 +71,8 @@ struct ClaimProof {
   ProofVerdict verdict = ProofVerdict::not_proved;
   std::string text;  ///< by what, why not, or where it is wrong
 
-  /// Of a limit that is wrong: a place of the volume, scene frame, that breaks it, and by how many metres at least.
+  /// Of range, front or a limit that is wrong: a place of the volume, scene frame, that breaks it, and by how many
+  /// metres at least.
   std::optional<Vec3> place = {};
   double broken_by_m = 0;
 };

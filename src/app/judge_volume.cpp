@@ -12,7 +12,7 @@
 namespace vantage {
 namespace {
 
-constexpr double kMostLift = 0.01;  // metres; a target is raised by no more than 2.01 mm
+constexpr double kMostLift = ProveOptions::kMostLift;  // a target is raised by no more than 2.01 mm
 
 /// The largest lift of the target's parts, by the report beside the file, if there is one.
 std::optional<double> reported_lift_m(const std::filesystem::path& volume_file) {

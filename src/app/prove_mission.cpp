@@ -1,5 +1,6 @@
 // The proof of a mission's volume, and its certificate.
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -26,8 +27,10 @@ struct ProvedView {
 std::optional<double> two_sides(const std::vector<Target>& list) {
   if (list.size() != 2 || list[0].parts.size() != 1 || list[1].parts.size() != 1) return std::nullopt;
   const TargetFrame a = make_target_frame(list[0]), b = make_target_frame(list[1]);
-  constexpr double kRounding = 1e-12;
-  if (a.all_sides || b.all_sides || a.normal.dot(b.normal) > kRounding - 1) return std::nullopt;
+  // Normals of the same corners, run the other way: the same but for their last digits. What leans away by more leaves
+  // a wedge between the two planes, in which anything may hide.
+  constexpr double kLastDigits = 16 * std::numeric_limits<double>::epsilon(), kRounding = 1e-12;
+  if (a.all_sides || b.all_sides || (a.normal + b.normal).norm() > kLastDigits) return std::nullopt;
   const double apart = a.normal.dot(a.origin - b.origin);
   const double largest = a.origin.cwiseAbs().maxCoeff() + a.enclosing_radius_m;
   return apart >= -kRounding * largest ? std::optional(std::max(apart, 0.0)) : std::nullopt;

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "core/format.h"
 #include "core/parallel.h"
 #include "prove/convex_polygon.h"
+#include "prove/winding.h"
 
 namespace vantage::internal::prove {
 namespace {
@@ -62,8 +62,26 @@ LimitedVolume LimitedVolume::in_front_of(const Vec3& point, const Vec3& normal) 
 
 std::optional<bool> LimitedVolume::is_outside(const Vec3& point) const {
   if ((point.array() < box_.min.array()).any() || (point.array() > box_.max.array()).any()) return true;
-  const std::optional<int> turns = turns_round(closed_, point);
+  Winding winding(point);
+  for (const Corners& facet : closed_) winding.add(facet);
+  const std::optional<int> turns = winding.turns(unsure_m_);
   return turns ? std::optional(*turns == 0) : std::nullopt;
+}
+
+bool LimitedVolume::is_there(const Vec3& point, double within_m) const {
+  constexpr double kNarrower = 8;
+  for (double step = within_m; step > 4 * unsure_m_; step /= kNarrower) {
+    for (int x = -1; x <= 1; ++x) {
+      for (int y = -1; y <= 1; ++y) {
+        for (int z = -1; z <= 1; ++z) {
+          const Vec3 way(x, y, z);
+          const Vec3 at = point + step / std::max(way.norm(), 1.0) * way;
+          if (!is_outside(at).value_or(true)) return true;
+        }
+      }
+    }
+  }
+  return false;
 }
 
 std::vector<FacetFinding> LimitedVolume::look_at_facets(const std::function<void(const Corners&, FacetFinding&)>& look,
@@ -85,9 +103,10 @@ ClaimProof LimitedVolume::judged(const std::string& name, const std::vector<Face
   for (const FacetFinding& finding : findings) {
     if (finding.is_open) ++open;
     worst.see(finding.broken.by_m, finding.broken.at);
+    worst.is_unknown = worst.is_unknown || finding.broken.is_unknown;
   }
   if (worst.by_m > tolerance_m_) return wrong(name, worst, limit);
-  if (open == 0) return proved(name, how);
+  if (open == 0 && !worst.is_unknown) return proved(name, how);
   return not_proved(name, "it is open for " + std::to_string(open) + " facets");
 }
 
@@ -96,26 +115,18 @@ ClaimProof LimitedVolume::judged_at_vertices(const std::string& name, const std:
   Broken worst;
   for (const Vec3& vertex : vertices_) worst.see(excess(vertex), vertex);
   if (worst.by_m > tolerance_m) return wrong(name, worst, "the limit");
+  if (worst.is_unknown) return not_proved(name, "it cannot be computed for some vertex");
   return proved(name, "it holds at every vertex, and what it allows is convex");
 }
 
 ClaimProof LimitedVolume::wrong(const std::string& name, const Broken& broken, const std::string& limit) const {
+  // Nearer than half of that it is broken by the other half, at least.
+  if (!is_there(broken.at, broken.by_m / 2)) {
+    return not_proved(name, "facets break it that may bound nothing, as the two sides of a flap");
+  }
   const Vec3 place = origin_ + broken.at;
   return {name, ProofVerdict::wrong,
           core::format("at {} {} is broken by {:.3g} m", place_text(place), limit, broken.by_m), place, broken.by_m};
-}
-
-std::optional<int> turns_round(const std::vector<LimitedVolume::Corners>& facets, const Vec3& point) {
-  double sum = 0;  // of signed solid angles (Van Oosterom and Strackee 1983)
-  for (const auto& [from, over, to] : facets) {
-    const Vec3 a = from - point, b = over - point, c = to - point;
-    const double la = a.norm(), lb = b.norm(), lc = c.norm();
-    sum += std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
-  }
-  const double turns = sum / (2 * std::numbers::pi);
-  constexpr double kSure = 0.01;
-  if (!(std::abs(turns - std::round(turns)) < kSure)) return std::nullopt;
-  return static_cast<int>(std::lround(turns));
 }
 
 ClaimProof not_proved(const std::string& name, const std::string& why) {

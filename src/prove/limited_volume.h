@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -19,7 +20,10 @@ struct Broken {
   double by_m = -std::numeric_limits<double>::infinity();
   Vec3 at = Vec3::Zero();
 
+  bool is_unknown = false;  ///< what was seen could not be computed for some place
+
   void see(double metres, const Vec3& place) {
+    if (std::isnan(metres)) is_unknown = true;
     if (!(metres > by_m)) return;
     by_m = metres;
     at = place;
@@ -56,6 +60,10 @@ class LimitedVolume {
   /// Whether the mesh does not wind round a point. Nothing where it is too near to the surface to tell.
   std::optional<bool> is_outside(const Vec3& point) const;
 
+  /// Whether the mesh surely winds round some point that is no farther from this one. Facets that lie on each other, as
+  /// two sides of a flap, bound nothing.
+  bool is_there(const Vec3& point, double within_m) const;
+
   /// Looks at every facet, with all threads.
   std::vector<FacetFinding> look_at_facets(const std::function<void(const Corners&, FacetFinding&)>& look,
                                            const core::ProgressReporter& progress) const;
@@ -70,6 +78,7 @@ class LimitedVolume {
   ClaimProof judged_at_vertices(const std::string& name, const std::function<double(const Vec3&)>& excess,
                                 double tolerance_m) const;
 
+  /// Not proved, where the volume is not surely there.
   ClaimProof wrong(const std::string& name, const Broken& broken, const std::string& limit) const;
 
  private:
@@ -81,9 +90,6 @@ class LimitedVolume {
   std::vector<Corners> closed_;  ///< all facets
   Box box_;
 };
-
-/// How often a closed mesh winds round a point. Nothing where it is too near to the surface to tell.
-std::optional<int> turns_round(const std::vector<LimitedVolume::Corners>& facets, const Vec3& point);
 
 ClaimProof not_proved(const std::string& name, const std::string& why);
 ClaimProof proved(const std::string& name, const std::string& how);

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <string>
 
+#include "prove/limit_checks.h"
 #include "prove/limits_distance.h"
 #include "prove/limits_ground.h"
 #include "prove/limits_mesh.h"
 #include "prove/limits_sensor.h"
 #include "prove/limits_zones.h"
-#include "vantage/error.h"
 
 namespace vantage::internal::prove {
 namespace {
@@ -27,54 +27,6 @@ ClaimProof prove_within_box(const std::string& name, const LimitedVolume& volume
   return proved(name, "it holds at every vertex, and what it allows is convex");
 }
 
-void require(bool is_right, const char* problem, const std::string& where, const char* fix) {
-  if (!is_right) throw Error(ErrorCode::limits_reversed, problem, where, fix);
-}
-
-void check_mesh(const Mesh& mesh, const std::string& where) {
-  for (const Triangle& t : mesh.triangles) {
-    for (const std::uint32_t v : t) {
-      if (v < mesh.vertices.size() && mesh.vertices[v].allFinite()) continue;
-      throw Error(ErrorCode::index_out_of_range, "a triangle names a vertex that is missing or not finite", where,
-                  "mend the mesh");
-    }
-  }
-}
-
-void check_heights(const AboveGround& heights, const std::string& where) {
-  require(heights.min_m < heights.max_m, "the band above the ground is reversed or empty", where,
-          "give the lower height first");
-  if (heights.ground.surface) check_mesh(*heights.ground.surface, where);
-}
-
-void check_clearance(const Clearance& clearance) {
-  if (!(clearance.distance_m > 0) || !std::isfinite(clearance.distance_m) || !clearance.obstacles) {
-    throw Error(ErrorCode::value_out_of_range, "the clearance has no positive distance or no obstacles",
-                "navigation clearance", "give both, or leave it out");
-  }
-  check_mesh(*clearance.obstacles, "navigation clearance");
-}
-
-void check_zones(const std::vector<Zone>& zones, const std::string& name) {
-  for (const Zone& zone : zones) {
-    const std::string where = name + " " + zone.name;
-    require(zone.min_z_m < zone.max_z_m, "the zone is reversed or flat", where, "give the lower z first");
-    if (zone.above_ground) check_heights(*zone.above_ground, where);
-    const auto bounds_nothing = [](const Zone::Ring& ring) { return ring.size() < 3; };
-    if (bounds_nothing(zone.outer) || std::any_of(zone.holes.begin(), zone.holes.end(), bounds_nothing)) {
-      throw Error(ErrorCode::zone_not_simple, "a ring of the zone has fewer than 3 corners", where,
-                  "give the corners in order");
-    }
-  }
-}
-
-void check_boxes_of(const std::vector<Box>& boxes, const std::string& name) {
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    require((boxes[i].min.array() < boxes[i].max.array()).all(), "the box is reversed or flat",
-            name + " " + std::to_string(i), "give min smaller than max on every axis");
-  }
-}
-
 }  // namespace
 
 // All members are named: a limit that is added does not compile here before it is proved or named.
@@ -83,17 +35,9 @@ std::vector<ClaimProof> prove_limits(const LimitedVolume& volume, const LimitedV
                                      const core::ProgressReporter& progress) {
   const auto& [altitude, keep_in, keep_in_zones, keep_out, keep_out_zones, meshes, above_ground, clearance] =
       navigation;
-  check_boxes_of(keep_in, "keep_in");
-  check_zones(keep_in_zones, "keep_in zone");
-  check_boxes_of(keep_out, "keep_out");
-  check_zones(keep_out_zones, "keep_out zone");
-  for (const KeepInMesh& mesh : meshes) check_mesh(mesh.mesh, "keep-in mesh '" + mesh.name + "'");
-  if (above_ground) check_heights(*above_ground, "navigation altitude");
-  if (clearance) check_clearance(*clearance);
+  check_limits(navigation);
   std::vector<ClaimProof> claims;
   if (altitude) {
-    require(altitude->min_m < altitude->max_m, "the altitude band is reversed or empty", "navigation altitude",
-            "give the lower altitude first");
     const double all = std::numeric_limits<double>::infinity();
     claims.push_back(
         prove_within_box("altitude", volume, {{-all, -all, altitude->min_m}, {all, all, altitude->max_m}}));

@@ -26,7 +26,7 @@ struct TooNear {
         tree, [&](const Box& node) { return distance_of_boxes(node, box) >= needed; },
         [&](std::uint32_t i) {
           const NearestPoints nearest = nearest_points(facet, tree.pieces[i].first_three());
-          if (nearest.distance >= needed) return;
+          if (surely_apart_by(nearest, facet, tree.pieces[i].first_three()) >= needed) return;
           finding.is_open = true;
           finding.broken.see(distance_m - nearest.distance, nearest.on_a);
           needed = nearest.distance;

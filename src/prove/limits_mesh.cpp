@@ -9,6 +9,7 @@
 
 #include "prove/convex_polygon.h"
 #include "prove/triangle_distance.h"
+#include "prove/winding.h"
 
 namespace vantage::internal::prove {
 namespace {
@@ -42,7 +43,9 @@ struct Hold {
 
   /// Metres to it from a point outside; nothing where it is inside, or too near to tell.
   std::optional<double> outside_by(const Vec3& point) const {
-    if (turns_round(facets, point) != 0) return std::nullopt;
+    Winding winding(point);
+    for (const auto& corners : facets) winding.add(corners);
+    if (winding.turns(0) != 0) return std::nullopt;
     double least = std::numeric_limits<double>::infinity();
     for (const auto& corners : facets) {
       least = std::min(least, nearest_points({point, point, point}, corners).distance);

@@ -64,16 +64,27 @@ class SunCone {
     return std::max(most, inside_by(middle - position));
   }
 
+  /// A normal that leans towards the axis by `towards` has the cone behind it, but for rounding: so far in front, at
+  /// most, is a point of the cone at a distance of 1. The angle between the two is one of arc cosine, which is blunt
+  /// where the cone is nearly flat.
+  double most_in_front(double towards) const {
+    constexpr double kRounding = 1e-15;  // of the sums that `towards` is made of, of the sine and of the cosine
+    const double across = std::sqrt(std::max(1 - towards * towards + 4 * kRounding, 0.0));
+    return std::max(towards * cosine_ + across * sine_ + 4 * kRounding, 0.0);
+  }
+
   /// Whether the plane with this normal leaves all lines of sight out of the cone, less the tolerance: its top then
   /// lies farther along by the tolerance over the sine.
   bool separates(const Vec3& normal, const LimitedVolume::Corners& facet) const {
-    constexpr double kRounding = 1e-15;
     const double towards = normal.dot(axis_);
-    if (!(towards <= -sine_ + kRounding)) return false;
-    double least = std::numeric_limits<double>::infinity(), farthest = -least;
+    double least = std::numeric_limits<double>::infinity(), farthest = -least, longest = 0;
     for (const Vec3& corner : target_) least = std::min(least, normal.dot(corner));
-    for (const Vec3& corner : facet) farthest = std::max(farthest, normal.dot(corner));
-    return least - farthest >= towards * tolerance_m_ / sine_;
+    for (const Vec3& corner : facet) {
+      farthest = std::max(farthest, normal.dot(corner));
+      for (const Vec3& end : target_) longest = std::max(longest, (end - corner).norm());
+    }
+    const double top = tolerance_m_ / sine_;
+    return least - farthest >= towards * top + most_in_front(towards) * (longest + top);
   }
 
   Vec3 slanted(double turn) const { return cosine_ * (std::cos(turn) * side_ + std::sin(turn) * up_) - sine_ * axis_; }

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <queue>
 #include <utility>
@@ -14,6 +13,7 @@
 #include "prove/flat_polygons.h"
 #include "prove/orientation.h"
 #include "prove/shadow.h"
+#include "prove/winding.h"
 
 namespace vantage::internal::prove {
 namespace {
@@ -345,15 +345,12 @@ FacetWitness FacetJudge::summary() const {
   return {kind, is_limit ? limit_ : 0, covered_[0] / all};
 }
 
-/// How often triangles wind round the origin (van Oosterom and Strackee 1983).
-double turns_about(const Vec3& point, const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles) {
-  double angle = 0;
-  for (const auto& [i, j, k] : triangles) {
-    const Vec3 a = vertices[i] - point, b = vertices[j] - point, c = vertices[k] - point;
-    const double la = a.norm(), lb = b.norm(), lc = c.norm();
-    angle += 2 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
-  }
-  return angle / (4 * std::numbers::pi);
+/// Nothing where it is too near to tell.
+std::optional<int> turns_about(const Vec3& point, const std::vector<Vec3>& vertices,
+                               const std::vector<Triangle>& triangles) {
+  Winding winding(point);
+  for (const auto& [i, j, k] : triangles) winding.add({vertices[i], vertices[j], vertices[k]});
+  return winding.turns(0);
 }
 
 }  // namespace
@@ -430,8 +427,8 @@ std::vector<MaximalCondition> whole_conditions(const std::vector<Vec3>& vertices
   const double step = std::isfinite(nearest) ? nearest / 2 : 0;
   const Vec3 just_before = beyond.view.all_sides ? Vec3(Vec3::Zero()) : Vec3(step * beyond.view.normal);
   const bool is_clear = beyond.view.all_sides || highest <= beyond.grow * step;
-  const bool is_round = step > 64 * kUnitRounding * reach && is_clear &&
-                        std::abs(turns_about(just_before, vertices, triangles) - 1) < 1e-6;
+  const bool is_round =
+      step > 64 * kUnitRounding * reach && is_clear && turns_about(just_before, vertices, triangles) == 1;
   std::vector<MaximalCondition> conditions;
   conditions.push_back({"all that is close to the target's centre, in front, is inside", is_round});
   conditions.push_back(

@@ -3,11 +3,13 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <limits>
 #include <utility>
 
+#include "core/format.h"
 #include "core/progress_reporter.h"
 #include "prove/convex_polygon.h"
 #include "prove/limited_volume.h"
@@ -39,6 +41,14 @@ void check_options(const Target& target, const Sensor& sensor, const ProveOption
     throw Error(ErrorCode::value_out_of_range, "tolerance_m is not a number of at least 0", "tolerance_m",
                 "give how far facets of the volume may lie inside its range, in metres");
   }
+  if (target.parts.empty()) {
+    throw Error(ErrorCode::target_parts_invalid, "the target has no parts", "target", "give it one or more");
+  }
+  for (const double lift : options.lift_m) {
+    if (lift >= 0 && lift <= ProveOptions::kMostLift) continue;
+    throw Error(ErrorCode::value_out_of_range, "a lift is not a number from 0 to 0.01", "lift_m",
+                "give how far the part was raised, in metres");
+  }
   if (!options.lift_m.empty() && options.lift_m.size() != target.parts.size()) {
     throw Error(ErrorCode::array_sizes_differ, "the lifts are not as many as the target's parts", "lift_m",
                 "give one for each part, or none");
@@ -60,6 +70,28 @@ void check_options(const Target& target, const Sensor& sensor, const ProveOption
               sensor.visible ? "sensor.visible" : "sensor.link", "check it with 'vantage verify'");
 }
 
+/// What nobody looked at before: a scene may be made in memory.
+void check_scene(const Scene& scene) {
+  constexpr const char* kFix = "mend the scene";
+  if (!scene.object_of.empty() && scene.object_of.size() != scene.mesh.triangles.size()) {
+    throw Error(ErrorCode::array_sizes_differ, "the scene's triangles and their objects are not as many", "scene",
+                kFix);
+  }
+  for (std::size_t t = 0; t < scene.mesh.triangles.size(); ++t) {
+    for (const std::uint32_t v : scene.mesh.triangles[t]) {
+      if (v >= scene.mesh.vertices.size()) {
+        throw Error(ErrorCode::index_out_of_range,
+                    "triangle " + std::to_string(t) + " of the scene names vertex " + std::to_string(v) + " of " +
+                        std::to_string(scene.mesh.vertices.size()),
+                    "scene", kFix);
+      }
+      if (scene.mesh.vertices[v].allFinite()) continue;
+      throw Error(ErrorCode::coordinate_not_finite,
+                  "vertex " + std::to_string(v) + " of the scene has a coordinate that is not finite", "scene", kFix);
+    }
+  }
+}
+
 /// The vertex at which something is largest.
 struct Worst {
   double by = -std::numeric_limits<double>::infinity();
@@ -71,11 +103,6 @@ struct Worst {
     at = place;
   }
 };
-
-std::string at_text(const Vec3& place) {
-  return "the vertex at " + std::to_string(place.x()) + ", " + std::to_string(place.y()) + ", " +
-         std::to_string(place.z());
-}
 
 class Prover {
  public:
@@ -100,12 +127,13 @@ class Prover {
                        const std::vector<std::uint32_t>& numbers, const prove::SightProof& proof);
   void look_beyond(const prove::View& view, const prove::SceneTree& obstacles,
                    const internal::core::ProgressReporter& progress);
-  void add_limits(const internal::core::ProgressReporter& progress);
+  void add_range(const prove::LimitedVolume& volume);
+  void add_front(const prove::LimitedVolume& volume);
   std::vector<Vec3> shrunk(const prove::View& view) const;
   prove::SolidMesh in_front(const std::vector<Vec3>& vertices, const prove::View& view);
-  void look_for_witness(const Mesh& judged, const std::vector<Triangle>& facets,
-                        const std::vector<std::uint32_t>& numbers, const prove::View& view,
-                        const prove::SceneTree& obstacles, const std::vector<prove::OpenFacet>& open);
+  struct Judged;
+  void look_for_witness(const Judged& judged, const prove::View& view, const prove::SceneTree& obstacles,
+                        const std::vector<prove::OpenFacet>& open, const internal::core::ProgressReporter& progress);
 
   const Scene& scene_;
   const Target& target_;
@@ -158,50 +186,75 @@ prove::SolidMesh Prover::in_front(const std::vector<Vec3>& vertices, const prove
   return part;
 }
 
-/// `judged`: shrunk, about View::origin, of which `facets` are tested and `numbers` are in the file.
-void Prover::look_for_witness(const Mesh& judged, const std::vector<Triangle>& facets,
-                              const std::vector<std::uint32_t>& numbers, const prove::View& view,
-                              const prove::SceneTree& obstacles, const std::vector<prove::OpenFacet>& open) {
+/// The volume, shrunk, about View::origin.
+struct Prover::Judged {
+  Mesh whole;
+  prove::SolidMesh front;              ///< what of it is looked at
+  std::vector<Triangle> facets;        ///< of that, those that are tested
+  std::vector<std::uint32_t> numbers;  ///< of these, in the volume that was given
+};
+
+/// Where a segment passes the plane of a triangle.
+Vec3 passage(const Vec3& from, const Vec3& to, const std::array<Vec3, 3>& corners) {
+  const Vec3 normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+  const double at_from = normal.dot(from - corners[0]), at_to = normal.dot(to - corners[0]);
+  return from + at_from / (at_from - at_to) * (to - from);
+}
+
+/// Whether it is so as it is told, in the scene frame, where sums are rounded once more; and whether what hides counts.
+bool is_hidden(const prove::Blocked& blocked, const prove::View& view, const std::array<Vec3, 3>& corners) {
+  const Vec3 from = view.origin + blocked.viewpoint, to = view.origin + blocked.target_point;
+  if (!prove::passes_through(from, to, corners)) return false;
+  return view.all_sides || view.normal.dot(passage(from, to, corners) - view.origin) > view.margin_m;
+}
+
+void Prover::look_for_witness(const Judged& judged, const prove::View& view, const prove::SceneTree& obstacles,
+                              const std::vector<prove::OpenFacet>& open,
+                              const internal::core::ProgressReporter& progress) {
   if (open.empty()) return;
   constexpr std::size_t kMostFacets = 2000;  // looked at: evenly among those that are open
   const std::size_t step = 1 + open.size() / kMostFacets;
-  const prove::RoundedSurface surface(judged, options_.rounding_m);
+  const prove::RoundedSurface surface(judged.whole, options_.rounding_m);
   for (std::size_t i = 0; i < open.size(); i += step) {
-    const auto& [a, b, c] = facets[open[i].facet];
+    progress.report(i, open.size());
     const prove::Piece& obstacle = obstacles.pieces[open[i].piece];
-    const auto blocked =
-        prove::find_blocked({judged.vertices[a], judged.vertices[b], judged.vertices[c]}, view, obstacle);
-    if (!blocked) continue;
-    if (report_.witness && blocked->depth_m <= report_.witness->depth_m) continue;
-    if (!surface.was_below_for_sure(blocked->viewpoint, blocked->depth_m)) continue;
-    // As it is told: sums are rounded once more.
-    const Vec3 viewpoint = view.origin + blocked->viewpoint, target_point = view.origin + blocked->target_point;
-    const auto& [first, second, third] = scene_.mesh.triangles[obstacle.of];
-    const std::vector<Vec3>& corners = scene_.mesh.vertices;
-    if (!prove::passes_through(viewpoint, target_point, {corners[first], corners[second], corners[third]})) continue;
-    const std::uint32_t object = scene_.object_of.empty() ? 0 : scene_.object_of[obstacle.of];
-    report_.witness = HiddenView{.viewpoint = viewpoint,
-                                 .target_point = target_point,
-                                 .triangle = obstacle.of,
-                                 .object = object < scene_.objects.size() ? display_name(scene_.objects[object]) : "",
-                                 .facet = numbers[open[i].facet],
-                                 .depth_m = blocked->depth_m};
+    std::array<Vec3, 3> facet, corners;
+    for (std::size_t k = 0; k < 3; ++k) {
+      facet[k] = judged.front.mesh.vertices[judged.facets[open[i].facet][k]];
+      corners[k] = scene_.mesh.vertices[scene_.mesh.triangles[obstacle.of][k]];
+    }
+    // At a corner the volume may lie beside the line to the target. Behind or before a place inside of the facet it
+    // does not, unless the facet bounds nothing.
+    const Vec3 middle = (facet[0] + facet[1] + facet[2]) / 3;
+    for (const double inward : {0.0, 0.1}) {
+      for (Vec3& corner : facet) corner += inward * (middle - corner);
+      const auto blocked = prove::find_blocked(facet, view, obstacle);
+      if (!blocked || (report_.witness && blocked->depth_m <= report_.witness->depth_m)) break;
+      if (!is_hidden(*blocked, view, corners)) continue;
+      if (!surface.surely_held(blocked->viewpoint, blocked->depth_m)) continue;
+      const std::uint32_t object = scene_.object_of.empty() ? 0 : scene_.object_of[obstacle.of];
+      report_.witness = HiddenView{.viewpoint = view.origin + blocked->viewpoint,
+                                   .target_point = view.origin + blocked->target_point,
+                                   .triangle = obstacle.of,
+                                   .object = object < scene_.objects.size() ? display_name(scene_.objects[object]) : "",
+                                   .facet = judged.numbers[open[i].facet],
+                                   .depth_m = blocked->depth_m};
+      break;
+    }
   }
 }
 
 void Prover::look_at(std::size_t part, double lift_m, const internal::core::ProgressReporter& progress) {
   constexpr double kRounding = 8 * std::numeric_limits<double>::epsilon();  // of a vertex that lies in the plane
   const prove::View view = prove::make_view(target_, part, lift_m);
-  prove::SolidMesh judged = solid_;
-  judged.mesh.vertices = shrunk(view);
-  if (options_.other_side_m) judged = in_front(judged.mesh.vertices, view);
-  const std::vector<Vec3>& vertices = judged.mesh.vertices;
+  Judged judged{{shrunk(view), solid_.mesh.triangles}, {}, {}, {}};
+  judged.front =
+      options_.other_side_m ? in_front(judged.whole.vertices, view) : prove::SolidMesh{judged.whole, solid_.facet_of};
+  const std::vector<Vec3>& vertices = judged.front.mesh.vertices;
   Box near;
   for (const Vec3& corner : view.corners) near.extend(corner);
-  std::vector<Triangle> facets;
-  std::vector<std::uint32_t> numbers;
-  for (std::size_t t = 0; t < judged.mesh.triangles.size(); ++t) {
-    const Triangle& triangle = judged.mesh.triangles[t];
+  for (std::size_t t = 0; t < judged.front.mesh.triangles.size(); ++t) {
+    const Triangle& triangle = judged.front.mesh.triangles[t];
     for (const std::uint32_t v : triangle) {
       const Vec3& at = vertices[v];
       near.extend(at);
@@ -211,22 +264,22 @@ void Prover::look_at(std::size_t part, double lift_m, const internal::core::Prog
     }
     const auto& [a, b, c] = triangle;
     if (prove::orientation(vertices[a], vertices[b], vertices[c], Vec3::Zero()) == 0) continue;
-    facets.push_back(triangle);
-    numbers.push_back(judged.facet_of[t]);
+    judged.facets.push_back(triangle);
+    judged.numbers.push_back(judged.front.facet_of[t]);
   }
   const bool is_recorded = options_.certificate;
   const prove::SceneTree obstacles =
       is_recorded ? prove::all_obstacles_in_front(scene_, view) : prove::obstacles_in_front(scene_, view, near);
   const double share = options_.maximal ? 0.5 : 1;
   const prove::SightProof proof =
-      prove::prove_sight(vertices, facets, view, scene_, obstacles, is_recorded, progress.part(0, share));
-  report_.tested_facets += facets.size();
+      prove::prove_sight(vertices, judged.facets, view, scene_, obstacles, is_recorded, progress.part(0, 0.9 * share));
+  report_.tested_facets += judged.facets.size();
   report_.separations += proof.separations;
   report_.margin_m = std::max(report_.margin_m, view.margin_m);
   report_.lift_m = std::max(report_.lift_m, lift_m);
-  for (const prove::OpenFacet& open : proof.open) report_.unproved.push_back(numbers[open.facet]);
-  look_for_witness(judged.mesh, facets, numbers, view, obstacles, proof.open);
-  if (is_recorded) add_certificate(part, lift_m, view, numbers, proof);
+  for (const prove::OpenFacet& open : proof.open) report_.unproved.push_back(judged.numbers[open.facet]);
+  look_for_witness(judged, view, obstacles, proof.open, progress.part(0.9 * share, share));
+  if (is_recorded) add_certificate(part, lift_m, view, judged.numbers, proof);
   if (options_.maximal && !options_.other_side_m) look_beyond(view, obstacles, progress.part(0.5, 1));
 }
 
@@ -300,30 +353,47 @@ ProofReport Prover::run(const internal::core::ProgressReporter& progress) {
   report_.claims.push_back({"sight", sight,
                             unproved.empty() ? "what lies between a facet and the target is free, for every facet"
                                              : "of some facets it is open, or wrong"});
-  const auto add = [&](const char* name, bool holds, const char* how, const std::string& broken) {
-    report_.claims.push_back(
-        {name, holds ? ProofVerdict::proved : ProofVerdict::wrong, holds ? std::string(how) : broken});
-  };
-  add("range", farthest_.by <= range_ + options_.rounding_m,
-      "every vertex is within range of every corner of the target",
-      at_text(farthest_.at) + " is " + std::to_string(farthest_.by) + " m from a corner of the target");
-  add("front", behind_.by <= options_.rounding_m, "every vertex is in front of the target",
-      at_text(behind_.at) + " is " + std::to_string(behind_.by) + " m behind the target's plane");
-  add_limits(progress.part(kSightPart, 1));
+  std::vector<prove::View> views;
+  for (std::size_t part = 0; part < target_.parts.size(); ++part) {
+    views.push_back(prove::make_view(target_, part, options_.lift_m.empty() ? 0 : options_.lift_m[part]));
+  }
+  const prove::LimitedVolume all(solid_.mesh, views.front().origin, options_.shrink, options_.rounding_m);
+  report_.limit_tolerance_m = all.tolerance_m();
+  add_range(all);
+  add_front(all);
+  const prove::LimitedVolume& seen = options_.other_side_m ? all.in_front_of(Vec3::Zero(), views.front().normal) : all;
+  const std::vector<ClaimProof> claims =
+      prove::prove_limits(all, seen, views, sensor_, navigation_, progress.part(kSightPart, 1));
+  report_.claims.insert(report_.claims.end(), claims.begin(), claims.end());
   return std::move(report_);
 }
 
-void Prover::add_limits(const internal::core::ProgressReporter& progress) {
-  std::vector<prove::View> parts;
-  for (std::size_t part = 0; part < target_.parts.size(); ++part) {
-    parts.push_back(prove::make_view(target_, part, options_.lift_m.empty() ? 0 : options_.lift_m[part]));
+/// A file's rounding may have moved vertices out of range, and does not count.
+void Prover::add_range(const prove::LimitedVolume& volume) {
+  const double beyond = farthest_.by - range_, allowed = options_.rounding_m;
+  if (beyond > allowed + volume.unsure_m()) {
+    report_.claims.push_back(volume.wrong("range", {beyond, farthest_.at - volume.origin()}, "the range"));
+  } else if (!(beyond <= allowed)) {
+    report_.claims.push_back(prove::not_proved("range", "a vertex is as far as the range, as far as numbers can tell"));
+  } else {
+    std::string how = "every vertex is within range of every corner of the target";
+    if (beyond > 0) how += internal::core::format(", but for {:.3g} m that the file's numbers explain", beyond);
+    report_.claims.push_back(prove::proved("range", how));
   }
-  const prove::LimitedVolume volume(solid_.mesh, parts.front().origin, options_.shrink, options_.rounding_m);
-  report_.limit_tolerance_m = volume.tolerance_m();
-  const std::vector<ClaimProof> claims = prove::prove_limits(
-      volume, options_.other_side_m ? volume.in_front_of(Vec3::Zero(), parts.front().normal) : volume, parts, sensor_,
-      navigation_, progress);
-  report_.claims.insert(report_.claims.end(), claims.begin(), claims.end());
+}
+
+/// From what a file's rounding moved behind the target nothing is known: its view is not looked at.
+void Prover::add_front(const prove::LimitedVolume& volume) {
+  if (behind_.by > options_.rounding_m + volume.unsure_m()) {
+    report_.claims.push_back(volume.wrong("front", {behind_.by, behind_.at - volume.origin()}, "the target's plane"));
+  } else if (behind_.by > 0) {
+    report_.claims.push_back(prove::not_proved(
+        "front", internal::core::format("a vertex is {:.3g} m behind the target's plane, which is no more than was "
+                                        "rounded",
+                                        behind_.by)));
+  } else {
+    report_.claims.push_back(prove::proved("front", "every vertex is in front of the target"));
+  }
 }
 
 Box box_of(const Navigation::Altitude& altitude) {
@@ -376,6 +446,7 @@ ProofReport prove_volume(const Scene& scene, const Target& target, const Sensor&
                          const Mesh& volume, const ProveOptions& options, const Progress& callback) {
   const auto begin = std::chrono::steady_clock::now();
   check_options(target, sensor, options);
+  check_scene(scene);
   const internal::core::ProgressReporter progress(callback);
   progress.begin("prove");
   ProofReport report = Prover(scene, target, sensor, navigation, volume, options).run(progress);

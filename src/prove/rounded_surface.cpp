@@ -1,34 +1,92 @@
 #include "prove/rounded_surface.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <utility>
 
 #include "prove/distance.h"
-#include "prove/limited_volume.h"
+#include "prove/orientation.h"
 #include "prove/tree_search.h"
 #include "prove/triangle_distance.h"
 
 namespace vantage::internal::prove {
 
 RoundedSurface::RoundedSurface(const Mesh& volume, double rounding_m) : rounding_m_(rounding_m) {
-  if (rounding_m == 0) return;
   std::vector<Piece> pieces;
   for (const auto& [a, b, c] : volume.triangles) {
-    facets_.push_back({volume.vertices[a], volume.vertices[b], volume.vertices[c]});
-    pieces.push_back(Piece::triangle(facets_.back(), static_cast<std::uint32_t>(pieces.size())));
+    const std::array<Vec3, 3> corners = {volume.vertices[a], volume.vertices[b], volume.vertices[c]};
+    pieces.push_back(Piece::triangle(corners, static_cast<std::uint32_t>(pieces.size())));
+    for (const Vec3& corner : corners) box_.extend(corner);
   }
+  const double largest = std::max(box_.min.cwiseAbs().maxCoeff(), box_.max.cwiseAbs().maxCoeff());
+  constexpr double kRoundings = 16;  // of a place and of its distance
+  rounding_m_ += kRoundings * std::numeric_limits<double>::epsilon() * largest;
   tree_ = make_tree(std::move(pieces));
 }
 
-bool RoundedSurface::was_below_for_sure(const Vec3& on_surface, double depth_m) const {
-  if (rounding_m_ == 0) return true;
-  constexpr int kTried = 8;
+bool RoundedSurface::surely_held(const Vec3& on_surface, double depth_m) const {
+  const double distance = on_surface.norm();
+  if (!(distance > 0)) return false;
+  constexpr int kTried = 8, kHalvings = 24;
   for (int i = 1; i <= kTried; ++i) {
-    const Vec3 position = on_surface * (1 - depth_m / on_surface.norm() * i / kTried);
-    if (is_clear(position) && turns_round(facets_, position).value_or(0) != 0) return true;
+    if (surely_holds(on_surface * (1 - depth_m / distance * i / kTried))) return true;
+  }
+  double part = 1.0 / kTried;
+  for (int i = 0; i < kHalvings; ++i, part /= 2) {
+    if (surely_holds(on_surface * (1 - part * depth_m / distance)) || surely_holds(on_surface * (1 + part)))
+      return true;
   }
   return false;
+}
+
+bool RoundedSurface::surely_holds(const Vec3& position) const {
+  if (!(position.array() >= box_.min.array()).all() || !(position.array() <= box_.max.array()).all()) return false;
+  return turns_round(position).value_or(0) != 0 && is_clear(position);
+}
+
+namespace {
+
+/// Which way a segment passes through a triangle: 1 outward, -1 inward, 0 where it does not; nothing where it meets its
+/// outline, or an end lies in its plane.
+std::optional<int> passage(const Vec3& from, const Vec3& to, const std::array<Vec3, 3>& triangle) {
+  const auto& [a, b, c] = triangle;
+  const std::array<int, 3> sides = {orientation(from, to, a, b), orientation(from, to, b, c),
+                                    orientation(from, to, c, a)};
+  const auto [least, most] = std::minmax_element(sides.begin(), sides.end());
+  if (*least < 0 && *most > 0) return 0;
+  const int at_from = orientation(a, b, c, from), at_to = orientation(a, b, c, to);
+  if (at_from * at_to > 0) return 0;
+  if (at_from * at_to == 0 || *least * *most == 0) {
+    return are_on_a_line(a, b, c) ? std::optional(0) : std::nullopt;
+  }
+  return at_from;
+}
+
+}  // namespace
+
+/// Along a ray that is nearly upright, so that few boxes lie on it; another one where it meets an edge.
+std::optional<int> RoundedSurface::turns_round(const Vec3& position) const {
+  const double height = 2 * (box_.max.z() - box_.min.z()) + 1;
+  for (const Vec3& slant : {Vec3(0.0013, 0.0007, 1), Vec3(-0.0011, 0.0017, 1), Vec3(0.0005, -0.0019, 1)}) {
+    const Vec3 end = position + height * slant;
+    const Vec3 low = position.cwiseMin(end), high = position.cwiseMax(end);
+    int turns = 0;
+    bool is_known = true;
+    search_tree(
+        tree_,
+        [&](const Box& box) {
+          return !is_known || (box.min.array() > high.array()).any() || (box.max.array() < low.array()).any();
+        },
+        [&](std::uint32_t i) {
+          const std::optional<int> passes = passage(position, end, tree_.pieces[i].first_three());
+          is_known = is_known && passes;
+          turns += passes.value_or(0);
+        });
+    if (is_known) return turns;
+  }
+  return std::nullopt;
 }
 
 bool RoundedSurface::is_clear(const Vec3& position) const {

@@ -1,8 +1,7 @@
-// What the surface of a volume leaves open once its vertices were rounded.
+// Whether a volume holds what lies below its surface, once its vertices were rounded.
 #pragma once
 
-#include <array>
-#include <vector>
+#include <optional>
 
 #include "prove/scene_tree.h"
 #include "vantage/geometry.h"
@@ -11,18 +10,23 @@ namespace vantage::internal::prove {
 
 class RoundedSurface {
  public:
-  /// `volume`: closed, about the origin of its view. `rounding_m`: how far a file's numbers moved the surface.
+  /// `volume`: closed, about the origin of its view. `rounding_m`: how far a file's numbers moved the surface, if at
+  /// all.
   RoundedSurface(const Mesh& volume, double rounding_m);
 
-  /// Whether the volume held one of these positions before it was rounded: those from a point on its surface up to
-  /// `depth_m` towards the origin. It did where it holds one that no facet is as near to as it can have been moved.
-  bool was_below_for_sure(const Vec3& on_surface, double depth_m) const;
+  /// Whether the volume held a position, before it was rounded, from which the same is hidden as from a point on its
+  /// surface: one up to `depth_m` nearer to the origin, or any behind. It did where it winds round one that no facet is
+  /// as near to as it can have been moved, or as numbers can tell. Facets that lie on each other, as the two sides of a
+  /// flap, bound nothing. Not all positions are tried.
+  bool surely_held(const Vec3& on_surface, double depth_m) const;
 
  private:
+  bool surely_holds(const Vec3& position) const;
+  std::optional<int> turns_round(const Vec3& position) const;
   bool is_clear(const Vec3& position) const;
 
   double rounding_m_;
-  std::vector<std::array<Vec3, 3>> facets_;
+  Box box_;
   SceneTree tree_;
 };
 

@@ -4,32 +4,31 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 #include <string>
 #include <tuple>
 #include <vector>
 
+#include "prove/winding.h"
 #include "vantage/error.h"
 #include "vantage/volume.h"
 
 namespace vantage::internal::prove {
 namespace {
 
-constexpr const char* kWhere = "volume";
 constexpr const char* kAdvice = "give the closed, outward mesh of a volume";
 constexpr double kFarthestM = 1e9;  // as for scenes
 
-void check_numbers(const Mesh& mesh) {
-  if (mesh.triangles.empty()) throw Error(ErrorCode::mesh_empty, "the mesh has no triangles", kWhere, kAdvice);
+void check_numbers(const Mesh& mesh, const std::string& where) {
+  if (mesh.triangles.empty()) throw Error(ErrorCode::mesh_empty, "the mesh has no triangles", where, kAdvice);
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
     if (!mesh.vertices[v].allFinite()) {
       throw Error(ErrorCode::coordinate_not_finite,
-                  "vertex " + std::to_string(v) + " has a coordinate that is not finite", kWhere, kAdvice);
+                  "vertex " + std::to_string(v) + " has a coordinate that is not finite", where, kAdvice);
     }
     if (mesh.vertices[v].cwiseAbs().maxCoeff() > kFarthestM) {
       throw Error(ErrorCode::coordinate_too_large,
-                  "vertex " + std::to_string(v) + " is farther than 1e9 m from the origin", kWhere,
+                  "vertex " + std::to_string(v) + " is farther than 1e9 m from the origin", where,
                   "move the mesh nearer to the origin");
     }
   }
@@ -39,7 +38,7 @@ void check_numbers(const Mesh& mesh) {
       throw Error(ErrorCode::index_out_of_range,
                   "triangle " + std::to_string(t) + " names vertex " + std::to_string(v) + " of " +
                       std::to_string(mesh.vertices.size()),
-                  kWhere, kAdvice);
+                  where, kAdvice);
     }
   }
 }
@@ -58,7 +57,7 @@ std::vector<std::uint32_t> first_in_place(const std::vector<Vec3>& vertices) {
   return first;
 }
 
-void check_edges(const Mesh& mesh) {
+void check_edges(const Mesh& mesh, const std::string& where) {
   struct Run {
     std::uint32_t low, high;
     int way;
@@ -85,9 +84,9 @@ void check_edges(const Mesh& mesh) {
           " at " + std::to_string(middle.x()) + ", " + std::to_string(middle.y()) + ", " + std::to_string(middle.z());
       if ((end - i) % 2 != 0) {
         throw Error(ErrorCode::mesh_not_closed, "the mesh has a hole: an edge" + at + " has an odd number of triangles",
-                    kWhere, kAdvice);
+                    where, kAdvice);
       }
-      throw Error(ErrorCode::mesh_not_oriented, "the triangles at an edge" + at + " turn different ways", kWhere,
+      throw Error(ErrorCode::mesh_not_oriented, "the triangles at an edge" + at + " turn different ways", where,
                   kAdvice);
     }
     i = end;
@@ -111,25 +110,8 @@ std::vector<std::uint32_t> piece_of(const Mesh& mesh) {
   return pieces;
 }
 
-/// How often triangles wind round a point (van Oosterom and Strackee 1983).
-class Winding {
- public:
-  explicit Winding(const Vec3& point) : point_(point) {}
-
-  void add(const Vec3& corner_a, const Vec3& corner_b, const Vec3& corner_c) {
-    const Vec3 a = corner_a - point_, b = corner_b - point_, c = corner_c - point_;
-    const double la = a.norm(), lb = b.norm(), lc = c.norm();
-    angle_ += 2 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
-  }
-  double turns() const { return angle_ / (4 * std::numbers::pi); }
-
- private:
-  Vec3 point_;
-  double angle_ = 0;
-};
-
 /// A piece that is inside out must lie in another one.
-void check_pieces(const Mesh& mesh) {
+void check_pieces(const Mesh& mesh, const std::string& where) {
   const std::vector<std::uint32_t> pieces = piece_of(mesh);
   std::vector<double> volume(mesh.vertices.size(), 0.0);
   const Vec3 origin = mesh.vertices[mesh.triangles[0][0]];
@@ -143,33 +125,33 @@ void check_pieces(const Mesh& mesh) {
     Winding winding(mesh.vertices[piece]);
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
       const auto& [a, b, c] = mesh.triangles[t];
-      if (pieces[t] != piece) winding.add(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]);
+      if (pieces[t] != piece) winding.add({mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]});
     }
-    if (winding.turns() > 0.5) continue;
+    if (winding.turns(0).value_or(1) > 0) continue;  // also where it touches another one
     const Vec3& at = mesh.vertices[piece];
     throw Error(ErrorCode::mesh_inside_out,
                 "a piece of the mesh is inside out, at " + std::to_string(at.x()) + ", " + std::to_string(at.y()) +
                     ", " + std::to_string(at.z()),
-                kWhere, "turn its triangles round");
+                where, "turn its triangles round");
   }
 }
 
 }  // namespace
 
-SolidMesh solid_mesh(const Mesh& volume) {
-  check_numbers(volume);
-  SolidMesh solid{{volume.vertices, {}}, {}};
-  const std::vector<std::uint32_t> first = first_in_place(volume.vertices);
-  for (std::uint32_t t = 0; t < volume.triangles.size(); ++t) {
-    const auto& [a, b, c] = volume.triangles[t];
+SolidMesh solid_mesh(const Mesh& mesh, const std::string& where) {
+  check_numbers(mesh, where);
+  SolidMesh solid{{mesh.vertices, {}}, {}};
+  const std::vector<std::uint32_t> first = first_in_place(mesh.vertices);
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& [a, b, c] = mesh.triangles[t];
     const Triangle welded = {first[a], first[b], first[c]};
     if (welded[0] == welded[1] || welded[1] == welded[2] || welded[2] == welded[0]) continue;
     solid.mesh.triangles.push_back(welded);
     solid.facet_of.push_back(t);
   }
-  if (solid.mesh.triangles.empty()) throw Error(ErrorCode::mesh_empty, "the mesh has no area", kWhere, kAdvice);
-  check_edges(solid.mesh);
-  check_pieces(solid.mesh);
+  if (solid.mesh.triangles.empty()) throw Error(ErrorCode::mesh_empty, "the mesh has no area", where, kAdvice);
+  check_edges(solid.mesh, where);
+  check_pieces(solid.mesh, where);
   return solid;
 }
 

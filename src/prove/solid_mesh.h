@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "vantage/geometry.h"
@@ -16,7 +17,7 @@ struct SolidMesh {
 /// With vertices in one place taken for one, and without triangles that have two corners there. Throws Error(input) for
 /// what docs/proof.md needs and the mesh is not: without triangles, an index out of range, a coordinate that is not
 /// finite, an edge that its triangles do not run as often one way as the other, a piece that is inside out and no
-/// cavity of another one.
-SolidMesh solid_mesh(const Mesh& volume);
+/// cavity of another one. `where`: what errors call it.
+SolidMesh solid_mesh(const Mesh& mesh, const std::string& where = "volume");
 
 }  // namespace vantage::internal::prove

@@ -77,6 +77,20 @@ NearestPoints nearest_points(const Corners3& a, const Corners3& b) {
   return best;
 }
 
+double surely_apart_by(const NearestPoints& nearest, const Corners3& a, const Corners3& b) {
+  constexpr double kParallel = 1e-7;
+  if (!(nearest.distance > 0)) return 0;
+  double longest = 0, largest = 0;
+  for (const Corners3* corners : {&a, &b}) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      longest = std::max(longest, ((*corners)[(k + 1) % 3] - (*corners)[k]).norm());
+      largest = std::max(largest, (*corners)[k].cwiseAbs().maxCoeff());
+    }
+  }
+  const double missed = kParallel * longest, rounded = 16 * std::numeric_limits<double>::epsilon() * largest;
+  return std::max(nearest.distance - missed * missed / nearest.distance - rounded, 0.0);
+}
+
 double distance_of_boxes(const Box& a, const Box& b) {
   return (a.min - b.max).cwiseMax(b.min - a.max).cwiseMax(0.0).norm();
 }

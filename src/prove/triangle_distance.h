@@ -17,6 +17,9 @@ struct NearestPoints {
 /// points: by (s L)^2 over the distance.
 NearestPoints nearest_points(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b);
 
+/// No two points of the triangles are nearer to each other: `nearest` less what it may miss.
+double surely_apart_by(const NearestPoints& nearest, const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b);
+
 /// Between two boxes; 0 where they meet.
 double distance_of_boxes(const Box& a, const Box& b);
 

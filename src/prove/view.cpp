@@ -62,8 +62,8 @@ View make_view(const Target& target, std::size_t part, double lift_m) {
 
 namespace {
 
-/// What of a triangle is in front, about View::origin: its corners, to `keep`. Cut at half the height, so that rounding
-/// leaves no less than what is above all of it.
+/// What of a triangle is in front, about View::origin: its corners, to `keep`. Cut at half the height, less what is
+/// rounded in the heights of this triangle: so no less is left than what is above all of it.
 template <class Number, class Keep>
 void cut_in_front(const Scene& scene, std::uint32_t t, const View& view, const Keep& keep) {
   using Vector = Eigen::Matrix<Number, 3, 1>;
@@ -81,8 +81,12 @@ void cut_in_front(const Scene& scene, std::uint32_t t, const View& view, const K
     low = std::min(low, height);
     high = std::max(high, height);
   }
-  if (high <= floor) return;
-  const auto cut = static_cast<Number>(floor) / 2;
+  double farthest = 0;
+  for (const Vector& corner : corners) farthest = std::max(farthest, static_cast<double>(corner.norm()));
+  constexpr double kRoundings = 8;  // of a difference, three products and two sums
+  const double rounded = kRoundings * std::numeric_limits<double>::epsilon() * farthest;
+  if (high <= floor - rounded) return;
+  const auto cut = static_cast<Number>(floor) / 2 - static_cast<Number>(rounded);
   for (std::size_t k = 0; k < 3; ++k) {
     const Vector &a = corners[k], &b = corners[(k + 1) % 3];
     const Number at_a = normal.dot(a) - cut, at_b = normal.dot(b) - cut;
