@@ -87,7 +87,26 @@ TEST(ProveInput, LimitsThatBoundNothingAreRefused) {
   yard.navigation.keep_out_zones = {zone_of({{-20, -20}, {20, 20}, {20, -20}, {-20, 20}}, 0, 9)};  // crosses itself
   expect_code([&] { yard.prove(); }, ErrorCode::zone_not_simple);
   yard.navigation.keep_out_zones = {zone_of({{20, 20}, {30, 20}, {30, kNaN}}, 0, 9)};
-  EXPECT_THROW(yard.prove(), Error);
+  expect_code([&] { yard.prove(); }, ErrorCode::coordinate_not_finite);
+  const std::vector<std::pair<Zone::Ring, std::vector<Zone::Ring>>> bad = {
+      {{{20, 20}, {30, 20}}, {}},                                          // two corners
+      {{{20, 20}, {30, 20}, {30, 20}, {30, 30}}, {}},                      // one twice
+      {{{20, 20}, {30, 20}, {25, 20}, {25, 30}}, {}},                      // runs back
+      {{{20, 20}, {40, 20}, {40, 40}, {30, 20}, {20, 40}}, {}},            // touches its own side
+      {{{20, 20}, {40, 20}, {40, 40}}, {{{20, 38}, {22, 38}, {22, 39}}}},  // a hole outside
+      {{{20, 20}, {40, 20}, {40, 40}}, {{{30, 21}, {38, 21}, {45, 24}}}},  // a hole that sticks out
+      {{{0, 20}, {40, 20}, {40, 60}, {0, 60}},
+       {{{5, 25}, {30, 25}, {30, 50}, {5, 50}}, {{10, 30}, {20, 30}, {20, 40}}}}};  // a hole in a hole
+  for (const auto& [outer, holes] : bad) {
+    Zone zone = zone_of(outer, 0, 9);
+    zone.holes = holes;
+    yard.navigation.keep_out_zones = {zone};
+    expect_code([&] { yard.prove(); }, ErrorCode::zone_not_simple);
+  }
+  Zone ring = zone_of({{20, 20}, {40, 20}, {40, 40}, {20, 40}}, 0, 9);
+  ring.holes = {{{22, 22}, {26, 22}, {26, 26}}, {{30, 30}, {30, 35}, {35, 35}}};
+  yard.navigation.keep_out_zones = {ring};
+  EXPECT_EQ(verdict_on(yard.prove(), "keep_out"), ProofVerdict::proved);
   yard.navigation = {};
   yard.navigation.above_ground = AboveGround{1, 7, {kNaN, nullptr}};
   expect_code([&] { yard.prove(); }, ErrorCode::value_out_of_range);

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "core/zone_check.h"
 #include "prove/solid_mesh.h"
+#include "prove/zone_rings.h"
 #include "vantage/error.h"
 
 namespace vantage::internal::prove {
@@ -49,7 +49,7 @@ void check_zones(const std::vector<Zone>& zones, const std::string& name) {
     const std::string where = name + " " + zone.name;
     require(zone.min_z_m < zone.max_z_m, "the zone is reversed or flat", where, "give the lower z first");
     if (zone.above_ground) check_heights(*zone.above_ground, where);
-    if (const auto fault = core::fault_of(zone)) throw Error(fault->code, fault->problem, where, fault->fix);
+    check_rings(zone, where);
   }
 }
 

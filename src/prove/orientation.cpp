@@ -10,6 +10,11 @@ int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   return (sign > 0) - (sign < 0);
 }
 
+int turn(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
+  const double sign = predicates::orient2d(a.x(), a.y(), b.x(), b.y(), c.x(), c.y());
+  return (sign > 0) - (sign < 0);
+}
+
 bool passes_through(const Vec3& from, const Vec3& to, const std::array<Vec3, 3>& triangle) {
   const auto& [a, b, c] = triangle;
   if (orientation(a, b, c, from) * orientation(a, b, c, to) >= 0) return false;
