@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "core/parallel.h"
 #include "support/hidden_point.h"
 #include "support/random.h"
 #include "support/scenes.h"
@@ -19,6 +18,7 @@
 #include "vantage/navigation.h"
 #include "vantage/prepared_target.h"
 #include "vantage/prove.h"
+#include "vantage/threads.h"
 #include "vantage/volume.h"
 
 namespace vantage {
@@ -254,7 +254,7 @@ TEST(ProveMaximal, TheSameOnOneThread) {
   const Mesh smaller = scaled_by(city.volume.mesh, city.volume.frame.origin, 0.99999);
   const MaximalProof a = city.prove(smaller);
   MaximalProof b;
-  internal::parallel::with_threads(1, [&] { b = city.prove(smaller); });
+  with_threads(1, [&] { b = city.prove(smaller); });
   EXPECT_EQ(a.proved_share, b.proved_share);
   EXPECT_EQ(a.open, b.open);
   for (std::size_t i = 0; i < a.facets.size(); ++i) {

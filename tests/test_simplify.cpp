@@ -11,7 +11,6 @@
 #include <string>
 #include <vector>
 
-#include "core/parallel.h"
 #include "support/exact_crossings.h"
 #include "support/progress_check.h"
 #include "support/random.h"
@@ -24,6 +23,7 @@
 #include "vantage/prepared_target.h"
 #include "vantage/prove.h"
 #include "vantage/simplify.h"
+#include "vantage/threads.h"
 #include "vantage/volume.h"
 
 namespace vantage {
@@ -408,7 +408,7 @@ TEST(Simplify, DoesNotDependOnTheNumberOfThreads) {
   const Mesh volume = spiky_dome(random, 40, 20);
   std::vector<SimplifiedVolume> results;
   for (const int threads : {1, 2, 5}) {
-    internal::parallel::with_threads(threads, [&] { results.push_back(simplify_volume(volume, to_facets(200))); });
+    with_threads(threads, [&] { results.push_back(simplify_volume(volume, to_facets(200))); });
     EXPECT_EQ(results.back().mesh.triangles, results[0].mesh.triangles);
     EXPECT_EQ(results.back().mesh.vertices, results[0].mesh.vertices);
     EXPECT_EQ(results.back().lost_bound_m, results[0].lost_bound_m);
