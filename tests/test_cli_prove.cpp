@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "support/cli_fixture.h"
 
@@ -132,6 +134,32 @@ TEST_F(CliProve, OfSeveralTargetsAnyOneIsTheWitness) {
   const auto json = nlohmann::json::parse(output_of({"prove", "mission.yaml", "v.ply", "--maximal", "--json"}));
   EXPECT_GT(json.at("maximal").at("proved_share"), 0.999);
   EXPECT_FALSE(json.at("maximal").at("conditions_hold"));
+}
+
+/// Of two boxes one is behind the block for both sides of the one target, the other one for the other target.
+TEST_F(CliProve, OfSeveralTargetsAllOpenFacetsAreTold) {
+  const std::string a = "{name: a, vertices: [[-9, 0, 1], [-3, 0, 1], [-3, 0, 4], [-9, 0, 4]], sides: both}";
+  const std::string b = "{name: b, vertices: [[22, -2, 0], [26, -2, 0], [26, 2, 0], [22, 2, 0]]}";
+  write("boxes.obj",
+        "v 15 -1 1\nv 19 -1 1\nv 19 1 1\nv 15 1 1\nv 15 -1 2\nv 19 -1 2\nv 19 1 2\nv 15 1 2\n"
+        "v 6 -1 1\nv 9 -1 1\nv 9 1 1\nv 6 1 1\nv 6 -1 2\nv 9 -1 2\nv 9 1 2\nv 6 1 2\n"
+        "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n"
+        "f 9 12 11 10\nf 13 14 15 16\nf 9 10 14 13\nf 10 11 15 14\nf 11 12 16 15\nf 12 9 13 16\n");
+  const auto open_for = [&](const std::string& targets) {
+    write("mission.yaml", "scene: {mesh: city.obj}\nsensor: {max_range: 50}\ntargets: [" + targets + "]\n");
+    const auto result = run({"prove", "mission.yaml", "boxes.obj", "--json"});
+    EXPECT_EQ(result.exit_code, 1) << result.err;
+    return nlohmann::json::parse(result.out);
+  };
+  const auto of_a = open_for(a), of_b = open_for(b), of_both = open_for(a + ", " + b);
+  const auto numbers = [](const nlohmann::json& json) { return json.at("unproved").get<std::vector<int>>(); };
+  std::vector<int> all;
+  std::ranges::set_union(numbers(of_a), numbers(of_b), std::back_inserter(all));
+  EXPECT_GT(all.size(), std::max(numbers(of_a).size(), numbers(of_b).size()));
+  EXPECT_EQ(numbers(of_both), all);
+  const auto share = [](const nlohmann::json& json) { return json.at("unproved_area_share").get<double>(); };
+  EXPECT_GT(share(of_both), std::max(share(of_a), share(of_b)) + 0.1);
+  EXPECT_LE(share(of_both), std::min(1.0, share(of_a) + share(of_b)));
 }
 
 /// A wall that is seen from one side or the other, and all of several targets.

@@ -1,5 +1,6 @@
 // The proof of a mission's volume, and its certificate.
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <string>
@@ -59,6 +60,13 @@ std::vector<ProvedView> proved_views(const Mission& mission, const std::vector<d
   return views;
 }
 
+/// Of the surface: the part that some of its facets are.
+double share_of(const std::vector<std::uint32_t>& facets, const Mesh& volume) {
+  Mesh some{volume.vertices, {}};
+  for (const std::uint32_t facet : facets) some.triangles.push_back(volume.triangles[facet]);
+  return surface_area(some) / surface_area(volume);
+}
+
 /// What is wrong with the sight of one target is wrong with all.
 void join(ProofReport& all, ProofReport&& one, const Mesh& volume) {
   for (std::size_t i = 0; i < all.claims.size(); ++i) {
@@ -70,9 +78,12 @@ void join(ProofReport& all, ProofReport&& one, const Mesh& volume) {
   all.margin_m = std::max(all.margin_m, one.margin_m);
   all.lift_m = std::max(all.lift_m, one.lift_m);
   all.limit_tolerance_m = std::max(all.limit_tolerance_m, one.limit_tolerance_m);
-  if (one.unproved_area_share > all.unproved_area_share) {
-    all.unproved = one.unproved;
-    all.unproved_area_share = one.unproved_area_share;
+  if (!one.unproved.empty()) {
+    std::vector<std::uint32_t>& open = all.unproved;
+    open.insert(open.end(), one.unproved.begin(), one.unproved.end());
+    std::sort(open.begin(), open.end());
+    open.erase(std::unique(open.begin(), open.end()), open.end());
+    all.unproved_area_share = share_of(open, volume);
   }
   if (one.witness && (!all.witness || one.witness->depth_m > all.witness->depth_m)) all.witness = one.witness;
   if (all.maximal && one.maximal) all.maximal = vantage::join(*all.maximal, *one.maximal, volume);
