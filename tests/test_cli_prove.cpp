@@ -271,3 +271,61 @@ TEST_F(CliProve, ComputeWritesOnlyWhatIsProved) {
 
 }  // namespace
 }  // namespace vantage
+  EXPECT_EQ(run({"compute", "mission.yaml", "-o", "v.ply", "--prove", "-q"}).exit_code, 4);
+  EXPECT_EQ(run({"compute", "mission.yaml", "-o", "-", "--format", "ply", "--prove"}).out, "");
+}
+
+/// The rays of such spheres pass by the edges of the block.
+TEST_F(CliProve, ComputeWritesNothingThatIsWrong) {
+  write_mission("method: spheres\nspheres: {sphere: centers, cubemap: 16, device: cpu}\n");
+  write("v.ply", testing::kOldOutput);
+  const auto result = run({"compute", "mission.yaml", "-o", "v.ply", "--prove"});
+  EXPECT_EQ(result.exit_code, 1) << result.err;
+  EXPECT_EQ(result.out, "");
+  EXPECT_NE(result.err.find("v.ply"), std::string::npos) << result.err;
+  EXPECT_EQ(testing::content(folder_ / "v.ply"), testing::kOldOutput);
+}
+
+TEST_F(CliProve, ComputeWritesEachOrNone) {
+  write("mission.yaml",
+        "scene: {mesh: city.obj}\nsensor: {max_range: 50}\ncombine: each\nmethod: spheres\n"
+        "spheres: {sphere: centers, cubemap: 16, device: cpu}\n"
+        "targets:\n"
+        "  - {name: near, vertices: [[-2, -2, 0], [2, -2, 0], [2, 2, 0], [-2, 2, 0]]}\n"
+        "  - {name: roof, vertices: [[11, -2, 12], [13, -2, 12], [13, 2, 12], [11, 2, 12]]}\n");
+  const auto before = files();
+  const auto wrong = run({"compute", "mission.yaml", "-o", "v.ply", "--prove"});
+  EXPECT_EQ(wrong.exit_code, 1) << wrong.err;
+  testing::expect_wording(wrong.err);
+  EXPECT_TRUE(files() == before);
+  output_of({"compute", "mission.yaml", "-o", "v.ply", "-q"});
+  EXPECT_EQ(run({"prove", "mission.yaml", "v.near.ply"}).exit_code, 1);
+  EXPECT_EQ(run({"prove", "mission.yaml", "v.roof.ply"}).exit_code, 0) << "not all of them are wrong";
+}
+
+/// PLY keeps the numbers that were proved.
+TEST_F(CliProve, ComputeTellsWhatWasRoundedAfterTheProof) {
+  const auto result = run({"compute", "mission.yaml", "-o", "v.ply", "-o", "v.stl", "-o", "v.obj", "--prove"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.err.find("v.stl"), std::string::npos) << result.err;
+  EXPECT_EQ(result.err.find("v.ply"), std::string::npos) << result.err;
+  EXPECT_EQ(result.err.find("v.obj"), std::string::npos) << result.err;
+  EXPECT_EQ(output_of({"compute", "mission.yaml", "-o", "v.stl", "--prove", "-q"}), "");
+}
+
+TEST_F(CliProve, ComputeAsksFirstWhetherThereIsAProof) {
+  const std::string one = "{name: a, vertices: [[-2, -2, 0], [2, -2, 0], [2, 2, 0], [-2, 2, 0]]}";
+  const std::string other = "{name: b, vertices: [[11, -2, 12], [13, -2, 12], [13, 2, 12], [11, 2, 12]]}";
+  const auto expect_early = [&](const std::string& text, const std::string& where) {
+    write("mission.yaml", "scene: {mesh: city.obj}\n" + text);
+    expect_bad({"compute", "mission.yaml", "-o", "v.ply", "--prove"}, where);
+    const std::string stage = "preparing";
+    const auto with = run({"compute", "mission.yaml", "-o", "v.ply", "--prove", "--progress"});
+    EXPECT_EQ(with.err.find(stage), std::string::npos) << with.err;
+    const auto without = run({"compute", "mission.yaml", "-o", "v.ply", "--progress"});
+    EXPECT_NE(without.err.find(stage), std::string::npos) << without.err;
+  };
+  expect_early("sensor: {max_range: 50}\ncombine: any\ntargets: [" + one + ", " + other + "]\n", "targets");
+  expect_early("sensor: {max_range: 50, visible: 0.5}\ntarget: " + one + "\n", "sensor.visible");
+  const std::string point = "{point: [0, 0, 3]}";
+  expect_early("sensor: {max_range: 50, link: {frequency: 2.4}}\ntarget: " + point + "\n", "sensor.link");

@@ -136,6 +136,13 @@ VANTAGE_API VerifyOptions verify_options(const VolumeFile& read, const Mission& 
 VANTAGE_API ProofReport prove_volume(const Mission& mission, const Mesh& volume, const ProveOptions& options = {},
                                      const Progress& progress = {});
 
+/// To call before a long computation: throws Error(input) for a mission that prove_volume refuses whatever its volume
+/// is, as that does.
+VANTAGE_API void check_provable(const Mission& mission);
+
+/// The same, and Error(input) for a mission that has no certificates: its volume is for both sides of a target.
+VANTAGE_API void check_certifiable(const Mission& mission);
+
 /// "volume.cert" lies beside its scene in "volume.scene.ply".
 VANTAGE_API std::filesystem::path certificate_scene_file(const std::filesystem::path& certificate_file);
 

@@ -37,6 +37,15 @@ std::optional<double> two_sides(const std::vector<Target>& list) {
   return apart >= -kRounding * largest ? std::optional(std::max(apart, 0.0)) : std::nullopt;
 }
 
+/// As prove_volume of one target does it, when the volume is there.
+void check_claim(const Sensor& sensor) {
+  if (!sensor.visible && !sensor.link) return;
+  throw Error(ErrorCode::not_applicable,
+              std::string("the volume is for ") + (sensor.visible ? "a share of the target" : "a radio link") +
+                  ", and only the sight of a whole target can be proved",
+              sensor.visible ? "sensor.visible" : "sensor.link", "check it with 'vantage verify'");
+}
+
 /// The views that a position must have, all of them; of the two sides of a target, the one that it is in front of.
 /// `lift_m`: of the parts of all targets.
 std::vector<ProvedView> proved_views(const Mission& mission, const std::vector<double>& lift_m) {
@@ -110,6 +119,20 @@ ProofReport prove_volume(const Mission& mission, const Mesh& volume, const Prove
     }
   }
   return std::move(*all);
+}
+
+void check_provable(const Mission& mission) {
+  check_claim(mission.sensor);
+  proved_views(mission, {});
+}
+
+void check_certifiable(const Mission& mission) {
+  check_claim(mission.sensor);
+  const std::vector<ProvedView> views = proved_views(mission, {});
+  const auto is_side = [](const ProvedView& view) { return view.other_side_m.has_value(); };
+  if (std::none_of(views.begin(), views.end(), is_side)) return;
+  throw Error(ErrorCode::not_applicable, "the volume is for both sides of a target, and certificates are for one",
+              "targets", "leave the certificate out, or compute a volume for each side");
 }
 
 fs::path certificate_scene_file(const fs::path& certificate_file) {

@@ -45,7 +45,12 @@ constexpr const char* kComputeExamples =
     "beside them with a row for each.\n"
     "\n"
     "--stages writes each step of the spheres method as a mesh (PLY, scene frame), and stages.json. The folder is put\n"
-    "in place as a whole when the run is over; an older one of the same kind is replaced.\n";
+    "in place as a whole when the run is over; an older one of the same kind is replaced.\n"
+    "\n"
+    "--prove proves the mesh as it was computed, before it is written. A PLY file keeps its numbers; STL, GLB, and "
+    "OBJ\n"
+    "in another unit, round them, and a note says by how much: 'vantage prove' judges the file. With 'combine: each'\n"
+    "all volumes must be proved, or none is written.\n";
 
 constexpr std::size_t kCausesListed = 10, kCausesInLine = 3;
 
@@ -245,14 +250,32 @@ std::string list_of_files(const ComputeArguments& options, const Result& run, co
   return text;
 }
 
-/// `target`: its name where there are several, else empty.
-void tell_of_no_volume(const std::string& target, const std::vector<std::string>& outputs, const Volume& volume) {
-  note((target.empty() ? "no volume: " : "no volume of " + target + ": ") + volume.reason);
+/// Of files, and of standard output.
+void tell_of_unwritten(const std::vector<std::string>& outputs) {
   for (const std::string& output : outputs) {
     std::error_code error;
     note(!is_standard_stream(output) && fs::exists(output, error)
              ? output + " is of an earlier run and was left as it was"
              : (is_standard_stream(output) ? "standard output" : output) + " was not written");
+  }
+}
+
+/// `target`: its name where there are several, else empty.
+void tell_of_no_volume(const std::string& target, const std::vector<std::string>& outputs, const Volume& volume) {
+  note((target.empty() ? "no volume: " : "no volume of " + target + ": ") + volume.reason);
+  tell_of_unwritten(outputs);
+}
+
+/// What was proved is the mesh before its numbers were rounded for a file.
+void tell_of_unproved_rounding(const ComputeArguments& options, const std::vector<std::string>& outputs,
+                               const WrittenResults& written) {
+  if (!options.prove || options.common.quiet) return;
+  for (std::size_t i = 0; i < written.written.size(); ++i) {
+    const double rounding = written.written[i].rounding_m;
+    if (!(rounding > 0)) continue;
+    note((is_standard_stream(outputs[i]) ? "standard output" : outputs[i]) +
+         ": what is proved is the mesh before its numbers were rounded, by up to " + shortest(rounding) +
+         " m; 'vantage prove' judges the file");
   }
 }
 
@@ -273,6 +296,7 @@ void tell(const ComputeArguments& options, const Mission& mission, const Result&
   }
   if (!options.common.quiet) notes(run.volume.notes);
   warn_of_rounding(options, run.volume, written);
+  tell_of_unproved_rounding(options, options.outputs, written);
   if (!has_volume) tell_of_no_volume({}, options.outputs, run.volume);
   if (outgoing && has_volume) outgoing->send();
 }
@@ -323,7 +347,8 @@ std::vector<Warning> warnings_of_each(const std::vector<TableRow>& rows) {
   return result;
 }
 
-/// With --prove: says why a volume is not written, and returns the exit code; kSuccess where nothing is against it.
+/// With --prove: says why a volume must not be written, and returns the exit code; kSuccess where nothing is against
+/// it.
 int judge(const ComputeArguments& options, const Mission& mission, const Volume& volume, const Progress& progress) {
   if (!options.prove || volume.outcome != Outcome::computed) return kSuccess;
   const ProofReport report = prove_volume(mission, volume.mesh, ProveOptions{.lift_m = volume.lift_m}, progress);
@@ -332,11 +357,33 @@ int judge(const ComputeArguments& options, const Mission& mission, const Volume&
       note(mission.target.name + ": all is proved, of the volume less " + shortest(report.shrink) + " of the distance");
     return kSuccess;
   }
-  note("the volume of " + mission.target.name + " is not written, as not all of it is proved");
+  note("not all of the volume of " + mission.target.name + " is proved");
   for (const ClaimProof& claim : report.claims) {
     if (claim.verdict != ProofVerdict::proved) note(claim.name + ": " + name_of(claim.verdict) + ": " + claim.text);
   }
   return report.verdict() == ProofVerdict::wrong ? kCheckFailed : kUndecided;
+}
+
+/// All are judged, so that all are told that stand in the way.
+int judge_each(const ComputeArguments& options, const Mission& mission, const std::vector<Result>& results,
+               const Progress& progress) {
+  if (!options.prove) return kSuccess;
+  std::size_t against = 0;
+  bool is_wrong = false;
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    const int judgement = judge(options, one_volume(mission, i), results[i].volume, progress);
+    if (judgement != kSuccess) ++against;
+    is_wrong = is_wrong || judgement == kCheckFailed;
+  }
+  if (against == 0) return kSuccess;
+  note("nothing is written, because of " + count(against) + " of " + count(results.size()) + " volumes");
+  return is_wrong ? kCheckFailed : kUndecided;
+}
+
+std::vector<std::string> names_of(const std::vector<fs::path>& files) {
+  std::vector<std::string> names;
+  for (const fs::path& file : files) names.push_back(file.string());
+  return names;
 }
 
 int run_each(const ComputeArguments& options, const MissionFile& file, const std::vector<fs::path>& inputs) {
@@ -351,6 +398,7 @@ int run_each(const ComputeArguments& options, const MissionFile& file, const std
   {
     ProgressLine progress(options.common);
     const Mission mission = resolve_mission(file, progress.callback());
+    if (options.prove) check_provable(mission);
     std::vector<std::string> names;
     for (std::size_t i = 0; i < volume_count(mission); ++i) {
       names.push_back(mission.views.empty() ? mission.target.name : mission.views[i].front().name);
@@ -364,9 +412,10 @@ int run_each(const ComputeArguments& options, const MissionFile& file, const std
     }
     check_result_files(all, inputs);
     results = run_missions(mission, {options.common.threads, {}}, progress.callback());
-    for (std::size_t i = 0; i < results.size(); ++i) {
-      const int judgement = judge(options, one_volume(mission, i), results[i].volume, progress.callback());
-      if (judgement != kSuccess) return judgement;
+    const int judgement = judge_each(options, mission, results, progress.callback());
+    if (judgement != kSuccess) {
+      tell_of_unwritten(names_of(all));
+      return judgement;
     }
     for (std::size_t i = 0; i < results.size(); ++i) {
       ResultRequest request = result_request(mission, results[i], files[i]);
@@ -387,13 +436,12 @@ int run_each(const ComputeArguments& options, const MissionFile& file, const std
     print(text + "wrote " + table.string() + ", and a report beside each volume\n");
     notes(warnings_of_each(rows));
   }
+  for (std::size_t i = 0; i < files.size(); ++i) tell_of_unproved_rounding(options, names_of(files[i]), written[i]);
   bool has_all = true;
   for (std::size_t i = 0; i < results.size(); ++i) {
     if (results[i].volume.outcome == Outcome::computed) continue;
     has_all = false;
-    std::vector<std::string> names;
-    for (const fs::path& one : files[i]) names.push_back(one.string());
-    tell_of_no_volume(rows[i].target, names, results[i].volume);
+    tell_of_no_volume(rows[i].target, names_of(files[i]), results[i].volume);
   }
   return options.fail_empty && !has_all ? kCheckFailed : kSuccess;
 }
@@ -419,12 +467,16 @@ int run_compute(const ComputeArguments& options) {
   {
     ProgressLine progress(options.common);
     mission = resolve_mission(file, progress.callback());
+    if (options.prove) check_provable(mission);
     const double read_seconds = seconds_since_start() - start;
     run = run_mission(mission, {options.common.threads, stages ? stages->sink() : StageSink()}, progress.callback());
     run.volume.seconds.read = read_seconds;
     run.volume.seconds.total = seconds_since_start();  // with all that lies between; writing is added
     const int judgement = judge(options, mission, run.volume, progress.callback());
-    if (judgement != kSuccess) return judgement;
+    if (judgement != kSuccess) {
+      tell_of_unwritten(options.outputs);
+      return judgement;
+    }
     if (stages) stages->write_story(mission, run);
     written = write_results(run.volume, result_request(mission, run, files), progress.callback());
     if (stages) stages->commit();
@@ -466,8 +518,9 @@ void add_compute(CLI::App& app, Command& chosen) {
       ->option_text("FORMAT");
   command->add_option("--report", options->report, "File for the report of -o -; default: none is written")
       ->option_text("FILE");
-  command->add_flag("--prove", options->prove,
-                    "Write only what 'vantage prove' proves; else the exit code is 1 or 4, as of that");
+  command->add_flag(
+      "--prove", options->prove,
+      "Write only if the computed mesh is proved, as by 'vantage prove'; else exit code 1 or 4, as there");
   command->add_flag("--fail-empty", options->fail_empty, "Exit with code 1 if there is no volume");
   command->add_flag("--json", options->json, "Print the report instead of a summary");
   command->add_flag("-v,--verbose", options->verbose, "Print all causes, sizes and times instead of five lines");
