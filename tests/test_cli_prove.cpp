@@ -221,6 +221,15 @@ TEST_F(CliProve, RefusesWhatItCannotJudge) {
   expect_bad({"prove", "mission.yaml", "city.obj", "--shrink", "2"});
 }
 
+/// Before anything is read: the volume is not there.
+TEST_F(CliProve, RefusesPicturesThatCannotBeDrawn) {
+  expect_bad({"prove", "mission.yaml", "missing.ply", "--view", "top"}, "--view");
+  expect_bad({"prove", "mission.yaml", "missing.ply", "--size", "800x600"}, "--size");
+  expect_bad({"prove", "mission.yaml", "missing.ply", "--picture", "p.png", "--view", "sideways"}, "--view");
+  expect_bad({"prove", "mission.yaml", "missing.ply", "--picture", "p.png", "--size", "800"}, "--size");
+  expect_bad({"prove", "mission.yaml", "missing.ply", "--picture", "p.jpg"}, "p.jpg");
+}
+
 TEST_F(CliProve, WritesACertificateAndItsScene) {
   output_of({"compute", "mission.yaml", "-q", "-o", "v.ply", "-o", "v.stl"});
   const std::string told = output_of({"prove", "mission.yaml", "v.ply", "--certificate", "v.cert"});
@@ -242,13 +251,48 @@ TEST_F(CliProve, WritesACertificateAndItsScene) {
   EXPECT_EQ(run({"prove", "mission.yaml", "v.ply", "--certificate", "none/v.cert"}).exit_code, 2);
 }
 
+TEST_F(CliProve, JsonNamesTheCertificate) {
+  output_of({"compute", "mission.yaml", "-q", "-o", "v.ply"});
+  const auto named = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"prove", "mission.yaml", "v.ply", "--json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return nlohmann::json::parse(output_of(arguments)).at("certificate");
+  };
+  EXPECT_TRUE(named({}).is_null());
+  EXPECT_EQ(named({"--certificate", "v.cert"}), "v.cert");
+}
+
+/// The exit code is 0 with or without: who asks for one must be told before.
+TEST_F(CliProve, RefusesACertificateOfBothSides) {
+  write("mission.yaml",
+        "scene: {mesh: city.obj}\nsensor: {max_range: 30}\n"
+        "target: {vertices: [[-9, 0, 1], [-3, 0, 1], [-3, 0, 4], [-9, 0, 4]], sides: both}\n");
+  output_of({"compute", "mission.yaml", "-q", "-o", "v.ply"});
+  write("v.cert", testing::kOldOutput);
+  output_of({"prove", "mission.yaml", "v.ply", "-q"});
+  expect_bad({"prove", "mission.yaml", "v.ply", "--certificate", "v.cert"}, "targets");
+  expect_refused({"prove", "mission.yaml", "v.ply", "--certificate", "v.cert", "--json"});
+  expect_refused({"prove", "mission.yaml", "v.ply", "--certificate", "v.cert", "-q"});
+}
+
 TEST_F(CliProve, WritesNoCertificateOfWhatIsWrong) {
   output_of({"compute", "mission.yaml", "-q", "-o", "v.ply"});
   write_mission("navigation: {altitude: [1, 20]}\n");
   write("v.cert", testing::kOldOutput);
   const auto result = run({"prove", "mission.yaml", "v.ply", "--certificate", "v.cert"});
   EXPECT_EQ(result.exit_code, 1) << result.err;
+  testing::expect_wording(result.err);
   EXPECT_EQ(testing::content(folder_ / "v.cert"), testing::kOldOutput);
+  const auto quiet = run({"prove", "mission.yaml", "v.ply", "--certificate", "v.cert", "-q"});
+  EXPECT_EQ(quiet.exit_code, 1);
+  EXPECT_NE(quiet.err.find("v.cert"), std::string::npos) << quiet.err;
+  EXPECT_EQ(quiet.out, "");
+  testing::fs::remove(folder_ / "v.cert");
+  const auto json = run({"prove", "mission.yaml", "v.ply", "--certificate", "v.cert", "--json"});
+  EXPECT_EQ(json.exit_code, 1);
+  EXPECT_NE(json.err, "");
+  EXPECT_TRUE(nlohmann::json::parse(json.out).at("certificate").is_null());
+  EXPECT_FALSE(testing::fs::exists(folder_ / "v.cert"));
   write("mission.yaml",
         "scene: {mesh: city.obj}\ntarget: {vertices: [[-2, -2, 0], [2, -2, 0], [2, 2, 0], [-2, 2, 0]]}\n"
         "sensor: {max_range: 49}\n");
@@ -267,10 +311,6 @@ TEST_F(CliProve, ComputeWritesOnlyWhatIsProved) {
   EXPECT_EQ(result.exit_code, 4) << result.err;
   EXPECT_NE(result.err.find("meshes"), std::string::npos) << result.err;
   EXPECT_FALSE(testing::fs::exists(folder_ / "w.ply"));
-}
-
-}  // namespace
-}  // namespace vantage
   EXPECT_EQ(run({"compute", "mission.yaml", "-o", "v.ply", "--prove", "-q"}).exit_code, 4);
   EXPECT_EQ(run({"compute", "mission.yaml", "-o", "-", "--format", "ply", "--prove"}).out, "");
 }
@@ -329,3 +369,7 @@ TEST_F(CliProve, ComputeAsksFirstWhetherThereIsAProof) {
   expect_early("sensor: {max_range: 50, visible: 0.5}\ntarget: " + one + "\n", "sensor.visible");
   const std::string point = "{point: [0, 0, 3]}";
   expect_early("sensor: {max_range: 50, link: {frequency: 2.4}}\ntarget: " + point + "\n", "sensor.link");
+}
+
+}  // namespace
+}  // namespace vantage

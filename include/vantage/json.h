@@ -31,7 +31,8 @@ VANTAGE_API std::string json_text(const LoadedScene& loaded, const SceneStatisti
 /// `proof`: what came before the rays; null: there is none.
 VANTAGE_API std::string json_text(const VerifyReport& report, const ProofReport* proof = nullptr);
 
-VANTAGE_API std::string json_text(const ProofReport& report);
+/// `certificate`: the file that was written; empty: none was.
+VANTAGE_API std::string json_text(const ProofReport& report, const std::string& certificate = {});
 
 /// `written`: files that hold what one of the two claims alone.
 VANTAGE_API std::string json_text(const Comparison& comparison, const std::string& file_a, const std::string& file_b,

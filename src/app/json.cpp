@@ -230,7 +230,11 @@ std::string json_text(const VerifyReport& report, const ProofReport* proof) {
   return dumped(json, 2);
 }
 
-std::string json_text(const ProofReport& report) { return dumped(json_of(report), 2); }
+std::string json_text(const ProofReport& report, const std::string& certificate) {
+  Json json = json_of(report);
+  json["certificate"] = certificate.empty() ? Json(nullptr) : Json(certificate);
+  return dumped(json, 2);
+}
 
 std::string json_text(const Comparison& c, const std::string& file_a, const std::string& file_b,
                       const std::vector<std::string>& written) {

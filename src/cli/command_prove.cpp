@@ -1,9 +1,12 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <system_error>
+#include <utility>
 #include <vector>
 
 #include "cli/command.h"
@@ -142,63 +145,78 @@ ProofReport prove(const JudgedVolume& judged, const ProveArguments& options, con
   return prove_volume(judged.mission, judged.read.volume.mesh, asked, progress);
 }
 
-/// What was written, or why nothing was.
-std::string save_certificate(const JudgedVolume& judged, const ProofReport& report, const std::string& file) {
-  if (!report.certificate) {
-    return "no certificate: sight, range and front must be proved, not of both sides, and nothing may be wrong\n";
+/// Whether there is one. Where there is none that is told, whoever reads the rest.
+bool save_certificate(const JudgedVolume& judged, const ProofReport& report, const std::string& file) {
+  if (report.certificate) {
+    write_certificate(*report.certificate, judged.mission, judged.read, file);
+    return true;
   }
-  write_certificate(*report.certificate, judged.mission, judged.read, file);
-  return "wrote " + file + "\nwrote " + certificate_scene_file(file).string() + "\n";
+  note("no certificate is written: sight, range and front must be proved, and nothing may be wrong");
+  std::error_code error;
+  if (std::filesystem::exists(file, error)) note(file + " is of an earlier run and was left as it was");
+  return false;
 }
 
-/// The volume with its open facets.
-void draw(const JudgedVolume& judged, const ProofReport& report, const ProveArguments& options,
-          const Progress& progress) {
-  const Mission& mission = judged.mission;
+/// The view and the size, as they were asked for.
+PictureRequest picture_request(const ProveArguments& options) {
+  const char* const unused = !options.view.empty() ? "--view" : !options.size.empty() ? "--size" : nullptr;
+  if (options.picture.empty() && unused) {
+    throw Error(ErrorCode::not_applicable, std::string(unused) + " is for a picture, and none is asked for",
+                "command line, " + std::string(unused), "add --picture FILE.png, or leave it out");
+  }
   PictureRequest request;
-  request.target = &mission.target;
-  request.volume = &judged.read.volume;
-  request.navigation = mission.navigation;
-  request.marks = {{"not proved to see the target", report.unproved}};
-  if (report.maximal) request.marks.push_back({"more may be seen beyond", report.maximal->open});
   if (!options.view.empty()) request.view = parse_view({options.view});
   if (!options.size.empty()) {
     const std::array<int, 2> size = parse_size(options.size);
     request.width = size[0];
     request.height = size[1];
   }
+  if (!options.picture.empty()) check_picture_file(options.picture);
+  return request;
+}
+
+/// The volume with its open facets.
+void draw(PictureRequest request, const JudgedVolume& judged, const ProofReport& report, const std::string& file,
+          const Progress& progress) {
+  const Mission& mission = judged.mission;
+  request.target = &mission.target;
+  request.volume = &judged.read.volume;
+  request.navigation = mission.navigation;
+  request.marks = {{"not proved to see the target", report.unproved}};
+  if (report.maximal) request.marks.push_back({"more may be seen beyond", report.maximal->open});
   request.title = mission.target.name;
   request.subtitle =
       std::string(name_of(report.verdict())) + ", of all but a part of " + shortest(report.shrink) + " of the distance";
-  write_png(render_picture(mission.loaded.scene, request, progress), options.picture, progress);
+  write_png(render_picture(mission.loaded.scene, request, progress), file, progress);
 }
 
 void check_outputs(const JudgedVolume& judged, const ProveArguments& options) {
   std::vector<std::filesystem::path> inputs = input_files(judged.mission.as_written);
   inputs.emplace_back(options.volume_file);
-  if (!options.certificate.empty()) check_certificate_files(options.certificate, options.volume_file, inputs);
-  if (options.picture.empty()) return;
-  if (format_extension(options.picture) != ".png") {
-    throw Error(ErrorCode::output_format_unknown, "pictures are written as PNG", options.picture,
-                "give the picture a name that ends in .png");
+  if (!options.certificate.empty()) {
+    check_certifiable(judged.mission);
+    check_certificate_files(options.certificate, options.volume_file, inputs);
   }
-  check_can_write(options.picture);
-  check_not_an_input(options.picture, inputs);
+  if (!options.picture.empty()) check_not_an_input(options.picture, inputs);
 }
 
 int run_prove(const ProveArguments& options) {
+  PictureRequest request = picture_request(options);
   ProgressLine progress(options.common);
   const JudgedVolume judged = read_judged(options, progress);
   check_outputs(judged, options);
   const ProofReport report = prove(judged, options, progress.callback());
+  const bool is_certified = !options.certificate.empty() && save_certificate(judged, report, options.certificate);
   std::string saved;
-  if (!options.certificate.empty()) saved = save_certificate(judged, report, options.certificate);
+  if (is_certified) {
+    saved = "wrote " + options.certificate + "\nwrote " + certificate_scene_file(options.certificate).string() + "\n";
+  }
   if (!options.picture.empty()) {
-    draw(judged, report, options, progress.callback());
+    draw(std::move(request), judged, report, options.picture, progress.callback());
     saved += "wrote " + options.picture + "\n";
   }
   if (options.json) {
-    print(json_text(report));
+    print(json_text(report, is_certified ? options.certificate : ""));
   } else if (!options.common.quiet) {
     print(table_text(report, options.volume_file, options.maximal) + saved);
   }
@@ -236,9 +254,9 @@ void add_prove(CLI::App& app, Command& chosen) {
       ->option_text("FILE");
   command
       ->add_option("--view", options->view,
-                   "Of the picture: 'top', 'oblique A,E' or 'from X,Y,Z', as of vantage render; in one word")
+                   "Of the --picture: 'top', 'oblique A,E' or 'from X,Y,Z', as of vantage render; in one word")
       ->option_text("VIEW");
-  command->add_option("--size", options->size, "Of the picture, in pixels (1600x1200)")->option_text("WxH");
+  command->add_option("--size", options->size, "Of the --picture, in pixels (1600x1200)")->option_text("WxH");
   finish<ProveArguments>(*command, options, kProveExamples, chosen, run_prove);
 }
 

@@ -41,16 +41,6 @@ struct RenderArguments {
   std::vector<std::string> view;
 };
 
-void check_output(const std::string& output) {
-  if (is_standard_stream(output)) return;
-  std::error_code error;
-  if (format_extension(output) != ".png" && !fs::is_directory(output, error)) {
-    throw Error(ErrorCode::output_format_unknown, "pictures are written as PNG, not as " + in_quotes(output), output,
-                "give the output a name that ends in .png");
-  }
-  check_can_write(output);
-}
-
 /// The volume of the file, with what people should know of it, and the mission of its target.
 Volume volume_of_file(const RenderArguments& options, Mission& mission, const Progress& progress) {
   VolumeFile read = read_volume(options.volume_file, mission.loaded.scene, progress);
@@ -110,7 +100,7 @@ int run_render(const RenderArguments& options) {
   const PictureView view = parse_view(options.view);
   const std::array<int, 2> size =
       parse_size(!options.size.empty() ? options.size : (is_sheet ? kPanelSize : kPictureSize));
-  check_output(options.output);
+  if (!is_standard_stream(options.output)) check_picture_file(options.output);
   const MissionFile file = read_mission_argument(options.mission_file);
   std::vector<fs::path> inputs = input_files(file);
   if (!options.volume_file.empty()) {

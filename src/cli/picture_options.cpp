@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
+#include <system_error>
 
 #include "cli/text_table.h"
 #include "vantage/error.h"
 #include "vantage/input.h"
+#include "vantage/output.h"
 
 namespace vantage::cli {
 namespace {
@@ -83,6 +86,15 @@ std::array<int, 2> parse_size(const std::string& text) {
   throw Error(ErrorCode::value_syntax, in_quotes(text) + " is not a size of a picture", "command line, --size",
               "write WIDTHxHEIGHT in pixels, " + std::to_string(kSmallestPicture) + " to " +
                   std::to_string(kLargestPicture) + " each: 1600x1200");
+}
+
+void check_picture_file(const std::string& file) {
+  std::error_code error;
+  if (format_extension(file) != ".png" && !std::filesystem::is_directory(file, error)) {
+    throw Error(ErrorCode::output_format_unknown, "pictures are written as PNG, not as " + in_quotes(file), file,
+                "give the output a name that ends in .png");
+  }
+  check_can_write(file);
 }
 
 std::string picture_subtitle(const Mission& mission, const Volume* volume) {

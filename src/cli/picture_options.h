@@ -17,6 +17,9 @@ PictureView parse_view(const std::vector<std::string>& given);
 /// "1600x1200". Throws Error(input) for what is not a size that render_picture takes.
 std::array<int, 2> parse_size(const std::string& text);
 
+/// Throws Error(input) unless the name ends in .png and the file can be written.
+void check_picture_file(const std::string& file);
+
 /// "range 300 m": what is written under a picture's title. `volume` may be null.
 std::string picture_subtitle(const Mission& mission, const Volume* volume);
 
