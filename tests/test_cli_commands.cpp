@@ -1,5 +1,6 @@
 // What the commands answer.
 #include <numbers>
+#include <utility>
 
 #include "support/cli_fixture.h"
 #include "vantage/geometry.h"
@@ -245,6 +246,44 @@ TEST_F(CliVerify, FailsAnOverClaimingVolume) {
   EXPECT_GT(report.at("over_claimed"), 10);
   const double worst = report.at("worst_over_depth_m");
   EXPECT_GT(worst, 0.1);
+}
+
+/// A flat pyramid on the ground, half a millimetre high. Over the target it belongs to the surface that the target lies
+/// on, beside it not; one point does not find it.
+TEST_F(CliVerify, TheProofForgivesWhatTheRaysForgive) {
+  write("low.obj",
+        "v -40 -1 0.002\nv -30 -1 0.002\nv -30 1 0.002\nv -40 1 0.002\nv -40 -1 0.5\nv -30 -1 0.5\nv -30 1 0.5\n"
+        "v -40 1 0.5\nf 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n");
+  const auto judge_with_bump = [&](const std::string& corners) {
+    write("city.obj", kCity + ("o bump\n" + corners) + "f 13 14 17\nf 14 15 17\nf 15 16 17\nf 16 13 17\n");
+    EXPECT_EQ(run({"prove", "mission.yaml", "low.obj"}).exit_code, 1);
+    const std::vector<std::string> verify = {"verify", "mission.yaml", "low.obj", "--points", "1"};
+    const ProgramRun table = run(verify);
+    std::vector<std::string> as_json = verify;
+    as_json.emplace_back("--json");
+    const auto json = nlohmann::json::parse(run(as_json).out);
+    EXPECT_EQ(json.at("over_claimed"), 0);
+    EXPECT_EQ(json.at("right"), table.exit_code == 0);
+    EXPECT_EQ(table.out.find("WRONG") == std::string::npos, table.exit_code == 0) << table.out;
+    EXPECT_EQ(json.at("proof").at("verdict"), table.exit_code == 0 ? "not proved" : "wrong");
+    return table.exit_code;
+  };
+  const std::string over = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nv 0 0 0.0005\n";
+  const std::string beside = "v -9 -1 0\nv -7 -1 0\nv -7 1 0\nv -9 1 0\nv -8 0 0.0005\n";
+  EXPECT_EQ(judge_with_bump(over), 0);
+  EXPECT_EQ(judge_with_bump(beside), 1);
+}
+
+/// By a tenth of a micrometre a limit is broken for the proof alone, by a millimetre for both.
+TEST_F(CliVerify, ForgivesALimitThatIsBrokenByAHair) {
+  write("tent.obj", "v -2 -2 1\nv 2 -2 1\nv 0 2 1\nv 0 0 9\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
+  const auto codes_with_floor_at = [&](const std::string& height) {
+    write("mission.yaml", std::string(kScene) + kTarget + kSensor + "navigation: {altitude: [" + height + ", 20]}\n");
+    return std::pair(run({"prove", "mission.yaml", "tent.obj"}).exit_code,
+                     run({"verify", "mission.yaml", "tent.obj", "--points", "1"}).exit_code);
+  };
+  EXPECT_EQ(codes_with_floor_at("1.0000001"), std::pair(1, 0));
+  EXPECT_EQ(codes_with_floor_at("1.001"), std::pair(1, 1));
 }
 
 TEST_F(CliVerify, FailsAMeshThatIsNoSolid) {

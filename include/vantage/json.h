@@ -28,7 +28,7 @@ VANTAGE_API std::string json_text(const LoadedScene& loaded);
 /// The same with what preparing it found.
 VANTAGE_API std::string json_text(const LoadedScene& loaded, const SceneStatistics& statistics);
 
-/// `proof`: what came before the rays; null: there is none.
+/// `proof`: what came before the rays; null: there is none. Right is what neither of the two refutes.
 VANTAGE_API std::string json_text(const VerifyReport& report, const ProofReport* proof = nullptr);
 
 /// `certificate`: the file that was written; empty: none was.

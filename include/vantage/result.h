@@ -143,6 +143,11 @@ VANTAGE_API void check_provable(const Mission& mission);
 /// The same, and Error(input) for a mission that has no certificates: its volume is for both sides of a target.
 VANTAGE_API void check_certifiable(const Mission& mission);
 
+/// What a proof refutes by the definitions of verify_volume, which forgive more. Of claims that are wrong these become
+/// `not_proved`: sight, where the witness is hidden by nothing but what lies lower than 1 mm over the target, and a
+/// limit that is broken by no more than VerifyOptions::depth_tolerance. `options`: of verify_volume.
+VANTAGE_API ProofReport with_verify_tolerances(ProofReport proof, const Mission& mission, const VerifyOptions& options);
+
 /// "volume.cert" lies beside its scene in "volume.scene.ply".
 VANTAGE_API std::filesystem::path certificate_scene_file(const std::filesystem::path& certificate_file);
 

@@ -202,7 +202,7 @@ std::string json_text(const LoadedScene& loaded, const SceneStatistics& found) {
 
 std::string json_text(const VerifyReport& report, const ProofReport* proof) {
   Json json;
-  json["right"] = report.is_right();
+  json["right"] = report.is_right() && !(proof && proof->verdict() == ProofVerdict::wrong);
   json["closed"] = report.closed;
   json["open_edges"] = report.open_edges.count;
   json["open_edge_at"] = report.open_edges.count > 0 ? json_of(report.open_edges.middle_of_first) : Json(nullptr);

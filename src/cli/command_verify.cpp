@@ -27,8 +27,11 @@ constexpr const char* kVerifyExamples =
     "  vantage verify mission.yaml edited.obj --json    # .obj in the axes and unit of the scene file\n"
     "\n"
     "First of all the volume is proved, where it can be (docs/proof.md); 'vantage prove' tells more of it. Then "
-    "random\n"
-    "points are tried: also for what has no proof, and for what is missing of the volume.\n"
+    "points\n"
+    "are tried at random: also for what has no proof, and for what is missing of the volume. The exit code is 1 where\n"
+    "one of the two finds something wrong. What the rays forgive is forgiven the proof, too: what lies lower than 1 "
+    "mm\n"
+    "over the target, and a limit that is broken by less than a millionth of the distance.\n"
     "\n"
     "DEPTHS\n"
     "  The depth of a point is its distance to the volume's surface: how far inside the volume an over-claimed point\n"
@@ -42,7 +45,7 @@ struct VerifyArguments : JudgeArguments {
 
 constexpr double kMostLift = 0.01;  // metres; compute raises a target by no more than 2 mm
 
-/// Of the proof that comes first, or why there is none.
+/// What comes first, less what the rays forgive; or why there is none.
 struct Proof {
   std::optional<ProofReport> report;
   std::string why_not;
@@ -53,7 +56,8 @@ struct Proof {
 Proof prove_first(const JudgedVolume& judged, const VerifyOptions& options, const Progress& progress) {
   const ProveOptions asked{.rounding_m = options.rounding_m, .lift_m = options.lift_m};
   try {
-    return {prove_volume(judged.mission, judged.read.volume.mesh, asked, progress), ""};
+    const ProofReport report = prove_volume(judged.mission, judged.read.volume.mesh, asked, progress);
+    return {with_verify_tolerances(report, judged.mission, options), ""};
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::input) throw;
     return {std::nullopt, error.problem()};
