@@ -14,7 +14,9 @@ void add_judge_options(CLI::App& command, JudgeArguments& arguments) {
                   "The mission that the volume was computed for; - for standard input")
       ->required()
       ->option_text("MISSION");
-  command.add_option("volume", arguments.volume_file, "The volume: PLY, OBJ, STL or GLB")
+  command
+      .add_option("volume", arguments.volume_file,
+                  "The volume: PLY, OBJ, STL, glTF or GLB; may be compressed with gzip")
       ->required()
       ->option_text("FILE");
   command.add_option("--target", arguments.target, kTargetHelp)->option_text("NAME");
