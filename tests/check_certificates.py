@@ -68,25 +68,25 @@ class Certificates(unittest.TestCase):
         self.folder = pathlib.Path(scratch.name)
         self.certificate = self.folder / "volume.cert"
 
-    def run_vantage(self, *arguments):
+    def run_vantage(self, *arguments, also=0):
         result = subprocess.run([VANTAGE, *arguments], cwd=self.folder, text=True, stdout=subprocess.PIPE,
                                 stderr=subprocess.STDOUT, check=False)
-        self.assertEqual(result.returncode, 0, result.stdout)
+        self.assertIn(result.returncode, (0, also), result.stdout)
 
-    def make(self, target=SQUARE, more="", max_range=50, obj=None):
+    def make(self, target=SQUARE, more="", max_range=50, obj=None, sensor="", **options):
         (self.folder / "city.obj").write_text(obj or city(), encoding="utf-8")
         mission = f"scene: {{mesh: city.obj}}\n{target if target.startswith('target') else 'target: {' + target + '}'}\n"
-        mission += f"sensor: {{max_range: {max_range}}}\n{more}"
+        mission += f"sensor: {{{sensor or f'max_range: {max_range}'}}}\n{more}"
         (self.folder / "mission.yaml").write_text(mission, encoding="utf-8")
-        self.prove(self.folder / "mission.yaml")
+        self.prove(self.folder / "mission.yaml", **options)
 
-    def prove(self, mission):
+    def prove(self, mission, *options, also=0):
         self.run_vantage("compute", str(mission), "-q", "-o", "volume.ply")
-        self.run_vantage("prove", str(mission), "volume.ply", "-q", "--certificate", "volume.cert")
+        self.run_vantage("prove", str(mission), "volume.ply", "-q", "--certificate", "volume.cert", *options, also=also)
 
-    def accepted(self):
+    def accepted(self, **options):
         lines = []
-        checker.check(self.certificate, lines.append)
+        checker.check(self.certificate, lines.append, **options)
         return lines
 
     def read(self):
@@ -168,6 +168,29 @@ class Accepted(Certificates):
         self.prove(mission)
         self.accepted()
         self.assertLess(self.certificate.stat().st_size, (self.folder / "volume.ply").stat().st_size)
+
+    def test_a_range_of_pixels(self):
+        """The header then has no max_range_m."""
+        self.make(sensor="camera: {model: sony_a7r_iv_35mm}, pixel: {size: 0.005, kind: perpendicular}",
+                  also=4)  # the orientations of the camera may stay open
+        self.assertNotIn(b'"max_range_m"', (self.folder / "volume.ply").read_bytes())
+        reach = self.read()["max_range_m"]
+        self.accepted()
+        self.refused_after(lambda c: c.update(max_range_m=1.01 * reach), "a shorter range")
+        self.refused_after(lambda c: c.update(max_range_m=1e300), "a shorter range")
+        self.refused_after(lambda c: c.update(max_range_m=0.99 * reach), "beyond the range")
+
+    def test_a_proof_of_less(self):
+        """The certificate is as it should be, but says little."""
+        self.make()
+        self.prove(self.folder / "mission.yaml", "--shrink", "0.01")
+        with self.assertRaisesRegex(checker.Refused, "out of range"):
+            self.accepted()
+        self.assertIn("less 0.01 of the distance", self.accepted(most_shrink=0.01)[-2])
+        tool = [sys.executable, str(ROOT / "tools" / "check_certificate.py"), str(self.certificate)]
+        codes = [subprocess.run(tool + more, capture_output=True, check=False).returncode
+                 for more in ([], ["--most-shrink", "0.01"], ["--most-shrink", "1"])]
+        self.assertEqual(codes, [1, 0, 1])
 
     def test_it_is_the_same_each_time(self):
         self.make()
@@ -282,10 +305,21 @@ class Tampered(Certificates):
         self.part(lambda p: p["centre"].__setitem__(2, 50.0))
         self.part(lambda p: p["centre"].__setitem__(0, 1.0))
 
+    def test_a_tilted_target(self):
+        """The cut with it, so that more of the scene is left out at one end. The volume begins high over the target."""
+        self.make(more="navigation: {altitude: [5, 30]}\n")
+        for tilt in (9e-7, 1e-9, 1e-11):
+            def change(part, tilt=tilt):
+                part["normal"] = [tilt, 0, (1 - tilt**2)**0.5]
+                part["corners"] = [[x, y, -tilt * x] for x, y, _ in part["corners"]]
+            self.part(change, "stated side")
+
     def test_what_is_stated(self):
         self.refused_after(lambda c: c.update(shrink=0))
         self.refused_after(lambda c: c.update(shrink=-1e-5), "out of range")
         self.refused_after(lambda c: c.update(shrink=1), "out of range")
+        for shrink in (0.999999, 0.0011):  # what was proved of more is true of less
+            self.refused_after(lambda c, shrink=shrink: c.update(shrink=shrink), "out of range")
         self.refused_after(lambda c: c.update(max_range_m=40), "beyond the range")
         self.refused_after(lambda c: c.update(rounding_m=100), "was not rounded so much")
         self.refused_after(lambda c: c["boxes"][0]["max"].__setitem__(2, 29), "outside of altitude")
@@ -369,10 +403,20 @@ class Tampered(Certificates):
 
         refused(b"rounding_m 0\n", b"rounding_m 1000\n", lambda c: c.update(rounding_m=1000), "cannot be rounded")
         lift = b'"lift_m":[0.0]'
+        step = max(abs(x) for v in checker.Mesh(volume).vertices for x in v) * 2**-53
+        refused(b"rounding_m 0\n", b"rounding_m %r\n" % (17 * step), lambda c: c.update(rounding_m=17 * step),
+                "cannot be rounded")
         refused(lift, b'"lift_m":[1.0]', lambda c: c["parts"][0].update(shift_m=1.0), "raised by more")
         refused(lift, b'"lift_m":[-0.1]', lambda c: c["parts"][0].update(shift_m=-0.1), "raised by more")
         refused(lift, b'"lift_m":[]', lambda c: c["parts"].append({}), "parts are not")
         refused(b"element face", b"element vertex 0\nproperty double x\nelement face", lambda c: c.update(x=1), "PLY")
+        header, rows = kept.split(b"end_header\n", 1)
+        count = len(checker.Mesh(volume).vertices)
+        named, with_one = b"element vertex %d\n" % count, b"element vertex %d\n" % (count + 1)
+        self.assertIn(named, header)
+        one_far_away = (header.replace(named, with_one).replace(b"rounding_m 0\n", b"rounding_m 1\n") + b"end_header\n" +
+                        rows[:24 * count] + checker.struct.pack("<3d", 1e18, 0, 0) + rows[24 * count:])
+        refused(kept, one_far_away, lambda c: c.update(rounding_m=1), "cannot be rounded")  # no triangle has it
         refused(b"vertex_indices", b"vertex_index", lambda c: c.update(x=1), "PLY")
         refused(b"property double y", b"property double x", lambda c: c.update(x=1), "PLY")
 
@@ -407,7 +451,8 @@ class Tampered(Certificates):
                 for key in ("scene", "volume", "mission_hash"):
                     self.assertEqual(before[key], after[key])
                 self.assertLessEqual(before["shrink"], after["shrink"])
-                self.assertLessEqual(before["max_range_m"], after["max_range_m"])
+                self.assertLessEqual(after["shrink"], checker.MOST_SHRINK)
+                self.assertEqual(before["max_range_m"], after["max_range_m"])
             except checker.Refused:
                 answers["refused"] += 1
             except checker.Unreadable:

@@ -27,6 +27,9 @@ MOST_KNOWN = 16  # planes that are kept of a group
 DESCEND, LEAVE, NOTHING, STEP = ">", "<", ".", r"[0-9a-f<>.]|\([^()]*\)"
 VERTICAL = 1e-6  # a normal that points down no more than this is taken as it is
 MOST_LIFT = 0.01  # metres that a target is raised by, at most
+MOST_SHRINK = 1e-3  # more of the distance is left out only if that is asked for
+ROUNDED = 16 * 2.0**-53  # of the largest coordinate: twice what writing a PLY moves a vertex (src/io/stored_mesh.cpp)
+TILT = Fraction(3, 2 * 10**12)  # an axis within 1e-12 of the normal's other two numbers is taken for the normal
 LEAST_BITS = 80  # of fractions: boxes round pieces outwards by one unit
 SIZES = {"uchar": "B", "int": "i", "uint": "I", "float": "f", "double": "d"}
 
@@ -76,9 +79,7 @@ class Mesh:
             if len(rows) != count:
                 raise ValueError("too few rows")
             if name == "vertex":
-                x, y, z = (names.index(axis) for axis in "xyz")
-                self.vertices = [(r[x], r[y], r[z]) for r in rows]
-                self.is_single = any(properties[i][0] != "double" for i in (x, y, z))
+                self.vertices = [tuple(r[names.index(axis)] for axis in "xyz") for r in rows]
             else:
                 if properties[0][0] != "list" or names[0] != "vertex_indices" or any(r[0] != 3 for r in rows):
                     raise ValueError("not all faces are triangles")
@@ -247,32 +248,30 @@ def lies_in(polygon, normal, allowed, points):
     sides = [(a, cross(minus(b, a), normal)) for a, b in zip(hull, hull[1:] + hull[:1])]
     return all(dot(out, minus(p, a)) <= allowed * math.isqrt(dot(out, out)) for a, out in sides for p in points)
 
-def check_front(part, view, normal, is_all_round):
-    """That the normal is that of the target, on the side that is looked at."""
-    front, way = view.get("front"), [float(x) for x in part["normal"]]
-    if len(part["target"]) == 1:
-        demand(front or is_all_round, "a point without a front is looked at from all sides")
-        demand(not (front and is_all_round), "the point has a front")
-        own = front or way
-    else:
-        own = newell([[Fraction(x) for x in v] for v in part["target"]])
-        length = math.hypot(*map(float, own))
-        turned = dot(own, front) < 0 if front else own[2] < -VERTICAL * length and not view.get("front_by_order")
-        own = [-x for x in own] if turned else own
-    own = [float(x) for x in own]
-    off = math.hypot(*cross(own, way))
-    demand(dot(own, way) > 0 and off <= 1e-6 * math.hypot(*own), "the target does not look to the stated side")
+def check_front(part, view, is_all_round):
+    """That the normal is that of the target, but for rounding, on the side that is looked at (docs/proof.md)."""
+    front = view.get("front") and [Fraction(x) for x in view["front"]]
+    way, given = [Fraction(x) for x in part["normal"]], [[Fraction(x) for x in v] for v in part["target"]]
+    demand(is_all_round == (len(given) == 1 and not front), "only a point without a front is seen from all sides")
+    own = newell(given) if len(given) > 1 else front or way
+    down = own[2] < -VERTICAL * math.hypot(*map(float, own)) and not view.get("front_by_order")
+    own = [-x for x in own] if (dot(own, front) < 0 if front else down) else own
+    sizes = [sum(map(abs, minus(v, given[0]))) for v in given]
+    spread = (len(given) + 5) * sum(a * b for a, b in zip(sizes[1:], sizes[2:])) / 2**52  # twice what rounding can do
+    largest, off = max(map(abs, own)), cross(own, way)
+    allowed = min(TILT * largest + spread, largest / 10**6)
+    demand(dot(own, way) > 0 and dot(off, off) <= allowed**2, "the target does not look to the stated side")
 
 def check_target(part, scale, centre, normal, corners, allowed):
     """That the polygon is the target, moved by the stated shift. Numbers times 2^(2 bits); returns its corners."""
     shift, unit = scale.whole(part["shift_m"]), 1 << scale.bits
     given = [scale.point(v) for v in part["target"]]
     moved = [tuple((x - c) * unit + shift * n for x, c, n in zip(v, centre, normal)) for v in given]
-    demand(abs(dot(normal, normal) - unit * unit) * 10**9 <= unit * unit, "the normal is not of unit length")
+    demand(abs(dot(normal, normal) - unit * unit) * 10**14 <= unit * unit, "the normal is not of unit length")
     if len(moved) == 1:
         demand(corners == [(0, 0, 0)] and dot(moved[0], moved[0]) <= (allowed * unit)**2, "the point is another one")
         return moved
-    extent = max(abs(a[k] - b[k]) for a in moved for b in moved for k in range(3))
+    extent = math.isqrt(sum((max(axis) - min(axis))**2 for axis in zip(*moved)))
     flat = max(extent // 10**6, unit * unit // 1000)  # a target need not be flatter; the plane is that of the mean
     demand(all(abs(dot(normal, p)) <= flat * unit for p in moved), "the target does not lie in the stated plane")
     demand(abs(sum(dot(normal, p) for p in moved)) <= len(moved) * allowed * unit * unit, "the plane is moved")
@@ -305,10 +304,8 @@ def check_part(part, view, certificate, scene, volume, middles):
         away = [minus(tuple(x * unit for x in points[v]), t) for t in moved]
         demand(all(dot(a, a) <= (reach * unit)**2 for a in away), "a vertex lies beyond the range")
     cut = part["cut_height_m"]
-    check_front(part, view, normal, cut is None)
-    if cut is None:
-        demand(len(part["target"]) == 1, "only a point is seen from all sides")
-    else:
+    check_front(part, view, cut is None)
+    if cut is not None:
         demand(0 <= cut <= allowed_m, "more of the scene is left out than rounding needs")
         cut = scale.whole(cut) * unit
         demand(all(dot(normal, points[v]) >= -slack * unit for v in used), "a vertex lies behind the target")
@@ -335,17 +332,19 @@ def check_files(certificate, scene, volume):
     demand(scene.hash(b"scene") == certificate["scene"]["hash"], "the scene is not the one of the certificate")
     demand(volume.hash(b"volume") == certificate["volume"]["hash"], "the volume is not the one of the certificate")
     rounded = [float(c.split()[2]) for c in volume.comments if c.startswith("vantage rounding_m ")]
-    largest = max((abs(x) for v in volume.vertices for x in v), default=0)
-    most = 64 * largest * 2.0**(-24 if volume.is_single else -53)
+    largest = max((abs(x) for t in volume.triangles for v in t for x in volume.vertices[v]), default=0)
     demand(certificate["rounding_m"] == 0 or certificate["rounding_m"] in rounded, "the volume was not rounded so much")
-    demand(0 <= certificate["rounding_m"] <= most, "the volume's numbers cannot be rounded so much")
+    demand(0 <= certificate["rounding_m"] <= ROUNDED * largest, "the volume's numbers cannot be rounded so much")
     pieces = [c[16:] for c in volume.comments if c.startswith("vantage volume: ")]
     if not pieces:
         return None
     said = json.loads("".join(pieces))  # what the volume says of itself
     demand(said.get("mission_hash", "") == certificate["mission_hash"], "the volume is of another mission")
     demand(said.get("scene_hash", "") == certificate["scene"]["hash"], "the volume is of another scene")
-    demand(certificate["max_range_m"] <= said.get("max_range_m", math.inf), "the volume has a shorter range")
+    sensor = said.get("sensor", {})
+    pixels = sensor["pixel"]["size_m"] * sensor["camera"]["focal_px"] if "pixel" in sensor else math.inf
+    reach = min(said.get("max_range_m", math.inf), pixels)
+    demand(certificate["max_range_m"] <= reach < math.inf, "the volume has a shorter range, or none")
     views = [view[0] for view in said["views"]] if "views" in said else [said["target"]]
     parts = [(part, view) for view in views for part in view["parts"]]
     lifts = said["lift_m"]
@@ -359,7 +358,7 @@ def number(value):
     """Of JSON; neither a text nor what no double holds."""
     return float(value) + 0 * value
 
-def check(path, out=print):
+def check(path, out=print, most_shrink=MOST_SHRINK):
     try:
         certificate = json.loads(path.read_text(encoding="utf-8"))
         if certificate["format"] != "vantage certificate 1":
@@ -369,12 +368,11 @@ def check(path, out=print):
         scene, volume = (Mesh(path.parent / name) for name in files)
         reach, shrink = number(certificate["max_range_m"]), number(certificate["shrink"])
         views = check_files(certificate, scene, volume)
-        demand(0 <= shrink < 1, "the shrink is out of range")
+        demand(0 <= shrink <= most_shrink < 1, f"a shrink of {shrink:g} is out of range: see --most-shrink")
         demand(certificate["parts"], "the certificate has no part")
         for box in certificate["boxes"]:
             check_box(box, volume, Fraction(certificate["rounding_m"]))
-        triangles = [[scene.vertices[v] for v in t] for t in scene.triangles]
-        middles = [[min(p[k] for p in t) + max(p[k] for p in t) for k in range(3)] for t in triangles]
+        middles = [[min(x) + max(x) for x in zip(*(scene.vertices[v] for v in t))] for t in scene.triangles]
         for i, part in enumerate(certificate["parts"]):
             view = views[i] if views else {"front": part["normal"] if part["cut_height_m"] is not None else None}
             facets, planes = check_part(part, view, certificate, scene, volume, middles)
@@ -391,8 +389,10 @@ def check(path, out=print):
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description="Check the certificate of a visibility volume.")
     parser.add_argument("certificate", type=Path, help="with the two files that it names beside it")
+    parser.add_argument("--most-shrink", type=float, default=MOST_SHRINK, help="of the distance to the target, below 1")
+    arguments = parser.parse_args()
     try:
-        check(parser.parse_args().certificate)
+        check(arguments.certificate, most_shrink=arguments.most_shrink)
     except (Refused, Unreadable) as failure:
         print(f"REFUSED: {failure}" if isinstance(failure, Refused) else f"error: {failure}", file=sys.stderr)
         sys.exit(1 if isinstance(failure, Refused) else 2)
