@@ -3,12 +3,17 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "support/cli_fixture.h"
+#include "support/wording.h"
+#include "vantage/error.h"
+#include "vantage/mission.h"
+#include "vantage/result.h"
 
 namespace vantage {
 namespace {
@@ -273,6 +278,50 @@ TEST_F(CliProve, RefusesACertificateOfBothSides) {
   expect_bad({"prove", "mission.yaml", "v.ply", "--certificate", "v.cert"}, "targets");
   expect_refused({"prove", "mission.yaml", "v.ply", "--certificate", "v.cert", "--json"});
   expect_refused({"prove", "mission.yaml", "v.ply", "--certificate", "v.cert", "-q"});
+}
+
+/// What the checker would refuse.
+TEST_F(CliProve, WritesNoCertificateThatCannotBeChecked) {
+  output_of({"compute", "mission.yaml", "-q", "-o", "v.ply"});
+  std::filesystem::create_directory(folder_ / "other");
+  expect_bad({"prove", "mission.yaml", "v.ply", "--certificate", "other/v.cert"}, "other/v.cert");
+  output_of({"prove", "mission.yaml", "other/../v.ply", "--certificate", "v.cert"});  // the same folder
+  EXPECT_EQ(nlohmann::json::parse(testing::content(folder_ / "v.cert")).at("volume").at("file"), "v.ply");
+
+  const std::string bytes = testing::content(folder_ / "v.ply");
+  const auto with = [&](const std::string& old, const std::string& changed) {
+    std::string text = bytes;
+    const std::size_t at = text.find(old);
+    EXPECT_NE(at, std::string::npos) << old;
+    return text.replace(at, old.size(), changed);
+  };
+  write("other_name.ply", with("vertex_indices", "vertex_index"));
+  write("rounded.ply", with("rounding_m 0\n", "rounding_m 9\n"));
+  write("mission_of_other.ply", with("\"mission_hash\":\"", "\"mission_hash\":\"0"));
+  write("text.ply",
+        "ply\nformat ascii 1.0\nelement vertex 4\nproperty double x\nproperty double y\nproperty double z\n"
+        "element face 4\nproperty list uchar int vertex_indices\nend_header\n"
+        "0 0 5\n2 0 5\n0 2 5\n0 0 7\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n");
+  for (const char* file : {"text.ply", "other_name.ply", "rounded.ply", "mission_of_other.ply"}) {
+    expect_bad({"prove", "mission.yaml", file, "--certificate", "w.cert", "-q"}, file);
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "w.cert"));
+  output_of({"simplify", "text.ply", "--facets", "1000000000", "-q", "-o", "binary.ply"});  // the advice
+  output_of({"prove", "mission.yaml", "binary.ply", "--certificate", "w.cert"});
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "w.cert"));
+}
+
+/// A volume about another origin is moved when it is read: its file has other numbers.
+TEST_F(CliProve, WritesNoCertificateOfAMeshThatWasMoved) {
+  output_of({"compute", "mission.yaml", "-q", "-o", "v.ply"});
+  const Mission mission = resolve_mission(read_mission(folder_ / "mission.yaml"));
+  VolumeFile read = read_volume(folder_ / "v.ply", mission.loaded.scene);
+  const std::filesystem::path file = folder_ / "v.cert";
+  write_certificate({}, mission, read, file);
+  std::filesystem::remove(file);
+  read.volume.mesh.vertices[0].x() += 1e-9;
+  testing::expect_error([&] { write_certificate({}, mission, read, file); }, ErrorCode::not_applicable, "v.ply");
+  EXPECT_FALSE(std::filesystem::exists(file));
 }
 
 TEST_F(CliProve, WritesNoCertificateOfWhatIsWrong) {

@@ -151,13 +151,16 @@ VANTAGE_API ProofReport with_verify_tolerances(ProofReport proof, const Mission&
 /// "volume.cert" lies beside its scene in "volume.scene.ply".
 VANTAGE_API std::filesystem::path certificate_scene_file(const std::filesystem::path& certificate_file);
 
-/// Throws Error(input) for a volume that a certificate cannot be about: its file is no PLY. Throws as check_can_write
-/// and check_not_an_input do unless the certificate and its scene can be written.
+/// Throws Error(input) for a volume that a certificate cannot be about: its file is no binary, little-endian PLY of
+/// triangles, or lies in another folder than the certificate. Throws as check_can_write and check_not_an_input do
+/// unless the certificate and its scene can be written.
 VANTAGE_API void check_certificate_files(const std::filesystem::path& certificate_file,
                                          const std::filesystem::path& volume_file,
                                          const std::vector<std::filesystem::path>& inputs);
 
-/// Writes the certificate of a volume, and its scene beside it: both or none. `volume` is as it was read.
+/// Writes the certificate of a volume, and its scene beside it: both or none. `volume` is as it was read, and its file
+/// is read again: throws Error(input) where that holds another mesh (as when read_volume moved it into the scene's
+/// frame), names another scene or mission, or states a larger rounding than its numbers can have.
 VANTAGE_API void write_certificate(const Certificate& certificate, const Mission& mission, const VolumeFile& volume,
                                    const std::filesystem::path& certificate_file);
 

@@ -6,9 +6,11 @@
 #include <string>
 #include <utility>
 
+#include "app/certified_ply.h"
 #include "vantage/atomic_file.h"
 #include "vantage/error.h"
 #include "vantage/hash.h"
+#include "vantage/input.h"
 #include "vantage/output.h"
 #include "vantage/result.h"
 
@@ -101,6 +103,32 @@ void join(ProofReport& all, ProofReport&& one, const Mesh& volume) {
   for (CertificatePart& part : one.certificate->parts) all.certificate->parts.push_back(std::move(part));
 }
 
+fs::path folder_of(const fs::path& file) { return fs::absolute(file).parent_path(); }
+
+/// The checker knows no more than the file: what was proved must be its numbers, and what it says of itself be true.
+void check_is_of_file(const Certificate& certificate, const CertifiedFiles& about, const VolumeFile& volume) {
+  const std::string where = volume.file.string();
+  const Scene in_file = read_scene(volume.file);
+  if (volume_hash(in_file.mesh) != about.volume_hash) {
+    throw Error(ErrorCode::not_applicable,
+                "a certificate is about the numbers in the file, and others were proved: the volume was moved into the "
+                "scene's frame, or its file was changed since",
+                where, "compute the volume in the scene of this mission");
+  }
+  if (certificate.rounding_m != 0 && certificate.rounding_m != in_file.rounding_m) {
+    throw Error(ErrorCode::not_applicable,
+                "a certificate cannot rely on the rounding_m in the file, which is too large", where,
+                "compute the volume again and write it as .ply");
+  }
+  if (!volume.volume.provenance) return;
+  const VolumeProvenance& made = *volume.volume.provenance;
+  if (made.scene_hash != about.scene_hash || made.mission_hash != about.mission_hash) {
+    throw Error(ErrorCode::not_applicable,
+                "a certificate is for the scene and the mission that the volume's file names, and these are others",
+                where, "compute the volume for this mission");
+  }
+}
+
 }  // namespace
 
 ProofReport prove_volume(const Mission& mission, const Mesh& volume, const ProveOptions& options,
@@ -150,19 +178,26 @@ void check_certificate_files(const fs::path& certificate_file, const fs::path& v
     check_can_write(file);
     check_not_an_input(file, inputs);
   }
+  std::error_code ignored;
+  if (!fs::equivalent(folder_of(certificate_file), folder_of(volume_file), ignored)) {
+    throw Error(ErrorCode::not_applicable, "a certificate lies beside its volume, which is in another folder",
+                certificate_file.string(),
+                "write " + (volume_file.parent_path() / certificate_file.filename()).string());
+  }
+  internal::app::check_certified_ply(volume_file);
 }
 
 void write_certificate(const Certificate& certificate, const Mission& mission, const VolumeFile& volume,
                        const fs::path& certificate_file) {
   const Scene& scene = mission.loaded.scene;
   const fs::path scene_file = certificate_scene_file(certificate_file);
-  const fs::path folder = fs::absolute(certificate_file).parent_path();
   CertifiedFiles about;
   about.scene_file = scene_file.filename().string();
   about.scene_hash = scene_hash(scene);
-  about.volume_file = fs::absolute(volume.file).lexically_relative(folder).generic_string();
+  about.volume_file = volume.file.filename().string();
   about.volume_hash = volume_hash(volume.volume.mesh);
   about.mission_hash = mission_hash(mission);
+  check_is_of_file(certificate, about, volume);
   auto files = stage_scene(scene, scene_file);
   files.push_back(std::make_unique<AtomicFile>(certificate_file));
   files.back()->write(certificate_text(certificate, about));
