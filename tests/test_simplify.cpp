@@ -420,6 +420,11 @@ TEST(Simplify, TellsItsProgressAndStops) {
   Random random(20);
   const Mesh volume = spiky_dome(random, 24, 12);
   testing::check_progress([&](const Progress& progress) { simplify_volume(volume, to_facets(100), progress); });
+  Mesh hollow = make_box_mesh(Vec3::Zero(), Vec3(10, 10, 10));  // left as it is, but looked at: each cavity's facets
+  for (int i = 1; i < 6; ++i) append(hollow, inside_out(make_box_mesh(Vec3(i, i, i), Vec3(i + 0.5, i + 0.5, i + 0.5))));
+  const auto story =
+      testing::check_progress([&](const Progress& progress) { simplify_volume(hollow, to_facets(100), progress); });
+  EXPECT_GT(story.calls, 60u);
 }
 
 TEST(Simplify, RefusesWhatItCannotSimplify) {

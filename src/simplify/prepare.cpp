@@ -60,10 +60,12 @@ void check_edges(const Mesh& mesh) {
   });
 }
 
-/// How often triangles wind round a point (van Oosterom and Strackee 1983).
-double turns_round(const Mesh& mesh, const Vec3& point) {
+/// How often triangles wind round a point, but for those of one piece (van Oosterom and Strackee 1983).
+double turns_round(const Mesh& mesh, const core::Pieces& pieces, std::uint32_t left_out, const Vec3& point) {
   double angle = 0;
-  for (const auto& [i, j, k] : mesh.triangles) {
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (pieces.piece_of[t] == left_out) continue;
+    const auto& [i, j, k] = mesh.triangles[t];
     const Vec3 a = mesh.vertices[i] - point, b = mesh.vertices[j] - point, c = mesh.vertices[k] - point;
     const double la = a.norm(), lb = b.norm(), lc = c.norm();
     angle += 2 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
@@ -72,24 +74,21 @@ double turns_round(const Mesh& mesh, const Vec3& point) {
 }
 
 /// A piece that is inside out takes away: where there is nothing to take away, something would be added for those who
-/// count what a mesh winds round in either direction. Looks at some facets of each.
-void check_cavities(const Mesh& mesh, const core::Pieces& pieces) {
+/// count what a mesh winds round in either direction. Looks at some facets of each, so that it finds mistakes, and
+/// proves nothing.
+void check_cavities(const Mesh& mesh, const core::Pieces& pieces, const core::ProgressReporter& progress) {
   constexpr std::size_t kMostTried = 64;
-  for (std::uint32_t piece = 0; piece < pieces.pieces.size(); ++piece) {
-    if (pieces.pieces[piece].volume_m3 >= 0) continue;
-    Mesh others{mesh.vertices, {}};
-    std::vector<std::uint32_t> own;
-    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-      if (pieces.piece_of[t] == piece) {
-        own.push_back(t);
-      } else {
-        others.triangles.push_back(mesh.triangles[t]);
-      }
-    }
-    for (std::size_t i = 0; i < own.size(); i += 1 + own.size() / kMostTried) {
-      const auto& [a, b, c] = mesh.triangles[own[i]];
+  std::vector<std::vector<std::uint32_t>> own(pieces.pieces.size());  // of those that are inside out
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    const std::uint32_t piece = pieces.piece_of[t];
+    if (pieces.pieces[piece].volume_m3 < 0) own[piece].push_back(t);
+  }
+  for (std::uint32_t piece = 0; piece < own.size(); ++piece) {
+    for (std::size_t i = 0; i < own[piece].size(); i += 1 + own[piece].size() / kMostTried) {
+      progress.check();
+      const auto& [a, b, c] = mesh.triangles[own[piece][i]];
       const Vec3 middle = (mesh.vertices[a] + mesh.vertices[b] + mesh.vertices[c]) / 3;
-      if (turns_round(others, middle) > 0.5) continue;
+      if (turns_round(mesh, pieces, piece, middle) > 0.5) continue;
       throw Error(ErrorCode::mesh_inside_out,
                   "a piece of the mesh is inside out, at " + std::to_string(middle.x()) + ", " +
                       std::to_string(middle.y()) + ", " + std::to_string(middle.z()),
@@ -100,7 +99,7 @@ void check_cavities(const Mesh& mesh, const core::Pieces& pieces) {
 
 }  // namespace
 
-Prepared prepare(const Mesh& volume) {
+Prepared prepare(const Mesh& volume, const core::ProgressReporter& progress) {
   check_numbers(volume);
   Prepared prepared{{volume.vertices, {}}, {}, {}};
   Mesh& mesh = prepared.mesh;
@@ -122,7 +121,7 @@ Prepared prepare(const Mesh& volume) {
   }
   if (volume_m3 == 0) throw Error(ErrorCode::mesh_without_inside, "the mesh encloses nothing", kWhere, kAdvice);
   prepared.pieces = core::find_pieces(mesh);
-  check_cavities(mesh, prepared.pieces);
+  check_cavities(mesh, prepared.pieces, progress);
   return prepared;
 }
 

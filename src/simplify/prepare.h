@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/pieces.h"
+#include "core/progress_reporter.h"
 #include "vantage/geometry.h"
 
 namespace vantage::internal::simplify {
@@ -15,7 +16,7 @@ struct Prepared {
   core::Pieces pieces;
 };
 
-/// Throws Error(input) as simplify_volume does.
-Prepared prepare(const Mesh& volume);
+/// Throws Error(input) and Error(cancelled) as simplify_volume does.
+Prepared prepare(const Mesh& volume, const core::ProgressReporter& progress);
 
 }  // namespace vantage::internal::simplify

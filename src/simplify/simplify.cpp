@@ -227,6 +227,7 @@ void Simplifier::run(const core::ProgressReporter& progress) {
     collapsing.tick(first - surface_.count(), first - wanted_);
     const std::optional<double> piece_m3 = pieces_.cheapest_m3();
     if (piece_m3 && (queue_.empty() || *piece_m3 <= queue_.top().cost)) {
+      collapsing.check();  // it looks at all facets
       drop_piece();
     } else if (!queue_.empty()) {
       collapse_next();
@@ -273,7 +274,7 @@ SimplifiedVolume simplify_volume(const Mesh& volume, const SimplifyOptions& opti
   check_options(options);
   const core::ProgressReporter progress(callback);
   progress.begin("simplify");
-  const Prepared prepared = prepare(volume);
+  const Prepared prepared = prepare(volume, progress);
   const bool is_small = !options.error_m && volume.triangles.size() <= *options.facets;
   SimplifiedVolume result = is_small ? as_it_is(volume, prepared) : simplified(prepared, options, progress);
   result.facets_before = volume.triangles.size();
