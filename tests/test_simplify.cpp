@@ -124,7 +124,7 @@ void expect_subset(const SimplifiedVolume& result, const Mesh& volume, Random& r
   EXPECT_LE(result.volume_after_m3, result.volume_before_m3 * (1 + 1e-12));
   EXPECT_NEAR(result.volume_before_m3, enclosed_volume(volume), 1e-9 * result.volume_before_m3);
   EXPECT_NEAR(result.volume_after_m3, enclosed_volume(result.mesh), 1e-9 * result.volume_before_m3);
-  EXPECT_LE(result.lost_measured_m, result.lost_bound_m * (1 + 1e-9) + 1e-12 * box.max.cwiseAbs().maxCoeff());
+  EXPECT_LE(result.lost_measured_m, result.lost_bound_m);
 }
 
 TEST(Simplify, SpikyVolumesStaySubsetsAtEveryScale) {
@@ -182,7 +182,7 @@ TEST(Simplify, FlatSidesCostNothing) {
   const SimplifiedVolume exact = simplify_volume(box, to_error(0));
   EXPECT_EQ(exact.mesh.triangles.size(), 12u);
   EXPECT_EQ(exact.volume_after_m3, 60);
-  EXPECT_LT(exact.lost_bound_m, 1e-14);
+  EXPECT_LT(exact.lost_bound_m, 1e-10);
   EXPECT_EQ(exact.facets_before, box.triangles.size());
 
   Mesh turned = divided_box(8, Vec3(30, 40, 50));
@@ -191,6 +191,22 @@ TEST(Simplify, FlatSidesCostNothing) {
   const SimplifiedVolume rounded = simplify_volume(turned, to_error(1e-6));
   EXPECT_EQ(rounded.mesh.triangles.size(), 12u);
   EXPECT_NEAR(rounded.volume_after_m3, 60000, 1e-4);
+}
+
+/// The bound holds what rounding does, and the error that is asked for holds the bound, where numbers can tell.
+TEST(Simplify, TheBoundHoldsAtMapCoordinates) {
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+  for (const double away : {0.0, 4e3, 5.4e6}) {
+    Mesh turned = divided_box(8, Vec3(30, 40, 50));
+    for (Vec3& v : turned.vertices) v = turn * v + Vec3(away, -away / 3, away / 50);
+    for (const double error : {0.0, 1e-9, 1e-8, 3e-8, 1e-6}) {
+      SCOPED_TRACE(::testing::Message() << away << " " << error);
+      const SimplifiedVolume result = simplify_volume(turned, to_error(error));
+      const double rounding = 8 * std::ldexp(away + 50, -52) + 1e-11 * 71;  // surfaces that are flat but for that
+      EXPECT_LE(result.lost_measured_m, result.lost_bound_m);
+      EXPECT_LE(result.lost_bound_m, error > rounding ? error : rounding + 1e-10);
+    }
+  }
 }
 
 /// A thin wall between two notches costs little and holds many facets: the notches become one.
@@ -215,7 +231,7 @@ TEST(Simplify, NothingThatIsLostLiesFartherThanAllowed) {
     const SimplifiedVolume result = simplify_volume(volume, to_error(error));
     EXPECT_TRUE(result.reached);
     EXPECT_LT(result.mesh.triangles.size(), volume.triangles.size());
-    EXPECT_LE(result.lost_bound_m, error + 1e-14);
+    EXPECT_LE(result.lost_bound_m, error);
     double farthest = 0, of_vertices = 0;
     for (int i = 0; i < 3000; ++i) {
       const Vec3 point = random.in_box(bounding_box(volume));
@@ -244,7 +260,7 @@ TEST(Simplify, BothEndsHold) {
   EXPECT_TRUE(few.reached);
   const SimplifiedVolume near = simplify_volume(volume, {.facets = 10, .error_m = 0.02});
   EXPECT_GT(near.mesh.triangles.size(), 10u);
-  EXPECT_LE(near.lost_bound_m, 0.02 + 1e-14);
+  EXPECT_LE(near.lost_bound_m, 0.02);
   EXPECT_FALSE(near.reached);
 }
 

@@ -14,7 +14,7 @@
 namespace vantage::internal::simplify {
 namespace {
 
-constexpr double kRoundedUp = 1 + 1e-12;  // distances are right to a few roundings
+constexpr double kRoundings = 256;  // of a step: lost_distance.h
 constexpr int kMostHalvings = 6;
 constexpr std::size_t kMostWork = 2000;  // parts times facets that they are compared with, in one collapse
 constexpr double kTight = 1.5;           // a bound so many times what it must be is made tighter
@@ -59,13 +59,18 @@ bool split(const Part& part, const Vec3& point, const Vec3& normal, Part& below,
   return true;
 }
 
+Corners about(const Vec3& place, const Corners& corners) {
+  return {corners[0] - place, corners[1] - place, corners[2] - place};
+}
+
 /// The facets round a new place, and the planes that part what lies over one of them from what lies over the next.
+/// Relative to the place: what is rounded does not grow with the coordinates.
 struct Fan {
   Vec3 place = Vec3::Zero();
   std::vector<Corners> facets;
   std::vector<std::uint32_t> numbers;  ///< of the facets
   bool has_border = false;             ///< after them come the facets round the patch
-  std::vector<Vec3> walls;             ///< normals of planes through `place`
+  std::vector<Vec3> walls;             ///< normals of planes through the place
 
   double squared_distance(const Vec3& point, std::size_t facet) const {
     const auto& [a, b, c] = facets[facet];
@@ -81,14 +86,14 @@ void make_fan(const Surface& surface, const Patch& patch, const Vec3& place, Fan
   fan.walls.clear();
   Vec3 upward = Vec3::Zero();
   for (std::size_t i = patch.gone; i < patch.facets.size(); ++i) {
-    const Corners corners = surface.corners_after(patch, patch.facets[i], place);
+    const Corners corners = about(place, surface.corners_after(patch, patch.facets[i], place));
     upward += (corners[1] - corners[0]).cross(corners[2] - corners[0]);
     fan.facets.push_back(corners);
     fan.numbers.push_back(patch.facets[i]);
   }
   for (const Corners& corners : fan.facets) {
     for (std::size_t k = 0; k < 3; ++k) {  // each facet gives the wall over one of its two sides at the place
-      if (corners[k] == place) fan.walls.push_back((corners[(k + 1) % 3] - place).cross(upward));
+      if (corners[k].isZero(0)) fan.walls.push_back(corners[(k + 1) % 3].cross(upward));
     }
   }
 }
@@ -102,7 +107,7 @@ void add_border(const Surface& surface, const Patch& patch, Fan& fan) {
       for (const std::uint32_t other : surface.star(v)) {
         if (std::find(patch.facets.begin(), patch.facets.end(), other) != patch.facets.end()) continue;
         if (std::find(fan.numbers.begin(), fan.numbers.end(), other) != fan.numbers.end()) continue;
-        fan.facets.push_back(surface.corners(other));
+        fan.facets.push_back(about(fan.place, surface.corners(other)));
         fan.numbers.push_back(other);
       }
     }
@@ -119,7 +124,7 @@ void cut(const Corners& facet, const Fan& fan, std::vector<Part>& parts) {
     const std::size_t count = parts.size();
     if (count >= kMostParts) return;
     for (std::size_t i = 0; i < count && parts.size() < kMostParts; ++i) {
-      if (!split(parts[i], fan.place, wall, below, above)) continue;
+      if (!split(parts[i], Vec3::Zero(), wall, below, above)) continue;
       parts[i] = below;
       parts.push_back(above);
     }
@@ -193,40 +198,58 @@ bool halve(const Part& part, Part& below, Part& above) {
 
 }  // namespace
 
-double LostDistance::after(const Surface& surface, const Patch& patch, const Vec3& place, double limit_m,
-                           std::vector<FacetBound>& bounds) const {
+LostDistance::LostDistance(std::size_t facets, const Lengths& lengths)
+    : bounds_(facets), lengths_(lengths), rounding_m_(std::ldexp(kRoundings * lengths.size_m, -53)) {
+  for (std::uint32_t f = 0; f < facets; ++f) bounds_[f].facet = f;
+}
+
+bool LostDistance::is_allowed(const FacetBound& bound) const {
+  return !lengths_.limit_m || bound.bound_m <= lengths_.flat_m || with_rounding(bound) <= *lengths_.limit_m;
+}
+
+bool LostDistance::after(const Surface& surface, const Patch& patch, const Vec3& place,
+                         std::vector<FacetBound>& bounds) const {
+  const double worth_m = lengths_.worth_m;
+  const double limit_m =
+      lengths_.limit_m ? std::max(*lengths_.limit_m, lengths_.flat_m) : std::numeric_limits<double>::infinity();
   thread_local Fan fan;
   thread_local std::vector<Part> parts;
   make_fan(surface, patch, place, fan);
   bounds.clear();
-  for (const std::uint32_t f : fan.numbers) bounds.push_back({f, 0});
+  for (const std::uint32_t f : fan.numbers) bounds.push_back({f, 0, 0});
   std::size_t work = 0;
   for (std::size_t i = 0; i < patch.facets.size(); ++i) {
     const std::uint32_t f = patch.facets[i];
+    const double before = bounds_[f].bound_m;
+    const Corners corners = about(place, surface.corners(f));
+    const auto bind_to = [&](FacetBound& facet, double bound) {
+      facet.bound_m = std::max(facet.bound_m, bound);
+      facet.steps = std::max(facet.steps, bounds_[f].steps + 1);
+    };
     if (i >= patch.gone) {  // most facets hardly move
-      double& own = bounds[i - patch.gone].bound_m;
-      const double bound = bound_m_[f] + farthest_corner(surface.corners(f), fan, i - patch.gone) * kRoundedUp;
-      if (bound <= std::max(own, worth_m_)) {
-        own = std::max(own, bound);
+      FacetBound& own = bounds[i - patch.gone];
+      const double bound = before + farthest_corner(corners, fan, i - patch.gone);
+      if (bound <= std::max(own.bound_m, worth_m)) {
+        bind_to(own, bound);
         continue;
       }
     }
-    cut(surface.corners(f), fan, parts);
+    cut(corners, fan, parts);
     while (!parts.empty()) {
       const Part part = parts.back();
       parts.pop_back();
       const Bound bound = bind(part, fan);
       work += fan.facets.size();
-      if (work < kMostWork && bound_m_[f] + bound.farthest > worth_m_ && bound.farthest > kTight * bound.least) {
+      if (work < kMostWork && before + bound.farthest > worth_m && bound.farthest > kTight * bound.least) {
         if (!fan.has_border) {
           add_border(surface, patch, fan);
           for (std::size_t k = bounds.size(); k < fan.numbers.size(); ++k) {
-            bounds.push_back({fan.numbers[k], bound_m_[fan.numbers[k]]});
+            bounds.push_back(bounds_[fan.numbers[k]]);
           }
           parts.push_back(part);
           continue;
         }
-        const bool may_pass = bound_m_[f] + bound.farthest <= limit_m || bound_m_[f] + least_m(part, fan) <= limit_m;
+        const bool may_pass = before + bound.farthest <= limit_m || before + least_m(part, fan) <= limit_m;
         Part below, above;
         if (may_pass && part.halvings < kMostHalvings && halve(part, below, above)) {
           parts.push_back(below);
@@ -234,36 +257,37 @@ double LostDistance::after(const Surface& surface, const Patch& patch, const Vec
           continue;
         }
       }
-      double& of_facet = bounds[bound.facet].bound_m;
-      of_facet = std::max(of_facet, bound_m_[f] + bound.farthest * kRoundedUp);
-      if (of_facet > limit_m) return of_facet;
+      bind_to(bounds[bound.facet], before + bound.farthest);
+      if (!is_allowed(bounds[bound.facet])) return false;
     }
   }
-  double largest = 0;
-  for (const FacetBound& one : bounds) largest = std::max(largest, one.bound_m);
-  return largest;
+  return std::all_of(bounds.begin(), bounds.end(), [&](const FacetBound& bound) { return is_allowed(bound); });
 }
 
 void LostDistance::set(const std::vector<FacetBound>& bounds) {
-  for (const auto& [facet, bound] : bounds) {
-    bound_m_[facet] = bound;
-    if (!is_limited_) worth_m_ = std::max(worth_m_, bound / 2);
+  for (const FacetBound& bound : bounds) {
+    bounds_[bound.facet] = bound;
+    if (!lengths_.limit_m) lengths_.worth_m = std::max(lengths_.worth_m, bound.bound_m / 2);
   }
 }
 
-double LostDistance::after_drop(const Surface& surface, std::span<const std::uint32_t> facets, std::uint32_t to) const {
+FacetBound LostDistance::after_drop(const Surface& surface, std::span<const std::uint32_t> facets,
+                                    std::uint32_t to) const {
   const Vec3 corner = surface.corners(to)[0];
-  double farthest = 0;  // balls are convex: what is inside is no farther than the corners
-  for (const std::uint32_t f : facets) {
-    for (const Vec3& v : surface.corners(f)) farthest = std::max(farthest, (v - corner).norm() + bound_m_[f]);
+  FacetBound bound = bounds_[to];
+  for (const std::uint32_t f : facets) {  // balls are convex: what is inside is no farther than the corners
+    for (const Vec3& v : surface.corners(f)) {
+      bound.bound_m = std::max(bound.bound_m, (v - corner).norm() + bounds_[f].bound_m);
+    }
+    bound.steps = std::max(bound.steps, bounds_[f].steps + 1);
   }
-  return std::max(bound_m_[to], farthest * kRoundedUp);
+  return bound;
 }
 
 double LostDistance::largest_m(const Surface& surface) const {
   double largest = 0;
-  for (std::uint32_t f = 0; f < bound_m_.size(); ++f) {
-    if (!surface.is_gone(f)) largest = std::max(largest, bound_m_[f]);
+  for (const FacetBound& bound : bounds_) {
+    if (!surface.is_gone(bound.facet)) largest = std::max(largest, with_rounding(bound));
   }
   return largest;
 }

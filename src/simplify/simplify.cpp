@@ -72,12 +72,11 @@ class Simplifier {
   Simplifier(const Prepared& prepared, const SimplifyOptions& options)
       : surface_(prepared.mesh, prepared.pieces.piece_of),
         pieces_(prepared.mesh, prepared.pieces),
-        lost_(surface_.slots(), worth_m(prepared.mesh, options), options.error_m.has_value()),
+        narrowest_m_(narrowest_m(prepared.mesh)),
+        lost_(surface_.slots(), lengths(prepared.mesh, options, narrowest_m_)),
         stamps_(surface_.vertices().size(), 0),
         is_marked_(surface_.vertices().size(), 0),
-        narrowest_m_(narrowest_m(prepared.mesh)),
-        wanted_(options.facets.value_or(kFewestFacets)),
-        most_error_m_(options.error_m.value_or(std::numeric_limits<double>::infinity()) + narrowest_m_) {}
+        wanted_(options.facets.value_or(kFewestFacets)) {}
 
   void run(const core::ProgressReporter& progress);
 
@@ -87,10 +86,10 @@ class Simplifier {
   std::size_t pieces_dropped() const { return dropped_; }
 
  private:
-  static double worth_m(const Mesh& mesh, const SimplifyOptions& options) {
-    if (options.error_m) return *options.error_m / 4;
+  static LostDistance::Lengths lengths(const Mesh& mesh, const SimplifyOptions& options, double flat_m) {
     const Box box = bounding_box(mesh);
-    return 1e-4 * (box.max - box.min).norm();
+    const double size = (box.max - box.min).norm();
+    return {size, options.error_m ? *options.error_m / 4 : 1e-4 * size, flat_m, options.error_m};
   }
 
   std::optional<Waiting> look_at(std::uint32_t from, std::uint32_t to, std::uint32_t rank, Scratch& scratch) const;
@@ -103,12 +102,11 @@ class Simplifier {
 
   Surface surface_;
   WholePieces pieces_;
+  double narrowest_m_;
   LostDistance lost_;
   std::vector<std::uint32_t> stamps_;  ///< per vertex: how often facets at it have changed
   std::vector<char> is_marked_;        ///< per vertex
-  double narrowest_m_;
   std::size_t wanted_;
-  double most_error_m_;  ///< with room for roundings
   std::priority_queue<Waiting> queue_;
   Scratch scratch_;
   std::vector<FacetBound> bounds_;
@@ -184,7 +182,7 @@ void Simplifier::collapse_next() {
   find_places(surface_, patch, scratch_.places);
   const Place place = places[next.rank];
   if (!is_inner(surface_, patch, place.at) || !is_clean(surface_, patch, place.at, narrowest_m_) ||
-      lost_.after(surface_, patch, place.at, most_error_m_, bounds_) > most_error_m_) {
+      !lost_.after(surface_, patch, place.at, bounds_)) {
     look_again_at(next.from, next.to, next.rank + 1);
     return;
   }
@@ -200,22 +198,22 @@ void Simplifier::drop_piece() {
   if (!facets) return;
   const std::uint32_t piece = surface_.piece_of(facets->front());
   const Vec3 corner = surface_.corners(facets->front())[0];
-  FacetBound nearest;
+  std::uint32_t nearest = 0;
   double least = std::numeric_limits<double>::infinity();
   for (std::uint32_t f = 0; f < surface_.slots(); ++f) {
     if (surface_.is_gone(f) || surface_.piece_of(f) == piece) continue;
     const double distance = (surface_.corners(f)[0] - corner).squaredNorm();
     if (distance >= least) continue;
     least = distance;
-    nearest.facet = f;
+    nearest = f;
   }
-  nearest.bound_m = lost_.after_drop(surface_, *facets, nearest.facet);
-  if (nearest.bound_m > most_error_m_) {
+  const FacetBound bound = lost_.after_drop(surface_, *facets, nearest);
+  if (!lost_.is_allowed(bound)) {
     pieces_.keep_taken();
     return;
   }
   surface_.drop(*facets);
-  lost_.set({nearest});
+  lost_.set({bound});
   ++dropped_;
 }
 
