@@ -15,7 +15,10 @@ namespace vantage {
 /// One of the two, or both: as few facets as are asked for, but nothing is lost that lies farther off than allowed.
 struct SimplifyOptions {
   std::optional<std::size_t> facets;  ///< stop at so many; at least 4
-  std::optional<double> error_m;      ///< no point of the volume may be farther than this from the result; at least 0
+  std::optional<double> error_m;      ///< no point of the volume may be farther than this from the result; at least 0.
+                                      ///< What is flat but for rounding may be lost all the same: up to 8 roundings of
+                                      ///< the largest coordinate, 1e-11 of the size where that is more (8e-9 m at map
+                                      ///< coordinates), and what rounding does to a bound that small
 };
 
 struct SimplifiedVolume {
@@ -23,9 +26,11 @@ struct SimplifiedVolume {
   std::vector<std::uint32_t> facet_of;  ///< per triangle: the one of the volume that it came from, about there
   std::size_t facets_before = 0;
   double volume_before_m3 = 0, volume_after_m3 = 0;
-  double lost_bound_m = 0;         ///< no point of the volume is farther than this from the result (solid to solid)
-  double lost_measured_m = 0;      ///< of the volume's vertices, the one farthest from the result is so far from it
-  std::size_t pieces = 0;          ///< that are left
+  double lost_bound_m = 0;     ///< no point of the volume is farther than this from the result (solid to solid);
+                               ///< all that is rounded is in it: 256 roundings of the size for each of the collapses
+                               ///< that came one after the other in one place
+  double lost_measured_m = 0;  ///< of the volume's vertices, the one farthest from the result is so far from it
+  std::size_t pieces = 0;      ///< that are left
   std::size_t pieces_dropped = 0;  ///< small ones that were left out
   bool reached = true;  ///< not: more facets are left than were asked for, as none can go without leaving the volume,
                         ///< losing more than error_m, or passing through another part of the surface
@@ -33,7 +38,9 @@ struct SimplifiedVolume {
 
 /// Fewer facets, and no point that was not in `volume`: {winding number > 0} of the result is a subset of that of
 /// `volume`, decided exactly on the numbers as they are (docs/simplify.md has the argument). So what was proved of the
-/// volume holds of the result. Edges are collapsed, those first that lose least, to the point that loses least.
+/// volume holds of the result where neither winds round a point less than 0 times. So it is with a volume that does not
+/// pass through itself. Any other may get such points, which prove_volume counts as inside: prove the result. Edges are
+/// collapsed, those first that lose least, to the point that loses least.
 ///
 /// `volume` is any closed, oriented mesh with its outside outward; vertices in one place count as one. Where it does
 /// not pass through itself neither does the result. Cavities and handles stay. A volume that has no more facets than
