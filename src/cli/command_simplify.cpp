@@ -26,10 +26,10 @@ constexpr const char* kSimplifyExamples =
     "  vantage simplify volume.ply --error 0.5 -o small.glb      # nothing that is lost is farther than 0.5 m off\n"
     "  vantage simplify volume.ply --facets 500 --error 2 -o small.ply && vantage prove mission.yaml small.ply\n"
     "\n"
-    "The result is a subset of the volume, exactly, in numbers of double precision (PLY, OBJ): what was proved of the\n"
-    "volume holds of it. Formats of single precision (STL, GLB) round, and state by how much. The file says what it\n"
-    "is for, as the volume's does, so that it can be proved, verified and compared. With both --facets and --error\n"
-    "it ends where one of them is reached. How it works: docs/simplify.md.\n"
+    "The result is a subset of the volume, exactly, in numbers of double precision (PLY, OBJ): what was proved of a\n"
+    "volume that does not pass through itself holds of it. Formats of single precision (STL, GLB) round, and state by\n"
+    "how much. The file says what it is for, as the volume's does, so that it can be proved, verified and compared.\n"
+    "With both --facets and --error it ends where one of them is reached. How it works: docs/simplify.md.\n"
     "\n"
     "Where more facets are left than --facets asks for, the file is written all the same, and the exit code is 1.\n";
 
