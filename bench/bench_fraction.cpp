@@ -35,7 +35,7 @@ const PreparedTarget* gallery_target() {
   static const std::unique_ptr<const PreparedTarget> target = []() -> std::unique_ptr<const PreparedTarget> {
     if (!std::filesystem::exists(testing::shared_data("mesh/munich_merged.ply"))) return nullptr;
     const Mission mission = resolve_mission(read_mission(testing::source_folder() / "docs/gallery/munich.yaml"));
-    return std::make_unique<PreparedTarget>(prepare_target(mission, PreparedScene(mission.loaded.scene)));
+    return std::make_unique<PreparedTarget>(prepare_target(mission, PreparedScene(mission.scene())));
   }();
   return target.get();
 }

@@ -487,8 +487,8 @@ TEST(AboveGroundMap, OverTerrainTheVolumeKeepsItsHeights) {
   VerifyOptions options;
   options.points = 1000;
   options.lift_m = result.volume.lift_m;
-  const VerifyReport report = verify_volume(mission.loaded.scene, mission.target, mission.sensor, mission.navigation,
-                                            result.volume.mesh, options);
+  const VerifyReport report =
+      verify_volume(mission.scene(), mission.target, mission.sensor, mission.navigation, result.volume.mesh, options);
   EXPECT_TRUE(report.is_right()) << report.worst_over_cause;
   EXPECT_EQ(report.under_claimed, 0u);
 }

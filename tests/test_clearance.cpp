@@ -317,11 +317,11 @@ TEST_F(ClearanceMission, IsFromAllOrFromAllButTheNamedGround) {
   const Mission all = resolve("{clearance: 3}");
   EXPECT_EQ(all.navigation.clearance->distance_m, 3);
   EXPECT_EQ(all.navigation.clearance->obstacles->triangles.size(), 2u);
-  ASSERT_EQ(all.loaded.notes.size(), 1u);
-  EXPECT_EQ(all.loaded.notes[0].code, WarningCode::clearance_from_all);
+  ASSERT_EQ(all.notes.size(), 1u);
+  EXPECT_EQ(all.notes[0].code, WarningCode::clearance_from_all);
   const Mission named = resolve("{clearance: 3, ground: field}");
   EXPECT_EQ(named.navigation.clearance->obstacles->triangles.size(), 1u);
-  EXPECT_TRUE(named.loaded.notes.empty());
+  EXPECT_TRUE(named.notes.empty());
   testing::expect_error([&] { resolve("{clearance: 3, ground: feild}"); }, ErrorCode::object_missing,
                         "mission.yaml:4:");
 }
@@ -360,7 +360,7 @@ TEST(ClearanceMap, AVolumeAmongHousesKeepsItsDistance) {
                            "target: {center: [43.7386, 7.4250], width: 6, length: 6, offset: 30}\n"
                            "sensor: {max_range: 150}\nnavigation: {clearance: 10}\n";
   const Mission mission = resolve_mission(read_mission_text(text, "mission.yaml"));
-  EXPECT_TRUE(mission.loaded.notes.empty() || mission.loaded.notes[0].code != WarningCode::clearance_from_all);
+  EXPECT_TRUE(mission.notes.empty() || mission.notes[0].code != WarningCode::clearance_from_all);
   const Result result = run_mission(mission);
   ASSERT_EQ(result.volume.outcome, Outcome::computed) << result.volume.reason;
   const Mesh& obstacles = *mission.navigation.clearance->obstacles;
@@ -372,8 +372,8 @@ TEST(ClearanceMap, AVolumeAmongHousesKeepsItsDistance) {
   VerifyOptions options;
   options.points = 2000;
   options.lift_m = result.volume.lift_m;
-  const VerifyReport report = verify_volume(mission.loaded.scene, mission.target, mission.sensor, mission.navigation,
-                                            result.volume.mesh, options);
+  const VerifyReport report =
+      verify_volume(mission.scene(), mission.target, mission.sensor, mission.navigation, result.volume.mesh, options);
   EXPECT_TRUE(report.is_right()) << report.worst_over_cause;
   EXPECT_EQ(report.under_claimed, 0u);
 }

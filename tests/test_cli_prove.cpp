@@ -315,7 +315,7 @@ TEST_F(CliProve, WritesNoCertificateThatCannotBeChecked) {
 TEST_F(CliProve, WritesNoCertificateOfAMeshThatWasMoved) {
   output_of({"compute", "mission.yaml", "-q", "-o", "v.ply"});
   const Mission mission = resolve_mission(read_mission(folder_ / "mission.yaml"));
-  VolumeFile read = read_volume(folder_ / "v.ply", mission.loaded.scene);
+  VolumeFile read = read_volume(folder_ / "v.ply", mission.scene());
   const std::filesystem::path file = folder_ / "v.cert";
   write_certificate({}, mission, read, file);
   std::filesystem::remove(file);

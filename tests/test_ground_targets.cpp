@@ -38,9 +38,7 @@ class GroundTargetTest : public ::testing::Test {
                 "scene: {osm: city.osm, center: [48.1374, 11.5755], radius: 300}\n"
                 "sensor: {max_range: 90}\n" +
                     text);
-    Mission mission = resolve_mission(read_mission(folder_ / "mission.yaml"));
-    loaded_ = mission.loaded;
-    return mission;
+    return resolve_mission(read_mission(folder_ / "mission.yaml"));
   }
 
   void expect_refused(const std::string& text, ErrorCode code) {
@@ -55,7 +53,6 @@ class GroundTargetTest : public ::testing::Test {
   }
 
   TemporaryDirectory folder_;
-  LoadedScene loaded_;
 };
 
 double area_of(const Target& target) {

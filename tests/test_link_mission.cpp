@@ -83,8 +83,8 @@ TEST_F(LinkMission, FilesStateTheLink) {
     ASSERT_TRUE(file.volume.provenance && file.volume.provenance->sensor.link);
     EXPECT_EQ(file.volume.provenance->sensor.link->frequency_ghz, 5.8);
     EXPECT_EQ(file.volume.provenance->sensor.link->clear, 0.75);
-    const VerifyReport report = verify_volume(mission.loaded.scene, mission.target, mission.sensor, {},
-                                              file.volume.mesh, verify_options(file, mission));
+    const VerifyReport report = verify_volume(mission.scene(), mission.target, mission.sensor, {}, file.volume.mesh,
+                                              verify_options(file, mission));
     EXPECT_EQ(report.over_claimed, 0U) << report.worst_over_cause << ' ' << report.worst_over_depth_m;
   }
 }

@@ -60,7 +60,8 @@ class MissionPlaces : public Cli {
   /// Placed, with its scene.
   Mission placed(const std::string& scene, const std::string& rest) {
     Mission result = resolve_mission(mission(scene, rest));
-    loaded_ = result.loaded;
+    scene_ = result.scene();
+    notes_ = result.notes;
     return result;
   }
   Volume volume(const std::string& scene, const std::string& rest) {
@@ -72,7 +73,8 @@ class MissionPlaces : public Cli {
   }
 
   const geo::LocalFrame frame_{kCentre};
-  LoadedScene loaded_;
+  Scene scene_;
+  std::vector<Warning> notes_;
 };
 
 using CliMissionPlaces = MissionPlaces;
@@ -276,8 +278,8 @@ TEST_F(MissionPlaces, FlatGroundIsExtendedToHoldTheTarget) {
   write("city.osm", map.text());
   for (const std::string name : {"way/2", "way/3"}) {
     const Mission result = placed("osm: city.osm", "target: {osm: " + name + "}\n");
-    EXPECT_EQ(loaded_.notes.size(), 1u);
-    const Box ground = ground_box(loaded_.scene);
+    EXPECT_EQ(notes_.size(), 1u);
+    const Box ground = ground_box(scene_);
     for (const Vec3& vertex : result.target.parts[0]) {
       EXPECT_EQ(vertex.z(), 0);
       EXPECT_GT((vertex - ground.min).head<2>().minCoeff(), 10);
@@ -294,13 +296,13 @@ TEST_F(MissionPlaces, FlatGroundIsExtendedToHoldTheTarget) {
   const std::string target =
       "target: {center: [" + text_of(at.latitude_deg) + ", " + text_of(at.longitude_deg) + "], width: 8, length: 12}\n";
   placed("osm: city.osm", target);
-  EXPECT_EQ(loaded_.notes.size(), 1u);
+  EXPECT_EQ(notes_.size(), 1u);
   output_of({"scene", "city.osm", "-q", "-o", "built.glb"});
   placed("mesh: built.glb", target);
-  EXPECT_EQ(loaded_.notes.size(), 1u);
+  EXPECT_EQ(notes_.size(), 1u);
   // What is large enough stays as it is.
   placed("osm: city.osm", "target: {center: [48.1374, 11.57575], width: 8, length: 12}\n");
-  EXPECT_TRUE(loaded_.notes.empty());
+  EXPECT_TRUE(notes_.empty());
   // As large as it takes, though nothing can see all of it.
   const Volume field = volume("osm: city.osm", "target: {center: [48.1374, 11.5757], width: 5, length: 5000}\n");
   EXPECT_EQ(field.outcome, Outcome::out_of_range);
@@ -313,15 +315,15 @@ TEST_F(MissionPlaces, TerrainIsBuiltAsFarAsTheTarget) {
   write("city.osm", map.text());
   const std::string scene = "osm: city.osm, terrain: dem.asc, error: 0.01";
   const Mission result = placed(scene, "target: {osm: way/2}\n");
-  ASSERT_EQ(loaded_.notes.size(), 1u);
-  EXPECT_EQ(loaded_.notes[0].code, WarningCode::ground_extended);
-  testing::expect_wording(loaded_.notes[0].text);
+  ASSERT_EQ(notes_.size(), 1u);
+  EXPECT_EQ(notes_[0].code, WarningCode::ground_extended);
+  testing::expect_wording(notes_[0].text);
   for (const Vec3& vertex : result.target.parts[0]) {
-    const double north = frame_
-                             .to_local(geo::LocalFrame({loaded_.scene.georeference->longitude_deg,
-                                                        loaded_.scene.georeference->latitude_deg})
-                                           .to_lonlat(vertex.head<2>()))
-                             .y();
+    const double north =
+        frame_
+            .to_local(geo::LocalFrame({scene_.georeference->longitude_deg, scene_.georeference->latitude_deg})
+                          .to_lonlat(vertex.head<2>()))
+            .y();
     EXPECT_NEAR(vertex.z(), 500 + kSlope * north, 0.05);
   }
 }

@@ -200,7 +200,7 @@ Scene yard() { return testing::SceneBuilder().ground("ground", 60).box("shed", {
 Mission mission_with(const std::string& sensor) {
   Mission mission;
   mission.as_written = parse(sensor);
-  mission.loaded.scene = yard();
+  mission.loaded = std::make_shared<const LoadedScene>(LoadedScene{yard(), {}, {}});
   mission.target = mission.as_written.target;
   mission.sensor = mission.as_written.sensor;
   return mission;
@@ -266,7 +266,7 @@ TEST(SensorMission, AShareTravelsInTheFile) {
     ASSERT_TRUE(read.volume.provenance && read.volume.provenance->sensor.visible);
     EXPECT_EQ(read.volume.provenance->sensor.visible->share, 0.6);
     EXPECT_EQ(read.volume.provenance->sensor.visible->cells, 12u);
-    const VerifyReport report = verify_volume(mission.loaded.scene, mission.target, read.volume.provenance->sensor, {},
+    const VerifyReport report = verify_volume(mission.scene(), mission.target, read.volume.provenance->sensor, {},
                                               read.volume.mesh, verify_options(read, mission));
     EXPECT_TRUE(report.is_right()) << report.worst_over_cause;
   }

@@ -79,7 +79,7 @@ VerifyReport judged(const Mission& mission, const Volume& volume) {
     for (const Target& target : view) parts += target.parts.size();
   }
   if (parts == volume.lift_m.size()) options.lift_m = volume.lift_m;
-  const Scene& scene = mission.loaded.scene;
+  const Scene& scene = mission.scene();
   return mission.views.empty()
              ? verify_volume(scene, mission.target, mission.sensor, mission.navigation, volume.mesh, options)
              : verify_volume(scene, mission.views, mission.sensor, mission.navigation, volume.mesh, options);
@@ -230,7 +230,7 @@ TEST_F(SeveralTargets, FilesStateThem) {
   ASSERT_EQ(result.volume.provenance->views.size(), 1U);
   ASSERT_EQ(result.volume.provenance->views[0].size(), 3U);
   write_results(result.volume, result_request(any, result, {folder_ / "volume.ply"}));
-  const VolumeFile read = read_volume(folder_ / "volume.ply", any.loaded.scene);
+  const VolumeFile read = read_volume(folder_ / "volume.ply", any.scene());
   ASSERT_TRUE(read.volume.provenance);
   ASSERT_EQ(read.volume.provenance->views.size(), 1U);
   for (std::size_t i = 0; i < 3; ++i) {
@@ -266,7 +266,7 @@ TEST_F(SeveralTargets, NamesGivenTwiceGetNumbersThatAreFree) {
 
 TEST_F(SeveralTargets, AreNotOnePreparedTarget) {
   const Mission any = of("any", {kWest, kNorth});
-  const PreparedScene scene(any.loaded.scene);
+  const PreparedScene scene(any.scene());
   testing::expect_error([&] { prepare_target(any, scene); }, ErrorCode::not_applicable);
   const PreparedTarget alone(scene, any.views[0][0], any.sensor);
   testing::expect_code([&] { run_mission(any, alone); }, ErrorCode::not_applicable);

@@ -307,9 +307,9 @@ TEST(ZoneFiles, BecomeZonesOfTheMission) {
   for (const Eigen::Vector2d& p : kept.outer) nearest = std::min(nearest, (p - far).norm());
   EXPECT_LT(nearest, 0.01);
   EXPECT_EQ(resolved.navigation.keep_out_zones.size(), 2u);
-  ASSERT_EQ(resolved.loaded.notes.size(), 2u);
-  EXPECT_EQ(resolved.loaded.notes[0].code, WarningCode::zones_left_out);
-  expect_wording({resolved.loaded.notes[0].text, resolved.loaded.notes[1].text});
+  ASSERT_EQ(resolved.notes.size(), 2u);
+  EXPECT_EQ(resolved.notes[0].code, WarningCode::zones_left_out);
+  expect_wording({resolved.notes[0].text, resolved.notes[1].text});
   EXPECT_EQ(resolved.as_written.navigation.keep_in_zones.size(), 0u);
 }
 
@@ -326,9 +326,9 @@ TEST(ZoneFiles, FencesGoWhereTheyBelong) {
   const std::string name = "fence.plan polygon 0", narrowed = "keep_in: [{file: fence.plan, z: [5, 50]}]";
   EXPECT_EQ(kept.navigation.keep_in_zones[0].name, name);
   EXPECT_EQ(out.navigation.keep_out_zones.size(), 2u);
-  expect_wording({kept.loaded.notes.at(0).text, out.loaded.notes.at(0).text});
+  expect_wording({kept.notes.at(0).text, out.notes.at(0).text});
   const std::string both = "keep_in: [{file: fence.plan}]\n  keep_out: [{file: fence.plan}]";
-  EXPECT_TRUE(mission.resolve(both).loaded.notes.empty());  // all of it is taken
+  EXPECT_TRUE(mission.resolve(both).notes.empty());  // all of it is taken
   EXPECT_EQ(mission.resolve(narrowed).navigation.keep_in_zones[0].min_z_m, 5);
 }
 
@@ -373,7 +373,7 @@ TEST(ZoneFiles, HeightsAboveTheGroundAreMeasuredFromTheScenes) {
   EXPECT_EQ(zone.above_ground->max_m, 640);
   EXPECT_TRUE(std::isinf(zone.above_ground->min_m));
   EXPECT_TRUE(std::isinf(zone.max_z_m));
-  const auto ground = ground_of(resolved.loaded.scene);
+  const auto ground = ground_of(resolved.scene());
   ASSERT_TRUE(ground);
   EXPECT_EQ(zone.above_ground->ground.plane_z_m, ground->plane_z_m);
 }
@@ -419,8 +419,8 @@ TEST(ZoneFiles, ZonesOutOfReachAreLeftOut) {
   const Mission resolved = mission.resolve("keep_out: [{file: zones.json, heights: any}]");
   EXPECT_EQ(resolved.navigation.keep_out_zones.size(), 1u);
   EXPECT_EQ(resolved.navigation.keep_out_zones[0].name, "zones.json 1");
-  ASSERT_EQ(resolved.loaded.notes.size(), 1u);
-  expect_wording(resolved.loaded.notes[0].text);
+  ASSERT_EQ(resolved.notes.size(), 1u);
+  expect_wording(resolved.notes[0].text);
 }
 
 // A side along a parallel leaves the chord between its corners by 48 km.

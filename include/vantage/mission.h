@@ -7,6 +7,7 @@
 
 #include <array>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -172,6 +173,14 @@ VANTAGE_API MissionFile read_mission(const std::filesystem::path& file);
 /// The same of a mission file's text, which came from elsewhere. `file` stands for it in messages and reports; paths in
 /// the text start from its folder, the current one where it has none.
 VANTAGE_API MissionFile read_mission_text(std::string_view text, const std::filesystem::path& file);
+/// The same of a text without `scene`, for a scene that is loaded already. `source`: what it was loaded from, whose
+/// files are not looked at; of a scene that was made in memory a SceneSource without a file.
+VANTAGE_API MissionFile read_mission_text(std::string_view text, const std::filesystem::path& file,
+                                          const SceneSource& source);
+
+/// The `scene` of a mission alone: of a text without anything else. All but MissionFile::scene and sea_level_m stays as
+/// it is by default.
+VANTAGE_API MissionFile read_scene_text(std::string_view text, const std::filesystem::path& file);
 
 /// The text of a mission file that reads back as the same mission. Paths below `folder`, where the text is to be
 /// written, are relative to it.
@@ -183,14 +192,18 @@ VANTAGE_API std::vector<std::filesystem::path> input_files(const MissionFile& mi
 /// A mission in its scene: everything is in the scene frame.
 struct Mission {
   MissionFile as_written;
-  LoadedScene loaded;  ///< the scene, and what reading or building it told
-  Target target;       ///< what must be seen. With `views` all that is in them, for pictures and messages
+  /// The scene, and what reading or building it told; never null. Shared by the missions that are resolved in it.
+  std::shared_ptr<const LoadedScene> loaded = std::make_shared<const LoadedScene>();
+  Target target;  ///< what must be seen. With `views` all that is in them, for pictures and messages
   /// Where more than `target` is asked: a position of the volume sees, of each list, one target whole or more. With
   /// Combine::each there is a volume for each list. Empty: the target.
   std::vector<std::vector<Target>> views = {};
   Sensor sensor;
   Navigation navigation;
-  double read_seconds = 0;  ///< that reading and resolving took
+  double read_seconds = 0;          ///< that reading and resolving took
+  std::vector<Warning> notes = {};  ///< what resolving changed or left out
+
+  const Scene& scene() const { return loaded->scene; }
 };
 
 /// Reads the mission's scene, and puts what the mission gives on the earth or by name into its frame. Boxes lie askew
@@ -199,7 +212,7 @@ struct Mission {
 /// stay in loses, and a zone to stay out of gains, no more than a few millimetres. Navigation meshes that say where on
 /// the earth they lie are moved there, where the scene says so too. A target of the map without a name of its own gets
 /// the object's. Ground that ends under a target that is laid on it is extended: flat ground as it is, a map's terrain
-/// by building more of it (LoadedScene::notes).
+/// by building more of it (Mission::notes).
 ///
 /// Throws as load_scene does, and Error(input) with the place in the mission file for: a scene that does not say where
 /// on the earth it lies, a position without a value, an object that the map or the scene does not have, or that has no
@@ -207,23 +220,30 @@ struct Mission {
 /// the ground in a scene that does not say what of it is ground, a navigation mesh whose heights are measured from
 /// another level than the scene's, and all that make_target_frame refuses.
 VANTAGE_API Mission resolve_mission(const MissionFile& mission, const Progress& progress = {});
+/// The same in a scene that is loaded already. Where its ground has to be extended, Mission::loaded is another one.
+VANTAGE_API Mission resolve_mission(const MissionFile& mission, std::shared_ptr<const LoadedScene> loaded,
+                                    const Progress& progress = {});
 
 /// How many volumes a mission has: one, but with Combine::each as many as there are targets.
 VANTAGE_API std::size_t volume_count(const Mission& mission);
 
 /// The mission of one of its volumes, as if there were no others: it has the hash of a mission of that target alone.
-/// Its scene is a copy. Throws Error(input) for an index out of range.
+/// Throws Error(input) for an index out of range.
 VANTAGE_API Mission one_volume(const Mission& mission, std::size_t index);
 
-/// What to know before relying on the mission's results: LoadedScene::notes; that map, raster or
+/// What to know before relying on the mission's results: Mission::notes; that map, raster or
 /// ground end within the range, where what would hide part of the target is missing; that a target looks as if it were
 /// given in degrees, lies far off the scene or is looked at from under the ground; that the scene seems to lie on its
 /// side. `volume`: the mission's, where there is one. Cost: linear in the scene's triangles.
 VANTAGE_API std::vector<Warning> mission_warnings(const Mission& mission, const Volume* volume = nullptr);
 
 struct RunOptions {
-  int threads = 0;   ///< at most; 0: as many as the machine has
-  StageSink stages;  ///< those of the spheres method
+  int threads = 0;        ///< at most; 0: as many as the machine has
+  StageSink stages = {};  ///< those of the spheres method
+  /// The mission's scene (Mission::scene), where it is prepared already, and its scene_hash: to run many missions in
+  /// one scene. What is not given is made anew in each run.
+  std::optional<PreparedScene> prepared = {};
+  std::string scene_hash = {};
 };
 
 struct Result {
@@ -240,7 +260,7 @@ VANTAGE_API std::vector<Result> run_missions(const Mission& mission, const RunOp
 
 /// Of a mission of one volume. Prepares the scene and the target, computes, and cuts to the navigation limits. Throws
 /// as the method, PreparedTarget and cut_to_navigation do, with the place in the mission file put in front of errors
-/// about the target. Cost: the sum of theirs; the scene is prepared anew each time.
+/// about the target. Cost: the sum of theirs; unless it is given, the scene is prepared anew each time.
 VANTAGE_API Result run_mission(const Mission& mission, const RunOptions& options = {}, const Progress& progress = {});
 
 /// The same of a target that is prepared already, by prepare_target of this mission: to compute and query without

@@ -11,7 +11,6 @@
 #include "vantage/progress.h"
 #include "vantage/scene.h"
 #include "vantage/terrain.h"
-#include "vantage/warning.h"
 
 namespace vantage {
 
@@ -37,10 +36,9 @@ struct LoadedScene {
   Scene scene;
   std::optional<CityReport> city;      ///< of a map
   std::optional<RasterReport> raster;  ///< of a raster
-  std::vector<Warning> notes;          ///< what resolve_mission changed to fit the target
 };
 
-/// What is worth a sentence of the scene and its source, besides LoadedScene::notes.
+/// What is worth a sentence of the scene and its source.
 VANTAGE_API std::vector<std::string> notes_of(const LoadedScene& loaded);
 
 /// Throws as the function of its kind does.

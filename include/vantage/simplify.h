@@ -9,6 +9,7 @@
 #include "vantage/export.h"
 #include "vantage/geometry.h"
 #include "vantage/progress.h"
+#include "vantage/volume.h"
 
 namespace vantage {
 
@@ -52,5 +53,9 @@ struct SimplifiedVolume {
 /// has an index or a coordinate that is out of range; Error(cancelled).
 VANTAGE_API SimplifiedVolume simplify_volume(const Mesh& volume, const SimplifyOptions& options,
                                              const Progress& progress = {});
+
+/// A volume with the mesh that simplifying its own left: each facet has the cause of the one that it came from, and the
+/// tolerance is larger by what was lost. Throws Error(input) where the two do not belong together.
+VANTAGE_API Volume with_mesh(Volume volume, SimplifiedVolume simplified);
 
 }  // namespace vantage

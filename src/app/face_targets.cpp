@@ -25,19 +25,19 @@ using Objects = std::vector<std::uint32_t>;
 const char* const kNoNames = "give the target's vertices: the objects of this scene have no names";
 
 Objects named(const Mission& mission, const std::string& name) {
-  Objects found = objects_named(mission.loaded.scene, name);
+  Objects found = objects_named(mission.scene(), name);
   if (!found.empty()) return found;
   throw Error(ErrorCode::object_missing, "the scene has no object " + in_quotes(name), mission.as_written.places.target,
-              advice_for_object(mission.loaded.scene, name, kNoNames));
+              advice_for_object(mission.scene(), name, kNoNames));
 }
 
 /// An object of the map and, of a building, its parts.
 Objects of_map(const Mission& mission, const std::string& id) {
-  const std::vector<SceneObject>& objects = mission.loaded.scene.objects;
+  const std::vector<SceneObject>& objects = mission.scene().objects;
   std::set<std::string> wanted{id}, names;
   std::string reason;
-  if (mission.loaded.city) {
-    for (const CityRecord& record : mission.loaded.city->records) {
+  if (mission.loaded->city) {
+    for (const CityRecord& record : mission.loaded->city->records) {
       if (record.building == id) wanted.insert(record.object.source_id);
       if (record.object.source_id == id && record.fate == Fate::skipped) reason = record.reason;
     }
@@ -80,7 +80,7 @@ bool is_ground(const SceneObject& object) {
 
 /// The highest object at a place, but for the ground.
 Objects at_place(const Mission& mission, const std::array<double, 2>& at_deg, const geo::LocalFrame& frame) {
-  const Scene& scene = mission.loaded.scene;
+  const Scene& scene = mission.scene();
   const Vec2 at = frame.to_local({at_deg[1], at_deg[0]});
   std::optional<std::uint32_t> highest, nearest;
   double top = -INFINITY, least = INFINITY;
@@ -112,7 +112,7 @@ Objects at_place(const Mission& mission, const std::array<double, 2>& at_deg, co
 
 std::string name_of_objects(const Mission& mission, const FaceTarget& wanted, const Objects& objects) {
   if (!wanted.object.empty()) return wanted.object;
-  const SceneObject& first = mission.loaded.scene.objects[objects.front()];
+  const SceneObject& first = mission.scene().objects[objects.front()];
   if (wanted.osm.empty() || first.source_id == wanted.osm) return display_name(first);
   return wanted.osm;
 }

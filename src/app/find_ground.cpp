@@ -25,7 +25,7 @@ std::uint32_t named_object(const Scene& scene, const std::string& name, const st
 }
 
 Ground ground_for(const Mission& mission, const std::string& where) {
-  const Scene& scene = mission.loaded.scene;
+  const Scene& scene = mission.scene();
   if (const auto& source = mission.as_written.ground) {
     return source->plane_z_m ? Ground{*source->plane_z_m}
                              : ground_of(scene, named_object(scene, source->object, where));
@@ -55,17 +55,17 @@ void find_ground(Mission& mission) {
 void find_obstacles(Mission& mission) {
   auto& clearance = mission.navigation.clearance;
   if (!clearance) return;
-  const Scene& scene = mission.loaded.scene;
+  const Scene& scene = mission.scene();
   std::vector<std::uint32_t> ground;
   if (const auto& source = mission.as_written.ground; source && !source->plane_z_m) {
     ground.push_back(named_object(scene, source->object, mission.as_written.places.above_ground));
   }
   clearance->obstacles = obstacles_of(scene, ground);
   const bool is_all = clearance->obstacles->triangles.size() == scene.mesh.triangles.size();
-  const bool has_flat_ground = mission.loaded.city.has_value();
+  const bool has_flat_ground = mission.loaded->city.has_value();
   if (!is_all || has_flat_ground) return;
-  mission.loaded.notes.push_back({WarningCode::clearance_from_all,
-                                  "the scene does not say what of it is ground: the clearance is kept from all of it"});
+  mission.notes.push_back({WarningCode::clearance_from_all,
+                           "the scene does not say what of it is ground: the clearance is kept from all of it"});
 }
 
 }  // namespace vantage::internal::app

@@ -26,7 +26,7 @@ namespace {
 using Vec2 = Eigen::Vector2d;
 
 geo::LocalFrame frame_of(const Mission& mission) {
-  const Scene& scene = mission.loaded.scene;
+  const Scene& scene = mission.scene();
   if (!scene.georeference) {
     throw Error(
         ErrorCode::not_georeferenced, "the scene does not say where on the earth it lies",
@@ -164,7 +164,7 @@ void convert_limits(Navigation& navigation, const CrsConverter& converter, const
 void place_sun(Mission& mission) {
   const SunTime& time = *mission.as_written.sun_time;
   const std::string& place = mission.as_written.places.sensor;
-  const auto& georeference = mission.loaded.scene.georeference;
+  const auto& georeference = mission.scene().georeference;
   if (!georeference) {
     throw Error(ErrorCode::not_georeferenced,
                 "the scene does not say where on the earth it lies, so the sun has no place", place,
@@ -249,7 +249,7 @@ std::vector<std::vector<Target>> placed(Mission& mission, const std::vector<Miss
   std::optional<FaceFinder> finder;
   for (std::size_t i = 0; i < given.size(); ++i) {
     if (!given[i].face_target) continue;
-    if (!finder) finder.emplace(mission.loaded.scene);
+    if (!finder) finder.emplace(mission.scene());
     const OneTarget one(mission, given[i]);
     const bool together = mission.as_written.combine == Combine::all && !given[i].both_sides;
     targets[i] = face_targets(mission, *given[i].face_target, given[i].target, frame, *finder, together);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "vantage/error.h"
@@ -52,7 +54,7 @@ std::optional<std::uint32_t> ground_object(const Scene& scene) {
 }
 
 std::optional<Warning> make_room(Mission& mission, const PlanBox& wanted) {
-  Scene& scene = mission.loaded.scene;
+  const Scene& scene = mission.scene();
   const auto ground = ground_object(scene);
   if (!ground) return std::nullopt;
   const std::vector<std::uint32_t> vertices = vertices_of(scene, *ground);
@@ -70,23 +72,25 @@ std::optional<Warning> make_room(Mission& mission, const PlanBox& wanted) {
     fail_off_ground(mission, "the target lies " + std::to_string(std::lround(away)) +
                                  " m from the scene's ground, farther than max_range: nothing would hide it");
   }
-  if (mission.loaded.city && !mission.as_written.scene.city.terrain.empty()) throw TerrainTooSmall{missing};
+  if (mission.loaded->city && !mission.as_written.scene.city.terrain.empty()) throw TerrainTooSmall{missing};
   if (!is_flat_rectangle(scene, vertices, box)) {
     fail_off_ground(mission, "the target reaches beyond the scene's ground");
   }
   const Vec2 margin = Vec2::Constant(mission.as_written.scene.city.ground_margin_m);
   const PlanBox larger{box.min.cwiseMin(wanted.min - margin), box.max.cwiseMax(wanted.max + margin)};
+  auto extended = std::make_shared<LoadedScene>(*mission.loaded);
   for (const std::uint32_t vertex : vertices) {
-    Vec3& at = scene.mesh.vertices[vertex];
+    Vec3& at = extended->scene.mesh.vertices[vertex];
     for (int axis = 0; axis < 2; ++axis) at[axis] = at[axis] == box.min[axis] ? larger.min[axis] : larger.max[axis];
   }
+  mission.loaded = std::move(extended);
   return Warning{WarningCode::ground_extended, "the flat ground was extended to hold the target, which reaches " +
                                                    std::to_string(std::lround(std::ceil(missing))) +
                                                    " m beyond it: the map has nothing to build out there"};
 }
 
 void fail_off_ground(const Mission& mission, const std::string& problem) {
-  const LoadedScene& loaded = mission.loaded;
+  const LoadedScene& loaded = *mission.loaded;
   const CityRegion& region = mission.as_written.scene.city.region;
   const bool is_part = region.center_deg || region.bbox_deg;
   std::string fix = "make the scene of a larger area, or move the target";

@@ -79,7 +79,7 @@ Vec3 passage(const HiddenView& hidden, const Scene& scene) {
 /// Whether what hides belongs to the surface that the target lies on (docs/verification.md, "Definitions").
 bool is_hidden_by_own_surface(const HiddenView& hidden, const Mission& mission, const std::vector<double>& lift_m) {
   constexpr double kSurfaceHeight = 1e-3, kOnPlane = 1e-6;  // metres
-  const Vec3 at = passage(hidden, mission.loaded.scene);
+  const Vec3 at = passage(hidden, mission.scene());
   bool has_part = false;
   for (const RaisedPart& part : raised_parts(mission, lift_m)) {
     const Vec3& seen = hidden.target_point;
@@ -113,7 +113,7 @@ ProofReport with_verify_tolerances(ProofReport proof, const Mission& mission, co
 std::vector<Warning> volume_warnings(const VolumeFile& read, const Mission& mission) {
   if (!read.volume.provenance) return {};
   const VolumeProvenance& made = *read.volume.provenance;
-  if (!made.scene_hash.empty() && made.scene_hash != scene_hash(mission.loaded.scene)) {
+  if (!made.scene_hash.empty() && made.scene_hash != scene_hash(mission.scene())) {
     return {{WarningCode::volume_of_other_scene,
              "the file says that the volume was computed in another scene than the mission's"}};
   }

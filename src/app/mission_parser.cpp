@@ -24,13 +24,16 @@ namespace fs = std::filesystem;
 
 class MissionParser : private ValueReader {
  public:
-  explicit MissionParser(const fs::path& file) : ValueReader(file.string()), path_(file) {}
+  /// `source`: of a scene that is loaded already; null where the text says it.
+  MissionParser(const fs::path& file, const SceneSource* source)
+      : ValueReader(file.string()), path_(file), source_(source) {}
 
   MissionFile parse(std::string_view text);
+  MissionFile parse_scene_alone(std::string_view text);
 
  private:
   // Sections.
-  void parse_scene(const YamlNode& node);
+  void parse_scene(const YamlNode& root);
   void parse_targets(const YamlNode& root);
   void parse_combine(const YamlNode& node);
   void parse_sensor(const YamlNode& node);
@@ -41,6 +44,7 @@ class MissionParser : private ValueReader {
   const YamlNode& require(const YamlNode& map, Section section, std::string_view key, const std::string& fix) const;
 
   fs::path path_;
+  const SceneSource* source_;
   MissionFile mission_;
 };
 
@@ -51,7 +55,7 @@ MissionFile MissionParser::parse(std::string_view mission_text) {
 
   if (const YamlNode* method = find(root, "method")) parse_method(*method);
   if (const YamlNode* crs = find(root, "crs")) mission_.crs = text(*crs, "crs");
-  parse_scene(require(root, Section::mission, "scene", "write 'scene:' and below it, indented, 'mesh: city.obj'"));
+  parse_scene(root);
   parse_targets(root);
   parse_sensor(
       require(root, Section::mission, "sensor", "write 'sensor:' and below it, indented, 'max_range: 100' (metres)"));
@@ -61,7 +65,29 @@ MissionFile MissionParser::parse(std::string_view mission_text) {
   return std::move(mission_);
 }
 
-void MissionParser::parse_scene(const YamlNode& node) {
+MissionFile MissionParser::parse_scene_alone(std::string_view mission_text) {
+  const YamlNode root = parse_yaml(mission_text, file());
+  check_keys(root, Section::mission, file());
+  for (const YamlEntry& entry : root.entries) {
+    if (entry.key == "scene") continue;
+    fail(ErrorCode::not_applicable, entry.value, "'" + entry.key + "' stands where there is a scene alone",
+         "leave it out");
+  }
+  mission_.file = fs::absolute(path_);
+  parse_scene(root);
+  return std::move(mission_);
+}
+
+void MissionParser::parse_scene(const YamlNode& root) {
+  if (source_) {
+    if (const YamlNode* scene = find(root, "scene")) {
+      fail(ErrorCode::conflicting_keys, *scene, "the scene is given already", "leave out 'scene'");
+    }
+    mission_.scene = *source_;
+    return;
+  }
+  const YamlNode& node =
+      require(root, Section::mission, "scene", "write 'scene:' and below it, indented, 'mesh: city.obj'");
   // Not made shorter here: "a/../b" is not "b" where a is a symbolic link.
   SceneSection section = parse_scene_section(node, *this, mission_.file.parent_path());
   mission_.scene = std::move(section.source);
@@ -179,6 +205,12 @@ const YamlNode& MissionParser::require(const YamlNode& map, Section section, std
 
 }  // namespace
 
-MissionFile parse_mission(std::string_view text, const fs::path& file) { return MissionParser(file).parse(text); }
+MissionFile parse_mission(std::string_view text, const fs::path& file, const SceneSource* source) {
+  return MissionParser(file, source).parse(text);
+}
+
+MissionFile parse_scene(std::string_view text, const fs::path& file) {
+  return MissionParser(file, nullptr).parse_scene_alone(text);
+}
 
 }  // namespace vantage::internal::app

@@ -139,7 +139,7 @@ ProofReport prove_volume(const Mission& mission, const Mesh& volume, const Prove
     one.lift_m = view.lift_m;
     one.other_side_m = view.other_side_m;
     ProofReport report =
-        prove_volume(mission.loaded.scene, view.target, mission.sensor, mission.navigation, volume, one, progress);
+        prove_volume(mission.scene(), view.target, mission.sensor, mission.navigation, volume, one, progress);
     if (all) {
       join(*all, std::move(report), volume);
     } else {
@@ -189,7 +189,7 @@ void check_certificate_files(const fs::path& certificate_file, const fs::path& v
 
 void write_certificate(const Certificate& certificate, const Mission& mission, const VolumeFile& volume,
                        const fs::path& certificate_file) {
-  const Scene& scene = mission.loaded.scene;
+  const Scene& scene = mission.scene();
   const fs::path scene_file = certificate_scene_file(certificate_file);
   CertifiedFiles about;
   about.scene_file = scene_file.filename().string();

@@ -28,15 +28,7 @@ const char* what_of(SceneSource::Kind kind) {
   return "the scene's file";
 }
 
-}  // namespace
-
-MissionFile read_mission(const fs::path& file) {
-  check_readable(file, "the mission file", "");
-  return read_mission_text(internal::app::read_text(file, "mission file"), file);
-}
-
-MissionFile read_mission_text(std::string_view text, const fs::path& file) {
-  MissionFile mission = internal::app::parse_mission(text, file);
+void check_scene(MissionFile& mission) {
   SceneSource& scene = mission.scene;
   check_readable(scene.file, what_of(scene.kind), mission.places.scene);
   scene.file = with_true_folder(scene.file);
@@ -44,6 +36,10 @@ MissionFile read_mission_text(std::string_view text, const fs::path& file) {
     check_readable(scene.city.terrain, "the terrain", mission.places.terrain);
     scene.city.terrain = with_true_folder(scene.city.terrain);
   }
+}
+
+/// The files that navigation limits name.
+void check_limits(MissionFile& mission) {
   for (std::size_t i = 0; i < mission.navigation_meshes.size(); ++i) {
     fs::path& mesh = mission.navigation_meshes[i].file;
     check_readable(mesh, "the navigation mesh", mission.places.navigation_meshes[i]);
@@ -57,6 +53,31 @@ MissionFile read_mission_text(std::string_view text, const fs::path& file) {
   };
   check_zones(mission.keep_in_files, mission.places.keep_in_files);
   check_zones(mission.keep_out_files, mission.places.keep_out_files);
+}
+
+}  // namespace
+
+MissionFile read_mission(const fs::path& file) {
+  check_readable(file, "the mission file", "");
+  return read_mission_text(internal::app::read_text(file, "mission file"), file);
+}
+
+MissionFile read_mission_text(std::string_view text, const fs::path& file) {
+  MissionFile mission = internal::app::parse_mission(text, file);
+  check_scene(mission);
+  check_limits(mission);
+  return mission;
+}
+
+MissionFile read_mission_text(std::string_view text, const fs::path& file, const SceneSource& source) {
+  MissionFile mission = internal::app::parse_mission(text, file, &source);
+  check_limits(mission);
+  return mission;
+}
+
+MissionFile read_scene_text(std::string_view text, const fs::path& file) {
+  MissionFile mission = internal::app::parse_scene(text, file);
+  check_scene(mission);
   return mission;
 }
 

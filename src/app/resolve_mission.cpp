@@ -1,4 +1,5 @@
 #include <cmath>
+#include <memory>
 #include <string>
 #include <utility>
 
@@ -42,10 +43,15 @@ std::vector<internal::app::NavigationMesh> read_navigation_meshes(const MissionF
 }
 
 /// Throws app::TerrainTooSmall.
-Mission assembled(const MissionFile& file, const std::vector<internal::app::NavigationMesh>& meshes, LoadedScene loaded,
-                  const Progress& progress) {
-  Mission mission{file, std::move(loaded), file.target, {}, file.sensor, file.navigation, 0};
-  mission.navigation.meshes = internal::app::placed_navigation_meshes(meshes, mission.loaded.scene);
+Mission assembled(const MissionFile& file, const std::vector<internal::app::NavigationMesh>& meshes,
+                  std::shared_ptr<const LoadedScene> loaded, const Progress& progress) {
+  Mission mission;
+  mission.as_written = file;
+  mission.loaded = std::move(loaded);
+  mission.target = file.target;
+  mission.sensor = file.sensor;
+  mission.navigation = file.navigation;
+  mission.navigation.meshes = internal::app::placed_navigation_meshes(meshes, mission.scene());
   internal::app::georeference(mission, progress);
   internal::app::add_file_zones(mission, progress);
   internal::app::find_ground(mission);
@@ -53,27 +59,41 @@ Mission assembled(const MissionFile& file, const std::vector<internal::app::Navi
   return mission;
 }
 
-}  // namespace
+std::shared_ptr<const LoadedScene> load(const SceneSource& source, const Progress& progress) {
+  return std::make_shared<const LoadedScene>(load_scene(source, progress));
+}
 
-Mission resolve_mission(const MissionFile& file, const Progress& progress) {
+/// `loaded`: null where it is to be loaded.
+Mission resolved(const MissionFile& file, std::shared_ptr<const LoadedScene> loaded, const Progress& progress) {
   const internal::core::Stopwatch stopwatch;
   const std::vector<internal::app::NavigationMesh> meshes = read_navigation_meshes(file);
-  const auto finished = [&](Mission mission) {
-    mission.read_seconds = stopwatch.seconds();
-    return mission;
-  };
+  Mission mission;
   try {
-    return finished(assembled(file, meshes, load_scene(file.scene, progress), progress));
+    mission = assembled(file, meshes, loaded ? std::move(loaded) : load(file.scene, progress), progress);
   } catch (const internal::app::TerrainTooSmall& terrain) {
     const double farther = std::ceil(terrain.missing_m) + 1;
     SceneSource larger = file.scene;
     larger.city.ground_margin_m += farther;
-    LoadedScene loaded = load_scene(larger, progress);
-    loaded.notes.push_back(
+    mission = assembled(file, meshes, load(larger, progress), progress);
+    mission.notes.insert(
+        mission.notes.begin(),
         {WarningCode::ground_extended, "the ground was built " + std::to_string(std::lround(farther)) +
                                            " m farther to hold the target: the map has nothing to build out there"});
-    return finished(assembled(file, meshes, std::move(loaded), progress));
   }
+  mission.read_seconds = stopwatch.seconds();
+  return mission;
+}
+
+}  // namespace
+
+Mission resolve_mission(const MissionFile& file, const Progress& progress) { return resolved(file, {}, progress); }
+
+Mission resolve_mission(const MissionFile& file, std::shared_ptr<const LoadedScene> loaded, const Progress& progress) {
+  if (!loaded) {
+    throw Error(ErrorCode::nothing_given, "there is no scene to resolve the mission in", file.file.string(),
+                "pass a scene, or nothing for the one that the mission names");
+  }
+  return resolved(file, std::move(loaded), progress);
 }
 
 }  // namespace vantage

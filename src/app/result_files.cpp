@@ -20,7 +20,7 @@ std::filesystem::path report_file(const std::filesystem::path& volume_file) {
 }
 
 ResultRequest result_request(const Mission& mission, const Result& result, std::vector<std::filesystem::path> volumes) {
-  ResultRequest request{std::move(volumes), mission.loaded.scene.up, mission.loaded.scene.scale};
+  ResultRequest request{std::move(volumes), mission.scene().up, mission.scene().scale};
   ReportSource& source = request.source;
   source.mission = mission.as_written.file.string();
   source.scene = mission.as_written.scene.file.string();

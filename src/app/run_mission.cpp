@@ -40,7 +40,7 @@ Volume compute(const Mission& mission, const PreparedTarget& target, const Stage
   options.threads = 0;
   const auto georeferenced = [&](const SphereStage& stage) {
     SphereStage copy = stage;
-    copy.georeference = mission.loaded.scene.georeference;
+    copy.georeference = mission.scene().georeference;
     stages(copy);
   };
   const StageSink sink = stages ? StageSink(georeferenced) : StageSink();
@@ -92,19 +92,19 @@ Volume of_views(const Mission& mission, const PreparedViews& views, const StageS
 
 /// `prepare_seconds`: that preparing the scene took; `stopwatch`: its last lap ended with that.
 Result run(const Mission& mission, const PreparedViews& views, double prepare_seconds,
-           internal::core::Stopwatch& stopwatch, const StageSink& stages, const Progress& progress) {
+           internal::core::Stopwatch& stopwatch, const RunOptions& options, const Progress& progress) {
   Result result;
   Seconds seconds;
-  const Scene& scene = mission.loaded.scene;
   seconds.read = mission.read_seconds;
   seconds.prepare = prepare_seconds;
   result.scene = views.front().front().scene().statistics();
-  result.volume = of_views(mission, views, stages, result, seconds, stopwatch, progress);
+  result.volume = of_views(mission, views, options.stages, result, seconds, stopwatch, progress);
   seconds.total = seconds.read + seconds.prepare + seconds.engine + seconds.navigation;
   result.volume.seconds = seconds;
-  result.volume.georeference = scene.georeference;
+  result.volume.georeference = mission.scene().georeference;
   if (result.volume.provenance) {
-    result.volume.provenance->scene_hash = scene_hash(scene);
+    const std::string& known = options.scene_hash;
+    result.volume.provenance->scene_hash = known.empty() ? scene_hash(mission.scene()) : known;
     result.volume.provenance->mission_hash = mission_hash(mission);
   }
   std::vector<Warning> warnings = mission_warnings(mission, &result.volume);
@@ -119,9 +119,13 @@ PreparedTarget prepare(const Mission& mission, const Target& target, const Prepa
       return PreparedTarget(scene, target, mission.sensor);
     } catch (const Error& error) {
       if (error.code() != ErrorCode::target_pierced) throw;
-      throw internal::app::explained(error, mission.loaded, ground ? ground->osm : "");
+      throw internal::app::explained(error, *mission.loaded, ground ? ground->osm : "");
     }
   });
+}
+
+PreparedScene prepared_scene(const Mission& mission, const RunOptions& options, const Progress& progress) {
+  return options.prepared ? *options.prepared : PreparedScene(mission.scene(), progress);
 }
 
 void check_one_volume(const Mission& mission) {
@@ -191,9 +195,9 @@ Result run_mission(const Mission& mission, const RunOptions& options, const Prog
   Result result;
   internal::parallel::with_threads(options.threads, [&] {
     internal::core::Stopwatch stopwatch;
-    const PreparedScene scene(mission.loaded.scene, progress);
+    const PreparedScene scene = prepared_scene(mission, options, progress);
     const double prepare_seconds = stopwatch.lap();
-    result = run(mission, prepare_views(mission, scene), prepare_seconds, stopwatch, options.stages, progress);
+    result = run(mission, prepare_views(mission, scene), prepare_seconds, stopwatch, options, progress);
   });
   return result;
 }
@@ -204,7 +208,7 @@ Result run_mission(const Mission& mission, const PreparedTarget& target, const R
   Result result;
   internal::parallel::with_threads(options.threads, [&] {
     internal::core::Stopwatch stopwatch;
-    result = run(mission, {{target}}, 0, stopwatch, options.stages, progress);
+    result = run(mission, {{target}}, 0, stopwatch, options, progress);
   });
   return result;
 }
@@ -215,7 +219,9 @@ std::vector<Result> run_missions(const Mission& mission, const RunOptions& optio
   std::vector<Result> results(count);
   internal::parallel::with_threads(options.threads, [&] {
     internal::core::Stopwatch stopwatch;
-    const PreparedScene scene(mission.loaded.scene, progress);
+    const PreparedScene scene = prepared_scene(mission, options, progress);
+    RunOptions for_each;
+    for_each.scene_hash = options.scene_hash.empty() ? scene_hash(mission.scene()) : options.scene_hash;
     const double prepare_seconds = stopwatch.lap();
     std::vector<PreparedViews> prepared;
     for (std::size_t i = 0; i < count; ++i) prepared.push_back(prepare_views(one_volume(mission, i), scene));
@@ -228,7 +234,7 @@ std::vector<Result> run_missions(const Mission& mission, const RunOptions& optio
       for (std::size_t i = begin; i < end && !has_failed; ++i) {
         try {
           internal::core::Stopwatch own;
-          results[i] = run(one_volume(mission, i), prepared[i], 0, own, {}, shared.callback());
+          results[i] = run(one_volume(mission, i), prepared[i], 0, own, for_each, shared.callback());
           shared.finish_one();
         } catch (...) {
           thrown[i] = std::current_exception();

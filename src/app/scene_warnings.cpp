@@ -162,7 +162,7 @@ std::optional<Warning> on_its_side(const LoadedScene& loaded) {
 }
 
 std::vector<Warning> scene_warnings(const Mission& mission, const Volume* volume) {
-  const LoadedScene& loaded = mission.loaded;
+  const LoadedScene& loaded = *mission.loaded;
   std::vector<Warning> warnings;
   if (loaded.scene.mesh.empty()) return warnings;
   std::optional<Warning> away;

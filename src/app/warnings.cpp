@@ -104,7 +104,7 @@ struct Shortfall {
 };
 
 Shortfall of_map(const Mission& mission, const std::vector<Vec2>& points) {
-  const LoadedScene& loaded = mission.loaded;
+  const LoadedScene& loaded = *mission.loaded;
   const CityRegion& region = mission.as_written.scene.city.region;
   const Georeference& place = *loaded.scene.georeference;
   const internal::geo::LocalFrame frame({place.longitude_deg, place.latitude_deg});
@@ -134,7 +134,7 @@ Shortfall of_surface(const LoadedScene& loaded, const std::vector<Vec2>& points)
 
 /// Nothing is known of other meshes: they may be all that there is.
 Shortfall of(const Mission& mission) {
-  const LoadedScene& loaded = mission.loaded;
+  const LoadedScene& loaded = *mission.loaded;
   const Scene& scene = loaded.scene;
   if (!scene.georeference) return {};
   const bool has_ground = std::any_of(scene.objects.begin(), scene.objects.end(),
@@ -149,7 +149,7 @@ std::vector<Warning> mission_warnings(const Mission& mission, const Volume* volu
   constexpr double kTolerance = 1;  // metre: rounding of degrees, and corners of extracts
   constexpr double kTiny = 0.01;    // metre: a target of street size in degrees is 1e-4 across
   constexpr double kLargestDegree = 180;
-  std::vector<Warning> warnings = mission.loaded.notes;
+  std::vector<Warning> warnings = mission.notes;
   const Shortfall shortfall = of(mission);
   if (shortfall.metres > kTolerance) {
     warnings.push_back({WarningCode::range_beyond_data,
@@ -160,7 +160,7 @@ std::vector<Warning> mission_warnings(const Mission& mission, const Volume* volu
   Box box;
   for (const Vec3& corner : mission.target.parts.at(0)) box.extend(corner);
   const double across = (box.max - box.min).norm();
-  if (mission.loaded.scene.georeference && !mission.target.is_point() && across < kTiny &&
+  if (mission.scene().georeference && !mission.target.is_point() && across < kTiny &&
       box.min.cwiseAbs().maxCoeff() <= kLargestDegree) {
     warnings.push_back({WarningCode::target_in_degrees,
                         internal::core::format("the target is {:.2g} mm across: if its vertices are longitudes and "

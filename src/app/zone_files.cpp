@@ -34,7 +34,7 @@ constexpr const char* kLonLatAdvice = "check the file: is it of another place, o
 /// Scene z of the mean sea level, where the scene or the mission says.
 std::optional<double> sea_level_z(const Mission& mission) {
   if (mission.as_written.sea_level_m) return mission.as_written.sea_level_m;
-  const std::string& vertical = mission.loaded.scene.georeference->vertical;
+  const std::string& vertical = mission.scene().georeference->vertical;
   // A mesh whose reference system has no heights: they are measured from anywhere.
   const bool is_as_in_mesh =
       mission.as_written.scene.kind == SceneSource::Kind::mesh && vertical.compare(0, 6, "as in ") == 0;
@@ -156,7 +156,7 @@ Zone::Ring FileZones::circle(const ListedCircle& circle) const {
 /// `without`: where the height is none, or is above the ground.
 double FileZones::z_of(const std::optional<ZoneHeight>& height, double without, const std::string& place) const {
   if (!height) return without;
-  const std::string& vertical = mission_.loaded.scene.georeference->vertical;
+  const std::string& vertical = mission_.scene().georeference->vertical;
   const std::string level = vertical.empty() ? "an unknown level" : vertical;
   switch (height->from) {
     case HeightReference::sea_level:
@@ -248,9 +248,9 @@ void FileZones::note_left_out(const ZoneList& list, std::size_t other_fences, st
   }
   add(far, "zone beyond the reach of the sensor", "zones beyond the reach of the sensor");
   if (what.empty()) return;
-  mission_.loaded.notes.push_back({WarningCode::zones_left_out, "not taken as zones to stay " +
-                                                                    std::string(is_kept ? "in" : "out of") + " from " +
-                                                                    file_.file.filename().string() + ": " + what});
+  mission_.notes.push_back({WarningCode::zones_left_out, "not taken as zones to stay " +
+                                                             std::string(is_kept ? "in" : "out of") + " from " +
+                                                             file_.file.filename().string() + ": " + what});
 }
 
 void FileZones::add_to(std::vector<Zone>& zones, const core::ProgressReporter& progress) {
@@ -305,7 +305,7 @@ void add_file_zones(Mission& mission, const Progress& callback) {
   const std::string first = !file.places.keep_in_files.empty()    ? file.places.keep_in_files[0]
                             : !file.places.keep_out_files.empty() ? file.places.keep_out_files[0]
                                                                   : "";
-  const auto& georeference = mission.loaded.scene.georeference;
+  const auto& georeference = mission.scene().georeference;
   if (!georeference) {
     throw Error(ErrorCode::not_georeferenced,
                 "the scene does not say where on the earth it lies, and files of zones are in longitudes and latitudes",

@@ -7,7 +7,7 @@ namespace vantage::internal::app {
 
 /// Adds the zones of `mission.as_written.keep_in_files` and `keep_out_files` to those of `mission.navigation`: moved as
 /// placed_zone does, circles made polygons, inscribed to stay in and circumscribed to stay out of, heights made z. What
-/// of a file was not taken is told in `mission.loaded.notes`: what is no area, fences of the other kind, zones so far
+/// of a file was not taken is told in `mission.notes`: what is no area, fences of the other kind, zones so far
 /// away that no viewpoint can be in them.
 ///
 /// Throws Error(input), with the places in the mission file and in the file, for: a scene without a place on the earth,

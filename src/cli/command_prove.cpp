@@ -187,7 +187,7 @@ void draw(PictureRequest request, const JudgedVolume& judged, const ProofReport&
   request.title = mission.target.name;
   request.subtitle =
       std::string(name_of(report.verdict())) + ", of all but a part of " + shortest(report.shrink) + " of the distance";
-  write_png(render_picture(mission.loaded.scene, request, progress), file, progress);
+  write_png(render_picture(mission.scene(), request, progress), file, progress);
 }
 
 void check_outputs(const JudgedVolume& judged, const ProveArguments& options) {

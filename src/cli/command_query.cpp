@@ -199,7 +199,7 @@ class Answers {
   /// One query for each of `targets`, the names that rows are told apart by where there are several.
   Answers(const QueryArguments& options, const Mission& mission, PointTable& table, std::vector<std::string> targets,
           std::vector<VolumeQuery> queries)
-      : place_(mission.loaded.scene.georeference),
+      : place_(mission.scene().georeference),
         table_(table),
         targets_(std::move(targets)),
         queries_(std::move(queries)),
@@ -371,7 +371,7 @@ int run_query(const QueryArguments& options) {
   Mission mission = resolve_mission(file, progress.callback());
   if (!options.target.empty()) mission = of_target(mission, options.target);
   check_fraction(options, mission);
-  const Scene& scene = mission.loaded.scene;
+  const Scene& scene = mission.scene();
   if (table.is_lonlat() && !is_quiet) tell_of_heights(scene);
   if (!options.seen_file.empty() && !scene.georeference && !is_quiet) {
     note("the seen parts are in x, y, z of the scene frame: the scene does not say where on the earth it lies");

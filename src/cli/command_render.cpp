@@ -43,7 +43,7 @@ struct RenderArguments {
 
 /// The volume of the file, with what people should know of it, and the mission of its target.
 Volume volume_of_file(const RenderArguments& options, Mission& mission, const Progress& progress) {
-  VolumeFile read = read_volume(options.volume_file, mission.loaded.scene, progress);
+  VolumeFile read = read_volume(options.volume_file, mission.scene(), progress);
   mission = of_volume(std::move(mission), options.target, read);
   if (!options.common.quiet) notes(read.notes);
   read.volume.notes = mission_warnings(mission, &read.volume);
@@ -66,7 +66,7 @@ Picture picture(const RenderArguments& options, const Mission& mission, const Vo
   request.title = mission.target.name;
   request.subtitle = picture_subtitle(mission, &volume);
   for (const Warning& warning : volume.notes) request.notes.push_back(warning.text);
-  return render_picture(mission.loaded.scene, request, progress);
+  return render_picture(mission.scene(), request, progress);
 }
 
 /// A picture for each volume of the mission, in files of their own where there are several.

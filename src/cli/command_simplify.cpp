@@ -69,22 +69,6 @@ SimplifiedVolume simplify(const Mesh& mesh, const SimplifyArguments& options, co
   }
 }
 
-/// The volume with another mesh. What its file states still holds, but that range facets are so near the range.
-Volume with_mesh(Volume volume, SimplifiedVolume& simplified) {
-  if (volume.causes.empty()) {
-    volume.causes = {{CauseKind::scene, "simplified"}};
-    volume.cause_of.assign(simplified.facet_of.size(), 0);
-  } else {
-    std::vector<std::uint32_t> cause_of;
-    for (const std::uint32_t facet : simplified.facet_of) cause_of.push_back(volume.cause_of[facet]);
-    volume.cause_of = std::move(cause_of);
-  }
-  volume.polygon_of.clear();
-  volume.mesh = std::move(simplified.mesh);
-  volume.tolerance_m += simplified.lost_bound_m;
-  return volume;
-}
-
 std::string table_text(const SimplifyArguments& options, const SimplifiedVolume& s, const WrittenVolume& written) {
   TextTable table;
   table.heading(options.input);

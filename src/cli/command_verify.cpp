@@ -147,7 +147,7 @@ int run_verify(const VerifyArguments& options) {
   verify_options.seed = options.seed;
   if (options.lift_m >= 0) verify_options.lift_m.assign(verify_options.lift_m.size(), options.lift_m);
   const Proof proof = prove_first(judged, verify_options, progress.callback());
-  const Scene& scene = mission.loaded.scene;
+  const Scene& scene = mission.scene();
   const VerifyReport report = mission.views.empty()
                                   ? verify_volume(scene, mission.target, mission.sensor, mission.navigation,
                                                   read.volume.mesh, verify_options, progress.callback())

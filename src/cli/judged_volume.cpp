@@ -27,7 +27,7 @@ JudgedVolume read_judged(const JudgeArguments& arguments, ProgressLine& progress
   check_readable(arguments.volume_file, "the volume");
   const MissionFile file = read_mission_argument(arguments.mission_file);
   const Mission resolved = resolve_mission(file, progress.callback());
-  VolumeFile read = read_volume(arguments.volume_file, resolved.loaded.scene, progress.callback());
+  VolumeFile read = read_volume(arguments.volume_file, resolved.scene(), progress.callback());
   Mission mission = of_volume(resolved, arguments.target, read);
   if (!arguments.common.quiet) {
     notes(mission_warnings(mission));

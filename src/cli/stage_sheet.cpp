@@ -15,7 +15,7 @@ constexpr int kColumns = 4;
 class SheetMaker {
  public:
   SheetMaker(const Mission& mission, const PictureView& view, std::array<int, 2> size, const Progress& progress)
-      : mission_(mission), scene_(mission.loaded.scene), view_(view), size_(size), progress_(progress) {}
+      : mission_(mission), scene_(mission.scene()), view_(view), size_(size), progress_(progress) {}
 
   void make(const std::vector<StageFile>& stages) {
     load(stages);

@@ -8,9 +8,11 @@
 #include <tuple>
 #include <utility>
 
+#include "core/causes.h"
 #include "core/mend_welded.h"
 #include "core/parallel.h"
 #include "core/progress_reporter.h"
+#include "core/volume_check.h"
 #include "simplify/collapse.h"
 #include "simplify/lost_distance.h"
 #include "simplify/prepare.h"
@@ -280,6 +282,28 @@ SimplifiedVolume simplify_volume(const Mesh& volume, const SimplifyOptions& opti
   result.volume_after_m3 = enclosed_volume(result.mesh);
   progress.finish();
   return result;
+}
+
+Volume with_mesh(Volume volume, SimplifiedVolume simplified) {
+  if (volume.causes.empty()) {
+    volume.causes = {{CauseKind::scene, "simplified"}};
+    volume.cause_of.assign(volume.mesh.triangles.size(), 0);
+  }
+  core::check_volume(volume);
+  std::vector<std::uint32_t> cause_of;
+  for (const std::uint32_t facet : simplified.facet_of) {
+    if (facet >= volume.cause_of.size()) {
+      throw Error(ErrorCode::index_out_of_range, "the simplified mesh is not one of this volume's", "volume",
+                  "pass the volume whose mesh was simplified");
+    }
+    cause_of.push_back(volume.cause_of[facet]);
+  }
+  volume.cause_of = std::move(cause_of);
+  volume.polygon_of.clear();
+  volume.mesh = std::move(simplified.mesh);
+  core::compact_causes(volume.mesh, volume.cause_of, volume.causes);
+  volume.tolerance_m += simplified.lost_bound_m;
+  return volume;
 }
 
 }  // namespace vantage

@@ -192,7 +192,7 @@ Case read_case(const std::filesystem::path& file) {
   const vantage::Mission mission = resolve_mission(read_mission(file));
   Case c;
   c.kind = "mission";
-  c.scene = mission.loaded.scene;
+  c.scene = mission.scene();
   for (std::size_t i = 0; i < mission.target.parts.size(); ++i) c.parts.push_back(mission.target.part(i));
   c.range = mission.sensor.max_range_m;
   c.tolerance = mission.as_written.exact.tolerance_m;

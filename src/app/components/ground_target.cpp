@@ -24,7 +24,7 @@ using city::Vec2;
 
 /// The triangles of the ground.
 terrain::TriangulatedTerrain ground_of(const Mission& mission) {
-  const Scene& scene = mission.loaded.scene;
+  const Scene& scene = mission.scene();
   const auto ground = ground_object(scene);
   if (!ground) {
     throw Error(
@@ -192,7 +192,7 @@ std::optional<std::uint32_t> solid_round(const Scene& scene, const Vec3& at) {
 /// From inside a building its walls are all that is seen, and a volume all the same.
 void check_outdoors(const Mission& mission) {
   constexpr double kClear = 1e-3;  // metres: the target may lie on the floor of a building
-  const Scene& scene = mission.loaded.scene;
+  const Scene& scene = mission.scene();
   for (std::size_t i = 0; i < mission.target.parts.size(); ++i) {
     const TargetFrame frame = make_target_frame(mission.target, i);
     const auto solid = solid_round(scene, frame.origin + kClear * frame.normal);
@@ -200,7 +200,7 @@ void check_outdoors(const Mission& mission) {
     throw Error(
         ErrorCode::target_inside_solid, "the target lies inside " + in_quotes(display_name(scene.objects[*solid])),
         mission.as_written.places.target,
-        how_to_leave_out(mission.loaded, *solid, mission.as_written.ground_target->osm)
+        how_to_leave_out(*mission.loaded, *solid, mission.as_written.ground_target->osm)
             .value_or("name a place outdoors; for a roof give its 'vertices', for a storey a scene that has rooms"),
         *solid);
   }
@@ -214,7 +214,7 @@ void put_on_ground(Mission& mission, const geo::LocalFrame& frame, const Progres
   const std::vector<city::Footprint> areas = wanted.osm.empty()
                                                  ? std::vector<city::Footprint>{{rectangle(wanted, frame), {}}}
                                                  : outlines(mission, wanted.osm, frame, progress);
-  if (auto note = make_room(mission, plan_box(areas))) mission.loaded.notes.push_back(std::move(*note));
+  if (auto note = make_room(mission, plan_box(areas))) mission.notes.push_back(std::move(*note));
   const terrain::TriangulatedTerrain ground = ground_of(mission);
   mission.target.parts.clear();
   for (const city::Footprint& area : areas) {

@@ -54,10 +54,10 @@ bool compute_and_verify(const char* mission_file, const char* volume_file) {
   vantage::Result result = vantage::run_mission(mission);
   vantage::write_results(result.volume, vantage::result_request(mission, result, {volume_file}));
 
-  const vantage::VolumeFile written = vantage::read_volume(volume_file, mission.loaded.scene);
+  const vantage::VolumeFile written = vantage::read_volume(volume_file, mission.scene());
   vantage::VerifyOptions options = vantage::verify_options(written, mission);
   options.points = 500;
-  const vantage::VerifyReport report = vantage::verify_volume(mission.loaded.scene, mission.target, mission.sensor,
+  const vantage::VerifyReport report = vantage::verify_volume(mission.scene(), mission.target, mission.sensor,
                                                               mission.navigation, written.volume.mesh, options);
   std::printf("%s: %zu points, %zu over-claimed\n", volume_file, report.points, report.over_claimed);
   return report.points > 0 && report.inside > 0 && report.is_right();

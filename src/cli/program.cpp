@@ -1,0 +1,152 @@
+#include "cli/program.h"
+
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "cli/command.h"
+#include "cli/interrupt.h"
+#include "cli/usage_error.h"
+#include "vantage/error.h"
+#include "vantage/version.h"
+
+namespace vantage::cli {
+namespace {
+
+constexpr const char* kExamples =
+    "EXAMPLES\n"
+    "  vantage scene city.osm.pbf --center 40.7484,-73.9857 --radius 600 -o scene.glb\n"
+    "  vantage inspect city.obj --up y\n"
+    "  vantage compute mission.yaml -o volume.ply\n"
+    "  vantage query mission.yaml points.csv > answers.csv\n"
+    "  vantage verify mission.yaml volume.ply\n"
+    "  vantage compare spheres.ply exact.ply\n"
+    "  vantage simplify volume.ply --facets 500 -o small.ply\n"
+    "  vantage devices\n"
+    "  vantage cameras\n"
+    "  vantage spheres -c config.yaml\n"
+    "  vantage render mission.yaml --volume volume.ply -o picture.png\n"
+    "\n"
+    "MISSION and POINTS may be -, standard input. docs/mission-file.md describes the mission file,\n"
+    "docs/command-line.md the commands.\n";
+
+int print_error(const Error& error, const std::string& name) {
+  const std::string command = name.empty() ? "vantage" : "vantage " + name;
+  const Error told = error.with_where(error.where().empty() ? command : error.where())
+                         .with_fix(error.fix().empty() ? "see '" + command + " --help'" : error.fix());
+  std::fprintf(stderr, "vantage: %s", message_of(told).c_str());
+  return exit_code(error.kind());
+}
+
+/// `name`: of the command.
+int run_guarded(const Command& command, const std::string& name) {
+  try {
+    return command();
+  } catch (const ClosedPipe&) {
+    return kSignalled + SIGPIPE;
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::cancelled) return print_error(error, name);
+    note("stopped; nothing was written");
+    return kSignalled + noted_signal();
+  } catch (const std::bad_alloc&) {
+    return print_error(Error(ErrorCode::out_of_memory, "the memory is used up", "",
+                             "take a smaller scene, a shorter max_range, or a machine with more memory"),
+                       name);
+  } catch (const std::exception& error) {
+    return print_error(Error(ErrorCode::internal_defect, std::string("unexpected failure: ") + error.what(), "",
+                             "this is a defect of vantage: please report it together with the input"),
+                       name);
+  }
+}
+
+/// So that they are listed; with_options() sees to what they do, but for "help -- compute" and the like.
+void add_help(CLI::App& app, Command& chosen) {
+  CLI::App* help = app.add_subcommand("help", "Show the help text of a command: vantage help compute");
+  help->add_option("command")->option_text("COMMAND");
+  CLI::App* version = app.add_subcommand("version", "Print the version");
+  for (CLI::App* command : {help, version}) {
+    command->callback([command, &chosen] {
+      chosen = [command] {
+        print(command->help("vantage"));
+        return kSuccess;
+      };
+    });
+  }
+}
+
+/// "help" and "version" are other words for options.
+std::vector<std::string> with_options(std::vector<std::string> arguments) {
+  if (arguments.empty()) return arguments;
+  const bool stands_alone = arguments.size() == 1 || arguments[1].substr(0, 1) != "-";
+  if (arguments[0] == "version" && stands_alone) arguments[0] = "--version";
+  if (arguments[0] == "help" && stands_alone) {
+    arguments.erase(arguments.begin());
+    arguments.emplace_back("--help");
+  }
+  return arguments;
+}
+
+void add_commands(CLI::App& app, Command& chosen) {
+  add_scene(app, chosen);
+  add_inspect(app, chosen);
+  add_compute(app, chosen);
+  add_query(app, chosen);
+  add_verify(app, chosen);
+  add_prove(app, chosen);
+  add_compare(app, chosen);
+  add_simplify(app, chosen);
+  add_devices(app, chosen);
+  add_cameras(app, chosen);
+  add_spheres(app, chosen);
+  add_render(app, chosen);
+  add_help(app, chosen);
+  add_docs(app, chosen);
+}
+
+int run(const std::vector<std::string>& typed) {
+  // A closed pipe or a file size limit must end in an exit code, not in the program's death.
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+
+  CLI::App app("The closed volume of every position from which a whole convex polygon is visible.", "vantage");
+  app.set_version_flag("--version", "vantage " VANTAGE_VERSION);
+  app.require_subcommand(1);
+  app.footer(kExamples + exit_code_table());
+  Command chosen;
+  add_commands(app, chosen);
+
+  const std::vector<std::string> arguments = with_options(typed);
+  const bool names_command = !arguments.empty() && arguments[0].substr(0, 1) != "-";
+  if (names_command && !find_command(app, arguments[0])) return print_error(unknown_command(app, arguments[0]), "");
+  try {
+    app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() != 0) return print_error(usage_error(app, error, arguments), "");
+    std::ostringstream text;  // of --help or --version
+    app.exit(error, text, text);
+    const auto print_text = [&] {
+      print(text.str());
+      return kSuccess;
+    };
+    return run_guarded(print_text, "");
+  }
+  return run_guarded(chosen, app.get_subcommands().front()->get_name());
+}
+
+}  // namespace
+
+int run_program(const std::vector<std::string>& arguments) {
+  try {
+    return run(arguments);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "vantage: unexpected failure: %s\n", error.what());
+    return kDefect;
+  }
+}
+
+}  // namespace vantage::cli
