@@ -88,6 +88,14 @@ lint: tools  ## formatting, and clang-tidy over the library and the program (ALL
 	@status=0; scripts/format.sh --check || status=1; \
 	  JOBS=$(JOBS) scripts/lint.sh $(if $(ALL),,--library) || status=1; exit $$status
 
+.PHONY: python
+python:  ## build the Python package in build/python, and run its tests
+	@scripts/install_packages.sh --python
+	@scripts/fetch_sources.sh
+	@scripts/fetch_python.sh
+	@$(call compile,release,vantage_python vantage_cli,-DVANTAGE_BUILD_PYTHON=ON -DPython_EXECUTABLE=$(CURDIR)/.deps/python/bin/python)
+	PYTHONPATH=build/python .deps/python/bin/python -m pytest -q python/tests
+
 .PHONY: clean
 clean:  ## remove all builds; fetched sources stay
 	rm -rf build build-*/

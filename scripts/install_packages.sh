@@ -2,6 +2,7 @@
 # Installs the Debian packages that are missing; does nothing, and asks for no rights, when all are there.
 #   scripts/install_packages.sh            what building needs
 #   scripts/install_packages.sh --tests    and what the tests need
+#   scripts/install_packages.sh --python   and what the Python package needs
 #   scripts/install_packages.sh --tools    and what developers need: benchmarks, sanitizers, fuzzing, formatting, lint
 # VANTAGE_NO_INSTALL=1 skips the check, for those who bring their own.
 set -euo pipefail
@@ -21,14 +22,16 @@ packages=(
   libosmium2-dev libproj-dev proj-data libpolyclipping-dev libgdal32
 )
 tests=(libgtest-dev osmium-tool locales)  # of locales one with a decimal comma is made
+python=(python3-dev python3-venv)
 tools=(libbenchmark-dev clang libclang-rt-14-dev clang-format clang-tidy)
 
 [ -z "${VANTAGE_NO_INSTALL:-}" ] || exit 0
 case "${1:-}" in
   "") ;;
   --tests) packages+=("${tests[@]}") ;;
+  --python) packages+=("${python[@]}") ;;
   --tools) packages+=("${tests[@]}" "${tools[@]}") ;;
-  *) echo "usage: $0 [--tests|--tools]" >&2; exit 2 ;;
+  *) echo "usage: $0 [--tests|--python|--tools]" >&2; exit 2 ;;
 esac
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
   echo "not a Debian system: please install the equivalents of: ${packages[*]}" >&2

@@ -1,0 +1,20 @@
+// What each file of the binding adds to the module.
+#pragma once
+
+#include <nanobind/nanobind.h>
+
+namespace vantage::python {
+
+namespace nb = nanobind;
+
+void bind_errors(nb::module_& module);
+void bind_scene(nb::module_& module);
+void bind_volume(nb::module_& module);
+void bind_mission(nb::module_& module);
+void bind_points(nb::module_& module);
+void bind_judges(nb::module_& module);
+void bind_spheres(nb::module_& module);
+void bind_picture(nb::module_& module);
+void bind_program(nb::module_& module);
+
+}  // namespace vantage::python

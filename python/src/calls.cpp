@@ -1,0 +1,84 @@
+#include "calls.h"
+
+#include <nanobind/stl/string.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+
+#include "vantage/error.h"
+
+namespace vantage::python {
+namespace {
+
+/// The process that computed first; 0: none did.
+std::atomic<pid_t> first_process = 0;
+
+void check_process() {
+  pid_t none = 0;
+  const pid_t here = getpid();
+  if (first_process.compare_exchange_strong(none, here) || none == here) return;
+  throw Error(ErrorCode::not_applicable,
+              "this process was forked from one that had used vantage, whose threads are missing here",
+              "process " + std::to_string(here),
+              "start processes with multiprocessing.get_context(\"spawn\") or \"forkserver\"");
+}
+
+}  // namespace
+
+Bridge::Bridge(nb::object callback) : callback_(std::move(callback)) { check_process(); }
+
+Progress Bridge::progress() {
+  return [this](std::string_view stage, double fraction) {
+    const std::lock_guard lock(mutex_);
+    has_news_ = true;
+    stage_ = stage;
+    fraction_ = fraction;
+    return !is_cancelled_;
+  };
+}
+
+void Bridge::finish() {
+  const std::lock_guard lock(mutex_);
+  is_finished_ = true;
+  changed_.notify_all();
+}
+
+void Bridge::serve() {
+  constexpr auto kOften = std::chrono::milliseconds(50);
+  while (true) {
+    std::string stage;
+    double fraction = 0;
+    bool has_news = false;
+    {
+      const nb::gil_scoped_release released;
+      std::unique_lock lock(mutex_);
+      if (changed_.wait_for(lock, kOften, [&] { return is_finished_; })) return;
+      has_news = std::exchange(has_news_, false);
+      stage = stage_;
+      fraction = fraction_;
+    }
+    if (raised_) continue;  // the computation is about to stop
+    try {
+      if (PyErr_CheckSignals() != 0) throw nb::python_error();
+      if (has_news && !callback_.is_none()) call_python(stage, fraction);
+    } catch (...) {
+      raised_ = std::current_exception();
+      const std::lock_guard lock(mutex_);
+      is_cancelled_ = true;
+    }
+  }
+}
+
+void Bridge::call_python(const std::string& stage, double fraction) {
+  const nb::object answer = callback_(stage, fraction);
+  if (!answer.is(nb::bool_(false))) return;
+  const std::lock_guard lock(mutex_);
+  is_cancelled_ = true;
+}
+
+void Bridge::raise() const {
+  if (raised_) std::rethrow_exception(raised_);
+}
+
+}  // namespace vantage::python

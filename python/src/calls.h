@@ -1,0 +1,72 @@
+// How Python calls long computations: the interpreter is released, progress is told, and Ctrl-C stops them.
+#pragma once
+
+#include <nanobind/nanobind.h>
+
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include "vantage/progress.h"
+#include "vantage/threads.h"
+
+namespace vantage::python {
+
+namespace nb = nanobind;
+
+/// Between the thread that computes and the one that Python called from, which alone may run Python's signal handlers
+/// and calls `callback(stage, fraction)`. A callback that returns False, or raises, stops the computation.
+class Bridge {
+ public:
+  /// `callback`: None for none. Throws Error in a process that was forked from one that had computed: the threads of
+  /// that one are not in it.
+  explicit Bridge(nb::object callback);
+
+  /// For the computing thread.
+  Progress progress();
+  void finish();
+
+  /// For the calling thread, which holds the interpreter: returns when finish() was called.
+  void serve();
+  /// Raises what Python raised meanwhile.
+  void raise() const;
+
+ private:
+  void call_python(const std::string& stage, double fraction);
+
+  nb::object callback_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool is_finished_ = false, is_cancelled_ = false, has_news_ = false;
+  std::string stage_;
+  double fraction_ = 0;
+  std::exception_ptr raised_;
+};
+
+/// What `work(progress)` returns; it runs with at most `threads` threads (0: as many as there are).
+template <typename Work>
+auto computed(nb::object callback, int threads, Work&& work) {
+  using Value = decltype(work(Progress()));
+  Bridge bridge(std::move(callback));
+  std::optional<Value> value;
+  std::exception_ptr failure;
+  std::thread worker([&] {
+    try {
+      with_threads(threads, [&] { value.emplace(work(bridge.progress())); });
+    } catch (...) {
+      failure = std::current_exception();
+    }
+    bridge.finish();
+  });
+  bridge.serve();
+  worker.join();
+  bridge.raise();
+  if (failure) std::rethrow_exception(failure);
+  return std::move(*value);
+}
+
+}  // namespace vantage::python

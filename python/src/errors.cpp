@@ -1,0 +1,57 @@
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <string>
+#include <vector>
+
+#include "bindings.h"
+#include "vantage/error.h"
+#include "vantage/warning.h"
+
+namespace vantage::python {
+namespace {
+
+const char* name_of(ErrorKind kind) {
+  switch (kind) {
+    case ErrorKind::input:
+      return "input";
+    case ErrorKind::output:
+      return "output";
+    case ErrorKind::cancelled:
+      return "cancelled";
+    case ErrorKind::internal:
+      return "internal";
+  }
+  return "internal";
+}
+
+/// An Error becomes what vantage._errors.make(kind, code, problem, where, fix, object) returns.
+void translate(const std::exception_ptr& pointer, void*) {
+  try {
+    std::rethrow_exception(pointer);
+  } catch (const Error& error) {
+    const nb::object object = error.object() ? nb::cast(*error.object()) : nb::none();
+    const nb::object made = nb::module_::import_("vantage._errors")
+                                .attr("make")(name_of(error.kind()), vantage::name_of(error.code()), error.problem(),
+                                              error.where(), error.fix(), object);
+    PyErr_SetObject(made.type().ptr(), made.ptr());
+  }
+}
+
+}  // namespace
+
+void bind_errors(nb::module_& module) {
+  nb::register_exception_translator(translate);
+  module.def("error_codes", [] {
+    std::vector<std::string> names;
+    for (const ErrorCode code : error_codes()) names.emplace_back(vantage::name_of(code));
+    return names;
+  });
+  module.def("warning_codes", [] {
+    std::vector<std::string> names;
+    for (const WarningCode code : warning_codes()) names.emplace_back(vantage::name_of(code));
+    return names;
+  });
+}
+
+}  // namespace vantage::python

@@ -1,0 +1,18 @@
+// `python -m vantage`: the program itself is compiled into the module.
+#include "cli/program.h"
+
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <string>
+#include <vector>
+
+#include "bindings.h"
+
+namespace vantage::python {
+
+void bind_program(nb::module_& module) {
+  module.def("run_program", &cli::run_program, nb::arg("arguments"), nb::call_guard<nb::gil_scoped_release>());
+}
+
+}  // namespace vantage::python

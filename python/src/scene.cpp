@@ -1,0 +1,144 @@
+#include "scene.h"
+
+#include <nanobind/stl/array.h>
+#include <nanobind/stl/filesystem.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
+#include <nanobind/stl/vector.h>
+
+#include <tuple>
+
+#include "arrays.h"
+#include "bindings.h"
+#include "calls.h"
+#include "vantage/hash.h"
+#include "vantage/json.h"
+
+namespace vantage::python {
+
+using namespace nb::literals;
+
+PreparedScene PyScene::prepared(const Progress& progress) const {
+  const std::lock_guard lock(mutex_);
+  if (!prepared_) prepared_.emplace(scene(), progress);
+  return *prepared_;
+}
+
+const std::string& PyScene::hash() const {
+  const std::lock_guard lock(mutex_);
+  if (hash_.empty()) hash_ = scene_hash(scene());
+  return hash_;
+}
+
+namespace {
+
+/// Name, id in the source, kind by number.
+using ObjectRow = std::tuple<std::string, std::string, int>;
+/// Latitude, longitude, what heights are measured from, reference system of the source.
+using PlaceRow = std::tuple<double, double, std::string, std::string>;
+
+std::shared_ptr<PyScene> load(const std::string& text, const std::string& name, nb::object progress) {
+  return computed(std::move(progress), 0, [&](const Progress& told) {
+    const MissionFile mission = read_scene_text(text, name);
+    auto loaded = std::make_shared<const LoadedScene>(load_scene(mission.scene, told));
+    return std::make_shared<PyScene>(std::move(loaded), mission.scene, mission.sea_level_m);
+  });
+}
+
+std::vector<SceneObject> objects_of(const std::vector<ObjectRow>& rows) {
+  std::vector<SceneObject> objects;
+  for (const auto& [name, id, kind] : rows) objects.push_back({name, id, static_cast<ObjectKind>(kind)});
+  return objects;
+}
+
+std::shared_ptr<PyScene> from_arrays(const PointArray& vertices, const FaceArray& faces, const IndexArray& object_of,
+                                     const std::vector<ObjectRow>& objects, const std::optional<PlaceRow>& place,
+                                     std::optional<double> sea_level_m) {
+  LoadedScene loaded;
+  loaded.scene.mesh = mesh_of(vertices, faces);
+  loaded.scene.object_of.assign(object_of.data(), object_of.data() + object_of.shape(0));
+  loaded.scene.objects = objects_of(objects);
+  if (place) {
+    loaded.scene.georeference =
+        Georeference{std::get<0>(*place), std::get<1>(*place), std::get<2>(*place), std::get<3>(*place)};
+  }
+  return std::make_shared<PyScene>(std::make_shared<const LoadedScene>(std::move(loaded)), SceneSource{}, sea_level_m);
+}
+
+std::vector<ObjectRow> object_rows(const PyScene& scene) {
+  std::vector<ObjectRow> rows;
+  for (const SceneObject& object : scene.scene().objects) {
+    rows.emplace_back(object.name, object.source_id, static_cast<int>(object.kind));
+  }
+  return rows;
+}
+
+std::optional<PlaceRow> place_row(const PyScene& scene) {
+  const auto& place = scene.scene().georeference;
+  if (!place) return std::nullopt;
+  return PlaceRow{place->latitude_deg, place->longitude_deg, place->vertical, place->source_crs};
+}
+
+}  // namespace
+
+void bind_scene(nb::module_& module) {
+  nb::class_<PyScene>(module, "Scene")
+      .def_prop_ro(
+          "vertices", [](const PyScene& s) { return points_view(s.scene().mesh.vertices, s.loaded()); }, kKept)
+      .def_prop_ro(
+          "faces", [](const PyScene& s) { return faces_view(s.scene().mesh.triangles, s.loaded()); }, kKept)
+      .def_prop_ro(
+          "object_of", [](const PyScene& s) { return list_view(s.scene().object_of, s.loaded()); }, kKept)
+      .def_prop_ro("objects", &object_rows)
+      .def_prop_ro("place", &place_row)
+      .def_prop_ro("projection",
+                   [](const PyScene& s) -> std::optional<std::string> {
+                     const auto& place = s.scene().georeference;
+                     return place ? std::optional(projection_text(*place)) : std::nullopt;
+                   })
+      .def_prop_ro("source", [](const PyScene& s) { return s.scene().source; })
+      .def_prop_ro("sea_level_m", &PyScene::sea_level_m)
+      .def_prop_ro(
+          "hash", [](const PyScene& s) { return s.hash(); }, nb::call_guard<nb::gil_scoped_release>())
+      .def(
+          "prepare",
+          [](const PyScene& s, nb::object progress) {
+            computed(std::move(progress), 0, [&](const Progress& told) { return s.prepared(told); });
+          },
+          "progress"_a = nb::none())
+      .def("report",
+           [](const PyScene& s) {
+             return computed(nb::none(), 0, [&](const Progress& told) {
+               return json_text(*s.loaded(), s.prepared(told).statistics());
+             });
+           })
+      .def(
+          "save", [](const PyScene& s, const std::filesystem::path& file) { write_scene(s.scene(), file); }, "file"_a,
+          nb::call_guard<nb::gil_scoped_release>());
+
+  module.def("load_scene", &load, "text"_a, "name"_a, "progress"_a = nb::none());
+  module.def("scene_from_arrays", &from_arrays, "vertices"_a.noconvert(), "faces"_a.noconvert(),
+             "object_of"_a.noconvert(), "objects"_a, "place"_a, "sea_level_m"_a);
+  module.def("object_kinds", [] {
+    std::vector<std::string> names;
+    for (int i = 0; i <= static_cast<int>(ObjectKind::tree); ++i)
+      names.emplace_back(name_of(static_cast<ObjectKind>(i)));
+    return names;
+  });
+  module.def(
+      "scene_position",
+      [](const PyScene& s, double latitude_deg, double longitude_deg) {
+        const auto& place = s.scene().georeference;
+        if (!place) {
+          throw Error(ErrorCode::not_georeferenced, "the scene does not say where on the earth it lies", "",
+                      "use positions in the scene's frame, or give the scene an origin");
+        }
+        const Eigen::Vector2d at = scene_position(*place, longitude_deg, latitude_deg);
+        return std::tuple(at.x(), at.y());
+      },
+      "scene"_a, "latitude_deg"_a, "longitude_deg"_a);
+}
+
+}  // namespace vantage::python

@@ -1,0 +1,64 @@
+"""Visibility volumes: every position from which the whole of a convex polygon can be seen, as a closed 3D mesh.
+
+    import vantage as vt
+    scene  = vt.Scene.from_osm("city.osm.pbf", center=(40.7484, -73.9857), radius=600)
+    target = scene.target(center=(40.7484, -73.9857), width=20, length=30)
+    result = vt.compute(scene, target, max_range=300, navigation=vt.Navigation(altitude={"agl": (30, 120)}))
+    result.volume_m3, result.vertices, result.faces
+    result.save("volume.ply")
+
+Lengths are metres, angles degrees; the scene's frame is right-handed with z up.
+"""
+
+from __future__ import annotations
+
+import json as _json
+from typing import Any as _Any
+
+from . import _core
+from ._core import version as __version__
+from ._errors import CancelledError, Error, InputError, InternalError, OutputError
+from ._requests import Navigation, Sensor, Target, Vector
+from ._result import Answers, Mission, Result, compute, compute_many
+from ._scene import Georeference, Progress, Scene, SceneObject
+from ._volume import Cause, Note, Volume, intersect, unite
+
+__all__ = [
+    "Answers", "CancelledError", "Cause", "Error", "Georeference", "InputError", "InternalError", "Mission", "Navigation",
+    "Note", "OutputError", "Result", "Scene", "SceneObject", "Sensor", "Target", "Volume", "__version__", "cameras",
+    "compute", "compute_many", "devices", "error_codes", "intersect", "unite", "visibility_sphere",
+]
+
+
+def cameras() -> list[dict[str, _Any]]:
+    """The cameras that vantage knows by name: what `vantage cameras --json` prints."""
+    return _json.loads(_core.cameras())
+
+
+def devices(choice: str = "auto") -> dict[str, _Any]:
+    """What can render depth images on this machine: what `vantage devices --json` prints."""
+    return _json.loads(_core.devices(choice))
+
+
+def error_codes() -> list[str]:
+    """All values that `Error.code` can have."""
+    return _core.error_codes()
+
+
+def visibility_sphere(scene: Scene, viewpoint: Vector, radius_m: float, *, cubemap: int = 200, conservative: bool = True,
+                      merge: float = 2.5e-4, device: str = "auto", threads: int = 0, progress: Progress = None) -> Volume:
+    """What one viewpoint sees within a radius, from depth images (docs/spheres.md): closed, and star-shaped about it.
+
+    Args:
+        scene: what may hide.
+        viewpoint: (x, y, z), metres.
+        radius_m: how far it sees.
+        cubemap: texels along the side of a depth image.
+        conservative: inside of what is seen; else texel centres are joined, as in the paper.
+        merge: facets are joined where that moves them by no more than this part of their distance.
+        device: "auto", "cpu", "opengl", "gpu" or a number of `devices()`.
+        threads: 0: as many as there are.
+        progress: called with stage and fraction; False stops.
+    """
+    return Volume(_core.visibility_sphere(scene._core, [float(v) for v in viewpoint], float(radius_m), cubemap,
+                                          conservative, merge, device, threads, progress))

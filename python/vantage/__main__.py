@@ -1,0 +1,18 @@
+"""`python -m vantage` is the program `vantage`."""
+
+from __future__ import annotations
+
+import signal
+import sys
+
+from . import _core
+
+
+def main() -> int:
+    """Runs the program with the arguments of the command line; its exit code."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)  # the program has its own handler
+    return _core.run_program(sys.argv[1:])
+
+
+if __name__ == "__main__":
+    sys.exit(main())

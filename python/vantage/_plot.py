@@ -1,0 +1,73 @@
+"""Pictures by pyvista (the extra `plot`)."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from . import _arrays
+from ._errors import input_error
+from ._requests import Path
+
+if TYPE_CHECKING:
+    from ._result import Result
+
+COLORS = {"scene": "#4c78a8", "range": "#e0b84c", "target_plane": "#9d9d9d", "navigation": "#54a24b", "sensor": "#b279a2"}
+"""Of facets, by the kind of their cause."""
+
+
+def _pyvista() -> Any:
+    try:
+        import pyvista
+    except ImportError:
+        raise input_error("component-missing", "pyvista is not installed", "pyvista",
+                          "pip install vantage[plot]") from None
+    return pyvista
+
+
+def poly_data(vertices: _arrays.Points, faces: _arrays.Faces, **arrays: Any) -> Any:
+    """A pyvista mesh of triangles, with an array of values for each facet."""
+    cells = np.column_stack([np.full(len(faces), 3, np.int64), faces.astype(np.int64)])
+    mesh = _pyvista().PolyData(np.array(vertices), cells)
+    for name, values in arrays.items():
+        if len(values) == len(faces):
+            mesh.cell_data[name] = np.array(values)
+    return mesh
+
+
+def plot(result: Result, path: Path | None = None, *, scene: bool = True, size: tuple[int, int] = (1200, 900),
+         opacity: float = 0.4) -> Any:
+    """Scene, target and volume. With `path` a PNG, off screen; else a window, or a view to turn in a notebook.
+
+    Args:
+        result: what to draw.
+        path: where to write a PNG.
+        scene: whether to draw the scene.
+        size: pixels, width and height.
+        opacity: of the volume, 0 to 1.
+
+    Returns:
+        what pyvista's `Plotter.show` returns.
+    """
+    plotter = _pyvista().Plotter(off_screen=path is not None, window_size=list(size))
+    if scene:
+        plotter.add_mesh(result.scene.to_pyvista(), color="#d9d9d9")
+    for part in result.mission.target_parts:
+        if len(part) < 3:
+            plotter.add_points(np.array(part), color="#e45756", point_size=12, render_points_as_spheres=True)
+            continue
+        fan = np.array([[0, k, k + 1] for k in range(1, len(part) - 1)], np.uint32)
+        plotter.add_mesh(poly_data(part, fan), color="#e45756")
+    kinds = np.array([cause.kind for cause in result.causes] or ["scene"])[np.array(result.cause_of, np.int64)]
+    for kind, color in COLORS.items():
+        chosen = result.faces[kinds == kind] if len(kinds) else result.faces[:0]
+        if len(chosen):
+            plotter.add_mesh(poly_data(result.vertices, chosen), color=color, opacity=opacity, label=kind)
+    bounds = result.volume.bounds
+    if bounds is not None:
+        plotter.reset_camera(bounds=[value for axis in range(3) for value in bounds[:, axis]])
+    if path is not None:
+        return plotter.show(screenshot=os.fspath(path), auto_close=True)
+    return plotter.show()

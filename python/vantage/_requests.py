@@ -1,0 +1,150 @@
+"""What is asked: targets, sensors and limits, by the names of the mission file (docs/mission-file.md)."""
+
+from __future__ import annotations
+
+import dataclasses
+import os
+from collections.abc import Mapping, Sequence
+from typing import Any, Union
+
+import numpy.typing as npt
+
+Path = Union[str, os.PathLike[str]]
+Degrees = float
+Vector = Union[Sequence[float], npt.NDArray[Any]]
+
+
+def _given(request: Any) -> dict[str, Any]:
+    """The fields that were given, in order."""
+    values = {field.name: getattr(request, field.name) for field in dataclasses.fields(request)}
+    return {name: value for name, value in values.items() if value is not None}
+
+
+def _short(value: Any) -> str:
+    text = repr(value)
+    return text if len(text) <= 60 else text[:57] + "..."
+
+
+class _Request:
+    """Printed with what was given, no more."""
+
+    def __repr__(self) -> str:
+        given = ", ".join(f"{name}={_short(value)}" for name, value in _given(self).items())
+        return f"{type(self).__name__}({given})"
+
+
+@dataclasses.dataclass(repr=False, kw_only=True)
+class Target(_Request):
+    """What must be seen whole: a convex polygon, several of them, or a point. Coordinates are metres in the scene's frame.
+
+    One of `vertices`, `parts`, `point`, `osm`, `object`, `at` and `center` says which it is.
+
+    Attributes:
+        name: for messages and reports.
+        vertices: (n, 3), 3 to 64 points in order around a convex, planar polygon.
+        parts: several such polygons; all of them must be seen.
+        point: (x, y, z), instead of a polygon.
+        osm: an area of the scene's map, "way/123"; with `part` a building of it.
+        object: an object of the scene, by name or id; with `part`.
+        at: (latitude, longitude): the highest object there; with `part`.
+        part: "roof" or "facade".
+        facing: with `part`, only faces that look that way: "south", or degrees clockwise from north.
+        nearest: with `part`, only the face that is nearest to this point.
+        center, width, length, heading: a rectangle on the ground, (latitude, longitude), metres, degrees.
+        offset: metres along the target's normal, towards the front.
+        front: a vector to the side from which the target must be visible.
+        sides: "front" or "both".
+
+    Example:
+        >>> Target(vertices=[[0, 0, 0], [30, 0, 0], [30, 20, 0]], name="plaza")
+        Target(name='plaza', vertices=[[0, 0, 0], [30, 0, 0], [30, 20, 0]])
+    """
+
+    name: str | None = None
+    vertices: npt.ArrayLike | None = None
+    parts: Sequence[npt.ArrayLike] | None = None
+    point: Vector | None = None
+    osm: str | None = None
+    object: str | None = None
+    at: Vector | None = None
+    part: str | None = None
+    facing: str | Degrees | None = None
+    nearest: Vector | None = None
+    center: Vector | None = None
+    width: float | None = None
+    length: float | None = None
+    heading: Degrees | None = None
+    offset: float | None = None
+    front: Vector | None = None
+    sides: str | None = None
+
+
+@dataclasses.dataclass(repr=False, kw_only=True)
+class Sensor(_Request):
+    """What the sensor can do. Each limit holds for the whole target; what is not given does not limit.
+
+    Attributes:
+        max_range: metres to every point of the target.
+        min_range: metres to every point of the target.
+        incidence: degrees, the largest angle between the target's normal and the line to the viewpoint.
+        camera: a name of `vt.cameras()`, {"model": name}, or a dictionary of width, height (pixels), focal_length and
+            sensor_width (mm).
+        fov: degrees, horizontal and vertical.
+        mount: "gimbal", or {"yaw": , "pitch": , "roll": } in degrees.
+        gimbal: {"pitch": (lowest, highest), "roll": , "yaw": } in degrees.
+        pixel: {"size": metres, "kind": "worst" or "perpendicular"}.
+        dori: "detection", "observation", "recognition" or "identification".
+        sun: {"time": ISO 8601, "exclude": degrees}, or {"azimuth": , "elevation": , "exclude": }.
+        vlos: a pilot's sight: {"aircraft_size": , "kind": , "visibility": , "eye_height": }.
+        link: a radio link: {"frequency": GHz, "clear": share of the first Fresnel zone's radius}.
+        visible: the share of the target's area that must be seen.
+        cells: into how many pieces the target is cut for `visible`.
+
+    Example:
+        >>> Sensor(max_range=300, incidence=60)
+        Sensor(max_range=300, incidence=60)
+    """
+
+    max_range: float | None = None
+    min_range: float | None = None
+    incidence: Degrees | None = None
+    camera: str | Mapping[str, Any] | None = None
+    fov: Vector | None = None
+    mount: str | Mapping[str, Any] | None = None
+    gimbal: Mapping[str, Any] | None = None
+    pixel: Mapping[str, Any] | None = None
+    dori: str | None = None
+    sun: Mapping[str, Any] | None = None
+    vlos: Mapping[str, Any] | None = None
+    link: Mapping[str, Any] | None = None
+    visible: float | None = None
+    cells: int | None = None
+
+
+@dataclasses.dataclass(repr=False, kw_only=True)
+class Navigation(_Request):
+    """Where the vehicle may fly: the intersection of all that is given.
+
+    Attributes:
+        altitude: (lowest, highest) z in metres, or {"agl": (lowest, highest), "z": (lowest, highest)}.
+        ground: what heights above the ground are measured from: z in metres, or the name of an object.
+        clearance: metres to stay from everything that is not ground.
+        keep_in: zones to stay in, dictionaries: {"min": , "max": }, {"polygon": , "z": or "agl": or "heights": "any"},
+            or {"file": path}. The volume is cut to their union.
+        keep_out: zones to stay out of, likewise.
+        meshes: closed meshes to stay inside of: paths, `vt.Volume`s, or anything with `vertices` and `faces`.
+
+    Example:
+        >>> Navigation(altitude={"agl": (30, 120)}, clearance=5)
+        Navigation(altitude={'agl': (30, 120)}, clearance=5)
+    """
+
+    altitude: Vector | Mapping[str, Any] | None = None
+    ground: float | str | None = None
+    clearance: float | None = None
+    keep_in: Sequence[Mapping[str, Any]] | None = None
+    keep_out: Sequence[Mapping[str, Any]] | None = None
+    meshes: Sequence[Any] | None = None
+
+
+given = _given

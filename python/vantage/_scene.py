@@ -1,0 +1,282 @@
+"""Scenes: what may hide the target."""
+
+from __future__ import annotations
+
+import json
+import os
+import tempfile
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple, Optional
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _arrays, _core
+from ._errors import input_error
+from ._requests import Path, Target, Vector
+from ._text import NAME, Text
+
+if TYPE_CHECKING:
+    import trimesh
+
+Progress = Optional[Callable[[str, float], Any]]
+"""Called with the stage and the part of it that is done; False stops the work."""
+
+KINDS: tuple[str, ...] = tuple(_core.object_kinds())
+"""What an object can be: "other", "ground", "building", ..."""
+
+
+class SceneObject(NamedTuple):
+    """Who an object of a scene is."""
+
+    name: str
+    source_id: str = ""
+    kind: str = "other"
+
+
+class Georeference(NamedTuple):
+    """Where the scene's frame lies: x east, y north, z up, in metres from an origin in WGS 84."""
+
+    latitude_deg: float
+    longitude_deg: float
+    vertical: str = ""
+    """what z is measured from: "flat ground", "EGM96 geoid", ..."""
+    source_crs: str = ""
+    """of the file it came from"""
+
+
+class Scene:
+    """Triangles that may hide the target, each with the object it belongs to. Scenes do not change.
+
+    The frame is right-handed with z up, in metres. Preparing a scene takes much longer than most volumes in it: it is done
+    once, by the first call that needs it.
+
+    Example:
+        >>> import vantage as vt
+        >>> scene = vt.Scene.from_arrays([[0, 0, 0], [9, 0, 0], [0, 9, 0]], [[0, 1, 2]])
+        >>> scene
+        <vantage.Scene: 1 triangles, 1 objects, 9 m x 9 m x 0 m>
+    """
+
+    def __init__(self, core: _core.Scene):
+        self._core = core
+
+    # ---- where scenes come from
+
+    @classmethod
+    def from_mesh(cls, path: Path, *, up: str | None = None, scale: float | None = None, lod: str | None = None,
+                  crs: str | None = None, origin: Vector | None = None, sea_level: float | None = None,
+                  progress: Progress = None) -> Scene:
+        """Reads OBJ, PLY, STL, glTF, GLB or CityJSON, also compressed with gzip.
+
+        Args:
+            path: the file.
+            up: the axis of the file that points up, "y" or "z" (default).
+            scale: metres in one unit of the file. Default: 1.
+            lod: of CityJSON, the level of detail. Default: the highest.
+            crs: the coordinate reference system of the file's x and y: "EPSG:28992".
+            origin: (latitude, longitude) of the scene's origin.
+            sea_level: z of the mean sea level, for files of zones with heights above it.
+            progress: called with stage and fraction; False stops.
+
+        Raises:
+            Error: the file cannot be read, or is no mesh.
+        """
+        return cls._load({"mesh": path, "up": up, "scale": scale, "lod": lod, "crs": crs, "origin": origin,
+                          "sea_level": sea_level}, progress)
+
+    @classmethod
+    def from_osm(cls, path: Path, *, center: Vector | None = None, radius: float | None = None,
+                 bbox: Vector | None = None, terrain: Path | None = None, error: float | None = None,
+                 without: Sequence[str] | None = None, defaults: Mapping[str, float] | None = None,
+                 sea_level: float | None = None, progress: Progress = None) -> Scene:
+        """Builds the scene of an OpenStreetMap file (.osm, .osm.gz, .osm.bz2, .osm.pbf).
+
+        Args:
+            path: the file.
+            center: (latitude, longitude) of the part that is built, with `radius` in metres.
+            bbox: (west, south, east, north) in degrees, instead of these. Default: all of the file.
+            terrain: a raster of the ground's heights. Default: a plane at z = 0.
+            error: how far the ground's triangles may be from that raster, metres.
+            without: what is left out, of "walls", "towers", "bridges", "trees".
+            defaults: what is assumed where the map says nothing: {"level": 3.2}.
+            sea_level: z of the mean sea level.
+            progress: called with stage and fraction; False stops.
+
+        Raises:
+            Error: the file cannot be read, or holds nothing to build there.
+        """
+        return cls._load({"osm": path, "center": center, "radius": radius, "bbox": bbox, "terrain": terrain,
+                          "error": error, "without": without, "defaults": defaults, "sea_level": sea_level}, progress)
+
+    @classmethod
+    def from_raster(cls, path: Path, *, center: Vector | None = None, radius: float | None = None,
+                    bbox: Vector | None = None, error: float | None = None, origin: Vector | None = None,
+                    sea_level: float | None = None, progress: Progress = None) -> Scene:
+        """Makes the surface of a raster of heights a scene: GeoTIFF, .hgt and what else GDAL reads.
+
+        Args:
+            path: the file.
+            center: (latitude, longitude) of the part that is used, with `radius` in metres; or
+            bbox: (west, south, east, north) in degrees. Default: all of it.
+            error: how far the triangles may be from the heights, metres. Default: 0.25.
+            origin: (latitude, longitude) of the scene's origin.
+            sea_level: z of the mean sea level.
+            progress: called with stage and fraction; False stops.
+        """
+        return cls._load({"raster": path, "center": center, "radius": radius, "bbox": bbox, "error": error,
+                          "origin": origin, "sea_level": sea_level}, progress)
+
+    @classmethod
+    def from_bytes(cls, data: bytes | bytearray | memoryview, format: str, **options: Any) -> Scene:
+        """Reads a file that is in memory. `format`: the end of a name, "obj", "osm.pbf"; `options` are those of from_mesh or
+        from_osm."""
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, "scene." + format.lstrip("."))
+            with open(file, "wb") as out:
+                out.write(data)
+            is_map = format.lower().split(".")[-1] in ("osm", "pbf") or ".osm." in "." + format.lower()
+            return (cls.from_osm if is_map else cls.from_mesh)(file, **options)
+
+    @classmethod
+    def from_arrays(cls, vertices: npt.ArrayLike, faces: npt.ArrayLike, *, object_of: npt.ArrayLike | None = None,
+                    objects: Iterable[SceneObject | str] | None = None, georeference: Georeference | None = None,
+                    sea_level: float | None = None) -> Scene:
+        """Makes a scene of triangles; the arrays are copied.
+
+        Args:
+            vertices: (n, 3) float64, metres, z up.
+            faces: (m, 3) integers, indices into `vertices`. Any triangle soup: open, doubled or crossing ones are fine.
+            object_of: (m,) integers, the object of each triangle. Default: all are of one object.
+            objects: names, or `SceneObject`s. Default: numbered.
+            georeference: where the frame lies on the earth.
+            sea_level: z of the mean sea level.
+
+        Raises:
+            Error: an array of a wrong shape or type, an index out of range, a coordinate that is not finite.
+        """
+        points = _arrays.points(vertices, "vertices")
+        triangles = _arrays.faces(faces, len(points))
+        of = np.zeros(len(triangles), np.uint32) if object_of is None else _arrays.labels(object_of, len(triangles),
+                                                                                         "object_of")
+        count = int(of.max()) + 1 if of.size else 1
+        if objects is None:
+            named = [SceneObject(f"object {i}" if count > 1 else "scene") for i in range(count)]
+        else:
+            named = [SceneObject(one) if isinstance(one, str) else SceneObject(*one) for one in objects]
+        if len(named) < count:
+            raise input_error("array-sizes-differ", f"object_of names object {count - 1}, and there are {len(named)}",
+                              "objects", "give each object a name")
+        rows = []
+        for one in named:
+            if one.kind not in KINDS:
+                raise input_error("unknown-choice", f"{one.kind!r} is not a kind of object", "objects",
+                                  "choose one of " + ", ".join(KINDS))
+            rows.append((one.name, one.source_id, KINDS.index(one.kind)))
+        return cls(_core.scene_from_arrays(points, triangles, of, rows, georeference, sea_level))
+
+    @classmethod
+    def _load(cls, keys: Mapping[str, Any], progress: Progress) -> Scene:
+        text = Text()
+        given = {key: value for key, value in keys.items() if value is not None}
+        for key in ("mesh", "osm", "raster", "terrain"):
+            if key in given:
+                given[key] = os.path.abspath(os.fspath(given[key]))
+        text.add("scene", given, "scene")
+        return cls(text.told(lambda: _core.load_scene(text.text(), NAME, progress)))
+
+    # ---- what they hold
+
+    @property
+    def vertices(self) -> _arrays.Points:
+        """(n, 3) float64, metres; a read-only view."""
+        return self._core.vertices
+
+    @property
+    def faces(self) -> _arrays.Faces:
+        """(m, 3) uint32, indices into `vertices`; a read-only view."""
+        return self._core.faces
+
+    @property
+    def object_of(self) -> npt.NDArray[np.uint32]:
+        """(m,) uint32, the object of each triangle, an index into `objects`; a read-only view."""
+        return self._core.object_of
+
+    @property
+    def objects(self) -> list[SceneObject]:
+        """The objects; those of a map are its buildings, walls, trees and the ground."""
+        return [SceneObject(name, source_id, KINDS[kind]) for name, source_id, kind in self._core.objects]
+
+    @property
+    def georeference(self) -> Georeference | None:
+        """Where the frame lies on the earth, if it is known."""
+        place = self._core.place
+        return None if place is None else Georeference(*place)
+
+    @property
+    def crs(self) -> str | None:
+        """The frame's x and y as a coordinate reference system, in PROJ's words."""
+        return self._core.projection
+
+    @property
+    def bounds(self) -> npt.NDArray[np.float64]:
+        """(2, 3): the lowest and the highest coordinates of all vertices, metres."""
+        if not len(self.vertices):
+            return np.zeros((2, 3))
+        return np.stack([self.vertices.min(axis=0), self.vertices.max(axis=0)])
+
+    @property
+    def hash(self) -> str:
+        """SHA-256 of the triangles, 64 hexadecimal digits: docs/hashes.md."""
+        return self._core.hash
+
+    @property
+    def report(self) -> dict[str, Any]:
+        """What was read, and what became of it: as `vantage inspect --json` prints it."""
+        return json.loads(self._core.report())
+
+    def position(self, latitude: float, longitude: float) -> tuple[float, float]:
+        """x and y of a place on the earth (WGS 84, degrees)."""
+        return _core.scene_position(self._core, float(latitude), float(longitude))
+
+    def prepare(self, progress: Progress = None) -> Scene:
+        """Prepares the scene now, and not with the first volume."""
+        self._core.prepare(progress)
+        return self
+
+    def target(self, **keys: Any) -> Target:
+        """A `Target` of these keys: scene.target(osm="way/265517"), scene.target(vertices=...)."""
+        return Target(**keys)
+
+    # ---- elsewhere
+
+    def save(self, path: Path) -> None:
+        """Writes OBJ, GLB, PLY or STL, by the path's extension, in the scene's frame."""
+        self._core.save(os.path.abspath(os.fspath(path)))
+
+    def to_trimesh(self) -> trimesh.Trimesh:
+        """The triangles as they are, for trimesh."""
+        import trimesh
+
+        return trimesh.Trimesh(np.array(self.vertices), np.array(self.faces, np.int64), process=False)
+
+    def to_pyvista(self) -> Any:
+        """The triangles with an array "object", for pyvista."""
+        from ._plot import poly_data
+
+        return poly_data(self.vertices, self.faces, object=self.object_of)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _restored, (np.array(self.vertices), np.array(self.faces), np.array(self.object_of), self.objects,
+                           self.georeference, self._core.sea_level_m)
+
+    def __repr__(self) -> str:
+        size = self.bounds[1] - self.bounds[0]
+        across = " x ".join(f"{length:.0f} m" for length in size)
+        return f"<vantage.Scene: {len(self.faces)} triangles, {len(self._core.objects)} objects, {across}>"
+
+
+def _restored(vertices: npt.ArrayLike, faces: npt.ArrayLike, object_of: npt.ArrayLike, objects: list[SceneObject],
+              georeference: Georeference | None, sea_level: float | None) -> Scene:
+    return Scene.from_arrays(vertices, faces, object_of=object_of, objects=objects, georeference=georeference,
+                             sea_level=sea_level)

@@ -1,0 +1,101 @@
+"""Arguments as the text of a mission file: the names, the checks and the meaning are those of the mission file."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, TypeVar
+
+import numpy as np
+
+from ._errors import Error, input_error, make
+
+T = TypeVar("T")
+
+NAME = "arguments"
+"""What stands for the file in places, "arguments:3:5", which become names of arguments."""
+
+
+class Text:
+    """Lines of YAML, one for each value, and which argument each line is of."""
+
+    def __init__(self) -> None:
+        self._lines: list[str] = []
+        self._arguments: list[str] = []
+
+    def add(self, key: str, value: Any, argument: str | None = None) -> None:
+        """A key of the outermost map. `argument`: what the caller knows it as."""
+        self._value(f"{key}:", value, 0, argument or key)
+
+    def text(self) -> str:
+        return "".join(line + "\n" for line in self._lines) or "{}\n"
+
+    def _line(self, text: str, depth: int, argument: str) -> None:
+        self._lines.append("  " * depth + text)
+        self._arguments.append(argument)
+
+    def _value(self, head: str, value: Any, depth: int, argument: str) -> None:
+        if isinstance(value, np.ndarray):
+            value = value.tolist()
+        if isinstance(value, Mapping):
+            if not value:
+                return self._line(f"{head} {{}}", depth, argument)
+            self._line(head, depth, argument)
+            for key, item in value.items():
+                if not isinstance(key, str) or not re.fullmatch(r"[A-Za-z_][\w.]*", key):
+                    raise input_error("unknown-key", f"{key!r} is not a key", argument, "use the mission file's keys")
+                self._value(f"{key}:", item, depth + 1, f"{argument}[{key!r}]")
+        elif _is_list(value) and any(isinstance(item, Mapping) for item in value):
+            self._line(head, depth, argument)
+            for number, item in enumerate(value):
+                self._value("-", item, depth + 1, f"{argument}[{number}]")
+        else:
+            self._line(f"{head} {flow(value, argument)}", depth, argument)
+
+    def told(self, work: Callable[[], T]) -> T:
+        """What `work` returns; errors in the text are told of the argument."""
+        try:
+            return work()
+        except Error as error:
+            raise self._renamed(error) from None
+
+    def _renamed(self, error: Error) -> Error:
+        match = re.search(rf"(?:^|/){NAME}:(\d+):\d+", error.where)
+        if not match:
+            return error
+        argument = self._arguments[min(int(match[1]), len(self._arguments)) - 1] if self._arguments else ""
+        rest = error.where[match.end():].strip(" ,:")
+        is_exact = re.fullmatch(r"\w+(\.\w+)+", rest)  # "sensor.incidence" says more than the line of the section
+        where = rest if is_exact else f"{argument}, {rest}" if rest else argument
+        return make(error.kind, error.code, error.problem, where, error.fix, error.object)
+
+
+def _is_list(value: Any) -> bool:
+    return isinstance(value, Sequence) and not isinstance(value, (str, bytes))
+
+
+def flow(value: Any, argument: str) -> str:
+    """A value on one line."""
+    if isinstance(value, (np.ndarray, np.generic)):
+        value = value.tolist()
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, int):
+        return str(value)
+    if isinstance(value, float):
+        if value != value or value in (float("inf"), float("-inf")):
+            raise input_error("value-out-of-range", f"{argument} has the number {value}", argument,
+                              "pass finite numbers")
+        return repr(value)
+    if isinstance(value, os.PathLike):
+        value = os.fspath(value)
+    if isinstance(value, str):
+        return json.dumps(value)
+    if isinstance(value, Mapping):
+        return "{" + ", ".join(f"{key}: {flow(item, argument)}" for key, item in value.items()) + "}"
+    if _is_list(value):
+        return "[" + ", ".join(flow(item, argument) for item in value) + "]"
+    raise input_error("wrong-type", f"{argument} has a value of type {type(value).__name__}", argument,
+                      "pass numbers, texts, lists and dictionaries")

@@ -1,0 +1,297 @@
+"""Volumes: closed meshes of every position from which the whole target can be seen."""
+
+from __future__ import annotations
+
+import json
+import os
+import tempfile
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _arrays, _core
+from ._errors import input_error
+from ._requests import Path
+from ._scene import KINDS, Georeference, Progress, Scene
+
+if TYPE_CHECKING:
+    import trimesh
+
+
+class Cause(NamedTuple):
+    """One reason for part of a volume's boundary."""
+
+    kind: str
+    """"scene", "range", "target_plane", "navigation" or "sensor"."""
+    name: str
+    area_m2: float
+    object: int | None = None
+    """index into `Scene.objects`, where it is an object"""
+    source_id: str = ""
+    object_kind: str = "other"
+
+
+class Note(NamedTuple):
+    """What to know before relying on a result."""
+
+    code: str
+    text: str
+
+
+class Volume:
+    """A closed, oriented mesh in the scene's frame. Volumes do not change; their arrays are read-only views that outlive them.
+
+    Example:
+        >>> import vantage as vt
+        >>> box = vt.Volume.from_arrays(
+        ...     [[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)],
+        ...     [[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1],
+        ...      [2, 3, 7], [2, 7, 6], [0, 2, 6], [0, 6, 4], [1, 5, 7], [1, 7, 3]])
+        >>> box
+        <vantage.Volume: 1.0 m3, 12 facets>
+    """
+
+    def __init__(self, core: _core.Volume):
+        self._core = core
+        self._measures: dict[str, Any] | None = None
+
+    @classmethod
+    def read(cls, path: Path, *, scene: Scene | None = None, up: str = "z", scale: float = 1.0,
+             progress: Progress = None) -> Volume:
+        """Reads a volume, or any other closed mesh: PLY, OBJ, GLB or STL.
+
+        Args:
+            path: the file.
+            scene: OBJ is in the axes and the unit of this scene's file, and a mesh that says where on the earth it lies is
+                moved into its frame.
+            up, scale: of an OBJ, without a scene.
+            progress: called with stage and fraction; False stops.
+        """
+        core = scene._core if scene is not None else None
+        return cls(_core.read_volume(os.path.abspath(os.fspath(path)), up, float(scale), core, progress))
+
+    @classmethod
+    def from_arrays(cls, vertices: npt.ArrayLike, faces: npt.ArrayLike, *, cause: str = "mesh") -> Volume:
+        """A mesh that is to be judged or cut as a volume: (n, 3) metres and (m, 3) indices, counter-clockwise from outside."""
+        points = _arrays.points(vertices, "vertices")
+        return cls(_core.volume_from_arrays(points, _arrays.faces(faces, len(points)), cause))
+
+    # ---- the mesh
+
+    @property
+    def vertices(self) -> _arrays.Points:
+        """(n, 3) float64, metres; a read-only view."""
+        return self._core.vertices
+
+    @property
+    def faces(self) -> _arrays.Faces:
+        """(m, 3) uint32, counter-clockwise seen from outside; a read-only view."""
+        return self._core.faces
+
+    @property
+    def cause_of(self) -> npt.NDArray[np.uint32]:
+        """(m,) uint32, the cause of each facet, an index into `causes`; a read-only view."""
+        return self._core.cause_of
+
+    @property
+    def causes(self) -> list[Cause]:
+        """What bounds the view: objects of the scene, the range, limits."""
+        return [Cause(*row[:5], KINDS[row[5]]) for row in self._core.causes]
+
+    # ---- what is known of it
+
+    @property
+    def empty(self) -> bool:
+        """Whether there is no position at all; `reason` says why."""
+        return len(self.faces) == 0
+
+    @property
+    def outcome(self) -> str:
+        """"computed", or why there is no volume: "out_of_range", "blocked_at_once", "outside_limits", "no_common_view"."""
+        return self._core.outcome
+
+    @property
+    def reason(self) -> str:
+        """Why it is empty, a sentence."""
+        return self._core.reason
+
+    @property
+    def hint(self) -> str:
+        """What to try next, where it is empty."""
+        return self._core.hint
+
+    @property
+    def notes(self) -> list[Note]:
+        """What to know before relying on it."""
+        return [Note(*row) for row in self._core.notes]
+
+    @property
+    def measures(self) -> dict[str, Any]:
+        """vertices, facets, pieces, euler, closed, oriented, volume_m3, area_m2, bounds."""
+        if self._measures is None:
+            self._measures = self._core.measures()
+        return self._measures
+
+    @property
+    def volume_m3(self) -> float:
+        """Cubic metres."""
+        return self.measures["volume_m3"]
+
+    @property
+    def area_m2(self) -> float:
+        """Of the surface, square metres."""
+        return self.measures["area_m2"]
+
+    @property
+    def bounds(self) -> npt.NDArray[np.float64] | None:
+        """(2, 3): the lowest and the highest coordinates, metres; None where it is empty."""
+        bounds = self.measures["bounds"]
+        return None if bounds is None else np.array(bounds)
+
+    @property
+    def tolerance_m(self) -> float:
+        """How far range facets may lie inside the true range."""
+        return self._core.tolerance_m
+
+    @property
+    def lift_m(self) -> list[float]:
+        """How far each part of the target was raised to clear the surface that it lies on."""
+        return self._core.lift_m
+
+    @property
+    def rounding_m(self) -> float:
+        """How far the numbers of the file that it was read from had moved the surface."""
+        return self._core.rounding_m
+
+    @property
+    def hash(self) -> str:
+        """SHA-256 of the facets, 64 hexadecimal digits: docs/hashes.md."""
+        return self._core.hash
+
+    @property
+    def provenance(self) -> dict[str, Any] | None:
+        """What it was computed for: version, method, target, scene_hash, mission_hash."""
+        return self._core.provenance
+
+    @property
+    def georeference(self) -> Georeference | None:
+        """Where its frame lies on the earth, if it is known."""
+        place = self._core.place
+        return None if place is None else Georeference(*place)
+
+    @property
+    def crs(self) -> str | None:
+        """The frame's x and y as a coordinate reference system, in PROJ's words."""
+        return self._core.projection
+
+    # ---- what can be done with it
+
+    def prove(self, scene: Scene, *, maximal: bool = False, shrink: float = 1e-6, threads: int = 0,
+              progress: Progress = None) -> dict[str, Any]:
+        """Proves or refutes that every position sees the whole target, within range.
+
+        The volume must say what it was computed for, as files of `Result.save` do. Limits of navigation it does not say: they
+        are judged by `Result.prove`.
+
+        Args:
+            scene: the scene that it was computed in; its hash is compared.
+            maximal: also look for what is missing.
+            shrink: the proof is of the volume shrunk by this part of the distance towards the target.
+            threads: 0: as many as there are.
+            progress: called with stage and fraction; False stops.
+
+        Returns:
+            what `vantage prove --json` prints; ["verdict"] is "proved", "not proved" or "wrong".
+        """
+        return json.loads(_core.prove_by_provenance(self._core, scene._core, shrink, maximal, threads, progress))
+
+    def simplify(self, *, facets: int | None = None, error_m: float | None = None, progress: Progress = None) -> Volume:
+        """Fewer facets, and no position that it did not have.
+
+        Args:
+            facets: stop at so many.
+            error_m: instead: nothing that is lost may be farther than this from the result.
+            progress: called with stage and fraction; False stops.
+        """
+        if facets is not None and error_m is None:
+            return Volume(self._core.simplify_to(int(facets), progress)[0])
+        if error_m is not None and facets is None:
+            return Volume(self._core.simplify_within(float(error_m), progress)[0])
+        raise input_error("nothing-given", "it is not said how far to simplify", "facets, error_m",
+                          "give one of the two")
+
+    def compare(self, other: Volume, *, names: tuple[str, str] = ("A", "B"), progress: Progress = None) -> dict[str, Any]:
+        """How two volumes differ: what `vantage compare --json` prints, and under "only_a" and "only_b" the differences as
+        volumes."""
+        text, only_a, only_b = self._core.compare(other._core, *names, progress)
+        return {**json.loads(text), "only_a": Volume(only_a), "only_b": Volume(only_b)}
+
+    def __and__(self, other: Volume) -> Volume:
+        return intersect([self, other])
+
+    def __or__(self, other: Volume) -> Volume:
+        return unite([self, other])
+
+    # ---- elsewhere
+
+    def save(self, path: Path, *, up: str = "z", scale: float = 1.0) -> None:
+        """Writes PLY, OBJ, STL or GLB, by the path's extension; whole or not at all. `up`, `scale`: of an OBJ."""
+        self._core.save(os.path.abspath(os.fspath(path)), up, float(scale))
+
+    def to_trimesh(self) -> trimesh.Trimesh:
+        """For trimesh, with the facets' causes as face_attributes["cause"]."""
+        import trimesh
+
+        attributes = {"cause": np.array(self.cause_of)} if len(self.cause_of) else None
+        return trimesh.Trimesh(np.array(self.vertices), np.array(self.faces, np.int64), process=False,
+                               face_attributes=attributes)
+
+    def to_pyvista(self) -> Any:
+        """For pyvista, with an array "cause"."""
+        from ._plot import poly_data
+
+        return poly_data(self.vertices, self.faces, cause=self.cause_of)
+
+    def to_manifold(self) -> Any:
+        """For manifold3d."""
+        import manifold3d
+
+        return manifold3d.Manifold(manifold3d.Mesh64(np.array(self.vertices), np.array(self.faces, np.uint64)))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        if self.empty:
+            return _empty, (self.outcome, self.reason)
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, "volume.ply")
+            self.save(file)
+            with open(file, "rb") as saved:
+                return _restored, (saved.read(),)
+
+    def __repr__(self) -> str:
+        if self.empty:
+            return f"<vantage.Volume: empty, {self.outcome}>"
+        return f"<vantage.Volume: {self.volume_m3:,.1f} m3, {len(self.faces):,} facets>"
+
+
+def _restored(data: bytes) -> Volume:
+    with tempfile.TemporaryDirectory() as folder:
+        file = os.path.join(folder, "volume.ply")
+        with open(file, "wb") as out:
+            out.write(data)
+        return Volume.read(file)
+
+
+def _empty(outcome: str, reason: str) -> Volume:
+    return Volume(_core.empty_volume(outcome, reason))
+
+
+def intersect(volumes: Sequence[Volume], progress: Progress = None) -> Volume:
+    """The positions that all of the volumes hold."""
+    return Volume(_core.intersect_volumes([one._core for one in volumes], progress))
+
+
+def unite(volumes: Sequence[Volume], progress: Progress = None) -> Volume:
+    """The positions that one of the volumes holds, or more."""
+    return Volume(_core.unite_volumes([one._core for one in volumes], progress))
