@@ -234,7 +234,8 @@ VANTAGE_API Mission one_volume(const Mission& mission, std::size_t index);
 /// What to know before relying on the mission's results: Mission::notes; that map, raster or
 /// ground end within the range, where what would hide part of the target is missing; that a target looks as if it were
 /// given in degrees, lies far off the scene or is looked at from under the ground; that the scene seems to lie on its
-/// side. `volume`: the mission's, where there is one. Cost: linear in the scene's triangles.
+/// side. `volume`: the mission's, where there is one. Cost: linear in the scene's triangles
+/// the first time, then a small part of that.
 VANTAGE_API std::vector<Warning> mission_warnings(const Mission& mission, const Volume* volume = nullptr);
 
 struct RunOptions {

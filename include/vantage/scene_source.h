@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,10 +33,28 @@ struct SceneSource {
 /// are rasters; all else are meshes. Case does not count.
 VANTAGE_API SceneSource::Kind source_kind(const std::filesystem::path& file);
 
+/// What missions looked up in a scene, kept for those to come: roofs and facades, outlines of the map, the ground.
+/// Found when it is first needed; any number of threads may ask. A copy knows nothing yet.
+class VANTAGE_API SceneLookups {
+ public:
+  SceneLookups();
+  ~SceneLookups();
+  SceneLookups(const SceneLookups&);
+  SceneLookups& operator=(const SceneLookups&);
+
+  struct Data;
+  Data& data() const { return *data_; }  ///< for missions
+
+ private:
+  std::unique_ptr<Data> data_;
+};
+
+/// Not to be changed once a mission was resolved in it.
 struct LoadedScene {
   Scene scene;
-  std::optional<CityReport> city;      ///< of a map
-  std::optional<RasterReport> raster;  ///< of a raster
+  std::optional<CityReport> city = {};      ///< of a map
+  std::optional<RasterReport> raster = {};  ///< of a raster
+  SceneLookups lookups = {};
 };
 
 /// What is worth a sentence of the scene and its source.

@@ -3,14 +3,17 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <optional>
 #include <set>
 #include <span>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "app/named_objects.h"
+#include "app/scene_lookups.h"
 #include "app/target_section.h"
 #include "vantage/error.h"
 #include "vantage/faces.h"
@@ -31,29 +34,50 @@ Objects named(const Mission& mission, const std::string& name) {
               advice_for_object(mission.scene(), name, kNoNames));
 }
 
-/// An object of the map and, of a building, its parts.
-Objects of_map(const Mission& mission, const std::string& id) {
-  const std::vector<SceneObject>& objects = mission.scene().objects;
-  std::set<std::string> wanted{id}, names;
-  std::string reason;
-  if (mission.loaded->city) {
-    for (const CityRecord& record : mission.loaded->city->records) {
-      if (record.building == id) wanted.insert(record.object.source_id);
-      if (record.object.source_id == id && record.fate == Fate::skipped) reason = record.reason;
+/// The objects of a map, by their ids in it.
+struct MapObjects {
+  explicit MapObjects(const LoadedScene& loaded) {
+    const std::vector<SceneObject>& objects = loaded.scene.objects;
+    for (std::uint32_t i = 0; i < objects.size(); ++i) {
+      if (!objects[i].source_id.empty()) of[objects[i].source_id].push_back(i);
+    }
+    if (!loaded.city) return;
+    for (const CityRecord& record : loaded.city->records) {
+      if (!record.building.empty()) parts[record.building].push_back(record.object.source_id);
+      if (record.fate == Fate::skipped) skipped.emplace(record.object.source_id, record.reason);
     }
   }
-  Objects found;
-  for (std::uint32_t i = 0; i < objects.size(); ++i) {
-    if (objects[i].source_id.empty()) continue;
-    names.insert(objects[i].source_id);
-    if (wanted.count(objects[i].source_id) > 0) found.push_back(i);
+
+  std::unordered_map<std::string, Objects> of;
+  std::unordered_map<std::string, std::vector<std::string>> parts;  // of a building
+  std::unordered_map<std::string, std::string> skipped;             // why it is not built
+};
+
+/// An object of the map and, of a building, its parts.
+Objects of_map(const Mission& mission, const std::string& id) {
+  const auto& map =
+      looked_up<MapObjects>(*mission.loaded, [&] { return std::make_shared<const MapObjects>(*mission.loaded); });
+  std::set<std::string> wanted{id};
+  if (const auto parts = map.parts.find(id); parts != map.parts.end()) {
+    wanted.insert(parts->second.begin(), parts->second.end());
   }
+  Objects found;
+  for (const std::string& one : wanted) {
+    if (const auto of = map.of.find(one); of != map.of.end()) {
+      found.insert(found.end(), of->second.begin(), of->second.end());
+    }
+  }
+  std::sort(found.begin(), found.end());
   if (!found.empty()) return found;
   const std::string& place = mission.as_written.places.target;
+  const auto skipped = map.skipped.find(id);
+  const std::string reason = skipped == map.skipped.end() ? "" : skipped->second;
   if (!reason.empty()) {
     throw Error(ErrorCode::object_missing, id + " of the map is not built: " + reason, place,
                 "name another object, or give the target's vertices");
   }
+  std::set<std::string> names;
+  for (const auto& entry : map.of) names.insert(entry.first);
   throw Error(ErrorCode::object_missing, "the scene has no object " + in_quotes(id) + " of the map", place,
               "name a building, wall, tower or bridge in the part of the map that is used; " +
                   advice_for_name(id, names, kNoNames));
@@ -159,11 +183,13 @@ std::vector<Face> wanted_faces(const Mission& mission, const FaceTarget& wanted,
 }  // namespace
 
 std::vector<Target> face_targets(const Mission& mission, const FaceTarget& wanted, const Target& target,
-                                 const geo::LocalFrame* frame, const FaceFinder& finder, bool together) {
+                                 const geo::LocalFrame* frame, bool together) {
   const Objects objects = wanted.at_deg         ? at_place(mission, *wanted.at_deg, *frame)
                           : !wanted.osm.empty() ? of_map(mission, wanted.osm)
                                                 : named(mission, wanted.object);
   std::string name = name_of_objects(mission, wanted, objects);
+  const auto& finder =
+      looked_up<FaceFinder>(*mission.loaded, [&] { return std::make_shared<const FaceFinder>(mission.scene()); });
   const std::vector<Face> faces = wanted_faces(mission, wanted, objects, name, finder);
   name += std::string(", ") + name_of(wanted.kind);
   if (wanted.facing_deg) name += " facing " + heading_text(*wanted.facing_deg);

@@ -10,9 +10,9 @@ namespace vantage::internal::app {
 
 /// The faces that `wanted` means, in the scene frame, each a target: of the name that `target` has, or of the object's
 /// and the part's, and with its offset. `together`: one target of all of them. `frame`: of the scene; needed for at_deg
-/// only. `finder`: of the mission's scene. Throws Error(input), with the place in the mission file, for an object that
-/// is not there and for one without such a face.
+/// only. Throws Error(input), with the place in the mission file, for an object that is not there and for one without
+/// such a face.
 std::vector<Target> face_targets(const Mission& mission, const FaceTarget& wanted, const Target& target,
-                                 const geo::LocalFrame* frame, const FaceFinder& finder, bool together);
+                                 const geo::LocalFrame* frame, bool together);
 
 }  // namespace vantage::internal::app

@@ -246,13 +246,11 @@ std::vector<std::vector<Target>> placed(Mission& mission, const std::vector<Miss
     put_on_ground(mission, *frame, progress);
     targets[i] = {mission.target};
   }
-  std::optional<FaceFinder> finder;
   for (std::size_t i = 0; i < given.size(); ++i) {
     if (!given[i].face_target) continue;
-    if (!finder) finder.emplace(mission.scene());
     const OneTarget one(mission, given[i]);
     const bool together = mission.as_written.combine == Combine::all && !given[i].both_sides;
-    targets[i] = face_targets(mission, *given[i].face_target, given[i].target, frame, *finder, together);
+    targets[i] = face_targets(mission, *given[i].face_target, given[i].target, frame, together);
   }
   for (std::size_t i = 0; i < given.size(); ++i) {
     with_place(given[i].place, [&] {

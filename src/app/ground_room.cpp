@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/scene_lookups.h"
 #include "vantage/error.h"
 
 namespace vantage::internal::app {
@@ -13,16 +14,27 @@ namespace {
 
 using Vec2 = Eigen::Vector2d;
 
-std::vector<std::uint32_t> vertices_of(const Scene& scene, std::uint32_t object) {
+struct GroundExtent {
   std::vector<std::uint32_t> vertices;
-  for (std::size_t i = 0; i < scene.mesh.triangles.size(); ++i) {
-    if (scene.object_of[i] != object) continue;
-    vertices.insert(vertices.end(), scene.mesh.triangles[i].begin(), scene.mesh.triangles[i].end());
+  PlanBox box;
+
+  /// Of a scene with a ground.
+  explicit GroundExtent(const Scene& scene) {
+    const std::uint32_t ground = *ground_object(scene);
+    for (std::size_t i = 0; i < scene.mesh.triangles.size(); ++i) {
+      if (scene.object_of[i] != ground) continue;
+      vertices.insert(vertices.end(), scene.mesh.triangles[i].begin(), scene.mesh.triangles[i].end());
+    }
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    if (vertices.empty()) return;
+    box.min = box.max = scene.mesh.vertices[vertices.front()].head<2>();
+    for (const std::uint32_t vertex : vertices) {
+      box.min = box.min.cwiseMin(scene.mesh.vertices[vertex].head<2>());
+      box.max = box.max.cwiseMax(scene.mesh.vertices[vertex].head<2>());
+    }
   }
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-  return vertices;
-}
+};
 
 /// How far a rectangle sticks out of another one, metres, along x or y; at most 0 where it does not.
 double sticks_out(const PlanBox& box, const PlanBox& of) {
@@ -55,15 +67,10 @@ std::optional<std::uint32_t> ground_object(const Scene& scene) {
 
 std::optional<Warning> make_room(Mission& mission, const PlanBox& wanted) {
   const Scene& scene = mission.scene();
-  const auto ground = ground_object(scene);
-  if (!ground) return std::nullopt;
-  const std::vector<std::uint32_t> vertices = vertices_of(scene, *ground);
+  if (!ground_object(scene)) return std::nullopt;
+  const auto& [vertices, box] =
+      looked_up<GroundExtent>(*mission.loaded, [&] { return std::make_shared<const GroundExtent>(scene); });
   if (vertices.empty()) return std::nullopt;
-  PlanBox box{scene.mesh.vertices[vertices.front()].head<2>(), scene.mesh.vertices[vertices.front()].head<2>()};
-  for (const std::uint32_t vertex : vertices) {
-    box.min = box.min.cwiseMin(scene.mesh.vertices[vertex].head<2>());
-    box.max = box.max.cwiseMax(scene.mesh.vertices[vertex].head<2>());
-  }
   const double missing = sticks_out(wanted, box);
   if (missing <= 0) return std::nullopt;
   const double away = apart(wanted, box);

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "app/components/maps.h"
+#include "app/scene_lookups.h"
 
 namespace vantage {
 namespace {
@@ -25,6 +26,15 @@ SceneSource::Kind source_kind(const std::filesystem::path& file) {
     return SceneSource::Kind::raster;
   }
   return SceneSource::Kind::mesh;
+}
+
+SceneLookups::SceneLookups() : data_(std::make_unique<Data>()) {}
+SceneLookups::~SceneLookups() = default;
+// What was looked up refers to the scene of the other one.
+SceneLookups::SceneLookups(const SceneLookups&) : SceneLookups() {}
+SceneLookups& SceneLookups::operator=(const SceneLookups&) {
+  data_ = std::make_unique<Data>();
+  return *this;
 }
 
 std::vector<std::string> notes_of(const LoadedScene& loaded) {

@@ -5,9 +5,11 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <optional>
 
 #include "app/combine_targets.h"
+#include "app/triangle_runs.h"
 #include "core/triangle_distance.h"
 #include "vantage/input.h"
 
@@ -16,12 +18,9 @@ namespace {
 
 using Corners = std::array<Vec3, 3>;
 
-/// Calls `visit` with the corners of each triangle until it returns false.
-template <typename Visit>
-void for_triangles(const Mesh& mesh, const Visit& visit) {
-  for (const Triangle& triangle : mesh.triangles) {
-    if (!visit(Corners{mesh.vertices[triangle[0]], mesh.vertices[triangle[1]], mesh.vertices[triangle[2]]})) return;
-  }
+Corners corners_of(const Mesh& mesh, std::size_t triangle) {
+  const Triangle& t = mesh.triangles[triangle];
+  return {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
 }
 
 /// "350 m", "14.2 km".
@@ -41,24 +40,26 @@ Box target_box(const Target& target) {
 }
 
 /// Distance of the nearest triangle, or less than `enough` if one is as near as that.
-double nearest(const Mesh& mesh, const Vec3& point, double enough) {
+double nearest(const LoadedScene& loaded, const Vec3& point, double enough) {
   double least = std::numeric_limits<double>::infinity();
-  for_triangles(mesh, [&](const Corners& corners) {
-    const auto& [a, b, c] = corners;
-    const Vec3 low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
-    const double to_box = (low - point).cwiseMax(point - high).cwiseMax(0).squaredNorm();
-    if (to_box < least) least = std::min(least, core::squared_distance_to_triangle(point, a, b, c));
+  const auto may_be_nearer = [&](const Box& box) {
+    return (box.min - point).cwiseMax(point - box.max).cwiseMax(0).squaredNorm() < least;
+  };
+  triangle_runs(loaded).visit(may_be_nearer, [&](std::size_t i) {
+    const auto [a, b, c] = corners_of(loaded.scene.mesh, i);
+    least = std::min(least, core::squared_distance_to_triangle(point, a, b, c));
     return least > enough * enough;
   });
   return std::sqrt(least);
 }
 
 /// That no triangle of the scene is so near that it could matter.
-std::optional<Warning> far_off(const Mission& mission, const Target& of, const Scene& scene) {
+std::optional<Warning> far_off(const Mission& mission, const Target& of) {
+  const Scene& scene = mission.scene();
   const Box target = target_box(of);
   const Vec3 middle = (target.min + target.max) / 2;
   const double enough = range_limit_m(mission.sensor) + (target.max - target.min).norm() / 2;
-  const double distance = nearest(scene.mesh, middle, enough);
+  const double distance = nearest(*mission.loaded, middle, enough);
   if (distance <= enough) return std::nullopt;
   return Warning{
       WarningCode::range_beyond_scene,
@@ -72,15 +73,15 @@ Vec3 facing_axes(const Mesh& mesh) {
   constexpr double kAlong = 0.98;
   Vec3 facing = Vec3::Zero();
   double all = 0;
-  for_triangles(mesh, [&](const Corners& corners) {
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const Corners corners = corners_of(mesh, i);
     const Vec3 normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
     const double area = normal.norm();
     all += area;
     for (int axis = 0; axis < 3; ++axis) {
       if (std::abs(normal[axis]) > kAlong * area) facing[axis] += area;
     }
-    return true;
-  });
+  }
   return all > 0 ? Vec3(facing / all) : facing;
 }
 
@@ -91,14 +92,17 @@ std::string turning_advice(const Scene& scene) {
   return scene.up == UpAxis::y ? "give scene.up: z" : "give scene.up: y";
 }
 
-/// Whether some of the mesh lies straight below a point, by more than `on`.
-bool has_below(const Mesh& mesh, const Vec3& point, double on) {
+/// Whether some of the scene lies straight below a point, by more than `on`.
+bool has_below(const LoadedScene& loaded, const Vec3& point, double on) {
   bool found = false;
-  for_triangles(mesh, [&](const Corners& corners) {
+  const auto is_in_plan = [&](const Box& box) {
+    return (box.min - point).head<2>().maxCoeff() <= 0 && (point - box.max).head<2>().maxCoeff() <= 0;
+  };
+  triangle_runs(loaded).visit(is_in_plan, [&](std::size_t i) {
     const auto cross = [&](const Vec3& a, const Vec3& b) {
       return (a.x() - point.x()) * (b.y() - point.y()) - (a.y() - point.y()) * (b.x() - point.x());
     };
-    const auto& [a, b, c] = corners;
+    const auto [a, b, c] = corners_of(loaded.scene.mesh, i);
     const double of_a = cross(b, c), of_b = cross(c, a), of_c = cross(a, b), sum = of_a + of_b + of_c;
     const bool is_inside = (of_a >= 0 && of_b >= 0 && of_c >= 0) || (of_a <= 0 && of_b <= 0 && of_c <= 0);
     if (!is_inside) return true;
@@ -111,28 +115,27 @@ bool has_below(const Mesh& mesh, const Vec3& point, double on) {
 }
 
 /// That the target is looked at from below, where nothing is: not even ground.
-std::optional<Warning> from_below(const Mission& mission, const Scene& scene) {
+std::optional<Warning> from_below(const Mission& mission) {
   constexpr double kDown = -0.5;  // of the normal: less than 60 degrees from straight down
   const TargetFrame frame = make_target_frame(mission.target);
   if (frame.all_sides || frame.normal.z() > kDown) return std::nullopt;
   const double on = std::min(2e-3, 0.01 * frame.enclosing_radius_m);  // the surface that it lies on is no nearer
   std::vector<Vec3> probes{frame.origin};
   for (const auto& corner : frame.polygon) probes.push_back(frame.to_scene({0.99 * corner.x(), 0.99 * corner.y(), 0}));
-  if (std::any_of(probes.begin(), probes.end(), [&](const Vec3& probe) { return has_below(scene.mesh, probe, on); })) {
-    return std::nullopt;
-  }
+  const auto is_over = [&](const Vec3& probe) { return has_below(*mission.loaded, probe, on); };
+  if (std::any_of(probes.begin(), probes.end(), is_over)) return std::nullopt;
   return Warning{
       WarningCode::target_from_below,
       "the target is looked at from below, and nothing of the scene lies below it: positions under the ground count "
       "as free; leave target.front out, or turn it round, to look from above"};
 }
 
-std::optional<Warning> below_all(const Scene& scene, const Volume* volume) {
+std::optional<Warning> below_all(const LoadedScene& loaded, const Volume* volume) {
   if (volume == nullptr || volume->mesh.empty()) return std::nullopt;
   // A target under the ground is told by the method itself.
   const auto is_told = [](const Warning& note) { return note.code == WarningCode::target_underground; };
   if (std::any_of(volume->notes.begin(), volume->notes.end(), is_told)) return std::nullopt;
-  const Box box = bounding_box(volume->mesh), all = bounding_box(scene.mesh);
+  const Box box = bounding_box(volume->mesh), all = triangle_runs(loaded).bounds();
   constexpr double kTouch = 1e-3;  // of the volume's height
   if (box.max.z() > all.min.z() + kTouch * (box.max.z() - box.min.z())) return std::nullopt;
   return Warning{WarningCode::volume_below_scene,
@@ -140,6 +143,11 @@ std::optional<Warning> below_all(const Scene& scene, const Volume* volume) {
                      std::to_string(std::lround(all.min.z())) +
                      " m: positions under the ground count as free; check the target's z, target.front and scene.up"};
 }
+
+/// What on_its_side says.
+struct Turned {
+  std::optional<Warning> warning;
+};
 
 }  // namespace
 
@@ -150,7 +158,7 @@ std::optional<Warning> on_its_side(const LoadedScene& loaded) {
   constexpr double kTooHigh = 100;              // metres
   const Scene& scene = loaded.scene;
   if (loaded.city || loaded.raster || scene.georeference || scene.states_axes) return std::nullopt;
-  const Box box = bounding_box(scene.mesh);
+  const Box box = triangle_runs(loaded).bounds();
   const Vec3 size = box.max - box.min;
   if (size.z() < kTooHigh || 2 * size.y() > std::min(size.x(), size.z())) return std::nullopt;
   const Vec3 facing = facing_axes(scene.mesh);
@@ -171,16 +179,17 @@ std::vector<Warning> scene_warnings(const Mission& mission, const Volume* volume
     for (const Target& target : view) {
       if (target.parts.at(0).empty()) continue;
       has_corners = true;
-      if (!away) away = far_off(mission, target, loaded.scene);
+      if (!away) away = far_off(mission, target);
     }
   }
   if (!has_corners) return warnings;
-  if (const auto side = on_its_side(loaded)) warnings.push_back(*side);
+  const auto& side = looked_up<Turned>(loaded, [&] { return std::make_shared<Turned>(Turned{on_its_side(loaded)}); });
+  if (side.warning) warnings.push_back(*side.warning);
   if (away) {
     warnings.push_back(*away);
-  } else if (const auto below = mission.target.parts.at(0).empty() ? std::nullopt : from_below(mission, loaded.scene)) {
+  } else if (const auto below = mission.target.parts.at(0).empty() ? std::nullopt : from_below(mission)) {
     warnings.push_back(*below);
-  } else if (const auto under = below_all(loaded.scene, volume)) {
+  } else if (const auto under = below_all(loaded, volume)) {
     warnings.push_back(*under);
   }
   return warnings;

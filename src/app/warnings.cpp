@@ -6,6 +6,7 @@
 
 #include "app/combine_targets.h"
 #include "app/scene_warnings.h"
+#include "app/triangle_runs.h"
 #include "core/format.h"
 #include "geo/local_frame.h"
 #include "geo/longitudes.h"
@@ -123,7 +124,7 @@ Shortfall of_map(const Mission& mission, const std::vector<Vec2>& points) {
 
 /// Of a raster, or of a map's scene that was written to a file: it ends where its surface does.
 Shortfall of_surface(const LoadedScene& loaded, const std::vector<Vec2>& points) {
-  const Box box = bounding_box(loaded.scene.mesh);
+  const Box box = internal::app::triangle_runs(loaded).bounds();
   double most = 0;
   for (const Vec2& p : points) {
     most = std::max({most, (box.min.head<2>() - p).maxCoeff(), (p - box.max.head<2>()).maxCoeff()});

@@ -182,9 +182,15 @@ struct FaceFinder::Data {
     for (std::uint32_t i = 0; i < weld.size(); ++i) weld[i] = weld[weld[i]];
     for (const Vec3& vertex : of.mesh.vertices) largest = std::max(largest, vertex.cwiseAbs().maxCoeff());
     boxes.resize(std::max<std::size_t>(1, of.objects.size()));
+    first.assign(boxes.size() + 1, 0);
     for (std::uint32_t i = 0; i < of.mesh.triangles.size(); ++i) {
       for (const Vec3& corner : index.corners(i)) boxes[index.object_of(i)].extend(corner);
+      ++first[index.object_of(i) + 1];
     }
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    members.resize(of.mesh.triangles.size());
+    std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
+    for (std::uint32_t i = 0; i < members.size(); ++i) members[next[index.object_of(i)]++] = i;
   }
 
   ObjectMesh mesh_of(std::uint32_t object) const;
@@ -196,15 +202,16 @@ struct FaceFinder::Data {
   const Scene& scene;
   TriangleIndex index;
   std::vector<std::uint32_t> weld;
-  std::vector<Box> boxes;  // of the objects
+  std::vector<Box> boxes;                     // of the objects
+  std::vector<std::uint32_t> first, members;  // of object k: members[first[k]] to members[first[k + 1]]
   double largest = 0;
 };
 
 ObjectMesh FaceFinder::Data::mesh_of(std::uint32_t object) const {
   ObjectMesh mesh;
   std::vector<std::pair<Triangle, std::uint32_t>> seen;  // corners sorted, to leave out what is there twice
-  for (std::uint32_t i = 0; i < scene.mesh.triangles.size(); ++i) {
-    if (index.object_of(i) != object) continue;
+  for (std::uint32_t member = first[object]; member < first[object + 1]; ++member) {
+    const std::uint32_t i = members[member];
     Triangle t;
     for (std::size_t k = 0; k < 3; ++k) t[k] = weld[scene.mesh.triangles[i][k]];
     if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
@@ -334,6 +341,10 @@ FaceFinder::FaceFinder(const Scene& scene) {
   for (const Triangle& t : scene.mesh.triangles) {
     if (std::max({t[0], t[1], t[2]}) >= scene.mesh.vertices.size())
       refuse(ErrorCode::index_out_of_range, "a triangle has a vertex that is not there");
+  }
+  for (const std::uint32_t object : scene.object_of) {
+    if (object >= scene.objects.size())
+      refuse(ErrorCode::index_out_of_range, "a triangle is of an object that is not there");
   }
   data_ = std::make_unique<const Data>(scene);
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -11,6 +12,8 @@
 #include "app/components/maps.h"
 #include "app/ground_room.h"
 #include "app/pierced_advice.h"
+#include "app/scene_lookups.h"
+#include "app/triangle_runs.h"
 #include "io/mesh_builder.h"
 #include "maps/city/object_outlines.h"
 #include "maps/terrain/triangulated_terrain.h"
@@ -22,20 +25,11 @@ namespace {
 
 using city::Vec2;
 
-/// The triangles of the ground.
-terrain::TriangulatedTerrain ground_of(const Mission& mission) {
-  const Scene& scene = mission.scene();
-  const auto ground = ground_object(scene);
-  if (!ground) {
-    throw Error(
-        ErrorCode::ground_missing, "the scene has no object 'ground' to put the target on",
-        mission.as_written.places.target,
-        "give the target's vertices, or a scene that is made from a map; PLY and STL keep no objects, OBJ and GLB do");
-  }
+Mesh ground_mesh(const Scene& scene, std::uint32_t ground) {
   Mesh mesh;
   std::vector<std::uint32_t> renamed(scene.mesh.vertices.size(), UINT32_MAX);
   for (std::size_t i = 0; i < scene.mesh.triangles.size(); ++i) {
-    if (scene.object_of[i] != *ground) continue;
+    if (scene.object_of[i] != ground) continue;
     Triangle triangle = scene.mesh.triangles[i];
     for (std::uint32_t& vertex : triangle) {
       if (renamed[vertex] == UINT32_MAX) {
@@ -46,20 +40,28 @@ terrain::TriangulatedTerrain ground_of(const Mission& mission) {
     }
     mesh.triangles.push_back(triangle);
   }
-  return terrain::TriangulatedTerrain(std::move(mesh));
+  return mesh;
 }
 
-/// z = slope . (x, y) + level.
-struct Plane {
-  Vec2 slope = Vec2::Zero();
-  double level = 0;
+const terrain::TriangulatedTerrain& ground_of(const Mission& mission) {
+  const Scene& scene = mission.scene();
+  const auto ground = ground_object(scene);
+  if (!ground) {
+    throw Error(
+        ErrorCode::ground_missing, "the scene has no object 'ground' to put the target on",
+        mission.as_written.places.target,
+        "give the target's vertices, or a scene that is made from a map; PLY and STL keep no objects, OBJ and GLB do");
+  }
+  return looked_up<terrain::TriangulatedTerrain>(*mission.loaded, [&] {
+    return std::make_shared<const terrain::TriangulatedTerrain>(ground_mesh(scene, *ground));
+  });
+}
 
-  double at(const Vec2& p) const { return slope.dot(p) + level; }
-};
+using terrain::Incline;
 
 /// The plane nearest to the ground at a ring's corners and the middles of its sides, raised until no ground under the
 /// ring lies above it.
-Plane ground_plane(const terrain::TriangulatedTerrain& ground, const city::Ring& ring, const Mission& mission) {
+Incline ground_plane(const terrain::TriangulatedTerrain& ground, const city::Ring& ring, const Mission& mission) {
   const char* const beyond = "the target reaches beyond the scene's ground";
   std::vector<Vec2> samples;
   for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -77,12 +79,10 @@ Plane ground_plane(const terrain::TriangulatedTerrain& ground, const city::Ring&
     heights[static_cast<Eigen::Index>(i)] = *height;
   }
   const Eigen::Vector3d fit = rows.colPivHouseholderQr().solve(heights);
-  Plane plane{fit.head<2>(), fit.z() - fit.head<2>().dot(middle)};
-  Mesh tilted = ground.mesh();
-  for (Vec3& vertex : tilted.vertices) vertex.z() -= plane.at(vertex.head<2>());
-  const auto range = terrain::TriangulatedTerrain(std::move(tilted)).range(ring);
+  Incline plane{fit.head<2>(), fit.z() - fit.head<2>().dot(middle)};
+  const auto range = ground.range(ring, plane);
   if (!range) fail_off_ground(mission, beyond);
-  plane.level += range->highest;
+  plane.level_m += range->highest;
   return plane;
 }
 
@@ -99,7 +99,10 @@ city::Ring rectangle(const GroundTarget& wanted, const geo::LocalFrame& frame) {
 std::vector<city::Footprint> outlines(Mission& mission, const std::string& name, const geo::LocalFrame& frame,
                                       const Progress& progress) {
   const SceneSource& source = mission.as_written.scene;
-  const auto found = city::outlines_of_object(source.file, source.city.region, name, frame, progress);
+  const auto& map = looked_up<city::MapOutlines>(*mission.loaded, [&] {
+    return std::make_shared<const city::MapOutlines>(source.file, source.city.region, progress);
+  });
+  const auto found = map.of(name, frame);
   const std::string& place = mission.as_written.places.target;
   if (!found)
     throw Error(ErrorCode::value_syntax, in_quotes(name) + " is not an object of a map", place, "write 'osm: way/123'");
@@ -142,7 +145,7 @@ PlanBox plan_box(const std::vector<city::Footprint>& areas) {
   return box;
 }
 
-std::vector<Vec3> on_plane(const city::Ring& ring, const Plane& plane) {
+std::vector<Vec3> on_plane(const city::Ring& ring, const Incline& plane) {
   std::vector<Vec3> vertices;
   for (const Vec2& p : ring) vertices.emplace_back(p.x(), p.y(), plane.at(p));
   return vertices;
@@ -173,16 +176,21 @@ bool holds(const std::array<Vec3, 3>& facet, const Vec3& at) {
 
 /// The first object that a point lies in: of its facets on the vertical line through the point an odd number is above,
 /// and an even number in all, or else it is not closed there. Nothing where the point is in the open.
-std::optional<std::uint32_t> solid_round(const Scene& scene, const Vec3& at) {
+std::optional<std::uint32_t> solid_round(const LoadedScene& loaded, const Vec3& at) {
+  const Scene& scene = loaded.scene;
   std::vector<std::size_t> above(scene.objects.size(), 0), all(scene.objects.size(), 0);
-  for (std::size_t i = 0; i < scene.mesh.triangles.size(); ++i) {
+  const auto is_in_plan = [&](const Box& box) {
+    return (box.min - at).head<2>().maxCoeff() <= 0 && (at - box.max).head<2>().maxCoeff() <= 0;
+  };
+  triangle_runs(loaded).visit(is_in_plan, [&](std::size_t i) {
     std::array<Vec3, 3> facet;
     for (std::size_t k = 0; k < 3; ++k) facet[k] = scene.mesh.vertices[scene.mesh.triangles[i][k]];
-    if (!holds(facet, at)) continue;
+    if (!holds(facet, at)) return true;
     const Vec3 normal = (facet[1] - facet[0]).cross(facet[2] - facet[0]);
     ++all[scene.object_of[i]];
     above[scene.object_of[i]] += normal.dot(at - facet[0]) * normal.z() < 0;
-  }
+    return true;
+  });
   for (std::size_t object = 0; object < all.size(); ++object) {
     if (all[object] % 2 == 0 && above[object] % 2 == 1) return static_cast<std::uint32_t>(object);
   }
@@ -195,7 +203,7 @@ void check_outdoors(const Mission& mission) {
   const Scene& scene = mission.scene();
   for (std::size_t i = 0; i < mission.target.parts.size(); ++i) {
     const TargetFrame frame = make_target_frame(mission.target, i);
-    const auto solid = solid_round(scene, frame.origin + kClear * frame.normal);
+    const auto solid = solid_round(*mission.loaded, frame.origin + kClear * frame.normal);
     if (!solid) continue;
     throw Error(
         ErrorCode::target_inside_solid, "the target lies inside " + in_quotes(display_name(scene.objects[*solid])),
@@ -215,10 +223,10 @@ void put_on_ground(Mission& mission, const geo::LocalFrame& frame, const Progres
                                                  ? std::vector<city::Footprint>{{rectangle(wanted, frame), {}}}
                                                  : outlines(mission, wanted.osm, frame, progress);
   if (auto note = make_room(mission, plan_box(areas))) mission.notes.push_back(std::move(*note));
-  const terrain::TriangulatedTerrain ground = ground_of(mission);
+  const terrain::TriangulatedTerrain& ground = ground_of(mission);
   mission.target.parts.clear();
   for (const city::Footprint& area : areas) {
-    const Plane plane = ground_plane(ground, area.outer, mission);
+    const Incline plane = ground_plane(ground, area.outer, mission);
     for (const city::Ring& piece : city::convex_pieces(area)) {
       for (const city::Ring& small : halved(piece)) mission.target.parts.push_back(on_plane(small, plane));
     }

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "geo/local_frame.h"
 #include "maps/city/footprint.h"
+#include "maps/osm/extract.h"
 #include "vantage/city.h"
 
 namespace vantage::internal::city {
@@ -18,11 +20,22 @@ struct ObjectOutlines {
   std::string name;                 ///< its tag `name`; empty where it has none
 };
 
-/// `object`: "way/123"; nothing for a text that is not an id of an object. Throws what osm::read_extract throws.
-VANTAGE_INTERNAL_API std::optional<ObjectOutlines> outlines_of_object(const std::filesystem::path& file,
-                                                                      const CityRegion& region,
-                                                                      const std::string& object,
-                                                                      const geo::LocalFrame& frame,
-                                                                      const Progress& progress);
+/// The areas and closed ways of a map's region.
+class MapOutlines {
+ public:
+  /// Throws what osm::read_extract throws.
+  VANTAGE_INTERNAL_API MapOutlines(const std::filesystem::path& file, const CityRegion& region,
+                                   const Progress& progress);
+
+  /// `object`: "way/123"; nothing for a text that is not an id of an object.
+  VANTAGE_INTERNAL_API std::optional<ObjectOutlines> of(const std::string& object, const geo::LocalFrame& frame) const;
+
+ private:
+  struct Rough {
+    std::vector<osm::Polygon> polygons;
+    std::string name;
+  };
+  std::map<osm::ObjectId, Rough> objects_;
+};
 
 }  // namespace vantage::internal::city

@@ -14,16 +14,24 @@ namespace {
 // Of a place in the coordinates of a triangle (1 is a corner): what rounding may put outside it.
 constexpr double kOutside = 1e-9;
 constexpr int kMaxCells = 4096;  // in one direction
+const Incline kLevel{Eigen::Vector2d::Zero(), 0};
 
 Eigen::Vector2d flat(const Vec3& point) { return point.head<2>(); }
 
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/// A triangle as a linear height over the plane.
+Vec3 measured_from(const Incline& plane, Vec3 vertex) {
+  vertex.z() -= plane.at(flat(vertex));
+  return vertex;
+}
+
+/// A triangle as a linear height above a plane.
 class Facet {
  public:
-  Facet(const Mesh& mesh, const Triangle& triangle)
-      : a_(mesh.vertices[triangle[0]]), b_(mesh.vertices[triangle[1]] - a_), c_(mesh.vertices[triangle[2]] - a_) {}
+  Facet(const Mesh& mesh, const Triangle& triangle, const Incline& above)
+      : a_(measured_from(above, mesh.vertices[triangle[0]])),
+        b_(measured_from(above, mesh.vertices[triangle[1]]) - a_),
+        c_(measured_from(above, mesh.vertices[triangle[2]]) - a_) {}
 
   /// How much each corner counts at a place; all are in 0 to 1 inside.
   Eigen::Vector3d weights(const Eigen::Vector2d& at) const {
@@ -130,7 +138,9 @@ void TriangulatedTerrain::index_vertices() {
              });
 }
 
-std::optional<double> TriangulatedTerrain::height(const Eigen::Vector2d& at) const {
+std::optional<double> TriangulatedTerrain::height(const Eigen::Vector2d& at) const { return height(at, kLevel); }
+
+std::optional<double> TriangulatedTerrain::height(const Eigen::Vector2d& at, const Incline& above) const {
   const Eigen::Vector2d hair = (max_ - min_) * 1e-12;
   // Written so that not-a-number is outside too.
   if (!((at - min_ + hair).minCoeff() >= 0 && (max_ - at + hair).minCoeff() >= 0)) return std::nullopt;
@@ -138,7 +148,7 @@ std::optional<double> TriangulatedTerrain::height(const Eigen::Vector2d& at) con
   std::optional<double> height;
   double inside = -kOutside;
   for (std::uint32_t i = triangles_.first[c]; i < triangles_.first[c + 1]; ++i) {
-    const Facet facet(mesh_, mesh_.triangles[triangles_.items[i]]);
+    const Facet facet(mesh_, mesh_.triangles[triangles_.items[i]], above);
     const Eigen::Vector3d weights = facet.weights(at);
     if (weights.minCoeff() < inside) continue;
     inside = weights.minCoeff();
@@ -149,7 +159,8 @@ std::optional<double> TriangulatedTerrain::height(const Eigen::Vector2d& at) con
 }
 
 /// Takes in the heights along a segment: at the ends of its part in each triangle.
-void TriangulatedTerrain::widen(Range& range, const Eigen::Vector2d& from, const Eigen::Vector2d& to) const {
+void TriangulatedTerrain::widen(Range& range, const Eigen::Vector2d& from, const Eigen::Vector2d& to,
+                                const Incline& above) const {
   const Eigen::Vector2d along = to - from;
   const auto [low, high] = std::minmax(from.y(), to.y());
   for (int row = cell_row(low); row <= cell_row(high); ++row) {
@@ -166,7 +177,7 @@ void TriangulatedTerrain::widen(Range& range, const Eigen::Vector2d& from, const
     for (int column = cell_column(left); column <= cell_column(right); ++column) {
       const std::uint32_t c = cell(column, row);
       for (std::uint32_t i = triangles_.first[c]; i < triangles_.first[c + 1]; ++i) {
-        const Facet facet(mesh_, mesh_.triangles[triangles_.items[i]]);
+        const Facet facet(mesh_, mesh_.triangles[triangles_.items[i]], above);
         const Eigen::Vector3d start = facet.weights(from), end = facet.weights(to);
         double begin = 0, finish = 1;
         for (int side = 0; side < 3; ++side) {
@@ -186,24 +197,25 @@ void TriangulatedTerrain::widen(Range& range, const Eigen::Vector2d& from, const
   }
 }
 
-std::optional<TriangulatedTerrain::Range> TriangulatedTerrain::range(const std::vector<Eigen::Vector2d>& ring) const {
+std::optional<TriangulatedTerrain::Range> TriangulatedTerrain::range(const std::vector<Eigen::Vector2d>& ring,
+                                                                     const Incline& above) const {
   if (ring.empty()) return std::nullopt;
   Range range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   Eigen::Vector2d low = ring.front(), high = ring.front();
   for (const Eigen::Vector2d& corner : ring) {
-    const std::optional<double> here = height(corner);
+    const std::optional<double> here = height(corner, above);
     if (!here) return std::nullopt;  // the surface is convex: when all corners lie in it, the polygon does
     range.lowest = std::min(range.lowest, *here);
     range.highest = std::max(range.highest, *here);
     low = low.cwiseMin(corner);
     high = high.cwiseMax(corner);
   }
-  for (std::size_t i = 0; i < ring.size(); ++i) widen(range, ring[i], ring[(i + 1) % ring.size()]);
+  for (std::size_t i = 0; i < ring.size(); ++i) widen(range, ring[i], ring[(i + 1) % ring.size()], above);
   for (int row = cell_row(low.y()); row <= cell_row(high.y()); ++row) {
     for (int column = cell_column(low.x()); column <= cell_column(high.x()); ++column) {
       const std::uint32_t c = cell(column, row);
       for (std::uint32_t i = vertices_.first[c]; i < vertices_.first[c + 1]; ++i) {
-        const Vec3& vertex = mesh_.vertices[vertices_.items[i]];
+        const Vec3 vertex = measured_from(above, mesh_.vertices[vertices_.items[i]]);
         if (!is_inside(ring, flat(vertex))) continue;
         range.lowest = std::min(range.lowest, vertex.z());
         range.highest = std::max(range.highest, vertex.z());
