@@ -99,10 +99,10 @@ city::Ring rectangle(const GroundTarget& wanted, const geo::LocalFrame& frame) {
 std::vector<city::Footprint> outlines(Mission& mission, const std::string& name, const geo::LocalFrame& frame,
                                       const Progress& progress) {
   const SceneSource& source = mission.as_written.scene;
-  const auto& map = looked_up<city::MapOutlines>(*mission.loaded, [&] {
-    return std::make_shared<const city::MapOutlines>(source.file, source.city.region, progress);
+  const auto& find = looked_up<city::OutlineFinder>(*mission.loaded, [&] {
+    return std::make_shared<const city::OutlineFinder>(city::find_outlines(source.file, source.city.region, progress));
   });
-  const auto found = map.of(name, frame);
+  const auto found = find(name, frame);
   const std::string& place = mission.as_written.places.target;
   if (!found)
     throw Error(ErrorCode::value_syntax, in_quotes(name) + " is not an object of a map", place, "write 'osm: way/123'");

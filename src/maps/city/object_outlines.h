@@ -2,14 +2,13 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "geo/local_frame.h"
 #include "maps/city/footprint.h"
-#include "maps/osm/extract.h"
 #include "vantage/city.h"
 
 namespace vantage::internal::city {
@@ -20,22 +19,13 @@ struct ObjectOutlines {
   std::string name;                 ///< its tag `name`; empty where it has none
 };
 
-/// The areas and closed ways of a map's region.
-class MapOutlines {
- public:
-  /// Throws what osm::read_extract throws.
-  VANTAGE_INTERNAL_API MapOutlines(const std::filesystem::path& file, const CityRegion& region,
-                                   const Progress& progress);
+/// Gives the outlines of an object, "way/123"; nothing for a text that is not an id of an object.
+using OutlineFinder =
+    std::function<std::optional<ObjectOutlines>(const std::string& object, const geo::LocalFrame& frame)>;
 
-  /// `object`: "way/123"; nothing for a text that is not an id of an object.
-  VANTAGE_INTERNAL_API std::optional<ObjectOutlines> of(const std::string& object, const geo::LocalFrame& frame) const;
-
- private:
-  struct Rough {
-    std::vector<osm::Polygon> polygons;
-    std::string name;
-  };
-  std::map<osm::ObjectId, Rough> objects_;
-};
+/// Reads the areas and closed ways of a map's region, to be asked for any number of times, by any number of threads.
+/// Throws what osm::read_extract throws.
+VANTAGE_INTERNAL_API OutlineFinder find_outlines(const std::filesystem::path& file, const CityRegion& region,
+                                                 const Progress& progress);
 
 }  // namespace vantage::internal::city
