@@ -29,7 +29,7 @@ City many_targets() {
 
 Mission mission_of(const PreparedCity& city) {
   Mission mission;
-  mission.loaded = std::make_shared<const LoadedScene>(LoadedScene{city.scene, {}, {}});
+  mission.loaded = std::make_shared<const LoadedScene>(LoadedScene{city.scene});
   mission.sensor.max_range_m = kRange;
   mission.as_written.combine = Combine::each;
   for (std::size_t i = 0; i < kMany; ++i) {

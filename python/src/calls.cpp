@@ -5,6 +5,8 @@
 
 #include <atomic>
 #include <chrono>
+#include <deque>
+#include <thread>
 
 #include "vantage/error.h"
 
@@ -24,7 +26,43 @@ void check_process() {
               "start processes with multiprocessing.get_context(\"spawn\") or \"forkserver\"");
 }
 
+/// Threads that wait for jobs.
+class Workers {
+ public:
+  void run(std::function<void()> job) {
+    const std::lock_guard lock(mutex_);
+    if (jobs_.size() >= idle_) std::thread([this] { serve(); }).detach();
+    jobs_.push_back(std::move(job));
+    changed_.notify_one();
+  }
+
+ private:
+  [[noreturn]] void serve() {
+    std::unique_lock lock(mutex_);
+    while (true) {
+      ++idle_;
+      changed_.wait(lock, [&] { return !jobs_.empty(); });
+      --idle_;
+      const std::function<void()> job = std::move(jobs_.front());
+      jobs_.pop_front();
+      lock.unlock();
+      job();
+      lock.lock();
+    }
+  }
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<std::function<void()>> jobs_;
+  std::size_t idle_ = 0;
+};
+
 }  // namespace
+
+void run_on_worker(std::function<void()> job) {
+  static auto* const workers = new Workers;  // its threads wait for it until the process ends
+  workers->run(std::move(job));
+}
 
 Bridge::Bridge(nb::object callback) : callback_(std::move(callback)) { check_process(); }
 

@@ -5,10 +5,10 @@
 
 #include <condition_variable>
 #include <exception>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <string>
-#include <thread>
 #include <utility>
 
 #include "vantage/progress.h"
@@ -47,6 +47,10 @@ class Bridge {
   std::exception_ptr raised_;
 };
 
+/// Has a thread run the job, at once. Threads stay for the jobs to come: a new one would cost as much as a small
+/// volume, since it begins without the memory that the last one has given back.
+void run_on_worker(std::function<void()> job);
+
 /// What `work(progress)` returns; it runs with at most `threads` threads (0: as many as there are).
 template <typename Work>
 auto computed(nb::object callback, int threads, Work&& work) {
@@ -54,16 +58,15 @@ auto computed(nb::object callback, int threads, Work&& work) {
   Bridge bridge(std::move(callback));
   std::optional<Value> value;
   std::exception_ptr failure;
-  std::thread worker([&] {
+  run_on_worker([&] {
     try {
       with_threads(threads, [&] { value.emplace(work(bridge.progress())); });
     } catch (...) {
       failure = std::current_exception();
     }
-    bridge.finish();
+    bridge.finish();  // the last that it touches here
   });
   bridge.serve();
-  worker.join();
   bridge.raise();
   if (failure) std::rethrow_exception(failure);
   return std::move(*value);
