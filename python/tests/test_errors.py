@@ -83,3 +83,10 @@ def test_they_can_be_pickled():
 
 def test_codes_are_listed():
     assert "target-not-convex" in vt.error_codes()
+
+
+def test_errors_of_a_run_name_the_argument(scene):
+    with pytest.raises(vt.Error) as raised:
+        vt.compute(scene, [[15, 0, 0], [25, 0, 0], [25, 10, 0]], max_range=50)
+    assert raised.value.code == "target-pierced"
+    assert raised.value.where.startswith("target") and "arguments:" not in raised.value.where

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Iterable, Mapping, Sequence
-from typing import Any, NamedTuple, Union
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import Any, NamedTuple, TypeVar, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -17,6 +17,7 @@ from ._scene import Progress, Scene
 from ._text import NAME, Text
 from ._volume import Cause, Note, Volume
 
+T = TypeVar("T")
 AnyTarget = Union[Target, npt.ArrayLike]
 
 
@@ -43,9 +44,10 @@ class Mission:
         result = mission.run()
     """
 
-    def __init__(self, core: _core.Mission, scene: Scene | None = None):
+    def __init__(self, core: _core.Mission, scene: Scene | None = None, text: Text | None = None):
         self._core = core
         self._scene = scene
+        self._text = text
         self._query: _core.Query | None = None
 
     @classmethod
@@ -78,7 +80,7 @@ class Mission:
             text.add("exact", {"tolerance": tolerance}, "tolerance")
         if spheres is not None:
             text.add("spheres", spheres)
-        return cls(text.told(lambda: _core.resolve(scene._core, text.text(), NAME, meshes, progress)), scene)
+        return cls(text.told(lambda: _core.resolve(scene._core, text.text(), NAME, meshes, progress)), scene, text)
 
     @property
     def scene(self) -> Scene:
@@ -121,7 +123,7 @@ class Mission:
 
     def run_each(self, *, threads: int = 0, progress: Progress = None) -> list[Result]:
         """Computes all of its volumes, several at once: one, but with combine="each" one for each target."""
-        return [Result(core, self._scene) for core in self._core.run(threads, progress)]
+        return [Result(core, self._scene) for core in self._told(lambda: self._core.run(threads, progress))]
 
     def query(self, points: npt.ArrayLike, *, threads: int = 0, progress: Progress = None) -> Answers:
         """What points see of the target: exact, without the mesh. `points`: (n, 3), metres."""
@@ -168,8 +170,12 @@ class Mission:
 
     def _asked(self, progress: Progress) -> _core.Query:
         if self._query is None:
-            self._query = _core.query(self._core, progress)
+            self._query = self._told(lambda: _core.query(self._core, progress))
         return self._query
+
+    def _told(self, work: Callable[[], T]) -> T:
+        """What `work` returns; errors in what was asked by arguments are told of them."""
+        return work() if self._text is None else self._text.told(work)
 
     def __repr__(self) -> str:
         return f"<vantage.Mission: {self.target_name}, {self.range_m:g} m, {self._core.method}>"
