@@ -96,6 +96,11 @@ python:  ## build the Python package in build/python, and run its tests
 	@$(call compile,release,vantage_python vantage_cli,-DVANTAGE_BUILD_PYTHON=ON -DPython_EXECUTABLE=$(CURDIR)/.deps/python/bin/python)
 	PYTHONPATH=build/python .deps/python/bin/python -m pytest -q python/tests
 
+.PHONY: site
+site: python  ## the documentation as a site, in build/site; its tutorials are run
+	PYTHONPATH=$(CURDIR)/build/python .deps/python/bin/python -m sphinx -q -W --keep-going -c docs/site docs build/site
+	@echo "site: $$(find build/site -name '*.html' | wc -l) pages, build/site/index.html"
+
 .PHONY: clean
 clean:  ## remove all builds; fetched sources stay
 	rm -rf build build-*/

@@ -11,6 +11,7 @@ Each fenced block has a language:
 - cpp     is compiled against the public headers. A block with main() is linked and run in the folder examples/plaza.
 - python  runs in the same folder as sh.
 - yaml, text, json, csv, cmake   are not run.
+- {...}                          is of the site: `make site` runs the cells of tutorials.
 
 A comment on the line before the block says what is different:
 
@@ -35,7 +36,7 @@ import tempfile
 import time
 from typing import NamedTuple
 
-FENCE = re.compile(r"^(\s*)```(\w*)\s*$")
+FENCE = re.compile(r"^(\s*)```(\w*|\{.*)\s*$")
 MARK = re.compile(r"^\s*<!-- snippet: (.*?) -->\s*$")
 INDENTED_COMMAND = re.compile(r"^    (?:\S*/)?vantage [a-z-]|^    python3 ")
 LANGUAGES = {"sh", "cpp", "python", "yaml", "text", "json", "csv", "cmake"}
@@ -87,7 +88,9 @@ def snippets(text: str, name: str) -> tuple[list[Snippet], list[str]]:
         if position == len(lines):
             problems.append(f"{place}: the block does not end")
         position += 1
-        if language not in LANGUAGES:
+        if language.startswith("{"):
+            pass
+        elif language not in LANGUAGES:
             problems.append(f"{place}: '{language}' is none of {', '.join(sorted(LANGUAGES))}")
         elif mark and not re.fullmatch(MARKS.get(language, ""), mark):
             problems.append(f"{place}: the mark '{mark}' says nothing of a block of {language}")

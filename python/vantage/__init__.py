@@ -31,8 +31,14 @@ __all__ = [
 
 
 def cameras() -> list[dict[str, _Any]]:
-    """The cameras that vantage knows by name: what `vantage cameras --json` prints."""
-    return _json.loads(_core.cameras())
+    """The cameras that vantage knows, a dictionary for each: `Sensor(camera=...)` takes its "name".
+
+    Example:
+        >>> vt.cameras()[0]["name"]
+        'canon_eos_m_22mm'
+    """
+    cameras: list[dict[str, _Any]] = _json.loads(_core.cameras())["cameras"]
+    return cameras
 
 
 def devices(choice: str = "auto") -> dict[str, _Any]:

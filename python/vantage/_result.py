@@ -31,7 +31,9 @@ class Answers(NamedTuple):
     blocked_by: list[list[str]]
     """objects that hide some of the target"""
     out_of_range: npt.NDArray[np.bool_]
+    """farther than the range from some of the target"""
     behind_target: npt.NDArray[np.bool_]
+    """behind the plane of the target, which is seen from its front"""
     outside_of: list[list[str]]
     """limits that the point breaks"""
 
@@ -71,7 +73,10 @@ class Mission:
         else:
             text.add("targets", [given(one) for one in several], "target")
         text.add("combine", combine)
-        text.add("sensor", given(_sensor(sensor, max_range)))
+        limits = given(_sensor(sensor, max_range))
+        if isinstance(limits.get("camera"), str):
+            limits["camera"] = {"model": limits["camera"]}
+        text.add("sensor", limits)
         meshes: list[tuple[_arrays.Points, _arrays.Faces, str]] = []
         if navigation is not None:
             keys, meshes = _navigation(navigation)
