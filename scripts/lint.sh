@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # clang-tidy with .clang-tidy over our own sources, exit 1 on any finding.
 #   scripts/lint.sh              all sources
-#   scripts/lint.sh --library    those of the libraries and the program
+#   scripts/lint.sh --library    those of the libraries, the program and the Python package, where it is built
 #   scripts/lint.sh --changed    those that differ from the branch main
 #   scripts/lint.sh FILE...      these
 # Needs the compile commands of a build (make build; BUILD: its folder). JOBS: how many at once. What was found clean is not
@@ -16,12 +16,12 @@ if [ ! -e $build/compile_commands.json ]; then
 fi
 case "${1:-}" in
   --library)
-    list=$(git ls-files 'src/**/*.cpp')
+    list=$(git ls-files 'src/**/*.cpp' 'python/src/*.cpp')
     ;;
-  "") list=$(git ls-files 'src/**/*.cpp' 'bench/*.cpp' 'tests/*.cpp') ;;
+  "") list=$(git ls-files 'src/**/*.cpp' 'python/src/*.cpp' 'bench/*.cpp' 'tests/*.cpp') ;;
   --changed)
     list=$(git diff --name-only main && git ls-files --others --exclude-standard)
-    list=$(grep -E '^(src|bench|tests)/.*\.cpp$' <<<"$list" | sort -u) || true
+    list=$(grep -E '^(src|python|bench|tests)/.*\.cpp$' <<<"$list" | sort -u) || true
     ;;
   *) list=$(printf '%s\n' "$@") ;;
 esac

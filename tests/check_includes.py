@@ -95,6 +95,9 @@ RULES = [
           "the attack needs the public headers, Eigen and the standard library: it shares nothing with what it judges"),
     NotIn(r"bench/(?!(kernels|progress)/)", rf"({'|'.join(MODULES)})/|support/internals\.h",
           "benchmarks stand on the public API; only bench/kernels and bench/progress look behind it"),
+    OnlyIn(r"nanobind/", r"python/src/", "only python/src sees nanobind"),
+    NotIn(r"python/src/", rf"(?!cli/program\.h$)({'|'.join(MODULES)})/",
+          "the Python package stands on the public API, and on the program for `python -m vantage`"),
     NotIn(r"include/", r"(?!(vantage|Eigen)/).*[./]", "public headers need each other, Eigen and the standard library"),
 ] + [
     NotIn(rf"src/{module}/[^/]*$", rf"(?!({'|'.join([module, *below])})/[^/]*$)({'|'.join(MODULES)})/",
@@ -104,9 +107,9 @@ RULES = [
 
 
 def violations(root: pathlib.Path) -> list[str]:
-    """One line for each include under src/, include/, bench/ and tests/attack/ that breaks a rule."""
+    """One line for each include under src/, include/, python/, bench/ and tests/attack/ that breaks a rule."""
     found = []
-    for folder in ("src", "include", "bench", "tests/attack"):
+    for folder in ("src", "include", "python/src", "bench", "tests/attack"):
         for file in sorted((root / folder).rglob("*")):
             if file.suffix not in (".h", ".cpp"):
                 continue
@@ -184,6 +187,11 @@ CASES = [
     ("bench/bench_query.cpp", "support/internals.h", False),
     ("bench/kernels/bench_depth_images.cpp", "depth/depth.h", True),
     ("tests/attack/judge.cpp", "vantage/volume.h", True),
+    ("python/src/volume.cpp", "nanobind/nanobind.h", True),
+    ("src/app/report.cpp", "nanobind/nanobind.h", False),
+    ("python/src/program.cpp", "cli/program.h", True),
+    ("python/src/volume.cpp", "vantage/volume.h", True),
+    ("python/src/volume.cpp", "core/bvh.h", False),
     ("tests/attack/judge.cpp", "trial.h", True),
     ("tests/attack/judge.cpp", "exact/blocker.h", False),
 ] + [

@@ -5,6 +5,7 @@
 #include <memory>
 #include <mutex>
 #include <typeindex>
+#include <utility>
 
 #include "vantage/scene_source.h"
 
@@ -25,7 +26,10 @@ const T& looked_up(const LoadedScene& loaded, const Make& make) {
   SceneLookups::Data& data = loaded.lookups.data();
   const std::lock_guard lock(data.mutex);
   std::shared_ptr<const void>& value = data.values[typeid(T)];
-  if (!value) value = std::shared_ptr<const T>(make());
+  if (!value) {
+    std::shared_ptr<const T> made = make();
+    value = std::move(made);
+  }
   return *static_cast<const T*>(value.get());
 }
 
