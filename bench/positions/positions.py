@@ -86,7 +86,7 @@ def picture(answer, results, path):
     from vantage._plot import poly_data
 
     colors = ["#e45756", "#4c78a8", "#54a24b", "#b279a2", "#f58518", "#72b7b2", "#9d755d", "#ff9da6", "#eeca3b", "#1b9e77"]
-    plotter = pyvista.Plotter(off_screen=True, window_size=[1600, 1000])
+    plotter = pyvista.Plotter(off_screen=True, window_size=[1200, 800])
     plotter.set_background("white")
     plotter.add_mesh(results[0].scene.to_pyvista(), color="#e6e3dd")
     used = np.concatenate([part for result in results for part in result.mission.target_parts] + [answer.positions])
@@ -100,7 +100,7 @@ def picture(answer, results, path):
     for number, position in enumerate(answer.positions):
         plotter.add_mesh(pyvista.Sphere(radius=9, center=position), color=colors[number % len(colors)])
     middle, size = (used.min(axis=0) + used.max(axis=0)) / 2, np.ptp(used, axis=0).max()
-    plotter.camera_position = [middle + np.array([-0.35, -0.75, 0.75]) * size, middle, (0, 0, 1)]
+    plotter.camera_position = [middle + np.array([-0.45, -1.0, 1.05]) * size, middle, (0, 0, 1)]
     plotter.screenshot(path)
 
 

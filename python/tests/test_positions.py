@@ -292,13 +292,19 @@ def test_outer_meshes_hold_every_position(scene):
 
 def test_roofs_and_squares_in_munich(shared):
     scene = vt.Scene.from_mesh(shared / "mesh" / "munich_merged.ply")
+    corners = scene.vertices[scene.faces]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    near = (np.abs(corners.mean(axis=1)[:, :2]) < 200).all(axis=1)
+    roofs = np.flatnonzero((np.abs(normals[:, 2]) > 60) & near & (corners[:, :, 2].min(axis=1) > 8))
     rng, results = np.random.default_rng(SEED), []
     print("seed", SEED)
     while len(results) < 8:
         x, y = rng.uniform(-200, 200, 2)
         square = [[x - 4, y - 4, 0.5], [x + 4, y - 4, 0.5], [x + 4, y + 4, 0.5], [x - 4, y + 4, 0.5]]
+        is_roof = len(results) % 2 == 1
+        target = vt.Target(vertices=corners[rng.choice(roofs)], offset=0.05) if is_roof else square
         try:
-            result = vt.compute(scene, square, max_range=200, navigation=vt.Navigation(altitude=(20, 120)))
+            result = vt.compute(scene, target, max_range=200, navigation=vt.Navigation(altitude=(20, 120)))
         except vt.Error:
             continue
         if not result.empty:
