@@ -112,7 +112,7 @@ def test_closed_sets_that_touch_are_not_apart():
     assert answer.notes
 
 
-@pytest.mark.parametrize("gap, bound", [(0.0, 1), (1e-12, 1), (1e-6, 2)])
+@pytest.mark.parametrize("gap, bound", [(0.0, 1), (1e-12, 1), (1e-9, 1), (1e-6, 2)])
 def test_what_rounding_may_close_is_not_apart(gap, bound):
     volumes = [solid((0, 0, 0), (1, 1, 1)), solid((1 + gap, 0, 0), (2, 1, 1))]
     assert vt.fewest_positions(volumes).lower_bound == bound
