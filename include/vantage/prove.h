@@ -157,4 +157,12 @@ VANTAGE_API ProofReport prove_volume(const Scene& scene, const Target& target, c
                                      const Navigation& navigation, const Mesh& volume, const ProveOptions& options = {},
                                      const Progress& progress = {});
 
+/// What prove_volume finds with `maximal`, without its proof of sight, range and limits: whether a mesh, which need not
+/// be right, holds all that belongs to the volume. Each part of the target must be seen; a facet's witness is that of
+/// one of them. `options`: shrink, rounding_m, lift_m and tolerance_m count. Throws as prove_volume, and Error(input)
+/// with `other_side_m`. Cost: less than half of it.
+VANTAGE_API MaximalProof prove_maximal(const Scene& scene, const Target& target, const Sensor& sensor,
+                                       const Navigation& navigation, const Mesh& volume,
+                                       const ProveOptions& options = {}, const Progress& progress = {});
+
 }  // namespace vantage

@@ -18,6 +18,7 @@ from typing import Any as _Any
 from . import _core
 from ._core import version as __version__
 from ._errors import CancelledError, Error, InputError, InternalError, OutputError
+from ._positions import Positions, fewest_positions
 from ._requests import Navigation, Sensor, Target, Vector
 from ._result import Answers, Mission, Result, compute, compute_many
 from ._scene import Georeference, Progress, Scene, SceneObject
@@ -25,8 +26,8 @@ from ._volume import Cause, Note, Volume, intersect, unite
 
 __all__ = [
     "Answers", "CancelledError", "Cause", "Error", "Georeference", "InputError", "InternalError", "Mission", "Navigation",
-    "Note", "OutputError", "Result", "Scene", "SceneObject", "Sensor", "Target", "Volume", "__version__", "cameras",
-    "compute", "compute_many", "devices", "error_codes", "intersect", "unite", "visibility_sphere",
+    "Note", "OutputError", "Positions", "Result", "Scene", "SceneObject", "Sensor", "Target", "Volume", "__version__", "cameras",
+    "compute", "compute_many", "devices", "error_codes", "fewest_positions", "intersect", "unite", "visibility_sphere",
 ]
 
 

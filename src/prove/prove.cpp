@@ -118,6 +118,7 @@ class Prover {
         solid_(prove::solid_mesh(volume)) {}
 
   ProofReport run(const internal::core::ProgressReporter& progress);
+  MaximalProof run_maximal(const internal::core::ProgressReporter& progress);
 
  private:
   static constexpr double kSightPart = 0.8;  ///< of the time, roughly
@@ -368,6 +369,21 @@ ProofReport Prover::run(const internal::core::ProgressReporter& progress) {
   return std::move(report_);
 }
 
+MaximalProof Prover::run_maximal(const internal::core::ProgressReporter& progress) {
+  const double parts = static_cast<double>(target_.parts.size());
+  for (std::size_t part = 0; part < target_.parts.size(); ++part) {
+    const prove::View view = prove::make_view(target_, part, options_.lift_m.empty() ? 0 : options_.lift_m[part]);
+    Box near;
+    for (const Vec3& corner : view.corners) near.extend(corner);
+    for (const Vec3& vertex : solid_.mesh.vertices) near.extend((1 + 3 * options_.shrink) * (vertex - view.origin));
+    near.min.array() -= options_.rounding_m;
+    near.max.array() += options_.rounding_m;
+    look_beyond(view, prove::obstacles_in_front(scene_, view, near),
+                progress.part(static_cast<double>(part) / parts, static_cast<double>(part + 1) / parts));
+  }
+  return std::move(*report_.maximal);
+}
+
 /// A file's rounding may have moved vertices out of range, and does not count.
 void Prover::add_range(const prove::LimitedVolume& volume) {
   const double beyond = farthest_.by - range_, allowed = options_.rounding_m;
@@ -463,6 +479,21 @@ ProofReport prove_volume(const Scene& scene, const Target& target, const Sensor&
   progress.finish();
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return report;
+}
+
+MaximalProof prove_maximal(const Scene& scene, const Target& target, const Sensor& sensor, const Navigation& navigation,
+                           const Mesh& volume, const ProveOptions& options, const Progress& callback) {
+  check_options(target, sensor, options);
+  if (options.other_side_m) {
+    throw Error(ErrorCode::not_applicable, "what is missing is not looked for behind a target", "other_side_m",
+                "leave it out");
+  }
+  check_scene(scene);
+  const internal::core::ProgressReporter progress(callback);
+  progress.begin("prove");
+  MaximalProof proof = Prover(scene, target, sensor, navigation, volume, options).run_maximal(progress);
+  progress.finish();
+  return proof;
 }
 
 }  // namespace vantage
