@@ -43,12 +43,22 @@ def cameras() -> list[dict[str, _Any]]:
 
 
 def devices(choice: str = "auto") -> dict[str, _Any]:
-    """What can render depth images on this machine: what `vantage devices --json` prints."""
+    """What can render depth images on this machine: what `vantage devices --json` prints.
+
+    Example:
+        >>> vt.devices()["devices"][0]["kind"]
+        'cpu'
+    """
     return _json.loads(_core.devices(choice))
 
 
 def error_codes() -> list[str]:
-    """All values that `Error.code` can have."""
+    """All values that `Error.code` can have.
+
+    Example:
+        >>> "file-not-found" in vt.error_codes()
+        True
+    """
     return _core.error_codes()
 
 
@@ -66,6 +76,12 @@ def visibility_sphere(scene: Scene, viewpoint: Vector, radius_m: float, *, cubem
         device: "auto", "cpu", "opengl", "gpu" or a number of `devices()`.
         threads: 0: as many as there are.
         progress: called with stage and fraction; False stops.
+
+    Example:
+        >>> ground = vt.Scene.from_arrays([[-99, -99, 0], [99, -99, 0], [99, 99, 0], [-99, 99, 0]], [[0, 1, 2], [0, 2, 3]])
+        >>> sphere = vt.visibility_sphere(ground, (0, 0, 10), 5, cubemap=50, device="cpu")
+        >>> 0.95 < sphere.volume_m3 / (4 / 3 * 3.14159 * 5 ** 3) <= 1
+        True
     """
     return Volume(_core.visibility_sphere(scene._core, [float(v) for v in viewpoint], float(radius_m), cubemap,
                                           conservative, merge, device, threads, progress))

@@ -42,8 +42,13 @@ class Mission:
     """What is asked, in its scene. `compute` makes one of its arguments; `Mission.read` one of a mission file.
 
     Example:
-        mission = vt.Mission.read("mission.yaml")
-        result = mission.run()
+        >>> import vantage as vt
+        >>> ground = vt.Scene.from_arrays([[-99, -99, 0], [99, -99, 0], [99, 99, 0], [-99, 99, 0]], [[0, 1, 2], [0, 2, 3]])
+        >>> mission = vt.Mission.of(ground, [[0, 0, 0], [9, 0, 0], [9, 9, 0], [0, 9, 0]], max_range=50)
+        >>> mission
+        <vantage.Mission: target, 50 m, exact>
+        >>> mission.query([[4, 4, 30], [4, 4, 60]]).inside.tolist()
+        [True, False]
     """
 
     def __init__(self, core: _core.Mission, scene: Scene | None = None, text: Text | None = None):
@@ -190,9 +195,13 @@ class Result:
     """A volume with its mission and its scene.
 
     Example:
-        result = vt.compute(scene, target, max_range=300)
-        result.volume_m3
-        result.save("volume.ply")
+        >>> import vantage as vt
+        >>> ground = vt.Scene.from_arrays([[-99, -99, 0], [99, -99, 0], [99, 99, 0], [-99, 99, 0]], [[0, 1, 2], [0, 2, 3]])
+        >>> result = vt.compute(ground, [[0, 0, 0], [9, 0, 0], [9, 9, 0], [0, 9, 0]], max_range=50)
+        >>> round(result.volume_m3, -3), result.prove()["verdict"]
+        (195000.0, 'proved')
+        >>> result.contains([[4, 4, 30], [4, 4, 60]]).tolist()
+        [True, False]
     """
 
     def __init__(self, core: _core.Result, scene: Scene | None = None):
@@ -376,6 +385,14 @@ def compute_many(scene: Scene, targets: Iterable[AnyTarget], *, max_range: float
 
     Raises:
         Error: as `compute`; one target that is wrong stops all.
+
+    Example:
+        >>> import vantage as vt
+        >>> ground = vt.Scene.from_arrays([[-99, -99, 0], [99, -99, 0], [99, 99, 0], [-99, 99, 0]], [[0, 1, 2], [0, 2, 3]])
+        >>> square = [[0, 0, 0], [9, 0, 0], [9, 9, 0], [0, 9, 0]]
+        >>> beside = [[20, 0, 0], [29, 0, 0], [29, 9, 0], [20, 9, 0]]
+        >>> [result.outcome for result in vt.compute_many(ground, [square, beside], max_range=50)]
+        ['computed', 'computed']
     """
     several = [one if isinstance(one, Target) else Target(vertices=_arrays.points(one, "vertices")) for one in targets]
     if not several:

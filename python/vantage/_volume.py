@@ -288,10 +288,32 @@ def _empty(outcome: str, reason: str) -> Volume:
 
 
 def intersect(volumes: Sequence[Volume], progress: Progress = None) -> Volume:
-    """The positions that all of the volumes hold."""
+    """The positions that all of the volumes hold; a & b for two.
+
+    Example:
+        >>> import vantage as vt
+        >>> corners = [[x, y, z] for x in (0, 2) for y in (0, 1) for z in (0, 1)]
+        >>> sides = [[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1],
+        ...          [2, 3, 7], [2, 7, 6], [0, 2, 6], [0, 6, 4], [1, 5, 7], [1, 7, 3]]
+        >>> a = vt.Volume.from_arrays(corners, sides)
+        >>> b = vt.Volume.from_arrays([[x + 1, y, z] for x, y, z in corners], sides)
+        >>> vt.intersect([a, b]).volume_m3
+        1.0
+    """
     return Volume(_core.intersect_volumes([one._core for one in volumes], progress))
 
 
 def unite(volumes: Sequence[Volume], progress: Progress = None) -> Volume:
-    """The positions that one of the volumes holds, or more."""
+    """The positions that one of the volumes holds, or more; a | b for two.
+
+    Example:
+        >>> import vantage as vt
+        >>> corners = [[x, y, z] for x in (0, 2) for y in (0, 1) for z in (0, 1)]
+        >>> sides = [[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1],
+        ...          [2, 3, 7], [2, 7, 6], [0, 2, 6], [0, 6, 4], [1, 5, 7], [1, 7, 3]]
+        >>> a = vt.Volume.from_arrays(corners, sides)
+        >>> b = vt.Volume.from_arrays([[x + 1, y, z] for x, y, z in corners], sides)
+        >>> vt.unite([a, b]).volume_m3
+        3.0
+    """
     return Volume(_core.unite_volumes([one._core for one in volumes], progress))
