@@ -42,6 +42,11 @@ TEST_F(CliUsage, HelpIsACommandToo) {
   EXPECT_NE(output_of({"help", "--help"}), output_of({"--help"}));
 }
 
+TEST_F(CliUsage, BatchIsOfThePythonPackage) {
+  EXPECT_NE(expect_bad({"batch", "targets.parquet"}, "command line").find("python -m vantage batch"),
+            std::string::npos);
+}
+
 TEST_F(CliUsage, MisspeltOptionsGetASuggestion) {
   const auto expect_suggestion = [&](const std::vector<std::string>& arguments, const std::string& suggestion) {
     const std::string said = expect_bad(arguments, "command line");

@@ -120,6 +120,16 @@ std::vector<city::Footprint> outlines(Mission& mission, const std::string& name,
   return found->outlines;
 }
 
+std::vector<city::Footprint> drawn(const Mission& mission, const std::vector<city::Ring>& rings) {
+  city::Repairs repairs;
+  std::vector<city::Footprint> areas = city::clean({{rings.front(), {rings.begin() + 1, rings.end()}}}, repairs);
+  if (areas.empty()) {
+    throw Error(ErrorCode::target_without_area, "the target's outline has hardly any area",
+                mission.as_written.places.target, "draw it wider than 1 cm and larger than 0.01 m2");
+  }
+  return areas;
+}
+
 /// A rectangle that is on the ground only with latitude and longitude the other way round.
 void check_order(const Mission& mission, const GroundTarget& wanted, const terrain::TriangulatedTerrain& ground,
                  const geo::LocalFrame& frame) {
@@ -216,12 +226,13 @@ void check_outdoors(const Mission& mission) {
 
 }  // namespace
 
-void put_on_ground(Mission& mission, const geo::LocalFrame& frame, const Progress& progress) {
+void put_on_ground(Mission& mission, const geo::LocalFrame* frame, const Progress& progress) {
   const GroundTarget& wanted = *mission.as_written.ground_target;
-  if (wanted.center_deg) check_order(mission, wanted, ground_of(mission), frame);
-  const std::vector<city::Footprint> areas = wanted.osm.empty()
-                                                 ? std::vector<city::Footprint>{{rectangle(wanted, frame), {}}}
-                                                 : outlines(mission, wanted.osm, frame, progress);
+  if (wanted.center_deg) check_order(mission, wanted, ground_of(mission), *frame);
+  const std::vector<city::Footprint> areas = !wanted.outline.empty() ? drawn(mission, wanted.outline)
+                                             : wanted.osm.empty()
+                                                 ? std::vector<city::Footprint>{{rectangle(wanted, *frame), {}}}
+                                                 : outlines(mission, wanted.osm, *frame, progress);
   if (auto note = make_room(mission, plan_box(areas))) mission.notes.push_back(std::move(*note));
   const terrain::TriangulatedTerrain& ground = ground_of(mission);
   mission.target.parts.clear();
