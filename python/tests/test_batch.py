@@ -110,7 +110,7 @@ def test_a_target_that_kills_workers(scene, whole, tmp_path, monkeypatch):
     monkeypatch.setenv("VANTAGE_BATCH_KILL", "4")
     report = batch.run(triangles(), scene, tmp_path, max_range=60, shard_rows=3, attempts=2, workers=2)
     table, right = report.table(), whole.table()
-    assert report.errors == 2 and report.deaths == 4
+    assert report.errors == 2 and report.deaths == 4 and report.computed == 10
     assert table["error_code"][4] == "internal-defect" and "2 times" in table["error_problem"][4]
     others = [i for i in range(10) if i != 4]
     assert table["volume_hash"][others].equals(right["volume_hash"][others])
@@ -120,7 +120,35 @@ def test_workers_that_never_live_end_the_run(scene, tmp_path, monkeypatch):
     monkeypatch.setattr(sys, "executable", "/bin/false")
     with pytest.raises(vt.Error) as raised:
         batch.run(triangles(), scene, tmp_path, max_range=60, shard_rows=3, workers=1, attempts=1)
-    assert raised.value.kind == "internal" and "died" in raised.value.problem
+    assert raised.value.kind == "internal" and "ends its workers" in raised.value.problem
+    assert not (tmp_path / "rows").exists()
+
+
+def test_workers_that_die_one_after_the_other():
+    from vantage.batch._pool import Died
+    from vantage.batch._queue import Queue
+    from vantage.batch._work import Task
+
+    class Team:
+        shares_workers = False
+        given = []
+
+        def room(self):
+            return 100 - len(self.given)
+
+        def busy(self):
+            return len(self.given)
+
+        give = given.append
+
+        def ended(self, timeout_s):
+            ended, self.given[:] = [Died(task) for task in self.given], []
+            return ended
+
+    rows = _table.read(triangles()).rows
+    with pytest.raises(vt.Error) as raised:
+        Queue([Task(number, rows) for number in range(50)], 3).run(Team(), print, lambda: None)
+    assert "21 workers died one after the other" in raised.value.problem
 
 
 def test_volumes_as_zarr(scene, tmp_path):

@@ -132,6 +132,7 @@ def test_heights_are_those_given(city):
     assert raised[0].shape == (4, 3)
 
 
+@pytest.mark.filterwarnings("ignore:invalid value:RuntimeWarning")
 def test_geometries_that_are_none(city, tmp_path):
     bow_tie = shapely.Polygon([(0, 0), (9, 9), (9, 0), (0, 9)])
     cases = {

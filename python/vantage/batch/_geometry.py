@@ -90,14 +90,24 @@ def targets_of(row: Row, places: Places) -> list[Target]:
         raise input_error("missing-key" if not said else "conflicting-keys",
                           "it is not said where the target is" if not said else "the target has " + " and ".join(said),
                           ", ".join(said) or "geometry", "give one of " + ", ".join(KINDS))
+    keys = dict(row.keys)
+    if name_of(row) is not None:
+        keys["name"] = name_of(row)
     if row.geometry is None:
-        return [Target(**row.keys)]
+        return [Target(**keys)]
     shapely = require("shapely", "geo")
     try:
         geometry = shapely.from_wkb(row.geometry)
     except shapely.errors.ShapelyError as error:
         raise input_error("value-syntax", f"the geometry cannot be read: {error}", "geometry", "write it anew") from None
-    return [target for part in _polygons(geometry) for target in _of_part(part, row.keys, places)]
+    return [target for part in _polygons(geometry) for target in _of_part(part, keys, places)]
+
+
+def name_of(row: Row) -> str | None:
+    """Its own, or else its id; None for what has a name in the scene."""
+    is_of_scene = any(kind in row.keys for kind in ("osm", "object", "at"))
+    name = row.keys.get("name", None if is_of_scene else row.id)
+    return None if name is None else str(name)
 
 
 def _polygons(geometry: Any) -> list[Any]:

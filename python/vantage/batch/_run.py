@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import collections
 import dataclasses
 import hashlib
+import io
 import json
 import os
 import shutil
@@ -20,7 +20,8 @@ from .._result import _sensor
 from .._scene import Progress, Scene
 from . import _geometry, _manifest, _rows, _scenes, _table, _work
 from ._dask import DaskWorkers
-from ._pool import Died, LocalWorkers, Workers
+from ._pool import LocalWorkers, Workers
+from ._queue import Queue
 from ._store import Store
 from ._work import Done, Job, Task
 
@@ -66,9 +67,9 @@ class Report:
         """Rows that this run computed, by its time."""
         return self.computed / self.seconds if self.seconds > 0 else 0.0
 
-    def table(self) -> Any:
+    def table(self, storage_options: Mapping[str, Any] | None = None) -> Any:
         """The results, as a GeoDataFrame."""
-        return results(self.output)
+        return results(self.output, storage_options)
 
     def __repr__(self) -> str:
         return (f"<vantage.batch.Report: {self.rows:,} rows, {self.errors:,} of them errors, {self.computed:,} computed in "
@@ -126,7 +127,9 @@ def run(targets: Any, scene: _scenes.AnyScene, output: Path, *, max_range: float
         count = min(workers or len(os.sched_getaffinity(0)), len(missing))
         team: Workers = LocalWorkers(job, count) if cluster is None else DaskWorkers(job, cluster)
         try:
-            _compute(team, job, missing, attempts, told, progress)
+            queue = Queue(missing, attempts)
+            queue.run(team, told.done, lambda: told.tell(progress))
+            told.deaths = queue.deaths
         finally:
             team.close()
     return told.finished(_merge(job, shards, progress))
@@ -139,8 +142,6 @@ def results(output: Path, storage_options: Mapping[str, Any] | None = None) -> A
     if data is None:
         raise make("input", "file-not-found", "there are no finished results", store.where(RESULTS),
                    "run it to its end first", None)
-    import io
-
     return require("geopandas", "geo").read_parquet(io.BytesIO(data))
 
 
@@ -163,7 +164,7 @@ def _job(table: _table.Table, scene: _scenes.AnyScene, store: Store, asked: Mapp
     _manifest.check_packages(volumes, has_geometries)
     keys = _manifest.keys(table, read, asked, volumes, shard_rows)
     is_number = isinstance(table.rows[0].id, int)
-    job = Job(store, request, read.hash, asked, table.crs, volumes, keys, is_number)
+    job = Job(store, request, read.hash, asked, table.crs, volumes, keys, is_number, read.crs is not None)
     _check_asked(job, read, table.rows)
     keys.update(_manifest.agree(store, keys, request))
     if isinstance(scene, Scene):
@@ -186,10 +187,10 @@ def _check_asked(job: Job, scene: Scene, rows: list[_table.Row]) -> None:
         raise told[0]
 
 
-def _missing(job: Job, shards: list[Task], told: _Told, progress: Progress) -> collections.deque[Task]:
+def _missing(job: Job, shards: list[Task], told: _Told, progress: Progress) -> list[Task]:
     """The shards that are not there, whole."""
     there = set(job.store.names("rows"))
-    missing: collections.deque[Task] = collections.deque()
+    missing = []
     for shard in shards:
         name = _work.shard_name(shard.number)
         rows = _ids_of(job, name) if name.rsplit("/", 1)[-1] in there else None
@@ -208,79 +209,6 @@ def _ids_of(job: Job, name: str) -> tuple[list[Any], int] | None:
         return None
     _manifest.check_shard(table.schema.metadata or {}, job.metadata, job.store.where(name))
     return table["id"].to_pylist(), table["outcome"].to_pylist().count("error")
-
-
-def _compute(team: Workers, job: Job, missing: collections.deque[Task], attempts: int, told: _Told,
-             progress: Progress) -> None:
-    """A shard whose worker died twice is taken apart: its targets go alone, to find out which one ends workers."""
-    deaths: collections.Counter[tuple[int, Any]] = collections.Counter()
-    alone: collections.deque[Task] = collections.deque()
-    apart: dict[int, _Apart] = {}
-    in_a_row = 0
-    while missing or alone or team.busy():
-        while missing and team.room():
-            team.give(missing.popleft())
-        if not missing and alone:
-            limit = min(team.room(), 1 - team.busy()) if team.shares_workers else team.room()
-            for _ in range(min(limit, len(alone))):
-                team.give(alone.popleft())
-        for outcome in team.ended(0.5):
-            if isinstance(outcome, Died):
-                in_a_row += 1
-                _check_alive(in_a_row, attempts)
-                told.deaths += 1
-                _again(outcome.task, deaths, attempts, job, missing, alone, apart)
-            else:
-                in_a_row = 0
-                told.done(outcome)
-                if outcome.rows is not None:
-                    apart[outcome.number].add(outcome.rows[0])
-        for number in [number for number, shard in apart.items() if shard.is_whole]:
-            apart.pop(number).write(job)
-        told.tell(progress)
-
-
-def _check_alive(in_a_row: int, attempts: int) -> None:
-    most = 4 * attempts + 8
-    if in_a_row > most:
-        raise make("internal", "internal-defect", f"{in_a_row} workers died one after the other, and none finished a task", "",
-                   "look at what they print, and at their memory; run it again: it goes on where it was", None)
-
-
-def _again(task: Task, deaths: collections.Counter[tuple[int, Any]], attempts: int, job: Job,
-           missing: collections.deque[Task], alone: collections.deque[Task], apart: dict[int, _Apart]) -> None:
-    key = (task.number, task.rows[0].id if task.alone else None)
-    deaths[key] += 1
-    if task.alone:
-        if deaths[key] >= attempts:
-            apart[task.number].add(_work.died(job, task.rows[0], deaths[key]))
-        else:
-            alone.append(task)
-    elif deaths[key] < 2:
-        missing.append(task)
-    else:
-        apart[task.number] = _Apart(task)
-        alone.extend(Task(task.number, [row], alone=True) for row in task.rows)
-
-
-class _Apart:
-    """A shard whose targets were computed one by one."""
-
-    def __init__(self, task: Task):
-        self._task = task
-        self._rows: dict[Any, dict[str, Any]] = {}
-
-    def add(self, row: dict[str, Any]) -> None:
-        self._rows[row["id"]] = row
-
-    @property
-    def is_whole(self) -> bool:
-        return len(self._rows) == len(self._task.rows)
-
-    def write(self, job: Job) -> None:
-        scene = _scenes.kept(job.scene, job.scene_hash, job.store)
-        rows = [self._rows[row.id] for row in self._task.rows]
-        job.store.put(_work.shard_name(self._task.number), _rows.to_bytes(rows, _work.columns(job, scene)))
 
 
 class _Told:
@@ -323,6 +251,7 @@ class _Told:
                         keys["mission_hash"], version)
         text = json.dumps({**dataclasses.asdict(report), "rows_per_s": report.rows_per_s}, indent=2) + "\n"
         self._job.store.put(REPORT, text.encode())
+        self._job.store.tidy()
         return report
 
 

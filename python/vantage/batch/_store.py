@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import os
+import shutil
 import tempfile
 import threading
 from collections.abc import Mapping
@@ -15,6 +16,9 @@ from .._requests import Path
 
 _PUT_IS_WHOLE = {"s3", "s3a", "gs", "gcs", "abfs", "abfss", "az", "memory"}
 """Protocols whose files appear when all of them was sent."""
+
+
+_UNFINISHED = ".unfinished-"
 
 
 class Store:
@@ -101,7 +105,18 @@ class Store:
         with self.writing(""):
             if self.is_local:
                 os.makedirs(self.root, exist_ok=True)
-            return tempfile.mkdtemp(prefix=".unfinished-", dir=self.root if self.is_local else None)
+            return tempfile.mkdtemp(prefix=_UNFINISHED, dir=self.root if self.is_local else None)
+
+    def tidy(self) -> None:
+        """Removes what killed processes left unfinished. Call it when all is done."""
+        if not self.is_local:
+            return
+        for folder, folders, files in os.walk(self.root):
+            for name in files:
+                if name.startswith(".") and name.endswith(".part"):
+                    os.unlink(os.path.join(folder, name))
+            for name in [name for name in folders if name.startswith(_UNFINISHED)]:
+                shutil.rmtree(os.path.join(folder, name), ignore_errors=True)
 
     def _put_local(self, name: str, content: bytes) -> None:
         target, beside = self.path(name), self.path(_beside(name))

@@ -18,7 +18,7 @@ from .._result import Mission, Result
 from .._scene import Scene
 from . import _geometry, _rows, _scenes, _volumes
 from ._store import Store, unwritable
-from ._table import Row
+from ._table import Id, Row
 
 
 @dataclasses.dataclass(frozen=True)
@@ -36,16 +36,20 @@ class Job:
     """of the files of rows: whose results they are"""
     is_number: bool
     """whether ids are"""
-    threads: int = 1
+    is_on_earth: bool
+    """whether the results' geometries are longitude and latitude"""
 
 
 @dataclasses.dataclass(frozen=True)
 class Task:
-    """A shard to compute and to write; or, with `alone`, one row of it, which is returned instead."""
+    """A shard to compute and to write."""
 
     number: int
     rows: list[Row]
     alone: bool = False
+    """one row, which is only tried: does the worker live?"""
+    doomed: Mapping[Id, int] = dataclasses.field(default_factory=dict)
+    """rows that end workers, and how often they did: they are errors"""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -58,7 +62,8 @@ class Done:
     seconds: float
     worker: str
     peak_mib: float
-    rows: list[dict[str, Any]] | None = None
+    tried: Id | None = None
+    """the row that was only tried"""
 
 
 def shard_name(number: int) -> str:
@@ -75,25 +80,27 @@ def run(job: Job, task: Task) -> Done:
     started = time.perf_counter()
     scene = _scenes.kept(job.scene, job.scene_hash, job.store)
     places = _geometry.Places(scene, job.crs)
-    rows, volumes = [], []
+    if task.alone:
+        _die_if_told(task.rows[0])
+        compute(job, scene, places, task.rows[0])
+        return Done(task.number, 0, 0, time.perf_counter() - started, worker_name(), peak_mib(), task.rows[0].id)
+    rows, results = [], []
     for row in task.rows:
-        _die_if_told(row)
-        found, result = compute(job, scene, places, row)
+        if row.id in task.doomed:
+            found, result = died(row, task.doomed[row.id], places), None
+        else:
+            _die_if_told(row)
+            found, result = compute(job, scene, places, row)
         if job.volumes == "ply" and result is not None and not result.empty:
             found["volume_file"] = _put_ply(job.store, task.number, row, result)
         rows.append(found)
-        volumes.append(result)
-    if job.volumes == "zarr" and not task.alone:
-        write_zarr(job, task.number, rows, volumes)
-    if not task.alone:
-        job.store.put(shard_name(task.number), _rows.to_bytes(rows, columns(job, scene)))
-    return Done(task.number, len(rows), sum(row["outcome"] == "error" for row in rows), time.perf_counter() - started,
-                worker_name(), peak_mib(), rows if task.alone else None)
-
-
-def columns(job: Job, scene: Scene) -> Any:
-    """The schema of the run's rows."""
-    return _rows.schema(job.is_number, job.metadata, scene.crs is not None)
+        results.append(result if job.volumes == "zarr" else None)
+    if job.volumes == "zarr":
+        write_zarr(job, task.number, rows, results)
+    columns = _rows.schema(job.is_number, job.metadata, job.is_on_earth)
+    job.store.put(shard_name(task.number), _rows.to_bytes(rows, columns))
+    errors = sum(row["outcome"] == "error" for row in rows)
+    return Done(task.number, len(rows), errors, time.perf_counter() - started, worker_name(), peak_mib())
 
 
 def compute(job: Job, scene: Scene, places: _geometry.Places, row: Row) -> tuple[dict[str, Any], Result | None]:
@@ -101,7 +108,7 @@ def compute(job: Job, scene: Scene, places: _geometry.Places, row: Row) -> tuple
     started = time.perf_counter()
     result, parts, failure = None, None, None
     try:
-        result = resolved(job, scene, places, row).run(threads=job.threads)
+        result = resolved(job, scene, places, row).run(threads=1)
         parts = result.mission.target_parts
         found = _rows.of_result(row.id, result, time.perf_counter() - started)
     except MemoryError:
@@ -115,7 +122,7 @@ def compute(job: Job, scene: Scene, places: _geometry.Places, row: Row) -> tuple
         failure = make("internal", "internal-defect", f"unexpected failure: {type(error).__name__}: {error}", "",
                        "this is a defect of vantage: please report it with the target", None)
     if failure is not None:
-        found = _rows.of_error(row.id, row.keys.get("name"), failure, time.perf_counter() - started)
+        found = _rows.of_error(row.id, _geometry.name_of(row), failure, time.perf_counter() - started)
     found["geometry"] = _geometry.footprint(row, parts, places)
     return found, result
 
@@ -126,12 +133,12 @@ def resolved(job: Job, scene: Scene, places: _geometry.Places, row: Row) -> Miss
     return Mission.of(scene, targets[0] if len(targets) == 1 else targets, **job.asked)
 
 
-def died(job: Job, row: Row, times: int) -> dict[str, Any]:
-    """The row of a target that killed its worker again and again."""
+def died(row: Row, times: int, places: _geometry.Places) -> dict[str, Any]:
+    """The row of a target that ended its worker again and again."""
     problem = f"the worker died {times} times while it computed this target"
     error = make("internal", "internal-defect", problem, "", "look for a lack of memory; else compute it alone, and report it",
                  None)
-    return _rows.of_error(row.id, row.keys.get("name"), error, 0.0)
+    return {**_rows.of_error(row.id, _geometry.name_of(row), error, 0.0), "geometry": _geometry.footprint(row, None, places)}
 
 
 def write_zarr(job: Job, number: int, rows: list[dict[str, Any]], results: list[Result | None]) -> None:
