@@ -158,9 +158,10 @@ class _Told:
 def unwritable(error: Exception, where: str) -> Error:
     """For what could not be written."""
     full = isinstance(error, OSError) and error.errno in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
+    said = error.problem if isinstance(error, Error) else error
     fix = "make room and run it again: it goes on where it was" if full else \
         "check the permissions and the connection, and run it again: it goes on where it was"
-    return make("output", "output-unwritable", f"the results cannot be written: {error}", where, fix, None)
+    return make("output", "output-unwritable", f"the results cannot be written: {said}", where, fix, None)
 
 
 def _beside(name: str) -> str:

@@ -13,7 +13,7 @@ import urllib.parse
 from collections.abc import Mapping
 from typing import Any
 
-from .._errors import Error, make
+from .._errors import Error, OutputError, make
 from .._result import Mission, Result
 from .._scene import Scene
 from . import _geometry, _rows, _scenes, _volumes
@@ -162,7 +162,7 @@ def _put_ply(store: Store, number: int, row: Row, result: Result) -> str:
             result.volume.save(local)
             with open(local, "rb") as file:
                 content = file.read()
-    except OSError as error:
+    except (OSError, OutputError) as error:
         raise unwritable(error, store.where(path)) from error
     store.put(path, content)
     return path
