@@ -367,7 +367,18 @@ def test_tables_are_the_same_whatever_they_come_as(tmp_path):
     class Area:
         source_id, name = "way/7", "square"
 
-    assert _table.read([Area()]).rows == [("way/7", {"osm": "way/7", "name": "square"}, None)]
+        def target(self):
+            return vt.Target(osm=self.source_id)
+
+    class Face:
+        name = "way/7, roof 2"
+
+        def target(self):
+            return vt.Target(point=[1, 2, 3], name=self.name)
+
+    assert _table.read([Area()]).rows == [("way/7", {"osm": "way/7"}, None)]
+    assert _table.read([Face()]).rows == [("way/7, roof 2", {"point": [1, 2, 3], "name": "way/7, roof 2"}, None)]
+    assert _table.read([{"osm": "way/7"}]).rows == [("way/7", {"osm": "way/7"}, None)]
 
 
 # ---- the command

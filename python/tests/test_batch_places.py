@@ -124,6 +124,15 @@ def test_holes_and_several_polygons(city):
     assert 0 < result.volume_m3 < min(one.volume_m3 for one in seen)
 
 
+def test_geometries_beside_other_columns_are_only_shown(city, tmp_path):
+    rows = [{"id": 1, "geometry": shapely.box(-50, 0, -40, 5), "vertices": [[0, 0, 0], [9, 0, 0], [9, 9, 0]]}]
+    table = batch.run(rows, city, tmp_path, max_range=60, crs="scene", workers=1).table()
+    alone = vt.compute(city, rows[0]["vertices"], max_range=60)
+    assert table["volume_hash"][0] == alone.volume.hash
+    west, *_ = table.geometry[0].bounds
+    assert city.position(LATITUDE, west)[0] == pytest.approx(-50, abs=1e-3)
+
+
 def test_heights_are_those_given(city):
     wall = shapely.Polygon([(0, 30, 1), (9, 30, 1), (9, 30, 6), (0, 30, 6)])
     assert np.array(parts_of(city, wall)[0])[:, 2].tolist() == [1, 1, 6, 6]

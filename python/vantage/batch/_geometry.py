@@ -80,12 +80,15 @@ class Places:
 
 
 def targets_of(row: Row, places: Places) -> list[Target]:
-    """What a row asks for: one target, or several that must all be seen.
+    """What a row asks for: one target, or several that must all be seen. Beside another column that says where the target is,
+    a geometry is only what the results show.
 
     Raises:
         Error: the row says nothing, or two things at once, or a geometry that is none.
     """
-    said = [kind for kind in KINDS if kind in row.keys] + (["geometry"] if row.geometry is not None else [])
+    said = [kind for kind in KINDS if kind in row.keys]
+    if not said and row.geometry is not None:
+        said = ["geometry"]
     if len(said) != 1:
         raise input_error("missing-key" if not said else "conflicting-keys",
                           "it is not said where the target is" if not said else "the target has " + " and ".join(said),
@@ -93,7 +96,7 @@ def targets_of(row: Row, places: Places) -> list[Target]:
     keys = dict(row.keys)
     if name_of(row) is not None:
         keys["name"] = name_of(row)
-    if row.geometry is None:
+    if said != ["geometry"]:
         return [Target(**keys)]
     shapely = require("shapely", "geo")
     try:
@@ -105,7 +108,7 @@ def targets_of(row: Row, places: Places) -> list[Target]:
 
 def name_of(row: Row) -> str | None:
     """Its own, or else its id; None for what has a name in the scene."""
-    is_of_scene = any(kind in row.keys for kind in ("osm", "object", "at"))
+    is_of_scene = any(kind in row.keys for kind in ("osm", "object", "at"))  # a name of its own
     name = row.keys.get("name", None if is_of_scene else row.id)
     return None if name is None else str(name)
 

@@ -35,6 +35,9 @@ class WorkerReport:
 
     rows: int = 0
     seconds: float = 0.0
+    """in tasks, with reading the scene"""
+    cpu_seconds: float = 0.0
+    """of the processors, meanwhile"""
     peak_mib: float = 0.0
     """the most memory that it held"""
 
@@ -158,7 +161,8 @@ def _job(table: _table.Table, scene: _scenes.AnyScene, store: Store, asked: Mapp
          shard_rows: int, progress: Progress) -> Job:
     """All that can be checked before the work begins is checked here."""
     request = _scenes.request_of(scene)
-    read = scene if isinstance(scene, Scene) else _scenes.load(request, store, progress)
+    reading = None if progress is None else lambda stage, fraction: progress(f"reading the scene: {stage}", 0.0)
+    read = scene if isinstance(scene, Scene) else _scenes.load(request, store, reading)
     has_geometries = any(row.geometry is not None for row in table.rows)
     _geometry.check_crs(table.crs, read, has_geometries)
     _manifest.check_packages(volumes, has_geometries)
@@ -232,6 +236,7 @@ class _Told:
         worker = self._workers.setdefault(done.worker, WorkerReport())
         worker.rows += done.count
         worker.seconds += done.seconds
+        worker.cpu_seconds += done.cpu_seconds
         worker.peak_mib = max(worker.peak_mib, done.peak_mib)
 
     def tell(self, progress: Progress) -> None:

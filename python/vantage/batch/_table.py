@@ -167,13 +167,11 @@ def _of_one(one: Any, number: int, id: Any = None) -> Mapping[str, Any]:
         record: dict[str, Any] = {"id": number, **given(one)}
     elif isinstance(one, Mapping):
         record = dict(one)
-    elif hasattr(one, "source_id"):  # an area of a map
-        record = {"id": one.source_id, "osm": one.source_id}
-        if getattr(one, "name", ""):
-            record["name"] = one.name
+    elif hasattr(one, "target"):  # an area of a map, or a face of a scene
+        record = {"id": getattr(one, "source_id", None) or one.name, **given(one.target())}
     else:
         raise input_error("wrong-type", f"targets[{number}] is of type {type(one).__name__}", f"targets[{number}]",
-                          "pass dictionaries, Targets, or areas of a map")
+                          "pass dictionaries, Targets, areas of a map, or faces of a scene")
     if id is not None:
         record["id"] = id
     return record
@@ -183,7 +181,7 @@ def _of_one(one: Any, number: int, id: Any = None) -> Mapping[str, Any]:
 
 
 def _row(record: Mapping[str, Any], number: int, name: str) -> Row:
-    id = _plain(record.get("id"))
+    id = _plain(record.get("id", record.get("osm")))
     if isinstance(id, float) and id.is_integer():
         id = int(id)  # pandas makes floats of whole numbers where some are missing
     if id is None or id == "":

@@ -60,6 +60,7 @@ class Done:
     count: int
     errors: int
     seconds: float
+    cpu_seconds: float
     worker: str
     peak_mib: float
     tried: Id | None = None
@@ -77,13 +78,13 @@ def run(job: Job, task: Task) -> Done:
     Raises:
         Error: the scene cannot be read, or is another one; the results cannot be written.
     """
-    started = time.perf_counter()
+    started, began = time.perf_counter(), time.process_time()
     scene = _scenes.kept(job.scene, job.scene_hash, job.store)
     places = _geometry.Places(scene, job.crs)
     if task.alone:
         _die_if_told(task.rows[0])
         compute(job, scene, places, task.rows[0])
-        return Done(task.number, 0, 0, time.perf_counter() - started, worker_name(), peak_mib(), task.rows[0].id)
+        return _done(task, 0, 0, started, began, task.rows[0].id)
     rows, results = [], []
     for row in task.rows:
         if row.id in task.doomed:
@@ -100,7 +101,12 @@ def run(job: Job, task: Task) -> Done:
     columns = _rows.schema(job.is_number, job.metadata, job.is_on_earth)
     job.store.put(shard_name(task.number), _rows.to_bytes(rows, columns))
     errors = sum(row["outcome"] == "error" for row in rows)
-    return Done(task.number, len(rows), errors, time.perf_counter() - started, worker_name(), peak_mib())
+    return _done(task, len(rows), errors, started, began)
+
+
+def _done(task: Task, count: int, errors: int, started: float, began: float, tried: Id | None = None) -> Done:
+    return Done(task.number, count, errors, time.perf_counter() - started, time.process_time() - began, worker_name(),
+                peak_mib(), tried)
 
 
 def compute(job: Job, scene: Scene, places: _geometry.Places, row: Row) -> tuple[dict[str, Any], Result | None]:
