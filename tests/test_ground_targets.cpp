@@ -80,6 +80,51 @@ TEST_F(GroundTargetTest, HolesAreNoPartOfIt) {
       << "the building in the middle hides some of it from everywhere within range";
 }
 
+double plan_area(const Mission& mission) {
+  double area = 0;
+  for (std::size_t i = 0; i < mission.target.parts.size(); ++i) area += area_of(mission.target.part(i));
+  return area;
+}
+
+TEST_F(GroundTargetTest, OutlinesAreLaidOnTheGround) {
+  const Mission bent = placed("target: {outline: [[50, 0], [80, 0], [80, 30], [70, 10]]}\n");
+  EXPECT_GT(bent.target.parts.size(), 1u) << "it is not convex";
+  EXPECT_NEAR(plan_area(bent), 300, 0.01);
+  const Mission ring = placed(
+      "target: {outline: [[-40, -40], [40, -40], [40, 40], [-40, 40]], holes: [[[-11, -11], [11, -11], [11, 11], "
+      "[-11, 11]]]}\n");
+  EXPECT_NEAR(plan_area(ring), 80 * 80 - 22 * 22, 0.01);
+  for (const std::vector<Vec3>& part : ring.target.parts) {
+    for (const Vec3& corner : part) EXPECT_EQ(corner.z(), 0);
+  }
+  write_bytes(folder_ / "again.yaml", mission_text(ring.as_written, folder_.path()));
+  const Mission again = resolve_mission(read_mission(folder_ / "again.yaml"));
+  EXPECT_EQ(mission_hash(again), mission_hash(ring));
+}
+
+TEST_F(GroundTargetTest, OutlinesMayBeGivenInDegrees) {
+  const geo::LocalFrame frame(kOrigin);
+  std::string corners;
+  for (const auto& [east, north] : {std::pair{50.0, 0.0}, {80.0, 0.0}, {80.0, 30.0}}) {
+    const geo::LonLat place = frame.to_lonlat({east, north});
+    char text[64];
+    std::snprintf(text, sizeof text, "[%.9f, %.9f]", place.longitude_deg, place.latitude_deg);
+    corners += (corners.empty() ? "" : ", ") + std::string(text);
+  }
+  const Mission mission = placed("target: {outline: [" + corners + "]}\ncrs: EPSG:4326\n");
+  EXPECT_NEAR(plan_area(mission), 450, 0.1);
+}
+
+TEST_F(GroundTargetTest, OutlinesThatAreNoneAreRefused) {
+  expect_refused("target: {outline: [[0, 0], [9, 9], [9, 0], [0, 9]]}\n", ErrorCode::zone_not_simple);
+  expect_refused("target: {outline: [[50, 0], [60, 0], [60, 0.001], [50, 0.001]]}\n", ErrorCode::target_without_area);
+  expect_refused("target: {outline: [[-5, -5], [5, -5], [5, 5]]}\n", ErrorCode::target_inside_solid);
+  expect_refused("target: {outline: [[50, 0, 0], [60, 0, 0], [60, 9, 0]]}\n", ErrorCode::wrong_type);
+  expect_refused("target: {outline: [[50, 0], [60, 0], [60, 9]], vertices: [[50, 0, 0], [60, 0, 0], [60, 9, 0]]}\n",
+                 ErrorCode::conflicting_keys);
+  expect_refused("target: {vertices: [[50, 0, 0], [60, 0, 0], [60, 9, 0]], holes: []}\n", ErrorCode::not_applicable);
+}
+
 TEST_F(GroundTargetTest, FarAwayIsMostLikelyTheWrongOrder) {
   expect_refused(
       "target: {vertices: [[48.1374, 11.5755, 0], [48.1375, 11.5755, 0], [48.1374, 11.5756, 0]]}\n"

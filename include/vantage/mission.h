@@ -39,14 +39,17 @@ enum class Method {
 /// "exact", "spheres".
 VANTAGE_API const char* name_of(Method method);
 
-/// A target that is given by an object of the map or a place on the earth. It is laid on the scene's ground: in the
-/// plane nearest to the ground under it, raised until no ground under it lies above that.
+/// A target that is given by an object of the map, a place on the earth or a polygon. It is laid on the scene's ground:
+/// in the plane nearest to the ground under it, raised until no ground under it lies above that.
 struct GroundTarget {
   std::string osm;  ///< an area of the scene's map, "way/123"; not convex: its convex parts; or
   std::optional<std::array<double, 2>> center_deg = std::nullopt;  ///< latitude and longitude (WGS 84) of a
                                                                    ///< rectangle's centre
   double width_m = 0, length_m = 0;                                ///< > 0; the length runs along the heading
   double heading_deg = 0;                                          ///< clockwise from north
+  /// Or a simple polygon and its holes, in this order: x and y, metres, scene frame, or as MissionFile::crs says.
+  /// Corners in order, either turn, the first one not repeated. Not convex: its convex parts.
+  std::vector<Zone::Ring> outline = {};
 };
 
 /// A target that is given by faces of objects of the scene (vantage/faces.h): one of the first three says of which.

@@ -1,4 +1,4 @@
-"""`python -m vantage` is the program `vantage`."""
+"""`python -m vantage` is the program `vantage`, and has the command `batch` besides."""
 
 from __future__ import annotations
 
@@ -10,6 +10,10 @@ from . import _core
 
 def main() -> int:
     """Runs the program with the arguments of the command line; its exit code."""
+    if sys.argv[1:2] == ["batch"]:
+        from .batch import _cli
+
+        return _cli.main(sys.argv[2:])
     signal.signal(signal.SIGINT, signal.SIG_DFL)  # the program has its own handler
     return _core.run_program(sys.argv[1:])
 

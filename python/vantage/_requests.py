@@ -37,13 +37,15 @@ class _Request:
 class Target(_Request):
     """What must be seen whole: a convex polygon, several of them, or a point. Coordinates are metres in the scene's frame.
 
-    One of `vertices`, `parts`, `point`, `osm`, `object`, `at` and `center` says which it is.
+    One of `vertices`, `parts`, `point`, `outline`, `osm`, `object`, `at` and `center` says which it is.
 
     Attributes:
         name: for messages and reports.
         vertices: (n, 3), 3 to 64 points in order around a convex, planar polygon.
         parts: several such polygons; all of them must be seen.
         point: (x, y, z), instead of a polygon.
+        outline: (n, 2) x and y of a polygon that is laid on the ground; it need not be convex.
+        holes: of the outline, likewise.
         osm: an area of the scene's map, "way/123"; with `part` a building of it.
         object: an object of the scene, by name or id; with `part`.
         at: (latitude, longitude): the highest object there; with `part`.
@@ -64,6 +66,8 @@ class Target(_Request):
     vertices: npt.ArrayLike | None = None
     parts: Sequence[npt.ArrayLike] | None = None
     point: Vector | None = None
+    outline: npt.ArrayLike | None = None
+    holes: Sequence[npt.ArrayLike] | None = None
     osm: str | None = None
     object: str | None = None
     at: Vector | None = None

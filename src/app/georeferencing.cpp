@@ -193,10 +193,18 @@ void check_near(const std::string& where, const std::vector<Vec3>& places, const
 
 /// The positions that the mission gives in its own coordinate reference system.
 void convert_positions(const CrsConverter& converter, MissionTarget& given) {
-  std::vector<Vec3> nearest;
+  std::vector<Vec3> nearest, corners;
   with_place(given.place, [&] {
     for (std::vector<Vec3>& part : given.target.parts) {
       for (Vec3& vertex : part) vertex = converter(vertex);
+    }
+    if (auto& ground = given.ground_target) {
+      for (Zone::Ring& ring : ground->outline) {
+        for (Vec2& corner : ring) {
+          corners.push_back(converter({corner.x(), corner.y(), 0}));
+          corner = corners.back().head<2>();
+        }
+      }
     }
     if (auto& faces = given.face_target; faces && faces->nearest) {
       nearest.push_back(*(faces->nearest = converter(*faces->nearest)));
@@ -205,6 +213,7 @@ void convert_positions(const CrsConverter& converter, MissionTarget& given) {
   });
   check_near(given.place, given.target.parts.at(0), converter);
   check_near(given.place, nearest, converter);
+  check_near(given.place, corners, converter);
 }
 
 std::vector<MissionTarget> given_targets(const MissionFile& file) {
@@ -243,7 +252,7 @@ std::vector<std::vector<Target>> placed(Mission& mission, const std::vector<Miss
     targets[i] = {given[i].target};
     if (!given[i].ground_target) continue;
     const OneTarget one(mission, given[i]);
-    put_on_ground(mission, *frame, progress);
+    put_on_ground(mission, frame, progress);
     targets[i] = {mission.target};
   }
   for (std::size_t i = 0; i < given.size(); ++i) {
@@ -271,7 +280,8 @@ void georeference(Mission& mission, const Progress& progress) {
   std::vector<MissionTarget> given = given_targets(file);
   const bool needs_frame =
       !file.crs.empty() || std::any_of(given.begin(), given.end(), [](const MissionTarget& target) {
-        return target.ground_target || (target.face_target && target.face_target->at_deg);
+        return (target.ground_target && target.ground_target->outline.empty()) ||
+               (target.face_target && target.face_target->at_deg);
       });
   std::optional<geo::LocalFrame> frame;
   if (needs_frame) frame = frame_of(mission);

@@ -189,6 +189,8 @@ class Writer {
         section.add("width", ground->width_m);
         section.add("length", ground->length_m);
         section.add("heading", ground->heading_deg);
+      } else if (!ground->outline.empty()) {
+        add_outline(ground->outline, section);
       } else {
         section.add("osm", ground->osm);
       }
@@ -204,6 +206,13 @@ class Writer {
     if (target.offset_m != 0) section.add("offset", target.offset_m);
     if (target.front) section.add("front", list_of(*target.front));
     if (given.both_sides) section.add("sides", "both");
+  }
+
+  static void add_outline(const std::vector<Zone::Ring>& outline, Section& section) {
+    section.add("outline", polygon(outline.front()));
+    std::string holes;
+    for (std::size_t i = 1; i < outline.size(); ++i) holes += (holes.empty() ? "" : ", ") + polygon(outline[i]);
+    if (!holes.empty()) section.add("holes", "[" + holes + "]");
   }
 
   static void add_faces(const FaceTarget& faces, Section& section) {

@@ -21,7 +21,6 @@ const char* const kZoneForms =
 const char* const kHeightsForm =
     "write 'z: [low, high]' in metres, 'agl: [low, high]' above the ground, or 'heights: any' for a zone without "
     "bounds";
-const char* const kRingForm = "write the corners in order: [[x, y], [x, y], [x, y]]";
 
 std::string numbered(const std::string& what, std::size_t index) { return what + "[" + std::to_string(index) + "]"; }
 
@@ -48,7 +47,6 @@ class NavigationParser {
   Box box(const YamlNode& node, const std::string& what) const;
   void check_extent(const YamlNode& node, const std::string& what, int axis, const Box& box) const;
   Zone polygon(const YamlNode& node, const std::string& what, std::size_t index) const;
-  Zone::Ring ring(const YamlNode& node, const std::string& what) const;
   ZoneFile file(const YamlNode& node, const YamlNode& named, const std::string& what) const;
   /// Nothing where the node does not say.
   struct Heights {
@@ -249,12 +247,12 @@ Zone NavigationParser::polygon(const YamlNode& node, const std::string& what, st
   refuse_beside(node, "polygon", {"min", "max"});
   Zone zone;
   zone.name = std::to_string(index);
-  zone.outer = ring(*find(node, "polygon"), what + ".polygon");
+  zone.outer = reader_.ring(*find(node, "polygon"), what + ".polygon");
   if (const YamlNode* holes = find(node, "holes")) {
     const std::string name = what + ".holes";
     reader_.list(*holes, name, "write a list of polygons: [[[x, y], [x, y], [x, y]]]");
     for (std::size_t i = 0; i < holes->items.size(); ++i) {
-      zone.holes.push_back(ring(holes->items[i], numbered(name, i)));
+      zone.holes.push_back(reader_.ring(holes->items[i], numbered(name, i)));
     }
   }
   const Heights given = heights(node, what);
@@ -270,20 +268,6 @@ Zone NavigationParser::polygon(const YamlNode& node, const std::string& what, st
     reader_.fail(fault->code, node, what + ": " + fault->problem, fault->fix);
   }
   return zone;
-}
-
-Zone::Ring NavigationParser::ring(const YamlNode& node, const std::string& what) const {
-  Zone::Ring result;
-  reader_.list(node, what, kRingForm);
-  for (std::size_t i = 0; i < node.items.size(); ++i) {
-    const YamlNode& corner = node.items[i];
-    const std::string name = numbered(what, i);
-    if (reader_.list(corner, name, kRingForm).size() != 2) {
-      reader_.fail(ErrorCode::wrong_type, corner, name + " must be two numbers, not " + describe(corner), kRingForm);
-    }
-    result.emplace_back(reader_.length(corner.items[0], name + ".x"), reader_.length(corner.items[1], name + ".y"));
-  }
-  return result;
 }
 
 NavigationParser::Heights NavigationParser::heights(const YamlNode& node, const std::string& what) const {

@@ -10,6 +10,7 @@
 #include "app/places.h"
 #include "app/scene_section.h"
 #include "app/schema.h"
+#include "core/zone_check.h"
 #include "vantage/error.h"
 #include "vantage/input.h"
 
@@ -34,6 +35,7 @@ class TargetParser : private ValueReader {
   const YamlNode& parse_vertices(const YamlNode& node);
   const YamlNode& parse_parts(const YamlNode& node, const YamlNode& parts);
   const YamlNode& parse_ground_target(const YamlNode& node);
+  const YamlNode& parse_outline(const YamlNode& node, const YamlNode& outline);
   const YamlNode& parse_faces(const YamlNode& node, const YamlNode& part);
   double heading(const YamlNode& node) const;
   const YamlNode& parse_point(const YamlNode& node, const YamlNode& point);
@@ -71,10 +73,12 @@ MissionTarget TargetParser::parse(const YamlNode& node) {
   const bool is_on_ground = find(node, "osm") || find(node, "center");
   const YamlNode* parts = find(node, "parts");
   const YamlNode* part = find(node, "part");
+  const YamlNode* outline = find(node, "outline");
   if (part == nullptr) refuse_without_part(node);
   const YamlNode& place = part           ? parse_faces(node, *part)
                           : point        ? parse_point(node, *point)
                           : parts        ? parse_parts(node, *parts)
+                          : outline      ? parse_outline(node, *outline)
                           : is_on_ground ? parse_ground_target(node)
                                          : parse_vertices(node);
   if (const YamlNode* offset = find(node, "offset")) target.offset_m = length(*offset, "target.offset");
@@ -87,7 +91,8 @@ MissionTarget TargetParser::parse(const YamlNode& node) {
 
 const YamlNode& TargetParser::parse_parts(const YamlNode& node, const YamlNode& parts) {
   const char* const form = "write a list of polygons: [[[x, y, z], [x, y, z], [x, y, z]], [[x, y, z], ...]]";
-  refuse_beside(node, "parts", {"vertices", "edges", "osm", "center"}, "keep 'parts' for several polygons");
+  refuse_beside(node, "parts", {"vertices", "edges", "outline", "holes", "osm", "center"},
+                "keep 'parts' for several polygons");
   if (list(parts, "target.parts", form).empty())
     fail(ErrorCode::nothing_given, parts, "target.parts is an empty list", form);
   section_.target.parts.clear();
@@ -109,6 +114,10 @@ const YamlNode& TargetParser::parse_parts(const YamlNode& node, const YamlNode& 
 /// Returns the node that stands for the target in messages.
 const YamlNode& TargetParser::parse_vertices(const YamlNode& node) {
   Target& target = section_.target;
+  if (const YamlNode* holes = find(node, "holes")) {
+    fail(ErrorCode::not_applicable, *holes, "target.holes are of an outline, and the target has no 'outline'",
+         "write 'outline: [[x, y], [x, y], [x, y]]'");
+  }
   for (const char* key : {"width", "length", "heading"}) {
     if (const YamlNode* entry = find(node, key)) {
       fail(ErrorCode::not_applicable, *entry,
@@ -142,7 +151,7 @@ void TargetParser::refuse_beside(const YamlNode& node, const char* key, std::ini
 const YamlNode& TargetParser::parse_ground_target(const YamlNode& node) {
   GroundTarget& ground = section_.ground_target.emplace();
   if (const YamlNode* osm = find(node, "osm")) {
-    refuse_beside(node, "osm", {"vertices", "edges", "parts", "center", "width", "length", "heading"},
+    refuse_beside(node, "osm", {"vertices", "edges", "parts", "holes", "center", "width", "length", "heading"},
                   "keep 'osm' for an area of the map, or give the target yourself");
     ground.osm = text(*osm, "target.osm");
     if (find(node, "name") == nullptr) section_.target.name = ground.osm;
@@ -150,7 +159,7 @@ const YamlNode& TargetParser::parse_ground_target(const YamlNode& node) {
     return *osm;
   }
   const YamlNode& center = *find(node, "center");
-  refuse_beside(node, "center", {"vertices", "edges", "parts"},
+  refuse_beside(node, "center", {"vertices", "edges", "parts", "holes"},
                 "keep 'center' for a rectangle, or 'vertices' for a polygon");
   ground.center_deg = parse_lat_lon(center, *this, "target.center");
   const std::string form = "write 'width: 20' and 'length: 30' (metres), and 'heading: 45' (degrees from north)";
@@ -158,6 +167,27 @@ const YamlNode& TargetParser::parse_ground_target(const YamlNode& node) {
   ground.length_m = positive(require(node, "length", form), "target.length");
   if (const YamlNode* heading = find(node, "heading")) ground.heading_deg = number(*heading, "target.heading");
   return center;
+}
+
+/// On which heights it lies is found out when the scene is read.
+const YamlNode& TargetParser::parse_outline(const YamlNode& node, const YamlNode& outline) {
+  refuse_beside(node, "outline", {"vertices", "edges", "osm", "center", "width", "length", "heading"},
+                "keep 'outline' for a polygon that is laid on the ground");
+  GroundTarget& ground = section_.ground_target.emplace();
+  ground.outline.push_back(ring(outline, "target.outline"));
+  if (const YamlNode* holes = find(node, "holes")) {
+    list(*holes, "target.holes", "write a list of polygons: [[[x, y], [x, y], [x, y]]]");
+    for (std::size_t i = 0; i < holes->items.size(); ++i) {
+      ground.outline.push_back(ring(holes->items[i], indexed_item("target.holes", i)));
+    }
+  }
+  Zone area;
+  area.outer = ground.outline.front();
+  area.holes.assign(ground.outline.begin() + 1, ground.outline.end());
+  if (const auto fault = core::fault_of(area)) {
+    fail(fault->code, outline, "target.outline: " + fault->problem, fault->fix);
+  }
+  return outline;
 }
 
 void TargetParser::parse_sides(const YamlNode& node, const YamlNode& sides) {
@@ -191,8 +221,10 @@ void TargetParser::refuse_without_part(const YamlNode& node) const {
 
 /// Which faces these are is found out when the scene is read.
 const YamlNode& TargetParser::parse_faces(const YamlNode& node, const YamlNode& part) {
-  refuse_beside(node, "part", {"vertices", "edges", "parts", "point", "center", "width", "length", "heading", "front"},
-                "keep 'part' for a roof or facades of an object, which know their outer side");
+  refuse_beside(
+      node, "part",
+      {"vertices", "edges", "parts", "point", "outline", "holes", "center", "width", "length", "heading", "front"},
+      "keep 'part' for a roof or facades of an object, which know their outer side");
   FaceTarget& faces = section_.face_target.emplace();
   const std::string kind = text(part, "target.part");
   if (kind != "roof" && kind != "facade") {
@@ -239,7 +271,7 @@ double TargetParser::heading(const YamlNode& node) const {
 }
 
 const YamlNode& TargetParser::parse_point(const YamlNode& node, const YamlNode& point) {
-  refuse_beside(node, "point", {"vertices", "edges", "parts", "osm", "center"},
+  refuse_beside(node, "point", {"vertices", "edges", "parts", "outline", "holes", "osm", "center"},
                 "keep 'point' for a single point, or 'vertices' for a polygon");
   section_.target.parts = {{vector(point, "target.point")}};
   const YamlNode* offset = find(node, "offset");

@@ -59,6 +59,21 @@ Vec3 ValueReader::vector(const YamlNode& node, const std::string& what, const ch
   return result;
 }
 
+std::vector<Eigen::Vector2d> ValueReader::ring(const YamlNode& node, const std::string& what) const {
+  const char* const form = "write the corners in order: [[x, y], [x, y], [x, y]]";
+  std::vector<Eigen::Vector2d> corners;
+  list(node, what, form);
+  for (std::size_t i = 0; i < node.items.size(); ++i) {
+    const YamlNode& corner = node.items[i];
+    const std::string name = what + "[" + std::to_string(i) + "]";
+    if (list(corner, name, form).size() != 2) {
+      fail(ErrorCode::wrong_type, corner, name + " must be two numbers, not " + describe(corner), form);
+    }
+    corners.emplace_back(length(corner.items[0], name + ".x"), length(corner.items[1], name + ".y"));
+  }
+  return corners;
+}
+
 std::string ValueReader::text(const YamlNode& node, const std::string& what) const {
   if (node.kind != YamlNode::Kind::scalar || node.text.empty()) {
     fail(ErrorCode::wrong_type, node,

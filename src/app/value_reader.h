@@ -30,6 +30,8 @@ class ValueReader {
   /// Three lengths. `form` is what to write instead, where the node is none.
   Vec3 vector(const YamlNode& node, const std::string& what,
               const char* form = "write three numbers in brackets, in metres, z up: [x, y, z]") const;
+  /// The corners of a polygon: two lengths each.
+  std::vector<Eigen::Vector2d> ring(const YamlNode& node, const std::string& what) const;
   std::string text(const YamlNode& node, const std::string& what) const;  ///< not empty, no control characters
   const std::vector<YamlNode>& list(const YamlNode& node, const std::string& what, const std::string& fix) const;
 

@@ -91,6 +91,12 @@ std::vector<std::string> with_options(std::vector<std::string> arguments) {
   return arguments;
 }
 
+/// A command of the Python package.
+Error batch_is_elsewhere() {
+  return {ErrorCode::component_missing, "'batch' comes with the Python package, not with this program", "command line",
+          "install the package 'vantage' for Python, and call 'python -m vantage batch' (docs/python-batch.md)"};
+}
+
 void add_commands(CLI::App& app, Command& chosen) {
   add_scene(app, chosen);
   add_inspect(app, chosen);
@@ -121,6 +127,7 @@ int run(const std::vector<std::string>& typed) {
   add_commands(app, chosen);
 
   const std::vector<std::string> arguments = with_options(typed);
+  if (!arguments.empty() && arguments[0] == "batch") return print_error(batch_is_elsewhere(), "");
   const bool names_command = !arguments.empty() && arguments[0].substr(0, 1) != "-";
   if (names_command && !find_command(app, arguments[0])) return print_error(unknown_command(app, arguments[0]), "");
   try {

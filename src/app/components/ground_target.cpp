@@ -120,6 +120,10 @@ std::vector<city::Footprint> outlines(Mission& mission, const std::string& name,
   return found->outlines;
 }
 
+std::vector<city::Footprint> drawn(const std::vector<city::Ring>& rings) {
+  return {{rings.front(), {rings.begin() + 1, rings.end()}}};
+}
+
 /// A rectangle that is on the ground only with latitude and longitude the other way round.
 void check_order(const Mission& mission, const GroundTarget& wanted, const terrain::TriangulatedTerrain& ground,
                  const geo::LocalFrame& frame) {
@@ -216,20 +220,27 @@ void check_outdoors(const Mission& mission) {
 
 }  // namespace
 
-void put_on_ground(Mission& mission, const geo::LocalFrame& frame, const Progress& progress) {
+void put_on_ground(Mission& mission, const geo::LocalFrame* frame, const Progress& progress) {
   const GroundTarget& wanted = *mission.as_written.ground_target;
-  if (wanted.center_deg) check_order(mission, wanted, ground_of(mission), frame);
-  const std::vector<city::Footprint> areas = wanted.osm.empty()
-                                                 ? std::vector<city::Footprint>{{rectangle(wanted, frame), {}}}
-                                                 : outlines(mission, wanted.osm, frame, progress);
+  if (wanted.center_deg) check_order(mission, wanted, ground_of(mission), *frame);
+  const bool is_drawn = !wanted.outline.empty();
+  const std::vector<city::Footprint> areas = is_drawn ? drawn(wanted.outline)
+                                             : wanted.osm.empty()
+                                                 ? std::vector<city::Footprint>{{rectangle(wanted, *frame), {}}}
+                                                 : outlines(mission, wanted.osm, *frame, progress);
   if (auto note = make_room(mission, plan_box(areas))) mission.notes.push_back(std::move(*note));
   const terrain::TriangulatedTerrain& ground = ground_of(mission);
   mission.target.parts.clear();
-  for (const city::Footprint& area : areas) {
+  for (const city::ConvexArea& area :
+       city::convex_areas(areas, is_drawn ? city::Outlines::rough : city::Outlines::clean)) {
     const Incline plane = ground_plane(ground, area.outer, mission);
-    for (const city::Ring& piece : city::convex_pieces(area)) {
+    for (const city::Ring& piece : area.pieces) {
       for (const city::Ring& small : halved(piece)) mission.target.parts.push_back(on_plane(small, plane));
     }
+  }
+  if (mission.target.parts.empty()) {
+    throw Error(ErrorCode::target_without_area, "the target's outline has hardly any area",
+                mission.as_written.places.target, "draw it wider than 1 cm and larger than 0.01 m2");
   }
   check_outdoors(mission);
 }

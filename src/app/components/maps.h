@@ -14,8 +14,9 @@ namespace vantage::internal::app {
 LoadedScene load_map(const SceneSource& source, const Progress& progress);
 LoadedScene load_raster(const SceneSource& source, const Progress& progress);
 
-/// Lays the target that `mission.as_written.ground_target` describes on the ground of the scene, in `frame`.
-void put_on_ground(Mission& mission, const geo::LocalFrame& frame, const Progress& progress);
+/// Lays the target that `mission.as_written.ground_target` describes on the ground of the scene, in `frame`:
+/// that of the scene, which only outlines can do without.
+void put_on_ground(Mission& mission, const geo::LocalFrame* frame, const Progress& progress);
 
 /// parse_zones of a text in XML. `file` is for messages.
 ZoneList parse_kml_zones(std::string_view text, const std::filesystem::path& file,

@@ -11,7 +11,7 @@ LoadedScene load_raster(const SceneSource& source, const Progress&) {
   throw_missing("maps", "rasters", source.file.string());
 }
 
-void put_on_ground(Mission& mission, const geo::LocalFrame&, const Progress&) {
+void put_on_ground(Mission& mission, const geo::LocalFrame*, const Progress&) {
   throw_missing("maps", "targets on the ground", mission.as_written.places.target);
 }
 

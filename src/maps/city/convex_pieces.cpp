@@ -92,4 +92,13 @@ class Joiner {
 
 std::vector<Ring> convex_pieces(const Footprint& footprint) { return Joiner(footprint).run(); }
 
+std::vector<ConvexArea> convex_areas(const std::vector<Footprint>& footprints, Outlines state) {
+  Repairs repairs;
+  std::vector<ConvexArea> areas;
+  for (const Footprint& area : state == Outlines::rough ? clean(footprints, repairs) : footprints) {
+    areas.push_back({area.outer, convex_pieces(area)});
+  }
+  return areas;
+}
+
 }  // namespace vantage::internal::city

@@ -49,6 +49,17 @@ std::vector<Footprint> widen(const std::vector<Vec2>& line, bool closed, double 
 
 /// Convex pieces that cover a footprint and overlap only along their sides: few of them, none narrower than need be
 /// (triangulated, then joined while convex: Hertel and Mehlhorn, 1983). One when the footprint is convex without holes.
-VANTAGE_INTERNAL_API std::vector<Ring> convex_pieces(const Footprint& footprint);
+std::vector<Ring> convex_pieces(const Footprint& footprint);
+
+struct ConvexArea {
+  Ring outer;
+  std::vector<Ring> pieces;  ///< convex_pieces
+};
+
+/// What state outlines are in.
+enum class Outlines { clean, rough };
+
+/// The pieces of footprints; rough ones are cleaned first, which may leave nothing.
+VANTAGE_INTERNAL_API std::vector<ConvexArea> convex_areas(const std::vector<Footprint>& footprints, Outlines state);
 
 }  // namespace vantage::internal::city

@@ -1,0 +1,130 @@
+"""The scene that all targets of a run lie in: how it is named, and the copies that workers keep."""
+
+from __future__ import annotations
+
+import io
+import json
+import os
+import tempfile
+import threading
+from collections.abc import Callable, Mapping
+from typing import Any, Union
+
+import numpy as np
+
+from .._errors import input_error
+from .._extras import require
+from .._requests import Path
+from .._scene import Georeference, Progress, Scene, SceneObject
+from ._store import Store
+
+AnyScene = Union[Scene, str, "os.PathLike[str]", Mapping[str, Any]]
+
+_FILES = ("mesh", "osm", "raster", "terrain")
+_ARRAYS = "scene.npz"
+
+_kept: dict[str, Scene] = {}
+_folders: list[tempfile.TemporaryDirectory[str]] = []
+_lock = threading.Lock()
+
+
+def request_of(scene: AnyScene) -> dict[str, Any]:
+    """The scene as keys of a mission file's `scene`; of a `Scene` {"arrays": its hash}."""
+    if isinstance(scene, Scene):
+        return {"arrays": scene.hash}
+    if isinstance(scene, Mapping):
+        request = {key: value for key, value in scene.items() if value is not None}
+        if sum(key in request for key in ("mesh", "osm", "raster")) != 1:
+            raise input_error("missing-key", "the scene does not name one file", "scene",
+                              'write scene={"osm": "city.osm.pbf"}, with mesh, osm or raster')
+    else:
+        path = os.fspath(scene)
+        name = path.lower()
+        kind = "osm" if name.endswith((".osm", ".osm.gz", ".osm.bz2", ".pbf")) else \
+            "raster" if name.endswith((".tif", ".tiff", ".hgt", ".hgt.zip")) else "mesh"
+        request = {kind: path}
+    for key in _FILES:
+        if key in request and "://" not in os.fspath(request[key]):
+            request[key] = os.path.abspath(os.fspath(request[key]))
+    return request
+
+
+def load(request: Mapping[str, Any], store: Store, progress: Progress = None) -> Scene:
+    """Reads the scene that `request_of` named; `store`: of the results, where arrays lie."""
+    if "arrays" in request:
+        data = store.read(_ARRAYS)
+        if data is None:
+            raise input_error("file-not-found", "the scene of the run is gone", store.where(_ARRAYS),
+                              "start the run again, with the scene")
+        return _of_bytes(data)
+    keys = dict(request)
+    for key in _FILES:
+        if key in keys:
+            keys[key] = _here(os.fspath(keys[key]), store.options)
+    kind = next(key for key in ("mesh", "osm", "raster") if key in keys)
+    read: Callable[..., Scene] = getattr(Scene, f"from_{kind}")
+    path = keys.pop(kind)
+    try:
+        return read(path, progress=progress, **keys)
+    except TypeError as error:
+        raise input_error("unknown-key", str(error).split("() ")[-1], "scene",
+                          f"use the keys of Scene.from_{kind}") from None
+
+
+def kept(request: Mapping[str, Any], scene_hash: str, store: Store) -> Scene:
+    """The scene, read once in a process, and checked to be that of the run."""
+    key = json.dumps([request, scene_hash], sort_keys=True, default=str)
+    with _lock:
+        if key not in _kept:
+            scene = load(request, store)
+            if scene.hash != scene_hash:
+                raise input_error("file-changed", "the scene is not the one that the run was started with",
+                                  "scene", "give all workers the same files, and do not change them")
+            while len(_kept) > 1:  # other runs of a long-lived worker
+                _kept.pop(next(iter(_kept)))
+            _kept[key] = scene.prepare()
+        return _kept[key]
+
+
+def to_bytes(scene: Scene) -> bytes:
+    """The triangles and their objects, as a file of numpy."""
+    place = scene.georeference
+    about = {"objects": [list(one) for one in scene.objects], "georeference": None if place is None else list(place),
+             "sea_level": scene._core.sea_level_m}
+    out = io.BytesIO()
+    np.savez(out, vertices=scene.vertices, faces=scene.faces, object_of=scene.object_of,
+             about=np.frombuffer(json.dumps(about).encode(), np.uint8))
+    return out.getvalue()
+
+
+def save(scene: Scene, store: Store) -> None:
+    """Writes what `load` reads for {"arrays": ...}."""
+    store.put(_ARRAYS, to_bytes(scene))
+
+
+def _of_bytes(data: bytes) -> Scene:
+    with np.load(io.BytesIO(data), allow_pickle=False) as arrays:
+        about = json.loads(arrays["about"].tobytes())
+        place = about["georeference"]
+        return Scene.from_arrays(arrays["vertices"], arrays["faces"], object_of=arrays["object_of"],
+                                 objects=[SceneObject(*one) for one in about["objects"]],
+                                 georeference=None if place is None else Georeference(*place),
+                                 sea_level=about["sea_level"])
+
+
+def _here(path: str, options: Mapping[str, Any]) -> str:
+    """A remote file as a local one of the same name, for as long as the process lives: areas of a map are read later."""
+    if "://" not in path:
+        return path
+    folder = tempfile.TemporaryDirectory(prefix="vantage-scene-")
+    _folders.append(folder)
+    local = os.path.join(folder.name, path.rstrip("/").rsplit("/", 1)[-1])
+    try:
+        files, remote = require("fsspec", "batch").core.url_to_fs(path, **options)
+        files.get_file(remote, local)
+    except FileNotFoundError:
+        raise input_error("file-not-found", "there is no such file", path, "check the path") from None
+    except OSError as error:
+        raise input_error("file-unreadable", f"cannot be read: {error}", path,
+                          "check the permissions and the connection") from error
+    return local

@@ -1,0 +1,210 @@
+"""What a worker does: the targets of a shard, in a scene that it keeps."""
+
+from __future__ import annotations
+
+import dataclasses
+import hashlib
+import os
+import signal
+import socket
+import tempfile
+import time
+import urllib.parse
+from collections.abc import Mapping
+from typing import Any
+
+from .._errors import Error, OutputError, make
+from .._result import Mission, Result
+from .._scene import Scene
+from . import _geometry, _rows, _scenes, _volumes
+from ._store import Store, unwritable
+from ._table import Id, Row
+
+
+@dataclasses.dataclass(frozen=True)
+class Job:
+    """What all shards of a run have in common."""
+
+    store: Store
+    scene: Mapping[str, Any]
+    scene_hash: str
+    asked: Mapping[str, Any]
+    """arguments of `Mission.of`"""
+    crs: str | None
+    volumes: str | None
+    metadata: dict[str, str]
+    """of the files of rows: whose results they are"""
+    is_number: bool
+    """whether ids are"""
+    is_on_earth: bool
+    """whether the results' geometries are longitude and latitude"""
+
+
+@dataclasses.dataclass(frozen=True)
+class Task:
+    """A shard to compute and to write."""
+
+    number: int
+    rows: list[Row]
+    alone: bool = False
+    """one row, which is only tried: does the worker live?"""
+    doomed: Mapping[Id, int] = dataclasses.field(default_factory=dict)
+    """rows that end workers, and how often they did: they are errors"""
+
+
+@dataclasses.dataclass(frozen=True)
+class Done:
+    """What a worker says of a task."""
+
+    number: int
+    count: int
+    errors: int
+    seconds: float
+    cpu_seconds: float
+    worker: str
+    peak_mib: float
+    tried: Id | None = None
+    """the row that was only tried"""
+
+
+def shard_name(number: int) -> str:
+    """The file of a shard's rows."""
+    return f"rows/{number:06d}.parquet"
+
+
+def run(job: Job, task: Task) -> Done:
+    """Computes a task. One target that is wrong is an error in its row.
+
+    Raises:
+        Error: the scene cannot be read, or is another one; the results cannot be written.
+    """
+    started, began = time.perf_counter(), time.process_time()
+    scene = _scenes.kept(job.scene, job.scene_hash, job.store)
+    places = _geometry.Places(scene, job.crs)
+    if task.alone:
+        _die_if_told(task.rows[0])
+        compute(job, scene, places, task.rows[0])
+        return _done(task, 0, 0, started, began, task.rows[0].id)
+    rows, results = [], []
+    for row in task.rows:
+        if row.id in task.doomed:
+            found, result = died(row, task.doomed[row.id], places), None
+        else:
+            _die_if_told(row)
+            found, result = compute(job, scene, places, row)
+        if job.volumes == "ply" and result is not None and not result.empty:
+            found["volume_file"] = _put_ply(job.store, task.number, row, result)
+        rows.append(found)
+        results.append(result if job.volumes == "zarr" else None)
+    if job.volumes == "zarr":
+        write_zarr(job, task.number, rows, results)
+    columns = _rows.schema(job.is_number, job.metadata, job.is_on_earth)
+    job.store.put(shard_name(task.number), _rows.to_bytes(rows, columns))
+    errors = sum(row["outcome"] == "error" for row in rows)
+    return _done(task, len(rows), errors, started, began)
+
+
+def _done(task: Task, count: int, errors: int, started: float, began: float, tried: Id | None = None) -> Done:
+    return Done(task.number, count, errors, time.perf_counter() - started, time.process_time() - began, worker_name(),
+                peak_mib(), tried)
+
+
+def compute(job: Job, scene: Scene, places: _geometry.Places, row: Row) -> tuple[dict[str, Any], Result | None]:
+    """The row of one target, and what came of it."""
+    started = time.perf_counter()
+    result, parts, failure = None, None, None
+    try:
+        result = resolved(job, scene, places, row).run(threads=1)
+        parts = result.mission.target_parts
+        found = _rows.of_result(row.id, result, time.perf_counter() - started)
+    except MemoryError:
+        failure = make("input", "out-of-memory", "the memory is used up", "", "compute this target on a larger machine, alone",
+                       None)
+    except Error as error:
+        if error.kind == "cancelled":
+            raise
+        failure = error
+    except Exception as error:  # the other targets are not to suffer
+        failure = make("internal", "internal-defect", f"unexpected failure: {type(error).__name__}: {error}", "",
+                       "this is a defect of vantage: please report it with the target", None)
+    if failure is not None:
+        found = _rows.of_error(row.id, _geometry.name_of(row), failure, time.perf_counter() - started)
+    found["geometry"] = _geometry.footprint(row, parts, places)
+    return found, result
+
+
+def resolved(job: Job, scene: Scene, places: _geometry.Places, row: Row) -> Mission:
+    """What a row asks for, in the scene."""
+    targets = _geometry.targets_of(row, places)
+    return Mission.of(scene, targets[0] if len(targets) == 1 else targets, **job.asked)
+
+
+def died(row: Row, times: int, places: _geometry.Places) -> dict[str, Any]:
+    """The row of a target that ended its worker again and again."""
+    problem = f"the worker died {times} times while it computed this target"
+    error = make("internal", "internal-defect", problem, "", "look for a lack of memory; else compute it alone, and report it",
+                 None)
+    return {**_rows.of_error(row.id, _geometry.name_of(row), error, 0.0), "geometry": _geometry.footprint(row, None, places)}
+
+
+def write_zarr(job: Job, number: int, rows: list[dict[str, Any]], results: list[Result | None]) -> None:
+    """The shard's volumes; their rows get its name."""
+    name = f"volumes/{number:06d}.zarr.zip"
+    held = [(str(row["id"]), result) for row, result in zip(rows, results) if result is not None and not result.empty]
+    job.store.put(name, _volumes.to_zarr(held, job.metadata))
+    for row, result in zip(rows, results):
+        if result is not None and not result.empty:
+            row["volume_file"] = name
+
+
+def _put_ply(store: Store, number: int, row: Row, result: Result) -> str:
+    name = urllib.parse.quote(str(row.id), safe="")
+    if len(name) > 150:
+        name = name[:80] + "-" + hashlib.sha256(name.encode()).hexdigest()[:32]
+    path = f"volumes/{number:06d}/{name}.ply"
+    try:
+        with tempfile.TemporaryDirectory() as folder:
+            local = os.path.join(folder, "volume.ply")
+            result.volume.save(local)
+            with open(local, "rb") as file:
+                content = file.read()
+    except (OSError, OutputError) as error:
+        raise unwritable(error, store.where(path)) from error
+    store.put(path, content)
+    return path
+
+
+# ---- about the process
+
+
+def worker_name() -> str:
+    """Of this process, for reports."""
+    return f"{socket.gethostname()}:{os.getpid()}"
+
+
+def peak_mib() -> float:
+    """The most memory that this process has held so far, MiB."""
+    try:
+        with open("/proc/self/status") as status:
+            for line in status:
+                if line.startswith("VmHWM:"):
+                    return int(line.split()[1]) / 1024
+    except OSError:
+        pass
+    import resource
+
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+
+
+def _die_if_told(row: Row) -> None:
+    """For tests: VANTAGE_BATCH_KILL=ID ends the process at that target, ID:FILE only if it can make the file."""
+    told = os.environ.get("VANTAGE_BATCH_KILL", "")
+    id, _, marker = told.partition(":")
+    if not told or id != str(row.id):
+        return
+    if marker:
+        try:
+            os.close(os.open(marker, os.O_CREAT | os.O_EXCL))
+        except FileExistsError:
+            return
+    os.kill(os.getpid(), signal.SIGKILL)
