@@ -42,9 +42,7 @@ TEST_F(CliUsage, HelpIsACommandToo) {
   EXPECT_NE(output_of({"help", "--help"}), output_of({"--help"}));
 }
 
-TEST_F(CliUsage, BatchIsOfThePythonPackage) {
-  expect_bad({"batch", "targets.parquet"}, "command line");
-}
+TEST_F(CliUsage, BatchIsOfThePythonPackage) { expect_bad({"batch", "targets.parquet"}, "command line"); }
 
 TEST_F(CliUsage, MisspeltOptionsGetASuggestion) {
   const auto expect_suggestion = [&](const std::vector<std::string>& arguments, const std::string& suggestion) {
