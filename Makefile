@@ -101,9 +101,19 @@ site: python  ## the documentation as a site, in build/site; its tutorials are r
 	PYTHONPATH=$(CURDIR)/build/python .deps/python/bin/python -m sphinx -q -W --keep-going -c docs/site docs build/site
 	@echo "site: $$(find build/site -name '*.html' | wc -l) pages, build/site/index.html"
 
+.PHONY: wheel
+wheel:  ## a wheel with all that it needs in it, in dist/
+	@scripts/install_packages.sh --wheel
+	@scripts/fetch_sources.sh
+	@JOBS=$(JOBS) scripts/build_wheel.sh
+
+.PHONY: wheelcheck
+wheelcheck: wheel  ## try that wheel in a root with Python and numpy alone
+	@scripts/check_wheel.sh dist/vantage-*-cp311-*.whl
+
 .PHONY: clean
 clean:  ## remove all builds; fetched sources stay
-	rm -rf build build-*/
+	rm -rf build build-*/ dist/
 
 # All that the installed packages allow: `make build` needs neither those of the tests nor those of the benchmarks.
 .PHONY: tested

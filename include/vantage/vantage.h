@@ -26,6 +26,7 @@
 #include "vantage/progress.h"
 #include "vantage/prove.h"
 #include "vantage/query.h"
+#include "vantage/resources.h"
 #include "vantage/result.h"
 #include "vantage/scene.h"
 #include "vantage/scene_source.h"
