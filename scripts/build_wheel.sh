@@ -24,6 +24,10 @@ fi
 
 build=$root/build-wheel/$tag
 rm -rf "$build/raw" "$build/cmake/python/vantage_python.map"
+# What CMake remembers of libraries holds until they are built anew.
+if [ -n "$(find "$deps" -maxdepth 1 -name '*.stamp' -newer "$build/cmake/CMakeCache.txt" 2>/dev/null)" ]; then
+  rm -f "$build/cmake/CMakeCache.txt"
+fi
 mkdir -p "$build/raw" dist
 PATH=$tools/bin:$PATH CMAKE_PREFIX_PATH=$deps/prefix PKG_CONFIG_LIBDIR=$deps/prefix/lib/pkgconfig \
 CMAKE_BUILD_PARALLEL_LEVEL=$jobs "$tools/bin/python" -m pip wheel --disable-pip-version-check --no-deps --no-build-isolation \

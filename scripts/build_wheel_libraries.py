@@ -34,8 +34,8 @@ def run(command: list[str], folder: pathlib.Path, log: pathlib.Path, **variables
     with log.open("a", encoding="utf-8") as output:
         output.write(f"$ {shlex.join(command)}\n")
         output.flush()
-        result = subprocess.run(command, cwd=folder, env={**os.environ, **variables}, stdin=subprocess.DEVNULL, stdout=output,
-                                stderr=subprocess.STDOUT, check=False)
+        result = subprocess.run(command, cwd=folder, env={**os.environ, **variables}, stdin=subprocess.DEVNULL,
+                                stdout=output, stderr=subprocess.STDOUT, check=False)
     if result.returncode:
         tail = "\n".join(log.read_text(encoding="utf-8", errors="replace").splitlines()[-25:])
         raise Failure(f"{shlex.join(command[:3])} ... failed in {folder}; the end of {log}:\n{tail}")
@@ -45,9 +45,10 @@ def run(command: list[str], folder: pathlib.Path, log: pathlib.Path, **variables
 
 def archives() -> list[str]:
     """Where apt gets Debian's packages from on this machine: updates last, since they have few files."""
-    targets = subprocess.run(["apt-get", "indextargets", "--format", "$(ORIGIN) $(RELEASE) $(REPO_URI)", "Created-By: Packages"],
-                             capture_output=True, text=True, check=False).stdout
-    rows = sorted({tuple(line.split()) for line in targets.splitlines() if line.startswith("Debian ")}, key=lambda row: len(row[1]))
+    command = ["apt-get", "indextargets", "--format", "$(ORIGIN) $(RELEASE) $(REPO_URI)", "Created-By: Packages"]
+    targets = subprocess.run(command, capture_output=True, text=True, check=False).stdout
+    rows = sorted({tuple(line.split()) for line in targets.splitlines() if line.startswith("Debian ")},
+                  key=lambda row: len(row[1]))
     found = list(dict.fromkeys(row[2].rstrip("/") for row in rows if len(row) == 3))
     if not found:
         raise Failure("apt knows no archive of Debian on this machine; run apt-get update as root")
@@ -111,11 +112,11 @@ def installed_version(package: str) -> str:
 class Builder:
     def __init__(self, folder: pathlib.Path, prefix: pathlib.Path, flags: str, jobs: int):
         self.folder, self.prefix, self.jobs = folder, prefix, str(jobs)
-        self.launcher = [shutil.which("ccache") or "env"]
-        # Neither folder may show in what is built.
+        self.launcher = shutil.which("ccache") or "env"
+        # The folder must not show in what is built.
         self.flags = f"{flags} -ffile-prefix-map={folder}=."
-        self.environment = {"CFLAGS": self.flags, "CXXFLAGS": self.flags, "PKG_CONFIG_LIBDIR": str(prefix / "lib" / "pkgconfig"),
-                            "CCACHE_BASEDIR": str(folder), "CCACHE_NOHASHDIR": "1"}
+        self.environment = {"CFLAGS": self.flags, "CXXFLAGS": self.flags, "CCACHE_BASEDIR": str(folder),
+                            "CCACHE_NOHASHDIR": "1", "PKG_CONFIG_LIBDIR": str(prefix / "lib" / "pkgconfig")}
 
     def build(self, library: dict) -> None:
         slug = library["name"].lower().replace("/", "-")
@@ -130,13 +131,14 @@ class Builder:
     def with_cmake(self, library: dict, source: pathlib.Path, work: pathlib.Path, log: pathlib.Path) -> None:
         build = work / "build"
         options = [option.format(prefix=self.prefix) for option in library["options"]]
-        run(["cmake", "-S", str(source / library.get("folder", ".")), "-B", str(build), "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
-             "-DCMAKE_C_FLAGS_RELEASE=-DNDEBUG", "-DCMAKE_CXX_FLAGS_RELEASE=-DNDEBUG", "-DBUILD_SHARED_LIBS=OFF",
-             "-DCMAKE_POSITION_INDEPENDENT_CODE=ON", f"-DCMAKE_PREFIX_PATH={self.prefix}", "-DCMAKE_INSTALL_PREFIX=/usr",
-             "-DCMAKE_INSTALL_LIBDIR=lib", f"-DCMAKE_C_COMPILER_LAUNCHER={self.launcher[0]}",
-             f"-DCMAKE_CXX_COMPILER_LAUNCHER={self.launcher[0]}", *options], work, log, **self.environment)
-        run(["cmake", "--build", str(build), "--parallel", self.jobs, "--target", library.get("target", "all")], work, log,
-            **self.environment)
+        run(["cmake", "-S", str(source / library.get("folder", ".")), "-B", str(build), "-G", "Ninja",
+             "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_C_FLAGS_RELEASE=-DNDEBUG", "-DCMAKE_CXX_FLAGS_RELEASE=-DNDEBUG",
+             "-DBUILD_SHARED_LIBS=OFF", "-DCMAKE_POSITION_INDEPENDENT_CODE=ON", f"-DCMAKE_PREFIX_PATH={self.prefix}",
+             "-DCMAKE_INSTALL_PREFIX=/usr", "-DCMAKE_INSTALL_LIBDIR=lib",
+             f"-DCMAKE_C_COMPILER_LAUNCHER={self.launcher}", f"-DCMAKE_CXX_COMPILER_LAUNCHER={self.launcher}",
+             *options], work, log, **self.environment)
+        run(["cmake", "--build", str(build), "--parallel", self.jobs, "--target", library.get("target", "all")], work,
+            log, **self.environment)
         for to, origin in library.get("before_install", {}).items():
             shutil.copyfile(origin, build / to)
         run(["cmake", "--install", str(build), "--prefix", str(self.prefix)], work, log)
@@ -144,9 +146,9 @@ class Builder:
     def with_configure(self, library: dict, source: pathlib.Path, work: pathlib.Path, log: pathlib.Path) -> None:
         build = work / "build"
         build.mkdir()
-        compiler = f"{self.launcher[0]} gcc"
-        run([str(source / "configure"), f"--prefix={self.prefix}", "--disable-shared", "--enable-static", *library["options"],
-             f"CC={compiler}", f"LDFLAGS=-L{self.prefix / 'lib'}", "LIBS=-lz -lm"], build, log, **self.environment)
+        run([str(source / "configure"), f"--prefix={self.prefix}", "--disable-shared", "--enable-static",
+             *library["options"], f"CC={self.launcher} gcc", f"LDFLAGS=-L{self.prefix / 'lib'}", "LIBS=-lz -lm"],
+            build, log, **self.environment)
         run(["make", f"-j{self.jobs}", "-C", library["folder"], "install"], build, log, **self.environment)
         if "then" in library:
             run(["make", library["then"]], build, log, **self.environment)
@@ -156,20 +158,21 @@ class Builder:
         for name in library["sources"]:
             compiler = "g++" if name.endswith(".cpp") else "gcc"
             objects.append(str(work / (pathlib.PurePosixPath(name).stem + ".o")))
-            run([*self.launcher, compiler, *shlex.split(self.flags), "-DNDEBUG", "-c", name, "-o", objects[-1]], source, log,
-                **self.environment)
+            run([self.launcher, compiler, *shlex.split(self.flags), "-DNDEBUG", "-c", name, "-o", objects[-1]], source,
+                log, **self.environment)
         run(["ar", "rcs", str(self.prefix / "lib" / f"lib{library['library']}.a"), *objects], work, log)
         for folder, headers in library["includes"].items():
             to = self.prefix / "include" / folder
             to.mkdir(parents=True, exist_ok=True)
             for header in headers:
                 shutil.copy(source / header, to)
-        self.describe(library["library"], library["library"], library["version"])
+        self.describe(library["library"], library["library"], library["version"], folders=list(library["includes"]))
 
     def take_installed(self, package: dict) -> None:
         """What is taken from an installed Debian package, with its version."""
         asked = installed_version(package["package"])
-        listed = subprocess.run(["dpkg-query", "--listfiles", package["package"]], capture_output=True, text=True, check=True)
+        listed = subprocess.run(["dpkg-query", "--listfiles", package["package"]], capture_output=True, text=True,
+                                check=True)
         files = {pathlib.PurePosixPath(line).name: line for line in listed.stdout.splitlines()}
         for name in package.get("archives", []):
             shutil.copy(files[name], self.prefix / "lib")
@@ -186,10 +189,11 @@ class Builder:
         (self.prefix / "versions").mkdir(exist_ok=True)
         (self.prefix / "versions" / package["package"]).write_text(asked + "\n", encoding="utf-8")
 
-    def describe(self, name: str, library: str, version: str, needs: str = "") -> None:
-        """What pkg-config tells of a library."""
+    def describe(self, name: str, library: str, version: str, needs: str = "", folders: list[str] | None = None) -> None:
+        """What pkg-config tells of a library; `folders` below include/ are those of its headers."""
         file = self.prefix / "lib" / "pkgconfig" / f"{name}.pc"
-        file.write_text(f"Name: {name}\nDescription: {name}\nVersion: {version}\nCflags: -I{self.prefix}/include\n"
+        flags = " ".join(f"-I{self.prefix / 'include' / folder}" for folder in folders or ["."])
+        file.write_text(f"Name: {name}\nDescription: {name}\nVersion: {version}\nCflags: {flags}\n"
                         f"Libs: -L{self.prefix}/lib -l{library} {needs}\n", encoding="utf-8")
 
     def keep_texts(self, library: dict, source: pathlib.Path) -> None:
@@ -203,7 +207,8 @@ def settle_prefix(prefix: pathlib.Path) -> None:
     """The descriptions that CMake installed name /usr, which is compiled in as the place of their data."""
     for file in (prefix / "lib" / "pkgconfig").glob("*.pc"):
         lines = file.read_text(encoding="utf-8").splitlines(keepends=True)
-        file.write_text("".join(f"prefix={prefix}\n" if line.startswith("prefix=") else line for line in lines), encoding="utf-8")
+        lines = [f"prefix={prefix}\n" if line.startswith("prefix=") else line for line in lines]
+        file.write_text("".join(lines), encoding="utf-8")
 
 
 def main() -> int:
@@ -233,7 +238,8 @@ def main() -> int:
         for package in libraries.get("installed", []):
             builder.take_installed(package)
         for number, library in enumerate(libraries.get("built", []), 1):
-            print(f"building {library['name']} {library['version']} ({number} of {len(libraries['built'])})", flush=True)
+            count = len(libraries["built"])
+            print(f"building {library['name']} {library['version']} ({number} of {count})", flush=True)
             builder.build(library)
             settle_prefix(prefix)
     except (Failure, OSError, KeyError, tomllib.TOMLDecodeError) as error:

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Says what a wheel of vantage contains and under which licences, and fails where wheel_libraries.toml does not know it.
+"""Says what a wheel of vantage contains, under which licences, and fails where wheel_libraries.toml does not know it.
 
     wheel_licences.py collect --build FOLDER --map FILE --prefix FOLDER --deps FOLDER --out FOLDER
     wheel_licences.py check WHEEL...
 
-`collect` runs while the wheel is made. It reads from the linker's map which static libraries code was taken from, and from
-ninja which headers were compiled, and writes the list LIBRARIES.txt with the texts of the licences. `check` looks into a
-finished wheel: at what each binary loads, at binaries that nobody listed, and at the list.
+`collect` runs while the wheel is made. It reads from the linker's map which static libraries code was taken from, and
+from ninja which headers were compiled, and writes the list LIBRARIES.txt with the texts of the licences. `check` looks
+into a finished wheel: at what each binary loads, at binaries that nobody listed, and at the list.
 """
 
 import argparse
@@ -55,8 +55,8 @@ def linked_archives(map_file: pathlib.Path) -> set[str]:
 
 def compiled_headers(build: pathlib.Path) -> set[pathlib.Path]:
     """All headers that sources in this build folder included."""
-    answer = subprocess.run(["ninja", "-C", str(build), "-t", "deps"], capture_output=True, text=True, check=True).stdout
-    names = {line.strip() for line in answer.splitlines() if line.startswith("    ")}
+    answer = subprocess.run(["ninja", "-C", str(build), "-t", "deps"], capture_output=True, text=True, check=True)
+    names = {line.strip() for line in answer.stdout.splitlines() if line.startswith("    ")}
     if not names:
         raise Failure(f"ninja knows of no headers in {build}")
     return {(build / name).resolve() for name in names}
@@ -64,9 +64,9 @@ def compiled_headers(build: pathlib.Path) -> set[pathlib.Path]:
 
 def debian_packages(files: list[pathlib.Path]) -> dict[pathlib.Path, str]:
     """The packages that installed these files."""
-    answer = subprocess.run(["dpkg-query", "--search", *map(str, files)], capture_output=True, text=True, check=False).stdout
+    answer = subprocess.run(["dpkg-query", "--search", *map(str, files)], capture_output=True, text=True, check=False)
     found = {}
-    for line in answer.splitlines():
+    for line in answer.stdout.splitlines():
         package, _, name = line.partition(": ")
         found[pathlib.Path(name)] = package.split(",")[0].split(":")[0]
     return found
@@ -81,7 +81,8 @@ def unknown_archives(archives: set[str], libraries: dict) -> tuple[list[str], se
     return strange, {known[name] for name in archives if name in known}
 
 
-def unknown_headers(headers: set[pathlib.Path], folders: dict[pathlib.Path, str], libraries: dict) -> tuple[list[str], set[str]]:
+def unknown_headers(headers: set[pathlib.Path], folders: dict[pathlib.Path, str],
+                    libraries: dict) -> tuple[list[str], set[str]]:
     """Headers that the list lacks, and the names of the libraries whose headers are there. `folders`: whose is what."""
     left, used = [], set()
     for header in headers:
@@ -102,15 +103,15 @@ def unknown_headers(headers: set[pathlib.Path], folders: dict[pathlib.Path, str]
     return sorted(strange), used
 
 
-def own_folders(build: pathlib.Path, deps: pathlib.Path, libraries: dict, places: dict[str, str]) -> dict[pathlib.Path, str]:
+def own_folders(build: pathlib.Path, libraries: dict, places: dict[str, str]) -> dict[pathlib.Path, str]:
     """Folders of headers, and the libraries that they are of; "" for what leaves no code of others."""
     folders = {}
     for entry in libraries.get("fetched", []):
         folders |= {pathlib.Path(header.format(**places)).resolve(): entry["name"] for header in entry["headers"]}
     # Headers of the libraries that were built: the linker's map tells which of these are used.
-    folders |= {path: "" for path in (pathlib.Path(places["prefix"]).resolve(), pathlib.Path(sysconfig.get_paths()["include"]).resolve(),
-                                      build, PROJECT / "src", PROJECT / "include", PROJECT / "python")}
-    return folders
+    python = pathlib.Path(sysconfig.get_paths()["include"]).resolve()
+    ours = [build, PROJECT / "src", PROJECT / "include", PROJECT / "python"]
+    return folders | {path: "" for path in (pathlib.Path(places["prefix"]), python, *ours)}
 
 
 def first_comment(text: str) -> str:
@@ -120,17 +121,18 @@ def first_comment(text: str) -> str:
     return re.sub(r"(?m)^ \* ?", "", match[1])
 
 
-def collect(build: pathlib.Path, map_file: pathlib.Path, prefix: pathlib.Path, deps: pathlib.Path, out: pathlib.Path) -> None:
+def collect(build: pathlib.Path, map_file: pathlib.Path, prefix: pathlib.Path, deps: pathlib.Path,
+            out: pathlib.Path) -> None:
     libraries = read_list()
     spec = util.find_spec("nanobind")
     if spec is None or spec.origin is None:
         raise Failure("nanobind is not installed for this Python")
     info = metadata.distribution("nanobind")
-    places = {"deps": str(deps.resolve()), "prefix": str(prefix.resolve()), "nanobind": str(pathlib.Path(spec.origin).parent),
-              "nanobind_texts": str(next(pathlib.Path(info.locate_file(file)).parent for file in info.files or []
-                                         if file.name == "LICENSE"))}
+    texts = next(pathlib.Path(info.locate_file(file)).parent for file in info.files or [] if file.name == "LICENSE")
+    places = {"deps": str(deps.resolve()), "prefix": str(prefix.resolve()),
+              "nanobind": str(pathlib.Path(spec.origin).parent), "nanobind_texts": str(texts)}
     strange, by_archive = unknown_archives(linked_archives(map_file), libraries)
-    folders = own_folders(build.resolve(), deps, libraries, places)
+    folders = own_folders(build.resolve(), libraries, places)
     strange_headers, by_header = unknown_headers(compiled_headers(build.resolve()), folders, libraries)
     if strange or strange_headers:
         raise Failure("the wheel would contain what scripts/wheel_libraries.toml does not list: "
