@@ -89,12 +89,8 @@ def unpack(library: dict, downloads: pathlib.Path, into: pathlib.Path, log: path
             for name in library["patches"]:
                 tar.extract(f"debian/patches/{name}", source)
                 run(["patch", "-p1", "-i", f"debian/patches/{name}"], source, log)
-    for name, dropped in library.get("drop", {}).items():
-        lines = (source / name).read_text(encoding="utf-8").splitlines(keepends=True)
-        kept = [line for line in lines if not any(word in line for word in dropped)]
-        if len(kept) == len(lines):
-            raise Failure(f"{library['name']}: {name} has no lines to drop")
-        (source / name).write_text("".join(kept), encoding="utf-8")
+    if "own_patch" in library:
+        run(["patch", "-p1", "-i", str(HERE / library["own_patch"])], source, log)
     return source
 
 
@@ -222,7 +218,8 @@ def main() -> int:
     try:
         libraries = tomllib.loads(arguments.list.read_text(encoding="utf-8"))
         versions = [installed_version(package["package"]) for package in libraries.get("installed", [])]
-        text = arguments.list.read_bytes() + pathlib.Path(__file__).read_bytes() + "\n".join(versions).encode()
+        files = [arguments.list, pathlib.Path(__file__), *sorted((HERE / "wheel_patches").glob("*.patch"))]
+        text = b"".join(file.read_bytes() for file in files) + "\n".join(versions).encode()
         stamp = folder / f"{hashlib.sha256(text).hexdigest()[:16]}.stamp"
         if stamp.exists():
             return 0

@@ -181,6 +181,16 @@ def loaded_by(binary: bytes) -> list[str]:
     return re.findall(r"\(NEEDED\).*\[(\S+)\]", answer.stdout)
 
 
+def left_open(binary: bytes) -> list[str]:
+    """Functions that a binary needs and that neither a library of the system nor Python has."""
+    with tempfile.NamedTemporaryFile() as file:
+        file.write(binary)
+        file.flush()
+        answer = subprocess.run(["nm", "--dynamic", "--undefined-only", file.name], capture_output=True, text=True, check=True)
+    names = [line.split()[-1] for line in answer.stdout.splitlines() if " U " in line]
+    return [name for name in names if "@" not in name and not re.match(r"_?Py", name)]
+
+
 def faults(wheel: zipfile.ZipFile, libraries: dict) -> list[str]:
     """What is in a wheel that the list does not know, or what is missing from it."""
     names = wheel.namelist()
@@ -210,6 +220,7 @@ def faults(wheel: zipfile.ZipFile, libraries: dict) -> list[str]:
             continue
         found += [f"{name} loads {library}, which is not part of every system" for library in loaded_by(data)
                   if library not in libraries["system"]["libraries"]]
+        found += [f"{name} lacks {symbol}" for symbol in left_open(data)]
     return found
 
 
