@@ -15,6 +15,7 @@ void bind_points(nb::module_& module);
 void bind_judges(nb::module_& module);
 void bind_spheres(nb::module_& module);
 void bind_picture(nb::module_& module);
+void bind_areas(nb::module_& module);
 void bind_program(nb::module_& module);
 
 }  // namespace vantage::python

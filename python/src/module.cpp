@@ -14,5 +14,6 @@ NB_MODULE(_core, module) {
   bind_judges(module);
   bind_spheres(module);
   bind_picture(module);
+  bind_areas(module);
   bind_program(module);
 }
