@@ -1,6 +1,7 @@
 // All of the public API. Programs that use little of it compile faster with the headers that they need.
 #pragma once
 
+#include "vantage/areas.h"
 #include "vantage/atomic_file.h"
 #include "vantage/camera.h"
 #include "vantage/city.h"

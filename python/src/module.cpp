@@ -14,6 +14,10 @@ NB_MODULE(_core, module) {
   bind_judges(module);
   bind_spheres(module);
   bind_picture(module);
+<<<<<<< HEAD
   bind_outer(module);
+=======
+  bind_areas(module);
+>>>>>>> areas
   bind_program(module);
 }

@@ -16,6 +16,7 @@ import json as _json
 from typing import Any as _Any
 
 from . import _core
+from ._areas import Area, Face, areas
 from ._core import version as __version__
 from ._errors import CancelledError, Error, InputError, InternalError, OutputError
 from ._positions import Positions, fewest_positions
@@ -25,9 +26,16 @@ from ._scene import Georeference, Progress, Scene, SceneObject
 from ._volume import Cause, Note, Volume, intersect, unite
 
 __all__ = [
+<<<<<<< HEAD
     "Answers", "CancelledError", "Cause", "Error", "Georeference", "InputError", "InternalError", "Mission", "Navigation",
     "Note", "OutputError", "Positions", "Result", "Scene", "SceneObject", "Sensor", "Target", "Volume", "__version__", "cameras",
     "compute", "compute_many", "devices", "error_codes", "fewest_positions", "intersect", "unite", "visibility_sphere",
+=======
+    "Answers", "Area", "CancelledError", "Cause", "Error", "Face", "Georeference", "InputError", "InternalError",
+    "Mission", "Navigation", "Note", "OutputError", "Result", "Scene", "SceneObject", "Sensor", "Target", "Volume",
+    "__version__", "areas", "cameras", "compute", "compute_many", "devices", "error_codes", "intersect", "unite",
+    "visibility_sphere",
+>>>>>>> areas
 ]
 
 
