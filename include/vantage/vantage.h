@@ -11,6 +11,7 @@
 #include "vantage/export.h"
 #include "vantage/faces.h"
 #include "vantage/fraction.h"
+#include "vantage/fraction_field.h"
 #include "vantage/geometry.h"
 #include "vantage/georeference.h"
 #include "vantage/ground.h"
