@@ -27,6 +27,7 @@
 #include "vantage/prove.h"
 #include "vantage/query.h"
 #include "vantage/result.h"
+#include "vantage/sampled_field.h"
 #include "vantage/scene.h"
 #include "vantage/scene_source.h"
 #include "vantage/sensor.h"
