@@ -14,6 +14,7 @@ void bind_mission(nb::module_& module);
 void bind_points(nb::module_& module);
 void bind_judges(nb::module_& module);
 void bind_spheres(nb::module_& module);
+void bind_fields(nb::module_& module);
 void bind_picture(nb::module_& module);
 void bind_program(nb::module_& module);
 

@@ -13,6 +13,7 @@ NB_MODULE(_core, module) {
   bind_points(module);
   bind_judges(module);
   bind_spheres(module);
+  bind_fields(module);
   bind_picture(module);
   bind_program(module);
 }

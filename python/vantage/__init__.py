@@ -19,6 +19,7 @@ from . import _core
 from ._core import version as __version__
 from ._errors import CancelledError, Error, InputError, InternalError, OutputError
 from ._requests import Navigation, Sensor, Target, Vector
+from ._field import fraction_field
 from ._result import Answers, Mission, Result, compute, compute_many
 from ._scene import Georeference, Progress, Scene, SceneObject
 from ._volume import Cause, Note, Volume, intersect, unite
@@ -26,7 +27,7 @@ from ._volume import Cause, Note, Volume, intersect, unite
 __all__ = [
     "Answers", "CancelledError", "Cause", "Error", "Georeference", "InputError", "InternalError", "Mission", "Navigation",
     "Note", "OutputError", "Result", "Scene", "SceneObject", "Sensor", "Target", "Volume", "__version__", "cameras",
-    "compute", "compute_many", "devices", "error_codes", "intersect", "unite", "visibility_sphere",
+    "compute", "compute_many", "devices", "error_codes", "fraction_field", "intersect", "unite", "visibility_sphere",
 ]
 
 
