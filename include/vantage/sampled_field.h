@@ -46,7 +46,7 @@ inline constexpr double kDepthError = 1e-4;
 ///
 /// Throws Error(input) as PointQuery::known_shares, for options out of range, a device that was insisted on and is not
 /// there, and a point as a target; Error(cancelled). Uses the threads of the caller's arena. Cost: a depth image of six
-/// faces for each sample, and one look-up for each sample and open voxel. Memory: 16 bytes for each voxel.
+/// faces for each sample, and one look-up for each sample and open voxel. Memory: some 16 bytes for each voxel.
 VANTAGE_API SampledField estimate_fraction_field(const PreparedTarget& target, const VoxelGrid& grid,
                                                  const SampleOptions& options = {}, const Progress& progress = {});
 
