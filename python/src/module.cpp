@@ -13,11 +13,9 @@ NB_MODULE(_core, module) {
   bind_points(module);
   bind_judges(module);
   bind_spheres(module);
+  bind_fields(module);
   bind_picture(module);
-<<<<<<< HEAD
   bind_outer(module);
-=======
   bind_areas(module);
->>>>>>> areas
   bind_program(module);
 }

@@ -19,6 +19,7 @@ from . import _core
 from ._areas import Area, Face, areas
 from ._core import version as __version__
 from ._errors import CancelledError, Error, InputError, InternalError, OutputError
+from ._field import fraction_field
 from ._positions import Positions, fewest_positions
 from ._requests import Navigation, Sensor, Target, Vector
 from ._result import Answers, Mission, Result, compute, compute_many
@@ -26,16 +27,10 @@ from ._scene import Georeference, Progress, Scene, SceneObject
 from ._volume import Cause, Note, Volume, intersect, unite
 
 __all__ = [
-<<<<<<< HEAD
-    "Answers", "CancelledError", "Cause", "Error", "Georeference", "InputError", "InternalError", "Mission", "Navigation",
-    "Note", "OutputError", "Positions", "Result", "Scene", "SceneObject", "Sensor", "Target", "Volume", "__version__", "cameras",
-    "compute", "compute_many", "devices", "error_codes", "fewest_positions", "intersect", "unite", "visibility_sphere",
-=======
     "Answers", "Area", "CancelledError", "Cause", "Error", "Face", "Georeference", "InputError", "InternalError",
-    "Mission", "Navigation", "Note", "OutputError", "Result", "Scene", "SceneObject", "Sensor", "Target", "Volume",
-    "__version__", "areas", "cameras", "compute", "compute_many", "devices", "error_codes", "intersect", "unite",
-    "visibility_sphere",
->>>>>>> areas
+    "Mission", "Navigation", "Note", "OutputError", "Positions", "Result", "Scene", "SceneObject", "Sensor", "Target",
+    "Volume", "__version__", "areas", "cameras", "compute", "compute_many", "devices", "error_codes",
+    "fewest_positions", "fraction_field", "intersect", "unite", "visibility_sphere",
 ]
 
 
