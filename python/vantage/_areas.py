@@ -78,9 +78,10 @@ def areas(path: Path, tags: str | Iterable[str] = (), *, named: bool = False, ce
             no area has, and the nearest.
 
     Example:
-        parking = vt.areas("city.osm.pbf", "amenity=parking")
-        results = vt.compute_many(scene, [area.target() for area in parking], max_range=300)
-        geopandas.GeoDataFrame.from_features(parking, crs="EPSG:4326")
+        >>> parking = vt.areas("city.osm.pbf", "amenity=parking")  # doctest: +SKIP
+        >>> results = vt.compute_many(  # doctest: +SKIP
+        ...     scene, [area.target() for area in parking], max_range=300)
+        >>> geopandas.GeoDataFrame.from_features(parking, crs="EPSG:4326")  # doctest: +SKIP
     """
     wanted = [tags] if isinstance(tags, str) else list(tags)
     for tag in wanted:
