@@ -78,9 +78,13 @@ def fraction_field(scene: Scene, target: AnyTarget, box: Sequence[Vector] | npt.
         Error: a bad box or step, several targets, an option out of range, a device that is not there, a missing extra.
 
     Example:
-        field = vt.fraction_field(scene, target, box=((-100, -100, 0), (100, 100, 80)), step=2)
-        field.sel(x=10, y=20, z=30, method="nearest").item()
-        field.vantage.contour(0.8).save("eighty_percent.ply")
+        >>> import vantage as vt
+        >>> ground = vt.Scene.from_arrays([[-99, -99, 0], [99, -99, 0], [99, 99, 0], [-99, 99, 0]], [[0, 1, 2], [0, 2, 3]])
+        >>> square = [[0, 0, 0], [9, 0, 0], [9, 9, 0], [0, 9, 0]]
+        >>> field = vt.fraction_field(ground, square, box=((-20, -20, -10), (20, 20, 10)), step=5)
+        >>> field.sel(x=10, y=10, z=5, method="nearest").item()
+        1.0
+        >>> half = field.vantage.contour(0.5)  # a vt.Volume
     """
     from . import fields
 
