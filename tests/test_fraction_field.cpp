@@ -189,7 +189,8 @@ TEST(FractionField, TellsItsProgress) {
     PointQuery(target).fraction_field({{-40, -40, 0}, 2, {40, 40, 20}}, {}, progress);
   });
   EXPECT_EQ(story.last_fraction.at("dividing space"), 1);
-  EXPECT_EQ(story.last_fraction.at("looking from voxels"), 1);
+  const char* const stage = "looking from voxels";
+  EXPECT_EQ(story.last_fraction.at(stage), 1);
 }
 
 TEST(FractionField, RefusesBadGrids) {
