@@ -89,15 +89,11 @@ lint: tools  ## formatting, and clang-tidy over the library and the program (ALL
 	  JOBS=$(JOBS) scripts/lint.sh $(if $(ALL),,--library) || status=1; exit $$status
 
 .PHONY: python
-python:  ## build the Python package in build/python, and run its tests
-	@scripts/install_packages.sh --python
-	@scripts/fetch_sources.sh
-	@scripts/fetch_python.sh
-	@$(call compile,release,vantage_python vantage_cli,-DVANTAGE_BUILD_PYTHON=ON -DPython_EXECUTABLE=$(CURDIR)/.deps/python/bin/python)
+python: package  ## build the Python package in build/python, and run its tests
 	PYTHONPATH=build/python .deps/python/bin/python -m pytest -q python/tests
 
 .PHONY: site
-site: python  ## the documentation as a site, in build/site; its tutorials are run
+site: package  ## the documentation as a site, in build/site; its tutorials are run
 	PYTHONPATH=$(CURDIR)/build/python .deps/python/bin/python -m sphinx -q -W --keep-going -c docs/site docs build/site
 	@echo "site: $$(find build/site -name '*.html' | wc -l) pages, build/site/index.html"
 
@@ -125,6 +121,13 @@ tested:
 .PHONY: benchmarks
 benchmarks: tools
 	@$(call compile,release,vantage_benchmarks)
+
+.PHONY: package
+package:
+	@scripts/install_packages.sh --python
+	@scripts/fetch_sources.sh
+	@scripts/fetch_python.sh
+	@$(call compile,release,vantage_python vantage_cli,-DVANTAGE_BUILD_PYTHON=ON -DPython_EXECUTABLE=$(CURDIR)/.deps/python/bin/python)
 
 .PHONY: prepare
 prepare:

@@ -44,7 +44,10 @@ std::vector<Vec3> places_about(const Volume& volume, Random& random, int count) 
     places.push_back(random.in_box(box));
     const Triangle& t = volume.mesh.triangles[static_cast<std::size_t>(random.integer(0, last))];
     double a = random.uniform(0, 1), b = random.uniform(0, 1);
-    if (a + b > 1) a = 1 - a, b = 1 - b;
+    if (a + b > 1) {
+      a = 1 - a;
+      b = 1 - b;
+    }
     const auto& v = volume.mesh.vertices;
     const Vec3 at = v[t[0]] + a * (v[t[1]] - v[t[0]]) + b * (v[t[2]] - v[t[0]]);
     const double off = std::pow(10.0, random.uniform(-9, -2)) * (random.chance(0.5) ? 1 : -1);

@@ -56,8 +56,8 @@ class VANTAGE_API FaceFinder {
   FaceFinder& operator=(FaceFinder&&) noexcept;
 
   /// The faces of these objects (indices into Scene::objects), in the order of the objects and of their triangles.
-  /// Throws Error(input) for an index out of range. Cost: in proportion to the objects' triangles and to what is near
-  /// them.
+  /// Throws Error(input) for an index out of range. Uses the threads of the caller's arena. Cost: in proportion to the
+  /// objects' triangles and to what is near them.
   std::vector<Face> faces(std::span<const std::uint32_t> objects, FaceKind kind) const;
 
   /// The one that is nearest to a point (the first one of several); nothing where there is no face of that kind.

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "vantage/areas.h"
 #include "vantage/camera.h"
 #include "vantage/compare.h"
 #include "vantage/devices.h"
@@ -48,5 +49,9 @@ VANTAGE_API std::string json_text(const RenderDevices& found, const ChosenDevice
 /// Each camera with its field of view and its focal length in pixels. What is not known is null, and so is `problem`
 /// of a camera that can be used.
 VANTAGE_API std::string json_text(const std::vector<ListedCamera>& cameras);
+
+/// GeoJSON (RFC 7946): a feature for each area, with the properties "osm", "name", "area_m2", "center" (latitude,
+/// longitude) and "tags".
+VANTAGE_API std::string json_text(const std::vector<MapArea>& areas);
 
 }  // namespace vantage

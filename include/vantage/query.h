@@ -1,6 +1,7 @@
 // Point queries against the exact visibility of a target, without a mesh.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -9,7 +10,9 @@
 #include "vantage/constraints.h"
 #include "vantage/export.h"
 #include "vantage/fraction.h"
+#include "vantage/fraction_field.h"
 #include "vantage/prepared_target.h"
+#include "vantage/progress.h"
 
 namespace vantage {
 
@@ -83,6 +86,24 @@ class VANTAGE_API PointQuery {
   /// some of the target from it, and to the pieces that these leave: in a city some ten microseconds, some milliseconds
   /// where it looks through many gaps.
   std::vector<PointFraction> fractions(std::span<const Vec3> points, const FractionOptions& options = {});
+
+  /// What is known of each voxel without looking from it, in the order of VoxelGrid. It holds for every point of the
+  /// voxel; with `max_range_m`, beyond which nothing counts as seen, as FieldOptions says, for its centre alone. Boxes
+  /// of voxels are divided until nothing is in the way from any of their points, all of the target is hidden from all
+  /// of them, or they are single voxels (docs/theory.md, "How much is seen from a box"). Equal shares at the corners of
+  /// a box are no reason not to divide it: so no region is missed, however small.
+  ///
+  /// Agrees with fractions(), but for what rounding does to the borders of shadows. Threads as answer(). Cost: O(n) in
+  /// the polygons within reach for each 32^3 voxels, and for each box that is divided in proportion to what may hide
+  /// the target from it. Throws Error(input) as check_grid, for a range that is not positive, and with a link;
+  /// Error(cancelled).
+  std::vector<KnownShare> known_shares(const VoxelGrid& grid,
+                                       double max_range_m = std::numeric_limits<double>::infinity(),
+                                       const Progress& progress = {});
+
+  /// The share of the target that is seen from the centre of each voxel: fractions(), where known_shares() leaves it
+  /// open. Errors and threads as known_shares(). Memory: 9 bytes for each voxel.
+  FractionField fraction_field(const VoxelGrid& grid, const FieldOptions& options = {}, const Progress& progress = {});
 
  private:
   struct Data;

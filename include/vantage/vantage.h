@@ -1,6 +1,7 @@
 // All of the public API. Programs that use little of it compile faster with the headers that they need.
 #pragma once
 
+#include "vantage/areas.h"
 #include "vantage/atomic_file.h"
 #include "vantage/camera.h"
 #include "vantage/city.h"
@@ -11,6 +12,7 @@
 #include "vantage/export.h"
 #include "vantage/faces.h"
 #include "vantage/fraction.h"
+#include "vantage/fraction_field.h"
 #include "vantage/geometry.h"
 #include "vantage/georeference.h"
 #include "vantage/ground.h"
@@ -28,6 +30,7 @@
 #include "vantage/query.h"
 #include "vantage/resources.h"
 #include "vantage/result.h"
+#include "vantage/sampled_field.h"
 #include "vantage/scene.h"
 #include "vantage/scene_source.h"
 #include "vantage/sensor.h"

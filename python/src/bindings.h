@@ -14,8 +14,10 @@ void bind_mission(nb::module_& module);
 void bind_points(nb::module_& module);
 void bind_judges(nb::module_& module);
 void bind_spheres(nb::module_& module);
+void bind_fields(nb::module_& module);
 void bind_picture(nb::module_& module);
 void bind_outer(nb::module_& module);
+void bind_areas(nb::module_& module);
 void bind_program(nb::module_& module);
 
 }  // namespace vantage::python

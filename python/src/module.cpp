@@ -17,7 +17,9 @@ NB_MODULE(_core, module) {
   bind_points(module);
   bind_judges(module);
   bind_spheres(module);
+  bind_fields(module);
   bind_picture(module);
   bind_outer(module);
+  bind_areas(module);
   bind_program(module);
 }

@@ -17,8 +17,10 @@ import pathlib as _pathlib
 from typing import Any as _Any
 
 from . import _core
+from ._areas import Area, Face, areas
 from ._core import version as __version__
 from ._errors import CancelledError, Error, InputError, InternalError, OutputError
+from ._field import fraction_field
 from ._positions import Positions, fewest_positions
 from ._requests import Navigation, Sensor, Target, Vector
 from ._result import Answers, Mission, Result, compute, compute_many
@@ -26,9 +28,10 @@ from ._scene import Georeference, Progress, Scene, SceneObject
 from ._volume import Cause, Note, Volume, intersect, unite
 
 __all__ = [
-    "Answers", "CancelledError", "Cause", "Error", "Georeference", "InputError", "InternalError", "Mission", "Navigation",
-    "Note", "OutputError", "Positions", "Result", "Scene", "SceneObject", "Sensor", "Target", "Volume", "__version__", "cameras",
-    "compute", "compute_many", "devices", "error_codes", "fewest_positions", "intersect", "unite", "visibility_sphere",
+    "Answers", "Area", "CancelledError", "Cause", "Error", "Face", "Georeference", "InputError", "InternalError",
+    "Mission", "Navigation", "Note", "OutputError", "Positions", "Result", "Scene", "SceneObject", "Sensor", "Target",
+    "Volume", "__version__", "areas", "cameras", "compute", "compute_many", "devices", "error_codes",
+    "fewest_positions", "fraction_field", "intersect", "unite", "visibility_sphere",
 ]
 
 if (_share := _pathlib.Path(__file__).parent / "share").is_dir():  # a wheel brings PROJ's database and fonts along

@@ -19,6 +19,8 @@ from ._text import NAME, Text
 if TYPE_CHECKING:
     import trimesh
 
+    from ._areas import Face
+
 Progress = Optional[Callable[[str, float], Any]]
 """Called with the stage and the part of it that is done; False stops the work."""
 
@@ -247,6 +249,30 @@ class Scene:
     def target(self, **keys: Any) -> Target:
         """A `Target` of these keys: scene.target(osm="way/265517"), scene.target(vertices=...)."""
         return Target(**keys)
+
+    def find_faces(self, kind: str = "roof", *, min_area_m2: float = 1.0,
+                   objects: Iterable[str | int] | None = None, progress: Progress = None) -> list[Face]:
+        """Roofs or facades of objects, each of which can be a target: every roof of more than 200 m2.
+
+        Args:
+            kind: "roof" (faces upward by more than 15 degrees out of the vertical) or "facade" (a wall).
+            min_area_m2: none smaller is listed. What is not more than 1 m2 is never.
+            objects: names, ids or numbers of objects. Default: buildings, their parts, and objects of no known kind.
+            progress: called with stage and fraction; False stops.
+
+        Returns:
+            the faces in the order of the objects; each has `area_m2`, `normal`, `parts` and `target()`.
+
+        Raises:
+            Error: the scene has no such object, or there is no such kind.
+
+        Example:
+            roofs = scene.find_faces("roof", min_area_m2=200)
+            results = vt.compute_many(scene, [roof.target() for roof in roofs], max_range=300)
+        """
+        from ._areas import find_faces
+
+        return find_faces(self, kind, min_area_m2=min_area_m2, objects=objects, progress=progress)
 
     # ---- elsewhere
 

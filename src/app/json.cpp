@@ -151,6 +151,37 @@ Json json_of(const ProofReport& report) {
   return json;
 }
 
+/// Closed, as GeoJSON has it.
+Json ring_json(const AreaPolygon::Ring& ring) {
+  Json json = ring;
+  if (!ring.empty()) json.push_back(ring.front());
+  return json;
+}
+
+Json polygon_json(const AreaPolygon& polygon) {
+  Json json = Json::array({ring_json(polygon.outer)});
+  for (const AreaPolygon::Ring& hole : polygon.holes) json.push_back(ring_json(hole));
+  return json;
+}
+
+Json feature_json(const MapArea& area) {
+  Json polygons = Json::array();
+  for (const AreaPolygon& polygon : area.polygons) polygons.push_back(polygon_json(polygon));
+  const bool is_one = polygons.size() == 1;
+  Json tags = Json::object();
+  for (const auto& [key, value] : area.tags) tags[key] = value;
+  return {
+      {"type", "Feature"},
+      {"id", area.source_id},
+      {"properties",
+       {{"osm", area.source_id},
+        {"name", area.name},
+        {"area_m2", area.area_m2},
+        {"center", area.center_deg},
+        {"tags", std::move(tags)}}},
+      {"geometry", {{"type", is_one ? "Polygon" : "MultiPolygon"}, {"coordinates", is_one ? polygons[0] : polygons}}}};
+}
+
 }  // namespace
 
 std::string json_text(std::string_view text) { return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace); }
@@ -305,6 +336,15 @@ std::string json_text(const std::vector<ListedCamera>& cameras) {
   json["cameras"] = Json::array();
   for (const ListedCamera& camera : cameras) json["cameras"].push_back(camera_json(camera));
   return dumped(json, 2);
+}
+
+std::string json_text(const std::vector<MapArea>& areas) {
+  std::string text = "{\"type\": \"FeatureCollection\", \"features\": [";
+  for (std::size_t i = 0; i < areas.size(); ++i) {
+    const std::string feature = dumped(feature_json(areas[i]), -1);
+    text.append(i == 0 ? "\n" : ",\n").append(feature, 0, feature.size() - 1);
+  }
+  return text + "\n]}\n";
 }
 
 }  // namespace vantage

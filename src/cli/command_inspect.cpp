@@ -6,6 +6,8 @@
 #include "cli/scene_options.h"
 #include "cli/scene_report.h"
 #include "cli/text_table.h"
+#include "vantage/areas.h"
+#include "vantage/error.h"
 #include "vantage/json.h"
 #include "vantage/scene.h"
 
@@ -20,12 +22,15 @@ constexpr const char* kInspectExamples =
     "  vantage inspect delft.city.json --lod 2.2     # CityJSON: its coordinate system is known\n"
     "  vantage inspect map.obj --crs EPSG:28992      # a file whose x and y are map coordinates\n"
     "  vantage inspect city.osm.pbf                  # what a scene of it would hold, and what became of each object\n"
+    "  vantage inspect city.osm.pbf --areas amenity=parking --areas access=customers\n"
+    "  vantage inspect city.osm.pbf --areas leisure=* --json > areas.geojson\n"
     "  vantage inspect dsm.tif                       # heights and their place\n";
 
 struct InspectArguments {
   CommonOptions common;
   SceneOptions scene;
-  bool json = false;
+  std::vector<std::string> areas;
+  bool named = false, json = false;
 };
 
 void add_place(TextTable& table, const Georeference& place) {
@@ -67,8 +72,34 @@ std::string table_text(const LoadedScene& loaded, const SceneStatistics& found) 
   return table.text();
 }
 
+std::string areas_table(const std::vector<MapArea>& areas) {
+  std::string text = "osm                       m2  name\n";
+  for (const MapArea& area : areas) {
+    const std::string size = fixed(area.area_m2, 0);
+    text += area.source_id + std::string(area.source_id.size() < 18 ? 18 - area.source_id.size() : 0, ' ');
+    text += std::string(size.size() < 10 ? 10 - size.size() : 0, ' ') + size + "  " + area.name + "\n";
+  }
+  return text;
+}
+
+int list_areas(const InspectArguments& options, const SceneSource& source) {
+  const char* const option = options.areas.empty() ? "--named" : "--areas";
+  if (source.kind != SceneSource::Kind::map) {
+    throw Error(ErrorCode::not_applicable,
+                std::string(option) + " is for maps, and " + options.scene.input + " is none",
+                std::string("command line, ") + option, "leave it out, or give an OpenStreetMap file");
+  }
+  AreaFilter filter{{}, options.named, source.city.region};
+  for (const std::string& tag : options.areas) filter.tags.push_back(area_tag(tag, "command line, --areas"));
+  ProgressLine progress(options.common);
+  const std::vector<MapArea> areas = read_areas(source.file, filter, progress.callback());
+  print(options.json ? json_text(areas) : areas_table(areas));
+  return kSuccess;
+}
+
 int run_inspect(const InspectArguments& options) {
   const SceneSource source = scene_source(options.scene, "the scene file");
+  if (!options.areas.empty() || options.named) return list_areas(options, source);
   ProgressLine progress(options.common);
   const LoadedScene loaded = load_scene(source, progress.callback());
   const PreparedScene prepared(loaded.scene, progress.callback());
@@ -89,7 +120,14 @@ void add_inspect(CLI::App& app, Command& chosen) {
       ->required()
       ->option_text("FILE");
   add_scene_options(*command, options->scene);
-  command->add_flag("--json", options->json, "Print JSON instead of a table");
+  command
+      ->add_option("--areas", options->areas,
+                   "List the areas of a map that have this tag, such as amenity=parking or leisure=*, and no scene; "
+                   "several: all of them")
+      ->allow_extra_args(false)
+      ->option_text("KEY=VALUE");
+  command->add_flag("--named", options->named, "List only areas with a name");
+  command->add_flag("--json", options->json, "Print JSON instead of a table; of areas GeoJSON");
   finish<InspectArguments>(*command, options, kInspectExamples, chosen, run_inspect);
 }
 

@@ -194,7 +194,7 @@ class Certainty {
   double before_reach_, behind_reach_, unsure_;
 };
 
-constexpr double kRoundings = 32;
+constexpr double kShadowRoundings = 32;
 
 /// A polygon's plane with more digits, and how far its corners are from that.
 struct FinePlane {
@@ -235,7 +235,7 @@ std::optional<Hit> fine_hit(const Vec3& position, const Hit& hit, const FlatPoly
 bool hides(const FlatPolygon& polygon, const ShadowTarget& target, const std::array<Hit, 3>& hits, double farthest_m,
            double largest) {
   constexpr double kUnitRounding = 1.2e-16;
-  const Certainty sure(polygon, target, farthest_m, polygon.slack_m + kRoundings * kUnitRounding * largest);
+  const Certainty sure(polygon, target, farthest_m, polygon.slack_m + kShadowRoundings * kUnitRounding * largest);
   // What a flat polygon hides is convex: each position by itself.
   if (polygon.is_exactly_flat) {
     return std::all_of(hits.begin(), hits.end(), [&](const Hit& hit) { return sure.passes(hit); });
@@ -256,7 +256,7 @@ bool hides_finely(const FlatPolygon& polygon, const ShadowTarget& target, const 
   if (!polygon.is_exactly_flat) return false;
   const FinePlane plane(polygon.fine_corners);
   const Certainty sure(polygon, target, farthest_m,
-                       polygon.outline_slack_m + plane.off_m + kRoundings * kFineUnitRounding * largest);
+                       polygon.outline_slack_m + plane.off_m + kShadowRoundings * kFineUnitRounding * largest);
   for (std::size_t k = 0; k < 3; ++k) {
     const std::optional<Hit> hit = fine_hit(positions[k], hits[k], polygon, plane);
     if (!hit || !sure.passes(*hit)) return false;

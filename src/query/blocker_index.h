@@ -41,6 +41,7 @@ class BlockerIndex {
   BlockerIndex(const BlockerIndex&) = delete;
   BlockerIndex& operator=(const BlockerIndex&) = delete;
 
+  std::size_t blocker_count() const { return blockers_.size(); }
   const Blocker& blocker(std::uint32_t index) const { return blockers_[index]; }
   const exact::Plane& plane(std::uint32_t index) const { return planes_[index]; }
   std::span<const exact::Plane> planes_of(const Blocker& blocker) const {

@@ -175,12 +175,15 @@ std::optional<FractionMeasure> fraction_measure(std::string_view name) {
   return std::nullopt;
 }
 
+void internal::query::check_has_share(const PreparedTarget& target) {
+  if (!target.sensor().link) return;
+  throw Error(ErrorCode::not_applicable, "the zone of a radio link is clear or not: no share of it is seen",
+              "sensor.link", "leave out the link, or ask without a fraction");
+}
+
 std::vector<PointFraction> PointQuery::fractions(std::span<const Vec3> points, const FractionOptions& options) {
   internal::query::check_finite(points);
-  if (data_->target.sensor().link) {
-    throw Error(ErrorCode::not_applicable, "the zone of a radio link is clear or not: no share of it is seen",
-                "sensor.link", "leave out the link, or ask without a fraction");
-  }
+  internal::query::check_has_share(data_->target);
   const bool is_point = data_->target.target().is_point();
   std::vector<Sum> sums(points.size());
   std::vector<PointFraction> result(points.size());

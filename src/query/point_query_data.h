@@ -15,4 +15,10 @@ struct PointQuery::Data {
   std::vector<internal::query::Sides> parts;
 };
 
+namespace internal::query {
+
+/// Throws Error(input) for a target at the end of a radio link: it is reached or not.
+void check_has_share(const PreparedTarget& target);
+
+}  // namespace internal::query
 }  // namespace vantage

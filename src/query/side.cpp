@@ -80,15 +80,30 @@ Box Side::box_within(double metres) const {
   return box;
 }
 
+void Side::find_leaves(Reach& reach) const {
+  if (!reach.leaves.empty()) return;
+  reach.leaves = leaves_in(scene, box_within(reach.metres));
+  for (const std::uint32_t leaf : reach.leaves) reach.polygons += scene.bvh.nodes[leaf].count;
+}
+
+void Side::make_index(Reach& reach) const {
+  reach.index = std::make_unique<BlockerIndex>(scene, frame, target, reach.leaves, reach.metres);
+}
+
 void Side::consider_index(Reach& reach) const {
   constexpr std::size_t kLittle = 1000;  // blockers, about a millisecond
   if (reach.index || reach.work < kLittle) return;
-  if (reach.leaves.empty()) {
-    reach.leaves = leaves_in(scene, box_within(reach.metres));
-    for (const std::uint32_t leaf : reach.leaves) reach.polygons += scene.bvh.nodes[leaf].count;
+  find_leaves(reach);
+  if (reach.work >= reach.polygons) make_index(reach);
+}
+
+const BlockerIndex& Side::index_for(double farthest) {
+  Reach& reach = reach_for(farthest);
+  if (!reach.index) {
+    find_leaves(reach);
+    make_index(reach);
   }
-  if (reach.work < reach.polygons) return;
-  reach.index = std::make_unique<BlockerIndex>(scene, frame, target, reach.leaves, reach.metres);
+  return *reach.index;
 }
 
 void Side::consider_indexes() {

@@ -67,8 +67,14 @@ struct Side {
   /// few points waits for them, and no one pays much more than the cheaper of the two. Not while points are answered.
   void consider_indexes();
 
+  /// The index of what may block from points up to `farthest` metres, made now if it is not there. Not while points are
+  /// answered.
+  const BlockerIndex& index_for(double farthest);
+
  private:
   Box box_within(double metres) const;
+  void find_leaves(Reach& reach) const;
+  void make_index(Reach& reach) const;
   void consider_index(Reach& reach) const;
 };
 

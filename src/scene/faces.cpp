@@ -11,6 +11,7 @@
 
 #include "core/bvh.h"
 #include "core/edges.h"
+#include "core/parallel.h"
 #include "core/walk_bvh.h"
 #include "core/weld.h"
 #include "scene/convex_polygons.h"
@@ -93,9 +94,20 @@ Neighbours neighbours_of(const ObjectMesh& object, const std::vector<Vec3>& vert
   Neighbours neighbours(object.triangles.size());
   std::vector<Edge> edges;
   std::vector<std::vector<std::uint32_t>> triangles;  // of each edge
-  const auto uses = internal::core::edge_uses(object.triangles, vertices.size());
+  // Of the object's own vertices, in their order: the scene may have a thousand times as many.
+  std::vector<std::uint32_t> own;
+  for (const Triangle& t : object.triangles) own.insert(own.end(), t.begin(), t.end());
+  std::sort(own.begin(), own.end());
+  own.erase(std::unique(own.begin(), own.end()), own.end());
+  std::vector<Triangle> renumbered = object.triangles;
+  for (Triangle& t : renumbered) {
+    for (std::uint32_t& vertex : t) {
+      vertex = static_cast<std::uint32_t>(std::lower_bound(own.begin(), own.end(), vertex) - own.begin());
+    }
+  }
+  const auto uses = internal::core::edge_uses(renumbered, own.size());
   internal::core::for_each_edge(std::span(uses), [&](std::span<const internal::core::EdgeUse> edge) {
-    edges.push_back({vertices[edge[0].low], vertices[edge[0].high]});
+    edges.push_back({vertices[own[edge[0].low]], vertices[own[edge[0].high]]});
     triangles.emplace_back();
     for (const auto& a : edge) {
       triangles.back().push_back(a.triangle);
@@ -375,14 +387,18 @@ double distance_to(const Face& face, const Vec3& point) {
 
 std::vector<Face> FaceFinder::faces(std::span<const std::uint32_t> objects, FaceKind kind) const {
   check_objects(data_->scene, objects);
-  std::vector<Face> result;
-  for (const std::uint32_t object : objects) {
-    const ObjectMesh mesh = data_->mesh_of(object);
-    for (const Group& group : groups_of(mesh, data_->scene.mesh.vertices, 1e3 * data_->slack())) {
-      std::vector<Face> faces = data_->faces_of(mesh, object, group, kind);
-      std::move(faces.begin(), faces.end(), std::back_inserter(result));
+  std::vector<std::vector<Face>> found(objects.size());
+  internal::parallel::for_ranges(objects.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const ObjectMesh mesh = data_->mesh_of(objects[i]);
+      for (const Group& group : groups_of(mesh, data_->scene.mesh.vertices, 1e3 * data_->slack())) {
+        std::vector<Face> faces = data_->faces_of(mesh, objects[i], group, kind);
+        std::move(faces.begin(), faces.end(), std::back_inserter(found[i]));
+      }
     }
-  }
+  });
+  std::vector<Face> result;
+  for (std::vector<Face>& faces : found) std::move(faces.begin(), faces.end(), std::back_inserter(result));
   return result;
 }
 

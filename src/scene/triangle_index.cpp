@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "core/walk_bvh.h"
 
@@ -18,6 +19,13 @@ const std::array<Vec3, 7>& ray_directions() {
       Vec3(0.0123, 0.0345, 1),  Vec3(0.1347, -0.0791, 1),  Vec3(-0.0913, 0.1171, 1), Vec3(1, 0.2371, 0.0611),
       Vec3(-0.2713, 1, 0.0817), Vec3(-1, -0.3119, 0.0713), Vec3(0.3307, -1, 0.0917)};
   return kDirections;
+}
+
+bool overlap(const core::Bounds& a, const core::Bounds& b) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (a.min[axis] > b.max[axis] || a.max[axis] < b.min[axis]) return false;
+  }
+  return true;
 }
 
 /// Whether a ray, from its origin on, meets a box.
@@ -53,13 +61,19 @@ bool meets_ray(const TriangleCorners& c, const Vec3& from, const Vec3& direction
 }  // namespace
 
 TriangleIndex::TriangleIndex(const Scene& scene) : scene_(scene) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  const core::Bounds nothing{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
+  objects_.assign(std::max<std::size_t>(1, scene.objects.size()), nothing);
   std::vector<core::Bounds> bounds(scene.mesh.triangles.size());
   for (std::uint32_t i = 0; i < bounds.size(); ++i) {
+    core::Bounds& object = objects_[object_of(i)];
     Box box;
     for (const Vec3& corner : corners(i)) box.extend(corner);
     for (int a = 0; a < 3; ++a) {
       bounds[i].min[a] = std::nextafterf(static_cast<float>(box.min[a]), -INFINITY);
       bounds[i].max[a] = std::nextafterf(static_cast<float>(box.max[a]), INFINITY);
+      object.min[a] = std::min(object.min[a], bounds[i].min[a]);
+      object.max[a] = std::max(object.max[a], bounds[i].max[a]);
     }
   }
   bvh_ = core::build_bvh(bounds, order_);
@@ -85,7 +99,10 @@ void TriangleIndex::near(const Box& box, const std::function<void(std::uint32_t)
 int TriangleIndex::crossings(const Vec3& from, const Vec3& direction, std::uint32_t object) const {
   int count = 0;
   core::walk_bvh(
-      bvh_, [&](const core::BvhNode& node) { return meets_ray(node.bounds, from, direction); },
+      bvh_,
+      [&](const core::BvhNode& node) {
+        return overlap(node.bounds, objects_[object]) && meets_ray(node.bounds, from, direction);
+      },
       [&](std::uint32_t item) {
         const std::uint32_t triangle = order_[item];
         if (object_of(triangle) == object) count += meets_ray(corners(triangle), from, direction);

@@ -40,6 +40,7 @@ class TriangleIndex {
   const Scene& scene_;
   std::vector<std::uint32_t> order_;  // of the triangles in the hierarchy's leaves
   core::Bvh bvh_;
+  std::vector<core::Bounds> objects_;  // of each one's triangles
 };
 
 }  // namespace vantage::internal::scene

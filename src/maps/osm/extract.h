@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -102,11 +103,13 @@ struct Region {
   std::optional<std::array<double, 4>> box_deg;     ///< west, south, east, north; west > east: over the date line
 };
 
+/// Asked for every tagged node, way and multipolygon: whether its tags are of interest as a point, a line or an area.
+/// What is not is not read any further.
+using Wanted = std::function<bool(const Tags& tags)>;
+
 struct ReadOptions {
   std::optional<Region> region;  ///< nothing: all of the file
-  /// Asked for every tagged node, way and multipolygon: whether its tags are of interest as a point, a line or an area.
-  /// What is not is not read any further. Nothing: all that is tagged.
-  bool (*wanted)(const Tags& tags) = nullptr;
+  Wanted wanted;                 ///< nothing: all that is tagged
 };
 
 struct Extract {

@@ -47,7 +47,7 @@ std::vector<Kept> current_of(std::vector<Kept> kept, const Table& versions) {
 
 class Loader {
  public:
-  Loader(const MapFile& file, bool (*wanted)(const Tags&), const core::ProgressReporter& progress)
+  Loader(const MapFile& file, const Wanted& wanted, const core::ProgressReporter& progress)
       : file_(file), wanted_(wanted), progress_(progress) {}
 
   MapObjects load() {
@@ -202,7 +202,7 @@ class Loader {
   }
 
   const MapFile& file_;
-  bool (*wanted_)(const Tags&);
+  const Wanted& wanted_;
   const core::ProgressReporter& progress_;
   MapObjects objects_;
   Versions<NodeEntry> nodes_;
@@ -244,7 +244,7 @@ RelationKind kind_of(const Tags& tags) {
   return type == "building" ? RelationKind::building : RelationKind::other;
 }
 
-MapObjects load_objects(const MapFile& file, bool (*wanted)(const Tags&), const core::ProgressReporter& progress) {
+MapObjects load_objects(const MapFile& file, const Wanted& wanted, const core::ProgressReporter& progress) {
   return Loader(file, wanted, progress).load();
 }
 

@@ -48,6 +48,6 @@ RelationKind kind_of(const Tags& tags);
 
 /// Reads the file twice: its relations, so that the ways are known that they are made of, then all else. What is not
 /// wanted is not kept, but for the positions of nodes (24 bytes each) and the ids of ways. Throws as read_objects.
-MapObjects load_objects(const MapFile& file, bool (*wanted)(const Tags&), const core::ProgressReporter& progress);
+MapObjects load_objects(const MapFile& file, const Wanted& wanted, const core::ProgressReporter& progress);
 
 }  // namespace vantage::internal::osm

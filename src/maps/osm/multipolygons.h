@@ -18,7 +18,7 @@ namespace vantage::internal::osm {
 /// Builds the areas of multipolygons, and knows which of their ways say nothing of their own.
 class Multipolygons {
  public:
-  Multipolygons(const MapObjects& objects, bool (*wanted)(const Tags&), Selection& selection, Extract& extract)
+  Multipolygons(const MapObjects& objects, const Wanted& wanted, Selection& selection, Extract& extract)
       : objects_(objects), wanted_(wanted), selection_(selection), extract_(extract) {}
 
   /// Adds an area, a building relation or a problem to the extract, or nothing when it is not wanted.
@@ -47,7 +47,7 @@ class Multipolygons {
               const std::vector<MemberWay>& members);
 
   const MapObjects& objects_;
-  bool (*wanted_)(const Tags&);
+  const Wanted& wanted_;
   Selection& selection_;
   Extract& extract_;
   std::unordered_map<std::int64_t, Absorbed> absorbed_;
