@@ -37,6 +37,11 @@ def entries(libraries: dict) -> list[dict]:
     return [entry for kind in ("built", "installed", "fetched") for entry in libraries.get(kind, [])]
 
 
+def is_copyleft(licence: str) -> bool:
+    """Whether it allows no use but under the GPL, the LGPL or the AGPL."""
+    return "GPL" in re.sub(r"\(chosen; or [^)]*\)", "", licence)
+
+
 # ---- collect
 
 def linked_archives(map_file: pathlib.Path) -> set[str]:
@@ -137,11 +142,13 @@ def collect(build: pathlib.Path, map_file: pathlib.Path, prefix: pathlib.Path, d
     if strange or strange_headers:
         raise Failure("the wheel would contain what scripts/wheel_libraries.toml does not list: "
                       + ", ".join(strange + strange_headers[:10]))
+    contained = [entry for entry in entries(libraries) if entry["name"] in by_archive | by_header or "files" in entry]
+    copyleft = [f"{entry['name']} ({entry['licence']})" for entry in contained if is_copyleft(entry["licence"])]
+    if copyleft:
+        raise Failure(f"the wheel would contain what is under no licence but GPL or LGPL: {', '.join(copyleft)}")
     out.mkdir(parents=True, exist_ok=True)
     rows = []
-    for entry in entries(libraries):
-        if entry["name"] not in by_archive | by_header and "files" not in entry:
-            continue
+    for entry in contained:
         name = entry["name"].replace("/", "-")
         if "headers" in entry and "texts" in entry:
             texts = [pathlib.Path(text.format(**places)) for text in entry["texts"]]
@@ -206,6 +213,8 @@ def faults(wheel: zipfile.ZipFile, libraries: dict) -> list[str]:
         name, licence, text, _ = line.split(" | ")
         if known.get(name) != licence:
             found.append(f"{name} ({licence}) is not in scripts/wheel_libraries.toml")
+        if is_copyleft(licence):
+            found.append(f"{name} is under {licence} alone")
         if folder + text not in names or not wheel.read(folder + text).strip():
             found.append(f"the licence of {name} is missing")
     for required in ("LICENSE", "THIRD-PARTY-NOTICES.txt"):

@@ -279,6 +279,8 @@ class Scripts(unittest.TestCase):
                           {third_party + "LIBRARIES.txt": "jbigkit | GPL-2 | zlib.txt | Debian\n"})
         self.expect_wheel(1, "zlib (GPL-3) is not in scripts/wheel_libraries.toml",
                           {third_party + "LIBRARIES.txt": "zlib | GPL-3 | zlib.txt | Debian\n"})
+        self.expect_wheel(1, "zlib is under LGPL-2.1 alone",
+                          {third_party + "LIBRARIES.txt": "zlib | LGPL-2.1 | zlib.txt | Debian\n"})
         self.expect_wheel(1, "the licence of zlib is missing", {third_party + "zlib.txt": None})
         self.expect_wheel(1, "it has no LIBRARIES.txt", {third_party + "LIBRARIES.txt": None})
         self.expect_wheel(1, "THIRD-PARTY-NOTICES.txt is missing", {self.LICENCES + "THIRD-PARTY-NOTICES.txt": None})
@@ -297,6 +299,15 @@ class Scripts(unittest.TestCase):
         module = importlib.util.module_from_spec(spec)
         spec.loader.exec_module(module)
         return module
+
+    def test_wheel_has_nothing_under_the_gpl_alone(self):
+        module = self.licences()
+        for licence in ("GPL-2", "LGPL-2.1", "AGPL-3", "MIT; parts LGPL-2.1", "GPL-3 with an exception"):
+            self.assertTrue(module.is_copyleft(licence), licence)
+        for licence in ("MIT", "MPL-1.1 (chosen; or LGPL-2.1)", "FTL (chosen; or GPL-2)"):
+            self.assertFalse(module.is_copyleft(licence), licence)
+        for entry in module.entries(module.read_list()):
+            self.assertFalse(module.is_copyleft(entry["licence"]), entry)
 
     def test_wheel_names_what_was_linked_and_compiled(self):
         module = self.licences()
