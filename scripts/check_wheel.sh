@@ -2,6 +2,7 @@
 # Tries a wheel in a root of its own: Debian's Python, the C++ library that numpy loads too, numpy, the wheel, and nothing
 # else; no network, no /proc, no /dev. Then the same with Debian's software OpenGL, which pictures need.
 #   scripts/check_wheel.sh WHEEL [FOLDER]     FOLDER: where the roots are made (build-wheel/roots)
+#   PROGRAM: a vantage that was built without the wheel (build/bin/vantage): the volumes must be its, byte for byte
 # Needs no rights where users may make namespaces. Exit 0 only when all of it worked.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
@@ -10,7 +11,18 @@ wheel=$(realpath "$1")
 folder=$(realpath -m "${2:-$here/../build-wheel/roots}")
 [[ $(basename "$wheel") == vantage-*-cp311-*.whl ]] || { echo "$wheel is no wheel for Debian's Python 3.11" >&2; exit 2; }
 python=${PYTHON:-python3}
-mkdir -p "$folder/packages"
+program=${PROGRAM:-$here/../build/bin/vantage}
+rm -rf "$folder/expected"
+mkdir -p "$folder/packages" "$folder/expected"
+same=()
+if [ -x "$program" ]; then
+  same=(--expected /check/expected)
+  for name in plaza town; do
+    "$program" compute "$here/../examples/$name/mission.yaml" -o "$folder/expected/$name.ply" --quiet
+  done
+else
+  echo "no program at $program: volumes are not compared with it"
+fi
 : >"$folder/nothing-installed"
 
 # closure PACKAGE...: what apt would install for these on an empty system
@@ -38,7 +50,7 @@ make_root() {
   done
   "$python" -m pip --disable-pip-version-check --quiet install --root-user-action=ignore --target "$root/usr/lib/python3/dist-packages" \
     --python-version 3.11 --only-binary=:all: --requirement <(grep '^numpy==' "$here/../python/requirements.txt") "$wheel"
-  cp -r "$here/../examples" "$here/check_wheel.py" "$root/check/"
+  cp -r "$here/../examples" "$here/check_wheel.py" "$folder/expected" "$root/check/"
   echo "root $(basename "$root"): $(find "$root" -type f | wc -l) files; packages: $(closure "$@" | tr '\n' ' ')"
 }
 
@@ -54,8 +66,8 @@ make_root bare python3.11 libstdc++6
 find "$folder/bare" \( -iname '*x11*' -o -iname '*proj.db' -o -iname '*.ttf' -o -iname '*libtbb*' -o -iname '*libcairo*' -o \
   -iname '*fontconfig*' \) -not -path '*/dist-packages/vantage/*' -not -path '*/check/*' | sed "s|^$folder||; s/^/unexpected: /" >"$folder/found"
 if [ -s "$folder/found" ]; then cat "$folder/found"; exit 1; fi
-in_root bare --no-opengl
+in_root bare --no-opengl "${same[@]}"
 make_root opengl python3.11 libstdc++6 libegl1 libgl1-mesa-dri
-in_root opengl --picture /tmp/picture.png
+in_root opengl --picture /tmp/picture.png "${same[@]}"
 cp "$folder/opengl/tmp/picture.png" "$folder/picture.png"
 echo "wheel: works in a bare root; the picture is $folder/picture.png"
