@@ -179,23 +179,29 @@ def origin(entry: dict, prefix: pathlib.Path, nanobind: str) -> str:
 
 # ---- check
 
-def loaded_by(binary: bytes) -> list[str]:
-    """The libraries that a binary asks the system for."""
+def told_by(tool: list[str], binary: bytes) -> list[str]:
+    """The lines that a tool writes about a binary."""
     with tempfile.NamedTemporaryFile() as file:
         file.write(binary)
         file.flush()
-        answer = subprocess.run(["readelf", "--dynamic", "--wide", file.name], capture_output=True, text=True, check=True)
-    return re.findall(r"\(NEEDED\).*\[(\S+)\]", answer.stdout)
+        return subprocess.run([*tool, file.name], capture_output=True, text=True, check=True).stdout.splitlines()
+
+
+def loaded_by(binary: bytes) -> list[str]:
+    """The libraries that a binary asks the system for."""
+    return re.findall(r"\(NEEDED\).*\[(\S+)\]", "\n".join(told_by(["readelf", "--dynamic", "--wide"], binary)))
 
 
 def left_open(binary: bytes) -> list[str]:
     """Functions that a binary needs and that neither a library of the system nor Python has."""
-    with tempfile.NamedTemporaryFile() as file:
-        file.write(binary)
-        file.flush()
-        answer = subprocess.run(["nm", "--dynamic", "--undefined-only", file.name], capture_output=True, text=True, check=True)
-    names = [line.split()[-1] for line in answer.stdout.splitlines() if " U " in line]
+    names = [line.split()[-1] for line in told_by(["nm", "--dynamic", "--undefined-only"], binary) if " U " in line]
     return [name for name in names if "@" not in name and not re.match(r"_?Py", name)]
+
+
+def shown(binary: bytes) -> list[str]:
+    """What other binaries in the same process could take for theirs."""
+    names = [line.split()[-1] for line in told_by(["nm", "--dynamic", "--defined-only"], binary)]
+    return [name for name in names if name != "PyInit__core"]
 
 
 def faults(wheel: zipfile.ZipFile, libraries: dict) -> list[str]:
@@ -230,6 +236,7 @@ def faults(wheel: zipfile.ZipFile, libraries: dict) -> list[str]:
         found += [f"{name} loads {library}, which is not part of every system" for library in loaded_by(data)
                   if library not in libraries["system"]["libraries"]]
         found += [f"{name} lacks {symbol}" for symbol in left_open(data)]
+        found += [f"{name} shows {symbol} to other modules" for symbol in shown(data)[:10]]
     return found
 
 

@@ -250,7 +250,7 @@ class Scripts(unittest.TestCase):
     def wheel(self, changes: dict[str, bytes | str | None]) -> pathlib.Path:
         """A wheel whose list is right, but for `changes`: files to add, to replace, or (None) to take away."""
         library = self.scratch / "plain.so"
-        subprocess.run(["gcc", "-shared", "-nostdlib", "-x", "c", "-", "-o", str(library)], input=b"int a;", check=True)
+        subprocess.run(["gcc", "-shared", "-nostdlib", "-x", "c", "-", "-o", str(library)], input=b"int PyInit__core;", check=True)
         files: dict[str, bytes | str | None] = {
             "vantage/__init__.py": "", "vantage/_core.cpython-311-x86_64-linux-gnu.so": library.read_bytes(),
             self.LICENCES + "LICENSE": "ours", self.LICENCES + "THIRD-PARTY-NOTICES.txt": "notices",
@@ -291,6 +291,13 @@ class Scripts(unittest.TestCase):
                        input=b"int b;", check=True)
         subprocess.run(["gcc", "-shared", "-nostdlib", "-Wl,--no-as-needed", "-o", str(library), str(other)], check=True)
         self.expect_wheel(1, "loads libX11.so.6, which is not part of every system",
+                          {"vantage/_core.cpython-311-x86_64-linux-gnu.so": library.read_bytes()})
+
+    def test_wheel_shows_nothing_to_other_modules(self):
+        library = self.scratch / "shows.so"
+        subprocess.run(["gcc", "-shared", "-nostdlib", "-x", "c", "-", "-o", str(library)],
+                       input=b"int PyInit__core, proj_create;", check=True)
+        self.expect_wheel(1, "shows proj_create to other modules",
                           {"vantage/_core.cpython-311-x86_64-linux-gnu.so": library.read_bytes()})
 
     def licences(self):
