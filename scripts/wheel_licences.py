@@ -200,7 +200,7 @@ def left_open(binary: bytes) -> list[str]:
 
 def shown(binary: bytes) -> list[str]:
     """What other binaries in the same process could take for theirs."""
-    names = [line.split()[-1] for line in told_by(["nm", "--dynamic", "--defined-only"], binary)]
+    names = [line.split()[-1] for line in told_by(["nm", "--dynamic", "--defined-only", "--extern-only"], binary)]
     return [name for name in names if name != "PyInit__core"]
 
 
