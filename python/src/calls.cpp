@@ -13,6 +13,11 @@
 namespace vantage::python {
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
+/// How often Python hears of a computation.
+constexpr auto kOften = std::chrono::milliseconds(50);
+
 /// The process that computed first; 0: none did.
 std::atomic<pid_t> first_process = 0;
 
@@ -83,7 +88,6 @@ void Bridge::finish() {
 }
 
 void Bridge::serve() {
-  constexpr auto kOften = std::chrono::milliseconds(50);
   while (true) {
     std::string stage;
     double fraction = 0;
@@ -96,15 +100,32 @@ void Bridge::serve() {
       stage = stage_;
       fraction = fraction_;
     }
-    if (raised_) continue;  // the computation is about to stop
-    try {
-      if (PyErr_CheckSignals() != 0) throw nb::python_error();
-      if (has_news && !callback_.is_none()) call_python(stage, fraction);
-    } catch (...) {
-      raised_ = std::current_exception();
-      const std::lock_guard lock(mutex_);
-      is_cancelled_ = true;
+    attend(stage, fraction, has_news);
+  }
+}
+
+Progress Bridge::progress_here() {
+  next_ = Clock::now() + kOften;
+  return [this, caller = std::this_thread::get_id()](std::string_view stage, double fraction) {
+    if (std::this_thread::get_id() == caller && Clock::now() >= next_) {
+      const nb::gil_scoped_acquire held;
+      attend(std::string(stage), fraction, true);
+      next_ = Clock::now() + kOften;
     }
+    const std::lock_guard lock(mutex_);
+    return !is_cancelled_;
+  };
+}
+
+void Bridge::attend(const std::string& stage, double fraction, bool has_news) {
+  if (raised_) return;  // the computation is about to stop
+  try {
+    if (PyErr_CheckSignals() != 0) throw nb::python_error();
+    if (has_news && !callback_.is_none()) call_python(stage, fraction);
+  } catch (...) {
+    raised_ = std::current_exception();
+    const std::lock_guard lock(mutex_);
+    is_cancelled_ = true;
   }
 }
 

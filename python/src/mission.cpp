@@ -64,7 +64,7 @@ std::vector<KeepInMesh> keep_in_meshes(const std::vector<MeshRow>& rows) {
 PyMission resolve(std::shared_ptr<const PyScene> scene, const std::string& text, const std::string& name,
                   const std::vector<MeshRow>& rows, nb::object progress) {
   std::vector<KeepInMesh> meshes = keep_in_meshes(rows);
-  return computed(std::move(progress), 0, [&](const Progress& told) {
+  return computed_here(std::move(progress), 0, [&](const Progress& told) {
     MissionFile file = read_mission_text(text, name, scene->source());
     file.sea_level_m = scene->sea_level_m();
     Mission mission = resolve_mission(file, scene->loaded(), told);
@@ -88,7 +88,7 @@ PyMission one(const PyMission& mission, std::size_t index) {
 }
 
 std::vector<PyResult> run(const PyMission& mission, int threads, nb::object progress) {
-  std::vector<Result> results = computed(std::move(progress), threads, [&](const Progress& told) {
+  std::vector<Result> results = computed_here(std::move(progress), threads, [&](const Progress& told) {
     return run_missions(*mission, mission.run_options(told), told);
   });
   std::vector<PyResult> made;
@@ -100,6 +100,7 @@ std::vector<PyResult> run(const PyMission& mission, int threads, nb::object prog
 
 std::vector<std::pair<std::string, std::string>> notes_of(const PyMission& mission) {
   std::vector<std::pair<std::string, std::string>> rows;
+  const nb::gil_scoped_release released;  // what it looks up may be locked
   for (const Warning& note : mission_warnings(*mission)) rows.emplace_back(name_of(note.code), note.text);
   return rows;
 }

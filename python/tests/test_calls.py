@@ -103,6 +103,24 @@ def test_threads_share_a_scene(scene, result):
     assert hashes == [result.volume.hash] * 4
 
 
+def test_threads_that_are_told_of_progress_do_not_wait_for_each_other():
+    finished = []
+
+    def work():
+        scene = yard()
+        for _ in range(2):
+            mission = vt.Mission.of(scene, SQUARE, sensor=vt.Sensor(max_range=60, visible=0.5, cells=16),
+                                    progress=lambda stage, fraction: None)
+            finished.append((mission.notes, mission.run(progress=lambda stage, fraction: None).outcome))
+
+    threads = [threading.Thread(target=work, daemon=True) for _ in range(3)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join(timeout=60)
+    assert [outcome for notes, outcome in finished] == ["computed"] * 6
+
+
 @pytest.mark.filterwarnings("ignore::DeprecationWarning")
 def test_a_forked_process_is_refused(scene, result):
     pid = os.fork()

@@ -16,8 +16,7 @@ Vector = Union[Sequence[float], npt.NDArray[Any]]
 
 def _given(request: Any) -> dict[str, Any]:
     """The fields that were given, in order."""
-    values = {field.name: getattr(request, field.name) for field in dataclasses.fields(request)}
-    return {name: value for name, value in values.items() if value is not None}
+    return {name: value for name, value in vars(request).items() if value is not None}
 
 
 def _short(value: Any) -> str:

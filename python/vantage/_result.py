@@ -70,14 +70,16 @@ class Mission:
         """Of the arguments that `compute` takes."""
         text = Text()
         several = _targets(target)
-        text.add("method", method)
+        if method != "exact":
+            text.add("method", method)
         if crs is not None:
             text.add("crs", crs)
         if len(several) == 1 and not _is_targets(target):
             text.add("target", given(several[0]))
         else:
             text.add("targets", [given(one) for one in several], "target")
-        text.add("combine", combine)
+        if combine != "all":
+            text.add("combine", combine)
         limits = given(_sensor(sensor, max_range))
         if isinstance(limits.get("camera"), str):
             limits["camera"] = {"model": limits["camera"]}

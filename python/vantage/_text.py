@@ -37,8 +37,6 @@ class Text:
         self._arguments.append(argument)
 
     def _value(self, head: str, value: Any, depth: int, argument: str) -> None:
-        if isinstance(value, np.ndarray):
-            value = value.tolist()
         if isinstance(value, Mapping):
             if not value:
                 return self._line(f"{head} {{}}", depth, argument)
@@ -78,6 +76,8 @@ def _is_list(value: Any) -> bool:
 
 def flow(value: Any, argument: str) -> str:
     """A value on one line."""
+    if isinstance(value, np.ndarray) and value.dtype == np.float64 and np.isfinite(value).all():
+        return repr(value.tolist())  # what follows says the same, number by number
     if isinstance(value, (np.ndarray, np.generic)):
         value = value.tolist()
     if isinstance(value, bool):
