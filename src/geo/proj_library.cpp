@@ -9,8 +9,8 @@
 #include "vantage/error.h"
 #endif
 
-// Set by cmake/Components.cmake: that PROJ is linked; or the name that the library of these headers has on the system, and
-// where it was found.
+// Set by cmake/Components.cmake: that PROJ is linked; or the name that the library of these headers has on the system,
+// and where it was found.
 #if !defined(VANTAGE_PROJ_LINKED) && (!defined(VANTAGE_PROJ_NAME) || !defined(VANTAGE_PROJ_FILE))
 #error "which PROJ?"
 #endif

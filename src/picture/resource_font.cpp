@@ -20,7 +20,10 @@ class Fonts {
   cairo_font_face_t* find(const std::filesystem::path& file) {
     const std::scoped_lock lock(mutex_);
     const auto known = faces_.find(file);
-    return known != faces_.end() ? known->second : faces_.emplace(file, open(file)).first->second;
+    if (known != faces_.end()) return known->second;
+    cairo_font_face_t* const face = open(file);
+    if (face) faces_.emplace(file, face);  // a file that is not there may come
+    return face;
   }
 
  private:
