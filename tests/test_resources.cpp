@@ -38,7 +38,7 @@ class Resources : public ::testing::Test {
 fs::path proj_database() {
   PJ_CONTEXT* const context = proj_context_create();
   const char* const path = proj_context_get_database_path(context);
-  const fs::path result = path ? path : "";
+  fs::path result = path ? path : "";
   proj_context_destroy(context);
   return result;
 }
