@@ -23,7 +23,9 @@ if [ ! -e "$stamp" ]; then
 fi
 
 build=$root/build-wheel/$tag
-rm -rf "$build/raw" "$build/cmake/python/vantage_python.map"
+rm -rf "$build/raw"
+# Linking writes the map that the list of licences is made of: without one, the module is linked again.
+[ -e "$build/cmake/python/vantage_python.map" ] || rm -f "$build"/cmake/python/vantage/_core.*.so
 # What CMake remembers of libraries holds until they are built anew.
 if [ -n "$(find "$deps" -maxdepth 1 -name '*.stamp' -newer "$build/cmake/CMakeCache.txt" 2>/dev/null)" ]; then
   rm -f "$build/cmake/CMakeCache.txt"
