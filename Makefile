@@ -65,7 +65,7 @@ fuzz: tools  ## each fuzz target for a minute (SECONDS_EACH=60; PRESET=asan: in 
 	BUILD=build-$(or $(PRESET),fuzz) scripts/fuzz.sh $(or $(SECONDS_EACH),60)
 
 .PHONY: nightly
-nightly: tested benchmarks  ## what takes too long for every change: lint and sanitizers over all, static builds, a long attack
+nightly: tested benchmarks  ## what takes too long for every change: lint and sanitizers over all, static builds, attack, wheel
 	@$(MAKE) --no-print-directory lint ALL=1
 	@$(MAKE) --no-print-directory asan ALL=1
 	cmake --build --preset asan --parallel $(JOBS) --target vantage_attack
@@ -73,6 +73,7 @@ nightly: tested benchmarks  ## what takes too long for every change: lint and sa
 	JOBS=$(JOBS) scripts/build_variants.sh
 	build/bin/vantage_attack --scenes $(or $(SCENES),2000) --seed $(or $(SEED),$(shell date +%Y%m%d)) \
 	  --jobs $(JOBS) --out build/attack
+	@$(MAKE) --no-print-directory wheelcheck
 
 .PHONY: install
 install: build  ## into PREFIX (/usr/local)
@@ -97,9 +98,19 @@ site: package  ## the documentation as a site, in build/site; its tutorials are 
 	PYTHONPATH=$(CURDIR)/build/python .deps/python/bin/python -m sphinx -q -W --keep-going -c docs/site docs build/site
 	@echo "site: $$(find build/site -name '*.html' | wc -l) pages, build/site/index.html"
 
+.PHONY: wheel
+wheel:  ## a wheel with all that it needs in it, in dist/
+	@scripts/install_packages.sh --wheel
+	@scripts/fetch_sources.sh
+	@JOBS=$(JOBS) scripts/build_wheel.sh
+
+.PHONY: wheelcheck
+wheelcheck: wheel  ## try that wheel in a root with Python and numpy alone
+	@scripts/check_wheel.sh dist/vantage-*-cp311-*.whl
+
 .PHONY: clean
 clean:  ## remove all builds; fetched sources stay
-	rm -rf build build-*/
+	rm -rf build build-*/ dist/
 
 # All that the installed packages allow: `make build` needs neither those of the tests nor those of the benchmarks.
 .PHONY: tested

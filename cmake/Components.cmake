@@ -65,19 +65,18 @@ foreach(file core/bvh core/convex_corners core/edges core/enclosing_circle core/
 endforeach()
 add_library(vantage_helpers STATIC EXCLUDE_FROM_ALL ${VANTAGE_HELPER_SOURCES})
 target_include_directories(vantage_helpers PRIVATE ${PROJECT_SOURCE_DIR}/include ${source})
-# PROJ is loaded when it is needed, not linked: src/geo/proj_library.h.
+# PROJ is loaded when it is needed, not linked, but with VANTAGE_LINK_PROJ: src/geo/proj_library.h.
 target_include_directories(vantage_helpers SYSTEM PRIVATE ${VANTAGE_PROJ_INCLUDE_DIRS})
-set_source_files_properties(${source}/geo/proj_library.cpp PROPERTIES COMPILE_DEFINITIONS
-  "VANTAGE_PROJ_NAME=\"${VANTAGE_PROJ_NAME}\";VANTAGE_PROJ_FILE=\"${VANTAGE_PROJ_FILE}\"")
+set_source_files_properties(${source}/geo/proj_library.cpp PROPERTIES COMPILE_DEFINITIONS "${VANTAGE_PROJ_DEFINITIONS}")
 target_link_libraries(vantage_helpers PRIVATE
-  Eigen3::Eigen fmt::fmt-header-only nlohmann_json::nlohmann_json vantage::options)
+  ${VANTAGE_PROJ_TARGET} Eigen3::Eigen fmt::fmt-header-only nlohmann_json::nlohmann_json vantage::options)
 set_target_properties(vantage_helpers PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
 vantage_join_sources(vantage_helpers)
 
 vantage_component(core
   MODULES core options geo io scene target exact query camera sensor prove simplify
   SOURCES ${source}/core/threads_${VANTAGE_THREADS}.cpp
-  LINK ${VANTAGE_THREAD_TARGETS} ZLIB::ZLIB ${CMAKE_DL_LIBS}
+  LINK ${VANTAGE_THREAD_TARGETS} ZLIB::ZLIB ${VANTAGE_PROJ_TARGET} ${CMAKE_DL_LIBS}
   BUILD nlohmann_json::nlohmann_json vantage::cdt)
 if(NOT BUILD_SHARED_LIBS)
   target_sources(vantage_core PRIVATE $<TARGET_OBJECTS:vantage_helpers>)

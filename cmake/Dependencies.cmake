@@ -52,19 +52,26 @@ if(VANTAGE_WITH_VERIFY OR VANTAGE_WITH_DEPTH)
   find_package(embree 3 REQUIRED)
 endif()
 
-# Cairo: writing on pictures, and PNG (src/picture only).
+# Cairo: writing on pictures, and PNG (src/picture only); it draws fonts with FreeType.
 find_package(PkgConfig REQUIRED)
 if(VANTAGE_WITH_PICTURE)
-  pkg_check_modules(VANTAGE_CAIRO REQUIRED IMPORTED_TARGET cairo>=1.16)
+  pkg_check_modules(VANTAGE_CAIRO REQUIRED IMPORTED_TARGET cairo>=1.16 cairo-ft freetype2)
 endif()
 
-# PROJ: coordinate reference systems (src/geo only), found here and loaded at run time.
+# PROJ: coordinate reference systems (src/geo only), found here and loaded at run time, or linked.
 pkg_check_modules(VANTAGE_PROJ REQUIRED IMPORTED_TARGET proj>=9.1)
-find_library(VANTAGE_PROJ_LIBRARY proj HINTS ${VANTAGE_PROJ_LIBRARY_DIRS} REQUIRED NO_CACHE)
-file(REAL_PATH ${VANTAGE_PROJ_LIBRARY} VANTAGE_PROJ_FILE)
-# The name that stands for its binary interface: libproj.so.25 of libproj.so.25.9.1.1.
-get_filename_component(VANTAGE_PROJ_NAME ${VANTAGE_PROJ_FILE} NAME)
-string(REGEX REPLACE "^(lib.*\\.so\\.[0-9]+).*" "\\1" VANTAGE_PROJ_NAME ${VANTAGE_PROJ_NAME})
+option(VANTAGE_LINK_PROJ "Link PROJ, instead of loading it for the first scene that has a place on the earth" OFF)
+if(VANTAGE_LINK_PROJ)
+  set(VANTAGE_PROJ_TARGET PkgConfig::VANTAGE_PROJ)
+  set(VANTAGE_PROJ_DEFINITIONS VANTAGE_PROJ_LINKED)
+else()
+  find_library(VANTAGE_PROJ_LIBRARY proj HINTS ${VANTAGE_PROJ_LIBRARY_DIRS} REQUIRED NO_CACHE)
+  file(REAL_PATH ${VANTAGE_PROJ_LIBRARY} VANTAGE_PROJ_FILE)
+  # The name that stands for its binary interface: libproj.so.25 of libproj.so.25.9.1.1.
+  get_filename_component(VANTAGE_PROJ_NAME ${VANTAGE_PROJ_FILE} NAME)
+  string(REGEX REPLACE "^(lib.*\\.so\\.[0-9]+).*" "\\1" VANTAGE_PROJ_NAME ${VANTAGE_PROJ_NAME})
+  set(VANTAGE_PROJ_DEFINITIONS "VANTAGE_PROJ_NAME=\"${VANTAGE_PROJ_NAME}\";VANTAGE_PROJ_FILE=\"${VANTAGE_PROJ_FILE}\"")
+endif()
 
 # libosmium is headers; it reads XML with Expat and unpacks with zlib and bzip2 (src/maps/osm only). Clipper 6.4: outlines in
 # the plane (src/maps/city/clipping.cpp only); its package file tells no version.
@@ -81,6 +88,9 @@ endif()
 
 # Source releases that Debian does not package, fetched by scripts/fetch_sources.sh (pinned by version and hash).
 set(VANTAGE_DEPS_DIR ${PROJECT_SOURCE_DIR}/.deps CACHE PATH "Where scripts/fetch_sources.sh puts source releases")
+if(SKBUILD)  # pip: there is no step before this one
+  execute_process(COMMAND ${PROJECT_SOURCE_DIR}/scripts/fetch_sources.sh COMMAND_ERROR_IS_FATAL ANY)
+endif()
 
 # Manifold 3.5: the first with the ExecutionContext that progress and cancelling need. Its releases misplace a corner now and
 # then, so an installed one is used only on request: ours is corrected.

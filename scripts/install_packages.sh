@@ -3,6 +3,7 @@
 #   scripts/install_packages.sh            what building needs
 #   scripts/install_packages.sh --tests    and what the tests need
 #   scripts/install_packages.sh --python   and what the Python package needs
+#   scripts/install_packages.sh --wheel    and what a wheel of it needs (scripts/build_wheel.sh)
 #   scripts/install_packages.sh --tools    and what developers need: benchmarks, sanitizers, fuzzing, formatting, lint
 # VANTAGE_NO_INSTALL=1 skips the check, for those who bring their own.
 set -euo pipefail
@@ -17,12 +18,13 @@ packages=(
   # rendering: headers only, the libraries themselves are loaded when there are any; and Mesa, which needs no GPU
   libegl-dev libgl-dev libegl1 libgl1-mesa-dri
   # pictures
-  libcairo2-dev fonts-dejavu-core
+  libcairo2-dev libfreetype-dev fonts-dejavu-core
   # maps and terrain; GDAL is loaded when there is one
   libosmium2-dev libproj-dev proj-data libpolyclipping-dev libgdal32
 )
 tests=(libgtest-dev osmium-tool locales)  # of locales one with a decimal comma is made
 python=(python3-dev python3-venv)
+wheel=("${python[@]}" patch xz-utils bzip2 libexpat1-dev libsqlite3-dev proj-data)
 tools=(libbenchmark-dev clang libclang-rt-14-dev clang-format clang-tidy)
 
 [ -z "${VANTAGE_NO_INSTALL:-}" ] || exit 0
@@ -30,8 +32,9 @@ case "${1:-}" in
   "") ;;
   --tests) packages+=("${tests[@]}") ;;
   --python) packages+=("${python[@]}") ;;
+  --wheel) packages+=("${wheel[@]}") ;;
   --tools) packages+=("${tests[@]}" "${tools[@]}") ;;
-  *) echo "usage: $0 [--tests|--python|--tools]" >&2; exit 2 ;;
+  *) echo "usage: $0 [--tests|--python|--wheel|--tools]" >&2; exit 2 ;;
 esac
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
   echo "not a Debian system: please install the equivalents of: ${packages[*]}" >&2

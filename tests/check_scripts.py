@@ -8,6 +8,7 @@ import contextlib
 import functools
 import hashlib
 import http.server
+import importlib.util
 import io
 import json
 import os
@@ -19,6 +20,7 @@ import tarfile
 import tempfile
 import threading
 import unittest
+import zipfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 
@@ -240,6 +242,122 @@ class Scripts(unittest.TestCase):
         code, text = self.run_script("fetch_sources.sh")
         self.assertEqual(code, 1)
         self.assertIn("sources.txt:1: not of the form", text)
+
+    # ---- wheel_licences.py and build_wheel_libraries.py
+
+    LICENCES = "vantage-1.dist-info/licenses/"
+
+    def wheel(self, changes: dict[str, bytes | str | None]) -> pathlib.Path:
+        """A wheel whose list is right, but for `changes`: files to add, to replace, or (None) to take away."""
+        library = self.scratch / "plain.so"
+        subprocess.run(["gcc", "-shared", "-nostdlib", "-x", "c", "-", "-o", str(library)], input=b"int PyInit__core;", check=True)
+        files: dict[str, bytes | str | None] = {
+            "vantage/__init__.py": "", "vantage/_core.cpython-311-x86_64-linux-gnu.so": library.read_bytes(),
+            self.LICENCES + "LICENSE": "ours", self.LICENCES + "THIRD-PARTY-NOTICES.txt": "notices",
+            self.LICENCES + "third-party/LIBRARIES.txt": "# name\nzlib | Zlib | zlib.txt | Debian\n",
+            self.LICENCES + "third-party/zlib.txt": "the licence of zlib"}
+        files |= changes
+        file = self.scratch / "vantage-1-cp311-cp311-linux_x86_64.whl"
+        with zipfile.ZipFile(file, "w") as archive:
+            for name, content in files.items():
+                if content is not None:
+                    archive.writestr(name, content)
+        return file
+
+    def expect_wheel(self, code: int, words: str, changes: dict[str, bytes | str | None]) -> None:
+        file = self.wheel(changes)
+        found, text = self.run_script("wheel_licences.py", "check", str(file))
+        self.assertEqual(found, code, text)
+        self.assertIn(words, text)
+
+    def test_wheel_has_nothing_but_what_is_listed(self):
+        third_party = self.LICENCES + "third-party/"
+        self.expect_wheel(0, "all that is in it is listed", {})
+        self.expect_wheel(1, "vantage.libs/libjbig-1a2b.so.0 is a binary that is not listed",
+                          {"vantage.libs/libjbig-1a2b.so.0": b"\x7fELF"})
+        self.expect_wheel(1, "jbigkit (GPL-2) is not in scripts/wheel_libraries.toml",
+                          {third_party + "LIBRARIES.txt": "jbigkit | GPL-2 | zlib.txt | Debian\n"})
+        self.expect_wheel(1, "zlib (GPL-3) is not in scripts/wheel_libraries.toml",
+                          {third_party + "LIBRARIES.txt": "zlib | GPL-3 | zlib.txt | Debian\n"})
+        self.expect_wheel(1, "zlib is under LGPL-2.1 alone",
+                          {third_party + "LIBRARIES.txt": "zlib | LGPL-2.1 | zlib.txt | Debian\n"})
+        self.expect_wheel(1, "the licence of zlib is missing", {third_party + "zlib.txt": None})
+        self.expect_wheel(1, "it has no LIBRARIES.txt", {third_party + "LIBRARIES.txt": None})
+        self.expect_wheel(1, "THIRD-PARTY-NOTICES.txt is missing", {self.LICENCES + "THIRD-PARTY-NOTICES.txt": None})
+
+    def test_wheel_loads_only_what_every_system_has(self):
+        other, library = self.scratch / "libX11.so.6", self.scratch / "loads.so"
+        subprocess.run(["gcc", "-shared", "-nostdlib", "-Wl,-soname,libX11.so.6", "-x", "c", "-", "-o", str(other)],
+                       input=b"int b;", check=True)
+        subprocess.run(["gcc", "-shared", "-nostdlib", "-Wl,--no-as-needed", "-o", str(library), str(other)], check=True)
+        self.expect_wheel(1, "loads libX11.so.6, which is not part of every system",
+                          {"vantage/_core.cpython-311-x86_64-linux-gnu.so": library.read_bytes()})
+
+    def test_wheel_shows_nothing_to_other_modules(self):
+        library = self.scratch / "shows.so"
+        subprocess.run(["gcc", "-shared", "-nostdlib", "-x", "c", "-", "-o", str(library)],
+                       input=b"int PyInit__core, proj_create;", check=True)
+        self.expect_wheel(1, "shows proj_create to other modules",
+                          {"vantage/_core.cpython-311-x86_64-linux-gnu.so": library.read_bytes()})
+
+    def licences(self):
+        """scripts/wheel_licences.py as a module."""
+        spec = importlib.util.spec_from_file_location("wheel_licences", self.tree / "scripts" / "wheel_licences.py")
+        module = importlib.util.module_from_spec(spec)
+        spec.loader.exec_module(module)
+        return module
+
+    def test_wheel_has_nothing_under_the_gpl_alone(self):
+        module = self.licences()
+        for licence in ("GPL-2", "LGPL-2.1", "AGPL-3", "MIT; parts LGPL-2.1", "GPL-3 with an exception"):
+            self.assertTrue(module.is_copyleft(licence), licence)
+        for licence in ("MIT", "MPL-1.1 (chosen; or LGPL-2.1)", "FTL (chosen; or GPL-2)"):
+            self.assertFalse(module.is_copyleft(licence), licence)
+        for entry in module.entries(module.read_list()):
+            self.assertFalse(module.is_copyleft(entry["licence"]), entry)
+
+    def test_wheel_names_what_was_linked_and_compiled(self):
+        module = self.licences()
+        listed = module.read_list()
+        linker_map = self.scratch / "map"
+        linker_map.write_text("Archive member included to satisfy reference by file (symbol)\n\n"
+                              "/usr/lib/libcairo.a(cairo.o)\n                a.o (cairo_create)\n"
+                              "lib/libvantage_core.a(a.cpp.o)\n  b.o (f)\nlibjbig.a(jbig.o)\n  c.o (g)\n\n"
+                              "Memory Configuration\n\nLOAD libother.a\nlibother.a(x.o)\n", encoding="utf-8")
+        archives = module.linked_archives(linker_map)
+        self.assertEqual(archives, {"libcairo.a", "libvantage_core.a", "libjbig.a"})
+        self.assertEqual(module.unknown_archives(archives, listed), (["libjbig.a"], {"Cairo"}))
+        linker_map.write_text("nothing", encoding="utf-8")
+        with self.assertRaises(module.Failure):
+            module.linked_archives(linker_map)
+        strange, used = module.unknown_headers(
+            {pathlib.Path("/usr/include/stdio.h"), pathlib.Path("/opt/gpl/a.h"), pathlib.Path("/deps/cdt/CDT.h")},
+            {pathlib.Path("/deps/cdt"): "CDT"}, listed)
+        self.assertEqual((strange, used), (["/opt/gpl/a.h (of no Debian package)"], {"CDT"}))
+
+    def test_wheel_libraries_are_those_that_are_pinned(self):
+        archive = self.archive("thing-1", ["thing.c", "LICENSE"])
+        pool = self.scratch / "pool"
+        (pool / "p").mkdir(parents=True)
+        (pool / "p" / "thing.tar.gz").write_bytes(archive)
+        self.put_tool("apt-get", f"echo 'Debian stable file://{pool}/'\n")
+        listing = self.scratch / "list.toml"
+
+        def build(sha256: str) -> tuple[int, str]:
+            listing.write_text(
+                f'[flags]\ncompiler = "-fPIC"\n[[built]]\nname = "thing"\nversion = "1"\nlicence = "MIT"\nsource = "p/thing.tar.gz"\n'
+                f'sha256 = "{sha256}"\ntexts = ["LICENSE"]\nbuild = "sources"\nlibrary = "thing"\nsources = []\n'
+                'includes = { "." = ["thing.c"] }\n', encoding="utf-8")
+            return self.run_script("build_wheel_libraries.py", "--list", str(listing), "--folder", str(self.scratch / "built"))
+
+        code, text = build("0" * 64)
+        self.assertEqual(code, 1)
+        self.assertIn("the archive has no p/thing.tar.gz with the hash of the list (its hash differs)", text)
+        code, text = build(hashlib.sha256(archive).hexdigest())
+        self.assertEqual(code, 0, text)
+        self.assertEqual((self.scratch / "built" / "prefix" / "licences" / "thing.txt").read_text(), "LICENSE")
+        shutil.rmtree(pool)
+        self.assertEqual(build(hashlib.sha256(archive).hexdigest()), (0, ""), "what is built is not fetched again")
 
 
 if __name__ == "__main__":

@@ -28,6 +28,7 @@
 #include "vantage/progress.h"
 #include "vantage/prove.h"
 #include "vantage/query.h"
+#include "vantage/resources.h"
 #include "vantage/result.h"
 #include "vantage/sampled_field.h"
 #include "vantage/scene.h"

@@ -13,6 +13,7 @@ Lengths are metres, angles degrees; the scene's frame is right-handed with z up.
 from __future__ import annotations
 
 import json as _json
+import pathlib as _pathlib
 from typing import Any as _Any
 
 from . import _core
@@ -32,6 +33,9 @@ __all__ = [
     "Volume", "__version__", "areas", "cameras", "compute", "compute_many", "devices", "error_codes",
     "fewest_positions", "fraction_field", "intersect", "unite", "visibility_sphere",
 ]
+
+if (_share := _pathlib.Path(__file__).parent / "share").is_dir():  # a wheel brings PROJ's database and fonts along
+    _core.set_resource_folder(str(_share))
 
 
 def cameras() -> list[dict[str, _Any]]:

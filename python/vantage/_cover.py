@@ -6,7 +6,7 @@ import time
 from collections.abc import Iterable, Sequence
 from typing import Any, NamedTuple
 
-from ._errors import input_error
+from ._extras import require
 
 Sets = Iterable[Iterable[int]]
 
@@ -36,12 +36,7 @@ class Cover(NamedTuple):
 
 def cp_model() -> Any:
     """The module ortools.sat.python.cp_model."""
-    try:
-        from ortools.sat.python import cp_model
-    except ImportError:
-        raise input_error("component-missing", "OR-Tools is not installed", "ortools",
-                          "pip install 'vantage[positions]'") from None
-    return cp_model
+    return require("ortools.sat.python.cp_model", "positions")
 
 
 def _solve(model: Any, clock: Clock) -> tuple[Any, Any]:

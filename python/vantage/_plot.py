@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import _arrays
-from ._errors import input_error
+from ._extras import require
 from ._requests import Path
 
 if TYPE_CHECKING:
@@ -18,19 +18,10 @@ COLORS = {"scene": "#4c78a8", "range": "#e0b84c", "target_plane": "#9d9d9d", "na
 """Of facets, by the kind of their cause."""
 
 
-def _pyvista() -> Any:
-    try:
-        import pyvista
-    except ImportError:
-        raise input_error("component-missing", "pyvista is not installed", "pyvista",
-                          "pip install vantage[plot]") from None
-    return pyvista
-
-
 def poly_data(vertices: _arrays.Points, faces: _arrays.Faces, **arrays: Any) -> Any:
     """A pyvista mesh of triangles, with an array of values for each facet."""
     cells = np.column_stack([np.full(len(faces), 3, np.int64), faces.astype(np.int64)])
-    mesh = _pyvista().PolyData(np.array(vertices), cells)
+    mesh = require("pyvista", "plot").PolyData(np.array(vertices), cells)
     for name, values in arrays.items():
         if len(values) == len(faces):
             mesh.cell_data[name] = np.array(values)
@@ -51,7 +42,7 @@ def plot(result: Result, path: Path | None = None, *, scene: bool = True, size: 
     Returns:
         what pyvista's `Plotter.show` returns.
     """
-    plotter = _pyvista().Plotter(off_screen=path is not None, window_size=list(size))
+    plotter = require("pyvista", "plot").Plotter(off_screen=path is not None, window_size=list(size))
     if scene:
         plotter.add_mesh(result.scene.to_pyvista(), color="#d9d9d9")
     for part in result.mission.target_parts:

@@ -13,6 +13,7 @@ import numpy.typing as npt
 
 from . import _arrays, _core
 from ._errors import input_error
+from ._extras import require
 from ._requests import Path, Target, Vector
 from ._text import NAME, Text
 
@@ -282,9 +283,7 @@ class Scene:
 
     def to_trimesh(self) -> trimesh.Trimesh:
         """The triangles as they are, for trimesh."""
-        import trimesh
-
-        return trimesh.Trimesh(np.array(self.vertices), np.array(self.faces, np.int64), process=False)
+        return require("trimesh", "geo").Trimesh(np.array(self.vertices), np.array(self.faces, np.int64), process=False)
 
     def to_pyvista(self) -> Any:
         """The triangles with an array "object", for pyvista."""

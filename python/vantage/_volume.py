@@ -13,6 +13,7 @@ import numpy.typing as npt
 
 from . import _arrays, _core
 from ._errors import input_error
+from ._extras import require
 from ._requests import Path
 from ._scene import KINDS, Georeference, Progress, Scene
 
@@ -242,10 +243,8 @@ class Volume:
 
     def to_trimesh(self) -> trimesh.Trimesh:
         """For trimesh, with the facets' causes as face_attributes["cause"]."""
-        import trimesh
-
         attributes = {"cause": np.array(self.cause_of)} if len(self.cause_of) else None
-        return trimesh.Trimesh(np.array(self.vertices), np.array(self.faces, np.int64), process=False,
+        return require("trimesh", "geo").Trimesh(np.array(self.vertices), np.array(self.faces, np.int64), process=False,
                                face_attributes=attributes)
 
     def to_pyvista(self) -> Any:

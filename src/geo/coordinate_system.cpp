@@ -1,12 +1,18 @@
 #include <array>
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
 #include <initializer_list>
+#include <sstream>
+#include <string>
+#include <vector>
 
 #include "core/format.h"
 #include "geo/local_frame.h"
 #include "geo/proj_library.h"
 #include "vantage/error.h"
 #include "vantage/input.h"
+#include "vantage/resources.h"
 
 namespace vantage::internal::geo {
 namespace {
@@ -44,6 +50,26 @@ std::string in_words_of_proj(const std::string& text) {
   }
   const bool proj_text = text.find("+proj=") != std::string::npos || text.find("+init=") != std::string::npos;
   return proj_text && text.find("+type=crs") == std::string::npos ? text + " +type=crs" : text;
+}
+
+/// Where PROJ reads files from: the resource folder first, if it has the database, then where others put grids. PROJ
+/// asks its own places where this is not called.
+void set_search_paths(PJ_CONTEXT* context) {
+  const std::filesystem::path resources = resource_folder();
+  const std::filesystem::path folder = resources / "proj";
+  std::error_code ignored;
+  if (resources.empty() || !std::filesystem::is_regular_file(folder / "proj.db", ignored)) return;
+  std::vector<std::string> paths{folder.string()};
+  const char* by_user = std::getenv("PROJ_DATA");
+  if (!by_user) by_user = std::getenv("PROJ_LIB");
+  std::istringstream words(by_user ? by_user : "");
+  for (std::string path; std::getline(words, path, ':');) {
+    if (!path.empty()) paths.push_back(path);
+  }
+  paths.insert(paths.end(), {"/usr/local/share/proj", "/usr/share/proj"});
+  std::vector<const char*> pointers;
+  for (const std::string& path : paths) pointers.push_back(path.c_str());
+  proj().proj_context_set_search_paths(context, static_cast<int>(pointers.size()), pointers.data());
 }
 
 bool is_one_of(PJ_TYPE type, std::initializer_list<PJ_TYPE> types) {
@@ -159,6 +185,7 @@ CoordinateSystem::CoordinateSystem(const std::string& text, const std::string& w
   PJ_CONTEXT* const context = data_->context.get();
   proj().proj_log_func(context, &data_->message, keep_message);
   proj().proj_context_set_enable_network(context, 0);
+  set_search_paths(context);
 
   if (!proj().proj_context_get_database_path(context)) {
     throw Error(

@@ -1,18 +1,32 @@
 #include "geo/proj_library.h"
 
+#ifndef VANTAGE_PROJ_LINKED
 #include <dlfcn.h>
 
 #include <array>
 #include <string>
 
 #include "vantage/error.h"
+#endif
 
-// Set by cmake/Components.cmake: the name that the library of these headers has on the system, and where it was found.
-#if !defined(VANTAGE_PROJ_NAME) || !defined(VANTAGE_PROJ_FILE)
+// Set by cmake/Components.cmake: that PROJ is linked; or the name that the library of these headers has on the system,
+// and where it was found.
+#if !defined(VANTAGE_PROJ_LINKED) && (!defined(VANTAGE_PROJ_NAME) || !defined(VANTAGE_PROJ_FILE))
 #error "which PROJ?"
 #endif
 
 namespace vantage::internal::geo {
+#ifdef VANTAGE_PROJ_LINKED
+
+const ProjLibrary& proj() {
+#define VANTAGE_FUNCTION(name) &::name,
+  static const ProjLibrary library{VANTAGE_PROJ_FUNCTIONS(VANTAGE_FUNCTION)};
+#undef VANTAGE_FUNCTION
+  return library;
+}
+
+#else
+
 namespace {
 
 /// Empty where all is there.
@@ -40,5 +54,7 @@ const ProjLibrary& proj() {
   throw Error(ErrorCode::library_missing, why_not + ", and where a scene lies on the earth is worked out with it",
               VANTAGE_PROJ_NAME, "install libproj25 (Debian 12), or build vantage with the PROJ that is there");
 }
+
+#endif
 
 }  // namespace vantage::internal::geo

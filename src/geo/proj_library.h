@@ -14,6 +14,7 @@ namespace vantage::internal::geo {
   X(proj_context_create)              \
   X(proj_context_destroy)             \
   X(proj_context_set_enable_network)  \
+  X(proj_context_set_search_paths)    \
   X(proj_context_get_database_path)   \
   X(proj_context_errno_string)        \
   X(proj_log_func)                    \
@@ -44,7 +45,7 @@ struct ProjLibrary {
 };
 
 /// Loaded with the first call, by any thread, for the rest of the program; that takes about 10 ms. Throws Error(input)
-/// where PROJ is not installed, or lacks a function.
+/// where PROJ is not installed, or lacks a function. Builds with VANTAGE_LINK_PROJ have it in them instead.
 const ProjLibrary& proj();
 
 }  // namespace vantage::internal::geo

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "picture/resource_font.h"
 #include "vantage/error.h"
 
 namespace vantage::internal::picture {
@@ -110,8 +111,12 @@ void Canvas::set_colour(Colour colour, double opacity) {
 }
 
 void Canvas::set_font(double size, bool bold) {
-  cairo_select_font_face(cairo(), family_, CAIRO_FONT_SLANT_NORMAL,
-                         bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
+  if (cairo_font_face_t* const face = resource_font(bold)) {
+    cairo_set_font_face(cairo(), face);
+  } else {
+    cairo_select_font_face(cairo(), family_, CAIRO_FONT_SLANT_NORMAL,
+                           bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
+  }
   cairo_set_font_size(cairo(), size);
 }
 

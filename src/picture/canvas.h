@@ -12,8 +12,9 @@
 
 namespace vantage::internal::picture {
 
-/// Text and simple shapes. Lengths are pixels, right and down from the upper left corner. Fonts: DejaVu Sans; without
-/// it whatever sans the machine has, and without any, what Cairo brings along. Throws Error(internal) when Cairo fails.
+/// Text and simple shapes. Lengths are pixels, right and down from the upper left corner. Fonts: DejaVu Sans of the
+/// resource folder, else of the machine; without it whatever sans the machine has, and without any, what Cairo brings
+/// along. Throws Error(internal) when Cairo fails.
 class Canvas {
  public:
   explicit Canvas(const Picture& picture);

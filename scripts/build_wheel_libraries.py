@@ -1,0 +1,251 @@
+#!/usr/bin/env python3
+"""Builds the libraries that a wheel of vantage contains, static and small, into .deps/wheel/prefix: those of
+wheel_libraries.toml, from Debian's source packages, pinned by hash. Does nothing when they are there.
+
+    build_wheel_libraries.py [--list FILE] [--folder FOLDER] [--jobs N]
+
+The sources come from the archive that apt uses on this machine.
+"""
+
+import argparse
+import hashlib
+import os
+import pathlib
+import shlex
+import shutil
+import subprocess
+import sys
+import tarfile
+import tomllib
+import urllib.error
+import urllib.parse
+import urllib.request
+
+HERE = pathlib.Path(__file__).resolve().parent
+TIMEOUT = 180  # seconds without a byte
+
+
+class Failure(Exception):
+    pass
+
+
+def run(command: list[str], folder: pathlib.Path, log: pathlib.Path, **variables: str) -> None:
+    """Runs a command whose output goes into `log`; what it wrote last is shown if it fails."""
+    with log.open("a", encoding="utf-8") as output:
+        output.write(f"$ {shlex.join(command)}\n")
+        output.flush()
+        result = subprocess.run(command, cwd=folder, env={**os.environ, **variables}, stdin=subprocess.DEVNULL,
+                                stdout=output, stderr=subprocess.STDOUT, check=False)
+    if result.returncode:
+        tail = "\n".join(log.read_text(encoding="utf-8", errors="replace").splitlines()[-25:])
+        raise Failure(f"{shlex.join(command[:3])} ... failed in {folder}; the end of {log}:\n{tail}")
+
+
+# ---- fetching
+
+def archives() -> list[str]:
+    """Where apt gets Debian's packages from on this machine: updates last, since they have few files."""
+    command = ["apt-get", "indextargets", "--format", "$(ORIGIN) $(RELEASE) $(REPO_URI)", "Created-By: Packages"]
+    targets = subprocess.run(command, capture_output=True, text=True, check=False).stdout
+    rows = sorted({tuple(line.split()) for line in targets.splitlines() if line.startswith("Debian ")},
+                  key=lambda row: len(row[1]))
+    found = list(dict.fromkeys(row[2].rstrip("/") for row in rows if len(row) == 3))
+    if not found:
+        raise Failure("apt knows no archive of Debian on this machine; run apt-get update as root")
+    return found
+
+
+def fetch(path: str, sha256: str, folder: pathlib.Path) -> pathlib.Path:
+    """A file of the pool, kept in `folder`; the hash decides whether it is the one."""
+    file = folder / pathlib.PurePosixPath(path).name
+    if file.exists() and hashlib.sha256(file.read_bytes()).hexdigest() == sha256:
+        return file
+    problems = []
+    for archive in archives():
+        url = f"{archive}/{urllib.parse.quote(path)}"
+        try:
+            with urllib.request.urlopen(url, timeout=TIMEOUT) as response:
+                data = response.read()
+        except (urllib.error.URLError, OSError) as error:
+            problems.append(str(error))
+            continue
+        if hashlib.sha256(data).hexdigest() != sha256:
+            problems.append("its hash differs")
+            continue
+        file.write_bytes(data)
+        return file
+    raise Failure(f"the archive has no {path} with the hash of the list ({'; '.join(problems)}): if Debian has a newer "
+                  "version, change version and hash in scripts/wheel_libraries.toml")
+
+
+def unpack(library: dict, downloads: pathlib.Path, into: pathlib.Path, log: pathlib.Path) -> pathlib.Path:
+    """The source of a library, with Debian's patches where the list asks for them."""
+    with tarfile.open(fetch(library["source"], library["sha256"], downloads)) as tar:
+        tar.extractall(into, filter="data") if hasattr(tarfile, "data_filter") else tar.extractall(into)
+    tops = list(into.iterdir())
+    source = tops[0] if len(tops) == 1 else into
+    if "patches" in library:
+        with tarfile.open(fetch(library["patches_from"], library["patches_sha256"], downloads)) as tar:
+            for name in library["patches"]:
+                tar.extract(f"debian/patches/{name}", source)
+                run(["patch", "-p1", "-i", f"debian/patches/{name}"], source, log)
+    if "own_patch" in library:
+        run(["patch", "-p1", "-i", str(HERE / library["own_patch"])], source, log)
+    return source
+
+
+# ---- building
+
+def installed_version(package: str) -> str:
+    """The source package of an installed Debian package, and its version."""
+    asked = subprocess.run(["dpkg-query", "--show", "--showformat", "${source:Package} ${Version}", package],
+                           capture_output=True, text=True, check=False)
+    if asked.returncode:
+        raise Failure(f"the Debian package {package} is not installed: scripts/install_packages.sh --wheel")
+    return asked.stdout
+
+
+class Builder:
+    def __init__(self, folder: pathlib.Path, prefix: pathlib.Path, flags: str, jobs: int):
+        self.folder, self.prefix, self.jobs = folder, prefix, str(jobs)
+        self.launcher = shutil.which("ccache") or "env"
+        # The folder must not show in what is built.
+        self.flags = f"{flags} -ffile-prefix-map={folder}=."
+        self.environment = {"CFLAGS": self.flags, "CXXFLAGS": self.flags, "CCACHE_BASEDIR": str(folder),
+                            "CCACHE_NOHASHDIR": "1", "PKG_CONFIG_LIBDIR": str(prefix / "lib" / "pkgconfig")}
+
+    def build(self, library: dict) -> None:
+        slug = library["name"].lower().replace("/", "-")
+        work, log = self.folder / slug, self.folder / f"{slug}.log"
+        work.mkdir()
+        (self.folder / "downloads").mkdir(exist_ok=True)
+        (work / "source").mkdir()
+        source = unpack(library, self.folder / "downloads", work / "source", log)
+        getattr(self, "with_" + library["build"])(library, source, work, log)
+        self.keep_texts(library, source)
+
+    def with_cmake(self, library: dict, source: pathlib.Path, work: pathlib.Path, log: pathlib.Path) -> None:
+        build = work / "build"
+        options = [option.format(prefix=self.prefix) for option in library["options"]]
+        run(["cmake", "-S", str(source / library.get("folder", ".")), "-B", str(build), "-G", "Ninja",
+             "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_C_FLAGS_RELEASE=-DNDEBUG", "-DCMAKE_CXX_FLAGS_RELEASE=-DNDEBUG",
+             "-DBUILD_SHARED_LIBS=OFF", "-DCMAKE_POSITION_INDEPENDENT_CODE=ON", f"-DCMAKE_PREFIX_PATH={self.prefix}",
+             "-DCMAKE_INSTALL_PREFIX=/usr", "-DCMAKE_INSTALL_LIBDIR=lib",
+             f"-DCMAKE_C_COMPILER_LAUNCHER={self.launcher}", f"-DCMAKE_CXX_COMPILER_LAUNCHER={self.launcher}",
+             *options], work, log, **self.environment)
+        run(["cmake", "--build", str(build), "--parallel", self.jobs, "--target", library.get("target", "all")], work,
+            log, **self.environment)
+        for to, origin in library.get("before_install", {}).items():
+            shutil.copyfile(origin, build / to)
+        run(["cmake", "--install", str(build), "--prefix", str(self.prefix)], work, log)
+
+    def with_configure(self, library: dict, source: pathlib.Path, work: pathlib.Path, log: pathlib.Path) -> None:
+        build = work / "build"
+        build.mkdir()
+        run([str(source / "configure"), f"--prefix={self.prefix}", "--disable-shared", "--enable-static",
+             *library["options"], f"CC={self.launcher} gcc", f"LDFLAGS=-L{self.prefix / 'lib'}", "LIBS=-lz -lm"],
+            build, log, **self.environment)
+        run(["make", f"-j{self.jobs}", "-C", library["folder"], "install"], build, log, **self.environment)
+        if "then" in library:
+            run(["make", library["then"]], build, log, **self.environment)
+
+    def with_sources(self, library: dict, source: pathlib.Path, work: pathlib.Path, log: pathlib.Path) -> None:
+        objects = []
+        for name in library["sources"]:
+            compiler = "g++" if name.endswith(".cpp") else "gcc"
+            objects.append(str(work / (pathlib.PurePosixPath(name).stem + ".o")))
+            run([self.launcher, compiler, *shlex.split(self.flags), "-DNDEBUG", "-c", name, "-o", objects[-1]], source,
+                log, **self.environment)
+        run(["ar", "rcs", str(self.prefix / "lib" / f"lib{library['library']}.a"), *objects], work, log)
+        for folder, headers in library["includes"].items():
+            to = self.prefix / "include" / folder
+            to.mkdir(parents=True, exist_ok=True)
+            for header in headers:
+                shutil.copy(source / header, to)
+        self.describe(library["library"], library["library"], library["version"], folders=list(library["includes"]))
+
+    def take_installed(self, package: dict) -> None:
+        """What is taken from an installed Debian package, with its version."""
+        asked = installed_version(package["package"])
+        listed = subprocess.run(["dpkg-query", "--listfiles", package["package"]], capture_output=True, text=True,
+                                check=True)
+        files = {pathlib.PurePosixPath(line).name: line for line in listed.stdout.splitlines()}
+        for name in package.get("archives", []):
+            shutil.copy(files[name], self.prefix / "lib")
+        for name in package.get("includes", []):
+            shutil.copy(files[name], self.prefix / "include")
+        for folder, names in package.get("files", {}).items():
+            (self.prefix / folder).mkdir(parents=True, exist_ok=True)
+            for name in names:
+                shutil.copy(name, self.prefix / folder)
+        if "library" in package:
+            self.describe(package.get("pkg_config", package["library"]), package["library"],
+                          asked.split()[1].rpartition(":")[2], package.get("needs", ""))
+        self.keep_texts({**package, "texts": [f"/usr/share/doc/{package['package']}/copyright"]}, pathlib.Path("/"))
+        (self.prefix / "versions").mkdir(exist_ok=True)
+        (self.prefix / "versions" / package["package"]).write_text(asked + "\n", encoding="utf-8")
+
+    def describe(self, name: str, library: str, version: str, needs: str = "", folders: list[str] | None = None) -> None:
+        """What pkg-config tells of a library; `folders` below include/ are those of its headers."""
+        file = self.prefix / "lib" / "pkgconfig" / f"{name}.pc"
+        flags = " ".join(f"-I{self.prefix / 'include' / folder}" for folder in folders or ["."])
+        file.write_text(f"Name: {name}\nDescription: {name}\nVersion: {version}\nCflags: {flags}\n"
+                        f"Libs: -L{self.prefix}/lib -l{library} {needs}\n", encoding="utf-8")
+
+    def keep_texts(self, library: dict, source: pathlib.Path) -> None:
+        folder = self.prefix / "licences"
+        folder.mkdir(exist_ok=True)
+        text = "\n".join((source / name).read_text(encoding="utf-8", errors="replace") for name in library["texts"])
+        (folder / f"{library['name'].replace('/', '-')}.txt").write_text(text, encoding="utf-8")
+
+
+def settle_prefix(prefix: pathlib.Path) -> None:
+    """The descriptions that CMake installed name /usr, which is compiled in as the place of their data."""
+    for file in (prefix / "lib" / "pkgconfig").glob("*.pc"):
+        lines = file.read_text(encoding="utf-8").splitlines(keepends=True)
+        lines = [f"prefix={prefix}\n" if line.startswith("prefix=") else line for line in lines]
+        file.write_text("".join(lines), encoding="utf-8")
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--list", type=pathlib.Path, default=HERE / "wheel_libraries.toml")
+    parser.add_argument("--folder", type=pathlib.Path, default=HERE.parent / ".deps" / "wheel")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count())
+    arguments = parser.parse_args()
+    folder = arguments.folder.resolve()
+    prefix = folder / "prefix"
+    try:
+        libraries = tomllib.loads(arguments.list.read_text(encoding="utf-8"))
+        versions = [installed_version(package["package"]) for package in libraries.get("installed", [])]
+        files = [arguments.list, pathlib.Path(__file__), *sorted((HERE / "wheel_patches").glob("*.patch"))]
+        text = b"".join(file.read_bytes() for file in files) + "\n".join(versions).encode()
+        stamp = folder / f"{hashlib.sha256(text).hexdigest()[:16]}.stamp"
+        if stamp.exists():
+            return 0
+        build = folder / "build"
+        for old in (prefix, build, *folder.glob("*.stamp")):
+            shutil.rmtree(old) if old.is_dir() else old.unlink(missing_ok=True)
+        for part in ("include", "lib/pkgconfig"):
+            (prefix / part).mkdir(parents=True)
+        build.mkdir()
+        (folder / "downloads").mkdir(exist_ok=True)
+        (build / "downloads").symlink_to(folder / "downloads")
+        builder = Builder(build, prefix, libraries["flags"]["compiler"], arguments.jobs)
+        for package in libraries.get("installed", []):
+            builder.take_installed(package)
+        for number, library in enumerate(libraries.get("built", []), 1):
+            count = len(libraries["built"])
+            print(f"building {library['name']} {library['version']} ({number} of {count})", flush=True)
+            builder.build(library)
+            settle_prefix(prefix)
+    except (Failure, OSError, KeyError, tomllib.TOMLDecodeError) as error:
+        print(f"{error}", file=sys.stderr)
+        return 1
+    shutil.rmtree(build)
+    stamp.touch()
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

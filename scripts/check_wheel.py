@@ -1,0 +1,123 @@
+"""Uses the installed package in a system that has nothing else: run by check_wheel.sh in a root of its own."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import pathlib
+import subprocess
+import sys
+import time
+
+import numpy as np
+
+import vantage as vt
+
+HERE = pathlib.Path(__file__).resolve().parent
+SQUARE = [[-12, -9, 0], [8, -11, 0], [11, 0, 0], [4, 10, 0], [-13, 8, 0]]
+STARTED = time.perf_counter()
+
+
+def tell(what: str) -> None:
+    print(f"{time.perf_counter() - STARTED:6.2f} s  {what}", flush=True)
+
+
+def expect(condition: bool, what: str) -> None:
+    if not condition:
+        raise SystemExit(f"check failed: {what}")
+    tell(what)
+
+
+def program(*arguments: str) -> str:
+    result = subprocess.run([sys.executable, "-m", "vantage", *arguments], capture_output=True, text=True, cwd="/tmp",
+                            check=False)
+    expect(result.returncode == 0, f"python -m vantage {' '.join(arguments)}: exit {result.returncode} {result.stderr[-300:]}")
+    return result.stdout
+
+
+def dutch_cube() -> str:
+    """A CityJSON file in the Dutch system: reading it takes PROJ and its database."""
+    corners = [[x, y, z] for z in (0, 10) for y in (0, 10) for x in (0, 10)]
+    sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [1, 3, 7, 5], [3, 2, 6, 7], [2, 0, 4, 6]]
+    return json.dumps({
+        "type": "CityJSON", "version": "1.1", "transform": {"scale": [1, 1, 1], "translate": [155000, 463000, 0]},
+        "metadata": {"referenceSystem": "https://www.opengis.net/def/crs/EPSG/0/7415"},
+        "CityObjects": {"house": {"type": "Building", "geometry": [
+            {"type": "Solid", "lod": "1", "boundaries": [[[side] for side in sides]]}]}},
+        "vertices": corners})
+
+
+def same_as_program(result: vt.Result, name: str, expected: pathlib.Path | None) -> None:
+    """The program in the wheel, and one that was built without it, write the same bytes as the package."""
+    mission = HERE / f"examples/{name}/mission.yaml"
+    result.save(f"/tmp/{name}.ply")
+    program("compute", str(mission), "-o", f"/tmp/{name}_by_program.ply")
+    written = pathlib.Path(f"/tmp/{name}.ply").read_bytes()
+    expect(written == pathlib.Path(f"/tmp/{name}_by_program.ply").read_bytes(),
+           f"{name}: the same {len(written)} bytes from python -m vantage")
+    if expected is not None:
+        expect(written == (expected / f"{name}.ply").read_bytes(), f"{name}: the same bytes as the program outside of the wheel")
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--no-opengl", action="store_true", help="a picture must fail, and say what it lacks")
+    parser.add_argument("--picture", help="where to draw one")
+    parser.add_argument("--expected", type=pathlib.Path, help="volumes of the examples, from a program built otherwise")
+    arguments = parser.parse_args()
+    tell(f"import vantage {vt.__version__} from {pathlib.Path(vt.__file__).parent}, numpy {np.__version__}, "
+         f"Python {sys.version.split()[0]}")
+    expect(vt.__version__ in program("--version"), "the program tells the version of the package")
+    expect("compute" in program("--help"), "the program tells its commands")
+
+    yard = vt.Scene.from_arrays([[-60, -60, 0], [60, -60, 0], [60, 60, 0], [-60, 60, 0]], [[0, 1, 2], [0, 2, 3]])
+    above = vt.compute(yard, SQUARE, max_range=50)
+    expect(above.volume_m3 > 1000, f"a scene from arrays: {above.volume_m3:.3f} m3")
+
+    scene = vt.Scene.from_mesh(HERE / "examples/plaza/plaza.obj")
+    result = vt.compute(scene, SQUARE, max_range=70, navigation=vt.Navigation(altitude=(3, 50)))
+    expect(result.volume_m3 > 1000, f"plaza: {result.volume_m3:.3f} m3, {len(result.faces)} facets, hash {result.volume.hash}")
+    expect(result.prove()["verdict"] == "proved", "plaza: proved (exact arithmetic)")
+    expect(result.verify(points=2000)["over_claimed"] == 0, "plaza: no over-claim among 2000 points (Embree)")
+    same_as_program(vt.Mission.read(HERE / "examples/plaza/mission.yaml").run(), "plaza", arguments.expected)
+
+    town = vt.Mission.read(HERE / "examples/town/mission.yaml").run()
+    expect(town.volume_m3 > 1000, f"town: an OpenStreetMap scene of {len(town.scene.faces)} triangles, {town.volume_m3:.3f} m3, "
+           f"hash {town.volume.hash}")
+    expect(town.scene.georeference is not None, f"town: {town.scene.crs}")
+    same_as_program(town, "town", arguments.expected)
+
+    cube = vt.Scene.from_bytes(dutch_cube().encode(), "json")
+    place = cube.georeference
+    assert place is not None
+    expect(abs(place.latitude_deg - 52.155172897) < 1e-4 and abs(place.longitude_deg - 5.387203657) < 1e-4,
+           f"CityJSON in {place.source_crs}: {place.latitude_deg:.6f}, {place.longitude_deg:.6f} (PROJ and proj.db)")
+
+    sphere = vt.visibility_sphere(scene, (0, 0, 20), 60, cubemap=64, device="cpu")
+    expect(sphere.volume_m3 > 1000, f"visibility sphere on the CPU: {sphere.volume_m3:.1f} m3 (Embree, Manifold)")
+    heights = pathlib.Path("/tmp/heights.asc")
+    heights.write_text("ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 10\n1 2\n3 4\n")
+    try:
+        vt.Scene.from_raster(heights)
+    except vt.Error as error:
+        expect(error.code == "library-missing", f"a raster without GDAL: {error.code}: {error.fix}")
+    else:
+        raise SystemExit("check failed: a raster was read without GDAL")
+
+    if arguments.no_opengl:
+        try:
+            result.picture()
+        except vt.Error as error:
+            expect(error.code == "device-missing", f"a picture without OpenGL: {error.code}: {error.fix}")
+        else:
+            raise SystemExit("check failed: a picture was drawn without OpenGL")
+    if arguments.picture:
+        picture = result.picture(arguments.picture, title="Plaza \u00e9\u00df\u0142", size=(1200, 900))
+        expect(picture.shape == (900, 1200, 4) and len(np.unique(picture.reshape(-1, 4), axis=0)) > 500,
+               f"a picture of {pathlib.Path(arguments.picture).stat().st_size} bytes, with text")
+    print("all of it works")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
