@@ -118,7 +118,10 @@ Progress Bridge::progress_here() {
 }
 
 void Bridge::attend(const std::string& stage, double fraction, bool has_news) {
-  if (raised_) return;  // the computation is about to stop
+  {
+    const std::lock_guard lock(mutex_);
+    if (is_cancelled_) return;  // the computation is about to stop
+  }
   try {
     if (PyErr_CheckSignals() != 0) throw nb::python_error();
     if (has_news && !callback_.is_none()) call_python(stage, fraction);
