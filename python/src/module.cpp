@@ -21,5 +21,6 @@ NB_MODULE(_core, module) {
   bind_picture(module);
   bind_outer(module);
   bind_areas(module);
+  bind_tiles(module);
   bind_program(module);
 }
