@@ -90,8 +90,18 @@ struct CityRegion {
   std::optional<std::array<double, 4>> bbox_deg;    ///< west, south, east, north; west > east crosses the antimeridian
 };
 
+/// What regions of one map have in common that are built one by one as if the map were built whole: vantage/tiles.h.
+struct CityFrame {
+  std::array<double, 2> origin_deg{};  ///< of the scene frame: latitude, longitude (WGS 84)
+  std::array<double, 4> ground_m{};    ///< west, south, east, north of the flat ground of the whole map, scene frame
+  double reach_m = 0;  ///< as far as an object may depend on others: so far beyond a region the map is read
+};
+
 struct CityOptions {
-  CityRegion region;              ///< neither: all of the file
+  CityRegion region;  ///< neither: all of the file
+  /// With it the region is a part of the whole map: an object belongs to it when the box round it meets the box round
+  /// the region, the ground is that of the whole map, and Scene::whole is set. A region may then hold nothing.
+  std::optional<CityFrame> frame;
   std::filesystem::path terrain;  ///< GeoTIFF, .hgt or .hgt.zip; empty: a plane at z = 0
   /// The triangulated ground differs from the raster by no more than this, vertically, at its posts. Between them it is
   /// not known: a cell of four posts is taken for two triangles, folded along its higher diagonal (docs/terrain.md).

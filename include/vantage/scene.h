@@ -65,6 +65,11 @@ struct Scene {
   /// Where it lies on the earth; nothing for a mesh that does not say. The scene frame is then the one described there.
   std::optional<Georeference> georeference;
 
+  /// Of a part of a larger scene that is prepared as that is: the bounds of the larger one. So volumes in the part are
+  /// the same bits as in the whole, as long as all is in the part that their targets can reach: vantage/tiles.h. Each
+  /// object is then prepared by itself. Nothing: a scene of its own.
+  std::optional<Box> whole;
+
   /// Of a volume that vantage wrote: how far the rounding to the file's numbers moved it, metres. Nothing where the
   /// file does not say.
   std::optional<double> rounding_m;

@@ -43,6 +43,7 @@
 #include "vantage/target.h"
 #include "vantage/terrain.h"
 #include "vantage/threads.h"
+#include "vantage/tiles.h"
 #include "vantage/verify.h"
 #include "vantage/version.h"
 #include "vantage/visual_range.h"

@@ -54,7 +54,8 @@ std::vector<SceneObject> objects_of(const std::vector<ObjectRow>& rows) {
 
 std::shared_ptr<PyScene> from_arrays(const PointArray& vertices, const FaceArray& faces, const IndexArray& object_of,
                                      const std::vector<ObjectRow>& objects, const std::optional<PlaceRow>& place,
-                                     std::optional<double> sea_level_m) {
+                                     std::optional<double> sea_level_m,
+                                     const std::optional<std::array<double, 6>>& whole) {
   LoadedScene loaded;
   loaded.scene.mesh = mesh_of(vertices, faces);
   loaded.scene.object_of.assign(object_of.data(), object_of.data() + object_of.shape(0));
@@ -63,6 +64,7 @@ std::shared_ptr<PyScene> from_arrays(const PointArray& vertices, const FaceArray
     loaded.scene.georeference =
         Georeference{std::get<0>(*place), std::get<1>(*place), std::get<2>(*place), std::get<3>(*place)};
   }
+  if (whole) loaded.scene.whole = Box{Vec3(whole->data()), Vec3(whole->data() + 3)};
   return std::make_shared<PyScene>(std::make_shared<const LoadedScene>(std::move(loaded)), SceneSource{}, sea_level_m);
 }
 
@@ -94,6 +96,13 @@ void bind_scene(nb::module_& module) {
       .def_prop_ro("projection", [](const PyScene& s) { return projection_row(s.scene().georeference); })
       .def_prop_ro("source", [](const PyScene& s) { return s.scene().source; })
       .def_prop_ro("sea_level_m", &PyScene::sea_level_m)
+      .def_prop_ro("whole",
+                   [](const PyScene& s) -> std::optional<std::array<double, 6>> {
+                     const std::optional<Box>& box = s.scene().whole;
+                     if (!box) return std::nullopt;
+                     return std::array{box->min.x(), box->min.y(), box->min.z(),
+                                       box->max.x(), box->max.y(), box->max.z()};
+                   })
       .def_prop_ro(
           "hash", [](const PyScene& s) { return s.hash(); }, nb::call_guard<nb::gil_scoped_release>())
       .def("set_source", &set_source, "text"_a, "name"_a)
@@ -115,7 +124,7 @@ void bind_scene(nb::module_& module) {
 
   module.def("load_scene", &load, "text"_a, "name"_a, "progress"_a = nb::none());
   module.def("scene_from_arrays", &from_arrays, "vertices"_a.noconvert(), "faces"_a.noconvert(),
-             "object_of"_a.noconvert(), "objects"_a, "place"_a, "sea_level_m"_a);
+             "object_of"_a.noconvert(), "objects"_a, "place"_a, "sea_level_m"_a, "whole"_a = nb::none());
   module.def("object_kinds", [] {
     std::vector<std::string> names;
     for (int i = 0; i <= static_cast<int>(ObjectKind::tree); ++i)

@@ -29,13 +29,14 @@ from ._requests import Navigation, Sensor, Target, Vector
 from ._result import Answers, Mission, Result, compute, compute_many
 from ._scene import Scene, SceneObject
 from ._slice import Slice
+from ._tiles import Tile, Tiles, tiles
 from ._volume import Volume, intersect, unite
 
 __all__ = [
     "Answers", "Area", "CancelledError", "Cause", "Error", "Face", "Georeference", "InputError", "InternalError",
     "Mission", "Navigation", "Note", "OutputError", "Positions", "Result", "Scene", "SceneObject", "Sensor", "Slice",
-    "Target", "Volume", "__version__", "areas", "cameras", "compute", "compute_many", "devices", "error_codes",
-    "fewest_positions", "fraction_field", "intersect", "unite", "visibility_sphere",
+    "Target", "Tile", "Tiles", "Volume", "__version__", "areas", "cameras", "compute", "compute_many", "devices",
+    "error_codes", "fewest_positions", "fraction_field", "intersect", "tiles", "unite", "visibility_sphere",
 ]
 
 if (_share := _pathlib.Path(__file__).parent / "share").is_dir():  # a wheel brings PROJ's database and fonts along

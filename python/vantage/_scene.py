@@ -79,7 +79,8 @@ class Scene(Triangles):
     def from_osm(cls, path: Path, *, center: Vector | None = None, radius: float | None = None,
                  bbox: Vector | None = None, terrain: Path | None = None, error: float | None = None,
                  without: Sequence[str] | None = None, defaults: Mapping[str, float] | None = None,
-                 sea_level: float | None = None, progress: Progress = None) -> Scene:
+                 frame: Mapping[str, Any] | None = None, sea_level: float | None = None,
+                 progress: Progress = None) -> Scene:
         """Builds the scene of an OpenStreetMap file (.osm, .osm.gz, .osm.bz2, .osm.pbf).
 
         Args:
@@ -90,6 +91,7 @@ class Scene(Triangles):
             error: how far the ground's triangles may be from that raster, metres.
             without: what is left out, of "walls", "towers", "bridges", "trees".
             defaults: what is assumed where the map says nothing: {"level": 3.2}.
+            frame: `Tiles.frame`, to build a part as what it is of the whole map: see `vt.tiles`.
             sea_level: z of the mean sea level.
             progress: called with stage and fraction; False stops.
 
@@ -97,7 +99,8 @@ class Scene(Triangles):
             Error: the file cannot be read, or holds nothing to build there.
         """
         return cls._load({"osm": path, "center": center, "radius": radius, "bbox": bbox, "terrain": terrain,
-                          "error": error, "without": without, "defaults": defaults, "sea_level": sea_level}, progress)
+                          "error": error, "without": without, "defaults": defaults, "frame": frame,
+                          "sea_level": sea_level}, progress)
 
     @classmethod
     def from_raster(cls, path: Path, *, center: Vector | None = None, radius: float | None = None,
@@ -131,7 +134,7 @@ class Scene(Triangles):
     @classmethod
     def from_arrays(cls, vertices: npt.ArrayLike, faces: npt.ArrayLike, *, object_of: npt.ArrayLike | None = None,
                     objects: Iterable[SceneObject | str] | None = None, georeference: Georeference | None = None,
-                    sea_level: float | None = None) -> Scene:
+                    sea_level: float | None = None, _whole: Sequence[float] | None = None) -> Scene:
         """Makes a scene of triangles; the arrays are copied.
 
         Args:
@@ -163,7 +166,7 @@ class Scene(Triangles):
                 raise input_error("unknown-choice", f"{one.kind!r} is not a kind of object", "objects",
                                   "choose one of " + ", ".join(KINDS))
             rows.append((one.name, one.source_id, KINDS.index(one.kind)))
-        return cls(_core.scene_from_arrays(points, triangles, of, rows, georeference, sea_level))
+        return cls(_core.scene_from_arrays(points, triangles, of, rows, georeference, sea_level, _whole))
 
     @classmethod
     def _load(cls, keys: Mapping[str, Any], progress: Progress) -> Scene:
@@ -317,7 +320,7 @@ class Scene(Triangles):
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _restored, (np.array(self.vertices), np.array(self.faces), np.array(self.object_of), self.objects,
-                           self.georeference, self._core.sea_level_m,
+                           self.georeference, self._core.sea_level_m, self._core.whole,
                            None if self._source is None else self._source.kept())
 
     def _repr_html_(self) -> str:
@@ -332,8 +335,9 @@ class Scene(Triangles):
 
 
 def _restored(vertices: npt.ArrayLike, faces: npt.ArrayLike, object_of: npt.ArrayLike, objects: list[SceneObject],
-              georeference: Georeference | None, sea_level: float | None, source: Source | None = None) -> Scene:
+              georeference: Georeference | None, sea_level: float | None, whole: Sequence[float] | None = None,
+              source: Source | None = None) -> Scene:
     scene = Scene.from_arrays(vertices, faces, object_of=object_of, objects=objects, georeference=georeference,
-                              sea_level=sea_level)
+                              sea_level=sea_level, _whole=whole)
     scene._source = source
     return scene

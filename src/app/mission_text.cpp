@@ -134,6 +134,10 @@ class Writer {
     if (!without.empty()) section.add("without", "[" + without + "]");
     const std::string defaults = changed_defaults(city);
     if (!defaults.empty()) section.add("defaults", "{" + defaults + "}");
+    if (city.frame) {
+      section.add("frame", "{origin: " + list_of(city.frame->origin_deg) + ", ground: " +
+                               list_of(city.frame->ground_m) + ", reach: " + shortest(city.frame->reach_m) + "}");
+    }
   }
 
   static std::string changed_defaults(const CityOptions& city) {

@@ -30,6 +30,7 @@ class SceneParser {
     parse_region();
     parse_ground();
     parse_city();
+    parse_frame();
     if (const YamlNode* sea = find(node_, "sea_level")) section_.sea_level_m = reader_.length(*sea, "scene.sea_level");
     return std::move(section_);
   }
@@ -96,12 +97,7 @@ class SceneParser {
     if (box) {
       if (center)
         reader_.fail(ErrorCode::conflicting_keys, *box, "scene has both 'center' and 'bbox'", "keep one of them");
-      const char* const form = "write degrees: [west, south, east, north]";
-      if (reader_.list(*box, "scene.bbox", form).size() != 4) {
-        reader_.fail(ErrorCode::wrong_type, *box, "scene.bbox must be four numbers, not " + describe(*box), form);
-      }
-      std::array<double, 4>& bounds = region.bbox_deg.emplace();
-      for (std::size_t i = 0; i < 4; ++i) bounds[i] = reader_.number(box->items[i], "scene.bbox");
+      region.bbox_deg = four_numbers(*box, "scene.bbox", "write degrees: [west, south, east, north]");
     }
     section_.source.city.region = region;
     section_.source.raster.region = {region.center_deg, region.radius_m, region.bbox_deg, {}};
@@ -135,6 +131,31 @@ class SceneParser {
       set_city_option(city, entry.key, reader_.number(entry.value, "scene.defaults." + entry.key),
                       place_in(reader_.file(), entry.place));
     }
+  }
+
+  void parse_frame() {
+    const YamlNode* const node = take("frame", {Kind::map}, "maps");
+    if (!node) return;
+    check_keys(*node, Section::frame, reader_.file());
+    const auto needed = [&](const char* key) -> const YamlNode& {
+      if (const YamlNode* const entry = find(*node, key)) return *entry;
+      reader_.fail(ErrorCode::missing_key, *node, std::string("scene.frame lacks the key '") + key + "'",
+                   "write what a plan of tiles says: {origin: [latitude, longitude], ground: [west, south, east, "
+                   "north], reach: metres}");
+    };
+    CityFrame& frame = section_.source.city.frame.emplace();
+    frame.origin_deg = parse_lat_lon(needed("origin"), reader_, "scene.frame.origin");
+    frame.ground_m = four_numbers(needed("ground"), "scene.frame.ground", "write metres: [west, south, east, north]");
+    frame.reach_m = reader_.number(needed("reach"), "scene.frame.reach");
+  }
+
+  std::array<double, 4> four_numbers(const YamlNode& node, const std::string& what, const char* form) const {
+    if (reader_.list(node, what, form).size() != 4) {
+      reader_.fail(ErrorCode::wrong_type, node, what + " must be four numbers, not " + describe(node), form);
+    }
+    std::array<double, 4> numbers{};
+    for (std::size_t i = 0; i < 4; ++i) numbers[i] = reader_.number(node.items[i], what);
+    return numbers;
   }
 
   const YamlNode& node_;

@@ -15,15 +15,15 @@ struct SectionKeys {
   std::vector<std::string_view> keys;
 };
 
-const std::array<SectionKeys, 17>& table() {
-  static const std::array<SectionKeys, 17> kTable = {{
+const std::array<SectionKeys, 18>& table() {
+  static const std::array<SectionKeys, 18> kTable = {{
       {Section::mission,
        "the mission",
        {"scene", "crs", "target", "targets", "combine", "sensor", "navigation", "method", "exact", "spheres"}},
       {Section::scene,
        "scene",
        {"mesh", "osm", "raster", "up", "scale", "lod", "crs", "origin", "sea_level", "center", "radius", "bbox",
-        "terrain", "error", "without", "defaults"}},
+        "terrain", "error", "without", "defaults", "frame"}},
       {Section::target, "target", {"name",  "vertices", "edges",   "parts",  "point",  "outline", "holes",
                                    "osm",   "object",   "at",      "part",   "facing", "nearest", "center",
                                    "width", "length",   "heading", "offset", "front",  "sides"}},
@@ -48,6 +48,7 @@ const std::array<SectionKeys, 17>& table() {
       {Section::spheres,
        "spheres",
        {"sphere", "cubemap", "resolution", "merge", "split", "max_splits", "min_edge", "device"}},
+      {Section::frame, "scene.frame", {"origin", "ground", "reach"}},
   }};
   return kTable;
 }

@@ -29,7 +29,8 @@ enum class Section {
   zone,
   mesh,
   exact,
-  spheres
+  spheres,
+  frame
 };
 
 /// How messages call a section: "scene", "target"; "the mission" for the outermost one.

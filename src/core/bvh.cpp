@@ -3,6 +3,8 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <limits>
+#include <numeric>
+#include <span>
 
 #include "core/parallel.h"
 
@@ -187,7 +189,99 @@ class Builder {
   std::vector<Item> items_, right_;  // in the order so far; those that go right, for partition
 };
 
+/// The items of one group, and the hierarchy over them.
+struct Group {
+  Bvh bvh;
+  std::vector<std::uint32_t> order;  // of the items in its leaves
+  std::uint32_t rank = 0;            // of its root
+};
+
+/// Puts a hierarchy over the roots of groups, split in the middle of the longest side.
+class TopBuilder {
+ public:
+  TopBuilder(const std::vector<Group>& groups, std::vector<std::uint32_t>& order) : groups_(groups), order_(order) {}
+
+  Bvh run() {
+    std::vector<std::uint32_t> all(groups_.size());
+    std::iota(all.begin(), all.end(), 0u);
+    bvh_.nodes.resize(1);
+    bvh_.rank.resize(1);
+    build(0, all);
+    return std::move(bvh_);
+  }
+
+ private:
+  static Box4 box_of(const Group& group) { return Box4::of(group.bvh.nodes.front().bounds); }
+
+  void build(std::size_t node, std::span<std::uint32_t> groups) {
+    if (groups.size() == 1) return place(node, groups_[groups.front()]);
+    Box4 box = Box4::empty(), centres = Box4::empty();
+    for (const std::uint32_t group : groups) {
+      const Box4 own = box_of(groups_[group]);
+      box.extend(own);
+      centres.extend({own.centre(), own.centre()});
+    }
+    Eigen::Index axis = 0;
+    (centres.max - centres.min).maxCoeff(&axis);
+    const auto middle = groups.begin() + static_cast<std::ptrdiff_t>(groups.size() / 2);
+    std::nth_element(groups.begin(), middle, groups.end(), [&](std::uint32_t a, std::uint32_t b) {
+      const float at_a = box_of(groups_[a]).centre()[axis], at_b = box_of(groups_[b]).centre()[axis];
+      return at_a != at_b ? at_a < at_b : a < b;
+    });
+    const std::size_t left = bvh_.nodes.size();
+    bvh_.nodes[node] = {box.bounds(), static_cast<std::uint32_t>(left), 0};
+    bvh_.nodes.resize(left + 2);
+    bvh_.rank.resize(left + 2);
+    build(left, {groups.begin(), middle});
+    build(left + 1, {middle, groups.end()});
+  }
+
+  /// The group's root becomes the node; what is below it goes to the end.
+  void place(std::size_t node, const Group& group) {
+    const auto shift = static_cast<std::uint32_t>(bvh_.nodes.size()) - 1;
+    const auto first_item = static_cast<std::uint32_t>(order_.size());
+    const auto moved = [&](BvhNode n) {
+      n.first += n.leaf() ? first_item : shift;
+      return n;
+    };
+    bvh_.nodes[node] = moved(group.bvh.nodes.front());
+    bvh_.rank[node] = group.rank;
+    for (std::uint32_t i = 1; i < group.bvh.nodes.size(); ++i) {
+      bvh_.nodes.push_back(moved(group.bvh.nodes[i]));
+      bvh_.rank.push_back(group.rank + i);
+    }
+    order_.insert(order_.end(), group.order.begin(), group.order.end());
+  }
+
+  const std::vector<Group>& groups_;
+  std::vector<std::uint32_t>& order_;
+  Bvh bvh_;
+};
+
 }  // namespace
+
+Bvh build_bvh_of_groups(const std::vector<Bounds>& items, const std::vector<std::uint64_t>& group_of,
+                        std::vector<std::uint32_t>& order) {
+  order.clear();
+  if (items.empty()) return {};
+  std::vector<std::uint32_t> sorted(items.size());
+  std::iota(sorted.begin(), sorted.end(), 0u);
+  std::stable_sort(sorted.begin(), sorted.end(), [&](auto a, auto b) { return group_of[a] < group_of[b]; });
+  std::vector<Group> groups;
+  std::uint32_t rank = 1;
+  for (std::size_t begin = 0, end = 0; begin < sorted.size(); begin = end) {
+    std::vector<Bounds> own;
+    for (end = begin; end < sorted.size() && group_of[sorted[end]] == group_of[sorted[begin]]; ++end) {
+      own.push_back(items[sorted[end]]);
+    }
+    Group& group = groups.emplace_back();
+    group.bvh = build_bvh(own, group.order);
+    for (std::uint32_t& item : group.order) item = sorted[begin + item];
+    group.rank = rank;
+    rank += static_cast<std::uint32_t>(group.bvh.nodes.size());
+  }
+  return TopBuilder(groups, order).run();
+}
 
 Bvh build_bvh(const std::vector<Bounds>& items, std::vector<std::uint32_t>& order) {
   order.clear();

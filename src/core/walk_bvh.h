@@ -83,7 +83,8 @@ class NearerFirst {
   Stack<Waiting> stack_;
 };
 
-/// The nearest of all nodes, of those within reach; of several at the same distance the one with the lowest index.
+/// The nearest of all nodes, of those within reach; of several at the same distance the one with the lowest rank, or
+/// else index.
 template <typename Distance>
 class NearestFirst {
  public:
@@ -91,9 +92,9 @@ class NearestFirst {
       : bvh_(bvh), distance_(distance), reach_(reach) {}
   bool empty() const { return queue_.empty(); }
   Waiting next() {
-    const Waiting nearest = queue_.top();
+    const Ranked nearest = queue_.top();
     queue_.pop();
-    return nearest;
+    return {nearest.node, nearest.distance};
   }
   void add_root() { add(0); }
   void add_children(std::uint32_t left) {
@@ -102,21 +103,25 @@ class NearestFirst {
   }
 
  private:
+  struct Ranked {
+    std::uint32_t node, rank;
+    double distance;
+  };
   struct IsLater {
-    bool operator()(const Waiting& a, const Waiting& b) const {
-      return a.distance != b.distance ? a.distance > b.distance : a.node > b.node;
+    bool operator()(const Ranked& a, const Ranked& b) const {
+      return a.distance != b.distance ? a.distance > b.distance : a.rank > b.rank;
     }
   };
 
   void add(std::uint32_t node) {
     const double distance = distance_(bvh_.nodes[node].bounds);
-    if (distance <= reach_) queue_.push({node, distance});
+    if (distance <= reach_) queue_.push({node, bvh_.rank.empty() ? node : bvh_.rank[node], distance});
   }
 
   const Bvh& bvh_;
   const Distance& distance_;
   double reach_;
-  std::priority_queue<Waiting, std::vector<Waiting>, IsLater> queue_;
+  std::priority_queue<Ranked, std::vector<Ranked>, IsLater> queue_;
 };
 
 template <typename Order, typename Enter, typename Visit>

@@ -103,7 +103,8 @@ Mesh welded(const Mesh& mesh) {
 }
 
 // Points are dealt out by their hash, so that threads share nothing and each looks up in a small table.
-std::vector<std::uint32_t> first_at_position(const std::vector<Vec3>& points) {
+std::vector<std::uint32_t> first_at_position(const std::vector<Vec3>& points,
+                                             const std::vector<std::uint32_t>& owners) {
   constexpr std::size_t kBits = 6, kParts = std::size_t{1} << kBits;
   struct Entry {
     std::uint64_t hash;
@@ -114,6 +115,7 @@ std::vector<std::uint32_t> first_at_position(const std::vector<Vec3>& points) {
     for (std::size_t i = begin; i < end; ++i) {
       for (int a = 0; a < 3; ++a)
         hashes[i] = mix(hashes[i] + 0x9e3779b97f4a7c15ull + std::bit_cast<std::uint64_t>(points[i][a] + 0.0));
+      if (!owners.empty()) hashes[i] = mix(hashes[i] + owners[i]);
     }
   });
   std::array<std::size_t, kParts + 1> first{};
@@ -131,7 +133,8 @@ std::vector<std::uint32_t> first_at_position(const std::vector<Vec3>& points) {
     for (std::uint32_t i = 0; i < own.size(); ++i) {
       std::size_t slot = own[i].hash & mask;
       const auto differs = [&](const Entry& e) {
-        return e.hash != own[i].hash || points[e.point] != points[own[i].point];
+        return e.hash != own[i].hash || points[e.point] != points[own[i].point] ||
+               (!owners.empty() && owners[e.point] != owners[own[i].point]);
       };
       while (slots[slot] != kFree && differs(own[slots[slot]])) slot = (slot + 1) & mask;
       if (slots[slot] == kFree) slots[slot] = i;

@@ -9,8 +9,10 @@ namespace vantage::internal::core {
 /// coordinates, and without the triangles that have two corners in one place. Cost: O(n log n).
 Mesh welded(const Mesh& mesh);
 
-/// For every vertex the first one at exactly the same position. 0 and -0 are one. Cost: linear, on all threads.
-std::vector<std::uint32_t> first_at_position(const std::vector<Vec3>& vertices);
+/// For every vertex the first one at exactly the same position, and with `owners`, one for each vertex, of those with
+/// the same owner. 0 and -0 are one. Cost: linear, on all threads.
+std::vector<std::uint32_t> first_at_position(const std::vector<Vec3>& vertices,
+                                             const std::vector<std::uint32_t>& owners = {});
 
 /// The other way round: where facets round a vertex make several fans that only touch there, each fan gets a vertex of
 /// its own. At an edge with more than two triangles those that enclose the solid between them stay together. The mesh

@@ -98,6 +98,7 @@ void collect_blockers(const PreparedScene::Data& scene, const TargetFrame& frame
   std::size_t steps = 0;
   const auto may_show = [&](const core::BvhNode& node) {
     if (++steps % 1024 == 0) progress.check();
+    if (scene.bvh.is_above_groups(node)) return true;
     Vec3 middle = Vec3::Zero();
     std::array<Vec3, 3> half;
     double above = 0;

@@ -132,6 +132,7 @@ LinkScene::Grown LinkScene::grow(const TargetFrame& frame, const core::ProgressR
   const auto may_show = [&](const core::BvhNode& node, double distance) {
     if (++steps % 1024 == 0) progress.check();
     if (distance > radius_.reach()) return false;
+    if (data.bvh.is_above_groups(node)) return true;
     Vec3 low, high;
     for (int a = 0; a < 3; ++a) {
       low[a] = node.bounds.min[a] - antenna_[a];

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "core/group_side.h"
 #include "core/parallel.h"
 #include "core/progress_reporter.h"
 #include "core/read_limits.h"
@@ -105,13 +106,25 @@ struct CleanTriangles {
   std::vector<std::uint32_t> object_of;
 };
 
-// Fills in the vertices of `data`; returns each vertex's number there.
-std::vector<std::uint32_t> weld(const std::vector<Vec3>& vertices, PreparedScene::Data& data) {
+// The object of each vertex: of several, that of the last triangle.
+std::vector<std::uint32_t> owners_of(const Scene& scene) {
+  std::vector<std::uint32_t> owners(scene.mesh.vertices.size(), 0);
+  for (std::size_t i = 0; i < scene.object_of.size(); ++i) {
+    for (const std::uint32_t vertex : scene.mesh.triangles[i]) owners[vertex] = scene.object_of[i];
+  }
+  return owners;
+}
+
+// Fills in the vertices of `data`; returns each vertex's number there. In a part of a larger scene no vertices of
+// different objects become one: else what is made of an object would depend on its neighbours, and they on theirs.
+std::vector<std::uint32_t> weld(const Scene& scene, PreparedScene::Data& data) {
+  const std::vector<Vec3>& vertices = scene.mesh.vertices;
   std::vector<Vec3> points(vertices.size());
   internal::parallel::for_ranges(points.size(), 4096, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) points[i] = (vertices[i] - data.origin).array() + 0.0;  // -0 becomes 0
   });
-  std::vector<std::uint32_t> number = internal::core::first_at_position(points);
+  std::vector<std::uint32_t> number = scene.whole ? internal::core::first_at_position(points, owners_of(scene))
+                                                  : internal::core::first_at_position(points);
   for (std::uint32_t i = 0; i < points.size(); ++i) {
     if (number[i] != i) {
       number[i] = number[number[i]];
@@ -123,10 +136,11 @@ std::vector<std::uint32_t> weld(const std::vector<Vec3>& vertices, PreparedScene
   return number;
 }
 
-CleanTriangles weld_and_clean(const Scene& scene, const std::vector<char>& has_area, PreparedScene::Data& data) {
+CleanTriangles weld_and_clean(const Scene& scene, const std::vector<char>& has_area, const Box& bounds,
+                              PreparedScene::Data& data) {
   SceneStatistics& statistics = data.statistics;
-  const std::vector<std::uint32_t> welded = weld(scene.mesh.vertices, data);
-  const double no_width = slack_of(kNoWidth, statistics.bounds);
+  const std::vector<std::uint32_t> welded = weld(scene, data);
+  const double no_width = slack_of(kNoWidth, bounds);
   enum : char { kept, degenerate, duplicate };
   std::vector<Triangle> triangles(scene.mesh.triangles.size());
   std::vector<char> marks(triangles.size());
@@ -165,13 +179,36 @@ internal::core::Bounds bounds_of(const PreparedScene::Data& data, const internal
   return bounds;
 }
 
-void store_in_leaf_order(PreparedScene::Data& data, const internal::scene::ConvexPolygons& polygons) {
+/// A square in plan, by the middle of the polygon's bounds; of what is larger than a square a group of its own. Which
+/// polygons are in a square does not depend on what part of a scene is there, as long as that has all of them.
+std::vector<std::uint64_t> groups_of(const std::vector<internal::core::Bounds>& bounds) {
+  constexpr auto kSide = static_cast<float>(internal::core::kGroupSide);
+  constexpr std::uint64_t kOwn = std::uint64_t{1} << 63;
+  std::vector<std::uint64_t> groups(bounds.size());
+  for (std::size_t i = 0; i < bounds.size(); ++i) {
+    const auto& [min, max] = bounds[i];
+    if (max[0] - min[0] > kSide || max[1] - min[1] > kSide) {
+      groups[i] = kOwn + i;
+      continue;
+    }
+    const auto square = [&](int a) {
+      constexpr std::int64_t kPositive = 1 << 30;  // squares: more than there are to either side of the origin
+      return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor((min[a] + max[a]) / 2 / kSide)) +
+                                        kPositive);
+    };
+    groups[i] = square(0) << 31 | square(1);
+  }
+  return groups;
+}
+
+void store_in_leaf_order(PreparedScene::Data& data, const internal::scene::ConvexPolygons& polygons, bool in_groups) {
   std::vector<internal::core::Bounds> bounds(polygons.count());
   internal::parallel::for_ranges(polygons.count(), 4096, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) bounds[i] = bounds_of(data, polygons, i);
   });
   std::vector<std::uint32_t> order;
-  data.bvh = internal::core::build_bvh(bounds, order);
+  data.bvh = in_groups ? internal::core::build_bvh_of_groups(bounds, groups_of(bounds), order)
+                       : internal::core::build_bvh(bounds, order);
   data.first_vertex.reserve(order.size() + 1);
   data.first_vertex.push_back(0);
   data.polygon_vertices.reserve(polygons.vertices.size());
@@ -248,17 +285,18 @@ PreparedScene::PreparedScene(const Scene& scene, const Progress& callback) {
   statistics.objects = data->objects.size();
   const Extent extent = extent_of(scene.mesh);
   statistics.bounds = extent.bounds;
-  if (!statistics.bounds.empty()) data->origin = 0.5 * (statistics.bounds.min + statistics.bounds.max);
+  const Box& bounds = scene.whole ? *scene.whole : statistics.bounds;
+  if (!bounds.empty()) data->origin = 0.5 * (bounds.min + bounds.max);
   const internal::core::ProgressReporter progress(callback);
   progress.begin("preparing the scene");
-  const CleanTriangles clean = weld_and_clean(scene, extent.has_area, *data);
+  const CleanTriangles clean = weld_and_clean(scene, extent.has_area, bounds, *data);
   statistics.welded_vertices = data->vertices.size();
   progress.report(0.3);
   const auto polygons = internal::scene::merge_coplanar(data->vertices, clean.triangles, clean.object_of,
-                                                        slack_of(kBent, statistics.bounds), statistics);
+                                                        slack_of(kBent, bounds), statistics);
   statistics.polygons = polygons.count();
   progress.report(0.7);
-  store_in_leaf_order(*data, polygons);
+  store_in_leaf_order(*data, polygons, scene.whole.has_value());
   index_incidence(*data);
   progress.finish();
   data_ = std::move(data);

@@ -10,6 +10,7 @@
 #include "maps/city/region.h"
 #include "maps/city/site.h"
 #include "maps/city/solid_list.h"
+#include "maps/city/tile_frame.h"
 #include "maps/osm/extract.h"
 #include "vantage/error.h"
 
@@ -30,31 +31,52 @@ std::vector<std::string> notes_on(const internal::osm::Extract& extract) {
   return notes;
 }
 
+internal::geo::LonLat frame_origin(const CityOptions& options, const internal::osm::Extract& extract) {
+  if (!options.frame) return internal::city::frame_origin(options.region, extract);
+  return {options.frame->origin_deg[1], options.frame->origin_deg[0]};
+}
+
+internal::city::Ground ground_under(const internal::city::Site& site, const CityOptions& options,
+                                    const internal::geo::LocalFrame& frame, std::vector<std::string>& notes,
+                                    const Progress& progress) {
+  using internal::city::Ground;
+  using internal::city::Vec2;
+  if (options.frame) {
+    const auto& [west, south, east, north] = options.frame->ground_m;
+    return Ground::plane({west, south}, {east, north});
+  }
+  const Vec2 margin = Vec2::Constant(options.ground_margin_m);
+  const Vec2 min = site.min - margin, max = site.max + margin;
+  if (options.terrain.empty()) return Ground::plane(min, max);
+  return Ground::from_file(options.terrain, frame, min, max, options.terrain_error_m, notes, progress);
+}
+
 }  // namespace
 
 City build_city(const std::filesystem::path& file, const CityOptions& options, const Progress& progress) {
   const auto region = internal::city::checked_region(options.region);
+  if (options.frame) internal::city::check_frame(options);
   City result;
 
   internal::core::Stopwatch stopwatch;
-  const internal::osm::Extract extract =
-      internal::osm::read_extract(file, {internal::city::with_margin(region), internal::city::wanted}, progress);
-  internal::city::check_overlap(options.region, extract, file);
-  const internal::geo::LocalFrame frame(internal::city::frame_origin(options.region, extract));
+  const auto read =
+      options.frame ? internal::city::with_margin(region, options.frame->reach_m) : internal::city::with_margin(region);
+  const internal::osm::Extract extract = internal::osm::read_extract(file, {read, internal::city::wanted}, progress);
+  if (!options.frame) internal::city::check_overlap(options.region, extract, file);
+  const internal::geo::LocalFrame frame(frame_origin(options, extract));
   result.report.notes = notes_on(extract);
   result.report.read_seconds = stopwatch.lap();
 
-  internal::city::Site site = internal::city::make_site(extract, internal::osm::RegionFilter(region), frame, options);
+  // Of a part of a map all that was read is looked at, so that nothing depends on the region.
+  const internal::osm::RegionFilter filter(options.frame ? std::nullopt : region);
+  internal::city::Site site = internal::city::make_site(extract, filter, frame, options);
+  if (options.frame) internal::city::leave_out_beyond(region, frame, site);
   result.report.outside = site.outside.objects;
   result.report.bounds_deg = extract.bounds_deg;
-  if (site.items.empty()) internal::city::fail_empty(options.region, extract, site.outside, site.skipped, file);
-  const internal::city::Vec2 margin = internal::city::Vec2::Constant(options.ground_margin_m);
-  const internal::city::Vec2 min = site.min - margin, max = site.max + margin;
-  const internal::city::Ground ground =
-      options.terrain.empty()
-          ? internal::city::Ground::plane(min, max)
-          : internal::city::Ground::from_file(options.terrain, frame, min, max, options.terrain_error_m,
-                                              result.report.notes, progress);
+  if (site.items.empty() && !options.frame) {
+    internal::city::fail_empty(options.region, extract, site.outside, site.skipped, file);
+  }
+  const internal::city::Ground ground = ground_under(site, options, frame, result.report.notes, progress);
   const std::vector<Mesh> solids = internal::city::build_solids(site, ground, progress);
   result.report.build_seconds = stopwatch.lap();
 
@@ -63,6 +85,7 @@ City build_city(const std::filesystem::path& file, const CityOptions& options, c
   result.scene = internal::city::assemble(site, solids, ground.mesh());
   result.scene.source = file;
   result.scene.georeference = result.report.georeference;
+  if (options.frame) result.scene.whole = internal::city::bounds_of_whole(*options.frame);
   for (internal::city::Item& item : site.items) result.report.records.push_back(std::move(item.record));
   for (CityRecord& record : site.skipped) result.report.records.push_back(std::move(record));
   return result;

@@ -162,15 +162,14 @@ std::optional<osm::Region> checked_region(const CityRegion& region) {
   return {};
 }
 
-std::optional<osm::Region> with_margin(const std::optional<osm::Region>& region) {
-  constexpr double kMargin = 300;  // metres: more than any part lies from the rest of its building
+std::optional<osm::Region> with_margin(const std::optional<osm::Region>& region, double margin_m) {
   if (!region) return region;
   osm::Region wider = *region;
-  if (wider.circle) wider.circle->second += kMargin;
+  if (wider.circle) wider.circle->second += margin_m;
   if (wider.box_deg) {
     const Bounds& b = *region->box_deg;
-    const auto [south_width, height] = degrees_of(kMargin, b[1]);
-    const double width = std::max(south_width, degrees_of(kMargin, b[3])[0]);
+    const auto [south_width, height] = degrees_of(margin_m, b[1]);
+    const double width = std::max(south_width, degrees_of(margin_m, b[3])[0]);
     const double east = b[0] <= b[2] ? b[2] : b[2] + 360;
     wider.box_deg = brought_back({b[0] - width, b[1] - height, east + width, b[3] + height});
   }

@@ -14,8 +14,11 @@ namespace vantage::internal::city {
 /// Throws Error(input) for what cannot be right in any file: numbers out of range, no area, circle and box at once.
 std::optional<osm::Region> checked_region(const CityRegion& region);
 
+/// More than any part lies from the rest of its building, metres, but for a few.
+constexpr double kMargin = 300;
+
 /// What to read so that every building of the region comes with all its parts: a margin round it.
-std::optional<osm::Region> with_margin(const std::optional<osm::Region>& region);
+std::optional<osm::Region> with_margin(const std::optional<osm::Region>& region, double margin_m = kMargin);
 
 /// Throws Error(input) where the region lies outside the file (its bounds; latitude and longitude the wrong way round).
 void check_overlap(const CityRegion& region, const osm::Extract& extract, const std::filesystem::path& file);

@@ -106,6 +106,11 @@ class BuildingSorter {
       : site_(site), structures_(std::move(structures)), defaults_(defaults) {}
 
   void sort(const osm::RegionFilter& region) {
+    for (const Structure& structure : structures_) {
+      if (fault_of(structure).empty()) {
+        site_.reach_m = std::max(site_.reach_m, (structure.max - structure.min).norm());
+      }
+    }
     const std::vector<bool> belongs = choose(region);
     for (std::size_t i = 0; i < structures_.size(); ++i) {
       const Structure& structure = structures_[i];
@@ -227,7 +232,9 @@ class OccluderSorter {
       if (is_building(kind) || !is_switched_on(kind, options_.occluders) || !belongs(area)) continue;
       Repairs repairs;
       const std::vector<Footprint> footprints = clean(project(area, frame_), repairs);
-      add(area.id, area.tags, *kind,
+      PlanBounds drawn;
+      for (const Footprint& footprint : footprints) drawn.extend(footprint);
+      add(area.id, area.tags, *kind, drawn,
           [&](auto& remarks) { return shapes_of_area(area.tags, footprints, defaults_, remarks); });
     }
     for (const osm::Line& line : extract.lines) {
@@ -235,7 +242,9 @@ class OccluderSorter {
       if (is_building(kind) || !is_switched_on(kind, options_.occluders) || !belongs(line.points)) continue;
       std::vector<Vec2> points;
       for (const geo::LonLat& position : line.points) points.push_back(frame_.to_local(position));
-      add(line.id, line.tags, *kind,
+      PlanBounds drawn;
+      for (const Vec2& at : points) drawn.extend(at);
+      add(line.id, line.tags, *kind, drawn,
           [&](auto& remarks) { return shapes_of_line(line.tags, points, piece_m_, defaults_, remarks); });
     }
     for (const osm::Point& point : extract.points) {
@@ -245,9 +254,9 @@ class OccluderSorter {
         skip(site_, record_of(point.id, point.tags, *kind), "drawn as a point: it has no outline");
         continue;
       }
-      add(point.id, point.tags, *kind, [&](auto& remarks) {
-        return shapes_of_point(point.tags, frame_.to_local(point.position), defaults_, remarks);
-      });
+      const Vec2 place = frame_.to_local(point.position);
+      add(point.id, point.tags, *kind, {place, place},
+          [&](auto& remarks) { return shapes_of_point(point.tags, place, defaults_, remarks); });
     }
   }
 
@@ -266,7 +275,8 @@ class OccluderSorter {
   }
 
   template <typename MakeShapes>
-  void add(osm::ObjectId id, const osm::Tags& tags, ObjectKind kind, const MakeShapes& make_shapes) {
+  void add(osm::ObjectId id, const osm::Tags& tags, ObjectKind kind, const PlanBounds& drawn,
+           const MakeShapes& make_shapes) {
     Item item;
     item.record = record_of(id, tags, kind);
     if (is_underground(tags)) return skip(site_, std::move(item.record), kUnderground);
@@ -274,6 +284,8 @@ class OccluderSorter {
     item.shapes = make_shapes(remarks);
     note_remarks(item.record, remarks);
     if (item.shapes.empty()) return skip(site_, std::move(item.record), "without a length or an area");
+    const PlanBounds built = bounds_of(item.shapes);
+    site_.reach_m = std::max({site_.reach_m, (drawn.min - built.min).norm(), (built.max - drawn.max).norm()});
     if (kind == ObjectKind::wall || kind == ObjectKind::tree) item.stand = Item::Stand::each;
     if (kind == ObjectKind::bridge) item.stand = Item::Stand::above;
     site_.items.push_back(std::move(item));
@@ -328,20 +340,16 @@ void skip_groups(Site& site, const osm::Extract& extract, const osm::RegionFilte
 }
 
 void set_bounds(Site& site) {
-  site.min = Vec2::Constant(std::numeric_limits<double>::infinity());
-  site.max = -site.min;
-  const auto extend = [&](const Vec2& point) {
-    site.min = site.min.cwiseMin(point);
-    site.max = site.max.cwiseMax(point);
-  };
+  PlanBounds bounds;
   for (const Item& item : site.items) {
-    for (const Footprint& footprint : item.standing)
-      std::for_each(footprint.outer.begin(), footprint.outer.end(), extend);
+    for (const Footprint& footprint : item.standing) bounds.extend(footprint);
     for (const Shape& shape : item.shapes) {
-      std::for_each(shape.footprint.outer.begin(), shape.footprint.outer.end(), extend);
-      if (shape.tree) extend(shape.tree->foot);
+      bounds.extend(shape.footprint);
+      if (shape.tree) bounds.extend(shape.tree->foot);
     }
   }
+  site.min = bounds.min;
+  site.max = bounds.max;
 }
 
 /// How an object was built that could not be read as it is drawn; an empty text where nothing was made up.
@@ -378,6 +386,31 @@ void note_reading_repairs(Site& site, const osm::Extract& extract) {
 }
 
 }  // namespace
+
+void PlanBounds::extend(const Vec2& point) {
+  min = min.cwiseMin(point);
+  max = max.cwiseMax(point);
+}
+
+void PlanBounds::extend(const Footprint& footprint) {
+  for (const Vec2& corner : footprint.outer) extend(corner);
+}
+
+bool PlanBounds::meets(const PlanBounds& other) const {
+  return (min.array() <= other.max.array()).all() && (other.min.array() <= max.array()).all();
+}
+
+PlanBounds bounds_of(const std::vector<Shape>& shapes) {
+  PlanBounds bounds;
+  for (const Shape& shape : shapes) {
+    bounds.extend(shape.footprint);
+    if (!shape.tree) continue;
+    const Vec2 crown = Vec2::Constant(shape.tree->crown_m / 2);
+    bounds.extend(shape.tree->foot - crown);
+    bounds.extend(shape.tree->foot + crown);
+  }
+  return bounds;
+}
 
 Site make_site(const osm::Extract& extract, const osm::RegionFilter& region, const geo::LocalFrame& frame,
                const CityOptions& options) {

@@ -1,6 +1,7 @@
 // Everything that is to be built, in the frame's metres, before it becomes solid.
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,19 @@
 #include "vantage/city.h"
 
 namespace vantage::internal::city {
+
+/// A rectangle in plan; empty at first.
+struct PlanBounds {
+  Vec2 min = Vec2::Constant(std::numeric_limits<double>::infinity());
+  Vec2 max = Vec2::Constant(-std::numeric_limits<double>::infinity());
+
+  void extend(const Vec2& point);
+  void extend(const Footprint& footprint);
+  bool meets(const PlanBounds& other) const;
+};
+
+/// Holds all solids that are made of some shapes.
+PlanBounds bounds_of(const std::vector<Shape>& shapes);
 
 /// One object of the scene.
 struct Item {
@@ -31,6 +45,10 @@ struct Site {
   std::vector<CityRecord> skipped;  ///< read, wanted and not built, with the reason
   Outside outside;
   Vec2 min = Vec2::Zero(), max = Vec2::Zero();  ///< bounds of the footprints
+
+  /// What is made of an object depends on no others than these: what belongs to a building or a part that meets it,
+  /// none of which is larger across than so many metres. Nor is any shape so far from where its object is drawn.
+  double reach_m = 0;
 };
 
 /// Buildings and parts by Simple 3D Buildings, and the other occluders that are switched on. An object belongs to the
