@@ -2,7 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "vantage/export.h"
 
@@ -27,6 +29,19 @@ inline constexpr const char* kFlatGround = "flat ground";
 /// microseconds: a geodesic is solved. Throws Error(input) for a latitude beyond 90 or a longitude beyond 180 degrees,
 /// and for a point more than 100 km from the origin, where distances in the frame are no longer good.
 VANTAGE_API Eigen::Vector2d scene_position(const Georeference& georeference, double longitude_deg, double latitude_deg);
+
+/// x and y in the scene frame of points of a coordinate reference system: "EPSG:28992", a WKT text, a PROJ text. Points
+/// are (east, north) or (longitude, latitude), whatever order the system's authority has, in its unit. As read_scene
+/// moves meshes that have a system. Uses no network, and the best transformation of those whose grids are installed.
+/// Throws Error(input) for a system that is not known or neither geographic nor projected, and for a point that is not
+/// finite, not on the earth or more than 100 km from the origin. Cost: up to 50 ms, and some microseconds for each
+/// point.
+VANTAGE_API std::vector<Eigen::Vector2d> scene_positions(const Georeference& georeference, const std::string& crs,
+                                                         std::span<const Eigen::Vector2d> points);
+
+/// The other way round: points of the scene frame in a coordinate reference system.
+VANTAGE_API std::vector<Eigen::Vector2d> positions_in_crs(const Georeference& georeference, const std::string& crs,
+                                                          std::span<const Eigen::Vector2d> points);
 
 /// PROJ's words for the horizontal part: "+proj=aeqd +lat_0=… +lon_0=… +datum=WGS84 +units=m +type=crs".
 VANTAGE_API std::string projection_text(const Georeference& georeference);

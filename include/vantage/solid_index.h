@@ -1,6 +1,7 @@
-// A closed mesh that is asked many times: how deep points lie in it, and whether others come near.
+// A closed mesh that is asked many times: which points lie in it, how deep, and whether others come near.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
@@ -22,6 +23,12 @@ class VANTAGE_API SolidIndex {
   /// minus infinity for an empty mesh. Rounding: some 1e-15 of the mesh's size and distance. Uses the threads of the
   /// caller's arena (TBB). Throws Error(input) for a point that is not finite. Cost: O(log n) each for ordinary meshes.
   std::vector<double> depths_m(std::span<const Vec3> points) const;
+
+  /// 1 for each point (scene frame, metres) in the solid, else 0. Points on the surface are in it. Decided exactly, by
+  /// the coordinates as they are: nothing is rounded. Uses the threads of the caller's arena (TBB). Throws Error(input)
+  /// for a point that is not finite, and for a mesh whose triangles turn different ways. Cost: O(n log n) in the
+  /// triangles with the first call, then O(log n) for each point, and the triangles straight above it.
+  std::vector<std::uint8_t> contains(std::span<const Vec3> points) const;
 
   /// Whether the solids, both closed sets, have a common point or come as near as `within_m`, which must be at least 0;
   /// 1e-12 of the sizes and distances is added to it for what is rounded. So "no" is certain. Cost: a search for each

@@ -18,6 +18,7 @@ void bind_fields(nb::module_& module);
 void bind_picture(nb::module_& module);
 void bind_outer(nb::module_& module);
 void bind_areas(nb::module_& module);
+void bind_sections(nb::module_& module);
 void bind_tiles(nb::module_& module);
 void bind_program(nb::module_& module);
 

@@ -31,6 +31,12 @@ void check_process() {
               "start processes with multiprocessing.get_context(\"spawn\") or \"forkserver\"");
 }
 
+void check_callback(const nb::object& callback) {
+  if (callback.is_none() || PyCallable_Check(callback.ptr())) return;
+  throw Error(ErrorCode::wrong_type, "progress is neither a function nor True or False", "progress",
+              "pass a function of a stage and a fraction, or True for a bar");
+}
+
 /// Threads that wait for jobs.
 class Workers {
  public:
@@ -69,7 +75,21 @@ void run_on_worker(std::function<void()> job) {
   workers->run(std::move(job));
 }
 
-Bridge::Bridge(nb::object callback) : callback_(std::move(callback)) { check_process(); }
+Bridge::Bridge(nb::object callback) : callback_(std::move(callback)), bar_(nb::none()) {
+  check_process();
+  if (callback_.is(nb::bool_(true))) callback_ = bar_ = nb::module_::import_("vantage._progress").attr("Bar")();
+  if (callback_.is(nb::bool_(false))) callback_ = nb::none();
+  check_callback(callback_);
+}
+
+Bridge::~Bridge() {
+  if (bar_.is_none()) return;
+  try {
+    bar_.attr("close")();
+  } catch (nb::python_error& error) {
+    error.discard_as_unraisable("a progress bar");
+  }
+}
 
 Progress Bridge::progress() {
   return [this](std::string_view stage, double fraction) {

@@ -23,9 +23,12 @@ namespace nb = nanobind;
 /// and calls `callback(stage, fraction)`. A callback that returns False, or raises, stops the computation.
 class Bridge {
  public:
-  /// `callback`: None for none. Throws Error in a process that was forked from one that had computed: the threads of
-  /// that one are not in it.
+  /// `callback`: None or False for none, True for a bar (vantage/_progress.py). Throws Error in a process that was
+  /// forked from one that had computed: the threads of that one are not in it.
   explicit Bridge(nb::object callback);
+  ~Bridge();
+  Bridge(const Bridge&) = delete;
+  Bridge& operator=(const Bridge&) = delete;
 
   /// For a computing thread other than the calling one.
   Progress progress();
@@ -44,7 +47,7 @@ class Bridge {
   void attend(const std::string& stage, double fraction, bool has_news);
   void call_python(const std::string& stage, double fraction);
 
-  nb::object callback_;
+  nb::object callback_, bar_;
   std::mutex mutex_;
   std::condition_variable changed_;
   bool is_finished_ = false, is_cancelled_ = false, has_news_ = false;

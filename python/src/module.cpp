@@ -21,6 +21,7 @@ NB_MODULE(_core, module) {
   bind_picture(module);
   bind_outer(module);
   bind_areas(module);
+  bind_sections(module);
   bind_tiles(module);
   bind_program(module);
 }

@@ -6,6 +6,9 @@
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
+#include <algorithm>
+#include <cstdint>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -13,6 +16,7 @@
 #include "bindings.h"
 #include "calls.h"
 #include "mission.h"
+#include "vantage/error.h"
 #include "vantage/solid_index.h"
 #include "volume.h"
 
@@ -36,6 +40,24 @@ ListView<double> depths(const SolidIndex& index, const PointArray& array, int th
   return array_of(computed(nb::none(), threads, [&](const Progress&) { return index.depths_m(points); }));
 }
 
+ListView<std::uint8_t> contains(const SolidIndex& index, const PointArray& array, int threads, nb::object progress) {
+  const std::vector<Vec3> points = points_of(array);
+  return array_of(computed(std::move(progress), threads, [&](const Progress& told) {
+    constexpr std::size_t kBlock = 1 << 16;  // takes a twentieth of a second
+    std::vector<std::uint8_t> inside;
+    inside.reserve(points.size());
+    for (std::size_t begin = 0; begin < points.size(); begin += kBlock) {
+      if (!told("points in a mesh", static_cast<double>(begin) / static_cast<double>(points.size()))) {
+        throw Error(ErrorCode::cancelled, "cancelled", "", "");
+      }
+      const std::size_t count = std::min(kBlock, points.size() - begin);
+      const std::vector<std::uint8_t> block = index.contains(std::span(points).subspan(begin, count));
+      inside.insert(inside.end(), block.begin(), block.end());
+    }
+    return inside;
+  }));
+}
+
 }  // namespace
 
 void bind_outer(nb::module_& module) {
@@ -45,6 +67,7 @@ void bind_outer(nb::module_& module) {
       .def(
           "__init__", [](SolidIndex* made, const PyVolume& volume) { new (made) SolidIndex(volume->mesh); }, "volume"_a)
       .def("depths", &depths, "points"_a.noconvert(), "threads"_a = 0)
+      .def("contains", &contains, "points"_a.noconvert(), "threads"_a = 0, "progress"_a = nb::none())
       .def("comes_near", &SolidIndex::comes_near, "other"_a, "within_m"_a, nb::call_guard<nb::gil_scoped_release>());
 }
 

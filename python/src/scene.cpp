@@ -13,6 +13,7 @@
 #include "arrays.h"
 #include "bindings.h"
 #include "calls.h"
+#include "places.h"
 #include "vantage/hash.h"
 #include "vantage/json.h"
 
@@ -36,8 +37,6 @@ namespace {
 
 /// Name, id in the source, kind by number.
 using ObjectRow = std::tuple<std::string, std::string, int>;
-/// Latitude, longitude, what heights are measured from, reference system of the source.
-using PlaceRow = std::tuple<double, double, std::string, std::string>;
 
 std::shared_ptr<PyScene> load(const std::string& text, const std::string& name, nb::object progress) {
   return computed(std::move(progress), 0, [&](const Progress& told) {
@@ -69,18 +68,17 @@ std::shared_ptr<PyScene> from_arrays(const PointArray& vertices, const FaceArray
   return std::make_shared<PyScene>(std::make_shared<const LoadedScene>(std::move(loaded)), SceneSource{}, sea_level_m);
 }
 
+/// What a scene that was kept elsewhere had been loaded from.
+void set_source(PyScene& scene, const std::string& text, const std::string& name) {
+  scene.set_source(read_scene_text(text, name).scene);
+}
+
 std::vector<ObjectRow> object_rows(const PyScene& scene) {
   std::vector<ObjectRow> rows;
   for (const SceneObject& object : scene.scene().objects) {
     rows.emplace_back(object.name, object.source_id, static_cast<int>(object.kind));
   }
   return rows;
-}
-
-std::optional<PlaceRow> place_row(const PyScene& scene) {
-  const auto& place = scene.scene().georeference;
-  if (!place) return std::nullopt;
-  return PlaceRow{place->latitude_deg, place->longitude_deg, place->vertical, place->source_crs};
 }
 
 }  // namespace
@@ -94,12 +92,8 @@ void bind_scene(nb::module_& module) {
       .def_prop_ro(
           "object_of", [](const PyScene& s) { return list_view(s.scene().object_of, s.loaded()); }, kKept)
       .def_prop_ro("objects", &object_rows)
-      .def_prop_ro("place", &place_row)
-      .def_prop_ro("projection",
-                   [](const PyScene& s) -> std::optional<std::string> {
-                     const auto& place = s.scene().georeference;
-                     return place ? std::optional(projection_text(*place)) : std::nullopt;
-                   })
+      .def_prop_ro("place", [](const PyScene& s) { return place_row(s.scene().georeference); })
+      .def_prop_ro("projection", [](const PyScene& s) { return projection_row(s.scene().georeference); })
       .def_prop_ro("source", [](const PyScene& s) { return s.scene().source; })
       .def_prop_ro("sea_level_m", &PyScene::sea_level_m)
       .def_prop_ro("whole",
@@ -111,6 +105,7 @@ void bind_scene(nb::module_& module) {
                    })
       .def_prop_ro(
           "hash", [](const PyScene& s) { return s.hash(); }, nb::call_guard<nb::gil_scoped_release>())
+      .def("set_source", &set_source, "text"_a, "name"_a)
       .def(
           "prepare",
           [](const PyScene& s, nb::object progress) {

@@ -5,6 +5,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "vantage/mission.h"
 #include "vantage/scene_source.h"
@@ -19,7 +20,14 @@ class PyScene {
 
   const Scene& scene() const { return loaded_->scene; }
   const std::shared_ptr<const LoadedScene>& loaded() const { return loaded_; }
-  const SceneSource& source() const { return source_; }
+  SceneSource source() const {
+    const std::lock_guard lock(mutex_);
+    return source_;
+  }
+  void set_source(SceneSource source) {
+    const std::lock_guard lock(mutex_);
+    source_ = std::move(source);
+  }
   std::optional<double> sea_level_m() const { return sea_level_m_; }
 
   /// Made when they are first asked for.

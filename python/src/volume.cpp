@@ -13,6 +13,7 @@
 #include "arrays.h"
 #include "bindings.h"
 #include "calls.h"
+#include "places.h"
 #include "scene.h"
 #include "vantage/compare.h"
 #include "vantage/hash.h"
@@ -45,48 +46,45 @@ std::vector<std::pair<std::string, std::string>> note_rows(const std::vector<War
   return rows;
 }
 
-nb::dict measures_of(const MeshMeasures& m) {
+using Entries = std::initializer_list<std::pair<const char*, nb::object>>;
+
+nb::dict dict_of(Entries entries) {
   nb::dict values;
-  values["vertices"] = m.vertices;
-  values["facets"] = m.facets;
-  values["pieces"] = m.pieces;
-  values["euler"] = m.euler;
-  values["closed"] = m.closed;
-  values["oriented"] = m.oriented;
-  values["volume_m3"] = m.volume_m3;
-  values["area_m2"] = m.area_m2;
-  const bool is_empty = m.bounds.empty();
-  values["bounds"] = is_empty ? nb::none() : nb::object(nb::make_tuple(list_of(m.bounds.min), list_of(m.bounds.max)));
+  for (const auto& [name, value] : entries) values[name] = value;
   return values;
+}
+
+nb::dict measures_of(const MeshMeasures& m) {
+  nb::object bounds = nb::none();
+  if (!m.bounds.empty()) bounds = nb::make_tuple(list_of(m.bounds.min), list_of(m.bounds.max));
+  return dict_of({{"vertices", nb::cast(m.vertices)},
+                  {"facets", nb::cast(m.facets)},
+                  {"pieces", nb::cast(m.pieces)},
+                  {"euler", nb::cast(m.euler)},
+                  {"closed", nb::cast(m.closed)},
+                  {"oriented", nb::cast(m.oriented)},
+                  {"volume_m3", nb::cast(m.volume_m3)},
+                  {"area_m2", nb::cast(m.area_m2)},
+                  {"bounds", bounds}});
 }
 
 std::optional<nb::dict> provenance_of(const PyVolume& volume) {
   if (!volume->provenance) return std::nullopt;
   const VolumeProvenance& from = *volume->provenance;
-  nb::dict values;
-  values["version"] = from.version;
-  values["method"] = from.method;
-  values["target"] = from.target.name;
-  values["scene_hash"] = from.scene_hash;
-  values["mission_hash"] = from.mission_hash;
-  return values;
+  return dict_of({{"version", nb::cast(from.version)},
+                  {"method", nb::cast(from.method)},
+                  {"target", nb::cast(from.target.name)},
+                  {"scene_hash", nb::cast(from.scene_hash)},
+                  {"mission_hash", nb::cast(from.mission_hash)}});
 }
 
 nb::dict seconds_of(const Seconds& s) {
-  nb::dict values;
-  values["read"] = s.read;
-  values["prepare"] = s.prepare;
-  values["engine"] = s.engine;
-  values["navigation"] = s.navigation;
-  values["write"] = s.write;
-  values["total"] = s.total;
-  return values;
-}
-
-std::optional<std::tuple<double, double, std::string, std::string>> place_of(const PyVolume& volume) {
-  const auto& place = volume->georeference;
-  if (!place) return std::nullopt;
-  return std::tuple(place->latitude_deg, place->longitude_deg, place->vertical, place->source_crs);
+  return dict_of({{"read", nb::cast(s.read)},
+                  {"prepare", nb::cast(s.prepare)},
+                  {"engine", nb::cast(s.engine)},
+                  {"navigation", nb::cast(s.navigation)},
+                  {"write", nb::cast(s.write)},
+                  {"total", nb::cast(s.total)}});
 }
 
 PyVolume read(const std::filesystem::path& file, const std::string& up, double scale, const PyScene* scene,
@@ -160,11 +158,8 @@ void bind_volume(nb::module_& module) {
       .def_prop_ro("stated_hash", [](const PyVolume& v) { return v.stated_hash; })
       .def_prop_ro("seconds", [](const PyVolume& v) { return seconds_of(v->seconds); })
       .def_prop_ro("provenance", &provenance_of)
-      .def_prop_ro("place", &place_of)
-      .def_prop_ro("projection",
-                   [](const PyVolume& v) -> std::optional<std::string> {
-                     return v->georeference ? std::optional(projection_text(*v->georeference)) : std::nullopt;
-                   })
+      .def_prop_ro("place", [](const PyVolume& v) { return place_row(v->georeference); })
+      .def_prop_ro("projection", [](const PyVolume& v) { return projection_row(v->georeference); })
       .def_prop_ro(
           "hash", [](const PyVolume& v) { return volume_hash(v->mesh); }, nb::call_guard<nb::gil_scoped_release>())
       .def("measures", [](const PyVolume& v) { return measures_of(measure(v->mesh)); })

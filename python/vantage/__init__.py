@@ -21,18 +21,22 @@ from ._areas import Area, Face, areas
 from ._core import version as __version__
 from ._errors import CancelledError, Error, InputError, InternalError, OutputError
 from ._field import fraction_field
+from ._mesh import Cause, Note
+from ._place import Georeference
 from ._positions import Positions, fewest_positions
+from ._progress import Progress
 from ._requests import Navigation, Sensor, Target, Vector
 from ._result import Answers, Mission, Result, compute, compute_many
-from ._scene import Georeference, Progress, Scene, SceneObject
+from ._scene import Scene, SceneObject
+from ._slice import Slice
 from ._tiles import Tile, Tiles, tiles
-from ._volume import Cause, Note, Volume, intersect, unite
+from ._volume import Volume, intersect, unite
 
 __all__ = [
     "Answers", "Area", "CancelledError", "Cause", "Error", "Face", "Georeference", "InputError", "InternalError",
-    "Mission", "Navigation", "Note", "OutputError", "Positions", "Result", "Scene", "SceneObject", "Sensor", "Target",
-    "Tile", "Tiles", "Volume", "__version__", "areas", "cameras", "compute", "compute_many", "devices", "error_codes",
-    "fewest_positions", "fraction_field", "intersect", "tiles", "unite", "visibility_sphere",
+    "Mission", "Navigation", "Note", "OutputError", "Positions", "Result", "Scene", "SceneObject", "Sensor", "Slice",
+    "Target", "Tile", "Tiles", "Volume", "__version__", "areas", "cameras", "compute", "compute_many", "devices",
+    "error_codes", "fewest_positions", "fraction_field", "intersect", "tiles", "unite", "visibility_sphere",
 ]
 
 if (_share := _pathlib.Path(__file__).parent / "share").is_dir():  # a wheel brings PROJ's database and fonts along

@@ -13,7 +13,8 @@ import numpy.typing as npt
 from . import _arrays, _core
 from ._errors import input_error
 from ._requests import Path, Target, Vector
-from ._scene import Progress, Scene, SceneObject
+from ._progress import Progress
+from ._scene import Scene, SceneObject
 
 Ring = Sequence[Sequence[float]]
 """Of (longitude, latitude), degrees, WGS 84; open: the first position is not repeated."""
@@ -47,6 +48,11 @@ class Area:
                     {"type": "MultiPolygon", "coordinates": polygons})
         properties = {"osm": self.source_id, "name": self.name, "area_m2": self.area_m2, "tags": dict(self.tags)}
         return {"type": "Feature", "id": self.source_id, "properties": properties, "geometry": geometry}
+
+    def _repr_html_(self) -> str:
+        from ._html import of_area
+
+        return of_area(self)
 
 
 def _numbers(values: Vector | None, count: int, name: str, form: str) -> list[float] | None:
@@ -122,6 +128,11 @@ class Face:
         if self.front is not None:
             given.setdefault("front", self.front)
         return Target(**given)
+
+    def _repr_html_(self) -> str:
+        from ._html import of_face
+
+        return of_face(self)
 
 
 _WITH_FACES = ("building", "building part", "other")

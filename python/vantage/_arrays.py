@@ -30,6 +30,16 @@ def numbers(values: Any, name: str) -> npt.NDArray[np.float64]:
     return np.ascontiguousarray(array, dtype=np.float64)
 
 
+def number(value: Any, name: str) -> float:
+    """One finite number. True and texts are none."""
+    array = _as_array(value, name)
+    if array.shape != () or array.dtype.kind not in "iuf":
+        raise input_error("wrong-type", f"{value!r} is not a number", name, "pass one number")
+    if not np.isfinite(array):
+        raise input_error("value-out-of-range", f"{name} is {value}", name, "pass a finite number")
+    return float(array)
+
+
 def points(values: Any, name: str = "points") -> Points:
     """An (n, 3) float64 array of finite coordinates; a single point becomes one row."""
     array = numbers(values, name)

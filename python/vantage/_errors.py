@@ -47,6 +47,11 @@ class InternalError(Error):
     """A defect of vantage itself."""
 
 
+def not_pickled(what: str, fix: str) -> Error:
+    """The error of what stays in its process."""
+    return InputError("input", "not-applicable", f"{what} cannot be pickled or copied", "", fix)
+
+
 _CLASSES: dict[str, type[Error]] = {
     "input": InputError,
     "output": OutputError,

@@ -13,7 +13,8 @@ from . import _arrays, _core
 from ._errors import input_error
 from ._requests import Vector
 from ._result import AnyTarget, Mission
-from ._scene import Progress, Scene
+from ._progress import Progress
+from ._scene import Scene
 
 if TYPE_CHECKING:
     import xarray

@@ -2,28 +2,170 @@
 
 from __future__ import annotations
 
+import dataclasses
+from collections import Counter
+from collections.abc import Iterable, Sequence
 from html import escape
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 if TYPE_CHECKING:
-    from ._result import Result
+    from ._areas import Area, Face
+    from ._mesh import Note, Solid
+    from ._positions import Positions
+    from ._result import Answers, Mission, Result
+    from ._scene import Scene
+    from ._slice import Slice
+    from ._volume import Volume
+
+Rows = list[tuple[str, str]]
+_MOST = 5
+"""Names that are listed."""
+_MOST_ROWS = 10
 
 
-def table(title: str, rows: list[tuple[str, str]]) -> str:
-    """A title and two columns."""
+def table(title: str, rows: Iterable[tuple[str, str]]) -> str:
+    """A title and two columns, of plain texts."""
     body = "".join(f"<tr><th style='text-align:left'>{escape(name)}</th><td style='text-align:left'>{escape(value)}</td></tr>"
                    for name, value in rows)
     return f"<table><caption style='text-align:left'><b>{escape(title)}</b></caption>{body}</table>"
 
 
+def _size(bounds: Any) -> str:
+    return " x ".join(f"{length:,.0f}" for length in bounds[1] - bounds[0]) + " m"
+
+
+def _noted(notes: Iterable[Note]) -> Rows:
+    return [("note", note.text) for note in notes]
+
+
+def _numbers_of(solid: Solid) -> Rows:
+    return [("volume", f"{solid.volume_m3:,.0f} m³"), ("surface", f"{solid.area_m2:,.0f} m²"),
+            ("facets", f"{len(solid.faces):,}")]
+
+
+def _bounded_by(solid: Solid) -> Rows:
+    total = sum(cause.area_m2 for cause in solid.causes) or 1
+    largest = sorted(solid.causes, key=lambda cause: -cause.area_m2)[:_MOST]
+    return [("bounded by", ", ".join(f"{c.name} {100 * c.area_m2 / total:.0f} %" for c in largest))] if largest else []
+
+
+def _solid(title: str, solid: Solid, more: Rows) -> str:
+    if solid.empty:
+        return table(title, [("outcome", solid.outcome), ("reason", solid.reason), *_noted(solid.notes)])
+    return table(title, [*_numbers_of(solid), *more, *_bounded_by(solid), *_noted(solid.notes)])
+
+
 def of_result(result: Result) -> str:
     """The numbers of a result, and its largest causes."""
-    if result.empty:
-        return table(result.mission.target_name, [("outcome", result.outcome), ("reason", result.reason)])
-    total = sum(cause.area_m2 for cause in result.causes) or 1
-    largest = sorted(result.causes, key=lambda cause: -cause.area_m2)[:5]
-    rows = [("volume", f"{result.volume_m3:,.0f} m³"), ("surface", f"{result.area_m2:,.0f} m²"),
-            ("facets", f"{len(result.faces):,}"), ("range", f"{result.mission.range_m:g} m"),
-            ("bounded by", ", ".join(f"{c.name} {100 * c.area_m2 / total:.0f} %" for c in largest))]
-    rows += [("note", note.text) for note in result.notes]
-    return table(result.mission.target_name, rows)
+    return _solid(result.mission.target_name, result, [("range", f"{result.mission.range_m:g} m")])
+
+
+def of_volume(volume: Volume) -> str:
+    """Its numbers, and what it was computed for."""
+    made = volume.provenance
+    more = [("target", made["target"]), ("method", made["method"])] if made else []
+    if volume.bounds is not None:
+        more.append(("size", _size(volume.bounds)))
+    return _solid("volume", volume, more)
+
+
+def of_scene(scene: Scene) -> str:
+    """How much is in it, and where it lies."""
+    kinds = Counter(one.kind for one in scene.objects)
+    rows = [("size", _size(scene.bounds)), ("triangles", f"{len(scene.faces):,}"),
+            ("objects", f"{sum(kinds.values()):,}: " + ", ".join(f"{n:,} {kind}" for kind, n in kinds.most_common()))]
+    place = scene.georeference
+    if place is not None:
+        rows.append(("origin", f"{place.latitude_deg:.6f}, {place.longitude_deg:.6f}"))
+        rows += [("heights from", place.vertical)] if place.vertical else []
+        rows += [("CRS of the source", place.source_crs)] if place.source_crs else []
+    return table("scene", rows)
+
+
+def of_mission(mission: Mission) -> str:
+    """What is asked."""
+    corners = ", ".join(str(len(part)) for part in mission.target_parts)
+    return table(mission.target_name, [("range", f"{mission.range_m:g} m"), ("method", mission._core.method),
+                                       ("corners", corners), *_noted(mission.notes)])
+
+
+def of_request(request: Any) -> str:
+    """What was given of a Target, Sensor or Navigation."""
+    def shown(value: Any) -> str:
+        text = repr(value.tolist() if isinstance(value, np.ndarray) else value)
+        return text if len(text) <= 200 else text[:197] + "..."
+
+    fields = ((field.name, getattr(request, field.name)) for field in dataclasses.fields(request))
+    return table(type(request).__name__, [(name, shown(value)) for name, value in fields if value is not None])
+
+
+def of_slice(one: Slice) -> str:
+    """Its numbers, and a drawing."""
+    rows = [("area", f"{one.area_m2:,.1f} m²"), ("polygons", f"{len(one.polygons):,}"),
+            ("CRS", one.crs or "the scene's frame")]
+    drawing = _drawing((one._frame or one).polygons)  # degrees would be stretched
+    if one.z_m is None:
+        return table("footprint", rows) + drawing
+    return table("slice", [("height", f"{one.z_m:g} m"), *rows]) + drawing
+
+
+def of_area(area: Area) -> str:
+    """What the map tells, and a drawing about its middle, in metres."""
+    latitude, longitude = area.center
+    rows = [("id", area.source_id), ("area", f"{area.area_m2:,.0f} m²"), ("middle", f"{latitude:.6f}, {longitude:.6f}"),
+            *((key, value) for key, value in area.tags.items() if key != "name")]
+    shrink = np.array([np.cos(np.radians(latitude)), 1.0])
+    drawn = [[(np.array(ring) - [longitude, latitude]) * shrink for ring in rings] for rings in area.polygons]
+    return table(area.name or "area", rows) + _drawing(drawn)
+
+
+def of_face(face: Face) -> str:
+    """How large it is, and where it looks."""
+    return table(face.name, [("area", f"{face.area_m2:,.1f} m²"), ("of", f"{face.object.kind} {face.object.name}".strip()),
+                             ("normal", ", ".join(f"{value:.3f}" for value in face.normal)),
+                             ("parts", f"{len(face.parts):,}")])
+
+
+def of_positions(found: Positions) -> str:
+    """The answer, and a row for each position."""
+    rows = [(f"{number}: " + ", ".join(f"{value:,.1f}" for value in place) + " m",
+             f"sees {len(sees)}: {_listed(sees)}; {depth:,.2f} m deep")
+            for number, (place, sees, depth) in enumerate(zip(found.positions, found.sees, found.depth_m))]
+    more = [("", f"and {len(rows) - _MOST_ROWS} more")] if len(rows) > _MOST_ROWS else []
+    return table(str(found), [*rows[:_MOST_ROWS], *more, *(("note", note) for note in found.notes)])
+
+
+def of_answers(answers: Answers) -> str:
+    """A row for each point, of the first ones."""
+    def why(row: int) -> str:
+        reasons = [*answers.blocked_by[row], *(["range"] if answers.out_of_range[row] else []),
+                   *(["behind the target"] if answers.behind_target[row] else []), *answers.outside_of[row]]
+        return "sees it" if answers.inside[row] else f"does not: {_listed(reasons)}"
+
+    count = len(answers.inside)
+    rows = [(f"{row}", f"{why(row)} ({answers.margin_m[row]:+.3g} m)") for row in range(min(count, _MOST_ROWS))]
+    more = [("", f"and {count - _MOST_ROWS:,} more")] if count > _MOST_ROWS else []
+    return table(f"{int(np.sum(answers.inside)):,} of {count:,} points see the target", rows + more)
+
+
+def _listed(names: Iterable[Any]) -> str:
+    texts = [str(name) for name in names]
+    return ", ".join(texts[:_MOST]) + (", ..." if len(texts) > _MOST else "")
+
+
+def _drawing(polygons: Sequence[Sequence[Any]]) -> str:
+    """North is up; 200 pixels across."""
+    if not polygons:
+        return ""
+    corners = np.concatenate([ring for rings in polygons for ring in rings])
+    low, size = corners.min(axis=0), float(np.ptp(corners, axis=0).max()) or 1.0
+    width, height = np.ptp(corners, axis=0) / size * 200
+    paths = []
+    for rings in polygons:
+        for ring in rings:
+            places = (ring - low) / size * 200
+            paths.append("M" + "L".join(f"{x:.2f},{height - y:.2f}" for x, y in places) + "Z")
+    return (f"<svg width='{width + 4:.0f}' height='{height + 4:.0f}' viewBox='-2 -2 {width + 4:.2f} {height + 4:.2f}'>"
+            f"<path d='{''.join(paths)}' fill='#e0b84c' stroke='#555' stroke-width='1' fill-rule='evenodd'/></svg>")

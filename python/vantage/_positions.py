@@ -15,7 +15,7 @@ from ._common_points import Numbers, Solid, deepest, inner_points, surely_apart
 from ._cover import Clock, cp_model, groups, least_cover, most_apart, most_together
 from ._errors import input_error, make
 from ._result import Result
-from ._scene import Progress
+from ._progress import Listener, Progress, listener
 from ._volume import Volume
 
 Cost = Union[npt.ArrayLike, Callable[[_arrays.Points], npt.ArrayLike]]
@@ -63,6 +63,11 @@ class Positions:
     def __len__(self) -> int:
         return len(self.positions)
 
+    def _repr_html_(self) -> str:
+        from ._html import of_positions
+
+        return of_positions(self)
+
     def __repr__(self) -> str:
         return f"<vantage.Positions: {self}>"
 
@@ -92,7 +97,7 @@ def _plural(word: str, count: int) -> str:
 class _Told:
     """Tells progress, and stops when the callback returns False."""
 
-    def __init__(self, progress: Progress):
+    def __init__(self, progress: Listener):
         self.progress = progress
 
     def __call__(self, stage: str, fraction: float) -> None:
@@ -350,7 +355,7 @@ def fewest_positions(volumes: Sequence[Result | Volume], candidates: npt.ArrayLi
     cp_model()
     if not time_limit_s > 0:
         raise input_error("value-out-of-range", f"time_limit_s is {time_limit_s}", "time_limit_s", "pass seconds")
-    told, clock = _Told(progress), Clock(time_limit_s)
+    told, clock = _Told(listener(progress)), Clock(time_limit_s)
     if isinstance(volumes, (Result, Volume)) or not isinstance(volumes, Sequence):
         raise input_error("wrong-type", f"volumes is a {type(volumes).__name__}", "volumes", "pass a list of them")
     every = [_Region(one, f"volumes[{number}]") for number, one in enumerate(volumes)]

@@ -31,6 +31,11 @@ class _Request:
         given = ", ".join(f"{name}={_short(value)}" for name, value in _given(self).items())
         return f"{type(self).__name__}({given})"
 
+    def _repr_html_(self) -> str:
+        from ._html import of_request
+
+        return of_request(self)
+
 
 @dataclasses.dataclass(repr=False, kw_only=True)
 class Target(_Request):

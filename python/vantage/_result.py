@@ -11,11 +11,13 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _arrays, _core
-from ._errors import input_error
+from ._errors import input_error, not_pickled
+from ._mesh import Note, Solid
+from ._progress import Progress
 from ._requests import Navigation, Path, Sensor, Target, given
-from ._scene import Progress, Scene
+from ._scene import Scene
 from ._text import NAME, Text
-from ._volume import Cause, Note, Volume
+from ._volume import Volume
 
 T = TypeVar("T")
 AnyTarget = Union[Target, npt.ArrayLike]
@@ -36,6 +38,11 @@ class Answers(NamedTuple):
     """behind the plane of the target, which is seen from its front"""
     outside_of: list[list[str]]
     """limits that the point breaks"""
+
+    def _repr_html_(self) -> str:
+        from ._html import of_answers
+
+        return of_answers(self)
 
 
 class Mission:
@@ -70,6 +77,8 @@ class Mission:
         """Of the arguments that `compute` takes."""
         text = Text()
         several = _targets(target)
+        if any(one.osm or one.center is not None or one.outline is not None for one in several):
+            scene._recall(needs_map=any(one.osm for one in several))
         if method != "exact":
             text.add("method", method)
         if crs is not None:
@@ -189,11 +198,19 @@ class Mission:
         """What `work` returns; errors in what was asked by arguments are told of them."""
         return work() if self._text is None else self._text.told(work)
 
+    def _repr_html_(self) -> str:
+        from ._html import of_mission
+
+        return of_mission(self)
+
+    def __reduce__(self) -> Any:
+        raise not_pickled("a mission", "pickle the scene, and what was asked of `compute`")
+
     def __repr__(self) -> str:
         return f"<vantage.Mission: {self.target_name}, {self.range_m:g} m, {self._core.method}>"
 
 
-class Result:
+class Result(Solid):
     """A volume with its mission and its scene.
 
     Example:
@@ -219,54 +236,8 @@ class Result:
         return self.mission.scene
 
     @property
-    def vertices(self) -> _arrays.Points:
-        """(n, 3) float64, metres; a read-only view."""
-        return self.volume.vertices
-
-    @property
-    def faces(self) -> _arrays.Faces:
-        """(m, 3) uint32, counter-clockwise seen from outside; a read-only view."""
-        return self.volume.faces
-
-    @property
-    def cause_of(self) -> npt.NDArray[np.uint32]:
-        """(m,) uint32, the cause of each facet, an index into `causes`; a read-only view."""
-        return self.volume.cause_of
-
-    @property
-    def causes(self) -> list[Cause]:
-        """What bounds the view."""
-        return self.volume.causes
-
-    @property
-    def volume_m3(self) -> float:
-        """Cubic metres."""
-        return self.volume.volume_m3
-
-    @property
-    def area_m2(self) -> float:
-        """Of the surface, square metres."""
-        return self.volume.area_m2
-
-    @property
-    def outcome(self) -> str:
-        """"computed", or why there is no volume."""
-        return self.volume.outcome
-
-    @property
-    def reason(self) -> str:
-        """Why it is empty, a sentence."""
-        return self.volume.reason
-
-    @property
-    def empty(self) -> bool:
-        """Whether there is no position at all."""
-        return self.volume.empty
-
-    @property
-    def notes(self) -> list[Note]:
-        """What to know before relying on it."""
-        return self.volume.notes
+    def _solid(self) -> _core.Volume:
+        return self.volume._core
 
     @property
     def report(self) -> dict[str, Any]:
@@ -299,14 +270,6 @@ class Result:
         """Writes the volume to each path (PLY, OBJ, STL, GLB), and a report beside it; all or none. Returns the reports."""
         return self._core.save([os.path.abspath(os.fspath(path)) for path in paths], progress)
 
-    def to_trimesh(self) -> Any:
-        """For trimesh, with the facets' causes as face_attributes["cause"]."""
-        return self.volume.to_trimesh()
-
-    def to_pyvista(self) -> Any:
-        """For pyvista, with an array "cause"."""
-        return self.volume.to_pyvista()
-
     def plot(self, path: Path | None = None, **options: Any) -> Any:
         """Scene, target and volume by pyvista: in a notebook to turn, or as a PNG at `path`."""
         from ._plot import plot
@@ -332,6 +295,12 @@ class Result:
         if path is not None:
             _core.save_png(pixels, os.path.abspath(os.fspath(path)))
         return pixels
+
+    def _row(self) -> dict[str, Any]:
+        return {**super()._row(), "target": self.mission.target_name}
+
+    def __reduce__(self) -> Any:
+        raise not_pickled("a result", "pickle result.volume, and result.scene where it is needed")
 
     def __repr__(self) -> str:
         return f"<vantage.Result: {self.mission.target_name}, {repr(self.volume)[len('<vantage.Volume: '):]}"

@@ -5,8 +5,8 @@ from __future__ import annotations
 import json
 import os
 import tempfile
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple, Optional
+from collections.abc import Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -14,20 +14,17 @@ import numpy.typing as npt
 from . import _arrays, _core
 from ._errors import input_error
 from ._extras import require
+from ._mesh import KINDS, Triangles
+from ._place import Georeference
+from ._progress import Progress
 from ._requests import Path, Target, Vector
+from ._source import Source
 from ._text import NAME, Text
 
 if TYPE_CHECKING:
     import trimesh
 
     from ._areas import Face
-
-Progress = Optional[Callable[[str, float], Any]]
-"""Called with the stage and the part of it that is done; False stops the work."""
-
-KINDS: tuple[str, ...] = tuple(_core.object_kinds())
-"""What an object can be: "other", "ground", "building", ..."""
-
 
 class SceneObject(NamedTuple):
     """Who an object of a scene is."""
@@ -37,18 +34,7 @@ class SceneObject(NamedTuple):
     kind: str = "other"
 
 
-class Georeference(NamedTuple):
-    """Where the scene's frame lies: x east, y north, z up, in metres from an origin in WGS 84."""
-
-    latitude_deg: float
-    longitude_deg: float
-    vertical: str = ""
-    """what z is measured from: "flat ground", "EGM96 geoid", ..."""
-    source_crs: str = ""
-    """of the file it came from"""
-
-
-class Scene:
+class Scene(Triangles):
     """Triangles that may hide the target, each with the object it belongs to. Scenes do not change.
 
     The frame is right-handed with z up, in metres. Preparing a scene takes much longer than most volumes in it: it is done
@@ -61,8 +47,9 @@ class Scene:
         <vantage.Scene: 1 triangles, 1 objects, 9 m x 9 m x 0 m>
     """
 
-    def __init__(self, core: _core.Scene):
+    def __init__(self, core: _core.Scene, source: Source | None = None):
         self._core = core
+        self._source = source  # of a map
 
     # ---- where scenes come from
 
@@ -189,19 +176,67 @@ class Scene:
             if key in given:
                 given[key] = os.path.abspath(os.fspath(given[key]))
         text.add("scene", given, "scene")
-        return cls(text.told(lambda: _core.load_scene(text.text(), NAME, progress)))
+        source = Source.of(text.text(), given["osm"]) if "osm" in given else None
+        return cls(text.told(lambda: _core.load_scene(text.text(), NAME, progress)), source)
+
+    @classmethod
+    def from_geodataframe(cls, gdf: Any, height: str | float = "height", *, base: str | float | None = None,
+                          ground: bool | float = True, name: str | None = None, kind: str = "building",
+                          origin: Vector | None = None, default_height: float | None = None,
+                          sea_level: float | None = None) -> Scene:
+        """Extrudes footprints to closed prisms: an object for each row, and flat ground under them.
+
+        Corners are moved from the table's CRS into the scene's frame as those of `from_mesh` are; sides of more than 50 m are
+        cut before, so that none is off by more than 0.1 mm (up to 60 degrees of latitude). Without a CRS, coordinates are
+        metres in the frame. Holes stay open. A MultiPolygon is one object.
+
+        Args:
+            gdf: a geopandas.GeoDataFrame of Polygons and MultiPolygons.
+            height: the column of heights above the base, metres; or one height for all.
+            base: the column of z where the prisms begin, metres; or one for all. Default: 0. Polygons that have z need it:
+                their own z is not used.
+            ground: True: a plane at the lowest base, 1 km beyond the footprints, as object "ground". A number: at that z.
+                False: none.
+            name: the column of names. Default: "name", if there is one. Ids are "row" and the row's label: "row 0".
+            kind: of the objects.
+            origin: (latitude, longitude) of the scene's origin. Default: the middle of the data.
+            default_height: for rows without a height. Without it they are refused.
+            sea_level: z of the mean sea level.
+
+        Raises:
+            Error: a geometry is missing, no polygon or not valid; a height is missing or not positive; it names the rows.
+
+        Example:
+            >>> import geopandas, shapely, vantage as vt
+            >>> houses = geopandas.GeoDataFrame({"height": [9, 12], "name": ["mill", "barn"]}, crs=32631,
+            ...                                 geometry=[shapely.box(500000, 5e6, 500010, 5000020),
+            ...                                           shapely.box(500030, 5e6, 500040, 5000020)])
+            >>> scene = vt.Scene.from_geodataframe(houses)
+            >>> [one.name for one in scene.objects]
+            ['mill', 'barn', 'ground']
+            >>> scene.georeference.source_crs
+            'EPSG:32631'
+        """
+        from ._prisms import scene_of
+
+        return scene_of(gdf, height, base, ground, name, kind, origin, default_height, sea_level)
+
+    def _recall(self, needs_map: bool) -> None:
+        """Tells a scene that was unpickled its map again, if that is still the same."""
+        if self._source is None or self._source.is_known:
+            return
+        problem = self._source.problem()
+        if problem is None:
+            self._core.set_source(self._source.text, NAME)
+            self._source = Source.of(self._source.text, self._source.file)
+        elif needs_map:
+            raise problem
 
     # ---- what they hold
 
     @property
-    def vertices(self) -> _arrays.Points:
-        """(n, 3) float64, metres; a read-only view."""
-        return self._core.vertices
-
-    @property
-    def faces(self) -> _arrays.Faces:
-        """(m, 3) uint32, indices into `vertices`; a read-only view."""
-        return self._core.faces
+    def _triangles(self) -> _core.Scene:
+        return self._core
 
     @property
     def object_of(self) -> npt.NDArray[np.uint32]:
@@ -212,17 +247,6 @@ class Scene:
     def objects(self) -> list[SceneObject]:
         """The objects; those of a map are its buildings, walls, trees and the ground."""
         return [SceneObject(name, source_id, KINDS[kind]) for name, source_id, kind in self._core.objects]
-
-    @property
-    def georeference(self) -> Georeference | None:
-        """Where the frame lies on the earth, if it is known."""
-        place = self._core.place
-        return None if place is None else Georeference(*place)
-
-    @property
-    def crs(self) -> str | None:
-        """The frame's x and y as a coordinate reference system, in PROJ's words."""
-        return self._core.projection
 
     @property
     def bounds(self) -> npt.NDArray[np.float64]:
@@ -296,7 +320,13 @@ class Scene:
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _restored, (np.array(self.vertices), np.array(self.faces), np.array(self.object_of), self.objects,
-                           self.georeference, self._core.sea_level_m, self._core.whole)
+                           self.georeference, self._core.sea_level_m, self._core.whole,
+                           None if self._source is None else self._source.kept())
+
+    def _repr_html_(self) -> str:
+        from ._html import of_scene
+
+        return of_scene(self)
 
     def __repr__(self) -> str:
         size = self.bounds[1] - self.bounds[0]
@@ -305,6 +335,9 @@ class Scene:
 
 
 def _restored(vertices: npt.ArrayLike, faces: npt.ArrayLike, object_of: npt.ArrayLike, objects: list[SceneObject],
-              georeference: Georeference | None, sea_level: float | None, whole: Sequence[float] | None) -> Scene:
-    return Scene.from_arrays(vertices, faces, object_of=object_of, objects=objects, georeference=georeference,
-                             sea_level=sea_level, _whole=whole)
+              georeference: Georeference | None, sea_level: float | None, whole: Sequence[float] | None = None,
+              source: Source | None = None) -> Scene:
+    scene = Scene.from_arrays(vertices, faces, object_of=object_of, objects=objects, georeference=georeference,
+                              sea_level=sea_level, _whole=whole)
+    scene._source = source
+    return scene

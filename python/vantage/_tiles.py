@@ -14,8 +14,9 @@ import numpy.typing as npt
 from . import _arrays, _core
 from ._areas import Area, Face
 from ._errors import input_error
+from ._progress import Progress
 from ._requests import Path
-from ._scene import Progress, Scene
+from ._scene import Scene
 from ._text import NAME, Text
 
 Place = Union[Area, Face, npt.ArrayLike]

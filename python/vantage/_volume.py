@@ -6,42 +6,20 @@ import json
 import os
 import tempfile
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _arrays, _core
 from ._errors import input_error
-from ._extras import require
+from ._mesh import Solid
+from ._progress import Progress
 from ._requests import Path
-from ._scene import KINDS, Georeference, Progress, Scene
-
-if TYPE_CHECKING:
-    import trimesh
+from ._scene import Scene
 
 
-class Cause(NamedTuple):
-    """One reason for part of a volume's boundary."""
-
-    kind: str
-    """"scene", "range", "target_plane", "navigation" or "sensor"."""
-    name: str
-    area_m2: float
-    object: int | None = None
-    """index into `Scene.objects`, where it is an object"""
-    source_id: str = ""
-    object_kind: str = "other"
-
-
-class Note(NamedTuple):
-    """What to know before relying on a result."""
-
-    code: str
-    text: str
-
-
-class Volume:
+class Volume(Solid):
     """A closed, oriented mesh in the scene's frame. Volumes do not change; their arrays are read-only views that outlive them.
 
     Example:
@@ -56,7 +34,7 @@ class Volume:
 
     def __init__(self, core: _core.Volume):
         self._core = core
-        self._measures: dict[str, Any] | None = None
+        self._index: _core.SolidIndex | None = None
 
     @classmethod
     def read(cls, path: Path, *, scene: Scene | None = None, up: str = "z", scale: float = 1.0,
@@ -79,77 +57,16 @@ class Volume:
         points = _arrays.points(vertices, "vertices")
         return cls(_core.volume_from_arrays(points, _arrays.faces(faces, len(points)), cause))
 
-    # ---- the mesh
+    # ---- what is known of it, besides what `Solid` tells
 
     @property
-    def vertices(self) -> _arrays.Points:
-        """(n, 3) float64, metres; a read-only view."""
-        return self._core.vertices
-
-    @property
-    def faces(self) -> _arrays.Faces:
-        """(m, 3) uint32, counter-clockwise seen from outside; a read-only view."""
-        return self._core.faces
-
-    @property
-    def cause_of(self) -> npt.NDArray[np.uint32]:
-        """(m,) uint32, the cause of each facet, an index into `causes`; a read-only view."""
-        return self._core.cause_of
-
-    @property
-    def causes(self) -> list[Cause]:
-        """What bounds the view: objects of the scene, the range, limits."""
-        return [Cause(*row[:5], KINDS[row[5]]) for row in self._core.causes]
-
-    # ---- what is known of it
-
-    @property
-    def empty(self) -> bool:
-        """Whether there is no position at all; `reason` says why."""
-        return len(self.faces) == 0
-
-    @property
-    def outcome(self) -> str:
-        """"computed", or why there is no volume: "out_of_range", "blocked_at_once", "outside_limits", "no_common_view"."""
-        return self._core.outcome
-
-    @property
-    def reason(self) -> str:
-        """Why it is empty, a sentence."""
-        return self._core.reason
+    def _solid(self) -> _core.Volume:
+        return self._core
 
     @property
     def hint(self) -> str:
         """What to try next, where it is empty."""
         return self._core.hint
-
-    @property
-    def notes(self) -> list[Note]:
-        """What to know before relying on it."""
-        return [Note(*row) for row in self._core.notes]
-
-    @property
-    def measures(self) -> dict[str, Any]:
-        """vertices, facets, pieces, euler, closed, oriented, volume_m3, area_m2, bounds."""
-        if self._measures is None:
-            self._measures = self._core.measures()
-        return self._measures
-
-    @property
-    def volume_m3(self) -> float:
-        """Cubic metres."""
-        return self.measures["volume_m3"]
-
-    @property
-    def area_m2(self) -> float:
-        """Of the surface, square metres."""
-        return self.measures["area_m2"]
-
-    @property
-    def bounds(self) -> npt.NDArray[np.float64] | None:
-        """(2, 3): the lowest and the highest coordinates, metres; None where it is empty."""
-        bounds = self.measures["bounds"]
-        return None if bounds is None else np.array(bounds)
 
     @property
     def tolerance_m(self) -> float:
@@ -176,18 +93,30 @@ class Volume:
         """What it was computed for: version, method, target, scene_hash, mission_hash."""
         return self._core.provenance
 
-    @property
-    def georeference(self) -> Georeference | None:
-        """Where its frame lies on the earth, if it is known."""
-        place = self._core.place
-        return None if place is None else Georeference(*place)
-
-    @property
-    def crs(self) -> str | None:
-        """The frame's x and y as a coordinate reference system, in PROJ's words."""
-        return self._core.projection
-
     # ---- what can be done with it
+
+    def contains(self, points: npt.ArrayLike, *, threads: int = 0, progress: Progress = None) -> npt.NDArray[np.bool_]:
+        """Whether each point is in the volume, or on its surface: (n,) bool. Decided by the coordinates as they are, without
+        rounding. `Result.contains` asks the scene instead: it knows what facets of the range leave out.
+
+        Args:
+            points: (n, 3), metres.
+            threads: 0: as many as there are.
+            progress: called with stage and fraction; False stops.
+
+        Raises:
+            Error: the mesh is not closed, or its triangles turn different ways.
+
+        Example:
+            >>> import vantage as vt
+            >>> tetrahedron = vt.Volume.from_arrays([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]],
+            ...                                     [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+            >>> tetrahedron.contains([[0.2, 0.2, 0.2], [0.25, 0.25, 0.5], [1, 1, 1]]).tolist()
+            [True, True, False]
+        """
+        if self._index is None:
+            self._index = _core.SolidIndex(self._core)
+        return self._index.contains(_arrays.points(points), threads, progress).view(np.bool_)
 
     def prove(self, scene: Scene, *, maximal: bool = False, shrink: float = 1e-6, threads: int = 0,
               progress: Progress = None) -> dict[str, Any]:
@@ -241,24 +170,6 @@ class Volume:
         """Writes PLY, OBJ, STL or GLB, by the path's extension; whole or not at all. `up`, `scale`: of an OBJ."""
         self._core.save(os.path.abspath(os.fspath(path)), up, float(scale))
 
-    def to_trimesh(self) -> trimesh.Trimesh:
-        """For trimesh, with the facets' causes as face_attributes["cause"]."""
-        attributes = {"cause": np.array(self.cause_of)} if len(self.cause_of) else None
-        return require("trimesh", "geo").Trimesh(np.array(self.vertices), np.array(self.faces, np.int64), process=False,
-                               face_attributes=attributes)
-
-    def to_pyvista(self) -> Any:
-        """For pyvista, with an array "cause"."""
-        from ._plot import poly_data
-
-        return poly_data(self.vertices, self.faces, cause=self.cause_of)
-
-    def to_manifold(self) -> Any:
-        """For manifold3d."""
-        import manifold3d
-
-        return manifold3d.Manifold(manifold3d.Mesh64(np.array(self.vertices), np.array(self.faces, np.uint64)))
-
     def __reduce__(self) -> tuple[Any, ...]:
         if self.empty:
             return _empty, (self.outcome, self.reason)
@@ -267,6 +178,11 @@ class Volume:
             self.save(file)
             with open(file, "rb") as saved:
                 return _restored, (saved.read(),)
+
+    def _repr_html_(self) -> str:
+        from ._html import of_volume
+
+        return of_volume(self)
 
     def __repr__(self) -> str:
         if self.empty:

@@ -41,4 +41,36 @@ Eigen::Vector2d scene_position(const Georeference& georeference, double longitud
   return position;
 }
 
+std::vector<Eigen::Vector2d> scene_positions(const Georeference& georeference, const std::string& crs,
+                                             std::span<const Eigen::Vector2d> points) {
+  const internal::geo::LocalFrame frame({georeference.longitude_deg, georeference.latitude_deg});
+  const internal::geo::CoordinateSystem system(crs, "crs");
+  std::vector<Eigen::Vector2d> positions;
+  positions.reserve(points.size());
+  for (const Eigen::Vector2d& point : points) {
+    const std::string place = "point " + std::to_string(positions.size());
+    if (!point.allFinite()) {
+      throw Error(ErrorCode::coordinate_not_finite, "a coordinate is not finite", place, "give two numbers");
+    }
+    const Eigen::Vector2d& position = positions.emplace_back(frame.to_local(system.to_lonlat(point)));
+    if (position.norm() <= internal::geo::kFarthestM) continue;
+    throw Error(ErrorCode::too_far_away,
+                "the point lies " + std::to_string(std::lround(position.norm() / 1000)) + " km from the scene's origin",
+                place,
+                system.is_geographic() ? "give positions within 100 km of it, longitude before latitude"
+                                       : "give positions within 100 km of it, east before north");
+  }
+  return positions;
+}
+
+std::vector<Eigen::Vector2d> positions_in_crs(const Georeference& georeference, const std::string& crs,
+                                              std::span<const Eigen::Vector2d> points) {
+  const internal::geo::LocalFrame frame({georeference.longitude_deg, georeference.latitude_deg});
+  const internal::geo::CoordinateSystem system(crs, "crs");
+  std::vector<Eigen::Vector2d> positions;
+  positions.reserve(points.size());
+  for (const Eigen::Vector2d& point : points) positions.push_back(system.from_lonlat(frame.to_lonlat(point)));
+  return positions;
+}
+
 }  // namespace vantage

@@ -1,19 +1,14 @@
-// Adaptive predicates (Shewchuk 1997), by William C. Lenthe: they come with CDT.
 #include "simplify/exact.h"
-
-#include <CDT.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "core/orientation.h"
+
 namespace vantage::internal::simplify {
 namespace {
 
-int sign(double value) { return (value > 0) - (value < 0); }
-
-int side(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-  return sign(predicates::orient3d(a.data(), b.data(), c.data(), d.data()));
-}
+using core::orientation;
 
 /// Of points of one plane: how three of them turn in a coordinate plane that the plane is not upright on.
 class PlaneView {
@@ -27,7 +22,7 @@ class PlaneView {
   }
 
   int turn(const Vec3& a, const Vec3& b, const Vec3& c) const {
-    return sign(predicates::orient2d(a[first_], a[second_], b[first_], b[second_], c[first_], c[second_]));
+    return core::turn({a[first_], a[second_]}, {b[first_], b[second_]}, {c[first_], c[second_]});
   }
 
   /// Whether the box of one has a point with the box of the other.
@@ -65,20 +60,20 @@ bool meet_in_plane(const Vec3& start, const Vec3& end, const Corners& triangle) 
 
 }  // namespace
 
-int side_of(const Corners& facet, const Vec3& point) { return side(facet[0], facet[1], facet[2], point); }
+int side_of(const Corners& facet, const Vec3& point) { return orientation(facet[0], facet[1], facet[2], point); }
 
 bool meet(const Vec3& start, const Vec3& end, const Corners& triangle) {
   const auto& [a, b, c] = triangle;
-  const int of_start = side(a, b, c, start), of_end = side(a, b, c, end);
+  const int of_start = orientation(a, b, c, start), of_end = orientation(a, b, c, end);
   if (of_start == 0 && of_end == 0) return meet_in_plane(start, end, triangle);
   if (of_start * of_end > 0) return false;
-  const int ab = side(start, end, a, b), bc = side(start, end, b, c), ca = side(start, end, c, a);
+  const int ab = orientation(start, end, a, b), bc = orientation(start, end, b, c), ca = orientation(start, end, c, a);
   const bool has_positive = ab > 0 || bc > 0 || ca > 0, has_negative = ab < 0 || bc < 0 || ca < 0;
   return !(has_positive && has_negative);
 }
 
 bool is_folded(const Vec3& start, const Vec3& end, const Vec3& third, const Vec3& other_third) {
-  if (side(start, end, third, other_third) != 0) return false;
+  if (orientation(start, end, third, other_third) != 0) return false;
   const PlaneView view({start, end, third});
   return view.turn(start, end, third) * view.turn(start, end, other_third) >= 0;
 }

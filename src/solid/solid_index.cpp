@@ -5,15 +5,17 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <string>
+#include <mutex>
+#include <optional>
 #include <utility>
 
+#include "core/closed_mesh_check.h"
 #include "core/parallel.h"
 #include "core/pieces.h"
 #include "core/triangle_distance.h"
+#include "solid/exact_winding.h"
 #include "solid/triangle_tree.h"
 #include "vantage/error.h"
-#include "vantage/volume.h"
 
 namespace vantage {
 namespace {
@@ -22,26 +24,6 @@ using internal::solid::TriangleTree;
 using Corners = std::array<Vec3, 3>;
 
 constexpr double kRounding = 1e-12;  ///< of sizes and distances
-
-void check(const Mesh& mesh) {
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    for (const std::uint32_t v : mesh.triangles[t]) {
-      if (v >= mesh.vertices.size()) {
-        throw Error(ErrorCode::index_out_of_range,
-                    "triangle " + std::to_string(t) + " names a vertex that is not there", "mesh",
-                    "pass indices below the number of vertices");
-      }
-      if (mesh.vertices[v].allFinite()) continue;
-      throw Error(ErrorCode::coordinate_not_finite,
-                  "vertex " + std::to_string(v) + " has a coordinate that is not finite", "mesh",
-                  "pass finite coordinates");
-    }
-  }
-  if (const OpenEdges open = find_open_edges(mesh); open.count > 0) {
-    throw Error(ErrorCode::mesh_not_closed, std::to_string(open.count) + " edges of the mesh are open", "mesh",
-                "close the mesh");
-  }
-}
 
 double squared_between_segments(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const Vec3 u = b - a, v = d - c, w = a - c;
@@ -94,7 +76,11 @@ Corners corners_of(const Mesh& mesh, std::size_t triangle, const Vec3& shift) {
 
 struct SolidIndex::Data {
   explicit Data(const Mesh& given)
-      : bounds(bounding_box(given)), origin(middle_of(bounds)), mesh(about(given, origin)), tree(mesh) {
+      : as_given(given),
+        bounds(bounding_box(given)),
+        origin(middle_of(bounds)),
+        mesh(about(given, origin)),
+        tree(mesh) {
     const internal::core::Pieces pieces = internal::core::find_pieces(mesh);
     std::vector<bool> has(pieces.pieces.size(), false);
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -110,24 +96,46 @@ struct SolidIndex::Data {
     return distance > 0 && tree.winding_number(point) < 1 ? -distance : distance;
   }
 
+  /// Made when it is first asked for.
+  const internal::solid::ExactWinding& winding() const {
+    std::call_once(winding_once, [&] {
+      internal::core::check_oriented(as_given);
+      exact_winding.emplace(as_given);
+    });
+    return *exact_winding;
+  }
+
+  Mesh as_given;
   Box bounds;
   Vec3 origin;
   Mesh mesh;  ///< about `origin`
   TriangleTree tree;
   std::vector<Vec3> of_pieces;  ///< a vertex of each
+
+ private:
+  mutable std::once_flag winding_once;
+  mutable std::optional<internal::solid::ExactWinding> exact_winding;
 };
 
-SolidIndex::SolidIndex(const Mesh& mesh) {
-  check(mesh);
-  data_ = std::make_shared<const Data>(mesh);
-}
+namespace {
 
-std::vector<double> SolidIndex::depths_m(std::span<const Vec3> points) const {
+void check_points(std::span<const Vec3> points) {
   for (const Vec3& point : points) {
     if (point.allFinite()) continue;
     throw Error(ErrorCode::coordinate_not_finite, "a point has a coordinate that is not finite", "points",
                 "pass finite coordinates");
   }
+}
+
+}  // namespace
+
+SolidIndex::SolidIndex(const Mesh& mesh) {
+  internal::core::check_closed(mesh);
+  data_ = std::make_shared<const Data>(mesh);
+}
+
+std::vector<double> SolidIndex::depths_m(std::span<const Vec3> points) const {
+  check_points(points);
   std::vector<double> depths(points.size(), -std::numeric_limits<double>::infinity());
   if (data_->mesh.empty()) return depths;
   constexpr std::size_t kGrain = 64;
@@ -135,6 +143,18 @@ std::vector<double> SolidIndex::depths_m(std::span<const Vec3> points) const {
     for (std::size_t i = begin; i < end; ++i) depths[i] = data_->depth(points[i] - data_->origin);
   });
   return depths;
+}
+
+std::vector<std::uint8_t> SolidIndex::contains(std::span<const Vec3> points) const {
+  check_points(points);
+  std::vector<std::uint8_t> inside(points.size(), 0);
+  if (data_->mesh.empty()) return inside;
+  const internal::solid::ExactWinding& winding = data_->winding();
+  constexpr std::size_t kGrain = 256;
+  internal::parallel::for_ranges(points.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) inside[i] = winding.holds(points[i]) ? 1 : 0;
+  });
+  return inside;
 }
 
 bool SolidIndex::comes_near(const SolidIndex& other, double within_m) const {

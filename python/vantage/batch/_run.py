@@ -17,7 +17,8 @@ from .._errors import Error, make
 from .._extras import require
 from .._requests import Navigation, Path, Sensor
 from .._result import _sensor
-from .._scene import Progress, Scene
+from .._progress import Listener, Progress, listener
+from .._scene import Scene
 from . import _geometry, _manifest, _rows, _scenes, _table, _work
 from ._dask import DaskWorkers
 from ._pool import LocalWorkers, Workers
@@ -116,26 +117,26 @@ def run(targets: Any, scene: _scenes.AnyScene, output: Path, *, max_range: float
         report = vt.batch.run(squares, "city.osm.pbf", "results/", max_range=300)
         report.table()[["id", "outcome", "volume_m3"]]
     """
-    started = time.perf_counter()
+    started, heard = time.perf_counter(), listener(progress)
     _check_choices(volumes, workers, shard_rows, attempts)
     table = _table.read(targets, crs=crs, options=storage_options)
     asked = {"sensor": _sensor(sensor, max_range), "navigation": navigation, "method": method, "tolerance": tolerance,
              "spheres": spheres}
     store = Store(output, storage_options)
-    job = _job(table, scene, store, asked, volumes, shard_rows, progress)
+    job = _job(table, scene, store, asked, volumes, shard_rows, heard)
     shards = [Task(number, rows) for number, rows in _table.shards(table.rows, int(job.metadata["shard_rows"]))]
     told = _Told(job, shards, started)
-    missing = _missing(job, shards, told, progress)
+    missing = _missing(job, shards, told, heard)
     if missing:
         count = min(workers or len(os.sched_getaffinity(0)), len(missing))
         team: Workers = LocalWorkers(job, count) if cluster is None else DaskWorkers(job, cluster)
         try:
             queue = Queue(missing, attempts)
-            queue.run(team, told.done, lambda: told.tell(progress))
+            queue.run(team, told.done, lambda: told.tell(heard))
             told.deaths = queue.deaths
         finally:
             team.close()
-    return told.finished(_merge(job, shards, progress))
+    return told.finished(_merge(job, shards, heard))
 
 
 def results(output: Path, storage_options: Mapping[str, Any] | None = None) -> Any:
@@ -158,7 +159,7 @@ def _check_choices(volumes: str | None, workers: int, shard_rows: int, attempts:
 
 
 def _job(table: _table.Table, scene: _scenes.AnyScene, store: Store, asked: Mapping[str, Any], volumes: str | None,
-         shard_rows: int, progress: Progress) -> Job:
+         shard_rows: int, progress: Listener) -> Job:
     """All that can be checked before the work begins is checked here."""
     request = _scenes.request_of(scene)
     reading = None if progress is None else lambda stage, fraction: progress(f"reading the scene: {stage}", 0.0)
@@ -191,7 +192,7 @@ def _check_asked(job: Job, scene: Scene, rows: list[_table.Row]) -> None:
         raise told[0]
 
 
-def _missing(job: Job, shards: list[Task], told: _Told, progress: Progress) -> list[Task]:
+def _missing(job: Job, shards: list[Task], told: _Told, progress: Listener) -> list[Task]:
     """The shards that are not there, whole."""
     there = set(job.store.names("rows"))
     missing = []
@@ -239,7 +240,7 @@ class _Told:
         worker.cpu_seconds += done.cpu_seconds
         worker.peak_mib = max(worker.peak_mib, done.peak_mib)
 
-    def tell(self, progress: Progress) -> None:
+    def tell(self, progress: Listener) -> None:
         if progress is None:
             return
         ready = self._there + self._computed
@@ -260,7 +261,7 @@ class _Told:
         return report
 
 
-def _merge(job: Job, shards: Iterable[Task], progress: Progress) -> tuple[int, str]:
+def _merge(job: Job, shards: Iterable[Task], progress: Listener) -> tuple[int, str]:
     """Writes results.parquet, a group of rows for each shard: how many rows are errors, and the hash of all."""
     parquet = require("pyarrow.parquet", "batch")
     folder = job.store.scratch()

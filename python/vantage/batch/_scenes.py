@@ -15,7 +15,9 @@ import numpy as np
 from .._errors import input_error
 from .._extras import require
 from .._requests import Path
-from .._scene import Georeference, Progress, Scene, SceneObject
+from .._place import Georeference
+from .._progress import Progress
+from .._scene import Scene, SceneObject
 from ._store import Store
 
 AnyScene = Union[Scene, str, "os.PathLike[str]", Mapping[str, Any]]
