@@ -21,7 +21,7 @@ def test_examples(name):
 
 
 def test_all_that_can_be_called_is_explained():
-    returned = ("Positions", "Area", "Face")
+    returned = ("Positions", "Area", "Face", "Tile", "Tiles")
     for name in vt.__all__:
         what = getattr(vt, name)
         if not callable(what):

@@ -57,7 +57,8 @@ class Tiles(Sequence[Tile]):
         self.frame: dict[str, Any] = {"origin": origin, "ground": ground, "reach": reach}
         """what all tiles share, for `Scene.from_osm(..., frame=)`"""
         self._columns = max(1, math.ceil((ground[2] - ground[0]) / self.size_m))
-        self._tiles = [Tile(i, tuple(square), tuple(bbox), self) for i, (square, bbox) in enumerate(rows)]
+        self._tiles = [Tile(i, (square[0], square[1], square[2], square[3]), (bbox[0], bbox[1], bbox[2], bbox[3]), self)
+                       for i, (square, bbox) in enumerate(rows)]
 
     def whole(self, progress: Progress = None) -> Scene:
         """The whole map as one scene, prepared like its tiles."""
@@ -152,8 +153,8 @@ def tiles(path: Path, size_m: float, margin_m: float, *, without: Sequence[str] 
         Error: the file cannot be read or has nothing to build, or a length is out of range.
 
     Example:
-        tiles = vt.tiles("city.osm.pbf", size_m=1000, margin_m=400)
-        for tile, targets in by_tile:                # tiles.of(area, reach_m=300) is the tile of an area
-            results = vt.compute_many(tile.scene(), targets, max_range=300)
+        >>> tiles = vt.tiles("city.osm.pbf", size_m=1000, margin_m=400)  # doctest: +SKIP
+        >>> tile = tiles.of(area, reach_m=300)  # the tile of an area  # doctest: +SKIP
+        >>> vt.compute(tile.scene(), area.target(), max_range=300)  # doctest: +SKIP
     """
     return Tiles(path, {"without": without, "defaults": defaults}, size_m, margin_m, progress)
