@@ -186,14 +186,14 @@ std::vector<std::uint64_t> groups_of(const std::vector<internal::core::Bounds>& 
   constexpr std::uint64_t kOwn = std::uint64_t{1} << 63;
   std::vector<std::uint64_t> groups(bounds.size());
   for (std::size_t i = 0; i < bounds.size(); ++i) {
-    const auto& [min, max] = bounds[i];
-    if (max[0] - min[0] > kSide || max[1] - min[1] > kSide) {
+    const internal::core::Bounds& own = bounds[i];
+    if (own.max[0] - own.min[0] > kSide || own.max[1] - own.min[1] > kSide) {
       groups[i] = kOwn + i;
       continue;
     }
     const auto square = [&](int a) {
       constexpr std::int64_t kPositive = 1 << 30;  // squares: more than there are to either side of the origin
-      return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor((min[a] + max[a]) / 2 / kSide)) +
+      return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor((own.min[a] + own.max[a]) / 2 / kSide)) +
                                         kPositive);
     };
     groups[i] = square(0) << 31 | square(1);

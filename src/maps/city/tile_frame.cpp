@@ -74,9 +74,9 @@ PlanBounds plan_bounds(const osm::Region& region, const geo::LocalFrame& frame) 
     bounds.extend(centre + Vec2::Constant(region.circle->second));
   }
   if (region.box_deg) {
-    const auto& [west, south, east, north] = *region.box_deg;
-    const double width = geo::LongitudeRange{west, east}.width_deg(), height = north - south;
-    for_samples([&](double s, double t) { bounds.extend(frame.to_local({west + s * width, south + t * height})); });
+    const std::array<double, 4>& box = *region.box_deg;  // west, south, east, north
+    const double width = geo::LongitudeRange{box[0], box[2]}.width_deg(), height = box[3] - box[1];
+    for_samples([&](double s, double t) { bounds.extend(frame.to_local({box[0] + s * width, box[1] + t * height})); });
   }
   return padded(bounds);
 }
