@@ -34,7 +34,8 @@ std::tuple<FrameRow, std::vector<TileRow>> plan(const std::string& text, const s
   });
   std::vector<TileRow> rows;
   for (const Tile& tile : made.tiles) rows.emplace_back(tile.square_m, *tile.region.bbox_deg);
-  return {{made.frame.origin_deg, made.frame.ground_m, made.frame.reach_m}, std::move(rows)};
+  const FrameRow frame{made.frame.origin_deg, made.frame.ground_m, made.frame.reach_m};
+  return {frame, std::move(rows)};
 }
 
 /// Metres east and north of an origin.
