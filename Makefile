@@ -108,9 +108,18 @@ wheel:  ## a wheel with all that it needs in it, in dist/
 wheelcheck: wheel  ## try that wheel in a root with Python and numpy alone
 	@scripts/check_wheel.sh dist/vantage-*-cp311-*.whl
 
+.PHONY: web
+web:  ## the page, in web/dist/index.html: one file
+	@scripts/install_packages.sh --web
+	@JOBS=$(JOBS) scripts/build_web.sh
+
+.PHONY: webtest
+webtest: web build  ## the page's tests: its engine beside the program, and the page in Chromium
+	cd web && npm test
+
 .PHONY: clean
 clean:  ## remove all builds; fetched sources stay
-	rm -rf build build-*/ dist/
+	rm -rf build build-*/ dist/ web/dist/ web/node_modules/
 
 # All that the installed packages allow: `make build` needs neither those of the tests nor those of the benchmarks.
 .PHONY: tested

@@ -58,10 +58,15 @@ if(VANTAGE_WITH_PICTURE)
   pkg_check_modules(VANTAGE_CAIRO REQUIRED IMPORTED_TARGET cairo>=1.16 cairo-ft freetype2)
 endif()
 
-# PROJ: coordinate reference systems (src/geo only), found here and loaded at run time, or linked.
-pkg_check_modules(VANTAGE_PROJ REQUIRED IMPORTED_TARGET proj>=9.1)
+# PROJ: coordinate reference systems (src/geo only), found here and loaded at run time, or linked. In a browser there is
+# none: what includes vantage says in VANTAGE_PROJ_INCLUDE_DIRS where its headers are.
+if(NOT EMSCRIPTEN)
+  pkg_check_modules(VANTAGE_PROJ REQUIRED IMPORTED_TARGET proj>=9.1)
+endif()
 option(VANTAGE_LINK_PROJ "Link PROJ, instead of loading it for the first scene that has a place on the earth" OFF)
-if(VANTAGE_LINK_PROJ)
+if(EMSCRIPTEN)
+  set(VANTAGE_PROJ_DEFINITIONS VANTAGE_PROJ_ABSENT)
+elseif(VANTAGE_LINK_PROJ)
   set(VANTAGE_PROJ_TARGET PkgConfig::VANTAGE_PROJ)
   set(VANTAGE_PROJ_DEFINITIONS VANTAGE_PROJ_LINKED)
 else()

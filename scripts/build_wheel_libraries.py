@@ -17,16 +17,10 @@ import subprocess
 import sys
 import tarfile
 import tomllib
-import urllib.error
-import urllib.parse
-import urllib.request
+
+from debian_archive import Failure, fetch
 
 HERE = pathlib.Path(__file__).resolve().parent
-TIMEOUT = 180  # seconds without a byte
-
-
-class Failure(Exception):
-    pass
 
 
 def run(command: list[str], folder: pathlib.Path, log: pathlib.Path, **variables: str) -> None:
@@ -41,42 +35,7 @@ def run(command: list[str], folder: pathlib.Path, log: pathlib.Path, **variables
         raise Failure(f"{shlex.join(command[:3])} ... failed in {folder}; the end of {log}:\n{tail}")
 
 
-# ---- fetching
-
-def archives() -> list[str]:
-    """Where apt gets Debian's packages from on this machine: updates last, since they have few files."""
-    command = ["apt-get", "indextargets", "--format", "$(ORIGIN) $(RELEASE) $(REPO_URI)", "Created-By: Packages"]
-    targets = subprocess.run(command, capture_output=True, text=True, check=False).stdout
-    rows = sorted({tuple(line.split()) for line in targets.splitlines() if line.startswith("Debian ")},
-                  key=lambda row: len(row[1]))
-    found = list(dict.fromkeys(row[2].rstrip("/") for row in rows if len(row) == 3))
-    if not found:
-        raise Failure("apt knows no archive of Debian on this machine; run apt-get update as root")
-    return found
-
-
-def fetch(path: str, sha256: str, folder: pathlib.Path) -> pathlib.Path:
-    """A file of the pool, kept in `folder`; the hash decides whether it is the one."""
-    file = folder / pathlib.PurePosixPath(path).name
-    if file.exists() and hashlib.sha256(file.read_bytes()).hexdigest() == sha256:
-        return file
-    problems = []
-    for archive in archives():
-        url = f"{archive}/{urllib.parse.quote(path)}"
-        try:
-            with urllib.request.urlopen(url, timeout=TIMEOUT) as response:
-                data = response.read()
-        except (urllib.error.URLError, OSError) as error:
-            problems.append(str(error))
-            continue
-        if hashlib.sha256(data).hexdigest() != sha256:
-            problems.append("its hash differs")
-            continue
-        file.write_bytes(data)
-        return file
-    raise Failure(f"the archive has no {path} with the hash of the list ({'; '.join(problems)}): if Debian has a newer "
-                  "version, change version and hash in scripts/wheel_libraries.toml")
-
+# ---- sources
 
 def unpack(library: dict, downloads: pathlib.Path, into: pathlib.Path, log: pathlib.Path) -> pathlib.Path:
     """The source of a library, with Debian's patches where the list asks for them."""

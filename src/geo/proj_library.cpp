@@ -9,9 +9,10 @@
 #include "vantage/error.h"
 #endif
 
-// Set by cmake/Components.cmake: that PROJ is linked; or the name that the library of these headers has on the system,
-// and where it was found.
-#if !defined(VANTAGE_PROJ_LINKED) && (!defined(VANTAGE_PROJ_NAME) || !defined(VANTAGE_PROJ_FILE))
+// Set by cmake/Components.cmake: that PROJ is linked, or that there is none; or the name that the library of these
+// headers has on the system, and where it was found.
+#if !defined(VANTAGE_PROJ_LINKED) && !defined(VANTAGE_PROJ_ABSENT) && \
+    (!defined(VANTAGE_PROJ_NAME) || !defined(VANTAGE_PROJ_FILE))
 #error "which PROJ?"
 #endif
 
@@ -23,6 +24,13 @@ const ProjLibrary& proj() {
   static const ProjLibrary library{VANTAGE_PROJ_FUNCTIONS(VANTAGE_FUNCTION)};
 #undef VANTAGE_FUNCTION
   return library;
+}
+
+#elif defined(VANTAGE_PROJ_ABSENT)
+
+const ProjLibrary& proj() {
+  throw Error(ErrorCode::library_missing, "this build cannot work out where a scene lies on the earth", "PROJ",
+              "give coordinates in the scene's frame, or use the program");
 }
 
 #else
