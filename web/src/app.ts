@@ -1,0 +1,289 @@
+// What the page is about: a scene, a mission in it, and its volume, which follows.
+import { toldBy, type Engine, type Volume } from "./engine/client";
+import type { Point, PointAnswer, SceneInfo, Section, ViewMesh } from "./engine/messages";
+import { History } from "./model/history";
+import { emptyMission, missionFrom, missionText, sceneText, type Mission } from "./model/mission";
+import { faultOf, type Fault } from "./model/polygon";
+import { hasBadNews, metres, say } from "./ui/page";
+import { City } from "./view/city";
+import { BoxesView, ProbeView, SectionView } from "./view/marks";
+import { Stage } from "./view/stage";
+import { TargetView } from "./view/target";
+import { VolumeView } from "./view/volume";
+
+export type Listener = () => void;
+
+export interface Cut {
+  axis: 0 | 1 | 2;
+  at: number;
+}
+
+export interface SceneSource {
+  name: string;
+  bytes: ArrayBuffer;
+  section: Record<string, unknown>;
+}
+
+export class App {
+  readonly city: City;
+  readonly target: TargetView;
+  readonly volumeView: VolumeView;
+  readonly boxes: BoxesView;
+  readonly sectionView: SectionView;
+  readonly probeView: ProbeView;
+
+  mission: Mission = emptyMission(100);
+  history = new History<Mission>(this.mission);
+  scene: SceneInfo | null = null;
+  /** the file of the scene, and what a mission file says of it */
+  source: SceneSource = { name: "", bytes: new ArrayBuffer(0), section: {} };
+  volume: Volume | null = null;
+  /** of the last mission, where it could not be computed; the last volume stays */
+  failure = "";
+  probe: { at: Point; inside: boolean } | null = null;
+  /** a plane across an axis that the volume is cut at, scene frame; null: not */
+  cut: Cut | null = null;
+  section: Section | null = null;
+  /** the corner that was dragged last, where a mission that cannot be computed is explained */
+  dragged: number | null = null;
+  private readonly listeners: Listener[] = [];
+
+  constructor(readonly engine: Engine, readonly stage: Stage) {
+    this.city = new City(stage.scene);
+    this.volumeView = new VolumeView(stage.scene, this.city);
+    this.target = new TargetView(stage.scene, this.city);
+    this.boxes = new BoxesView(stage.scene, this.city);
+    this.sectionView = new SectionView(stage.scene, this.city);
+    this.probeView = new ProbeView(stage.scene, this.city);
+  }
+
+  onChange(listener: Listener): void {
+    this.listeners.push(listener);
+  }
+
+  changed(): void {
+    for (const listener of this.listeners) listener();
+  }
+
+  /** `beside`: files that the mission names, by their names. The scene that is open stays where this one cannot be read. */
+  async openScene(source: SceneSource, beside: Record<string, ArrayBuffer> = {}): Promise<void> {
+    const extension = /(\.[a-z0-9]+(\.gz)?)$/i.exec(source.name)?.[1]?.toLowerCase() ?? "";
+    const file = `scene${extension}`;
+    const text = sceneText({ ...source.section, mesh: file });
+    const { info, mesh } = await this.engine.open(text, { ...beside, [file]: source.bytes }, file);
+    this.source = source;
+    this.showScene(info, mesh);
+  }
+
+  showScene(info: SceneInfo, mesh: ViewMesh): void {
+    this.scene = info;
+    this.city.show(info, mesh);
+    this.stage.frameScene(info);
+    this.volumeView.hide();
+    this.volume = null;
+    this.failure = "";
+    this.mission = emptyMission(Math.max(info.max[0] - info.min[0], info.max[1] - info.min[1], 1e-9));
+    this.history = new History(this.mission);
+    this.setProbe(null);
+    this.setCut(null);
+    this.showMission();
+    this.changed();
+  }
+
+  /** Of a mission file without its scene. The mission that is there stays where this one cannot be computed. */
+  async openMission(body: string): Promise<void> {
+    const volume = await this.engine.compute(body);
+    if (!volume) return;
+    this.mission = missionFrom(body, volume.info, this.mission.grain);
+    this.history.keep(this.mission);
+    this.take(volume);
+  }
+
+  /** Shows the mission as it is, and asks for its volume. `isComplete`: not in the middle of a drag. */
+  edit(change: (mission: Mission) => void, isComplete: boolean): void {
+    change(this.mission);
+    if (isComplete) this.history.keep(this.mission);
+    this.showMission();
+    this.compute();
+  }
+
+  /** A drag has ended. */
+  keep(): void {
+    this.history.keep(this.mission);
+    this.changed();
+  }
+
+  step(mission: Mission | null): void {
+    if (!mission) return;
+    this.mission = mission;
+    this.showMission();
+    this.compute();
+  }
+
+  showMission(): void {
+    const { target } = this.mission;
+    if (target?.kind === "polygon") {
+      this.target.show([target.vertices], { isEditable: true, fault: this.fault(target.vertices) });
+    } else {
+      this.target.show(target ? (this.volume?.info.target ?? []) : [], { isEditable: false });
+    }
+    this.boxes.show(this.mission.keepOut);
+    this.stage.request();
+  }
+
+  /** Why there is no volume of these corners, and at which of them it is said. */
+  private fault(vertices: Point[]): Fault | null {
+    const own = faultOf(vertices);
+    if (own || this.failure === "" || this.dragged === null) return own;
+    return { corner: Math.min(this.dragged, vertices.length - 1), reason: this.failure };
+  }
+
+  compute(): void {
+    const { target } = this.mission;
+    if (!target) {
+      this.volumeView.hide();
+      this.volume = null;
+      return this.changed();
+    }
+    const fault = target.kind === "polygon" ? faultOf(target.vertices) : null;
+    if (fault) return this.fail(`${fault.reason}; the volume is the last one`);
+    let text: string;
+    try {
+      text = missionText(this.mission);
+    } catch (error) {
+      return this.fail((error as Error).message);
+    }
+    void this.run(text);
+  }
+
+  /** The last volume stays. */
+  private fail(reason: string): void {
+    this.failure = reason;
+    say(reason, true);
+    this.showMission();
+    this.changed();
+  }
+
+  private async run(text: string): Promise<void> {
+    try {
+      const volume = await this.engine.compute(text);
+      if (volume) this.take(volume); // else a newer mission is on its way
+    } catch (error) {
+      this.fail(toldBy(error));
+    }
+  }
+
+  private take(volume: Volume): void {
+    this.volume = volume;
+    this.failure = "";
+    this.volumeView.show(volume.info, volume.mesh);
+    this.showMission();
+    if (volume.info.outcome !== "computed") say(`No position sees all of it: ${volume.info.reason}. ${volume.info.hint}`, true);
+    else if (hasBadNews()) say("");
+    void this.askProbe();
+    void this.showSection();
+    this.changed();
+    this.stage.request();
+  }
+
+  setProbe(at: Point | null): void {
+    this.probe = at ? { at, inside: false } : null;
+    if (at) void this.askProbe();
+    else {
+      this.probeView.hide();
+      this.endEye();
+    }
+    this.stage.request();
+  }
+
+  private async askProbe(): Promise<void> {
+    if (!this.probe || !this.volume) return;
+    const { at } = this.probe;
+    let answer: PointAnswer | undefined;
+    try {
+      [answer] = await this.engine.query([at]);
+    } catch (error) {
+      return say(toldBy(error), true);
+    }
+    if (!answer || this.probe?.at !== at || !this.volume) return;
+    this.probe.inside = answer.inside;
+    if (!this.isEye()) this.probeView.show(at, this.volume.info.target.flat(), answer.inside);
+    const why = [
+      answer.blocked_by.length > 0 ? `hidden by ${answer.blocked_by.join(", ")}` : "",
+      answer.out_of_range ? "out of range" : "",
+      answer.behind_target ? "behind the target" : "",
+      answer.outside_of.length > 0 ? `outside of ${answer.outside_of.join(", ")}` : "",
+    ].filter((text) => text !== "");
+    const what = answer.inside ? "Inside: this position sees all of it" : `Outside: ${why.join("; ") || "not all of the target is visible"}`;
+    say(`${what} · z ${metres(at[2])}${this.isEye() ? " · turn and zoom to fly, Esc ends it" : ""}`);
+    this.stage.request();
+    this.changed();
+  }
+
+  setCut(cut: Cut | null): void {
+    this.cut = cut;
+    const origin = this.scene?.origin ?? [0, 0, 0];
+    this.volumeView.cutAt(cut && { axis: cut.axis, at: cut.at - origin[cut.axis] });
+    void this.showSection();
+    this.stage.request();
+  }
+
+  private async showSection(): Promise<void> {
+    const { cut, volume } = this;
+    const section = cut?.axis !== 2 || !volume ? null : await this.engine.slice(cut.at);
+    if (this.cut !== cut || this.volume !== volume) return;
+    this.section = section;
+    this.sectionView.show(section);
+    this.stage.request();
+    if (section) this.changed();
+  }
+
+  isEye(): boolean {
+    return this.stage.hasEye();
+  }
+
+  /** The view is that of the probe, towards the target, until it is called again. It flies when the view is turned. */
+  toggleEye(): void {
+    if (this.isEye()) return this.endEye();
+    if (!this.probe || !this.volume) return say("First probe a position", true);
+    const camera = this.engine.about.cameras.find(({ name }) => name === this.mission.camera);
+    this.stage.beginEye(this.city.toView(this.probe.at), this.city.toView(this.volume.info.center), camera?.fov_deg[1]);
+    this.stage.onEye = (eye) => this.setProbe(this.city.toScene(eye));
+    this.volumeView.setVisible(false);
+    this.probeView.hide();
+    void this.askProbe();
+  }
+
+  endEye(): void {
+    if (!this.isEye()) return;
+    this.stage.endEye();
+    this.volumeView.setVisible(true);
+    say("");
+    if (this.probe) void this.askProbe();
+    this.changed();
+  }
+
+  /** `by`: right, ahead and up as the view is turned, each a step. */
+  moveProbe(by: Point): void {
+    if (!this.probe) return;
+    const turn = (this.stage.heading() * Math.PI) / 180;
+    const step = this.stage.metresPerPixel() * 12;
+    const [right, ahead, up] = by;
+    const [x, y, z] = this.probe.at;
+    this.setProbe([
+      x + step * (right * Math.cos(turn) + ahead * Math.sin(turn)), y + step * (ahead * Math.cos(turn) - right * Math.sin(turn)),
+      z + step * up,
+    ]);
+    if (this.isEye()) this.stage.moveEye(this.city.toView(this.probe.at));
+  }
+
+  lookAtTarget(): void {
+    if (!this.volume) return;
+    this.stage.lookAt(this.city.toView(this.volume.info.center), Math.min(this.volume.info.range_m, 1e4) * 3.2);
+  }
+
+  showAll(): void {
+    this.endEye();
+    if (this.scene) this.stage.frameScene(this.scene);
+  }
+}

@@ -1,0 +1,108 @@
+// What the page and the worker, in which the engine runs, say to each other.
+
+export type Point = [number, number, number];
+
+export interface EngineError {
+  code: string;
+  problem: string;
+  where: string;
+  fix: string;
+}
+
+/** Of the engine. */
+export interface About {
+  version: string;
+  cameras: { name: string; maker: string; model: string; fov_deg: [number, number] }[];
+}
+
+export interface SceneInfo {
+  hash: string;
+  triangles: number;
+  origin: Point;
+  min: Point;
+  max: Point;
+  objects: { name: string; kind: string }[];
+  notes: string[];
+  read_ms: number;
+  prepare_ms: number;
+}
+
+export interface Box {
+  min: Point;
+  max: Point;
+}
+
+/** The keys of a mission that the page has controls for, as the engine read them. */
+export interface Limits {
+  max_range: number | null;
+  min_range: number;
+  incidence: number | null;
+  altitude: [number, number] | null;
+  keep_out: Box[];
+}
+
+export type CauseKind = "scene" | "range" | "target_plane" | "navigation" | "sensor";
+
+export interface VolumeInfo {
+  outcome: string;
+  reason: string;
+  hint: string;
+  target: Point[][];
+  center: Point;
+  normal: Point;
+  range_m: number;
+  limits: Limits;
+  volume_m3: number;
+  area_m2: number;
+  facets: number;
+  causes: { kind: CauseKind; name: string }[];
+  notes: { code: string; text: string }[];
+  resolve_ms: number;
+  compute_ms: number;
+  view_ms: number;
+}
+
+/** Triangles for drawing, about the scene's origin; `labels`: of each triangle its object, or its cause. */
+export interface ViewMesh {
+  positions: Float32Array;
+  triangles: Uint32Array;
+  labels: Uint32Array;
+}
+
+export interface PointAnswer {
+  inside: boolean;
+  margin_m: number | null;
+  blocked_by: string[];
+  out_of_range: boolean;
+  behind_target: boolean;
+  outside_of: string[];
+}
+
+export interface Section {
+  z_m: number;
+  area_m2: number;
+  polygons: [number, number][][][];
+}
+
+export type Request =
+  | { call: "start"; wasm: ArrayBuffer }
+  | { call: "open"; text: string; file: string; files: Record<string, ArrayBuffer> }
+  | { call: "compute"; text: string }
+  | { call: "query"; points: Point[] }
+  | { call: "prove" }
+  | { call: "slice"; z: number }
+  | { call: "save"; format: string };
+
+export interface Envelope {
+  id: number;
+  request: Request;
+}
+
+export interface Answer {
+  id: number;
+  value?: unknown;
+  error?: EngineError;
+  mesh?: ViewMesh;
+  bytes?: Uint8Array;
+  engine_ms: number;
+}

@@ -1,0 +1,132 @@
+// Runs in a worker, after Emscripten's script: the engine, one call at a time.
+import type { Answer, EngineError, Envelope, Request, ViewMesh } from "./messages";
+
+interface Files {
+  writeFile(name: string, bytes: Uint8Array): void;
+  readFile(name: string): Uint8Array;
+  unlink(name: string): void;
+  analyzePath(name: string): { exists: boolean };
+}
+
+interface Module {
+  FS: Files;
+  HEAPF32: Float32Array;
+  HEAPU32: Uint32Array;
+  HEAPF64: Float64Array;
+  ccall(name: string, returns: string, types: string[], values: unknown[]): unknown;
+  _malloc(size: number): number;
+  _free(at: number): void;
+}
+
+declare const createVantage: (options: { wasmBinary: ArrayBuffer }) => Promise<Module>;
+declare function postMessage(message: Answer, transfer: Transferable[]): void;
+declare let onmessage: (event: MessageEvent<Envelope>) => void;
+
+let engine: Module;
+
+class Failed extends Error {
+  constructor(readonly told: EngineError) {
+    super(told.problem);
+  }
+}
+
+function call(name: string, ...values: (string | number)[]): unknown {
+  const types = values.map((value) => (typeof value === "string" ? "string" : "number"));
+  const answer = JSON.parse(engine.ccall(`vantage_${name}`, "string", types, values) as string);
+  if (answer.error) throw new Failed(answer.error);
+  return answer;
+}
+
+const isThere = (file: string) => engine.FS.analyzePath(file).exists;
+
+const SCENE = 0;
+const VOLUME = 1;
+
+function view(which: number): ViewMesh {
+  const number = (name: string) => (engine.ccall(`vantage_${name}`, "number", ["number"], [which]) as number) >>> 0;
+  const positions = number("positions") / 4;
+  const triangles = number("triangles") / 4;
+  const labels = number("labels") / 4;
+  return {
+    positions: engine.HEAPF32.slice(positions, positions + number("position_count")),
+    triangles: engine.HEAPU32.slice(triangles, triangles + number("triangle_count")),
+    labels: engine.HEAPU32.slice(labels, labels + number("label_count")),
+  };
+}
+
+/** Files that missions in the scene may name. */
+let beside = new Map<string, Uint8Array>();
+
+/** A scene that cannot be opened does not replace the last one, nor its files. */
+function open({ text, file, files }: Extract<Request, { call: "open" }>): Omit<Answer, "id" | "engine_ms"> {
+  const given = new Map(Object.entries(files).map(([name, bytes]) => [name, new Uint8Array(bytes)]));
+  for (const [name, bytes] of given) engine.FS.writeFile(name, bytes);
+  let kept = beside;
+  try {
+    const value = call("open", text);
+    given.delete(file);
+    kept = given;
+    return { value, mesh: view(SCENE) };
+  } finally {
+    for (const name of [...Object.keys(files), ...beside.keys()]) if (isThere(name)) engine.FS.unlink(name);
+    for (const [name, bytes] of kept) engine.FS.writeFile(name, bytes);
+    beside = kept;
+  }
+}
+
+function query(points: number[][]): unknown {
+  const coordinates = points.flat();
+  const at = engine._malloc(8 * coordinates.length);
+  try {
+    engine.HEAPF64.set(coordinates, at / 8);
+    return call("query", at, coordinates.length);
+  } finally {
+    engine._free(at);
+  }
+}
+
+function save(format: string): Uint8Array {
+  const file = `volume.${format}`;
+  const { reports } = call("save", file) as { reports: string[] };
+  const bytes = engine.FS.readFile(file);
+  for (const written of [file, ...reports]) engine.FS.unlink(written);
+  return bytes;
+}
+
+async function answer(request: Request): Promise<Omit<Answer, "id" | "engine_ms">> {
+  switch (request.call) {
+    case "start":
+      engine = await createVantage({ wasmBinary: request.wasm });
+      return { value: call("about") };
+    case "open":
+      return open(request);
+    case "compute": {
+      const value = call("compute", request.text);
+      return { value, mesh: view(VOLUME) };
+    }
+    case "query":
+      return { value: query(request.points) };
+    case "prove":
+      return { value: call("prove") };
+    case "slice":
+      return { value: call("slice", request.z) };
+    case "save":
+      return { bytes: save(request.format) };
+  }
+}
+
+onmessage = async ({ data: { id, request } }) => {
+  const start = performance.now();
+  let told: Omit<Answer, "id" | "engine_ms">;
+  try {
+    told = await answer(request);
+  } catch (error) {
+    const problem = error instanceof Error ? error.message : String(error);
+    told = {
+      error: error instanceof Failed ? error.told
+        : { code: "internal", problem, where: "", fix: "please report this, with the mission" },
+    };
+  }
+  const buffers = [told.bytes?.buffer, told.mesh?.positions.buffer, told.mesh?.triangles.buffer, told.mesh?.labels.buffer];
+  postMessage({ id, ...told, engine_ms: performance.now() - start }, buffers.filter((b) => b !== undefined) as Transferable[]);
+};

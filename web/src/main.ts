@@ -1,0 +1,103 @@
+import { App } from "./app";
+import { Engine } from "./engine/client";
+import { Files } from "./ui/files";
+import { button, element, metres, say } from "./ui/page";
+import { Panel } from "./ui/panel";
+import { Results } from "./ui/results";
+import { Tools } from "./ui/tools";
+import { Stage } from "./view/stage";
+
+declare global {
+  interface Window {
+    vantageData: { worker: string; wasm: string; mesh: string; mission: string };
+    /** for tests and measurements */
+    vantage?: App;
+  }
+}
+
+function makeStage(): Stage {
+  try {
+    return new Stage(element<HTMLCanvasElement>("canvas"));
+  } catch {
+    throw new Error("this browser draws no WebGL: switch hardware acceleration on, or try another browser");
+  }
+}
+
+function setTheme(stage: Stage, isDark: boolean): void {
+  document.documentElement.classList.toggle("dark", isDark);
+  stage.setDark(isDark);
+}
+
+function drawScale(stage: Stage): void {
+  const wanted = 90 * stage.metresPerPixel();
+  const power = 10 ** Math.floor(Math.log10(wanted));
+  const length = [5, 2, 1].map((f) => f * power).find((l) => l <= wanted) ?? power;
+  element("scale").querySelector("span")!.textContent = length >= 1000 ? `${length / 1000} km` : metres(length);
+  element("scale").querySelector("i")!.style.width = `${length / stage.metresPerPixel()}px`;
+  element("compass").style.transform = `rotate(${-stage.heading()}deg)`;
+}
+
+/** What is wrong with the target, at the corner where it is. */
+function drawFault(app: App): void {
+  const note = element("fault");
+  const { faulty } = app.target;
+  note.hidden = !faulty;
+  if (!faulty) return;
+  const { x, y } = app.stage.project(faulty.at);
+  note.textContent = faulty.reason;
+  note.style.left = `${x + 12}px`;
+  note.style.top = `${y + 12}px`;
+}
+
+function listenToKeys(app: App, tools: Tools): void {
+  const keys: Record<string, () => void> = {
+    d: () => tools.choose("draw"), p: () => tools.choose("pick"), q: () => tools.choose("probe"), Escape: () => tools.choose("look"),
+    Enter: () => tools.finish(), Delete: () => tools.removeLast(), Backspace: () => tools.removeLast(),
+    f: () => app.showAll(), ArrowRight: () => app.moveProbe([1, 0, 0]), ArrowLeft: () => app.moveProbe([-1, 0, 0]),
+    ArrowUp: () => app.moveProbe([0, 1, 0]), ArrowDown: () => app.moveProbe([0, -1, 0]),
+    PageUp: () => app.moveProbe([0, 0, 1]), PageDown: () => app.moveProbe([0, 0, -1]), "?": () => element<HTMLDialogElement>("help-text").showModal(),
+  };
+  document.addEventListener("keydown", (event) => {
+    const typed = event.target as HTMLElement;
+    if (/^(INPUT|SELECT|TEXTAREA)$/.test(typed.tagName) || element<HTMLDialogElement>("help-text").open) return;
+    if (event.ctrlKey || event.metaKey) {
+      const key = event.key.toLowerCase();
+      if (key === "z" && !event.shiftKey) app.step(app.history.undo());
+      else if (key === "y" || key === "z") app.step(app.history.redo());
+      else return;
+    } else {
+      if (typed.tagName === "BUTTON" && event.key === "Enter") return;
+      const act = keys[event.key.length === 1 ? event.key.toLowerCase() : event.key];
+      if (!act) return;
+      act();
+    }
+    event.preventDefault();
+  });
+}
+
+async function start(): Promise<void> {
+  const stage = makeStage();
+  setTheme(stage, matchMedia("(prefers-color-scheme: dark)").matches);
+  const { worker, wasm, mesh, mission } = window.vantageData;
+  const engine = await Engine.start(worker, wasm);
+  const app = new App(engine, stage);
+  new Panel(app, engine.about);
+  new Results(app);
+  const tools = new Tools(app);
+  const files = new Files(app, { mesh, mission });
+  element("version").textContent = `vantage ${engine.about.version}`;
+  stage.onFrame = () => {
+    drawScale(stage);
+    drawFault(app);
+  };
+  button("fit").onclick = () => app.showAll();
+  button("theme").onclick = () => setTheme(stage, !document.documentElement.classList.contains("dark"));
+  button("help").onclick = () => element<HTMLDialogElement>("help-text").showModal();
+  button("undo").onclick = () => app.step(app.history.undo());
+  button("redo").onclick = () => app.step(app.history.redo());
+  listenToKeys(app, tools);
+  window.vantage = app;
+  if (!(await files.openLink())) await files.openExample();
+}
+
+start().catch((error: unknown) => say(error instanceof Error ? error.message : String(error), true));

@@ -1,0 +1,210 @@
+// Meshes and missions in, volumes, pictures, missions and links out.
+import type { App, SceneSource } from "../app";
+import { toldBy } from "../engine/client";
+import { divided, missionText, sceneText } from "../model/mission";
+import { packed, unpacked } from "../model/link";
+import { button, element, input, say } from "./page";
+
+const LARGEST = 600e6; // bytes: a browser has not the memory for more
+const LARGEST_IN_LINK = 12e3; // characters: longer links are cut by mail and chat programs
+const EXAMPLE = "plaza.obj";
+
+type Bytes = Record<string, ArrayBuffer>;
+
+interface Link {
+  scene: string;
+  section: Record<string, unknown>;
+  mission: string;
+  /** base64, of a scene that is small enough */
+  bytes?: string;
+}
+
+const nameOf = (path: unknown) => String(path ?? "").split(/[\\/]/).pop() ?? "";
+const isMission = (file: File) => /\.ya?ml$/i.test(file.name);
+const isMesh = (name: string) => /\.(obj|ply|stl|glb|gltf|json|cityjson)(\.gz)?$/i.test(name);
+
+export class Files {
+  /** of a link whose scene is still to be opened */
+  private awaited: Link | null = null;
+
+  constructor(private readonly app: App, private readonly example: { mesh: string; mission: string }) {
+    const file = input("file");
+    button("open").onclick = () => file.click();
+    file.onchange = () => {
+      void this.take([...(file.files ?? [])]);
+      file.value = "";
+    };
+    button("example").onclick = () => void this.openExample();
+    button("save").onclick = () => void this.save();
+    button("link").onclick = () => void this.copyLink();
+    this.acceptDrops();
+  }
+
+  async openExample(): Promise<void> {
+    const { section, body } = this.exampleMission();
+    await this.app.openScene({ name: EXAMPLE, bytes: await this.exampleBytes(), section });
+    await this.app.openMission(body);
+    this.app.lookAtTarget();
+    say("Drag a red corner: the volume follows. Or draw a target of your own");
+  }
+
+  private exampleMission(): { section: Record<string, unknown>; body: string } {
+    const { scene, body } = divided(this.example.mission);
+    return { section: scene, body };
+  }
+
+  private exampleBytes(): Promise<ArrayBuffer> {
+    return new Blob([this.example.mesh]).arrayBuffer();
+  }
+
+  private acceptDrops(): void {
+    const note = element("drop");
+    window.addEventListener("dragover", (event) => {
+      event.preventDefault();
+      note.hidden = false;
+    });
+    window.addEventListener("dragleave", (event) => (note.hidden = event.relatedTarget === null ? true : note.hidden));
+    window.addEventListener("drop", (event) => {
+      event.preventDefault();
+      note.hidden = true;
+      void this.take([...(event.dataTransfer?.files ?? [])]);
+    });
+  }
+
+  /** A scene, a mission, or both, with the files that the mission names. */
+  async take(files: File[]): Promise<void> {
+    try {
+      const large = files.find((file) => file.size > LARGEST);
+      if (large) {
+        throw new Error(`${large.name} has ${Math.round(large.size / 1e6)} MB; this page takes up to 600 MB, the program more`);
+      }
+      const missions = files.filter(isMission);
+      if (missions.length > 1) throw new Error("open one mission at a time");
+      const mission = missions[0] ? divided(await missions[0].text()) : null;
+      await this.open(mission, files.filter((file) => !isMission(file)));
+    } catch (error) {
+      say(toldBy(error), true);
+    }
+  }
+
+  private async open(mission: { scene: Record<string, unknown>; body: string } | null, others: File[]): Promise<void> {
+    const { app } = this;
+    const wanted = nameOf(mission?.scene["mesh"]);
+    if (mission?.scene["osm"] || mission?.scene["raster"]) {
+      throw new Error("this page reads no maps and no terrain: run `vantage view` with this mission, which shows the same page");
+    }
+    const mesh = others.find((file) => file.name === wanted) ?? (wanted ? undefined : others.find((file) => isMesh(file.name)));
+    if (mesh) {
+      say(`Reading ${mesh.name}…`);
+      const section = mission?.scene ?? this.sectionFor(mesh.name);
+      await app.openScene({ name: mesh.name, bytes: await mesh.arrayBuffer(), section }, await bytesOf(others, mesh));
+      say("Draw a target on the ground, a roof or a wall");
+    } else if (!mission) {
+      throw new Error(`${others.map((file) => file.name).join(", ")}: not a mesh that this page reads (OBJ, PLY, STL, GLB, CityJSON)`);
+    } else if (!app.scene || (wanted !== "" && wanted !== app.source.name)) {
+      throw new Error(`this mission is for ${wanted || "another scene"}: open it together with that file`);
+    }
+    if (mission) return this.openMission(mission.body);
+    if (this.awaited?.scene === app.source.name) await this.openMission(this.awaited.mission);
+  }
+
+  private async openMission(body: string): Promise<void> {
+    this.awaited = null;
+    await this.app.openMission(body);
+    this.app.lookAtTarget();
+    say("");
+  }
+
+  private sectionFor(name: string): Record<string, unknown> {
+    if (this.awaited?.scene === name) return this.awaited.section;
+    const up = input("up").value;
+    return up === "file" ? {} : { up };
+  }
+
+  private async save(): Promise<void> {
+    const format = input("format").value;
+    try {
+      if (format === "picture") return download("volume.png", await this.app.stage.picture());
+      if (format === "mission") return download("mission.yaml", new Blob([this.missionFile()], { type: "text/yaml" }));
+      download(`volume.${format}`, new Blob([(await this.app.engine.save(format)).slice()]));
+    } catch (error) {
+      say(toldBy(error), true);
+    }
+  }
+
+  /** What the program reads beside the scene's file. */
+  missionFile(): string {
+    const { name, section } = this.app.source;
+    const scene = section["osm"] || section["raster"] ? section : { ...section, mesh: name };
+    return `${sceneText(scene)}${missionText(this.app.mission).replace(/^\n+/, "")}`;
+  }
+
+  private async copyLink(): Promise<void> {
+    const { name, bytes, section } = this.app.source;
+    const state: Link = { scene: name, section, mission: missionText(this.app.mission) };
+    const alone = await packed(JSON.stringify(state));
+    const whole = name === EXAMPLE || bytes.byteLength === 0 || bytes.byteLength > 20 * LARGEST_IN_LINK ? ""
+      : await packed(JSON.stringify({ ...state, bytes: base64(bytes) }));
+    const isWhole = name === EXAMPLE || (whole !== "" && whole.length <= LARGEST_IN_LINK);
+    const hash = whole !== "" && isWhole ? whole : alone;
+    const needs = isWhole ? "" : `; who opens it needs ${name}, too`;
+    try {
+      await navigator.clipboard.writeText(`${location.href.split("#")[0]}#${hash}`);
+      say(`The link is copied${needs}`);
+    } catch {
+      location.hash = hash;
+      say(`The link is in the address line${needs}`);
+    }
+  }
+
+  /** True where the address held a mission and its scene, or one of the example. */
+  async openLink(): Promise<boolean> {
+    if (location.hash.length < 2) return false;
+    let link: Link;
+    try {
+      link = JSON.parse(await unpacked(location.hash.slice(1))) as Link;
+      if (typeof link.scene !== "string" || typeof link.mission !== "string") throw new Error("not a link of this page");
+    } catch {
+      await this.openExample();
+      say("The link is cut short or damaged: this is the example instead", true);
+      return true;
+    }
+    try {
+      const bytes = link.bytes !== undefined ? bytesFrom(link.bytes) : link.scene === EXAMPLE ? await this.exampleBytes() : null;
+      if (!bytes) {
+        this.awaited = link;
+        await this.openExample();
+        say(`This link is for ${link.scene}: open that file, and the mission of the link follows`, true);
+        return true;
+      }
+      const source: SceneSource = { name: link.scene, bytes, section: link.section ?? {} };
+      await this.app.openScene(source);
+      await this.openMission(link.mission);
+    } catch (error) {
+      say(toldBy(error), true);
+    }
+    return true;
+  }
+}
+
+async function bytesOf(files: File[], but: File): Promise<Bytes> {
+  const bytes: Bytes = {};
+  for (const file of files) if (file !== but) bytes[file.name] = await file.arrayBuffer();
+  return bytes;
+}
+
+function base64(bytes: ArrayBuffer): string {
+  let text = "";
+  for (const byte of new Uint8Array(bytes)) text += String.fromCharCode(byte);
+  return btoa(text);
+}
+
+const bytesFrom = (text: string): ArrayBuffer => Uint8Array.from(atob(text), (c) => c.charCodeAt(0)).buffer;
+
+function download(name: string, blob: Blob): void {
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(blob);
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+}

@@ -1,0 +1,37 @@
+// The elements of the page, by id.
+
+export function element<T extends HTMLElement = HTMLElement>(id: string): T {
+  const found = document.getElementById(id);
+  if (!found) throw new Error(`the page has no #${id}`);
+  return found as T;
+}
+
+export const input = (id: string) => element<HTMLInputElement>(id);
+export const button = (id: string) => element<HTMLButtonElement>(id);
+
+export function say(text: string, isBad = false): void {
+  const hint = element("hint");
+  hint.textContent = text;
+  hint.classList.toggle("bad", isBad);
+  hint.hidden = text === "";
+}
+
+/** Whether what was said last is an error. */
+export const hasBadNews = () => element("hint").classList.contains("bad");
+
+/** With the digits that count: 12.3 m, 0.0123 m. */
+export function metres(value: number): string {
+  const digits = Math.abs(value) >= 10 ? Math.round(value * 10) / 10 : Number(value.toPrecision(3));
+  return `${digits} m`;
+}
+
+export function option(value: string, text: string): HTMLOptionElement {
+  const made = document.createElement("option");
+  made.value = value;
+  made.textContent = text;
+  return made;
+}
+
+export function large(value: number): string {
+  return value.toLocaleString("en", { maximumFractionDigits: value < 100 ? 2 : 0 });
+}

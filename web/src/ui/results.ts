@@ -1,0 +1,115 @@
+// What the panel says of the volume: numbers, what bounds it, its cut, its proof.
+import type { App } from "../app";
+import { toldBy, type Volume } from "../engine/client";
+import { KIND_COLOURS } from "../view/stage";
+import { button, element, input, large, metres } from "./page";
+
+const KIND_NAMES: Record<string, string> = {
+  scene: "a building begins to hide it", range: "the range", target_plane: "the target's plane",
+  navigation: "where you may fly", sensor: "the sensor",
+};
+
+export class Results {
+  /** the volume that the proof is of */
+  private judged: Volume | null = null;
+
+  constructor(private readonly app: App) {
+    input("cut").oninput = () => this.readCut();
+    element<HTMLSelectElement>("cut-axis").onchange = () => {
+      this.fitCut();
+      input("cut").value = input("cut").max;
+      this.readCut();
+    };
+    button("prove").onclick = () => void this.prove();
+    button("see").onclick = () => app.toggleEye();
+    app.onChange(() => this.show());
+  }
+
+  private axis(): 0 | 1 | 2 {
+    return Number(element<HTMLSelectElement>("cut-axis").value) as 0 | 1 | 2;
+  }
+
+  private fitCut(): void {
+    const { scene } = this.app;
+    if (!scene) return;
+    const axis = this.axis();
+    const slider = input("cut");
+    const wasOff = this.app.cut === null;
+    const size = Math.max(scene.max[0] - scene.min[0], scene.max[1] - scene.min[1]);
+    slider.step = String(10 ** Math.floor(Math.log10(size / 300)));
+    slider.min = String(scene.min[axis]);
+    slider.max = String(scene.max[axis] + (axis === 2 ? size / 3 : 0));
+    if (wasOff) slider.value = slider.max;
+  }
+
+  private readCut(): void {
+    const slider = input("cut");
+    this.app.setCut(slider.value === slider.max ? null : { axis: this.axis(), at: Number(slider.value) });
+    this.show();
+  }
+
+  private async prove(): Promise<void> {
+    const proof = element("proof");
+    proof.textContent = "Proving…";
+    const { volume } = this.app;
+    this.judged = volume;
+    try {
+      const { verdict } = await this.app.engine.prove();
+      if (volume !== this.app.volume) return;
+      proof.textContent = verdict === "proved" ? "Proved: every position of this volume sees all of the target."
+        : `The proof says: ${verdict.replaceAll("_", " ")}`;
+    } catch (error) {
+      proof.textContent = toldBy(error);
+    }
+  }
+
+  private show(): void {
+    const { volume, failure, cut, section } = this.app;
+    this.fitCut();
+    element("cut-out").textContent = cut === null ? "off"
+      : `${metres(cut.at)}${section && cut.axis === 2 ? `, ${large(section.area_m2)} m²` : ""}`;
+    const status = element("status");
+    status.classList.toggle("bad", failure !== "");
+    status.textContent = failure !== "" ? failure
+      : !volume ? "No target yet" : volume.info.outcome === "computed" ? "" : volume.info.reason;
+    this.showNumbers();
+    this.showLegend();
+    button("prove").disabled = button("save").disabled = button("link").disabled = !volume;
+    button("see").disabled = !this.app.probe;
+    button("see").setAttribute("aria-pressed", String(this.app.isEye()));
+    if (volume !== this.judged) element("proof").textContent = "";
+  }
+
+  private showNumbers(): void {
+    const { volume, scene } = this.app;
+    const rows: [string, string][] = [];
+    if (volume) {
+      const [low, high] = this.app.volumeView.heights();
+      rows.push(["Volume", `${large(volume.info.volume_m3)} m³`]);
+      if (volume.info.facets > 0) rows.push(["Heights", `${metres(low)} to ${metres(high)}`]);
+      rows.push(["Facets", large(volume.info.facets)],
+        ["Computed in", `${Math.max(0.1, volume.info.resolve_ms + volume.info.compute_ms).toFixed(1)} ms`]);
+    }
+    if (scene) rows.push(["Scene", `${large(scene.triangles)} triangles`]);
+    element("numbers").replaceChildren(...rows.flatMap(([term, value]) => {
+      const dt = document.createElement("dt");
+      const dd = document.createElement("dd");
+      dt.textContent = term;
+      dd.textContent = value;
+      return [dt, dd];
+    }));
+  }
+
+  private showLegend(): void {
+    const areas = this.app.volume ? this.app.volumeView.areaOfKind : new Map<string, number>();
+    const whole = [...areas.values()].reduce((a, b) => a + b, 0);
+    element("legend").replaceChildren(...[...areas].sort((a, b) => b[1] - a[1]).map(([kind, area]) => {
+      const item = document.createElement("li");
+      const swatch = document.createElement("i");
+      swatch.style.background = `#${(KIND_COLOURS[kind] ?? 0).toString(16).padStart(6, "0")}`;
+      const share = (100 * area) / whole;
+      item.append(swatch, `${KIND_NAMES[kind] ?? kind}, ${share < 1 ? "< 1" : Math.round(share)} %`);
+      return item;
+    }));
+  }
+}

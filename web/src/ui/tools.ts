@@ -1,0 +1,182 @@
+// What the pointer does: look, draw, pick, probe, and drag what is there.
+import type { App } from "../app";
+import type { Point } from "../engine/messages";
+import { facing, faultOf, plus, times, type Plane } from "../model/polygon";
+import type { Hit } from "../view/city";
+import { dragOfBox, dragOfTarget, onPlane, type Drag } from "./drags";
+import { button, element, say } from "./page";
+
+export type Tool = "look" | "draw" | "pick" | "probe";
+
+const HINTS: Record<Tool, string> = {
+  look: "",
+  draw: "Click the corners of the target on the ground, a roof or a wall; Enter, or a double click, ends it",
+  pick: "Click a roof or a wall: all of it becomes the target",
+  probe: "Click a place: what does a position above it see? Page Up and Page Down change its height",
+};
+const LIMITS: Record<string, string> = {
+  scene: "hidden by", range: "the range", target_plane: "the target's plane", navigation: "where you may fly:", sensor: "the sensor:",
+};
+const CLICK_PIXELS = 5;
+
+export class Tools {
+  private tool: Tool = "look";
+  private drawn: Point[] = [];
+  private plane: Plane | null = null;
+  private drag: Drag | null = null;
+  private pressed: { x: number; y: number } | null = null;
+
+  constructor(private readonly app: App) {
+    const { canvas } = app.stage;
+    canvas.addEventListener("pointerdown", (event) => this.press(event), { capture: true });
+    canvas.addEventListener("pointermove", (event) => this.move(event));
+    canvas.addEventListener("pointerup", (event) => this.release(event));
+    canvas.addEventListener("pointercancel", () => this.endDrag());
+    canvas.addEventListener("pointerleave", () => (element("tip").hidden = true));
+    canvas.addEventListener("dblclick", (event) => this.doubleClick(event));
+    for (const tool of Object.keys(HINTS) as Tool[]) button(`tool-${tool}`).onclick = () => this.choose(tool);
+  }
+
+  choose(tool: Tool): void {
+    if (this.app.isEye()) this.app.endEye();
+    this.tool = tool;
+    this.drawn = [];
+    this.plane = null;
+    for (const name of Object.keys(HINTS)) button(`tool-${name}`).setAttribute("aria-pressed", String(name === tool));
+    this.app.stage.canvas.style.cursor = tool === "look" ? "" : "crosshair";
+    this.app.showMission();
+    say(HINTS[tool]);
+  }
+
+  /** Enter. */
+  finish(): void {
+    if (this.tool !== "draw" || !this.plane) return;
+    const fault = faultOf(this.drawn);
+    if (fault) return say(fault.reason, true);
+    const { normal } = this.plane;
+    const vertices = facing(this.drawn, normal);
+    this.choose("look");
+    this.app.dragged = null;
+    // A mission's target looks up where it says nothing; walls may lean.
+    const front = normal[2] < 0.05 ? { front: normal } : {};
+    this.app.edit((mission) => (mission.target = { kind: "polygon", vertices, ...front }), true);
+  }
+
+  /** Delete: the last corner that was drawn, or dragged. */
+  removeLast(): void {
+    if (this.tool === "draw") {
+      this.drawn.pop();
+      if (this.drawn.length === 0) this.plane = null;
+      return this.showDrawn();
+    }
+    const { app } = this;
+    const { target } = app.mission;
+    const { dragged } = app;
+    if (target?.kind !== "polygon" || dragged === null) return say("First drag the corner that is to go", true);
+    if (target.vertices.length <= 3) return say("A target has three corners or more", true);
+    app.dragged = null;
+    app.edit(() => target.vertices.splice(dragged, 1), true);
+  }
+
+  private press(event: PointerEvent): void {
+    this.pressed = { x: event.clientX, y: event.clientY };
+    if (event.button !== 0 || this.tool === "draw") return;
+    const { app } = this;
+    this.drag = dragOfTarget(app, event, this.tool === "look" && !app.isEye()) ?? dragOfBox(app, event);
+    if (!this.drag) return;
+    app.stage.controls.enabled = false;
+    app.stage.canvas.setPointerCapture(event.pointerId);
+  }
+
+  private move(event: PointerEvent): void {
+    if (this.drag) return this.drag(event);
+    if (event.buttons !== 0) return;
+    const { app } = this;
+    const tip = element("tip");
+    const cause = this.tool === "look" ? app.volumeView.causeAt(app.stage.ray(event)) : null;
+    tip.hidden = !cause;
+    if (!cause) return;
+    const isNamed = cause.kind === "scene" || cause.kind === "navigation" || cause.kind === "sensor";
+    tip.textContent = `${LIMITS[cause.kind] ?? cause.kind}${isNamed ? ` ${cause.name.replaceAll("_", " ")}` : ""}`;
+    const { x, y } = app.stage.onScreen(event);
+    tip.style.left = `${x + 14}px`;
+    tip.style.top = `${y + 10}px`;
+  }
+
+  private release(event: PointerEvent): void {
+    const { pressed } = this;
+    this.pressed = null;
+    const isClick = pressed !== null && Math.hypot(event.clientX - pressed.x, event.clientY - pressed.y) <= CLICK_PIXELS;
+    if (this.drag) this.endDrag();
+    else if (isClick && event.button === 0) this.click(event);
+  }
+
+  private endDrag(): void {
+    if (!this.drag) return;
+    this.drag = null;
+    this.app.stage.controls.enabled = true;
+    this.app.keep();
+  }
+
+  private click(event: PointerEvent): void {
+    if (this.tool === "look") return;
+    if (this.tool === "draw" && this.plane) return this.drawCorner(event, this.plane);
+    const hit = this.app.city.hit(this.app.stage.ray(event));
+    if (!hit) return say("There is no surface here: click the ground, a roof or a wall", true);
+    if (this.tool === "draw") {
+      this.plane = hit.plane;
+      this.drawn = [hit.point];
+      this.showDrawn();
+    } else if (this.tool === "pick") {
+      this.pick(hit);
+    } else {
+      this.probe(hit.point);
+    }
+  }
+
+  /** On a side of the target: a new corner. */
+  private doubleClick(event: MouseEvent): void {
+    const { app } = this;
+    if (this.tool === "draw") return this.finish();
+    const { target } = app.mission;
+    if (this.tool !== "look" || target?.kind !== "polygon" || app.target.cornerAt(event, app.stage) >= 0) return;
+    const side = app.target.sideAt(event, app.stage);
+    if (side < 0) return;
+    const to = target.vertices[(side + 1) % target.vertices.length]!;
+    const middle = times(plus(target.vertices[side]!, to), 0.5);
+    app.dragged = side + 1;
+    app.edit(() => target.vertices.splice(side + 1, 0, middle), true);
+  }
+
+  private drawCorner(event: PointerEvent, plane: Plane): void {
+    const corner = this.app.target.cornerAt(event, this.app.stage);
+    if (corner === 0 && this.drawn.length >= 3) return this.finish();
+    if (corner >= 0) return; // the second click of a double one
+    const at = onPlane(this.app, event, plane);
+    if (!at) return;
+    this.drawn.push(at);
+    this.showDrawn();
+  }
+
+  private showDrawn(): void {
+    const fault = this.drawn.length >= 3 ? faultOf(this.drawn) : null;
+    this.app.target.show([this.drawn], { isEditable: true, isOpen: true, fault });
+    this.app.stage.request();
+    if (fault) say(`${fault.reason}, or press Del`, true);
+    else say(this.drawn.length >= 3 ? "Enter, a double click, or a click on the first corner ends it" : HINTS.draw);
+  }
+
+  private pick(hit: Hit): void {
+    if (hit.object === "" || hit.kind === "ground") return say("This is the ground: draw a target on it", true);
+    const part = Math.abs(hit.plane.normal[2]) > 0.35 ? "roof" : "facade";
+    this.choose("look");
+    this.app.dragged = null;
+    this.app.edit((mission) => (mission.target = { kind: "face", object: hit.object, part, nearest: hit.point }), true);
+  }
+
+  /** A little above the place, or as high above it as the last one was above its own. */
+  private probe([x, y, z]: Point): void {
+    const { app } = this;
+    app.setProbe([x, y, z + Math.min(20, app.mission.range / 5)]);
+  }
+}

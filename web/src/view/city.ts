@@ -1,0 +1,77 @@
+// The scene's triangles.
+import * as THREE from "three";
+import type { Point, SceneInfo, ViewMesh } from "../engine/messages";
+import type { Plane } from "../model/polygon";
+
+export interface Hit {
+  /** scene frame */
+  point: Point;
+  plane: Plane;
+  object: string;
+  kind: string;
+}
+
+const EDGES_UP_TO = 120000; // triangles: beyond, lines take longer to find than the picture is worth
+
+export class City {
+  private mesh: THREE.Mesh | null = null;
+  private edges: THREE.LineSegments | null = null;
+  private labels = new Uint32Array();
+  private info: SceneInfo | null = null;
+
+  constructor(private readonly parent: THREE.Object3D) {}
+
+  show(info: SceneInfo, view: ViewMesh): void {
+    this.clear();
+    this.info = info;
+    this.labels = view.labels as Uint32Array<ArrayBuffer>;
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute("position", new THREE.BufferAttribute(view.positions, 3));
+    geometry.setIndex(new THREE.BufferAttribute(view.triangles, 1));
+    const material = new THREE.MeshLambertMaterial({
+      color: 0xe9e6df, side: THREE.DoubleSide, flatShading: true,
+      polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1,
+    });
+    this.mesh = new THREE.Mesh(geometry, material);
+    this.parent.add(this.mesh);
+    if (info.triangles > EDGES_UP_TO) return;
+    const lines = new THREE.EdgesGeometry(geometry, 20);
+    this.edges = new THREE.LineSegments(lines, new THREE.LineBasicMaterial({
+      color: 0x3a4250, transparent: true, opacity: 0.45,
+    }));
+    this.parent.add(this.edges);
+  }
+
+  private clear(): void {
+    for (const old of [this.mesh, this.edges]) {
+      if (!old) continue;
+      this.parent.remove(old);
+      old.geometry.dispose();
+    }
+    this.mesh = this.edges = null;
+  }
+
+  hit(ray: THREE.Raycaster): Hit | null {
+    if (!this.mesh || !this.info) return null;
+    const [found] = ray.intersectObject(this.mesh, false);
+    if (!found?.face) return null;
+    const normal = found.face.normal.clone();
+    if (normal.dot(ray.ray.direction) > 0) normal.negate(); // meshes face either way
+    const point = this.toScene(found.point);
+    const object = this.info.objects[this.labels[found.faceIndex!] ?? -1];
+    return {
+      point, plane: { origin: point, normal: [normal.x, normal.y, normal.z] },
+      object: object?.name ?? "", kind: object?.kind ?? "",
+    };
+  }
+
+  toScene(p: THREE.Vector3): Point {
+    const o = this.info?.origin ?? [0, 0, 0];
+    return [p.x + o[0], p.y + o[1], p.z + o[2]];
+  }
+
+  toView(p: Point): THREE.Vector3 {
+    const o = this.info?.origin ?? [0, 0, 0];
+    return new THREE.Vector3(p[0] - o[0], p[1] - o[1], p[2] - o[2]);
+  }
+}

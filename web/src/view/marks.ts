@@ -1,0 +1,126 @@
+// Small things in the scene: keep-out boxes, a slice, the point that is asked about.
+import * as THREE from "three";
+import type { Box, Point, Section } from "../engine/messages";
+import type { City } from "./city";
+import type { Pointer, Stage } from "./stage";
+
+const BROWN = 0x8a4b14;
+const BODY = new THREE.MeshBasicMaterial({ color: BROWN, transparent: true, opacity: 0.16, depthWrite: false });
+const EDGES = new THREE.LineBasicMaterial({ color: BROWN });
+const DOTS = new THREE.PointsMaterial({ color: BROWN, size: 9, sizeAttenuation: false, depthTest: false, transparent: true });
+
+/** What a box is dragged by: the middle of a face, or of the box (axis -1), which moves all of it. */
+export interface Handle {
+  box: number;
+  axis: -1 | 0 | 1 | 2;
+  end: "min" | "max";
+  at: THREE.Vector3;
+}
+
+export class BoxesView {
+  private readonly group = new THREE.Group();
+  private handles: Handle[] = [];
+
+  constructor(parent: THREE.Object3D, private readonly city: City) {
+    parent.add(this.group);
+  }
+
+  show(boxes: Box[]): void {
+    for (const old of this.group.children) (old as THREE.Mesh).geometry.dispose();
+    this.group.clear();
+    this.handles = boxes.flatMap((box, i) => this.handlesOf(box, i));
+    for (const box of boxes) {
+      const low = this.city.toView(box.min);
+      const high = this.city.toView(box.max);
+      const size = high.clone().sub(low);
+      const shape = new THREE.BoxGeometry(size.x, size.y, size.z);
+      const body = new THREE.Mesh(shape, BODY);
+      const edges = new THREE.LineSegments(new THREE.EdgesGeometry(shape), EDGES);
+      for (const object of [body, edges]) {
+        object.position.copy(low).add(high).multiplyScalar(0.5);
+        this.group.add(object);
+      }
+    }
+    const dots = new THREE.Points(new THREE.BufferGeometry().setFromPoints(this.handles.map(({ at }) => at)), DOTS);
+    dots.renderOrder = 7;
+    this.group.add(dots);
+  }
+
+  private handlesOf(box: Box, index: number): Handle[] {
+    const low = this.city.toView(box.min);
+    const high = this.city.toView(box.max);
+    const middle = low.clone().add(high).multiplyScalar(0.5);
+    const handles: Handle[] = [{ box: index, axis: -1, end: "min", at: middle }];
+    for (const axis of [0, 1, 2] as const) {
+      for (const end of ["min", "max"] as const) {
+        const from = end === "min" ? low : high;
+        handles.push({ box: index, axis, end, at: middle.clone().setComponent(axis, from.getComponent(axis)) });
+      }
+    }
+    return handles;
+  }
+
+  handleAt(event: Pointer, stage: Stage): Handle | null {
+    return this.handles[stage.nearestAt(event, this.handles.map(({ at }) => at))] ?? null;
+  }
+}
+
+export class SectionView {
+  private readonly lines = new THREE.LineSegments(
+    new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ color: 0x1b2a44, depthTest: false, transparent: true }),
+  );
+
+  constructor(parent: THREE.Object3D, private readonly city: City) {
+    this.lines.renderOrder = 8;
+    this.lines.frustumCulled = false;
+    parent.add(this.lines);
+  }
+
+  show(section: Section | null): void {
+    const points: THREE.Vector3[] = [];
+    for (const rings of section?.polygons ?? []) {
+      for (const ring of rings) {
+        ring.forEach(([x, y], i) => {
+          const [nextX, nextY] = ring[(i + 1) % ring.length]!;
+          points.push(this.city.toView([x, y, section!.z_m]), this.city.toView([nextX, nextY, section!.z_m]));
+        });
+      }
+    }
+    this.lines.geometry.dispose();
+    this.lines.geometry = new THREE.BufferGeometry().setFromPoints(points);
+  }
+}
+
+export class ProbeView {
+  private readonly group = new THREE.Group();
+  private readonly dot = new THREE.Points(
+    new THREE.BufferGeometry(), new THREE.PointsMaterial({ size: 16, sizeAttenuation: false, depthTest: false, transparent: true }),
+  );
+  private readonly line = new THREE.LineSegments(
+    new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ depthTest: false, transparent: true, opacity: 0.8 }),
+  );
+
+  constructor(parent: THREE.Object3D, private readonly city: City) {
+    this.group.add(this.line, this.dot);
+    this.group.renderOrder = 9;
+    parent.add(this.group);
+    this.hide();
+  }
+
+  /** `target`: its corners, to which lines of sight are drawn. */
+  show(at: Point, target: Point[], isInside: boolean): void {
+    const eye = this.city.toView(at);
+    const colour = isInside ? 0x00a06a : 0xd32f2f;
+    this.dot.material.color.set(colour);
+    this.line.material.color.set(colour);
+    this.dot.geometry.dispose();
+    this.dot.geometry = new THREE.BufferGeometry().setFromPoints([eye]);
+    this.line.geometry.dispose();
+    this.line.geometry = new THREE.BufferGeometry().setFromPoints(target.flatMap((corner) => [eye, this.city.toView(corner)]));
+    this.group.visible = true;
+  }
+
+  hide(): void {
+    this.group.visible = false;
+  }
+}
