@@ -1,0 +1,89 @@
+// Bad input, and browsers that lack something: a message, and nothing lost.
+import { expect, test as plain } from "@playwright/test";
+import { copiedLink, mission, open, openExample, page_url, settled, test, volume } from "./support";
+
+plain("without WebGL the page says so", async ({ page }) => {
+  await page.addInitScript(() => (HTMLCanvasElement.prototype.getContext = () => null));
+  await page.goto(page_url);
+  await expect(page.locator("#hint")).toContainText("WebGL");
+});
+
+test("without WebAssembly the page says so", async ({ page }) => {
+  await page.addInitScript(() => Reflect.deleteProperty(window, "WebAssembly"));
+  await page.goto(page_url);
+  await expect(page.locator("#hint")).toContainText("WebAssembly");
+});
+
+test("a mesh that is too large is refused before it is read", async ({ page }) => {
+  await openExample(page);
+  const before = await volume(page);
+  await page.evaluate(() => {
+    const file = new File(["x"], "city.obj");
+    Object.defineProperty(file, "size", { value: 650e6 });
+    Object.defineProperty(file, "arrayBuffer", { value: () => { throw new Error("was read"); } });
+    const event = new Event("drop");
+    Object.defineProperty(event, "dataTransfer", { value: { files: [file] } });
+    window.dispatchEvent(event);
+  });
+  await expect(page.locator("#hint")).toContainText("650 MB");
+  expect(await volume(page)).toBe(before);
+});
+
+for (const [what, name, text] of [
+  ["no triangles", "empty.obj", "v 0 0 0\nv 1 0 0\n"],
+  ["half a PLY", "half.ply", "ply\nformat binary_little_endian 1.0\nelement vertex 9\n"],
+  ["not a GLB", "not.glb", "glTF but not really"],
+  ["not a mesh", "notes.txt", "hello"],
+  ["a mission that is not YAML", "broken.yaml", "target: [1, 2\nsensor: }"],
+  ["a mission with an unknown key", "odd.yaml", "target: {vertices: [[0, 0, 0], [1, 0, 0], [0, 1, 0]]}\nsensor: {max_rang: 5}\n"],
+  ["a mission for a map", "map.yaml", "scene: {osm: city.osm}\ntarget: {vertices: [[0, 0, 0], [1, 0, 0], [0, 1, 0]]}\n"],
+  ["a mission for another mesh", "other.yaml", "scene: {mesh: other.obj}\n"],
+] as const) {
+  test(`${what} is said, and the volume stays`, async ({ page }) => {
+    await openExample(page);
+    const before = [await volume(page), await mission(page)];
+    await open(page, { name, text });
+    await expect(page.locator("#hint")).toHaveClass("bad");
+    await settled(page);
+    expect([await volume(page), await mission(page)]).toEqual(before);
+    await page.locator("#range").fill("40"); // and all still works
+    await settled(page);
+    expect(await volume(page)).toBeLessThan(before[0] as number);
+  });
+}
+
+test("a link of a small scene holds the scene; of another one its mission waits for the file", async ({ page }) => {
+  await openExample(page);
+  const box = "v -20 -20 0\nv 20 -20 0\nv 20 20 0\nv -20 20 0\nf 1 2 3 4\nv 8 8 0\nv 12 8 0\nv 10 12 0\nv 10 10 9\nf 5 6 8\nf 6 7 8\nf 7 5 8\n";
+  await open(page, { name: "tent.obj", text: box });
+  await page.waitForFunction(() => (window as any).vantage.source.name === "tent.obj");
+  await page.evaluate(() => (window as any).vantage.edit(
+    (m: any) => (m.target = { kind: "polygon", vertices: [[-5, -5, 0], [5, -5, 0], [0, 5, 0]] }), true));
+  await page.waitForFunction(() => (window as any).vantage.volume);
+  await settled(page);
+  const before = await volume(page);
+  const link = await copiedLink(page);
+  await page.goto("about:blank");
+  await page.goto(link);
+  await page.waitForFunction(() => (window as any).vantage?.source.name === "tent.obj" && (window as any).vantage.volume);
+  expect(await volume(page)).toBe(before);
+
+  // A scene that does not fit into a link.
+  let noise = box;
+  for (let i = 0; i < 4000; ++i) noise += `v ${Math.random()} ${Math.random()} ${-Math.random()}\n`;
+  await open(page, { name: "large.obj", text: noise });
+  await page.waitForFunction(() => (window as any).vantage.source.name === "large.obj");
+  await page.evaluate(() => (window as any).vantage.edit(
+    (m: any) => (m.target = { kind: "polygon", vertices: [[-5, -5, 0], [5, -5, 0], [0, 5, 0]] }), true));
+  await page.waitForFunction(() => (window as any).vantage.volume);
+  await page.locator("#range").fill("11");
+  await settled(page);
+  const other = await volume(page);
+  const short = await copiedLink(page);
+  await page.goto("about:blank");
+  await page.goto(short);
+  await expect(page.locator("#hint")).toContainText("large.obj");
+  await open(page, { name: "large.obj", text: noise });
+  await page.waitForFunction(() => (window as any).vantage.mission.range === 11 && (window as any).vantage.volume);
+  expect(await volume(page)).toBe(other);
+});

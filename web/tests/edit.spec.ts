@@ -1,0 +1,192 @@
+// Everything that can be edited, and that files keep what the page cannot.
+import { expect } from "@playwright/test";
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
+import { byProgram, drag, mission, onScreen, open, openExample, plaza, savedMission, settled, test, volume } from "./support";
+
+test.beforeEach(({ page }) => openExample(page));
+
+const mesh = { name: "plaza.obj", text: readFileSync(join(plaza, "plaza.obj"), "utf8") };
+
+async function agrees(page: Parameters<typeof volume>[0]): Promise<string> {
+  const text = await savedMission(page);
+  expect(Math.abs((await volume(page)) / byProgram(text) - 1)).toBeLessThan(1e-9);
+  return text;
+}
+
+test("a keep-out box has handles", async ({ page }) => {
+  const boxes = (await mission(page)).keepOut.length;
+  await page.click("#add-box");
+  await settled(page);
+  const before = (await mission(page)).keepOut[boxes];
+  const middle = [0, 1, 2].map((i) => (before.min[i] + before.max[i]) / 2);
+  await drag(page, [middle[0]!, middle[1]!, before.max[2]], { x: 0, y: -40 });
+  const taller = (await mission(page)).keepOut[boxes];
+  expect(taller.max[2]).toBeGreaterThan(before.max[2] + 1);
+  expect(taller.min).toEqual(before.min);
+  await drag(page, [middle[0]!, middle[1]!, (taller.min[2] + taller.max[2]) / 2], { x: 40, y: 0 });
+  const moved = (await mission(page)).keepOut[boxes];
+  expect(moved.max[2]).toBe(taller.max[2]);
+  expect(Math.hypot(moved.min[0] - taller.min[0], moved.min[1] - taller.min[1])).toBeGreaterThan(1);
+  await agrees(page);
+  await page.locator("#boxes li").nth(boxes).getByRole("button", { name: "Remove" }).click();
+  expect((await mission(page)).keepOut).toHaveLength(boxes);
+});
+
+test("a double click adds a corner, and Del removes it", async ({ page }) => {
+  const { target } = await mission(page);
+  const [a, b] = target.vertices;
+  const side = await onScreen(page, [0, 1, 2].map((i) => a[i] * 0.5 + b[i] * 0.5));
+  await page.mouse.dblclick(side.x, side.y);
+  await expect.poll(async () => (await mission(page)).target.vertices.length).toBe(target.vertices.length + 1);
+  await settled(page);
+  await page.keyboard.press("Delete");
+  await expect.poll(async () => (await mission(page)).target.vertices).toEqual(target.vertices);
+});
+
+test("a roof and a wall are picked", async ({ page }) => {
+  const places = await page.evaluate(() => {
+    const { city, scene } = (window as any).vantage;
+    return { max: scene.max, names: scene.objects.map((o: any) => o.name), origin: city.toScene({ x: 0, y: 0, z: 0 }) };
+  });
+  expect(places.names.length).toBeGreaterThan(3);
+  for (const part of ["roof", "facade"]) {
+    // Where the ray of a click meets a building: found on the screen, as a person does.
+    const at = await page.evaluate((wanted) => {
+      const { stage, city } = (window as any).vantage;
+      const { width, height, left, top } = stage.canvas.getBoundingClientRect();
+      for (let y = 0.2; y < 0.9; y += 0.02) {
+        for (let x = 0.1; x < 0.9; x += 0.02) {
+          const event = { clientX: left + x * width, clientY: top + y * height };
+          const hit = city.hit(stage.ray(event));
+          if (!hit || hit.kind === "ground" || hit.object === "ground") continue;
+          if ((hit.plane.normal[2] > 0.9) === (wanted === "roof") && hit.plane.normal[2] > -0.1) return event;
+        }
+      }
+      return null;
+    }, part);
+    await page.keyboard.press("p");
+    await page.mouse.click(at!.clientX, at!.clientY);
+    await expect.poll(async () => (await mission(page)).target.part).toBe(part);
+    await settled(page);
+    await agrees(page);
+  }
+});
+
+test("a mission keeps its comments, and keys that the page has no controls for", async ({ page }) => {
+  const written = `# the square, for the fair
+scene:
+  mesh: plaza.obj   # beside this file
+target:
+  name: square
+  vertices: [[-8, -8, 0], [4, -8, 0], [4, 3, 0], [-8, 3, 0]]
+  offset: 0.05
+sensor:
+  max_range: 60 # of the lens
+navigation:
+  keep_in:
+    - {polygon: [[-50, -50], [50, -50], [50, 50], [-50, 50]], z: [2, 80]}
+  clearance: 2
+exact:
+  tolerance: 0.02
+`;
+  await open(page, { name: "fair.yaml", text: written }, mesh);
+  await expect.poll(async () => (await mission(page)).range).toBe(60);
+  await settled(page);
+  const unchanged = await agrees(page);
+  for (const line of ["# of the lens", "clearance: 2", "tolerance: 0.02", "offset: 0.05"]) expect(unchanged).toContain(line);
+  await page.locator("#range").fill("40");
+  await settled(page);
+  const nearer = await agrees(page);
+  expect(nearer).toContain("max_range: 40 # of the lens");
+  expect(nearer).toContain("offset: 0.05");
+  const { target } = await mission(page);
+  await drag(page, target.vertices[2], { x: 12, y: -6 });
+  const moved = await agrees(page);
+  expect(moved).not.toContain("offset");
+  expect(moved).toContain("clearance: 2");
+});
+
+test("a mission of several polygons is shown, and drawn anew as one", async ({ page }) => {
+  const text = `scene: {mesh: plaza.obj}
+targets:
+  - {name: a, vertices: [[-8, -8, 0], [-4, -8, 0], [-4, -3, 0]]}
+  - {name: b, vertices: [[2, 2, 0], [6, 2, 0], [6, 5, 0]]}
+sensor: {max_range: 60}
+`;
+  await open(page, { name: "two.yaml", text }, mesh);
+  await expect.poll(async () => (await mission(page)).target?.kind).toBe("written");
+  await settled(page);
+  await agrees(page);
+  await page.locator("#range").fill("45");
+  await settled(page);
+  expect(await agrees(page)).toContain("name: b");
+  await page.keyboard.press("d");
+  for (const at of [[-5, -5, 0], [5, -5, 0], [5, 4, 0]]) {
+    const { x, y } = await onScreen(page, at);
+    await page.mouse.click(x, y);
+  }
+  await page.keyboard.press("Enter");
+  await expect.poll(async () => (await mission(page)).target?.kind).toBe("polygon");
+  await settled(page);
+  expect(await agrees(page)).not.toContain("targets");
+});
+
+test("a camera limits the volume by its angles, its tilt and its pixels", async ({ page }) => {
+  const before = await volume(page);
+  const options = await page.locator("#camera option").count();
+  expect(options).toBeGreaterThan(5);
+  await page.locator("#camera").selectOption({ index: 1 });
+  await settled(page);
+  const seen = await volume(page);
+  expect(seen).toBeLessThanOrEqual(before);
+  await page.locator("#tilt").fill("-90");
+  await settled(page);
+  const down = await volume(page);
+  expect(down).toBeLessThan(seen);
+  await page.selectOption("#pixel", "0.005");
+  await settled(page);
+  expect(await volume(page)).toBeLessThanOrEqual(down);
+  expect(await agrees(page)).toContain("pitch: -90");
+  await page.selectOption("#camera", "");
+  await settled(page);
+  expect(await volume(page)).toBe(before);
+});
+
+test("the eye flies with the view, and comes back", async ({ page }) => {
+  await page.evaluate(() => (window as any).vantage.setProbe([0, 0, 30]));
+  const camera = () => page.evaluate(() => (window as any).vantage.stage.camera.position.toArray() as number[]);
+  const before = await camera();
+  await page.click("#see");
+  await expect(page.locator("#see")).toHaveAttribute("aria-pressed", "true");
+  const box = (await page.locator("#canvas").boundingBox())!;
+  await page.mouse.move(box.x + 100, box.y + box.height - 60);
+  await page.mouse.down();
+  await page.mouse.move(box.x + 300, box.y + box.height - 100, { steps: 5 });
+  await page.mouse.up();
+  const probe = await page.evaluate(() => (window as any).vantage.probe.at as number[]);
+  expect(Math.hypot(probe[0]!, probe[1]!)).toBeGreaterThan(0.5);
+  await expect(page.locator("#hint")).toContainText(/Inside|Outside/);
+  await page.locator("#canvas").focus();
+  await page.keyboard.press("PageUp");
+  expect((await page.evaluate(() => (window as any).vantage.probe.at[2])) as number).toBeGreaterThan(probe[2]!);
+  await page.keyboard.press("Escape");
+  const after = await camera();
+  for (const axis of [0, 1, 2]) expect(after[axis]).toBeCloseTo(before[axis]!, 6);
+});
+
+test("a target that a wall stands in keeps the last volume, and says so at the corner", async ({ page }) => {
+  const before = await volume(page);
+  const { target } = await mission(page);
+  await page.evaluate((vertices) => {
+    const app = (window as any).vantage;
+    app.dragged = 1;
+    const moved = vertices.map((v: number[], i: number) => (i === 1 ? [v[0]! + 38, v[1]! - 16, v[2]!] : v));
+    app.edit((m: any) => (m.target = { kind: "polygon", vertices: moved }), true);
+  }, target.vertices);
+  await expect(page.locator("#fault")).toBeVisible();
+  await expect(page.locator("#hint")).toHaveClass("bad");
+  expect(await volume(page)).toBe(before);
+  await page.keyboard.press("Control+z");
+  await expect(page.locator("#fault")).toBeHidden();
+});
