@@ -45,6 +45,7 @@ if(VANTAGE_WITH_APP)
 endif()
 if(VANTAGE_HAS_ALL)
   find_package(CLI11 REQUIRED)  # the program
+  find_package(Boost 1.74 REQUIRED)  # its server, `vantage view`: the headers of Asio and Beast
 endif()
 
 # Embree 3: the independent check and depth images only (src/verify, src/depth, src/picture).

@@ -37,6 +37,9 @@ if(TARGET vantage_cli)
     install(DIRECTORY ${man} DESTINATION ${CMAKE_INSTALL_MANDIR})
     install(DIRECTORY ${share}/bash-completion ${share}/zsh ${share}/fish DESTINATION ${CMAKE_INSTALL_DATADIR})
   endif()
+  # The page, where `make web` has built it.
+  install(FILES ${PROJECT_SOURCE_DIR}/web/dist/index.html ${PROJECT_SOURCE_DIR}/web/dist/report.html
+          DESTINATION ${CMAKE_INSTALL_DATADIR}/vantage/web OPTIONAL)
 endif()
 
 install(EXPORT vantage-targets NAMESPACE vantage:: DESTINATION ${package_dir})

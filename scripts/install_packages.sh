@@ -22,6 +22,8 @@ packages=(
   libcairo2-dev libfreetype-dev fonts-dejavu-core
   # maps and terrain; GDAL is loaded when there is one
   libosmium2-dev libproj-dev proj-data libpolyclipping-dev libgdal32
+  # the server of `vantage view`: headers only
+  libboost-dev
 )
 tests=(libgtest-dev osmium-tool locales)  # of locales one with a decimal comma is made
 python=(python3-dev python3-venv)

@@ -60,7 +60,9 @@ MODULES = {
     # What may be missing from a build: each file here has a counterpart without_<component>.cpp.
     "app/components": ["core", "geo", "io", "scene", "app", "solid", "depth", "spheres",
                        "maps/osm", "maps/terrain", "maps/city"],
-    "cli": [],  # the program stands on the public API
+    # The program and what serves the page stand on the public API.
+    "live": [],
+    "cli": ["live"],
 }
 # The check shares no geometry code with what it checks: of the core it has threads, progress and text alone.
 VERIFY_HEADERS = ["core/format.h", "core/parallel.h", "core/progress_reporter.h"]
@@ -84,10 +86,12 @@ RULES = [
     OnlyIn(r"(oneapi/)?tbb[/.]", r"src/core/threads_tbb\.cpp", "only src/core/threads_tbb.cpp sees oneTBB"),
     OnlyIn(r"CLI/", r"src/cli/|bench/(gap|limits)/", "only programs see CLI11"),
     OnlyIn(r"yaml-cpp/", r"src/app/", "only src/app sees yaml-cpp"),
-    OnlyIn(r"zlib\.h", r"src/io/", "only src/io sees zlib"),
+    OnlyIn(r"zlib\.h", r"src/io/|src/live/report_page\.cpp", "only src/io and report_page.cpp see zlib"),
     OnlyIn(r"fmt/", r"src/core/format\.h", "only src/core/format.h sees libfmt"),
     OnlyIn(r"core/format\.h", r".*\.cpp", "only source files include libfmt: it takes long to compile"),
-    OnlyIn(r"nlohmann/", r"src/(io|app)/|bench/support/cities\.cpp", "only src/io, src/app and bench see nlohmann/json"),
+    OnlyIn(r"nlohmann/", r"src/(io|app|live)/|bench/support/cities\.cpp",
+           "only src/io, src/app, src/live and bench see nlohmann/json"),
+    OnlyIn(r"boost/", r"src/live/(conversation|page_server)\.", "only the server in src/live sees Boost"),
     NotIn(r"src/verify/", rf"(?!(verify|vantage)/|({'|'.join(map(re.escape, VERIFY_HEADERS))})$)({'|'.join(MODULES)})/",
           "the check shares no geometry code with what it checks"),
     NotIn(r"src/prove/", rf"(?!(prove|vantage)/|({'|'.join(map(re.escape, VERIFY_HEADERS))})$)({'|'.join(MODULES)})/",
@@ -177,6 +181,9 @@ CASES = [
     ("src/exact/engine.h", "core/format.h", False),
     ("src/app/report.cpp", "nlohmann/json.hpp", True),
     ("src/exact/engine.cpp", "nlohmann/json.hpp", False),
+    ("src/live/page_server.cpp", "boost/beast/core.hpp", True),
+    ("src/live/session.cpp", "boost/beast/core.hpp", False),
+    ("src/live/session.cpp", "app/schema.h", False),
     ("src/verify/verify.cpp", "core/progress_reporter.h", True),
     ("src/verify/verify.cpp", "core/bvh.h", False),
     ("src/verify/verify.cpp", "maps/city/city.h", False),

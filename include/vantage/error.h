@@ -138,6 +138,10 @@ enum class ErrorCode {
   device_missing,  ///< there is no such device, or none that can do what is asked
   device_failed,   ///< a device that was insisted on cannot go on
 
+  // the page
+  port_unavailable,  ///< a port of this machine cannot be listened on
+  page_missing,      ///< the page is not installed, or it is of another version
+
   // the command line
   unknown_command,      ///< there is no such command
   unknown_option,       ///< a command has no such option

@@ -31,6 +31,8 @@ constexpr const char* kExamples =
     "  vantage cameras\n"
     "  vantage spheres -c config.yaml\n"
     "  vantage render mission.yaml --volume volume.ply -o picture.png\n"
+    "  vantage report mission.yaml -o report.html\n"
+    "  vantage view mission.yaml\n"
     "\n"
     "MISSION and POINTS may be -, standard input. docs/mission-file.md describes the mission file,\n"
     "docs/command-line.md the commands.\n";
@@ -110,6 +112,8 @@ void add_commands(CLI::App& app, Command& chosen) {
   add_cameras(app, chosen);
   add_spheres(app, chosen);
   add_render(app, chosen);
+  add_report(app, chosen);
+  add_view(app, chosen);
   add_help(app, chosen);
   add_docs(app, chosen);
 }

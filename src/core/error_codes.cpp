@@ -100,6 +100,8 @@ constexpr std::array kRows = {
     Row{ErrorCode::camera_list_syntax, ErrorKind::input, "camera-list-syntax"},
     Row{ErrorCode::device_missing, ErrorKind::input, "device-missing"},
     Row{ErrorCode::device_failed, ErrorKind::input, "device-failed"},
+    Row{ErrorCode::port_unavailable, ErrorKind::input, "port-unavailable"},
+    Row{ErrorCode::page_missing, ErrorKind::input, "page-missing"},
     Row{ErrorCode::unknown_command, ErrorKind::input, "unknown-command"},
     Row{ErrorCode::unknown_option, ErrorKind::input, "unknown-option"},
     Row{ErrorCode::command_line_syntax, ErrorKind::input, "command-line-syntax"},

@@ -1,13 +1,21 @@
-#include "session.h"
+#include "live/session.h"
 
+#include <algorithm>
+#include <array>
+#include <cerrno>
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
+#include <cstring>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "vantage/camera.h"
 #include "vantage/error.h"
 #include "vantage/hash.h"
+#include "vantage/input.h"
 #include "vantage/json.h"
 #include "vantage/slice.h"
 #include "vantage/version.h"
@@ -17,7 +25,23 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kFile = "mission.yaml";
+std::string text_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
+std::string content_of(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(stream), {}};
+  if (!stream) throw Error(ErrorCode::file_unreadable, "the file cannot be read", file.string(), "try again");
+  return text;
+}
+
+/// A page that is served asks for what its user named on the command line, and for nothing else.
+void check_named(const MissionFile& mission, const std::vector<std::filesystem::path>& named) {
+  for (const std::filesystem::path& file : input_files(mission)) {
+    if (std::find(named.begin(), named.end(), file) != named.end()) continue;
+    throw Error(ErrorCode::not_applicable, "the mission names a file that it did not name when it was opened",
+                file.string(), "name it in the mission file and start again");
+  }
+}
 
 class Stopwatch {
  public:
@@ -31,6 +55,29 @@ class Stopwatch {
 
  private:
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "vantage-XXXXXX").string();
+    if (::mkdtemp(pattern.data()) == nullptr) {
+      throw Error(ErrorCode::output_unwritable, std::string("no temporary folder can be made: ") + std::strerror(errno),
+                  pattern, "make room there, or set TMPDIR to a folder that can be written");
+    }
+    path_ = pattern;
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
 };
 
 Json json(const Vec3& point) { return {point.x(), point.y(), point.z()}; }
@@ -93,6 +140,20 @@ Json causes_of(const Volume& volume) {
   return list;
 }
 
+/// Of each list one target must be seen: that of which most is. The first that is not says why.
+PointAnswer all_of(const std::vector<std::vector<std::shared_ptr<PointQuery>>>& queries, const Vec3& point) {
+  std::optional<PointAnswer> result;
+  for (const auto& list : queries) {
+    std::optional<PointAnswer> best;
+    for (const auto& query : list) {
+      const PointAnswer answer = query->answer({&point, 1}).front();
+      if (!best || (answer.inside && !best->inside)) best = answer;
+    }
+    if (best && (!result || (result->inside && !best->inside))) result = best;
+  }
+  return result.value();
+}
+
 }  // namespace
 
 std::string about() {
@@ -103,86 +164,161 @@ std::string about() {
                        {"model", camera.model},
                        {"fov_deg", pinhole_of(camera).fov_deg()}});
   }
-  return Json{{"version", VANTAGE_VERSION}, {"cameras", std::move(cameras)}}.dump();
+  return text_of(Json{{"version", VANTAGE_VERSION}, {"cameras", std::move(cameras)}});
 }
 
-std::string Session::open(std::string_view text) {
-  Stopwatch time;
-  MissionFile file = read_scene_text(text, kFile);
-  auto loaded = std::make_shared<const LoadedScene>(load_scene(file.scene));
-  const double read_ms = time.lap();
-  PreparedScene prepared(loaded->scene);
-  const double prepare_ms = time.lap();
-
-  scene_file_ = std::move(file);
-  loaded_ = std::move(loaded);
-  prepared_.emplace(std::move(prepared));
-  scene_hash_ = scene_hash(loaded_->scene);
+void Session::take_scene(const MissionFile& file, std::shared_ptr<const LoadedScene> loaded) {
+  prepare(std::move(loaded));
+  source_ = file.scene;
+  sea_level_m_ = file.sea_level_m;
   mission_.reset();
   result_.reset();
-  query_.reset();
+  queries_.clear();
   volume_view_ = {};
 
   const Scene& scene = loaded_->scene;
   const Box box = bounding_box(scene.mesh);
   origin_ = (box.min + box.max) / 2;
-  scene_view_ = view_of(scene.mesh, scene.object_of, origin_);
-  return Json{{"hash", scene_hash_},         {"triangles", scene.mesh.triangles.size()},
-              {"origin", json(origin_)},     {"min", json(box.min)},
-              {"max", json(box.max)},        {"objects", objects_of(scene)},
-              {"notes", notes_of(*loaded_)}, {"read_ms", read_ms},
-              {"prepare_ms", prepare_ms}}
-      .dump(-1, ' ', false, Json::error_handler_t::replace);
+  scene_view_ = std::make_shared<const ViewMesh>(view_of(scene.mesh, scene.object_of, origin_));
 }
 
-std::string Session::compute(std::string_view text) {
+void Session::prepare(std::shared_ptr<const LoadedScene> loaded) {
+  Stopwatch time;
+  PreparedScene prepared(loaded->scene);
+  prepare_ms_ = time.lap();
+  loaded_ = std::move(loaded);
+  prepared_.emplace(std::move(prepared));
+  scene_hash_ = scene_hash(loaded_->scene);
+}
+
+std::string Session::open(std::string_view text) {
+  Stopwatch time;
+  const MissionFile file = read_scene_text(text, file_);
+  auto loaded = std::make_shared<const LoadedScene>(load_scene(file.scene));
+  read_ms_ = time.lap();
+  take_scene(file, std::move(loaded));
+  return scene_json();
+}
+
+void Session::open_file(const std::filesystem::path& mission, const Progress& progress) {
+  Stopwatch time;
+  const MissionFile file = read_mission(mission);
+  // Resolving it says what is wrong before anything is shown, and extends ground that the target needs.
+  Mission resolved = resolve_mission(file, progress);
+  read_ms_ = time.lap();
+  file_ = std::filesystem::absolute(mission);
+  named_ = input_files(file);
+  text_ = content_of(file_);
+  take_scene(file, resolved.loaded);
+  mission_ = std::make_shared<const Mission>(std::move(resolved));
+}
+
+void Session::run(const Progress& progress) {
+  Stopwatch time;
+  Result result = run_mission(*mission_, {.prepared = prepared_, .scene_hash = scene_hash_}, progress);
+  compute_ms_ = time.lap();
+  take_volume(*mission_, std::move(result));
+}
+
+void Session::show_volume(const std::filesystem::path& volume, const Progress& progress) {
+  Mission mission = *mission_;
+  Volume read = read_volume(volume, mission.scene(), progress).volume;
+  if (read.cause_of.empty()) {
+    read.causes = {{CauseKind::scene, "the file of the volume does not say"}};
+    read.cause_of.assign(read.mesh.triangles.size(), 0);
+  }
+  read.frame = prepare_target(mission, *prepared_).frame();
+  Result result;
+  result.volume = std::move(read);
+  take_volume(std::move(mission), std::move(result));
+}
+
+std::string Session::hello() const {
+  return text_of(Json{{"about", Json::parse(about())},
+                      {"scene", Json::parse(scene_json())},
+                      {"mission", text_},
+                      {"name", file_.filename().string()},
+                      {"volume", result_ ? Json::parse(volume_json()) : Json()}});
+}
+
+std::string Session::scene_json() const {
+  const Scene& scene = loaded_->scene;
+  const Box box = bounding_box(scene.mesh);
+  return text_of(Json{{"hash", scene_hash_},
+                      {"triangles", scene.mesh.triangles.size()},
+                      {"origin", json(origin_)},
+                      {"min", json(box.min)},
+                      {"max", json(box.max)},
+                      {"objects", objects_of(scene)},
+                      {"notes", notes_of(*loaded_)},
+                      {"read_ms", read_ms_},
+                      {"prepare_ms", prepare_ms_}});
+}
+
+std::string Session::compute(std::string_view text, const Progress& progress) {
   if (!loaded_) throw Error(ErrorCode::nothing_given, "no scene is open", "", "open a mesh first");
   Stopwatch time;
-  MissionFile file = read_mission_text(text, kFile, scene_file_.scene);
-  file.sea_level_m = scene_file_.sea_level_m;
-  Mission mission = resolve_mission(file, loaded_);
+  MissionFile file = read_mission_text(text, file_, source_);
+  file.sea_level_m = sea_level_m_;
+  if (named_) check_named(file, *named_);
+  Mission mission = resolve_mission(file, loaded_, progress);
+  if (mission.loaded != loaded_) prepare(mission.loaded);  // ground was added, out to where the target needs it
   const double resolve_ms = time.lap();
-  Result result = run_mission(mission, {.prepared = prepared_, .scene_hash = scene_hash_});
+  Result result = run_mission(mission, {.prepared = prepared_, .scene_hash = scene_hash_}, progress);
   const double compute_ms = time.lap();
+  take_volume(std::move(mission), std::move(result));
+  view_ms_ = time.lap();
+  resolve_ms_ = resolve_ms;
+  compute_ms_ = compute_ms;
+  return volume_json();
+}
 
-  text_ = text;
-  mission_.emplace(std::move(mission));
+void Session::take_volume(Mission mission, Result result) {
+  mission_ = std::make_shared<const Mission>(std::move(mission));
   result_.emplace(std::move(result));
-  query_.reset();
+  queries_.clear();
+  volume_view_ = view_of(result_->volume.mesh, result_->volume.cause_of, origin_);
+}
+
+std::string Session::volume_json() const {
   const Volume& volume = result_->volume;
-  volume_view_ = view_of(volume.mesh, volume.cause_of, origin_);
   const MeshMeasures measures = measure(volume.mesh);
-  return Json{{"outcome", name_of(volume.outcome)},
-              {"reason", volume.reason},
-              {"hint", volume.hint},
-              {"target", parts_of(mission_->target)},
-              {"center", json(volume.frame.origin)},
-              {"normal", json(volume.frame.normal)},
-              {"range_m", range_limit_m(mission_->sensor)},
-              {"limits", limits_of(*mission_)},
-              {"volume_m3", measures.volume_m3},
-              {"area_m2", measures.area_m2},
-              {"facets", volume.mesh.triangles.size()},
-              {"causes", causes_of(volume)},
-              {"notes", json(volume.notes)},
-              {"resolve_ms", resolve_ms},
-              {"compute_ms", compute_ms},
-              {"view_ms", time.lap()}}
-      .dump(-1, ' ', false, Json::error_handler_t::replace);
+  return text_of(Json{{"name", mission_->target.name},
+                      {"outcome", name_of(volume.outcome)},
+                      {"reason", volume.reason},
+                      {"hint", volume.hint},
+                      {"target", parts_of(mission_->target)},
+                      {"center", json(volume.frame.origin)},
+                      {"normal", json(volume.frame.normal)},
+                      {"range_m", range_limit_m(mission_->sensor)},
+                      {"limits", limits_of(*mission_)},
+                      {"volume_m3", measures.volume_m3},
+                      {"area_m2", measures.area_m2},
+                      {"facets", volume.mesh.triangles.size()},
+                      {"causes", causes_of(volume)},
+                      {"notes", json(volume.notes)},
+                      {"resolve_ms", resolve_ms_},
+                      {"compute_ms", compute_ms_},
+                      {"view_ms", view_ms_}});
 }
 
 const Mission& Session::mission() const {
-  if (!mission_) throw Error(ErrorCode::nothing_given, "there is no volume yet", "", "choose a target first");
+  if (!result_) throw Error(ErrorCode::nothing_given, "there is no volume yet", "", "choose a target first");
   return *mission_;
 }
 
 std::string Session::query(const std::vector<double>& coordinates) {
-  if (!query_) query_.emplace(prepare_target(mission(), *prepared_), mission().navigation);
-  std::vector<Vec3> points;
-  for (std::size_t i = 0; i + 2 < coordinates.size(); i += 3)
-    points.emplace_back(coordinates[i], coordinates[i + 1], coordinates[i + 2]);
+  if (queries_.empty()) {
+    for (const std::vector<PreparedTarget>& list : prepare_views(mission(), *prepared_)) {
+      queries_.emplace_back();
+      for (const PreparedTarget& target : list)
+        queries_.back().push_back(std::make_shared<PointQuery>(target, mission().navigation));
+    }
+  }
   Json answers = Json::array();
-  for (const PointAnswer& answer : query_->answer(points)) {
+  for (std::size_t i = 0; i + 2 < coordinates.size(); i += 3) {
+    const Vec3 point(coordinates[i], coordinates[i + 1], coordinates[i + 2]);
+    const PointAnswer answer = all_of(queries_, point);
     answers.push_back({{"inside", answer.inside},
                        {"margin_m", std::isfinite(answer.margin_m) ? Json(answer.margin_m) : Json()},
                        {"blocked_by", answer.blocked_by},
@@ -190,11 +326,11 @@ std::string Session::query(const std::vector<double>& coordinates) {
                        {"behind_target", answer.behind_target},
                        {"outside_of", answer.outside_of}});
   }
-  return Json{{"answers", answers}}.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return text_of(Json{{"answers", std::move(answers)}});
 }
 
-std::string Session::prove() {
-  return json_text(prove_volume(mission(), result_->volume.mesh, {.lift_m = result_->volume.lift_m}));
+std::string Session::prove(const Progress& progress) {
+  return json_text(prove_volume(mission(), result_->volume.mesh, {.lift_m = result_->volume.lift_m}, progress));
 }
 
 std::string Session::slice(double z_m) {
@@ -212,18 +348,22 @@ std::string Session::slice(double z_m) {
     polygons.push_back(std::move(rings));
     area += area_m2(polygon);
   }
-  return Json{{"z_m", z_m}, {"area_m2", area}, {"polygons", polygons}}.dump();
+  return text_of(Json{{"z_m", z_m}, {"area_m2", area}, {"polygons", std::move(polygons)}});
 }
 
-std::string Session::save(const std::string& file) {
+std::string Session::save(const std::string& format) {
+  constexpr std::array kFormats = {"ply", "glb", "stl", "obj"};
+  if (std::find(kFormats.begin(), kFormats.end(), format) == kFormats.end()) {
+    throw Error(ErrorCode::output_format_unknown, in_quotes(format) + " is not a format of volumes", "",
+                "take ply, glb, stl or obj");
+  }
+  const TemporaryFolder folder;
+  const std::vector<std::filesystem::path> files{folder.path() / ("volume." + format)};
   mission();
-  const std::vector<std::filesystem::path> files{file};
-  check_result_files(files, {});
   Volume volume = result_->volume;
-  const WrittenResults written = write_results(volume, result_request(mission(), *result_, files));
-  Json reports = Json::array();
-  for (const auto& report : written.reports) reports.push_back(report.string());
-  return Json{{"reports", reports}}.dump();
+  write_results(volume, result_request(mission(), *result_, files));
+  bytes_ = content_of(files.front());
+  return text_of(Json{{"size", bytes_.size()}});
 }
 
 }  // namespace vantage::live

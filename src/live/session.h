@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "vantage/mission.h"
+#include "vantage/progress.h"
 #include "vantage/query.h"
 #include "vantage/result.h"
 
@@ -24,44 +26,72 @@ struct ViewMesh {
 /// The version and the known cameras, as JSON.
 std::string about();
 
-/// Texts are those of docs/mission-file.md; JSON is one object. Throws Error.
+/// Texts are those of docs/mission-file.md; JSON is one object. Throws Error. Copies share the scene.
 class Session {
  public:
-  /// `text`: the section `scene` of a mission alone; its file lies in the folder of the program. A session keeps its
-  /// scene when it cannot open another one.
+  /// `text`: the section `scene` of a mission alone; its file lies in the current folder. A session keeps its scene
+  /// when it cannot open another one. JSON: the scene.
   std::string open(std::string_view text);
 
+  /// A mission file, of any scene. Later missions in this session may name the files that it names, and no others.
+  void open_file(const std::filesystem::path& mission, const Progress& progress = {});
+  /// After open_file: computes the volume of that mission.
+  void run(const Progress& progress = {});
+  /// After open_file: a volume of that mission that is there already.
+  void show_volume(const std::filesystem::path& volume, const Progress& progress = {});
+
+  /// JSON: {about, scene, mission: the text of the file, name: of it, volume: the last one, or null}.
+  std::string hello() const;
+
   /// `text`: a mission without `scene`. Computes the volume; a session keeps the last one when that fails.
-  std::string compute(std::string_view text);
+  std::string compute(std::string_view text, const Progress& progress = {});
 
   /// What the points (x, y, z in turn) see of the target of the last volume.
   std::string query(const std::vector<double>& coordinates);
 
   /// Proves the last volume, or refutes it.
-  std::string prove();
+  std::string prove(const Progress& progress = {});
 
   /// Polygons in which a plane at the height z meets the last volume.
   std::string slice(double z_m);
 
-  /// Writes the last volume to a file, and its report beside it.
-  std::string save(const std::string& file);
+  /// The last volume as a file, "ply", "glb", "stl" or "obj": bytes() has it. JSON: its size.
+  std::string save(const std::string& format);
 
-  const ViewMesh& scene_view() const { return scene_view_; }
+  const ViewMesh& scene_view() const { return *scene_view_; }
   const ViewMesh& volume_view() const { return volume_view_; }
+  const std::string& bytes() const { return bytes_; }
 
  private:
-  const Mission& mission() const;
+  const Mission& mission() const;  ///< of the last volume
+  void prepare(std::shared_ptr<const LoadedScene> loaded);
+  void take_scene(const MissionFile& file, std::shared_ptr<const LoadedScene> loaded);
+  void take_volume(Mission mission, Result result);
+  std::string scene_json() const;
+  std::string volume_json() const;
 
-  MissionFile scene_file_;
+  /// Where the mission is, from which the names of files start, and what it says.
+  std::filesystem::path file_ = "mission.yaml";
+  std::string text_;
+  /// What missions may name; nothing: all.
+  std::optional<std::vector<std::filesystem::path>> named_;
+
+  SceneSource source_;
+  std::optional<double> sea_level_m_;
   std::shared_ptr<const LoadedScene> loaded_;
   std::optional<PreparedScene> prepared_;
   std::string scene_hash_;
   Vec3 origin_ = Vec3::Zero();
-  ViewMesh scene_view_, volume_view_;
-  std::string text_;  ///< of the last mission
-  std::optional<Mission> mission_;
+  double read_ms_ = 0, prepare_ms_ = 0;
+  std::shared_ptr<const ViewMesh> scene_view_ = std::make_shared<const ViewMesh>();
+
+  std::shared_ptr<const Mission> mission_;
   std::optional<Result> result_;
-  std::optional<PointQuery> query_;
+  /// Of each list of targets of which one must be seen (Mission::views); empty: not prepared yet.
+  std::vector<std::vector<std::shared_ptr<PointQuery>>> queries_;
+  double resolve_ms_ = 0, compute_ms_ = 0, view_ms_ = 0;
+  ViewMesh volume_view_;
+  std::string bytes_;
 };
 
 }  // namespace vantage::live

@@ -1,42 +1,23 @@
-// What JavaScript calls: web/src/engine.ts. Answers are JSON texts; a call that fails answers {"error": {...}}.
+// What JavaScript calls: web/src/engine/worker.ts. Answers are JSON texts; a call that fails answers {"error": {...}}.
 #include <emscripten/emscripten.h>
 
-#include <exception>
-#include <new>
-#include <nlohmann/json.hpp>
+#include <functional>
+#include <string>
 
+#include "live/answer.h"
 #include "live/session.h"
-#include "vantage/error.h"
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 vantage::live::Session& session() {
   static vantage::live::Session one;
   return one;
 }
 
-std::string error_json(const std::string& code, const std::string& problem, const std::string& where,
-                       const std::string& fix) {
-  return Json{{"error", {{"code", code}, {"problem", problem}, {"where", where}, {"fix", fix}}}}.dump(
-      -1, ' ', false, Json::error_handler_t::replace);
-}
-
-/// What `work()` returns, kept until the next call.
-template <typename Work>
-const char* answered(Work&& work) {
+/// Kept until the next call.
+const char* answered(const std::function<std::string()>& work) {
   static std::string answer;
-  try {
-    answer = work();
-  } catch (const vantage::Error& error) {
-    answer = error_json(name_of(error.code()), error.problem(), error.where(), error.fix());
-  } catch (const std::bad_alloc&) {
-    answer =
-        error_json("out-of-memory", "the browser has not enough memory for this", "", "use a smaller scene or range");
-  } catch (const std::exception& error) {
-    answer = error_json("internal", error.what(), "", "please report this");
-  }
+  answer = vantage::live::answered(work);
   return answer.c_str();
 }
 
@@ -70,9 +51,12 @@ EMSCRIPTEN_KEEPALIVE const char* vantage_slice(double z_m) {
   return answered([&] { return session().slice(z_m); });
 }
 
-EMSCRIPTEN_KEEPALIVE const char* vantage_save(const char* file) {
-  return answered([&] { return session().save(file); });
+EMSCRIPTEN_KEEPALIVE const char* vantage_save(const char* format) {
+  return answered([&] { return session().save(format); });
 }
+
+// The file that vantage_save made.
+EMSCRIPTEN_KEEPALIVE const char* vantage_bytes() { return session().bytes().data(); }
 
 // Arrays of the scene (0) and of the volume (1): where they begin and how many numbers they have.
 EMSCRIPTEN_KEEPALIVE const float* vantage_positions(int which) { return view(which).positions.data(); }

@@ -1,0 +1,36 @@
+#include "live/gate.h"
+
+#include <random>
+
+namespace vantage::live {
+
+std::string random_token() {
+  std::random_device source;
+  std::string token;
+  for (int word = 0; word < 4; ++word) {
+    std::uint32_t bits = source();
+    for (int digit = 0; digit < 8; ++digit, bits >>= 4) token += "0123456789abcdef"[bits & 15];
+  }
+  return token;
+}
+
+bool Gate::opens(std::string_view target, std::string_view path) const {
+  const std::string start = std::string(path) + "?token=";
+  if (target.size() != start.size() + token_.size() || target.substr(0, start.size()) != start) return false;
+  unsigned difference = 0;
+  for (std::size_t i = 0; i < token_.size(); ++i)
+    difference |= static_cast<unsigned char>(target[start.size() + i] ^ token_[i]);
+  return difference == 0;
+}
+
+bool Gate::is_own_host(std::string_view host) const {
+  const std::string port = ":" + std::to_string(port_);
+  return host == "127.0.0.1" + port || host == "localhost" + port;
+}
+
+bool Gate::is_own_origin(std::string_view origin) const {
+  constexpr std::string_view kScheme = "http://";
+  return origin.substr(0, kScheme.size()) == kScheme && is_own_host(origin.substr(kScheme.size()));
+}
+
+}  // namespace vantage::live

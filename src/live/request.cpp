@@ -1,0 +1,117 @@
+#include "live/request.h"
+
+#include <bit>
+#include <chrono>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "live/answer.h"
+#include "vantage/error.h"
+
+namespace vantage::live {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+static_assert(std::endian::native == std::endian::little, "arrays are sent as they lie in memory");
+
+[[noreturn]] void refuse(const std::string& problem) {
+  throw Error(ErrorCode::value_syntax, "this is not a request: " + problem, "", "open the page anew");
+}
+
+template <typename T>
+void append(std::string& message, const std::vector<T>& numbers) {
+  message.append(reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(T));
+}
+
+/// The JSON, with what is appended to it.
+std::string framed(const Json& header, const ViewMesh* mesh, const std::string* bytes) {
+  std::string text = header.dump(-1, ' ', false, Json::error_handler_t::replace);
+  text.append((4 - text.size() % 4) % 4, ' ');
+  const auto length = static_cast<std::uint32_t>(text.size());
+  std::string message(reinterpret_cast<const char*>(&length), sizeof length);
+  message += text;
+  if (mesh) {
+    append(message, mesh->positions);
+    append(message, mesh->triangles);
+    append(message, mesh->label_of);
+  }
+  if (bytes) message += *bytes;
+  return message;
+}
+
+std::string value_of(Session& session, const Request& request, const Progress& progress) {
+  if (request.call == "about") return about();
+  if (request.call == "hello") return session.hello();
+  if (request.call == "shown") return "{}";
+  if (request.call == "compute") return session.compute(request.text, progress);
+  if (request.call == "query") return session.query(request.coordinates);
+  if (request.call == "prove") return session.prove(progress);
+  if (request.call == "slice") return session.slice(request.z_m);
+  if (request.call == "save") return session.save(request.format);
+  throw Error(ErrorCode::unknown_choice, "there is no call of that name", "", "use the page of this version");
+}
+
+const ViewMesh* mesh_of(const Session& session, const std::string& call) {
+  if (call == "hello") return &session.scene_view();
+  return call == "compute" || call == "shown" ? &session.volume_view() : nullptr;
+}
+
+}  // namespace
+
+Request parse_request(std::string_view text) {
+  const Json message = Json::parse(text, nullptr, false);
+  if (!message.is_object() || !message.contains("id") || !message["id"].is_number_unsigned()) refuse("it has no id");
+  const auto found = message.find("request");
+  if (found == message.end() || !found->is_object()) refuse("it asks nothing");
+  Request request;
+  request.id = message["id"].get<std::uint64_t>();
+  const auto text_of = [&](const char* key, std::string& value) {
+    const auto at = found->find(key);
+    if (at == found->end()) return;
+    if (!at->is_string()) refuse(std::string(key) + " is not a text");
+    value = at->get<std::string>();
+  };
+  text_of("call", request.call);
+  text_of("text", request.text);
+  text_of("format", request.format);
+  const auto number = [](const Json& value) {
+    if (!value.is_number()) refuse("a coordinate is not a number");
+    return value.get<double>();
+  };
+  if (found->contains("z")) request.z_m = number((*found)["z"]);
+  if (const auto points = found->find("points"); points != found->end()) {
+    if (!points->is_array()) refuse("the points are not a list");
+    for (const Json& point : *points) {
+      if (!point.is_array() || point.size() != 3) refuse("a point does not have three coordinates");
+      for (const Json& coordinate : point) request.coordinates.push_back(number(coordinate));
+    }
+  }
+  return request;
+}
+
+std::string answer(Session& session, const Request& request, const Progress& progress) {
+  const auto start = std::chrono::steady_clock::now();
+  const std::string text = answered([&] { return value_of(session, request, progress); });
+  Json value = Json::parse(text);
+  Json header{{"id", request.id}};
+  const bool is_error = value.contains("error");
+  if (is_error) {
+    header["error"] = std::move(value["error"]);
+  } else {
+    header["value"] = std::move(value);
+  }
+  const ViewMesh* mesh = is_error ? nullptr : mesh_of(session, request.call);
+  const std::string* bytes = !is_error && request.call == "save" ? &session.bytes() : nullptr;
+  if (mesh) header["mesh"] = {mesh->positions.size(), mesh->triangles.size(), mesh->label_of.size()};
+  if (bytes) header["bytes"] = bytes->size();
+  const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
+  header["engine_ms"] = time.count();
+  return framed(header, mesh, bytes);
+}
+
+std::string stale_answer(const Request& request) {
+  return framed(Json{{"id", request.id}, {"stale", true}, {"engine_ms", 0}}, nullptr, nullptr);
+}
+
+}  // namespace vantage::live

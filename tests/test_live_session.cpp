@@ -1,0 +1,161 @@
+// What the page asks of a scene and a mission in it.
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "live/gate.h"
+#include "live/page_text.h"
+#include "live/report_page.h"
+#include "live/request.h"
+#include "live/session.h"
+#include "support/cli_fixture.h"
+#include "vantage/error.h"
+#include "vantage/mission.h"
+
+namespace vantage::live {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr const char* kSquare =
+    "target: {name: square, vertices: [[-5, -5, 0], [5, -5, 0], [5, 5, 0], [-5, 5, 0]]}\nsensor: {max_range: 60}\n";
+
+class LiveSession : public testing::Cli {
+ protected:
+  void SetUp() override {
+    Cli::SetUp();
+    session_.open_file(folder_ / "mission.yaml");
+  }
+
+  /// The header of an answer, and the bytes after it.
+  struct Message {
+    Json header;
+    std::string rest;
+  };
+  Message ask(const Json& request) {
+    const std::string text = answer(session_, parse_request(Json{{"id", 7}, {"request", request}}.dump()));
+    std::uint32_t length = 0;
+    std::memcpy(&length, text.data(), sizeof length);
+    EXPECT_EQ(length % 4, 0u) << "arrays begin where their numbers may lie";
+    return {Json::parse(text.substr(4, length)), text.substr(4 + length)};
+  }
+  std::string code_of(const Json& request) { return ask(request).header.value("/error/code"_json_pointer, ""); }
+
+  Session session_;
+};
+
+TEST_F(LiveSession, ComputesWhatRunMissionDoes) {
+  const Message message = ask({{"call", "compute"}, {"text", kSquare}});
+  const Result expected = run_mission(resolve_mission(read_mission(folder_ / "mission.yaml")));
+  ASSERT_EQ(message.header["id"], 7);
+  const Json& value = message.header["value"];
+  EXPECT_EQ(value["facets"], expected.volume.mesh.triangles.size());
+  EXPECT_EQ(value["volume_m3"], measure(expected.volume.mesh).volume_m3);
+  const Json& counts = message.header["mesh"];
+  ASSERT_EQ(counts[0], 3 * expected.volume.mesh.vertices.size());
+  ASSERT_EQ(message.rest.size(),
+            4 * (counts[0].get<std::size_t>() + counts[1].get<std::size_t>() + counts[2].get<std::size_t>()));
+  std::uint32_t corner = 0;
+  std::memcpy(&corner, message.rest.data() + 4 * counts[0].get<std::size_t>(), sizeof corner);
+  EXPECT_EQ(corner, expected.volume.mesh.triangles[0][0]);
+}
+
+TEST_F(LiveSession, AnswersWithoutAVolumeSayWhatIsMissing) {
+  for (const char* const call : {"query", "prove", "slice"}) {
+    EXPECT_EQ(code_of({{"call", call}, {"points", {{0, 0, 20}}}, {"z", 5}}), "nothing-given") << call;
+  }
+  EXPECT_EQ(code_of({{"call", "save"}, {"format", "ply"}}), "nothing-given");
+  EXPECT_EQ(code_of({{"call", "fly"}}), "unknown-choice");
+}
+
+TEST_F(LiveSession, AMissionThatFailsKeepsTheLastVolume) {
+  const std::size_t facets = ask({{"call", "compute"}, {"text", kSquare}}).header["value"]["facets"];
+  EXPECT_EQ(code_of({{"call", "compute"}, {"text", "target: {vertices: [[0, 0, 0]]}\nsensor: {max_range: 60}\n"}}),
+            "target-vertex-count");
+  EXPECT_EQ(code_of({{"call", "compute"}, {"text", "target: ["}}), "yaml-syntax");
+  EXPECT_EQ(session_.volume_view().triangles.size(), 3 * facets);
+  EXPECT_EQ(ask({{"call", "prove"}}).header["value"]["verdict"], "proved");
+}
+
+TEST_F(LiveSession, NamesNoFileThatTheMissionDidNotName) {
+  write("zones.geojson", R"({"type": "Polygon", "coordinates": [[[0, 0], [1, 0], [1, 1], [0, 0]]]})");
+  const std::string mission = std::string(kSquare) + "navigation: {meshes: [volume.ply]}\n";
+  EXPECT_EQ(code_of({{"call", "compute"}, {"text", mission}}), "not-applicable");
+  const std::string zones = std::string(kSquare) + "navigation: {keep_out: [{file: zones.geojson, heights: any}]}\n";
+  EXPECT_EQ(code_of({{"call", "compute"}, {"text", zones}}), "not-applicable");
+}
+
+TEST_F(LiveSession, SavesOnlyFormatsOfVolumes) {
+  ask({{"call", "compute"}, {"text", kSquare}});
+  for (const char* const format : {"ply", "glb", "stl", "obj"}) {
+    const Message message = ask({{"call", "save"}, {"format", format}});
+    EXPECT_EQ(message.header["bytes"], message.rest.size());
+    EXPECT_GT(message.rest.size(), 1000u) << format;
+  }
+  EXPECT_EQ(code_of({{"call", "save"}, {"format", "/../../etc/passwd"}}), "output-format-unknown");
+}
+
+TEST_F(LiveSession, AsksOfAPointWhatHidesTheTarget) {
+  ask({{"call", "compute"}, {"text", kSquare}});
+  const Json answers =
+      ask({{"call", "query"}, {"points", {{0, 0, 20}, {40, 0, 5}, {0, 0, 500}}}}).header["value"]["answers"];
+  EXPECT_TRUE(answers[0]["inside"]);
+  EXPECT_EQ(answers[1]["blocked_by"], Json({"block"}));
+  EXPECT_TRUE(answers[2]["out_of_range"]);
+  EXPECT_GT(ask({{"call", "slice"}, {"z", 20}}).header["value"]["area_m2"], 100.0);
+}
+
+TEST_F(LiveSession, OfSeveralTargetsEachMustBeSeenOrOne) {
+  const std::string targets =
+      "targets:\n  - {name: a, vertices: [[-5, -5, 0], [5, -5, 0], [5, 5, 0]]}\n"
+      "  - {name: b, vertices: [[50, -5, 0], [60, -5, 0], [60, 5, 0]]}\nsensor: {max_range: 30}\n";
+  for (const bool is_any : {false, true}) {
+    ask({{"call", "compute"}, {"text", targets + (is_any ? "combine: any\n" : "combine: all\n")}});
+    const Json answers = ask({{"call", "query"}, {"points", {{0, 0, 20}}}}).header["value"]["answers"];
+    EXPECT_EQ(answers[0]["inside"], is_any);
+  }
+}
+
+TEST_F(LiveSession, RequestsOfOthersAreRefused) {
+  for (const char* const text :
+       {"", "{", "[]", "7", R"({"id": -1, "request": {"call": "prove"}})", R"({"id": 1})", R"({"id": 1, "request": 3})",
+        R"({"id": 1, "request": {"call": 3}})", R"({"id": 1, "request": {"call": "query", "points": [[1, 2]]}})",
+        R"({"id": 1, "request": {"call": "query", "points": [[1, 2, "x"]]}})",
+        R"({"id": 1, "request": {"call": "slice", "z": "high"}})"}) {
+    EXPECT_THROW(parse_request(text), vantage::Error) << text;
+  }
+  EXPECT_THROW(parse_request(std::string(100000, '[')), vantage::Error);
+}
+
+TEST(LiveGate, OpensForTheTokenAndTheOwnHostAlone) {
+  const std::string token = random_token();
+  ASSERT_EQ(token.size(), 32u);
+  EXPECT_NE(token, random_token());
+  const Gate gate(token, 8090);
+  EXPECT_TRUE(gate.opens("/?token=" + token, "/"));
+  EXPECT_FALSE(gate.opens("/?token=" + token + "0", "/"));
+  EXPECT_FALSE(gate.opens("/?token=" + token.substr(1) + "x", "/"));
+  EXPECT_FALSE(gate.opens("/?token=", "/"));
+  EXPECT_FALSE(gate.opens("/", "/"));
+  EXPECT_FALSE(gate.opens("/socket?token=" + token, "/"));
+  EXPECT_TRUE(gate.is_own_host("127.0.0.1:8090"));
+  EXPECT_TRUE(gate.is_own_host("localhost:8090"));
+  for (const char* const host : {"127.0.0.1", "127.0.0.1:80", "evil.example:8090", "127.0.0.1:8090.evil.example", ""})
+    EXPECT_FALSE(gate.is_own_host(host)) << host;
+  EXPECT_TRUE(gate.is_own_origin("http://127.0.0.1:8090"));
+  for (const char* const origin : {"https://127.0.0.1:8090", "http://evil.example", "null", ""})
+    EXPECT_FALSE(gate.is_own_origin(origin)) << origin;
+}
+
+TEST_F(LiveSession, AReportHoldsTheVolumeAndItsProof) {
+  session_.run();
+  const std::string page = report_page(session_, "<html><!--LIVE--></html>", true);
+  for (const char* const part : {"hello:\"", "shown:\"", "prove:\"", "<script>", "</html>"})
+    EXPECT_NE(page.find(part), std::string::npos) << part;
+  EXPECT_EQ(report_page(session_, "<html><!--LIVE--></html>", false).find("prove:"), std::string::npos);
+  EXPECT_THROW(report_page(session_, "<html></html>", false), vantage::Error);
+  EXPECT_THROW(report_page(session_, "<!--LIVE-->", true, [](std::string_view, double) { return false; }),
+               vantage::Error);
+}
+
+}  // namespace
+}  // namespace vantage::live
