@@ -117,6 +117,12 @@ web:  ## the page, in web/dist/index.html: one file
 webtest: web build  ## the page's tests: its engine beside the program, and the page in Chromium
 	cd web && npm test
 
+.PHONY: gallery
+gallery: web build  ## reports of the real scenes of docs/gallery, in build/gallery
+	@mkdir -p build/gallery
+	@for mission in docs/gallery/*.yaml; do \
+	  build/bin/vantage report $$mission -o build/gallery/$$(basename $$mission .yaml).html || exit 1; done
+
 .PHONY: clean
 clean:  ## remove all builds; fetched sources stay
 	rm -rf build build-*/ dist/ web/dist/ web/node_modules/

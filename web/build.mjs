@@ -1,4 +1,5 @@
-// Makes dist/index.html: one file with script, style, worker, engine and example, which asks for no other.
+// Makes dist/index.html: one file with script, style, worker, engine and example, which asks for no other; and
+// dist/report.html, the same without the engine, which `vantage report` fills.
 //   VANTAGE_ENGINE: the folder with vantage.js and vantage.wasm (scripts/build_web.sh makes it)
 import { build } from "esbuild";
 import { readFileSync, mkdirSync, writeFileSync } from "node:fs";
@@ -34,11 +35,13 @@ const notices = [
 ].map((file) => `${file.replace(/^.*(three|yaml|yaml-cpp|zlib)\//, "$1: ").replace("../", "")}\n\n${readFileSync(file, "utf8").trim()}`)
   .join(`\n\n${"-".repeat(80)}\n\n`);
 const asText = (text) => text.replaceAll("&", "&amp;").replaceAll("<", "&lt;");
-const page = readFileSync("src/index.html", "utf8")
+const template = readFileSync("src/index.html", "utf8")
   .replace("/*STYLE*/", () => style)
   .replace("<!--NOTICES-->", () => asText(notices))
-  .replace("/*DATA*/", () => `window.vantageData = ${inScript(JSON.stringify(data))};`)
   .replace("/*SCRIPT*/", () => inScript(script));
 mkdirSync("dist", { recursive: true });
-writeFileSync("dist/index.html", page);
-console.log(`page: ${page.length} bytes, ${gzipSync(page, { level: 9 }).length} gzipped`);
+for (const [name, own] of [["index.html", `window.vantageData = ${inScript(JSON.stringify(data))};`], ["report.html", ""]]) {
+  const page = template.replace("/*DATA*/", () => own);
+  writeFileSync(`dist/${name}`, page);
+  console.log(`${name}: ${page.length} bytes, ${gzipSync(page, { level: 9 }).length} gzipped`);
+}

@@ -47,6 +47,7 @@ export class App {
   /** the corner that was dragged last, where a mission that cannot be computed is explained */
   dragged: number | null = null;
   private readonly listeners: Listener[] = [];
+  private tellProof: (text: string, volume: Volume) => void = () => {};
 
   constructor(readonly engine: Engine, readonly stage: Stage) {
     this.city = new City(stage.scene);
@@ -93,7 +94,11 @@ export class App {
   /** Of a mission file without its scene. The mission that is there stays where this one cannot be computed. */
   async openMission(body: string): Promise<void> {
     const volume = await this.engine.compute(body);
-    if (!volume) return;
+    if (volume) this.openMissionWith(body, volume);
+  }
+
+  /** `volume`: of that mission. */
+  openMissionWith(body: string, volume: Volume): void {
     this.mission = missionFrom(body, volume.info, this.mission.grain);
     this.history.keep(this.mission);
     this.take(volume);
@@ -220,6 +225,25 @@ export class App {
     this.changed();
   }
 
+  onProof(listener: (text: string, volume: Volume) => void): void {
+    this.tellProof = listener;
+  }
+
+  async proveIt(): Promise<void> {
+    const { volume } = this;
+    if (!volume) return;
+    this.tellProof("Proving…", volume);
+    let text: string;
+    try {
+      const { verdict } = await this.engine.prove();
+      text = verdict === "proved" ? "Proved: every position of this volume sees all of the target."
+        : `The proof says: ${verdict.replaceAll("_", " ")}`;
+    } catch (error) {
+      text = toldBy(error);
+    }
+    if (volume === this.volume) this.tellProof(text, volume);
+  }
+
   setCut(cut: Cut | null): void {
     this.cut = cut;
     const origin = this.scene?.origin ?? [0, 0, 0];
@@ -230,7 +254,7 @@ export class App {
 
   private async showSection(): Promise<void> {
     const { cut, volume } = this;
-    const section = cut?.axis !== 2 || !volume ? null : await this.engine.slice(cut.at);
+    const section = cut?.axis !== 2 || !volume ? null : await this.engine.slice(cut.at).catch(() => null);
     if (this.cut !== cut || this.volume !== volume) return;
     this.section = section;
     this.sectionView.show(section);

@@ -1,15 +1,25 @@
 import { App } from "./app";
-import { Engine } from "./engine/client";
+import { Engine, toldBy } from "./engine/client";
+import { RecordedTransport } from "./engine/recorded_transport";
+import { SocketTransport } from "./engine/socket_transport";
+import type { Transport } from "./engine/transport";
+import { WorkerTransport } from "./engine/worker_transport";
 import { Files } from "./ui/files";
 import { button, element, metres, say } from "./ui/page";
 import { Panel } from "./ui/panel";
+import { makeReport } from "./ui/report";
 import { Results } from "./ui/results";
 import { Tools } from "./ui/tools";
 import { Stage } from "./view/stage";
 
 declare global {
   interface Window {
-    vantageData: { worker: string; wasm: string; mesh: string; mission: string };
+    /** the engine and the example, in a page that works by itself */
+    vantageData?: { worker: string; wasm: string; mesh: string; mission: string };
+    /** in a page that the program serves */
+    vantageLive?: { socket: string };
+    /** in a report: what the program answered, by its calls */
+    vantageReport?: Record<string, string>;
     /** for tests and measurements */
     vantage?: App;
   }
@@ -75,29 +85,50 @@ function listenToKeys(app: App, tools: Tools): void {
   });
 }
 
+function listenToButtons(app: App): void {
+  button("fit").onclick = () => app.showAll();
+  button("theme").onclick = () => setTheme(app.stage, !document.documentElement.classList.contains("dark"));
+  button("help").onclick = () => element<HTMLDialogElement>("help-text").showModal();
+  button("undo").onclick = () => app.step(app.history.undo());
+  button("redo").onclick = () => app.step(app.history.redo());
+}
+
+async function transportOfPage(): Promise<Transport> {
+  const { vantageData, vantageLive, vantageReport } = window;
+  if (vantageReport) return RecordedTransport.start(vantageReport);
+  if (vantageLive) return SocketTransport.start(vantageLive.socket, (reason) => say(reason, true));
+  if (!vantageData) throw new Error("this page is a part of the program: 'vantage report' fills it");
+  return WorkerTransport.start(vantageData.worker, vantageData.wasm);
+}
+
 async function start(): Promise<void> {
   const stage = makeStage();
   setTheme(stage, matchMedia("(prefers-color-scheme: dark)").matches);
-  const { worker, wasm, mesh, mission } = window.vantageData;
-  const engine = await Engine.start(worker, wasm);
+  const engine = new Engine(await transportOfPage());
+  const isServed = Boolean(window.vantageLive ?? window.vantageReport);
+  const served = isServed ? await engine.hello() : null;
+  if (!served) await engine.greet();
   const app = new App(engine, stage);
   new Panel(app, engine.about);
   new Results(app);
   const tools = new Tools(app);
-  const files = new Files(app, { mesh, mission });
+  const files = new Files(app, window.vantageData ?? { mesh: "", mission: "" });
   element("version").textContent = `vantage ${engine.about.version}`;
   stage.onFrame = () => {
     drawScale(stage);
     drawFault(app);
   };
-  button("fit").onclick = () => app.showAll();
-  button("theme").onclick = () => setTheme(stage, !document.documentElement.classList.contains("dark"));
-  button("help").onclick = () => element<HTMLDialogElement>("help-text").showModal();
-  button("undo").onclick = () => app.step(app.history.undo());
-  button("redo").onclick = () => app.step(app.history.redo());
+  listenToButtons(app);
   listenToKeys(app, tools);
   window.vantage = app;
-  if (!(await files.openLink())) await files.openExample();
+  document.body.classList.toggle("served", isServed);
+  document.body.classList.toggle("report", Boolean(window.vantageReport));
+  if (served) {
+    await files.openServed(served.hello, served.mesh);
+    if (window.vantageReport) makeReport(app, served.hello);
+  } else if (!(await files.openLink())) {
+    await files.openExample();
+  }
 }
 
-start().catch((error: unknown) => say(error instanceof Error ? error.message : String(error), true));
+start().catch((error: unknown) => say(toldBy(error), true));

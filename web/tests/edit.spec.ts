@@ -1,5 +1,5 @@
 // Everything that can be edited, and that files keep what the page cannot.
-import { expect } from "@playwright/test";
+import { expect, type Page } from "@playwright/test";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { byProgram, drag, mission, onScreen, open, openExample, plaza, savedMission, settled, test, volume } from "./support";
@@ -8,9 +8,11 @@ test.beforeEach(({ page }) => openExample(page));
 
 const mesh = { name: "plaza.obj", text: readFileSync(join(plaza, "plaza.obj"), "utf8") };
 
-async function agrees(page: Parameters<typeof volume>[0]): Promise<string> {
+/** With the program: surfaces that approximate the same round ones differ by the tolerance at most, 1 cm here. */
+async function agrees(page: Page): Promise<string> {
   const text = await savedMission(page);
-  expect(Math.abs((await volume(page)) / byProgram(text) - 1)).toBeLessThan(1e-9);
+  const area = await page.evaluate(() => (window as any).vantage.volume.info.area_m2 as number);
+  expect(Math.abs((await volume(page)) - byProgram(text))).toBeLessThan(0.01 * area);
   return text;
 }
 
@@ -144,7 +146,7 @@ test("a camera limits the volume by its angles, its tilt and its pixels", async 
   await settled(page);
   const down = await volume(page);
   expect(down).toBeLessThan(seen);
-  await page.selectOption("#pixel", "0.005");
+  await page.selectOption("#pixel", "0.02");
   await settled(page);
   expect(await volume(page)).toBeLessThanOrEqual(down);
   expect(await agrees(page)).toContain("pitch: -90");

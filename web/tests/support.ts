@@ -29,8 +29,12 @@ export const test = base.extend({
 
 export async function openExample(page: Page): Promise<void> {
   await page.goto(page_url);
-  await page.waitForFunction(() => (window as any).vantage?.volume);
+  await hasVolume(page);
 }
+
+/** Without waitForFunction: the policy of a served page allows no eval. */
+export const hasVolume = (page: Page): Promise<void> =>
+  expect.poll(() => page.evaluate(() => Boolean((window as any).vantage?.volume)), { timeout: 30_000 }).toBe(true);
 
 /** Cubic metres. */
 export const volume = (page: Page): Promise<number> => page.evaluate(() => (window as any).vantage.volume.info.volume_m3);
@@ -47,15 +51,8 @@ export const onScreen = (page: Page, at: readonly number[]): Promise<{ x: number
   }, at);
 
 /** Until nothing is computed any more. */
-export async function settled(page: Page): Promise<void> {
-  let last = -1;
-  await expect(async () => {
-    const now = await volume(page);
-    const before = last;
-    last = now;
-    expect(now).toBe(before);
-  }).toPass({ intervals: [150], timeout: 20_000 });
-}
+export const settled = (page: Page): Promise<void> =>
+  expect.poll(() => page.evaluate(() => (window as any).vantage.engine.isIdle), { timeout: 30_000 }).toBe(true);
 
 export async function drag(page: Page, from: readonly number[], by: { x: number; y: number }): Promise<void> {
   const { x, y } = await onScreen(page, from);

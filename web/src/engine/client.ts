@@ -1,11 +1,6 @@
 // The engine as the page sees it: promises, and volumes that follow what is dragged.
-import type { About, Answer, EngineError, PointAnswer, Request, SceneInfo, Section, ViewMesh, VolumeInfo } from "./messages";
-
-export class EngineFailure extends Error {
-  constructor(readonly told: EngineError) {
-    super(told.problem);
-  }
-}
+import type { About, Hello, PointAnswer, SceneInfo, Section, ViewMesh, VolumeInfo } from "./messages";
+import { EngineFailure, type Transport } from "./transport";
 
 /** What went wrong, and what to do, in words. */
 export function toldBy(error: unknown): string {
@@ -22,11 +17,6 @@ export interface Volume {
   total_ms: number;
 }
 
-interface Waiting {
-  resolve(answer: Answer): void;
-  reject(error: Error): void;
-}
-
 interface Wish {
   text: string;
   asked: number;
@@ -35,34 +25,38 @@ interface Wish {
 }
 
 export class Engine {
-  private readonly worker: Worker;
-  private readonly waiting = new Map<number, Waiting>();
-  private next = 1;
   private isComputing = false;
   private wish: Wish | null = null;
   about: About = { version: "", cameras: [] };
 
-  private constructor(script: string) {
-    const url = URL.createObjectURL(new Blob([script], { type: "text/javascript" }));
-    this.worker = new Worker(url);
-    this.worker.onmessage = ({ data }: MessageEvent<Answer>) => this.take(data);
-    this.worker.onerror = (event) => this.fail(new Error(event.message || "the engine stopped"));
+  constructor(private readonly transport: Transport) {}
+
+  /** No volume is on its way. */
+  get isIdle(): boolean {
+    return !this.isComputing && !this.wish;
   }
 
-  /** `wasm`: compressed by gzip, in base64. */
-  static async start(script: string, wasm: string): Promise<Engine> {
-    if (typeof WebAssembly !== "object") throw new Error("this browser has no WebAssembly, which the engine needs");
-    const engine = new Engine(script);
-    const packed = Uint8Array.from(atob(wasm), (c) => c.charCodeAt(0));
-    const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
-    const bytes = await new Response(stream).arrayBuffer();
-    engine.about = (await engine.ask({ call: "start", wasm: bytes }, [bytes])).value as About;
-    return engine;
+  async greet(): Promise<void> {
+    this.about = (await this.transport.ask({ call: "about" })).value as About;
+  }
+
+  /** What the program was started with. */
+  async hello(): Promise<{ hello: Hello; mesh: ViewMesh }> {
+    const answer = await this.transport.ask({ call: "hello" });
+    const hello = answer.value as Hello;
+    this.about = hello.about;
+    return { hello, mesh: answer.mesh! };
+  }
+
+  /** The volume that hello() told of. */
+  async shown(info: VolumeInfo): Promise<Volume> {
+    const { mesh, engine_ms } = await this.transport.ask({ call: "shown" });
+    return { info, mesh: mesh!, engine_ms, total_ms: 0 };
   }
 
   /** `text`: the section `scene` of a mission, which names `file`; `files`: this file and those that missions name. */
   async open(text: string, files: Record<string, ArrayBuffer>, file: string): Promise<{ info: SceneInfo; mesh: ViewMesh }> {
-    const answer = await this.ask({ call: "open", text, file, files });
+    const answer = await this.transport.ask({ call: "open", text, file, files });
     return { info: answer.value as SceneInfo, mesh: answer.mesh! };
   }
 
@@ -81,8 +75,9 @@ export class Engine {
     this.wish = null;
     this.isComputing = true;
     try {
-      const { value, mesh, engine_ms } = await this.ask({ call: "compute", text });
-      resolve({ info: value as VolumeInfo, mesh: mesh!, engine_ms, total_ms: performance.now() - asked });
+      const { value, mesh, engine_ms, stale } = await this.transport.ask({ call: "compute", text });
+      if (stale) resolve(null);
+      else resolve({ info: value as VolumeInfo, mesh: mesh!, engine_ms, total_ms: performance.now() - asked });
     } catch (error) {
       reject(error as Error);
     }
@@ -91,38 +86,18 @@ export class Engine {
   }
 
   async query(points: [number, number, number][]): Promise<PointAnswer[]> {
-    return ((await this.ask({ call: "query", points })).value as { answers: PointAnswer[] }).answers;
+    return ((await this.transport.ask({ call: "query", points })).value as { answers: PointAnswer[] }).answers;
   }
 
   async prove(): Promise<{ verdict: string }> {
-    return (await this.ask({ call: "prove" })).value as { verdict: string };
+    return (await this.transport.ask({ call: "prove" })).value as { verdict: string };
   }
 
   async slice(z: number): Promise<Section> {
-    return (await this.ask({ call: "slice", z })).value as Section;
+    return (await this.transport.ask({ call: "slice", z })).value as Section;
   }
 
   async save(format: string): Promise<Uint8Array> {
-    return (await this.ask({ call: "save", format })).bytes!;
-  }
-
-  private ask(request: Request, transfer: Transferable[] = []): Promise<Answer> {
-    return new Promise((resolve, reject) => {
-      const id = this.next++;
-      this.waiting.set(id, { resolve, reject });
-      this.worker.postMessage({ id, request }, transfer);
-    });
-  }
-
-  private take(answer: Answer): void {
-    const waiting = this.waiting.get(answer.id);
-    this.waiting.delete(answer.id);
-    if (answer.error) waiting?.reject(new EngineFailure(answer.error));
-    else waiting?.resolve(answer);
-  }
-
-  private fail(error: Error): void {
-    for (const waiting of this.waiting.values()) waiting.reject(error);
-    this.waiting.clear();
+    return (await this.transport.ask({ call: "save", format })).bytes!;
   }
 }

@@ -44,6 +44,8 @@ export interface Limits {
 export type CauseKind = "scene" | "range" | "target_plane" | "navigation" | "sensor";
 
 export interface VolumeInfo {
+  /** of the target */
+  name: string;
   outcome: string;
   reason: string;
   hint: string;
@@ -60,6 +62,15 @@ export interface VolumeInfo {
   resolve_ms: number;
   compute_ms: number;
   view_ms: number;
+}
+
+/** What the program was started with. `mission`: text of the file `name`; `volume`: one that was given to be shown. */
+export interface Hello {
+  about: About;
+  scene: SceneInfo;
+  mission: string;
+  name: string;
+  volume: VolumeInfo | null;
 }
 
 /** Triangles for drawing, about the scene's origin; `labels`: of each triangle its object, or its cause. */
@@ -86,6 +97,9 @@ export interface Section {
 
 export type Request =
   | { call: "start"; wasm: ArrayBuffer }
+  | { call: "about" }
+  | { call: "hello" }
+  | { call: "shown" }
   | { call: "open"; text: string; file: string; files: Record<string, ArrayBuffer> }
   | { call: "compute"; text: string }
   | { call: "query"; points: Point[] }
@@ -104,5 +118,7 @@ export interface Answer {
   error?: EngineError;
   mesh?: ViewMesh;
   bytes?: Uint8Array;
+  /** a newer request took its place */
+  stale?: boolean;
   engine_ms: number;
 }

@@ -3,13 +3,13 @@ import type { Answer, EngineError, Envelope, Request, ViewMesh } from "./message
 
 interface Files {
   writeFile(name: string, bytes: Uint8Array): void;
-  readFile(name: string): Uint8Array;
   unlink(name: string): void;
   analyzePath(name: string): { exists: boolean };
 }
 
 interface Module {
   FS: Files;
+  HEAPU8: Uint8Array;
   HEAPF32: Float32Array;
   HEAPU32: Uint32Array;
   HEAPF64: Float64Array;
@@ -86,17 +86,17 @@ function query(points: number[][]): unknown {
 }
 
 function save(format: string): Uint8Array {
-  const file = `volume.${format}`;
-  const { reports } = call("save", file) as { reports: string[] };
-  const bytes = engine.FS.readFile(file);
-  for (const written of [file, ...reports]) engine.FS.unlink(written);
-  return bytes;
+  const { size } = call("save", format) as { size: number };
+  const at = (engine.ccall("vantage_bytes", "number", [], []) as number) >>> 0;
+  return engine.HEAPU8.slice(at, at + size);
 }
 
 async function answer(request: Request): Promise<Omit<Answer, "id" | "engine_ms">> {
   switch (request.call) {
     case "start":
       engine = await createVantage({ wasmBinary: request.wasm });
+      return {};
+    case "about":
       return { value: call("about") };
     case "open":
       return open(request);
@@ -108,6 +108,9 @@ async function answer(request: Request): Promise<Omit<Answer, "id" | "engine_ms"
       return { value: query(request.points) };
     case "prove":
       return { value: call("prove") };
+    case "hello":
+    case "shown":
+      throw new Error("the engine in the page was not started with a mission");
     case "slice":
       return { value: call("slice", request.z) };
     case "save":

@@ -1,6 +1,7 @@
 // Meshes and missions in, volumes, pictures, missions and links out.
 import type { App, SceneSource } from "../app";
 import { toldBy } from "../engine/client";
+import type { Hello, ViewMesh } from "../engine/messages";
 import { divided, missionText, sceneText } from "../model/mission";
 import { packed, unpacked } from "../model/link";
 import { button, element, input, say } from "./page";
@@ -57,6 +58,19 @@ export class Files {
     return new Blob([this.example.mesh]).arrayBuffer();
   }
 
+  /** What the program was started with. */
+  async openServed(hello: Hello, mesh: ViewMesh): Promise<void> {
+    const { app } = this;
+    const { scene, body } = divided(hello.mission);
+    const name = nameOf(scene["mesh"] ?? scene["osm"] ?? scene["raster"]);
+    app.source = { name, bytes: new ArrayBuffer(0), section: scene };
+    app.showScene(hello.scene, mesh);
+    if (hello.volume) app.openMissionWith(body, await app.engine.shown(hello.volume));
+    else await app.openMission(body);
+    app.lookAtTarget();
+    document.title = `${hello.name} · vantage`;
+  }
+
   private acceptDrops(): void {
     const note = element("drop");
     window.addEventListener("dragover", (event) => {
@@ -90,6 +104,11 @@ export class Files {
   private async open(mission: { scene: Record<string, unknown>; body: string } | null, others: File[]): Promise<void> {
     const { app } = this;
     const wanted = nameOf(mission?.scene["mesh"]);
+    if (document.body.classList.contains("served")) {
+      if (!mission || others.length > 0) throw new Error("this page shows one scene: start `vantage view` with another mission");
+      if (wanted !== "" && wanted !== app.source.name) throw new Error(`this mission is for ${wanted}: start \`vantage view\` with it`);
+      return this.openMission(mission.body);
+    }
     if (mission?.scene["osm"] || mission?.scene["raster"]) {
       throw new Error("this page reads no maps and no terrain: run `vantage view` with this mission, which shows the same page");
     }
@@ -135,7 +154,7 @@ export class Files {
   /** What the program reads beside the scene's file. */
   missionFile(): string {
     const { name, section } = this.app.source;
-    const scene = section["osm"] || section["raster"] ? section : { ...section, mesh: name };
+    const scene = section["mesh"] || section["osm"] || section["raster"] ? section : { mesh: name, ...section };
     return `${sceneText(scene)}${missionText(this.app.mission).replace(/^\n+/, "")}`;
   }
 

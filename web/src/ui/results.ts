@@ -1,6 +1,6 @@
 // What the panel says of the volume: numbers, what bounds it, its cut, its proof.
 import type { App } from "../app";
-import { toldBy, type Volume } from "../engine/client";
+import type { Volume } from "../engine/client";
 import { KIND_COLOURS } from "../view/stage";
 import { button, element, input, large, metres } from "./page";
 
@@ -20,7 +20,11 @@ export class Results {
       input("cut").value = input("cut").max;
       this.readCut();
     };
-    button("prove").onclick = () => void this.prove();
+    button("prove").onclick = () => void app.proveIt();
+    app.onProof((text, volume) => {
+      element("proof").textContent = text;
+      this.judged = volume;
+    });
     button("see").onclick = () => app.toggleEye();
     app.onChange(() => this.show());
   }
@@ -48,21 +52,6 @@ export class Results {
     this.show();
   }
 
-  private async prove(): Promise<void> {
-    const proof = element("proof");
-    proof.textContent = "Proving…";
-    const { volume } = this.app;
-    this.judged = volume;
-    try {
-      const { verdict } = await this.app.engine.prove();
-      if (volume !== this.app.volume) return;
-      proof.textContent = verdict === "proved" ? "Proved: every position of this volume sees all of the target."
-        : `The proof says: ${verdict.replaceAll("_", " ")}`;
-    } catch (error) {
-      proof.textContent = toldBy(error);
-    }
-  }
-
   private show(): void {
     const { volume, failure, cut, section } = this.app;
     this.fitCut();
@@ -74,6 +63,11 @@ export class Results {
       : !volume ? "No target yet" : volume.info.outcome === "computed" ? "" : volume.info.reason;
     this.showNumbers();
     this.showLegend();
+    element("notes").replaceChildren(...(volume?.info.notes ?? []).map(({ text }) => {
+      const item = document.createElement("li");
+      item.textContent = text;
+      return item;
+    }));
     button("prove").disabled = button("save").disabled = button("link").disabled = !volume;
     button("see").disabled = !this.app.probe;
     button("see").setAttribute("aria-pressed", String(this.app.isEye()));

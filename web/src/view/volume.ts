@@ -45,17 +45,21 @@ export class VolumeView {
     this.setVisible(this.isAllowed);
   }
 
-  /** Corners of its own for each triangle, with the colour of its cause. */
+  /** Corners of its own for each triangle, with the colour of its cause. Runs while something is dragged: no objects. */
   private expanded(info: VolumeInfo, view: ViewMesh): { positions: Float32Array; colours: Float32Array } {
-    const colourOf = info.causes.map(({ kind }) => new THREE.Color(KIND_COLOURS[kind] ?? 0x0072b2));
+    const palette = new Float32Array(3 * info.causes.length);
+    info.causes.forEach(({ kind }, i) => new THREE.Color(KIND_COLOURS[kind] ?? 0x0072b2).toArray(palette, 3 * i));
     const count = view.triangles.length;
     const positions = new Float32Array(3 * count);
     const colours = new Float32Array(3 * count);
     const areas = new Float64Array(info.causes.length);
     for (let i = 0; i < count; ++i) {
+      const from = 3 * view.triangles[i]!;
       const label = view.labels[(i / 3) | 0]!;
-      positions.set(view.positions.subarray(3 * view.triangles[i]!, 3 * view.triangles[i]! + 3), 3 * i);
-      colourOf[label]!.toArray(colours, 3 * i);
+      for (let axis = 0; axis < 3; ++axis) {
+        positions[3 * i + axis] = view.positions[from + axis]!;
+        colours[3 * i + axis] = palette[3 * label + axis]!;
+      }
       if (i % 3 === 2) areas[label]! += areaOf(positions, 3 * (i - 2));
     }
     this.areaOfKind = new Map();

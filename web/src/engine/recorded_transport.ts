@@ -1,0 +1,25 @@
+// A report: what the engine answered when it was written.
+import type { Answer, Request } from "./messages";
+import { decoded, type Transport } from "./transport";
+import { unzipped } from "./worker_transport";
+
+export class RecordedTransport implements Transport {
+  private constructor(private readonly answers: Map<string, Answer>) {}
+
+  /** Messages of the program by their calls, each compressed by gzip, in base64. */
+  static async start(messages: Record<string, string>): Promise<RecordedTransport> {
+    const answers = new Map<string, Answer>();
+    for (const [call, text] of Object.entries(messages)) answers.set(call, decoded(await unzipped(text)));
+    return new RecordedTransport(answers);
+  }
+
+  has(call: string): boolean {
+    return this.answers.has(call);
+  }
+
+  ask(request: Request): Promise<Answer> {
+    const answer = this.answers.get(request.call);
+    if (answer) return Promise.resolve(answer);
+    return Promise.reject(new Error("this is a report: run `vantage view` with its mission to change anything"));
+  }
+}
