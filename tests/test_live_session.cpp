@@ -35,7 +35,7 @@ class LiveSession : public testing::Cli {
     const std::string text = answer(session_, parse_request(Json{{"id", 7}, {"request", request}}.dump()));
     std::uint32_t length = 0;
     std::memcpy(&length, text.data(), sizeof length);
-    EXPECT_EQ(length % 4, 0u) << "arrays begin where their numbers may lie";
+    EXPECT_EQ(length % 4, 0u);  // arrays begin where their numbers may lie
     return {Json::parse(text.substr(4, length)), text.substr(4 + length)};
   }
   std::string code_of(const Json& request) { return ask(request).header.value("/error/code"_json_pointer, ""); }
@@ -61,17 +61,17 @@ TEST_F(LiveSession, ComputesWhatRunMissionDoes) {
 
 TEST_F(LiveSession, AnswersWithoutAVolumeSayWhatIsMissing) {
   for (const char* const call : {"query", "prove", "slice"}) {
-    EXPECT_EQ(code_of({{"call", call}, {"points", {{0, 0, 20}}}, {"z", 5}}), "nothing-given") << call;
+    EXPECT_EQ(code_of({{"call", call}, {"points", {{0, 0, 20}}}, {"z", 5}}), name_of(ErrorCode::nothing_given)) << call;
   }
-  EXPECT_EQ(code_of({{"call", "save"}, {"format", "ply"}}), "nothing-given");
-  EXPECT_EQ(code_of({{"call", "fly"}}), "unknown-choice");
+  EXPECT_EQ(code_of({{"call", "save"}, {"format", "ply"}}), name_of(ErrorCode::nothing_given));
+  EXPECT_EQ(code_of({{"call", "fly"}}), name_of(ErrorCode::unknown_choice));
 }
 
 TEST_F(LiveSession, AMissionThatFailsKeepsTheLastVolume) {
   const std::size_t facets = ask({{"call", "compute"}, {"text", kSquare}}).header["value"]["facets"];
-  EXPECT_EQ(code_of({{"call", "compute"}, {"text", "target: {vertices: [[0, 0, 0]]}\nsensor: {max_range: 60}\n"}}),
-            "target-vertex-count");
-  EXPECT_EQ(code_of({{"call", "compute"}, {"text", "target: ["}}), "yaml-syntax");
+  const std::string one_corner = "target: {vertices: [[0, 0, 0]]}\nsensor: {max_range: 60}\n", no_yaml = "target: [";
+  EXPECT_EQ(code_of({{"call", "compute"}, {"text", one_corner}}), name_of(ErrorCode::target_vertex_count));
+  EXPECT_EQ(code_of({{"call", "compute"}, {"text", no_yaml}}), name_of(ErrorCode::yaml_syntax));
   EXPECT_EQ(session_.volume_view().triangles.size(), 3 * facets);
   EXPECT_EQ(ask({{"call", "prove"}}).header["value"]["verdict"], "proved");
 }
@@ -79,9 +79,9 @@ TEST_F(LiveSession, AMissionThatFailsKeepsTheLastVolume) {
 TEST_F(LiveSession, NamesNoFileThatTheMissionDidNotName) {
   write("zones.geojson", R"({"type": "Polygon", "coordinates": [[[0, 0], [1, 0], [1, 1], [0, 0]]]})");
   const std::string mission = std::string(kSquare) + "navigation: {meshes: [volume.ply]}\n";
-  EXPECT_EQ(code_of({{"call", "compute"}, {"text", mission}}), "not-applicable");
+  EXPECT_EQ(code_of({{"call", "compute"}, {"text", mission}}), name_of(ErrorCode::not_applicable));
   const std::string zones = std::string(kSquare) + "navigation: {keep_out: [{file: zones.geojson, heights: any}]}\n";
-  EXPECT_EQ(code_of({{"call", "compute"}, {"text", zones}}), "not-applicable");
+  EXPECT_EQ(code_of({{"call", "compute"}, {"text", zones}}), name_of(ErrorCode::not_applicable));
 }
 
 TEST_F(LiveSession, SavesOnlyFormatsOfVolumes) {
@@ -91,7 +91,7 @@ TEST_F(LiveSession, SavesOnlyFormatsOfVolumes) {
     EXPECT_EQ(message.header["bytes"], message.rest.size());
     EXPECT_GT(message.rest.size(), 1000u) << format;
   }
-  EXPECT_EQ(code_of({{"call", "save"}, {"format", "/../../etc/passwd"}}), "output-format-unknown");
+  EXPECT_EQ(code_of({{"call", "save"}, {"format", "/../../etc/passwd"}}), name_of(ErrorCode::output_format_unknown));
 }
 
 TEST_F(LiveSession, AsksOfAPointWhatHidesTheTarget) {
@@ -100,7 +100,8 @@ TEST_F(LiveSession, AsksOfAPointWhatHidesTheTarget) {
       ask({{"call", "query"}, {"points", {{0, 0, 20}, {40, 0, 5}, {0, 0, 500}}}}).header["value"]["answers"];
   EXPECT_TRUE(answers[0]["inside"]);
   EXPECT_EQ(answers[1]["blocked_by"], Json({"block"}));
-  EXPECT_TRUE(answers[2]["out_of_range"]);
+  const bool is_too_far = answers[2]["out_of_range"];
+  EXPECT_TRUE(is_too_far);
   EXPECT_GT(ask({{"call", "slice"}, {"z", 20}}).header["value"]["area_m2"], 100.0);
 }
 
@@ -148,13 +149,13 @@ TEST(LiveGate, OpensForTheTokenAndTheOwnHostAlone) {
 
 TEST_F(LiveSession, AReportHoldsTheVolumeAndItsProof) {
   session_.run();
-  const std::string page = report_page(session_, "<html><!--LIVE--></html>", true);
+  const std::string empty = "<html><!--LIVE--></html>";
+  const std::string page = report_page(session_, empty, true);
   for (const char* const part : {"hello:\"", "shown:\"", "prove:\"", "<script>", "</html>"})
     EXPECT_NE(page.find(part), std::string::npos) << part;
-  EXPECT_EQ(report_page(session_, "<html><!--LIVE--></html>", false).find("prove:"), std::string::npos);
+  EXPECT_EQ(report_page(session_, empty, false).find("prove:"), std::string::npos);
   EXPECT_THROW(report_page(session_, "<html></html>", false), vantage::Error);
-  EXPECT_THROW(report_page(session_, "<!--LIVE-->", true, [](std::string_view, double) { return false; }),
-               vantage::Error);
+  EXPECT_THROW(report_page(session_, empty, true, [](std::string_view, double) { return false; }), vantage::Error);
 }
 
 }  // namespace
