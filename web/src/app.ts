@@ -25,6 +25,8 @@ export interface SceneSource {
 }
 
 export class App {
+  /** False in a report. */
+  canEdit = true;
   readonly city: City;
   readonly target: TargetView;
   readonly volumeView: VolumeView;
@@ -128,11 +130,11 @@ export class App {
   showMission(): void {
     const { target } = this.mission;
     if (target?.kind === "polygon") {
-      this.target.show([target.vertices], { isEditable: true, fault: this.fault(target.vertices) });
+      this.target.show([target.vertices], { isEditable: this.canEdit, fault: this.fault(target.vertices) });
     } else {
       this.target.show(target ? (this.volume?.info.target ?? []) : [], { isEditable: false });
     }
-    this.boxes.show(this.mission.keepOut);
+    this.boxes.show(this.mission.keepOut, this.canEdit);
     this.stage.request();
   }
 

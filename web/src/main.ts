@@ -60,7 +60,7 @@ function drawFault(app: App): void {
 }
 
 function listenToKeys(app: App, tools: Tools): void {
-  const keys: Record<string, () => void> = {
+  const keys: Record<string, () => void> = !app.canEdit ? { f: () => app.showAll() } : {
     d: () => tools.choose("draw"), p: () => tools.choose("pick"), q: () => tools.choose("probe"), Escape: () => tools.choose("look"),
     Enter: () => tools.finish(), Delete: () => tools.removeLast(), Backspace: () => tools.removeLast(),
     f: () => app.showAll(), ArrowRight: () => app.moveProbe([1, 0, 0]), ArrowLeft: () => app.moveProbe([-1, 0, 0]),
@@ -69,9 +69,11 @@ function listenToKeys(app: App, tools: Tools): void {
   };
   document.addEventListener("keydown", (event) => {
     const typed = event.target as HTMLElement;
-    if (/^(INPUT|SELECT|TEXTAREA)$/.test(typed.tagName) || element<HTMLDialogElement>("help-text").open) return;
+    if (typed.matches("select, textarea, input:not([type=range])") || element<HTMLDialogElement>("help-text").open) return;
+    if (typed.matches("input") && /^(Arrow|Page)/.test(event.key)) return; // they move the slider
     if (event.ctrlKey || event.metaKey) {
       const key = event.key.toLowerCase();
+      if (!app.canEdit) return;
       if (key === "z" && !event.shiftKey) app.step(app.history.undo());
       else if (key === "y" || key === "z") app.step(app.history.redo());
       else return;
@@ -109,6 +111,7 @@ async function start(): Promise<void> {
   const served = isServed ? await engine.hello() : null;
   if (!served) await engine.greet();
   const app = new App(engine, stage);
+  app.canEdit = !window.vantageReport;
   new Panel(app, engine.about);
   new Results(app);
   const tools = new Tools(app);
@@ -124,6 +127,7 @@ async function start(): Promise<void> {
   document.body.classList.toggle("served", isServed);
   document.body.classList.toggle("report", Boolean(window.vantageReport));
   if (served) {
+    say("");
     await files.openServed(served.hello, served.mesh);
     if (window.vantageReport) makeReport(app, served.hello);
   } else if (!(await files.openLink())) {

@@ -80,8 +80,8 @@ export class Tools {
 
   private press(event: PointerEvent): void {
     this.pressed = { x: event.clientX, y: event.clientY };
-    if (event.button !== 0 || this.tool === "draw") return;
     const { app } = this;
+    if (event.button !== 0 || this.tool === "draw" || !app.canEdit) return;
     this.drag = dragOfTarget(app, event, this.tool === "look" && !app.isEye()) ?? dragOfBox(app, event);
     if (!this.drag) return;
     app.stage.controls.enabled = false;
@@ -139,7 +139,7 @@ export class Tools {
     const { app } = this;
     if (this.tool === "draw") return this.finish();
     const { target } = app.mission;
-    if (this.tool !== "look" || target?.kind !== "polygon" || app.target.cornerAt(event, app.stage) >= 0) return;
+    if (!app.canEdit || this.tool !== "look" || target?.kind !== "polygon" || app.target.cornerAt(event, app.stage) >= 0) return;
     const side = app.target.sideAt(event, app.stage);
     if (side < 0) return;
     const to = target.vertices[(side + 1) % target.vertices.length]!;

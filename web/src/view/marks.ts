@@ -25,10 +25,10 @@ export class BoxesView {
     parent.add(this.group);
   }
 
-  show(boxes: Box[]): void {
+  show(boxes: Box[], hasHandles: boolean): void {
     for (const old of this.group.children) (old as THREE.Mesh).geometry.dispose();
     this.group.clear();
-    this.handles = boxes.flatMap((box, i) => this.handlesOf(box, i));
+    this.handles = hasHandles ? boxes.flatMap((box, i) => this.handlesOf(box, i)) : [];
     for (const box of boxes) {
       const low = this.city.toView(box.min);
       const high = this.city.toView(box.max);
