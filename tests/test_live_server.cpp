@@ -1,0 +1,184 @@
+// The server of the page, over real sockets of this machine.
+#include <atomic>
+#include <boost/asio/connect.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+#include <boost/beast/websocket.hpp>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <thread>
+
+#include "live/page_server.h"
+#include "live/session.h"
+#include "support/cli_fixture.h"
+#include "vantage/error.h"
+
+namespace vantage::live {
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = boost::beast::http;
+namespace websocket = boost::beast::websocket;
+using Json = nlohmann::json;
+using Socket = websocket::stream<asio::ip::tcp::socket>;
+
+class LiveServerThread : public testing::Cli {
+ protected:
+  void SetUp() override {
+    Cli::SetUp();
+    Session session;
+    session.open_file(folder_ / "mission.yaml");
+    server_ = std::make_unique<PageServer>(std::move(session), "<html><!--LIVE--></html>", 0);
+    thread_ = std::thread([this] { server_->run([this] { return is_over_.load(); }); });
+  }
+  void TearDown() override {
+    is_over_ = true;
+    if (thread_.joinable()) thread_.join();
+    Cli::TearDown();
+  }
+
+  std::string host() const { return "127.0.0.1:" + std::to_string(server_->port()); }
+  std::string path(const std::string& to = "/") const { return to + "?token=" + server_->token(); }
+
+  asio::ip::tcp::socket connected() {
+    asio::ip::tcp::socket socket(context_);
+    socket.connect({asio::ip::address_v4::loopback(), server_->port()});
+    return socket;
+  }
+
+  http::response<http::string_body> get(const std::string& target, const std::string& host,
+                                        http::verb verb = http::verb::get) {
+    asio::ip::tcp::socket socket = connected();
+    http::request<http::empty_body> request(verb, target, 11);
+    request.set(http::field::host, host);
+    http::write(socket, request);
+    beast::flat_buffer buffer;
+    http::response<http::string_body> response;
+    http::read(socket, buffer, response);
+    return response;
+  }
+
+  /// No error is a yes.
+  beast::error_code handshake(Socket& socket, const std::string& origin, const std::string& target) {
+    socket.set_option(websocket::stream_base::decorator(
+        [&](websocket::request_type& request) { request.set(http::field::origin, origin); }));
+    beast::error_code error;
+    socket.handshake(host(), target, error);
+    return error;
+  }
+
+  /// The header of the answer.
+  static Json ask(Socket& socket, const Json& message) {
+    socket.write(asio::buffer(message.dump()));
+    return next(socket);
+  }
+  static Json next(Socket& socket) {
+    beast::flat_buffer buffer;
+    socket.read(buffer);
+    const std::string text = beast::buffers_to_string(buffer.data());
+    std::uint32_t length = 0;
+    std::memcpy(&length, text.data(), sizeof length);
+    return Json::parse(text.substr(4, length));
+  }
+
+  Socket opened() {
+    Socket socket(connected());
+    EXPECT_EQ(handshake(socket, "http://" + host(), path("/socket")), beast::error_code());
+    return socket;
+  }
+
+  asio::io_context context_;
+  std::unique_ptr<PageServer> server_;
+  std::atomic<bool> is_over_ = false;
+  std::thread thread_;
+};
+
+TEST_F(LiveServerThread, ThePageIsForWhoHasTheToken) {
+  const http::response<http::string_body> page = get(path(), host());
+  EXPECT_EQ(page.result(), http::status::ok);
+  EXPECT_NE(page.body().find(path("/socket")), std::string::npos);
+  const auto policy = page["Content-Security-Policy"];
+  EXPECT_FALSE(policy.empty());
+  EXPECT_EQ(get("/", host()).result(), http::status::forbidden);
+  EXPECT_EQ(get(path() + "0", host()).result(), http::status::forbidden);
+  EXPECT_EQ(get(path("/../etc/passwd"), host()).result(), http::status::forbidden);
+  EXPECT_EQ(get(path(), "evil.example").result(), http::status::misdirected_request);
+  EXPECT_EQ(get(path(), host(), http::verb::delete_).result(), http::status::method_not_allowed);
+}
+
+TEST_F(LiveServerThread, TheSocketIsForThePage) {
+  for (const std::string& origin : {std::string("http://evil.example"), std::string("null"), std::string()}) {
+    Socket socket(connected());
+    EXPECT_EQ(handshake(socket, origin, path("/socket")), websocket::error::upgrade_declined) << origin;
+  }
+  Socket socket(connected());
+  EXPECT_EQ(handshake(socket, "http://" + host(), "/socket?token=0"), websocket::error::upgrade_declined);
+}
+
+TEST_F(LiveServerThread, AnswersAndDropsWhatIsStale) {
+  Socket socket = opened();
+  const Json hello = ask(socket, {{"id", 1}, {"request", {{"call", "hello"}}}});
+  EXPECT_EQ(hello["value"]["name"], "mission.yaml");
+  const auto compute = [](int id, double range) {
+    return Json{{"id", id},
+                {"request",
+                 {{"call", "compute"},
+                  {"text", std::string(testing::kTarget) + "sensor: {max_range: " + std::to_string(range) + "}\n"}}}};
+  };
+  for (int id = 2; id < 20; ++id) socket.write(asio::buffer(compute(id, 30.0 + id).dump()));
+  int stale = 0, answered = 0;
+  bool is_last_computed = false;
+  for (int id = 2; id < 20; ++id) {
+    const Json answer = next(socket);
+    (answer.contains("stale") ? stale : answered)++;
+    if (answer["id"] == 19) is_last_computed = answer.contains("value");
+  }
+  EXPECT_EQ(stale + answered, 18);
+  EXPECT_TRUE(is_last_computed);
+}
+
+TEST_F(LiveServerThread, EachPageHasItsOwnSession) {
+  Socket one = opened(), other = opened();
+  const Json compute{{"id", 1},
+                     {"request", {{"call", "compute"}, {"text", std::string(testing::kTarget) + testing::kSensor}}}};
+  EXPECT_TRUE(ask(one, compute).contains("value"));
+  EXPECT_TRUE(ask(other, {{"id", 2}, {"request", {{"call", "prove"}}}}).contains("error"));
+  EXPECT_TRUE(ask(one, {{"id", 3}, {"request", {{"call", "prove"}}}}).contains("value"));
+}
+
+TEST_F(LiveServerThread, OthersThanThePageAreLeft) {
+  for (const std::string& message :
+       {std::string("{"), std::string("\xff\xfe"), std::string(5 << 20, 'x'), std::string("[1]")}) {
+    Socket socket = opened();
+    beast::error_code error;
+    socket.write(asio::buffer(message), error);
+    beast::flat_buffer buffer;
+    socket.read(buffer, error);
+    EXPECT_TRUE(error);
+  }
+  {
+    asio::ip::tcp::socket garbage = connected();
+    asio::write(garbage, asio::buffer(std::string(20000, 'x')));
+  }
+  { Socket leaves_in_the_middle = opened(); }
+  EXPECT_EQ(get(path(), host()).result(), http::status::ok);
+}
+
+TEST_F(LiveServerThread, AUsedPortAndAnotherPageAreErrors) {
+  const auto code_of = [&](const std::string& page, std::uint16_t port) {
+    try {
+      PageServer second(Session(), page, port);
+    } catch (const Error& error) {
+      return error.code();
+    }
+    return ErrorCode::internal_defect;
+  };
+  EXPECT_EQ(code_of("<!--LIVE-->", server_->port()), ErrorCode::port_unavailable);
+  EXPECT_EQ(code_of("<html></html>", 0), ErrorCode::page_missing);
+}
+
+}  // namespace
+}  // namespace vantage::live
