@@ -106,18 +106,18 @@ export class App {
     this.take(volume);
   }
 
-  /** Shows the mission as it is, and asks for its volume. `isComplete`: not in the middle of a drag. */
+  /** Shows the mission as it is, and asks for its volume: a draft of it in the middle of a drag, till it `isComplete`. */
   edit(change: (mission: Mission) => void, isComplete: boolean): void {
     change(this.mission);
     if (isComplete) this.history.keep(this.mission);
     this.showMission();
-    this.compute();
+    this.compute(!isComplete);
   }
 
   /** A drag has ended. */
   keep(): void {
     this.history.keep(this.mission);
-    this.changed();
+    this.compute();
   }
 
   step(mission: Mission | null): void {
@@ -145,7 +145,7 @@ export class App {
     return { corner: Math.min(this.dragged, vertices.length - 1), reason: this.failure };
   }
 
-  compute(): void {
+  private compute(isDraft = false): void {
     const { target } = this.mission;
     if (!target) {
       this.volumeView.hide();
@@ -156,7 +156,7 @@ export class App {
     if (fault) return this.fail(`${fault.reason}; the volume is the last one`);
     let text: string;
     try {
-      text = missionText(this.mission);
+      text = missionText(this.mission, isDraft);
     } catch (error) {
       return this.fail((error as Error).message);
     }

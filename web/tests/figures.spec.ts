@@ -18,9 +18,10 @@ const cities = [
 const mesh = (file: string) => join(shared, "data", file);
 
 /** Times in the page while a corner is dragged to and fro for four seconds. */
-async function dragged(page: Page, corner: readonly number[]): Promise<Record<string, number[]>> {
-  await page.evaluate(() => {
+async function dragged(page: Page, corner: readonly number[], isDrawn = true): Promise<Record<string, number[]>> {
+  await page.evaluate((draws) => {
     const { engine, stage } = (window as any).vantage;
+    if (!draws) stage.request = () => {};
     const times: Record<string, number[]> = { engine: [], answer: [], frame: [], draw: [], task: [] };
     (window as any).times = times;
     const compute = engine.compute.bind(engine);
@@ -44,7 +45,7 @@ async function dragged(page: Page, corner: readonly number[]): Promise<Record<st
     new PerformanceObserver((list) => {
       for (const entry of list.getEntries()) times.task!.push(entry.duration);
     }).observe({ entryTypes: ["longtask"] });
-  });
+  }, isDrawn);
   // Events of a mouse that tells its place 120 times a second: the driver's own ones wait for each picture.
   const at = await onScreen(page, corner);
   const perSecond = await page.evaluate(async ({ x, y }) => {
@@ -82,6 +83,24 @@ function print(what: string, times: Record<string, number[]>): void {
     `${both("answer")}, ${both("frame")}, ${both("draw")}; main-thread tasks over 50 ms: ${times.task!.length}, longest ${at("task", 1)}`);
 }
 
+test("the first picture with a volume", async ({ page }) => {
+  await page.addInitScript(() => {
+    const look = () => {
+      if ((window as any).vantage?.volume && (window as any).vantage.stage.frame_ms > 0) (window as any).first = performance.now();
+      else requestAnimationFrame(look);
+    };
+    requestAnimationFrame(look);
+  });
+  const times: number[] = [];
+  for (let i = 0; i < 5; ++i) {
+    await openExample(page);
+    await page.waitForFunction(() => (window as any).first);
+    times.push(await page.evaluate(() => (window as any).first as number));
+    await page.goto("about:blank");
+  }
+  console.log(`first picture with a volume: ${times.map((time) => time.toFixed(0)).join(", ")} ms after the page was opened`);
+});
+
 test.describe("in the page", () => {
   test.skip(!hasShared, "set VANTAGE_SHARED to the folder that holds data/");
   for (const { name, file, up, vertices } of cities) {
@@ -104,6 +123,7 @@ test.describe("in the page", () => {
       await page.waitForTimeout(500);
       const times = await dragged(page, vertices[0]);
       print(`${name} in the page, ${first} ms from the file to the first volume`, times);
+      print(`${name} in the page, not drawn`, await dragged(page, vertices[0], false));
       expect(times.answer!.length).toBeGreaterThan(0);
     });
   }
@@ -123,6 +143,7 @@ plain.describe("served", () => {
         await page.waitForTimeout(500);
         const times = await dragged(page, vertices[0]);
         print(`${name} served`, times);
+        print(`${name} served, not drawn`, await dragged(page, vertices[0], false));
         expect(times.answer!.length).toBeGreaterThan(0);
       } finally {
         server.kill("SIGINT");

@@ -89,6 +89,8 @@ export function missionFrom(written: string, info: VolumeInfo, grain: number): M
   return { ...structuredClone(controls), written, opened: controls, grain };
 }
 
+const TOLERANCE = 0.01; // metres, where a mission does not say
+
 const differs = (a: unknown, b: unknown) => JSON.stringify(a) !== JSON.stringify(b);
 
 /** Keys that say where a target is. */
@@ -107,7 +109,7 @@ class Writer {
     (this.document.contents as unknown as YAMLMap).flow = false;
   }
 
-  text(): string {
+  text(isDraft: boolean): string {
     const { mission, document } = this;
     const { opened } = mission;
     const isMoved = differs(mission.target, opened.target);
@@ -122,7 +124,16 @@ class Writer {
     this.setCamera();
     if (differs(mission.altitude, opened.altitude)) this.setAltitude(mission.altitude);
     if (hasOtherBoxes) this.setBoxes(mission.keepOut);
+    if (isDraft) this.coarsen();
     return document.toString({ lineWidth: 120 });
+  }
+
+  /** Round surfaces with a tenth of the facets: they take most of the time to compute and to draw. */
+  private coarsen(): void {
+    const { document } = this;
+    if (document.get("method") === "spheres") return;
+    const own = document.getIn(["exact", "tolerance"]);
+    document.setIn(["exact", "tolerance"], 10 * (typeof own === "number" ? own : TOLERANCE));
   }
 
   /** Multiples of the grain, without the digits that are noise. */
@@ -227,8 +238,11 @@ class Writer {
   }
 }
 
-/** Without the section `scene`: the engine has the scene. Throws where the page cannot write what was edited. */
-export function missionText(mission: Mission): string {
+/**
+ * Without the section `scene`: the engine has the scene. `isDraft`: for a volume that is shown while something is dragged.
+ * Throws where the page cannot write what was edited.
+ */
+export function missionText(mission: Mission, isDraft = false): string {
   if (!mission.target) throw new Error("there is no target");
-  return new Writer(mission).text();
+  return new Writer(mission).text(isDraft);
 }
