@@ -279,6 +279,18 @@ TEST(Place, PutsLocalMeshesAtAnOrigin) {
       ErrorCode::crs_missing, "b.obj");
 }
 
+TEST(Place, IsForgottenWhereItIsAskedFor) {
+  const TemporaryDirectory directory;
+  Scene scene = one_box();
+  scene.georeference = kPlace;
+  write_scene(scene, directory / "a.obj");
+  SceneReadOptions options;
+  options.crs = "none";
+  const Scene read = read_scene(directory / "a.obj", options);
+  EXPECT_FALSE(read.georeference);
+  EXPECT_EQ(bounding_box(read.mesh).max, Vec3(4, 6, 8));
+}
+
 TEST(Place, RefusesWhatIsNowhere) {
   const TemporaryDirectory directory;
   write_bytes(directory / "a.obj", square_obj("0", "0", "100", "100"));

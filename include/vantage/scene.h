@@ -87,8 +87,8 @@ struct SceneReadOptions {
   /// by the highest of its refinements ("2.2").
   std::string lod = {};
 
-  /// The coordinate reference system of the file's x and y: "EPSG:28992", a WKT or PROJ text. Overrides what a
-  /// CityJSON file says; a file whose georeference vantage wrote has none. z stays as it is.
+  /// The coordinate reference system of the file's x and y: "EPSG:28992", a WKT or PROJ text; or "none": metres of no
+  /// known place. Overrides what a CityJSON file says; a file whose georeference vantage wrote has none. z stays.
   std::string crs = {};
 
   /// Latitude and longitude (WGS 84, degrees) of the scene frame's origin. Empty: the centre of the scene where the

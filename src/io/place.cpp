@@ -95,7 +95,9 @@ void put_at(RawMesh& mesh, geo::LonLat origin, const std::filesystem::path& file
 }
 
 void find_place(RawMesh& mesh, const SceneReadOptions& options, const std::filesystem::path& file) {
-  if (!mesh.crs.empty() || !options.crs.empty()) {
+  const bool is_nowhere = options.crs == "none";
+  if (is_nowhere) mesh.georeference.reset();
+  if (!is_nowhere && (!mesh.crs.empty() || !options.crs.empty())) {
     if (mesh.georeference) {
       throw Error(ErrorCode::not_applicable, "a coordinate system is given for a mesh that is in a local frame already",
                   "crs of " + file.string(), "leave crs out: the file says where it lies");

@@ -1,9 +1,9 @@
 // What the page is about: a scene, a mission in it, and its volume, which follows.
-import { toldBy, type Engine, type Volume } from "./engine/client";
+import { placeOf, toldBy, type Engine, type Volume } from "./engine/client";
 import type { Point, PointAnswer, SceneInfo, Section, ViewMesh } from "./engine/messages";
 import { History } from "./model/history";
 import { emptyMission, missionFrom, missionText, sceneText, type Mission } from "./model/mission";
-import { faultOf, type Fault } from "./model/polygon";
+import { faultOf } from "./model/polygon";
 import { hasBadNews, metres, say } from "./ui/page";
 import { City } from "./view/city";
 import { BoxesView, ProbeView, SectionView } from "./view/marks";
@@ -42,6 +42,7 @@ export class App {
   volume: Volume | null = null;
   /** of the last mission, where it could not be computed; the last volume stays */
   failure = "";
+  private failurePlace: Point | null = null;
   probe: { at: Point; inside: boolean } | null = null;
   /** a plane across an axis that the volume is cut at, scene frame; null: not */
   cut: Cut | null = null;
@@ -138,11 +139,12 @@ export class App {
     this.stage.request();
   }
 
-  /** Why there is no volume of these corners, and at which of them it is said. */
-  private fault(vertices: Point[]): Fault | null {
+  /** Why there is no volume of these corners, and where that is said: what stands in the way, or the corner dragged. */
+  private fault(vertices: Point[]): { at: Point; reason: string } | null {
     const own = faultOf(vertices);
-    if (own || this.failure === "" || this.dragged === null) return own;
-    return { corner: Math.min(this.dragged, vertices.length - 1), reason: this.failure };
+    if (own) return { at: vertices[own.corner]!, reason: own.reason };
+    const at = this.failurePlace ?? (this.dragged === null ? null : vertices[Math.min(this.dragged, vertices.length - 1)]!);
+    return this.failure === "" || !at ? null : { at, reason: this.failure };
   }
 
   private compute(isDraft = false): void {
@@ -153,20 +155,21 @@ export class App {
       return this.changed();
     }
     const fault = target.kind === "polygon" ? faultOf(target.vertices) : null;
-    if (fault) return this.fail(`${fault.reason}; the volume is the last one`);
+    if (fault) return this.fail(new Error(`${fault.reason}; the volume is the last one`));
     let text: string;
     try {
       text = missionText(this.mission, isDraft);
     } catch (error) {
-      return this.fail((error as Error).message);
+      return this.fail(error);
     }
     void this.run(text);
   }
 
   /** The last volume stays. */
-  private fail(reason: string): void {
-    this.failure = reason;
-    say(reason, true);
+  private fail(error: unknown): void {
+    this.failure = toldBy(error);
+    this.failurePlace = placeOf(error);
+    say(this.failure, true);
     this.showMission();
     this.changed();
   }
@@ -176,7 +179,7 @@ export class App {
       const volume = await this.engine.compute(text);
       if (volume) this.take(volume); // else a newer mission is on its way
     } catch (error) {
-      this.fail(toldBy(error));
+      this.fail(error);
     }
   }
 

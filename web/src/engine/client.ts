@@ -1,12 +1,19 @@
 // The engine as the page sees it: promises, and volumes that follow what is dragged.
-import type { About, Hello, PointAnswer, SceneInfo, Section, ViewMesh, VolumeInfo } from "./messages";
+import type { About, Hello, Point, PointAnswer, SceneInfo, Section, ViewMesh, VolumeInfo } from "./messages";
 import { EngineFailure, type Transport } from "./transport";
 
 /** What went wrong, and what to do, in words. */
 export function toldBy(error: unknown): string {
   if (!(error instanceof EngineFailure)) return error instanceof Error ? error.message : String(error);
-  const { problem, where, fix } = error.told;
+  const { problem, fix } = error.told;
+  const where = error.told.where.replace(/\b(mission|standard input)[^ ,)]*(, )?/, ""); // lines of a text that nobody sees
   return `${problem}${where ? ` (${where})` : ""}${fix ? `: ${fix}` : ""}`;
+}
+
+/** Where in the scene it is, if the engine says so. */
+export function placeOf(error: unknown): Point | null {
+  const found = error instanceof EngineFailure && /\bat \(([-\d.e+]+), ([-\d.e+]+), ([-\d.e+]+)\)/.exec(error.told.where);
+  return found ? [Number(found[1]), Number(found[2]), Number(found[3])] : null;
 }
 
 export interface Volume {

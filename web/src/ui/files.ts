@@ -136,6 +136,8 @@ export class Files {
 
   private sectionFor(name: string): Record<string, unknown> {
     if (this.awaited?.scene === name) return this.awaited.section;
+    // The page has no table of coordinate systems: a city that says where it lies is taken as it is.
+    if (/\.(json|cityjson)(\.gz)?$/i.test(name)) return { crs: "none" };
     const up = input("up").value;
     return up === "file" ? {} : { up };
   }

@@ -160,7 +160,8 @@ export class Tools {
 
   private showDrawn(): void {
     const fault = this.drawn.length >= 3 ? faultOf(this.drawn) : null;
-    this.app.target.show([this.drawn], { isEditable: true, isOpen: true, fault });
+    const told = fault && { at: this.drawn[fault.corner]!, reason: fault.reason };
+    this.app.target.show([this.drawn], { isEditable: true, isOpen: true, fault: told });
     this.app.stage.request();
     if (fault) say(`${fault.reason}, or press Del`, true);
     else say(this.drawn.length >= 3 ? "Enter, a double click, or a click on the first corner ends it" : HINTS.draw);

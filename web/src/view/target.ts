@@ -1,7 +1,6 @@
 // The target, its corners to drag, and the part that is drawn so far.
 import * as THREE from "three";
 import type { Point } from "../engine/messages";
-import type { Fault } from "../model/polygon";
 import type { City } from "./city";
 import type { Pointer, Stage } from "./stage";
 
@@ -40,7 +39,7 @@ export class TargetView {
   }
 
   /** `parts`: convex polygons in the scene frame; `isOpen`: it is being drawn. */
-  show(parts: Point[][], options: { isEditable: boolean; isOpen?: boolean; fault?: Fault | null }): void {
+  show(parts: Point[][], options: { isEditable: boolean; isOpen?: boolean; fault?: { at: Point; reason: string } | null }): void {
     const triangles: THREE.Vector3[] = [];
     const sides: THREE.Vector3[] = [];
     const all = parts.map((part) => part.map((p) => this.city.toView(p)));
@@ -57,7 +56,7 @@ export class TargetView {
     this.editable = options.isEditable || options.isOpen ? all.flat() : [];
     this.corners.geometry.dispose();
     this.corners.geometry = new THREE.BufferGeometry().setFromPoints(this.editable);
-    this.faulty = options.fault ? { at: all.flat()[options.fault.corner]!, reason: options.fault.reason } : null;
+    this.faulty = options.fault ? { at: this.city.toView(options.fault.at), reason: options.fault.reason } : null;
     this.fault.geometry.dispose();
     this.fault.geometry = new THREE.BufferGeometry().setFromPoints(this.faulty ? [this.faulty.at] : []);
   }
