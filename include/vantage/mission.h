@@ -18,6 +18,7 @@
 #include "vantage/error.h"
 #include "vantage/export.h"
 #include "vantage/faces.h"
+#include "vantage/kept_volumes.h"
 #include "vantage/prepared_target.h"
 #include "vantage/progress.h"
 #include "vantage/scene.h"
@@ -248,6 +249,9 @@ struct RunOptions {
   /// one scene. What is not given is made anew in each run.
   std::optional<PreparedScene> prepared = {};
   std::string scene_hash = {};
+  /// For runs of a mission that changes a little from one to the next, as while it is edited: what is kept of the last
+  /// one. It changes the time alone.
+  std::shared_ptr<KeptVolumes> kept = {};
 };
 
 struct Result {

@@ -20,6 +20,7 @@
 #include "vantage/hash.h"
 #include "vantage/input.h"
 #include "vantage/json.h"
+#include "vantage/kept_volumes.h"
 #include "vantage/mission.h"
 #include "vantage/navigation.h"
 #include "vantage/outer.h"

@@ -8,6 +8,7 @@
 #include "app/combine_targets.h"
 #include "app/components/solid.h"
 #include "app/components/spheres.h"
+#include "app/kept_volumes.h"
 #include "app/pierced_advice.h"
 #include "app/places.h"
 #include "core/parallel.h"
@@ -21,12 +22,13 @@ namespace {
 
 using PreparedViews = std::vector<std::vector<PreparedTarget>>;
 
-Volume compute(const Mission& mission, const PreparedTarget& target, const StageSink& stages, Result& result,
+Volume compute(const Mission& mission, const PreparedTarget& target, const RunOptions& run, Result& result,
                const Progress& progress) {
   if (mission.as_written.method == Method::exact) {
     ExactOptions options = mission.as_written.exact;
     options.threads = 0;  // those of the arena that the mission runs in
-    return internal::app::exact_volume(target, options, progress);
+    return internal::app::kept_or_computed(run.kept, target, options.tolerance_m,
+                                           [&] { return internal::app::exact_volume(target, options, progress); });
   }
   if (mission.sensor.link) {
     throw Error(ErrorCode::not_applicable, "the method of spheres knows no zones of radio links",
@@ -41,9 +43,9 @@ Volume compute(const Mission& mission, const PreparedTarget& target, const Stage
   const auto georeferenced = [&](const SphereStage& stage) {
     SphereStage copy = stage;
     copy.georeference = mission.scene().georeference;
-    stages(copy);
+    run.stages(copy);
   };
-  const StageSink sink = stages ? StageSink(georeferenced) : StageSink();
+  const StageSink sink = run.stages ? StageSink(georeferenced) : StageSink();
   std::vector<Volume> volumes;
   for (std::size_t i = 0; i < target.part_count(); ++i) {
     volumes.push_back(internal::app::spheres_volume(target.part(i), options, result.spheres.emplace(), sink, progress));
@@ -52,11 +54,11 @@ Volume compute(const Mission& mission, const PreparedTarget& target, const Stage
 }
 
 /// The volume of one target, within all limits.
-Volume limited(const Mission& mission, const PreparedTarget& target, const StageSink& stages, Result& result,
+Volume limited(const Mission& mission, const PreparedTarget& target, const RunOptions& options, Result& result,
                Seconds& seconds, internal::core::Stopwatch& stopwatch, const Progress& progress) {
   Volume volume;
   try {
-    volume = compute(mission, target, stages, result, progress);
+    volume = compute(mission, target, options, result, progress);
   } catch (const Error& error) {
     // The target itself is checked by now. The exact method may still find it too large for the tolerance; the method
     // of spheres refuses only its options and devices, which the mission names elsewhere.
@@ -75,13 +77,13 @@ Volume limited(const Mission& mission, const PreparedTarget& target, const Stage
 }
 
 /// What each list of targets leaves, and then what all have in common.
-Volume of_views(const Mission& mission, const PreparedViews& views, const StageSink& stages, Result& result,
+Volume of_views(const Mission& mission, const PreparedViews& views, const RunOptions& options, Result& result,
                 Seconds& seconds, internal::core::Stopwatch& stopwatch, const Progress& progress) {
   std::vector<Volume> all;
   for (const std::vector<PreparedTarget>& view : views) {
     std::vector<Volume> any;
     for (const PreparedTarget& target : view) {
-      any.push_back(limited(mission, target, stages, result, seconds, stopwatch, progress));
+      any.push_back(limited(mission, target, options, result, seconds, stopwatch, progress));
     }
     all.push_back(internal::app::united(std::move(any), progress));
   }
@@ -98,7 +100,7 @@ Result run(const Mission& mission, const PreparedViews& views, double prepare_se
   seconds.read = mission.read_seconds;
   seconds.prepare = prepare_seconds;
   result.scene = views.front().front().scene().statistics();
-  result.volume = of_views(mission, views, options.stages, result, seconds, stopwatch, progress);
+  result.volume = of_views(mission, views, options, result, seconds, stopwatch, progress);
   seconds.total = seconds.read + seconds.prepare + seconds.engine + seconds.navigation;
   result.volume.seconds = seconds;
   result.volume.georeference = mission.scene().georeference;
@@ -197,7 +199,9 @@ Result run_mission(const Mission& mission, const RunOptions& options, const Prog
     internal::core::Stopwatch stopwatch;
     const PreparedScene scene = prepared_scene(mission, options, progress);
     const double prepare_seconds = stopwatch.lap();
-    result = run(mission, prepare_views(mission, scene), prepare_seconds, stopwatch, options, progress);
+    const PreparedViews views = prepare_views(mission, scene);
+    internal::app::begin_run(options.kept);
+    result = run(mission, views, prepare_seconds, stopwatch, options, progress);
   });
   return result;
 }
@@ -205,6 +209,7 @@ Result run_mission(const Mission& mission, const RunOptions& options, const Prog
 Result run_mission(const Mission& mission, const PreparedTarget& target, const RunOptions& options,
                    const Progress& progress) {
   check_one_target(mission);
+  internal::app::begin_run(options.kept);
   Result result;
   internal::parallel::with_threads(options.threads, [&] {
     internal::core::Stopwatch stopwatch;
@@ -221,10 +226,12 @@ std::vector<Result> run_missions(const Mission& mission, const RunOptions& optio
     internal::core::Stopwatch stopwatch;
     const PreparedScene scene = prepared_scene(mission, options, progress);
     RunOptions for_each;
+    for_each.kept = options.kept;
     for_each.scene_hash = options.scene_hash.empty() ? scene_hash(mission.scene()) : options.scene_hash;
     const double prepare_seconds = stopwatch.lap();
     std::vector<PreparedViews> prepared;
     for (std::size_t i = 0; i < count; ++i) prepared.push_back(prepare_views(one_volume(mission, i), scene));
+    internal::app::begin_run(options.kept);
     SharedProgress shared(progress, count);
     // An exception that leaves a parallel loop also ends the loops inside the others, which would go on with half of
     // their results: it is thrown when all are done. After the first one no more are begun.
