@@ -85,14 +85,22 @@ std::uint32_t ConstraintGraph::vertex_at(int i, int j) {
   return slot;
 }
 
+// One vertex after the other: compilers disagree on which argument of a call comes first, and vertices are numbered as
+// they come.
+void ConstraintGraph::add_grid_edge(const std::array<int, 2>& from, const std::array<int, 2>& to) {
+  const std::uint32_t a = vertex_at(from[0], from[1]);
+  const std::uint32_t b = vertex_at(to[0], to[1]);
+  add_edge(a, b);
+}
+
 // The edges between cells that are cut in two and the rest of the octahedral map.
 void ConstraintGraph::add_border() {
   const int n = grid_.size();
   for (int j = -n; j <= n; ++j) {
     const int width = j < n ? grid_.row_width(j) : 0, width_below = j > -n ? grid_.row_width(j - 1) : 0;
     for (const OctahedralGrid::Run& run : grid_.range_runs(j)) {
-      if (run.begin > -width) add_edge(vertex_at(run.begin, j), vertex_at(run.begin, j + 1));
-      if (run.end < width) add_edge(vertex_at(run.end, j), vertex_at(run.end, j + 1));
+      if (run.begin > -width) add_grid_edge({run.begin, j}, {run.begin, j + 1});
+      if (run.end < width) add_grid_edge({run.end, j}, {run.end, j + 1});
       for (int i : {run.begin, run.end - 1}) {
         if (grid_.at_horizon(i, j)) {
           const OctahedralGrid::Corners c = OctahedralGrid::corners(i, j);
@@ -115,7 +123,7 @@ void ConstraintGraph::add_steps(std::span<const OctahedralGrid::Run> below, std:
   }
   std::sort(steps_.begin(), steps_.end());
   for (std::size_t k = 0; k + 1 < steps_.size(); k += 2)
-    for (int i = steps_[k]; i < steps_[k + 1]; ++i) add_edge(vertex_at(i, j), vertex_at(i + 1, j));
+    for (int i = steps_[k]; i < steps_[k + 1]; ++i) add_grid_edge({i, j}, {i + 1, j});
 }
 
 void ConstraintGraph::add_fill(const IsRange& is_range) {

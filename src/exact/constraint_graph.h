@@ -1,6 +1,7 @@
 // The points and edges of the octahedral map that the triangulation must hold.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -50,6 +51,7 @@ class ConstraintGraph {
   std::uint32_t add_crease_point(const Vec3& point, const OctahedralPoint& on_map);
   void add_creases(const Skeleton& skeleton);
   std::uint32_t vertex_at(int i, int j);
+  void add_grid_edge(const std::array<int, 2>& from, const std::array<int, 2>& to);
   void add_border();
   void add_steps(std::span<const OctahedralGrid::Run> below, std::span<const OctahedralGrid::Run> above, int width,
                  int j);
