@@ -9,6 +9,7 @@
 
 #include "app/places.h"
 #include "app/schema.h"
+#include "core/portable_math.h"
 #include "vantage/error.h"
 #include "vantage/input.h"
 
@@ -232,7 +233,7 @@ void SensorParser::parse_sun(const YamlNode& sun) {
                    "below the horizon the sun does not shine: leave the limit out");
     }
     const double a = from_north / kDegreesPerRadian, e = up / kDegreesPerRadian;
-    limit.direction = {std::cos(e) * std::sin(a), std::cos(e) * std::cos(a), std::sin(e)};
+    limit.direction = {portable::cos(e) * portable::sin(a), portable::cos(e) * portable::cos(a), portable::sin(e)};
   }
   result_.sensor.sun = limit;
 }

@@ -5,11 +5,15 @@
 
 #include "camera/camera_check.h"
 #include "core/format.h"
+#include "core/portable_math.h"
 #include "vantage/camera.h"
 #include "vantage/error.h"
 #include "vantage/input.h"
 
 namespace vantage {
+
+namespace portable = internal::portable;
+
 namespace {
 
 constexpr double kDegreesInRadian = 180 / std::numbers::pi;
@@ -24,7 +28,7 @@ std::string place_of_camera(const Camera& camera) {
 
 double half_of_fov(double fov_deg, const char* which) {
   constexpr double kNarrowest = 0.001, kWidest = 179;
-  if (fov_deg >= kNarrowest && fov_deg <= kWidest) return std::tan(fov_deg / 2 / kDegreesInRadian);  // not for NaN
+  if (fov_deg >= kNarrowest && fov_deg <= kWidest) return portable::tan(fov_deg / 2 / kDegreesInRadian);  // not for NaN
   fail_camera({}, internal::core::format("the {} field of view cannot be {} degrees", which, shortest(fov_deg)),
               internal::core::format("give {} to {} degrees", kNarrowest, kWidest));
 }
@@ -40,7 +44,7 @@ void add_picture(Pinhole& pinhole, int width_px, int height_px) {
 }  // namespace
 
 std::array<double, 2> Pinhole::fov_deg() const {
-  return {2 * kDegreesInRadian * std::atan(half_width), 2 * kDegreesInRadian * std::atan(half_height)};
+  return {2 * kDegreesInRadian * portable::atan(half_width), 2 * kDegreesInRadian * portable::atan(half_height)};
 }
 
 Camera completed(const Camera& camera) {

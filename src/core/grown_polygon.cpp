@@ -9,6 +9,8 @@
 #include <numbers>
 #include <vector>
 
+#include "core/portable_math.h"
+
 namespace vantage::internal::core {
 namespace {
 
@@ -83,7 +85,7 @@ std::vector<MovingCorner> moving_corners(const std::vector<Vec2>& outline) {
   std::vector<MovingCorner> corners;
   for (std::size_t i = 0; i < count; ++i) {
     const Vec2 before = normal_after((i + count - 1) % count), after = normal_after(i);
-    double angle = std::atan2(before.x() * after.y() - before.y() * after.x(), before.dot(after));
+    double angle = portable::atan2(before.x() * after.y() - before.y() * after.x(), before.dot(after));
     if (count == 1) angle = 2 * std::numbers::pi;
     if (count == 2) angle = std::numbers::pi;
     angle = std::max(angle, 0.0);
@@ -91,8 +93,10 @@ std::vector<MovingCorner> moving_corners(const std::vector<Vec2>& outline) {
     const double half = angle / steps / 2;
     for (int step = 0; step < steps; ++step) {
       // Two sides whose normals turn by 2 h meet at 1 / cos h along the direction between them.
-      const Vec2 between = Eigen::Rotation2Dd((2 * step + 1) * half) * before;
-      corners.push_back({outline[i], between / std::cos(half)});
+      const portable::SineCosine turn = portable::sine_cosine((2 * step + 1) * half);
+      const Vec2 between(turn.cosine * before.x() - turn.sine * before.y(),
+                         turn.sine * before.x() + turn.cosine * before.y());
+      corners.push_back({outline[i], between / portable::cos(half)});
     }
   }
   return corners;
@@ -117,7 +121,7 @@ Mesh grow_polygon(std::span<const Vec3> corners, double radius_m) {
   }
   // A few roundings in the frame, in the outline, in the corners of the result.
   const double radius = radius_m + 32 * std::numeric_limits<double>::epsilon() * largest;
-  const double part = std::tan(std::numbers::pi / 8) * radius;
+  const double part = portable::tan(std::numbers::pi / 8) * radius;
   const std::array<double, 4> outwards = {part, radius, radius, part};
   const std::array<double, 4> heights = {low - radius, low - part, high + part, high + radius};
 

@@ -12,6 +12,7 @@
 
 #include "core/edges.h"
 #include "core/parallel.h"
+#include "core/portable_math.h"
 
 namespace vantage::internal::core {
 namespace {
@@ -48,7 +49,7 @@ class EdgePairs {
     const Vec3 along = (high - low).normalized(), u = along.unitOrthogonal(), v = along.cross(u);
     const auto angle = [&](const EdgeUse& use) {
       const Vec3 arm = third_corner(use) - low;
-      return std::atan2(arm.dot(v), arm.dot(u));
+      return portable::atan2(arm.dot(v), arm.dot(u));
     };
     std::sort(order_.begin(), order_.end(), [&](const EdgeUse& a, const EdgeUse& b) {
       return std::tuple(angle(a), a.triangle) < std::tuple(angle(b), b.triangle);

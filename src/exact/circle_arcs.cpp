@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/portable_math.h"
 #include "exact/segment_cover.h"
 #include "target/numerics.h"
 
@@ -22,7 +23,7 @@ double unrolled(double angle) {
 
 CircleArcs::Wave CircleArcs::wave_of(const Vec3& normal, double height) const {
   const double a = circle_.radius * normal.dot(circle_.axis_1), b = circle_.radius * normal.dot(circle_.axis_2);
-  return {a, b, std::hypot(a, b), height - normal.dot(circle_.centre)};
+  return {a, b, portable::hypot(a, b), height - normal.dot(circle_.centre)};
 }
 
 CircleArcs::Cut CircleArcs::cut(const Wave& wave, double margin) {
@@ -32,8 +33,8 @@ CircleArcs::Cut CircleArcs::cut(const Wave& wave, double margin) {
 
 // Takes out of `parts` where a wave is below its level.
 void CircleArcs::subtract_below(const Wave& wave, IntervalSet& parts) {
-  const double middle = std::atan2(wave.b, wave.a);
-  const double half_width = std::acos(std::clamp(wave.level / wave.amplitude, -1.0, 1.0));
+  const double middle = portable::atan2(wave.b, wave.a);
+  const double half_width = portable::acos(std::clamp(wave.level / wave.amplitude, -1.0, 1.0));
   const double begin = unrolled(middle + half_width), length = kTurn - 2 * half_width;
   parts.subtract(begin, std::min(begin + length, kTurn));
   if (begin + length > kTurn) parts.subtract(-1, begin + length - kTurn);

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/portable_math.h"
 #include "exact/blocker.h"
 #include "exact/interval_set.h"
 
@@ -15,7 +16,10 @@ struct SpaceCircle {
   Vec3 centre, axis_1, axis_2;
   double radius;
 
-  Vec3 at(double angle) const { return centre + radius * (std::cos(angle) * axis_1 + std::sin(angle) * axis_2); }
+  Vec3 at(double angle) const {
+    const portable::SineCosine turn = portable::sine_cosine(angle);
+    return centre + radius * (turn.cosine * axis_1 + turn.sine * axis_2);
+  }
 };
 
 /// A circle's part, cut by half-spaces m . x >= h. Angles run from 0 to 2 pi; parts that pass 0 are split there.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "core/portable_math.h"
 #include "core/text.h"
 #include "vantage/error.h"
 
@@ -17,7 +18,7 @@ constexpr double kSafety = 0.9;      // the depth falls with the square of the s
 
 double line_at(int i, int n) {
   if (i == n) return 1;
-  const double t = std::tan(std::numbers::pi / 2 * i / n);
+  const double t = portable::tan(std::numbers::pi / 2 * i / n);
   return t / (1 + t);
 }
 
@@ -70,7 +71,7 @@ OctahedralGrid::OctahedralGrid(const target::RangeRegion& region, double toleran
 
 int OctahedralGrid::locate(double coordinate) const {
   const double x = std::min(std::abs(coordinate), 1.0);
-  int i = std::clamp(static_cast<int>(std::atan2(x, 1 - x) * (2 / std::numbers::pi) * n_), 0, n_ - 1);
+  int i = std::clamp(static_cast<int>(portable::atan2(x, 1 - x) * (2 / std::numbers::pi) * n_), 0, n_ - 1);
   while (i > 0 && lines_[i] > x) --i;
   while (i + 1 < n_ && lines_[i + 1] <= x) ++i;
   if (coordinate >= 0) return i;

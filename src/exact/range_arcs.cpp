@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/portable_math.h"
 #include "target/numerics.h"
 
 namespace vantage::internal::exact {
@@ -14,7 +15,7 @@ constexpr double kShortest = 1e-9;  // metres; less in small worlds
 constexpr double kBand = 1e-9;
 
 int piece_count(const SpaceCircle& circle, const Interval& part, const CurveSampling& sampling) {
-  const double by_sagitta = 2 * std::acos(std::max(0.0, 1 - sampling.sagitta_m / circle.radius));
+  const double by_sagitta = 2 * portable::acos(std::max(0.0, 1 - sampling.sagitta_m / circle.radius));
   const double step = std::min(by_sagitta, sampling.length_m / circle.radius);
   return std::max(1, static_cast<int>(std::ceil(part.length() / step)));
 }

@@ -12,6 +12,7 @@
 #include "core/bvh.h"
 #include "core/edges.h"
 #include "core/parallel.h"
+#include "core/portable_math.h"
 #include "core/walk_bvh.h"
 #include "core/weld.h"
 #include "scene/convex_polygons.h"
@@ -21,6 +22,8 @@
 #include "vantage/error.h"
 
 namespace vantage {
+
+namespace portable = internal::portable;
 
 using internal::scene::FacePlane;
 using internal::scene::PlanePieces;
@@ -443,12 +446,12 @@ std::vector<Face> facing(const std::vector<Face>& faces, double heading_deg) {
   constexpr double kLevel = 1e-3;  // of the normal: no direction in plan
   constexpr double kWithin = 45 * std::numbers::pi / 180;
   const double heading = heading_deg * std::numbers::pi / 180;
-  const Eigen::Vector2d wanted(std::sin(heading), std::cos(heading));
+  const Eigen::Vector2d wanted(portable::sin(heading), portable::cos(heading));
   std::vector<Face> result;
   for (const Face& face : faces) {
     const Eigen::Vector2d plan = face.normal.head<2>();
     if (plan.norm() <= kLevel) continue;
-    if (plan.normalized().dot(wanted) >= std::cos(kWithin) - 1e-9) result.push_back(face);
+    if (plan.normalized().dot(wanted) >= portable::cos(kWithin) - 1e-9) result.push_back(face);
   }
   return result;
 }

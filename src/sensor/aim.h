@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/portable_math.h"
 #include "vantage/geometry.h"
 #include "vantage/sensor.h"
 
@@ -26,9 +27,12 @@ struct PictureAxes {
 
 /// An angle with its sine and cosine.
 struct Angle {
-  explicit Angle(double value = 0) : sine(std::sin(value)), cosine(std::cos(value)) {}
+  explicit Angle(double value = 0) : Angle(portable::sine_cosine(value)) {}
 
   double sine, cosine;
+
+ private:
+  explicit Angle(const portable::SineCosine& both) : sine(both.sine), cosine(both.cosine) {}
 };
 
 inline PictureAxes picture_axes(const Angle& yaw, const Angle& pitch, const Angle& roll) {
@@ -45,7 +49,7 @@ inline PictureEdges picture_edges(const Pinhole& camera, const Aim& aim, const A
 
 /// The aim along a direction. Straight up and down the yaw is 0.
 inline Aim aim_along(const Vec3& direction) {
-  return {std::atan2(direction.x(), direction.y()), std::atan2(direction.z(), direction.head<2>().norm())};
+  return {portable::atan2(direction.x(), direction.y()), portable::atan2(direction.z(), direction.head<2>().norm())};
 }
 
 }  // namespace vantage::internal::sensor

@@ -4,6 +4,8 @@
 #include <numbers>
 #include <vector>
 
+#include "core/portable_math.h"
+
 namespace vantage::internal::sensor {
 namespace {
 
@@ -70,7 +72,7 @@ class Search {
         const double reach = across * x.head<2>().norm();
         if (rest >= reach) continue;
         if (rest < -reach) return std::nullopt;
-        yaws.keep(std::atan2(beside, along), std::acos(-rest / reach));
+        yaws.keep(portable::atan2(beside, along), portable::acos(-rest / reach));
         if (yaws.empty()) return std::nullopt;
       }
     }

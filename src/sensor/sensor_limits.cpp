@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/portable_math.h"
 #include "sensor/best_aim.h"
 #include "sensor/find_aim.h"
 
@@ -103,7 +104,7 @@ double least_angle(const ViewedPart& part, const Vec3& point, const Vec3& direct
     largest =
         std::max(largest, largest_cosine(corners[i] - point, corners[(i + 1) % corners.size()] - point, direction));
   }
-  return std::acos(std::clamp(largest, -1.0, 1.0));
+  return portable::acos(std::clamp(largest, -1.0, 1.0));
 }
 
 SensorLimits::SensorLimits(const Viewed& viewed, const Sensor& sensor) : viewed_(viewed), sensor_(sensor) {
@@ -118,7 +119,7 @@ double SensorLimits::incidence_margin(const ViewedPart& part, const Vec3& point)
     const Vec3 x = point - corner;
     const double height = part.normal->dot(x);
     const double aside = (x - height * *part.normal).norm();
-    least = std::min(least, height * std::sin(angle) - aside * std::cos(angle));
+    least = std::min(least, height * portable::sin(angle) - aside * portable::cos(angle));
   }
   return least;
 }

@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "core/parallel.h"
+#include "core/portable_math.h"
 #include "solid/csg.h"
 
 namespace vantage::internal::solid {
@@ -28,7 +29,7 @@ constexpr std::array<Triangle, 20> kFacets = {{{0, 11, 5}, {0, 5, 1},  {0, 1, 7}
 /// The angle from the middle of a spherical triangle's circumscribed circle to its corners.
 double circumscribed_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 middle = (b - a).cross(c - a).normalized();
-  return std::acos(std::clamp(std::abs(middle.dot(a)), 0.0, 1.0));
+  return portable::acos(std::clamp(std::abs(middle.dot(a)), 0.0, 1.0));
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/parallel.h"
+#include "core/portable_math.h"
 #include "sensor/best_aim.h"
 #include "solid/convex_body.h"
 #include "solid/halve_sides.h"
@@ -29,6 +30,8 @@ constexpr double kWorthHalving = 0.5;  // facets that take away so many times th
 constexpr int kVerticalAims = 12;      // in half a turn, after which the picture is the same
 constexpr double kSteep = 1.1;         // radians above or below level
 
+double cube(double x) { return x * x * x; }
+
 /// The smallest turn from one yaw to another.
 double turn(double from, double to) { return std::remainder(to - from, 2 * std::numbers::pi); }
 
@@ -37,7 +40,7 @@ class FrameSurfaceBuilder {
   explicit FrameSurfaceBuilder(const FrameView& view)
       : view_(view),
         finder_(view.corners, view.camera, view.mount, view.least),
-        normal_length_{std::hypot(1, view.camera.half_width), std::hypot(1, view.camera.half_height)},
+        normal_length_{portable::hypot(1, view.camera.half_width), portable::hypot(1, view.camera.half_height)},
         roll_(view.mount.roll_deg * std::numbers::pi / 180) {
     for (const Vec3& corner : view.corners) radius_ = std::max(radius_, corner.norm());
     // Beyond this a facet between three corners of the first sphere is out of reach everywhere.
@@ -123,7 +126,7 @@ FrameSurfaceBuilder::Needs FrameSurfaceBuilder::own_needs(const Triangle& facet)
   }
   const Aim mean{first_yaw + (yaws[0] + yaws[1] + yaws[2]) / 3, pitch};
   const sensor::PictureEdges edges = sensor::picture_edges(view_.camera, mean, roll_);
-  const Vec3 level(std::cos(mean.yaw), -std::sin(mean.yaw), 0);
+  const Vec3 level(portable::cos(mean.yaw), -portable::sin(mean.yaw), 0);
   const auto by_yaw = [](const Vec3& v) { return Vec3(v.y(), -v.x(), 0); };
   const double rest = 4.0 / 27 * turned * turned * (turned * farthest + 3 * longest);
   std::array<double, 4> slack{};
@@ -163,7 +166,7 @@ FrameSurfaceBuilder::Needs FrameSurfaceBuilder::shared_needs(const Triangle& fac
     best = needs;
   };
   for (const std::uint32_t of : facet) consider(nodes_[of].view);
-  if (std::abs(nodes_[facet[0]].direction.z()) < std::sin(kSteep)) return best;
+  if (std::abs(nodes_[facet[0]].direction.z()) < portable::sin(kSteep)) return best;
   for (const AimedView& view : vertical_) consider(view);
   return best;
 }
@@ -230,7 +233,7 @@ bool FrameSurfaceBuilder::refine() {
     double sum = 0;
     for (const std::uint32_t i : t) {
       const Node& node = nodes_[i];
-      sum += std::max(std::pow(std::min(node.distance, view_.reach), 3) - std::pow(node.best, 3), 0.0);
+      sum += std::max(cube(std::min(node.distance, view_.reach)) - cube(node.best), 0.0);
     }
     return sum * (nodes_[t[1]].direction - from).cross(nodes_[t[2]].direction - from).norm();
   };

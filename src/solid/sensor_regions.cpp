@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/enclosing_circle.h"
+#include "core/portable_math.h"
 #include "core/text.h"
 #include "sensor/best_aim.h"
 #include "solid/convex_body.h"
@@ -41,7 +42,8 @@ std::vector<Vec3> ring(const Vec3& axis, int count) {
   std::vector<Vec3> result;
   for (int i = 0; i < count; ++i) {
     const double angle = 2 * std::numbers::pi * i / count;
-    result.push_back(std::cos(angle) * u + std::sin(angle) * v);
+    const portable::SineCosine turn = portable::sine_cosine(angle);
+    result.push_back(turn.cosine * u + turn.sine * v);
   }
   return result;
 }
@@ -155,7 +157,7 @@ std::string SensorRegions::frame_explanation(double distance) const {
 /// A cone of as many sides, inside of the round one, at each corner.
 void SensorRegions::add_incidence(const ViewedPart& part) {
   constexpr int kSides = 128;
-  const double slope = std::tan(*sensor_.incidence_deg * kDegree) * std::cos(std::numbers::pi / kSides);
+  const double slope = portable::tan(*sensor_.incidence_deg * kDegree) * portable::cos(std::numbers::pi / kSides);
   std::vector<HalfSpace> half_spaces;
   for (const Vec3& aside : ring(*part.normal, kSides)) {
     const Vec3 normal = aside - slope * *part.normal;
@@ -198,7 +200,7 @@ void SensorRegions::add_pixel(const ViewedPart& part) {
 /// their directions.
 void SensorRegions::add_min_range(const ViewedPart& part) {
   const SphereMesh sphere = make_sphere_for(numerics::kMinRangeShare);
-  const double radius = sensor_.min_range_m / std::cos(sphere.cover);
+  const double radius = sensor_.min_range_m / portable::cos(sphere.cover);
   double extent = 0;
   for (const Vec3& corner : part.corners) extent = std::max(extent, 2 * (corner - part.centre).norm());
   std::vector<Vec3> points;
@@ -221,15 +223,15 @@ void SensorRegions::add_sun(const ViewedPart& part) {
   const Vec3 sun = sensor_.sun->direction.normalized();
   const double angle = sensor_.sun->exclude_deg * kDegree;
   // At a right angle the cone is a half-space, and the tangent large but finite.
-  const double slope = std::tan(angle) / std::cos(std::numbers::pi / kSides);
-  const double sides_angle = sensor_.sun->exclude_deg < 90 ? std::atan(slope) : std::numbers::pi / 2;
+  const double slope = portable::tan(angle) / portable::cos(std::numbers::pi / kSides);
+  const double sides_angle = sensor_.sun->exclude_deg < 90 ? portable::atan(slope) : std::numbers::pi / 2;
   const double length = 4 * (reach_ + viewed_.radius());
   std::vector<Vec3> points;
   for (const Vec3& corner : part.corners) {
     points.push_back(corner);
     points.push_back(corner - length * sun);
     for (const Vec3& aside : ring(sun, kSides)) {
-      points.push_back(corner - length * (std::cos(sides_angle) * sun + std::sin(sides_angle) * aside));
+      points.push_back(corner - length * (portable::cos(sides_angle) * sun + portable::sin(sides_angle) * aside));
     }
   }
   forbid("sun", solid_of(convex_hull(points), "sun"));

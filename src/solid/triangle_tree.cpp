@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/bounds_distance.h"
+#include "core/portable_math.h"
 #include "core/triangle_distance.h"
 #include "core/walk_bvh.h"
 #include "vantage/error.h"
@@ -111,7 +112,7 @@ int TriangleTree::winding_number(const Vec3& point) const {
     const double azimuth = 2.3999632297286533 * attempt + 0.271;
     const double r = std::sqrt(std::max(0.0, 1 - z * z));
     int winding = 0;
-    if (crossings(point, Vec3(r * std::cos(azimuth), r * std::sin(azimuth), z), winding)) return winding;
+    if (crossings(point, Vec3(r * portable::cos(azimuth), r * portable::sin(azimuth), z), winding)) return winding;
   }
   throw Error(ErrorCode::internal_defect, "no ray keeps clear of the edges of a mesh", "", "");
 }

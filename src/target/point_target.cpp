@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "core/portable_math.h"
 #include "target/numerics.h"
 #include "target/target_check.h"
 
@@ -24,8 +25,9 @@ TargetFrame with_triangle(TargetFrame frame, double radius) {
 TargetFrame tilted(const TargetFrame& frame) {
   constexpr double kTilt = 70 * std::numbers::pi / 180, kAzimuth = 0.4142;
   TargetFrame result = frame;
-  result.normal = {std::sin(kTilt) * std::cos(kAzimuth), std::sin(kTilt) * std::sin(kAzimuth), std::cos(kTilt)};
-  result.axis_u = Vec3(-std::sin(kAzimuth), std::cos(kAzimuth), 0);
+  const portable::SineCosine tilt = portable::sine_cosine(kTilt), azimuth = portable::sine_cosine(kAzimuth);
+  result.normal = {tilt.sine * azimuth.cosine, tilt.sine * azimuth.sine, tilt.cosine};
+  result.axis_u = Vec3(-azimuth.sine, azimuth.cosine, 0);
   result.axis_v = result.normal.cross(result.axis_u);
   return result;
 }

@@ -8,6 +8,7 @@
 
 #include "core/enclosing_circle.h"
 #include "core/facet_polygon.h"
+#include "core/portable_math.h"
 #include "core/triangle_distance.h"
 
 namespace vantage::internal::target {
@@ -55,7 +56,8 @@ void RangeRegion::find_opposite() {
   for (std::size_t sector = 0; sector < opposite_.size(); ++sector) {
     const double angle =
         2 * std::numbers::pi * (static_cast<double>(sector) + 0.5) / static_cast<double>(opposite_.size());
-    const Eigen::Vector2d along(std::cos(angle), std::sin(angle));
+    const portable::SineCosine turn = portable::sine_cosine(angle);
+    const Eigen::Vector2d along(turn.cosine, turn.sine);
     const auto farther = [&](const auto& a, const auto& b) { return a.dot(along) < b.dot(along); };
     opposite_[sector] = static_cast<std::uint32_t>(std::ranges::min_element(centres_, farther) - centres_.begin());
   }
