@@ -59,7 +59,7 @@ Vec3 normal_of(std::span<const Vec3> corners) {
 /// Corners of a convex polygon in order round `normal`: those of the hull of the points (Andrew 1979).
 std::vector<Vec3> outline(std::vector<Vec3> points, const Vec3& normal) {
   const Vec3 u = normal.unitOrthogonal(), v = normal.cross(u);
-  std::sort(points.begin(), points.end(), [&](const Vec3& a, const Vec3& b) {
+  std::stable_sort(points.begin(), points.end(), [&](const Vec3& a, const Vec3& b) {
     const double first = u.dot(a), second = u.dot(b);
     return first != second ? first < second : v.dot(a) < v.dot(b);
   });

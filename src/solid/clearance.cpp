@@ -105,7 +105,8 @@ Solid unite_neighbours(std::span<Solid> solids, const core::ProgressReporter& pr
   Eigen::Index axis = 0;
   (centres.max - centres.min).maxCoeff(&axis);
   const std::size_t half = solids.size() / 2;
-  std::nth_element(solids.begin(), solids.begin() + static_cast<std::ptrdiff_t>(half), solids.end(),
+  // Sorted all the way: in which order std::nth_element leaves the halves is each standard library's own choice.
+  std::stable_sort(solids.begin(), solids.end(),
                    [&](const Solid& a, const Solid& b) { return centre(a)[axis] < centre(b)[axis]; });
   // One after the other: Manifold numbers what it makes, and its results depend on these numbers.
   const Solid low = unite_neighbours(solids.first(half), progress, done);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <random>
+#include <utility>
 
 namespace vantage::internal::solid {
 namespace {
@@ -81,6 +82,12 @@ bool solve(const std::vector<Row>& rows, std::size_t count, const Bounds& bounds
   return true;
 }
 
+// By Fisher and Yates. Where std::shuffle puts what is each standard library's own choice.
+void shuffle(std::vector<Row>& rows) {
+  std::mt19937 random(1991);
+  for (std::size_t left = rows.size(); left > 1; --left) std::swap(rows[left - 1], rows[random() % left]);
+}
+
 }  // namespace
 
 std::optional<Vec3> kernel_point(const std::vector<HalfSpace>& half_spaces, const Box& box, double margin) {
@@ -92,7 +99,7 @@ std::optional<Vec3> kernel_point(const std::vector<HalfSpace>& half_spaces, cons
   for (const HalfSpace& h : half_spaces) {
     rows.push_back({{h.normal.x(), h.normal.y(), h.normal.z()}, (h.at - h.normal.dot(centre) - margin) / size});
   }
-  std::shuffle(rows.begin(), rows.end(), std::mt19937(1991));
+  shuffle(rows);
   const Vec3 half = (box.max - box.min) / (2 * size);
   const Bounds bounds{{-half.x(), -half.y(), -half.z()}, {half.x(), half.y(), half.z()}};
   std::array<double, 3> x{};

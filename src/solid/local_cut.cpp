@@ -118,7 +118,7 @@ void Grouping::split(std::span<std::uint32_t> facets, const core::ProgressReport
   if (!((centres.max - centres.min).maxCoeff(&axis) > 0)) return;
   const double middle = (centres.min[axis] + centres.max[axis]) / 2;
   const auto second =
-      std::partition(facets.begin(), facets.end(), [&](std::uint32_t t) { return centres_[t][axis] < middle; });
+      std::stable_partition(facets.begin(), facets.end(), [&](std::uint32_t t) { return centres_[t][axis] < middle; });
   const auto count = static_cast<std::size_t>(second - facets.begin());
   split(facets.first(count), progress);
   split(facets.subspan(count), progress);

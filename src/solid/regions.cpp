@@ -21,7 +21,9 @@ namespace {
 /// itself.
 Vec3 local_origin(const Box& bounds) {
   const double extent = std::max((bounds.max - bounds.min).maxCoeff(), 1.0);
-  const double grid = std::exp2(std::ceil(std::log2(extent)) + 1);
+  int exponent = 0;
+  const bool is_power = std::frexp(extent, &exponent) == 0.5;
+  const double grid = std::ldexp(1.0, is_power ? exponent : exponent + 1);
   return ((bounds.min + bounds.max) / (2 * grid)).array().round() * grid;
 }
 
