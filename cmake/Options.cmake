@@ -6,6 +6,10 @@ add_library(vantage::options ALIAS vantage_options)
 # -fno-semantic-interposition: lets the shared library inline its own functions.
 target_compile_options(vantage_options INTERFACE -Wall -Wextra -ffp-contract=off -fno-semantic-interposition
                        $<$<CXX_COMPILER_ID:Clang>:-Wcomma>)
+# Eigen's vector instructions add in another order, so that the last digits would depend on the processor. Its alignment
+# stays that of code that uses them: the two may be linked.
+target_compile_definitions(vantage_options INTERFACE EIGEN_DONT_VECTORIZE EIGEN_MAX_ALIGN_BYTES=16
+                                                     EIGEN_MAX_STATIC_ALIGN_BYTES=16)
 if(NOT (VANTAGE_JOIN_SOURCES AND CMAKE_CXX_COMPILER_ID MATCHES "Clang"))
   target_compile_options(vantage_options INTERFACE -Wshadow)  # for clang names of one source shadow those of others
 endif()
