@@ -1,7 +1,10 @@
-# Corrects one line of Manifold before it is compiled. Where Manifold::Impl::DedupeEdge takes apart two sheets that touch
-# along an edge, it copies the vertex at the edge's start, but gives the copy the position of the edge's end: a corner of the
-# result jumps along that edge. It happens where the two operands almost coincide. Wrong in all releases up to 3.5.4.
-# The release itself stays as it was fetched: the corrected copy is in the build folder.
+# Changes two places of Manifold before it is compiled. The release itself stays as it was fetched: the changed copy is
+# in the build folder.
+# - Where Manifold::Impl::DedupeEdge takes apart two sheets that touch along an edge, it copies the vertex at the edge's
+#   start, but gives the copy the position of the edge's end: a corner of the result jumps along that edge. It happens
+#   where the two operands almost coincide. Wrong in all releases up to 3.5.4.
+# - Built with threads, Manifold::Impl::DedupeEdges sorts the edges of large meshes; without, it takes them as they come:
+#   the page, which has no threads, would make other volumes than the program.
 function(vantage_mend_manifold source_dir)
   set(original ${source_dir}/src/edge_op.cpp)
   set(mended_dir ${CMAKE_CURRENT_BINARY_DIR}/third_party/manifold_mended)
@@ -15,14 +18,23 @@ function(vantage_mend_manifold source_dir)
     vertPos_.push_back(vertPos_[startVert]);  // changed by vantage: was endVert
     if (vertNormal_.size() > 0) vertNormal_.push_back(vertNormal_[startVert]);
 ")
+  set(unsorted "      localLoop(0, nbEdges, local, duplicates);
+")
+  set(sorted "${unsorted}      if (nbEdges > 1e4)  // changed by vantage: as with threads
+        manifold::stable_sort(duplicates.begin(), duplicates.end());
+")
   file(READ ${original} text)
-  string(FIND "${text}" "${wrong}" first)
-  string(FIND "${text}" "${wrong}" last REVERSE)
-  if(first EQUAL -1 OR NOT first EQUAL last)
-    message(FATAL_ERROR "${original} is not as cmake/MendManifold.cmake expects. Look whether this release of Manifold still \
-needs the correction (docs/dependencies.md, test Compare.TheSameVolumeFromTheTargetReversed)")
-  endif()
-  string(REPLACE "${wrong}" "${right}" text "${text}")
+  foreach(change "wrong;right" "unsorted;sorted")
+    list(GET change 0 from)
+    list(GET change 1 to)
+    string(FIND "${text}" "${${from}}" first)
+    string(FIND "${text}" "${${from}}" last REVERSE)
+    if(first EQUAL -1 OR NOT first EQUAL last)
+      message(FATAL_ERROR "${original} is not as cmake/MendManifold.cmake expects. Look whether this release of Manifold \
+still needs the change (docs/dependencies.md, test Compare.TheSameVolumeFromTheTargetReversed)")
+    endif()
+    string(REPLACE "${${from}}" "${${to}}" text "${text}")
+  endforeach()
   file(WRITE ${mended_dir}/edge_op.new "${text}")
   file(COPY_FILE ${mended_dir}/edge_op.new ${mended_dir}/edge_op.cpp ONLY_IF_DIFFERENT)
   file(REMOVE ${mended_dir}/edge_op.new)
