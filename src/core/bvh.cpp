@@ -1,6 +1,5 @@
 #include "core/bvh.h"
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <limits>
 #include <numeric>
@@ -16,21 +15,26 @@ constexpr int kBins = 16;
 constexpr std::size_t kParallelSize = 1 << 14;
 
 // Four numbers are as fast as one. The fourth is zero.
-using Float4 = Eigen::Array4f;
+using Float4 = float __attribute__((vector_size(16)));
+using Int4 = int __attribute__((vector_size(16)));
+
+Float4 all(float value) { return Float4{value, value, value, value}; }
 
 struct Box4 {
   Float4 min, max;
 
   static Box4 empty() {
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
-    return {Float4::Constant(kInfinity), Float4::Constant(-kInfinity)};
+    return {all(kInfinity), all(-kInfinity)};
   }
-  static Box4 of(const Bounds& b) { return {{b.min[0], b.min[1], b.min[2], 0}, {b.max[0], b.max[1], b.max[2], 0}}; }
+  static Box4 of(const Bounds& b) {
+    return {Float4{b.min[0], b.min[1], b.min[2], 0}, Float4{b.max[0], b.max[1], b.max[2], 0}};
+  }
   Bounds bounds() const { return {{min[0], min[1], min[2]}, {max[0], max[1], max[2]}}; }
 
   void extend(const Box4& other) {
-    min = min.min(other.min);
-    max = max.max(other.max);
+    min = min < other.min ? min : other.min;
+    max = max > other.max ? max : other.max;
   }
   Float4 centre() const { return 0.5f * (min + max); }
   float half_area() const {
@@ -52,8 +56,11 @@ struct Binning {
     const Float4 extent = centres.max - centres.min;
     for (int axis = 0; axis < 4; ++axis) scale[axis] = extent[axis] > 0 ? kBins / extent[axis] : 0;
   }
-  Eigen::Array4i bins_of(const Box4& box) const {
-    return ((box.centre() - low) * scale).cast<int>().max(0).min(kBins - 1);
+  Int4 bins_of(const Box4& box) const {
+    constexpr Int4 kFirst{0, 0, 0, 0}, kLast{kBins - 1, kBins - 1, kBins - 1, kBins - 1};
+    const Int4 bins = __builtin_convertvector((box.centre() - low) * scale, Int4);
+    const Int4 positive = bins > kFirst ? bins : kFirst;
+    return positive < kLast ? positive : kLast;
   }
 };
 
@@ -147,7 +154,7 @@ class Builder {
   Split best_split(std::size_t begin, std::size_t end, const Binning& binning) const {
     std::array<Bins, 3> bins;
     for (std::size_t i = begin; i < end; ++i) {
-      const Eigen::Array4i at = binning.bins_of(items_[i].box);
+      const Int4 at = binning.bins_of(items_[i].box);
       for (int axis = 0; axis < 3; ++axis) {
         Box4& box = bins[axis].boxes[at[axis]];
         if (bins[axis].count[at[axis]]++ == 0) {
@@ -221,8 +228,9 @@ class TopBuilder {
       box.extend(own);
       centres.extend({own.centre(), own.centre()});
     }
-    Eigen::Index axis = 0;
-    (centres.max - centres.min).maxCoeff(&axis);
+    const Float4 extent = centres.max - centres.min;
+    int axis = 0;
+    for (int other = 1; other < 3; ++other) axis = extent[other] > extent[axis] ? other : axis;
     const auto middle = groups.begin() + static_cast<std::ptrdiff_t>(groups.size() / 2);
     std::nth_element(groups.begin(), middle, groups.end(), [&](std::uint32_t a, std::uint32_t b) {
       const float at_a = box_of(groups_[a]).centre()[axis], at_b = box_of(groups_[b]).centre()[axis];
