@@ -37,6 +37,12 @@ const call = (name, ...values) => {
   if (answer.error) throw new Error(JSON.stringify(answer.error));
   return answer;
 };
+/** The last volume as a file. */
+const saved = (format) => {
+  const { size } = call("save", format);
+  const at = engine.ccall("vantage_bytes", "number", [], []) >>> 0;
+  return Buffer.from(engine.HEAPU8.slice(at, at + size));
+};
 const run = (...words) => execFileSync(program, words, { encoding: "utf8" });
 
 before(async () => {
@@ -53,8 +59,7 @@ function volumes(body, mesh, keys) {
   run("compute", mission, "-o", native, "-q");
   const info = call("compute", body);
   assert.equal(info.outcome, "computed");
-  call("save", "web.ply");
-  writeFileSync(here, engine.FS.readFile("web.ply"));
+  writeFileSync(here, saved("ply"));
   return { info, mission, native, here };
 }
 
