@@ -330,7 +330,9 @@ std::string Session::query(const std::vector<double>& coordinates) {
 }
 
 std::string Session::prove(const Progress& progress) {
-  return json_text(prove_volume(mission(), result_->volume.mesh, {.lift_m = result_->volume.lift_m}, progress));
+  const Mission& proved = mission();
+  const Volume& volume = result_->volume;
+  return json_text(prove_volume(proved, volume.mesh, {.lift_m = volume.lift_m}, progress));
 }
 
 std::string Session::slice(double z_m) {

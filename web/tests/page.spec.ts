@@ -91,6 +91,7 @@ test("meshes and missions are opened, and bad ones lose nothing", async ({ page 
   await expect(page.locator("#hint")).toContainText("other.obj");
   expect(await volume(page)).toBe(before);
   await page.setInputFiles("#file", [join(plaza, "plaza.obj"), join(plaza, "mission.yaml")]);
+  await page.waitForFunction(() => (window as any).vantage.scene.read_ms >= 0 && (window as any).vantage.volume);
   await settled(page);
   expect(await volume(page)).toBe(before);
 });
