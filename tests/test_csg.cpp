@@ -7,6 +7,7 @@
 #include "core/progress_reporter.h"
 #include "solid/csg.h"
 #include "support/progress_check.h"
+#include "support/random.h"
 #include "support/solids.h"
 #include "support/trim.h"
 #include "support/wording.h"
@@ -185,6 +186,19 @@ TEST(Csg, RefusesWhatIsNotClosed) {
   not_finite.mesh.vertices[2].y() = std::nan("");
   EXPECT_THROW(Solid{not_finite}, Error);
   EXPECT_THROW((make_box({Vec3(1, 0, 0), Vec3(0, 1, 1)}, {})), Error);
+}
+
+// Large enough for several threads.
+TEST(Csg, AHullIsTheSameEachTime) {
+  testing::Random random(3);
+  std::vector<Vec3> points;
+  for (int i = 0; i < 20000; ++i) points.push_back(random.direction());
+  const Mesh first = convex_hull(points);
+  EXPECT_EQ(first.vertices.size(), points.size());
+  for (int i = 0; i < 4; ++i) {
+    const Mesh again = convex_hull(points);
+    EXPECT_TRUE(again.vertices == first.vertices && again.triangles == first.triangles) << i;
+  }
 }
 
 TEST(Csg, AsksAndMayBeStopped) {

@@ -265,7 +265,10 @@ Mesh convex_hull(std::span<const Vec3> points) {
   for (std::size_t i = 0; i < gl.NumTri(); ++i) {
     Triangle& triangle = hull.triangles.emplace_back();
     for (std::size_t k = 0; k < 3; ++k) triangle[k] = static_cast<std::uint32_t>(gl.triVerts[3 * i + k]);
+    std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.end()), triangle.end());
   }
+  // From several threads they come in any order, with any corner first.
+  std::sort(hull.triangles.begin(), hull.triangles.end());
   return hull;
 }
 
