@@ -43,7 +43,7 @@ MODULES = {
     "io": ["core", "geo", "camera"],
     "scene": ["core"],
     "target": ["core", "scene"],
-    "sensor": [],
+    "sensor": ["core"],
     "solid": ["core", "sensor"],
     "exact": ["core", "scene", "target"],
     "query": ["core", "scene", "target", "sensor", "exact"],
