@@ -25,8 +25,8 @@ struct Request {
 Request parse_request(std::string_view text);
 
 /// A message: the length of the JSON that follows, as 32 bits, little-endian; the JSON {id, value or error, engine_ms,
-/// mesh: the numbers of positions, triangles and labels, or bytes: their number}; zeros up to a multiple of 4; then the
-/// arrays in this order, or the bytes. Never throws Error: that is an answer, too.
+/// mesh: the numbers of positions, triangles and labels, or bytes: their number}, with blanks up to a multiple of 4;
+/// then the arrays in this order, or the bytes. Never throws Error: that is an answer, too.
 std::string answer(Session& session, const Request& request, const Progress& progress = {});
 
 /// To a request that a newer one replaces.

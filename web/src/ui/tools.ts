@@ -175,7 +175,7 @@ export class Tools {
     this.app.edit((mission) => (mission.target = { kind: "face", object: hit.object, part, nearest: hit.point }), true);
   }
 
-  /** A little above the place, or as high above it as the last one was above its own. */
+  /** A little above the place. */
   private probe([x, y, z]: Point): void {
     const { app } = this;
     app.setProbe([x, y, z + Math.min(20, app.mission.range / 5)]);
