@@ -1,10 +1,9 @@
 #include "cli/page_file.h"
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <vector>
 
+#include "live/file_bytes.h"
 #include "vantage/error.h"
 #include "vantage/input.h"
 #include "vantage/resources.h"
@@ -16,11 +15,7 @@ namespace fs = std::filesystem;
 
 std::string content_of(const fs::path& file) {
   check_readable(file, "the page");
-  std::ifstream stream(file, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(stream), {}};
-  if (!stream)
-    throw Error(ErrorCode::file_unreadable, "the page cannot be read", file.string(), "build it anew: make web");
-  return text;
+  return live::bytes_of(file);
 }
 
 }  // namespace

@@ -8,10 +8,9 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "live/file_bytes.h"
 #include "vantage/camera.h"
 #include "vantage/error.h"
 #include "vantage/hash.h"
@@ -26,13 +25,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 std::string text_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
-
-std::string content_of(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(stream), {}};
-  if (!stream) throw Error(ErrorCode::file_unreadable, "the file cannot be read", file.string(), "try again");
-  return text;
-}
 
 /// A page that is served asks for what its user named on the command line, and for nothing else.
 void check_named(const MissionFile& mission, const std::vector<std::filesystem::path>& named) {
@@ -208,7 +200,7 @@ void Session::open_file(const std::filesystem::path& mission, const Progress& pr
   read_ms_ = time.lap();
   file_ = std::filesystem::absolute(mission);
   named_ = input_files(file);
-  text_ = content_of(file_);
+  text_ = bytes_of(file_);
   take_scene(file, resolved.loaded);
   mission_ = std::make_shared<const Mission>(std::move(resolved));
 }
@@ -364,7 +356,7 @@ std::string Session::save(const std::string& format) {
   mission();
   Volume volume = result_->volume;
   write_results(volume, result_request(mission(), *result_, files));
-  bytes_ = content_of(files.front());
+  bytes_ = bytes_of(files.front());
   return text_of(Json{{"size", bytes_.size()}});
 }
 
