@@ -205,9 +205,11 @@ void Session::open_file(const std::filesystem::path& mission, const Progress& pr
   mission_ = std::make_shared<const Mission>(std::move(resolved));
 }
 
+RunOptions Session::options() const { return {.prepared = prepared_, .scene_hash = scene_hash_, .kept = kept_}; }
+
 void Session::run(const Progress& progress) {
   Stopwatch time;
-  Result result = run_mission(*mission_, {.prepared = prepared_, .scene_hash = scene_hash_}, progress);
+  Result result = run_mission(*mission_, options(), progress);
   compute_ms_ = time.lap();
   take_volume(*mission_, std::move(result));
 }
@@ -256,7 +258,7 @@ std::string Session::compute(std::string_view text, const Progress& progress) {
   Mission mission = resolve_mission(file, loaded_, progress);
   if (mission.loaded != loaded_) prepare(mission.loaded);  // ground was added, out to where the target needs it
   const double resolve_ms = time.lap();
-  Result result = run_mission(mission, {.prepared = prepared_, .scene_hash = scene_hash_}, progress);
+  Result result = run_mission(mission, options(), progress);
   const double compute_ms = time.lap();
   take_volume(std::move(mission), std::move(result));
   view_ms_ = time.lap();
@@ -274,7 +276,6 @@ void Session::take_volume(Mission mission, Result result) {
 
 std::string Session::volume_json() const {
   const Volume& volume = result_->volume;
-  const MeshMeasures measures = measure(volume.mesh);
   return text_of(Json{{"name", mission_->target.name},
                       {"outcome", name_of(volume.outcome)},
                       {"reason", volume.reason},
@@ -284,8 +285,8 @@ std::string Session::volume_json() const {
                       {"normal", json(volume.frame.normal)},
                       {"range_m", range_limit_m(mission_->sensor)},
                       {"limits", limits_of(*mission_)},
-                      {"volume_m3", measures.volume_m3},
-                      {"area_m2", measures.area_m2},
+                      {"volume_m3", enclosed_volume(volume.mesh)},
+                      {"area_m2", surface_area(volume.mesh)},
                       {"facets", volume.mesh.triangles.size()},
                       {"causes", causes_of(volume)},
                       {"notes", json(volume.notes)},

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "vantage/kept_volumes.h"
 #include "vantage/mission.h"
 #include "vantage/progress.h"
 #include "vantage/query.h"
@@ -64,6 +65,7 @@ class Session {
 
  private:
   const Mission& mission() const;  ///< of the last volume
+  RunOptions options() const;
   void prepare(std::shared_ptr<const LoadedScene> loaded);
   void take_scene(const MissionFile& file, std::shared_ptr<const LoadedScene> loaded);
   void take_volume(Mission mission, Result result);
@@ -81,6 +83,7 @@ class Session {
   std::shared_ptr<const LoadedScene> loaded_;
   std::optional<PreparedScene> prepared_;
   std::string scene_hash_;
+  std::shared_ptr<KeptVolumes> kept_ = std::make_shared<KeptVolumes>();
   Vec3 origin_ = Vec3::Zero();
   double read_ms_ = 0, prepare_ms_ = 0;
   std::shared_ptr<const ViewMesh> scene_view_ = std::make_shared<const ViewMesh>();
