@@ -8,7 +8,10 @@
 #include "live/request.h"
 #include "live/session.h"
 #include "support/cli_fixture.h"
+#include "support/map_text.h"
+#include "vantage/areas.h"
 #include "vantage/error.h"
+#include "vantage/georeference.h"
 #include "vantage/mission.h"
 
 namespace vantage::live {
@@ -32,7 +35,7 @@ class LiveSession : public testing::Cli {
     std::string rest;
   };
   Message ask(const Json& request) {
-    const std::string text = answer(session_, parse_request(Json{{"id", 7}, {"request", request}}.dump()));
+    const std::string text = answer(session_, areas_, parse_request(Json{{"id", 7}, {"request", request}}.dump()));
     std::uint32_t length = 0;
     std::memcpy(&length, text.data(), sizeof length);
     EXPECT_EQ(length % 4, 0u);  // arrays begin where their numbers may lie
@@ -41,6 +44,7 @@ class LiveSession : public testing::Cli {
   std::string code_of(const Json& request) { return ask(request).header.value("/error/code"_json_pointer, ""); }
 
   Session session_;
+  MapAreas areas_;
 };
 
 TEST_F(LiveSession, ComputesWhatRunMissionDoes) {
@@ -114,6 +118,40 @@ TEST_F(LiveSession, OfSeveralTargetsEachMustBeSeenOrOne) {
     const Json answers = ask({{"call", "query"}, {"points", {{0, 0, 20}}}}).header["value"]["answers"];
     EXPECT_EQ(answers[0]["inside"], is_any);
   }
+}
+
+TEST_F(LiveSession, AVolumeIsKeptWhileALimitIsDragged) {
+  std::string text = kSquare;
+  ask({{"call", "compute"}, {"text", text}});
+  text += "navigation: {altitude: [5, 30]}\n";
+  const double kept = ask({{"call", "compute"}, {"text", text}}).header["value"]["volume_m3"];
+  Session other;
+  other.open_file(folder_ / "mission.yaml");
+  EXPECT_EQ(Json::parse(other.compute(text))["volume_m3"], kept);
+}
+
+TEST_F(LiveSession, FindsTheAreaOfTheMapAtAPoint) {
+  EXPECT_EQ(code_of({{"call", "area"}, {"points", {{0, 0, 0}}}}), name_of(ErrorCode::not_applicable));
+  testing::MapText map;
+  map.box(0, 0, 60, 60, {{"leisure", "park"}, {"name", "Green"}});
+  map.box(20, 20, 40, 40, {{"leisure", "pitch"}});
+  map.box(30, 30, 35, 35, {{"building", "yes"}, {"height", "4"}});
+  map.box(80, 0, 90, 10, {{"building", "yes"}, {"height", "8"}});
+  write("map.osm", map.text());
+  write("map.yaml", "scene: {osm: map.osm}\ntarget: {osm: way/1, offset: 5}\nsensor: {max_range: 60}\n");
+  session_.open_file(folder_ / "map.yaml");
+  const std::vector<MapArea> areas = read_areas(folder_ / "map.osm");
+  const auto place_in = [&](std::size_t area, double east) {
+    const auto [latitude, longitude] = areas.at(area).center_deg;
+    const Eigen::Vector2d at = scene_position(*session_.scene().georeference, longitude, latitude);
+    return Json{{"call", "area"}, {"points", {{at.x() + east, at.y(), 0}}}};
+  };
+  const auto found = [&](const Json& request) { return ask(request).header["value"]["area"]; };
+  EXPECT_EQ(found(place_in(0, -25)), (Json{{"osm", "way/1"}, {"name", "Green"}}));
+  EXPECT_EQ(found(place_in(0, 0)), (Json{{"osm", "way/2"}, {"name", ""}}));
+  EXPECT_EQ(found(place_in(2, 0)), (Json{{"osm", "way/2"}, {"name", ""}}));  // not the building
+  EXPECT_EQ(found(place_in(0, 500)), Json());
+  EXPECT_EQ(code_of({{"call", "area"}}), name_of(ErrorCode::value_syntax));
 }
 
 TEST_F(LiveSession, RequestsOfOthersAreRefused) {

@@ -78,7 +78,7 @@ void Conversation::work() {
   is_working_ = true;
   asio::post(workers_, [self = shared_from_this(), request = std::move(waiting_.front())] {
     const Progress progress = [&](std::string_view, double) { return !self->is_gone_ && !self->is_over_; };
-    std::string message = answer(self->session_, request, progress);
+    std::string message = answer(self->session_, self->areas_, request, progress);
     asio::post(self->socket_.get_executor(), [self, message = std::move(message)]() mutable {
       self->is_working_ = false;
       self->send(std::move(message));

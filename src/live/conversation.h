@@ -40,6 +40,7 @@ class Conversation : public std::enable_shared_from_this<Conversation> {
   boost::beast::websocket::stream<boost::beast::tcp_stream> socket_;
   boost::beast::flat_buffer incoming_;
   Session session_;
+  MapAreas areas_;
   boost::asio::thread_pool& workers_;
   const std::atomic<bool>& is_over_;
   std::atomic<bool> is_gone_ = false;

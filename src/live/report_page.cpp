@@ -56,12 +56,13 @@ std::string base64(const std::string& bytes) {
 
 std::string report_page(Session& session, const std::string& page, bool proves, const Progress& progress) {
   std::string answers;
+  MapAreas areas;
   for (const char* const call : {"hello", "shown", "prove"}) {
     if (call == std::string("prove") && !proves) continue;
     Request request;
     request.call = call;
     answers += std::string(answers.empty() ? "" : ",") + call + ":\"" +
-               base64(gzip(answer(session, request, progress))) + "\"";
+               base64(gzip(answer(session, areas, request, progress))) + "\"";
   }
   if (progress && !progress("proof", 1)) throw Error(ErrorCode::cancelled, "stopped while the report was made", "", "");
   return with_start(page, "window.vantageReport={" + answers + "}");

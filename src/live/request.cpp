@@ -40,12 +40,21 @@ std::string framed(const Json& header, const ViewMesh* mesh, const std::string* 
   return message;
 }
 
-std::string value_of(Session& session, const Request& request, const Progress& progress) {
+std::string area_of(MapAreas& areas, const Session& session, const Request& request, const Progress& progress) {
+  if (request.coordinates.size() != 3) refuse("an area is asked for at one point");
+  const Eigen::Vector2d place(request.coordinates[0], request.coordinates[1]);
+  const MapArea* area = areas.at(place, session.source(), session.scene(), progress);
+  return Json{{"area", area ? Json{{"osm", area->source_id}, {"name", area->name}} : Json()}}.dump(
+      -1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string value_of(Session& session, MapAreas& areas, const Request& request, const Progress& progress) {
   if (request.call == "about") return about();
   if (request.call == "hello") return session.hello();
   if (request.call == "shown") return "{}";
   if (request.call == "compute") return session.compute(request.text, progress);
   if (request.call == "query") return session.query(request.coordinates);
+  if (request.call == "area") return area_of(areas, session, request, progress);
   if (request.call == "prove") return session.prove(progress);
   if (request.call == "slice") return session.slice(request.z_m);
   if (request.call == "save") return session.save(request.format);
@@ -90,9 +99,9 @@ Request parse_request(std::string_view text) {
   return request;
 }
 
-std::string answer(Session& session, const Request& request, const Progress& progress) {
+std::string answer(Session& session, MapAreas& areas, const Request& request, const Progress& progress) {
   const auto start = std::chrono::steady_clock::now();
-  const std::string text = answered([&] { return value_of(session, request, progress); });
+  const std::string text = answered([&] { return value_of(session, areas, request, progress); });
   Json value = Json::parse(text);
   Json header{{"id", request.id}};
   const bool is_error = value.contains("error");

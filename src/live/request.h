@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "live/map_areas.h"
 #include "live/session.h"
 #include "vantage/progress.h"
 
@@ -14,9 +15,9 @@ namespace vantage::live {
 /// {"id": 7, "request": {"call": "compute", "text": "..."}}
 struct Request {
   std::uint64_t id = 0;
-  std::string call;                 ///< about, hello, shown, compute, query, prove, slice, save
+  std::string call;                 ///< about, hello, shown, compute, query, area, prove, slice, save
   std::string text;                 ///< of compute
-  std::vector<double> coordinates;  ///< of query
+  std::vector<double> coordinates;  ///< of query and area
   double z_m = 0;                   ///< of slice
   std::string format;               ///< of save
 };
@@ -27,7 +28,7 @@ Request parse_request(std::string_view text);
 /// A message: the length of the JSON that follows, as 32 bits, little-endian; the JSON {id, value or error, engine_ms,
 /// mesh: the numbers of positions, triangles and labels, or bytes: their number}, with blanks up to a multiple of 4;
 /// then the arrays in this order, or the bytes. Never throws Error: that is an answer, too.
-std::string answer(Session& session, const Request& request, const Progress& progress = {});
+std::string answer(Session& session, MapAreas& areas, const Request& request, const Progress& progress = {});
 
 /// To a request that a newer one replaces.
 std::string stale_answer(const Request& request);

@@ -244,6 +244,7 @@ std::string Session::scene_json() const {
                       {"min", json(box.min)},
                       {"max", json(box.max)},
                       {"objects", objects_of(scene)},
+                      {"has_areas", source_.kind == SceneSource::Kind::map},
                       {"notes", notes_of(*loaded_)},
                       {"read_ms", read_ms_},
                       {"prepare_ms", prepare_ms_}});

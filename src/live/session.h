@@ -59,6 +59,9 @@ class Session {
   /// The last volume as a file, "ply", "glb", "stl" or "obj": bytes() has it. JSON: its size.
   std::string save(const std::string& format);
 
+  const SceneSource& source() const { return source_; }
+  const Scene& scene() const { return loaded_->scene; }
+
   const ViewMesh& scene_view() const { return *scene_view_; }
   const ViewMesh& volume_view() const { return volume_view_; }
   const std::string& bytes() const { return bytes_; }

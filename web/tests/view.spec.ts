@@ -1,11 +1,11 @@
 // The page that the program serves, and the reports that it writes.
 import { expect, test } from "@playwright/test";
 import { execFileSync, spawn, type ChildProcess } from "node:child_process";
-import { mkdtempSync, readFileSync } from "node:fs";
+import { mkdtempSync, readFileSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
-import { byProgram, drag, hasVolume, mission, plaza, program, root, saved, savedMission, settled, volume } from "./support";
+import { byProgram, drag, hasVolume, mission, onScreen, plaza, program, root, saved, savedMission, settled, volume } from "./support";
 
 const file = join(plaza, "mission.yaml");
 let server: ChildProcess;
@@ -79,6 +79,33 @@ test.describe("vantage view", () => {
       expect((error as { status: number }).status).toBe(2);
     }
   });
+});
+
+test("a square of the map is picked on the ground", async ({ page }) => {
+  const folder = mkdtempSync(join(tmpdir(), "vantage-"));
+  const corner = (id: number, east: number, north: number) => `<node id="${id}" version="1" lat="${48 + north / 111000}" lon="${11 + east / 74000}"/>`;
+  const area = (id: number, key: string, value: string) => `<way id="${id}" version="1">${[1, 2, 3, 4, 1].map((n) => `<nd ref="${10 * id + n}"/>`).join("")}` +
+    `<tag k="${key}" v="${value}"/><tag k="height" v="9"/></way>`;
+  const box = (id: number, x: number, y: number, size: number) =>
+    [[0, 0], [1, 0], [1, 1], [0, 1]].map(([u, v], n) => corner(10 * id + n + 1, x + u! * size, y + v! * size)).join("");
+  writeFileSync(join(folder, "map.osm"), `<osm version="0.6">${box(1, 0, 0, 30)}${box(2, 50, 0, 20)}` +
+    `${area(1, "leisure", "pitch")}${area(2, "building", "yes")}</osm>`);
+  writeFileSync(join(folder, "mission.yaml"), "scene: {osm: map.osm}\ntarget: {osm: way/2, part: roof}\nsensor: {max_range: 60}\n");
+  const viewer = spawn(program, ["view", join(folder, "mission.yaml"), "--no-browser", "--page", join(root, "web/dist/index.html")]);
+  try {
+    await page.goto(await new Promise<string>((resolve) => viewer.stdout.once("data", (text: Buffer) => resolve(text.toString().trim()))));
+    await hasVolume(page);
+    const roof = await page.evaluate(() => (window as any).vantage.volume.info.center as number[]);
+    await page.keyboard.press("p");
+    const at = await onScreen(page, [roof[0]! - 45, roof[1]! + 5, 0]);
+    await page.mouse.click(at.x, at.y);
+    await expect.poll(async () => (await mission(page)).target.osm).toBe("way/1");
+    await settled(page);
+    await expect.poll(() => page.evaluate(() => (window as any).vantage.volume.info.target[0].length as number)).toBe(4);
+    expect(await savedMission(page)).toContain("osm: way/1");
+  } finally {
+    viewer.kill("SIGINT");
+  }
 });
 
 test("a report shows the volume, and that it is proved, without an engine", async ({ page }) => {

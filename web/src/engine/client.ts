@@ -1,5 +1,5 @@
 // The engine as the page sees it: promises, and volumes that follow what is dragged.
-import type { About, Hello, Point, PointAnswer, SceneInfo, Section, ViewMesh, VolumeInfo } from "./messages";
+import type { About, Hello, MapArea, Point, PointAnswer, SceneInfo, Section, ViewMesh, VolumeInfo } from "./messages";
 import { EngineFailure, type Transport } from "./transport";
 
 /** What went wrong, and what to do, in words. */
@@ -90,6 +90,11 @@ export class Engine {
     }
     this.isComputing = false;
     void this.pump();
+  }
+
+  /** The smallest area of the map where this is; null: there is none. */
+  async area(x: number, y: number): Promise<MapArea | null> {
+    return ((await this.transport.ask({ call: "area", points: [[x, y, 0]] })).value as { area: MapArea | null }).area;
   }
 
   async query(points: [number, number, number][]): Promise<PointAnswer[]> {

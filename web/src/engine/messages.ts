@@ -22,6 +22,8 @@ export interface SceneInfo {
   min: Point;
   max: Point;
   objects: { name: string; kind: string }[];
+  /** it is made of a map, which has areas: squares, pitches */
+  has_areas: boolean;
   notes: string[];
   read_ms: number;
   prepare_ms: number;
@@ -89,6 +91,13 @@ export interface PointAnswer {
   outside_of: string[];
 }
 
+/** A closed way or a multipolygon of the scene's map. */
+export interface MapArea {
+  /** way/123 */
+  osm: string;
+  name: string;
+}
+
 export interface Section {
   z_m: number;
   area_m2: number;
@@ -103,6 +112,7 @@ export type Request =
   | { call: "open"; text: string; file: string; files: Record<string, ArrayBuffer> }
   | { call: "compute"; text: string }
   | { call: "query"; points: Point[] }
+  | { call: "area"; points: [Point] }
   | { call: "prove" }
   | { call: "slice"; z: number }
   | { call: "save"; format: string };

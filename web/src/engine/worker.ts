@@ -110,6 +110,7 @@ async function answer(request: Request): Promise<Omit<Answer, "id" | "engine_ms"
       return { value: call("prove") };
     case "hello":
     case "shown":
+    case "area":
       throw new Error("the engine in the page was not started with a mission");
     case "slice":
       return { value: call("slice", request.z) };

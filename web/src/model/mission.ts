@@ -2,10 +2,11 @@
 import { Document, isMap, isSeq, parseDocument, type Node, type YAMLMap, type YAMLSeq } from "yaml";
 import type { Box, Point, VolumeInfo } from "../engine/messages";
 
-/** A polygon, faces of an object of the scene, or what the file says and the page cannot edit (several polygons). */
+/** A polygon, faces of an object of the scene, an area of its map, or what the file says and the page cannot edit (several polygons). */
 export type Target =
   | { kind: "polygon"; vertices: Point[]; front?: Point }
   | { kind: "face"; object: string; part: "roof" | "facade"; nearest: Point }
+  | { kind: "area"; osm: string }
   | { kind: "written" };
 
 /** What the page has controls for. Lengths are metres in the scene's frame, angles degrees; null: no such limit. */
@@ -179,6 +180,11 @@ class Writer {
     for (const key of ["targets", "combine"]) document.delete(key);
     if (!hadOne) document.set("target", document.createNode({ name: "target" }));
     for (const key of PLACES) document.deleteIn(["target", key]);
+    if (target.kind === "area") {
+      document.deleteIn(["target", "front"]);
+      document.setIn(["target", "osm"], target.osm);
+      return;
+    }
     if (target.kind === "face") {
       document.deleteIn(["target", "front"]);
       document.setIn(["target", "object"], target.object);

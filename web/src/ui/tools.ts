@@ -1,5 +1,6 @@
 // What the pointer does: look, draw, pick, probe, and drag what is there.
 import type { App } from "../app";
+import { toldBy } from "../engine/client";
 import type { Point } from "../engine/messages";
 import { facing, faultOf, plus, times, type Plane } from "../model/polygon";
 import type { Hit } from "../view/city";
@@ -14,6 +15,7 @@ const HINTS: Record<Tool, string> = {
   pick: "Click a roof or a wall: all of it becomes the target",
   probe: "Click a place: what does a position above it see? Page Up and Page Down change its height",
 };
+const PICK_IN_MAP = "Click a roof, a wall, or a square on the ground: all of it becomes the target";
 const LIMITS: Record<string, string> = {
   scene: "hidden by", range: "the range", target_plane: "the target's plane", navigation: "where you may fly:", sensor: "the sensor:",
 };
@@ -45,7 +47,7 @@ export class Tools {
     for (const name of Object.keys(HINTS)) button(`tool-${name}`).setAttribute("aria-pressed", String(name === tool));
     this.app.stage.canvas.style.cursor = tool === "look" ? "" : "crosshair";
     this.app.showMission();
-    say(HINTS[tool]);
+    say(tool === "pick" && this.app.scene?.has_areas ? PICK_IN_MAP : HINTS[tool]);
   }
 
   /** Enter. */
@@ -168,11 +170,27 @@ export class Tools {
   }
 
   private pick(hit: Hit): void {
-    if (hit.object === "" || hit.kind === "ground") return say("This is the ground: draw a target on it", true);
+    if (hit.object === "" || hit.kind === "ground") return void this.pickArea(hit.point);
     const part = Math.abs(hit.plane.normal[2]) > 0.35 ? "roof" : "facade";
     this.choose("look");
     this.app.dragged = null;
     this.app.edit((mission) => (mission.target = { kind: "face", object: hit.object, part, nearest: hit.point }), true);
+  }
+
+  private async pickArea([x, y]: Point): Promise<void> {
+    const { app } = this;
+    if (!app.scene?.has_areas) return say("This is the ground: draw a target on it", true);
+    say("Looking for the area of the map…");
+    try {
+      const area = await app.engine.area(x, y);
+      if (!area) return say("The map has no area here: draw a target on the ground", true);
+      this.choose("look");
+      say(area.name === "" ? `This is ${area.osm}` : `This is ${area.name}`);
+      app.dragged = null;
+      app.edit((mission) => (mission.target = { kind: "area", osm: area.osm }), true);
+    } catch (error) {
+      say(toldBy(error), true);
+    }
   }
 
   /** A little above the place. */
