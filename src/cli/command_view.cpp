@@ -46,7 +46,7 @@ void open_browser(const std::string& address) {
 
 int run_view(const ViewArguments& options) {
   if (options.mission == "-") {
-    throw Error(ErrorCode::stdin_not_possible, "the mission must be a file: its page saves missions beside it",
+    throw Error(ErrorCode::stdin_not_possible, "the mission must be a file: names in it start from its folder",
                 "command line", "write it to a file first");
   }
   std::string page = read_page("index.html", options.page);
