@@ -24,23 +24,15 @@ export interface Volume {
   total_ms: number;
 }
 
-interface Wish {
-  text: string;
-  asked: number;
-  resolve(volume: Volume | null): void;
-  reject(error: Error): void;
-}
-
 export class Engine {
-  private isComputing = false;
-  private wish: Wish | null = null;
+  private awaited = 0;
   about: About = { version: "", cameras: [] };
 
   constructor(private readonly transport: Transport) {}
 
   /** No volume is on its way. */
   get isIdle(): boolean {
-    return !this.isComputing && !this.wish;
+    return this.awaited === 0;
   }
 
   async greet(): Promise<void> {
@@ -67,29 +59,20 @@ export class Engine {
     return { info: answer.value as SceneInfo, mesh: answer.mesh! };
   }
 
-  /** The volume of a mission; null where a newer wish came before this one's turn: only the newest waits. */
-  compute(text: string): Promise<Volume | null> {
-    return new Promise((resolve, reject) => {
-      this.wish?.resolve(null);
-      this.wish = { text, asked: performance.now(), resolve, reject };
-      void this.pump();
-    });
-  }
-
-  private async pump(): Promise<void> {
-    if (this.isComputing || !this.wish) return;
-    const { text, asked, resolve, reject } = this.wish;
-    this.wish = null;
-    this.isComputing = true;
+  /**
+   * The volume of a mission; null where a newer one was asked for before this one's turn: the engine keeps only the newest
+   * that waits. It is asked while it computes, so that it need not wait for the page. Answers come in the order of the
+   * questions.
+   */
+  async compute(text: string): Promise<Volume | null> {
+    const asked = performance.now();
+    ++this.awaited;
     try {
       const { value, mesh, engine_ms, stale } = await this.transport.ask({ call: "compute", text });
-      if (stale) resolve(null);
-      else resolve({ info: value as VolumeInfo, mesh: mesh!, engine_ms, total_ms: performance.now() - asked });
-    } catch (error) {
-      reject(error as Error);
+      return stale ? null : { info: value as VolumeInfo, mesh: mesh!, engine_ms, total_ms: performance.now() - asked };
+    } finally {
+      --this.awaited;
     }
-    this.isComputing = false;
-    void this.pump();
   }
 
   /** The smallest area of the map where this is; null: there is none. */

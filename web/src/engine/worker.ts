@@ -119,7 +119,31 @@ async function answer(request: Request): Promise<Omit<Answer, "id" | "engine_ms"
   }
 }
 
-onmessage = async ({ data: { id, request } }) => {
+const waiting: Envelope[] = [];
+let isWorking = false;
+const turn = new MessageChannel();
+
+/** Of volumes only the newest that waits is computed. What was sent meanwhile is taken before the next one begins. */
+onmessage = ({ data }) => {
+  if (data.request.call === "compute") {
+    for (const { id } of waiting.filter(({ request }) => request.call === "compute")) postMessage({ id, stale: true, engine_ms: 0 }, []);
+    const others = waiting.filter(({ request }) => request.call !== "compute");
+    waiting.splice(0, waiting.length, ...others);
+  }
+  waiting.push(data);
+  if (!isWorking) turn.port2.postMessage(null);
+};
+
+turn.port1.onmessage = async () => {
+  const next = waiting.shift();
+  if (!next || isWorking) return;
+  isWorking = true;
+  await work(next);
+  isWorking = false;
+  if (waiting.length > 0) turn.port2.postMessage(null);
+};
+
+async function work({ id, request }: Envelope): Promise<void> {
   const start = performance.now();
   let told: Omit<Answer, "id" | "engine_ms">;
   try {
@@ -133,4 +157,4 @@ onmessage = async ({ data: { id, request } }) => {
   }
   const buffers = [told.bytes?.buffer, told.mesh?.positions.buffer, told.mesh?.triangles.buffer, told.mesh?.labels.buffer];
   postMessage({ id, ...told, engine_ms: performance.now() - start }, buffers.filter((b) => b !== undefined) as Transferable[]);
-};
+}
