@@ -50,6 +50,7 @@ export class App {
   /** the corner that was dragged last, where a mission that cannot be computed is explained */
   dragged: number | null = null;
   private readonly listeners: Listener[] = [];
+  private isToTell = false;
   private tellProof: (text: string, volume: Volume) => void = () => {};
 
   constructor(readonly engine: Engine, readonly stage: Stage) {
@@ -59,14 +60,21 @@ export class App {
     this.boxes = new BoxesView(stage.scene, this.city);
     this.sectionView = new SectionView(stage.scene, this.city);
     this.probeView = new ProbeView(stage.scene, this.city);
+    stage.beforeFrame = () => this.volumeView.update();
   }
 
   onChange(listener: Listener): void {
     this.listeners.push(listener);
   }
 
+  /** What listens is told with the next picture: volumes may come more often. */
   changed(): void {
-    for (const listener of this.listeners) listener();
+    if (this.isToTell) return;
+    this.isToTell = true;
+    requestAnimationFrame(() => {
+      this.isToTell = false;
+      for (const listener of this.listeners) listener();
+    });
   }
 
   /** `beside`: files that the mission names, by their names. The scene that is open stays where this one cannot be read. */

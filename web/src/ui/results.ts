@@ -95,7 +95,7 @@ export class Results {
   }
 
   private showLegend(): void {
-    const areas = this.app.volume ? this.app.volumeView.areaOfKind : new Map<string, number>();
+    const areas = this.app.volume ? this.app.volumeView.areaOfKind() : new Map<string, number>();
     const whole = [...areas.values()].reduce((a, b) => a + b, 0);
     element("legend").replaceChildren(...[...areas].sort((a, b) => b[1] - a[1]).map(([kind, area]) => {
       const item = document.createElement("li");

@@ -23,6 +23,7 @@ export class Stage {
   private readonly grid = new THREE.Group();
   private isRequested = false;
   private size = 100;
+  beforeFrame: (() => void) | null = null;
   onFrame: (() => void) | null = null;
   /** The eye that the view is of has moved. */
   onEye: ((eye: THREE.Vector3) => void) | null = null;
@@ -56,6 +57,7 @@ export class Stage {
     requestAnimationFrame(() => {
       this.isRequested = false;
       const start = performance.now();
+      this.beforeFrame?.();
       this.renderer.render(this.scene, this.camera);
       this.frame_ms = performance.now() - start;
       this.onFrame?.();
@@ -190,6 +192,7 @@ export class Stage {
   }
 
   picture(): Promise<Blob> {
+    this.beforeFrame?.();
     this.renderer.render(this.scene, this.camera);
     return new Promise((resolve, reject) => {
       this.canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error("the picture could not be made"))));

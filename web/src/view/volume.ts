@@ -23,8 +23,8 @@ export class VolumeView {
   private readonly mesh = new THREE.Mesh(this.geometry, this.material);
   private labels = new Uint32Array();
   private info: VolumeInfo | null = null;
-  /** square metres of the volume's surface that each kind of cause bounds */
-  areaOfKind = new Map<string, number>();
+  private given: ViewMesh | null = null; // not expanded yet
+  private areas = new Map<string, number>();
 
   constructor(parent: THREE.Object3D, private readonly city: City) {
     this.mesh.visible = false;
@@ -35,14 +35,28 @@ export class VolumeView {
 
   show(info: VolumeInfo, view: ViewMesh): void {
     this.info = info;
-    this.labels = view.labels as Uint32Array<ArrayBuffer>;
-    const { positions, colours } = this.expanded(info, view);
+    this.given = view;
+    this.isShown = view.triangles.length > 0;
+    this.setVisible(this.isAllowed);
+  }
+
+  /** To be called before a picture is drawn. There may be several volumes to a picture: only the last is worth the work. */
+  update(): void {
+    const { info, given } = this;
+    this.given = null;
+    if (!info || !given) return;
+    this.labels = given.labels as Uint32Array<ArrayBuffer>;
+    const { positions, colours } = this.expanded(info, given);
     this.geometry.dispose();
     this.geometry.setAttribute("position", new THREE.BufferAttribute(positions, 3));
     this.geometry.setAttribute("color", new THREE.BufferAttribute(colours, 3));
     this.geometry.boundingSphere = null;
-    this.isShown = view.triangles.length > 0;
-    this.setVisible(this.isAllowed);
+  }
+
+  /** Square metres of the volume's surface that each kind of cause bounds. */
+  areaOfKind(): Map<string, number> {
+    this.update();
+    return this.areas;
   }
 
   /** Corners of its own for each triangle, with the colour of its cause. Runs while something is dragged: no objects. */
@@ -62,15 +76,15 @@ export class VolumeView {
       }
       if (i % 3 === 2) areas[label]! += areaOf(positions, 3 * (i - 2));
     }
-    this.areaOfKind = new Map();
-    info.causes.forEach(({ kind }, i) => this.areaOfKind.set(kind, (this.areaOfKind.get(kind) ?? 0) + areas[i]!));
+    this.areas = new Map();
+    info.causes.forEach(({ kind }, i) => this.areas.set(kind, (this.areas.get(kind) ?? 0) + areas[i]!));
     return { positions, colours };
   }
 
   hide(): void {
     this.isShown = false;
     this.mesh.visible = false;
-    this.info = null;
+    this.info = this.given = null;
   }
 
   /** False while the eye is in it. */
@@ -81,6 +95,7 @@ export class VolumeView {
 
   /** Lowest and highest z, scene frame. */
   heights(): [number, number] {
+    this.update();
     const positions = this.geometry.getAttribute("position").array;
     let [low, high] = [Infinity, -Infinity];
     for (let i = 2; i < positions.length; i += 3) {
@@ -99,6 +114,7 @@ export class VolumeView {
 
   /** What bounds the volume where the ray meets it first. */
   causeAt(ray: THREE.Raycaster): { kind: string; name: string } | null {
+    this.update();
     if (!this.mesh.visible || !this.info) return null;
     for (const found of ray.intersectObject(this.mesh, false)) {
       if (!this.material.clippingPlanes || this.plane.distanceToPoint(found.point) >= 0) return this.info.causes[this.labels[found.faceIndex!]!] ?? null;
