@@ -40,6 +40,8 @@ export class App {
   /** the file of the scene, and what a mission file says of it */
   source: SceneSource = { name: "", bytes: new ArrayBuffer(0), section: {} };
   volume: Volume | null = null;
+  /** where the volume is a draft: its mission as it was */
+  private draftOf: Mission | null = null;
   /** of the last mission, where it could not be computed; the last volume stays */
   failure = "";
   private failurePlace: Point | null = null;
@@ -155,6 +157,10 @@ export class App {
     return this.failure === "" || !at ? null : { at, reason: this.failure };
   }
 
+  get isDraft(): boolean {
+    return this.draftOf !== null;
+  }
+
   private compute(isDraft = false): void {
     const { target } = this.mission;
     if (!target) {
@@ -162,15 +168,34 @@ export class App {
       this.volume = null;
       return this.changed();
     }
-    const fault = target.kind === "polygon" ? faultOf(target.vertices) : null;
-    if (fault) return this.fail(new Error(`${fault.reason}; the volume is the last one`));
-    let text: string;
+    void this.run(isDraft ? structuredClone(this.mission) : null);
+  }
+
+  /** `draftOf`: the mission, for a draft of its volume. */
+  private async run(draftOf: Mission | null): Promise<void> {
+    const { target } = this.mission;
+    const fault = target?.kind === "polygon" ? faultOf(target.vertices) : null;
     try {
-      text = missionText(this.mission, isDraft);
+      if (fault) throw new Error(`${fault.reason}; the volume is the last one`);
+      const volume = await this.engine.compute(missionText(this.mission, draftOf !== null));
+      if (volume) this.take(volume, draftOf); // else a newer mission is on its way
     } catch (error) {
-      return this.fail(error);
+      this.fail(error);
+      if (!draftOf) void this.completeDraft();
     }
-    void this.run(text);
+  }
+
+  /** A drag has ended where there is no volume: the last one, which stays, is not left a draft. */
+  private async completeDraft(): Promise<void> {
+    const { draftOf } = this;
+    if (!draftOf) return;
+    const volume = await this.engine.compute(missionText(draftOf)).catch(() => null);
+    if (!volume || this.draftOf !== draftOf) return;
+    this.draftOf = null;
+    this.volume = volume;
+    this.volumeView.show(volume.info, volume.mesh);
+    this.changed();
+    this.stage.request();
   }
 
   /** The last volume stays. */
@@ -182,17 +207,9 @@ export class App {
     this.changed();
   }
 
-  private async run(text: string): Promise<void> {
-    try {
-      const volume = await this.engine.compute(text);
-      if (volume) this.take(volume); // else a newer mission is on its way
-    } catch (error) {
-      this.fail(error);
-    }
-  }
-
-  private take(volume: Volume): void {
+  private take(volume: Volume, draftOf: Mission | null = null): void {
     this.volume = volume;
+    this.draftOf = draftOf;
     this.failure = "";
     this.volumeView.show(volume.info, volume.mesh);
     this.showMission();

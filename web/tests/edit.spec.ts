@@ -35,6 +35,23 @@ test("a keep-out box has handles", async ({ page }) => {
   expect((await mission(page)).keepOut).toHaveLength(boxes);
 });
 
+test("where a drag ends in a target that is none, the volume that stays is no draft", async ({ page }) => {
+  const [corner, , opposite] = (await mission(page)).target.vertices;
+  const { x, y } = await onScreen(page, corner);
+  const beyond = await onScreen(page, [0, 1, 2].map((i) => 1.2 * opposite[i] - 0.2 * corner[i]));
+  const isDraft = () => page.evaluate(() => (window as any).vantage.isDraft);
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x + 6, y + 3);
+  await expect.poll(isDraft).toBe(true);
+  const facets = await page.evaluate(() => (window as any).vantage.volume.info.facets);
+  await page.mouse.move(beyond.x, beyond.y);
+  await page.mouse.up();
+  await expect.poll(isDraft).toBe(false);
+  await expect(page.locator("#status")).toContainText("the last one stays");
+  expect(await page.evaluate(() => (window as any).vantage.volume.info.facets)).toBeGreaterThan(facets);
+});
+
 test("a double click adds a corner, and Del removes it", async ({ page }) => {
   const { target } = await mission(page);
   const [a, b] = target.vertices;

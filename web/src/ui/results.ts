@@ -81,7 +81,7 @@ export class Results {
       const [low, high] = this.app.volumeView.heights();
       rows.push(["Volume", `${large(volume.info.volume_m3)} m³`]);
       if (volume.info.facets > 0) rows.push(["Heights", `${metres(low)} to ${metres(high)}`]);
-      rows.push(["Facets", large(volume.info.facets)],
+      rows.push(["Facets", `${large(volume.info.facets)}${this.app.isDraft ? ", while it is dragged" : ""}`],
         ["Computed in", `${Math.max(0.1, volume.info.resolve_ms + volume.info.compute_ms).toFixed(1)} ms`]);
     }
     if (scene) rows.push(["Scene", `${large(scene.triangles)} triangles`]);
