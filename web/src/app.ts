@@ -42,6 +42,10 @@ export class App {
   volume: Volume | null = null;
   /** where the volume is a draft: its mission as it was */
   private draftOf: Mission | null = null;
+  private isDragged = false;
+  /** numbers of the missions asked for, and of the newest of which the outcome was told */
+  private turn = 0;
+  private told = 0;
   /** of the last mission, where it could not be computed; the last volume stays */
   failure = "";
   private failurePlace: Point | null = null;
@@ -94,7 +98,7 @@ export class App {
     this.city.show(info, mesh);
     this.stage.frameScene(info);
     this.volumeView.hide();
-    this.volume = null;
+    this.volume = this.draftOf = null;
     this.failure = "";
     this.mission = emptyMission(Math.max(info.max[0] - info.min[0], info.max[1] - info.min[1], 1e-9));
     this.history = new History(this.mission);
@@ -114,7 +118,8 @@ export class App {
   openMissionWith(body: string, volume: Volume): void {
     this.mission = missionFrom(body, volume.info, this.mission.grain);
     this.history.keep(this.mission);
-    this.take(volume);
+    this.put(volume, null);
+    this.accept(volume);
   }
 
   /** Shows the mission as it is, and asks for its volume: a draft of it in the middle of a drag, till it `isComplete`. */
@@ -168,21 +173,33 @@ export class App {
       this.volume = null;
       return this.changed();
     }
+    this.isDragged = isDraft;
     void this.run(isDraft ? structuredClone(this.mission) : null);
   }
 
   /** `draftOf`: the mission, for a draft of its volume. */
   private async run(draftOf: Mission | null): Promise<void> {
+    const { scene } = this;
     const { target } = this.mission;
+    const turn = ++this.turn;
     const fault = target?.kind === "polygon" ? faultOf(target.vertices) : null;
     try {
       if (fault) throw new Error(`${fault.reason}; the volume is the last one`);
       const volume = await this.engine.compute(missionText(this.mission, draftOf !== null));
-      if (volume) this.take(volume, draftOf); // else a newer mission is on its way
+      if (!volume || scene !== this.scene || !this.mission.target) return; // a newer mission is on its way, or none
+      this.put(volume, draftOf);
+      if (this.isNews(turn)) this.accept(volume);
     } catch (error) {
-      this.fail(error);
-      if (!draftOf) void this.completeDraft();
+      if (scene === this.scene && this.isNews(turn)) this.fail(error);
     }
+    if (!this.isDragged && this.engine.isIdle) void this.completeDraft();
+  }
+
+  /** A corner that is not convex is told at once, before the answers to what was asked earlier. */
+  private isNews(turn: number): boolean {
+    if (turn < this.told) return false;
+    this.told = turn;
+    return true;
   }
 
   /** A drag has ended where there is no volume: the last one, which stays, is not left a draft. */
@@ -190,12 +207,7 @@ export class App {
     const { draftOf } = this;
     if (!draftOf) return;
     const volume = await this.engine.compute(missionText(draftOf)).catch(() => null);
-    if (!volume || this.draftOf !== draftOf) return;
-    this.draftOf = null;
-    this.volume = volume;
-    this.volumeView.show(volume.info, volume.mesh);
-    this.changed();
-    this.stage.request();
+    if (volume && this.draftOf === draftOf) this.put(volume, null);
   }
 
   /** The last volume stays. */
@@ -207,18 +219,23 @@ export class App {
     this.changed();
   }
 
-  private take(volume: Volume, draftOf: Mission | null = null): void {
+  /** Shows a volume. */
+  private put(volume: Volume, draftOf: Mission | null): void {
     this.volume = volume;
     this.draftOf = draftOf;
-    this.failure = "";
     this.volumeView.show(volume.info, volume.mesh);
-    this.showMission();
-    if (volume.info.outcome !== "computed") say(`No position sees all of it: ${volume.info.reason}. ${volume.info.hint}`, true);
-    else if (hasBadNews()) say("");
     void this.askProbe();
     void this.showSection();
     this.changed();
     this.stage.request();
+  }
+
+  /** The volume that is shown is that of the mission. */
+  private accept(volume: Volume): void {
+    this.failure = "";
+    this.showMission();
+    if (volume.info.outcome !== "computed") say(`No position sees all of it: ${volume.info.reason}. ${volume.info.hint}`, true);
+    else if (hasBadNews()) say("");
   }
 
   setProbe(at: Point | null): void {

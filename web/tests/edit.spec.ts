@@ -52,6 +52,22 @@ test("where a drag ends in a target that is none, the volume that stays is no dr
   expect(await page.evaluate(() => (window as any).vantage.volume.info.facets)).toBeGreaterThan(facets);
 });
 
+test("an answer that is late does not hide that the target is none", async ({ page }) => {
+  const bad = [[-9, -9, 0], [9, -9, 0], [0, -6, 0], [-9, 9, 0]];
+  await page.evaluate((vertices) => {
+    const app = (window as any).vantage;
+    const moved = structuredClone(app.mission.target.vertices);
+    moved[0][0] -= 0.5;
+    app.edit((m: any) => (m.target = { kind: "polygon", vertices: moved }), false);
+    app.edit((m: any) => (m.target = { kind: "polygon", vertices }), true);
+  }, bad);
+  await settled(page);
+  await expect.poll(() => page.evaluate(() => (window as any).vantage.isDraft)).toBe(false);
+  await settled(page);
+  await expect(page.locator("#status")).toContainText("the last one stays");
+  await expect(page.locator("#hint")).toContainText("not convex");
+});
+
 test("a double click adds a corner, and Del removes it", async ({ page }) => {
   const { target } = await mission(page);
   const [a, b] = target.vertices;

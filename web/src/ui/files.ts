@@ -46,7 +46,7 @@ export class Files {
     await this.app.openScene({ name: EXAMPLE, bytes: await this.exampleBytes(), section });
     await this.app.openMission(body);
     this.app.lookAtTarget();
-    say("Drag a red corner: the volume follows. Or draw a target of your own");
+    say("From everywhere in the coloured volume all of the red polygon is visible. Drag a corner of it, or draw one of your own");
   }
 
   private exampleMission(): { section: Record<string, unknown>; body: string } {
