@@ -9,11 +9,13 @@
 #include <vector>
 
 #include "support/random.h"
+#include "support/scenes.h"
 #include "support/solids.h"
 #include "support/torus.h"
 #include "support/wording.h"
 #include "vantage/error.h"
 #include "vantage/footprint.h"
+#include "vantage/prepared_target.h"
 #include "vantage/slice.h"
 #include "vantage/solid_index.h"
 
@@ -334,6 +336,39 @@ TEST(Footprint, AgreesWithPointsInTheMesh) {
       largest += std::max(0.0, (a.x() * b.y() - a.y() * b.x()) / 2);
     }
     EXPECT_LE(total_area(footprint), largest * (1 + 1e-6));
+  }
+}
+
+/// Where a volume is cut off at the target's plane, its sides are upright but for rounding: slivers that face up or
+/// down.
+TEST(Footprint, OfVolumesWithUprightSidesIsWhatFacesUp) {
+  const std::uint64_t seed = 31;
+  RecordProperty("seed", std::to_string(seed));
+  Random random(seed);
+  const testing::SceneBuilder scene =
+      testing::SceneBuilder().ground("ground", 100).box("tower", {20, -5, 0}, {30, 15, 40});
+  const PreparedScene prepared(scene);
+  const Target target = testing::target_of({{0, 0, 0}, {10, 0, 0}, {10, 10, 0}, {0, 10, 0}});
+  for (double range = 20; range <= 100; range += 1) {
+    SCOPED_TRACE(range);
+    Sensor sensor;
+    sensor.max_range_m = range;
+    const Mesh mesh = compute_visibility(PreparedTarget(prepared, target, sensor)).mesh;
+    const std::vector<PlanPolygon> footprint = footprint_of_mesh(mesh);
+    expect_in_order(footprint);
+    for (int i = 0; i < 50; ++i) {
+      const Eigen::Vector2d p = 1.2 * range * random.point(-1, 1).head<2>();
+      if (distance_to_rings(footprint, p) < 1e-3) continue;
+      const bool faces_up = std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const Triangle& t) {
+        double least = INFINITY;
+        for (int k = 0; k < 3; ++k) {
+          const Eigen::Vector2d a = mesh.vertices[t[k]].head<2>() - p, b = mesh.vertices[t[(k + 1) % 3]].head<2>() - p;
+          least = std::min(least, a.x() * b.y() - a.y() * b.x());
+        }
+        return least > 0;
+      });
+      EXPECT_EQ(covers(footprint, p), faces_up) << p.transpose();
+    }
   }
 }
 

@@ -1,7 +1,6 @@
 // The triangles that face up cover the footprint. Where neighbours both do, their common side is inside: what is left
 // of their sides are rings that wind round each place as often as there are such triangles above it.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <map>
@@ -11,8 +10,6 @@
 
 #include "core/closed_mesh_check.h"
 #include "core/edges.h"
-#include "core/orientation.h"
-#include "core/weld.h"
 #include "maps/city/clipping.h"
 #include "maps/city/grid_polygon.h"
 #include "vantage/footprint.h"
@@ -48,19 +45,32 @@ class PlanGrid {
   double unit_m_;
 };
 
-/// The sides of triangles that face up and whose neighbours there do not, each in the triangles' direction.
-std::multimap<std::uint32_t, std::uint32_t> rim_of(const Mesh& mesh) {
-  const std::vector<std::uint32_t> first = internal::core::first_at_position(mesh.vertices);
-  std::vector<Triangle> facing_up;
-  for (const Triangle& t : mesh.triangles) {
-    std::array<Eigen::Vector2d, 3> corners;
-    for (std::size_t i = 0; i < 3; ++i) corners[i] = mesh.vertices[t[i]].head<2>();
-    if (internal::core::turn(corners[0], corners[1], corners[2]) > 0) {
-      facing_up.push_back({first[t[0]], first[t[1]], first[t[2]]});
+/// The mesh seen from above, rounded to the grid before anything is decided: what is made of it has to do with itself
+/// alone, so that no sliver of a rounding's width winds the wrong way.
+struct Plan {
+  std::vector<GridPoint> corners;   ///< each place once
+  std::vector<Triangle> facing_up;  ///< exactly
+
+  Plan(const Mesh& mesh, const PlanGrid& grid) {
+    std::map<GridPoint, std::uint32_t> at;
+    std::vector<std::uint32_t> corner_of;
+    corner_of.reserve(mesh.vertices.size());
+    for (const Vec3& vertex : mesh.vertices) {
+      const auto [place, is_new] = at.try_emplace(grid.to_grid(vertex), static_cast<std::uint32_t>(corners.size()));
+      if (is_new) corners.push_back(place->first);
+      corner_of.push_back(place->second);
+    }
+    for (const Triangle& t : mesh.triangles) {
+      const Triangle seen{corner_of[t[0]], corner_of[t[1]], corner_of[t[2]]};
+      if (internal::city::turn(corners[seen[0]], corners[seen[1]], corners[seen[2]]) > 0) facing_up.push_back(seen);
     }
   }
+};
+
+/// The sides of triangles that face up and whose neighbours there do not, each in the triangles' direction.
+std::multimap<std::uint32_t, std::uint32_t> rim_of(const Plan& plan) {
   std::multimap<std::uint32_t, std::uint32_t> rim;
-  const std::vector<internal::core::EdgeUse> uses = internal::core::edge_uses(facing_up, mesh.vertices.size());
+  const std::vector<internal::core::EdgeUse> uses = internal::core::edge_uses(plan.facing_up, plan.corners.size());
   internal::core::for_each_edge(uses, [&](std::span<const internal::core::EdgeUse> edge) {
     long forward = 0;
     for (const internal::core::EdgeUse& use : edge) forward += use.forward ? 1 : -1;
@@ -72,13 +82,13 @@ std::multimap<std::uint32_t, std::uint32_t> rim_of(const Mesh& mesh) {
 }
 
 /// As many sides end at a corner as begin there: any way through them is a ring.
-std::vector<GridRing> rings_of_rim(const Mesh& mesh, const PlanGrid& grid) {
-  std::multimap<std::uint32_t, std::uint32_t> rim = rim_of(mesh);
+std::vector<GridRing> rings_of_rim(const Plan& plan) {
+  std::multimap<std::uint32_t, std::uint32_t> rim = rim_of(plan);
   std::vector<GridRing> rings;
   while (!rim.empty()) {
     GridRing& ring = rings.emplace_back();
     for (auto side = rim.begin(); side != rim.end();) {
-      ring.push_back(grid.to_grid(mesh.vertices[side->first]));
+      ring.push_back(plan.corners[side->first]);
       const std::uint32_t next = side->second;
       rim.erase(side);
       side = rim.find(next);
@@ -94,7 +104,7 @@ std::vector<PlanPolygon> footprint_of_mesh(const Mesh& mesh) {
   internal::core::check_oriented(mesh);
   if (mesh.empty()) return {};
   const PlanGrid grid(bounding_box(mesh));
-  const std::vector<GridRing> rings = rings_of_rim(mesh, grid);
+  const std::vector<GridRing> rings = rings_of_rim(Plan(mesh, grid));
   internal::city::Clipping clipping;
   for (const GridRing& ring : rings) clipping.add(ring);
   std::vector<PlanPolygon> polygons;
