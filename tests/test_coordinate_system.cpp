@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <iostream>
 #include <limits>
 #include <string>
@@ -119,6 +121,34 @@ TEST(CoordinateSystem, TakesProjAndWktTexts) {
   const CoordinateSystem bound("+proj=utm +zone=32 +ellps=intl +towgs84=-87,-98,-121", "test");
   EXPECT_FALSE(bound.is_geographic());
   EXPECT_NEAR((bound.from_lonlat(place) - utm).norm(), 210, 60);
+}
+
+// Texts come from mission files, and those from anywhere.
+TEST(CoordinateSystem, ReadsNoFilesButThoseOfProj) {
+  const testing::TemporaryDirectory folder;
+  const auto is_refused = [](const std::string& text) {
+    try {
+      CoordinateSystem(text, "test").to_lonlat({9, 50});
+    } catch (const Error&) {
+      return true;
+    }
+    return false;
+  };
+  testing::write_bytes(folder / "init", "<4326> +proj=longlat +datum=WGS84 +no_defs <>\n");
+  EXPECT_TRUE(is_refused("+init=" + (folder / "init").string() + ":4326"));
+  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+  is_refused("+proj=longlat +ellps=bessel +nadgrids=" + (folder / "pipe").string() + ",@null");  // does not wait for it
+
+  const std::filesystem::path data = "/usr/share/proj", grid = "BETA2007.gsb";
+  if (!std::filesystem::exists(data / grid)) GTEST_SKIP() << "proj-data is not installed";
+  std::filesystem::copy_file(data / grid, folder / grid);
+  std::filesystem::create_symlink(folder / grid, folder / "link.gsb");
+  const std::string longlat = "+proj=longlat +ellps=bessel +nadgrids=";
+  EXPECT_FALSE(is_refused(longlat + grid.string()));
+  EXPECT_TRUE(is_refused(longlat + (folder / grid).string()));
+  EXPECT_TRUE(is_refused(longlat + (data / ".." / ".." / ".." / folder.path().relative_path() / grid).string()));
+  const testing::EnvironmentVariable by_user("PROJ_DATA", folder.path().string() + ":" + data.string());
+  EXPECT_FALSE(is_refused(longlat + (folder / grid).string()));
 }
 
 TEST(CoordinateSystem, SaysWhatItDoesNotKnow) {

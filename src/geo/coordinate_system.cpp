@@ -1,14 +1,13 @@
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <initializer_list>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "core/format.h"
 #include "geo/local_frame.h"
+#include "geo/proj_files.h"
 #include "geo/proj_library.h"
 #include "vantage/error.h"
 #include "vantage/input.h"
@@ -52,23 +51,18 @@ std::string in_words_of_proj(const std::string& text) {
   return proj_text && text.find("+type=crs") == std::string::npos ? text + " +type=crs" : text;
 }
 
-/// Where PROJ reads files from: the resource folder first, if it has the database, then where others put grids. PROJ
-/// asks its own places where this is not called.
+/// Where PROJ looks for files: the resource folder first, if it has the database, then where others put grids. PROJ
+/// looks in its own places where this is not called.
 void set_search_paths(PJ_CONTEXT* context) {
   const std::filesystem::path resources = resource_folder();
   const std::filesystem::path folder = resources / "proj";
   std::error_code ignored;
   if (resources.empty() || !std::filesystem::is_regular_file(folder / "proj.db", ignored)) return;
-  std::vector<std::string> paths{folder.string()};
-  const char* by_user = std::getenv("PROJ_DATA");
-  if (!by_user) by_user = std::getenv("PROJ_LIB");
-  std::istringstream words(by_user ? by_user : "");
-  for (std::string path; std::getline(words, path, ':');) {
-    if (!path.empty()) paths.push_back(path);
-  }
+  std::vector<std::filesystem::path> paths = folders_of_user();
+  paths.insert(paths.begin(), folder);
   paths.insert(paths.end(), {"/usr/local/share/proj", "/usr/share/proj"});
   std::vector<const char*> pointers;
-  for (const std::string& path : paths) pointers.push_back(path.c_str());
+  for (const std::filesystem::path& path : paths) pointers.push_back(path.c_str());
   proj().proj_context_set_search_paths(context, static_cast<int>(pointers.size()), pointers.data());
 }
 
@@ -83,6 +77,7 @@ bool is_one_of(PJ_TYPE type, std::initializer_list<PJ_TYPE> types) {
 
 struct CoordinateSystem::Data {
   std::string message;  // before the context, which writes into it
+  std::vector<std::filesystem::path> folders;
   Context context;
   Object to_wgs84;
   std::string code, name, vertical_name, where;
@@ -194,6 +189,9 @@ CoordinateSystem::CoordinateSystem(const std::string& text, const std::string& w
         "install proj-data and libproj25 (Debian); if PROJ_DATA or PROJ_LIB is set, unset it or let it name the "
         "folder that holds proj.db");
   }
+
+  data_->folders = data_folders(context);
+  allow_files_in(context, data_->folders);
 
   Object system = data_->create(text);
   data_->name_after(system.get(), text);
