@@ -5,6 +5,7 @@
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
+#include <chrono>
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -29,10 +30,10 @@ class LiveServerThread : public testing::Cli {
  protected:
   void SetUp() override {
     Cli::SetUp();
-    Session session;
-    session.open_file(folder_ / "mission.yaml");
-    server_ = std::make_unique<PageServer>(std::move(session), "<html><!--LIVE--></html>", 0);
-    thread_ = std::thread([this] { server_->run([this] { return is_over_.load(); }); });
+    session_.open_file(folder_ / "mission.yaml");
+    server_ = std::make_unique<PageServer>(0);
+    thread_ = std::thread(
+        [this] { server_->run(session_, "<html><!--LIVE--></html>", 0, [this] { return is_over_.load(); }); });
   }
   void TearDown() override {
     is_over_ = true;
@@ -91,6 +92,7 @@ class LiveServerThread : public testing::Cli {
   }
 
   asio::io_context context_;
+  Session session_;
   std::unique_ptr<PageServer> server_;
   std::atomic<bool> is_over_ = false;
   std::thread thread_;
@@ -140,6 +142,25 @@ TEST_F(LiveServerThread, AnswersAndDropsWhatIsStale) {
   EXPECT_TRUE(is_last_computed);
 }
 
+TEST_F(LiveServerThread, AnswersAllThatIsAskedHoweverLateItIsRead) {
+  Socket socket = opened();
+  const Json compute{{"id", 0},
+                     {"request", {{"call", "compute"}, {"text", std::string(testing::kTarget) + testing::kSensor}}}};
+  ASSERT_TRUE(ask(socket, compute).contains("value"));
+  constexpr int kMany = 500;  // more than may wait
+  std::thread asking([&] {
+    for (int id = 1; id <= kMany; ++id)
+      socket.write(asio::buffer(Json{{"id", id}, {"request", {{"call", "slice"}, {"z", 10}}}}.dump()));
+  });
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  for (int id = 1; id <= kMany; ++id) {
+    const Json answer = next(socket);
+    EXPECT_EQ(answer["id"], id);
+    EXPECT_TRUE(answer.contains("value"));
+  }
+  asking.join();
+}
+
 TEST_F(LiveServerThread, EachPageHasItsOwnSession) {
   Socket one = opened(), other = opened();
   const Json compute{{"id", 1},
@@ -170,7 +191,8 @@ TEST_F(LiveServerThread, OthersThanThePageAreLeft) {
 TEST_F(LiveServerThread, AUsedPortAndAnotherPageAreErrors) {
   const auto code_of = [&](const std::string& page, std::uint16_t port) {
     try {
-      PageServer second(Session(), page, port);
+      PageServer second(port);
+      second.run(Session(), page, 0, [] { return true; });
     } catch (const Error& error) {
       return error.code();
     }

@@ -88,6 +88,26 @@ TEST_F(LiveSession, NamesNoFileThatTheMissionDidNotName) {
   EXPECT_EQ(code_of({{"call", "compute"}, {"text", zones}}), name_of(ErrorCode::not_applicable));
 }
 
+// In a map the ground is extended out to where a target needs it: that is no part of what other missions are computed
+// in.
+TEST_F(LiveSession, ATargetFarOutLeavesTheSceneAsItIs) {
+  testing::MapText map;
+  map.box(0, 0, 30, 30, {{"building", "yes"}, {"height", "9"}});
+  write("map.osm", map.text());
+  const std::string near = "target: {outline: [[40, 0], [50, 0], [50, 10]]}\nsensor: {max_range: 60}\n";
+  const std::string far = "target: {outline: [[110, 0], [120, 0], [120, 10]]}\nsensor: {max_range: 60}\n";
+  write("map.yaml", "scene: {osm: map.osm}\n" + near);
+  session_.open_file(folder_ / "map.yaml");
+  const auto facets = [&](const std::string& mission) { return Json::parse(session_.compute(mission))["facets"]; };
+  const Json before = facets(near), hash = Json::parse(session_.hello())["scene"]["hash"];
+  EXPECT_NE(facets(far), before);
+  EXPECT_EQ(ask({{"call", "prove"}}).header["value"]["verdict"], "proved");
+  EXPECT_EQ(facets(near), before);
+  EXPECT_EQ(Json::parse(session_.hello())["scene"]["hash"], hash);
+  write("edited.yaml", "scene: {osm: map.osm}\n" + near);
+  EXPECT_EQ(run_mission(resolve_mission(read_mission(folder_ / "edited.yaml"))).volume.mesh.triangles.size(), before);
+}
+
 TEST_F(LiveSession, SavesOnlyFormatsOfVolumes) {
   ask({{"call", "compute"}, {"text", kSquare}});
   for (const char* const format : {"ply", "glb", "stl", "obj"}) {
@@ -162,6 +182,10 @@ TEST_F(LiveSession, RequestsOfOthersAreRefused) {
         R"({"id": 1, "request": {"call": "slice", "z": "high"}})"}) {
     EXPECT_THROW(parse_request(text), vantage::Error) << text;
   }
+  EXPECT_EQ(parse_request(R"({"id": 1, "x": [[1], {}], "request": {"call": "prove", "y": [2]}})").call, "prove");
+  std::string points = R"({"id": 1, "request": {"call": "query", "points": [[0, 0, 0])";
+  for (int i = 0; i < 1000; ++i) points += ", [0, 0, 0]";
+  EXPECT_THROW(parse_request(points + "]}}"), vantage::Error);
   EXPECT_THROW(parse_request(std::string(100000, '[')), vantage::Error);
 }
 
@@ -169,20 +193,36 @@ TEST(LiveGate, OpensForTheTokenAndTheOwnHostAlone) {
   const std::string token = random_token();
   ASSERT_EQ(token.size(), 32u);
   EXPECT_NE(token, random_token());
-  const Gate gate(token, 8090);
+  const Gate gate(token);
   EXPECT_TRUE(gate.opens("/?token=" + token, "/"));
   EXPECT_FALSE(gate.opens("/?token=" + token + "0", "/"));
   EXPECT_FALSE(gate.opens("/?token=" + token.substr(1) + "x", "/"));
   EXPECT_FALSE(gate.opens("/?token=", "/"));
   EXPECT_FALSE(gate.opens("/", "/"));
   EXPECT_FALSE(gate.opens("/socket?token=" + token, "/"));
-  EXPECT_TRUE(gate.is_own_host("127.0.0.1:8090"));
-  EXPECT_TRUE(gate.is_own_host("localhost:8090"));
-  for (const char* const host : {"127.0.0.1", "127.0.0.1:80", "evil.example:8090", "127.0.0.1:8090.evil.example", ""})
-    EXPECT_FALSE(gate.is_own_host(host)) << host;
-  EXPECT_TRUE(gate.is_own_origin("http://127.0.0.1:8090"));
-  for (const char* const origin : {"https://127.0.0.1:8090", "http://evil.example", "null", ""})
-    EXPECT_FALSE(gate.is_own_origin(origin)) << origin;
+  for (const char* const host : {"127.0.0.1:8090", "localhost:8090", "127.0.0.1", "localhost:9000"})
+    EXPECT_TRUE(Gate::is_own_host(host)) << host;
+  for (const char* const host : {"evil.example:8090", "evil.example", "127.0.0.1:8090.evil.example", "127.0.0.1:", "",
+                                 "127.0.0.1.evil.example", "localhost:1:2", "[::1]:8090"})
+    EXPECT_FALSE(Gate::is_own_host(host)) << host;
+  EXPECT_TRUE(Gate::is_own_origin("http://127.0.0.1:8090", "127.0.0.1:8090"));
+  for (const char* const origin :
+       {"https://127.0.0.1:8090", "http://evil.example", "null", "", "http://127.0.0.1:8091", "http://localhost:8090"})
+    EXPECT_FALSE(Gate::is_own_origin(origin, "127.0.0.1:8090")) << origin;
+  EXPECT_FALSE(Gate::is_own_origin("http://evil.example", "evil.example"));
+}
+
+TEST_F(LiveSession, AVolumeThatIsShownMustBeClosed) {
+  const auto code_of_shown = [&](const std::string& file) {
+    try {
+      session_.show_volume(folder_ / file);
+    } catch (const vantage::Error& error) {
+      return error.code();
+    }
+    return ErrorCode::internal_defect;
+  };
+  write("open.obj", "v 0 0 9\nv 1 0 9\nv 0 1 9\nf 1 2 3\n");
+  EXPECT_EQ(code_of_shown("open.obj"), ErrorCode::mesh_not_closed);
 }
 
 TEST_F(LiveSession, AReportHoldsTheVolumeAndItsProof) {

@@ -22,13 +22,36 @@ constexpr const char* kReportExamples =
     "\n"
     "The report is one file: scene, volume, numbers, what bounds the volume, and the verdict of the proof. It opens "
     "in\n"
-    "any browser with WebGL and asks no other host for anything: docs/view.md.\n";
+    "any browser with WebGL and asks no other host for anything: docs/view.md. It is written whatever the proof "
+    "says.\n"
+    "Exit code 0: all is proved, or no proof was asked for, or there is none. 1: something is wrong. 4: neither.\n";
 
 struct ReportArguments {
   CommonOptions common;
   std::string mission, volume, page, output;
   bool no_proof = false;
 };
+
+/// Says what the proof says, where that is not that all is proved. Returns the exit code.
+int judge(live::Session& session, const Progress& progress) {
+  if (const Volume& volume = session.result()->volume; volume.outcome != Outcome::computed) {
+    note("there is no volume: " + volume.reason + "; " + volume.hint);
+    return kSuccess;
+  }
+  try {
+    session.prove(progress);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::input) throw;
+    note("there is no proof: " + error.problem());
+    return kSuccess;
+  }
+  const ProofReport& report = *session.proof();
+  if (report.verdict() == ProofVerdict::proved) return kSuccess;
+  for (const ClaimProof& claim : report.claims) {
+    if (claim.verdict != ProofVerdict::proved) note(claim.name + ": " + name_of(claim.verdict) + ": " + claim.text);
+  }
+  return report.verdict() == ProofVerdict::wrong ? kCheckFailed : kUndecided;
+}
 
 int run_report(const ReportArguments& options) {
   if (options.mission == "-") {
@@ -41,8 +64,10 @@ int run_report(const ReportArguments& options) {
     check_readable(options.volume, "the volume");
     inputs.emplace_back(options.volume);
   }
+  if (!options.page.empty()) inputs.emplace_back(options.page);
   check_not_an_input(options.output, inputs);
   const std::string page = read_page("report.html", options.page);
+  int verdict = kSuccess;
   {
     ProgressLine progress(options.common);
     live::Session session;
@@ -52,10 +77,11 @@ int run_report(const ReportArguments& options) {
     } else {
       session.show_volume(options.volume, progress.callback());
     }
+    if (!options.no_proof) verdict = judge(session, progress.callback());
     write_whole_file(options.output, live::report_page(session, page, !options.no_proof, progress.callback()));
   }
   if (!options.common.quiet) print("wrote " + options.output + "\n");
-  return kSuccess;
+  return verdict;
 }
 
 }  // namespace

@@ -1,3 +1,5 @@
+#include <fcntl.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cstdint>
@@ -22,8 +24,9 @@ constexpr const char* kViewExamples =
     "  vantage view mission.yaml --port 8090 --no-browser\n"
     "  ssh -L 8090:127.0.0.1:8090 host vantage view mission.yaml --port 8090 --no-browser\n"
     "\n"
-    "The page is served on 127.0.0.1 alone, to whoever has the token in the address; Ctrl-C ends it. It reads the\n"
-    "files that the mission names, and no others, and writes none: docs/view.md.\n";
+    "The page is served on 127.0.0.1 alone, to whoever has the token in the address; Ctrl-C ends it, with exit code "
+    "0.\n"
+    "It reads the files that the mission names, and no others, and writes none: docs/view.md.\n";
 
 struct ViewArguments {
   CommonOptions common;
@@ -32,16 +35,20 @@ struct ViewArguments {
   bool no_browser = false;
 };
 
-/// Where there is a desktop. The page can be opened by hand as well, so that it fails is no error.
+/// Where there is a desktop. The page can be opened by hand as well, so that it fails is no error. The browser may live
+/// longer than this program: it gets a session of its own, and nothing of the terminal.
 void open_browser(const std::string& address) {
   if (std::getenv("DISPLAY") == nullptr && std::getenv("WAYLAND_DISPLAY") == nullptr) return;
   const pid_t child = ::fork();
+  if (child > 0) ::waitpid(child, nullptr, 0);
   if (child != 0) return;
-  if (::fork() == 0) {
-    ::execlp("xdg-open", "xdg-open", address.c_str(), nullptr);
-    ::_exit(1);
+  ::setsid();
+  if (::fork() != 0) ::_exit(0);
+  if (const int nothing = ::open("/dev/null", O_RDWR); nothing >= 0) {
+    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) ::dup2(nothing, stream);
   }
-  ::_exit(0);
+  ::execlp("xdg-open", "xdg-open", address.c_str(), nullptr);
+  ::_exit(1);
 }
 
 int run_view(const ViewArguments& options) {
@@ -50,18 +57,18 @@ int run_view(const ViewArguments& options) {
                 "command line", "write it to a file first");
   }
   std::string page = read_page("index.html", options.page);
+  live::PageServer server(options.port);
   live::Session session;
   {
     ProgressLine progress(options.common);
     session.open_file(options.mission, progress.callback());
     if (!options.volume.empty()) session.show_volume(options.volume, progress.callback());
   }
-  live::PageServer server(std::move(session), std::move(page), options.port);
+  const InterruptGuard guard;
   print(server.address() + "\n");
   if (!options.common.quiet) note("Open this address in a browser; Ctrl-C ends it");
   if (!options.no_browser) open_browser(server.address());
-  const InterruptGuard guard;
-  server.run([] { return noted_signal() != 0; });
+  server.run(std::move(session), std::move(page), options.common.threads, [] { return noted_signal() != 0; });
   return kSuccess;
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "live/file_bytes.h"
+#include "live/page_text.h"
 #include "vantage/error.h"
 #include "vantage/input.h"
 #include "vantage/resources.h"
@@ -15,7 +16,9 @@ namespace fs = std::filesystem;
 
 std::string content_of(const fs::path& file) {
   check_readable(file, "the page");
-  return live::bytes_of(file);
+  std::string page = live::bytes_of(file);
+  live::check_page(page, file.string());
+  return page;
 }
 
 }  // namespace

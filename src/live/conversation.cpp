@@ -3,7 +3,7 @@
 #include <boost/asio/post.hpp>
 #include <utility>
 
-#include "vantage/error.h"
+#include "vantage/threads.h"
 
 namespace vantage::live {
 
@@ -15,16 +15,19 @@ namespace {
 
 constexpr std::size_t kLargestMessage = std::size_t{4} << 20;  // a mission file has 1 MiB at most
 constexpr std::size_t kMostWaiting = 64;
+constexpr std::size_t kMostOutgoing = std::size_t{16} << 20;
 
 }  // namespace
 
-Conversation::Conversation(beast::tcp_stream stream, Session session, asio::thread_pool& workers,
-                           const std::atomic<bool>& is_over)
-    : socket_(std::move(stream)), session_(std::move(session)), workers_(workers), is_over_(is_over) {}
+Conversation::Conversation(beast::tcp_stream stream, Session session, Workshop& workshop,
+                           std::shared_ptr<const void> seat)
+    : socket_(std::move(stream)), session_(std::move(session)), workshop_(workshop), seat_(std::move(seat)) {}
 
 void Conversation::start(const Upgrade& request) {
   beast::get_lowest_layer(socket_).expires_never();  // the socket has its own limits of time
-  socket_.set_option(websocket::stream_base::timeout::suggested(beast::role_type::server));
+  auto timeout = websocket::stream_base::timeout::suggested(beast::role_type::server);
+  timeout.keep_alive_pings = true;  // a page that is only looked at asks nothing
+  socket_.set_option(timeout);
   socket_.read_message_max(kLargestMessage);
   socket_.binary(true);
   socket_.auto_fragment(false);
@@ -45,13 +48,27 @@ void Conversation::take(Error error) {
   incoming_.consume(incoming_.size());
   try {
     enqueue(parse_request(text));
-  } catch (const vantage::Error&) {
-    // Not our page: nothing can be answered, since nothing says to what.
+  } catch (const std::exception&) {
+    // Not our page, or no room for what it asks: nothing can be answered, since nothing says to what.
     leave();
     socket_.async_close(websocket::close_code::policy_error, [self = shared_from_this()](Error) {});
     return;
   }
+  is_paused_ = is_behind();
+  if (!is_paused_) read();
+}
+
+bool Conversation::is_behind() const { return waiting_.size() >= kMostWaiting || outgoing_bytes_ > kMostOutgoing; }
+
+void Conversation::catch_up() {
+  if (!is_paused_ || is_gone_ || is_behind()) return;
+  is_paused_ = false;
   read();
+}
+
+void Conversation::leave() {
+  is_gone_ = true;
+  waiting_.clear();
 }
 
 void Conversation::enqueue(Request request) {
@@ -65,24 +82,29 @@ void Conversation::enqueue(Request request) {
       at = waiting_.erase(at);
     }
   }
-  if (waiting_.size() < kMostWaiting) {
-    waiting_.push_back(std::move(request));
-  } else {
-    send(stale_answer(request));
-  }
+  waiting_.push_back(std::move(request));
   work();
 }
 
 void Conversation::work() {
   if (is_working_ || waiting_.empty()) return;
   is_working_ = true;
-  asio::post(workers_, [self = shared_from_this(), request = std::move(waiting_.front())] {
-    const Progress progress = [&](std::string_view, double) { return !self->is_gone_ && !self->is_over_; };
-    std::string message = answer(self->session_, self->areas_, request, progress);
-    asio::post(self->socket_.get_executor(), [self, message = std::move(message)]() mutable {
+  asio::post(workshop_.workers, [self = shared_from_this(), request = std::move(waiting_.front())]() mutable {
+    Workshop& workshop = self->workshop_;
+    const auto goes_on = [&] { return !self->is_gone_ && !workshop.is_over; };
+    std::string message;
+    if (goes_on()) {
+      with_threads(workshop.threads, [&] {
+        message = answer(self->session_, self->areas_, request, [&](std::string_view, double) { return goes_on(); });
+      });
+    }
+    const auto executor = self->socket_.get_executor();
+    // Moved, so that the last one to hold it is never this thread.
+    asio::post(executor, [self = std::move(self), message = std::move(message)]() mutable {
       self->is_working_ = false;
       self->send(std::move(message));
       self->work();
+      self->catch_up();
     });
   });
   waiting_.pop_front();
@@ -90,6 +112,7 @@ void Conversation::work() {
 
 void Conversation::send(std::string message) {
   if (is_gone_) return;
+  outgoing_bytes_ += message.size();
   outgoing_.push_back(std::move(message));
   if (outgoing_.size() == 1) write();
 }
@@ -97,8 +120,10 @@ void Conversation::send(std::string message) {
 void Conversation::write() {
   socket_.async_write(asio::buffer(outgoing_.front()), [self = shared_from_this()](Error error, std::size_t) {
     if (error) return self->leave();
+    self->outgoing_bytes_ -= self->outgoing_.front().size();
     self->outgoing_.pop_front();
     if (!self->outgoing_.empty()) self->write();
+    self->catch_up();
   });
 }
 

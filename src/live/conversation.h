@@ -15,14 +15,22 @@
 
 namespace vantage::live {
 
+/// What conversations have in common.
+struct Workshop {
+  boost::asio::thread_pool workers{1};
+  int threads = 0;  ///< that a computation may use; 0: all
+  std::atomic<bool> is_over = false;
+};
+
 /// Lives as long as its connection. All but the computing runs on the thread of the connection's context; the computing
-/// runs on `workers`, and is stopped when the page goes away or `is_over`.
+/// runs on the workshop's, and is stopped when the page goes away or all `is_over`. Of a page that asks faster than it
+/// is answered, or that does not take its answers, no more is read until it has caught up.
 class Conversation : public std::enable_shared_from_this<Conversation> {
  public:
   using Upgrade = boost::beast::http::request<boost::beast::http::string_body>;
 
-  Conversation(boost::beast::tcp_stream stream, Session session, boost::asio::thread_pool& workers,
-               const std::atomic<bool>& is_over);
+  /// `seat`: kept for as long as it lives.
+  Conversation(boost::beast::tcp_stream stream, Session session, Workshop& workshop, std::shared_ptr<const void> seat);
 
   void start(const Upgrade& request);
 
@@ -35,18 +43,22 @@ class Conversation : public std::enable_shared_from_this<Conversation> {
   void work();
   void send(std::string message);
   void write();
-  void leave() { is_gone_ = true; }
+  bool is_behind() const;
+  void catch_up();
+  void leave();
 
   boost::beast::websocket::stream<boost::beast::tcp_stream> socket_;
   boost::beast::flat_buffer incoming_;
   Session session_;
   MapAreas areas_;
-  boost::asio::thread_pool& workers_;
-  const std::atomic<bool>& is_over_;
+  Workshop& workshop_;
+  std::shared_ptr<const void> seat_;
   std::atomic<bool> is_gone_ = false;
   bool is_working_ = false;
+  bool is_paused_ = false;
   std::deque<Request> waiting_;
   std::deque<std::string> outgoing_;
+  std::size_t outgoing_bytes_ = 0;
 };
 
 }  // namespace vantage::live

@@ -1,5 +1,7 @@
 #include "live/gate.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <random>
 
 namespace vantage::live {
@@ -23,14 +25,17 @@ bool Gate::opens(std::string_view target, std::string_view path) const {
   return difference == 0;
 }
 
-bool Gate::is_own_host(std::string_view host) const {
-  const std::string port = ":" + std::to_string(port_);
-  return host == "127.0.0.1" + port || host == "localhost" + port;
+bool Gate::is_own_host(std::string_view host) {
+  const std::string_view port = host.substr(std::min(host.find(':'), host.size()));
+  const std::string_view name = host.substr(0, host.size() - port.size());
+  const bool is_number = port.empty() || (port.size() > 1 && port.size() <= 6 &&
+                                          port.find_first_not_of("0123456789", 1) == std::string_view::npos);
+  return is_number && (name == "127.0.0.1" || name == "localhost");
 }
 
-bool Gate::is_own_origin(std::string_view origin) const {
+bool Gate::is_own_origin(std::string_view origin, std::string_view host) {
   constexpr std::string_view kScheme = "http://";
-  return origin.substr(0, kScheme.size()) == kScheme && is_own_host(origin.substr(kScheme.size()));
+  return is_own_host(host) && origin.substr(0, kScheme.size()) == kScheme && origin.substr(kScheme.size()) == host;
 }
 
 }  // namespace vantage::live

@@ -1,9 +1,9 @@
 // Who may ask: a token that only the person at this machine is told, and the right names of host and origin.
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace vantage::live {
 
@@ -12,7 +12,7 @@ std::string random_token();
 
 class Gate {
  public:
-  Gate(std::string token, std::uint16_t port) : token_(std::move(token)), port_(port) {}
+  explicit Gate(std::string token) : token_(std::move(token)) {}
 
   const std::string& token() const { return token_; }
 
@@ -21,15 +21,14 @@ class Gate {
   bool opens(std::string_view target, std::string_view path) const;
 
   /// Whether a header Host names this machine itself. Another name may be one that its owner has led here (DNS
-  /// rebinding).
-  bool is_own_host(std::string_view host) const;
+  /// rebinding). The port may be that of a tunnel.
+  static bool is_own_host(std::string_view host);
 
-  /// Whether a header Origin is that of the page: any page may open a WebSocket to any address.
-  bool is_own_origin(std::string_view origin) const;
+  /// Whether a header Origin is that of the page at `host`: any page may open a WebSocket to any address.
+  static bool is_own_origin(std::string_view origin, std::string_view host);
 
  private:
   std::string token_;
-  std::uint16_t port_;
 };
 
 }  // namespace vantage::live

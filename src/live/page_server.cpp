@@ -1,5 +1,7 @@
 #include "live/page_server.h"
 
+#include <fcntl.h>
+
 #include <atomic>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/steady_timer.hpp>
@@ -28,29 +30,28 @@ namespace {
 constexpr std::uint32_t kLargestHeader = 8192;
 constexpr std::uint64_t kLargestBody = 1024;  // nobody sends one
 constexpr auto kMostTime = std::chrono::seconds(20);
+constexpr long kMostCallers = 100;
 
 /// What callers have in common.
 struct House {
-  Gate gate;
+  Gate gate{random_token()};
   Session session;
   std::string page;
-  std::string policy;
-  asio::thread_pool workers{1};
-  std::atomic<bool> is_over = false;
+  Workshop workshop;
+  std::shared_ptr<const int> seats = std::make_shared<int>();  // a copy for each caller
 };
 
-/// The page asks nothing of other hosts, and no other page may show it in a frame.
-std::string policy_of(std::uint16_t port) {
-  const std::string own = "127.0.0.1:" + std::to_string(port);
+/// The page asks nothing of other hosts, and no other page may show it in a frame. `host`: one of this machine's names.
+std::string policy_of(std::string_view host) {
   return "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; "
          "connect-src ws://" +
-         own + " ws://localhost:" + std::to_string(port) + "; frame-ancestors 'none'; base-uri 'none'";
+         std::string(host) + "; frame-ancestors 'none'; base-uri 'none'";
 }
 
 /// One request of a browser: for the page, or to become a conversation.
 class Caller : public std::enable_shared_from_this<Caller> {
  public:
-  Caller(Tcp::socket socket, House& house) : stream_(std::move(socket)), house_(house) {}
+  Caller(Tcp::socket socket, House& house) : stream_(std::move(socket)), house_(house), seat_(house.seats) {}
 
   void start() {
     parser_.header_limit(kLargestHeader);
@@ -70,14 +71,15 @@ class Caller : public std::enable_shared_from_this<Caller> {
     const Request& request = parser_.get();
     const Gate& gate = house_.gate;
     const std::string_view target = view(request.target());
-    if (!gate.is_own_host(view(request[http::field::host]))) {
-      return reply(http::status::misdirected_request, "This is not the address of this machine.\n");
+    const std::string_view host = view(request[http::field::host]);
+    if (!Gate::is_own_host(host)) {
+      return reply(http::status::misdirected_request, "Open http://127.0.0.1 with the port, or http://localhost.\n");
     }
     if (beast::websocket::is_upgrade(request)) {
-      const bool is_ours = gate.opens(target, "/socket") && gate.is_own_origin(view(request[http::field::origin]));
+      const bool is_ours =
+          gate.opens(target, "/socket") && Gate::is_own_origin(view(request[http::field::origin]), host);
       if (!is_ours) return reply(http::status::forbidden, "Open the address that the program printed.\n");
-      std::make_shared<Conversation>(std::move(stream_), house_.session, house_.workers, house_.is_over)
-          ->start(request);
+      std::make_shared<Conversation>(std::move(stream_), house_.session, house_.workshop, seat_)->start(request);
       return;
     }
     if (request.method() != http::verb::get && request.method() != http::verb::head) {
@@ -93,7 +95,8 @@ class Caller : public std::enable_shared_from_this<Caller> {
     response_.emplace(status, parser_.get().version());
     response_->set(http::field::content_type, type);
     response_->set(http::field::cache_control, "no-store");
-    response_->set("Content-Security-Policy", house_.policy);
+    const std::string_view host = view(parser_.get()[http::field::host]);
+    response_->set("Content-Security-Policy", policy_of(Gate::is_own_host(host) ? host : "127.0.0.1"));
     response_->set("X-Content-Type-Options", "nosniff");
     response_->set("Referrer-Policy", "no-referrer");
     response_->keep_alive(false);
@@ -106,6 +109,7 @@ class Caller : public std::enable_shared_from_this<Caller> {
 
   beast::tcp_stream stream_;
   House& house_;
+  std::shared_ptr<const void> seat_;
   beast::flat_buffer buffer_;
   http::request_parser<http::string_body> parser_;
   std::optional<http::response<http::string_body>> response_;
@@ -115,29 +119,27 @@ class Caller : public std::enable_shared_from_this<Caller> {
 
 class PageServer::Listener {
  public:
-  Listener(Session session, std::string page, std::uint16_t port)
-      : acceptor_(opened(context_, port)),
-        house_{.gate = Gate(random_token(), acceptor_.local_endpoint().port()),
-               .session = std::move(session),
-               .page = {},
-               .policy = policy_of(acceptor_.local_endpoint().port())} {
-    house_.page =
-        with_start(std::move(page), "window.vantageLive={socket:\"/socket?token=" + house_.gate.token() + "\"}");
-  }
+  explicit Listener(std::uint16_t port) : acceptor_(opened(context_, port)) {}
 
   std::uint16_t port() const { return acceptor_.local_endpoint().port(); }
   const std::string& token() const { return house_.gate.token(); }
 
-  void run(const std::function<bool()>& is_over) {
+  void run(Session session, std::string page, int threads, const std::function<bool()>& is_over) {
+    house_.session = std::move(session);
+    house_.page =
+        with_start(std::move(page), "window.vantageLive={socket:\"/socket?token=" + house_.gate.token() + "\"}");
+    house_.workshop.threads = threads;
     accept();
     watch(is_over);
     context_.run();
-    house_.workers.join();
+    house_.workshop.workers.stop();
+    house_.workshop.workers.join();
   }
 
  private:
   static Tcp::acceptor opened(asio::io_context& context, std::uint16_t port) {
     Tcp::acceptor acceptor(context, Tcp::v4());
+    ::fcntl(acceptor.native_handle(), F_SETFD, FD_CLOEXEC);  // a browser that is started may live longer
     beast::error_code error;
     acceptor.set_option(asio::socket_base::reuse_address(true), error);
     acceptor.bind({asio::ip::address_v4::loopback(), port}, error);
@@ -153,8 +155,16 @@ class PageServer::Listener {
   void accept() {
     acceptor_.async_accept([this](beast::error_code error, Tcp::socket socket) {
       if (error == asio::error::operation_aborted) return;
-      if (!error) std::make_shared<Caller>(std::move(socket), house_)->start();
+      if (error) return accept_later();  // no descriptor is left
+      if (house_.seats.use_count() <= kMostCallers) std::make_shared<Caller>(std::move(socket), house_)->start();
       accept();
+    });
+  }
+
+  void accept_later() {
+    pause_.expires_after(std::chrono::milliseconds(100));
+    pause_.async_wait([this](beast::error_code error) {
+      if (!error) accept();
     });
   }
 
@@ -162,24 +172,25 @@ class PageServer::Listener {
     timer_.expires_after(std::chrono::milliseconds(100));
     timer_.async_wait([this, &is_over](beast::error_code) {
       if (!is_over()) return watch(is_over);
-      house_.is_over = true;
+      house_.workshop.is_over = true;
       context_.stop();
     });
   }
 
   asio::io_context context_{1};
   Tcp::acceptor acceptor_;
-  asio::steady_timer timer_{context_};
+  asio::steady_timer timer_{context_}, pause_{context_};
   House house_;
 };
 
-PageServer::PageServer(Session session, std::string page, std::uint16_t port)
-    : listener_(std::make_unique<Listener>(std::move(session), std::move(page), port)) {}
+PageServer::PageServer(std::uint16_t port) : listener_(std::make_unique<Listener>(port)) {}
 PageServer::~PageServer() = default;
 
 std::uint16_t PageServer::port() const { return listener_->port(); }
 const std::string& PageServer::token() const { return listener_->token(); }
 std::string PageServer::address() const { return "http://127.0.0.1:" + std::to_string(port()) + "/?token=" + token(); }
-void PageServer::run(const std::function<bool()>& is_over) { listener_->run(is_over); }
+void PageServer::run(Session session, std::string page, int threads, const std::function<bool()>& is_over) {
+  listener_->run(std::move(session), std::move(page), threads, is_over);
+}
 
 }  // namespace vantage::live

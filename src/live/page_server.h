@@ -14,9 +14,8 @@ namespace vantage::live {
 /// session; each page has a copy of the session, and they are answered one at a time.
 class PageServer {
  public:
-  /// `page`: text of web/dist/index.html. `port`: 0 takes one that is free. Throws Error(input) for a port that is
-  /// used.
-  PageServer(Session session, std::string page, std::uint16_t port);
+  /// `port`: 0 takes one that is free. Whoever calls before it runs waits. Throws Error(input) for a port that is used.
+  explicit PageServer(std::uint16_t port);
   ~PageServer();
   PageServer(const PageServer&) = delete;
   PageServer& operator=(const PageServer&) = delete;
@@ -25,8 +24,10 @@ class PageServer {
   const std::string& token() const;
   std::string address() const;  ///< "http://127.0.0.1:PORT/?token=..."
 
-  /// Until `is_over`, which is asked ten times a second, says so. What is being computed then is stopped.
-  void run(const std::function<bool()>& is_over);
+  /// Until `is_over`, which is asked ten times a second, says so. What is being computed then is stopped. `page`: text
+  /// of web/dist/index.html. `threads`: that a computation may use; 0: all. Throws Error(page_missing) for another
+  /// page.
+  void run(Session session, std::string page, int threads, const std::function<bool()>& is_over);
 
  private:
   class Listener;

@@ -1,5 +1,7 @@
 #include "live/request.h"
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <chrono>
 #include <cmath>
@@ -66,10 +68,45 @@ const ViewMesh* mesh_of(const Session& session, const std::string& call) {
   return call == "compute" || call == "shown" ? &session.volume_view() : nullptr;
 }
 
+constexpr std::size_t kMostPoints = 1000;
+
+/// What is not asked is not even held in memory.
+bool is_known(const Json& key) {
+  constexpr std::array kKeys = {"id", "request", "call", "text", "format", "z", "points"};
+  return std::find(kKeys.begin(), kKeys.end(), key.get_ref<const std::string&>()) != kKeys.end();
+}
+
+Json parsed(std::string_view text) {
+  const auto filter = [](int, Json::parse_event_t event, Json& value) {
+    return event != Json::parse_event_t::key || is_known(value);
+  };
+  return Json::parse(text, filter, false);
+}
+
+std::string message_of(Session& session, MapAreas& areas, const Request& request, const Progress& progress) {
+  const auto start = std::chrono::steady_clock::now();
+  const std::string text = answered([&] { return value_of(session, areas, request, progress); });
+  Json value = Json::parse(text);
+  Json header{{"id", request.id}};
+  const bool is_error = value.contains("error");
+  if (is_error) {
+    header["error"] = std::move(value["error"]);
+  } else {
+    header["value"] = std::move(value);
+  }
+  const ViewMesh* mesh = is_error ? nullptr : mesh_of(session, request.call);
+  const std::string* bytes = !is_error && request.call == "save" ? &session.bytes() : nullptr;
+  if (mesh) header["mesh"] = {mesh->positions.size(), mesh->triangles.size(), mesh->label_of.size()};
+  if (bytes) header["bytes"] = bytes->size();
+  const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
+  header["engine_ms"] = time.count();
+  return framed(header, mesh, bytes);
+}
+
 }  // namespace
 
 Request parse_request(std::string_view text) {
-  const Json message = Json::parse(text, nullptr, false);
+  const Json message = parsed(text);
   if (!message.is_object() || !message.contains("id") || !message["id"].is_number_unsigned()) refuse("it has no id");
   const auto found = message.find("request");
   if (found == message.end() || !found->is_object()) refuse("it asks nothing");
@@ -90,7 +127,7 @@ Request parse_request(std::string_view text) {
   };
   if (found->contains("z")) request.z_m = number((*found)["z"]);
   if (const auto points = found->find("points"); points != found->end()) {
-    if (!points->is_array()) refuse("the points are not a list");
+    if (!points->is_array() || points->size() > kMostPoints) refuse("the points are not a list of up to 1000");
     for (const Json& point : *points) {
       if (!point.is_array() || point.size() != 3) refuse("a point does not have three coordinates");
       for (const Json& coordinate : point) request.coordinates.push_back(number(coordinate));
@@ -100,23 +137,14 @@ Request parse_request(std::string_view text) {
 }
 
 std::string answer(Session& session, MapAreas& areas, const Request& request, const Progress& progress) {
-  const auto start = std::chrono::steady_clock::now();
-  const std::string text = answered([&] { return value_of(session, areas, request, progress); });
-  Json value = Json::parse(text);
-  Json header{{"id", request.id}};
-  const bool is_error = value.contains("error");
-  if (is_error) {
-    header["error"] = std::move(value["error"]);
-  } else {
-    header["value"] = std::move(value);
+  try {
+    return message_of(session, areas, request, progress);
+  } catch (const std::exception&) {  // no room for the message itself
+    Json header = Json::parse(answered([]() -> std::string { throw; }));
+    header["id"] = request.id;
+    header["engine_ms"] = 0;
+    return framed(header, nullptr, nullptr);
   }
-  const ViewMesh* mesh = is_error ? nullptr : mesh_of(session, request.call);
-  const std::string* bytes = !is_error && request.call == "save" ? &session.bytes() : nullptr;
-  if (mesh) header["mesh"] = {mesh->positions.size(), mesh->triangles.size(), mesh->label_of.size()};
-  if (bytes) header["bytes"] = bytes->size();
-  const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
-  header["engine_ms"] = time.count();
-  return framed(header, mesh, bytes);
 }
 
 std::string stale_answer(const Request& request) {

@@ -52,8 +52,9 @@ class Stopwatch {
 class TemporaryFolder {
  public:
   TemporaryFolder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "vantage-XXXXXX").string();
-    if (::mkdtemp(pattern.data()) == nullptr) {
+    std::error_code error;
+    std::string pattern = (std::filesystem::temp_directory_path(error) / "vantage-XXXXXX").string();
+    if (error || ::mkdtemp(pattern.data()) == nullptr) {
       throw Error(ErrorCode::output_unwritable, std::string("no temporary folder can be made: ") + std::strerror(errno),
                   pattern, "make room there, or set TMPDIR to a folder that can be written");
     }
@@ -160,27 +161,30 @@ std::string about() {
 }
 
 void Session::take_scene(const MissionFile& file, std::shared_ptr<const LoadedScene> loaded) {
-  prepare(std::move(loaded));
+  Stopwatch time;
+  PreparedScene prepared(loaded->scene);
+  prepare_ms_ = time.lap();
+  std::string hash = scene_hash(loaded->scene);
+  opened_ = std::make_shared<const ReadyScene>(ReadyScene{std::move(loaded), std::move(prepared), std::move(hash)});
   source_ = file.scene;
   sea_level_m_ = file.sea_level_m;
   mission_.reset();
+  computed_in_.reset();
   result_.reset();
+  proof_.reset();
   queries_.clear();
   volume_view_ = {};
 
-  const Scene& scene = loaded_->scene;
+  const Scene& scene = opened_->loaded->scene;
   const Box box = bounding_box(scene.mesh);
   origin_ = (box.min + box.max) / 2;
   scene_view_ = std::make_shared<const ViewMesh>(view_of(scene.mesh, scene.object_of, origin_));
 }
 
-void Session::prepare(std::shared_ptr<const LoadedScene> loaded) {
-  Stopwatch time;
-  PreparedScene prepared(loaded->scene);
-  prepare_ms_ = time.lap();
-  loaded_ = std::move(loaded);
-  prepared_.emplace(std::move(prepared));
-  scene_hash_ = scene_hash(loaded_->scene);
+Session::ScenePointer Session::scene_of(const Mission& mission) const {
+  if (mission.loaded == opened_->loaded) return opened_;
+  const Scene& scene = mission.loaded->scene;
+  return std::make_shared<const ReadyScene>(ReadyScene{mission.loaded, PreparedScene(scene), scene_hash(scene)});
 }
 
 std::string Session::open(std::string_view text) {
@@ -195,36 +199,49 @@ std::string Session::open(std::string_view text) {
 void Session::open_file(const std::filesystem::path& mission, const Progress& progress) {
   Stopwatch time;
   const MissionFile file = read_mission(mission);
-  // Resolving it says what is wrong before anything is shown, and extends ground that the target needs.
-  Mission resolved = resolve_mission(file, progress);
+  auto loaded = std::make_shared<const LoadedScene>(load_scene(file.scene, progress));
+  Mission resolved = resolve_mission(file, loaded, progress);  // says what is wrong before anything is shown
   read_ms_ = time.lap();
   file_ = std::filesystem::absolute(mission);
   named_ = input_files(file);
   text_ = bytes_of(file_);
-  take_scene(file, resolved.loaded);
+  take_scene(file, std::move(loaded));
+  computed_in_ = scene_of(resolved);
   mission_ = std::make_shared<const Mission>(std::move(resolved));
 }
 
-RunOptions Session::options() const { return {.prepared = prepared_, .scene_hash = scene_hash_, .kept = kept_}; }
+RunOptions Session::options(const ReadyScene& scene) const {
+  return {.prepared = scene.prepared, .scene_hash = scene.hash, .kept = kept_};
+}
 
 void Session::run(const Progress& progress) {
   Stopwatch time;
-  Result result = run_mission(*mission_, options(), progress);
+  Result result = run_mission(*mission_, options(*computed_in_), progress);
   compute_ms_ = time.lap();
-  take_volume(*mission_, std::move(result));
+  take_volume(*mission_, computed_in_, std::move(result));
 }
 
 void Session::show_volume(const std::filesystem::path& volume, const Progress& progress) {
   Mission mission = *mission_;
-  Volume read = read_volume(volume, mission.scene(), progress).volume;
+  VolumeFile file = read_volume(volume, mission.scene(), progress);
+  const VerifyOptions known = verify_options(file, mission);
+  const std::vector<Warning> warnings = volume_warnings(file, mission);
+  Volume& read = file.volume;
+  read.notes.insert(read.notes.end(), file.notes.begin(), file.notes.end());
+  read.notes.insert(read.notes.end(), warnings.begin(), warnings.end());
+  if (const OpenEdges open = find_open_edges(read.mesh); open.count > 0) {
+    throw Error(ErrorCode::mesh_not_closed, std::to_string(open.count) + " edges of the volume are open",
+                volume.string(), "give a volume that 'vantage compute' wrote");
+  }
   if (read.cause_of.empty()) {
     read.causes = {{CauseKind::scene, "the file of the volume does not say"}};
     read.cause_of.assign(read.mesh.triangles.size(), 0);
   }
-  read.frame = prepare_target(mission, *prepared_).frame();
+  read.frame = prepare_target(mission, computed_in_->prepared).frame();
   Result result;
   result.volume = std::move(read);
-  take_volume(std::move(mission), std::move(result));
+  take_volume(std::move(mission), computed_in_, std::move(result));
+  prove_options_ = {.rounding_m = known.rounding_m, .lift_m = known.lift_m};
 }
 
 std::string Session::hello() const {
@@ -236,41 +253,44 @@ std::string Session::hello() const {
 }
 
 std::string Session::scene_json() const {
-  const Scene& scene = loaded_->scene;
+  const Scene& scene = opened_->loaded->scene;
   const Box box = bounding_box(scene.mesh);
-  return text_of(Json{{"hash", scene_hash_},
+  return text_of(Json{{"hash", opened_->hash},
                       {"triangles", scene.mesh.triangles.size()},
                       {"origin", json(origin_)},
                       {"min", json(box.min)},
                       {"max", json(box.max)},
                       {"objects", objects_of(scene)},
                       {"has_areas", source_.kind == SceneSource::Kind::map},
-                      {"notes", notes_of(*loaded_)},
+                      {"notes", notes_of(*opened_->loaded)},
                       {"read_ms", read_ms_},
                       {"prepare_ms", prepare_ms_}});
 }
 
 std::string Session::compute(std::string_view text, const Progress& progress) {
-  if (!loaded_) throw Error(ErrorCode::nothing_given, "no scene is open", "", "open a mesh first");
+  if (!opened_) throw Error(ErrorCode::nothing_given, "no scene is open", "", "open a mesh first");
   Stopwatch time;
   MissionFile file = read_mission_text(text, file_, source_);
   file.sea_level_m = sea_level_m_;
   if (named_) check_named(file, *named_);
-  Mission mission = resolve_mission(file, loaded_, progress);
-  if (mission.loaded != loaded_) prepare(mission.loaded);  // ground was added, out to where the target needs it
+  Mission mission = resolve_mission(file, opened_->loaded, progress);
+  ScenePointer scene = scene_of(mission);
   const double resolve_ms = time.lap();
-  Result result = run_mission(mission, options(), progress);
+  Result result = run_mission(mission, options(*scene), progress);
   const double compute_ms = time.lap();
-  take_volume(std::move(mission), std::move(result));
+  take_volume(std::move(mission), std::move(scene), std::move(result));
   view_ms_ = time.lap();
   resolve_ms_ = resolve_ms;
   compute_ms_ = compute_ms;
   return volume_json();
 }
 
-void Session::take_volume(Mission mission, Result result) {
+void Session::take_volume(Mission mission, ScenePointer scene, Result result) {
   mission_ = std::make_shared<const Mission>(std::move(mission));
+  computed_in_ = std::move(scene);
   result_.emplace(std::move(result));
+  prove_options_ = {.lift_m = result_->volume.lift_m};
+  proof_.reset();
   queries_.clear();
   volume_view_ = view_of(result_->volume.mesh, result_->volume.cause_of, origin_);
 }
@@ -303,7 +323,7 @@ const Mission& Session::mission() const {
 
 std::string Session::query(const std::vector<double>& coordinates) {
   if (queries_.empty()) {
-    for (const std::vector<PreparedTarget>& list : prepare_views(mission(), *prepared_)) {
+    for (const std::vector<PreparedTarget>& list : prepare_views(mission(), computed_in_->prepared)) {
       queries_.emplace_back();
       for (const PreparedTarget& target : list)
         queries_.back().push_back(std::make_shared<PointQuery>(target, mission().navigation));
@@ -325,8 +345,8 @@ std::string Session::query(const std::vector<double>& coordinates) {
 
 std::string Session::prove(const Progress& progress) {
   const Mission& proved = mission();
-  const Volume& volume = result_->volume;
-  return json_text(prove_volume(proved, volume.mesh, {.lift_m = volume.lift_m}, progress));
+  if (!proof_) proof_ = prove_volume(proved, result_->volume.mesh, prove_options_, progress);
+  return json_text(*proof_);
 }
 
 std::string Session::slice(double z_m) {
@@ -353,9 +373,9 @@ std::string Session::save(const std::string& format) {
     throw Error(ErrorCode::output_format_unknown, in_quotes(format) + " is not a format of volumes", "",
                 "take ply, glb, stl or obj");
   }
+  mission();
   const TemporaryFolder folder;
   const std::vector<std::filesystem::path> files{folder.path() / ("volume." + format)};
-  mission();
   Volume volume = result_->volume;
   write_results(volume, result_request(mission(), *result_, files));
   bytes_ = bytes_of(files.front());

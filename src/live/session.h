@@ -12,6 +12,7 @@
 #include "vantage/kept_volumes.h"
 #include "vantage/mission.h"
 #include "vantage/progress.h"
+#include "vantage/prove.h"
 #include "vantage/query.h"
 #include "vantage/result.h"
 
@@ -50,8 +51,10 @@ class Session {
   /// What the points (x, y, z in turn) see of the target of the last volume.
   std::string query(const std::vector<double>& coordinates);
 
-  /// Proves the last volume, or refutes it.
+  /// Proves the last volume, or refutes it: once.
   std::string prove(const Progress& progress = {});
+  const std::optional<ProofReport>& proof() const { return proof_; }  ///< of the last volume, if it was asked for
+  const std::optional<Result>& result() const { return result_; }     ///< of the last volume
 
   /// Polygons in which a plane at the height z meets the last volume.
   std::string slice(double z_m);
@@ -60,18 +63,26 @@ class Session {
   std::string save(const std::string& format);
 
   const SceneSource& source() const { return source_; }
-  const Scene& scene() const { return loaded_->scene; }
+  const Scene& scene() const { return opened_->loaded->scene; }
 
   const ViewMesh& scene_view() const { return *scene_view_; }
   const ViewMesh& volume_view() const { return volume_view_; }
   const std::string& bytes() const { return bytes_; }
 
  private:
+  struct ReadyScene {
+    std::shared_ptr<const LoadedScene> loaded;
+    PreparedScene prepared;
+    std::string hash;
+  };
+  using ScenePointer = std::shared_ptr<const ReadyScene>;
+
   const Mission& mission() const;  ///< of the last volume
-  RunOptions options() const;
-  void prepare(std::shared_ptr<const LoadedScene> loaded);
+  /// The scene that is open, or one with more ground, out to where the mission's target needs it.
+  ScenePointer scene_of(const Mission& mission) const;
+  RunOptions options(const ReadyScene& scene) const;
   void take_scene(const MissionFile& file, std::shared_ptr<const LoadedScene> loaded);
-  void take_volume(Mission mission, Result result);
+  void take_volume(Mission mission, ScenePointer scene, Result result);
   std::string scene_json() const;
   std::string volume_json() const;
 
@@ -83,16 +94,17 @@ class Session {
 
   SceneSource source_;
   std::optional<double> sea_level_m_;
-  std::shared_ptr<const LoadedScene> loaded_;
-  std::optional<PreparedScene> prepared_;
-  std::string scene_hash_;
+  ScenePointer opened_;
   std::shared_ptr<KeptVolumes> kept_ = std::make_shared<KeptVolumes>();
   Vec3 origin_ = Vec3::Zero();
   double read_ms_ = 0, prepare_ms_ = 0;
   std::shared_ptr<const ViewMesh> scene_view_ = std::make_shared<const ViewMesh>();
 
   std::shared_ptr<const Mission> mission_;
+  ScenePointer computed_in_;
   std::optional<Result> result_;
+  ProveOptions prove_options_;
+  std::optional<ProofReport> proof_;
   /// Of each list of targets of which one must be seen (Mission::views); empty: not prepared yet.
   std::vector<std::vector<std::shared_ptr<PointQuery>>> queries_;
   double resolve_ms_ = 0, compute_ms_ = 0, view_ms_ = 0;

@@ -1,6 +1,6 @@
 // A report: what the engine answered when it was written.
 import type { Answer, Request } from "./messages";
-import { decoded, type Transport } from "./transport";
+import { decoded, EngineFailure, type Transport } from "./transport";
 import { unzipped } from "./worker_transport";
 
 export class RecordedTransport implements Transport {
@@ -13,13 +13,11 @@ export class RecordedTransport implements Transport {
     return new RecordedTransport(answers);
   }
 
-  has(call: string): boolean {
-    return this.answers.has(call);
-  }
-
   ask(request: Request): Promise<Answer> {
     const answer = this.answers.get(request.call);
+    if (answer?.error) return Promise.reject(new EngineFailure(answer.error));
     if (answer) return Promise.resolve(answer);
+    if (request.call === "prove") return Promise.reject(new Error("No proof was asked for when this report was written"));
     return Promise.reject(new Error("this is a report: run `vantage view` with its mission to change anything"));
   }
 }
