@@ -39,9 +39,12 @@ const template = readFileSync("src/index.html", "utf8")
   .replace("/*STYLE*/", () => style)
   .replace("<!--NOTICES-->", () => asText(notices))
   .replace("/*SCRIPT*/", () => inScript(script));
+/// A report asks nobody for anything. (The page with an engine would need words that older browsers do not know.)
+const reportPolicy = `<meta http-equiv="Content-Security-Policy" content="default-src 'none'; script-src 'unsafe-inline'; ` +
+  `style-src 'unsafe-inline'; img-src data: blob:; base-uri 'none'">`;
 mkdirSync("dist", { recursive: true });
 for (const [name, own] of [["index.html", `window.vantageData = ${inScript(JSON.stringify(data))};`], ["report.html", ""]]) {
-  const page = template.replace("/*DATA*/", () => own);
+  const page = template.replace("/*DATA*/", () => own).replace("<!--POLICY-->", own ? "" : reportPolicy);
   writeFileSync(`dist/${name}`, page);
   console.log(`${name}: ${page.length} bytes, ${gzipSync(page, { level: 9 }).length} gzipped`);
 }

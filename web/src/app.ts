@@ -43,6 +43,8 @@ export class App {
   /** where the volume is a draft: its mission as it was */
   private draftOf: Mission | null = null;
   private isDragged = false;
+  private isProbeOld = false;
+  private isAsking = false;
   /** numbers of the missions asked for, and of the newest of which the outcome was told */
   private turn = 0;
   private told = 0;
@@ -248,7 +250,19 @@ export class App {
     this.stage.request();
   }
 
+  /** One question at a time: the newest that waits is enough. */
   private async askProbe(): Promise<void> {
+    this.isProbeOld = true;
+    if (this.isAsking) return;
+    this.isAsking = true;
+    while (this.isProbeOld) {
+      this.isProbeOld = false;
+      await this.askOnce();
+    }
+    this.isAsking = false;
+  }
+
+  private async askOnce(): Promise<void> {
     if (!this.probe || !this.volume) return;
     const { at } = this.probe;
     let answer: PointAnswer | undefined;

@@ -41,13 +41,13 @@ test.describe("vantage view", () => {
     expect(problems).toEqual([]);
   });
 
-  test("says that the program has ended, and keeps the mission", async ({ page }) => {
+  test("says that the program is gone, and keeps the mission", async ({ page }) => {
     await page.goto(address);
     await hasVolume(page);
     const ended = new Promise((resolve) => server.once("exit", resolve));
     server.kill("SIGINT");
     expect(await ended).toBe(0);
-    await expect(page.locator("#hint")).toContainText("has ended");
+    await expect(page.locator("#hint")).toContainText("is lost");
     expect(await savedMission(page)).toContain("vertices");
   });
 

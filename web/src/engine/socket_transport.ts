@@ -2,7 +2,7 @@
 import type { Answer, Request } from "./messages";
 import { decoded, Pending, type Transport } from "./transport";
 
-const ENDED = "the program that serves this page has ended: start it again and reload; saving the mission still works";
+const ENDED = "the connection to the program is lost: reload this page, or start the program again; saving the mission still works";
 
 export class SocketTransport implements Transport {
   private readonly pending = new Pending();
