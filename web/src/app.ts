@@ -57,6 +57,8 @@ export class App {
   section: Section | null = null;
   /** the corner that was dragged last, where a mission that cannot be computed is explained */
   dragged: number | null = null;
+  /** and not what limits the view */
+  private isTargetEdited = false;
   private readonly listeners: Listener[] = [];
   private isToTell = false;
   private tellProof: (text: string, volume: Volume) => void = () => {};
@@ -126,7 +128,9 @@ export class App {
 
   /** Shows the mission as it is, and asks for its volume: a draft of it in the middle of a drag, till it `isComplete`. */
   edit(change: (mission: Mission) => void, isComplete: boolean): void {
+    const { target } = this.mission;
     change(this.mission);
+    this.isTargetEdited = this.mission.target !== target;
     if (isComplete) this.history.keep(this.mission);
     this.showMission();
     this.compute(!isComplete);
@@ -160,7 +164,8 @@ export class App {
   private fault(vertices: Point[]): { at: Point; reason: string } | null {
     const own = faultOf(vertices);
     if (own) return { at: vertices[own.corner]!, reason: own.reason };
-    const at = this.failurePlace ?? (this.dragged === null ? null : vertices[Math.min(this.dragged, vertices.length - 1)]!);
+    const corner = this.isTargetEdited && this.dragged !== null ? vertices[Math.min(this.dragged, vertices.length - 1)]! : null;
+    const at = this.failurePlace ?? corner;
     return this.failure === "" || !at ? null : { at, reason: this.failure };
   }
 

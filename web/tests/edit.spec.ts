@@ -29,6 +29,12 @@ test("a keep-out box has handles", async ({ page }) => {
   await drag(page, [middle[0]!, middle[1]!, (taller.min[2] + taller.max[2]) / 2], { x: 40, y: 0 });
   const moved = (await mission(page)).keepOut[boxes];
   expect(moved.max[2]).toBe(taller.max[2]);
+  const field = page.getByLabel(`box ${boxes + 1}, to x, metres`);
+  await field.fill("-80");
+  await field.press("Tab");
+  await settled(page);
+  const turned = (await mission(page)).keepOut[boxes];
+  expect([turned.min[0], turned.max[0]]).toEqual([-80, moved.min[0]]);
   expect(Math.hypot(moved.min[0] - taller.min[0], moved.min[1] - taller.min[1])).toBeGreaterThan(1);
   await agrees(page);
   await page.locator("#boxes li").nth(boxes).getByRole("button", { name: "Remove" }).click();

@@ -2,11 +2,11 @@
 import type { About, Hello, MapArea, Point, PointAnswer, SceneInfo, Section, ViewMesh, VolumeInfo } from "./messages";
 import { EngineFailure, type Transport } from "./transport";
 
-/** What went wrong, and what to do, in words. */
+/** What went wrong, and what to do, in words; and where, unless that is a place in the scene, which is shown. */
 export function toldBy(error: unknown): string {
   if (!(error instanceof EngineFailure)) return error instanceof Error ? error.message : String(error);
   const { problem, fix } = error.told;
-  const where = error.told.where.replace(/\b(mission|standard input)[^ ,)]*(, )?/, ""); // lines of a text that nobody sees
+  const where = placeOf(error) ? "" : error.told.where.replace(/\b(mission|standard input)[^ ,)]*(, )?/, ""); // lines of a text that nobody sees
   return `${problem}${where ? ` (${where})` : ""}${fix ? `: ${fix}` : ""}`;
 }
 

@@ -116,7 +116,11 @@ export class Panel {
           field.step = input("range").step;
           field.value = String(Number(box[end][a]!.toFixed(3)));
           field.setAttribute("aria-label", `box ${i + 1}, ${name} ${axis}, metres`);
-          field.onchange = () => this.app.edit((mission) => (mission.keepOut[i]![end][a] = Number(field.value)), true);
+          field.onchange = () => this.app.edit((mission) => {
+            const { min, max } = mission.keepOut[i]!;
+            const other = end === "min" ? max[a]! : min[a]!;
+            [min[a], max[a]] = [Math.min(other, Number(field.value)), Math.max(other, Number(field.value))];
+          }, true);
           item.append(field);
         });
       }
