@@ -52,10 +52,12 @@ function drawFault(app: App): void {
   const note = element("fault");
   const { faulty } = app.target;
   note.hidden = !faulty;
+  // Read aloud, but not shown twice.
+  element("hint").classList.toggle("beside", faulty !== null && element("hint").textContent === faulty.reason);
   if (!faulty) return;
   const { x, y } = app.stage.project(faulty.at);
   note.textContent = faulty.reason;
-  note.style.left = `${x + 12}px`;
+  note.style.left = `${Math.max(4, Math.min(x + 12, app.stage.canvas.clientWidth - note.offsetWidth - 4))}px`;
   note.style.top = `${y + 12}px`;
 }
 
