@@ -30,7 +30,7 @@ if(VANTAGE_SANITIZE)
   add_link_options(-fsanitize=${VANTAGE_SANITIZE})
 endif()
 # Several sources to a compilation: a first build takes less time, a build after each change more. Names in their
-# anonymous namespaces must differ then. Not for tests and fuzz targets, which stand alone.
+# anonymous namespaces must differ then. Not for fuzz targets, which stand alone.
 function(vantage_join_sources target)
   if(VANTAGE_JOIN_SOURCES)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)

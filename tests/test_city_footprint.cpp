@@ -15,12 +15,9 @@ namespace {
 
 using testing::inside;
 using testing::inside_odd;
+using testing::rectangle;
 
 using vantage::testing::Random;
-
-Ring rectangle(double west, double south, double east, double north) {
-  return {{west, south}, {east, south}, {east, north}, {west, north}};
-}
 
 Ring reversed(Ring ring) { return {ring.rbegin(), ring.rend()}; }
 

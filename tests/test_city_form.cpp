@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <initializer_list>
 #include <string>
 
 #include "maps/city/building_form.h"
+#include "support/osm_maps.h"
 #include "support/random.h"
 #include "support/wording.h"
 
@@ -12,8 +12,7 @@ namespace vantage::internal::city {
 namespace {
 
 using vantage::testing::Random;
-
-osm::Tags tagged(std::initializer_list<std::pair<std::string, std::string>> all) { return osm::Tags{all}; }
+using vantage::testing::tagged;
 
 struct Reading {
   BuildingForm form;

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 #include <numbers>
 #include <string>
 
 #include "maps/city/occluders.h"
 #include "solid/solid_check.h"
+#include "support/osm_maps.h"
 #include "support/random.h"
 #include "vantage/error.h"
 
@@ -15,9 +15,7 @@ namespace vantage::internal::city {
 namespace {
 
 using vantage::testing::Random;
-constexpr double kPi = std::numbers::pi;
-
-osm::Tags tagged(std::initializer_list<std::pair<std::string, std::string>> all) { return osm::Tags{all}; }
+using vantage::testing::tagged;
 
 struct Built {
   std::vector<Shape> shapes;
@@ -132,7 +130,7 @@ TEST(CityOccluders, WallsInPiecesForSlopes) {
 
 TEST(CityOccluders, Towers) {
   const Built tank = point({{"man_made", "storage_tank"}, {"height", "12"}, {"diameter", "20"}});
-  EXPECT_NEAR(tank.volume(), 12 * kPi * 100 * 0.9745, 5);
+  EXPECT_NEAR(tank.volume(), 12 * std::numbers::pi * 100 * 0.9745, 5);
   EXPECT_NEAR(tank.box().max.x(), 110, 1e-3);
   EXPECT_NEAR(point({{"man_made", "tower"}, {"tower:type", "lighting"}}).box().max.z(), 15, 1e-9);
   EXPECT_NEAR(point({{"man_made", "mast"}}).box().max.z(), 25, 1e-9);
@@ -141,7 +139,7 @@ TEST(CityOccluders, Towers) {
   EXPECT_TRUE(odd.has(TagFault::negative, "height"));
   EXPECT_NEAR(odd.box().max.z(), 30, 1e-9);
   const Built silo = point({{"man_made", "silo"}, {"height", "12"}, {"roof:shape", "dome"}, {"roof:height", "3"}});
-  EXPECT_LT(silo.volume(), 12 * kPi * 9);
+  EXPECT_LT(silo.volume(), 12 * std::numbers::pi * 9);
   EXPECT_NEAR(silo.box().max.z(), 12, 1e-9);
   EXPECT_EQ(point({{"man_made", "mast"}, {"diameter", "0.01"}}).shapes.size(), 1u);
   Built area;
@@ -172,7 +170,7 @@ TEST(CityOccluders, Trees) {
   EXPECT_NEAR(plain.box().max.x() - plain.box().min.x(), 5, 1e-9);
   const Built tall = point({{"natural", "tree"}, {"height", "29"}, {"diameter_crown", "8"}, {"circumference", "300"}});
   EXPECT_NEAR(tall.box().max.z(), 29, 1e-12);
-  EXPECT_NEAR(tall.shapes[0].tree->trunk_m, 3 / kPi, 1e-12) << "in centimetres";
+  EXPECT_NEAR(tall.shapes[0].tree->trunk_m, 3 / std::numbers::pi, 1e-12) << "in centimetres";
   const Built spruce = point({{"natural", "tree"}, {"leaf_type", "needleleaved"}});
   EXPECT_LT(spruce.volume(), plain.volume());
   EXPECT_GT(spruce.volume(), 10);

@@ -22,18 +22,14 @@ namespace vantage::internal::city {
 namespace {
 
 using testing::inside;
+using testing::rectangle;
 
 using vantage::testing::Random;
-constexpr double kPi = std::numbers::pi;
-
-Ring rectangle(double west, double south, double east, double north) {
-  return {{west, south}, {east, south}, {east, north}, {west, north}};
-}
 
 Ring regular(int corners, double radius, const Vec2& centre = Vec2::Zero(), double turn = 0) {
   Ring ring;
   for (int k = 0; k < corners; ++k) {
-    const double angle = turn + 2 * kPi * k / corners;
+    const double angle = turn + 2 * std::numbers::pi * k / corners;
     ring.push_back(centre + radius * Vec2(std::cos(angle), std::sin(angle)));
   }
   return ring;
@@ -254,7 +250,7 @@ TEST(CitySolid, PitchesAndDecks) {
   EXPECT_NEAR(bounding_box(make_solid(footprint, form, 0).mesh).max.z(), 35, 1e-9);
   form.pitch = BuildingForm::Pitch{60, false, 1.0 / 3};
   EXPECT_NEAR(bounding_box(make_solid(footprint, form, 0).mesh).max.z(), 30, 1e-9);
-  EXPECT_NEAR(settled(form, roof_frame(footprint, form)).roof_m, std::tan(kPi / 3) * 5, 1e-9);
+  EXPECT_NEAR(settled(form, roof_frame(footprint, form)).roof_m, std::tan(std::numbers::pi / 3) * 5, 1e-9);
   form.top_m = 9;
   EXPECT_NEAR(settled(form, roof_frame(footprint, form)).roof_m, 3, 1e-9);
   form.pitch->on_top = true;
@@ -360,7 +356,7 @@ Footprint draw_footprint(Random& random) {
     }
     rough.outer = ring;
   }
-  const double angle = random.chance(0.3) ? 0 : random.uniform(0, 2 * kPi);
+  const double angle = random.chance(0.3) ? 0 : random.uniform(0, 2 * std::numbers::pi);
   const Vec2 offset = random.chance(0.2) ? Vec2(1.2e6, -3.4e6) : Vec2(random.uniform(-900, 900), 17);
   rough.outer = moved(rough.outer, angle, offset);
   for (Ring& hole : rough.holes) hole = moved(hole, angle, offset);

@@ -409,7 +409,7 @@ TEST(Faces, NeedObjectsThatAreThere) {
   testing::expect_error([&] { faces_of(scene, FaceKind::roof, 1); }, ErrorCode::index_out_of_range);
   testing::expect_error([&] { FaceFinder(scene).nearest(kFirst, FaceKind::roof, Vec3(NAN, 0, 0)); },
                         ErrorCode::coordinate_not_finite);
-  testing::expect_error([&] { target_of({}, "nothing"); }, ErrorCode::nothing_given);
+  testing::expect_error([&] { target_of(std::vector<Face>{}, "nothing"); }, ErrorCode::nothing_given);
   EXPECT_TRUE(faces_of(scene, FaceKind::roof).empty()) << "1 square metre is no roof";
   EXPECT_FALSE(FaceFinder(scene).nearest(kFirst, FaceKind::roof, Vec3::Zero()));
 }

@@ -29,7 +29,7 @@ Vec3 mean(const Polygon& points) {
   return sum / static_cast<double>(points.size());
 }
 
-constexpr double kTolerance = 0.01;  // metres that facets near the range limit may lie inside
+constexpr double kToleranceM = 0.01;  // that facets near the range limit may lie inside
 
 /// Whether the polygon hides part of one of the targets from a point just beyond the triangle.
 bool hides_beyond(const Polygon& blocker, const Mesh& mesh, const Triangle& facet,
@@ -38,7 +38,7 @@ bool hides_beyond(const Polygon& blocker, const Mesh& mesh, const Triangle& face
   const SceneBuilder alone = SceneBuilder().polygon("blocker", blocker);
   for (const Polygon& target : targets) {
     const Vec3 away = middle - mean(target);
-    const Vec3 beyond = middle + (1e-4 + 1.5 * kTolerance / away.norm()) * away;
+    const Vec3 beyond = middle + (1e-4 + 1.5 * kToleranceM / away.norm()) * away;
     if (ClipOracle(alone.scene().mesh, target).is_hidden_from(beyond, 1e-12)) return true;
   }
   return false;
@@ -76,7 +76,7 @@ TEST(FacetPolygons, HideTheTargetBeyondTheFacet) {
     Random random(seed + round);
     const PreparedScene scene(testing::random_city(random, 14, 8));
     const Polygon target = {{-5, -4, 0.5}, {4, -5, 0.5}, {5, 3, 0.5}, {-3, 5, 0.5}};
-    const Volume volume = compute_visibility(PreparedTarget(scene, target_of(target), {60}), {kTolerance});
+    const Volume volume = compute_visibility(PreparedTarget(scene, target_of(target), {60}), {kToleranceM});
     facets += check(volume, scene, {target});
 
     Navigation limits;
@@ -93,9 +93,9 @@ TEST(FacetPolygons, OfATargetInPartsAndOfAPoint) {
   const Polygon west = {{-5, -4, 0.5}, {-1, -4, 0.5}, {-1, 4, 0.5}}, east = {{1, -4, 0.5}, {5, -4, 0.5}, {1, 4, 0.5}};
   Target both = target_of(west);
   both.parts.push_back(east);
-  EXPECT_GT(check(compute_volume(PreparedTarget(scene, both, {60}), {}, {kTolerance}), scene, {west, east}), 50U);
+  EXPECT_GT(check(compute_volume(PreparedTarget(scene, both, {60}), {}, {kToleranceM}), scene, {west, east}), 50U);
 
-  const Volume of_point = compute_visibility(PreparedTarget(scene, Target::point({0, 0, 6}), {60}), {kTolerance});
+  const Volume of_point = compute_visibility(PreparedTarget(scene, Target::point({0, 0, 6}), {60}), {kToleranceM});
   ASSERT_EQ(of_point.polygon_of.size(), of_point.mesh.triangles.size());
   for (std::size_t t = 0; t < of_point.polygon_of.size(); ++t) {
     const Cause& cause = of_point.causes[of_point.cause_of[t]];

@@ -198,7 +198,7 @@ TEST(MissionZones, SharpTipsOfZonesToStayOutOfAreNotCutOff) {
   }
 }
 
-Mission placed(const std::string& rest) {
+Mission with_zones(const std::string& rest) {
   const TemporaryDirectory folder;
   MapText map({11, 48});
   map.box(30, 0, 40, 10, {{"building", "yes"}});
@@ -211,7 +211,7 @@ Mission placed(const std::string& rest) {
 }
 
 TEST(MissionZones, FollowTheCrs) {
-  const Mission mission = placed(
+  const Mission mission = with_zones(
       "keep_in: [{polygon: [[10.999, 47.999], [11.001, 47.999], [11.001, 48.001]], z: [5, 60]}]\n"
       "  keep_out: [{polygon: [[10.9995, 47.9995], [11.0005, 47.9995], [11, 48]], heights: any}]");
   const geo::LocalFrame frame({11, 48});
@@ -232,7 +232,7 @@ TEST(MissionZones, FollowTheCrs) {
 
 TEST(MissionZones, RefusesZonesOfAnotherCity) {
   const auto refuse = [](const std::string& key, const std::string& ring, ErrorCode code) {
-    expect_error([&] { placed(key + ": [{polygon: " + ring + ", z: [0, 1]}]"); }, code, "mission.yaml:6:");
+    expect_error([&] { with_zones(key + ": [{polygon: " + ring + ", z: [0, 1]}]"); }, code, "mission.yaml:6:");
   };
   refuse("keep_in", "[[2.33, 48.85], [2.34, 48.85], [2.34, 48.86]]", ErrorCode::too_far_away);         // Paris
   refuse("keep_out", "[[48, 11], [48.001, 11], [48, 11.001]]", ErrorCode::too_far_away);               // swapped

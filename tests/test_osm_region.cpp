@@ -27,7 +27,7 @@ using testing::osm_way;
 using testing::relation_id;
 using testing::way_id;
 
-const std::string kBuilding = osm_tag("building", "yes"), kPart = osm_tag("building:part", "yes");
+const std::string kWholeBuilding = osm_tag("building", "yes"), kPart = osm_tag("building:part", "yes");
 
 ReadOptions circle(LonLat centre, double radius_m) {
   ReadOptions options;
@@ -66,9 +66,9 @@ TEST(OsmRegion, MeasuresOnTheEllipsoid) {
 TEST(OsmRegion, TakesAnObjectWholeWhenOneOfItsPositionsIsInside) {
   // Three squares of 0.001 degrees in a row, 0.01 degrees apart; a circle about the corner of the second one.
   const std::string content = osm_square(1, 8.00, 47, 0.001) + osm_square(5, 8.01, 47, 0.001) +
-                              osm_square(9, 8.02, 47, 0.001) + osm_node(20, 8.0101, 47, kBuilding) +
-                              osm_node(21, 8.03, 47, kBuilding) + osm_way(31, osm_ring(1), kBuilding) +
-                              osm_way(32, osm_ring(5), kBuilding) + osm_way(33, osm_ring(9), kBuilding) +
+                              osm_square(9, 8.02, 47, 0.001) + osm_node(20, 8.0101, 47, kWholeBuilding) +
+                              osm_node(21, 8.03, 47, kWholeBuilding) + osm_way(31, osm_ring(1), kWholeBuilding) +
+                              osm_way(32, osm_ring(5), kWholeBuilding) + osm_way(33, osm_ring(9), kWholeBuilding) +
                               osm_way(34, {3, 5}, osm_tag("barrier", "wall"));
   const Extract extract = extract_of(content, circle({8.01, 47}, 20));
   ASSERT_EQ(extract.areas.size(), 1u) << testing::describe(extract);
@@ -101,7 +101,7 @@ TEST(OsmRegion, TakesWhatReachesInWithoutACorner) {
   const std::string slab = osm_node(1, 8.000, 47.0000) + osm_node(2, 8.004, 47.0000) + osm_node(3, 8.004, 47.0002) +
                            osm_node(4, 8.000, 47.0002);
   const std::string content =
-      slab + osm_way(31, osm_ring(1), kBuilding) + osm_way(32, {1, 2}, osm_tag("barrier", "wall"));
+      slab + osm_way(31, osm_ring(1), kWholeBuilding) + osm_way(32, {1, 2}, osm_tag("barrier", "wall"));
   const LonLat beside{8.002, 46.9999};
   const double gap = distance_m(beside, {8.002, 47});
   const Extract near = extract_of(content, circle(beside, gap + 0.01));
@@ -121,7 +121,7 @@ TEST(OsmRegion, TakesWhatReachesInWithoutACorner) {
 TEST(OsmRegion, TakesAreasThatGoRoundIt) {
   const std::string content =
       osm_square(1, 8, 47, 0.01) + osm_square(5, 8.004, 47.004, 0.002) + osm_way(31, osm_ring(1)) +
-      osm_way(34, osm_ring(1), kBuilding) + osm_way(32, osm_ring(1), osm_tag("barrier", "wall")) +
+      osm_way(34, osm_ring(1), kWholeBuilding) + osm_way(32, osm_ring(1), osm_tag("barrier", "wall")) +
       osm_way(33, osm_ring(5)) +
       osm_relation(40, {"way 31 outer", "way 33 inner"}, osm_tag("type", "multipolygon") + kPart);
   const Extract in_hole = extract_of(content, circle({8.005, 47.005}, 20));
@@ -133,8 +133,8 @@ TEST(OsmRegion, TakesAreasThatGoRoundIt) {
 }
 
 TEST(OsmRegion, MayLieOverTheDateLine) {
-  const std::string content = osm_node(1, 179.9999, 0, kBuilding) + osm_node(2, -179.9999, 0, kBuilding) +
-                              osm_node(3, 179.99, 0, kBuilding) + osm_node(4, 0, 0, kBuilding);
+  const std::string content = osm_node(1, 179.9999, 0, kWholeBuilding) + osm_node(2, -179.9999, 0, kWholeBuilding) +
+                              osm_node(3, 179.99, 0, kWholeBuilding) + osm_node(4, 0, 0, kWholeBuilding);
   EXPECT_EQ(extract_of(content, circle({180, 0}, 20)).points.size(), 2u);
   EXPECT_EQ(extract_of(content, circle({-180, 0}, 20)).points.size(), 2u);
   const Extract extract = extract_of(content, box(179.995, -1, -179.995, 1));
@@ -145,7 +145,7 @@ TEST(OsmRegion, MayLieOverTheDateLine) {
 TEST(OsmRegion, TakesMultipolygonsAndBuildingsTogether) {
   const std::string content =
       osm_square(1, 8, 47, 0.001) + osm_square(5, 8.01, 47, 0.001) + osm_square(9, 8.02, 47, 0.001) +
-      osm_way(31, osm_ring(1), kBuilding) + osm_way(32, osm_ring(5)) + osm_way(33, osm_ring(9), kPart) +
+      osm_way(31, osm_ring(1), kWholeBuilding) + osm_way(32, osm_ring(5)) + osm_way(33, osm_ring(9), kPart) +
       osm_relation(40, {"way 31 outline", "way 33 part"}, osm_tag("type", "building")) +
       osm_relation(41, {"way 31 outer", "way 32 outer"}, osm_tag("type", "multipolygon") + osm_tag("landuse", "x"));
   const Extract extract = extract_of(content, circle({8, 47}, 20));
@@ -163,7 +163,7 @@ TEST(OsmRegion, TakesMultipolygonsAndBuildingsTogether) {
 
 TEST(OsmRegion, WhatIsBrokenOutsideIsNoProblem) {
   const std::string content = osm_square(1, 8, 47, 0.001) + osm_square(5, 9, 47, 0.001) +
-                              osm_way(31, osm_ring(1), kBuilding) + osm_way(32, {5, 7, 6, 8, 5}, kBuilding) +
+                              osm_way(31, osm_ring(1), kWholeBuilding) + osm_way(32, {5, 7, 6, 8, 5}, kWholeBuilding) +
                               osm_relation(40, {"way 32 outer"}, osm_tag("type", "multipolygon") + kPart) +
                               osm_relation(41, {"way 32 outer"}, osm_tag("type", "site") + kPart);
   EXPECT_EQ(extract_of(content).problems.size(), 3u);

@@ -61,7 +61,7 @@ void expect_notes(const RawMesh& mesh, std::size_t count) {
   testing::expect_wording(mesh.notes);
 }
 
-void expect_error(const json& file, ErrorCode code, const std::string& where = "a.city.json") {
+void expect_unreadable(const json& file, ErrorCode code, const std::string& where = "a.city.json") {
   expect_error([&] { read(file); }, code, where);
 }
 
@@ -166,15 +166,15 @@ TEST(ReadCityJson, PlacesInstancesOfTemplates) {
     return bad;
   };
   const std::string where = "CityObject \"t1\", geometry 0";
-  expect_error(with("template", 1), ErrorCode::mesh_syntax, where);
-  expect_error(with("boundaries", {8}), ErrorCode::mesh_syntax, where);
-  expect_error(with("boundaries", {1, 2}), ErrorCode::mesh_syntax, where);
-  expect_error(with("transformationMatrix", {1, 0, 0}), ErrorCode::mesh_syntax, where);
-  expect_error(with("transformationMatrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1, 0, 0, 1}), ErrorCode::mesh_syntax,
-               where);
+  expect_unreadable(with("template", 1), ErrorCode::mesh_syntax, where);
+  expect_unreadable(with("boundaries", {8}), ErrorCode::mesh_syntax, where);
+  expect_unreadable(with("boundaries", {1, 2}), ErrorCode::mesh_syntax, where);
+  expect_unreadable(with("transformationMatrix", {1, 0, 0}), ErrorCode::mesh_syntax, where);
+  expect_unreadable(with("transformationMatrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1, 0, 0, 1}),
+                    ErrorCode::mesh_syntax, where);
   json nested = file;
   nested["geometry-templates"]["templates"][0] = instance;
-  expect_error(nested, ErrorCode::mesh_syntax, where);
+  expect_unreadable(nested, ErrorCode::mesh_syntax, where);
   json many = file;
   many["CityObjects"]["t1"]["geometry"] = std::vector<json>(200, instance);
   const core::ProgressReporter progress;
@@ -271,7 +271,7 @@ TEST(ReadCityJson, ReadsAllVersions) {
   EXPECT_EQ(bounding_box(mesh_of(mesh)).max, Vec3(200, 200, 200));
   for (const json& version : {json("0.9"), json("1.00"), json("3.0"), json("")}) {
     file["version"] = version;
-    expect_error(file, ErrorCode::mesh_unsupported);
+    expect_unreadable(file, ErrorCode::mesh_unsupported);
   }
 }
 
@@ -319,22 +319,22 @@ TEST(ReadCityJson, NamesWhatIsWrongInTheDocument) {
     file.merge_patch(patch);
     return file;
   };
-  expect_error(with({{"version", nullptr}}), ErrorCode::mesh_syntax);
-  expect_error(with({{"vertices", nullptr}}), ErrorCode::mesh_syntax);
-  expect_error(with({{"vertices", 7}}), ErrorCode::mesh_syntax);
-  expect_error(with({{"vertices", {{1, 2, 3}, {1, 2}}}}), ErrorCode::mesh_syntax);
-  expect_error(with({{"transform", nullptr}}), ErrorCode::mesh_syntax);
-  expect_error(with({{"transform", {{"scale", nullptr}}}}), ErrorCode::mesh_syntax);
-  expect_error(with({{"transform", {{"scale", {1, 1}}}}}), ErrorCode::mesh_syntax);
-  expect_error(with({{"transform", {{"scale", {1, 0, 1}}}}}), ErrorCode::mesh_syntax);
-  expect_error(with({{"transform", {{"scale", {1, 1e300, 1}}, {"translate", {0, 1e308, "x"}}}}}),
-               ErrorCode::mesh_syntax);
-  expect_error(with({{"metadata", {{"referenceSystem", 7415}}}}), ErrorCode::mesh_syntax);
+  expect_unreadable(with({{"version", nullptr}}), ErrorCode::mesh_syntax);
+  expect_unreadable(with({{"vertices", nullptr}}), ErrorCode::mesh_syntax);
+  expect_unreadable(with({{"vertices", 7}}), ErrorCode::mesh_syntax);
+  expect_unreadable(with({{"vertices", {{1, 2, 3}, {1, 2}}}}), ErrorCode::mesh_syntax);
+  expect_unreadable(with({{"transform", nullptr}}), ErrorCode::mesh_syntax);
+  expect_unreadable(with({{"transform", {{"scale", nullptr}}}}), ErrorCode::mesh_syntax);
+  expect_unreadable(with({{"transform", {{"scale", {1, 1}}}}}), ErrorCode::mesh_syntax);
+  expect_unreadable(with({{"transform", {{"scale", {1, 0, 1}}}}}), ErrorCode::mesh_syntax);
+  expect_unreadable(with({{"transform", {{"scale", {1, 1e300, 1}}, {"translate", {0, 1e308, "x"}}}}}),
+                    ErrorCode::mesh_syntax);
+  expect_unreadable(with({{"metadata", {{"referenceSystem", 7415}}}}), ErrorCode::mesh_syntax);
   json misspelt = document();
   misspelt["City Objects"] = misspelt["CityObjects"];
   misspelt.erase("CityObjects");
-  expect_error(misspelt, ErrorCode::mesh_syntax);
-  expect_error(with({{"CityObjects", {{"b1", nullptr}}}}), ErrorCode::mesh_empty);
+  expect_unreadable(misspelt, ErrorCode::mesh_syntax);
+  expect_unreadable(with({{"CityObjects", {{"b1", nullptr}}}}), ErrorCode::mesh_empty);
 }
 
 TEST(ReadCityJson, NamesWhatIsWrongInAGeometry) {
@@ -344,26 +344,26 @@ TEST(ReadCityJson, NamesWhatIsWrongInAGeometry) {
     file[json::json_pointer("/CityObjects/b1" + std::string(pointer))] = value;
     return file;
   };
-  expect_error(with("/geometry/0/type", "Sphere"), ErrorCode::mesh_syntax, where);
-  expect_error(with("/geometry/0/type", 3), ErrorCode::mesh_syntax, where);
-  expect_error(with("/geometry/0/lod", "high"), ErrorCode::mesh_syntax, where);
-  expect_error(with("/geometry/0/boundaries", "x"), ErrorCode::mesh_syntax, where);
-  expect_error(with("/geometry", 5), ErrorCode::mesh_syntax, "CityObject \"b1\"");
-  expect_error(with("", 5), ErrorCode::mesh_syntax, "CityObject \"b1\"");
-  expect_error(with("/type", nullptr), ErrorCode::mesh_syntax, "CityObject \"b1\"");
+  expect_unreadable(with("/geometry/0/type", "Sphere"), ErrorCode::mesh_syntax, where);
+  expect_unreadable(with("/geometry/0/type", 3), ErrorCode::mesh_syntax, where);
+  expect_unreadable(with("/geometry/0/lod", "high"), ErrorCode::mesh_syntax, where);
+  expect_unreadable(with("/geometry/0/boundaries", "x"), ErrorCode::mesh_syntax, where);
+  expect_unreadable(with("/geometry", 5), ErrorCode::mesh_syntax, "CityObject \"b1\"");
+  expect_unreadable(with("", 5), ErrorCode::mesh_syntax, "CityObject \"b1\"");
+  expect_unreadable(with("/type", nullptr), ErrorCode::mesh_syntax, "CityObject \"b1\"");
 
   const std::string ring = where + ", shell 0, surface 3, ring 0";
   const std::string at = "/geometry/0/boundaries/0/3/0";
-  expect_error(with(at.c_str(), {1, 2}), ErrorCode::mesh_syntax, ring);
-  expect_error(with(at.c_str(), {1, 2, 8}), ErrorCode::mesh_syntax, ring);
-  expect_error(with(at.c_str(), {1, 2, -1}), ErrorCode::mesh_syntax, ring);
-  expect_error(with(at.c_str(), {1, 2, 0.5}), ErrorCode::mesh_syntax, ring);
-  expect_error(with(at.c_str(), {1, 2, nullptr}), ErrorCode::mesh_syntax, ring);
-  expect_error(with(at.c_str(), {{1, 2, 3}}), ErrorCode::mesh_syntax, ring);
-  expect_error(with(at.c_str(), 1), ErrorCode::mesh_syntax, ring);
-  expect_error(with("/geometry/0/boundaries/0/3", json::array()), ErrorCode::mesh_syntax, "surface 3");
-  expect_error(with("/geometry/0/boundaries", cube_shell()), ErrorCode::mesh_syntax, "shell 0, surface 0, ring 0");
-  expect_error(with("/geometry/0/type", "MultiSurface"), ErrorCode::mesh_syntax, "surface 0, ring 0");
+  expect_unreadable(with(at.c_str(), {1, 2}), ErrorCode::mesh_syntax, ring);
+  expect_unreadable(with(at.c_str(), {1, 2, 8}), ErrorCode::mesh_syntax, ring);
+  expect_unreadable(with(at.c_str(), {1, 2, -1}), ErrorCode::mesh_syntax, ring);
+  expect_unreadable(with(at.c_str(), {1, 2, 0.5}), ErrorCode::mesh_syntax, ring);
+  expect_unreadable(with(at.c_str(), {1, 2, nullptr}), ErrorCode::mesh_syntax, ring);
+  expect_unreadable(with(at.c_str(), {{1, 2, 3}}), ErrorCode::mesh_syntax, ring);
+  expect_unreadable(with(at.c_str(), 1), ErrorCode::mesh_syntax, ring);
+  expect_unreadable(with("/geometry/0/boundaries/0/3", json::array()), ErrorCode::mesh_syntax, "surface 3");
+  expect_unreadable(with("/geometry/0/boundaries", cube_shell()), ErrorCode::mesh_syntax, "shell 0, surface 0, ring 0");
+  expect_unreadable(with("/geometry/0/type", "MultiSurface"), ErrorCode::mesh_syntax, "surface 0, ring 0");
 }
 
 TEST(ReadCityJson, KeepsWithinItsLimits) {

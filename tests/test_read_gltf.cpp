@@ -66,7 +66,7 @@ std::string glb(const json& gltf, const std::string& bytes = square()) {
 
 RawMesh read(const json& gltf) { return read_as("a.gltf", embedded(gltf).dump()); }
 
-void expect_error(const json& gltf, ErrorCode code) {
+void expect_unreadable(const json& gltf, ErrorCode code) {
   expect_error([&] { read_as("bad.gltf", gltf.dump()); }, code, "bad.gltf");
 }
 
@@ -119,7 +119,7 @@ TEST(ReadGltf, ReadsStripsFansAndUnindexedTriangles) {
   primitive["mode"] = 6;
   EXPECT_EQ(read(gltf).triangles, (Triangles{{0, 1, 2}, {0, 2, 3}}));
   primitive["mode"] = 1;  // lines
-  expect_error(embedded(gltf), ErrorCode::mesh_empty);
+  expect_unreadable(embedded(gltf), ErrorCode::mesh_empty);
 }
 
 TEST(ReadGltf, AddsOnlyVerticesThatAreUsed) {
@@ -164,37 +164,37 @@ TEST(ReadGltf, NamesWhatIsWrong) {
     gltf[json::json_pointer(pointer)] = value;
     return gltf;
   };
-  expect_error(with("/asset/version", "1.0"), ErrorCode::mesh_unsupported);
-  expect_error(with("/asset", 7), ErrorCode::mesh_syntax);
-  expect_error(with("/nodes", 7), ErrorCode::mesh_syntax);
-  expect_error(with("/nodes/0", 7), ErrorCode::mesh_syntax);
-  expect_error(with("/nodes/0/mesh", 1), ErrorCode::mesh_syntax);
-  expect_error(with("/nodes/0/mesh", -1), ErrorCode::mesh_syntax);
-  expect_error(with("/nodes/0/mesh", 0.5), ErrorCode::mesh_syntax);
-  expect_error(with("/nodes/0/mesh", 1e300), ErrorCode::mesh_syntax);
-  expect_error(with("/nodes/0/name", 7), ErrorCode::mesh_syntax);
-  expect_error(with("/nodes/0/children", {0}), ErrorCode::mesh_syntax);
-  expect_error(with("/nodes/0/matrix", {1, 2}), ErrorCode::mesh_syntax);
-  expect_error(with("/nodes/0/scale", {1, 2, "3"}), ErrorCode::mesh_syntax);
-  expect_error(with("/meshes/0/primitives/0", 7), ErrorCode::mesh_syntax);
-  expect_error(with("/accessors/0/count", 5), ErrorCode::mesh_syntax);
-  expect_error(with("/accessors/0/count", 9007199254740992), ErrorCode::mesh_syntax);
-  expect_error(with("/accessors/0/byteOffset", 9007199254740992), ErrorCode::mesh_syntax);
-  expect_error(with("/accessors/0/componentType", 5124), ErrorCode::mesh_syntax);
-  expect_error(with("/accessors/0/componentType", 4294967296 + 5126), ErrorCode::mesh_syntax);
-  expect_error(with("/accessors/0/type", "VEC2"), ErrorCode::mesh_syntax);
-  expect_error(with("/accessors/0/sparse", {{"count", 1}}), ErrorCode::mesh_syntax);
-  expect_error(with("/accessors/1/componentType", 5122), ErrorCode::mesh_syntax);
-  expect_error(with("/bufferViews/0/byteStride", 4), ErrorCode::mesh_syntax);
-  expect_error(with("/bufferViews/0/byteLength", 61), ErrorCode::mesh_syntax);
-  expect_error(with("/buffers/0/byteLength", 61), ErrorCode::mesh_syntax);
-  expect_error(with("/buffers/0/uri", "data:;base64,%%%"), ErrorCode::mesh_syntax);
-  expect_error(with("/buffers/0/uri", "data:,abc"), ErrorCode::mesh_syntax);
-  expect_error(with("/buffers/0/uri", "https://example.org/a.bin"), ErrorCode::mesh_unsupported);
-  expect_error(document(), ErrorCode::mesh_syntax);
-  expect_error(with("/extensionsRequired", {"KHR_draco_mesh_compression"}), ErrorCode::mesh_unsupported);
-  expect_error(with("/extensionsUsed", {"EXT_mesh_gpu_instancing"}), ErrorCode::mesh_unsupported);
-  expect_error(json(), ErrorCode::mesh_syntax);
+  expect_unreadable(with("/asset/version", "1.0"), ErrorCode::mesh_unsupported);
+  expect_unreadable(with("/asset", 7), ErrorCode::mesh_syntax);
+  expect_unreadable(with("/nodes", 7), ErrorCode::mesh_syntax);
+  expect_unreadable(with("/nodes/0", 7), ErrorCode::mesh_syntax);
+  expect_unreadable(with("/nodes/0/mesh", 1), ErrorCode::mesh_syntax);
+  expect_unreadable(with("/nodes/0/mesh", -1), ErrorCode::mesh_syntax);
+  expect_unreadable(with("/nodes/0/mesh", 0.5), ErrorCode::mesh_syntax);
+  expect_unreadable(with("/nodes/0/mesh", 1e300), ErrorCode::mesh_syntax);
+  expect_unreadable(with("/nodes/0/name", 7), ErrorCode::mesh_syntax);
+  expect_unreadable(with("/nodes/0/children", {0}), ErrorCode::mesh_syntax);
+  expect_unreadable(with("/nodes/0/matrix", {1, 2}), ErrorCode::mesh_syntax);
+  expect_unreadable(with("/nodes/0/scale", {1, 2, "3"}), ErrorCode::mesh_syntax);
+  expect_unreadable(with("/meshes/0/primitives/0", 7), ErrorCode::mesh_syntax);
+  expect_unreadable(with("/accessors/0/count", 5), ErrorCode::mesh_syntax);
+  expect_unreadable(with("/accessors/0/count", 9007199254740992), ErrorCode::mesh_syntax);
+  expect_unreadable(with("/accessors/0/byteOffset", 9007199254740992), ErrorCode::mesh_syntax);
+  expect_unreadable(with("/accessors/0/componentType", 5124), ErrorCode::mesh_syntax);
+  expect_unreadable(with("/accessors/0/componentType", 4294967296 + 5126), ErrorCode::mesh_syntax);
+  expect_unreadable(with("/accessors/0/type", "VEC2"), ErrorCode::mesh_syntax);
+  expect_unreadable(with("/accessors/0/sparse", {{"count", 1}}), ErrorCode::mesh_syntax);
+  expect_unreadable(with("/accessors/1/componentType", 5122), ErrorCode::mesh_syntax);
+  expect_unreadable(with("/bufferViews/0/byteStride", 4), ErrorCode::mesh_syntax);
+  expect_unreadable(with("/bufferViews/0/byteLength", 61), ErrorCode::mesh_syntax);
+  expect_unreadable(with("/buffers/0/byteLength", 61), ErrorCode::mesh_syntax);
+  expect_unreadable(with("/buffers/0/uri", "data:;base64,%%%"), ErrorCode::mesh_syntax);
+  expect_unreadable(with("/buffers/0/uri", "data:,abc"), ErrorCode::mesh_syntax);
+  expect_unreadable(with("/buffers/0/uri", "https://example.org/a.bin"), ErrorCode::mesh_unsupported);
+  expect_unreadable(document(), ErrorCode::mesh_syntax);
+  expect_unreadable(with("/extensionsRequired", {"KHR_draco_mesh_compression"}), ErrorCode::mesh_unsupported);
+  expect_unreadable(with("/extensionsUsed", {"EXT_mesh_gpu_instancing"}), ErrorCode::mesh_unsupported);
+  expect_unreadable(json(), ErrorCode::mesh_syntax);
   expect_error([] { read_as("bad.gltf", R"({"asset": )"); }, ErrorCode::mesh_syntax);
   expect_error([] { read_as("bad.gltf", "{" + std::string(1000000, '[')); }, ErrorCode::mesh_syntax);
   expect_error([] { read_as("bad.gltf", "{\"a\":" + std::string(1000000, '[')); }, ErrorCode::mesh_syntax);
@@ -203,10 +203,10 @@ TEST(ReadGltf, NamesWhatIsWrong) {
 TEST(ReadGltf, FindsIndicesAndCoordinatesThatAreWrong) {
   std::string bytes = square();
   bytes.replace(58, 2, bytes_of(std::uint16_t{4}));
-  expect_error(embedded(document(), bytes), ErrorCode::mesh_syntax);
+  expect_unreadable(embedded(document(), bytes), ErrorCode::mesh_syntax);
   bytes = square();
   bytes.replace(4, 4, bytes_of(std::numeric_limits<float>::quiet_NaN()));
-  expect_error(embedded(document(), bytes), ErrorCode::coordinate_not_finite);
+  expect_unreadable(embedded(document(), bytes), ErrorCode::coordinate_not_finite);
 }
 
 TEST(ReadGltf, FindsBrokenBinaryFiles) {

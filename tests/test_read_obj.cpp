@@ -7,16 +7,13 @@ namespace vantage::internal::io {
 namespace {
 
 using testing::expect_error;
+using testing::expect_unreadable;
 using testing::read_as;
 
 using Names = std::vector<std::string>;
 using Triangles = std::vector<Triangle>;
 
 const std::string kThree = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
-
-void expect_error(const std::string& bytes, ErrorCode code, const std::string& where) {
-  expect_error([&] { read_as("bad.obj", bytes); }, code, where);
-}
 
 TEST(ReadObj, KeepsCoordinatesToTheLastBit) {
   const RawMesh mesh =
@@ -126,28 +123,28 @@ TEST(ReadObj, AllowsVerticesAfterTheirFaces) {
 }
 
 TEST(ReadObj, NamesThePlaceOfWhatIsWrong) {
-  expect_error(kThree + "f 1 2 4\n", ErrorCode::mesh_syntax, "bad.obj, line 4");
-  expect_error(kThree + "f 1 2 4294967297\n", ErrorCode::mesh_syntax, "line 4");
-  expect_error(kThree + "f 1 2 99999999999999999999\n", ErrorCode::mesh_syntax, "line 4");
-  expect_error(kThree + "f 1 2 -9223372036854775808\n", ErrorCode::mesh_syntax, "line 4");
-  expect_error(kThree + "\n\nf 0 1 2\n", ErrorCode::mesh_syntax, "line 6");
-  expect_error(kThree + "f 1 2 -4\n", ErrorCode::mesh_syntax, "line 4");
-  expect_error(kThree + "f 1 2 x\n", ErrorCode::mesh_syntax, "line 4");
-  expect_error(kThree + "f 1 2 3.5\n", ErrorCode::mesh_syntax, "line 4");
-  expect_error(kThree + "f 1 2 3/1/1/1\n", ErrorCode::mesh_syntax, "line 4");
-  expect_error("v 0 0\n" + kThree, ErrorCode::mesh_syntax, "line 1");
-  expect_error("v 0 0 1,5\n" + kThree, ErrorCode::mesh_syntax, "line 1");
-  expect_error("v 0 0 0x10\n" + kThree, ErrorCode::mesh_syntax, "line 1");
-  expect_error("v 0 nan 0\n" + kThree, ErrorCode::coordinate_not_finite, "line 1");
-  expect_error(kThree + "v 0 0 -inf\n", ErrorCode::coordinate_not_finite, "line 4");
-  expect_error("v 1e999 0 0\n" + kThree, ErrorCode::coordinate_not_finite, "line 1");
-  expect_error(kThree + "f 1 2 3\nfacet 1 2 3\n", ErrorCode::mesh_syntax, "line 5");
-  expect_error(kThree + "f 1 2", ErrorCode::mesh_syntax, "line 4");
-  expect_error(kThree, ErrorCode::mesh_empty, "bad.obj");
-  expect_error(kThree + "f 1 2\n", ErrorCode::mesh_empty, "bad.obj");
-  expect_error(std::string("v 0 0\0 0\n", 9), ErrorCode::mesh_syntax, "line 1");
-  expect_error(std::string(64, '\0'), ErrorCode::mesh_syntax, "line 1");
-  expect_error("\\", ErrorCode::mesh_syntax, "line 1");
+  expect_unreadable("bad.obj", kThree + "f 1 2 4\n", ErrorCode::mesh_syntax, "bad.obj, line 4");
+  expect_unreadable("bad.obj", kThree + "f 1 2 4294967297\n", ErrorCode::mesh_syntax, "line 4");
+  expect_unreadable("bad.obj", kThree + "f 1 2 99999999999999999999\n", ErrorCode::mesh_syntax, "line 4");
+  expect_unreadable("bad.obj", kThree + "f 1 2 -9223372036854775808\n", ErrorCode::mesh_syntax, "line 4");
+  expect_unreadable("bad.obj", kThree + "\n\nf 0 1 2\n", ErrorCode::mesh_syntax, "line 6");
+  expect_unreadable("bad.obj", kThree + "f 1 2 -4\n", ErrorCode::mesh_syntax, "line 4");
+  expect_unreadable("bad.obj", kThree + "f 1 2 x\n", ErrorCode::mesh_syntax, "line 4");
+  expect_unreadable("bad.obj", kThree + "f 1 2 3.5\n", ErrorCode::mesh_syntax, "line 4");
+  expect_unreadable("bad.obj", kThree + "f 1 2 3/1/1/1\n", ErrorCode::mesh_syntax, "line 4");
+  expect_unreadable("bad.obj", "v 0 0\n" + kThree, ErrorCode::mesh_syntax, "line 1");
+  expect_unreadable("bad.obj", "v 0 0 1,5\n" + kThree, ErrorCode::mesh_syntax, "line 1");
+  expect_unreadable("bad.obj", "v 0 0 0x10\n" + kThree, ErrorCode::mesh_syntax, "line 1");
+  expect_unreadable("bad.obj", "v 0 nan 0\n" + kThree, ErrorCode::coordinate_not_finite, "line 1");
+  expect_unreadable("bad.obj", kThree + "v 0 0 -inf\n", ErrorCode::coordinate_not_finite, "line 4");
+  expect_unreadable("bad.obj", "v 1e999 0 0\n" + kThree, ErrorCode::coordinate_not_finite, "line 1");
+  expect_unreadable("bad.obj", kThree + "f 1 2 3\nfacet 1 2 3\n", ErrorCode::mesh_syntax, "line 5");
+  expect_unreadable("bad.obj", kThree + "f 1 2", ErrorCode::mesh_syntax, "line 4");
+  expect_unreadable("bad.obj", kThree, ErrorCode::mesh_empty, "bad.obj");
+  expect_unreadable("bad.obj", kThree + "f 1 2\n", ErrorCode::mesh_empty, "bad.obj");
+  expect_unreadable("bad.obj", std::string("v 0 0\0 0\n", 9), ErrorCode::mesh_syntax, "line 1");
+  expect_unreadable("bad.obj", std::string(64, '\0'), ErrorCode::mesh_syntax, "line 1");
+  expect_unreadable("bad.obj", "\\", ErrorCode::mesh_syntax, "line 1");
 }
 
 TEST(ReadObj, RefusesPolygonsWithTooManyCorners) {

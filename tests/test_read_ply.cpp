@@ -10,7 +10,7 @@ namespace vantage::internal::io {
 namespace {
 
 using testing::bytes_of;
-using testing::expect_error;
+using testing::expect_unreadable;
 using testing::read_as;
 
 using Triangles = std::vector<Triangle>;
@@ -32,10 +32,6 @@ std::string ordered(T value, bool big_endian) {
   std::string bytes = bytes_of(value);
   if (big_endian) std::reverse(bytes.begin(), bytes.end());
   return bytes;
-}
-
-void expect_error(const std::string& bytes, ErrorCode code, const std::string& where) {
-  expect_error([&] { read_as("bad.ply", bytes); }, code, where);
 }
 
 std::string replaced(std::string text, const std::string& old_part, const std::string& new_part) {
@@ -117,37 +113,39 @@ TEST(ReadPly, UnderstandsAllLineEndsOfTheHeader) {
 }
 
 TEST(ReadPly, NamesThePlaceOfWhatIsWrongInTheHeader) {
-  expect_error("plywood", ErrorCode::mesh_syntax, "line 1");
-  expect_error("ply", ErrorCode::mesh_syntax, "line 1");
-  expect_error("ply\n", ErrorCode::mesh_syntax, "line 2");
-  expect_error("ply\nformat ascii 1.0\n", ErrorCode::mesh_syntax, "line 3");
-  expect_error(replaced(kText, "ascii", "utf8"), ErrorCode::mesh_syntax, "line 2");
-  expect_error(replaced(kText, "1.0", "2.0"), ErrorCode::mesh_syntax, "line 2");
-  expect_error(replaced(kText, "format ascii 1.0\n", ""), ErrorCode::mesh_syntax, "line 9");
-  expect_error(replaced(kText, "vertex 3", "vertex -3"), ErrorCode::mesh_syntax, "line 4");
-  expect_error(replaced(kText, "vertex 3", "vertex 99999999999999999999"), ErrorCode::mesh_syntax, "line 4");
-  expect_error(replaced(kText, "vertex 3", "vertex"), ErrorCode::mesh_syntax, "line 4");
-  expect_error(replaced(kText, "double y", "quad y"), ErrorCode::mesh_syntax, "line 6");
-  expect_error(replaced(kText, "double y", "double"), ErrorCode::mesh_syntax, "line 6");
-  expect_error(replaced(kText, "uchar int", "float int"), ErrorCode::mesh_syntax, "line 9");
-  expect_error(replaced(kText, "int vertex", "float vertex"), ErrorCode::mesh_syntax, "bad.ply");
-  expect_error(replaced(kText, "double y", "double v"), ErrorCode::mesh_syntax, "bad.ply");
-  expect_error(replaced(kText, "element vertex 3\n", ""), ErrorCode::mesh_syntax, "line 4");
-  expect_error(replaced(kText, "vertex 3", "vertices 3"), ErrorCode::mesh_empty, "bad.ply");
-  expect_error(replaced(kText, "face 1", "faces 1"), ErrorCode::mesh_empty, "bad.ply");
-  expect_error(replaced(kText, "comment", "commend"), ErrorCode::mesh_syntax, "line 3");
+  expect_unreadable("bad.ply", "plywood", ErrorCode::mesh_syntax, "line 1");
+  expect_unreadable("bad.ply", "ply", ErrorCode::mesh_syntax, "line 1");
+  expect_unreadable("bad.ply", "ply\n", ErrorCode::mesh_syntax, "line 2");
+  expect_unreadable("bad.ply", "ply\nformat ascii 1.0\n", ErrorCode::mesh_syntax, "line 3");
+  expect_unreadable("bad.ply", replaced(kText, "ascii", "utf8"), ErrorCode::mesh_syntax, "line 2");
+  expect_unreadable("bad.ply", replaced(kText, "1.0", "2.0"), ErrorCode::mesh_syntax, "line 2");
+  expect_unreadable("bad.ply", replaced(kText, "format ascii 1.0\n", ""), ErrorCode::mesh_syntax, "line 9");
+  expect_unreadable("bad.ply", replaced(kText, "vertex 3", "vertex -3"), ErrorCode::mesh_syntax, "line 4");
+  expect_unreadable("bad.ply", replaced(kText, "vertex 3", "vertex 99999999999999999999"), ErrorCode::mesh_syntax,
+                    "line 4");
+  expect_unreadable("bad.ply", replaced(kText, "vertex 3", "vertex"), ErrorCode::mesh_syntax, "line 4");
+  expect_unreadable("bad.ply", replaced(kText, "double y", "quad y"), ErrorCode::mesh_syntax, "line 6");
+  expect_unreadable("bad.ply", replaced(kText, "double y", "double"), ErrorCode::mesh_syntax, "line 6");
+  expect_unreadable("bad.ply", replaced(kText, "uchar int", "float int"), ErrorCode::mesh_syntax, "line 9");
+  expect_unreadable("bad.ply", replaced(kText, "int vertex", "float vertex"), ErrorCode::mesh_syntax, "bad.ply");
+  expect_unreadable("bad.ply", replaced(kText, "double y", "double v"), ErrorCode::mesh_syntax, "bad.ply");
+  expect_unreadable("bad.ply", replaced(kText, "element vertex 3\n", ""), ErrorCode::mesh_syntax, "line 4");
+  expect_unreadable("bad.ply", replaced(kText, "vertex 3", "vertices 3"), ErrorCode::mesh_empty, "bad.ply");
+  expect_unreadable("bad.ply", replaced(kText, "face 1", "faces 1"), ErrorCode::mesh_empty, "bad.ply");
+  expect_unreadable("bad.ply", replaced(kText, "comment", "commend"), ErrorCode::mesh_syntax, "line 3");
 }
 
 TEST(ReadPly, NamesThePlaceOfWhatIsWrongInText) {
-  expect_error(replaced(kText, "3 0 1 2", "3 0 1 3"), ErrorCode::mesh_syntax, "line 14");
-  expect_error(replaced(kText, "3 0 1 2", "3 0 1 -1"), ErrorCode::mesh_syntax, "line 14");
-  expect_error(replaced(kText, "3 0 1 2", "3 0 1 1.5"), ErrorCode::mesh_syntax, "line 14");
-  expect_error(replaced(kText, "3 0 1 2", "-3 0 1 2"), ErrorCode::mesh_syntax, "line 14");
-  expect_error(replaced(kText, "3 0 1 2", "3 0 1"), ErrorCode::mesh_syntax, "line 15");
-  expect_error(replaced(kText, "1 0 0", "1 abc 0"), ErrorCode::mesh_syntax, "line 12");
-  expect_error(replaced(kText, "1 0 0", "1 1e999 0"), ErrorCode::coordinate_not_finite, "line 12");
-  expect_error(replaced(kText, "face 1", "face 1000000000000"), ErrorCode::mesh_syntax, "line 14");
-  expect_error(replaced(kText, "vertex 3", "vertex 9223372036854775807"), ErrorCode::mesh_syntax, "line 11");
+  expect_unreadable("bad.ply", replaced(kText, "3 0 1 2", "3 0 1 3"), ErrorCode::mesh_syntax, "line 14");
+  expect_unreadable("bad.ply", replaced(kText, "3 0 1 2", "3 0 1 -1"), ErrorCode::mesh_syntax, "line 14");
+  expect_unreadable("bad.ply", replaced(kText, "3 0 1 2", "3 0 1 1.5"), ErrorCode::mesh_syntax, "line 14");
+  expect_unreadable("bad.ply", replaced(kText, "3 0 1 2", "-3 0 1 2"), ErrorCode::mesh_syntax, "line 14");
+  expect_unreadable("bad.ply", replaced(kText, "3 0 1 2", "3 0 1"), ErrorCode::mesh_syntax, "line 15");
+  expect_unreadable("bad.ply", replaced(kText, "1 0 0", "1 abc 0"), ErrorCode::mesh_syntax, "line 12");
+  expect_unreadable("bad.ply", replaced(kText, "1 0 0", "1 1e999 0"), ErrorCode::coordinate_not_finite, "line 12");
+  expect_unreadable("bad.ply", replaced(kText, "face 1", "face 1000000000000"), ErrorCode::mesh_syntax, "line 14");
+  expect_unreadable("bad.ply", replaced(kText, "vertex 3", "vertex 9223372036854775807"), ErrorCode::mesh_syntax,
+                    "line 11");
 }
 
 TEST(ReadPly, NamesThePlaceOfWhatIsWrongInBinary) {
@@ -155,17 +153,20 @@ TEST(ReadPly, NamesThePlaceOfWhatIsWrongInBinary) {
   const std::string start = std::to_string(head.size()), face = std::to_string(head.size() + 73);
   const auto corners = [](std::int32_t last) { return '\3' + bytes_of(0) + bytes_of(1) + bytes_of(last); };
   EXPECT_EQ(read_as("a.ply", head + rows + corners(2)).triangles.size(), 1u);
-  expect_error(head + rows + corners(3), ErrorCode::mesh_syntax, "byte " + face);
-  expect_error(head + rows + corners(-1), ErrorCode::mesh_syntax, "byte");
-  expect_error(head + rows + corners(2).substr(0, 12), ErrorCode::mesh_syntax, "byte");
-  expect_error(head + rows.substr(1), ErrorCode::mesh_syntax, "byte " + start);
-  expect_error(
+  expect_unreadable("bad.ply", head + rows + corners(3), ErrorCode::mesh_syntax, "byte " + face);
+  expect_unreadable("bad.ply", head + rows + corners(-1), ErrorCode::mesh_syntax, "byte");
+  expect_unreadable("bad.ply", head + rows + corners(2).substr(0, 12), ErrorCode::mesh_syntax, "byte");
+  expect_unreadable("bad.ply", head + rows.substr(1), ErrorCode::mesh_syntax, "byte " + start);
+  expect_unreadable(
+      "bad.ply",
       head + std::string(16, '\0') + bytes_of(std::numeric_limits<double>::infinity()) + rows.substr(24) + corners(2),
       ErrorCode::coordinate_not_finite, "byte " + start);
   const std::string huge = replaced(head, "uchar", "uint");
-  expect_error(huge + rows + bytes_of(std::uint32_t{4294967295u}) + bytes_of(1), ErrorCode::mesh_syntax, "byte");
+  expect_unreadable("bad.ply", huge + rows + bytes_of(std::uint32_t{4294967295u}) + bytes_of(1), ErrorCode::mesh_syntax,
+                    "byte");
   const std::string other = replaced(huge, "vertex_indices", "others\nproperty list uchar int vertex_indices");
-  expect_error(other + rows + bytes_of(std::uint32_t{4294967295u}) + bytes_of(1), ErrorCode::mesh_syntax, "byte");
+  expect_unreadable("bad.ply", other + rows + bytes_of(std::uint32_t{4294967295u}) + bytes_of(1),
+                    ErrorCode::mesh_syntax, "byte");
 }
 
 /// An element whose rows take no space must not be counted through.

@@ -9,7 +9,7 @@ namespace vantage::internal::io {
 namespace {
 
 using testing::bytes_of;
-using testing::expect_error;
+using testing::expect_unreadable;
 using testing::read_as;
 
 using Names = std::vector<std::string>;
@@ -26,10 +26,6 @@ std::string binary(std::uint32_t count, std::uint32_t announced, float z = 0.5f,
     bytes += bytes_of(std::uint16_t{0});
   }
   return bytes;
-}
-
-void expect_error(const std::string& bytes, ErrorCode code, const std::string& where) {
-  expect_error([&] { read_as("bad.stl", bytes); }, code, where);
 }
 
 TEST(ReadStl, ReadsTextWithItsSolids) {
@@ -54,21 +50,24 @@ TEST(ReadStl, ReadsBinary) {
 }
 
 TEST(ReadStl, NamesThePlaceOfWhatIsWrong) {
-  expect_error(binary(2, 3), ErrorCode::mesh_syntax, "bad.stl, byte 80");
-  expect_error(binary(2, 4294967295u), ErrorCode::mesh_syntax, "byte 80");
-  expect_error(binary(3, 2), ErrorCode::mesh_syntax, "byte 80");
-  expect_error(binary(2, 4, 0, "solid"), ErrorCode::mesh_syntax, "byte 80");
-  expect_error(std::string("solid\0", 6), ErrorCode::mesh_syntax, "byte 6");
-  expect_error("?", ErrorCode::mesh_syntax, "byte 1");
-  expect_error(binary(0, 0), ErrorCode::mesh_empty, "bad.stl");
-  expect_error(binary(2, 2, std::numeric_limits<float>::quiet_NaN()), ErrorCode::coordinate_not_finite, "byte 96");
-  expect_error("solid a\n" + kFacet, ErrorCode::mesh_syntax, "line 9");
-  expect_error("solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 x", ErrorCode::mesh_syntax, "line 4");
-  expect_error("solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 inf", ErrorCode::coordinate_not_finite, "line 4");
-  expect_error("solid a\nfacet normal 0 0 1\nvertex 0 0 0", ErrorCode::mesh_syntax, "line 3");
-  expect_error("solid a\nfacette", ErrorCode::mesh_syntax, "line 2");
-  expect_error("solid a\nendsolid a\n", ErrorCode::mesh_empty, "bad.stl");
-  expect_error("solid a\n" + kFacet + "endsolid a\nrubbish\n", ErrorCode::mesh_syntax, "line 10");
+  expect_unreadable("bad.stl", binary(2, 3), ErrorCode::mesh_syntax, "bad.stl, byte 80");
+  expect_unreadable("bad.stl", binary(2, 4294967295u), ErrorCode::mesh_syntax, "byte 80");
+  expect_unreadable("bad.stl", binary(3, 2), ErrorCode::mesh_syntax, "byte 80");
+  expect_unreadable("bad.stl", binary(2, 4, 0, "solid"), ErrorCode::mesh_syntax, "byte 80");
+  expect_unreadable("bad.stl", std::string("solid\0", 6), ErrorCode::mesh_syntax, "byte 6");
+  expect_unreadable("bad.stl", "?", ErrorCode::mesh_syntax, "byte 1");
+  expect_unreadable("bad.stl", binary(0, 0), ErrorCode::mesh_empty, "bad.stl");
+  expect_unreadable("bad.stl", binary(2, 2, std::numeric_limits<float>::quiet_NaN()), ErrorCode::coordinate_not_finite,
+                    "byte 96");
+  expect_unreadable("bad.stl", "solid a\n" + kFacet, ErrorCode::mesh_syntax, "line 9");
+  expect_unreadable("bad.stl", "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 x", ErrorCode::mesh_syntax,
+                    "line 4");
+  expect_unreadable("bad.stl", "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 inf",
+                    ErrorCode::coordinate_not_finite, "line 4");
+  expect_unreadable("bad.stl", "solid a\nfacet normal 0 0 1\nvertex 0 0 0", ErrorCode::mesh_syntax, "line 3");
+  expect_unreadable("bad.stl", "solid a\nfacette", ErrorCode::mesh_syntax, "line 2");
+  expect_unreadable("bad.stl", "solid a\nendsolid a\n", ErrorCode::mesh_empty, "bad.stl");
+  expect_unreadable("bad.stl", "solid a\n" + kFacet + "endsolid a\nrubbish\n", ErrorCode::mesh_syntax, "line 10");
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ namespace {
 
 using app::parse_mission;
 
-constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kRadiansPerDegree = std::numbers::pi / 180;
 constexpr const char* kLine = "/data/mission.yaml:3:";  // of the section in question
 
 std::string with_sensor(const std::string& sensor) {
@@ -53,7 +53,7 @@ TEST(SensorMission, ReadsEveryKey) {
   EXPECT_EQ(sensor.pixel->size_m, 0.02);
   EXPECT_EQ(sensor.pixel->kind, PixelLimit::Kind::worst);
   ASSERT_TRUE(sensor.sun);
-  EXPECT_NEAR((sensor.sun->direction - Vec3(std::cos(30 * kDegree), 0, 0.5)).norm(), 0, 1e-12);
+  EXPECT_NEAR((sensor.sun->direction - Vec3(std::cos(30 * kRadiansPerDegree), 0, 0.5)).norm(), 0, 1e-12);
   EXPECT_EQ(sensor.sun->exclude_deg, 20);
   EXPECT_FALSE(sensor.visible);
 
@@ -84,7 +84,7 @@ TEST(SensorMission, CamerasByNumbersAndMountsThatAreFixed) {
   const Sensor angles =
       parse("{fov: [60, 40], camera: {width: 4000, height: 2000}, pixel: {size: 0.02, kind: worst}}").sensor;
   ASSERT_TRUE(angles.camera && angles.camera->focal_px);
-  EXPECT_NEAR(*angles.camera->focal_px, 1000 / std::tan(20 * kDegree), 1e-6);
+  EXPECT_NEAR(*angles.camera->focal_px, 1000 / std::tan(20 * kRadiansPerDegree), 1e-6);
 
   const Sensor fixed = parse("{max_range: 50, fov: [60, 40], mount: {yaw: 120, pitch: -30, roll: -10}}").sensor;
   EXPECT_TRUE(fixed.mount.is_fixed());

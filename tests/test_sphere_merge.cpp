@@ -21,14 +21,14 @@ using spheres::placed;
 using spheres::StarMesh;
 using testing::Random;
 
-constexpr double kRange = 50, kMerge = 0.01;
+constexpr double kBallRange = 50, kMerge = 0.01;
 
 /// Depths of a made-up city, or of a room with five walls.
 std::vector<float> depths(const Mesh& mesh, const Vec3& from, int n, depth::Sampling sampling) {
   testing::BruteDepth renderer(mesh);
   const std::vector<Vec3> viewpoints{from};
   std::vector<float> kept;
-  renderer.render({viewpoints, n, sampling, kRange},
+  renderer.render({viewpoints, n, sampling, kBallRange},
                   [&](std::size_t, std::span<const float> w) { kept.assign(w.begin(), w.end()); });
   return kept;
 }
@@ -69,11 +69,11 @@ void expect_near(const StarMesh& plain, const StarMesh& merged, bool is_inward, 
 TEST(SphereMerge, MakesAWallOfFewFacets) {
   const int n = 48;
   const std::vector<float> nearest = depths(room(), {0, 0, 0}, n, depth::Sampling::nearest);
-  const StarMesh plain = bound_corners({n, nearest}, kRange),
-                 merged = bound_corners({n, nearest}, kRange, nullptr, kMerge);
+  const StarMesh plain = bound_corners({n, nearest}, kBallRange),
+                 merged = bound_corners({n, nearest}, kBallRange, nullptr, kMerge);
   EXPECT_LT(merged.triangles.size() * 3, plain.triangles.size());
   const std::vector<float> centres = depths(room(), {0, 0, 0}, n, depth::Sampling::centers);
-  const StarMesh joined = join_centers({n, centres}, kRange, kMerge);
+  const StarMesh joined = join_centers({n, centres}, kBallRange, kMerge);
   EXPECT_LT(joined.triangles.size() * 3, plain.triangles.size());
 }
 
@@ -85,10 +85,10 @@ TEST(SphereMerge, StaysCloseAndInsideWhereThatIsPromised) {
     const int n = random.integer(15, 24);
     const std::vector<float> nearest = depths(mesh, from, n, depth::Sampling::nearest);
     const std::vector<float> centres = depths(mesh, from, n, depth::Sampling::centers);
-    const StarMesh bound = bound_corners({n, nearest}, kRange, nullptr, kMerge);
-    const StarMesh joined = join_centers({n, centres}, kRange, kMerge);
-    expect_near(bound_corners({n, nearest}, kRange), bound, true, random);
-    expect_near(join_centers({n, centres}, kRange), joined, false, random);
+    const StarMesh bound = bound_corners({n, nearest}, kBallRange, nullptr, kMerge);
+    const StarMesh joined = join_centers({n, centres}, kBallRange, kMerge);
+    expect_near(bound_corners({n, nearest}, kBallRange), bound, true, random);
+    expect_near(join_centers({n, centres}, kBallRange), joined, false, random);
     for (const StarMesh* star : {&bound, &joined}) {
       const MeshMeasures m = measure(placed(*star, {}).mesh);
       EXPECT_TRUE(m.closed && m.oriented);
@@ -102,12 +102,12 @@ TEST(SphereMerge, FollowsTheRangeFromWithin) {
   Random random(12);
   for (const int n : {32, 40, 41}) {
     const std::vector<float> nothing(6 * static_cast<std::size_t>(n) * n, 0);
-    const StarMesh ball = bound_corners({n, nothing}, kRange, nullptr, kMerge);
+    const StarMesh ball = bound_corners({n, nothing}, kBallRange, nullptr, kMerge);
     EXPECT_LT(2 * ball.triangles.size(), 12U * n * n + 100);
     for (int k = 0; k < 500; ++k) {
       const double r = reach(ball, random.direction());
-      EXPECT_LE(r, kRange);
-      EXPECT_GE(r, kRange * (1 - 1.01 * kMerge));
+      EXPECT_LE(r, kBallRange);
+      EXPECT_GE(r, kBallRange * (1 - 1.01 * kMerge));
     }
   }
 }

@@ -31,7 +31,7 @@ using spheres::Placement;
 using spheres::StarMesh;
 using testing::Random;
 
-constexpr double kRange = 50;
+constexpr double kReach = 50;
 
 struct Form {
   const char* name;
@@ -49,8 +49,8 @@ const Form kForms[] = {{"centers", false, {}},
 
 StarMesh make(const Form& form, const CubeMap& cube, const Vec3* front = nullptr) {
   if (!form.grid)
-    return form.is_bound ? bound_corners(cube, kRange, front, form.merge) : join_centers(cube, kRange, form.merge);
-  return form.is_bound ? bound_lonlat(cube, *form.grid, kRange, front) : join_lonlat(cube, *form.grid, kRange);
+    return form.is_bound ? bound_corners(cube, kReach, front, form.merge) : join_centers(cube, kReach, form.merge);
+  return form.is_bound ? bound_lonlat(cube, *form.grid, kReach, front) : join_lonlat(cube, *form.grid, kReach);
 }
 
 std::vector<float> random_depths(Random& random, int n) {
@@ -86,14 +86,14 @@ double reach(const Mesh& mesh, const Vec3& direction) {
 TEST(SphereMesh, HasTheStatedNumbersOfVerticesAndFacets) {
   for (const int n : {1, 2, 3, 8}) {
     const std::vector<float> nothing(6 * static_cast<std::size_t>(n) * n, 0);
-    const StarMesh centers = join_centers({n, nothing}, kRange), corners = bound_corners({n, nothing}, kRange);
+    const StarMesh centers = join_centers({n, nothing}, kReach), corners = bound_corners({n, nothing}, kReach);
     EXPECT_EQ(centers.rays.size(), 6U * n * n);
     EXPECT_EQ(centers.triangles.size(), 12U * n * n - 4);
     EXPECT_EQ(corners.rays.size(), 6U * n * n + 2);
     EXPECT_EQ(corners.triangles.size(), 12U * n * n);
   }
   const std::vector<float> nothing(6 * 4 * 4, 0);
-  const StarMesh grid = join_lonlat({4, nothing}, {160, 80}, kRange);
+  const StarMesh grid = join_lonlat({4, nothing}, {160, 80}, kReach);
   EXPECT_EQ(grid.rays.size(), 160U * 79 + 2);
   EXPECT_EQ(grid.triangles.size(), 2U * 160 * 79);
 }
@@ -118,9 +118,9 @@ TEST(SphereMesh, EndsAtTheRange) {
   for (const Form& form : kForms) {
     const int n = 8;
     const std::vector<float> inverse = random_depths(random, n), nothing(6 * n * n, 0);
-    for (const Vec3& ray : make(form, {n, inverse}).rays) EXPECT_LE(ray.norm(), kRange * (1 + 1e-15));
+    for (const Vec3& ray : make(form, {n, inverse}).rays) EXPECT_LE(ray.norm(), kReach * (1 + 1e-15));
     const StarMesh ball = make(form, {n, nothing});
-    for (const Vec3& ray : ball.rays) EXPECT_NEAR(ray.norm(), kRange, 1e-7) << form.name;
+    for (const Vec3& ray : ball.rays) EXPECT_NEAR(ray.norm(), kReach, 1e-7) << form.name;
     const auto labels = placed(ball, {}).labels;
     EXPECT_TRUE(std::all_of(labels.begin(), labels.end(), [](auto label) { return label == spheres::kRange; }));
   }
@@ -177,9 +177,9 @@ TEST(SphereMesh, PutsEachTexelWhereTheFacesSay) {
         const std::size_t texel = (face * n + j) * n + i;
         inverse[texel] = 1.0F / 4;
         EXPECT_EQ(grid.texel_index(grid.texel_at(direction)), texel);
-        const Mesh centers = placed(join_centers({n, inverse}, kRange), {}).mesh;
+        const Mesh centers = placed(join_centers({n, inverse}, kReach), {}).mesh;
         EXPECT_NEAR(reach(centers, direction), 4, 1e-6);
-        const Mesh corners = placed(bound_corners({n, inverse}, kRange), {}).mesh;
+        const Mesh corners = placed(bound_corners({n, inverse}, kReach), {}).mesh;
         EXPECT_NEAR(reach(corners, direction), 4, 1e-6);
         EXPECT_NEAR(reach(corners, -direction), 20, 1e-6);
         inverse[texel] = 1.0F / 20;
@@ -202,7 +202,7 @@ TEST(SphereMesh, ConservativeOnesLieInWhatIsSeen) {
       Mesh mesh;
       const bool front_only = round % 2 == 1;
       const Vec3 up = Vec3::UnitZ();
-      renderer.render({viewpoints, n, depth::Sampling::nearest, kRange}, [&](std::size_t, std::span<const float> w) {
+      renderer.render({viewpoints, n, depth::Sampling::nearest, kReach}, [&](std::size_t, std::span<const float> w) {
         Placement placement;
         placement.front_only = front_only;
         mesh = placed(make(form, {n, w}, front_only ? &up : nullptr), placement).mesh;
@@ -212,7 +212,7 @@ TEST(SphereMesh, ConservativeOnesLieInWhatIsSeen) {
         Vec3 direction = random.direction();
         if (k % 2 == 1) direction = (corner - from + 0.2 * random.direction()).normalized();
         if (front_only && direction.z() < 0) direction.z() *= -1;
-        const double seen = std::min(testing::first_hit(scene.mesh, from, direction), kRange);
+        const double seen = std::min(testing::first_hit(scene.mesh, from, direction), kReach);
         EXPECT_LE(reach(mesh, direction), std::max(seen, 2 * spheres::numerics::kFloor) * (1 + 1e-12)) << form.name;
       }
     }
@@ -226,14 +226,14 @@ TEST(SphereMesh, ConservativeOnesComeCloseToWhatIsSeen) {
   testing::BruteDepth renderer(builder.scene().mesh);
   const std::vector<Vec3> viewpoints{Vec3::Zero()};
   const int n = 40;
-  renderer.render({viewpoints, n, depth::Sampling::nearest, kRange}, [&](std::size_t, std::span<const float> w) {
-    const double half_ball = 2 * std::numbers::pi / 3 * std::pow(kRange, 3);
-    const double cut = std::numbers::pi * std::pow(kRange - 10, 2) * (2 * kRange + 10) / 3;
+  renderer.render({viewpoints, n, depth::Sampling::nearest, kReach}, [&](std::size_t, std::span<const float> w) {
+    const double half_ball = 2 * std::numbers::pi / 3 * std::pow(kReach, 3);
+    const double cut = std::numbers::pi * std::pow(kReach - 10, 2) * (2 * kReach + 10) / 3;
     const double truth = 2 * half_ball - cut;
-    const double corners = enclosed_volume(placed(bound_corners({n, w}, kRange), {}).mesh);
+    const double corners = enclosed_volume(placed(bound_corners({n, w}, kReach), {}).mesh);
     EXPECT_LE(corners, truth);
     EXPECT_GT(corners, 0.95 * truth);
-    const double lonlat = enclosed_volume(placed(bound_lonlat({n, w}, {40, 20}, kRange), {}).mesh);
+    const double lonlat = enclosed_volume(placed(bound_lonlat({n, w}, {40, 20}, kReach), {}).mesh);
     EXPECT_LE(lonlat, truth);
     EXPECT_GT(lonlat, 0.8 * truth);
   });

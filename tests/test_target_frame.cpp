@@ -19,14 +19,14 @@ namespace {
 using Eigen::Vector2d;
 using testing::Random;
 
-Target target_of(std::vector<Vec3> vertices) {
+Target plaza_of(std::vector<Vec3> vertices) {
   Target target;
   target.name = "plaza";
   target.parts[0] = std::move(vertices);
   return target;
 }
 
-Target square() { return target_of({{0, 0, 2}, {4, 0, 2}, {4, 4, 2}, {0, 4, 2}}); }
+Target square() { return plaza_of({{0, 0, 2}, {4, 0, 2}, {4, 4, 2}, {0, 4, 2}}); }
 
 Target reversed(Target target) {
   std::reverse(target.parts[0].begin(), target.parts[0].end());
@@ -36,7 +36,7 @@ Target reversed(Target target) {
 /// A regular polygon in the plane through `centre` with the given normal; counter-clockwise seen from there.
 Target regular(int corners, double radius, const Vec3& centre, const Vec3& normal) {
   const Vec3 u = normal.unitOrthogonal(), v = normal.normalized().cross(u);
-  Target target = target_of({});
+  Target target = plaza_of({});
   for (int k = 0; k < corners; ++k) {
     const double angle = 2 * std::numbers::pi * k / corners;
     target.parts[0].push_back(centre + radius * (std::cos(angle) * u + std::sin(angle) * v));
@@ -117,7 +117,7 @@ TEST(TargetFrame, TiltedTargetsDrawnFromBelowLookUp) {
 
 TEST(TargetFrame, VerticalTargetLooksToWhereItRunsCounterClockwise) {
   // Seen from -y, the vertices run counter-clockwise.
-  const Target facade = target_of({{0, 0, 0}, {6, 0, 0}, {6, 0, 3}, {0, 0, 3}});
+  const Target facade = plaza_of({{0, 0, 0}, {6, 0, 0}, {6, 0, 3}, {0, 0, 3}});
   TargetFrame frame = make_target_frame(facade);
   EXPECT_LT((frame.normal - Vec3(0, -1, 0)).norm(), 1e-12);
   expect_frame(frame, facade.parts[0], 0);
@@ -142,7 +142,7 @@ TEST(TargetFrame, FrontIsObeyed) {
     target.front = Vec3(0, 0, length);
     EXPECT_EQ(make_target_frame(target).normal, Vec3(0, 0, 1));
   }
-  Target facade = target_of({{0, 0, 0}, {6, 0, 0}, {6, 0, 3}, {0, 0, 3}});
+  Target facade = plaza_of({{0, 0, 0}, {6, 0, 0}, {6, 0, 3}, {0, 0, 3}});
   for (const double side : {-1.0, 1.0}) {
     facade.front = Vec3(0.5, side, 4);
     EXPECT_LT((make_target_frame(facade).normal - Vec3(0, side, 0)).norm(), 1e-12);
@@ -162,13 +162,13 @@ TEST(TargetFrame, OffsetMovesTowardsTheFront) {
 }
 
 TEST(TargetFrame, CollinearVerticesAreDropped) {
-  const Target target = target_of({{0, 0, 0}, {1, 0, 0}, {4, 0, 0}, {4, 2, 0}, {4, 3, 0}, {4, 4, 0}, {0, 4, 0}});
+  const Target target = plaza_of({{0, 0, 0}, {1, 0, 0}, {4, 0, 0}, {4, 2, 0}, {4, 3, 0}, {4, 4, 0}, {0, 4, 0}});
   const std::vector<Vec3> corners = {{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}};
   expect_frame(make_target_frame(target), corners, 0);
   expect_frame(make_target_frame(reversed(target)), corners, 0);
   // A triangle with a vertex in the middle of every edge, tilted: collinear but for rounding.
   const auto refined = [](const Target& triangle) {
-    Target finer = target_of({});
+    Target finer = plaza_of({});
     for (int i = 0; i < 3; ++i) {
       finer.parts[0].push_back(triangle.parts[0][i]);
       finer.parts[0].push_back(0.5 * (triangle.parts[0][i] + triangle.parts[0][(i + 1) % 3]));
@@ -211,7 +211,7 @@ TEST(TargetFrame, RandomTargetsOfAnyShapeAndPlace) {
     const double squeeze = std::pow(10, random.uniform(-3, 0));  // down to slivers
     std::vector<double> angles;
     for (int k = 0; k < corners; ++k) angles.push_back((k + random.uniform(0.1, 0.9)) * 2 * std::numbers::pi / corners);
-    Target target = target_of({});
+    Target target = plaza_of({});
     for (const double angle : angles)
       target.parts[0].push_back(centre + 40 * (std::cos(angle) * u + squeeze * std::sin(angle) * v));
     target.front = normal;
@@ -223,12 +223,12 @@ TEST(TargetFrame, RandomTargetsOfAnyShapeAndPlace) {
 }
 
 TEST(TargetFrame, RefusesTooFewVertices) {
-  EXPECT_EQ(refusal(target_of({})), ErrorCode::target_vertex_count);
-  EXPECT_EQ(refusal(target_of({{0, 0, 0}, {1, 0, 0}})), ErrorCode::target_vertex_count);
+  EXPECT_EQ(refusal(plaza_of({})), ErrorCode::target_vertex_count);
+  EXPECT_EQ(refusal(plaza_of({{0, 0, 0}, {1, 0, 0}})), ErrorCode::target_vertex_count);
 }
 
 TEST(TargetFrame, OfAPointSeenFromAllSides) {
-  Target target = target_of({{1e6, 2, 3.7}});
+  Target target = plaza_of({{1e6, 2, 3.7}});
   const TargetFrame frame = make_target_frame(target);
   EXPECT_TRUE(frame.all_sides);
   EXPECT_EQ(frame.origin, target.parts[0][0]);
@@ -242,7 +242,7 @@ TEST(TargetFrame, OfAPointSeenFromAllSides) {
 }
 
 TEST(TargetFrame, OfAPointWithAFront) {
-  Target target = target_of({{1, 2, 3}});
+  Target target = plaza_of({{1, 2, 3}});
   target.front = Vec3(0, -3, 4);
   target.offset_m = 10;
   const TargetFrame frame = make_target_frame(target);
@@ -252,7 +252,7 @@ TEST(TargetFrame, OfAPointWithAFront) {
   EXPECT_TRUE(frame.axis_u.cross(frame.axis_v).isApprox(frame.normal));
   target.front = Vec3(0, 0, 0);
   EXPECT_EQ(refusal(target), ErrorCode::direction_invalid);
-  EXPECT_EQ(refusal(target_of({{0, std::nan(""), 0}})), ErrorCode::coordinate_not_finite);
+  EXPECT_EQ(refusal(plaza_of({{0, std::nan(""), 0}})), ErrorCode::coordinate_not_finite);
 }
 
 TEST(TargetFrame, RefusesWhatIsNotFinite) {
@@ -281,14 +281,14 @@ TEST(TargetFrame, RefusesRepeatedVerticesAndSaysWhich) {
   Target target = square();
   target.parts[0].push_back(target.parts[0][1]);
   EXPECT_EQ(refusal(target), ErrorCode::target_vertices_coincide);
-  target = target_of({{0, 0, 0}, {1, 0, 0}, {1, 0, 1e-12}, {0, 1, 0}});
+  target = plaza_of({{0, 0, 0}, {1, 0, 0}, {1, 0, 1e-12}, {0, 1, 0}});
   EXPECT_EQ(refusal(target), ErrorCode::target_vertices_coincide);
-  EXPECT_EQ(refusal(target_of({{1, 1, 1}, {1, 1, 1}, {1, 1, 1}})), ErrorCode::target_vertices_coincide);
+  EXPECT_EQ(refusal(plaza_of({{1, 1, 1}, {1, 1, 1}, {1, 1, 1}})), ErrorCode::target_vertices_coincide);
 }
 
 TEST(TargetFrame, RefusesZeroArea) {
-  EXPECT_EQ(refusal(target_of({{0, 0, 0}, {1, 2, 3}, {2, 4, 6}})), ErrorCode::target_without_area);
-  EXPECT_EQ(refusal(target_of({{0, 0, 0}, {4, 4, 0}, {4, 0, 0}, {0, 4, 0}})),
+  EXPECT_EQ(refusal(plaza_of({{0, 0, 0}, {1, 2, 3}, {2, 4, 6}})), ErrorCode::target_without_area);
+  EXPECT_EQ(refusal(plaza_of({{0, 0, 0}, {4, 4, 0}, {4, 0, 0}, {0, 4, 0}})),
             ErrorCode::target_without_area);  // a bow tie
 }
 
@@ -313,14 +313,14 @@ TEST(TargetFrame, RefusesWhatIsNotConvexAndSaysWhere) {
     EXPECT_EQ(error.code(), ErrorCode::target_not_convex);
     return error.problem().substr(error.problem().rfind("vertex"));
   };
-  const Target arrow = target_of({{0, 0, 0}, {4, 0, 0}, {1, 1, 0}, {0, 4, 0}});
+  const Target arrow = plaza_of({{0, 0, 0}, {4, 0, 0}, {1, 1, 0}, {0, 4, 0}});
   EXPECT_EQ(turns_at(arrow), "vertex 2");
   EXPECT_EQ(turns_at(reversed(arrow)), "vertex 1");
   // A spike that runs out and back along one line.
-  const Target spike = target_of({{0, 0, 0}, {4, 0, 0}, {6, 0, 0}, {5, 0, 0}, {4, 4, 0}, {0, 4, 0}});
+  const Target spike = plaza_of({{0, 0, 0}, {4, 0, 0}, {6, 0, 0}, {5, 0, 0}, {4, 4, 0}, {0, 4, 0}});
   EXPECT_EQ(refusal(spike), ErrorCode::target_not_convex);
   // Two vertices swapped: the outline crosses itself but encloses some area.
-  const Target crossed = target_of({{0, 0, 0}, {4, 0, 0}, {1, 3, 0}, {4, 4, 0}});
+  const Target crossed = plaza_of({{0, 0, 0}, {4, 0, 0}, {1, 3, 0}, {4, 4, 0}});
   EXPECT_EQ(refusal(crossed), ErrorCode::target_not_convex);
 }
 

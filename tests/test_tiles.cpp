@@ -361,7 +361,7 @@ TEST_F(TiledTown, KeepsLimitsAndRoofs) {
       Navigation navigation;
       navigation.above_ground = AboveGround{5, 60, *ground_of(built.scene)};
       navigation.clearance = Clearance{2, obstacles_of(built.scene, {})};
-      return built.volume(target_of({&roof, 1}, "roof"), 50, navigation);
+      return built.volume(target_of(std::vector{roof}, "roof"), 50, navigation);
     };
     const Volume expected = limited(whole, roofs[0]);
     EXPECT_TRUE(are_same(expected, limited(tile, found[0]))) << display_name(whole.scene.objects[object]);

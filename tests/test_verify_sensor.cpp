@@ -27,7 +27,7 @@ using testing::target_of;
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kHair = 1e-7;
 
-Target square(double half = 1, const Vec3& centre = Vec3::Zero()) {
+Target square_at(double half = 1, const Vec3& centre = Vec3::Zero()) {
   const auto corner = [&](double x, double y) { return Vec3(centre + Vec3(x, y, 0)); };
   return target_of({corner(-half, -half), corner(half, -half), corner(half, half), corner(-half, half)});
 }
@@ -73,7 +73,7 @@ struct Judged {
 // ---- each limit ----
 
 TEST(VerifySensor, TheRangeIsToTheFarthestVertex) {
-  const Judged judged(square(), {.max_range_m = std::sqrt(102.0)});
+  const Judged judged(square_at(), {.max_range_m = std::sqrt(102.0)});
   EXPECT_EQ(judged.broken({0, 0, 10}), "");
   EXPECT_EQ(judged.broken({0, 0, 10 * (1 + kHair)}), "max_range");
   EXPECT_EQ(judged.reason({0, 0, 9.995}), "max_range") << "within the tolerance";
@@ -86,7 +86,7 @@ TEST(VerifySensor, ThePixelFaceOnIsARange) {
     s.camera = camera_of(10, 10, 2000);
     s.pixel = PixelLimit{.size_m = 0.01, .kind = PixelLimit::Kind::perpendicular};
   });
-  const Judged judged(square(3), sensor);
+  const Judged judged(square_at(3), sensor);
   EXPECT_EQ(judged.judge.range(), 20);
   const double height = std::sqrt(400 - 18.0);
   EXPECT_EQ(judged.broken({0, 0, height * (1 - kHair)}), "");
@@ -98,7 +98,7 @@ TEST(VerifySensor, TheForeshortenedPixelIsThatOfTheWorstVertex) {
     s.camera = camera_of(50, 50, 2000);
     s.pixel = PixelLimit{.size_m = 0.01, .kind = PixelLimit::Kind::worst};
   });
-  const Judged judged(square(), sensor);
+  const Judged judged(square_at(), sensor);
   // Of (x, 0, h) the worst vertices are (-1, +-1, 0): d^2 = (x + 1)^2 + 1 + h^2 <= 20 h.
   for (const double h : {3.0, 8.0, 12.0}) {
     const double x = std::sqrt(20 * h - h * h - 1) - 1;
@@ -113,7 +113,7 @@ TEST(VerifySensor, TheForeshortenedPixelIsThatOfTheWorstVertex) {
 }
 
 TEST(VerifySensor, TheLeastRangeIsToTheNearestPoint) {
-  const Judged judged(square(), sensor_of([](Sensor& s) { s.min_range_m = 2; }));
+  const Judged judged(square_at(), sensor_of([](Sensor& s) { s.min_range_m = 2; }));
   struct Case {
     Vec3 nearest, direction;
   };
@@ -127,7 +127,7 @@ TEST(VerifySensor, TheLeastRangeIsToTheNearestPoint) {
 }
 
 TEST(VerifySensor, TheIncidenceIsThatOfTheWorstVertex) {
-  const Judged judged(square(), sensor_of([](Sensor& s) { s.incidence_deg = 40; }));
+  const Judged judged(square_at(), sensor_of([](Sensor& s) { s.incidence_deg = 40; }));
   for (const double h : {2.0, 7.0, 100.0}) {
     const double x = std::sqrt(std::pow(h * std::tan(40 * kDegree), 2) - 1) - 1;
     EXPECT_EQ(judged.broken({0, -x + kHair, h}), "") << h;
@@ -172,7 +172,7 @@ TEST(VerifySensor, TheSunIsKeptFromTheWholePolygon) {
 TEST(VerifySensor, TheSunBehindTheMiddleOfTheTargetIsSeen) {
   // Straight down on a square of 60 degrees across: vertices are farther from the sun than the excluded angle.
   const auto judged = [](const Vec3& sun, double exclude_deg) {
-    return Judged(square(1), sensor_of([&](Sensor& s) { s.sun = SunLimit{sun, exclude_deg}; }));
+    return Judged(square_at(1), sensor_of([&](Sensor& s) { s.sun = SunLimit{sun, exclude_deg}; }));
   };
   const Vec3 point(0, 0, std::sqrt(3.0));
   EXPECT_EQ(judged({0, 0, -1}, 1).broken(point), "sun");
@@ -185,8 +185,8 @@ TEST(VerifySensor, TheSunBehindTheMiddleOfTheTargetIsSeen) {
 }
 
 TEST(VerifySensor, AllPartsAreInOnePicture) {
-  Target both = square(1, {-10, 0, 0});
-  both.parts.push_back(square(1, {10, 0, 0}).parts[0]);
+  Target both = square_at(1, {-10, 0, 0});
+  both.parts.push_back(square_at(1, {10, 0, 0}).parts[0]);
   const Sensor sensor = sensor_of([](Sensor& s) { s.camera = camera_of(1, 0.2); });
   for (const double shift : {0.0, 4e6}) {
     Target moved = both;
@@ -209,12 +209,12 @@ TEST(VerifySensor, TellsTheGimbalFromThePicture) {
       s.mount = mount;
     });
   };
-  const Judged judged(square(), sensor({.min_pitch_deg = -30, .max_pitch_deg = 30}));
+  const Judged judged(square_at(), sensor({.min_pitch_deg = -30, .max_pitch_deg = 30}));
   EXPECT_EQ(judged.broken({0, -20, 5}), "");
   EXPECT_EQ(judged.broken({0, 0, 20}), "gimbal");
   EXPECT_EQ(judged.broken({0, 0, 1}), "frame");
-  EXPECT_EQ(Judged(square(), sensor({})).broken({0, 0, 20}), "");
-  const Judged fixed(square(), sensor({.yaw_deg = 0, .min_pitch_deg = -90, .max_pitch_deg = -90}));
+  EXPECT_EQ(Judged(square_at(), sensor({})).broken({0, 0, 20}), "");
+  const Judged fixed(square_at(), sensor({.yaw_deg = 0, .min_pitch_deg = -90, .max_pitch_deg = -90}));
   EXPECT_EQ(fixed.broken({0, 0, 2 * (1 + kHair)}), "");
   EXPECT_EQ(fixed.broken({0, 0, 2 * (1 - kHair)}), "frame");
   EXPECT_EQ(fixed.broken({5, 0, 2 * (1 + kHair)}), "gimbal");
@@ -317,7 +317,7 @@ class VerifySensorVolumes : public ::testing::TestWithParam<Limit> {
 
   Scene courtyard_ = make_courtyard();
   PreparedScene scene_{courtyard_};
-  Target target_ = square(2, {1, -1, 0});
+  Target target_ = square_at(2, {1, -1, 0});
 };
 
 TEST_P(VerifySensorVolumes, WhatIsCutIsRight) {

@@ -17,6 +17,12 @@ inline io::RawMesh read_as(const std::string& name, const std::string& bytes, co
   return io::read_any(io::MeshSource(name, bytes), {}, limits);
 }
 
+/// Fails unless `bytes`, as a file with this name, are refused with this code, and the error's place holds `where`.
+inline void expect_unreadable(const std::string& name, const std::string& bytes, ErrorCode code,
+                              const std::string& where) {
+  expect_error([&] { read_as(name, bytes); }, code, where);
+}
+
 /// The bytes of a number, little-endian as the machine's.
 template <class T>
 std::string bytes_of(T value) {

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <filesystem>
 #include <functional>
+#include <initializer_list>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "maps/osm/extract.h"
@@ -26,6 +28,8 @@ std::string osm_tag(const std::string& key, const std::string& value);
 std::string osm_way(long id, const std::vector<long>& nodes, const std::string& tags = "");
 /// `members`: "way 5 outer", "relation 7 part".
 std::string osm_relation(long id, const std::vector<std::string>& members, const std::string& tags);
+
+inline osm::Tags tagged(std::initializer_list<std::pair<std::string, std::string>> all) { return osm::Tags{all}; }
 
 /// Nodes `first`, `first` + 1, ... on the corners of a square, counter-clockwise from the lower left one.
 inline std::string osm_square(long first, double west, double south, double size) {

@@ -1,10 +1,14 @@
-// Where a point lies, by the oldest of rules: for tests of outlines.
+// Outlines for tests, and where a point lies, by the oldest of rules.
 #pragma once
 
 #include "maps/city/footprint.h"
 #include "support/internals.h"
 
 namespace vantage::testing {
+
+inline city::Ring rectangle(double west, double south, double east, double north) {
+  return {{west, south}, {east, south}, {east, north}, {west, north}};
+}
 
 /// Twice round is out again.
 inline bool inside_odd(const city::Vec2& p, const city::Ring& ring) {
