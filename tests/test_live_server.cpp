@@ -111,6 +111,18 @@ TEST_F(LiveServerThread, ThePageIsForWhoHasTheToken) {
   EXPECT_EQ(get(path(), host(), http::verb::delete_).result(), http::status::method_not_allowed);
 }
 
+TEST_F(LiveServerThread, WhatIsNoRequestIsToldSo) {
+  for (const char* const text : {"\x16\x03\x01 secure?\r\n\r\n", "GET\r\n\r\n", "GET / HTTP/1.1\r\nno colon\r\n\r\n"}) {
+    asio::ip::tcp::socket socket = connected();
+    asio::write(socket, asio::buffer(std::string(text)));
+    beast::flat_buffer buffer;
+    http::response<http::string_body> response;
+    http::read(socket, buffer, response);
+    EXPECT_EQ(response.result(), http::status::bad_request) << text;
+  }
+  EXPECT_EQ(get(path(), host()).result(), http::status::ok);
+}
+
 TEST_F(LiveServerThread, TheSocketIsForThePage) {
   for (const std::string& origin : {std::string("http://evil.example"), std::string("null"), std::string()}) {
     Socket socket(connected());

@@ -58,12 +58,17 @@ class Caller : public std::enable_shared_from_this<Caller> {
     parser_.body_limit(kLargestBody);
     stream_.expires_after(kMostTime);
     http::async_read(stream_, buffer_, parser_, [self = shared_from_this()](beast::error_code error, std::size_t) {
-      if (!error) self->take();
+      if (!error) return self->take();
+      const bool is_malformed = error.category() == http::make_error_code(http::error::bad_method).category();
+      if (is_malformed && error != http::error::end_of_stream) {
+        self->reply(http::status::bad_request, "This is not a request that a browser makes.\n");
+      }
     });
   }
 
  private:
   using Request = http::request<http::string_body>;
+  using Response = http::response<http::span_body<const char>>;
 
   static std::string_view view(boost::string_view text) { return {text.data(), text.size()}; }
 
@@ -91,7 +96,8 @@ class Caller : public std::enable_shared_from_this<Caller> {
     reply(http::status::ok, house_.page, "text/html; charset=utf-8");
   }
 
-  void reply(http::status status, const std::string& body, const char* type = "text/plain; charset=utf-8") {
+  /// `body` outlives the reply.
+  void reply(http::status status, std::string_view body, const char* type = "text/plain; charset=utf-8") {
     response_.emplace(status, parser_.get().version());
     response_->set(http::field::content_type, type);
     response_->set(http::field::cache_control, "no-store");
@@ -101,7 +107,7 @@ class Caller : public std::enable_shared_from_this<Caller> {
     response_->set("Referrer-Policy", "no-referrer");
     response_->keep_alive(false);
     response_->content_length(body.size());
-    if (parser_.get().method() != http::verb::head) response_->body() = body;
+    if (parser_.get().method() != http::verb::head) response_->body() = {body.data(), body.size()};
     http::async_write(stream_, *response_, [self = shared_from_this()](beast::error_code error, std::size_t) {
       if (!error) self->stream_.socket().shutdown(Tcp::socket::shutdown_send, error);
     });
@@ -112,7 +118,7 @@ class Caller : public std::enable_shared_from_this<Caller> {
   std::shared_ptr<const void> seat_;
   beast::flat_buffer buffer_;
   http::request_parser<http::string_body> parser_;
-  std::optional<http::response<http::string_body>> response_;
+  std::optional<Response> response_;
 };
 
 }  // namespace
