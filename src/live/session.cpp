@@ -13,6 +13,7 @@
 #include "live/file_bytes.h"
 #include "vantage/camera.h"
 #include "vantage/error.h"
+#include "vantage/ground.h"
 #include "vantage/hash.h"
 #include "vantage/input.h"
 #include "vantage/json.h"
@@ -117,6 +118,7 @@ Json json(const Box& box) { return {{"min", json(box.min)}, {"max", json(box.max
 /// What the page has controls for.
 Json limits_of(const Mission& mission) {
   const auto& altitude = mission.navigation.altitude;
+  const auto& above_ground = mission.navigation.above_ground;
   Json boxes = Json::array();
   for (const Box& box : mission.navigation.keep_out) boxes.push_back(json(box));
   const double range = range_limit_m(mission.sensor);
@@ -124,6 +126,7 @@ Json limits_of(const Mission& mission) {
           {"min_range", mission.sensor.min_range_m},
           {"incidence", mission.sensor.incidence_deg ? Json(*mission.sensor.incidence_deg) : Json()},
           {"altitude", altitude ? Json{altitude->min_m, altitude->max_m} : Json()},
+          {"agl", above_ground ? Json{above_ground->min_m, above_ground->max_m} : Json()},
           {"keep_out", std::move(boxes)}};
 }
 
@@ -261,6 +264,7 @@ std::string Session::scene_json() const {
                       {"min", json(box.min)},
                       {"max", json(box.max)},
                       {"objects", objects_of(scene)},
+                      {"has_ground", ground_of(scene).has_value()},
                       {"has_areas", source_.kind == SceneSource::Kind::map},
                       {"notes", notes_of(*opened_->loaded)},
                       {"read_ms", read_ms_},

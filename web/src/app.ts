@@ -106,6 +106,7 @@ export class App {
     this.failure = "";
     this.mission = emptyMission(Math.max(info.max[0] - info.min[0], info.max[1] - info.min[1], 1e-9));
     this.history = new History(this.mission);
+    this.dragged = null;
     this.setProbe(null);
     this.setCut(null);
     this.showMission();
@@ -115,13 +116,15 @@ export class App {
   /** Of a mission file without its scene. The mission that is there stays where this one cannot be computed. */
   async openMission(body: string): Promise<void> {
     const volume = await this.engine.compute(body);
-    if (volume) this.openMissionWith(body, volume);
+    if (!volume) throw new Error("something else was changed while this mission was computed: open it again");
+    this.openMissionWith(body, volume);
   }
 
   /** `volume`: of that mission. */
   openMissionWith(body: string, volume: Volume): void {
     this.mission = missionFrom(body, volume.info, this.mission.grain);
     this.history.keep(this.mission);
+    this.dragged = null;
     this.put(volume, null);
     this.accept(volume);
   }
@@ -145,6 +148,7 @@ export class App {
   step(mission: Mission | null): void {
     if (!mission) return;
     this.mission = mission;
+    this.dragged = null;
     this.showMission();
     this.compute();
   }

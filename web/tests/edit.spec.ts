@@ -31,8 +31,11 @@ test("a keep-out box has handles", async ({ page }) => {
   expect(moved.max[2]).toBe(taller.max[2]);
   const field = page.getByLabel(`box ${boxes + 1}, to x, metres`);
   await field.fill("-80");
-  await field.press("Tab");
+  await field.press("Enter");
   await settled(page);
+  expect(Number(await field.inputValue())).toBeCloseTo(moved.min[0], 6);
+  await field.fill("");
+  await field.press("Tab");
   const turned = (await mission(page)).keepOut[boxes];
   expect([turned.min[0], turned.max[0]]).toEqual([-80, moved.min[0]]);
   expect(Math.hypot(moved.min[0] - taller.min[0], moved.min[1] - taller.min[1])).toBeGreaterThan(1);

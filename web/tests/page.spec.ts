@@ -101,6 +101,10 @@ test("a link holds the mission, and one that is cut short is said", async ({ pag
   await settled(page);
   const range = await volume(page);
   const link = await copiedLink(page);
+  await page.locator("#range").fill("30");
+  await settled(page);
+  await page.goto(link); // no page is loaded: only what follows the # differs
+  await expect.poll(async () => (await mission(page)).range).toBe(50);
   await page.goto("about:blank");
   await page.goto(link);
   await page.waitForFunction(() => (window as any).vantage?.mission.range === 50 && (window as any).vantage.volume);

@@ -81,7 +81,7 @@ test.describe("vantage view", () => {
   });
 });
 
-test("a square of the map is picked on the ground", async ({ page }) => {
+test("in a map a square is picked, and heights count from the ground", async ({ page }) => {
   const folder = mkdtempSync(join(tmpdir(), "vantage-"));
   const corner = (id: number, east: number, north: number) => `<node id="${id}" version="1" lat="${48 + north / 111000}" lon="${11 + east / 74000}"/>`;
   const area = (id: number, key: string, value: string) => `<way id="${id}" version="1">${[1, 2, 3, 4, 1].map((n) => `<nd ref="${10 * id + n}"/>`).join("")}` +
@@ -103,6 +103,21 @@ test("a square of the map is picked on the ground", async ({ page }) => {
     await settled(page);
     await expect.poll(() => page.evaluate(() => (window as any).vantage.volume.info.target[0].length as number)).toBe(4);
     expect(await savedMission(page)).toContain("osm: way/1");
+    const ends = () => page.evaluate(() => (window as any).vantage.volumeView.heights() as number[]);
+    await page.locator("#high-agl").fill("20");
+    await settled(page);
+    expect((await ends())[1]).toBeCloseTo(20, 3);
+    await page.locator("#low").fill("4");
+    await settled(page);
+    expect((await ends())[0]).toBeGreaterThan(3.999);
+    const both = await savedMission(page);
+    expect(both).toMatch(/altitude: \{ agl: \[ 0, 20 \], z: \[ 4, /);
+    for (const id of ["#high-agl", "#low"]) await page.locator(id).evaluate((slider: HTMLInputElement) => {
+      slider.value = slider.id === "low" ? slider.min : slider.max;
+      for (const event of ["input", "change"]) slider.dispatchEvent(new Event(event));
+    });
+    await settled(page);
+    expect(await savedMission(page)).not.toContain("navigation");
   } finally {
     viewer.kill("SIGINT");
   }

@@ -22,6 +22,8 @@ export interface SceneInfo {
   min: Point;
   max: Point;
   objects: { name: string; kind: string }[];
+  /** something of it is known to be the ground, which heights can count from */
+  has_ground: boolean;
   /** it is made of a map, which has areas: squares, pitches */
   has_areas: boolean;
   notes: string[];
@@ -40,6 +42,8 @@ export interface Limits {
   min_range: number;
   incidence: number | null;
   altitude: [number, number] | null;
+  /** above the ground */
+  agl: [number, number] | null;
   keep_out: Box[];
 }
 

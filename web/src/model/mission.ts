@@ -16,6 +16,8 @@ export interface Controls {
   minRange: number;
   incidence: number | null;
   altitude: [number, number] | null;
+  /** above the ground */
+  agl: [number, number] | null;
   keepOut: Box[];
   /** a name of the engine's table, "written": numbers of the file */
   camera: string | null;
@@ -31,6 +33,8 @@ export interface Mission extends Controls {
   opened: Controls;
   /** coordinates are written as multiples of this, metres */
   grain: number;
+  /** the file says what the ground is */
+  hasGround: boolean;
 }
 
 /** A mission without a target, for a scene of this size in metres. */
@@ -38,10 +42,10 @@ export function emptyMission(size: number): Mission {
   const step = 10 ** Math.floor(Math.log10(size / 100));
   const controls: Controls = {
     target: null, range: Math.max(step, Math.round(Math.min(300, size / 3) / step) * step), minRange: 0, incidence: null,
-    altitude: null, keepOut: [], camera: null, tilt: null, pixel: null,
+    altitude: null, agl: null, keepOut: [], camera: null, tilt: null, pixel: null,
   };
   const grain = 10 ** Math.floor(Math.log10(size) - 7);
-  return { ...structuredClone(controls), written: "", opened: { ...controls, range: 0 }, grain };
+  return { ...structuredClone(controls), written: "", opened: { ...controls, range: 0 }, grain, hasGround: false };
 }
 
 /** The text of a mission file in two: what it says of its scene, and the rest, on the lines where it was. */
@@ -51,7 +55,7 @@ export function divided(text: string): { scene: Record<string, unknown>; body: s
   if (error) throw new Error(`this mission cannot be read: ${error.message}`);
   if (!isMap(document.contents)) throw new Error("this is not a mission file: it has no keys");
   const scene = (document.toJS() as { scene?: Record<string, unknown> }).scene ?? {};
-  const pair = document.contents.items.find((item) => (item.key as { value?: unknown }).value === "scene");
+  const pair = document.contents.items.find((item) => (item.key as { value?: unknown } | null)?.value === "scene");
   if (!pair) return { scene, body: text };
   if (document.contents.flow) {
     document.delete("scene");
@@ -80,6 +84,7 @@ export function missionFrom(written: string, info: VolumeInfo, grain: number): M
     minRange: limits.min_range,
     incidence: limits.incidence,
     altitude: limits.altitude,
+    agl: limits.agl,
     keepOut: limits.keep_out,
     camera: typeof cameraName === "string" ? cameraName : hasCamera ? "written" : null,
     tilt: typeof tilt === "number" ? tilt : null,
@@ -87,7 +92,14 @@ export function missionFrom(written: string, info: VolumeInfo, grain: number): M
   };
   // A polygon of another kind (a roof, an area of the map) says by its normal where its front is, once it is moved.
   if (controls.target?.kind === "polygon" && !document.hasIn(["target", "vertices"])) controls.target.front = info.normal;
-  return { ...structuredClone(controls), written, opened: controls, grain };
+  const hasGround = document.hasIn(["navigation", "ground"]);
+  return { ...structuredClone(controls), written, opened: controls, grain, hasGround };
+}
+
+/** A multiple of the grain, a power of ten, without the digits that are noise. */
+export function rounded(value: number, grain: number): number {
+  const digits = Math.max(0, Math.round(-Math.log10(grain)));
+  return Number(value.toFixed(Math.min(20, digits)));
 }
 
 const TOLERANCE = 0.01; // metres, where a mission does not say
@@ -123,7 +135,8 @@ class Writer {
     }
     if (differs(mission.incidence, opened.incidence)) this.set(["sensor", "incidence"], mission.incidence);
     this.setCamera();
-    if (differs(mission.altitude, opened.altitude)) this.setAltitude(mission.altitude);
+    if (differs(mission.altitude, opened.altitude)) this.setHeights("z", mission.altitude);
+    if (differs(mission.agl, opened.agl)) this.setHeights("agl", mission.agl);
     if (hasOtherBoxes) this.setBoxes(mission.keepOut);
     if (isDraft) this.coarsen();
     return document.toString({ lineWidth: 120 });
@@ -137,10 +150,8 @@ class Writer {
     document.setIn(["exact", "tolerance"], 10 * (typeof own === "number" ? own : TOLERANCE));
   }
 
-  /** Multiples of the grain, without the digits that are noise. */
   private number(value: number): number {
-    const digits = Math.max(0, Math.round(-Math.log10(this.mission.grain)));
-    return Number(value.toFixed(Math.min(20, digits)));
+    return rounded(value, this.mission.grain);
   }
 
   private point(values: readonly number[]): YAMLSeq {
@@ -152,9 +163,10 @@ class Writer {
     const { document } = this;
     if (value !== null) return document.setIn(path, value);
     if (document.hasIn(path)) document.deleteIn(path);
-    const above = path.slice(0, -1);
-    const holder = document.getIn(above);
-    if (above.length > 0 && isMap(holder) && holder.items.length === 0) document.deleteIn(above);
+    for (let above = path.slice(0, -1); above.length > 0; above = above.slice(0, -1)) {
+      const holder = document.getIn(above);
+      if (isMap(holder) && holder.items.length === 0) document.deleteIn(above);
+    }
   }
 
   /** Coordinates of the page are those of the scene: a file in map coordinates must not mix the two. */
@@ -221,10 +233,18 @@ class Writer {
     }
   }
 
-  private setAltitude(altitude: [number, number] | null): void {
-    const band = altitude && this.point(altitude);
+  /** A list holds heights of the scene; those above the ground need a map, which may hold both. */
+  private setHeights(key: "z" | "agl", heights: [number, number] | null): void {
+    const { document } = this;
+    const band = heights && this.point(heights);
     const path = ["navigation", "altitude"];
-    this.set(isMap(this.document.getIn(path)) ? [...path, "z"] : path, band);
+    const own = document.getIn(path, true);
+    if (!isMap(own)) {
+      if (key === "z") return this.set(path, band);
+      if (!band) return;
+      document.setIn(path, document.createNode(isSeq(own) ? { z: own } : {}, { flow: true }));
+    }
+    this.set([...path, key], band);
   }
 
   private setBoxes(boxes: Box[]): void {

@@ -27,18 +27,26 @@ const isMesh = (name: string) => /\.(obj|ply|stl|glb|gltf|json|cityjson)(\.gz)?$
 export class Files {
   /** of a link whose scene is still to be opened */
   private awaited: Link | null = null;
+  /** Files are taken one after the other: a mission is computed in the scene that came with it. */
+  private last: Promise<void> = Promise.resolve();
 
   constructor(private readonly app: App, private readonly example: { mesh: string; mission: string }) {
     const file = input("file");
     button("open").onclick = () => file.click();
     file.onchange = () => {
-      void this.take([...(file.files ?? [])]);
+      this.take([...(file.files ?? [])]);
       file.value = "";
     };
-    button("example").onclick = () => void this.openExample();
+    button("example").onclick = () => this.afterwards(() => this.openExample());
     button("save").onclick = () => void this.save();
     button("link").onclick = () => void this.copyLink();
     this.acceptDrops();
+    // A link that is pasted where the page is open already loads no page.
+    window.addEventListener("hashchange", () => this.afterwards(async () => void (await this.openLink())));
+  }
+
+  private afterwards(work: () => Promise<void>): void {
+    this.last = this.last.then(work).catch((error: unknown) => say(toldBy(error), true));
   }
 
   async openExample(): Promise<void> {
@@ -81,13 +89,13 @@ export class Files {
     window.addEventListener("drop", (event) => {
       event.preventDefault();
       note.hidden = true;
-      void this.take([...(event.dataTransfer?.files ?? [])]);
+      this.take([...(event.dataTransfer?.files ?? [])]);
     });
   }
 
   /** A scene, a mission, or both, with the files that the mission names. */
-  async take(files: File[]): Promise<void> {
-    try {
+  take(files: File[]): void {
+    this.afterwards(async () => {
       const large = files.find((file) => file.size > LARGEST);
       if (large) {
         throw new Error(`${large.name} has ${Math.round(large.size / 1e6)} MB; this page takes up to 600 MB, the program more`);
@@ -96,9 +104,7 @@ export class Files {
       if (missions.length > 1) throw new Error("open one mission at a time");
       const mission = missions[0] ? divided(await missions[0].text()) : null;
       await this.open(mission, files.filter((file) => !isMission(file)));
-    } catch (error) {
-      say(toldBy(error), true);
-    }
+    });
   }
 
   private async open(mission: { scene: Record<string, unknown>; body: string } | null, others: File[]): Promise<void> {
@@ -131,7 +137,7 @@ export class Files {
     this.awaited = null;
     await this.app.openMission(body);
     this.app.lookAtTarget();
-    say("");
+    if (this.app.volume?.info.outcome === "computed") say("");
   }
 
   private sectionFor(name: string): Record<string, unknown> {
@@ -173,7 +179,7 @@ export class Files {
       await navigator.clipboard.writeText(`${location.href.split("#")[0]}#${hash}`);
       say(`The link is copied${needs}`);
     } catch {
-      location.hash = hash;
+      history.replaceState(null, "", `#${hash}`);
       say(`The link is in the address line${needs}`);
     }
   }
@@ -202,6 +208,7 @@ export class Files {
       await this.app.openScene(source);
       await this.openMission(link.mission);
     } catch (error) {
+      if (!this.app.scene) await this.openExample();
       say(toldBy(error), true);
     }
     return true;

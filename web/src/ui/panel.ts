@@ -1,7 +1,7 @@
 // The sliders beside the view: what limits the view.
 import type { App } from "../app";
-import type { About } from "../engine/messages";
-import type { Mission } from "../model/mission";
+import type { About, Box } from "../engine/messages";
+import { rounded, type Mission } from "../model/mission";
 import { button, element, input, metres, option } from "./page";
 
 const PIXELS_M = [0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001];
@@ -11,8 +11,8 @@ export class Panel {
   constructor(private readonly app: App, about: About) {
     this.slider("range", (mission, value) => (mission.range = Math.max(Number(input("range").step), value)));
     this.slider("near", (mission, value) => (mission.minRange = Math.min(value, mission.range * 0.9)));
-    this.slider("low", (mission) => (mission.altitude = this.altitude()));
-    this.slider("high", (mission) => (mission.altitude = this.altitude()));
+    for (const id of ["low", "high"]) this.slider(id, (mission) => (mission.altitude = band("low", "high")));
+    for (const id of ["low-agl", "high-agl"]) this.slider(id, (mission) => (mission.agl = band("low-agl", "high-agl")));
     this.slider("slant", (mission, value) => (mission.incidence = value >= 90 ? null : value));
     this.slider("tilt", (mission, value) => (mission.tilt = value >= NO_TILT ? null : value));
     const camera = input("camera");
@@ -29,13 +29,6 @@ export class Panel {
     const slider = input(id);
     slider.oninput = () => this.app.edit((mission) => change(mission, Number(slider.value)), false);
     slider.onchange = () => this.app.keep();
-  }
-
-  private altitude(): [number, number] | null {
-    const low = input("low");
-    const high = input("high");
-    if (low.value === low.min && high.value === high.max) return null;
-    return [Number(low.value), Math.max(Number(low.value) + Number(low.step), Number(high.value))];
   }
 
   private setCamera(mission: Mission, name: string): void {
@@ -72,6 +65,9 @@ export class Panel {
     ends("near", 0, Math.max(size / 4, mission.minRange));
     const top = Math.max(scene.max[2] + size / 3, mission.altitude?.[1] ?? -Infinity);
     for (const id of ["low", "high"]) ends(id, Math.min(scene.min[2], mission.altitude?.[0] ?? Infinity), top);
+    const above = Math.max(scene.max[2] - scene.min[2] + size / 3, mission.agl?.[1] ?? -Infinity);
+    for (const id of ["low-agl", "high-agl"]) ends(id, Math.min(0, mission.agl?.[0] ?? 0), above);
+    for (const label of document.querySelectorAll<HTMLElement>(".agl")) label.hidden = !scene.has_ground && !mission.hasGround;
   }
 
   private show(): void {
@@ -82,53 +78,86 @@ export class Panel {
       element(`${id}-out`).textContent = text;
       input(id).setAttribute("aria-valuetext", text);
     };
-    const [low, high] = mission.altitude ?? [null, null];
+    const showBand = (from: string, to: string, [low, high]: [number, number] | [null, null]) => {
+      set(from, low ?? Number(input(from).min), low === null ? "any" : metres(low));
+      set(to, high ?? Number(input(to).max), high === null ? "any" : metres(high));
+    };
     set("range", mission.range, metres(mission.range));
     set("near", mission.minRange, mission.minRange > 0 ? metres(mission.minRange) : "any");
-    set("low", low ?? Number(input("low").min), low === null ? "any" : metres(low));
-    set("high", high ?? Number(input("high").max), high === null ? "any" : metres(high));
+    showBand("low", "high", mission.altitude ?? [null, null]);
+    showBand("low-agl", "high-agl", mission.agl ?? [null, null]);
     set("slant", mission.incidence ?? 90, mission.incidence === null ? "any" : `${mission.incidence}°`);
     set("tilt", mission.tilt ?? NO_TILT, mission.camera === null ? "no camera" : mission.tilt === null ? "a gimbal" : `${mission.tilt}°`);
-    this.choose("camera", mission.camera, "as in the file");
-    this.choose("pixel", mission.pixel, metres(mission.pixel ?? 0));
+    this.choose("camera", mission.camera, mission.opened.camera, () => "as in the file");
+    this.choose("pixel", mission.pixel, mission.opened.pixel, (size) => metres(Number(size)));
     input("tilt").disabled = input("pixel").disabled = mission.camera === null;
     this.showBoxes();
   }
 
-  /** A choice that only the file has is added. */
-  private choose(id: string, value: string | number | null, text: string): void {
+  /** A choice that only the file has is added, as long as that file is open. */
+  private choose(id: string, value: string | number | null, opened: string | number | null, text: (value: string) => string): void {
     const select = element<HTMLSelectElement>(id);
-    const wanted = value === null ? "" : String(value);
-    if (![...select.options].some((one) => one.value === wanted)) select.append(option(wanted, text));
+    const [wanted, own] = [value, opened].map((one) => (one === null ? "" : String(one))) as [string, string];
+    for (const one of [...select.options]) if ("own" in one.dataset && one.value !== wanted && one.value !== own) one.remove();
+    for (const one of [wanted, own]) {
+      if ([...select.options].some((other) => other.value === one)) continue;
+      const added = option(one, text(one));
+      added.dataset["own"] = "";
+      select.append(added);
+    }
     select.value = wanted;
   }
 
   private showBoxes(): void {
     const list = element("boxes");
-    if (list.contains(document.activeElement) && list.childElementCount === this.app.mission.keepOut.length) return; // is typed into
-    list.replaceChildren(...this.app.mission.keepOut.map((box, i) => {
-      const item = document.createElement("li");
-      for (const [end, name] of [["min", "from"], ["max", "to"]] as const) {
-        item.append(name);
-        ["x", "y", "z"].forEach((axis, a) => {
-          const field = document.createElement("input");
-          field.type = "number";
-          field.step = input("range").step;
-          field.value = String(Number(box[end][a]!.toFixed(3)));
-          field.setAttribute("aria-label", `box ${i + 1}, ${name} ${axis}, metres`);
-          field.onchange = () => this.app.edit((mission) => {
-            const { min, max } = mission.keepOut[i]!;
-            const other = end === "min" ? max[a]! : min[a]!;
-            [min[a], max[a]] = [Math.min(other, Number(field.value)), Math.max(other, Number(field.value))];
-          }, true);
-          item.append(field);
-        });
-      }
-      const remove = document.createElement("button");
-      remove.textContent = "Remove";
-      remove.onclick = () => this.app.edit((mission) => mission.keepOut.splice(i, 1), true);
-      item.append(remove);
-      return item;
-    }));
+    const { keepOut } = this.app.mission;
+    if (list.childElementCount !== keepOut.length) list.replaceChildren(...keepOut.map((_, i) => this.rowOfBox(i)));
+    list.querySelectorAll("input").forEach((field, i) => {
+      if (field !== document.activeElement) field.value = this.coordinate(i);
+    });
   }
+
+  /** Of the field with this index in the list of boxes. */
+  private coordinate(field: number): string {
+    const { keepOut, grain } = this.app.mission;
+    const { min, max } = keepOut[Math.floor(field / 6)]!;
+    return String(rounded([...min, ...max][field % 6]!, grain));
+  }
+
+  private rowOfBox(i: number): HTMLElement {
+    const item = document.createElement("li");
+    for (const [end, name] of [["min", "from"], ["max", "to"]] as const) {
+      item.append(name);
+      ["x", "y", "z"].forEach((axis, a) => {
+        const field = document.createElement("input");
+        field.type = "number";
+        field.step = "any";
+        field.setAttribute("aria-label", `box ${i + 1}, ${name} ${axis}, metres`);
+        field.onchange = () => {
+          // What is not a number is empty.
+          if (field.value !== "") this.app.edit((mission) => moveEnd(mission.keepOut[i]!, end, a, Number(field.value)), true);
+          field.value = this.coordinate(6 * i + (end === "min" ? a : 3 + a));
+        };
+        item.append(field);
+      });
+    }
+    const remove = document.createElement("button");
+    remove.textContent = "Remove";
+    remove.onclick = () => this.app.edit((mission) => mission.keepOut.splice(i, 1), true);
+    item.append(remove);
+    return item;
+  }
+}
+
+/** What two sliders say; null: each is at its end. */
+function band(from: string, to: string): [number, number] | null {
+  const [low, high] = [input(from), input(to)];
+  if (low.value === low.min && high.value === high.max) return null;
+  return [Number(low.value), Math.max(Number(low.value) + Number(low.step), Number(high.value))];
+}
+
+/** Ends that come to lie the wrong way round change places. */
+function moveEnd({ min, max }: Box, end: "min" | "max", axis: number, value: number): void {
+  const other = end === "min" ? max[axis]! : min[axis]!;
+  [min[axis], max[axis]] = [Math.min(other, value), Math.max(other, value)];
 }

@@ -77,7 +77,7 @@ export class Tools {
     if (target?.kind !== "polygon" || dragged === null) return say("First drag the corner that is to go", true);
     if (target.vertices.length <= 3) return say("A target has three corners or more", true);
     app.dragged = null;
-    app.edit(() => target.vertices.splice(dragged, 1), true);
+    app.edit((mission) => (mission.target = { ...target, vertices: target.vertices.filter((_, i) => i !== dragged) }), true);
   }
 
   private press(event: PointerEvent): void {
@@ -147,7 +147,8 @@ export class Tools {
     const to = target.vertices[(side + 1) % target.vertices.length]!;
     const middle = times(plus(target.vertices[side]!, to), 0.5);
     app.dragged = side + 1;
-    app.edit(() => target.vertices.splice(side + 1, 0, middle), true);
+    const vertices = [...target.vertices.slice(0, side + 1), middle, ...target.vertices.slice(side + 1)];
+    app.edit((mission) => (mission.target = { ...target, vertices }), true);
   }
 
   private drawCorner(event: PointerEvent, plane: Plane): void {
@@ -179,10 +180,12 @@ export class Tools {
 
   private async pickArea([x, y]: Point): Promise<void> {
     const { app } = this;
-    if (!app.scene?.has_areas) return say("This is the ground: draw a target on it", true);
+    const { scene } = app;
+    if (!scene?.has_areas) return say("This is the ground: draw a target on it", true);
     say("Looking for the area of the map…");
     try {
       const area = await app.engine.area(x, y);
+      if (scene !== app.scene || this.tool !== "pick") return;
       if (!area) return say("The map has no area here: draw a target on the ground", true);
       this.choose("look");
       say(area.name === "" ? `This is ${area.osm}` : `This is ${area.name}`);

@@ -14,8 +14,8 @@ export interface Hit {
 const EDGES_UP_TO = 120000; // triangles: beyond, lines take longer to find than the picture is worth
 
 export class City {
-  private mesh: THREE.Mesh | null = null;
-  private edges: THREE.LineSegments | null = null;
+  private mesh: THREE.Mesh<THREE.BufferGeometry, THREE.Material> | null = null;
+  private edges: THREE.LineSegments<THREE.BufferGeometry, THREE.Material> | null = null;
   private labels = new Uint32Array();
   private info: SceneInfo | null = null;
 
@@ -47,6 +47,7 @@ export class City {
       if (!old) continue;
       this.parent.remove(old);
       old.geometry.dispose();
+      old.material.dispose();
     }
     this.mesh = this.edges = null;
   }

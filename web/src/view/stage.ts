@@ -124,6 +124,7 @@ export class Stage {
   }
 
   private drawGrid(extent: number, z: number): void {
+    for (const old of this.grid.children) (old as THREE.GridHelper).dispose();
     this.grid.clear();
     const step = 10 ** Math.floor(Math.log10(extent / 5));
     const lines = Math.ceil((extent * 1.4) / step / 2) * 2;
