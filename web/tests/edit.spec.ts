@@ -16,6 +16,33 @@ async function agrees(page: Page): Promise<string> {
   return text;
 }
 
+test("limits are typed, between the steps of the sliders and beyond their ends", async ({ page }) => {
+  const type = async (id: string, text: string) => {
+    await page.locator(`#${id}-number`).fill(text);
+    await page.locator(`#${id}-number`).press("Enter");
+    await settled(page);
+  };
+  await type("range", "63.7");
+  await type("low", "7,5 m");
+  const { range, altitude } = await mission(page);
+  expect([range, altitude[0]]).toEqual([63.7, 7.5]);
+  await agrees(page);
+  await type("high", "5"); // the end that is moved pushes the other
+  expect((await mission(page)).altitude[0]).toBeLessThan(5);
+  await type("low", "any");
+  await type("high", "");
+  expect((await mission(page)).altitude).toBe(null);
+  await expect(page.locator("#high-number")).toHaveValue("any");
+  await type("range", "far");
+  await expect(page.locator("#hint")).toContainText("a number");
+  await expect(page.locator("#range-number")).toHaveValue("63.7 m");
+  for (const text of ["0", "-5"]) {
+    await type("range", text);
+    expect((await mission(page)).range).toBe(63.7);
+  }
+  await agrees(page);
+});
+
 test("a keep-out box has handles", async ({ page }) => {
   const boxes = (await mission(page)).keepOut.length;
   await page.click("#add-box");
