@@ -6,7 +6,7 @@ import { EngineFailure, type Transport } from "./transport";
 export function toldBy(error: unknown): string {
   if (!(error instanceof EngineFailure)) return error instanceof Error ? error.message : String(error);
   const { problem, fix } = error.told;
-  const where = placeOf(error) ? "" : error.told.where.replace(/\b(mission|standard input)[^ ,)]*(, )?/, ""); // lines of a text that nobody sees
+  const where = placeOf(error) ? "" : error.told.where.replace(/(\b(mission|standard input)|\/scene\.)[^ ,)]*(, )?/, ""); // files that the page made
   return `${problem}${where ? ` (${where})` : ""}${fix ? `: ${fix}` : ""}`;
 }
 

@@ -59,7 +59,7 @@ export class Results {
       : `${metres(cut.at)}${section && cut.axis === 2 ? `, ${large(section.area_m2)} m²` : ""}`;
     const status = element("status");
     status.classList.toggle("bad", failure !== "");
-    status.textContent = failure !== "" ? "There is no volume of this target: the last one stays"
+    status.textContent = failure !== "" ? `There is no volume of this target${volume ? ": the last one stays" : ""}`
       : !volume ? "No target yet" : volume.info.outcome === "computed" ? "" : volume.info.reason;
     this.showNumbers();
     this.showLegend();

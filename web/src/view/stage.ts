@@ -13,6 +13,7 @@ export interface Pointer {
   pointerType?: string;
 }
 
+const BACK = new THREE.Vector3(-0.42, -0.72, 0.56); // from what is looked at to the camera
 const POLAR = 0.53 * Math.PI; // a little below the ground, to look up at a bridge
 
 export class Stage {
@@ -80,12 +81,26 @@ export class Stage {
     this.camera.far = this.size * 20;
     this.camera.updateProjectionMatrix();
     this.drawGrid(Math.max(x, y), -z / 2);
-    this.lookAt(new THREE.Vector3(0, 0, -z / 2), this.size * 0.9);
+    this.lookAt(new THREE.Vector3(0, 0, -z / 2), this.distanceToSee(x / 2, y / 2, z));
+  }
+
+  /** From where all of a box is in the picture: half its sides, its height, as lookAt() looks at the middle of its floor. */
+  private distanceToSee(x: number, y: number, z: number): number {
+    const back = BACK.clone().normalize();
+    const right = new THREE.Vector3(0, 0, 1).cross(back).normalize();
+    const up = back.clone().cross(right);
+    const slope = Math.tan((this.camera.fov * Math.PI) / 360);
+    let distance = 0;
+    for (const corner of [[-x, -y], [-x, y], [x, -y], [x, y]].flatMap(([u, v]) => [0, z].map((w) => new THREE.Vector3(u, v, w)))) {
+      const across = Math.max(Math.abs(corner.dot(right)) / (slope * this.camera.aspect), Math.abs(corner.dot(up)) / slope);
+      distance = Math.max(distance, across + corner.dot(back));
+    }
+    return (1.05 * distance) / BACK.length();
   }
 
   lookAt(centre: THREE.Vector3, distance: number): void {
     this.controls.target.copy(centre);
-    this.camera.position.copy(centre).add(new THREE.Vector3(-0.42, -0.72, 0.56).multiplyScalar(distance));
+    this.camera.position.copy(centre).add(BACK.clone().multiplyScalar(distance));
     this.controls.update();
     this.request();
   }
