@@ -17,7 +17,7 @@ const degrees = (value: number | null, none: string) => (value === null ? none :
 
 export class Limits {
   private readonly limits: Record<string, Limit> = {
-    range: { name: "Range", get: (m) => m.range, set: (m, value) => value !== null && value > 0 && (m.range = value) },
+    range: { name: "Range", get: (m) => m.range, set: (m, value) => value !== null && value > 0 && (m.range = Math.max(m.grain, value)) },
     near: {
       name: "Nearest", open: "min", get: (m) => m.minRange || null, set: (m, value) => (m.minRange = Math.max(0, Math.min(value ?? 0, m.range * 0.9))),
     },

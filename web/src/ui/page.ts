@@ -33,5 +33,6 @@ export function option(value: string, text: string): HTMLOptionElement {
 }
 
 export function large(value: number): string {
+  if (value > 0 && value < 0.1) return String(Number(value.toPrecision(3)));
   return value.toLocaleString("en", { maximumFractionDigits: value < 100 ? 2 : 0 });
 }
