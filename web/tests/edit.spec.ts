@@ -144,6 +144,20 @@ test("a roof and a wall are picked", async ({ page }) => {
   }
 });
 
+test("on the ground the flat place around a click is picked", async ({ page }) => {
+  const at = await onScreen(page, [-4, -16, 0]); // before the market square
+  await page.keyboard.press("p");
+  await page.mouse.click(at.x, at.y);
+  await expect(page.locator("#hint")).toContainText("The flat place");
+  await settled(page);
+  const { target } = await mission(page);
+  expect(target.kind).toBe("polygon");
+  expect(target.vertices.length).toBeGreaterThan(3);
+  for (const [, , z] of target.vertices) expect(z).toBeCloseTo(0, 6);
+  expect(await page.evaluate(() => (window as any).vantage.failure)).toBe("");
+  await agrees(page);
+});
+
 test("a mission keeps its comments, and keys that the page has no controls for", async ({ page }) => {
   const written = `# the square, for the fair
 scene:

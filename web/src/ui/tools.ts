@@ -2,6 +2,7 @@
 import type { App } from "../app";
 import { toldBy } from "../engine/client";
 import type { Point } from "../engine/messages";
+import type { Target } from "../model/mission";
 import { facing, faultOf, plus, times, type Plane } from "../model/polygon";
 import type { Hit } from "../view/city";
 import { dragOfBox, dragOfTarget, onPlane, type Drag } from "./drags";
@@ -12,14 +13,19 @@ export type Tool = "look" | "draw" | "pick" | "probe";
 const HINTS: Record<Tool, string> = {
   look: "",
   draw: "Click the corners of the target on the ground, a roof or a wall; Enter, or a double click, ends it",
-  pick: "Click a roof or a wall: all of it becomes the target",
+  pick: "Click a roof, a wall or a square: all of it becomes the target",
   probe: "Click a place: what does a position above it see? Page Up and Page Down change its height",
 };
-const PICK_IN_MAP = "Click a roof, a wall, or a square on the ground: all of it becomes the target";
 const LIMITS: Record<string, string> = {
   scene: "hidden by", range: "the range", target_plane: "the target's plane", navigation: "where you may fly:", sensor: "the sensor:",
 };
 const CLICK_PIXELS = 5;
+const LOWEST = 0.02; // of the scene's height
+
+/** A mission's target looks up where it says nothing; walls may lean. */
+function polygonOn({ normal }: Plane, corners: Point[]): Target {
+  return { kind: "polygon", vertices: facing(corners, normal), ...(normal[2] < 0.05 ? { front: normal } : {}) };
+}
 
 export class Tools {
   private tool: Tool = "look";
@@ -47,7 +53,7 @@ export class Tools {
     for (const name of Object.keys(HINTS)) button(`tool-${name}`).setAttribute("aria-pressed", String(name === tool));
     this.app.stage.canvas.style.cursor = tool === "look" ? "" : "crosshair";
     this.app.showMission();
-    say(tool === "pick" && this.app.scene?.has_areas ? PICK_IN_MAP : HINTS[tool]);
+    say(HINTS[tool]);
   }
 
   /** Enter. */
@@ -55,13 +61,7 @@ export class Tools {
     if (this.tool !== "draw" || !this.plane) return;
     const fault = faultOf(this.drawn);
     if (fault) return say(fault.reason, true);
-    const { normal } = this.plane;
-    const vertices = facing(this.drawn, normal);
-    this.choose("look");
-    this.app.dragged = null;
-    // A mission's target looks up where it says nothing; walls may lean.
-    const front = normal[2] < 0.05 ? { front: normal } : {};
-    this.app.edit((mission) => (mission.target = { kind: "polygon", vertices, ...front }), true);
+    this.take(polygonOn(this.plane, this.drawn));
   }
 
   /** Delete: the last corner that was drawn, or dragged. */
@@ -171,29 +171,46 @@ export class Tools {
   }
 
   private pick(hit: Hit): void {
-    if (hit.object === "" || hit.kind === "ground") return void this.pickArea(hit.point);
+    if (this.isOnGround(hit)) return void this.pickPlace(hit);
     const part = Math.abs(hit.plane.normal[2]) > 0.35 ? "roof" : "facade";
-    this.choose("look");
-    this.app.dragged = null;
-    this.app.edit((mission) => (mission.target = { kind: "face", object: hit.object, part, nearest: hit.point }), true);
+    this.take({ kind: "face", object: hit.object, part, nearest: hit.point });
   }
 
-  private async pickArea([x, y]: Point): Promise<void> {
+  /** A mesh of one object does not say which of it is the ground: what lies lowest is. */
+  private isOnGround({ object, kind, point, plane }: Hit): boolean {
+    const { scene } = this.app;
+    if (!scene || object === "" || kind === "ground") return true;
+    const height = (point[2] - scene.min[2]) / (scene.max[2] - scene.min[2] || 1);
+    return scene.objects.length === 1 && plane.normal[2] > 0.9 && height < LOWEST;
+  }
+
+  /** An area of the map; where there is none, the flat place as the mesh has it. */
+  private async pickPlace(hit: Hit): Promise<void> {
     const { app } = this;
     const { scene } = app;
-    if (!scene?.has_areas) return say("This is the ground: draw a target on it", true);
-    say("Looking for the area of the map…");
-    try {
-      const area = await app.engine.area(x, y);
-      if (scene !== app.scene || this.tool !== "pick") return;
-      if (!area) return say("The map has no area here: draw a target on the ground", true);
-      this.choose("look");
-      say(area.name === "" ? `This is ${area.osm}` : `This is ${area.name}`);
-      app.dragged = null;
-      app.edit((mission) => (mission.target = { kind: "area", osm: area.osm }), true);
-    } catch (error) {
-      say(toldBy(error), true);
+    if (scene?.has_areas) {
+      say("Looking for the area of the map…");
+      try {
+        const area = await app.engine.area(hit.point[0], hit.point[1]);
+        if (scene !== app.scene || this.tool !== "pick") return;
+        if (area) {
+          this.take({ kind: "area", osm: area.osm });
+          return say(area.name === "" ? `This is ${area.osm}` : `This is ${area.name}`);
+        }
+      } catch (error) {
+        return say(toldBy(error), true);
+      }
     }
+    const corners = app.city.flatPlace(hit, app.mission.range / 3);
+    if (corners.length < 3) return say("There is no room for a polygon here: draw a target", true);
+    this.take(polygonOn(hit.plane, corners));
+    say("The flat place around this, as far as nothing stands there. Drag its corners to change it");
+  }
+
+  private take(target: Target): void {
+    this.choose("look");
+    this.app.dragged = null;
+    this.app.edit((mission) => (mission.target = target), true);
   }
 
   /** A little above the place. */

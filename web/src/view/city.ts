@@ -1,6 +1,7 @@
 // The scene's triangles.
 import * as THREE from "three";
 import type { Point, SceneInfo, ViewMesh } from "../engine/messages";
+import { flatPlace } from "../model/flat_place";
 import type { Plane } from "../model/polygon";
 
 export interface Hit {
@@ -9,9 +10,12 @@ export interface Hit {
   plane: Plane;
   object: string;
   kind: string;
+  /** index of the triangle */
+  face: number;
 }
 
 const EDGES_UP_TO = 120000; // triangles: beyond, lines take longer to find than the picture is worth
+const GAP = 1e-4; // of the scene's size: what rises so much above a surface stands on it
 
 export class City {
   private mesh: THREE.Mesh<THREE.BufferGeometry, THREE.Material> | null = null;
@@ -62,8 +66,18 @@ export class City {
     const object = this.info.objects[this.labels[found.faceIndex!] ?? -1];
     return {
       point, plane: { origin: point, normal: [normal.x, normal.y, normal.z] },
-      object: object?.name ?? "", kind: object?.kind ?? "",
+      object: object?.name ?? "", kind: object?.kind ?? "", face: found.faceIndex!,
     };
+  }
+
+  /** A polygon of the surface there, at most so far from its middle; empty where there is no room for one. */
+  flatPlace({ point, plane, face }: Hit, reach: number): Point[] {
+    const { mesh, info } = this;
+    if (!mesh || !info) return [];
+    const size = Math.hypot(...info.max.map((high, i) => high - info.min[i]!));
+    const triangles = { positions: mesh.geometry.getAttribute("position").array, triangles: mesh.geometry.getIndex()!.array };
+    const corners = flatPlace(triangles, face, this.toView(point).toArray(), plane.normal, reach, GAP * size);
+    return corners.map((corner) => this.toScene(new THREE.Vector3(...corner)));
   }
 
   toScene(p: THREE.Vector3): Point {
