@@ -121,6 +121,7 @@ if(VANTAGE_WITH_SOLID)
     endblock()
     include(${CMAKE_CURRENT_LIST_DIR}/MendManifold.cmake)
     vantage_mend_manifold(${manifold_source})
+    vantage_join_sources(manifold 8)  # names of some of its sources are the same
     if(NOT TARGET manifold::manifold)
       add_library(manifold::manifold ALIAS manifold)
     endif()

@@ -29,11 +29,15 @@ if(VANTAGE_SANITIZE)
   add_compile_options(-fsanitize=${VANTAGE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${VANTAGE_SANITIZE})
 endif()
-# Several sources to a compilation: a first build takes less time, a build after each change more. Names in their
-# anonymous namespaces must differ then. Not for fuzz targets, which stand alone.
+# vantage_join_sources(TARGET [COUNT]): so many sources to a compilation. A first build takes less time, a build after each
+# change more. Names in their anonymous namespaces must differ then. Not for fuzz targets, which stand alone.
 function(vantage_join_sources target)
   if(VANTAGE_JOIN_SOURCES)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+    set(count 20)
+    if(ARGC GREATER 1)
+      set(count ${ARGV1})
+    endif()
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${count})
     # GCC takes a source for a header that others include too.
     target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   endif()

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "app/point_json.h"
 #include "io/georeference_text.h"
 
 namespace vantage {
@@ -11,9 +12,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json json_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
-
-Json json_of(const Box& box) { return {{"min", json_of(box.min)}, {"max", json_of(box.max)}}; }
+Json json_of(const Box& box) { return {{"min", point_json(box.min)}, {"max", point_json(box.max)}}; }
 
 std::string dumped(const Json& json, int indentation) {
   return json.dump(indentation, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -121,7 +120,7 @@ Json json_of(const ProofReport& report) {
   for (const ClaimProof& claim : report.claims) {
     Json one = {{"name", claim.name}, {"verdict", name_of(claim.verdict)}, {"text", claim.text}};
     if (claim.place) {
-      one["place"] = json_of(*claim.place);
+      one["place"] = point_json(*claim.place);
       one["broken_by_m"] = claim.broken_by_m;
     }
     json["claims"].push_back(std::move(one));
@@ -133,8 +132,8 @@ Json json_of(const ProofReport& report) {
   json["witness"] = nullptr;
   if (report.witness) {
     const HiddenView& hidden = *report.witness;
-    json["witness"] = {{"viewpoint", json_of(hidden.viewpoint)},
-                       {"target_point", json_of(hidden.target_point)},
+    json["witness"] = {{"viewpoint", point_json(hidden.viewpoint)},
+                       {"target_point", point_json(hidden.target_point)},
                        {"triangle", hidden.triangle},
                        {"object", hidden.object},
                        {"facet", hidden.facet},
@@ -236,7 +235,7 @@ std::string json_text(const VerifyReport& report, const ProofReport* proof) {
   json["right"] = report.is_right() && !(proof && proof->verdict() == ProofVerdict::wrong);
   json["closed"] = report.closed;
   json["open_edges"] = report.open_edges.count;
-  json["open_edge_at"] = report.open_edges.count > 0 ? json_of(report.open_edges.middle_of_first) : Json(nullptr);
+  json["open_edge_at"] = report.open_edges.count > 0 ? point_json(report.open_edges.middle_of_first) : Json(nullptr);
   json["oriented"] = report.oriented;
   json["flat_facets"] = report.flat_facets;
   json["euler"] = report.euler;
@@ -248,10 +247,10 @@ std::string json_text(const VerifyReport& report, const ProofReport* proof) {
   json["under_claimed"] = report.under_claimed;
   if (report.share_unclaimed) json["share_unclaimed"] = *report.share_unclaimed;
   json["worst_over_depth_m"] = report.worst_over_depth_m;
-  json["worst_over_point"] = json_of(report.worst_over_point);
+  json["worst_over_point"] = point_json(report.worst_over_point);
   json["worst_over_cause"] = report.worst_over_cause;
   json["worst_under_depth_m"] = report.worst_under_depth_m;
-  json["worst_under_point"] = json_of(report.worst_under_point);
+  json["worst_under_point"] = point_json(report.worst_under_point);
   json["over_claim_bound"] = report.over_claim_bound;
   json["bound_points"] = report.bound_points;
   json["seed"] = report.seed;

@@ -2,6 +2,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "app/point_json.h"
 #include "io/georeference_text.h"
 #include "vantage/hash.h"
 #include "vantage/result.h"
@@ -12,11 +13,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json json_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
-
-Json json_of(const Box& box) {
+Json box_json(const Box& box) {
   if (box.empty()) return nullptr;
-  return {{"min", json_of(box.min)}, {"max", json_of(box.max)}};
+  return {{"min", point_json(box.min)}, {"max", point_json(box.max)}};
 }
 
 Json json_of(const std::vector<Cause>& causes) {
@@ -113,7 +112,7 @@ std::string report_json(const Volume& volume, const MeshMeasures& measures, cons
   report["tolerance_m"] = volume.tolerance_m;
   report["lift_m"] = volume.lift_m.empty() ? 0 : *std::max_element(volume.lift_m.begin(), volume.lift_m.end());
   if (volume.georeference) report["georeference"] = internal::io::georeference_json(*volume.georeference);
-  report["bounding_box"] = json_of(measures.bounds);
+  report["bounding_box"] = box_json(measures.bounds);
   report["causes"] = json_of(volume.causes);
   if (source.spheres) report["spheres"] = json_of(*source.spheres);
   report["counts"] = json_of(volume.counts);

@@ -9,6 +9,7 @@
 #include <system_error>
 #include <utility>
 
+#include "app/point_json.h"
 #include "core/format.h"
 #include "vantage/atomic_file.h"
 #include "vantage/error.h"
@@ -60,8 +61,6 @@ std::string file_name(std::size_t order, std::string name) {
   std::replace(name.begin(), name.end(), ' ', '_');
   return internal::core::format("{:03}_{}.ply", order, name);
 }
-
-Json json_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 /// Whether --stages writes files of this name: stages.json, and numbered meshes.
 bool is_stage_file(const fs::directory_entry& entry) {
@@ -152,7 +151,7 @@ void StageFolder::write_story(const Mission& mission, const Result& result) {
   for (std::size_t i = 0; i < stages_.size(); ++i) {
     const Told& told = stages_[i];
     Json points = Json::array();
-    for (const Vec3& point : told.points) points.push_back(json_of(point));
+    for (const Vec3& point : told.points) points.push_back(point_json(point));
     Json stage = {{"order", i}, {"kind", told.kind}, {"name", told.name}, {"points", points}};
     if (told.kind != "split") {
       stage["euler"] = told.euler;

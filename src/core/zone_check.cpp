@@ -25,7 +25,7 @@ struct Side {
 };
 
 /// On which side of the line from a to b the point c lies: 1 left, -1 right, 0 on it as far as doubles can tell.
-int turn(const Point& a, const Point& b, const Point& c) {
+int side_of(const Point& a, const Point& b, const Point& c) {
   const double left = (b.x() - a.x()) * (c.y() - a.y()), right = (b.y() - a.y()) * (c.x() - a.x());
   const double rounding = 4 * std::numeric_limits<double>::epsilon() * (std::abs(left) + std::abs(right));
   const double area = left - right;
@@ -38,8 +38,8 @@ bool in_box_of(const Side& side, const Point& p) {
 }
 
 bool meet(const Side& a, const Side& b) {
-  const int b_from = turn(a.from, a.to, b.from), b_to = turn(a.from, a.to, b.to);
-  const int a_from = turn(b.from, b.to, a.from), a_to = turn(b.from, b.to, a.to);
+  const int b_from = side_of(a.from, a.to, b.from), b_to = side_of(a.from, a.to, b.to);
+  const int a_from = side_of(b.from, b.to, a.from), a_to = side_of(b.from, b.to, a.to);
   if (b_from * b_to < 0 && a_from * a_to < 0) return true;
   return (b_from == 0 && in_box_of(a, b.from)) || (b_to == 0 && in_box_of(a, b.to)) ||
          (a_from == 0 && in_box_of(b, a.from)) || (a_to == 0 && in_box_of(b, a.to));
@@ -47,7 +47,7 @@ bool meet(const Side& a, const Side& b) {
 
 /// Of neighbours, which share a corner: whether the second one runs back along the first.
 bool folds_back(const Side& first, const Side& second) {
-  return turn(first.from, first.to, second.to) == 0 && (first.to - first.from).dot(second.to - second.from) < 0;
+  return side_of(first.from, first.to, second.to) == 0 && (first.to - first.from).dot(second.to - second.from) < 0;
 }
 
 std::string place_text(const Point& p) { return "[" + shortest(p.x()) + ", " + shortest(p.y()) + "]"; }
@@ -132,7 +132,7 @@ bool encloses(const Zone::Ring& ring, const Point& p) {
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const Point &a = ring[i], &b = ring[(i + 1) % ring.size()];
     if ((a.y() > p.y()) == (b.y() > p.y())) continue;
-    if (turn(a, b, p) * (b.y() > a.y() ? 1 : -1) > 0) inside = !inside;
+    if (side_of(a, b, p) * (b.y() > a.y() ? 1 : -1) > 0) inside = !inside;
   }
   return inside;
 }

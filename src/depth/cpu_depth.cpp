@@ -79,7 +79,7 @@ class CpuDepthRenderer : public DepthRenderer {
     ConservativeRaster raster(band, texels);
     std::vector<Vec3> corners;
     for_each_polygon(scene_.data().bvh, eye, range, clip, [&](std::uint32_t number) {
-      const SeenPolygon polygon = scene_.polygon(number, eye, corners);
+      const ViewedPolygon polygon = scene_.polygon(number, eye, corners);
       raster.draw(clip.clip(polygon), polygon.slack);
     });
   }

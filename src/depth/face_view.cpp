@@ -37,7 +37,7 @@ bool FaceClip::may_meet(const Vec3& centre, const Vec3& half) const {
          !outside(band_.edge(band_.row_end) * forward - axes_.up);
 }
 
-std::span<const Vec3> FaceClip::clip(const SeenPolygon& polygon) {
+std::span<const Vec3> FaceClip::clip(const ViewedPolygon& polygon) {
   points_.clear();
   for (const Vec3& p : polygon.corners) {
     points_.emplace_back(axes_.right.dot(p), axes_.up.dot(p), axes_.forward.dot(p));

@@ -28,7 +28,7 @@ struct FaceBand {
 };
 
 /// A convex polygon as the viewpoint sees it.
-struct SeenPolygon {
+struct ViewedPolygon {
   std::span<const Vec3> corners;  ///< relative to the viewpoint, axes of the scene, in order
   double slack = 0;               ///< no point of the true polygon is farther than this from the given one, metres
 };
@@ -45,7 +45,7 @@ class FaceClip {
 
   /// The corners of what lies within the band grown by twice the slack, beyond kTouching; empty when there is nothing.
   /// Valid until the next call.
-  std::span<const Vec3> clip(const SeenPolygon& polygon);
+  std::span<const Vec3> clip(const ViewedPolygon& polygon);
 
  private:
   FaceBand band_;

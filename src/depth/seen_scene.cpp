@@ -41,7 +41,7 @@ SeenScene::SeenScene(const PreparedScene& scene) : scene_(scene), unevenness_(sc
   });
 }
 
-SeenPolygon SeenScene::polygon(std::uint32_t number, const Vec3& eye, std::vector<Vec3>& storage) const {
+ViewedPolygon SeenScene::polygon(std::uint32_t number, const Vec3& eye, std::vector<Vec3>& storage) const {
   // Subtracting the viewpoint and cutting at the borders of a face: a few roundings of the largest coordinate.
   constexpr double kRounding = 16 * std::numeric_limits<double>::epsilon();
   storage.clear();

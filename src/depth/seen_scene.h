@@ -18,7 +18,7 @@ class SeenScene {
   const PreparedScene::Data& data() const { return scene_.data(); }
 
   /// `eye` is relative to the scene's origin. The corners are kept in `storage`.
-  SeenPolygon polygon(std::uint32_t number, const Vec3& eye, std::vector<Vec3>& storage) const;
+  ViewedPolygon polygon(std::uint32_t number, const Vec3& eye, std::vector<Vec3>& storage) const;
 
  private:
   PreparedScene scene_;

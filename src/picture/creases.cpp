@@ -15,7 +15,7 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kFlat = 3 * kDegree;    // facets that meet at less are one face: the range sphere's are such
 constexpr double kSharp = 25 * kDegree;  // from here on an edge is drawn in full
-constexpr double kLeastStrength = 0.35;  // of a crease that is drawn at all
+constexpr double kFaintest = 0.35;  // of a crease that is drawn at all
 constexpr double kThin = 1e-3;           // height over longest side, below which a facet's normal says little
 
 struct Side {
@@ -99,8 +99,8 @@ std::vector<Crease> find_creases(const Mesh& mesh, std::span<const std::uint8_t>
     const double angle = std::acos(std::clamp(facets[one].normal.dot(facets[other].normal), -1.0, 1.0));
     const double sharpness = std::clamp((angle - kFlat) / (kSharp - kFlat), 0.0, 1.0);
     const bool is_contour = faces_viewer(one, point) != faces_viewer(other, point);
-    if (sharpness <= 0) return is_contour ? kLeastStrength : 0.0;
-    return std::max(kLeastStrength + (1 - kLeastStrength) * sharpness, is_contour ? 0.8 : 0.0);
+    if (sharpness <= 0) return is_contour ? kFaintest : 0.0;
+    return std::max(kFaintest + (1 - kFaintest) * sharpness, is_contour ? 0.8 : 0.0);
   };
 
   std::vector<Crease> creases;

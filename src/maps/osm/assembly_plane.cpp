@@ -11,10 +11,10 @@
 namespace vantage::internal::osm {
 namespace {
 
-constexpr double kPolar = 85;  // degrees of latitude, from where on a pole's own map is the better one
+constexpr double kPolarMap = 85;  // degrees of latitude, from where on a pole's own map is the better one
 /// The polar map's degree is so many of the file's, whose longitudes are finer there than its latitudes.
 constexpr double kMagnified = 10;
-constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kRadiansPerDegree = std::numbers::pi / 180;
 constexpr std::int32_t kHalfTurn = 180 * osmium::detail::coordinate_precision;
 
 }  // namespace
@@ -36,7 +36,7 @@ AssemblyPlane::AssemblyPlane(const std::vector<const osmium::Way*>& ways) {
     north = std::max(north, at.lat());
   });
   if (west > east) return;
-  if (south >= kPolar || north <= -kPolar) {
+  if (south >= kPolarMap || north <= -kPolarMap) {
     kind_ = Kind::about_pole;
     hemisphere_ = south > 0 ? 1 : -1;
     for_nodes([&](osmium::Location at) { corners_.emplace_back(to_plane(at), to_lonlat(at)); });
@@ -55,7 +55,7 @@ osmium::Location AssemblyPlane::to_plane(osmium::Location location) const {
       return osmium::Location(location.x() > 0 ? location.x() - kHalfTurn : location.x() + kHalfTurn, location.y());
     case Kind::about_pole: {
       const double from_pole = kMagnified * (90 - hemisphere_ * location.lat());
-      const double turn = location.lon() * kDegree;
+      const double turn = location.lon() * kRadiansPerDegree;
       return osmium::Location(from_pole * std::sin(turn), -hemisphere_ * from_pole * std::cos(turn));
     }
   }
@@ -76,7 +76,7 @@ LonLat AssemblyPlane::from_plane(osmium::Location location) const {
                            [](const NodePosition& place, osmium::Location at) { return place.first < at; });
       if (corner != corners_.end() && corner->first == location) return corner->second;
       const double x = location.lon_without_check(), y = location.lat_without_check();
-      return {std::atan2(x, -hemisphere_ * y) / kDegree, hemisphere_ * (90 - std::hypot(x, y) / kMagnified)};
+      return {std::atan2(x, -hemisphere_ * y) / kRadiansPerDegree, hemisphere_ * (90 - std::hypot(x, y) / kMagnified)};
     }
   }
   return to_lonlat(location);
