@@ -65,7 +65,7 @@ fuzz: tools  ## each fuzz target for a minute (SECONDS_EACH=60; PRESET=asan: in 
 	BUILD=build-$(or $(PRESET),fuzz) scripts/fuzz.sh $(or $(SECONDS_EACH),60)
 
 .PHONY: nightly
-nightly: tested benchmarks  ## what takes too long for every change: lint and sanitizers over all, static builds, attack, wheel
+nightly: tested benchmarks  ## what takes too long for every change: lint and sanitizers over all, static builds, attack
 	@$(MAKE) --no-print-directory lint ALL=1
 	@$(MAKE) --no-print-directory asan ALL=1
 	cmake --build --preset asan --parallel $(JOBS) --target vantage_attack
@@ -73,7 +73,6 @@ nightly: tested benchmarks  ## what takes too long for every change: lint and sa
 	JOBS=$(JOBS) scripts/build_variants.sh
 	build/bin/vantage_attack --scenes $(or $(SCENES),2000) --seed $(or $(SEED),$(shell date +%Y%m%d)) \
 	  --jobs $(JOBS) --out build/attack
-	@$(MAKE) --no-print-directory wheelcheck
 
 .PHONY: install
 install: build  ## into PREFIX (/usr/local)

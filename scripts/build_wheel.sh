@@ -48,4 +48,6 @@ rm -f dist/vantage-*-"$tag"-*.whl
 PATH=$tools/bin:$PATH "$tools/bin/python" -m auditwheel repair --wheel-dir dist "$build"/raw/vantage-*.whl >>"$build/log" 2>&1 ||
   { tail -n 20 "$build/log" >&2; exit 1; }
 "$tools/bin/python" scripts/wheel_licences.py check dist/vantage-*-"$tag"-*.whl
+"$tools/bin/python" -m zipfile --list dist/vantage-*-"$tag"-*.whl | grep -q share/web/index.html ||
+  echo "the page of \`vantage view\` is not in it: run \`make web\` first"
 du -h dist/vantage-*-"$tag"-*.whl

@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 import argparse
+import fcntl
 import json
 import pathlib
+import signal
+import socket
+import struct
 import subprocess
 import sys
 import time
+import urllib.request
 
 import numpy as np
 
@@ -15,6 +20,7 @@ import vantage as vt
 
 HERE = pathlib.Path(__file__).resolve().parent
 SQUARE = [[-12, -9, 0], [8, -11, 0], [11, 0, 0], [4, 10, 0], [-13, 8, 0]]
+SET_FLAGS, IS_UP = 0x8914, 1  # netdevice(7): SIOCSIFFLAGS, IFF_UP
 STARTED = time.perf_counter()
 
 
@@ -59,6 +65,29 @@ def same_as_program(result: vt.Result, name: str, expected: pathlib.Path | None)
         expect(written == (expected / f"{name}.ply").read_bytes(), f"{name}: the same bytes as the program outside of the wheel")
 
 
+def check_page() -> None:
+    """A report, and what `view` serves, where the wheel was built with the page."""
+    mission = str(HERE / "examples/plaza/mission.yaml")
+    if not (pathlib.Path(vt.__file__).parent / "share/web/index.html").exists():
+        tell("no page in this wheel (make web)")
+        return
+    program("report", mission, "-o", "/tmp/report.html")
+    report = pathlib.Path("/tmp/report.html").read_text()
+    expect("vantageReport" in report and "vantageLive=" not in report, f"a report of {len(report)} bytes")
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as any_socket:  # a root without network has no 127.0.0.1 either
+        fcntl.ioctl(any_socket, SET_FLAGS, struct.pack("16sh22x", b"lo", IS_UP))
+    server = subprocess.Popen([sys.executable, "-m", "vantage", "view", mission, "--no-browser"], stdout=subprocess.PIPE, text=True)
+    try:
+        assert server.stdout is not None
+        address = server.stdout.readline().strip()
+        with urllib.request.urlopen(address, timeout=60) as answer:
+            page = answer.read().decode()
+        expect("vantageLive=" in page, f"view serves the page, {len(page)} bytes")
+    finally:
+        server.send_signal(signal.SIGINT)
+    expect(server.wait(timeout=60) == 0, "view ends at Ctrl-C")
+
+
 def main() -> int:
     parser = argparse.ArgumentParser()
     parser.add_argument("--no-opengl", action="store_true", help="a picture must fail, and say what it lacks")
@@ -87,6 +116,7 @@ def main() -> int:
     expect(town.scene.georeference is not None, f"town: {town.scene.crs}")
     same_as_program(town, "town", arguments.expected)
 
+    check_page()
     cube = vt.Scene.from_bytes(dutch_cube().encode(), "json")
     place = cube.georeference
     assert place is not None
