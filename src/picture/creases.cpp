@@ -15,7 +15,7 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kFlat = 3 * kDegree;    // facets that meet at less are one face: the range sphere's are such
 constexpr double kSharp = 25 * kDegree;  // from here on an edge is drawn in full
-constexpr double kFaintest = 0.35;  // of a crease that is drawn at all
+constexpr double kFaintest = 0.35;       // of a crease that is drawn at all
 constexpr double kThin = 1e-3;           // height over longest side, below which a facet's normal says little
 
 struct Side {
