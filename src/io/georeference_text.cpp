@@ -13,9 +13,9 @@ constexpr const char* kProblem = "the georeference of vantage in it cannot be re
 
 [[noreturn]] void fail(std::string problem) { throw GeoreferenceProblem{kProblem + std::move(problem)}; }
 
-double degrees(const nlohmann::json& json, const char* key, double limit) {
-  const auto found = json.find(key);
-  if (found == json.end()) fail(std::string("\"").append(key).append("\" is missing"));
+double degrees(const nlohmann::json& object, const char* key, double limit) {
+  const auto found = object.find(key);
+  if (found == object.end()) fail(std::string("\"").append(key).append("\" is missing"));
   const double value = found->is_number() ? found->get<double>() : std::nan("");
   if (!(std::abs(value) <= limit)) {
     fail(std::string("\"")
@@ -26,9 +26,9 @@ double degrees(const nlohmann::json& json, const char* key, double limit) {
   return value;
 }
 
-std::string text(const nlohmann::json& json, const char* key) {
-  const auto found = json.find(key);
-  if (found == json.end()) return {};
+std::string text(const nlohmann::json& object, const char* key) {
+  const auto found = object.find(key);
+  if (found == object.end()) return {};
   if (!found->is_string()) fail(std::string("\"").append(key).append("\" is not a text"));
   return found->get<std::string>();
 }
@@ -47,13 +47,13 @@ std::string georeference_text(const Georeference& georeference) {
   return georeference_json(georeference).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
 }
 
-Georeference parse_georeference(const nlohmann::json& json) {
-  if (!json.is_object()) fail("it is no JSON object");
+Georeference parse_georeference(const nlohmann::json& object) {
+  if (!object.is_object()) fail("it is no JSON object");
   Georeference georeference;
-  georeference.latitude_deg = degrees(json, "latitude_deg", 90);
-  georeference.longitude_deg = degrees(json, "longitude_deg", 180);
-  georeference.vertical = text(json, "vertical");
-  georeference.source_crs = text(json, "source_crs");
+  georeference.latitude_deg = degrees(object, "latitude_deg", 90);
+  georeference.longitude_deg = degrees(object, "longitude_deg", 180);
+  georeference.vertical = text(object, "vertical");
+  georeference.source_crs = text(object, "source_crs");
   return georeference;
 }
 

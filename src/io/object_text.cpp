@@ -22,10 +22,10 @@ std::optional<ObjectKind> kind_named(std::string_view name) {
   return std::nullopt;
 }
 
-std::optional<SceneObject> parse(const Json& json) {
-  if (!json.is_object()) return std::nullopt;
+std::optional<SceneObject> parse(const Json& written) {
+  if (!written.is_object()) return std::nullopt;
   SceneObject object;
-  for (const auto& [key, value] : json.items()) {
+  for (const auto& [key, value] : written.items()) {
     if (!value.is_string()) return std::nullopt;
     const auto& text = value.get_ref<const std::string&>();
     if (key == "name") object.name = text;
