@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cstring>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 #include <thread>
 
@@ -123,6 +124,21 @@ TEST_F(LiveServerThread, WhatIsNoRequestIsToldSo) {
   EXPECT_EQ(get(path(), host()).result(), http::status::ok);
 }
 
+TEST_F(LiveServerThread, NothingMayBeSentBeforeTheSocketIsOpen) {
+  const std::string request = "GET " + path("/socket") + " HTTP/1.1\r\nHost: " + host() + "\r\nOrigin: http://" +
+                              host() +
+                              "\r\nConnection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\n"
+                              "Sec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\r\n\r\n";
+  for (const bool is_early : {false, true}) {
+    asio::ip::tcp::socket socket = connected();
+    asio::write(socket, asio::buffer(request + (is_early ? std::string("\x81\x80....", 6) : std::string())));
+    beast::flat_buffer buffer;
+    http::response<http::string_body> response;
+    http::read(socket, buffer, response);
+    EXPECT_EQ(response.result(), is_early ? http::status::bad_request : http::status::switching_protocols);
+  }
+}
+
 TEST_F(LiveServerThread, TheSocketIsForThePage) {
   for (const std::string& origin : {std::string("http://evil.example"), std::string("null"), std::string()}) {
     Socket socket(connected());
@@ -143,15 +159,18 @@ TEST_F(LiveServerThread, AnswersAndDropsWhatIsStale) {
                   {"text", std::string(testing::kTarget) + "sensor: {max_range: " + std::to_string(range) + "}\n"}}}};
   };
   for (int id = 2; id < 20; ++id) socket.write(asio::buffer(compute(id, 30.0 + id).dump()));
-  int stale = 0, answered = 0;
-  bool is_last_computed = false;
-  for (int id = 2; id < 20; ++id) {
+  // Each is answered once, with its own range or as stale; the last one is never stale.
+  std::set<int> ids;
+  for (int n = 2; n < 20; ++n) {
     const Json answer = next(socket);
-    (answer.contains("stale") ? stale : answered)++;
-    if (answer["id"] == 19) is_last_computed = answer.contains("value");
+    const int id = answer["id"];
+    EXPECT_TRUE(ids.insert(id).second) << id;
+    EXPECT_NE(answer.contains("stale"), answer.contains("value")) << id;
+    EXPECT_EQ(answer.value("/value/limits/max_range"_json_pointer, 30.0 + id), 30.0 + id);
+    EXPECT_TRUE(id < 19 || answer.contains("value"));
   }
-  EXPECT_EQ(stale + answered, 18);
-  EXPECT_TRUE(is_last_computed);
+  EXPECT_EQ(*ids.begin(), 2);
+  EXPECT_EQ(*ids.rbegin(), 19);
 }
 
 TEST_F(LiveServerThread, AnswersAllThatIsAskedHoweverLateItIsRead) {

@@ -10,6 +10,7 @@
 #include "support/cli_fixture.h"
 #include "support/map_text.h"
 #include "vantage/areas.h"
+#include "vantage/camera.h"
 #include "vantage/error.h"
 #include "vantage/georeference.h"
 #include "vantage/mission.h"
@@ -138,6 +139,35 @@ TEST_F(LiveSession, OfSeveralTargetsEachMustBeSeenOrOne) {
     const Json answers = ask({{"call", "query"}, {"points", {{0, 0, 20}}}}).header["value"]["answers"];
     EXPECT_EQ(answers[0]["inside"], is_any);
   }
+}
+
+TEST_F(LiveSession, TellsWhereTheTargetIsAndWhatTheFileAndTheVolumeSay) {
+  const std::string raised =
+      "target: {vertices: [[-5, -5, 0], [5, -5, 0], [5, 5, 0]], offset: 2}\n"
+      "sensor: {max_range: 30000, visible: 0.5, pixel: {size: 0.02}, camera: {model: " +
+      known_cameras().front().name + "}}\n";
+  const Json answer = ask({{"call", "compute"}, {"text", raised}}).header;
+  const Json& value = answer["value"];
+  for (const Json& corner : value["target"][0]) EXPECT_EQ(corner[2], 2.0);
+  EXPECT_EQ(value["limits"]["max_range"], 30000.0) << answer;
+  EXPECT_LT(value["range_m"], 30000.0);
+  EXPECT_EQ(value["claim"]["visible"], 0.5);
+  EXPECT_EQ(value["claim"]["combine"], "all");
+}
+
+TEST_F(LiveSession, ShowsTheVolumeOfSeveralTargets) {
+  const std::string targets =
+      "scene: {mesh: city.obj}\ntargets:\n  - {name: a, vertices: [[-5, -5, 0], [5, -5, 0], [5, 5, 0]]}\n"
+      "  - {name: b, vertices: [[-5, 6, 0], [5, 6, 0], [5, 9, 0]]}\nsensor: {max_range: 60}\ncombine: any\n";
+  write("several.yaml", targets);
+  Session first, second;
+  first.open_file(folder_ / "several.yaml");
+  first.compute(targets.substr(targets.find("targets:")));
+  first.save("ply");
+  write("several.ply", first.bytes());
+  second.open_file(folder_ / "several.yaml");
+  second.show_volume(folder_ / "several.ply");
+  EXPECT_EQ(Json::parse(second.hello())["volume"]["claim"]["combine"], "any");
 }
 
 TEST_F(LiveSession, AVolumeIsKeptWhileALimitIsDragged) {

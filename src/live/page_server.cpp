@@ -84,6 +84,9 @@ class Caller : public std::enable_shared_from_this<Caller> {
       const bool is_ours =
           gate.opens(target, "/socket") && Gate::is_own_origin(view(request[http::field::origin]), host);
       if (!is_ours) return reply(http::status::forbidden, "Open the address that the program printed.\n");
+      if (buffer_.size() > 0) {  // RFC 6455, 4.1: nothing may be sent before the answer
+        return reply(http::status::bad_request, "Wait for the answer before the first message.\n");
+      }
       std::make_shared<Conversation>(std::move(stream_), house_.session, house_.workshop, seat_)->start(request);
       return;
     }

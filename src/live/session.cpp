@@ -103,11 +103,14 @@ Json objects_of(const Scene& scene) {
   return list;
 }
 
+/// Where they are looked at: moved by the target's offset.
 Json parts_of(const Target& target) {
   Json parts = Json::array();
-  for (const auto& part : target.parts) {
+  for (std::size_t i = 0; i < target.parts.size(); ++i) {
+    const Vec3 offset =
+        target.offset_m == 0 ? Vec3::Zero() : Vec3(target.offset_m * make_target_frame(target, i).normal);
     Json corners = Json::array();
-    for (const Vec3& corner : part) corners.push_back(json(corner));
+    for (const Vec3& corner : target.parts[i]) corners.push_back(json(Vec3(corner + offset)));
     parts.push_back(std::move(corners));
   }
   return parts;
@@ -121,13 +124,21 @@ Json limits_of(const Mission& mission) {
   const auto& above_ground = mission.navigation.above_ground;
   Json boxes = Json::array();
   for (const Box& box : mission.navigation.keep_out) boxes.push_back(json(box));
-  const double range = range_limit_m(mission.sensor);
+  const double range = mission.sensor.max_range_m;
   return {{"max_range", std::isfinite(range) ? Json(range) : Json()},
           {"min_range", mission.sensor.min_range_m},
           {"incidence", mission.sensor.incidence_deg ? Json(*mission.sensor.incidence_deg) : Json()},
           {"altitude", altitude ? Json{altitude->min_m, altitude->max_m} : Json()},
           {"agl", above_ground ? Json{above_ground->min_m, above_ground->max_m} : Json()},
           {"keep_out", std::move(boxes)}};
+}
+
+/// What a position of the volume sees at least.
+Json claim_of(const Mission& mission) {
+  const auto& visible = mission.sensor.visible;
+  const bool is_any =
+      std::any_of(mission.views.begin(), mission.views.end(), [](const auto& l) { return l.size() > 1; });
+  return {{"visible", visible ? visible->share : 1.0}, {"combine", name_of(is_any ? Combine::any : Combine::all)}};
 }
 
 Json causes_of(const Volume& volume) {
@@ -240,7 +251,7 @@ void Session::show_volume(const std::filesystem::path& volume, const Progress& p
     read.causes = {{CauseKind::scene, "the file of the volume does not say"}};
     read.cause_of.assign(read.mesh.triangles.size(), 0);
   }
-  read.frame = prepare_target(mission, computed_in_->prepared).frame();
+  read.frame = prepare_views(mission, computed_in_->prepared).front().front().frame();  // of several targets, the first
   Result result;
   result.volume = std::move(read);
   take_volume(std::move(mission), computed_in_, std::move(result));
@@ -290,13 +301,15 @@ std::string Session::compute(std::string_view text, const Progress& progress) {
 }
 
 void Session::take_volume(Mission mission, ScenePointer scene, Result result) {
+  // First what may fail for want of memory: then the last volume stays whole.
+  ViewMesh view = view_of(result.volume.mesh, result.volume.cause_of, origin_);
   mission_ = std::make_shared<const Mission>(std::move(mission));
   computed_in_ = std::move(scene);
   result_.emplace(std::move(result));
   prove_options_ = {.lift_m = result_->volume.lift_m};
   proof_.reset();
   queries_.clear();
-  volume_view_ = view_of(result_->volume.mesh, result_->volume.cause_of, origin_);
+  volume_view_ = std::move(view);
 }
 
 std::string Session::volume_json() const {
@@ -310,6 +323,7 @@ std::string Session::volume_json() const {
                       {"normal", json(volume.frame.normal)},
                       {"range_m", range_limit_m(mission_->sensor)},
                       {"limits", limits_of(*mission_)},
+                      {"claim", claim_of(*mission_)},
                       {"volume_m3", enclosed_volume(volume.mesh)},
                       {"area_m2", surface_area(volume.mesh)},
                       {"facets", volume.mesh.triangles.size()},
