@@ -5,6 +5,7 @@ import { History } from "./model/history";
 import { emptyMission, missionFrom, missionText, sceneText, type Mission } from "./model/mission";
 import { faultOf } from "./model/polygon";
 import { hasBadNews, metres, say } from "./ui/page";
+import { seenFrom } from "./ui/results";
 import { City } from "./view/city";
 import { BoxesView, ProbeView, SectionView } from "./view/marks";
 import { Stage } from "./view/stage";
@@ -289,7 +290,7 @@ export class App {
       answer.behind_target ? "behind the target" : "",
       answer.outside_of.length > 0 ? `outside of ${answer.outside_of.join(", ")}` : "",
     ].filter((text) => text !== "");
-    const what = answer.inside ? "Inside: this position sees all of it" : `Outside: ${why.join("; ") || "not all of the target is visible"}`;
+    const what = answer.inside ? `Inside: this position sees ${seenFrom(this.volume.info)}` : `Outside: ${why.join("; ") || "not all of the target is visible"}`;
     say(`${what} · z ${metres(at[2])}${this.isEye() ? " · turn and zoom to fly, Esc ends it" : ""}`);
     this.stage.request();
     this.changed();
@@ -306,7 +307,7 @@ export class App {
     let text: string;
     try {
       const { verdict } = await this.engine.prove();
-      text = verdict === "proved" ? "Proved: every position of this volume sees all of the target."
+      text = verdict === "proved" ? `Proved: every position of this volume sees ${seenFrom(volume.info)}.`
         : `The proof says: ${verdict.replaceAll("_", " ")}`;
     } catch (error) {
       text = toldBy(error);

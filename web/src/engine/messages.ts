@@ -58,6 +58,9 @@ export interface VolumeInfo {
   target: Point[][];
   center: Point;
   normal: Point;
+  /** what the volume claims of each position. `visible`: the least share of the target that it sees; 1: all of it */
+  claim?: { visible: number; combine: "all" | "any" };
+  /** as far as the volume may reach, whatever limits it */
   range_m: number;
   limits: Limits;
   volume_m3: number;

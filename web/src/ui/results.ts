@@ -1,6 +1,7 @@
 // What the panel says of the volume: numbers, what bounds it, its cut, its proof.
 import type { App } from "../app";
 import type { Volume } from "../engine/client";
+import type { VolumeInfo } from "../engine/messages";
 import { KIND_COLOURS } from "../view/stage";
 import { button, element, input, large, metres } from "./page";
 
@@ -8,6 +9,14 @@ const KIND_NAMES: Record<string, string> = {
   scene: "a building begins to hide it", range: "the range", target_plane: "the target's plane",
   navigation: "where you may fly", sensor: "the sensor",
 };
+
+/** What each position of a volume sees: "all of the target". */
+export function seenFrom({ claim }: VolumeInfo): string {
+  const visible = claim?.visible ?? 1;
+  // Rounded down: what is claimed is no more than what is so.
+  const share = visible < 1 ? `at least ${Number((Math.floor(visible * 1000) / 10).toFixed(1))} %` : "all";
+  return `${share} of ${claim?.combine === "any" ? "at least one of the targets" : "the target"}`;
+}
 
 export class Results {
   /** the volume that the proof is of */
@@ -61,6 +70,7 @@ export class Results {
     status.classList.toggle("bad", failure !== "");
     status.textContent = failure !== "" ? `There is no volume of this target${volume ? ": the last one stays" : ""}`
       : !volume ? "No target yet" : volume.info.outcome === "computed" ? "" : volume.info.reason;
+    element("claim").textContent = `Every position in the volume sees ${volume ? seenFrom(volume.info) : "all of the target"}.`;
     this.showNumbers();
     this.showLegend();
     element("notes").replaceChildren(...(volume?.info.notes ?? []).map(({ text }) => {
