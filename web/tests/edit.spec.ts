@@ -159,6 +159,7 @@ test("a mission keeps its comments, and keys that the page has no controls for",
   const written = `# the square, for the fair
 scene:
   mesh: plaza.obj   # beside this file
+# what is seen
 target:
   name: square
   vertices: [[-8, -8, 0], [4, -8, 0], [4, 3, 0], [-8, 3, 0]]
@@ -176,7 +177,7 @@ exact:
   await expect.poll(async () => (await mission(page)).range).toBe(60);
   await settled(page);
   const unchanged = await agrees(page);
-  for (const line of ["# of the lens", "clearance: 2", "tolerance: 0.02", "offset: 0.05"]) expect(unchanged).toContain(line);
+  for (const line of ["# beside this file", "# what is seen", "# of the lens", "clearance: 2", "tolerance: 0.02", "offset: 0.05"]) expect(unchanged).toContain(line);
   await page.locator("#range").fill("40");
   await settled(page);
   const nearer = await agrees(page);

@@ -52,6 +52,16 @@ async function agrees(page: Page): Promise<string> {
   return text;
 }
 
+test("a mission that begins with three dashes is saved as one document", async ({ page }) => {
+  const text = `---\n# the square\nscene: {mesh: plaza.obj}\ntarget: {${square}}\nsensor: {max_range: 60}\n`;
+  await reopen(page, text);
+  await type(page, "range", "50");
+  const saved = await agrees(page);
+  expect(saved).toContain("# the square");
+  await reopen(page, saved);
+  expect((await mission(page)).range).toBe(50);
+});
+
 test("the page says what is claimed of the volume", async ({ page }) => {
   const claim = (visible: number, combine: string) => page.evaluate((made) => {
     const app = (window as any).vantage;

@@ -48,6 +48,9 @@ export function emptyMission(size: number): Mission {
   return { ...structuredClone(controls), written: "", opened: { ...controls, range: 0 }, grain, hasGround: false };
 }
 
+/** Sections `scene` as they were written, with their comments. */
+const writtenScenes = new WeakMap<object, string>();
+
 /** The text of a mission file in two: what it says of its scene, and the rest, on the lines where it was. */
 export function divided(text: string): { scene: Record<string, unknown>; body: string } {
   const document = parseDocument(text);
@@ -63,11 +66,12 @@ export function divided(text: string): { scene: Record<string, unknown>; body: s
   }
   const from = (pair.key as Node).range![0];
   const to = (pair.value as Node | null)?.range?.[2] ?? text.indexOf("\n", from);
+  if (isMap(pair.value)) writtenScenes.set(scene, `${text.slice(from, to).trimEnd()}\n`);
   return { scene, body: text.slice(0, from) + text.slice(from, to).replace(/[^\n]/g, "") + text.slice(to) };
 }
 
 /** The section `scene` of a mission file. */
-export const sceneText = (scene: Record<string, unknown>) => String(new Document({ scene }));
+export const sceneText = (scene: Record<string, unknown>) => writtenScenes.get(scene) ?? String(new Document({ scene }));
 
 /** A mission that was read, and what the engine says of it. */
 export function missionFrom(written: string, info: VolumeInfo, grain: number): Mission {
@@ -139,7 +143,7 @@ class Writer {
     if (differs(mission.agl, opened.agl)) this.setHeights("agl", mission.agl);
     if (hasOtherBoxes) this.setBoxes(mission.keepOut);
     if (isDraft) this.coarsen();
-    return document.toString({ lineWidth: 120 });
+    return document.toString({ lineWidth: 120, directives: false }); // the section `scene` is written before it
   }
 
   /** Round surfaces with a tenth of the facets: they take most of the time to compute and to draw. */
