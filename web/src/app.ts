@@ -35,7 +35,7 @@ export class App {
   readonly sectionView: SectionView;
   readonly probeView: ProbeView;
 
-  mission: Mission = emptyMission(100);
+  mission: Mission = emptyMission();
   history = new History<Mission>(this.mission);
   scene: SceneInfo | null = null;
   /** the file of the scene, and what a mission file says of it */
@@ -105,7 +105,7 @@ export class App {
     this.volumeView.hide();
     this.volume = this.draftOf = null;
     this.failure = "";
-    this.mission = emptyMission(Math.max(info.max[0] - info.min[0], info.max[1] - info.min[1], 1e-9));
+    this.mission = emptyMission(info);
     this.history = new History(this.mission);
     this.dragged = null;
     this.setProbe(null);
@@ -123,7 +123,7 @@ export class App {
 
   /** `volume`: of that mission. */
   openMissionWith(body: string, volume: Volume): void {
-    this.mission = missionFrom(body, volume.info, this.mission.grain);
+    this.mission = missionFrom(body, volume.info, this.scene!);
     this.history.keep(this.mission);
     this.dragged = null;
     this.put(volume, null);

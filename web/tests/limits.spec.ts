@@ -52,6 +52,108 @@ async function agrees(page: Page): Promise<string> {
   return text;
 }
 
+test("a height beyond the end of its slider is a limit", async ({ page }) => {
+  await opened(page, "max_range: 300");
+  await type(page, "high", "120");
+  await expect(page.locator("#high-number")).toHaveValue("120 m");
+  await expect(page.locator("#low-number")).toHaveValue("any");
+  expect((await heights(page))[1]).toBeCloseTo(120, 3);
+  expect(await agrees(page)).toContain("altitude: [ -1000, 120 ] # z -1000: no limit");
+});
+
+test("where one end of a band is taken away, the other one stays", async ({ page }) => {
+  await opened(page, "max_range: 300", "{altitude: [3, 120]} # the rule");
+  await page.locator("#low").press("Home");
+  await settled(page);
+  await expect(page.locator("#low-number")).toHaveValue("any");
+  await expect(page.locator("#high-number")).toHaveValue("120 m");
+  expect((await heights(page))[0]).toBeLessThan(2.9);
+  expect((await heights(page))[1]).toBeCloseTo(120, 3);
+  await agrees(page);
+  await type(page, "low", "3");
+  expect(await agrees(page)).toContain("[ 3, 120 ]");
+  await page.locator("#high").press("End");
+  await settled(page);
+  await expect(page.locator("#high-number")).toHaveValue("any");
+  expect((await heights(page))[1]).toBeGreaterThan(290);
+  await agrees(page);
+  await type(page, "range", "2500"); // and the end stays open
+  const text = await agrees(page);
+  expect(text).toContain("# the rule");
+  expect((await heights(page))[1]).toBeGreaterThan(2400);
+
+  await reopen(page, text);
+  await expect(page.locator("#low-number")).toHaveValue("3 m");
+  await expect(page.locator("#high-number")).toHaveValue("any");
+  await type(page, "low", "any");
+  expect(await agrees(page)).not.toContain("altitude");
+});
+
+test("an end that a file gives is open only where the page wrote it, and it limits nothing", async ({ page }) => {
+  for (const [written, shown] of [
+    ["[3, 1000]", "1000 m"], ["[3, 60] # z 1000: no limit", "60 m"], ["[3, 100] # z 100: no limit", "100 m"],
+    ["[3, 1000] # as agreed; z 1000: no limit", "any"], ["{z: [3, 1000]} # z 1000: no limit", "any"],
+  ]) {
+    await openMission(page, `target: {${square}}\nsensor: {max_range: 300}\nnavigation:\n  altitude: ${written}\n`);
+    await expect(page.locator("#high-number")).toHaveValue(shown!);
+  }
+  await type(page, "high", "50");
+  await type(page, "low", "any");
+  expect(await agrees(page)).toContain("altitude: { z: [ -1000, 50 ] } # z -1000: no limit");
+});
+
+test("heights above the ground have open ends, too", async ({ page }) => {
+  await opened(page, "max_range: 90", "{ground: 0, altitude: {agl: [3, 20]}}");
+  await page.locator("#high-agl").press("End");
+  await settled(page);
+  await expect(page.locator("#high-agl-number")).toHaveValue("any");
+  await expect(page.locator("#low-agl-number")).toHaveValue("3 m");
+  expect((await heights(page))[1]).toBeGreaterThan(80);
+  expect(await agrees(page)).toContain("agl: [ 3, 1000 ]");
+  const text = await savedMission(page);
+  await reopen(page, text);
+  expect((await mission(page)).agl).toEqual([3, null]);
+  await type(page, "high-agl", "130");
+  await type(page, "low-agl", "");
+  await expect(page.locator("#high-agl-number")).toHaveValue("130 m");
+  await agrees(page);
+  await type(page, "high-agl", "any");
+  expect(await agrees(page)).not.toContain("navigation"); // ground without such heights is refused
+});
+
+test("the range is the number of the file, and the page gives one where it must", async ({ page }) => {
+  await opened(page, `max_range: 300, ${camera}, pixel: {size: 0.01}`);
+  await expect(page.locator("#range-number")).toHaveValue("300 m");
+  await page.selectOption("#pixel", "");
+  await settled(page);
+  expect((await heights(page))[1]).toBeGreaterThan(250);
+  await agrees(page);
+
+  await opened(page, `${camera}, pixel: {size: 0.01}`);
+  await expect(page.locator("#range-number")).toHaveValue(/any \(\d+\.?\d* m\)/);
+  const free = await volume(page);
+  await type(page, "range", "30");
+  expect(await volume(page)).toBeLessThan(free);
+  expect(await agrees(page)).toContain("max_range: 30");
+  await type(page, "range", "any");
+  expect(await volume(page)).toBe(free);
+  await page.selectOption("#camera", "");
+  await settled(page);
+  expect(await agrees(page)).toContain("max_range: ");
+});
+
+test("a range that is set takes the place of the sight of a pilot", async ({ page }) => {
+  await openMission(page, "target: {point: [0, 0, 2]}\nsensor: {vlos: {aircraft_size: 0.4, kind: multirotor, visibility: 5000}}\n");
+  await expect(page.locator("#range-number")).toHaveValue(/any/);
+  await agrees(page);
+  await type(page, "range", "40");
+  const text = await agrees(page);
+  expect(text).toContain("max_range: 40");
+  expect(text).not.toContain("vlos");
+  await type(page, "range", "any");
+  expect(await agrees(page)).toContain("vlos");
+});
+
 test("a mission that begins with three dashes is saved as one document", async ({ page }) => {
   const text = `---\n# the square\nscene: {mesh: plaza.obj}\ntarget: {${square}}\nsensor: {max_range: 60}\n`;
   await reopen(page, text);

@@ -38,6 +38,7 @@ export interface Box {
 
 /** The keys of a mission that the page has controls for, as the engine read them. */
 export interface Limits {
+  /** null: the mission gives none */
   max_range: number | null;
   min_range: number;
   incidence: number | null;
