@@ -121,6 +121,49 @@ test("heights above the ground have open ends, too", async ({ page }) => {
   expect(await agrees(page)).not.toContain("navigation"); // ground without such heights is refused
 });
 
+test("the tilt and the pixel leave what else a file says of the camera", async ({ page }) => {
+  await opened(page, `${camera}, max_range: 60, mount: {yaw: 30, pitch: -90, roll: 5}, pixel: {size: 0.02, kind: perpendicular}`);
+  await type(page, "tilt", "-85");
+  await page.selectOption("#pixel", "0.05");
+  await settled(page);
+  const text = await agrees(page);
+  expect(text).toContain("mount: { yaw: 30, pitch: -85, roll: 5 }");
+  expect(text).toContain("pixel: { size: 0.05, kind: perpendicular }");
+  await type(page, "tilt", "any");
+  const free = await agrees(page);
+  expect(free).toContain("gimbal: { yaw: 30, roll: 5 }");
+  expect(free).not.toContain("mount");
+
+  await opened(page, `${camera}, max_range: 60, gimbal: {pitch: [-60, 0], yaw: 30}, dori: recognition`);
+  await expect(page.locator("#pixel")).toHaveValue("0.008");
+  await type(page, "tilt", "-50");
+  await page.selectOption("#pixel", "0.02");
+  await settled(page);
+  const fixed = await agrees(page);
+  expect(fixed).toContain("mount: { yaw: 30, pitch: -50 }");
+  expect(fixed).toContain("pixel: { size: 0.02, kind: perpendicular }");
+  await type(page, "tilt", "any");
+  expect(await agrees(page)).toContain("pitch: [ -60, 0 ]");
+});
+
+test("a target that is drawn has not the front of the file's", async ({ page }) => {
+  await openMission(page, `target: {vertices: [[-8, -8, 9], [4, -8, 9], [4, 3, 9], [-8, 3, 9]], front: [0, 0, -1]}\nsensor: {max_range: 40}\n`);
+  const normal = () => page.evaluate(() => (window as any).vantage.volume.info.normal[2] as number);
+  const { target } = await mission(page);
+  await drag(page, target.vertices[0], { x: 8, y: 4 });
+  expect(await agrees(page)).toContain("front: [ 0, 0, -1 ]");
+  expect(await normal()).toBe(-1);
+  await page.keyboard.press("d");
+  for (const at of [[-5, -5, 0], [5, -5, 0], [5, 4, 0]]) {
+    const { x, y } = await onScreen(page, at);
+    await page.mouse.click(x, y);
+  }
+  await page.keyboard.press("Enter");
+  await settled(page);
+  expect(await normal()).toBeCloseTo(1, 6);
+  expect(await agrees(page)).not.toContain("front");
+});
+
 test("the range is the number of the file, and the page gives one where it must", async ({ page }) => {
   await opened(page, `max_range: 300, ${camera}, pixel: {size: 0.01}`);
   await expect(page.locator("#range-number")).toHaveValue("300 m");

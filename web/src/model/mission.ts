@@ -93,6 +93,9 @@ export function divided(text: string): { scene: Record<string, unknown>; body: s
 /** The section `scene` of a mission file. */
 export const sceneText = (scene: Record<string, unknown>) => writtenScenes.get(scene) ?? String(new Document({ scene }));
 
+/** Pixels per metre of the levels of EN 62676-4. */
+const DORI: Record<string, number> = { detection: 25, observation: 62, recognition: 125, identification: 250 };
+
 const numberIn = (document: Document, path: string[]): number | null => {
   const value = document.getIn(path);
   return typeof value === "number" ? value : null;
@@ -104,6 +107,7 @@ export function missionFrom(written: string, info: VolumeInfo, scene: Extent): M
   const { limits } = info;
   const cameraName = document.getIn(["sensor", "camera", "model"]);
   const hasCamera = document.hasIn(["sensor", "camera"]) || document.hasIn(["sensor", "fov"]);
+  const dori = DORI[String(document.getIn(["sensor", "dori"]))];
   const isOnePolygon = info.target.length === 1 && info.target[0]!.length >= 3;
   // Not that of the engine, which may be what follows from the camera.
   const maxRange = numberIn(document, ["sensor", "max_range"]);
@@ -120,10 +124,12 @@ export function missionFrom(written: string, info: VolumeInfo, scene: Extent): M
     keepOut: limits.keep_out,
     camera: typeof cameraName === "string" ? cameraName : hasCamera ? "written" : null,
     tilt: numberIn(document, ["sensor", "mount", "pitch"]),
-    pixel: numberIn(document, ["sensor", "pixel", "size"]),
+    pixel: dori ? 1 / dori : numberIn(document, ["sensor", "pixel", "size"]),
   };
-  // A polygon of another kind (a roof, an area of the map) says by its normal where its front is, once it is moved.
-  if (controls.target?.kind === "polygon" && !document.hasIn(["target", "vertices"])) controls.target.front = info.normal;
+  // What is drawn anew has not this front. A polygon of another kind (a roof, an area of the map) says by its normal where
+  // its front is, once it is moved.
+  const hasDefaultFront = document.hasIn(["target", "vertices"]) && !document.hasIn(["target", "front"]);
+  if (controls.target?.kind === "polygon" && !hasDefaultFront) controls.target.front = info.normal;
   return {
     ...structuredClone(controls), written, opened: controls, range: maxRange ?? info.range_m, grain: grainOf(scene), top,
     hasGround: document.hasIn(["navigation", "ground"]), hasPilot: document.hasIn(["sensor", "vlos"]),
@@ -169,6 +175,8 @@ class Writer {
     }
     if (differs(mission.incidence, opened.incidence)) this.set(["sensor", "incidence"], mission.incidence);
     this.setCamera();
+    if (differs(mission.tilt, opened.tilt)) this.setTilt(mission.tilt);
+    if (differs(mission.pixel, opened.pixel)) this.setPixel(mission.pixel);
     this.setHeights("z", mission.altitude, opened.altitude);
     this.setHeights("agl", mission.agl, opened.agl);
     if (hasOtherBoxes) this.setBoxes(mission.keepOut);
@@ -190,6 +198,10 @@ class Writer {
 
   private point(values: readonly number[]): YAMLSeq {
     return this.document.createNode(values.map((v) => this.number(v)), { flow: true }) as unknown as YAMLSeq;
+  }
+
+  private setFlow(path: string[], value: Record<string, unknown>): void {
+    this.document.setIn(path, this.document.createNode(value, { flow: true }));
   }
 
   /** null: the key is left out, and what holds it, when that is empty. */
@@ -244,8 +256,9 @@ class Writer {
     const corners = document.createNode([]) as unknown as YAMLSeq;
     for (const corner of target.vertices) corners.add(this.point(corner));
     document.setIn(["target", "vertices"], corners);
-    if (target.front) {
-      const front = target.front.map((x) => Number(x.toPrecision(12)));
+    if (!target.front) document.deleteIn(["target", "front"]);
+    else {
+      const front = target.front.map((x) => Number(x.toPrecision(12)) + 0); // no -0
       document.setIn(["target", "front"], document.createNode(front, { flow: true }));
     }
   }
@@ -264,16 +277,29 @@ class Writer {
       this.set(["sensor", "camera"], mission.camera === null ? null : this.document.createNode({ model: mission.camera }));
       if (mission.camera === null) for (const key of ["dori", "gimbal", "mount", "pixel"]) this.set(["sensor", key], null);
     }
-    if (differs(mission.tilt, opened.tilt)) {
-      this.set(["sensor", "gimbal"], null);
-      const mount = mission.tilt === null ? null : { yaw: "any", pitch: mission.tilt };
-      this.set(["sensor", "mount"], mount && this.document.createNode(mount, { flow: true }));
-    }
-    if (differs(mission.pixel, opened.pixel)) {
-      this.set(["sensor", "dori"], null);
-      const pixel = mission.pixel === null ? null : { size: mission.pixel };
-      this.set(["sensor", "pixel"], pixel && this.document.createNode(pixel, { flow: true }));
-    }
+  }
+
+  /** A camera that does not tilt has a `mount`, one that does a `gimbal`: their yaw and roll are the same. */
+  private setTilt(tilt: number | null): void {
+    const { document } = this;
+    const [from, to] = tilt === null ? ["mount", "gimbal"] : ["gimbal", "mount"];
+    if (tilt !== null && isMap(document.getIn(["sensor", "mount"]))) return document.setIn(["sensor", "mount", "pitch"], tilt);
+    const old = document.getIn(["sensor", from!]);
+    const [yaw, roll] = isMap(old) ? [old.get("yaw"), old.get("roll")] : [];
+    const others = roll === undefined ? {} : { roll };
+    this.set(["sensor", from!], null);
+    if (tilt !== null) this.setFlow(["sensor", to!], { yaw: yaw ?? "any", pitch: tilt, ...others });
+    else if (roll !== undefined || typeof yaw === "number") this.setFlow(["sensor", to!], { yaw: yaw ?? "any", ...others });
+  }
+
+  private setPixel(size: number | null): void {
+    const { document } = this;
+    const path = ["sensor", "pixel"];
+    const hadDori = document.hasIn(["sensor", "dori"]);
+    this.set(["sensor", "dori"], null);
+    if (size === null) this.set(path, null);
+    else if (isMap(document.getIn(path))) document.setIn([...path, "size"], size);
+    else this.setFlow(path, { size, ...(hadDori && { kind: "perpendicular" }) }); // as dori is
   }
 
   /** Open ends are written anew with each text: they are farther than the range. */
