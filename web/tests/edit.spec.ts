@@ -84,7 +84,7 @@ test("where a drag ends in a target that is none, the volume that stays is no dr
   await page.mouse.move(beyond.x, beyond.y);
   await page.mouse.up();
   await expect.poll(isDraft).toBe(false);
-  await expect(page.locator("#status")).toContainText("the last one stays");
+  await expect(page.locator("#status")).toContainText("the volume shown is that of the last valid target");
   expect(await page.evaluate(() => (window as any).vantage.volume.info.facets)).toBeGreaterThan(facets);
 });
 
@@ -100,7 +100,7 @@ test("an answer that is late does not hide that the target is none", async ({ pa
   await settled(page);
   await expect.poll(() => page.evaluate(() => (window as any).vantage.isDraft)).toBe(false);
   await settled(page);
-  await expect(page.locator("#status")).toContainText("the last one stays");
+  await expect(page.locator("#status")).toContainText("the volume shown is that of the last valid target");
   await expect(page.locator("#hint")).toContainText("not convex");
 });
 

@@ -121,6 +121,32 @@ test("heights above the ground have open ends, too", async ({ page }) => {
   expect(await agrees(page)).not.toContain("navigation"); // ground without such heights is refused
 });
 
+test("the ends of sliders can be reached in every scene", async ({ page }) => {
+  const tent = "o ground\nv -20 -20 0\nv 20 -20 0\nv 20 20 0\nv -20 20 0\nf 1 2 3 4\no tent\nv 8 8 0\nv 12 8 0\nv 10 12 0\nv 10 10 9\nf 5 6 8\nf 6 7 8\nf 7 5 8\n";
+  const isCut = () => page.evaluate(() => (window as any).vantage.cut !== null);
+  for (const name of ["plaza.obj", "tent.obj"]) {
+    if (name === "tent.obj") {
+      const text = "scene: {mesh: tent.obj}\ntarget: {vertices: [[-5, -5, 0], [5, -5, 0], [0, 5, 0]]}\nsensor: {max_range: 30}\n";
+      await open(page, { name: "m.yaml", text }, { name, text: tent });
+      await expect.poll(async () => (await mission(page)).range).toBe(30);
+      await drawn(page);
+    }
+    for (const id of ["high", "high-agl"]) {
+      await type(page, id, "5");
+      await page.locator(`#${id}`).press("End");
+      await drawn(page);
+      await expect(page.locator(`#${id}-number`)).toHaveValue("any");
+    }
+    for (const axis of ["2", "0", "1"]) {
+      await page.selectOption("#cut-axis", axis);
+      await page.locator("#cut").press("ArrowLeft");
+      expect(await isCut()).toBe(true);
+      await page.locator("#cut").press("End");
+      expect(await isCut()).toBe(false);
+    }
+  }
+});
+
 test("the tilt and the pixel leave what else a file says of the camera", async ({ page }) => {
   await opened(page, `${camera}, max_range: 60, mount: {yaw: 30, pitch: -90, roll: 5}, pixel: {size: 0.02, kind: perpendicular}`);
   await type(page, "tilt", "-85");
@@ -226,4 +252,17 @@ test("the page says what is claimed of the volume", async ({ page }) => {
   await claim(0.5, "all");
   await page.click("#prove");
   await expect(page.locator("#proof")).toContainText("sees at least 50 % of the target");
+});
+
+test("without a target nothing is said of the last volume", async ({ page }) => {
+  await page.locator("#cut").fill("20");
+  await expect(page.locator("#cut-out")).toContainText("m²");
+  await page.evaluate(() => {
+    const app = (window as any).vantage;
+    app.edit((m: any) => (m.target = { kind: "polygon", vertices: [[-9, -9, 0], [9, -9, 0], [0, -6, 0], [-9, 9, 0]] }), true);
+  });
+  await expect(page.locator("#status")).toContainText("the volume shown is that of the last valid target");
+  await page.evaluate(() => (window as any).vantage.edit((m: any) => (m.target = null), true));
+  await expect(page.locator("#status")).toHaveText("No target yet");
+  await expect(page.locator("#cut-out")).not.toContainText("m²");
 });

@@ -3,6 +3,7 @@ import type { App } from "../app";
 import type { Volume } from "../engine/client";
 import type { VolumeInfo } from "../engine/messages";
 import { KIND_COLOURS } from "../view/stage";
+import { isAt, setEnds } from "./limits";
 import { button, element, input, large, metres } from "./page";
 
 const KIND_NAMES: Record<string, string> = {
@@ -49,26 +50,29 @@ export class Results {
     const slider = input("cut");
     const wasOff = this.app.cut === null;
     const size = Math.max(scene.max[0] - scene.min[0], scene.max[1] - scene.min[1]);
-    slider.step = String(10 ** Math.floor(Math.log10(size / 300)));
-    slider.min = String(scene.min[axis]);
-    slider.max = String(scene.max[axis] + (axis === 2 ? size / 3 : 0));
+    const top = scene.max[axis] + (axis === 2 ? size / 3 : 0);
+    setEnds(slider, Math.floor(Math.log10(size / 300)), scene.min[axis], top);
     if (wasOff) slider.value = slider.max;
   }
 
   private readCut(): void {
     const slider = input("cut");
-    this.app.setCut(slider.value === slider.max ? null : { axis: this.axis(), at: Number(slider.value) });
+    this.app.setCut(isAt(slider, "max") ? null : { axis: this.axis(), at: Number(slider.value) });
     this.show();
   }
 
   private show(): void {
-    const { volume, failure, cut, section } = this.app;
+    const { volume, cut } = this.app;
+    // Without a target there is no volume, and nothing to say of the last one.
+    const section = volume && this.app.section;
+    const failure = this.app.mission.target ? this.app.failure : "";
     this.fitCut();
     element("cut-out").textContent = cut === null ? "off"
       : `${metres(cut.at)}${section && cut.axis === 2 ? `, ${large(section.area_m2)} m²` : ""}`;
     const status = element("status");
     status.classList.toggle("bad", failure !== "");
-    status.textContent = failure !== "" ? `There is no volume of this target${volume ? ": the last one stays" : ""}`
+    const shown = volume ? ": the volume shown is that of the last valid target" : "";
+    status.textContent = failure !== "" ? `There is no volume of this target${shown}`
       : !volume ? "No target yet" : volume.info.outcome === "computed" ? "" : volume.info.reason;
     element("claim").textContent = `Every position in the volume sees ${volume ? seenFrom(volume.info) : "all of the target"}.`;
     this.showNumbers();
