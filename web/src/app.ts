@@ -5,6 +5,7 @@ import { History } from "./model/history";
 import { emptyMission, missionFrom, missionText, sceneText, type Mission } from "./model/mission";
 import { faultOf } from "./model/polygon";
 import { hasBadNews, metres, say } from "./ui/page";
+import { seenFrom } from "./ui/results";
 import { City } from "./view/city";
 import { BoxesView, ProbeView, SectionView } from "./view/marks";
 import { Stage } from "./view/stage";
@@ -34,7 +35,7 @@ export class App {
   readonly sectionView: SectionView;
   readonly probeView: ProbeView;
 
-  mission: Mission = emptyMission(100);
+  mission: Mission = emptyMission();
   history = new History<Mission>(this.mission);
   scene: SceneInfo | null = null;
   /** the file of the scene, and what a mission file says of it */
@@ -104,7 +105,7 @@ export class App {
     this.volumeView.hide();
     this.volume = this.draftOf = null;
     this.failure = "";
-    this.mission = emptyMission(Math.max(info.max[0] - info.min[0], info.max[1] - info.min[1], 1e-9));
+    this.mission = emptyMission(info);
     this.history = new History(this.mission);
     this.dragged = null;
     this.setProbe(null);
@@ -122,7 +123,7 @@ export class App {
 
   /** `volume`: of that mission. */
   openMissionWith(body: string, volume: Volume): void {
-    this.mission = missionFrom(body, volume.info, this.mission.grain);
+    this.mission = missionFrom(body, volume.info, this.scene!);
     this.history.keep(this.mission);
     this.dragged = null;
     this.put(volume, null);
@@ -289,7 +290,7 @@ export class App {
       answer.behind_target ? "behind the target" : "",
       answer.outside_of.length > 0 ? `outside of ${answer.outside_of.join(", ")}` : "",
     ].filter((text) => text !== "");
-    const what = answer.inside ? "Inside: this position sees all of it" : `Outside: ${why.join("; ") || "not all of the target is visible"}`;
+    const what = answer.inside ? `Inside: this position sees ${seenFrom(this.volume.info)}` : `Outside: ${why.join("; ") || "not all of the target is visible"}`;
     say(`${what} · z ${metres(at[2])}${this.isEye() ? " · turn and zoom to fly, Esc ends it" : ""}`);
     this.stage.request();
     this.changed();
@@ -306,7 +307,7 @@ export class App {
     let text: string;
     try {
       const { verdict } = await this.engine.prove();
-      text = verdict === "proved" ? "Proved: every position of this volume sees all of the target."
+      text = verdict === "proved" ? `Proved: every position of this volume sees ${seenFrom(volume.info)}.`
         : `The proof says: ${verdict.replaceAll("_", " ")}`;
     } catch (error) {
       text = toldBy(error);

@@ -84,7 +84,7 @@ test("where a drag ends in a target that is none, the volume that stays is no dr
   await page.mouse.move(beyond.x, beyond.y);
   await page.mouse.up();
   await expect.poll(isDraft).toBe(false);
-  await expect(page.locator("#status")).toContainText("the last one stays");
+  await expect(page.locator("#status")).toContainText("the volume shown is that of the last valid target");
   expect(await page.evaluate(() => (window as any).vantage.volume.info.facets)).toBeGreaterThan(facets);
 });
 
@@ -100,7 +100,7 @@ test("an answer that is late does not hide that the target is none", async ({ pa
   await settled(page);
   await expect.poll(() => page.evaluate(() => (window as any).vantage.isDraft)).toBe(false);
   await settled(page);
-  await expect(page.locator("#status")).toContainText("the last one stays");
+  await expect(page.locator("#status")).toContainText("the volume shown is that of the last valid target");
   await expect(page.locator("#hint")).toContainText("not convex");
 });
 
@@ -159,6 +159,7 @@ test("a mission keeps its comments, and keys that the page has no controls for",
   const written = `# the square, for the fair
 scene:
   mesh: plaza.obj   # beside this file
+# what is seen
 target:
   name: square
   vertices: [[-8, -8, 0], [4, -8, 0], [4, 3, 0], [-8, 3, 0]]
@@ -176,7 +177,7 @@ exact:
   await expect.poll(async () => (await mission(page)).range).toBe(60);
   await settled(page);
   const unchanged = await agrees(page);
-  for (const line of ["# of the lens", "clearance: 2", "tolerance: 0.02", "offset: 0.05"]) expect(unchanged).toContain(line);
+  for (const line of ["# beside this file", "# what is seen", "# of the lens", "clearance: 2", "tolerance: 0.02", "offset: 0.05"]) expect(unchanged).toContain(line);
   await page.locator("#range").fill("40");
   await settled(page);
   const nearer = await agrees(page);

@@ -38,6 +38,7 @@ export interface Box {
 
 /** The keys of a mission that the page has controls for, as the engine read them. */
 export interface Limits {
+  /** null: the mission gives none */
   max_range: number | null;
   min_range: number;
   incidence: number | null;
@@ -58,6 +59,9 @@ export interface VolumeInfo {
   target: Point[][];
   center: Point;
   normal: Point;
+  /** what the volume claims of each position. `visible`: the least share of the target that it sees; 1: all of it */
+  claim?: { visible: number; combine: "all" | "any" };
+  /** as far as the volume may reach, whatever limits it */
   range_m: number;
   limits: Limits;
   volume_m3: number;

@@ -1,6 +1,7 @@
 // A mission as the page edits it, and as the text of a mission file (docs/mission-file.md).
 import { Document, isMap, isSeq, parseDocument, type Node, type YAMLMap, type YAMLSeq } from "yaml";
-import type { Box, Point, VolumeInfo } from "../engine/messages";
+import type { Box, Point, SceneInfo, VolumeInfo } from "../engine/messages";
+import { farHeight, readBand, writeBand, type Band, type BandKey } from "./heights";
 
 /** A polygon, faces of an object of the scene, an area of its map, or what the file says and the page cannot edit (several polygons). */
 export type Target =
@@ -12,17 +13,19 @@ export type Target =
 /** What the page has controls for. Lengths are metres in the scene's frame, angles degrees; null: no such limit. */
 export interface Controls {
   target: Target | null;
-  range: number;
+  /** null: it follows from what else the mission says */
+  maxRange: number | null;
   minRange: number;
   incidence: number | null;
-  altitude: [number, number] | null;
+  altitude: Band | null;
   /** above the ground */
-  agl: [number, number] | null;
+  agl: Band | null;
   keepOut: Box[];
   /** a name of the engine's table, "written": numbers of the file */
   camera: string | null;
   /** pitch of a camera that does not turn up or down; null: a gimbal */
   tilt: number | null;
+  /** what one pixel may cover */
   pixel: number | null;
 }
 
@@ -31,22 +34,42 @@ export interface Mission extends Controls {
   written: string;
   /** the controls as that file has them: what differs was edited */
   opened: Controls;
+  /** how far positions are from the target at most, metres */
+  range: number;
   /** coordinates are written as multiples of this, metres */
   grain: number;
+  /** no height of the scene, of its ground or of the file's target is farther from 0, metres */
+  top: number;
   /** the file says what the ground is */
   hasGround: boolean;
+  /** the file limits the range by how far a pilot sees the aircraft */
+  hasPilot: boolean;
 }
 
-/** A mission without a target, for a scene of this size in metres. */
-export function emptyMission(size: number): Mission {
+/** The box of a scene. */
+export type Extent = Pick<SceneInfo, "min" | "max">;
+
+const sizeOf = ({ min, max }: Extent) => Math.max(max[0] - min[0], max[1] - min[1], 1e-9);
+const grainOf = (scene: Extent) => 10 ** Math.floor(Math.log10(sizeOf(scene)) - 7);
+const farthest = (heights: number[]) => Math.max(...heights.map(Math.abs));
+
+/** A mission without a target. */
+export function emptyMission(scene: Extent = { min: [0, 0, 0], max: [100, 100, 0] }): Mission {
+  const size = sizeOf(scene);
   const step = 10 ** Math.floor(Math.log10(size / 100));
+  const range = Math.max(step, Math.round(Math.min(300, size / 3) / step) * step);
   const controls: Controls = {
-    target: null, range: Math.max(step, Math.round(Math.min(300, size / 3) / step) * step), minRange: 0, incidence: null,
-    altitude: null, agl: null, keepOut: [], camera: null, tilt: null, pixel: null,
+    target: null, maxRange: range, minRange: 0, incidence: null, altitude: null, agl: null, keepOut: [], camera: null, tilt: null,
+    pixel: null,
   };
-  const grain = 10 ** Math.floor(Math.log10(size) - 7);
-  return { ...structuredClone(controls), written: "", opened: { ...controls, range: 0 }, grain, hasGround: false };
+  return {
+    ...structuredClone(controls), written: "", opened: { ...controls, maxRange: null }, range, grain: grainOf(scene),
+    top: farthest([scene.min[2], scene.max[2]]), hasGround: false, hasPilot: false,
+  };
 }
+
+/** Sections `scene` as they were written, with their comments. */
+const writtenScenes = new WeakMap<object, string>();
 
 /** The text of a mission file in two: what it says of its scene, and the rest, on the lines where it was. */
 export function divided(text: string): { scene: Record<string, unknown>; body: string } {
@@ -63,37 +86,54 @@ export function divided(text: string): { scene: Record<string, unknown>; body: s
   }
   const from = (pair.key as Node).range![0];
   const to = (pair.value as Node | null)?.range?.[2] ?? text.indexOf("\n", from);
+  if (isMap(pair.value)) writtenScenes.set(scene, `${text.slice(from, to).trimEnd()}\n`);
   return { scene, body: text.slice(0, from) + text.slice(from, to).replace(/[^\n]/g, "") + text.slice(to) };
 }
 
 /** The section `scene` of a mission file. */
-export const sceneText = (scene: Record<string, unknown>) => String(new Document({ scene }));
+export const sceneText = (scene: Record<string, unknown>) => writtenScenes.get(scene) ?? String(new Document({ scene }));
+
+/** Pixels per metre of the levels of EN 62676-4. */
+const DORI: Record<string, number> = { detection: 25, observation: 62, recognition: 125, identification: 250 };
+
+const numberIn = (document: Document, path: string[]): number | null => {
+  const value = document.getIn(path);
+  return typeof value === "number" ? value : null;
+};
 
 /** A mission that was read, and what the engine says of it. */
-export function missionFrom(written: string, info: VolumeInfo, grain: number): Mission {
-  const document = parseDocument(written);
+export function missionFrom(written: string, info: VolumeInfo, scene: Extent): Mission {
+  const document = parseDocument(written) as unknown as Document;
   const { limits } = info;
   const cameraName = document.getIn(["sensor", "camera", "model"]);
   const hasCamera = document.hasIn(["sensor", "camera"]) || document.hasIn(["sensor", "fov"]);
-  const tilt = document.getIn(["sensor", "mount", "pitch"]);
-  const pixel = document.getIn(["sensor", "pixel", "size"]);
+  const dori = DORI[String(document.getIn(["sensor", "dori"]))];
   const isOnePolygon = info.target.length === 1 && info.target[0]!.length >= 3;
+  // Not that of the engine, which may be what follows from the camera.
+  const maxRange = numberIn(document, ["sensor", "max_range"]);
+  const ground = numberIn(document, ["navigation", "ground"]) ?? 0;
+  const top = farthest([scene.min[2], scene.max[2], ground, ...info.target.flat().map(([, , z]) => z)]);
+  const far = farHeight(top, maxRange);
   const controls: Controls = {
     target: isOnePolygon ? { kind: "polygon", vertices: info.target[0]! } : { kind: "written" },
-    range: limits.max_range ?? info.range_m,
+    maxRange,
     minRange: limits.min_range,
     incidence: limits.incidence,
-    altitude: limits.altitude,
-    agl: limits.agl,
+    altitude: readBand(document, "z", limits.altitude, far),
+    agl: readBand(document, "agl", limits.agl, far),
     keepOut: limits.keep_out,
     camera: typeof cameraName === "string" ? cameraName : hasCamera ? "written" : null,
-    tilt: typeof tilt === "number" ? tilt : null,
-    pixel: typeof pixel === "number" ? pixel : null,
+    tilt: numberIn(document, ["sensor", "mount", "pitch"]),
+    pixel: dori ? 1 / dori : numberIn(document, ["sensor", "pixel", "size"]),
   };
-  // A polygon of another kind (a roof, an area of the map) says by its normal where its front is, once it is moved.
-  if (controls.target?.kind === "polygon" && !document.hasIn(["target", "vertices"])) controls.target.front = info.normal;
-  const hasGround = document.hasIn(["navigation", "ground"]);
-  return { ...structuredClone(controls), written, opened: controls, grain, hasGround };
+  // What is drawn anew has not this front. A polygon of another kind (a roof, an area of the map) says by its normal where
+  // its front is, once it is moved.
+  const hasDefaultFront = document.hasIn(["target", "vertices"]) && !document.hasIn(["target", "front"]);
+  if (controls.target?.kind === "polygon" && !hasDefaultFront) controls.target.front = info.normal;
+  return {
+    ...structuredClone(controls), written, opened: controls, range: maxRange ?? info.range_m, grain: grainOf(scene), top,
+    hasGround: document.hasIn(["navigation", "ground"]), hasPilot: document.hasIn(["sensor", "vlos"]),
+  };
 }
 
 /** A multiple of the grain, a power of ten, without the digits that are noise. */
@@ -129,17 +169,19 @@ class Writer {
     const hasOtherBoxes = differs(mission.keepOut, opened.keepOut);
     if (isMoved || hasOtherBoxes) this.leaveOtherCoordinates();
     if (isMoved) this.setTarget(mission.target!);
-    if (differs(mission.range, opened.range)) this.set(["sensor", "max_range"], this.number(mission.range));
+    if (differs(mission.maxRange, opened.maxRange)) this.setRange(mission.maxRange);
     if (differs(mission.minRange, opened.minRange)) {
       this.set(["sensor", "min_range"], mission.minRange > 0 ? this.number(mission.minRange) : null);
     }
     if (differs(mission.incidence, opened.incidence)) this.set(["sensor", "incidence"], mission.incidence);
     this.setCamera();
-    if (differs(mission.altitude, opened.altitude)) this.setHeights("z", mission.altitude);
-    if (differs(mission.agl, opened.agl)) this.setHeights("agl", mission.agl);
+    if (differs(mission.tilt, opened.tilt)) this.setTilt(mission.tilt);
+    if (differs(mission.pixel, opened.pixel)) this.setPixel(mission.pixel);
+    this.setHeights("z", mission.altitude, opened.altitude);
+    this.setHeights("agl", mission.agl, opened.agl);
     if (hasOtherBoxes) this.setBoxes(mission.keepOut);
     if (isDraft) this.coarsen();
-    return document.toString({ lineWidth: 120 });
+    return document.toString({ lineWidth: 120, directives: false }); // the section `scene` is written before it
   }
 
   /** Round surfaces with a tenth of the facets: they take most of the time to compute and to draw. */
@@ -158,6 +200,10 @@ class Writer {
     return this.document.createNode(values.map((v) => this.number(v)), { flow: true }) as unknown as YAMLSeq;
   }
 
+  private setFlow(path: string[], value: Record<string, unknown>): void {
+    this.document.setIn(path, this.document.createNode(value, { flow: true }));
+  }
+
   /** null: the key is left out, and what holds it, when that is empty. */
   private set(path: string[], value: unknown): void {
     const { document } = this;
@@ -169,15 +215,18 @@ class Writer {
     }
   }
 
+  private zones(...keys: string[]): YAMLMap[] {
+    return keys.flatMap((key) => {
+      const list = this.document.getIn(["navigation", key]);
+      return isSeq(list) ? list.items.filter((zone) => isMap(zone)) : [];
+    });
+  }
+
   /** Coordinates of the page are those of the scene: a file in map coordinates must not mix the two. */
   private leaveOtherCoordinates(): void {
     const { document, mission } = this;
     if (!document.has("crs")) return;
-    const zones = ["keep_in", "boxes", "keep_out"].flatMap((key) => {
-      const list = document.getIn(["navigation", key]);
-      return isSeq(list) ? list.items : [];
-    });
-    if (zones.some((zone) => isMap(zone) && !zone.has("file"))) {
+    if (this.zones("keep_in", "boxes", "keep_out").some((zone) => !zone.has("file"))) {
       throw new Error(`this mission gives its zones in ${String(document.get("crs"))}: move its target in the file`);
     }
     document.delete("crs");
@@ -207,10 +256,17 @@ class Writer {
     const corners = document.createNode([]) as unknown as YAMLSeq;
     for (const corner of target.vertices) corners.add(this.point(corner));
     document.setIn(["target", "vertices"], corners);
-    if (target.front) {
-      const front = target.front.map((x) => Number(x.toPrecision(12)));
+    if (!target.front) document.deleteIn(["target", "front"]);
+    else {
+      const front = target.front.map((x) => Number(x.toPrecision(12)) + 0); // no -0
       document.setIn(["target", "front"], document.createNode(front, { flow: true }));
     }
+  }
+
+  /** A range takes the place of one that follows from how far a pilot sees the aircraft. */
+  private setRange(maxRange: number | null): void {
+    this.set(["sensor", "max_range"], maxRange && this.number(maxRange));
+    if (maxRange !== null) this.set(["sensor", "vlos"], null);
   }
 
   private setCamera(): void {
@@ -221,30 +277,52 @@ class Writer {
       this.set(["sensor", "camera"], mission.camera === null ? null : this.document.createNode({ model: mission.camera }));
       if (mission.camera === null) for (const key of ["dori", "gimbal", "mount", "pixel"]) this.set(["sensor", key], null);
     }
-    if (differs(mission.tilt, opened.tilt)) {
-      this.set(["sensor", "gimbal"], null);
-      const mount = mission.tilt === null ? null : { yaw: "any", pitch: mission.tilt };
-      this.set(["sensor", "mount"], mount && this.document.createNode(mount, { flow: true }));
-    }
-    if (differs(mission.pixel, opened.pixel)) {
-      this.set(["sensor", "dori"], null);
-      const pixel = mission.pixel === null ? null : { size: mission.pixel };
-      this.set(["sensor", "pixel"], pixel && this.document.createNode(pixel, { flow: true }));
-    }
   }
 
-  /** A list holds heights of the scene; those above the ground need a map, which may hold both. */
-  private setHeights(key: "z" | "agl", heights: [number, number] | null): void {
+  /** A camera that does not tilt has a `mount`, one that does a `gimbal`: their yaw and roll are the same. */
+  private setTilt(tilt: number | null): void {
     const { document } = this;
-    const band = heights && this.point(heights);
+    const [from, to] = tilt === null ? ["mount", "gimbal"] : ["gimbal", "mount"];
+    if (tilt !== null && isMap(document.getIn(["sensor", "mount"]))) return document.setIn(["sensor", "mount", "pitch"], tilt);
+    const old = document.getIn(["sensor", from!]);
+    const [yaw, roll] = isMap(old) ? [old.get("yaw"), old.get("roll")] : [];
+    const others = roll === undefined ? {} : { roll };
+    this.set(["sensor", from!], null);
+    if (tilt !== null) this.setFlow(["sensor", to!], { yaw: yaw ?? "any", pitch: tilt, ...others });
+    else if (roll !== undefined || typeof yaw === "number") this.setFlow(["sensor", to!], { yaw: yaw ?? "any", ...others });
+  }
+
+  private setPixel(size: number | null): void {
+    const { document } = this;
+    const path = ["sensor", "pixel"];
+    const hadDori = document.hasIn(["sensor", "dori"]);
+    this.set(["sensor", "dori"], null);
+    if (size === null) this.set(path, null);
+    else if (isMap(document.getIn(path))) document.setIn([...path, "size"], size);
+    else this.setFlow(path, { size, ...(hadDori && { kind: "perpendicular" }) }); // as dori is
+  }
+
+  /** Open ends are written anew with each text: they are farther than the range. */
+  private setHeights(key: BandKey, heights: Band | null, opened: Band | null): void {
+    const { document, mission } = this;
+    if (!differs(heights, opened) && !heights?.includes(null)) return;
+    const { target } = mission;
+    const corners = target?.kind === "polygon" ? target.vertices.map(([, , z]) => z) : [];
+    const rounded = heights && (heights.map((end) => end && this.number(end)) as Band);
+    writeBand(document, key, rounded, farHeight(farthest([mission.top, ...corners]), mission.maxRange));
+    if (heights) return;
     const path = ["navigation", "altitude"];
-    const own = document.getIn(path, true);
-    if (!isMap(own)) {
-      if (key === "z") return this.set(path, band);
-      if (!band) return;
-      document.setIn(path, document.createNode(isSeq(own) ? { z: own } : {}, { flow: true }));
-    }
-    this.set([...path, key], band);
+    const isMapOfBands = isMap(document.getIn(path));
+    if (isMapOfBands || key === "z") this.set(isMapOfBands ? [...path, key] : path, null);
+    if (key === "agl") this.leaveGround();
+  }
+
+  /** A mission may not say what the ground is where nothing is measured from it. */
+  private leaveGround(): void {
+    const { document } = this;
+    const isMeasured = this.zones("keep_in", "boxes", "keep_out").some((zone) => zone.has("agl") || zone.has("file"));
+    const isNamed = typeof document.getIn(["navigation", "ground"]) === "string";
+    if (!isMeasured && !(isNamed && document.hasIn(["navigation", "clearance"]))) this.set(["navigation", "ground"], null);
   }
 
   private setBoxes(boxes: Box[]): void {

@@ -17,13 +17,22 @@ export class Panel {
     camera.onchange = () => app.edit((mission) => this.setCamera(mission, camera.value), true);
     const pixel = input("pixel");
     pixel.append(option("", "any"), ...PIXELS_M.map((size) => option(String(size), size < 0.01 ? `${size * 1e3} mm` : `${size * 100} cm`)));
-    pixel.onchange = () => app.edit((mission) => (mission.pixel = pixel.value === "" ? null : Number(pixel.value)), true);
+    pixel.onchange = () => app.edit((mission) => this.setPixel(mission, pixel.value === "" ? null : Number(pixel.value)), true);
     app.onChange(() => this.show());
   }
 
   private setCamera(mission: Mission, name: string): void {
     mission.camera = name === "" ? null : name;
-    if (name === "") mission.tilt = mission.pixel = null;
+    if (name !== "") return;
+    mission.tilt = null;
+    this.setPixel(mission, null);
+  }
+
+  /** Where the range followed from the pixels, it stays what it was. */
+  private setPixel(mission: Mission, size: number | null): void {
+    mission.pixel = size;
+    if (size !== null || mission.maxRange !== null || mission.hasPilot) return;
+    mission.maxRange = mission.range = this.app.volume?.info.range_m ?? mission.range;
   }
 
   private show(): void {

@@ -1,13 +1,23 @@
 // What the panel says of the volume: numbers, what bounds it, its cut, its proof.
 import type { App } from "../app";
 import type { Volume } from "../engine/client";
+import type { VolumeInfo } from "../engine/messages";
 import { KIND_COLOURS } from "../view/stage";
+import { isAt, setEnds } from "./limits";
 import { button, element, input, large, metres } from "./page";
 
 const KIND_NAMES: Record<string, string> = {
   scene: "a building begins to hide it", range: "the range", target_plane: "the target's plane",
   navigation: "where you may fly", sensor: "the sensor",
 };
+
+/** What each position of a volume sees: "all of the target". */
+export function seenFrom({ claim }: VolumeInfo): string {
+  const visible = claim?.visible ?? 1;
+  // Rounded down: what is claimed is no more than what is so.
+  const share = visible < 1 ? `at least ${Number((Math.floor(visible * 1000) / 10).toFixed(1))} %` : "all";
+  return `${share} of ${claim?.combine === "any" ? "at least one of the targets" : "the target"}`;
+}
 
 export class Results {
   /** the volume that the proof is of */
@@ -40,27 +50,31 @@ export class Results {
     const slider = input("cut");
     const wasOff = this.app.cut === null;
     const size = Math.max(scene.max[0] - scene.min[0], scene.max[1] - scene.min[1]);
-    slider.step = String(10 ** Math.floor(Math.log10(size / 300)));
-    slider.min = String(scene.min[axis]);
-    slider.max = String(scene.max[axis] + (axis === 2 ? size / 3 : 0));
+    const top = scene.max[axis] + (axis === 2 ? size / 3 : 0);
+    setEnds(slider, Math.floor(Math.log10(size / 300)), scene.min[axis], top);
     if (wasOff) slider.value = slider.max;
   }
 
   private readCut(): void {
     const slider = input("cut");
-    this.app.setCut(slider.value === slider.max ? null : { axis: this.axis(), at: Number(slider.value) });
+    this.app.setCut(isAt(slider, "max") ? null : { axis: this.axis(), at: Number(slider.value) });
     this.show();
   }
 
   private show(): void {
-    const { volume, failure, cut, section } = this.app;
+    const { volume, cut } = this.app;
+    // Without a target there is no volume, and nothing to say of the last one.
+    const section = volume && this.app.section;
+    const failure = this.app.mission.target ? this.app.failure : "";
     this.fitCut();
     element("cut-out").textContent = cut === null ? "off"
       : `${metres(cut.at)}${section && cut.axis === 2 ? `, ${large(section.area_m2)} m²` : ""}`;
     const status = element("status");
     status.classList.toggle("bad", failure !== "");
-    status.textContent = failure !== "" ? `There is no volume of this target${volume ? ": the last one stays" : ""}`
+    const shown = volume ? ": the volume shown is that of the last valid target" : "";
+    status.textContent = failure !== "" ? `There is no volume of this target${shown}`
       : !volume ? "No target yet" : volume.info.outcome === "computed" ? "" : volume.info.reason;
+    element("claim").textContent = `Every position in the volume sees ${volume ? seenFrom(volume.info) : "all of the target"}.`;
     this.showNumbers();
     this.showLegend();
     element("notes").replaceChildren(...(volume?.info.notes ?? []).map(({ text }) => {
