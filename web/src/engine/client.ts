@@ -27,6 +27,8 @@ export interface Volume {
 export class Engine {
   private awaited = 0;
   about: About = { version: "", cameras: [] };
+  /** the last volume in this scene: what query, prove, slice and save speak of, as their answers come in the same order */
+  last: Volume | null = null;
 
   constructor(private readonly transport: Transport) {}
 
@@ -50,12 +52,13 @@ export class Engine {
   /** The volume that hello() told of. */
   async shown(info: VolumeInfo): Promise<Volume> {
     const { mesh, engine_ms } = await this.transport.ask({ call: "shown" });
-    return { info, mesh: mesh!, engine_ms, total_ms: 0 };
+    return (this.last = { info, mesh: mesh!, engine_ms, total_ms: 0 });
   }
 
   /** `text`: the section `scene` of a mission, which names `file`; `files`: this file and those that missions name. */
   async open(text: string, files: Record<string, ArrayBuffer>, file: string): Promise<{ info: SceneInfo; mesh: ViewMesh }> {
     const answer = await this.transport.ask({ call: "open", text, file, files });
+    this.last = null;
     return { info: answer.value as SceneInfo, mesh: answer.mesh! };
   }
 
@@ -69,7 +72,8 @@ export class Engine {
     ++this.awaited;
     try {
       const { value, mesh, engine_ms, stale } = await this.transport.ask({ call: "compute", text });
-      return stale ? null : { info: value as VolumeInfo, mesh: mesh!, engine_ms, total_ms: performance.now() - asked };
+      if (stale) return null;
+      return (this.last = { info: value as VolumeInfo, mesh: mesh!, engine_ms, total_ms: performance.now() - asked });
     } finally {
       --this.awaited;
     }

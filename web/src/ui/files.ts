@@ -153,7 +153,7 @@ export class Files {
     try {
       if (format === "picture") return download("volume.png", await this.app.stage.picture());
       if (format === "mission") return download("mission.yaml", new Blob([this.missionFile()], { type: "text/yaml" }));
-      download(`volume.${format}`, new Blob([(await this.app.engine.save(format)).slice()]));
+      download(`volume.${format}`, new Blob([(await this.app.saved(format)).slice()]));
     } catch (error) {
       say(toldBy(error), true);
     }
