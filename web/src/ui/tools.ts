@@ -2,7 +2,7 @@
 import type { App } from "../app";
 import { toldBy } from "../engine/client";
 import type { Point } from "../engine/messages";
-import type { Target } from "../model/mission";
+import type { Mission, Target } from "../model/mission";
 import { facing, faultOf, plus, times, type Plane } from "../model/polygon";
 import type { Hit } from "../view/city";
 import { dragOfBox, dragOfTarget, onPlane, type Drag } from "./drags";
@@ -31,7 +31,8 @@ export class Tools {
   private tool: Tool = "look";
   private drawn: Point[] = [];
   private plane: Plane | null = null;
-  private drag: Drag | null = null;
+  /** what is dragged, by which pointer, and in which mission */
+  private drag: { follow: Drag; pointer: number; mission: Mission } | null = null;
   private pressed: { x: number; y: number } | null = null;
 
   constructor(private readonly app: App) {
@@ -39,7 +40,7 @@ export class Tools {
     canvas.addEventListener("pointerdown", (event) => this.press(event), { capture: true });
     canvas.addEventListener("pointermove", (event) => this.move(event));
     canvas.addEventListener("pointerup", (event) => this.release(event));
-    canvas.addEventListener("pointercancel", () => this.endDrag());
+    for (const end of ["pointercancel", "lostpointercapture"] as const) canvas.addEventListener(end, (event) => this.endDrag(event));
     canvas.addEventListener("pointerleave", () => (element("tip").hidden = true));
     canvas.addEventListener("dblclick", (event) => this.doubleClick(event));
     for (const tool of Object.keys(HINTS) as Tool[]) button(`tool-${tool}`).onclick = () => this.choose(tool);
@@ -80,18 +81,23 @@ export class Tools {
     app.edit((mission) => (mission.target = { ...target, vertices: target.vertices.filter((_, i) => i !== dragged) }), true);
   }
 
+  /** More fingers than one turn and zoom the view, and leave what the first drags to it. */
   private press(event: PointerEvent): void {
-    this.pressed = { x: event.clientX, y: event.clientY };
+    const isFirst = event.isPrimary || event.pointerType !== "touch";
+    this.pressed = isFirst ? { x: event.clientX, y: event.clientY } : null;
     const { app } = this;
-    if (event.button !== 0 || this.tool === "draw" || !app.canEdit) return;
-    this.drag = dragOfTarget(app, event, this.tool === "look" && !app.isEye()) ?? dragOfBox(app, event);
-    if (!this.drag) return;
+    if (this.drag || !isFirst || event.button !== 0 || this.tool === "draw" || !app.canEdit) return;
+    const follow = dragOfTarget(app, event, this.tool === "look" && !app.isEye()) ?? dragOfBox(app, event);
+    if (!follow) return;
+    this.drag = { follow, pointer: event.pointerId, mission: app.mission };
     app.stage.controls.enabled = false;
     app.stage.canvas.setPointerCapture(event.pointerId);
   }
 
   private move(event: PointerEvent): void {
-    if (this.drag) return this.drag(event);
+    const { drag } = this;
+    if (drag?.mission === this.app.mission) return drag.pointer === event.pointerId ? drag.follow(event) : undefined;
+    if (drag) this.letGo(); // it is of a mission that was replaced
     if (event.buttons !== 0) return;
     const { app } = this;
     const tip = element("tip");
@@ -109,15 +115,19 @@ export class Tools {
     const { pressed } = this;
     this.pressed = null;
     const isClick = pressed !== null && Math.hypot(event.clientX - pressed.x, event.clientY - pressed.y) <= CLICK_PIXELS;
-    if (this.drag) this.endDrag();
+    if (this.drag) this.endDrag(event);
     else if (isClick && event.button === 0) this.click(event);
   }
 
-  private endDrag(): void {
-    if (!this.drag) return;
+  private endDrag({ pointerId }: PointerEvent): void {
+    if (this.drag?.pointer !== pointerId) return;
+    this.letGo();
+    this.app.keep();
+  }
+
+  private letGo(): void {
     this.drag = null;
     this.app.stage.controls.enabled = true;
-    this.app.keep();
   }
 
   private click(event: PointerEvent): void {
