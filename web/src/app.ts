@@ -22,6 +22,8 @@ export interface SceneSource {
   name: string;
   bytes: ArrayBuffer;
   section: Record<string, unknown>;
+  /** files that missions name, by their names */
+  beside: Record<string, ArrayBuffer>;
 }
 
 export class App {
@@ -38,7 +40,7 @@ export class App {
   history = new History<Mission>(this.mission);
   scene: SceneInfo | null = null;
   /** the file of the scene, and what a mission file says of it */
-  source: SceneSource = { name: "", bytes: new ArrayBuffer(0), section: {} };
+  source: SceneSource = { name: "", bytes: new ArrayBuffer(0), section: {}, beside: {} };
   volume: Volume | null = null;
   /** the mission that the volume is of, as it was */
   private shownOf: Mission | null = null;
@@ -102,12 +104,12 @@ export class App {
     });
   }
 
-  /** `beside`: files that the mission names, by their names. The scene that is open stays where this one cannot be read. */
-  async openScene(source: SceneSource, beside: Record<string, ArrayBuffer> = {}): Promise<void> {
+  /** The scene that is open stays where this one cannot be read. */
+  async openScene(source: SceneSource): Promise<void> {
     const extension = /(\.[a-z0-9]+(\.gz)?)$/i.exec(source.name)?.[1]?.toLowerCase() ?? "";
     const file = `scene${extension}`;
     const text = sceneText({ ...source.section, mesh: file });
-    const { info, mesh } = await this.engine.open(text, { ...beside, [file]: source.bytes }, file);
+    const { info, mesh } = await this.engine.open(text, { ...source.beside, [file]: source.bytes }, file);
     this.source = source;
     this.showScene(info, mesh);
   }

@@ -1,6 +1,6 @@
 // What the page shows, takes and gives.
 import AxeBuilder from "@axe-core/playwright";
-import { expect } from "@playwright/test";
+import { expect, type Page } from "@playwright/test";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import {
@@ -94,6 +94,44 @@ test("meshes and missions are opened, and bad ones lose nothing", async ({ page 
   await page.waitForFunction(() => (window as any).vantage.scene.read_ms >= 0 && (window as any).vantage.volume);
   await settled(page);
   expect(await volume(page)).toBe(before);
+});
+
+const TENT = "v -20 -20 0\nv 20 -20 0\nv 20 20 0\nv -20 20 0\nf 1 2 3 4\nv 8 8 0\nv 12 8 0\nv 10 12 0\nv 10 10 9\nf 5 6 8\nf 6 7 8\nf 7 5 8\n";
+const SMALL = "target: {vertices: [[-1, 1, 0.5], [1, 1, 0.5], [0, 3, 0.5]]}\nsensor: {max_range: 15}\n";
+const nameOfScene = (page: Page) => page.evaluate(() => (window as any).vantage.source.name as string);
+
+test("a mission alone is computed in the scene that it says, also where the mesh is open with other axes", async ({ page }) => {
+  const mesh = { name: "tent.obj", text: TENT };
+  const turned = { name: "up.yaml", text: `scene: {mesh: models/tent.obj, up: y, scale: 0.5}\n${SMALL}` };
+  await open(page, mesh, turned);
+  await expect.poll(async () => [await nameOfScene(page), (await mission(page)).range]).toEqual(["tent.obj", 15]);
+  const wanted = await page.evaluate(() => [(window as any).vantage.scene.hash, (window as any).vantage.volume.info.volume_m3]);
+  await open(page, mesh);
+  await expect(page.locator("#hint")).toContainText("Draw a target");
+  expect(await page.evaluate(() => (window as any).vantage.scene.hash)).not.toBe(wanted[0]);
+  await open(page, turned);
+  await expect.poll(async () => (await mission(page)).range).toBe(15);
+  await settled(page);
+  expect(await page.evaluate(() => [(window as any).vantage.scene.hash, (window as any).vantage.volume.info.volume_m3])).toEqual(wanted);
+  expect(await savedMission(page)).toContain("up: y");
+});
+
+test("files beside a mission are taken also where its mesh is open already", async ({ page }) => {
+  const block = (top: number) => "v -9 -9 1\nv 9 -9 1\nv 9 9 1\nv -9 9 1\n" +
+    [[-9, -9], [9, -9], [9, 9], [-9, 9]].map(([x, y]) => `v ${x} ${y} ${top}`).join("\n") +
+    "\nf 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+  const text = `scene: {mesh: tent.obj}\n${SMALL}navigation: {meshes: [where.obj]}\n`;
+  await open(page, { name: "tent.obj", text: TENT }, { name: "m.yaml", text }, { name: "where.obj", text: block(9) });
+  await expect.poll(async () => [await nameOfScene(page), (await mission(page)).range]).toEqual(["tent.obj", 15]);
+  const high = await volume(page);
+  await open(page, { name: "m.yaml", text }, { name: "where.obj", text: block(5) });
+  await expect.poll(() => page.evaluate(() => (window as any).vantage.volume?.info.volume_m3 as number)).toBeLessThan(0.8 * high);
+  const low = await volume(page);
+  await open(page, { name: "m.yaml", text: text.replace("15", "14") }); // the last ones are still there
+  await expect.poll(async () => (await mission(page)).range).toBe(14);
+  await settled(page);
+  expect(await volume(page)).toBeLessThan(low);
+  expect(await page.evaluate(() => (window as any).vantage.failure)).toBe("");
 });
 
 test("a link holds the mission, and one that is cut short is said", async ({ page }) => {

@@ -22,6 +22,20 @@ interface Link {
 
 const nameOf = (path: unknown) => String(path ?? "").split(/[\\/]/).pop() ?? "";
 const isMission = (file: File) => /\.ya?ml$/i.test(file.name);
+const FILES = ["mesh", "osm", "raster", "terrain"]; // keys of the section `scene` that name one
+
+/** What a mission file says of the scene. */
+function sectionOf({ name, section }: SceneSource): Record<string, unknown> {
+  return section["mesh"] || section["osm"] || section["raster"] ? section : { mesh: name, ...section };
+}
+
+/** Whether two sections say the same, where files may lie in other folders. */
+function isSame(one: Record<string, unknown>, other: Record<string, unknown>): boolean {
+  const [a, b] = [one, other].map((section) => Object.entries(section)
+    .map(([key, value]) => JSON.stringify([key, FILES.includes(key) ? nameOf(value) : value])).sort().join());
+  return a === b;
+}
+
 const isMesh = (name: string) => /\.(obj|ply|stl|glb|gltf|json|cityjson)(\.gz)?$/i.test(name);
 
 export class Files {
@@ -51,7 +65,7 @@ export class Files {
 
   async openExample(): Promise<void> {
     const { section, body } = this.exampleMission();
-    await this.app.openScene({ name: EXAMPLE, bytes: await this.exampleBytes(), section });
+    await this.app.openScene({ name: EXAMPLE, bytes: await this.exampleBytes(), section, beside: {} });
     await this.app.openMission(body);
     this.app.lookAtTarget();
     say("From everywhere in the coloured volume all of the red polygon is visible. Drag a corner of it, or draw one of your own");
@@ -71,7 +85,7 @@ export class Files {
     const { app } = this;
     const { scene, body } = divided(hello.mission);
     const name = nameOf(scene["mesh"] ?? scene["osm"] ?? scene["raster"]);
-    app.source = { name, bytes: new ArrayBuffer(0), section: scene };
+    app.source = { name, bytes: new ArrayBuffer(0), section: scene, beside: {} };
     app.showScene(hello.scene, mesh);
     if (hello.volume) app.openMissionWith(body, await app.engine.shown(hello.volume));
     else await app.openMission(body);
@@ -109,28 +123,37 @@ export class Files {
 
   private async open(mission: { scene: Record<string, unknown>; body: string } | null, others: File[]): Promise<void> {
     const { app } = this;
-    const wanted = nameOf(mission?.scene["mesh"]);
     if (document.body.classList.contains("served")) {
       if (!mission || others.length > 0) throw new Error("this page shows one scene: start `vantage view` with another mission");
-      if (wanted !== "" && wanted !== app.source.name) throw new Error(`this mission is for ${wanted}: start \`vantage view\` with it`);
+      if (!this.isOpen(mission.scene)) throw new Error("this mission is for another scene: start `vantage view` with it");
       return this.openMission(mission.body);
     }
     if (mission?.scene["osm"] || mission?.scene["raster"]) {
       throw new Error("this page reads no maps and no terrain: run `vantage view` with this mission, which shows the same page");
     }
+    const wanted = nameOf(mission?.scene["mesh"]);
     const mesh = others.find((file) => file.name === wanted) ?? (wanted ? undefined : others.find((file) => isMesh(file.name)));
     if (mesh) {
       say(`Reading ${mesh.name}…`);
       const section = mission?.scene ?? this.sectionFor(mesh.name);
-      await app.openScene({ name: mesh.name, bytes: await mesh.arrayBuffer(), section }, await bytesOf(others, mesh));
+      await app.openScene({ name: mesh.name, bytes: await mesh.arrayBuffer(), section, beside: await bytesOf(others, mesh) });
       say("Draw a target on the ground, a roof or a wall");
     } else if (!mission) {
       throw new Error(`${others.map((file) => file.name).join(", ")}: not a mesh that this page reads (OBJ, PLY, STL, GLB, CityJSON)`);
     } else if (!app.scene || (wanted !== "" && wanted !== app.source.name)) {
       throw new Error(`this mission is for ${wanted || "another scene"}: open it together with that file`);
+    } else if (others.length > 0 || !this.isOpen(mission.scene)) {
+      const section = Object.keys(mission.scene).length > 0 ? mission.scene : app.source.section;
+      await app.openScene({ ...app.source, section, beside: { ...app.source.beside, ...(await bytesOf(others)) } });
     }
     if (mission) return this.openMission(mission.body);
     if (this.awaited?.scene === app.source.name) await this.openMission(this.awaited.mission);
+  }
+
+  /** Of the section `scene` of a mission; missions without one are for any scene. */
+  private isOpen(section: Record<string, unknown>): boolean {
+    const { source } = this.app;
+    return Object.keys(section).length === 0 || isSame(sectionOf({ ...source, section }), sectionOf(source));
   }
 
   private async openMission(body: string): Promise<void> {
@@ -161,9 +184,7 @@ export class Files {
 
   /** What the program reads beside the scene's file. */
   missionFile(): string {
-    const { name, section } = this.app.source;
-    const scene = section["mesh"] || section["osm"] || section["raster"] ? section : { mesh: name, ...section };
-    return `${sceneText(scene)}${missionText(this.app.mission).replace(/^\n+/, "")}`;
+    return `${sceneText(sectionOf(this.app.source))}${missionText(this.app.mission).replace(/^\n+/, "")}`;
   }
 
   private async copyLink(): Promise<void> {
@@ -204,7 +225,7 @@ export class Files {
         say(`This link is for ${link.scene}: open that file, and the mission of the link follows`, true);
         return true;
       }
-      const source: SceneSource = { name: link.scene, bytes, section: link.section ?? {} };
+      const source: SceneSource = { name: link.scene, bytes, section: link.section ?? {}, beside: {} };
       await this.app.openScene(source);
       await this.openMission(link.mission);
     } catch (error) {
@@ -215,7 +236,7 @@ export class Files {
   }
 }
 
-async function bytesOf(files: File[], but: File): Promise<Bytes> {
+async function bytesOf(files: File[], but?: File): Promise<Bytes> {
   const bytes: Bytes = {};
   for (const file of files) if (file !== but) bytes[file.name] = await file.arrayBuffer();
   return bytes;
