@@ -26,6 +26,13 @@ export interface SceneSource {
   beside: Record<string, ArrayBuffer>;
 }
 
+/** Of a mission that is not opened, since the one that is there was edited meanwhile. */
+export class Superseded extends Error {
+  constructor() {
+    super("something else was changed while this mission was computed: open it again");
+  }
+}
+
 export class App {
   /** False in a report. */
   canEdit = true;
@@ -39,6 +46,8 @@ export class App {
   mission: Mission = emptyMission(100);
   history = new History<Mission>(this.mission);
   scene: SceneInfo | null = null;
+  /** of scenes that were open, by their hashes: they have it again when they are opened again */
+  private readonly former = new Map<string, { mission: Mission; history: History<Mission> }>();
   /** the file of the scene, and what a mission file says of it */
   source: SceneSource = { name: "", bytes: new ArrayBuffer(0), section: {}, beside: {} };
   volume: Volume | null = null;
@@ -104,7 +113,10 @@ export class App {
     });
   }
 
-  /** The scene that is open stays where this one cannot be read. */
+  /**
+   * The scene that is open stays where this one cannot be read. One that was open before has its mission again, which is
+   * still to be computed.
+   */
   async openScene(source: SceneSource): Promise<void> {
     const extension = /(\.[a-z0-9]+(\.gz)?)$/i.exec(source.name)?.[1]?.toLowerCase() ?? "";
     const file = `scene${extension}`;
@@ -116,12 +128,14 @@ export class App {
 
   showScene(info: SceneInfo, mesh: ViewMesh): void {
     this.setProbe(null); // ends the view of its eye before all of the scene is looked at
+    if (this.scene) this.former.set(this.scene.hash, { mission: this.mission, history: this.history });
+    const former = this.former.get(info.hash);
     this.scene = info;
     this.city.show(info, mesh);
     this.stage.frameScene(info);
     this.since = ++this.turn;
-    this.mission = emptyMission(Math.max(info.max[0] - info.min[0], info.max[1] - info.min[1], 1e-9));
-    this.history = new History(this.mission);
+    this.mission = former?.mission ?? emptyMission(Math.max(info.max[0] - info.min[0], info.max[1] - info.min[1], 1e-9));
+    this.history = former?.history ?? new History(this.mission);
     this.dragged = null;
     this.isDragged = false;
     this.setCut(null);
@@ -133,7 +147,7 @@ export class App {
     const turn = ++this.turn;
     try {
       const volume = await this.engine.compute(body);
-      if (!volume || turn !== this.turn) throw new Error("something else was changed while this mission was computed: open it again");
+      if (!volume || turn !== this.turn) throw new Superseded();
       this.openMissionWith(body, volume);
     } catch (error) {
       // It may have taken the place of an edit that waited.
@@ -202,7 +216,8 @@ export class App {
     return this.failure === "" || !at ? null : { at, reason: this.failure };
   }
 
-  private async compute(isDraft = false): Promise<void> {
+  /** Asks for the volume of the mission as it is. */
+  async compute(isDraft = false): Promise<void> {
     ++this.turn;
     this.isDragged = isDraft;
     if (this.mission.target) return this.run(this.turn, structuredClone(this.mission), isDraft);

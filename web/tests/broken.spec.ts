@@ -1,6 +1,8 @@
 // Bad input, and browsers that lack something: a message, and nothing lost.
-import { expect, test as plain } from "@playwright/test";
-import { copiedLink, mission, open, openExample, page_url, settled, test, volume } from "./support";
+import { expect, test as plain, type Page } from "@playwright/test";
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
+import { copiedLink, hasVolume, mission, open, openExample, page_url, plaza, settled, test, volume } from "./support";
 
 plain("without WebGL the page says so", async ({ page }) => {
   await page.addInitScript(() => (HTMLCanvasElement.prototype.getContext = () => null));
@@ -52,10 +54,47 @@ for (const [what, name, text] of [
   });
 }
 
+const TENT = "v -20 -20 0\nv 20 -20 0\nv 20 20 0\nv -20 20 0\nf 1 2 3 4\nv 8 8 0\nv 12 8 0\nv 10 12 0\nv 10 10 9\nf 5 6 8\nf 6 7 8\nf 7 5 8\n";
+const SMALL = "target: {vertices: [[-5, -5, 0], [5, -5, 0], [0, 5, 0]]}\nsensor: {max_range: 11}\n";
+const sceneName = (page: Page) => page.evaluate(() => (window as any).vantage?.source.name as string);
+const range = (page: Page) => page.evaluate(() => (window as any).vantage?.volume?.info.range_m as number);
+
+test("a mesh with a mission that fails does not take the place of what is open", async ({ page }) => {
+  await openExample(page);
+  await page.locator("#range").fill("40");
+  await settled(page);
+  const before = [await volume(page), await mission(page)];
+  await open(page, { name: "tent.obj", text: TENT }, { name: "odd.yaml", text: SMALL.replace("max_range", "max_rang") });
+  await expect(page.locator("#hint")).toContainText("max_rang");
+  await hasVolume(page);
+  await settled(page);
+  await expect(page.locator("#hint")).toContainText("max_rang");
+  expect([await volume(page), await mission(page), await sceneName(page)]).toEqual([...before, "plaza.obj"]);
+  await page.keyboard.press("Control+z");
+  await settled(page);
+  expect(await range(page)).toBe(70);
+});
+
+test("a scene that is opened again has its mission, which can still be undone", async ({ page }) => {
+  await openExample(page);
+  await page.locator("#range").fill("40");
+  await settled(page);
+  const before = [await volume(page), await mission(page)];
+  await open(page, { name: "tent.obj", text: TENT });
+  await expect.poll(() => sceneName(page)).toBe("tent.obj");
+  expect((await mission(page)).target).toBe(null);
+  await open(page, { name: "plaza.obj", text: readFileSync(join(plaza, "plaza.obj"), "utf8") });
+  await hasVolume(page);
+  await settled(page);
+  expect([await volume(page), await mission(page)]).toEqual(before);
+  await page.keyboard.press("Control+z");
+  await settled(page);
+  expect(await range(page)).toBe(70);
+});
+
 test("a link of a small scene holds the scene; of another one its mission waits for the file", async ({ page }) => {
   await openExample(page);
-  const box = "v -20 -20 0\nv 20 -20 0\nv 20 20 0\nv -20 20 0\nf 1 2 3 4\nv 8 8 0\nv 12 8 0\nv 10 12 0\nv 10 10 9\nf 5 6 8\nf 6 7 8\nf 7 5 8\n";
-  await open(page, { name: "tent.obj", text: box });
+  await open(page, { name: "tent.obj", text: TENT });
   await page.waitForFunction(() => (window as any).vantage.source.name === "tent.obj");
   await page.evaluate(() => (window as any).vantage.edit(
     (m: any) => (m.target = { kind: "polygon", vertices: [[-5, -5, 0], [5, -5, 0], [0, 5, 0]] }), true));
@@ -69,7 +108,7 @@ test("a link of a small scene holds the scene; of another one its mission waits 
   expect(await volume(page)).toBe(before);
 
   // A scene that does not fit into a link.
-  let noise = box;
+  let noise = TENT;
   for (let i = 0; i < 4000; ++i) noise += `v ${Math.random()} ${Math.random()} ${-Math.random()}\n`;
   await open(page, { name: "large.obj", text: noise });
   await page.waitForFunction(() => (window as any).vantage.source.name === "large.obj");

@@ -1,5 +1,5 @@
 // Meshes and missions in, volumes, pictures, missions and links out.
-import type { App, SceneSource } from "../app";
+import { Superseded, type App, type SceneSource } from "../app";
 import { toldBy } from "../engine/client";
 import type { Hello, ViewMesh } from "../engine/messages";
 import { divided, missionText, sceneText } from "../model/mission";
@@ -136,18 +136,45 @@ export class Files {
     if (mesh) {
       say(`Reading ${mesh.name}…`);
       const section = mission?.scene ?? this.sectionFor(mesh.name);
-      await app.openScene({ name: mesh.name, bytes: await mesh.arrayBuffer(), section, beside: await bytesOf(others, mesh) });
-      say("Draw a target on the ground, a roof or a wall");
-    } else if (!mission) {
-      throw new Error(`${others.map((file) => file.name).join(", ")}: not a mesh that this page reads (OBJ, PLY, STL, GLB, CityJSON)`);
-    } else if (!app.scene || (wanted !== "" && wanted !== app.source.name)) {
-      throw new Error(`this mission is for ${wanted || "another scene"}: open it together with that file`);
-    } else if (others.length > 0 || !this.isOpen(mission.scene)) {
-      const section = Object.keys(mission.scene).length > 0 ? mission.scene : app.source.section;
-      await app.openScene({ ...app.source, section, beside: { ...app.source.beside, ...(await bytesOf(others)) } });
+      const source = { name: mesh.name, bytes: await mesh.arrayBuffer(), section, beside: await bytesOf(others, mesh) };
+      return mission ? this.openBoth(source, mission.body) : this.openAlone(source);
     }
-    if (mission) return this.openMission(mission.body);
-    if (this.awaited?.scene === app.source.name) await this.openMission(this.awaited.mission);
+    if (!mission) {
+      throw new Error(`${others.map((file) => file.name).join(", ")}: not a mesh that this page reads (OBJ, PLY, STL, GLB, CityJSON)`);
+    }
+    if (!app.scene || (wanted !== "" && wanted !== app.source.name)) {
+      throw new Error(`this mission is for ${wanted || "another scene"}: open it together with that file`);
+    }
+    if (others.length === 0 && this.isOpen(mission.scene)) return this.openMission(mission.body);
+    const section = Object.keys(mission.scene).length > 0 ? mission.scene : app.source.section;
+    await this.openBoth({ ...app.source, section, beside: { ...app.source.beside, ...(await bytesOf(others)) } }, mission.body);
+  }
+
+  /** A scene and a mission in it. Where the mission fails, what was open is opened again. */
+  private async openBoth(source: SceneSource, body: string): Promise<void> {
+    const { app } = this;
+    const before = app.scene && app.source;
+    await app.openScene(source);
+    try {
+      await this.openMission(body);
+    } catch (error) {
+      if (before && !(error instanceof Superseded)) {
+        await app.openScene(before);
+        await app.compute();
+        app.lookAtTarget();
+      }
+      throw error;
+    }
+  }
+
+  /** A scene, and in it the mission of the link that waits for it, or that of when it was open before. */
+  private async openAlone(source: SceneSource): Promise<void> {
+    const { app, awaited } = this;
+    await app.openScene(source);
+    if (awaited?.scene === source.name) return this.openMission(awaited.mission);
+    await app.compute();
+    app.lookAtTarget();
+    if (app.failure === "") say(app.mission.target ? "This is the mission that was here before" : "Draw a target on the ground, a roof or a wall");
   }
 
   /** Of the section `scene` of a mission; missions without one are for any scene. */
@@ -226,8 +253,7 @@ export class Files {
         return true;
       }
       const source: SceneSource = { name: link.scene, bytes, section: link.section ?? {}, beside: {} };
-      await this.app.openScene(source);
-      await this.openMission(link.mission);
+      await this.openBoth(source, link.mission);
     } catch (error) {
       if (!this.app.scene) await this.openExample();
       say(toldBy(error), true);
