@@ -22,6 +22,8 @@ export interface SceneSource {
   name: string;
   bytes: ArrayBuffer;
   section: Record<string, unknown>;
+  /** these are the bytes of the example, which every page has */
+  isExample?: boolean;
   /** files that missions name, by their names */
   beside: Record<string, ArrayBuffer>;
 }

@@ -92,6 +92,66 @@ test("a scene that is opened again has its mission, which can still be undone", 
   expect(await range(page)).toBe(70);
 });
 
+test("a link of an own file goes with that file, whatever its name", async ({ page }) => {
+  await openExample(page);
+  await open(page, { name: "plaza.obj", text: TENT }, { name: "m.yaml", text: SMALL });
+  await expect.poll(() => range(page)).toBe(11);
+  const before = [await volume(page), await page.evaluate(() => (window as any).vantage.scene.hash)];
+  const link = await copiedLink(page);
+  await page.goto("about:blank");
+  await page.goto(link);
+  await expect.poll(() => range(page)).toBe(11);
+  expect([await volume(page), await page.evaluate(() => (window as any).vantage.scene.hash)]).toEqual(before);
+});
+
+test("a link that waits for a file does not take another one of the same name", async ({ page }) => {
+  await openExample(page);
+  let noise = TENT;
+  for (let i = 0; i < 4000; ++i) noise += `v ${Math.random()} ${Math.random()} ${-Math.random()}\n`;
+  await open(page, { name: "large.obj", text: noise }, { name: "m.yaml", text: SMALL.replaceAll(", 0]", ", 1]") });
+  await expect.poll(() => range(page)).toBe(11);
+  const link = await copiedLink(page);
+  await page.goto("about:blank");
+  await page.goto(link);
+  await expect(page.locator("#hint")).toContainText("open that file");
+  await open(page, { name: "large.obj", text: `${noise}v 1 1 12\nf 1 2 -1\n` });
+  await expect(page.locator("#hint")).toContainText("another large.obj");
+  expect((await mission(page)).target).toBe(null);
+  await open(page, { name: "large.obj", text: noise });
+  await expect.poll(() => range(page)).toBe(11);
+});
+
+test("links of earlier versions open", async ({ page }) => {
+  await openExample(page);
+  const packed = await page.evaluate(async (text) => {
+    const stream = new Blob([text]).stream().pipeThrough(new CompressionStream("gzip"));
+    const bytes = new Uint8Array(await new Response(stream).arrayBuffer());
+    return btoa(String.fromCharCode(...bytes)).replaceAll("+", "-").replaceAll("/", "_").replaceAll("=", "");
+  }, JSON.stringify({ scene: "plaza.obj", section: { mesh: "plaza.obj", up: "z" }, mission: SMALL.replaceAll(", 0]", ", 1]") }));
+  await page.goto("about:blank");
+  await page.goto(`${page_url}#${packed}`);
+  await expect.poll(() => range(page)).toBe(11);
+});
+
+test("a mission that is too long is refused before the engine has it", async ({ page }) => {
+  await openExample(page);
+  const before = [await volume(page), await mission(page)];
+  const long = `# ${"x".repeat(1.2 * 2 ** 20)}\n`;
+  await open(page, { name: "long.yaml", text: `${SMALL}${long}` });
+  await expect(page.locator("#hint")).toContainText("1 MiB");
+  for (const mission of [`${SMALL}${long}`, `${SMALL}${long.repeat(9)}`]) {
+    const packed = await page.evaluate(async (text) => {
+      const stream = new Blob([text]).stream().pipeThrough(new CompressionStream("gzip"));
+      const bytes = new Uint8Array(await new Response(stream).arrayBuffer());
+      return btoa([...bytes].map((byte) => String.fromCharCode(byte)).join("")).replaceAll("+", "-").replaceAll("/", "_").replaceAll("=", "");
+    }, JSON.stringify({ scene: "plaza.obj", section: { mesh: "plaza.obj", up: "z" }, mission }));
+    await page.keyboard.press("Escape");
+    await page.goto(`${page_url}#${packed}`);
+    await expect(page.locator("#hint")).toContainText("1 MiB");
+  }
+  expect([await volume(page), await mission(page)]).toEqual(before);
+});
+
 test("a link of a small scene holds the scene; of another one its mission waits for the file", async ({ page }) => {
   await openExample(page);
   await open(page, { name: "tent.obj", text: TENT });

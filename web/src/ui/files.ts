@@ -3,22 +3,13 @@ import { Superseded, type App, type SceneSource } from "../app";
 import { toldBy } from "../engine/client";
 import type { Hello, ViewMesh } from "../engine/messages";
 import { divided, missionText, sceneText } from "../model/mission";
-import { packed, unpacked } from "../model/link";
+import { bytesOf, LARGEST_MISSION, read, written, type Link } from "../model/link";
 import { button, element, input, say } from "./page";
 
 const LARGEST = 600e6; // bytes: a browser has not the memory for more
-const LARGEST_IN_LINK = 12e3; // characters: longer links are cut by mail and chat programs
 const EXAMPLE = "plaza.obj";
 
 type Bytes = Record<string, ArrayBuffer>;
-
-interface Link {
-  scene: string;
-  section: Record<string, unknown>;
-  mission: string;
-  /** base64, of a scene that is small enough */
-  bytes?: string;
-}
 
 const nameOf = (path: unknown) => String(path ?? "").split(/[\\/]/).pop() ?? "";
 const isMission = (file: File) => /\.ya?ml$/i.test(file.name);
@@ -65,7 +56,7 @@ export class Files {
 
   async openExample(): Promise<void> {
     const { section, body } = this.exampleMission();
-    await this.app.openScene({ name: EXAMPLE, bytes: await this.exampleBytes(), section, beside: {} });
+    await this.app.openScene(await this.exampleSource(section));
     await this.app.openMission(body);
     this.app.lookAtTarget();
     say("From everywhere in the coloured volume all of the red polygon is visible. Drag a corner of it, or draw one of your own");
@@ -76,8 +67,8 @@ export class Files {
     return { section: scene, body };
   }
 
-  private exampleBytes(): Promise<ArrayBuffer> {
-    return new Blob([this.example.mesh]).arrayBuffer();
+  private async exampleSource(section: Record<string, unknown>): Promise<SceneSource> {
+    return { name: EXAMPLE, bytes: await new Blob([this.example.mesh]).arrayBuffer(), section, beside: {}, isExample: true };
   }
 
   /** What the program was started with. */
@@ -116,6 +107,7 @@ export class Files {
       }
       const missions = files.filter(isMission);
       if (missions.length > 1) throw new Error("open one mission at a time");
+      if (missions[0] && missions[0].size > LARGEST_MISSION) throw new Error(`${missions[0].name} is too long: a mission has 1 MiB at most`);
       const mission = missions[0] ? divided(await missions[0].text()) : null;
       await this.open(mission, files.filter((file) => !isMission(file)));
     });
@@ -136,7 +128,7 @@ export class Files {
     if (mesh) {
       say(`Reading ${mesh.name}…`);
       const section = mission?.scene ?? this.sectionFor(mesh.name);
-      const source = { name: mesh.name, bytes: await mesh.arrayBuffer(), section, beside: await bytesOf(others, mesh) };
+      const source = { name: mesh.name, bytes: await mesh.arrayBuffer(), section, beside: await contentsOf(others, mesh) };
       return mission ? this.openBoth(source, mission.body) : this.openAlone(source);
     }
     if (!mission) {
@@ -147,15 +139,16 @@ export class Files {
     }
     if (others.length === 0 && this.isOpen(mission.scene)) return this.openMission(mission.body);
     const section = Object.keys(mission.scene).length > 0 ? mission.scene : app.source.section;
-    await this.openBoth({ ...app.source, section, beside: { ...app.source.beside, ...(await bytesOf(others)) } }, mission.body);
+    await this.openBoth({ ...app.source, section, beside: { ...app.source.beside, ...(await contentsOf(others)) } }, mission.body);
   }
 
-  /** A scene and a mission in it. Where the mission fails, what was open is opened again. */
-  private async openBoth(source: SceneSource, body: string): Promise<void> {
+  /** A scene and a mission in it. Where the mission fails, what was open is opened again. `hash`: of the scene. */
+  private async openBoth(source: SceneSource, body: string, hash?: string): Promise<void> {
     const { app } = this;
     const before = app.scene && app.source;
     await app.openScene(source);
     try {
+      if (hash !== undefined && hash !== app.scene?.hash) throw new Error("this link was made with another version of the example");
       await this.openMission(body);
     } catch (error) {
       if (before && !(error instanceof Superseded)) {
@@ -171,9 +164,11 @@ export class Files {
   private async openAlone(source: SceneSource): Promise<void> {
     const { app, awaited } = this;
     await app.openScene(source);
-    if (awaited?.scene === source.name) return this.openMission(awaited.mission);
+    const isAwaited = awaited?.scene === source.name;
+    if (isAwaited && (awaited.hash ?? app.scene?.hash) === app.scene?.hash) return this.openMission(awaited.mission);
     await app.compute();
     app.lookAtTarget();
+    if (isAwaited) throw new Error(`this is another ${source.name} than that of the link, whose mission still waits for it`);
     if (app.failure === "") say(app.mission.target ? "This is the mission that was here before" : "Draw a target on the ground, a roof or a wall");
   }
 
@@ -215,14 +210,13 @@ export class Files {
   }
 
   private async copyLink(): Promise<void> {
-    const { name, bytes, section } = this.app.source;
-    const state: Link = { scene: name, section, mission: missionText(this.app.mission) };
-    const alone = await packed(JSON.stringify(state));
-    const whole = name === EXAMPLE || bytes.byteLength === 0 || bytes.byteLength > 20 * LARGEST_IN_LINK ? ""
-      : await packed(JSON.stringify({ ...state, bytes: base64(bytes) }));
-    const isWhole = name === EXAMPLE || (whole !== "" && whole.length <= LARGEST_IN_LINK);
-    const hash = whole !== "" && isWhole ? whole : alone;
-    const needs = isWhole ? "" : `; who opens it needs ${name}, too`;
+    const { source, scene, mission } = this.app;
+    const { name, section, isExample = false } = source;
+    const isAlone = Object.keys(source.beside).length === 0; // links hold no other files
+    const link = { scene: name, section, isExample, hash: scene!.hash, mission: missionText(mission) };
+    const { text: hash, isWhole } = await written(link, isExample || !isAlone || source.bytes.byteLength === 0 ? null : source.bytes);
+    const needed = [...(isWhole ? [] : [name]), ...Object.keys(source.beside)];
+    const needs = needed.length === 0 ? "" : `; who opens it needs ${needed.join(", ")}, too`;
     try {
       await navigator.clipboard.writeText(`${location.href.split("#")[0]}#${hash}`);
       say(`The link is copied${needs}`);
@@ -232,49 +226,46 @@ export class Files {
     }
   }
 
-  /** True where the address held a mission and its scene, or one of the example. */
+  /** True where the address holds a link. */
   async openLink(): Promise<boolean> {
     if (location.hash.length < 2) return false;
-    let link: Link;
+    const { app } = this;
     try {
-      link = JSON.parse(await unpacked(location.hash.slice(1))) as Link;
-      if (typeof link.scene !== "string" || typeof link.mission !== "string") throw new Error("not a link of this page");
-    } catch {
-      await this.openExample();
-      say("The link is cut short or damaged: this is the example instead", true);
-      return true;
-    }
-    try {
-      const bytes = link.bytes !== undefined ? bytesFrom(link.bytes) : link.scene === EXAMPLE ? await this.exampleBytes() : null;
-      if (!bytes) {
-        this.awaited = link;
-        await this.openExample();
-        say(`This link is for ${link.scene}: open that file, and the mission of the link follows`, true);
-        return true;
-      }
-      const source: SceneSource = { name: link.scene, bytes, section: link.section ?? {}, beside: {} };
-      await this.openBoth(source, link.mission);
+      const link = await read(location.hash.slice(1));
+      const source = await this.sourceOf(link);
+      if (source) await this.openBoth(source, link.mission, link.isExample ? link.hash : undefined);
+      else await this.waitFor(link);
     } catch (error) {
-      if (!this.app.scene) await this.openExample();
-      say(toldBy(error), true);
+      const isEmpty = !app.scene || (app.source.isExample && !app.mission.target);
+      if (isEmpty) await this.openExample();
+      say(`${toldBy(error)}${isEmpty ? ": this is the example instead" : ""}`, true);
     }
     return true;
   }
+
+  /** Of what a link has with it; null: its file is to be opened. Older links do not say that they are of the example. */
+  private async sourceOf(link: Link): Promise<SceneSource | null> {
+    const { scene: name, section, bytes } = link;
+    if (bytes !== undefined) return { name, bytes: bytesOf(bytes), section, beside: {} };
+    const isExample = link.isExample ?? (link.hash === undefined && name === EXAMPLE);
+    return isExample ? this.exampleSource(section) : null;
+  }
+
+  private async waitFor(link: Link): Promise<void> {
+    const { app } = this;
+    const isOpen = app.scene?.hash === link.hash && this.isOpen({ mesh: link.scene, ...link.section });
+    if (app.scene && isOpen) return this.openMission(link.mission);
+    this.awaited = link;
+    if (!app.scene) await this.openExample();
+    say(`This link is for ${link.scene}: open that file, and the mission of the link follows`, true);
+  }
 }
 
-async function bytesOf(files: File[], but?: File): Promise<Bytes> {
+async function contentsOf(files: File[], but?: File): Promise<Bytes> {
   const bytes: Bytes = {};
   for (const file of files) if (file !== but) bytes[file.name] = await file.arrayBuffer();
   return bytes;
 }
-
-function base64(bytes: ArrayBuffer): string {
-  let text = "";
-  for (const byte of new Uint8Array(bytes)) text += String.fromCharCode(byte);
-  return btoa(text);
-}
-
-const bytesFrom = (text: string): ArrayBuffer => Uint8Array.from(atob(text), (c) => c.charCodeAt(0)).buffer;
 
 function download(name: string, blob: Blob): void {
   const link = document.createElement("a");
