@@ -54,6 +54,29 @@ for (const [what, name, text] of [
   });
 }
 
+test("an error of a mission file says its line and column, and no folder", async ({ page }) => {
+  await openExample(page);
+  const text = "# a comment\nscene: {mesh: plaza.obj}\ntarget: {vertices: [[-5, -5, 0], [5, -5, 0], [0, 5, 0]]}\nsensor:\n  max_range: 11\n";
+  await open(page, { name: "odd.yaml", text: `${text}  max_rang: 11\n` });
+  await expect(page.locator("#hint")).toContainText("in sensor (line 6, column 3):");
+  await open(page, { name: "zones.yaml", text: `${text}navigation:\n  keep_in: [{file: zones.geojson}]\n` });
+  await expect(page.locator("#hint")).toContainText("(line 7, column 20, zones.geojson):");
+  // What the page wrote has no lines that anybody knows.
+  await page.evaluate((written) => (window as any).vantage.edit((m: any) => (m.written = written), true), `${text}  max_rang: 11\n`.replace(/scene.*/, ""));
+  await expect(page.locator("#hint")).toContainText("in sensor: did you mean");
+});
+
+test("where a link cannot be made, the reason is said", async ({ page }) => {
+  await openExample(page);
+  await page.evaluate(() => {
+    const { mission } = (window as any).vantage;
+    mission.written = "crs: EPSG:25832\nnavigation: {keep_out: [{min: [0, 0, 0], max: [1, 1, 1]}]}\n";
+    mission.opened.target = null;
+  });
+  await page.click("#link");
+  await expect(page.locator("#hint")).toContainText("move its target in the file");
+});
+
 const TENT = "v -20 -20 0\nv 20 -20 0\nv 20 20 0\nv -20 20 0\nf 1 2 3 4\nv 8 8 0\nv 12 8 0\nv 10 12 0\nv 10 10 9\nf 5 6 8\nf 6 7 8\nf 7 5 8\n";
 const SMALL = "target: {vertices: [[-5, -5, 0], [5, -5, 0], [0, 5, 0]]}\nsensor: {max_range: 11}\n";
 const sceneName = (page: Page) => page.evaluate(() => (window as any).vantage?.source.name as string);

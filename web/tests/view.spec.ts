@@ -125,6 +125,8 @@ test("in a map a square is picked, and heights count from the ground", async ({ 
       expect(await mission(page)).toEqual(before);
       await page.keyboard.press("Escape");
     }
+    await open(page, { name: "odd.yaml", text: "scene: {osm: map.osm}\ntarget: {osm: way/1}\nsensor: {max_rang: 30}\n" });
+    await expect(page.locator("#hint")).toContainText("in sensor (line 3, column 10):");
     await open(page, { name: "own.yaml", text: "scene: {osm: maps/map.osm}\ntarget: {osm: way/1}\nsensor: {max_range: 30}\n" });
     await expect.poll(async () => (await mission(page)).range).toBe(30);
   } finally {

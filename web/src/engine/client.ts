@@ -2,12 +2,22 @@
 import type { About, Hello, MapArea, Point, PointAnswer, SceneInfo, Section, ViewMesh, VolumeInfo } from "./messages";
 import { EngineFailure, type Transport } from "./transport";
 
-/** What went wrong, and what to do, in words; and where, unless that is a place in the scene, which is shown. */
-export function toldBy(error: unknown): string {
+/** What went wrong, and what to do, in words. `isOfFile`: of a mission that was opened, whose lines and columns count. */
+export function toldBy(error: unknown, isOfFile = false): string {
   if (!(error instanceof EngineFailure)) return error instanceof Error ? error.message : String(error);
   const { problem, fix } = error.told;
-  const where = placeOf(error) ? "" : error.told.where.replace(/(\b(mission|standard input)|\/scene\.)[^ ,)]*(, )?/, ""); // files that the page made
+  const where = placeOf(error) ? "" : partsOf(error.told.where, isOfFile).join(", "); // places in the scene are shown
   return `${problem}${where ? ` (${where})` : ""}${fix ? `: ${fix}` : ""}`;
+}
+
+/** Without folders, and without the files that the page made: the mission, and scene.obj. */
+function partsOf(where: string, isOfFile: boolean): string[] {
+  return where
+    .replace(/[^()]*?(?:\.ya?ml|standard input)(?::(\d+):(\d+))?/i, (_, line?: string, column?: string) =>
+      isOfFile && line ? `line ${line}, column ${column}` : "")
+    .replace(/(^|[\s(,])\/(?:[^(),]*\/)?/g, "$1")
+    .split(/\s*[(),]\s*/)
+    .filter((part) => part !== "" && !/^scene\.\w/.test(part));
 }
 
 /** Where in the scene it is, if the engine says so. */

@@ -1,6 +1,7 @@
 // Meshes and missions in, volumes, pictures, missions and links out.
 import { Superseded, type App, type SceneSource } from "../app";
 import { toldBy } from "../engine/client";
+import { EngineFailure } from "../engine/transport";
 import type { Hello, ViewMesh } from "../engine/messages";
 import { divided, missionText, sceneText } from "../model/mission";
 import { bytesOf, LARGEST_MISSION, read, written, type Link } from "../model/link";
@@ -142,14 +143,15 @@ export class Files {
     await this.openBoth({ ...app.source, section, beside: { ...app.source.beside, ...(await contentsOf(others)) } }, mission.body);
   }
 
-  /** A scene and a mission in it. Where the mission fails, what was open is opened again. `hash`: of the scene. */
-  private async openBoth(source: SceneSource, body: string, hash?: string): Promise<void> {
+  /** A scene and a mission in it, of files or of a link. Where the mission fails, what was open is opened again. */
+  private async openBoth(source: SceneSource, body: string, link?: Link): Promise<void> {
     const { app } = this;
+    const hash = link?.isExample ? link.hash : undefined; // else it has the scene with it
     const before = app.scene && app.source;
     await app.openScene(source);
     try {
       if (hash !== undefined && hash !== app.scene?.hash) throw new Error("this link was made with another version of the example");
-      await this.openMission(body);
+      await this.openMission(body, !link);
     } catch (error) {
       if (before && !(error instanceof Superseded)) {
         await app.openScene(before);
@@ -165,7 +167,7 @@ export class Files {
     const { app, awaited } = this;
     await app.openScene(source);
     const isAwaited = awaited?.scene === source.name;
-    if (isAwaited && (awaited.hash ?? app.scene?.hash) === app.scene?.hash) return this.openMission(awaited.mission);
+    if (isAwaited && (awaited.hash ?? app.scene?.hash) === app.scene?.hash) return this.openMission(awaited.mission, false);
     await app.compute();
     app.lookAtTarget();
     if (isAwaited) throw new Error(`this is another ${source.name} than that of the link, whose mission still waits for it`);
@@ -178,9 +180,14 @@ export class Files {
     return Object.keys(section).length === 0 || isSame(sectionOf({ ...source, section }), sectionOf(source));
   }
 
-  private async openMission(body: string): Promise<void> {
+  /** `isOfFile`: its lines are those of a file. */
+  private async openMission(body: string, isOfFile = true): Promise<void> {
+    try {
+      await this.app.openMission(body);
+    } catch (error) {
+      throw error instanceof EngineFailure ? new Error(toldBy(error, isOfFile)) : error;
+    }
     this.awaited = null;
-    await this.app.openMission(body);
     this.app.lookAtTarget();
     if (this.app.volume?.info.outcome === "computed") say("");
   }
@@ -210,20 +217,26 @@ export class Files {
   }
 
   private async copyLink(): Promise<void> {
+    try {
+      const { text, needed } = await this.link();
+      const needs = needed.length === 0 ? "" : `; who opens it needs ${needed.join(", ")}, too`;
+      const isCopied = await copied(`${location.href.split("#")[0]}#${text}`);
+      if (!isCopied) history.replaceState(null, "", `#${text}`);
+      say(`The link is ${isCopied ? "copied" : "in the address line"}${needs}`);
+    } catch (error) {
+      say(toldBy(error), true);
+    }
+  }
+
+  /** What follows the # of a link, and the files that it has not. */
+  private async link(): Promise<{ text: string; needed: string[] }> {
     const { source, scene, mission } = this.app;
     const { name, section, isExample = false } = source;
-    const isAlone = Object.keys(source.beside).length === 0; // links hold no other files
+    const beside = Object.keys(source.beside);
+    const isLarge = beside.length > 0 || source.bytes.byteLength === 0; // links hold one file at most
     const link = { scene: name, section, isExample, hash: scene!.hash, mission: missionText(mission) };
-    const { text: hash, isWhole } = await written(link, isExample || !isAlone || source.bytes.byteLength === 0 ? null : source.bytes);
-    const needed = [...(isWhole ? [] : [name]), ...Object.keys(source.beside)];
-    const needs = needed.length === 0 ? "" : `; who opens it needs ${needed.join(", ")}, too`;
-    try {
-      await navigator.clipboard.writeText(`${location.href.split("#")[0]}#${hash}`);
-      say(`The link is copied${needs}`);
-    } catch {
-      history.replaceState(null, "", `#${hash}`);
-      say(`The link is in the address line${needs}`);
-    }
+    const { text, isWhole } = await written(link, isExample || isLarge ? null : source.bytes);
+    return { text, needed: isWhole ? beside : [name, ...beside] };
   }
 
   /** True where the address holds a link. */
@@ -233,7 +246,7 @@ export class Files {
     try {
       const link = await read(location.hash.slice(1));
       const source = await this.sourceOf(link);
-      if (source) await this.openBoth(source, link.mission, link.isExample ? link.hash : undefined);
+      if (source) await this.openBoth(source, link.mission, link);
       else await this.waitFor(link);
     } catch (error) {
       const isEmpty = !app.scene || (app.source.isExample && !app.mission.target);
@@ -254,10 +267,20 @@ export class Files {
   private async waitFor(link: Link): Promise<void> {
     const { app } = this;
     const isOpen = app.scene?.hash === link.hash && this.isOpen({ mesh: link.scene, ...link.section });
-    if (app.scene && isOpen) return this.openMission(link.mission);
+    if (app.scene && isOpen) return this.openMission(link.mission, false);
     this.awaited = link;
     if (!app.scene) await this.openExample();
     say(`This link is for ${link.scene}: open that file, and the mission of the link follows`, true);
+  }
+}
+
+/** False where the browser does not allow it. */
+async function copied(text: string): Promise<boolean> {
+  try {
+    await navigator.clipboard.writeText(text);
+    return true;
+  } catch {
+    return false;
   }
 }
 
