@@ -47,7 +47,7 @@ function drawScale(stage: Stage): void {
   element("compass").style.transform = `rotate(${-stage.heading()}deg)`;
 }
 
-/** What is wrong with the target, at the corner where it is. */
+/** What is wrong with the target, at the corner where it is, or at the edge of the view. */
 function drawFault(app: App): void {
   const note = element("fault");
   const { faulty } = app.target;
@@ -55,10 +55,13 @@ function drawFault(app: App): void {
   // Read aloud, but not shown twice.
   element("hint").classList.toggle("beside", faulty !== null && element("hint").textContent === faulty.reason);
   if (!faulty) return;
-  const { x, y } = app.stage.project(faulty.at);
   note.textContent = faulty.reason;
-  note.style.left = `${Math.max(4, Math.min(x + 12, app.stage.canvas.clientWidth - note.offsetWidth - 4))}px`;
-  note.style.top = `${y + 12}px`;
+  const { clientWidth, clientHeight } = app.stage.canvas;
+  const { x, y, z } = app.stage.project(faulty.at);
+  const isBehind = z >= 1; // where it would be drawn says nothing then
+  const [left, top] = isBehind ? [clientWidth / 2, clientHeight] : [x + 12, y + 12];
+  note.style.left = `${Math.max(4, Math.min(left, clientWidth - note.offsetWidth - 4))}px`;
+  note.style.top = `${Math.max(4, Math.min(top, clientHeight - note.offsetHeight - 4))}px`;
 }
 
 function listenToKeys(app: App, tools: Tools): void {

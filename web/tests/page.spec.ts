@@ -153,6 +153,67 @@ test("a link holds the mission, and one that is cut short is said", async ({ pag
   await expect(page.locator("#hint")).toContainText("cut short");
 });
 
+test("the reason why a target is none can be read wherever its corner is", async ({ page }) => {
+  await page.evaluate(() => (window as any).vantage.edit(
+    (m: any) => (m.target = { kind: "polygon", vertices: [[-9, -9, 0], [9, -9, 0], [0, -6, 0], [-9, 9, 0]] }), true));
+  await expect(page.locator("#fault")).toContainText("not convex");
+  const box = (await page.locator("#canvas").boundingBox())!;
+  const look = (at: number[], from: number[]) => page.evaluate(([target, eye]) => {
+    const { stage, city } = (window as any).vantage;
+    stage.controls.target.copy(city.toView(target));
+    stage.camera.position.copy(city.toView(eye));
+    stage.controls.update();
+    stage.request();
+  }, [at, from]);
+  // Above, below and beside the picture, and behind the camera.
+  for (const [at, from] of [[[0, -60, 0], [0, -90, 30]], [[0, 60, 0], [0, 40, 40]], [[60, 0, 0], [60, -20, 20]], [[0, 60, 4], [0, 20, 10]]]) {
+    await look(at!, from!);
+    await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
+    const note = (await page.locator("#fault").boundingBox())!;
+    expect(note.x).toBeGreaterThanOrEqual(box.x);
+    expect(note.y).toBeGreaterThanOrEqual(box.y);
+    expect(note.x + note.width).toBeLessThanOrEqual(box.x + box.width);
+    expect(note.y + note.height).toBeLessThanOrEqual(box.y + box.height);
+  }
+});
+
+test("a scene that is opened is looked at from outside, also where the view was that of the probe", async ({ page }) => {
+  const camera = () => page.evaluate(() => (window as any).vantage.stage.camera.position.toArray() as number[]);
+  await open(page, { name: "tent.obj", text: TENT });
+  await expect.poll(() => nameOfScene(page)).toBe("tent.obj");
+  const outside = await camera();
+  await page.click("#example");
+  await expect.poll(() => nameOfScene(page)).toBe("plaza.obj");
+  await expect.poll(() => page.evaluate(() => Boolean((window as any).vantage.volume))).toBe(true);
+  await page.evaluate(() => (window as any).vantage.setProbe([0, 0, 30]));
+  await page.click("#see");
+  await open(page, { name: "tent.obj", text: TENT });
+  await expect.poll(() => nameOfScene(page)).toBe("tent.obj");
+  const after = await camera();
+  for (const axis of [0, 1, 2]) expect(after[axis]).toBeCloseTo(outside[axis]!, 6);
+});
+
+test("a file that is dropped while the page starts is opened after the example", async ({ page }) => {
+  await page.goto("about:blank");
+  await page.addInitScript((text) => {
+    const timer = setInterval(() => {
+      const app = (window as any).vantage;
+      if (!app) return;
+      clearInterval(timer);
+      const event = new Event("drop");
+      Object.defineProperty(event, "dataTransfer", { value: { files: [new File([text], "tent.obj")] } });
+      window.dispatchEvent(event);
+    }, 1);
+  }, TENT);
+  await page.goto(page_url);
+  await expect.poll(() => page.evaluate(() => (window as any).vantage?.source.name as string)).toBe("tent.obj");
+  await settled(page);
+  await page.waitForTimeout(300);
+  await settled(page);
+  expect(await nameOfScene(page)).toBe("tent.obj");
+  expect((await mission(page)).target).toBe(null);
+});
+
 test("is accessible, also in the dark and on a phone", async ({ page }) => {
   for (const isDark of [false, true]) {
     if (isDark) await page.click("#theme");
