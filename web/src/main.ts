@@ -131,13 +131,9 @@ async function start(): Promise<void> {
   window.vantage = app;
   document.body.classList.toggle("served", isServed);
   document.body.classList.toggle("report", Boolean(window.vantageReport));
-  if (served) {
-    say("");
-    await files.openServed(served.hello, served.mesh);
-    if (window.vantageReport) makeReport(app, served.hello);
-  } else if (!(await files.openLink())) {
-    await files.openExample();
-  }
+  if (served) say("");
+  await files.start(served);
+  if (served && window.vantageReport) makeReport(app, served.hello);
 }
 
 start().catch((error: unknown) => say(toldBy(error), true));

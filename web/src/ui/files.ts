@@ -51,11 +51,20 @@ export class Files {
     window.addEventListener("hashchange", () => this.afterwards(async () => void (await this.openLink())));
   }
 
-  private afterwards(work: () => Promise<void>): void {
+  private afterwards(work: () => Promise<void>): Promise<void> {
     this.last = this.last.then(work).catch((error: unknown) => say(toldBy(error), true));
+    return this.last;
   }
 
-  async openExample(): Promise<void> {
+  /** What the program has, or the link that the address holds, or the example. */
+  start(served: { hello: Hello; mesh: ViewMesh } | null): Promise<void> {
+    return this.afterwards(async () => {
+      if (served) return this.openServed(served.hello, served.mesh);
+      if (!(await this.openLink())) await this.openExample();
+    });
+  }
+
+  private async openExample(): Promise<void> {
     const { section, body } = this.exampleMission();
     await this.app.openScene(await this.exampleSource(section));
     await this.app.openMission(body);
@@ -73,7 +82,7 @@ export class Files {
   }
 
   /** What the program was started with. */
-  async openServed(hello: Hello, mesh: ViewMesh): Promise<void> {
+  private async openServed(hello: Hello, mesh: ViewMesh): Promise<void> {
     const { app } = this;
     const { scene, body } = divided(hello.mission);
     const name = nameOf(scene["mesh"] ?? scene["osm"] ?? scene["raster"]);
@@ -240,7 +249,7 @@ export class Files {
   }
 
   /** True where the address holds a link. */
-  async openLink(): Promise<boolean> {
+  private async openLink(): Promise<boolean> {
     if (location.hash.length < 2) return false;
     const { app } = this;
     try {
