@@ -85,6 +85,8 @@ export class App {
   section: Section | null = null;
   /** the corner that was dragged last, where a mission that cannot be computed is explained */
   dragged: number | null = null;
+  /** corners of a target that is being drawn, which is shown in the place of the mission's */
+  drawn: Point[] = [];
   /** and not what limits the view */
   private isTargetEdited = false;
   private readonly listeners: Listener[] = [];
@@ -139,6 +141,7 @@ export class App {
     this.mission = former?.mission ?? emptyMission(Math.max(info.max[0] - info.min[0], info.max[1] - info.min[1], 1e-9));
     this.history = former?.history ?? new History(this.mission);
     this.dragged = null;
+    this.drawn = [];
     this.isDragged = false;
     this.setCut(null);
     this.clearVolume();
@@ -200,7 +203,10 @@ export class App {
 
   showMission(): void {
     const { target } = this.mission;
-    if (target?.kind === "polygon") {
+    if (this.drawn.length > 0) {
+      const fault = this.drawn.length >= 3 ? this.fault(this.drawn) : null;
+      this.target.show([this.drawn], { isEditable: true, isOpen: true, fault });
+    } else if (target?.kind === "polygon") {
       this.target.show([target.vertices], { isEditable: this.canEdit, fault: this.fault(target.vertices) });
     } else {
       this.target.show(target ? (this.volume?.info.target ?? []) : [], { isEditable: false });
@@ -213,9 +219,10 @@ export class App {
   private fault(vertices: Point[]): { at: Point; reason: string } | null {
     const own = faultOf(vertices);
     if (own) return { at: vertices[own.corner]!, reason: own.reason };
-    const corner = this.isTargetEdited && this.dragged !== null ? vertices[Math.min(this.dragged, vertices.length - 1)]! : null;
+    if (this.failure === "" || vertices === this.drawn) return null;
+    const corner = this.isTargetEdited ? vertices[Math.min(this.dragged ?? 0, vertices.length - 1)]! : null;
     const at = this.failurePlace ?? corner;
-    return this.failure === "" || !at ? null : { at, reason: this.failure };
+    return at && { at, reason: this.failure };
   }
 
   /** Asks for the volume of the mission as it is. */
@@ -320,6 +327,7 @@ export class App {
       this.endEye();
     }
     this.stage.request();
+    this.changed();
   }
 
   /** One question at a time: the newest that waits is enough. */
@@ -437,9 +445,9 @@ export class App {
     this.changed();
   }
 
-  /** `by`: right, ahead and up as the view is turned, each a step. */
-  moveProbe(by: Point): void {
-    if (!this.probe) return;
+  /** `by`: right, ahead and up as the view is turned, each a step. False: there is no probe. */
+  moveProbe(by: Point): boolean {
+    if (!this.probe) return false;
     const turn = (this.stage.heading() * Math.PI) / 180;
     const step = this.stage.metresPerPixel() * 12;
     const [right, ahead, up] = by;
@@ -449,6 +457,7 @@ export class App {
       z + step * up,
     ]);
     if (this.isEye()) this.stage.moveEye(this.city.toView(this.probe.at));
+    return true;
   }
 
   lookAtTarget(): void {

@@ -79,8 +79,8 @@ function listenToKeys(app: App, tools: Tools): void {
     if (event.ctrlKey || event.metaKey) {
       const key = event.key.toLowerCase();
       if (!app.canEdit) return;
-      if (key === "z" && !event.shiftKey) app.step(app.history.undo());
-      else if (key === "y" || key === "z") app.step(app.history.redo());
+      if (key === "z" && !event.shiftKey) tools.undo();
+      else if (key === "y" || key === "z") tools.redo();
       else return;
     } else {
       if (typed.tagName === "BUTTON" && event.key === "Enter") return;
@@ -96,8 +96,6 @@ function listenToButtons(app: App): void {
   button("fit").onclick = () => app.showAll();
   button("theme").onclick = () => setTheme(app.stage, !document.documentElement.classList.contains("dark"));
   button("help").onclick = () => element<HTMLDialogElement>("help-text").showModal();
-  button("undo").onclick = () => app.step(app.history.undo());
-  button("redo").onclick = () => app.step(app.history.redo());
 }
 
 async function transportOfPage(): Promise<Transport> {

@@ -1,6 +1,6 @@
 // Answers that come late, and missions that are opened while something else is computed.
 import { expect, type Page } from "@playwright/test";
-import { mission, openExample, settled, test, volume } from "./support";
+import { mission, onScreen, openExample, settled, test, volume } from "./support";
 
 test.beforeEach(({ page }) => openExample(page));
 
@@ -152,4 +152,33 @@ test("the outline of a cut goes with its volume", async ({ page }) => {
   await settled(page);
   expect(await page.evaluate(() => (window as any).vantage.sectionView.lines.geometry.getAttribute("position").count)).toBe(0);
   await expect(page.locator("#cut-out")).toHaveText("20 m");
+});
+
+test("a volume that arrives leaves the corners being drawn, and undo takes the last of them back", async ({ page }) => {
+  const before = await mission(page);
+  await edit(page, 60);
+  await settled(page);
+  await page.keyboard.press("d");
+  for (const at of [[-6, -6, 0], [6, -6, 0], [6, 5, 0]]) {
+    const { x, y } = await onScreen(page, at);
+    await page.mouse.click(x, y);
+  }
+  const corners = () => page.evaluate(() => (window as any).vantage.target.editable.length as number);
+  expect(await corners()).toBe(3);
+  await edit(page, 50);
+  await settled(page);
+  expect(await corners()).toBe(3);
+  await page.keyboard.press("Control+z");
+  expect(await corners()).toBe(2);
+  await page.click("#undo");
+  expect(await corners()).toBe(1);
+  await page.keyboard.press("Control+y"); // nothing of the mission under it
+  expect(await corners()).toBe(1);
+  expect((await mission(page)).range).toBe(50);
+  await page.keyboard.press("Control+z"); // no corner is left: the target is shown again
+  expect(await corners()).toBe(before.target.vertices.length);
+  expect((await mission(page)).range).toBe(50);
+  await page.keyboard.press("Control+z");
+  await settled(page);
+  expect((await mission(page)).range).toBe(60);
 });

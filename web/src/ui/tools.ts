@@ -29,7 +29,7 @@ function polygonOn({ normal }: Plane, corners: Point[]): Target {
 
 export class Tools {
   private tool: Tool = "look";
-  private drawn: Point[] = [];
+  /** what the corners that are drawn lie in */
   private plane: Plane | null = null;
   /** what is dragged, by which pointer, and in which mission */
   private drag: { follow: Drag; pointer: number; mission: Mission } | null = null;
@@ -44,32 +44,44 @@ export class Tools {
     canvas.addEventListener("pointerleave", () => (element("tip").hidden = true));
     canvas.addEventListener("dblclick", (event) => this.doubleClick(event));
     for (const tool of Object.keys(HINTS) as Tool[]) button(`tool-${tool}`).onclick = () => this.choose(tool);
+    button("undo").onclick = () => this.undo();
+    button("redo").onclick = () => this.redo();
   }
 
   choose(tool: Tool): void {
     if (this.app.isEye()) this.app.endEye();
     this.tool = tool;
-    this.drawn = [];
-    this.plane = null;
+    this.app.drawn = [];
     for (const name of Object.keys(HINTS)) button(`tool-${name}`).setAttribute("aria-pressed", String(name === tool));
     this.app.stage.canvas.style.cursor = tool === "look" ? "" : "crosshair";
     this.app.showMission();
+    this.app.changed();
     say(HINTS[tool]);
+  }
+
+  /** While a target is drawn: takes its last corner back. */
+  undo(): void {
+    if (this.app.drawn.length > 0) this.removeLast();
+    else this.app.step(this.app.history.undo());
+  }
+
+  redo(): void {
+    if (this.app.drawn.length === 0) this.app.step(this.app.history.redo());
   }
 
   /** Enter. */
   finish(): void {
-    if (this.tool !== "draw" || !this.plane) return;
-    const fault = faultOf(this.drawn);
+    const { drawn } = this.app;
+    if (drawn.length === 0 || !this.plane) return;
+    const fault = faultOf(drawn);
     if (fault) return say(fault.reason, true);
-    this.take(polygonOn(this.plane, this.drawn));
+    this.take(polygonOn(this.plane, drawn));
   }
 
   /** Delete: the last corner that was drawn, or dragged. */
   removeLast(): void {
     if (this.tool === "draw") {
-      this.drawn.pop();
-      if (this.drawn.length === 0) this.plane = null;
+      this.app.drawn.pop();
       return this.showDrawn();
     }
     const { app } = this;
@@ -128,16 +140,17 @@ export class Tools {
   private letGo(): void {
     this.drag = null;
     this.app.stage.controls.enabled = true;
+    this.app.changed();
   }
 
   private click(event: PointerEvent): void {
     if (this.tool === "look") return;
-    if (this.tool === "draw" && this.plane) return this.drawCorner(event, this.plane);
+    if (this.tool === "draw" && this.plane && this.app.drawn.length > 0) return this.drawCorner(event, this.plane);
     const hit = this.app.city.hit(this.app.stage.ray(event));
     if (!hit) return say("There is no surface here: click the ground, a roof or a wall", true);
     if (this.tool === "draw") {
       this.plane = hit.plane;
-      this.drawn = [hit.point];
+      this.app.drawn = [hit.point];
       this.showDrawn();
     } else if (this.tool === "pick") {
       this.pick(hit);
@@ -163,21 +176,21 @@ export class Tools {
 
   private drawCorner(event: PointerEvent, plane: Plane): void {
     const corner = this.app.target.cornerAt(event, this.app.stage);
-    if (corner === 0 && this.drawn.length >= 3) return this.finish();
+    if (corner === 0 && this.app.drawn.length >= 3) return this.finish();
     if (corner >= 0) return; // the second click of a double one
     const at = onPlane(this.app, event, plane);
     if (!at) return;
-    this.drawn.push(at);
+    this.app.drawn.push(at);
     this.showDrawn();
   }
 
   private showDrawn(): void {
-    const fault = this.drawn.length >= 3 ? faultOf(this.drawn) : null;
-    const told = fault && { at: this.drawn[fault.corner]!, reason: fault.reason };
-    this.app.target.show([this.drawn], { isEditable: true, isOpen: true, fault: told });
-    this.app.stage.request();
+    const { app } = this;
+    const fault = app.drawn.length >= 3 ? faultOf(app.drawn) : null;
+    app.showMission();
+    app.changed();
     if (fault) say(`${fault.reason}, or press Del`, true);
-    else say(this.drawn.length >= 3 ? "Enter, a double click, or a click on the first corner ends it" : HINTS.draw);
+    else say(app.drawn.length >= 3 ? "Enter, a double click, or a click on the first corner ends it" : HINTS.draw);
   }
 
   private pick(hit: Hit): void {
