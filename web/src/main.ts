@@ -12,6 +12,9 @@ import { Results } from "./ui/results";
 import { Tools } from "./ui/tools";
 import { Stage } from "./view/stage";
 
+const TURN_DEG = 6;
+const NEARER = 1.15;
+
 declare global {
   interface Window {
     /** the engine and the example, in a page that works by itself */
@@ -64,16 +67,30 @@ function drawFault(app: App): void {
   note.style.top = `${Math.max(4, Math.min(top, clientHeight - note.offsetHeight - 4))}px`;
 }
 
-function listenToKeys(app: App, tools: Tools): void {
-  const keys: Record<string, () => void> = !app.canEdit ? { f: () => app.showAll() } : {
+/** What keys do; false: nothing, here. */
+function keysOf(app: App, tools: Tools): Record<string, () => void | boolean> {
+  const { stage } = app;
+  const view = {
+    f: () => app.showAll(), "?": () => element<HTMLDialogElement>("help-text").showModal(),
+    "+": () => stage.turn(0, 0, 1 / NEARER), "=": () => stage.turn(0, 0, 1 / NEARER), "-": () => stage.turn(0, 0, NEARER),
+    "Shift+ArrowRight": () => stage.turn(TURN_DEG, 0), "Shift+ArrowLeft": () => stage.turn(-TURN_DEG, 0),
+    "Shift+ArrowUp": () => stage.turn(0, TURN_DEG), "Shift+ArrowDown": () => stage.turn(0, -TURN_DEG),
+  };
+  return !app.canEdit ? view : {
+    ...view,
     d: () => tools.choose("draw"), p: () => tools.choose("pick"), q: () => tools.choose("probe"), Escape: () => tools.choose("look"),
     Enter: () => tools.finish(), Delete: () => tools.removeLast(), Backspace: () => tools.removeLast(),
-    f: () => app.showAll(), ArrowRight: () => app.moveProbe([1, 0, 0]), ArrowLeft: () => app.moveProbe([-1, 0, 0]),
+    ArrowRight: () => app.moveProbe([1, 0, 0]), ArrowLeft: () => app.moveProbe([-1, 0, 0]),
     ArrowUp: () => app.moveProbe([0, 1, 0]), ArrowDown: () => app.moveProbe([0, -1, 0]),
-    PageUp: () => app.moveProbe([0, 0, 1]), PageDown: () => app.moveProbe([0, 0, -1]), "?": () => element<HTMLDialogElement>("help-text").showModal(),
+    PageUp: () => app.moveProbe([0, 0, 1]), PageDown: () => app.moveProbe([0, 0, -1]),
   };
+}
+
+function listenToKeys(app: App, tools: Tools): void {
+  const keys = keysOf(app, tools);
   document.addEventListener("keydown", (event) => {
     const typed = event.target as HTMLElement;
+    if (event.altKey) return; // the browser's own
     if (typed.matches("select, textarea, input:not([type=range])") || element<HTMLDialogElement>("help-text").open) return;
     if (typed.matches("input") && /^(Arrow|Page)/.test(event.key)) return; // they move the slider
     if (event.ctrlKey || event.metaKey) {
@@ -84,9 +101,9 @@ function listenToKeys(app: App, tools: Tools): void {
       else return;
     } else {
       if (typed.tagName === "BUTTON" && event.key === "Enter") return;
-      const act = keys[event.key.length === 1 ? event.key.toLowerCase() : event.key];
-      if (!act) return;
-      act();
+      const isTurn = event.shiftKey && event.key.startsWith("Arrow");
+      const act = keys[isTurn ? `Shift+${event.key}` : event.key.length === 1 ? event.key.toLowerCase() : event.key];
+      if (!act || act() === false) return;
     }
     event.preventDefault();
   });

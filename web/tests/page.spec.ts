@@ -214,6 +214,38 @@ test("a file that is dropped while the page starts is opened after the example",
   expect((await mission(page)).target).toBe(null);
 });
 
+test("keys turn and zoom the view, and scroll the panel where there is no probe", async ({ page }) => {
+  const view = () => page.evaluate(() => {
+    const { stage } = (window as any).vantage;
+    const [x, y, z] = stage.camera.position.clone().sub(stage.controls.target).toArray() as [number, number, number];
+    return { heading: stage.heading() as number, height: z / Math.hypot(x, y, z), distance: Math.hypot(x, y, z) };
+  });
+  const first = await view();
+  await page.keyboard.press("Shift+ArrowRight");
+  const turned = await view();
+  expect(Math.abs(turned.heading - first.heading)).toBeGreaterThan(3);
+  expect(turned.distance).toBeCloseTo(first.distance, 6);
+  await page.keyboard.press("Shift+ArrowUp");
+  const higher = await view();
+  expect(higher.height).toBeGreaterThan(turned.height);
+  for (let i = 0; i < 40; ++i) await page.keyboard.press("Shift+ArrowUp");
+  expect((await view()).height).toBeLessThanOrEqual(1);
+  expect((await view()).heading).toBeCloseTo(higher.heading, 3);
+  await page.keyboard.press("+");
+  expect((await view()).distance).toBeLessThan(0.95 * first.distance);
+  await page.keyboard.press("-");
+  expect((await view()).distance).toBeCloseTo(first.distance, 6);
+  const isTaken = (key: string, init: object = {}) => page.evaluate(([name, more]) =>
+    !document.body.dispatchEvent(new KeyboardEvent("keydown", { key: name as string, bubbles: true, cancelable: true, ...(more as object) })), [key, init]);
+  for (const key of ["ArrowDown", "ArrowLeft", "PageDown"]) expect(await isTaken(key)).toBe(false);
+  expect(await isTaken("ArrowDown", { shiftKey: true })).toBe(true);
+  for (const key of ["d", "ArrowLeft"]) expect(await isTaken(key, { altKey: true })).toBe(false);
+  await expect(page.locator("#tool-look")).toHaveAttribute("aria-pressed", "true");
+  await page.evaluate(() => (window as any).vantage.setProbe([0, 0, 30]));
+  expect(await isTaken("ArrowLeft")).toBe(true);
+  expect(await page.evaluate(() => (window as any).vantage.probe.at[0])).not.toBe(0);
+});
+
 test("is accessible, also in the dark and on a phone", async ({ page }) => {
   for (const isDark of [false, true]) {
     if (isDark) await page.click("#theme");
