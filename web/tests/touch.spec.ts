@@ -55,3 +55,26 @@ test("a drag ends where its mission is replaced", async ({ page }) => {
   expect((await mission(page)).target.vertices).toEqual([[-8, -8, 0], [4, -8, 0], [4, 3, 0]]);
   expect(await page.evaluate(() => (window as any).vantage.stage.controls.enabled)).toBe(true);
 });
+
+test("a corner is removed, and the probe raised, without a keyboard", async ({ page }) => {
+  for (const id of ["#remove-corner", "#probe-up", "#probe-down"]) await expect(page.locator(id)).toBeHidden();
+  const before = (await mission(page)).target.vertices;
+  const { x, y } = await onScreen(page, before[0]);
+  const touch = await fingers(page);
+  await touch({ id: 1, x, y });
+  await touch({ id: 1, x: x + 6, y: y + 3 });
+  await touch();
+  await settled(page);
+  await page.locator("#remove-corner").tap();
+  await settled(page);
+  expect((await mission(page)).target.vertices).toEqual(before.slice(1));
+  await expect(page.locator("#remove-corner")).toBeHidden();
+  await page.evaluate(() => (window as any).vantage.setProbe([0, 0, 30]));
+  const height = () => page.evaluate(() => (window as any).vantage.probe.at[2] as number);
+  await page.locator("#probe-up").tap();
+  expect(await height()).toBeGreaterThan(30);
+  await page.locator("#probe-down").tap();
+  expect(await height()).toBeCloseTo(30, 6);
+  await page.locator("#remove-probe").tap();
+  await expect(page.locator("#probe-up")).toBeHidden();
+});

@@ -46,6 +46,11 @@ export class Tools {
     for (const tool of Object.keys(HINTS) as Tool[]) button(`tool-${tool}`).onclick = () => this.choose(tool);
     button("undo").onclick = () => this.undo();
     button("redo").onclick = () => this.redo();
+    button("remove-corner").onclick = () => this.removeLast();
+    button("probe-up").onclick = () => app.moveProbe([0, 0, 1]);
+    button("probe-down").onclick = () => app.moveProbe([0, 0, -1]);
+    button("remove-probe").onclick = () => app.setProbe(null);
+    app.onChange(() => this.showButtons());
   }
 
   choose(tool: Tool): void {
@@ -57,6 +62,14 @@ export class Tools {
     this.app.showMission();
     this.app.changed();
     say(HINTS[tool]);
+  }
+
+  /** What a keyboard does with Del, Page Up and Page Down, for fingers, where it does something. */
+  private showButtons(): void {
+    const { probe, dragged, drawn, mission, canEdit } = this.app;
+    const corners = mission.target?.kind === "polygon" ? mission.target.vertices.length : 0;
+    button("remove-corner").hidden = !canEdit || (drawn.length === 0 && (dragged === null || corners <= 3));
+    for (const id of ["probe-up", "probe-down", "remove-probe"]) button(id).hidden = !probe;
   }
 
   /** While a target is drawn: takes its last corner back. */
