@@ -67,9 +67,9 @@ export class App {
    *   meanwhile, so that the volume follows a drag: the newest is on its way then.
    * - openMission(): the volume of a text, which becomes `mission` together with it, if nothing was wished for since.
    * - restore(): once more the volume that is shown.
-   * What holds when nothing is awaited and nothing dragged: the volume shown is that of `mission`, exactly, or `failure`
-   * says why that has none; and it is the last one of the engine. What the engine answers to query, slice, prove or save
-   * while its last volume is another one is dropped.
+   * What holds when nothing is awaited and nothing dragged: the volume shown is that of `mission`, exactly, or
+   * `failure` says why that has none; and it is the last one of the engine. What the engine answers to query, slice,
+   * prove or save while its last volume is another one is dropped.
    */
   private turn = 0;
   /** of the newest wish of which the outcome was told */
@@ -118,8 +118,8 @@ export class App {
   }
 
   /**
-   * The scene that is open stays where this one cannot be read. One that was open before has its mission again, which is
-   * still to be computed.
+   * The scene that is open stays where this one cannot be read. One that was open before has its mission again, which
+   * is still to be computed.
    */
   async openScene(source: SceneSource): Promise<void> {
     const extension = /(\.[a-z0-9]+(\.gz)?)$/i.exec(source.name)?.[1]?.toLowerCase() ?? "";

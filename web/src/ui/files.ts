@@ -117,8 +117,9 @@ export class Files {
       }
       const missions = files.filter(isMission);
       if (missions.length > 1) throw new Error("open one mission at a time");
-      if (missions[0] && missions[0].size > LARGEST_MISSION) throw new Error(`${missions[0].name} is too long: a mission has 1 MiB at most`);
-      const mission = missions[0] ? divided(await missions[0].text()) : null;
+      const [file] = missions;
+      if (file && file.size > LARGEST_MISSION) throw new Error(`${file.name} is too long: a mission has 1 MiB at most`);
+      const mission = file ? divided(await file.text()) : null;
       await this.open(mission, files.filter((file) => !isMission(file)));
     });
   }
@@ -180,7 +181,8 @@ export class Files {
     await app.compute();
     app.lookAtTarget();
     if (isAwaited) throw new Error(`this is another ${source.name} than that of the link, whose mission still waits for it`);
-    if (app.failure === "") say(app.mission.target ? "This is the mission that was here before" : "Draw a target on the ground, a roof or a wall");
+    if (app.failure !== "") return;
+    say(app.mission.target ? "This is the mission that was here before" : "Draw a target on the ground, a roof or a wall");
   }
 
   /** Of the section `scene` of a mission; missions without one are for any scene. */
@@ -242,9 +244,9 @@ export class Files {
     const { source, scene, mission } = this.app;
     const { name, section, isExample = false } = source;
     const beside = Object.keys(source.beside);
-    const isLarge = beside.length > 0 || source.bytes.byteLength === 0; // links hold one file at most
+    const isAlone = beside.length === 0 && !isExample && source.bytes.byteLength > 0; // links hold one file at most
     const link = { scene: name, section, isExample, hash: scene!.hash, mission: missionText(mission) };
-    const { text, isWhole } = await written(link, isExample || isLarge ? null : source.bytes);
+    const { text, isWhole } = await written(link, isAlone ? source.bytes : null);
     return { text, needed: isWhole ? beside : [name, ...beside] };
   }
 
@@ -265,7 +267,7 @@ export class Files {
     return true;
   }
 
-  /** Of what a link has with it; null: its file is to be opened. Older links do not say that they are of the example. */
+  /** Of what a link has with it; null: its file is to be opened. Older links do not say whether it is the example. */
   private async sourceOf(link: Link): Promise<SceneSource | null> {
     const { scene: name, section, bytes } = link;
     if (bytes !== undefined) return { name, bytes: bytesOf(bytes), section, beside: {} };
