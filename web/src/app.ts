@@ -23,6 +23,17 @@ export interface SceneSource {
   name: string;
   bytes: ArrayBuffer;
   section: Record<string, unknown>;
+  /** these are the bytes of the example, which every page has */
+  isExample?: boolean;
+  /** files that missions name, by their names */
+  beside: Record<string, ArrayBuffer>;
+}
+
+/** Of a mission that is not opened, since the one that is there was edited meanwhile. */
+export class Superseded extends Error {
+  constructor() {
+    super("something else was changed while this mission was computed: open it again");
+  }
 }
 
 export class App {
@@ -38,17 +49,34 @@ export class App {
   mission: Mission = emptyMission();
   history = new History<Mission>(this.mission);
   scene: SceneInfo | null = null;
+  /** of scenes that were open, by their hashes: they have it again when they are opened again */
+  private readonly former = new Map<string, { mission: Mission; history: History<Mission> }>();
   /** the file of the scene, and what a mission file says of it */
-  source: SceneSource = { name: "", bytes: new ArrayBuffer(0), section: {} };
+  source: SceneSource = { name: "", bytes: new ArrayBuffer(0), section: {}, beside: {} };
   volume: Volume | null = null;
-  /** where the volume is a draft: its mission as it was */
-  private draftOf: Mission | null = null;
+  /** the mission that the volume is of, as it was */
+  private shownOf: Mission | null = null;
+  /** the volume has coarser facets */
+  isDraft = false;
   private isDragged = false;
   private isProbeOld = false;
   private isAsking = false;
-  /** numbers of the missions asked for, and of the newest of which the outcome was told */
+  /**
+   * The order of volumes. Each wish for one has a turn, a number that grows. The engine answers in the order of the
+   * questions, or says that a newer one took the place of one that waited. There are three kinds of wishes:
+   * - run(): the volume of `mission`, after edit(), keep() and step(). It is shown also where `mission` was changed
+   *   meanwhile, so that the volume follows a drag: the newest is on its way then.
+   * - openMission(): the volume of a text, which becomes `mission` together with it, if nothing was wished for since.
+   * - restore(): once more the volume that is shown.
+   * What holds when nothing is awaited and nothing dragged: the volume shown is that of `mission`, exactly, or
+   * `failure` says why that has none; and it is the last one of the engine. What the engine answers to query, slice,
+   * prove or save while its last volume is another one is dropped.
+   */
   private turn = 0;
+  /** of the newest wish of which the outcome was told */
   private told = 0;
+  /** answers to earlier wishes are of another scene, or of a target that is gone */
+  private since = 0;
   /** of the last mission, where it could not be computed; the last volume stays */
   failure = "";
   private failurePlace: Point | null = null;
@@ -58,6 +86,8 @@ export class App {
   section: Section | null = null;
   /** the corner that was dragged last, where a mission that cannot be computed is explained */
   dragged: number | null = null;
+  /** corners of a target that is being drawn, which is shown in the place of the mission's */
+  drawn: Point[] = [];
   /** and not what limits the view */
   private isTargetEdited = false;
   private readonly listeners: Listener[] = [];
@@ -88,45 +118,62 @@ export class App {
     });
   }
 
-  /** `beside`: files that the mission names, by their names. The scene that is open stays where this one cannot be read. */
-  async openScene(source: SceneSource, beside: Record<string, ArrayBuffer> = {}): Promise<void> {
+  /**
+   * The scene that is open stays where this one cannot be read. One that was open before has its mission again, which
+   * is still to be computed.
+   */
+  async openScene(source: SceneSource): Promise<void> {
     const extension = /(\.[a-z0-9]+(\.gz)?)$/i.exec(source.name)?.[1]?.toLowerCase() ?? "";
     const file = `scene${extension}`;
     const text = sceneText({ ...source.section, mesh: file });
-    const { info, mesh } = await this.engine.open(text, { ...beside, [file]: source.bytes }, file);
+    const { info, mesh } = await this.engine.open(text, { ...source.beside, [file]: source.bytes }, file);
     this.source = source;
     this.showScene(info, mesh);
   }
 
   showScene(info: SceneInfo, mesh: ViewMesh): void {
+    this.setProbe(null); // ends the view of its eye before all of the scene is looked at
+    if (this.scene) this.former.set(this.scene.hash, { mission: this.mission, history: this.history });
+    const former = this.former.get(info.hash);
     this.scene = info;
     this.city.show(info, mesh);
     this.stage.frameScene(info);
-    this.volumeView.hide();
-    this.volume = this.draftOf = null;
-    this.failure = "";
-    this.mission = emptyMission(info);
-    this.history = new History(this.mission);
+    this.since = ++this.turn;
+    this.mission = former?.mission ?? emptyMission(info);
+    this.history = former?.history ?? new History(this.mission);
     this.dragged = null;
-    this.setProbe(null);
+    this.drawn = [];
+    this.isDragged = false;
     this.setCut(null);
-    this.showMission();
-    this.changed();
+    this.clearVolume();
   }
 
   /** Of a mission file without its scene. The mission that is there stays where this one cannot be computed. */
   async openMission(body: string): Promise<void> {
-    const volume = await this.engine.compute(body);
-    if (!volume) throw new Error("something else was changed while this mission was computed: open it again");
-    this.openMissionWith(body, volume);
+    const turn = ++this.turn;
+    try {
+      const volume = await this.engine.compute(body);
+      if (!volume || turn !== this.turn) throw new Superseded();
+      this.openMissionWith(body, volume);
+    } catch (error) {
+      // It may have taken the place of an edit that waited.
+      if (turn === this.turn && this.told < turn - 1) await this.compute(this.isDragged);
+      throw error;
+    } finally {
+      this.settle();
+    }
   }
 
   /** `volume`: of that mission. */
   openMissionWith(body: string, volume: Volume): void {
-    this.mission = missionFrom(body, volume.info, this.scene!);
+    const mission = missionFrom(body, volume.info, this.scene!);
     this.history.keep(this.mission);
+    this.mission = mission;
+    this.history.keep(mission);
     this.dragged = null;
-    this.put(volume, null);
+    this.isDragged = false;
+    this.told = this.turn;
+    this.put(volume, structuredClone(mission), false);
     this.accept(volume);
   }
 
@@ -137,13 +184,14 @@ export class App {
     this.isTargetEdited = this.mission.target !== target;
     if (isComplete) this.history.keep(this.mission);
     this.showMission();
-    this.compute(!isComplete);
+    void this.compute(!isComplete);
   }
 
   /** A drag has ended. */
   keep(): void {
+    if (!this.isDragged) return; // nothing was moved
     this.history.keep(this.mission);
-    this.compute();
+    void this.compute();
   }
 
   step(mission: Mission | null): void {
@@ -151,12 +199,15 @@ export class App {
     this.mission = mission;
     this.dragged = null;
     this.showMission();
-    this.compute();
+    void this.compute();
   }
 
   showMission(): void {
     const { target } = this.mission;
-    if (target?.kind === "polygon") {
+    if (this.drawn.length > 0) {
+      const fault = this.drawn.length >= 3 ? this.fault(this.drawn) : null;
+      this.target.show([this.drawn], { isEditable: true, isOpen: true, fault });
+    } else if (target?.kind === "polygon") {
       this.target.show([target.vertices], { isEditable: this.canEdit, fault: this.fault(target.vertices) });
     } else {
       this.target.show(target ? (this.volume?.info.target ?? []) : [], { isEditable: false });
@@ -169,42 +220,36 @@ export class App {
   private fault(vertices: Point[]): { at: Point; reason: string } | null {
     const own = faultOf(vertices);
     if (own) return { at: vertices[own.corner]!, reason: own.reason };
-    const corner = this.isTargetEdited && this.dragged !== null ? vertices[Math.min(this.dragged, vertices.length - 1)]! : null;
+    if (this.failure === "" || vertices === this.drawn) return null;
+    const corner = this.isTargetEdited ? vertices[Math.min(this.dragged ?? 0, vertices.length - 1)]! : null;
     const at = this.failurePlace ?? corner;
-    return this.failure === "" || !at ? null : { at, reason: this.failure };
+    return at && { at, reason: this.failure };
   }
 
-  get isDraft(): boolean {
-    return this.draftOf !== null;
-  }
-
-  private compute(isDraft = false): void {
-    const { target } = this.mission;
-    if (!target) {
-      this.volumeView.hide();
-      this.volume = null;
-      return this.changed();
-    }
+  /** Asks for the volume of the mission as it is. */
+  async compute(isDraft = false): Promise<void> {
+    ++this.turn;
     this.isDragged = isDraft;
-    void this.run(isDraft ? structuredClone(this.mission) : null);
+    if (this.mission.target) return this.run(this.turn, structuredClone(this.mission), isDraft);
+    this.since = this.told = this.turn;
+    this.clearVolume();
   }
 
-  /** `draftOf`: the mission, for a draft of its volume. */
-  private async run(draftOf: Mission | null): Promise<void> {
-    const { scene } = this;
-    const { target } = this.mission;
-    const turn = ++this.turn;
+  /** `mission`: the one that is edited, as it is now. */
+  private async run(turn: number, mission: Mission, isDraft: boolean): Promise<void> {
+    const { target } = mission;
     const fault = target?.kind === "polygon" ? faultOf(target.vertices) : null;
     try {
-      if (fault) throw new Error(`${fault.reason}; the volume is the last one`);
-      const volume = await this.engine.compute(missionText(this.mission, draftOf !== null));
-      if (!volume || scene !== this.scene || !this.mission.target) return; // a newer mission is on its way, or none
-      this.put(volume, draftOf);
+      if (fault) throw new Error(`${fault.reason}; the volume shown is that of the last valid target`);
+      const volume = await this.engine.compute(missionText(mission, isDraft));
+      if (!volume || turn < this.since) return;
+      this.put(volume, mission, isDraft);
       if (this.isNews(turn)) this.accept(volume);
     } catch (error) {
-      if (scene === this.scene && this.isNews(turn)) this.fail(error);
+      if (turn >= this.since && this.isNews(turn)) this.fail(error);
+    } finally {
+      this.settle();
     }
-    if (!this.isDragged && this.engine.isIdle) void this.completeDraft();
   }
 
   /** A corner that is not convex is told at once, before the answers to what was asked earlier. */
@@ -214,12 +259,21 @@ export class App {
     return true;
   }
 
-  /** A drag has ended where there is no volume: the last one, which stays, is not left a draft. */
-  private async completeDraft(): Promise<void> {
-    const { draftOf } = this;
-    if (!draftOf) return;
-    const volume = await this.engine.compute(missionText(draftOf)).catch(() => null);
-    if (volume && this.draftOf === draftOf) this.put(volume, null);
+  /** The last volume stays where a mission has none. It is not left a draft, and the engine must have it. */
+  private settle(): void {
+    const isDone = this.engine.last === this.volume && (!this.isDraft || this.isDragged);
+    if (this.volume && !isDone && this.engine.isIdle) void this.restore();
+  }
+
+  private async restore(): Promise<void> {
+    const { shownOf } = this;
+    if (!shownOf) return;
+    try {
+      const volume = await this.engine.compute(missionText(shownOf));
+      if (volume && this.shownOf === shownOf) this.put(volume, shownOf, false);
+    } catch {
+      // It stays as it is: a draft, or one that the engine answers nothing about.
+    }
   }
 
   /** The last volume stays. */
@@ -231,22 +285,38 @@ export class App {
     this.changed();
   }
 
-  /** Shows a volume. */
-  private put(volume: Volume, draftOf: Mission | null): void {
+  /** Shows a volume. `mission`: what it is of. */
+  private put(volume: Volume, mission: Mission, isDraft: boolean): void {
     this.volume = volume;
-    this.draftOf = draftOf;
+    this.shownOf = mission;
+    this.isDraft = isDraft;
     this.volumeView.show(volume.info, volume.mesh);
+    this.showOutline(null);
     void this.askProbe();
     void this.showSection();
     this.changed();
     this.stage.request();
   }
 
+  /** Nothing of a volume is left. */
+  private clearVolume(): void {
+    this.endEye();
+    this.volume = this.shownOf = this.failurePlace = null;
+    this.isDraft = false;
+    this.failure = "";
+    this.volumeView.hide();
+    this.probeView.hide();
+    this.showOutline(null);
+    this.showMission();
+    this.changed();
+    say("");
+  }
+
   /** The volume that is shown is that of the mission. */
   private accept(volume: Volume): void {
     this.failure = "";
     this.showMission();
-    if (volume.info.outcome !== "computed") say(`No position sees all of it: ${volume.info.reason}. ${volume.info.hint}`, true);
+    if (volume.info.outcome !== "computed") say(`No position sees ${seenFrom(volume.info)}: ${volume.info.reason}. ${volume.info.hint}`, true);
     else if (hasBadNews()) say("");
   }
 
@@ -258,6 +328,7 @@ export class App {
       this.endEye();
     }
     this.stage.request();
+    this.changed();
   }
 
   /** One question at a time: the newest that waits is enough. */
@@ -281,7 +352,7 @@ export class App {
     } catch (error) {
       return say(toldBy(error), true);
     }
-    if (!answer || this.probe?.at !== at || !this.volume) return;
+    if (!answer || this.probe?.at !== at || !this.volume || !this.isEngineHere()) return;
     this.probe.inside = answer.inside;
     if (!this.isEye()) this.probeView.show(at, this.volume.info.target.flat(), answer.inside);
     const why = [
@@ -312,25 +383,42 @@ export class App {
     } catch (error) {
       text = toldBy(error);
     }
-    if (volume === this.volume) this.tellProof(text, volume);
+    if (volume === this.volume && this.isEngineHere()) this.tellProof(text, volume);
+  }
+
+  /** The volume as a file. */
+  async saved(format: string): Promise<Uint8Array> {
+    const bytes = await this.engine.save(format);
+    if (!this.isEngineHere()) throw new Error("the volume was changed meanwhile: save it again");
+    return bytes;
+  }
+
+  /** What the engine has just answered is of the volume that is shown. */
+  private isEngineHere(): boolean {
+    return this.engine.last === this.volume;
   }
 
   setCut(cut: Cut | null): void {
     this.cut = cut;
     const origin = this.scene?.origin ?? [0, 0, 0];
     this.volumeView.cutAt(cut && { axis: cut.axis, at: cut.at - origin[cut.axis] });
+    this.showOutline(null);
     void this.showSection();
     this.stage.request();
   }
 
   private async showSection(): Promise<void> {
-    const { cut, volume } = this;
-    const section = cut?.axis !== 2 || !volume ? null : await this.engine.slice(cut.at).catch(() => null);
-    if (this.cut !== cut || this.volume !== volume) return;
+    const { cut } = this;
+    if (cut?.axis !== 2 || !this.volume) return;
+    const section = await this.engine.slice(cut.at).catch(() => null);
+    if (this.cut === cut && this.volume && this.isEngineHere()) this.showOutline(section);
+  }
+
+  private showOutline(section: Section | null): void {
+    if (section || this.section) this.changed();
     this.section = section;
     this.sectionView.show(section);
     this.stage.request();
-    if (section) this.changed();
   }
 
   isEye(): boolean {
@@ -358,9 +446,9 @@ export class App {
     this.changed();
   }
 
-  /** `by`: right, ahead and up as the view is turned, each a step. */
-  moveProbe(by: Point): void {
-    if (!this.probe) return;
+  /** `by`: right, ahead and up as the view is turned, each a step. False: there is no probe. */
+  moveProbe(by: Point): boolean {
+    if (!this.probe) return false;
     const turn = (this.stage.heading() * Math.PI) / 180;
     const step = this.stage.metresPerPixel() * 12;
     const [right, ahead, up] = by;
@@ -370,6 +458,7 @@ export class App {
       z + step * up,
     ]);
     if (this.isEye()) this.stage.moveEye(this.city.toView(this.probe.at));
+    return true;
   }
 
   lookAtTarget(): void {

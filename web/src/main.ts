@@ -12,6 +12,9 @@ import { Results } from "./ui/results";
 import { Tools } from "./ui/tools";
 import { Stage } from "./view/stage";
 
+const TURN_DEG = 6;
+const NEARER = 1.15;
+
 declare global {
   interface Window {
     /** the engine and the example, in a page that works by itself */
@@ -47,7 +50,7 @@ function drawScale(stage: Stage): void {
   element("compass").style.transform = `rotate(${-stage.heading()}deg)`;
 }
 
-/** What is wrong with the target, at the corner where it is. */
+/** What is wrong with the target, at the corner where it is, or at the edge of the view. */
 function drawFault(app: App): void {
   const note = element("fault");
   const { faulty } = app.target;
@@ -55,35 +58,52 @@ function drawFault(app: App): void {
   // Read aloud, but not shown twice.
   element("hint").classList.toggle("beside", faulty !== null && element("hint").textContent === faulty.reason);
   if (!faulty) return;
-  const { x, y } = app.stage.project(faulty.at);
   note.textContent = faulty.reason;
-  note.style.left = `${Math.max(4, Math.min(x + 12, app.stage.canvas.clientWidth - note.offsetWidth - 4))}px`;
-  note.style.top = `${y + 12}px`;
+  const { clientWidth, clientHeight } = app.stage.canvas;
+  const { x, y, z } = app.stage.project(faulty.at);
+  const isBehind = z >= 1; // where it would be drawn says nothing then
+  const [left, top] = isBehind ? [clientWidth / 2, clientHeight] : [x + 12, y + 12];
+  note.style.left = `${Math.max(4, Math.min(left, clientWidth - note.offsetWidth - 4))}px`;
+  note.style.top = `${Math.max(4, Math.min(top, clientHeight - note.offsetHeight - 4))}px`;
+}
+
+/** What keys do; false: nothing, here. */
+function keysOf(app: App, tools: Tools): Record<string, () => void | boolean> {
+  const { stage } = app;
+  const view = {
+    f: () => app.showAll(), "?": () => element<HTMLDialogElement>("help-text").showModal(),
+    "+": () => stage.turn(0, 0, 1 / NEARER), "=": () => stage.turn(0, 0, 1 / NEARER), "-": () => stage.turn(0, 0, NEARER),
+    "Shift+ArrowRight": () => stage.turn(TURN_DEG, 0), "Shift+ArrowLeft": () => stage.turn(-TURN_DEG, 0),
+    "Shift+ArrowUp": () => stage.turn(0, TURN_DEG), "Shift+ArrowDown": () => stage.turn(0, -TURN_DEG),
+  };
+  return !app.canEdit ? view : {
+    ...view,
+    d: () => tools.choose("draw"), p: () => tools.choose("pick"), q: () => tools.choose("probe"), Escape: () => tools.choose("look"),
+    Enter: () => tools.finish(), Delete: () => tools.removeLast(), Backspace: () => tools.removeLast(),
+    ArrowRight: () => app.moveProbe([1, 0, 0]), ArrowLeft: () => app.moveProbe([-1, 0, 0]),
+    ArrowUp: () => app.moveProbe([0, 1, 0]), ArrowDown: () => app.moveProbe([0, -1, 0]),
+    PageUp: () => app.moveProbe([0, 0, 1]), PageDown: () => app.moveProbe([0, 0, -1]),
+  };
 }
 
 function listenToKeys(app: App, tools: Tools): void {
-  const keys: Record<string, () => void> = !app.canEdit ? { f: () => app.showAll() } : {
-    d: () => tools.choose("draw"), p: () => tools.choose("pick"), q: () => tools.choose("probe"), Escape: () => tools.choose("look"),
-    Enter: () => tools.finish(), Delete: () => tools.removeLast(), Backspace: () => tools.removeLast(),
-    f: () => app.showAll(), ArrowRight: () => app.moveProbe([1, 0, 0]), ArrowLeft: () => app.moveProbe([-1, 0, 0]),
-    ArrowUp: () => app.moveProbe([0, 1, 0]), ArrowDown: () => app.moveProbe([0, -1, 0]),
-    PageUp: () => app.moveProbe([0, 0, 1]), PageDown: () => app.moveProbe([0, 0, -1]), "?": () => element<HTMLDialogElement>("help-text").showModal(),
-  };
+  const keys = keysOf(app, tools);
   document.addEventListener("keydown", (event) => {
     const typed = event.target as HTMLElement;
+    if (event.altKey) return; // the browser's own
     if (typed.matches("select, textarea, input:not([type=range])") || element<HTMLDialogElement>("help-text").open) return;
     if (typed.matches("input") && /^(Arrow|Page)/.test(event.key)) return; // they move the slider
     if (event.ctrlKey || event.metaKey) {
       const key = event.key.toLowerCase();
       if (!app.canEdit) return;
-      if (key === "z" && !event.shiftKey) app.step(app.history.undo());
-      else if (key === "y" || key === "z") app.step(app.history.redo());
+      if (key === "z" && !event.shiftKey) tools.undo();
+      else if (key === "y" || key === "z") tools.redo();
       else return;
     } else {
       if (typed.tagName === "BUTTON" && event.key === "Enter") return;
-      const act = keys[event.key.length === 1 ? event.key.toLowerCase() : event.key];
-      if (!act) return;
-      act();
+      const isTurn = event.shiftKey && event.key.startsWith("Arrow");
+      const act = keys[isTurn ? `Shift+${event.key}` : event.key.length === 1 ? event.key.toLowerCase() : event.key];
+      if (!act || act() === false) return;
     }
     event.preventDefault();
   });
@@ -93,8 +113,6 @@ function listenToButtons(app: App): void {
   button("fit").onclick = () => app.showAll();
   button("theme").onclick = () => setTheme(app.stage, !document.documentElement.classList.contains("dark"));
   button("help").onclick = () => element<HTMLDialogElement>("help-text").showModal();
-  button("undo").onclick = () => app.step(app.history.undo());
-  button("redo").onclick = () => app.step(app.history.redo());
 }
 
 async function transportOfPage(): Promise<Transport> {
@@ -128,13 +146,9 @@ async function start(): Promise<void> {
   window.vantage = app;
   document.body.classList.toggle("served", isServed);
   document.body.classList.toggle("report", Boolean(window.vantageReport));
-  if (served) {
-    say("");
-    await files.openServed(served.hello, served.mesh);
-    if (window.vantageReport) makeReport(app, served.hello);
-  } else if (!(await files.openLink())) {
-    await files.openExample();
-  }
+  if (served) say("");
+  await files.start(served);
+  if (served && window.vantageReport) makeReport(app, served.hello);
 }
 
 start().catch((error: unknown) => say(toldBy(error), true));

@@ -1,6 +1,6 @@
 // What the page shows, takes and gives.
 import AxeBuilder from "@axe-core/playwright";
-import { expect } from "@playwright/test";
+import { expect, type Page } from "@playwright/test";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import {
@@ -96,6 +96,44 @@ test("meshes and missions are opened, and bad ones lose nothing", async ({ page 
   expect(await volume(page)).toBe(before);
 });
 
+const TENT = "v -20 -20 0\nv 20 -20 0\nv 20 20 0\nv -20 20 0\nf 1 2 3 4\nv 8 8 0\nv 12 8 0\nv 10 12 0\nv 10 10 9\nf 5 6 8\nf 6 7 8\nf 7 5 8\n";
+const SMALL = "target: {vertices: [[-1, 1, 0.5], [1, 1, 0.5], [0, 3, 0.5]]}\nsensor: {max_range: 15}\n";
+const nameOfScene = (page: Page) => page.evaluate(() => (window as any).vantage.source.name as string);
+
+test("a mission alone is computed in the scene that it says, also where the mesh is open with other axes", async ({ page }) => {
+  const mesh = { name: "tent.obj", text: TENT };
+  const turned = { name: "up.yaml", text: `scene: {mesh: models/tent.obj, up: y, scale: 0.5}\n${SMALL}` };
+  await open(page, mesh, turned);
+  await expect.poll(async () => [await nameOfScene(page), (await mission(page)).range]).toEqual(["tent.obj", 15]);
+  const wanted = await page.evaluate(() => [(window as any).vantage.scene.hash, (window as any).vantage.volume.info.volume_m3]);
+  await open(page, mesh);
+  await expect(page.locator("#hint")).toContainText("Draw a target");
+  expect(await page.evaluate(() => (window as any).vantage.scene.hash)).not.toBe(wanted[0]);
+  await open(page, turned);
+  await expect.poll(async () => (await mission(page)).range).toBe(15);
+  await settled(page);
+  expect(await page.evaluate(() => [(window as any).vantage.scene.hash, (window as any).vantage.volume.info.volume_m3])).toEqual(wanted);
+  expect(await savedMission(page)).toContain("up: y");
+});
+
+test("files beside a mission are taken also where its mesh is open already", async ({ page }) => {
+  const block = (top: number) => "v -9 -9 1\nv 9 -9 1\nv 9 9 1\nv -9 9 1\n" +
+    [[-9, -9], [9, -9], [9, 9], [-9, 9]].map(([x, y]) => `v ${x} ${y} ${top}`).join("\n") +
+    "\nf 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+  const text = `scene: {mesh: tent.obj}\n${SMALL}navigation: {meshes: [where.obj]}\n`;
+  await open(page, { name: "tent.obj", text: TENT }, { name: "m.yaml", text }, { name: "where.obj", text: block(9) });
+  await expect.poll(async () => [await nameOfScene(page), (await mission(page)).range]).toEqual(["tent.obj", 15]);
+  const high = await volume(page);
+  await open(page, { name: "m.yaml", text }, { name: "where.obj", text: block(5) });
+  await expect.poll(() => page.evaluate(() => (window as any).vantage.volume?.info.volume_m3 as number)).toBeLessThan(0.8 * high);
+  const low = await volume(page);
+  await open(page, { name: "m.yaml", text: text.replace("15", "14") }); // the last ones are still there
+  await expect.poll(async () => (await mission(page)).range).toBe(14);
+  await settled(page);
+  expect(await volume(page)).toBeLessThan(low);
+  expect(await page.evaluate(() => (window as any).vantage.failure)).toBe("");
+});
+
 test("a link holds the mission, and one that is cut short is said", async ({ page }) => {
   await page.locator("#range").fill("50");
   await settled(page);
@@ -113,6 +151,99 @@ test("a link holds the mission, and one that is cut short is said", async ({ pag
   await page.goto("about:blank");
   await page.goto(link.slice(0, -12));
   await expect(page.locator("#hint")).toContainText("cut short");
+});
+
+test("the reason why a target is none can be read wherever its corner is", async ({ page }) => {
+  await page.evaluate(() => (window as any).vantage.edit(
+    (m: any) => (m.target = { kind: "polygon", vertices: [[-9, -9, 0], [9, -9, 0], [0, -6, 0], [-9, 9, 0]] }), true));
+  await expect(page.locator("#fault")).toContainText("not convex");
+  const box = (await page.locator("#canvas").boundingBox())!;
+  const look = (at: number[], from: number[]) => page.evaluate(([target, eye]) => {
+    const { stage, city } = (window as any).vantage;
+    stage.controls.target.copy(city.toView(target));
+    stage.camera.position.copy(city.toView(eye));
+    stage.controls.update();
+    stage.request();
+  }, [at, from]);
+  // Above, below and beside the picture, and behind the camera.
+  for (const [at, from] of [[[0, -60, 0], [0, -90, 30]], [[0, 60, 0], [0, 40, 40]], [[60, 0, 0], [60, -20, 20]], [[0, 60, 4], [0, 20, 10]]]) {
+    await look(at!, from!);
+    await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
+    const note = (await page.locator("#fault").boundingBox())!;
+    expect(note.x).toBeGreaterThanOrEqual(box.x);
+    expect(note.y).toBeGreaterThanOrEqual(box.y);
+    expect(note.x + note.width).toBeLessThanOrEqual(box.x + box.width);
+    expect(note.y + note.height).toBeLessThanOrEqual(box.y + box.height);
+  }
+});
+
+test("a scene that is opened is looked at from outside, also where the view was that of the probe", async ({ page }) => {
+  const camera = () => page.evaluate(() => (window as any).vantage.stage.camera.position.toArray() as number[]);
+  await open(page, { name: "tent.obj", text: TENT });
+  await expect.poll(() => nameOfScene(page)).toBe("tent.obj");
+  const outside = await camera();
+  await page.click("#example");
+  await expect.poll(() => nameOfScene(page)).toBe("plaza.obj");
+  await expect.poll(() => page.evaluate(() => Boolean((window as any).vantage.volume))).toBe(true);
+  await page.evaluate(() => (window as any).vantage.setProbe([0, 0, 30]));
+  await page.click("#see");
+  await open(page, { name: "tent.obj", text: TENT });
+  await expect.poll(() => nameOfScene(page)).toBe("tent.obj");
+  const after = await camera();
+  for (const axis of [0, 1, 2]) expect(after[axis]).toBeCloseTo(outside[axis]!, 6);
+});
+
+test("a file that is dropped while the page starts is opened after the example", async ({ page }) => {
+  await page.goto("about:blank");
+  await page.addInitScript((text) => {
+    const timer = setInterval(() => {
+      const app = (window as any).vantage;
+      if (!app) return;
+      clearInterval(timer);
+      const event = new Event("drop");
+      Object.defineProperty(event, "dataTransfer", { value: { files: [new File([text], "tent.obj")] } });
+      window.dispatchEvent(event);
+    }, 1);
+  }, TENT);
+  await page.goto(page_url);
+  await expect.poll(() => page.evaluate(() => (window as any).vantage?.source.name as string)).toBe("tent.obj");
+  await settled(page);
+  await page.waitForTimeout(300);
+  await settled(page);
+  expect(await nameOfScene(page)).toBe("tent.obj");
+  expect((await mission(page)).target).toBe(null);
+});
+
+test("keys turn and zoom the view, and scroll the panel where there is no probe", async ({ page }) => {
+  const view = () => page.evaluate(() => {
+    const { stage } = (window as any).vantage;
+    const [x, y, z] = stage.camera.position.clone().sub(stage.controls.target).toArray() as [number, number, number];
+    return { heading: stage.heading() as number, height: z / Math.hypot(x, y, z), distance: Math.hypot(x, y, z) };
+  });
+  const first = await view();
+  await page.keyboard.press("Shift+ArrowRight");
+  const turned = await view();
+  expect(Math.abs(turned.heading - first.heading)).toBeGreaterThan(3);
+  expect(turned.distance).toBeCloseTo(first.distance, 6);
+  await page.keyboard.press("Shift+ArrowUp");
+  const higher = await view();
+  expect(higher.height).toBeGreaterThan(turned.height);
+  for (let i = 0; i < 40; ++i) await page.keyboard.press("Shift+ArrowUp");
+  expect((await view()).height).toBeLessThanOrEqual(1);
+  expect((await view()).heading).toBeCloseTo(higher.heading, 3);
+  await page.keyboard.press("+");
+  expect((await view()).distance).toBeLessThan(0.95 * first.distance);
+  await page.keyboard.press("-");
+  expect((await view()).distance).toBeCloseTo(first.distance, 6);
+  const isTaken = (key: string, init: object = {}) => page.evaluate(([name, more]) =>
+    !document.body.dispatchEvent(new KeyboardEvent("keydown", { key: name as string, bubbles: true, cancelable: true, ...(more as object) })), [key, init]);
+  for (const key of ["ArrowDown", "ArrowLeft", "PageDown"]) expect(await isTaken(key)).toBe(false);
+  expect(await isTaken("ArrowDown", { shiftKey: true })).toBe(true);
+  for (const key of ["d", "ArrowLeft"]) expect(await isTaken(key, { altKey: true })).toBe(false);
+  await expect(page.locator("#tool-look")).toHaveAttribute("aria-pressed", "true");
+  await page.evaluate(() => (window as any).vantage.setProbe([0, 0, 30]));
+  expect(await isTaken("ArrowLeft")).toBe(true);
+  expect(await page.evaluate(() => (window as any).vantage.probe.at[0])).not.toBe(0);
 });
 
 test("is accessible, also in the dark and on a phone", async ({ page }) => {

@@ -5,7 +5,7 @@ import { mkdtempSync, readFileSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
-import { byProgram, drag, hasVolume, mission, onScreen, plaza, program, root, saved, savedMission, settled, volume } from "./support";
+import { byProgram, drag, hasVolume, mission, onScreen, open, plaza, program, root, saved, savedMission, settled, volume } from "./support";
 
 const file = join(plaza, "mission.yaml");
 let server: ChildProcess;
@@ -118,6 +118,17 @@ test("in a map a square is picked, and heights count from the ground", async ({ 
     });
     await settled(page);
     expect(await savedMission(page)).not.toContain("navigation");
+    const before = await mission(page);
+    for (const scene of ["{osm: other.osm}", "{osm: map.osm, without: [trees]}", "{mesh: map.osm}"]) {
+      await open(page, { name: "other.yaml", text: `scene: ${scene}\ntarget: {osm: way/1}\nsensor: {max_range: 30}\n` });
+      await expect(page.locator("#hint")).toContainText("another scene");
+      expect(await mission(page)).toEqual(before);
+      await page.keyboard.press("Escape");
+    }
+    await open(page, { name: "odd.yaml", text: "scene: {osm: map.osm}\ntarget: {osm: way/1}\nsensor: {max_rang: 30}\n" });
+    await expect(page.locator("#hint")).toContainText("in sensor (line 3, column 10):");
+    await open(page, { name: "own.yaml", text: "scene: {osm: maps/map.osm}\ntarget: {osm: way/1}\nsensor: {max_range: 30}\n" });
+    await expect.poll(async () => (await mission(page)).range).toBe(30);
   } finally {
     viewer.kill("SIGINT");
   }

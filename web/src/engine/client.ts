@@ -2,12 +2,22 @@
 import type { About, Hello, MapArea, Point, PointAnswer, SceneInfo, Section, ViewMesh, VolumeInfo } from "./messages";
 import { EngineFailure, type Transport } from "./transport";
 
-/** What went wrong, and what to do, in words; and where, unless that is a place in the scene, which is shown. */
-export function toldBy(error: unknown): string {
+/** What went wrong, and what to do, in words. `isOfFile`: of a mission that was opened, whose lines and columns count. */
+export function toldBy(error: unknown, isOfFile = false): string {
   if (!(error instanceof EngineFailure)) return error instanceof Error ? error.message : String(error);
   const { problem, fix } = error.told;
-  const where = placeOf(error) ? "" : error.told.where.replace(/(\b(mission|standard input)|\/scene\.)[^ ,)]*(, )?/, ""); // files that the page made
+  const where = placeOf(error) ? "" : partsOf(error.told.where, isOfFile).join(", "); // places in the scene are shown
   return `${problem}${where ? ` (${where})` : ""}${fix ? `: ${fix}` : ""}`;
+}
+
+/** Without folders, and without the files that the page made: the mission, and scene.obj. */
+function partsOf(where: string, isOfFile: boolean): string[] {
+  return where
+    .replace(/[^()]*?(?:\.ya?ml|standard input)(?::(\d+):(\d+))?/i, (_, line?: string, column?: string) =>
+      isOfFile && line ? `line ${line}, column ${column}` : "")
+    .replace(/(^|[\s(,])\/(?:[^(),]*\/)?/g, "$1")
+    .split(/\s*[(),]\s*/)
+    .filter((part) => part !== "" && !/^scene\.\w/.test(part));
 }
 
 /** Where in the scene it is, if the engine says so. */
@@ -27,6 +37,8 @@ export interface Volume {
 export class Engine {
   private awaited = 0;
   about: About = { version: "", cameras: [] };
+  /** the last volume in this scene: what query, prove, slice and save speak of, as their answers come in the same order */
+  last: Volume | null = null;
 
   constructor(private readonly transport: Transport) {}
 
@@ -50,12 +62,13 @@ export class Engine {
   /** The volume that hello() told of. */
   async shown(info: VolumeInfo): Promise<Volume> {
     const { mesh, engine_ms } = await this.transport.ask({ call: "shown" });
-    return { info, mesh: mesh!, engine_ms, total_ms: 0 };
+    return (this.last = { info, mesh: mesh!, engine_ms, total_ms: 0 });
   }
 
   /** `text`: the section `scene` of a mission, which names `file`; `files`: this file and those that missions name. */
   async open(text: string, files: Record<string, ArrayBuffer>, file: string): Promise<{ info: SceneInfo; mesh: ViewMesh }> {
     const answer = await this.transport.ask({ call: "open", text, file, files });
+    this.last = null;
     return { info: answer.value as SceneInfo, mesh: answer.mesh! };
   }
 
@@ -69,7 +82,8 @@ export class Engine {
     ++this.awaited;
     try {
       const { value, mesh, engine_ms, stale } = await this.transport.ask({ call: "compute", text });
-      return stale ? null : { info: value as VolumeInfo, mesh: mesh!, engine_ms, total_ms: performance.now() - asked };
+      if (stale) return null;
+      return (this.last = { info: value as VolumeInfo, mesh: mesh!, engine_ms, total_ms: performance.now() - asked });
     } finally {
       --this.awaited;
     }

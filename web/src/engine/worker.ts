@@ -37,6 +37,18 @@ function call(name: string, ...values: (string | number)[]): unknown {
   return answer;
 }
 
+/** With a text on the heap: ccall would put it on the stack, which has 5 MB, with room for four bytes a character. */
+function callWith(name: string, text: string): unknown {
+  const bytes = new TextEncoder().encode(`${text}\0`);
+  const at = engine._malloc(bytes.length);
+  try {
+    engine.HEAPU8.set(bytes, at);
+    return call(name, at);
+  } finally {
+    engine._free(at);
+  }
+}
+
 const isThere = (file: string) => engine.FS.analyzePath(file).exists;
 
 const SCENE = 0;
@@ -63,7 +75,7 @@ function open({ text, file, files }: Extract<Request, { call: "open" }>): Omit<A
   for (const [name, bytes] of given) engine.FS.writeFile(name, bytes);
   let kept = beside;
   try {
-    const value = call("open", text);
+    const value = callWith("open", text);
     given.delete(file);
     kept = given;
     return { value, mesh: view(SCENE) };
@@ -101,7 +113,7 @@ async function answer(request: Request): Promise<Omit<Answer, "id" | "engine_ms"
     case "open":
       return open(request);
     case "compute": {
-      const value = call("compute", request.text);
+      const value = callWith("compute", request.text);
       return { value, mesh: view(VOLUME) };
     }
     case "query":

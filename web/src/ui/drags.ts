@@ -39,7 +39,7 @@ export function dragOfTarget(app: App, event: Pointer, isFillDragged: boolean): 
   const plane = planeOf(app, vertices);
   const from = onPlane(app, event, plane);
   if (!from) return null;
-  app.dragged = corner < 0 ? 0 : corner;
+  app.dragged = corner < 0 ? null : corner;
   return (now) => {
     const at = onPlane(app, now, plane);
     if (!at) return;

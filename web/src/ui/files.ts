@@ -1,27 +1,33 @@
 // Meshes and missions in, volumes, pictures, missions and links out.
-import type { App, SceneSource } from "../app";
+import { Superseded, type App, type SceneSource } from "../app";
 import { toldBy } from "../engine/client";
+import { EngineFailure } from "../engine/transport";
 import type { Hello, ViewMesh } from "../engine/messages";
 import { divided, missionText, sceneText } from "../model/mission";
-import { packed, unpacked } from "../model/link";
+import { bytesOf, LARGEST_MISSION, read, written, type Link } from "../model/link";
 import { button, element, input, say } from "./page";
 
 const LARGEST = 600e6; // bytes: a browser has not the memory for more
-const LARGEST_IN_LINK = 12e3; // characters: longer links are cut by mail and chat programs
 const EXAMPLE = "plaza.obj";
 
 type Bytes = Record<string, ArrayBuffer>;
 
-interface Link {
-  scene: string;
-  section: Record<string, unknown>;
-  mission: string;
-  /** base64, of a scene that is small enough */
-  bytes?: string;
-}
-
 const nameOf = (path: unknown) => String(path ?? "").split(/[\\/]/).pop() ?? "";
 const isMission = (file: File) => /\.ya?ml$/i.test(file.name);
+const FILES = ["mesh", "osm", "raster", "terrain"]; // keys of the section `scene` that name one
+
+/** What a mission file says of the scene. */
+function sectionOf({ name, section }: SceneSource): Record<string, unknown> {
+  return section["mesh"] || section["osm"] || section["raster"] ? section : { mesh: name, ...section };
+}
+
+/** Whether two sections say the same, where files may lie in other folders. */
+function isSame(one: Record<string, unknown>, other: Record<string, unknown>): boolean {
+  const [a, b] = [one, other].map((section) => Object.entries(section)
+    .map(([key, value]) => JSON.stringify([key, FILES.includes(key) ? nameOf(value) : value])).sort().join());
+  return a === b;
+}
+
 const isMesh = (name: string) => /\.(obj|ply|stl|glb|gltf|json|cityjson)(\.gz)?$/i.test(name);
 
 export class Files {
@@ -45,13 +51,22 @@ export class Files {
     window.addEventListener("hashchange", () => this.afterwards(async () => void (await this.openLink())));
   }
 
-  private afterwards(work: () => Promise<void>): void {
+  private afterwards(work: () => Promise<void>): Promise<void> {
     this.last = this.last.then(work).catch((error: unknown) => say(toldBy(error), true));
+    return this.last;
   }
 
-  async openExample(): Promise<void> {
+  /** What the program has, or the link that the address holds, or the example. */
+  start(served: { hello: Hello; mesh: ViewMesh } | null): Promise<void> {
+    return this.afterwards(async () => {
+      if (served) return this.openServed(served.hello, served.mesh);
+      if (!(await this.openLink())) await this.openExample();
+    });
+  }
+
+  private async openExample(): Promise<void> {
     const { section, body } = this.exampleMission();
-    await this.app.openScene({ name: EXAMPLE, bytes: await this.exampleBytes(), section });
+    await this.app.openScene(await this.exampleSource(section));
     await this.app.openMission(body);
     this.app.lookAtTarget();
     say("From everywhere in the coloured volume all of the red polygon is visible. Drag a corner of it, or draw one of your own");
@@ -62,16 +77,16 @@ export class Files {
     return { section: scene, body };
   }
 
-  private exampleBytes(): Promise<ArrayBuffer> {
-    return new Blob([this.example.mesh]).arrayBuffer();
+  private async exampleSource(section: Record<string, unknown>): Promise<SceneSource> {
+    return { name: EXAMPLE, bytes: await new Blob([this.example.mesh]).arrayBuffer(), section, beside: {}, isExample: true };
   }
 
   /** What the program was started with. */
-  async openServed(hello: Hello, mesh: ViewMesh): Promise<void> {
+  private async openServed(hello: Hello, mesh: ViewMesh): Promise<void> {
     const { app } = this;
     const { scene, body } = divided(hello.mission);
     const name = nameOf(scene["mesh"] ?? scene["osm"] ?? scene["raster"]);
-    app.source = { name, bytes: new ArrayBuffer(0), section: scene };
+    app.source = { name, bytes: new ArrayBuffer(0), section: scene, beside: {} };
     app.showScene(hello.scene, mesh);
     if (hello.volume) app.openMissionWith(body, await app.engine.shown(hello.volume));
     else await app.openMission(body);
@@ -102,40 +117,88 @@ export class Files {
       }
       const missions = files.filter(isMission);
       if (missions.length > 1) throw new Error("open one mission at a time");
-      const mission = missions[0] ? divided(await missions[0].text()) : null;
+      const [file] = missions;
+      if (file && file.size > LARGEST_MISSION) throw new Error(`${file.name} is too long: a mission has 1 MiB at most`);
+      const mission = file ? divided(await file.text()) : null;
       await this.open(mission, files.filter((file) => !isMission(file)));
     });
   }
 
   private async open(mission: { scene: Record<string, unknown>; body: string } | null, others: File[]): Promise<void> {
     const { app } = this;
-    const wanted = nameOf(mission?.scene["mesh"]);
     if (document.body.classList.contains("served")) {
       if (!mission || others.length > 0) throw new Error("this page shows one scene: start `vantage view` with another mission");
-      if (wanted !== "" && wanted !== app.source.name) throw new Error(`this mission is for ${wanted}: start \`vantage view\` with it`);
+      if (!this.isOpen(mission.scene)) throw new Error("this mission is for another scene: start `vantage view` with it");
       return this.openMission(mission.body);
     }
     if (mission?.scene["osm"] || mission?.scene["raster"]) {
       throw new Error("this page reads no maps and no terrain: run `vantage view` with this mission, which shows the same page");
     }
+    const wanted = nameOf(mission?.scene["mesh"]);
     const mesh = others.find((file) => file.name === wanted) ?? (wanted ? undefined : others.find((file) => isMesh(file.name)));
     if (mesh) {
       say(`Reading ${mesh.name}…`);
       const section = mission?.scene ?? this.sectionFor(mesh.name);
-      await app.openScene({ name: mesh.name, bytes: await mesh.arrayBuffer(), section }, await bytesOf(others, mesh));
-      say("Draw a target on the ground, a roof or a wall");
-    } else if (!mission) {
+      const source = { name: mesh.name, bytes: await mesh.arrayBuffer(), section, beside: await contentsOf(others, mesh) };
+      return mission ? this.openBoth(source, mission.body) : this.openAlone(source);
+    }
+    if (!mission) {
       throw new Error(`${others.map((file) => file.name).join(", ")}: not a mesh that this page reads (OBJ, PLY, STL, GLB, CityJSON)`);
-    } else if (!app.scene || (wanted !== "" && wanted !== app.source.name)) {
+    }
+    if (!app.scene || (wanted !== "" && wanted !== app.source.name)) {
       throw new Error(`this mission is for ${wanted || "another scene"}: open it together with that file`);
     }
-    if (mission) return this.openMission(mission.body);
-    if (this.awaited?.scene === app.source.name) await this.openMission(this.awaited.mission);
+    if (others.length === 0 && this.isOpen(mission.scene)) return this.openMission(mission.body);
+    const section = Object.keys(mission.scene).length > 0 ? mission.scene : app.source.section;
+    await this.openBoth({ ...app.source, section, beside: { ...app.source.beside, ...(await contentsOf(others)) } }, mission.body);
   }
 
-  private async openMission(body: string): Promise<void> {
+  /** A scene and a mission in it, of files or of a link. Where the mission fails, what was open is opened again. */
+  private async openBoth(source: SceneSource, body: string, link?: Link): Promise<void> {
+    const { app } = this;
+    const hash = link?.isExample ? link.hash : undefined; // else it has the scene with it
+    const before = app.scene && app.source;
+    await app.openScene(source);
+    try {
+      if (hash !== undefined && hash !== app.scene?.hash) throw new Error("this link was made with another version of the example");
+      await this.openMission(body, !link);
+    } catch (error) {
+      if (before && !(error instanceof Superseded)) {
+        await app.openScene(before);
+        await app.compute();
+        app.lookAtTarget();
+      }
+      throw error;
+    }
+  }
+
+  /** A scene, and in it the mission of the link that waits for it, or that of when it was open before. */
+  private async openAlone(source: SceneSource): Promise<void> {
+    const { app, awaited } = this;
+    await app.openScene(source);
+    const isAwaited = awaited?.scene === source.name;
+    if (isAwaited && (awaited.hash ?? app.scene?.hash) === app.scene?.hash) return this.openMission(awaited.mission, false);
+    await app.compute();
+    app.lookAtTarget();
+    if (isAwaited) throw new Error(`this is another ${source.name} than that of the link, whose mission still waits for it`);
+    if (app.failure !== "") return;
+    say(app.mission.target ? "This is the mission that was here before" : "Draw a target on the ground, a roof or a wall");
+  }
+
+  /** Of the section `scene` of a mission; missions without one are for any scene. */
+  private isOpen(section: Record<string, unknown>): boolean {
+    const { source } = this.app;
+    return Object.keys(section).length === 0 || isSame(sectionOf({ ...source, section }), sectionOf(source));
+  }
+
+  /** `isOfFile`: its lines are those of a file. */
+  private async openMission(body: string, isOfFile = true): Promise<void> {
+    try {
+      await this.app.openMission(body);
+    } catch (error) {
+      throw error instanceof EngineFailure ? new Error(toldBy(error, isOfFile)) : error;
+    }
     this.awaited = null;
-    await this.app.openMission(body);
     this.app.lookAtTarget();
     if (this.app.volume?.info.outcome === "computed") say("");
   }
@@ -153,7 +216,7 @@ export class Files {
     try {
       if (format === "picture") return download("volume.png", await this.app.stage.picture());
       if (format === "mission") return download("mission.yaml", new Blob([this.missionFile()], { type: "text/yaml" }));
-      download(`volume.${format}`, new Blob([(await this.app.engine.save(format)).slice()]));
+      download(`volume.${format}`, new Blob([(await this.app.saved(format)).slice()]));
     } catch (error) {
       say(toldBy(error), true);
     }
@@ -161,73 +224,82 @@ export class Files {
 
   /** What the program reads beside the scene's file. */
   missionFile(): string {
-    const { name, section } = this.app.source;
-    const scene = section["mesh"] || section["osm"] || section["raster"] ? section : { mesh: name, ...section };
-    return `${sceneText(scene)}${missionText(this.app.mission).replace(/^\n+/, "")}`;
+    return `${sceneText(sectionOf(this.app.source))}${missionText(this.app.mission).replace(/^\n+/, "")}`;
   }
 
   private async copyLink(): Promise<void> {
-    const { name, bytes, section } = this.app.source;
-    const state: Link = { scene: name, section, mission: missionText(this.app.mission) };
-    const alone = await packed(JSON.stringify(state));
-    const whole = name === EXAMPLE || bytes.byteLength === 0 || bytes.byteLength > 20 * LARGEST_IN_LINK ? ""
-      : await packed(JSON.stringify({ ...state, bytes: base64(bytes) }));
-    const isWhole = name === EXAMPLE || (whole !== "" && whole.length <= LARGEST_IN_LINK);
-    const hash = whole !== "" && isWhole ? whole : alone;
-    const needs = isWhole ? "" : `; who opens it needs ${name}, too`;
     try {
-      await navigator.clipboard.writeText(`${location.href.split("#")[0]}#${hash}`);
-      say(`The link is copied${needs}`);
-    } catch {
-      history.replaceState(null, "", `#${hash}`);
-      say(`The link is in the address line${needs}`);
+      const { text, needed } = await this.link();
+      const needs = needed.length === 0 ? "" : `; who opens it needs ${needed.join(", ")}, too`;
+      const isCopied = await copied(`${location.href.split("#")[0]}#${text}`);
+      if (!isCopied) history.replaceState(null, "", `#${text}`);
+      say(`The link is ${isCopied ? "copied" : "in the address line"}${needs}`);
+    } catch (error) {
+      say(toldBy(error), true);
     }
   }
 
-  /** True where the address held a mission and its scene, or one of the example. */
-  async openLink(): Promise<boolean> {
+  /** What follows the # of a link, and the files that it has not. */
+  private async link(): Promise<{ text: string; needed: string[] }> {
+    const { source, scene, mission } = this.app;
+    const { name, section, isExample = false } = source;
+    const beside = Object.keys(source.beside);
+    const isAlone = beside.length === 0 && !isExample && source.bytes.byteLength > 0; // links hold one file at most
+    const link = { scene: name, section, isExample, hash: scene!.hash, mission: missionText(mission) };
+    const { text, isWhole } = await written(link, isAlone ? source.bytes : null);
+    return { text, needed: isWhole ? beside : [name, ...beside] };
+  }
+
+  /** True where the address holds a link. */
+  private async openLink(): Promise<boolean> {
     if (location.hash.length < 2) return false;
-    let link: Link;
+    const { app } = this;
     try {
-      link = JSON.parse(await unpacked(location.hash.slice(1))) as Link;
-      if (typeof link.scene !== "string" || typeof link.mission !== "string") throw new Error("not a link of this page");
-    } catch {
-      await this.openExample();
-      say("The link is cut short or damaged: this is the example instead", true);
-      return true;
-    }
-    try {
-      const bytes = link.bytes !== undefined ? bytesFrom(link.bytes) : link.scene === EXAMPLE ? await this.exampleBytes() : null;
-      if (!bytes) {
-        this.awaited = link;
-        await this.openExample();
-        say(`This link is for ${link.scene}: open that file, and the mission of the link follows`, true);
-        return true;
-      }
-      const source: SceneSource = { name: link.scene, bytes, section: link.section ?? {} };
-      await this.app.openScene(source);
-      await this.openMission(link.mission);
+      const link = await read(location.hash.slice(1));
+      const source = await this.sourceOf(link);
+      if (source) await this.openBoth(source, link.mission, link);
+      else await this.waitFor(link);
     } catch (error) {
-      if (!this.app.scene) await this.openExample();
-      say(toldBy(error), true);
+      const isEmpty = !app.scene || (app.source.isExample && !app.mission.target);
+      if (isEmpty) await this.openExample();
+      say(`${toldBy(error)}${isEmpty ? ": this is the example instead" : ""}`, true);
     }
     return true;
   }
+
+  /** Of what a link has with it; null: its file is to be opened. Older links do not say whether it is the example. */
+  private async sourceOf(link: Link): Promise<SceneSource | null> {
+    const { scene: name, section, bytes } = link;
+    if (bytes !== undefined) return { name, bytes: bytesOf(bytes), section, beside: {} };
+    const isExample = link.isExample ?? (link.hash === undefined && name === EXAMPLE);
+    return isExample ? this.exampleSource(section) : null;
+  }
+
+  private async waitFor(link: Link): Promise<void> {
+    const { app } = this;
+    const isOpen = app.scene?.hash === link.hash && this.isOpen({ mesh: link.scene, ...link.section });
+    if (app.scene && isOpen) return this.openMission(link.mission, false);
+    this.awaited = link;
+    if (!app.scene) await this.openExample();
+    say(`This link is for ${link.scene}: open that file, and the mission of the link follows`, true);
+  }
 }
 
-async function bytesOf(files: File[], but: File): Promise<Bytes> {
+/** False where the browser does not allow it. */
+async function copied(text: string): Promise<boolean> {
+  try {
+    await navigator.clipboard.writeText(text);
+    return true;
+  } catch {
+    return false;
+  }
+}
+
+async function contentsOf(files: File[], but?: File): Promise<Bytes> {
   const bytes: Bytes = {};
   for (const file of files) if (file !== but) bytes[file.name] = await file.arrayBuffer();
   return bytes;
 }
-
-function base64(bytes: ArrayBuffer): string {
-  let text = "";
-  for (const byte of new Uint8Array(bytes)) text += String.fromCharCode(byte);
-  return btoa(text);
-}
-
-const bytesFrom = (text: string): ArrayBuffer => Uint8Array.from(atob(text), (c) => c.charCodeAt(0)).buffer;
 
 function download(name: string, blob: Blob): void {
   const link = document.createElement("a");

@@ -2,7 +2,7 @@
 import type { App } from "../app";
 import { toldBy } from "../engine/client";
 import type { Point } from "../engine/messages";
-import type { Target } from "../model/mission";
+import type { Mission, Target } from "../model/mission";
 import { facing, faultOf, plus, times, type Plane } from "../model/polygon";
 import type { Hit } from "../view/city";
 import { dragOfBox, dragOfTarget, onPlane, type Drag } from "./drags";
@@ -29,9 +29,10 @@ function polygonOn({ normal }: Plane, corners: Point[]): Target {
 
 export class Tools {
   private tool: Tool = "look";
-  private drawn: Point[] = [];
+  /** what the corners that are drawn lie in */
   private plane: Plane | null = null;
-  private drag: Drag | null = null;
+  /** what is dragged, by which pointer, and in which mission */
+  private drag: { follow: Drag; pointer: number; mission: Mission } | null = null;
   private pressed: { x: number; y: number } | null = null;
 
   constructor(private readonly app: App) {
@@ -39,36 +40,61 @@ export class Tools {
     canvas.addEventListener("pointerdown", (event) => this.press(event), { capture: true });
     canvas.addEventListener("pointermove", (event) => this.move(event));
     canvas.addEventListener("pointerup", (event) => this.release(event));
-    canvas.addEventListener("pointercancel", () => this.endDrag());
+    for (const end of ["pointercancel", "lostpointercapture"] as const) canvas.addEventListener(end, (event) => this.endDrag(event));
     canvas.addEventListener("pointerleave", () => (element("tip").hidden = true));
     canvas.addEventListener("dblclick", (event) => this.doubleClick(event));
     for (const tool of Object.keys(HINTS) as Tool[]) button(`tool-${tool}`).onclick = () => this.choose(tool);
+    button("undo").onclick = () => this.undo();
+    button("redo").onclick = () => this.redo();
+    button("remove-corner").onclick = () => this.removeLast();
+    button("probe-up").onclick = () => app.moveProbe([0, 0, 1]);
+    button("probe-down").onclick = () => app.moveProbe([0, 0, -1]);
+    button("remove-probe").onclick = () => app.setProbe(null);
+    app.onChange(() => this.showButtons());
   }
 
   choose(tool: Tool): void {
     if (this.app.isEye()) this.app.endEye();
     this.tool = tool;
-    this.drawn = [];
-    this.plane = null;
+    this.app.drawn = [];
     for (const name of Object.keys(HINTS)) button(`tool-${name}`).setAttribute("aria-pressed", String(name === tool));
     this.app.stage.canvas.style.cursor = tool === "look" ? "" : "crosshair";
     this.app.showMission();
+    this.app.changed();
     say(HINTS[tool]);
+  }
+
+  /** What a keyboard does with Del, Page Up and Page Down, for fingers, where it does something. */
+  private showButtons(): void {
+    const { probe, dragged, drawn, mission, canEdit } = this.app;
+    const corners = mission.target?.kind === "polygon" ? mission.target.vertices.length : 0;
+    button("remove-corner").hidden = !canEdit || (drawn.length === 0 && (dragged === null || corners <= 3));
+    for (const id of ["probe-up", "probe-down", "remove-probe"]) button(id).hidden = !probe;
+  }
+
+  /** While a target is drawn: takes its last corner back. */
+  undo(): void {
+    if (this.app.drawn.length > 0) this.removeLast();
+    else this.app.step(this.app.history.undo());
+  }
+
+  redo(): void {
+    if (this.app.drawn.length === 0) this.app.step(this.app.history.redo());
   }
 
   /** Enter. */
   finish(): void {
-    if (this.tool !== "draw" || !this.plane) return;
-    const fault = faultOf(this.drawn);
+    const { drawn } = this.app;
+    if (drawn.length === 0 || !this.plane) return;
+    const fault = faultOf(drawn);
     if (fault) return say(fault.reason, true);
-    this.take(polygonOn(this.plane, this.drawn));
+    this.take(polygonOn(this.plane, drawn));
   }
 
   /** Delete: the last corner that was drawn, or dragged. */
   removeLast(): void {
     if (this.tool === "draw") {
-      this.drawn.pop();
-      if (this.drawn.length === 0) this.plane = null;
+      this.app.drawn.pop();
       return this.showDrawn();
     }
     const { app } = this;
@@ -80,18 +106,23 @@ export class Tools {
     app.edit((mission) => (mission.target = { ...target, vertices: target.vertices.filter((_, i) => i !== dragged) }), true);
   }
 
+  /** More fingers than one turn and zoom the view, and leave what the first drags to it. */
   private press(event: PointerEvent): void {
-    this.pressed = { x: event.clientX, y: event.clientY };
+    const isFirst = event.isPrimary || event.pointerType !== "touch";
+    this.pressed = isFirst ? { x: event.clientX, y: event.clientY } : null;
     const { app } = this;
-    if (event.button !== 0 || this.tool === "draw" || !app.canEdit) return;
-    this.drag = dragOfTarget(app, event, this.tool === "look" && !app.isEye()) ?? dragOfBox(app, event);
-    if (!this.drag) return;
+    if (this.drag || !isFirst || event.button !== 0 || this.tool === "draw" || !app.canEdit) return;
+    const follow = dragOfTarget(app, event, this.tool === "look" && !app.isEye()) ?? dragOfBox(app, event);
+    if (!follow) return;
+    this.drag = { follow, pointer: event.pointerId, mission: app.mission };
     app.stage.controls.enabled = false;
     app.stage.canvas.setPointerCapture(event.pointerId);
   }
 
   private move(event: PointerEvent): void {
-    if (this.drag) return this.drag(event);
+    const { drag } = this;
+    if (drag?.mission === this.app.mission) return drag.pointer === event.pointerId ? drag.follow(event) : undefined;
+    if (drag) this.letGo(); // it is of a mission that was replaced
     if (event.buttons !== 0) return;
     const { app } = this;
     const tip = element("tip");
@@ -109,25 +140,30 @@ export class Tools {
     const { pressed } = this;
     this.pressed = null;
     const isClick = pressed !== null && Math.hypot(event.clientX - pressed.x, event.clientY - pressed.y) <= CLICK_PIXELS;
-    if (this.drag) this.endDrag();
+    if (this.drag) this.endDrag(event);
     else if (isClick && event.button === 0) this.click(event);
   }
 
-  private endDrag(): void {
-    if (!this.drag) return;
+  private endDrag({ pointerId }: PointerEvent): void {
+    if (this.drag?.pointer !== pointerId) return;
+    this.letGo();
+    this.app.keep();
+  }
+
+  private letGo(): void {
     this.drag = null;
     this.app.stage.controls.enabled = true;
-    this.app.keep();
+    this.app.changed();
   }
 
   private click(event: PointerEvent): void {
     if (this.tool === "look") return;
-    if (this.tool === "draw" && this.plane) return this.drawCorner(event, this.plane);
+    if (this.tool === "draw" && this.plane && this.app.drawn.length > 0) return this.drawCorner(event, this.plane);
     const hit = this.app.city.hit(this.app.stage.ray(event));
     if (!hit) return say("There is no surface here: click the ground, a roof or a wall", true);
     if (this.tool === "draw") {
       this.plane = hit.plane;
-      this.drawn = [hit.point];
+      this.app.drawn = [hit.point];
       this.showDrawn();
     } else if (this.tool === "pick") {
       this.pick(hit);
@@ -153,21 +189,21 @@ export class Tools {
 
   private drawCorner(event: PointerEvent, plane: Plane): void {
     const corner = this.app.target.cornerAt(event, this.app.stage);
-    if (corner === 0 && this.drawn.length >= 3) return this.finish();
+    if (corner === 0 && this.app.drawn.length >= 3) return this.finish();
     if (corner >= 0) return; // the second click of a double one
     const at = onPlane(this.app, event, plane);
     if (!at) return;
-    this.drawn.push(at);
+    this.app.drawn.push(at);
     this.showDrawn();
   }
 
   private showDrawn(): void {
-    const fault = this.drawn.length >= 3 ? faultOf(this.drawn) : null;
-    const told = fault && { at: this.drawn[fault.corner]!, reason: fault.reason };
-    this.app.target.show([this.drawn], { isEditable: true, isOpen: true, fault: told });
-    this.app.stage.request();
+    const { app } = this;
+    const fault = app.drawn.length >= 3 ? faultOf(app.drawn) : null;
+    app.showMission();
+    app.changed();
     if (fault) say(`${fault.reason}, or press Del`, true);
-    else say(this.drawn.length >= 3 ? "Enter, a double click, or a click on the first corner ends it" : HINTS.draw);
+    else say(app.drawn.length >= 3 ? "Enter, a double click, or a click on the first corner ends it" : HINTS.draw);
   }
 
   private pick(hit: Hit): void {

@@ -105,6 +105,22 @@ export class Stage {
     this.request();
   }
 
+  /** About what is looked at: degrees clockwise and upward; `factor`: of the distance to it. */
+  turn(clockwise: number, upward: number, factor = 1): void {
+    const { camera, controls } = this;
+    const from = camera.position.clone().sub(controls.target);
+    const distance = from.length();
+    const radians = Math.PI / 180;
+    const polar = Math.acos(from.z / distance) - upward * radians;
+    const angle = Math.atan2(from.y, from.x) - clockwise * radians;
+    // Straight down there would be no direction to turn back to.
+    const { sin, cos } = Math;
+    const down = Math.max(0.01, Math.min(controls.maxPolarAngle - 0.01, polar));
+    from.set(sin(down) * cos(angle), sin(down) * sin(angle), cos(down)).multiplyScalar(distance * factor);
+    camera.position.copy(controls.target).add(from);
+    controls.update();
+  }
+
   hasEye(): boolean {
     return this.outside !== null;
   }
