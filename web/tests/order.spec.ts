@@ -34,7 +34,7 @@ const openBody = (page: Page, body: string) => page.evaluate((text) => {
   (window as any).opened = (window as any).vantage.openMission(text).then(() => "opened", (error: Error) => error.message);
 }, body);
 const opened = (page: Page) => page.evaluate(() => (window as any).opened as Promise<string>);
-const edit = (page: Page, range: number) => page.evaluate((value) => (window as any).vantage.edit((m: any) => (m.range = value), true), range);
+const edit = (page: Page, range: number) => page.evaluate((value) => (window as any).vantage.edit((m: any) => (m.maxRange = value), true), range);
 
 /** That the volume which is shown is the one that the engine has, of the mission as it is. */
 async function agrees(page: Page): Promise<void> {
@@ -57,7 +57,7 @@ test("what is edited while a mission is opened wins over it", async ({ page }) =
   await release();
   expect(await opened(page)).toContain("open it again");
   await settled(page);
-  expect(await mission(page)).toEqual({ ...before, range: 40 });
+  expect(await mission(page)).toEqual({ ...before, maxRange: 40 });
   const { radius, target } = await page.evaluate(() => {
     const { info } = (window as any).vantage.volume;
     return { radius: info.range_m as number, target: info.target[0] as number[][] };
@@ -117,7 +117,7 @@ test("what is computed for a target that is gone is not shown with the next one"
     const app = (window as any).vantage;
     const { target } = app.mission;
     app.edit((m: any) => (m.target = null), true);
-    app.edit((m: any) => Object.assign(m, { target, range: 50 }), true);
+    app.edit((m: any) => Object.assign(m, { target, maxRange: 50 }), true);
   });
   await release();
   await expect.poll(() => page.evaluate(() => (window as any).vantage.volume?.info.range_m as number)).toBe(50);
@@ -174,11 +174,11 @@ test("a volume that arrives leaves the corners being drawn, and undo takes the l
   expect(await corners()).toBe(1);
   await page.keyboard.press("Control+y"); // nothing of the mission under it
   expect(await corners()).toBe(1);
-  expect((await mission(page)).range).toBe(50);
+  expect((await mission(page)).maxRange).toBe(50);
   await page.keyboard.press("Control+z"); // no corner is left: the target is shown again
   expect(await corners()).toBe(before.target.vertices.length);
-  expect((await mission(page)).range).toBe(50);
+  expect((await mission(page)).maxRange).toBe(50);
   await page.keyboard.press("Control+z");
   await settled(page);
-  expect((await mission(page)).range).toBe(60);
+  expect((await mission(page)).maxRange).toBe(60);
 });
