@@ -4,7 +4,7 @@ import type { Point, PointAnswer, SceneInfo, Section, ViewMesh } from "./engine/
 import { History } from "./model/history";
 import { emptyMission, missionFrom, missionText, sceneText, type Mission } from "./model/mission";
 import { faultOf } from "./model/polygon";
-import { hasBadNews, metres, say } from "./ui/page";
+import { hasBadNews, metres, say, unsay } from "./ui/page";
 import { seenFrom } from "./ui/results";
 import { City } from "./view/city";
 import { BoxesView, ProbeView, SectionView } from "./view/marks";
@@ -13,6 +13,9 @@ import { TargetView } from "./view/target";
 import { VolumeView } from "./view/volume";
 
 export type Listener = () => void;
+
+const LATE_MS = 500;
+const LATE = "Computing… What is shown is still the last volume";
 
 export interface Cut {
   axis: 0 | 1 | 2;
@@ -198,6 +201,7 @@ export class App {
     if (!mission) return;
     this.mission = mission;
     this.dragged = null;
+    say("");
     this.showMission();
     void this.compute();
   }
@@ -239,6 +243,7 @@ export class App {
   private async run(turn: number, mission: Mission, isDraft: boolean): Promise<void> {
     const { target } = mission;
     const fault = target?.kind === "polygon" ? faultOf(target.vertices) : null;
+    const late = setTimeout(() => turn === this.turn && say(LATE), LATE_MS);
     try {
       if (fault) throw new Error(`${fault.reason}; the volume shown is that of the last valid target`);
       const volume = await this.engine.compute(missionText(mission, isDraft));
@@ -248,6 +253,8 @@ export class App {
     } catch (error) {
       if (turn >= this.since && this.isNews(turn)) this.fail(error);
     } finally {
+      clearTimeout(late);
+      if (turn === this.turn) unsay(LATE);
       this.settle();
     }
   }
@@ -362,7 +369,7 @@ export class App {
       answer.outside_of.length > 0 ? `outside of ${answer.outside_of.join(", ")}` : "",
     ].filter((text) => text !== "");
     const what = answer.inside ? `Inside: this position sees ${seenFrom(this.volume.info)}` : `Outside: ${why.join("; ") || "not all of the target is visible"}`;
-    say(`${what} · z ${metres(at[2])}${this.isEye() ? " · turn and zoom to fly, Esc ends it" : ""}`);
+    say(`${what} · z ${metres(at[2])}${this.isEye() ? " · turn and zoom to fly; Esc, or Look, ends it" : ""}`);
     this.stage.request();
     this.changed();
   }

@@ -27,8 +27,14 @@ test("limits are typed, between the steps of the sliders and beyond their ends",
   const { range, altitude } = await mission(page);
   expect([range, altitude[0]]).toEqual([63.7, 7.5]);
   await agrees(page);
-  await type("high", "5"); // the end that is moved pushes the other
-  expect((await mission(page)).altitude[0]).toBeLessThan(5);
+  // A limit moves no other one: a ceiling is a law.
+  const { altitude: [, ceiling] } = await mission(page);
+  await type("low", String(ceiling + 10));
+  await expect(page.locator("#hint")).toContainText("not possible");
+  expect((await mission(page)).altitude).toEqual([7.5, ceiling]);
+  await page.locator("#low").fill(String(ceiling + 10));
+  expect((await mission(page)).altitude[1]).toBe(ceiling);
+  expect((await mission(page)).altitude[0]).toBeLessThan(ceiling);
   await type("low", "any");
   await type("high", "");
   expect((await mission(page)).altitude).toBe(null);

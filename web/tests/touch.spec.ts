@@ -78,3 +78,30 @@ test("a corner is removed, and the probe raised, without a keyboard", async ({ p
   await page.locator("#remove-probe").tap();
   await expect(page.locator("#probe-up")).toBeHidden();
 });
+
+test("a finger that scrolls the panel leaves the limits that it touches", async ({ page }) => {
+  await page.setViewportSize({ width: 390, height: 844 });
+  const before = (await mission(page)).altitude;
+  const slider = page.locator("#high");
+  await slider.scrollIntoViewIfNeeded();
+  const { x, y, width, height } = (await slider.boundingBox())!;
+  const touch = await fingers(page);
+  const at = { id: 1, x: x + width * 0.2, y: y + height / 2 };
+  await touch(at);
+  for (let i = 1; i <= 10; ++i) await touch({ ...at, y: at.y - 12 * i });
+  await touch();
+  await settled(page);
+  expect((await mission(page)).altitude).toEqual(before);
+});
+
+test("a long computation says that what is shown is the last volume", async ({ page }) => {
+  await page.evaluate(() => {
+    const app = (window as any).vantage;
+    const ask = app.engine.transport.ask.bind(app.engine.transport);
+    app.engine.transport.ask = (request: unknown) => new Promise((done) => setTimeout(() => done(ask(request)), 1500));
+    app.edit((m: any) => (m.maxRange = 40), true);
+  });
+  await expect(page.locator("#hint")).toContainText("still the last volume");
+  await settled(page);
+  await expect(page.locator("#hint")).toBeHidden();
+});

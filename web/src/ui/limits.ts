@@ -69,20 +69,33 @@ export class Limits {
         app.edit((mission) => limit.set(mission, value), false);
       };
       slider.onchange = () => app.keep();
+      let before: number | null = null;
+      slider.onpointerdown = () => (before = limit.get(app.mission));
+      // A finger that scrolls the panel leaves what it touched as it was.
+      slider.onpointercancel = () => app.edit((mission) => limit.set(mission, before), true);
       const field = input(`${id}-number`);
       field.setAttribute("aria-label", `${limit.name}, ${limit.unit ?? "metres"}`);
       field.onfocus = () => field.select();
       field.onchange = () => {
         const value = /^\s*(any\b.*)?$/.test(field.value) ? null : Number.parseFloat(field.value.replace(",", "."));
-        if (value === null || Number.isFinite(value)) app.edit((mission) => limit.set(mission, value), true);
-        else say(`${limit.name}: write a number, or "any"`, true);
+        if (value !== null && !Number.isFinite(value)) say(`${limit.name}: write a number, or "any"`, true);
+        else if (this.isPossible(limit, value)) app.edit((mission) => limit.set(mission, value), true);
+        else say(`${limit.name} ${field.value}: not possible, or not beside the other limits. It stays as it was`, true);
         field.value = this.textOf(limit);
       };
     }
     app.onChange(() => this.show());
   }
 
-  /** One end of a band. The end that is moved pushes the other one before it. */
+  /** Whether a number that was typed can be set as it is. */
+  private isPossible(limit: Limit, value: number | null): boolean {
+    const tried = structuredClone(this.app.mission);
+    limit.set(tried, value);
+    const made = limit.get(tried);
+    return value === null || made === null || Math.abs(made - value) <= tried.grain;
+  }
+
+  /** One end of a band, which stops before the other one: no limit changes but the one that is moved. */
   private end(name: string, band: "altitude" | "agl", end: 0 | 1): Limit {
     const from = band === "altitude" ? "low" : "low-agl";
     return {
@@ -93,7 +106,7 @@ export class Limits {
         made[end] = value;
         const [low, high] = made;
         const step = Number(input(from).step);
-        if (low !== null && high !== null && low >= high) made[1 - end] = made[end]! + (end === 0 ? step : -step);
+        if (low !== null && high !== null && low >= high) made[end] = made[1 - end]! + (end === 0 ? -step : step);
         mission[band] = made.every((one) => one === null) ? null : made;
       },
     };

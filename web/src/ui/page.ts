@@ -16,6 +16,11 @@ export function say(text: string, isBad = false): void {
   hint.hidden = text === "";
 }
 
+/** Takes back what was said, if that is still there. */
+export function unsay(text: string): void {
+  if (element("hint").textContent === text) say("");
+}
+
 /** Whether what was said last is an error. */
 export const hasBadNews = () => element("hint").classList.contains("bad");
 

@@ -7,8 +7,8 @@ import { isAt, setEnds } from "./limits";
 import { button, element, input, large, metres } from "./page";
 
 const KIND_NAMES: Record<string, string> = {
-  scene: "a building begins to hide it", range: "the range", target_plane: "the target's plane",
-  navigation: "where you may fly", sensor: "the sensor",
+  scene: "a building begins to hide it", range: "the longest range", target_plane: "the target's plane",
+  navigation: "flight limits and boxes", sensor: "the camera",
 };
 
 /** What each position of a volume sees: "all of the target". */

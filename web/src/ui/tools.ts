@@ -108,6 +108,7 @@ export class Tools {
 
   /** More fingers than one turn and zoom the view, and leave what the first drags to it. */
   private press(event: PointerEvent): void {
+    element("tip").hidden = true;
     const isFirst = event.isPrimary || event.pointerType !== "touch";
     this.pressed = isFirst ? { x: event.clientX, y: event.clientY } : null;
     const { app } = this;
@@ -210,6 +211,7 @@ export class Tools {
     if (this.isOnGround(hit)) return void this.pickPlace(hit);
     const part = Math.abs(hit.plane.normal[2]) > 0.35 ? "roof" : "facade";
     this.take({ kind: "face", object: hit.object, part, nearest: hit.point });
+    say("All of this surface. To choose the corners yourself, draw a target");
   }
 
   /** A mesh of one object does not say which of it is the ground: what lies lowest is. */
