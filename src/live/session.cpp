@@ -137,7 +137,7 @@ Json limits_of(const Mission& mission) {
 Json claim_of(const Mission& mission) {
   const auto& visible = mission.sensor.visible;
   const bool is_any =
-      std::any_of(mission.views.begin(), mission.views.end(), [](const auto& l) { return l.size() > 1; });
+      std::any_of(mission.views.begin(), mission.views.end(), [](const auto& targets) { return targets.size() > 1; });
   return {{"visible", visible ? visible->share : 1.0}, {"combine", name_of(is_any ? Combine::any : Combine::all)}};
 }
 

@@ -15,7 +15,8 @@ import { VolumeView } from "./view/volume";
 export type Listener = () => void;
 
 const LATE_MS = 500;
-const LATE = "Computing… What is shown is still the last volume";
+const LATE_FIRST = "Computing…";
+const LATE = `${LATE_FIRST} What is shown is still the last volume`;
 
 export interface Cut {
   axis: 0 | 1 | 2;
@@ -243,7 +244,7 @@ export class App {
   private async run(turn: number, mission: Mission, isDraft: boolean): Promise<void> {
     const { target } = mission;
     const fault = target?.kind === "polygon" ? faultOf(target.vertices) : null;
-    const late = setTimeout(() => turn === this.turn && say(LATE), LATE_MS);
+    const late = setTimeout(() => turn === this.turn && say(this.volume ? LATE : LATE_FIRST), LATE_MS);
     try {
       if (fault) throw new Error(`${fault.reason}; the volume shown is that of the last valid target`);
       const volume = await this.engine.compute(missionText(mission, isDraft));
@@ -254,7 +255,7 @@ export class App {
       if (turn >= this.since && this.isNews(turn)) this.fail(error);
     } finally {
       clearTimeout(late);
-      if (turn === this.turn) unsay(LATE);
+      if (turn === this.turn) unsay(LATE, LATE_FIRST);
       this.settle();
     }
   }

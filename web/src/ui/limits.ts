@@ -47,8 +47,8 @@ export class Limits {
     near: {
       name: "Nearest", open: "min", get: (m) => m.minRange || null, set: (m, value) => (m.minRange = Math.max(0, Math.min(value ?? 0, m.range * 0.9))),
     },
-    low: this.end("Lowest", "altitude", 0),
-    high: this.end("Highest", "altitude", 1),
+    low: this.end("Lowest altitude", "altitude", 0),
+    high: this.end("Highest altitude", "altitude", 1),
     "low-agl": this.end("Lowest above ground", "agl", 0),
     "high-agl": this.end("Highest above ground", "agl", 1),
     slant: {

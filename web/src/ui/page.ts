@@ -16,9 +16,9 @@ export function say(text: string, isBad = false): void {
   hint.hidden = text === "";
 }
 
-/** Takes back what was said, if that is still there. */
-export function unsay(text: string): void {
-  if (element("hint").textContent === text) say("");
+/** Takes back what was said last, if it is one of these. */
+export function unsay(...texts: string[]): void {
+  if (texts.includes(element("hint").textContent ?? "")) say("");
 }
 
 /** Whether what was said last is an error. */
