@@ -2,6 +2,7 @@
 import { expect, test as plain, type Page } from "@playwright/test";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
+import { gzipSync } from "node:zlib";
 import { copiedLink, hasVolume, mission, open, openExample, page_url, plaza, settled, test, volume } from "./support";
 
 plain("without WebGL the page says so", async ({ page }) => {
@@ -77,6 +78,8 @@ test("where a link cannot be made, the reason is said", async ({ page }) => {
   await expect(page.locator("#hint")).toContainText("move its target in the file");
 });
 
+const packedLink = (link: object) => gzipSync(JSON.stringify(link)).toString("base64url");
+
 const TENT = "v -20 -20 0\nv 20 -20 0\nv 20 20 0\nv -20 20 0\nf 1 2 3 4\nv 8 8 0\nv 12 8 0\nv 10 12 0\nv 10 10 9\nf 5 6 8\nf 6 7 8\nf 7 5 8\n";
 const SMALL = "target: {vertices: [[-5, -5, 0], [5, -5, 0], [0, 5, 0]]}\nsensor: {max_range: 11}\n";
 const sceneName = (page: Page) => page.evaluate(() => (window as any).vantage?.source.name as string);
@@ -146,11 +149,7 @@ test("a link that waits for a file does not take another one of the same name", 
 
 test("links of earlier versions open", async ({ page }) => {
   await openExample(page);
-  const packed = await page.evaluate(async (text) => {
-    const stream = new Blob([text]).stream().pipeThrough(new CompressionStream("gzip"));
-    const bytes = new Uint8Array(await new Response(stream).arrayBuffer());
-    return btoa(String.fromCharCode(...bytes)).replaceAll("+", "-").replaceAll("/", "_").replaceAll("=", "");
-  }, JSON.stringify({ scene: "plaza.obj", section: { mesh: "plaza.obj", up: "z" }, mission: SMALL.replaceAll(", 0]", ", 1]") }));
+  const packed = packedLink({ scene: "plaza.obj", section: { mesh: "plaza.obj", up: "z" }, mission: SMALL.replaceAll(", 0]", ", 1]") });
   await page.goto("about:blank");
   await page.goto(`${page_url}#${packed}`);
   await expect.poll(() => range(page)).toBe(11);
@@ -163,11 +162,7 @@ test("a mission that is too long is refused before the engine has it", async ({ 
   await open(page, { name: "long.yaml", text: `${SMALL}${long}` });
   await expect(page.locator("#hint")).toContainText("1 MiB");
   for (const mission of [`${SMALL}${long}`, `${SMALL}${long.repeat(9)}`]) {
-    const packed = await page.evaluate(async (text) => {
-      const stream = new Blob([text]).stream().pipeThrough(new CompressionStream("gzip"));
-      const bytes = new Uint8Array(await new Response(stream).arrayBuffer());
-      return btoa([...bytes].map((byte) => String.fromCharCode(byte)).join("")).replaceAll("+", "-").replaceAll("/", "_").replaceAll("=", "");
-    }, JSON.stringify({ scene: "plaza.obj", section: { mesh: "plaza.obj", up: "z" }, mission }));
+    const packed = packedLink({ scene: "plaza.obj", section: { mesh: "plaza.obj", up: "z" }, mission });
     await page.keyboard.press("Escape");
     await page.goto(`${page_url}#${packed}`);
     await expect(page.locator("#hint")).toContainText("1 MiB");

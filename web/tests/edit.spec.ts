@@ -1,20 +1,8 @@
 // Everything that can be edited, and that files keep what the page cannot.
 import { expect, type Page } from "@playwright/test";
-import { readFileSync } from "node:fs";
-import { join } from "node:path";
-import { byProgram, drag, mission, onScreen, open, openExample, plaza, savedMission, settled, test, volume } from "./support";
+import { agrees, drag, mission, onScreen, open, openExample, plazaMesh, settled, test, volume } from "./support";
 
 test.beforeEach(({ page }) => openExample(page));
-
-const mesh = { name: "plaza.obj", text: readFileSync(join(plaza, "plaza.obj"), "utf8") };
-
-/** With the program: surfaces that approximate the same round ones differ by the tolerance at most, 1 cm here. */
-async function agrees(page: Page): Promise<string> {
-  const text = await savedMission(page);
-  const area = await page.evaluate(() => (window as any).vantage.volume.info.area_m2 as number);
-  expect(Math.abs((await volume(page)) - byProgram(text))).toBeLessThan(0.01 * area);
-  return text;
-}
 
 test("limits are typed, between the steps of the sliders and beyond their ends", async ({ page }) => {
   const type = async (id: string, text: string) => {
@@ -179,7 +167,7 @@ navigation:
 exact:
   tolerance: 0.02
 `;
-  await open(page, { name: "fair.yaml", text: written }, mesh);
+  await open(page, { name: "fair.yaml", text: written }, plazaMesh);
   await expect.poll(async () => (await mission(page)).range).toBe(60);
   await settled(page);
   const unchanged = await agrees(page);
@@ -203,7 +191,7 @@ targets:
   - {name: b, vertices: [[2, 2, 0], [6, 2, 0], [6, 5, 0]]}
 sensor: {max_range: 60}
 `;
-  await open(page, { name: "two.yaml", text }, mesh);
+  await open(page, { name: "two.yaml", text }, plazaMesh);
   await expect.poll(async () => (await mission(page)).target?.kind).toBe("written");
   await settled(page);
   await agrees(page);

@@ -1,12 +1,9 @@
 // Limits as files have them: each control sets its own key, and an end that is open is none.
 import { expect, type Page } from "@playwright/test";
-import { readFileSync } from "node:fs";
-import { join } from "node:path";
-import { byProgram, drag, mission, onScreen, open, openExample, plaza, savedMission, settled, test, volume } from "./support";
+import { agrees, drag, mission, onScreen, open, openExample, plazaMesh, savedMission, settled, test, volume } from "./support";
 
 test.beforeEach(({ page }) => openExample(page));
 
-const mesh = { name: "plaza.obj", text: readFileSync(join(plaza, "plaza.obj"), "utf8") };
 const square = "vertices: [[-8, -8, 0], [4, -8, 0], [4, 3, 0], [-8, 3, 0]]";
 const camera = "camera: {model: sony_a7r_iv_35mm}";
 
@@ -22,7 +19,7 @@ async function drawn(page: Page): Promise<void> {
 /** Until it is there: the page may show the same mission already. */
 async function reopen(page: Page, text: string): Promise<void> {
   const before = await page.evaluateHandle(() => (window as any).vantage.mission.opened);
-  await open(page, { name: "m.yaml", text }, mesh);
+  await open(page, { name: "m.yaml", text }, plazaMesh);
   await expect.poll(() => page.evaluate((old) => {
     const { mission, volume } = (window as any).vantage;
     return mission.written !== "" && mission.opened !== old && Boolean(volume);
@@ -40,17 +37,6 @@ async function type(page: Page, id: string, text: string): Promise<void> {
 }
 
 const heights = (page: Page) => page.evaluate(() => (window as any).vantage.volumeView.heights() as [number, number]);
-
-const failure = (page: Page) => page.evaluate(() => (window as any).vantage.failure as string);
-
-/** With the program: surfaces that approximate the same round ones differ by the tolerance at most, 1 cm here. */
-async function agrees(page: Page): Promise<string> {
-  expect(await failure(page)).toBe("");
-  const text = await savedMission(page);
-  const area = await page.evaluate(() => (window as any).vantage.volume.info.area_m2 as number);
-  expect(Math.abs((await volume(page)) - byProgram(text))).toBeLessThan(0.01 * area);
-  return text;
-}
 
 test("a height beyond the end of its slider is a limit", async ({ page }) => {
   await opened(page, "max_range: 300");
@@ -265,4 +251,14 @@ test("without a target nothing is said of the last volume", async ({ page }) => 
   await page.evaluate(() => (window as any).vantage.edit((m: any) => (m.target = null), true));
   await expect(page.locator("#status")).toHaveText("No target yet");
   await expect(page.locator("#cut-out")).not.toContainText("m²");
+});
+
+test("a target that is raised is drawn where it is, and stays there when it is dragged", async ({ page }) => {
+  await openMission(page, `target: {${square}, offset: 2}\nsensor: {max_range: 60}\n`);
+  await agrees(page);
+  const corner = (await mission(page)).target.vertices[0];
+  expect(corner).toEqual([-8, -8, 2]);
+  await drag(page, corner, { x: 8, y: 0 });
+  for (const [, , z] of (await mission(page)).target.vertices) expect(z).toBeCloseTo(2, 6);
+  expect(await agrees(page)).not.toContain("offset");
 });

@@ -10,6 +10,7 @@ export const root = fileURLToPath(new URL("../..", import.meta.url));
 export const page_url = pathToFileURL(join(root, "web/dist/index.html")).href;
 export const program = process.env.VANTAGE ?? join(root, "build/bin/vantage");
 export const plaza = join(root, "examples/plaza");
+export const plazaMesh = { name: "plaza.obj", text: readFileSync(join(plaza, "plaza.obj"), "utf8") };
 export const shared = process.env.VANTAGE_SHARED ?? resolve(root, "../shared");
 export const hasShared = existsSync(join(shared, "data"));
 
@@ -80,6 +81,15 @@ export async function saved(page: Page, format: string): Promise<string> {
 }
 
 export const savedMission = async (page: Page) => readFileSync(await saved(page, "mission"), "utf8");
+
+/** That the program computes the same volume of the mission that the page saves, whose text this is. */
+export async function agrees(page: Page): Promise<string> {
+  expect(await page.evaluate(() => (window as any).vantage.failure as string)).toBe("");
+  const text = await savedMission(page);
+  const [own, other] = [await volume(page), byProgram(text)];
+  expect(Math.abs(own - other)).toBeLessThanOrEqual(1e-12 * other);
+  return text;
+}
 
 /** Opens files as if they were dropped. */
 export const open = (page: Page, ...files: { name: string; text: string }[]) =>
