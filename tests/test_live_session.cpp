@@ -167,7 +167,13 @@ TEST_F(LiveSession, ShowsTheVolumeOfSeveralTargets) {
   write("several.ply", first.bytes());
   second.open_file(folder_ / "several.yaml");
   second.show_volume(folder_ / "several.ply");
-  EXPECT_EQ(Json::parse(second.hello())["volume"]["claim"]["combine"], "any");
+  const Json volume = Json::parse(second.hello())["volume"];
+  EXPECT_EQ(volume["claim"]["combine"], "any");
+  EXPECT_GT(volume["causes"].size(), 1U);
+  first.save("stl");
+  write("several.stl", first.bytes());
+  second.show_volume(folder_ / "several.stl");
+  EXPECT_EQ(Json::parse(second.hello())["volume"]["causes"], Json::parse(R"([{"kind": "unknown", "name": ""}])"));
 }
 
 TEST_F(LiveSession, AVolumeIsKeptWhileALimitIsDragged) {

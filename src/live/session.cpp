@@ -238,6 +238,7 @@ void Session::run(const Progress& progress) {
 void Session::show_volume(const std::filesystem::path& volume, const Progress& progress) {
   Mission mission = *mission_;
   VolumeFile file = read_volume(volume, mission.scene(), progress);
+  const bool has_causes = !file.volume.cause_of.empty();
   const VerifyOptions known = verify_options(file, mission);
   const std::vector<Warning> warnings = volume_warnings(file, mission);
   Volume& read = file.volume;
@@ -248,13 +249,14 @@ void Session::show_volume(const std::filesystem::path& volume, const Progress& p
                 volume.string(), "give a volume that 'vantage compute' wrote");
   }
   if (read.cause_of.empty()) {
-    read.causes = {{CauseKind::scene, "the file of the volume does not say"}};
+    read.causes.resize(1);
     read.cause_of.assign(read.mesh.triangles.size(), 0);
   }
   read.frame = prepare_views(mission, computed_in_->prepared).front().front().frame();  // of several targets, the first
   Result result;
   result.volume = std::move(read);
   take_volume(std::move(mission), computed_in_, std::move(result));
+  has_causes_ = has_causes;
   prove_options_ = {.rounding_m = known.rounding_m, .lift_m = known.lift_m};
 }
 
@@ -306,6 +308,7 @@ void Session::take_volume(Mission mission, ScenePointer scene, Result result) {
   mission_ = std::make_shared<const Mission>(std::move(mission));
   computed_in_ = std::move(scene);
   result_.emplace(std::move(result));
+  has_causes_ = true;
   prove_options_ = {.lift_m = result_->volume.lift_m};
   proof_.reset();
   queries_.clear();
@@ -327,7 +330,7 @@ std::string Session::volume_json() const {
                       {"volume_m3", enclosed_volume(volume.mesh)},
                       {"area_m2", surface_area(volume.mesh)},
                       {"facets", volume.mesh.triangles.size()},
-                      {"causes", causes_of(volume)},
+                      {"causes", has_causes_ ? causes_of(volume) : Json{{{"kind", "unknown"}, {"name", ""}}}},
                       {"notes", json(volume.notes)},
                       {"resolve_ms", resolve_ms_},
                       {"compute_ms", compute_ms_},

@@ -104,6 +104,7 @@ class Session {
   ScenePointer computed_in_;
   std::optional<Result> result_;
   ProveOptions prove_options_;
+  bool has_causes_ = true;  ///< some formats of files have no room for them
   std::optional<ProofReport> proof_;
   /// Of each list of targets of which one must be seen (Mission::views); empty: not prepared yet.
   std::vector<std::vector<std::shared_ptr<PointQuery>>> queries_;

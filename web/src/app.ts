@@ -2,7 +2,7 @@
 import { placeOf, toldBy, type Engine, type Volume } from "./engine/client";
 import type { Point, PointAnswer, SceneInfo, Section, ViewMesh } from "./engine/messages";
 import { History } from "./model/history";
-import { emptyMission, missionFrom, missionText, sceneText, type Mission } from "./model/mission";
+import { emptyMission, missionFrom, missionText, sceneText, type Mission, type PolygonTarget } from "./model/mission";
 import { faultOf } from "./model/polygon";
 import { hasBadNews, metres, say, unsay } from "./ui/page";
 import { seenFrom } from "./ui/results";
@@ -207,13 +207,26 @@ export class App {
     void this.compute();
   }
 
+  /** The target as corners that can be dragged; null: it has none, or more than one part. */
+  polygon(): PolygonTarget | null {
+    const { target } = this.mission;
+    if (target?.kind === "polygon") return target;
+    const { volume, shownOf } = this;
+    // Of a surface that was picked the volume tells the corners.
+    if (!target || target.kind === "written" || !volume || JSON.stringify(target) !== JSON.stringify(shownOf?.target)) return null;
+    const [vertices, ...others] = volume.info.target;
+    if (!vertices || vertices.length < 3 || others.length > 0) return null;
+    return { kind: "polygon", vertices, front: volume.info.normal };
+  }
+
   showMission(): void {
     const { target } = this.mission;
+    const polygon = this.polygon();
     if (this.drawn.length > 0) {
       const fault = this.drawn.length >= 3 ? this.fault(this.drawn) : null;
       this.target.show([this.drawn], { isEditable: true, isOpen: true, fault });
-    } else if (target?.kind === "polygon") {
-      this.target.show([target.vertices], { isEditable: this.canEdit, fault: this.fault(target.vertices) });
+    } else if (polygon) {
+      this.target.show([polygon.vertices], { isEditable: this.canEdit, fault: this.fault(polygon.vertices) });
     } else {
       this.target.show(target ? (this.volume?.info.target ?? []) : [], { isEditable: false });
     }

@@ -134,6 +134,12 @@ test("a roof and a wall are picked", async ({ page }) => {
     await settled(page);
     await agrees(page);
   }
+  // It has corners like any other target, once it is there.
+  const [corners] = await page.evaluate(() => (window as any).vantage.volume.info.target as number[][][]);
+  await drag(page, corners![0]!, { x: 6, y: 4 });
+  const { target } = await mission(page);
+  expect(target.vertices.slice(1)).toEqual(corners!.slice(1));
+  expect(target.vertices[0]).not.toEqual(corners![0]);
 });
 
 test("on the ground the flat place around a click is picked", async ({ page }) => {

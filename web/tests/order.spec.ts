@@ -151,7 +151,8 @@ test("the outline of a cut goes with its volume", async ({ page }) => {
   await edit(page, 40);
   await settled(page);
   expect(await page.evaluate(() => (window as any).vantage.sectionView.lines.geometry.getAttribute("position").count)).toBe(0);
-  await expect(page.locator("#cut-out")).toHaveText("20 m");
+  await expect(page.locator("#cut-number")).toHaveValue("20 m");
+  await expect(page.locator("#cut-out")).toHaveText("");
 });
 
 test("a volume that arrives leaves the corners being drawn, and undo takes the last of them back", async ({ page }) => {

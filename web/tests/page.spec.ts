@@ -74,7 +74,15 @@ test("the volume is proved, cut and saved", async ({ page }) => {
   await page.click("#prove");
   await expect(page.locator("#proof")).toContainText("Proved");
   await page.locator("#cut").fill("20");
-  await expect(page.locator("#cut-out")).toContainText("20 m, ");
+  await expect(page.locator("#cut-out")).toContainText("m²");
+  const area = await page.locator("#cut-out").textContent();
+  await page.locator("#cut-number").fill("33,5");
+  await page.locator("#cut-number").press("Enter");
+  expect(await page.evaluate(() => (window as any).vantage.cut.at)).toBe(33.5);
+  await expect(page.locator("#cut-out")).not.toHaveText(area!);
+  await page.locator("#cut-number").fill("high");
+  await page.locator("#cut-number").press("Enter");
+  await expect(page.locator("#cut-number")).toHaveValue("33.5 m");
   for (const format of ["ply", "glb", "stl", "picture"]) {
     expect(readFileSync(await saved(page, format)).length).toBeGreaterThan(1000);
   }

@@ -48,7 +48,7 @@ export interface Limits {
   keep_out: Box[];
 }
 
-export type CauseKind = "scene" | "range" | "target_plane" | "navigation" | "sensor";
+export type CauseKind = "scene" | "range" | "target_plane" | "navigation" | "sensor" | "unknown";
 
 export interface VolumeInfo {
   /** of the target */

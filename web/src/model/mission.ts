@@ -3,9 +3,15 @@ import { Document, isMap, isSeq, parseDocument, type Node, type YAMLMap, type YA
 import type { Box, Point, SceneInfo, VolumeInfo } from "../engine/messages";
 import { farHeight, readBand, writeBand, type Band, type BandKey } from "./heights";
 
+export interface PolygonTarget {
+  kind: "polygon";
+  vertices: Point[];
+  front?: Point;
+}
+
 /** A polygon, faces of an object of the scene, an area of its map, or what the file says and the page cannot edit (several polygons). */
 export type Target =
-  | { kind: "polygon"; vertices: Point[]; front?: Point }
+  | PolygonTarget
   | { kind: "face"; object: string; part: "roof" | "facade"; nearest: Point }
   | { kind: "area"; osm: string }
   | { kind: "written" };

@@ -31,8 +31,8 @@ function planeOf(app: App, vertices: Point[]): Plane {
 
 /** A corner, or all of the polygon where the pointer is on its inside; null: it is on neither. */
 export function dragOfTarget(app: App, event: Pointer, isFillDragged: boolean): Drag | null {
-  const { target } = app.mission;
-  if (target?.kind !== "polygon") return null;
+  const target = app.polygon();
+  if (!target) return null;
   const corner = app.target.cornerAt(event, app.stage);
   if (corner < 0 && !(isFillDragged && app.target.isHit(app.stage.ray(event)))) return null;
   const { vertices, front } = target;

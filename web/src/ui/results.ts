@@ -4,11 +4,11 @@ import type { Volume } from "../engine/client";
 import type { VolumeInfo } from "../engine/messages";
 import { KIND_COLOURS } from "../view/stage";
 import { isAt, setEnds } from "./limits";
-import { button, element, input, large, metres } from "./page";
+import { button, element, input, large, metres, say } from "./page";
 
 const KIND_NAMES: Record<string, string> = {
   scene: "a building begins to hide it", range: "the longest range", target_plane: "the target's plane",
-  navigation: "flight limits and boxes", sensor: "the camera",
+  navigation: "flight limits and boxes", sensor: "the camera", unknown: "not told by the file of the volume",
 };
 
 /** What each position of a volume sees: "all of the target". */
@@ -25,6 +25,9 @@ export class Results {
 
   constructor(private readonly app: App) {
     input("cut").oninput = () => this.readCut();
+    const field = input("cut-number");
+    field.onfocus = () => field.select();
+    field.onchange = () => this.typeCut(field.value);
     element<HTMLSelectElement>("cut-axis").onchange = () => {
       this.fitCut();
       input("cut").value = input("cut").max;
@@ -50,9 +53,20 @@ export class Results {
     const slider = input("cut");
     const wasOff = this.app.cut === null;
     const size = Math.max(scene.max[0] - scene.min[0], scene.max[1] - scene.min[1]);
-    const top = scene.max[axis] + (axis === 2 ? size / 3 : 0);
-    setEnds(slider, Math.floor(Math.log10(size / 300)), scene.min[axis], top);
-    if (wasOff) slider.value = slider.max;
+    if (slider.matches(":active")) return; // what is dragged must not move under the pointer
+    const heights = axis === 2 && (this.app.volume?.info.facets ?? 0) > 0 ? this.app.volumeView.heights() : null;
+    const [low, high] = heights ?? [scene.min[axis], scene.max[axis]];
+    setEnds(slider, Math.floor(Math.log10((heights ? high - low : size) / 300)), low, high);
+    slider.value = wasOff ? slider.max : String(this.app.cut!.at);
+  }
+
+  private typeCut(text: string): void {
+    const at = /^\s*(off|any)?\s*$/.test(text) ? null : Number.parseFloat(text.replace(",", "."));
+    if (at === null) this.app.setCut(null);
+    else if (Number.isFinite(at)) this.app.setCut({ axis: this.axis(), at });
+    else say("Cut: write a number, or \"off\"", true);
+    input("cut-number").blur();
+    this.show();
   }
 
   private readCut(): void {
@@ -67,8 +81,9 @@ export class Results {
     const section = volume && this.app.section;
     const failure = this.app.mission.target ? this.app.failure : "";
     this.fitCut();
-    element("cut-out").textContent = cut === null ? "off"
-      : `${metres(cut.at)}${section && cut.axis === 2 ? `, ${large(section.area_m2)} m²` : ""}`;
+    const field = input("cut-number");
+    if (field !== document.activeElement) field.value = cut === null ? "off" : metres(cut.at);
+    element("cut-out").textContent = section && cut?.axis === 2 ? `area ${large(section.area_m2)} m²` : "";
     const status = element("status");
     status.classList.toggle("bad", failure !== "");
     const shown = volume ? ": the volume shown is that of the last valid target" : "";

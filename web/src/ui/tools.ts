@@ -18,6 +18,7 @@ const HINTS: Record<Tool, string> = {
 };
 const LIMITS: Record<string, string> = {
   scene: "hidden by", range: "the range", target_plane: "the target's plane", navigation: "where you may fly:", sensor: "the sensor:",
+  unknown: "the file of the volume does not say what bounds it",
 };
 const CLICK_PIXELS = 5;
 const LOWEST = 0.02; // of the scene's height
@@ -66,8 +67,8 @@ export class Tools {
 
   /** What a keyboard does with Del, Page Up and Page Down, for fingers, where it does something. */
   private showButtons(): void {
-    const { probe, dragged, drawn, mission, canEdit } = this.app;
-    const corners = mission.target?.kind === "polygon" ? mission.target.vertices.length : 0;
+    const { probe, dragged, drawn, canEdit } = this.app;
+    const corners = this.app.polygon()?.vertices.length ?? 0;
     button("remove-corner").hidden = !canEdit || (drawn.length === 0 && (dragged === null || corners <= 3));
     for (const id of ["probe-up", "probe-down", "remove-probe"]) button(id).hidden = !probe;
   }
@@ -98,9 +99,9 @@ export class Tools {
       return this.showDrawn();
     }
     const { app } = this;
-    const { target } = app.mission;
+    const target = app.polygon();
     const { dragged } = app;
-    if (target?.kind !== "polygon" || dragged === null) return say("First drag the corner that is to go", true);
+    if (!target || dragged === null) return say("First drag the corner that is to go", true);
     if (target.vertices.length <= 3) return say("A target has three corners or more", true);
     app.dragged = null;
     app.edit((mission) => (mission.target = { ...target, vertices: target.vertices.filter((_, i) => i !== dragged) }), true);
@@ -112,7 +113,7 @@ export class Tools {
     const isFirst = event.isPrimary || event.pointerType !== "touch";
     this.pressed = isFirst ? { x: event.clientX, y: event.clientY } : null;
     const { app } = this;
-    if (this.drag || !isFirst || event.button !== 0 || this.tool === "draw" || !app.canEdit) return;
+    if (this.drag || !isFirst || event.button !== 0 || this.tool === "draw" || this.tool === "pick" || !app.canEdit) return;
     const follow = dragOfTarget(app, event, this.tool === "look" && !app.isEye()) ?? dragOfBox(app, event);
     if (!follow) return;
     this.drag = { follow, pointer: event.pointerId, mission: app.mission };
@@ -177,8 +178,8 @@ export class Tools {
   private doubleClick(event: MouseEvent): void {
     const { app } = this;
     if (this.tool === "draw") return this.finish();
-    const { target } = app.mission;
-    if (!app.canEdit || this.tool !== "look" || target?.kind !== "polygon" || app.target.cornerAt(event, app.stage) >= 0) return;
+    const target = app.polygon();
+    if (!app.canEdit || this.tool !== "look" || !target || app.target.cornerAt(event, app.stage) >= 0) return;
     const side = app.target.sideAt(event, app.stage);
     if (side < 0) return;
     const to = target.vertices[(side + 1) % target.vertices.length]!;
@@ -211,7 +212,7 @@ export class Tools {
     if (this.isOnGround(hit)) return void this.pickPlace(hit);
     const part = Math.abs(hit.plane.normal[2]) > 0.35 ? "roof" : "facade";
     this.take({ kind: "face", object: hit.object, part, nearest: hit.point });
-    say("All of this surface. To choose the corners yourself, draw a target");
+    say("All of this surface is the target now");
   }
 
   /** A mesh of one object does not say which of it is the ground: what lies lowest is. */

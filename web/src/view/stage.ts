@@ -4,7 +4,7 @@ import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import type { SceneInfo } from "../engine/messages";
 
 export const KIND_COLOURS: Record<string, number> = {
-  scene: 0x0072b2, range: 0xe69f00, target_plane: 0x808086, navigation: 0x009e73, sensor: 0xcc79a7,
+  scene: 0x0072b2, range: 0xe69f00, target_plane: 0x808086, navigation: 0x009e73, sensor: 0xcc79a7, unknown: 0x808086,
 };
 
 export interface Pointer {
