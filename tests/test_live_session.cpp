@@ -173,7 +173,9 @@ TEST_F(LiveSession, ShowsTheVolumeOfSeveralTargets) {
   first.save("stl");
   write("several.stl", first.bytes());
   second.show_volume(folder_ / "several.stl");
-  EXPECT_EQ(Json::parse(second.hello())["volume"]["causes"], Json::parse(R"([{"kind": "unknown", "name": ""}])"));
+  const Json causes = Json::parse(second.hello())["volume"]["causes"];
+  ASSERT_EQ(causes.size(), 1U);
+  EXPECT_EQ(causes[0]["kind"], "unknown");
 }
 
 TEST_F(LiveSession, AVolumeIsKeptWhileALimitIsDragged) {
