@@ -99,8 +99,8 @@ test("meshes and missions are opened, and bad ones lose nothing", async ({ page 
   await expect(page.locator("#hint")).toContainText("other.obj");
   expect(await volume(page)).toBe(before);
   await page.setInputFiles("#file", [join(plaza, "plaza.obj"), join(plaza, "mission.yaml")]);
-  await page.waitForFunction(() => (window as any).vantage.scene.read_ms >= 0 && (window as any).vantage.volume);
   await settled(page);
+  expect(await page.evaluate(() => Boolean((window as any).vantage.source.isExample))).toBe(false);
   expect(await volume(page)).toBe(before);
 });
 

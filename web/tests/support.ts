@@ -51,9 +51,10 @@ export const onScreen = (page: Page, at: readonly number[]): Promise<{ x: number
     return { x: box.left + x, y: box.top + y };
   }, at);
 
-/** Until nothing is computed any more. */
+/** Until nothing is opened or computed any more. */
 export const settled = (page: Page): Promise<void> =>
-  expect.poll(() => page.evaluate(() => (window as any).vantage.engine.isIdle), { timeout: 30_000 }).toBe(true);
+  expect.poll(() => page.evaluate(() => document.body.ariaBusy === "false" && (window as any).vantage.engine.isIdle), { timeout: 30_000 })
+    .toBe(true);
 
 export async function drag(page: Page, from: readonly number[], by: { x: number; y: number }): Promise<void> {
   const { x, y } = await onScreen(page, from);

@@ -35,6 +35,7 @@ export class Files {
   private awaited: Link | null = null;
   /** Files are taken one after the other: a mission is computed in the scene that came with it. */
   private last: Promise<void> = Promise.resolve();
+  private pending = 0;
 
   constructor(private readonly app: App, private readonly example: { mesh: string; mission: string }) {
     const file = input("file");
@@ -52,8 +53,15 @@ export class Files {
   }
 
   private afterwards(work: () => Promise<void>): Promise<void> {
-    this.last = this.last.then(work).catch((error: unknown) => say(toldBy(error), true));
+    this.count(1);
+    this.last = this.last.then(work).catch((error: unknown) => say(toldBy(error), true)).finally(() => this.count(-1));
     return this.last;
+  }
+
+  /** While something is opened the page is busy, for who hears it and for tests. */
+  private count(change: 1 | -1): void {
+    this.pending += change;
+    document.body.ariaBusy = String(this.pending > 0);
   }
 
   /** What the program has, or the link that the address holds, or the example. */
