@@ -145,6 +145,26 @@ TEST(AboveGround, NoVertexLeavesTheBand) {
   }
 }
 
+TEST(AboveGround, AnEndThatLimitsNothingRoundsNothing) {
+  Random random(91);
+  for (const Case& at : kCases) {
+    SCOPED_TRACE(at.scale);
+    const Volume dome = make_hemisphere(at.origin, 60 * at.scale);
+    const Mesh ground = make_hills(random, 50 * at.scale, 6 * at.scale, 12, at.origin);
+    const Volume cut = cut_to_navigation(dome, above(ground, 4 * at.scale, 200 * at.scale));
+    ASSERT_EQ(cut.outcome, Outcome::computed) << cut.reason;
+    const double size_m3 = enclosed_volume(cut.mesh);
+    for (const double far_m : {1e4, 1e9, 1e15, 1e300}) {
+      const Volume other = cut_to_navigation(dome, above(ground, 4 * at.scale, far_m));
+      EXPECT_NEAR(enclosed_volume(other.mesh), size_m3, 1e-12 * size_m3) << "up to " << far_m;
+      const Volume under = cut_to_navigation(dome, above(ground, -far_m, 25 * at.scale));
+      EXPECT_EQ(under.outcome, Outcome::computed) << under.reason;
+      const Volume none = cut_to_navigation(dome, above(ground, far_m, 2 * far_m));
+      EXPECT_EQ(none.mesh.triangles.size(), 0U) << "from " << far_m;
+    }
+  }
+}
+
 TEST(AboveGround, OfPiecesOverEachOtherAllCount) {
   Random random(5);
   Mesh ground = make_hills(random, 50, 3, 6, Vec3::Zero());

@@ -77,6 +77,7 @@ class Builder {
   Solid make_box_of_one_cause(const Box& box, const std::string& name);
   Solid make_zone(const Zone& zone, std::uint32_t cause);
   Solid make_heights(const AboveGround& heights, std::uint32_t cause);
+  std::pair<double, double> heights_near(const AboveGround& heights) const;
 
   Box bounds_, outer_;
   Regions result_;
@@ -126,6 +127,17 @@ void Builder::add_altitude(const Navigation::Altitude& altitude) {
            "altitude min", "altitude max");
 }
 
+/// The two heights, which may be infinite, moved in to where they still lie beyond the volume on the same side, and the
+/// lower one below the upper one: booleans round to a part of the largest coordinate.
+std::pair<double, double> Builder::heights_near(const AboveGround& heights) const {
+  const auto& [min_m, max_m, ground] = heights;
+  const bool has_surface = ground.surface && !ground.surface->empty();
+  const Box at = has_surface ? bounding_box(*ground.surface) : Box{{0, 0, ground.plane_z_m}, {0, 0, ground.plane_z_m}};
+  const double size = outer_.max.z() - outer_.min.z();
+  const double below = outer_.min.z() - at.max.z() - size, above = outer_.max.z() - at.min.z() + size;
+  return {std::clamp(min_m, below - size, above), std::clamp(max_m, below, above + size)};
+}
+
 void Builder::add_above_ground(const AboveGround& limit) {
   const auto& [min_m, max_m, ground] = limit;
   const std::string name = "the band " + metres_from_to(min_m, max_m) + " above the ground";
@@ -140,8 +152,9 @@ void Builder::add_above_ground(const AboveGround& limit) {
   labels.min = label("agl min");
   labels.max = label("agl max");
   labels.edge = label("ground edge");
+  const auto [low, high] = heights_near(limit);
   result_.kept.push_back({RegionKind::above_ground, name,
-                          make_ground_band(*ground.surface, min_m, max_m, outer_, result_.origin, labels)});
+                          make_ground_band(*ground.surface, low, high, outer_, result_.origin, labels)});
 }
 
 /// The part of a zone that lies about the volume, as of boxes; but for its heights above the ground.
@@ -158,13 +171,8 @@ Solid Builder::make_zone(const Zone& zone, std::uint32_t cause) {
 /// What lies between two heights, which may be infinite, above all of the ground above or below it. Empty where there
 /// is no ground.
 Solid Builder::make_heights(const AboveGround& heights, std::uint32_t cause) {
-  const auto& [min_m, max_m, ground] = heights;
-  const bool has_surface = ground.surface && !ground.surface->empty();
-  const Box at = has_surface ? bounding_box(*ground.surface) : Box{{0, 0, ground.plane_z_m}, {0, 0, ground.plane_z_m}};
-  // As good as infinite, and no larger than that: booleans round to a part of the largest coordinate.
-  const double low = std::max(min_m, outer_.min.z() - at.max.z() - 1);
-  const double high = std::min(max_m, outer_.max.z() - at.min.z() + 1);
-  if (!(low < high)) return Solid();
+  const Ground& ground = heights.ground;
+  const auto [low, high] = heights_near(heights);
   const std::uint32_t label = add_source({cause});
   if (ground.surface)
     return make_ground_band(*ground.surface, low, high, outer_, result_.origin, {label, label, label});
