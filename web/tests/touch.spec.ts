@@ -40,6 +40,40 @@ test("a second finger does not take the corner from the first", async ({ page })
   expect(Math.hypot(at.x - x - 14, at.y - y - 6)).toBeLessThan(2);
 });
 
+test("two fingers zoom, also where the first is on a corner or on the target", async ({ page }) => {
+  const before = (await mission(page)).target.vertices as number[][];
+  const distance = () => page.evaluate(() => {
+    const { camera, controls } = (window as any).vantage.stage;
+    return camera.position.distanceTo(controls.target) as number;
+  });
+  const middle = before.reduce((sum, v) => sum.map((c, i) => c + v[i]! / before.length), [0, 0, 0]);
+  for (const place of [before[0]!, middle]) {
+    const from = await distance();
+    const { x, y } = await onScreen(page, place);
+    const touch = await fingers(page);
+    await touch({ id: 1, x, y });
+    await touch({ id: 1, x: x + 2, y: y - 2 });
+    await touch({ id: 1, x: x + 2, y: y - 2 }, { id: 2, x: x - 60, y });
+    for (let i = 1; i <= 5; ++i) await touch({ id: 1, x: x + 2 + 8 * i, y }, { id: 2, x: x - 60 - 8 * i, y });
+    await touch();
+    await settled(page);
+    expect(await distance()).toBeLessThan(0.8 * from);
+    expect((await mission(page)).target.vertices).toEqual(before);
+    // What comes after it is of one finger again.
+    const [a] = (await mission(page)).target.vertices;
+    const at = await onScreen(page, a);
+    await touch({ id: 1, ...at });
+    await touch({ id: 1, x: at.x + 20, y: at.y + 9 });
+    await touch();
+    await settled(page);
+    const moved = (await mission(page)).target.vertices;
+    expect(moved[0]).not.toEqual(a);
+    expect(moved.slice(1)).toEqual(before.slice(1));
+    await page.evaluate(() => (window as any).vantage.step((window as any).vantage.history.undo()));
+    await settled(page);
+  }
+});
+
 test("a drag ends where its mission is replaced", async ({ page }) => {
   const { vertices } = (await mission(page)).target;
   const { x, y } = await onScreen(page, vertices[0]);

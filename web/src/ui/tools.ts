@@ -5,6 +5,7 @@ import type { Point } from "../engine/messages";
 import type { Mission, Target } from "../model/mission";
 import { facing, faultOf, plus, times, type Plane } from "../model/polygon";
 import type { Hit } from "../view/city";
+import type { Pointer } from "../view/stage";
 import { dragOfBox, dragOfTarget, onPlane, type Drag } from "./drags";
 import { button, element, say } from "./page";
 
@@ -28,13 +29,15 @@ function polygonOn({ normal }: Plane, corners: Point[]): Target {
   return { kind: "polygon", vertices: facing(corners, normal), ...(normal[2] < 0.05 ? { front: normal } : {}) };
 }
 
+const isClick = (from: Pointer, to: Pointer) => Math.hypot(to.clientX - from.clientX, to.clientY - from.clientY) <= CLICK_PIXELS;
+
 export class Tools {
   private tool: Tool = "look";
   /** what the corners that are drawn lie in */
   private plane: Plane | null = null;
-  /** what is dragged, by which pointer, and in which mission */
-  private drag: { follow: Drag; pointer: number; mission: Mission } | null = null;
-  private pressed: { x: number; y: number } | null = null;
+  /** what is dragged, how that began, and in which mission */
+  private drag: { follow: Drag; start: PointerEvent; mission: Mission; hasMoved: boolean } | null = null;
+  private pressed: PointerEvent | null = null;
 
   constructor(private readonly app: App) {
     const { canvas } = app.stage;
@@ -107,23 +110,36 @@ export class Tools {
     app.edit((mission) => (mission.target = { ...target, vertices: target.vertices.filter((_, i) => i !== dragged) }), true);
   }
 
-  /** More fingers than one turn and zoom the view, and leave what the first drags to it. */
+  /** More fingers than one turn and zoom the view, and leave what the first drags to it, once it has moved. */
   private press(event: PointerEvent): void {
+    if (!event.isTrusted) return; // handed to the view
     element("tip").hidden = true;
     const isFirst = event.isPrimary || event.pointerType !== "touch";
-    this.pressed = isFirst ? { x: event.clientX, y: event.clientY } : null;
+    this.pressed = isFirst ? event : null;
     const { app } = this;
+    if (this.drag && !isFirst && !this.drag.hasMoved) return this.handToView(this.drag.start);
     if (this.drag || !isFirst || event.button !== 0 || this.tool === "draw" || this.tool === "pick" || !app.canEdit) return;
     const follow = dragOfTarget(app, event, this.tool === "look" && !app.isEye()) ?? dragOfBox(app, event);
     if (!follow) return;
-    this.drag = { follow, pointer: event.pointerId, mission: app.mission };
+    this.drag = { follow, start: event, mission: app.mission, hasMoved: false };
     app.stage.controls.enabled = false;
     app.stage.canvas.setPointerCapture(event.pointerId);
   }
 
+  /** A second finger came before the first moved anything: both are the view's. */
+  private handToView(start: PointerEvent): void {
+    this.letGo();
+    this.app.stage.canvas.dispatchEvent(new PointerEvent(start.type, start));
+  }
+
   private move(event: PointerEvent): void {
     const { drag } = this;
-    if (drag?.mission === this.app.mission) return drag.pointer === event.pointerId ? drag.follow(event) : undefined;
+    if (drag?.mission === this.app.mission) {
+      if (drag.start.pointerId !== event.pointerId) return;
+      // A finger of two that zoom trembles before the other one is there.
+      drag.hasMoved ||= event.pointerType !== "touch" || !isClick(drag.start, event);
+      return drag.hasMoved ? drag.follow(event) : undefined;
+    }
     if (drag) this.letGo(); // it is of a mission that was replaced
     if (event.buttons !== 0) return;
     const { app } = this;
@@ -141,13 +157,12 @@ export class Tools {
   private release(event: PointerEvent): void {
     const { pressed } = this;
     this.pressed = null;
-    const isClick = pressed !== null && Math.hypot(event.clientX - pressed.x, event.clientY - pressed.y) <= CLICK_PIXELS;
     if (this.drag) this.endDrag(event);
-    else if (isClick && event.button === 0) this.click(event);
+    else if (pressed && isClick(pressed, event) && event.button === 0) this.click(event);
   }
 
   private endDrag({ pointerId }: PointerEvent): void {
-    if (this.drag?.pointer !== pointerId) return;
+    if (this.drag?.start.pointerId !== pointerId) return;
     this.letGo();
     this.app.keep();
   }
