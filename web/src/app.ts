@@ -327,6 +327,7 @@ export class App {
     this.failure = "";
     this.volumeView.hide();
     this.probeView.hide();
+    this.city.light([]);
     this.showOutline(null);
     this.showMission();
     this.changed();
@@ -346,6 +347,7 @@ export class App {
     if (at) void this.askProbe();
     else {
       this.probeView.hide();
+      this.city.light([]);
       this.endEye();
     }
     this.stage.request();
@@ -375,6 +377,7 @@ export class App {
     }
     if (!answer || this.probe?.at !== at || !this.volume || !this.isEngineHere()) return;
     this.probe.inside = answer.inside;
+    this.city.light(answer.blocked_by);
     if (!this.isEye()) this.probeView.show(at, this.volume.info.target.flat(), answer.inside);
     const why = [
       answer.blocked_by.length > 0 ? `hidden by ${answer.blocked_by.join(", ")}` : "",

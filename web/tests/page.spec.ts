@@ -60,11 +60,14 @@ test("the range slider limits the volume", async ({ page }) => {
   expect(await volume(page)).toBeLessThan(before);
 });
 
-test("a probe says what hides the target", async ({ page }) => {
+test("a probe says and shows what hides the target", async ({ page }) => {
+  const litTriangles = () => page.evaluate(() => (window as any).vantage.city.lit.geometry.getAttribute("position").count / 3);
   await page.evaluate(() => (window as any).vantage.setProbe([-2, -45, 12]));
   await expect(page.locator("#hint")).toContainText("hidden by");
+  expect(await litTriangles()).toBeGreaterThan(0);
   await page.evaluate(() => (window as any).vantage.setProbe([0, 0, 30]));
   await expect(page.locator("#hint")).toContainText("Inside");
+  expect(await litTriangles()).toBe(0);
   await page.click("#see");
   const eye = await page.evaluate(() => (window as any).vantage.stage.camera.position.z + (window as any).vantage.scene.origin[2]);
   expect(eye).toBeCloseTo(30, 6);
@@ -83,9 +86,17 @@ test("the volume is proved, cut and saved", async ({ page }) => {
   await page.locator("#cut-number").fill("high");
   await page.locator("#cut-number").press("Enter");
   await expect(page.locator("#cut-number")).toHaveValue("33.5 m");
-  for (const format of ["ply", "glb", "stl", "picture"]) {
-    expect(readFileSync(await saved(page, format)).length).toBeGreaterThan(1000);
-  }
+  for (const format of ["ply", "glb", "stl"]) expect(readFileSync(await saved(page, format)).length).toBeGreaterThan(1000);
+  // Under the view the picture has a line for each colour.
+  const picture = readFileSync(await saved(page, "picture"));
+  const [width, height] = [picture.readUInt32BE(16), picture.readUInt32BE(20)];
+  const view = await page.evaluate(() => {
+    const { canvas } = (window as any).vantage.stage;
+    return { width: canvas.width, height: canvas.height, rows: document.querySelectorAll("#legend li").length };
+  });
+  expect(width).toBe(view.width);
+  expect(view.rows).toBeGreaterThanOrEqual(3);
+  expect(height).toBeGreaterThan(view.height + 15 * (view.rows + 2));
 });
 
 test("meshes and missions are opened, and bad ones lose nothing", async ({ page }) => {

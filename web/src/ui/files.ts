@@ -6,6 +6,7 @@ import type { Hello, ViewMesh } from "../engine/messages";
 import { divided, missionText, sceneText } from "../model/mission";
 import { bytesOf, LARGEST_MISSION, read, written, type Link } from "../model/link";
 import { button, element, input, say } from "./page";
+import { picture } from "./picture";
 
 const LARGEST = 600e6; // bytes: a browser has not the memory for more
 const EXAMPLE = "plaza.obj";
@@ -222,7 +223,7 @@ export class Files {
   private async save(): Promise<void> {
     const format = input("format").value;
     try {
-      if (format === "picture") return download("volume.png", await this.app.stage.picture());
+      if (format === "picture") return download("volume.png", await picture(this.app.stage));
       if (format === "mission") return download("mission.yaml", new Blob([this.missionFile()], { type: "text/yaml" }));
       download(`volume.${format}`, new Blob([(await this.app.saved(format)).slice()]));
     } catch (error) {

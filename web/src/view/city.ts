@@ -17,13 +17,23 @@ export interface Hit {
 const EDGES_UP_TO = 120000; // triangles: beyond, lines take longer to find than the picture is worth
 const GAP = 1e-4; // of the scene's size: what rises so much above a surface stands on it
 
+const LIT = new THREE.MeshBasicMaterial({
+  color: 0xd32f2f, transparent: true, opacity: 0.6, side: THREE.DoubleSide, depthWrite: false,
+});
+
 export class City {
   private mesh: THREE.Mesh<THREE.BufferGeometry, THREE.Material> | null = null;
   private edges: THREE.LineSegments<THREE.BufferGeometry, THREE.Material> | null = null;
+  private readonly lit = new THREE.Mesh(new THREE.BufferGeometry(), LIT);
+  private litNames = "";
   private labels = new Uint32Array();
   private info: SceneInfo | null = null;
 
-  constructor(private readonly parent: THREE.Object3D) {}
+  constructor(private readonly parent: THREE.Object3D) {
+    this.lit.frustumCulled = false;
+    this.lit.renderOrder = 1;
+    parent.add(this.lit);
+  }
 
   show(info: SceneInfo, view: ViewMesh): void {
     this.clear();
@@ -46,7 +56,25 @@ export class City {
     this.parent.add(this.edges);
   }
 
+  /** Colours the objects of these names, but for the ground, and where there are others. */
+  light(names: string[]): void {
+    const { mesh, info, labels } = this;
+    if (names.join("\n") === this.litNames || !mesh || !info) return;
+    this.litNames = names.join("\n");
+    const wanted = new Set(names);
+    const isLit = info.objects.map(({ name, kind }) => kind !== "ground" && wanted.has(name) && info.objects.length > 1);
+    const corners = mesh.geometry.getIndex()!.array;
+    const positions = mesh.geometry.getAttribute("position");
+    const points: THREE.Vector3[] = [];
+    for (let i = 0; i < corners.length; ++i) {
+      if (isLit[labels[Math.floor(i / 3)]!]) points.push(new THREE.Vector3().fromBufferAttribute(positions, corners[i]!));
+    }
+    this.lit.geometry.dispose();
+    this.lit.geometry = new THREE.BufferGeometry().setFromPoints(points);
+  }
+
   private clear(): void {
+    this.light([]);
     for (const old of [this.mesh, this.edges]) {
       if (!old) continue;
       this.parent.remove(old);

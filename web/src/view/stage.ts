@@ -58,8 +58,7 @@ export class Stage {
     requestAnimationFrame(() => {
       this.isRequested = false;
       const start = performance.now();
-      this.beforeFrame?.();
-      this.renderer.render(this.scene, this.camera);
+      this.draw();
       this.frame_ms = performance.now() - start;
       this.onFrame?.();
     });
@@ -223,11 +222,9 @@ export class Stage {
     this.request();
   }
 
-  picture(): Promise<Blob> {
+  /** Now. */
+  draw(): void {
     this.beforeFrame?.();
     this.renderer.render(this.scene, this.camera);
-    return new Promise((resolve, reject) => {
-      this.canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error("the picture could not be made"))));
-    });
   }
 }

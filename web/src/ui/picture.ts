@@ -1,0 +1,86 @@
+// The view as a picture, with what one needs to read it: what the colours are, the scale, where north is.
+import type { Stage } from "../view/stage";
+import { element } from "./page";
+
+const FONT = "13px system-ui, sans-serif";
+const LINE = 19; // pixels of the page, as all lengths here
+const EDGE = 12;
+const INK = "#1b1f24";
+
+interface Row {
+  colour: string;
+  text: string;
+}
+
+/** As the panel has them. */
+function legend(): Row[] {
+  const rows = [...element("legend").children].map((item) => ({
+    colour: item.querySelector("i")!.style.background, text: item.textContent ?? "",
+  }));
+  return rows.length === 0 ? [] : [{ colour: "#c41230", text: "the target" }, ...rows];
+}
+
+/** Under the view, which it hides nothing of. */
+function drawLegend(to: CanvasRenderingContext2D, rows: Row[], top: number, width: number): void {
+  to.fillText(element("claim").textContent ?? "", EDGE, top + EDGE + LINE / 2, width - 2 * EDGE);
+  rows.forEach(({ colour, text }, i) => {
+    const middle = top + EDGE + (i + 1.5) * LINE;
+    to.fillStyle = colour;
+    to.fillRect(EDGE, middle - 6, 12, 12);
+    to.fillStyle = INK;
+    to.fillText(text, EDGE + 20, middle, width - 2 * EDGE - 20);
+  });
+}
+
+function drawScale(to: CanvasRenderingContext2D, right: number, bottom: number): void {
+  const length = Number.parseFloat(element("scale").querySelector("i")!.style.width);
+  to.textAlign = "right";
+  to.fillText(element("scale").textContent?.trim() ?? "", right, bottom - 16);
+  to.textAlign = "left";
+  to.beginPath();
+  to.moveTo(right - length, bottom - 7);
+  to.lineTo(right - length, bottom);
+  to.lineTo(right, bottom);
+  to.lineTo(right, bottom - 7);
+  to.stroke();
+}
+
+/** `heading`: degrees clockwise from north that up is. */
+function drawNorth(to: CanvasRenderingContext2D, x: number, y: number, heading: number): void {
+  to.save();
+  to.translate(x, y);
+  to.rotate((-heading * Math.PI) / 180);
+  to.beginPath();
+  for (const [dx, dy] of [[0, -16], [6, 0], [-6, 0]] as const) to.lineTo(dx, dy);
+  to.fill();
+  to.textAlign = "center";
+  to.fillText("N", 0, 10);
+  to.restore();
+}
+
+export function picture(stage: Stage): Promise<Blob> {
+  stage.draw();
+  const { canvas } = stage;
+  const { clientWidth: width, clientHeight: height } = canvas;
+  const ratio = canvas.width / width;
+  const rows = legend();
+  const below = rows.length === 0 ? 0 : (rows.length + 1) * LINE + 2 * EDGE;
+  const made = document.createElement("canvas");
+  [made.width, made.height] = [canvas.width, canvas.height + Math.ceil(below * ratio)];
+  const to = made.getContext("2d")!;
+  to.fillStyle = "white";
+  to.fillRect(0, 0, made.width, made.height);
+  to.drawImage(canvas, 0, 0);
+  to.scale(ratio, ratio);
+  to.font = FONT;
+  to.textBaseline = "middle";
+  to.lineWidth = 2;
+  to.fillStyle = to.strokeStyle = getComputedStyle(element("scale")).color;
+  drawScale(to, width - EDGE, height - EDGE);
+  drawNorth(to, width - 2 * EDGE, 2.5 * EDGE, stage.heading());
+  to.fillStyle = INK;
+  if (below > 0) drawLegend(to, rows, height, width);
+  return new Promise((resolve, reject) => {
+    made.toBlob((blob) => (blob ? resolve(blob) : reject(new Error("the picture could not be made"))));
+  });
+}
