@@ -8,7 +8,7 @@ import { bytesOf, LARGEST_MISSION, read, written, type Link } from "../model/lin
 import { button, element, input, say } from "./page";
 import { picture } from "./picture";
 
-const LARGEST = 600e6; // bytes: a browser has not the memory for more
+const LARGEST = 600e6; // bytes: no browser has the memory for more
 const EXAMPLE = "plaza.obj";
 
 type Bytes = Record<string, ArrayBuffer>;
@@ -122,7 +122,7 @@ export class Files {
     this.afterwards(async () => {
       const large = files.find((file) => file.size > LARGEST);
       if (large) {
-        throw new Error(`${large.name} has ${Math.round(large.size / 1e6)} MB; this page takes up to 600 MB, the program more`);
+        throw new Error(`${large.name} has ${Math.round(large.size / 1e6)} MB; this page takes no more than 600 MB, the program does`);
       }
       const missions = files.filter(isMission);
       if (missions.length > 1) throw new Error("open one mission at a time");
