@@ -7,6 +7,7 @@
 #include <boost/beast/websocket.hpp>
 #include <chrono>
 #include <cstring>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
@@ -174,6 +175,31 @@ TEST_F(LiveServerThread, AnswersAndDropsWhatIsStale) {
   }
   EXPECT_EQ(*ids.begin(), 2);
   EXPECT_EQ(*ids.rbegin(), 19);
+}
+
+TEST_F(LiveServerThread, StopsWhatIsComputed) {
+  Socket socket = opened();
+  const auto compute = [](int id, double tolerance) {
+    const std::string text =
+        std::string(testing::kTarget) + testing::kSensor + "exact: {tolerance: " + std::to_string(tolerance) + "}\n";
+    return Json{{"id", id}, {"request", {{"call", "compute"}, {"text", text}}}};
+  };
+  ASSERT_TRUE(ask(socket, compute(1, 0.01)).contains("value"));
+  constexpr double kFine = 1e-5;  // millions of facets: seconds
+  for (const Json& message : {compute(2, kFine), compute(3, kFine), Json{{"id", 4}, {"request", {{"call", "stop"}}}}}) {
+    socket.write(asio::buffer(message.dump()));
+  }
+  std::map<int, Json> answers;
+  for (int n = 0; n < 3; ++n) {
+    const Json answer = next(socket);
+    answers[answer["id"]] = answer;
+  }
+  EXPECT_EQ(answers[2]["error"]["code"], "cancelled") << answers[2].dump(1).substr(0, 300);
+  EXPECT_TRUE(answers[3].contains("stale"));
+  EXPECT_TRUE(answers[4].contains("value"));
+  // The last volume is still there, and what is asked next is not stopped.
+  EXPECT_TRUE(ask(socket, {{"id", 5}, {"request", {{"call", "slice"}, {"z", 10}}}}).contains("value"));
+  EXPECT_TRUE(ask(socket, compute(6, 0.02)).contains("value"));
 }
 
 TEST_F(LiveServerThread, AnswersAllThatIsAskedHoweverLateItIsRead) {

@@ -71,29 +71,41 @@ void Conversation::leave() {
   waiting_.clear();
 }
 
-void Conversation::enqueue(Request request) {
-  if (request.call == "compute") {
-    for (auto at = waiting_.begin(); at != waiting_.end();) {
-      if (at->call != "compute") {
-        ++at;
-        continue;
-      }
-      send(stale_answer(*at));
-      at = waiting_.erase(at);
+/// A newer one takes their place, or none is wished for.
+void Conversation::drop_waiting_volumes() {
+  for (auto at = waiting_.begin(); at != waiting_.end();) {
+    if (at->call != "compute") {
+      ++at;
+      continue;
     }
+    send(stale_answer(*at));
+    at = waiting_.erase(at);
   }
+}
+
+void Conversation::enqueue(Request request) {
+  if (request.call == "stop") return stop(request);
+  if (request.call == "compute") drop_waiting_volumes();
   waiting_.push_back(std::move(request));
   work();
+}
+
+/// What is computed answers with an error, as soon as it notices. Does not wait for its turn.
+void Conversation::stop(const Request& request) {
+  drop_waiting_volumes();
+  is_stopped_ = is_working_;
+  send(stopped_answer(request));
 }
 
 void Conversation::work() {
   if (is_working_ || waiting_.empty()) return;
   is_working_ = true;
+  is_stopped_ = false;
   asio::post(workshop_.workers, [self = shared_from_this(), request = std::move(waiting_.front())]() mutable {
     Workshop& workshop = self->workshop_;
-    const auto goes_on = [&] { return !self->is_gone_ && !workshop.is_over; };
+    const auto goes_on = [&] { return !self->is_gone_ && !self->is_stopped_ && !workshop.is_over; };
     std::string message;
-    if (goes_on()) {
+    if (!self->is_gone_ && !workshop.is_over) {
       with_threads(workshop.threads, [&] {
         message = answer(self->session_, self->areas_, request, [&](std::string_view, double) { return goes_on(); });
       });

@@ -23,8 +23,8 @@ struct Workshop {
 };
 
 /// Lives as long as its connection. All but the computing runs on the thread of the connection's context; the computing
-/// runs on the workshop's, and is stopped when the page goes away or all `is_over`. Of a page that asks faster than it
-/// is answered, or that does not take its answers, no more is read until it has caught up.
+/// runs on the workshop's, and is stopped when the page says so, when it goes away or all `is_over`. Of a page that
+/// asks faster than it is answered, or that does not take its answers, no more is read until it has caught up.
 class Conversation : public std::enable_shared_from_this<Conversation> {
  public:
   using Upgrade = boost::beast::http::request<boost::beast::http::string_body>;
@@ -40,6 +40,8 @@ class Conversation : public std::enable_shared_from_this<Conversation> {
   void read();
   void take(Error error);
   void enqueue(Request request);
+  void stop(const Request& request);
+  void drop_waiting_volumes();
   void work();
   void send(std::string message);
   void write();
@@ -54,6 +56,7 @@ class Conversation : public std::enable_shared_from_this<Conversation> {
   Workshop& workshop_;
   std::shared_ptr<const void> seat_;
   std::atomic<bool> is_gone_ = false;
+  std::atomic<bool> is_stopped_ = false;  ///< what is computed now
   bool is_working_ = false;
   bool is_paused_ = false;
   std::deque<Request> waiting_;

@@ -151,4 +151,8 @@ std::string stale_answer(const Request& request) {
   return framed(Json{{"id", request.id}, {"stale", true}, {"engine_ms", 0}}, nullptr, nullptr);
 }
 
+std::string stopped_answer(const Request& request) {
+  return framed(Json{{"id", request.id}, {"value", Json::object()}, {"engine_ms", 0}}, nullptr, nullptr);
+}
+
 }  // namespace vantage::live

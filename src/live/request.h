@@ -15,7 +15,7 @@ namespace vantage::live {
 /// {"id": 7, "request": {"call": "compute", "text": "..."}}
 struct Request {
   std::uint64_t id = 0;
-  std::string call;                 ///< about, hello, shown, compute, query, area, prove, slice, save
+  std::string call;                 ///< about, hello, shown, compute, query, area, prove, slice, save, stop
   std::string text;                 ///< of compute
   std::vector<double> coordinates;  ///< of query and area
   double z_m = 0;                   ///< of slice
@@ -32,5 +32,8 @@ std::string answer(Session& session, MapAreas& areas, const Request& request, co
 
 /// To a request that a newer one replaces.
 std::string stale_answer(const Request& request);
+
+/// To a request to stop.
+std::string stopped_answer(const Request& request);
 
 }  // namespace vantage::live

@@ -153,8 +153,8 @@ void Builder::add_above_ground(const AboveGround& limit) {
   labels.max = label("agl max");
   labels.edge = label("ground edge");
   const auto [low, high] = heights_near(limit);
-  result_.kept.push_back({RegionKind::above_ground, name,
-                          make_ground_band(*ground.surface, low, high, outer_, result_.origin, labels)});
+  result_.kept.push_back(
+      {RegionKind::above_ground, name, make_ground_band(*ground.surface, low, high, outer_, result_.origin, labels)});
 }
 
 /// The part of a zone that lies about the volume, as of boxes; but for its heights above the ground.

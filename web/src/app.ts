@@ -65,6 +65,7 @@ export class App {
   private isDragged = false;
   private isProbeOld = false;
   private isAsking = false;
+  private lateWorks = 0;
   /**
    * The order of volumes. Each wish for one has a turn, a number that grows. The engine answers in the order of the
    * questions, or says that a newer one took the place of one that waited. There are three kinds of wishes:
@@ -130,7 +131,7 @@ export class App {
     const extension = /(\.[a-z0-9]+(\.gz)?)$/i.exec(source.name)?.[1]?.toLowerCase() ?? "";
     const file = `scene${extension}`;
     const text = sceneText({ ...source.section, mesh: file });
-    const { info, mesh } = await this.engine.open(text, { ...source.beside, [file]: source.bytes }, file);
+    const { info, mesh } = await this.late(this.engine.open(text, { ...source.beside, [file]: source.bytes }, file));
     this.source = source;
     this.showScene(info, mesh);
   }
@@ -156,7 +157,7 @@ export class App {
   async openMission(body: string): Promise<void> {
     const turn = ++this.turn;
     try {
-      const volume = await this.engine.compute(body);
+      const volume = await this.late(this.engine.compute(body));
       if (!volume || turn !== this.turn) throw new Superseded();
       this.openMissionWith(body, volume);
     } catch (error) {
@@ -257,20 +258,51 @@ export class App {
   private async run(turn: number, mission: Mission, isDraft: boolean): Promise<void> {
     const { target } = mission;
     const fault = target?.kind === "polygon" ? faultOf(target.vertices) : null;
-    const late = setTimeout(() => turn === this.turn && say(this.volume ? LATE : LATE_FIRST), LATE_MS);
+    const tell = () => turn === this.turn && say(this.volume ? LATE : LATE_FIRST);
     try {
       if (fault) throw new Error(`${fault.reason}; the volume shown is that of the last valid target`);
-      const volume = await this.engine.compute(missionText(mission, isDraft));
+      const volume = await this.late(this.engine.compute(missionText(mission, isDraft)), tell);
       if (!volume || turn < this.since) return;
       this.put(volume, mission, isDraft);
       if (this.isNews(turn)) this.accept(volume);
     } catch (error) {
       if (turn >= this.since && this.isNews(turn)) this.fail(error);
     } finally {
-      clearTimeout(late);
       if (turn === this.turn) unsay(LATE, LATE_FIRST);
       this.settle();
     }
+  }
+
+  /** Work that can be stopped once it takes long, when `tell` is called. */
+  async late<T>(work: Promise<T>, tell: () => void = () => {}): Promise<T> {
+    let isCounted = false;
+    const timer = setTimeout(() => {
+      isCounted = true;
+      ++this.lateWorks;
+      tell();
+      this.changed();
+    }, LATE_MS);
+    try {
+      return await work;
+    } finally {
+      clearTimeout(timer);
+      if (isCounted) {
+        --this.lateWorks;
+        this.changed();
+      }
+    }
+  }
+
+  /** Something is opened, computed or proved for so long that one may want to stop it. */
+  isLate(): boolean {
+    return this.lateWorks > 0;
+  }
+
+  /** The last volume stays, and the last scene. */
+  stop(): void {
+    if (!this.isLate()) return;
+    this.engine.stop();
+    setTimeout(() => this.settle()); // after those were told who asked
   }
 
   /** A corner that is not convex is told at once, before the answers to what was asked earlier. */
@@ -401,11 +433,12 @@ export class App {
     this.tellProof("Proving…", volume);
     let text: string;
     try {
-      const { verdict } = await this.engine.prove();
+      const { verdict } = await this.late(this.engine.prove());
       text = verdict === "proved" ? `Proved: every position of this volume sees ${seenFrom(volume.info)}.`
         : `The proof says: ${verdict.replaceAll("_", " ")}`;
     } catch (error) {
-      text = toldBy(error);
+      if (volume === this.volume) this.tellProof(toldBy(error), volume);
+      return;
     }
     if (volume === this.volume && this.isEngineHere()) this.tellProof(text, volume);
   }

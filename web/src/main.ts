@@ -78,7 +78,8 @@ function keysOf(app: App, tools: Tools): Record<string, () => void | boolean> {
   };
   return !app.canEdit ? view : {
     ...view,
-    d: () => tools.choose("draw"), p: () => tools.choose("pick"), q: () => tools.choose("probe"), Escape: () => tools.choose("look"),
+    d: () => tools.choose("draw"), p: () => tools.choose("pick"), q: () => tools.choose("probe"),
+    Escape: () => (app.isLate() ? app.stop() : tools.choose("look")),
     Enter: () => tools.finish(), Delete: () => tools.removeLast(), Backspace: () => tools.removeLast(),
     ArrowRight: () => app.moveProbe([1, 0, 0]), ArrowLeft: () => app.moveProbe([-1, 0, 0]),
     ArrowUp: () => app.moveProbe([0, 1, 0]), ArrowDown: () => app.moveProbe([0, -1, 0]),

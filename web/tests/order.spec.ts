@@ -1,6 +1,6 @@
 // Answers that come late, and missions that are opened while something else is computed.
 import { expect, type Page } from "@playwright/test";
-import { mission, onScreen, openExample, settled, test, volume } from "./support";
+import { mission, onScreen, open, openExample, settled, test, volume } from "./support";
 
 test.beforeEach(({ page }) => openExample(page));
 
@@ -182,4 +182,52 @@ test("a volume that arrives leaves the corners being drawn, and undo takes the l
   await page.keyboard.press("Control+z");
   await settled(page);
   expect((await mission(page)).maxRange).toBe(60);
+});
+
+/** So fine that its volume takes seconds where the range is 60 m, and no time where it is 3. */
+const FINE = "target: {vertices: [[-8, -8, 0], [-6, -8, 0], [-7, -6, 0]]}\nsensor: {max_range: 3}\nexact: {tolerance: 0.00001}\n";
+
+test("what takes long can be stopped, and the last volume stays", async ({ page }) => {
+  await openBody(page, FINE);
+  expect(await opened(page)).toBe("opened");
+  const before = await volume(page);
+  for (const stop of [() => page.click("#stop"), () => page.keyboard.press("Escape")]) {
+    await edit(page, 60);
+    await expect(page.locator("#hint")).toContainText("still the last volume");
+    await stop();
+    await expect(page.locator("#hint")).toContainText("stopped");
+    await expect(page.locator("#stop")).toBeHidden();
+    await agrees(page);
+    expect(await volume(page)).toBe(before);
+    expect((await mission(page)).maxRange).toBe(60);
+  }
+  await edit(page, 4);
+  await agrees(page);
+  expect(await volume(page)).toBeGreaterThan(before);
+  await expect(page.locator("#hint")).toBeHidden();
+});
+
+test("a mission that takes long to open can be stopped, and the one that was there stays", async ({ page }) => {
+  const before = [await volume(page), await mission(page)];
+  await openBody(page, FINE.replace("max_range: 3", "max_range: 60"));
+  await page.click("#stop");
+  expect(await opened(page)).toContain("stopped");
+  await agrees(page);
+  expect([await volume(page), await mission(page)]).toEqual(before);
+});
+
+test("a scene that takes long to read can be stopped, and the one that was there stays", async ({ page }) => {
+  const before = [await volume(page), await mission(page)];
+  const side = 700; // a million triangles
+  const lines: string[] = [];
+  for (let i = 0; i < side * side; ++i) lines.push(`v ${i % side} ${Math.floor(i / side)} ${Math.sin(i)}`);
+  for (let i = 0; i < side * (side - 1); ++i) if (i % side < side - 1) lines.push(`f ${i + 1} ${i + 2} ${i + side + 2} ${i + side + 1}`);
+  await open(page, { name: "large.obj", text: lines.join("\n") });
+  await page.click("#stop");
+  await expect(page.locator("#hint")).toContainText("stopped");
+  await agrees(page);
+  expect([await volume(page), await mission(page)]).toEqual(before);
+  await edit(page, 50);
+  await agrees(page);
+  expect(await volume(page)).toBeLessThan(before[0]);
 });

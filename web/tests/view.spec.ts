@@ -41,6 +41,24 @@ test.describe("vantage view", () => {
     expect(problems).toEqual([]);
   });
 
+  test("stops what takes long, and shows the last volume", async ({ page }) => {
+    await page.goto(address);
+    await hasVolume(page);
+    const body = "target: {vertices: [[-8, -8, 0], [-6, -8, 0], [-7, -6, 0]]}\nsensor: {max_range: 3}\nexact: {tolerance: 0.00001}\n";
+    await page.evaluate((text) => (window as any).vantage.openMission(text), body);
+    const before = await volume(page);
+    const edit = (range: number) => page.evaluate((value) => (window as any).vantage.edit((m: any) => (m.maxRange = value), true), range);
+    await edit(60);
+    await page.click("#stop");
+    await expect(page.locator("#hint")).toContainText("stopped");
+    await settled(page);
+    expect(await volume(page)).toBe(before);
+    await edit(4);
+    await settled(page);
+    expect(await volume(page)).toBeGreaterThan(before);
+    await expect(page.locator("#hint")).toBeHidden();
+  });
+
   test("says that the program is gone, and keeps the mission", async ({ page }) => {
     await page.goto(address);
     await hasVolume(page);

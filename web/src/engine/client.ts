@@ -109,4 +109,9 @@ export class Engine {
   async save(format: string): Promise<Uint8Array> {
     return (await this.transport.ask({ call: "save", format })).bytes!;
   }
+
+  /** Ends what is computed. */
+  stop(): void {
+    if (this.transport.stop()) this.last = null;
+  }
 }

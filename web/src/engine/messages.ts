@@ -123,7 +123,8 @@ export type Request =
   | { call: "area"; points: [Point] }
   | { call: "prove" }
   | { call: "slice"; z: number }
-  | { call: "save"; format: string };
+  | { call: "save"; format: string }
+  | { call: "stop" };
 
 export interface Envelope {
   id: number;

@@ -20,4 +20,8 @@ export class RecordedTransport implements Transport {
     if (request.call === "prove") return Promise.reject(new Error("No proof was asked for when this report was written"));
     return Promise.reject(new Error("this is a report: run `vantage view` with its mission to change anything"));
   }
+
+  stop(): boolean {
+    return false;
+  }
 }

@@ -32,4 +32,9 @@ export class SocketTransport implements Transport {
     else this.pending.fail(new Error(ENDED));
     return answer;
   }
+
+  stop(): boolean {
+    this.ask({ call: "stop" }).catch(() => {}); // who asked what is stopped is told
+    return false;
+  }
 }

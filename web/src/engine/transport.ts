@@ -3,6 +3,15 @@ import type { Answer, EngineError, Request } from "./messages";
 
 export interface Transport {
   ask(request: Request): Promise<Answer>;
+  /** Ends what is computed, whose answer is an error then. True: the engine has lost its last volume with that. */
+  stop(): boolean;
+}
+
+/** What was asked and then stopped by the user. */
+export class Stopped extends Error {
+  constructor() {
+    super("stopped before it was done");
+  }
 }
 
 export class EngineFailure extends Error {
@@ -24,7 +33,7 @@ export class Pending {
   take(answer: Answer): void {
     const one = this.waiting.get(answer.id);
     this.waiting.delete(answer.id);
-    if (answer.error) one?.reject(new EngineFailure(answer.error));
+    if (answer.error) one?.reject(answer.error.code === "cancelled" ? new Stopped() : new EngineFailure(answer.error));
     else one?.resolve(answer);
   }
 

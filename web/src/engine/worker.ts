@@ -123,7 +123,8 @@ async function answer(request: Request): Promise<Omit<Answer, "id" | "engine_ms"
     case "hello":
     case "shown":
     case "area":
-      throw new Error("the engine in the page was not started with a mission");
+    case "stop":
+      throw new Error("only the engine of the program answers this");
     case "slice":
       return { value: call("slice", request.z) };
     case "save":
@@ -147,8 +148,8 @@ onmessage = ({ data }) => {
 };
 
 turn.port1.onmessage = async () => {
-  const next = waiting.shift();
-  if (!next || isWorking) return;
+  const next = isWorking ? undefined : waiting.shift();
+  if (!next) return;
   isWorking = true;
   await work(next);
   isWorking = false;

@@ -54,6 +54,7 @@ export class Tools {
     button("probe-up").onclick = () => app.moveProbe([0, 0, 1]);
     button("probe-down").onclick = () => app.moveProbe([0, 0, -1]);
     button("remove-probe").onclick = () => app.setProbe(null);
+    button("stop").onclick = () => app.stop();
     app.onChange(() => this.showButtons());
   }
 
@@ -68,12 +69,13 @@ export class Tools {
     say(HINTS[tool]);
   }
 
-  /** What a keyboard does with Del, Page Up and Page Down, for fingers, where it does something. */
+  /** What a keyboard does with Esc, Del, Page Up and Page Down, for fingers, where it does something. */
   private showButtons(): void {
     const { probe, dragged, drawn, canEdit } = this.app;
     const corners = this.app.polygon()?.vertices.length ?? 0;
     button("remove-corner").hidden = !canEdit || (drawn.length === 0 && (dragged === null || corners <= 3));
     for (const id of ["probe-up", "probe-down", "remove-probe"]) button(id).hidden = !probe;
+    button("stop").hidden = !this.app.isLate();
   }
 
   /** While a target is drawn: takes its last corner back. */
@@ -245,7 +247,7 @@ export class Tools {
     if (scene?.has_areas) {
       say("Looking for the area of the map…");
       try {
-        const area = await app.engine.area(hit.point[0], hit.point[1]);
+        const area = await app.late(app.engine.area(hit.point[0], hit.point[1]));
         if (scene !== app.scene || this.tool !== "pick") return;
         if (area) {
           this.take({ kind: "area", osm: area.osm });
