@@ -109,7 +109,7 @@ TEST(GrownPolygons, HoldTheGrownPolygonAndLittleMore) {
 Scene make_town(Random& random, double scale, const Vec3& origin) {
   Scene scene;
   scene.objects = {{"ground", "", ObjectKind::ground}, {"town", "", ObjectKind::other}};
-  const auto add = [&](std::vector<Vec3> corners, std::uint32_t object) {
+  const auto add = [&](const std::vector<Vec3>& corners, std::uint32_t object) {
     const auto first = static_cast<std::uint32_t>(scene.mesh.vertices.size());
     for (const Vec3& corner : corners) scene.mesh.vertices.push_back(origin + scale * corner);
     for (std::uint32_t i = 2; i < corners.size(); ++i) {

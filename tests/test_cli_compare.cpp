@@ -14,10 +14,11 @@ std::string box_obj(double x0, double x1, bool y_up = false, double unit = 1, do
   for (int i = 0; i < 8; ++i) {
     const double x = ((i & 1 ? x1 : x0) + shift) / unit, y = ((i & 2 ? 3 : 0) + shift) / unit,
                  z = (i & 4 ? 2 : 0) / unit;
-    if (y_up)
+    if (y_up) {
       obj << "v " << x << ' ' << z << ' ' << -y << "\n";
-    else
+    } else {
       obj << "v " << x << ' ' << y << ' ' << z << "\n";
+    }
   }
   obj << "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
   return obj.str();

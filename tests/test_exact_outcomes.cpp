@@ -46,7 +46,7 @@ Error refusal(const Scene& scene, const Target& target, ErrorCode code, const Se
 
 /// The error of a target that an object pierces.
 Error refusal_of_pierced(const Scene& scene, const Target& target, const std::string& object) {
-  const Error error = refusal(scene, target, ErrorCode::target_pierced);
+  Error error = refusal(scene, target, ErrorCode::target_pierced);
   EXPECT_EQ(scene.objects.at(error.object().value_or(0)).name, object) << error.what();
   EXPECT_NE(error.problem().find(object), std::string::npos) << error.what();
   return error;

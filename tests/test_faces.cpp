@@ -76,7 +76,7 @@ const Sensor kSensor = Sensor{60};
 /// Computes the volume of a face, and expects that the check finds nothing wrong with it.
 Volume expect_right(const Scene& scene, const Target& target, double range = 60) {
   const PreparedTarget prepared(PreparedScene(scene), target, Sensor{range});
-  const Volume volume = compute_volume(prepared);
+  Volume volume = compute_volume(prepared);
   EXPECT_EQ(volume.outcome, Outcome::computed) << volume.reason;
   if (volume.mesh.empty()) return volume;
   VerifyOptions options;

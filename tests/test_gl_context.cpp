@@ -206,10 +206,11 @@ TEST_F(GlContexts, GraphicsProcessorsOfOneKindAreSeveral) {
     return reinterpret_cast<const GLubyte*>("GL_NVX_gpu_memory_info");
   };
   broken_->gl.GetIntegerv = [](GLenum name, GLint* value) {
-    if (name == 0x9047)
+    if (name == 0x9047) {
       *value = 2048;  // KiB
-    else
+    } else {
       real->gl.GetIntegerv(name, value);
+    }
   };
   const std::vector<GlDeviceInfo> found = devices();
   ASSERT_EQ(found.size(), 2U) << why_;

@@ -176,8 +176,9 @@ TEST(Mission, TextReadsBackAsTheSameMission) {
   for (const std::string& scene : scenes) {
     for (const std::string& target : targets) {
       for (const std::string& more : rest) {
-        SCOPED_TRACE(scene + target + more);
-        const MissionFile read = parse_mission(scene + target + more, "/data/missions/one.yaml");
+        const std::string given = std::string(scene).append(target).append(more);
+        SCOPED_TRACE(given);
+        const MissionFile read = parse_mission(given, "/data/missions/one.yaml");
         const std::string text = mission_text(read, "/data/missions");
         const MissionFile again = parse_mission(text, "/data/missions/two.yaml");
         EXPECT_EQ(mission_text(again, "/data/missions"), text);

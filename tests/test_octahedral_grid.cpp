@@ -29,7 +29,7 @@ int mixed_count(const OctahedralGrid& grid) {
 
 OctahedralPoint draw_point(Random& random) {
   for (;;) {
-    const OctahedralPoint p(random.uniform(-1, 1), random.uniform(-1, 1));
+    OctahedralPoint p(random.uniform(-1, 1), random.uniform(-1, 1));
     if (p.lpNorm<1>() <= 1) return p;
   }
 }

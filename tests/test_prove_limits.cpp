@@ -280,8 +280,9 @@ TEST(ProveLimits, RandomTerrain) {
     auto surface = std::make_shared<Mesh>();
     constexpr std::uint32_t kSide = 4;
     for (std::uint32_t i = 0; i < kSide * kSide; ++i) {
+      const std::uint32_t row = i / kSide;
       surface->vertices.emplace_back(10.0 * (i % kSide) - 15 + random.uniform(-3, 3),
-                                     10.0 * (i / kSide) - 15 + random.uniform(-3, 3), random.uniform(-9, -5));
+                                     10.0 * row - 15 + random.uniform(-3, 3), random.uniform(-9, -5));
     }
     for (std::uint32_t i = 0; i + kSide + 1 < kSide * kSide; ++i) {
       if (i % kSide == kSide - 1) continue;

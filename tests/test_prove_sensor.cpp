@@ -73,8 +73,7 @@ ClaimProof sensor_claim(const Place& place, const Sensor& sensor, const Volume& 
 
 Volume volume_with(const Place& place, const Sensor& sensor) {
   const ExactOptions options{.tolerance_m = 0.2 * place.scale};
-  const Volume volume =
-      compute_volume(PreparedTarget(PreparedScene(place.scene()), place.target(), sensor), {}, options);
+  Volume volume = compute_volume(PreparedTarget(PreparedScene(place.scene()), place.target(), sensor), {}, options);
   EXPECT_FALSE(volume.empty()) << volume.reason;
   return volume;
 }

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "support/random.h"
 #include "target/range_region.h"
@@ -20,8 +21,8 @@ std::vector<Vector2d> draw_polygon(Random& random) {
   const double wide = std::pow(10, random.uniform(-2, 0.5)), narrow = random.chance(0.3) ? wide : 0.1 * wide;
   std::vector<double> angles;
   for (int k = 0; k < count; ++k) {
-    angles.push_back(kind == 0                         ? 2 * M_PI * k / count
-                     : kind == 1 || random.chance(0.5) ? random.uniform(0, 2 * M_PI)
+    angles.push_back(kind == 0                         ? 2 * std::numbers::pi * k / count
+                     : kind == 1 || random.chance(0.5) ? random.uniform(0, 2 * std::numbers::pi)
                                                        : random.uniform(1, 1.001));
   }
   std::sort(angles.begin(), angles.end());
@@ -89,7 +90,8 @@ TEST(RangeRegion, NeighboursBoundThePartOfABall) {
 
 TEST(RangeRegion, HasFewNeighboursEach) {
   std::vector<Vector2d> polygon;
-  for (int k = 0; k < 64; ++k) polygon.emplace_back(7 * std::cos(M_PI * k / 32), 5 * std::sin(M_PI * k / 32));
+  for (int k = 0; k < 64; ++k)
+    polygon.emplace_back(7 * std::cos(std::numbers::pi * k / 32), 5 * std::sin(std::numbers::pi * k / 32));
   const RangeRegion region(polygon, 300);
   std::size_t all = 0;
   for (std::size_t ball = 0; ball < 64; ++ball) all += region.neighbours(ball).size();

@@ -52,10 +52,11 @@ MeshFaults faults(const vantage::Mesh& mesh) {
     }
     for (int k = 0; k < 3; ++k) {
       const std::uint32_t a = t[k], b = t[(k + 1) % 3];
-      if (a < b)
+      if (a < b) {
         ++edges[{a, b}];
-      else
+      } else {
         --edges[{b, a}];
+      }
     }
     found.flat_facets += collinear(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]) ? 1 : 0;
   }

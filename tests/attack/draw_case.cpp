@@ -117,10 +117,11 @@ void SceneDrawing::room() {
   const double hole = random_.pick({0.0, 0.3, 0.6});
   for (int k = 0; k < 4; ++k) {
     const Vec3 a = p[k] + up, b = p[(k + 1) % 4] + up, middle(0, 0, high);
-    if (hole == 0)
+    if (hole == 0) {
       triangle(a, b, middle);
-    else
+    } else {
       polygon({a, b, middle + hole * (b - middle), middle + hole * (a - middle)});
+    }
   }
 }
 

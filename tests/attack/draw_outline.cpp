@@ -63,7 +63,7 @@ Outline with_flat_corners(Random& random, double scale, const Outline& outline) 
 }
 
 Outline draw_shape(Random& random, double scale, std::string& kind) {
-  const Outline square = rectangle(0.5, 0.5);
+  Outline square = rectangle(0.5, 0.5);
   switch (random.integer(0, 9)) {
     case 0:
       kind = "triangle";

@@ -19,7 +19,7 @@ const Vec3& SceneDrawing::corner(int i) const {
 Vec3 SceneDrawing::outward(int side) const {
   const Vec3 along = corner(side + 1) - corner(side);
   const Vec3 out(along.y(), -along.x(), 0);
-  return out.norm() > 0 ? Vec3(out.normalized()) : Vec3::UnitX();
+  return out.norm() > 0 ? out.normalized() : Vec3(Vec3::UnitX());
 }
 
 // Roughly: through the target's plane within its outline, by more than what is next to nothing.
@@ -191,8 +191,8 @@ void SceneDrawing::fan() {
   object("fan");
   const int pages = random_.chance(0.97) ? random_.integer(4, 40) : random_.integer(200, 1000);
   const int i = random_.integer(0, static_cast<int>(outline_.size()) - 1);
-  const Vec3 out =
-      (outward(i) + outward(i - 1)).norm() > 1e-6 ? Vec3((outward(i) + outward(i - 1)).normalized()) : outward(i);
+  const Vec3 sum = outward(i) + outward(i - 1);
+  const Vec3 out = sum.norm() > 1e-6 ? sum.normalized() : outward(i);
   const Vec3 away = random_.chance(0.5) ? Vec3::Zero() : Vec3(random_.uniform(0, 2) * out);
   const Vec3 foot = corner(i) + away;
   Vec3 axis = Vec3::UnitZ();
@@ -208,10 +208,11 @@ void SceneDrawing::fan() {
     return Vec3(foot + random_.uniform(0.1, 2) * side + random_.uniform(0, 1) * length * axis);
   };
   for (int k = 0; k < pages; ++k) {
-    if (about_line)
+    if (about_line) {
       triangle(foot, foot + length * axis, draw_rim());
-    else
+    } else {
       triangle(foot + length * axis, draw_rim(), draw_rim());
+    }
   }
 }
 

@@ -30,7 +30,7 @@ constexpr char kEnd[] = "\nthe end\n";
   _exit(0);
 }
 
-Exit finish(std::string text, int status) {
+Exit finish(const std::string& text, int status) {
   Exit exit;
   if (WIFSIGNALED(status)) {
     const int signal = WTERMSIG(status);
@@ -41,10 +41,11 @@ Exit finish(std::string text, int status) {
   }
   const std::size_t end = text.rfind(kEnd);
   exit.crashed = end == std::string::npos;
-  if (exit.crashed)
+  if (exit.crashed) {
     exit.how = "it ended before its time";
-  else
+  } else {
     exit.text = text.substr(0, end);
+  }
   return exit;
 }
 
@@ -81,7 +82,7 @@ std::pair<std::size_t, Exit> Processes::next() {
       int status = 0;
       waitpid(running.process, &status, 0);
       close(ready.fd);
-      std::pair<std::size_t, Exit> result{running.id, finish(std::move(running.text), status)};
+      std::pair<std::size_t, Exit> result{running.id, finish(running.text, status)};
       running_.erase(ready.fd);
       return result;
     }

@@ -109,17 +109,19 @@ Judgement judge(const Case& c, const Answer& answer, const JudgeOptions& options
   Judgement& result = trial.result;
   if (answer.thrown) {
     result.status = answer.defect ? "defect" : "refused: " + answer.refusal;
-    if (answer.defect)
+    if (answer.defect) {
       result.add({Class::defect, 0, Vec3::Zero(), answer.message});
-    else
+    } else {
       judge_refusal(trial);
+    }
     return result;
   }
   result.status = name_of(answer.volume.outcome);
-  if (answer.volume.outcome == Outcome::computed)
+  if (answer.volume.outcome == Outcome::computed) {
     judge_claims(trial);
-  else if (!c.sensor.link)
+  } else if (!c.sensor.link) {
     judge_outcome(trial);
+  }
   // Losses and answers are judged by the line of sight alone. The zone of a link takes away more, so links are left
   // out.
   if (!c.sensor.link) judge_losses(trial);

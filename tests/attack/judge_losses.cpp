@@ -92,7 +92,7 @@ Vec3 find_clear(Trial& trial, const std::vector<View>& views, double least, std:
     if (!target.all_sides && target.normal.dot(direction) < 0) direction = -direction;
     const double most = range_along(target, target.centre, direction, trial.c.range - trial.c.tolerance);
     if (most <= 0) continue;
-    const Vec3 p = target.centre + trial.random.magnitude(1e-4, 1) * most * direction;
+    Vec3 p = target.centre + trial.random.magnitude(1e-4, 1) * most * direction;
     const bool good = std::all_of(views.begin(), views.end(), [&](const View& view) {
       const bool high = view.target().all_sides || view.target().height(p) > std::max(least, 1e-4 * most);
       return high && view.in_range(p, trial.c.range - trial.c.tolerance) && view.clear(p);

@@ -65,32 +65,33 @@ Options parse(int count, char** words) {
       if (*text < '0' || *text > '9' || *end != 0) fail();
       return n;
     };
-    if (word == "--scenes")
+    if (word == "--scenes") {
       options.scenes = number();
-    else if (word == "--first")
+    } else if (word == "--first") {
       options.first = number();
-    else if (word == "--seed")
+    } else if (word == "--seed") {
       options.seed = number();
-    else if (word == "--only") {
+    } else if (word == "--only") {
       options.first = number();
       options.scenes = 1;
       options.told = true;
-    } else if (word == "--mission")
+    } else if (word == "--mission") {
       options.mission = value();
-    else if (word == "--out")
+    } else if (word == "--out") {
       options.out = value();
-    else if (word == "--minimised")
+    } else if (word == "--minimised") {
       options.minimised = static_cast<int>(number());
-    else if (word == "--told")
+    } else if (word == "--told") {
       options.told = true;
-    else if (word == "--jobs")
+    } else if (word == "--jobs") {
       options.jobs = std::max(1, static_cast<int>(number()));
-    else if (word == "--seconds")
+    } else if (word == "--seconds") {
       options.seconds = static_cast<unsigned>(number());
-    else if (word == "--self-test")
+    } else if (word == "--self-test") {
       options.self_test = true;
-    else
+    } else {
       fail();
+    }
   }
   return options;
 }
@@ -136,10 +137,11 @@ class Attack {
   void note(std::size_t index, const Exit& exit) {
     const Case c = draw_case(options_.seed, index);
     Judgement judgement;
-    if (exit.crashed || exit.hung)
+    if (exit.crashed || exit.hung) {
       judgement.add({exit.hung ? Class::hang : Class::crash, 0, Vec3::Zero(), exit.how});
-    else
+    } else {
       judgement = from_text(exit.text);
+    }
     summary_.add(c, judgement);
     for (const Finding& f : judgement.findings) {
       if (!is_wrong(f.which) && !options_.told) continue;

@@ -204,7 +204,7 @@ std::optional<ErrorCode> code_of(const std::function<void()>& action) {
 }
 
 Error expect_error(const std::function<void()>& action, ErrorCode code, const std::string& where) {
-  const Error error = error_of(action);
+  Error error = error_of(action);
   expect_place(error, code, where);
   return error;
 }
