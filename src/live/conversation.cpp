@@ -71,28 +71,28 @@ void Conversation::leave() {
   waiting_.clear();
 }
 
-/// A newer one takes their place, or none is wished for.
-void Conversation::drop_waiting_volumes() {
+/// Of volumes; they are answered with this.
+void Conversation::drop_waiting(std::string (*answer_to)(const Request&)) {
   for (auto at = waiting_.begin(); at != waiting_.end();) {
     if (at->call != "compute") {
       ++at;
       continue;
     }
-    send(stale_answer(*at));
+    send(answer_to(*at));
     at = waiting_.erase(at);
   }
 }
 
 void Conversation::enqueue(Request request) {
   if (request.call == "stop") return stop(request);
-  if (request.call == "compute") drop_waiting_volumes();
+  if (request.call == "compute") drop_waiting(stale_answer);
   waiting_.push_back(std::move(request));
   work();
 }
 
-/// What is computed answers with an error, as soon as it notices. Does not wait for its turn.
+/// Does not wait for its turn. What is computed answers as soon as it notices.
 void Conversation::stop(const Request& request) {
-  drop_waiting_volumes();
+  drop_waiting(cancelled_answer);
   is_stopped_ = is_working_;
   send(stopped_answer(request));
 }

@@ -103,6 +103,16 @@ std::string message_of(Session& session, MapAreas& areas, const Request& request
   return framed(header, mesh, bytes);
 }
 
+std::string error_answer(const Request& request, void (*fail)()) {
+  Json header = Json::parse(answered([&]() -> std::string {
+    fail();
+    return "{}";
+  }));
+  header["id"] = request.id;
+  header["engine_ms"] = 0;
+  return framed(header, nullptr, nullptr);
+}
+
 }  // namespace
 
 Request parse_request(std::string_view text) {
@@ -140,11 +150,12 @@ std::string answer(Session& session, MapAreas& areas, const Request& request, co
   try {
     return message_of(session, areas, request, progress);
   } catch (const std::exception&) {  // no room for the message itself
-    Json header = Json::parse(answered([]() -> std::string { throw; }));
-    header["id"] = request.id;
-    header["engine_ms"] = 0;
-    return framed(header, nullptr, nullptr);
+    return error_answer(request, [] { throw; });
   }
+}
+
+std::string cancelled_answer(const Request& request) {
+  return error_answer(request, [] { throw Error(ErrorCode::cancelled, "stopped before its turn", "", ""); });
 }
 
 std::string stale_answer(const Request& request) {

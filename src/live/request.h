@@ -33,6 +33,9 @@ std::string answer(Session& session, MapAreas& areas, const Request& request, co
 /// To a request that a newer one replaces.
 std::string stale_answer(const Request& request);
 
+/// To a request that was stopped before its turn.
+std::string cancelled_answer(const Request& request);
+
 /// To a request to stop.
 std::string stopped_answer(const Request& request);
 

@@ -295,6 +295,8 @@ std::string Session::compute(std::string_view text, const Progress& progress) {
   const double resolve_ms = time.lap();
   Result result = run_mission(mission, options(*scene), progress);
   const double compute_ms = time.lap();
+  // The last volume stays where this one was stopped, however late.
+  if (progress && !progress("drawing", 0)) throw Error(ErrorCode::cancelled, "stopped", "", "");
   take_volume(std::move(mission), std::move(scene), std::move(result));
   view_ms_ = time.lap();
   resolve_ms_ = resolve_ms;

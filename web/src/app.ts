@@ -1,5 +1,6 @@
 // What the page is about: a scene, a mission in it, and its volume, which follows.
 import { placeOf, toldBy, type Engine, type Volume } from "./engine/client";
+import { Stopped } from "./engine/transport";
 import type { Point, PointAnswer, SceneInfo, Section, ViewMesh } from "./engine/messages";
 import { History } from "./model/history";
 import { emptyMission, missionFrom, missionText, sceneText, type Mission, type PolygonTarget } from "./model/mission";
@@ -16,6 +17,7 @@ export type Listener = () => void;
 
 const LATE_MS = 500;
 const LATE_FIRST = "Computing…";
+const RESTORED = "Computing the volume that is shown once more…";
 const LATE = `${LATE_FIRST} What is shown is still the last volume`;
 
 export interface Cut {
@@ -63,6 +65,8 @@ export class App {
   /** the volume has coarser facets */
   isDraft = false;
   private isDragged = false;
+  /** restore() was tried in vain */
+  private isGivenUp = false;
   private isProbeOld = false;
   private isAsking = false;
   private lateWorks = 0;
@@ -85,6 +89,7 @@ export class App {
   /** of the last mission, where it could not be computed; the last volume stays */
   failure = "";
   private failurePlace: Point | null = null;
+  private isStopped = false;
   probe: { at: Point; inside: boolean } | null = null;
   /** a plane across an axis that the volume is cut at, scene frame; null: not */
   cut: Cut | null = null;
@@ -127,11 +132,12 @@ export class App {
    * The scene that is open stays where this one cannot be read. One that was open before has its mission again, which
    * is still to be computed.
    */
-  async openScene(source: SceneSource): Promise<void> {
+  async openScene(source: SceneSource, canStop = true): Promise<void> {
     const extension = /(\.[a-z0-9]+(\.gz)?)$/i.exec(source.name)?.[1]?.toLowerCase() ?? "";
     const file = `scene${extension}`;
     const text = sceneText({ ...source.section, mesh: file });
-    const { info, mesh } = await this.late(this.engine.open(text, { ...source.beside, [file]: source.bytes }, file));
+    const opened = this.engine.open(text, { ...source.beside, [file]: source.bytes }, file);
+    const { info, mesh } = await (canStop ? this.late(opened) : opened);
     this.source = source;
     this.showScene(info, mesh);
   }
@@ -162,7 +168,10 @@ export class App {
       this.openMissionWith(body, volume);
     } catch (error) {
       // It may have taken the place of an edit that waited.
-      if (turn === this.turn && this.told < turn - 1) await this.compute(this.isDragged);
+      if (turn === this.turn && this.told < turn - 1) {
+        if (error instanceof Stopped) this.fail(error);
+        else await this.compute(this.isDragged);
+      }
       throw error;
     } finally {
       this.settle();
@@ -239,7 +248,7 @@ export class App {
   private fault(vertices: Point[]): { at: Point; reason: string } | null {
     const own = faultOf(vertices);
     if (own) return { at: vertices[own.corner]!, reason: own.reason };
-    if (this.failure === "" || vertices === this.drawn) return null;
+    if (this.failure === "" || this.isStopped || vertices === this.drawn) return null;
     const corner = this.isTargetEdited ? vertices[Math.min(this.dragged ?? 0, vertices.length - 1)]! : null;
     const at = this.failurePlace ?? corner;
     return at && { at, reason: this.failure };
@@ -305,6 +314,11 @@ export class App {
     setTimeout(() => this.settle()); // after those were told who asked
   }
 
+  /** The mission has no volume, since that was stopped. */
+  get wasStopped(): boolean {
+    return this.failure !== "" && this.isStopped;
+  }
+
   /** A corner that is not convex is told at once, before the answers to what was asked earlier. */
   private isNews(turn: number): boolean {
     if (turn < this.told) return false;
@@ -315,23 +329,37 @@ export class App {
   /** The last volume stays where a mission has none. It is not left a draft, and the engine must have it. */
   private settle(): void {
     const isDone = this.engine.last === this.volume && (!this.isDraft || this.isDragged);
-    if (this.volume && !isDone && this.engine.isIdle) void this.restore();
+    if (this.volume && !isDone && !this.isGivenUp && this.engine.isIdle) void this.restore();
   }
 
   private async restore(): Promise<void> {
     const { shownOf } = this;
     if (!shownOf) return;
+    const tell = () => this.shownOf === shownOf && say(RESTORED);
     try {
-      const volume = await this.engine.compute(missionText(shownOf));
-      if (volume && this.shownOf === shownOf) this.put(volume, shownOf, false);
+      const volume = await this.late(this.engine.compute(missionText(shownOf)), tell);
+      if (volume && this.shownOf === shownOf) this.putAgain(volume, shownOf);
     } catch {
-      // It stays as it is: a draft, or one that the engine answers nothing about.
+      this.isGivenUp = true; // it stays as it is: a draft, or one that the engine answers nothing about
+    } finally {
+      unsay(RESTORED);
     }
+  }
+
+  /** What is drawn of it stays, and what was said of it, where it is the same again. */
+  private putAgain(volume: Volume, mission: Mission): void {
+    const shown = this.volume;
+    const isSame = shown && !this.isDraft && shown.info.facets === volume.info.facets && shown.info.volume_m3 === volume.info.volume_m3;
+    if (!isSame) return this.put(volume, mission, false);
+    this.engine.last = shown;
+    void this.askProbe();
+    void this.showSection();
   }
 
   /** The last volume stays. */
   private fail(error: unknown): void {
     this.failure = toldBy(error);
+    this.isStopped = error instanceof Stopped;
     this.failurePlace = placeOf(error);
     say(this.failure, true);
     this.showMission();
@@ -343,6 +371,7 @@ export class App {
     this.volume = volume;
     this.shownOf = mission;
     this.isDraft = isDraft;
+    this.isGivenUp = false;
     this.volumeView.show(volume.info, volume.mesh);
     this.showOutline(null);
     void this.askProbe();
@@ -405,7 +434,8 @@ export class App {
     try {
       [answer] = await this.engine.query([at]);
     } catch (error) {
-      return say(toldBy(error), true);
+      if (this.isEngineHere() || this.isGivenUp) say(toldBy(error), true);
+      return;
     }
     if (!answer || this.probe?.at !== at || !this.volume || !this.isEngineHere()) return;
     this.probe.inside = answer.inside;

@@ -1,6 +1,6 @@
 // Answers that come late, and missions that are opened while something else is computed.
 import { expect, type Page } from "@playwright/test";
-import { mission, onScreen, open, openExample, settled, test, volume } from "./support";
+import { hideVolume, mission, onScreen, open, openExample, settled, test, volume } from "./support";
 
 test.beforeEach(({ page }) => openExample(page));
 
@@ -188,6 +188,7 @@ test("a volume that arrives leaves the corners being drawn, and undo takes the l
 const FINE = "target: {vertices: [[-8, -8, 0], [-6, -8, 0], [-7, -6, 0]]}\nsensor: {max_range: 3}\nexact: {tolerance: 0.00001}\n";
 
 test("what takes long can be stopped, and the last volume stays", async ({ page }) => {
+  await hideVolume(page);
   await openBody(page, FINE);
   expect(await opened(page)).toBe("opened");
   const before = await volume(page);
@@ -197,18 +198,50 @@ test("what takes long can be stopped, and the last volume stays", async ({ page 
     await stop();
     await expect(page.locator("#hint")).toContainText("stopped");
     await expect(page.locator("#stop")).toBeHidden();
+    await expect(page.locator("#status")).toContainText("stopped");
+    await expect(page.locator("#fault")).toBeHidden();
     await agrees(page);
     expect(await volume(page)).toBe(before);
     expect((await mission(page)).maxRange).toBe(60);
   }
+  await page.click("#compute"); // after all
+  await page.click("#stop");
+  await expect(page.locator("#compute")).toBeVisible();
   await edit(page, 4);
   await agrees(page);
   expect(await volume(page)).toBeGreaterThan(before);
   await expect(page.locator("#hint")).toBeHidden();
+  await expect(page.locator("#compute")).toBeHidden();
+});
+
+test("a proof can be stopped, and run again", async ({ page }) => {
+  await hideVolume(page);
+  await openBody(page, FINE.replace("max_range: 3", "max_range: 8"));
+  expect(await opened(page)).toBe("opened");
+  await page.click("#prove");
+  await page.click("#stop");
+  await expect(page.locator("#proof")).toContainText("stopped");
+  await page.click("#prove"); // also while the worker has no volume again yet
+  await expect(page.locator("#proof")).toContainText("Proved", { timeout: 30_000 });
+  await agrees(page);
+});
+
+test("what waits behind what is stopped is stopped, too", async ({ page }) => {
+  await hideVolume(page);
+  await openBody(page, FINE);
+  expect(await opened(page)).toBe("opened");
+  const before = await volume(page);
+  await edit(page, 60);
+  await edit(page, 59);
+  await page.click("#stop");
+  await expect(page.locator("#status")).toContainText("stopped");
+  await agrees(page);
+  expect([await volume(page), (await mission(page)).maxRange]).toEqual([before, 59]);
 });
 
 test("a mission that takes long to open can be stopped, and the one that was there stays", async ({ page }) => {
   const before = [await volume(page), await mission(page)];
+  await hideVolume(page);
   await openBody(page, FINE.replace("max_range: 3", "max_range: 60"));
   await page.click("#stop");
   expect(await opened(page)).toContain("stopped");

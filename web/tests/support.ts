@@ -56,6 +56,9 @@ export const settled = (page: Page): Promise<void> =>
   expect.poll(() => page.evaluate(() => document.body.ariaBusy === "false" && (window as any).vantage.engine.isIdle), { timeout: 30_000 })
     .toBe(true);
 
+/** Facets without end take longer to draw in software than to compute. */
+export const hideVolume = (page: Page): Promise<void> => page.evaluate(() => (window as any).vantage.volumeView.setVisible(false));
+
 export async function drag(page: Page, from: readonly number[], by: { x: number; y: number }): Promise<void> {
   const { x, y } = await onScreen(page, from);
   await page.mouse.move(x, y);

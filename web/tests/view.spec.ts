@@ -5,7 +5,7 @@ import { mkdtempSync, readFileSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
-import { byProgram, drag, hasVolume, mission, onScreen, open, plaza, program, root, saved, savedMission, settled, volume } from "./support";
+import { byProgram, drag, hasVolume, hideVolume, mission, onScreen, open, plaza, program, root, saved, savedMission, settled, volume } from "./support";
 
 const file = join(plaza, "mission.yaml");
 let server: ChildProcess;
@@ -44,6 +44,7 @@ test.describe("vantage view", () => {
   test("stops what takes long, and shows the last volume", async ({ page }) => {
     await page.goto(address);
     await hasVolume(page);
+    await hideVolume(page);
     const body = "target: {vertices: [[-8, -8, 0], [-6, -8, 0], [-7, -6, 0]]}\nsensor: {max_range: 3}\nexact: {tolerance: 0.00001}\n";
     await page.evaluate((text) => (window as any).vantage.openMission(text), body);
     const before = await volume(page);

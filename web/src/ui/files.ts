@@ -173,7 +173,7 @@ export class Files {
       await this.openMission(body, !link);
     } catch (error) {
       if (before && !(error instanceof Superseded)) {
-        await app.openScene(before);
+        await app.openScene(before, false);
         await app.compute();
         app.lookAtTarget();
       }
@@ -223,7 +223,7 @@ export class Files {
   private async save(): Promise<void> {
     const format = input("format").value;
     try {
-      if (format === "picture") return download("volume.png", await picture(this.app.stage));
+      if (format === "picture") return download("volume.png", await picture(this.app));
       if (format === "mission") return download("mission.yaml", new Blob([this.missionFile()], { type: "text/yaml" }));
       download(`volume.${format}`, new Blob([(await this.app.saved(format)).slice()]));
     } catch (error) {

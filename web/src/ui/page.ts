@@ -30,12 +30,21 @@ export function metres(value: number): string {
   return `${digits} m`;
 }
 
+/** A number that was typed, with its unit or without: 12.5, 12,5 m. NaN: it is not one. */
+export function typed(text: string): number {
+  const found = /^\s*([-+]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:e[-+]?\d+)?)[^\d.,]*$/i.exec(text);
+  return found ? Number(found[1]!.replace(",", ".")) : NaN;
+}
+
 export function option(value: string, text: string): HTMLOptionElement {
   const made = document.createElement("option");
   made.value = value;
   made.textContent = text;
   return made;
 }
+
+/** A colour, for a style. */
+export const hex = (colour: number) => `#${colour.toString(16).padStart(6, "0")}`;
 
 export function large(value: number): string {
   if (value > 0 && value < 0.1) return String(Number(value.toPrecision(3)));

@@ -1,6 +1,8 @@
 // The view as a picture, with what one needs to read it: what the colours are, the scale, where north is.
-import type { Stage } from "../view/stage";
-import { element } from "./page";
+import type { App } from "../app";
+import { LIT_COLOUR } from "../view/city";
+import { RED } from "../view/target";
+import { element, hex } from "./page";
 
 const FONT = "13px system-ui, sans-serif";
 const LINE = 19; // pixels of the page, as all lengths here
@@ -12,17 +14,27 @@ interface Row {
   text: string;
 }
 
-/** As the panel has them. */
-function legend(): Row[] {
-  const rows = [...element("legend").children].map((item) => ({
+/** As the panel has them, of what can be seen. */
+function legend(app: App): Row[] {
+  const { failure, volume } = app;
+  const rows: Row[] = [];
+  if (volume && failure === "") rows.push({ colour: hex(RED), text: "the target" });
+  if (app.city.isLit()) rows.push({ colour: hex(LIT_COLOUR), text: "hides some of the target from the probe" });
+  if (app.isEye()) return rows;
+  return [...rows, ...[...element("legend").children].map((item) => ({
     colour: item.querySelector("i")!.style.background, text: item.textContent ?? "",
-  }));
-  return rows.length === 0 ? [] : [{ colour: "#c41230", text: "the target" }, ...rows];
+  }))];
+}
+
+/** What all of it is; where the volume is not that of the target, this. */
+function titleOf(app: App): string {
+  if (app.failure !== "") return element("status").textContent ?? "";
+  return app.isEye() ? "The view from the probe" : element("claim").textContent ?? "";
 }
 
 /** Under the view, which it hides nothing of. */
-function drawLegend(to: CanvasRenderingContext2D, rows: Row[], top: number, width: number): void {
-  to.fillText(element("claim").textContent ?? "", EDGE, top + EDGE + LINE / 2, width - 2 * EDGE);
+function drawLegend(to: CanvasRenderingContext2D, title: string, rows: Row[], top: number, width: number): void {
+  to.fillText(title, EDGE, top + EDGE + LINE / 2, width - 2 * EDGE);
   rows.forEach(({ colour, text }, i) => {
     const middle = top + EDGE + (i + 1.5) * LINE;
     to.fillStyle = colour;
@@ -58,12 +70,13 @@ function drawNorth(to: CanvasRenderingContext2D, x: number, y: number, heading: 
   to.restore();
 }
 
-export function picture(stage: Stage): Promise<Blob> {
+export function picture(app: App): Promise<Blob> {
+  const { stage } = app;
   stage.draw();
   const { canvas } = stage;
   const { clientWidth: width, clientHeight: height } = canvas;
   const ratio = canvas.width / width;
-  const rows = legend();
+  const rows = legend(app);
   const below = rows.length === 0 ? 0 : (rows.length + 1) * LINE + 2 * EDGE;
   const made = document.createElement("canvas");
   [made.width, made.height] = [canvas.width, canvas.height + Math.ceil(below * ratio)];
@@ -76,10 +89,10 @@ export function picture(stage: Stage): Promise<Blob> {
   to.textBaseline = "middle";
   to.lineWidth = 2;
   to.fillStyle = to.strokeStyle = getComputedStyle(element("scale")).color;
-  drawScale(to, width - EDGE, height - EDGE);
+  if (!app.isEye()) drawScale(to, width - EDGE, height - EDGE);
   drawNorth(to, width - 2 * EDGE, 2.5 * EDGE, stage.heading());
   to.fillStyle = INK;
-  if (below > 0) drawLegend(to, rows, height, width);
+  if (below > 0) drawLegend(to, titleOf(app), rows, height, width);
   return new Promise((resolve, reject) => {
     made.toBlob((blob) => (blob ? resolve(blob) : reject(new Error("the picture could not be made"))));
   });

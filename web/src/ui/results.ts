@@ -4,7 +4,7 @@ import type { Volume } from "../engine/client";
 import type { VolumeInfo } from "../engine/messages";
 import { KIND_COLOURS } from "../view/stage";
 import { isAt, setEnds } from "./limits";
-import { button, element, input, large, metres, say } from "./page";
+import { button, element, hex, input, large, metres, say, typed } from "./page";
 
 const KIND_NAMES: Record<string, string> = {
   scene: "a building begins to hide it", range: "the longest range", target_plane: "the target's plane",
@@ -61,7 +61,7 @@ export class Results {
   }
 
   private typeCut(text: string): void {
-    const at = /^\s*(off|any)?\s*$/.test(text) ? null : Number.parseFloat(text.replace(",", "."));
+    const at = /^\s*(off|any)?\s*$/.test(text) ? null : typed(text);
     if (at === null) this.app.setCut(null);
     else if (Number.isFinite(at)) this.app.setCut({ axis: this.axis(), at });
     else say("Cut: write a number, or \"off\"", true);
@@ -82,12 +82,13 @@ export class Results {
     const failure = this.app.mission.target ? this.app.failure : "";
     this.fitCut();
     const field = input("cut-number");
-    if (field !== document.activeElement) field.value = cut === null ? "off" : metres(cut.at);
+    if (field !== document.activeElement) field.value = cut === null ? "off" : `${Number(cut.at.toPrecision(12))} m`;
     element("cut-out").textContent = section && cut?.axis === 2 ? `area ${large(section.area_m2)} m²` : "";
     const status = element("status");
     status.classList.toggle("bad", failure !== "");
     const shown = volume ? ": the volume shown is that of the last valid target" : "";
-    status.textContent = failure !== "" ? `There is no volume of this target${shown}`
+    status.textContent = this.app.wasStopped ? `Not computed, since it was stopped${volume ? ": the volume shown is the last one" : ""}`
+      : failure !== "" ? `There is no volume of this target${shown}`
       : !volume ? "No target yet" : volume.info.outcome === "computed" ? "" : volume.info.reason;
     element("claim").textContent = `Every position in the volume sees ${volume ? seenFrom(volume.info) : "all of the target"}.`;
     this.showNumbers();
@@ -129,7 +130,7 @@ export class Results {
     element("legend").replaceChildren(...[...areas].sort((a, b) => b[1] - a[1]).map(([kind, area]) => {
       const item = document.createElement("li");
       const swatch = document.createElement("i");
-      swatch.style.background = `#${(KIND_COLOURS[kind] ?? 0).toString(16).padStart(6, "0")}`;
+      swatch.style.background = hex(KIND_COLOURS[kind] ?? 0);
       const share = (100 * area) / whole;
       item.append(swatch, `${KIND_NAMES[kind] ?? kind}, ${share < 1 ? "< 1" : Math.round(share)} %`);
       return item;

@@ -38,6 +38,8 @@ export class Tools {
   /** what is dragged, how that began, and in which mission */
   private drag: { follow: Drag; start: PointerEvent; mission: Mission; hasMoved: boolean } | null = null;
   private pressed: PointerEvent | null = null;
+  /** the view is given an event that was kept from it */
+  private isHanding = false;
 
   constructor(private readonly app: App) {
     const { canvas } = app.stage;
@@ -55,6 +57,7 @@ export class Tools {
     button("probe-down").onclick = () => app.moveProbe([0, 0, -1]);
     button("remove-probe").onclick = () => app.setProbe(null);
     button("stop").onclick = () => app.stop();
+    button("compute").onclick = () => void app.compute();
     app.onChange(() => this.showButtons());
   }
 
@@ -76,6 +79,7 @@ export class Tools {
     button("remove-corner").hidden = !canEdit || (drawn.length === 0 && (dragged === null || corners <= 3));
     for (const id of ["probe-up", "probe-down", "remove-probe"]) button(id).hidden = !probe;
     button("stop").hidden = !this.app.isLate();
+    button("compute").hidden = !this.app.wasStopped || this.app.isLate();
   }
 
   /** While a target is drawn: takes its last corner back. */
@@ -114,7 +118,7 @@ export class Tools {
 
   /** More fingers than one turn and zoom the view, and leave what the first drags to it, once it has moved. */
   private press(event: PointerEvent): void {
-    if (!event.isTrusted) return; // handed to the view
+    if (this.isHanding) return;
     element("tip").hidden = true;
     const isFirst = event.isPrimary || event.pointerType !== "touch";
     this.pressed = isFirst ? event : null;
@@ -131,7 +135,9 @@ export class Tools {
   /** A second finger came before the first moved anything: both are the view's. */
   private handToView(start: PointerEvent): void {
     this.letGo();
+    this.isHanding = true;
     this.app.stage.canvas.dispatchEvent(new PointerEvent(start.type, start));
+    this.isHanding = false;
   }
 
   private move(event: PointerEvent): void {

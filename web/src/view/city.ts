@@ -17,8 +17,11 @@ export interface Hit {
 const EDGES_UP_TO = 120000; // triangles: beyond, lines take longer to find than the picture is worth
 const GAP = 1e-4; // of the scene's size: what rises so much above a surface stands on it
 
+/** Of what hides the target from the probe: none of the volume's colours, and not the target's. */
+export const LIT_COLOUR = 0x7b1fa2;
+const LIT_UP_TO = 500000; // triangles, as EDGES_UP_TO
 const LIT = new THREE.MeshBasicMaterial({
-  color: 0xd32f2f, transparent: true, opacity: 0.6, side: THREE.DoubleSide, depthWrite: false,
+  color: LIT_COLOUR, transparent: true, opacity: 0.6, side: THREE.DoubleSide, depthWrite: false,
 });
 
 export class City {
@@ -64,13 +67,22 @@ export class City {
     const wanted = new Set(names);
     const isLit = info.objects.map(({ name, kind }) => kind !== "ground" && wanted.has(name) && info.objects.length > 1);
     const corners = mesh.geometry.getIndex()!.array;
-    const positions = mesh.geometry.getAttribute("position");
-    const points: THREE.Vector3[] = [];
-    for (let i = 0; i < corners.length; ++i) {
-      if (isLit[labels[Math.floor(i / 3)]!]) points.push(new THREE.Vector3().fromBufferAttribute(positions, corners[i]!));
+    const all = mesh.geometry.getAttribute("position").array;
+    const of = labels.reduce((count, label) => count + (isLit[label] ? 1 : 0), 0);
+    const positions = new Float32Array(of > LIT_UP_TO ? 0 : 9 * of);
+    let at = 0;
+    for (let i = 0; i < corners.length && at < positions.length; ++i) {
+      if (!isLit[labels[Math.floor(i / 3)]!]) continue;
+      for (let axis = 0; axis < 3; ++axis) positions[at++] = all[3 * corners[i]! + axis]!;
     }
     this.lit.geometry.dispose();
-    this.lit.geometry = new THREE.BufferGeometry().setFromPoints(points);
+    this.lit.geometry = new THREE.BufferGeometry();
+    this.lit.geometry.setAttribute("position", new THREE.BufferAttribute(positions, 3));
+  }
+
+  /** Something is coloured by light(). */
+  isLit(): boolean {
+    return this.lit.geometry.getAttribute("position")?.count > 0;
   }
 
   private clear(): void {

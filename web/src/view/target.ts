@@ -4,7 +4,7 @@ import type { Point } from "../engine/messages";
 import type { City } from "./city";
 import type { Pointer, Stage } from "./stage";
 
-const RED = 0xc41230;
+export const RED = 0xc41230;
 const SIDE_PIXELS = 8;
 
 export class TargetView {
