@@ -212,8 +212,7 @@ TEST(AboveGround, ZonesHaveHeightsToo) {
     for (const bool has_bridge : {false, true}) {
       if (has_bridge) testing::append(ground, make_hills(random, 10, 2, 3, origin + Vec3(8, 5, 9)));
       const auto surface = std::make_shared<const Mesh>(ground);
-      for (const auto& [min_m, max_m] :
-           {std::pair{4.0, 20.0}, {-INFINITY, 12.0}, {6.0, INFINITY}, {-1e15, 12.0}, {6.0, 1e15}}) {
+      for (const auto& [min_m, max_m] : {std::pair{4.0, 20.0}, {-INFINITY, 12.0}, {6.0, 1e15}}) {
         Zone zone;
         for (const auto& [x, y] : {std::pair{-30, -20}, {30, -20}, {30, 20}, {-30, 20}}) {
           zone.outer.emplace_back(origin.x() + x, origin.y() + y);
