@@ -78,8 +78,8 @@ export class App {
    * - openMission(): the volume of a text, which becomes `mission` together with it, if nothing was wished for since.
    * - restore(): once more the volume that is shown.
    * What holds when nothing is awaited and nothing dragged: the volume shown is that of `mission`, exactly, or
-   * `failure` says why that has none; and it is the last one of the engine. What the engine answers to query, slice,
-   * prove or save while its last volume is another one is dropped.
+   * `failure` says why that has none; and it is the last one of the engine, unless restore() failed or was stopped. What
+   * the engine answers to query, slice, prove or save while its last volume is another one is dropped.
    */
   private turn = 0;
   /** of the newest wish of which the outcome was told */
