@@ -71,8 +71,7 @@ void Conversation::leave() {
   waiting_.clear();
 }
 
-/// Of volumes; they are answered with this.
-void Conversation::drop_waiting(std::string (*answer_to)(const Request&)) {
+void Conversation::drop_waiting_volumes(std::string (*answer_to)(const Request&)) {
   for (auto at = waiting_.begin(); at != waiting_.end();) {
     if (at->call != "compute") {
       ++at;
@@ -85,14 +84,14 @@ void Conversation::drop_waiting(std::string (*answer_to)(const Request&)) {
 
 void Conversation::enqueue(Request request) {
   if (request.call == "stop") return stop(request);
-  if (request.call == "compute") drop_waiting(stale_answer);
+  if (request.call == "compute") drop_waiting_volumes(stale_answer);
   waiting_.push_back(std::move(request));
   work();
 }
 
 /// Does not wait for its turn. What is computed answers as soon as it notices.
 void Conversation::stop(const Request& request) {
-  drop_waiting(cancelled_answer);
+  drop_waiting_volumes(cancelled_answer);
   is_stopped_ = is_working_;
   send(stopped_answer(request));
 }
@@ -103,9 +102,10 @@ void Conversation::work() {
   is_stopped_ = false;
   asio::post(workshop_.workers, [self = shared_from_this(), request = std::move(waiting_.front())]() mutable {
     Workshop& workshop = self->workshop_;
-    const auto goes_on = [&] { return !self->is_gone_ && !self->is_stopped_ && !workshop.is_over; };
+    const auto is_wanted = [&] { return !self->is_gone_ && !workshop.is_over; };
+    const auto goes_on = [&] { return is_wanted() && !self->is_stopped_; };
     std::string message;
-    if (!self->is_gone_ && !workshop.is_over) {
+    if (is_wanted()) {
       with_threads(workshop.threads, [&] {
         message = answer(self->session_, self->areas_, request, [&](std::string_view, double) { return goes_on(); });
       });

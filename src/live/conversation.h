@@ -41,7 +41,7 @@ class Conversation : public std::enable_shared_from_this<Conversation> {
   void take(Error error);
   void enqueue(Request request);
   void stop(const Request& request);
-  void drop_waiting(std::string (*answer_to)(const Request&));
+  void drop_waiting_volumes(std::string (*answer_to)(const Request&));
   void work();
   void send(std::string message);
   void write();

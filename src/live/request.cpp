@@ -103,11 +103,9 @@ std::string message_of(Session& session, MapAreas& areas, const Request& request
   return framed(header, mesh, bytes);
 }
 
-std::string error_answer(const Request& request, void (*fail)()) {
-  Json header = Json::parse(answered([&]() -> std::string {
-    fail();
-    return "{}";
-  }));
+/// `error`: JSON.
+std::string error_answer(const Request& request, const std::string& error) {
+  Json header = Json::parse(error);
   header["id"] = request.id;
   header["engine_ms"] = 0;
   return framed(header, nullptr, nullptr);
@@ -150,12 +148,13 @@ std::string answer(Session& session, MapAreas& areas, const Request& request, co
   try {
     return message_of(session, areas, request, progress);
   } catch (const std::exception&) {  // no room for the message itself
-    return error_answer(request, [] { throw; });
+    return error_answer(request, answered([]() -> std::string { throw; }));
   }
 }
 
 std::string cancelled_answer(const Request& request) {
-  return error_answer(request, [] { throw Error(ErrorCode::cancelled, "stopped before its turn", "", ""); });
+  return error_answer(
+      request, answered([]() -> std::string { throw Error(ErrorCode::cancelled, "stopped before its turn", "", ""); }));
 }
 
 std::string stale_answer(const Request& request) {

@@ -17,7 +17,7 @@ export type Listener = () => void;
 
 const LATE_MS = 500;
 const LATE_FIRST = "Computing…";
-const RESTORED = "Computing the volume that is shown once more…";
+const RESTORING = "Computing the shown volume again…";
 const LATE = `${LATE_FIRST} What is shown is still the last volume`;
 
 export interface Cut {
@@ -65,8 +65,7 @@ export class App {
   /** the volume has coarser facets */
   isDraft = false;
   private isDragged = false;
-  /** restore() was tried in vain */
-  private isGivenUp = false;
+  private hasRestoreFailed = false;
   private isProbeOld = false;
   private isAsking = false;
   private lateWorks = 0;
@@ -329,20 +328,20 @@ export class App {
   /** The last volume stays where a mission has none. It is not left a draft, and the engine must have it. */
   private settle(): void {
     const isDone = this.engine.last === this.volume && (!this.isDraft || this.isDragged);
-    if (this.volume && !isDone && !this.isGivenUp && this.engine.isIdle) void this.restore();
+    if (this.volume && !isDone && !this.hasRestoreFailed && this.engine.isIdle) void this.restore();
   }
 
   private async restore(): Promise<void> {
     const { shownOf } = this;
     if (!shownOf) return;
-    const tell = () => this.shownOf === shownOf && say(RESTORED);
+    const tell = () => this.shownOf === shownOf && say(RESTORING);
     try {
       const volume = await this.late(this.engine.compute(missionText(shownOf)), tell);
       if (volume && this.shownOf === shownOf) this.putAgain(volume, shownOf);
     } catch {
-      this.isGivenUp = true; // it stays as it is: a draft, or one that the engine answers nothing about
+      this.hasRestoreFailed = true; // it stays as it is: a draft, or one that the engine answers nothing about
     } finally {
-      unsay(RESTORED);
+      unsay(RESTORING);
     }
   }
 
@@ -371,7 +370,7 @@ export class App {
     this.volume = volume;
     this.shownOf = mission;
     this.isDraft = isDraft;
-    this.isGivenUp = false;
+    this.hasRestoreFailed = false;
     this.volumeView.show(volume.info, volume.mesh);
     this.showOutline(null);
     void this.askProbe();
@@ -434,7 +433,7 @@ export class App {
     try {
       [answer] = await this.engine.query([at]);
     } catch (error) {
-      if (this.isEngineHere() || this.isGivenUp) say(toldBy(error), true);
+      if (this.isEngineHere() || this.hasRestoreFailed) say(toldBy(error), true);
       return;
     }
     if (!answer || this.probe?.at !== at || !this.volume || !this.isEngineHere()) return;

@@ -87,7 +87,27 @@ test("the volume is proved, cut and saved", async ({ page }) => {
   await page.locator("#cut-number").press("Enter");
   await expect(page.locator("#cut-number")).toHaveValue("33.5 m");
   for (const format of ["ply", "glb", "stl"]) expect(readFileSync(await saved(page, format)).length).toBeGreaterThan(1000);
-  // Under the view the picture has a line for each colour.
+  // Under the view the picture has a line for each colour, and claims nothing of a target that the volume is not of.
+  const drawn = async () => {
+    await page.evaluate(() => {
+      const texts: string[] = ((window as any).drawn = []);
+      const { fillText } = CanvasRenderingContext2D.prototype;
+      CanvasRenderingContext2D.prototype.fillText = function (text: string, ...rest) {
+        texts.push(text);
+        fillText.call(this, text, ...(rest as [number, number]));
+      };
+    });
+    await saved(page, "picture");
+    return page.evaluate(() => ((window as any).drawn as string[]).join("\n"));
+  };
+  expect(await drawn()).toContain("Every position in the volume sees all of the target.\nthe target");
+  await page.evaluate(() => (window as any).vantage.edit((m: any) => (m.target.vertices = [[0, 0, 0], [9, 0, 0], [1, 1, 0], [0, 9, 0]]), true));
+  await expect(page.locator("#status")).toContainText("no volume of this target");
+  const failed = await drawn();
+  expect(failed).toContain("no volume of this target");
+  expect(failed).not.toContain("Every position");
+  await page.keyboard.press("Control+z");
+  await settled(page);
   const picture = readFileSync(await saved(page, "picture"));
   const [width, height] = [picture.readUInt32BE(16), picture.readUInt32BE(20)];
   const view = await page.evaluate(() => {

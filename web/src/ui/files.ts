@@ -59,7 +59,7 @@ export class Files {
     return this.last;
   }
 
-  /** While something is opened the page is busy, for who hears it and for tests. */
+  /** While something is opened the page is busy, for screen readers and for tests. */
   private count(change: 1 | -1): void {
     this.pending += change;
     document.body.ariaBusy = String(this.pending > 0);
@@ -122,7 +122,7 @@ export class Files {
     this.afterwards(async () => {
       const large = files.find((file) => file.size > LARGEST);
       if (large) {
-        throw new Error(`${large.name} has ${Math.round(large.size / 1e6)} MB; this page takes no more than 600 MB, the program does`);
+        throw new Error(`${large.name} has ${Math.round(large.size / 1e6)} MB, and this page reads no more than 600 MB: use the program`);
       }
       const missions = files.filter(isMission);
       if (missions.length > 1) throw new Error("open one mission at a time");
