@@ -155,12 +155,16 @@ void Bridge::attend(const std::string& stage, double fraction, bool has_news) {
 void Bridge::call_python(const std::string& stage, double fraction) {
   const nb::object answer = callback_(stage, fraction);
   if (!answer.is(nb::bool_(false))) return;
+  stopped_while_ = stage;
   const std::lock_guard lock(mutex_);
   is_cancelled_ = true;
 }
 
-void Bridge::raise() const {
+void Bridge::raise(const std::exception_ptr& failure) const {
   if (raised_) std::rethrow_exception(raised_);
+  if (failure) std::rethrow_exception(failure);
+  // All was done before the computation could hear of it: what its caller asked for is still that it be stopped.
+  if (is_cancelled_) throw Error(ErrorCode::cancelled, "cancelled while " + stopped_while_, "", "");
 }
 
 }  // namespace vantage::python

@@ -40,8 +40,9 @@ class Bridge {
   /// For a computation on the calling thread, which has let go of the interpreter: it takes it back from time to time.
   Progress progress_here();
 
-  /// Raises what Python raised meanwhile.
-  void raise() const;
+  /// When the computation has ended: raises what Python raised meanwhile, or else the computation's `failure`, if any, or
+  /// else Error(cancelled) where it was stopped too late to notice.
+  void raise(const std::exception_ptr& failure) const;
 
  private:
   void attend(const std::string& stage, double fraction, bool has_news);
@@ -52,7 +53,7 @@ class Bridge {
   std::condition_variable changed_;
   bool is_finished_ = false, is_cancelled_ = false, has_news_ = false;
   std::chrono::steady_clock::time_point next_;
-  std::string stage_;
+  std::string stage_, stopped_while_;
   double fraction_ = 0;
   std::exception_ptr raised_;
 };
@@ -77,8 +78,7 @@ auto computed(nb::object callback, int threads, Work&& work) {
     bridge.finish();  // the last that it touches here
   });
   bridge.serve();
-  bridge.raise();
-  if (failure) std::rethrow_exception(failure);
+  bridge.raise(failure);
   return std::move(*value);
 }
 
@@ -99,8 +99,7 @@ auto computed_here(nb::object callback, int threads, Work&& work) {
       failure = std::current_exception();
     }
   }
-  bridge.raise();
-  if (failure) std::rethrow_exception(failure);
+  bridge.raise(failure);
   return std::move(*value);
 }
 

@@ -45,6 +45,23 @@ def test_a_callback_that_raises_stops_the_work():
     assert time.monotonic() - start < 10
 
 
+def test_a_stop_is_heard_when_all_was_done_meanwhile(result):
+    points = np.random.default_rng(4).uniform(-60, 60, (200_000, 3))
+    start = time.monotonic()
+    result.query(points)
+    seconds = time.monotonic() - start
+    told = []
+
+    def progress(stage, fraction):
+        told.append(stage)
+        time.sleep(5 * seconds)  # the other thread comes to its end
+        return False
+
+    with pytest.raises(vt.CancelledError) as raised:
+        result.query(points, progress=progress)
+    assert len(told) == 1 and told[0] in raised.value.problem
+
+
 def test_a_callback_that_returns_none_goes_on(scene):
     assert vt.compute(scene, SQUARE, max_range=60, progress=lambda stage, fraction: None).outcome == "computed"
 

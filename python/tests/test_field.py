@@ -183,13 +183,23 @@ def test_range_and_dtype(scene, field):
     assert ((near.values == 1) == (field.values == 1))[within].all()
 
 
-def test_threads_and_stop(scene, field):
+def test_threads(scene, field):
     assert (vt.fraction_field(scene, SQUARE, BOX, 3, threads=1).values == field.values).all()
-    for options, stages in (({}, {"dividing space", "looking from voxels"}), ({"samples": 200}, {"looking from samples"})):
+
+
+@pytest.mark.parametrize("wanted, options", [("dividing space", {}), ("looking from voxels", {}),
+                                            ("looking from samples", {"samples": 200})])
+def test_every_stage_can_be_stopped(scene, wanted, options):
+    for step in (0.75, 0.5, 0.35):  # Python is told of what takes 50 ms and more
         told = []
-        with pytest.raises(vt.CancelledError):
-            vt.fraction_field(scene, SQUARE, BOX, 0.75, device="cpu", **options,
-                              progress=lambda stage, part: told.append(stage) or not stages <= set(told))
+        try:
+            vt.fraction_field(scene, SQUARE, BOX, step, device="cpu", threads=1, **options,
+                              progress=lambda stage, part: told.append(stage) or stage != wanted)
+        except vt.CancelledError as error:
+            assert told[-1] == wanted and wanted in error.problem
+            return
+        assert wanted not in told, "it said no, and was not heard"
+    pytest.fail(f"nothing was told of {wanted}, also on the finest grid")
 
 
 @pytest.mark.parametrize("box, step, options, code, where", [

@@ -7,7 +7,6 @@ import pickle
 import shutil
 import subprocess
 import sys
-import time
 
 import numpy as np
 import pytest
@@ -248,7 +247,10 @@ def test_a_forked_process_is_told(result):
 
 @pytest.mark.parametrize("call", ["compute", "query", "prove", "simplify", "spheres"])
 def test_callbacks_that_raise_stop_every_call(result, call):
+    told = []
+
     def progress(stage, fraction):
+        told.append(stage)
         raise LookupError("mine")
 
     calls = {"compute": lambda: slow(progress), "query": lambda: result.query(points, progress=progress),
@@ -257,14 +259,12 @@ def test_callbacks_that_raise_stop_every_call(result, call):
              "spheres": lambda: vt.compute(yard(), SQUARE, max_range=60, method="spheres", progress=progress,
                                            spheres={"cubemap": 400, "device": "cpu"})}
     points = np.random.default_rng(2).uniform(-60, 60, (200000, 3))
-    start = time.monotonic()
     try:
         calls[call]()
     except LookupError as error:
-        assert str(error) == "mine"
+        assert str(error) == "mine" and len(told) == 1
     else:
-        # Done before it was asked: progress is told ten times a second at most.
-        assert time.monotonic() - start < 0.5
+        assert not told  # it took less than the time between two calls
     assert result.prove()["verdict"] == "proved"  # nothing is broken
 
 
