@@ -202,6 +202,24 @@ TEST_F(LiveServerThread, StopsWhatIsComputed) {
   EXPECT_TRUE(ask(socket, compute(6, 0.02)).contains("value"));
 }
 
+TEST_F(LiveServerThread, StopsAProof) {
+  Socket socket = opened();
+  const std::string text = std::string(testing::kTarget) + testing::kSensor + "exact: {tolerance: 0.001}\n";
+  ASSERT_TRUE(ask(socket, {{"id", 1}, {"request", {{"call", "compute"}, {"text", text}}}}).contains("value"));
+  for (const Json& message :
+       {Json{{"id", 2}, {"request", {{"call", "prove"}}}}, Json{{"id", 3}, {"request", {{"call", "stop"}}}}})
+    socket.write(asio::buffer(message.dump()));
+  std::map<int, Json> answers;
+  for (int n = 0; n < 2; ++n) {
+    const Json answer = next(socket);
+    answers[answer["id"]] = answer;
+  }
+  EXPECT_EQ(answers[2]["error"]["code"], "cancelled") << answers[2].dump(1).substr(0, 300);
+  EXPECT_TRUE(answers[3].contains("value"));
+  const Json proved = ask(socket, {{"id", 4}, {"request", {{"call", "prove"}}}});
+  EXPECT_EQ(proved["value"]["verdict"], "proved") << proved.dump(1).substr(0, 300);
+}
+
 TEST_F(LiveServerThread, AnswersAllThatIsAskedHoweverLateItIsRead) {
   Socket socket = opened();
   const Json compute{{"id", 0},

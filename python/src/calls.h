@@ -40,8 +40,8 @@ class Bridge {
   /// For a computation on the calling thread, which has let go of the interpreter: it takes it back from time to time.
   Progress progress_here();
 
-  /// When the computation has ended: raises what Python raised meanwhile, or else the computation's `failure`, if any, or
-  /// else Error(cancelled) where it was stopped too late to notice.
+  /// When the computation has ended: raises what Python raised meanwhile, or else the computation's `failure`, if any,
+  /// or else Error(cancelled) where it was stopped too late to notice.
   void raise(const std::exception_ptr& failure) const;
 
  private:
