@@ -12,6 +12,7 @@
 #include <set>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "live/page_server.h"
 #include "live/session.h"
@@ -85,6 +86,16 @@ class LiveServerThread : public testing::Cli {
     std::uint32_t length = 0;
     std::memcpy(&length, text.data(), sizeof length);
     return Json::parse(text.substr(4, length));
+  }
+  /// Waits for no answer before all is asked. The headers of the answers, by id.
+  static std::map<int, Json> ask_at_once(Socket& socket, const std::vector<Json>& messages) {
+    for (const Json& message : messages) socket.write(asio::buffer(message.dump()));
+    std::map<int, Json> answers;
+    for (std::size_t n = 0; n < messages.size(); ++n) {
+      const Json answer = next(socket);
+      answers[answer["id"]] = answer;
+    }
+    return answers;
   }
 
   Socket opened() {
@@ -186,14 +197,8 @@ TEST_F(LiveServerThread, StopsWhatIsComputed) {
   };
   ASSERT_TRUE(ask(socket, compute(1, 0.01)).contains("value"));
   constexpr double kFine = 1e-5;  // millions of facets: seconds
-  for (const Json& message : {compute(2, kFine), compute(3, kFine), Json{{"id", 4}, {"request", {{"call", "stop"}}}}}) {
-    socket.write(asio::buffer(message.dump()));
-  }
-  std::map<int, Json> answers;
-  for (int n = 0; n < 3; ++n) {
-    const Json answer = next(socket);
-    answers[answer["id"]] = answer;
-  }
+  std::map<int, Json> answers =
+      ask_at_once(socket, {compute(2, kFine), compute(3, kFine), {{"id", 4}, {"request", {{"call", "stop"}}}}});
   EXPECT_EQ(answers[2]["error"]["code"], "cancelled") << answers[2].dump(1).substr(0, 300);
   EXPECT_EQ(answers[3]["error"]["code"], "cancelled");
   EXPECT_TRUE(answers[4].contains("value"));
@@ -206,14 +211,8 @@ TEST_F(LiveServerThread, StopsAProof) {
   Socket socket = opened();
   const std::string text = std::string(testing::kTarget) + testing::kSensor + "exact: {tolerance: 0.001}\n";
   ASSERT_TRUE(ask(socket, {{"id", 1}, {"request", {{"call", "compute"}, {"text", text}}}}).contains("value"));
-  for (const Json& message :
-       {Json{{"id", 2}, {"request", {{"call", "prove"}}}}, Json{{"id", 3}, {"request", {{"call", "stop"}}}}})
-    socket.write(asio::buffer(message.dump()));
-  std::map<int, Json> answers;
-  for (int n = 0; n < 2; ++n) {
-    const Json answer = next(socket);
-    answers[answer["id"]] = answer;
-  }
+  std::map<int, Json> answers = ask_at_once(
+      socket, {{{"id", 2}, {"request", {{"call", "prove"}}}}, {{"id", 3}, {"request", {{"call", "stop"}}}}});
   EXPECT_EQ(answers[2]["error"]["code"], "cancelled") << answers[2].dump(1).substr(0, 300);
   EXPECT_TRUE(answers[3].contains("value"));
   const Json proved = ask(socket, {{"id", 4}, {"request", {{"call", "prove"}}}});

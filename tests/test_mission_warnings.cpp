@@ -232,7 +232,8 @@ TEST(MissionWarningsOfExamples, AreNoneInTheGallery) {
   VANTAGE_REQUIRE_SHARED("charlotte/uptownCharlotte.obj");
   // VANTAGE_SHARED may be elsewhere; the missions name the folder beside the checkout.
   const std::filesystem::path beside = testing::source_folder() / ".." / "shared" / "data";
-  if (!std::filesystem::exists(beside)) GTEST_SKIP() << "needs " << beside.lexically_normal();
+  if (!std::filesystem::exists(beside))
+    GTEST_SKIP() << "needs " << beside.lexically_normal().string() << ": put it there";
   for (const char* folder : {"docs/gallery", "docs/maps", "docs/paper"}) {
     for (const auto& entry : std::filesystem::directory_iterator(testing::source_folder() / folder)) {
       if (entry.path().extension() != ".yaml") continue;
