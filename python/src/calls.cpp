@@ -163,7 +163,7 @@ void Bridge::call_python(const std::string& stage, double fraction) {
 void Bridge::raise(const std::exception_ptr& failure) const {
   if (raised_) std::rethrow_exception(raised_);
   if (failure) std::rethrow_exception(failure);
-  // All was done before the computation could hear of it: what its caller asked for is still that it be stopped.
+  // The work was done before it could notice the stop. The callback said no all the same.
   if (is_cancelled_) throw Error(ErrorCode::cancelled, "cancelled while " + stopped_while_, "", "");
 }
 

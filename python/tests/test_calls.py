@@ -48,7 +48,7 @@ def test_a_callback_that_raises_stops_the_work():
 def test_a_stop_is_heard_when_all_was_done_meanwhile(result):
     points = np.random.default_rng(4).uniform(-60, 60, (200_000, 3))
     start = time.monotonic()
-    result.query(points)
+    result.query(points, threads=1)
     seconds = time.monotonic() - start
     told = []
 
@@ -58,7 +58,7 @@ def test_a_stop_is_heard_when_all_was_done_meanwhile(result):
         return False
 
     with pytest.raises(vt.CancelledError) as raised:
-        result.query(points, progress=progress)
+        result.query(points, threads=1, progress=progress)
     assert len(told) == 1 and told[0] in raised.value.problem
 
 
