@@ -123,6 +123,20 @@ TEST_F(MissionPlaces, AMapIsTheSceneThatTheCommandWrites) {
   EXPECT_TRUE(is_hidden);
 }
 
+TEST_F(MissionPlaces, HeightsAboveTheSurfaceOfARasterAreNoted) {
+  const std::string target = "target: {center: [48.1374, 11.5755], width: 5, length: 5, offset: 1}\n";
+  const auto has_note = [&](const std::string& navigation) {
+    const Mission resolved =
+        resolve_mission(mission(std::string("raster: dem.asc, origin: [48.1374, 11.5755], ") + kRegion,
+                                target + "navigation: " + navigation + "\n"));
+    return std::any_of(resolved.notes.begin(), resolved.notes.end(),
+                       [](const Warning& note) { return note.code == WarningCode::above_surface; });
+  };
+  EXPECT_TRUE(has_note("{altitude: {agl: [5, 30]}}"));
+  EXPECT_FALSE(has_note("{altitude: {agl: [5, 30]}, ground: 500}")) << "the ground is named";
+  EXPECT_FALSE(has_note("{altitude: [500, 530]}"));
+}
+
 TEST_F(MissionPlaces, ARasterIsAScene) {
   const double z = 500 + kSlope * 10;
   const std::string vertices = list_of({{-10, -10, z}, {10, -10, z}, {10, 10, z}, {-10, 10, z}});

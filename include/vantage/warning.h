@@ -21,6 +21,7 @@ enum class WarningCode {
   ground_extended,     ///< the ground was made larger to hold the target
   zones_left_out,      ///< a file of zones holds what was not taken as a zone
   clearance_from_all,  ///< the scene does not say what of it is ground: the clearance is kept from all of it
+  above_surface,       ///< heights above the ground are measured from a raster's surface, with roofs and trees
   // of a volume's file
   volume_changed,           ///< the mesh is not the one that the file was written with
   volume_of_other_scene,    ///< the volume was computed in another scene

@@ -20,20 +20,41 @@ std::uint32_t named_object(const Scene& scene, const std::string& name, const st
                 std::to_string(found.size()) + " objects of the scene go by the name of " + in_quotes(name), where,
                 "name one that is alone with its name, or give the ground's z");
   }
-  throw Error(ErrorCode::object_missing, "the scene has no object " + in_quotes(name), where,
-              advice_for_object(scene, name, "give the ground's z: the objects of this scene have no names"));
+  throw Error(
+      ErrorCode::object_missing, "the scene has no object " + in_quotes(name), where,
+      advice_for_object(scene, name,
+                        "give the ground's z, or 'all' if the scene is terrain alone: its objects have no names"));
+}
+
+/// For scenes that are terrain alone, whose objects may have no names. An object of this name comes first.
+constexpr const char* kWholeScene = "all";
+
+bool is_whole_scene(const Scene& scene, const std::string& name) {
+  return name == kWholeScene && objects_named(scene, name).empty();
+}
+
+Ground ground_named(const Scene& scene, const std::string& name, const std::string& where) {
+  if (is_whole_scene(scene, name)) return {0, std::make_shared<const Mesh>(scene.mesh)};
+  return ground_of(scene, named_object(scene, name, where));
 }
 
 Ground ground_for(const Mission& mission, const std::string& where) {
   const Scene& scene = mission.scene();
   if (const auto& source = mission.as_written.ground) {
-    return source->plane_z_m ? Ground{*source->plane_z_m}
-                             : ground_of(scene, named_object(scene, source->object, where));
+    return source->plane_z_m ? Ground{*source->plane_z_m} : ground_named(scene, source->object, where);
   }
   if (auto ground = ground_of(scene)) return *std::move(ground);
   throw Error(ErrorCode::ground_missing, "the scene does not say what of it is ground, so nothing is above it", where,
-              "write 'ground: 0' under 'navigation' for flat ground at z = 0, or 'ground: NAME' for an object of the "
-              "scene; or give z: 'altitude: [20, 120]'");
+              "write 'ground: 0' under 'navigation' for flat ground at z = 0, 'ground: NAME' for an object of the "
+              "scene, or 'ground: all' if the scene is terrain alone; or give z: 'altitude: [20, 120]'");
+}
+
+/// Whether heights are measured from a raster's surface, which may have roofs and trees in it.
+bool is_above_surface(const Mission& mission) {
+  const auto& objects = mission.scene().objects;
+  return !mission.as_written.ground && std::any_of(objects.begin(), objects.end(), [](const SceneObject& object) {
+    return object.kind == ObjectKind::surface;
+  });
 }
 
 }  // namespace
@@ -50,6 +71,10 @@ void find_ground(Mission& mission) {
   if (limits.empty()) return;
   const Ground ground = ground_for(mission, mission.as_written.places.above_ground);
   for (AboveGround* limit : limits) limit->ground = ground;
+  if (!is_above_surface(mission)) return;
+  mission.notes.push_back({WarningCode::above_surface,
+                           "heights above the ground (agl) are measured from the surface of the raster: where that "
+                           "holds roofs and trees, they are heights above these"});
 }
 
 void find_obstacles(Mission& mission) {
@@ -57,7 +82,8 @@ void find_obstacles(Mission& mission) {
   if (!clearance) return;
   const Scene& scene = mission.scene();
   std::vector<std::uint32_t> ground;
-  if (const auto& source = mission.as_written.ground; source && !source->plane_z_m) {
+  const auto& source = mission.as_written.ground;
+  if (source && !source->plane_z_m && !is_whole_scene(scene, source->object)) {
     ground.push_back(named_object(scene, source->object, mission.as_written.places.above_ground));
   }
   clearance->obstacles = obstacles_of(scene, ground);

@@ -76,7 +76,8 @@ std::string table_text(const SimplifyArguments& options, const SimplifiedVolume&
   table.row("volume", fixed(s.volume_after_m3, 3),
             "m3, " + fixed(100 * s.volume_after_m3 / s.volume_before_m3, 4) + " % of " + fixed(s.volume_before_m3, 3));
   table.row("lost", fixed(s.lost_measured_m, 6),
-            "m from the result lies the farthest vertex; nothing is farther than " + fixed(s.lost_bound_m, 6));
+            "m at most, between the result and the vertices of the given volume; " + fixed(s.lost_bound_m, 6) +
+                " m is the bound for all of its points");
   if (s.pieces > 1 || s.pieces_dropped > 0) {
     table.row("pieces", count(s.pieces), count(s.pieces_dropped) + " small ones were left out");
   }
