@@ -73,6 +73,7 @@ nightly: tested benchmarks  ## what takes too long for every change: lint and sa
 	JOBS=$(JOBS) scripts/build_variants.sh
 	build/bin/vantage_attack --scenes $(or $(SCENES),2000) --seed $(or $(SEED),$(shell date +%Y%m%d)) \
 	  --jobs $(JOBS) --out build/attack
+	python3 tests/forge/forge_certificates.py --mutants $(or $(MUTANTS),5000) --seed $(or $(SEED),$(shell date +%Y%m%d))
 
 .PHONY: install
 install: build  ## into PREFIX (/usr/local)

@@ -113,7 +113,7 @@ class Certificates(unittest.TestCase):
         write_ply(self.folder / name, mesh.vertices, mesh.triangles, mesh.objects if is_scene else None)
         volume = checker.Mesh(self.folder / "volume.ply")
         if volume.comments:
-            write_ply(volume.path, volume.vertices, volume.triangles)
+            write_ply(self.folder / "volume.ply", volume.vertices, volume.triangles)
         certificate = self.read()
         certificate["scene"]["hash"] = checker.Mesh(self.folder / "volume.scene.ply").hash(b"scene")
         certificate["volume"]["hash"] = checker.Mesh(self.folder / "volume.ply").hash(b"volume")
@@ -133,7 +133,7 @@ class Accepted(Certificates):
     def test_a_city(self):
         self.make(more="navigation: {altitude: [5, 30]}\n")
         lines = self.accepted()
-        self.assertIn("accepted: sight, range, front, altitude from [None, None, 5] to [None, None, 30]", lines[-3])
+        self.assertIn("accepted: sight, range, front, altitude from [None, None, 5.0] to [None, None, 30.0]", lines[-3])
         self.assertNotIn("names none", "".join(lines))
 
     def test_at_all_sizes_and_places(self):
@@ -156,6 +156,38 @@ class Accepted(Certificates):
         self.assertEqual(len(self.accepted()), 2 * 2 + 3)
         self.make(f"targets:\n  - {{{SQUARE}}}\n  - {{vertices: [[0, 3, 2], [2, 3, 2], [1, 3, 4]]}}\ncombine: all")
         self.assertEqual(len(self.accepted()), 2 * 2 + 3)
+
+    def test_targets_that_were_raised(self):
+        """Above the surface that they lie on, which is not plane."""
+        for scale, target in [(1, SQUARE), (1e-3, SQUARE), (1, "point: [0.3, 0.2, 0.1]"), (40, SQUARE),
+                              (1, "point: [0.3, 0.2, 0.1], front: [0.1, 0, 1]")]:
+            numbers, low = random.Random(7), 1e-3 * min(1, scale)
+            places = [(x, y, 0.1 * scale + numbers.uniform(-low, low)) for x in range(-8, 9, 2) for y in range(-8, 9, 2)]
+            roof = ["o roof"] + [f"v {x * scale} {y * scale} {z}" for x, y, z in places]
+            for i in range(8):
+                for a in range(9 * i + 1, 9 * i + 9):
+                    roof += [f"f {a} {a + 9} {a + 10}", f"f {a} {a + 10} {a + 1}"]
+            scene = roof + block((12 * scale, -5 * scale, 0), (14 * scale, 5 * scale, 12 * scale), 82)
+            corners = checker.re.sub(r"-?[0-9][0-9.]*", lambda n: str(float(n[0]) * scale), target)
+            with self.subTest(scale=scale, target=target):
+                self.make(corners, obj="\n".join(scene) + "\n", max_range=50 * scale)
+                header = (self.folder / "volume.ply").read_bytes().split(b"end_header")[0]
+                said = json.loads(b"".join(line[24:] for line in header.split(b"\n") if b"vantage volume: " in line))
+                self.assertGreater(said["lift_m"][0], 1e-5 * min(1, scale))
+                self.accepted()
+
+    def test_a_map(self):
+        """It has a place on the earth, and names that are not ASCII."""
+        town = (ROOT / "examples" / "town" / "town.osm").read_text(encoding="utf-8")
+        self.assertIn('k="name" v="', town)
+        (self.folder / "town.osm").write_text(town.replace('k="name" v="', 'k="name" v="Stra\u00dfe '), encoding="utf-8")
+        mission = (ROOT / "examples" / "town" / "mission.yaml").read_text(encoding="utf-8")
+        (self.folder / "mission.yaml").write_text(mission, encoding="utf-8")
+        self.prove(self.folder / "mission.yaml")
+        header = (self.folder / "volume.ply").read_bytes().split(b"end_header")[0]
+        self.assertIn(b"comment vantage georeference:", header)
+        self.assertIn("Stra\u00dfe".encode(), header)
+        self.accepted()
 
     def test_a_scene_that_is_far_away(self):
         self.make(obj="\n".join(block((500, 500, 0), (510, 510, 9), 1)) + "\n")
@@ -258,8 +290,10 @@ class Tampered(Certificates):
         for change in (change_plane(3, lambda n: [-x for x in n]), change_plane(-1, lambda n: n[1:] + n[:1]),
                        change_plane(0, lambda n: [0, 0, 0]), another):
             self.part(change, "a plane does not separate")
-        self.part(change_plane(0, lambda n: n[:2]), "garbled")
-        self.refused_after(lambda c: c["parts"][0].update(steps=c["parts"][0]["steps"].replace(",", ",.", 1)), "garbled")
+        self.part(change_plane(0, lambda n: n[:2]), "between the steps")
+        self.part(change_plane(0, lambda n: n + [-1]), "between the steps")
+        self.refused_after(lambda c: c["parts"][0].update(steps=c["parts"][0]["steps"].replace(",", ",.", 1)),
+                           "between the steps")
 
     def test_steps(self):
         def all_known(part):
@@ -276,7 +310,7 @@ class Tampered(Certificates):
 
     def test_facets(self):
         self.part(lambda p: p["facets"].pop(), "a facet is left out")
-        self.part(lambda p: p["facets"].__setitem__(5, p["facets"][6]), "a facet is left out")
+        self.part(lambda p: p["facets"].__setitem__(5, p["facets"][6]), "a facet is named twice")
         self.part(lambda p: p["facets"].__setitem__(0, 10**6), "does not have")
         self.part(lambda p: p["facets"].append(10**6), "does not have")
         self.part(lambda p: p["facets"].reverse())
@@ -401,15 +435,23 @@ class Tampered(Certificates):
             volume.write_bytes(kept)
             self.assertEqual(self.certificate.read_text(encoding="utf-8"), certificate)
 
+        def lift_by(by):
+            def change(certificate):
+                part = certificate["parts"][0]
+                part["shift_m"] += by
+                part["centre"][2] += by
+            return change
+
         refused(b"rounding_m 0\n", b"rounding_m 1000\n", lambda c: c.update(rounding_m=1000), "cannot be rounded")
         lift = b'"lift_m":[0.0]'
         step = max(abs(x) for v in checker.Mesh(volume).vertices for x in v) * 2**-53
         refused(b"rounding_m 0\n", b"rounding_m %r\n" % (17 * step), lambda c: c.update(rounding_m=17 * step),
                 "cannot be rounded")
-        refused(lift, b'"lift_m":[1.0]', lambda c: c["parts"][0].update(shift_m=1.0), "raised by more")
-        refused(lift, b'"lift_m":[-0.1]', lambda c: c["parts"][0].update(shift_m=-0.1), "raised by more")
-        refused(lift, b'"lift_m":[]', lambda c: c["parts"].append({}), "parts are not")
-        refused(b"element face", b"element vertex 0\nproperty double x\nelement face", lambda c: c.update(x=1), "PLY")
+        refused(lift, b'"lift_m":[1.0]', lambda c: c["parts"][0].update(shift_m=1.0), "stated plane")
+        refused(lift, b'"lift_m":[2.0e-3]', lift_by(2e-3), "behind the target")
+        refused(lift, b'"lift_m":[-2.0e-3]', lift_by(-2e-3), "lowered")
+        refused(lift, b'"lift_m":[]', lambda c: c["parts"].append(c["parts"][0]), "parts are not")
+        refused(b"element face", b"element vertex 0\nproperty double x\nelement face", lambda c: c.update(shrink=2e-6), "PLY")
         header, rows = kept.split(b"end_header\n", 1)
         count = len(checker.Mesh(volume).vertices)
         named, with_one = b"element vertex %d\n" % count, b"element vertex %d\n" % (count + 1)
@@ -417,8 +459,8 @@ class Tampered(Certificates):
         one_far_away = (header.replace(named, with_one).replace(b"rounding_m 0\n", b"rounding_m 1\n") + b"end_header\n" +
                         rows[:24 * count] + checker.struct.pack("<3d", 1e18, 0, 0) + rows[24 * count:])
         refused(kept, one_far_away, lambda c: c.update(rounding_m=1), "cannot be rounded")  # no triangle has it
-        refused(b"vertex_indices", b"vertex_index", lambda c: c.update(x=1), "PLY")
-        refused(b"property double y", b"property double x", lambda c: c.update(x=1), "PLY")
+        refused(b"vertex_indices", b"vertex_index", lambda c: c.update(shrink=2e-6), "PLY")
+        refused(b"property double y", b"property double x", lambda c: c.update(shrink=2e-6), "PLY")
 
     def test_garbage(self):
         """Whatever is changed, the answer is one of three."""

@@ -16,7 +16,8 @@ Why that is enough: a ray from a point p that the volume winds round, away from 
 through such a facet, in a point x at or behind p. By 3 nothing of the scene touches the hull of x and the polygon, so
 nothing lies between p and the polygon. Planes are found for groups of facets and boxes of triangles at once; the boxes
 are made here, from the scene. That the volume was made for this target, this range and this mission it says itself.
-docs/proof.md has the format. Exit code: 0 accepted, 1 refused, 2 a file that cannot be read."""
+docs/proof.md has the format. What is not written exactly as it says is refused: so no two programs read it in two ways.
+Exit code: 0 accepted, 1 refused, 2 a file that cannot be read."""
 
 import argparse, collections, hashlib, json, math, re, struct, sys  # noqa: E401
 from fractions import Fraction
@@ -24,14 +25,39 @@ from pathlib import Path
 
 MOST_FACETS = 256  # of the largest group that is tried at once
 MOST_KNOWN = 16  # planes that are kept of a group
-DESCEND, LEAVE, NOTHING, STEP = ">", "<", ".", r"[0-9a-f<>.]|\([^()]*\)"
+DIGITS = r"(?:0|-?[1-9a-z][0-9a-z]{0,13})"  # to the base of 36
+FACETS = re.compile(r"(?:(?:0|[1-9a-z][0-9a-z]{0,6})(?: (?=[0-9a-z])|$))*")
+DESCEND, LEAVE, NOTHING, STEP = ">", "<", ".", rf"[0-9a-f<>.]|\({DIGITS},{DIGITS},{DIGITS}\)"
 VERTICAL = 1e-6  # a normal that points down no more than this is taken as it is
-MOST_LIFT = 0.01  # metres that a target is raised by, at most
-MOST_SHRINK = 1e-3  # more of the distance is left out only if that is asked for
+MOST_SHRINK = 1e-5  # more of the distance is left out only if that is asked for
 ROUNDED = 16 * 2.0**-53  # of the largest coordinate: twice what writing a PLY moves a vertex (src/io/stored_mesh.cpp)
 TILT = Fraction(3, 2 * 10**12)  # an axis within 1e-12 of the normal's other two numbers is taken for the normal
 LEAST_BITS = 80  # of fractions: boxes round pieces outwards by one unit
+MARGIN, STEPS = 1e-9, 2.0**-49  # metres, and of the largest coordinate: what of the target is left out
+FULL_RANGE = 20  # metres: with a shorter range the next three are smaller in proportion (src/target/lengths.cpp)
+OWN_SURFACE, CLEAR, POINT = 2e-3, 1e-6, 5e-4  # what lies so low over the target is its surface; how far above that the
+# target is raised; the radius of what is looked at in the place of a point
 SIZES = {"uchar": "B", "int": "i", "uint": "I", "float": "f", "double": "d"}
+COUNT, PROPERTY = rb"(0|[1-9][0-9]{0,9})", rb"property (?:uchar|int|uint|float|double) [!-~]+\n"
+HEADER = re.compile(rb"ply\nformat binary_little_endian 1\.0\n((?:comment [^\0-\x1f\x7f]*\n)*)element vertex " + COUNT +
+                    rb"\n((?:" + PROPERTY + rb")+)element face " + COUNT +
+                    rb"\n(property list uchar u?int vertex_indices\n(?:" + PROPERTY + rb")*)end_header\n")
+MARKS = ("vantage volume: ", "vantage rounding_m ", "vantage georeference:")  # what a volume says of itself
+
+# Of JSON: a list of three forms is three values, a tuple of one form any number of them, a set has alternatives; keys
+# that end with ? may be left out, and there are no others.
+VECTOR, LIMITS = [float] * 3, [{float, type(None)}] * 3
+FILE = {"file": str, "hash": str}
+CERTIFICATE = {
+    "format": str, "scene": FILE, "volume": FILE, "mission_hash": str, "shrink": float, "rounding_m": float,
+    "max_range_m": float, "boxes": ({"name": str, "min": LIMITS, "max": LIMITS},),
+    "parts": ({"target": (VECTOR,), "shift_m": float, "centre": VECTOR, "corners": (VECTOR,), "normal": VECTOR,
+               "cut_height_m": {float, type(None)}, "facets": str, "steps": str},)}
+TARGET = {"name": str, "parts": ((VECTOR,),), "offset_m": float, "front?": VECTOR, "front_by_order?": bool}
+STATEMENT = {
+    "version": str, "method": str, "target?": TARGET, "views?": ([TARGET],), "max_range_m?": float, "sensor?": dict,
+    "tolerance_m": float, "lift_m": (float,), "scene_hash": str, "mission_hash": str, "volume_hash": str}
+PIXEL, CAMERA = {"size_m": float, "kind": str}, {"half_width": float, "half_height": float, "focal_px": float}
 
 class Refused(Exception):
     """The certificate does not prove what it says."""
@@ -43,53 +69,93 @@ def demand(holds, problem):
     if not holds:
         raise Refused(problem)
 
+def has_form(value, form):
+    if isinstance(form, tuple):
+        return type(value) is list and all(has_form(v, form[0]) for v in value)
+    if isinstance(form, list):
+        return type(value) is list and len(value) == len(form) and all(map(has_form, value, form))
+    if isinstance(form, dict):
+        forms = {key.rstrip("?"): of for key, of in form.items()}
+        return (type(value) is dict and all(key in value for key in form if key[-1] != "?") and
+                all(key in forms and has_form(v, forms[key]) for key, v in value.items()))
+    return type(value) in form if isinstance(form, set) else type(value) is form
+
+def number(text):
+    """Of JSON: no other digits than those of ASCII, and nothing that no double holds."""
+    value = float(text) if text.isascii() and len(text) < 400 else math.inf
+    if not math.isfinite(value):
+        raise ValueError(f"{text[:20]!a} is no number")
+    return value
+
+def with_each_key_once(pairs):
+    if len(dict(pairs)) != len(pairs):
+        raise ValueError("a key twice")
+    return dict(pairs)
+
+def check_form(value, form):
+    if not has_form(value, form):
+        raise ValueError("a key or a number too many, too few, or of another kind")
+    return value
+
+def read_json(text, form):
+    return check_form(json.loads(text, object_pairs_hook=with_each_key_once, parse_int=number, parse_float=number,
+                                 parse_constant=number), form)
+
+def read_bytes(path):
+    if not path.is_file():
+        raise ValueError("not a file")  # others may have no end
+    return path.read_bytes()
+
 class Mesh:
     """A PLY file: binary, little-endian, triangles."""
 
     def __init__(self, path):
-        self.path, self.comments, elements = path, [], []
         try:
-            data = path.read_bytes()
-            end = data.index(b"end_header\n")
-            for line in data[:end].decode("utf-8", "replace").split("\n"):
-                words = line.split()
-                if line.startswith("comment "):
-                    self.comments.append(line[8:])
-                elif words[:1] == ["element"]:
-                    elements.append((words[1], int(words[2]), []))
-                elif words[:1] == ["property"]:
-                    elements[-1][2].append(words[1:])
-            if not data.startswith(b"ply\nformat binary_little_endian 1.0\n"):
-                raise ValueError("not binary and little-endian")
-            self.read_elements(data, end + len(b"end_header\n"), elements)
-        except (OSError, struct.error, LookupError, ValueError, AttributeError) as error:
-            raise Unreadable(f"{path}: is cut short, or no PLY of triangles as vantage writes it ({error})") from error
+            self.read(read_bytes(path))
+        except (OSError, struct.error, LookupError, ValueError, MemoryError) as error:
+            why = f"{type(error).__name__}: {error}"
+            raise Unreadable(f"{path}: is cut short, or no PLY of triangles as vantage writes it ({why})") from error
 
-    def read_elements(self, data, at, elements):
-        if [name for name, _, _ in elements] != ["vertex", "face"]:
-            raise ValueError("not vertices and then faces")
-        for name, count, properties in elements:
-            names = [p[-1] for p in properties]
-            if len(set(names)) != len(names) or any(p[0] == "list" for p in properties[name == "face":]):
-                raise ValueError("a property twice, or a list too many")
-            kinds = "".join(SIZES[p[1]] + "3" + SIZES[p[2]] if p[0] == "list" else SIZES[p[0]] for p in properties)
-            row = struct.Struct("<" + kinds)
-            rows = list(row.iter_unpack(data[at:at + count * row.size]))
-            at += count * row.size
-            if len(rows) != count:
-                raise ValueError("too few rows")
-            if name == "vertex":
-                self.vertices = [tuple(r[names.index(axis)] for axis in "xyz") for r in rows]
-            else:
-                if properties[0][0] != "list" or names[0] != "vertex_indices" or any(r[0] != 3 for r in rows):
-                    raise ValueError("not all faces are triangles")
-                self.triangles = [r[1:4] for r in rows]
-                at_object = names.index("object") + 3 if "object" in names else 0  # a list of three is four numbers
-                self.objects = [r[at_object] if at_object else 0 for r in rows]
+    def read(self, data):
+        header = HEADER.match(data)
+        if not header:
+            raise ValueError("its header is another one")
+        self.read_comments(header[1])
+        fields = [[line.split() for line in lines.decode().splitlines()] for lines in (header[3], header[5])]
+        names = [[field[-1] for field in of] for of in fields]
+        if any(len(set(of)) != len(of) for of in names):
+            raise ValueError("a property twice")
+        rows = [struct.Struct("<" + "".join(SIZES[f[1]] for f in fields[0])),
+                struct.Struct("<B3" + SIZES[fields[1][0][3]] + "".join(SIZES[f[1]] for f in fields[1][1:]))]
+        counts, begin = (int(header[2]), int(header[4])), header.end()
+        middle = begin + counts[0] * rows[0].size
+        if len(data) != middle + counts[1] * rows[1].size:
+            raise ValueError("its size is not the one that its header says")
+        axes = [names[0].index(axis) for axis in "xyz"]
+        if any(fields[0][at][1] not in ("float", "double") for at in axes):
+            raise ValueError("a coordinate that is no fraction")
+        self.vertices = [tuple(row[at] for at in axes) for row in rows[0].iter_unpack(data[begin:middle])]
+        faces = list(rows[1].iter_unpack(data[middle:]))
+        self.triangles, self.objects = [face[1:4] for face in faces], [0] * len(faces)
+        if "object" in names[1]:
+            self.objects = [face[names[1].index("object") + 3] for face in faces]  # a list of three is four numbers
+        if any(face[0] != 3 for face in faces) or any(type(o) is not int or o < 0 for o in self.objects):
+            raise ValueError("a face that is no triangle, or an object that is no number of one")
         if any(not 0 <= v < len(self.vertices) for t in self.triangles for v in t):
             raise ValueError("an index out of range")
         if not all(math.isfinite(x) for v in self.vertices for x in v):
             raise ValueError("a number that is not finite")
+
+    def read_comments(self, lines):
+        """Other programs may read a line where this one reads none, or the other way round: nothing like that."""
+        text = lines.decode("utf-8", "replace")
+        self.comments = [line[8:] for line in text.split("\n")[:-1]]
+        if "end_header" in text or text.splitlines() != text.split("\n")[:-1]:
+            raise ValueError("a comment that may be read as more than one")
+        if not all(c.isascii() or re.match("vantage cause [0-9]+ [a-z_]+ ", c) for c in self.comments):
+            raise ValueError("other letters than those of ASCII, but in the name of a cause")
+        if any(text.count(mark) != sum(c.startswith(mark) for c in self.comments) for mark in MARKS):
+            raise ValueError("what vantage says of the volume begins within a line")
 
     def hash(self, kind):
         """docs/hashes.md"""
@@ -133,19 +199,24 @@ def check_closed(triangles):
     demand(edges, "the volume has no triangles")
     demand(all(edges[b, a] == count for (a, b), count in edges.items()), "the mesh of the volume is not closed")
 
-def corners_in_front(triangle, normal, cut):
-    """What of a triangle lies higher than the cut: (x, y, z, w), for the points (x, y, z) / w. Lines hide nothing."""
-    if not any(cross(minus(triangle[1], triangle[0]), minus(triangle[2], triangle[0]))):
-        return []
-    corners, over = [], [0 if cut is None else dot(normal, c) - cut for c in triangle]
-    for i, a in enumerate(triangle):
-        b, at_a, at_b = triangle[i - 2], over[i], over[i - 2]
-        if at_a >= 0:
-            corners.append(a + (1,))
+def is_flat(triangle):
+    return not any(cross(minus(triangle[1], triangle[0]), minus(triangle[2], triangle[0])))
+
+def clip(polygon, normal, cut):
+    """What of a polygon lies higher than the cut. Its corners are (x, y, z, ..., w), for the points (x, y, z) / w."""
+    corners, over = [], [dot(normal, c) - cut * c[-1] for c in polygon]
+    for i, a in enumerate(polygon):
+        b, at_a, at_b = polygon[i - 1], over[i], over[i - 1]
         if (at_a >= 0) != (at_b >= 0):
-            along = tuple(x * abs(at_b) + y * abs(at_a) for x, y in zip(a, b))
-            corners.append(along + (abs(at_a) + abs(at_b),))
+            corners.append(tuple(x * abs(at_b) + y * abs(at_a) for x, y in zip(a, b)))
+        if at_a >= 0:
+            corners.append(a)
     return corners
+
+def corners_in_front(triangle, normal, cut):
+    """Lines hide nothing."""
+    corners = [] if is_flat(triangle) else [c + (1,) for c in triangle]
+    return corners if cut is None else clip(corners, normal, cut)
 
 class Node:
     """The corners of a piece of the scene, or a box that holds the children."""
@@ -176,7 +247,9 @@ class Replay:
     """Goes through the steps of a part, and believes none of them."""
 
     def __init__(self, part, points, triangles, target):
+        demand(FACETS.fullmatch(part["facets"]), "what is between the facets is none")
         self.facets, self.steps = [int(n, 36) for n in part["facets"].split()], re.findall(STEP, part["steps"])
+        demand(len(set(self.facets)) == len(self.facets), "a facet is named twice")
         self.points, self.triangles, self.target, self.next, self.planes = points, triangles, target, 0, 0
         demand("".join(self.steps) == part["steps"], "what is between the steps is none")
         demand(all(i in triangles for i in self.facets), "a facet is named that the volume does not have")
@@ -224,7 +297,7 @@ class Replay:
 
 def hull_of(points, normal):
     """The corners of what points span, seen against the normal, counter-clockwise (Andrew 1979)."""
-    up = cross(normal, minus(points[1], points[0]))
+    up = next((u for u in (cross(normal, minus(p, points[0])) for p in points) if any(u)), (0, 0, 0))
     right, chain = cross(up, normal), []
     ordered = sorted(points, key=lambda p: (dot(right, p), dot(up, p)))
     for half in (ordered, ordered[::-1]):
@@ -241,11 +314,15 @@ def newell(points):
     fan = [cross(minus(a, points[0]), minus(b, points[0])) for a, b in zip(points[1:], points[2:])]
     return tuple(map(sum, zip(*fan))) if fan else (0, 0, 0)
 
+def sides_of(polygon, normal):
+    """Of a convex polygon, seen against the normal: a corner of each, and the way out."""
+    hull = hull_of(polygon, normal) if polygon else []
+    demand(len(hull) >= 3, "a polygon has no area")
+    return [(a, cross(minus(b, a), normal)) for a, b in zip(hull, hull[1:] + hull[:1])]
+
 def lies_in(polygon, normal, allowed, points):
     """Whether points lie in a convex polygon, seen against the normal, or as near to it as is allowed."""
-    hull = hull_of(polygon, normal)
-    demand(len(hull) >= 3, "a polygon has no area")
-    sides = [(a, cross(minus(b, a), normal)) for a, b in zip(hull, hull[1:] + hull[:1])]
+    sides = sides_of(polygon, normal)
     return all(dot(out, minus(p, a)) <= allowed * math.isqrt(dot(out, out)) for a, out in sides for p in points)
 
 def check_front(part, view, is_all_round):
@@ -253,7 +330,9 @@ def check_front(part, view, is_all_round):
     front = view.get("front") and [Fraction(x) for x in view["front"]]
     way, given = [Fraction(x) for x in part["normal"]], [[Fraction(x) for x in v] for v in part["target"]]
     demand(is_all_round == (len(given) == 1 and not front), "only a point without a front is seen from all sides")
+    demand(not is_all_round or way == [0, 0, 1], "a point that is seen from all sides is moved upwards alone")
     own = newell(given) if len(given) > 1 else front or way
+    demand(not front or dot(own, front)**2 * 10**12 >= dot(own, own) * dot(front, front) > 0, "its front is no side of it")
     down = own[2] < -VERTICAL * math.hypot(*map(float, own)) and not view.get("front_by_order")
     own = [-x for x in own] if (dot(own, front) < 0 if front else down) else own
     sizes = [sum(map(abs, minus(v, given[0]))) for v in given]
@@ -281,6 +360,52 @@ def check_target(part, scale, centre, normal, corners, allowed):
     demand(lies_in(wide, normal, allowed * unit, moved), "the polygon is smaller than the target")
     return moved
 
+def column_over(moved, normal, unit):
+    """The sides of the prism that stands on the target, as ways in and how far; of a point, of what is about it."""
+    if len(moved) > 1:
+        return [(minus((0, 0, 0), out), -dot(out, a) // unit) for a, out in sides_of(moved, normal)]
+    across = cross(normal, [int(abs(n) == min(map(abs, normal))) for n in normal])
+    return [(way, 0) for u in (across, cross(normal, across)) for way in (u, minus((0, 0, 0), u))]
+
+def heights_over(column, grown, places, heights, triangles, most):
+    """Of each triangle over the target, down to so far below its plane as `most` is above it: from where to where."""
+    sides = [(way, at - grown * math.isqrt(dot(way, way))) for way, at in column]
+    for t in triangles:
+        if max(heights[v] for v in t) < -most or min(heights[v] for v in t) > most or is_flat([places[v] for v in t]):
+            continue
+        piece = [places[v] + (heights[v], 1) for v in t]
+        for way, at in sides:
+            piece = clip(piece, way, at)
+        if piece:
+            yield min(c[3] // c[-1] for c in piece), max(-(-c[3] // c[-1]) for c in piece)
+
+def check_lift(lift_m, reach_m, part, scale, normal, moved, places, scene):
+    """That a raised target leaves nothing below it but its own surface (docs/proof.md), and is raised for it alone."""
+    if lift_m == 0:
+        return
+    unit, centre, small = 1 << scale.bits, part["centre"], min(1, reach_m / FULL_RANGE)
+    radius = max(math.dist(v, centre) for v in part["target"])
+    largest = max(abs(x) for v in scene.vertices + [centre, centre] for x in v) + max(map(abs, centre))
+    slack_m = max(MARGIN * min(1, radius), STEPS * (largest + radius + reach_m))
+    clear_m = max(CLEAR * small, 4 * slack_m)
+    whole = lambda length_m: math.ceil(Fraction(length_m) * unit * unit)  # noqa: E731: heights are times 2^(2 bits)
+    lift, slack, clear, own = map(whole, (lift_m, slack_m, clear_m, max(OWN_SURFACE * small, 4 * clear_m)))
+    point = whole(POINT * small) if len(moved) == 1 else 0
+    heights, column = [dot(normal, p) + lift for p in places], column_over(moved, normal, unit)
+    over = list(heights_over(column, point // unit, places, heights, scene.triangles, 3 * own))
+    raised, tops = 0, [top for _, top in over]
+    if part["cut_height_m"] is None:  # twice the diameter of what is looked at in its place
+        raised = max([0] + [top + clear + 4 * point for top in tops if -clear - 4 * point < top <= own])
+    most = raised + own + 2 * clear
+    raised = max([raised] + [top + clear for top in tops if raised - clear < top <= raised + own])
+    for height in sorted(heights):  # what all but continues the plane, anywhere
+        if raised < height <= min(raised + clear, most):
+            raised = height + clear
+    demand(lift <= raised + clear, "the target is raised by more than the surface that it lies on needs")
+    inner = heights_over(column, -2 * slack // unit, places, heights, scene.triangles if not point else [], 3 * own)
+    demand(not any(low < lift - 2 * slack and top > lift + 4 * slack for low, top in inner),
+           "something lies between the target and where it was raised to, and is not its surface")
+
 def check_part(part, view, certificate, scene, volume, middles):
     vertices, triangles = welded(volume)
     kept, centre = 1 - certificate["shrink"], part["centre"]
@@ -291,15 +416,17 @@ def check_part(part, view, certificate, scene, volume, middles):
     whole_centre, normal = scale.point(centre), scale.point(part["normal"])
     corners = [scale.point(c) for c in part["corners"]]
     unit = 1 << scale.bits
-    largest = max(map(abs, centre)) + max(abs(x - c) for v in part["target"] for x, c in zip(v, centre))
-    allowed_m = 2 * max(1e-9, 2.0**-49 * largest)
+    demand(part["target"], "a part of the target has no corners")
+    radius = max(math.dist(v, centre) for v in part["target"])
+    allowed_m = 2 * max(MARGIN * min(1, radius), STEPS * (max(map(abs, centre)) + radius))
     allowed = math.ceil(Fraction(allowed_m) * unit)
     moved = check_target(part, scale, whole_centre, normal, corners, allowed)
-    slack = allowed + math.ceil(Fraction(certificate["rounding_m"]) * unit)
+    reach_m = certificate["max_range_m"]
+    slack = allowed + math.ceil(Fraction(certificate["rounding_m"] + STEPS * reach_m) * unit)
 
     check_closed(triangles)
     used = {v for t in triangles.values() for v in t}
-    reach = math.floor(Fraction(certificate["max_range_m"]) * unit) + slack
+    reach = math.floor(Fraction(reach_m) * unit) + slack
     for v in used:
         away = [minus(tuple(x * unit for x in points[v]), t) for t in moved]
         demand(all(dot(a, a) <= (reach * unit)**2 for a in away), "a vertex lies beyond the range")
@@ -313,8 +440,9 @@ def check_part(part, view, certificate, scene, volume, middles):
     tested = {i for i, (a, b, c) in triangles.items() if dot(points[a], cross(points[b], points[c])) != 0}
     replay = Replay(part, points, triangles, corners)
     demand(set(replay.facets) >= tested, "a facet is left out")
+    places = [minus(scale.point(v), whole_centre) for v in scene.vertices]
+    check_lift(view.get("lift_m", 0), view.get("reach_m", 0), part, scale, normal, moved, places, scene)
     if scene.triangles:
-        places = [minus(scale.point(v), whole_centre) for v in scene.vertices]
         pieces = [Node(corners_in_front([places[v] for v in t], normal, cut), []) for t in scene.triangles]
         replay.groups(0, len(replay.facets), tree_of(list(range(len(pieces))), middles, pieces))
     demand(replay.next == len(replay.steps), "there are more steps than the facets need")
@@ -327,48 +455,66 @@ def check_box(box, volume, slack):
         demand(low is None or Fraction(min(axis)) >= Fraction(low) - slack, f"a vertex is outside of {box['name']}")
         demand(high is None or Fraction(max(axis)) <= Fraction(high) + slack, f"a vertex is outside of {box['name']}")
 
+def check_rounding(certificate, volume):
+    said = [c[19:] for c in volume.comments if c.startswith("vantage rounding_m ")]
+    demand(len(said) <= 1, "the volume says twice how far it was rounded")
+    demand(certificate["rounding_m"] in [0, *map(number, said)], "the volume was not rounded so much")
+    vertices, triangles = welded(volume)  # a vertex that bounds nothing is nowhere looked at, and may be anywhere
+    largest = max((abs(x) for t in triangles.values() for v in t for x in vertices[v]), default=0)
+    demand(0 <= certificate["rounding_m"] <= ROUNDED * largest, "the volume's numbers cannot be rounded so much")
+
+def reach_of(said):
+    """How far the volume says that its positions are from the target at most."""
+    lengths, sensor = [said[key] for key in ("max_range_m",) if key in said], said.get("sensor", {})
+    if "pixel" in sensor:
+        pixel, camera = check_form(sensor["pixel"], PIXEL), check_form(sensor["camera"], CAMERA)
+        demand(min(pixel["size_m"], camera["focal_px"]) > 0, "a pixel or a focal length is not positive")
+        lengths.append(pixel["size_m"] * camera["focal_px"])
+    demand(lengths and 0 < min(lengths) < math.inf, "the volume has no range")
+    return min(lengths)
+
 def check_files(certificate, scene, volume):
     """Compares with what the volume says of itself; returns the target that each part is of."""
     demand(scene.hash(b"scene") == certificate["scene"]["hash"], "the scene is not the one of the certificate")
     demand(volume.hash(b"volume") == certificate["volume"]["hash"], "the volume is not the one of the certificate")
-    rounded = [float(c.split()[2]) for c in volume.comments if c.startswith("vantage rounding_m ")]
-    largest = max((abs(x) for t in volume.triangles for v in t for x in volume.vertices[v]), default=0)
-    demand(certificate["rounding_m"] == 0 or certificate["rounding_m"] in rounded, "the volume was not rounded so much")
-    demand(0 <= certificate["rounding_m"] <= ROUNDED * largest, "the volume's numbers cannot be rounded so much")
+    demand(re.fullmatch("[0-9a-f]{64}", certificate["mission_hash"]), "the hash of the mission is none")
+    demand(certificate["max_range_m"] > 0, "the range is not positive")
+    check_rounding(certificate, volume)
+    on_earth = [{c for c in of.comments if c.startswith("vantage georeference:")} for of in (scene, volume)]
+    demand(on_earth[1] <= on_earth[0] and len(on_earth[0]) <= 1, "the volume lies at another place on the earth")
     pieces = [c[16:] for c in volume.comments if c.startswith("vantage volume: ")]
     if not pieces:
         return None
-    said = json.loads("".join(pieces))  # what the volume says of itself
-    demand(said.get("mission_hash", "") == certificate["mission_hash"], "the volume is of another mission")
-    demand(said.get("scene_hash", "") == certificate["scene"]["hash"], "the volume is of another scene")
-    sensor = said.get("sensor", {})
-    pixels = sensor["pixel"]["size_m"] * sensor["camera"]["focal_px"] if "pixel" in sensor else math.inf
-    reach = min(said.get("max_range_m", math.inf), pixels)
-    demand(certificate["max_range_m"] <= reach < math.inf, "the volume has a shorter range, or none")
+    said = read_json("".join(pieces), STATEMENT)  # what the volume says of itself
+    demand(said["mission_hash"] == certificate["mission_hash"], "the volume is of another mission")
+    demand(said["scene_hash"] == certificate["scene"]["hash"], "the volume is of another scene")
+    demand(said["volume_hash"] == certificate["volume"]["hash"], "the volume was changed since it was written")
+    reach_m = reach_of(said)
+    demand(certificate["max_range_m"] <= reach_m, "the volume has a shorter range")
+    demand(("views" in said) != ("target" in said), "the volume has no target, or two")
     views = [view[0] for view in said["views"]] if "views" in said else [said["target"]]
     parts = [(part, view) for view in views for part in view["parts"]]
     lifts = said["lift_m"]
     demand(len(parts) == len(lifts) == len(certificate["parts"]), "the parts are not those of the volume's target")
-    demand(all(0 <= lift <= MOST_LIFT for lift in lifts), "the target was raised by more than that can be needed")
+    demand(all(lift >= 0 for lift in lifts), "the target was lowered")
     stated = [(part, view["offset_m"] + lift) for (part, view), lift in zip(parts, lifts)]
     demand(stated == [(p["target"], p["shift_m"]) for p in certificate["parts"]], "the target is not the volume's")
-    return [view for _, view in parts]
+    return [dict(view, lift_m=lift, reach_m=reach_m) for (_, view), lift in zip(parts, lifts)]
 
-def number(value):
-    """Of JSON; neither a text nor what no double holds."""
-    return float(value) + 0 * value
+def read_certificate(path):
+    certificate = read_json(read_bytes(path).decode("utf-8"), dict)
+    if certificate["format"] != "vantage certificate 1":
+        raise Unreadable(f"{path}: is a certificate of another version, {certificate['format']!a:.80}")
+    check_form(certificate, CERTIFICATE)
+    files = [certificate[kind]["file"] for kind in ("scene", "volume")]
+    demand(all(Path(name).name == name and name.isprintable() for name in files), "a file lies in another folder")
+    return certificate, [Mesh(path.parent / name) for name in files]
 
 def check(path, out=print, most_shrink=MOST_SHRINK):
     try:
-        certificate = json.loads(path.read_text(encoding="utf-8"))
-        if certificate["format"] != "vantage certificate 1":
-            raise Unreadable(f"{path}: is a certificate of another version, {certificate['format']}")
-        files = [certificate[kind]["file"] for kind in ("scene", "volume")]
-        demand(all(Path(name).name == name for name in files), "a file lies in another folder")
-        scene, volume = (Mesh(path.parent / name) for name in files)
-        reach, shrink = number(certificate["max_range_m"]), number(certificate["shrink"])
-        views = check_files(certificate, scene, volume)
-        demand(0 <= shrink <= most_shrink < 1, f"a shrink of {shrink:g} is out of range: see --most-shrink")
+        certificate, (scene, volume) = read_certificate(path)
+        shrink, views = certificate["shrink"], check_files(certificate, scene, volume)
+        demand(0 <= shrink <= most_shrink < 1, f"a shrink of {shrink} is out of range: see --most-shrink")
         demand(certificate["parts"], "the certificate has no part")
         for box in certificate["boxes"]:
             check_box(box, volume, Fraction(certificate["rounding_m"]))
@@ -380,19 +526,25 @@ def check(path, out=print, most_shrink=MOST_SHRINK):
             out(f"  {part['target']}, moved by {part['shift_m']} m along {part['normal']}")
         boxes = [f"{box['name']} from {box['min']} to {box['max']}" for box in certificate["boxes"]]
         out(f"accepted: {', '.join(['sight', 'range', 'front'] + boxes)},")
-        out(f"of the volume less {shrink:g} of the distance to the target, rounded by {certificate['rounding_m']:g} m,")
+        out(f"of the volume less {shrink} of the distance to the target, rounded by {certificate['rounding_m']} m,")
         mission = certificate["mission_hash"] if views else "the volume names none; compare target and range yourself"
-        out(f"within {reach:g} m. Mission: {mission}")
-    except (OSError, LookupError, TypeError, ValueError, AttributeError, ArithmeticError, RecursionError) as error:
-        raise Unreadable(f"{path}: is no certificate, cut short or garbled ({type(error).__name__}: {error})") from error
+        out(f"within {certificate['max_range_m']} m. Mission: {mission}")
+    except (OSError, LookupError, TypeError, ValueError, AttributeError, ArithmeticError, RecursionError, struct.error,
+            MemoryError) as error:
+        why = f"{type(error).__name__}: {error}"
+        raise Unreadable(f"{path}: is no certificate, cut short or garbled ({why})") from error
 
-if __name__ == "__main__":
+def main(arguments=None):
     parser = argparse.ArgumentParser(description="Check the certificate of a visibility volume.")
     parser.add_argument("certificate", type=Path, help="with the two files that it names beside it")
     parser.add_argument("--most-shrink", type=float, default=MOST_SHRINK, help="of the distance to the target, below 1")
-    arguments = parser.parse_args()
+    given = parser.parse_args(arguments)
     try:
-        check(arguments.certificate, most_shrink=arguments.most_shrink)
+        check(given.certificate, most_shrink=given.most_shrink)
     except (Refused, Unreadable) as failure:
         print(f"REFUSED: {failure}" if isinstance(failure, Refused) else f"error: {failure}", file=sys.stderr)
-        sys.exit(1 if isinstance(failure, Refused) else 2)
+        return 1 if isinstance(failure, Refused) else 2
+    return 0
+
+if __name__ == "__main__":
+    sys.exit(main())
