@@ -305,6 +305,29 @@ TEST_F(CliProve, WritesNoCertificateThatCannotBeChecked) {
   for (const char* file : {"text.ply", "other_name.ply", "rounded.ply", "mission_of_other.ply"}) {
     expect_bad({"prove", "mission.yaml", file, "--certificate", "w.cert", "-q"}, file);
   }
+  // What other programs may read otherwise.
+  write("longer.ply", bytes + "more");
+  write("ends_twice.ply", with("1.0\n", "1.0\ncomment end_header\n"));
+  write("blanks.ply", with("element vertex", "element  vertex"));
+  write("unknown.ply", with("1.0\n", "1.0\nobj_info made by hand\n"));
+  write("late_comment.ply", with("element face", "comment faces\nelement face"));
+  write("next_line.ply", with("1.0\n", "1.0\ncomment vantage cause a\u2028b\n"));
+  write("not_ascii.ply", with("1.0\n", "1.0\ncomment Stra\u00dfe\n"));
+  write("said_within.ply", with("1.0\n", "1.0\ncomment see vantage rounding_m 0\n"));
+  write("coordinates.ply", with("property double x\n", "property int x\nproperty int a\n"));
+  for (const char* file : {"longer.ply", "ends_twice.ply", "blanks.ply", "unknown.ply", "late_comment.ply",
+                           "next_line.ply", "not_ascii.ply", "said_within.ply", "coordinates.ply"}) {
+    const auto result = run({"prove", "mission.yaml", file, "--certificate", "w.cert", "-q"});
+    EXPECT_EQ(result.exit_code, 2) << file << result.err;
+    EXPECT_NE(result.err.find(file), std::string::npos) << result.err;
+  }
+  // Another mesh than the one that the header names, and another place on the earth.
+  write("changed.ply", with("\"volume_hash\":\"", "\"volume_hash\":\"0"));
+  write("elsewhere.ply",
+        with("1.0\n", "1.0\ncomment vantage georeference: {\"latitude_deg\":48.0,\"longitude_deg\":11.0}\n"));
+  for (const char* file : {"changed.ply", "elsewhere.ply"}) {
+    expect_bad({"prove", "mission.yaml", file, "--certificate", "w.cert", "-q"}, file);
+  }
   EXPECT_FALSE(std::filesystem::exists(folder_ / "w.cert"));
   output_of({"simplify", "text.ply", "--facets", "1000000000", "-q", "-o", "binary.ply"});  // the advice
   output_of({"prove", "mission.yaml", "binary.ply", "--certificate", "w.cert"});

@@ -105,8 +105,15 @@ void join(ProofReport& all, ProofReport&& one, const Mesh& volume) {
 
 fs::path folder_of(const fs::path& file) { return fs::absolute(file).parent_path(); }
 
+/// As files state it.
+bool is_same(const Georeference& a, const Georeference& b) {
+  return a.latitude_deg == b.latitude_deg && a.longitude_deg == b.longitude_deg && a.vertical == b.vertical &&
+         a.source_crs == b.source_crs;
+}
+
 /// The checker knows no more than the file: what was proved must be its numbers, and what it says of itself be true.
-void check_is_of_file(const Certificate& certificate, const CertifiedFiles& about, const VolumeFile& volume) {
+void check_is_of_file(const Certificate& certificate, const CertifiedFiles& about, const Scene& scene,
+                      const VolumeFile& volume) {
   const std::string where = volume.file.string();
   const Scene in_file = read_scene(volume.file);
   if (volume_hash(in_file.mesh) != about.volume_hash) {
@@ -120,8 +127,19 @@ void check_is_of_file(const Certificate& certificate, const CertifiedFiles& abou
                 "a certificate cannot rely on the rounding_m in the file, which is too large", where,
                 "compute the volume again and write it as .ply");
   }
+  if (in_file.georeference && (!scene.georeference || !is_same(*in_file.georeference, *scene.georeference))) {
+    throw Error(ErrorCode::not_applicable,
+                "a certificate is about a volume in the scene's frame, and its file names another place on the earth",
+                where, "compute the volume in the scene of this mission");
+  }
   if (!volume.volume.provenance) return;
   const VolumeProvenance& made = *volume.volume.provenance;
+  if (volume.volume_hash != about.volume_hash) {
+    throw Error(ErrorCode::not_applicable,
+                "a certificate is about a volume as it was written, and this file was changed since: it names the hash "
+                "of another mesh",
+                where, "write it anew: \"vantage simplify\" with --facets 1000000000 leaves the mesh as it is");
+  }
   if (made.scene_hash != about.scene_hash || made.mission_hash != about.mission_hash) {
     throw Error(ErrorCode::not_applicable,
                 "a certificate is for the scene and the mission that the volume's file names, and these are others",
@@ -197,7 +215,7 @@ void write_certificate(const Certificate& certificate, const Mission& mission, c
   about.volume_file = volume.file.filename().string();
   about.volume_hash = volume_hash(volume.volume.mesh);
   about.mission_hash = mission_hash(mission);
-  check_is_of_file(certificate, about, volume);
+  check_is_of_file(certificate, about, scene, volume);
   auto files = stage_scene(scene, scene_file);
   files.push_back(std::make_unique<AtomicFile>(certificate_file));
   files.back()->write(certificate_text(certificate, about));
