@@ -8,13 +8,13 @@
 #include <cerrno>
 #include <cstring>
 #include <new>
-#include <osmium/io/bzip2_compression.hpp>
-#include <osmium/io/gzip_compression.hpp>
-#include <osmium/io/pbf_input.hpp>
 #include <osmium/io/reader.hpp>
 #include <osmium/io/xml_input.hpp>
 #include <string_view>
 
+#include "maps/osm/pbf_file.h"
+#include "maps/osm/refused_input.h"
+#include "maps/osm/xml_input.h"
 #include "vantage/error.h"
 
 namespace vantage::internal::osm {
@@ -52,39 +52,6 @@ std::string first_bytes(const std::filesystem::path& path) {
   return {bytes.data(), static_cast<std::size_t>(got)};
 }
 
-/// The name of the first element of an XML or HTML text, "" where there is none; a DOCTYPE counts as html.
-std::string_view root_element(std::string_view text) {
-  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);  // byte order mark
-  while (true) {
-    const std::size_t start = text.find_first_not_of(" \t\r\n");
-    if (start == std::string_view::npos || text[start] != '<') return {};
-    text.remove_prefix(start);
-    const std::string_view end = text.starts_with("<!--") ? "-->" : text.starts_with("<?") ? "?>" : "";
-    if (end.empty()) break;
-    const std::size_t found = text.find(end);
-    if (found == std::string_view::npos) return {};
-    text.remove_prefix(found + end.size());
-  }
-  text.remove_prefix(1);
-  return text.substr(0, text.find_first_of(" \t\r\n/>"));
-}
-
-/// What a file that is not ours looks like, for people.
-std::string guess(std::string_view bytes, std::string_view root) {
-  if (root == "html" || root == "HTML" || root == "!doctype") return "an HTML page";
-  if (root == "!DOCTYPE")
-    return bytes.find("DOCTYPE html") == std::string_view::npos ? "XML with a DOCTYPE" : "an HTML page";
-  if (root == "osmChange") return "an OpenStreetMap change file";
-  if (!root.empty()) return std::string("XML about <").append(root).append(">");
-  if (bytes.starts_with("\xff\xd8\xff")) return "a JPEG picture";
-  if (bytes.starts_with("\x89PNG")) return "a PNG picture";
-  if (bytes.starts_with("PK\x03\x04")) return "a ZIP archive";
-  if (bytes.starts_with("\xff\xe0\x04o5m") || bytes.starts_with("\xff\xe0\x04o5c")) return "an o5m file";
-  if (bytes.starts_with("%PDF")) return "a PDF";
-  if (bytes.starts_with("{") || bytes.starts_with("[")) return "JSON";
-  return "something else";
-}
-
 bool is_pbf(std::string_view bytes) {
   // A length of four bytes, then the header's blob: field 1, the text "OSMHeader".
   return bytes.size() >= 15 && bytes.substr(4, 11) == "\x0a\x09OSMHeader";
@@ -103,14 +70,8 @@ bool is_pbf(std::string_view bytes) {
                          error.error_code == XML_ERROR_UNCLOSED_CDATA_SECTION;
     fail(ErrorCode::map_syntax, place, cut_off ? "the file ends too early" : "the XML is broken: " + error.error_string,
          kAgain);
-  } catch (const osmium::gzip_error& error) {
-    const bool cut_off = error.gzip_error_code == Z_BUF_ERROR;
-    fail(ErrorCode::compression_broken, where,
-         cut_off ? "the gzip data ends too early" : std::string("the gzip data is corrupt: ") + error.what(), kAgain);
-  } catch (const osmium::bzip2_error& error) {
-    const bool cut_off = error.bzip2_error_code == BZ_UNEXPECTED_EOF;
-    fail(ErrorCode::compression_broken, where,
-         cut_off ? "the bzip2 data ends too early" : std::string("the bzip2 data is corrupt: ") + error.what(), kAgain);
+  } catch (const RefusedInput& refused) {
+    fail(refused.code, refused.place.empty() ? where : where + ", " + refused.place, refused.what(), refused.fix);
   } catch (const std::bad_alloc&) {
     fail(ErrorCode::out_of_memory, where, "the file does not fit into memory, or is garbled",
          "cut it to the part that is needed");
@@ -123,22 +84,25 @@ bool is_pbf(std::string_view bytes) {
 
 MapFile open_map_file(const std::filesystem::path& path) {
   const std::string bytes = first_bytes(path);
-  if (bytes.starts_with("\x1f\x8b")) return {path, "osm.gz"};
-  if (bytes.starts_with("BZh")) return {path, "osm.bz2"};
-  if (is_pbf(bytes)) return {path, "osm.pbf"};
+  if (bytes.starts_with("\x1f\x8b") || bytes.starts_with("BZh")) return {path, MapFormat::xml};
+  if (is_pbf(bytes)) return {path, MapFormat::pbf};
   const std::string_view root = root_element(bytes);
-  if (root == "osm") return {path, "osm"};
+  if (root == "osm") return {path, MapFormat::xml};
   std::string_view fix = kFormats;
   if (root == "osmChange") fix = "apply it to a map first (osmium apply-changes)";
   fail(ErrorCode::map_format_unknown, path.string(),
-       "the file is not an OpenStreetMap file: it looks like " + guess(bytes, root), fix);
+       "the file is not an OpenStreetMap file: it looks like " + guess_content(bytes, root), fix);
 }
 
 void read_objects(const MapFile& file, osmium::osm_entity_bits::type kinds, const core::ProgressReporter& progress,
                   const std::function<void(const osmium::memory::Buffer&)>& handle) {
   try {
+    if (file.format == MapFormat::pbf) {
+      read_pbf(file.path, kinds, progress, handle);
+      return;
+    }
     // An absolute path: libosmium takes "-" for the standard input and "http:..." for an address.
-    const osmium::io::File source(std::filesystem::absolute(file.path).string(), file.format);
+    const osmium::io::File source(std::filesystem::absolute(file.path).string(), bounded_xml_format());
     osmium::io::Reader reader(source, kinds);
     while (const osmium::memory::Buffer buffer = reader.read()) {
       handle(buffer);

@@ -5,16 +5,17 @@
 #include <functional>
 #include <osmium/memory/buffer.hpp>
 #include <osmium/osm/entity_bits.hpp>
-#include <string>
 
 #include "core/progress_reporter.h"
 
 namespace vantage::internal::osm {
 
+enum class MapFormat { xml, pbf };  ///< XML may be packed by gzip or bzip2
+
 /// A file that looks like one that can be read, by its first bytes; its name does not matter.
 struct MapFile {
   std::filesystem::path path;  ///< as given
-  std::string format;          ///< in libosmium's words: "osm", "osm.gz", "osm.bz2", "osm.pbf"
+  MapFormat format = MapFormat::xml;
 };
 
 /// Throws Error(input) for a missing or unreadable file, a folder, a pipe or device, an empty file, and one that is no

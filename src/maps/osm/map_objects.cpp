@@ -5,6 +5,7 @@
 #include <limits>
 #include <osmium/osm/node.hpp>
 #include <osmium/osm/object_comparisons.hpp>
+#include <string_view>
 #include <utility>
 
 #include "geo/longitudes.h"
@@ -230,9 +231,21 @@ const osmium::Relation* MapObjects::find_relation(std::int64_t id) const {
   return found == relations.end() || (*found)->id() != id ? nullptr : *found;
 }
 
+/// Not by libosmium's iterator: that trusts that the list has a key and a value for each tag, and goes on behind it
+/// where a text holds a NUL byte. pbf_block.h refuses such a file; this holds whatever comes.
 Tags to_tags(const osmium::TagList& list) {
+  std::string_view rest(reinterpret_cast<const char*>(list.data()) + sizeof(osmium::TagList),
+                        list.byte_size() - sizeof(osmium::TagList));
+  const auto take = [&rest] {
+    const std::string_view text = rest.substr(0, rest.find('\0'));
+    rest.remove_prefix(std::min(rest.size(), text.size() + 1));
+    return std::string(text);
+  };
   Tags tags;
-  for (const osmium::Tag& tag : list) tags.all.emplace_back(tag.key(), tag.value());
+  while (!rest.empty()) {
+    std::string key = take();
+    tags.all.emplace_back(std::move(key), take());
+  }
   return tags;
 }
 
