@@ -44,7 +44,8 @@ function(vantage_component name)
   # is not linked to it: `core` alone needs few others.
   set_target_properties(vantage_${name} PROPERTIES
     EXPORT_NAME ${name} LINKER_LANGUAGE CXX VERSION ${PROJECT_VERSION}
-    SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+    SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
+    INSTALL_RPATH "$ORIGIN")  # they lie side by side, wherever that is
   target_link_options(vantage_${name} PRIVATE LINKER:--as-needed LINKER:--exclude-libs,ALL)
   target_link_libraries(vantage INTERFACE vantage_${name})
   set_property(GLOBAL APPEND PROPERTY VANTAGE_BUILT_COMPONENTS ${name})

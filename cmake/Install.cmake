@@ -8,14 +8,16 @@ install(TARGETS vantage ${libraries} EXPORT vantage-targets
         LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
         INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-# They lie side by side, wherever that is.
-set_target_properties(${libraries} PROPERTIES INSTALL_RPATH "$ORIGIN")
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/vantage DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
         FILES_MATCHING PATTERN "*.h")
 if(TARGET vantage_cli)
-  # Relative, so that the installed tree may be moved as a whole.
+  # Relative, so that the installed tree may be moved as a whole. It may name its folders otherwise than the build tree.
   file(RELATIVE_PATH to_library ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
-  set_target_properties(vantage_cli PROPERTIES INSTALL_RPATH "$ORIGIN/${to_library}")
+  if(BUILD_SHARED_LIBS)
+    set(search_path "$ORIGIN/../lib" "$ORIGIN/${to_library}")
+    list(REMOVE_DUPLICATES search_path)
+    set_target_properties(vantage_cli PROPERTIES INSTALL_RPATH "${search_path}")
+  endif()
   install(TARGETS vantage_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 
   # Man pages and completions: the program writes them from its own options, after each link. Where it cannot run, or

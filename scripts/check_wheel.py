@@ -16,6 +16,7 @@ import urllib.request
 
 import numpy as np
 
+import read_elf
 import vantage as vt
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -88,6 +89,20 @@ def check_page() -> None:
     expect(server.wait(timeout=60) == 0, "view ends at Ctrl-C")
 
 
+def check_binaries() -> None:
+    """No library is looked for in a folder of somebody else, and what is compiled in is hardened, all of it."""
+    found = []
+    count = 0
+    for file in sorted(pathlib.Path(vt.__file__).parent.rglob("*")):
+        elf = read_elf.read(file) if file.is_file() else None
+        if elf is None:
+            continue
+        count += 1
+        faults = read_elf.search_path_faults(elf) + read_elf.hardening_faults(elf, is_fortified=True)
+        found += [f"{file.name} {fault}" for fault in faults]
+    expect(count > 0 and not found, "; ".join(found) or f"{count} binary: where it looks for libraries, and how it is hardened")
+
+
 def main() -> int:
     parser = argparse.ArgumentParser()
     parser.add_argument("--no-opengl", action="store_true", help="a picture must fail, and say what it lacks")
@@ -96,6 +111,7 @@ def main() -> int:
     arguments = parser.parse_args()
     tell(f"import vantage {vt.__version__} from {pathlib.Path(vt.__file__).parent}, numpy {np.__version__}, "
          f"Python {sys.version.split()[0]}")
+    check_binaries()
     expect(vt.__version__ in program("--version"), "the program tells the version of the package")
     expect("compute" in program("--help"), "the program tells its commands")
 

@@ -50,7 +50,7 @@ make_root() {
   done
   "$python" -m pip --disable-pip-version-check --quiet install --root-user-action=ignore --target "$root/usr/lib/python3/dist-packages" \
     --python-version 3.11 --only-binary=:all: --requirement <(grep '^numpy==' "$here/../python/requirements.txt") "$wheel"
-  cp -r "$here/../examples" "$here/check_wheel.py" "$folder/expected" "$root/check/"
+  cp -r "$here/../examples" "$here/check_wheel.py" "$here/read_elf.py" "$folder/expected" "$root/check/"
   echo "root $(basename "$root"): $(find "$root" -type f | wc -l) files; packages: $(closure "$@" | tr '\n' ' ')"
 }
 
