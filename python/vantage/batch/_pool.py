@@ -4,18 +4,24 @@ from __future__ import annotations
 
 import os
 import pickle
+import select
 import signal
 import socket
 import subprocess
 import sys
+import threading
 import traceback
 from collections.abc import Sequence
 from multiprocessing.connection import Connection, wait
 from typing import Any, NamedTuple, Protocol, Union
 
 from .._errors import Error, make
-from . import _work
+from . import _scenes, _work
 from ._work import Done, Job, Task
+
+
+_SECONDS_TO_END = 3.0
+"""A worker that has not ended itself by then is killed."""
 
 
 class Died(NamedTuple):
@@ -49,15 +55,28 @@ class Workers(Protocol):
         """Ends all that runs."""
 
 
+def module_path() -> str:
+    """Where a worker looks for modules: where this process does, but for the current folder, which holds whatever it holds.
+    Unless vantage itself is there, or PYTHONPATH names it."""
+    own = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+    meant = {own, *(os.path.abspath(path) for path in os.environ.get("PYTHONPATH", "").split(os.pathsep) if path)}
+    try:
+        here = os.getcwd()
+    except OSError:  # it was removed
+        here = ""
+    kept = [path for path in sys.path if path and (path in meant or os.path.realpath(path) != os.path.realpath(here))]
+    return os.pathsep.join(kept if own in map(os.path.abspath, kept) else [own, *kept])
+
+
 class _Worker:
     """A process, fresh and not forked, and the task that it has."""
 
     def __init__(self, job: bytes):
         ours, theirs = socket.socketpair()
-        code = f"from vantage.batch._pool import serve; serve({theirs.fileno()})"
-        environment = {**os.environ, "PYTHONPATH": os.pathsep.join(path or os.getcwd() for path in sys.path)}
+        code = f"from vantage.batch._pool import serve; serve({theirs.fileno()}, {os.getpid()})"
+        environment = {**os.environ, "PYTHONPATH": module_path()}
         with theirs:
-            self.process = subprocess.Popen([sys.executable, "-c", code], pass_fds=[theirs.fileno()],
+            self.process = subprocess.Popen([sys.executable, "-P", "-c", code], pass_fds=[theirs.fileno()],
                                             env=environment, stdin=subprocess.DEVNULL)
         self.connection = Connection(ours.detach())
         self.task: Task | None = None
@@ -75,9 +94,13 @@ class _Worker:
             pass
 
     def end(self) -> None:
+        """It ends itself where it can, and tidies up."""
         self.connection.close()
-        self.process.kill()
-        self.process.wait()
+        try:
+            self.process.wait(_SECONDS_TO_END)
+        except subprocess.TimeoutExpired:
+            self.process.kill()
+            self.process.wait()
 
 
 class LocalWorkers:
@@ -119,19 +142,35 @@ class LocalWorkers:
 
     def close(self) -> None:
         for worker in self._workers:
+            worker.connection.close()  # all at once
+        for worker in self._workers:
             worker.end()
 
 
-def serve(descriptor: int) -> None:
+def serve(descriptor: int, driver: int) -> None:
     """The life of a worker: a job, then tasks, until the other end is closed."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the process that was asked, which ends its workers
+    threading.Thread(target=_end_with, args=(descriptor, driver), daemon=True).start()
     with Connection(descriptor) as connection:
         try:
             job = connection.recv()
             while True:
                 connection.send(attempt(job, connection.recv()))
         except (EOFError, OSError):
-            return
+            _scenes.forget()
+            os._exit(0)  # a scene takes long to take apart
+
+
+def _end_with(descriptor: int, driver: int) -> None:
+    """Ends this process, in the middle of its work, when the process `driver` has ended or closed its end: what it
+    computes is of no use to anybody, and holds a scene."""
+    gone = select.poll()
+    gone.register(descriptor, select.POLLRDHUP)
+    while not gone.poll(1000):
+        if os.getppid() != driver:  # a copy of it may hold the other end
+            break
+    _scenes.forget()
+    os._exit(0)
 
 
 def attempt(job: Job, task: Task) -> Any:

@@ -19,8 +19,9 @@ from .._requests import Navigation, Path, Sensor
 from .._result import _sensor
 from .._progress import Listener, Progress, listener
 from .._scene import Scene
-from . import _geometry, _manifest, _rows, _scenes, _table, _work
+from . import _geometry, _manifest, _rows, _scenes, _seals, _table, _work
 from ._dask import DaskWorkers
+from ._lock import Lock
 from ._pool import LocalWorkers, Workers
 from ._queue import Queue
 from ._store import Store
@@ -62,6 +63,8 @@ class Report:
     """by machine and process"""
     result_hash: str
     """SHA-256 of the ids with the hashes of their missions and volumes"""
+    results_sha256: str
+    """of the file results.parquet"""
     scene_hash: str
     mission_hash: str
     version: str
@@ -124,29 +127,42 @@ def run(targets: Any, scene: _scenes.AnyScene, output: Path, *, max_range: float
              "spheres": spheres}
     store = Store(output, storage_options)
     job = _job(table, scene, store, asked, volumes, shard_rows, heard)
-    shards = [Task(number, rows) for number, rows in _table.shards(table.rows, int(job.metadata["shard_rows"]))]
-    told = _Told(job, shards, started)
-    missing = _missing(job, shards, told, heard)
-    if missing:
-        count = min(workers or len(os.sched_getaffinity(0)), len(missing))
-        team: Workers = LocalWorkers(job, count) if cluster is None else DaskWorkers(job, cluster)
-        try:
-            queue = Queue(missing, attempts)
-            queue.run(team, told.done, lambda: told.tell(heard))
-            told.deaths = queue.deaths
-        finally:
-            team.close()
-    return told.finished(_merge(job, shards, heard))
+    with Lock(store):
+        _claim(job, scene)
+        shards = [Task(number, rows) for number, rows in _table.shards(table.rows, int(job.metadata["shard_rows"]))]
+        told = _Told(job, shards, started)
+        missing = _missing(job, shards, told, heard)
+        if missing:
+            count = min(workers or len(os.sched_getaffinity(0)), len(missing))
+            team: Workers = LocalWorkers(job, count) if cluster is None else DaskWorkers(job, cluster)
+            try:
+                queue = Queue(missing, attempts)
+                queue.run(team, told.done, lambda: told.tell(heard))
+                told.deaths = queue.deaths
+            finally:
+                team.close()
+        return told.finished(_merge(job, shards))
 
 
 def results(output: Path, storage_options: Mapping[str, Any] | None = None) -> Any:
     """The results of a finished run, as a GeoDataFrame; geometries are longitude and latitude (or the scene's frame)."""
     store = Store(output, storage_options)
-    data = store.read(RESULTS)
-    if data is None:
+    data, told = store.read(RESULTS), store.read(REPORT)
+    if data is None or told is None:
         raise make("input", "file-not-found", "there are no finished results", store.where(RESULTS),
                    "run it to its end first", None)
+    if hashlib.sha256(data).hexdigest() != _written(told):
+        raise make("input", "file-changed", f"the results are not those that the run wrote, by the hash in {REPORT}",
+                   store.where(RESULTS), "run it again: it goes on where it was", None)
     return require("geopandas", "geo").read_parquet(io.BytesIO(data))
+
+
+def _written(report: bytes) -> str | None:
+    """The hash of the results in a report; None where the report is damaged."""
+    try:
+        return str(json.loads(report)["results_sha256"])
+    except (ValueError, KeyError, TypeError):
+        return None
 
 
 def _check_choices(volumes: str | None, workers: int, shard_rows: int, attempts: int) -> None:
@@ -171,10 +187,15 @@ def _job(table: _table.Table, scene: _scenes.AnyScene, store: Store, asked: Mapp
     is_number = isinstance(table.rows[0].id, int)
     job = Job(store, request, read.hash, asked, table.crs, volumes, keys, is_number, read.crs is not None)
     _check_asked(job, read, table.rows)
-    keys.update(_manifest.agree(store, keys, request))
-    if isinstance(scene, Scene):
-        _scenes.save(scene, store)
     return job
+
+
+def _claim(job: Job, scene: _scenes.AnyScene) -> None:
+    """Makes the folder one of this run, or finds that it is."""
+    job.metadata.update(_manifest.agree(job.store, job.metadata, job.scene))
+    job.store.tidy()
+    if isinstance(scene, Scene):
+        _scenes.save(scene, job.store)
 
 
 def _check_asked(job: Job, scene: Scene, rows: list[_table.Row]) -> None:
@@ -193,7 +214,7 @@ def _check_asked(job: Job, scene: Scene, rows: list[_table.Row]) -> None:
 
 
 def _missing(job: Job, shards: list[Task], told: _Told, progress: Listener) -> list[Task]:
-    """The shards that are not there, whole."""
+    """The shards that are not there, whole and with all volumes."""
     there = set(job.store.names("rows"))
     missing = []
     for shard in shards:
@@ -203,16 +224,29 @@ def _missing(job: Job, shards: list[Task], told: _Told, progress: Listener) -> l
             missing.append(shard)
         else:
             told.found(len(shard.rows), rows[1])
-    told.tell(progress)
+        told.tell(progress)
     return missing
 
 
-def _ids_of(job: Job, name: str) -> tuple[list[Any], int] | None:
-    """The ids of a shard's file, and how many are errors; None where it is not whole."""
-    table = _rows.of_bytes(job.store.read(name) or b"")
+def _rows_of(job: Job, name: str) -> Any:
+    """A shard's rows, as a table of pyarrow; None where they are not those that were written. They are only read where
+    their hash is right."""
+    content, seals = job.store.read(name), _seals.read(job.store, name)
+    if content is None or seals is None or not _seals.is_right(content, seals[0]):
+        return None
+    table = _rows.of_bytes(content)
     if table is None:
         return None
     _manifest.check_shard(table.schema.metadata or {}, job.metadata, job.store.where(name))
+    named = {file for file in table["volume_file"].to_pylist() if file is not None}
+    return table if named <= set(seals[1]) else None
+
+
+def _ids_of(job: Job, name: str) -> tuple[list[Any], int] | None:
+    """The ids of a shard's file, and how many are errors; None where it, or a volume of it, is not whole."""
+    table, seals = _rows_of(job, name), _seals.read(job.store, name)
+    if table is None or seals is None or not _seals.are_volumes_right(job.store, seals[1]):
+        return None
     return table["id"].to_pylist(), table["outcome"].to_pylist().count("error")
 
 
@@ -249,20 +283,20 @@ class _Told:
             raise make("cancelled", "cancelled", "the run was stopped", self._job.store.where(),
                        "run it again: it goes on where it was", None)
 
-    def finished(self, merged: tuple[int, str]) -> Report:
-        errors, result_hash = merged
+    def finished(self, merged: tuple[int, str, str]) -> Report:
+        errors, result_hash, results_sha256 = merged
         keys = self._job.metadata
         report = Report(self._job.store.where(), self._rows, errors, self._computed, self.deaths,
-                        time.perf_counter() - self._started, self._workers, result_hash, keys["scene_hash"],
-                        keys["mission_hash"], version)
+                        time.perf_counter() - self._started, self._workers, result_hash, results_sha256,
+                        keys["scene_hash"], keys["mission_hash"], version)
         text = json.dumps({**dataclasses.asdict(report), "rows_per_s": report.rows_per_s}, indent=2) + "\n"
         self._job.store.put(REPORT, text.encode())
         self._job.store.tidy()
         return report
 
 
-def _merge(job: Job, shards: Iterable[Task], progress: Listener) -> tuple[int, str]:
-    """Writes results.parquet, a group of rows for each shard: how many rows are errors, and the hash of all."""
+def _merge(job: Job, shards: Iterable[Task]) -> tuple[int, str, str]:
+    """Writes results.parquet, a group of rows for each shard: how many rows are errors, the hash of all, and the file's."""
     parquet = require("pyarrow.parquet", "batch")
     folder = job.store.scratch()
     content, errors = hashlib.sha256(), 0
@@ -271,9 +305,9 @@ def _merge(job: Job, shards: Iterable[Task], progress: Listener) -> tuple[int, s
         local = os.path.join(folder, RESULTS)
         with job.store.writing(RESULTS):
             for shard in shards:
-                table = _rows.of_bytes(job.store.read(_work.shard_name(shard.number)) or b"")
+                table = _rows_of(job, _work.shard_name(shard.number))
                 if table is None:
-                    raise make("input", "file-changed", "a shard was lost while the run went on",
+                    raise make("input", "file-changed", "a shard was lost or changed while the run went on",
                                job.store.where(_work.shard_name(shard.number)), "run it again", None)
                 for row in zip(*(table[name].to_pylist() for name in ("id", "outcome", "mission_hash", "volume_hash"))):
                     content.update(json.dumps(row).encode())
@@ -282,7 +316,9 @@ def _merge(job: Job, shards: Iterable[Task], progress: Listener) -> tuple[int, s
                 writer.write_table(table)
             if writer is not None:
                 writer.close()
+            with open(local, "rb") as file:
+                results_sha256 = hashlib.file_digest(file, "sha256").hexdigest()
         job.store.put_file(RESULTS, local)
     finally:
         shutil.rmtree(folder, ignore_errors=True)
-    return errors, content.hexdigest()
+    return errors, content.hexdigest(), results_sha256

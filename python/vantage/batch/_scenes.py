@@ -7,6 +7,8 @@ import json
 import os
 import tempfile
 import threading
+import zipfile
+import zlib
 from collections.abc import Callable, Mapping
 from typing import Any, Union
 
@@ -58,7 +60,7 @@ def load(request: Mapping[str, Any], store: Store, progress: Progress = None) ->
         if data is None:
             raise input_error("file-not-found", "the scene of the run is gone", store.where(_ARRAYS),
                               "start the run again, with the scene")
-        return _of_bytes(data)
+        return _of_bytes(data, store.where(_ARRAYS))
     keys = dict(request)
     for key in _FILES:
         if key in keys:
@@ -104,14 +106,24 @@ def save(scene: Scene, store: Store) -> None:
     store.put(_ARRAYS, to_bytes(scene))
 
 
-def _of_bytes(data: bytes) -> Scene:
-    with np.load(io.BytesIO(data), allow_pickle=False) as arrays:
-        about = json.loads(arrays["about"].tobytes())
-        place = about["georeference"]
-        return Scene.from_arrays(arrays["vertices"], arrays["faces"], object_of=arrays["object_of"],
-                                 objects=[SceneObject(*one) for one in about["objects"]],
-                                 georeference=None if place is None else Georeference(*place),
-                                 sea_level=about["sea_level"])
+def _of_bytes(data: bytes, where: str) -> Scene:
+    try:
+        with np.load(io.BytesIO(data), allow_pickle=False) as arrays:
+            about = json.loads(arrays["about"].tobytes())
+            place = about["georeference"]
+            return Scene.from_arrays(arrays["vertices"], arrays["faces"], object_of=arrays["object_of"],
+                                     objects=[SceneObject(*one) for one in about["objects"]],
+                                     georeference=None if place is None else Georeference(*place),
+                                     sea_level=about["sea_level"])
+    except (ValueError, KeyError, TypeError, OSError, EOFError, NotImplementedError, zlib.error, zipfile.BadZipFile) as error:
+        raise input_error("file-changed", f"the scene of the run is damaged: {error}", where,
+                          "start the run again, with the scene") from error
+
+
+def forget() -> None:
+    """Removes the copies of remote files."""
+    while _folders:
+        _folders.pop().cleanup()
 
 
 def _here(path: str, options: Mapping[str, Any]) -> str:

@@ -61,6 +61,17 @@ class Store:
             raise make("input", "file-unreadable", f"cannot be read: {error}", self.where(name),
                        "check the permissions and the connection", None) from error
 
+    def size(self, name: str) -> int | None:
+        """Of a file, in bytes; None where there is no such file."""
+        self.files.invalidate_cache()
+        try:
+            return int(self.files.size(self.path(name)))
+        except FileNotFoundError:
+            return None
+        except OSError as error:
+            raise make("input", "file-unreadable", f"cannot be read: {error}", self.where(name),
+                       "check the permissions and the connection", None) from error
+
     def names(self, folder: str) -> list[str]:
         """The files of a folder, sorted; none where there is no such folder."""
         self.files.invalidate_cache()
@@ -96,6 +107,7 @@ class Store:
                 with open(local, "rb") as file:
                     os.fsync(file.fileno())
                 os.replace(local, target)
+                _settle(os.path.dirname(target))
             return
         with self.writing(name):
             self.files.put_file(os.fspath(local), self.path(name))
@@ -108,7 +120,8 @@ class Store:
             return tempfile.mkdtemp(prefix=_UNFINISHED, dir=self.root if self.is_local else None)
 
     def tidy(self) -> None:
-        """Removes what killed processes left unfinished. Call it when all is done."""
+        """Removes what killed processes left unfinished. Call it while nobody else writes: with the folder's lock, and
+        before work begins or after all is done."""
         if not self.is_local:
             return
         for folder, folders, files in os.walk(self.root):
@@ -127,6 +140,7 @@ class Store:
                 file.flush()
                 os.fsync(file.fileno())
             os.replace(beside, target)
+            _settle(os.path.dirname(target))
         except BaseException:
             if os.path.exists(beside):
                 os.unlink(beside)
@@ -162,6 +176,20 @@ def unwritable(error: Exception, where: str) -> Error:
     fix = "make room and run it again: it goes on where it was" if full else \
         "check the permissions and the connection, and run it again: it goes on where it was"
     return make("output", "output-unwritable", f"the results cannot be written: {said}", where, fix, None)
+
+
+def _settle(folder: str) -> None:
+    """Brings a new name to the disk. Not every file system lets a folder be synchronised; the file is whole either way."""
+    try:
+        opened = os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC)
+    except OSError:
+        return
+    try:
+        os.fsync(opened)
+    except OSError:
+        pass
+    finally:
+        os.close(opened)
 
 
 def _beside(name: str) -> str:

@@ -5,9 +5,9 @@ from __future__ import annotations
 import dataclasses
 import hashlib
 import os
+import shutil
 import signal
 import socket
-import tempfile
 import time
 import urllib.parse
 from collections.abc import Mapping
@@ -16,7 +16,7 @@ from typing import Any
 from .._errors import Error, OutputError, make
 from .._result import Mission, Result
 from .._scene import Scene
-from . import _geometry, _rows, _scenes, _volumes
+from . import _geometry, _rows, _scenes, _seals, _volumes
 from ._store import Store, unwritable
 from ._table import Id, Row
 
@@ -86,6 +86,7 @@ def run(job: Job, task: Task) -> Done:
         compute(job, scene, places, task.rows[0])
         return _done(task, 0, 0, started, began, task.rows[0].id)
     rows, results = [], []
+    seals: dict[str, _seals.Seal] = {}
     for row in task.rows:
         if row.id in task.doomed:
             found, result = died(row, task.doomed[row.id], places), None
@@ -93,13 +94,15 @@ def run(job: Job, task: Task) -> Done:
             _die_if_told(row)
             found, result = compute(job, scene, places, row)
         if job.volumes == "ply" and result is not None and not result.empty:
-            found["volume_file"] = _put_ply(job.store, task.number, row, result)
+            name = ply_name(task.number, row)
+            found["volume_file"], seals[name] = name, _put_ply(job.store, name, result)
         rows.append(found)
         results.append(result if job.volumes == "zarr" else None)
     if job.volumes == "zarr":
-        write_zarr(job, task.number, rows, results)
-    columns = _rows.schema(job.is_number, job.metadata, job.is_on_earth)
-    job.store.put(shard_name(task.number), _rows.to_bytes(rows, columns))
+        seals.update(write_zarr(job, task.number, rows, results))
+    content = _rows.to_bytes(rows, _rows.schema(job.is_number, job.metadata, job.is_on_earth))
+    job.store.put(shard_name(task.number), content)
+    _seals.write(job.store, shard_name(task.number), content, seals)
     errors = sum(row["outcome"] == "error" for row in rows)
     return _done(task, len(rows), errors, started, began)
 
@@ -147,31 +150,42 @@ def died(row: Row, times: int, places: _geometry.Places) -> dict[str, Any]:
     return {**_rows.of_error(row.id, _geometry.name_of(row), error, 0.0), "geometry": _geometry.footprint(row, None, places)}
 
 
-def write_zarr(job: Job, number: int, rows: list[dict[str, Any]], results: list[Result | None]) -> None:
+def write_zarr(job: Job, number: int, rows: list[dict[str, Any]], results: list[Result | None]) -> dict[str, _seals.Seal]:
     """The shard's volumes; their rows get its name."""
     name = f"volumes/{number:06d}.zarr.zip"
     held = [(str(row["id"]), result) for row, result in zip(rows, results) if result is not None and not result.empty]
-    job.store.put(name, _volumes.to_zarr(held, job.metadata))
+    content = _volumes.to_zarr(held, job.metadata)
+    job.store.put(name, content)
     for row, result in zip(rows, results):
         if result is not None and not result.empty:
             row["volume_file"] = name
+    return {name: _seals.seal_of(content)}
 
 
-def _put_ply(store: Store, number: int, row: Row, result: Result) -> str:
+def ply_name(number: int, row: Row) -> str:
+    """The file of a target's volume."""
     name = urllib.parse.quote(str(row.id), safe="")
     if len(name) > 150:
         name = name[:80] + "-" + hashlib.sha256(name.encode()).hexdigest()[:32]
-    path = f"volumes/{number:06d}/{name}.ply"
+    return f"volumes/{number:06d}/{name}.ply"
+
+
+def _put_ply(store: Store, path: str, result: Result) -> _seals.Seal:
+    folder = store.scratch()
     try:
-        with tempfile.TemporaryDirectory() as folder:
-            local = os.path.join(folder, "volume.ply")
-            result.volume.save(local)
-            with open(local, "rb") as file:
-                content = file.read()
+        local = os.path.join(folder, "volume.ply")
+        result.volume.save(local)
+        with open(local, "rb") as file:
+            content = file.read()
+        if store.is_local:
+            store.put_file(path, local)
+        else:
+            store.put(path, content)
     except (OSError, OutputError) as error:
         raise unwritable(error, store.where(path)) from error
-    store.put(path, content)
-    return path
+    finally:
+        shutil.rmtree(folder, ignore_errors=True)
+    return _seals.seal_of(content)
 
 
 # ---- about the process

@@ -1,0 +1,319 @@
+"""Batches: damaged files, lost files, killed processes, other runs in the same folder."""
+
+import collections
+import contextlib
+import os
+import pathlib
+import random
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+
+import vantage as vt
+from conftest import PROJECT
+from test_batch import refused, triangles, without_time
+
+pytest.importorskip("pyarrow")
+pytest.importorskip("geopandas")
+
+import vantage.batch as batch  # noqa: E402
+from vantage.batch import _lock, _run, _store, _table, _work  # noqa: E402
+
+ASKED = {"max_range": 60, "shard_rows": 3, "volumes": "ply", "workers": 1}
+KILLS = int(os.environ.get("VANTAGE_BATCH_KILLS", "6"))
+"""How often test_killed_again_and_again kills a process."""
+
+
+@pytest.fixture(scope="module")
+def whole(scene, tmp_path_factory):
+    """A run to its end."""
+    return batch.run(triangles(), scene, tmp_path_factory.mktemp("whole"), **ASKED)
+
+
+@pytest.fixture
+def finished(scene, tmp_path):
+    """A folder of a finished run, and its job."""
+    batch.run(triangles(), scene, tmp_path, **ASKED)
+    table = _table.read(triangles(), crs=None, options=None)
+    asked = {"sensor": vt.Sensor(max_range=60), "navigation": None, "method": "exact", "tolerance": None, "spheres": None}
+    return tmp_path, _run._job(table, scene, _store.Store(tmp_path), asked, "ply", 3, None)
+
+
+def files_of(folder, pattern="volumes/**/*.ply"):
+    return {str(path.relative_to(folder)): path.read_bytes() for path in sorted(folder.glob(pattern))}
+
+
+# ---- damaged and lost files
+
+
+def test_flipped_bits(finished):
+    folder, job = finished
+    name = _work.shard_name(0)
+    right = _run._rows_of(job, name)
+    paths = [folder / name, folder / "rows" / "000000.json", *sorted((folder / "volumes" / "000000").iterdir())]
+    seed = int(os.environ.get("VANTAGE_SEED", "5"))
+    print(f"seed {seed}")
+    drawn, seen = random.Random(seed), collections.Counter()
+    for _ in range(600):
+        path = drawn.choice(paths)
+        content = path.read_bytes()
+        flipped = bytearray(content)
+        flipped[drawn.randrange(len(flipped))] ^= 1 << drawn.randrange(8)
+        path.write_bytes(flipped)
+        ids = _run._ids_of(job, name)
+        seen[path.suffix, "noticed" if ids is None else "harmless"] += 1
+        if ids is not None:  # a blank of the JSON file
+            assert path.suffix == ".json" and _run._rows_of(job, name).equals(right)
+        path.write_bytes(content)
+    assert _run._ids_of(job, name) == ([0, 1, 2], 0), "all is as it was"
+    assert seen[".parquet", "noticed"] > 100 and seen[".ply", "noticed"] > 100 and seen[".json", "noticed"] > 100, seen
+    print(dict(seen))
+
+
+@pytest.mark.parametrize("file", ["rows/000001.parquet", "rows/000001.json", "volumes/000001/4.ply"])
+@pytest.mark.parametrize("damage", ["flip", "cut", "lose", "empty"])
+def test_what_is_damaged_is_computed_again(scene, whole, finished, file, damage):
+    folder, _ = finished
+    path, before = folder / file, files_of(folder)
+    content = bytearray(path.read_bytes())
+    if damage == "flip":
+        content[len(content) // 2] ^= 1
+        path.write_bytes(content)
+    elif damage == "cut":
+        path.write_bytes(content[:-7])
+    elif damage == "empty":
+        path.write_bytes(b"")
+    else:
+        path.unlink()
+    again = batch.run(triangles(), scene, folder, **ASKED)
+    assert again.computed == 3 and again.result_hash == whole.result_hash
+    assert without_time(again).equals(without_time(whole)) and files_of(folder) == before
+
+
+def test_a_zarr_that_is_lost(scene, tmp_path):
+    pytest.importorskip("zarr")
+    asked = {**ASKED, "volumes": "zarr"}
+    batch.run(triangles(3), scene, tmp_path, **asked)
+    before = files_of(tmp_path, "volumes/*")
+    (tmp_path / "volumes" / "000000.zarr.zip").unlink()
+    assert batch.run(triangles(3), scene, tmp_path, **asked).computed == 3
+    assert files_of(tmp_path, "volumes/*") == before and before
+
+
+def test_results_that_are_damaged(scene, finished):
+    folder, _ = finished
+    for name in ("results.parquet", "report.json"):
+        content = bytearray((folder / name).read_bytes())
+        at = content.index(b"results_sha256") + 20 if name == "report.json" else len(content) // 3
+        (folder / name).write_bytes(content[:at] + bytes([content[at] ^ 2]) + content[at + 1:])
+        with pytest.raises(vt.Error) as raised:
+            batch.results(folder)
+        assert raised.value.code == "file-changed" and "results.parquet" in raised.value.where
+        (folder / name).write_bytes(content)
+        assert len(batch.results(folder)) == 10
+    (folder / "report.json").unlink()
+    with pytest.raises(vt.Error) as raised:
+        batch.results(folder)
+    assert raised.value.code == "file-not-found"
+
+
+def test_a_scene_that_is_damaged(scene, tmp_path):
+    from vantage.batch import _scenes
+
+    store = _store.Store(tmp_path)
+    _scenes.save(scene, store)
+    content = (tmp_path / "scene.npz").read_bytes()
+    for at in range(0, len(content), 97):
+        (tmp_path / "scene.npz").write_bytes(content[:at] + bytes([content[at] ^ 64]) + content[at + 1:])
+        with contextlib.suppress(vt.Error):
+            _scenes._kept.clear()
+            assert _scenes.kept({"arrays": scene.hash}, scene.hash, store).hash == scene.hash
+
+
+# ---- other runs in the same folder
+
+
+def test_one_run_at_a_time(scene, whole, tmp_path):
+    told = []
+
+    def another(stage, fraction):
+        if not told:
+            told.append(refused(triangles(), scene, tmp_path, **ASKED))
+        return True
+
+    report = batch.run(triangles(), scene, tmp_path, **ASKED, progress=another)
+    assert told[0].code == "folder-in-use" and f"process {os.getpid()} " in told[0].problem
+    assert without_time(report).equals(without_time(whole)) and not (tmp_path / ".lock").exists()
+
+
+def test_the_lock_ends_with_its_process(tmp_path):
+    store = _store.Store(tmp_path)
+    code = f"""
+import time, vantage.batch
+from vantage.batch import _lock, _store
+with _lock.Lock(_store.Store({str(tmp_path)!r})):
+    print("held", flush=True)
+    time.sleep(600)
+"""
+    other = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True, env=with_our_modules())
+    assert other.stdout.readline() == "held\n"
+    with pytest.raises(vt.Error) as raised:
+        _lock.Lock(store).__enter__()
+    assert raised.value.code == "folder-in-use" and f"process {other.pid} " in raised.value.problem
+    other.kill()
+    other.communicate()
+    with _lock.Lock(store):
+        assert (tmp_path / ".lock").read_text().startswith(f"process {os.getpid()} of ")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_file_system_without_locks_is_told(tmp_path, monkeypatch):
+    def flock(*arguments):
+        raise OSError(_lock.errno.EOPNOTSUPP, "not supported")
+
+    monkeypatch.setattr(_lock.fcntl, "flock", flock)
+    with pytest.warns(UserWarning, match="has no locks"), _lock.Lock(_store.Store(tmp_path)):
+        pass
+
+
+# ---- processes
+
+
+def with_our_modules(**more):
+    return {**os.environ, "PYTHONPATH": os.pathsep.join(path for path in sys.path if path), **more}
+
+
+def driver(folder, rows, environment=None, cwd=None, scene="yard()", **asked):
+    """A process that runs a batch."""
+    code = f"""
+import sys
+sys.path.insert(0, {str(PROJECT / 'python' / 'tests')!r})
+import vantage as vt, vantage.batch
+from conftest import yard
+from test_batch import triangles
+rows = {rows}
+report = vantage.batch.run(rows, {scene}, {str(folder)!r}, **{asked!r})
+print(report.computed, flush=True)
+"""
+    script = pathlib.Path(folder).parent / "script" / "drive.py"
+    script.parent.mkdir(exist_ok=True)
+    script.write_text(code)
+    return subprocess.Popen([sys.executable, str(script)], env=environment or with_our_modules(), cwd=cwd,
+                            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+
+
+def children(pid):
+    try:
+        return [int(word) for word in pathlib.Path(f"/proc/{pid}/task/{pid}/children").read_text().split()]
+    except OSError:
+        return []
+
+
+def is_alive(pid):
+    try:
+        return pathlib.Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] not in ("Z", "X")
+    except OSError:
+        return False
+
+
+def wait_until(is_so, seconds=120):
+    end = time.monotonic() + seconds
+    while not is_so():
+        assert time.monotonic() < end, "it did not happen"
+        time.sleep(0.05)
+
+
+def test_modules_of_the_current_folder_are_left_alone(tmp_path):
+    """The script lies elsewhere: nobody asked for what the folder holds in which it was started."""
+    current = tmp_path / "current"
+    current.mkdir()
+    for name in ("pyarrow", "numpy", "shapely", "json", "vantage", "sitecustomize"):
+        (current / f"{name}.py").write_text(f"open({str(tmp_path / 'ran')!r}, 'a').write({name!r})\n")
+    process = driver(tmp_path / "out", "triangles(2)", cwd=current, **ASKED)
+    said = process.communicate(timeout=300)[0]
+    assert process.returncode == 0, said
+    assert not (tmp_path / "ran").exists(), (tmp_path / "ran").read_text()
+
+
+def test_where_workers_look_for_modules(tmp_path, monkeypatch):
+    from vantage.batch import _pool
+
+    own = str(pathlib.Path(vt.__file__).parents[1])
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("PYTHONPATH", "")
+    monkeypatch.setattr(sys, "path", ["", str(tmp_path), "/usr/lib/python3", own])
+    assert _pool.module_path() == os.pathsep.join(["/usr/lib/python3", own])
+    monkeypatch.setenv("PYTHONPATH", str(tmp_path))  # somebody meant it
+    assert _pool.module_path().split(os.pathsep)[0] == str(tmp_path)
+    monkeypatch.setattr(sys, "path", ["", "/usr/lib/python3"])  # vantage came from the current folder
+    monkeypatch.chdir(own)
+    assert _pool.module_path() == os.pathsep.join([own, "/usr/lib/python3"])
+
+
+def test_workers_end_with_their_driver(tmp_path):
+    rows = "[{**row, 'id': i} for i, row in enumerate(triangles() * 4000)]"  # minutes for one shard
+    process = driver(tmp_path / "out", rows, max_range=60, shard_rows=100_000, workers=1, volumes="ply")
+    wait_until(lambda: list((tmp_path / "out").rglob("*.ply")))  # it is in the middle of its shard
+    workers = children(process.pid)
+    process.kill()
+    process.wait()
+    assert workers
+    try:
+        wait_until(lambda: not any(map(is_alive, workers)), 60)
+    finally:
+        for worker in filter(is_alive, workers):
+            os.kill(worker, signal.SIGKILL)
+    assert not (tmp_path / "out" / "rows").exists(), "it was not the end of the shard that ended them"
+
+
+def test_copies_of_remote_files_do_not_stay(tmp_path):
+    temporary = tmp_path / "temporary"
+    temporary.mkdir()
+    scene = f"'file://{PROJECT / 'examples' / 'plaza' / 'plaza.obj'}'"
+    rows = "[{'id': i, 'vertices': [[-12, -9, 0], [8, -11, 0], [11, 0, 0]]} for i in range(4)]"
+    process = driver(tmp_path / "out", rows, with_our_modules(TMPDIR=str(temporary)), scene=scene, max_range=60, shard_rows=2,
+                     workers=2)
+    said = process.communicate(timeout=300)[0]
+    assert process.returncode == 0 and said.split()[-1] == "4", said
+    assert list(temporary.iterdir()) == []
+
+
+def test_killed_again_and_again(scene, tmp_path):
+    """Drivers and workers, at any moment: in the end nothing is lost, nothing is twice, and nothing is left over."""
+    rows = "[{**row, 'id': i} for i, row in enumerate(triangles() * 20)]"
+    asked = {**ASKED, "workers": 2, "shard_rows": 4}
+    right = batch.run([{**row, "id": i} for i, row in enumerate(triangles() * 20)], scene, tmp_path / "right", **asked)
+    drawn, kills = random.Random(11), collections.Counter()
+    out = tmp_path / "out"
+    while True:
+        process = driver(out, rows, **asked)
+        while kills.total() < KILLS and process.poll() is None:
+            wait_until(lambda: children(process.pid) or process.poll() is not None)
+            end = time.monotonic() + drawn.uniform(0, 2)
+            while time.monotonic() < end and process.poll() is None:
+                time.sleep(0.01)
+            workers = children(process.pid)
+            if not workers or process.poll() is not None:
+                continue
+            if drawn.random() < 0.6:
+                with contextlib.suppress(ProcessLookupError):
+                    os.kill(drawn.choice(workers), signal.SIGKILL)
+                    kills["workers"] += 1
+            else:
+                process.kill()
+                kills["drivers"] += 1
+        said = process.communicate(timeout=300)[0]
+        if process.returncode == -signal.SIGKILL:
+            continue
+        assert process.returncode == 0, said
+        if kills.total() >= KILLS:
+            break
+        for path in sorted((out / "rows").iterdir())[::2]:  # it was done before it was killed often enough
+            path.unlink()
+    print(dict(kills))
+    assert without_time(out).equals(without_time(right))
+    assert files_of(out) == files_of(tmp_path / "right")
+    assert [path for path in out.rglob("*") if path.name.startswith(".")] == []
