@@ -77,18 +77,21 @@ void run_on_worker(std::function<void()> job) {
 
 Bridge::Bridge(nb::object callback) : callback_(std::move(callback)), bar_(nb::none()) {
   check_process();
-  if (callback_.is(nb::bool_(true))) callback_ = bar_ = nb::module_::import_("vantage._progress").attr("Bar")();
+  if (callback_.is(nb::bool_(true))) {
+    const nb::object module = called([] { return PyImport_ImportModule("vantage._progress"); });
+    callback_ = bar_ = called([&] { return PyObject_CallMethod(module.ptr(), "Bar", nullptr); });
+  }
   if (callback_.is(nb::bool_(false))) callback_ = nb::none();
   check_callback(callback_);
 }
 
 Bridge::~Bridge() {
   if (bar_.is_none()) return;
-  try {
-    bar_.attr("close")();
-  } catch (nb::python_error& error) {
-    error.discard_as_unraisable("a progress bar");
-  }
+  guarded([&] {
+    PyObject* const closed = PyObject_CallMethod(bar_.ptr(), "close", nullptr);
+    if (closed == nullptr) PyErr_WriteUnraisable(bar_.ptr());
+    Py_XDECREF(closed);
+  });
 }
 
 Progress Bridge::progress() {
@@ -97,7 +100,7 @@ Progress Bridge::progress() {
     has_news_ = true;
     stage_ = stage;
     fraction_ = fraction;
-    return !is_cancelled_;
+    return !is_cancelled_ && !is_ending();
   };
 }
 
@@ -113,7 +116,7 @@ void Bridge::serve() {
     double fraction = 0;
     bool has_news = false;
     {
-      const nb::gil_scoped_release released;
+      const Released released;
       std::unique_lock lock(mutex_);
       if (changed_.wait_for(lock, kOften, [&] { return is_finished_; })) return;
       has_news = std::exchange(has_news_, false);
@@ -128,20 +131,22 @@ Progress Bridge::progress_here() {
   next_ = Clock::now() + kOften;
   return [this, caller = std::this_thread::get_id()](std::string_view stage, double fraction) {
     if (std::this_thread::get_id() == caller && Clock::now() >= next_) {
-      const nb::gil_scoped_acquire held;
+      if (is_given_up()) return false;
+      const TakenBack held;
       attend(std::string(stage), fraction, true);
       next_ = Clock::now() + kOften;
     }
-    const std::lock_guard lock(mutex_);
-    return !is_cancelled_;
+    return !is_stopped() && !is_ending();
   };
 }
 
+bool Bridge::is_stopped() {
+  const std::lock_guard lock(mutex_);
+  return is_cancelled_;
+}
+
 void Bridge::attend(const std::string& stage, double fraction, bool has_news) {
-  {
-    const std::lock_guard lock(mutex_);
-    if (is_cancelled_) return;  // the computation is about to stop
-  }
+  if (is_stopped()) return;  // the computation is about to stop
   try {
     if (PyErr_CheckSignals() != 0) throw nb::python_error();
     if (has_news && !callback_.is_none()) call_python(stage, fraction);
@@ -153,7 +158,8 @@ void Bridge::attend(const std::string& stage, double fraction, bool has_news) {
 }
 
 void Bridge::call_python(const std::string& stage, double fraction) {
-  const nb::object answer = callback_(stage, fraction);
+  const nb::object answer =
+      called([&] { return PyObject_CallFunction(callback_.ptr(), "sd", stage.c_str(), fraction); });
   if (!answer.is(nb::bool_(false))) return;
   stopped_while_ = stage;
   const std::lock_guard lock(mutex_);

@@ -1,8 +1,6 @@
 // How Python calls long computations: the interpreter is released, progress is told, and Ctrl-C stops them.
 #pragma once
 
-#include <nanobind/nanobind.h>
-
 #include <chrono>
 #include <condition_variable>
 #include <exception>
@@ -12,12 +10,11 @@
 #include <string>
 #include <utility>
 
+#include "interpreter.h"
 #include "vantage/progress.h"
 #include "vantage/threads.h"
 
 namespace vantage::python {
-
-namespace nb = nanobind;
 
 /// Between the thread that computes and the one that Python called from, which alone may run Python's signal handlers
 /// and calls `callback(stage, fraction)`. A callback that returns False, or raises, stops the computation.
@@ -47,6 +44,7 @@ class Bridge {
  private:
   void attend(const std::string& stage, double fraction, bool has_news);
   void call_python(const std::string& stage, double fraction);
+  bool is_stopped();
 
   nb::object callback_, bar_;
   std::mutex mutex_;
@@ -70,6 +68,7 @@ auto computed(nb::object callback, int threads, Work&& work) {
   std::optional<Value> value;
   std::exception_ptr failure;
   run_on_worker([&] {
+    const Computing computing;
     try {
       with_threads(threads, [&] { value.emplace(work(bridge.progress())); });
     } catch (...) {
@@ -92,7 +91,8 @@ auto computed_here(nb::object callback, int threads, Work&& work) {
   std::optional<Value> value;
   std::exception_ptr failure;
   {
-    const nb::gil_scoped_release released;
+    const Released released;
+    const Computing computing;
     try {
       with_threads(threads, [&] { value.emplace(work(bridge.progress_here())); });
     } catch (...) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bindings.h"
+#include "interpreter.h"
 #include "vantage/error.h"
 #include "vantage/warning.h"
 
@@ -27,13 +28,16 @@ const char* name_of(ErrorKind kind) {
 
 /// An Error becomes what vantage._errors.make(kind, code, problem, where, fix, object) returns.
 void translate(const std::exception_ptr& pointer, void*) {
+  if (!pointer) wait_for_end();  // no exception of C++: the thread is being ended
   try {
     std::rethrow_exception(pointer);
   } catch (const Error& error) {
     const nb::object object = error.object() ? nb::cast(*error.object()) : nb::none();
-    const nb::object made = nb::module_::import_("vantage._errors")
-                                .attr("make")(name_of(error.kind()), vantage::name_of(error.code()), error.problem(),
-                                              error.where(), error.fix(), object);
+    const nb::tuple told = nb::make_tuple(name_of(error.kind()), vantage::name_of(error.code()), error.problem(),
+                                          error.where(), error.fix(), object);
+    const nb::object module = called([] { return PyImport_ImportModule("vantage._errors"); });
+    const nb::object make = module.attr("make");
+    const nb::object made = called([&] { return PyObject_CallObject(make.ptr(), told.ptr()); });
     PyErr_SetObject(made.type().ptr(), made.ptr());
   }
 }

@@ -100,7 +100,7 @@ std::vector<PyResult> run(const PyMission& mission, int threads, nb::object prog
 
 std::vector<std::pair<std::string, std::string>> notes_of(const PyMission& mission) {
   std::vector<std::pair<std::string, std::string>> rows;
-  const nb::gil_scoped_release released;  // what it looks up may be locked
+  const Released released;  // what it looks up may be locked
   for (const Warning& note : mission_warnings(*mission)) rows.emplace_back(name_of(note.code), note.text);
   return rows;
 }

@@ -68,7 +68,7 @@ void bind_outer(nb::module_& module) {
           "__init__", [](SolidIndex* made, const PyVolume& volume) { new (made) SolidIndex(volume->mesh); }, "volume"_a)
       .def("depths", &depths, "points"_a.noconvert(), "threads"_a = 0)
       .def("contains", &contains, "points"_a.noconvert(), "threads"_a = 0, "progress"_a = nb::none())
-      .def("comes_near", &SolidIndex::comes_near, "other"_a, "within_m"_a, nb::call_guard<nb::gil_scoped_release>());
+      .def("comes_near", &SolidIndex::comes_near, "other"_a, "within_m"_a, nb::call_guard<Released, Computing>());
 }
 
 }  // namespace vantage::python

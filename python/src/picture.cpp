@@ -73,7 +73,7 @@ void save_png(const nb::ndarray<const std::uint8_t, nb::shape<-1, -1, 4>, nb::c_
   picture.height = static_cast<int>(pixels.shape(0));
   picture.width = static_cast<int>(pixels.shape(1));
   picture.rgba.assign(pixels.data(), pixels.data() + pixels.size());
-  const nb::gil_scoped_release released;
+  const Released released;
   write_png(picture, file);
 }
 

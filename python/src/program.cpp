@@ -8,11 +8,12 @@
 #include <vector>
 
 #include "bindings.h"
+#include "interpreter.h"
 
 namespace vantage::python {
 
 void bind_program(nb::module_& module) {
-  module.def("run_program", &cli::run_program, nb::arg("arguments"), nb::call_guard<nb::gil_scoped_release>());
+  module.def("run_program", &cli::run_program, nb::arg("arguments"), nb::call_guard<Released>());
 }
 
 }  // namespace vantage::python

@@ -104,7 +104,7 @@ void bind_scene(nb::module_& module) {
                                        box->max.x(), box->max.y(), box->max.z()};
                    })
       .def_prop_ro(
-          "hash", [](const PyScene& s) { return s.hash(); }, nb::call_guard<nb::gil_scoped_release>())
+          "hash", [](const PyScene& s) { return s.hash(); }, nb::call_guard<Released, Computing>())
       .def("set_source", &set_source, "text"_a, "name"_a)
       .def(
           "prepare",
@@ -120,7 +120,7 @@ void bind_scene(nb::module_& module) {
            })
       .def(
           "save", [](const PyScene& s, const std::filesystem::path& file) { write_scene(s.scene(), file); }, "file"_a,
-          nb::call_guard<nb::gil_scoped_release>());
+          nb::call_guard<Released, Computing>());
 
   module.def("load_scene", &load, "text"_a, "name"_a, "progress"_a = nb::none());
   module.def("scene_from_arrays", &from_arrays, "vertices"_a.noconvert(), "faces"_a.noconvert(),

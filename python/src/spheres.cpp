@@ -51,7 +51,7 @@ std::string cameras() {
 void bind_spheres(nb::module_& module) {
   module.def("visibility_sphere", &sphere, "scene"_a, "viewpoint"_a, "radius_m"_a, "cubemap"_a, "conservative"_a,
              "merge"_a, "device"_a, "threads"_a = 0, "progress"_a = nb::none());
-  module.def("devices", &devices, "choice"_a, nb::call_guard<nb::gil_scoped_release>());
+  module.def("devices", &devices, "choice"_a, nb::call_guard<Released, Computing>());
   module.def("cameras", &cameras);
 }
 

@@ -106,7 +106,7 @@ PyVolume from_arrays(const PointArray& vertices, const FaceArray& faces, const s
 /// How far rounding to the file's numbers moved the surface, and how many facets the file holds.
 std::pair<double, std::size_t> save(const PyVolume& volume, const std::filesystem::path& file, const std::string& up,
                                     double scale) {
-  const nb::gil_scoped_release released;
+  const Released released;
   const WrittenVolume written = write_volume(*volume, file, up == "y" ? UpAxis::y : UpAxis::z, scale);
   return {written.rounding_m, written.facets};
 }
@@ -161,7 +161,7 @@ void bind_volume(nb::module_& module) {
       .def_prop_ro("place", [](const PyVolume& v) { return place_row(v->georeference); })
       .def_prop_ro("projection", [](const PyVolume& v) { return projection_row(v->georeference); })
       .def_prop_ro(
-          "hash", [](const PyVolume& v) { return volume_hash(v->mesh); }, nb::call_guard<nb::gil_scoped_release>())
+          "hash", [](const PyVolume& v) { return volume_hash(v->mesh); }, nb::call_guard<Released, Computing>())
       .def("measures", [](const PyVolume& v) { return measures_of(measure(v->mesh)); })
       .def("report", [](const PyVolume& v) { return report_json(*v, measure(v->mesh)); })
       .def("save", &save, "file"_a, "up"_a = "z", "scale"_a = 1.0)

@@ -17,6 +17,10 @@ import pathlib as _pathlib
 from typing import Any as _Any
 
 from . import _core
+
+if _refusal := getattr(_core, "refusal", None):  # in a subinterpreter
+    raise ImportError(_refusal)
+
 from ._areas import Area, Face, areas
 from ._core import version as __version__
 from ._errors import CancelledError, Error, InputError, InternalError, OutputError

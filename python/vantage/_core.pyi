@@ -7,6 +7,8 @@ import numpy
 from numpy.typing import NDArray
 
 
+def warn_of_leaks(on: bool) -> None: ...
+
 version: str = '0.1.0'
 
 def set_resource_folder(folder: str | os.PathLike) -> None: ...
