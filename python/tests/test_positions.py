@@ -394,3 +394,127 @@ def test_time_that_runs_out_is_told():
     answer = vt.fewest_positions(volumes, time_limit_s=1e-3)
     check_answer(answer, volumes)
     assert answer.unseen == [] and answer.notes
+
+
+def test_targets_that_no_candidate_sees_are_unseen():
+    """Also if none sees any, and if there are no candidates."""
+    volumes = line((0, 2), (10, 12))
+    for candidates in ([[1000, 0, 0]], [], np.zeros((0, 3))):
+        for cost in (None, lambda points: np.ones(len(points))):
+            answer = vt.fewest_positions(volumes, candidates=candidates, cost=cost)
+            assert answer.unseen == [0, 1] and answer.assigned.tolist() == [-1, -1]
+            assert answer.positions.shape == (0, 3) and answer.sees == [] and len(answer.depth_m) == 0
+            assert answer.lower_bound == 0 and answer.optimal and answer.total_cost == 0
+            assert str(answer) == "0 positions; 0 are necessary; 2 targets without an answer"
+            assert "0 positions" in answer._repr_html_()
+
+
+def test_errors_in_the_place_of_results_are_unseen(result):
+    wrong = vt.InputError("input", "target-pierced", "pierced", "", "")
+    answer = vt.fewest_positions([wrong, result])
+    assert answer.unseen == [0] and answer.sees == [[1]]
+
+
+SIGNALS = """
+import os, signal, sys, threading, time
+sys.path.insert(0, {tests!r})
+import vantage as vt
+from test_positions import line, random_boxes, solid
+import numpy as np
+signal.signal(signal.SIGINT, signal.default_int_handler)
+"""
+
+
+def interrupted(text):
+    ran = subprocess.run([sys.executable, "-c", SIGNALS.format(tests=str(PROJECT / "python" / "tests")) + text],
+                         capture_output=True, text=True, timeout=120)
+    return ran.stdout, ran.stderr
+
+
+def test_the_solver_leaves_ctrl_c_to_python():
+    told, said = interrupted("""
+print(vt.fewest_positions(line((0, 2), (1, 3), (5, 6))), signal.getsignal(signal.SIGINT) is signal.default_int_handler)
+try:
+    os.kill(os.getpid(), signal.SIGINT)
+    time.sleep(5)
+except KeyboardInterrupt:
+    print("heard")
+""")
+    assert told == "2 positions; 2 are necessary: targets 0, 2 do not meet True\nheard\n", said
+
+
+HARD = """
+from vantage import _cover
+from vantage._cover import Clock
+rng = np.random.default_rng(3)
+sets = [sorted(set(rng.integers(0, 300, 9).tolist())) for _ in range(1500)] + [[i] for i in range(300)]
+_cover.cp_model()
+"""
+
+
+def test_ctrl_c_stops_the_solver():
+    told, said = interrupted(HARD + """
+threading.Timer(1, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+began = time.monotonic()
+try:
+    _cover.least_cover(300, sets, [1] * len(sets), Clock(100))
+    print("it was solved")
+except KeyboardInterrupt:
+    print("heard", time.monotonic() - began < 20)
+    time.sleep(1)
+    print(any("CP-SAT" in one.name for one in threading.enumerate()))
+""")
+    assert told == "heard True\nFalse\n", said
+
+
+def test_a_callback_stops_the_solver():
+    from vantage import _cover
+
+    rng = np.random.default_rng(3)
+    sets = [sorted(set(rng.integers(0, 300, 9).tolist())) for _ in range(1500)] + [[i] for i in range(300)]
+
+    def check():
+        raise LookupError("mine")
+
+    with pytest.raises(LookupError, match="mine"):
+        _cover.least_cover(300, sets, [1] * len(sets), _cover.Clock(100, check))
+
+
+def test_outer_meshes_and_candidates_look_at_the_clock(monkeypatch):
+    """No outer mesh is made when time is over, and no volume is asked for the candidates of others."""
+    from vantage import _position_search
+
+    results = squares_in_plaza()
+    made, asked = [], []
+    make, holds = _core.outer_volume, _position_search.Region.holds
+    monkeypatch.setattr(_core, "outer_volume", lambda *arguments: made.append(1) or make(*arguments))
+    monkeypatch.setattr(_position_search.Region, "holds",
+                        lambda region, points, threads: asked.append(len(points)) or holds(region, points, threads))
+    cut = vt.fewest_positions(results, time_limit_s=1e-6)
+    check_answer(cut, results)
+    assert made == [] and max(asked) <= max(len(cut), _position_search._LAST_TRIES)
+    assert cut.unseen == [] and cut.lower_bound == 1 and "time ran out" in cut.notes[0]
+    whole = vt.fewest_positions(results)
+    assert len(made) == len(results) and whole.lower_bound >= 2 and len(whole) <= len(cut)
+
+
+def test_an_outer_mesh_is_stopped_when_time_is_over():
+    """In the middle of it."""
+    from vantage._cover import Clock
+    from vantage._position_search import Region
+
+    wall = vt.Target(vertices=[[0, 0, 3], [4, 0, 3], [4, 0, 6], [0, 0, 6]])
+    scene = vt.Scene.from_mesh(PROJECT / "examples" / "plaza" / "plaza.obj")
+    result = vt.compute(scene, wall, max_range=60)
+    calls = []
+
+    class Soon(Clock):
+        @property
+        def left_s(self):
+            calls.append(1)
+            return 0.0 if len(calls) > 1 else 1.0
+
+    region = Region(result, "one")
+    done = region.surround(0, Soon(1))
+    # It takes more than the 0.05 s after which the clock is asked again, or it is done before.
+    assert done == (region.outer is not None) and region.surround(0, Clock(60)) and region.outer is not None

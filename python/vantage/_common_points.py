@@ -14,6 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _arrays, _core
+from ._cover import Clock
 
 Numbers = npt.NDArray[np.float64]
 
@@ -62,7 +63,7 @@ class Search(NamedTuple):
 
 
 def deepest(solids: Sequence[Solid], least_m: float, *, share: float = 0.9, most_boxes: int = 40_000,
-            threads: int = 0) -> Search:
+            threads: int = 0, clock: Clock | None = None) -> Search:
     """The point that lies deepest in all of the solids.
 
     Args:
@@ -71,6 +72,7 @@ def deepest(solids: Sequence[Solid], least_m: float, *, share: float = 0.9, most
         share: of the greatest depth; a point that deep is good enough.
         most_boxes: that are looked at before it ends with what it has.
         threads: 0: as many as there are.
+        clock: it ends with what it has when the time is over, too.
     """
     low = np.max([one.low for one in solids], axis=0)
     high = np.min([one.high for one in solids], axis=0)
@@ -99,7 +101,7 @@ def deepest(solids: Sequence[Solid], least_m: float, *, share: float = 0.9, most
         if not keep.all():
             dropped = max(dropped, float(bounds[~keep].max()))
         bounds, open_middles, open_halves = bounds[keep], open_middles[keep], open_halves[keep]
-        if not len(bounds) or looked >= most_boxes:
+        if not len(bounds) or looked >= most_boxes or (clock is not None and clock.is_over):
             break
         first = np.argsort(-bounds, kind="stable")[:_BATCH]
         middles, halves = _halved(open_middles[first], open_halves[first])
@@ -138,10 +140,11 @@ def _halved(middles: Numbers, halves: Numbers) -> tuple[Numbers, Numbers]:
     return middles, halves
 
 
-def surely_apart(solids: Sequence[Solid], most_boxes: int = 40_000, threads: int = 0) -> bool:
+def surely_apart(solids: Sequence[Solid], most_boxes: int = 40_000, threads: int = 0,
+                 clock: Clock | None = None) -> bool:
     """Whether it is certain that the solids, as closed sets, have no point in common."""
     margin = max(one.rounding_m for one in solids)
-    found = deepest(solids, -margin, most_boxes=most_boxes, threads=threads)
+    found = deepest(solids, -margin, most_boxes=most_boxes, threads=threads, clock=clock)
     return found.point is None and found.most_m <= -margin
 
 

@@ -2,20 +2,25 @@
 
 from __future__ import annotations
 
+import threading
 import time
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any, NamedTuple
 
 from ._extras import require
 
 Sets = Iterable[Iterable[int]]
 
+_OFTEN_S = 0.05
+"""So often it is asked meanwhile whether to go on."""
+
 
 class Clock:
-    """How much of a time limit is left."""
+    """How much of a time limit is left. `check` is called while the solver works, and may raise to stop it."""
 
-    def __init__(self, limit_s: float):
+    def __init__(self, limit_s: float, check: Callable[[], None] = lambda: None):
         self.end = time.monotonic() + limit_s
+        self.check = check
 
     @property
     def left_s(self) -> float:
@@ -45,7 +50,31 @@ def _solve(model: Any, clock: Clock) -> tuple[Any, Any]:
     solver.parameters.random_seed = 1
     solver.parameters.num_workers = 1
     solver.parameters.max_time_in_seconds = max(0.01, clock.left_s)
-    return solver, solver.solve(model)
+    solver.parameters.catch_sigint_signal = False  # it would take Ctrl-C away from Python, for good
+    status: list[Any] = []
+    done = threading.Event()
+
+    def solve() -> None:
+        try:
+            status.append(solver.solve(model))
+        except Exception as error:
+            status.append(error)
+        finally:
+            done.set()
+
+    # On a thread of its own: while this one waits, it hears of Ctrl-C, and stops the solver then. It waits for an event:
+    # a `join` that is interrupted takes the thread for ended (CPython 3.11).
+    threading.Thread(target=solve, name="vantage: CP-SAT", daemon=True).start()
+    try:
+        while not done.wait(_OFTEN_S):
+            clock.check()
+    finally:
+        while not done.is_set():
+            solver.stop_search()  # once may be too early: before it has begun
+            done.wait(_OFTEN_S)
+    if isinstance(status[0], Exception):
+        raise status[0]
+    return solver, status[0]
 
 
 def least_cover(count: int, sets: Sequence[Iterable[int]], costs: Sequence[int], clock: Clock) -> Cover:

@@ -10,21 +10,16 @@ from typing import Any, Union
 import numpy as np
 import numpy.typing as npt
 
-from . import _arrays, _core
-from ._common_points import Numbers, Solid, deepest, inner_points, surely_apart
-from ._cover import Clock, cp_model, groups, least_cover, most_apart, most_together
-from ._errors import input_error, make
+from . import _arrays
+from ._common_points import Numbers, deepest
+from ._cover import Clock, cp_model, least_cover, most_apart
+from ._errors import Error, input_error
+from ._position_search import PositionSearch, Region, Told
+from ._progress import Progress, listener
 from ._result import Result
-from ._progress import Listener, Progress, listener
 from ._volume import Volume
 
 Cost = Union[npt.ArrayLike, Callable[[_arrays.Points], npt.ArrayLike]]
-
-_LEAST_DEPTH = 1e-6
-"""Of the size of a volume: what lies less deep in it is no position. So much its surface may be off: docs/theory.md."""
-
-_SAMPLES = 48
-"""Random points in each volume, the first candidates."""
 
 _COSTS = 1e6
 """The solver counts in whole numbers: the largest cost becomes this."""
@@ -42,7 +37,8 @@ class Positions:
         lower_bound: at least so many positions are necessary, wherever they are (with `candidates`: among these).
         necessary: targets of which no two can be seen from one position.
         greatest_depth: no position sees more targets than so many, as far as it is known.
-        unseen: targets that no position sees: their volume is empty, or no candidate is in it.
+        unseen: targets that no position sees: there is an error in the place of their result, their volume is empty, or too
+            thin, or no candidate is in it.
         total_cost: of the positions, where there are costs; else their number.
         optimal: whether it is proved that no fewer do (with `cost`: none that cost less, among `candidates`).
         notes: what was cut short, and what bounds do not take into account.
@@ -94,225 +90,7 @@ def _plural(word: str, count: int) -> str:
     return word if count == 1 else word + "s"
 
 
-class _Told:
-    """Tells progress, and stops when the callback returns False."""
-
-    def __init__(self, progress: Listener):
-        self.progress = progress
-
-    def __call__(self, stage: str, fraction: float) -> None:
-        if self.progress is not None and self.progress(stage, fraction) is False:
-            raise make("cancelled", "cancelled", "cancelled", "", "", None)
-
-
-class _Region:
-    """The positions of one target: `inner` of them that are sure, and `outer`, all of them and more."""
-
-    def __init__(self, of: Result | Volume, name: str):
-        if not isinstance(of, (Result, Volume)):
-            raise input_error("wrong-type", f"{name} is a {type(of).__name__}", name, "pass vt.Result or vt.Volume")
-        self.mission = of.mission if isinstance(of, Result) else None
-        self.inner = Solid((of.volume if isinstance(of, Result) else of)._core)
-        size = 0.0 if self.inner.is_empty else float(np.linalg.norm(self.inner.high - self.inner.low))
-        self.least_depth_m = max(_LEAST_DEPTH * size, self.inner.rounding_m)
-        self.outer = self.inner
-        self.ignored: list[str] = []
-
-    def surround(self, threads: int) -> None:
-        """Makes `outer` of what the result was computed for. A mere volume is taken for all that there is."""
-        if self.mission is not None and not self.inner.is_empty:
-            volume, _, _, self.ignored = _core.outer_volume(self.mission._core, 0.0, 0.01, threads, None)
-            self.outer = Solid(volume)
-
-    def holds(self, points: _arrays.Points, threads: int) -> npt.NDArray[np.bool_]:
-        """Whether each point is a position: deep enough in the mesh, and by the exact query if there is a mission."""
-        found = self.inner.depths(points, threads) > self.least_depth_m
-        if self.mission is not None and found.any():
-            found[found] = self.mission.query(points[found], threads=threads).inside
-        return found
-
-
-class _Search:
-    """Candidates and conflicts, as far as they are known. Regions are those that are not empty."""
-
-    def __init__(self, regions: list[_Region], clock: Clock, threads: int, told: _Told):
-        self.regions, self.clock, self.threads, self.told = regions, clock, threads, told
-        self.points: list[Numbers] = []
-        self.seen: list[frozenset[int]] = []  # by each of the points
-        self.conflicts: set[frozenset[int]] = set()  # no position is in all of them
-        self.outer_conflicts: set[frozenset[int]] = set()  # no position can be
-        self.is_cut = False
-
-    def all(self) -> range:
-        return range(len(self.regions))
-
-    # ---- candidates
-
-    def add(self, points: _arrays.Points) -> None:
-        """Candidates, with all that each sees."""
-        points = np.ascontiguousarray(points).reshape(-1, 3)
-        held = np.array([region.holds(points, self.threads) for region in self.regions])
-        for number, point in enumerate(points):
-            self.points.append(point)
-            self.seen.append(frozenset(np.flatnonzero(held[:, number]).tolist()))
-
-    def sample(self) -> None:
-        """Random points in each volume, and its deepest one."""
-        rng = np.random.default_rng(1)
-        found = [inner_points(region.inner, _SAMPLES, rng, self.threads) for region in self.regions]
-        points, held = np.concatenate(found), []
-        for number, region in enumerate(self.regions):
-            self.told("candidates", number / len(self.regions))
-            held.append(region.holds(points, self.threads))
-        sets = {frozenset(np.flatnonzero(column).tolist()): row for row, column in enumerate(np.array(held).T)}
-        largest: list[frozenset[int]] = []
-        for one in sorted(sets, key=lambda one: (-len(one), sorted(one))):
-            if one and not any(one <= other for other in largest):
-                largest.append(one)
-        for one in largest:
-            self.points.append(points[sets[one]])
-            self.seen.append(one)
-        for number in self.all():
-            if not any(number in one for one in self.seen):
-                self.common({number})
-
-    def known(self, group: frozenset[int]) -> int | None:
-        """A candidate that sees all of the group."""
-        return next((number for number, one in enumerate(self.seen) if group <= one), None)
-
-    def common(self, members: set[int] | frozenset[int]) -> bool | None:
-        """Whether some position is in all of the regions; None where it is not known. New ones become candidates."""
-        group = frozenset(members)
-        if self.known(group) is not None:
-            return True
-        if any(one <= group for one in self.conflicts):
-            return False
-        regions = [self.regions[number] for number in sorted(group)]
-        least = max(region.least_depth_m for region in regions)
-        found = deepest([region.inner for region in regions], least, share=0.5, most_boxes=20_000, threads=self.threads)
-        if found.point is not None:
-            self.add(found.point)
-            return True if group <= self.seen[-1] else None
-        if found.most_m <= least or self._is_empty_as_meshes([region.inner for region in regions]):
-            self.conflicts.add(group)
-            return False
-        return None
-
-    @staticmethod
-    def _is_empty_as_meshes(solids: list[Solid]) -> bool:
-        """By booleans, where distances have not decided."""
-        return _core.intersect_volumes([one.core for one in solids], None).outcome == "no_common_view"
-
-    # ---- conflicts
-
-    def compare_pairs(self) -> None:
-        """Which outer meshes do not meet."""
-        pairs = list(itertools.combinations(self.all(), 2))
-        for number, (a, b) in enumerate(pairs):
-            if number % 50 == 0:
-                self.told("pairs", number / len(pairs))
-            if self.clock.is_over:
-                self.is_cut = True
-                return
-            if self.known(frozenset((a, b))) is None and not self.regions[a].outer.meets(self.regions[b].outer):
-                self.outer_conflicts.add(frozenset((a, b)))
-        self.conflicts |= self.outer_conflicts
-
-    def smallest_conflict(self, group: list[int]) -> frozenset[int]:
-        """Of a group without a common position: what is left when all that can be is taken out."""
-        kept = list(group)
-        for member in group:
-            less = [one for one in kept if one != member]
-            if len(less) > 1 and self.common(set(less)) is False:
-                kept = less
-        conflict = frozenset(kept)
-        self.conflicts.add(conflict)
-        if conflict not in self.outer_conflicts:
-            self.try_outer(conflict)
-        return conflict
-
-    def try_outer(self, conflict: frozenset[int]) -> bool:
-        """Whether it is certain that the outer meshes have no common point; it is kept then."""
-        if any(one <= conflict for one in self.outer_conflicts):
-            return True
-        if self.known(conflict) is not None:
-            return False
-        if surely_apart([self.regions[i].outer for i in sorted(conflict)], threads=self.threads):
-            self.outer_conflicts.add(conflict)
-            return True
-        return False
-
-    # ---- from above
-
-    def cover(self) -> list[list[int]]:
-        """The fewest candidates, each as the group that it sees."""
-        found = least_cover(len(self.regions), self.seen, [1] * len(self.seen), self.clock)
-        return [sorted(self.seen[number]) for number in found.chosen]
-
-    def improve(self, best: list[list[int]], least: int, apart: list[int]) -> tuple[list[list[int]], bool]:
-        """Fewer groups, until there are no fewer; whether that is certain for the inner meshes."""
-        while len(best) > least:
-            self.told("fewer", least / len(best))
-            if self.clock.is_over:
-                self.is_cut = True
-                return best, False
-            tried = groups(len(self.regions), len(best) - 1, self.conflicts, apart, self.clock)
-            if tried is False:
-                return best, True
-            if not isinstance(tried, list):
-                self.is_cut = True
-                return best, False
-            answers = [self.common(set(group)) if group else True for group in tried]
-            if all(answers):
-                best = [group for group in tried if group]
-                continue
-            if not any(answer is False for answer in answers):
-                return best, False  # of some groups it is not known
-            for group, answer in zip(tried, answers):
-                if answer is False:
-                    self.smallest_conflict(group)
-            covered = self.cover()  # the candidates that came on the way may do
-            best = min(best, covered, key=len)
-        return best, True
-
-    # ---- from below
-
-    def raise_bound(self, bound: int, most: int, apart: list[int]) -> int:
-        """How many groups the outer meshes need, from `bound` on."""
-        while bound < most and not self.clock.is_over:
-            self.told("bound", bound / most)
-            tried = groups(len(self.regions), bound, self.outer_conflicts, apart, self.clock)
-            if tried is False:
-                bound += 1
-            elif not isinstance(tried, list) or not any([self._outer_conflict_in(group) for group in tried]):
-                return bound
-        return bound
-
-    def _outer_conflict_in(self, group: list[int]) -> bool:
-        """Whether a group is found to have none in common; the smallest part of it that shows it is kept."""
-        if len(group) < 2 or not self.try_outer(frozenset(group)):
-            return False
-        kept = list(group)
-        for member in group:
-            less = [one for one in kept if one != member]
-            if len(less) > 1 and self.try_outer(frozenset(less)):
-                kept = less
-        return True
-
-    def greatest_depth(self) -> int:
-        """No position is in more of the regions than this."""
-        most = len(self.regions)
-        while not self.clock.is_over:
-            found, is_most = most_together(len(self.regions), self.outer_conflicts, self.clock)
-            if not is_most:
-                return most
-            most = len(found)
-            if not self._outer_conflict_in(found):
-                return most
-        return most
-
-
-def fewest_positions(volumes: Sequence[Result | Volume], candidates: npt.ArrayLike | None = None,
+def fewest_positions(volumes: Sequence[Result | Volume | Error], candidates: npt.ArrayLike | None = None,
                      cost: Cost | None = None, *, time_limit_s: float = 60.0, threads: int = 0,
                      progress: Progress = None) -> Positions:
     """The fewest positions from which each of many targets is seen whole by one of them, and how many are necessary.
@@ -328,11 +106,14 @@ def fewest_positions(volumes: Sequence[Result | Volume], candidates: npt.ArrayLi
     millionth of their distance. A mere `Volume` is taken for all that there is: its mesh is its outer mesh.
 
     Args:
-        volumes: a result, or a volume, for each target.
+        volumes: a result, or a volume, for each target; also the list of `compute_many` with its errors.
         candidates: (n, 3), metres: choose from these points only.
         cost: a cost for each candidate, (n,), or a function that takes (n, 3) points and gives (n,) costs, not negative:
             the sum is made least. Without candidates it is so among the points that were looked at.
-        time_limit_s: seconds; what was found until then counts. `notes` say so.
+        time_limit_s: seconds for the whole search, outer meshes and candidates included. What was found until then counts:
+            `notes` say so. Not cut short are reading the volumes, a last try to find a position for each target that has
+            none yet, and asking who sees what: about 0.05 s for each target. With `candidates` the limit is for the choice
+            among them.
         threads: 0: as many as there are. The answer does not depend on it, but where time runs out.
         progress: called with stage and fraction; False stops.
 
@@ -353,29 +134,34 @@ def fewest_positions(volumes: Sequence[Result | Volume], candidates: npt.ArrayLi
         2 positions; 2 are necessary: targets 0, 2 do not meet
     """
     cp_model()
-    if not time_limit_s > 0:
+    limit = _arrays.number(time_limit_s, "time_limit_s")
+    if limit <= 0:
         raise input_error("value-out-of-range", f"time_limit_s is {time_limit_s}", "time_limit_s", "pass seconds")
-    told, clock = _Told(listener(progress)), Clock(time_limit_s)
+    told = Told(listener(progress))
+    clock = Clock(limit, told.again)
     if isinstance(volumes, (Result, Volume)) or not isinstance(volumes, Sequence):
         raise input_error("wrong-type", f"volumes is a {type(volumes).__name__}", "volumes", "pass a list of them")
-    every = [_Region(one, f"volumes[{number}]") for number, one in enumerate(volumes)]
+    if cost is not None and candidates is None and not callable(cost):
+        raise input_error("conflicting-keys", "costs are given, and no candidates", "cost",
+                          "pass candidates, or a function of points")
+    every = []
+    for number, one in enumerate(volumes):
+        told("volumes", number / len(volumes))
+        every.append(Region(one, f"volumes[{number}]"))
     points = None if candidates is None else _arrays.points(candidates, "candidates")
     numbers = [number for number, region in enumerate(every) if not region.inner.is_empty]
     if not numbers:
         raise input_error("nothing-given", "there is no volume that is not empty", "volumes",
                           "pass results that are not empty: Result.reason says why they are")
-    search = _Search([every[number] for number in numbers], clock, threads, told)
+    search = PositionSearch([every[number] for number in numbers], clock, threads, told)
     if points is not None:
         return _among(search, points, cost, numbers, len(every))
     return _anywhere(search, cost, numbers, len(every))
 
 
-def _costs(cost: Cost | None, points: _arrays.Points, may_be_list: bool) -> Numbers:
+def _costs(cost: Cost | None, points: _arrays.Points) -> Numbers:
     if cost is None:
         return np.ones(len(points))
-    if not callable(cost) and not may_be_list:
-        raise input_error("conflicting-keys", "costs are given, and no candidates", "cost",
-                          "pass candidates, or a function of points")
     values = _arrays.numbers(cost(points) if callable(cost) else cost, "cost")
     if values.shape != (len(points),):
         raise input_error("array-sizes-differ", f"cost has the shape {values.shape}", "cost", f"pass ({len(points)},)")
@@ -391,9 +177,9 @@ def _whole(costs: Numbers) -> list[int]:
     return [int(value) * 1000 + 1 for value in scaled]
 
 
-def _among(search: _Search, points: _arrays.Points, cost: Cost | None, numbers: list[int], count: int) -> Positions:
+def _among(search: PositionSearch, points: _arrays.Points, cost: Cost | None, numbers: list[int], count: int) -> Positions:
     """The answer from given candidates: exact."""
-    values = _costs(cost, points, True)
+    values = _costs(cost, points)
     search.add(points)
     seen_at_all = frozenset().union(*search.seen) if search.seen else frozenset()
     kept = sorted(seen_at_all)
@@ -410,49 +196,49 @@ def _among(search: _Search, points: _arrays.Points, cost: Cost | None, numbers: 
         notes=[] if found.is_least else ["time ran out: fewer, or cheaper, candidates may do"])
 
 
-def _anywhere(search: _Search, cost: Cost | None, numbers: list[int], count: int) -> Positions:
+def _anywhere(search: PositionSearch, cost: Cost | None, numbers: list[int], count: int) -> Positions:
     """The answer from any place."""
-    for number, region in enumerate(search.regions):
-        search.told("outer", number / len(search.regions))
-        region.surround(search.threads)
     search.sample()
-    unseen_thin = [i for i in search.all() if search.known(frozenset([i])) is None]
-    if unseen_thin:
-        rest = [i for i in search.all() if i not in set(unseen_thin)]
-        thin = [numbers[i] for i in unseen_thin]
-        if not rest:
+    seen = [i for i in search.all() if search.known(frozenset([i])) is not None]
+    more = []
+    if len(seen) < len(numbers):
+        left = [number for i, number in enumerate(numbers) if i not in set(seen)]
+        if not seen and not search.is_cut:
             raise input_error("nothing-given", "no volume has a position that lies deep enough inside", "volumes",
                               "pass volumes that are thicker than a millionth of their size")
-        smaller = _Search([search.regions[i] for i in rest], search.clock, search.threads, search.told)
-        answer = _anywhere(smaller, cost, [numbers[i] for i in rest], count)
-        return dataclasses.replace(answer, notes=[*answer.notes, f"volumes {thin} are too thin for a position"])
+        more = [f"no position was found in time in the volumes {left}, which may be thin" if search.is_cut
+                else f"volumes {left} are too thin for a position"]
+        search, numbers = search.of(seen), [numbers[i] for i in seen]
+        if not seen:
+            return dataclasses.replace(_answer(search, [], [], count), notes=[*_notes(search, False, False, False), *more])
+    search.surround()
     search.compare_pairs()
     apart = most_apart(len(search.regions), _meeting(search), search.clock)
     if cost is None:
         best, is_least = search.improve(search.cover(), len(apart), apart)
         points = [_deep_point(search, group) for group in _shared_out(search, best)]
     else:
-        values = _costs(cost, np.array(search.points), False)
+        values = _costs(cost, np.array(search.points))
         cheapest = least_cover(len(search.regions), search.seen, _whole(values), search.clock).chosen
         points, is_least = [search.points[i] for i in cheapest], True
     bound = search.raise_bound(len(apart), len(points), apart)
-    greatest = search.greatest_depth()
+    greatest = search.most_seen()
     bound = max(bound, -(-len(search.regions) // greatest))
     answer = _answer(search, points, numbers, count)
-    notes = _notes(search, is_least, len(points) > bound, cost is not None)
-    total = float(_costs(cost, answer.positions, False).sum()) if cost is not None else float(len(points))
+    notes = [*_notes(search, is_least, len(points) > bound, cost is not None), *more]
+    total = float(_costs(cost, answer.positions).sum()) if cost is not None else float(len(points))
     return dataclasses.replace(answer, lower_bound=bound, necessary=[numbers[i] for i in apart],
                                greatest_depth=greatest, total_cost=total,
                                optimal=cost is None and len(points) == bound, notes=notes)
 
 
-def _meeting(search: _Search) -> list[frozenset[int]]:
+def _meeting(search: PositionSearch) -> list[frozenset[int]]:
     """All pairs that meet, as far as it is known that they do not."""
     pairs = (frozenset(pair) for pair in itertools.combinations(search.all(), 2))
     return [pair for pair in pairs if pair not in search.outer_conflicts]
 
 
-def _notes(search: _Search, is_least: bool, has_gap: bool, has_cost: bool) -> list[str]:
+def _notes(search: PositionSearch, is_least: bool, has_gap: bool, has_cost: bool) -> list[str]:
     notes = []
     if search.is_cut or search.clock.is_over:
         notes.append("time ran out: the search was cut, and both numbers may be improved")
@@ -468,7 +254,7 @@ def _notes(search: _Search, is_least: bool, has_gap: bool, has_cost: bool) -> li
     return notes
 
 
-def _shared_out(search: _Search, found: list[list[int]]) -> list[list[int]]:
+def _shared_out(search: PositionSearch, found: list[list[int]]) -> list[list[int]]:
     """Each target to one of the groups that hold it: the one where it is seen from deepest inside."""
     points = np.array([search.points[search.known(frozenset(group)) or 0] for group in found])
     shared: list[list[int]] = [[] for _ in found]
@@ -479,23 +265,27 @@ def _shared_out(search: _Search, found: list[list[int]]) -> list[list[int]]:
     return [group for group in shared if group]
 
 
-def _deep_point(search: _Search, group: list[int]) -> Numbers:
+def _deep_point(search: PositionSearch, group: list[int]) -> Numbers:
     """Of the positions that see the group, one that lies deep inside."""
     regions = [search.regions[i] for i in group]
-    least = max(region.least_depth_m for region in regions)
-    found = deepest([region.inner for region in regions], least, threads=search.threads)
     known = search.known(frozenset(group))
+    assert known is not None
+    if search.clock.is_over:
+        return search.points[known]
+    least = max(region.least_depth_m for region in regions)
+    search.told.again()
+    found = deepest([region.inner for region in regions], least, threads=search.threads, clock=search.clock)
     if found.point is not None and all(region.holds(found.point[None, :], search.threads)[0] for region in regions):
         return found.point
-    assert known is not None
     return search.points[known]
 
 
-def _answer(search: _Search, points: list[Numbers], numbers: list[int], count: int) -> Positions:
+def _answer(search: PositionSearch, points: list[Numbers], numbers: list[int], count: int) -> Positions:
     """Who sees what, asked for again. Bounds are filled in by the caller."""
-    positions = np.array(points).reshape(-1, 3)
-    held = np.array([region.holds(positions, search.threads) for region in search.regions]).reshape(-1, len(positions))
-    depths = np.array([region.inner.depths(positions, search.threads) for region in search.regions])
+    positions = np.array(points, np.float64).reshape(-1, 3)
+    shape = len(search.regions), len(positions)
+    held = np.array([region.holds(positions, search.threads) for region in search.regions], bool).reshape(shape)
+    depths = np.array([region.inner.depths(positions, search.threads) for region in search.regions]).reshape(shape)
     assigned = np.full(count, -1, np.int64)
     for row, number in enumerate(numbers):
         if held[row].any():
