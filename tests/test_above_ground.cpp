@@ -445,11 +445,11 @@ TEST_F(AboveGroundMission, ASceneOfTerrainAloneIsGroundAsAWhole) {
   const Mission mission = resolve("{altitude: {agl: [5, 30]}, clearance: 2, ground: all}");
   ASSERT_TRUE(mission.navigation.above_ground && mission.navigation.above_ground->ground.surface);
   EXPECT_EQ(mission.navigation.above_ground->ground.surface->triangles, mission.scene().mesh.triangles);
-  EXPECT_EQ(mission.navigation.clearance->obstacles->triangles.size(), 3u) << "the clearance is kept from terrain";
+  EXPECT_EQ(mission.navigation.clearance->obstacles->triangles.size(), 3u);  // the clearance is kept from terrain
   // An object of that name is what is meant.
   testing::write_bytes(folder_ / "field.obj", std::string(kField).replace(std::string(kField).find("field"), 5, "all"));
-  EXPECT_EQ(
-      resolve("{altitude: {agl: [5, 30]}, ground: all}").navigation.above_ground->ground.surface->triangles.size(), 2u);
+  const Mission named = resolve("{altitude: {agl: [5, 30]}, ground: all}");
+  EXPECT_EQ(named.navigation.above_ground->ground.surface->triangles.size(), 2u);
 }
 
 TEST_F(AboveGroundMission, AMeshThatDoesNotSayWhatIsGroundIsRefused) {
