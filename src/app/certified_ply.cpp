@@ -99,7 +99,7 @@ bool is_as_written(std::istream& in, std::uint64_t file_size) {
   }
   constexpr std::string_view kComment = "comment ";
   while (next() && line.starts_with(kComment)) {
-    if (!is_plain_comment(std::string_view(line).substr(kComment.size()))) return false;
+    if (!is_plain_comment(std::string_view{line}.substr(kComment.size()))) return false;
   }
   Rows vertices, faces;
   if (!in || !vertices.begin(line, "vertex")) return false;

@@ -61,7 +61,7 @@ class RawFile {
     return got > 0;
   }
 
-  std::string_view unused() const { return std::string_view(part_).substr(used_); }
+  std::string_view unused() const { return std::string_view{part_}.substr(used_); }
   void use(std::size_t count) { used_ += count; }
   std::uint64_t at() const { return read_ - (part_.size() - used_); }
   std::uint64_t size() const { return size_; }
