@@ -269,18 +269,6 @@ def test_workers_end_with_their_driver(tmp_path):
     assert not (tmp_path / "out" / "rows").exists(), "it was not the end of the shard that ended them"
 
 
-def test_copies_of_remote_files_do_not_stay(tmp_path):
-    temporary = tmp_path / "temporary"
-    temporary.mkdir()
-    scene = f"'file://{PROJECT / 'examples' / 'plaza' / 'plaza.obj'}'"
-    rows = "[{'id': i, 'vertices': [[-12, -9, 0], [8, -11, 0], [11, 0, 0]]} for i in range(4)]"
-    process = driver(tmp_path / "out", rows, with_our_modules(TMPDIR=str(temporary)), scene=scene, max_range=60, shard_rows=2,
-                     workers=2)
-    said = process.communicate(timeout=300)[0]
-    assert process.returncode == 0 and said.split()[-1] == "4", said
-    assert list(temporary.iterdir()) == []
-
-
 def test_killed_again_and_again(scene, tmp_path):
     """Drivers and workers, at any moment: in the end nothing is lost, nothing is twice, and nothing is left over."""
     rows = "[{**row, 'id': i} for i, row in enumerate(triangles() * 20)]"
