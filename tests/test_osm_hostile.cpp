@@ -202,7 +202,10 @@ TEST_F(OsmHostile, TextsThatUnpackToTooMuchAreRefused) {
   const std::string begin = "<osm version=\"0.6\">";
   std::string gzip = gzipped(begin), bzip2 = bzip2ed(begin);
   const std::string gzip_part = gzipped(blanks), bzip2_part = bzip2ed(blanks);
-  for (int i = 0; i < 40; ++i) gzip += gzip_part, bzip2 += bzip2_part;
+  for (int i = 0; i < 40; ++i) {
+    gzip += gzip_part;
+    bzip2 += bzip2_part;
+  }
   ASSERT_GT(40 * blanks.size(), most_unpacked(gzip.size()));
   write_bytes(file_, gzip);
   testing::expect_code([this] { read_extract(file_); }, ErrorCode::file_too_large, "map.osm");
