@@ -70,8 +70,11 @@ nightly: tested benchmarks  ## what takes too long for every change: lint and sa
 	@$(MAKE) --no-print-directory asan ALL=1
 	cmake --build --preset asan --parallel $(JOBS) --target vantage_attack
 	build-asan/bin/vantage_attack --scenes 200 --seed $(or $(SEED),$(shell date +%Y%m%d)) --jobs $(JOBS)
+	build-asan/bin/vantage_attack --meshes 500 --seed $(or $(SEED),$(shell date +%Y%m%d)) --jobs $(JOBS)
 	JOBS=$(JOBS) scripts/build_variants.sh
 	build/bin/vantage_attack --scenes $(or $(SCENES),2000) --seed $(or $(SEED),$(shell date +%Y%m%d)) \
+	  --jobs $(JOBS) --out build/attack
+	build/bin/vantage_attack --meshes $(or $(MESHES),20000) --seed $(or $(SEED),$(shell date +%Y%m%d)) \
 	  --jobs $(JOBS) --out build/attack
 	python3 tests/forge/forge_certificates.py --mutants $(or $(MUTANTS),5000) --seed $(or $(SEED),$(shell date +%Y%m%d))
 

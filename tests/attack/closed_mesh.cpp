@@ -103,6 +103,11 @@ int ClosedMesh::winding(const Vec3& point, const Vec3& far) const {
 }
 
 Place ClosedMesh::locate(const Vec3& point) const {
+  const std::optional<int> count = turns(point);
+  return !count ? Place::on_surface : *count > 0 ? Place::inside : Place::outside;
+}
+
+std::optional<int> ClosedMesh::turns(const Vec3& point) const {
   std::uint64_t state = 1;
   const auto draw = [&state] {  // in [-1, 1)
     state = state * 6364136223846793005ull + 1442695040888963407ull;
@@ -113,11 +118,11 @@ Place ClosedMesh::locate(const Vec3& point) const {
     const double spread = attempt < 4 ? 1e-3 : 1;
     const Vec3 direction(attempt % 2 ? 1 : -1, spread * draw(), spread * draw());
     const double away = extent_ + 2 * (point - vertices_[facets_[0][0]]).norm();
-    const int turns = winding(point, point + 2 * away * direction);
-    if (turns == kOnSurface) return Place::on_surface;
-    if (turns != kUnclear) return turns > 0 ? Place::inside : Place::outside;
+    const int count = winding(point, point + 2 * away * direction);
+    if (count == kOnSurface) return std::nullopt;
+    if (count != kUnclear) return count;
   }
-  return Place::on_surface;  // a vertex or an edge: no path away from it is clear
+  return std::nullopt;  // a vertex or an edge: no path away from it is clear
 }
 
 double ClosedMesh::distance(const Vec3& point) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "exact.h"
@@ -25,6 +26,9 @@ class ClosedMesh {
   explicit ClosedMesh(const vantage::Mesh& mesh);
 
   Place locate(const Vec3& point) const;
+
+  /// How often the surface turns about the point, outward facets counted as positive. Nothing on the surface.
+  std::optional<int> turns(const Vec3& point) const;
 
   /// Distance to the nearest point of the surface; in doubles.
   double distance(const Vec3& point) const;

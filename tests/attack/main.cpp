@@ -13,6 +13,8 @@
 #include "draw.h"
 #include "findings_text.h"
 #include "isolated.h"
+#include "mesh_attack.h"
+#include "mesh_self_test.h"
 #include "minimise.h"
 #include "self_test.h"
 #include "summary.h"
@@ -26,15 +28,17 @@ struct Options {
   int jobs = 2, minimised = 3;
   unsigned seconds = 60;
   std::filesystem::path out, mission;
-  bool self_test = false, told = false;
+  std::size_t meshes = 0;
+  bool self_test = false, told = false, only = false;
 };
 
 constexpr const char* kUsage =
     R"(usage: vantage_attack [options]
   --scenes N     how many scenes to draw (2000)
-  --first I      the first one's number (0)
+  --meshes N     draw so many meshes instead, and judge what the proof says of them
+  --first I      the number of the first scene or mesh (0)
   --seed S       of all draws (1)
-  --only I       that scene alone, and all that is found in it
+  --only I       that scene or mesh alone, and all that is found in it
   --mission FILE a mission of a mesh scene instead of draws
   --out DIR      write what fails there, made small: scene.obj, mission.yaml
   --minimised N  how many of each class are made small and written (3)
@@ -67,14 +71,15 @@ Options parse(int count, char** words) {
     };
     if (word == "--scenes") {
       options.scenes = number();
+    } else if (word == "--meshes") {
+      options.meshes = number();
     } else if (word == "--first") {
       options.first = number();
     } else if (word == "--seed") {
       options.seed = number();
     } else if (word == "--only") {
       options.first = number();
-      options.scenes = 1;
-      options.told = true;
+      options.only = options.told = true;
     } else if (word == "--mission") {
       options.mission = value();
     } else if (word == "--out") {
@@ -93,6 +98,7 @@ Options parse(int count, char** words) {
       fail();
     }
   }
+  if (options.only) options.scenes = 1;
   return options;
 }
 
@@ -189,7 +195,20 @@ int judge_mission(const Options& options) {
 
 int main(int count, char** words) {
   const attack::Options options = attack::parse(count, words);
-  if (options.self_test) return attack::self_test() ? 0 : 1;
+  if (options.self_test) {
+    const bool are_right[] = {attack::self_test(), attack::mesh_self_test()};
+    return are_right[0] && are_right[1] ? 0 : 1;
+  }
   if (!options.mission.empty()) return attack::judge_mission(options);
+  if (options.meshes > 0) {
+    return attack::attack_with_meshes({.seed = options.seed,
+                                       .first = options.first,
+                                       .count = options.only ? 1 : options.meshes,
+                                       .jobs = options.jobs,
+                                       .seconds = options.seconds,
+                                       .out = options.out,
+                                       .written = options.minimised,
+                                       .told = options.told});
+  }
   return attack::Attack(options).run();
 }
