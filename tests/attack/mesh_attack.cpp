@@ -244,6 +244,8 @@ class MeshAttack {
                                          << "\ndrawn as mesh " << index << " of seed " << options_.seed << ": "
                                          << c->kind << "\nvantage prove "
                                          << "mission.yaml volume.ply --shrink " << c->shrink << "\n";
+    if (c->rounding_m > 0)
+      std::ofstream(folder / "README.txt", std::ios::app) << "with a rounding_m of " << c->rounding_m << "\n";
     std::printf("      %zu facets, %zu triangles: %s\n", c->volume.triangles.size(), c->scene.mesh.triangles.size(),
                 folder.c_str());
   }

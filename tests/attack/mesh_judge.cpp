@@ -29,6 +29,12 @@ bool passes_through(const Vec3& from, const Vec3& to, const Corners& t) {
   return ab != 0 && ab == bc && bc == ca;
 }
 
+template <typename Report>
+double layer_of(const Report& report) {
+  if constexpr (requires { report.layer_m; }) return report.layer_m;
+  return 0;
+}
+
 class MeshJudge {
  public:
   MeshJudge(const MeshCase& c, const Verdicts& verdicts)
@@ -42,11 +48,13 @@ class MeshJudge {
     for (const vantage::ProofReport& report : verdicts.reports) {
       tolerance_ = std::max(tolerance_, report.limit_tolerance_m);
       margin_ = std::max(margin_, report.margin_m);
+      layer_ = std::max(layer_, layer_of(report));
     }
   }
 
   void judge(MeshJudgement& result) {
     look_inside(result);
+    if (c_.lift_m > 0) return;  // what is wrong is so for a target that was raised by a little more, as it is told
     for (const vantage::ProofReport& report : verdicts_.reports) {
       for (const vantage::ClaimProof& claim : report.claims) {
         if (claim.verdict != ProofVerdict::wrong) continue;
@@ -61,7 +69,8 @@ class MeshJudge {
 
   bool refutes(const std::string& claim, const Vec3& point) {
     if (turns(point) == 0) return false;
-    if (mesh_.distance(point) < 3 * c_.rounding_m + 64 * kEpsilon * largest_) return false;
+    const double layer = std::max(3 * c_.rounding_m, 1.1 * layer_) + 64 * kEpsilon * largest_;
+    if (mesh_.distance(point) < layer) return false;
     const double part = 3 * c_.shrink + 64 * kEpsilon;
     for (const Vec3& centre : centres_) {  // the volume is smaller by a part of the distance
       if (turns(point + part * (point - centre)) == 0) return false;
@@ -239,7 +248,7 @@ class MeshJudge {
   Truth truth_;
   Random random_;
   std::vector<Vec3> centres_;
-  double tolerance_ = 0, margin_ = 0, largest_ = 0;
+  double tolerance_ = 0, margin_ = 0, largest_ = 0, layer_ = 0;
 };
 
 }  // namespace
