@@ -62,7 +62,7 @@ LimitedVolume LimitedVolume::in_front_of(const Vec3& point, const Vec3& normal) 
 
 std::optional<bool> LimitedVolume::is_outside(const Vec3& point) const {
   if ((point.array() < box_.min.array()).any() || (point.array() > box_.max.array()).any()) return true;
-  Winding winding(point);
+  Winding winding(point, box_);
   for (const Corners& facet : closed_) winding.add(facet);
   const std::optional<int> turns = winding.turns(unsure_m_);
   return turns ? std::optional(*turns == 0) : std::nullopt;

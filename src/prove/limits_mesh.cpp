@@ -17,11 +17,14 @@ namespace {
 struct Hold {
   std::vector<LimitedVolume::Corners> facets;
   std::vector<HalfSpace> planes;  ///< of all facets, if it is convex
+  double dent_m = 0;              ///< so far a corner of it lies beyond a plane, at most
+  Box box;
 
   Hold(const LimitedVolume& volume, const KeepInMesh& keep_in) {
     for (const Triangle& t : keep_in.mesh.triangles) {
       LimitedVolume::Corners& corners = facets.emplace_back();
       for (std::size_t k = 0; k < 3; ++k) corners[k] = keep_in.mesh.vertices[t[k]] - volume.origin();
+      for (const Vec3& corner : corners) box.extend(corner);
       const Vec3 normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
       const double length = normal.norm();
       if (length > 0) planes.push_back({normal / length, normal.dot(corners[0]) / length});
@@ -43,7 +46,7 @@ struct Hold {
 
   /// Metres to it from a point outside; nothing where it is inside, or too near to tell.
   std::optional<double> outside_by(const Vec3& point) const {
-    Winding winding(point);
+    Winding winding(point, box);
     for (const auto& corners : facets) winding.add(corners);
     if (winding.turns(0) != 0) return std::nullopt;
     double least = std::numeric_limits<double>::infinity();

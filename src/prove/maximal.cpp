@@ -348,7 +348,11 @@ FacetWitness FacetJudge::summary() const {
 /// Nothing where it is too near to tell.
 std::optional<int> turns_about(const Vec3& point, const std::vector<Vec3>& vertices,
                                const std::vector<Triangle>& triangles) {
-  Winding winding(point);
+  Box box;
+  for (const Triangle& t : triangles) {
+    for (const std::uint32_t v : t) box.extend(vertices[v]);
+  }
+  Winding winding(point, box);
   for (const auto& [i, j, k] : triangles) winding.add({vertices[i], vertices[j], vertices[k]});
   return winding.turns(0);
 }

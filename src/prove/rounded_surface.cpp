@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "prove/distance.h"
-#include "prove/orientation.h"
 #include "prove/tree_search.h"
 #include "prove/triangle_distance.h"
+#include "prove/winding.h"
 
 namespace vantage::internal::prove {
 
@@ -42,35 +42,15 @@ bool RoundedSurface::surely_held(const Vec3& on_surface, double depth_m) const {
 }
 
 bool RoundedSurface::surely_holds(const Vec3& position) const {
-  if (!(position.array() >= box_.min.array()).all() || !(position.array() <= box_.max.array()).all()) return false;
   return turns_round(position).value_or(0) != 0 && is_clear(position);
 }
 
-namespace {
-
-/// Which way a segment passes through a triangle: 1 outward, -1 inward, 0 where it does not; nothing where it meets its
-/// outline, or an end lies in its plane.
-std::optional<int> passage(const Vec3& from, const Vec3& to, const std::array<Vec3, 3>& triangle) {
-  const auto& [a, b, c] = triangle;
-  const std::array<int, 3> sides = {orientation(from, to, a, b), orientation(from, to, b, c),
-                                    orientation(from, to, c, a)};
-  const auto [least, most] = std::minmax_element(sides.begin(), sides.end());
-  if (*least < 0 && *most > 0) return 0;
-  const int at_from = orientation(a, b, c, from), at_to = orientation(a, b, c, to);
-  if (at_from * at_to > 0) return 0;
-  if (at_from * at_to == 0 || *least * *most == 0) {
-    return are_on_a_line(a, b, c) ? std::optional(0) : std::nullopt;
-  }
-  return at_from;
-}
-
-}  // namespace
-
-/// Along a ray that is nearly upright, so that few boxes lie on it; another one where it meets an edge.
+/// As Winding counts, with a tree.
 std::optional<int> RoundedSurface::turns_round(const Vec3& position) const {
+  if (!(position.array() >= box_.min.array()).all() || !(position.array() <= box_.max.array()).all()) return 0;
   const double height = 2 * (box_.max.z() - box_.min.z()) + 1;
-  for (const Vec3& slant : {Vec3(0.0013, 0.0007, 1), Vec3(-0.0011, 0.0017, 1), Vec3(0.0005, -0.0019, 1)}) {
-    const Vec3 end = position + height * slant;
+  for (const Vec3& way : Winding::ways()) {
+    const Vec3 end = position + height * way;
     const Vec3 low = position.cwiseMin(end), high = position.cwiseMax(end);
     int turns = 0;
     bool is_known = true;

@@ -20,9 +20,12 @@ class RoundedSurface {
   /// flap, bound nothing. Not all positions are tried.
   bool surely_held(const Vec3& on_surface, double depth_m) const;
 
+  /// How often it winds round a position, exactly. Nothing where rays meet edges.
+  std::optional<int> turns_round(const Vec3& position) const;
+  const SceneTree& facets() const { return tree_; }
+
  private:
   bool surely_holds(const Vec3& position) const;
-  std::optional<int> turns_round(const Vec3& position) const;
   bool is_clear(const Vec3& position) const;
 
   double rounding_m_;

@@ -115,6 +115,10 @@ void check_pieces(const Mesh& mesh, const std::string& where) {
   const std::vector<std::uint32_t> pieces = piece_of(mesh);
   std::vector<double> volume(mesh.vertices.size(), 0.0);
   const Vec3 origin = mesh.vertices[mesh.triangles[0][0]];
+  Box box;
+  for (const Triangle& t : mesh.triangles) {
+    for (const std::uint32_t v : t) box.extend(mesh.vertices[v]);
+  }
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto& [a, b, c] = mesh.triangles[t];
     volume[pieces[t]] +=
@@ -122,7 +126,7 @@ void check_pieces(const Mesh& mesh, const std::string& where) {
   }
   for (std::uint32_t piece = 0; piece < volume.size(); ++piece) {
     if (volume[piece] >= 0) continue;
-    Winding winding(mesh.vertices[piece]);
+    Winding winding(mesh.vertices[piece], box);
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
       const auto& [a, b, c] = mesh.triangles[t];
       if (pieces[t] != piece) winding.add({mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]});
