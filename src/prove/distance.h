@@ -20,7 +20,8 @@ inline double squared_distance_from_side(const Vec3& point, const Vec3& a, const
   return (ap - part * ab).squaredNorm();
 }
 
-/// From all of a convex polygon, to a few roundings of the coordinates.
+/// From all of a convex polygon, to a few roundings of the coordinates. Of one that is so narrow that rounding turns
+/// its normal, from its outline at most.
 template <typename Corners>
 double distance_from_polygon(const Vec3& point, const Corners& corners) {
   const std::size_t n = corners.size();
@@ -38,7 +39,7 @@ double distance_from_polygon(const Vec3& point, const Corners& corners) {
   for (std::size_t i = 0; is_over && i < n; ++i) {
     is_over = normal.dot((corners[(i + 1) % n] - corners[i]).cross(point - corners[i])) >= 0;
   }
-  return is_over ? std::abs(normal.dot(point - corners[0])) : std::sqrt(nearest);
+  return is_over ? std::min(std::abs(normal.dot(point - corners[0])), std::sqrt(nearest)) : std::sqrt(nearest);
 }
 
 inline double distance_from(const Vec3& point, const std::array<Vec3, 3>& corners) {

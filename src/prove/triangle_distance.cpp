@@ -77,6 +77,49 @@ NearestPoints nearest_points(const Corners3& a, const Corners3& b) {
   return best;
 }
 
+/// In barycentric coordinates (Ericson 2005, chapter 5).
+double at_most_from(const Corners3& triangle, const Vec3& point) {
+  const auto& [a, b, c] = triangle;
+  const Vec3 ab = b - a, ac = c - a, ap = point - a;
+  const auto on_edge = [&](const Vec3& from, const Vec3& along) {
+    const double length = along.squaredNorm();
+    const double part = length > 0 ? std::clamp((point - from).dot(along) / length, 0.0, 1.0) : 0.0;
+    return (point - from - part * along).norm();
+  };
+  double least = std::min({on_edge(a, ab), on_edge(a, ac), on_edge(b, c - b)});
+  const double bb = ab.squaredNorm(), bc = ab.dot(ac), cc = ac.squaredNorm(), area = bb * cc - bc * bc;
+  if (!(area > 0)) return least;
+  const double of_b = (cc * ab.dot(ap) - bc * ac.dot(ap)) / area, of_c = (bb * ac.dot(ap) - bc * ab.dot(ap)) / area;
+  if (of_b >= 0 && of_c >= 0 && of_b + of_c <= 1) least = std::min(least, (ap - of_b * ab - of_c * ac).norm());
+  return least;
+}
+
+double unsure_over(const Corners3& triangle, double distance) {
+  constexpr double kRoundings = 16;  // of a normal, in parts of the square of the longest side
+  double longest = 0;
+  for (std::size_t k = 0; k < 3; ++k) longest = std::max(longest, (triangle[(k + 1) % 3] - triangle[k]).norm());
+  const double twice = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]).norm();
+  if (!(longest > 0)) return 0;
+  const double width = twice / longest, rounded = kRoundings * std::numeric_limits<double>::epsilon() * longest;
+  return width > rounded ? rounded / width * (longest + distance) : std::numeric_limits<double>::infinity();
+}
+
+namespace {
+
+/// What is nearest over the inside of the triangle may have been missed, or found too far away. All that is over it is
+/// within half of its width of its outline, which is not missed.
+double lost_over(const Corners3& triangle, double distance) {
+  double longest = 0;
+  for (std::size_t k = 0; k < 3; ++k) longest = std::max(longest, (triangle[(k + 1) % 3] - triangle[k]).norm());
+  if (!(longest > 0)) return 0;
+  const double twice = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]).norm();
+  const double rounded = 16 * std::numeric_limits<double>::epsilon() * longest;
+  const double width = twice / longest + rounded;
+  return std::min(unsure_over(triangle, distance), width * width / (4 * distance));
+}
+
+}  // namespace
+
 double surely_apart_by(const NearestPoints& nearest, const Corners3& a, const Corners3& b) {
   constexpr double kParallel = 1e-7;
   if (!(nearest.distance > 0)) return 0;
@@ -88,7 +131,8 @@ double surely_apart_by(const NearestPoints& nearest, const Corners3& a, const Co
     }
   }
   const double missed = kParallel * longest, rounded = 16 * std::numeric_limits<double>::epsilon() * largest;
-  return std::max(nearest.distance - missed * missed / nearest.distance - rounded, 0.0);
+  const double lost = lost_over(a, nearest.distance) + lost_over(b, nearest.distance);
+  return std::max(nearest.distance - missed * missed / nearest.distance - rounded - lost, 0.0);
 }
 
 double distance_of_boxes(const Box& a, const Box& b) {
