@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/format.h"
 #include "core/parallel.h"
 #include "prove/convex_polygon.h"
+#include "prove/distance.h"
 #include "prove/winding.h"
 
 namespace vantage::internal::prove {
@@ -24,9 +26,9 @@ std::string place_text(const Vec3& place) {
 }  // namespace
 
 LimitedVolume::LimitedVolume(const Mesh& solid, const Vec3& origin, double shrink, double rounding_m)
-    : solid_(solid), origin_(origin), rounding_m_(rounding_m) {
+    : solid_(solid), origin_(origin), shrink_(shrink), rounding_m_(rounding_m) {
   std::vector<bool> is_used(solid.vertices.size(), false);
-  double largest = 0, farthest = 0;
+  double reach = 0;
   facets_.reserve(solid.triangles.size());
   for (const Triangle& t : solid.triangles) {
     Corners corners;
@@ -36,15 +38,24 @@ LimitedVolume::LimitedVolume(const Mesh& solid, const Vec3& origin, double shrin
       is_used[t[k]] = true;
       vertices_.push_back(corners[k]);
       box_.extend(corners[k]);
-      farthest = std::max(farthest, corners[k].norm());
-      largest = std::max(largest, solid.vertices[t[k]].cwiseAbs().maxCoeff());
+      reach = std::max(reach, corners[k].cwiseAbs().maxCoeff());
     }
     facets_.push_back(corners);
   }
   closed_ = facets_;
-  largest = std::max(largest, origin.cwiseAbs().maxCoeff());
-  unsure_m_ = kUnsureRoundings * std::numeric_limits<double>::epsilon() * largest;
-  tolerance_m_ = rounding_m + shrink * farthest + unsure_m_;
+  unsure_m_ = unsure_of(reach);
+  least_m_ = rounding_m + unsure_of(0);
+  for (const Corners& facet : facets_) most_m_ = std::max(most_m_, tolerance_of(facet));
+}
+
+double LimitedVolume::unsure_of(double reach_m) const {
+  return kUnsureRoundings * std::numeric_limits<double>::epsilon() * (origin_.cwiseAbs().maxCoeff() + reach_m);
+}
+
+double LimitedVolume::tolerance_of(const Corners& facet) const {
+  double reach = 0;
+  for (const Vec3& corner : facet) reach = std::max(reach, corner.cwiseAbs().maxCoeff());
+  return rounding_m_ + shrink_ * distance_from(Vec3::Zero(), facet) + unsure_of(reach);
 }
 
 LimitedVolume LimitedVolume::in_front_of(const Vec3& point, const Vec3& normal) const {
@@ -100,23 +111,35 @@ ClaimProof LimitedVolume::judged(const std::string& name, const std::vector<Face
                                  const std::string& how, const std::string& limit) const {
   Broken worst;
   std::size_t open = 0;
-  for (const FacetFinding& finding : findings) {
+  bool is_unknown = false;
+  for (std::size_t f = 0; f < findings.size(); ++f) {
+    const FacetFinding& finding = findings[f];
     if (finding.is_open) ++open;
-    worst.see(finding.broken.by_m, finding.broken.at);
-    worst.is_unknown = worst.is_unknown || finding.broken.is_unknown;
+    is_unknown = is_unknown || finding.broken.is_unknown;
+    if (finding.broken.by_m > tolerance_of(facets_[f])) worst.see(finding.broken.by_m, finding.broken.at);
   }
-  if (worst.by_m > tolerance_m_) return wrong(name, worst, limit);
-  if (open == 0 && !worst.is_unknown) return proved(name, how);
+  if (worst.by_m > -std::numeric_limits<double>::infinity()) return wrong(name, worst, limit);
+  if (open == 0 && !is_unknown) return proved(name, how);
   return not_proved(name, "it is open for " + std::to_string(open) + " facets");
 }
 
 ClaimProof LimitedVolume::judged_at_vertices(const std::string& name, const std::function<double(const Vec3&)>& excess,
-                                             double tolerance_m) const {
+                                             const std::function<double(const Vec3&)>& allowed) const {
   Broken worst;
-  for (const Vec3& vertex : vertices_) worst.see(excess(vertex), vertex);
-  if (worst.by_m > tolerance_m) return wrong(name, worst, "the limit");
-  if (worst.is_unknown) return not_proved(name, "it cannot be computed for some vertex");
+  bool is_unknown = false;
+  for (const Vec3& vertex : vertices_) {
+    const double by = excess(vertex);
+    is_unknown = is_unknown || std::isnan(by);
+    if (by > allowed(vertex)) worst.see(by, vertex);
+  }
+  if (worst.by_m > -std::numeric_limits<double>::infinity()) return wrong(name, worst, "the limit");
+  if (is_unknown) return not_proved(name, "it cannot be computed for some vertex");
   return proved(name, "it holds at every vertex, and what it allows is convex");
+}
+
+ClaimProof LimitedVolume::judged_at_vertices(const std::string& name,
+                                             const std::function<double(const Vec3&)>& excess) const {
+  return judged_at_vertices(name, excess, [this](const Vec3& vertex) { return tolerance_at(vertex); });
 }
 
 ClaimProof LimitedVolume::wrong(const std::string& name, const Broken& broken, const std::string& limit) const {

@@ -53,9 +53,19 @@ class LimitedVolume {
   const std::vector<Vec3>& vertices() const { return vertices_; }  ///< those that facets use
   const Mesh& solid() const { return solid_; }                     ///< as it was given, scene frame
   const std::vector<Corners>& facets() const { return facets_; }
-  double rounding_m() const { return rounding_m_; }    ///< of the volume's file
-  double tolerance_m() const { return tolerance_m_; }  ///< a place breaks a limit if by more than this
-  double unsure_m() const { return unsure_m_; }        ///< what is rounded in a coordinate, with plenty to spare
+  double rounding_m() const { return rounding_m_; }  ///< of the volume's file
+  double unsure_m() const { return unsure_m_; }      ///< what is rounded in a coordinate, with plenty to spare
+
+  /// A place on the facet breaks a limit if by more than this: what the file rounded, what is shrunk where the facet is
+  /// nearest to the origin, and what is rounded in its own coordinates. So no other facet, however far it reaches,
+  /// changes what this one may do.
+  double tolerance_of(const Corners& facet) const;
+  /// The same of a vertex, and of what is rounded alone.
+  double tolerance_at(const Vec3& vertex) const { return rounded_at(vertex) + shrink_ * vertex.norm(); }
+  double rounded_at(const Vec3& vertex) const { return rounding_m_ + unsure_of(vertex.cwiseAbs().maxCoeff()); }
+
+  double tolerance_m() const { return most_m_; }  ///< the largest of a facet
+  double least_m() const { return least_m_; }     ///< no facet has less
 
   /// Whether the mesh does not wind round a point. Nothing where it is too near to the surface to tell.
   std::optional<bool> is_outside(const Vec3& point) const;
@@ -68,23 +78,26 @@ class LimitedVolume {
   std::vector<FacetFinding> look_at_facets(const std::function<void(const Corners&, FacetFinding&)>& look,
                                            const core::ProgressReporter& progress) const;
 
-  /// The verdict on a limit: wrong where a place breaks it by more than the tolerance, else not proved where a facet is
-  /// open. `how`: by what it is proved. `limit`: what a place breaks, for the text.
+  /// The verdict on a limit: wrong where a place breaks it by more than the facet's tolerance, else not proved where a
+  /// facet is open. `how`: by what it is proved. `limit`: what a place breaks, for the text.
   ClaimProof judged(const std::string& name, const std::vector<FacetFinding>& findings, const std::string& how,
                     const std::string& limit) const;
 
   /// The same of a limit that holds in all of the volume if it holds at the vertices. `excess`: metres by which a
-  /// vertex breaks it.
+  /// vertex breaks it; `allowed`: by which it may.
   ClaimProof judged_at_vertices(const std::string& name, const std::function<double(const Vec3&)>& excess,
-                                double tolerance_m) const;
+                                const std::function<double(const Vec3&)>& allowed) const;
+  ClaimProof judged_at_vertices(const std::string& name, const std::function<double(const Vec3&)>& excess) const;
 
   /// Not proved, where the volume is not surely there.
   ClaimProof wrong(const std::string& name, const Broken& broken, const std::string& limit) const;
 
  private:
+  double unsure_of(double reach_m) const;
+
   const Mesh& solid_;
   Vec3 origin_;
-  double rounding_m_, tolerance_m_ = 0, unsure_m_ = 0;
+  double shrink_, rounding_m_, unsure_m_ = 0, most_m_ = 0, least_m_ = 0;
   std::vector<Vec3> vertices_;
   std::vector<Corners> facets_;
   std::vector<Corners> closed_;  ///< all facets

@@ -21,14 +21,15 @@ struct TooNear {
 
   void look(const LimitedVolume& volume, const LimitedVolume::Corners& facet, FacetFinding& finding) const {
     const Box box = box_of(facet);
-    double needed = distance_m - volume.tolerance_m();
+    double needed = distance_m - volume.tolerance_of(facet);
     search_tree(
         tree, [&](const Box& node) { return distance_of_boxes(node, box) >= needed; },
         [&](std::uint32_t i) {
-          const NearestPoints nearest = nearest_points(facet, tree.pieces[i].first_three());
-          if (surely_apart_by(nearest, facet, tree.pieces[i].first_three()) >= needed) return;
+          const std::array<Vec3, 3> triangle = tree.pieces[i].first_three();
+          const NearestPoints nearest = nearest_points(facet, triangle);
+          if (surely_apart_by(nearest, facet, triangle) >= needed) return;
           finding.is_open = true;
-          finding.broken.see(distance_m - nearest.distance, nearest.on_a);
+          finding.broken.see(distance_m - at_most_from(triangle, nearest.on_a), nearest.on_a);
           needed = nearest.distance;
         });
   }

@@ -90,16 +90,17 @@ class GroundSheet {
   }
 
   void look(const LimitedVolume::Corners& corners, FacetFinding& finding) const {
+    const double tolerance = volume_.tolerance_of(corners);
     std::vector<ConvexPolygon> bare = {{corners.begin(), corners.end()}};  // not covered by any piece so far
     const ConvexPolygon facet = bare.front();
     std::vector<std::uint32_t> near;
-    visit_near(box_of(facet), volume_.tolerance_m(), [&](std::uint32_t index) {
+    visit_near(box_of(facet), tolerance, [&](std::uint32_t index) {
       near.push_back(index);
       const GroundPiece& piece = pieces_[index];
       const std::vector<HalfSpace> column = piece.column(volume_.unsure_m());
       const ConvexPolygon over = part_within(facet, column);
       if (over.empty()) return;
-      look_over(piece, over, finding);
+      look_over(piece, over, tolerance, finding);
       if (piece.thinness < kCovering) return;
       std::vector<ConvexPolygon> left;
       for (const ConvexPolygon& one : bare) subtract(one, column, left);
@@ -108,7 +109,7 @@ class GroundSheet {
     for (const ConvexPolygon& one : bare) {
       const bool is_beside_one = std::any_of(near.begin(), near.end(), [&](std::uint32_t index) {
         return std::all_of(one.begin(), one.end(), [&](const Vec3& corner) {
-          return pieces_[index].outside_in_plan(corner) <= volume_.tolerance_m();
+          return pieces_[index].outside_in_plan(corner) <= tolerance;
         });
       });
       if (is_beside_one) continue;
@@ -130,9 +131,9 @@ class GroundSheet {
         [&](std::uint32_t i) { visit(tree_.pieces[i].of); });
   }
 
-  void look_over(const GroundPiece& piece, const ConvexPolygon& over, FacetFinding& finding) const {
+  void look_over(const GroundPiece& piece, const ConvexPolygon& over, double tolerance, FacetFinding& finding) const {
     bool is_kept = true;
-    for (const Vec3& corner : over) is_kept = is_kept && too_far_by(piece, corner) <= volume_.tolerance_m();
+    for (const Vec3& corner : over) is_kept = is_kept && too_far_by(piece, corner) <= tolerance;
     if (is_kept) return;
     finding.is_open = true;
     // Corners may lie just beside the piece, and the limit may be broken next to one only.
@@ -196,7 +197,7 @@ ClaimProof prove_above_ground(const std::string& name, const LimitedVolume& volu
           const double z = vertex.z() + volume.origin().z();
           return std::max(ground + limit.min_m - z, z - (ground + limit.max_m));
         },
-        volume.rounding_m() + volume.unsure_m());
+        [&](const Vec3& vertex) { return volume.rounded_at(vertex); });
   }
   const GroundSheet sheet(volume, limit);
   const auto findings = volume.look_at_facets(

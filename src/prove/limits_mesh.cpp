@@ -31,9 +31,12 @@ struct Hold {
     }
     for (const auto& corners : facets) {
       for (const Vec3& corner : corners) {
-        if (beyond_planes_by(corner) <= volume.tolerance_m()) continue;
-        planes.clear();
-        return;
+        const double beyond = beyond_planes_by(corner);
+        if (!(beyond <= volume.tolerance_at(corner))) {
+          planes.clear();
+          return;
+        }
+        dent_m = std::max(dent_m, beyond);
       }
     }
   }
@@ -66,18 +69,24 @@ ClaimProof prove_meshes(const LimitedVolume& volume, const std::vector<KeepInMes
     const std::string what = "the mesh " + keep_in.name;
     ClaimProof claim = not_proved("meshes", what + " is not convex");
     Broken worst;
+    bool is_open = false;
+    const auto see = [&](double by, const Vec3& vertex) {
+      is_open = is_open || !(by <= volume.tolerance_at(vertex));
+      if (by - hold.dent_m > volume.tolerance_at(vertex)) worst.see(by - hold.dent_m, vertex);
+    };
     if (!hold.planes.empty()) {
       claim = proved("meshes", "every vertex is in each mesh, and these are convex");
-      for (const Vec3& vertex : volume.vertices()) worst.see(hold.beyond_planes_by(vertex), vertex);
+      for (const Vec3& vertex : volume.vertices()) see(hold.beyond_planes_by(vertex), vertex);
     } else {
       constexpr std::size_t kMostPairs = 20'000'000;  // about a second
       const std::size_t step = 1 + volume.vertices().size() * hold.facets.size() / kMostPairs;
       for (std::size_t i = 0; i < volume.vertices().size(); i += step) {
         const Vec3& vertex = volume.vertices()[i];
-        if (const auto by = hold.outside_by(vertex)) worst.see(*by, vertex);
+        if (const auto by = hold.outside_by(vertex)) see(*by, vertex);
       }
     }
-    if (worst.by_m > volume.tolerance_m()) claim = volume.wrong("meshes", worst, what);
+    if (is_open) claim = not_proved("meshes", "some vertex may be outside of " + what);
+    if (worst.by_m > 0) claim = volume.wrong("meshes", worst, what);
     all = all ? worse(*all, claim) : claim;
   }
   return *all;

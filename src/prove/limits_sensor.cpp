@@ -36,8 +36,7 @@ ClaimProof prove_incidence(const LimitedVolume& volume, double incidence_deg, co
           const double height = normal.dot(from);
           return (from - height * normal).norm() * cosine - height * sine;
         });
-      },
-      volume.tolerance_m());
+      });
 }
 
 /// d * d / (f h) <= size: the ball that touches the target's plane in the corner and is size * f high.
@@ -48,8 +47,7 @@ ClaimProof prove_pixel(const LimitedVolume& volume, double height_m, const std::
         return largest_of_corners(parts, volume.origin(), vertex, [&](const Vec3& from, const Vec3& normal) {
           return (from - height_m / 2 * normal).norm() - height_m / 2;
         });
-      },
-      volume.tolerance_m());
+      });
 }
 
 }  // namespace

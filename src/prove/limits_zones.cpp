@@ -26,10 +26,10 @@ ClaimProof prove_clear_of(const LimitedVolume& volume, const Prism& prism, const
   const std::string name = "keep_out";
   const std::string how = "no facet meets what is taken away, and it is not inside";
   if (!(prism.low() < prism.high()) || are_apart(prism.box(), volume.box(), 0)) return proved(name, how);
-  const double plate = volume.tolerance_m() / 2;
   const auto findings = volume.look_at_facets(
       [&](const LimitedVolume::Corners& corners, FacetFinding& finding) {
         const ConvexPolygon facet = polygon_of(corners);
+        const double plate = volume.tolerance_of(corners) / 2;
         if (are_apart(box_of(facet), prism.box(), 0)) return;
         for (const ConvexPolygon& piece : prism.divide(facet, -plate, plate).inside) {
           finding.is_open = true;
@@ -63,13 +63,15 @@ struct Kept {
   }
 };
 
-/// Straight up from a point of a hollow there is a piece, and straight down as well.
-bool may_have_hollow(const std::vector<Prism>& prisms, const Box& within, double tolerance_m) {
-  const Vec3 beside(2 * tolerance_m, 2 * tolerance_m, 0);
+/// Straight up from a point of a hollow there is a piece, and straight down as well. Shallower ones than the least
+/// tolerance are covered by what is allowed.
+bool may_have_hollow(const std::vector<Prism>& prisms, const LimitedVolume& volume) {
+  const Box& within = volume.box();
+  const Vec3 beside(2 * volume.tolerance_m(), 2 * volume.tolerance_m(), 0);
   for (const Prism& below : prisms) {
     for (const Prism& above : prisms) {
       const double low = std::max(below.high(), within.min.z()), high = std::min(above.low(), within.max.z());
-      if (!(high - low > tolerance_m)) continue;  // shallower ones are covered by what is allowed
+      if (!(high - low > volume.least_m())) continue;
       const Vec3 min = below.box().min.cwiseMax(above.box().min).cwiseMax(within.min) - beside;
       const Vec3 max = below.box().max.cwiseMin(above.box().max).cwiseMin(within.max) + beside;
       if (min.x() <= max.x() && min.y() <= max.y()) return true;
@@ -79,9 +81,9 @@ bool may_have_hollow(const std::vector<Prism>& prisms, const Box& within, double
 }
 
 ClaimProof prove_covered(const LimitedVolume& volume, const Kept& kept, const core::ProgressReporter& progress) {
-  const double plate = volume.tolerance_m() / 2;
   const auto findings = volume.look_at_facets(
       [&](const LimitedVolume::Corners& corners, FacetFinding& finding) {
+        const double plate = volume.tolerance_of(corners) / 2;
         std::vector<ConvexPolygon> left = {polygon_of(corners)};
         for (const Prism& prism : kept.prisms) {
           std::vector<ConvexPolygon> still;
@@ -102,7 +104,7 @@ ClaimProof prove_covered(const LimitedVolume& volume, const Kept& kept, const co
   ClaimProof claim =
       volume.judged("keep_in", findings, "every facet is covered by what is kept, which has no hollow", "what is kept");
   if (claim.verdict != ProofVerdict::proved) return claim;
-  if (may_have_hollow(kept.prisms, volume.box(), volume.tolerance_m())) {
+  if (may_have_hollow(kept.prisms, volume)) {
     return not_proved("keep_in", "pieces lie over each other with a gap between, which may be a hollow");
   }
   return claim;

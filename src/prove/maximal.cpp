@@ -47,11 +47,12 @@ std::vector<std::uint32_t> numbers_of(const SceneTree& obstacles) {
   return numbers;
 }
 
-/// To what is rounded: nothing in front of the target is beyond it. `largest`: no coordinate is larger.
-bool lies_in_target_plane(const Triangle& triangle, const std::vector<Vec3>& vertices, const Beyond& beyond,
-                          double largest) {
+/// To what is rounded in the facet itself: nothing in front of the target is beyond it.
+bool lies_in_target_plane(const Triangle& triangle, const std::vector<Vec3>& vertices, const Beyond& beyond) {
   const View& view = beyond.view;
   if (view.all_sides) return false;
+  double largest = 0;
+  for (const std::uint32_t v : triangle) largest = std::max(largest, vertices[v].cwiseAbs().maxCoeff());
   const double margin = std::max(view.margin_m, 16 * kUnitRounding * largest) + beyond.rounding_m;
   return std::all_of(triangle.begin(), triangle.end(),
                      [&](std::uint32_t v) { return std::abs(view.normal.dot(vertices[v])) <= margin; });
@@ -125,7 +126,9 @@ void FacetJudge::cover(WitnessKind kind, double area, std::uint32_t limit) {
 bool FacetJudge::is_edge_on(const FacetPiece& piece) const {
   const Vec3 normal = (piece[1] - piece[0]).cross(piece[2] - piece[0]);
   const double length = normal.norm();
-  return !(length > 0) || std::abs(normal.dot(piece[0])) <= 16 * kUnitRounding * shared_.largest * length;
+  double largest = 0;
+  for (const Vec3& corner : piece) largest = std::max(largest, corner.cwiseAbs().maxCoeff());
+  return !(length > 0) || std::abs(normal.dot(piece[0])) <= 16 * kUnitRounding * largest * length;
 }
 
 /// What lies so low that no line of sight is told from the target's plane is left out.
@@ -310,7 +313,7 @@ void FacetJudge::look_at(const Corners& facet) {
 
 FacetWitness FacetJudge::judge(std::uint32_t facet) {
   const Triangle& t = shared_.triangles[facet];
-  if (lies_in_target_plane(t, shared_.vertices, shared_.beyond, shared_.largest)) {
+  if (lies_in_target_plane(t, shared_.vertices, shared_.beyond)) {
     return {WitnessKind::target_plane, 0, 0};
   }
   const auto& outer = shared_.outer;
@@ -418,7 +421,7 @@ std::vector<MaximalCondition> whole_conditions(const std::vector<Vec3>& vertices
     for (const std::uint32_t v : t) reach = std::max(reach, vertices[v].norm());
   }
   for (const Triangle& t : triangles) {
-    if (lies_in_target_plane(t, vertices, beyond, reach)) {
+    if (lies_in_target_plane(t, vertices, beyond)) {
       for (const std::uint32_t v : t) {
         highest = std::max(highest, std::abs(beyond.view.normal.dot(vertices[v])));
       }
