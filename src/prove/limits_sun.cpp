@@ -1,7 +1,7 @@
 // What the limit takes away, the target less a cone, is convex and reaches to infinity, and no mesh winds round all of
-// that: so it is enough that no facet meets it. A facet does not where a plane has the lines of sight from it on one
-// side and the cone on the other. A plane's normal u, of unit length, has the cone about s behind it if u . s is at
-// most minus the sine of the cone's half angle.
+// that: so it is enough that no facet meets it, whichever way it faces. A facet does not where a plane has the lines of
+// sight from it on one side and the cone on the other. A plane's normal u, of unit length, has the cone about s behind
+// it if u . s is at most minus the sine of the cone's half angle. docs/proof.md has the argument.
 #include "prove/limits_sun.h"
 
 #include <Eigen/Geometry>
@@ -17,8 +17,7 @@ namespace {
 
 class SunCone {
  public:
-  SunCone(const SunLimit& sun, const View& part, const Vec3& origin, double tolerance_m)
-      : axis_(sun.direction.normalized()), tolerance_m_(tolerance_m) {
+  SunCone(const SunLimit& sun, const View& part, const Vec3& origin) : axis_(sun.direction.normalized()) {
     const double angle = sun.exclude_deg * std::numbers::pi / 180;
     sine_ = std::sin(angle);
     cosine_ = sun.exclude_deg < 90 ? std::cos(angle) : 0;
@@ -27,8 +26,8 @@ class SunCone {
     for (const Vec3& corner : part.whole) target_.push_back(part.origin - origin + corner);
   }
 
-  void look(const LimitedVolume::Corners& facet, FacetFinding& finding) const {
-    if (is_clear(facet)) return;
+  void look(const LimitedVolume::Corners& facet, double tolerance_m, FacetFinding& finding) const {
+    if (is_clear({facet, tolerance_m})) return;
     finding.is_open = true;
     const Vec3 middle = (facet[0] + facet[1] + facet[2]) / 3;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -64,18 +63,26 @@ class SunCone {
     return std::max(most, inside_by(middle - position));
   }
 
-  /// A normal that leans towards the axis by `towards` has the cone behind it, but for rounding: so far in front, at
-  /// most, is a point of the cone at a distance of 1. The angle between the two is one of arc cosine, which is blunt
-  /// where the cone is nearly flat.
-  double most_in_front(double towards) const {
-    constexpr double kRounding = 1e-15;  // of the sums that `towards` is made of, of the sine and of the cosine
-    const double across = std::sqrt(std::max(1 - towards * towards + 4 * kRounding, 0.0));
-    return std::max(towards * cosine_ + across * sine_ + 4 * kRounding, 0.0);
+  /// What is to be separated from the cone.
+  struct Sights {
+    const LimitedVolume::Corners& facet;
+    double tolerance_m;
+  };
+
+  /// So far in front of the plane through the cone's top, at most, is a point of the cone at a distance of 1. That is 1
+  /// if the normal itself is in the cone; else the cosine of what its angle to the axis is more than that of the cone,
+  /// and 0, the top, if all of the cone is behind. Rounded up. `towards`: the cosine of the angle.
+  double most_in_front(const Vec3& normal, double towards) const {
+    constexpr double kRounding = 4e-15;  // of the sums, of the sine and of the cosine
+    if (towards >= cosine_ - kRounding) return 1;
+    const double across = (normal - towards * axis_).norm();
+    return std::clamp(towards * cosine_ + across * sine_ + kRounding, 0.0, 1.0);
   }
 
   /// Whether the plane with this normal leaves all lines of sight out of the cone, less the tolerance: its top then
   /// lies farther along by the tolerance over the sine.
-  bool separates(const Vec3& normal, const LimitedVolume::Corners& facet) const {
+  bool separates(const Vec3& normal, const Sights& sights) const {
+    const auto& [facet, tolerance_m] = sights;
     const double towards = normal.dot(axis_);
     double least = std::numeric_limits<double>::infinity(), farthest = -least, longest = 0;
     for (const Vec3& corner : target_) least = std::min(least, normal.dot(corner));
@@ -83,27 +90,27 @@ class SunCone {
       farthest = std::max(farthest, normal.dot(corner));
       for (const Vec3& end : target_) longest = std::max(longest, (end - corner).norm());
     }
-    const double top = tolerance_m_ / sine_;
-    return least - farthest >= towards * top + most_in_front(towards) * (longest + top);
+    const double top = tolerance_m / sine_;
+    return least - farthest >= towards * top + most_in_front(normal, towards) * (longest + top);
   }
 
   Vec3 slanted(double turn) const { return cosine_ * (std::cos(turn) * side_ + std::sin(turn) * up_) - sine_ * axis_; }
   double turn_of(const Vec3& sight) const { return std::atan2(up_.dot(sight), side_.dot(sight)); }
 
-  bool is_clear(const LimitedVolume::Corners& facet) const {
-    if (separates(-axis_, facet)) return true;
+  bool is_clear(const Sights& sights) const {
+    if (separates(-axis_, sights)) return true;
     Vec3 sum = Vec3::Zero();
     for (const Vec3& corner : target_) sum += corner / static_cast<double>(target_.size());
-    for (const Vec3& corner : facet) sum -= corner / 3;
-    if (separates(slanted(turn_of(sum)), facet)) return true;
-    if (const auto normal = from_top(facet); normal && separates(*normal, facet)) return true;
-    return is_clear_beside(facet);
+    for (const Vec3& corner : sights.facet) sum -= corner / 3;
+    if (separates(slanted(turn_of(sum)), sights)) return true;
+    if (const auto normal = from_top(sights); normal && separates(*normal, sights)) return true;
+    return is_clear_beside(sights);
   }
 
   /// From the cone's top to the nearest line of sight.
-  std::optional<Vec3> from_top(const LimitedVolume::Corners& facet) const {
-    LimitedVolume::Corners moved = facet;
-    for (Vec3& corner : moved) corner += tolerance_m_ / sine_ * axis_;
+  std::optional<Vec3> from_top(const Sights& sights) const {
+    LimitedVolume::Corners moved = sights.facet;
+    for (Vec3& corner : moved) corner += sights.tolerance_m / sine_ * axis_;
     std::optional<NearestPoints> nearest;
     const std::size_t last = std::max<std::size_t>(target_.size(), 3);
     for (std::size_t k = 2; k < last; ++k) {
@@ -117,16 +124,16 @@ class SunCone {
 
   /// Each line of sight allows an arc of turns; where all arcs have one in common, it is the end of one of them. With
   /// half of the tolerance, so that the end of an arc is inside of it.
-  bool is_clear_beside(const LimitedVolume::Corners& facet) const {
+  bool is_clear_beside(const Sights& sights) const {
     for (const Vec3& corner : target_) {
-      for (const Vec3& position : facet) {
+      for (const Vec3& position : sights.facet) {
         const Vec3 sight = corner - position;
         const double along = axis_.dot(sight), beside = (sight - along * axis_).norm();
-        const double needed = (sine_ * along - tolerance_m_ / 2) / (cosine_ * beside);
+        const double needed = (sine_ * along - sights.tolerance_m / 2) / (cosine_ * beside);
         if (!(needed >= -1)) continue;  // any turn will do
         if (needed > 1) return false;
         for (const double sign : {-1.0, 1.0}) {
-          if (separates(slanted(turn_of(sight) + sign * std::acos(needed)), facet)) return true;
+          if (separates(slanted(turn_of(sight) + sign * std::acos(needed)), sights)) return true;
         }
       }
     }
@@ -134,7 +141,7 @@ class SunCone {
   }
 
   Vec3 axis_, side_, up_;
-  double tolerance_m_, sine_ = 0, cosine_ = 0;
+  double sine_ = 0, cosine_ = 0;
   std::vector<Vec3> target_;
 };
 
@@ -144,9 +151,12 @@ ClaimProof prove_sun(const LimitedVolume& volume, const SunLimit& sun, const std
                      const core::ProgressReporter& progress) {
   std::optional<ClaimProof> all;
   for (const View& part : parts) {
-    const SunCone cone(sun, part, volume.origin(), volume.tolerance_m());
+    const SunCone cone(sun, part, volume.origin());
     const auto findings = volume.look_at_facets(
-        [&](const LimitedVolume::Corners& facet, FacetFinding& finding) { cone.look(facet, finding); }, progress);
+        [&](const LimitedVolume::Corners& facet, FacetFinding& finding) {
+          cone.look(facet, volume.tolerance_of(facet), finding);
+        },
+        progress);
     const ClaimProof one = volume.judged("sun", findings,
                                          "a plane has the sun's cone on one side, and on the other one "
                                          "all lines of sight from a facet",
