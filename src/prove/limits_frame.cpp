@@ -1,7 +1,8 @@
 // With one orientation what is allowed is convex, an intersection of cones at the target's corners, and vertices
 // decide. With several, one of them that serves the three corners of a facet serves all of it. And what is allowed goes
 // on away from the target: if c is outside, the way from a forbidden position to c leaves the volume through a
-// forbidden point of a facet. So one orientation for each facet, or for each part of it, is a proof.
+// forbidden point of a facet, which may face either way where the mesh winds round backwards. So one orientation for
+// each facet, or for each part of it, is a proof.
 #include "prove/limits_frame.h"
 
 #include <Eigen/Geometry>
@@ -268,8 +269,8 @@ ClaimProof prove_frame(const LimitedVolume& volume, const Sensor& sensor, const 
   for (const Vec3& vertex : volume.vertices()) farthest = std::max(farthest, (vertex - picture.middle()).norm());
   const auto findings = volume.look_at_facets(
       [&](const LimitedVolume::Corners& facet, FacetFinding& finding) {
-        // The way to c leaves through a facet that faces c.
-        if (orientation(facet[0], facet[1], facet[2], picture.middle()) >= 0) return;
+        // The way to c does not leave along a facet's plane, but for a few that have neighbours which do not.
+        if (orientation(facet[0], facet[1], facet[2], picture.middle()) == 0) return;
         // What is out at a facet is out by as much more behind it as that lies farther from the target.
         const double distance = nearest_points(facet, {picture.middle(), picture.middle(), picture.middle()}).distance;
         const double allowed = volume.tolerance_m() * distance / farthest;
