@@ -1,5 +1,8 @@
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 
 #include "app/input_file.h"
 #include "app/navigation_meshes.h"
@@ -67,24 +70,61 @@ using namespace internal::app;
 
 namespace {
 
+/// What a number is a whole multiple of: the largest power of two. Infinite for 0.
+double step_of(double number) {
+  if (number == 0) return std::numeric_limits<double>::infinity();
+  int exponent = 0;
+  auto digits = static_cast<std::int64_t>(std::ldexp(std::frexp(number, &exponent), 53));
+  exponent -= 53;
+  for (; digits % 2 == 0; digits /= 2) ++exponent;
+  return std::ldexp(1.0, exponent);
+}
+
+/// The grid that all numbers of triangles with area lie on, and how far these reach: no file says it, it is seen. Any
+/// vertex may be in a file that no triangle with area has.
+struct Grid {
+  double step_m = std::numeric_limits<double>::infinity();
+  Box box;
+
+  explicit Grid(const Mesh& mesh) {
+    for (const auto& [i, j, k] : mesh.triangles) {
+      const Vec3 &a = mesh.vertices[i], &b = mesh.vertices[j], &c = mesh.vertices[k];
+      if (a == b || b == c || c == a || (b - a).cross(c - a).isZero(0)) continue;
+      for (const Vec3& corner : {a, b, c}) box.extend(corner);
+    }
+    for (const Triangle& triangle : mesh.triangles) {
+      for (const std::uint32_t v : triangle) {
+        const Vec3& at = mesh.vertices[v];
+        if (box.empty() || (at.array() < box.min.array()).any() || (at.array() > box.max.array()).any()) continue;
+        for (const double number : at) step_m = std::min(step_m, step_of(number));
+      }
+    }
+  }
+  double largest() const { return box.empty() ? 0 : std::max(box.min.cwiseAbs().maxCoeff(), box.max.cwiseAbs().maxCoeff()); }
+  double extent() const { return box.empty() ? 0 : (box.max - box.min).maxCoeff(); }
+};
+
 /// No rounding to a format's numbers, and no mending of what it left, moves a surface farther: metres. Whoever made a
-/// file may write any number into it, and any vertex that no triangle has.
+/// file may write any number into it.
 ///
-/// In units of 2^-53 of the largest coordinate, 2^-24 with single precision (src/io/stored_mesh.cpp): doubles stay as
-/// they are, and where facets without area are mended vertices move by at most 4 steps between numbers, of up to 2
-/// units each: 8. A unit of length of its own costs 3.5 before that and 3.5 after: 15. Single precision is a grid of a
-/// step, of which half the diagonal is 0.87: 1.7, and 2 about a middle of the volume's own. A file that was rounded
-/// before has both.
+/// Doubles, in units of 2^-53 of the largest coordinate (src/io/stored_mesh.cpp): they stay as they are, and where
+/// facets without area are mended vertices move by at most 4 steps between numbers, of up to 2 units each: 8. A unit of
+/// length of its own costs 3.5 before that and 3.5 after: 15.
+///
+/// Single precision is a grid. Its step is seen, and is no more than 2^-23 of the largest number: about the scene's
+/// origin in STL, in glTF about a middle of the volume's own, if doubles can tell steps there. Half of its diagonal is
+/// 0.87, and a file that was rounded before has that twice.
 double most_rounding(const std::filesystem::path& file, const Mesh& mesh) {
-  constexpr double kDoubles = 16, kSingles = 4;  // tools/check_certificate.py has the first
+  constexpr double kDoubles = 16, kSteps = 2;  // tools/check_certificate.py has the first
   const std::filesystem::path name = format_extension(file) == ".gz" ? file.stem() : file.filename();
   const internal::io::OutputFormat* format = internal::io::find_output_format(name);
   const bool is_single = format ? format->is_single : format_extension(name) == ".gltf";
-  double largest = 0;
-  for (const Triangle& triangle : mesh.triangles) {
-    for (const std::uint32_t v : triangle) largest = std::max(largest, mesh.vertices[v].cwiseAbs().maxCoeff());
-  }
-  return is_single ? kSingles * std::ldexp(largest, -24) : kDoubles * std::ldexp(largest, -53);
+  const Grid grid(mesh);
+  const double of_doubles = std::ldexp(grid.largest(), -53);
+  if (!is_single) return kDoubles * of_doubles;
+  const bool is_local = format_extension(name) != ".stl";
+  const double coarsest = std::ldexp(is_local ? grid.extent() : grid.largest(), -23);
+  return kSteps * std::min(grid.step_m, std::max(coarsest, 2 * of_doubles));
 }
 
 }  // namespace
