@@ -42,7 +42,8 @@ struct ProveOptions {
                           ///< target; at least 0, less than 1
   double rounding_m = 0;  ///< of the volume's file (Scene::rounding_m): limits may be broken by so much, and
                           ///< sight is wrong only where it is hidden deeper below the facet
-  /// How far each part of the target was raised (Volume::lift_m), 0 to kMostLift; empty: not at all.
+  /// How far each part of the target was raised (Volume::lift_m), 0 to kMostLift; empty: not at all. Of what is more
+  /// than its surface needs (lift_needed_m) the rest is not believed.
   std::vector<double> lift_m = {};
   static constexpr double kMostLift = 0.01;
   bool maximal = false;       ///< whether the volume is as large as it can be, too
@@ -55,6 +56,12 @@ struct ProveOptions {
   /// may lie between the planes. For targets of one part with a front.
   std::optional<double> other_side_m = {};
 };
+
+/// The most that a part of a target may have to be raised by, to clear the surface that it lies on: what of the scene
+/// lies straight over it and reaches no higher than 2 mm, and what hardly rises above its plane beside it
+/// (docs/proof.md). `range_m`: of the sensor; in worlds with less than 20 m it is less. Cost: linear in the triangles.
+/// Throws Error(input) for a target that is wrong in itself.
+VANTAGE_API double lift_needed_m(const Scene& scene, const Target& target, std::size_t part, double range_m);
 
 /// A place in the shrunk volume from which a point of the target is hidden.
 struct HiddenView {

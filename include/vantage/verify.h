@@ -24,7 +24,8 @@ struct VerifyOptions {
   double depth_tolerance = 1e-6;  ///< a point counts as claimed wrongly, or wrongly not, when it lies deeper on the
                                   ///< wrong side of the surface than this times its distance to the target's centre
   double tolerance_m = 0.01;  ///< of the volume (ExactOptions): what lies within it of the range limit may be unclaimed
-  std::vector<double> lift_m = {};  ///< how far each part of the target was raised (Volume::lift_m); empty: not at all
+  std::vector<double> lift_m = {};  ///< how far each part of the target was raised (Volume::lift_m); empty: not at all;
+                                    ///< no more is believed than its surface needs (lift_needed_m)
   double rounding_m = 0;  ///< of the volume's file (Scene::rounding_m): what lies no deeper on the wrong side than
                           ///< this, besides what the depth tolerance allows, does not count
 };
@@ -56,7 +57,8 @@ struct VerifyReport {
                                  ///< find the mesh open at them
   long euler = 0;
   std::uint64_t seed = 0;
-  double lift_m = 0, rounding_m = 0;  ///< what was allowed: the largest lift of a part, and the file's rounding
+  double lift_m = 0, rounding_m = 0;  ///< what was allowed: the largest lift of a part, as far as it is believed, and
+                                      ///< the file's rounding
 
   bool is_solid() const { return closed && oriented && flat_facets == 0; }
   bool is_right() const { return over_claimed == 0 && is_solid(); }

@@ -12,6 +12,7 @@
 #include "core/parallel.h"
 #include "core/progress_reporter.h"
 #include "vantage/error.h"
+#include "vantage/prove.h"
 #include "verify/binomial.h"
 #include "verify/limits.h"
 #include "verify/link_zone.h"
@@ -325,8 +326,10 @@ void check_arguments(const VerifyOptions& options) {
   require(options.target_samples >= 0, "the number of target samples is negative", "verify target_samples");
 }
 
-/// The parts, each raised as it was for the volume.
-std::vector<Target> raised_parts(const Target& target, const std::vector<double>& lift_m) {
+/// The parts, each raised as it was for the volume, but by no more than its surface needs: what lies higher hides it.
+/// `lift_m` is what was stated, and then what is believed.
+std::vector<Target> raised_parts(const Scene& scene, const Target& target, double range_m,
+                                 std::vector<double>& lift_m) {
   if (target.parts.empty())
     throw Error(ErrorCode::target_parts_invalid, "the target has no parts", "verify", "give one or more");
   if (!lift_m.empty() && lift_m.size() != target.parts.size()) {
@@ -338,7 +341,9 @@ std::vector<Target> raised_parts(const Target& target, const std::vector<double>
   std::vector<Target> parts;
   for (std::size_t i = 0; i < target.parts.size(); ++i) {
     parts.push_back(target.part(i));
-    if (!lift_m.empty()) parts.back().offset_m += lift_m[i];
+    if (lift_m.empty() || !(lift_m[i] > 0)) continue;
+    lift_m[i] = std::min(lift_m[i], lift_needed_m(scene, target, i, range_m));
+    parts.back().offset_m += lift_m[i];
   }
   return parts;
 }
@@ -346,7 +351,8 @@ std::vector<Target> raised_parts(const Target& target, const std::vector<double>
 /// Targets of which a viewpoint must see one from each list, each as its raised parts.
 using PartViews = std::vector<std::vector<std::vector<Target>>>;
 
-PartViews raised_views(const std::vector<std::vector<Target>>& views, const std::vector<double>& lift_m) {
+PartViews raised_views(const Scene& scene, const std::vector<std::vector<Target>>& views, double range_m,
+                       std::vector<double>& lift_m) {
   std::size_t parts = 0, next = 0;
   for (const std::vector<Target>& list : views) {
     if (list.empty())
@@ -366,12 +372,11 @@ PartViews raised_views(const std::vector<std::vector<Target>>& views, const std:
     result.emplace_back();
     for (const Target& target : list) {
       std::vector<double> own;
-      if (!lift_m.empty()) {
-        own.assign(lift_m.begin() + static_cast<std::ptrdiff_t>(next),
-                   lift_m.begin() + static_cast<std::ptrdiff_t>(next + target.parts.size()));
-      }
+      const auto first = lift_m.begin() + static_cast<std::ptrdiff_t>(lift_m.empty() ? 0 : next);
+      if (!lift_m.empty()) own.assign(first, first + static_cast<std::ptrdiff_t>(target.parts.size()));
+      result.back().push_back(raised_parts(scene, target, range_m, own));
+      std::copy(own.begin(), own.end(), first);
       next += target.parts.size();
-      result.back().push_back(raised_parts(target, own));
     }
   }
   return result;
@@ -532,10 +537,11 @@ class ManyChecks {
 }  // namespace
 
 VerifyReport verify_volume(const Scene& scene, const Target& target, const Sensor& sensor, const Navigation& navigation,
-                           const Mesh& volume, const VerifyOptions& options, const Progress& callback) {
+                           const Mesh& volume, const VerifyOptions& asked, const Progress& callback) {
   check_sensor(sensor);
-  check_arguments(options);
-  const std::vector<Target> parts = raised_parts(target, options.lift_m);
+  check_arguments(asked);
+  VerifyOptions options = asked;
+  const std::vector<Target> parts = raised_parts(scene, target, range_limit_m(sensor), options.lift_m);
   const internal::verify::Topology topology = internal::verify::topology_of(volume, "volume");
   if (!topology.closed) return report_of_mesh(topology, options);  // it has no inside to try points in
   Check check(scene, parts, sensor, navigation, volume, options);
@@ -553,11 +559,12 @@ VerifyReport verify_volume(const Scene& scene, const Target& target, const Senso
 }
 
 VerifyReport verify_volume(const Scene& scene, const std::vector<std::vector<Target>>& views, const Sensor& sensor,
-                           const Navigation& navigation, const Mesh& volume, const VerifyOptions& options,
+                           const Navigation& navigation, const Mesh& volume, const VerifyOptions& asked,
                            const Progress& progress) {
   check_sensor(sensor);
-  check_arguments(options);
-  PartViews parts = raised_views(views, options.lift_m);
+  check_arguments(asked);
+  VerifyOptions options = asked;
+  PartViews parts = raised_views(scene, views, range_limit_m(sensor), options.lift_m);
   const internal::verify::Topology topology = internal::verify::topology_of(volume, "volume");
   if (!topology.closed) return report_of_mesh(topology, options);
   return ManyChecks(scene, std::move(parts), sensor, navigation, volume, options, progress).run();
