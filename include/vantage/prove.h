@@ -136,10 +136,12 @@ struct ProofReport {
   double shrink = 0;                    ///< what was asked for
   double margin_m = 0;           ///< a strip of the target along its outline, and what lies lower over its plane,
                                  ///< is left out: so much
-  double lift_m = 0;             ///< the largest of a part
+  double lift_m = 0;             ///< the largest of a part, as far as it is believed
   double rounding_m = 0;         ///< what was allowed
+  double layer_m = 0;            ///< sight and front are proved of the volume less a layer below its surface, so thick:
+                                 ///< for what numbers are rounded; 0: of all of it
   double limit_tolerance_m = 0;  ///< limits besides altitude and a single box may be broken by so much (docs/proof.md):
-                                 ///< rounding_m, `shrink` times the largest distance, and rounding
+                                 ///< rounding_m, `shrink` times the distance of a facet, and rounding; the largest
   double seconds = 0;
   std::optional<MaximalProof> maximal;     ///< where it was asked for
   std::optional<Certificate> certificate;  ///< where sight, range and front are proved and nothing is wrong

@@ -145,6 +145,7 @@ Json json_of(const ProofReport& report) {
   json["margin_m"] = report.margin_m;
   json["limit_tolerance_m"] = report.limit_tolerance_m;
   json["rounding_m"] = report.rounding_m;
+  json["layer_m"] = report.layer_m;
   json["lift_m"] = report.lift_m;
   json["seconds"] = report.seconds;
   return json;

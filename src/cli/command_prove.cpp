@@ -121,6 +121,9 @@ std::string table_text(const ProofReport& report, const std::string& file, bool 
   if (report.rounding_m > 0) {
     table.row("rounding", fixed(report.rounding_m, 6), "metres that the file's numbers moved the surface: allowed");
   }
+  if (report.layer_m > 0) {
+    table.row("layer", fixed(report.layer_m, 9), "metres below the surface are left out, for what is rounded");
+  }
   if (report.claims.size() > 3) {
     table.row("tolerance", fixed(1e6 * report.limit_tolerance_m, 3), "micrometres that a limit may be broken by");
   }

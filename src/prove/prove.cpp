@@ -12,14 +12,15 @@
 #include "core/format.h"
 #include "core/progress_reporter.h"
 #include "prove/convex_polygon.h"
+#include "prove/layer.h"
 #include "prove/limited_volume.h"
 #include "prove/limits.h"
 #include "prove/maximal.h"
 #include "prove/orientation.h"
-#include "prove/rounded_surface.h"
 #include "prove/sight.h"
 #include "prove/solid_mesh.h"
 #include "prove/view.h"
+#include "prove/witness.h"
 #include "vantage/error.h"
 
 namespace vantage {
@@ -115,7 +116,8 @@ class Prover {
         volume_(volume),
         range_(range_limit_m(sensor)),
         options_(options),
-        solid_(prove::solid_mesh(volume)) {}
+        solid_(prove::solid_mesh(volume)),
+        other_side_m_(options.other_side_m) {}
 
   ProofReport run(const internal::core::ProgressReporter& progress);
   MaximalProof run_maximal(const internal::core::ProgressReporter& progress);
@@ -123,18 +125,24 @@ class Prover {
  private:
   static constexpr double kSightPart = 0.8;  ///< of the time, roughly
 
-  void look_at(std::size_t part, double lift_m, const internal::core::ProgressReporter& progress);
-  void add_certificate(std::size_t part, double lift_m, const prove::View& view,
-                       const std::vector<std::uint32_t>& numbers, const prove::SightProof& proof);
+  struct Judged;
+
+  void set_lifts();
+  void look_at(std::size_t part, const internal::core::ProgressReporter& progress);
+  void look_at_vertices(const Judged& judged, const prove::View& view);
+  /// Whether a file's rounding explains that the volume reaches so far behind the target. Not between two sides of one.
+  bool is_rounded(double behind_m) const { return !other_side_m_ && behind_m <= options_.rounding_m; }
+  Box reach_of(const Judged& judged, const prove::View& view) const;
+  void add_certificate(std::size_t part, const prove::View& view, const std::vector<std::uint32_t>& numbers,
+                       const prove::SightProof& proof);
   void look_beyond(const prove::View& view, const prove::SceneTree& obstacles,
                    const internal::core::ProgressReporter& progress);
+  void add_sight();
   void add_range(const prove::LimitedVolume& volume);
   void add_front(const prove::LimitedVolume& volume);
   std::vector<Vec3> shrunk(const prove::View& view) const;
   prove::SolidMesh in_front(const std::vector<Vec3>& vertices, const prove::View& view);
-  struct Judged;
-  void look_for_witness(const Judged& judged, const prove::View& view, const prove::SceneTree& obstacles,
-                        const std::vector<prove::OpenFacet>& open, const internal::core::ProgressReporter& progress);
+  Judged judged(const std::vector<Vec3>& vertices, const prove::View& view);
 
   const Scene& scene_;
   const Target& target_;
@@ -143,7 +151,14 @@ class Prover {
   const Mesh& volume_;
   double range_;
   const ProveOptions& options_;
+  /// Of a part of the target: as it is stated, and what of it is believed.
+  struct Lift {
+    double stated_m = 0, used_m = 0;
+  };
+
   prove::SolidMesh solid_;
+  std::vector<Lift> lifts_;
+  std::optional<double> other_side_m_;
   ProofReport report_;
   Worst farthest_;  ///< from a corner of the target, metres
   Worst behind_;    ///< its plane, metres
@@ -159,7 +174,7 @@ std::vector<Vec3> Prover::shrunk(const prove::View& view) const {
 /// The part of the facets in front of the target. Between its two sides there must be nothing.
 prove::SolidMesh Prover::in_front(const std::vector<Vec3>& vertices, const prove::View& view) {
   const prove::HalfSpace front{-view.normal, 0};
-  const double other = (1 - options_.shrink) * *options_.other_side_m;  // as heights are
+  const double other = (1 - options_.shrink) * *other_side_m_;  // as heights are
   prove::SolidMesh part;
   part.mesh.vertices = vertices;
   for (std::size_t t = 0; t < solid_.mesh.triangles.size(); ++t) {
@@ -187,101 +202,91 @@ prove::SolidMesh Prover::in_front(const std::vector<Vec3>& vertices, const prove
   return part;
 }
 
-/// The volume, shrunk, about View::origin.
+/// What is looked at of a mesh.
 struct Prover::Judged {
-  Mesh whole;
-  prove::SolidMesh front;              ///< what of it is looked at
+  prove::SolidMesh front;              ///< `facet_of`: in the volume that was given
   std::vector<Triangle> facets;        ///< of that, those that are tested
   std::vector<std::uint32_t> numbers;  ///< of these, in the volume that was given
 };
 
-/// Where a segment passes the plane of a triangle.
-Vec3 passage(const Vec3& from, const Vec3& to, const std::array<Vec3, 3>& corners) {
-  const Vec3 normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-  const double at_from = normal.dot(from - corners[0]), at_to = normal.dot(to - corners[0]);
-  return from + at_from / (at_from - at_to) * (to - from);
-}
-
-/// Whether it is so as it is told, in the scene frame, where sums are rounded once more; and whether what hides counts.
-bool is_hidden(const prove::Blocked& blocked, const prove::View& view, const std::array<Vec3, 3>& corners) {
-  const Vec3 from = view.origin + blocked.viewpoint, to = view.origin + blocked.target_point;
-  if (!prove::passes_through(from, to, corners)) return false;
-  return view.all_sides || view.normal.dot(passage(from, to, corners) - view.origin) > view.margin_m;
-}
-
-void Prover::look_for_witness(const Judged& judged, const prove::View& view, const prove::SceneTree& obstacles,
-                              const std::vector<prove::OpenFacet>& open,
-                              const internal::core::ProgressReporter& progress) {
-  if (open.empty()) return;
-  constexpr std::size_t kMostFacets = 2000;  // looked at: evenly among those that are open
-  const std::size_t step = 1 + open.size() / kMostFacets;
-  const prove::RoundedSurface surface(judged.whole, options_.rounding_m);
-  for (std::size_t i = 0; i < open.size(); i += step) {
-    progress.report(i, open.size());
-    const prove::Piece& obstacle = obstacles.pieces[open[i].piece];
-    std::array<Vec3, 3> facet, corners;
-    for (std::size_t k = 0; k < 3; ++k) {
-      facet[k] = judged.front.mesh.vertices[judged.facets[open[i].facet][k]];
-      corners[k] = scene_.mesh.vertices[scene_.mesh.triangles[obstacle.of][k]];
-    }
-    // At a corner the volume may lie beside the line to the target. Behind or before a place inside of the facet it
-    // does not, unless the facet bounds nothing.
-    const Vec3 middle = (facet[0] + facet[1] + facet[2]) / 3;
-    for (const double inward : {0.0, 0.1}) {
-      for (Vec3& corner : facet) corner += inward * (middle - corner);
-      const auto blocked = prove::find_blocked(facet, view, obstacle);
-      if (!blocked || (report_.witness && blocked->depth_m <= report_.witness->depth_m)) break;
-      if (!is_hidden(*blocked, view, corners)) continue;
-      if (!surface.surely_held(blocked->viewpoint, blocked->depth_m)) continue;
-      const std::uint32_t object = scene_.object_of.empty() ? 0 : scene_.object_of[obstacle.of];
-      report_.witness = HiddenView{.viewpoint = view.origin + blocked->viewpoint,
-                                   .target_point = view.origin + blocked->target_point,
-                                   .triangle = obstacle.of,
-                                   .object = object < scene_.objects.size() ? display_name(scene_.objects[object]) : "",
-                                   .facet = judged.numbers[open[i].facet],
-                                   .depth_m = blocked->depth_m};
-      break;
-    }
+/// Of the mesh with these vertices, about View::origin: what is looked at.
+Prover::Judged Prover::judged(const std::vector<Vec3>& vertices, const prove::View& view) {
+  Judged judged;
+  if (other_side_m_) {
+    judged.front = in_front(vertices, view);
+  } else {
+    judged.front = {{vertices, solid_.mesh.triangles}, solid_.facet_of};
   }
-}
-
-void Prover::look_at(std::size_t part, double lift_m, const internal::core::ProgressReporter& progress) {
-  constexpr double kRounding = 8 * std::numeric_limits<double>::epsilon();  // of a vertex that lies in the plane
-  const prove::View view = prove::make_view(target_, part, lift_m);
-  Judged judged{{shrunk(view), solid_.mesh.triangles}, {}, {}, {}};
-  judged.front =
-      options_.other_side_m ? in_front(judged.whole.vertices, view) : prove::SolidMesh{judged.whole, solid_.facet_of};
-  const std::vector<Vec3>& vertices = judged.front.mesh.vertices;
-  Box near;
-  for (const Vec3& corner : view.corners) near.extend(corner);
+  const std::vector<Vec3>& at = judged.front.mesh.vertices;
   for (std::size_t t = 0; t < judged.front.mesh.triangles.size(); ++t) {
-    const Triangle& triangle = judged.front.mesh.triangles[t];
-    for (const std::uint32_t v : triangle) {
-      const Vec3& at = vertices[v];
-      near.extend(at);
-      if (options_.maximal) near.extend((1 + 3 * options_.shrink) * at);
-      for (const Vec3& corner : view.whole) farthest_.see((at - corner).norm(), view.origin + at);
-      if (!view.all_sides) behind_.see(-view.normal.dot(at) - view.margin_m - kRounding * at.norm(), view.origin + at);
-    }
-    const auto& [a, b, c] = triangle;
-    if (prove::orientation(vertices[a], vertices[b], vertices[c], Vec3::Zero()) == 0) continue;
-    judged.facets.push_back(triangle);
+    const auto& [a, b, c] = judged.front.mesh.triangles[t];
+    if (prove::orientation(at[a], at[b], at[c], Vec3::Zero()) == 0) continue;
+    judged.facets.push_back(judged.front.mesh.triangles[t]);
     judged.numbers.push_back(judged.front.facet_of[t]);
   }
+  return judged;
+}
+
+/// What vertices say of the range and of the front.
+void Prover::look_at_vertices(const Judged& judged, const prove::View& view) {
+  for (const Triangle& triangle : judged.front.mesh.triangles) {
+    for (const std::uint32_t v : triangle) {
+      const Vec3& at = judged.front.mesh.vertices[v];
+      for (const Vec3& corner : view.whole) farthest_.see((at - corner).norm(), view.origin + at);
+      if (!view.all_sides) behind_.see(-view.normal.dot(at) - view.unsure_at(at), view.origin + at);
+    }
+  }
+  // All that is deeper below the surface than that is in front.
+  if (behind_.by > 0 && is_rounded(behind_.by)) report_.layer_m = std::max(report_.layer_m, behind_.by + view.margin_m);
+}
+
+/// All that a hull of a facet and the target may reach.
+Box Prover::reach_of(const Judged& judged, const prove::View& view) const {
+  Box near;
+  for (const Vec3& corner : view.corners) near.extend(corner);
+  for (const Triangle& triangle : judged.front.mesh.triangles) {
+    for (const std::uint32_t v : triangle) {
+      const Vec3& at = judged.front.mesh.vertices[v];
+      near.extend(at);
+      if (options_.maximal) near.extend((1 + 3 * options_.shrink) * at);
+    }
+  }
+  constexpr double kRoundings = 16;  // of what is cut of the scene
+  const double largest = std::max(near.min.cwiseAbs().maxCoeff(), near.max.cwiseAbs().maxCoeff());
+  const double by = kRoundings * std::numeric_limits<double>::epsilon() * largest;
+  near.min.array() -= by;
+  near.max.array() += by;
+  return near;
+}
+
+void Prover::look_at(std::size_t part, const internal::core::ProgressReporter& progress) {
   const bool is_recorded = options_.certificate;
-  const prove::SceneTree obstacles =
-      is_recorded ? prove::all_obstacles_in_front(scene_, view) : prove::obstacles_in_front(scene_, view, near);
+  const prove::View view = prove::make_view(target_, part, lifts_[part].used_m);
+  const Mesh whole{shrunk(view), solid_.mesh.triangles};
+  const Judged seen = judged(whole.vertices, view);
+  look_at_vertices(seen, view);
+  const std::vector<Vec3>& vertices = seen.front.mesh.vertices;
+  const prove::SceneTree obstacles = is_recorded ? prove::all_obstacles_in_front(scene_, view)
+                                                 : prove::obstacles_in_front(scene_, view, reach_of(seen, view));
   const double share = options_.maximal ? 0.5 : 1;
-  const prove::SightProof proof =
-      prove::prove_sight(vertices, judged.facets, view, scene_, obstacles, is_recorded, progress.part(0, 0.9 * share));
-  report_.tested_facets += judged.facets.size();
+  prove::SightProof proof = prove::prove_sight(vertices, seen.facets, view, scene_, obstacles,
+                                               {.is_recorded = is_recorded}, progress.part(0, 0.8 * share));
+  const prove::Suspects suspects{whole, vertices, seen.facets, seen.numbers, proof.open, options_.rounding_m};
+  report_.witness = prove::deepest_witness(scene_, view, obstacles, suspects, std::move(report_.witness),
+                                           progress.part(0.8 * share, 0.9 * share));
+  if (!proof.open.empty() && !report_.witness) {  // nothing is wrong: it may be open for what is rounded
+    const prove::OpenVolume volume{whole, vertices, seen.facets, proof.open, options_.rounding_m};
+    prove::LayerProof less = prove::prove_less_layer(volume, view, scene_, obstacles, progress.part(0.9 * share, share));
+    report_.layer_m = std::max(report_.layer_m, less.depth_m);
+    proof.open = std::move(less.open);
+  }
+  report_.tested_facets += seen.facets.size();
   report_.separations += proof.separations;
   report_.margin_m = std::max(report_.margin_m, view.margin_m);
-  report_.lift_m = std::max(report_.lift_m, lift_m);
-  for (const prove::OpenFacet& open : proof.open) report_.unproved.push_back(judged.numbers[open.facet]);
-  look_for_witness(judged, view, obstacles, proof.open, progress.part(0.9 * share, share));
-  if (is_recorded) add_certificate(part, lift_m, view, judged.numbers, proof);
-  if (options_.maximal && !options_.other_side_m) look_beyond(view, obstacles, progress.part(0.5, 1));
+  report_.lift_m = std::max(report_.lift_m, lifts_[part].used_m);
+  for (const prove::OpenFacet& open : proof.open) report_.unproved.push_back(seen.numbers[open.facet]);
+  if (is_recorded) add_certificate(part, view, seen.numbers, proof);
+  if (options_.maximal && !other_side_m_) look_beyond(view, obstacles, progress.part(0.5, 1));
 }
 
 void Prover::look_beyond(const prove::View& view, const prove::SceneTree& obstacles,
@@ -317,15 +322,15 @@ void Prover::look_beyond(const prove::View& view, const prove::SceneTree& obstac
   report_.maximal = report_.maximal ? join(*report_.maximal, proof, volume_) : proof;
 }
 
-void Prover::add_certificate(std::size_t part, double lift_m, const prove::View& view,
-                             const std::vector<std::uint32_t>& numbers, const prove::SightProof& proof) {
+void Prover::add_certificate(std::size_t part, const prove::View& view, const std::vector<std::uint32_t>& numbers,
+                             const prove::SightProof& proof) {
   constexpr double kSureHeight = 1.5;  // in margins: what was left out lies lower, whatever was rounded
   if (!report_.certificate) {
     report_.certificate = Certificate{options_.shrink, options_.rounding_m, range_, {}, {}};
   }
   CertificatePart& record = report_.certificate->parts.emplace_back();
   record.target = target_.parts[part];
-  record.shift_m = target_.offset_m + lift_m;
+  record.shift_m = target_.offset_m + lifts_[part].used_m;
   record.centre = view.origin;
   record.corners = view.corners;
   record.normal = view.normal;
@@ -339,30 +344,23 @@ ProofReport Prover::run(const internal::core::ProgressReporter& progress) {
   report_.facets = solid_.mesh.triangles.size();
   report_.shrink = options_.shrink;
   report_.rounding_m = options_.rounding_m;
+  set_lifts();
   const double parts = static_cast<double>(target_.parts.size());
   for (std::size_t part = 0; part < target_.parts.size(); ++part) {
-    const double lift = options_.lift_m.empty() ? 0 : options_.lift_m[part];
-    look_at(part, lift,
+    look_at(part,
             progress.part(kSightPart * static_cast<double>(part) / parts,
                           kSightPart * static_cast<double>(part + 1) / parts));
   }
-  std::vector<std::uint32_t>& unproved = report_.unproved;
-  std::sort(unproved.begin(), unproved.end());
-  unproved.erase(std::unique(unproved.begin(), unproved.end()), unproved.end());
-  ProofVerdict sight = unproved.empty() ? ProofVerdict::proved : ProofVerdict::not_proved;
-  if (report_.witness) sight = ProofVerdict::wrong;
-  report_.claims.push_back({"sight", sight,
-                            unproved.empty() ? "what lies between a facet and the target is free, for every facet"
-                                             : "of some facets it is open, or wrong"});
+  add_sight();
   std::vector<prove::View> views;
   for (std::size_t part = 0; part < target_.parts.size(); ++part) {
-    views.push_back(prove::make_view(target_, part, options_.lift_m.empty() ? 0 : options_.lift_m[part]));
+    views.push_back(prove::make_view(target_, part, lifts_[part].used_m));
   }
   const prove::LimitedVolume all(solid_.mesh, views.front().origin, options_.shrink, options_.rounding_m);
   report_.limit_tolerance_m = all.tolerance_m();
   add_range(all);
   add_front(all);
-  const prove::LimitedVolume& seen = options_.other_side_m ? all.in_front_of(Vec3::Zero(), views.front().normal) : all;
+  const prove::LimitedVolume& seen = other_side_m_ ? all.in_front_of(Vec3::Zero(), views.front().normal) : all;
   const std::vector<ClaimProof> claims =
       prove::prove_limits(all, seen, views, sensor_, navigation_, progress.part(kSightPart, 1));
   report_.claims.insert(report_.claims.end(), claims.begin(), claims.end());
@@ -384,6 +382,37 @@ MaximalProof Prover::run_maximal(const internal::core::ProgressReporter& progres
   return std::move(*report_.maximal);
 }
 
+/// A target is raised by no more than its own surface needs, whatever a file says.
+void Prover::set_lifts() {
+  for (std::size_t part = 0; part < target_.parts.size(); ++part) {
+    Lift& lift = lifts_.emplace_back();
+    if (!options_.lift_m.empty()) lift.stated_m = lift.used_m = options_.lift_m[part];
+    if (lift.stated_m > 0) lift.used_m = std::min(lift.stated_m, lift_needed_m(scene_, target_, part, range_));
+    if (other_side_m_) *other_side_m_ = std::max(0.0, *other_side_m_ - (lift.stated_m - lift.used_m));
+  }
+}
+
+void Prover::add_sight() {
+  std::vector<std::uint32_t>& unproved = report_.unproved;
+  std::sort(unproved.begin(), unproved.end());
+  unproved.erase(std::unique(unproved.begin(), unproved.end()), unproved.end());
+  ProofVerdict sight = unproved.empty() ? ProofVerdict::proved : ProofVerdict::not_proved;
+  if (report_.witness) sight = ProofVerdict::wrong;
+  std::string text = unproved.empty() ? "what lies between a facet and the target is free, for every facet"
+                                      : "of some facets it is open, or wrong";
+  if (report_.layer_m > 0) {
+    text += internal::core::format(", of the volume less a layer of {:.3g} m, for what is rounded", report_.layer_m);
+  }
+  for (const Lift& lift : lifts_) {
+    if (lift.used_m == lift.stated_m) continue;
+    text += internal::core::format("; the target is raised by {:.3g} m, which its surface needs, not by {:.3g} m",
+                                   lift.used_m, lift.stated_m);
+    report_.certificate.reset();  // it would be of another target than the file's
+    break;
+  }
+  report_.claims.push_back({"sight", sight, text});
+}
+
 /// A file's rounding may have moved vertices out of range, and does not count.
 void Prover::add_range(const prove::LimitedVolume& volume) {
   const double beyond = farthest_.by - range_, allowed = options_.rounding_m;
@@ -398,17 +427,20 @@ void Prover::add_range(const prove::LimitedVolume& volume) {
   }
 }
 
-/// From what a file's rounding moved behind the target nothing is known: its view is not looked at.
+/// From what lies behind the target nothing is known, as its view is not looked at. What a file's rounding moved there
+/// is moved back for that; but not between the two sides of a target.
 void Prover::add_front(const prove::LimitedVolume& volume) {
   if (behind_.by > options_.rounding_m + volume.unsure_m()) {
     report_.claims.push_back(volume.wrong("front", {behind_.by, behind_.at - volume.origin()}, "the target's plane"));
-  } else if (behind_.by > 0) {
+  } else if (behind_.by > 0 && !is_rounded(behind_.by)) {
     report_.claims.push_back(prove::not_proved(
         "front", internal::core::format("a vertex is {:.3g} m behind the target's plane, which is no more than was "
                                         "rounded",
                                         behind_.by)));
   } else {
-    report_.claims.push_back(prove::proved("front", "every vertex is in front of the target"));
+    std::string how = "every vertex is in front of the target";
+    if (behind_.by > 0) how += internal::core::format(", but for {:.3g} m that the file's numbers explain", behind_.by);
+    report_.claims.push_back(prove::proved("front", how));
   }
 }
 
@@ -417,10 +449,10 @@ Box box_of(const Navigation::Altitude& altitude) {
   return {{-all, -all, altitude.min_m}, {all, all, altitude.max_m}};
 }
 
-/// Sight, range and front, the first claims, are proved, and nothing else is wrong.
+/// Sight, range and front, the first claims, are proved of the mesh as it is, and nothing else is wrong.
 bool can_certify(const ProofReport& report) {
   constexpr std::ptrdiff_t kFirst = 3;
-  return report.verdict() != ProofVerdict::wrong &&
+  return report.certificate && report.verdict() != ProofVerdict::wrong && report.layer_m == 0 &&
          std::all_of(report.claims.begin(), report.claims.begin() + kFirst,
                      [](const ClaimProof& claim) { return claim.verdict == ProofVerdict::proved; });
 }
@@ -466,7 +498,7 @@ ProofReport prove_volume(const Scene& scene, const Target& target, const Sensor&
   const internal::core::ProgressReporter progress(callback);
   progress.begin("prove");
   ProofReport report = Prover(scene, target, sensor, navigation, volume, options).run(progress);
-  if (options.certificate && !options.other_side_m && can_certify(report)) {
+  if (!options.other_side_m && can_certify(report)) {
     report.certificate->boxes = certified_boxes(navigation, report.claims);
   } else {
     report.certificate.reset();

@@ -35,13 +35,14 @@ bool blocks(const Piece& obstacle, const Vec3& from, const Vec3& to) {
 class SightProver {
  public:
   SightProver(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets, const View& view,
-              const Scene& scene, const SceneTree& obstacles, bool is_recorded)
+              const Scene& scene, const SceneTree& obstacles, const SightTelling& telling)
       : vertices_(vertices),
         facets_(facets),
         view_(view),
         scene_(scene),
         obstacles_(obstacles),
-        is_recorded_(is_recorded),
+        is_recorded_(telling.is_recorded),
+        tells_all_(telling.tells_all),
         patches_(make_patches(vertices, facets)) {
     Box box = obstacles.nodes.front().box;
     for (const Vec3& vertex : vertices) box.extend(vertex);
@@ -92,7 +93,7 @@ class SightProver {
   const View& view_;
   const Scene& scene_;
   const SceneTree& obstacles_;
-  bool is_recorded_;
+  bool is_recorded_, tells_all_;
   Patches patches_;
   double largest_ = 0;
 };
@@ -207,7 +208,7 @@ void SightProver::prove(std::uint32_t index, const Items& items, Found& found) c
       continue;
     } else if (is_piece && is_single) {
       found.open.push_back({patches_.order[patch.begin], item & ~kPiece});
-      if (is_recorded_ || ++met == kMostMet) return;
+      if (is_recorded_ || (++met == kMostMet && !tells_all_)) return;
     } else if (is_piece || (!is_single && is_narrow(item, patch))) {
       left.push_back(item);
       record(found, kLeave);
@@ -253,11 +254,11 @@ SightProof SightProver::run(const core::ProgressReporter& progress) {
 }  // namespace
 
 SightProof prove_sight(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets, const View& view,
-                       const Scene& scene, const SceneTree& obstacles, bool is_recorded,
+                       const Scene& scene, const SceneTree& obstacles, const SightTelling& telling,
                        const core::ProgressReporter& progress) {
   if (facets.empty()) return {};
   if (obstacles.nodes.empty()) return {{}, 0, make_patches(vertices, facets).order, {}};
-  return SightProver(vertices, facets, view, scene, obstacles, is_recorded).run(progress);
+  return SightProver(vertices, facets, view, scene, obstacles, telling).run(progress);
 }
 
 std::optional<Blocked> find_blocked(const std::array<Vec3, 3>& facet, const View& view, const Piece& obstacle) {

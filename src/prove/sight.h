@@ -24,11 +24,17 @@ struct SightProof {
   std::vector<std::int64_t> steps;   ///< where it is recorded: CertificatePart::steps
 };
 
-/// `vertices`, `facets`: of the shrunk volume, about View::origin; the facets that face away from there. The hull of a
-/// facet and the target is free where a plane is found between it and each obstacle; hulls of many facets at once are
-/// tried first. To be recorded, the tree must be that of all_obstacles_in_front.
+/// What a proof of sight tells besides. To be recorded, the tree must be that of all_obstacles_in_front.
+struct SightTelling {
+  bool is_recorded = false;
+  bool tells_all = false;  ///< all of the pieces that a facet is open for
+};
+
+/// `vertices`, `facets`: of the shrunk volume, about View::origin; the facets whose plane does not hold that. The hull of
+/// a facet and the target is free where a plane is found between it and each obstacle; hulls of many facets at once are
+/// tried first.
 SightProof prove_sight(const std::vector<Vec3>& vertices, const std::vector<Triangle>& facets, const View& view,
-                       const Scene& scene, const SceneTree& obstacles, bool is_recorded,
+                       const Scene& scene, const SceneTree& obstacles, const SightTelling& telling,
                        const core::ProgressReporter& progress);
 
 /// A point of a facet and one of the target between which the obstacle lies for sure.

@@ -32,6 +32,11 @@ std::vector<Eigen::Vector2d> less_strip(const std::vector<Eigen::Vector2d>& poly
 
 }  // namespace
 
+double View::unsure_at(const Vec3& position) const {
+  constexpr double kRoundings = 8;
+  return margin_m + kRoundings * std::numeric_limits<double>::epsilon() * position.norm();
+}
+
 View make_view(const Target& target, std::size_t part, double lift_m) {
   const TargetFrame frame = make_target_frame(target, part);
   View view;

@@ -19,6 +19,9 @@ struct View {
   std::vector<Vec3> corners;  ///< less the strip along its outline
   std::vector<Vec3> surely;   ///< less so much only that what is left is in the target, whatever was rounded
   double margin_m = 0;        ///< the strip's width, and the height under which obstacles do not count
+
+  /// What a position in front may lie behind the plane by, as far as numbers can tell.
+  double unsure_at(const Vec3& position) const;
 };
 
 View make_view(const Target& target, std::size_t part, double lift_m);

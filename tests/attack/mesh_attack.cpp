@@ -257,12 +257,12 @@ class MeshAttack {
     for (const auto& [status, count] : statuses_) std::printf(" %zu %s,", count, status.c_str());
     std::printf(" %zu points of them looked from, %zu witnesses checked\n", inside_, witnesses_);
     std::printf("%-12s %10s %10s %10s\n", "claim", "proved", "wrong", "not proved");
-    for (const auto& [name, counts] : verdicts_) {
+    for (const auto& claim : verdicts_) {
       const auto of = [&](const char* verdict) {
-        const auto found = counts.find(verdict);
-        return found == counts.end() ? std::size_t{0} : found->second;
+        const auto found = claim.second.find(verdict);
+        return found == claim.second.end() ? std::size_t{0} : found->second;
       };
-      std::printf("%-12s %10zu %10zu %10zu\n", name.c_str(), of("proved"), of("wrong"), of("not proved"));
+      std::printf("%-12s %10zu %10zu %10zu\n", claim.first.c_str(), of("proved"), of("wrong"), of("not proved"));
     }
     for (const auto& [what, count] : found_) std::printf("WRONG %s: %d\n", what.c_str(), count);
     std::printf("%zu findings\n", failures_);
