@@ -104,6 +104,45 @@ TEST_F(SeveralTargets, AllAreTheParts) {
   EXPECT_EQ(run_mission(all).volume.mesh.vertices, run_mission(parts).volume.mesh.vertices);
 }
 
+// The volumes of both sides meet in the target's plane: in facets, along edges and in points.
+TEST(BothSides, VolumesThatTouchAreClosed) {
+  Random random(2239);
+  int computed = 0;
+  for (int round = 0; round < 40; ++round) {
+    SCOPED_TRACE(round);
+    SceneBuilder builder;
+    for (int i = random.integer(1, 5); i > 0; --i) {
+      const Vec3 at = random.point(-16, 16);
+      builder.polygon("sheet", {at, at + random.point(-6, 6), at + random.point(-6, 6)});
+    }
+    const Vec3 normal = random.direction();
+    Target front = testing::random_target(random, random.integer(3, 7), random.uniform(1, 5), random.point(-4, 4), normal);
+    front.front = normal;
+    Target back = front;
+    back.front = -normal;
+    std::vector<Volume> sides;
+    try {
+      const PreparedScene scene(builder.scene());
+      Sensor sensor{random.uniform(20, 45)};
+      if (random.chance(0.5)) sensor.min_range_m = random.uniform(2, 12);
+      for (const Target& side : {front, back}) {
+        sides.push_back(compute_volume(PreparedTarget(scene, side, sensor), {}, {.tolerance_m = 0.02}));
+      }
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::input) << error.what();  // a sheet stands in the target
+      continue;
+    }
+    const Volume both = unite_volumes(sides);
+    ASSERT_EQ(both.outcome, Outcome::computed);
+    ++computed;
+    EXPECT_EQ(testing::first_open_edge(both.mesh), "");
+    double apart = 0;
+    for (const Volume& side : sides) apart += enclosed_volume(side.mesh);
+    EXPECT_NEAR(enclosed_volume(both.mesh), apart, 1e-6 * apart) << "they only touch";
+  }
+  EXPECT_GT(computed, 20);
+}
+
 TEST_F(SeveralTargets, AllWithSidesAndOffsetsOfTheirOwn) {
   // A wall that faces south, raised by its offset, beside a square that faces up.
   const std::string wall =

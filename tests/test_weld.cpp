@@ -1,9 +1,18 @@
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+#include <array>
 #include <cmath>
+#include <map>
+#include <set>
+#include <vector>
 
+#include "core/mend_welded.h"
+#include "core/pieces.h"
 #include "core/weld.h"
+#include "support/random.h"
 #include "support/solids.h"
+#include "vantage/volume.h"
 
 namespace vantage::internal::core {
 namespace {
@@ -46,6 +55,109 @@ TEST(Weld, DropsTrianglesWithTwoCornersInOnePlace) {
   const Mesh joined = welded({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 0, 0}}, {{0, 1, 2}, {1, 2, 3}, {0, 1, 1}}});
   EXPECT_EQ(joined.triangles.size(), 1u);
   EXPECT_TRUE(welded(Mesh()).empty());
+}
+
+/// The boundary of some cubes of a grid, one vertex for each place: many edges have four triangles.
+Mesh surface_of_cubes(const std::set<std::array<int, 3>>& cubes, const Vec3& origin) {
+  Mesh mesh;
+  std::map<std::array<int, 3>, std::uint32_t> known;
+  const auto vertex = [&](const std::array<int, 3>& at) {
+    const auto [entry, is_new] = known.try_emplace(at, static_cast<std::uint32_t>(mesh.vertices.size()));
+    if (is_new) mesh.vertices.push_back(origin + Vec3(at[0], at[1], at[2]));
+    return entry->second;
+  };
+  for (const std::array<int, 3>& cube : cubes) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      for (const int side : {0, 1}) {
+        std::array<int, 3> beyond = cube, at = cube;
+        beyond[axis] += 2 * side - 1;
+        if (cubes.contains(beyond)) continue;
+        at[axis] += side;
+        std::array<std::array<int, 3>, 4> corners = {at, at, at, at};
+        corners[1][(axis + 1) % 3] += 1;
+        corners[2][(axis + 1) % 3] += 1;
+        corners[2][(axis + 2) % 3] += 1;
+        corners[3][(axis + 2) % 3] += 1;
+        if (side == 0) std::swap(corners[1], corners[3]);
+        mesh.triangles.push_back({vertex(corners[0]), vertex(corners[1]), vertex(corners[2])});
+        mesh.triangles.push_back({vertex(corners[0]), vertex(corners[2]), vertex(corners[3])});
+      }
+    }
+  }
+  return mesh;
+}
+
+Mesh draw_cubes(testing::Random& random, const Vec3& origin) {
+  std::set<std::array<int, 3>> cubes;
+  const int count = random.integer(2, 20), size = random.integer(1, 3);
+  for (int i = 0; i < count; ++i) {
+    cubes.insert({random.integer(0, size), random.integer(0, size), random.integer(0, size)});
+  }
+  return surface_of_cubes(cubes, origin);
+}
+
+TEST(Weld, SharedEdgesAreSplitUntilTwoTrianglesMeetAtEach) {
+  testing::Random random(307);
+  int shared = 0;
+  for (int round = 0; round < 300; ++round) {
+    const Mesh whole = draw_cubes(random, Vec3(0.1, 0.2, 0.3));
+    Mesh mesh = whole;
+    split_where_pieces_touch(mesh);
+    shared += !measure(mesh).closed;
+    const std::size_t before = mesh.triangles.size();
+    const std::vector<std::uint32_t> part_of = split_shared_edges(mesh);
+    ASSERT_EQ(mesh.triangles.size(), before + part_of.size());
+    for (const std::uint32_t t : part_of) EXPECT_LT(t, before);
+    EXPECT_EQ(testing::first_open_edge(mesh), "") << "round " << round;
+    EXPECT_NEAR(enclosed_volume(mesh), enclosed_volume(whole), 1e-12);
+    EXPECT_NEAR(surface_area(mesh), surface_area(whole), 1e-12);
+  }
+  EXPECT_GT(shared, 30);
+}
+
+TEST(Weld, SurfacesThatTouchStayApartByTheirOwners) {
+  testing::Random random(311);
+  for (int round = 0; round < 300; ++round) {
+    Mesh apart = draw_cubes(random, Vec3::Zero());
+    split_where_pieces_touch(apart);
+    split_shared_edges(apart);
+    const std::vector<std::uint32_t> first = first_at_position(apart.vertices);
+    Mesh welded = apart;
+    for (Triangle& t : welded.triangles) t = {first[t[0]], first[t[1]], first[t[2]]};
+    split_where_pieces_touch(welded, apart.triangles);
+    EXPECT_EQ(testing::first_open_edge(welded), "") << "round " << round;
+    EXPECT_EQ(measure(welded).euler, measure(apart).euler);
+    EXPECT_EQ(measure(welded).pieces, measure(apart).pieces);
+  }
+}
+
+// A flat facet makes the whole mesh be welded; what touches must not hang together by that.
+TEST(MendWelded, WhatTouchesStaysClosedByIndex) {
+  testing::Random random(313);
+  for (const Vec3& origin : {Vec3(0.1, 0.2, 0.3), Vec3(-3e6 + 0.1, 4.7e6 + 0.2, 10)}) {
+    for (int round = 0; round < 300; ++round) {
+      LabelledMesh labelled{draw_cubes(random, origin), {}};
+      if (round % 2) {
+        split_where_pieces_touch(labelled.mesh);
+        split_shared_edges(labelled.mesh);
+      }
+      const MeshMeasures before = measure(labelled.mesh);
+      // The first side of the first triangle gets a vertex, and beside it a facet without area.
+      Mesh& mesh = labelled.mesh;
+      const auto [a, b, c] = mesh.triangles[0];
+      const auto middle = static_cast<std::uint32_t>(mesh.vertices.size());
+      mesh.vertices.push_back((mesh.vertices[a] + mesh.vertices[b]) / 2);
+      mesh.triangles[0] = {middle, b, c};
+      mesh.triangles.push_back({a, middle, c});
+      mesh.triangles.push_back({a, b, middle});
+      labelled.labels.assign(mesh.triangles.size(), 7);
+      ASSERT_TRUE(mend_for_doubles(labelled));
+      EXPECT_EQ(testing::first_open_edge(mesh), "") << "round " << round;
+      EXPECT_EQ(labelled.labels.size(), mesh.triangles.size());
+      EXPECT_NEAR(enclosed_volume(mesh), before.volume_m3, 1e-6);
+      if (round % 2) EXPECT_EQ(measure(mesh).pieces, before.pieces);
+    }
+  }
 }
 
 }  // namespace

@@ -22,7 +22,11 @@ namespace {
 class Mender {
  public:
   Mender(LabelledMesh& labelled, double flat)
-      : labelled_(labelled), vertices_(labelled.mesh.vertices), triangles_(labelled.mesh.triangles), flat_(flat) {}
+      : labelled_(labelled),
+        vertices_(labelled.mesh.vertices),
+        triangles_(labelled.mesh.triangles),
+        flat_(flat),
+        owner_sets_(labelled.mesh.vertices.size()) {}
 
   bool run();
   bool has_flaws() const;
@@ -54,6 +58,9 @@ class Mender {
   std::vector<Vec3>& vertices_;
   std::vector<Triangle>& triangles_;
   double flat_;
+  // Per corner of each triangle the vertex that it was before welding: surfaces that only touch stay apart by it.
+  std::vector<Triangle> owners_;
+  DisjointSets owner_sets_;  // of such vertices that have become one
   std::optional<Stars> stars_;
   std::vector<char> gone_;
   std::priority_queue<Waiting> flat_facets_;
@@ -79,14 +86,23 @@ void Mender::remove(std::uint32_t t) {
 
 /// One vertex for each place; facets with two corners in one place go. `first`: per vertex the first one in its place.
 void Mender::weld(const std::vector<std::uint32_t>& first) {
+  owners_ = triangles_;
   for (Triangle& t : triangles_) t = {first[t[0]], first[t[1]], first[t[2]]};
   std::size_t kept = 0;
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
-    if (is_collapsed(triangles_[t])) continue;
+    if (is_collapsed(triangles_[t])) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t next = (i + 1) % 3;
+        if (triangles_[t][i] == triangles_[t][next]) owner_sets_.join(owners_[t][i], owners_[t][next]);
+      }
+      continue;
+    }
     triangles_[kept] = triangles_[t];
+    owners_[kept] = owners_[t];
     labelled_.labels[kept++] = labelled_.labels[t];
   }
   triangles_.resize(kept);
+  owners_.resize(kept);
   labelled_.labels.resize(kept);
   stars_.emplace(triangles_, vertices_.size());
   gone_.assign(kept, 0);
@@ -152,14 +168,26 @@ void Mender::turn_sides() {
     const std::optional<std::uint32_t> other = across(t, side);
     if (!other) continue;  // of an open mesh
     const std::uint32_t c = triangles_[t][side], a = triangles_[t][(side + 1) % 3], b = triangles_[t][(side + 2) % 3];
-    std::uint32_t x = 0;
-    for (const std::uint32_t v : triangles_[*other]) x = v != a && v != c ? v : x;
+    const Triangle of_t = owners_[t], of_other = owners_[*other];
+    const std::uint32_t of_c = of_t[side], of_a = of_t[(side + 1) % 3], of_b = of_t[(side + 2) % 3];
+    std::uint32_t x = 0, of_x = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t v = triangles_[*other][i];
+      if (v == a || v == c) {
+        owner_sets_.join(of_other[i], v == a ? of_a : of_c);
+      } else {
+        x = v;
+        of_x = of_other[i];
+      }
+    }
     remove(t);
     remove(*other);
     if (x == b) continue;  // they faced each other
     gone_[t] = gone_[*other] = 0;
     triangles_[t] = {a, b, x};
     triangles_[*other] = {b, c, x};
+    owners_[t] = {of_a, of_b, of_x};
+    owners_[*other] = {of_b, of_c, of_x};
     labelled_.labels[t] = labelled_.labels[*other];
     for (const std::uint32_t made : {t, *other}) {
       for (const std::uint32_t v : triangles_[made]) stars_->add(v, made);
@@ -175,11 +203,13 @@ void Mender::finish() {
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
     if (gone_[t]) continue;
     triangles_[kept] = triangles_[t];
+    for (std::size_t i = 0; i < 3; ++i) owners_[kept][i] = owner_sets_.find(owners_[t][i]);
     labelled_.labels[kept++] = labelled_.labels[t];
   }
   triangles_.resize(kept);
+  owners_.resize(kept);
   labelled_.labels.resize(kept);
-  split_where_pieces_touch(labelled_.mesh);
+  split_where_pieces_touch(labelled_.mesh, owners_);
   drop_unused_vertices(labelled_.mesh);
 }
 
@@ -204,6 +234,12 @@ bool Mender::run() {
 
 bool mend_welded(LabelledMesh& labelled, double flat_m) { return Mender(labelled, flat_m).run(); }
 
+void split_shared_edges(LabelledMesh& labelled) {
+  for (const std::uint32_t whole : split_shared_edges(labelled.mesh)) {
+    labelled.labels.push_back(std::uint32_t(labelled.labels[whole]));
+  }
+}
+
 std::optional<double> mend_for_doubles(LabelledMesh& labelled) {
   const double flat = flat_width(labelled.mesh);
   if (!Mender(labelled, flat).has_flaws()) return std::nullopt;
@@ -211,6 +247,7 @@ std::optional<double> mend_for_doubles(LabelledMesh& labelled) {
   mend_welded(mended, flat);
   if (!Mender(mended, flat).has_flaws()) {
     labelled = std::move(mended);
+    split_shared_edges(labelled);
     return flat;
   }
   // A grid as coarse as that: what is flat on it is so exactly, and turning sides comes to an end.
@@ -221,6 +258,7 @@ std::optional<double> mend_for_doubles(LabelledMesh& labelled) {
     vertex = place;
   }
   mend_welded(labelled, 0);
+  split_shared_edges(labelled);
   return moved;
 }
 

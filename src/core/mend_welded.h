@@ -20,10 +20,14 @@ namespace vantage::internal::core {
 /// below 2^25, of a power of two). Cost: linear, but for sorting the vertices.
 bool mend_welded(LabelledMesh& labelled, double flat_m);
 
+/// As of core/weld.h: a triangle that is split gives its label to both parts.
+void split_shared_edges(LabelledMesh& labelled);
+
 /// The same for who reads the coordinates as doubles: no facet is narrower than flat_width(). Where the world is so
 /// small beside its coordinates that narrow facets only turn into others, no facet is without area at the least: the
-/// vertices go to a grid of four steps of the largest coordinate first. Returns how far a point of the surface may have
-/// moved, metres: at most four of those steps; nothing where nothing was changed.
+/// vertices go to a grid of four steps of the largest coordinate first. What is changed is closed by index, too: two
+/// triangles to an edge. Returns how far a point of the surface may have moved, metres: at most four of those steps;
+/// nothing where nothing was changed.
 std::optional<double> mend_for_doubles(LabelledMesh& labelled);
 
 /// A facet narrower than this has no area for who reads its coordinates as doubles: four steps of the largest of them,

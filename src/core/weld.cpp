@@ -35,17 +35,55 @@ std::uint64_t mix(std::uint64_t x) {  // splitmix64's finalizer
   return x ^ (x >> 31);
 }
 
-/// The uses of an edge by triangles, in pairs that have the solid between them: from each that runs it from high to low
-/// to the next that runs it from low to high, turning round the edge through the inside.
+std::uint32_t place_of(const Triangle& t, std::uint32_t vertex) {
+  return static_cast<std::uint32_t>(std::find(t.begin(), t.end(), vertex) - t.begin());
+}
+
+/// The uses of an edge by triangles, in pairs: a backward and a forward one each.
 class EdgePairs {
  public:
-  explicit EdgePairs(const Mesh& mesh) : mesh_(mesh) {}
+  /// Keeps references.
+  EdgePairs(const Mesh& mesh, const std::vector<Triangle>& owners) : mesh_(mesh), owners_(owners) {}
 
   template <typename Visit>
   void for_each(std::span<const EdgeUse> edge, const Visit& visit) {
-    if (edge.size() == 2) return visit(edge[0], edge[1]);
+    if (edge.size() == 2) return edge[0].forward ? visit(edge[1], edge[0]) : visit(edge[0], edge[1]);
     order_.assign(edge.begin(), edge.end());
-    const Vec3 &low = mesh_.vertices[edge[0].low], &high = mesh_.vertices[edge[0].high];
+    if (!owners_.empty()) take_pairs_of_owners(visit);
+    if (!order_.empty()) take_pairs_about_the_solid(visit);
+  }
+
+ private:
+  std::pair<std::uint32_t, std::uint32_t> owners_of(const EdgeUse& use) const {
+    const Triangle& t = mesh_.triangles[use.triangle];
+    return {owners_[use.triangle][place_of(t, use.low)], owners_[use.triangle][place_of(t, use.high)]};
+  }
+
+  /// Those that are the only two of their owners.
+  template <typename Visit>
+  void take_pairs_of_owners(const Visit& visit) {
+    const auto before = [&](const EdgeUse& a, const EdgeUse& b) {
+      return std::tuple(owners_of(a), a.forward, a.triangle) < std::tuple(owners_of(b), b.forward, b.triangle);
+    };
+    std::sort(order_.begin(), order_.end(), before);
+    std::vector<EdgeUse> left;
+    for (std::size_t begin = 0, end = 0; begin < order_.size(); begin = end) {
+      while (end < order_.size() && owners_of(order_[end]) == owners_of(order_[begin])) ++end;
+      if (end - begin == 2 && !order_[begin].forward && order_[begin + 1].forward) {
+        visit(order_[begin], order_[begin + 1]);
+      } else {
+        left.insert(left.end(), order_.begin() + static_cast<std::ptrdiff_t>(begin),
+                    order_.begin() + static_cast<std::ptrdiff_t>(end));
+      }
+    }
+    order_.swap(left);
+  }
+
+  /// Those that have the solid between them: from each that runs it from high to low to the next that runs it from low
+  /// to high, turning round the edge through the inside.
+  template <typename Visit>
+  void take_pairs_about_the_solid(const Visit& visit) {
+    const Vec3 &low = mesh_.vertices[order_[0].low], &high = mesh_.vertices[order_[0].high];
     const Vec3 along = (high - low).normalized(), u = along.unitOrthogonal(), v = along.cross(u);
     const auto angle = [&](const EdgeUse& use) {
       const Vec3 arm = third_corner(use) - low;
@@ -69,7 +107,6 @@ class EdgePairs {
     taken_.clear();
   }
 
- private:
   const Vec3& third_corner(const EdgeUse& use) const {
     const Triangle& t = mesh_.triangles[use.triangle];
     const auto other = std::find_if(t.begin(), t.end(), [&](std::uint32_t v) { return v != use.low && v != use.high; });
@@ -80,6 +117,7 @@ class EdgePairs {
   }
 
   const Mesh& mesh_;
+  const std::vector<Triangle>& owners_;
   std::vector<EdgeUse> order_;
   std::vector<std::uint32_t> taken_;
 };
@@ -145,16 +183,14 @@ std::vector<std::uint32_t> first_at_position(const std::vector<Vec3>& points,
   return first_at;
 }
 
-void split_where_pieces_touch(Mesh& mesh) {
+void split_where_pieces_touch(Mesh& mesh, const std::vector<Triangle>& owners) {
   // Corners of triangles that are one vertex: those of the two triangles at an edge, at either end of it.
   DisjointSets corners(3 * mesh.triangles.size());
   const auto corner = [&](const EdgeUse& use, std::uint32_t vertex) {
-    const Triangle& t = mesh.triangles[use.triangle];
-    const auto place = static_cast<std::uint32_t>(std::find(t.begin(), t.end(), vertex) - t.begin());
-    return 3 * use.triangle + place;
+    return 3 * use.triangle + place_of(mesh.triangles[use.triangle], vertex);
   };
   const std::vector<EdgeUse> uses = edge_uses(mesh.triangles, mesh.vertices.size());
-  EdgePairs pairs(mesh);
+  EdgePairs pairs(mesh, owners);
   for_each_edge(uses, [&](std::span<const EdgeUse> edge) {
     pairs.for_each(edge, [&](const EdgeUse& a, const EdgeUse& b) {
       corners.join(corner(a, edge[0].low), corner(b, edge[0].low));
@@ -178,6 +214,45 @@ void split_where_pieces_touch(Mesh& mesh) {
       v = vertex;
     }
   }
+}
+
+std::vector<std::uint32_t> split_shared_edges(Mesh& mesh) {
+  std::vector<std::uint32_t> part_of;
+  const std::size_t count = mesh.triangles.size();
+  // The triangle's part at the vertex that it runs to becomes a new triangle.
+  const auto split = [&](const EdgeUse& use, std::uint32_t middle) {
+    Triangle& t = mesh.triangles[use.triangle];
+    const std::uint32_t from = use.forward ? use.low : use.high, to = use.forward ? use.high : use.low;
+    Triangle part = t;
+    part[place_of(t, from)] = middle;
+    t[place_of(t, to)] = middle;
+    mesh.triangles.push_back(part);
+    part_of.push_back(use.triangle < count ? use.triangle : part_of[use.triangle - count]);
+  };
+  const std::vector<Triangle> no_owners;
+  // A triangle that is split once in a round has other sides then, and waits for the next round.
+  for (bool has_shared = true; has_shared;) {
+    has_shared = false;
+    std::vector<char> is_split(mesh.triangles.size(), 0);
+    const std::vector<EdgeUse> uses = edge_uses(mesh.triangles, mesh.vertices.size());
+    EdgePairs pairs(mesh, no_owners);
+    for_each_edge(uses, [&](std::span<const EdgeUse> edge) {
+      if (edge.size() == 2) return;
+      std::vector<std::pair<EdgeUse, EdgeUse>> found;
+      pairs.for_each(edge, [&](const EdgeUse& a, const EdgeUse& b) { found.emplace_back(a, b); });
+      for (std::size_t i = 1; i < found.size(); ++i) {
+        const auto& [a, b] = found[i];
+        has_shared = true;
+        if (is_split[a.triangle] || is_split[b.triangle]) continue;
+        is_split[a.triangle] = is_split[b.triangle] = 1;
+        const auto middle = static_cast<std::uint32_t>(mesh.vertices.size());
+        mesh.vertices.push_back((mesh.vertices[a.low] + mesh.vertices[a.high]) / 2);
+        split(a, middle);
+        split(b, middle);
+      }
+    });
+  }
+  return part_of;
 }
 
 }  // namespace vantage::internal::core

@@ -15,8 +15,17 @@ std::vector<std::uint32_t> first_at_position(const std::vector<Vec3>& vertices,
                                              const std::vector<std::uint32_t>& owners = {});
 
 /// The other way round: where facets round a vertex make several fans that only touch there, each fan gets a vertex of
-/// its own. At an edge with more than two triangles those that enclose the solid between them stay together. The mesh
-/// must be closed. Vertices that are new come last. Cost: linear, but for sorting the edges at each vertex.
-void split_where_pieces_touch(Mesh& mesh);
+/// its own. At an edge with more than two triangles those stay together that have the same owners at its ends; of the
+/// others, and without owners, those that enclose the solid between them. `owners`: a number for each corner of each
+/// triangle, say its vertex before welding; or none. The mesh must be closed. Vertices that are new come last. An edge
+/// may be left with more than two triangles, where a fan runs along it twice (see split_shared_edges). Cost: linear,
+/// but for sorting the edges at each vertex.
+void split_where_pieces_touch(Mesh& mesh, const std::vector<Triangle>& owners = {});
+
+/// Where an edge of a closed mesh has more than two triangles each pair of them but one gets a vertex of its own in the
+/// middle of the edge, to rounding: then two triangles meet at every edge by index, in opposite directions. Vertices and
+/// triangles that are new come last; returns for each such triangle the one that it is a part of. No point of the
+/// surface moves by more than a rounding of its coordinates. Cost: linear.
+std::vector<std::uint32_t> split_shared_edges(Mesh& mesh);
 
 }  // namespace vantage::internal::core

@@ -119,11 +119,7 @@ class Local {
     for (Vec3& vertex : labelled.mesh.vertices) vertex = frame_.to_scene(vertex);
     clean_inward(labelled, frame_.origin, {},
                  cleaning_limits(result.tolerance_m, rounding, bounding_box(labelled.mesh)));
-    // Many sheets meet at one edge of the scene. Where mending joins them the mesh is left with its narrow facets,
-    // which writers mend for their format.
-    LabelledMesh mended = labelled;
-    core::mend_for_doubles(mended);
-    if (measure(mended.mesh).closed) labelled = std::move(mended);
+    core::mend_for_doubles(labelled);
     set_mesh(std::move(labelled), sources_.sources(), causes_.causes(), result);
   }
 
