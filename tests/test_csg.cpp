@@ -188,6 +188,29 @@ TEST(Csg, RefusesWhatIsNotClosed) {
   EXPECT_THROW((make_box({Vec3(1, 0, 0), Vec3(0, 1, 1)}, {})), Error);
 }
 
+// Booleans leave such meshes where solids touch: a facet of the top is turned over, and lies in the top's plane beyond
+// the wall. It is no facet without area, to be given to the wall.
+TEST(Csg, AFacetFoldedBackIntoAPlaneStaysInIt) {
+  testing::Random random(331);
+  for (int round = 0; round < 200; ++round) {
+    Mesh mesh = make_box_mesh(kOrigin, Vec3(1, 1, 1));
+    // The top is a fan about a point beyond one of its sides.
+    std::erase_if(mesh.triangles, [&](const Triangle& t) {
+      return std::all_of(t.begin(), t.end(), [&](std::uint32_t v) { return mesh.vertices[v].z() == 1; });
+    });
+    ASSERT_EQ(mesh.triangles.size(), 10U);
+    const auto apex = static_cast<std::uint32_t>(mesh.vertices.size());
+    mesh.vertices.emplace_back(random.uniform(0.2, 0.8), random.uniform(-0.4, -0.01), 1);
+    for (const auto& [a, b] : {std::pair(4U, 5U), {5U, 7U}, {7U, 6U}, {6U, 4U}}) mesh.triangles.push_back({a, b, apex});
+    ASSERT_EQ(first_open_edge(mesh), "");
+    ASSERT_NEAR(enclosed_volume(mesh), 1, 1e-12);
+    const Solid solid({mesh, std::vector<std::uint32_t>(mesh.triangles.size(), 0)});
+    EXPECT_NEAR(solid.volume(), 1, 1e-9) << mesh.vertices[apex].transpose();
+    EXPECT_NEAR(intersect(solid, labelled_box(Vec3(-1, -1, -1), Vec3(2, 0, 0.99), 1)).volume(), 0, 1e-9);
+    EXPECT_NEAR(intersect(solid, labelled_box(Vec3(-1, 0, -1), Vec3(2, 2, 2), 1)).volume(), 1, 1e-9);
+  }
+}
+
 // Large enough for several threads.
 TEST(Csg, AHullIsTheSameEachTime) {
   testing::Random random(3);
