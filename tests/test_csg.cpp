@@ -211,19 +211,6 @@ TEST(Csg, AFacetFoldedBackIntoAPlaneStaysInIt) {
   }
 }
 
-// Large enough for several threads.
-TEST(Csg, AHullIsTheSameEachTime) {
-  testing::Random random(3);
-  std::vector<Vec3> points;
-  for (int i = 0; i < 20000; ++i) points.push_back(random.direction());
-  const Mesh first = convex_hull(points);
-  EXPECT_EQ(first.vertices.size(), points.size());
-  for (int i = 0; i < 4; ++i) {
-    const Mesh again = convex_hull(points);
-    EXPECT_TRUE(again.vertices == first.vertices && again.triangles == first.triangles) << i;
-  }
-}
-
 TEST(Csg, AsksAndMayBeStopped) {
   const Volume volume = vantage::testing::make_hemisphere(kOrigin, 100, 300, 150);
   const Solid dome({volume.mesh, volume.cause_of});

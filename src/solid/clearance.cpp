@@ -12,6 +12,7 @@
 #include "core/edges.h"
 #include "core/grown_polygon.h"
 #include "core/weld.h"
+#include "solid/convex_hull.h"
 #include "solid/triangle_tree.h"
 
 namespace vantage::internal::solid {

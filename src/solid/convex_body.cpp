@@ -10,7 +10,7 @@
 
 #include "core/parallel.h"
 #include "core/portable_math.h"
-#include "solid/csg.h"
+#include "solid/convex_hull.h"
 
 namespace vantage::internal::solid {
 namespace {
@@ -32,7 +32,43 @@ double circumscribed_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
   return portable::acos(std::clamp(std::abs(middle.dot(a)), 0.0, 1.0));
 }
 
+/// The sum of two doubles that do not overlap (Dekker 1971): 106 binary digits.
+struct Double {
+  double high, low;
+};
+
+Double difference(double a, double b) {
+  const double high = a - b, of_a = high + b, of_b = of_a - high;
+  return {high, (a - of_a) + (of_b - b)};
+}
+
+/// p q - r s, to 2^-100 of |p q| + |r s|.
+double product_difference(const Double& p, const Double& q, const Double& r, const Double& s) {
+  const double pq = p.high * q.high, rs = r.high * s.high;
+  const double pq_low = std::fma(p.high, q.high, -pq) + (p.high * q.low + p.low * q.high);
+  const double rs_low = std::fma(r.high, s.high, -rs) + (r.high * s.low + r.low * s.high);
+  const Double sum = difference(pq, rs);
+  return sum.high + (sum.low + (pq_low - rs_low));
+}
+
 }  // namespace
+
+Vec3 sure_normal(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 u = b - a, v = c - a, normal = u.cross(v);
+  constexpr double kWide = 1e-4;  // of the product of the sides: up to there rounding turns the normal by 1e-11
+  if (normal.squaredNorm() > kWide * kWide * u.squaredNorm() * v.squaredNorm()) return normal;
+  std::array<Double, 3> along_u, along_v;
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    along_u[axis] = difference(b[axis], a[axis]);
+    along_v[axis] = difference(c[axis], a[axis]);
+  }
+  Vec3 sure;
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    const unsigned next = (axis + 1) % 3, last = (axis + 2) % 3;
+    sure[axis] = product_difference(along_u[next], along_v[last], along_u[last], along_v[next]);
+  }
+  return sure;
+}
 
 Mesh intersect_half_spaces(std::span<const HalfSpace> half_spaces, const Vec3& inside) {
   // Duality (Preparata and Shamos 1985, 7.2.5): planes at the distance h along n become points n / h, and the facets of
@@ -47,11 +83,11 @@ Mesh intersect_half_spaces(std::span<const HalfSpace> half_spaces, const Vec3& i
   corners.reserve(dual_hull.triangles.size());
   for (const Triangle& t : dual_hull.triangles) {
     const Vec3& a = dual_hull.vertices[t[0]];
-    const Vec3 normal = (dual_hull.vertices[t[1]] - a).cross(dual_hull.vertices[t[2]] - a);
+    const Vec3 normal = sure_normal(a, dual_hull.vertices[t[1]], dual_hull.vertices[t[2]]);
     const double distance = normal.dot(a);
     if (distance > 0) corners.push_back(normal / distance);
   }
-  // A narrow facet of the hull has no sure direction: pull its corner back into all half-spaces.
+  // Planes that nearly coincide have no sure corner: pull it back into all half-spaces.
   parallel::for_ranges(corners.size(), 256, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       double most = 0;

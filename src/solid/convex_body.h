@@ -15,6 +15,9 @@ namespace vantage::internal::solid {
 /// nearly coincide a corner may be missing. Cost: O(n log n) expected.
 Mesh intersect_half_spaces(std::span<const HalfSpace> half_spaces, const Vec3& inside);
 
+/// The normal of the triangle, as long as twice its area; its direction is right to rounding however narrow it is.
+Vec3 sure_normal(const Vec3& a, const Vec3& b, const Vec3& c);
+
 /// A convex mesh that holds `inside` is scaled about that point until the convex set with the support function `most`
 /// (the largest product of a direction with one of its points) is in it.
 template <typename Support>
@@ -22,7 +25,7 @@ void grow_to_hold(Mesh& convex, const Vec3& inside, const Support& most) {
   double scale = 1;
   for (const Triangle& t : convex.triangles) {
     const Vec3& a = convex.vertices[t[0]];
-    const Vec3 normal = (convex.vertices[t[1]] - a).cross(convex.vertices[t[2]] - a);
+    const Vec3 normal = sure_normal(a, convex.vertices[t[1]], convex.vertices[t[2]]);
     const double distance = normal.dot(a - inside);
     if (distance > 0) scale = std::max(scale, (most(normal) - normal.dot(inside)) / distance);
   }

@@ -255,21 +255,4 @@ Solid make_prism(const std::vector<std::vector<Eigen::Vector2d>>& rings, double 
   return Solid(result, "zone");
 }
 
-Mesh convex_hull(std::span<const Vec3> points) {
-  std::vector<manifold::vec3> taken;
-  taken.reserve(points.size());
-  for (const Vec3& point : points) taken.emplace_back(point.x(), point.y(), point.z());
-  const manifold::MeshGL64 gl = manifold::Manifold::Hull(taken).GetMeshGL64();
-  Mesh hull;
-  for (std::size_t i = 0; i < gl.NumVert(); ++i) hull.vertices.push_back(from_manifold(gl.GetVertPos(i)));
-  for (std::size_t i = 0; i < gl.NumTri(); ++i) {
-    Triangle& triangle = hull.triangles.emplace_back();
-    for (std::size_t k = 0; k < 3; ++k) triangle[k] = static_cast<std::uint32_t>(gl.triVerts[3 * i + k]);
-    std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.end()), triangle.end());
-  }
-  // From several threads they come in any order, with any corner first.
-  std::sort(hull.triangles.begin(), hull.triangles.end());
-  return hull;
-}
-
 }  // namespace vantage::internal::solid

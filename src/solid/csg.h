@@ -85,8 +85,4 @@ Solid make_box(const Box& box, const BoxLabels& labels);
 Solid make_prism(const std::vector<std::vector<Eigen::Vector2d>>& rings, double low, double high,
                  const std::array<std::uint32_t, 3>& labels);
 
-/// The convex hull of points, closed and oriented; points nearer to each other or to a facet than rounding (1e-12 of
-/// the largest coordinate) may be left out. Empty where the points lie in a plane. Cost: O(n log n) expected.
-Mesh convex_hull(std::span<const Vec3> points);
-
 }  // namespace vantage::internal::solid

@@ -12,6 +12,7 @@
 #include "core/text.h"
 #include "sensor/best_aim.h"
 #include "solid/convex_body.h"
+#include "solid/convex_hull.h"
 #include "solid/frame_surface.h"
 #include "solid/halve_sides.h"
 #include "solid/numerics.h"

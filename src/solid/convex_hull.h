@@ -1,0 +1,17 @@
+// The convex hull of points, exactly.
+#pragma once
+
+#include <span>
+
+#include "vantage/geometry.h"
+
+namespace vantage::internal::solid {
+
+/// The boundary of the convex hull of points: closed, outward oriented, two triangles to an edge. Its vertices are some
+/// of the points, bit for bit, in their order. No point lies outside of any facet, and no facet is without area: both
+/// by the numbers as they are, whatever lies nearly in one plane or on one line. But coordinates below 1e-40 count as 0,
+/// since products of them would underflow. Empty where all points lie in a plane. The coordinates must be finite, and
+/// below 1e60. Cost: O(n log n) expected.
+Mesh convex_hull(std::span<const Vec3> points);
+
+}  // namespace vantage::internal::solid
