@@ -51,13 +51,14 @@ Zone::Ring cut_off(const Zone::Ring& ring, int axis, double at, double sign) {
 
 ZoneRings rings_within(const Zone& zone, const Box& bounds, const Vec3& origin) {
   ZoneRings rings;
+  const Box local{bounds.min - origin, bounds.max - origin};
   const auto add = [&](Zone::Ring ring, bool counter_clockwise) {
     if ((turning(ring) > 0) != counter_clockwise) std::reverse(ring.begin(), ring.end());
-    for (int axis = 0; axis < 2; ++axis) {
-      ring = cut_off(ring, axis, bounds.max[axis], 1);
-      ring = cut_off(ring, axis, bounds.min[axis], -1);
-    }
     for (Point& p : ring) p -= origin.head<2>();
+    for (int axis = 0; axis < 2; ++axis) {
+      ring = cut_off(ring, axis, local.max[axis], 1);
+      ring = cut_off(ring, axis, local.min[axis], -1);
+    }
     const bool has_area = ring.size() >= 3 && turning(ring) != 0;
     if (has_area) rings.push_back(std::move(ring));
     return has_area;
