@@ -143,6 +143,27 @@ TEST(BothSides, VolumesThatTouchAreClosed) {
   EXPECT_GT(computed, 20);
 }
 
+TEST_F(SeveralTargets, TheReportOfSpheresIsOfAllPartsAndTargets) {
+  const std::string spheres = "\nmethod: spheres\nspheres: {cubemap: 12, max_splits: 0, device: cpu}";
+  const auto report_of = [&](const std::string& text) {
+    const Result result = run_mission(mission(text + spheres));
+    EXPECT_TRUE(result.spheres);
+    return result.spheres.value_or(SpheresReport());
+  };
+  const std::string list = std::string("combine: any\ntargets:\n  - ") + kWest + "\n  - " + kNorth;
+  const SpheresReport west = report_of(std::string("target: ") + kWest), north = report_of(std::string("target: ") + kNorth);
+  ASSERT_GE(west.spheres, 4U);
+  ASSERT_GE(north.spheres, 3U);
+  for (const SpheresReport& all : {report_of(list), report_of("target: {parts: [[[-12, -4, 0], [-6, -4, 0], [-6, 4, 0], "
+                                                              "[-12, 4, 0]], [[10, 8, 0], [16, 8, 0], [16, 14, 0]]]}")}) {
+    EXPECT_EQ(all.spheres, west.spheres + north.spheres);
+    EXPECT_EQ(all.pairs, west.pairs + north.pairs);
+    EXPECT_EQ(all.splits, west.splits + north.splits);
+    EXPECT_EQ(all.device.name, west.device.name);
+    EXPECT_GT(all.render_seconds, 0);
+  }
+}
+
 TEST_F(SeveralTargets, AllWithSidesAndOffsetsOfTheirOwn) {
   // A wall that faces south, raised by its offset, beside a square that faces up.
   const std::string wall =

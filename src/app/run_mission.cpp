@@ -22,6 +22,20 @@ namespace {
 
 using PreparedViews = std::vector<std::vector<PreparedTarget>>;
 
+/// Of several parts and targets: what was done for all of them, on the one device that they have.
+void add_report(const SpheresReport& part, std::optional<SpheresReport>& all) {
+  if (!all) {
+    all = part;
+    return;
+  }
+  all->spheres += part.spheres;
+  all->pairs += part.pairs;
+  all->splits += part.splits;
+  all->unresolved_pairs += part.unresolved_pairs;
+  all->render_seconds += part.render_seconds;
+  all->boolean_seconds += part.boolean_seconds;
+}
+
 Volume compute(const Mission& mission, const PreparedTarget& target, const RunOptions& run, Result& result,
                const Progress& progress) {
   if (mission.as_written.method == Method::exact) {
@@ -48,7 +62,9 @@ Volume compute(const Mission& mission, const PreparedTarget& target, const RunOp
   const StageSink sink = run.stages ? StageSink(georeferenced) : StageSink();
   std::vector<Volume> volumes;
   for (std::size_t i = 0; i < target.part_count(); ++i) {
-    volumes.push_back(internal::app::spheres_volume(target.part(i), options, result.spheres.emplace(), sink, progress));
+    SpheresReport report;
+    volumes.push_back(internal::app::spheres_volume(target.part(i), options, report, sink, progress));
+    add_report(report, result.spheres);
   }
   return internal::app::joined(std::move(volumes), progress);
 }
