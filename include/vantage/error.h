@@ -160,6 +160,7 @@ enum class ErrorCode {
   format_too_small,         ///< the format of an output cannot hold the result
 
   // the run itself
+  work_too_large,     ///< a computation would take more work than its limit allows
   component_missing,  ///< this build of vantage lacks a component that is needed
   cancelled,          ///< the caller asked to stop
   internal_defect,    ///< a defect of vantage: an invariant did not hold

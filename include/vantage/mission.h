@@ -163,7 +163,7 @@ struct MissionFile {
   std::vector<ZoneFile> keep_in_files = {}, keep_out_files = {};  ///< their zones go with those of `navigation`
   std::optional<double> sea_level_m = std::nullopt;               ///< scene z of the mean sea level, where it is known
   Method method = Method::exact;
-  ExactOptions exact;      ///< but for the threads: RunOptions::threads
+  ExactOptions exact;      ///< but for the threads: RunOptions::threads. The work limit is that of both methods
   SpheresOptions spheres;  ///< likewise
   MissionPlaces places = {};
 };

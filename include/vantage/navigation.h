@@ -20,8 +20,9 @@ namespace vantage {
 ///
 /// Throws Error(input) for limits that are wrong in themselves (a reversed, empty or not finite altitude band or box, a
 /// zone that is none, a mesh that is open, inside out or intersects itself) and for a volume whose arrays do not fit
-/// together; Error(cancelled) when told to stop; Error(internal) when a boolean operation fails.
-VANTAGE_API Volume cut_to_navigation(const Volume& volume, const Navigation& navigation, const Progress& progress = {});
+/// together; Error(work_too_large); Error(cancelled) when told to stop; Error(internal) when a boolean operation fails.
+VANTAGE_API Volume cut_to_navigation(const Volume& volume, const Navigation& navigation, const Progress& progress = {},
+                                     double work_limit = kWorkLimit);
 
 /// Cuts a volume to the limits of the target's sensor, besides the range, and to the navigation limits, at once. Facets
 /// that a limit of the sensor makes are CauseKind::sensor, by the names "min_range", "incidence", "pixel", "frame",
@@ -31,20 +32,23 @@ VANTAGE_API Volume cut_to_navigation(const Volume& volume, const Navigation& nav
 /// Guaranteed from the inside: the surfaces are made of facets, which take away more than the limit does, never less.
 /// How much more is in docs/camera.md. Cost: besides the boolean milliseconds, with a gimbal tens of them.
 VANTAGE_API Volume cut_to_limits(const Volume& volume, const PreparedTarget& target, const Navigation& navigation = {},
-                                 const Progress& progress = {});
+                                 const Progress& progress = {}, double work_limit = kWorkLimit);
 
 /// What all the volumes claim: that of a target in parts is the intersection of its parts' volumes. May have several
 /// pieces, each closed; facets keep their causes, and causes of the same kind and name become one. Tolerance and lift
 /// are the largest of the volumes', the frame is the first one's, seconds and counts are sums, notes are those of all.
 /// Where one of the volumes is empty, so is the result, with its outcome and reason; where they have nothing in common,
 /// Outcome::no_common_view.
-/// Throws Error(input) for no volumes and for one whose arrays do not fit together; Error(cancelled) when told to stop;
-/// Error(internal) when a boolean operation fails. Cost: a boolean operation per volume, O(n log n) in the facets.
-VANTAGE_API Volume intersect_volumes(const std::vector<Volume>& volumes, const Progress& progress = {});
+/// Throws Error(input) for no volumes and for one whose arrays do not fit together; Error(work_too_large);
+/// Error(cancelled) when told to stop; Error(internal) when a boolean operation fails. Cost: a boolean operation per
+/// volume, O(n log n) in the facets.
+VANTAGE_API Volume intersect_volumes(const std::vector<Volume>& volumes, const Progress& progress = {},
+                                     double work_limit = kWorkLimit);
 
 /// What at least one of the volumes claims: that of targets of which one is enough. As intersect_volumes otherwise;
 /// volumes that are empty for a good reason add nothing. Where all are, so is the result, with the first one's outcome.
-VANTAGE_API Volume unite_volumes(const std::vector<Volume>& volumes, const Progress& progress = {});
+VANTAGE_API Volume unite_volumes(const std::vector<Volume>& volumes, const Progress& progress = {},
+                                 double work_limit = kWorkLimit);
 
 /// The volume of a target of any number of parts, before limits besides the range: compute_visibility of each part,
 /// intersected.

@@ -121,10 +121,17 @@ struct Volume {
   bool empty() const { return mesh.empty(); }
 };
 
+/// How many facets may go through the boolean operations of one volume, counted each time that they do. They cost some
+/// microseconds each, where many long and narrow ones overlap some tens of them. A computation that comes to more ends
+/// with ErrorCode::work_too_large, on every machine at the same place: before it begins where that can be told.
+inline constexpr double kWorkLimit = 1e7;
+
 struct ExactOptions {
   double tolerance_m =
       0.01;         ///< how far range facets may lie inside the true sphere; > 0. Planar parts are exact to rounding
   int threads = 0;  ///< 0: as many as the machine has. The result does not depend on it
+  double work_limit = kWorkLimit;  ///< of compute_parts; of compute_volume for the parts, and again for the limits. The
+                                   ///< result does not depend on it, where there is one
 };
 
 /// The exact visibility volume by docs/theory.md, before navigation cuts: of the whole target, even where its sensor

@@ -40,6 +40,7 @@ class MissionParser : private ValueReader {
   void parse_navigation(const YamlNode& node);
   void parse_method(const YamlNode& node);
   void parse_exact(const YamlNode& node);
+  void parse_work_limit(const YamlNode& node);
 
   const YamlNode& require(const YamlNode& map, Section section, std::string_view key, const std::string& fix) const;
 
@@ -62,6 +63,7 @@ MissionFile MissionParser::parse(std::string_view mission_text) {
   if (const YamlNode* navigation = find(root, "navigation")) parse_navigation(*navigation);
   if (const YamlNode* exact = find(root, "exact")) parse_exact(*exact);
   if (const YamlNode* spheres = find(root, "spheres")) parse_spheres(*spheres, *this, mission_.spheres);
+  if (const YamlNode* limit = find(root, "work_limit")) parse_work_limit(*limit);
   return std::move(mission_);
 }
 
@@ -193,6 +195,14 @@ void MissionParser::parse_exact(const YamlNode& node) {
   check_keys(node, Section::exact, file());
   if (const YamlNode* tolerance = find(node, "tolerance")) {
     mission_.exact.tolerance_m = positive(*tolerance, "exact.tolerance");
+  }
+}
+
+void MissionParser::parse_work_limit(const YamlNode& node) {
+  mission_.exact.work_limit = number(node, "work_limit");
+  if (!(mission_.exact.work_limit > 0)) {
+    fail(ErrorCode::value_out_of_range, node, "work_limit must be greater than 0, not " + shortest(mission_.exact.work_limit),
+         "write how many facets may go through boolean operations: 1.0e+7 is the default");
   }
 }
 

@@ -72,6 +72,7 @@ class Writer {
     text += scene() + targets() + internal::app::sensor_section_text(mission_) + navigation();
     text += std::string("method: ") + name_of(mission_.method) + "\n";
     text += "exact:\n  tolerance: " + shortest(mission_.exact.tolerance_m) + "\n";
+    if (mission_.exact.work_limit != kWorkLimit) text += "work_limit: " + shortest(mission_.exact.work_limit) + "\n";
     return text + spheres();
   }
 

@@ -131,7 +131,7 @@ Volume around_target(const Target& target, const Work& work) {
     if (!work.mission.sensor.visible) volume = around_part(part, work.mission.scene(), work);
     parts.push_back(volume ? *std::move(volume) : range_of_part(part, work));
   }
-  return internal::app::joined(std::move(parts), work.progress);
+  return internal::app::joined(std::move(parts), work.progress, work.mission.as_written.exact.work_limit);
 }
 
 /// Limits to which an outer volume is cut, made wider; the others are named.
@@ -186,7 +186,7 @@ void check(const OuterOptions& options) {
 
 void fill(Work& work) {
   const Mission& mission = work.mission;
-  const double asked = work.options.tolerance_m;
+  const double asked = work.options.tolerance_m, work_limit = mission.as_written.exact.work_limit;
   work.tolerance_m = asked > 0 ? asked : kPartOfRange * work.range_m;
   std::vector<Volume> all;
   std::optional<Target> first;
@@ -196,15 +196,16 @@ void fill(Work& work) {
       if (!first) first = target;
       any.push_back(around_target(target, work));
     }
-    all.push_back(internal::app::united(std::move(any), work.progress));
+    all.push_back(internal::app::united(std::move(any), work.progress, work_limit));
   }
-  Volume volume = internal::app::joined(std::move(all), work.progress);
+  Volume volume = internal::app::joined(std::move(all), work.progress, work_limit);
   const Navigation wide = widened(mission.navigation, work.options.limit_margin_m, work.result.ignored);
   name_ignored(mission.sensor, work.result.ignored);
   if (!volume.empty() && !wide.empty()) {
     Sensor range_only;
     range_only.max_range_m = work.range_m;
-    volume = internal::app::within_limits(volume, PreparedTarget(work.scene, *first, range_only), wide, work.progress);
+    volume = internal::app::within_limits(volume, PreparedTarget(work.scene, *first, range_only), wide, work.progress,
+                                          work_limit);
   }
   work.result.volume = std::move(volume);
 }

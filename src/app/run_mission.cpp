@@ -66,7 +66,7 @@ Volume compute(const Mission& mission, const PreparedTarget& target, const RunOp
     volumes.push_back(internal::app::spheres_volume(target.part(i), options, report, sink, progress));
     add_report(report, result.spheres);
   }
-  return internal::app::joined(std::move(volumes), progress);
+  return internal::app::joined(std::move(volumes), progress, mission.as_written.exact.work_limit);
 }
 
 /// The volume of one target, within all limits.
@@ -85,7 +85,8 @@ Volume limited(const Mission& mission, const PreparedTarget& target, const RunOp
   const bool is_limited = !mission.navigation.empty() || target.sensor().limits_view();
   if (volume.outcome == Outcome::computed && is_limited) {
     volume = internal::app::with_place(mission.as_written.file.string(), [&] {
-      return internal::app::within_limits(volume, target, mission.navigation, progress);
+      return internal::app::within_limits(volume, target, mission.navigation, progress,
+                                          mission.as_written.exact.work_limit);
     });
     seconds.navigation += stopwatch.lap();
   }
@@ -101,9 +102,9 @@ Volume of_views(const Mission& mission, const PreparedViews& views, const RunOpt
     for (const PreparedTarget& target : view) {
       any.push_back(limited(mission, target, options, result, seconds, stopwatch, progress));
     }
-    all.push_back(internal::app::united(std::move(any), progress));
+    all.push_back(internal::app::united(std::move(any), progress, mission.as_written.exact.work_limit));
   }
-  Volume volume = internal::app::joined(std::move(all), progress);
+  Volume volume = internal::app::joined(std::move(all), progress, mission.as_written.exact.work_limit);
   seconds.engine += stopwatch.lap();
   return volume;
 }

@@ -19,7 +19,8 @@ const std::array<SectionKeys, 18>& table() {
   static const std::array<SectionKeys, 18> kTable = {{
       {Section::mission,
        "the mission",
-       {"scene", "crs", "target", "targets", "combine", "sensor", "navigation", "method", "exact", "spheres"}},
+       {"scene", "crs", "target", "targets", "combine", "sensor", "navigation", "method", "exact", "spheres",
+        "work_limit"}},
       {Section::scene,
        "scene",
        {"mesh", "osm", "raster", "up", "scale", "lod", "crs", "origin", "sea_level", "center", "radius", "bbox",

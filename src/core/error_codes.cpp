@@ -115,6 +115,7 @@ constexpr std::array kRows = {
     Row{ErrorCode::folder_in_use, ErrorKind::input, "folder-in-use"},
     Row{ErrorCode::output_unwritable, ErrorKind::output, "output-unwritable"},
     Row{ErrorCode::format_too_small, ErrorKind::output, "format-too-small"},
+    Row{ErrorCode::work_too_large, ErrorKind::input, "work-too-large"},
     Row{ErrorCode::component_missing, ErrorKind::input, "component-missing"},
     Row{ErrorCode::cancelled, ErrorKind::cancelled, "cancelled"},
     Row{ErrorCode::internal_defect, ErrorKind::internal, "internal-defect"},

@@ -5,6 +5,7 @@
 #include <mutex>
 #include <utility>
 
+#include "core/text.h"
 #include "vantage/error.h"
 
 namespace vantage::internal::core {
@@ -39,6 +40,12 @@ struct ProgressReporter::State {
   std::atomic<const char*> stage = "starting";
   std::atomic<Clock::rep> next = 0;
   std::atomic<double> fraction = 0;
+};
+
+struct ProgressReporter::Limit {
+  double most;
+  std::string advice;
+  std::atomic<double> done = 0;
 };
 
 ProgressReporter::ProgressReporter(const Progress& progress, std::string where) : asks_always_(g_asks_always > 0) {
@@ -91,6 +98,29 @@ ProgressReporter ProgressReporter::part(double from, double to) const {
   part.from_ = from_ + share_ * from;
   part.share_ = share_ * (to - from);
   return part;
+}
+
+ProgressReporter ProgressReporter::limited(double most_work, std::string advice) const {
+  ProgressReporter limited = *this;
+  limited.limit_ = std::make_shared<Limit>();
+  limited.limit_->most = most_work;
+  limited.limit_->advice = std::move(advice);
+  return limited;
+}
+
+void ProgressReporter::check_work(double more) const {
+  if (limit_->done.load() + more <= limit_->most) return;
+  throw Error(ErrorCode::work_too_large,
+              "the work would be too much: more than " + number_text(limit_->most / 1e6) +
+                  " million facets would have to go through boolean operations",
+              state_ ? state_->where : "", limit_->advice + "; or raise 'work_limit' and be patient");
+}
+
+double ProgressReporter::counted_work() const { return limit_->done; }
+
+void ProgressReporter::add_work(double work) const {
+  check_work(work);
+  limit_->done += work;
 }
 
 ProgressReporter::AskAlways::AskAlways() { ++g_asks_always; }

@@ -1,4 +1,4 @@
-// How work is followed and stopped: the one way from a loop to the caller's Progress.
+// How work is followed, stopped and bounded: the one way from a loop to the caller's Progress.
 #pragma once
 
 #include <atomic>
@@ -60,6 +60,21 @@ class VANTAGE_INTERNAL_API ProgressReporter {
   /// For a step of the stage: what it reports from 0 to 1 is told as `from` to `to`.
   ProgressReporter part(double from, double to) const;
 
+  /// The same with a limit to the work that is counted from now on, by spend() of it, its copies and its parts. The
+  /// unit is what the callers count. `advice`: what makes less work, for the error.
+  ProgressReporter limited(double most_work, std::string advice) const;
+  /// Counts work that is about to be done. Throws Error(work_too_large) where it is more than the limit leaves; the
+  /// same every time, on any machine, if the callers count the same. Without a limit it does nothing.
+  void spend(double work) const {
+    if (limit_) add_work(work);
+  }
+  /// What was counted so far; 0 without a limit.
+  double spent() const { return limit_ ? counted_work() : 0; }
+  /// Throws likewise where so much more work, which spend() will count later, is too much: to stop before it is begun.
+  void expect(double work) const {
+    if (limit_) check_work(work);
+  }
+
   /// For tests: reporters made while one lives wait for no clock, and ask at every call of a member.
   class AskAlways {
    public:
@@ -71,7 +86,11 @@ class VANTAGE_INTERNAL_API ProgressReporter {
 
  private:
   struct State;
+  struct Limit;
 
+  void add_work(double work) const;
+  void check_work(double more) const;
+  double counted_work() const;
   bool is_turn() const {
     thread_local unsigned calls = 0;
     return (++calls & 63U) == 0 || asks_always_;
@@ -81,6 +100,7 @@ class VANTAGE_INTERNAL_API ProgressReporter {
   void ask() const;
 
   std::shared_ptr<State> state_;
+  std::shared_ptr<Limit> limit_;
   bool asks_always_ = false;
   double from_ = 0, share_ = 1;  ///< of the stage
 };

@@ -57,7 +57,9 @@ class Tree {
  public:
   Tree(std::span<const std::uint64_t> costs, std::uint64_t budget, const std::function<Solid(std::size_t)>& volume_of,
        const core::ProgressReporter& progress)
-      : costs_(costs), budget_(budget), volume_of_(volume_of), progress_(progress), quiet_(progress.part(0, 0)) {}
+      : costs_(costs), budget_(budget), volume_of_(volume_of), progress_(progress), quiet_(progress.part(0, 0)) {
+    all_ = effort_of(0, costs.size());
+  }
 
   Solid run() {
     Levels root = node(0, costs_.size(), true);
@@ -67,24 +69,43 @@ class Tree {
  private:
   Levels node(std::size_t begin, std::size_t end, bool is_root);
   Levels leaf(std::size_t cell);
+  static double effort_of(std::size_t begin, std::size_t end);
+  void add_effort(double effort);
   Solid level(const Levels& left, const Levels& right, std::uint64_t cost) const;
   std::vector<std::uint64_t> costs_of(const Levels& left, const Levels& right, std::uint64_t most) const;
-  std::vector<Solid> solids_of(const Levels& left, const Levels& right, const std::vector<std::uint64_t>& costs) const;
+  std::vector<Solid> solids_of(const Levels& left, const Levels& right, const std::vector<std::uint64_t>& costs,
+                               double effort);
 
   std::span<const std::uint64_t> costs_;
   std::uint64_t budget_;
   const std::function<Solid(std::size_t)>& volume_of_;
   const core::ProgressReporter& progress_;
   core::ProgressReporter quiet_;  // only asks whether to go on
-  std::size_t done_ = 0;          // cells
+  double done_ = 0, all_ = 0;     // effort
 };
+
+/// Of a node by itself, about: the volumes of many cells have more facets, and more levels.
+double own_effort(std::size_t cells) { return static_cast<double>(cells * cells); }
+
+double Tree::effort_of(std::size_t begin, std::size_t end) {
+  const std::size_t cells = end - begin, middle = begin + cells / 2;
+  return own_effort(cells) + (cells > 1 ? effort_of(begin, middle) + effort_of(middle, end) : 0);
+}
+
+void Tree::add_effort(double effort) {
+  done_ += effort;
+  progress_.report(done_ / all_);
+  // What is left will cost about as much for each effort: stop now where a part of that is too much already.
+  constexpr double kSurely = 0.3;
+  progress_.expect(kSurely * progress_.spent() * (all_ / done_ - 1));
+}
 
 Levels Tree::leaf(std::size_t cell) {
   Levels levels;
   levels.all = costs_[cell];
   Solid solid = volume_of_(cell);
   if (!solid.empty()) levels.kept.push_back({0, std::move(solid)});
-  progress_.report(static_cast<double>(++done_) / static_cast<double>(costs_.size() + 1));
+  add_effort(own_effort(1));
   return levels;
 }
 
@@ -118,11 +139,12 @@ Solid Tree::level(const Levels& left, const Levels& right, std::uint64_t cost) c
 
 /// One after the other: Manifold numbers what it makes, and its results depend on these numbers.
 std::vector<Solid> Tree::solids_of(const Levels& left, const Levels& right,
-                                   const std::vector<std::uint64_t>& costs) const {
+                                   const std::vector<std::uint64_t>& costs, double effort) {
   std::vector<Solid> solids;
   for (const std::uint64_t cost : costs) {
     quiet_.check();
     solids.push_back(level(left, right, cost));
+    add_effort(effort / static_cast<double>(costs.size()));
   }
   return solids;
 }
@@ -161,7 +183,7 @@ Levels Tree::node(std::size_t begin, std::size_t end, bool is_root) {
   } else {
     costs = costs_of(left, right, most);
   }
-  std::vector<Solid> solids = solids_of(left, right, costs);
+  std::vector<Solid> solids = solids_of(left, right, costs, own_effort(end - begin));
   double volume = 0;
   for (std::size_t i = 0; i < costs.size(); ++i) {
     const double own = solids[i].empty() ? 0 : solids[i].volume();

@@ -18,7 +18,7 @@ Volume compute_parts(const PreparedTarget& target, const ExactOptions& options, 
     for (std::size_t i = 0; i < target.part_count(); ++i) {
       volumes.push_back(compute_visibility(target.part(i), options, progress));
     }
-    volume = volumes.size() == 1 ? std::move(volumes[0]) : intersect_volumes(volumes, progress);
+    volume = volumes.size() == 1 ? std::move(volumes[0]) : intersect_volumes(volumes, progress, options.work_limit);
   });
   return volume;
 }
@@ -27,7 +27,7 @@ Volume compute_volume(const PreparedTarget& target, const Navigation& navigation
                       const Progress& progress) {
   Volume volume;
   internal::parallel::with_threads(options.threads, [&] {
-    volume = cut_to_limits(compute_parts(target, options, progress), target, navigation, progress);
+    volume = cut_to_limits(compute_parts(target, options, progress), target, navigation, progress, options.work_limit);
   });
   return volume;
 }

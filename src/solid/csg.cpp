@@ -4,6 +4,7 @@
 #include <manifold/polygon.h>
 
 #include <algorithm>
+#include <bit>
 #include <numeric>
 #include <utility>
 
@@ -64,9 +65,13 @@ Solid wrap(manifold::Manifold evaluated) {
   return Solid(std::make_shared<const Solid::Impl>(Solid::Impl{std::move(evaluated)}));
 }
 
+/// Fewer facets than these take milliseconds, and need no thread of their own to be asked from.
+constexpr double kQuickFacets = 5000;
+
 /// Manifold evaluates lazily. While it works on another thread this one asks every few milliseconds whether to go on.
-Status evaluate(const manifold::Manifold& lazy, const core::ProgressReporter& progress) {
-  if (!progress.is_followed()) return lazy.Status();
+Status evaluate(const manifold::Manifold& lazy, double facets, const core::ProgressReporter& progress) {
+  if (progress.is_followed()) progress.check();
+  if (!progress.is_followed() || facets < kQuickFacets) return lazy.Status();
   manifold::ExecutionContext context;
   const manifold::Manifold watched = lazy.WithContext(context);
   const auto ask = [&] {
@@ -81,8 +86,11 @@ Status evaluate(const manifold::Manifold& lazy, const core::ProgressReporter& pr
   return lazy.Status();  // only takes over the cached result
 }
 
-Solid evaluated(const manifold::Manifold& lazy, const char* operation, const core::ProgressReporter& progress) {
-  const Status status = evaluate(lazy, progress);
+/// `facets`: those that go in.
+Solid evaluated(const manifold::Manifold& lazy, double facets, const char* operation,
+                const core::ProgressReporter& progress) {
+  progress.spend(facets);
+  const Status status = evaluate(lazy, facets, progress);
   if (status == Status::Cancelled) throw Error(ErrorCode::cancelled, "cancelled", operation, "");
   if (status != Status::NoError) {
     throw Error(ErrorCode::internal_defect, std::string("a boolean operation on solids failed: ") + name_of(status),
@@ -90,6 +98,8 @@ Solid evaluated(const manifold::Manifold& lazy, const char* operation, const cor
   }
   return wrap(lazy);
 }
+
+double facets_of(const Solid& a, const Solid& b) { return static_cast<double>(a.facets() + b.facets()); }
 
 std::vector<manifold::Manifold> manifolds_of(std::span<const Solid> operands) {
   std::vector<manifold::Manifold> result;
@@ -169,31 +179,56 @@ long Solid::euler() const {
 }
 
 Solid unite(const Solid& a, const Solid& b, const core::ProgressReporter& progress) {
-  return evaluated(a.impl().manifold + b.impl().manifold, "union", progress);
+  return evaluated(a.impl().manifold + b.impl().manifold, facets_of(a, b), "union", progress);
 }
 
 Solid intersect(const Solid& a, const Solid& b, const core::ProgressReporter& progress) {
-  return evaluated(a.impl().manifold ^ b.impl().manifold, "intersection", progress);
+  return evaluated(a.impl().manifold ^ b.impl().manifold, facets_of(a, b), "intersection", progress);
 }
 
 Solid subtract(const Solid& a, const Solid& b, const core::ProgressReporter& progress) {
-  return evaluated(a.impl().manifold - b.impl().manifold, "difference", progress);
+  return evaluated(a.impl().manifold - b.impl().manifold, facets_of(a, b), "difference", progress);
 }
 
 Solid unite(std::span<const Solid> operands, const core::ProgressReporter& progress) {
-  return evaluated(manifold::Manifold::BatchBoolean(manifolds_of(operands), manifold::OpType::Add), "union", progress);
+  double facets = 0;
+  for (const Solid& operand : operands) facets += static_cast<double>(operand.facets());
+  const int rounds = std::bit_width(std::max<std::size_t>(operands.size(), 1) - 1);
+  return evaluated(manifold::Manifold::BatchBoolean(manifolds_of(operands), manifold::OpType::Add), facets * rounds,
+                   "union", progress);
 }
 
 Solid intersect(std::span<const Solid> operands, const core::ProgressReporter& progress) {
   if (operands.empty()) throw Error(ErrorCode::internal_defect, "an intersection needs an operand", "", "");
-  return evaluated(manifold::Manifold::BatchBoolean(manifolds_of(operands), manifold::OpType::Intersect),
-                   "intersection", progress);
+  // Of several that are as large the first ones come first.
+  const auto is_larger = [](const std::pair<std::size_t, Solid>& a, const std::pair<std::size_t, Solid>& b) {
+    return std::pair(a.second.facets(), a.first) > std::pair(b.second.facets(), b.first);
+  };
+  std::vector<std::pair<std::size_t, Solid>> heap;
+  for (const Solid& operand : operands) heap.emplace_back(heap.size(), operand);
+  std::make_heap(heap.begin(), heap.end(), is_larger);
+  const auto take = [&] {
+    std::pop_heap(heap.begin(), heap.end(), is_larger);
+    Solid taken = std::move(heap.back().second);
+    heap.pop_back();
+    return taken;
+  };
+  const auto count = static_cast<double>(operands.size());
+  for (std::size_t done = 0; heap.size() > 1; ++done) {
+    const Solid a = take(), b = take();
+    const auto at = static_cast<double>(done);
+    Solid both = intersect(a, b, progress.part(at / count, (at + 1) / count));
+    if (both.empty()) return both;
+    heap.emplace_back(operands.size() + done, std::move(both));
+    std::push_heap(heap.begin(), heap.end(), is_larger);
+  }
+  return heap.front().second;
 }
 
 Solid simplified(const Solid& solid) {
   if (solid.empty()) return solid;
   const Solid one(solid.to_mesh());  // of one operand
-  return evaluated(one.impl().manifold.Simplify(), "simplification", {});
+  return evaluated(one.impl().manifold.Simplify(), 0, "simplification", {});
 }
 
 Solid make_box(const Box& box, const BoxLabels& labels) {

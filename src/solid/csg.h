@@ -58,14 +58,16 @@ class Solid {
 };
 
 /// Booleans are regularised: no dangling faces, and what merely touches does not meet. All ask `progress` from the
-/// calling thread while the operation runs, and throw Error(cancelled) when told to stop and Error(internal), with
+/// calling thread while the operation runs, and throw Error(cancelled) when told to stop, Error(work_too_large) when
+/// the facets that go in, which they count as work, are more than `progress` allows, and Error(internal), with
 /// Manifold's status, when an operation fails.
 Solid unite(const Solid& a, const Solid& b, const core::ProgressReporter& progress = {});
 VANTAGE_INTERNAL_API Solid intersect(const Solid& a, const Solid& b, const core::ProgressReporter& progress = {});
 Solid subtract(const Solid& a, const Solid& b, const core::ProgressReporter& progress = {});
-/// Of any number of operands, smallest first. The union of none is empty.
+/// Of any number of operands, smallest first. The union of none is empty. Its work is estimated: as if nothing were
+/// lost on the way.
 Solid unite(std::span<const Solid> operands, const core::ProgressReporter& progress = {});
-/// Of at least one operand.
+/// Of at least one operand, the smallest first; ends when nothing is left.
 VANTAGE_INTERNAL_API Solid intersect(std::span<const Solid> operands, const core::ProgressReporter& progress = {});
 
 /// Labels of a box's sides.

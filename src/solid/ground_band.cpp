@@ -119,12 +119,16 @@ Solid between(const Mesh& mesh, const HeightOfVertex& bottom, const HeightOfVert
 
 /// Of triangles that lie over each other: the space over and under any of them, without what is too low or too high
 /// above one of them.
-Solid between_all(const Mesh& mesh, double min_m, double max_m, const GroundBandLabels& labels) {
+Solid between_all(const Mesh& mesh, double min_m, double max_m, const GroundBandLabels& labels,
+                  const core::ProgressReporter& progress) {
   const Box box = bounding_box(mesh);
   const double room = 1 + (box.max - box.min).maxCoeff() + max_m - min_m;
   const double lowest = box.min.z() + min_m - room, highest = box.max.z() + max_m + room;
   std::vector<Solid> columns, too_low, too_high;
+  constexpr double kFacetsOfPrisms = 24;
+  progress.expect(kFacetsOfPrisms * static_cast<double>(mesh.triangles.size()));
   for (const Triangle& triangle : mesh.triangles) {
+    progress.tick();
     Mesh one{{mesh.vertices[triangle[0]], mesh.vertices[triangle[1]], mesh.vertices[triangle[2]]}, {{0, 1, 2}}};
     const auto prism = [&](const HeightOfVertex& bottom, const HeightOfVertex& top, std::uint32_t label) {
       return between(one, bottom, top, {label, label, label});
@@ -133,16 +137,17 @@ Solid between_all(const Mesh& mesh, double min_m, double max_m, const GroundBand
     too_low.push_back(prism(at(lowest), shifted(min_m), labels.min));
     too_high.push_back(prism(shifted(max_m), at(highest), labels.max));
   }
-  return subtract(subtract(unite(columns), unite(too_low)), unite(too_high));
+  const core::ProgressReporter one = progress.part(0, 0);  // asks only whether to go on
+  return subtract(subtract(unite(columns, one), unite(too_low, one), one), unite(too_high, one), one);
 }
 
 }  // namespace
 
 Solid make_ground_band(const Mesh& surface, double min_m, double max_m, const Box& near, const Vec3& origin,
-                       const GroundBandLabels& labels) {
+                       const GroundBandLabels& labels, const core::ProgressReporter& progress) {
   const Mesh mesh = triangles_near(surface, near, origin);
   if (mesh.empty()) return Solid();
-  if (!is_height_field(mesh)) return between_all(mesh, min_m, max_m, labels);
+  if (!is_height_field(mesh)) return between_all(mesh, min_m, max_m, labels, progress);
   return between(mesh, shifted(min_m), shifted(max_m), labels);
 }
 

@@ -21,6 +21,6 @@ struct GroundBandLabels {
 /// left out: there is no ground on them. Cost: O(n log n) in the triangles near by; where some of them lie over each
 /// other, booleans of as many prisms.
 Solid make_ground_band(const Mesh& surface, double min_m, double max_m, const Box& near, const Vec3& origin,
-                       const GroundBandLabels& labels);
+                       const GroundBandLabels& labels, const core::ProgressReporter& progress = {});
 
 }  // namespace vantage::internal::solid

@@ -23,6 +23,10 @@ using internal::solid::Solid;
 
 using Views = std::vector<std::vector<Target>>;
 
+constexpr const char* kFewerParts =
+    "ask for fewer targets or parts, for an outline of fewer corners, for a shorter range or a coarser tolerance, or for "
+    "'combine: each'";
+
 Views views_of(const VolumeProvenance& made) { return made.views.empty() ? Views{{made.target}} : made.views; }
 
 /// That all of several volumes are needed: of one target, or of several.
@@ -110,7 +114,7 @@ void check_any(const std::vector<Volume>& volumes, const char* what) {
 
 }  // namespace
 
-Volume intersect_volumes(const std::vector<Volume>& volumes, const Progress& callback) {
+Volume intersect_volumes(const std::vector<Volume>& volumes, const Progress& callback, double work_limit) {
   check_any(volumes, "intersect");
   Volume result = volumes.front();
   for (std::size_t i = 1; i < volumes.size(); ++i) {
@@ -135,7 +139,8 @@ Volume intersect_volumes(const std::vector<Volume>& volumes, const Progress& cal
     sliver = std::max(sliver, internal::solid::sliver_thickness(solids.back()));
     rounding = std::max(rounding, solids.back().epsilon());
   }
-  const internal::core::ProgressReporter progress(callback);
+  const internal::core::ProgressReporter progress =
+      internal::core::ProgressReporter(callback).limited(work_limit, kFewerParts);
   progress.begin("parts");
   LabelledMesh labelled = internal::solid::intersect(solids, progress).to_mesh();
   internal::core::drop_slivers(labelled, sliver);
@@ -149,7 +154,7 @@ Volume intersect_volumes(const std::vector<Volume>& volumes, const Progress& cal
   return result;
 }
 
-Volume unite_volumes(const std::vector<Volume>& volumes, const Progress& callback) {
+Volume unite_volumes(const std::vector<Volume>& volumes, const Progress& callback, double work_limit) {
   check_any(volumes, "unite");
   if (volumes.size() == 1) return volumes.front();
   Volume result = volumes.front();
@@ -178,7 +183,8 @@ Volume unite_volumes(const std::vector<Volume>& volumes, const Progress& callbac
     rounding = std::max(rounding, solids.back().epsilon());
     used.push_back(volume);
   }
-  const internal::core::ProgressReporter progress(callback);
+  const internal::core::ProgressReporter progress =
+      internal::core::ProgressReporter(callback).limited(work_limit, kFewerParts);
   progress.begin("targets");
   finish(internal::solid::unite(solids, progress).to_mesh(), origin, rounding, used, sources, causes, result);
   return result;

@@ -73,11 +73,12 @@ LocalCut cut(const LabelledMesh& volume, const Regions& regions, const core::Pro
   std::stable_sort(alone.begin(), alone.end(),
                    [](const Region* a, const Region* b) { return a->solid.volume() < b->solid.volume(); });
   for (const Region* region : alone) cutting.cut(region->solid, CutKind::keep_inside);
+  const core::ProgressReporter one = progress.part(0, 0);  // asks only whether to go on
   const std::vector<Solid> kept = to_combine(regions.kept);
-  const Solid forbidden = unite(to_combine(regions.forbidden));
+  const Solid forbidden = unite(to_combine(regions.forbidden), one);
   if (!kept.empty()) {
-    const Solid all = intersect(kept);
-    cutting.cut(forbidden.empty() ? all : subtract(all, forbidden), CutKind::keep_inside);
+    const Solid all = intersect(kept, one);
+    cutting.cut(forbidden.empty() ? all : subtract(all, forbidden, one), CutKind::keep_inside);
   } else if (!forbidden.empty()) {
     cutting.cut(forbidden, CutKind::keep_outside);
   }
@@ -138,10 +139,14 @@ void cut_volume(const Regions& regions, std::vector<std::uint32_t> labels, const
 
 /// `target`: with the sensor; may be null.
 Volume cut_to(const Volume& volume, const PreparedTarget* target, const Navigation& navigation,
-              const Progress& callback) {
+              const Progress& callback, double work_limit) {
   if (navigation.empty() && !(target && target->sensor().limits_view())) return volume;
   const core::Stopwatch stopwatch;
-  const core::ProgressReporter progress(callback);
+  const core::ProgressReporter progress = core::ProgressReporter(callback).limited(
+      work_limit, navigation.clearance
+                      ? "ask for a shorter range, cut the volume to the altitudes or boxes that are flown in, or leave "
+                        "large surfaces out of the obstacles with 'navigation.ground' or make them of fewer triangles"
+                      : "ask for a shorter range, or for fewer and simpler limits");
   progress.begin("navigation");
   const std::vector<Mesh> meshes = check_navigation(navigation, progress.part(0, 0.3));
   Volume result = volume;
@@ -153,10 +158,11 @@ Volume cut_to(const Volume& volume, const PreparedTarget* target, const Navigati
   std::iota(causes.begin(), causes.end(), 0u);
   FacetSourceList sources;
   std::vector<std::uint32_t> labels = sources.add(volume, causes);
-  Regions regions = make_regions(volume.causes, sources.sources(), bounds, navigation, meshes);
+  Regions regions =
+      make_regions(volume.causes, sources.sources(), bounds, navigation, meshes, progress.part(0.3, 0.4));
   if (target) add_sensor_regions(sensor::viewed_of(*target), target->sensor(), bounds, regions);
   if (navigation.clearance) {
-    add_clearance_region(*navigation.clearance, volume, regions, progress.part(0.3, 0.6));
+    add_clearance_region(*navigation.clearance, volume, regions, progress.part(0.4, 0.6));
   }
   if (!regions.kept.empty() || !regions.forbidden.empty()) {
     cut_volume(regions, std::move(labels), progress.part(0.6, 1), result);
@@ -173,13 +179,14 @@ Volume cut_to(const Volume& volume, const PreparedTarget* target, const Navigati
 
 namespace vantage {
 
-Volume cut_to_navigation(const Volume& volume, const Navigation& navigation, const Progress& progress) {
-  return internal::solid::cut_to(volume, nullptr, navigation, progress);
+Volume cut_to_navigation(const Volume& volume, const Navigation& navigation, const Progress& progress,
+                         double work_limit) {
+  return internal::solid::cut_to(volume, nullptr, navigation, progress, work_limit);
 }
 
 Volume cut_to_limits(const Volume& volume, const PreparedTarget& target, const Navigation& navigation,
-                     const Progress& progress) {
-  return internal::solid::cut_to(volume, &target, navigation, progress);
+                     const Progress& progress, double work_limit) {
+  return internal::solid::cut_to(volume, &target, navigation, progress, work_limit);
 }
 
 }  // namespace vantage

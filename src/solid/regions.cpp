@@ -44,8 +44,9 @@ using SideCauses = std::array<std::uint32_t, 6>;
 
 class Builder {
  public:
-  Builder(const std::vector<Cause>& volume_causes, const std::vector<FacetSource>& volume_sources, const Box& bounds)
-      : bounds_(bounds) {
+  Builder(const std::vector<Cause>& volume_causes, const std::vector<FacetSource>& volume_sources, const Box& bounds,
+          core::ProgressReporter progress)
+      : bounds_(bounds), progress_(std::move(progress)) {
     result_.origin = local_origin(bounds);
     result_.causes = volume_causes;
     result_.sources = volume_sources;
@@ -80,6 +81,7 @@ class Builder {
   std::pair<double, double> heights_near(const AboveGround& heights) const;
 
   Box bounds_, outer_;
+  core::ProgressReporter progress_;
   Regions result_;
 };
 
@@ -154,7 +156,8 @@ void Builder::add_above_ground(const AboveGround& limit) {
   labels.edge = label("ground edge");
   const auto [low, high] = heights_near(limit);
   result_.kept.push_back(
-      {RegionKind::above_ground, name, make_ground_band(*ground.surface, low, high, outer_, result_.origin, labels)});
+      {RegionKind::above_ground, name,
+       make_ground_band(*ground.surface, low, high, outer_, result_.origin, labels, progress_)});
 }
 
 /// The part of a zone that lies about the volume, as of boxes; but for its heights above the ground.
@@ -175,7 +178,7 @@ Solid Builder::make_heights(const AboveGround& heights, std::uint32_t cause) {
   const auto [low, high] = heights_near(heights);
   const std::uint32_t label = add_source({cause});
   if (ground.surface)
-    return make_ground_band(*ground.surface, low, high, outer_, result_.origin, {label, label, label});
+    return make_ground_band(*ground.surface, low, high, outer_, result_.origin, {label, label, label}, progress_);
   Box band = outer_;
   band.min.z() = ground.plane_z_m + low;
   band.max.z() = ground.plane_z_m + high;
@@ -198,13 +201,13 @@ void Builder::add_kept(const std::vector<Box>& boxes, const std::vector<Zone>& z
   for (const Zone& zone : zones) {
     const std::uint32_t cause = add_cause(zone_name(zone));
     Solid solid = make_zone(zone, cause);
-    if (zone.above_ground && !solid.empty()) solid = intersect(solid, make_heights(*zone.above_ground, cause));
+    if (zone.above_ground && !solid.empty()) solid = intersect(solid, make_heights(*zone.above_ground, cause), progress_);
     solids.push_back(std::move(solid));
   }
   const bool is_one = boxes.size() + zones.size() == 1;
   const RegionKind kind = is_one ? RegionKind::box : zones.empty() ? RegionKind::boxes : RegionKind::zones;
   const std::string name = !is_one ? "boxes" : zones.empty() ? "box 0" : zone_name(zones[0]);
-  result_.kept.push_back({kind, name, unite(solids)});
+  result_.kept.push_back({kind, name, unite(solids, progress_)});
 }
 
 void Builder::add_mesh(const Mesh& mesh, const std::string& name) {
@@ -228,8 +231,8 @@ void Builder::add_keep_out(const Zone& zone) {
   if (zone.above_ground && !solid.empty()) {
     // What is below the lower height above all of the ground there, and what is above the upper one, is allowed.
     const auto& [min_m, max_m, ground] = *zone.above_ground;
-    solid = subtract(solid, make_heights({-kUnbounded, min_m, ground}, cause));
-    solid = subtract(solid, make_heights({max_m, kUnbounded, ground}, cause));
+    solid = subtract(solid, make_heights({-kUnbounded, min_m, ground}, cause), progress_);
+    solid = subtract(solid, make_heights({max_m, kUnbounded, ground}, cause), progress_);
   }
   if (!solid.empty()) result_.forbidden.push_back({RegionKind::keep_out, name, std::move(solid)});
 }
@@ -271,10 +274,11 @@ void set_mesh(LabelledMesh labelled, const std::vector<FacetSource>& sources, st
 
 // All members are named: a limit that is added does not compile here before it is cut.
 Regions make_regions(const std::vector<Cause>& volume_causes, const std::vector<FacetSource>& volume_sources,
-                     const Box& bounds, const Navigation& navigation, const std::vector<Mesh>& meshes) {
+                     const Box& bounds, const Navigation& navigation, const std::vector<Mesh>& meshes,
+                     const core::ProgressReporter& progress) {
   const auto& [altitude, keep_in, keep_in_zones, keep_out, keep_out_zones, keep_in_meshes, above_ground, clearance] =
       navigation;
-  Builder builder(volume_causes, volume_sources, bounds);
+  Builder builder(volume_causes, volume_sources, bounds, progress.part(0, 0));
   if (altitude) builder.add_altitude(*altitude);
   if (above_ground) builder.add_above_ground(*above_ground);
   builder.add_kept(keep_in, keep_in_zones);

@@ -63,7 +63,8 @@ struct Regions {
 /// navigation's, checked and welded. Boxes and zones are clipped a little outside the bounds, where that changes
 /// nothing, to keep coordinates small.
 Regions make_regions(const std::vector<Cause>& volume_causes, const std::vector<FacetSource>& volume_sources,
-                     const Box& bounds, const Navigation& navigation, const std::vector<Mesh>& meshes);
+                     const Box& bounds, const Navigation& navigation, const std::vector<Mesh>& meshes,
+                     const core::ProgressReporter& progress = {});
 
 /// Forbids what is nearer to obstacles than the clearance. `volume`: what is to be cut, scene frame.
 void add_clearance_region(const Clearance& clearance, const Volume& volume, Regions& regions,

@@ -165,7 +165,8 @@ bool has_share(const PreparedTarget& target) {
 
 Volume share_volume(const PreparedTarget& target, const ExactOptions& options, const Progress& callback) {
   const core::Stopwatch stopwatch;
-  const core::ProgressReporter progress(callback);
+  const core::ProgressReporter progress = core::ProgressReporter(callback).limited(
+      options.work_limit, "ask for fewer cells ('sensor.cells'), or for a shorter range");
   progress.begin("cells");
   Volume result = volume_without_scene(target, options);
   result.counts.scene_polygons = target.scene().statistics().polygons;
@@ -183,11 +184,13 @@ Volume share_volume(const PreparedTarget& target, const ExactOptions& options, c
   }
   Local local(target.frame());
   const Solid region = local.solid_of(result);
-  double done = 0;
-  const Progress ask = [&](std::string_view, double) { return callback("cells", done); };
+  const core::ProgressReporter quiet = progress.part(0, 0);
+  const Progress ask = [&](std::string_view, double) {
+    quiet.check();
+    return true;
+  };
   const auto volume_of = [&](std::size_t i) {
     const Volume volume = compute_visibility(cells[i], coarse, callback ? ask : Progress());
-    done = static_cast<double>(i) / static_cast<double>(cells.size());
     add_counts(volume.counts, result.counts);
     return volume.outcome == Outcome::computed ? local.solid_of(volume) : Solid();
   };

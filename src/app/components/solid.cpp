@@ -12,17 +12,17 @@ Volume exact_volume(const PreparedTarget& target, const ExactOptions& options, c
   return compute_parts(target, options, progress);
 }
 
-Volume joined(std::vector<Volume> volumes, const Progress& progress) {
-  return volumes.size() == 1 ? std::move(volumes[0]) : intersect_volumes(volumes, progress);
+Volume joined(std::vector<Volume> volumes, const Progress& progress, double work_limit) {
+  return volumes.size() == 1 ? std::move(volumes[0]) : intersect_volumes(volumes, progress, work_limit);
 }
 
-Volume united(std::vector<Volume> volumes, const Progress& progress) {
-  return volumes.size() == 1 ? std::move(volumes[0]) : unite_volumes(volumes, progress);
+Volume united(std::vector<Volume> volumes, const Progress& progress, double work_limit) {
+  return volumes.size() == 1 ? std::move(volumes[0]) : unite_volumes(volumes, progress, work_limit);
 }
 
 Volume within_limits(const Volume& volume, const PreparedTarget& target, const Navigation& navigation,
-                     const Progress& progress) {
-  return cut_to_limits(volume, target, navigation, progress);
+                     const Progress& progress, double work_limit) {
+  return cut_to_limits(volume, target, navigation, progress, work_limit);
 }
 
 }  // namespace vantage::internal::app

@@ -15,13 +15,13 @@ Mesh checked_keep_in(const Mesh& mesh, const std::string& name);
 Volume exact_volume(const PreparedTarget& target, const ExactOptions& options, const Progress& progress);
 
 /// What all volumes share.
-Volume joined(std::vector<Volume> volumes, const Progress& progress);
+Volume joined(std::vector<Volume> volumes, const Progress& progress, double work_limit);
 
 /// What at least one volume holds.
-Volume united(std::vector<Volume> volumes, const Progress& progress);
+Volume united(std::vector<Volume> volumes, const Progress& progress, double work_limit);
 
 /// As cut_to_limits.
 Volume within_limits(const Volume& volume, const PreparedTarget& target, const Navigation& navigation,
-                     const Progress& progress);
+                     const Progress& progress, double work_limit);
 
 }  // namespace vantage::internal::app

@@ -1,0 +1,166 @@
+// Computations that would take too much: refused before they begin, or ended at the same place every time.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "core/progress_reporter.h"
+#include "support/cli_fixture.h"
+#include "support/random.h"
+#include "support/scenes.h"
+#include "support/solids.h"
+#include "support/wording.h"
+#include "vantage/error.h"
+#include "vantage/hash.h"
+#include "vantage/mission.h"
+#include "vantage/navigation.h"
+#include "vantage/volume.h"
+
+namespace vantage {
+namespace {
+
+using internal::core::ProgressReporter;
+using testing::expect_code;
+using testing::Random;
+using testing::SceneBuilder;
+using testing::target_of;
+
+TEST(WorkLimit, CountsTheWorkOfAllCopiesAndParts) {
+  const ProgressReporter limited = ProgressReporter().limited(100, "do less");
+  const ProgressReporter part = limited.part(0, 0.5);
+  limited.spend(40);
+  part.spend(60);
+  EXPECT_EQ(part.spent(), 100);
+  EXPECT_EQ(limited.spent(), 100);
+  limited.expect(0);
+  expect_code([&] { part.spend(1); }, ErrorCode::work_too_large);
+  expect_code([&] { limited.expect(1); }, ErrorCode::work_too_large);
+  EXPECT_EQ(limited.spent(), 100) << "what is refused is not counted";
+  limited.limited(7, "do less").spend(7);
+  EXPECT_EQ(limited.spent(), 100) << "a limit counts from now on";
+}
+
+TEST(WorkLimit, WithoutOneNothingIsCounted) {
+  const ProgressReporter free;
+  free.spend(1e300);
+  free.expect(std::numeric_limits<double>::infinity());
+  EXPECT_EQ(free.spent(), 0);
+}
+
+TEST(WorkLimit, SaysWhatToDo) {
+  const ProgressReporter limited = ProgressReporter().limited(2e6, "ask for fewer cells");
+  testing::expect_error([&] { limited.spend(3e6); }, ErrorCode::work_too_large);
+}
+
+PreparedScene soup(int triangles) {
+  Random random(2203);
+  SceneBuilder builder;
+  for (int i = 0; i < triangles; ++i) {
+    const Vec3 at = random.point(-20, 20) + Vec3(0, 0, 24);
+    builder.polygon("soup", {at, at + random.point(-6, 6), at + random.point(-6, 6)});
+  }
+  return PreparedScene(builder.scene());
+}
+
+Target square(double size) { return target_of({{-size, -size, 0}, {size, -size, 0}, {size, size, 0}, {-size, size, 0}}); }
+
+TEST(WorkLimit, OfCellsEndsAtTheSamePlaceEachTime) {
+  Sensor sensor{55};
+  sensor.visible = VisibleShare{0.5, 8};
+  const PreparedTarget target(soup(12), square(3), sensor);
+  const auto stages_until_refused = [&](double limit) {
+    std::vector<double> fractions;
+    const Progress note = [&](std::string_view, double fraction) {
+      if (fractions.empty() || fraction != fractions.back()) fractions.push_back(fraction);
+      return true;
+    };
+    const ProgressReporter::AskAlways always;
+    expect_code([&] { compute_parts(target, {.tolerance_m = 0.1, .work_limit = limit}, note); },
+                ErrorCode::work_too_large);
+    return fractions.empty() ? 0 : fractions.back();
+  };
+  const double reached = stages_until_refused(30'000);
+  EXPECT_GT(reached, 0) << "it may begin";
+  EXPECT_LT(reached, 1);
+  EXPECT_EQ(stages_until_refused(30'000), reached);
+  const Volume whole = compute_parts(target, {.tolerance_m = 0.1});
+  EXPECT_EQ(whole.outcome, Outcome::computed);
+  const Volume as_whole = compute_parts(target, {.tolerance_m = 0.1, .work_limit = 1e12});
+  EXPECT_EQ(as_whole.mesh.vertices, whole.mesh.vertices) << "the limit changes no result";
+}
+
+TEST(WorkLimit, OfPartsAndSeveralTargets) {
+  const PreparedScene scene = soup(8);
+  std::vector<Volume> volumes;
+  for (const double x : {-3.0, 0.0, 3.0}) {
+    volumes.push_back(compute_visibility(
+        PreparedTarget(scene, target_of({{x, 0, 0}, {x + 2, 0, 0}, {x + 1, 2, 0}}), {55}), {0.1, 0}));
+  }
+  const double few = 10;
+  expect_code([&] { intersect_volumes(volumes, {}, few); }, ErrorCode::work_too_large);
+  expect_code([&] { unite_volumes(volumes, {}, few); }, ErrorCode::work_too_large);
+  EXPECT_EQ(intersect_volumes(volumes).outcome, Outcome::computed);
+  EXPECT_EQ(unite_volumes(volumes).outcome, Outcome::computed);
+}
+
+TEST(WorkLimit, OfTheGroundInPiecesOverEachOther) {
+  Random random(2213);
+  Mesh pieces;
+  for (int i = 0; i < 2000; ++i) {
+    const Vec3 at = random.in_box({Vec3(-40, -40, -3), Vec3(40, 40, 0)});
+    testing::append(pieces, {{at, at + Vec3(random.uniform(1, 9), 0, 1), at + Vec3(0, random.uniform(1, 9), 0)},
+                             {{0, 1, 2}}});
+  }
+  Navigation navigation;
+  navigation.above_ground = {2, 30, Ground{0, std::make_shared<const Mesh>(pieces)}};
+  expect_code([&] { cut_to_navigation(testing::make_hemisphere(Vec3::Zero(), 50), navigation, {}, 40'000); },
+              ErrorCode::work_too_large);
+}
+
+TEST(WorkLimit, IsAKeyOfTheMissionAndNoPartOfItsHash) {
+  const std::string text = "sensor: {max_range: 60}\ntarget: {vertices: [[-5, -5, 0], [5, -5, 0], [5, 5, 0]]}\n";
+  const auto read = [](const std::string& mission) { return read_mission_text(mission, "m.yaml", SceneSource{}); };
+  EXPECT_EQ(read(text).exact.work_limit, kWorkLimit);
+  const MissionFile raised = read(text + "work_limit: 3e7\n");
+  EXPECT_EQ(raised.exact.work_limit, 3e7);
+  EXPECT_NE(mission_text(raised, ".").find("work_limit: 3"), std::string::npos);
+  EXPECT_EQ(mission_text(read(text), ".").find("work_limit"), std::string::npos);
+  EXPECT_EQ(read(mission_text(raised, ".")).exact.work_limit, 3e7);
+  for (const char* wrong : {"0", "-1", "many", ".inf"}) {
+    EXPECT_THROW(read(text + "work_limit: " + wrong + "\n"), Error) << wrong;
+  }
+  const auto hash_of = [](const MissionFile& file) {
+    return mission_hash(resolve_mission(file, std::make_shared<const LoadedScene>()));
+  };
+  EXPECT_EQ(hash_of(raised), hash_of(read(text)));
+}
+
+class CliWorkLimit : public testing::Cli {
+ protected:
+  void SetUp() override {
+    Cli::SetUp();
+    Random random(2221);
+    std::string text;
+    for (int i = 0; i < 60; ++i) {
+      const Vec3 at = random.point(-20, 20) + Vec3(0, 0, 24);
+      text += "o soup\n";
+      for (int k = 0; k < 3; ++k) {
+        const Vec3 p = at + random.point(-6, 6);
+        text += "v " + std::to_string(p.x()) + " " + std::to_string(p.y()) + " " + std::to_string(p.z()) + "\n";
+      }
+      text += "f -3 -2 -1\n";
+    }
+    write("soup.obj", text);
+    write("mission.yaml", std::string("scene: {mesh: soup.obj}\nsensor: {max_range: 55, visible: 0.5}\n") +
+                              testing::kTarget + "work_limit: 100000\n");
+  }
+};
+
+TEST_F(CliWorkLimit, RefusesAndLeavesAllFilesAsTheyWere) {
+  expect_bad({"compute", "mission.yaml", "-q", "-o", "volume.ply"}, "mission.yaml");
+}
+
+}  // namespace
+}  // namespace vantage
