@@ -105,6 +105,47 @@ TEST(WorkLimit, OfPartsAndSeveralTargets) {
   EXPECT_EQ(unite_volumes(volumes).outcome, Outcome::computed);
 }
 
+/// A rough surface of so many posts along each side.
+std::shared_ptr<const Mesh> rough_surface(std::uint32_t posts) {
+  Random random(2207);
+  Mesh mesh;
+  for (std::uint32_t i = 0; i < posts; ++i) {
+    for (std::uint32_t k = 0; k < posts; ++k) {
+      const double part = 120.0 / (posts - 1);
+      mesh.vertices.emplace_back(part * i - 60, part * k - 60, random.uniform(-9, -5));
+    }
+  }
+  for (std::uint32_t i = 0; i + 1 < posts; ++i) {
+    for (std::uint32_t k = 0; k + 1 < posts; ++k) {
+      const std::uint32_t a = posts * i + k, b = a + posts;
+      mesh.triangles.push_back({a, b, b + 1});
+      mesh.triangles.push_back({a, b + 1, a + 1});
+    }
+  }
+  return std::make_shared<const Mesh>(std::move(mesh));
+}
+
+TEST(WorkLimit, OfTheClearanceIsToldBeforeTheFirstBoolean) {
+  Navigation navigation;
+  navigation.clearance = {10, rough_surface(250)};  // 124,002 triangles
+  const Volume dome = testing::make_hemisphere(Vec3::Zero(), 55);
+  double farthest = 0;
+  const Progress note = [&](std::string_view, double fraction) {
+    farthest = std::max(farthest, fraction);
+    return true;
+  };
+  {
+    const ProgressReporter::AskAlways always;
+    expect_code([&] { cut_to_navigation(dome, navigation, note); }, ErrorCode::work_too_large);
+  }
+  EXPECT_LT(farthest, 0.55) << "solids were made already";
+  // What the other limits cut off needs no clearance from what lies there.
+  navigation.altitude = {8, 60};
+  const Volume high = cut_to_navigation(dome, navigation);
+  EXPECT_EQ(high.outcome, Outcome::computed) << high.reason;
+  EXPECT_EQ(testing::first_open_edge(high.mesh), "");
+}
+
 TEST(WorkLimit, OfTheGroundInPiecesOverEachOther) {
   Random random(2213);
   Mesh pieces;

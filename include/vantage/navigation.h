@@ -16,7 +16,8 @@ namespace vantage {
 /// to `navigation` and `total` of the volume's Seconds. Uses the threads of the caller's arena (TBB).
 ///
 /// Cost: one boolean operation, O(n log n) in the facets of the volume and the limits, and the check of each mesh for
-/// self-intersections, O(m log m) in its triangles.
+/// self-intersections, O(m log m) in its triangles. The clearance takes as many booleans as there are obstacles near
+/// what the other limits leave: more than `work_limit` allows is refused before they begin.
 ///
 /// Throws Error(input) for limits that are wrong in themselves (a reversed, empty or not finite altitude band or box, a
 /// zone that is none, a mesh that is open, inside out or intersects itself) and for a volume whose arrays do not fit

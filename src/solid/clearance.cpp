@@ -97,8 +97,10 @@ bool bound_a_convex_solid(const std::vector<Polygon>& polygons, const std::vecto
 Solid unite_neighbours(std::span<Solid> solids, const core::ProgressReporter& progress, core::ProgressCounter& done) {
   constexpr std::size_t kFew = 8;  // for one boolean
   if (solids.size() <= kFew) {
-    done.add(solids.size());
-    return unite(solids);
+    const std::size_t count = solids.size();
+    Solid all = unite(solids, progress.part(0, 0));
+    done.add(count);
+    return all;
   }
   const auto centre = [](const Solid& solid) -> Vec3 { return solid.bounds().min + solid.bounds().max; };
   Box centres;
@@ -112,17 +114,17 @@ Solid unite_neighbours(std::span<Solid> solids, const core::ProgressReporter& pr
   // One after the other: Manifold numbers what it makes, and its results depend on these numbers.
   const Solid low = unite_neighbours(solids.first(half), progress, done);
   const Solid high = unite_neighbours(solids.subspan(half), progress, done);
-  // Of a few thousand facets it takes milliseconds, and needs no thread of its own to be asked from.
-  constexpr std::size_t kMany = 200;
-  return unite(low, high, solids.size() > kMany ? progress.part(1, 1) : core::ProgressReporter());
+  return unite(low, high, progress.part(0, 0));
 }
 
 /// Convex polygons about `origin` that hold the triangles which reach into `near`, a box of the scene frame.
-std::vector<Polygon> polygons_near(const Mesh& obstacles, const Box& near, const Vec3& origin) {
+std::vector<Polygon> polygons_near(const Mesh& obstacles, const Box& near, const Vec3& origin,
+                                   const core::ProgressReporter& progress) {
   std::vector<Polygon> polygons;
   Scene scene;
   scene.objects.emplace_back();
   for (std::size_t t = 0; t < obstacles.triangles.size(); ++t) {
+    progress.tick();
     if (!meet(triangle_box(obstacles, t), near)) continue;
     std::array<Vec3, 3> corners;
     for (std::size_t k = 0; k < 3; ++k) corners[k] = obstacles.vertices[obstacles.triangles[t][k]] - origin;
@@ -136,46 +138,77 @@ std::vector<Polygon> polygons_near(const Mesh& obstacles, const Box& near, const
     scene.object_of.push_back(0);
   }
   if (scene.mesh.empty()) return polygons;
-  const PreparedScene prepared(scene);
+  const Progress ask = [&](std::string_view, double) {
+    progress.check();
+    return true;
+  };
+  const PreparedScene prepared(scene, progress.is_followed() ? ask : Progress());
   for (std::uint32_t i = 0; i < prepared.statistics().polygons; ++i) polygons.push_back(prepared.polygon(i));
   return polygons;
 }
 
-/// What is near the polygons of one component, as solids: one for each, or one for all of a convex solid. That is the
-/// same but for what is inside of the convex solid, which no volume reaches that does not begin there.
+/// What becomes one solid: a polygon, or all those of a convex solid. That is the same but for what is inside of the
+/// convex solid, which no volume reaches that does not begin there.
+struct ToGrow {
+  std::vector<std::uint32_t> polygons;
+
+  /// About so many facets will be grown, and go through the booleans: an octagon's for each ring, and one more for each
+  /// corner. Most of those of a convex solid are inside of its hull.
+  double facets(const std::vector<Polygon>& all) const {
+    constexpr double kOfRings = 8, kOfTurn = 5, kOfHull = 20;
+    if (polygons.size() > 1) return kOfHull * static_cast<double>(polygons.size());
+    return kOfRings * (static_cast<double>(all[polygons[0]].size()) + kOfTurn);
+  }
+};
+
+/// Of one component. `centre`: where the volume begins.
 template <typename ReachesVolume>
-void add_grown(const std::vector<Polygon>& polygons, const std::vector<std::uint32_t>& members, double radius,
-               const Vec3& centre, std::uint32_t label, const ReachesVolume& reaches_volume,
-               std::vector<Solid>& solids) {
+void add_to_grow(const std::vector<Polygon>& polygons, const std::vector<std::uint32_t>& members, const Vec3& centre,
+                 const ReachesVolume& reaches_volume, std::vector<ToGrow>& to_grow) {
   std::vector<std::uint32_t> near;
   for (const std::uint32_t i : members) {
     if (reaches_volume(polygons[i])) near.push_back(i);
   }
-  const auto add = [&](Mesh mesh) {
-    std::vector<std::uint32_t> labels(mesh.triangles.size(), label);
-    solids.push_back(Solid({std::move(mesh), std::move(labels)}, "clearance"));
-  };
-  if (!near.empty() && bound_a_convex_solid(polygons, members)) {
-    std::vector<Vec3> points;
+  if (near.empty()) return;
+  if (bound_a_convex_solid(polygons, members)) {
     Box box;
-    for (const std::uint32_t i : members) {
+    for (const std::uint32_t i : members) box.extend(box_of(polygons[i]));
+    const bool holds_centre = (centre.array() >= box.min.array()).all() && (centre.array() <= box.max.array()).all();
+    if (!holds_centre) {
+      to_grow.push_back({members});
+      return;
+    }
+  }
+  for (const std::uint32_t i : near) to_grow.push_back({{i}});
+}
+
+Solid grown_solid(const ToGrow& what, const std::vector<Polygon>& polygons, double radius, std::uint32_t label) {
+  Mesh mesh = core::grow_polygon(polygons[what.polygons[0]], radius);
+  if (what.polygons.size() > 1) {
+    std::vector<Vec3> points;
+    for (const std::uint32_t i : what.polygons) {
       const Mesh grown = core::grow_polygon(polygons[i], radius);
       points.insert(points.end(), grown.vertices.begin(), grown.vertices.end());
-      box.extend(box_of(polygons[i]));
     }
-    const bool holds_centre = (centre.array() >= box.min.array()).all() && (centre.array() <= box.max.array()).all();
-    if (!holds_centre) return add(convex_hull(points));
+    mesh = convex_hull(points);
   }
-  for (const std::uint32_t i : near) add(core::grow_polygon(polygons[i], radius));
+  std::vector<std::uint32_t> labels(mesh.triangles.size(), label);
+  return Solid({std::move(mesh), std::move(labels)}, "clearance");
+}
+
+/// What the booleans of so many facets in so many solids will count as work, about: in each round, in which solids are
+/// united in pairs, nearly half as many facets more go in, as new ones appear where solids meet. Measured of 1,800 and
+/// of 10,000 triangles of a city's surface: 1.7 and 1.4 times.
+double work_to_unite(double facets, std::size_t solids) {
+  constexpr double kMoreInEachRound = 1.4;
+  return solids > 1 ? kMoreInEachRound * facets * std::log2(static_cast<double>(solids)) : 0;
 }
 
 }  // namespace
 
 Solid make_clearance(const Clearance& clearance, const Mesh& volume, const Vec3& from, const Vec3& origin,
                      std::uint32_t label, const core::ProgressReporter& progress) {
-  Mesh local = volume;
-  for (Vec3& vertex : local.vertices) vertex -= origin;
-  const Box bounds = bounding_box(local);
+  const Box bounds = bounding_box(volume);
   const double reach = (1 + core::kMostGrownTooFar) * clearance.distance_m;
   // Merging moves what is in one plane but for rounding by as much, a few roundings of the largest coordinate; and
   // hulls and booleans round to 1e-12 of that about the origin.
@@ -185,24 +218,32 @@ Solid make_clearance(const Clearance& clearance, const Mesh& volume, const Vec3&
 
   const Box near = grown(bounds, reach);
   const std::vector<Polygon> polygons =
-      polygons_near(*clearance.obstacles, {near.min + origin, near.max + origin}, origin);
-  progress.report(0.2);
-  const TriangleTree tree(local);
+      polygons_near(*clearance.obstacles, {near.min + origin, near.max + origin}, origin, progress);
+  progress.report(0.1);
+  const TriangleTree tree(volume);
   const Vec3 centre = from - origin;
   const auto reaches_volume = [&](const Polygon& polygon) {
+    progress.tick();
     const Box box = grown(box_of(polygon), reach);
     if (!meet(box, bounds)) return false;
     const bool is_near = tree.any_near(box, [](std::uint32_t) { return true; });
     return is_near || tree.winding_number(polygon[0]) != 0;
   };
   const std::vector<std::vector<std::uint32_t>> components = components_of(polygons);
-  std::vector<Solid> solids;
+  std::vector<ToGrow> to_grow;
   for (const std::vector<std::uint32_t>& component : components) {
-    progress.tick();
-    add_grown(polygons, component, radius, centre, label, reaches_volume, solids);
+    add_to_grow(polygons, component, centre, reaches_volume, to_grow);
   }
-  progress.report(0.4);
-  const core::ProgressReporter uniting = progress.part(0.4, 1);
+  progress.report(0.2);
+  double facets = 0;
+  for (const ToGrow& one : to_grow) facets += one.facets(polygons);
+  progress.expect(work_to_unite(facets, to_grow.size()));
+  std::vector<Solid> solids;
+  const core::ProgressReporter growing = progress.part(0.2, 0.4), uniting = progress.part(0.4, 1);
+  for (const ToGrow& one : to_grow) {
+    growing.report(solids.size(), to_grow.size());
+    solids.push_back(grown_solid(one, polygons, radius, label));
+  }
   core::ProgressCounter done(uniting, solids.size());
   return unite_neighbours(std::span(solids), uniting, done);
 }

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -44,28 +45,46 @@ std::vector<Solid> to_combine(const std::vector<Region>& regions) {
 /// The volume, cut by one solid after another.
 class Cutting {
  public:
+  /// `count`: solids, and what else takes as long.
   Cutting(const LabelledMesh& volume, std::size_t count, core::ProgressReporter progress)
       : result_{volume, 0, 0}, count_(static_cast<double>(count)), progress_(std::move(progress)) {}
 
   void cut(const Solid& solid, CutKind kind) {
     if (result_.mesh.mesh.empty()) return;
-    const core::ProgressReporter part = progress_.part(done_ / count_, (done_ + 1) / count_);
-    LocalCut next = cut_locally(result_.mesh, solid, kind, part);
+    LocalCut next = cut_locally(result_.mesh, solid, kind, next_part());
     next.epsilon = std::max(next.epsilon, result_.epsilon);
     result_ = std::move(next);
-    ++done_;
+    is_cut_ = true;
   }
+  core::ProgressReporter next_part() {
+    const core::ProgressReporter part = progress_.part(done_ / count_, (done_ + 1) / count_);
+    ++done_;
+    return part;
+  }
+  const Mesh& left() const { return result_.mesh.mesh; }
+  bool is_cut() const { return is_cut_; }
   LocalCut take() { return std::move(result_); }
 
  private:
   LocalCut result_;
   double count_, done_ = 0;
+  bool is_cut_ = false;
   core::ProgressReporter progress_;
 };
 
-/// What is kept comes first, the smallest first of all: it leaves the less.
-LocalCut cut(const LabelledMesh& volume, const Regions& regions, const core::ProgressReporter& progress) {
-  Cutting cutting(volume, regions.kept.size() + regions.forbidden.size(), progress);
+/// The clearance comes last, from what the other limits leave: only obstacles near to that matter.
+struct LateClearance {
+  const Clearance* clearance;  ///< may be null
+  Vec3 from;                   ///< a point from which the whole volume can be reached, scene frame
+};
+
+/// What is kept comes first, the smallest first of all: it leaves the less. Nothing where nothing had to be cut. The
+/// clearance is added to the regions.
+std::optional<LocalCut> cut(const LabelledMesh& volume, const LateClearance& late, Regions& regions,
+                            const core::ProgressReporter& progress) {
+  constexpr std::size_t kForClearance = 4;
+  const std::size_t more = late.clearance ? kForClearance : 0;
+  Cutting cutting(volume, regions.kept.size() + regions.forbidden.size() + more, progress);
   std::vector<const Region*> alone;
   for (const Region& region : regions.kept) {
     if (stands_alone(region)) alone.push_back(&region);
@@ -85,6 +104,12 @@ LocalCut cut(const LabelledMesh& volume, const Regions& regions, const core::Pro
   for (const Region& region : regions.forbidden) {
     if (stands_alone(region)) cutting.cut(region.solid, CutKind::keep_outside);
   }
+  if (late.clearance && !cutting.left().empty()) {
+    const std::size_t before = regions.forbidden.size();
+    add_clearance_region(*late.clearance, cutting.left(), late.from, regions, cutting.next_part());
+    if (regions.forbidden.size() > before) cutting.cut(regions.forbidden.back().solid, CutKind::keep_outside);
+  }
+  if (!cutting.is_cut()) return std::nullopt;
   return cutting.take();
 }
 
@@ -116,10 +141,12 @@ void make_empty(const Emptiness& emptiness, Volume& result) {
 }
 
 /// `labels`: of the volume's facets, see Regions::sources.
-void cut_volume(const Regions& regions, std::vector<std::uint32_t> labels, const core::ProgressReporter& progress,
-                Volume& result) {
+void cut_volume(Regions regions, const LateClearance& late, std::vector<std::uint32_t> labels,
+                const core::ProgressReporter& progress, Volume& result) {
   const LabelledMesh volume = moved_to_origin(result.mesh, std::move(labels), regions.origin);
-  auto [labelled, epsilon, through] = cut(volume, regions, progress);
+  std::optional<LocalCut> found = cut(volume, late, regions, progress);
+  if (!found) return;
+  auto& [labelled, epsilon, through] = *found;
   core::drop_slivers(labelled, numerics::kSliverEpsilons * epsilon);
   if (labelled.mesh.empty()) {
     return make_empty(explain_emptiness(Solid(volume, "the volume"), regions, progress), result);
@@ -161,12 +188,8 @@ Volume cut_to(const Volume& volume, const PreparedTarget* target, const Navigati
   Regions regions =
       make_regions(volume.causes, sources.sources(), bounds, navigation, meshes, progress.part(0.3, 0.4));
   if (target) add_sensor_regions(sensor::viewed_of(*target), target->sensor(), bounds, regions);
-  if (navigation.clearance) {
-    add_clearance_region(*navigation.clearance, volume, regions, progress.part(0.4, 0.6));
-  }
-  if (!regions.kept.empty() || !regions.forbidden.empty()) {
-    cut_volume(regions, std::move(labels), progress.part(0.6, 1), result);
-  }
+  const LateClearance late{navigation.clearance ? &*navigation.clearance : nullptr, volume.frame.origin};
+  cut_volume(std::move(regions), late, std::move(labels), progress.part(0.4, 1), result);
   progress.finish();
   const double seconds = stopwatch.seconds();
   result.seconds.navigation += seconds;

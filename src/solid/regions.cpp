@@ -289,12 +289,12 @@ Regions make_regions(const std::vector<Cause>& volume_causes, const std::vector<
   return builder.take();
 }
 
-void add_clearance_region(const Clearance& clearance, const Volume& volume, Regions& regions,
+void add_clearance_region(const Clearance& clearance, const Mesh& volume, const Vec3& from, Regions& regions,
                           const core::ProgressReporter& progress) {
   regions.causes.push_back({CauseKind::navigation, "clearance"});
   regions.sources.push_back({static_cast<std::uint32_t>(regions.causes.size() - 1)});
   const auto label = static_cast<std::uint32_t>(regions.sources.size() - 1);
-  Solid solid = make_clearance(clearance, volume.mesh, volume.frame.origin, regions.origin, label, progress);
+  Solid solid = make_clearance(clearance, volume, from, regions.origin, label, progress);
   if (solid.empty()) return;
   regions.forbidden.push_back(
       {RegionKind::clearance, "the clearance of " + core::number_text(clearance.distance_m) + " m", std::move(solid)});

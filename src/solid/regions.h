@@ -66,8 +66,9 @@ Regions make_regions(const std::vector<Cause>& volume_causes, const std::vector<
                      const Box& bounds, const Navigation& navigation, const std::vector<Mesh>& meshes,
                      const core::ProgressReporter& progress = {});
 
-/// Forbids what is nearer to obstacles than the clearance. `volume`: what is to be cut, scene frame.
-void add_clearance_region(const Clearance& clearance, const Volume& volume, Regions& regions,
+/// Forbids what is nearer to obstacles than the clearance, where there is any of it near. `volume`: what is to be cut,
+/// about Regions::origin; `from`: see make_clearance, scene frame.
+void add_clearance_region(const Clearance& clearance, const Mesh& volume, const Vec3& from, Regions& regions,
                           const core::ProgressReporter& progress);
 
 /// The mesh with its vertices relative to `origin`.
