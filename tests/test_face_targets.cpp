@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <string>
@@ -206,6 +207,66 @@ TEST_F(CliFaces, ComputeQueryAndVerifyAFacade) {
   EXPECT_NE(answers.find("40,0,6,false,"), std::string::npos) << answers;
   expect_bad_mission(std::string(testing::kScene) + testing::kSensor + "target: {object: blok, part: roof}\n",
                      "mission.yaml:3:");
+}
+
+// All four walls of a building: nobody sees them from one position, and that needs no computation.
+TEST_F(FaceTargets, SeveralFacesAreCountedAndRefusedEarlyWhereTheyFaceAway) {
+  const auto has = [](const std::vector<Warning>& notes, WarningCode code) {
+    return std::any_of(notes.begin(), notes.end(), [&](const Warning& note) { return note.code == code; });
+  };
+  const Mission walls = mesh("{object: town_hall, part: facade}");
+  ASSERT_TRUE(has(walls.notes, WarningCode::faces_together));
+  std::vector<std::string> words;
+  for (const Warning& note : walls.notes) words.push_back(note.text);
+  testing::expect_wording(words);
+  const Result none = run_mission(walls);
+  EXPECT_EQ(none.volume.outcome, Outcome::no_common_view);
+  EXPECT_EQ(none.volume.counts.candidate_blockers, 0U) << "a volume of a part was computed";
+  EXPECT_TRUE(has(none.volume.notes, WarningCode::faces_together));
+  testing::expect_wording({none.volume.reason, none.volume.hint});
+  ASSERT_TRUE(none.volume.provenance);
+  EXPECT_EQ(none.volume.provenance->target.parts.size(), walls.target.parts.size());
+  EXPECT_EQ(none.volume.lift_m.size(), walls.target.parts.size());
+
+  EXPECT_FALSE(has(mesh("{object: town_hall, part: facade, facing: west}").notes, WarningCode::faces_together));
+  EXPECT_FALSE(has(mesh("{object: town_hall, part: roof}").notes, WarningCode::faces_together));
+  write_bytes(folder_ / "each.yaml", "scene: {mesh: city.obj}\nsensor: {max_range: 60}\ncombine: each\n"
+                                     "target: {object: town_hall, part: facade}\n");
+  const Mission each = resolve_mission(read_mission(folder_ / "each.yaml"));
+  EXPECT_FALSE(has(each.notes, WarningCode::faces_together));
+  for (const Result& one : run_missions(each)) EXPECT_EQ(one.volume.outcome, Outcome::computed) << one.volume.reason;
+}
+
+TEST_F(FaceTargets, TwoWallsOfACornerAreSeenFromTheCorner) {
+  write_bytes(folder_ / "corner.yaml",
+              "scene: {mesh: city.obj}\nsensor: {max_range: 60}\ntargets:\n"
+              "  - {object: town_hall, part: facade, facing: west}\n"
+              "  - {object: town_hall, part: facade, facing: south}\n");
+  const Result corner = run_mission(resolve_mission(read_mission(folder_ / "corner.yaml")));
+  EXPECT_EQ(corner.volume.outcome, Outcome::computed) << corner.volume.reason;
+  for (const Vec3& vertex : corner.volume.mesh.vertices) {
+    EXPECT_LT(vertex.x(), 20 + 1e-6);
+    EXPECT_LT(vertex.y(), -5 + 1e-6);
+  }
+}
+
+// From one place and a little round it: more than nothing, and less than anyone would fly to.
+TEST_F(FaceTargets, SaysThatAVolumeIsNextToNothing) {
+  write_bytes(folder_ / "small.yaml",
+              "scene: {mesh: city.obj}\nsensor: {max_range: 60}\ntarget: {object: town_hall, part: roof}\n"
+              "navigation: {keep_in: [{min: [25, 0, 30], max: [25.5, 0.5, 30.5]}]}\n");
+  const Mission small = resolve_mission(read_mission(folder_ / "small.yaml"));
+  const Result result = run_mission(small);
+  ASSERT_EQ(result.volume.outcome, Outcome::computed) << result.volume.reason;
+  EXPECT_NEAR(enclosed_volume(result.volume.mesh), 0.125, 1e-9);
+  const auto is_small = [](const Warning& note) { return note.code == WarningCode::volume_small; };
+  const auto note = std::find_if(result.volume.notes.begin(), result.volume.notes.end(), is_small);
+  ASSERT_NE(note, result.volume.notes.end());
+  testing::expect_wording(note->text);
+  Mission tiny_world = small;  // a volume that is small because all is
+  tiny_world.sensor.max_range_m = 2;
+  const std::vector<Warning> notes = mission_warnings(tiny_world, &result.volume);
+  EXPECT_TRUE(std::none_of(notes.begin(), notes.end(), is_small));
 }
 
 }  // namespace

@@ -52,7 +52,7 @@ VANTAGE_API Volume unite_volumes(const std::vector<Volume>& volumes, const Progr
                                  double work_limit = kWorkLimit);
 
 /// The volume of a target of any number of parts, before limits besides the range: compute_visibility of each part,
-/// intersected.
+/// intersected. Where no position is in front of all parts, and within range of them, that is told at once.
 ///
 /// Of a target whose sensor has a VisibleShare: what sees at least that part of its area, is within range of all of it
 /// and in front of all its parts. Guaranteed from the inside: the parts are cut into convex cells, and from each point

@@ -22,6 +22,8 @@ enum class WarningCode {
   zones_left_out,      ///< a file of zones holds what was not taken as a zone
   clearance_from_all,  ///< the scene does not say what of it is ground: the clearance is kept from all of it
   above_surface,       ///< heights above the ground are measured from a raster's surface, with roofs and trees
+  faces_together,      ///< the target is several faces of an object, all of which must be seen from one position
+  volume_small,        ///< the volume is smaller than a cubic metre, far less than the range allows
   // of a volume's file
   volume_changed,           ///< the mesh is not the one that the file was written with
   volume_of_other_scene,    ///< the volume was computed in another scene

@@ -15,6 +15,7 @@
 #include "app/named_objects.h"
 #include "app/scene_lookups.h"
 #include "app/target_section.h"
+#include "core/text.h"
 #include "vantage/error.h"
 #include "vantage/faces.h"
 #include "vantage/input.h"
@@ -180,10 +181,20 @@ std::vector<Face> wanted_faces(const Mission& mission, const FaceTarget& wanted,
                             : "leave 'facing' out for all of them, or choose one of: " + known);
 }
 
+Warning faces_together(const std::vector<Face>& faces, const Target& target, FaceKind kind) {
+  double area = 0;
+  for (const Face& face : faces) area += face.area_m2;
+  return {WarningCode::faces_together,
+          target.name + ": all " + std::to_string(faces.size()) + (kind == FaceKind::roof ? " roof faces" : " walls") + " of " +
+              core::number_text(std::round(area)) + " m2, in " + std::to_string(target.parts.size()) +
+              " convex parts, must be seen from one position; 'facing' or 'nearest' choose of them, and 'combine: each' "
+              "makes a volume for each"};
+}
+
 }  // namespace
 
-std::vector<Target> face_targets(const Mission& mission, const FaceTarget& wanted, const Target& target,
-                                 const geo::LocalFrame* frame, bool together) {
+FaceTargets face_targets(const Mission& mission, const FaceTarget& wanted, const Target& target,
+                         const geo::LocalFrame* frame, bool together) {
   const Objects objects = wanted.at_deg         ? at_place(mission, *wanted.at_deg, *frame)
                           : !wanted.osm.empty() ? of_map(mission, wanted.osm)
                                                 : named(mission, wanted.object);
@@ -194,16 +205,17 @@ std::vector<Target> face_targets(const Mission& mission, const FaceTarget& wante
   name += std::string(", ") + name_of(wanted.kind);
   if (wanted.facing_deg) name += " facing " + heading_text(*wanted.facing_deg);
   if (!target.name.empty()) name = target.name;
-  std::vector<Target> targets;
+  FaceTargets result;
   if (together || faces.size() == 1) {
-    targets.push_back(target_of(faces, name));
+    result.targets.push_back(target_of(faces, name));
+    if (faces.size() > 1) result.note = faces_together(faces, result.targets[0], wanted.kind);
   } else {
     for (std::size_t i = 0; i < faces.size(); ++i) {
-      targets.push_back(target_of(std::span(faces).subspan(i, 1), name + " " + std::to_string(i + 1)));
+      result.targets.push_back(target_of(std::span(faces).subspan(i, 1), name + " " + std::to_string(i + 1)));
     }
   }
-  for (Target& one : targets) one.offset_m = target.offset_m;
-  return targets;
+  for (Target& one : result.targets) one.offset_m = target.offset_m;
+  return result;
 }
 
 }  // namespace vantage::internal::app

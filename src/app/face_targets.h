@@ -1,6 +1,7 @@
 // Targets that are roofs and facades of the scene's objects.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "geo/local_frame.h"
@@ -8,11 +9,16 @@
 
 namespace vantage::internal::app {
 
+struct FaceTargets {
+  std::vector<Target> targets;
+  std::optional<Warning> note = std::nullopt;  ///< how many faces are one target, where they are several
+};
+
 /// The faces that `wanted` means, in the scene frame, each a target: of the name that `target` has, or of the object's
 /// and the part's, and with its offset. `together`: one target of all of them. `frame`: of the scene; needed for at_deg
 /// only. Throws Error(input), with the place in the mission file, for an object that is not there and for one without
 /// such a face.
-std::vector<Target> face_targets(const Mission& mission, const FaceTarget& wanted, const Target& target,
-                                 const geo::LocalFrame* frame, bool together);
+FaceTargets face_targets(const Mission& mission, const FaceTarget& wanted, const Target& target,
+                         const geo::LocalFrame* frame, bool together);
 
 }  // namespace vantage::internal::app

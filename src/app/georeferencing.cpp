@@ -259,7 +259,9 @@ std::vector<std::vector<Target>> placed(Mission& mission, const std::vector<Miss
     if (!given[i].face_target) continue;
     const OneTarget one(mission, given[i]);
     const bool together = mission.as_written.combine == Combine::all && !given[i].both_sides;
-    targets[i] = face_targets(mission, *given[i].face_target, given[i].target, frame, together);
+    FaceTargets faces = face_targets(mission, *given[i].face_target, given[i].target, frame, together);
+    targets[i] = std::move(faces.targets);
+    if (faces.note) mission.notes.push_back(std::move(*faces.note));
   }
   for (std::size_t i = 0; i < given.size(); ++i) {
     with_place(given[i].place, [&] {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include "app/combine_targets.h"
 #include "app/scene_warnings.h"
@@ -144,6 +145,20 @@ Shortfall of(const Mission& mission) {
   return loaded.raster || has_ground ? of_surface(loaded, reach(mission)) : Shortfall{};
 }
 
+/// Little more than nothing where the range allows very much: a target that can hardly be seen whole.
+std::optional<Warning> small_volume(const Mission& mission, const Volume& volume) {
+  constexpr double kSmall = 1, kOfBall = 1e-3;  // cubic metres; of a ball as large as the range
+  if (volume.outcome != Outcome::computed) return std::nullopt;
+  const double found = enclosed_volume(volume.mesh), range = range_limit_m(mission.sensor);
+  if (!(found < kSmall) || !(found < kOfBall * 4.0 / 3.0 * std::numbers::pi * range * range * range)) {
+    return std::nullopt;
+  }
+  return Warning{WarningCode::volume_small,
+                 internal::core::format("the volume has only {:.2g} cubic metres: from nearly nowhere is all of the "
+                                        "target seen within the limits; choose less of it, or relax a limit",
+                                        found)};
+}
+
 }  // namespace
 
 std::vector<Warning> mission_warnings(const Mission& mission, const Volume* volume) {
@@ -169,6 +184,9 @@ std::vector<Warning> mission_warnings(const Mission& mission, const Volume* volu
                                                across * 1000)});
   }
   for (Warning& warning : internal::app::scene_warnings(mission, volume)) warnings.push_back(std::move(warning));
+  if (volume) {
+    if (std::optional<Warning> small = small_volume(mission, *volume)) warnings.push_back(std::move(*small));
+  }
   return warnings;
 }
 

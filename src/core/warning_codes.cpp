@@ -24,6 +24,8 @@ constexpr std::array kWarningRows = {
     WarningRow{WarningCode::zones_left_out, "zones-left-out"},
     WarningRow{WarningCode::clearance_from_all, "clearance-from-all"},
     WarningRow{WarningCode::above_surface, "above-surface"},
+    WarningRow{WarningCode::faces_together, "faces-together"},
+    WarningRow{WarningCode::volume_small, "volume-small"},
     WarningRow{WarningCode::volume_changed, "volume-changed"},
     WarningRow{WarningCode::volume_of_other_scene, "volume-of-other-scene"},
     WarningRow{WarningCode::volume_of_other_mission, "volume-of-other-mission"},

@@ -1,25 +1,79 @@
+#include <Eigen/Geometry>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "core/parallel.h"
+#include "solid/kernel_point.h"
 #include "solid/visible_share.h"
 #include "vantage/navigation.h"
+#include "vantage/version.h"
 
 namespace vantage {
+namespace {
+
+/// Whether a position can be in front of all parts, each from its side, and within range of them along each axis. Where
+/// it says no there is none: it says yes where no more than a thousandth of the range is missing.
+bool may_have_common_front(const PreparedTarget& target) {
+  const double range = range_limit_m(target.sensor()), slack = 1e-3 * range;
+  const Vec3 origin = target.frame().origin;
+  Box near{Vec3::Constant(-range - slack), Vec3::Constant(range + slack)};  // about the origin
+  std::vector<internal::solid::HalfSpace> fronts;
+  for (std::size_t i = 0; i < target.part_count(); ++i) {
+    const TargetFrame& frame = target.frame(i);
+    for (const Eigen::Vector2d& corner : frame.polygon) {
+      const Vec3 at = frame.to_scene({corner.x(), corner.y(), 0}) - origin, reach = Vec3::Constant(range + slack);
+      near.min = near.min.cwiseMax(at - reach);
+      near.max = near.max.cwiseMin(at + reach);
+    }
+    if (!frame.all_sides) fronts.push_back({-frame.normal, slack - frame.normal.dot(frame.origin - origin)});
+  }
+  if (!(near.min.array() < near.max.array()).all()) return false;
+  return internal::solid::kernel_point(fronts, near, slack / 2).has_value();
+}
+
+/// `volume`: of some parts.
+void state_whole_target(const PreparedTarget& target, Volume& volume) {
+  volume.lift_m.clear();
+  for (std::size_t i = 0; i < target.part_count(); ++i) volume.lift_m.push_back(target.lift_m(i));
+  if (volume.provenance) volume.provenance->target = target.target();
+}
+
+Volume without_common_front(const PreparedTarget& target, const ExactOptions& options) {
+  Volume volume;
+  volume.tolerance_m = options.tolerance_m;
+  volume.frame = target.frame();
+  volume.notes = target.notes();
+  volume.provenance = {VANTAGE_VERSION, "exact", target.target(), target.sensor(), "", ""};
+  volume.counts.scene_polygons = target.scene().statistics().polygons;
+  state_whole_target(target, volume);
+  volume.outcome = Outcome::no_common_view;
+  volume.reason = "no position is in front of all " + std::to_string(target.part_count()) +
+                  " parts of the target and within range of them";
+  volume.hint = "choose parts that face the same way, or make a volume for each part";
+  return volume;
+}
+
+Volume volume_of_parts(const PreparedTarget& target, const ExactOptions& options, const Progress& progress) {
+  if (target.part_count() > 1 && !may_have_common_front(target)) return without_common_front(target, options);
+  if (internal::solid::has_share(target)) return internal::solid::share_volume(target, options, progress);
+  std::vector<Volume> volumes;
+  for (std::size_t i = 0; i < target.part_count(); ++i) {
+    volumes.push_back(compute_visibility(target.part(i), options, progress));
+    if (volumes.back().outcome != Outcome::computed) break;  // nor has the whole a volume
+  }
+  if (target.part_count() == 1) return std::move(volumes[0]);
+  const bool has_all = volumes.size() == target.part_count();
+  Volume volume = intersect_volumes(volumes, progress, options.work_limit);
+  if (!has_all) state_whole_target(target, volume);
+  return volume;
+}
+
+}  // namespace
 
 Volume compute_parts(const PreparedTarget& target, const ExactOptions& options, const Progress& progress) {
   Volume volume;
-  internal::parallel::with_threads(options.threads, [&] {
-    if (internal::solid::has_share(target)) {
-      volume = internal::solid::share_volume(target, options, progress);
-      return;
-    }
-    std::vector<Volume> volumes;
-    for (std::size_t i = 0; i < target.part_count(); ++i) {
-      volumes.push_back(compute_visibility(target.part(i), options, progress));
-    }
-    volume = volumes.size() == 1 ? std::move(volumes[0]) : intersect_volumes(volumes, progress, options.work_limit);
-  });
+  internal::parallel::with_threads(options.threads, [&] { volume = volume_of_parts(target, options, progress); });
   return volume;
 }
 

@@ -147,7 +147,7 @@ Volume intersect_volumes(const std::vector<Volume>& volumes, const Progress& cal
   if (labelled.mesh.empty()) {
     make_empty(Outcome::no_common_view,
                "no position sees all " + std::to_string(volumes.size()) + " parts of the target",
-               "choose a smaller or convex target, or a longer range", result);
+               "choose a part of the target, or make a volume for each part", result);
     return result;
   }
   finish(std::move(labelled), origin, rounding, volumes, sources, causes, result);
