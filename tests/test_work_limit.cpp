@@ -203,5 +203,19 @@ TEST_F(CliWorkLimit, RefusesAndLeavesAllFilesAsTheyWere) {
   expect_bad({"compute", "mission.yaml", "-q", "-o", "volume.ply"}, "mission.yaml");
 }
 
+// The computation would take minutes.
+TEST_F(CliWorkLimit, TellsHowFarItIsInAPipeAndStopsWithNothingHalf) {
+  write("mission.yaml", std::string("scene: {mesh: soup.obj}\nsensor: {max_range: 55, visible: 0.5}\n") +
+                            testing::kTarget + "work_limit: 1e12\n");
+  const auto before = files();
+  options_.shows_progress = true;
+  options_.signal = SIGINT;
+  options_.signal_when = [](const std::string& err) { return err.find("vantage: cells ") != std::string::npos; };
+  const testing::ProgramRun result = run({"compute", "mission.yaml", "-o", "volume.ply"});
+  EXPECT_EQ(result.exit_code, 130) << result.err;
+  EXPECT_EQ(result.out, "");
+  EXPECT_TRUE(files() == before);
+}
+
 }  // namespace
 }  // namespace vantage
