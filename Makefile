@@ -77,6 +77,8 @@ nightly: tested benchmarks  ## what takes too long for every change: lint and sa
 	build/bin/vantage_attack --meshes $(or $(MESHES),20000) --seed $(or $(SEED),$(shell date +%Y%m%d)) \
 	  --jobs $(JOBS) --out build/attack
 	python3 tests/forge/forge_certificates.py --mutants $(or $(MUTANTS),5000) --seed $(or $(SEED),$(shell date +%Y%m%d))
+	build/bin/vantage_attack --missions $(or $(MISSIONS),2000) --seed $(or $(SEED),$(shell date +%Y%m%d)) \
+	  --jobs $(JOBS) --out build/attack
 
 .PHONY: install
 install: build  ## into PREFIX (/usr/local)

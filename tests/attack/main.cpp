@@ -16,6 +16,7 @@
 #include "mesh_attack.h"
 #include "mesh_self_test.h"
 #include "minimise.h"
+#include "missions.h"
 #include "self_test.h"
 #include "summary.h"
 
@@ -29,16 +30,17 @@ struct Options {
   unsigned seconds = 60;
   std::filesystem::path out, mission;
   std::size_t meshes = 0;
-  bool self_test = false, told = false, only = false;
+  bool self_test = false, told = false, only = false, missions = false;
 };
 
 constexpr const char* kUsage =
     R"(usage: vantage_attack [options]
   --scenes N     how many scenes to draw (2000)
   --meshes N     draw so many meshes instead, and judge what the proof says of them
-  --first I      the number of the first scene or mesh (0)
+  --missions N   draw N missions instead, of every kind of target, side, combination and limit
+  --first I      the number of the first scene, mesh or mission (0)
   --seed S       of all draws (1)
-  --only I       that scene or mesh alone, and all that is found in it
+  --only I       that scene, mesh or mission alone, and all that is found in it
   --mission FILE a mission of a mesh scene instead of draws
   --out DIR      write what fails there, made small: scene.obj, mission.yaml
   --minimised N  how many of each class are made small and written (3)
@@ -73,6 +75,9 @@ Options parse(int count, char** words) {
       options.scenes = number();
     } else if (word == "--meshes") {
       options.meshes = number();
+    } else if (word == "--missions") {
+      options.missions = true;
+      options.scenes = number();
     } else if (word == "--first") {
       options.first = number();
     } else if (word == "--seed") {
@@ -198,6 +203,14 @@ int main(int count, char** words) {
   if (options.self_test) {
     const bool are_right[] = {attack::self_test(), attack::mesh_self_test()};
     return are_right[0] && are_right[1] ? 0 : 1;
+  }
+  if (options.missions) {
+    return attack::run_drawn_missions({.seed = options.seed,
+                                       .first = options.first,
+                                       .count = options.scenes,
+                                       .jobs = options.jobs,
+                                       .seconds = options.seconds,
+                                       .out = options.out.string()}) > 0;
   }
   if (!options.mission.empty()) return attack::judge_mission(options);
   if (options.meshes > 0) {

@@ -1,0 +1,336 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+#include <set>
+
+#include "missions.h"
+#include "random.h"
+
+namespace attack {
+namespace {
+
+using vantage::ObjectKind;
+using vantage::Vec3;
+
+std::string exactly(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.17g", value);
+  return text;
+}
+
+std::string pair(double low, double high) { return "[" + exactly(low) + ", " + exactly(high) + "]"; }
+
+std::string triple(const Vec3& p) {
+  return "[" + exactly(p.x()) + ", " + exactly(p.y()) + ", " + exactly(p.z()) + "]";
+}
+
+/// Lengths are drawn as if the range were some tens of metres, and scaled.
+class MissionDrawing {
+ public:
+  MissionDrawing(std::uint64_t seed, std::size_t index) : random_(seed * 0x9e3779b97f4a7c15ull + index) {
+    for (int k = 0; k < 3; ++k) random_.next();
+    drawn_.seed = random_.next();
+    if (random_.chance(0.3)) scale_ = random_.pick({1e-3, 1e-1, 1e2, 1e4});
+    if (random_.chance(0.3)) shift_ = random_.pick({Vec3(-3e6, 4.7e6, 0), Vec3(5.8e5, 4.785e6, 120)});
+    range_ = random_.uniform(15, 50);
+  }
+
+  DrawnMission run() {
+    draw_scene();
+    draw_targets();
+    draw_sensor();
+    draw_navigation();
+    text_ += "exact: {tolerance: " + exactly(scale_ * range_ * random_.magnitude(1e-3, 2e-2)) + "}\n";
+    drawn_.text = text_;
+    return drawn_;
+  }
+
+ private:
+  Vec3 placed(const Vec3& p) const { return scale_ * p + shift_; }
+  std::string length(double metres) const { return exactly(scale_ * metres); }
+  double height(double z) const { return scale_ * z + shift_.z(); }
+
+  void begin_object(const std::string& name, ObjectKind kind) { drawn_.scene.objects.push_back({name, "", kind}); }
+  void add_triangle(const Vec3& a, const Vec3& b, const Vec3& c) {
+    auto& [vertices, triangles] = drawn_.scene.mesh;
+    const auto first = static_cast<std::uint32_t>(vertices.size());
+    for (const Vec3& p : {a, b, c}) vertices.push_back(placed(p));
+    triangles.push_back({first, first + 1, first + 2});
+    drawn_.scene.object_of.push_back(static_cast<std::uint32_t>(drawn_.scene.objects.size() - 1));
+  }
+  void add_quad(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+    add_triangle(a, b, c);
+    add_triangle(a, c, d);
+  }
+  void add_box(const Vec3& low, const Vec3& high);
+  void draw_ground();
+  void draw_scene();
+
+  std::vector<Vec3> polygon();
+  std::string polygon_text(const std::vector<Vec3>& corners) const;
+  std::string front_text();
+  std::string target();
+  void draw_targets();
+  std::string camera_keys(bool& has_pixels);
+  void draw_sensor();
+  std::string zone();
+  void draw_navigation();
+
+  Random random_;
+  DrawnMission drawn_;
+  std::string text_;
+  double scale_ = 1, range_ = 0;
+  Vec3 shift_ = Vec3::Zero();
+  bool has_ground_ = false, are_points_ = true;
+  std::vector<std::string> boxes_;
+};
+
+void MissionDrawing::add_box(const Vec3& low, const Vec3& high) {
+  Vec3 p[8];
+  for (int i = 0; i < 8; ++i) {
+    p[i] = Vec3(i & 1 ? high.x() : low.x(), i & 2 ? high.y() : low.y(), i & 4 ? high.z() : low.z());
+  }
+  add_quad(p[0], p[2], p[3], p[1]);
+  add_quad(p[4], p[5], p[7], p[6]);
+  add_quad(p[0], p[1], p[5], p[4]);
+  add_quad(p[2], p[6], p[7], p[3]);
+  add_quad(p[0], p[4], p[6], p[2]);
+  add_quad(p[1], p[3], p[7], p[5]);
+}
+
+void MissionDrawing::draw_ground() {
+  begin_object("ground", ObjectKind::ground);
+  has_ground_ = true;
+  if (random_.chance(0.6)) {
+    add_quad({-70, -70, 0}, {70, -70, 0}, {70, 70, 0}, {-70, 70, 0});
+    return;
+  }
+  constexpr int kPosts = 6;
+  double z[kPosts][kPosts];
+  for (auto& row : z) {
+    for (double& post : row) post = random_.chance(0.3) ? 0 : random_.uniform(-1, 1);
+  }
+  const auto post = [&](int i, int k) { return Vec3(28 * i - 70, 28 * k - 70, z[i][k]); };
+  for (int i = 0; i + 1 < kPosts; ++i) {
+    for (int k = 0; k + 1 < kPosts; ++k) {
+      add_triangle(post(i, k), post(i + 1, k), post(i + 1, k + 1));
+      add_triangle(post(i, k), post(i + 1, k + 1), post(i, k + 1));
+    }
+  }
+}
+
+void MissionDrawing::draw_scene() {
+  if (random_.chance(0.7)) draw_ground();
+  for (int i = random_.integer(0, 4); i > 0; --i) {
+    boxes_.push_back("b" + std::to_string(boxes_.size()));
+    begin_object(boxes_.back(), ObjectKind::building);
+    const double away = random_.uniform(9, 30), angle = random_.uniform(0, 2 * std::numbers::pi);
+    const Vec3 low(away * std::cos(angle), away * std::sin(angle), random_.pick({0.0, 0.0, -1.0, 3.0}));
+    add_box(low, low + Vec3(random_.uniform(1, 8), random_.uniform(1, 8), random_.uniform(1, 20)));
+  }
+  begin_object("soup", ObjectKind::other);
+  const int count = drawn_.scene.mesh.empty() ? random_.integer(1, 6) : random_.integer(0, 8);
+  for (int i = 0; i < count; ++i) {
+    const Vec3 at = random_.point(-18, 18).cwiseProduct(Vec3(1, 1, 0.4)) + Vec3(0, 0, 8);
+    add_triangle(at, at + random_.point(-6, 6), at + random_.point(-6, 6));
+  }
+}
+
+/// Convex: on an ellipse.
+std::vector<Vec3> MissionDrawing::polygon() {
+  const int count = random_.integer(3, 7);
+  std::set<double> angles;
+  while (static_cast<int>(angles.size()) < count) {
+    const double angle = random_.uniform(0, 2 * std::numbers::pi);
+    const bool is_apart =
+        std::none_of(angles.begin(), angles.end(), [&](double other) { return std::abs(other - angle) < 0.1; });
+    if (is_apart) angles.insert(angle);
+  }
+  const double a = random_.uniform(0.5, 4), b = random_.uniform(0.5, 4);
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  Vec3 centre = random_.point(-5, 5);
+  centre.z() = 0.02;
+  if (random_.chance(0.3)) turn << 0, 0, 1, 1, 0, 0, 0, 1, 0;  // upright, along the axes
+  if (random_.chance(0.4)) turn = random_.rotation();
+  if (!turn.isIdentity() || random_.chance(0.2)) centre.z() = random_.uniform(5, 15);
+  std::vector<Vec3> corners;
+  for (const double angle : angles) {
+    corners.push_back(centre + turn * Vec3(a * std::cos(angle), b * std::sin(angle), 0));
+  }
+  return corners;
+}
+
+std::string MissionDrawing::polygon_text(const std::vector<Vec3>& corners) const {
+  std::string text;
+  for (const Vec3& corner : corners) text += (text.empty() ? "[" : ", ") + triple(placed(corner));
+  return text + "]";
+}
+
+std::string MissionDrawing::front_text() { return ", front: " + triple(random_.direction()); }
+
+std::string MissionDrawing::target() {
+  const int kind = random_.integer(0, 19);
+  const std::string sides = random_.chance(0.45) ? ", sides: both" : "";
+  if (kind < 3) {
+    const std::string point = "point: " + triple(placed(random_.point(-5, 5) + Vec3(0, 0, 9)));
+    return point + (random_.chance(0.4) ? front_text() : "");
+  }
+  are_points_ = false;
+  if (kind < 5 && has_ground_) {  // a T, or a comb
+    const double x = random_.uniform(2, 5), y = random_.uniform(1, 3), bar = random_.uniform(0.3, 1);
+    const std::vector<std::pair<double, double>> tee = {{-x, 0},       {x, 0},     {x, y},        {bar, y},
+                                                        {bar, 3 * y}, {-bar, 3 * y}, {-bar, y}, {-x, y}};
+    const std::vector<std::pair<double, double>> ell = {{-x, 0}, {x, 0}, {x, y}, {bar - x, y}, {bar - x, 3 * y},
+                                                        {-x, 3 * y}};
+    std::string text;
+    for (const auto& [u, v] : random_.chance(0.5) ? tee : ell) {
+      const Vec3 at = placed({u, v, 0});
+      text += (text.empty() ? "outline: [" : ", ") + pair(at.x(), at.y());
+    }
+    return text + "], offset: " + length(0.05) + sides;
+  }
+  if (kind < 7 && !boxes_.empty()) {
+    std::string text = "object: " + boxes_[static_cast<std::size_t>(random_.integer(0, 100)) % boxes_.size()];
+    text += random_.chance(0.5) ? ", part: roof" : ", part: facade";
+    if (random_.chance(0.6)) text += ", facing: " + std::to_string(90 * random_.integer(0, 3));
+    return text + sides;
+  }
+  if (kind < 9) {
+    const std::vector<Vec3> whole = polygon();
+    std::string text = "parts: [" + polygon_text(whole);
+    std::vector<Vec3> other = whole;  // in the same plane, or turned a little
+    for (Vec3& corner : other) corner += 1.5 * (whole[1] - whole[0]);
+    if (random_.chance(0.5)) other = polygon();
+    return text + ", " + polygon_text(other) + "]" + sides;
+  }
+  return "vertices: " + polygon_text(polygon()) + sides + (random_.chance(0.5) ? front_text() : "");
+}
+
+void MissionDrawing::draw_targets() {
+  if (random_.chance(0.4)) {
+    text_ += "target: {" + target() + "}\n";
+  } else {
+    text_ += "targets:\n";
+    const int count = random_.integer(2, 4);
+    for (int i = 0; i < count; ++i) text_ += "  - {name: t" + std::to_string(i) + ", " + target() + "}\n";
+  }
+  text_ += std::string("combine: ") + random_.pick({"all", "any", "each"}) + "\n";
+}
+
+std::string MissionDrawing::camera_keys(bool& has_pixels) {
+  std::string text = ", fov: " + pair(random_.uniform(20, 90), random_.uniform(20, 70));
+  has_pixels = random_.chance(0.7);
+  if (has_pixels) text += ", camera: {width: 4000, height: 3000}";
+  const std::string roll = ", roll: " + exactly(random_.chance(0.5) ? 0 : random_.uniform(-90, 90));
+  const double low = random_.uniform(-90, 60);
+  if (random_.chance(0.3)) {
+    const std::string yaw = random_.chance(0.5) ? "any" : exactly(random_.uniform(0, 360));
+    return text + ", mount: {yaw: " + yaw + ", pitch: " + exactly(low) + roll + "}";
+  }
+  if (random_.chance(0.5)) text += ", gimbal: {pitch: " + pair(low, random_.uniform(low, 90)) + roll + "}";
+  return text;
+}
+
+void MissionDrawing::draw_sensor() {
+  text_ += "sensor: {max_range: " + length(range_);
+  if (are_points_ && random_.chance(0.5)) {
+    const double clear = random_.uniform(0.2, 1), excess = scale_ * range_ * random_.magnitude(1e-6, 1e-3);
+    const double frequency = 0.299792458 * clear * clear / (2 * excess);
+    if (frequency < 3000) text_ += ", link: {frequency: " + exactly(frequency) + ", clear: " + exactly(clear) + "}";
+  }
+  if (random_.chance(0.2)) text_ += ", min_range: " + length(range_ * random_.uniform(0.02, 0.6));
+  if (random_.chance(0.15)) text_ += ", incidence: " + exactly(random_.uniform(20, 88));
+  if (random_.chance(0.15)) {
+    text_ += ", sun: {azimuth: " + exactly(random_.uniform(0, 360)) +
+             ", elevation: " + exactly(random_.uniform(0, 89)) + ", exclude: " + exactly(random_.uniform(5, 60)) + "}";
+  }
+  if (random_.chance(0.25)) {
+    bool has_pixels = false;
+    text_ += camera_keys(has_pixels);
+    if (has_pixels && random_.chance(0.5)) {
+      text_ += ", pixel: {size: " + length(range_ * random_.magnitude(1e-4, 1e-3)) +
+               ", kind: " + random_.pick({"worst", "perpendicular"}) + "}";
+    }
+  }
+  if (!are_points_ && random_.chance(0.08)) {
+    text_ += ", visible: " + exactly(random_.uniform(0.4, 0.95)) + ", cells: " + std::to_string(random_.integer(1, 5));
+  }
+  text_ += "}\n";
+}
+
+std::string MissionDrawing::zone() {
+  const Vec3 middle = random_.point(-0.5, 0.5) * range_, half = random_.point(0.15, 0.9) * range_;
+  const Vec3 low = placed(middle - half), high = placed(middle + half);
+  if (random_.chance(0.5)) return "{min: " + triple(low) + ", max: " + triple(high) + "}";
+  const int count = random_.integer(3, 8);
+  std::string text;
+  for (int i = 0; i < count; ++i) {
+    const double angle = 2 * std::numbers::pi * i / count, share = random_.uniform(0.4, 1.4);
+    const Vec3 at = placed(middle + share * Vec3(half.x() * std::cos(angle), half.y() * std::sin(angle), 0));
+    text += (text.empty() ? "{polygon: [" : ", ") + pair(at.x(), at.y());
+  }
+  if (has_ground_ && random_.chance(0.3)) {
+    return text + "], agl: " + pair(scale_ * random_.uniform(0, 5), scale_ * random_.uniform(6, 30)) + "}";
+  }
+  return text + "], z: " + pair(low.z(), high.z()) + "}";
+}
+
+void MissionDrawing::draw_navigation() {
+  std::string keys;
+  const auto add = [&](const std::string& key) { keys += (keys.empty() ? "" : ", ") + key; };
+  const double low = random_.uniform(-5, 12);
+  if (random_.chance(0.2)) {
+    const bool is_agl = has_ground_ && random_.chance(0.5);
+    const double high = low + random_.uniform(2, 30);
+    add(is_agl ? "altitude: {agl: " + pair(scale_ * low, scale_ * high) + "}"
+               : "altitude: " + pair(height(low), height(high)));
+  }
+  if (random_.chance(0.15)) add("clearance: " + length(random_.uniform(0.1, 3)));
+  if (random_.chance(0.15)) add("keep_in: [" + zone() + (random_.chance(0.5) ? ", " + zone() : "") + "]");
+  if (random_.chance(0.2)) add("keep_out: [" + zone() + (random_.chance(0.3) ? ", " + zone() : "") + "]");
+  if (!keys.empty()) text_ += "navigation: {" + keys + "}\n";
+  if (!random_.chance(0.08)) return;
+  MissionDrawing box(drawn_.seed, 0);  // a box with vertices and triangles of its own
+  box.scale_ = scale_;
+  box.shift_ = shift_;
+  box.begin_object("airspace", ObjectKind::other);
+  box.add_box(random_.point(-30, -2), random_.point(2, 30));
+  vantage::Mesh mesh;
+  // One vertex for each corner, as solids need it.
+  for (const vantage::Triangle& t : box.drawn_.scene.mesh.triangles) {
+    vantage::Triangle& made = mesh.triangles.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3& corner = box.drawn_.scene.mesh.vertices[t[k]];
+      const auto known = std::find(mesh.vertices.begin(), mesh.vertices.end(), corner);
+      made[k] = static_cast<std::uint32_t>(known - mesh.vertices.begin());
+      if (known == mesh.vertices.end()) mesh.vertices.push_back(corner);
+    }
+  }
+  drawn_.meshes.push_back({mesh, "airspace"});
+}
+
+}  // namespace
+
+DrawnMission draw_mission(std::uint64_t seed, std::size_t index) { return MissionDrawing(seed, index).run(); }
+
+void write_drawn_mission(const DrawnMission& drawn, const std::string& folder) {
+  std::filesystem::create_directories(folder);
+  std::ofstream(std::filesystem::path(folder) / "mission.yaml") << "scene: {mesh: scene.obj}\n" << drawn.text;
+  std::ofstream out(std::filesystem::path(folder) / "scene.obj");
+  for (const Vec3& v : drawn.scene.mesh.vertices) {
+    out << "v " << exactly(v.x()) << " " << exactly(v.y()) << " " << exactly(v.z()) << "\n";
+  }
+  std::uint32_t last = ~0u;
+  for (std::size_t t = 0; t < drawn.scene.mesh.triangles.size(); ++t) {
+    const std::uint32_t object = drawn.scene.object_of[t];
+    if (object != last) out << "o " << drawn.scene.objects[object].name << "\n";
+    last = object;
+    const auto& [a, b, c] = drawn.scene.mesh.triangles[t];
+    out << "f " << a + 1 << " " << b + 1 << " " << c + 1 << "\n";
+  }
+}
+
+}  // namespace attack
