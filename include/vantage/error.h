@@ -180,6 +180,7 @@ VANTAGE_API ErrorKind kind_of(ErrorCode code);
 
 /// Thrown by every public function that fails. Three short lines for the person who must fix it: what is wrong, where
 /// (file, line, object), and what to do. `what()` returns the three joined by newlines; `where` and `fix` may be empty.
+/// Each is made printable(): they hold names from files.
 class VANTAGE_API Error : public std::runtime_error {
  public:
   Error(ErrorCode code, std::string problem, std::string where, std::string fix,
@@ -205,7 +206,7 @@ class VANTAGE_API Error : public std::runtime_error {
 };
 
 /// The three lines as the program prints them: "PROBLEM", "  where: PLACE" and "  what to do: ADVICE", each ended by a
-/// newline; lines that would be empty are left out. Control characters, which may come from a file, become blanks.
+/// newline; lines that would be empty are left out.
 VANTAGE_API std::string message_of(const Error& error);
 
 /// What a program should exit with: 2 for bad input and for output that could not be written, 3 for a defect of

@@ -35,6 +35,11 @@ VANTAGE_API std::string number_advice(std::string_view text, NumberFault fault);
 /// `text` in single quotes, fit for one line of an error message: control characters shown as '?', cut after 60 bytes.
 VANTAGE_API std::string in_quotes(std::string_view text);
 
+/// `text` as it may be shown to people, in one line: names come from files, and a terminal obeys some bytes. Control
+/// characters, newlines among them, become blanks; U+2028 to U+202E and U+2066 to U+2069, which break lines or turn the
+/// order of what follows, become U+FFFD. Bytes that are no UTF-8 are taken as Latin-1. All else stays as it is.
+VANTAGE_API std::string printable(std::string_view text);
+
 /// The shortest decimal that reads back as `value`; independent of the locale.
 VANTAGE_API std::string shortest(double value);
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "app/point_json.h"
+#include "core/text.h"
 #include "io/georeference_text.h"
 
 namespace vantage {
@@ -15,7 +16,7 @@ using Json = nlohmann::ordered_json;
 Json json_of(const Box& box) { return {{"min", point_json(box.min)}, {"max", point_json(box.max)}}; }
 
 std::string dumped(const Json& json, int indentation) {
-  return json.dump(indentation, ' ', false, Json::error_handler_t::replace) + "\n";
+  return internal::core::escaped_json(json.dump(indentation, ' ', false, Json::error_handler_t::replace)) + "\n";
 }
 
 Json record_json(const CityRecord& record) {
@@ -184,10 +185,12 @@ Json feature_json(const MapArea& area) {
 
 }  // namespace
 
-std::string json_text(std::string_view text) { return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace); }
+std::string json_text(std::string_view text) {
+  return internal::core::escaped_json(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace));
+}
 
 std::string json_text(const std::vector<std::string>& texts) {
-  return Json(texts).dump(-1, ' ', false, Json::error_handler_t::replace);
+  return internal::core::escaped_json(Json(texts).dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
 std::string json_text(const LoadedScene& loaded) {

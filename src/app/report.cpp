@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/point_json.h"
+#include "core/text.h"
 #include "io/georeference_text.h"
 #include "vantage/hash.h"
 #include "vantage/result.h"
@@ -75,7 +76,7 @@ Json json_of(const SpheresRun& run) {
 }  // namespace
 
 std::string spheres_json(const SpheresRun& run) {
-  return json_of(run).dump(2, ' ', false, Json::error_handler_t::replace);
+  return internal::core::escaped_json(json_of(run).dump(2, ' ', false, Json::error_handler_t::replace));
 }
 
 std::string report_json(const Volume& volume, const MeshMeasures& measures, const ReportSource& source) {
@@ -117,7 +118,7 @@ std::string report_json(const Volume& volume, const MeshMeasures& measures, cons
   if (source.spheres) report["spheres"] = json_of(*source.spheres);
   report["counts"] = json_of(volume.counts);
   report["seconds"] = json_of(volume.seconds);
-  return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return internal::core::escaped_json(report.dump(2, ' ', false, Json::error_handler_t::replace)) + "\n";
 }
 
 }  // namespace vantage

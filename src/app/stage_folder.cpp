@@ -11,6 +11,7 @@
 
 #include "app/point_json.h"
 #include "core/format.h"
+#include "core/text.h"
 #include "vantage/atomic_file.h"
 #include "vantage/error.h"
 #include "vantage/input.h"
@@ -162,7 +163,8 @@ void StageFolder::write_story(const Mission& mission, const Result& result) {
     }
     story["stages"].push_back(std::move(stage));
   }
-  write_whole_file(temporary_ / kStory, story.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  write_whole_file(temporary_ / kStory,
+                   internal::core::escaped_json(story.dump(2, ' ', false, Json::error_handler_t::replace)) + "\n");
   std::error_code error;
   if (fs::exists(folder_, error)) check_replaceable();  // the run may have taken long
 }

@@ -1,7 +1,9 @@
 #include "cli/command.h"
 
 #include <time.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <cstdio>
@@ -25,6 +27,18 @@ double processor_seconds() {
 // Set when the libraries are loaded and initialised, just before main().
 const double g_loading_seconds = processor_seconds();
 const Clock::time_point g_start = Clock::now();
+
+/// printable() between newlines and tabs.
+std::string printable_lines(std::string_view text) {
+  std::string shown;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find_first_of("\n\t"), text.size());
+    shown += printable(text.substr(0, end));
+    if (end < text.size()) shown += text[end];
+    text.remove_prefix(std::min(text.size(), end + 1));
+  }
+  return shown;
+}
 
 }  // namespace
 
@@ -71,7 +85,10 @@ double positive_option(const std::string& name, const std::string& text) {
               name + " must be a positive number, not " + in_quotes(text), "command line, " + name, advice);
 }
 
-void print(std::string_view text) {
+void print(std::string_view given) {
+  // A terminal obeys some bytes, and data of others may hold them.
+  const std::string shown = ::isatty(STDOUT_FILENO) == 1 ? printable_lines(given) : std::string();
+  const std::string_view text = shown.empty() ? given : shown;
   errno = 0;
   const bool is_written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
   if (is_written) return;
@@ -80,7 +97,7 @@ void print(std::string_view text) {
               "standard output", "make room on the disk, or send it elsewhere");
 }
 
-void note(const std::string& text) { std::fprintf(stderr, "vantage: %s\n", text.c_str()); }
+void note(const std::string& text) { std::fprintf(stderr, "vantage: %s\n", printable(text).c_str()); }
 
 void notes(const std::vector<Warning>& warnings) {
   for (const Warning& warning : warnings) note(warning.text);

@@ -90,7 +90,7 @@ std::string cameras_table(const std::vector<ListedCamera>& cameras) {
     ++bad;
     problems += "  " + listed.camera.source;
     if (!listed.camera.name.empty()) problems += ", " + in_quotes(listed.camera.name);
-    problems += ": " + listed.problem + "\n";
+    problems += ": " + printable(listed.problem) + "\n";
   }
   std::string text = aligned(rows);
   if (bad > 0) text += "\n" + count(bad) + " of " + count(cameras.size()) + " cannot be used:\n" + problems;

@@ -8,6 +8,7 @@
 #include "cli/text_table.h"
 #include "vantage/areas.h"
 #include "vantage/error.h"
+#include "vantage/input.h"
 #include "vantage/json.h"
 #include "vantage/scene.h"
 
@@ -77,7 +78,7 @@ std::string areas_table(const std::vector<MapArea>& areas) {
   for (const MapArea& area : areas) {
     const std::string size = fixed(area.area_m2, 0);
     text += area.source_id + std::string(area.source_id.size() < 18 ? 18 - area.source_id.size() : 0, ' ');
-    text += std::string(size.size() < 10 ? 10 - size.size() : 0, ' ') + size + "  " + area.name + "\n";
+    text += std::string(size.size() < 10 ? 10 - size.size() : 0, ' ') + size + "  " + printable(area.name) + "\n";
   }
   return text;
 }

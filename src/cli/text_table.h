@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "vantage/geometry.h"
+#include "vantage/input.h"
 
 namespace vantage::cli {
 
@@ -22,9 +23,10 @@ std::string duration(double seconds);
 /// Rows of a name, a value (right-aligned) and a remark, under headings.
 class TextTable {
  public:
-  void heading(const std::string& text) { rows_.push_back({text, "", "", true}); }
+  // Texts may come from files: they are made printable().
+  void heading(const std::string& text) { rows_.push_back({printable(text), "", "", true}); }
   void row(const std::string& name, const std::string& value, const std::string& remark) {
-    rows_.push_back({name, value, remark, false});
+    rows_.push_back({printable(name), printable(value), printable(remark), false});
   }
   std::string text() const;
 

@@ -1,7 +1,6 @@
 #include "vantage/error.h"
 
-#include <algorithm>
-#include <utility>
+#include "vantage/input.h"
 
 namespace vantage {
 namespace {
@@ -18,20 +17,17 @@ std::string joined(const std::string& problem, const std::string& where, const s
 
 Error::Error(ErrorCode code, std::string problem, std::string where, std::string fix,
              std::optional<std::uint32_t> object)
-    : std::runtime_error(joined(problem, where, fix)),
+    : std::runtime_error(joined(printable(problem), printable(where), printable(fix))),
       code_(code),
-      problem_(std::move(problem)),
-      where_(std::move(where)),
-      fix_(std::move(fix)),
+      problem_(printable(problem)),
+      where_(printable(where)),
+      fix_(printable(fix)),
       object_(object) {}
 
 std::string message_of(const Error& error) {
   std::string text;
-  const auto add_line = [&text](const char* start, std::string line) {
-    if (line.empty()) return;
-    std::replace_if(
-        line.begin(), line.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }, ' ');
-    text += start + line + "\n";
+  const auto add_line = [&text](const char* start, const std::string& line) {
+    if (!line.empty()) text += start + line + "\n";
   };
   add_line("", error.problem());
   add_line("  where: ", error.where());

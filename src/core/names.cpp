@@ -1,5 +1,6 @@
 // How kinds of objects, causes, outcomes and devices are called in files.
 #include "vantage/devices.h"
+#include "vantage/input.h"
 #include "vantage/scene.h"
 #include "vantage/volume.h"
 
@@ -30,8 +31,8 @@ const char* name_of(ObjectKind kind) {
 }
 
 std::string display_name(const SceneObject& object) {
-  if (object.source_id.empty()) return object.name;
-  return object.name.empty() ? object.source_id : object.source_id + " " + object.name;
+  if (object.source_id.empty()) return printable(object.name);
+  return printable(object.name.empty() ? object.source_id : object.source_id + " " + object.name);
 }
 
 const char* name_of(CauseKind kind) {

@@ -30,6 +30,27 @@ std::string fixed_text(const Vec3& point, int decimals) {
   return format("({1:.{0}f}, {2:.{0}f}, {3:.{0}f})", decimals, point.x(), point.y(), point.z());
 }
 
+std::string escaped_json(const std::string& json) {
+  std::string escaped;
+  std::size_t copied = 0;
+  constexpr const char* kFirst = "\x7f\xc2\xe2";
+  for (std::size_t at = json.find_first_of(kFirst); at != std::string::npos; at = json.find_first_of(kFirst, at + 1)) {
+    const auto byte = [&](std::size_t i) {
+      return at + i < json.size() ? static_cast<unsigned char>(json[at + i]) : 0U;
+    };
+    const unsigned first = byte(0), second = byte(1), third = byte(2);
+    const unsigned code = first == 0x7f   ? first
+                          : first == 0xc2 ? second
+                                          : 0x2000U | (second & 0x3fU) << 6U | (third & 0x3fU);
+    const bool is_control = code >= 0x7f && code < 0xa0;
+    const bool is_reordering = (code >= 0x2028 && code <= 0x202e) || (code >= 0x2066 && code <= 0x2069);
+    if (!is_control && !is_reordering) continue;
+    escaped.append(json, copied, at - copied).append(format("\\u{:04x}", code));
+    copied = at + (first == 0x7f ? 1 : first == 0xc2 ? 2 : 3);
+  }
+  return escaped.append(json, copied);
+}
+
 std::string count_text(std::size_t count, const char* one, const char* many) {
   return format("{} {}", count, count == 1 ? one : many);
 }

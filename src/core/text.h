@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "vantage/geometry.h"
 
@@ -21,5 +22,8 @@ std::string fixed_text(const Vec3& point, int decimals);
 
 /// "1 edge has", "12 edges have".
 std::string count_text(std::size_t count, const char* one, const char* many);
+
+/// JSON in which what printable() would replace is written \uXXXX: it means the same. `json` is UTF-8.
+std::string escaped_json(const std::string& json);
 
 }  // namespace vantage::internal::core

@@ -5,50 +5,11 @@
 
 #include "io/object_text.h"
 #include "io/triangulate_polygon.h"
+#include "vantage/input.h"
 
 namespace vantage::internal::io {
-namespace {
-
-bool is_continuation(char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; }
-
-/// Length in bytes of the UTF-8 character that `text` begins with, 0 if it begins with none.
-std::size_t utf8_length(std::string_view text) {
-  const auto lead = static_cast<unsigned char>(text[0]);
-  const std::size_t length = lead < 0x80   ? 1
-                             : lead < 0xc2 ? 0
-                             : lead < 0xe0 ? 2
-                             : lead < 0xf0 ? 3
-                             : lead < 0xf5 ? 4
-                                           : 0;
-  if (length == 0 || text.size() < length) return 0;
-  for (std::size_t i = 1; i < length; ++i) {
-    if (!is_continuation(text[i])) return 0;
-  }
-  if (length < 3) return length;
-  // Overlong forms, surrogates and what lies beyond U+10FFFF show in the second byte.
-  const auto second = static_cast<unsigned char>(text[1]);
-  const bool wrong = (lead == 0xe0 && second < 0xa0) || (lead == 0xed && second >= 0xa0) ||
-                     (lead == 0xf0 && second < 0x90) || (lead == 0xf4 && second >= 0x90);
-  return wrong ? 0 : length;
-}
-
-}  // namespace
-
 std::string clean_name(std::string_view name) {
-  std::string clean;
-  while (!name.empty()) {
-    const std::size_t length = utf8_length(name);
-    const auto byte = static_cast<unsigned char>(name[0]);
-    if (length == 0) {
-      clean += static_cast<char>(0xc0 | (byte >> 6));
-      clean += static_cast<char>(0x80 | (byte & 0x3f));
-    } else if (byte < 0x20 || byte == 0x7f) {
-      clean += ' ';
-    } else {
-      clean += name.substr(0, length);
-    }
-    name.remove_prefix(std::max<std::size_t>(length, 1));
-  }
+  const std::string clean = printable(name);
   const std::size_t first = clean.find_first_not_of(' ');
   if (first == std::string::npos) return {};
   return clean.substr(first, clean.find_last_not_of(' ') - first + 1);

@@ -115,8 +115,7 @@ class MeshBuilder {
   std::vector<Triangle> ears_;
 };
 
-/// A name for reports and files: UTF-8 (bytes that are not are taken as Latin-1), control characters become spaces,
-/// spaces at the ends go.
+/// A name for reports and files: printable(), without blanks at its ends.
 VANTAGE_INTERNAL_API std::string clean_name(std::string_view name);
 
 }  // namespace vantage::internal::io

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "core/text.h"
 #include "geo/local_frame.h"
 #include "io/georeference_text.h"
 #include "vantage/fraction.h"
@@ -65,7 +66,9 @@ GeoJson geometry_json(const std::vector<SeenPolygon>& polygons, const Positions&
   return {{"type", "MultiPolygon"}, {"coordinates", std::move(all)}};
 }
 
-std::string line_of(const GeoJson& json) { return json.dump(-1, ' ', false, GeoJson::error_handler_t::replace); }
+std::string line_of(const GeoJson& json) {
+  return internal::core::escaped_json(json.dump(-1, ' ', false, GeoJson::error_handler_t::replace));
+}
 
 }  // namespace
 

@@ -20,7 +20,7 @@ std::vector<std::string> group_names(const std::vector<Cause>& causes) {
   std::vector<std::string> names;
   std::set<std::string> taken;
   for (const Cause& cause : causes) {
-    std::string name = one_line(cause.name);
+    std::string name = printable(cause.name);
     for (char& c : name) c = c == ' ' ? '_' : c;
     if (name.empty()) name = name_of(cause.kind);
     if (!taken.insert(name).second) {

@@ -24,7 +24,7 @@ void write_ply(const Volume& volume, const StoredMesh& stored, AtomicFile& file)
   for (std::size_t i = 0; i < volume.causes.size(); ++i) {
     const Cause& cause = volume.causes[i];
     header +=
-        "comment vantage cause " + std::to_string(i) + " " + name_of(cause.kind) + " " + one_line(cause.name) + "\n";
+        "comment vantage cause " + std::to_string(i) + " " + name_of(cause.kind) + " " + printable(cause.name) + "\n";
   }
   header += "element vertex " + std::to_string(vertices.size()) + "\n";
   header += "property double x\nproperty double y\nproperty double z\n";

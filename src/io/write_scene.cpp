@@ -53,7 +53,7 @@ ObjectTriangles::ObjectTriangles(const Scene& scene)
 }
 
 std::string object_name(const Scene& scene, std::size_t object) {
-  std::string name = one_line(display_name(scene.objects[object]));
+  std::string name = display_name(scene.objects[object]);
   const bool is_blank = name.find_first_not_of(' ') == std::string::npos;
   return is_blank ? std::string("object ").append(std::to_string(object)) : name;
 }

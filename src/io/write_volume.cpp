@@ -30,14 +30,6 @@ void append_exact(std::string& text, double number) {
   text.append(digits.data(), end);
 }
 
-std::string one_line(std::string_view text) {
-  std::string line(text);
-  for (char& c : line) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
-  }
-  return line;
-}
-
 namespace {
 
 /// The mesh as the file will hold it. Errors of rounding are told of the file.

@@ -38,9 +38,6 @@ inline Vec3 to_y_up(const Vec3& v) { return {v.x(), v.z(), -v.y()}; }
 /// Appends the shortest text that reads back as the same number: shortest(), without a string for each.
 void append_exact(std::string& text, double number);
 
-/// `text` on one line: control characters become spaces.
-std::string one_line(std::string_view text);
-
 /// Appends a number's bytes, the lowest first, on any machine.
 template <typename Number>
 requires std::is_arithmetic_v<Number>

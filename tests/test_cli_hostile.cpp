@@ -1,0 +1,132 @@
+// The program on files that were made to mislead who reads its words.
+#include <fcntl.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include <array>
+
+#include "support/cli_fixture.h"
+#include "support/pbf_writer.h"
+#include "vantage/input.h"
+
+namespace vantage::testing {
+namespace {
+
+const std::string kNames[] = {"\x1b]0;title\x07\x1b[31mred", "one\nvantage: proved", "a\u202efdp.exe", "c1\u009b2J"};
+
+/// `text`, as a JSON or double-quoted YAML text.
+std::string quoted(const std::string& text) { return nlohmann::json(text).dump(-1, ' ', true); }
+
+class CliHostile : public Cli {
+ protected:
+  /// Runs, and expects that nothing that is printed acts on a terminal.
+  ProgramRun run_safely(const std::vector<std::string>& arguments, int exit_code = 0) {
+    ProgramRun result = run(arguments);
+    EXPECT_EQ(result.exit_code, exit_code) << result.err;
+    for (const std::string* text : {&result.out, &result.err}) {
+      for (const std::string& line : lines(*text)) EXPECT_EQ(printable(line), line);
+    }
+    return result;
+  }
+};
+
+TEST_F(CliHostile, NamesOfMeshesDoNotReachTheTerminal) {
+  for (const std::string& name : kNames) {
+    if (name.find('\n') != std::string::npos) continue;  // would end the line of an OBJ
+    SCOPED_TRACE(printable(name));
+    std::string city = kCity;
+    city.replace(city.find("o block"), 7, "o " + name);
+    write("city.obj", city);
+    run_safely({"inspect", "city.obj"});
+    const ProgramRun run = run_safely({"compute", "mission.yaml", "-o", "new.ply", "--verbose"});
+    const std::string shown = printable(name).substr(printable(name).find_first_not_of(' '));
+    EXPECT_NE(run.out.find(shown), std::string::npos) << run.out;
+    write("points.csv", "x,y,z\n40,0,5\n");
+    EXPECT_NE(run_safely({"query", "mission.yaml", "points.csv"}).out.find(shown), std::string::npos);
+    run_safely({"query", "mission.yaml", "points.csv", "--json"});
+    // And back from the volume, and from a scene that is written.
+    run_safely({"verify", "mission.yaml", "new.ply"});
+    run_safely({"scene", "city.obj", "-o", "new.obj"});
+    run_safely({"inspect", "new.obj", "--json"});
+  }
+}
+
+TEST_F(CliHostile, NamesOfMissionsDoNotReachTheTerminal) {
+  const auto named = [&](const std::string& name, const std::string& height) {
+    return std::string(kScene) + "target: {name: " + quoted(name) + ", vertices: [[-5, -5, " + height + "], [5, -5, " +
+           height + "], [5, 5, " + height + "], [-5, 5, " + height + "]]}\n" + kSensor;
+  };
+  const std::size_t usual = lines(run_safely({"compute", "mission.yaml", "-o", "new.ply"}).out).size();
+  for (const std::string& name : kNames) {
+    SCOPED_TRACE(printable(name));
+    write("mission.yaml", named(name, "0"));
+    const bool is_refused = name.find_first_of("\x1b\n") != std::string::npos;  // there is no need for such a name
+    const ProgramRun run = run_safely({"compute", "mission.yaml", "-o", "new.ply"}, is_refused ? 2 : 0);
+    const ProgramRun json = run_safely({"compute", "mission.yaml", "-o", "new.ply", "--json"}, is_refused ? 2 : 0);
+    if (!is_refused) {
+      EXPECT_EQ(lines(run.out).size(), usual);
+      EXPECT_EQ(nlohmann::json::parse(json.out)["target"], name);  // JSON keeps it
+    }
+    write("mission.yaml", named(name, "-50"));  // a note on what is under the ground
+    run_safely({"compute", "mission.yaml", "-o", "new.ply"}, is_refused ? 2 : 0);
+    write("mission.yaml", std::string(kScene) + "target: {" + quoted(name) + ": 1}\n" + kSensor);
+    run_safely({"compute", "mission.yaml", "-o", "new.ply"}, 2);
+  }
+}
+
+TEST_F(CliHostile, NamesOfMapsDoNotReachTheTerminal) {
+  constexpr std::int64_t kUnits = 10'000'000;
+  for (const std::string& name : kNames) {
+    SCOPED_TRACE(printable(name));
+    const std::string nodes = pbf_field(2, pbf_field(1, pbf_packed_signed({1, 1, 1, 1})) +
+                                               pbf_field(8, pbf_packed_signed({48 * kUnits, 0, 2000, 0})) +
+                                               pbf_field(9, pbf_packed_signed({11 * kUnits, 2000, 0, -2000})));
+    const std::string house =
+        pbf_field(3, pbf_field(1, 10) + pbf_field(8, pbf_packed_signed({1, 1, 1, 1, -3})) +
+                         pbf_field(2, pbf_packed({1, 3, 5})) + pbf_field(3, pbf_packed({2, 4, 4})));
+    write("map.osm.pbf", pbf_header() + pbf_block({"", "building", "yes", "name", name, "height"}, {nodes, house}));
+    run_safely({"inspect", "map.osm.pbf"});  // the height is no number, and said so
+    const std::string shown = printable(name).substr(printable(name).find_first_not_of(' '));
+    EXPECT_NE(run_safely({"inspect", "map.osm.pbf", "--named"}).out.find(shown), std::string::npos);
+    const ProgramRun json = run_safely({"inspect", "map.osm.pbf", "--named", "--json"});
+    EXPECT_EQ(nlohmann::json::parse(json.out)["features"][0]["properties"]["name"], name);
+    run_safely({"scene", "map.osm.pbf", "-o", "map.obj"});
+    run_safely({"inspect", "map.obj"});
+    run_safely({"scene", "map.osm.pbf", "--json"});
+    run_safely({"inspect", "map.osm.pbf", "--areas", name + "=x"}, 2);
+  }
+}
+
+TEST_F(CliHostile, NamesOfCamerasAndZonesDoNotReachTheTerminal) {
+  for (const std::string& name : kNames) {
+    SCOPED_TRACE(printable(name));
+    write("cameras.json", "{" + quoted(name) + ": 5.5, " + quoted("bad " + name) + ": -1}");
+    run_safely({"cameras", "cameras.json"});
+    run_safely({"cameras", "cameras.json", "--json"});
+    write("mission.yaml", std::string(kScene) + kTarget + "sensor: {camera: " + quoted(name) + ", max_range: 60}\n");
+    run_safely({"compute", "mission.yaml", "-o", "new.ply"}, 2);
+  }
+}
+
+/// Standard output is a terminal: there, what passes through is made safe as well.
+TEST_F(CliHostile, ATerminalSeesNoBytesThatItObeys) {
+  const int master = ::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
+  if (master < 0 || ::grantpt(master) != 0 || ::unlockpt(master) != 0) GTEST_SKIP() << "no terminal can be made";
+  write("points.csv", "x,y,z,note\n0,0,30,\x1b[31mred\u202e\n");
+  options_.out_file = ::ptsname(master);
+  const ProgramRun result = run({"query", "mission.yaml", "points.csv"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  std::array<char, 4096> bytes;
+  const ssize_t got = ::read(master, bytes.data(), bytes.size());
+  ::close(master);
+  ASSERT_GT(got, 0);
+  const std::string text(bytes.data(), static_cast<std::size_t>(got));
+  EXPECT_NE(text.find(" [31mred\ufffd"), std::string::npos) << text;
+  EXPECT_EQ(text.find('\x1b'), std::string::npos);
+  // In a pipe they are the data of the user.
+  options_.out_file.reset();
+  EXPECT_NE(output_of({"query", "mission.yaml", "points.csv"}).find("\x1b[31mred\u202e"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace vantage::testing
