@@ -1,12 +1,15 @@
-// The program on files that were made to mislead who reads its words.
+// The program on files that were made to mislead who reads its words, and on a system that refuses it something.
 #include <fcntl.h>
 #include <stdlib.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <array>
 
 #include "support/cli_fixture.h"
+#include "support/map_text.h"
 #include "support/pbf_writer.h"
+#include "support/shared_data.h"
 #include "vantage/input.h"
 
 namespace vantage::testing {
@@ -126,6 +129,42 @@ TEST_F(CliHostile, ATerminalSeesNoBytesThatItObeys) {
   // In a pipe they are the data of the user.
   options_.out_file.reset();
   EXPECT_NE(output_of({"query", "mission.yaml", "points.csv"}).find("\x1b[31mred\u202e"), std::string::npos);
+}
+
+TEST_F(CliHostile, LimitsOfTheSystemAreNoDefects) {
+  if (::geteuid() != 0) GTEST_SKIP() << "needs root, who can become a user without processes";
+  MapText map;
+  map.box(0, 0, 10, 10, {{"building", "yes"}});
+  write("map.osm", map.text());
+  become_nobody();
+  options_.limits = {{RLIMIT_NPROC, 1}};
+  expect_bad({"compute", "mission.yaml", "-o", "volume.ply"}, "vantage compute");
+  expect_bad({"inspect", "map.osm"}, "vantage inspect");
+}
+
+TEST_F(CliHostile, ShortMemoryIsNoMissingLibrary) {
+  VANTAGE_REQUIRE_SHARED("dsm/dsm.tif");
+  const std::string raster = shared_data("dsm/dsm.tif").string();
+  bool was_short = false;
+  for (std::size_t megabytes = 60; megabytes <= 400; megabytes += 20) {
+    options_.limits = {{RLIMIT_AS, megabytes << 20}};
+    const ProgramRun result = run({"inspect", raster});
+    if (result.exit_code == 127) continue;  // the program itself cannot be loaded
+    EXPECT_TRUE(result.exit_code == 0 || result.exit_code == 2) << megabytes << " MB: " << result.err;
+    EXPECT_EQ(result.err.find("installed"), std::string::npos) << megabytes << " MB: " << result.err;
+    was_short = was_short || result.exit_code == 2;
+  }
+  EXPECT_TRUE(was_short);
+}
+
+TEST_F(CliHostile, TooManyOpenFilesAreNoMissingLibrary) {
+  VANTAGE_REQUIRE_SHARED("dsm/dsm.tif");
+  for (const std::size_t files : {4, 5, 6, 7, 8}) {
+    options_.limits = {{RLIMIT_NOFILE, files}};
+    const ProgramRun result = run({"inspect", shared_data("dsm/dsm.tif").string()});
+    EXPECT_NE(result.exit_code, 3) << files << ": " << result.err;
+    EXPECT_EQ(result.err.find("install"), std::string::npos) << files << ": " << result.err;
+  }
 }
 
 }  // namespace

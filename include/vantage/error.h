@@ -35,6 +35,7 @@ enum class ErrorCode {
   compression_broken,  ///< the gzip or bzip2 data of a file is cut off or corrupt
   stdin_not_possible,  ///< a file cannot come from standard input here
   out_of_memory,       ///< there is not enough memory for what is asked
+  system_limit,        ///< the system gives no more threads or open files
   record_garbled,      ///< what vantage itself wrote into a file was changed
 
   // meshes in files

@@ -24,6 +24,7 @@ constexpr std::array kRows = {
     Row{ErrorCode::compression_broken, ErrorKind::input, "compression-broken"},
     Row{ErrorCode::stdin_not_possible, ErrorKind::input, "stdin-not-possible"},
     Row{ErrorCode::out_of_memory, ErrorKind::input, "out-of-memory"},
+    Row{ErrorCode::system_limit, ErrorKind::input, "system-limit"},
     Row{ErrorCode::record_garbled, ErrorKind::input, "record-garbled"},
     Row{ErrorCode::mesh_format_unknown, ErrorKind::input, "mesh-format-unknown"},
     Row{ErrorCode::mesh_syntax, ErrorKind::input, "mesh-syntax"},

@@ -3,7 +3,9 @@
 #include <chrono>
 #include <exception>
 #include <future>
+#include <system_error>
 
+#include "core/system_limits.h"
 #include "vantage/threads.h"
 
 namespace vantage::internal::parallel {
@@ -12,7 +14,12 @@ void run_while_asking(const std::function<void()>& body, const std::function<voi
   constexpr std::chrono::milliseconds kPause{2};
   // A new thread is bound by no limit: left to itself it would take all the threads that the machine has.
   const int threads = thread_limit();
-  std::future<void> running = std::async(std::launch::async, [&] { with_threads(threads, body); });
+  std::future<void> running;
+  try {
+    running = std::async(std::launch::async, [&] { with_threads(threads, body); });
+  } catch (const std::system_error&) {
+    core::fail_for_threads();
+  }
   std::exception_ptr failure;
   while (running.wait_for(kPause) != std::future_status::ready) {
     if (failure) continue;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/format.h"
+#include "core/system_limits.h"
 #include "geo/local_frame.h"
 #include "geo/proj_files.h"
 #include "geo/proj_library.h"
@@ -183,6 +184,7 @@ CoordinateSystem::CoordinateSystem(const std::string& text, const std::string& w
   set_search_paths(context);
 
   if (!proj().proj_context_get_database_path(context)) {
+    core::check_open_files();
     throw Error(
         ErrorCode::library_missing, "PROJ's database of coordinate reference systems, proj.db, is not to be found",
         where,

@@ -3,9 +3,9 @@
 #ifndef VANTAGE_PROJ_LINKED
 #include <dlfcn.h>
 
-#include <array>
 #include <string>
 
+#include "core/system_limits.h"
 #include "vantage/error.h"
 #endif
 
@@ -39,10 +39,7 @@ namespace {
 
 /// Empty where all is there.
 std::string load(ProjLibrary& library) {
-  void* handle = nullptr;
-  for (const char* name : std::array{VANTAGE_PROJ_NAME, VANTAGE_PROJ_FILE}) {
-    if (!handle) handle = dlopen(name, RTLD_LAZY | RTLD_LOCAL);
-  }
+  void* const handle = core::load_library({VANTAGE_PROJ_NAME, VANTAGE_PROJ_FILE}, "PROJ");
   if (!handle) return "PROJ is not installed";
   std::string missing;
 #define VANTAGE_LOAD(name)                                                       \

@@ -60,6 +60,10 @@ class Streams {
     const rlimit limit{*options.largest_file, *options.largest_file};
     ::setrlimit(RLIMIT_FSIZE, &limit);
   }
+  for (const auto& [resource, most] : options.limits) {
+    const rlimit limit{most, most};
+    ::setrlimit(static_cast<__rlimit_resource>(resource), &limit);
+  }
   // Those who run the tests in the background may ignore some, and the program would do so too.
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_DFL);
   constexpr unsigned kNobody = 65534;

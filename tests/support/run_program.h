@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace vantage::testing {
@@ -17,10 +18,11 @@ struct ProgramRun {
 };
 
 struct RunOptions {
-  std::filesystem::path folder = ".";             ///< to run in
-  std::string input;                              ///< of standard input
-  std::optional<std::size_t> largest_file;        ///< bytes: writing more fails, as on a full disk
-  std::optional<std::filesystem::path> out_file;  ///< standard output goes there, not into ProgramRun::out
+  std::filesystem::path folder = ".";               ///< to run in
+  std::string input;                                ///< of standard input
+  std::optional<std::size_t> largest_file;          ///< bytes: writing more fails, as on a full disk
+  std::optional<std::filesystem::path> out_file;    ///< standard output goes there, not into ProgramRun::out
+  std::vector<std::pair<int, std::size_t>> limits;  ///< of the system: RLIMIT_AS and the like, and what is allowed
   bool as_nobody = false;  ///< root gives up its rights first, which are above permissions; others run as they are
   int signal = 0;  ///< sent once, as soon as `signal_when` holds of what the program has written to standard error
   std::function<bool(const std::string& err)> signal_when;

@@ -11,7 +11,9 @@
 #include <osmium/io/reader.hpp>
 #include <osmium/io/xml_input.hpp>
 #include <string_view>
+#include <system_error>
 
+#include "core/system_limits.h"
 #include "maps/osm/pbf_file.h"
 #include "maps/osm/refused_input.h"
 #include "maps/osm/xml_input.h"
@@ -75,6 +77,10 @@ bool is_pbf(std::string_view bytes) {
   } catch (const std::bad_alloc&) {
     fail(ErrorCode::out_of_memory, where, "the file does not fit into memory, or is garbled",
          "cut it to the part that is needed");
+  } catch (const std::system_error& error) {  // of threads and files: nothing that the map holds
+    if (error.code() == std::errc::resource_unavailable_try_again) core::fail_for_threads();
+    fail(ErrorCode::file_unreadable, where, std::string("the file cannot be read: ") + error.code().message(),
+         "check the file and its disk");
   } catch (const std::exception& error) {
     fail(ErrorCode::map_syntax, where, std::string("the file is cut off or garbled: ") + error.what(), kAgain);
   }

@@ -1,0 +1,44 @@
+#include "core/system_limits.h"
+
+#include <dlfcn.h>
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+
+#include "vantage/error.h"
+
+namespace vantage::internal::core {
+
+void fail_for_threads() {
+  throw Error(ErrorCode::system_limit, "the system gives no more threads", "",
+              "raise the limits of processes and of memory (ulimit -u, ulimit -v), or end other programs");
+}
+
+void check_open_files() {
+  const int file = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
+  const int error = errno;
+  if (file >= 0) ::close(file);
+  if (file < 0 && (error == EMFILE || error == ENFILE)) {
+    throw Error(ErrorCode::system_limit, "no more files can be opened", "",
+                "raise the limit of open files (ulimit -n)");
+  }
+}
+
+void* load_library(const std::vector<std::string>& names, const std::string& what) {
+  for (const std::string& name : names) {
+    if (void* const handle = ::dlopen(name.c_str(), RTLD_LAZY | RTLD_LOCAL)) return handle;
+    const char* const reason = ::dlerror();
+    const std::string said = reason ? reason : "";
+    // In the words of the C library: the file cannot be mapped, or the loader has no memory for it.
+    if (said.find("failed to map segment") != std::string::npos ||
+        said.find("annot allocate memory") != std::string::npos || said.find("annot create") != std::string::npos) {
+      throw Error(ErrorCode::out_of_memory, "there is not enough memory to load " + what + " (" + said + ")", "",
+                  "free some memory, or raise its limit (ulimit -v)");
+    }
+    check_open_files();
+  }
+  return nullptr;
+}
+
+}  // namespace vantage::internal::core
