@@ -1,8 +1,10 @@
 // Compiled where gdal.h is installed: what vantage says of the functions that it loads is what GDAL declares.
+#include <cpl_conv.h>
 #include <cpl_error.h>
 #include <cpl_string.h>
 #include <cpl_vsi.h>
 #include <gdal.h>
+#include <gdal_frmts.h>
 #include <ogr_srs_api.h>
 
 #include <type_traits>

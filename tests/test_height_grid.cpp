@@ -247,7 +247,7 @@ TEST(HeightGrid, NamesWhatHeightsAreMeasuredFrom) {
   raster.transform = {85000, 0.5, 0, 447000, 0, -0.5};
   const HeightGrid grid = read_height_grid(write_raster(folder.path(), "nap", raster));
   EXPECT_EQ(grid.vertical, "NAP height");
-  EXPECT_TRUE(contains(grid.crs.name(), "EPSG:7415")) << grid.crs.name();
+  EXPECT_TRUE(contains(grid.crs.name(), "Amersfoort / RD New")) << grid.crs.name();
 }
 
 TEST(HeightGrid, TakesRowsThatRunNorthAndLongitudesBeyond180) {
@@ -342,7 +342,11 @@ TEST(HeightGrid, RefusesWhatIsNoRasterOfHeights) {
             }),
             ErrorCode::not_georeferenced);
   EXPECT_EQ(refused([](TestRaster& r) { r.transform[2] = 1; }), ErrorCode::raster_grid_unsupported);
-  EXPECT_EQ(refused([](TestRaster& r) { r.transform[1] = 0; }), ErrorCode::raster_grid_unsupported);
+  // Of an ASCII grid: a GeoTIFF cannot say so.
+  std::ofstream(folder / "flat.prj") << "GEOGCS[\"WGS 84\",DATUM[\"WGS_1984\",SPHEROID[\"WGS 84\",6378137,298.257]],"
+                                        "PRIMEM[\"Greenwich\",0],UNIT[\"degree\",0.0174532925199433]]";
+  std::ofstream(folder / "flat.asc") << "ncols 3\nnrows 2\nxllcorner 7\nyllcorner 43\ncellsize 0\n1 2 3\n4 5 6\n";
+  EXPECT_EQ(refusal(folder / "flat.asc"), ErrorCode::raster_grid_unsupported);
   EXPECT_EQ(refused([](TestRaster& r) { r.bands = 3; }), ErrorCode::raster_not_heights);
   EXPECT_EQ(refused([](TestRaster& r) {
               r.bands = 3;

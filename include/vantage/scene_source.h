@@ -29,7 +29,7 @@ struct SceneSource {
   RasterOptions raster;
 };
 
-/// Told by the name: .osm, .pbf (also .osm.gz, .osm.bz2) are maps; .tif, .tiff, .hgt, .asc, .vrt, .img and those zipped
+/// Told by the name: .osm, .pbf (also .osm.gz, .osm.bz2) are maps; .tif, .tiff, .hgt, .asc, .hgt.zip, .vrt and .img
 /// are rasters; all else are meshes. Case does not count.
 VANTAGE_API SceneSource::Kind source_kind(const std::filesystem::path& file);
 

@@ -43,9 +43,9 @@ struct RasterScene {
   RasterReport report;
 };
 
-/// Reads a raster of heights (GeoTIFF, SRTM .hgt, also in a .zip, and what else GDAL reads) and makes its surface a
-/// scene, in metres about `origin_deg`: z is the height in the file (see Georeference::vertical). The surface ends on
-/// the outermost posts of the region, which covers what was asked for.
+/// Reads a raster of heights (GeoTIFF, SRTM .hgt, ASCII grid; also in a .zip) and makes its surface a scene, in metres
+/// about `origin_deg`: z is the height in the file (see Georeference::vertical). The surface ends on the outermost
+/// posts of the region, which covers what was asked for.
 ///
 /// It has one height at every place. Under bridges, eaves and crowns of trees it is solid; walls are as steep as one
 /// step of the raster; and what the true surface does between two posts is not known: the triangles take it for flat.

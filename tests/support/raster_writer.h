@@ -1,4 +1,4 @@
-// Small rasters for tests: raw floats, described by a text of GDAL's virtual format.
+// Small rasters for tests: raw floats, described by a text of GDAL's virtual format, of which GDAL makes a GeoTIFF.
 #pragma once
 
 #include <array>
@@ -28,7 +28,16 @@ struct TestRaster {
   std::string type = "Float32";    ///< of GDAL; the file then holds nothing but zeros if it is another
 };
 
-/// Writes NAME.vrt and the floats beside it; returns the former's path.
+/// Writes NAME.vrt and the floats beside it; returns the former's path. vantage does not read it.
+std::filesystem::path write_virtual_raster(const std::filesystem::path& folder, const std::string& name,
+                                           const TestRaster& raster);
+
+/// A copy of any raster by GDAL, with all of its drivers: "GTiff", "AAIGrid", "SRTMHGT", "HFA", ... `metadata`, of the
+/// form DOMAIN|NAME=VALUE, is added to it. Throws where GDAL cannot.
+void convert_raster(const std::filesystem::path& from, const std::filesystem::path& to, const std::string& driver,
+                    const std::string& metadata = "");
+
+/// Writes NAME.tif, a GeoTIFF; returns its path.
 std::filesystem::path write_raster(const std::filesystem::path& folder, const std::string& name,
                                    const TestRaster& raster);
 

@@ -5,13 +5,25 @@
 #include <algorithm>
 #include <memory>
 #include <new>
+#include <utility>
 
+#include "core/system_limits.h"
 #include "vantage/error.h"
 
 namespace vantage::internal::terrain {
 namespace {
 
-thread_local GdalMessages* innermost = nullptr;
+thread_local GdalCalls* innermost = nullptr;
+
+constexpr std::pair<const char*, const char*> kOptions[] = {
+    // FILE.aux.xml may name any file for the overviews, and a driver opens it.
+    {"GDAL_PAM_ENABLED", "NO"},
+    // Nor FILE.ovr and FILE.msk, which any driver would open.
+    {"GDAL_DISABLE_READDIR_ON_OPEN", "EMPTY_DIR"},
+    // The only name that /vsicurl/ and what is built on it (s3, ...) may open: none.
+    {"CPL_VSIL_CURL_ALLOWED_FILENAME", "/vsicurl/"},
+    {"GDAL_CACHEMAX", "64"},  // MB; counts only where GDAL has not begun to cache
+};
 
 std::unique_ptr<GdalLibrary> functions_of(void* handle, std::string& missing) {
   auto library = std::make_unique<GdalLibrary>();
@@ -39,7 +51,7 @@ std::vector<std::string> gdal_library_names() {
 const GdalLibrary* load_gdal_library(std::string& why_not, const std::vector<std::string>& names) {
   why_not = "GDAL is not installed";
   for (const std::string& name : names) {
-    void* const handle = dlopen(name.c_str(), RTLD_LAZY | RTLD_LOCAL);
+    void* const handle = core::load_library({name}, "GDAL");
     if (!handle) continue;
     std::string missing;
     std::unique_ptr<GdalLibrary> library = functions_of(handle, missing);
@@ -49,8 +61,10 @@ const GdalLibrary* load_gdal_library(std::string& why_not, const std::vector<std
       continue;
     }
     {
-      const GdalMessages silence(*library);
-      library->GDALAllRegister();
+      const GdalCalls calls(*library);
+      library->GDALRegister_GTiff();
+      library->GDALRegister_AAIGrid();
+      library->GDALRegister_SRTMHGT();
     }
     return library.release();  // for as long as the program runs, as the library itself
   }
@@ -67,17 +81,26 @@ const GdalLibrary& gdal(const std::filesystem::path& file) {
   return *library;
 }
 
-GdalMessages::GdalMessages(const GdalLibrary& library) : library_(library), outer_(innermost) {
+GdalCalls::GdalCalls(const GdalLibrary& library) : library_(library), outer_(innermost) {
+  for (const auto& [name, value] : kOptions) {
+    const char* const before = library_.CPLGetThreadLocalConfigOption(name, nullptr);
+    options_before_.push_back(before ? std::optional<std::string>(before) : std::nullopt);
+  }
   innermost = this;
   library_.CPLPushErrorHandlerEx(handle, nullptr);
+  for (const auto& [name, value] : kOptions) library_.CPLSetThreadLocalConfigOption(name, value);
 }
 
-GdalMessages::~GdalMessages() {
+GdalCalls::~GdalCalls() {
+  for (std::size_t i = 0; i < options_before_.size(); ++i) {
+    library_.CPLSetThreadLocalConfigOption(kOptions[i].first,
+                                           options_before_[i] ? options_before_[i]->c_str() : nullptr);
+  }
   library_.CPLPopErrorHandler();
   innermost = outer_;
 }
 
-void GdalMessages::handle(int severity, int /*number*/, const char* message) noexcept {
+void GdalCalls::handle(int severity, int /*number*/, const char* message) noexcept {
   if (severity < gdal_values::kFailure || !message || !innermost || !innermost->first_error_.empty()) return;
   try {
     innermost->first_error_.assign(message).resize(std::min<std::size_t>(innermost->first_error_.size(), 200));

@@ -3,15 +3,19 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace vantage::internal::terrain {
 
-// Handles are opaque in the C API; names and types are those of gdal.h, ogr_srs_api.h, cpl_error.h, cpl_vsi.h and
-// cpl_string.h, the same from GDAL 3.1 on: tests/gdal_prototypes.cpp. Enumerations are passed as int.
+// Handles are opaque in the C API; names and types are those of gdal.h, ogr_srs_api.h, cpl_error.h, cpl_vsi.h,
+// cpl_conv.h, cpl_string.h and gdal_frmts.h, the same from GDAL 3.1 on: tests/gdal_prototypes.cpp. Enumerations are
+// passed as int.
 #define VANTAGE_GDAL_FUNCTIONS(X)                                                                           \
-  X(void, GDALAllRegister, ())                                                                              \
+  X(void, GDALRegister_GTiff, ())                                                                           \
+  X(void, GDALRegister_AAIGrid, ())                                                                         \
+  X(void, GDALRegister_SRTMHGT, ())                                                                         \
   X(void*, GDALOpenEx, (const char*, unsigned, const char* const*, const char* const*, const char* const*)) \
   X(void, GDALClose, (void*))                                                                               \
   X(void*, GDALGetDatasetDriver, (void*))                                                                   \
@@ -32,6 +36,8 @@ namespace vantage::internal::terrain {
   X(int, OSRExportToWktEx, (void*, char**, const char* const*))                                             \
   X(void, CPLPushErrorHandlerEx, (void (*)(int, int, const char*), void*))                                  \
   X(void, CPLPopErrorHandler, ())                                                                           \
+  X(const char*, CPLGetThreadLocalConfigOption, (const char*, const char*))                                 \
+  X(void, CPLSetThreadLocalConfigOption, (const char*, const char*))                                        \
   X(char**, VSIReadDir, (const char*))                                                                      \
   X(void, VSIFree, (void*))                                                                                 \
   X(void, CSLDestroy, (char**))
@@ -53,24 +59,31 @@ inline constexpr int kPalette = 2, kRed = 3, kAlpha = 6;            // GDALColor
 inline constexpr int kFailure = 3;  // CPLErr; CE_Fatal, after which GDAL ends the program, is 4
 }  // namespace gdal_values
 
+/// The drivers of GDAL that may read a raster, in GDAL's words. Others follow names in a file to other files and into
+/// the network (VRT, WMS), or run programs.
+inline constexpr const char* kRasterDrivers[] = {"GTiff", "AAIGrid", "SRTMHGT", nullptr};
+
 /// The names that are tried: of GDAL 3.6 (Debian 12) first, then of its neighbours.
 std::vector<std::string> gdal_library_names();
 
-/// Loads the first of `names` that is there, with its drivers registered. Null when there is none or it lacks a
+/// Loads the first of `names` that is there, with those drivers registered and no others. (A program that uses GDAL
+/// itself may have registered all of them.) Null when there is none or it lacks a
 /// function; `why_not` then says which. Stays loaded until the program ends: GDAL keeps state for threads and for the
-/// exit. Takes about 0.1 s the first time.
+/// exit. Takes some ten milliseconds.
 const GdalLibrary* load_gdal_library(std::string& why_not, const std::vector<std::string>& names);
 
 /// The same with the usual names, once per program. Throws Error(input) for `file`, which is what was to be read.
 const GdalLibrary& gdal(const std::filesystem::path& file);
 
-/// While it lives, what GDAL has to say on this thread is kept here and not written to standard error.
-class GdalMessages {
+/// To be alive wherever GDAL is called. What GDAL has to say on this thread is kept here and not written to standard
+/// error. And GDAL keeps to the file that it is given: it looks for none beside it, but for the .prj of an ASCII grid,
+/// and fetches nothing from the network. Afterwards the thread's options are as they were.
+class GdalCalls {
  public:
-  explicit GdalMessages(const GdalLibrary& library);
-  GdalMessages(const GdalMessages&) = delete;
-  GdalMessages& operator=(const GdalMessages&) = delete;
-  ~GdalMessages();
+  explicit GdalCalls(const GdalLibrary& library);
+  GdalCalls(const GdalCalls&) = delete;
+  GdalCalls& operator=(const GdalCalls&) = delete;
+  ~GdalCalls();
 
   /// The first error, in one line of at most 200 characters; empty when there was none.
   const std::string& first_error() const { return first_error_; }
@@ -79,7 +92,8 @@ class GdalMessages {
   static void handle(int severity, int number, const char* message) noexcept;
 
   const GdalLibrary& library_;
-  GdalMessages* outer_;
+  GdalCalls* outer_;
+  std::vector<std::optional<std::string>> options_before_;
   std::string first_error_;
 };
 

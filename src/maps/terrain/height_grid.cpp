@@ -19,6 +19,9 @@ namespace vantage::internal::terrain {
 namespace {
 
 constexpr std::int64_t kMaxPosts = static_cast<std::int64_t>(1) << 28;
+// A header alone may announce any number of posts, and a scene needs some 50 bytes for each. Heights that are
+// compressed well take a byte each.
+constexpr std::int64_t kPostsOfAnyFile = static_cast<std::int64_t>(1) << 24, kPostsOfByte = 8;
 constexpr int kMarginPosts = 2;
 constexpr float kImpossible_m = 12000;  // no place on the earth is so high or deep
 constexpr int kSideSamples = 32;        // of an outline, whose image is curved
@@ -84,7 +87,7 @@ bool is_swapped(const HeightGrid& grid, const Window& window) {
       is_swapped(grid, window)
           ? "latitude and longitude are the wrong way round: give the latitude first"
           : "make the area smaller, or give a raster that covers it (an SRTM tile is named after its south-west "
-            "corner; gdalbuildvrt joins several)");
+            "corner; gdalwarp joins several)");
 }
 
 /// Columns of a full turn, where the raster goes round the earth: its first column follows its last one.
@@ -210,14 +213,28 @@ HeightGrid describe(const RasterFile& raster, const std::filesystem::path& file)
           std::move(vertical)};
 }
 
+void check_posts(std::int64_t posts, const std::filesystem::path& file) {
+  if (posts > kMaxPosts) {
+    throw Error(ErrorCode::raster_too_large,
+                "the area has " + std::to_string(posts) + " posts of the raster; at most " + std::to_string(kMaxPosts) +
+                    " can be read",
+                file.string(), "make the area smaller, or the raster coarser with gdalwarp -tr");
+  }
+  std::error_code error;
+  const std::uintmax_t bytes = std::filesystem::file_size(file, error);
+  if (!error && posts > kPostsOfAnyFile + kPostsOfByte * static_cast<std::int64_t>(bytes)) {
+    throw Error(ErrorCode::raster_too_large,
+                "the area has " + std::to_string(posts) + " posts, and the file " + std::to_string(bytes) +
+                    " bytes: it has no heights for most of them",
+                file.string(),
+                "make the area smaller; or, if the raster is right, write it without compression: gdal_translate -co "
+                "COMPRESS=NONE");
+  }
+}
+
 HeightGrid read_pixels(const RasterFile& raster, HeightGrid grid, const PixelWindow& pixels, const Progress& callback) {
   const std::string place = grid.file.string();
-  if (static_cast<std::int64_t>(pixels.columns) * pixels.rows > kMaxPosts) {
-    throw Error(ErrorCode::raster_too_large,
-                "the area has " + std::to_string(static_cast<std::int64_t>(pixels.columns) * pixels.rows) +
-                    " posts of the raster; at most " + std::to_string(kMaxPosts) + " can be read",
-                place, "make the area smaller, or the raster coarser with gdalwarp -tr");
-  }
+  check_posts(static_cast<std::int64_t>(pixels.columns) * pixels.rows, grid.file);
   const double unit = unit_m(raster, grid.crs, grid.file);
   core::ProgressReporter progress(callback, grid.file);
   progress.begin("reading heights");

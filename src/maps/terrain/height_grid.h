@@ -46,16 +46,17 @@ struct PixelWindow {
   int first_column = 0, first_row = 0, columns = 0, rows = 0;
 };
 
-/// Reads GeoTIFF, SRTM .hgt (also in a .zip) and whatever else GDAL reads as a raster of one band of heights. A height
-/// lies at the centre of its pixel. Feet become metres; scale and offset of the band are applied. A post is void when
+/// Reads GeoTIFF, SRTM .hgt and ASCII grids of one band of heights, also in a .zip. A height lies at the centre of its
+/// pixel. Feet become metres; scale and offset of the band are applied. A post is void when
 /// the file masks it (nodata), when it is not finite, -9999 or -32768 (often not declared), or beyond 12 km up or down:
 /// voids are filled with the mean of the nearest values in eight directions, weighted by the inverse of their distance
 /// (in posts), and counted. Without a window the whole raster.
 ///
 /// Throws Error(input) naming the file for: no such file, not a raster, several bands or a picture, no CRS, rotated or
 /// without georeference, does not cover the window up to half a pixel (says the bounds of both), no value at all in the
-/// window, more than 2^28 posts, a unit of height other than metres and feet, or a GDAL that cannot be loaded (which
-/// package to install). Error(cancelled) when told to stop.
+/// window, more than 2^28 posts, or more than 2^24 and 8 for each byte of the file, a mask or a value for "no height"
+/// in a file beside it, a unit of height other than metres and feet, or a GDAL that cannot be loaded (which package to
+/// install). Error(cancelled) when told to stop.
 HeightGrid read_height_grid(const std::filesystem::path& file, const std::optional<Window>& window = {},
                             const Progress& progress = {});
 /// The same for pixels; throws Error(input) for a window that is empty or sticks out of the raster.

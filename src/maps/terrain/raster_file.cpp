@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <fstream>
 #include <limits>
 #include <string_view>
 
@@ -40,13 +41,40 @@ const GdalLibrary& library_for(const fs::path& file) {
   return gdal(file);
 }
 
+// What a file beside a raster says of its heights: without it they would be read wrong.
+constexpr std::string_view kOfHeights[] = {"<NoDataValue", "<Offset", "<Scale", "<UnitType"};
+
+/// Masks, overviews and metadata in files of their own are not read: GDAL opens them by any driver that knows them.
+void check_beside(const fs::path& file) {
+  const fs::path mask = file.string() + ".msk", metadata = file.string() + ".aux.xml";
+  const std::string where = file.string(), fix = "write it into the raster, as gdal_translate does: gdal_translate " +
+                                                 file.filename().string() +
+                                                 " new.tif --config GDAL_TIFF_INTERNAL_MASK YES";
+  std::error_code error;
+  if (fs::exists(mask, error)) {
+    throw Error(ErrorCode::raster_unreadable,
+                "the raster has its mask in a file of its own, which is not read: " + mask.filename().string(), where,
+                fix);
+  }
+  std::string text(std::size_t{1} << 20U, '\0');
+  std::ifstream stream(metadata, std::ios::binary);
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(std::max<std::streamsize>(0, stream.gcount())));
+  for (const std::string_view element : kOfHeights) {
+    if (text.find(element) == std::string::npos) continue;
+    throw Error(ErrorCode::raster_unreadable,
+                "the raster has " + std::string(element.substr(1)) +
+                    " in a file of its own, which is not read: " + metadata.filename().string(),
+                where, fix);
+  }
+}
+
 /// The only file in an archive that may be a raster, by its extension.
 std::string raster_in_archive(const GdalLibrary& library, const std::string& archive) {
   const std::unique_ptr<char*, void (*)(char**)> names(library.VSIReadDir(archive.c_str()), library.CSLDestroy);
   for (char* const* name = names.get(); name && *name; ++name) {
     const std::string extension = lower_extension(*name);
-    if (extension == ".hgt" || extension == ".tif" || extension == ".tiff" || extension == ".asc" ||
-        extension == ".img" || extension == ".dem") {
+    if (extension == ".hgt" || extension == ".tif" || extension == ".tiff" || extension == ".asc") {
       return archive + "/" + *name;
     }
   }
@@ -65,12 +93,12 @@ std::string gdal_name(const GdalLibrary& library, const fs::path& file) {
 }  // namespace
 
 void DatasetCloser::operator()(void* dataset) const {
-  const GdalMessages messages(*library);
+  const GdalCalls calls(*library);
   library->GDALClose(dataset);
 }
 
 RasterFile::RasterFile(const fs::path& file) : file_(file), library_(library_for(file)) {
-  const GdalMessages messages(library_);
+  const GdalCalls calls(library_);
   open();
   check_bands();
   read_georeference();
@@ -89,15 +117,20 @@ void RasterFile::fail(ErrorCode code, const std::string& problem, const std::str
 }
 
 void RasterFile::open() {
-  const GdalMessages messages(library_);
+  const GdalCalls calls(library_);
+  check_beside(file_);
   const std::string name = gdal_name(library_, file_);
-  dataset_ = {library_.GDALOpenEx(name.c_str(), kOpenRaster | kOpenVerbose, nullptr, nullptr, nullptr),
+  if (fs::absolute(file_).string().starts_with("/vsi")) {  // GDAL's names for what is no file
+    fail(ErrorCode::raster_unreadable, "the folder has a name of GDAL's own", "move the raster to another folder");
+  }
+  dataset_ = {library_.GDALOpenEx(name.c_str(), kOpenRaster | kOpenVerbose, kRasterDrivers, nullptr, nullptr),
               DatasetCloser{&library_}};
   if (!dataset_) {
     fail(
         ErrorCode::raster_unreadable,
-        "not a raster that GDAL can read" + (messages.first_error().empty() ? "" : " (" + messages.first_error() + ")"),
-        "give a GeoTIFF, an SRTM .hgt under its own name (N43E007.hgt), or another raster of heights");
+        "not a raster that is read here" + (calls.first_error().empty() ? "" : " (" + calls.first_error() + ")"),
+        "give a GeoTIFF, an ASCII grid (.asc) or an SRTM .hgt under its own name (N43E007.hgt); gdal_translate makes a "
+        "GeoTIFF of a VRT and of other rasters");
   }
   columns_ = library_.GDALGetRasterXSize(dataset_.get());
   rows_ = library_.GDALGetRasterYSize(dataset_.get());
@@ -165,7 +198,7 @@ void RasterFile::read_georeference() {
 }
 
 void RasterFile::read_rows(const PixelWindow& pixels, int begin, int end, float* heights) const {
-  const GdalMessages messages(library_);
+  const GdalCalls calls(library_);
   const std::size_t count = static_cast<std::size_t>(end - begin) * static_cast<std::size_t>(pixels.columns);
   std::vector<double> values(count);
   std::vector<unsigned char> mask(count);
@@ -176,7 +209,7 @@ void RasterFile::read_rows(const PixelWindow& pixels, int begin, int end, float*
   if (!get(band_, values.data(), kFloat64) || !get(library_.GDALGetMaskBand(band_), mask.data(), kByte)) {
     fail(ErrorCode::raster_unreadable,
          "the raster is damaged: it cannot be read to its end" +
-             (messages.first_error().empty() ? "" : " (" + messages.first_error() + ")"),
+             (calls.first_error().empty() ? "" : " (" + calls.first_error() + ")"),
          "fetch it again");
   }
   for (std::size_t i = 0; i < count; ++i) {

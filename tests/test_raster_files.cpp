@@ -1,0 +1,232 @@
+// Which files are read as rasters, and that nothing but the file is: no other file, and no network.
+#include <arpa/inet.h>
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "maps/terrain/gdal_library.h"
+#include "maps/terrain/height_grid.h"
+#include "support/raster_writer.h"
+#include "support/temporary_directory.h"
+#include "support/wording.h"
+
+namespace vantage::internal::terrain {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::convert_raster;
+using testing::make_raster;
+using testing::TemporaryDirectory;
+using testing::write_bytes;
+using testing::write_raster;
+
+testing::TestRaster small_raster() {
+  return make_raster(20, 20, [](int column, int row) { return 100 + column - 2 * row; });
+}
+
+void expect_unread(const fs::path& file) {
+  testing::expect_code([&] { read_height_grid(file); }, ErrorCode::raster_unreadable, file.filename().string());
+}
+
+/// A port of this machine where somebody listens and does not answer: whether anybody came.
+class Listener {
+ public:
+  Listener() : socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof address;
+    EXPECT_EQ(::bind(socket_, reinterpret_cast<const sockaddr*>(&address), size), 0);
+    EXPECT_EQ(::listen(socket_, 8), 0);
+    EXPECT_EQ(::getsockname(socket_, reinterpret_cast<sockaddr*>(&address), &size), 0);
+    port_ = ntohs(address.sin_port);
+    ::fcntl(socket_, F_SETFL, O_NONBLOCK);
+    gdal({}).CPLSetThreadLocalConfigOption("GDAL_HTTP_TIMEOUT", "1");  // for who comes all the same
+  }
+  ~Listener() {
+    gdal({}).CPLSetThreadLocalConfigOption("GDAL_HTTP_TIMEOUT", nullptr);
+    ::close(socket_);
+  }
+  Listener(const Listener&) = delete;
+  Listener& operator=(const Listener&) = delete;
+
+  std::string address() const { return "http://127.0.0.1:" + std::to_string(port_); }
+  bool was_called() const {
+    const int call = ::accept4(socket_, nullptr, nullptr, SOCK_CLOEXEC);
+    if (call >= 0) ::close(call);
+    return call >= 0;
+  }
+
+ private:
+  int socket_;
+  int port_ = 0;
+};
+
+TEST(RasterFiles, GeoTiffAsciiGridAndSrtmAreRead) {
+  const TemporaryDirectory folder;
+  const fs::path tif = write_raster(folder.path(), "dem", small_raster());
+  const HeightGrid expected = read_height_grid(tif);
+  EXPECT_EQ(expected.at(3, 4), 95);
+  convert_raster(tif, folder / "grid.asc", "AAIGrid");
+  ASSERT_TRUE(fs::exists(folder / "grid.prj"));
+  EXPECT_EQ(read_height_grid(folder / "grid.asc").heights_m, expected.heights_m);  // with the system of grid.prj
+  fs::rename(folder / "grid.asc", folder / "height.data");                         // told by the content
+  fs::rename(folder / "grid.prj", folder / "height.prj");
+  EXPECT_EQ(read_height_grid(folder / "height.data").heights_m, expected.heights_m);
+
+  std::string tile(2 * 1201 * 1201, '\0');
+  tile[1] = 77;  // the north-west post, big-endian
+  write_bytes(folder / "N43E007.hgt", tile);
+  EXPECT_EQ(read_height_grid(folder / "N43E007.hgt").at(0, 0), 77);
+}
+
+TEST(RasterFiles, AFileMayNotNameOthers) {
+  const TemporaryDirectory folder;
+  const Listener listener;
+  // Any raster, of which somebody else must not see the heights; and a text.
+  const fs::path secret = write_raster(folder.path(), "secret", small_raster());
+  const std::string head =
+      "<VRTDataset rasterXSize=\"20\" rasterYSize=\"20\"><GeoTransform>11,0.0001,0,48,0,-0.0001</GeoTransform>"
+      "<SRS>EPSG:4326</SRS><VRTRasterBand dataType=\"Float32\" band=\"1\"";
+  const std::string end = "</VRTRasterBand></VRTDataset>";
+  const auto simple = [&](const std::string& name) {
+    return head + "><SimpleSource><SourceFilename relativeToVRT=\"0\">" + name + "</SourceFilename></SimpleSource>" +
+           end;
+  };
+  const std::string raw = head +
+                          " subClass=\"VRTRawRasterBand\"><SourceFilename relativetoVRT=\"0\">/etc/passwd"
+                          "</SourceFilename><PixelOffset>1</PixelOffset><LineOffset>20</LineOffset>" +
+                          end;
+  const std::string wms =
+      "<GDAL_WMS><Service name=\"TMS\"><ServerUrl>" + listener.address() +
+      "/${z}/${x}/${y}.tif</ServerUrl></Service><DataWindow><UpperLeftX>11</UpperLeftX><UpperLeftY>48"
+      "</UpperLeftY><LowerRightX>11.01</LowerRightX><LowerRightY>47.99</LowerRightY><SizeX>100</SizeX>"
+      "<SizeY>100</SizeY></DataWindow><Projection>EPSG:4326</Projection><BandsCount>1</BandsCount>"
+      "<DataType>Float32</DataType></GDAL_WMS>";
+  for (const std::string& content :
+       {simple(secret.string()), simple("/vsicurl/" + listener.address() + "/secret.tif"), raw, wms}) {
+    for (const char* const name : {"dsm.tif", "dsm.vrt", "dsm.asc", "dsm.img", "N43E007.hgt"}) {
+      write_bytes(folder / name, content);
+      expect_unread(folder / name);
+    }
+  }
+  EXPECT_FALSE(listener.was_called());
+  write_bytes(folder / "dsm.vrt", simple(secret.string()));
+  write_bytes(folder / "dsm.tif", "II*");
+  for (const char* const driver : {"HFA", "netCDF"}) {  // read by GDAL, and not here
+    const fs::path other = folder / "other";
+    try {
+      convert_raster(secret, other, driver);
+    } catch (const std::runtime_error&) {  // a GDAL without that driver
+      continue;
+    }
+    expect_unread(other);
+  }
+}
+
+/// Overviews, masks and metadata that lie beside a raster are opened by any driver of GDAL, and may name any file.
+TEST(RasterFiles, FilesBesideARasterAreNotOpened) {
+  const TemporaryDirectory folder;
+  const Listener listener;
+  const fs::path file = write_raster(folder.path(), "dem", small_raster());
+  const std::vector<float> expected = read_height_grid(file).heights_m;
+  const std::string far = "/vsicurl/" + listener.address() + "/secret.tif";
+  const std::string virtual_text =
+      "<VRTDataset rasterXSize=\"20\" rasterYSize=\"20\"><VRTRasterBand dataType=\"Byte\" band=\"1\"><SimpleSource>"
+      "<SourceFilename relativeToVRT=\"0\">" +
+      far + "</SourceFilename></SimpleSource></VRTRasterBand></VRTDataset>";
+  write_bytes(file.string() + ".ovr", virtual_text);
+  write_bytes(file.string() + ".aux.xml", "<PAMDataset><Metadata domain=\"OVERVIEWS\"><MDI key=\"OVERVIEW_FILE\">" +
+                                              far + "</MDI></Metadata></PAMDataset>");
+  EXPECT_EQ(read_height_grid(file).heights_m, expected);
+  // The same within the file.
+  convert_raster(file, folder / "inside.tif", "GTiff", "OVERVIEWS|OVERVIEW_FILE=" + far);
+  EXPECT_EQ(read_height_grid(folder / "inside.tif").heights_m, expected);
+
+  // A mask says which heights are none. It is not read, and the heights are not without it.
+  write_bytes(file.string() + ".msk", virtual_text);
+  testing::expect_error([&] { read_height_grid(file); }, ErrorCode::raster_unreadable, "dem.tif");
+  EXPECT_FALSE(listener.was_called());
+}
+
+TEST(RasterFiles, WhatChangesHeightsMayNotLieBeside) {
+  const TemporaryDirectory folder;
+  const fs::path file = write_raster(folder.path(), "dem", small_raster());
+  for (const std::string element : {"NoDataValue", "Offset", "Scale", "UnitType"}) {
+    write_bytes(file.string() + ".aux.xml", "<PAMDataset><PAMRasterBand band=\"1\"><" + element + ">95</" + element +
+                                                "></PAMRasterBand></PAMDataset>");
+    testing::expect_error([&] { read_height_grid(file); }, ErrorCode::raster_unreadable, "dem.tif");
+  }
+  // Statistics do not.
+  write_bytes(file.string() + ".aux.xml",
+              "<PAMDataset><PAMRasterBand band=\"1\"><Metadata><MDI key=\"STATISTICS_MEAN\">95</MDI></Metadata>"
+              "</PAMRasterBand></PAMDataset>");
+  EXPECT_EQ(read_height_grid(file).voids, 0u);
+}
+
+TEST(RasterFiles, AHeaderAloneIsNoRaster) {
+  const TemporaryDirectory folder;
+  // Sparse: GDAL gives zeros for what the file does not hold.
+  std::string tif("II*\0\x08\0\0\0", 8);
+  const auto add = [&tif](std::uint64_t number, int bytes) {
+    for (int i = 0; i < bytes; ++i) tif += static_cast<char>(number >> (8 * i));
+  };
+  struct Tag {
+    std::uint16_t tag, type;
+    std::uint32_t count, value;
+  };
+  const std::vector<Tag> tags = {{256, 4, 1, 16000}, {257, 4, 1, 16000}, {258, 3, 1, 32},   {259, 3, 1, 1},
+                                 {262, 3, 1, 1},     {273, 4, 1, 0},     {277, 3, 1, 1},    {278, 4, 1, 16000},
+                                 {279, 4, 1, 0},     {339, 3, 1, 3},     {33550, 12, 3, 0}, {33922, 12, 6, 24},
+                                 {34735, 3, 16, 72}};
+  const auto extra = static_cast<std::uint32_t>(8 + 2 + 12 * tags.size() + 4);
+  add(tags.size(), 2);
+  for (const Tag& tag : tags) {
+    add(tag.tag, 2), add(tag.type, 2), add(tag.count, 4);
+    add(tag.tag > 30000 ? extra + tag.value : tag.value, 4);
+  }
+  add(0, 4);
+  const auto add_double = [&](double number) {
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &number, sizeof bits);
+    add(bits, 8);
+  };
+  for (const double number : {1e-4, 1e-4, 0.0, 0.0, 0.0, 0.0, 11.0, 48.0, 0.0}) add_double(number);
+  for (const int key : {1, 1, 0, 3, 1024, 0, 1, 2, 1025, 0, 1, 1, 2048, 0, 1, 4326}) {
+    add(static_cast<std::uint64_t>(key), 2);
+  }
+  write_bytes(folder / "huge.tif", tif);
+  testing::expect_error([&] { read_height_grid(folder / "huge.tif"); }, ErrorCode::raster_too_large, "huge.tif");
+  EXPECT_EQ(read_height_pixels(folder / "huge.tif", {0, 0, 40, 30}).at(3, 3), 0);  // a part of it may be read
+}
+
+TEST(RasterFiles, OptionsOfTheThreadAreAsBefore) {
+  const TemporaryDirectory folder;
+  const GdalLibrary& library = gdal(folder.path());
+  library.CPLSetThreadLocalConfigOption("GDAL_PAM_ENABLED", "YES");
+  const auto option = [&](const char* name) {
+    const char* const value = library.CPLGetThreadLocalConfigOption(name, nullptr);
+    return std::string(value ? value : "(none)");
+  };
+  {
+    const GdalCalls calls(library);
+    EXPECT_EQ(option("GDAL_PAM_ENABLED"), "NO");
+    const GdalCalls more(library);
+    EXPECT_EQ(option("GDAL_DISABLE_READDIR_ON_OPEN"), "EMPTY_DIR");
+  }
+  EXPECT_EQ(option("GDAL_PAM_ENABLED"), "YES");
+  EXPECT_EQ(option("GDAL_DISABLE_READDIR_ON_OPEN"), "(none)");
+  library.CPLSetThreadLocalConfigOption("GDAL_PAM_ENABLED", nullptr);
+}
+
+}  // namespace
+}  // namespace vantage::internal::terrain
