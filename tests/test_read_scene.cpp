@@ -127,6 +127,24 @@ TEST(ReadScene, StopsDecompressionAtItsLimit) {
                "bomb.obj.gz");
 }
 
+TEST(ReadScene, StopsDecompressionThatGrowsTooMuch) {
+  TemporaryDirectory folder;
+  const std::string part = gzip(std::string(std::size_t{1} << 24, '#'));
+  std::string bomb;
+  for (int i = 0; i < 8; ++i) bomb += part;  // 128 MiB of a comment in some kilobytes
+  write_bytes(folder / "bomb.obj.gz", bomb);
+  EXPECT_LT(bomb.size(), 1u << 18);
+  try {
+    read_scene(folder / "bomb.obj.gz");
+    FAIL() << "it was read";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::file_too_large) << error.what();
+  }
+  const core::ReadLimits limits;
+  EXPECT_EQ(limits.most_decompressed(1000), (64u << 20) + 32000u);
+  EXPECT_EQ(limits.most_decompressed(std::uint64_t{1} << 40), limits.decompressed_bytes);
+}
+
 TEST(ReadScene, NamesFilesThatCannotBeRead) {
   TemporaryDirectory folder;
   const auto expect = [&](const std::string& name, ErrorCode code) {

@@ -2,6 +2,7 @@
 // the rest, where a small file can describe something huge.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -11,14 +12,24 @@ struct ReadLimits {
   /// Decompressed bytes of one file. A whole city of 100 million triangles is about 4 GB as OBJ.
   std::uint64_t decompressed_bytes = std::uint64_t{4} << 30;
 
+  /// gzip makes up to a thousand bytes of one, meshes of real places 3 to 10. Of a file of n bytes at most 64 MiB + 32
+  /// n are decompressed, so that a mesh of these takes a tenth of a gigabyte and some hundred bytes for each of its
+  /// own.
+  std::uint64_t most_decompressed(std::uint64_t compressed) const {
+    return std::min(decompressed_bytes, (std::uint64_t{64} << 20) + 32 * compressed);
+  }
+
   /// Triangles that a glTF file may have beyond what its buffers have room for, and a CityJSON file beyond what its own
   /// size has: nodes may repeat one mesh without end, and so may instances of a template. Ten million take up to 0.9
   /// GB.
   std::size_t repeated_triangles = 10'000'000;
 
-  /// Values in the JSON part of a glTF file, or in a CityJSON file. Each takes up to 100 bytes while it is parsed; a
-  /// city of 100,000 buildings has about 2 million as glTF, and about 20 million as CityJSON.
+  /// Values in the JSON part of a glTF file, or in a CityJSON file. A city of 100,000 buildings has about 2 million as
+  /// glTF, and about 20 million as CityJSON.
   std::size_t json_values = 20'000'000;
+
+  /// Memory that the parsed JSON may take, as far as it can be told. Numbers take 32 bytes, empty objects 200.
+  std::uint64_t json_bytes = std::uint64_t{5} << 28;
 
   /// Corners of one polygon: the time to triangulate it may grow with the square.
   std::size_t corners = 16'384;

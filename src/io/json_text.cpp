@@ -29,20 +29,30 @@ class ValueBuilder final : public nlohmann::json_sax<json> {
   ValueBuilder(std::string_view text, const core::ProgressReporter& progress, const core::ReadLimits& limits)
       : text_(text), progress_(progress), limits_(limits) {}
 
-  json take() { return std::move(root_); }
+  json result() { return std::move(root_); }
 
   bool null() override { return add(nullptr); }
   bool boolean(bool value) override { return add(value); }
   bool number_integer(json::number_integer_t value) override { return add(value); }
   bool number_unsigned(json::number_unsigned_t value) override { return add(value); }
   bool number_float(json::number_float_t value, const json::string_t& /*written*/) override { return add(value); }
-  bool string(json::string_t& value) override { return add(std::move(value)); }
+  bool string(json::string_t& value) override {
+    take(kText + value.size());
+    return add(std::move(value));
+  }
   bool binary(json::binary_t& value) override { return add(std::move(value)); }
-  bool start_object(std::size_t /*size*/) override { return open(json::object()); }
-  bool start_array(std::size_t /*size*/) override { return open(json::array()); }
+  bool start_object(std::size_t /*size*/) override {
+    take(kContainer);
+    return open(json::object());
+  }
+  bool start_array(std::size_t /*size*/) override {
+    take(kContainer);
+    return open(json::array());
+  }
   bool end_object() override { return close(); }
   bool end_array() override { return close(); }
   bool key(json::string_t& name) override {
+    take(kMember + name.size());
     const auto [member, is_new] = open_.back()->get_ref<json::object_t&>().try_emplace(name, nullptr);
     if (!is_new) throw JsonProblem{"its JSON has the member \"" + name + "\" twice in one object"};
     member_ = &member->second;
@@ -55,6 +65,17 @@ class ValueBuilder final : public nlohmann::json_sax<json> {
   }
 
  private:
+  // Bytes on the heap: a value in an array that doubles its room; besides, a text, an array or object, a member's node.
+  static constexpr std::size_t kValue = 32, kText = 48, kContainer = 64, kMember = 96;
+
+  void take(std::size_t bytes) {
+    bytes_ += bytes;
+    if (bytes_ > limits_.json_bytes) {
+      throw JsonProblem{"its JSON takes more than " + std::to_string(limits_.json_bytes >> 20U) +
+                        " MiB when it is parsed"};
+    }
+  }
+
   bool add(json value) {
     place(std::move(value));
     return true;
@@ -79,6 +100,7 @@ class ValueBuilder final : public nlohmann::json_sax<json> {
     if (++values_ > limits_.json_values) {
       throw JsonProblem{"its JSON has more than " + std::to_string(limits_.json_values) + " values"};
     }
+    take(kValue);
     progress_.tick(0, 1);
     if (open_.empty()) {
       root_ = std::move(value);
@@ -99,6 +121,7 @@ class ValueBuilder final : public nlohmann::json_sax<json> {
   std::vector<json*> open_;  ///< arrays and objects whose end has not come, outermost first
   json* member_ = nullptr;   ///< of the innermost one, an object: the value of its last key
   std::size_t values_ = 0;
+  std::uint64_t bytes_ = 0;
 };
 
 }  // namespace
@@ -106,7 +129,7 @@ class ValueBuilder final : public nlohmann::json_sax<json> {
 json parse_json(std::string_view text, const core::ProgressReporter& progress, const core::ReadLimits& limits) {
   ValueBuilder builder(text, progress, limits);
   json::sax_parse(text.begin(), text.end(), &builder);
-  return builder.take();
+  return builder.result();
 }
 
 }  // namespace vantage::internal::io

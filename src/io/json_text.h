@@ -19,7 +19,7 @@ struct JsonProblem {
 };
 
 /// Parses `text`. Throws JsonProblem for what is no JSON, has a member twice in one object (RFC 8259, section 4, leaves
-/// open which of the two counts; glTF forbids it), is nested deeper than 100 levels, or has more values than the limits
+/// open which of the two counts; glTF forbids it), is nested deeper than 100 levels, or is larger than the limits
 /// allow; Error(cancelled) when told to stop.
 nlohmann::json parse_json(std::string_view text, const core::ProgressReporter& progress,
                           const core::ReadLimits& limits);

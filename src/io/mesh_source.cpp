@@ -121,7 +121,7 @@ std::string decompress_gzip(std::string_view compressed, const std::filesystem::
                             const core::ProgressReporter& progress, const core::ReadLimits& limits) {
   progress.begin("decompress");
   const std::string again = "compress the mesh again, or give it uncompressed";
-  const std::uint64_t limit = limits.decompressed_bytes;
+  const std::uint64_t limit = limits.most_decompressed(compressed.size());
   Inflater inflater;
   z_stream& stream = inflater.stream;
   std::string out;
@@ -143,8 +143,12 @@ std::string decompress_gzip(std::string_view compressed, const std::filesystem::
     progress.report(used, compressed.size());
 
     if (filled > limit) {
-      fail(ErrorCode::file_too_large, file, "the gzip data grows beyond " + std::to_string(limit) + " bytes",
-           "decompress the file and cut the mesh to the part that is needed");
+      const bool is_large = limit == limits.decompressed_bytes;
+      fail(ErrorCode::file_too_large, file,
+           "the gzip data grows beyond " + std::to_string(limit) + " bytes" +
+               (is_large ? "" : ", 64 MiB and 32 times those of the file"),
+           is_large ? "decompress the file and cut the mesh to the part that is needed"
+                    : "if it is right all the same, decompress it first (gunzip)");
     }
     if (result == Z_MEM_ERROR) throw std::bad_alloc();
     if (result == Z_BUF_ERROR) fail(ErrorCode::compression_broken, file, "the gzip data ends too early", again);

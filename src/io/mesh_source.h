@@ -43,7 +43,7 @@ class MeshSource {
 std::string read_file_bytes(const std::filesystem::path& file, const core::ProgressReporter& progress);
 
 /// The content of a file, decompressed if it begins with gzip's magic bytes. Throws as read_file_bytes does, and for
-/// corrupt or endless gzip data.
+/// corrupt gzip data, and such that grows beyond the limits.
 MeshSource load_mesh_source(const std::filesystem::path& file, const core::ProgressReporter& progress,
                             const core::ReadLimits& limits = {});
 
