@@ -226,6 +226,17 @@ TEST_F(LiveSession, RequestsOfOthersAreRefused) {
   for (int i = 0; i < 1000; ++i) points += ", [0, 0, 0]";
   EXPECT_THROW(parse_request(points + "]}}"), vantage::Error);
   EXPECT_THROW(parse_request(std::string(100000, '[')), vantage::Error);
+  // What is more than a request is not even held, whatever its key.
+  std::string objects = "{}", nested = "1";
+  for (int i = 0; i < 1000000; ++i) objects += ",{}";
+  nested = std::string(100000, '[') + nested + std::string(100000, ']');
+  for (const char* const key : {"points", "other"}) {
+    for (const std::string& value : {"[" + objects + "]", nested}) {
+      EXPECT_THROW(
+          parse_request(R"({"id": 1, "request": {"call": "query", ")" + std::string(key) + R"(": )" + value + "}}"),
+          vantage::Error);
+    }
+  }
 }
 
 TEST(LiveGate, OpensForTheTokenAndTheOwnHostAlone) {

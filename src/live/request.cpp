@@ -1,7 +1,5 @@
 #include "live/request.h"
 
-#include <algorithm>
-#include <array>
 #include <bit>
 #include <chrono>
 #include <cmath>
@@ -70,17 +68,72 @@ const ViewMesh* mesh_of(const Session& session, const std::string& call) {
 
 constexpr std::size_t kMostPoints = 1000;
 
-/// What is not asked is not even held in memory.
-bool is_known(const Json& key) {
-  constexpr std::array kKeys = {"id", "request", "call", "text", "format", "z", "points"};
-  return std::find(kKeys.begin(), kKeys.end(), key.get_ref<const std::string&>()) != kKeys.end();
-}
+/// Builds what a text describes, and stops where it is more than a request can be. The library's parser builds all of
+/// it, or, with a callback, looks through all earlier items of an array after each item: the square of a million.
+class RequestReader final : public nlohmann::json_sax<Json> {
+ public:
+  Json result() { return is_whole_ ? std::move(root_) : Json(Json::value_t::discarded); }
+
+  bool null() override { return add(nullptr); }
+  bool boolean(bool value) override { return add(value); }
+  bool number_integer(Json::number_integer_t value) override { return add(value); }
+  bool number_unsigned(Json::number_unsigned_t value) override { return add(value); }
+  bool number_float(Json::number_float_t value, const Json::string_t&) override { return add(value); }
+  bool string(Json::string_t& value) override { return add(std::move(value)); }
+  bool binary(Json::binary_t& value) override { return add(std::move(value)); }
+  bool start_object(std::size_t) override { return open(Json::object()); }
+  bool start_array(std::size_t) override { return open(Json::array()); }
+  bool end_object() override { return close(); }
+  bool end_array() override { return close(); }
+  bool key(Json::string_t& name) override {
+    member_ = &(*open_.back())[name];
+    return true;
+  }
+  bool parse_error(std::size_t, const std::string&, const Json::exception&) override { return false; }
+
+ private:
+  static constexpr std::size_t kDeepest = 4;                   // a coordinate, in a point, in a list, in a request
+  static constexpr std::size_t kMostValues = 8 * kMostPoints;  // coordinates, points, and the rest
+
+  bool add(Json value) {
+    place(std::move(value));
+    if (open_.empty()) is_whole_ = true;
+    return ++values_ <= kMostValues;
+  }
+  bool open(Json value) {
+    open_.push_back(place(std::move(value)));
+    return open_.size() <= kDeepest && ++values_ <= kMostValues;
+  }
+  bool close() {
+    open_.pop_back();
+    is_whole_ = open_.empty();
+    return true;
+  }
+  /// Where the value stays until its parent is closed.
+  Json* place(Json value) {
+    if (open_.empty()) {
+      root_ = std::move(value);
+      return &root_;
+    }
+    if (open_.back()->is_array()) {
+      open_.back()->push_back(std::move(value));
+      return &open_.back()->back();
+    }
+    *member_ = std::move(value);
+    return member_;
+  }
+
+  Json root_;
+  std::vector<Json*> open_;  // outermost first
+  Json* member_ = nullptr;   // of the innermost one: the value of its last key
+  std::size_t values_ = 0;
+  bool is_whole_ = false;
+};
 
 Json parsed(std::string_view text) {
-  const auto filter = [](int, Json::parse_event_t event, Json& value) {
-    return event != Json::parse_event_t::key || is_known(value);
-  };
-  return Json::parse(text, filter, false);
+  RequestReader reader;
+  const bool is_read = Json::sax_parse(text.begin(), text.end(), &reader);
+  return is_read ? reader.result() : Json(Json::value_t::discarded);
 }
 
 std::string message_of(Session& session, MapAreas& areas, const Request& request, const Progress& progress) {
