@@ -18,12 +18,16 @@ std::string deflated(const std::string& bytes) {
   return result;
 }
 
-std::string blob(const std::string& type, const std::string& bytes) {
-  const std::string content = pbf_field(2, bytes.size()) + pbf_field(3, deflated(bytes));
+/// `content`: the fields of the blob.
+std::string framed(const std::string& type, const std::string& content) {
   const std::string header = pbf_field(1, type) + pbf_field(3, content.size());
   std::string length;
   for (int shift = 24; shift >= 0; shift -= 8) length += static_cast<char>(header.size() >> shift);
   return length + header + content;
+}
+
+std::string blob(const std::string& type, const std::string& bytes) {
+  return framed(type, pbf_field(2, bytes.size()) + pbf_field(3, deflated(bytes)));
 }
 
 }  // namespace
@@ -55,6 +59,8 @@ std::string pbf_field(std::uint32_t field, const std::string& bytes) {
 std::string pbf_field(std::uint32_t field, std::uint64_t number) {
   return pbf_varint(field << 3U) + pbf_varint(number);
 }
+
+std::string pbf_raw_block(const std::string& bytes) { return framed("OSMData", pbf_field(1, bytes)); }
 
 std::string pbf_header() {
   return blob("OSMHeader", pbf_field(4, std::string("OsmSchema-V0.6")) + pbf_field(4, std::string("DenseNodes")));

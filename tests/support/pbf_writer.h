@@ -20,4 +20,7 @@ std::string pbf_header();
 /// A block compressed with zlib.
 std::string pbf_block(const std::vector<std::string>& texts, const std::vector<std::string>& groups);
 
+/// A block that is given whole, and not compressed.
+std::string pbf_raw_block(const std::string& bytes);
+
 }  // namespace vantage::testing
