@@ -72,6 +72,8 @@ nightly: tested benchmarks  ## what takes too long for every change: lint and sa
 	build-asan/bin/vantage_attack --scenes 200 --seed $(or $(SEED),$(shell date +%Y%m%d)) --jobs $(JOBS)
 	build-asan/bin/vantage_attack --meshes 500 --seed $(or $(SEED),$(shell date +%Y%m%d)) --jobs $(JOBS)
 	JOBS=$(JOBS) scripts/build_variants.sh
+	python3 tests/check_hostile_files.py build/bin/vantage --mutants 300 --bombs --jobs $(JOBS) \
+	  --seed $(or $(SEED),$(shell date +%Y%m%d)) --keep build/hostile
 	build/bin/vantage_attack --scenes $(or $(SCENES),2000) --seed $(or $(SEED),$(shell date +%Y%m%d)) \
 	  --jobs $(JOBS) --out build/attack
 	build/bin/vantage_attack --meshes $(or $(MESHES),20000) --seed $(or $(SEED),$(shell date +%Y%m%d)) \
