@@ -127,6 +127,21 @@ TEST(ReadScene, StopsDecompressionAtItsLimit) {
                "bomb.obj.gz");
 }
 
+TEST(ReadScene, SaysWhatATilesetIs) {
+  TemporaryDirectory folder;
+  const auto expect = [&](const std::string& name, const std::string& content) {
+    write_bytes(folder / name, content);
+    expect_error([&] { read_scene(folder / name); }, ErrorCode::mesh_unsupported, name);
+  };
+  const std::string begin = R"({"asset": {"version": "1.0"}, "geometricError": 500, "root": {"geometricError": 9,)";
+  expect("tileset.json", begin + R"("children": [{"content": {"uri": "tiles/0.b3dm"}}]}})");
+  expect("tileset.json", begin + R"("content": {"url": "a.b3dm"}, "children": [{"contents": [{"uri": "b.glb"}]}]}})");
+  expect("tileset.json", begin + R"("children": []}})");
+  expect("tileset.json", begin + R"("children": [)");  // cut off
+  expect("tile.b3dm", std::string("b3dm\1\0\0\0\x1c\0\0\0", 12));
+  expect("0.subtree", std::string("subt\1\0\0\0", 8));
+}
+
 TEST(ReadScene, StopsDecompressionThatGrowsTooMuch) {
   TemporaryDirectory folder;
   const std::string part = gzip(std::string(std::size_t{1} << 24, '#'));

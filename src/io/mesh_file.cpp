@@ -8,6 +8,7 @@
 #include "io/mesh_readers.h"
 #include "io/sidecar.h"
 #include "io/text_cursor.h"
+#include "io/tileset.h"
 #include "vantage/error.h"
 
 namespace vantage::internal::io {
@@ -35,12 +36,15 @@ MeshFormat mesh_format(const MeshSource& source) {
   const std::string_view bytes = source.bytes();
   const std::string extension = source.extension();
   if (bytes.starts_with("glTF")) return MeshFormat::gltf;
+  if (is_tile(bytes)) fail_for_tileset(source);
   if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) return MeshFormat::ply;
   if (is_binary_stl(bytes) || is_ascii_stl(bytes)) return MeshFormat::stl;
   const bool named_json = extension == ".json" || extension == ".jsonl";
   if (looks_like_json(bytes)) {
+    if (is_cityjson(bytes)) return MeshFormat::cityjson;
+    if (is_tileset(bytes)) fail_for_tileset(source);
     const bool is_gltf = !named_json || bytes.find("\"asset\"") != std::string_view::npos;
-    return is_cityjson(bytes) || !is_gltf ? MeshFormat::cityjson : MeshFormat::gltf;
+    return is_gltf ? MeshFormat::gltf : MeshFormat::cityjson;
   }
   if (extension == ".obj" || looks_like_obj(bytes)) return MeshFormat::obj;
   if (extension == ".ply") return MeshFormat::ply;
