@@ -185,6 +185,27 @@ TEST_F(MissionWarnings, WhatStandsUprightIsNoSceneOnItsSide) {
   EXPECT_TRUE(notes(slab.text(), vertices(square(5, {0, 40, 0})), 100).empty());
 }
 
+TEST_F(MissionWarnings, ATargetInsideAHouseIsTold) {
+  Boxes boxes;
+  boxes.ground(60);
+  boxes.box({20, 0, 5}, {6, 6, 5});
+  std::string obj = boxes.text();
+  obj.insert(obj.find("\nf ", obj.find("\nf ") + 1) + 1, "o house\n");  // an object of its own: it is closed
+  for (const std::string& target : {std::string("point: [20, 0, 4]"), vertices(square(2, {20, 0, 4}))}) {
+    for (const std::string place : {"", ", origin: [48.0, 11.0]"}) {
+      const std::vector<Warning> inside = notes(obj, target, 40, place);
+      ASSERT_EQ(inside.size(), 1u) << target;
+      EXPECT_EQ(inside[0].code, WarningCode::target_inside);
+      testing::expect_wording(inside[0].text);
+    }
+  }
+  // On its roof, before its wall, and beside it.
+  EXPECT_TRUE(notes(obj, vertices(square(2, {20, 0, 10})), 40).empty());
+  EXPECT_TRUE(
+      notes(obj, vertices({{14, -2, 2}, {14, 2, 2}, {14, 2, 6}, {14, -2, 6}}) + ", front: [-1, 0, 0]", 40).empty());
+  EXPECT_TRUE(notes(obj, "point: [0, 0, 2]", 40).empty());
+}
+
 TEST_F(MissionWarnings, ATargetOnTheGroundLookedAtFromBelowIsTold) {
   const std::string down = ", front: [0, 0, -1]";
   Boxes flat;

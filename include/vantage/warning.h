@@ -16,6 +16,7 @@ enum class WarningCode {
   scene_on_its_side,   ///< the scene seems to lie on its side
   target_in_degrees,   ///< the target is so small that its vertices seem to be longitudes and latitudes
   target_underground,  ///< the target seems to lie under the ground
+  target_inside,       ///< the target lies inside a closed object of the scene
   target_from_below,   ///< the target is looked at from below, where nothing of the scene is
   volume_below_scene,  ///< the whole volume lies below the scene
   ground_extended,     ///< the ground was made larger to hold the target

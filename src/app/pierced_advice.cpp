@@ -6,6 +6,9 @@
 #include <utility>
 
 #include "app/scene_warnings.h"
+#include "core/format.h"
+#include "geo/local_frame.h"
+#include "vantage/input.h"
 
 namespace vantage::internal::app {
 namespace {
@@ -32,6 +35,15 @@ std::optional<std::string> how_to_leave_out(const LoadedScene& loaded, std::uint
   }
   return what + ": leave out all of this kind with scene: {without: [" + kind->second +
          "]}, or give the vertices of a polygon beside it";
+}
+
+std::string how_to_take_roof(const LoadedScene& loaded, std::uint32_t object, const Vec3& at) {
+  std::string target = "object: " + in_quotes(display_name(loaded.scene.objects[object]));
+  if (const auto& place = loaded.scene.georeference) {
+    const geo::LonLat position = geo::LocalFrame({place->longitude_deg, place->latitude_deg}).to_lonlat(at.head<2>());
+    target = core::format("at: [{:.6f}, {:.6f}]", position.latitude_deg, position.longitude_deg);
+  }
+  return "for its roof write 'target: {" + target + ", part: roof}'";
 }
 
 Error explained(const Error& error, const LoadedScene& loaded, const std::string& target_object) {

@@ -15,6 +15,9 @@ namespace vantage::internal::app {
 std::optional<std::string> how_to_leave_out(const LoadedScene& loaded, std::uint32_t object,
                                             const std::string& target_object);
 
+/// How to make the roof of an object the target that has a place inside of it: "for its roof write ...".
+std::string how_to_take_roof(const LoadedScene& loaded, std::uint32_t object, const Vec3& at);
+
 /// The same error, ErrorCode::target_pierced, with advice that fits the object, or the scene where that seems to lie on
 /// its side.
 Error explained(const Error& error, const LoadedScene& loaded, const std::string& target_object);

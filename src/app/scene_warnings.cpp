@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "app/combine_targets.h"
+#include "app/pierced_advice.h"
 #include "app/triangle_runs.h"
 #include "core/triangle_distance.h"
 #include "vantage/input.h"
@@ -144,12 +145,59 @@ std::optional<Warning> below_all(const LoadedScene& loaded, const Volume* volume
                      " m: positions under the ground count as free; check the target's z, target.front and scene.up"};
 }
 
+/// Whether a place is wound round by a facet seen from above. Of facets that share a side, one holds a place on it.
+bool holds(const std::array<Vec3, 3>& facet, const Vec3& at) {
+  bool inside = false;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3 &a = facet[i], &b = facet[(i + 1) % 3];
+    if ((a.y() > at.y()) == (b.y() > at.y())) continue;
+    if (at.x() < a.x() + (b.x() - a.x()) * (at.y() - a.y()) / (b.y() - a.y())) inside = !inside;
+  }
+  return inside;
+}
+
+/// That the target lies inside a closed object: what is seen of it from inside is computed, and seldom meant.
+std::optional<Warning> inside_object(const LoadedScene& loaded, const Target& target) {
+  constexpr double kClear = 1e-3;  // metres: it may lie on the object
+  for (std::size_t i = 0; i < target.parts.size(); ++i) {
+    const TargetFrame frame = make_target_frame(target, i);
+    const Vec3 at = frame.all_sides ? frame.origin : Vec3(frame.origin + kClear * frame.normal);
+    const auto object = object_round(loaded, at);
+    if (!object) continue;
+    return Warning{WarningCode::target_inside,
+                   "the target lies inside " + in_quotes(display_name(loaded.scene.objects[*object])) +
+                       ", so that only positions inside it can see it; " + how_to_take_roof(loaded, *object, at)};
+  }
+  return std::nullopt;
+}
+
 /// What on_its_side says.
 struct Turned {
   std::optional<Warning> warning;
 };
 
 }  // namespace
+
+std::optional<std::uint32_t> object_round(const LoadedScene& loaded, const Vec3& at) {
+  const Scene& scene = loaded.scene;
+  std::vector<std::size_t> above(scene.objects.size(), 0), all(scene.objects.size(), 0);
+  const auto is_in_plan = [&](const Box& box) {
+    return (box.min - at).head<2>().maxCoeff() <= 0 && (at - box.max).head<2>().maxCoeff() <= 0;
+  };
+  triangle_runs(loaded).visit(is_in_plan, [&](std::size_t i) {
+    std::array<Vec3, 3> facet;
+    for (std::size_t k = 0; k < 3; ++k) facet[k] = scene.mesh.vertices[scene.mesh.triangles[i][k]];
+    if (!holds(facet, at)) return true;
+    const Vec3 normal = (facet[1] - facet[0]).cross(facet[2] - facet[0]);
+    ++all[scene.object_of[i]];
+    above[scene.object_of[i]] += normal.dot(at - facet[0]) * normal.z() < 0;
+    return true;
+  });
+  for (std::size_t object = 0; object < all.size(); ++object) {
+    if (all[object] % 2 == 0 && above[object] % 2 == 1) return static_cast<std::uint32_t>(object);
+  }
+  return std::nullopt;
+}
 
 // Of cities, most of what there is faces up or down, and the heights are the smallest
 // of the three sizes. A single facade is like that too, on its side: but not so high.
@@ -185,6 +233,10 @@ std::vector<Warning> scene_warnings(const Mission& mission, const Volume* volume
   if (!has_corners) return warnings;
   const auto& side = looked_up<Turned>(loaded, [&] { return std::make_shared<Turned>(Turned{on_its_side(loaded)}); });
   if (side.warning) warnings.push_back(*side.warning);
+  // A target on the ground was looked at before; where the scene lies on its side, nothing else is worth saying.
+  if (!side.warning && !mission.as_written.ground_target && !mission.target.parts.at(0).empty()) {
+    if (auto inside = inside_object(loaded, mission.target)) warnings.push_back(std::move(*inside));
+  }
   if (away) {
     warnings.push_back(*away);
   } else if (const auto below = mission.target.parts.at(0).empty() ? std::nullopt : from_below(mission)) {

@@ -18,6 +18,7 @@ constexpr std::array kWarningRows = {
     WarningRow{WarningCode::scene_on_its_side, "scene-on-its-side"},
     WarningRow{WarningCode::target_in_degrees, "target-in-degrees"},
     WarningRow{WarningCode::target_underground, "target-underground"},
+    WarningRow{WarningCode::target_inside, "target-inside"},
     WarningRow{WarningCode::target_from_below, "target-from-below"},
     WarningRow{WarningCode::volume_below_scene, "volume-below-scene"},
     WarningRow{WarningCode::ground_extended, "ground-extended"},

@@ -13,6 +13,7 @@
 #include "app/ground_room.h"
 #include "app/pierced_advice.h"
 #include "app/scene_lookups.h"
+#include "app/scene_warnings.h"
 #include "app/triangle_runs.h"
 #include "io/mesh_builder.h"
 #include "maps/city/object_outlines.h"
@@ -167,54 +168,21 @@ std::vector<city::Ring> halved(const city::Ring& piece) {
   return parts;
 }
 
-/// Whether a place is wound round by a facet seen from above. Of facets that share a side, one holds a place on it.
-bool holds(const std::array<Vec3, 3>& facet, const Vec3& at) {
-  bool inside = false;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Vec3 &a = facet[i], &b = facet[(i + 1) % 3];
-    if ((a.y() > at.y()) == (b.y() > at.y())) continue;
-    if (at.x() < a.x() + (b.x() - a.x()) * (at.y() - a.y()) / (b.y() - a.y())) inside = !inside;
-  }
-  return inside;
-}
-
-/// The first object that a point lies in: of its facets on the vertical line through the point an odd number is above,
-/// and an even number in all, or else it is not closed there. Nothing where the point is in the open.
-std::optional<std::uint32_t> solid_round(const LoadedScene& loaded, const Vec3& at) {
-  const Scene& scene = loaded.scene;
-  std::vector<std::size_t> above(scene.objects.size(), 0), all(scene.objects.size(), 0);
-  const auto is_in_plan = [&](const Box& box) {
-    return (box.min - at).head<2>().maxCoeff() <= 0 && (at - box.max).head<2>().maxCoeff() <= 0;
-  };
-  triangle_runs(loaded).visit(is_in_plan, [&](std::size_t i) {
-    std::array<Vec3, 3> facet;
-    for (std::size_t k = 0; k < 3; ++k) facet[k] = scene.mesh.vertices[scene.mesh.triangles[i][k]];
-    if (!holds(facet, at)) return true;
-    const Vec3 normal = (facet[1] - facet[0]).cross(facet[2] - facet[0]);
-    ++all[scene.object_of[i]];
-    above[scene.object_of[i]] += normal.dot(at - facet[0]) * normal.z() < 0;
-    return true;
-  });
-  for (std::size_t object = 0; object < all.size(); ++object) {
-    if (all[object] % 2 == 0 && above[object] % 2 == 1) return static_cast<std::uint32_t>(object);
-  }
-  return std::nullopt;
-}
-
 /// From inside a building its walls are all that is seen, and a volume all the same.
 void check_outdoors(const Mission& mission) {
   constexpr double kClear = 1e-3;  // metres: the target may lie on the floor of a building
   const Scene& scene = mission.scene();
   for (std::size_t i = 0; i < mission.target.parts.size(); ++i) {
     const TargetFrame frame = make_target_frame(mission.target, i);
-    const auto solid = solid_round(*mission.loaded, frame.origin + kClear * frame.normal);
+    const Vec3 at = frame.origin + kClear * frame.normal;
+    const auto solid = object_round(*mission.loaded, at);
     if (!solid) continue;
-    throw Error(
-        ErrorCode::target_inside_solid, "the target lies inside " + in_quotes(display_name(scene.objects[*solid])),
-        mission.as_written.places.target,
-        how_to_leave_out(*mission.loaded, *solid, mission.as_written.ground_target->osm)
-            .value_or("name a place outdoors; for a roof give its 'vertices', for a storey a scene that has rooms"),
-        *solid);
+    throw Error(ErrorCode::target_inside_solid,
+                "the target lies inside " + in_quotes(display_name(scene.objects[*solid])),
+                mission.as_written.places.target,
+                how_to_leave_out(*mission.loaded, *solid, mission.as_written.ground_target->osm)
+                    .value_or("name a place outdoors; " + how_to_take_roof(*mission.loaded, *solid, at)),
+                *solid);
   }
 }
 
