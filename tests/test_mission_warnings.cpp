@@ -17,6 +17,7 @@
 #include "support/wording.h"
 #include "vantage/error.h"
 #include "vantage/mission.h"
+#include "vantage/scene_source.h"
 
 namespace vantage {
 namespace {
@@ -183,6 +184,34 @@ TEST_F(MissionWarnings, WhatStandsUprightIsNoSceneOnItsSide) {
   slab.ground(100);
   slab.box({0, 0, 60}, {80, 8, 60});
   EXPECT_TRUE(notes(slab.text(), vertices(square(5, {0, 40, 0})), 100).empty());
+}
+
+/// Houses without ground: their walls are more than their roofs, and corners stand on one level.
+TEST_F(MissionWarnings, HousesAloneOnTheirSideAreTold) {
+  testing::Random random(98);
+  Boxes houses;
+  for (int i = 0; i < 12; ++i) {
+    for (int j = 0; j < 6; ++j) {
+      const double height = i == 3 && j == 2 ? 32 : random.uniform(8, 24);
+      houses.box({31.0 * i, 30.0 * j, height / 2}, {8, 6, height / 2}, random.uniform(-3, 3));
+    }
+  }
+  const std::string target = vertices(square(4, {15, 15, 40}));
+  EXPECT_TRUE(notes(houses.text(), target, 60).empty());
+  EXPECT_TRUE(notes(houses.text(true), target, 60, ", up: y").empty());
+  const std::vector<Warning> lying = notes(houses.text(true), target, 60);
+  ASSERT_FALSE(lying.empty());
+  EXPECT_EQ(lying[0].code, WarningCode::scene_on_its_side);
+  testing::expect_wording(lying[0].text);
+  // Also where the file is only looked at.
+  LoadedScene loaded;
+  loaded.scene = read_scene(folder_ / "scene.obj");
+  const std::vector<std::string> noted = notes_of(loaded);
+  EXPECT_EQ(std::count(noted.begin(), noted.end(), lying[0].text), 1);
+
+  Boxes row;  // a street front: long, and higher than deep
+  for (int i = 0; i < 10; ++i) row.box({10.0 * i, 0, 15}, {5, 6, 15 - 0.3 * (i % 3)});
+  EXPECT_TRUE(notes(row.text(), vertices(square(3, {20, 20, 2})), 40).empty());
 }
 
 TEST_F(MissionWarnings, ATargetInsideAHouseIsTold) {

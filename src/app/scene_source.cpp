@@ -8,6 +8,7 @@
 
 #include "app/components/maps.h"
 #include "app/scene_lookups.h"
+#include "app/scene_warnings.h"
 
 namespace vantage {
 namespace {
@@ -40,6 +41,7 @@ SceneLookups& SceneLookups::operator=(const SceneLookups&) {
 std::vector<std::string> notes_of(const LoadedScene& loaded) {
   std::vector<std::string> notes = loaded.scene.notes;
   if (loaded.city) notes.insert(notes.end(), loaded.city->notes.begin(), loaded.city->notes.end());
+  if (const auto side = internal::app::on_its_side(loaded)) notes.push_back(side->text);
   return notes;
 }
 

@@ -86,11 +86,22 @@ Vec3 facing_axes(const Mesh& mesh) {
   return all > 0 ? Vec3(facing / all) : facing;
 }
 
+/// What share of all corners lies within 2 % of the size from the lowest one, along each axis.
+Vec3 lowest_level(const Mesh& mesh, const Box& box) {
+  const Vec3 level = box.min + 0.02 * (box.max - box.min);
+  Vec3 count = Vec3::Zero();
+  for (const Triangle& triangle : mesh.triangles) {
+    for (const std::uint32_t vertex : triangle)
+      count += (mesh.vertices[vertex].array() <= level.array()).cast<double>().matrix();
+  }
+  return count / (3.0 * static_cast<double>(std::max<std::size_t>(1, mesh.triangles.size())));
+}
+
 /// glTF is y up, whatever the mission says.
 std::string turning_advice(const Scene& scene) {
   const std::string extension = scene.source.extension().string();
   if (extension == ".gltf" || extension == ".glb") return "export it again with the axes of glTF, y up";
-  return scene.up == UpAxis::y ? "give scene.up: z" : "give scene.up: y";
+  return scene.up == UpAxis::y ? "give scene.up: z" : "give scene.up: y (on a command line --up y)";
 }
 
 /// Whether some of the scene lies straight below a point, by more than `on`.
@@ -199,22 +210,32 @@ std::optional<std::uint32_t> object_round(const LoadedScene& loaded, const Vec3&
   return std::nullopt;
 }
 
-// Of cities, most of what there is faces up or down, and the heights are the smallest
-// of the three sizes. A single facade is like that too, on its side: but not so high.
+// Of cities the heights are the smallest of the three sizes, and either most of what there is faces up or down, or most
+// corners stand on one level: those of houses alone, without ground, whose walls are more than their roofs. A single
+// facade is like that too, on its side: but not so high, or not so deep.
 std::optional<Warning> on_its_side(const LoadedScene& loaded) {
-  constexpr double kShare = 0.45, kMore = 3.5;  // real cities: 0.5 to 0.77, and 4 to 30 times the other two
-  constexpr double kTooHigh = 100;              // metres
+  constexpr double kShare = 0.45, kMore = 3.5;             // real cities: 0.5 to 0.77, and 4 to 30 times the other two
+  constexpr double kTooHigh = 100, kHigh = 20, kDeep = 3;  // metres
+  constexpr double kLevel = 0.3, kNoLevel = 0.1;  // of the corners. Boxes on flat ground: 0.5, and 2 / their number
   const Scene& scene = loaded.scene;
   if (loaded.city || loaded.raster || scene.georeference || scene.states_axes) return std::nullopt;
   const Box box = triangle_runs(loaded).bounds();
   const Vec3 size = box.max - box.min;
-  if (size.z() < kTooHigh || 2 * size.y() > std::min(size.x(), size.z())) return std::nullopt;
+  if (size.z() < kHigh || 2 * size.y() > std::min(size.x(), size.z())) return std::nullopt;
+  const std::string sizes = "the scene seems to lie on its side: it is " + distance_text(size.z()) + " high and " +
+                            distance_text(size.y()) + " deep, and ";
   const Vec3 facing = facing_axes(scene.mesh);
-  if (facing.y() < kShare || facing.y() < kMore * std::max(facing.x(), facing.z())) return std::nullopt;
-  return Warning{WarningCode::scene_on_its_side,
-                 "the scene seems to lie on its side: it is " + distance_text(size.z()) + " high and " +
-                     distance_text(size.y()) + " deep, and " + std::to_string(std::lround(100 * facing.y())) +
-                     " % of its area is upright and faces along y; if so, " + turning_advice(scene)};
+  if (size.z() >= kTooHigh && facing.y() >= kShare && facing.y() >= kMore * std::max(facing.x(), facing.z())) {
+    return Warning{WarningCode::scene_on_its_side, sizes + std::to_string(std::lround(100 * facing.y())) +
+                                                       " % of its area is upright and faces along y; if so, " +
+                                                       turning_advice(scene)};
+  }
+  const Vec3 level = lowest_level(scene.mesh, box);
+  if (size.y() < kDeep || level.y() < kLevel || level.z() > kNoLevel) return std::nullopt;
+  return Warning{WarningCode::scene_on_its_side, sizes + std::to_string(std::lround(100 * level.y())) +
+                                                     " % of its corners have the lowest y, as if they stood there; if "
+                                                     "so, " +
+                                                     turning_advice(scene)};
 }
 
 std::vector<Warning> scene_warnings(const Mission& mission, const Volume* volume) {
