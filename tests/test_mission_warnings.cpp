@@ -235,6 +235,25 @@ TEST_F(MissionWarnings, ATargetInsideAHouseIsTold) {
   EXPECT_TRUE(notes(obj, "point: [0, 0, 2]", 40).empty());
 }
 
+TEST_F(MissionWarnings, ALargePixelIsTold) {
+  Boxes boxes;
+  boxes.ground(60);
+  const auto with_pixel = [&](const std::string& size) {
+    write_bytes(folder_ / "scene.obj", boxes.text());
+    write_bytes(
+        folder_ / "mission.yaml",
+        "scene: {mesh: scene.obj}\ntarget: {" + vertices(square(4)) +
+            "}\nsensor: {camera: {width: 4000, height: 3000, focal_length: 24, sensor_width: 36}, pixel: {size: " +
+            size + "}}\n");
+    return mission_warnings(resolve_mission(read_mission(folder_ / "mission.yaml")), nullptr);
+  };
+  const std::vector<Warning> large = with_pixel("2");
+  ASSERT_EQ(large.size(), 1u);
+  EXPECT_EQ(large[0].code, WarningCode::pixel_in_metres);
+  testing::expect_wording(large[0].text);
+  EXPECT_TRUE(with_pixel("0.02").empty());
+}
+
 TEST_F(MissionWarnings, ATargetOnTheGroundLookedAtFromBelowIsTold) {
   const std::string down = ", front: [0, 0, -1]";
   Boxes flat;

@@ -19,6 +19,7 @@ enum class WarningCode {
   target_inside,       ///< the target lies inside a closed object of the scene
   target_from_below,   ///< the target is looked at from below, where nothing of the scene is
   volume_below_scene,  ///< the whole volume lies below the scene
+  pixel_in_metres,     ///< the size of a pixel on the target is so large that centimetres seem to be meant
   ground_extended,     ///< the ground was made larger to hold the target
   zones_left_out,      ///< a file of zones holds what was not taken as a zone
   clearance_from_all,  ///< the scene does not say what of it is ground: the clearance is kept from all of it

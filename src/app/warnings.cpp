@@ -4,6 +4,7 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include "app/combine_targets.h"
 #include "app/scene_warnings.h"
@@ -145,18 +146,16 @@ Shortfall of(const Mission& mission) {
   return loaded.raster || has_ground ? of_surface(loaded, reach(mission)) : Shortfall{};
 }
 
-/// Little more than nothing where the range allows very much: a target that can hardly be seen whole.
-std::optional<Warning> small_volume(const Mission& mission, const Volume& volume) {
-  constexpr double kSmall = 1, kOfBall = 1e-3;  // cubic metres; of a ball as large as the range
-  if (volume.outcome != Outcome::computed) return std::nullopt;
-  const double found = enclosed_volume(volume.mesh), range = range_limit_m(mission.sensor);
-  if (!(found < kSmall) || !(found < kOfBall * 4.0 / 3.0 * std::numbers::pi * range * range * range)) {
-    return std::nullopt;
-  }
-  return Warning{WarningCode::volume_small,
-                 internal::core::format("the volume has only {:.2g} cubic metres: from nearly nowhere is all of the "
-                                        "target seen within the limits; choose less of it, or relax a limit",
-                                        found)};
+/// That metres were hardly meant: cameras see centimetres from hundreds of metres.
+std::optional<Warning> large_pixel(const Sensor& sensor) {
+  constexpr double kLarge = 0.3, kFar = 1000;  // metres
+  const double range = range_limit_m(sensor);
+  if (!sensor.pixel || sensor.pixel->size_m < kLarge || range < kFar) return std::nullopt;
+  return Warning{
+      WarningCode::pixel_in_metres,
+      internal::core::format("sensor.pixel.size is {:.4g} m, so the range is {:.1f} km: if {:.4g} cm are meant, "
+                             "write {:.4g}",
+                             sensor.pixel->size_m, range / 1000, sensor.pixel->size_m, sensor.pixel->size_m / 100)};
 }
 
 }  // namespace
@@ -183,6 +182,7 @@ std::vector<Warning> mission_warnings(const Mission& mission, const Volume* volu
                                                "latitudes, say so with 'crs: EPSG:4326'",
                                                across * 1000)});
   }
+  if (auto pixel = large_pixel(mission.sensor)) warnings.push_back(std::move(*pixel));
   for (Warning& warning : internal::app::scene_warnings(mission, volume)) warnings.push_back(std::move(warning));
   if (volume) {
     if (std::optional<Warning> small = small_volume(mission, *volume)) warnings.push_back(std::move(*small));

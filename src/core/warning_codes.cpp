@@ -21,6 +21,7 @@ constexpr std::array kWarningRows = {
     WarningRow{WarningCode::target_inside, "target-inside"},
     WarningRow{WarningCode::target_from_below, "target-from-below"},
     WarningRow{WarningCode::volume_below_scene, "volume-below-scene"},
+    WarningRow{WarningCode::pixel_in_metres, "pixel-in-metres"},
     WarningRow{WarningCode::ground_extended, "ground-extended"},
     WarningRow{WarningCode::zones_left_out, "zones-left-out"},
     WarningRow{WarningCode::clearance_from_all, "clearance-from-all"},
