@@ -1,8 +1,12 @@
-# Changes three things of Manifold before it is compiled. The release stays as it was fetched: the changed copy is
+# Changes four things in Manifold before it is compiled. The release itself stays as it was fetched: the changed copy is
 # in the build folder.
 # - Where Manifold::Impl::DedupeEdge takes apart two sheets that touch along an edge, it copies the vertex at the edge's
 #   start, but gives the copy the position of the edge's end: a corner of the result jumps along that edge. It happens
 #   where the two operands almost coincide. Wrong in all releases up to 3.5.4.
+# - Facets that are folded back into a plane, as booleans leave them where solids touch, get the plane's normal, the
+#   wrong way round for them. Manifold::Impl::SwapDegenerates then takes them for facets without area, and gives a corner
+#   of theirs to the neighbour beyond their longest side, wherever that lies: a surface jumped by centimetres. Facets
+#   that are turned over are left alone.
 # - Where malloc has no more memory, it is told by an exception: checked_malloc.h.
 # - Built with threads, Manifold::Impl::DedupeEdges sorts the edges of large meshes; without, it takes them as they come:
 #   the page, which has no threads, would make other volumes than the program.

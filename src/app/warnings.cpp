@@ -146,6 +146,20 @@ Shortfall of(const Mission& mission) {
   return loaded.raster || has_ground ? of_surface(loaded, reach(mission)) : Shortfall{};
 }
 
+/// Little more than nothing where the range allows very much: a target that can hardly be seen whole.
+std::optional<Warning> small_volume(const Mission& mission, const Volume& volume) {
+  constexpr double kSmall = 1, kOfBall = 1e-3;  // cubic metres; of a ball as large as the range
+  if (volume.outcome != Outcome::computed) return std::nullopt;
+  const double found = enclosed_volume(volume.mesh), range = range_limit_m(mission.sensor);
+  if (!(found < kSmall) || !(found < kOfBall * 4.0 / 3.0 * std::numbers::pi * range * range * range)) {
+    return std::nullopt;
+  }
+  return Warning{WarningCode::volume_small,
+                 internal::core::format("the volume has only {:.2g} cubic metres: from nearly nowhere is all of the "
+                                        "target seen within the limits; choose less of it, or relax a limit",
+                                        found)};
+}
+
 /// That metres were hardly meant: cameras see centimetres from hundreds of metres.
 std::optional<Warning> large_pixel(const Sensor& sensor) {
   constexpr double kLarge = 0.3, kFar = 1000;  // metres

@@ -170,7 +170,8 @@ std::vector<Vector2d> corners_of(const Target& target, const std::vector<Vec3>& 
   if (!is_corner) {
     refuse(ErrorCode::target_not_convex, target,
            "not convex: the outline turns the wrong way at " + vertex_name(index[worst_turn(polygon)]),
-           "give the vertices in order round a convex polygon; split a concave one into convex targets");
+           "give the vertices in order round a convex polygon; of a concave one on the ground write 'outline: [[x, y], "
+           "...]' instead of 'vertices', of another one convex 'parts'");
   }
   std::vector<Vector2d> corners;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
