@@ -20,7 +20,7 @@ using gltf::Accessor;
 using gltf::Document;
 using gltf::Json;
 
-enum PrimitiveMode { kTriangles = 4, kTriangleStrip, kTriangleFan };
+enum PrimitiveMode { kTriangleList = 4, kTriangleStrip, kTriangleFan };
 
 class GltfReader {
  public:
@@ -157,8 +157,8 @@ class GltfReader {
     }
     for (const Json& primitive : document_.array(mesh, "primitives")) {
       if (!primitive.is_object()) document_.fail("a primitive is not an object");
-      const std::uint64_t mode = document_.whole(primitive, "mode").value_or(kTriangles);
-      if (mode >= kTriangles && mode <= kTriangleFan) add_primitive(primitive, static_cast<int>(mode), world);
+      const std::uint64_t mode = document_.whole(primitive, "mode").value_or(kTriangleList);
+      if (mode >= kTriangleList && mode <= kTriangleFan) add_primitive(primitive, static_cast<int>(mode), world);
     }
   }
 
@@ -176,7 +176,7 @@ class GltfReader {
     }
 
     const std::uint64_t corners = indices ? indices->count() : positions.count();
-    const std::uint64_t triangles = mode == kTriangles ? corners / 3 : corners < 3 ? 0 : corners - 2;
+    const std::uint64_t triangles = mode == kTriangleList ? corners / 3 : corners < 3 ? 0 : corners - 2;
     check_total(triangles);
     start_vertices(positions.count());
     const bool mirrored = world.linear().determinant() < 0;
@@ -184,8 +184,8 @@ class GltfReader {
       progress_.tick(visited_, nodes_);
       // The turn of a strip's every second triangle is reversed.
       const bool odd = mode == kTriangleStrip && i % 2 == 1;
-      const std::uint64_t first = mode == kTriangles ? 3 * i : mode == kTriangleStrip ? i : 0;
-      const std::uint64_t second = mode == kTriangles ? first + 1 : i + 1;
+      const std::uint64_t first = mode == kTriangleList ? 3 * i : mode == kTriangleStrip ? i : 0;
+      const std::uint64_t second = mode == kTriangleList ? first + 1 : i + 1;
       Triangle triangle;
       const std::array<std::uint64_t, 3> corner = {first, second, second + 1};
       for (std::size_t k = 0; k < 3; ++k) {

@@ -7,22 +7,22 @@
 namespace vantage::internal::io {
 namespace {
 
-using Json = nlohmann::json;
+using ObjectJson = nlohmann::json;
 
 constexpr std::string_view kObjectMark = "vantage object:";
 
-constexpr std::array kKinds = {ObjectKind::other,    ObjectKind::ground,        ObjectKind::surface,
-                               ObjectKind::building, ObjectKind::building_part, ObjectKind::wall,
-                               ObjectKind::tower,    ObjectKind::bridge,        ObjectKind::tree};
+constexpr std::array kObjectKinds = {ObjectKind::other,    ObjectKind::ground,        ObjectKind::surface,
+                                     ObjectKind::building, ObjectKind::building_part, ObjectKind::wall,
+                                     ObjectKind::tower,    ObjectKind::bridge,        ObjectKind::tree};
 
-std::optional<ObjectKind> kind_named(std::string_view name) {
-  for (const ObjectKind kind : kKinds) {
+std::optional<ObjectKind> object_kind_named(std::string_view name) {
+  for (const ObjectKind kind : kObjectKinds) {
     if (name == name_of(kind)) return kind;
   }
   return std::nullopt;
 }
 
-std::optional<SceneObject> parse(const Json& written) {
+std::optional<SceneObject> parse_object(const ObjectJson& written) {
   if (!written.is_object()) return std::nullopt;
   SceneObject object;
   for (const auto& [key, value] : written.items()) {
@@ -31,7 +31,7 @@ std::optional<SceneObject> parse(const Json& written) {
     if (key == "name") object.name = text;
     if (key == "source_id") object.source_id = text;
     if (key == "kind") {
-      const auto kind = kind_named(text);
+      const auto kind = object_kind_named(text);
       if (!kind) return std::nullopt;
       object.kind = *kind;
     }
@@ -47,7 +47,7 @@ std::string object_text(const SceneObject& object) {
   std::string text = "{";
   const auto add = [&](const char* key, std::string_view value) {
     text.append(text.size() > 1 ? ",\"" : "\"").append(key).append("\":");
-    text.append(Json(value).dump(-1, ' ', true, Json::error_handler_t::replace));
+    text.append(ObjectJson(value).dump(-1, ' ', true, ObjectJson::error_handler_t::replace));
   };
   if (!object.name.empty()) add("name", object.name);
   if (!object.source_id.empty()) add("source_id", object.source_id);
@@ -59,19 +59,19 @@ std::string object_comment(const SceneObject& object) {
   return std::string(kObjectMark).append(" ").append(object_text(object));
 }
 
-std::optional<SceneObject> object_in(const Json& extras) {
+std::optional<SceneObject> object_in(const ObjectJson& extras) {
   if (!extras.is_object()) return std::nullopt;
   const auto ours = extras.find("vantage");
   if (ours == extras.end() || !ours->is_object()) return std::nullopt;
   const auto object = ours->find("object");
-  return object == ours->end() ? std::nullopt : parse(*object);
+  return object == ours->end() ? std::nullopt : parse_object(*object);
 }
 
 std::optional<SceneObject> object_in_comment(std::string_view comment) {
   const std::size_t first = comment.find_first_not_of(' ');
   if (first == std::string_view::npos || !comment.substr(first).starts_with(kObjectMark)) return std::nullopt;
-  const Json json = Json::parse(comment.substr(first + kObjectMark.size()), nullptr, false);
-  return json.is_discarded() ? std::nullopt : parse(json);
+  const ObjectJson json = ObjectJson::parse(comment.substr(first + kObjectMark.size()), nullptr, false);
+  return json.is_discarded() ? std::nullopt : parse_object(json);
 }
 
 SceneObject object_named(std::string name) {

@@ -11,7 +11,7 @@ namespace {
 using Point = Eigen::Vector2d;
 
 /// Twice the signed area of a triangle.
-double turn(const Point& a, const Point& b, const Point& c) {
+double doubled_area(const Point& a, const Point& b, const Point& c) {
   return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
 }
 
@@ -51,7 +51,7 @@ class EarClipper {
   }
 
  private:
-  bool convex(std::uint32_t i) const { return turn(points_[previous_[i]], points_[i], points_[next_[i]]) > 0; }
+  bool convex(std::uint32_t i) const { return doubled_area(points_[previous_[i]], points_[i], points_[next_[i]]) > 0; }
 
   std::uint32_t head() const {
     std::uint32_t i = last_;
@@ -61,7 +61,7 @@ class EarClipper {
 
   bool is_ear(std::uint32_t i, Rule rule) const {
     const Point &a = points_[previous_[i]], &b = points_[i], &c = points_[next_[i]];
-    const double area = turn(a, b, c);
+    const double area = doubled_area(a, b, c);
     if (rule == Rule::proper ? !(area > 0) : !(area >= 0)) return false;
     const double low = std::min({a.x(), b.x(), c.x()}), high = std::max({a.x(), b.x(), c.x()});
     auto blocker = std::lower_bound(reflex_.begin(), reflex_.end(), low,
@@ -77,7 +77,7 @@ class EarClipper {
   bool blocks(std::uint32_t k, const Point& a, const Point& b, const Point& c, Rule rule) const {
     const Point& p = points_[k];
     if (p == a || p == b || p == c || convex(k)) return false;
-    const double ab = turn(a, b, p), bc = turn(b, c, p), ca = turn(c, a, p);
+    const double ab = doubled_area(a, b, p), bc = doubled_area(b, c, p), ca = doubled_area(c, a, p);
     return rule == Rule::proper ? ab >= 0 && bc >= 0 && ca >= 0 : ab > 0 && bc > 0 && ca > 0;
   }
 
