@@ -1,30 +1,51 @@
 # The libraries: vantage::core and what stands on it, each built where VANTAGE_COMPONENTS names it, and
 # vantage::vantage, which is all of them. docs/libraries.md lists them. Shared or static as BUILD_SHARED_LIBS says.
 
-# vantage_component(NAME  MODULES folders of src/...  [SOURCES more files]  [LINK targets that an installed static
-# library needs as well]  [BUILD targets that only the build needs]  [REQUIRES other components])
+# vantage_component(NAME  MODULES folders of src/...  [HOT more folders: without the standard library's checks, see
+# cmake/Options.cmake]  [SOURCES more files]  [LINK targets that an installed static library needs as well]  [BUILD
+# targets that only the build needs]  [REQUIRES other components])
 function(vantage_component name)
-  cmake_parse_arguments(PARSE_ARGV 1 part "" "" "MODULES;SOURCES;LINK;BUILD;REQUIRES")
-  set(sources ${part_SOURCES})
-  foreach(module IN LISTS part_MODULES)
-    file(GLOB_RECURSE found CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${module}/*.cpp)
-    list(APPEND sources ${found})
-  endforeach()
-  list(FILTER sources EXCLUDE REGEX "/src/core/threads_|/src/app/components/")
-  list(REMOVE_ITEM sources ${VANTAGE_HELPER_SOURCES})
-  list(APPEND sources ${part_SOURCES})
-  list(REMOVE_DUPLICATES sources)
-
+  cmake_parse_arguments(PARSE_ARGV 1 part "" "" "MODULES;HOT;SOURCES;LINK;BUILD;REQUIRES")
   # Compiled once: for the library, and for the tests, which see what is hidden.
-  add_library(vantage_${name}_objects OBJECT ${sources})
-  target_include_directories(vantage_${name}_objects PRIVATE ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/src)
-  target_compile_features(vantage_${name}_objects PRIVATE cxx_std_20)
-  target_link_libraries(vantage_${name}_objects PRIVATE
-    Eigen3::Eigen fmt::fmt-header-only ${part_LINK} ${part_BUILD} vantage::options)
-  set_target_properties(vantage_${name}_objects PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
-  vantage_join_sources(vantage_${name}_objects)
+  set(objects)
+  foreach(kind MODULES HOT)
+    set(sources)
+    if(kind STREQUAL "MODULES")
+      set(sources ${part_SOURCES})
+    endif()
+    foreach(module IN LISTS part_${kind})
+      file(GLOB_RECURSE found CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${module}/*.cpp)
+      list(APPEND sources ${found})
+    endforeach()
+    list(FILTER sources EXCLUDE REGEX "/src/core/threads_|/src/app/components/")
+    list(REMOVE_ITEM sources ${VANTAGE_HELPER_SOURCES})
+    if(kind STREQUAL "MODULES")
+      list(APPEND sources ${part_SOURCES})
+    endif()
+    list(REMOVE_DUPLICATES sources)
+    if(NOT sources)
+      continue()
+    endif()
+    set(target vantage_${name}_objects)
+    if(kind STREQUAL "HOT")
+      set(target vantage_${name}_hot_objects)
+    endif()
+    add_library(${target} OBJECT ${sources})
+    list(APPEND objects ${target})
+    target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/src)
+    target_compile_features(${target} PRIVATE cxx_std_20)
+    target_link_libraries(${target} PRIVATE
+      Eigen3::Eigen fmt::fmt-header-only ${part_LINK} ${part_BUILD} vantage::options)
+    set_target_properties(${target} PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+    if(kind STREQUAL "HOT")
+      target_compile_options(${target} PRIVATE ${VANTAGE_HOT_OPTIONS})
+    endif()
+    vantage_join_sources(${target})
+  endforeach()
+  set_property(GLOBAL APPEND PROPERTY VANTAGE_OBJECT_LIBRARIES ${objects})
 
-  add_library(vantage_${name} $<TARGET_OBJECTS:vantage_${name}_objects>)
+  list(TRANSFORM objects REPLACE "(.+)" "$<TARGET_OBJECTS:\\1>")
+  add_library(vantage_${name} ${objects})
   add_library(vantage::${name} ALIAS vantage_${name})
   target_include_directories(vantage_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
                                                     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
@@ -75,7 +96,8 @@ set_target_properties(vantage_helpers PROPERTIES CXX_VISIBILITY_PRESET hidden VI
 vantage_join_sources(vantage_helpers)
 
 vantage_component(core
-  MODULES core options geo io scene target exact query camera sensor prove simplify
+  MODULES core options geo io scene target query camera sensor prove simplify
+  HOT exact
   SOURCES ${source}/core/threads_${VANTAGE_THREADS}.cpp
   LINK ${VANTAGE_THREAD_TARGETS} ZLIB::ZLIB ${VANTAGE_PROJ_TARGET} ${CMAKE_DL_LIBS}
   BUILD nlohmann_json::nlohmann_json vantage::cdt)
@@ -135,7 +157,8 @@ endif()
 get_property(VANTAGE_BUILT_COMPONENTS GLOBAL PROPERTY VANTAGE_BUILT_COMPONENTS)
 
 # All that is hidden, for tests and fuzz targets only.
-list(TRANSFORM VANTAGE_BUILT_COMPONENTS REPLACE "(.+)" "$<TARGET_OBJECTS:vantage_\\1_objects>" OUTPUT_VARIABLE objects)
+get_property(objects GLOBAL PROPERTY VANTAGE_OBJECT_LIBRARIES)
+list(TRANSFORM objects REPLACE "(.+)" "$<TARGET_OBJECTS:\\1>")
 add_library(vantage_inside STATIC EXCLUDE_FROM_ALL ${objects} $<TARGET_OBJECTS:vantage_helpers>)
 foreach(component IN LISTS VANTAGE_BUILT_COMPONENTS)
   target_link_libraries(vantage_inside PUBLIC $<TARGET_PROPERTY:vantage_${component}_objects,LINK_LIBRARIES>)

@@ -29,6 +29,49 @@ if(VANTAGE_SANITIZE)
   add_compile_options(-fsanitize=${VANTAGE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${VANTAGE_SANITIZE})
 endif()
+# ---- hardening: what makes a mistake end the program instead of letting an input take it over. Of all that is compiled,
+# third-party sources too. tests/check_binaries.py reads it from the binaries; docs/libraries.md says what it costs.
+set(hardened_by_default OFF)
+if(PROJECT_IS_TOP_LEVEL AND NOT EMSCRIPTEN)
+  set(hardened_by_default ON)
+endif()
+option(VANTAGE_HARDEN "Harden what is built: stack protector, FORTIFY, CET, RELRO (not where a sanitizer looks)"
+       ${hardened_by_default})
+# AddressSanitizer sees less where FORTIFY puts its own checks before.
+if(VANTAGE_HARDEN AND NOT VANTAGE_SANITIZE AND NOT EMSCRIPTEN)
+  include(CheckCXXCompilerFlag)
+  include(CheckLinkerFlag)
+  include(CheckPIESupported)
+  check_pie_supported(OUTPUT_VARIABLE no_pie LANGUAGES CXX)  # programs may lie anywhere in memory
+  if(NOT CMAKE_CXX_LINK_PIE_SUPPORTED)
+    message(WARNING "VANTAGE_HARDEN: programs are linked to a fixed address: ${no_pie}")
+  endif()
+  foreach(flag -fstack-protector-strong -fstack-clash-protection -fcf-protection)
+    string(MAKE_C_IDENTIFIER "VANTAGE_HAS${flag}" has)
+    check_cxx_compiler_flag(${flag} ${has})
+    if(${has})
+      add_compile_options(${flag})
+    endif()
+  endforeach()
+  # Bounds of what the standard library and the C library are asked to read and write. FORTIFY needs the optimizer; level 3
+  # is understood by GCC 12 and clang 9, and is a warning before.
+  set(level 2)
+  if((CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 12) OR
+     (CMAKE_CXX_COMPILER_ID MATCHES "Clang" AND CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 9))
+    set(level 3)
+  endif()
+  add_compile_options("$<$<NOT:$<CONFIG:Debug>>:-U_FORTIFY_SOURCE;-D_FORTIFY_SOURCE=${level}>" -D_GLIBCXX_ASSERTIONS)
+  # But for the engine, where each of them is in an inner loop: they cost 8 % there. Its inputs are checked before it.
+  set(VANTAGE_HOT_OPTIONS -U_GLIBCXX_ASSERTIONS)
+  # All addresses of functions are settled at the start, and cannot be changed after.
+  foreach(flag relro now noexecstack)
+    check_linker_flag(CXX "LINKER:-z,${flag}" VANTAGE_LINKS_${flag})
+    if(VANTAGE_LINKS_${flag})
+      add_link_options("LINKER:-z,${flag}")
+    endif()
+  endforeach()
+endif()
+
 # vantage_join_sources(TARGET [COUNT]): so many sources to a compilation. A first build takes less time, a build after each
 # change more. Names in their anonymous namespaces must differ then. Not for fuzz targets, which stand alone.
 function(vantage_join_sources target)
