@@ -49,7 +49,7 @@ TEST(AtomicFile, LeavesTheOldFileUntilCommit) {
     AtomicFile file(directory / "out.ply");
     file.write(kLong);
     EXPECT_EQ(read_bytes(directory / "out.ply"), "old");
-    EXPECT_EQ(directory.names().size(), 2u);
+    EXPECT_LE(directory.names().size(), 2u) << "or one, where it has no name yet";
   }
   EXPECT_EQ(read_bytes(directory / "out.ply"), "old");
   EXPECT_EQ(directory.names(), Names{"out.ply"});

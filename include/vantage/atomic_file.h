@@ -13,8 +13,10 @@
 namespace vantage {
 
 /// Collects what is written in a temporary file beside the target; commit() puts it in the target's place in one step.
-/// When anything fails, or commit() is never called, the target stays as it was and the temporary file is removed.
-/// A target that is a symbolic link is followed; an existing file's permissions are kept.
+/// When anything fails, or commit() is never called, the target stays as it was and the temporary file is removed. What
+/// a killed process left of one (".NAME.vantage-K.tmp", ".NAME.vantage-K.old") is removed when the target is next
+/// written; where the file system can keep a file without a name, nothing is left. A target that is a symbolic link is
+/// followed; an existing file's permissions are kept.
 class VANTAGE_API AtomicFile {
  public:
   /// Throws ErrorCode::output_not_a_file for a directory, a device, a pipe or a socket, and output_unwritable for a
@@ -39,15 +41,14 @@ class VANTAGE_API AtomicFile {
 
   void flush();
   void put_in_place();
-  void keep_old();
-  bool give_back();
   [[noreturn]] void fail(const std::string& problem, int error_number) const;
 
-  std::filesystem::path asked_, target_, temporary_;
-  std::filesystem::path kept_;  // a second name of the old file, while a set is put in place
-  bool replaces_ = false;       // there is an old file
+  std::filesystem::path asked_, target_;
+  bool replaces_ = false;   // there is an old file
+  bool is_sealed_ = false;  // all of it is on the disk
   std::vector<char> buffer_;
-  int descriptor_ = -1;
+  struct Temporary;
+  std::unique_ptr<Temporary> temporary_;
 };
 
 /// Commits a set of files: all of them, or none. Each is whole on the disk before the first is put in place; where one

@@ -5,12 +5,12 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <set>
 #include <system_error>
 
+#include "core/temporary_file.h"
 #include "vantage/error.h"
 
 namespace vantage {
@@ -64,6 +64,10 @@ void synchronise(const std::filesystem::path& folder) {
 
 }  // namespace
 
+struct AtomicFile::Temporary : internal::core::TemporaryFile {
+  using TemporaryFile::TemporaryFile;
+};
+
 AtomicFile::AtomicFile(const std::filesystem::path& target) : asked_(target), target_(resolved(target)) {
   if (target.empty())
     throw Error(ErrorCode::output_name_missing, "no output file was named", "", "give the name of a file");
@@ -80,27 +84,16 @@ AtomicFile::AtomicFile(const std::filesystem::path& target) : asked_(target), ta
   // A rename would replace a file that its owner has protected.
   if (exists && ::access(target_.c_str(), W_OK) != 0) fail("cannot write the file", errno);
   buffer_.reserve(kBufferBytes);
-  // Beside the target, because a rename is only atomic within one file system. The counter tells threads apart.
-  static std::atomic<unsigned> counter{0};
-  std::string name(".");
-  name.append(target_.filename().string(), 0, 200).append(".").append(std::to_string(::getpid()));
-  name.append("-").append(std::to_string(counter++)).append(".tmp");
-  temporary_ = target_.parent_path() / name;
-  descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  if (descriptor_ < 0) {
-    const int reason = errno;
-    temporary_.clear();
-    fail("cannot create the file", reason);
+  try {
+    temporary_ = std::make_unique<Temporary>(target_);
+  } catch (const std::system_error& error) {
+    fail("cannot create the file", error.code().value());
   }
   replaces_ = exists;
-  if (exists) (void)::fchmod(descriptor_, old.st_mode & 07777);
+  if (exists) (void)::fchmod(temporary_->descriptor(), old.st_mode & 07777);
 }
 
-AtomicFile::~AtomicFile() {
-  if (descriptor_ >= 0) ::close(descriptor_);
-  if (!temporary_.empty()) ::unlink(temporary_.c_str());
-  if (!kept_.empty()) ::unlink(kept_.c_str());
-}
+AtomicFile::~AtomicFile() = default;
 
 void AtomicFile::fail(const std::string& problem, int error_number) const {
   const bool lacks_folder = error_number == ENOENT || error_number == ENOTDIR;
@@ -120,7 +113,7 @@ void AtomicFile::write(std::string_view bytes) {
 void AtomicFile::flush() {
   std::size_t done = 0;
   while (done < buffer_.size()) {
-    const ssize_t written = ::write(descriptor_, buffer_.data() + done, buffer_.size() - done);
+    const ssize_t written = ::write(temporary_->descriptor(), buffer_.data() + done, buffer_.size() - done);
     if (written < 0 && errno == EINTR) continue;
     if (written < 0) fail("cannot write the file", errno);
     done += static_cast<std::size_t>(written);
@@ -129,18 +122,19 @@ void AtomicFile::flush() {
 }
 
 void AtomicFile::seal() {
-  if (descriptor_ < 0) return;
+  if (is_sealed_) return;
   flush();
-  // Some file systems report a full disk only here.
-  if (::fsync(descriptor_) != 0) fail("cannot write the file", errno);
-  const int closed = ::close(descriptor_);
-  descriptor_ = -1;
-  if (closed != 0) fail("cannot write the file", errno);
+  // Some file systems report a full disk only here. It stays open: with it goes the lock that says whose it is.
+  if (::fsync(temporary_->descriptor()) != 0) fail("cannot write the file", errno);
+  is_sealed_ = true;
 }
 
 void AtomicFile::put_in_place() {
-  if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail("cannot put the file in place", errno);
-  temporary_.clear();
+  try {
+    temporary_->put_in_place();
+  } catch (const std::system_error& error) {
+    fail("cannot put the file in place", error.code().value());
+  }
 }
 
 void AtomicFile::commit() {
@@ -149,25 +143,12 @@ void AtomicFile::commit() {
   synchronise(folder_of(target_));
 }
 
-void AtomicFile::keep_old() {
-  if (!replaces_) return;
-  const std::filesystem::path second_name = temporary_.string() + ".old";
-  if (::link(target_.c_str(), second_name.c_str()) == 0) kept_ = second_name;
-}
-
-/// Undoes put_in_place. False where the old file is lost.
-bool AtomicFile::give_back() {
-  if (!replaces_) return ::unlink(target_.c_str()) == 0;
-  if (kept_.empty() || ::rename(kept_.c_str(), target_.c_str()) != 0) return false;
-  kept_.clear();
-  synchronise(folder_of(target_));
-  return true;
-}
-
 void commit_all(const std::vector<std::unique_ptr<AtomicFile>>& files) {
   for (const auto& file : files) file->seal();
   if (files.size() > 1) {  // one rename needs no way back
-    for (const auto& file : files) file->keep_old();
+    for (const auto& file : files) {
+      if (file->replaces_) file->temporary_->keep_old();
+    }
   }
   std::size_t done = 0;
   try {
@@ -175,7 +156,10 @@ void commit_all(const std::vector<std::unique_ptr<AtomicFile>>& files) {
   } catch (const Error& error) {
     std::string lost;
     while (done-- > 0) {
-      if (!files[done]->give_back()) lost += (lost.empty() ? "" : ", ") + files[done]->asked_.string();
+      const AtomicFile& file = *files[done];
+      const bool is_as_before = file.replaces_ ? file.temporary_->give_back() : ::unlink(file.target_.c_str()) == 0;
+      if (!is_as_before) lost += (lost.empty() ? "" : ", ") + file.asked_.string();
+      synchronise(folder_of(file.target_));
     }
     if (lost.empty()) throw;
     throw error.with_fix("write elsewhere; already replaced: " + lost);

@@ -1,4 +1,3 @@
-#include <fcntl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -6,6 +5,7 @@
 #include <cstring>
 #include <system_error>
 
+#include "core/temporary_file.h"
 #include "io/output_formats.h"
 #include "vantage/error.h"
 #include "vantage/input.h"
@@ -17,16 +17,13 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Asks the file system itself: permissions alone do not tell of a read-only disk, a quota or a network share.
-void try_to_make_a_file_in(const fs::path& folder, const fs::path& file) {
-  std::string trial = (folder / ".vantage-XXXXXX").string();
-  const int descriptor = ::mkstemp(trial.data());
-  if (descriptor < 0) {
-    throw Error(ErrorCode::output_unwritable,
-                std::string("no file can be made in the output folder: ") + std::strerror(errno), file.string(),
-                "make the folder writable, or write elsewhere");
+void try_to_make_a_file_beside(const fs::path& file) {
+  try {
+    const internal::core::TemporaryFile trial(file);
+  } catch (const std::system_error& error) {
+    throw Error(ErrorCode::output_unwritable, "no file can be made in the output folder: " + error.code().message(),
+                file.string(), "make the folder writable, or write elsewhere");
   }
-  ::close(descriptor);
-  ::unlink(trial.c_str());
 }
 
 /// "-" where it means nothing; a file of that name is "./-".
@@ -63,7 +60,7 @@ void check_can_write(const fs::path& file) {
                 std::string("the output file is write-protected: ") + std::strerror(errno), file.string(),
                 "change its permissions, or name another file");
   }
-  try_to_make_a_file_in(folder, file);
+  try_to_make_a_file_beside(file);
 }
 
 std::string format_extension(const fs::path& file) {
