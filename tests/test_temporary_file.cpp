@@ -1,4 +1,4 @@
-// What killed processes leave of files, and who removes it.
+// What killed processes leave of files and folders, and who removes it.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -18,7 +18,10 @@
 #include "core/temporary_file.h"
 #include "support/random.h"
 #include "support/temporary_directory.h"
+#include "support/wording.h"
 #include "vantage/atomic_file.h"
+#include "vantage/error.h"
+#include "vantage/temporary_folder.h"
 
 namespace vantage::internal::core {
 namespace {
@@ -183,6 +186,47 @@ TEST(AtomicFile, TwentyKillsLeaveWholeFilesAndNothingElse) {
     for (const std::string& name : names) write_whole_file(directory / name, new_text);
     EXPECT_EQ(sorted_names(directory), names) << "after kill " << kill;
   }
+}
+
+TEST(TemporaryFolder, GoesWithTheObjectOrWithTheNextOne) {
+  const TemporaryDirectory directory;
+  fs::path left;
+  Process writer([&] {
+    const auto* const folder = new TemporaryFolder(directory.path(), ".x-");
+    fs::create_directory(folder->path() / "deep");
+    write_bytes(folder->path() / "deep/file", "x");
+  });
+  ASSERT_EQ(directory.names().size(), 1U);
+  {
+    const TemporaryFolder mine(directory.path(), ".x-");
+    EXPECT_EQ(directory.names().size(), 2U) << "that of a process that lives stays";
+    struct stat status {};
+    ASSERT_EQ(::stat(mine.path().c_str(), &status), 0);
+    EXPECT_EQ(status.st_mode & 0777, 0700U);
+  }
+  EXPECT_EQ(directory.names().size(), 1U);
+  writer.kill();
+  { const TemporaryFolder other(directory.path(), ".y-"); }
+  EXPECT_EQ(directory.names().size(), 1U) << "another kind";
+  fs::create_directory(directory / ".x-longer-name");
+  write_bytes(directory / ".x-abcdef", "a file");
+  { const TemporaryFolder mine(directory.path(), ".x-"); }
+  EXPECT_EQ(sorted_names(directory), (Names{".x-abcdef", ".x-longer-name"}));
+  testing::expect_code([&] { TemporaryFolder(directory / "none", "x-"); }, ErrorCode::output_unwritable, "none");
+}
+
+TEST(TemporaryFolder, TakesThePlaceOfAnother) {
+  const TemporaryDirectory directory;
+  for (const std::string text : {"first", "second"}) {
+    TemporaryFolder folder(directory.path(), ".x-");
+    write_bytes(folder.path() / text, text);
+    ASSERT_TRUE(folder.move_to(directory / "place"));
+  }
+  EXPECT_EQ(directory.names(), Names{"place"});
+  EXPECT_TRUE(fs::exists(directory / "place/second"));
+  EXPECT_FALSE(fs::exists(directory / "place/first"));
+  TemporaryFolder folder(directory.path(), ".x-");
+  EXPECT_FALSE(folder.move_to(directory / "none/place"));
 }
 
 }  // namespace

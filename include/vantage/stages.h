@@ -2,12 +2,14 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "vantage/export.h"
 #include "vantage/mission.h"
 #include "vantage/spheres.h"
+#include "vantage/temporary_folder.h"
 
 namespace vantage {
 
@@ -36,7 +38,8 @@ class VANTAGE_API StageFolder {
   void check_replaceable() const;
   [[noreturn]] void fail(const std::string& problem, int error_number) const;
 
-  std::filesystem::path asked_, folder_, temporary_;
+  std::filesystem::path asked_, folder_;
+  std::unique_ptr<TemporaryFolder> temporary_;
   struct Told {
     std::string kind, name, file;  // no file: there is no mesh, or it is empty
     std::vector<Vec3> points;

@@ -1,10 +1,9 @@
-#include <stdlib.h>
-
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <system_error>
 #include <utility>
@@ -17,6 +16,7 @@
 #include "vantage/input.h"
 #include "vantage/result.h"
 #include "vantage/stages.h"
+#include "vantage/temporary_folder.h"
 #include "vantage/version.h"
 #include "vantage/volume.h"
 
@@ -87,17 +87,16 @@ StageFolder::StageFolder(fs::path folder) : asked_(std::move(folder)), folder_(w
   if (fs::exists(status)) check_replaceable();
   if (fs::is_symlink(folder_, error)) folder_ = fs::canonical(folder_, error);
   const fs::path parent = folder_.has_parent_path() ? folder_.parent_path() : fs::path(".");
-  std::string pattern = (parent / ".vantage-stages-XXXXXX").string();
-  if (::mkdtemp(pattern.data()) == nullptr) fail("the folder of the stages cannot be made", errno);
-  temporary_ = pattern;
-  // As other programs make folders; mkdtemp makes it private.
-  fs::permissions(temporary_, fs::exists(status) ? status.permissions() : static_cast<fs::perms>(0755), error);
+  try {
+    temporary_ = std::make_unique<TemporaryFolder>(parent, "." + folder_.filename().string() + ".vantage-stages-");
+  } catch (const Error&) {
+    fail("the folder of the stages cannot be made", errno);
+  }
+  // As other programs make folders; a temporary one is private.
+  fs::permissions(temporary_->path(), fs::exists(status) ? status.permissions() : static_cast<fs::perms>(0755), error);
 }
 
-StageFolder::~StageFolder() {
-  std::error_code ignored;
-  if (!temporary_.empty()) fs::remove_all(temporary_, ignored);
-}
+StageFolder::~StageFolder() = default;
 
 void StageFolder::fail(const std::string& problem, int error_number) const {
   throw Error(ErrorCode::output_unwritable, problem + ": " + std::strerror(error_number), asked_.string(),
@@ -134,7 +133,7 @@ void StageFolder::add(const SphereStage& stage) {
     told.file = file_name(stages_.size(), stage.name);
     Volume volume = volume_of_mesh(*stage.mesh, stage.name);
     volume.georeference = stage.georeference;
-    write_volume(volume, temporary_ / told.file);
+    write_volume(volume, temporary_->path() / told.file);
   }
   stages_.push_back(std::move(told));
 }
@@ -163,30 +162,16 @@ void StageFolder::write_story(const Mission& mission, const Result& result) {
     }
     story["stages"].push_back(std::move(stage));
   }
-  write_whole_file(temporary_ / kStory,
-                   internal::core::escaped_json(story.dump(2, ' ', false, Json::error_handler_t::replace)) + "\n");
+  write_whole_file(temporary_->path() / kStory, story.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
   std::error_code error;
   if (fs::exists(folder_, error)) check_replaceable();  // the run may have taken long
 }
 
 void StageFolder::commit() {
-  // A full folder cannot be renamed over: the old one steps aside first, and comes back if that fails.
   std::error_code error;
-  const fs::path aside = temporary_.string() + "-old";
-  const bool is_replacing = fs::exists(folder_, error);
-  if (is_replacing) {
-    check_replaceable();
-    fs::rename(folder_, aside, error);
-    if (error) fail("the old folder of the stages cannot be replaced", error.value());
-  }
-  fs::rename(temporary_, folder_, error);
-  if (error) {
-    std::error_code ignored;
-    if (is_replacing) fs::rename(aside, folder_, ignored);
-    fail("the folder of the stages cannot be put in place", error.value());
-  }
-  temporary_.clear();
-  if (is_replacing) fs::remove_all(aside, error);
+  if (fs::exists(folder_, error)) check_replaceable();
+  if (!temporary_->move_to(folder_)) fail("the folder of the stages cannot be put in place", errno);
+  temporary_.reset();
 }
 
 std::vector<StageFile> read_stages(const fs::path& folder) {

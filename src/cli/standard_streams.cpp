@@ -2,20 +2,26 @@
 
 #include <unistd.h>
 
-#include <cerrno>
-#include <cstdlib>
-#include <cstring>
 #include <fstream>
 #include <iostream>
 #include <string_view>
-#include <system_error>
 
 #include "cli/command.h"
 #include "vantage/error.h"
 
 namespace vantage::cli {
 
-namespace fs = std::filesystem;
+namespace {
+
+const std::string& checked(const std::string& extension) {
+  if (extension != ".obj" && ::isatty(STDOUT_FILENO) == 1) {
+    throw Error(ErrorCode::output_not_a_file, "standard output is a terminal, and a " + extension + " file is not text",
+                "command line, -o", "send it to a program or a file: vantage ... -o - | PROGRAM");
+  }
+  return extension;
+}
+
+}  // namespace
 
 MissionFile read_mission_argument(const std::string& argument) {
   if (!is_standard_stream(argument)) return read_mission(argument);
@@ -31,26 +37,8 @@ MissionFile read_mission_argument(const std::string& argument) {
   return mission;
 }
 
-OutgoingFile::OutgoingFile(const std::string& extension) {
-  if (extension != ".obj" && ::isatty(STDOUT_FILENO) == 1) {
-    throw Error(ErrorCode::output_not_a_file, "standard output is a terminal, and a " + extension + " file is not text",
-                "command line, -o", "send it to a program or a file: vantage ... -o - | PROGRAM");
-  }
-  std::error_code error;
-  const fs::path temporary = fs::temp_directory_path(error);
-  std::string pattern = ((error ? fs::path("/tmp") : temporary) / "vantage-XXXXXX").string();
-  if (::mkdtemp(pattern.data()) == nullptr) {
-    throw Error(ErrorCode::output_unwritable, std::string("no temporary file can be made: ") + std::strerror(errno),
-                pattern, "make room there, or set TMPDIR to a folder that can be written");
-  }
-  folder_ = pattern;
-  path_ = folder_ / ("result" + extension);
-}
-
-OutgoingFile::~OutgoingFile() {
-  std::error_code error;
-  fs::remove_all(folder_, error);
-}
+OutgoingFile::OutgoingFile(const std::string& extension)
+    : extension_(checked(extension)), path_(folder_.path() / ("result" + extension_)) {}
 
 void OutgoingFile::send() const {
   std::ifstream stream(path_, std::ios::binary);

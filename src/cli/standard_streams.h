@@ -5,6 +5,7 @@
 #include <string>
 
 #include "vantage/mission.h"
+#include "vantage/temporary_folder.h"
 
 namespace vantage::cli {
 
@@ -20,7 +21,6 @@ class OutgoingFile {
   /// `extension` begins with a dot. Throws Error(output) where no temporary file can be made; Error(input) for a format
   /// that is not text when standard output is a terminal.
   explicit OutgoingFile(const std::string& extension);
-  ~OutgoingFile();
   OutgoingFile(const OutgoingFile&) = delete;
   OutgoingFile& operator=(const OutgoingFile&) = delete;
 
@@ -30,7 +30,9 @@ class OutgoingFile {
   void send() const;
 
  private:
-  std::filesystem::path folder_, path_;
+  std::string extension_;
+  TemporaryFolder folder_;
+  std::filesystem::path path_;
 };
 
 }  // namespace vantage::cli

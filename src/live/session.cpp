@@ -2,11 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <chrono>
 #include <cmath>
-#include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -18,6 +15,7 @@
 #include "vantage/input.h"
 #include "vantage/json.h"
 #include "vantage/slice.h"
+#include "vantage/temporary_folder.h"
 #include "vantage/version.h"
 
 namespace vantage::live {
@@ -48,30 +46,6 @@ class Stopwatch {
 
  private:
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
-
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::error_code error;
-    std::string pattern = (std::filesystem::temp_directory_path(error) / "vantage-XXXXXX").string();
-    if (error || ::mkdtemp(pattern.data()) == nullptr) {
-      throw Error(ErrorCode::output_unwritable, std::string("no temporary folder can be made: ") + std::strerror(errno),
-                  pattern, "make room there, or set TMPDIR to a folder that can be written");
-    }
-    path_ = pattern;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
 };
 
 Json json(const Vec3& point) { return {point.x(), point.y(), point.z()}; }

@@ -1,0 +1,37 @@
+// A folder for a while.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "vantage/export.h"
+
+namespace vantage {
+
+/// A new folder that only this user may read. It is removed with all that is in it when the object goes away; if the
+/// process is killed before, by the next one that makes a folder of that kind in that place. Throws
+/// ErrorCode::output_unwritable where none can be made.
+class VANTAGE_API TemporaryFolder {
+ public:
+  /// In the folder for temporary files: TMPDIR, or /tmp.
+  TemporaryFolder();
+
+  /// In `parent`, with a name that begins with `prefix`: folders of other prefixes are left alone.
+  TemporaryFolder(const std::filesystem::path& parent, const std::string& prefix);
+
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  ~TemporaryFolder();
+
+  const std::filesystem::path& path() const { return path_; }
+
+  /// Moves it to `place`, which is free or holds a folder; a folder that was there is removed. In one step where the
+  /// file system can do it. Call once, last. False, with errno, where it cannot be done: what was there is there.
+  bool move_to(const std::filesystem::path& place);
+
+ private:
+  std::filesystem::path path_;
+  int descriptor_ = -1;  // holds a lock that says that somebody uses the folder
+};
+
+}  // namespace vantage
