@@ -36,7 +36,7 @@ def expect(condition: bool, what: str) -> None:
 
 
 def program(*arguments: str) -> str:
-    result = subprocess.run([sys.executable, "-m", "vantage", *arguments], capture_output=True, text=True, cwd="/tmp",
+    result = subprocess.run([sys.executable, "-m", "vantage", *arguments], capture_output=True, text=True, cwd="/check",
                             check=False)
     expect(result.returncode == 0, f"python -m vantage {' '.join(arguments)}: exit {result.returncode} {result.stderr[-300:]}")
     return result.stdout
@@ -57,10 +57,10 @@ def dutch_cube() -> str:
 def same_as_program(result: vt.Result, name: str, expected: pathlib.Path | None) -> None:
     """The program in the wheel, and one that was built without it, write the same bytes as the package."""
     mission = HERE / f"examples/{name}/mission.yaml"
-    result.save(f"/tmp/{name}.ply")
-    program("compute", str(mission), "-o", f"/tmp/{name}_by_program.ply")
-    written = pathlib.Path(f"/tmp/{name}.ply").read_bytes()
-    expect(written == pathlib.Path(f"/tmp/{name}_by_program.ply").read_bytes(),
+    result.save(f"/check/{name}.ply")
+    program("compute", str(mission), "-o", f"/check/{name}_by_program.ply")
+    written = pathlib.Path(f"/check/{name}.ply").read_bytes()
+    expect(written == pathlib.Path(f"/check/{name}_by_program.ply").read_bytes(),
            f"{name}: the same {len(written)} bytes from python -m vantage")
     if expected is not None:
         expect(written == (expected / f"{name}.ply").read_bytes(), f"{name}: the same bytes as the program outside of the wheel")
@@ -72,8 +72,8 @@ def check_page() -> None:
     if not (pathlib.Path(vt.__file__).parent / "share/web/index.html").exists():
         tell("no page in this wheel (make web)")
         return
-    program("report", mission, "-o", "/tmp/report.html")
-    report = pathlib.Path("/tmp/report.html").read_text()
+    program("report", mission, "-o", "/check/report.html")
+    report = pathlib.Path("/check/report.html").read_text()
     expect("vantageReport" in report and "vantageLive=" not in report, f"a report of {len(report)} bytes")
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as any_socket:  # a root without network has no 127.0.0.1 either
         fcntl.ioctl(any_socket, SET_FLAGS, struct.pack("16sh22x", b"lo", IS_UP))
@@ -141,7 +141,7 @@ def main() -> int:
 
     sphere = vt.visibility_sphere(scene, (0, 0, 20), 60, cubemap=64, device="cpu")
     expect(sphere.volume_m3 > 1000, f"visibility sphere on the CPU: {sphere.volume_m3:.1f} m3 (Embree, Manifold)")
-    heights = pathlib.Path("/tmp/heights.asc")
+    heights = pathlib.Path("/check/heights.asc")
     heights.write_text("ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 10\n1 2\n3 4\n")
     try:
         vt.Scene.from_raster(heights)

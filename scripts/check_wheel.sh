@@ -68,6 +68,6 @@ find "$folder/bare" \( -iname '*x11*' -o -iname '*proj.db' -o -iname '*.ttf' -o 
 if [ -s "$folder/found" ]; then cat "$folder/found"; exit 1; fi
 in_root bare --no-opengl "${same[@]}"
 make_root opengl python3.11 libstdc++6 libegl1 libgl1-mesa-dri
-in_root opengl --picture /tmp/picture.png "${same[@]}"
-cp "$folder/opengl/tmp/picture.png" "$folder/picture.png"
+in_root opengl --picture /check/picture.png "${same[@]}"
+cp "$folder/opengl/check/picture.png" "$folder/picture.png"
 echo "wheel: works in a bare root; the picture is $folder/picture.png"

@@ -13,6 +13,7 @@ import io
 import json
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -358,6 +359,34 @@ class Scripts(unittest.TestCase):
         self.assertEqual((self.scratch / "built" / "prefix" / "licences" / "thing.txt").read_text(), "LICENSE")
         shutil.rmtree(pool)
         self.assertEqual(build(hashlib.sha256(archive).hexdigest()), (0, ""), "what is built is not fetched again")
+
+    # ---- what is fetched, and where is written
+
+    def script_lines(self) -> list[tuple[str, str]]:
+        """Each command of the scripts, of the Makefile and of .ci/run, on one line, with its file."""
+        files = [*sorted((ROOT / "scripts").glob("*.sh")), ROOT / "Makefile", ROOT / ".ci" / "run"]
+        found = []
+        for file in files:
+            text = file.read_text(encoding="utf-8").replace("\\\n", " ")
+            found += [(file.name, line.strip()) for line in text.splitlines() if not line.strip().startswith("#")]
+        return found
+
+    @staticmethod
+    def faults_of_line(line: str) -> list[str]:
+        """What a command fetches without looking at a hash, or runs of what it fetched; where it writes what others may
+        have put there before."""
+        found = []
+        if re.search(r"(?<![\w$}])(/tmp|/var/tmp|\$TMPDIR|\$\{TMPDIR[^}]*\})/[\w.-]+", line):
+            found.append("a name in /tmp that others can foresee")
+        return found
+
+    def test_scripts_take_nothing_by_name_alone(self):
+        lines = self.script_lines()
+        self.assertEqual([(file, fault, line) for file, line in lines for fault in self.faults_of_line(line)], [])
+        for line in ("cp a /tmp/a.log", "log=$TMPDIR/log", 'cat >"${TMPDIR:-/tmp}/x"'):
+            self.assertEqual(len(self.faults_of_line(line)), 1, line)
+        for line in ("log=$(mktemp)", "env -i HOME=/tmp x", 'mkdir "$root/tmp" "$root/tmp/x"'):
+            self.assertEqual(self.faults_of_line(line), [], line)
 
 
 if __name__ == "__main__":
