@@ -25,5 +25,6 @@ printf 'engine: %d bytes, %d gzipped\n' "$(stat -c %s "$build/vantage.wasm")" "$
 [ "${1:-}" != --engine ] || exit 0
 
 cd web
-npm ci --no-audit --no-fund
+# Nothing of what the packages bring is run on installation; what esbuild runs is in the package of this platform.
+npm ci --ignore-scripts --no-audit --no-fund
 VANTAGE_ENGINE=$build npm run build

@@ -376,6 +376,10 @@ class Scripts(unittest.TestCase):
         """What a command fetches without looking at a hash, or runs of what it fetched; where it writes what others may
         have put there before."""
         found = []
+        if re.search(r"\bnpm (install|i|add|update)\b|\bnpx\b|\bnpm exec\b", line):
+            found.append("npm without the lock")
+        if "npm ci" in line and "--ignore-scripts" not in line:
+            found.append("npm runs what packages bring")
         if re.search(r"(?<![\w$}])(/tmp|/var/tmp|\$TMPDIR|\$\{TMPDIR[^}]*\})/[\w.-]+", line):
             found.append("a name in /tmp that others can foresee")
         return found
@@ -383,9 +387,10 @@ class Scripts(unittest.TestCase):
     def test_scripts_take_nothing_by_name_alone(self):
         lines = self.script_lines()
         self.assertEqual([(file, fault, line) for file, line in lines for fault in self.faults_of_line(line)], [])
-        for line in ("cp a /tmp/a.log", "log=$TMPDIR/log", 'cat >"${TMPDIR:-/tmp}/x"'):
+        self.assertIn("ignore-scripts=true", (ROOT / "web" / ".npmrc").read_text(encoding="utf-8").split())
+        for line in ("npm install", "npm ci --no-audit", "npx esbuild", "cp a /tmp/a.log", "log=$TMPDIR/log", 'cat >"${TMPDIR:-/tmp}/x"'):
             self.assertEqual(len(self.faults_of_line(line)), 1, line)
-        for line in ("log=$(mktemp)", "env -i HOME=/tmp x", 'mkdir "$root/tmp" "$root/tmp/x"'):
+        for line in ("log=$(mktemp)", "env -i HOME=/tmp x", 'mkdir "$root/tmp" "$root/tmp/x"', "npm ci --ignore-scripts"):
             self.assertEqual(self.faults_of_line(line), [], line)
 
 
