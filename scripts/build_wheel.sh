@@ -14,11 +14,12 @@ scripts/build_wheel_libraries.py --jobs "$jobs"
 # An environment of this interpreter with the tools.
 tag=$("$python" -c 'import sys; print(f"cp{sys.version_info[0]}{sys.version_info[1]}")')
 tools=$deps/python-$tag
-stamp=$tools/$(sha256sum python/wheel-requirements.txt | cut -c1-16).stamp
+stamp=$tools/$(sha256sum python/wheel-requirements.lock | cut -c1-16).stamp
 if [ ! -e "$stamp" ]; then
   rm -rf "$tools"
   "$python" -m venv "$tools"
-  "$tools/bin/python" -m pip install --quiet --disable-pip-version-check --requirement python/wheel-requirements.txt
+  "$tools/bin/python" -m pip install --quiet --disable-pip-version-check --require-hashes --no-deps --only-binary=:all: \
+    --requirement python/wheel-requirements.lock
   touch "$stamp"
 fi
 

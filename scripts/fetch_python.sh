@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
-# Makes .deps/python, a Python environment with what python/requirements.txt pins. Does nothing when it is there.
+# Makes .deps/python, a Python environment with what python/requirements.lock pins, by version and hash. Does nothing when
+# it is there. scripts/pin_python.py makes the lock from python/requirements.txt.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 folder="$here/../.deps/python"
-stamp="$folder/$(sha256sum "$here/../python/requirements.txt" | cut -c1-16).stamp"
+stamp="$folder/$(sha256sum "$here/../python/requirements.lock" | cut -c1-16).stamp"
 [ -e "$stamp" ] && exit 0
 echo "making a Python environment in .deps/python"
 rm -rf "$folder"
@@ -12,8 +13,10 @@ if ! python3 -m venv "$folder"; then
   echo "python3 cannot make environments: on Debian, install python3-venv" >&2
   exit 1
 fi
-if ! "$folder/bin/python" -m pip install --quiet --disable-pip-version-check --requirement "$here/../python/requirements.txt"; then
-  echo "could not install what python/requirements.txt pins; is the Python package index reachable?" >&2
+if ! "$folder/bin/python" -m pip install --quiet --disable-pip-version-check --require-hashes --no-deps --only-binary=:all: \
+  --requirement "$here/../python/requirements.lock"; then
+  echo "could not install what python/requirements.lock pins, for CPython 3.11 on x86-64 Linux; is the Python package index" \
+    "reachable? For another Python or processor, run scripts/pin_python.py python/requirements.txt" >&2
   exit 1
 fi
 touch "$stamp"

@@ -376,6 +376,11 @@ class Scripts(unittest.TestCase):
         """What a command fetches without looking at a hash, or runs of what it fetched; where it writes what others may
         have put there before."""
         found = []
+        if "pip" in line and " install " in line:
+            if "--require-hashes" not in line and "--no-index" not in line:
+                found.append("pip without --require-hashes")
+            if "--no-deps" not in line and "into[@]" not in line:
+                found.append("pip without --no-deps")
         if re.search(r"\bnpm (install|i|add|update)\b|\bnpx\b|\bnpm exec\b", line):
             found.append("npm without the lock")
         if "npm ci" in line and "--ignore-scripts" not in line:
@@ -387,11 +392,29 @@ class Scripts(unittest.TestCase):
     def test_scripts_take_nothing_by_name_alone(self):
         lines = self.script_lines()
         self.assertEqual([(file, fault, line) for file, line in lines for fault in self.faults_of_line(line)], [])
+        self.assertGreaterEqual(sum("--require-hashes" in line for _, line in lines), 3)
         self.assertIn("ignore-scripts=true", (ROOT / "web" / ".npmrc").read_text(encoding="utf-8").split())
-        for line in ("npm install", "npm ci --no-audit", "npx esbuild", "cp a /tmp/a.log", "log=$TMPDIR/log", 'cat >"${TMPDIR:-/tmp}/x"'):
+        for line in ("pip install --no-deps -r a.txt", "python -m pip install --require-hashes -r a", "npm install",
+                     "npm ci --no-audit", "npx esbuild", "cp a /tmp/a.log", "log=$TMPDIR/log", 'cat >"${TMPDIR:-/tmp}/x"'):
             self.assertEqual(len(self.faults_of_line(line)), 1, line)
         for line in ("log=$(mktemp)", "env -i HOME=/tmp x", 'mkdir "$root/tmp" "$root/tmp/x"', "npm ci --ignore-scripts"):
             self.assertEqual(self.faults_of_line(line), [], line)
+
+    def test_requirements_are_locked(self):
+        for name in ("requirements", "wheel-requirements"):
+            asked = re.findall(r"^([\w.-]+)(?:\[[\w,]+\])?==(\S+)", (ROOT / "python" / f"{name}.txt").read_text(), re.MULTILINE)
+            locked = {}
+            for line in (ROOT / "python" / f"{name}.lock").read_text().splitlines():
+                if not line.startswith("#"):
+                    match = re.fullmatch(r"([a-z0-9-]+)==([\w.+!]+) --hash=sha256:[0-9a-f]{64}", line)
+                    self.assertIsNotNone(match, line)
+                    locked[match[1]] = match[2]
+            self.assertGreater(len(asked), 5)
+            for package, version in asked:
+                self.assertEqual(locked.get(re.sub(r"[-_.]+", "-", package).lower()), version,
+                                 f"{package}: run scripts/pin_python.py python/{name}.txt")
+        for line in json.loads((ROOT / "web" / "package-lock.json").read_text())["packages"].items():
+            self.assertTrue(not line[0] or line[1].get("integrity", "").startswith("sha512-"), line[0])
 
 
 if __name__ == "__main__":
