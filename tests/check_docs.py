@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks the text of the documents: README.md, CONTRIBUTING.md, CHANGELOG.md and docs/.
+"""Checks the text of the documents: README.md, CONTRIBUTING.md, CHANGELOG.md, SECURITY.md and docs/.
 
     check_docs.py [ROOT]      exit 1 and one line for each problem
     check_docs.py --self-test
@@ -45,7 +45,7 @@ def anchors(text: str) -> set[str]:
 
 
 def documents(root: pathlib.Path) -> list[pathlib.Path]:
-    files = [root / name for name in ("README.md", "CONTRIBUTING.md", "CHANGELOG.md")]
+    files = [root / name for name in ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "SECURITY.md")]
     return [file for file in [*files, *sorted((root / "docs").rglob("*.md"))] if file.is_file()]
 
 
