@@ -27,22 +27,63 @@ constexpr const char* kP1 = "DJI, Zenmuse P1 specifications: sensor 35.9 x 24 mm
 constexpr const char* kPhantom = "DJI, Phantom 4 specifications: 8.8 mm; sensor of type 1: 13.2 x 8.8 mm";
 constexpr const char* kAltum = "MicaSense, metadata of its pictures: pixels of 3.45 um, 8 mm";
 constexpr const char* kIxm = "Phase One, iXM-100 specifications: sensor 43.9 x 32.9 mm; the lens by its name";
+// Sensors of type 1/1.3 of 48 megapixels, of which each four make one of 2.4 um. Planners and Meshroom have 9.7 mm.
+constexpr double kWidth13 = 9.6768, kHeight13 = 7.2576;
+constexpr const char* kType13 =
+    "DJI, metadata of its pictures: 6.72 mm, by lensfun and lists of planners; sensor of type 1/1.3: pixels of 2.4 um";
+constexpr const char* kL2d = "DJI, metadata of its pictures: 12.29 mm, by lensfun; sensor of type 4/3: 17.3 x 13 mm";
+constexpr const char* kThermal =
+    "DJI, metadata of its pictures: 9.1 mm, 40 mm as of 35 mm film, by lists of planners; pixels of 12 um";
+constexpr const char* kSkydio =
+    "Skydio, 2, 2+ and X2 camera and metadata overview: 2376.56 pixels; sensor IMX577: pixels of 1.55 um";
+constexpr const char* kA6100 = "Sony, ILCE-6100 specifications, width by AliceVision's list; the lens by its name";
+constexpr const char* kIlx = "Sony, ILX-LR1 specifications, by a list of planners; the lens by its name";
 
 constexpr std::array kCameraRows = {
+    CameraRow{"autel_evo_ii", "Autel", "EVO II (8K)", 8000, 6000, 6.4, 4.8, 4.73,
+              "Autel, EVO II specifications: type 1/2, 25.6 mm as of 35 mm film"},
+    CameraRow{"autel_evo_ii_pro", "Autel", "EVO II Pro (XT705)", 5472, 3648, 13.1328, 8.7552, 10.57,
+              "Autel, metadata of its pictures: 10.57 mm, 4404.17 pixels, so pixels of 2.4 um"},
     CameraRow{"canon_eos_m_22mm", "Canon", "EOS M, lens of 22 mm", 5184, 3456, 22.3, 14.9, 22,
               "Canon, EOS M specifications, by QGroundControl's list"},
     CameraRow{"canon_g9_x", "Canon", "PowerShot G9 X, widest", 5488, 3680, 13.2, 8.8, 10.2,
               "Canon, PowerShot G9 X specifications, by QGroundControl's list"},
     CameraRow{"canon_sx260_hs", "Canon", "PowerShot SX260 HS, widest", 4000, 3000, 6.17, 4.55, 4.5,
               "Canon, PowerShot SX260 HS specifications, by QGroundControl's list"},
+    CameraRow{"dji_air_2s", "DJI", "Air 2S", 5472, 3648, 13.2, 8.8, 8.38,
+              "DJI, metadata of its pictures: 8.38 mm, by lensfun; sensor of type 1: 13.2 x 8.8 mm"},
+    CameraRow{"dji_matrice_30_wide", "DJI", "Matrice 30 and 30T, wide camera", 4000, 3000, 6.4, 4.8, 4.5,
+              "DJI, Matrice 30 specifications: type 1/2, 4.5 mm, by lists of planners"},
+    CameraRow{"dji_matrice_30t_thermal", "DJI", "Matrice 30T, thermal camera", 640, 512, 7.68, 6.144, 9.1, kThermal},
+    CameraRow{"dji_matrice_4t_thermal", "DJI", "Matrice 4T, thermal camera", 640, 512, 7.68, 6.144, 12,
+              "DJI, Matrice 4T specifications: pixels of 12 um, 12 mm, by a list of planners"},
+    CameraRow{"dji_matrice_4t_wide", "DJI", "Matrice 4T, wide camera, 12 megapixels", 4032, 3024, kWidth13, kHeight13,
+              6.72, kType13},
     CameraRow{"dji_mavic_2_pro", "DJI", "Mavic 2 Pro (Hasselblad L1D-20c)", 5472, 3648, 13.2, 8.8, 10.26,
               "DJI, metadata of its pictures: 10.26 mm; sensor of type 1: 13.2 x 8.8 mm"},
+    CameraRow{"dji_mavic_3_classic", "DJI", "Mavic 3 and Mavic 3 Classic (Hasselblad L2D-20c)", 5280, 3956, 17.3, 13.0,
+              12.29, kL2d},
+    CameraRow{"dji_mavic_3_pro_wide", "DJI", "Mavic 3 Pro, wide camera (Hasselblad L2D-20c)", 5280, 3956, 17.3, 13.0,
+              12.29, kL2d},
+    CameraRow{"dji_mavic_3e_tele", "DJI", "Mavic 3E and 3T, tele camera", 4000, 3000, 6.4, 4.8, 29.85,
+              "DJI, Mavic 3E specifications: type 1/2, 162 mm as of 35 mm film; 29.85 mm by a list of planners"},
     CameraRow{"dji_mavic_3e_wide", "DJI", "Mavic 3E, wide camera", 5280, 3956, 17.3, 13.0, 12.29,
               "DJI, metadata of its pictures: 12.29 mm; sensor of type 4/3: 17.3 x 13 mm"},
+    CameraRow{"dji_mavic_3t_thermal", "DJI", "Mavic 3T, thermal camera", 640, 512, 7.68, 6.144, 9.1, kThermal},
+    CameraRow{"dji_mavic_3t_wide", "DJI", "Mavic 3T, wide camera, 12 megapixels", 4000, 3000, 6.4, 4.8, 4.4,
+              "DJI, metadata of its pictures: 4.4 mm, 24 mm as of 35 mm film; type 1/2, by lists of planners"},
+    CameraRow{"dji_mini_3_pro", "DJI", "Mini 3 Pro, 12 megapixels", 4032, 3024, kWidth13, kHeight13, 6.72, kType13},
+    CameraRow{"dji_mini_4_pro", "DJI", "Mini 4 Pro, 12 megapixels", 4032, 3024, kWidth13, kHeight13, 6.72, kType13},
     CameraRow{"dji_phantom_4_pro", "DJI", "Phantom 4 Pro", 5472, 3648, 13.2, 8.8, 8.8, kPhantom},
     CameraRow{"dji_phantom_4_rtk", "DJI", "Phantom 4 RTK", 5472, 3648, 13.2, 8.8, 8.8, kPhantom},
+    CameraRow{"dji_zenmuse_h20_wide", "DJI", "Zenmuse H20 and H20T, wide camera", 4056, 3040, 6.287, 4.712, 4.5,
+              "DJI, Zenmuse H20 specifications: type 1/2.3, 4.5 mm, by a list of planners; pixels of 1.55 um"},
     CameraRow{"dji_zenmuse_h20t_thermal", "DJI", "Zenmuse H20T, thermal camera", 640, 512, 7.68, 6.144, 13.5,
               "DJI, Zenmuse H20T specifications: pixels of 12 um, 13.5 mm, width by OpenSfM's list"},
+    CameraRow{"dji_zenmuse_h30_wide", "DJI", "Zenmuse H30 and H30T, wide camera, 12 megapixels", 4032, 3024, kWidth13,
+              kHeight13, 6.72, kType13},
+    CameraRow{"dji_zenmuse_h30t_thermal", "DJI", "Zenmuse H30T, thermal camera", 1280, 1024, 15.36, 12.288, 23.6,
+              "DJI, Zenmuse H30T specifications: 45.2 degrees from corner to corner, by a planner; pixels of 12 um"},
     CameraRow{"dji_zenmuse_p1_24mm", "DJI", "Zenmuse P1, lens of 24 mm", 8192, 5460, 35.9, 24, 24, kP1},
     CameraRow{"dji_zenmuse_p1_35mm", "DJI", "Zenmuse P1, lens of 35 mm", 8192, 5460, 35.9, 24, 35, kP1},
     CameraRow{"dji_zenmuse_p1_50mm", "DJI", "Zenmuse P1, lens of 50 mm", 8192, 5460, 35.9, 24, 50, kP1},
@@ -72,10 +113,20 @@ constexpr std::array kCameraRows = {
               "Ricoh, GR II specifications, by QGroundControl's list"},
     CameraRow{"sentera_65r_27mm", "Sentera", "65R, lens of 27.4 mm", 9344, 7000, 29.9, 22.4, 27.4,
               "Sentera, 65R specifications, by QGroundControl's list"},
+    CameraRow{"skydio_2", "Skydio", "2 and 2+", 4056, 3040, 6.2868, 4.712, 3.683, kSkydio},
+    CameraRow{"skydio_x10_narrow", "Skydio", "X10, narrow camera", 9248, 6944, 7.3984, 5.5552, 10.08,
+              "Skydio, X10 camera and metadata overview: 12611 pixels (the smaller of two), pixels of 0.8 um"},
+    CameraRow{"skydio_x10_wide", "Skydio", "X10, wide camera of VT300-L", 8192, 6144, 13.1072, 9.8304, 7.898,
+              "Skydio, metadata of its pictures: 4936 pixels, pixels of 1.6 um, by a planner"},
+    CameraRow{"skydio_x2", "Skydio", "X2, color", 4056, 3040, 6.2868, 4.712, 3.683, kSkydio},
+    CameraRow{"skydio_x2_color_thermal", "Skydio", "X2 color/thermal, color camera", 4056, 3040, 6.2868, 4.712, 7.49,
+              "Skydio, 2, 2+ and X2 camera and metadata overview: 4832 pixels (the smaller of two); pixels of 1.55 um"},
     CameraRow{"sony_a6000_16mm", "Sony", "ILCE-6000, lens of 16 mm", 6000, 4000, 23.5, 15.6, 16,
               "Sony, ILCE-6000 specifications, by QGroundControl's list"},
     CameraRow{"sony_a6000_35mm", "Sony", "ILCE-6000, lens of 35 mm", 6000, 4000, 23.5, 15.6, 35,
               "Sony, ILCE-6000 specifications, by QGroundControl's list"},
+    CameraRow{"sony_a6100_16mm", "Sony", "ILCE-6100, lens of 16 mm", 6000, 4000, 23.5, 15.6, 16, kA6100},
+    CameraRow{"sony_a6100_35mm", "Sony", "ILCE-6100, lens of 35 mm", 6000, 4000, 23.5, 15.6, 35, kA6100},
     CameraRow{"sony_a7r_ii_21mm", "Sony", "ILCE-7RM2, lens of 21 mm", 7952, 5304, 35.9, 24, 21,
               "Sony, ILCE-7RM2 specifications, by QGroundControl's list"},
     CameraRow{"sony_a7r_ii_28mm", "Sony", "ILCE-7RM2, lens of 28 mm", 7952, 5304, 35.9, 24, 28,
@@ -84,6 +135,8 @@ constexpr std::array kCameraRows = {
               "Sony, ILCE-7RM3 specifications, by QGroundControl's list"},
     CameraRow{"sony_a7r_iv_35mm", "Sony", "ILCE-7RM4, lens of 35 mm", 9504, 6336, 35.7, 23.8, 35,
               "Sony, ILCE-7RM4 specifications, by QGroundControl's list"},
+    CameraRow{"sony_ilx_lr1_24mm", "Sony", "ILX-LR1, lens of 24 mm", 9504, 6336, 35.7, 23.8, 24, kIlx},
+    CameraRow{"sony_ilx_lr1_35mm", "Sony", "ILX-LR1, lens of 35 mm", 9504, 6336, 35.7, 23.8, 35, kIlx},
     CameraRow{"sony_qx1_16mm", "Sony", "ILCE-QX1, lens of 16 mm", 5456, 3632, 23.2, 15.4, 16,
               "Sony, ILCE-QX1 specifications, by QGroundControl's list"},
     CameraRow{"sony_rx0", "Sony", "DSC-RX0", 4800, 3200, 13.2, 8.8, 7.7,
