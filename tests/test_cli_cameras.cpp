@@ -1,4 +1,5 @@
 // `vantage cameras`: the table of vantage, and lists in files.
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -73,7 +74,31 @@ TEST_F(CliCameras, RefusesWhatIsNoList) {
   expect_bad({"cameras", "none.json"}, "none.json");
   expect_bad({"cameras", "city.obj"}, "city.obj, line 1");
   expect_bad({"cameras", "-"}, "-");
-  expect_refused({"cameras", "a.json", "b.json"}, "command line");
+  expect_bad({"cameras", "a.json", "b.json"}, "command line");
+}
+
+TEST_F(CliCameras, ListsThoseWithAllWords) {
+  const auto names = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "cameras");
+    arguments.emplace_back("--json");
+    std::vector<std::string> found;
+    for (const auto& camera : nlohmann::json::parse(output_of(arguments)).at("cameras"))
+      found.push_back(camera.at("name"));
+    return found;
+  };
+  const std::vector<std::string> mavics = names({"mavic"});
+  EXPECT_GE(mavics.size(), 7U);
+  for (const std::string& name : mavics) EXPECT_EQ(name.find("dji_mavic_"), 0U) << name;
+  EXPECT_EQ(names({"Thermal", "MAVIC"}), std::vector<std::string>{"dji_mavic_3t_thermal"});
+  EXPECT_EQ(names({"Hasselblad", "Classic"}), std::vector<std::string>{"dji_mavic_3_classic"}) << "by the model";
+  for (const std::string& name : names({"skydio"})) EXPECT_EQ(name.find("skydio_"), 0U) << name;
+  EXPECT_EQ(lines(output_of({"cameras", "mavic"})).size(), mavics.size() + 1);
+
+  write("list.json", kList);
+  EXPECT_EQ(names({"list.json", "good"}), std::vector<std::string>{"Good 35mm"});
+  EXPECT_EQ(names({"35MM", "list.json"}), std::vector<std::string>{"Good 35mm"});
+  expect_bad({"cameras", "mavic", "submarine"}, "command line");
+  expect_bad({"cameras", "list.json", "mavic"}, "list.json");
 }
 
 }  // namespace

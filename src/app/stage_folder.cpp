@@ -162,7 +162,8 @@ void StageFolder::write_story(const Mission& mission, const Result& result) {
     }
     story["stages"].push_back(std::move(stage));
   }
-  write_whole_file(temporary_->path() / kStory, story.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  write_whole_file(temporary_->path() / kStory,
+                   internal::core::escaped_json(story.dump(2, ' ', false, Json::error_handler_t::replace)) + "\n");
   std::error_code error;
   if (fs::exists(folder_, error)) check_replaceable();  // the run may have taken long
 }

@@ -10,6 +10,7 @@
 #include "cli/command.h"
 #include "cli/text_table.h"
 #include "vantage/camera.h"
+#include "vantage/error.h"
 #include "vantage/input.h"
 #include "vantage/json.h"
 
@@ -19,15 +20,47 @@ namespace {
 constexpr const char* kCamerasExamples =
     "EXAMPLES\n"
     "  vantage cameras\n"
+    "  vantage cameras mavic thermal                # those with both words in their name, maker or model\n"
     "  vantage cameras CameraMetaData.json          # a list of QGroundControl, and what is wrong in it\n"
     "  vantage cameras sensor_data.json | grep DJI  # a list of OpenSfM: widths of sensors\n"
     "  vantage cameras --json | jq -r '.cameras[] | .name + \": \" + .source'\n";
 
 struct CamerasArguments {
   CommonOptions common;
-  std::string file;
+  std::vector<std::string> words;  // one of them may be a file
   bool json = false;
 };
+
+/// A name with a folder or an ending; "-", which is refused as a file.
+bool is_file(const std::string& word) {
+  const std::filesystem::path path(word);
+  return word == "-" || path.has_parent_path() || path.has_extension();
+}
+
+std::string lower(std::string text) {
+  for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return text;
+}
+
+/// Whether each word is a part of the name, the maker or the model; small and capital letters are the same.
+bool has_all(const Camera& camera, const std::vector<std::string>& words) {
+  const std::string text = lower(camera.name + "\n" + camera.maker + "\n" + camera.model);
+  return std::all_of(words.begin(), words.end(),
+                     [&](const std::string& word) { return text.find(lower(word)) != std::string::npos; });
+}
+
+/// Takes the file out of the words; empty where there is none.
+std::string file_among(std::vector<std::string>& words) {
+  const auto first = std::find_if(words.begin(), words.end(), is_file);
+  if (first == words.end()) return "";
+  std::string file = *first;
+  words.erase(first);
+  if (const auto second = std::find_if(words.begin(), words.end(), is_file); second != words.end()) {
+    throw Error(ErrorCode::conflicting_keys, "two files are named, " + in_quotes(file) + " and " + in_quotes(*second),
+                "command line", "name one list, and words without dots and slashes");
+  }
+  return file;
+}
 
 std::vector<ListedCamera> listed_cameras(const std::string& file) {
   if (!file.empty()) return read_cameras(file);
@@ -98,7 +131,16 @@ std::string cameras_table(const std::vector<ListedCamera>& cameras) {
 }
 
 int run_cameras(const CamerasArguments& options) {
-  const std::vector<ListedCamera> cameras = listed_cameras(options.file);
+  std::vector<std::string> words = options.words;
+  const std::string file = file_among(words);
+  std::vector<ListedCamera> cameras = listed_cameras(file);
+  std::erase_if(cameras, [&](const ListedCamera& listed) { return !has_all(listed.camera, words); });
+  if (cameras.empty() && !words.empty()) {
+    std::string all;
+    for (const std::string& word : words) all += (all.empty() ? "" : " and ") + in_quotes(word);
+    throw Error(ErrorCode::unknown_choice, "no camera has " + all + " in its name, maker or model",
+                file.empty() ? "command line" : file, "use fewer words, or none: then all cameras are listed");
+  }
   print(options.json ? json_text(cameras) : cameras_table(cameras));
   return kSuccess;
 }
@@ -110,9 +152,11 @@ void add_cameras(CLI::App& app, Command& chosen) {
   CLI::App* command = app.add_subcommand(
       "cameras", "List the cameras that vantage knows by name, or those of a list of QGroundControl or OpenSfM");
   command
-      ->add_option("file", options->file,
-                   "List to read instead: CameraMetaData.json of QGroundControl or sensor_data.json of OpenSfM")
-      ->option_text("FILE");
+      ->add_option(
+          "words", options->words,
+          "List to read instead: CameraMetaData.json of QGroundControl or sensor_data.json of OpenSfM; and words "
+          "that the name, maker or model of a camera must have")
+      ->option_text("[FILE] [WORD...]");
   command->add_flag("--json", options->json, "Print JSON instead of a table, with the source of each camera");
   finish<CamerasArguments>(*command, options, kCamerasExamples, chosen, run_cameras);
 }
