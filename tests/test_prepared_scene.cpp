@@ -85,26 +85,26 @@ double depth_inside(const Polygon& polygon, const Vec3& point) {
   return depth;
 }
 
-enum class Hit { no, yes, unsure };
+enum class RayHit { no, yes, unsure };
 
 /// Whether a segment crosses a polygon; unsure within a micrometre of its outline.
-Hit crosses(const Polygon& polygon, const Vec3& from, const Vec3& to) {
+RayHit crosses(const Polygon& polygon, const Vec3& from, const Vec3& to) {
   const Vec3 normal = area_vector(polygon).normalized();
   const double a = normal.dot(from - polygon[0]), b = normal.dot(to - polygon[0]);
-  if (std::abs(a) < 1e-6 || std::abs(b) < 1e-6) return Hit::unsure;
-  if ((a > 0) == (b > 0)) return Hit::no;
+  if (std::abs(a) < 1e-6 || std::abs(b) < 1e-6) return RayHit::unsure;
+  if ((a > 0) == (b > 0)) return RayHit::no;
   const double depth = depth_inside(polygon, from + a / (a - b) * (to - from));
-  return std::abs(depth) < 1e-6 ? Hit::unsure : depth > 0 ? Hit::yes : Hit::no;
+  return std::abs(depth) < 1e-6 ? RayHit::unsure : depth > 0 ? RayHit::yes : RayHit::no;
 }
 
 /// Yes if any polygon is crossed for certain; else unsure if any is unsure.
 template <typename Polygons>
-Hit crosses_any(const Polygons& polygons, const Vec3& from, const Vec3& to) {
-  Hit result = Hit::no;
+RayHit crosses_any(const Polygons& polygons, const Vec3& from, const Vec3& to) {
+  RayHit result = RayHit::no;
   for (const Polygon& polygon : polygons) {
-    const Hit hit = crosses(polygon, from, to);
-    if (hit == Hit::yes) return hit;
-    if (hit == Hit::unsure) result = hit;
+    const RayHit hit = crosses(polygon, from, to);
+    if (hit == RayHit::yes) return hit;
+    if (hit == RayHit::unsure) result = hit;
   }
   return result;
 }
@@ -296,11 +296,11 @@ TEST(PreparedScene, MergingKeepsAreaAndWhatIsHidden) {
     int hidden = 0, free = 0;
     for (int k = 0; k < 2000; ++k) {
       const Vec3 from = random.point(-8, 8), to = random.point(-8, 8);
-      const Hit was = crosses_any(before, from, to), is = crosses_any(after, from, to);
-      hidden += was == Hit::yes;
-      free += was == Hit::no;
+      const RayHit was = crosses_any(before, from, to), is = crosses_any(after, from, to);
+      hidden += was == RayHit::yes;
+      free += was == RayHit::no;
       // A segment through a diagonal that merging removed is unsure before and not after; never yes against no.
-      EXPECT_FALSE((was == Hit::yes && is == Hit::no) || (was == Hit::no && is == Hit::yes));
+      EXPECT_FALSE((was == RayHit::yes && is == RayHit::no) || (was == RayHit::no && is == RayHit::yes));
     }
     EXPECT_GT(hidden, 100);
     EXPECT_GT(free, 100);

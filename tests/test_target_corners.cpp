@@ -33,7 +33,7 @@ using testing::SceneBuilder;
 using testing::target_of;
 using testing::Verdict;
 
-constexpr double kScales[] = {1e-3, 1e-1, 1, 1e2, 1e4};  // metres
+constexpr double kCornerScales[] = {1e-3, 1e-1, 1, 1e2, 1e4};  // metres
 const Vec3 kOnMap(4'512'345.6, 5'012'345.6, 812.3);
 
 double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
@@ -76,7 +76,7 @@ double rounding(const Drawn& drawn) { return 1e-15 * (10 * drawn.scale + drawn.c
 TEST(TargetCorners, TheFrameHoldsEveryVertex) {
   Random random(811);
   std::size_t made = 0, dropped = 0;
-  for (const double scale : kScales) {
+  for (const double scale : kCornerScales) {
     for (const bool on_map : {false, true}) {
       if (on_map && scale < 1) continue;  // coordinates are too coarse there
       for (int draw = 0; draw < 300; ++draw) {
@@ -151,7 +151,7 @@ Scene draw_scene(Random& random, const Drawn& drawn) {
 TEST(TargetCorners, WhatIsClaimedSeesEveryVertex) {
   Random random(822);
   std::size_t volumes = 0, looked = 0;
-  for (const double scale : kScales) {
+  for (const double scale : kCornerScales) {
     for (const bool on_map : {false, true}) {
       if (on_map && scale < 1) continue;
       for (int draw = 0; draw < 12; ++draw) {
@@ -233,7 +233,7 @@ TEST(TargetCorners, AFilletOfSixtyVerticesIsACorner) {
 TEST(TargetCorners, SidesThatBulgeInwardsAreStraightOrRefused) {
   // 1 to 20 vertices, each of them nearer to the line of its neighbours than all are to that of the corners.
   Random random(823);
-  for (const double scale : kScales) {
+  for (const double scale : kCornerScales) {
     for (const int count : {1, 5, 20}) {
       for (const double depth : {1e-13, 1e-11, 1e-9, 4e-9, 1e-7, 1e-4}) {  // of the side; the extent is 1.41 sides
         SCOPED_TRACE(std::to_string(scale) + " m, " + std::to_string(count) + " vertices, " + std::to_string(depth));

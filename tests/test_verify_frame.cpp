@@ -15,8 +15,6 @@
 namespace vantage::internal::verify {
 namespace {
 
-using testing::Random;
-
 constexpr double kDegree = std::numbers::pi / 180;
 
 Pinhole picture(double half_width, double half_height) {
@@ -119,7 +117,7 @@ TEST(VerifyFrame, APositiveRollLowersTheRightEdge) {
 /// A target that looks exactly like the picture does from one orientation fits in no other one: a picture has no room
 /// for a cone of the same solid angle but in its own place. So a picture smaller by a hair has no room for it at all.
 TEST(VerifyFrame, FindsTheOneOrientationThatFits) {
-  Random random(3);
+  testing::Random random(3);
   for (int i = 0; i < 400; ++i) {
     Pinhole camera = picture(std::exp(random.uniform(-4, 1)), std::exp(random.uniform(-4, 1)));
     const double yaw = random.uniform(-180, 180), pitch = random.chance(0.2) ? -90 : random.uniform(-89, 89);
@@ -210,15 +208,15 @@ TEST(VerifyFrame, ARangeOfPitchesIsKept) {
 
 // ---- searches against a grid of orientations ----
 
-struct Case {
+struct FrameCase {
   Pinhole camera;
   Mount mount;
   std::vector<Vec3> directions;
 };
 
 /// Convex polygons seen from about where they fill the picture.
-Case random_case(Random& random) {
-  Case drawn;
+FrameCase random_case(testing::Random& random) {
+  FrameCase drawn;
   drawn.camera.half_width = std::exp(random.uniform(-2, 1));
   drawn.camera.half_height = drawn.camera.half_width * random.uniform(0.4, 1);
   Mount& mount = drawn.mount;
@@ -240,7 +238,7 @@ Case random_case(Random& random) {
 }
 
 /// The best margin of orientations at most `step` degrees apart.
-double best_on_grid(const Case& drawn, double step) {
+double best_on_grid(const FrameCase& drawn, double step) {
   const Mount& mount = drawn.mount;
   const double span = mount.max_pitch_deg - mount.min_pitch_deg;
   const int pitches = static_cast<int>(std::ceil(span / step)), yaws = mount.yaw_deg ? 0 : static_cast<int>(360 / step);
@@ -256,11 +254,11 @@ double best_on_grid(const Case& drawn, double step) {
 }
 
 TEST(VerifyFrame, AgreesWithAGridOfOrientations) {
-  Random random(11);
+  testing::Random random(11);
   constexpr double kStep = 2;
   int kept = 0, broken = 0, grid_tells = 0;
   for (int i = 0; i < 400; ++i) {
-    const Case drawn = random_case(random);
+    const FrameCase drawn = random_case(random);
     SCOPED_TRACE(::testing::Message() << i << ": " << text(drawn.mount));
     const FrameSearch::Result result = FrameSearch(drawn.camera, drawn.mount).search(drawn.directions);
     const double best = best_on_grid(drawn, kStep);
@@ -283,13 +281,13 @@ TEST(VerifyFrame, AgreesWithAGridOfOrientations) {
 }
 
 TEST(VerifyFrame, HardlyAnyPointStaysUndecided) {
-  Random random(5);
+  testing::Random random(5);
   constexpr int kCases = 100000;
   std::array<int, 3> count{};
   std::size_t cells = 0, most = 0;
   const auto start = std::chrono::steady_clock::now();
   for (int i = 0; i < kCases; ++i) {
-    const Case drawn = random_case(random);
+    const FrameCase drawn = random_case(random);
     const FrameSearch::Result result = FrameSearch(drawn.camera, drawn.mount).search(drawn.directions);
     ++count[static_cast<std::size_t>(result.finding)];
     cells += result.cells;

@@ -20,11 +20,10 @@
 namespace vantage::internal::verify {
 namespace {
 
-using testing::Random;
 using testing::SceneBuilder;
 using testing::target_of;
 
-constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kRadians = std::numbers::pi / 180;
 constexpr double kHair = 1e-7;
 
 Target square_at(double half = 1, const Vec3& centre = Vec3::Zero()) {
@@ -129,17 +128,17 @@ TEST(VerifySensor, TheLeastRangeIsToTheNearestPoint) {
 TEST(VerifySensor, TheIncidenceIsThatOfTheWorstVertex) {
   const Judged judged(square_at(), sensor_of([](Sensor& s) { s.incidence_deg = 40; }));
   for (const double h : {2.0, 7.0, 100.0}) {
-    const double x = std::sqrt(std::pow(h * std::tan(40 * kDegree), 2) - 1) - 1;
+    const double x = std::sqrt(std::pow(h * std::tan(40 * kRadians), 2) - 1) - 1;
     EXPECT_EQ(judged.broken({0, -x + kHair, h}), "") << h;
     EXPECT_EQ(judged.broken({0, -x - kHair, h}), "incidence") << h;
-    const double loose = std::sqrt(std::pow(h * std::tan(40 * kDegree) * std::cos(std::numbers::pi / 128), 2) - 1) - 1;
+    const double loose = std::sqrt(std::pow(h * std::tan(40 * kRadians) * std::cos(std::numbers::pi / 128), 2) - 1) - 1;
     EXPECT_EQ(judged.reason({0, -loose - kHair, h}), "incidence") << h;
     EXPECT_EQ(judged.reason({0, -loose + kHair, h}), "") << h;
   }
 }
 
 TEST(VerifySensor, TheSunIsKeptFromTheWholePolygon) {
-  Random random(31);
+  testing::Random random(31);
   const Target target = testing::random_target(random, 5, 4, {1, 2, 3}, {0.3, -0.2, 0.9});
   const auto& corners = target.parts[0];
   for (int i = 0; i < 300; ++i) {
@@ -161,9 +160,9 @@ TEST(VerifySensor, TheSunIsKeptFromTheWholePolygon) {
       }
     }
     const double finest = 8.0 / kFine / std::abs(judged.parts[0].height(point - judged.parts[0].origin()));
-    if (least < exclude_deg * kDegree - 1e-9) {
+    if (least < exclude_deg * kRadians - 1e-9) {
       EXPECT_EQ(judged.broken(point), "sun");
-    } else if (least > exclude_deg * kDegree + finest) {
+    } else if (least > exclude_deg * kRadians + finest) {
       EXPECT_EQ(judged.broken(point), "");
     }
   }
@@ -177,7 +176,7 @@ TEST(VerifySensor, TheSunBehindTheMiddleOfTheTargetIsSeen) {
   const Vec3 point(0, 0, std::sqrt(3.0));
   EXPECT_EQ(judged({0, 0, -1}, 1).broken(point), "sun");
   // An edge is 30 degrees away, in its middle.
-  const Vec3 aside(std::sin(50 * kDegree), 0, -std::cos(50 * kDegree));
+  const Vec3 aside(std::sin(50 * kRadians), 0, -std::cos(50 * kRadians));
   EXPECT_EQ(judged(aside, 20 - kHair).broken(point), "");
   EXPECT_EQ(judged(aside, 20 + kHair).broken(point), "sun");
   EXPECT_EQ(judged(aside, 20 - kHair).reason(point), "sun") << "facets lie farther out";
@@ -236,13 +235,13 @@ TEST(VerifySensor, APointWithoutAFrontHasNoPlane) {
   Target fronted = point;
   fronted.front = Vec3(0, 3, 0);
   const Judged judged(fronted, sensor_of([](Sensor& s) { s.incidence_deg = 50; }));
-  EXPECT_EQ(judged.broken({std::tan(50 * kDegree) - kHair, 1, 5}), "");
-  EXPECT_EQ(judged.broken({std::tan(50 * kDegree) + kHair, 1, 5}), "incidence");
+  EXPECT_EQ(judged.broken({std::tan(50 * kRadians) - kHair, 1, 5}), "");
+  EXPECT_EQ(judged.broken({std::tan(50 * kRadians) + kHair, 1, 5}), "incidence");
 }
 
 /// Whatever is judged, in micrometres or kilometres and far from the origin: a hair more or less decides.
 TEST(VerifySensor, JudgesAlikeAtEveryScale) {
-  Random random(77);
+  testing::Random random(77);
   const Target target = testing::random_target(random, 6, 1, Vec3::Zero(), {0.2, 0.3, 0.9});
   const auto scaled = [&](double scale, const Vec3& shift) {
     Target result = target;
@@ -384,7 +383,7 @@ const Limit kLimits[] = {
 INSTANTIATE_TEST_SUITE_P(Limits, VerifySensorVolumes, ::testing::ValuesIn(kLimits));
 
 /// A polygon or two above the ground, in any plane, and what a mission might ask for together.
-Target random_target(Random& random) {
+Target random_target(testing::Random& random) {
   const Vec3 normal = random.chance(0.3) ? Vec3(0, 0, 1) : random.direction();
   const double radius = std::exp(random.uniform(-1, 1.5));
   const Vec3 centre(0, 0, 1.2 * radius + 0.5);
@@ -398,7 +397,7 @@ Target random_target(Random& random) {
   return target;
 }
 
-Sensor random_sensor(Random& random, double size) {
+Sensor random_sensor(testing::Random& random, double size) {
   Sensor sensor{.max_range_m = size * random.uniform(10, 40)};
   if (random.chance(0.3)) sensor.min_range_m = sensor.max_range_m * random.uniform(0.05, 0.5);
   if (random.chance(0.3)) sensor.incidence_deg = random.uniform(20, 85);
@@ -420,7 +419,7 @@ Sensor random_sensor(Random& random, double size) {
 }
 
 TEST(VerifySensor, WhatIsComputedForRandomSensorsIsRight) {
-  Random random(901);
+  testing::Random random(901);
   SceneBuilder builder;
   const Scene& scene = builder.ground("ground", 300).box("hut", {6, -3, 0}, {9, 4, 5});
   const PreparedScene prepared(scene);
