@@ -7,7 +7,7 @@
 #include <random>
 #include <string>
 
-#include "solid/solid_check.h"
+#include "core/solid_check.h"
 #include "support/map_text.h"
 #include "support/shared_data.h"
 #include "support/temporary_directory.h"
@@ -58,7 +58,7 @@ Mesh object_mesh(const Scene& scene, const std::string& name) {
 
 double object_volume(const Scene& scene, const std::string& name) {
   const Mesh mesh = object_mesh(scene, name);
-  return mesh.empty() ? 0 : enclosed_volume(solid::checked_solid(mesh, name));
+  return mesh.empty() ? 0 : enclosed_volume(core::checked_solid(mesh, name));
 }
 
 TEST_F(CityTest, BuildsABlockWhereItStands) {

@@ -5,8 +5,8 @@
 #include <numbers>
 #include <string>
 
+#include "core/solid_check.h"
 #include "maps/city/occluders.h"
-#include "solid/solid_check.h"
 #include "support/osm_maps.h"
 #include "support/random.h"
 #include "vantage/error.h"
@@ -41,7 +41,7 @@ void expect_sound(const Built& built) {
   for (const Shape& shape : built.shapes) {
     try {
       const Mesh mesh = make_solid(shape, 12.5).mesh;
-      EXPECT_EQ(solid::checked_solid(mesh, "shape").triangles.size(), mesh.triangles.size());
+      EXPECT_EQ(core::checked_solid(mesh, "shape").triangles.size(), mesh.triangles.size());
     } catch (const Error& error) {
       ADD_FAILURE() << error.what();
     }

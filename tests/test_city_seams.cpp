@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "solid/solid_check.h"
+#include "core/solid_check.h"
 #include "support/map_text.h"
 #include "support/raster_writer.h"
 #include "support/temporary_directory.h"
@@ -74,7 +74,7 @@ double volume_of(const Scene& scene, std::size_t object) {
   for (std::size_t i = 0; i < scene.mesh.triangles.size(); ++i) {
     if (scene.object_of[i] == object) mesh.triangles.push_back(scene.mesh.triangles[i]);
   }
-  return enclosed_volume(solid::checked_solid(mesh, display_name(scene.objects[object])));
+  return enclosed_volume(core::checked_solid(mesh, display_name(scene.objects[object])));
 }
 
 /// The same objects, as large, and as far apart; the file holds positions to 1e-7 degrees.

@@ -9,10 +9,10 @@
 #include <optional>
 #include <string>
 
+#include "core/solid_check.h"
 #include "core/weld.h"
 #include "maps/city/building_solid.h"
 #include "maps/city/roof_profile.h"
-#include "solid/solid_check.h"
 #include "support/random.h"
 #include "support/rings.h"
 #include "support/wording.h"
@@ -99,7 +99,7 @@ void expect_sound(const CitySolid& solid, const std::string& what) {
   }
   EXPECT_GT(enclosed_volume(solid.mesh), 0) << what;
   try {
-    EXPECT_EQ(solid::checked_solid(solid.mesh, "solid").triangles.size(), solid.mesh.triangles.size()) << what;
+    EXPECT_EQ(core::checked_solid(solid.mesh, "solid").triangles.size(), solid.mesh.triangles.size()) << what;
   } catch (const Error& error) {
     ADD_FAILURE() << what << ": " << error.what();
   }

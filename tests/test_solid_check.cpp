@@ -8,15 +8,15 @@
 #include <string>
 
 #include "core/progress_reporter.h"
-#include "solid/solid_check.h"
-#include "solid/triangle_contact.h"
-#include "solid/triangle_tree.h"
+#include "core/solid_check.h"
+#include "core/triangle_contact.h"
+#include "core/triangle_tree.h"
 #include "support/progress_check.h"
 #include "support/solids.h"
 #include "support/wording.h"
 #include "vantage/error.h"
 
-namespace vantage::internal::solid {
+namespace vantage::internal::core {
 namespace {
 
 using vantage::testing::append;
@@ -287,4 +287,4 @@ TEST(TriangleTree, WindingNumbersOfADome) {
 }
 
 }  // namespace
-}  // namespace vantage::internal::solid
+}  // namespace vantage::internal::core

@@ -3,7 +3,6 @@
 #include <string>
 #include <utility>
 
-#include "app/components/solid.h"
 #include "app/find_ground.h"
 #include "app/georeferencing.h"
 #include "app/ground_room.h"
@@ -11,6 +10,7 @@
 #include "app/navigation_meshes.h"
 #include "app/places.h"
 #include "app/zone_files.h"
+#include "core/solid_check.h"
 #include "core/stopwatch.h"
 #include "vantage/error.h"
 #include "vantage/input.h"
@@ -33,7 +33,7 @@ std::vector<internal::app::NavigationMesh> read_navigation_meshes(const MissionF
     const Scene read = read_scene(named.file, options);
     mesh.keep_in.name = named.name;
     mesh.keep_in.mesh =
-        internal::app::with_place(mesh.place, [&] { return internal::app::checked_keep_in(read.mesh, named.name); });
+        internal::app::with_place(mesh.place, [&] { return internal::core::checked_solid(read.mesh, named.name); });
     mesh.in_scene_axes = is_obj(named.file) && !named.up && !read.states_axes;
     mesh.in_scene_unit = is_obj(named.file) && !named.scale && !read.states_axes;
     mesh.georeference = read.georeference;

@@ -8,9 +8,9 @@
 
 #include "core/parallel.h"
 #include "core/progress_reporter.h"
+#include "core/solid_check.h"
 #include "solid/csg.h"
 #include "solid/farthest.h"
-#include "solid/solid_check.h"
 #include "vantage/error.h"
 
 namespace vantage {
@@ -88,9 +88,9 @@ Comparison compare_volumes(const Mesh& mesh_a, const Mesh& mesh_b, const std::st
                            const Progress& callback) {
   const internal::core::ProgressReporter progress(callback);
   progress.begin("checking the first mesh");
-  Mesh a = internal::solid::checked_solid(mesh_a, name_a, progress, kFolds);
+  Mesh a = internal::core::checked_solid(mesh_a, name_a, progress, kFolds);
   progress.begin("checking the second mesh");
-  Mesh b = internal::solid::checked_solid(mesh_b, name_b, progress, kFolds);
+  Mesh b = internal::core::checked_solid(mesh_b, name_b, progress, kFolds);
   const Box box = bounds_of(a, b);
   const Vec3 origin = (box.min + box.max) / 2;
   for (Mesh* mesh : {&a, &b}) {

@@ -2,10 +2,10 @@
 #include <cmath>
 #include <string>
 
+#include "core/solid_check.h"
 #include "core/text.h"
 #include "core/zone_check.h"
 #include "solid/navigation.h"
-#include "solid/solid_check.h"
 #include "vantage/error.h"
 
 namespace vantage::internal::solid {
@@ -116,7 +116,7 @@ std::vector<Mesh> check_navigation(const Navigation& navigation, const core::Pro
   for (std::size_t i = 0; i < navigation.meshes.size(); ++i) {
     const KeepInMesh& keep_in = navigation.meshes[i];
     const auto done = static_cast<double>(i);
-    meshes.push_back(checked_solid(keep_in.mesh, keep_in.name, progress.part(done / count, (done + 1) / count)));
+    meshes.push_back(core::checked_solid(keep_in.mesh, keep_in.name, progress.part(done / count, (done + 1) / count)));
   }
   return meshes;
 }

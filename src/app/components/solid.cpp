@@ -2,11 +2,7 @@
 
 #include <utility>
 
-#include "solid/solid_check.h"
-
 namespace vantage::internal::app {
-
-Mesh checked_keep_in(const Mesh& mesh, const std::string& name) { return solid::checked_solid(mesh, name); }
 
 Volume exact_volume(const PreparedTarget& target, const ExactOptions& options, const Progress& progress) {
   return compute_parts(target, options, progress);

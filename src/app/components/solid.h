@@ -8,9 +8,6 @@
 
 namespace vantage::internal::app {
 
-/// A mesh to keep in, closed and turned the right way round. Throws Error(input) for one that bounds nothing.
-Mesh checked_keep_in(const Mesh& mesh, const std::string& name);
-
 /// The exact volume of a target of any number of parts, before limits besides the range.
 Volume exact_volume(const PreparedTarget& target, const ExactOptions& options, const Progress& progress);
 

@@ -5,8 +5,6 @@
 
 namespace vantage::internal::app {
 
-Mesh checked_keep_in(const Mesh&, const std::string& name) { throw_missing("solid", "navigation meshes", name); }
-
 Volume exact_volume(const PreparedTarget& target, const ExactOptions& options, const Progress& progress) {
   if (target.part_count() > 1) throw_missing("solid", "targets of several parts", "target.parts");
   if (target.sensor().visible) throw_missing("solid", "a visible share", "sensor.visible");

@@ -5,8 +5,8 @@
 
 #include "core/parallel.h"
 #include "core/progress_reporter.h"
+#include "core/solid_check.h"
 #include "maps/city/building_solid.h"
-#include "solid/solid_check.h"
 #include "vantage/error.h"
 
 namespace vantage::internal::city {
@@ -62,7 +62,7 @@ std::vector<Mesh> build(Item& item, const Ground& ground) {
 std::string fault(const std::vector<Mesh>& pieces, const std::string& name) {
   for (const Mesh& piece : pieces) {
     try {
-      solid::checked_solid(piece, name);
+      core::checked_solid(piece, name);
     } catch (const Error& error) {
       if (error.kind() == ErrorKind::cancelled) throw;
       return error.problem();

@@ -1,4 +1,4 @@
-#include "solid/solid_check.h"
+#include "core/solid_check.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -11,14 +11,26 @@
 #include "core/parallel.h"
 #include "core/progress_reporter.h"
 #include "core/text.h"
+#include "core/triangle_contact.h"
+#include "core/triangle_tree.h"
 #include "core/weld.h"
-#include "solid/numerics.h"
-#include "solid/triangle_contact.h"
-#include "solid/triangle_tree.h"
 #include "vantage/error.h"
 
-namespace vantage::internal::solid {
+namespace vantage::internal::core {
 namespace {
+
+/// Parts of a mesh that meet less deeply than this times the diagonal of its bounding box count as touching.
+/// Single-precision files round each coordinate by 6e-8 of its size, so two walls drawn flush may cross by 2 * sqrt(3)
+/// times that, and by a few times more where a narrow triangle is tilted.
+constexpr double kTouching = 1e-6;
+
+/// A crossing is looked at again with this part of the touching distance: well above the rounding of coordinates (1e-16
+/// of the diagonal), and so little that what is nearer counts as touching anyway.
+constexpr double kClosely = 1e-3;
+
+/// How far off a facet, in units of the touching distance, winding numbers are taken: outside the zone in which
+/// surfaces count as touching, and still close to the facet.
+constexpr double kSampleOffset = 10;
 
 /// A mesh under examination: welded, about the origin.
 class Examination {
@@ -26,19 +38,19 @@ class Examination {
   Examination(const Mesh& mesh, std::string name) : local_(mesh), name_(std::move(name)) {
     const Box box = bounding_box(mesh);
     centre_ = (box.min + box.max) / 2;
-    distance_ = numerics::kTouching * (box.max - box.min).norm();
+    distance_ = kTouching * (box.max - box.min).norm();
     for (Vec3& vertex : local_.vertices) vertex -= centre_;
   }
 
   void check_edges() const;
   void check_volume() const;
-  bool check_contacts(const TriangleTree& tree, const core::ProgressReporter& progress, double folds);
-  void check_windings(const TriangleTree& tree, const core::ProgressReporter& progress) const;
+  bool check_contacts(const TriangleTree& tree, const ProgressReporter& progress, double folds);
+  void check_windings(const TriangleTree& tree, const ProgressReporter& progress) const;
 
   const Mesh& local() const { return local_; }
 
  private:
-  std::string place(const Vec3& local_point) const { return name_ + ", " + core::point_text(local_point + centre_); }
+  std::string place(const Vec3& local_point) const { return name_ + ", " + point_text(local_point + centre_); }
   std::array<Vec3, 3> corners(std::size_t t) const {
     const Triangle& triangle = local_.triangles[t];
     return {local_.vertices[triangle[0]], local_.vertices[triangle[1]], local_.vertices[triangle[2]]};
@@ -62,35 +74,31 @@ constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
 void Examination::check_edges() const {
   std::size_t single = 0, crowded = 0, turned = 0;
-  core::EdgeUse first{};
-  core::for_each_edge(
-      core::edge_uses(local_.triangles, local_.vertices.size()), [&](std::span<const core::EdgeUse> edge) {
-        const auto forward =
-            std::count_if(edge.begin(), edge.end(), [](const core::EdgeUse& use) { return use.forward; });
-        if (2 * static_cast<std::size_t>(forward) == edge.size()) return;
-        if (single + crowded + turned == 0) first = edge[0];
-        if (edge.size() == 1) ++single;
-        if (edge.size() > 1) ++(edge.size() % 2 == 1 ? crowded : turned);
-      });
+  EdgeUse first{};
+  for_each_edge(edge_uses(local_.triangles, local_.vertices.size()), [&](std::span<const EdgeUse> edge) {
+    const auto forward = std::count_if(edge.begin(), edge.end(), [](const EdgeUse& use) { return use.forward; });
+    if (2 * static_cast<std::size_t>(forward) == edge.size()) return;
+    if (single + crowded + turned == 0) first = edge[0];
+    if (edge.size() == 1) ++single;
+    if (edge.size() > 1) ++(edge.size() % 2 == 1 ? crowded : turned);
+  });
   if (single + crowded + turned == 0) return;
-  const std::string where = name_ + ", first at the edge from " +
-                            core::point_text(local_.vertices[first.low] + centre_) + " to " +
-                            core::point_text(local_.vertices[first.high] + centre_);
+  const std::string where = name_ + ", first at the edge from " + point_text(local_.vertices[first.low] + centre_) +
+                            " to " + point_text(local_.vertices[first.high] + centre_);
   if (single > 0) {
     throw Error(ErrorCode::mesh_not_closed,
-                "the mesh is open: " + core::count_text(single, "edge has", "edges have") + " only one triangle", where,
+                "the mesh is open: " + count_text(single, "edge has", "edges have") + " only one triangle", where,
                 "close its holes, so that every edge has two triangles");
   }
   if (crowded > 0) {
-    throw Error(ErrorCode::mesh_not_closed,
-                "the mesh is not closed: " + core::count_text(crowded, "edge has", "edges have") +
-                    " an odd number of triangles",
-                where, "remove inner and doubled faces, so that every edge has two triangles");
+    throw Error(
+        ErrorCode::mesh_not_closed,
+        "the mesh is not closed: " + count_text(crowded, "edge has", "edges have") + " an odd number of triangles",
+        where, "remove inner and doubled faces, so that every edge has two triangles");
   }
-  throw Error(
-      ErrorCode::mesh_not_oriented,
-      "the triangles turn different ways: at " + core::count_text(turned, "edge", "edges") + " neighbours disagree",
-      where, "make all triangles face outward");
+  throw Error(ErrorCode::mesh_not_oriented,
+              "the triangles turn different ways: at " + count_text(turned, "edge", "edges") + " neighbours disagree",
+              where, "make all triangles face outward");
 }
 
 void Examination::check_volume() const {
@@ -121,9 +129,8 @@ std::size_t Examination::first_crossing(std::size_t t, const TriangleTree& tree)
     const Contact contact = contact_of(corners(t), corners(other), shared, distance_);
     // Of two that pass each other by within the distance, all but parallel, corners are taken to lie in the other's
     // plane, and the rest seems to cross. What truly crosses does so when looked at closely, too.
-    const bool is_apart =
-        contact == Contact::crossing &&
-        contact_of(corners(t), corners(other), shared, numerics::kClosely * distance_) != Contact::crossing;
+    const bool is_apart = contact == Contact::crossing &&
+                          contact_of(corners(t), corners(other), shared, kClosely * distance_) != Contact::crossing;
     if (contact == Contact::touching || is_apart) touching_[t] = 1;
     if (contact == Contact::crossing && !is_apart) first = std::min(first, other);
   });
@@ -131,12 +138,12 @@ std::size_t Examination::first_crossing(std::size_t t, const TriangleTree& tree)
 }
 
 /// Whether no triangle passes through another. Some may, where they are few.
-bool Examination::check_contacts(const TriangleTree& tree, const core::ProgressReporter& progress, double folds) {
+bool Examination::check_contacts(const TriangleTree& tree, const ProgressReporter& progress, double folds) {
   const std::size_t count = local_.triangles.size();
   constexpr std::size_t kGrain = 256;
   touching_.assign(count, 0);
   std::vector<std::size_t> crossing(count, kNone);
-  core::ProgressCounter counter(progress, count);
+  ProgressCounter counter(progress, count);
   parallel::for_ranges(count, kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t) crossing[t] = first_crossing(t, tree);
     counter.add(end - begin);
@@ -156,10 +163,10 @@ bool Examination::check_contacts(const TriangleTree& tree, const core::ProgressR
   const auto triangles = std::count_if(crossing.begin(), crossing.end(), crosses);
   throw Error(ErrorCode::mesh_intersects_itself,
               "the mesh intersects itself: " +
-                  core::count_text(static_cast<std::size_t>(triangles), "triangle passes", "triangles pass") +
+                  count_text(static_cast<std::size_t>(triangles), "triangle passes", "triangles pass") +
                   " through others",
-              name_ + ", first the triangles at " + core::point_text(middle(t) + centre_) + " and " +
-                  core::point_text(middle(*first) + centre_),
+              name_ + ", first the triangles at " + point_text(middle(t) + centre_) + " and " +
+                  point_text(middle(*first) + centre_),
               "unite its overlapping parts into one solid");
 }
 
@@ -167,11 +174,10 @@ bool Examination::check_contacts(const TriangleTree& tree, const core::ProgressR
 /// patch that is bounded by crowded edges, and those that touch others.
 std::vector<std::size_t> Examination::samples() const {
   const std::size_t count = local_.triangles.size();
-  core::DisjointSets patches(count);
-  core::for_each_edge(core::edge_uses(local_.triangles, local_.vertices.size()),
-                      [&](std::span<const core::EdgeUse> edge) {
-                        if (edge.size() == 2) patches.join(edge[0].triangle, edge[1].triangle);
-                      });
+  DisjointSets patches(count);
+  for_each_edge(edge_uses(local_.triangles, local_.vertices.size()), [&](std::span<const EdgeUse> edge) {
+    if (edge.size() == 2) patches.join(edge[0].triangle, edge[1].triangle);
+  });
   const auto area = [&](std::size_t t) {
     const std::array<Vec3, 3> c = corners(t);
     return (c[1] - c[0]).cross(c[2] - c[0]).norm();
@@ -187,8 +193,8 @@ std::vector<std::size_t> Examination::samples() const {
   return result;
 }
 
-void Examination::check_windings(const TriangleTree& tree, const core::ProgressReporter& progress) const {
-  const double offset = numerics::kSampleOffset * distance_;
+void Examination::check_windings(const TriangleTree& tree, const ProgressReporter& progress) const {
+  const double offset = kSampleOffset * distance_;
   std::size_t done = 0;
   const std::vector<std::size_t> chosen = samples();
   for (const std::size_t t : chosen) {
@@ -215,7 +221,7 @@ void Examination::check_windings(const TriangleTree& tree, const core::ProgressR
 
 }  // namespace
 
-Mesh checked_solid(const Mesh& mesh, const std::string& name, const core::ProgressReporter& progress, double folds) {
+Mesh checked_solid(const Mesh& mesh, const std::string& name, const ProgressReporter& progress, double folds) {
   if (mesh.empty()) throw Error(ErrorCode::mesh_empty, "the mesh has no triangles", name, "give a closed mesh");
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
     if (!mesh.vertices[v].allFinite()) {
@@ -230,7 +236,7 @@ Mesh checked_solid(const Mesh& mesh, const std::string& name, const core::Progre
                   name + ", triangle " + std::to_string(t), "mend the mesh");
     }
   }
-  Mesh result = core::welded(mesh);
+  Mesh result = welded(mesh);
   Examination examination(result, name);
   examination.check_edges();
   examination.check_volume();
@@ -242,4 +248,4 @@ Mesh checked_solid(const Mesh& mesh, const std::string& name, const core::Progre
   return result;
 }
 
-}  // namespace vantage::internal::solid
+}  // namespace vantage::internal::core

@@ -5,7 +5,7 @@
 
 #include "vantage/geometry.h"
 
-namespace vantage::internal::solid {
+namespace vantage::internal::core {
 
 enum class Contact {
   none,      ///< apart, or they meet in a point, or they are neighbours
@@ -19,4 +19,4 @@ enum class Contact {
 /// for signs.
 Contact contact_of(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b, int shared, double distance);
 
-}  // namespace vantage::internal::solid
+}  // namespace vantage::internal::core

@@ -1,10 +1,10 @@
-#include "solid/triangle_contact.h"
+#include "core/triangle_contact.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
-namespace vantage::internal::solid {
+namespace vantage::internal::core {
 namespace {
 
 using Corners = std::array<Vec3, 3>;
@@ -87,4 +87,4 @@ Contact contact_of(const Corners& a, const Corners& b, int shared, double distan
   return shared >= 2 ? Contact::none : Contact::touching;
 }
 
-}  // namespace vantage::internal::solid
+}  // namespace vantage::internal::core

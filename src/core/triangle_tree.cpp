@@ -1,4 +1,4 @@
-#include "solid/triangle_tree.h"
+#include "core/triangle_tree.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -12,12 +12,12 @@
 #include "core/walk_bvh.h"
 #include "vantage/error.h"
 
-namespace vantage::internal::solid {
+namespace vantage::internal::core {
 namespace {
 
-core::Bounds rounded_outward(const Box& box) {
+Bounds rounded_outward(const Box& box) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
-  core::Bounds bounds{};
+  Bounds bounds{};
   for (unsigned axis = 0; axis < 3; ++axis) {
     bounds.min[axis] = std::nextafter(static_cast<float>(box.min[axis]), -kInfinity);
     bounds.max[axis] = std::nextafter(static_cast<float>(box.max[axis]), kInfinity);
@@ -25,7 +25,7 @@ core::Bounds rounded_outward(const Box& box) {
   return bounds;
 }
 
-bool ray_meets(const core::Bounds& box, const Vec3& point, const Vec3& inverse_direction) {
+bool ray_meets(const Bounds& box, const Vec3& point, const Vec3& inverse_direction) {
   double from = 0, to = std::numeric_limits<double>::infinity();
   for (unsigned axis = 0; axis < 3; ++axis) {
     const double a = (box.min[axis] - point[axis]) * inverse_direction[axis];
@@ -67,21 +67,21 @@ Box triangle_box(const Mesh& mesh, std::size_t triangle) {
 }
 
 TriangleTree::TriangleTree(const Mesh& mesh) : mesh_(mesh) {
-  std::vector<core::Bounds> bounds(mesh.triangles.size());
+  std::vector<Bounds> bounds(mesh.triangles.size());
   for (std::size_t t = 0; t < bounds.size(); ++t) bounds[t] = rounded_outward(triangle_box(mesh, t));
-  bvh_ = core::build_bvh(bounds, order_);
+  bvh_ = build_bvh(bounds, order_);
 }
 
 TriangleTree::Nearest TriangleTree::nearest(const Vec3& point) const {
   double best = std::numeric_limits<double>::infinity();
   std::uint32_t triangle = 0;
-  core::walk_nearer_first(
-      bvh_, [&](const core::Bounds& bounds) { return core::squared_distance_to(bounds, point); },
-      [&](const core::BvhNode&, double squared) { return squared < best; },
+  walk_nearer_first(
+      bvh_, [&](const Bounds& bounds) { return squared_distance_to(bounds, point); },
+      [&](const BvhNode&, double squared) { return squared < best; },
       [&](std::uint32_t i) {
         const Triangle& t = mesh_.triangles[order_[i]];
         const double squared =
-            core::squared_distance_to_triangle(point, mesh_.vertices[t[0]], mesh_.vertices[t[1]], mesh_.vertices[t[2]]);
+            squared_distance_to_triangle(point, mesh_.vertices[t[0]], mesh_.vertices[t[1]], mesh_.vertices[t[2]]);
         if (squared >= best) return;
         best = squared;
         triangle = order_[i];
@@ -92,8 +92,8 @@ TriangleTree::Nearest TriangleTree::nearest(const Vec3& point) const {
 bool TriangleTree::crossings(const Vec3& point, const Vec3& direction, int& winding) const {
   const Vec3 inverse = direction.cwiseInverse();
   winding = 0;
-  const auto enter = [&](const core::BvhNode& node) { return ray_meets(node.bounds, point, inverse); };
-  return core::walk_bvh(bvh_, enter, [&](std::uint32_t i) {
+  const auto enter = [&](const BvhNode& node) { return ray_meets(node.bounds, point, inverse); };
+  return walk_bvh(bvh_, enter, [&](std::uint32_t i) {
     const Triangle& t = mesh_.triangles[order_[i]];
     const Hit hit =
         ray_hits(direction, mesh_.vertices[t[0]] - point, mesh_.vertices[t[1]] - point, mesh_.vertices[t[2]] - point);
@@ -117,4 +117,4 @@ int TriangleTree::winding_number(const Vec3& point) const {
   throw Error(ErrorCode::internal_defect, "no ray keeps clear of the edges of a mesh", "", "");
 }
 
-}  // namespace vantage::internal::solid
+}  // namespace vantage::internal::core
