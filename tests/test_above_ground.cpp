@@ -278,10 +278,10 @@ TEST(AboveGround, WrongLimitsAreRefused) {
   testing::expect_error([&] { refused(above(hills, 5, 4)); }, ErrorCode::limits_reversed, "navigation.altitude.agl");
   Mesh broken = hills;
   broken.triangles.push_back({0, 1, 1000});
-  testing::expect_error([&] { refused(above(broken, 4, 5)); }, ErrorCode::value_out_of_range, "navigation.ground");
+  testing::expect_error([&] { refused(above(broken, 4, 5)); }, ErrorCode::index_out_of_range, "ground");
   broken = hills;
   broken.vertices[3].z() = NAN;
-  testing::expect_error([&] { refused(above(broken, 4, 5)); }, ErrorCode::value_out_of_range, "navigation.ground");
+  testing::expect_error([&] { refused(above(broken, 4, 5)); }, ErrorCode::coordinate_not_finite, "ground");
 }
 
 /// Hills with a wall on them, and a target over a hill top.

@@ -288,8 +288,7 @@ TEST(ClearanceLimit, WrongOnesAreRefused) {
   }
   Navigation navigation;
   navigation.clearance = {4, nullptr};
-  testing::expect_error([&] { cut_to_navigation(dome, navigation); }, ErrorCode::value_out_of_range,
-                        "navigation.clearance");
+  testing::expect_error([&] { cut_to_navigation(dome, navigation); }, ErrorCode::nothing_given, "navigation.clearance");
 }
 
 /// Without a word on what is ground.

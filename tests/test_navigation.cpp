@@ -9,7 +9,6 @@
 #include <string>
 
 #include "core/parallel.h"
-#include "solid/navigation.h"
 #include "solid/triangle_tree.h"
 #include "support/internals.h"
 #include "support/objects.h"
@@ -463,7 +462,7 @@ TEST(Navigation, RefusesReversedLimits) {
   expect_refused(band(-INFINITY, 20), ErrorCode::value_out_of_range, "navigation.altitude");
   Navigation navigation;
   navigation.keep_in = {box(0, 0, 0, 1, 1, 1), box(0, 30, 0, 1, 10, 1)};
-  expect_refused(navigation, ErrorCode::limits_reversed, "navigation.boxes[1]");
+  expect_refused(navigation, ErrorCode::limits_reversed, "navigation.keep_in[1]");
   navigation.keep_in.clear();
   navigation.keep_out = {box(0, 0, 5, 1, 1, 5)};
   expect_refused(navigation, ErrorCode::limits_empty, "navigation.keep_out[0]");

@@ -371,9 +371,9 @@ TEST(Zones, TheCheckRefusesWhatIsNoZone) {
   Navigation navigation;
   const auto check = [&] { verify_volume(town, square(), {60}, navigation, volume); };
   navigation.keep_in_zones = {zone_of({{0, 0}, {1, 0}, {0, 1}}, 5, 4)};
-  expect_error(check, ErrorCode::limits_reversed, "zone z");
+  expect_error(check, ErrorCode::limits_reversed, "navigation.keep_in_zones[0]");
   navigation.keep_in_zones = {zone_of({{0, 0}, {1, 0}}, 4, 5)};
-  expect_error(check, ErrorCode::zone_not_simple, "zone z");
+  expect_error(check, ErrorCode::zone_not_simple, "navigation.keep_in_zones[0]");
 }
 
 TEST(Zones, RefusesWhatIsNoPolygon) {

@@ -13,6 +13,7 @@
 #include "vantage/export.h"
 #include "vantage/geometry.h"
 #include "vantage/ground.h"
+#include "vantage/progress.h"
 #include "vantage/scene.h"
 #include "vantage/sensor.h"
 
@@ -83,5 +84,13 @@ struct Navigation {
            meshes.empty() && !above_ground && !clearance;
   }
 };
+
+/// Throws Error(input) for a limit that is wrong in itself, with its name in the words of this file as the place
+/// ("navigation.keep_out[1]"): a band or a box that is reversed, empty or not finite, a zone that is none, ground or
+/// obstacles with a coordinate that is not finite or an index out of range, a clearance that is not positive, a mesh
+/// that is open, inside out or passes through itself. What cuts, asks, verifies or proves begins with this check, so
+/// that all refuse the same limits in the same words. Error(cancelled) when told to stop. Cost: linear, but for zones
+/// (O(n log n) in the corners where sides are short) and meshes (O(n log n) in the triangles as they are drawn).
+VANTAGE_API void check_navigation(const Navigation& navigation, const Progress& progress = {});
 
 }  // namespace vantage

@@ -46,7 +46,8 @@ VANTAGE_API PointAnswer all_of(std::span<const PointAnswer> answers);
 /// learns of the scene with the first points makes the later ones quick: some microseconds each in a city.
 class VANTAGE_API PointQuery {
  public:
-  /// A target in parts is seen where all its parts are. Holds on to the target and its scene.
+  /// A target in parts is seen where all its parts are. Holds on to the target and its scene. Throws as
+  /// check_navigation.
   explicit PointQuery(const PreparedTarget& target, const Navigation& navigation = {});
   ~PointQuery();
   PointQuery(PointQuery&&) noexcept;
@@ -107,6 +108,10 @@ class VANTAGE_API PointQuery {
 
  private:
   struct Data;
+  explicit PointQuery(std::unique_ptr<Data> data);
+  /// Of limits that have been checked.
+  static PointQuery unchecked(const PreparedTarget& target, const Navigation& navigation);
+
   std::unique_ptr<Data> data_;
 };
 

@@ -8,6 +8,7 @@
 
 #include "app/scene_section.h"
 #include "app/schema.h"
+#include "core/limit_check.h"
 #include "core/zone_check.h"
 #include "vantage/error.h"
 #include "vantage/input.h"
@@ -45,7 +46,7 @@ class NavigationParser {
   const YamlNode* kept(const YamlNode& node) const;
   void add_zones(const YamlNode& node, const std::string& what, const ZoneLists& lists) const;
   Box box(const YamlNode& node, const std::string& what) const;
-  void check_extent(const YamlNode& node, const std::string& what, int axis, const Box& box) const;
+  void refuse(const std::optional<core::LimitFault>& fault, const YamlNode& node, const std::string& what) const;
   Zone polygon(const YamlNode& node, const std::string& what, std::size_t index) const;
   ZoneFile file(const YamlNode& node, const YamlNode& named, const std::string& what) const;
   /// Nothing where the node does not say.
@@ -87,7 +88,8 @@ NavigationSection NavigationParser::parse(const YamlNode& node) {
                result_.places.keep_out_files});
   }
   if (const YamlNode* clearance = find(node, "clearance")) {
-    navigation.clearance = {reader_.positive(*clearance, "navigation.clearance"), {}};
+    navigation.clearance = {reader_.length(*clearance, "navigation.clearance"), {}};
+    refuse(core::fault_of_clearance(navigation.clearance->distance_m), *clearance, "navigation.clearance");
   }
   if (result_.places.above_ground.empty()) result_.places.above_ground = place_in(reader_.file(), node.place);
   if (const YamlNode* ground = find(node, "ground")) parse_ground(*ground);
@@ -171,22 +173,20 @@ void NavigationParser::parse_ground(const YamlNode& node) {
   result_.places.above_ground = place_in(reader_.file(), node.place);
 }
 
-/// The lower one first.
 std::array<double, 2> NavigationParser::heights(const YamlNode& node, const std::string& what,
                                                 const std::string& form) const {
   if (reader_.list(node, what, form).size() != 2) {
     reader_.fail(ErrorCode::wrong_type, node, what + " must be two numbers, not " + describe(node), form);
   }
   const double low = reader_.length(node.items[0], what + "[0]"), high = reader_.length(node.items[1], what + "[1]");
-  if (low > high) {
-    reader_.fail(ErrorCode::limits_reversed, node,
-                 what + " is reversed: " + shortest(low) + " is above " + shortest(high),
-                 "write the lower one first: [" + shortest(high) + ", " + shortest(low) + "]");
-  }
-  if (low == high) {
-    reader_.fail(ErrorCode::limits_empty, node, what + " holds no air: both limits are " + shortest(low), form);
-  }
+  refuse(core::fault_of_band(low, high), node, what);
   return {low, high};
+}
+
+/// `what`: the limit.
+void NavigationParser::refuse(const std::optional<core::LimitFault>& fault, const YamlNode& node,
+                              const std::string& what) const {
+  if (fault) reader_.fail(fault->code, node, problem_of(what, *fault), fault->fix);
 }
 
 void NavigationParser::add_zones(const YamlNode& node, const std::string& what, const ZoneLists& lists) const {
@@ -230,17 +230,8 @@ Box NavigationParser::box(const YamlNode& node, const std::string& what) const {
   Box result;
   result.min = reader_.vector(min, what + ".min");
   result.max = reader_.vector(max, what + ".max");
-  for (int axis = 0; axis < 3; ++axis) check_extent(node, what, axis, result);
+  refuse(core::fault_of(result), node, what);
   return result;
-}
-
-void NavigationParser::check_extent(const YamlNode& node, const std::string& what, int axis, const Box& box) const {
-  if (box.min[axis] < box.max[axis]) return;
-  const bool is_reversed = box.min[axis] > box.max[axis];
-  const std::string name(1, "xyz"[axis]), low = shortest(box.min[axis]), high = shortest(box.max[axis]);
-  reader_.fail(is_reversed ? ErrorCode::limits_reversed : ErrorCode::limits_empty, node,
-               what + (is_reversed ? " is reversed in " : " is flat in ") + name + ": min " + low + ", max " + high,
-               is_reversed ? "swap the two " + name + " values" : "give min and max different " + name + " values");
 }
 
 Zone NavigationParser::polygon(const YamlNode& node, const std::string& what, std::size_t index) const {
@@ -264,9 +255,7 @@ Zone NavigationParser::polygon(const YamlNode& node, const std::string& what, st
     zone.max_z_m = (*given.z_m)[1];
   }
   if (given.agl_m) zone.above_ground = {(*given.agl_m)[0], (*given.agl_m)[1], {}};
-  if (const auto fault = core::fault_of(zone)) {
-    reader_.fail(fault->code, node, what + ": " + fault->problem, fault->fix);
-  }
+  refuse(core::fault_of(zone), node, what);
   return zone;
 }
 
@@ -305,16 +294,8 @@ ZoneFile NavigationParser::file(const YamlNode& node, const YamlNode& named, con
   result.z_m = given.z_m;
   result.agl_m = given.agl_m;
   result.any_height = given.are_any;
-  const auto check = [&](const std::optional<std::array<double, 2>>& band, const char* key) {
-    if (!band || (*band)[0] < (*band)[1]) return;
-    const bool is_reversed = (*band)[0] > (*band)[1];
-    reader_.fail(is_reversed ? ErrorCode::limits_reversed : ErrorCode::limits_empty, node,
-                 what + "." + key + (is_reversed ? " is reversed" : " leaves no room") + ": " + shortest((*band)[0]) +
-                     ", " + shortest((*band)[1]),
-                 std::string("write the lower ") + (*key == 'z' ? "z" : "height") + " first");
-  };
-  check(given.z_m, "z");
-  check(given.agl_m, "agl");
+  if (given.z_m) refuse(core::fault_of_band((*given.z_m)[0], (*given.z_m)[1]), node, what + ".z");
+  if (given.agl_m) refuse(core::fault_of_band((*given.agl_m)[0], (*given.agl_m)[1]), node, what + ".agl");
   return result;
 }
 

@@ -58,42 +58,46 @@ std::string side_text(const Side& side) {
   return "side " + std::to_string(side.index) + (side.ring == 0 ? "" : " of " + ring_text(side.ring));
 }
 
-std::optional<ZoneFault> fault_of_heights(const Zone& zone) {
-  const std::string low = shortest(zone.min_z_m), high = shortest(zone.max_z_m);
-  if (std::isnan(zone.min_z_m) || std::isnan(zone.max_z_m)) {
-    return ZoneFault{ErrorCode::value_out_of_range, "a height is not a number", "give numbers, or infinite ones"};
+/// Of heights that may be infinite; `name` begins the message.
+std::optional<LimitFault> fault_of_heights(const std::string& name, double low, double high) {
+  if (std::isnan(low) || std::isnan(high)) {
+    return LimitFault{ErrorCode::value_out_of_range, name + " is not a number", "give numbers, or infinite ones"};
   }
-  if (zone.min_z_m > zone.max_z_m) {
-    return ZoneFault{ErrorCode::limits_reversed, "z is reversed: " + low + " is above " + high, "swap the two"};
+  if (low > high) {
+    return LimitFault{ErrorCode::limits_reversed,
+                      name + " is reversed: " + shortest(low) + " is above " + shortest(high),
+                      "give the lower one first"};
   }
-  if (zone.min_z_m == zone.max_z_m) {
-    return ZoneFault{ErrorCode::limits_empty, "z leaves no room: both heights are " + low, "give an upper z above it"};
+  if (low == high) {
+    return LimitFault{ErrorCode::limits_empty, name + " leaves no room: both ends are " + shortest(low),
+                      "give an upper end above the lower one"};
   }
-  if (!zone.above_ground || zone.above_ground->min_m < zone.above_ground->max_m) return std::nullopt;
-  const bool is_reversed = zone.above_ground->min_m > zone.above_ground->max_m;
-  return ZoneFault{is_reversed ? ErrorCode::limits_reversed : ErrorCode::limits_empty,
-                   "agl " + std::string(is_reversed ? "is reversed: " : "leaves no room: ") +
-                       shortest(zone.above_ground->min_m) + ", " + shortest(zone.above_ground->max_m),
-                   "give the lower height first"};
+  return std::nullopt;
 }
 
-std::optional<ZoneFault> fault_of_ring(const Zone::Ring& ring, std::size_t number) {
+std::optional<LimitFault> fault_of_heights(const Zone& zone) {
+  if (auto fault = fault_of_heights("z", zone.min_z_m, zone.max_z_m)) return fault;
+  if (!zone.above_ground) return std::nullopt;
+  return fault_of_heights("agl", zone.above_ground->min_m, zone.above_ground->max_m);
+}
+
+std::optional<LimitFault> fault_of_ring(const Zone::Ring& ring, std::size_t number) {
   if (ring.size() < 3) {
-    return ZoneFault{ErrorCode::zone_not_simple,
-                     ring_text(number) + " needs at least 3 corners, it has " + std::to_string(ring.size()),
-                     "give the corners in order"};
+    return LimitFault{ErrorCode::zone_not_simple,
+                      ring_text(number) + " needs at least 3 corners, it has " + std::to_string(ring.size()),
+                      "give the corners in order"};
   }
   for (std::size_t i = 0; i < ring.size(); ++i) {
     if (!ring[i].allFinite()) {
-      return ZoneFault{ErrorCode::coordinate_not_finite,
-                       "corner " + std::to_string(i) + " of " + ring_text(number) + " is not finite", "correct it"};
+      return LimitFault{ErrorCode::coordinate_not_finite,
+                        "corner " + std::to_string(i) + " of " + ring_text(number) + " is not finite", "correct it"};
     }
     const std::size_t next = (i + 1) % ring.size();
     if (ring[i] == ring[next]) {
-      return ZoneFault{ErrorCode::zone_not_simple,
-                       "corners " + std::to_string(i) + " and " + std::to_string(next) + " of " + ring_text(number) +
-                           " are the same point, " + place_text(ring[i]),
-                       "leave one out: the first corner is not repeated either"};
+      return LimitFault{ErrorCode::zone_not_simple,
+                        "corners " + std::to_string(i) + " and " + std::to_string(next) + " of " + ring_text(number) +
+                            " are the same point, " + place_text(ring[i]),
+                        "leave one out: the first corner is not repeated either"};
     }
   }
   return std::nullopt;
@@ -138,18 +142,18 @@ bool encloses(const Zone::Ring& ring, const Point& p) {
 }
 
 /// Where no sides meet, one corner tells where all of a hole lies.
-std::optional<ZoneFault> fault_of_nesting(const Zone& zone) {
+std::optional<LimitFault> fault_of_nesting(const Zone& zone) {
   for (std::size_t i = 0; i < zone.holes.size(); ++i) {
     const Point& corner = zone.holes[i][0];
     if (!encloses(zone.outer, corner)) {
-      return ZoneFault{ErrorCode::zone_not_simple, "hole " + std::to_string(i) + " lies outside the outline",
-                       "leave it out, or make a zone of its own of it"};
+      return LimitFault{ErrorCode::zone_not_simple, "hole " + std::to_string(i) + " lies outside the outline",
+                        "leave it out, or make a zone of its own of it"};
     }
     for (std::size_t k = 0; k < zone.holes.size(); ++k) {
       if (k == i || !encloses(zone.holes[k], corner)) continue;
-      return ZoneFault{ErrorCode::zone_not_simple,
-                       "hole " + std::to_string(i) + " lies inside hole " + std::to_string(k),
-                       "leave it out, or make a zone of its own of it"};
+      return LimitFault{ErrorCode::zone_not_simple,
+                        "hole " + std::to_string(i) + " lies inside hole " + std::to_string(k),
+                        "leave it out, or make a zone of its own of it"};
     }
   }
   return std::nullopt;
@@ -157,7 +161,7 @@ std::optional<ZoneFault> fault_of_nesting(const Zone& zone) {
 
 }  // namespace
 
-std::optional<ZoneFault> fault_of(const Zone& zone) {
+std::optional<LimitFault> fault_of(const Zone& zone) {
   if (auto fault = fault_of_heights(zone)) return fault;
   if (auto fault = fault_of_ring(zone.outer, 0)) return fault;
   std::size_t corners = zone.outer.size();
@@ -166,20 +170,20 @@ std::optional<ZoneFault> fault_of(const Zone& zone) {
     corners += zone.holes[i].size();
   }
   if (corners > Zone::kMostCorners) {
-    return ZoneFault{ErrorCode::value_out_of_range,
-                     "it has " + std::to_string(corners) + " corners, at most " + std::to_string(Zone::kMostCorners) +
-                         " are possible",
-                     "simplify it, or cut it into several zones"};
+    return LimitFault{ErrorCode::value_out_of_range,
+                      "it has " + std::to_string(corners) + " corners, at most " + std::to_string(Zone::kMostCorners) +
+                          " are possible",
+                      "simplify it, or cut it into several zones"};
   }
   if (const auto meeting = first_meeting(sides_of(zone))) {
     const auto& [a, b] = *meeting;
     const bool a_first = std::pair(a.ring, a.index) < std::pair(b.ring, b.index);
     const Side &first = a_first ? a : b, &second = a_first ? b : a;
-    return ZoneFault{ErrorCode::zone_not_simple,
-                     side_text(first) + ", from " + place_text(first.from) + " to " + place_text(first.to) +
-                         ", crosses or touches " + side_text(second) + ", from " + place_text(second.from) + " to " +
-                         place_text(second.to),
-                     "give the corners in order round the zone; sides may not meet but at their common corners"};
+    return LimitFault{ErrorCode::zone_not_simple,
+                      side_text(first) + ", from " + place_text(first.from) + " to " + place_text(first.to) +
+                          ", crosses or touches " + side_text(second) + ", from " + place_text(second.from) + " to " +
+                          place_text(second.to),
+                      "give the corners in order round the zone; sides may not meet but at their common corners"};
   }
   return fault_of_nesting(zone);
 }

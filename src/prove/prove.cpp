@@ -494,6 +494,7 @@ ProofReport prove_volume(const Scene& scene, const Target& target, const Sensor&
                          const Mesh& volume, const ProveOptions& options, const Progress& callback) {
   const auto begin = std::chrono::steady_clock::now();
   check_options(target, sensor, options);
+  check_navigation(navigation, callback);
   check_scene(scene);
   const internal::core::ProgressReporter progress(callback);
   progress.begin("prove");
@@ -516,6 +517,7 @@ ProofReport prove_volume(const Scene& scene, const Target& target, const Sensor&
 MaximalProof prove_maximal(const Scene& scene, const Target& target, const Sensor& sensor, const Navigation& navigation,
                            const Mesh& volume, const ProveOptions& options, const Progress& callback) {
   check_options(target, sensor, options);
+  check_navigation(navigation, callback);
   if (options.other_side_m) {
     throw Error(ErrorCode::not_applicable, "what is missing is not looked for behind a target", "other_side_m",
                 "leave it out");

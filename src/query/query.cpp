@@ -196,12 +196,20 @@ internal::query::Limits limits_of(const PreparedTarget& target, const Navigation
 
 }  // namespace
 
-PointQuery::PointQuery(const PreparedTarget& target, const Navigation& navigation)
-    : data_(std::make_unique<Data>(Data{target, limits_of(target, navigation), {}})) {
-  const PreparedTarget::Data& prepared = data_->target.data();
+PointQuery::PointQuery(std::unique_ptr<Data> data) : data_(std::move(data)) {}
+
+PointQuery PointQuery::unchecked(const PreparedTarget& target, const Navigation& navigation) {
+  auto data = std::make_unique<Data>(Data{target, limits_of(target, navigation), {}});
+  const PreparedTarget::Data& prepared = data->target.data();
   for (const PreparedTarget::Data::Part& part : prepared.parts) {
-    data_->parts.push_back(internal::query::make_sides(prepared, part, data_->limits));
+    data->parts.push_back(internal::query::make_sides(prepared, part, data->limits));
   }
+  return PointQuery(std::move(data));
+}
+
+PointQuery::PointQuery(const PreparedTarget& target, const Navigation& navigation) {
+  check_navigation(navigation);
+  *this = unchecked(target, navigation);
 }
 PointQuery::~PointQuery() = default;
 PointQuery::PointQuery(PointQuery&&) noexcept = default;

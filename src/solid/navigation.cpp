@@ -1,7 +1,7 @@
 // Cutting a volume to where the vehicle may fly. Boxes, zones and the like are small solids beside a volume of perhaps
 // a hundred thousand facets, so they are combined first. What limits of the sensor and the clearance have in common
 // costs more than to cut the volume to one after the other.
-#include "solid/navigation.h"
+#include "vantage/navigation.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -14,6 +14,7 @@
 
 #include "core/causes.h"
 #include "core/mend_welded.h"
+#include "core/navigation_check.h"
 #include "core/pieces.h"
 #include "core/progress_reporter.h"
 #include "core/stopwatch.h"
@@ -25,7 +26,6 @@
 #include "solid/regions.h"
 #include "solid/sensor_regions.h"
 #include "vantage/error.h"
-#include "vantage/navigation.h"
 
 namespace vantage::internal::solid {
 namespace {
@@ -175,7 +175,7 @@ Volume cut_to(const Volume& volume, const PreparedTarget* target, const Navigati
                         "large surfaces out of the obstacles with 'navigation.ground' or make them of fewer triangles"
                       : "ask for a shorter range, or for fewer and simpler limits");
   progress.begin("navigation");
-  const std::vector<Mesh> meshes = check_navigation(navigation, progress.part(0, 0.3));
+  const std::vector<Mesh> meshes = core::checked_navigation(navigation, progress.part(0, 0.3));
   Volume result = volume;
   if (volume.outcome != Outcome::computed || volume.mesh.empty()) return result;
 

@@ -4,19 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "vantage/error.h"
-
 namespace vantage::internal::verify {
 namespace {
-
-void check(const std::vector<Box>& boxes, const std::string& name) {
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    const bool ordered = (boxes[i].min.array() < boxes[i].max.array()).all();  // false for NaN too
-    if (ordered) continue;
-    throw Error(ErrorCode::limits_reversed, "the box is reversed or flat", name + " " + std::to_string(i),
-                "give min smaller than max on every axis");
-  }
-}
 
 bool within(const Box& box, const Vec3& point) {
   return (point.array() >= box.min.array()).all() && (point.array() <= box.max.array()).all();
@@ -27,24 +16,6 @@ bool strictly_within(const Box& box, const Vec3& point) {
 }
 
 using Plan = Eigen::Vector2d;
-
-void check(const std::vector<Zone>& zones, const std::string& name) {
-  const auto bounds_nothing = [](const Zone::Ring& ring) { return ring.size() < 3; };
-  for (const Zone& zone : zones) {
-    const std::string where = name + " " + zone.name;
-    if (!(zone.min_z_m < zone.max_z_m)) {  // NaN too
-      throw Error(ErrorCode::limits_reversed, "the zone is reversed or flat", where, "give the lower z first");
-    }
-    if (zone.above_ground && !(zone.above_ground->min_m < zone.above_ground->max_m)) {
-      throw Error(ErrorCode::limits_reversed, "the zone's band above the ground is reversed or empty", where,
-                  "give the lower height first");
-    }
-    if (bounds_nothing(zone.outer) || std::any_of(zone.holes.begin(), zone.holes.end(), bounds_nothing)) {
-      throw Error(ErrorCode::zone_not_simple, "a ring of the zone has fewer than 3 corners", where,
-                  "give the corners in order");
-    }
-  }
-}
 
 /// How often the ring goes round the point, by the angles under which its sides are seen; nothing on a side.
 std::optional<int> turns_round(const Zone::Ring& ring, const Plan& point) {
@@ -102,21 +73,7 @@ bool contains(const Zone& zone, const Box& bounds, const Vec3& point, bool on_bo
 }  // namespace
 
 Limits::Limits(const Navigation& navigation, const Vec3& origin) : navigation_(navigation), origin_(origin) {
-  if (navigation_.altitude && !(navigation_.altitude->min_m < navigation_.altitude->max_m)) {
-    throw Error(ErrorCode::limits_reversed, "the altitude band is reversed or empty", "navigation altitude",
-                "give the lower altitude first");
-  }
-  if (const auto& limit = navigation_.above_ground) {
-    if (!(limit->min_m < limit->max_m)) {
-      throw Error(ErrorCode::limits_reversed, "the band above the ground is reversed or empty", "navigation altitude",
-                  "give the lower height first");
-    }
-    ground_.emplace(*limit);
-  }
-  check(navigation_.keep_in, "box");
-  check(navigation_.keep_in_zones, "zone");
-  check(navigation_.keep_out, "keep_out");
-  check(navigation_.keep_out_zones, "keep_out zone");
+  if (navigation_.above_ground) ground_.emplace(*navigation_.above_ground);
   keep_in_bounds_ = bounds_of(navigation_.keep_in_zones);
   keep_out_bounds_ = bounds_of(navigation_.keep_out_zones);
   keep_in_heights_ = heights_of(navigation_.keep_in_zones);
