@@ -1,4 +1,6 @@
 // What the page asks of a scene and a mission in it.
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
 
@@ -14,6 +16,7 @@
 #include "vantage/error.h"
 #include "vantage/georeference.h"
 #include "vantage/mission.h"
+#include "vantage/query.h"
 
 namespace vantage::live {
 namespace {
@@ -128,6 +131,51 @@ TEST_F(LiveSession, AsksOfAPointWhatHidesTheTarget) {
   const bool is_too_far = answers[2]["out_of_range"];
   EXPECT_TRUE(is_too_far);
   EXPECT_GT(ask({{"call", "slice"}, {"z", 20}}).header["value"]["area_m2"], 100.0);
+}
+
+// The page and the program stand on one definition. They differed: over both targets the page told the margin of the
+// first alone, and where neither is seen what is wrong with the first alone.
+TEST_F(LiveSession, OfSeveralTargetsItAnswersWhatTheProgramDoes) {
+  const std::string targets =
+      "targets:\n  - {name: a, vertices: [[-5, -5, 0], [5, -5, 0], [5, 5, 0]]}\n"
+      "  - {name: b, point: [-30, 0, 1]}\nsensor: {max_range: 70}\n"
+      "navigation: {altitude: [2, 60]}\n";
+  const Vec3 inside(5, 0, 40), behind_the_block(38, 0, 4), too_high(0, 0, 65);
+  for (const char* const combine : {"combine: all\n", "combine: any\n"}) {
+    SCOPED_TRACE(combine);
+    write("several.yaml", testing::kScene + targets + combine);
+    session_.open_file(folder_ / "several.yaml");
+    ask({{"call", "compute"}, {"text", targets + combine}});
+    const Mission mission = resolve_mission(read_mission(folder_ / "several.yaml"));
+    const std::vector<std::vector<PreparedTarget>> views = prepare_views(mission, PreparedScene(mission.scene()));
+    const std::vector<Vec3> points = {inside, behind_the_block, too_high};
+    const std::vector<PointAnswer> expected = ViewsQuery(views, mission.navigation).answer(points);
+    Json coordinates = Json::array();
+    for (const Vec3& point : points) coordinates.push_back({point.x(), point.y(), point.z()});
+    const Json answers = ask({{"call", "query"}, {"points", coordinates}}).header["value"]["answers"];
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      SCOPED_TRACE(i);
+      EXPECT_EQ(answers[i]["inside"], expected[i].inside);
+      EXPECT_EQ(answers[i]["blocked_by"], Json(expected[i].blocked_by));
+      EXPECT_EQ(answers[i]["out_of_range"], expected[i].out_of_range);
+      EXPECT_EQ(answers[i]["outside_of"], Json(expected[i].outside_of));
+      if (std::isfinite(expected[i].margin_m)) {
+        EXPECT_EQ(answers[i]["margin_m"], expected[i].margin_m);
+      }
+    }
+    // What the program prints, too.
+    options_.input = "5 0 40\n";
+    const Json printed = Json::parse(run({"query", "several.yaml", "-", "--json", "-q"}).out);
+    EXPECT_EQ(printed[0]["margin_m"], answers[0]["margin_m"]);
+    if (std::string(combine) != "combine: all\n") continue;
+    ASSERT_EQ(views.size(), 2u);
+    // The second target's margin is the smaller one: the first one's was told.
+    const double first = PointQuery(views[0][0], mission.navigation).answer(points)[0].margin_m;
+    const double second = PointQuery(views[1][0], mission.navigation).answer(points)[0].margin_m;
+    ASSERT_TRUE(expected[0].inside);
+    ASSERT_NE(first, second);
+    EXPECT_EQ(answers[0]["margin_m"], std::min(first, second));
+  }
 }
 
 TEST_F(LiveSession, OfSeveralTargetsEachMustBeSeenOrOne) {

@@ -136,6 +136,7 @@ TEST(NavigationCheck, AllRefuseTheSameLimitsInTheSameWords) {
        [&](const Navigation& n) {
          query_points(target, n, {{0, 0, 5}});
        }},
+      {"ViewsQuery", [&](const Navigation& n) { ViewsQuery({{target}}, n); }},
       {"verify_volume",
        [&](const Navigation& n) { verify_volume(yard.scene, yard.target, yard.sensor, n, yard.volume); }},
       {"verify_volume of views",

@@ -107,12 +107,33 @@ class VANTAGE_API PointQuery {
   FractionField fraction_field(const VoxelGrid& grid, const FieldOptions& options = {}, const Progress& progress = {});
 
  private:
+  friend class ViewsQuery;
   struct Data;
   explicit PointQuery(std::unique_ptr<Data> data);
   /// Of limits that have been checked.
   static PointQuery unchecked(const PreparedTarget& target, const Navigation& navigation);
 
   std::unique_ptr<Data> data_;
+};
+
+/// Answers questions about points for all that one volume claims: its positions see, of each list of targets, one whole
+/// or more. These are the lists of prepare_views (vantage/mission.h). The only place where answers about several
+/// targets become one: all_of the lists, and any_of the targets of each.
+class VANTAGE_API ViewsQuery {
+ public:
+  /// Holds on to the targets and their scene. Throws as check_navigation, and Error(input) for no list and for a list
+  /// without targets.
+  explicit ViewsQuery(const std::vector<std::vector<PreparedTarget>>& views, const Navigation& navigation = {},
+                      const Progress& progress = {});
+
+  /// As PointQuery::answer.
+  std::vector<PointAnswer> answer(std::span<const Vec3> points);
+
+  /// The one target, for questions about its share that is seen; null where there are several.
+  PointQuery* single();
+
+ private:
+  std::vector<std::vector<PointQuery>> views_;
 };
 
 /// PointQuery for one portion of points.

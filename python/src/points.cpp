@@ -26,32 +26,29 @@ constexpr std::size_t kPortion = 20'000;
 /// Answers for one mission of one volume. One caller at a time; others wait.
 class PyQuery {
  public:
-  PyQuery(const PyMission& mission, const Progress& progress) : mission_(mission) {
-    for (const auto& view : prepare_views(*mission, mission.prepared(progress))) {
-      queries_.emplace_back();
-      for (const PreparedTarget& target : view) queries_.back().emplace_back(target, mission->navigation);
-    }
-  }
+  PyQuery(const PyMission& mission, const Progress& progress)
+      : mission_(mission), query_(prepare_views(*mission, mission.prepared(progress)), mission->navigation, progress) {}
 
   std::vector<PointAnswer> answer(const std::vector<Vec3>& points, const Progress& progress) {
     const std::lock_guard lock(mutex_);
     std::vector<PointAnswer> answers;
     for_portions(points, progress, [&](std::span<const Vec3> portion) {
-      for (PointAnswer& one : joined(portion)) answers.push_back(std::move(one));
+      for (PointAnswer& one : query_.answer(portion)) answers.push_back(std::move(one));
     });
     return answers;
   }
 
   std::vector<PointFraction> fractions(const std::vector<Vec3>& points, const FractionOptions& options,
                                        const Progress& progress) {
-    if (queries_.size() != 1 || queries_.front().size() != 1) {
+    PointQuery* const single = query_.single();
+    if (!single) {
       throw Error(ErrorCode::not_applicable, "the share seen is that of one target, and the mission has several", "",
                   "ask for each of the targets");
     }
     const std::lock_guard lock(mutex_);
     std::vector<PointFraction> answers;
     for_portions(points, progress, [&](std::span<const Vec3> portion) {
-      for (PointFraction& one : queries_.front().front().fractions(portion, options)) {
+      for (PointFraction& one : single->fractions(portion, options)) {
         answers.push_back(std::move(one));
       }
     });
@@ -69,24 +66,8 @@ class PyQuery {
     }
   }
 
-  /// Of each list of targets one must be seen.
-  std::vector<PointAnswer> joined(std::span<const Vec3> portion) {
-    std::vector<std::vector<PointAnswer>> all(portion.size());
-    for (std::vector<PointQuery>& view : queries_) {
-      std::vector<std::vector<PointAnswer>> any(portion.size());
-      for (PointQuery& query : view) {
-        std::vector<PointAnswer> answers = query.answer(portion);
-        for (std::size_t i = 0; i < portion.size(); ++i) any[i].push_back(std::move(answers[i]));
-      }
-      for (std::size_t i = 0; i < portion.size(); ++i) all[i].push_back(any_of(any[i]));
-    }
-    std::vector<PointAnswer> answers;
-    for (const std::vector<PointAnswer>& one : all) answers.push_back(all_of(one));
-    return answers;
-  }
-
   PyMission mission_;
-  std::vector<std::vector<PointQuery>> queries_;
+  ViewsQuery query_;
   std::mutex mutex_;
 };
 

@@ -157,48 +157,12 @@ Portion parsed(PointTable& table, std::span<const Row> rows) {
   return portion;
 }
 
-/// Answers for one volume of the mission: of one target, or of several together.
-class VolumeQuery {
- public:
-  VolumeQuery(const std::vector<std::vector<PreparedTarget>>& views, const Navigation& navigation) {
-    for (const std::vector<PreparedTarget>& view : views) {
-      queries_.emplace_back();
-      for (const PreparedTarget& target : view) queries_.back().emplace_back(target, navigation);
-    }
-  }
-
-  std::vector<PointAnswer> answer(std::span<const Vec3> points) {
-    std::vector<std::vector<PointAnswer>> all(points.size());
-    for (std::vector<PointQuery>& view : queries_) {
-      std::vector<std::vector<PointAnswer>> any(points.size());
-      for (PointQuery& query : view) {
-        std::vector<PointAnswer> answers = query.answer(points);
-        for (std::size_t i = 0; i < points.size(); ++i) any[i].push_back(std::move(answers[i]));
-      }
-      for (std::size_t i = 0; i < points.size(); ++i) {
-        all[i].push_back(any[i].size() == 1 ? std::move(any[i][0]) : any_of(any[i]));
-      }
-    }
-    std::vector<PointAnswer> result;
-    for (std::vector<PointAnswer>& answers : all) {
-      result.push_back(answers.size() == 1 ? std::move(answers[0]) : all_of(answers));
-    }
-    return result;
-  }
-
-  /// Where it is of one target.
-  PointQuery& single() { return queries_.front().front(); }
-
- private:
-  std::vector<std::vector<PointQuery>> queries_;
-};
-
 /// Answers portions of points, and writes what was asked for.
 class Answers {
  public:
   /// One query for each of `targets`, the names that rows are told apart by where there are several.
   Answers(const QueryArguments& options, const Mission& mission, PointTable& table, std::vector<std::string> targets,
-          std::vector<VolumeQuery> queries)
+          std::vector<ViewsQuery> queries)
       : place_(mission.scene().georeference),
         table_(table),
         targets_(std::move(targets)),
@@ -223,9 +187,9 @@ class Answers {
     }
     std::vector<std::vector<PointAnswer>> answers;
     std::vector<std::vector<PointFraction>> fractions;
-    for (VolumeQuery& query : queries_) {
+    for (ViewsQuery& query : queries_) {
       answers.push_back(query.answer(points));
-      if (table_.has_fraction()) fractions.push_back(fractions_of(query.single(), points));
+      if (table_.has_fraction()) fractions.push_back(fractions_of(*query.single(), points));
     }
     std::string features;
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -269,7 +233,7 @@ class Answers {
   std::optional<Georeference> place_;
   PointTable& table_;
   std::vector<std::string> targets_;
-  std::vector<VolumeQuery> queries_;
+  std::vector<ViewsQuery> queries_;
   FractionOptions fraction_;
   Sink rows_;
   std::unique_ptr<Sink> seen_;
@@ -278,8 +242,8 @@ class Answers {
 };
 
 /// Each volume of the mission, or that of --target, prepared in one scene.
-std::vector<VolumeQuery> queries_of(const Mission& mission, const PreparedScene& scene) {
-  std::vector<VolumeQuery> queries;
+std::vector<ViewsQuery> queries_of(const Mission& mission, const PreparedScene& scene) {
+  std::vector<ViewsQuery> queries;
   for (std::size_t i = 0; i < volume_count(mission); ++i) {
     const Mission one = one_volume(mission, i);
     queries.emplace_back(prepare_views(one, scene), one.navigation);

@@ -121,20 +121,6 @@ Json causes_of(const Volume& volume) {
   return list;
 }
 
-/// Of each list one target must be seen: that of which most is. The first that is not says why.
-PointAnswer all_of(const std::vector<std::vector<std::shared_ptr<PointQuery>>>& queries, const Vec3& point) {
-  std::optional<PointAnswer> result;
-  for (const auto& list : queries) {
-    std::optional<PointAnswer> best;
-    for (const auto& query : list) {
-      const PointAnswer answer = query->answer({&point, 1}).front();
-      if (!best || (answer.inside && !best->inside)) best = answer;
-    }
-    if (best && (!result || (result->inside && !best->inside))) result = best;
-  }
-  return result.value();
-}
-
 }  // namespace
 
 std::string about() {
@@ -160,7 +146,7 @@ void Session::take_scene(const MissionFile& file, std::shared_ptr<const LoadedSc
   computed_in_.reset();
   result_.reset();
   proof_.reset();
-  queries_.clear();
+  query_.reset();
   volume_view_ = {};
 
   const Scene& scene = opened_->loaded->scene;
@@ -287,7 +273,7 @@ void Session::take_volume(Mission mission, ScenePointer scene, Result result) {
   has_causes_ = true;
   prove_options_ = {.lift_m = result_->volume.lift_m};
   proof_.reset();
-  queries_.clear();
+  query_.reset();
   volume_view_ = std::move(view);
 }
 
@@ -319,17 +305,15 @@ const Mission& Session::mission() const {
 }
 
 std::string Session::query(const std::vector<double>& coordinates) {
-  if (queries_.empty()) {
-    for (const std::vector<PreparedTarget>& list : prepare_views(mission(), computed_in_->prepared)) {
-      queries_.emplace_back();
-      for (const PreparedTarget& target : list)
-        queries_.back().push_back(std::make_shared<PointQuery>(target, mission().navigation));
-    }
+  if (!query_) {
+    query_ = std::make_shared<ViewsQuery>(prepare_views(mission(), computed_in_->prepared), mission().navigation);
+  }
+  std::vector<Vec3> points;
+  for (std::size_t i = 0; i + 2 < coordinates.size(); i += 3) {
+    points.emplace_back(coordinates[i], coordinates[i + 1], coordinates[i + 2]);
   }
   Json answers = Json::array();
-  for (std::size_t i = 0; i + 2 < coordinates.size(); i += 3) {
-    const Vec3 point(coordinates[i], coordinates[i + 1], coordinates[i + 2]);
-    const PointAnswer answer = all_of(queries_, point);
+  for (const PointAnswer& answer : query_->answer(points)) {
     answers.push_back({{"inside", answer.inside},
                        {"margin_m", std::isfinite(answer.margin_m) ? Json(answer.margin_m) : Json()},
                        {"blocked_by", answer.blocked_by},

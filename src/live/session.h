@@ -106,8 +106,7 @@ class Session {
   ProveOptions prove_options_;
   bool has_causes_ = true;  ///< some formats of files have no room for them
   std::optional<ProofReport> proof_;
-  /// Of each list of targets of which one must be seen (Mission::views); empty: not prepared yet.
-  std::vector<std::vector<std::shared_ptr<PointQuery>>> queries_;
+  std::shared_ptr<ViewsQuery> query_;  ///< of the last volume; null: nothing was asked yet
   double resolve_ms_ = 0, compute_ms_ = 0, view_ms_ = 0;
   ViewMesh volume_view_;
   std::string bytes_;

@@ -1,6 +1,7 @@
 // Answers about several targets as one.
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 #include "vantage/error.h"
 #include "vantage/query.h"
@@ -64,6 +65,41 @@ PointAnswer all_of(std::span<const PointAnswer> answers) {
     }
   }
   return result;
+}
+
+ViewsQuery::ViewsQuery(const std::vector<std::vector<PreparedTarget>>& views, const Navigation& navigation,
+                       const Progress& progress) {
+  check_navigation(navigation, progress);
+  const auto is_empty = [](const std::vector<PreparedTarget>& view) { return view.empty(); };
+  if (views.empty() || std::any_of(views.begin(), views.end(), is_empty)) {
+    throw Error(ErrorCode::nothing_given, "there is no target to ask about", "views", "give one in each list or more");
+  }
+  for (const std::vector<PreparedTarget>& view : views) {
+    views_.emplace_back();
+    for (const PreparedTarget& target : view) views_.back().push_back(PointQuery::unchecked(target, navigation));
+  }
+}
+
+std::vector<PointAnswer> ViewsQuery::answer(std::span<const Vec3> points) {
+  if (PointQuery* const one = single()) return one->answer(points);
+  std::vector<std::vector<PointAnswer>> of_views(points.size());
+  for (std::vector<PointQuery>& view : views_) {
+    std::vector<std::vector<PointAnswer>> of_targets(points.size());
+    for (PointQuery& query : view) {
+      std::vector<PointAnswer> answers = query.answer(points);
+      for (std::size_t i = 0; i < points.size(); ++i) of_targets[i].push_back(std::move(answers[i]));
+    }
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      of_views[i].push_back(view.size() == 1 ? std::move(of_targets[i][0]) : any_of(of_targets[i]));
+    }
+  }
+  std::vector<PointAnswer> result;
+  for (const std::vector<PointAnswer>& answers : of_views) result.push_back(all_of(answers));
+  return result;
+}
+
+PointQuery* ViewsQuery::single() {
+  return views_.size() == 1 && views_.front().size() == 1 ? &views_.front().front() : nullptr;
 }
 
 }  // namespace vantage
