@@ -305,6 +305,14 @@ TEST_F(CliQuery, TakesLongitudeAndLatitude) {
             std::string::npos);
 }
 
+TEST_F(CliQuery, OneHeightMayHaveAUnit) {
+  options_.input = "0 0\n";
+  const std::string metres = output_of({"query", "mission.yaml", "-", "--z", "30.48"});
+  EXPECT_EQ(output_of({"query", "mission.yaml", "-", "--z", "100 ft"}), metres);
+  write("points.csv", "0 0\n");
+  expect_bad({"query", "mission.yaml", "points.csv", "--z", "100 yd"}, "--z");
+}
+
 TEST_F(CliQuery, RefusesPlacesThatAreNone) {
   const auto expect_bad_points = [&](const std::string& row) {
     write("points.csv", "lon,lat,z\n11.5,48.1,9\n\n" + row + "\n");

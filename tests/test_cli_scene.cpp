@@ -167,6 +167,18 @@ TEST_F(CliScene, KeepsNamesWhereTheFormatHasThem) {
   }
 }
 
+TEST_F(CliScene, LengthsMayHaveAUnit) {
+  const auto size = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"scene", "city.osm", "--json", "--center", kCentre};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return json::parse(output_of(arguments)).at("bounds");
+  };
+  EXPECT_EQ(size({"--radius", "100 ft"}), size({"--radius", "30.48"}));
+  EXPECT_NE(size({"--radius", "100 ft"}), size({"--radius", "100"}));
+  expect_bad_option({"--center", kCentre, "--radius", "100 yd"}, "--radius");
+  expect_bad_option({"--center", kCentre, "--radius", "-5 m"}, "--radius");
+}
+
 TEST_F(CliScene, PrintsTheReportAsJsonAndIsQuiet) {
   const std::string printed = output_of({"scene", "city.osm", "--json", "-o", "scene.glb"});
   const std::string written = content(folder_ / "scene.report.json");

@@ -307,8 +307,7 @@ TEST(MissionErrors, NumbersThatAreNone) {
   expect_refusal(with_sensor("max_range: 0o17"), ErrorCode::not_a_number, ":6:14");
   expect_refusal(with_sensor("max_range: 1:30"), ErrorCode::not_a_number, ":6:14");
   expect_refusal(with_sensor("max_range: 1,5"), ErrorCode::not_a_number, ":6:14");
-  expect_refusal(with_sensor("max_range: 100m"), ErrorCode::not_a_number, ":6:14");
-  expect_refusal(with_sensor("max_range: 100 m"), ErrorCode::not_a_number, ":6:14");
+  expect_refusal(with_sensor("max_range: 100yd"), ErrorCode::value_syntax, ":6:14");
   for (const char* text : {".inf", "-.Inf", "+.INF", ".nan", ".NaN", "nan", "inf", "-Infinity"}) {
     expect_refusal(with_sensor(std::string("max_range: ") + text), ErrorCode::value_out_of_range, ":6:14");
     expect_refusal(with_vertices(std::string("[[0, 0, 0], [1, ") + text + ", 0], [0, 1, 0]]"),
@@ -486,6 +485,84 @@ TEST(MissionNumbers, AreReadAsDecimals) {
        {"", " 1", "1 ", "+", "-", "+-1", "--1", "1e", "e5", "1.2.3", "0x1p3", "1_0", "1'0", "\xC2\xB2"}) {
     EXPECT_EQ(parse_number(text).fault, NumberFault::not_a_number) << text;
   }
+}
+
+TEST(MissionNumbers, LengthsMayHaveAUnit) {
+  for (const auto& [text, metres] : {std::pair("12.5", 12.5),
+                                     {"400 ft", 121.92},
+                                     {"400ft", 121.92},
+                                     {"+400\tFT", 121.92},
+                                     {"-3 Ft", -0.9144},
+                                     {"1 mi", 1609.344},
+                                     {"0.5Mi", 804.672},
+                                     {"1.2 km", 1200.0},
+                                     {"2e3 m", 2000.0},
+                                     {"7.5 cm", 0.075},
+                                     {"30 mm", 0.03},
+                                     {"0 ft", 0.0}}) {
+    const ParsedNumber parsed = parse_length(text);
+    EXPECT_EQ(parsed.fault, NumberFault::none) << text;
+    EXPECT_EQ(parsed.value, metres) << text;
+  }
+  for (const char* text : {"400 M", "400 nm", "400 f", "400 feet long", "3'", "400 ft ft", "400 yd", "60 deg", "5 %"}) {
+    EXPECT_EQ(parse_length(text).fault, NumberFault::unknown_unit) << text;
+  }
+  for (const char* text :
+       {"", "ft", "m 5", " 5 m", "5 ", "+-5 m", "--5 m", "five m", "1,000 ft", "1_000 m", "0x10 m", "5 m 3"}) {
+    EXPECT_EQ(parse_length(text).fault, NumberFault::not_a_number) << text;
+  }
+  EXPECT_EQ(parse_length("inf").fault, NumberFault::not_finite);
+  EXPECT_EQ(parse_length("1e400 ft").fault, NumberFault::out_of_range);
+  EXPECT_EQ(parse_length("1e308 mi").fault, NumberFault::out_of_range);
+  EXPECT_EQ(parse_angle("60").value, 60);
+  EXPECT_EQ(parse_angle("60 deg").value, 60);
+  EXPECT_EQ(parse_angle("-90\u00b0").value, -90);
+  EXPECT_EQ(parse_angle("60 rad").fault, NumberFault::unknown_unit);
+  EXPECT_EQ(parse_angle("60 m").fault, NumberFault::unknown_unit);
+}
+
+TEST(MissionUnits, AreUnderstood) {
+  const MissionFile mission = parse(
+      "scene: {mesh: city.obj, scale: 1 ft}\n"
+      "target: {vertices: [[0, 0, 0], [10, 0, 0], [10, 10, 0]], offset: 2 ft}\n"
+      "sensor: {max_range: 400 ft, min_range: 10ft, incidence: 60 deg, fov: [60\u00b0, 40], pixel: {size: 2 cm}, "
+      "camera: {width: 4000, height: 3000}, gimbal: {pitch: [-90 deg, 10]}}\n"
+      "navigation:\n  altitude: {agl: [100 ft, 0.1 km], z: [0, 1 mi]}\n  ground: 12 ft\n  clearance: 10 ft\n"
+      "  keep_out:\n    - {polygon: [[0, 0], [9, 0], [9, 9]], z: [0, 400 ft]}\n"
+      "exact: {tolerance: 5 mm}\n");
+  EXPECT_EQ(mission.scene.mesh.scale, 0.3048);
+  EXPECT_EQ(mission.target.offset_m, 0.6096);
+  EXPECT_EQ(mission.sensor.max_range_m, 121.92);
+  EXPECT_EQ(mission.sensor.min_range_m, 3.048);
+  EXPECT_EQ(mission.sensor.incidence_deg, 60);
+  EXPECT_EQ(mission.sensor.pixel->size_m, 0.02);
+  EXPECT_EQ(mission.sensor.mount.min_pitch_deg, -90);
+  EXPECT_EQ(mission.navigation.above_ground->min_m, 30.48);
+  EXPECT_EQ(mission.navigation.above_ground->max_m, 100);
+  EXPECT_EQ(mission.navigation.altitude->max_m, 1609.344);
+  EXPECT_NEAR(*mission.ground->plane_z_m, 3.6576, 1e-15);
+  EXPECT_EQ(mission.navigation.clearance->distance_m, 3.048);
+  EXPECT_EQ(mission.navigation.keep_out_zones[0].max_z_m, 121.92);
+  EXPECT_EQ(mission.exact.tolerance_m, 0.005);
+}
+
+// Nothing that has a unit is taken for metres, or for anything else, without a word.
+TEST(MissionUnits, OthersAreRefused) {
+  expect_refusal(with_sensor("max_range: 400 yd"), ErrorCode::value_syntax, ":6:14");
+  expect_refusal(with_sensor("max_range: 400 M"), ErrorCode::value_syntax, ":6:14");
+  expect_refusal(with_sensor("max_range: 1,000 ft"), ErrorCode::not_a_number, ":6:14");
+  expect_refusal(with_sensor("max_range: 60 deg"), ErrorCode::value_syntax, ":6:14");
+  expect_refusal(with_sensor("max_range: ft"), ErrorCode::not_a_number, ":6:14");
+  expect_refusal(with_sensor("max_range: '400 ft'"), ErrorCode::wrong_type, ":6:14");
+  expect_refusal(with_sensor("max_range: 100\n  incidence: 60 m"), ErrorCode::value_syntax, ":7:14");
+  expect_refusal(with_sensor("max_range: 100\n  visible: 80 %"), ErrorCode::not_a_number, ":7:12");
+  expect_refusal(
+      with_sensor("max_range: 100\n  camera: {width: 4000, height: 3000, focal_length: 35 mm, sensor_width: 36}"),
+      ErrorCode::not_a_number, ":7:53");
+  expect_refusal(with_sensor("max_range: 100\n  link: {frequency: 2.4 GHz}"), ErrorCode::not_a_number, ":7:21");
+  expect_refusal(with_vertices("[[0, 0, 0], [30 ft, 0, 0], [30, 30, 0]]"), ErrorCode::value_syntax, ":4:26");
+  expect_refusal(with_navigation("keep_out: [{polygon: [[0, 0], [30 ft, 0], [9, 9]], heights: any}]"),
+                 ErrorCode::value_syntax, ":8:");
 }
 
 TEST(MissionNumbers, AreWrittenShort) {

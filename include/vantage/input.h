@@ -15,6 +15,7 @@ enum class NumberFault {
   not_a_number,
   not_finite,    ///< infinity or not-a-number, in any spelling that YAML or C knows
   out_of_range,  ///< written as a decimal, but no double holds it (1e400, 1e-400)
+  unknown_unit,  ///< a number, and after it something without digits that is no unit of what is meant
 };
 
 struct ParsedNumber {
@@ -26,11 +27,24 @@ struct ParsedNumber {
 /// exponent. No blanks, no 0x10, no 1_000, no 1,5, no 1:30. Never throws.
 VANTAGE_API ParsedNumber parse_number(std::string_view text);
 
+/// A length in metres: a number as parse_number reads it, and then its unit, with blanks before it or none: mm, cm, m,
+/// km, ft (0.3048 m) or mi (1609.344 m), whatever the case of the letters. (But "M" is none: it stands for nautical
+/// miles, too.) Without a unit it is metres. 400 ft are 121.92: the product and the quotient are rounded once. Never
+/// throws.
+VANTAGE_API ParsedNumber parse_length(std::string_view text);
+
+/// An angle in degrees, likewise: with "deg" or "°" after the number, or without.
+VANTAGE_API ParsedNumber parse_angle(std::string_view text);
+
 /// The parts of `text` between commas, without the blanks round them: of "51.5, -0.09" two.
 VANTAGE_API std::vector<std::string_view> split_at_commas(std::string_view text);
 
 /// What to write instead of `text`, which parse_number refused for `fault`: one sentence, without a full stop.
 VANTAGE_API std::string number_advice(std::string_view text, NumberFault fault);
+
+/// The same of parse_length and of parse_angle.
+VANTAGE_API std::string length_advice(std::string_view text, NumberFault fault);
+VANTAGE_API std::string angle_advice(std::string_view text, NumberFault fault);
 
 /// `text` in single quotes, fit for one line of an error message: control characters shown as '?', cut after 60 bytes.
 VANTAGE_API std::string in_quotes(std::string_view text);

@@ -194,7 +194,7 @@ void MissionParser::parse_method(const YamlNode& node) {
 void MissionParser::parse_exact(const YamlNode& node) {
   check_keys(node, Section::exact, file());
   if (const YamlNode* tolerance = find(node, "tolerance")) {
-    mission_.exact.tolerance_m = positive(*tolerance, "exact.tolerance");
+    mission_.exact.tolerance_m = positive_length(*tolerance, "exact.tolerance");
   }
 }
 

@@ -159,7 +159,7 @@ bool NavigationParser::measures_from_ground() const {
 
 void NavigationParser::parse_ground(const YamlNode& node) {
   const bool is_number =
-      parse_number(node.text).fault == NumberFault::none && node.kind == YamlNode::Kind::scalar && !node.is_quoted;
+      parse_length(node.text).fault == NumberFault::none && node.kind == YamlNode::Kind::scalar && !node.is_quoted;
   if (!measures_from_ground() && (is_number || !result_.navigation.clearance)) {
     reader_.fail(ErrorCode::not_applicable, node, "navigation.ground is given, and no limit above the ground",
                  "write 'altitude: {agl: [20, 120]}', or leave 'ground' out");
@@ -306,7 +306,8 @@ void NavigationParser::add_mesh(const YamlNode& node) {
   named.name = reader_.text(mesh, "navigation.meshes.mesh");
   named.file = folder_ / named.name;
   if (const YamlNode* up = find(node, "up")) named.up = parse_up_axis(*up, reader_, "navigation.meshes.up");
-  if (const YamlNode* scale = find(node, "scale")) named.scale = reader_.positive(*scale, "navigation.meshes.scale");
+  if (const YamlNode* scale = find(node, "scale"))
+    named.scale = reader_.positive_length(*scale, "navigation.meshes.scale");
   result_.meshes.push_back(std::move(named));
   result_.places.navigation_meshes.push_back(place_in(reader_.file(), mesh.place));
 }

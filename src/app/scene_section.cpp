@@ -72,7 +72,7 @@ class SceneParser {
     SceneReadOptions& mesh = section_.source.mesh;
     if (const YamlNode* up = take("up", {Kind::mesh}, "meshes")) mesh.up = parse_up_axis(*up, reader_, "scene.up");
     if (const YamlNode* scale = take("scale", {Kind::mesh}, "meshes"))
-      mesh.scale = reader_.positive(*scale, "scene.scale");
+      mesh.scale = reader_.positive_length(*scale, "scene.scale");
     if (const YamlNode* lod = take("lod", {Kind::mesh}, "CityJSON files")) mesh.lod = reader_.text(*lod, "scene.lod");
     if (const YamlNode* crs = take("crs", {Kind::mesh}, "meshes")) mesh.crs = reader_.text(*crs, "scene.crs");
     if (const YamlNode* origin = take("origin", {Kind::mesh, Kind::raster}, "meshes, CityJSON files and rasters")) {
@@ -87,7 +87,7 @@ class SceneParser {
     const YamlNode* const radius = take("radius", {Kind::map, Kind::raster}, what);
     const YamlNode* const box = take("bbox", {Kind::map, Kind::raster}, what);
     if (center) region.center_deg = parse_lat_lon(*center, reader_, "scene.center");
-    if (radius) region.radius_m = reader_.positive(*radius, "scene.radius");
+    if (radius) region.radius_m = reader_.positive_length(*radius, "scene.radius");
     if (center && !radius) {
       reader_.fail(ErrorCode::missing_key, *center, "scene has a 'center' without a 'radius'",
                    "add 'radius: 600' (metres)");
@@ -110,7 +110,7 @@ class SceneParser {
     }
     if (const YamlNode* error = take("error", {Kind::map, Kind::raster}, "terrain and rasters")) {
       section_.source.city.terrain_error_m = section_.source.raster.max_error_m =
-          reader_.positive(*error, "scene.error");
+          reader_.positive_length(*error, "scene.error");
     }
   }
 
@@ -182,7 +182,7 @@ std::array<double, 2> parse_lat_lon(const YamlNode& node, const ValueReader& rea
   if (reader.list(node, what, kLatLonForm).size() != 2) {
     reader.fail(ErrorCode::wrong_type, node, what + " must be two numbers, not " + describe(node), kLatLonForm);
   }
-  const double latitude = reader.number(node.items[0], what), longitude = reader.number(node.items[1], what);
+  const double latitude = reader.angle(node.items[0], what), longitude = reader.angle(node.items[1], what);
   if (std::abs(latitude) > 90 || std::abs(longitude) > 180) {
     const bool is_swapped = std::abs(longitude) <= 90 && std::abs(latitude) <= 180;
     reader.fail(ErrorCode::not_on_earth, node,

@@ -64,7 +64,7 @@ std::array<double, 2> SensorParser::two_angles(const YamlNode& node, const std::
   if (reader_.list(node, what, form).size() != 2) {
     reader_.fail(ErrorCode::wrong_type, node, what + " must be two numbers, not " + describe(node), form);
   }
-  return {reader_.number(node.items[0], what + "[0]"), reader_.number(node.items[1], what + "[1]")};
+  return {reader_.angle(node.items[0], what + "[0]"), reader_.angle(node.items[1], what + "[1]")};
 }
 
 void SensorParser::refuse_both(const char* one, const char* other, const std::string& fix) const {
@@ -141,7 +141,7 @@ void SensorParser::parse_camera(const YamlNode* camera, const YamlNode* fov) {
 }
 
 void SensorParser::parse_roll(const YamlNode& map, const std::string& what) {
-  if (const YamlNode* roll = find(map, "roll")) result_.sensor.mount.roll_deg = reader_.number(*roll, what + ".roll");
+  if (const YamlNode* roll = find(map, "roll")) result_.sensor.mount.roll_deg = reader_.angle(*roll, what + ".roll");
 }
 
 void SensorParser::parse_mount(const YamlNode& mount) {
@@ -155,9 +155,9 @@ void SensorParser::parse_mount(const YamlNode& mount) {
       "write {yaw: any, pitch: -90, roll: 0}: degrees; yaw is clockwise from north, pitch -90 straight down";
   const YamlNode& yaw = require(mount, "yaw", "sensor.mount", form);
   if (yaw.kind != YamlNode::Kind::scalar || yaw.text != "any") {
-    result_.sensor.mount.yaw_deg = reader_.number(yaw, "sensor.mount.yaw");
+    result_.sensor.mount.yaw_deg = reader_.angle(yaw, "sensor.mount.yaw");
   }
-  const double pitch = reader_.number(require(mount, "pitch", "sensor.mount", form), "sensor.mount.pitch");
+  const double pitch = reader_.angle(require(mount, "pitch", "sensor.mount", form), "sensor.mount.pitch");
   result_.sensor.mount.min_pitch_deg = result_.sensor.mount.max_pitch_deg = pitch;
   parse_roll(mount, "sensor.mount");
 }
@@ -166,7 +166,7 @@ void SensorParser::parse_gimbal(const YamlNode& gimbal) {
   check_keys(gimbal, Section::gimbal, reader_.file());
   Mount& mount = result_.sensor.mount;
   if (const YamlNode* yaw = find(gimbal, "yaw"); yaw && yaw->text != "any") {
-    mount.yaw_deg = reader_.number(*yaw, "sensor.gimbal.yaw");
+    mount.yaw_deg = reader_.angle(*yaw, "sensor.gimbal.yaw");
   }
   if (const YamlNode* pitch = find(gimbal, "pitch")) {
     const auto [low, high] =
@@ -180,9 +180,9 @@ void SensorParser::parse_gimbal(const YamlNode& gimbal) {
 void SensorParser::parse_pixel(const YamlNode& pixel) {
   check_keys(pixel, Section::pixel, reader_.file());
   PixelLimit limit;
-  limit.size_m =
-      reader_.positive(require(pixel, "size", "sensor.pixel", "write {size: 0.02}: metres of the target in one pixel"),
-                       "sensor.pixel.size");
+  limit.size_m = reader_.positive_length(
+      require(pixel, "size", "sensor.pixel", "write {size: 0.02}: metres of the target in one pixel"),
+      "sensor.pixel.size");
   if (const YamlNode* kind = find(pixel, "kind")) {
     const std::string text = reader_.text(*kind, "sensor.pixel.kind");
     if (text != "worst" && text != "perpendicular") {
@@ -210,7 +210,7 @@ void SensorParser::parse_sun(const YamlNode& sun) {
   check_keys(sun, Section::sun, reader_.file());
   const char* const form = "write {time: 2026-06-21T16:00Z, exclude: 20}, or azimuth and elevation instead of the time";
   SunLimit limit;
-  limit.exclude_deg = reader_.number(require(sun, "exclude", "sensor.sun", form), "sensor.sun.exclude");
+  limit.exclude_deg = reader_.angle(require(sun, "exclude", "sensor.sun", form), "sensor.sun.exclude");
   const YamlNode* time = find(sun, "time");
   const YamlNode* azimuth = find(sun, "azimuth");
   if (time && (azimuth || find(sun, "elevation"))) {
@@ -225,9 +225,9 @@ void SensorParser::parse_sun(const YamlNode& sun) {
     }
     limit.direction = Vec3::UnitZ();  // until the scene is known
   } else {
-    const double from_north = reader_.number(require(sun, "azimuth", "sensor.sun", form), "sensor.sun.azimuth");
+    const double from_north = reader_.angle(require(sun, "azimuth", "sensor.sun", form), "sensor.sun.azimuth");
     const YamlNode& elevation = require(sun, "elevation", "sensor.sun", form);
-    const double up = reader_.number(elevation, "sensor.sun.elevation");
+    const double up = reader_.angle(elevation, "sensor.sun.elevation");
     if (!(up >= 0 && up <= 90)) {
       reader_.fail(ErrorCode::value_out_of_range, elevation, "sensor.sun.elevation is not between 0 and 90 degrees",
                    "below the horizon the sun does not shine: leave the limit out");
@@ -243,9 +243,9 @@ void SensorParser::parse_vlos(const YamlNode& vlos) {
   const char* const form = "write {aircraft_size: 0.35, kind: multirotor, visibility: 5000}: metres";
   PilotSight sight;
   sight.range.aircraft_size_m =
-      reader_.positive(require(vlos, "aircraft_size", "sensor.vlos", form), "sensor.vlos.aircraft_size");
+      reader_.positive_length(require(vlos, "aircraft_size", "sensor.vlos", form), "sensor.vlos.aircraft_size");
   sight.range.visibility_m =
-      reader_.positive(require(vlos, "visibility", "sensor.vlos", form), "sensor.vlos.visibility");
+      reader_.positive_length(require(vlos, "visibility", "sensor.vlos", form), "sensor.vlos.visibility");
   const YamlNode& kind = require(vlos, "kind", "sensor.vlos", form);
   const std::string text = reader_.text(kind, "sensor.vlos.kind");
   if (text != "multirotor" && text != "fixed_wing") {
@@ -255,7 +255,7 @@ void SensorParser::parse_vlos(const YamlNode& vlos) {
   }
   sight.range.kind = text == "multirotor" ? VisualRange::Kind::multirotor : VisualRange::Kind::fixed_wing;
   if (const YamlNode* height = find(vlos, "eye_height")) {
-    sight.eye_height_m = reader_.positive(*height, "sensor.vlos.eye_height");
+    sight.eye_height_m = reader_.positive_length(*height, "sensor.vlos.eye_height");
   }
   result_.sensor.max_range_m = visual_range_m(sight.range);
   result_.vlos = sight;
@@ -305,13 +305,13 @@ SensorSection SensorParser::parse() {
   check_keys(node_, Section::sensor, reader_.file());
   Sensor& sensor = result_.sensor;
   if (const YamlNode* range = find(node_, "max_range"))
-    sensor.max_range_m = reader_.positive(*range, "sensor.max_range");
+    sensor.max_range_m = reader_.positive_length(*range, "sensor.max_range");
   refuse_both("max_range", "vlos", "keep the range, or let it follow from the aircraft");
   if (const YamlNode* vlos = find(node_, "vlos")) parse_vlos(*vlos);
   if (const YamlNode* range = find(node_, "min_range"))
-    sensor.min_range_m = reader_.positive(*range, "sensor.min_range");
+    sensor.min_range_m = reader_.positive_length(*range, "sensor.min_range");
   if (const YamlNode* angle = find(node_, "incidence")) {
-    sensor.incidence_deg = reader_.number(*angle, "sensor.incidence");
+    sensor.incidence_deg = reader_.angle(*angle, "sensor.incidence");
   }
   const YamlNode* camera = find(node_, "camera");
   const YamlNode* fov = find(node_, "fov");

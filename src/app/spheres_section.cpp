@@ -74,8 +74,9 @@ void parse_spheres(const YamlNode& node, const ValueReader& reader, SpheresOptio
   });
   take("max_splits",
        [&](const YamlNode& value, const std::string& what) { options.max_splits = whole_number(value, reader, what); });
-  take("min_edge",
-       [&](const YamlNode& value, const std::string& what) { options.min_edge_m = reader.positive(value, what); });
+  take("min_edge", [&](const YamlNode& value, const std::string& what) {
+    options.min_edge_m = reader.positive_length(value, what);
+  });
   take("device", [&](const YamlNode& value, const std::string& what) {
     const std::string text = reader.text(value, what);
     options.device = with_place(place_in(reader.file(), value.place), [&] { return parse_device_choice(text); });

@@ -163,9 +163,9 @@ const YamlNode& TargetParser::parse_ground_target(const YamlNode& node) {
                 "keep 'center' for a rectangle, or 'vertices' for a polygon");
   ground.center_deg = parse_lat_lon(center, *this, "target.center");
   const std::string form = "write 'width: 20' and 'length: 30' (metres), and 'heading: 45' (degrees from north)";
-  ground.width_m = positive(require(node, "width", form), "target.width");
-  ground.length_m = positive(require(node, "length", form), "target.length");
-  if (const YamlNode* heading = find(node, "heading")) ground.heading_deg = number(*heading, "target.heading");
+  ground.width_m = positive_length(require(node, "width", form), "target.width");
+  ground.length_m = positive_length(require(node, "length", form), "target.length");
+  if (const YamlNode* heading = find(node, "heading")) ground.heading_deg = angle(*heading, "target.heading");
   return center;
 }
 
@@ -260,10 +260,10 @@ double TargetParser::heading(const YamlNode& node) const {
   const std::string form =
       "write north, northeast, east, southeast, south, southwest, west, northwest, or degrees "
       "clockwise from north: 135";
-  if (node.kind != YamlNode::Kind::scalar || parse_number(node.text).fault != NumberFault::none) {
+  if (node.kind != YamlNode::Kind::scalar || parse_angle(node.text).fault != NumberFault::none) {
     fail(ErrorCode::unknown_choice, node, "target.facing is no direction: " + describe(node), form);
   }
-  const double degrees = number(node, "target.facing");
+  const double degrees = angle(node, "target.facing");
   if (std::abs(degrees) > 360) {
     fail(ErrorCode::value_out_of_range, node, "target.facing is beyond 360 degrees: " + shortest(degrees), form);
   }

@@ -3,34 +3,33 @@
 #include <algorithm>
 #include <cmath>
 
-#include "vantage/input.h"
-
 namespace vantage::internal::app {
 
-double ValueReader::number(const YamlNode& node, const std::string& what) const {
+double ValueReader::parsed(const YamlNode& node, const std::string& what, Parse parse, Advice advice) const {
   if (node.kind != YamlNode::Kind::scalar || node.is_quoted) {
     fail(ErrorCode::wrong_type, node, what + " must be a number, not " + describe(node),
-         "write a plain decimal number, such as 12.5");
+         advice("", NumberFault::not_a_number));
   }
-  const ParsedNumber parsed = parse_number(node.text);
+  const ParsedNumber parsed = parse(node.text);
+  const std::string text = in_quotes(node.text);
   switch (parsed.fault) {
     case NumberFault::none:
       return parsed.value;
     case NumberFault::not_finite:
-      fail(ErrorCode::value_out_of_range, node, what + " is not finite: " + in_quotes(node.text),
-           number_advice(node.text, parsed.fault));
+      fail(ErrorCode::value_out_of_range, node, what + " is not finite: " + text, advice(node.text, parsed.fault));
     case NumberFault::out_of_range:
-      fail(ErrorCode::value_out_of_range, node, what + " is beyond what a double holds: " + in_quotes(node.text),
-           number_advice(node.text, parsed.fault));
+      fail(ErrorCode::value_out_of_range, node, what + " is beyond what a double holds: " + text,
+           advice(node.text, parsed.fault));
+    case NumberFault::unknown_unit:
+      fail(ErrorCode::value_syntax, node, what + " has a unit that it cannot have: " + text,
+           advice(node.text, parsed.fault));
     case NumberFault::not_a_number:
       break;
   }
-  fail(ErrorCode::not_a_number, node, what + " must be a number, not " + in_quotes(node.text),
-       number_advice(node.text, parsed.fault));
+  fail(ErrorCode::not_a_number, node, what + " must be a number, not " + text, advice(node.text, parsed.fault));
 }
 
-double ValueReader::length(const YamlNode& node, const std::string& what) const {
-  const double value = number(node, what);
+double ValueReader::checked(double value, const YamlNode& node, const std::string& what) const {
   if (std::abs(value) > kMaxLength) {
     fail(ErrorCode::value_out_of_range, node,
          what + " is too large: " + shortest(value) + ", at most " + shortest(kMaxLength),
@@ -39,13 +38,46 @@ double ValueReader::length(const YamlNode& node, const std::string& what) const 
   return value;
 }
 
-double ValueReader::positive(const YamlNode& node, const std::string& what) const {
-  const double value = length(node, what);
+double ValueReader::above_zero(double value, const YamlNode& node, const std::string& what) const {
   if (value <= 0) {
     fail(ErrorCode::value_out_of_range, node, what + " must be greater than 0, not " + shortest(value),
          "write a positive number");
   }
   return value;
+}
+
+double ValueReader::number(const YamlNode& node, const std::string& what) const {
+  return parsed(node, what, parse_number, number_advice);
+}
+
+double ValueReader::bounded(const YamlNode& node, const std::string& what) const {
+  return checked(number(node, what), node, what);
+}
+
+double ValueReader::positive(const YamlNode& node, const std::string& what) const {
+  return above_zero(bounded(node, what), node, what);
+}
+
+double ValueReader::length(const YamlNode& node, const std::string& what) const {
+  return checked(parsed(node, what, parse_length, length_advice), node, what);
+}
+
+double ValueReader::positive_length(const YamlNode& node, const std::string& what) const {
+  return above_zero(length(node, what), node, what);
+}
+
+double ValueReader::angle(const YamlNode& node, const std::string& what) const {
+  return parsed(node, what, parse_angle, angle_advice);
+}
+
+double ValueReader::coordinate(const YamlNode& node, const std::string& what) const {
+  const bool is_plain = node.kind == YamlNode::Kind::scalar && !node.is_quoted;
+  const ParsedNumber with_unit = is_plain ? parse_length(node.text) : ParsedNumber{};
+  if (with_unit.fault == NumberFault::none && parse_number(node.text).fault != NumberFault::none) {
+    fail(ErrorCode::value_syntax, node, what + " is a coordinate, which takes no unit: " + in_quotes(node.text),
+         "write the number alone: " + shortest(with_unit.value) + " in metres; with 'crs', in the unit of that system");
+  }
+  return bounded(node, what);
 }
 
 Vec3 ValueReader::vector(const YamlNode& node, const std::string& what, const char* form) const {
@@ -54,7 +86,7 @@ Vec3 ValueReader::vector(const YamlNode& node, const std::string& what, const ch
   }
   Vec3 result;
   for (int axis = 0; axis < 3; ++axis) {
-    result[axis] = length(node.items[static_cast<std::size_t>(axis)], what + "." + "xyz"[axis]);
+    result[axis] = coordinate(node.items[static_cast<std::size_t>(axis)], what + "." + "xyz"[axis]);
   }
   return result;
 }
@@ -69,7 +101,7 @@ std::vector<Eigen::Vector2d> ValueReader::ring(const YamlNode& node, const std::
     if (list(corner, name, form).size() != 2) {
       fail(ErrorCode::wrong_type, corner, name + " must be two numbers, not " + describe(corner), form);
     }
-    corners.emplace_back(length(corner.items[0], name + ".x"), length(corner.items[1], name + ".y"));
+    corners.emplace_back(coordinate(corner.items[0], name + ".x"), coordinate(corner.items[1], name + ".y"));
   }
   return corners;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "app/yaml_tree.h"
 #include "vantage/error.h"
 #include "vantage/geometry.h"
+#include "vantage/input.h"
 
 namespace vantage::internal::app {
 
@@ -25,12 +27,17 @@ class ValueReader {
   const std::string& file() const { return file_; }
 
   double number(const YamlNode& node, const std::string& what) const;
-  double length(const YamlNode& node, const std::string& what) const;    ///< at most kMaxLength either way
-  double positive(const YamlNode& node, const std::string& what) const;  ///< a length above 0
-  /// Three lengths. `form` is what to write instead, where the node is none.
+  double bounded(const YamlNode& node, const std::string& what) const;   ///< at most kMaxLength either way
+  double positive(const YamlNode& node, const std::string& what) const;  ///< likewise, above 0
+  /// Metres, at most kMaxLength either way: a number, or one with its unit ("400 ft").
+  double length(const YamlNode& node, const std::string& what) const;
+  double positive_length(const YamlNode& node, const std::string& what) const;  ///< above 0
+  double angle(const YamlNode& node, const std::string& what) const;            ///< degrees, with a unit or without
+  /// Three coordinates, which take no unit: a reference system may say what it is. `form` is what to write instead,
+  /// where the node is none.
   Vec3 vector(const YamlNode& node, const std::string& what,
               const char* form = "write three numbers in brackets, in metres, z up: [x, y, z]") const;
-  /// The corners of a polygon: two lengths each.
+  /// The corners of a polygon: two coordinates each.
   std::vector<Eigen::Vector2d> ring(const YamlNode& node, const std::string& what) const;
   std::string text(const YamlNode& node, const std::string& what) const;  ///< not empty, no control characters
   const std::vector<YamlNode>& list(const YamlNode& node, const std::string& what, const std::string& fix) const;
@@ -41,6 +48,13 @@ class ValueReader {
   }
 
  private:
+  using Parse = ParsedNumber (*)(std::string_view);
+  using Advice = std::string (*)(std::string_view, NumberFault);
+  double parsed(const YamlNode& node, const std::string& what, Parse parse, Advice advice) const;
+  double coordinate(const YamlNode& node, const std::string& what) const;
+  double checked(double value, const YamlNode& node, const std::string& what) const;
+  double above_zero(double value, const YamlNode& node, const std::string& what) const;
+
   std::string file_;
 };
 

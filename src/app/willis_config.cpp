@@ -189,8 +189,8 @@ Eigen::Matrix3d WillisConfigParser::rotation_of(const YamlNode& node) const {
   if (list(node, what, form).size() != 4)
     fail(ErrorCode::wrong_type, node, what + " must be four numbers, not " + describe(node), form);
   Vec3 axis;
-  for (int i = 0; i < 3; ++i) axis[i] = length(node.items[static_cast<std::size_t>(i)], what);
-  const double degrees = length(node.items[3], what);
+  for (int i = 0; i < 3; ++i) axis[i] = bounded(node.items[static_cast<std::size_t>(i)], what);
+  const double degrees = bounded(node.items[3], what);
   if (degrees == 0) return Eigen::Matrix3d::Identity();
   if (axis.stableNorm() < std::numeric_limits<double>::min()) {
     fail(ErrorCode::direction_invalid, node, what + " has an axis of length 0", "write an axis that is not [0, 0, 0]");
@@ -266,8 +266,8 @@ int WillisConfigParser::texels(const YamlNode& node, const std::string& what) co
 void WillisConfigParser::parse_limits(const YamlNode& node, WillisVolume& volume) {
   const YamlNode* low = find(node, "up_min");
   const YamlNode* high = find(node, "up_max");
-  if (low) volume.up_min = length(*low, "visibility_vol.up_min");
-  if (high) volume.up_max = length(*high, "visibility_vol.up_max");
+  if (low) volume.up_min = bounded(*low, "visibility_vol.up_min");
+  if (high) volume.up_max = bounded(*high, "visibility_vol.up_max");
   if (volume.up_min >= volume.up_max) {
     fail(ErrorCode::limits_reversed, *low,
          "visibility_vol.up_min is " + shortest(volume.up_min) + ", not below up_max, " + shortest(volume.up_max),

@@ -28,16 +28,9 @@ double processor_seconds() {
 const double g_loading_seconds = processor_seconds();
 const Clock::time_point g_start = Clock::now();
 
-/// printable() between newlines and tabs.
-std::string printable_lines(std::string_view text) {
-  std::string shown;
-  while (!text.empty()) {
-    const std::size_t end = std::min(text.find_first_of("\n\t"), text.size());
-    shown += printable(text.substr(0, end));
-    if (end < text.size()) shown += text[end];
-    text.remove_prefix(std::min(text.size(), end + 1));
-  }
-  return shown;
+ErrorCode code_of(NumberFault fault) {
+  if (fault == NumberFault::not_a_number) return ErrorCode::not_a_number;
+  return fault == NumberFault::unknown_unit ? ErrorCode::value_syntax : ErrorCode::value_out_of_range;
 }
 
 }  // namespace
@@ -78,11 +71,28 @@ int with_threads(const CommonOptions& options, const Command& command) {
 double positive_option(const std::string& name, const std::string& text) {
   const ParsedNumber parsed = parse_number(text);
   if (parsed.fault == NumberFault::none && parsed.value > 0) return parsed.value;
-  const bool is_number = parsed.fault != NumberFault::not_a_number;
   const std::string advice =
       parsed.fault == NumberFault::none ? "write a number greater than 0" : number_advice(text, parsed.fault);
-  throw Error(is_number ? ErrorCode::value_out_of_range : ErrorCode::not_a_number,
-              name + " must be a positive number, not " + in_quotes(text), "command line, " + name, advice);
+  throw Error(code_of(parsed.fault), name + " must be a positive number, not " + in_quotes(text),
+              "command line, " + name, advice);
+}
+
+double length_option(const std::string& name, const std::string& text) {
+  const ParsedNumber parsed = parse_length(text);
+  if (parsed.fault == NumberFault::none) return parsed.value;
+  throw Error(code_of(parsed.fault), name + " must be a length, not " + in_quotes(text), "command line, " + name,
+              length_advice(text, parsed.fault));
+}
+
+double positive_length_option(const std::string& name, const std::string& text) {
+  const double length = length_option(name, text);
+  if (length > 0) return length;
+  throw Error(ErrorCode::value_out_of_range, name + " must be a positive length, not " + in_quotes(text),
+              "command line, " + name, "write a length greater than 0");
+}
+
+std::function<std::string(std::string)> to_metres(const std::string& name) {
+  return [name](const std::string& text) { return shortest(length_option(name, text)); };
 }
 
 void print(std::string_view given) {

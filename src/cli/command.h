@@ -71,6 +71,13 @@ void finish(CLI::App& command, const std::shared_ptr<Options>& options, const st
 /// The positive number of option `name`; throws Error(input).
 double positive_option(const std::string& name, const std::string& text);
 
+/// The length of option `name`, metres: a number, or one with its unit ("400 ft"); throws Error(input).
+double length_option(const std::string& name, const std::string& text);
+double positive_length_option(const std::string& name, const std::string& text);
+
+/// For CLI::Option::transform: the same, as the text of a number in metres.
+std::function<std::string(std::string)> to_metres(const std::string& name);
+
 /// Thrown when the reader of standard output has gone away, as `head` does: nothing is wrong, and no one listens.
 class ClosedPipe : public std::exception {};
 

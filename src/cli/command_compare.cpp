@@ -57,7 +57,7 @@ SceneReadOptions obj_options(const CompareArguments& options) {
   }
   SceneReadOptions result;
   if (options.up == "y") result.up = UpAxis::y;
-  if (!options.scale.empty()) result.scale = positive_option("--scale", options.scale);
+  if (!options.scale.empty()) result.scale = positive_length_option("--scale", options.scale);
   return result;
 }
 

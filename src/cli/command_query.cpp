@@ -121,12 +121,7 @@ TableOptions table_options(const QueryArguments& options, bool has_targets) {
   result.fraction = !options.fraction.empty();
   result.target = has_targets;
   if (options.z.empty()) return result;
-  const ParsedNumber z = parse_number(options.z);
-  if (z.fault != NumberFault::none) {
-    throw Error(ErrorCode::not_a_number, "--z must be a number, not " + in_quotes(options.z), "command line, --z",
-                number_advice(options.z, z.fault));
-  }
-  result.z = z.value;
+  result.z = length_option("--z", options.z);
   return result;
 }
 

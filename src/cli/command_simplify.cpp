@@ -49,7 +49,7 @@ SceneReadOptions obj_options(const SimplifyArguments& options) {
   }
   SceneReadOptions result;
   if (options.up == "y") result.up = UpAxis::y;
-  if (!options.scale.empty()) result.scale = positive_option("--scale", options.scale);
+  if (!options.scale.empty()) result.scale = positive_length_option("--scale", options.scale);
   return result;
 }
 
@@ -129,6 +129,7 @@ void add_simplify(CLI::App& app, Command& chosen) {
   command
       ->add_option("--error", options->error_m,
                    "No point of the volume may be farther than this from the result: metres")
+      ->transform(to_metres("--error"))
       ->option_text("METRES");
   command->add_option("--up", options->up, "Axis of the OBJ files that points up: y or z (default)")
       ->check(CLI::IsMember({"y", "z"}))

@@ -183,6 +183,7 @@ void add_verify(CLI::App& app, Command& chosen) {
           "--lift", options->lift_m,
           "How far compute raised the target (default: as the volume's file or the report beside it says, or 0)")
       ->check(CLI::Range(0.0, kMostLift))
+      ->transform(to_metres("--lift"))
       ->option_text("METRES");
   finish<VerifyArguments>(*command, options, kVerifyExamples, chosen, run_verify);
 }

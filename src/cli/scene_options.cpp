@@ -38,7 +38,7 @@ CityRegion region_of(const SceneOptions& options) {
   CityRegion region;
   if (!options.center.empty()) region.center_deg = numbers<2>(options.center, "--center", "latitude,longitude");
   if (!options.bbox.empty()) region.bbox_deg = numbers<4>(options.bbox, "--bbox", "west,south,east,north");
-  if (!options.radius.empty()) region.radius_m = positive_option("--radius", options.radius);
+  if (!options.radius.empty()) region.radius_m = positive_length_option("--radius", options.radius);
   if (region.center_deg && options.radius.empty())
     fail(ErrorCode::missing_key, "--center without --radius", "--center", "add --radius METRES");
   return region;
@@ -79,10 +79,10 @@ SceneSource source_of(const SceneOptions& options) {
   source.raster.region = {region.center_deg, region.radius_m, region.bbox_deg, {}};
   if (!options.window.empty()) source.raster.region.pixels = window_of(options.window);
   if (!options.error.empty()) {
-    source.city.terrain_error_m = source.raster.max_error_m = positive_option("--error", options.error);
+    source.city.terrain_error_m = source.raster.max_error_m = positive_length_option("--error", options.error);
   }
   source.mesh.up = options.up == "y" ? UpAxis::y : UpAxis::z;
-  source.mesh.scale = positive_option("--scale", options.scale);
+  source.mesh.scale = positive_length_option("--scale", options.scale);
   source.mesh.lod = options.lod;
   source.mesh.crs = options.crs;
   if (!options.origin.empty()) {

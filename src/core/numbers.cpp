@@ -2,6 +2,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <span>
 
 #include "vantage/input.h"
 
@@ -22,7 +23,75 @@ bool spells_not_finite(std::string_view text) {
   return std::find(kSpellings.begin(), kSpellings.end(), lower) != kSpellings.end();
 }
 
+/// Times over a divisor: 400 * 3048 / 10000 is rounded once, 400 * 0.3048 twice.
+struct Unit {
+  std::string_view name;  // lower case
+  double times, over;
+};
+constexpr std::array kLengths = {Unit{"m", 1, 1},    Unit{"km", 1000, 1}, Unit{"ft", 3048, 10000},
+                                 Unit{"cm", 1, 100}, Unit{"mm", 1, 1000}, Unit{"mi", 1609344, 1000}};
+constexpr std::array kAngles = {Unit{"deg", 1, 1}, Unit{"\u00b0", 1, 1}};
+
+/// A number and what follows it, without the blanks between them.
+struct Quantity {
+  std::string_view number, unit;
+};
+
+Quantity split_quantity(std::string_view text) {
+  constexpr std::string_view kBlanks = " \t";
+  std::string_view rest = text;
+  if (!rest.empty() && (rest.front() == '+' || rest.front() == '-')) rest.remove_prefix(1);
+  double ignored = 0;
+  const char* const end = std::from_chars(rest.data(), rest.data() + rest.size(), ignored).ptr;
+  const std::string_view unit(end, static_cast<std::size_t>(text.data() + text.size() - end));
+  const std::size_t first = unit.find_first_not_of(kBlanks);
+  return {text.substr(0, static_cast<std::size_t>(end - text.data())),
+          first == std::string_view::npos ? std::string_view() : unit.substr(first)};
+}
+
+ParsedNumber parse_quantity(std::string_view text, std::span<const Unit> units) {
+  const auto [number, unit] = split_quantity(text);
+  const ParsedNumber parsed = parse_number(number);
+  if (parsed.fault != NumberFault::none) return parsed.fault == NumberFault::not_a_number ? parse_number(text) : parsed;
+  if (unit.empty()) return number.size() == text.size() ? parsed : ParsedNumber{};  // blanks after a number
+  // What goes on with digits is a number of another kind: 1,5, 0x10, 1:30.
+  if (unit.find_first_of("0123456789") != std::string_view::npos) return {};
+  const std::string name = unit == "M" ? "" : lower_case(unit);
+  const auto known = std::find_if(units.begin(), units.end(), [&](const Unit& one) { return one.name == name; });
+  if (known == units.end()) return {0.0, NumberFault::unknown_unit};
+  const double value = parsed.value * known->times / known->over;
+  if (!std::isfinite(value)) return {0.0, NumberFault::out_of_range};
+  return {value, NumberFault::none};
+}
+
+/// Of digits that are not those of a plain decimal number.
+std::string advice_for_digits(const std::string& lower) {
+  if (lower.find("0x") != std::string::npos || lower.find("0o") != std::string::npos) {
+    return "write it in decimal digits";
+  }
+  if (lower.find('_') != std::string::npos) return "write the digits without underscores, such as 1000";
+  if (lower.find(',') != std::string::npos) return "write no comma: 1000 for a thousand, 1.5 with a decimal point";
+  return "";
+}
+
+std::string quantity_advice(std::string_view text, NumberFault fault, const char* form) {
+  if (fault == NumberFault::not_finite || fault == NumberFault::out_of_range) return number_advice(text, fault);
+  const std::string digits = advice_for_digits(lower_case(text));
+  return digits.empty() ? form : digits;
+}
+
 }  // namespace
+
+ParsedNumber parse_length(std::string_view text) { return parse_quantity(text, kLengths); }
+ParsedNumber parse_angle(std::string_view text) { return parse_quantity(text, kAngles); }
+
+std::string length_advice(std::string_view text, NumberFault fault) {
+  return quantity_advice(text, fault, "write metres, or a number with mm, cm, m, km, ft or mi: 120, 120 m, 400 ft");
+}
+
+std::string angle_advice(std::string_view text, NumberFault fault) {
+  return quantity_advice(text, fault, "write degrees, with or without their unit: 60, 60 deg");
+}
 
 ParsedNumber parse_number(std::string_view text) {
   if (spells_not_finite(text)) return {0.0, NumberFault::not_finite};
@@ -57,15 +126,9 @@ std::string number_advice(std::string_view text, NumberFault fault) {
   if (fault == NumberFault::not_finite) return "write a finite number";
   if (fault == NumberFault::out_of_range) return "write a number that fits a double, or 0";
   const std::string lower = lower_case(text);
-  if (lower.find("0x") != std::string::npos || lower.find("0o") != std::string::npos) {
-    return "write it in decimal digits";
-  }
-  if (lower.find('_') != std::string::npos) return "write the digits without underscores, such as 1000";
-  if (lower.find(',') != std::string::npos) return "write a decimal point, such as 1.5";
-  if (lower.size() > 1 && lower.back() == 'm' &&
-      parse_number(text.substr(0, text.find_first_of(" m"))).fault == NumberFault::none) {
-    return "leave the unit out: lengths are in metres";
-  }
+  if (const std::string digits = advice_for_digits(lower); !digits.empty()) return digits;
+  const ParsedNumber number = parse_number(split_quantity(text).number);
+  if (number.fault == NumberFault::none) return "write the number alone, without a unit: " + shortest(number.value);
   return "write a plain decimal number, such as 12.5";
 }
 

@@ -47,6 +47,49 @@ test("a height beyond the end of its slider is a limit", async ({ page }) => {
   expect(await agrees(page)).toContain("altitude: [ -1000, 120 ] # z -1000: no limit");
 });
 
+test("lengths have units, and what is not understood is refused with words", async ({ page }) => {
+  await opened(page, "max_range: 300", "{keep_out: [{min: [20, 20, 0], max: [30, 30, 9]}]}");
+  for (const [typed, metres] of [["400 ft", 121.92], ["400ft", 121.92], ["0.1 KM", 100], ["12,5 m", 12.5], ["0.05 mi", 80.4672], ["90", 90]] as const) {
+    await type(page, "range", typed);
+    expect((await mission(page)).maxRange).toBeCloseTo(metres, 9);
+  }
+  await type(page, "range", "400 ft");
+  expect(await agrees(page)).toContain("max_range: 121.92");
+  for (const [id, typed, said] of [
+    ["range", "400 yd", "yd"], ["range", "400 M", "M"], ["range", "1,000 ft", "1000 or 1.000"], ["range", "60\u00b0", "\u00b0"], ["range", "ft", "metres"],
+    ["slant", "60 m", "m"], ["high", "far", "metres"],
+  ] as const) {
+    const before = await mission(page);
+    await type(page, id, typed);
+    await expect(page.locator("#hint")).toContainText(said);
+    expect(await mission(page)).toEqual(before);
+    await expect(page.locator(`#${id}-number`)).not.toHaveValue(typed);
+  }
+  await type(page, "slant", "60 deg");
+  expect((await mission(page)).incidence).toBe(60);
+  const corner = page.getByLabel("box 1, to z, metres");
+  await corner.fill("100 ft");
+  await corner.press("Enter");
+  await drawn(page);
+  expect((await mission(page)).keepOut[0].max[2]).toBeCloseTo(30.48, 9);
+  await corner.fill("100 yd");
+  await corner.press("Enter");
+  await expect(page.locator("#hint")).toContainText("yd");
+  expect((await mission(page)).keepOut[0].max[2]).toBeCloseTo(30.48, 9);
+});
+
+test("a mission file may have units, too", async ({ page }) => {
+  await opened(page, `max_range: 400 ft, min_range: 10 ft, incidence: 70 deg, ${camera}, pixel: {size: 2 cm}, mount: {yaw: 30 deg, pitch: -45 deg}`, "{altitude: [3, 150 ft]}");
+  const { maxRange, minRange, incidence, altitude, pixel, tilt } = await mission(page);
+  expect([maxRange, minRange, incidence, altitude, pixel, tilt]).toEqual([121.92, 3.048, 70, [3, 45.72], 0.02, -45]);
+  await type(page, "range", "100");
+  const text = await agrees(page);
+  expect(text).toContain("min_range: 10 ft"); // what was not edited stays as it was written
+  expect(text).toContain("max_range: 100");
+  await type(page, "tilt", "any");
+  expect(await savedMission(page)).toContain("yaw: 30 deg");
+});
+
 test("where one end of a band is taken away, the other one stays", async ({ page }) => {
   await opened(page, "max_range: 300", "{altitude: [3, 120]} # the rule");
   await page.locator("#low").press("Home");

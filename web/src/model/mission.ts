@@ -2,6 +2,7 @@
 import { Document, isMap, isSeq, parseDocument, type Node, type YAMLMap, type YAMLSeq } from "yaml";
 import type { Box, Point, SceneInfo, VolumeInfo } from "../engine/messages";
 import { farHeight, readBand, writeBand, type Band, type BandKey } from "./heights";
+import { writtenQuantity, type QuantityKind } from "./quantity";
 
 export interface PolygonTarget {
   kind: "polygon";
@@ -102,10 +103,8 @@ export const sceneText = (scene: Record<string, unknown>) => writtenScenes.get(s
 /** Pixels per metre of the levels of EN 62676-4. */
 const DORI: Record<string, number> = { detection: 25, observation: 62, recognition: 125, identification: 250 };
 
-const numberIn = (document: Document, path: string[]): number | null => {
-  const value = document.getIn(path);
-  return typeof value === "number" ? value : null;
-};
+const numberIn = (document: Document, path: string[], kind: QuantityKind = "length"): number | null =>
+  writtenQuantity(document.getIn(path), kind);
 
 /** A mission that was read, and what the engine says of it. */
 export function missionFrom(written: string, info: VolumeInfo, scene: Extent): Mission {
@@ -129,7 +128,7 @@ export function missionFrom(written: string, info: VolumeInfo, scene: Extent): M
     agl: readBand(document, "agl", limits.agl, far),
     keepOut: limits.keep_out,
     camera: typeof cameraName === "string" ? cameraName : hasCamera ? "written" : null,
-    tilt: numberIn(document, ["sensor", "mount", "pitch"]),
+    tilt: numberIn(document, ["sensor", "mount", "pitch"], "angle"),
     pixel: dori ? 1 / dori : numberIn(document, ["sensor", "pixel", "size"]),
   };
   // What is drawn anew has not this front. A polygon of another kind (a roof, an area of the map) says by its normal where
@@ -194,8 +193,7 @@ class Writer {
   private coarsen(): void {
     const { document } = this;
     if (document.get("method") === "spheres") return;
-    const own = document.getIn(["exact", "tolerance"]);
-    document.setIn(["exact", "tolerance"], 10 * (typeof own === "number" ? own : TOLERANCE));
+    document.setIn(["exact", "tolerance"], 10 * (numberIn(document, ["exact", "tolerance"]) ?? TOLERANCE));
   }
 
   private number(value: number): number {
@@ -295,7 +293,7 @@ class Writer {
     const others = roll === undefined ? {} : { roll };
     this.set(["sensor", from!], null);
     if (tilt !== null) this.setFlow(["sensor", to!], { yaw: yaw ?? "any", pitch: tilt, ...others });
-    else if (roll !== undefined || typeof yaw === "number") this.setFlow(["sensor", to!], { yaw: yaw ?? "any", ...others });
+    else if (roll !== undefined || (yaw !== undefined && yaw !== "any")) this.setFlow(["sensor", to!], { yaw: yaw ?? "any", ...others });
   }
 
   private setPixel(size: number | null): void {

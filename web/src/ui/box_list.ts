@@ -2,7 +2,8 @@
 import type { App } from "../app";
 import type { Box } from "../engine/messages";
 import { rounded } from "../model/mission";
-import { button, element, input } from "./page";
+import { quantity } from "../model/quantity";
+import { button, element, input, say } from "./page";
 
 export class BoxList {
   constructor(private readonly app: App) {
@@ -46,13 +47,13 @@ export class BoxList {
       item.append(name);
       ["x", "y", "z"].forEach((axis, a) => {
         const field = document.createElement("input");
-        field.type = "number";
-        field.step = "any";
+        field.inputMode = "decimal";
         field.disabled = !this.app.canEdit;
         field.setAttribute("aria-label", `box ${i + 1}, ${name} ${axis}, metres`);
         field.onchange = () => {
-          // What is not a number is empty.
-          if (field.value !== "") this.app.edit((mission) => moveEnd(mission.keepOut[i]!, end, a, Number(field.value)), true);
+          const value = quantity(field.value, "length");
+          if (typeof value === "number") this.app.edit((mission) => moveEnd(mission.keepOut[i]!, end, a, value), true);
+          else say(`Box ${i + 1}, ${name} ${axis}: ${value}`, true);
           field.value = this.coordinate(6 * i + (end === "min" ? a : 3 + a));
         };
         item.append(field);

@@ -2,7 +2,8 @@
 import type { App } from "../app";
 import type { Band } from "../model/heights";
 import type { Mission } from "../model/mission";
-import { input, metres, say, typed } from "./page";
+import { quantity } from "../model/quantity";
+import { input, metres, say } from "./page";
 
 /** null: no limit. */
 interface Limit {
@@ -77,8 +78,8 @@ export class Limits {
       field.setAttribute("aria-label", `${limit.name}, ${limit.unit ?? "metres"}`);
       field.onfocus = () => field.select();
       field.onchange = () => {
-        const value = /^\s*(any\b.*)?$/.test(field.value) ? null : typed(field.value);
-        if (value !== null && !Number.isFinite(value)) say(`${limit.name}: write a number, or "any"`, true);
+        const value = /^\s*(any\b.*)?$/.test(field.value) ? null : quantity(field.value, limit.unit === "degrees" ? "angle" : "length");
+        if (typeof value === "string") say(`${limit.name}: ${value}; or "any"`, true);
         else if (this.isPossible(limit, value)) app.edit((mission) => limit.set(mission, value), true);
         else say(`${limit.name} ${field.value}: not possible, or not beside the other limits. It stays as it was`, true);
         field.value = this.textOf(limit);

@@ -1,0 +1,37 @@
+// Numbers with units, as the program reads them (parse_length and parse_angle of vantage/input.h).
+
+export type QuantityKind = "length" | "angle";
+
+const LENGTHS: Record<string, [times: number, over: number]> = {
+  m: [1, 1], km: [1000, 1], ft: [3048, 10000], mi: [1609344, 1000], cm: [1, 100], mm: [1, 1000],
+};
+const ANGLES: Record<string, [times: number, over: number]> = { deg: [1, 1], "\u00b0": [1, 1] };
+
+const FORMS: Record<QuantityKind, string> = {
+  length: "write metres, or a number with mm, cm, m, km, ft or mi: 120, 120 m, 400 ft",
+  angle: "write degrees, with or without their unit: 60, 60\u00b0",
+};
+
+/**
+ * Metres or degrees that were typed; a text says why they are not understood. A comma is a decimal one, but not before
+ * three digits: "1,000 ft" is a thousand to some.
+ */
+export function quantity(text: string, kind: QuantityKind): number | string {
+  const found = /^\s*([-+]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:e[-+]?\d+)?)\s*(.*?)\s*$/i.exec(text);
+  if (!found) return FORMS[kind];
+  const [, digits, unit] = found as unknown as [string, string, string];
+  if (/^[-+]?[1-9]\d*,\d{3}$/.test(digits)) return `write ${digits.replace(",", "")} or ${digits.replace(",", ".")}: a comma may mean either`;
+  const value = Number(digits.replace(",", "."));
+  if (unit === "") return value;
+  // "M" stands for nautical miles, too.
+  const known = unit === "M" ? undefined : (kind === "length" ? LENGTHS : ANGLES)[unit.toLowerCase()];
+  return known ? (value * known[0]) / known[1] : `"${unit}" is no unit here: ${FORMS[kind]}`;
+}
+
+/** What a mission file has: a number, or a text with its unit. null: something else. */
+export function writtenQuantity(value: unknown, kind: QuantityKind): number | null {
+  if (typeof value === "number") return value;
+  if (typeof value !== "string" || value.includes(",")) return null;
+  const read = quantity(value, kind);
+  return typeof read === "number" ? read : null;
+}
