@@ -411,7 +411,8 @@ TEST_F(CliSignals, AskTheProgramToEnd) {
 TEST_F(CliSignals, LeaveAllFilesOrNone) {
   write("mission.yaml", std::string(kScene) + kTarget + kSensor + "exact: {tolerance: 0.001}\n");
   const std::vector<std::string> names = {"a.ply", "a.obj", "a.stl", "a.glb", "a.report.json"};
-  for (const std::string& name : names) write(name, kOldOutput);
+  const auto old = [](const std::string& name) { return name.ends_with(".json") ? kOldReport : kOldOutput; };
+  for (const std::string& name : names) write(name, old(name));
   options_.signal = SIGTERM;
   options_.signal_when = [&](const std::string&) {  // while the first file is written
     for (const fs::directory_entry& entry : fs::directory_iterator(folder_)) {
@@ -424,7 +425,7 @@ TEST_F(CliSignals, LeaveAllFilesOrNone) {
       run({"compute", "mission.yaml", "-q", "-o", "a.ply", "-o", "a.obj", "-o", "a.stl", "-o", "a.glb"});
   ASSERT_TRUE(result.exit_code == 128 + SIGTERM || result.exit_code == 0) << result.exit_code << result.err;
   for (const std::string& name : names) {
-    EXPECT_EQ(content(folder_ / name) == kOldOutput, result.exit_code != 0) << name;
+    EXPECT_EQ(content(folder_ / name) == old(name), result.exit_code != 0) << name;
   }
   EXPECT_EQ(files().size(), count) << "temporary files were left";
 }

@@ -33,7 +33,7 @@ class CliScene : public Cli {
     map.node(50, 50, {{"natural", "tree"}});
     write("city.osm", map.text());
     write("scene.glb", kOldOutput);
-    write("scene.report.json", kOldOutput);
+    write("scene.report.json", kOldReport);
   }
 
   void write_dem(const std::string& name, const std::string& grid, const std::string& system = kWgs84) {
@@ -165,6 +165,13 @@ TEST_F(CliScene, KeepsNamesWhereTheFormatHasThem) {
     EXPECT_EQ(objects.at(0), (SceneObject{"Block", "way/1", ObjectKind::building})) << name;
     EXPECT_EQ(objects.back(), (SceneObject{"ground", "", ObjectKind::ground})) << name;
   }
+}
+
+TEST_F(CliScene, NoReportOfTheUsersOwnIsReplaced) {
+  write("scene.report.json", "{\"my\": \"notes\"}");
+  expect_bad({"scene", "city.osm", "-o", "scene.glb"}, "scene.report.json");
+  write("own.stl.place.json", "{\"my\": \"place\"}");
+  expect_bad({"scene", "city.osm", "-o", "own.stl"}, "own.stl.place.json");
 }
 
 TEST_F(CliScene, LengthsMayHaveAUnit) {

@@ -4,12 +4,15 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "core/progress_reporter.h"
 #include "support/solids.h"
 #include "support/temporary_directory.h"
+#include "support/wording.h"
 #include "vantage/error.h"
+#include "vantage/output.h"
 #include "vantage/result.h"
 
 namespace vantage::internal::app {
@@ -23,6 +26,12 @@ using Names = std::vector<std::string>;
 
 const Names kFiles = {"a.glb", "a.ply", "a.report.json", "b.obj", "b.report.json"};
 
+/// Of an earlier run: a report that vantage did not write is never replaced.
+std::string old_content(const std::string& name) {
+  const bool is_report = name.ends_with(".json");
+  return is_report ? report_json(Volume(), MeshMeasures()) : "old";
+}
+
 Names sorted_names(const TemporaryDirectory& directory) {
   Names names = directory.names();
   std::sort(names.begin(), names.end());
@@ -31,7 +40,7 @@ Names sorted_names(const TemporaryDirectory& directory) {
 
 /// A request for three formats, and old files of all names that it stands for.
 ResultRequest request_over_old_files(const TemporaryDirectory& directory) {
-  for (const std::string& name : kFiles) write_bytes(directory / name, "old");
+  for (const std::string& name : kFiles) write_bytes(directory / name, old_content(name));
   ResultRequest request;
   request.volumes = {directory / "a.ply", directory / "a.glb", directory / "b.obj"};
   request.source.target = "plaza";
@@ -40,7 +49,7 @@ ResultRequest request_over_old_files(const TemporaryDirectory& directory) {
 
 void expect_old_files(const TemporaryDirectory& directory) {
   EXPECT_EQ(sorted_names(directory), kFiles);
-  for (const std::string& name : kFiles) EXPECT_EQ(read_bytes(directory / name), "old") << name;
+  for (const std::string& name : kFiles) EXPECT_EQ(read_bytes(directory / name), old_content(name)) << name;
 }
 
 TEST(ResultFiles, ComeInAllFormatsWithAReportBesideEach) {
@@ -135,6 +144,52 @@ TEST(ResultFiles, WithoutAVolumeOnlyReportsAreWritten) {
   const auto report = nlohmann::json::parse(read_bytes(directory / "b.report.json"));
   EXPECT_EQ(report.at("reason"), "too high");
   EXPECT_FALSE(report.contains("volume"));
+}
+
+// A name that was not given may be that of a file of somebody's own.
+TEST(ResultFiles, AFileThatVantageDidNotWriteIsNotReplacedByWhatLiesBesideAnOutput) {
+  const TemporaryDirectory directory;
+  Volume volume = make_hemisphere(Vec3::Zero(), 100);
+  const auto write_to = [&](const char* name) {
+    ResultRequest request;
+    request.volumes = {directory / name};
+    write_results(volume, request);
+  };
+  for (const auto& [output, beside, own] :
+       {std::tuple("a.ply", "a.report.json", "{\"version\": \"mine\", \"days\": [1, 2]}"),
+        {"a.ply", "a.report.json", "no JSON"},
+        {"a.ply", "a.report.json", ""},
+        {"b.stl", "b.report.json", "[]"},
+        {"b.stl", "b.stl.place.json", "{\"place\": \"home\"}"}}) {
+    write_bytes(directory / beside, own);
+    vantage::testing::expect_error([&] { check_result_files({directory / output}, {}); }, ErrorCode::output_of_others,
+                                   beside);
+    vantage::testing::expect_code([&] { write_to(output); }, ErrorCode::output_of_others, beside);
+    EXPECT_EQ(read_bytes(directory / beside), own);
+    EXPECT_FALSE(std::filesystem::exists(directory / output));
+    std::filesystem::remove(directory / beside);
+  }
+  for (const char* const output : {"a.ply", "b.stl"}) {
+    write_to(output);
+    write_to(output);  // over what vantage wrote
+  }
+}
+
+TEST(ResultFiles, WhatVantageWroteIsKnownByItsBeginning) {
+  const TemporaryDirectory directory;
+  const Volume volume = make_hemisphere(Vec3::Zero(), 100);
+  for (const char* const name : {"v.ply", "v.obj", "v.stl", "v.glb"}) {
+    write_bytes(directory / name, "mine");
+    vantage::testing::expect_code([&] { check_derived_output(directory / name); }, ErrorCode::output_of_others, name);
+    write_volume(volume, directory / name);
+    check_derived_output(directory / name);
+  }
+  check_derived_output(directory / "v.stl.place.json");
+  write_bytes(directory / "v.table.csv", "target,area\n");
+  vantage::testing::expect_code([&] { check_derived_output(directory / "v.table.csv"); }, ErrorCode::output_of_others);
+  write_bytes(directory / "v.table.csv", table_csv({}));
+  check_derived_output(directory / "v.table.csv");
+  check_derived_output(directory / "none.ply");
 }
 
 }  // namespace

@@ -441,7 +441,7 @@ class CliTargets : public testing::Cli {
 TEST_F(CliTargets, EachHasAVolumeAndARow) {
   of("each");
   output_of({"compute", "mission.yaml", "-o", "made.ply"});
-  const std::vector<std::string> table = testing::lines(testing::content(folder_ / "table.csv"));
+  const std::vector<std::string> table = testing::lines(testing::content(folder_ / "made.table.csv"));
   ASSERT_EQ(table.size(), 3U);
   testing::expect_wording(table[0]);
   const std::string square = "a square,computed,,", facade = "\"block, facade facing west\",computed,,",
@@ -506,8 +506,24 @@ TEST_F(CliTargets, WhatOneVolumeHasAlone) {
   expect_bad({"compute", "mission.yaml", "-o", "made.ply", "--json"}, "--json");
   expect_bad({"compute", "mission.yaml", "-o", "-", "--format", "ply"}, "-o -");
   expect_bad({"verify", "mission.yaml", "city.obj"}, "city.obj");
-  write("table.csv/old", "a folder");
-  expect_bad({"compute", "mission.yaml", "-o", "made.ply"}, "table.csv");
+  write("made.table.csv/old", "a folder");
+  expect_bad({"compute", "mission.yaml", "-o", "made.ply"}, "made.table.csv");
+}
+
+TEST_F(CliTargets, NoFileOfTheUsersOwnIsReplaced) {
+  of("each");
+  write("table.csv", "my,own,table\n");
+  output_of({"compute", "mission.yaml", "-q", "-o", "made.ply"});
+  EXPECT_EQ(testing::content(folder_ / "table.csv"), "my,own,table\n");
+  output_of({"compute", "mission.yaml", "-q", "-o", "made.ply"});  // over what the last run wrote
+  for (const char* const name :
+       {"made.table.csv", "made.a_square.ply", "made.a_square.report.json", "made.block__facade_facing_west.ply"}) {
+    const std::string own = testing::content(folder_ / name);
+    write(name, "my,own,table\n");
+    expect_bad({"compute", "mission.yaml", "-o", "made.ply"}, name);
+    write(name, own);
+  }
+  output_of({"compute", "mission.yaml", "-q", "-o", "made.ply"});
 }
 
 TEST(VolumeFiles, HaveNamesOfTheirOwn) {

@@ -156,6 +156,7 @@ enum class ErrorCode {
   output_folder_missing,    ///< the folder of an output does not exist
   output_named_twice,       ///< two results would be written to one file
   output_overwrites_input,  ///< an output would overwrite an input of the same run
+  output_of_others,         ///< an output whose name was not given would replace a file that vantage did not write
   folder_in_use,            ///< a folder that would be replaced holds other things
   output_unwritable,        ///< a result cannot be written: no permission, no room, or a fault of the disk
   format_too_small,         ///< the format of an output cannot hold the result

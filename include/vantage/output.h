@@ -17,10 +17,18 @@ namespace vantage {
 /// no folder and no device, and an existing file is not write-protected.
 VANTAGE_API void check_can_write(const std::filesystem::path& file);
 
+/// For a file whose name was not given, but follows from that of an output ("volume.report.json" of "volume.ply"):
+/// check_can_write, and Error(input) where a file of that name is there that vantage did not write. It is known by what
+/// vantage writes first: the columns of a table, the keys of a report and of a place file, the comment of PLY and OBJ,
+/// the header of STL, the generator of GLB, the software of PNG. Cost: reads a JSON file of up to 64 MB, and the first
+/// 64 KiB of another one.
+VANTAGE_API void check_derived_output(const std::filesystem::path& file);
+
 /// What chooses the format: the extension in lower case, ".ply".
 VANTAGE_API std::string format_extension(const std::filesystem::path& file);
 
-/// check_can_write, and the extension must be one that write_volume knows.
+/// check_can_write, and the extension must be one that write_volume knows. Of a format with a file beside it
+/// ("volume.stl.place.json") check_derived_output of that, too.
 VANTAGE_API void check_volume_output(const std::filesystem::path& file);
 
 /// Throws Error(input) if `output` is one of the `inputs`: writing it would destroy what it was made from.

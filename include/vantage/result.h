@@ -58,9 +58,9 @@ struct ResultRequest {
 VANTAGE_API ResultRequest result_request(const Mission& mission, const Result& result,
                                          std::vector<std::filesystem::path> volumes);
 
-/// To call before a long computation: throws, as check_volume_output, check_can_write and check_not_an_input do, unless
-/// each volume and the report beside it can be written. `inputs`: of the mission, see input_files. Throws Error(input)
-/// for a file that is named twice.
+/// To call before a long computation: throws, as check_volume_output, check_derived_output and check_not_an_input do,
+/// unless each volume and the report beside it can be written. `inputs`: of the mission, see input_files. Throws
+/// Error(input) for a file that is named twice.
 VANTAGE_API void check_result_files(const std::vector<std::filesystem::path>& volumes,
                                     const std::vector<std::filesystem::path>& inputs);
 
@@ -70,7 +70,10 @@ VANTAGE_API void check_result_files(const std::vector<std::filesystem::path>& vo
 VANTAGE_API std::vector<std::filesystem::path> volume_files(const std::filesystem::path& file,
                                                             const std::vector<std::string>& names);
 
-/// A row of table.csv.
+/// "volume.ply" of such a mission has the table of its volumes in "volume.table.csv".
+VANTAGE_API std::filesystem::path table_file(const std::filesystem::path& file);
+
+/// A row of the table.
 struct TableRow {
   std::string target;              ///< name
   std::filesystem::path file;      ///< the first that holds the volume; not used where there is none
@@ -95,7 +98,8 @@ VANTAGE_API std::filesystem::path report_file(const std::filesystem::path& volum
 /// Writes the volume to every file that is asked for, and a report beside each; only the reports when there is no
 /// volume. First of all it is measured. All files are written or none: when anything fails, old ones stay as they were.
 /// Fills Volume::seconds.write (until all is ready on the disk) and adds it to the total. Throws Error(internal) for a
-/// volume that is not closed and oriented, Error(cancelled) when told to stop, and as write_volume does.
+/// volume that is not closed and oriented, Error(cancelled) when told to stop, as check_derived_output for a report
+/// that it would replace, and as write_volume does.
 VANTAGE_API WrittenResults write_results(Volume& volume, const ResultRequest& request, const Progress& progress = {});
 
 /// A volume, or any other mesh, as its file says.
@@ -152,8 +156,8 @@ VANTAGE_API ProofReport with_verify_tolerances(ProofReport proof, const Mission&
 VANTAGE_API std::filesystem::path certificate_scene_file(const std::filesystem::path& certificate_file);
 
 /// Throws Error(input) for a volume that a certificate cannot be about: its file is no binary, little-endian PLY of
-/// triangles, or lies in another folder than the certificate. Throws as check_can_write and check_not_an_input do
-/// unless the certificate and its scene can be written.
+/// triangles, or lies in another folder than the certificate. Throws as check_can_write, of the scene
+/// check_derived_output, and check_not_an_input do unless the certificate and its scene can be written.
 VANTAGE_API void check_certificate_files(const std::filesystem::path& certificate_file,
                                          const std::filesystem::path& volume_file,
                                          const std::vector<std::filesystem::path>& inputs);

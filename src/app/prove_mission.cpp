@@ -192,6 +192,7 @@ void check_certificate_files(const fs::path& certificate_file, const fs::path& v
     throw Error(ErrorCode::not_applicable, "a certificate is about the numbers of a PLY file", volume_file.string(),
                 "write the volume as .ply");
   }
+  check_derived_output(certificate_scene_file(certificate_file));
   for (const fs::path& file : {certificate_file, certificate_scene_file(certificate_file)}) {
     check_can_write(file);
     check_not_an_input(file, inputs);

@@ -34,7 +34,7 @@ void check_result_files(const std::vector<std::filesystem::path>& volumes,
   std::set<std::filesystem::path> seen;
   for (const std::filesystem::path& volume : volumes) {
     check_volume_output(volume);
-    check_can_write(report_file(volume));
+    check_derived_output(report_file(volume));
     if (!seen.insert(volume.lexically_normal()).second) {
       throw Error(ErrorCode::output_named_twice, "an output is named twice", volume.string(),
                   "give each output a name of its own");
@@ -73,6 +73,7 @@ WrittenResults write_results(Volume& volume, const ResultRequest& request, const
     const std::filesystem::path report = report_file(file);
     const auto is_same = [&](const auto& other) { return other.lexically_normal() == report.lexically_normal(); };
     if (std::any_of(result.reports.begin(), result.reports.end(), is_same)) continue;
+    check_derived_output(report);
     files.push_back(std::make_unique<AtomicFile>(report));
     files.back()->write(text);
     result.reports.push_back(report);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <set>
 
+#include "io/written_marks.h"
 #include "vantage/input.h"
 #include "vantage/result.h"
 
@@ -52,8 +53,12 @@ std::vector<std::filesystem::path> volume_files(const std::filesystem::path& fil
   return files;
 }
 
+std::filesystem::path table_file(const std::filesystem::path& file) {
+  return std::filesystem::path(file).replace_extension(".table.csv");
+}
+
 std::string table_csv(const std::vector<TableRow>& rows) {
-  std::string text = "target,outcome,reason,volume_m3,area_m2,facets,pieces,lift_m,seconds,file\n";
+  std::string text = std::string(internal::io::kVolumeTableHeader) + "\n";
   for (const TableRow& row : rows) {
     const Volume& volume = *row.volume;
     const bool has_volume = volume.outcome == Outcome::computed;

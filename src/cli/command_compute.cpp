@@ -41,8 +41,9 @@ constexpr const char* kComputeExamples =
     "With -o - the volume goes to standard output, when it is whole, and the summary to standard error; the report of\n"
     "that output is written only with --report.\n"
     "\n"
-    "A mission with 'combine: each' writes a volume for each target, NAME.TARGET.ply for -o NAME.ply, and table.csv\n"
-    "beside them with a row for each.\n"
+    "A mission with 'combine: each' writes a volume for each target, NAME.TARGET.ply for -o NAME.ply, and\n"
+    "NAME.table.csv beside them with a row for each. A file of such a name that vantage did not write is never\n"
+    "replaced, and nor is one in the place of a report.\n"
     "\n"
     "--stages writes each step of the spheres method as a mesh (PLY, scene frame), and stages.json. The folder is put\n"
     "in place as a whole when the run is over; an older one of the same kind is replaced.\n"
@@ -388,8 +389,8 @@ std::vector<std::string> names_of(const std::vector<fs::path>& files) {
 
 int run_each(const ComputeArguments& options, const MissionFile& file, const std::vector<fs::path>& inputs) {
   check_each(options);
-  const fs::path table = options.files().front().parent_path() / "table.csv";
-  check_can_write(table);
+  const fs::path table = table_file(options.files().front());
+  check_derived_output(table);
   check_not_an_input(table, inputs);
   std::vector<Result> results;
   std::vector<WrittenResults> written;
@@ -411,6 +412,7 @@ int run_each(const ComputeArguments& options, const MissionFile& file, const std
       all.insert(all.end(), named.begin(), named.end());
     }
     check_result_files(all, inputs);
+    for (const fs::path& one : all) check_derived_output(one);
     results = run_missions(mission, {options.common.threads, {}}, progress.callback());
     const int judgement = judge_each(options, mission, results, progress.callback());
     if (judgement != kSuccess) {
@@ -425,6 +427,7 @@ int run_each(const ComputeArguments& options, const MissionFile& file, const std
     for (std::size_t i = 0; i < results.size(); ++i) {
       rows.push_back({names[i], files[i].front(), &results[i].volume, &written[i].measures});
     }
+    check_derived_output(table);  // the run may have taken long
     write_whole_file(table, table_csv(rows));
   }
   if (!options.common.quiet) {

@@ -88,8 +88,8 @@ std::vector<fs::path> draw(const RenderArguments& options, Mission mission, cons
     return {output};
   }
   std::vector<fs::path> files = volume_files(output, target_names(mission));
+  for (const fs::path& one : files) check_derived_output(one);
   for (std::size_t i = 0; i < results.size(); ++i) {
-    check_can_write(files[i]);
     write_png(picture(options, one_volume(mission, i), results[i].volume, view, size, progress), files[i], progress);
   }
   return files;

@@ -40,10 +40,11 @@ struct SceneArguments {
   bool json = false;
 };
 
-void check_scene_outputs(const SceneArguments& options) {
+void check_scene_outputs(const SceneArguments& options, SceneSource::Kind kind) {
   std::set<fs::path> seen;
   for (const std::string& output : options.outputs) {
     check_volume_output(output);
+    if (kind == SceneSource::Kind::map) check_derived_output(report_file(output));
     check_not_an_input(output, {options.scene.input, options.scene.terrain});
     if (!seen.insert(fs::path(output).lexically_normal()).second) {
       throw Error(ErrorCode::output_named_twice, "an output is named twice", output,
@@ -54,7 +55,7 @@ void check_scene_outputs(const SceneArguments& options) {
 
 int run_scene(const SceneArguments& options) {
   const SceneSource source = scene_source(options.scene, "the file");
-  check_scene_outputs(options);
+  check_scene_outputs(options, source.kind);
   ProgressLine progress(options.common);
   const LoadedScene loaded = load_scene(source, progress.callback());
 
@@ -62,6 +63,7 @@ int run_scene(const SceneArguments& options) {
   for (const std::string& output : options.outputs) {
     for (auto& file : stage_scene(loaded.scene, output)) files.push_back(std::move(file));
     if (!loaded.city) continue;
+    check_derived_output(report_file(output));
     files.push_back(std::make_unique<AtomicFile>(report_file(output)));
     files.back()->write(json_text(loaded));
     files.back()->seal();

@@ -113,6 +113,7 @@ constexpr std::array kRows = {
     Row{ErrorCode::output_folder_missing, ErrorKind::input, "output-folder-missing"},
     Row{ErrorCode::output_named_twice, ErrorKind::input, "output-named-twice"},
     Row{ErrorCode::output_overwrites_input, ErrorKind::input, "output-overwrites-input"},
+    Row{ErrorCode::output_of_others, ErrorKind::input, "output-of-others"},
     Row{ErrorCode::folder_in_use, ErrorKind::input, "folder-in-use"},
     Row{ErrorCode::output_unwritable, ErrorKind::output, "output-unwritable"},
     Row{ErrorCode::format_too_small, ErrorKind::output, "format-too-small"},

@@ -7,6 +7,8 @@
 
 #include "core/temporary_file.h"
 #include "io/output_formats.h"
+#include "io/sidecar.h"
+#include "io/written_marks.h"
 #include "vantage/error.h"
 #include "vantage/input.h"
 #include "vantage/output.h"
@@ -70,12 +72,23 @@ std::string format_extension(const fs::path& file) {
   return extension;
 }
 
+void check_derived_output(const fs::path& file) {
+  check_can_write(file);
+  std::error_code error;
+  if (!fs::exists(file, error) || internal::io::is_own_file(file)) return;
+  throw Error(ErrorCode::output_of_others,
+              "the output " + in_quotes(file.filename().string()) + " would replace a file that vantage did not write",
+              file.string(), "move that file away, or give the output another name with -o");
+}
+
 void check_volume_output(const fs::path& file) {
   check_is_no_stream(file);
   // A folder is told first: "out" has no extension, but that is not what is wrong with it.
   std::error_code error;
-  if (!fs::is_directory(file, error)) (void)internal::io::output_format(file);
+  if (fs::is_directory(file, error)) return check_can_write(file);
+  const internal::io::OutputFormat& format = internal::io::output_format(file);
   check_can_write(file);
+  if (format.has_sidecar) check_derived_output(internal::io::sidecar_file(file));
 }
 
 void check_not_an_input(const fs::path& output, const std::vector<fs::path>& inputs) {

@@ -5,6 +5,7 @@
 #include "io/georeference_text.h"
 #include "io/rounding_text.h"
 #include "vantage/error.h"
+#include "vantage/output.h"
 
 namespace vantage::internal::io {
 
@@ -48,6 +49,7 @@ void stage_sidecar(const Sidecar& content, const std::filesystem::path& mesh_fil
   const std::filesystem::path file = sidecar_file(mesh_file);
   std::error_code ignored;
   if (!content.georeference && !content.rounding_m && !std::filesystem::exists(file, ignored)) return;
+  check_derived_output(file);
   files.push_back(std::make_unique<AtomicFile>(file));
   files.back()->write(sidecar_text(content));
 }

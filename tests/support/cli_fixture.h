@@ -31,6 +31,9 @@ inline constexpr const char* kTarget =
     "target:\n  name: square\n  vertices: [[-5, -5, 0], [5, -5, 0], [5, 5, 0], [-5, 5, 0]]\n";
 inline constexpr const char* kSensor = "sensor: {max_range: 60}\n";
 inline constexpr const char* kOldOutput = "an old volume, precious\n";
+/// What an earlier run wrote: a report that vantage did not write is never replaced.
+inline constexpr const char* kOldReport =
+    R"({"version": "0", "method": "exact", "outcome": "computed", "causes": [], "bounding_box": null, "lift_m": 0})";
 
 inline std::string content(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
@@ -53,7 +56,7 @@ class Cli : public ::testing::Test {
     write("city.obj", kCity);
     write("mission.yaml", std::string(kScene) + kTarget + kSensor);
     write("volume.ply", kOldOutput);
-    write("volume.report.json", kOldOutput);
+    write("volume.report.json", kOldReport);
     options_.folder = folder_;
   }
   void TearDown() override {
