@@ -155,6 +155,7 @@ TEST_F(CliScene, WritesEveryFormatAndAReport) {
   EXPECT_EQ(report.at("kinds").at("building").at("read"), 2);
   EXPECT_EQ(report.at("kinds").at("building").at("written"), 2);
   EXPECT_EQ(report.at("georeference").at("longitude_deg"), 11.5755);
+  EXPECT_EQ(report.at("georeference").at("attribution"), kOpenStreetMapCredit);
   EXPECT_EQ(report.at("records").size(), 4U);
 }
 

@@ -90,6 +90,51 @@ TEST(Place, TravelsInVolumesAndReports) {
   EXPECT_FALSE(json::parse(report_json(volume, measure(volume.mesh))).contains("georeference"));
 }
 
+// The licence of OpenStreetMap asks for it wherever the data is shown.
+TEST(Place, NamesWhomTheDataIsFrom) {
+  const TemporaryDirectory directory;
+  Scene scene = one_box();
+  scene.objects = named({"house"});
+  scene.georeference = kPlace;
+  EXPECT_EQ(attribution_of(scene), "");
+  scene.georeference->attribution = kOpenStreetMapCredit;
+  Volume volume = one_volume();
+  volume.georeference = scene.georeference;
+  for (const char* name : {"a.obj", "a.ply", "a.glb", "a.stl"}) {
+    write_scene(scene, directory / name);
+    EXPECT_EQ(attribution_of(read_scene(directory / name)), kOpenStreetMapCredit) << name;
+    write_volume(volume, directory / name);
+    EXPECT_EQ(read_scene(directory / name).georeference->attribution, kOpenStreetMapCredit) << name;
+  }
+  write_volume(volume, directory / "v.glb");
+  for (const char* name : {"a.glb", "v.glb"}) {
+    if (name == std::string("a.glb")) write_scene(scene, directory / name);
+    const std::string bytes = read_bytes(directory / name);
+    EXPECT_NE(bytes.find("\"copyright\":\""), std::string::npos) << name;
+  }
+  EXPECT_EQ(json::parse(report_json(volume, measure(volume.mesh)))["georeference"]["attribution"],
+            kOpenStreetMapCredit);
+  // Files of earlier versions have the ids of the map's objects.
+  scene.georeference.reset();
+  for (const auto& [id, credit] : {std::pair("way/265517", kOpenStreetMapCredit),
+                                   {"relation/1", kOpenStreetMapCredit},
+                                   {"node/12", kOpenStreetMapCredit},
+                                   {"way/", ""},
+                                   {"way/12a", ""},
+                                   {"gml/12", ""},
+                                   {"12", ""}}) {
+    scene.objects[0].source_id = id;
+    EXPECT_EQ(attribution_of(scene), credit) << id;
+  }
+  // Whoever gives a scene may add a name, and takes none away.
+  scene.attribution = "the city";
+  EXPECT_EQ(attribution_of(scene), "the city");
+  scene.objects[0].source_id = "way/1";
+  EXPECT_EQ(attribution_of(scene), std::string("the city, ") + kOpenStreetMapCredit);
+  scene.attribution = kOpenStreetMapCredit;
+  EXPECT_EQ(attribution_of(scene), kOpenStreetMapCredit);
+}
+
 TEST(Place, IsRefusedWhenGarbled) {
   const TemporaryDirectory directory;
   const std::string mesh = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";

@@ -93,6 +93,30 @@ TEST(PictureNotes, AreWrittenUnderTheSubtitle) {
   EXPECT_LE(red_rows(annotated(paper, annotation, view)).second, many);
 }
 
+TEST(PictureCredit, StandsAboveTheLegendOrAlone) {
+  picture::Annotation annotation;
+  View view = view_of(views()[0]);
+  view.width = 800;
+  view.height = 600;
+  const Picture paper{800, 600, std::vector<std::uint8_t>(std::size_t{4} * 800 * 600, 255)};
+  const auto ink_in_left_corner = [](const Picture& picture) {
+    int dark = 0;
+    for (int row = 500; row < 600; ++row) {
+      for (int column = 0; column < 300; ++column) {
+        dark += picture.rgba[4 * (static_cast<std::size_t>(row) * 800 + static_cast<std::size_t>(column))] < 128;
+      }
+    }
+    return dark;
+  };
+  EXPECT_EQ(ink_in_left_corner(annotated(paper, annotation, view)), 0);
+  const double plain = insets_of(annotation, 800, 600).bottom;
+  annotation.credit = kOpenStreetMapCredit;
+  EXPECT_GT(insets_of(annotation, 800, 600).bottom, plain + 5);
+  EXPECT_GT(ink_in_left_corner(annotated(paper, annotation, view)), 100);
+  EXPECT_GT(ink_in_left_corner(picture::credited(paper, annotation.credit)), 100);
+  EXPECT_EQ(picture::credited(paper, "").rgba, paper.rgba);
+}
+
 TEST(PictureLegend, NamesMarksInsteadOfCauses) {
   Volume volume;
   volume.mesh = make_box_mesh({0, 0, 0}, {1, 1, 1});

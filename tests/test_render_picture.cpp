@@ -11,6 +11,7 @@
 #include "support/wording.h"
 #include "support/zones.h"
 #include "vantage/error.h"
+#include "vantage/output.h"
 #include "vantage/picture.h"
 
 namespace vantage {
@@ -290,6 +291,29 @@ TEST_F(RenderPicture, RefusesWhatMakesNoSense) {
   volume.cause_of[3] = 0;
   volume.mesh.triangles[2][1] = 100;
   expect_refused(ErrorCode::index_out_of_range);
+}
+
+// Annotated or not: panels of sheets are not.
+TEST_F(RenderPicture, NamesOpenStreetMapWhereTheSceneIsFromThere) {
+  const Picture plain = render();
+  const auto differing = [&](const Picture& picture) {
+    int left_corner = 0, others = 0;
+    for (int row = 0; row < 320; ++row) {
+      for (int column = 0; column < 320; ++column) {
+        if (pixel(picture, column, row) != pixel(plain, column, row)) ++(row > 280 ? left_corner : others);
+      }
+    }
+    return std::pair(left_corner, others);
+  };
+  scene_.objects[1].source_id = "way/17";
+  const auto [corner, others] = differing(render());
+  EXPECT_GT(corner, 50);
+  EXPECT_EQ(others, 0);
+  const TemporaryDirectory directory;
+  write_png(plain, directory / "own.png");
+  check_derived_output(directory / "own.png");
+  testing::write_bytes(directory / "other.png", "\x89PNG\r\n\x1a\n and more");
+  testing::expect_code([&] { check_derived_output(directory / "other.png"); }, ErrorCode::output_of_others);
 }
 
 TEST_F(RenderPicture, StopsWhenAsked) {

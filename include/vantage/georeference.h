@@ -20,7 +20,13 @@ struct Georeference {
   /// What z is measured from: "flat ground", "EGM96 geoid", "as in dem.tif", "NAP height"; empty when unknown.
   std::string vertical;
   std::string source_crs;  ///< of the file it came from: "EPSG:4326", "EPSG:7415"; empty when unknown
+  /// Whom pictures of it have to name: kOpenStreetMapCredit; empty when nobody is known. Part of the place, since it is
+  /// written wherever that is: into scenes, volumes and reports.
+  std::string attribution = {};
 };
+
+/// What the licence of OpenStreetMap's data, the ODbL, asks of pictures and pages that show it.
+inline constexpr const char* kOpenStreetMapCredit = "\u00a9 OpenStreetMap contributors";
 
 /// Georeference::vertical of a map without terrain: z is measured from the ground, wherever that lies.
 inline constexpr const char* kFlatGround = "flat ground";

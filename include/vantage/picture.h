@@ -63,6 +63,8 @@ struct Picture {
   std::vector<std::uint8_t> rgba;
 };
 
+/// Where attribution_of the scene names somebody, the picture does so too, annotated or not.
+///
 /// Draws with the first graphics processor, or without one with OpenGL that the processor emulates. The same request on
 /// the same machine gives the same bytes. Throws Error(input) where there is no OpenGL 4.5 (with what to install), and
 /// for a size out of range, a view or meshes that make no sense; Error(cancelled) when told to stop. Cost: some

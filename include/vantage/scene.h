@@ -65,6 +65,9 @@ struct Scene {
   /// Where it lies on the earth; nothing for a mesh that does not say. The scene frame is then the one described there.
   std::optional<Georeference> georeference;
 
+  /// Whom pictures have to name, as whoever gave the scene says, besides what its file says: see attribution_of.
+  std::string attribution = {};
+
   /// Of a part of a larger scene that is prepared as that is: the bounds of the larger one. So volumes in the part are
   /// the same bits as in the whole, as long as all is in the part that their targets can reach: vantage/tiles.h. Each
   /// object is then prepared by itself. Nothing: a scene of its own.
@@ -77,6 +80,11 @@ struct Scene {
   /// What was unusual while reading but no error, for people: a sentence each, with counts and the first culprit.
   std::vector<std::string> notes;
 };
+
+/// Whom pictures and pages of a scene have to name: Scene::attribution, and what its georeference says, or without that
+/// kOpenStreetMapCredit where an object is known by an id of OpenStreetMap ("way/265517"). Empty where nobody is known.
+/// Cost: linear in the objects.
+VANTAGE_API std::string attribution_of(const Scene& scene);
 
 struct SceneReadOptions {
   UpAxis up = UpAxis::z;

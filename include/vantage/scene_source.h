@@ -24,6 +24,7 @@ struct SceneSource {
   };
   Kind kind = Kind::mesh;
   std::filesystem::path file;
+  std::string attribution = {};  ///< whom pictures have to name, where the file does not say it: see attribution_of
   SceneReadOptions mesh;
   CityOptions city;
   RasterOptions raster;

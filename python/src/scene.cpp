@@ -94,6 +94,7 @@ void bind_scene(nb::module_& module) {
       .def_prop_ro("objects", &object_rows)
       .def_prop_ro("place", [](const PyScene& s) { return place_row(s.scene().georeference); })
       .def_prop_ro("projection", [](const PyScene& s) { return projection_row(s.scene().georeference); })
+      .def_prop_ro("attribution", [](const PyScene& s) { return attribution_of(s.scene()); })
       .def_prop_ro("source", [](const PyScene& s) { return s.scene().source; })
       .def_prop_ro("sea_level_m", &PyScene::sea_level_m)
       .def_prop_ro("whole",

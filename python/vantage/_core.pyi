@@ -37,6 +37,9 @@ class Scene:
     def projection(self) -> str | None: ...
 
     @property
+    def attribution(self) -> str: ...
+
+    @property
     def source(self) -> pathlib.Path: ...
 
     @property

@@ -70,6 +70,8 @@ def plot(result: Result, path: Path | None = None, *, scene: bool = True, size: 
         if len(chosen):
             drawn.append(kind)
             plotter.add_mesh(poly_data(result.vertices, chosen), color=color, opacity=opacity)
+    if result.scene.attribution:  # the licence of the scene's data asks for it
+        plotter.add_text(result.scene.attribution, position="lower_left", font_size=8, color="black")
     _add_legend(plotter, [LABELS[kind] for kind in drawn], [COLORS[kind] for kind in drawn])
     bounds = result.volume.bounds
     if bounds is not None:

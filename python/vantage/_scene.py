@@ -256,6 +256,11 @@ class Scene(Triangles):
         return np.stack([self.vertices.min(axis=0), self.vertices.max(axis=0)])
 
     @property
+    def attribution(self) -> str:
+        """Whom pictures of it have to name, as "© OpenStreetMap contributors"; empty where nobody is known."""
+        return self._core.attribution
+
+    @property
     def hash(self) -> str:
         """SHA-256 of the triangles, 64 hexadecimal digits: docs/hashes.md."""
         return self._core.hash

@@ -196,13 +196,7 @@ std::string json_text(const std::vector<std::string>& texts) {
 std::string json_text(const LoadedScene& loaded) {
   Json json;
   json["source"] = loaded.scene.source.string();
-  if (const auto& place = loaded.scene.georeference) {
-    json["georeference"] = {{"latitude_deg", place->latitude_deg},
-                            {"longitude_deg", place->longitude_deg},
-                            {"vertical", place->vertical},
-                            {"source_crs", place->source_crs},
-                            {"projection", projection_text(*place)}};
-  }
+  if (const auto& place = loaded.scene.georeference) json["georeference"] = internal::io::georeference_json(*place);
   json["triangles"] = loaded.scene.mesh.triangles.size();
   json["objects"] = loaded.scene.objects.size();
   const Box box = bounding_box(loaded.scene.mesh);

@@ -109,6 +109,7 @@ class Writer {
         if (source.raster.origin_deg) section.add("origin", list_of(*source.raster.origin_deg));
         break;
     }
+    if (!mission_.scene.attribution.empty()) section.add("attribution", quoted(mission_.scene.attribution));
     if (mission_.sea_level_m) section.add("sea_level", *mission_.sea_level_m);
     return section.text();
   }

@@ -133,6 +133,7 @@ Result run(const Mission& mission, const PreparedViews& views, double prepare_se
   seconds.total = seconds.read + seconds.prepare + seconds.engine + seconds.navigation;
   result.volume.seconds = seconds;
   result.volume.georeference = mission.scene().georeference;
+  if (auto& place = result.volume.georeference) place->attribution = attribution_of(mission.scene());
   if (result.volume.provenance) {
     const std::string& known = options.scene_hash;
     result.volume.provenance->scene_hash = known.empty() ? scene_hash(mission.scene()) : known;

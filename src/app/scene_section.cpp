@@ -31,6 +31,9 @@ class SceneParser {
     parse_ground();
     parse_city();
     parse_frame();
+    if (const YamlNode* credit = find(node_, "attribution")) {
+      section_.source.attribution = reader_.text(*credit, "scene.attribution");
+    }
     if (const YamlNode* sea = find(node_, "sea_level")) section_.sea_level_m = reader_.length(*sea, "scene.sea_level");
     return std::move(section_);
   }

@@ -17,6 +17,21 @@ bool ends_with_any(const std::string& name, std::initializer_list<std::string_vi
   return std::any_of(endings.begin(), endings.end(), [&](std::string_view ending) { return name.ends_with(ending); });
 }
 
+/// As its kind is loaded.
+LoadedScene loaded_scene(const SceneSource& source, const Progress& progress) {
+  switch (source.kind) {
+    case SceneSource::Kind::map:
+      return internal::app::load_map(source, progress);
+    case SceneSource::Kind::raster:
+      return internal::app::load_raster(source, progress);
+    case SceneSource::Kind::mesh:
+      break;
+  }
+  LoadedScene loaded;
+  loaded.scene = read_scene(source.file, source.mesh, progress);
+  return loaded;
+}
+
 }  // namespace
 
 SceneSource::Kind source_kind(const std::filesystem::path& file) {
@@ -46,16 +61,10 @@ std::vector<std::string> notes_of(const LoadedScene& loaded) {
 }
 
 LoadedScene load_scene(const SceneSource& source, const Progress& progress) {
-  switch (source.kind) {
-    case SceneSource::Kind::map:
-      return internal::app::load_map(source, progress);
-    case SceneSource::Kind::raster:
-      return internal::app::load_raster(source, progress);
-    case SceneSource::Kind::mesh:
-      break;
-  }
-  LoadedScene loaded;
-  loaded.scene = read_scene(source.file, source.mesh, progress);
+  LoadedScene loaded = loaded_scene(source, progress);
+  if (source.attribution.empty()) return loaded;
+  loaded.scene.attribution = source.attribution;
+  if (auto& place = loaded.scene.georeference) place->attribution = attribution_of(loaded.scene);  // for files
   return loaded;
 }
 

@@ -1,4 +1,7 @@
 // How kinds of objects, causes, outcomes and devices are called in files.
+#include <algorithm>
+#include <string_view>
+
 #include "vantage/devices.h"
 #include "vantage/input.h"
 #include "vantage/scene.h"
@@ -28,6 +31,21 @@ const char* name_of(ObjectKind kind) {
       return "tree";
   }
   return "unknown";
+}
+
+std::string attribution_of(const Scene& scene) {
+  const auto is_of_map = [](const SceneObject& object) {
+    const std::string_view id = object.source_id;
+    const std::size_t slash = id.find('/');
+    const std::string_view kind = id.substr(0, slash);
+    if (slash == std::string_view::npos || (kind != "way" && kind != "relation" && kind != "node")) return false;
+    return slash + 1 < id.size() && id.find_first_not_of("0123456789", slash + 1) == std::string_view::npos;
+  };
+  std::string known = scene.georeference ? scene.georeference->attribution : "";
+  if (known.empty() && std::any_of(scene.objects.begin(), scene.objects.end(), is_of_map)) known = kOpenStreetMapCredit;
+  const std::string& given = scene.attribution;
+  if (given.empty() || known.find(given) != std::string::npos) return known;
+  return known.empty() || given.find(known) != std::string::npos ? given : given + ", " + known;
 }
 
 std::string display_name(const SceneObject& object) {

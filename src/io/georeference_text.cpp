@@ -36,11 +36,13 @@ std::string text(const nlohmann::json& object, const char* key) {
 }  // namespace
 
 nlohmann::ordered_json georeference_json(const Georeference& georeference) {
-  return {{"latitude_deg", georeference.latitude_deg},
-          {"longitude_deg", georeference.longitude_deg},
-          {"vertical", georeference.vertical},
-          {"source_crs", georeference.source_crs},
-          {"projection", projection_text(georeference)}};
+  nlohmann::ordered_json json = {{"latitude_deg", georeference.latitude_deg},
+                                 {"longitude_deg", georeference.longitude_deg},
+                                 {"vertical", georeference.vertical},
+                                 {"source_crs", georeference.source_crs},
+                                 {"projection", projection_text(georeference)}};
+  if (!georeference.attribution.empty()) json["attribution"] = georeference.attribution;
+  return json;
 }
 
 std::string georeference_text(const Georeference& georeference) {
@@ -54,6 +56,7 @@ Georeference parse_georeference(const nlohmann::json& object) {
   georeference.longitude_deg = degrees(object, "longitude_deg", 180);
   georeference.vertical = text(object, "vertical");
   georeference.source_crs = text(object, "source_crs");
+  georeference.attribution = text(object, "attribution");
   return georeference;
 }
 

@@ -133,6 +133,9 @@ Mesh in_file_order(const Volume& volume, const StoredMesh& stored) {
 Gltf make_gltf(const Volume& volume, const StoredMesh& stored) {
   Gltf gltf;
   gltf.json["asset"] = {{"version", "2.0"}, {"generator", "vantage " VANTAGE_VERSION}};
+  if (volume.georeference && !volume.georeference->attribution.empty()) {
+    gltf.json["asset"]["copyright"] = volume.georeference->attribution;
+  }
   gltf.json["asset"]["extras"]["vantage"]["rounding_m"] = stored.rounding_m;
   if (auto statement = statement_json(volume, in_file_order(volume, stored))) {
     gltf.json["asset"]["extras"]["vantage"]["volume"] = std::move(*statement);

@@ -126,7 +126,11 @@ class SceneGlb {
           .append(R"(,"target":)")
           .append(std::to_string(target));
     };
-    std::string text(R"({"asset":{"version":"2.0","generator":"vantage )" VANTAGE_VERSION R"("},"scene":0,)");
+    std::string text(R"({"asset":{"version":"2.0","generator":"vantage )" VANTAGE_VERSION R"(")");
+    if (scene_.georeference && !scene_.georeference->attribution.empty()) {
+      text.append(R"(,"copyright":)").append(json_text(std::string_view(scene_.georeference->attribution)));
+    }
+    text += R"(},"scene":0,)";
     text.append(R"("scenes":[{"nodes":[)").append(roots_).append("]");
     if (scene_.georeference) {
       text.append(R"(,"extras":{"vantage":{"georeference":)").append(io::georeference_text(*scene_.georeference));

@@ -213,6 +213,12 @@ double title_room(const Annotation& annotation, std::size_t note_lines, double f
          static_cast<double>(note_lines) * kNoteRow * font;
 }
 
+void show_credit(Canvas& canvas, const std::string& credit, double baseline, double left, double room, double font) {
+  canvas.set_font(kNoteSize * font);
+  canvas.set_colour(kInk);
+  canvas.show_with_halo(canvas.fitted(credit, room), left, baseline);
+}
+
 }  // namespace
 
 std::vector<LegendEntry> legend_of(const PictureRequest& request) {
@@ -261,8 +267,17 @@ Insets insets_of(const Annotation& annotation, int width, int height) {
   Canvas canvas(1, 1);
   const Layout layout = lay_out(canvas, annotation, width, font);
   const std::size_t notes = note_lines(canvas, annotation, title_width(width, font), font).size();
+  const double credit = annotation.credit.empty() ? 0 : kRow;
   return {font, std::max(title_room(annotation, notes, font), 0.8 * font), font,
-          (kEdge + 1.0 + (layout.rows - 1) * kRow + 0.9) * font};
+          (kEdge + 1.0 + (layout.rows - 1) * kRow + credit + 0.9) * font};
+}
+
+Picture credited(const Picture& picture, const std::string& credit) {
+  if (credit.empty()) return picture;
+  const double font = font_size(picture.width, picture.height);
+  Canvas canvas(picture);
+  show_credit(canvas, credit, picture.height - 0.6 * font, 0.6 * font, picture.width - 1.2 * font, font);
+  return canvas.picture();
 }
 
 Picture annotated(const Picture& picture, const Annotation& annotation, const View& view) {
@@ -276,6 +291,10 @@ Picture annotated(const Picture& picture, const Annotation& annotation, const Vi
   lay_paper(canvas, view, strip, 0.8 * font);
 
   draw_legend(canvas, annotation, layout, last, font);
+  if (!annotation.credit.empty()) {
+    show_credit(canvas, annotation.credit, last - layout.rows * kRow * font, kEdge * font,
+                picture.width - 2 * kEdge * font, font);
+  }
   draw_scale(canvas, annotation, view, last, font);
   draw_north(canvas, view, font);
 

@@ -23,6 +23,7 @@ struct Annotation {
   double grid_m = 0;               ///< 0: there is none
   bool is_perspective = false;     ///< lengths hold at the target only
   std::vector<std::string> notes;  ///< in lines under the subtitle
+  std::string credit;              ///< whom a licence asks to name: above the legend, to the left
 };
 
 /// The kinds of cause that bound the volume, with their shares of its area, the target and the boxes.
@@ -32,5 +33,8 @@ std::vector<LegendEntry> legend_of(const PictureRequest& request);
 Insets insets_of(const Annotation& annotation, int width, int height);
 
 Picture annotated(const Picture& picture, const Annotation& annotation, const View& view);
+
+/// The credit alone, in the lower left corner, of a picture that is not annotated.
+Picture credited(const Picture& picture, const std::string& credit);
 
 }  // namespace vantage::internal::picture

@@ -117,8 +117,8 @@ Picture render_picture(const Scene& scene, const PictureRequest& request, const 
   if (request.solid != nullptr) check_indices(*request.solid, "solid");
 
   Annotation annotation{
-      request.title, request.subtitle, legend_of(request), 0, request.view.kind == PictureView::Kind::from,
-      request.notes};
+      request.title, request.subtitle,     legend_of(request), 0, request.view.kind == PictureView::Kind::from,
+      request.notes, attribution_of(scene)};
   const PictureExtent extent = find_extent(scene, request, progress);
   Insets insets{8, 8, 8, 8};
   if (request.annotate) insets = insets_of(annotation, request.width, request.height);
@@ -142,7 +142,7 @@ Picture render_picture(const Scene& scene, const PictureRequest& request, const 
   for (std::size_t i = 0; i < rgb.size(); i += 3)
     picture.rgba.insert(picture.rgba.end(), {rgb[i], rgb[i + 1], rgb[i + 2], 255});
   progress.finish();
-  return request.annotate ? annotated(picture, annotation, view) : picture;
+  return request.annotate ? annotated(picture, annotation, view) : credited(picture, annotation.credit);
 }
 
 namespace {

@@ -81,7 +81,8 @@ City build_city(const std::filesystem::path& file, const CityOptions& options, c
   result.report.build_seconds = stopwatch.lap();
 
   const internal::geo::LonLat origin = frame.origin();
-  result.report.georeference = {origin.latitude_deg, origin.longitude_deg, ground.vertical(), "EPSG:4326"};
+  result.report.georeference = {origin.latitude_deg, origin.longitude_deg, ground.vertical(), "EPSG:4326",
+                                kOpenStreetMapCredit};
   result.scene = internal::city::assemble(site, solids, ground.mesh());
   result.scene.source = file;
   result.scene.georeference = result.report.georeference;
