@@ -158,7 +158,8 @@ TEST(ZoneFiles, ReadsPolygonsOfKml) {
   EXPECT_FALSE(list.zones[1].lower);
   EXPECT_EQ(list.zones[1].upper->metres, 120.5);
   EXPECT_EQ(list.zones[1].upper->from, HeightReference::sea_level);
-  EXPECT_EQ(list.zones[2].upper->from, HeightReference::ground);
+  EXPECT_FALSE(list.zones[2].has_heights);  // of the corners, not of what lies between them
+  EXPECT_FALSE(list.zones[2].upper);
   EXPECT_FALSE(list.zones[3].has_heights);  // a surface at that height, not a space
   EXPECT_EQ(list.zones[4].name, "4");
   EXPECT_EQ(list.zones[4].holes.size(), 1u);
@@ -311,6 +312,16 @@ TEST(ZoneFiles, BecomeZonesOfTheMission) {
   EXPECT_EQ(resolved.notes[0].code, WarningCode::zones_left_out);
   expect_wording({resolved.notes[0].text, resolved.notes[1].text});
   EXPECT_EQ(resolved.as_written.navigation.keep_in_zones.size(), 0u);
+}
+
+// Between corners that are lifted from the ground, KML does not say how high a zone is.
+TEST(ZoneFiles, HeightsRelativeToTheGroundMustBeGiven) {
+  const ZoneMission mission;
+  mission.write("park.kml", kml(placemark("<extrude>1</extrude><altitudeMode>relativeToGround</altitudeMode>", ",50")));
+  expect_error([&] { mission.resolve("keep_out: [{file: park.kml}]"); }, ErrorCode::missing_key, "park.kml");
+  const Mission resolved = mission.resolve("keep_out: [{file: park.kml, agl: [0, 50]}]");
+  ASSERT_EQ(resolved.navigation.keep_out_zones.size(), 1u);
+  EXPECT_EQ(resolved.navigation.keep_out_zones[0].above_ground->max_m, 50);
 }
 
 TEST(ZoneFiles, FencesGoWhereTheyBelong) {

@@ -37,6 +37,7 @@ struct ListedZone {
   std::optional<ListedCircle> circle;
   std::optional<ZoneHeight> lower, upper;  ///< nothing: without that bound
   bool has_heights = false;                ///< the file says between which heights; else it says nothing of them
+  std::string unused_heights;              ///< what else it says of heights, and why that is not used; for messages
   std::optional<bool> is_inclusion;        ///< of a fence: to stay in or out
 };
 

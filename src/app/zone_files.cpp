@@ -188,7 +188,8 @@ void FileZones::add_heights(const ListedZone& listed, bool has_none, Zone& zone)
   if (file_.agl_m) zone.above_ground = {(*file_.agl_m)[0], (*file_.agl_m)[1], {}};
   if (file_.z_m || file_.agl_m) return;
   if (!listed.has_heights && !has_none) {
-    fail(ErrorCode::missing_key, listed.place, "the file does not say between which heights the zone lies",
+    fail(ErrorCode::missing_key, listed.place,
+         "the file does not say between which heights the zone lies" + listed.unused_heights,
          "write 'z: [low, high]', 'agl: [low, high]' or 'heights: any' beside 'file'");
   }
   zone.min_z_m = z_of(listed.lower, -kInfinity, listed.place);

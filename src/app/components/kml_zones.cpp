@@ -146,14 +146,17 @@ void KmlReader::end(const std::string& name) {
   text_.clear();
 }
 
-/// A polygon at one height, extruded to the ground, is a zone below that height. At other heights it is a surface, and
-/// says nothing of the space about it.
+/// A polygon at one height above the sea, extruded to the ground, is a zone below that height. At other heights it is a
+/// surface, and says nothing of the space about it. `relativeToGround` lifts the corners from the ground under them,
+/// and the surface between them does not follow the ground: to keep out of what is so far above the ground would be too
+/// little over a valley, and to stay in it too much over a hill. So these heights are not used either.
 void KmlReader::end_polygon() {
   if (zone_->outer.empty()) fail("a polygon has no outer boundary");
-  const bool is_above_ground = altitude_mode_ == "relativeToGround", is_absolute = altitude_mode_ == "absolute";
-  if ((is_above_ground || is_absolute) && (extrude_ == "1" || extrude_ == "true") && is_level_ && altitude_m_) {
+  if (altitude_mode_ == "absolute" && (extrude_ == "1" || extrude_ == "true") && is_level_ && altitude_m_) {
     zone_->has_heights = true;
-    zone_->upper = ZoneHeight{*altitude_m_, is_absolute ? HeightReference::sea_level : HeightReference::ground};
+    zone_->upper = ZoneHeight{*altitude_m_, HeightReference::sea_level};
+  } else if (altitude_mode_ == "relativeToGround" && altitude_m_) {
+    zone_->unused_heights = ": altitudes that are relativeToGround are those of its corners alone";
   }
   result_.zones.push_back(std::move(*zone_));
   zone_.reset();
