@@ -175,6 +175,11 @@ TEST_F(FaceTargets, ThatAreNone) {
   expect_refused("{object: town_hall, part: roof, facing: south}", ErrorCode::face_missing);
   expect_refused("{osm: way/2, part: facade, facing: west}", ErrorCode::face_missing, "{osm: city.osm}");
   expect_refused("{at: " + at(0, 40) + ", part: roof}", ErrorCode::object_missing, "{osm: city.osm}");
+  const std::string place = at(0, 0);  // "[latitude, longitude]"
+  const std::size_t comma = place.find(", ");
+  const std::string swapped =
+      "[" + place.substr(comma + 2, place.size() - comma - 3) + ", " + place.substr(1, comma - 1) + "]";
+  expect_refused("{at: " + swapped + ", part: roof}", ErrorCode::object_missing, "{osm: city.osm}");
 }
 
 TEST_F(FaceTargets, KeysThatDoNotFit) {

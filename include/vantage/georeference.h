@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "vantage/export.h"
+#include "vantage/geometry.h"
 
 namespace vantage {
 
@@ -35,6 +36,11 @@ inline constexpr const char* kFlatGround = "flat ground";
 /// microseconds: a geodesic is solved. Throws Error(input) for a latitude beyond 90 or a longitude beyond 180 degrees,
 /// and for a point more than 100 km from the origin, where distances in the frame are no longer good.
 VANTAGE_API Eigen::Vector2d scene_position(const Georeference& georeference, double longitude_deg, double latitude_deg);
+
+/// Whether a place lies outside of `bounds` (scene frame), seen from above, and inside with longitude and latitude the
+/// other way round: then somebody has most likely mixed them up.
+VANTAGE_API bool seems_swapped(const Georeference& georeference, const Box& bounds, double longitude_deg,
+                               double latitude_deg);
 
 /// x and y in the scene frame of points of a coordinate reference system: "EPSG:28992", a WKT text, a PROJ text. Points
 /// are (east, north) or (longitude, latitude), whatever order the system's authority has, in its unit. As read_scene

@@ -130,6 +130,10 @@ Objects at_place(const Mission& mission, const std::array<double, 2>& at_deg, co
     fix += "; the nearest object, " + in_quotes(display_name(scene.objects[*nearest])) + ", has a corner " +
            std::to_string(std::lround(least)) + " m away";
   }
+  if (seems_swapped(*scene.georeference, bounding_box(scene.mesh), at_deg[1], at_deg[0])) {
+    fix = "latitude and longitude are the wrong way round: write at: [" + shortest(at_deg[1]) + ", " +
+          shortest(at_deg[0]) + "]";
+  }
   throw Error(ErrorCode::object_missing,
               "no object of the scene lies at [" + shortest(at_deg[0]) + ", " + shortest(at_deg[1]) + "]",
               mission.as_written.places.target, fix);

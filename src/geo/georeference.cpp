@@ -41,6 +41,16 @@ Eigen::Vector2d scene_position(const Georeference& georeference, double longitud
   return position;
 }
 
+bool seems_swapped(const Georeference& georeference, const Box& bounds, double longitude_deg, double latitude_deg) {
+  const internal::geo::LocalFrame frame({georeference.longitude_deg, georeference.latitude_deg});
+  const auto holds = [&](double longitude, double latitude) {
+    if (!(std::abs(latitude) <= 90) || !(std::abs(longitude) <= 180)) return false;
+    const Eigen::Array2d at = frame.to_local({longitude, latitude});
+    return (at >= bounds.min.head<2>().array()).all() && (at <= bounds.max.head<2>().array()).all();
+  };
+  return !holds(longitude_deg, latitude_deg) && holds(latitude_deg, longitude_deg);
+}
+
 std::vector<Eigen::Vector2d> scene_positions(const Georeference& georeference, const std::string& crs,
                                              std::span<const Eigen::Vector2d> points) {
   const internal::geo::LocalFrame frame({georeference.longitude_deg, georeference.latitude_deg});
