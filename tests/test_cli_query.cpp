@@ -305,12 +305,68 @@ TEST_F(CliQuery, TakesLongitudeAndLatitude) {
             std::string::npos);
 }
 
+/// A valley of a map: the ground rises by 20 m from west to east.
+void write_hill(const std::filesystem::path& file) {
+  std::ofstream stream(file);
+  stream << "o ground\nv -100 -100 500\nv 100 -100 520\nv 100 100 520\nv -100 100 500\nf 1 2 3 4\n";
+}
+
+TEST_F(CliQuery, HeightsMayBeAboveTheSeaOrTheGround) {
+  write_hill(folder_ / "hill.obj");
+  const std::string target = "target: {point: [0, 0, 515]}\n";
+  write("hill.yaml", "scene: {mesh: hill.obj, sea_level: 20}\n" + target + kSensor);
+  const auto inside = [&](const std::string& header, const std::string& row) {
+    options_.input = header + "\n" + row + "\n";
+    const std::vector<std::string> answers = lines(output_of({"query", "hill.yaml", "-", "-q"}));
+    return answers.size() == 2 ? answers[1] : "";
+  };
+  const auto rest = [](const std::string& row) { return row.substr(row.find(",true")); };
+  // At x = 50 the ground is at z 515; the sea is at z 20.
+  const std::string expected = inside("x,y,z", "50,0,525");
+  EXPECT_EQ(expected.rfind("50,0,525,true,", 0), 0U) << expected;
+  for (const auto& [header, row] :
+       {std::pair("x,y,alt", "50,0,505"), {"Altitude,y,X", "505,0,50"}, {"x,y,agl", "50,0,10"}}) {
+    const std::string answer = inside(header, row);
+    EXPECT_EQ(answer.rfind(row, 0), 0U) << answer;  // as it was given
+    EXPECT_EQ(rest(answer), rest(expected)) << header;
+  }
+  EXPECT_NE(inside("x,y,agl", "50,0,-1").find("ground"), std::string::npos);  // below it
+  options_.input = "x,y,z,alt\n50,0,525,3\n";
+  testing::expect_wording(run({"query", "hill.yaml", "-"}).err);
+  const auto refused = [&](const std::string& points, const std::string& mission, const std::string& where) {
+    write("points.csv", points);
+    expect_bad({"query", mission, "points.csv", "-q"}, where);
+  };
+  refused("x,y,alt,agl\n50,0,505,10\n", "hill.yaml", "points.csv:1");
+  refused("x,y,agl\n50,0,10\n500,0,10\n", "hill.yaml", "points.csv:3");  // beyond the ground
+  write("points.csv", "x,y,alt\n50,0,505\n");
+  expect_bad({"query", "hill.yaml", "points.csv", "-q", "--z", "5"}, "points.csv:1");
+  write("nowhere.yaml", "scene: {mesh: hill.obj}\n" + target + kSensor);
+  refused("x,y,alt\n50,0,505\n", "nowhere.yaml", "points.csv");
+  write("bare.obj", "o roof\nv 0 0 500\nv 9 0 500\nv 9 9 500\nf 1 2 3\n");
+  write("bare.yaml", "scene: {mesh: bare.obj}\n" + target + kSensor);
+  refused("x,y,agl\n50,0,10\n", "bare.yaml", "points.csv");
+}
+
 TEST_F(CliQuery, OneHeightMayHaveAUnit) {
   options_.input = "0 0\n";
   const std::string metres = output_of({"query", "mission.yaml", "-", "--z", "30.48"});
   EXPECT_EQ(output_of({"query", "mission.yaml", "-", "--z", "100 ft"}), metres);
   write("points.csv", "0 0\n");
   expect_bad({"query", "mission.yaml", "points.csv", "--z", "100 yd"}, "--z");
+}
+
+TEST_F(CliQuery, SaysThatLongitudeAndLatitudeSeemSwapped) {
+  // Where both are much the same, swapped ones are near enough to be answered.
+  write("mission.yaml", "scene: {mesh: city.obj, origin: [48.2, 48.2005]}\n" + std::string(kTarget) + kSensor);
+  options_.input = "lon,lat,z\n48.2,48.2005,5\n48.2005,48.2,5\n48.2005,48.20005,5\n";
+  const ProgramRun answered = run({"query", "mission.yaml", "-"});
+  EXPECT_EQ(answered.exit_code, 0);
+  EXPECT_NE(answered.err.find(" 1 of the points"), std::string::npos) << answered.err;
+  testing::expect_wording(lines(answered.err).back());
+  EXPECT_EQ(run({"query", "mission.yaml", "-", "-q"}).err, "");
+  options_.input = "lon,lat,z\n48.2005,48.2,5\n";
+  EXPECT_EQ(run({"query", "mission.yaml", "-"}).err.find("of the points"), std::string::npos);
 }
 
 TEST_F(CliQuery, RefusesPlacesThatAreNone) {

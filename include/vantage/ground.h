@@ -27,4 +27,26 @@ VANTAGE_API std::optional<Ground> ground_of(const Scene& scene);
 /// The triangles of one object. Throws Error(input) for an index out of range and an object without triangles.
 VANTAGE_API Ground ground_of(const Scene& scene, std::uint32_t object);
 
+/// How high the ground is, for many places.
+class VANTAGE_API GroundLevels {
+ public:
+  /// Cost: O(n log n) in the triangles.
+  explicit GroundLevels(const Ground& ground);
+  ~GroundLevels();
+  GroundLevels(GroundLevels&&) noexcept;
+  GroundLevels& operator=(GroundLevels&&) noexcept;
+
+  /// z of the lowest and the highest piece of ground at a place: they differ where pieces lie over each other.
+  struct Range {
+    double lowest_m, highest_m;
+  };
+  /// Nothing where there is no ground. A place within a few roundings of the border of the ground may be taken for
+  /// either side.
+  std::optional<Range> at(double x, double y) const;
+
+ private:
+  struct Data;
+  std::unique_ptr<Data> data_;
+};
+
 }  // namespace vantage

@@ -228,6 +228,14 @@ VANTAGE_API Mission resolve_mission(const MissionFile& mission, const Progress& 
 VANTAGE_API Mission resolve_mission(const MissionFile& mission, std::shared_ptr<const LoadedScene> loaded,
                                     const Progress& progress = {});
 
+/// Scene z of the mean sea level: what the mission says (scene.sea_level), or 0 where the heights of the scene have a
+/// known zero (docs/mission-file.md). Nothing where neither says.
+VANTAGE_API std::optional<double> sea_level_m(const Mission& mission);
+
+/// The ground that heights of the mission are measured from: what navigation.ground names, or else the scene's. Throws
+/// Error(input), with the place in the mission file, for a scene that does not say what of it is ground.
+VANTAGE_API Ground ground_of(const Mission& mission);
+
 /// How many volumes a mission has: one, but with Combine::each as many as there are targets.
 VANTAGE_API std::size_t volume_count(const Mission& mission);
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/named_objects.h"
+#include "geo/local_frame.h"
 #include "vantage/error.h"
 #include "vantage/ground.h"
 #include "vantage/input.h"
@@ -38,6 +39,8 @@ Ground ground_named(const Scene& scene, const std::string& name, const std::stri
   return ground_of(scene, named_object(scene, name, where));
 }
 
+}  // namespace
+
 Ground ground_for(const Mission& mission, const std::string& where) {
   const Scene& scene = mission.scene();
   if (const auto& source = mission.as_written.ground) {
@@ -56,8 +59,6 @@ bool is_above_surface(const Mission& mission) {
     return object.kind == ObjectKind::surface;
   });
 }
-
-}  // namespace
 
 void find_ground(Mission& mission) {
   Navigation& navigation = mission.navigation;
@@ -95,3 +96,24 @@ void find_obstacles(Mission& mission) {
 }
 
 }  // namespace vantage::internal::app
+
+namespace vantage {
+
+std::optional<double> sea_level_m(const Mission& mission) {
+  if (mission.as_written.sea_level_m) return mission.as_written.sea_level_m;
+  const auto& georeference = mission.scene().georeference;
+  if (!georeference) return std::nullopt;
+  const std::string& vertical = georeference->vertical;
+  // A mesh whose reference system has no heights: they are measured from anywhere.
+  const bool is_as_in_mesh =
+      mission.as_written.scene.kind == SceneSource::Kind::mesh && vertical.compare(0, 6, "as in ") == 0;
+  const bool is_unknown =
+      vertical.empty() || vertical == kFlatGround || vertical == internal::geo::kEllipsoidalHeight || is_as_in_mesh;
+  return is_unknown ? std::nullopt : std::optional(0.0);
+}
+
+Ground ground_of(const Mission& mission) {
+  return internal::app::ground_for(mission, mission.as_written.places.above_ground);
+}
+
+}  // namespace vantage

@@ -5,6 +5,9 @@
 
 namespace vantage::internal::app {
 
+/// What `ground` names, or else the scene's. Throws as find_ground, with `where`.
+Ground ground_for(const Mission& mission, const std::string& where);
+
 /// Gives all limits above the ground their ground: what `ground` names, or else the scene's. Throws Error(input) with
 /// the place in the mission file for a scene that does not say what of it is ground, and for an object that it does not
 /// have, or has several of.

@@ -27,20 +27,8 @@ namespace {
 
 using Point = Eigen::Vector2d;
 
-constexpr const char* kEllipsoidal = "ellipsoidal height";  // as geo::CoordinateSystem calls it
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr const char* kLonLatAdvice = "check the file: is it of another place, or are longitude and latitude swapped?";
-
-/// Scene z of the mean sea level, where the scene or the mission says.
-std::optional<double> sea_level_z(const Mission& mission) {
-  if (mission.as_written.sea_level_m) return mission.as_written.sea_level_m;
-  const std::string& vertical = mission.scene().georeference->vertical;
-  // A mesh whose reference system has no heights: they are measured from anywhere.
-  const bool is_as_in_mesh =
-      mission.as_written.scene.kind == SceneSource::Kind::mesh && vertical.compare(0, 6, "as in ") == 0;
-  if (vertical.empty() || vertical == kFlatGround || vertical == kEllipsoidal || is_as_in_mesh) return std::nullopt;
-  return 0.0;
-}
 
 /// No viewpoint is farther from the scene's origin.
 double farthest_viewpoint_m(const Mission& mission) {
@@ -160,12 +148,12 @@ double FileZones::z_of(const std::optional<ZoneHeight>& height, double without, 
   const std::string level = vertical.empty() ? "an unknown level" : vertical;
   switch (height->from) {
     case HeightReference::sea_level:
-      if (const auto sea = sea_level_z(mission_)) return height->metres + *sea;
+      if (const auto sea = sea_level_m(mission_)) return height->metres + *sea;
       fail(ErrorCode::heights_differ, place,
            "its heights are above mean sea level, and those of the scene above " + level,
            "say with 'scene.sea_level' which z of the scene the mean sea level has, or write 'heights: any'");
     case HeightReference::ellipsoid:
-      if (vertical == kEllipsoidal) return height->metres;
+      if (vertical == geo::kEllipsoidalHeight) return height->metres;
       fail(ErrorCode::heights_differ, place,
            "its heights are above the WGS 84 ellipsoid, and those of the scene above " + level,
            "convert them to heights above mean sea level, or write 'heights: any'");

@@ -34,8 +34,9 @@ constexpr const char* kQueryExamples =
     "POINTS\n"
     "  A row each; commas, semicolons, tabs or blanks separate the columns. A header may name them: x, y, z in metres\n"
     "  of the scene frame, z up; or lon, lat in degrees (WGS 84) and z, for a scene that says where on the earth it\n"
-    "  lies. Without a header the first three columns are taken. z is always the scene's: measured from the flat\n"
-    "  ground of a map, or from the zero of its terrain, not from the ground under the point.\n"
+    "  lies. Without a header the first three columns are taken. z is the scene's: measured from the flat ground of a\n"
+    "  map, or from the zero of its terrain. A column alt instead of z is metres above mean sea level, a column agl\n"
+    "  metres above the ground under the point.\n"
     "\n"
     "ANSWERS\n"
     "  The table of the points, all of its columns in their order, and after them\n"
@@ -127,6 +128,7 @@ TableOptions table_options(const QueryArguments& options, bool has_targets) {
 
 void tell_of_columns(const PointTable& table) {
   if (table.is_ambiguous()) note("the points have x, y and lon, lat: x and y are used; --lonlat uses the others");
+  for (const std::string& name : table.unused_heights()) note("the points have z and " + name + ": z is used");
   if (table.replaced().empty()) return;
   std::string names;
   for (const std::string& name : table.replaced()) names += (names.empty() ? "" : ", ") + name;
@@ -136,6 +138,34 @@ void tell_of_columns(const PointTable& table) {
 void tell_of_heights(const Scene& scene) {
   const std::string level = scene.georeference ? scene.georeference->vertical : "";
   note("z of the points is metres above " + (level.empty() ? "the zero of the scene's file" : level));
+}
+
+/// Throws Error(input) where the heights of the points cannot be those of the scene.
+PointFrame frame_of(const Mission& mission, const PointTable& table, const std::string& points) {
+  const Scene& scene = mission.scene();
+  PointFrame frame{scene.georeference, bounding_box(scene.mesh)};
+  if (table.height() == HeightColumn::alt) {
+    frame.sea_level_m = sea_level_m(mission);
+    if (!frame.sea_level_m) {
+      const std::string level = scene.georeference ? scene.georeference->vertical : "";
+      throw Error(ErrorCode::heights_differ,
+                  "alt of the points is above mean sea level, and z of the scene above " +
+                      (level.empty() ? "an unknown level" : level),
+                  points, "say with 'scene.sea_level' which z of the scene the mean sea level has, or give z or agl");
+    }
+  }
+  if (table.height() == HeightColumn::agl) {
+    try {
+      frame.ground.emplace(ground_of(mission));
+    } catch (const Error& error) {
+      if (error.code() != ErrorCode::ground_missing) throw;
+      throw Error(ErrorCode::ground_missing,
+                  "agl of the points is above the ground, and the scene does not say what of "
+                  "it is ground",
+                  points, "give z or alt, or a scene with ground: a map, or what 'vantage scene' made of one");
+    }
+  }
+  return frame;
 }
 
 /// Rows of one portion, with their coordinates.
@@ -156,9 +186,9 @@ Portion parsed(PointTable& table, std::span<const Row> rows) {
 class Answers {
  public:
   /// One query for each of `targets`, the names that rows are told apart by where there are several.
-  Answers(const QueryArguments& options, const Mission& mission, PointTable& table, std::vector<std::string> targets,
+  Answers(const QueryArguments& options, PointFrame frame, PointTable& table, std::vector<std::string> targets,
           std::vector<ViewsQuery> queries)
-      : place_(mission.scene().georeference),
+      : frame_(std::move(frame)),
         table_(table),
         targets_(std::move(targets)),
         queries_(std::move(queries)),
@@ -167,7 +197,7 @@ class Answers {
     fraction_.with_polygons = !options.seen_file.empty();
     if (!fraction_.with_polygons) return;
     seen_ = std::make_unique<Sink>(options.seen_file, is_standard_stream(options.seen_file));
-    features_.emplace(place_, fraction_.measure);
+    features_.emplace(frame_.place, fraction_.measure);
   }
 
   void begin() {
@@ -178,7 +208,7 @@ class Answers {
   void add(const Portion& portion) {
     std::vector<Vec3> points;
     for (std::size_t i = 0; i < portion.rows.size(); ++i) {
-      points.push_back(table_.scene_point(portion.coordinates[i], place_, portion.rows[i]));
+      points.push_back(table_.scene_point(portion.coordinates[i], frame_, portion.rows[i]));
     }
     std::vector<std::vector<PointAnswer>> answers;
     std::vector<std::vector<PointFraction>> fractions;
@@ -225,7 +255,7 @@ class Answers {
     return result;
   }
 
-  std::optional<Georeference> place_;
+  PointFrame frame_;
   PointTable& table_;
   std::vector<std::string> targets_;
   std::vector<ViewsQuery> queries_;
@@ -331,11 +361,12 @@ int run_query(const QueryArguments& options) {
   if (!options.target.empty()) mission = of_target(mission, options.target);
   check_fraction(options, mission);
   const Scene& scene = mission.scene();
-  if (table.is_lonlat() && !is_quiet) tell_of_heights(scene);
+  if (table.is_lonlat() && table.height() == HeightColumn::z && !is_quiet) tell_of_heights(scene);
   if (!options.seen_file.empty() && !scene.georeference && !is_quiet) {
     note("the seen parts are in x, y, z of the scene frame: the scene does not say where on the earth it lies");
   }
-  Answers answers(options, mission, table, target_names(mission),
+  PointFrame frame = frame_of(mission, table, is_from_stdin ? "standard input" : options.points_file);
+  Answers answers(options, std::move(frame), table, target_names(mission),
                   queries_of(mission, PreparedScene(scene, progress.callback())));
   answers.begin();
   while (!portion.rows.empty()) {
@@ -344,6 +375,10 @@ int run_query(const QueryArguments& options) {
     portion = parsed(table, reader.next());
   }
   answers.end();
+  if (table.swapped() > 0 && !is_quiet) {
+    note("outside of the scene, and inside with longitude and latitude the other way round: " +
+         std::to_string(table.swapped()) + " of the points; are the columns in the right order?");
+  }
   return kSuccess;
 }
 

@@ -129,19 +129,16 @@ std::optional<std::string> PointTable::id(const Row& row) {
 
 void PointTable::take_header(const std::vector<Field>& fields, const Row& row) {
   for (const Field& field : fields) names_.push_back(field.plain());
-  const auto x = find_column(names_, {"x"}), y = find_column(names_, {"y"}), z = find_column(names_, {"z"}),
+  const auto x = find_column(names_, {"x"}), y = find_column(names_, {"y"}),
              lon = find_column(names_, {"lon", "longitude"}), lat = find_column(names_, {"lat", "latitude"});
   is_lonlat_ = options_.lonlat || (lon && lat && !(x && y));
   is_ambiguous_ = !options_.lonlat && lon && lat && x && y;
-  column_ = {is_lonlat_ ? lon : x, is_lonlat_ ? lat : y, z};
+  column_ = {is_lonlat_ ? lon : x, is_lonlat_ ? lat : y, std::nullopt};
+  take_height(row);
   for (const auto& column : column_) {
     if (column && !is_lonlat_) names_[*column] = lower_case(names_[*column]);
   }
-  if (options_.z && z) {
-    fail(ErrorCode::conflicting_keys, "the points have a column z, and --z gives another", row,
-         "leave one of them out");
-  }
-  const std::array<const char*, 3> axes = {is_lonlat_ ? "lon" : "x", is_lonlat_ ? "lat" : "y", "z"};
+  const std::array<const char*, 3> axes = {is_lonlat_ ? "lon" : "x", is_lonlat_ ? "lat" : "y", "z, alt or agl"};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (column_[axis] || (axis == 2 && options_.z)) continue;
     const std::string form = is_lonlat_
@@ -150,6 +147,34 @@ void PointTable::take_header(const std::vector<Field>& fields, const Row& row) {
     fail(ErrorCode::table_syntax,
          "the first row is neither a point nor a header with a column " + std::string(axes[axis]), row,
          axis == 2 ? form + "; --z gives one height for all points" : form);
+  }
+}
+
+/// z comes first, as before there were others. Of alt and agl only one can be meant.
+void PointTable::take_height(const Row& row) {
+  struct Known {
+    HeightColumn height;
+    std::optional<std::size_t> column;
+  };
+  const std::array<Known, 3> all = {Known{HeightColumn::z, find_column(names_, {"z"})},
+                                    {HeightColumn::alt, find_column(names_, {"alt", "altitude"})},
+                                    {HeightColumn::agl, find_column(names_, {"agl"})}};
+  for (const Known& known : all) {
+    if (!known.column) continue;
+    const std::string& name = names_[*known.column];
+    if (options_.z) {
+      fail(ErrorCode::conflicting_keys, "the points have a column " + name + ", and --z gives another height", row,
+           "leave one of them out");
+    }
+    if (!column_[2]) {
+      column_[2] = known.column;
+      height_ = known.height;
+    } else if (height_ == HeightColumn::z) {
+      unused_heights_.push_back(name);
+    } else {
+      fail(ErrorCode::conflicting_keys, "the points have the columns " + names_[*column_[2]] + " and " + name, row,
+           "leave one of them out, or give another name to it");
+    }
   }
 }
 
@@ -187,21 +212,45 @@ Vec3 PointTable::coordinates(const Row& row) {
   return point;
 }
 
-Vec3 PointTable::scene_point(const Vec3& coordinates, const std::optional<Georeference>& place, const Row& row) const {
-  if (!is_lonlat_) return coordinates;
-  if (!place) {
+Vec3 PointTable::scene_point(const Vec3& coordinates, const PointFrame& frame, const Row& row) {
+  Eigen::Vector2d at = coordinates.head<2>();
+  if (is_lonlat_ && !frame.place) {
     fail(ErrorCode::not_georeferenced,
          "the points are longitudes and latitudes, but the scene does not say where on the earth it lies", row,
          "give x, y and z in the scene frame, or a scene with a place: a map, CityJSON with a reference system, a "
          "raster, or a mesh with 'crs' or written by 'vantage scene'");
   }
-  try {
-    const Eigen::Vector2d xy = scene_position(*place, coordinates.x(), coordinates.y());
-    return {xy.x(), xy.y(), coordinates.z()};
-  } catch (const Error& error) {
-    if (error.kind() != ErrorKind::input) throw;
-    fail(error.code(), error.problem(), row, error.fix());
+  if (is_lonlat_) {
+    try {
+      at = scene_position(*frame.place, coordinates.x(), coordinates.y());
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::input) throw;
+      fail(error.code(), error.problem(), row, error.fix());
+    }
+    const Eigen::Array2d low = frame.bounds.min.head<2>(), high = frame.bounds.max.head<2>();
+    const bool is_outside = (at.array() < low).any() || (at.array() > high).any();
+    if (is_outside && seems_swapped(*frame.place, frame.bounds, coordinates.x(), coordinates.y())) ++swapped_;
   }
+  return {at.x(), at.y(), scene_height(coordinates, at, frame, row)};
+}
+
+double PointTable::scene_height(const Vec3& coordinates, const Eigen::Vector2d& at, const PointFrame& frame,
+                                const Row& row) const {
+  if (height_ == HeightColumn::z) return coordinates.z();
+  if (height_ == HeightColumn::alt) return coordinates.z() + frame.sea_level_m.value();
+  constexpr double kSameM = 1e-3;
+  const auto ground = frame.ground->at(at.x(), at.y());
+  if (!ground) {
+    fail(ErrorCode::ground_missing, "there is no ground under the point, so its agl says nothing", row,
+         "give z or alt, or leave the point out");
+  }
+  if (ground->highest_m - ground->lowest_m > kSameM) {
+    fail(ErrorCode::ground_missing,
+         "pieces of the ground lie over each other at the point, at z " + shortest(ground->lowest_m) + " and " +
+             shortest(ground->highest_m),
+         row, "give z or alt");
+  }
+  return coordinates.z() + ground->highest_m;
 }
 
 std::string PointTable::beginning() const {

@@ -12,6 +12,9 @@
 
 namespace vantage::internal::geo {
 
+/// Georeference::vertical of heights above the WGS 84 ellipsoid, as CoordinateSystem calls it.
+inline constexpr const char* kEllipsoidalHeight = "ellipsoidal height";
+
 /// Degrees, WGS 84, in this order everywhere in the library (mission files say [lat, lon] where they name a centre).
 struct LonLat {
   double longitude_deg = 0;

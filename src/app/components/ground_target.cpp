@@ -44,7 +44,7 @@ Mesh ground_mesh(const Scene& scene, std::uint32_t ground) {
   return mesh;
 }
 
-const terrain::TriangulatedTerrain& ground_of(const Mission& mission) {
+const terrain::TriangulatedTerrain& ground_surface(const Mission& mission) {
   const Scene& scene = mission.scene();
   const auto ground = ground_object(scene);
   if (!ground) {
@@ -190,14 +190,14 @@ void check_outdoors(const Mission& mission) {
 
 void put_on_ground(Mission& mission, const geo::LocalFrame* frame, const Progress& progress) {
   const GroundTarget& wanted = *mission.as_written.ground_target;
-  if (wanted.center_deg) check_order(mission, wanted, ground_of(mission), *frame);
+  if (wanted.center_deg) check_order(mission, wanted, ground_surface(mission), *frame);
   const bool is_drawn = !wanted.outline.empty();
   const std::vector<city::Footprint> areas = is_drawn ? drawn(wanted.outline)
                                              : wanted.osm.empty()
                                                  ? std::vector<city::Footprint>{{rectangle(wanted, *frame), {}}}
                                                  : outlines(mission, wanted.osm, *frame, progress);
   if (auto note = make_room(mission, plan_box(areas))) mission.notes.push_back(std::move(*note));
-  const terrain::TriangulatedTerrain& ground = ground_of(mission);
+  const terrain::TriangulatedTerrain& ground = ground_surface(mission);
   mission.target.parts.clear();
   for (const city::ConvexArea& area :
        city::convex_areas(areas, is_drawn ? city::Outlines::rough : city::Outlines::clean)) {
