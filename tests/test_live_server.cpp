@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cstring>
 #include <map>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
@@ -205,6 +206,62 @@ TEST_F(LiveServerThread, StopsWhatIsComputed) {
   // The last volume is still there, and what is asked next is not stopped.
   EXPECT_TRUE(ask(socket, {{"id", 5}, {"request", {{"call", "slice"}, {"z", 10}}}}).contains("value"));
   EXPECT_TRUE(ask(socket, compute(6, 0.02)).contains("value"));
+}
+
+// What takes long in one window holds up none of the others.
+TEST_F(LiveServerThread, AWindowDoesNotWaitForAnotherOne) {
+  Socket slow = opened(), other = opened();
+  const std::string text =
+      std::string(testing::kTarget) + testing::kSensor + "exact: {tolerance: 0.00001}\n";  // seconds
+  slow.write(asio::buffer(Json{{"id", 1}, {"request", {{"call", "compute"}, {"text", text}}}}.dump()));
+  const Json compute{{"id", 2},
+                     {"request", {{"call", "compute"}, {"text", std::string(testing::kTarget) + testing::kSensor}}}};
+  EXPECT_TRUE(ask(other, compute).contains("value"));
+  EXPECT_TRUE(ask(other, {{"id", 3}, {"request", {{"call", "slice"}, {"z", 10}}}}).contains("value"));
+  // The first one is computed still.
+  std::map<int, Json> answers = ask_at_once(slow, {{{"id", 4}, {"request", {{"call", "stop"}}}}});
+  if (!answers.contains(1)) {
+    const Json next_one = next(slow);
+    answers[next_one["id"]] = next_one;
+  }
+  EXPECT_EQ(answers[1]["error"]["code"], "cancelled") << answers[1].dump(1).substr(0, 300);
+}
+
+// Whoever knows the token gets in, however many there are who do not.
+TEST_F(LiveServerThread, StrangersDoNotKeepTheOwnerOut) {
+  std::vector<asio::ip::tcp::socket> strangers;
+  for (int i = 0; i < 150; ++i) {
+    strangers.push_back(connected());
+    if (i % 2 == 0)
+      asio::write(strangers.back(), asio::buffer(std::string("GET / HTTP/1.1\r\nHost: 127")));  // never more
+  }
+  EXPECT_EQ(get(path(), host()).result(), http::status::ok);
+  Socket socket = opened();
+  EXPECT_TRUE(ask(socket, {{"id", 1}, {"request", {{"call", "about"}}}}).contains("value"));
+  // Those who came first were sent away.
+  char byte = 0;
+  beast::error_code error;
+  strangers.front().read_some(asio::buffer(&byte, 1), error);
+  EXPECT_TRUE(error == asio::error::eof || error == asio::error::connection_reset) << error.message();
+  EXPECT_EQ(get("/", host()).result(), http::status::forbidden);
+}
+
+TEST_F(LiveServerThread, TalksToSixteenWindows) {
+  std::vector<std::unique_ptr<Socket>> windows;
+  for (int i = 0; i < 16; ++i) windows.push_back(std::make_unique<Socket>(opened()));
+  Socket one_more(connected());
+  EXPECT_EQ(handshake(one_more, "http://" + host(), path("/socket")), websocket::error::upgrade_declined);
+  for (const auto& window : windows)
+    EXPECT_TRUE(ask(*window, {{"id", 1}, {"request", {{"call", "about"}}}}).contains("value"));
+  windows.front()->close(websocket::close_code::normal);
+  windows.erase(windows.begin());
+  beast::error_code error = websocket::error::upgrade_declined;
+  for (int tries = 0; tries < 100 && error; ++tries) {  // until the server has noticed
+    Socket again(connected());
+    error = handshake(again, "http://" + host(), path("/socket"));
+    if (error) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  EXPECT_FALSE(error) << error.message();
 }
 
 TEST_F(LiveServerThread, StopsAProof) {

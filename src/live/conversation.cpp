@@ -19,9 +19,9 @@ constexpr std::size_t kMostOutgoing = std::size_t{16} << 20;
 
 }  // namespace
 
-Conversation::Conversation(beast::tcp_stream stream, Session session, Workshop& workshop,
+Conversation::Conversation(beast::tcp_stream stream, const Session& original, Workshop& workshop,
                            std::shared_ptr<const void> seat)
-    : socket_(std::move(stream)), session_(std::move(session)), workshop_(workshop), seat_(std::move(seat)) {}
+    : socket_(std::move(stream)), original_(original), workshop_(workshop), seat_(std::move(seat)) {}
 
 void Conversation::start(const Upgrade& request) {
   beast::get_lowest_layer(socket_).expires_never();  // the socket has its own limits of time
@@ -106,8 +106,9 @@ void Conversation::work() {
     const auto goes_on = [&] { return is_wanted() && !self->is_stopped_; };
     std::string message;
     if (is_wanted()) {
+      if (!self->session_) self->session_.emplace(self->original_.fork());
       with_threads(workshop.threads, [&] {
-        message = answer(self->session_, self->areas_, request, [&](std::string_view, double) { return goes_on(); });
+        message = answer(*self->session_, self->areas_, request, [&](std::string_view, double) { return goes_on(); });
       });
     }
     const auto executor = self->socket_.get_executor();

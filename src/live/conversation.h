@@ -8,6 +8,7 @@
 #include <boost/beast/websocket.hpp>
 #include <deque>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "live/request.h"
@@ -15,9 +16,12 @@
 
 namespace vantage::live {
 
-/// What conversations have in common.
+/// What conversations have in common. Each has a thread of its own while it works, so that none waits for another one:
+/// what takes long in one shares the processor's cores with them, and no more.
 struct Workshop {
-  boost::asio::thread_pool workers{1};
+  static constexpr int kMostConversations = 16;
+
+  boost::asio::thread_pool workers{kMostConversations};
   int threads = 0;  ///< that a computation may use; 0: all
   std::atomic<bool> is_over = false;
 };
@@ -29,8 +33,10 @@ class Conversation : public std::enable_shared_from_this<Conversation> {
  public:
   using Upgrade = boost::beast::http::request<boost::beast::http::string_body>;
 
-  /// `seat`: kept for as long as it lives.
-  Conversation(boost::beast::tcp_stream stream, Session session, Workshop& workshop, std::shared_ptr<const void> seat);
+  /// `original`: what its session is forked from, by the worker, once something is asked; outlives it. `seat`: kept for
+  /// as long as it lives.
+  Conversation(boost::beast::tcp_stream stream, const Session& original, Workshop& workshop,
+               std::shared_ptr<const void> seat);
 
   void start(const Upgrade& request);
 
@@ -51,7 +57,8 @@ class Conversation : public std::enable_shared_from_this<Conversation> {
 
   boost::beast::websocket::stream<boost::beast::tcp_stream> socket_;
   boost::beast::flat_buffer incoming_;
-  Session session_;
+  const Session& original_;
+  std::optional<Session> session_;  ///< of the worker, as are the areas
   MapAreas areas_;
   Workshop& workshop_;
   std::shared_ptr<const void> seat_;

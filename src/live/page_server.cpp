@@ -10,7 +10,10 @@
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
 #include <chrono>
+#include <deque>
+#include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "live/conversation.h"
@@ -28,9 +31,23 @@ using Tcp = asio::ip::tcp;
 namespace {
 
 constexpr std::uint32_t kLargestHeader = 8192;
-constexpr std::uint64_t kLargestBody = 1024;  // nobody sends one
-constexpr auto kMostTime = std::chrono::seconds(20);
-constexpr long kMostCallers = 100;
+constexpr std::uint64_t kLargestBody = 1024;          // nobody sends one
+constexpr auto kMostTime = std::chrono::seconds(10);  // for a request, and for its answer
+constexpr std::size_t kMostStrangers = 100;
+
+class Caller;
+
+/// Callers who have not shown the token. Where there are too many, the one who has waited longest is sent away: whoever
+/// comes is let in, and a browser sends its request at once.
+class Strangers {
+ public:
+  void add(const std::shared_ptr<Caller>& caller);
+  void remove(const Caller* caller);
+
+ private:
+  std::deque<std::pair<const Caller*, std::weak_ptr<Caller>>>
+      callers_;  // those who are gone, too, until room is needed
+};
 
 /// What callers have in common.
 struct House {
@@ -38,7 +55,8 @@ struct House {
   Session session;
   std::string page;
   Workshop workshop;
-  std::shared_ptr<const int> seats = std::make_shared<int>();  // a copy for each caller
+  Strangers strangers;
+  std::shared_ptr<const int> seats = std::make_shared<int>();  // a copy for each conversation
 };
 
 /// The page asks nothing of other hosts, and no other page may show it in a frame. `host`: one of this machine's names.
@@ -51,7 +69,13 @@ std::string policy_of(std::string_view host) {
 /// One request of a browser: for the page, or to become a conversation.
 class Caller : public std::enable_shared_from_this<Caller> {
  public:
-  Caller(Tcp::socket socket, House& house) : stream_(std::move(socket)), house_(house), seat_(house.seats) {}
+  Caller(Tcp::socket socket, House& house) : stream_(std::move(socket)), house_(house) {}
+  ~Caller() { house_.strangers.remove(this); }
+  Caller(const Caller&) = delete;
+  Caller& operator=(const Caller&) = delete;
+
+  /// Whatever it waits for fails.
+  void send_away() { stream_.close(); }
 
   void start() {
     parser_.header_limit(kLargestHeader);
@@ -87,7 +111,13 @@ class Caller : public std::enable_shared_from_this<Caller> {
       if (buffer_.size() > 0) {  // RFC 6455, 4.1: nothing may be sent before the answer
         return reply(http::status::bad_request, "Wait for the answer before the first message.\n");
       }
-      std::make_shared<Conversation>(std::move(stream_), house_.session, house_.workshop, seat_)->start(request);
+      house_.strangers.remove(this);
+      if (house_.seats.use_count() > Workshop::kMostConversations) {
+        return reply(http::status::service_unavailable, "The program talks to " +
+                                                            std::to_string(Workshop::kMostConversations) +
+                                                            " windows already: close one of them.\n");
+      }
+      std::make_shared<Conversation>(std::move(stream_), house_.session, house_.workshop, house_.seats)->start(request);
       return;
     }
     if (request.method() != http::verb::get && request.method() != http::verb::head) {
@@ -96,11 +126,18 @@ class Caller : public std::enable_shared_from_this<Caller> {
     if (!gate.opens(target, "/")) {
       return reply(http::status::forbidden, "Open the whole address that the program printed, with its token.\n");
     }
-    reply(http::status::ok, house_.page, "text/html; charset=utf-8");
+    house_.strangers.remove(this);
+    stream_.expires_after(kMostTime);
+    send(http::status::ok, house_.page, "text/html; charset=utf-8");
   }
 
-  /// `body` outlives the reply.
-  void reply(http::status status, std::string_view body, const char* type = "text/plain; charset=utf-8") {
+  void reply(http::status status, std::string words) {
+    words_ = std::move(words);
+    send(status, words_, "text/plain; charset=utf-8");
+  }
+
+  /// `body` outlives it.
+  void send(http::status status, std::string_view body, const char* type) {
     response_.emplace(status, parser_.get().version());
     response_->set(http::field::content_type, type);
     response_->set(http::field::cache_control, "no-store");
@@ -118,11 +155,23 @@ class Caller : public std::enable_shared_from_this<Caller> {
 
   beast::tcp_stream stream_;
   House& house_;
-  std::shared_ptr<const void> seat_;
   beast::flat_buffer buffer_;
+  std::string words_;
   http::request_parser<http::string_body> parser_;
   std::optional<Response> response_;
 };
+
+void Strangers::add(const std::shared_ptr<Caller>& caller) {
+  if (callers_.size() >= kMostStrangers) {
+    if (const std::shared_ptr<Caller> longest = callers_.front().second.lock()) longest->send_away();
+    callers_.pop_front();
+  }
+  callers_.emplace_back(caller.get(), caller);
+}
+
+void Strangers::remove(const Caller* caller) {
+  std::erase_if(callers_, [&](const auto& known) { return known.first == caller; });
+}
 
 }  // namespace
 
@@ -165,7 +214,9 @@ class PageServer::Listener {
     acceptor_.async_accept([this](beast::error_code error, Tcp::socket socket) {
       if (error == asio::error::operation_aborted) return;
       if (error) return accept_later();  // no descriptor is left
-      if (house_.seats.use_count() <= kMostCallers) std::make_shared<Caller>(std::move(socket), house_)->start();
+      const auto caller = std::make_shared<Caller>(std::move(socket), house_);
+      house_.strangers.add(caller);
+      caller->start();
       accept();
     });
   }
@@ -186,10 +237,10 @@ class PageServer::Listener {
     });
   }
 
+  House house_;  // first: callers that wait still belong to the context, and leave it when that goes
   asio::io_context context_{1};
   Tcp::acceptor acceptor_;
   asio::steady_timer timer_{context_}, pause_{context_};
-  House house_;
 };
 
 PageServer::PageServer(std::uint16_t port) : listener_(std::make_unique<Listener>(port)) {}

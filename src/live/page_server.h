@@ -11,7 +11,8 @@
 namespace vantage::live {
 
 /// Takes callers from this machine alone. Who knows the token, which is new each time, may see the page and ask its
-/// session; each page has a copy of the session, and they are answered one at a time.
+/// session; each page has a copy of the session, and none waits for another one. However many callers there are without
+/// the token, who knows it gets in.
 class PageServer {
  public:
   /// `port`: 0 takes one that is free. Whoever calls before it runs waits. Throws Error(input) for a port that is used.

@@ -134,6 +134,13 @@ std::string about() {
   return text_of(Json{{"version", VANTAGE_VERSION}, {"cameras", std::move(cameras)}});
 }
 
+Session Session::fork() const {
+  Session other = *this;
+  other.kept_ = std::make_shared<KeptVolumes>();
+  other.query_.reset();
+  return other;
+}
+
 void Session::take_scene(const MissionFile& file, std::shared_ptr<const LoadedScene> loaded) {
   Stopwatch time;
   PreparedScene prepared(loaded->scene);

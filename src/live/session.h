@@ -28,9 +28,13 @@ struct ViewMesh {
 /// The version and the known cameras, as JSON.
 std::string about();
 
-/// Texts are those of docs/mission-file.md; JSON is one object. Throws Error. Copies share the scene.
+/// Texts are those of docs/mission-file.md; JSON is one object. Throws Error. Copies share the scene. Not for two
+/// threads at once, but a copy may be used beside its original: see fork().
 class Session {
  public:
+  /// A copy that shares nothing which either changes.
+  Session fork() const;
+
   /// `text`: the section `scene` of a mission alone; its file lies in the current folder. A session keeps its scene
   /// when it cannot open another one. JSON: the scene.
   std::string open(std::string_view text);
