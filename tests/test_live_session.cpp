@@ -112,6 +112,62 @@ TEST_F(LiveSession, ATargetFarOutLeavesTheSceneAsItIs) {
   EXPECT_EQ(run_mission(resolve_mission(read_mission(folder_ / "edited.yaml"))).volume.mesh.triangles.size(), before);
 }
 
+// An error of the disk or of this program would be told else.
+TEST_F(LiveSession, AnEmptyVolumeHasNothingToSave) {
+  ask({{"call", "compute"}, {"text", std::string(kSquare) + "navigation: {altitude: [500, 600]}\n"}});
+  for (const char* const format : {"ply", "glb", "stl", "obj"}) {
+    const Json error = ask({{"call", "save"}, {"format", format}}).header["error"];
+    EXPECT_EQ(error["code"], name_of(ErrorCode::nothing_given)) << format;
+    testing::expect_wording(error["problem"].get<std::string>() + "\n" + error["fix"].get<std::string>());
+  }
+}
+
+// Whoever may ask the page's session must not learn by its answers what lies on the disk.
+TEST_F(LiveSession, DoesNotTellWhetherAFileExists) {
+  write("there.ply", "ply\n");
+  write("folder/there.ply", "ply\n");
+  const auto told = [&](const std::string& more) {
+    Json error = ask({{"call", "compute"}, {"text", kSquare + more}}).header["error"];
+    for (const char* const name : {"there", "gone", "folder", "nowhere"}) {
+      std::string where = error["where"];
+      for (std::size_t at; (at = where.find(name)) != std::string::npos;)
+        where.replace(at, std::string(name).size(), "X");
+      error["where"] = where;
+    }
+    return error;
+  };
+  const auto mesh = [&](const std::string& name) { return told("navigation: {meshes: [" + name + "]}\n"); };
+  const auto zones = [&](const std::string& name) {
+    return told("navigation: {keep_out: [{file: " + name + ", heights: any}]}\n");
+  };
+  EXPECT_EQ(mesh("there.ply")["code"], name_of(ErrorCode::not_applicable));
+  EXPECT_EQ(mesh("there.ply"), mesh("gone.ply"));
+  EXPECT_EQ(mesh("folder/there.ply"), mesh("nowhere/there.ply"));
+  EXPECT_EQ(mesh("/etc/passwd")["code"], name_of(ErrorCode::not_applicable));
+  EXPECT_EQ(zones("there.ply"), zones("gone.ply"));
+  // PROJ opens files that a text names.
+  const auto crs = [&](const std::string& text) { return told("crs: \"" + text + "\"\n"); };
+  EXPECT_EQ(crs("/etc/passwd")["code"], name_of(ErrorCode::not_applicable));
+  EXPECT_EQ(crs("+proj=longlat +nadgrids=/etc/passwd +type=crs"), crs("+proj=longlat +nadgrids=/etc/gone +type=crs"));
+  EXPECT_EQ(crs("EPSG:4326")["code"], name_of(ErrorCode::not_georeferenced));
+}
+
+TEST_F(LiveSession, TakesTheFilesThatTheOpenedMissionNames) {
+  ask({{"call", "compute"}, {"text", kSquare}});
+  const Message saved = ask({{"call", "save"}, {"format", "ply"}});
+  write("deep/air.ply", saved.rest);
+  const std::string limits = "navigation: {meshes: [deep/air.ply]}\n";
+  write("limited.yaml", testing::kScene + std::string(kSquare) + limits);
+  session_.open_file(folder_ / "limited.yaml");
+  for (const char* const name : {"deep/air.ply", "./deep/air.ply", "gone/../deep/air.ply"}) {
+    const std::string again = std::string("navigation: {meshes: [") + name + "]}\n";
+    const Json header = ask({{"call", "compute"}, {"text", kSquare + again}}).header;
+    EXPECT_EQ(header.contains("error"), false) << header.dump(1).substr(0, 500);
+  }
+  EXPECT_EQ(code_of({{"call", "compute"}, {"text", std::string(kSquare) + "navigation: {meshes: [air.ply]}\n"}}),
+            name_of(ErrorCode::not_applicable));
+}
+
 TEST_F(LiveSession, SavesOnlyFormatsOfVolumes) {
   ask({{"call", "compute"}, {"text", kSquare}});
   for (const char* const format : {"ply", "glb", "stl", "obj"}) {

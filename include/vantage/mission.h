@@ -182,6 +182,13 @@ VANTAGE_API MissionFile read_mission_text(std::string_view text, const std::file
 VANTAGE_API MissionFile read_mission_text(std::string_view text, const std::filesystem::path& file,
                                           const SceneSource& source);
 
+/// The same of a text from somebody who may name the files that `opened` names, and no others, as a page that shows
+/// that mission. Names are compared as they are written; the disk is not asked about another one. Nor may `crs` be any
+/// text, since PROJ opens the files that some name: it is that of `opened`, or a code of an authority ("EPSG:4326").
+/// Throws Error(not_applicable) for others.
+VANTAGE_API MissionFile read_mission_text(std::string_view text, const std::filesystem::path& file,
+                                          const SceneSource& source, const MissionFile& opened);
+
 /// The `scene` of a mission alone: of a text without anything else. All but MissionFile::scene and sea_level_m stays as
 /// it is by default.
 VANTAGE_API MissionFile read_scene_text(std::string_view text, const std::filesystem::path& file);

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <array>
+
 #include "app/input_file.h"
 #include "app/mission_parser.h"
 #include "vantage/error.h"
@@ -55,6 +58,54 @@ void check_limits(MissionFile& mission) {
   check_zones(mission.keep_out_files, mission.places.keep_out_files);
 }
 
+[[noreturn]] void refuse_file(const std::string& name, const std::string& place) {
+  throw Error(ErrorCode::not_applicable, "the mission names a file that it did not name when it was opened",
+              place + " (" + name + ")", "name it in the mission file and start again");
+}
+
+/// Files that a text of others names are taken as `opened` has them: by their names alone.
+class OpenedFiles {
+ public:
+  explicit OpenedFiles(const MissionFile& opened) : opened_(opened) {}
+
+  void take(std::vector<NavigationMeshFile>& meshes, const std::vector<std::string>& places) const {
+    for (std::size_t i = 0; i < meshes.size(); ++i) {
+      meshes[i].file = file_of(meshes[i].name, std::array<ZoneFile, 0>{}, opened_.navigation_meshes, places[i]);
+    }
+  }
+  void take(std::vector<ZoneFile>& zones, const std::vector<std::string>& places) const {
+    for (std::size_t i = 0; i < zones.size(); ++i) {
+      zones[i].file = file_of(zones[i].name, opened_.keep_in_files, opened_.keep_out_files, places[i]);
+    }
+  }
+
+ private:
+  template <typename First, typename Second>
+  static fs::path file_of(const std::string& name, const First& first, const Second& second, const std::string& place) {
+    const fs::path wanted = fs::path(name).lexically_normal();
+    const auto is_wanted = [&](const auto& known) { return fs::path(known.name).lexically_normal() == wanted; };
+    for (const auto& known : first) {
+      if (is_wanted(known)) return known.file;
+    }
+    for (const auto& known : second) {
+      if (is_wanted(known)) return known.file;
+    }
+    refuse_file(name, place);
+  }
+
+  const MissionFile& opened_;
+};
+
+/// "EPSG:4326".
+bool is_authority_code(std::string_view crs) {
+  constexpr std::string_view kDigits = "0123456789";
+  const std::size_t colon = crs.find(':');
+  if (colon == 0 || colon == std::string_view::npos || colon + 1 == crs.size()) return false;
+  const auto is_letter = [](char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); };
+  return std::all_of(crs.begin(), crs.begin() + static_cast<std::ptrdiff_t>(colon), is_letter) &&
+         crs.find_first_not_of(kDigits, colon + 1) == std::string_view::npos;
+}
+
 }  // namespace
 
 MissionFile read_mission(const fs::path& file) {
@@ -71,6 +122,27 @@ MissionFile read_mission_text(std::string_view text, const fs::path& file) {
 
 MissionFile read_mission_text(std::string_view text, const fs::path& file, const SceneSource& source) {
   MissionFile mission = internal::app::parse_mission(text, file, &source);
+  check_limits(mission);
+  return mission;
+}
+
+MissionFile read_mission_text(std::string_view text, const fs::path& file, const SceneSource& source,
+                              const MissionFile& opened) {
+  MissionFile mission = internal::app::parse_mission(text, file, &source);
+  const OpenedFiles files(opened);
+  files.take(mission.navigation_meshes, mission.places.navigation_meshes);
+  files.take(mission.keep_in_files, mission.places.keep_in_files);
+  files.take(mission.keep_out_files, mission.places.keep_out_files);
+  // Whatever else a mission may name one day.
+  const std::vector<fs::path> named = input_files(opened);
+  for (const fs::path& wanted : input_files(mission)) {
+    const bool is_named = wanted == file || std::find(named.begin(), named.end(), wanted) != named.end();
+    if (!is_named) refuse_file(wanted.filename().string(), file.string());
+  }
+  if (!mission.crs.empty() && mission.crs != opened.crs && !is_authority_code(mission.crs)) {
+    throw Error(ErrorCode::not_applicable, "the mission has another 'crs' than when it was opened", file.string(),
+                "write a code such as EPSG:4326, or change the mission file and start again");
+  }
   check_limits(mission);
   return mission;
 }

@@ -25,15 +25,6 @@ using Json = nlohmann::ordered_json;
 
 std::string text_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
-/// A page that is served asks for what its user named on the command line, and for nothing else.
-void check_named(const MissionFile& mission, const std::vector<std::filesystem::path>& named) {
-  for (const std::filesystem::path& file : input_files(mission)) {
-    if (std::find(named.begin(), named.end(), file) != named.end()) continue;
-    throw Error(ErrorCode::not_applicable, "the mission names a file that it did not name when it was opened",
-                file.string(), "name it in the mission file and start again");
-  }
-}
-
 class Stopwatch {
  public:
   /// Milliseconds since it was made or asked last.
@@ -184,7 +175,7 @@ void Session::open_file(const std::filesystem::path& mission, const Progress& pr
   Mission resolved = resolve_mission(file, loaded, progress);  // says what is wrong before anything is shown
   read_ms_ = time.lap();
   file_ = std::filesystem::absolute(mission);
-  named_ = input_files(file);
+  opened_file_ = file;
   text_ = bytes_of(file_);
   take_scene(file, std::move(loaded));
   computed_in_ = scene_of(resolved);
@@ -254,9 +245,9 @@ std::string Session::scene_json() const {
 std::string Session::compute(std::string_view text, const Progress& progress) {
   if (!opened_) throw Error(ErrorCode::nothing_given, "no scene is open", "", "open a mesh first");
   Stopwatch time;
-  MissionFile file = read_mission_text(text, file_, source_);
+  MissionFile file =
+      opened_file_ ? read_mission_text(text, file_, source_, *opened_file_) : read_mission_text(text, file_, source_);
   file.sea_level_m = sea_level_m_;
-  if (named_) check_named(file, *named_);
   Mission mission = resolve_mission(file, opened_->loaded, progress);
   ScenePointer scene = scene_of(mission);
   const double resolve_ms = time.lap();
@@ -361,11 +352,14 @@ std::string Session::save(const std::string& format) {
     throw Error(ErrorCode::output_format_unknown, in_quotes(format) + " is not a format of volumes", "",
                 "take ply, glb, stl or obj");
   }
-  mission();
+  const Mission& saved = mission();
+  if (const Volume& last = result_->volume; last.outcome != Outcome::computed) {
+    throw Error(ErrorCode::nothing_given, "there is no volume to save: " + last.reason, saved.target.name, last.hint);
+  }
   const TemporaryFolder folder;
   const std::vector<std::filesystem::path> files{folder.path() / ("volume." + format)};
   Volume volume = result_->volume;
-  write_results(volume, result_request(mission(), *result_, files));
+  write_results(volume, result_request(saved, *result_, files));
   bytes_ = bytes_of(files.front());
   return text_of(Json{{"size", bytes_.size()}});
 }

@@ -93,8 +93,8 @@ class Session {
   /// Where the mission is, from which the names of files start, and what it says.
   std::filesystem::path file_ = "mission.yaml";
   std::string text_;
-  /// What missions may name; nothing: all.
-  std::optional<std::vector<std::filesystem::path>> named_;
+  /// What was opened: missions may name its files. Nothing: any.
+  std::optional<MissionFile> opened_file_;
 
   SceneSource source_;
   std::optional<double> sea_level_m_;
