@@ -168,6 +168,49 @@ TEST_F(LiveSession, TakesTheFilesThatTheOpenedMissionNames) {
             name_of(ErrorCode::not_applicable));
 }
 
+// Whatever the page has no control for is told, and drawn.
+TEST_F(LiveSession, ListsEveryLimitOfTheMission) {
+  const std::string more =
+      "sensor: {max_range: 60, min_range: 2, incidence: 70, fov: [60, 40], gimbal: {pitch: [-90, 10]}, "
+      "sun: {azimuth: 180, elevation: 40, exclude: 20}, visible: 0.9}\n"
+      "navigation:\n  altitude: {z: [2, 50], agl: [1, 45]}\n  ground: ground\n  clearance: 2.5\n"
+      "  keep_in:\n    - {min: [-60, -60, 0], max: [60, 60, 60]}\n"
+      "    - {polygon: [[-60, -60], [60, -60], [60, 60], [-60, 60]], z: [0, 55]}\n"
+      "  keep_out:\n    - {min: [40, 40, 0], max: [50, 50, 20]}\n"
+      "    - {polygon: [[-30, 10], [-20, 10], [-20, 20]], holes: [[[-23, 12], [-22, 12], [-22, 13]]], heights: any}\n"
+      "    - {polygon: [[-30, -10], [-20, -10], [-20, -20]], agl: [0, 12]}\n";
+  const std::string target = "target: {name: square, vertices: [[-5, -5, 0], [5, -5, 0], [5, 5, 0], [-5, 5, 0]]}\n";
+  const Json limits = ask({{"call", "compute"}, {"text", target + more}}).header["value"]["limits"];
+  std::vector<std::string> lines;
+  for (const Json& line : limits["all"])
+    lines.push_back(line["name"].get<std::string>() + ": " + line["text"].get<std::string>());
+  testing::expect_wording(lines);
+  const Json& zones = limits["zones"];
+  ASSERT_EQ(zones.size(), 4u);  // a box and a zone to stay in, two zones to stay out of
+  EXPECT_EQ(zones[0]["kept_out"], false);
+  EXPECT_EQ(zones[0]["high"], 60);
+  EXPECT_EQ(zones[1]["rings"][0].size(), 4u);
+  EXPECT_EQ(zones[2]["kept_out"], true);
+  EXPECT_EQ(zones[2]["rings"].size(), 2u);
+  EXPECT_LE(zones[2]["low"].get<double>(), 0);
+  EXPECT_GE(zones[2]["high"].get<double>(), 60);
+  EXPECT_EQ(zones[3]["low"], 0);
+  EXPECT_EQ(zones[3]["high"], 12);
+}
+
+TEST_F(LiveSession, SaysWhereTheSceneLiesAndWhomToName) {
+  EXPECT_TRUE(Json::parse(session_.hello())["scene"]["place"].is_null());
+  EXPECT_EQ(Json::parse(session_.hello())["scene"]["attribution"], "");
+  testing::MapText map;
+  map.box(0, 0, 30, 30, {{"building", "yes"}, {"height", "9"}});
+  write("map.osm", map.text());
+  write("map.yaml", "scene: {osm: map.osm}\ntarget: {osm: way/1, part: roof}\nsensor: {max_range: 60}\n");
+  session_.open_file(folder_ / "map.yaml");
+  const Json scene = Json::parse(session_.hello())["scene"];
+  EXPECT_NEAR(scene["place"]["latitude_deg"].get<double>(), 48.137, 0.01);
+  EXPECT_EQ(scene["attribution"], kOpenStreetMapCredit);
+}
+
 TEST_F(LiveSession, SavesOnlyFormatsOfVolumes) {
   ask({{"call", "compute"}, {"text", kSquare}});
   for (const char* const format : {"ply", "glb", "stl", "obj"}) {

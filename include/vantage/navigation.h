@@ -19,9 +19,10 @@ namespace vantage {
 /// self-intersections, O(m log m) in its triangles. The clearance takes as many booleans as there are obstacles near
 /// what the other limits leave: more than `work_limit` allows is refused before they begin.
 ///
-/// Throws Error(input) as check_navigation does, and for a volume whose arrays do not fit together; Error(cancelled)
-/// when told to stop; Error(internal) when a boolean operation fails.
-VANTAGE_API Volume cut_to_navigation(const Volume& volume, const Navigation& navigation, const Progress& progress = {});
+/// Throws Error(input) as check_navigation does, and for a volume whose arrays do not fit together;
+/// Error(work_too_large); Error(cancelled) when told to stop; Error(internal) when a boolean operation fails.
+VANTAGE_API Volume cut_to_navigation(const Volume& volume, const Navigation& navigation, const Progress& progress = {},
+                                     double work_limit = kWorkLimit);
 
 /// Cuts a volume to the limits of the target's sensor, besides the range, and to the navigation limits, at once. Facets
 /// that a limit of the sensor makes are CauseKind::sensor, by the names "min_range", "incidence", "pixel", "frame",

@@ -28,6 +28,18 @@ double processor_seconds() {
 const double g_loading_seconds = processor_seconds();
 const Clock::time_point g_start = Clock::now();
 
+/// printable() between newlines and tabs.
+std::string printable_lines(std::string_view text) {
+  std::string shown;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find_first_of("\n\t"), text.size());
+    shown += printable(text.substr(0, end));
+    if (end < text.size()) shown += text[end];
+    text.remove_prefix(std::min(text.size(), end + 1));
+  }
+  return shown;
+}
+
 ErrorCode code_of(NumberFault fault) {
   if (fault == NumberFault::not_a_number) return ErrorCode::not_a_number;
   return fault == NumberFault::unknown_unit ? ErrorCode::value_syntax : ErrorCode::value_out_of_range;

@@ -3,7 +3,9 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <chrono>
 #include <new>
+#include <string>
 
 #include "live/page_text.h"
 #include "live/request.h"
@@ -52,6 +54,14 @@ std::string base64(const std::string& bytes) {
   return text;
 }
 
+/// Today, UTC: "2026-07-01".
+std::string today() {
+  const std::chrono::year_month_day day(std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now()));
+  const auto two_digits = [](unsigned number) { return (number < 10 ? "0" : "") + std::to_string(number); };
+  return std::to_string(static_cast<int>(day.year())) + "-" + two_digits(static_cast<unsigned>(day.month())) + "-" +
+         two_digits(static_cast<unsigned>(day.day()));
+}
+
 }  // namespace
 
 std::string report_page(Session& session, const std::string& page, bool proves, const Progress& progress) {
@@ -65,7 +75,7 @@ std::string report_page(Session& session, const std::string& page, bool proves, 
                base64(gzip(answer(session, areas, request, progress))) + "\"";
   }
   if (progress && !progress("proof", 1)) throw Error(ErrorCode::cancelled, "stopped while the report was made", "", "");
-  return with_start(page, "window.vantageReport={" + answers + "}");
+  return with_start(page, "window.vantageReport={" + answers + ",made:\"" + today() + "\"}");
 }
 
 }  // namespace vantage::live

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "live/file_bytes.h"
+#include "live/limit_list.h"
 #include "vantage/camera.h"
 #include "vantage/error.h"
 #include "vantage/ground.h"
@@ -81,21 +82,48 @@ Json parts_of(const Target& target) {
   return parts;
 }
 
+/// Where on the earth its origin lies, where it says so.
+Json place_of(const Scene& scene) {
+  if (!scene.georeference) return {};
+  return {{"latitude_deg", scene.georeference->latitude_deg},
+          {"longitude_deg", scene.georeference->longitude_deg},
+          {"vertical", scene.georeference->vertical}};
+}
+
 Json json(const Box& box) { return {{"min", json(box.min)}, {"max", json(box.max)}}; }
 
-/// What the page has controls for.
+Json json(const DrawnZone& zone) {
+  Json rings = Json::array();
+  for (const Zone::Ring& ring : zone.rings) {
+    Json corners = Json::array();
+    for (const Eigen::Vector2d& corner : ring) corners.push_back({corner.x(), corner.y()});
+    rings.push_back(std::move(corners));
+  }
+  return {{"kept_out", zone.is_kept_out},
+          {"name", zone.name},
+          {"rings", std::move(rings)},
+          {"low", zone.low_m},
+          {"high", zone.high_m}};
+}
+
+/// What the page has controls for, and all limits: in words, and the zones to be drawn.
 Json limits_of(const Mission& mission) {
   const auto& altitude = mission.navigation.altitude;
   const auto& above_ground = mission.navigation.above_ground;
   Json boxes = Json::array();
   for (const Box& box : mission.navigation.keep_out) boxes.push_back(json(box));
+  Json lines = Json::array(), zones = Json::array();
+  for (const LimitLine& line : limit_lines(mission)) lines.push_back({{"name", line.name}, {"text", line.text}});
+  for (const DrawnZone& zone : drawn_zones(mission)) zones.push_back(json(zone));
   const double range = mission.sensor.max_range_m;
   return {{"max_range", std::isfinite(range) ? Json(range) : Json()},
           {"min_range", mission.sensor.min_range_m},
           {"incidence", mission.sensor.incidence_deg ? Json(*mission.sensor.incidence_deg) : Json()},
           {"altitude", altitude ? Json{altitude->min_m, altitude->max_m} : Json()},
           {"agl", above_ground ? Json{above_ground->min_m, above_ground->max_m} : Json()},
-          {"keep_out", std::move(boxes)}};
+          {"keep_out", std::move(boxes)},
+          {"all", std::move(lines)},
+          {"zones", std::move(zones)}};
 }
 
 /// What a position of the volume sees at least.
@@ -237,6 +265,8 @@ std::string Session::scene_json() const {
                       {"objects", objects_of(scene)},
                       {"has_ground", ground_of(scene).has_value()},
                       {"has_areas", source_.kind == SceneSource::Kind::map},
+                      {"place", place_of(scene)},
+                      {"attribution", attribution_of(scene)},
                       {"notes", notes_of(*opened_->loaded)},
                       {"read_ms", read_ms_},
                       {"prepare_ms", prepare_ms_}});

@@ -540,8 +540,9 @@ VerifyReport verify_volume(const Scene& scene, const Target& target, const Senso
                            const Mesh& volume, const VerifyOptions& asked, const Progress& callback) {
   check_sensor(sensor);
   check_navigation(navigation, callback);
-  check_arguments(options);
-  const std::vector<Target> parts = raised_parts(target, options.lift_m);
+  check_arguments(asked);
+  VerifyOptions options = asked;
+  const std::vector<Target> parts = raised_parts(scene, target, range_limit_m(sensor), options.lift_m);
   const internal::verify::Topology topology = internal::verify::topology_of(volume, "volume");
   if (!topology.closed) return report_of_mesh(topology, options);  // it has no inside to try points in
   Check check(scene, parts, sensor, navigation, volume, options);
@@ -563,8 +564,9 @@ VerifyReport verify_volume(const Scene& scene, const std::vector<std::vector<Tar
                            const Progress& progress) {
   check_sensor(sensor);
   check_navigation(navigation, progress);
-  check_arguments(options);
-  PartViews parts = raised_views(views, options.lift_m);
+  check_arguments(asked);
+  VerifyOptions options = asked;
+  PartViews parts = raised_views(scene, views, range_limit_m(sensor), options.lift_m);
   const internal::verify::Topology topology = internal::verify::topology_of(volume, "volume");
   if (!topology.closed) return report_of_mesh(topology, options);
   return ManyChecks(scene, std::move(parts), sensor, navigation, volume, options, progress).run();

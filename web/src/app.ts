@@ -1,14 +1,14 @@
 // What the page is about: a scene, a mission in it, and its volume, which follows.
 import { placeOf, toldBy, type Engine, type Volume } from "./engine/client";
 import { Stopped } from "./engine/transport";
-import type { Point, PointAnswer, SceneInfo, Section, ViewMesh } from "./engine/messages";
+import type { Point, PointAnswer, Proof, SceneInfo, Section, ViewMesh } from "./engine/messages";
 import { History } from "./model/history";
 import { emptyMission, missionFrom, missionText, sceneText, type Mission, type PolygonTarget } from "./model/mission";
 import { faultOf } from "./model/polygon";
 import { hasBadNews, metres, say, unsay } from "./ui/page";
 import { seenFrom } from "./ui/results";
 import { City } from "./view/city";
-import { BoxesView, ProbeView, SectionView } from "./view/marks";
+import { BoxesView, ProbeView, SectionView, ZonesView } from "./view/marks";
 import { Stage } from "./view/stage";
 import { TargetView } from "./view/target";
 import { VolumeView } from "./view/volume";
@@ -49,6 +49,7 @@ export class App {
   readonly target: TargetView;
   readonly volumeView: VolumeView;
   readonly boxes: BoxesView;
+  readonly zones: ZonesView;
   readonly sectionView: SectionView;
   readonly probeView: ProbeView;
 
@@ -101,13 +102,14 @@ export class App {
   private isTargetEdited = false;
   private readonly listeners: Listener[] = [];
   private isToTell = false;
-  private tellProof: (text: string, volume: Volume) => void = () => {};
+  private readonly proofListeners: ((text: string, volume: Volume, proof?: Proof) => void)[] = [];
 
   constructor(readonly engine: Engine, readonly stage: Stage) {
     this.city = new City(stage.scene);
     this.volumeView = new VolumeView(stage.scene, this.city);
     this.target = new TargetView(stage.scene, this.city);
     this.boxes = new BoxesView(stage.scene, this.city);
+    this.zones = new ZonesView(stage.scene, this.city);
     this.sectionView = new SectionView(stage.scene, this.city);
     this.probeView = new ProbeView(stage.scene, this.city);
     stage.beforeFrame = () => this.volumeView.update();
@@ -372,6 +374,7 @@ export class App {
     this.isDraft = isDraft;
     this.hasRestoreFailed = false;
     this.volumeView.show(volume.info, volume.mesh);
+    this.zones.show(volume.info.limits.zones);
     this.showOutline(null);
     void this.askProbe();
     void this.showSection();
@@ -386,6 +389,7 @@ export class App {
     this.isDraft = false;
     this.failure = "";
     this.volumeView.hide();
+    this.zones.show([]);
     this.probeView.hide();
     this.city.light([]);
     this.showOutline(null);
@@ -452,8 +456,12 @@ export class App {
     this.changed();
   }
 
-  onProof(listener: (text: string, volume: Volume) => void): void {
-    this.tellProof = listener;
+  onProof(listener: (text: string, volume: Volume, proof?: Proof) => void): void {
+    this.proofListeners.push(listener);
+  }
+
+  private tellProof(text: string, volume: Volume, proof?: Proof): void {
+    for (const listener of this.proofListeners) listener(text, volume, proof);
   }
 
   async proveIt(): Promise<void> {
@@ -461,15 +469,17 @@ export class App {
     if (!volume) return;
     this.tellProof("Proving…", volume);
     let text: string;
+    let proof: Proof;
     try {
-      const { verdict } = await this.late(this.engine.prove());
+      proof = await this.late(this.engine.prove());
+      const { verdict } = proof;
       text = verdict === "proved" ? `Proved: every position of this volume sees ${seenFrom(volume.info)}.`
         : `The proof says: ${verdict.replaceAll("_", " ")}`;
     } catch (error) {
       if (volume === this.volume) this.tellProof(toldBy(error), volume);
       return;
     }
-    if (volume === this.volume && this.isEngineHere()) this.tellProof(text, volume);
+    if (volume === this.volume && this.isEngineHere()) this.tellProof(text, volume, proof);
   }
 
   /** The volume as a file. */

@@ -149,7 +149,7 @@ async function start(): Promise<void> {
   document.body.classList.toggle("report", Boolean(window.vantageReport));
   if (served) say("");
   await files.start(served);
-  if (served && window.vantageReport) makeReport(app, served.hello);
+  if (served && window.vantageReport) makeReport(app, served.hello, window.vantageReport["made"] ?? "");
 }
 
 start().catch((error: unknown) => say(toldBy(error), true));

@@ -153,6 +153,33 @@ test("in a map a square is picked, and heights count from the ground", async ({ 
   }
 });
 
+test("a report begins with the verdict, the place and the date, and lists every limit", async ({ page }) => {
+  const folder = mkdtempSync(join(tmpdir(), "vantage-"));
+  const at = (id: number, east: number, north: number) => `<node id="${id}" version="1" lat="${48 + north / 111000}" lon="${11 + east / 74000}"/>`;
+  writeFileSync(join(folder, "map.osm"), `<osm version="0.6">${at(1, 30, 0)}${at(2, 40, 0)}${at(3, 40, 10)}${at(4, 30, 10)}` +
+    `<way id="1" version="1">${[1, 2, 3, 4, 1].map((n) => `<nd ref="${n}"/>`).join("")}<tag k="building" v="yes"/><tag k="height" v="9"/></way></osm>`);
+  writeFileSync(join(folder, "m.yaml"), "scene: {osm: map.osm}\ntarget: {name: yard, outline: [[-20, 0], [-10, 0], [-10, 10]]}\nsensor: {max_range: 60}\n" +
+    "navigation: {clearance: 3, keep_out: [{polygon: [[-9, -9], [-5, -9], [-5, -5]], z: [0, 20]}]}\n");
+  const report = join(folder, "report.html");
+  try {
+    execFileSync(program, ["report", join(folder, "m.yaml"), "-o", report, "-q", "--page", join(root, "web/dist/report.html")], { stdio: "pipe" });
+  } catch (error) {
+    expect([1, 4]).toContain((error as { status: number }).status); // not all is proved
+  }
+  await page.goto(pathToFileURL(report).href);
+  await hasVolume(page);
+  await expect(page.locator("#verdict")).toHaveText(/^(Proved|Not proved)$/);
+  await expect(page.locator("aside section").first()).toHaveId("summary");
+  const facts = page.locator("#facts");
+  for (const words of ["yard", "48.0", "N, 11.0", `${new Date().getUTCFullYear()}-`, "map.osm", "© OpenStreetMap contributors"]) {
+    await expect(facts).toContainText(words);
+  }
+  await expect(page.locator("#limit-lines")).toContainText("3 m from all that is not ground");
+  await expect(page.locator("#limit-lines")).toContainText("Keep out, zone 0");
+  await expect(page.locator("#controls")).toBeHidden();
+  await expect(page.locator("#credit")).toHaveText("© OpenStreetMap contributors");
+});
+
 test("a report shows the volume, and that it is proved, without an engine", async ({ page }) => {
   const report = join(mkdtempSync(join(tmpdir(), "vantage-")), "report.html");
   execFileSync(program, ["report", file, "-o", report, "-q", "--page", join(root, "web/dist/report.html")]);
@@ -164,6 +191,8 @@ test("a report shows the volume, and that it is proved, without an engine", asyn
   await expect(page.locator("#proof")).toContainText("Proved");
   expect(Math.abs((await volume(page)) / byProgram(readFileSync(file, "utf8")) - 1)).toBeLessThan(1e-12);
   await expect(page.locator("#range")).toBeDisabled();
+  await expect(page.locator("#verdict")).toHaveText("Proved");
+  await expect(page.locator("#facts")).toContainText("not known: the scene does not say");
   expect(readFileSync(await saved(page, "picture")).length).toBeGreaterThan(1000);
   expect(problems).toEqual([]);
 });

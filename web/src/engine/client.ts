@@ -1,5 +1,5 @@
 // The engine as the page sees it: promises, and volumes that follow what is dragged.
-import type { About, Hello, MapArea, Point, PointAnswer, SceneInfo, Section, ViewMesh, VolumeInfo } from "./messages";
+import type { About, Hello, MapArea, Point, PointAnswer, Proof, SceneInfo, Section, ViewMesh, VolumeInfo } from "./messages";
 import { EngineFailure, type Transport } from "./transport";
 
 /** What went wrong, and what to do, in words. `isOfFile`: of a mission that was opened, whose lines and columns count. */
@@ -98,8 +98,8 @@ export class Engine {
     return ((await this.transport.ask({ call: "query", points })).value as { answers: PointAnswer[] }).answers;
   }
 
-  async prove(): Promise<{ verdict: string }> {
-    return (await this.transport.ask({ call: "prove" })).value as { verdict: string };
+  async prove(): Promise<Proof> {
+    return (await this.transport.ask({ call: "prove" })).value as Proof;
   }
 
   async slice(z: number): Promise<Section> {

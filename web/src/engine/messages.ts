@@ -26,6 +26,10 @@ export interface SceneInfo {
   has_ground: boolean;
   /** it is made of a map, which has areas: squares, pitches */
   has_areas: boolean;
+  /** where on the earth its origin lies; null: nobody knows */
+  place: { latitude_deg: number; longitude_deg: number; vertical: string } | null;
+  /** whom pictures of it have to name; "": nobody is known */
+  attribution: string;
   notes: string[];
   read_ms: number;
   prepare_ms: number;
@@ -36,7 +40,16 @@ export interface Box {
   max: Point;
 }
 
-/** The keys of a mission that the page has controls for, as the engine read them. */
+/** A zone to stay in or out of, from one height to another; `rings`: its outline, then its holes. */
+export interface Zone {
+  kept_out: boolean;
+  name: string;
+  rings: [number, number][][];
+  low: number;
+  high: number;
+}
+
+/** The keys of a mission that the page has controls for, as the engine read them, and all limits in words. */
 export interface Limits {
   /** null: the mission gives none */
   max_range: number | null;
@@ -46,6 +59,9 @@ export interface Limits {
   /** above the ground */
   agl: [number, number] | null;
   keep_out: Box[];
+  all: { name: string; text: string }[];
+  /** all but the boxes to stay out of */
+  zones: Zone[];
 }
 
 export type CauseKind = "scene" | "range" | "target_plane" | "navigation" | "sensor" | "unknown";
@@ -110,6 +126,13 @@ export interface Section {
   z_m: number;
   area_m2: number;
   polygons: [number, number][][][];
+}
+
+/** What `vantage prove --json` prints, as far as it is shown. */
+export interface Proof {
+  /** "proved", "wrong", "not proved" */
+  verdict: string;
+  claims: { name: string; verdict: string; text: string }[];
 }
 
 export type Request =

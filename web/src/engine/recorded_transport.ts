@@ -9,7 +9,9 @@ export class RecordedTransport implements Transport {
   /** Messages of the program by their calls, each compressed by gzip, in base64. */
   static async start(messages: Record<string, string>): Promise<RecordedTransport> {
     const answers = new Map<string, Answer>();
-    for (const [call, text] of Object.entries(messages)) answers.set(call, decoded(await unzipped(text)));
+    for (const [call, text] of Object.entries(messages)) {
+      if (call !== "made") answers.set(call, decoded(await unzipped(text))); // the day, as it stands
+    }
     return new RecordedTransport(answers);
   }
 

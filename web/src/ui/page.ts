@@ -30,17 +30,22 @@ export function metres(value: number): string {
   return `${digits} m`;
 }
 
-/** A number that was typed, with its unit or without: 12.5, 12,5 m. NaN: it is not one. */
-export function typed(text: string): number {
-  const found = /^\s*([-+]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:e[-+]?\d+)?)[^\d.,]*$/i.exec(text);
-  return found ? Number(found[1]!.replace(",", ".")) : NaN;
-}
-
 export function option(value: string, text: string): HTMLOptionElement {
   const made = document.createElement("option");
   made.value = value;
   made.textContent = text;
   return made;
+}
+
+/** Of a list of terms. */
+export function terms(rows: [string, string][]): HTMLElement[] {
+  return rows.flatMap(([term, value]) => {
+    const dt = document.createElement("dt");
+    const dd = document.createElement("dd");
+    dt.textContent = term;
+    dd.textContent = value;
+    return [dt, dd];
+  });
 }
 
 /** A colour, for a style. */

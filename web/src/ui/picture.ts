@@ -44,6 +44,17 @@ function drawLegend(to: CanvasRenderingContext2D, title: string, rows: Row[], to
   });
 }
 
+/** Whom the licence of the scene's data asks to name: in the view, to the left. */
+function drawCredit(to: CanvasRenderingContext2D, credit: string, left: number, bottom: number): void {
+  if (credit === "") return;
+  to.save();
+  to.fillStyle = "#ffffffcc";
+  to.fillRect(left - 4, bottom - LINE, to.measureText(credit).width + 8, LINE);
+  to.fillStyle = INK;
+  to.fillText(credit, left, bottom - LINE / 2);
+  to.restore();
+}
+
 function drawScale(to: CanvasRenderingContext2D, right: number, bottom: number): void {
   const length = Number.parseFloat(element("scale").querySelector("i")!.style.width);
   to.textAlign = "right";
@@ -91,6 +102,7 @@ export function picture(app: App): Promise<Blob> {
   to.fillStyle = to.strokeStyle = getComputedStyle(element("scale")).color;
   if (!app.isEye()) drawScale(to, width - EDGE, height - EDGE);
   drawNorth(to, width - 2 * EDGE, 2.5 * EDGE, stage.heading());
+  drawCredit(to, app.scene?.attribution ?? "", EDGE, height - EDGE / 2);
   to.fillStyle = INK;
   if (below > 0) drawLegend(to, titleOf(app), rows, height, width);
   return new Promise((resolve, reject) => {

@@ -4,7 +4,8 @@ import type { Volume } from "../engine/client";
 import type { VolumeInfo } from "../engine/messages";
 import { KIND_COLOURS } from "../view/stage";
 import { isAt, setEnds } from "./limits";
-import { button, element, hex, input, large, metres, say, typed } from "./page";
+import { quantity } from "../model/quantity";
+import { button, element, hex, input, large, metres, say, terms } from "./page";
 
 const KIND_NAMES: Record<string, string> = {
   scene: "a building begins to hide it", range: "the longest range", target_plane: "the target's plane",
@@ -61,10 +62,10 @@ export class Results {
   }
 
   private typeCut(text: string): void {
-    const at = /^\s*(off|any)?\s*$/.test(text) ? null : typed(text);
+    const at = /^\s*(off|any)?\s*$/.test(text) ? null : quantity(text, "length");
     if (at === null) this.app.setCut(null);
-    else if (Number.isFinite(at)) this.app.setCut({ axis: this.axis(), at });
-    else say("Cut: write a number, or \"off\"", true);
+    else if (typeof at === "number") this.app.setCut({ axis: this.axis(), at });
+    else say(`Cut: ${at}; or "off"`, true);
     input("cut-number").blur();
     this.show();
   }
@@ -98,10 +99,20 @@ export class Results {
       item.textContent = text;
       return item;
     }));
+    this.showAllLimits();
+    element("credit").textContent = this.app.scene?.attribution ?? "";
+    element("credit").hidden = element("credit").textContent === "";
     button("prove").disabled = button("save").disabled = button("link").disabled = !volume;
     button("see").disabled = !this.app.probe;
     button("see").setAttribute("aria-pressed", String(this.app.isEye()));
     if (volume !== this.judged) element("proof").textContent = "";
+  }
+
+  /** Also those that the page has no controls for. Of the volume that is shown. */
+  private showAllLimits(): void {
+    const lines = this.app.volume?.info.limits.all ?? [];
+    element("all-limits").hidden = lines.length === 0;
+    element("limit-lines").replaceChildren(...terms(lines.map(({ name, text }) => [name, text])));
   }
 
   private showNumbers(): void {
@@ -115,13 +126,7 @@ export class Results {
         ["Computed in", `${Math.max(0.1, volume.info.resolve_ms + volume.info.compute_ms).toFixed(1)} ms`]);
     }
     if (scene) rows.push(["Scene", `${large(scene.triangles)} triangles`]);
-    element("numbers").replaceChildren(...rows.flatMap(([term, value]) => {
-      const dt = document.createElement("dt");
-      const dd = document.createElement("dd");
-      dt.textContent = term;
-      dd.textContent = value;
-      return [dt, dd];
-    }));
+    element("numbers").replaceChildren(...terms(rows));
   }
 
   private showLegend(): void {

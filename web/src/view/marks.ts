@@ -1,6 +1,6 @@
-// Small things in the scene: keep-out boxes, a slice, the point that is asked about.
+// Small things in the scene: keep-out boxes, zones, a slice, the point that is asked about.
 import * as THREE from "three";
-import type { Box, Point, Section } from "../engine/messages";
+import type { Box, Point, Section, Zone } from "../engine/messages";
 import type { City } from "./city";
 import type { Pointer, Stage } from "./stage";
 
@@ -62,6 +62,51 @@ export class BoxesView {
 
   handleAt(event: Pointer, stage: Stage): Handle | null {
     return this.handles[stage.nearestAt(event, this.handles.map(({ at }) => at))] ?? null;
+  }
+}
+
+const GREEN = 0x009e73;
+const KEPT_IN = new THREE.LineBasicMaterial({ color: GREEN });
+
+/** Zones of the mission, which the page has no handles for. */
+export class ZonesView {
+  private readonly group = new THREE.Group();
+
+  constructor(parent: THREE.Object3D, private readonly city: City) {
+    parent.add(this.group);
+  }
+
+  show(zones: Zone[]): void {
+    for (const old of this.group.children) (old as THREE.Mesh).geometry.dispose();
+    this.group.clear();
+    for (const zone of zones) {
+      const lines = zone.rings.flatMap((ring) => this.linesOf(ring, zone));
+      this.group.add(new THREE.LineSegments(new THREE.BufferGeometry().setFromPoints(lines), zone.kept_out ? EDGES : KEPT_IN));
+      if (zone.kept_out) this.group.add(this.bodyOf(zone));
+    }
+  }
+
+  get count(): number {
+    return this.group.children.filter((one) => one instanceof THREE.LineSegments).length;
+  }
+
+  /** Its top and its bottom, and what joins them at its corners. */
+  private linesOf(ring: [number, number][], { low, high }: Zone): THREE.Vector3[] {
+    return ring.flatMap(([x, y], i) => {
+      const [nextX, nextY] = ring[(i + 1) % ring.length]!;
+      const at = (u: number, v: number, z: number) => this.city.toView([u, v, z]);
+      return [at(x, y, low), at(nextX, nextY, low), at(x, y, high), at(nextX, nextY, high), at(x, y, low), at(x, y, high)];
+    });
+  }
+
+  private bodyOf({ rings, low, high }: Zone): THREE.Mesh {
+    const inView = ([x, y]: [number, number]) => this.city.toView([x, y, low]); // about the scene's origin: single precision
+    const [outer, ...holes] = rings.map((ring) => ring.map((corner) => new THREE.Vector2(inView(corner).x, inView(corner).y)));
+    const shape = new THREE.Shape(outer);
+    shape.holes = holes.map((hole) => new THREE.Path(hole));
+    const body = new THREE.Mesh(new THREE.ExtrudeGeometry(shape, { depth: high - low, bevelEnabled: false }), BODY);
+    body.position.z = inView([0, 0]).z;
+    return body;
   }
 }
 
