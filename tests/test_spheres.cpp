@@ -43,7 +43,7 @@ SpheresOptions sharp() {
   return options;
 }
 
-struct Result {
+struct RunOfSpheres {
   Volume volume;
   SpheresReport report;
   std::vector<SphereStage> stages;  // meshes moved to `meshes`
@@ -51,9 +51,9 @@ struct Result {
   int images = 0, requests = 0;
 };
 
-Result run(const Scene& scene, const Target& target, const SpheresOptions& options, bool with_stages = false,
-           double range = kRange) {
-  Result result;
+RunOfSpheres run(const Scene& scene, const Target& target, const SpheresOptions& options, bool with_stages = false,
+                 double range = kRange) {
+  RunOfSpheres result;
   BruteDepth renderer(scene.mesh);
   StageSink sink;
   if (with_stages) {
@@ -103,7 +103,7 @@ std::vector<Vec3> corners_of(const Volume& volume) {
 TEST(Spheres, OpenGroundNeedsNoSplit) {
   SceneBuilder scene;
   scene.ground("ground", 200);
-  const Result result = run(scene, triangle(), coarse());
+  const RunOfSpheres result = run(scene, triangle(), coarse());
   expect_sound(result.volume);
   EXPECT_EQ(result.report.spheres, 3U);
   EXPECT_EQ(result.report.pairs, 3U);
@@ -123,7 +123,7 @@ TEST(Spheres, CausesAreTheSceneTheRangeAndTheTargetsPlane) {
   scene.ground("ground", 200, -5).box("block", {15, -5, -5}, {20, 5, 12});
   SpheresOptions options = coarse();
   options.sphere = SpheresOptions::Sphere::centers;
-  const Result result = run(scene, triangle(), options);
+  const RunOfSpheres result = run(scene, triangle(), options);
   expect_sound(result.volume);
   std::vector<std::string> names;
   for (const Cause& cause : result.volume.causes) names.push_back(cause.name);
@@ -140,7 +140,7 @@ SceneBuilder bar_across() {
 
 TEST(Spheres, ABarAcrossAnEdgeMakesTheTestFireUntilTheShadowsMeet) {
   const SceneBuilder scene = bar_across();
-  const Result result = run(scene, triangle(), sharp());
+  const RunOfSpheres result = run(scene, triangle(), sharp());
   expect_sound(result.volume);
   EXPECT_GE(result.report.splits, 1U);
   EXPECT_EQ(result.report.unresolved_pairs, 0U);
@@ -148,7 +148,7 @@ TEST(Spheres, ABarAcrossAnEdgeMakesTheTestFireUntilTheShadowsMeet) {
 
   SpheresOptions none = sharp();
   none.max_splits = 0;
-  const Result unsplit = run(scene, triangle(), none);
+  const RunOfSpheres unsplit = run(scene, triangle(), none);
   EXPECT_EQ(unsplit.report.pairs, 0U);  // nobody would learn of them
   EXPECT_EQ(unsplit.report.splits, 0U);
   EXPECT_GT(enclosed_volume(unsplit.volume.mesh), 1.001 * enclosed_volume(result.volume.mesh));
@@ -156,7 +156,7 @@ TEST(Spheres, ABarAcrossAnEdgeMakesTheTestFireUntilTheShadowsMeet) {
 
   SpheresOptions long_edges = sharp();
   long_edges.min_edge_m = 5.1;  // no half of 10 m is that long
-  const Result stopped = run(scene, triangle(), long_edges);
+  const RunOfSpheres stopped = run(scene, triangle(), long_edges);
   EXPECT_EQ(stopped.report.splits, 0U);
   EXPECT_GE(stopped.report.unresolved_pairs, 1U);
 }
@@ -165,7 +165,7 @@ TEST(Spheres, ABarAcrossAnEdgeMakesTheTestFireUntilTheShadowsMeet) {
 TEST(Spheres, TwoPiecesAreNoSphere) {
   SceneBuilder scene;
   scene.ground("ground", 200, -1).box("bar", {-1, -300, 20}, {1, 300, 21});
-  const Result result = run(scene, target_of({{-5, 0, 0}, {5, 0, 0}, {5, 1, 0}, {-5, 1, 0}}), sharp(), true);
+  const RunOfSpheres result = run(scene, target_of({{-5, 0, 0}, {5, 0, 0}, {5, 1, 0}, {-5, 1, 0}}), sharp(), true);
   expect_sound(result.volume);
   const auto pair = std::find_if(result.stages.begin(), result.stages.end(), [](const SphereStage& stage) {
     return stage.kind == SphereStage::Kind::pair && stage.component_euler.size() > 1;
@@ -180,7 +180,7 @@ TEST(Spheres, TwoPiecesAreNoSphere) {
 TEST(Spheres, ABarAlongAnEdgeDoesNotMakeItFire) {
   SceneBuilder scene;
   scene.ground("ground", 200, -1).box("bar", {-12, -1, 20}, {12, 1, 21});
-  const Result result = run(scene, target_of({{-5, 0, 0}, {5, 0, 0}, {5, 0.5, 0}, {-5, 0.5, 0}}), sharp());
+  const RunOfSpheres result = run(scene, target_of({{-5, 0, 0}, {5, 0, 0}, {5, 0.5, 0}, {-5, 0.5, 0}}), sharp());
   expect_sound(result.volume);
   EXPECT_EQ(result.report.splits, 0U);
   EXPECT_EQ(result.report.pairs, 4U);
@@ -192,7 +192,7 @@ TEST(Spheres, AlwaysHalvesEveryEdgeAsOftenAsAsked) {
   SpheresOptions options = coarse(8);
   options.split = SpheresOptions::Split::always;
   options.max_splits = 2;
-  const Result result = run(scene, triangle(), options);
+  const RunOfSpheres result = run(scene, triangle(), options);
   expect_sound(result.volume);
   EXPECT_EQ(result.report.splits, 9U);
   EXPECT_EQ(result.report.spheres, 12U);
@@ -204,7 +204,7 @@ TEST(Spheres, AlwaysHalvesEveryEdgeAsOftenAsAsked) {
 
 TEST(Spheres, StagesTellTheStoryInOrder) {
   const SceneBuilder scene = bar_across();
-  const Result result = run(scene, triangle(), coarse(16), true);
+  const RunOfSpheres result = run(scene, triangle(), coarse(16), true);
   ASSERT_GE(result.stages.size(), 8U);
   std::size_t spheres = 0, pairs = 0, splits = 0;
   for (std::size_t i = 0; i < result.stages.size(); ++i) {
@@ -249,7 +249,7 @@ TEST(Spheres, TheResultIsTheSameEachTimeAndOnAnyNumberOfThreads) {
   Mesh first;
   for (const int threads : {1, 1, 4}) {
     parallel::with_threads(threads, [&] {
-      const Result result = run(scene, triangle(), coarse(12));
+      const RunOfSpheres result = run(scene, triangle(), coarse(12));
       if (first.empty()) first = result.volume.mesh;
       EXPECT_TRUE(result.volume.mesh.vertices == first.vertices);
       EXPECT_TRUE(result.volume.mesh.triangles == first.triangles);
@@ -267,7 +267,7 @@ TEST(Spheres, ConservativeVolumesLieInWhatTheVerticesSee) {
     SpheresOptions options = coarse(random.integer(9, 14));
     if (round % 2 == 1) options.resolution = {12, 7};
     options.max_splits = 1;
-    const Result result = run(scene, target, options);
+    const RunOfSpheres result = run(scene, target, options);
     if (result.volume.outcome != Outcome::computed) continue;
     expect_sound(result.volume);
     expect_seen(scene, result.volume, corners_of(result.volume), 60);
@@ -279,20 +279,20 @@ TEST(Spheres, ConservativeVolumesLieInWhatTheVerticesSee) {
 TEST(Spheres, OutcomesAreToldNotThrown) {
   SceneBuilder scene;
   scene.ground("ground", 200);
-  const Result far = run(scene, triangle(), coarse(4), false, 4);
+  const RunOfSpheres far = run(scene, triangle(), coarse(4), false, 4);
   EXPECT_EQ(far.volume.outcome, Outcome::out_of_range);
   EXPECT_TRUE(far.volume.mesh.empty());
 
   Target down = target_of({{-5, 0, 0.05}, {5, 0, 0.05}, {0, 8, 0.05}});
   down.front = Vec3(0, 0, -1);
-  const Result blocked = run(scene, down, coarse(9));
+  const RunOfSpheres blocked = run(scene, down, coarse(9));
   EXPECT_EQ(blocked.volume.outcome, Outcome::blocked_at_once);
   EXPECT_NE(blocked.volume.reason.find("vertex "), std::string::npos) << blocked.volume.reason;
   EXPECT_TRUE(blocked.volume.mesh.empty() && blocked.volume.cause_of.empty());
 
   SceneBuilder under_a_roof;
   under_a_roof.ground("ground", 200).box("roof", {-100, -100, 1}, {100, 100, 2});
-  const Result unseen = run(under_a_roof, triangle(), coarse(2));
+  const RunOfSpheres unseen = run(under_a_roof, triangle(), coarse(2));
   EXPECT_EQ(unseen.volume.outcome, Outcome::blocked_at_once);
   EXPECT_NE(unseen.volume.reason.find("visibility spheres"), std::string::npos) << unseen.volume.reason;
   EXPECT_FALSE(unseen.volume.hint.empty());
@@ -347,7 +347,7 @@ TEST(Spheres, PointsAreRaisedAndRefusedAsTheExactEngineDoes) {
   slope.polygon("slope", {{-100, -100, -40}, {100, -100, 20}, {100, 100, 40}, {-100, 100, -20}});
   const Target under = target_of({{3.3, 7.7, 1.759}});  // by a millimetre
   const Volume exact = compute_visibility(PreparedTarget(PreparedScene(slope), under, {kRange}));
-  const Result found = run(slope, under, coarse(10));
+  const RunOfSpheres found = run(slope, under, coarse(10));
   expect_sound(found.volume);
   EXPECT_GT(found.volume.lift_m.at(0), 1e-3);
   EXPECT_EQ(found.volume.lift_m.at(0), exact.lift_m.at(0));

@@ -15,7 +15,7 @@
 namespace vantage::internal::verify {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kOneDegree = std::numbers::pi / 180;
 
 Pinhole picture(double half_width, double half_height) {
   Pinhole camera;
@@ -87,10 +87,10 @@ TEST(VerifyFrame, YawIsClockwiseFromNorth) {
 
 TEST(VerifyFrame, PitchIsUpFromLevel) {
   const Mount up = fixed(0, 30);
-  const double highest = 30 * kDegree + std::atan(0.1);
+  const double highest = 30 * kOneDegree + std::atan(0.1);
   EXPECT_TRUE(fits(kWide, up, {0, std::cos(highest), std::sin(highest)}));
   EXPECT_FALSE(fits(kWide, up, {0, std::cos(highest + 1e-9), std::sin(highest + 1e-9)}));
-  const double lowest = 30 * kDegree - std::atan(0.1);
+  const double lowest = 30 * kOneDegree - std::atan(0.1);
   EXPECT_TRUE(fits(kWide, up, {0, std::cos(lowest), std::sin(lowest)}));
   EXPECT_FALSE(fits(kWide, up, {0, std::cos(lowest - 1e-9), std::sin(lowest - 1e-9)}));
 }
@@ -104,7 +104,7 @@ TEST(VerifyFrame, StraightDownTheTopOfThePictureIsWhereTheYawPoints) {
 }
 
 TEST(VerifyFrame, APositiveRollLowersTheRightEdge) {
-  const double turn = 25 * kDegree;
+  const double turn = 25 * kOneDegree;
   const Vec3 lower_right(0.9 * std::cos(turn), 1, -0.9 * std::sin(turn)),
       upper_right(0.9 * std::cos(turn), 1, 0.9 * std::sin(turn));
   EXPECT_TRUE(fits(kWide, fixed(0, 0, 25), lower_right));
@@ -129,7 +129,7 @@ TEST(VerifyFrame, FindsTheOneOrientationThatFits) {
     }
     SCOPED_TRACE(::testing::Message() << i << ": " << camera.half_width << " by " << camera.half_height << ", yaw "
                                       << yaw << " pitch " << pitch << "; " << text(mount));
-    const Axes axes(yaw * kDegree, pitch * kDegree, mount.roll_deg * kDegree);
+    const Axes axes(yaw * kOneDegree, pitch * kOneDegree, mount.roll_deg * kOneDegree);
     std::vector<Vec3> corners;
     for (const double x : {-camera.half_width, camera.half_width}) {
       for (const double y : {-camera.half_height, camera.half_height}) corners.push_back(axes.direction(x, y));
@@ -195,9 +195,9 @@ TEST(VerifyFrame, DecidesWhereManyOrientationsAreAlmostTheBest) {
 
 TEST(VerifyFrame, ARangeOfPitchesIsKept) {
   const Pinhole camera = picture(0.5, 0.5);
-  const double half = std::atan(0.5) / kDegree;
+  const double half = std::atan(0.5) / kOneDegree;
   const auto down = [](double pitch_deg) {
-    return std::vector<Vec3>{{0, std::cos(pitch_deg * kDegree), std::sin(pitch_deg * kDegree)}};
+    return std::vector<Vec3>{{0, std::cos(pitch_deg * kOneDegree), std::sin(pitch_deg * kOneDegree)}};
   };
   const Mount mount{.min_pitch_deg = -30, .max_pitch_deg = 10};
   EXPECT_EQ(search(camera, mount, down(-30 - half + 1e-7)), Finding::kept);
@@ -215,8 +215,8 @@ struct FrameCase {
 };
 
 /// Convex polygons seen from about where they fill the picture.
-FrameCase random_case(testing::Random& random) {
-  FrameCase drawn;
+Case random_case(testing::Random& random) {
+  Case drawn;
   drawn.camera.half_width = std::exp(random.uniform(-2, 1));
   drawn.camera.half_height = drawn.camera.half_width * random.uniform(0.4, 1);
   Mount& mount = drawn.mount;
@@ -246,7 +246,7 @@ double best_on_grid(const FrameCase& drawn, double step) {
   for (int i = 0; i <= pitches; ++i) {
     const double pitch = mount.min_pitch_deg + (pitches > 0 ? span * i / pitches : 0);
     for (int j = 0; j <= yaws; ++j) {
-      const Axes axes(mount.yaw_deg.value_or(step * j) * kDegree, pitch * kDegree, mount.roll_deg * kDegree);
+      const Axes axes(mount.yaw_deg.value_or(step * j) * kOneDegree, pitch * kOneDegree, mount.roll_deg * kOneDegree);
       best = std::max(best, axes.margin(drawn.directions, drawn.camera));
     }
   }
@@ -264,16 +264,16 @@ TEST(VerifyFrame, AgreesWithAGridOfOrientations) {
     const double best = best_on_grid(drawn, kStep);
     if (result.finding == Finding::kept) {
       ++kept;
-      const Axes axes(result.orientation.yaw, result.orientation.pitch, drawn.mount.roll_deg * kDegree);
+      const Axes axes(result.orientation.yaw, result.orientation.pitch, drawn.mount.roll_deg * kOneDegree);
       EXPECT_GE(axes.margin(drawn.directions, drawn.camera), -1e-11);
-      EXPECT_GT(best, -kStep * kDegree)
+      EXPECT_GT(best, -kStep * kOneDegree)
           << "the nearest orientation of the grid is half a step away in yaw and in pitch";
     }
     if (result.finding == Finding::broken) {
       ++broken;
       EXPECT_LT(best, 0);
     }
-    grid_tells += best >= 0 || best < -kStep * kDegree;
+    grid_tells += best >= 0 || best < -kStep * kOneDegree;
   }
   EXPECT_GT(kept, 50);
   EXPECT_GT(broken, 50);
