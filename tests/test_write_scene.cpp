@@ -2,9 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <tuple>
+#include <vector>
 
 #include "support/objects.h"
 #include "support/temporary_directory.h"
@@ -45,6 +48,49 @@ Scene awkward_scene() {
   scene.mesh.vertices.emplace_back(9e8, 0, 0);
   add_tetrahedron(scene, Vec3(70, 7, 7), 1, 3);
   return scene;
+}
+
+/// The farthest that a corner of a triangle is from where it was.
+double moved(const Scene& before, const Scene& after) {
+  const auto corners = [](const Scene& scene) {
+    std::vector<std::array<double, 3>> all;
+    for (const Triangle& t : scene.mesh.triangles) {
+      for (const std::uint32_t v : t) {
+        const Vec3& p = scene.mesh.vertices[v];
+        all.push_back({p.x(), p.y(), p.z()});
+      }
+    }
+    std::sort(all.begin(), all.end());
+    return all;
+  };
+  const auto a = corners(before), b = corners(after);
+  EXPECT_EQ(a.size(), b.size());
+  double most = 0;
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
+    most = std::max(most, (Vec3(a[i].data()) - Vec3(b[i].data())).norm());
+  }
+  return most;
+}
+
+TEST(WriteScene, SaysHowFarSinglePrecisionMovesVertices) {
+  const TemporaryDirectory folder;
+  Scene scene;
+  scene.objects = named({"far", "wide"});
+  add_tetrahedron(scene, Vec3(1000.1, 2000.2, 3.3), 7.7, 0);
+  add_tetrahedron(scene, Vec3(-900.7, 0.3, 0.1), 1234.5, 1);
+  for (const auto& [name, least, most] :
+       {std::tuple{"a.obj", 0.0, 0.0}, {"a.ply", 0.0, 0.0}, {"a.glb", 1e-6, 1e-4}, {"a.stl", 1e-6, 2e-4}}) {
+    const double told = write_scene(scene, folder / name);
+    const double found = moved(scene, read_scene(folder / name));
+    EXPECT_NEAR(told, found, 1e-12) << name;
+    EXPECT_GE(told, least) << name;
+    EXPECT_LE(told, most) << name;
+  }
+  Scene exact;
+  exact.objects = named({"exact"});
+  add_tetrahedron(exact, Vec3(512, 0.25, 0), 64, 0);
+  EXPECT_EQ(write_scene(exact, folder / "exact.glb"), 0);
+  EXPECT_EQ(write_scene(exact, folder / "exact.stl"), 0);
 }
 
 /// The corners of an object's triangles, in the order of the scene's triangles.

@@ -45,7 +45,13 @@ struct StagedVolume {
 VANTAGE_API StagedVolume stage_volume(const Volume& volume, const std::filesystem::path& file,
                                       UpAxis obj_up = UpAxis::z, double obj_scale = 1.0);
 
-/// Does all that write_scene does but the last step: give the files to commit_all. Throws as write_scene does.
-VANTAGE_API std::vector<std::unique_ptr<AtomicFile>> stage_scene(const Scene& scene, const std::filesystem::path& file);
+/// A scene that is written but not in place yet: give the files to commit_all.
+struct StagedScene {
+  std::vector<std::unique_ptr<AtomicFile>> files;  ///< the scene's first; for STL the one beside it too
+  double rounding_m = 0;                           ///< what write_scene returns
+};
+
+/// Does all that write_scene does but the last step. Throws as write_scene does.
+VANTAGE_API StagedScene stage_scene(const Scene& scene, const std::filesystem::path& file);
 
 }  // namespace vantage

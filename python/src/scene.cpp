@@ -120,8 +120,8 @@ void bind_scene(nb::module_& module) {
              });
            })
       .def(
-          "save", [](const PyScene& s, const std::filesystem::path& file) { write_scene(s.scene(), file); }, "file"_a,
-          nb::call_guard<Released, Computing>());
+          "save", [](const PyScene& s, const std::filesystem::path& file) { return write_scene(s.scene(), file); },
+          "file"_a, nb::call_guard<Released, Computing>());
 
   module.def("load_scene", &load, "text"_a, "name"_a, "progress"_a = nb::none());
   module.def("scene_from_arrays", &from_arrays, "vertices"_a.noconvert(), "faces"_a.noconvert(),

@@ -60,8 +60,11 @@ int run_scene(const SceneArguments& options) {
   const LoadedScene loaded = load_scene(source, progress.callback());
 
   std::vector<std::unique_ptr<AtomicFile>> files;
+  std::vector<WrittenScene> written;
   for (const std::string& output : options.outputs) {
-    for (auto& file : stage_scene(loaded.scene, output)) files.push_back(std::move(file));
+    StagedScene staged = stage_scene(loaded.scene, output);
+    for (auto& file : staged.files) files.push_back(std::move(file));
+    written.push_back({output, staged.rounding_m});
     if (!loaded.city) continue;
     check_derived_output(report_file(output));
     files.push_back(std::make_unique<AtomicFile>(report_file(output)));
@@ -73,7 +76,7 @@ int run_scene(const SceneArguments& options) {
   if (options.json) {
     print(json_text(loaded));
   } else if (!options.common.quiet) {
-    print(scene_table(loaded, source.file));
+    print(scene_table(loaded, source.file, written));
   }
   return kSuccess;
 }

@@ -63,7 +63,8 @@ void add_source(TextTable& table, const LoadedScene& loaded) {
   if (loaded.raster) add_raster(table, *loaded.raster);
 }
 
-std::string scene_table(const LoadedScene& loaded, const std::filesystem::path& file) {
+std::string scene_table(const LoadedScene& loaded, const std::filesystem::path& file,
+                        const std::vector<WrittenScene>& written) {
   TextTable table;
   table.heading(file.string());
   if (const auto& place = loaded.scene.georeference) {
@@ -76,6 +77,12 @@ std::string scene_table(const LoadedScene& loaded, const std::filesystem::path& 
   table.row("from", vector(box.min), "metres");
   table.row("to", vector(box.max), "");
   add_source(table, loaded);
+  const auto is_moved = [](const WrittenScene& one) { return one.rounding_m > 0; };
+  if (std::any_of(written.begin(), written.end(), is_moved)) table.heading("moved by single precision");
+  for (const WrittenScene& one : written) {
+    if (!is_moved(one)) continue;
+    table.row("by up to", fixed(one.rounding_m * 1e6, 3), "micrometres in " + one.file + ": the hash is another one");
+  }
   const std::vector<std::string> notes = notes_of(loaded);
   if (!notes.empty()) table.heading("notes");
   for (const std::string& note : notes) table.heading("  " + note);

@@ -3,14 +3,21 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "cli/text_table.h"
 #include "vantage/scene_source.h"
 
 namespace vantage::cli {
 
+struct WrittenScene {
+  std::string file;
+  double rounding_m = 0;  ///< what write_scene returns
+};
+
 /// For people: the place, counts by kind, and by reason what was not simply written.
-std::string scene_table(const LoadedScene& loaded, const std::filesystem::path& file);
+std::string scene_table(const LoadedScene& loaded, const std::filesystem::path& file,
+                        const std::vector<WrittenScene>& written);
 
 /// What maps and rasters have to tell beside the scene itself; nothing of meshes.
 void add_source(TextTable& table, const LoadedScene& loaded);

@@ -29,7 +29,7 @@ constexpr std::array<OutputFormat, 4> kFormats = {{
      write_scene_obj},
     {".stl", true, true, [](const Volume& volume, const ObjFrame&) { return stored_as_floats(volume); },
      [](const Volume&, const StoredMesh& stored, const ObjFrame&, AtomicFile& file) { write_stl(stored, file); },
-     [](const Scene& scene, AtomicFile& file) { write_stl_mesh(scene.mesh, "scene", file); }},
+     write_scene_stl},
     {".glb", true, false, [](const Volume& volume, const ObjFrame&) { return stored_as_local_floats(volume); },
      [](const Volume& volume, const StoredMesh& stored, const ObjFrame&, AtomicFile& file) {
        write_glb(volume, stored, file);

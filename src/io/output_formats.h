@@ -25,7 +25,7 @@ struct OutputFormat {
   bool has_sidecar;  ///< it has no room for a georeference, a rounding and a statement: they are in a file beside it
   StoredMesh (*store)(const Volume& volume, const ObjFrame& obj);
   void (*write_volume)(const Volume& volume, const StoredMesh& stored, const ObjFrame& obj, AtomicFile& file);
-  void (*write_scene)(const Scene& scene, AtomicFile& file);
+  double (*write_scene)(const Scene& scene, AtomicFile& file);  ///< how far it moves a vertex, metres
 };
 
 std::span<const OutputFormat> output_formats();

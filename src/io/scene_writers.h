@@ -35,8 +35,10 @@ class ObjectTriangles {
 /// The name of an object for a file: on one line, never empty.
 std::string object_name(const Scene& scene, std::size_t object);
 
-void write_scene_obj(const Scene& scene, AtomicFile& file);
-void write_scene_ply(const Scene& scene, AtomicFile& file);
-void write_scene_glb(const Scene& scene, AtomicFile& file);
+/// Each returns how far the numbers of the format have moved a vertex at most, metres.
+double write_scene_obj(const Scene& scene, AtomicFile& file);
+double write_scene_ply(const Scene& scene, AtomicFile& file);
+double write_scene_stl(const Scene& scene, AtomicFile& file);
+double write_scene_glb(const Scene& scene, AtomicFile& file);
 
 }  // namespace vantage::internal::io

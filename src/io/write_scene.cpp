@@ -1,4 +1,5 @@
 // Checks a scene, chooses the writer by the file's extension; the writers for OBJ and PLY.
+#include <algorithm>
 #include <limits>
 #include <numeric>
 #include <string>
@@ -59,7 +60,7 @@ std::string object_name(const Scene& scene, std::size_t object) {
 }
 
 /// Each object's vertices come before its faces, where they are not another's already.
-void write_scene_obj(const Scene& scene, AtomicFile& file) {
+double write_scene_obj(const Scene& scene, AtomicFile& file) {
   const std::vector<Vec3>& vertices = scene.mesh.vertices;
   const std::vector<Triangle>& triangles = scene.mesh.triangles;
   file.write("# vantage " VANTAGE_VERSION " scene\n# " + io::axes_text({}) + "\n");
@@ -87,9 +88,10 @@ void write_scene_obj(const Scene& scene, AtomicFile& file) {
     file.write(vertex_lines);
     file.write(face_lines);
   });
+  return 0;
 }
 
-void write_scene_ply(const Scene& scene, AtomicFile& file) {
+double write_scene_ply(const Scene& scene, AtomicFile& file) {
   const auto& [vertices, triangles] = scene.mesh;
   UsedVertices used(scene.mesh);
   std::string vertex_rows, face_rows;
@@ -118,23 +120,40 @@ void write_scene_ply(const Scene& scene, AtomicFile& file) {
   file.write("property list uchar int vertex_indices\nproperty uint object\nend_header\n");
   file.write(vertex_rows);
   file.write(face_rows);
+  return 0;
+}
+
+double write_scene_stl(const Scene& scene, AtomicFile& file) {
+  write_stl_mesh(scene.mesh, "scene", file);
+  double moved = 0;
+  for (const Triangle& triangle : scene.mesh.triangles) {
+    for (const std::uint32_t vertex : triangle) {
+      const Vec3& exact = scene.mesh.vertices[vertex];
+      moved = std::max(moved, (exact.cast<float>().cast<double>() - exact).norm());
+    }
+  }
+  return moved;
 }
 
 }  // namespace vantage::internal::io
 
 namespace vantage {
 
-std::vector<std::unique_ptr<AtomicFile>> stage_scene(const Scene& scene, const std::filesystem::path& file) {
+StagedScene stage_scene(const Scene& scene, const std::filesystem::path& file) {
   using namespace internal::io;
   check_scene(scene);
-  std::vector<std::unique_ptr<AtomicFile>> files;
-  files.push_back(std::make_unique<AtomicFile>(file));
+  StagedScene staged;
+  staged.files.push_back(std::make_unique<AtomicFile>(file));
   const OutputFormat& format = output_format(file);
-  format.write_scene(scene, *files.back());
-  if (format.has_sidecar) stage_sidecar({scene.georeference, std::nullopt, {}}, file, files);
-  return files;
+  staged.rounding_m = format.write_scene(scene, *staged.files.back());
+  if (format.has_sidecar) stage_sidecar({scene.georeference, std::nullopt, {}}, file, staged.files);
+  return staged;
 }
 
-void write_scene(const Scene& scene, const std::filesystem::path& file) { commit_all(stage_scene(scene, file)); }
+double write_scene(const Scene& scene, const std::filesystem::path& file) {
+  StagedScene staged = stage_scene(scene, file);
+  commit_all(staged.files);
+  return staged.rounding_m;
+}
 
 }  // namespace vantage

@@ -1,6 +1,7 @@
 // glTF 2.0, binary container: y up, a node with a mesh for each object. Positions are single precision, as glTF
 // demands, but relative to the node's translation, which is written in full. The document is put together as text: a
 // scene may have tens of thousands of objects, and a tree of JSON values would take longer than all the rest.
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -34,13 +35,15 @@ class SceneGlb {
  public:
   explicit SceneGlb(const Scene& scene) : scene_(scene), local_(scene.mesh.vertices.size()) {}
 
-  void write(AtomicFile& file) {
+  /// How far it has moved a vertex.
+  double write(AtomicFile& file) {
     ObjectTriangles(scene_).for_each([&](std::size_t object, const std::uint32_t* first, const std::uint32_t* end) {
       add_object(object, first, end);
     });
     const std::size_t positions = buffer_.size();
     buffer_ += indices_;
     write_glb_container(document(positions), buffer_, file);
+    return moved_;
   }
 
  private:
@@ -69,6 +72,7 @@ class SceneGlb {
         if (local.object != count_) {
           local = {count_, used++};
           add_position(to_y_up(vertices[vertex] - origin), low, high);
+          note_moved(vertices[vertex], origin);
         }
         append_little_endian(indices_, local.index);
       }
@@ -84,6 +88,12 @@ class SceneGlb {
       high[axis] = std::max(high[axis], coordinate);
       append_little_endian(buffer_, coordinate);
     }
+  }
+
+  /// As readers add the translation to the position.
+  void note_moved(const Vec3& vertex, const Vec3& origin) {
+    const Vec3 stored = (vertex - origin).cast<float>().cast<double>() + origin;
+    moved_ = std::max(moved_, (stored - vertex).norm());
   }
 
   void add_accessors(std::size_t positions, std::size_t first_position, const std::array<float, 3>& low,
@@ -150,12 +160,13 @@ class SceneGlb {
   const Scene& scene_;
   std::vector<Local> local_;  // per vertex of the scene
   std::size_t count_ = 0;     // objects so far
+  double moved_ = 0;          // metres, at most
   std::string buffer_, indices_;
   std::string roots_, nodes_, meshes_, accessors_;
 };
 
 }  // namespace
 
-void write_scene_glb(const Scene& scene, AtomicFile& file) { SceneGlb(scene).write(file); }
+double write_scene_glb(const Scene& scene, AtomicFile& file) { return SceneGlb(scene).write(file); }
 
 }  // namespace vantage::internal::io
