@@ -18,6 +18,7 @@
 #include "support/temporary_directory.h"
 #include "support/wording.h"
 #include "vantage/error.h"
+#include "vantage/hash.h"
 #include "vantage/mission.h"
 #include "vantage/navigation.h"
 #include "vantage/query.h"
@@ -531,6 +532,32 @@ TEST(VolumeFiles, HaveNamesOfTheirOwn) {
       volume_files("out/volume.ply", {"Town Hall, roof", "town hall, roof", "../x", std::string(300, 'n')});
   for (std::size_t i = 0; i < 3; ++i) testing::expect_wording(files[i].string());
   EXPECT_LT(files[3].filename().string().size(), 200U);
+}
+
+// ---- targets that are wrong beside others
+
+TEST_F(SeveralTargets, WhatIsWrongWithOneDoesNotStopTheOthers) {
+  const std::string through = "{name: through, vertices: [[-5, -4, 5], [6, -4, 5], [6, 4, 5], [-5, 4, 5]]}";
+  const Mission all = of("each", {kWest, through, kNorth});
+  const std::vector<Attempt> attempts = try_missions(all);
+  ASSERT_EQ(attempts.size(), 3u);
+  ASSERT_TRUE(attempts[1].error && !attempts[1].result);
+  EXPECT_EQ(attempts[1].error->code(), ErrorCode::target_pierced);
+  EXPECT_NE(attempts[1].error->where().find("mission.yaml:6:"), std::string::npos) << attempts[1].error->where();
+  const std::vector<Result> good = run_missions(of("each", {kWest, kNorth}));
+  for (const auto& [attempt, result] : {std::pair{&attempts[0], &good[0]}, {&attempts[2], &good[1]}}) {
+    ASSERT_TRUE(attempt->result && !attempt->error);
+    EXPECT_EQ(volume_hash(attempt->result->volume.mesh), volume_hash(result->volume.mesh));
+    EXPECT_EQ(attempt->result->volume.provenance->mission_hash, result->volume.provenance->mission_hash);
+  }
+  testing::expect_code([&] { run_missions(all); }, ErrorCode::target_pierced, "mission.yaml:6:");
+}
+
+TEST_F(SeveralTargets, AStopEndsAllAttempts) {
+  const Mission all = of("each", {kWest, kNorth});
+  int told = 0;
+  testing::expect_code([&] { try_missions(all, {}, [&](std::string_view, double) { return ++told < 2; }); },
+                       ErrorCode::cancelled);
 }
 
 }  // namespace

@@ -281,6 +281,16 @@ struct Result {
 VANTAGE_API std::vector<Result> run_missions(const Mission& mission, const RunOptions& options = {},
                                              const Progress& progress = {});
 
+/// What came of one of several targets: one of the two.
+struct Attempt {
+  std::optional<Result> result = {};
+  std::optional<Error> error = {};
+};
+
+/// The same, but what is wrong with one target (Error(input)) does not stop the others. Other errors do.
+VANTAGE_API std::vector<Attempt> try_missions(const Mission& mission, const RunOptions& options = {},
+                                              const Progress& progress = {});
+
 /// Of a mission of one volume. Prepares the scene and the target, computes, and cuts to the navigation limits. Throws
 /// as the method, PreparedTarget and cut_to_navigation do, with the place in the mission file put in front of errors
 /// about the target. Cost: the sum of theirs; unless it is given, the scene is prepared anew each time.

@@ -206,6 +206,78 @@ void check_one_target(const Mission& mission) {
               mission.as_written.file.string(), "use prepare_views, and run_mission without a prepared target");
 }
 
+enum class OnError { stop, go_on };
+
+/// The error that is thrown, if it is about this target alone. Others are thrown on.
+Error error_of_target() {
+  try {
+    throw;
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::input) throw;
+    return error;
+  }
+}
+
+/// A result for each volume. `OnError::go_on`: or what is wrong with its target.
+std::vector<Attempt> run_each(const Mission& mission, const RunOptions& options, OnError on_error,
+                              const Progress& progress) {
+  const std::size_t count = volume_count(mission);
+  std::vector<Attempt> attempts(count);
+  internal::parallel::with_threads(options.threads, [&] {
+    internal::core::Stopwatch stopwatch;
+    const PreparedScene scene = prepared_scene(mission, options, progress);
+    RunOptions for_each;
+    for_each.kept = options.kept;
+    for_each.scene_hash = options.scene_hash.empty() ? scene_hash(mission.scene()) : options.scene_hash;
+    const double prepare_seconds = stopwatch.lap();
+    std::vector<PreparedViews> prepared(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      try {
+        prepared[i] = prepare_views(one_volume(mission, i), scene);
+      } catch (const Error&) {
+        if (on_error == OnError::stop) throw;
+        attempts[i].error = error_of_target();
+      }
+    }
+    internal::app::begin_run(options.kept);
+    SharedProgress shared(progress, count);
+    // An exception that leaves a parallel loop also ends the loops inside the others, which would go on with half of
+    // their results: it is thrown when all are done. After the first one no more are begun.
+    std::vector<std::exception_ptr> thrown(count);
+    std::atomic<bool> has_failed = false;
+    const auto run_one = [&](std::size_t i) {
+      internal::core::Stopwatch own;
+      attempts[i].result = run(one_volume(mission, i), prepared[i], 0, own, for_each, shared.callback());
+    };
+    internal::parallel::for_ranges(count, 1, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end && !has_failed; ++i) {
+        try {
+          try {
+            if (!attempts[i].error) run_one(i);
+          } catch (const Error&) {
+            if (on_error == OnError::stop) throw;
+            attempts[i].error = error_of_target();
+          }
+          shared.finish_one();
+        } catch (...) {
+          thrown[i] = std::current_exception();
+          has_failed = true;
+        }
+      }
+    });
+    for (const std::exception_ptr& one : thrown) {
+      if (one) std::rethrow_exception(one);
+    }
+    for (Attempt& attempt : attempts) {
+      if (!attempt.result) continue;
+      attempt.result->volume.seconds.prepare = prepare_seconds;
+      attempt.result->volume.seconds.total += prepare_seconds;
+      break;
+    }
+  });
+  return attempts;
+}
+
 }  // namespace
 
 PreparedTarget prepare_target(const Mission& mission, const PreparedScene& scene) {
@@ -249,43 +321,16 @@ Result run_mission(const Mission& mission, const PreparedTarget& target, const R
 }
 
 std::vector<Result> run_missions(const Mission& mission, const RunOptions& options, const Progress& progress) {
-  const std::size_t count = volume_count(mission);
-  if (count == 1) return {run_mission(mission, options, progress)};
-  std::vector<Result> results(count);
-  internal::parallel::with_threads(options.threads, [&] {
-    internal::core::Stopwatch stopwatch;
-    const PreparedScene scene = prepared_scene(mission, options, progress);
-    RunOptions for_each;
-    for_each.kept = options.kept;
-    for_each.scene_hash = options.scene_hash.empty() ? scene_hash(mission.scene()) : options.scene_hash;
-    const double prepare_seconds = stopwatch.lap();
-    std::vector<PreparedViews> prepared;
-    for (std::size_t i = 0; i < count; ++i) prepared.push_back(prepare_views(one_volume(mission, i), scene));
-    internal::app::begin_run(options.kept);
-    SharedProgress shared(progress, count);
-    // An exception that leaves a parallel loop also ends the loops inside the others, which would go on with half of
-    // their results: it is thrown when all are done. After the first one no more are begun.
-    std::vector<std::exception_ptr> thrown(count);
-    std::atomic<bool> has_failed = false;
-    internal::parallel::for_ranges(count, 1, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end && !has_failed; ++i) {
-        try {
-          internal::core::Stopwatch own;
-          results[i] = run(one_volume(mission, i), prepared[i], 0, own, for_each, shared.callback());
-          shared.finish_one();
-        } catch (...) {
-          thrown[i] = std::current_exception();
-          has_failed = true;
-        }
-      }
-    });
-    for (const std::exception_ptr& one : thrown) {
-      if (one) std::rethrow_exception(one);
-    }
-    results.front().volume.seconds.prepare = prepare_seconds;
-    results.front().volume.seconds.total += prepare_seconds;
-  });
+  if (volume_count(mission) == 1) return {run_mission(mission, options, progress)};
+  std::vector<Result> results;
+  for (Attempt& attempt : run_each(mission, options, OnError::stop, progress)) {
+    results.push_back(std::move(*attempt.result));
+  }
   return results;
+}
+
+std::vector<Attempt> try_missions(const Mission& mission, const RunOptions& options, const Progress& progress) {
+  return run_each(mission, options, OnError::go_on, progress);
 }
 
 }  // namespace vantage
