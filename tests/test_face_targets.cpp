@@ -111,6 +111,11 @@ TEST_F(FaceTargets, OfAMap) {
   const Mission roof = map("{osm: way/1, part: roof}");
   EXPECT_EQ(roof.target.parts.size(), 1U);
   // A building that is built as its parts.
+  EXPECT_EQ(mission_hash(map("{osm: Town Hall, part: roof, name: a}")),
+            mission_hash(map("{osm: way/1, part: roof, name: a}")));
+  EXPECT_EQ(mission_hash(map("{osm: SCHOOL, part: roof, name: a}")),
+            mission_hash(map("{osm: way/3, part: roof, name: a}")))
+      << "a building by its name, with its parts";
   const Mission school = map("{osm: way/3, part: roof}");
   EXPECT_EQ(school.target.name, "way/3, roof");
   EXPECT_NEAR(area_of(school.target), 200, 0.5);
@@ -171,6 +176,7 @@ TEST_F(FaceTargets, HaveTheHashOfTheSamePolygons) {
 TEST_F(FaceTargets, ThatAreNone) {
   expect_refused("{object: twon_hall, part: roof}", ErrorCode::object_missing);
   expect_refused("{osm: way/12, part: roof}", ErrorCode::object_missing, "{osm: city.osm}");
+  expect_refused("{osm: Town Hal, part: roof}", ErrorCode::map_object_missing, "{osm: city.osm}");
   expect_refused("{object: ground, part: facade}", ErrorCode::face_missing);
   expect_refused("{object: town_hall, part: roof, facing: south}", ErrorCode::face_missing);
   expect_refused("{osm: way/2, part: facade, facing: west}", ErrorCode::face_missing, "{osm: city.osm}");

@@ -80,6 +80,52 @@ TEST_F(GroundTargetTest, HolesAreNoPartOfIt) {
       << "the building in the middle hides some of it from everywhere within range";
 }
 
+// ---- areas by their names
+
+class NamedAreaTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    MapText map(kOrigin);
+    map.box(-40, -40, -20, -20, {{"leisure", "park"}, {"name", "Finsbury Square"}});  // way/1
+    map.area({{-45, -45}, {-15, -45}, {-15, -15}, {-45, -15}},
+             {{"highway", "residential"}, {"name", "Finsbury Square"}});       // way/2, the street around it
+    map.box(20, 20, 30, 30, {{"leisure", "pitch"}, {"name", "North Pitch"}});  // way/3
+    map.box(40, 20, 50, 30, {{"leisure", "pitch"}, {"name", "north pitch"}});  // way/4
+    map.box(60, 20, 70, 30, {{"amenity", "parking"}, {"name", "Lot"}});        // way/5
+    map.box(60, 40, 70, 50, {{"amenity", "parking"}, {"name", "Lot"}});        // way/6
+    map.area({{60, 60}, {70, 60}, {70, 70}}, {{"highway", "service"}, {"name", "Loop"}});  // way/7
+    map.box(-90, 60, -80, 70, {{"building", "yes"}});                                      // a scene needs one
+    write_bytes(folder_ / "city.osm", map.text());
+  }
+  std::string name_of(const std::string& osm) {
+    write_bytes(folder_ / "mission.yaml",
+                "scene: {osm: city.osm, center: [48.1374, 11.5755], radius: 300}\nsensor: {max_range: 90}\n"
+                "target: {osm: " +
+                    osm + "}\n");
+    return resolve_mission(read_mission(folder_ / "mission.yaml")).target.name;
+  }
+  void refuse(const std::string& osm) {
+    testing::expect_error([&] { name_of(osm); }, ErrorCode::map_object_missing, "mission.yaml:3:");
+  }
+  TemporaryDirectory folder_;
+};
+
+TEST_F(NamedAreaTest, TheNameOfOneAreaIsEnough) {
+  EXPECT_EQ(name_of("Finsbury Square"), "Finsbury Square (way/1)") << "and not the street around it";
+  EXPECT_EQ(name_of("finsbury SQUARE"), "Finsbury Square (way/1)");
+  EXPECT_EQ(name_of("North Pitch"), "North Pitch (way/3)") << "as it is written, before another case";
+  EXPECT_EQ(name_of("north pitch"), "north pitch (way/4)");
+  EXPECT_EQ(name_of("way/1"), "Finsbury Square (way/1)");
+  EXPECT_EQ(name_of("Loop"), "Loop (way/7)") << "a closed street, where no area has the name";
+}
+
+TEST_F(NamedAreaTest, OtherNamesAreRefusedWithWhatIsThere) {
+  refuse("Lot");
+  refuse("NORTH PITCH");
+  refuse("Finsbury Sqare");
+  refuse("way/99");
+}
+
 double plan_area(const Mission& mission) {
   double area = 0;
   for (std::size_t i = 0; i < mission.target.parts.size(); ++i) area += area_of(mission.target.part(i));

@@ -43,7 +43,7 @@ VANTAGE_API const char* name_of(Method method);
 /// A target that is given by an object of the map, a place on the earth or a polygon. It is laid on the scene's ground:
 /// in the plane nearest to the ground under it, raised until no ground under it lies above that.
 struct GroundTarget {
-  std::string osm;  ///< an area of the scene's map, "way/123"; not convex: its convex parts; or
+  std::string osm;  ///< an area of the scene's map, "way/123" or its name; not convex: its convex parts; or
   std::optional<std::array<double, 2>> center_deg = std::nullopt;  ///< latitude and longitude (WGS 84) of a
                                                                    ///< rectangle's centre
   double width_m = 0, length_m = 0;                                ///< > 0; the length runs along the heading
@@ -57,7 +57,7 @@ struct GroundTarget {
 /// Where several faces are meant, all of them must be seen.
 struct FaceTarget {
   std::string object;  ///< SceneObject::name, source_id or display_name of one or more objects; or
-  std::string osm;     ///< an object of the scene's map, "way/123", with the parts of that building; or
+  std::string osm;     ///< an object of the scene's map, "way/123" or its name, with the parts of that building; or
   std::optional<std::array<double, 2>> at_deg = std::nullopt;  ///< latitude and longitude (WGS 84): the highest object
                                                                ///< there, but for the ground
   FaceKind kind = FaceKind::roof;

@@ -9,6 +9,7 @@
 #include <set>
 #include <span>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 #include <vector>
 
@@ -47,17 +48,45 @@ struct MapObjects {
       if (!record.building.empty()) parts[record.building].push_back(record.object.source_id);
       if (record.fate == Fate::skipped) skipped.emplace(record.object.source_id, record.reason);
     }
+    // Of a building whose parts have its name the building counts.
+    std::unordered_map<std::string, std::string> building_of;
+    for (const CityRecord& record : loaded.city->records) building_of[record.object.source_id] = record.building;
+    for (const SceneObject& object : objects) {
+      if (object.name.empty() || object.source_id.empty()) continue;
+      const auto building = building_of.find(object.source_id);
+      const bool is_part = building != building_of.end() && !building->second.empty();
+      named.push_back({object.name, is_part ? building->second : object.source_id});
+    }
+    for (const CityRecord& record : loaded.city->records) {
+      const bool has_parts = parts.contains(record.object.source_id);
+      if (has_parts && !record.object.name.empty()) named.push_back({record.object.name, record.object.source_id});
+    }
   }
+
+  bool knows(const std::string& id) const { return of.contains(id) || parts.contains(id) || skipped.contains(id); }
 
   std::unordered_map<std::string, Objects> of;
   std::unordered_map<std::string, std::vector<std::string>> parts;  // of a building
   std::unordered_map<std::string, std::string> skipped;             // why it is not built
+  std::vector<NamedId> named;
 };
 
-/// An object of the map and, of a building, its parts.
-Objects of_map(const Mission& mission, const std::string& id) {
+/// Whether it is written as ids of maps are: "way/123", "w123".
+bool is_map_id(const std::string& text) {
+  const std::size_t digits = text.find_first_of("0123456789");
+  const std::string_view head = std::string_view(text).substr(0, digits);
+  const bool is_type =
+      head == "way/" || head == "relation/" || head == "node/" || head == "w" || head == "r" || head == "n";
+  return is_type && digits != std::string::npos && text.find_first_not_of("0123456789", digits) == std::string::npos;
+}
+
+/// An object of the map, by its id or its name, and, of a building, its parts.
+Objects of_map(const Mission& mission, const std::string& asked) {
   const auto& map =
       looked_up<MapObjects>(*mission.loaded, [&] { return std::make_shared<const MapObjects>(*mission.loaded); });
+  const bool is_id = map.knows(asked) || is_map_id(asked);
+  const std::string id =
+      is_id ? asked : id_of_name(map.named, asked, "object of the scene", mission.as_written.places.target);
   std::set<std::string> wanted{id};
   if (const auto parts = map.parts.find(id); parts != map.parts.end()) {
     wanted.insert(parts->second.begin(), parts->second.end());

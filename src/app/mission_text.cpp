@@ -198,7 +198,7 @@ class Writer {
       } else if (!ground->outline.empty()) {
         add_outline(ground->outline, section);
       } else {
-        section.add("osm", ground->osm);
+        section.add("osm", quoted(ground->osm));
       }
     } else if (target.is_point()) {
       section.add("point", list_of(target.parts[0][0]));
@@ -223,7 +223,7 @@ class Writer {
 
   static void add_faces(const FaceTarget& faces, Section& section) {
     if (!faces.object.empty()) section.add("object", quoted(faces.object));
-    if (!faces.osm.empty()) section.add("osm", faces.osm);
+    if (!faces.osm.empty()) section.add("osm", quoted(faces.osm));
     if (faces.at_deg) section.add("at", list_of(*faces.at_deg));
     section.add("part", name_of(faces.kind));
     if (faces.facing_deg) section.add("facing", *faces.facing_deg);

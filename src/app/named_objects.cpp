@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "vantage/error.h"
 #include "vantage/input.h"
 
 namespace vantage::internal::app {
@@ -14,6 +15,38 @@ std::vector<std::uint32_t> objects_named(const Scene& scene, const std::string& 
     if (object.name == name || object.source_id == name || display_name(object) == name) found.push_back(i);
   }
   return found;
+}
+
+bool is_same_name(const std::string& a, const std::string& b) {
+  const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
+  return a.size() == b.size() &&
+         std::equal(a.begin(), a.end(), b.begin(), [&](char x, char y) { return lower(x) == lower(y); });
+}
+
+std::string id_of_name(const std::vector<NamedId>& known, const std::string& name, const std::string& what,
+                       const std::string& where) {
+  constexpr std::size_t kMost = 8;
+  for (const bool as_written : {true, false}) {
+    std::set<std::string> ids;
+    for (const NamedId& one : known) {
+      if (as_written ? one.name == name : is_same_name(one.name, name)) ids.insert(one.id);
+    }
+    if (ids.size() == 1) return *ids.begin();
+    if (ids.empty()) continue;
+    std::string list;
+    std::size_t listed = 0;
+    for (const std::string& id : ids) {
+      if (listed++ == kMost) break;
+      list += (list.empty() ? "" : ", ") + id;
+    }
+    if (ids.size() > kMost) list += ", ...";
+    throw Error(ErrorCode::map_object_missing, "the name " + in_quotes(name) + " is that of several " + what + "s",
+                where, "write the id of one of these " + std::to_string(ids.size()) + ": " + list);
+  }
+  std::set<std::string> names;
+  for (const NamedId& one : known) names.insert(one.name);
+  throw Error(ErrorCode::map_object_missing, "there is no " + what + " with the name " + in_quotes(name), where,
+              advice_for_name(name, names, "write its id, 'way/123'"));
 }
 
 std::string advice_for_name(const std::string& word, const std::set<std::string>& names, const std::string& otherwise) {

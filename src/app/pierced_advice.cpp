@@ -30,8 +30,9 @@ std::optional<std::string> how_to_leave_out(const LoadedScene& loaded, std::uint
   if (kind == kLeftOut.end()) return std::nullopt;
   std::string what = std::string("the map has a ") + name_of(found.kind) + " there";
   if (found.kind == ObjectKind::wall) {
-    what = found.source_id == target_object ? "the target's own wall or fence stands on its outline"
-                                            : "the map has a wall, fence or hedge there";
+    const bool is_its_own = !target_object.empty() && (found.source_id == target_object || found.name == target_object);
+    what = is_its_own ? "the target's own wall or fence stands on its outline"
+                      : "the map has a wall, fence or hedge there";
   }
   return what + ": leave out all of this kind with scene: {without: [" + kind->second +
          "]}, or give the vertices of a polygon beside it";

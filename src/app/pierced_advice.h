@@ -11,7 +11,8 @@
 namespace vantage::internal::app {
 
 /// How to leave out an object of a map; nothing for buildings, and in other scenes. `object`: of the scene.
-/// `target_object`: the map's object that is the target ("way/123"), or empty: its own fence may stand on its outline.
+/// `target_object`: the map's object that is the target ("way/123" or its name), or empty: its own fence may stand on
+/// its outline.
 std::optional<std::string> how_to_leave_out(const LoadedScene& loaded, std::uint32_t object,
                                             const std::string& target_object);
 

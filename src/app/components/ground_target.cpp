@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <iterator>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -11,6 +13,7 @@
 
 #include "app/components/maps.h"
 #include "app/ground_room.h"
+#include "app/named_objects.h"
 #include "app/pierced_advice.h"
 #include "app/scene_lookups.h"
 #include "app/scene_warnings.h"
@@ -95,18 +98,32 @@ city::Ring rectangle(const GroundTarget& wanted, const geo::LocalFrame& frame) {
   return {centre - a - b, centre - a + b, centre + a + b, centre + a - b};
 }
 
+/// The id of the area with that name; areas count before streets around them.
+std::string id_of_area(const city::OutlineFinder& find, const std::string& name, const std::string& place) {
+  std::vector<NamedId> areas, lines;
+  for (city::NamedOutline& one : find.named()) {
+    NamedId known{io::clean_name(one.name), std::move(one.id)};
+    (one.is_line ? lines : areas).push_back(std::move(known));
+  }
+  const auto has_name = [&](const NamedId& one) { return is_same_name(one.name, name); };
+  if (std::none_of(areas.begin(), areas.end(), has_name)) {
+    std::move(lines.begin(), lines.end(), std::back_inserter(areas));
+  }
+  return id_of_name(areas, name, "area of the map", place);
+}
+
 /// The outlines of an object of the map. What is in a hole, a building maybe, is not part of it and need not be seen. A
 /// target that has no name of its own gets the object's.
-std::vector<city::Footprint> outlines(Mission& mission, const std::string& name, const geo::LocalFrame& frame,
+std::vector<city::Footprint> outlines(Mission& mission, const std::string& asked, const geo::LocalFrame& frame,
                                       const Progress& progress) {
   const SceneSource& source = mission.as_written.scene;
   const auto& find = looked_up<city::OutlineFinder>(*mission.loaded, [&] {
     return std::make_shared<const city::OutlineFinder>(city::find_outlines(source.file, source.city.region, progress));
   });
-  const auto found = find(name, frame);
   const std::string& place = mission.as_written.places.target;
-  if (!found)
-    throw Error(ErrorCode::value_syntax, in_quotes(name) + " is not an object of a map", place, "write 'osm: way/123'");
+  const bool is_id = find.of(asked, frame).has_value();
+  const std::string name = is_id ? asked : id_of_area(find, asked, place);
+  const auto found = find.of(name, frame);
   if (!found->is_area) {
     const bool is_part = source.city.region.center_deg || source.city.region.bbox_deg;
     throw Error(ErrorCode::map_object_missing,
@@ -117,7 +134,8 @@ std::vector<city::Footprint> outlines(Mission& mission, const std::string& name,
   if (found->outlines.empty())
     throw Error(ErrorCode::map_object_missing, name + " has no area", place, "name another object");
   const std::string known_as = io::clean_name(found->name);
-  if (mission.target.name == name && !known_as.empty()) mission.target.name = known_as + " (" + name + ")";
+  if (mission.target.name == asked && !known_as.empty()) mission.target.name = known_as + " (" + name + ")";
+  mission.as_written.ground_target->osm = name;  // for this target alone: see georeference()
   return found->outlines;
 }
 

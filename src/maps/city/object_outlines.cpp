@@ -26,6 +26,7 @@ Ring projected(const osm::Ring& ring, const geo::LocalFrame& frame) {
 struct MapObject {
   std::vector<osm::Polygon> polygons;
   std::string name;
+  bool is_area = false;
 };
 
 using MapObjects = std::map<osm::ObjectId, MapObject>;
@@ -42,6 +43,7 @@ MapObjects read_objects(const std::filesystem::path& file, const CityRegion& reg
   };
   for (osm::Area& area : extract.areas) {
     MapObject& object = of(area.id, area.tags);
+    object.is_area = true;
     std::move(area.polygons.begin(), area.polygons.end(), std::back_inserter(object.polygons));
   }
   for (const osm::Line& line : extract.lines) {
@@ -51,28 +53,40 @@ MapObjects read_objects(const std::filesystem::path& file, const CityRegion& reg
   return objects;
 }
 
+ObjectOutlines outlines_of(const MapObject& object, const geo::LocalFrame& frame) {
+  ObjectOutlines found;
+  std::vector<Footprint> rough;
+  for (const osm::Polygon& polygon : object.polygons) {
+    Footprint footprint{projected(polygon.outer, frame), {}};
+    for (const osm::Ring& hole : polygon.holes) footprint.holes.push_back(projected(hole, frame));
+    rough.push_back(std::move(footprint));
+  }
+  found.is_area = !rough.empty();
+  Repairs repairs;
+  found.outlines = clean(rough, repairs);
+  found.name = object.name;
+  return found;
+}
+
+std::vector<NamedOutline> named_outlines(const MapObjects& objects) {
+  std::vector<NamedOutline> named;
+  for (const auto& [id, object] : objects) {
+    if (!object.name.empty()) named.push_back({object.name, osm::text(id), !object.is_area});
+  }
+  return named;
+}
+
 }  // namespace
 
 OutlineFinder find_outlines(const std::filesystem::path& file, const CityRegion& region, const Progress& progress) {
   const auto objects = std::make_shared<const MapObjects>(read_objects(file, region, progress));
-  return [objects](const std::string& object, const geo::LocalFrame& frame) -> std::optional<ObjectOutlines> {
+  const auto of = [objects](const std::string& object, const geo::LocalFrame& frame) -> std::optional<ObjectOutlines> {
     const auto id = osm::parse_object_id(object);
     if (!id) return std::nullopt;
-    ObjectOutlines found;
     const auto known = objects->find(*id);
-    if (known == objects->end()) return found;
-    std::vector<Footprint> rough;
-    for (const osm::Polygon& polygon : known->second.polygons) {
-      Footprint footprint{projected(polygon.outer, frame), {}};
-      for (const osm::Ring& hole : polygon.holes) footprint.holes.push_back(projected(hole, frame));
-      rough.push_back(std::move(footprint));
-    }
-    found.is_area = !rough.empty();
-    Repairs repairs;
-    found.outlines = clean(rough, repairs);
-    found.name = known->second.name;
-    return found;
+    return known == objects->end() ? ObjectOutlines{} : outlines_of(known->second, frame);
   };
+  return {of, [objects] { return named_outlines(*objects); }};
 }
 
 }  // namespace vantage::internal::city

@@ -19,12 +19,20 @@ struct ObjectOutlines {
   std::string name;                 ///< its tag `name`; empty where it has none
 };
 
-/// Gives the outlines of an object, "way/123"; nothing for a text that is not an id of an object.
-using OutlineFinder =
-    std::function<std::optional<ObjectOutlines>(const std::string& object, const geo::LocalFrame& frame)>;
+struct NamedOutline {
+  std::string name, id;
+  bool is_line = false;  ///< a closed way that bounds no area: a street round a square
+};
 
-/// Reads the areas and closed ways of a map's region, to be asked for any number of times, by any number of threads.
-/// Throws what osm::read_extract throws.
+/// The areas and closed ways of a map's region, to be asked for any number of times, by any number of threads.
+struct OutlineFinder {
+  /// The outlines of an object, "way/123"; nothing for a text that is not an id of an object.
+  std::function<std::optional<ObjectOutlines>(const std::string& object, const geo::LocalFrame& frame)> of;
+  /// All that have a tag `name`, by id.
+  std::function<std::vector<NamedOutline>()> named;
+};
+
+/// Reads them. Throws what osm::read_extract throws.
 VANTAGE_INTERNAL_API OutlineFinder find_outlines(const std::filesystem::path& file, const CityRegion& region,
                                                  const Progress& progress);
 
