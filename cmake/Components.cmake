@@ -79,10 +79,9 @@ set(source ${PROJECT_SOURCE_DIR}/src)
 # Helpers of which every shared library takes in what it uses: they need not be exported. They have no state of their
 # own, but for PROJ, which each library then loads for itself.
 set(VANTAGE_HELPER_SOURCES)
-foreach(file core/bvh core/closed_mesh_check core/convex_corners core/edges core/enclosing_circle core/facet_polygon core/grown_polygon core/limit_check core/mend_welded
-             core/orientation core/pieces core/portable_math core/sha256 core/sha256_x86 core/solid_check core/stars core/system_limits core/text
-             core/triangle_contact core/triangle_distance core/triangle_tree core/weld
-             core/zone_check geo/coordinate_system geo/local_frame geo/longitudes geo/proj_files geo/proj_library io/json_text
+foreach(file core/bvh core/closed_mesh_check core/convex_corners core/edges core/enclosing_circle core/facet_polygon core/grown_polygon core/mend_welded
+             core/orientation core/pieces core/portable_math core/sha256 core/sha256_x86 core/stars core/text core/triangle_distance core/weld
+             core/zone_check geo/coordinate_system geo/local_frame geo/longitudes geo/proj_files geo/proj_library io/json_text io/zip
              options/spheres_options target/lengths target/range_check target/range_region)
   list(APPEND VANTAGE_HELPER_SOURCES ${source}/${file}.cpp)
 endforeach()
@@ -92,7 +91,8 @@ target_include_directories(vantage_helpers PRIVATE ${PROJECT_SOURCE_DIR}/include
 target_include_directories(vantage_helpers SYSTEM PRIVATE ${VANTAGE_PROJ_INCLUDE_DIRS})
 set_source_files_properties(${source}/geo/proj_library.cpp PROPERTIES COMPILE_DEFINITIONS "${VANTAGE_PROJ_DEFINITIONS}")
 target_link_libraries(vantage_helpers PRIVATE
-  ${VANTAGE_PROJ_TARGET} Eigen3::Eigen fmt::fmt-header-only nlohmann_json::nlohmann_json vantage::cdt vantage::options)
+  ${VANTAGE_PROJ_TARGET} Eigen3::Eigen fmt::fmt-header-only nlohmann_json::nlohmann_json vantage::cdt vantage::options
+  ZLIB::ZLIB)
 set_target_properties(vantage_helpers PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
 vantage_join_sources(vantage_helpers)
 
@@ -148,7 +148,7 @@ if(VANTAGE_WITH_APP)
     list(TRANSFORM files REPLACE "(.+)" "${source}/app/components/\\1.cpp")
     list(APPEND app_sources ${files})
   endforeach()
-  set(app_libraries yaml-cpp)
+  set(app_libraries yaml-cpp ZLIB::ZLIB)  # the second for KMZ
   if(VANTAGE_WITH_MAPS)
     list(APPEND app_libraries EXPAT::EXPAT)  # for KML
   endif()

@@ -6,12 +6,13 @@
 #include "app/components/maps.h"
 #include "app/json_zones.h"
 #include "io/json_text.h"
+#include "io/zip.h"
 #include "vantage/input.h"
 
 namespace vantage::internal::app {
 namespace {
 
-constexpr const char* kZoneFileAdvice = "give GeoJSON, ED-269, ED-318, KML, or a .plan of QGroundControl";
+constexpr const char* kZoneFileAdvice = "give GeoJSON, ED-269, ED-318, KML, KMZ, or a .plan of QGroundControl";
 
 std::string_view without_mark(std::string_view text) {
   constexpr std::string_view kMark = "\xEF\xBB\xBF";
@@ -32,6 +33,19 @@ nlohmann::json json_of_zones(std::string_view text, const std::filesystem::path&
   }
 }
 
+/// Of a KMZ file: "doc.kml", or else the first one.
+std::string kml_of_archive(std::string_view text, const std::filesystem::path& file) {
+  try {
+    std::string kml = io::unzipped(text, "doc.kml", ".kml", kMostZoneBytes);
+    if (!io::is_zip(kml)) return kml;
+  } catch (const io::ZipProblem& problem) {
+    fail_in_zones(problem.is_too_large ? ErrorCode::file_too_large : ErrorCode::zone_file_syntax, file, "",
+                  "the file is a zip archive, as KMZ is, and " + problem.text,
+                  "give a KMZ file, or the .kml that is in it");
+  }
+  fail_in_zones(ErrorCode::zone_file_syntax, file, "", "the file is a zip archive in a zip archive", "unpack it");
+}
+
 }  // namespace
 
 ZoneList parse_zones(std::string_view text, const std::filesystem::path& file, const core::ProgressReporter& progress) {
@@ -39,10 +53,7 @@ ZoneList parse_zones(std::string_view text, const std::filesystem::path& file, c
   const std::size_t first = text.find_first_not_of(" \t\r\n");
   const char begin = first == std::string_view::npos ? '\0' : text[first];
   if (begin == '<') return parse_kml_zones(text, file, progress);
-  if (text.substr(0, 2) == "PK") {
-    fail_in_zones(ErrorCode::zone_file_syntax, file, "", "the file is a zip archive, as KMZ is",
-                  "unpack it, and give the .kml in it");
-  }
+  if (io::is_zip(text)) return parse_zones(kml_of_archive(text, file), file, progress);
   if (begin != '{') {
     fail_in_zones(ErrorCode::zone_file_syntax, file, "", "not a file of zones: it is neither a JSON object nor XML",
                   kZoneFileAdvice);

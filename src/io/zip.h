@@ -1,0 +1,25 @@
+// One file out of a zip archive that is in memory.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace vantage::internal::io {
+
+/// Why there is no such file, or why it cannot be read.
+struct ZipProblem {
+  std::string text;  ///< ends a sentence about the archive: "it is cut off"
+  bool is_too_large = false;
+};
+
+/// Whether it begins as an archive does.
+bool is_zip(std::string_view bytes);
+
+/// The file of that name in the outermost folder; else the first one in the archive whose name ends so, in upper or
+/// lower case. Stored and deflated files are read, and their checksum is compared. No more than `most_bytes` are made,
+/// whatever the archive says of itself. Throws ZipProblem.
+std::string unzipped(std::string_view archive, std::string_view name, std::string_view extension,
+                     std::uintmax_t most_bytes);
+
+}  // namespace vantage::internal::io
