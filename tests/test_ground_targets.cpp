@@ -165,7 +165,7 @@ TEST_F(GroundTargetTest, OutlinesThatAreNoneAreRefused) {
   expect_refused("target: {outline: [[0, 0], [9, 9], [9, 0], [0, 9]]}\n", ErrorCode::zone_not_simple);
   expect_refused("target: {outline: [[50, 0], [60, 0], [60, 0.001], [50, 0.001]]}\n", ErrorCode::target_without_area);
   expect_refused("target: {outline: [[-5, -5], [5, -5], [5, 5]]}\n", ErrorCode::target_inside_solid);
-  expect_refused("target: {outline: [[50, 0, 0], [60, 0, 0], [60, 9, 0]]}\n", ErrorCode::wrong_type);
+  expect_refused("target: {outline: [[50, 0, 0, 0], [60, 0, 0, 0], [60, 9, 0, 0]]}\n", ErrorCode::wrong_type);
   expect_refused("target: {outline: [[50, 0], [60, 0], [60, 9]], vertices: [[50, 0, 0], [60, 0, 0], [60, 9, 0]]}\n",
                  ErrorCode::conflicting_keys);
   expect_refused("target: {vertices: [[50, 0, 0], [60, 0, 0], [60, 9, 0]], holes: []}\n", ErrorCode::not_applicable);

@@ -40,7 +40,16 @@ enum class Method {
 /// "exact", "spheres".
 VANTAGE_API const char* name_of(Method method);
 
-/// A target that is given by an object of the map, a place on the earth or a polygon. It is laid on the scene's ground:
+/// A simple polygon with holes, which need not be convex: metres, scene frame, or as MissionFile::crs says.
+struct TargetOutline {
+  Zone::Ring outer;  ///< corners in order, either turn, the first one not repeated
+  std::vector<Zone::Ring> holes = {};
+  /// z of each corner, of `outer` and then of the holes: in one plane, to a millimetre. Empty: it is laid on the
+  /// ground.
+  std::vector<double> z_m = {};
+};
+
+/// A target that is given by an object of the map, a place on the earth or polygons. It is laid on the scene's ground:
 /// in the plane nearest to the ground under it, raised until no ground under it lies above that.
 struct GroundTarget {
   std::string osm;  ///< an area of the scene's map, "way/123" or its name; not convex: its convex parts; or
@@ -48,9 +57,16 @@ struct GroundTarget {
                                                                    ///< rectangle's centre
   double width_m = 0, length_m = 0;                                ///< > 0; the length runs along the heading
   double heading_deg = 0;                                          ///< clockwise from north
-  /// Or a simple polygon and its holes, in this order: x and y, metres, scene frame, or as MissionFile::crs says.
-  /// Corners in order, either turn, the first one not repeated. Not convex: its convex parts.
-  std::vector<Zone::Ring> outline = {};
+  std::vector<TargetOutline> outlines = {};                        ///< or polygons; not convex: their convex parts
+  double above_ground_m = 0;                                       ///< raised by so much along z
+};
+
+/// A target that a file has: GeoJSON, KML or KMZ. Positions are WGS 84. Corners with heights lie at these (docs:
+/// mission-file.md), others on the ground.
+struct TargetFile {
+  std::filesystem::path file;  ///< absolute
+  std::string name;            ///< as written in the mission, for messages
+  std::string feature = {};    ///< name, id or number of what counts of the file; empty: all that it has, which is one
 };
 
 /// A target that is given by faces of objects of the scene (vantage/faces.h): one of the first three says of which.
@@ -80,6 +96,7 @@ struct MissionTarget {
   Target target;  ///< with one of the next two only name and offset count, with a ground_target front too
   std::optional<GroundTarget> ground_target = std::nullopt;  ///< says where the target lies
   std::optional<FaceTarget> face_target = std::nullopt;      ///< says which faces of the scene it is
+  std::optional<TargetFile> target_file = std::nullopt;      ///< says where to read it
   bool both_sides = false;  ///< a position sees it that sees it from the front, or from the back
   std::string place = {};   ///< in the mission file; empty for a mission made in memory
 };
@@ -149,8 +166,9 @@ struct MissionFile {
   Target target;  ///< with one of the next two only name and offset count, with a ground_target front too
   std::optional<GroundTarget> ground_target = std::nullopt;  ///< says where the target lies
   std::optional<FaceTarget> face_target = std::nullopt;      ///< says which faces of the scene it is
+  std::optional<TargetFile> target_file = std::nullopt;      ///< says where to read it
   bool both_sides = false;                                   ///< as MissionTarget::both_sides
-  std::vector<MissionTarget> targets = {};  ///< of a mission with several: then the four above do not count
+  std::vector<MissionTarget> targets = {};  ///< of a mission with several: then the five above do not count
   Combine combine = Combine::all;           ///< them, or the faces that the target means
   Sensor sensor;
   std::optional<CameraSource> camera = std::nullopt;  ///< says what sensor.camera is

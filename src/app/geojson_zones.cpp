@@ -3,6 +3,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "app/json_zones.h"
 #include "io/mesh_builder.h"
@@ -52,7 +53,7 @@ class GeoJsonReader {
   std::optional<ZoneHeight> height(const json& layer, const char* key, const char* reference, double unit_m,
                                    const std::string& place) const;
   double unit_of(const json& layer, const char* key, const std::string& place) const;
-  Zone::Ring ring(const json& positions, const std::string& place) const;
+  ListedRing ring(const json& positions, const std::string& place) const;
   Eigen::Vector2d position(const json& numbers, const std::string& place) const;
   double number(const json& value, const std::string& what, const std::string& place) const;
   std::string type_of(const json& object, const std::string& place) const;
@@ -64,11 +65,18 @@ class GeoJsonReader {
   }
 
   const std::filesystem::path& file_;
+  std::size_t feature_ = 0;  // that is read
+  std::vector<std::string> names_;
   ZoneList result_;
 };
 
 /// What people call a feature.
-std::string name_of_feature(const json& feature, std::size_t number) {
+struct FeatureNames {
+  std::string first;             ///< its id, or else its name; empty where it has neither
+  std::vector<std::string> all;  ///< names before ids
+};
+
+FeatureNames names_of_feature(const json& feature) {
   const auto properties = feature.find("properties");
   const auto text_in = [](const json& object, const char* key) {
     const auto found = object.is_object() ? object.find(key) : object.end();
@@ -76,13 +84,19 @@ std::string name_of_feature(const json& feature, std::size_t number) {
     if (found->is_string()) return io::clean_name(found->get_ref<const std::string&>());
     return found->is_number() ? io::clean_name(found->dump()) : std::string();
   };
+  FeatureNames names;
+  std::vector<std::string> ids;
   for (const char* key : {"identifier", "id", "name", "title"}) {
-    if (properties != feature.end()) {
-      if (std::string text = text_in(*properties, key); !text.empty()) return text;
+    for (const json* object : {properties == feature.end() ? nullptr : &*properties, &feature}) {
+      std::string text = object ? text_in(*object, key) : std::string();
+      if (text.empty()) continue;
+      if (names.first.empty()) names.first = text;
+      const bool is_id = std::string_view(key) == "identifier" || std::string_view(key) == "id";
+      (is_id ? ids : names.all).push_back(std::move(text));
     }
-    if (std::string text = text_in(feature, key); !text.empty()) return text;
   }
-  return std::to_string(number);
+  names.all.insert(names.all.end(), ids.begin(), ids.end());
+  return names;
 }
 
 const json& GeoJsonReader::member(const json& object, const char* key, const std::string& place) const {
@@ -117,7 +131,7 @@ ZoneList GeoJsonReader::read(const json& root) {
   } else if (type == "Feature") {
     read_feature(root, "", 0);
   } else {
-    read_geometry(root, "", "0", {});
+    read_geometry(root, "", "", {});
   }
   return std::move(result_);
 }
@@ -144,7 +158,10 @@ void GeoJsonReader::read_features(const json& root) {
 
 void GeoJsonReader::read_feature(const json& feature, const std::string& place, std::size_t number) {
   if (!feature.is_object()) fail(place, "the feature is not an object");
-  const std::string name = name_of_feature(feature, number);
+  feature_ = number;
+  FeatureNames names = names_of_feature(feature);
+  const std::string name = std::move(names.first);
+  names_ = std::move(names.all);
   const json& geometry = member(feature, "geometry", place);
   if (geometry.is_null()) {
     ++result_.left_out["feature without a geometry"];
@@ -256,10 +273,14 @@ Eigen::Vector2d GeoJsonReader::position(const json& numbers, const std::string& 
                           place);
 }
 
-Zone::Ring GeoJsonReader::ring(const json& positions, const std::string& place) const {
+ListedRing GeoJsonReader::ring(const json& positions, const std::string& place) const {
   if (!positions.is_array()) fail(place, "a ring is not an array of positions");
-  Zone::Ring closed;
-  for (const json& numbers : positions) closed.push_back(position(numbers, place));
+  ListedRing closed;
+  for (const json& numbers : positions) {
+    closed.corners.push_back(position(numbers, place));
+    const bool has_height = numbers.size() > 2 && numbers[2].is_number();
+    if (has_height) closed.z_m.push_back(number(numbers[2], "a height", place));
+  }
   return opened_ring(closed, file_, place);
 }
 
@@ -267,18 +288,15 @@ void GeoJsonReader::add_polygon(const json& rings, const std::string& place, con
                                 const Heights& heights) {
   if (!rings.is_array() || rings.empty()) fail(place, "a polygon is not an array of rings");
   ListedZone zone;
-  zone.name = name;
+  zone.name = name.empty() ? std::to_string(feature_) : name;
+  zone.names = names_;
   zone.place = place;
+  zone.feature = feature_;
   zone.lower = heights.lower;
   zone.upper = heights.upper;
   zone.has_heights = heights.are_given;
   for (std::size_t i = 0; i < rings.size(); ++i) {
-    Zone::Ring read = ring(rings[i], place);
-    if (i == 0) {
-      zone.outer = std::move(read);
-    } else {
-      zone.holes.push_back(std::move(read));
-    }
+    add_ring(ring(rings[i], place), i == 0, zone);
   }
   result_.zones.push_back(std::move(zone));
 }
@@ -286,8 +304,10 @@ void GeoJsonReader::add_polygon(const json& rings, const std::string& place, con
 void GeoJsonReader::add_circle(const json& centre, const json& radius, bool may_be_feet, const std::string& place,
                                const std::string& name, const Heights& heights) {
   ListedZone zone;
-  zone.name = name;
+  zone.name = name.empty() ? std::to_string(feature_) : name;
+  zone.names = names_;
   zone.place = place;
+  zone.feature = feature_;
   zone.lower = heights.lower;
   zone.upper = heights.upper;
   zone.has_heights = heights.are_given;

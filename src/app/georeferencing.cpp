@@ -14,7 +14,9 @@
 #include "app/components/maps.h"
 #include "app/face_targets.h"
 #include "app/places.h"
+#include "app/target_files.h"
 #include "app/zone_places.h"
+#include "core/progress_reporter.h"
 #include "geo/local_frame.h"
 #include "vantage/error.h"
 #include "vantage/faces.h"
@@ -199,11 +201,19 @@ void convert_positions(const CrsConverter& converter, MissionTarget& given) {
       for (Vec3& vertex : part) vertex = converter(vertex);
     }
     if (auto& ground = given.ground_target) {
-      for (Zone::Ring& ring : ground->outline) {
-        for (Vec2& corner : ring) {
-          corners.push_back(converter({corner.x(), corner.y(), 0}));
-          corner = corners.back().head<2>();
-        }
+      for (TargetOutline& outline : ground->outlines) {
+        std::size_t number = 0;
+        const auto convert = [&](Zone::Ring& ring) {
+          for (Vec2& corner : ring) {
+            const bool has_z = number < outline.z_m.size();
+            corners.push_back(converter({corner.x(), corner.y(), has_z ? outline.z_m[number] : 0}));
+            corner = corners.back().head<2>();
+            if (has_z) outline.z_m[number] = corners.back().z();
+            ++number;
+          }
+        };
+        convert(outline.outer);
+        for (Zone::Ring& hole : outline.holes) convert(hole);
       }
     }
     if (auto& faces = given.face_target; faces && faces->nearest) {
@@ -218,7 +228,7 @@ void convert_positions(const CrsConverter& converter, MissionTarget& given) {
 
 std::vector<MissionTarget> given_targets(const MissionFile& file) {
   if (!file.targets.empty()) return file.targets;
-  return {{file.target, file.ground_target, file.face_target, file.both_sides, file.places.target}};
+  return {{file.target, file.ground_target, file.face_target, file.target_file, file.both_sides, file.places.target}};
 }
 
 /// As the mission of that target alone, for functions of one target.
@@ -282,7 +292,7 @@ void georeference(Mission& mission, const Progress& progress) {
   std::vector<MissionTarget> given = given_targets(file);
   const bool needs_frame =
       !file.crs.empty() || std::any_of(given.begin(), given.end(), [](const MissionTarget& target) {
-        return (target.ground_target && target.ground_target->outline.empty()) ||
+        return (target.ground_target && target.ground_target->outlines.empty()) || target.target_file ||
                (target.face_target && target.face_target->at_deg);
       });
   std::optional<geo::LocalFrame> frame;
@@ -291,6 +301,14 @@ void georeference(Mission& mission, const Progress& progress) {
     const CrsConverter converter(mission, *frame);
     for (MissionTarget& target : given) convert_positions(converter, target);
     convert_limits(mission.navigation, converter, file);
+  }
+  const core::ProgressReporter reporter(progress);
+  for (MissionTarget& target : given) {
+    if (!target.target_file) continue;
+    with_place(target.place, [&] {
+      read_target_file(mission, *frame, reporter, target);
+      return 0;
+    });
   }
   std::vector<std::vector<Target>> targets = placed(mission, given, frame ? &*frame : nullptr, progress);
   if (file.vlos) {

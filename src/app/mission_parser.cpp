@@ -109,6 +109,7 @@ void MissionParser::parse_targets(const YamlNode& root) {
     mission_.target = std::move(target.target);
     mission_.ground_target = std::move(target.ground_target);
     mission_.face_target = std::move(target.face_target);
+    mission_.target_file = std::move(target.target_file);
     mission_.both_sides = target.both_sides;
     mission_.places.target = std::move(target.place);
     return;

@@ -170,7 +170,9 @@ class Writer {
     std::string text;
     if (mission_.targets.empty()) {
       Section section("target");
-      add_target({mission_.target, mission_.ground_target, mission_.face_target, mission_.both_sides}, section);
+      add_target(
+          {mission_.target, mission_.ground_target, mission_.face_target, mission_.target_file, mission_.both_sides},
+          section);
       text = section.text();
     } else {
       text = "targets:\n";
@@ -184,10 +186,13 @@ class Writer {
     return text;
   }
 
-  static void add_target(const MissionTarget& given, Section& section) {
+  void add_target(const MissionTarget& given, Section& section) const {
     const Target& target = given.target;
     if (!target.name.empty()) section.add("name", quoted(target.name));
-    if (given.face_target) {
+    if (const auto& from = given.target_file) {
+      section.add("file", path(from->file));
+      if (!from->feature.empty()) section.add("feature", quoted(from->feature));
+    } else if (given.face_target) {
       add_faces(*given.face_target, section);
     } else if (const auto& ground = given.ground_target) {
       if (ground->center_deg) {
@@ -195,8 +200,8 @@ class Writer {
         section.add("width", ground->width_m);
         section.add("length", ground->length_m);
         section.add("heading", ground->heading_deg);
-      } else if (!ground->outline.empty()) {
-        add_outline(ground->outline, section);
+      } else if (!ground->outlines.empty()) {
+        add_outlines(ground->outlines, section);
       } else {
         section.add("osm", quoted(ground->osm));
       }
@@ -214,10 +219,21 @@ class Writer {
     if (given.both_sides) section.add("sides", "both");
   }
 
-  static void add_outline(const std::vector<Zone::Ring>& outline, Section& section) {
-    section.add("outline", polygon(outline.front()));
-    std::string holes;
-    for (std::size_t i = 1; i < outline.size(); ++i) holes += (holes.empty() ? "" : ", ") + polygon(outline[i]);
+  static void add_outlines(const std::vector<TargetOutline>& outlines, Section& section) {
+    std::string outers, holes;
+    const auto add = [](std::string& text, const std::string& ring) { text += (text.empty() ? "" : ", ") + ring; };
+    for (const TargetOutline& one : outlines) {
+      std::size_t first = 0;
+      const auto ring_text = [&](const Zone::Ring& ring) {
+        if (one.z_m.empty()) return polygon(ring);
+        std::vector<Vec3> corners;
+        for (const Eigen::Vector2d& corner : ring) corners.emplace_back(corner.x(), corner.y(), one.z_m.at(first++));
+        return polygon(corners);
+      };
+      add(outers, ring_text(one.outer));
+      for (const Zone::Ring& hole : one.holes) add(holes, ring_text(hole));
+    }
+    section.add("outline", outlines.size() == 1 ? outers : "[" + outers + "]");
     if (!holes.empty()) section.add("holes", "[" + holes + "]");
   }
 

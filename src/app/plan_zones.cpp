@@ -34,6 +34,8 @@ class PlanReader {
     for (std::size_t i = 0; i < list->size(); ++i) {
       ListedZone zone;
       zone.name = std::string(one) + " " + std::to_string(i);
+      zone.feature = result_.zones.size();
+      zone.names = {zone.name};
       zone.place = std::string("geoFence.") + key + "[" + std::to_string(i) + "]";
       const json& entry = (*list)[i];
       if (!entry.is_object()) fail(zone.place, "the fence is not an object");

@@ -41,6 +41,17 @@ void check_scene(MissionFile& mission) {
   }
 }
 
+/// The files that targets name.
+void check_target_files(MissionFile& mission) {
+  const auto check = [](std::optional<TargetFile>& target, const std::string& place) {
+    if (!target) return;
+    check_readable(target->file, "the target's file", place);
+    target->file = with_true_folder(target->file);
+  };
+  check(mission.target_file, mission.places.target);
+  for (MissionTarget& one : mission.targets) check(one.target_file, one.place);
+}
+
 /// The files that navigation limits name.
 void check_limits(MissionFile& mission) {
   for (std::size_t i = 0; i < mission.navigation_meshes.size(); ++i) {
@@ -116,12 +127,14 @@ MissionFile read_mission(const fs::path& file) {
 MissionFile read_mission_text(std::string_view text, const fs::path& file) {
   MissionFile mission = internal::app::parse_mission(text, file);
   check_scene(mission);
+  check_target_files(mission);
   check_limits(mission);
   return mission;
 }
 
 MissionFile read_mission_text(std::string_view text, const fs::path& file, const SceneSource& source) {
   MissionFile mission = internal::app::parse_mission(text, file, &source);
+  check_target_files(mission);
   check_limits(mission);
   return mission;
 }
@@ -156,6 +169,10 @@ MissionFile read_scene_text(std::string_view text, const fs::path& file) {
 std::vector<fs::path> input_files(const MissionFile& mission) {
   std::vector<fs::path> files = {mission.file, mission.scene.file};
   if (!mission.scene.city.terrain.empty()) files.push_back(mission.scene.city.terrain);
+  if (mission.target_file) files.push_back(mission.target_file->file);
+  for (const MissionTarget& target : mission.targets) {
+    if (target.target_file) files.push_back(target.target_file->file);
+  }
   for (const NavigationMeshFile& mesh : mission.navigation_meshes) files.push_back(mesh.file);
   for (const ZoneFile& zones : mission.keep_in_files) files.push_back(zones.file);
   for (const ZoneFile& zones : mission.keep_out_files) files.push_back(zones.file);

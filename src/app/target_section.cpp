@@ -35,19 +35,38 @@ class TargetParser : private ValueReader {
   const YamlNode& parse_vertices(const YamlNode& node);
   const YamlNode& parse_parts(const YamlNode& node, const YamlNode& parts);
   const YamlNode& parse_ground_target(const YamlNode& node);
+  struct Corners {
+    Zone::Ring ring;
+    std::vector<double> z_m;
+  };
+  Corners corners(const YamlNode& node, const std::string& what) const;
   const YamlNode& parse_outline(const YamlNode& node, const YamlNode& outline);
+  void parse_holes(const YamlNode& node, std::vector<TargetOutline>& outlines) const;
+  const YamlNode& parse_file(const YamlNode& node, const YamlNode& named);
   const YamlNode& parse_faces(const YamlNode& node, const YamlNode& part);
   double heading(const YamlNode& node) const;
   const YamlNode& parse_point(const YamlNode& node, const YamlNode& point);
   void check_target(const YamlNode& place);
   void check_is_map(const YamlNode& osm) const;
   void refuse_without_part(const YamlNode& node) const;
+  void refuse_without_file(const YamlNode& node) const;
   void parse_sides(const YamlNode& node, const YamlNode& sides);
   const YamlNode& require(const YamlNode& map, std::string_view key, const std::string& fix) const;
 
   const MissionFile& mission_;
   MissionTarget section_;
 };
+
+/// Whether a place lies in a ring, by how often a line from it to the east crosses the ring.
+bool is_in(const Zone::Ring& ring, const Eigen::Vector2d& at) {
+  bool inside = false;
+  for (std::size_t i = 0, before = ring.size() - 1; i < ring.size(); before = i++) {
+    const Eigen::Vector2d &a = ring[before], &b = ring[i];
+    if ((a.y() > at.y()) == (b.y() > at.y())) continue;
+    if (at.x() < a.x() + (b.x() - a.x()) * (at.y() - a.y()) / (b.y() - a.y())) inside = !inside;
+  }
+  return inside;
+}
 
 const char* const kVerticesForm =
     "write 'vertices: [[x, y, z], [x, y, z], [x, y, z]]', 3 to 64 points, or 'point: [x, y, z]'";
@@ -75,7 +94,10 @@ MissionTarget TargetParser::parse(const YamlNode& node) {
   const YamlNode* part = find(node, "part");
   const YamlNode* outline = find(node, "outline");
   if (part == nullptr) refuse_without_part(node);
+  const YamlNode* from = find(node, "file");
+  if (from == nullptr) refuse_without_file(node);
   const YamlNode& place = part           ? parse_faces(node, *part)
+                          : from         ? parse_file(node, *from)
                           : point        ? parse_point(node, *point)
                           : parts        ? parse_parts(node, *parts)
                           : outline      ? parse_outline(node, *outline)
@@ -169,25 +191,94 @@ const YamlNode& TargetParser::parse_ground_target(const YamlNode& node) {
   return center;
 }
 
-/// On which heights it lies is found out when the scene is read.
+const char* const kOutlineForm =
+    "write the corners in order: [[x, y], [x, y], [x, y]], or [x, y, z] for each; or a list of such polygons";
+
+bool is_list(const YamlNode& node) { return node.kind == YamlNode::Kind::sequence; }
+
+/// Corners of a polygon in plan, and their heights where they have some.
+TargetParser::Corners TargetParser::corners(const YamlNode& node, const std::string& what) const {
+  Corners result;
+  list(node, what, kOutlineForm);
+  for (std::size_t i = 0; i < node.items.size(); ++i) {
+    const YamlNode& corner = node.items[i];
+    const std::string name = indexed_item(what, i);
+    const std::size_t count = list(corner, name, kOutlineForm).size();
+    if (count != 2 && count != 3) {
+      fail(ErrorCode::wrong_type, corner, name + " must be two numbers, or three, not " + describe(corner),
+           kOutlineForm);
+    }
+    result.ring.emplace_back(length(corner.items[0], name + ".x"), length(corner.items[1], name + ".y"));
+    if (count == 3) result.z_m.push_back(length(corner.items[2], name + ".z"));
+  }
+  if (!result.z_m.empty() && result.z_m.size() < result.ring.size()) {
+    fail(ErrorCode::wrong_type, node, what + " has corners with a z and corners without", kOutlineForm);
+  }
+  return result;
+}
+
+/// On which heights it lies is found out when the scene is read, unless its corners say it.
 const YamlNode& TargetParser::parse_outline(const YamlNode& node, const YamlNode& outline) {
   refuse_beside(node, "outline", {"vertices", "edges", "osm", "center", "width", "length", "heading"},
-                "keep 'outline' for a polygon that is laid on the ground");
-  GroundTarget& ground = section_.ground_target.emplace();
-  ground.outline.push_back(ring(outline, "target.outline"));
-  if (const YamlNode* holes = find(node, "holes")) {
-    list(*holes, "target.holes", "write a list of polygons: [[[x, y], [x, y], [x, y]]]");
-    for (std::size_t i = 0; i < holes->items.size(); ++i) {
-      ground.outline.push_back(ring(holes->items[i], indexed_item("target.holes", i)));
+                "keep 'outline' for polygons that need not be convex");
+  std::vector<TargetOutline>& outlines = section_.ground_target.emplace().outlines;
+  list(outline, "target.outline", kOutlineForm);
+  const auto& first = outline.items;
+  const bool are_several = !first.empty() && is_list(first[0]) && !first[0].items.empty() && is_list(first[0].items[0]);
+  for (std::size_t i = 0; i < (are_several ? first.size() : 1); ++i) {
+    Corners read =
+        are_several ? corners(first[i], indexed_item("target.outline", i)) : corners(outline, "target.outline");
+    outlines.push_back({std::move(read.ring), {}, std::move(read.z_m)});
+  }
+  if (const YamlNode* holes = find(node, "holes")) parse_holes(*holes, outlines);
+  for (const TargetOutline& one : outlines) {
+    if (one.z_m.empty() != outlines.front().z_m.empty()) {
+      fail(ErrorCode::wrong_type, outline, "target.outline has polygons with heights and polygons without",
+           "give all corners a z, or none: then they lie on the ground");
+    }
+    Zone area;
+    area.outer = one.outer;
+    area.holes = one.holes;
+    if (const auto fault = core::fault_of(area)) {
+      fail(fault->code, outline, "target.outline: " + fault->problem, fault->fix);
     }
   }
-  Zone area;
-  area.outer = ground.outline.front();
-  area.holes.assign(ground.outline.begin() + 1, ground.outline.end());
-  if (const auto fault = core::fault_of(area)) {
-    fail(fault->code, outline, "target.outline: " + fault->problem, fault->fix);
-  }
   return outline;
+}
+
+/// Each belongs to the polygon that it lies in.
+void TargetParser::parse_holes(const YamlNode& node, std::vector<TargetOutline>& outlines) const {
+  list(node, "target.holes", "write a list of polygons: [[[x, y], [x, y], [x, y]]]");
+  for (std::size_t i = 0; i < node.items.size(); ++i) {
+    const std::string what = indexed_item("target.holes", i);
+    Corners hole = corners(node.items[i], what);
+    const auto holds = [&](const TargetOutline& one) { return !hole.ring.empty() && is_in(one.outer, hole.ring[0]); };
+    const auto found = outlines.size() == 1 ? outlines.begin() : std::find_if(outlines.begin(), outlines.end(), holds);
+    if (found == outlines.end()) {
+      fail(ErrorCode::value_out_of_range, node.items[i], what + " lies in none of the polygons of target.outline",
+           "leave it out, or move it");
+    }
+    if (hole.z_m.empty() != found->z_m.empty()) {
+      fail(ErrorCode::wrong_type, node.items[i], what + " has heights and its outline has none, or the other way round",
+           "give all corners a z, or none: then they lie on the ground");
+    }
+    found->holes.push_back(std::move(hole.ring));
+    found->z_m.insert(found->z_m.end(), hole.z_m.begin(), hole.z_m.end());
+  }
+}
+
+/// What it says is read with the scene.
+const YamlNode& TargetParser::parse_file(const YamlNode& node, const YamlNode& named) {
+  refuse_beside(
+      node, "file",
+      {"vertices", "edges", "parts", "point", "outline", "holes", "osm", "center", "width", "length", "heading"},
+      "keep 'file' for a polygon of a file, or give the target yourself");
+  TargetFile& from = section_.target_file.emplace();
+  from.name = text(named, "target.file");
+  from.file = mission_.file.parent_path() / from.name;
+  if (const YamlNode* feature = find(node, "feature")) from.feature = text(*feature, "target.feature");
+  if (find(node, "name") == nullptr) section_.target.name.clear();
+  return named;
 }
 
 void TargetParser::parse_sides(const YamlNode& node, const YamlNode& sides) {
@@ -219,12 +310,19 @@ void TargetParser::refuse_without_part(const YamlNode& node) const {
   }
 }
 
+void TargetParser::refuse_without_file(const YamlNode& node) const {
+  if (const YamlNode* feature = find(node, "feature")) {
+    fail(ErrorCode::missing_key, *feature, "target has 'feature' without 'file'",
+         "write 'file: areas.geojson', the file that has it");
+  }
+}
+
 /// Which faces these are is found out when the scene is read.
 const YamlNode& TargetParser::parse_faces(const YamlNode& node, const YamlNode& part) {
-  refuse_beside(
-      node, "part",
-      {"vertices", "edges", "parts", "point", "outline", "holes", "center", "width", "length", "heading", "front"},
-      "keep 'part' for a roof or facades of an object, which know their outer side");
+  refuse_beside(node, "part",
+                {"vertices", "edges", "parts", "point", "outline", "holes", "center", "width", "length", "heading",
+                 "front", "file"},
+                "keep 'part' for a roof or facades of an object, which know their outer side");
   FaceTarget& faces = section_.face_target.emplace();
   const std::string kind = text(part, "target.part");
   if (kind != "roof" && kind != "facade") {
@@ -285,7 +383,8 @@ const YamlNode& TargetParser::parse_point(const YamlNode& node, const YamlNode& 
 /// The checks that need no scene, told with the place of the vertices or the point.
 void TargetParser::check_target(const YamlNode& place) {
   section_.place = place_in(file(), place.place);
-  if (!mission_.crs.empty() || section_.ground_target || section_.face_target) return;  // georeference() does it
+  const bool is_placed_later = section_.ground_target || section_.face_target || section_.target_file;
+  if (!mission_.crs.empty() || is_placed_later) return;  // georeference() does it
   with_place(section_.place, [&] {
     for (std::size_t i = 0; i < section_.target.parts.size(); ++i) make_target_frame(section_.target, i);
     return 0;

@@ -77,19 +77,42 @@ Eigen::Vector2d checked_position(double longitude_deg, double latitude_deg, cons
       "give WGS 84 positions in degrees, in the order of the format");
 }
 
-Zone::Ring opened_ring(const Zone::Ring& closed, const std::filesystem::path& file, const std::string& place) {
-  if (closed.size() < 4 || closed.front() != closed.back()) {
+ListedRing opened_ring(const ListedRing& closed, const std::filesystem::path& file, const std::string& place) {
+  const Zone::Ring& corners = closed.corners;
+  if (corners.size() < 4 || corners.front() != corners.back()) {
     fail_in_zones(ErrorCode::zone_file_syntax, file, place,
-                  closed.size() < 4 ? "the ring has " + std::to_string(closed.size()) + " positions, 4 are the least"
-                                    : "the ring is not closed",
+                  corners.size() < 4 ? "the ring has " + std::to_string(corners.size()) + " positions, 4 are the least"
+                                     : "the ring is not closed",
                   "end each ring with its first position");
   }
-  Zone::Ring ring;
-  for (const Eigen::Vector2d& p : closed) {
-    if (ring.empty() || ring.back() != p) ring.push_back(p);
+  const bool has_heights = closed.z_m.size() == corners.size();
+  ListedRing ring;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    if (!ring.corners.empty() && ring.corners.back() == corners[i]) continue;
+    ring.corners.push_back(corners[i]);
+    if (has_heights) ring.z_m.push_back(closed.z_m[i]);
   }
-  if (ring.size() > 1) ring.pop_back();
+  if (ring.corners.size() > 1) {
+    ring.corners.pop_back();
+    if (has_heights) ring.z_m.pop_back();
+  }
   return ring;
+}
+
+void add_ring(ListedRing ring, bool is_outer, ListedZone& zone) {
+  const std::size_t before = zone.corner_z_m.size();
+  std::size_t corners = is_outer ? 0 : zone.outer.size();
+  for (const Zone::Ring& hole : zone.holes) corners += hole.size();
+  if (before == corners && ring.z_m.size() == ring.corners.size()) {
+    zone.corner_z_m.insert(zone.corner_z_m.end(), ring.z_m.begin(), ring.z_m.end());
+  } else {
+    zone.corner_z_m.clear();
+  }
+  if (is_outer) {
+    zone.outer = std::move(ring.corners);
+  } else {
+    zone.holes.push_back(std::move(ring.corners));
+  }
 }
 
 }  // namespace vantage::internal::app

@@ -29,16 +29,28 @@ struct ListedCircle {
   double least_radius_m = 0, radius_m = 0;
 };
 
+/// Corners in plan, and the height that the file gives each of them, if it gives all of them one.
+struct ListedRing {
+  Zone::Ring corners;  ///< longitude and latitude, degrees
+  std::vector<double> z_m;
+};
+
 struct ListedZone {
-  std::string name;   ///< as the file calls it; else its number in the file
-  std::string place;  ///< in the file, for messages: "features[3]", "line 12"
-  Zone::Ring outer;   ///< longitude and latitude, degrees; neighbours differ. Empty for a circle
+  std::string name;                ///< as the file calls it; else its number in the file
+  std::string place;               ///< in the file, for messages: "features[3]", "line 12"
+  std::size_t feature = 0;         ///< number of the feature, placemark or fence that it is of, counted from 0
+  std::vector<std::string> names;  ///< all names and ids that the file has for it, those for people first; may be empty
+  Zone::Ring outer;                ///< longitude and latitude, degrees; neighbours differ. Empty for a circle
   std::vector<Zone::Ring> holes;
   std::optional<ListedCircle> circle;
   std::optional<ZoneHeight> lower, upper;  ///< nothing: without that bound
   bool has_heights = false;                ///< the file says between which heights; else it says nothing of them
   std::string unused_heights;              ///< what else it says of heights, and why that is not used; for messages
   std::optional<bool> is_inclusion;        ///< of a fence: to stay in or out
+  /// Of the corners themselves, of `outer` and then of the holes; empty where the file has none, or says to ignore
+  /// them. They are no bounds of a zone.
+  std::vector<double> corner_z_m;
+  std::optional<HeightReference> corners_from;  ///< nothing: the file leaves open from where they are measured
 };
 
 struct ZoneList {
@@ -50,9 +62,10 @@ struct ZoneList {
 /// Of a file of zones, decompressed or not: national zones have some ten megabytes.
 inline constexpr std::uintmax_t kMostZoneBytes = 64'000'000;
 
-/// The zones of GeoJSON (RFC 7946), of UAS zones in ED-269 and ED-318, of KML and of a plan of QGroundControl. The
-/// format is told by the content. `file` is for messages. Throws Error(zone_file_syntax) with the place for what is
-/// none of these, or breaks its rules; Error(input) for values that cannot be used; Error(cancelled) when told to stop.
+/// The zones of GeoJSON (RFC 7946), of UAS zones in ED-269 and ED-318, of KML, also in a KMZ archive, and of a plan of
+/// QGroundControl. The format is told by the content. `file` is for messages. Throws Error(zone_file_syntax) with the
+/// place for what is none of these, or breaks its rules; Error(input) for values that cannot be used; Error(cancelled)
+/// when told to stop.
 ZoneList parse_zones(std::string_view text, const std::filesystem::path& file,
                      const core::ProgressReporter& progress = {});
 
@@ -64,8 +77,11 @@ ZoneList parse_zones(std::string_view text, const std::filesystem::path& file,
 Eigen::Vector2d checked_position(double longitude_deg, double latitude_deg, const std::filesystem::path& file,
                                  const std::string& place);
 
-/// A ring without the corner that closes it, and without corners that repeat the one before. Throws Error(input) for a
-/// ring that is not closed.
-Zone::Ring opened_ring(const Zone::Ring& closed, const std::filesystem::path& file, const std::string& place);
+/// A ring without the corner that closes it, and without corners that repeat the one before in plan. Throws
+/// Error(input) for a ring that is not closed.
+ListedRing opened_ring(const ListedRing& closed, const std::filesystem::path& file, const std::string& place);
+
+/// Makes a ring the outer one of a polygon, or else a hole. Heights count only where all corners have one.
+void add_ring(ListedRing ring, bool is_outer, ListedZone& zone);
 
 }  // namespace vantage::internal::app

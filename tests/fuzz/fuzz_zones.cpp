@@ -23,6 +23,9 @@ void check_listed(const vantage::internal::app::ListedZone& listed) {
   if (listed.circle)
     require(listed.circle->least_radius_m > 0 && listed.circle->least_radius_m <= listed.circle->radius_m);
   for (const Eigen::Vector2d& p : listed.outer) require(std::abs(p.y()) <= 90 && std::isfinite(p.x()));
+  std::size_t corners = listed.outer.size();
+  for (const vantage::Zone::Ring& hole : listed.holes) corners += hole.size();
+  require(listed.corner_z_m.empty() || listed.corner_z_m.size() == corners);
   if (listed.lower) require(listed.has_heights && std::isfinite(listed.lower->metres));
   if (listed.upper) require(listed.has_heights && std::isfinite(listed.upper->metres));
   vantage::Zone zone;

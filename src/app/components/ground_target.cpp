@@ -63,6 +63,20 @@ const terrain::TriangulatedTerrain& ground_surface(const Mission& mission) {
 
 using terrain::Incline;
 
+/// The plane nearest to heights at some places, by least squares.
+Incline nearest_plane(const std::vector<Vec2>& places, const std::vector<double>& heights_m) {
+  Vec2 middle = Vec2::Zero();
+  for (const Vec2& place : places) middle += place / static_cast<double>(places.size());
+  Eigen::MatrixXd rows(places.size(), 3);
+  Eigen::VectorXd heights(places.size());
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    rows.row(static_cast<Eigen::Index>(i)) << places[i].x() - middle.x(), places[i].y() - middle.y(), 1;
+    heights[static_cast<Eigen::Index>(i)] = heights_m[i];
+  }
+  const Eigen::Vector3d fit = rows.colPivHouseholderQr().solve(heights);
+  return {fit.head<2>(), fit.z() - fit.head<2>().dot(middle)};
+}
+
 /// The plane nearest to the ground at a ring's corners and the middles of its sides, raised until no ground under the
 /// ring lies above it.
 Incline ground_plane(const terrain::TriangulatedTerrain& ground, const city::Ring& ring, const Mission& mission) {
@@ -72,18 +86,13 @@ Incline ground_plane(const terrain::TriangulatedTerrain& ground, const city::Rin
     samples.push_back(ring[i]);
     samples.push_back((ring[i] + ring[(i + 1) % ring.size()]) / 2);
   }
-  Vec2 middle = Vec2::Zero();
-  for (const Vec2& sample : samples) middle += sample / static_cast<double>(samples.size());
-  Eigen::MatrixXd rows(samples.size(), 3);
-  Eigen::VectorXd heights(samples.size());
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    const auto height = ground.height(samples[i]);
+  std::vector<double> heights;
+  for (const Vec2& sample : samples) {
+    const auto height = ground.height(sample);
     if (!height) fail_off_ground(mission, beyond);
-    rows.row(static_cast<Eigen::Index>(i)) << samples[i].x() - middle.x(), samples[i].y() - middle.y(), 1;
-    heights[static_cast<Eigen::Index>(i)] = *height;
+    heights.push_back(*height);
   }
-  const Eigen::Vector3d fit = rows.colPivHouseholderQr().solve(heights);
-  Incline plane{fit.head<2>(), fit.z() - fit.head<2>().dot(middle)};
+  Incline plane = nearest_plane(samples, heights);
   const auto range = ground.range(ring, plane);
   if (!range) fail_off_ground(mission, beyond);
   plane.level_m += range->highest;
@@ -139,8 +148,84 @@ std::vector<city::Footprint> outlines(Mission& mission, const std::string& asked
   return found->outlines;
 }
 
-std::vector<city::Footprint> drawn(const std::vector<city::Ring>& rings) {
-  return {{rings.front(), {rings.begin() + 1, rings.end()}}};
+std::vector<city::Footprint> drawn(const std::vector<TargetOutline>& outlines) {
+  std::vector<city::Footprint> areas;
+  for (const TargetOutline& one : outlines) areas.push_back({one.outer, one.holes});
+  return areas;
+}
+
+std::vector<Vec3> on_plane(const city::Ring& ring, const Incline& plane) {
+  std::vector<Vec3> vertices;
+  for (const Vec2& p : ring) vertices.emplace_back(p.x(), p.y(), plane.at(p));
+  return vertices;
+}
+
+/// A convex polygon as parts with no more corners than a target may have.
+std::vector<city::Ring> halved(const city::Ring& piece) {
+  constexpr std::ptrdiff_t kMostCorners = 64;
+  const auto corners = static_cast<std::ptrdiff_t>(piece.size());
+  if (corners <= kMostCorners) return {piece};
+  city::Ring first(piece.begin(), piece.begin() + corners / 2 + 1), second(piece.begin() + corners / 2, piece.end());
+  second.push_back(piece.front());
+  std::vector<city::Ring> parts = halved(first);
+  for (city::Ring& part : halved(second)) parts.push_back(std::move(part));
+  return parts;
+}
+
+/// The plane of an outline's own corners. Throws where they are not in one.
+Incline plane_of_corners(const TargetOutline& outline, const std::string& place) {
+  constexpr double kPlanarM = 1e-3;  // as of vertices: src/target/target_frame.cpp
+  std::vector<Vec2> corners = outline.outer;
+  for (const Zone::Ring& hole : outline.holes) corners.insert(corners.end(), hole.begin(), hole.end());
+  const bool is_level =
+      std::adjacent_find(outline.z_m.begin(), outline.z_m.end(), std::not_equal_to<>()) == outline.z_m.end();
+  const Incline plane =
+      is_level ? Incline{Vec2::Zero(), outline.z_m.front()} : nearest_plane(corners, outline.z_m);  // level to the bit
+  const double steepness = std::hypot(1, plane.slope.norm());
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const double off = std::abs(outline.z_m[i] - plane.at(corners[i])) / steepness;
+    if (off <= kPlanarM) continue;
+    throw Error(ErrorCode::target_not_planar,
+                "the outline's corners are not in one plane: corner " + std::to_string(i) + " is off by " +
+                    shortest(std::round(off * 1000) / 1000) + " m",
+                place, "give heights of one plane, or none: then it lies on the ground");
+  }
+  return plane;
+}
+
+/// Convex parts on the ground, or as far above it as is asked for.
+void put_on_plane_of_ground(Mission& mission, const std::vector<city::Footprint>& areas, city::Outlines state,
+                            double above_ground_m) {
+  const terrain::TriangulatedTerrain& ground = ground_of(mission);
+  for (const city::ConvexArea& area : city::convex_areas(areas, state)) {
+    Incline plane = ground_plane(ground, area.outer, mission);
+    plane.level_m += above_ground_m;
+    for (const city::Ring& piece : area.pieces) {
+      for (const city::Ring& small : halved(piece)) mission.target.parts.push_back(on_plane(small, plane));
+    }
+  }
+}
+
+/// Convex parts at the heights of the corners.
+void put_at_heights(Mission& mission, const std::vector<TargetOutline>& outlines) {
+  constexpr std::size_t kMostCorners = 64;
+  for (const TargetOutline& outline : outlines) {
+    const Incline plane = plane_of_corners(outline, mission.as_written.places.target);
+    const auto pieces = city::convex_areas(drawn({outline}), city::Outlines::rough);
+    const bool is_convex = outline.holes.empty() && pieces.size() == 1 && pieces[0].pieces.size() == 1;
+    if (is_convex && outline.outer.size() <= kMostCorners) {  // to the bit as it is given
+      std::vector<Vec3>& part = mission.target.parts.emplace_back();
+      for (std::size_t i = 0; i < outline.outer.size(); ++i) {
+        part.emplace_back(outline.outer[i].x(), outline.outer[i].y(), outline.z_m[i]);
+      }
+      continue;
+    }
+    for (const city::ConvexArea& area : pieces) {
+      for (const city::Ring& piece : area.pieces) {
+        for (const city::Ring& small : halved(piece)) mission.target.parts.push_back(on_plane(small, plane));
+      }
+    }
+  }
 }
 
 /// A rectangle that is on the ground only with latitude and longitude the other way round.
@@ -168,22 +253,38 @@ PlanBox plan_box(const std::vector<city::Footprint>& areas) {
   return box;
 }
 
-std::vector<Vec3> on_plane(const city::Ring& ring, const Incline& plane) {
-  std::vector<Vec3> vertices;
-  for (const Vec2& p : ring) vertices.emplace_back(p.x(), p.y(), plane.at(p));
-  return vertices;
+/// Whether a place is wound round by a facet seen from above. Of facets that share a side, one holds a place on it.
+bool holds(const std::array<Vec3, 3>& facet, const Vec3& at) {
+  bool inside = false;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3 &a = facet[i], &b = facet[(i + 1) % 3];
+    if ((a.y() > at.y()) == (b.y() > at.y())) continue;
+    if (at.x() < a.x() + (b.x() - a.x()) * (at.y() - a.y()) / (b.y() - a.y())) inside = !inside;
+  }
+  return inside;
 }
 
-/// A convex polygon as parts with no more corners than a target may have.
-std::vector<city::Ring> halved(const city::Ring& piece) {
-  constexpr std::ptrdiff_t kMostCorners = 64;
-  const auto corners = static_cast<std::ptrdiff_t>(piece.size());
-  if (corners <= kMostCorners) return {piece};
-  city::Ring first(piece.begin(), piece.begin() + corners / 2 + 1), second(piece.begin() + corners / 2, piece.end());
-  second.push_back(piece.front());
-  std::vector<city::Ring> parts = halved(first);
-  for (city::Ring& part : halved(second)) parts.push_back(std::move(part));
-  return parts;
+/// The first object that a point lies in: of its facets on the vertical line through the point an odd number is above,
+/// and an even number in all, or else it is not closed there. Nothing where the point is in the open.
+std::optional<std::uint32_t> solid_round(const LoadedScene& loaded, const Vec3& at) {
+  const Scene& scene = loaded.scene;
+  std::vector<std::size_t> above(scene.objects.size(), 0), all(scene.objects.size(), 0);
+  const auto is_in_plan = [&](const Box& box) {
+    return (box.min - at).head<2>().maxCoeff() <= 0 && (at - box.max).head<2>().maxCoeff() <= 0;
+  };
+  triangle_runs(loaded).visit(is_in_plan, [&](std::size_t i) {
+    std::array<Vec3, 3> facet;
+    for (std::size_t k = 0; k < 3; ++k) facet[k] = scene.mesh.vertices[scene.mesh.triangles[i][k]];
+    if (!holds(facet, at)) return true;
+    const Vec3 normal = (facet[1] - facet[0]).cross(facet[2] - facet[0]);
+    ++all[scene.object_of[i]];
+    above[scene.object_of[i]] += normal.dot(at - facet[0]) * normal.z() < 0;
+    return true;
+  });
+  for (std::size_t object = 0; object < all.size(); ++object) {
+    if (all[object] % 2 == 0 && above[object] % 2 == 1) return static_cast<std::uint32_t>(object);
+  }
+  return std::nullopt;
 }
 
 /// From inside a building its walls are all that is seen, and a volume all the same.
@@ -208,21 +309,19 @@ void check_outdoors(const Mission& mission) {
 
 void put_on_ground(Mission& mission, const geo::LocalFrame* frame, const Progress& progress) {
   const GroundTarget& wanted = *mission.as_written.ground_target;
-  if (wanted.center_deg) check_order(mission, wanted, ground_surface(mission), *frame);
-  const bool is_drawn = !wanted.outline.empty();
-  const std::vector<city::Footprint> areas = is_drawn ? drawn(wanted.outline)
-                                             : wanted.osm.empty()
-                                                 ? std::vector<city::Footprint>{{rectangle(wanted, *frame), {}}}
-                                                 : outlines(mission, wanted.osm, *frame, progress);
-  if (auto note = make_room(mission, plan_box(areas))) mission.notes.push_back(std::move(*note));
-  const terrain::TriangulatedTerrain& ground = ground_surface(mission);
+  if (wanted.center_deg) check_order(mission, wanted, ground_of(mission), *frame);
+  const bool is_drawn = !wanted.outlines.empty();
   mission.target.parts.clear();
-  for (const city::ConvexArea& area :
-       city::convex_areas(areas, is_drawn ? city::Outlines::rough : city::Outlines::clean)) {
-    const Incline plane = ground_plane(ground, area.outer, mission);
-    for (const city::Ring& piece : area.pieces) {
-      for (const city::Ring& small : halved(piece)) mission.target.parts.push_back(on_plane(small, plane));
-    }
+  if (is_drawn && !wanted.outlines.front().z_m.empty()) {
+    put_at_heights(mission, wanted.outlines);
+  } else {
+    const std::vector<city::Footprint> areas = is_drawn ? drawn(wanted.outlines)
+                                               : wanted.osm.empty()
+                                                   ? std::vector<city::Footprint>{{rectangle(wanted, *frame), {}}}
+                                                   : outlines(mission, wanted.osm, *frame, progress);
+    if (auto note = make_room(mission, plan_box(areas))) mission.notes.push_back(std::move(*note));
+    put_on_plane_of_ground(mission, areas, is_drawn ? city::Outlines::rough : city::Outlines::clean,
+                           wanted.above_ground_m);
   }
   if (mission.target.parts.empty()) {
     throw Error(ErrorCode::target_without_area, "the target's outline has hardly any area",

@@ -32,10 +32,6 @@ class KmlReader {
   struct FreeParser {
     void operator()(XML_Parser parser) const { XML_ParserFree(parser); }
   };
-  struct Position {
-    Eigen::Vector2d lonlat;
-    std::optional<double> altitude_m;
-  };
 
   // Errors may not pass through Expat, which is C: they wait until it is left.
   template <typename Action>
@@ -67,8 +63,8 @@ class KmlReader {
   void start(const std::string& name);
   void end(const std::string& name);
   void end_polygon();
-  Zone::Ring ring_of(const std::vector<Position>& positions);
-  std::vector<Position> positions() const;
+  ListedRing ring_of(const ListedRing& positions);
+  ListedRing positions() const;
   bool is_in(const char* name) const { return !open_.empty() && open_.back() == name; }
   std::string place() const { return "line " + std::to_string(XML_GetCurrentLineNumber(parser_.get())); }
   [[noreturn]] void fail(const std::string& problem, const std::string& fix = "correct it",
@@ -85,6 +81,7 @@ class KmlReader {
   std::optional<ListedZone> zone_;  // of the polygon that is open
   std::optional<double> altitude_m_;
   bool is_level_ = true;
+  std::size_t placemarks_ = 0;
   ZoneList result_;
 };
 
@@ -106,12 +103,17 @@ void KmlReader::start(const std::string& name) {
   if (!open_.empty() && open_.back() == "coordinates") fail("there is an element among coordinates");
   open_.push_back(name);
   text_.clear();
-  if (name == "Placemark") name_.clear();
+  if (name == "Placemark") {
+    name_.clear();
+    ++placemarks_;
+  }
   if (name == "Polygon") {
     if (zone_) fail("a polygon is inside of another one");
     zone_.emplace();
+    if (!name_.empty()) zone_->names = {name_};
     zone_->name = name_.empty() ? std::to_string(result_.zones.size()) : name_;
     zone_->place = place();
+    zone_->feature = placemarks_ > 0 ? placemarks_ - 1 : 0;
     altitude_mode_.clear();
     extrude_.clear();
     altitude_m_.reset();
@@ -131,12 +133,7 @@ void KmlReader::end(const std::string& name) {
     if (!is_outer && around != "innerBoundaryIs")
       fail("a ring of a polygon is neither its outer nor an inner boundary");
     if (is_outer && !zone_->outer.empty()) fail("a polygon has two outer boundaries");
-    Zone::Ring ring = ring_of(positions());
-    if (is_outer) {
-      zone_->outer = std::move(ring);
-    } else {
-      zone_->holes.push_back(std::move(ring));
-    }
+    add_ring(ring_of(positions()), is_outer, *zone_);
   }
   if (name == "Polygon") end_polygon();
   if (name == "Point") ++result_.left_out["point"];
@@ -158,24 +155,26 @@ void KmlReader::end_polygon() {
   } else if (altitude_mode_ == "relativeToGround" && altitude_m_) {
     zone_->unused_heights = ": altitudes that are relativeToGround are those of its corners alone";
   }
+  if (is_absolute) zone_->corners_from = HeightReference::sea_level;
+  if (is_above_ground) zone_->corners_from = HeightReference::ground;
+  if (!is_absolute && !is_above_ground) zone_->corner_z_m.clear();  // clamped to the ground
   result_.zones.push_back(std::move(*zone_));
   zone_.reset();
 }
 
-Zone::Ring KmlReader::ring_of(const std::vector<Position>& positions) {
-  Zone::Ring closed;
-  for (const Position& p : positions) {
-    closed.push_back(p.lonlat);
-    if (!altitude_m_) altitude_m_ = p.altitude_m;
-    is_level_ = is_level_ && p.altitude_m && *altitude_m_ == *p.altitude_m;  // false where one has no altitude
+ListedRing KmlReader::ring_of(const ListedRing& positions) {
+  for (const double altitude_m : positions.z_m) {
+    if (!altitude_m_) altitude_m_ = altitude_m;
+    is_level_ = is_level_ && *altitude_m_ == altitude_m;
   }
-  return opened_ring(closed, file_, place());
+  is_level_ = is_level_ && positions.z_m.size() == positions.corners.size();
+  return opened_ring(positions, file_, place());
 }
 
 /// "longitude,latitude[,altitude]", with blanks between them and none within.
-std::vector<KmlReader::Position> KmlReader::positions() const {
+ListedRing KmlReader::positions() const {
   constexpr std::string_view kBlanks = " \t\r\n";
-  std::vector<Position> positions;
+  ListedRing positions;
   std::string_view rest = text_;
   for (;;) {
     const std::size_t begin = rest.find_first_not_of(kBlanks);
@@ -203,8 +202,8 @@ std::vector<KmlReader::Position> KmlReader::positions() const {
       fail("a position is not longitude,latitude,altitude: " + in_quotes(io::clean_name(tuple.substr(0, 60))),
            "write numbers with commas between them and no blanks");
     }
-    positions.push_back({checked_position(numbers[0], numbers[1], file_, place()),
-                         count == 3 ? std::optional(numbers[2]) : std::nullopt});
+    positions.corners.push_back(checked_position(numbers[0], numbers[1], file_, place()));
+    if (count == 3) positions.z_m.push_back(numbers[2]);
   }
 }
 

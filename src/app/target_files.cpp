@@ -1,0 +1,178 @@
+#include "app/target_files.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/input_file.h"
+#include "app/named_objects.h"
+#include "app/zone_file.h"
+#include "app/zone_files.h"
+#include "core/zone_check.h"
+#include "vantage/error.h"
+#include "vantage/input.h"
+
+namespace vantage::internal::app {
+namespace {
+
+/// The polygons of a feature, by its number.
+using Features = std::map<std::size_t, std::vector<ListedZone>>;
+
+class FeatureOfFile {
+ public:
+  FeatureOfFile(const Mission& mission, const TargetFile& from, const geo::LocalFrame& frame)
+      : mission_(mission), from_(from), frame_(frame) {}
+
+  /// Those of the feature that counts.
+  std::vector<ListedZone> polygons(ZoneList list) const;
+  GroundTarget placed(const std::vector<ListedZone>& polygons) const;
+
+ private:
+  [[noreturn]] void fail(ErrorCode code, const std::string& place, const std::string& problem,
+                         const std::string& fix) const {
+    fail_in_zones(code, from_.file, place, problem, fix);
+  }
+  const std::vector<ListedZone>& chosen(const Features& features) const;
+  Zone::Ring in_frame(const Zone::Ring& ring, const std::string& place) const;
+  void add_heights(const ListedZone& listed, TargetOutline& outline, GroundTarget& target) const;
+
+  const Mission& mission_;
+  const TargetFile& from_;
+  const geo::LocalFrame& frame_;
+};
+
+std::set<std::string> names_of(const Features& features) {
+  std::set<std::string> names;
+  for (const auto& [number, polygons] : features) {
+    const std::vector<std::string>& known = polygons.front().names;
+    names.insert(known.empty() ? std::to_string(number) : known.front());
+  }
+  return names;
+}
+
+const std::vector<ListedZone>& FeatureOfFile::chosen(const Features& features) const {
+  const std::string& wanted = from_.feature;
+  if (wanted.empty()) {
+    if (features.size() == 1) return features.begin()->second;
+    fail(ErrorCode::missing_key, "", "the file has " + std::to_string(features.size()) + " areas",
+         "say which one is the target, by its name, id or number, with 'feature'; " +
+             advice_for_name("", names_of(features), ""));
+  }
+  enum class By { name, name_in_any_case, number };
+  for (const By by : {By::name, By::name_in_any_case, By::number}) {
+    std::vector<const std::vector<ListedZone>*> found;
+    for (const auto& [number, polygons] : features) {
+      const std::vector<std::string>& known = polygons.front().names;
+      const auto fits = [&](const std::string& name) {
+        return by == By::name ? name == wanted : is_same_name(name, wanted);
+      };
+      const bool is_wanted =
+          by == By::number ? std::to_string(number) == wanted : std::any_of(known.begin(), known.end(), fits);
+      if (is_wanted) found.push_back(&polygons);
+    }
+    if (found.size() == 1) return *found.front();
+    if (found.empty()) continue;
+    fail(ErrorCode::conflicting_keys, "",
+         std::to_string(found.size()) + " areas of the file are called " + in_quotes(wanted),
+         "give each a name of its own in the file");
+  }
+  fail(ErrorCode::object_missing, "", "the file has no area " + in_quotes(wanted),
+       advice_for_name(wanted, names_of(features), "look into the file for its name"));
+}
+
+std::vector<ListedZone> FeatureOfFile::polygons(ZoneList list) const {
+  if (list.zones.empty()) {
+    fail(ErrorCode::nothing_given, "", "the file has no areas",
+         "give polygons: lines and points are no targets of a file");
+  }
+  Features features;
+  for (ListedZone& listed : list.zones) features[listed.feature].push_back(std::move(listed));
+  std::vector<ListedZone> polygons = chosen(features);
+  for (const ListedZone& listed : polygons) {
+    if (listed.circle) {
+      fail(ErrorCode::value_unsupported, listed.place, "the area is a circle", "give a polygon, of up to 64 corners");
+    }
+  }
+  return polygons;
+}
+
+Zone::Ring FeatureOfFile::in_frame(const Zone::Ring& ring, const std::string& place) const {
+  Zone::Ring placed;
+  for (const Eigen::Vector2d& corner : ring) {
+    placed.push_back(frame_.to_local({corner.x(), corner.y()}));
+    const double distance = placed.back().norm();
+    if (distance <= geo::kFarthestM) continue;
+    fail(ErrorCode::too_far_away, place,
+         "the target lies " + std::to_string(std::lround(distance / 1000)) + " km from the scene's origin",
+         "check the file: is it of another place, or are longitude and latitude swapped?");
+  }
+  return placed;
+}
+
+void FeatureOfFile::add_heights(const ListedZone& listed, TargetOutline& outline, GroundTarget& target) const {
+  if (listed.corner_z_m.empty()) return;
+  if (listed.corners_from == HeightReference::ground) {
+    const auto [low, high] = std::minmax_element(listed.corner_z_m.begin(), listed.corner_z_m.end());
+    const bool is_first = target.outlines.empty();
+    if (*low != *high || (!is_first && target.above_ground_m != *low)) {
+      fail(ErrorCode::target_not_planar, listed.place, "its corners have different heights above the ground",
+           "give all of them one height, or heights above the sea level ('absolute')");
+    }
+    target.above_ground_m = *low;
+    return;
+  }
+  double shift = 0;
+  if (listed.corners_from == HeightReference::sea_level) {
+    const auto sea = sea_level_z(mission_);
+    if (!sea) {
+      fail(ErrorCode::heights_differ, listed.place,
+           "its heights are above mean sea level, and the scene does not say which z that is",
+           "say it with 'scene.sea_level', or let the polygon lie on the ground ('clampToGround')");
+    }
+    shift = *sea;
+  }
+  for (const double z : listed.corner_z_m) outline.z_m.push_back(z + shift);
+}
+
+GroundTarget FeatureOfFile::placed(const std::vector<ListedZone>& polygons) const {
+  GroundTarget target;
+  for (const ListedZone& listed : polygons) {
+    TargetOutline outline{in_frame(listed.outer, listed.place), {}, {}};
+    for (const Zone::Ring& hole : listed.holes) outline.holes.push_back(in_frame(hole, listed.place));
+    Zone area;
+    area.outer = outline.outer;
+    area.holes = outline.holes;
+    if (const auto fault = core::fault_of(area)) fail(fault->code, listed.place, fault->problem, fault->fix);
+    add_heights(listed, outline, target);
+    target.outlines.push_back(std::move(outline));
+  }
+  const auto has_heights = [](const TargetOutline& one) { return !one.z_m.empty(); };
+  const auto count = std::count_if(target.outlines.begin(), target.outlines.end(), has_heights);
+  if (count > 0 && static_cast<std::size_t>(count) < target.outlines.size()) {
+    fail(ErrorCode::wrong_type, polygons.front().place, "it has polygons with heights and polygons without",
+         "give all corners a height, or none: then they lie on the ground");
+  }
+  return target;
+}
+
+}  // namespace
+
+void read_target_file(const Mission& mission, const geo::LocalFrame& frame, const core::ProgressReporter& progress,
+                      MissionTarget& given) {
+  const TargetFile from = *given.target_file;
+  const FeatureOfFile reader(mission, from, frame);
+  const std::vector<ListedZone> polygons =
+      reader.polygons(parse_zones(read_text(from.file, "file of the target", kMostZoneBytes), from.file, progress));
+  given.ground_target = reader.placed(polygons);
+  given.target_file.reset();
+  if (given.target.name.empty()) {
+    const ListedZone& first = polygons.front();
+    given.target.name = first.names.empty() ? from.file.stem().string() : first.names.front();
+  }
+}
+
+}  // namespace vantage::internal::app
