@@ -11,6 +11,7 @@
 #include "vantage/compare.h"
 #include "vantage/devices.h"
 #include "vantage/export.h"
+#include "vantage/objects.h"
 #include "vantage/prove.h"
 #include "vantage/scene_source.h"
 #include "vantage/simplify.h"
@@ -53,5 +54,9 @@ VANTAGE_API std::string json_text(const std::vector<ListedCamera>& cameras);
 /// GeoJSON (RFC 7946): a feature for each area, with the properties "osm", "name", "area_m2", "center" (latitude,
 /// longitude) and "tags".
 VANTAGE_API std::string json_text(const std::vector<MapArea>& areas);
+
+/// {"objects": [...]}, with name, source_id, kind, triangles, min_z_m, max_z_m, height_m, footprint_m2 (null where it
+/// is not known) and mission of each.
+VANTAGE_API std::string json_text(const std::vector<ListedObject>& objects);
 
 }  // namespace vantage

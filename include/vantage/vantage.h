@@ -23,6 +23,7 @@
 #include "vantage/kept_volumes.h"
 #include "vantage/mission.h"
 #include "vantage/navigation.h"
+#include "vantage/objects.h"
 #include "vantage/outer.h"
 #include "vantage/output.h"
 #include "vantage/picture.h"

@@ -335,6 +335,21 @@ std::string json_text(const std::vector<ListedCamera>& cameras) {
   return dumped(json, 2);
 }
 
+std::string json_text(const std::vector<ListedObject>& objects) {
+  Json json;
+  json["objects"] = Json::array();
+  for (const ListedObject& one : objects) {
+    Json row = {{"name", one.object.name},          {"source_id", one.object.source_id},
+                {"kind", name_of(one.object.kind)}, {"triangles", one.triangles},
+                {"min_z_m", one.min_z_m},           {"max_z_m", one.max_z_m},
+                {"height_m", one.height_m}};
+    row["footprint_m2"] = one.footprint_m2 ? Json(*one.footprint_m2) : Json();
+    row["mission"] = one.mission;
+    json["objects"].push_back(std::move(row));
+  }
+  return dumped(json, 2);
+}
+
 std::string json_text(const std::vector<MapArea>& areas) {
   std::string text = "{\"type\": \"FeatureCollection\", \"features\": [";
   for (std::size_t i = 0; i < areas.size(); ++i) {

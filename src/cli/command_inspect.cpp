@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <memory>
+#include <optional>
+#include <string_view>
 
 #include "cli/command.h"
 #include "cli/progress_line.h"
@@ -10,6 +12,7 @@
 #include "vantage/error.h"
 #include "vantage/input.h"
 #include "vantage/json.h"
+#include "vantage/objects.h"
 #include "vantage/scene.h"
 
 namespace vantage::cli {
@@ -25,12 +28,15 @@ constexpr const char* kInspectExamples =
     "  vantage inspect city.osm.pbf                  # what a scene of it would hold, and what became of each object\n"
     "  vantage inspect city.osm.pbf --areas amenity=parking --areas access=customers\n"
     "  vantage inspect city.osm.pbf --areas leisure=* --json > areas.geojson\n"
+    "  vantage inspect city.osm.pbf --objects \"empire state\"   # its id, height, and what a mission writes for it\n"
+    "  vantage inspect city.obj --objects \"tower*\"\n"
     "  vantage inspect dsm.tif                       # heights and their place\n";
 
 struct InspectArguments {
   CommonOptions common;
   SceneOptions scene;
   std::vector<std::string> areas;
+  std::optional<std::string> objects;
   bool named = false, json = false;
 };
 
@@ -98,8 +104,41 @@ int list_areas(const InspectArguments& options, const SceneSource& source) {
   return kSuccess;
 }
 
+/// Names come last: they may have any length.
+std::string objects_table(const std::vector<ListedObject>& objects) {
+  const auto right = [](const std::string& text, std::size_t width) {
+    return std::string(text.size() < width ? width - text.size() : 0, ' ') + text;
+  };
+  std::size_t longest = std::string_view("what a mission writes").size();
+  for (const ListedObject& one : objects) longest = std::max(longest, std::min<std::size_t>(one.mission.size(), 48));
+  const auto left = [](const std::string& text, std::size_t width) {
+    return text + std::string(text.size() < width ? width - text.size() : 0, ' ');
+  };
+  std::string text = left("kind", 15) + "  height m         m2  " + left("what a mission writes", longest) + "  name\n";
+  for (const ListedObject& one : objects) {
+    const std::string area = one.footprint_m2 ? fixed(*one.footprint_m2, 0) : "-";
+    text += left(name_of(one.object.kind), 15) + right(fixed(one.height_m, 1), 10) + right(area, 11) + "  " +
+            left(one.mission, longest) + "  " + display_name(one.object) + "\n";
+  }
+  return text;
+}
+
+int list_objects_of(const InspectArguments& options, const SceneSource& source) {
+  if (!options.areas.empty() || options.named) {
+    throw Error(ErrorCode::conflicting_keys,
+                "--objects and " + std::string(options.named ? "--named" : "--areas") + " cannot be combined",
+                "command line, --objects", "give one of the two");
+  }
+  ProgressLine progress(options.common);
+  const LoadedScene loaded = load_scene(source, progress.callback());
+  const std::vector<ListedObject> objects = list_objects(loaded, *options.objects);
+  print(options.json ? json_text(objects) : objects_table(objects));
+  return kSuccess;
+}
+
 int run_inspect(const InspectArguments& options) {
   const SceneSource source = scene_source(options.scene, "the scene file");
+  if (options.objects) return list_objects_of(options, source);
   if (!options.areas.empty() || options.named) return list_areas(options, source);
   ProgressLine progress(options.common);
   const LoadedScene loaded = load_scene(source, progress.callback());
@@ -127,6 +166,12 @@ void add_inspect(CLI::App& app, Command& chosen) {
                    "several: all of them")
       ->allow_extra_args(false)
       ->option_text("KEY=VALUE");
+  command
+      ->add_option("--objects", options->objects,
+                   "List the objects of the scene whose name or id contains this text, or fits it where it has * or "
+                   "?: kind, height, area, and what a mission writes for them. Without a text: all of them")
+      ->expected(0, 1)
+      ->option_text("PATTERN");
   command->add_flag("--named", options->named, "List only areas with a name");
   command->add_flag("--json", options->json, "Print JSON instead of a table; of areas GeoJSON");
   finish<InspectArguments>(*command, options, kInspectExamples, chosen, run_inspect);
