@@ -13,7 +13,10 @@
 namespace vantage::python {
 
 void bind_program(nb::module_& module) {
-  module.def("run_program", &cli::run_program, nb::arg("arguments"), nb::call_guard<Released>());
+  module.def(
+      "run_program",
+      [](const std::vector<std::string>& arguments) { return cli::run_program(arguments, cli::Host::python); },
+      nb::arg("arguments"), nb::call_guard<Released>());
 }
 
 }  // namespace vantage::python

@@ -118,7 +118,12 @@ void add_commands(CLI::App& app, Command& chosen) {
   add_docs(app, chosen);
 }
 
-int run(const std::vector<std::string>& typed) {
+/// Listed only: vantage/__main__.py runs it.
+void add_batch(CLI::App& app) {
+  app.add_subcommand("batch", "Compute the volumes of a table of targets, on all cores or a cluster");
+}
+
+int run(const std::vector<std::string>& typed, Host host) {
   // A closed pipe or a file size limit must end in an exit code, not in the program's death.
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
@@ -129,6 +134,7 @@ int run(const std::vector<std::string>& typed) {
   app.footer(kExamples + exit_code_table());
   Command chosen;
   add_commands(app, chosen);
+  if (host == Host::python) add_batch(app);
 
   const std::vector<std::string> arguments = with_options(typed);
   if (!arguments.empty() && arguments[0] == "batch") return print_error(batch_is_elsewhere(), "");
@@ -151,9 +157,9 @@ int run(const std::vector<std::string>& typed) {
 
 }  // namespace
 
-int run_program(const std::vector<std::string>& arguments) {
+int run_program(const std::vector<std::string>& arguments, Host host) {
   try {
-    return run(arguments);
+    return run(arguments, host);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "vantage: unexpected failure: %s\n", error.what());
     return kDefect;
