@@ -22,13 +22,15 @@ namespace vantage::python {
 using namespace nb::literals;
 
 PreparedScene PyScene::prepared(const Progress& progress) const {
-  const std::lock_guard lock(mutex_);
-  if (!prepared_) prepared_.emplace(scene(), progress);
+  const std::lock_guard lock(prepared_mutex_);
+  if (prepared_) return *prepared_;
+  PreparedScene made(scene(), progress);
+  if (!prepared_) prepared_.emplace(std::move(made));
   return *prepared_;
 }
 
 const std::string& PyScene::hash() const {
-  const std::lock_guard lock(mutex_);
+  const std::lock_guard lock(hash_mutex_);
   if (hash_.empty()) hash_ = scene_hash(scene());
   return hash_;
 }

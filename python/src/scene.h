@@ -21,11 +21,11 @@ class PyScene {
   const Scene& scene() const { return loaded_->scene; }
   const std::shared_ptr<const LoadedScene>& loaded() const { return loaded_; }
   SceneSource source() const {
-    const std::lock_guard lock(mutex_);
+    const std::lock_guard lock(source_mutex_);
     return source_;
   }
   void set_source(SceneSource source) {
-    const std::lock_guard lock(mutex_);
+    const std::lock_guard lock(source_mutex_);
     source_ = std::move(source);
   }
   std::optional<double> sea_level_m() const { return sea_level_m_; }
@@ -38,7 +38,8 @@ class PyScene {
   std::shared_ptr<const LoadedScene> loaded_;
   SceneSource source_;
   std::optional<double> sea_level_m_;
-  mutable std::mutex mutex_;
+  mutable std::mutex source_mutex_, hash_mutex_;
+  mutable std::recursive_mutex prepared_mutex_;  // who is told of progress may ask for the same scene
   mutable std::optional<PreparedScene> prepared_;
   mutable std::string hash_;
 };
