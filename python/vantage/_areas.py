@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import os
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, Union
 
@@ -11,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _arrays, _core
+from ._checks import flag, items, path as checked_path, shown, text
 from ._errors import input_error
 from ._requests import Path, Target, Vector
 from ._progress import Progress
@@ -89,12 +89,14 @@ def areas(path: Path, tags: str | Iterable[str] = (), *, named: bool = False, ce
         ...     scene, [area.target() for area in parking], max_range=300)
         >>> geopandas.GeoDataFrame.from_features(parking, crs="EPSG:4326")  # doctest: +SKIP
     """
-    wanted = [tags] if isinstance(tags, str) else list(tags)
+    wanted = [tags] if isinstance(tags, str) else items(tags, "tags", "tags")
     for tag in wanted:
         if not isinstance(tag, str):
-            raise input_error("wrong-type", f"{tag!r} is not a tag", "tags", 'write "key=value"')
-    rows = _core.areas(os.path.abspath(os.fspath(path)), wanted, bool(named),
-                       _numbers(center, 2, "center", "(latitude, longitude)"), float(radius or 0),
+            raise input_error("wrong-type", f"{shown(tag)} is not a tag", "tags", 'write "key=value"')
+    wanted = [text(tag, "tags") for tag in wanted]
+    rows = _core.areas(checked_path(path), wanted, flag(named, "named"),
+                       _numbers(center, 2, "center", "(latitude, longitude)"),
+                       0.0 if radius is None else _arrays.number(radius, "radius"),
                        _numbers(bbox, 4, "bbox", "(west, south, east, north)"), progress)
     return [Area(source_id, name, dict(pairs), polygons, (middle[0], middle[1]), area_m2)
             for source_id, name, pairs, polygons, middle, area_m2 in rows]
@@ -146,7 +148,7 @@ def _chosen(scene: Scene, objects: Iterable[Union[str, int]] | None) -> list[int
     known = scene.objects
     if objects is None:
         return [i for i, one in enumerate(known) if one.kind in _WITH_FACES]
-    wanted = [objects] if isinstance(objects, (str, int)) else list(objects)
+    wanted = [objects] if isinstance(objects, (str, int)) else items(objects, "objects", "names, or numbers, of objects")
     places: dict[str, list[int]] = {}
     for i, one in enumerate(known):
         for name in {one.source_id, one.name, _shown(one)} - {""}:
@@ -155,10 +157,10 @@ def _chosen(scene: Scene, objects: Iterable[Union[str, int]] | None) -> list[int
     for key in wanted:
         if isinstance(key, str) and key in places:
             chosen += places[key]
-        elif isinstance(key, (int, np.integer)) and 0 <= key < len(known):
+        elif isinstance(key, (int, np.integer)) and not isinstance(key, bool) and 0 <= key < len(known):
             chosen.append(int(key))
         else:
-            raise input_error("object-missing", f"the scene has no object {key!r}", "objects",
+            raise input_error("object-missing", f"the scene has no object {shown(key)}", "objects",
                               "name objects as Scene.objects has them, or count them from 0")
     return list(dict.fromkeys(chosen))
 
@@ -166,12 +168,13 @@ def _chosen(scene: Scene, objects: Iterable[Union[str, int]] | None) -> list[int
 def find_faces(scene: Scene, kind: str = "roof", *, min_area_m2: float = 1.0,
                objects: Iterable[Union[str, int]] | None = None, progress: Progress = None) -> list[Face]:
     """What `Scene.find_faces` does."""
-    if not 0 <= min_area_m2 < float("inf"):
+    least = _arrays.number(min_area_m2, "min_area_m2")
+    if least < 0:
         raise input_error("value-out-of-range", f"min_area_m2 is {min_area_m2}", "min_area_m2", "give square metres")
     known = scene.objects
     faces = []
-    for index, number, normal, area_m2, parts, front in _core.faces(scene._core, _chosen(scene, objects), kind,
-                                                                    float(min_area_m2), progress):
+    for index, number, normal, area_m2, parts, front in _core.faces(scene._core, _chosen(scene, objects), text(kind, "kind"),
+                                                                    least, progress):
         name = f"{_shown(known[index]) or f'object {index}'}, {kind} {number}"
         faces.append(Face(known[index], index, name, np.array(normal), area_m2, parts, front))
     return faces

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from ._checks import shown
 from ._errors import input_error
 
 Points = npt.NDArray[np.float64]
@@ -14,18 +15,27 @@ Faces = npt.NDArray[np.uint32]
 
 
 def _as_array(values: Any, name: str) -> np.ndarray:
+    if isinstance(values, np.ma.MaskedArray):
+        masked = int(np.count_nonzero(np.ma.getmaskarray(values)))
+        if masked:
+            raise input_error("wrong-type", f"{name} has {masked} masked numbers", name,
+                              "leave them out, or fill them in: array.filled(...)")
+        values = values.data
     try:
         return np.asarray(values)
-    except (ValueError, TypeError) as error:
-        raise input_error("wrong-type", f"{name} is not an array: {error}", name, "pass numbers in rows of equal length")
+    except (ValueError, TypeError, OverflowError, RecursionError) as error:
+        raise input_error("wrong-type", f"{name} is not an array: {error}", name,
+                          "pass numbers in rows of equal length") from None
 
 
 def numbers(values: Any, name: str) -> npt.NDArray[np.float64]:
     """As float64 in C order. Integers and float32 become float64, which loses nothing; all else is refused."""
     array = _as_array(values, name)
-    if array.dtype.kind not in "iuf" or array.dtype.itemsize > 8:
-        raise input_error("wrong-type", f"{name} is an array of {array.dtype}", name, "pass float64")
-    if array.dtype.kind in "iu" and array.size and np.abs(array.astype(np.float64)).max() > 2.0**53:
+    if array.dtype.kind == "O" and array.size and all(type(one) is int for one in array.flat):
+        raise input_error("value-out-of-range", f"{name} has integers that float64 cannot hold", name, "pass float64")
+    if array.dtype.kind not in "iuf" or array.dtype.itemsize not in (4, 8) and array.dtype.kind == "f":
+        raise input_error("wrong-type", f"{name} is an array of {array.dtype}", name, "pass float64, float32 or integers")
+    if array.dtype.kind in "iu" and array.size and (int(array.max()) > 2**53 or int(array.min()) < -(2**53)):
         raise input_error("value-out-of-range", f"{name} has integers that float64 cannot hold", name, "pass float64")
     return np.ascontiguousarray(array, dtype=np.float64)
 
@@ -34,10 +44,18 @@ def number(value: Any, name: str) -> float:
     """One finite number. True and texts are none."""
     array = _as_array(value, name)
     if array.shape != () or array.dtype.kind not in "iuf":
-        raise input_error("wrong-type", f"{value!r} is not a number", name, "pass one number")
+        raise input_error("wrong-type", f"{shown(value)} is not a number", name, "pass one number")
     if not np.isfinite(array):
         raise input_error("value-out-of-range", f"{name} is {value}", name, "pass a finite number")
     return float(array)
+
+
+def vector(values: Any, name: str) -> npt.NDArray[np.float64]:
+    """(3,) finite numbers."""
+    array = points(values, name)
+    if len(array) != 1:
+        raise input_error("array-sizes-differ", f"{name} is {len(array)} points", name, "pass (x, y, z)")
+    return array[0]
 
 
 def points(values: Any, name: str = "points") -> Points:

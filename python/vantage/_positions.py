@@ -11,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _arrays
+from ._checks import thread_count
 from ._common_points import Numbers, deepest
 from ._cover import Clock, cp_model, least_cover, most_apart
 from ._errors import Error, input_error
@@ -134,6 +135,7 @@ def fewest_positions(volumes: Sequence[Result | Volume | Error], candidates: npt
         2 positions; 2 are necessary: targets 0, 2 do not meet
     """
     cp_model()
+    count = thread_count(threads)
     limit = _arrays.number(time_limit_s, "time_limit_s")
     if limit <= 0:
         raise input_error("value-out-of-range", f"time_limit_s is {time_limit_s}", "time_limit_s", "pass seconds")
@@ -153,7 +155,7 @@ def fewest_positions(volumes: Sequence[Result | Volume | Error], candidates: npt
     if not numbers:
         raise input_error("nothing-given", "there is no volume that is not empty", "volumes",
                           "pass results that are not empty: Result.reason says why they are")
-    search = PositionSearch([every[number] for number in numbers], clock, threads, told)
+    search = PositionSearch([every[number] for number in numbers], clock, count, told)
     if points is not None:
         return _among(search, points, cost, numbers, len(every))
     return _anywhere(search, cost, numbers, len(every))

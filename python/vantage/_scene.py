@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import tempfile
 from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -12,7 +13,8 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _arrays, _core
-from ._errors import input_error
+from ._checks import instance, items, not_called, path, path as checked_path, shown, text as checked_text
+from ._errors import Error, input_error, make
 from ._extras import require
 from ._mesh import KINDS, Triangles
 from ._place import Georeference
@@ -25,6 +27,33 @@ if TYPE_CHECKING:
     import trimesh
 
     from ._areas import Face
+
+_MAPS = (".osm", ".osm.gz", ".osm.bz2", ".pbf")
+_RASTERS = (".tif", ".tiff", ".hgt", ".hgt.zip", ".asc", ".vrt", ".img")
+_MESHES = (".obj", ".ply", ".stl", ".gltf", ".glb", ".json", ".city.json")
+
+
+def _reader_of(file: Any) -> str:
+    """The function that reads files with such a name; empty where it says nothing."""
+    name = os.fspath(file).lower() if isinstance(file, (str, os.PathLike)) else ""
+    name = name if isinstance(name, str) else ""
+    for reader, endings in (("from_osm", _MAPS), ("from_raster", _RASTERS)):
+        if name.endswith(endings):
+            return reader
+    return "from_mesh" if name.removesuffix(".gz").endswith(_MESHES) else ""
+
+
+def _how_to_read(file: Any) -> str:
+    reader = _reader_of(file)
+    if reader:
+        return f"read the file with vt.Scene.{reader}({os.fspath(file)!r})"
+    return "read a file with vt.Scene.from_mesh, from_osm or from_raster, or make one with vt.Scene.from_arrays"
+
+
+def checked_scene(scene: Any, name: str = "scene") -> Scene:
+    """A scene, and not the name of its file."""
+    return instance(scene, Scene, name, _how_to_read(scene))
+
 
 class SceneObject(NamedTuple):
     """Who an object of a scene is."""
@@ -48,6 +77,7 @@ class Scene(Triangles):
     """
 
     def __init__(self, core: _core.Scene, source: Source | None = None):
+        not_called(core, _core.Scene, "vt.Scene", _how_to_read(core))
         self._core = core
         self._source = source  # of a map
 
@@ -124,11 +154,16 @@ class Scene(Triangles):
     def from_bytes(cls, data: bytes | bytearray | memoryview, format: str, **options: Any) -> Scene:
         """Reads a file that is in memory. `format`: the end of a name, "obj", "osm.pbf"; `options` are those of from_mesh or
         from_osm."""
+        ending = checked_text(format, "format").lstrip(".")
+        if not isinstance(data, (bytes, bytearray, memoryview)):
+            raise input_error("wrong-type", f"data is {shown(data)}", "data", "pass the bytes of a file")
+        if not re.fullmatch(r"[A-Za-z0-9.]{1,20}", ending):
+            raise input_error("unknown-choice", f"format is {shown(format)}", "format", "pass the end of a name: 'obj'")
         with tempfile.TemporaryDirectory() as folder:
-            file = os.path.join(folder, "scene." + format.lstrip("."))
+            file = os.path.join(folder, "scene." + ending)
             with open(file, "wb") as out:
                 out.write(data)
-            is_map = format.lower().split(".")[-1] in ("osm", "pbf") or ".osm." in "." + format.lower()
+            is_map = ending.lower().split(".")[-1] in ("osm", "pbf") or ".osm." in "." + ending.lower()
             return (cls.from_osm if is_map else cls.from_mesh)(file, **options)
 
     @classmethod
@@ -156,7 +191,7 @@ class Scene(Triangles):
         if objects is None:
             named = [SceneObject(f"object {i}" if count > 1 else "scene") for i in range(count)]
         else:
-            named = [SceneObject(one) if isinstance(one, str) else SceneObject(*one) for one in objects]
+            named = [_object(one, f"objects[{number}]") for number, one in enumerate(items(objects, "objects", "names"))]
         if len(named) < count:
             raise input_error("array-sizes-differ", f"object_of names object {count - 1}, and there are {len(named)}",
                               "objects", "give each object a name")
@@ -166,18 +201,25 @@ class Scene(Triangles):
                 raise input_error("unknown-choice", f"{one.kind!r} is not a kind of object", "objects",
                                   "choose one of " + ", ".join(KINDS))
             rows.append((one.name, one.source_id, KINDS.index(one.kind)))
-        return cls(_core.scene_from_arrays(points, triangles, of, rows, georeference, sea_level, _whole))
+        level = None if sea_level is None else _arrays.number(sea_level, "sea_level")
+        return cls(_core.scene_from_arrays(points, triangles, of, rows, _place(georeference), level, _whole))
 
     @classmethod
     def _load(cls, keys: Mapping[str, Any], progress: Progress) -> Scene:
         text = Text()
         given = {key: value for key, value in keys.items() if value is not None}
-        for key in ("mesh", "osm", "raster", "terrain"):
-            if key in given:
-                given[key] = os.path.abspath(os.fspath(given[key]))
+        for key in ("mesh", "osm", "raster"):
+            if key in keys:
+                given[key] = path(keys[key])
+        if "terrain" in given:
+            given["terrain"] = path(given["terrain"], "terrain")
         text.add("scene", given, "scene")
         source = Source.of(text.text(), given["osm"]) if "osm" in given else None
-        return cls(text.told(lambda: _core.load_scene(text.text(), NAME, progress)), source)
+        try:
+            core = text.told(lambda: _core.load_scene(text.text(), NAME, progress))
+        except Error as error:
+            raise _with_reader(error, given) from None
+        return cls(core, source)
 
     @classmethod
     def from_geodataframe(cls, gdf: Any, height: str | float = "height", *, base: str | float | None = None,
@@ -272,7 +314,7 @@ class Scene(Triangles):
 
     def position(self, latitude: float, longitude: float) -> tuple[float, float]:
         """x and y of a place on the earth (WGS 84, degrees)."""
-        return _core.scene_position(self._core, float(latitude), float(longitude))
+        return _core.scene_position(self._core, _arrays.number(latitude, "latitude"), _arrays.number(longitude, "longitude"))
 
     def prepare(self, progress: Progress = None) -> Scene:
         """Prepares the scene now, and not with the first volume."""
@@ -309,9 +351,15 @@ class Scene(Triangles):
 
     # ---- elsewhere
 
-    def save(self, path: Path) -> None:
-        """Writes OBJ, GLB, PLY or STL, by the path's extension, in the scene's frame."""
-        self._core.save(os.path.abspath(os.fspath(path)))
+    def save(self, path: Path) -> float:
+        """Writes OBJ, GLB, PLY or STL, by the path's extension, in the scene's frame.
+
+        Returns:
+            how far a vertex has moved at most, metres. OBJ and PLY keep all digits: 0. GLB and STL have single precision: of
+            GLB about 3e-6 m for an object that is 100 m wide, and 5e-5 m for one of 2 km; of STL about 6e-8 of the distance
+            from the origin. A scene that was moved has another `hash` when it is read again.
+        """
+        return self._core.save(checked_path(path))
 
     def to_trimesh(self) -> trimesh.Trimesh:
         """The triangles as they are, for trimesh."""
@@ -337,6 +385,40 @@ class Scene(Triangles):
         size = self.bounds[1] - self.bounds[0]
         across = " x ".join(f"{length:.0f} m" for length in size)
         return f"<vantage.Scene: {len(self.faces)} triangles, {len(self._core.objects)} objects, {across}>"
+
+
+def _object(value: Any, name: str) -> SceneObject:
+    if isinstance(value, str):
+        return SceneObject(checked_text(value, name))
+    if not isinstance(value, tuple) or not 1 <= len(value) <= 3:
+        raise input_error("wrong-type", f"{name} is {shown(value)}", name, "pass a name, or a vt.SceneObject")
+    return SceneObject(*(checked_text(one, name) for one in value))
+
+
+def _place(value: Any) -> Georeference | None:
+    if value is None:
+        return None
+    if not isinstance(value, tuple) or not 2 <= len(value) <= 4:
+        raise input_error("wrong-type", f"georeference is {shown(value)}", "georeference", "pass a vt.Georeference")
+    place = Georeference(*value)
+    latitude, longitude = _arrays.number(place.latitude_deg, "georeference"), _arrays.number(place.longitude_deg, "georeference")
+    if not (abs(latitude) <= 90 and abs(longitude) <= 180):
+        raise input_error("not-on-earth", f"latitude {latitude:g}, longitude {longitude:g} is not a place on the earth",
+                          "georeference", "pass vt.Georeference(latitude, longitude), in degrees")
+    return Georeference(latitude, longitude, checked_text(place.vertical, "georeference"),
+                        checked_text(place.source_crs, "georeference"))
+
+
+def _with_reader(error: Error, given: Mapping[str, Any]) -> Error:
+    """Which function reads a file that another one was called with."""
+    asked = next(key for key in ("mesh", "osm", "raster") if key in given)
+    reader = _reader_of(given[asked])
+    is_told = error.kind == "input" and error.code not in ("file-not-found", "file-unreadable")
+    if not is_told or reader in ("", f"from_{asked}"):
+        return error
+    kind = {"from_osm": "a map", "from_raster": "a raster of heights", "from_mesh": "a mesh"}[reader]
+    return make(error.kind, error.code, error.problem, error.where,
+                f"by its name it is {kind}: call vt.Scene.{reader}", error.object)
 
 
 def _restored(vertices: npt.ArrayLike, faces: npt.ArrayLike, object_of: npt.ArrayLike, objects: list[SceneObject],

@@ -12,6 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
+from ._checks import path as checked_path
 from ._errors import make
 from ._extras import require
 from ._place import WGS84, Georeference, crs_text, no_place
@@ -107,7 +108,7 @@ class Slice:
         Raises:
             Error: the extension is another one, the place on the earth is not known, or the file cannot be written.
         """
-        file = os.path.abspath(os.fspath(path))
+        file = checked_path(path)
         extension = os.path.splitext(file)[1].lower()
         if extension not in (".geojson", ".json", ".gpkg"):
             raise make("output", "output-format-unknown", f"slices are not written as '{extension}'", file,

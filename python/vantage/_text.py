@@ -10,6 +10,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
+from ._checks import shown, text as checked_text
 from ._errors import Error, input_error, make
 
 T = TypeVar("T")
@@ -27,7 +28,11 @@ class Text:
 
     def add(self, key: str, value: Any, argument: str | None = None) -> None:
         """A key of the outermost map. `argument`: what the caller knows it as."""
-        self._value(f"{key}:", value, 0, argument or key)
+        try:
+            self._value(f"{key}:", value, 0, argument or key)
+        except RecursionError:
+            name = argument or key
+            raise input_error("value-syntax", f"{name} is nested too deeply", name, "pass plain lists and dictionaries") from None
 
     def text(self) -> str:
         return "".join(line + "\n" for line in self._lines) or "{}\n"
@@ -57,9 +62,10 @@ class Text:
         try:
             return work()
         except Error as error:
-            raise self._renamed(error) from None
+            raise self.renamed(error) from None
 
-    def _renamed(self, error: Error) -> Error:
+    def renamed(self, error: Error) -> Error:
+        """The same error, with the argument for its place in the text."""
         match = re.search(rf"(?:^|/){NAME}:(\d+):\d+", error.where)
         if not match:
             return error
@@ -92,7 +98,7 @@ def flow(value: Any, argument: str) -> str:
     if isinstance(value, os.PathLike):
         value = os.fspath(value)
     if isinstance(value, str):
-        return json.dumps(value)
+        return json.dumps(checked_text(value, argument))
     if isinstance(value, Mapping):
         return "{" + ", ".join(f"{key}: {flow(item, argument)}" for key, item in value.items()) + "}"
     if _is_list(value):

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import dataclasses
 import math
-import os
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, Union, overload
 
@@ -13,6 +12,7 @@ import numpy.typing as npt
 
 from . import _arrays, _core
 from ._areas import Area, Face
+from ._checks import path as checked_path
 from ._errors import input_error
 from ._progress import Progress
 from ._requests import Path
@@ -46,9 +46,9 @@ class Tiles(Sequence[Tile]):
     """
 
     def __init__(self, path: Path, options: Mapping[str, Any], size_m: float, margin_m: float, progress: Progress):
-        self.path = os.path.abspath(os.fspath(path))
+        self.path = checked_path(path)
         """the map"""
-        self.size_m, self.margin_m = float(size_m), float(margin_m)
+        self.size_m, self.margin_m = _arrays.number(size_m, "size_m"), _arrays.number(margin_m, "margin_m")
         self._options = {key: value for key, value in options.items() if value is not None}
         text = Text()
         text.add("scene", {"osm": self.path, **self._options}, "scene")
@@ -84,7 +84,7 @@ class Tiles(Sequence[Tile]):
                      float(max(south - low[1], 0)) if south > outer[1] else 0,
                      float(max(high[0] - east, 0)) if east < outer[2] else 0,
                      float(max(high[1] - north, 0)) if north < outer[3] else 0)
-        needed = math.hypot(beyond, beyond) + float(reach_m)
+        needed = math.hypot(beyond, beyond) + _arrays.number(reach_m, "reach_m")
         if not needed <= self.margin_m:
             raise input_error("value-out-of-range", f"the target needs a margin of {needed:.0f} m, and tiles have "
                               f"{self.margin_m:g} m", "margin_m", f"give at least {math.ceil(needed)}")
@@ -92,7 +92,8 @@ class Tiles(Sequence[Tile]):
 
     def position(self, latitude: float, longitude: float) -> tuple[float, float]:
         """Metres east and north in the frame of the tiles, of a place on the earth."""
-        return _core.position(self.frame["origin"], float(latitude), float(longitude))
+        return _core.position(self.frame["origin"], _arrays.number(latitude, "latitude"),
+                              _arrays.number(longitude, "longitude"))
 
     def _index(self, at: npt.NDArray[np.float64]) -> int:
         west, south, _, _ = self.frame["ground"]

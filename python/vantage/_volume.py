@@ -5,18 +5,19 @@ from __future__ import annotations
 import json
 import os
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _arrays, _core
+from ._checks import choice, flag, items, not_called, path as checked_path, shown, text, thread_count, whole
 from ._errors import input_error
 from ._mesh import Solid
 from ._progress import Progress
 from ._requests import Path
-from ._scene import Scene
+from ._scene import Scene, checked_scene
 
 
 class Volume(Solid):
@@ -33,6 +34,7 @@ class Volume(Solid):
     """
 
     def __init__(self, core: _core.Volume):
+        not_called(core, _core.Volume, "vt.Volume", "read a file with vt.Volume.read, or make one with vt.Volume.from_arrays")
         self._core = core
         self._index: _core.SolidIndex | None = None
 
@@ -48,14 +50,15 @@ class Volume(Solid):
             up, scale: of an OBJ, without a scene.
             progress: called with stage and fraction; False stops.
         """
-        core = scene._core if scene is not None else None
-        return cls(_core.read_volume(os.path.abspath(os.fspath(path)), up, float(scale), core, progress))
+        core = checked_scene(scene)._core if scene is not None else None
+        return cls(_core.read_volume(checked_path(path), choice(up, "up", ("y", "z")), _arrays.number(scale, "scale"), core,
+                                     progress))
 
     @classmethod
     def from_arrays(cls, vertices: npt.ArrayLike, faces: npt.ArrayLike, *, cause: str = "mesh") -> Volume:
         """A mesh that is to be judged or cut as a volume: (n, 3) metres and (m, 3) indices, counter-clockwise from outside."""
         points = _arrays.points(vertices, "vertices")
-        return cls(_core.volume_from_arrays(points, _arrays.faces(faces, len(points)), cause))
+        return cls(_core.volume_from_arrays(points, _arrays.faces(faces, len(points)), text(cause, "cause")))
 
     # ---- what is known of it, besides what `Solid` tells
 
@@ -114,9 +117,10 @@ class Volume(Solid):
             >>> tetrahedron.contains([[0.2, 0.2, 0.2], [0.25, 0.25, 0.5], [1, 1, 1]]).tolist()
             [True, True, False]
         """
+        places, count = _arrays.points(points), thread_count(threads)
         if self._index is None:
             self._index = _core.SolidIndex(self._core)
-        return self._index.contains(_arrays.points(points), threads, progress).view(np.bool_)
+        return self._index.contains(places, count, progress).view(np.bool_)
 
     def prove(self, scene: Scene, *, maximal: bool = False, shrink: float = 1e-6, threads: int = 0,
               progress: Progress = None) -> dict[str, Any]:
@@ -135,7 +139,8 @@ class Volume(Solid):
         Returns:
             what `vantage prove --json` prints; ["verdict"] is "proved", "not proved" or "wrong".
         """
-        return json.loads(_core.prove_by_provenance(self._core, scene._core, shrink, maximal, threads, progress))
+        return json.loads(_core.prove_by_provenance(self._core, checked_scene(scene)._core, _arrays.number(shrink, "shrink"),
+                                                    flag(maximal, "maximal"), thread_count(threads), progress))
 
     def simplify(self, *, facets: int | None = None, error_m: float | None = None, progress: Progress = None) -> Volume:
         """Fewer facets, and no position that it did not have.
@@ -146,29 +151,32 @@ class Volume(Solid):
             progress: called with stage and fraction; False stops.
         """
         if facets is not None and error_m is None:
-            return Volume(self._core.simplify_to(int(facets), progress)[0])
+            return Volume(self._core.simplify_to(whole(facets, "facets", 1), progress)[0])
         if error_m is not None and facets is None:
-            return Volume(self._core.simplify_within(float(error_m), progress)[0])
+            return Volume(self._core.simplify_within(_arrays.number(error_m, "error_m"), progress)[0])
         raise input_error("nothing-given", "it is not said how far to simplify", "facets, error_m",
                           "give one of the two")
 
-    def compare(self, other: Volume, *, names: tuple[str, str] = ("A", "B"), progress: Progress = None) -> dict[str, Any]:
+    def compare(self, other: Solid, *, names: tuple[str, str] = ("A", "B"), progress: Progress = None) -> dict[str, Any]:
         """How two volumes differ: what `vantage compare --json` prints, and under "only_a" and "only_b" the differences as
         volumes."""
-        text, only_a, only_b = self._core.compare(other._core, *names, progress)
-        return {**json.loads(text), "only_a": Volume(only_a), "only_b": Volume(only_b)}
+        if not isinstance(names, Sequence) or len(names) != 2:
+            raise input_error("wrong-type", f"names is {shown(names)}", "names", "pass two texts")
+        first, second = text(names[0], "names[0]"), text(names[1], "names[1]")
+        told, only_a, only_b = self._core.compare(volume_of(other, "other"), first, second, progress)
+        return {**json.loads(told), "only_a": Volume(only_a), "only_b": Volume(only_b)}
 
-    def __and__(self, other: Volume) -> Volume:
+    def __and__(self, other: Solid) -> Volume:
         return intersect([self, other])
 
-    def __or__(self, other: Volume) -> Volume:
+    def __or__(self, other: Solid) -> Volume:
         return unite([self, other])
 
     # ---- elsewhere
 
     def save(self, path: Path, *, up: str = "z", scale: float = 1.0) -> None:
         """Writes PLY, OBJ, STL or GLB, by the path's extension; whole or not at all. `up`, `scale`: of an OBJ."""
-        self._core.save(os.path.abspath(os.fspath(path)), up, float(scale))
+        self._core.save(checked_path(path), choice(up, "up", ("y", "z")), _arrays.number(scale, "scale"))
 
     def __reduce__(self) -> tuple[Any, ...]:
         if self.empty:
@@ -190,6 +198,17 @@ class Volume(Solid):
         return f"<vantage.Volume: {self.volume_m3:,.1f} m3, {len(self.faces):,} facets>"
 
 
+def volume_of(value: Any, name: str) -> _core.Volume:
+    """Of a volume, or of the result that holds one."""
+    if not isinstance(value, Solid):
+        raise input_error("wrong-type", f"{name} is {shown(value)}", name, "pass a vt.Volume or a vt.Result")
+    return value._solid
+
+
+def _cores(volumes: Any) -> list[_core.Volume]:
+    return [volume_of(one, f"volumes[{number}]") for number, one in enumerate(items(volumes, "volumes", "volumes"))]
+
+
 def _restored(data: bytes) -> Volume:
     with tempfile.TemporaryDirectory() as folder:
         file = os.path.join(folder, "volume.ply")
@@ -202,7 +221,7 @@ def _empty(outcome: str, reason: str) -> Volume:
     return Volume(_core.empty_volume(outcome, reason))
 
 
-def intersect(volumes: Sequence[Volume], progress: Progress = None) -> Volume:
+def intersect(volumes: Iterable[Solid], progress: Progress = None) -> Volume:
     """The positions that all of the volumes hold; a & b for two.
 
     Example:
@@ -215,10 +234,10 @@ def intersect(volumes: Sequence[Volume], progress: Progress = None) -> Volume:
         >>> vt.intersect([a, b]).volume_m3
         1.0
     """
-    return Volume(_core.intersect_volumes([one._core for one in volumes], progress))
+    return Volume(_core.intersect_volumes(_cores(volumes), progress))
 
 
-def unite(volumes: Sequence[Volume], progress: Progress = None) -> Volume:
+def unite(volumes: Iterable[Solid], progress: Progress = None) -> Volume:
     """The positions that one of the volumes holds, or more; a | b for two.
 
     Example:
@@ -231,4 +250,4 @@ def unite(volumes: Sequence[Volume], progress: Progress = None) -> Volume:
         >>> vt.unite([a, b]).volume_m3
         3.0
     """
-    return Volume(_core.unite_volumes([one._core for one in volumes], progress))
+    return Volume(_core.unite_volumes(_cores(volumes), progress))

@@ -16,6 +16,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from . import _arrays
+from ._checks import path as checked_path
 from ._errors import Error, input_error, make
 from ._extras import require
 from ._requests import Path
@@ -105,7 +107,7 @@ class FractionField:
         """
         measure: Any = require("skimage.measure", "fields")
         shares = self._values()
-        level = float(level)
+        level = _arrays.number(level, "level")
         if not 0 < level <= 1:
             raise input_error("value-out-of-range", f"the level is {level}", "level", "pass a share above 0, up to 1")
         if not (shares >= level).any():
@@ -128,7 +130,7 @@ class FractionField:
             Error: another extension, a place that cannot be written, a missing extra. OpenVDB's Python module is no package
                 of pip: it comes with OpenVDB, as python3-openvdb of Debian.
         """
-        file = os.path.abspath(os.fspath(path))
+        file = checked_path(path)
         writers: dict[str, Callable[[str], None]] = {".nc": self._netcdf, ".zarr": self._zarr, ".vdb": self._vdb}
         write = writers.get(os.path.splitext(file)[1].lower())
         if write is None:
