@@ -1,3 +1,5 @@
+#include "errors.h"
+
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
@@ -26,18 +28,26 @@ const char* name_of(ErrorKind kind) {
   return "internal";
 }
 
-/// An Error becomes what vantage._errors.make(kind, code, problem, where, fix, object) returns.
+}  // namespace
+
+nb::object python_error(const Error& error) {
+  const nb::object object = error.object() ? nb::cast(*error.object()) : nb::none();
+  const nb::tuple told = nb::make_tuple(name_of(error.kind()), vantage::name_of(error.code()), error.problem(),
+                                        error.where(), error.fix(), object);
+  const nb::object module = called([] { return PyImport_ImportModule("vantage._errors"); });
+  const nb::object make = module.attr("make");
+  return called([&] { return PyObject_CallObject(make.ptr(), told.ptr()); });
+}
+
+namespace {
+
+/// An Error of C++ becomes one of Python.
 void translate(const std::exception_ptr& pointer, void*) {
   if (!pointer) wait_for_end();  // no exception of C++: the thread is being ended
   try {
     std::rethrow_exception(pointer);
   } catch (const Error& error) {
-    const nb::object object = error.object() ? nb::cast(*error.object()) : nb::none();
-    const nb::tuple told = nb::make_tuple(name_of(error.kind()), vantage::name_of(error.code()), error.problem(),
-                                          error.where(), error.fix(), object);
-    const nb::object module = called([] { return PyImport_ImportModule("vantage._errors"); });
-    const nb::object make = module.attr("make");
-    const nb::object made = called([&] { return PyObject_CallObject(make.ptr(), told.ptr()); });
+    const nb::object made = python_error(error);
     PyErr_SetObject(made.type().ptr(), made.ptr());
   }
 }

@@ -14,6 +14,7 @@
 #include "arrays.h"
 #include "bindings.h"
 #include "calls.h"
+#include "errors.h"
 #include "vantage/result.h"
 #include "volume.h"
 
@@ -98,6 +99,36 @@ std::vector<PyResult> run(const PyMission& mission, int threads, nb::object prog
   return made;
 }
 
+/// A result or an error for each volume.
+nb::list try_each(const PyMission& mission, int threads, nb::object progress) {
+  std::vector<Attempt> attempts = computed_here(std::move(progress), threads, [&](const Progress& told) {
+    return try_missions(*mission, mission.run_options(told), told);
+  });
+  nb::list made;
+  for (std::size_t i = 0; i < attempts.size(); ++i) {
+    if (attempts[i].error) {
+      made.append(python_error(*attempts[i].error));
+    } else {
+      made.append(PyResult(one(mission, i), std::move(*attempts[i].result)));
+    }
+  }
+  return made;
+}
+
+/// How many volumes a text asks for. Throws what is wrong with its targets: where they are, and where they are
+/// prepared.
+std::size_t check(const PyScene& scene, const std::string& text, const std::string& name, nb::object progress) {
+  return computed_here(std::move(progress), 0, [&](const Progress& told) {
+    MissionFile file = read_mission_text(text, name, scene.source());
+    file.sea_level_m = scene.sea_level_m();
+    const Mission mission = resolve_mission(file, scene.loaded(), told);
+    const bool is_in_scene = mission.loaded == scene.loaded();
+    const PreparedScene prepared = is_in_scene ? scene.prepared(told) : PreparedScene(mission.scene(), told);
+    for (std::size_t i = 0; i < volume_count(mission); ++i) prepare_views(one_volume(mission, i), prepared);
+    return volume_count(mission);
+  });
+}
+
 std::vector<std::pair<std::string, std::string>> notes_of(const PyMission& mission) {
   std::vector<std::pair<std::string, std::string>> rows;
   const Released released;  // what it looks up may be locked
@@ -152,7 +183,8 @@ void bind_mission(nb::module_& module) {
           "text",
           [](const PyMission& m, const std::filesystem::path& folder) { return mission_text(m->as_written, folder); },
           "folder"_a)
-      .def("run", &run, "threads"_a = 0, "progress"_a = nb::none());
+      .def("run", &run, "threads"_a = 0, "progress"_a = nb::none())
+      .def("try_each", &try_each, "threads"_a = 0, "progress"_a = nb::none());
 
   nb::class_<PyResult>(module, "Result")
       .def_prop_ro("mission", [](const PyResult& r) { return r.mission; })
@@ -166,6 +198,7 @@ void bind_mission(nb::module_& module) {
       .def("save", &save, "files"_a, "progress"_a = nb::none());
 
   module.def("resolve", &resolve, "scene"_a, "text"_a, "name"_a, "meshes"_a, "progress"_a = nb::none());
+  module.def("check", &check, "scene"_a, "text"_a, "name"_a, "progress"_a = nb::none());
   module.def("read_mission", &read, "file"_a, "progress"_a = nb::none());
 }
 

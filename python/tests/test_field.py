@@ -212,7 +212,7 @@ def test_every_stage_can_be_stopped(scene, wanted, options):
     (BOX, 9, {"measure": "weight"}, "unknown-choice", "measure"),
     (BOX, 9, {"dtype": "int8"}, "unknown-choice", "dtype"),
     (BOX, 9, {"samples": 0}, "value-out-of-range", "samples"),
-    (BOX, 9, {"samples": 2.5}, "value-out-of-range", "samples"),
+    (BOX, 9, {"samples": 2.5}, "wrong-type", "samples"),
     (BOX, 9, {"samples": 70000}, "value-out-of-range", "samples"),
     (BOX, 9, {"samples": 4, "cubemap": 0}, "value-out-of-range", "cubemap"),
     (BOX, 9, {"samples": 4, "measure": "pixels"}, "not-applicable", "measure"),

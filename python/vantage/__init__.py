@@ -21,6 +21,7 @@ from . import _core
 if _refusal := getattr(_core, "refusal", None):  # in a subinterpreter
     raise ImportError(_refusal)
 
+from . import _arrays, _checks
 from ._areas import Area, Face, areas
 from ._core import version as __version__
 from ._errors import CancelledError, Error, InputError, InternalError, OutputError
@@ -30,15 +31,16 @@ from ._place import Georeference
 from ._positions import Positions, fewest_positions
 from ._progress import Progress
 from ._requests import Navigation, Sensor, Target, Vector
-from ._result import Answers, Mission, Result, compute, compute_many
-from ._scene import Scene, SceneObject
+from ._many import Results, compute_many
+from ._result import Answers, Mission, Result, compute
+from ._scene import Scene, SceneObject, checked_scene
 from ._slice import Slice
 from ._tiles import Tile, Tiles, tiles
 from ._volume import Volume, intersect, unite
 
 __all__ = [
     "Answers", "Area", "CancelledError", "Cause", "Error", "Face", "Georeference", "InputError", "InternalError",
-    "Mission", "Navigation", "Note", "OutputError", "Positions", "Result", "Scene", "SceneObject", "Sensor", "Slice",
+    "Mission", "Navigation", "Note", "OutputError", "Positions", "Result", "Results", "Scene", "SceneObject", "Sensor", "Slice",
     "Target", "Tile", "Tiles", "Volume", "__version__", "areas", "cameras", "compute", "compute_many", "devices",
     "error_codes", "fewest_positions", "fraction_field", "intersect", "tiles", "unite", "visibility_sphere",
 ]
@@ -65,7 +67,7 @@ def devices(choice: str = "auto") -> dict[str, _Any]:
         >>> vt.devices()["devices"][0]["kind"]
         'cpu'
     """
-    return _json.loads(_core.devices(choice))
+    return _json.loads(_core.devices(_checks.text(choice, "choice")))
 
 
 def error_codes() -> list[str]:
@@ -99,5 +101,9 @@ def visibility_sphere(scene: Scene, viewpoint: Vector, radius_m: float, *, cubem
         >>> 0.95 < sphere.volume_m3 / (4 / 3 * 3.14159 * 5 ** 3) <= 1
         True
     """
-    return Volume(_core.visibility_sphere(scene._core, [float(v) for v in viewpoint], float(radius_m), cubemap,
-                                          conservative, merge, device, threads, progress))
+    at = _arrays.vector(viewpoint, "viewpoint").tolist()
+    return Volume(_core.visibility_sphere(checked_scene(scene)._core, at, _arrays.number(radius_m, "radius_m"),
+                                          _checks.whole(cubemap, "cubemap", 1, 2**31 - 1),
+                                          _checks.flag(conservative, "conservative"),
+                                          _arrays.number(merge, "merge"), _checks.text(device, "device"),
+                                          _checks.thread_count(threads), progress))

@@ -10,11 +10,13 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _arrays, _core
+from ._checks import choice, shown, text, thread_count, whole
 from ._errors import input_error
-from ._requests import Vector
-from ._result import AnyTarget, Mission
 from ._progress import Progress
-from ._scene import Scene
+from ._requests import Vector
+from ._result import MEASURES, Mission
+from ._scene import Scene, checked_scene
+from ._shapes import AnyTarget
 
 if TYPE_CHECKING:
     import xarray
@@ -58,7 +60,7 @@ def fraction_field(scene: Scene, target: AnyTarget, box: Sequence[Vector] | npt.
 
     Args:
         scene: what may hide.
-        target: a `Target`, or (n, 3) vertices of a convex polygon.
+        target: one, as `compute` takes it.
         box: the lowest and the highest corner, metres. Its last voxels may reach beyond it.
         step: edge of a voxel, metres.
         measure: "area" of the target, "solid_angle" or "pixels".
@@ -89,37 +91,38 @@ def fraction_field(scene: Scene, target: AnyTarget, box: Sequence[Vector] | npt.
     """
     from . import fields
 
-    low, counts = _counts(box, float(step))
-    kind = np.dtype(dtype)
+    checked_scene(scene)
+    edge = _arrays.number(step, "step")
+    low, counts = _counts(box, edge)
+    choice(measure, "measure", MEASURES)
+    count = thread_count(threads)
+    try:
+        kind = np.dtype(dtype)
+    except TypeError:
+        raise input_error("unknown-choice", f"dtype is {shown(dtype)}", "dtype", "choose float64 or float32") from None
     if kind not in (np.float32, np.float64):
         raise input_error("unknown-choice", f"dtype is {kind}", "dtype", "choose float64 or float32")
     if samples is not None and measure != "area":
         raise input_error("not-applicable", f"samples count by area, and measure is {measure!r}", "measure",
                           "leave out the samples, or measure by area")
-    reach = max_range if max_range is not None else _farthest(scene, target, low, step, counts)
+    reach = _arrays.number(max_range, "max_range") if max_range is not None else _farthest(scene, target, low, edge, counts)
     mission = Mission.of(scene, target, max_range=reach, crs=crs, progress=progress)
-    limit = math.inf if max_range is None else float(max_range)
+    limit = math.inf if max_range is None else reach
     if samples is None:
-        columns = _core.fraction_field(mission._core, low, float(step), counts, measure, limit, threads, progress)
+        columns = _core.fraction_field(mission._core, low, edge, counts, measure, limit, count, progress)
     else:
-        columns = _core.sampled_field(mission._core, low, float(step), counts, _positive(samples), int(cubemap), device,
-                                      limit, threads, progress)
+        columns = _core.sampled_field(mission._core, low, edge, counts, whole(samples, "samples", 1),
+                                      whole(cubemap, "cubemap", 1, 2**31 - 1), text(device, "device"), limit, count, progress)
     told = {
-        "measure": measure, "target": mission.target_name, "step_m": float(step), "scene_hash": scene.hash,
+        "measure": measure, "target": mission.target_name, "step_m": edge, "scene_hash": scene.hash,
         "voxels_evaluated": int(columns["evaluated"]), "mission_hash": mission.hash, "source": f"vantage {_core.version}",
     }
     if max_range is not None:
-        told["max_range_m"] = float(max_range)
+        told["max_range_m"] = reach
     if samples is not None:
         told |= {"samples": int(samples), "cubemap": int(cubemap), "device": columns["device"]}
     shares = columns["shares"].reshape(counts[::-1])
     return fields.data_array(_rounded(shares, kind), columns["x"], columns["y"], columns["z"], scene, told)
-
-
-def _positive(samples: Any) -> int:
-    if isinstance(samples, bool) or not isinstance(samples, (int, np.integer)) or samples < 1:
-        raise input_error("value-out-of-range", f"samples is {samples!r}", "samples", "pass a positive integer")
-    return int(samples)
 
 
 def _rounded(shares: npt.NDArray[np.float64], kind: np.dtype[Any]) -> npt.NDArray[Any]:

@@ -12,6 +12,7 @@ import numpy as np
 
 if TYPE_CHECKING:
     from ._areas import Area, Face
+    from ._many import Results
     from ._mesh import Note, Solid
     from ._positions import Positions
     from ._result import Answers, Mission, Result
@@ -135,6 +136,13 @@ def of_positions(found: Positions) -> str:
             for number, (place, sees, depth) in enumerate(zip(found.positions, found.sees, found.depth_m))]
     more = [("", f"and {len(rows) - _MOST_ROWS} more")] if len(rows) > _MOST_ROWS else []
     return table(str(found), [*rows[:_MOST_ROWS], *more, *(("note", note) for note in found.notes)])
+
+
+def of_results(results: Results) -> str:
+    """How many there are of each, and the first errors."""
+    rows = [(f"{number}", f"{error.code}: {error.problem}") for number, error in results.errors.items()]
+    more = [("", f"and {len(rows) - _MOST_ROWS:,} more")] if len(rows) > _MOST_ROWS else []
+    return table(repr(results)[len("<vantage.Results: "):-1], [*rows[:_MOST_ROWS], *more])
 
 
 def of_answers(answers: Answers) -> str:

@@ -9,6 +9,9 @@ from typing import Any, Union
 
 import numpy.typing as npt
 
+from ._checks import shown
+from ._errors import input_error
+
 Path = Union[str, os.PathLike[str]]
 Degrees = float
 Vector = Union[Sequence[float], npt.NDArray[Any]]
@@ -19,16 +22,21 @@ def _given(request: Any) -> dict[str, Any]:
     return {name: value for name, value in vars(request).items() if value is not None}
 
 
-def _short(value: Any) -> str:
-    text = repr(value)
-    return text if len(text) <= 60 else text[:57] + "..."
+def keys_of(request: Any, kind: type, name: str) -> dict[str, Any]:
+    """Of a request, or of a dictionary of its keys: the mission file's reader knows which there are."""
+    if isinstance(request, Mapping):
+        return {key: value for key, value in request.items() if value is not None}
+    if not isinstance(request, kind):
+        raise input_error("wrong-type", f"{name} is {shown(request)}", name,
+                          f"pass a vt.{kind.__name__}, or a dictionary of its keys")
+    return _given(request)
 
 
 class _Request:
     """Printed with what was given, no more."""
 
     def __repr__(self) -> str:
-        given = ", ".join(f"{name}={_short(value)}" for name, value in _given(self).items())
+        given = ", ".join(f"{name}={shown(value)}" for name, value in _given(self).items())
         return f"{type(self).__name__}({given})"
 
     def _repr_html_(self) -> str:
@@ -41,16 +49,19 @@ class _Request:
 class Target(_Request):
     """What must be seen whole: a convex polygon, several of them, or a point. Coordinates are metres in the scene's frame.
 
-    One of `vertices`, `parts`, `point`, `outline`, `osm`, `object`, `at` and `center` says which it is.
+    One of `vertices`, `parts`, `point`, `outline`, `osm`, `file`, `object`, `at` and `center` says which it is.
 
     Attributes:
         name: for messages and reports.
         vertices: (n, 3), 3 to 64 points in order around a convex, planar polygon.
         parts: several such polygons; all of them must be seen.
         point: (x, y, z), instead of a polygon.
-        outline: (n, 2) x and y of a polygon that is laid on the ground; it need not be convex.
+        outline: (n, 2) x and y of a polygon that is laid on the ground, or (n, 3) of one that lies there; it need not be
+            convex. Or several of these.
         holes: of the outline, likewise.
-        osm: an area of the scene's map, "way/123"; with `part` a building of it.
+        osm: an area of the scene's map, "way/123" or its name; with `part` a building of it.
+        file: a GeoJSON, KML or KMZ file with the polygon, in longitude and latitude; `feature` is its name, id or number
+            there, where the file has several.
         object: an object of the scene, by name or id; with `part`.
         at: (latitude, longitude): the highest object there; with `part`.
         part: "roof" or "facade".
@@ -73,6 +84,8 @@ class Target(_Request):
     outline: npt.ArrayLike | None = None
     holes: Sequence[npt.ArrayLike] | None = None
     osm: str | None = None
+    file: Path | None = None
+    feature: str | None = None
     object: str | None = None
     at: Vector | None = None
     part: str | None = None
@@ -85,6 +98,29 @@ class Target(_Request):
     offset: float | None = None
     front: Vector | None = None
     sides: str | None = None
+
+    @classmethod
+    def from_shape(cls, shape: Any, *, z: float | None = None, **keys: Any) -> Target:
+        """Of a Polygon, MultiPolygon or Point of shapely, or what else has a `__geo_interface__`.
+
+        Args:
+            shape: its coordinates are metres in the scene's frame, or in the `crs` that is passed to `compute`.
+            z: the height of all corners, metres, in the place of their own. Default: their own; without any it is laid on the
+                ground.
+            keys: more of the target's keys: name, front, offset.
+
+        Raises:
+            Error: it is something else, or empty.
+
+        Example:
+            >>> class Shape:  # as shapely's polygons
+            ...     __geo_interface__ = {"type": "Polygon", "coordinates": [[(0, 0), (9, 0), (9, 9), (0, 0)]]}
+            >>> Target.from_shape(Shape(), z=12, name="deck").vertices.tolist()
+            [[0.0, 0.0, 12.0], [9.0, 0.0, 12.0], [9.0, 9.0, 12.0]]
+        """
+        from ._shapes import of_geometry
+
+        return of_geometry(getattr(shape, "__geo_interface__", shape), "shape", z=z, **keys)
 
 
 @dataclasses.dataclass(repr=False, kw_only=True)

@@ -4,23 +4,28 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import Any, NamedTuple, TypeVar, Union
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _arrays, _core
-from ._errors import input_error, not_pickled
+from ._checks import choice, flag, instance, not_called, path, path as checked_path, shown, text as checked_text, thread_count, whole
+from ._errors import Error, input_error, not_pickled
 from ._mesh import Note, Solid
 from ._progress import Progress
-from ._requests import Navigation, Path, Sensor, Target, given
-from ._scene import Scene
+from ._requests import Navigation, Path, Sensor, Target, given, keys_of
+from ._scene import Scene, checked_scene
+from ._shapes import AnyTarget, is_several, targets_of
 from ._text import NAME, Text
-from ._volume import Volume
+from ._volume import Volume, volume_of
 
 T = TypeVar("T")
-AnyTarget = Union[Target, npt.ArrayLike]
+Meshes = list[tuple[_arrays.Points, _arrays.Faces, str]]
+
+
+MEASURES = ("area", "solid_angle", "pixels")
 
 
 class Answers(NamedTuple):
@@ -59,6 +64,7 @@ class Mission:
     """
 
     def __init__(self, core: _core.Mission, scene: Scene | None = None, text: Text | None = None):
+        not_called(core, _core.Mission, "vt.Mission", "read a mission file with vt.Mission.read, or make one with vt.Mission.of")
         self._core = core
         self._scene = scene
         self._text = text
@@ -67,40 +73,19 @@ class Mission:
     @classmethod
     def read(cls, path: Path, progress: Progress = None) -> Mission:
         """Reads a mission file (docs/mission-file.md) and its scene."""
-        return cls(_core.read_mission(os.path.abspath(os.fspath(path)), progress))
+        return cls(_core.read_mission(checked_path(path), progress))
 
     @classmethod
-    def of(cls, scene: Scene, target: AnyTarget | Sequence[Target], *, max_range: float | None = None,
-           sensor: Sensor | None = None, navigation: Navigation | None = None, combine: str = "all",
-           crs: str | None = None, method: str = "exact", tolerance: float | None = None,
-           spheres: Mapping[str, Any] | None = None, progress: Progress = None) -> Mission:
-        """Of the arguments that `compute` takes."""
-        text = Text()
-        several = _targets(target)
-        if any(one.osm or one.center is not None or one.outline is not None for one in several):
-            scene._recall(needs_map=any(one.osm for one in several))
-        if method != "exact":
-            text.add("method", method)
-        if crs is not None:
-            text.add("crs", crs)
-        if len(several) == 1 and not _is_targets(target):
-            text.add("target", given(several[0]))
-        else:
-            text.add("targets", [given(one) for one in several], "target")
-        if combine != "all":
-            text.add("combine", combine)
-        limits = given(_sensor(sensor, max_range))
-        if isinstance(limits.get("camera"), str):
-            limits["camera"] = {"model": limits["camera"]}
-        text.add("sensor", limits)
-        meshes: list[tuple[_arrays.Points, _arrays.Faces, str]] = []
-        if navigation is not None:
-            keys, meshes = _navigation(navigation)
-            text.add("navigation", keys)
-        if tolerance is not None:
-            text.add("exact", {"tolerance": tolerance}, "tolerance")
-        if spheres is not None:
-            text.add("spheres", spheres)
+    def of(cls, scene: Scene, target: AnyTarget | Sequence[AnyTarget], *, max_range: float | None = None,
+           sensor: Sensor | Mapping[str, Any] | None = None, navigation: Navigation | Mapping[str, Any] | None = None,
+           combine: str = "all", crs: str | None = None, method: str = "exact", tolerance: float | None = None,
+           spheres: Mapping[str, Any] | None = None, argument: str = "target", progress: Progress = None) -> Mission:
+        """Of the arguments that `compute` takes. `argument`: what errors call the target."""
+        checked_scene(scene)
+        is_one = not is_several(target)
+        text, meshes = asked(scene, targets_of(target, scene, crs, argument), is_one=is_one, argument=argument,
+                             max_range=max_range, sensor=sensor, navigation=navigation, combine=combine, crs=crs,
+                             method=method, tolerance=tolerance, spheres=spheres)
         return cls(text.told(lambda: _core.resolve(scene._core, text.text(), NAME, meshes, progress)), scene, text)
 
     @property
@@ -144,11 +129,19 @@ class Mission:
 
     def run_each(self, *, threads: int = 0, progress: Progress = None) -> list[Result]:
         """Computes all of its volumes, several at once: one, but with combine="each" one for each target."""
-        return [Result(core, self._scene) for core in self._told(lambda: self._core.run(threads, progress))]
+        count = thread_count(threads)
+        return [Result(core, self._scene) for core in self._told(lambda: self._core.run(count, progress))]
+
+    def _try_each(self, threads: int, progress: Progress) -> list[Result | Error]:
+        """The same, with an error in the place of the result of a target that is wrong."""
+        made = self._told(lambda: self._core.try_each(threads, progress))
+        rename = self._text.renamed if self._text is not None else (lambda error: error)
+        return [rename(one) if isinstance(one, Error) else Result(one, self._scene) for one in made]
 
     def query(self, points: npt.ArrayLike, *, threads: int = 0, progress: Progress = None) -> Answers:
         """What points see of the target: exact, without the mesh. `points`: (n, 3), metres."""
-        columns = self._asked(progress).answer(_arrays.points(points), threads, progress)
+        places, count = _arrays.points(points), thread_count(threads)
+        columns = self._asked(progress).answer(places, count, progress)
         return Answers(columns["inside"].view(np.bool_), columns["margin_m"], columns["blocked_by"],
                        columns["out_of_range"].view(np.bool_), columns["behind_target"].view(np.bool_),
                        columns["outside_of"])
@@ -163,7 +156,9 @@ class Mission:
             threads: 0: as many as there are.
             progress: called with stage and fraction; False stops.
         """
-        return self._asked(progress).fractions(_arrays.points(points), measure, False, threads, progress)[0]
+        places, count = _arrays.points(points), thread_count(threads)
+        choice(measure, "measure", MEASURES)
+        return self._asked(progress).fractions(places, measure, False, count, progress)[0]
 
     def prove(self, volume: Volume, *, maximal: bool = False, shrink: float = 1e-6, threads: int = 0,
               progress: Progress = None) -> dict[str, Any]:
@@ -172,22 +167,25 @@ class Mission:
         Returns:
             what `vantage prove --json` prints; ["verdict"] is "proved", "not proved" or "wrong".
         """
-        return json.loads(_core.prove(self._core, volume._core, shrink, maximal, threads, progress))
+        return json.loads(_core.prove(self._core, volume_of(volume, "volume"), _arrays.number(shrink, "shrink"),
+                                      flag(maximal, "maximal"), thread_count(threads), progress))
 
     def verify(self, volume: Volume, *, points: int = 20000, seed: int = 1, threads: int = 0,
                progress: Progress = None) -> dict[str, Any]:
         """Checks a volume by rays from random points: what `vantage verify --json` prints."""
-        return json.loads(_core.verify(self._core, volume._core, points, seed, threads, progress))
+        return json.loads(_core.verify(self._core, volume_of(volume, "volume"), whole(points, "points", 1), whole(seed, "seed"),
+                                       thread_count(threads), progress))
 
     def certify(self, volume_file: Path, certificate: Path, *, maximal: bool = False, shrink: float = 1e-6,
                 threads: int = 0, progress: Progress = None) -> dict[str, Any]:
         """Proves a volume's PLY file and writes the certificate that tools/check_certificate.py checks, with its scene."""
-        volume, out = os.path.abspath(os.fspath(volume_file)), os.path.abspath(os.fspath(certificate))
-        return json.loads(_core.certify(self._core, volume, out, shrink, maximal, threads, progress))
+        return json.loads(_core.certify(self._core, path(volume_file, "volume_file"), path(certificate, "certificate"),
+                                        _arrays.number(shrink, "shrink"), flag(maximal, "maximal"), thread_count(threads),
+                                        progress))
 
     def text(self, folder: Path = ".") -> str:
         """The mission as the text of a mission file in `folder`."""
-        return self._core.text(os.path.abspath(os.fspath(folder)))
+        return self._core.text(path(folder, "folder"))
 
     def _asked(self, progress: Progress) -> _core.Query:
         if self._query is None:
@@ -224,6 +222,7 @@ class Result(Solid):
     """
 
     def __init__(self, core: _core.Result, scene: Scene | None = None):
+        not_called(core, _core.Result, "vt.Result", "results come from vt.compute; read a volume's file with vt.Volume.read")
         self._core = core
         self.mission = Mission(core.mission, scene)
         """what was asked"""
@@ -267,8 +266,14 @@ class Result(Solid):
         return self.mission.verify(self.volume, points=points, seed=seed, threads=threads, progress=progress)
 
     def save(self, *paths: Path, progress: Progress = None) -> list[str]:
-        """Writes the volume to each path (PLY, OBJ, STL, GLB), and a report beside it; all or none. Returns the reports."""
-        return self._core.save([os.path.abspath(os.fspath(path)) for path in paths], progress)
+        """Writes the volume to each path (PLY, OBJ, STL, GLB), and a report beside it; all or none. Returns the reports.
+
+        The report of "a.ply" is "a.report.json". So "a.ply" and "a.glb" share one, which names the first: give volumes names
+        of their own where each is to have its report.
+        """
+        if not paths:
+            raise input_error("nothing-given", "it is not said where to write", "paths", "pass a path, or several")
+        return self._core.save([checked_path(one) for one in paths], progress)
 
     def plot(self, path: Path | None = None, **options: Any) -> Any:
         """Scene, target and volume by pyvista: in a notebook to turn, or as a PNG at `path`."""
@@ -289,11 +294,17 @@ class Result(Solid):
             title, subtitle: over the picture.
             progress: called with stage and fraction; False stops.
         """
-        kind, place = (view, []) if isinstance(view, str) else ("from", [float(v) for v in view])
-        pixels = _core.render(self.mission._core, self.volume._core, kind, azimuth, float(elevation), place, *size,
-                              self.mission.target_name if title is None else title, subtitle, progress)
-        if path is not None:
-            _core.save_png(pixels, os.path.abspath(os.fspath(path)))
+        kind, place = (view, []) if isinstance(view, str) else ("from", _arrays.vector(view, "view").tolist())
+        if not isinstance(size, Sequence) or len(size) != 2:
+            raise input_error("wrong-type", f"size is {shown(size)}", "size", "pass width and height: (1600, 1200)")
+        width, height = whole(size[0], "size[0]", 1, 2**31 - 1), whole(size[1], "size[1]", 1, 2**31 - 1)
+        turned = None if azimuth is None else _arrays.number(azimuth, "azimuth")
+        heading = self.mission.target_name if title is None else checked_text(title, "title")
+        file = None if path is None else checked_path(path)
+        pixels = _core.render(self.mission._core, self.volume._core, kind, turned, _arrays.number(elevation, "elevation"), place,
+                              width, height, heading, checked_text(subtitle, "subtitle"), progress)
+        if file is not None:
+            _core.save_png(pixels, file)
         return pixels
 
     def _row(self) -> dict[str, Any]:
@@ -311,20 +322,23 @@ class Result(Solid):
         return of_result(self)
 
 
-def compute(scene: Scene, target: AnyTarget | Sequence[Target], *, max_range: float | None = None,
-            sensor: Sensor | None = None, navigation: Navigation | None = None, combine: str = "all",
-            crs: str | None = None, method: str = "exact", tolerance: float | None = None,
+def compute(scene: Scene, target: AnyTarget | Sequence[AnyTarget], *, max_range: float | None = None,
+            sensor: Sensor | Mapping[str, Any] | None = None, navigation: Navigation | Mapping[str, Any] | None = None,
+            combine: str = "all", crs: str | None = None, method: str = "exact", tolerance: float | None = None,
             spheres: Mapping[str, Any] | None = None, threads: int = 0, progress: Progress = None) -> Result:
     """The volume of every position from which the whole target can be seen, within the limits.
 
     Args:
         scene: what may hide the target.
-        target: a `Target`; (n, 3) vertices of a convex polygon; or several `Target`s.
+        target: a `Target`, or a dictionary of its keys; (n, 3) vertices of a convex polygon; an `Area` or a `Face`; a Polygon or
+            MultiPolygon of shapely, or what else has a `__geo_interface__`: without z it is laid on the ground, with z it lies
+            there. Or several: a list of these, or a GeoSeries or GeoDataFrame. Coordinates are metres in the scene's frame,
+            but with `crs`, and those of a table with a CRS.
         max_range: metres; short for sensor=Sensor(max_range=...).
-        sensor: what the sensor can do.
-        navigation: where the vehicle may fly.
+        sensor: what the sensor can do: a `Sensor`, or a dictionary of its keys.
+        navigation: where the vehicle may fly: a `Navigation`, or a dictionary of its keys.
         combine: of several targets: "all" must be seen, or "any" one of them.
-        crs: of the target's and the limits' coordinates: "EPSG:4326". Default: the scene's frame.
+        crs: of the target's and the limits' coordinates: "EPSG:4326", longitude before latitude. Default: the scene's frame.
         method: "exact", or "spheres" for the method of the paper.
         tolerance: metres that range facets may lie inside the true range. Default: 0.01.
         spheres: options of that method, as in the mission file.
@@ -343,84 +357,98 @@ def compute(scene: Scene, target: AnyTarget | Sequence[Target], *, max_range: fl
         >>> vt.compute(ground, [[0, 0, 0], [9, 0, 0], [9, 9, 0], [0, 9, 0]], max_range=50).outcome
         'computed'
     """
+    thread_count(threads)
     mission = Mission.of(scene, target, max_range=max_range, sensor=sensor, navigation=navigation, combine=combine,
                          crs=crs, method=method, tolerance=tolerance, spheres=spheres, progress=progress)
     return mission.run(threads=threads, progress=progress)
 
 
-def compute_many(scene: Scene, targets: Iterable[AnyTarget], *, max_range: float | None = None,
-                 sensor: Sensor | None = None, navigation: Navigation | None = None, crs: str | None = None,
-                 method: str = "exact", tolerance: float | None = None, spheres: Mapping[str, Any] | None = None,
-                 threads: int = 0, progress: Progress = None) -> list[Result]:
-    """A volume for each of many targets in one scene, several at once on all cores. Arguments as of `compute`.
-
-    Raises:
-        Error: as `compute`; one target that is wrong stops all.
-
-    Example:
-        >>> import vantage as vt
-        >>> ground = vt.Scene.from_arrays([[-99, -99, 0], [99, -99, 0], [99, 99, 0], [-99, 99, 0]], [[0, 1, 2], [0, 2, 3]])
-        >>> square = [[0, 0, 0], [9, 0, 0], [9, 9, 0], [0, 9, 0]]
-        >>> beside = [[20, 0, 0], [29, 0, 0], [29, 9, 0], [20, 9, 0]]
-        >>> [result.outcome for result in vt.compute_many(ground, [square, beside], max_range=50)]
-        ['computed', 'computed']
-    """
-    several = [one if isinstance(one, Target) else Target(vertices=_arrays.points(one, "vertices")) for one in targets]
-    if not several:
-        return []
-    mission = Mission.of(scene, several, max_range=max_range, sensor=sensor, navigation=navigation, combine="each",
-                         crs=crs, method=method, tolerance=tolerance, spheres=spheres, progress=progress)
-    return mission.run_each(threads=threads, progress=progress)
-
-
-def _is_targets(target: Any) -> bool:
-    return isinstance(target, Sequence) and not isinstance(target, str) and any(isinstance(t, Target) for t in target)
-
-
-def _targets(target: Any) -> list[Target]:
-    if isinstance(target, Target):
-        return [target]
-    if _is_targets(target):
-        return [one if isinstance(one, Target) else Target(vertices=_arrays.points(one, "vertices")) for one in target]
-    return [Target(vertices=_arrays.points(target, "target"))]
+def asked(scene: Scene, targets: Sequence[Target], *, is_one: bool, argument: str, max_range: float | None = None,
+          sensor: Sensor | Mapping[str, Any] | None = None, navigation: Navigation | Mapping[str, Any] | None = None,
+          combine: str = "all", crs: str | None = None, method: str = "exact", tolerance: float | None = None,
+          spheres: Mapping[str, Any] | None = None) -> tuple[Text, Meshes]:
+    """The text of a mission without its scene, and the meshes to stay in that are in memory."""
+    checked_text(combine, "combine"), checked_text(method, "method")
+    text = Text()
+    if any(one.osm or one.file or one.center is not None or one.outline is not None for one in targets):
+        scene._recall(needs_map=any(one.osm for one in targets))
+    if method != "exact":
+        text.add("method", method)
+    if crs is not None:
+        text.add("crs", crs)
+    keys = [_with_true_path(given(one)) for one in targets]
+    if is_one:
+        text.add("target", keys[0], argument)
+    else:
+        text.add("targets", keys, argument)
+    if combine != "all":
+        text.add("combine", combine)
+    limits = _sensor(sensor, max_range)
+    if isinstance(limits.get("camera"), str):
+        limits["camera"] = {"model": limits["camera"]}
+    text.add("sensor", limits)
+    meshes: Meshes = []
+    if navigation is not None:
+        keys_of_limits, meshes = _navigation(navigation)
+        text.add("navigation", keys_of_limits)
+    if tolerance is not None:
+        text.add("exact", {"tolerance": tolerance}, "tolerance")
+    if spheres is not None:
+        text.add("spheres", instance(spheres, Mapping, "spheres", "pass a dictionary"))  # type: ignore[type-abstract]
+    return text, meshes
 
 
-def _sensor(sensor: Sensor | None, max_range: float | None) -> Sensor:
+def _with_true_path(keys: dict[str, Any]) -> dict[str, Any]:
+    return {**keys, "file": path(keys["file"], "target.file")} if "file" in keys else keys
+
+
+def _sensor(sensor: Sensor | Mapping[str, Any] | None, max_range: float | None) -> dict[str, Any]:
     if sensor is not None and max_range is not None:
         raise input_error("conflicting-keys", "both max_range and sensor are given", "max_range",
                           "write sensor=vt.Sensor(max_range=...)")
     if sensor is None and max_range is None:
         raise input_error("missing-key", "it is not said how far the sensor reaches", "max_range",
                           "give max_range in metres, or a sensor")
-    return sensor if sensor is not None else Sensor(max_range=max_range)
+    if sensor is None:
+        return {"max_range": max_range}
+    return keys_of(sensor, Sensor, "sensor")
 
 
-def _navigation(navigation: Navigation) -> tuple[dict[str, Any], list[tuple[_arrays.Points, _arrays.Faces, str]]]:
+def _navigation(navigation: Navigation | Mapping[str, Any]) -> tuple[dict[str, Any], Meshes]:
     """The keys, and the meshes that are in memory."""
-    keys = given(navigation)
+    keys = keys_of(navigation, Navigation, "navigation")
     files: list[Any] = []
-    meshes = []
-    for number, mesh in enumerate(keys.pop("meshes", [])):
+    meshes: Meshes = []
+    for number, mesh in enumerate(_items(keys.pop("meshes", ()), "navigation.meshes")):
+        name = f"navigation.meshes[{number}]"
         if isinstance(mesh, (str, os.PathLike)):
-            files.append(os.path.abspath(os.fspath(mesh)))
+            files.append(path(mesh, name))
         elif isinstance(mesh, Mapping):
-            files.append({**mesh, "mesh": os.path.abspath(os.fspath(mesh["mesh"]))})
+            files.append({**mesh, "mesh": path(mesh.get("mesh"), f"{name}['mesh']")})
         else:
-            name = f"navigation.meshes[{number}]"
             source = mesh.volume if isinstance(mesh, Result) else mesh
+            if not (hasattr(source, "vertices") and hasattr(source, "faces")):
+                raise input_error("wrong-type", f"{name} is {shown(mesh)}", name,
+                                  "pass a path, a vt.Volume, or anything with vertices and faces")
             points = _arrays.points(source.vertices, name)
             meshes.append((points, _arrays.faces(source.faces, len(points), name), name))
     if files:
         keys["meshes"] = files
-    for key in ("keep_in", "keep_out"):
+    for key in ("keep_in", "keep_out", "boxes"):
         if key in keys:
-            keys[key] = [_zone(zone) for zone in keys[key]]
+            name = f"navigation[{key!r}]"
+            keys[key] = [_zone(zone, f"{name}[{number}]") for number, zone in enumerate(_items(keys[key], name))]
     return keys, meshes
 
 
-def _zone(zone: Mapping[str, Any]) -> dict[str, Any]:
-    if "file" not in zone:
-        return dict(zone)
-    return {**zone, "file": os.path.abspath(os.fspath(zone["file"]))}
+def _items(value: Any, name: str) -> Sequence[Any]:
+    if isinstance(value, (str, bytes, Mapping)) or not isinstance(value, Sequence):
+        raise input_error("wrong-type", f"{name} is {shown(value)}", name, "pass a list")
+    return value
+
+
+def _zone(zone: Any, name: str) -> dict[str, Any]:
+    keys = instance(zone, Mapping, name, 'pass a dictionary: {"polygon": ..., "z": ...} or {"file": ...}')  # type: ignore[type-abstract]
+    return {**keys, "file": path(keys["file"], f"{name}['file']")} if "file" in keys else dict(keys)
 
 

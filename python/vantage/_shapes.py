@@ -1,0 +1,238 @@
+"""Polygons of shapely and tables of geopandas as targets: whatever tells its geometry by `__geo_interface__`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import Any, Protocol, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _arrays, _core
+from ._areas import Area, Face
+from ._checks import items, shown
+from ._errors import Error, input_error
+from ._place import crs_text, no_place
+from ._requests import Target
+from ._scene import Scene
+
+Corners = npt.NDArray[np.float64]
+class Shape(Protocol):
+    """Polygons of shapely, and others."""
+
+    @property
+    def __geo_interface__(self) -> Mapping[str, Any]: ...
+
+
+AnyTarget = Union[Target, Mapping[str, Any], Area, Face, Shape, npt.ArrayLike]
+"""What can be a target: see `vantage.compute`."""
+
+_MOST_CORNERS = 64
+"""Of one convex polygon."""
+
+_FIX = ("pass a vt.Target, (n, 3) vertices of a convex polygon, a dictionary of a target's keys, a polygon of shapely, "
+        "or an area or a face of vantage")
+
+
+def is_table(value: Any) -> bool:
+    """Whether it is a GeoSeries or a GeoDataFrame."""
+    return hasattr(value, "geometry") and hasattr(value, "crs") and hasattr(value, "iloc")
+
+
+def is_several(target: Any) -> bool:
+    """Whether it is a list of targets, or a table: not an array of vertices, which also is a list."""
+    if is_table(target):
+        return True
+    if isinstance(target, (str, bytes, Mapping)) or not isinstance(target, Sequence):
+        return False
+    return any(_is_one_by_itself(one) for one in target)
+
+
+def _is_one_by_itself(value: Any) -> bool:
+    return isinstance(value, (Target, Area, Face, Mapping)) or hasattr(value, "__geo_interface__")
+
+
+def targets_of(target: Any, scene: Scene | None, crs: str | None, name: str = "target") -> list[Target]:
+    """The targets that an argument means: one, or those of a list or a table."""
+    if is_table(target):
+        return _of_table(target, scene, crs, name)
+    if is_several(target):
+        return [target_of(one, f"{name}[{number}]") for number, one in enumerate(target)]
+    return [target_of(target, name)]
+
+
+def listed(targets: Any, scene: Scene | None, crs: str | None) -> list[Target | Error]:
+    """One for each of many, or why it is none."""
+    if is_table(targets):
+        return list(_each_of_table(targets, scene, crs, "targets"))
+    found: list[Target | Error] = []
+    for number, one in enumerate(items(targets, "targets", "targets")):
+        try:
+            found.append(target_of(one, f"targets[{number}]"))
+        except Error as error:
+            found.append(error)
+    return found
+
+
+def target_of(value: Any, name: str) -> Target:
+    """One target."""
+    if isinstance(value, Target):
+        return value
+    if isinstance(value, (Area, Face)):
+        return value.target()
+    if isinstance(value, Mapping):
+        return _of_keys(value, name)
+    if hasattr(value, "__geo_interface__"):
+        return of_geometry(value.__geo_interface__, name)
+    if isinstance(value, (str, bytes)) or value is None:
+        raise input_error("wrong-type", f"{name} is {shown(value)}", name, _FIX)
+    return Target(vertices=_arrays.points(value, name))
+
+
+def _of_keys(value: Mapping[str, Any], name: str) -> Target:
+    """The reader of mission files knows which keys there are, and says the nearest."""
+    if "type" in value:
+        return of_geometry(value, name)
+    target = Target()
+    vars(target).update(value)
+    return target
+
+
+# ---- geometries
+
+
+def of_geometry(geometry: Any, where: str, *, z: float | None = None, **keys: Any) -> Target:
+    """A GeoJSON-like geometry: Polygon, MultiPolygon, or a Point with z. `z`: of all corners, in the place of their own.
+
+    Raises:
+        Error: it is something else, is empty, or has a coordinate that is not finite.
+    """
+    if not isinstance(geometry, Mapping) or not isinstance(geometry.get("type"), str):
+        raise input_error("wrong-type", f"{where} is no geometry: {shown(geometry)}", where, _FIX)
+    kind = geometry["type"]
+    if kind in ("Feature", "FeatureCollection"):
+        raise input_error("value-unsupported", f"{where} is a GeoJSON {kind}, in longitude and latitude", where,
+                          "save it to a file and pass vt.Target(file=...), or pass its geometry, with crs='EPSG:4326'")
+    if kind == "Point":
+        return _of_point(geometry.get("coordinates"), where, z, keys)
+    if kind not in ("Polygon", "MultiPolygon"):
+        raise input_error("value-unsupported", f"{where} is a {kind}", where, "targets are polygons, or points with a z")
+    given = geometry.get("coordinates")
+    polygons: Any = given if kind == "MultiPolygon" else [given]
+    if not isinstance(polygons, Sequence) or not all(isinstance(rings, Sequence) for rings in polygons):
+        raise input_error("wrong-type", f"{where} has no coordinates: {shown(given)}", where, _FIX)
+    if not polygons or not all(polygons):
+        raise input_error("nothing-given", f"{where} is an empty {kind}", where, "leave it out")
+    return _of_polygons([[_ring(ring, where, z) for ring in rings] for rings in polygons], where, keys)
+
+
+def _of_point(place: Any, where: str, z: float | None, keys: dict[str, Any]) -> Target:
+    at = _arrays.numbers(place, where)
+    if z is not None and at.shape in ((2,), (3,)):
+        at = np.array([*at[:2], _arrays.number(z, "z")])
+    if at.shape != (3,):
+        raise input_error("missing-key", f"{where} is a point without a height", where, "give it a z")
+    return Target(point=at.tolist(), **keys)
+
+
+def _ring(ring: Any, where: str, z: float | None) -> Corners:
+    """Open, without corners that stand twice in a row."""
+    corners = _arrays.numbers(ring, where)
+    if corners.ndim != 2 or corners.shape[1] not in (2, 3) or not len(corners):
+        raise input_error("array-sizes-differ", f"{where} has a ring of the shape {corners.shape}", where,
+                          "pass rings of (x, y) or (x, y, z)")
+    if not np.isfinite(corners).all():
+        raise input_error("coordinate-not-finite", f"{where} has a coordinate that is not finite", where,
+                          "pass finite coordinates")
+    if z is not None:
+        corners = np.column_stack([corners[:, :2], np.full(len(corners), _arrays.number(z, "z"))])
+    kept = (corners != np.roll(corners, -1, axis=0)).any(axis=1)  # the first one is also the last one
+    return corners[kept] if kept.any() else corners[:1]
+
+
+def _of_polygons(polygons: list[list[Corners]], where: str, keys: dict[str, Any]) -> Target:
+    dimensions = {ring.shape[1] for rings in polygons for ring in rings}
+    if len(dimensions) > 1:
+        raise input_error("array-sizes-differ", f"{where} has rings with heights and rings without", where,
+                          "give all of them heights, or none: then they lie on the ground")
+    first = polygons[0]
+    if dimensions == {3} and len(polygons) == 1 and len(first) == 1 and _stays_as_it_is(first[0]):
+        return Target(vertices=first[0], **keys)
+    outlines = [rings[0].tolist() for rings in polygons]
+    holes = [ring.tolist() for rings in polygons for ring in rings[1:]]
+    return Target(outline=outlines[0] if len(outlines) == 1 else outlines, holes=holes or None, **keys)
+
+
+def _stays_as_it_is(ring: Corners) -> bool:
+    """Whether it is one convex polygon, seen from above; also if it stands upright: then the engine judges."""
+    if len(ring) > _MOST_CORNERS:
+        return False
+    sides = np.roll(ring[:, :2], -1, axis=0) - ring[:, :2]
+    turns = sides[:, 0] * np.roll(sides[:, 1], -1) - sides[:, 1] * np.roll(sides[:, 0], -1)
+    slack = 1e-12 * float(np.abs(sides).max()) ** 2
+    return bool((turns >= -slack).all() or (turns <= slack).all())
+
+
+# ---- tables
+
+
+def _of_table(table: Any, scene: Scene | None, crs: str | None, name: str) -> list[Target]:
+    targets = []
+    for one in _each_of_table(table, scene, crs, name):
+        if isinstance(one, Error):
+            raise one
+        targets.append(one)
+    if not targets:
+        raise input_error("nothing-given", f"{name} is a table without rows", name, "pass one row at least")
+    return targets
+
+
+def _each_of_table(table: Any, scene: Scene | None, crs: str | None, name: str) -> Iterable[Target | Error]:
+    """Named by the column "name", or else by the row's label."""
+    move = _mover(table.crs, scene, crs, name)
+    columns = getattr(table, "columns", ())
+    names = table["name"] if "name" in columns else [None] * len(table)
+    for label, geometry, called in zip(table.index, table.geometry, names):
+        where = f"{name}.loc[{label!r}]"
+        try:
+            if geometry is None:
+                raise input_error("nothing-given", f"{where} has no geometry", where, "leave the row out")
+            target = of_geometry(geometry.__geo_interface__, where,
+                                 name=called if isinstance(called, str) and called else f"row {label}")
+            yield move(target)
+        except Error as error:
+            yield error
+
+
+def _mover(of_table: Any, scene: Scene | None, crs: str | None, name: str) -> Callable[[Target], Target]:
+    """Corners of the table's CRS in the scene's frame: each is moved, and sides stay straight between them."""
+    if of_table is None:
+        return lambda target: target
+    if crs is not None:
+        raise input_error("conflicting-keys", "the table has a CRS, and another one is given", "crs",
+                          f"leave crs out, or take that of the table away: {name}.set_crs(None, allow_override=True)")
+    place = scene.georeference if scene is not None else None
+    if place is None:
+        raise no_place(name, "give the scene an origin or a crs; or, for metres of its frame, take the CRS of the table "
+                             f"away: {name}.set_crs(None, allow_override=True)")
+    text = crs_text(of_table)
+    latitude, longitude = place.latitude_deg, place.longitude_deg
+
+    def moved(corners: Any) -> list[list[float]]:
+        given = np.asarray(corners, np.float64)
+        plan = _core.from_crs(latitude, longitude, text, np.ascontiguousarray(given[:, :2]))
+        return np.column_stack([plan, given[:, 2:]]).tolist()
+
+    def move(target: Target) -> Target:
+        if target.vertices is not None:
+            target.vertices = moved(target.vertices)
+        if target.point is not None:
+            target.point = moved([target.point])[0]
+        if target.outline is not None:
+            is_one = np.ndim(target.outline[0]) == 1  # type: ignore[index]
+            target.outline = moved(target.outline) if is_one else [moved(ring) for ring in target.outline]  # type: ignore[union-attr]
+        if target.holes is not None:
+            target.holes = [moved(ring) for ring in target.holes]
+        return target
+
+    return move
