@@ -215,8 +215,8 @@ struct FrameCase {
 };
 
 /// Convex polygons seen from about where they fill the picture.
-Case random_case(testing::Random& random) {
-  Case drawn;
+FrameCase random_case(testing::Random& random) {
+  FrameCase drawn;
   drawn.camera.half_width = std::exp(random.uniform(-2, 1));
   drawn.camera.half_height = drawn.camera.half_width * random.uniform(0.4, 1);
   Mount& mount = drawn.mount;

@@ -216,7 +216,7 @@ void write_certificate(const Certificate& certificate, const Mission& mission, c
   about.volume_file = volume.file.filename().string();
   about.volume_hash = volume_hash(volume.volume.mesh);
   about.mission_hash = mission_hash(mission);
-  check_is_of_file(certificate, about, volume);
+  check_is_of_file(certificate, about, scene, volume);
   auto files = stage_scene(scene, scene_file).files;
   files.push_back(std::make_unique<AtomicFile>(certificate_file));
   files.back()->write(certificate_text(certificate, about));

@@ -196,7 +196,7 @@ Incline plane_of_corners(const TargetOutline& outline, const std::string& place)
 /// Convex parts on the ground, or as far above it as is asked for.
 void put_on_plane_of_ground(Mission& mission, const std::vector<city::Footprint>& areas, city::Outlines state,
                             double above_ground_m) {
-  const terrain::TriangulatedTerrain& ground = ground_of(mission);
+  const terrain::TriangulatedTerrain& ground = ground_surface(mission);
   for (const city::ConvexArea& area : city::convex_areas(areas, state)) {
     Incline plane = ground_plane(ground, area.outer, mission);
     plane.level_m += above_ground_m;
@@ -253,38 +253,6 @@ PlanBox plan_box(const std::vector<city::Footprint>& areas) {
   return box;
 }
 
-/// Whether a place is wound round by a facet seen from above. Of facets that share a side, one holds a place on it.
-bool holds(const std::array<Vec3, 3>& facet, const Vec3& at) {
-  bool inside = false;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Vec3 &a = facet[i], &b = facet[(i + 1) % 3];
-    if ((a.y() > at.y()) == (b.y() > at.y())) continue;
-    if (at.x() < a.x() + (b.x() - a.x()) * (at.y() - a.y()) / (b.y() - a.y())) inside = !inside;
-  }
-  return inside;
-}
-
-/// The first object that a point lies in: of its facets on the vertical line through the point an odd number is above,
-/// and an even number in all, or else it is not closed there. Nothing where the point is in the open.
-std::optional<std::uint32_t> solid_round(const LoadedScene& loaded, const Vec3& at) {
-  const Scene& scene = loaded.scene;
-  std::vector<std::size_t> above(scene.objects.size(), 0), all(scene.objects.size(), 0);
-  const auto is_in_plan = [&](const Box& box) {
-    return (box.min - at).head<2>().maxCoeff() <= 0 && (at - box.max).head<2>().maxCoeff() <= 0;
-  };
-  triangle_runs(loaded).visit(is_in_plan, [&](std::size_t i) {
-    std::array<Vec3, 3> facet;
-    for (std::size_t k = 0; k < 3; ++k) facet[k] = scene.mesh.vertices[scene.mesh.triangles[i][k]];
-    if (!holds(facet, at)) return true;
-    const Vec3 normal = (facet[1] - facet[0]).cross(facet[2] - facet[0]);
-    ++all[scene.object_of[i]];
-    above[scene.object_of[i]] += normal.dot(at - facet[0]) * normal.z() < 0;
-    return true;
-  });
-  for (std::size_t object = 0; object < all.size(); ++object) {
-    if (all[object] % 2 == 0 && above[object] % 2 == 1) return static_cast<std::uint32_t>(object);
-  }
-  return std::nullopt;
 }
 
 /// From inside a building its walls are all that is seen, and a volume all the same.
@@ -309,7 +277,7 @@ void check_outdoors(const Mission& mission) {
 
 void put_on_ground(Mission& mission, const geo::LocalFrame* frame, const Progress& progress) {
   const GroundTarget& wanted = *mission.as_written.ground_target;
-  if (wanted.center_deg) check_order(mission, wanted, ground_of(mission), *frame);
+  if (wanted.center_deg) check_order(mission, wanted, ground_surface(mission), *frame);
   const bool is_drawn = !wanted.outlines.empty();
   mission.target.parts.clear();
   if (is_drawn && !wanted.outlines.front().z_m.empty()) {
