@@ -127,7 +127,7 @@ void FeatureOfFile::add_heights(const ListedZone& listed, TargetOutline& outline
   }
   double shift = 0;
   if (listed.corners_from == HeightReference::sea_level) {
-    const auto sea = sea_level_z(mission_);
+    const auto sea = sea_level_m(mission_);
     if (!sea) {
       fail(ErrorCode::heights_differ, listed.place,
            "its heights are above mean sea level, and the scene does not say which z that is",

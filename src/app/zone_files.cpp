@@ -288,16 +288,6 @@ void FileZones::add_to(std::vector<Zone>& zones, const core::ProgressReporter& p
 
 }  // namespace
 
-std::optional<double> sea_level_z(const Mission& mission) {
-  if (mission.as_written.sea_level_m) return mission.as_written.sea_level_m;
-  const std::string& vertical = mission.scene().georeference->vertical;
-  // A mesh whose reference system has no heights: they are measured from anywhere.
-  const bool is_as_in_mesh =
-      mission.as_written.scene.kind == SceneSource::Kind::mesh && vertical.compare(0, 6, "as in ") == 0;
-  if (vertical.empty() || vertical == kFlatGround || vertical == kEllipsoidal || is_as_in_mesh) return std::nullopt;
-  return 0.0;
-}
-
 void add_file_zones(Mission& mission, const Progress& callback) {
   const MissionFile& file = mission.as_written;
   if (file.keep_in_files.empty() && file.keep_out_files.empty()) return;

@@ -1,14 +1,9 @@
 // Zones of files in the scene frame.
 #pragma once
 
-#include <optional>
-
 #include "vantage/mission.h"
 
 namespace vantage::internal::app {
-
-/// Scene z of the mean sea level, where the mission or the scene says it. The scene must have a place on the earth.
-std::optional<double> sea_level_z(const Mission& mission);
 
 /// Adds the zones of `mission.as_written.keep_in_files` and `keep_out_files` to those of `mission.navigation`: moved as
 /// placed_zone does, circles made polygons, inscribed to stay in and circumscribed to stay out of, heights made z. What

@@ -253,8 +253,6 @@ PlanBox plan_box(const std::vector<city::Footprint>& areas) {
   return box;
 }
 
-}
-
 /// From inside a building its walls are all that is seen, and a volume all the same.
 void check_outdoors(const Mission& mission) {
   constexpr double kClear = 1e-3;  // metres: the target may lie on the floor of a building

@@ -149,10 +149,11 @@ void KmlReader::end(const std::string& name) {
 /// little over a valley, and to stay in it too much over a hill. So these heights are not used either.
 void KmlReader::end_polygon() {
   if (zone_->outer.empty()) fail("a polygon has no outer boundary");
-  if (altitude_mode_ == "absolute" && (extrude_ == "1" || extrude_ == "true") && is_level_ && altitude_m_) {
+  const bool is_above_ground = altitude_mode_ == "relativeToGround", is_absolute = altitude_mode_ == "absolute";
+  if (is_absolute && (extrude_ == "1" || extrude_ == "true") && is_level_ && altitude_m_) {
     zone_->has_heights = true;
     zone_->upper = ZoneHeight{*altitude_m_, HeightReference::sea_level};
-  } else if (altitude_mode_ == "relativeToGround" && altitude_m_) {
+  } else if (is_above_ground && altitude_m_) {
     zone_->unused_heights = ": altitudes that are relativeToGround are those of its corners alone";
   }
   if (is_absolute) zone_->corners_from = HeightReference::sea_level;
