@@ -29,7 +29,7 @@ using testing::MeshProbe;
 using testing::Random;
 using testing::SceneBuilder;
 
-constexpr double kRange = 40, kTolerance = 0.1;  // metres, before scaling
+constexpr double kRangeOfMoved = 40, kToleranceOfMoved = 0.1;  // metres, before scaling
 
 struct World {
   Scene scene;
@@ -293,7 +293,7 @@ const std::vector<Limit>& limits() {
        [](World& w, Random& r) {
          w.navigation.meshes = {{testing::make_box_mesh(r.point(-25, -3), r.point(5, 30)), "airspace"}};
        }},
-      {"clearance", Turns::all, 0.16 * 3.1 / kRange, true,
+      {"clearance", Turns::all, 0.16 * 3.1 / kRangeOfMoved, true,
        [](World& w, Random& r) { w.navigation.clearance = {r.uniform(0.5, 3.1), obstacles_of(w.scene)}; }},
   };
   return kLimits;
@@ -319,14 +319,14 @@ class MovedLimits : public ::testing::TestWithParam<std::size_t> {
     world.target = testing::random_target(random, random.integer(3, 6), random.uniform(1, 3), Vec3::Zero(),
                                           Vec3(0, 0, 1));
     world.target.front = Vec3(0, 0, 1);
-    world.sensor.max_range_m = kRange;
+    world.sensor.max_range_m = kRangeOfMoved;
     limit().add(world, random);
     return world;
   }
 
   Volume compute(const World& world, double scale) const {
     const PreparedTarget target(PreparedScene(world.scene), world.target, world.sensor);
-    return compute_volume(target, world.navigation, {.tolerance_m = scale * kTolerance});
+    return compute_volume(target, world.navigation, {.tolerance_m = scale * kToleranceOfMoved});
   }
 
   /// No point inside, deeper than is stated, is outside for PointQuery, and the proof agrees.
@@ -370,7 +370,7 @@ void MovedLimits::expect_right(const World& world, const Volume& volume, Random&
 }
 
 void MovedLimits::expect_same(const Volume& base, const Volume& other, const Motion& motion, Random& random) const {
-  const double apart = 2 * kTolerance + limit().apart * kRange;
+  const double apart = 2 * kToleranceOfMoved + limit().apart * kRangeOfMoved;
   const double size = enclosed_volume(base.mesh);
   const double found = enclosed_volume(other.mesh) / (motion.scale * motion.scale * motion.scale);
   EXPECT_NEAR(size, found, apart * surface_area(base.mesh)) << "cubic metres";

@@ -309,7 +309,7 @@ TEST_F(RenderPicture, NamesOpenStreetMapWhereTheSceneIsFromThere) {
   const auto [corner, others] = differing(render());
   EXPECT_GT(corner, 50);
   EXPECT_EQ(others, 0);
-  const TemporaryDirectory directory;
+  const testing::TemporaryDirectory directory;
   write_png(plain, directory / "own.png");
   check_derived_output(directory / "own.png");
   testing::write_bytes(directory / "other.png", "\x89PNG\r\n\x1a\n and more");
