@@ -6,6 +6,7 @@
 
 import copy
 import json
+import os
 import pathlib
 import random
 import shutil
@@ -70,7 +71,7 @@ class Certificates(unittest.TestCase):
 
     def run_vantage(self, *arguments, also=0):
         result = subprocess.run([VANTAGE, *arguments], cwd=self.folder, text=True, stdout=subprocess.PIPE,
-                                stderr=subprocess.STDOUT, check=False)
+                                stderr=subprocess.STDOUT, check=False, env=os.environ | {"VANTAGE_PROGRESS": "never"})
         self.assertIn(result.returncode, (0, also), result.stdout)
 
     def make(self, target=SQUARE, more="", max_range=50, obj=None, sensor="", **options):

@@ -114,7 +114,7 @@ class Checker:
 
     def __init__(self, root: pathlib.Path, tools: Tools, scratch: pathlib.Path):
         self.root, self.tools, self.scratch = root, tools, scratch
-        self.environment = dict(os.environ)
+        self.environment = os.environ | {"VANTAGE_PROGRESS": "never"}  # what is said of it is no part of a block's output
         self.has_opengl = False
         if tools.program:
             self.environment["PATH"] = f"{tools.program.parent}:{os.environ['PATH']}"
@@ -226,6 +226,7 @@ SELF_TEST = [
     ("<!-- snippet: not run -->\n```sh\nfalse\n```\n", "says nothing"),
     ("<!-- snippet: fragment -->\n\n```sh\ntrue\n```\n", "no block follows"),
     ("<!-- snippet: fragment -->\n```sh\ntrue\n```\n", "says nothing"),
+    ("```sh\ntest $VANTAGE_PROGRESS = never\n```\n", ""),
     ("```sh\ntouch a\n```\n```sh\ntest -e a\n```\n", ""),
     ("```python\nprint(1)\n```\n", ""),
     ("```python\nraise SystemExit(3)\n```\n", "ended with 3"),

@@ -57,8 +57,9 @@ def limited() -> None:
 def run(program: str, arguments: list[str], folder: pathlib.Path) -> Run:
     """Runs the program in the folder, on one thread: so that processor time is time."""
     with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as err:
+        environment = os.environ | {"VANTAGE_PROGRESS": "never"}  # a line of progress would look like a message
         process = subprocess.Popen([program, *arguments], cwd=folder, stdin=subprocess.DEVNULL, stdout=out, stderr=err,
-                                   preexec_fn=limited)
+                                   env=environment, preexec_fn=limited)
         deadline = time.monotonic() + 20 * MOST_TIME  # for what waits and does not work
         while True:
             pid, status, usage = os.wait4(process.pid, os.WNOHANG)
