@@ -416,6 +416,11 @@ def test_the_command(tmp_path):
     assert code == 2 and "other targets" in err and "what to do" in err
     assert command(tmp_path / "u.parquet", "--scene", PLAZA, "-o", tmp_path / "x")[0] == 2
     assert command(tmp_path / "u.parquet")[0] == 2
+    two = [square, [[x + 1, y, z] for x, y, z in square]]
+    pandas.DataFrame({"id": [1], "parts": [two]}).to_parquet(tmp_path / "p.parquet")
+    assert command(tmp_path / "p.parquet", "--scene", PLAZA, "--max-range", 70, "-o", tmp_path / "few", "-q", "--workers", 1,
+                   "--work-limit", 100)[0] == 1
+    assert batch.results(tmp_path / "few")["error_code"].tolist() == ["work-too-large"]
     assert command("t", "--scene", "s", "-o", "x", "--sensor", "[1]")[0] == 2
     code, out, err = command("--help")
     assert code == 0 and "examples:" in out and "exit codes:" in out

@@ -29,6 +29,19 @@ def test_of_the_argument(scene):
     assert error.where == "method"
 
 
+def test_of_too_much_work(scene):
+    parts = [SQUARE, [[0, 12, 0], [10, 12, 0], [10, 20, 0], [0, 20, 0]]]
+    targets = [vt.Target(vertices=part) for part in parts]
+    error = refused(scene, targets, max_range=60, work_limit=100)
+    assert error.code == "work-too-large" and "work_limit" in error.fix
+    assert vt.compute(scene, targets, max_range=60, work_limit=1e6).outcome == "computed"
+    several = vt.compute_many(scene, [vt.Target(parts=parts)], max_range=60, work_limit=100, errors="collect")
+    assert [error.code for error in several.errors.values()] == ["work-too-large"]
+    error = refused(scene, SQUARE, max_range=60, work_limit=0)
+    assert error.where == "work_limit" and error.code == "value-out-of-range"
+    assert vt.Mission.of(scene, SQUARE, max_range=60, work_limit=100).hash == vt.Mission.of(scene, SQUARE, max_range=60).hash
+
+
 def test_of_the_target(scene):
     error = refused(scene, [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0.9, 0.1, 0]], max_range=60)
     assert error.code == "target-not-convex" and error.where.startswith("target['vertices']")

@@ -58,10 +58,11 @@ def calls(t):
     folder, corners_faces = t["folder"], box((0, 0, 0), (1, 1, 1))
     return {
         "compute": (vt.compute, dict(scene=t["scene"], target=SQUARE, max_range=60, sensor=None, navigation=None, combine="all",
-                                     crs=None, method="exact", tolerance=0.1, spheres=None, threads=1, progress=None)),
+                                     crs=None, method="exact", tolerance=0.1, spheres=None, work_limit=1e7, threads=1,
+                                     progress=None)),
         "compute_many": (vt.compute_many, dict(scene=t["scene"], targets=[SQUARE], max_range=60, sensor=None, navigation=None,
-                                               crs=None, method="exact", tolerance=0.1, spheres=None, errors="collect",
-                                               threads=1, progress=None)),
+                                               crs=None, method="exact", tolerance=0.1, spheres=None, work_limit=1e7,
+                                               errors="collect", threads=1, progress=None)),
         "Mission.read": (vt.Mission.read, dict(path=folder / "mission.yaml", progress=None)),
         "mission.query": (t["mission"].query, dict(points=POINTS, threads=1, progress=None)),
         "mission.fraction": (t["mission"].fraction, dict(points=POINTS, measure="area", threads=1, progress=None)),

@@ -60,19 +60,19 @@ class Results(list[Union[Result, Error]]):
 def compute_many(scene: Scene, targets: Iterable[AnyTarget], *, max_range: float | None = None,
                  sensor: Sensor | Mapping[str, Any] | None = None, navigation: Navigation | Mapping[str, Any] | None = None,
                  crs: str | None = None, method: str = "exact", tolerance: float | None = None,
-                 spheres: Mapping[str, Any] | None = None, errors: Literal["raise"] = "raise", threads: int = 0,
-                 progress: Progress = None) -> list[Result]: ...
+                 spheres: Mapping[str, Any] | None = None, work_limit: float | None = None,
+                 errors: Literal["raise"] = "raise", threads: int = 0, progress: Progress = None) -> list[Result]: ...
 @overload
 def compute_many(scene: Scene, targets: Iterable[AnyTarget], *, max_range: float | None = None,
                  sensor: Sensor | Mapping[str, Any] | None = None, navigation: Navigation | Mapping[str, Any] | None = None,
                  crs: str | None = None, method: str = "exact", tolerance: float | None = None,
-                 spheres: Mapping[str, Any] | None = None, errors: Literal["collect"], threads: int = 0,
-                 progress: Progress = None) -> Results: ...
+                 spheres: Mapping[str, Any] | None = None, work_limit: float | None = None, errors: Literal["collect"],
+                 threads: int = 0, progress: Progress = None) -> Results: ...
 def compute_many(scene: Scene, targets: Iterable[AnyTarget], *, max_range: float | None = None,
                  sensor: Sensor | Mapping[str, Any] | None = None, navigation: Navigation | Mapping[str, Any] | None = None,
                  crs: str | None = None, method: str = "exact", tolerance: float | None = None,
-                 spheres: Mapping[str, Any] | None = None, errors: Literal["raise", "collect"] = "raise", threads: int = 0,
-                 progress: Progress = None) -> list[Result] | Results:
+                 spheres: Mapping[str, Any] | None = None, work_limit: float | None = None,
+                 errors: Literal["raise", "collect"] = "raise", threads: int = 0, progress: Progress = None) -> list[Result] | Results:
     """A volume for each of many targets in one scene, several at once on all cores. Arguments as of `compute`, and:
 
     Args:
@@ -101,7 +101,7 @@ def compute_many(scene: Scene, targets: Iterable[AnyTarget], *, max_range: float
     checked_scene(scene)
     found = listed(targets, scene, crs)
     request: dict[str, Any] = {"max_range": max_range, "sensor": sensor, "navigation": navigation, "crs": crs,
-                               "method": method, "tolerance": tolerance, "spheres": spheres}
+                               "method": method, "tolerance": tolerance, "spheres": spheres, "work_limit": work_limit}
     if not found:
         return Results() if errors == "collect" else []
     if errors == "raise":

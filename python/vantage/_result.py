@@ -79,13 +79,14 @@ class Mission:
     def of(cls, scene: Scene, target: AnyTarget | Sequence[AnyTarget], *, max_range: float | None = None,
            sensor: Sensor | Mapping[str, Any] | None = None, navigation: Navigation | Mapping[str, Any] | None = None,
            combine: str = "all", crs: str | None = None, method: str = "exact", tolerance: float | None = None,
-           spheres: Mapping[str, Any] | None = None, argument: str = "target", progress: Progress = None) -> Mission:
+           spheres: Mapping[str, Any] | None = None, work_limit: float | None = None, argument: str = "target",
+           progress: Progress = None) -> Mission:
         """Of the arguments that `compute` takes. `argument`: what errors call the target."""
         checked_scene(scene)
         is_one = not is_several(target)
         text, meshes = asked(scene, targets_of(target, scene, crs, argument), is_one=is_one, argument=argument,
                              max_range=max_range, sensor=sensor, navigation=navigation, combine=combine, crs=crs,
-                             method=method, tolerance=tolerance, spheres=spheres)
+                             method=method, tolerance=tolerance, spheres=spheres, work_limit=work_limit)
         return cls(text.told(lambda: _core.resolve(scene._core, text.text(), NAME, meshes, progress)), scene, text)
 
     @property
@@ -325,7 +326,8 @@ class Result(Solid):
 def compute(scene: Scene, target: AnyTarget | Sequence[AnyTarget], *, max_range: float | None = None,
             sensor: Sensor | Mapping[str, Any] | None = None, navigation: Navigation | Mapping[str, Any] | None = None,
             combine: str = "all", crs: str | None = None, method: str = "exact", tolerance: float | None = None,
-            spheres: Mapping[str, Any] | None = None, threads: int = 0, progress: Progress = None) -> Result:
+            spheres: Mapping[str, Any] | None = None, work_limit: float | None = None, threads: int = 0,
+            progress: Progress = None) -> Result:
     """The volume of every position from which the whole target can be seen, within the limits.
 
     Args:
@@ -342,6 +344,8 @@ def compute(scene: Scene, target: AnyTarget | Sequence[AnyTarget], *, max_range:
         method: "exact", or "spheres" for the method of the paper.
         tolerance: metres that range facets may lie inside the true range. Default: 0.01.
         spheres: options of that method, as in the mission file.
+        work_limit: how much work the boolean operations may be, as in the mission file. More is refused with the code
+            "work-too-large". Default: 1e7.
         threads: 0: as many as there are. The result does not depend on it.
         progress: called with stage and fraction; False stops.
 
@@ -359,14 +363,15 @@ def compute(scene: Scene, target: AnyTarget | Sequence[AnyTarget], *, max_range:
     """
     thread_count(threads)
     mission = Mission.of(scene, target, max_range=max_range, sensor=sensor, navigation=navigation, combine=combine,
-                         crs=crs, method=method, tolerance=tolerance, spheres=spheres, progress=progress)
+                         crs=crs, method=method, tolerance=tolerance, spheres=spheres, work_limit=work_limit,
+                         progress=progress)
     return mission.run(threads=threads, progress=progress)
 
 
 def asked(scene: Scene, targets: Sequence[Target], *, is_one: bool, argument: str, max_range: float | None = None,
           sensor: Sensor | Mapping[str, Any] | None = None, navigation: Navigation | Mapping[str, Any] | None = None,
           combine: str = "all", crs: str | None = None, method: str = "exact", tolerance: float | None = None,
-          spheres: Mapping[str, Any] | None = None) -> tuple[Text, Meshes]:
+          spheres: Mapping[str, Any] | None = None, work_limit: float | None = None) -> tuple[Text, Meshes]:
     """The text of a mission without its scene, and the meshes to stay in that are in memory."""
     checked_text(combine, "combine"), checked_text(method, "method")
     text = Text()
@@ -395,6 +400,8 @@ def asked(scene: Scene, targets: Sequence[Target], *, is_one: bool, argument: st
         text.add("exact", {"tolerance": tolerance}, "tolerance")
     if spheres is not None:
         text.add("spheres", instance(spheres, Mapping, "spheres", "pass a dictionary"))  # type: ignore[type-abstract]
+    if work_limit is not None:
+        text.add("work_limit", work_limit)
     return text, meshes
 
 

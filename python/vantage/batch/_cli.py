@@ -68,6 +68,7 @@ def _parser() -> argparse.ArgumentParser:
     asked.add_argument("--sensor", type=_json, metavar="JSON", help="instead, keys of a mission file's sensor")
     asked.add_argument("--navigation", type=_json, metavar="JSON", help="keys of a mission file's navigation")
     asked.add_argument("--tolerance", type=float, metavar="M", help="of range facets")
+    asked.add_argument("--work-limit", type=float, metavar="N", help="of the boolean operations of a volume (1e7)")
     asked.add_argument("--crs", help="of the geometries, where the table does not say it; 'scene': metres of its frame")
     work = parser.add_argument_group("how it is done")
     work.add_argument("--volumes", choices=("ply", "zarr"), help="write the volumes, too")
@@ -95,7 +96,7 @@ def _run(options: argparse.Namespace) -> int:
     report = run(options.targets, request_of({**request_of(options.scene), **given}), options.output,
                  max_range=options.max_range, sensor=_made(Sensor, options.sensor, "sensor"),
                  navigation=_made(Navigation, options.navigation, "navigation"), tolerance=options.tolerance,
-                 crs=options.crs, volumes=options.volumes, workers=options.workers, cluster=options.dask,
+                 work_limit=options.work_limit, crs=options.crs, volumes=options.volumes, workers=options.workers, cluster=options.dask,
                  shard_rows=options.shard_rows, attempts=options.attempts, storage_options=options.storage,
                  progress=None if options.quiet else _Line().tell)
     if options.json:

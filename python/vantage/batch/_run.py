@@ -85,9 +85,9 @@ class Report:
 
 def run(targets: Any, scene: _scenes.AnyScene, output: Path, *, max_range: float | None = None,
         sensor: Sensor | None = None, navigation: Navigation | None = None, method: str = "exact",
-        tolerance: float | None = None, spheres: Mapping[str, Any] | None = None, crs: str | None = None,
-        volumes: str | None = None, workers: int = 0, cluster: Any = None, shard_rows: int = 64, attempts: int = 3,
-        storage_options: Mapping[str, Any] | None = None, progress: Progress = None) -> Report:
+        tolerance: float | None = None, spheres: Mapping[str, Any] | None = None, work_limit: float | None = None,
+        crs: str | None = None, volumes: str | None = None, workers: int = 0, cluster: Any = None, shard_rows: int = 64,
+        attempts: int = 3, storage_options: Mapping[str, Any] | None = None, progress: Progress = None) -> Report:
     """A volume for each target of a table: one row a target, written as they come.
 
     Run it again with the same arguments after it was stopped, and it goes on where it was: results.parquet is the same but
@@ -100,7 +100,7 @@ def run(targets: Any, scene: _scenes.AnyScene, output: Path, *, max_range: float
         scene: a path, or the keys of a mission file's `scene`: {"osm": "city.osm.pbf", "center": ..., "radius": ...};
             or a `Scene`, of which areas of the map cannot be targets.
         output: a folder, or one of an object store: "s3://bucket/results".
-        max_range, sensor, navigation, method, tolerance, spheres: as of `compute`, for all targets.
+        max_range, sensor, navigation, method, tolerance, spheres, work_limit: as of `compute`, for all targets.
         crs: of the geometries, where they do not say it: "EPSG:25832"; "scene": metres of the scene's frame.
         volumes: "ply": a file for each volume; "zarr": one for each shard. Default: rows alone.
         workers: processes of this machine, each with the scene. 0: as many as there are processors.
@@ -125,6 +125,8 @@ def run(targets: Any, scene: _scenes.AnyScene, output: Path, *, max_range: float
     table = _table.read(targets, crs=crs, options=storage_options)
     asked = {"sensor": _sensor(sensor, max_range), "navigation": navigation, "method": method, "tolerance": tolerance,
              "spheres": spheres}
+    if work_limit is not None:  # without one a folder of an older version is gone on with
+        asked["work_limit"] = work_limit
     store = Store(output, storage_options)
     job = _job(table, scene, store, asked, volumes, shard_rows, heard)
     with Lock(store):
@@ -209,7 +211,8 @@ def _check_asked(job: Job, scene: Scene, rows: list[_table.Row]) -> None:
         except Error as error:
             told.append(error)
     if len({(error.code, error.where) for error in told}) == 1 and \
-            told[0].where.split(".")[0].split("[")[0] in ("sensor", "navigation", "method", "tolerance", "spheres"):
+            told[0].where.split(".")[0].split("[")[0] in ("sensor", "navigation", "method", "tolerance", "spheres",
+                                                          "work_limit"):
         raise told[0]
 
 
