@@ -146,6 +146,19 @@ TEST(WorkLimit, OfTheClearanceIsToldBeforeTheFirstBoolean) {
   EXPECT_EQ(testing::first_open_edge(high.mesh), "");
 }
 
+// The limit is enough to find that nothing is left, and not for the booleans that tell which limit is the reason.
+TEST(WorkLimit, LeavesAnEmptyVolumeItsReason) {
+  const Volume dome = testing::make_hemisphere(Vec3::Zero(), 55, 90, 40);
+  Navigation navigation;
+  navigation.altitude = {200, 300};
+  const auto cut = [&](double limit) { return cut_to_navigation(dome, navigation, {}, limit); };
+  const Volume empty = cut(1.2 * static_cast<double>(dome.mesh.triangles.size()));
+  EXPECT_EQ(empty.outcome, Outcome::outside_limits);
+  EXPECT_EQ(empty.reason, cut(kWorkLimit).reason);
+  EXPECT_EQ(empty.hint, cut(kWorkLimit).hint);
+  EXPECT_FALSE(empty.reason.empty());
+}
+
 TEST(WorkLimit, OfTheGroundInPiecesOverEachOther) {
   Random random(2213);
   Mesh pieces;

@@ -149,7 +149,9 @@ void cut_volume(Regions regions, const LateClearance& late, std::vector<std::uin
   auto& [labelled, epsilon, through] = *found;
   core::drop_slivers(labelled, numerics::kSliverEpsilons * epsilon);
   if (labelled.mesh.empty()) {
-    return make_empty(explain_emptiness(Solid(volume, "the volume"), regions, progress), result);
+    // The volume is known by now: that it is empty must not be lost to a limit, only since the reason takes work, too.
+    const core::ProgressReporter unlimited = progress.limited(std::numeric_limits<double>::infinity(), "");
+    return make_empty(explain_emptiness(Solid(volume, "the volume"), regions, unlimited), result);
   }
   for (Vec3& vertex : labelled.mesh.vertices) vertex += regions.origin;
   const double rounding = std::numeric_limits<double>::epsilon() * regions.origin.cwiseAbs().maxCoeff();
