@@ -110,9 +110,11 @@ ProgressReporter ProgressReporter::limited(double most_work, std::string advice)
 
 void ProgressReporter::check_work(double more) const {
   if (limit_->done.load() + more <= limit_->most) return;
+  constexpr double kMillion = 1e6;
+  const std::string most =
+      limit_->most < kMillion ? number_text(limit_->most) : number_text(limit_->most / kMillion) + " million";
   throw Error(ErrorCode::work_too_large,
-              "the work would be too much: more than " + number_text(limit_->most / 1e6) +
-                  " million facets would have to go through boolean operations",
+              "the work would be too much: more than " + most + " facets would have to go through boolean operations",
               state_ ? state_->where : "", limit_->advice + "; or raise 'work_limit' and be patient");
 }
 

@@ -32,11 +32,12 @@ double circumscribed_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
   return portable::acos(std::clamp(std::abs(middle.dot(a)), 0.0, 1.0));
 }
 
-/// The sum of two doubles that do not overlap (Dekker 1971): 106 binary digits.
+/// A number as the sum of two doubles that do not overlap: 106 binary digits.
 struct Double {
   double high, low;
 };
 
+/// a - b without any rounding, whichever is larger (the two-sum of Knuth, The Art of Computer Programming 2, 4.2.2).
 Double difference(double a, double b) {
   const double high = a - b, of_a = high + b, of_b = of_a - high;
   return {high, (a - of_a) + (of_b - b)};
