@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -158,6 +159,95 @@ TEST(MendWelded, WhatTouchesStaysClosedByIndex) {
       if (round % 2) EXPECT_EQ(measure(mesh).pieces, before.pieces);
     }
   }
+}
+
+double narrowest(const Mesh& mesh) {
+  double width = INFINITY;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const auto& p = mesh.vertices;
+    const double longest = std::max({(p[b] - p[a]).norm(), (p[c] - p[b]).norm(), (p[a] - p[c]).norm()});
+    width = std::min(width, (p[b] - p[a]).cross(p[c] - p[a]).norm() / longest);
+  }
+  return width;
+}
+
+// Two cubes between two layers touch at one edge, from (1, 1, 1) to (1, 1, 2), and around its ends all hangs together:
+// so the edge has to be split. Beside it lie facets that are hardly wide enough.
+TEST(MendWelded, NarrowFacetsAtASharedEdgeAreHalvedOnceAndKeepAnArea) {
+  std::set<std::array<int, 3>> cubes = {{0, 0, 1}, {1, 1, 1}};
+  for (const int z : {0, 2}) {
+    for (const int x : {0, 1}) cubes.insert({{x, 0, z}, {x, 1, z}});
+  }
+  LabelledMesh labelled{surface_of_cubes(cubes, Vec3::Zero()), {}};
+  Mesh& mesh = labelled.mesh;
+  const double flat = flat_width(mesh), enclosed = enclosed_volume(mesh);
+  const auto is_on_edge = [&](std::uint32_t v) {
+    const Vec3& at = mesh.vertices[v];
+    return at.x() == 1 && at.y() == 1 && at.z() >= 1 && at.z() <= 2;
+  };
+  const std::size_t count = mesh.triangles.size();
+  int narrow = 0;
+  for (std::size_t t = 0; t < count; ++t) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t a = mesh.triangles[t][i], b = mesh.triangles[t][(i + 1) % 3], c = mesh.triangles[t][(i + 2) % 3];
+      if (!is_on_edge(a) || !is_on_edge(b)) continue;
+      const Vec3 along = mesh.vertices[c] - mesh.vertices[a];
+      Vec3 at(1, 1, 1.9);
+      for (Eigen::Index axis = 0; axis < 2; ++axis) at[axis] += 1.5 * flat * along[axis];
+      const auto middle = static_cast<std::uint32_t>(mesh.vertices.size());
+      mesh.vertices.push_back(at);
+      mesh.triangles[t] = {a, b, middle};
+      mesh.triangles.push_back({b, c, middle});
+      mesh.triangles.push_back({c, a, middle});
+      ++narrow;
+      break;
+    }
+  }
+  ASSERT_EQ(narrow, 4);
+  EXPECT_GT(narrowest(mesh), flat);
+  // And far away a facet without area, so that there is something to mend.
+  const auto [a, b, c] = mesh.triangles[0];
+  const auto middle = static_cast<std::uint32_t>(mesh.vertices.size());
+  mesh.vertices.push_back((mesh.vertices[a] + mesh.vertices[b]) / 2);
+  mesh.triangles[0] = {middle, b, c};
+  mesh.triangles.push_back({a, middle, c});
+  mesh.triangles.push_back({a, b, middle});
+  labelled.labels.assign(mesh.triangles.size(), 7);
+  EXPECT_EQ(mend_for_doubles(labelled), flat);
+  EXPECT_EQ(testing::first_open_edge(mesh), "");
+  EXPECT_NEAR(enclosed_volume(mesh), enclosed, 1e-12);
+  EXPECT_LT(narrowest(mesh), flat) << "nothing was halved";
+  EXPECT_GT(narrowest(mesh), flat / 4);
+}
+
+// As a file in single precision has them: vertices on a coarse grid, to which middles of edges go, too.
+TEST(MendWelded, WhatTouchesOnACoarseGridStaysClosedByIndex) {
+  testing::Random random(317);
+  const auto to_grid = [](const Vec3& vertex) { return Vec3(vertex.array().round()); };
+  int shared = 0;
+  for (int round = 0; round < 300; ++round) {
+    LabelledMesh labelled{draw_cubes(random, Vec3::Zero()), {}};
+    Mesh& mesh = labelled.mesh;
+    for (Vec3& vertex : mesh.vertices) vertex *= 3;  // so that the middle of an edge lies between two places of the grid
+    const double enclosed = enclosed_volume(mesh);
+    Mesh apart = mesh;
+    split_where_pieces_touch(apart);
+    shared += !measure(apart).closed;
+    const auto [a, b, c] = mesh.triangles[0];
+    mesh.triangles.push_back({a, b, c});  // two facets on the same corners
+    mesh.triangles.push_back({a, c, b});
+    mesh.triangles.push_back({a, b, a});  // and one without area
+    labelled.labels.assign(mesh.triangles.size(), 7);
+    ASSERT_TRUE(mend_welded(labelled, 0));
+    const double moved = split_on_grid(labelled, to_grid);
+    EXPECT_LE(moved, 4 * 0.5);
+    EXPECT_EQ(testing::first_open_edge(mesh), "") << "round " << round;
+    EXPECT_EQ(labelled.labels.size(), mesh.triangles.size());
+    EXPECT_GT(narrowest(mesh), 0) << "round " << round;
+    for (const Vec3& vertex : mesh.vertices) ASSERT_EQ(vertex, to_grid(vertex));
+    EXPECT_LE(std::abs(enclosed_volume(mesh) - enclosed), moved * surface_area(mesh));
+  }
+  EXPECT_GT(shared, 30);
 }
 
 }  // namespace

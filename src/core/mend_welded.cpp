@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <queue>
@@ -240,15 +241,37 @@ void split_shared_edges(LabelledMesh& labelled) {
   }
 }
 
+double split_on_grid(LabelledMesh& labelled, const std::function<Vec3(const Vec3&)>& place) {
+  constexpr int kRounds = 4;
+  double moved = 0;
+  for (int round = 0; round < kRounds; ++round) {
+    std::vector<Vec3>& vertices = labelled.mesh.vertices;
+    const std::size_t before = vertices.size();
+    split_shared_edges(labelled);
+    double farthest = 0;
+    for (std::size_t v = before; v < vertices.size(); ++v) {
+      const Vec3 at = place(vertices[v]);
+      farthest = std::max(farthest, (at - vertices[v]).norm());
+      vertices[v] = at;
+    }
+    moved += farthest;
+    if (vertices.size() == before || !mend_welded(labelled, 0)) break;
+  }
+  return moved;
+}
+
 std::optional<double> mend_for_doubles(LabelledMesh& labelled) {
   const double flat = flat_width(labelled.mesh);
   if (!Mender(labelled, flat).has_flaws()) return std::nullopt;
   LabelledMesh mended = labelled;
   mend_welded(mended, flat);
   if (!Mender(mended, flat).has_flaws()) {
-    labelled = std::move(mended);
-    split_shared_edges(labelled);
-    return flat;
+    constexpr double kLeast = 0.25;  // halves are half as wide, and few are halved again
+    split_shared_edges(mended);
+    if (!Mender(mended, kLeast * flat).has_flaws()) {
+      labelled = std::move(mended);
+      return flat;
+    }
   }
   // A grid as coarse as that: what is flat on it is so exactly, and turning sides comes to an end.
   double moved = 0;
@@ -257,9 +280,7 @@ std::optional<double> mend_for_doubles(LabelledMesh& labelled) {
     moved = std::max(moved, (place - vertex).norm());
     vertex = place;
   }
-  mend_welded(labelled, 0);
-  split_shared_edges(labelled);
-  return moved;
+  return moved + split_on_grid(labelled, [](const Vec3& middle) { return middle; });
 }
 
 double flat_width(const Mesh& mesh) {

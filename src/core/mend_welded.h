@@ -2,6 +2,7 @@
 // must be for its readers: closed, and without facets that have no area.
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include "core/labelled_mesh.h"
@@ -23,10 +24,17 @@ bool mend_welded(LabelledMesh& labelled, double flat_m);
 /// As of core/weld.h: a triangle that is split gives its label to both parts.
 void split_shared_edges(LabelledMesh& labelled);
 
-/// The same for who reads the coordinates as doubles: no facet is narrower than flat_width(). Where the world is so
-/// small beside its coordinates that narrow facets only turn into others, no facet is without area at the least: the
-/// vertices go to a grid of four steps of the largest coordinate first. What is changed is closed by index, too: two
-/// triangles to an edge. Returns how far a point of the surface may have moved, metres: at most four of those steps;
+/// For what mend_welded() with 0 has changed on a grid: splits shared edges, puts the new vertices, in the middles of
+/// edges, to `place` of them, and mends again where that leaves facets without area. So two triangles meet at each edge
+/// by index, but for some edges as short as a step or two of the grid. Returns how far a point of the surface may have
+/// moved.
+double split_on_grid(LabelledMesh& labelled, const std::function<Vec3(const Vec3&)>& place);
+
+/// mend_welded() for who reads the coordinates as doubles: no facet is narrower than flat_width(). What is changed is closed
+/// by index, too: two triangles to an edge, for which triangles at an edge that is shared are halved. Those are no
+/// narrower than a quarter of flat_width(). Where the world is so small beside its coordinates that narrow facets only
+/// turn into others, or are halved more often, no facet is without area at the least: the vertices go to a grid of four
+/// steps of the largest coordinate first. Returns how far a point of the surface may have moved, metres: at most four of those steps;
 /// nothing where nothing was changed.
 std::optional<double> mend_for_doubles(LabelledMesh& labelled);
 

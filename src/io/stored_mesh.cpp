@@ -68,8 +68,8 @@ StoredMesh stored_on_grid(const Volume& volume, const Box& box, const Vec3& orig
   const auto transform = [&](const Vec3& vertex) {
     return Vec3(origin + ((vertex - origin) / step).array().round().matrix() * step);
   };
-  StoredMesh result = stored(volume, transform, [](core::LabelledMesh& labelled) {
-    return core::mend_welded(labelled, 0) ? std::optional<double>(0) : std::nullopt;
+  StoredMesh result = stored(volume, transform, [&](core::LabelledMesh& labelled) {
+    return core::mend_welded(labelled, 0) ? std::optional(core::split_on_grid(labelled, transform)) : std::nullopt;
   });
   result.origin = origin;
   if (result.mesh.empty()) {

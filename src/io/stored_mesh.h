@@ -10,6 +10,8 @@
 namespace vantage::internal::io {
 
 /// Told apart by position the vertices make a closed mesh, as that of the volume was, without facets that have no area.
+/// By index two triangles meet at each edge, as in the volume, also where its surface touches itself; in single
+/// precision but for some edges that are a step or two of the grid long.
 struct StoredMesh {
   Mesh mesh;                            ///< scene frame; each position is exactly what reads back
   std::vector<std::uint32_t> cause_of;  ///< per triangle
