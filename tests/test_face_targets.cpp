@@ -241,8 +241,9 @@ TEST_F(FaceTargets, SeveralFacesAreCountedAndRefusedEarlyWhereTheyFaceAway) {
 
   EXPECT_FALSE(has(mesh("{object: town_hall, part: facade, facing: west}").notes, WarningCode::faces_together));
   EXPECT_FALSE(has(mesh("{object: town_hall, part: roof}").notes, WarningCode::faces_together));
-  write_bytes(folder_ / "each.yaml", "scene: {mesh: city.obj}\nsensor: {max_range: 60}\ncombine: each\n"
-                                     "target: {object: town_hall, part: facade}\n");
+  write_bytes(folder_ / "each.yaml",
+              "scene: {mesh: city.obj}\nsensor: {max_range: 60}\ncombine: each\n"
+              "target: {object: town_hall, part: facade}\n");
   const Mission each = resolve_mission(read_mission(folder_ / "each.yaml"));
   EXPECT_FALSE(has(each.notes, WarningCode::faces_together));
   for (const Result& one : run_missions(each)) EXPECT_EQ(one.volume.outcome, Outcome::computed) << one.volume.reason;
@@ -259,6 +260,23 @@ TEST_F(FaceTargets, TwoWallsOfACornerAreSeenFromTheCorner) {
     EXPECT_LT(vertex.x(), 20 + 1e-6);
     EXPECT_LT(vertex.y(), -5 + 1e-6);
   }
+}
+
+// What is hidden, or out of range, may be another target than the faces.
+TEST_F(FaceTargets, AdviseOnFacesOnlyWhereNothingElseMayBeTheReason) {
+  const auto of_targets = [&](const std::string& more) {
+    write_bytes(folder_ / "corner.yaml",
+                "scene: {mesh: city.obj}\nsensor: {max_range: 60}\ntargets:\n"
+                "  - {object: town_hall, part: facade, facing: southwest}\n" +
+                    more);
+    return run_mission(resolve_mission(read_mission(folder_ / "corner.yaml"))).volume;
+  };
+  EXPECT_EQ(of_targets("").outcome, Outcome::computed);
+  const Volume none = of_targets("  - {vertices: [[90, 90, 0], [95, 90, 0], [95, 95, 0]]}\n");
+  EXPECT_EQ(none.outcome, Outcome::no_common_view);
+  EXPECT_TRUE(std::any_of(none.notes.begin(), none.notes.end(),
+                          [](const Warning& note) { return note.code == WarningCode::faces_together; }));
+  EXPECT_EQ(none.hint.find("facing:"), std::string::npos) << none.hint;
 }
 
 // From one place and a little round it: more than nothing, and less than anyone would fly to.

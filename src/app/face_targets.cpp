@@ -215,13 +215,14 @@ std::vector<Face> wanted_faces(const Mission& mission, const FaceTarget& wanted,
 }
 
 Warning faces_together(const std::vector<Face>& faces, const Target& target, FaceKind kind) {
-  double area = 0;
+  double area = 0;  // more than 1 m2 each
   for (const Face& face : faces) area += face.area_m2;
-  return {WarningCode::faces_together,
-          target.name + ": all " + std::to_string(faces.size()) + (kind == FaceKind::roof ? " roof faces" : " walls") + " of " +
-              core::number_text(std::round(area)) + " m2, in " + std::to_string(target.parts.size()) +
-              " convex parts, must be seen from one position; 'facing' or 'nearest' choose of them, and 'combine: each' "
-              "makes a volume for each"};
+  return {
+      WarningCode::faces_together,
+      target.name + ": all " + std::to_string(faces.size()) + (kind == FaceKind::roof ? " roof faces" : " walls") +
+          " of " + core::number_text(std::round(area)) + " m2, in " + std::to_string(target.parts.size()) +
+          " convex parts, must be seen from one position; 'facing' or 'nearest' choose of them, and 'combine: each' "
+          "makes a volume for each"};
 }
 
 }  // namespace

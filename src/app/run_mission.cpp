@@ -36,11 +36,12 @@ void add_report(const SpheresReport& part, std::optional<SpheresReport>& all) {
   all->boolean_seconds += part.boolean_seconds;
 }
 
-/// More than one face that must all be seen from one position: what can be done where none sees them.
-bool has_faces_together(const Mission& mission) {
-  const std::vector<Warning>& notes = mission.notes;
-  return std::any_of(notes.begin(), notes.end(),
-                     [](const Warning& note) { return note.code == WarningCode::faces_together; });
+/// Whether each target is several faces that must all be seen from one position. With other targets beside them these
+/// may be what cannot be seen.
+bool are_faces_together(const Mission& mission) {
+  const auto faces = std::count_if(mission.notes.begin(), mission.notes.end(),
+                                   [](const Warning& note) { return note.code == WarningCode::faces_together; });
+  return static_cast<std::size_t>(faces) == std::max<std::size_t>(mission.as_written.targets.size(), 1);
 }
 
 Volume compute(const Mission& mission, const PreparedTarget& target, const RunOptions& run, Result& result,
@@ -112,7 +113,7 @@ Volume of_views(const Mission& mission, const PreparedViews& views, const RunOpt
     all.push_back(internal::app::united(std::move(any), progress, mission.as_written.exact.work_limit));
   }
   Volume volume = internal::app::joined(std::move(all), progress, mission.as_written.exact.work_limit);
-  if (volume.outcome == Outcome::no_common_view && has_faces_together(mission)) {
+  if (volume.outcome == Outcome::no_common_view && are_faces_together(mission)) {
     volume.hint =
         "choose faces that one position sees: 'facing: north', 'nearest: [x, y, z]'; or write 'combine: each' for a "
         "volume of each face, 'combine: any' for what sees one of them";
