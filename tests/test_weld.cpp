@@ -189,7 +189,8 @@ TEST(MendWelded, NarrowFacetsAtASharedEdgeAreHalvedOnceAndKeepAnArea) {
   int narrow = 0;
   for (std::size_t t = 0; t < count; ++t) {
     for (std::size_t i = 0; i < 3; ++i) {
-      const std::uint32_t a = mesh.triangles[t][i], b = mesh.triangles[t][(i + 1) % 3], c = mesh.triangles[t][(i + 2) % 3];
+      const std::uint32_t a = mesh.triangles[t][i], b = mesh.triangles[t][(i + 1) % 3],
+                          c = mesh.triangles[t][(i + 2) % 3];
       if (!is_on_edge(a) || !is_on_edge(b)) continue;
       const Vec3 along = mesh.vertices[c] - mesh.vertices[a];
       Vec3 at(1, 1, 1.9);
@@ -228,7 +229,8 @@ TEST(MendWelded, WhatTouchesOnACoarseGridStaysClosedByIndex) {
   for (int round = 0; round < 300; ++round) {
     LabelledMesh labelled{draw_cubes(random, Vec3::Zero()), {}};
     Mesh& mesh = labelled.mesh;
-    for (Vec3& vertex : mesh.vertices) vertex *= 3;  // so that the middle of an edge lies between two places of the grid
+    for (Vec3& vertex : mesh.vertices)
+      vertex *= 3;  // so that the middle of an edge lies between two places of the grid
     const double enclosed = enclosed_volume(mesh);
     Mesh apart = mesh;
     split_where_pieces_touch(apart);

@@ -64,7 +64,9 @@ PreparedScene soup(int triangles) {
   return PreparedScene(builder.scene());
 }
 
-Target square(double size) { return target_of({{-size, -size, 0}, {size, -size, 0}, {size, size, 0}, {-size, size, 0}}); }
+Target square(double size) {
+  return target_of({{-size, -size, 0}, {size, -size, 0}, {size, size, 0}, {-size, size, 0}});
+}
 
 TEST(WorkLimit, OfCellsEndsAtTheSamePlaceEachTime) {
   Sensor sensor{55};
@@ -164,8 +166,8 @@ TEST(WorkLimit, OfTheGroundInPiecesOverEachOther) {
   Mesh pieces;
   for (int i = 0; i < 2000; ++i) {
     const Vec3 at = random.in_box({Vec3(-40, -40, -3), Vec3(40, 40, 0)});
-    testing::append(pieces, {{at, at + Vec3(random.uniform(1, 9), 0, 1), at + Vec3(0, random.uniform(1, 9), 0)},
-                             {{0, 1, 2}}});
+    testing::append(pieces,
+                    {{at, at + Vec3(random.uniform(1, 9), 0, 1), at + Vec3(0, random.uniform(1, 9), 0)}, {{0, 1, 2}}});
   }
   Navigation navigation;
   navigation.above_ground = {2, 30, Ground{0, std::make_shared<const Mesh>(pieces)}};

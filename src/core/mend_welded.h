@@ -30,12 +30,12 @@ void split_shared_edges(LabelledMesh& labelled);
 /// moved.
 double split_on_grid(LabelledMesh& labelled, const std::function<Vec3(const Vec3&)>& place);
 
-/// mend_welded() for who reads the coordinates as doubles: no facet is narrower than flat_width(). What is changed is closed
-/// by index, too: two triangles to an edge, for which triangles at an edge that is shared are halved. Those are no
-/// narrower than a quarter of flat_width(). Where the world is so small beside its coordinates that narrow facets only
-/// turn into others, or are halved more often, no facet is without area at the least: the vertices go to a grid of four
-/// steps of the largest coordinate first. Returns how far a point of the surface may have moved, metres: at most four of those steps;
-/// nothing where nothing was changed.
+/// mend_welded() for who reads the coordinates as doubles: no facet is narrower than flat_width(). What is changed is
+/// closed by index, too: two triangles to an edge, for which triangles at an edge that is shared are halved. Those are
+/// no narrower than a quarter of flat_width(). Where the world is so small beside its coordinates that narrow facets
+/// only turn into others, or are halved more often, no facet is without area at the least: the vertices go to a grid of
+/// four steps of the largest coordinate first. Returns how far a point of the surface may have moved, metres: at most
+/// four of those steps; nothing where nothing was changed.
 std::optional<double> mend_for_doubles(LabelledMesh& labelled);
 
 /// A facet narrower than this has no area for who reads its coordinates as doubles: four steps of the largest of them,

@@ -187,8 +187,7 @@ Volume cut_to(const Volume& volume, const PreparedTarget* target, const Navigati
   std::iota(causes.begin(), causes.end(), 0u);
   FacetSourceList sources;
   std::vector<std::uint32_t> labels = sources.add(volume, causes);
-  Regions regions =
-      make_regions(volume.causes, sources.sources(), bounds, navigation, meshes, progress.part(0.3, 0.4));
+  Regions regions = make_regions(volume.causes, sources.sources(), bounds, navigation, meshes, progress.part(0.3, 0.4));
   if (target) add_sensor_regions(sensor::viewed_of(*target), target->sensor(), bounds, regions);
   const LateClearance late{navigation.clearance ? &*navigation.clearance : nullptr, volume.frame.origin};
   cut_volume(std::move(regions), late, std::move(labels), progress.part(0.4, 1), result);
