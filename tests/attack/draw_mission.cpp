@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <numbers>
 #include <set>
 
@@ -23,9 +24,7 @@ std::string exactly(double value) {
 
 std::string pair(double low, double high) { return "[" + exactly(low) + ", " + exactly(high) + "]"; }
 
-std::string triple(const Vec3& p) {
-  return "[" + exactly(p.x()) + ", " + exactly(p.y()) + ", " + exactly(p.z()) + "]";
-}
+std::string triple(const Vec3& p) { return "[" + exactly(p.x()) + ", " + exactly(p.y()) + ", " + exactly(p.z()) + "]"; }
 
 /// Lengths are drawn as if the range were some tens of metres, and scaled.
 class MissionDrawing {
@@ -181,10 +180,10 @@ std::string MissionDrawing::target() {
   are_points_ = false;
   if (kind < 5 && has_ground_) {  // a T, or a comb
     const double x = random_.uniform(2, 5), y = random_.uniform(1, 3), bar = random_.uniform(0.3, 1);
-    const std::vector<std::pair<double, double>> tee = {{-x, 0},       {x, 0},     {x, y},        {bar, y},
+    const std::vector<std::pair<double, double>> tee = {{-x, 0},      {x, 0},        {x, y},    {bar, y},
                                                         {bar, 3 * y}, {-bar, 3 * y}, {-bar, y}, {-x, y}};
-    const std::vector<std::pair<double, double>> ell = {{-x, 0}, {x, 0}, {x, y}, {bar - x, y}, {bar - x, 3 * y},
-                                                        {-x, 3 * y}};
+    const std::vector<std::pair<double, double>> ell = {{-x, 0},      {x, 0},           {x, y},
+                                                        {bar - x, y}, {bar - x, 3 * y}, {-x, 3 * y}};
     std::string text;
     for (const auto& [u, v] : random_.chance(0.5) ? tee : ell) {
       const Vec3 at = placed({u, v, 0});
@@ -316,21 +315,53 @@ void MissionDrawing::draw_navigation() {
 
 DrawnMission draw_mission(std::uint64_t seed, std::size_t index) { return MissionDrawing(seed, index).run(); }
 
-void write_drawn_mission(const DrawnMission& drawn, const std::string& folder) {
-  std::filesystem::create_directories(folder);
-  std::ofstream(std::filesystem::path(folder) / "mission.yaml") << "scene: {mesh: scene.obj}\n" << drawn.text;
-  std::ofstream out(std::filesystem::path(folder) / "scene.obj");
-  for (const Vec3& v : drawn.scene.mesh.vertices) {
+namespace {
+
+void write_mesh(const vantage::Mesh& mesh, std::ostream& out, const std::function<void(std::size_t)>& before_triangle) {
+  for (const Vec3& v : mesh.vertices) {
     out << "v " << exactly(v.x()) << " " << exactly(v.y()) << " " << exactly(v.z()) << "\n";
   }
-  std::uint32_t last = ~0u;
-  for (std::size_t t = 0; t < drawn.scene.mesh.triangles.size(); ++t) {
-    const std::uint32_t object = drawn.scene.object_of[t];
-    if (object != last) out << "o " << drawn.scene.objects[object].name << "\n";
-    last = object;
-    const auto& [a, b, c] = drawn.scene.mesh.triangles[t];
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    before_triangle(t);
+    const auto& [a, b, c] = mesh.triangles[t];
     out << "f " << a + 1 << " " << b + 1 << " " << c + 1 << "\n";
   }
+}
+
+/// The text with the meshes among the limits.
+std::string with_meshes(std::string text, const std::vector<std::string>& files) {
+  if (files.empty()) return text;
+  std::string keys = "meshes: [";
+  for (const std::string& file : files) keys += (file == files.front() ? "" : ", ") + file;
+  keys += "]";
+  const std::string head = "navigation: {";
+  const std::size_t at = text.find(head);
+  if (at == std::string::npos) return text + head + keys + "}\n";
+  return text.insert(at + head.size(), keys + ", ");
+}
+
+}  // namespace
+
+void write_drawn_mission(const DrawnMission& drawn, const std::string& folder) {
+  const std::filesystem::path place = folder;
+  std::filesystem::create_directories(place);
+  std::vector<std::string> files;
+  for (const vantage::KeepInMesh& mesh : drawn.meshes) {
+    files.push_back(mesh.name + ".obj");
+    std::ofstream out(place / files.back());
+    write_mesh(mesh.mesh, out, [](std::size_t) {});
+  }
+  std::ofstream(place / "mission.yaml") << "scene: {mesh: scene.obj}\n" << with_meshes(drawn.text, files);
+  std::ofstream out(place / "scene.obj");
+  std::uint32_t last = ~0u;
+  write_mesh(drawn.scene.mesh, out, [&](std::size_t t) {
+    const std::uint32_t number = drawn.scene.object_of[t];
+    if (number == last) return;
+    last = number;
+    const vantage::SceneObject& object = drawn.scene.objects[number];
+    out << "o " << object.name << "\n# vantage object: {\"name\":\"" << object.name << "\",\"kind\":\""
+        << name_of(object.kind) << "\"}\n";
+  });
 }
 
 }  // namespace attack

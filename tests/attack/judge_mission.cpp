@@ -1,6 +1,9 @@
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <limits>
 #include <map>
 #include <memory>
@@ -184,8 +187,7 @@ class VolumeJudge {
     constexpr std::size_t kEach = 7;
     for (std::size_t i = 0; i < points.size(); i += kEach) {
       const auto first = answers.begin() + static_cast<std::ptrdiff_t>(i);
-      const bool is_inside =
-          std::all_of(first, first + kEach, [](const PointAnswer& answer) { return answer.inside; });
+      const bool is_inside = std::all_of(first, first + kEach, [](const PointAnswer& answer) { return answer.inside; });
       const Vec3 local = points[i] - origin_;
       if (!is_inside || mesh.locate(local) != Place::outside || mesh.distance(local) < room / 2) continue;
       wrong_.push_back("under-claim at " + text_of(points[i]) + ", " + std::to_string(mesh.distance(local)) +
@@ -208,9 +210,10 @@ class VolumeJudge {
 std::vector<std::string> words_of(const std::string& text) {
   std::vector<std::string> words;
   for (const char* word :
-       {"combine: all", "combine: any", "combine: each", "sides: both", "targets:", "point:", "outline:", "parts:",
-        "part: roof", "part: facade", "vertices:", "min_range:", "incidence:", "sun:", "fov:", "mount:", "gimbal:",
-        "pixel:", "link:", "visible:", "altitude: [", "altitude: {agl", "clearance:", "keep_in:", "keep_out:"}) {
+       {"combine: all",   "combine: any", "combine: each", "sides: both", "targets:",   "point:",     "outline:",
+        "parts:",         "part: roof",   "part: facade",  "vertices:",   "min_range:", "incidence:", "sun:",
+        "fov:",           "mount:",       "gimbal:",       "pixel:",      "link:",      "visible:",   "altitude: [",
+        "altitude: {agl", "clearance:",   "keep_in:",      "keep_out:"}) {
     if (text.find(word) != std::string::npos) words.emplace_back(word);
   }
   return words;
@@ -250,23 +253,28 @@ MissionJudgement judge_drawn_mission(const DrawnMission& drawn) {
   return judgement;
 }
 
-std::size_t run_drawn_missions(const MissionRun& run) {
+bool MissionCounts::are_enough_computed() const {
+  constexpr double kLeast = 0.4;
+  constexpr std::size_t kFew = 20;  // of so few any number may be refused by chance
+  return all < kFew || static_cast<double>(computed) >= kLeast * static_cast<double>(all);
+}
+
+bool run_drawn_missions(const MissionRun& run) {
   std::printf("seed %llu, missions %zu to %zu; one of them: vantage_attack --missions 1 --seed %llu --only NUMBER\n",
               static_cast<unsigned long long>(run.seed), run.first, run.first + run.count - 1,
               static_cast<unsigned long long>(run.seed));
   std::map<std::string, std::size_t> counts;
-  std::size_t wrong = 0;
+  MissionCounts total;
   const auto note = [&](std::size_t index, const std::vector<std::string>& faults) {
     if (faults.empty()) return;
-    ++wrong;
+    ++total.wrong;
     for (const std::string& fault : faults) {
       std::string line = fault;
       std::replace(line.begin(), line.end(), '\n', ' ');
       std::printf("WRONG mission %zu: %s\n", index, line.c_str());
     }
     if (!run.out.empty()) {
-      const std::string folder =
-          run.out + "/mission-" + std::to_string(run.seed) + "-" + std::to_string(index);
+      const std::string folder = run.out + "/mission-" + std::to_string(run.seed) + "-" + std::to_string(index);
       write_drawn_mission(draw_mission(run.seed, index), folder);
       std::printf("      %s\n", folder.c_str());
     }
@@ -289,6 +297,7 @@ std::size_t run_drawn_missions(const MissionRun& run) {
       continue;
     }
     const auto [index, exit] = processes.next();
+    ++total.all;
     if (exit.crashed || exit.hung) {
       ++counts[exit.hung ? "hung" : "crashed"];
       note(index, {(exit.hung ? "took too long: " : "crashed: ") + exit.how});
@@ -296,15 +305,72 @@ std::size_t run_drawn_missions(const MissionRun& run) {
     }
     std::istringstream lines(exit.text);
     std::vector<std::string> faults;
+    bool is_computed = false, is_refused = false;
     for (std::string line; std::getline(lines, line);) {
       if (line.starts_with("+")) ++counts[line.substr(1)];
       if (line.starts_with("-")) faults.push_back(line.substr(1));
+      is_computed = is_computed || line == std::string("+") + name_of(vantage::Outcome::computed);
+      is_refused = is_refused || line.starts_with("+refused: ");
     }
+    ++(is_refused ? total.refused : is_computed ? total.computed : total.empty);
     note(index, faults);
   }
   for (const auto& [word, count] : counts) std::printf("%8zu  %s\n", count, word.c_str());
-  std::printf("%zu missions, %zu wrong\n", run.count, wrong);
-  return wrong;
+  std::printf("%zu missions: %zu computed, %zu without a volume, %zu refused; %zu wrong\n", total.all, total.computed,
+              total.empty, total.refused, total.wrong);
+  if (!total.are_enough_computed()) std::printf("WRONG too few missions were computed\n");
+  return total.wrong == 0 && total.are_enough_computed();
+}
+
+bool mission_self_test() {
+  int failures = 0;
+  const auto expect = [&](bool holds, const std::string& what) {
+    if (holds) return;
+    ++failures;
+    std::printf("self-test: %s\n", what.c_str());
+  };
+  const MissionCounts half{.all = 100, .computed = 50, .refused = 50}, few{.all = 100, .computed = 30, .refused = 70};
+  expect(half.are_enough_computed() && !few.are_enough_computed(), "the least number of computed missions");
+  const auto folder = std::filesystem::temp_directory_path() /
+                      ("vantage-attack-" + std::to_string(static_cast<unsigned long>(::getpid())));
+  int resolved = 0, with_mesh = 0, with_ground = 0;
+  for (std::size_t index = 0; index < 60; ++index) {
+    const DrawnMission drawn = draw_mission(1, index);
+    auto loaded = std::make_shared<vantage::LoadedScene>();
+    loaded->scene = drawn.scene;
+    std::optional<Mission> drawn_mission;
+    try {
+      drawn_mission = resolve_mission(vantage::read_mission_text(drawn.text, "drawn.yaml", {}), loaded);
+    } catch (const vantage::Error&) {
+      continue;  // many are refused
+    }
+    const Mission& mission = *drawn_mission;
+    try {
+      write_drawn_mission(drawn, folder.string());
+      const Mission again = resolve_mission(vantage::read_mission(folder / "mission.yaml"));
+      const std::string name = "mission " + std::to_string(index) + " reads back with ";
+      const vantage::Scene &a = mission.scene(), &b = again.scene();
+      expect(a.mesh.vertices == b.mesh.vertices && a.mesh.triangles == b.mesh.triangles, name + "another scene");
+      for (std::size_t t = 0; t < std::min(a.object_of.size(), b.object_of.size()); ++t) {
+        const vantage::SceneObject &of_a = a.objects[a.object_of[t]], &of_b = b.objects[b.object_of[t]];
+        expect(of_a.name == of_b.name && of_a.kind == of_b.kind, name + "other objects");
+      }
+      const std::vector<vantage::KeepInMesh>& meshes = again.navigation.meshes;
+      expect(meshes.size() == drawn.meshes.size(), name + "other meshes");
+      for (std::size_t i = 0; i < std::min(meshes.size(), drawn.meshes.size()); ++i) {
+        expect(meshes[i].mesh.vertices == drawn.meshes[i].mesh.vertices, name + "another mesh to stay in");
+      }
+      ++resolved;
+      with_mesh += !meshes.empty();
+      with_ground += a.objects[0].kind == vantage::ObjectKind::ground;
+    } catch (const vantage::Error& error) {
+      expect(false, "mission " + std::to_string(index) + " cannot be read back: " + error.what());
+    }
+  }
+  std::filesystem::remove_all(folder);
+  expect(resolved > 20 && with_mesh > 0 && with_ground > 0, "too few missions are read back");
+  std::printf("self-test of missions: %d failed\n", failures);
+  return failures == 0;
 }
 
 }  // namespace attack

@@ -201,8 +201,8 @@ int judge_mission(const Options& options) {
 int main(int count, char** words) {
   const attack::Options options = attack::parse(count, words);
   if (options.self_test) {
-    const bool are_right[] = {attack::self_test(), attack::mesh_self_test()};
-    return are_right[0] && are_right[1] ? 0 : 1;
+    const bool are_right[] = {attack::self_test(), attack::mesh_self_test(), attack::mission_self_test()};
+    return are_right[0] && are_right[1] && are_right[2] ? 0 : 1;
   }
   if (options.missions) {
     return attack::run_drawn_missions({.seed = options.seed,
@@ -210,7 +210,9 @@ int main(int count, char** words) {
                                        .count = options.scenes,
                                        .jobs = options.jobs,
                                        .seconds = options.seconds,
-                                       .out = options.out.string()}) > 0;
+                                       .out = options.out.string()})
+               ? 0
+               : 1;
   }
   if (!options.mission.empty()) return attack::judge_mission(options);
   if (options.meshes > 0) {
