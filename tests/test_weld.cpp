@@ -89,10 +89,16 @@ Mesh surface_of_cubes(const std::set<std::array<int, 3>>& cubes, const Vec3& ori
 }
 
 Mesh draw_cubes(testing::Random& random, const Vec3& origin) {
-  std::set<std::array<int, 3>> cubes;
-  const int count = random.integer(2, 20), size = random.integer(1, 3);
-  for (int i = 0; i < count; ++i) {
-    cubes.insert({random.integer(0, size), random.integer(0, size), random.integer(0, size)});
+  // Where two cubes touch at an edge, and round both of its ends all hangs together, the edge has to be split.
+  std::set<std::array<int, 3>> cubes = {{0, 0, 0}};
+  const int size = random.integer(2, 4);
+  const double share = random.uniform(0.2, 0.8);
+  for (int x = 0; x < size; ++x) {
+    for (int y = 0; y < size; ++y) {
+      for (int z = 0; z < size; ++z) {
+        if (random.chance(share)) cubes.insert({x, y, z});
+      }
+    }
   }
   return surface_of_cubes(cubes, origin);
 }
@@ -249,7 +255,7 @@ TEST(MendWelded, WhatTouchesOnACoarseGridStaysClosedByIndex) {
     for (const Vec3& vertex : mesh.vertices) ASSERT_EQ(vertex, to_grid(vertex));
     EXPECT_LE(std::abs(enclosed_volume(mesh) - enclosed), moved * surface_area(mesh));
   }
-  EXPECT_GT(shared, 30);
+  EXPECT_GT(shared, 10);
 }
 
 }  // namespace

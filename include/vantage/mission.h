@@ -181,7 +181,9 @@ struct MissionFile {
   std::vector<ZoneFile> keep_in_files = {}, keep_out_files = {};  ///< their zones go with those of `navigation`
   std::optional<double> sea_level_m = std::nullopt;               ///< scene z of the mean sea level, where it is known
   Method method = Method::exact;
-  ExactOptions exact;      ///< but for the threads: RunOptions::threads. The work limit is that of both methods
+  /// But for the threads: RunOptions::threads. With the method of spheres the work limit counts where parts or targets
+  /// are combined and for the limits, not for the spheres.
+  ExactOptions exact;
   SpheresOptions spheres;  ///< likewise
   MissionPlaces places = {};
 };

@@ -121,9 +121,11 @@ struct Volume {
   bool empty() const { return mesh.empty(); }
 };
 
-/// How many facets may go through the boolean operations of one volume, counted each time that they do. They cost some
-/// microseconds each, where many long and narrow ones overlap some tens of them. A computation that comes to more ends
-/// with ErrorCode::work_too_large, on every machine at the same place: before it begins where that can be told.
+/// How many facets may go through the boolean operations of one call of this library, counted each time that they do.
+/// They cost some microseconds each, where many long and narrow ones overlap some tens of them. A computation that
+/// comes to more, or by an estimate will, ends with ErrorCode::work_too_large, on every machine at the same place. The
+/// estimates can be many times too high where solids cover each other. A volume that takes several calls may come to
+/// the limit in each: of its parts, of its limits, and where the volumes of several targets are combined.
 inline constexpr double kWorkLimit = 1e7;
 
 struct ExactOptions {

@@ -70,7 +70,10 @@ void add_common_options(CLI::App& command, CommonOptions& options) {
   command.add_option("--threads", options.threads, "Threads to use; 0 (default): as many as the machine has")
       ->check(CLI::Range(0, 1024))
       ->option_text("N");
-  command.add_flag("--progress", options.progress, "Report each stage on standard error, even if it is not a terminal");
+  command.add_flag(
+      "--progress", options.progress,
+      "Report each stage on standard error, from the beginning on. Without it what takes over a second says "
+      "how far it is; VANTAGE_PROGRESS=never in the environment: only on a terminal");
   command.add_flag("-q,--quiet", options.quiet, "Suppress all output except errors and requested results");
 }
 

@@ -11,10 +11,10 @@
 
 namespace vantage::cli {
 
-/// Follows one command. On a terminal: after a second, one line that is rewritten and in the end wiped. Elsewhere: after
-/// a second plain lines, one for each new stage, a second apart or more, and now and then of a long stage.
-/// With --progress a line for each stage, from the beginning on. With --quiet, and without --progress where the
-/// environment variable VANTAGE_PROGRESS is "never" and there is no terminal: nothing. The first signal that asks the program to
+/// Follows one command. On a terminal: after a second, one line that is rewritten and in the end wiped. Elsewhere:
+/// after a second plain lines, one for each new stage, a second apart or more, and now and then of a long stage. With
+/// --progress a line for each stage, from the beginning on. With --quiet, and without --progress where the environment
+/// variable VANTAGE_PROGRESS is "never" and there is no terminal: nothing. The first signal that asks the program to
 /// end makes the callback say so, so that nothing is left half-written; see InterruptGuard.
 class ProgressLine {
  public:
