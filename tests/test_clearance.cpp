@@ -180,6 +180,37 @@ TEST(ClearanceLimit, TheCutKeepsTheDistance) {
   }
 }
 
+// Blocks that stand askew, far from the origin: their hulls are made of coordinates that are rounded there.
+TEST(ClearanceLimit, IsKeptFromTurnedBlocksAtMapCoordinates) {
+  Random random(2243);
+  const Vec3 origin(-3e6, 4.7e6, 0);
+  constexpr double kAsked = 2.01;
+  for (int round = 0; round < 5; ++round) {
+    SCOPED_TRACE(round);
+    Mesh blocks;
+    for (int block = 0; block < 6; ++block) {
+      const Vec3 half(random.uniform(1, 6), random.uniform(1, 6), random.uniform(2, 14));
+      const Vec3 at = 25 * Vec3(std::cos(block), std::sin(block), 0) + random.point(-3, 3);
+      const Eigen::Matrix3d turn = Eigen::AngleAxisd(random.uniform(0, 1.5), Vec3::UnitZ()).toRotationMatrix();
+      Mesh box = testing::make_box_mesh(-half, half);
+      for (Vec3& vertex : box.vertices) vertex = origin + at + turn * vertex;
+      testing::append(blocks, box);
+    }
+    Navigation navigation;
+    navigation.clearance = {kAsked, std::make_shared<const Mesh>(blocks)};
+    const Volume cut = cut_to_navigation(make_hemisphere(origin, 60), navigation);
+    ASSERT_EQ(cut.outcome, Outcome::computed) << cut.reason;
+    EXPECT_EQ(first_open_edge(cut.mesh), "");
+    constexpr double kRounding = 1e-7;
+    for (const auto& [a, b, c] : cut.mesh.triangles) {
+      const Vec3 &p = cut.mesh.vertices[a], &q = cut.mesh.vertices[b], &r = cut.mesh.vertices[c];
+      for (const Vec3& on : {p, Vec3((p + q) / 2), Vec3((p + q + r) / 3)}) {
+        ASSERT_GT(distance(on, blocks), kAsked - kRounding) << (on - origin).transpose();
+      }
+    }
+  }
+}
+
 TEST(ClearanceLimit, IsExactOverAFlatWallAndBoundedBesideItsEdge) {
   Scene scene;
   scene.objects = {{"wall", "", ObjectKind::wall}};

@@ -226,10 +226,51 @@ TEST_F(CliWorkLimit, TellsHowFarItIsInAPipeAndStopsWithNothingHalf) {
   options_.shows_progress = true;
   options_.signal = SIGINT;
   options_.signal_when = [](const std::string& err) { return err.find("vantage: cells ") != std::string::npos; };
+  for (const char* word : {"", "always"}) {  // there is one word that says otherwise, "never"
+    options_.progress_word = word;
+    const testing::ProgramRun result = run({"compute", "mission.yaml", "-o", "volume.ply"});
+    EXPECT_EQ(result.exit_code, 130) << result.err;
+    EXPECT_EQ(result.out, "");
+    EXPECT_TRUE(files() == before);
+  }
+}
+
+// It takes seconds until it is refused.
+TEST_F(CliWorkLimit, NeverTellsHowFarItIsWhereThatIsAskedFor) {
+  write("mission.yaml", std::string("scene: {mesh: soup.obj}\nsensor: {max_range: 55, visible: 0.5}\n") +
+                            testing::kTarget + "work_limit: 400000\n");
+  expect_refused({"compute", "mission.yaml", "-o", "volume.ply"}, "mission.yaml");  // three lines, no more
+}
+
+TEST_F(CliWorkLimit, AQuickCommandInAPipeSaysNothingOfItsProgress) {
+  options_.shows_progress = true;
+  EXPECT_NE(output_of({"inspect", "city.obj"}), "");
+}
+
+TEST_F(CliWorkLimit, TheClearanceTellsHowFarItIsInAPipe) {
+  const Mesh rough = *rough_surface(160);  // 50,562 triangles
+  std::string text = "o roofs\n";
+  for (const Vec3& p : rough.vertices) {
+    text += "v " + std::to_string(p.x()) + " " + std::to_string(p.y()) + " " + std::to_string(p.z()) + "\n";
+  }
+  for (const auto& [a, b, c] : rough.triangles) {
+    text += "f " + std::to_string(a + 1) + " " + std::to_string(b + 1) + " " + std::to_string(c + 1) + "\n";
+  }
+  write("rough.obj", text);
+  write("mission.yaml", std::string("scene: {mesh: rough.obj}\nsensor: {max_range: 55}\n") + testing::kTarget +
+                            "navigation: {clearance: 10}\nwork_limit: 1e12\n");
+  const auto before = files();
+  options_.shows_progress = true;
+  options_.signal = SIGINT;
+  options_.signal_when = [](const std::string& err) { return err.find("vantage: navigation ") != std::string::npos; };
   const testing::ProgramRun result = run({"compute", "mission.yaml", "-o", "volume.ply"});
   EXPECT_EQ(result.exit_code, 130) << result.err;
   EXPECT_EQ(result.out, "");
   EXPECT_TRUE(files() == before);
+}
+
+TEST_F(CliWorkLimit, TheHelpNamesTheWordThatSilencesProgress) {
+  EXPECT_NE(output_of({"compute", "--help"}).find("VANTAGE_PROGRESS=never"), std::string::npos);
 }
 
 }  // namespace

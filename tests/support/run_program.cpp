@@ -86,10 +86,11 @@ ProgramRun run_program(const fs::path& program, const std::vector<std::string>& 
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
 
-  if (options.shows_progress) {
+  const std::string word = options.shows_progress ? options.progress_word : "never";
+  if (word.empty()) {
     ::unsetenv("VANTAGE_PROGRESS");
   } else {
-    ::setenv("VANTAGE_PROGRESS", "never", 1);
+    ::setenv("VANTAGE_PROGRESS", word.c_str(), 1);
   }
   const pid_t child = ::fork();
   if (child < 0) throw std::runtime_error("fork failed");

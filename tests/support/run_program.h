@@ -27,7 +27,8 @@ struct RunOptions {
   int signal = 0;  ///< sent once, as soon as `signal_when` holds of what the program has written to standard error
   std::function<bool(const std::string& err)> signal_when;
   int timeout_s = 120;
-  bool shows_progress = false;  ///< else no line of progress comes, however slow the machine is
+  bool shows_progress = false;  ///< else VANTAGE_PROGRESS=never: no line comes, however slow the machine is
+  std::string progress_word;    ///< what VANTAGE_PROGRESS is then; empty: it is not set
 };
 
 /// Runs `program` with `arguments` and waits for its end, or kills it after the timeout.

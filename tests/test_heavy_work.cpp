@@ -1,0 +1,53 @@
+// What took far too long, with the limit that missions have by themselves.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "support/random.h"
+#include "support/temporary_directory.h"
+#include "vantage/error.h"
+#include "vantage/mission.h"
+#include "vantage/result.h"
+
+namespace vantage {
+namespace {
+
+// An outline of 60 teeth under 1,500 triangles. It is computed or refused; without a limit it took hours.
+TEST(HeavyWork, AnOutlineOfManyTeethIsBounded) {
+  const testing::TemporaryDirectory folder;
+  testing::Random random(2251);
+  std::string text = "o ground\nv -90 -90 0\nv 90 -90 0\nv 90 90 0\nv -90 90 0\nf 1 2 3 4\no soup\n";
+  for (int i = 0; i < 1500; ++i) {
+    const Vec3 at = random.point(-40, 40).cwiseProduct(Vec3(1, 1, 0.4)) + Vec3(0, 0, 20);
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 p = at + random.point(-1, 1);
+      text += "v " + std::to_string(p.x()) + " " + std::to_string(p.y()) + " " + std::to_string(p.z()) + "\n";
+    }
+    text += "f -3 -2 -1\n";
+  }
+  testing::write_bytes(folder / "soup.obj", text);
+  std::string outline = "[-6, -3], [6, -3]";
+  constexpr int kTeeth = 60;
+  for (int i = kTeeth - 1; i >= 0; --i) {
+    const double x = -6 + 0.2 * i;
+    for (const auto& [at, y] :
+         {std::pair(x + 0.18, -2), std::pair(x + 0.1, -2), std::pair(x + 0.08, 3), std::pair(x, 3)}) {
+      outline += ", [" + std::to_string(at) + ", " + std::to_string(y) + "]";
+    }
+  }
+  testing::write_bytes(folder / "comb.yaml",
+                       "scene: {mesh: soup.obj}\nsensor: {max_range: 55}\n"
+                       "target: {outline: [" +
+                           outline + "], offset: 0.5}\n");
+  const Mission mission = resolve_mission(read_mission(folder / "comb.yaml"));
+  EXPECT_GT(mission.target.parts.size(), 60U);
+  try {
+    const Result result = run_mission(mission);
+    EXPECT_TRUE(result.volume.outcome == Outcome::computed || result.volume.outcome == Outcome::no_common_view);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::work_too_large) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace vantage
