@@ -189,7 +189,9 @@ Scene draw_scene(Random& random) {
   return builder;
 }
 
-Pinhole camera(double half_width, double half_height) { return {half_width, half_height, 4000, 3000, 2000 / half_width}; }
+Pinhole camera(double half_width, double half_height) {
+  return {half_width, half_height, 4000, 3000, 2000 / half_width};
+}
 
 /// What turns a limit allows.
 enum class Turns { all, about_z, quarters };
@@ -220,7 +222,8 @@ std::shared_ptr<const Mesh> draw_terrain(Random& random) {
   constexpr std::uint32_t kPosts = 5;
   Mesh mesh;
   for (std::uint32_t i = 0; i < kPosts; ++i) {
-    for (std::uint32_t k = 0; k < kPosts; ++k) mesh.vertices.emplace_back(25.0 * i - 50, 25.0 * k - 50, random.uniform(-4, 0));
+    for (std::uint32_t k = 0; k < kPosts; ++k)
+      mesh.vertices.emplace_back(25.0 * i - 50, 25.0 * k - 50, random.uniform(-4, 0));
   }
   for (std::uint32_t i = 0; i + 1 < kPosts; ++i) {
     for (std::uint32_t k = 0; k + 1 < kPosts; ++k) {
@@ -258,17 +261,27 @@ const std::vector<Limit>& limits() {
          w.sensor.pixel = {r.uniform(20, 35) / 4000, PixelLimit::Kind::perpendicular};
        }},
       {"sun", Turns::all, 2e-3, true,
-       [](World& w, Random& r) { w.sensor.sun = SunLimit{r.direction() + Vec3(0, 0, 1), r.uniform(10, 50)}; }},
+       [](World& w, Random& r) {
+         w.sensor.sun = SunLimit{r.direction() + Vec3(0, 0, 1), r.uniform(10, 50)};
+       }},
       {"link", Turns::all, 2e-2, false,
        [](World& w, Random& r) {
          w.target.parts = {{Vec3(0, 0, 0.7)}};
          w.target.front.reset();
          w.sensor.link = {r.uniform(1, 30), r.uniform(0.3, 1)};
        }},
-      {"visible", Turns::all, 1e-2, false, [](World& w, Random&) { w.sensor.visible = VisibleShare{0.6, 4}; }},
-      {"altitude", Turns::about_z, 0, true, [](World& w, Random& r) { w.navigation.altitude = {r.uniform(1, 6), 21.3}; }},
+      {"visible", Turns::all, 1e-2, false,
+       [](World& w, Random&) {
+         w.sensor.visible = VisibleShare{0.6, 4};
+       }},
+      {"altitude", Turns::about_z, 0, true,
+       [](World& w, Random& r) {
+         w.navigation.altitude = {r.uniform(1, 6), 21.3};
+       }},
       {"above ground", Turns::about_z, 0, true,
-       [](World& w, Random& r) { w.navigation.above_ground = {3, r.uniform(12, 25), Ground{-1.7}}; }},
+       [](World& w, Random& r) {
+         w.navigation.above_ground = {3, r.uniform(12, 25), Ground{-1.7}};
+       }},
       {"above terrain", Turns::about_z, 0, true,
        [](World& w, Random& r) {
          w.navigation.above_ground = {3, r.uniform(12, 25), Ground{0, draw_terrain(r)}};
@@ -283,7 +296,9 @@ const std::vector<Limit>& limits() {
          w.navigation.keep_in_zones[0].holes = {{{-4, -3}, {6, -2}, {1, 5}}};
        }},
       {"keep_out", Turns::quarters, 0, true,
-       [](World& w, Random& r) { w.navigation.keep_out = {{r.point(-14, 2), r.point(5, 19)}}; }},
+       [](World& w, Random& r) {
+         w.navigation.keep_out = {{r.point(-14, 2), r.point(5, 19)}};
+       }},
       {"keep_out zones", Turns::about_z, 0, true,
        [](World& w, Random& r) {
          w.navigation.keep_out_zones = {draw_zone(r)};
@@ -294,7 +309,9 @@ const std::vector<Limit>& limits() {
          w.navigation.meshes = {{testing::make_box_mesh(r.point(-25, -3), r.point(5, 30)), "airspace"}};
        }},
       {"clearance", Turns::all, 0.16 * 3.1 / kRangeOfMoved, true,
-       [](World& w, Random& r) { w.navigation.clearance = {r.uniform(0.5, 3.1), obstacles_of(w.scene)}; }},
+       [](World& w, Random& r) {
+         w.navigation.clearance = {r.uniform(0.5, 3.1), obstacles_of(w.scene)};
+       }},
   };
   return kLimits;
 }
@@ -316,8 +333,8 @@ class MovedLimits : public ::testing::TestWithParam<std::size_t> {
   World draw(Random& random) const {
     World world;
     world.scene = draw_scene(random);
-    world.target = testing::random_target(random, random.integer(3, 6), random.uniform(1, 3), Vec3::Zero(),
-                                          Vec3(0, 0, 1));
+    world.target =
+        testing::random_target(random, random.integer(3, 6), random.uniform(1, 3), Vec3::Zero(), Vec3(0, 0, 1));
     world.target.front = Vec3(0, 0, 1);
     world.sensor.max_range_m = kRangeOfMoved;
     limit().add(world, random);
@@ -362,8 +379,8 @@ void MovedLimits::expect_right(const World& world, const Volume& volume, Random&
                                    << (answers[i].outside_of.empty() ? "sight" : answers[i].outside_of[0]);
   }
   if (!limit().has_proof) return;
-  const ProofReport report = prove_volume(world.scene, world.target, world.sensor, world.navigation, volume.mesh,
-                                          {.lift_m = volume.lift_m});
+  const ProofReport report =
+      prove_volume(world.scene, world.target, world.sensor, world.navigation, volume.mesh, {.lift_m = volume.lift_m});
   for (const ClaimProof& claim : report.claims) {
     EXPECT_EQ(claim.verdict, ProofVerdict::proved) << claim.name << ": " << claim.text;
   }

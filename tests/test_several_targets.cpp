@@ -117,7 +117,8 @@ TEST(BothSides, VolumesThatTouchAreClosed) {
       builder.polygon("sheet", {at, at + random.point(-6, 6), at + random.point(-6, 6)});
     }
     const Vec3 normal = random.direction();
-    Target front = testing::random_target(random, random.integer(3, 7), random.uniform(1, 5), random.point(-4, 4), normal);
+    Target front =
+        testing::random_target(random, random.integer(3, 7), random.uniform(1, 5), random.point(-4, 4), normal);
     front.front = normal;
     Target back = front;
     back.front = -normal;
@@ -152,11 +153,13 @@ TEST_F(SeveralTargets, TheReportOfSpheresIsOfAllPartsAndTargets) {
     return result.spheres.value_or(SpheresReport());
   };
   const std::string list = std::string("combine: any\ntargets:\n  - ") + kWest + "\n  - " + kNorth;
-  const SpheresReport west = report_of(std::string("target: ") + kWest), north = report_of(std::string("target: ") + kNorth);
+  const SpheresReport west = report_of(std::string("target: ") + kWest),
+                      north = report_of(std::string("target: ") + kNorth);
   ASSERT_GE(west.spheres, 4U);
   ASSERT_GE(north.spheres, 3U);
-  for (const SpheresReport& all : {report_of(list), report_of("target: {parts: [[[-12, -4, 0], [-6, -4, 0], [-6, 4, 0], "
-                                                              "[-12, 4, 0]], [[10, 8, 0], [16, 8, 0], [16, 14, 0]]]}")}) {
+  for (const SpheresReport& all :
+       {report_of(list), report_of("target: {parts: [[[-12, -4, 0], [-6, -4, 0], [-6, 4, 0], "
+                                   "[-12, 4, 0]], [[10, 8, 0], [16, 8, 0], [16, 14, 0]]]}")}) {
     EXPECT_EQ(all.spheres, west.spheres + north.spheres);
     EXPECT_EQ(all.pairs, west.pairs + north.pairs);
     EXPECT_EQ(all.splits, west.splits + north.splits);

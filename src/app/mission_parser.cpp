@@ -202,7 +202,8 @@ void MissionParser::parse_exact(const YamlNode& node) {
 void MissionParser::parse_work_limit(const YamlNode& node) {
   mission_.exact.work_limit = number(node, "work_limit");
   if (!(mission_.exact.work_limit > 0)) {
-    fail(ErrorCode::value_out_of_range, node, "work_limit must be greater than 0, not " + shortest(mission_.exact.work_limit),
+    fail(ErrorCode::value_out_of_range, node,
+         "work_limit must be greater than 0, not " + shortest(mission_.exact.work_limit),
          "write how many facets may go through boolean operations: 1.0e+7 is the default");
   }
 }

@@ -23,8 +23,8 @@ std::vector<std::uint32_t> first_at_position(const std::vector<Vec3>& vertices,
 void split_where_pieces_touch(Mesh& mesh, const std::vector<Triangle>& owners = {});
 
 /// Where an edge of a closed mesh has more than two triangles each pair of them but one gets a vertex of its own in the
-/// middle of the edge, to rounding: then two triangles meet at every edge by index, in opposite directions. Vertices and
-/// triangles that are new come last; returns for each such triangle the one that it is a part of. No point of the
+/// middle of the edge, to rounding: then two triangles meet at every edge by index, in opposite directions. Vertices
+/// and triangles that are new come last; returns for each such triangle the one that it is a part of. No point of the
 /// surface moves by more than a rounding of its coordinates. Cost: linear.
 std::vector<std::uint32_t> split_shared_edges(Mesh& mesh);
 

@@ -138,8 +138,8 @@ Solid Tree::level(const Levels& left, const Levels& right, std::uint64_t cost) c
 }
 
 /// One after the other: Manifold numbers what it makes, and its results depend on these numbers.
-std::vector<Solid> Tree::solids_of(const Levels& left, const Levels& right,
-                                   const std::vector<std::uint64_t>& costs, double effort) {
+std::vector<Solid> Tree::solids_of(const Levels& left, const Levels& right, const std::vector<std::uint64_t>& costs,
+                                   double effort) {
   std::vector<Solid> solids;
   for (const std::uint64_t cost : costs) {
     quiet_.check();

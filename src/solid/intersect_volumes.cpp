@@ -24,7 +24,8 @@ using internal::solid::Solid;
 using Views = std::vector<std::vector<Target>>;
 
 constexpr const char* kFewerParts =
-    "ask for fewer targets or parts, for an outline of fewer corners, for a shorter range or a coarser tolerance, or for "
+    "ask for fewer targets or parts, for an outline of fewer corners, for a shorter range or a coarser tolerance, or "
+    "for "
     "'combine: each'";
 
 Views views_of(const VolumeProvenance& made) { return made.views.empty() ? Views{{made.target}} : made.views; }

@@ -155,9 +155,8 @@ void Builder::add_above_ground(const AboveGround& limit) {
   labels.max = label("agl max");
   labels.edge = label("ground edge");
   const auto [low, high] = heights_near(limit);
-  result_.kept.push_back(
-      {RegionKind::above_ground, name,
-       make_ground_band(*ground.surface, low, high, outer_, result_.origin, labels, progress_)});
+  result_.kept.push_back({RegionKind::above_ground, name,
+                          make_ground_band(*ground.surface, low, high, outer_, result_.origin, labels, progress_)});
 }
 
 /// The part of a zone that lies about the volume, as of boxes; but for its heights above the ground.
@@ -201,7 +200,8 @@ void Builder::add_kept(const std::vector<Box>& boxes, const std::vector<Zone>& z
   for (const Zone& zone : zones) {
     const std::uint32_t cause = add_cause(zone_name(zone));
     Solid solid = make_zone(zone, cause);
-    if (zone.above_ground && !solid.empty()) solid = intersect(solid, make_heights(*zone.above_ground, cause), progress_);
+    if (zone.above_ground && !solid.empty())
+      solid = intersect(solid, make_heights(*zone.above_ground, cause), progress_);
     solids.push_back(std::move(solid));
   }
   const bool is_one = boxes.size() + zones.size() == 1;
