@@ -51,6 +51,25 @@ TEST_F(BothSidesMission, OfSeveralTargetsThatAreAllSeen) {
   EXPECT_EQ(volume.outcome, Outcome::computed) << volume.reason;
 }
 
+TEST_F(BothSidesMission, OfTargetsOfWhichOneIsEnough) {
+  const Volume volume =
+      run("v -3.1 9.6 13\nv 6.2 2.3 13.9\nv 3.1 2.6 17.3\nf -3 -2 -1\n"
+          "v -2.6 4.1 11.8\nv 5 7.4 10.1\nv -0.7 6 16.8\nf -3 -2 -1\n"
+          "v 6.5 -3.8 7.6\nv 3.3 0 11.2\nv 4.7 -3.8 15.1\nf -3 -2 -1\n"
+          "v -14.7 0.8 7.6\nv -11.7 -7.1 6\nv -7.9 -7.4 1\nf -3 -2 -1\n"
+          "v 14.8 -11.5 19.4\nv 4.7 -10 21.7\nv 10.7 -5.3 17.5\nf -3 -2 -1\n"
+          "v 2.4 15.7 4.4\nv 3.6 9.1 6.4\nv -6.5 16.1 11\nf -3 -2 -1\n",
+          "combine: any\n"
+          "targets:\n"
+          "  - {vertices: [[-8.4, 4, 11.7], [-6.2, 0.9, 16.4], [-4.6, -0.7, 15.1]]}\n"
+          "  - {vertices: [[2.2, 2.4, 9.5], [1.7, 7.3, 11.1], [3.8, 8.4, 9.8]], sides: both}\n"
+          "  - {vertices: [[5.1, 0.6, 8.3], [5, 1.5, 9.5], [6, -2.5, 11.7]]}\n"
+          "  - {point: [4, 1, 18]}\n"
+          "sensor: {max_range: 34, min_range: 5, sun: {azimuth: 163, elevation: 32, exclude: 30}}\n"
+          "exact: {tolerance: 0.05}\n");
+  EXPECT_EQ(volume.outcome, Outcome::computed) << volume.reason;
+}
+
 TEST_F(BothSidesMission, OfOneTargetWithGimbalAndPixels) {
   const Volume volume =
       run("v -5.9 -10.6 5.9\nv -5 -10.7 8.7\nv -8.8 -8.4 14.2\nf -3 -2 -1\n",
