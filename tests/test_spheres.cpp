@@ -197,9 +197,10 @@ TEST(Spheres, AlwaysHalvesEveryEdgeAsOftenAsAsked) {
   EXPECT_EQ(result.report.splits, 9U);
   EXPECT_EQ(result.report.spheres, 12U);
   EXPECT_EQ(result.report.pairs, 0U);
-  // Each sphere can only take away.
+  // Each sphere can only take away; here the corners' take all, and what is left is summed over other facets.
   options.max_splits = 0;
-  EXPECT_LE(enclosed_volume(result.volume.mesh), enclosed_volume(run(scene, triangle(), options).volume.mesh));
+  const double of_corners = enclosed_volume(run(scene, triangle(), options).volume.mesh);
+  EXPECT_LE(enclosed_volume(result.volume.mesh), of_corners * (1 + 1e-12));
 }
 
 TEST(Spheres, StagesTellTheStoryInOrder) {
