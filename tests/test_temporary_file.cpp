@@ -2,11 +2,13 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <filesystem>
 #include <functional>
@@ -15,12 +17,14 @@
 #include <thread>
 #include <vector>
 
+#include "core/replace_folder.h"
 #include "core/temporary_file.h"
 #include "support/random.h"
 #include "support/temporary_directory.h"
 #include "support/wording.h"
 #include "vantage/atomic_file.h"
 #include "vantage/error.h"
+#include "vantage/stages.h"
 #include "vantage/temporary_folder.h"
 
 namespace vantage::internal::core {
@@ -150,6 +154,87 @@ TEST(TemporaryFile, AsManyAsThereAreNamesMayBeWrittenAtOnce) {
   EXPECT_NO_THROW(TemporaryFile(directory / "a", kNamed));
 }
 
+TEST(TemporaryFile, FartherNumbersAreLookedAtBehindThoseInUse) {
+  const TemporaryDirectory directory;
+  Process writer([&] {
+    for (int i = 0; i < 12; ++i) new TemporaryFile(directory / "a", kNamed);
+  });
+  ASSERT_EQ(directory.names().size(), 12U);
+  writer.kill();
+  { const TemporaryFile next(directory / "a"); }
+  EXPECT_EQ(directory.names(), Names{});
+}
+
+TEST(TemporaryFile, WhatTookItsNameIsNeitherPutInPlaceNorRemoved) {
+  const TemporaryDirectory directory;
+  write_bytes(directory / "a", "old");
+  const fs::path name = directory / ".a.vantage-0.tmp";
+  {
+    TemporaryFile file(directory / "a", kNamed);
+    write_to(file, "new");
+    fs::remove(name);
+    write_bytes(name, "of somebody else");
+    EXPECT_THROW(file.put_in_place(), std::system_error);
+  }
+  EXPECT_EQ(read_bytes(directory / "a"), "old");
+  EXPECT_EQ(read_bytes(name), "of somebody else");
+}
+
+TEST(TemporaryFile, WhatTookTheSecondNameOfTheOldOneIsNotGivenBack) {
+  const TemporaryDirectory directory;
+  write_bytes(directory / "a", "old");
+  const fs::path name = directory / ".a.vantage-0.old";
+  {
+    TemporaryFile file(directory / "a", kNamed);
+    file.keep_old();
+    ASSERT_TRUE(fs::exists(name));
+    fs::remove(name);
+    write_bytes(name, "of somebody else");
+    EXPECT_FALSE(file.give_back());
+  }
+  EXPECT_EQ(read_bytes(directory / "a"), "old");
+  EXPECT_EQ(read_bytes(name), "of somebody else");
+}
+
+/// While one process keeps the old file, another puts new ones in its place: what is kept is what is held.
+TEST(TemporaryFile, TheOldFileThatIsKeptIsTheOneThatIsHeld) {
+  const TemporaryDirectory directory;
+  write_bytes(directory / "a", "0");
+  Process writer([&] {
+    std::thread([&] {
+      for (int i = 0;; ++i) {
+        write_bytes(directory / "next", std::to_string(i));
+        fs::rename(directory / "next", directory / "a");
+      }
+    }).detach();
+  });
+  for (int i = 0; i < 300; ++i) {
+    TemporaryFile file(directory / "a", kNamed);
+    file.keep_old();
+  }
+  writer.kill();
+  fs::remove(directory / "next");
+  { const TemporaryFile last(directory / "a", kNamed); }
+  EXPECT_EQ(directory.names(), Names{"a"}) << "a second name that nobody knows of stays";
+}
+
+TEST(TemporaryFile, IsCopiedWhereItCannotBeGivenAName) {
+  const TemporaryDirectory directory;
+  write_bytes(directory / "a", "old");
+  const std::string text(200'000, 'n');
+  {
+    TemporaryFile file(directory / "a", TemporaryFile::Names::by_copy);
+    write_to(file, text);
+    ASSERT_EQ(::fchmod(file.descriptor(), 0640), 0);
+    file.put_in_place();
+  }
+  EXPECT_EQ(read_bytes(directory / "a"), text);
+  struct stat status {};
+  ASSERT_EQ(::stat((directory / "a").c_str(), &status), 0);
+  EXPECT_EQ(status.st_mode & 0777, 0640U);
+  EXPECT_EQ(directory.names(), Names{"a"});
+}
+
 TEST(TemporaryFile, AnOldFileThatCannotBeReadHasNoWayBack) {
   const TemporaryDirectory directory;
   TemporaryFile file(directory / "a");
@@ -227,6 +312,66 @@ TEST(TemporaryFolder, TakesThePlaceOfAnother) {
   EXPECT_FALSE(fs::exists(directory / "place/first"));
   TemporaryFolder folder(directory.path(), ".x-");
   EXPECT_FALSE(folder.move_to(directory / "none/place"));
+}
+
+/// Without an exchange in one step, as on some network file systems.
+TEST(TemporaryFolder, TakesThePlaceOfAnotherInTwoSteps) {
+  const TemporaryDirectory directory;
+  for (const std::string text : {"first", "second"}) {
+    fs::create_directory(directory / "new");
+    write_bytes(directory / "new" / text, text);
+    ASSERT_TRUE(replace_folder(directory / "new", directory / "place", false));
+    EXPECT_EQ(directory.names(), Names{"place"});
+  }
+  EXPECT_TRUE(fs::exists(directory / "place/second"));
+  EXPECT_FALSE(fs::exists(directory / "place/first"));
+  EXPECT_FALSE(replace_folder(directory / "none", directory / "place", false));
+  EXPECT_EQ(errno, ENOENT);
+  EXPECT_TRUE(fs::exists(directory / "place/second")) << "the old one is back";
+  EXPECT_EQ(directory.names(), Names{"place"});
+}
+
+TEST(TemporaryFolder, TheOldOneThatWasLeftAsideGoesWhenANewOneIsInPlace) {
+  const TemporaryDirectory directory;
+  fs::create_directory(directory / ".x-abcdef-old");
+  write_bytes(directory / ".x-abcdef-old/file", "x");
+  fs::create_directory(directory / ".y-abcdef-old");
+  {
+    TemporaryFolder folder(directory.path(), ".x-");
+    EXPECT_TRUE(fs::exists(directory / ".x-abcdef-old/file")) << "until then it is the only one";
+    ASSERT_TRUE(folder.move_to(directory / "place"));
+  }
+  EXPECT_EQ(sorted_names(directory), (Names{".y-abcdef-old", "place"}));
+}
+
+TEST(TemporaryFolder, OfStagesIsMadeBesideAFolderOfALongName) {
+  const TemporaryDirectory directory;
+  for (const std::size_t length : {1U, 180U, 181U, 255U}) {
+    const StageFolder stages(directory / std::string(length, 's'));
+    EXPECT_EQ(directory.names().size(), 1U) << length;
+  }
+  const StageFolder one(directory / (std::string(200, 's') + "1")), two(directory / (std::string(200, 's') + "2"));
+  const Names names = directory.names();
+  ASSERT_EQ(names.size(), 2U);
+  EXPECT_NE(names[0].substr(0, names[0].size() - 6), names[1].substr(0, names[1].size() - 6)) << "each has its prefix";
+  testing::expect_code([&] { StageFolder(directory / "none/stages"); }, ErrorCode::output_unwritable, "none/stages");
+}
+
+TEST(TemporaryFolder, LeavesNothingWhenNoFileCanBeOpened) {
+  const TemporaryDirectory directory;
+  rlimit old{};
+  ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &old), 0);
+  const rlimit none{0, old.rlim_max};
+  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &none), 0);
+  bool is_refused = false;
+  try {
+    const TemporaryFolder folder(directory.path(), ".x-");
+  } catch (const Error& error) {
+    is_refused = error.code() == ErrorCode::output_unwritable;
+  }
+  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &old), 0);
+  EXPECT_TRUE(is_refused);
+  EXPECT_EQ(directory.names(), Names{});
 }
 
 }  // namespace

@@ -13,10 +13,12 @@
 namespace vantage {
 
 /// Collects what is written in a temporary file beside the target; commit() puts it in the target's place in one step.
-/// When anything fails, or commit() is never called, the target stays as it was and the temporary file is removed. What
-/// a killed process left of one (".NAME.vantage-K.tmp", ".NAME.vantage-K.old") is removed when the target is next
-/// written; where the file system can keep a file without a name, nothing is left. A target that is a symbolic link is
-/// followed; an existing file's permissions are kept.
+/// When anything fails, or commit() is never called, the target stays as it was and the temporary file is removed.
+/// Where the file system can keep a file without a name, a killed process leaves nothing. Elsewhere it leaves
+/// ".NAME.vantage-K.tmp" or ".NAME.vantage-K.old", with the lowest free number K. The next writing of the target
+/// removes these, up to the first four numbers that are free; of more than four processes that were killed at once some
+/// may stay until as many write again. A target that is a symbolic link is followed; an existing file's permissions are
+/// kept.
 class VANTAGE_API AtomicFile {
  public:
   /// Throws ErrorCode::output_not_a_file for a directory, a device, a pipe or a socket, and output_unwritable for a

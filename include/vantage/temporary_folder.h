@@ -26,7 +26,9 @@ class VANTAGE_API TemporaryFolder {
   const std::filesystem::path& path() const { return path_; }
 
   /// Moves it to `place`, which is free or holds a folder; a folder that was there is removed. In one step where the
-  /// file system can do it. Call once, last. False, with errno, where it cannot be done: what was there is there.
+  /// file system can do it. Elsewhere a process that is killed between the two steps leaves the old folder beside,
+  /// under the name of the temporary one with "-old" behind it, until the next move_to() of the same prefix has put a
+  /// new one in place. Call once, last. False, with errno, where it cannot be done: what was there is there.
   bool move_to(const std::filesystem::path& place);
 
  private:

@@ -3,8 +3,10 @@
 #include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <system_error>
 #include <utility>
 
@@ -75,6 +77,17 @@ bool is_stage_file(const fs::directory_entry& entry) {
 /// Without a slash at the end, which would make the folder its own parent.
 fs::path without_slash(const fs::path& folder) { return folder.has_filename() ? folder : folder.parent_path(); }
 
+constexpr const char* kElsewhere = "name a folder that can be written, on a disk with room";
+
+/// Of the temporary folder beside the folder of that name. A long name is cut, since a file system takes 255 bytes: a
+/// hash then keeps two of them apart.
+std::string prefix_beside(const std::string& name) {
+  constexpr std::size_t kMostBytes = 180;
+  if (name.size() <= kMostBytes) return "." + name + ".vantage-stages-";
+  return internal::core::format(".{}-{:016x}.vantage-stages-", name.substr(0, kMostBytes),
+                                std::hash<std::string>()(name));
+}
+
 }  // namespace
 
 StageFolder::StageFolder(fs::path folder) : asked_(std::move(folder)), folder_(without_slash(asked_)) {
@@ -88,9 +101,10 @@ StageFolder::StageFolder(fs::path folder) : asked_(std::move(folder)), folder_(w
   if (fs::is_symlink(folder_, error)) folder_ = fs::canonical(folder_, error);
   const fs::path parent = folder_.has_parent_path() ? folder_.parent_path() : fs::path(".");
   try {
-    temporary_ = std::make_unique<TemporaryFolder>(parent, "." + folder_.filename().string() + ".vantage-stages-");
-  } catch (const Error&) {
-    fail("the folder of the stages cannot be made", errno);
+    temporary_ = std::make_unique<TemporaryFolder>(parent, prefix_beside(folder_.filename().string()));
+  } catch (const Error& refused) {
+    throw Error(refused.code(), "the folder of the stages cannot be made: " + refused.problem(), asked_.string(),
+                kElsewhere);
   }
   // As other programs make folders; a temporary one is private.
   fs::permissions(temporary_->path(), fs::exists(status) ? status.permissions() : static_cast<fs::perms>(0755), error);
@@ -99,8 +113,7 @@ StageFolder::StageFolder(fs::path folder) : asked_(std::move(folder)), folder_(w
 StageFolder::~StageFolder() = default;
 
 void StageFolder::fail(const std::string& problem, int error_number) const {
-  throw Error(ErrorCode::output_unwritable, problem + ": " + std::strerror(error_number), asked_.string(),
-              "name a folder that can be written, on a disk with room");
+  throw Error(ErrorCode::output_unwritable, problem + ": " + std::strerror(error_number), asked_.string(), kElsewhere);
 }
 
 /// The old folder is removed as a whole: nothing in it may be anybody else's.

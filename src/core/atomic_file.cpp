@@ -32,6 +32,8 @@ std::string advice_for(int error_number) {
     case EPERM:
     case EROFS:
       return "write to a directory that you may write to";
+    case ESTALE:
+      return "another program took the name of the temporary file; write again, into a folder of your own";
     default:
       return "write elsewhere; the old file, if any, is as it was";
   }

@@ -4,6 +4,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <string>
 #include <system_error>
@@ -15,8 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// As many processes may write the same file at once. The first few numbers are looked at whenever a file is made.
-constexpr int kMostNumbers = 256, kUsualNumbers = 4;
+constexpr int kMostNumbers = 256;  // as many processes may write the same file at once
+constexpr int kMostRetries = 10;   // at what another process may be doing at the same moment
 
 [[noreturn]] void fail(int error_number) { throw std::system_error(error_number, std::generic_category()); }
 
@@ -38,6 +40,37 @@ int first_free(const Path& path, const Make& make) {
   return EEXIST;
 }
 
+bool is_there(const fs::path& path) {
+  struct stat status {};
+  return ::lstat(path.c_str(), &status) == 0;
+}
+
+/// Of what is open, and nothing that took its name meanwhile.
+void unlink_own(const fs::path& path, int descriptor) {
+  if (!path.empty() && leads_to(path, descriptor)) ::unlink(path.c_str());
+}
+
+/// All bytes and the permissions; 0, or the number of an error.
+int copy_file(int from, int to) {
+  std::array<char, 1 << 16> buffer{};
+  for (off_t done = 0;;) {
+    const ssize_t count = ::pread(from, buffer.data(), buffer.size(), done);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return errno;
+    if (count == 0) break;
+    for (ssize_t written = 0; written < count;) {
+      const ssize_t more = ::write(to, buffer.data() + written, static_cast<std::size_t>(count - written));
+      if (more < 0 && errno == EINTR) continue;
+      if (more < 0) return errno;
+      written += more;
+    }
+    done += count;
+  }
+  struct stat status {};
+  if (::fstat(from, &status) == 0) (void)::fchmod(to, status.st_mode & 07777);
+  return ::fsync(to) == 0 ? 0 : errno;
+}
+
 }  // namespace
 
 void remove_if_abandoned(const fs::path& path) {
@@ -51,18 +84,29 @@ void remove_if_abandoned(const fs::path& path) {
   ::close(descriptor);
 }
 
-TemporaryFile::TemporaryFile(const fs::path& target, Names names) : target_(target) {
-  for (int number = 0; number < kUsualNumbers; ++number) {
-    for (const char* ending : {".tmp", ".old"}) remove_if_abandoned(numbered(number, ending));
-  }
+TemporaryFile::TemporaryFile(const fs::path& target, Names names) : target_(target), names_(names) {
+  remove_abandoned_ones();
   if (names == Names::from_the_start || !open_without_name()) open_with_name();
 }
 
 TemporaryFile::~TemporaryFile() {
-  if (!name_.empty()) ::unlink(name_.c_str());
-  if (!kept_.empty()) ::unlink(kept_.c_str());
+  unlink_own(name_, descriptor_);
+  unlink_own(kept_, old_descriptor_);
   if (descriptor_ >= 0) ::close(descriptor_);  // and with it the lock
   if (old_descriptor_ >= 0) ::close(old_descriptor_);
+}
+
+void TemporaryFile::remove_abandoned_ones() const {
+  // Numbers are given from 0 on, so that those in use lie close together: further ones are looked at only behind
+  // others.
+  for (int number = 0, last = kUsualNumbers; number < std::min(last, kMostNumbers); ++number) {
+    for (const char* ending : {".tmp", ".old"}) {
+      const fs::path candidate = numbered(number, ending);
+      if (!is_there(candidate)) continue;
+      last = number + 1 + kUsualNumbers;
+      remove_if_abandoned(candidate);
+    }
+  }
 }
 
 fs::path TemporaryFile::numbered(int number, const char* ending) const {
@@ -100,7 +144,8 @@ void TemporaryFile::open_with_name() {
   if (const int error = first_free([this](int number) { return numbered(number, ".tmp"); }, make)) fail(error);
 }
 
-void TemporaryFile::give_name() {
+/// False, with errno, where the file system does not do it.
+bool TemporaryFile::try_to_link() {
   const auto make = [this](const fs::path& candidate) {
     if (::linkat(AT_FDCWD, name_in_proc(descriptor_).c_str(), AT_FDCWD, candidate.c_str(), AT_SYMLINK_FOLLOW) != 0) {
       return errno;
@@ -108,28 +153,59 @@ void TemporaryFile::give_name() {
     name_ = candidate;
     return 0;
   };
-  if (const int error = first_free([this](int number) { return numbered(number, ".tmp"); }, make)) fail(error);
+  errno = first_free([this](int number) { return numbered(number, ".tmp"); }, make);
+  return errno == 0;
+}
+
+void TemporaryFile::copy_to_named_file() {
+  const int original = descriptor_;
+  try {
+    open_with_name();
+    if (const int error = copy_file(original, descriptor_)) fail(error);
+  } catch (...) {
+    if (original != descriptor_) ::close(original);
+    throw;
+  }
+  ::close(original);
+}
+
+/// Some file systems make files without a name and cannot give them one. What took hours is not lost for that.
+void TemporaryFile::give_name() {
+  if (names_ == Names::by_copy || !try_to_link()) copy_to_named_file();
 }
 
 void TemporaryFile::put_in_place() {
   if (name_.empty()) give_name();
+  if (!leads_to(name_, descriptor_)) fail(ESTALE);
   if (::rename(name_.c_str(), target_.c_str()) != 0) fail(errno);
   name_.clear();
 }
 
+/// 0; or EAGAIN where the target is another file by now.
+int TemporaryFile::link_old_as(const fs::path& candidate) {
+  if (::link(target_.c_str(), candidate.c_str()) != 0) return errno;
+  if (!leads_to(candidate, old_descriptor_)) {
+    remove_if_abandoned(candidate);  // or, if its writer still holds it, whoever writes next
+    return EAGAIN;
+  }
+  kept_ = candidate;
+  return 0;
+}
+
 void TemporaryFile::keep_old() {
-  old_descriptor_ = ::open(target_.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
-  if (old_descriptor_ < 0 || !lock_with_others(old_descriptor_)) return;
-  const auto make = [this](const fs::path& candidate) {
-    if (::link(target_.c_str(), candidate.c_str()) != 0) return errno;
-    kept_ = candidate;
-    return 0;
-  };
-  (void)first_free([this](int number) { return numbered(number, ".old"); }, make);
+  for (int attempt = 0; attempt < kMostRetries; ++attempt) {
+    if (old_descriptor_ >= 0) ::close(old_descriptor_);
+    old_descriptor_ = ::open(target_.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    if (old_descriptor_ < 0 || !lock_with_others(old_descriptor_)) return;
+    const int error = first_free([this](int number) { return numbered(number, ".old"); },
+                                 [this](const fs::path& candidate) { return link_old_as(candidate); });
+    if (error != EAGAIN) return;
+  }
 }
 
 bool TemporaryFile::give_back() {
-  if (kept_.empty() || ::rename(kept_.c_str(), target_.c_str()) != 0) return false;
+  if (kept_.empty() || !leads_to(kept_, old_descriptor_)) return false;
+  if (::rename(kept_.c_str(), target_.c_str()) != 0) return false;
   kept_.clear();
   return true;
 }

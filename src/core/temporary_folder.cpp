@@ -1,7 +1,6 @@
 #include "vantage/temporary_folder.h"
 
 #include <fcntl.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -12,6 +11,7 @@
 #include <system_error>
 
 #include "core/file_locks.h"
+#include "core/replace_folder.h"
 #include "vantage/error.h"
 
 namespace vantage {
@@ -31,13 +31,14 @@ fs::path folder_for_temporary_files() {
   return error ? fs::path("/tmp") : folder;
 }
 
-/// Removes those that were left by processes that have ended.
-void remove_abandoned(const fs::path& parent, std::string_view prefix) {
+/// Removes those that were left by processes that have ended: PREFIXxxxxxx and an ending.
+void remove_abandoned(const fs::path& parent, std::string_view prefix, std::string_view ending) {
   std::error_code error;
   for (fs::directory_iterator entry(parent, error); !error && entry != fs::directory_iterator();
        entry.increment(error)) {
     const std::string name = entry->path().filename().string();
-    if (name.size() != prefix.size() + kRandomCharacters || !name.starts_with(prefix)) continue;
+    if (name.size() != prefix.size() + kRandomCharacters + ending.size()) continue;
+    if (!name.starts_with(prefix) || !name.ends_with(ending)) continue;
     const int descriptor = ::open(entry->path().c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
     if (descriptor < 0) continue;
     struct stat status {};
@@ -50,22 +51,12 @@ void remove_abandoned(const fs::path& parent, std::string_view prefix) {
   }
 }
 
-/// Puts `folder` in the place of another one, and the other one in its place.
-bool exchange(const fs::path& folder, const fs::path& place) {
-#ifdef RENAME_EXCHANGE
-  return ::renameat2(AT_FDCWD, folder.c_str(), AT_FDCWD, place.c_str(), RENAME_EXCHANGE) == 0;
-#else
-  errno = ENOSYS;
-  return false;
-#endif
-}
-
 }  // namespace
 
 TemporaryFolder::TemporaryFolder() : TemporaryFolder(folder_for_temporary_files(), "vantage-tmp-") {}
 
 TemporaryFolder::TemporaryFolder(const fs::path& parent, const std::string& prefix) {
-  remove_abandoned(parent, prefix);
+  remove_abandoned(parent, prefix, "");
   std::string pattern;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     pattern = (parent / (prefix + std::string(kRandomCharacters, 'X'))).string();
@@ -74,6 +65,12 @@ TemporaryFolder::TemporaryFolder(const fs::path& parent, const std::string& pref
     if (descriptor_ >= 0 && lock_with_others(descriptor_) && leads_to(pattern, descriptor_)) {
       path_ = pattern;
       return;
+    }
+    const int reason = errno;
+    if (descriptor_ < 0) ::rmdir(pattern.c_str());
+    if (descriptor_ < 0 && reason != ENOENT) {  // as when too many files are open: another attempt ends alike
+      errno = reason;
+      break;
     }
     if (descriptor_ >= 0) ::close(descriptor_);  // taken for an abandoned one before it was held
     descriptor_ = -1;
@@ -89,26 +86,12 @@ TemporaryFolder::~TemporaryFolder() {
 }
 
 bool TemporaryFolder::move_to(const fs::path& place) {
-  std::error_code error;
-  if (!fs::exists(place, error)) {
-    if (::rename(path_.c_str(), place.c_str()) != 0) return false;
-    path_.clear();
-    return true;
-  }
-  if (exchange(path_, place)) return true;  // what was there goes with this object
-  if (errno != EINVAL && errno != ENOSYS) return false;
-  // The file system cannot do that: the old one steps aside, and comes back if this one does not take its place.
-  const fs::path aside = path_.string() + "-old";
-  if (::rename(place.c_str(), aside.c_str()) != 0) return false;
-  if (::rename(path_.c_str(), place.c_str()) != 0) {
-    const int reason = errno;
-    ::rename(aside.c_str(), place.c_str());
-    errno = reason;
-    return false;
-  }
-  path_.clear();
-  fs::remove_all(aside, error);
-  return true;
+  if (!internal::core::replace_folder(path_, place)) return false;
+  // What a killed process left beside is older than what is in place now.
+  const std::string name = path_.filename().string();
+  remove_abandoned(path_.has_parent_path() ? path_.parent_path() : fs::path("."),
+                   std::string_view(name).substr(0, name.size() - kRandomCharacters), "-old");
+  return true;  // where a folder is at path_ now, it was at `place`, and goes with this object
 }
 
 }  // namespace vantage

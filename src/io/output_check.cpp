@@ -18,10 +18,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Asks the file system itself: permissions alone do not tell of a read-only disk, a quota or a network share.
+/// Asks the file system itself: permissions alone do not tell of a read-only disk, a quota or a network share. By a
+/// file with a name, as the output will have one: some folders take files without a name, and no others.
 void try_to_make_a_file_beside(const fs::path& file) {
+  using internal::core::TemporaryFile;
   try {
-    const internal::core::TemporaryFile trial(file);
+    const TemporaryFile trial(file, TemporaryFile::Names::from_the_start);
   } catch (const std::system_error& error) {
     throw Error(ErrorCode::output_unwritable, "no file can be made in the output folder: " + error.code().message(),
                 file.string(), "make the folder writable, or write elsewhere");

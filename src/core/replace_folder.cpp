@@ -1,0 +1,56 @@
+#include "core/replace_folder.h"
+
+#include <fcntl.h>
+#include <stdio.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <system_error>
+
+#include "core/file_locks.h"
+
+namespace vantage::internal::core {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Puts `folder` in the place of another one, and the other one in its place.
+bool exchange_folders(const fs::path& folder, const fs::path& place) {
+#ifdef RENAME_EXCHANGE
+  return ::renameat2(AT_FDCWD, folder.c_str(), AT_FDCWD, place.c_str(), RENAME_EXCHANGE) == 0;
+#else
+  errno = ENOSYS;
+  return false;
+#endif
+}
+
+/// The old one steps aside, and comes back if the new one does not take its place.
+bool replace_in_two_steps(const fs::path& folder, const fs::path& place) {
+  const fs::path aside = folder.string() + "-old";
+  const int old = ::open(place.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+  if (old >= 0) (void)lock_with_others(old);  // nobody takes it for one that was left
+  bool is_done = ::rename(place.c_str(), aside.c_str()) == 0;
+  int reason = errno;
+  if (is_done && ::rename(folder.c_str(), place.c_str()) != 0) {
+    reason = errno;
+    is_done = false;
+    ::rename(aside.c_str(), place.c_str());
+  }
+  std::error_code ignored;
+  if (is_done) fs::remove_all(aside, ignored);
+  if (old >= 0) ::close(old);
+  errno = reason;
+  return is_done;
+}
+
+}  // namespace
+
+bool replace_folder(const fs::path& folder, const fs::path& place, bool try_in_one_step) {
+  std::error_code error;
+  if (!fs::exists(place, error)) return ::rename(folder.c_str(), place.c_str()) == 0;
+  if (try_in_one_step && exchange_folders(folder, place)) return true;
+  if (try_in_one_step && errno != EINVAL && errno != ENOSYS) return false;
+  return replace_in_two_steps(folder, place);
+}
+
+}  // namespace vantage::internal::core
