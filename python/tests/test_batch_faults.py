@@ -8,6 +8,7 @@ import random
 import signal
 import subprocess
 import sys
+import tempfile
 import time
 
 import pytest
@@ -267,6 +268,97 @@ def test_workers_end_with_their_driver(tmp_path):
         for worker in filter(is_alive, workers):
             os.kill(worker, signal.SIGKILL)
     assert not (tmp_path / "out" / "rows").exists(), "it was not the end of the shard that ended them"
+
+
+REMOTE = f"'file://{PROJECT / 'examples' / 'plaza' / 'plaza.obj'}'"
+SQUARES = "[{'id': i, 'vertices': [[-12, -9, 0], [8, -11, 0], [11, 0, 0]]} for i in range(4)]"
+
+
+def test_copies_of_remote_files_do_not_stay(tmp_path):
+    temporary = tmp_path / "temporary"
+    temporary.mkdir()
+    process = driver(tmp_path / "out", SQUARES, with_our_modules(TMPDIR=str(temporary)), scene=REMOTE, max_range=60,
+                     shard_rows=2, workers=2)
+    said = process.communicate(timeout=300)[0]
+    assert process.returncode == 0 and said.split()[-1] == "4", said
+    assert list(temporary.iterdir()) == []
+
+
+@pytest.fixture
+def slow_copies(tmp_path):
+    """The folder for temporary files, and an environment in which a worker that is the first to copy a remote file never
+    comes to the end of it."""
+    temporary, modules = tmp_path / "temporary", tmp_path / "modules"
+    temporary.mkdir()
+    modules.mkdir()
+    (modules / "sitecustomize.py").write_text(f"""
+import os, sys, time
+if any("_pool" in word for word in sys.orig_argv):
+    from fsspec.implementations.local import LocalFileSystem
+    whole = LocalFileSystem.get_file
+
+    def slow(self, remote, local, **options):
+        try:
+            os.close(os.open({str(tmp_path / "slow")!r}, os.O_CREAT | os.O_EXCL))
+        except FileExistsError:
+            return whole(self, remote, local, **options)
+        with open(local, "w") as half:
+            half.write("half")
+            half.flush()
+            time.sleep(3600)
+
+    LocalFileSystem.get_file = slow
+""")
+    path = os.pathsep.join([str(modules), *(path for path in sys.path if path)])
+    return temporary, {**os.environ, "PYTHONPATH": path, "TMPDIR": str(temporary)}
+
+
+def half_copies(temporary):
+    return [file for file in temporary.glob("vantage-scene-*/plaza.obj") if file.read_text() == "half"]
+
+
+def test_the_copy_of_a_worker_that_is_killed_does_not_stay(tmp_path, slow_copies):
+    temporary, environment = slow_copies
+    process = driver(tmp_path / "out", SQUARES, environment, scene=REMOTE, max_range=60, shard_rows=2, workers=1)
+    wait_until(lambda: half_copies(temporary) or process.poll() is not None)
+    assert half_copies(temporary), process.communicate()[0]
+    for worker in children(process.pid):
+        os.kill(worker, signal.SIGKILL)
+    said = process.communicate(timeout=300)[0]
+    assert process.returncode == 0 and said.split()[-1] == "4", said
+    assert list(temporary.iterdir()) == []
+
+
+def test_a_worker_that_loses_its_driver_removes_its_copy(tmp_path, slow_copies):
+    from vantage._folders import Folder
+
+    temporary, environment = slow_copies
+    process = driver(tmp_path / "out", SQUARES, environment, scene=REMOTE, max_range=60, shard_rows=2, workers=1)
+    wait_until(lambda: half_copies(temporary) or process.poll() is not None)
+    workers = children(process.pid)
+    process.kill()
+    process.communicate()
+    assert workers
+    wait_until(lambda: not any(map(is_alive, workers)), 60)
+    assert half_copies(temporary) == []
+    with Folder("vantage-scene-", temporary) as mine:  # and those of the driver go with the next
+        assert os.listdir(temporary) == [os.path.basename(mine)]
+
+
+def test_no_copy_is_begun_when_the_process_ends(monkeypatch, tmp_path):
+    from vantage.batch import _scenes
+
+    monkeypatch.setenv("TMPDIR", str(tmp_path))
+    monkeypatch.setattr(tempfile, "tempdir", None)
+    monkeypatch.setattr(_scenes, "_folders", [])
+    monkeypatch.setattr(_scenes, "_is_over", False)
+    copy = _scenes._here(REMOTE.strip("'"), {})
+    assert os.path.getsize(copy) > 0 and len(list(tmp_path.iterdir())) == 1
+    _scenes.forget()
+    assert list(tmp_path.iterdir()) == []
+    with pytest.raises(RuntimeError):
+        _scenes._here(REMOTE.strip("'"), {})
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_killed_again_and_again(scene, tmp_path):

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import os
 import re
-import tempfile
 from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -16,6 +15,7 @@ from . import _arrays, _core
 from ._checks import instance, items, not_called, path, path as checked_path, shown, text as checked_text
 from ._errors import Error, input_error, make
 from ._extras import require
+from ._folders import Folder
 from ._mesh import KINDS, Triangles
 from ._place import Georeference
 from ._progress import Progress
@@ -159,7 +159,7 @@ class Scene(Triangles):
             raise input_error("wrong-type", f"data is {shown(data)}", "data", "pass the bytes of a file")
         if not re.fullmatch(r"[A-Za-z0-9.]{1,20}", ending):
             raise input_error("unknown-choice", f"format is {shown(format)}", "format", "pass the end of a name: 'obj'")
-        with tempfile.TemporaryDirectory() as folder:
+        with Folder() as folder:
             file = os.path.join(folder, "scene." + ending)
             with open(file, "wb") as out:
                 out.write(data)

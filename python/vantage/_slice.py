@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-import tempfile
 from collections.abc import Sequence
 from typing import Any
 
@@ -15,6 +14,7 @@ from . import _core
 from ._checks import path as checked_path
 from ._errors import make
 from ._extras import require
+from ._folders import BESIDE, Folder
 from ._place import WGS84, Georeference, crs_text, no_place
 from ._requests import Path
 
@@ -157,7 +157,7 @@ def _write(file: str, text: str) -> None:
 def _replace(file: str, write: Any) -> None:
     """A file that is written whole beside it takes its place."""
     try:
-        with tempfile.TemporaryDirectory(dir=os.path.dirname(file), prefix=".vantage-") as folder:
+        with Folder(BESIDE, os.path.dirname(file)) as folder:
             draft = os.path.join(folder, os.path.basename(file))
             write(draft)
             os.replace(draft, file)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-import tempfile
 from collections.abc import Iterable, Sequence
 from typing import Any
 
@@ -14,6 +13,7 @@ import numpy.typing as npt
 from . import _arrays, _core
 from ._checks import choice, flag, items, not_called, path as checked_path, shown, text, thread_count, whole
 from ._errors import input_error
+from ._folders import Folder
 from ._mesh import Solid
 from ._progress import Progress
 from ._requests import Path
@@ -181,7 +181,7 @@ class Volume(Solid):
     def __reduce__(self) -> tuple[Any, ...]:
         if self.empty:
             return _empty, (self.outcome, self.reason)
-        with tempfile.TemporaryDirectory() as folder:
+        with Folder() as folder:
             file = os.path.join(folder, "volume.ply")
             self.save(file)
             with open(file, "rb") as saved:
@@ -210,7 +210,7 @@ def _cores(volumes: Any) -> list[_core.Volume]:
 
 
 def _restored(data: bytes) -> Volume:
-    with tempfile.TemporaryDirectory() as folder:
+    with Folder() as folder:
         file = os.path.join(folder, "volume.ply")
         with open(file, "wb") as out:
             out.write(data)

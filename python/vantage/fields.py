@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import os
 import shutil
-import tempfile
 from collections.abc import Callable
 from typing import Any
 
@@ -20,6 +19,7 @@ from . import _arrays
 from ._checks import path as checked_path
 from ._errors import Error, input_error, make
 from ._extras import require
+from ._folders import BESIDE, Folder
 from ._requests import Path
 from ._scene import Scene
 from ._volume import Volume
@@ -197,7 +197,7 @@ def _openvdb() -> Any:
 
 def _written_whole(file: str, write: Callable[[str], None]) -> None:
     """Under another name beside its place, then moved there."""
-    with tempfile.TemporaryDirectory(prefix=".vantage-", dir=os.path.dirname(file)) as folder:
+    with Folder(BESIDE, os.path.dirname(file)) as folder:
         made = os.path.join(folder, os.path.basename(file))
         write(made)
         if os.path.isdir(made):

@@ -16,7 +16,9 @@ from multiprocessing.connection import Connection, wait
 from typing import Any, NamedTuple, Protocol, Union
 
 from .._errors import Error, make
+from .._folders import remove_abandoned
 from . import _scenes, _work
+from ._store import UNFINISHED
 from ._work import Done, Job, Task
 
 
@@ -145,6 +147,8 @@ class LocalWorkers:
             worker.connection.close()  # all at once
         for worker in self._workers:
             worker.end()
+        for prefix in (_scenes.PREFIX, UNFINISHED):  # of those that had to be killed
+            remove_abandoned(prefix)
 
 
 def serve(descriptor: int, driver: int) -> None:
@@ -157,8 +161,7 @@ def serve(descriptor: int, driver: int) -> None:
             while True:
                 connection.send(attempt(job, connection.recv()))
         except (EOFError, OSError):
-            _scenes.forget()
-            os._exit(0)  # a scene takes long to take apart
+            _end()
 
 
 def _end_with(descriptor: int, driver: int) -> None:
@@ -169,8 +172,15 @@ def _end_with(descriptor: int, driver: int) -> None:
     while not gone.poll(1000):
         if os.getppid() != driver:  # a copy of it may hold the other end
             break
-    _scenes.forget()
-    os._exit(0)
+    _end()
+
+
+def _end() -> None:
+    """Ends this process at once, whatever its other threads do: a scene takes long to take apart."""
+    try:
+        _scenes.forget()
+    finally:
+        os._exit(0)
 
 
 def attempt(job: Job, task: Task) -> Any:

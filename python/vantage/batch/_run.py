@@ -7,7 +7,6 @@ import hashlib
 import io
 import json
 import os
-import shutil
 import time
 from collections.abc import Iterable, Mapping
 from typing import Any
@@ -301,10 +300,9 @@ class _Told:
 def _merge(job: Job, shards: Iterable[Task]) -> tuple[int, str, str]:
     """Writes results.parquet, a group of rows for each shard: how many rows are errors, the hash of all, and the file's."""
     parquet = require("pyarrow.parquet", "batch")
-    folder = job.store.scratch()
     content, errors = hashlib.sha256(), 0
     writer = None
-    try:
+    with job.store.scratch() as folder:
         local = os.path.join(folder, RESULTS)
         with job.store.writing(RESULTS):
             for shard in shards:
@@ -322,6 +320,4 @@ def _merge(job: Job, shards: Iterable[Task]) -> tuple[int, str, str]:
             with open(local, "rb") as file:
                 results_sha256 = hashlib.file_digest(file, "sha256").hexdigest()
         job.store.put_file(RESULTS, local)
-    finally:
-        shutil.rmtree(folder, ignore_errors=True)
     return errors, content.hexdigest(), results_sha256

@@ -5,7 +5,6 @@ from __future__ import annotations
 import io
 import json
 import os
-import tempfile
 import threading
 import zipfile
 import zlib
@@ -14,8 +13,9 @@ from typing import Any, Union
 
 import numpy as np
 
-from .._errors import input_error
+from .._errors import input_error, make
 from .._extras import require
+from .._folders import Folder
 from .._requests import Path
 from .._place import Georeference
 from .._progress import Progress
@@ -28,8 +28,15 @@ _FILES = ("mesh", "osm", "raster", "terrain")
 _ARRAYS = "scene.npz"
 
 _kept: dict[str, Scene] = {}
-_folders: list[tempfile.TemporaryDirectory[str]] = []
 _lock = threading.Lock()
+
+PREFIX = "vantage-scene-"
+"""How the names of folders with copies of remote files begin."""
+
+_folders: list[Folder] = []
+_is_over = False  # no copy may be made any more
+_folders_lock = threading.Lock()
+"""Of the two above. It is never held while a file is copied."""
 
 
 def request_of(scene: AnyScene) -> dict[str, Any]:
@@ -121,18 +128,33 @@ def _of_bytes(data: bytes, where: str) -> Scene:
 
 
 def forget() -> None:
-    """Removes the copies of remote files."""
-    while _folders:
-        _folders.pop().cleanup()
+    """Removes the copies of remote files; none is made after it. For a process that is about to end, in any thread."""
+    global _is_over
+    with _folders_lock:
+        _is_over = True
+        while _folders:
+            _folders.pop().close()
+
+
+def _new_folder() -> str:
+    """Made and registered in one step, so that `forget` misses none."""
+    with _folders_lock:
+        if _is_over:
+            raise RuntimeError("this process is about to end")
+        try:
+            _folders.append(Folder(PREFIX))
+        except OSError as error:
+            raise make("output", "output-unwritable", f"no temporary folder can be made: {error.strerror or error}",
+                       error.filename or "", "make room there, or set TMPDIR to a folder that can be written",
+                       None) from error
+        return _folders[-1].path
 
 
 def _here(path: str, options: Mapping[str, Any]) -> str:
     """A remote file as a local one of the same name, for as long as the process lives: areas of a map are read later."""
     if "://" not in path:
         return path
-    folder = tempfile.TemporaryDirectory(prefix="vantage-scene-")
-    _folders.append(folder)
-    local = os.path.join(folder.name, path.rstrip("/").rsplit("/", 1)[-1])
+    local = os.path.join(_new_folder(), path.rstrip("/").rsplit("/", 1)[-1])
     try:
         files, remote = require("fsspec", "batch").core.url_to_fs(path, **options)
         files.get_file(remote, local)

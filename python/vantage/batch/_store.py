@@ -5,20 +5,21 @@ from __future__ import annotations
 import errno
 import os
 import shutil
-import tempfile
 import threading
 from collections.abc import Mapping
 from typing import Any
 
 from .._errors import Error, input_error, make
 from .._extras import require
+from .._folders import Folder
 from .._requests import Path
 
 _PUT_IS_WHOLE = {"s3", "s3a", "gs", "gcs", "abfs", "abfss", "az", "memory"}
 """Protocols whose files appear when all of them was sent."""
 
 
-_UNFINISHED = ".unfinished-"
+UNFINISHED = ".unfinished-"
+"""How the names of folders begin that `Store.scratch` makes."""
 
 
 class Store:
@@ -112,12 +113,13 @@ class Store:
         with self.writing(name):
             self.files.put_file(os.fspath(local), self.path(name))
 
-    def scratch(self) -> str:
-        """A local folder for files that `put_file` will move, on the same disk where the store is local."""
+    def scratch(self) -> Folder:
+        """A local folder for files that `put_file` will move, on the same disk where the store is local; for `with`. Those
+        that others left there are for `tidy`: workers of the same run may be on machines whose locks are not seen here."""
         with self.writing(""):
             if self.is_local:
                 os.makedirs(self.root, exist_ok=True)
-            return tempfile.mkdtemp(prefix=_UNFINISHED, dir=self.root if self.is_local else None)
+            return Folder(UNFINISHED, self.root if self.is_local else None, removes_others=not self.is_local)
 
     def tidy(self) -> None:
         """Removes what killed processes left unfinished. Call it while nobody else writes: with the folder's lock, and
@@ -128,7 +130,7 @@ class Store:
             for name in files:
                 if name.startswith(".") and name.endswith(".part"):
                     os.unlink(os.path.join(folder, name))
-            for name in [name for name in folders if name.startswith(_UNFINISHED)]:
+            for name in [name for name in folders if name.startswith(UNFINISHED)]:
                 shutil.rmtree(os.path.join(folder, name), ignore_errors=True)
 
     def _put_local(self, name: str, content: bytes) -> None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import dataclasses
 import hashlib
 import os
-import shutil
 import signal
 import socket
 import time
@@ -171,20 +170,18 @@ def ply_name(number: int, row: Row) -> str:
 
 
 def _put_ply(store: Store, path: str, result: Result) -> _seals.Seal:
-    folder = store.scratch()
-    try:
-        local = os.path.join(folder, "volume.ply")
-        result.volume.save(local)
-        with open(local, "rb") as file:
-            content = file.read()
-        if store.is_local:
-            store.put_file(path, local)
-        else:
-            store.put(path, content)
-    except (OSError, OutputError) as error:
-        raise unwritable(error, store.where(path)) from error
-    finally:
-        shutil.rmtree(folder, ignore_errors=True)
+    with store.scratch() as folder:
+        try:
+            local = os.path.join(folder, "volume.ply")
+            result.volume.save(local)
+            with open(local, "rb") as file:
+                content = file.read()
+            if store.is_local:
+                store.put_file(path, local)
+            else:
+                store.put(path, content)
+        except (OSError, OutputError) as error:
+            raise unwritable(error, store.where(path)) from error
     return _seals.seal_of(content)
 
 
