@@ -30,13 +30,15 @@ if(VANTAGE_SANITIZE)
   add_link_options(-fsanitize=${VANTAGE_SANITIZE})
 endif()
 # ---- hardening: what makes a mistake end the program instead of letting an input take it over. Of all that is compiled,
-# third-party sources too. tests/check_binaries.py reads it from the binaries; docs/libraries.md says what it costs.
+# third-party sources too. tests/check_binaries.py reads it from the binaries; docs/libraries.md says what is on, and where
+# what it costs is written.
 set(hardened_by_default OFF)
 if(PROJECT_IS_TOP_LEVEL AND NOT EMSCRIPTEN)
   set(hardened_by_default ON)
 endif()
 option(VANTAGE_HARDEN "Harden what is built: stack protector, FORTIFY, CET, RELRO (not where a sanitizer looks)"
        ${hardened_by_default})
+option(VANTAGE_HARDEN_ENGINE "Leave the standard library's checks (_GLIBCXX_ASSERTIONS) on in the engine too" OFF)
 # AddressSanitizer sees less where FORTIFY puts its own checks before.
 if(VANTAGE_HARDEN AND NOT VANTAGE_SANITIZE AND NOT EMSCRIPTEN)
   include(CheckCXXCompilerFlag)
@@ -61,8 +63,13 @@ if(VANTAGE_HARDEN AND NOT VANTAGE_SANITIZE AND NOT EMSCRIPTEN)
     set(level 3)
   endif()
   add_compile_options("$<$<NOT:$<CONFIG:Debug>>:-U_FORTIFY_SOURCE;-D_FORTIFY_SOURCE=${level}>" -D_GLIBCXX_ASSERTIONS)
-  # But for the engine, where each of them is in an inner loop: they cost 8 % there. Its inputs are checked before it.
-  set(VANTAGE_HOT_OPTIONS -U_GLIBCXX_ASSERTIONS)
+  # But for the engine, where each of them is in an inner loop. Its inputs are checked before it. What both it and other
+  # sources of the library call without inlining it is one function after linking: the checked one where that comes first
+  # on the linker's line, as in the shared library. So others may lose such a check in a static library, and the engine
+  # may keep one.
+  if(NOT VANTAGE_HARDEN_ENGINE)
+    set(VANTAGE_HOT_OPTIONS -U_GLIBCXX_ASSERTIONS)
+  endif()
   # All addresses of functions are settled at the start, and cannot be changed after.
   foreach(flag relro now noexecstack)
     check_linker_flag(CXX "LINKER:-z,${flag}" VANTAGE_LINKS_${flag})

@@ -47,7 +47,18 @@ def faults_of_paths(files: list[pathlib.Path]) -> list[str]:
 
 # Of the libraries some are small: they call no function that could be fortified.
 FORTIFIED = re.compile(r"libvantage_(core|app)\.so.*|_core\..*\.so|vantage|vantage_tests|vantage_bench")
-FLAGS = ("-fstack-protector-strong", "-fstack-clash-protection", "-D_FORTIFY_SOURCE=", "-D_GLIBCXX_ASSERTIONS")
+# Of each the last word of a command counts: what it must be, and by what the words on it are known.
+FLAGS = (
+    ("-fstack-protector-strong", r"-f(no-)?stack-protector\b.*", r"-fstack-protector-(strong|all)"),
+    ("-fstack-clash-protection", r"-f(no-)?stack-clash-protection", r"-fstack-clash-protection"),
+    ("-D_FORTIFY_SOURCE=2", r"-[DU]_FORTIFY_SOURCE(=.*)?", r"-D_FORTIFY_SOURCE=[23]"),
+    ("-D_GLIBCXX_ASSERTIONS", r"-[DU]_GLIBCXX_ASSERTIONS(=.*)?", r"-D_GLIBCXX_ASSERTIONS(=.*)?"),
+)
+MAY_LACK = (  # flags that not every processor has
+    ("-fcf-protection", r"-fcf-protection\b.*", r"-fcf-protection(=full)?"),
+    ("-fPIE", r"-f(no-)?(pie|PIE|pic|PIC)", r"-f(pie|PIE|pic|PIC)"),
+)
+ENGINE = re.compile(r"_hot_objects\.dir/")  # VANTAGE_HOT_OPTIONS in cmake/Options.cmake: it alone may lack assertions
 
 
 def faults_of_hardening(files: list[pathlib.Path], features: int) -> list[str]:
@@ -76,15 +87,16 @@ def faults_of_commands(commands: pathlib.Path) -> list[str]:
     """Sources, third-party ones too, that are compiled without a flag, or with one that takes it back."""
     found = []
     for entry in json.loads(commands.read_text(encoding="utf-8")):
-        words = shlex.split(entry["command"])
-        for flag in FLAGS:
-            if not any(word.startswith(flag) for word in words):
+        words = [part for word in shlex.split(re.sub(r"(?<=\s)-([DU])\s+", r"-\1", entry["command"]))
+                 for part in (word[4:].split(",") if word.startswith("-Wp,") else [word])]
+        for flag, known, right in FLAGS + MAY_LACK:
+            last = [word for word in words if re.fullmatch(known, word)][-1:]
+            if not last and (flag, known, right) in FLAGS:
                 found.append(f"{entry['file']} is compiled without {flag}")
-        found += [f"{entry['file']} is compiled with {word}" for word in words
-                  if word in ("-fno-stack-protector", "-fcf-protection=none", "-fno-stack-clash-protection", "-fno-pie")]
-        last = [word for word in words if word.startswith(("-D_FORTIFY_SOURCE", "-U_FORTIFY_SOURCE"))][-1:]
-        if last == ["-U_FORTIFY_SOURCE"]:
-            found.append(f"{entry['file']} is compiled with -U_FORTIFY_SOURCE as the last word on it")
+            elif last and not re.fullmatch(right, last[0]):
+                if last[0] == "-U_GLIBCXX_ASSERTIONS" and ENGINE.search(entry["command"]):
+                    continue
+                found.append(f"{entry['file']} is compiled with {last[0]} as the last word on {flag}")
     return found
 
 
@@ -188,11 +200,25 @@ class Checks(unittest.TestCase):
                 self.assertEqual(read_elf.read(self.make("a.o", f"-c {flags}")).x86_features, found, flags)
 
     def test_commands(self):
-        good = f"c++ {' '.join(FLAGS)}2 -c"
-        for more, count in (("", 0), ("-fno-stack-protector", 1), ("-U_FORTIFY_SOURCE", 1), ("-fcf-protection=none", 1)):
-            file = self.scratch / "commands.json"
-            file.write_text(json.dumps([{"file": "a.cpp", "command": f"{good} {more} a.cpp"}]))
-            self.assertEqual(len(faults_of_commands(file)), count, more)
+        good = f"c++ {' '.join(flag for flag, _, _ in FLAGS)} -c"
+        file = self.scratch / "commands.json"
+
+        def faults(command: str) -> list[str]:
+            file.write_text(json.dumps([{"file": "a.cpp", "command": command}]))
+            return faults_of_commands(file)
+
+        for bad in ("-fno-stack-protector", "-fstack-protector", "-U_FORTIFY_SOURCE", "-U _FORTIFY_SOURCE", "-D_FORTIFY_SOURCE=0",
+                    "-D_FORTIFY_SOURCE=1", "-D_FORTIFY_SOURCE", "-Wp,-U_FORTIFY_SOURCE", "-U_GLIBCXX_ASSERTIONS",
+                    "-fcf-protection=none", "-fcf-protection=branch", "-fno-stack-clash-protection", "-fno-pie", "-fno-PIC"):
+            self.assertEqual(len(faults(f"{good} {bad} a.cpp")), 1, bad)
+            self.assertIn(bad.split(",")[-1].replace(" ", ""), faults(f"{good} {bad} a.cpp")[0])
+            again = f"{good} {bad} {' '.join(flag for flag, _, _ in FLAGS + MAY_LACK)} a.cpp"
+            self.assertEqual(faults(again), [], f"{bad}, and then what is right")
+        for fine in ("", "-U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=3", "-D _FORTIFY_SOURCE=3", "-Wp,-D_FORTIFY_SOURCE=2",
+                     "-fcf-protection", "-fPIC", "-D_GLIBCXX_ASSERTIONS=1",
+                     "-U_GLIBCXX_ASSERTIONS -o CMakeFiles/vantage_core_hot_objects.dir/a.o"):
+            self.assertEqual(faults(f"{good} {fine} a.cpp"), [], fine)
+        self.assertEqual(len(faults(f"{good} -U_FORTIFY_SOURCE -o CMakeFiles/vantage_core_hot_objects.dir/a.o a.cpp")), 1)
         file.write_text(json.dumps([{"file": "a.cpp", "command": "c++ -c a.cpp"}]))
         self.assertEqual(len(faults_of_commands(file)), len(FLAGS))
 

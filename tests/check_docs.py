@@ -62,8 +62,21 @@ def link_problem(file: pathlib.Path, target: str) -> str:
     return ""
 
 
+def header_problems(root: pathlib.Path) -> list[str]:
+    """Public headers that vantage.h or the table of docs/libraries.md leaves out, or names without their being there."""
+    there = {file.stem for file in (root / "include" / "vantage").glob("*.h")} - {"vantage"}
+    if not there:
+        return []
+    included = set(re.findall(r'#include "vantage/(\w+)\.h"', (root / "include" / "vantage" / "vantage.h").read_text()))
+    table = (root / "docs" / "libraries.md").read_text(encoding="utf-8").partition("| library | headers |")[2].partition("\n\n")[0]
+    listed = {name for row in table.splitlines()[2:] for name in re.findall(r"`(\w+)`", row.split("|")[2])}
+    return [f"{file}: {name}.h is {'left out' if name in there else 'named, and is not there'}"
+            for file, names in (("include/vantage/vantage.h", included), ("docs/libraries.md", listed))
+            for name in sorted(names ^ there)]
+
+
 def problems(root: pathlib.Path) -> list[str]:
-    found = []
+    found = header_problems(root)
     for file in documents(root):
         place = file.relative_to(root).as_posix()
         text = file.read_text(encoding="utf-8")
@@ -105,6 +118,18 @@ def self_test() -> list[str]:
             found = problems(root)
         if bool(found) != bool(expected) or any(expected not in line for line in found):
             wrong.append(f"{text[:40]!r}: expected '{expected}', got {found}")
+    with tempfile.TemporaryDirectory() as scratch:
+        root = pathlib.Path(scratch)
+        for folder in ("include/vantage", "docs"):
+            (root / folder).mkdir(parents=True)
+        for name in ("one", "two", "vantage"):
+            (root / "include" / "vantage" / f"{name}.h").write_text("", encoding="utf-8")
+        (root / "include" / "vantage" / "vantage.h").write_text('#include "vantage/one.h"\n', encoding="utf-8")
+        (root / "docs" / "libraries.md").write_text("| library | headers |\n| --- | --- |\n| `core` | `two`, `none` |\n| | `one` |\n",
+                                                    encoding="utf-8")
+        expected = ["include/vantage/vantage.h: two.h is left out", "docs/libraries.md: none.h is named, and is not there"]
+        if problems(root) != expected:
+            wrong.append(f"headers: expected {expected}, got {problems(root)}")
     return wrong
 
 

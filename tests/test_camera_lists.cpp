@@ -95,6 +95,16 @@ TEST_F(CameraLists, OfOpenSfm) {
   EXPECT_EQ(cameras[2].camera.sensor_width_mm, 0);
 }
 
+TEST_F(CameraLists, AMessageQuotesLittleOfTheFile) {
+  const std::string secret(5000, 's');
+  for (const std::string& text :
+       {"{\"A\": \"" + secret, "{\"A\": [" + secret + "]}", "{\"A\": 1" + std::string(5000, '0') + "}",
+        "{\"" + secret + "\": 1, \"" + secret + "\": 2}", "[\"" + secret + "\" 1]"}) {
+    const Error error = testing::expect_code([&] { read(text); }, ErrorCode::camera_list_syntax, "list.json");
+    EXPECT_LT(error.problem().size(), 300U) << error.problem();
+  }
+}
+
 TEST_F(CameraLists, AWrongEntryIsNamedAndSpoilsNoOther) {
   std::vector<std::string> problems;
   for (const auto& [key, value] : std::vector<std::pair<std::string, std::string>>{{"canonicalName", ""},

@@ -13,6 +13,7 @@
 #include "app/point_json.h"
 #include "core/format.h"
 #include "core/text.h"
+#include "io/json_text.h"
 #include "vantage/atomic_file.h"
 #include "vantage/error.h"
 #include "vantage/input.h"
@@ -197,7 +198,7 @@ std::vector<StageFile> read_stages(const fs::path& folder) {
     const nlohmann::json json = nlohmann::json::parse(stream);
     for (const nlohmann::json& stage : json.at("stages")) stages.push_back(stage_of(stage, folder));
   } catch (const nlohmann::json::exception& error) {
-    throw Error(ErrorCode::record_garbled, std::string("the story of the stages is garbled: ") + error.what(),
+    throw Error(ErrorCode::record_garbled, "the story of the stages is garbled: " + internal::io::words_of(error),
                 file.string() + ", stage " + std::to_string(stages.size()), kAgain);
   }
   if (stages.empty()) throw Error(ErrorCode::record_garbled, "the story of the stages is empty", file.string(), kAgain);

@@ -4,15 +4,23 @@
 #include <utility>
 #include <vector>
 
+#include "vantage/input.h"
+
 namespace vantage::internal::io {
 namespace {
 
 using nlohmann::json;
 
-/// "[json.exception.parse_error.101] parse error at line 1, column 2: syntax error while …" without the code before.
-std::string without_code(const std::string& what) {
-  const std::size_t start = what.find("] ");
-  return what.substr(start == std::string::npos ? 0 : start + 2);
+/// At most 80 bytes of the file are quoted: it may be one that was named by mistake, or by a stranger.
+std::string with_short_quote(const std::string& what) {
+  constexpr std::size_t kBefore = 30, kBehind = 50;
+  const std::size_t start = what.find('\''), end = what.rfind('\'');
+  if (start == std::string::npos || end - start <= kBefore + kBehind) return what;
+  std::size_t first = start + kBefore, second = end - kBehind;
+  const auto is_continuation = [&](std::size_t i) { return (static_cast<unsigned char>(what[i]) & 0xC0U) == 0x80U; };
+  while (first > start && is_continuation(first)) --first;
+  while (second < end && is_continuation(second)) ++second;
+  return what.substr(0, first) + "..." + what.substr(second);
 }
 
 JsonProblem problem_at(std::string_view text, std::size_t byte, std::string problem) {
@@ -54,14 +62,14 @@ class ValueBuilder final : public nlohmann::json_sax<json> {
   bool key(json::string_t& name) override {
     take(kMember + name.size());
     const auto [member, is_new] = open_.back()->get_ref<json::object_t&>().try_emplace(name, nullptr);
-    if (!is_new) throw JsonProblem{"its JSON has the member \"" + name + "\" twice in one object"};
+    if (!is_new) throw JsonProblem{"its JSON has the member " + in_quotes(name) + " twice in one object"};
     member_ = &member->second;
     return true;
   }
 
   bool parse_error(std::size_t byte, const std::string& /*last*/, const json::exception& error) override {
-    if (dynamic_cast<const json::parse_error*>(&error)) throw problem_at(text_, byte, without_code(error.what()));
-    throw JsonProblem{without_code(error.what())};  // a number that is too large
+    if (dynamic_cast<const json::parse_error*>(&error)) throw problem_at(text_, byte, words_of(error));
+    throw JsonProblem{words_of(error)};  // a number that is too large
   }
 
  private:
@@ -125,6 +133,12 @@ class ValueBuilder final : public nlohmann::json_sax<json> {
 };
 
 }  // namespace
+
+std::string words_of(const json::exception& error) {
+  const std::string what = error.what();
+  const std::size_t start = what.find("] ");
+  return with_short_quote(what.substr(start == std::string::npos ? 0 : start + 2));
+}
 
 json parse_json(std::string_view text, const core::ProgressReporter& progress, const core::ReadLimits& limits) {
   ValueBuilder builder(text, progress, limits);

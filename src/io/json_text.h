@@ -18,6 +18,9 @@ struct JsonProblem {
   std::uint64_t line = 0, column = 0;
 };
 
+/// What the parser says, without its code ("[json.exception.parse_error.101] ") and with a short quote of the text.
+std::string words_of(const nlohmann::json::exception& error);
+
 /// Parses `text`. Throws JsonProblem for what is no JSON, has a member twice in one object (RFC 8259, section 4, leaves
 /// open which of the two counts; glTF forbids it), is nested deeper than 100 levels, or is larger than the limits
 /// allow; Error(cancelled) when told to stop.
