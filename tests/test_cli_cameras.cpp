@@ -97,7 +97,11 @@ TEST_F(CliCameras, ListsThoseWithAllWords) {
   write("list.json", kList);
   EXPECT_EQ(names({"list.json", "good"}), std::vector<std::string>{"Good 35mm"});
   EXPECT_EQ(names({"35MM", "list.json"}), std::vector<std::string>{"Good 35mm"});
+  EXPECT_EQ(names({"27.4"}), std::vector<std::string>{"sentera_65r_27mm"}) << "a word with a dot";
   expect_bad({"cameras", "mavic", "submarine"}, "command line");
+  write("plain_list", kList);
+  EXPECT_EQ(names({"./plain_list", "good"}), std::vector<std::string>{"Good 35mm"});
+  expect_bad({"cameras", "plain_list"}, "command line");
   expect_bad({"cameras", "list.json", "mavic"}, "list.json");
 }
 
