@@ -196,26 +196,29 @@ TEST(TemporaryFile, WhatTookTheSecondNameOfTheOldOneIsNotGivenBack) {
   EXPECT_EQ(read_bytes(name), "of somebody else");
 }
 
-/// While one process keeps the old file, another puts new ones in its place: what is kept is what is held.
+struct OldFileInSteps : TemporaryFile {
+  using TemporaryFile::hold_old;
+  using TemporaryFile::link_old_as;
+  using TemporaryFile::TemporaryFile;
+};
+
+/// Another process puts a new file in place after the old one was opened, and before it is linked.
 TEST(TemporaryFile, TheOldFileThatIsKeptIsTheOneThatIsHeld) {
   const TemporaryDirectory directory;
-  write_bytes(directory / "a", "0");
-  Process writer([&] {
-    std::thread([&] {
-      for (int i = 0;; ++i) {
-        write_bytes(directory / "next", std::to_string(i));
-        fs::rename(directory / "next", directory / "a");
-      }
-    }).detach();
-  });
-  for (int i = 0; i < 300; ++i) {
-    TemporaryFile file(directory / "a", kNamed);
-    file.keep_old();
-  }
-  writer.kill();
-  fs::remove(directory / "next");
-  { const TemporaryFile last(directory / "a", kNamed); }
-  EXPECT_EQ(directory.names(), Names{"a"}) << "a second name that nobody knows of stays";
+  write_bytes(directory / "a", "first");
+  write_bytes(directory / "next", "second");
+  const fs::path kept = directory / ".a.vantage-0.old";
+  OldFileInSteps file(directory / "a", kNamed);
+  ASSERT_TRUE(file.hold_old());
+  fs::rename(directory / "next", directory / "a");
+  EXPECT_EQ(file.link_old_as(kept), EAGAIN);
+  EXPECT_FALSE(fs::exists(kept));
+  EXPECT_FALSE(file.give_back());
+  file.keep_old();
+  EXPECT_EQ(read_bytes(kept), "second");
+  file.put_in_place();
+  ASSERT_TRUE(file.give_back());
+  EXPECT_EQ(read_bytes(directory / "a"), "second");
 }
 
 TEST(TemporaryFile, IsCopiedWhereItCannotBeGivenAName) {

@@ -192,11 +192,14 @@ int TemporaryFile::link_old_as(const fs::path& candidate) {
   return 0;
 }
 
+bool TemporaryFile::hold_old() {
+  if (old_descriptor_ >= 0) ::close(old_descriptor_);
+  old_descriptor_ = ::open(target_.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  return old_descriptor_ >= 0 && lock_with_others(old_descriptor_);
+}
+
 void TemporaryFile::keep_old() {
-  for (int attempt = 0; attempt < kMostRetries; ++attempt) {
-    if (old_descriptor_ >= 0) ::close(old_descriptor_);
-    old_descriptor_ = ::open(target_.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
-    if (old_descriptor_ < 0 || !lock_with_others(old_descriptor_)) return;
+  for (int attempt = 0; attempt < kMostRetries && hold_old(); ++attempt) {
     const int error = first_free([this](int number) { return numbered(number, ".old"); },
                                  [this](const fs::path& candidate) { return link_old_as(candidate); });
     if (error != EAGAIN) return;

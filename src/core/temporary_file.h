@@ -36,6 +36,10 @@ class TemporaryFile {
 
   static constexpr int kUsualNumbers = 4;
 
+ protected:  // the steps of keep_old(), for tests
+  bool hold_old();
+  int link_old_as(const std::filesystem::path& candidate);
+
  private:
   std::filesystem::path numbered(int number, const char* ending) const;
   void remove_abandoned_ones() const;
@@ -44,7 +48,6 @@ class TemporaryFile {
   void give_name();
   bool try_to_link();
   void copy_to_named_file();
-  int link_old_as(const std::filesystem::path& candidate);
 
   std::filesystem::path target_, name_, kept_;
   int descriptor_ = -1, old_descriptor_ = -1;
