@@ -48,11 +48,11 @@ make_root() {
     dpkg-deb --fsys-tarfile "$file" | tar -x -C "$root" --keep-directory-symlink --no-same-owner \
       --exclude='./usr/share/doc/*' --exclude='./usr/share/locale/*' --exclude='./usr/share/man/*'
   done
-  local into=(--quiet --root-user-action=ignore --no-deps --only-binary=:all: --python-version 3.11
+  local into=(--quiet --root-user-action=ignore --only-binary=:all: --python-version 3.11
     --target "$root/usr/lib/python3/dist-packages")
-  "$python" -m pip --disable-pip-version-check install "${into[@]}" --require-hashes \
+  "$python" -m pip --disable-pip-version-check install "${into[@]}" --no-deps --require-hashes \
     --requirement <(grep '^numpy==' "$here/../python/requirements.lock")
-  "$python" -m pip --disable-pip-version-check install "${into[@]}" --no-index "$wheel"
+  "$python" -m pip --disable-pip-version-check install "${into[@]}" --no-deps --no-index "$wheel"
   cp -r "$here/../examples" "$here/check_wheel.py" "$here/read_elf.py" "$folder/expected" "$root/check/"
   echo "root $(basename "$root"): $(find "$root" -type f | wc -l) files; packages: $(closure "$@" | tr '\n' ' ')"
 }

@@ -1,10 +1,12 @@
 #!/usr/bin/env bash
 # Makes .deps/python, a Python environment with what python/requirements.lock pins, by version and hash. Does nothing when
-# it is there. scripts/pin_python.py makes the lock from python/requirements.txt.
+# it is there. scripts/pin_python.py makes the lock from python/requirements.txt, for CPython 3.11 to 3.13 on x86-64 and
+# aarch64 Linux. For others VANTAGE_PYTHON_LOCK names a lock of one's own.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 folder="$here/../.deps/python"
-stamp="$folder/$(sha256sum "$here/../python/requirements.lock" | cut -c1-16).stamp"
+lock=${VANTAGE_PYTHON_LOCK:-$here/../python/requirements.lock}
+stamp="$folder/$(sha256sum "$lock" | cut -c1-16).stamp"
 [ -e "$stamp" ] && exit 0
 echo "making a Python environment in .deps/python"
 rm -rf "$folder"
@@ -14,9 +16,13 @@ if ! python3 -m venv "$folder"; then
   exit 1
 fi
 if ! "$folder/bin/python" -m pip install --quiet --disable-pip-version-check --require-hashes --no-deps --only-binary=:all: \
-  --requirement "$here/../python/requirements.lock"; then
-  echo "could not install what python/requirements.lock pins, for CPython 3.11 on x86-64 Linux; is the Python package index" \
-    "reachable? For another Python or processor, run scripts/pin_python.py python/requirements.txt" >&2
+  --requirement "$lock"; then
+  cat >&2 <<'TEXT'
+could not install what python/requirements.lock pins. Can the Python package index be reached? The lock is for CPython 3.11
+to 3.13 on x86-64 and aarch64 Linux. For another Python or processor make a lock of your own, and name it:
+  mkdir -p .deps && scripts/pin_python.py --into .deps python/requirements.txt
+  VANTAGE_PYTHON_LOCK=$PWD/.deps/requirements.lock scripts/fetch_python.sh
+TEXT
   exit 1
 fi
 touch "$stamp"

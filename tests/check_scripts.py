@@ -4,6 +4,7 @@
     check_scripts.py [ROOT]
 """
 
+import ast
 import contextlib
 import functools
 import hashlib
@@ -362,6 +363,18 @@ class Scripts(unittest.TestCase):
 
     # ---- what is fetched, and where is written
 
+    @staticmethod
+    def python_lines(text: str) -> list[str]:
+        """The commands in a Python source: each list or tuple with its words, and each text alone."""
+        found = []
+        for node in ast.walk(ast.parse(text)):
+            if isinstance(node, (ast.List, ast.Tuple)):
+                words = [item.value if isinstance(item, ast.Constant) else ast.unparse(item) for item in node.elts]
+                found.append(" ".join(map(str, words)))
+            elif isinstance(node, ast.Constant) and isinstance(node.value, str) and " install " not in node.value:
+                found.append(node.value)
+        return found
+
     def script_lines(self) -> list[tuple[str, str]]:
         """Each command of the scripts, of the Makefile and of .ci/run, on one line, with its file."""
         files = [*sorted((ROOT / "scripts").glob("*.sh")), ROOT / "Makefile", ROOT / ".ci" / "run"]
@@ -369,6 +382,8 @@ class Scripts(unittest.TestCase):
         for file in files:
             text = file.read_text(encoding="utf-8").replace("\\\n", " ")
             found += [(file.name, line.strip()) for line in text.splitlines() if not line.strip().startswith("#")]
+        for file in sorted((ROOT / "scripts").glob("*.py")):
+            found += [(file.name, line) for line in self.python_lines(file.read_text(encoding="utf-8"))]
         return found
 
     @staticmethod
@@ -376,10 +391,10 @@ class Scripts(unittest.TestCase):
         """What a command fetches without looking at a hash, or runs of what it fetched; where it writes what others may
         have put there before."""
         found = []
-        if "pip" in line and " install " in line:
+        if re.search(r"\bpip3?\b", line) and " install " in line and "--dry-run" not in line:
             if "--require-hashes" not in line and "--no-index" not in line:
                 found.append("pip without --require-hashes")
-            if "--no-deps" not in line and "into[@]" not in line:
+            if "--no-deps" not in line:
                 found.append("pip without --no-deps")
         if re.search(r"\bnpm (install|i|add|update)\b|\bnpx\b|\bnpm exec\b", line):
             found.append("npm without the lock")
@@ -397,6 +412,12 @@ class Scripts(unittest.TestCase):
         for line in ("pip install --no-deps -r a.txt", "python -m pip install --require-hashes -r a", "npm install",
                      "npm ci --no-audit", "npx esbuild", "cp a /tmp/a.log", "log=$TMPDIR/log", 'cat >"${TMPDIR:-/tmp}/x"'):
             self.assertEqual(len(self.faults_of_line(line)), 1, line)
+        for text in ("run(['python', '-m', 'pip', 'install', '--no-deps', name])", "run([tool, '-m', 'pip', 'install', "
+                     "*more, '--require-hashes'])", "subprocess.run(('npm', 'install'))", "open('/tmp/a.log')"):
+            self.assertEqual([fault for line in self.python_lines(text) for fault in self.faults_of_line(line)][1:], [], text)
+            self.assertTrue(any(self.faults_of_line(line) for line in self.python_lines(text)), text)
+        for text in ("run(['python', '-m', 'pip', 'install', '--dry-run'])", "os.path.join(folder, 'a.log')"):
+            self.assertFalse(any(self.faults_of_line(line) for line in self.python_lines(text)), text)
         for line in ("log=$(mktemp)", "env -i HOME=/tmp x", 'mkdir "$root/tmp" "$root/tmp/x"', "npm ci --ignore-scripts"):
             self.assertEqual(self.faults_of_line(line), [], line)
 
@@ -406,15 +427,47 @@ class Scripts(unittest.TestCase):
             locked = {}
             for line in (ROOT / "python" / f"{name}.lock").read_text().splitlines():
                 if not line.startswith("#"):
-                    match = re.fullmatch(r"([a-z0-9-]+)==([\w.+!]+) --hash=sha256:[0-9a-f]{64}", line)
+                    match = re.fullmatch(r"([a-z0-9-]+)==([\w.+!]+)( --hash=sha256:[0-9a-f]{64})+", line)
                     self.assertIsNotNone(match, line)
                     locked[match[1]] = match[2]
             self.assertGreater(len(asked), 5)
             for package, version in asked:
                 self.assertEqual(locked.get(re.sub(r"[-_.]+", "-", package).lower()), version,
                                  f"{package}: run scripts/pin_python.py python/{name}.txt")
-        for line in json.loads((ROOT / "web" / "package-lock.json").read_text())["packages"].items():
-            self.assertTrue(not line[0] or line[1].get("integrity", "").startswith("sha512-"), line[0])
+        for place, package in json.loads((ROOT / "web" / "package-lock.json").read_text())["packages"].items():
+            self.assertTrue(not place or package.get("integrity", "").startswith("sha512-"), place)
+
+    def test_locks_have_hashes_for_other_machines(self):
+        """numpy has a file for each Python and processor; a package of Python alone has one for all."""
+        for name in ("numpy", "click"):
+            line = re.search(rf"^{name}==.*$", (ROOT / "python" / "requirements.lock").read_text(), re.MULTILINE)[0]
+            self.assertEqual(line.count("--hash="), 6 if name == "numpy" else 1, line)
+
+    def test_pinning_asks_for_each_machine(self):
+        """pip that has no file of `only` for aarch64, and another hash of `two` for each machine."""
+        self.put_tool("python3", f"exec {sys.executable} \"$@\"\n")
+        (self.scratch / "pip").mkdir()
+        (self.scratch / "pip" / "__init__.py").write_text("")
+        (self.scratch / "pip" / "__main__.py").write_text(
+            "import hashlib, json, sys\n"
+            "names = [line.split('==')[0].strip() for line in open(sys.argv[sys.argv.index('--requirement') + 1])]\n"
+            "where = [word for word in sys.argv if word.startswith(('linux_', '3.'))]\n"
+            "if 'only' in names and 'linux_aarch64' in where:\n"
+            "    sys.exit('ERROR: No matching distribution found for only==1.0')\n"
+            "of = lambda name: {'sha256': hashlib.sha256((name + (str(where) if name == 'two' else '')).encode()).hexdigest()}\n"
+            "print(json.dumps({'install': [{'metadata': {'name': name, 'version': '1.0'},\n"
+            "                               'download_info': {'archive_info': {'hashes': of(name)}}} for name in names]}))\n")
+        (self.scratch / "asked.txt").write_text("only==1.0\ntwo==1.0\n")
+        self.environment["PYTHONPATH"] = str(self.scratch)
+        code, text = self.run_script("pin_python.py", str(self.scratch / "asked.txt"))
+        self.assertEqual(code, 0, text)
+        self.assertEqual(text.count("only: no file for CPython"), 3, text)
+        lines = (self.scratch / "asked.lock").read_text().splitlines()[1:]
+        self.assertEqual([line.count("--hash=sha256:") for line in lines], [1, 6])
+        (self.scratch / "mine").mkdir()
+        code, text = self.run_script("pin_python.py", "--into", str(self.scratch / "mine"), str(self.scratch / "asked.txt"))
+        self.assertEqual(code, 0, text)
+        self.assertEqual((self.scratch / "mine" / "asked.lock").read_text().count("--hash="), 2)
 
 
 if __name__ == "__main__":
