@@ -2,12 +2,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
 
 #include "core/progress_reporter.h"
+#include "io/png_mark.h"
 #include "support/solids.h"
 #include "support/temporary_directory.h"
 #include "support/wording.h"
@@ -76,6 +79,46 @@ TEST(ResultFiles, ComeInAllFormatsWithAReportBesideEach) {
   EXPECT_EQ(report.at("seconds").at("write"), volume.seconds.write);
   EXPECT_GT(volume.seconds.write, 0);
   EXPECT_EQ(volume.seconds.total, 1 + volume.seconds.write);
+}
+
+// A picture that is cut off anywhere, one byte at a time, is still a file of somebody.
+TEST(ResultFiles, APictureIsOwnWhereItsTextSaysSo) {
+  const TemporaryDirectory directory;
+  const std::string header = std::string("\x89PNG\r\n\x1a\n") + std::string(25, 'h');
+  const std::string marked = io::with_png_mark(header + "pixels");
+  EXPECT_TRUE(marked.starts_with(header));
+  EXPECT_TRUE(marked.ends_with("pixels"));
+  const std::size_t named = marked.find("vantage ");
+  ASSERT_NE(named, std::string::npos);
+  for (std::size_t bytes = 0; bytes <= marked.size(); ++bytes) {
+    write_bytes(directory / "a.png", marked.substr(0, bytes));
+    std::optional<ErrorCode> code;
+    try {
+      check_derived_output(directory / "a.png");
+    } catch (const Error& error) {
+      code = error.code();
+    }
+    EXPECT_EQ(code, bytes < named + 8 ? std::optional(ErrorCode::output_of_others) : std::nullopt) << bytes;
+  }
+}
+
+// ISO 15948, annex D, bit by bit.
+TEST(ResultFiles, TheTextOfAPictureHasItsChecksum) {
+  const std::string header(33, 'h');
+  const std::string chunk = io::with_png_mark(header).substr(header.size());
+  ASSERT_GT(chunk.size(), 12u);
+  const auto number_at = [&](std::size_t at) {
+    std::uint32_t number = 0;
+    for (std::size_t i = 0; i < 4; ++i) number = number << 8 | static_cast<unsigned char>(chunk[at + i]);
+    return number;
+  };
+  EXPECT_EQ(number_at(0), chunk.size() - 12);
+  std::uint32_t checksum = 0xFFFFFFFF;
+  for (const char byte : chunk.substr(4, chunk.size() - 8)) {
+    checksum ^= static_cast<unsigned char>(byte);
+    for (int bit = 0; bit < 8; ++bit) checksum = (checksum & 1) != 0 ? checksum >> 1 ^ 0xEDB88320 : checksum >> 1;
+  }
+  EXPECT_EQ(number_at(chunk.size() - 4), ~checksum);
 }
 
 TEST(ResultFiles, AVolumeThatIsNotClosedIsNotWritten) {

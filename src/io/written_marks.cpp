@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "io/png_mark.h"
 #include "vantage/output.h"
 
 namespace vantage::internal::io {
@@ -57,12 +58,7 @@ bool is_own_file(const std::filesystem::path& file) {
   if (extension == ".glb") {
     return text.starts_with("glTF") && text.find("\"generator\":\"vantage ") != std::string_view::npos;
   }
-  // A chunk of text that is the first after the header.
-  constexpr std::string_view kPng = "\x89PNG\r\n\x1a\n", kSoftware = "tEXtSoftware";
-  constexpr std::size_t kAfterHeader = 8 + 25 + 4;
-  return extension == ".png" && text.starts_with(kPng) && text.size() > kAfterHeader &&
-         text.substr(kAfterHeader).starts_with(kSoftware) &&
-         text.substr(kAfterHeader + kSoftware.size() + 1).starts_with("vantage ");
+  return extension == ".png" && has_png_mark(text);
 }
 
 }  // namespace vantage::internal::io

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cstdint>
 #include <string>
-#include <string_view>
 
 #include "core/progress_reporter.h"
 #include "depth/depth.h"
 #include "depth/gl_context.h"
+#include "io/png_mark.h"
 #include "picture/annotate.h"
 #include "picture/canvas.h"
 #include "picture/draw_list.h"
@@ -16,7 +16,6 @@
 #include "picture/occlusion_rays.h"
 #include "vantage/atomic_file.h"
 #include "vantage/error.h"
-#include "vantage/version.h"
 
 namespace vantage {
 namespace {
@@ -145,39 +144,11 @@ Picture render_picture(const Scene& scene, const PictureRequest& request, const 
   return request.annotate ? annotated(picture, annotation, view) : credited(picture, annotation.credit);
 }
 
-namespace {
-
-/// ISO 15948, annex D.
-std::uint32_t crc_of(std::string_view bytes) {
-  std::uint32_t crc = 0xFFFFFFFF;
-  for (const char byte : bytes) {
-    crc ^= static_cast<unsigned char>(byte);
-    for (int bit = 0; bit < 8; ++bit) crc = crc & 1 ? crc >> 1 ^ 0xEDB88320 : crc >> 1;
-  }
-  return ~crc;
-}
-
-std::string big_endian(std::uint32_t number) {
-  std::string bytes;
-  for (const int shift : {24, 16, 8, 0}) bytes += static_cast<char>(number >> shift & 0xFF);
-  return bytes;
-}
-
-/// By which program it was made, after the header: so it can be told from the pictures of others.
-std::string with_software(std::string png) {
-  constexpr std::size_t kAfterHeader = 8 + 12 + 13;
-  const std::string text = std::string("tEXtSoftware") + '\0' + "vantage " VANTAGE_VERSION;
-  return png.insert(kAfterHeader,
-                    big_endian(static_cast<std::uint32_t>(text.size() - 4)) + text + big_endian(crc_of(text)));
-}
-
-}  // namespace
-
 void write_png(const Picture& picture, const std::filesystem::path& file, const Progress& callback) {
   const internal::core::ProgressReporter progress(callback, file);
   progress.begin("writing the picture");
   AtomicFile output(file);
-  output.write(with_software(Canvas(picture).png(progress)));
+  output.write(internal::io::with_png_mark(Canvas(picture).png(progress)));
   progress.finish();
   output.commit();
 }

@@ -1,0 +1,15 @@
+// The chunk of text by which a PNG says that vantage made it.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace vantage::internal::io {
+
+/// With the chunk after the header: so it can be told from the pictures of others. `png`: a whole one.
+std::string with_png_mark(std::string png);
+
+/// Whether the chunk is there, whatever else `bytes` hold, and however few they are.
+bool has_png_mark(std::string_view bytes);
+
+}  // namespace vantage::internal::io
