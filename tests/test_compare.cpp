@@ -9,8 +9,8 @@
 #include <string>
 
 #include "core/stopwatch.h"
+#include "core/triangle_tree.h"
 #include "solid/csg.h"
-#include "solid/triangle_tree.h"
 #include "support/internals.h"
 #include "support/progress_check.h"
 #include "support/random.h"
@@ -262,7 +262,7 @@ TEST(TriangleTree, DistanceIsThatOfTheNearestTriangle) {
   }
   mesh.vertices.push_back(mesh.vertices[0]);
   mesh.triangles.push_back({0, 0, 900});  // a triangle that is a point
-  const solid::TriangleTree tree(mesh);
+  const core::TriangleTree tree(mesh);
   for (int round = 0; round < 200; ++round) {
     const Vec3 point = random.point(-12, 12);
     double best = INFINITY;  // by points spread over each triangle, so from above

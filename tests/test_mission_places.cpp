@@ -7,8 +7,8 @@
 #include <memory>
 #include <numbers>
 
+#include "core/triangle_tree.h"
 #include "geo/local_frame.h"
-#include "solid/triangle_tree.h"
 #include "support/cli_fixture.h"
 #include "support/map_text.h"
 #include "support/opengl.h"
@@ -225,7 +225,7 @@ TEST_F(MissionPlaces, AnAreaThatIsNotConvexIsItsParts) {
   ASSERT_EQ(both.outcome, Outcome::computed);
   const Volume halves[2] = {volume(map_scene(), "target: {vertices: " + list_of(whole.target.parts[0]) + "}\n"),
                             volume(map_scene(), "target: {vertices: " + list_of(whole.target.parts[1]) + "}\n")};
-  const solid::TriangleTree tree(both.mesh), first(halves[0].mesh), second(halves[1].mesh);
+  const core::TriangleTree tree(both.mesh), first(halves[0].mesh), second(halves[1].mesh);
   Random random(4404);
   Box box = bounding_box(halves[0].mesh);
   int inside = 0, decided = 0;

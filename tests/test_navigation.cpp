@@ -9,7 +9,7 @@
 #include <string>
 
 #include "core/parallel.h"
-#include "solid/triangle_tree.h"
+#include "core/triangle_tree.h"
 #include "support/internals.h"
 #include "support/objects.h"
 #include "support/progress_check.h"
@@ -351,7 +351,7 @@ TEST(Navigation, RandomLimitsOnEngineVolumesAgreeWithPointTests) {
     const Volume volume = compute_visibility(PreparedTarget(scene, target, Sensor{60}), ExactOptions{0.1});
     ASSERT_EQ(volume.outcome, Outcome::computed) << volume.reason;
     const Mesh before = moved(volume.mesh, offset);
-    const solid::TriangleTree whole(before);
+    const core::TriangleTree whole(before);
     const Box bounds = bounding_box(volume.mesh);
     int inside = 0, outside = 0;
     for (int draw = 0; draw < 40; ++draw) {
@@ -359,7 +359,7 @@ TEST(Navigation, RandomLimitsOnEngineVolumesAgreeWithPointTests) {
       const Volume cut = cut_to_navigation(volume, navigation);
       if (cut.outcome == Outcome::computed) expect_sound(cut);
       const Mesh after = moved(cut.mesh, offset);
-      const solid::TriangleTree rest(after);
+      const core::TriangleTree rest(after);
       for (int i = 0; i < 200; ++i) {
         const Vec3 unit(uniform(random), uniform(random), uniform(random));
         const Vec3 p = bounds.min + unit.cwiseProduct(bounds.max - bounds.min);

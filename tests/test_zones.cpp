@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "core/triangle_tree.h"
 #include "core/zone_check.h"
-#include "solid/triangle_tree.h"
 #include "support/internals.h"
 #include "support/objects.h"
 #include "support/random.h"
@@ -187,7 +187,7 @@ TEST(Zones, CutAnswerAndDefinitionAgreeAtEveryScale) {
       const double near = 1e-6 * scale + 1e-15 * kUtm.norm() * (shift == kUtm ? 100 : 0);
       const Volume dome = make_hemisphere(shift, scale, 24, 8);
       const Mesh before = moved(dome.mesh, shift);
-      const solid::TriangleTree whole(before);
+      const core::TriangleTree whole(before);
       int inside = 0, outside = 0;
       for (int draw = 0; draw < 12; ++draw) {
         Navigation navigation;
@@ -197,7 +197,7 @@ TEST(Zones, CutAnswerAndDefinitionAgreeAtEveryScale) {
         const Volume cut = cut_to_navigation(dome, navigation);
         if (cut.outcome == Outcome::computed) expect_closed(cut);
         const Mesh after = moved(cut.mesh, shift);
-        const solid::TriangleTree rest(after);
+        const core::TriangleTree rest(after);
         for (int i = 0; i < 150; ++i) {
           const Vec3 p = shift + scale * Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(0.001, 1));
           bool expected = whole.winding_number(p - shift) == 1, in_any = navigation.keep_in_zones.empty(), known = true;

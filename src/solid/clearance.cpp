@@ -11,9 +11,9 @@
 
 #include "core/edges.h"
 #include "core/grown_polygon.h"
+#include "core/triangle_tree.h"
 #include "core/weld.h"
 #include "solid/convex_hull.h"
-#include "solid/triangle_tree.h"
 
 namespace vantage::internal::solid {
 namespace {
@@ -125,7 +125,7 @@ std::vector<Polygon> polygons_near(const Mesh& obstacles, const Box& near, const
   scene.objects.emplace_back();
   for (std::size_t t = 0; t < obstacles.triangles.size(); ++t) {
     progress.tick();
-    if (!meet(triangle_box(obstacles, t), near)) continue;
+    if (!meet(core::triangle_box(obstacles, t), near)) continue;
     std::array<Vec3, 3> corners;
     for (std::size_t k = 0; k < 3; ++k) corners[k] = obstacles.vertices[obstacles.triangles[t][k]] - origin;
     if (is_thin(corners)) {
@@ -221,7 +221,7 @@ Solid make_clearance(const Clearance& clearance, const Mesh& volume, const Vec3&
   const std::vector<Polygon> polygons =
       polygons_near(*clearance.obstacles, {near.min + origin, near.max + origin}, origin, progress);
   progress.report(0.1);
-  const TriangleTree tree(volume);
+  const core::TriangleTree tree(volume);
   const Vec3 centre = from - origin;
   const auto reaches_volume = [&](const Polygon& polygon) {
     progress.tick();

@@ -13,9 +13,9 @@
 
 #include "core/parallel.h"
 #include "core/triangle_distance.h"
+#include "core/triangle_tree.h"
 #include "solid/kernel_point.h"
 #include "solid/numerics.h"
-#include "solid/triangle_tree.h"
 
 namespace vantage::internal::solid {
 namespace {
@@ -65,7 +65,7 @@ struct Patch {
 
 class SurfaceSearch {
  public:
-  SurfaceSearch(const Mesh& other, const TriangleTree& tree, Answer& answer)
+  SurfaceSearch(const Mesh& other, const core::TriangleTree& tree, Answer& answer)
       : other_(other), tree_(tree), answer_(answer) {}
 
   void run(const LabelledMesh& region, std::uint32_t own, const core::ProgressReporter& progress);
@@ -79,7 +79,7 @@ class SurfaceSearch {
   void take_in(std::vector<Patch>& patches);
 
   const Mesh& other_;
-  const TriangleTree& tree_;
+  const core::TriangleTree& tree_;
   Answer& answer_;
 };
 
@@ -89,7 +89,7 @@ Patch SurfaceSearch::make_patch(const Corners& corners, const std::array<double,
   Patch patch{corners, distances};
   patch.depth = depth;
   const Vec3 middle = patch.middle();
-  const TriangleTree::Nearest nearest = tree_.nearest(middle);
+  const core::TriangleTree::Nearest nearest = tree_.nearest(middle);
   patch.nearest = nearest.triangle;
   patch.middle_distance = nearest.distance;
   const Corners facet = corners_of(other_, nearest.triangle);
@@ -235,7 +235,7 @@ struct Cell {
 
 class InsideSearch {
  public:
-  InsideSearch(const LabelledMesh& region, const Mesh& other, const TriangleTree& tree, Answer& answer)
+  InsideSearch(const LabelledMesh& region, const Mesh& other, const core::TriangleTree& tree, Answer& answer)
       : region_(region.mesh), region_tree_(region.mesh), other_(other), tree_(tree), answer_(answer) {}
 
   void run(const core::ProgressReporter& progress);
@@ -251,9 +251,9 @@ class InsideSearch {
   bool is_star_shaped_near(const Vec3& point, double radius) const;
 
   const Mesh& region_;
-  const TriangleTree region_tree_;
+  const core::TriangleTree region_tree_;
   const Mesh& other_;
-  const TriangleTree& tree_;
+  const core::TriangleTree& tree_;
   Answer& answer_;
 };
 
@@ -345,7 +345,7 @@ Farthest farthest_point(const LabelledMesh& region, std::uint32_t own, const Mes
   Box box = bounding_box(region.mesh);
   box.extend(bounding_box(other));
   answer.negligible = numerics::kNegligible * (box.max - box.min).norm();
-  const TriangleTree tree(other);
+  const core::TriangleTree tree(other);
   SurfaceSearch(other, tree, answer).run(region, own, progress.part(0, 0.6));
   InsideSearch(region, other, tree, answer).run(progress.part(0.6, 1));
   return {answer.least, std::max(answer.least, answer.most), answer.point};

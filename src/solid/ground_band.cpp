@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/edges.h"
+#include "core/triangle_tree.h"
 #include "core/weld.h"
-#include "solid/triangle_tree.h"
 
 namespace vantage::internal::solid {
 namespace {
@@ -27,7 +27,7 @@ constexpr double kThinnest = 1e-13;
 Mesh triangles_near(const Mesh& surface, const Box& near, const Vec3& origin) {
   Mesh mesh;
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
-    const Box box = triangle_box(surface, t);
+    const Box box = core::triangle_box(surface, t);
     if (box.min.x() > near.max.x() || box.max.x() < near.min.x()) continue;
     if (box.min.y() > near.max.y() || box.max.y() < near.min.y()) continue;
     std::array<Vec3, 3> at;
@@ -66,10 +66,10 @@ bool is_height_field(const Mesh& mesh) {
   if (!paired) return false;
   Mesh plan = mesh;
   for (Vec3& vertex : plan.vertices) vertex.z() = 0;
-  const TriangleTree tree(plan);
+  const core::TriangleTree tree(plan);
   for (std::uint32_t t = 0; t < plan.triangles.size(); ++t) {
     bool overlaps = false;
-    tree.for_each_near(triangle_box(plan, t), 0, [&](std::uint32_t other) {
+    tree.for_each_near(core::triangle_box(plan, t), 0, [&](std::uint32_t other) {
       if (other <= t || overlaps) return;
       overlaps = !is_beside(plan, plan.triangles[t], plan.triangles[other]) &&
                  !is_beside(plan, plan.triangles[other], plan.triangles[t]);

@@ -13,7 +13,7 @@
 
 #include "core/edges.h"
 #include "core/pieces.h"
-#include "solid/triangle_tree.h"
+#include "core/triangle_tree.h"
 
 namespace vantage::internal::solid {
 namespace {
@@ -81,7 +81,7 @@ class Grouping {
 
   const Mesh& volume_;
   const Mesh& surface_;
-  TriangleTree tree_;
+  core::TriangleTree tree_;
   std::vector<Vec3> centres_;
   std::vector<std::uint32_t> order_;
   std::vector<Group> groups_;

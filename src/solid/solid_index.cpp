@@ -13,14 +13,14 @@
 #include "core/parallel.h"
 #include "core/pieces.h"
 #include "core/triangle_distance.h"
+#include "core/triangle_tree.h"
 #include "solid/exact_winding.h"
-#include "solid/triangle_tree.h"
 #include "vantage/error.h"
 
 namespace vantage {
 namespace {
 
-using internal::solid::TriangleTree;
+using internal::core::TriangleTree;
 using Corners = std::array<Vec3, 3>;
 
 constexpr double kRounding = 1e-12;  ///< of sizes and distances
