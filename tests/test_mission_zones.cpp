@@ -230,6 +230,18 @@ TEST(MissionZones, FollowTheCrs) {
   EXPECT_EQ(out.max_z_m, INFINITY);
 }
 
+// All corners near the scene once longitude and latitude change places.
+TEST(MissionZones, SayWhenLongitudeAndLatitudeSeemSwapped) {
+  const auto problem_of = [](const std::string& zone) {
+    return expect_error([&] { with_zones("keep_out: [" + zone + "]"); }, ErrorCode::too_far_away).problem();
+  };
+  const auto says = [](const std::string& problem) { return problem.find("swapped") != std::string::npos; };
+  EXPECT_TRUE(says(problem_of("{polygon: [[48, 11], [48.001, 11], [48, 11.001]], z: [0, 1]}")));
+  EXPECT_FALSE(says(problem_of("{polygon: [[2.33, 48.85], [2.34, 48.85], [2.34, 48.86]], z: [0, 1]}")));  // Paris
+  EXPECT_TRUE(says(problem_of("{min: [48, 11, 0], max: [48.001, 11.001, 1]}")));
+  EXPECT_FALSE(says(problem_of("{min: [2.33, 48.85, 0], max: [2.34, 48.86, 1]}")));
+}
+
 TEST(MissionZones, RefusesZonesOfAnotherCity) {
   const auto refuse = [](const std::string& key, const std::string& ring, ErrorCode code) {
     expect_error([&] { with_zones(key + ": [{polygon: " + ring + ", z: [0, 1]}]"); }, code, "mission.yaml:6:");

@@ -434,6 +434,25 @@ TEST(ZoneFiles, ZonesOutOfReachAreLeftOut) {
   expect_wording(resolved.notes[0].text);
 }
 
+TEST(ZoneFiles, SayWhenLongitudeAndLatitudeSeemSwapped) {
+  const ZoneMission mission;
+  const std::string swapped =
+      "{\"type\": \"Polygon\", \"coordinates\": [[[48, 11], [48.1, 11], [48.1, 11.1], [48, 11]]]}";
+  const std::string paris =
+      "{\"type\": \"Polygon\", \"coordinates\": [[[2.3, 48.8], [2.4, 48.8], [2.4, 48.9], [2.3, 48.8]]]}";
+  const auto says = [](const std::string& text) { return text.find("swapped") != std::string::npos; };
+  const auto resolve = [&] { return mission.resolve("keep_out: [{file: zones.json, heights: any}]"); };
+  for (const std::string& zone : {swapped, paris}) {
+    mission.write("zones.json", collection(feature(zone)));
+    EXPECT_EQ(says(expect_error(resolve, ErrorCode::too_far_away).problem()), zone == swapped);
+    mission.write("zones.json", collection(feature(zone) + ", " + feature(polygon())));
+    const Mission resolved = resolve();
+    EXPECT_EQ(resolved.navigation.keep_out_zones.size(), 1u);
+    ASSERT_EQ(resolved.notes.size(), 1u);
+    EXPECT_EQ(says(resolved.notes[0].text), zone == swapped) << resolved.notes[0].text;
+  }
+}
+
 // A side along a parallel leaves the chord between its corners by 48 km.
 TEST(ZoneFiles, LongSidesThatCurveTowardsTheSceneCount) {
   const ZoneMission mission;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -55,6 +56,17 @@ class CrsConverter {
     return system_.is_geographic() ? "write the longitude before the latitude: [longitude, latitude, z]"
                                    : "check the coordinates, east before north, and the 'crs' that they are in";
   }
+  /// What is said of such coordinates besides: whether all of them would lie near with both the other way round.
+  const char* order_remark(std::span<const Vec2> given) const {
+    const auto is_near = [this](const Vec2& p) { return to_frame({p.y(), p.x()}).norm() <= geo::kFarthestM; };
+    try {
+      if (!std::all_of(given.begin(), given.end(), is_near)) return "";
+    } catch (const Error&) {
+      return "";  // no place of the system
+    }
+    return system_.is_geographic() ? "; longitude and latitude seem to be swapped"
+                                   : "; east and north seem to be swapped";
+  }
 
   /// A box lies askew in the frame by the angle between the norths, and its sides curve (a parallel of 2 km by a
   /// decimetre): what is kept in is cut down to the largest box of the frame within its sides, what is kept out grows
@@ -69,8 +81,7 @@ class CrsConverter {
   }
   /// A zone's sides lie askew, too, and curve: see placed_zone.
   Zone placed(const Zone& zone, ZoneUse use) const {
-    Zone result = placed_zone(
-        zone, use, [this](const Vec2& p) { return to_frame(p); }, order_advice());
+    Zone result = placed_near(zone, use);
     const auto [low, high] = std::minmax({z_in_frame(zone.min_z_m), z_in_frame(zone.max_z_m)});
     result.min_z_m = low;
     result.max_z_m = high;
@@ -108,6 +119,16 @@ class CrsConverter {
     return {side(a, b), side(b, c), side(c, d), side(d, a)};
   }
 
+  Zone placed_near(const Zone& zone, ZoneUse use) const {
+    try {
+      return placed_zone(
+          zone, use, [this](const Vec2& p) { return to_frame(p); }, order_advice());
+    } catch (const Error& error) {
+      if (error.code() != ErrorCode::too_far_away) throw;
+      throw Error(error.code(), error.problem() + order_remark(zone.outer), error.where(), error.fix());
+    }
+  }
+
   Vec2 to_frame(const Vec2& position) const { return frame_.to_local(system_.to_lonlat(position)); }
   double z_in_frame(double z) const { return z * system_.vertical_unit_m().value_or(1); }
 
@@ -116,11 +137,13 @@ class CrsConverter {
 };
 
 /// A box of which nothing is near the scene is most likely a slip, and would keep nothing out.
-void check_near(const Box& box, const std::string& name, const CrsConverter& converter, const std::string& where) {
+void check_near(const Box& box, const Box& given, const std::string& name, const CrsConverter& converter,
+                const std::string& where) {
   const Vec2 nearest = Vec2::Zero().cwiseMax(box.min.head<2>()).cwiseMin(box.max.head<2>());
   if (nearest.norm() <= geo::kFarthestM) return;
   throw Error(ErrorCode::too_far_away,
-              name + " lies " + std::to_string(std::lround(nearest.norm() / 1000)) + " km from the scene's origin",
+              name + " lies " + std::to_string(std::lround(nearest.norm() / 1000)) + " km from the scene's origin" +
+                  converter.order_remark(std::array{Vec2(given.min.head<2>()), Vec2(given.max.head<2>())}),
               where, converter.order_advice());
 }
 
@@ -147,19 +170,21 @@ void convert_limits(Navigation& navigation, const CrsConverter& converter, const
   convert_zones(keep_in_zones, ZoneUse::keep_in, converter, file.places.keep_in_zones);
   convert_zones(keep_out_zones, ZoneUse::keep_out, converter, file.places.keep_out_zones);
   for (std::size_t i = 0; i < keep_in.size(); ++i) {
-    check_near(converter.around(keep_in[i]), "box " + std::to_string(i) + " of navigation.boxes", converter, where);
+    check_near(converter.around(keep_in[i]), keep_in[i], "box " + std::to_string(i) + " of navigation.keep_in",
+               converter, where);
     Box& box = keep_in[i];
     box = converter.inside(box);
     if ((box.min.array() >= box.max.array()).any()) {
       throw Error(ErrorCode::limits_empty,
-                  "a box of navigation.boxes is too small or too askew to hold a box of the scene frame", where,
-                  "make it larger, or give it in the scene frame");
+                  "box " + std::to_string(i) +
+                      " of navigation.keep_in is too small or too askew to hold a box of the scene frame",
+                  where, "make it larger, or give it in the scene frame");
     }
   }
   for (std::size_t i = 0; i < keep_out.size(); ++i) {
-    Box& box = keep_out[i];
-    box = converter.around(box);
-    check_near(box, "box " + std::to_string(i) + " of navigation.keep_out", converter, where);
+    const Box given = keep_out[i];
+    keep_out[i] = converter.around(given);
+    check_near(keep_out[i], given, "box " + std::to_string(i) + " of navigation.keep_out", converter, where);
   }
 }
 

@@ -60,7 +60,8 @@ class FileZones {
   double z_of(const std::optional<ZoneHeight>& height, double without, const std::string& place) const;
   double distance_m(const ListedZone& listed) const;
   Zone::Ring unwrapped(Zone::Ring ring, const std::string& place) const;
-  void note_left_out(const ZoneList& list, std::size_t other_fences, std::size_t far) const;
+  bool seems_swapped(const ListedZone& listed) const;
+  void note_left_out(const ZoneList& list, std::size_t other_fences, std::size_t far, std::size_t swapped) const;
   [[noreturn]] void fail(ErrorCode code, const std::string& place, const std::string& problem,
                          const std::string& fix) const {
     fail_in_zones(code, file_.file, place, problem, fix);
@@ -118,6 +119,15 @@ double FileZones::distance_m(const ListedZone& listed) const {
   }
   const double distance = Point::Zero().cwiseMax(box.min.head<2>()).cwiseMin(box.max.head<2>()).norm();
   return std::max(distance - kSlackM, 0.0);
+}
+
+/// Of a zone out of reach: whether all its corners would lie near with longitude and latitude the other way round.
+bool FileZones::seems_swapped(const ListedZone& listed) const {
+  const auto is_near = [this](const Point& p) {
+    return std::abs(p.x()) <= 90 && frame_.to_local({p.y(), p.x()}).norm() <= geo::kFarthestM;
+  };
+  if (listed.circle) return is_near(listed.circle->centre);
+  return std::all_of(listed.outer.begin(), listed.outer.end(), is_near);
 }
 
 /// With so many corners that the sides leave the circle by 5 cm at most, 720 corners at most. They lie on it to stay
@@ -216,7 +226,8 @@ Zone FileZones::placed(const ListedZone& listed) const {
   }
 }
 
-void FileZones::note_left_out(const ZoneList& list, std::size_t other_fences, std::size_t far) const {
+void FileZones::note_left_out(const ZoneList& list, std::size_t other_fences, std::size_t far,
+                              std::size_t swapped) const {
   std::string what;
   const auto add = [&](std::size_t count, const std::string& one, const std::string& many) {
     if (count == 0) return;
@@ -237,6 +248,10 @@ void FileZones::note_left_out(const ZoneList& list, std::size_t other_fences, st
   }
   add(far, "zone beyond the reach of the sensor", "zones beyond the reach of the sensor");
   if (what.empty()) return;
+  if (swapped > 0) {
+    what +=
+        "; longitude and latitude of " + std::to_string(swapped) + " of these seem to be swapped, so check the file";
+  }
   mission_.notes.push_back({WarningCode::zones_left_out, "not taken as zones to stay " +
                                                              std::string(is_kept ? "in" : "out of") + " from " +
                                                              file_.file.filename().string() + ": " + what});
@@ -246,7 +261,7 @@ void FileZones::add_to(std::vector<Zone>& zones, const core::ProgressReporter& p
   const ZoneList list = parse_zones(read_text(file_.file, "file of zones", kMostZoneBytes), file_.file, progress);
   std::set<std::string> names;
   for (const Zone& zone : zones) names.insert(zone.name);
-  std::size_t taken = 0, other_fences = 0, far = 0;
+  std::size_t taken = 0, other_fences = 0, far = 0, swapped = 0;
   double nearest_m = kInfinity;
   for (const ListedZone& listed : list.zones) {
     progress.check();
@@ -258,6 +273,7 @@ void FileZones::add_to(std::vector<Zone>& zones, const core::ProgressReporter& p
     nearest_m = std::min(nearest_m, distance);
     if (distance > farthest_viewpoint_m(mission_)) {
       ++far;
+      swapped += seems_swapped(listed) ? 1 : 0;
       continue;
     }
     Zone zone = placed(listed);
@@ -272,8 +288,8 @@ void FileZones::add_to(std::vector<Zone>& zones, const core::ProgressReporter& p
   if (taken == 0 && far > 0) {
     fail(ErrorCode::too_far_away, "",
          "the nearest zone lies at least " + std::to_string(std::lround(nearest_m / 1000)) +
-             " km from the scene's origin",
-         kLonLatAdvice);
+             " km from the scene's origin" + (swapped > 0 ? "; longitude and latitude seem to be swapped" : ""),
+         swapped > 0 ? "write the longitude before the latitude" : kLonLatAdvice);
   }
   if (taken == 0) {
     const bool is_kept = use_ == ZoneUse::keep_in;
@@ -283,7 +299,7 @@ void FileZones::add_to(std::vector<Zone>& zones, const core::ProgressReporter& p
          other_fences > 0 ? std::string("name it under '") + (is_kept ? "keep_out'" : "keep_in'") + ", or add a fence"
                           : "give polygons or circles: lines and points are no zones");
   }
-  note_left_out(list, other_fences, far);
+  note_left_out(list, other_fences, far, swapped);
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ Eigen::Vector2d scene_position(const Georeference& georeference, double longitud
     throw Error(code, "longitude " + shortest(longitude_deg) + ", latitude " + shortest(latitude_deg) + problem,
                 "position", fix);
   };
-  constexpr const char* kOrder = "give the longitude before the latitude";
+  constexpr const char* kOrder = "longitude and latitude seem to be swapped: give them the other way round";
   const bool is_valid = std::abs(latitude_deg) <= 90 && std::abs(longitude_deg) <= 180;  // not-a-number is not
   if (!is_valid) {
     refuse(
