@@ -161,6 +161,45 @@ TEST(NavigationCheck, AllRefuseTheSameLimitsInTheSameWords) {
   }
 }
 
+TEST(NavigationCheck, BoxesAreRefusedInEachAxis) {
+  for (const bool is_kept_in : {true, false}) {
+    for (int axis = 0; axis < 3; ++axis) {
+      Box box{{0, 0, 0}, {9, 9, 9}};
+      const auto code = [&](double low, double high) {
+        box.min[axis] = low;
+        box.max[axis] = high;
+        Navigation navigation;
+        (is_kept_in ? navigation.keep_in : navigation.keep_out) = {box};
+        return code_of([&] { check_navigation(navigation); });
+      };
+      EXPECT_EQ(code(4, 4), ErrorCode::limits_empty) << axis;
+      EXPECT_EQ(code(5, 4), ErrorCode::limits_reversed) << axis;
+      EXPECT_EQ(code(kNaN, 4), ErrorCode::value_out_of_range) << axis;
+      EXPECT_EQ(code(4, 5), std::nullopt) << axis;
+    }
+  }
+}
+
+// The advice can be copied.
+TEST(NavigationCheck, WhatIsReversedIsShownTheRightWayRound) {
+  const auto fix_of = [](const std::function<void(Navigation&)>& set) {
+    Navigation navigation;
+    set(navigation);
+    return expect_error([&] { check_navigation(navigation); }, ErrorCode::limits_reversed).fix();
+  };
+  const auto shows = [](const std::string& fix, const char* pair) { return fix.find(pair) != std::string::npos; };
+  EXPECT_TRUE(shows(fix_of([](Navigation& n) { n.altitude = {5, 3}; }), "[3, 5]"));
+  EXPECT_TRUE(shows(fix_of([](Navigation& n) {
+                      n.above_ground = AboveGround{120.5, 30, {0, nullptr}};
+                    }),
+                    "[30, 120.5]"));
+  EXPECT_TRUE(shows(fix_of([](Navigation& n) { n.keep_in = {Box{{0, 9, 0}, {1, 2, 3}}}; }), "y = 2"));
+  EXPECT_TRUE(shows(fix_of([](Navigation& n) {
+                      n.keep_out_zones = {zone_of({{0, 0}, {9, 0}, {9, 9}}, 7, 1)};
+                    }),
+                    "z: [1, 7]"));
+}
+
 TEST(NavigationCheck, WhatIsRightIsTaken) {
   Navigation navigation;
   check_navigation(navigation);

@@ -8,16 +8,16 @@
 namespace vantage::internal::core {
 namespace {
 
-/// `of_axis`: " in x", or nothing.
-std::optional<LimitFault> fault_of_pair(double low, double high, const std::string& of_axis) {
+/// `of_axis`: " in x", or nothing. `swapped`: what to write where the two are reversed.
+std::optional<LimitFault> fault_of_pair(double low, double high, const std::string& of_axis,
+                                        const std::string& swapped) {
   if (!std::isfinite(low) || !std::isfinite(high)) {
     return LimitFault{ErrorCode::value_out_of_range, "it is not finite" + of_axis,
                       "give numbers; leave a limit out where there is none"};
   }
   if (low > high) {
     return LimitFault{ErrorCode::limits_reversed,
-                      "it is reversed" + of_axis + ": " + shortest(low) + " is above " + shortest(high),
-                      "give the lower one first"};
+                      "it is reversed" + of_axis + ": " + shortest(low) + " is above " + shortest(high), swapped};
   }
   if (low == high) {
     return LimitFault{ErrorCode::limits_empty, "it leaves no room" + of_axis + ": both ends are " + shortest(low),
@@ -28,12 +28,17 @@ std::optional<LimitFault> fault_of_pair(double low, double high, const std::stri
 
 }  // namespace
 
-std::optional<LimitFault> fault_of_band(double low_m, double high_m) { return fault_of_pair(low_m, high_m, ""); }
+std::optional<LimitFault> fault_of_band(double low_m, double high_m) {
+  return fault_of_pair(low_m, high_m, "", "write [" + shortest(high_m) + ", " + shortest(low_m) + "], in metres");
+}
 
 std::optional<LimitFault> fault_of(const Box& box) {
-  constexpr std::array kAxes = {" in x", " in y", " in z"};
+  constexpr std::array kAxes = {"x", "y", "z"};
   for (unsigned axis = 0; axis < 3; ++axis) {
-    if (auto fault = fault_of_pair(box.min[axis], box.max[axis], kAxes[axis])) return fault;
+    const double low = box.min[axis], high = box.max[axis];
+    const std::string name = kAxes[axis];
+    const std::string swapped = "write " + name + " = " + shortest(high) + " in min and " + shortest(low) + " in max";
+    if (auto fault = fault_of_pair(low, high, " in " + name, swapped)) return fault;
   }
   return std::nullopt;
 }

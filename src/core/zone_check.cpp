@@ -66,7 +66,7 @@ std::optional<LimitFault> fault_of_heights(const std::string& name, double low, 
   if (low > high) {
     return LimitFault{ErrorCode::limits_reversed,
                       name + " is reversed: " + shortest(low) + " is above " + shortest(high),
-                      "give the lower one first"};
+                      "write " + name + ": [" + shortest(high) + ", " + shortest(low) + "], in metres"};
   }
   if (low == high) {
     return LimitFault{ErrorCode::limits_empty, name + " leaves no room: both ends are " + shortest(low),

@@ -86,8 +86,7 @@ void add_sensor(const Sensor& sensor, const MissionFile& file, Lines& lines) {
   if (incidence_deg) lines.push_back({"Slant", "at most " + degrees(*incidence_deg) + " from the target's normal"});
   if (camera) {
     lines.push_back({"Camera", text_of(*camera, file)});
-    lines.push_back(
-        {mount.is_fixed() || mount.min_pitch_deg == mount.max_pitch_deg ? "Mount" : "Gimbal", text_of(mount)});
+    lines.push_back({mount.min_pitch_deg == mount.max_pitch_deg ? "Mount" : "Gimbal", text_of(mount)});
   }
   if (pixel) {
     lines.push_back({"Pixel", "covers at most " + metres(pixel->size_m) +
