@@ -504,7 +504,8 @@ TEST(MissionNumbers, LengthsMayHaveAUnit) {
     EXPECT_EQ(parsed.fault, NumberFault::none) << text;
     EXPECT_EQ(parsed.value, metres) << text;
   }
-  for (const char* text : {"400 M", "400 nm", "400 f", "400 feet long", "3'", "400 ft ft", "400 yd", "60 deg", "5 %"}) {
+  for (const char* text :
+       {"400 M", "5 Mm", "400 nm", "400 f", "400 feet long", "3'", "400 ft ft", "400 yd", "60 deg", "5 %"}) {
     EXPECT_EQ(parse_length(text).fault, NumberFault::unknown_unit) << text;
   }
   for (const char* text :
@@ -513,6 +514,9 @@ TEST(MissionNumbers, LengthsMayHaveAUnit) {
   }
   EXPECT_EQ(parse_length("inf").fault, NumberFault::not_finite);
   EXPECT_EQ(parse_length("1e400 ft").fault, NumberFault::out_of_range);
+  EXPECT_EQ(parse_length("5 MM").value, 0.005);
+  EXPECT_EQ(parse_length("1e308 ft").fault, NumberFault::none);
+  EXPECT_NEAR(parse_length("1e308 ft").value / 3.048e307, 1, 1e-15);
   EXPECT_EQ(parse_length("1e308 mi").fault, NumberFault::out_of_range);
   EXPECT_EQ(parse_angle("60").value, 60);
   EXPECT_EQ(parse_angle("60 deg").value, 60);

@@ -27,10 +27,10 @@ struct ParsedNumber {
 /// exponent. No blanks, no 0x10, no 1_000, no 1,5, no 1:30. Never throws.
 VANTAGE_API ParsedNumber parse_number(std::string_view text);
 
-/// A length in metres: a number as parse_number reads it, and then its unit, with blanks before it or none: mm, cm, m,
-/// km, ft (0.3048 m) or mi (1609.344 m), whatever the case of the letters. (But "M" is none: it stands for nautical
-/// miles, too.) Without a unit it is metres. 400 ft are 121.92: the product and the quotient are rounded once. Never
-/// throws.
+/// A length in metres: a number as parse_number reads it, and then its unit, with blanks before it or none. Units are
+/// mm, cm, m, km, ft (0.3048 m) and mi (1609.344 m), in upper or lower case. Two spellings are refused, since they mean
+/// something else to many: "M" (nautical miles) and "Mm" (a million metres). A number alone is metres. 400 ft is the
+/// double nearest to 121.92. Never throws.
 VANTAGE_API ParsedNumber parse_length(std::string_view text);
 
 /// An angle in degrees, likewise: with "deg" or "°" after the number, or without.

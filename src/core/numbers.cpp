@@ -56,10 +56,12 @@ ParsedNumber parse_quantity(std::string_view text, std::span<const Unit> units) 
   if (unit.empty()) return number.size() == text.size() ? parsed : ParsedNumber{};  // blanks after a number
   // What goes on with digits is a number of another kind: 1,5, 0x10, 1:30.
   if (unit.find_first_of("0123456789") != std::string_view::npos) return {};
-  const std::string name = unit == "M" ? "" : lower_case(unit);
+  // "M" stands for nautical miles, too, and "Mm" for a million metres.
+  const std::string name = unit == "M" || unit == "Mm" ? "" : lower_case(unit);
   const auto known = std::find_if(units.begin(), units.end(), [&](const Unit& one) { return one.name == name; });
   if (known == units.end()) return {0.0, NumberFault::unknown_unit};
-  const double value = parsed.value * known->times / known->over;
+  double value = parsed.value * known->times / known->over;
+  if (!std::isfinite(value)) value = parsed.value / known->over * known->times;  // 1e308 ft
   if (!std::isfinite(value)) return {0.0, NumberFault::out_of_range};
   return {value, NumberFault::none};
 }

@@ -2,10 +2,12 @@
 
 export type QuantityKind = "length" | "angle";
 
-const LENGTHS: Record<string, [times: number, over: number]> = {
-  m: [1, 1], km: [1000, 1], ft: [3048, 10000], mi: [1609344, 1000], cm: [1, 100], mm: [1, 1000],
-};
-const ANGLES: Record<string, [times: number, over: number]> = { deg: [1, 1], "\u00b0": [1, 1] };
+type Units = ReadonlyMap<string, [times: number, over: number]>; // no object, which has a "constructor", too
+
+const LENGTHS: Units = new Map([
+  ["m", [1, 1]], ["km", [1000, 1]], ["ft", [3048, 10000]], ["mi", [1609344, 1000]], ["cm", [1, 100]], ["mm", [1, 1000]],
+]);
+const ANGLES: Units = new Map([["deg", [1, 1]], ["\u00b0", [1, 1]]]);
 
 const FORMS: Record<QuantityKind, string> = {
   length: "write metres, or a number with mm, cm, m, km, ft or mi: 120, 120 m, 400 ft",
@@ -22,10 +24,19 @@ export function quantity(text: string, kind: QuantityKind): number | string {
   const [, digits, unit] = found as unknown as [string, string, string];
   if (/^[-+]?[1-9]\d*,\d{3}$/.test(digits)) return `write ${digits.replace(",", "")} or ${digits.replace(",", ".")}: a comma may mean either`;
   const value = Number(digits.replace(",", "."));
+  if (!Number.isFinite(value)) return `${digits} is more than a number holds`;
   if (unit === "") return value;
-  // "M" stands for nautical miles, too.
-  const known = unit === "M" ? undefined : (kind === "length" ? LENGTHS : ANGLES)[unit.toLowerCase()];
-  return known ? (value * known[0]) / known[1] : `"${unit}" is no unit here: ${FORMS[kind]}`;
+  // "M" stands for nautical miles, too, and "Mm" for a million metres.
+  const known = unit === "M" || unit === "Mm" ? undefined : (kind === "length" ? LENGTHS : ANGLES).get(unit.toLowerCase());
+  if (!known) return `"${unit}" is no unit here: ${FORMS[kind]}`;
+  const converted = times(value, known);
+  return Number.isFinite(converted) ? converted : `${text.trim()} is more than a number holds`;
+}
+
+/** Rounded once; twice where the product alone is more than a number holds. */
+function times(value: number, [factor, over]: [number, number]): number {
+  const product = value * factor;
+  return Number.isFinite(product) ? product / over : (value / over) * factor;
 }
 
 /** What a mission file has: a number, or a text with its unit. null: something else. */
