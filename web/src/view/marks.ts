@@ -82,7 +82,7 @@ export class ZonesView {
     for (const zone of zones) {
       const lines = zone.rings.flatMap((ring) => this.linesOf(ring, zone));
       this.group.add(new THREE.LineSegments(new THREE.BufferGeometry().setFromPoints(lines), zone.kept_out ? EDGES : KEPT_IN));
-      if (zone.kept_out) this.group.add(this.bodyOf(zone));
+      if (zone.kept_out && zone.high > zone.low) this.group.add(this.bodyOf(zone)); // else all of it is out of reach
     }
   }
 
