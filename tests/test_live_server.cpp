@@ -6,9 +6,11 @@
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
 #include <chrono>
+#include <condition_variable>
 #include <cstring>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
@@ -30,16 +32,53 @@ namespace websocket = boost::beast::websocket;
 using Json = nlohmann::json;
 using Socket = websocket::stream<asio::ip::tcp::socket>;
 
+/// Where computations are held until it is opened.
+class WorkGate {
+ public:
+  void pass() {
+    std::unique_lock lock(mutex_);
+    if (is_open_ || (most_ > 0 && came_ >= most_)) return;
+    ++came_;
+    changed_.notify_all();
+    changed_.wait(lock, [this] { return is_open_; });
+  }
+  /// From now on: holds so many, and lets all others pass.
+  void close(int most) {
+    const std::lock_guard lock(mutex_);
+    is_open_ = false;
+    most_ = most;
+  }
+  void open() {
+    const std::lock_guard lock(mutex_);
+    is_open_ = true;
+    changed_.notify_all();
+  }
+  void wait_for(int count) {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return came_ >= count; });
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool is_open_ = true;
+  int came_ = 0, most_ = 0;
+};
+
 class LiveServerThread : public testing::Cli {
  protected:
   void SetUp() override {
     Cli::SetUp();
     session_.open_file(folder_ / "mission.yaml");
     server_ = std::make_unique<PageServer>(0);
+    server_->set_before_work([this](const std::string& call) {
+      if (call == "compute") gate_.pass();
+    });
     thread_ = std::thread(
         [this] { server_->run(session_, "<html><!--LIVE--></html>", 0, [this] { return is_over_.load(); }); });
   }
   void TearDown() override {
+    gate_.open();
     is_over_ = true;
     if (thread_.joinable()) thread_.join();
     Cli::TearDown();
@@ -106,6 +145,7 @@ class LiveServerThread : public testing::Cli {
   }
 
   asio::io_context context_;
+  WorkGate gate_;
   Session session_;
   std::unique_ptr<PageServer> server_;
   std::atomic<bool> is_over_ = false;
@@ -208,23 +248,69 @@ TEST_F(LiveServerThread, StopsWhatIsComputed) {
   EXPECT_TRUE(ask(socket, compute(6, 0.02)).contains("value"));
 }
 
+Json compute_request(int id) {
+  const std::string text = std::string(testing::kTarget) + testing::kSensor;
+  return Json{{"id", id}, {"request", {{"call", "compute"}, {"text", text}}}};
+}
+
 // What takes long in one window holds up none of the others.
 TEST_F(LiveServerThread, AWindowDoesNotWaitForAnotherOne) {
+  gate_.close(1);
   Socket slow = opened(), other = opened();
-  const std::string text =
-      std::string(testing::kTarget) + testing::kSensor + "exact: {tolerance: 0.00001}\n";  // seconds
-  slow.write(asio::buffer(Json{{"id", 1}, {"request", {{"call", "compute"}, {"text", text}}}}.dump()));
-  const Json compute{{"id", 2},
-                     {"request", {{"call", "compute"}, {"text", std::string(testing::kTarget) + testing::kSensor}}}};
-  EXPECT_TRUE(ask(other, compute).contains("value"));
+  slow.write(asio::buffer(compute_request(1).dump()));
+  gate_.wait_for(1);
+  EXPECT_TRUE(ask(other, compute_request(2)).contains("value"));
   EXPECT_TRUE(ask(other, {{"id", 3}, {"request", {{"call", "slice"}, {"z", 10}}}}).contains("value"));
-  // The first one is computed still.
-  std::map<int, Json> answers = ask_at_once(slow, {{{"id", 4}, {"request", {{"call", "stop"}}}}});
-  if (!answers.contains(1)) {
-    const Json next_one = next(slow);
-    answers[next_one["id"]] = next_one;
+  gate_.open();
+  const Json answer = next(slow);
+  EXPECT_EQ(answer["id"], 1);
+  EXPECT_TRUE(answer.contains("value"));
+}
+
+// Four compute at once; others wait, are told so, and can be stopped. What is quick goes on.
+TEST_F(LiveServerThread, AFewComputeAtOnce) {
+  gate_.close(0);
+  std::vector<std::unique_ptr<Socket>> windows;
+  for (int i = 0; i < 4; ++i) {
+    windows.push_back(std::make_unique<Socket>(opened()));
+    windows.back()->write(asio::buffer(compute_request(1).dump()));
   }
-  EXPECT_EQ(answers[1]["error"]["code"], "cancelled") << answers[1].dump(1).substr(0, 300);
+  gate_.wait_for(4);
+  Socket fifth = opened(), sixth = opened();
+  for (Socket* const late : {&fifth, &sixth}) {
+    const Json notice = ask(*late, compute_request(1));
+    EXPECT_EQ(notice, (Json{{"id", 1}, {"waits", true}}));
+  }
+  EXPECT_TRUE(ask(*windows[0], {{"id", 9}, {"request", {{"call", "stop"}}}}).contains("value"));
+  Socket seventh = opened();
+  EXPECT_TRUE(ask(seventh, {{"id", 1}, {"request", {{"call", "about"}}}}).contains("value"));
+  std::map<int, Json> stopped = ask_at_once(sixth, {{{"id", 2}, {"request", {{"call", "stop"}}}}});
+  const Json last = next(sixth);
+  stopped[last["id"]] = last;
+  EXPECT_EQ(stopped[1]["error"]["code"], "cancelled");
+  EXPECT_TRUE(stopped[2].contains("value"));
+  gate_.open();
+  EXPECT_EQ(next(fifth), (Json{{"id", 1}, {"waits", false}}));
+  EXPECT_TRUE(next(fifth).contains("value"));
+  for (std::size_t i = 1; i < windows.size(); ++i) EXPECT_TRUE(next(*windows[i]).contains("value"));
+  EXPECT_TRUE(ask(sixth, compute_request(3)).contains("value"));
+}
+
+// A proof that waits for its turn can be stopped, too.
+TEST_F(LiveServerThread, StopsAProofThatWaits) {
+  Socket proving = opened();
+  EXPECT_TRUE(ask(proving, compute_request(1)).contains("value"));
+  gate_.close(0);
+  std::vector<std::unique_ptr<Socket>> windows;
+  for (int i = 0; i < 4; ++i) {
+    windows.push_back(std::make_unique<Socket>(opened()));
+    windows.back()->write(asio::buffer(compute_request(1).dump()));
+  }
+  gate_.wait_for(4);
+  EXPECT_EQ(ask(proving, {{"id", 2}, {"request", {{"call", "prove"}}}}), (Json{{"id", 2}, {"waits", true}}));
+  EXPECT_EQ(ask(proving, {{"id", 3}, {"request", {{"call", "stop"}}}})["error"]["code"], "cancelled");
+  EXPECT_TRUE(next(proving).contains("value"));
+  gate_.open();
 }
 
 // Whoever knows the token gets in, however many there are who do not.

@@ -16,8 +16,23 @@ namespace {
 constexpr std::size_t kLargestMessage = std::size_t{4} << 20;  // a mission file has 1 MiB at most
 constexpr std::size_t kMostWaiting = 64;
 constexpr std::size_t kMostOutgoing = std::size_t{16} << 20;
+// Between two of them the connection can be asked whether it still stands: a large answer may take any time.
+constexpr std::size_t kFragment = std::size_t{1} << 20;
+
+/// May take all cores, and gigabytes.
+bool is_heavy(const Request& request) {
+  return request.call == "compute" || request.call == "prove" || request.call == "area";
+}
 
 }  // namespace
+
+void Workshop::give_turn() {
+  while (computing < kMostComputing && !queue.empty()) {
+    const std::shared_ptr<Conversation> next = queue.front().lock();
+    queue.pop_front();
+    if (next) next->take_turn();
+  }
+}
 
 Conversation::Conversation(beast::tcp_stream stream, const Session& original, Workshop& workshop,
                            std::shared_ptr<const void> seat)
@@ -30,7 +45,8 @@ void Conversation::start(const Upgrade& request) {
   socket_.set_option(timeout);
   socket_.read_message_max(kLargestMessage);
   socket_.binary(true);
-  socket_.auto_fragment(false);
+  socket_.auto_fragment(true);
+  socket_.write_buffer_bytes(kFragment);
   beast::error_code ignored;
   beast::get_lowest_layer(socket_).socket().set_option(asio::ip::tcp::no_delay(true), ignored);
   socket_.async_accept(request, [self = shared_from_this()](Error error) {
@@ -58,7 +74,10 @@ void Conversation::take(Error error) {
   if (!is_paused_) read();
 }
 
-bool Conversation::is_behind() const { return waiting_.size() >= kMostWaiting || outgoing_bytes_ > kMostOutgoing; }
+/// A single answer does not count, however large: while it is sent, what is read shows that the page is still there.
+bool Conversation::is_behind() const {
+  return waiting_.size() >= kMostWaiting || (outgoing_.size() > 1 && outgoing_bytes_ > kMostOutgoing);
+}
 
 void Conversation::catch_up() {
   if (!is_paused_ || is_gone_ || is_behind()) return;
@@ -92,19 +111,44 @@ void Conversation::enqueue(Request request) {
 /// Does not wait for its turn. What is computed answers as soon as it notices.
 void Conversation::stop(const Request& request) {
   drop_waiting_volumes(cancelled_answer);
+  if (!is_working_ && !waiting_.empty()) {  // a proof whose turn it is, while others compute
+    send(cancelled_answer(waiting_.front()));
+    waiting_.pop_front();
+  }
   is_stopped_ = is_working_;
   send(stopped_answer(request));
+  work();
+}
+
+/// Else it is called again once it may.
+bool Conversation::may_work(const Request& request) {
+  if (!is_heavy(request) || workshop_.computing < Workshop::kMostComputing) return true;
+  if (!is_queued_) workshop_.queue.push_back(weak_from_this());
+  is_queued_ = true;
+  if (told_of_ != request.id) send(waiting_notice(request, true));
+  told_of_ = request.id;
+  return false;
+}
+
+void Conversation::take_turn() {
+  is_queued_ = false;
+  work();
 }
 
 void Conversation::work() {
-  if (is_working_ || waiting_.empty()) return;
+  if (is_working_ || waiting_.empty() || !may_work(waiting_.front())) return;
+  if (told_of_ == waiting_.front().id) send(waiting_notice(waiting_.front(), false));
+  told_of_.reset();
   is_working_ = true;
   is_stopped_ = false;
-  asio::post(workshop_.workers, [self = shared_from_this(), request = std::move(waiting_.front())]() mutable {
+  const bool heavy = is_heavy(waiting_.front());
+  if (heavy) ++workshop_.computing;
+  asio::post(workshop_.workers, [self = shared_from_this(), request = std::move(waiting_.front()), heavy]() mutable {
     Workshop& workshop = self->workshop_;
     const auto is_wanted = [&] { return !self->is_gone_ && !workshop.is_over; };
     const auto goes_on = [&] { return is_wanted() && !self->is_stopped_; };
     std::string message;
+    if (workshop.before_work) workshop.before_work(request.call);
     if (is_wanted()) {
       if (!self->session_) self->session_.emplace(self->original_.fork());
       with_threads(workshop.threads, [&] {
@@ -113,14 +157,22 @@ void Conversation::work() {
     }
     const auto executor = self->socket_.get_executor();
     // Moved, so that the last one to hold it is never this thread.
-    asio::post(executor, [self = std::move(self), message = std::move(message)]() mutable {
-      self->is_working_ = false;
-      self->send(std::move(message));
-      self->work();
-      self->catch_up();
+    asio::post(executor, [self = std::move(self), message = std::move(message), heavy]() mutable {
+      self->end_work(std::move(message), heavy);
     });
   });
   waiting_.pop_front();
+}
+
+void Conversation::end_work(std::string message, bool was_heavy) {
+  is_working_ = false;
+  send(std::move(message));
+  if (was_heavy) {
+    --workshop_.computing;
+    workshop_.give_turn();  // those who wait first
+  }
+  work();
+  catch_up();
 }
 
 void Conversation::send(std::string message) {

@@ -6,7 +6,9 @@
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
+#include <cstdint>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,14 +18,26 @@
 
 namespace vantage::live {
 
-/// What conversations have in common. Each has a thread of its own while it works, so that none waits for another one:
-/// what takes long in one shares the processor's cores with them, and no more.
+class Conversation;
+
+/// What conversations have in common. Each has a thread of its own while it works, so that what is quick in one waits
+/// for none of the others. What may take all cores and gigabytes does: a few at a time, in the order in which they
+/// came, and whoever waits is told so.
 struct Workshop {
   static constexpr int kMostConversations = 16;
+  static constexpr int kMostComputing = 4;  ///< volumes, proofs and searches of a map
 
   boost::asio::thread_pool workers{kMostConversations};
   int threads = 0;  ///< that a computation may use; 0: all
   std::atomic<bool> is_over = false;
+  std::function<void(const std::string& call)> before_work = {};  ///< for tests: on the thread that does the work
+
+  // On the thread of the connections' context alone.
+  int computing = 0;
+  std::deque<std::weak_ptr<Conversation>> queue;  ///< who waits to compute
+
+  /// After something was computed.
+  void give_turn();
 };
 
 /// Lives as long as its connection. All but the computing runs on the thread of the connection's context; the computing
@@ -40,6 +54,9 @@ class Conversation : public std::enable_shared_from_this<Conversation> {
 
   void start(const Upgrade& request);
 
+  /// It waited, and somebody else has done computing.
+  void take_turn();
+
  private:
   using Error = boost::beast::error_code;
 
@@ -49,6 +66,8 @@ class Conversation : public std::enable_shared_from_this<Conversation> {
   void stop(const Request& request);
   void drop_waiting_volumes(std::string (*answer_to)(const Request&));
   void work();
+  bool may_work(const Request& request);
+  void end_work(std::string message, bool was_heavy);
   void send(std::string message);
   void write();
   bool is_behind() const;
@@ -65,6 +84,8 @@ class Conversation : public std::enable_shared_from_this<Conversation> {
   std::atomic<bool> is_gone_ = false;
   std::atomic<bool> is_stopped_ = false;  ///< what is computed now
   bool is_working_ = false;
+  bool is_queued_ = false;                ///< in the workshop's queue
+  std::optional<std::uint64_t> told_of_;  ///< the request that was told that it waits
   bool is_paused_ = false;
   std::deque<Request> waiting_;
   std::deque<std::string> outgoing_;

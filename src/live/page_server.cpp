@@ -11,6 +11,7 @@
 #include <boost/beast/websocket.hpp>
 #include <chrono>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -31,8 +32,9 @@ using Tcp = asio::ip::tcp;
 namespace {
 
 constexpr std::uint32_t kLargestHeader = 8192;
-constexpr std::uint64_t kLargestBody = 1024;          // nobody sends one
-constexpr auto kMostTime = std::chrono::seconds(10);  // for a request, and for its answer
+constexpr std::uint64_t kLargestBody = 1024;           // nobody sends one
+constexpr auto kMostTime = std::chrono::seconds(10);   // for a request
+constexpr auto kMostStill = std::chrono::seconds(30);  // an answer may take any time, if only some of it moves on
 constexpr std::size_t kMostStrangers = 100;
 
 class Caller;
@@ -45,8 +47,7 @@ class Strangers {
   void remove(const Caller* caller);
 
  private:
-  std::deque<std::pair<const Caller*, std::weak_ptr<Caller>>>
-      callers_;  // those who are gone, too, until room is needed
+  std::deque<std::pair<const Caller*, std::weak_ptr<Caller>>> callers_;  // who goes is removed
 };
 
 /// What callers have in common.
@@ -127,7 +128,6 @@ class Caller : public std::enable_shared_from_this<Caller> {
       return reply(http::status::forbidden, "Open the whole address that the program printed, with its token.\n");
     }
     house_.strangers.remove(this);
-    stream_.expires_after(kMostTime);
     send(http::status::ok, house_.page, "text/html; charset=utf-8");
   }
 
@@ -148,9 +148,18 @@ class Caller : public std::enable_shared_from_this<Caller> {
     response_->keep_alive(false);
     response_->content_length(body.size());
     if (parser_.get().method() != http::verb::head) response_->body() = {body.data(), body.size()};
-    http::async_write(stream_, *response_, [self = shared_from_this()](beast::error_code error, std::size_t) {
-      if (!error) self->stream_.socket().shutdown(Tcp::socket::shutdown_send, error);
-    });
+    serializer_.emplace(*response_);
+    write();
+  }
+
+  void write() {
+    stream_.expires_after(kMostStill);
+    const auto go_on = [self = shared_from_this()](beast::error_code error, std::size_t) {
+      if (error) return;
+      if (!self->serializer_->is_done()) return self->write();
+      self->stream_.socket().shutdown(Tcp::socket::shutdown_send, error);
+    };
+    http::async_write_some(stream_, *serializer_, go_on);
   }
 
   beast::tcp_stream stream_;
@@ -159,12 +168,14 @@ class Caller : public std::enable_shared_from_this<Caller> {
   std::string words_;
   http::request_parser<http::string_body> parser_;
   std::optional<Response> response_;
+  std::optional<http::response_serializer<http::span_body<const char>>> serializer_;
 };
 
 void Strangers::add(const std::shared_ptr<Caller>& caller) {
   if (callers_.size() >= kMostStrangers) {
-    if (const std::shared_ptr<Caller> longest = callers_.front().second.lock()) longest->send_away();
-    callers_.pop_front();
+    const std::shared_ptr<Caller> longest = callers_.front().second.lock();
+    callers_.pop_front();  // first: who goes here for good removes itself
+    if (longest) longest->send_away();
   }
   callers_.emplace_back(caller.get(), caller);
 }
@@ -181,6 +192,10 @@ class PageServer::Listener {
 
   std::uint16_t port() const { return acceptor_.local_endpoint().port(); }
   const std::string& token() const { return house_.gate.token(); }
+
+  void set_before_work(std::function<void(const std::string&)> before) {
+    house_.workshop.before_work = std::move(before);
+  }
 
   void run(Session session, std::string page, int threads, const std::function<bool()>& is_over) {
     house_.session = std::move(session);
@@ -249,6 +264,9 @@ PageServer::~PageServer() = default;
 std::uint16_t PageServer::port() const { return listener_->port(); }
 const std::string& PageServer::token() const { return listener_->token(); }
 std::string PageServer::address() const { return "http://127.0.0.1:" + std::to_string(port()) + "/?token=" + token(); }
+void PageServer::set_before_work(std::function<void(const std::string&)> before) {
+  listener_->set_before_work(std::move(before));
+}
 void PageServer::run(Session session, std::string page, int threads, const std::function<bool()>& is_over) {
   listener_->run(std::move(session), std::move(page), threads, is_over);
 }

@@ -11,8 +11,8 @@
 namespace vantage::live {
 
 /// Takes callers from this machine alone. Who knows the token, which is new each time, may see the page and ask its
-/// session; each page has a copy of the session, and none waits for another one. However many callers there are without
-/// the token, who knows it gets in.
+/// session; each page has a copy of the session, and what is quick waits for no other page. However many callers there
+/// are without the token, who knows it gets in.
 class PageServer {
  public:
   /// `port`: 0 takes one that is free. Whoever calls before it runs waits. Throws Error(input) for a port that is used.
@@ -24,6 +24,9 @@ class PageServer {
   std::uint16_t port() const;
   const std::string& token() const;
   std::string address() const;  ///< "http://127.0.0.1:PORT/?token=..."
+
+  /// For tests, before run(): `before` is called with the name of each call, by the thread that then works on it.
+  void set_before_work(std::function<void(const std::string& call)> before);
 
   /// Until `is_over`, which is asked ten times a second, says so. What is being computed then is stopped. `page`: text
   /// of web/dist/index.html. `threads`: that a computation may use; 0: all. Throws Error(page_missing) for another

@@ -210,6 +210,10 @@ std::string cancelled_answer(const Request& request) {
       request, answered([]() -> std::string { throw Error(ErrorCode::cancelled, "stopped before its turn", "", ""); }));
 }
 
+std::string waiting_notice(const Request& request, bool waits) {
+  return framed(Json{{"id", request.id}, {"waits", waits}}, nullptr, nullptr);
+}
+
 std::string stale_answer(const Request& request) {
   return framed(Json{{"id", request.id}, {"stale", true}, {"engine_ms", 0}}, nullptr, nullptr);
 }

@@ -5,7 +5,7 @@ import type { Point, PointAnswer, Proof, SceneInfo, Section, ViewMesh } from "./
 import { History } from "./model/history";
 import { emptyMission, missionFrom, missionText, sceneText, type Mission, type PolygonTarget } from "./model/mission";
 import { faultOf } from "./model/polygon";
-import { hasBadNews, metres, say, unsay } from "./ui/page";
+import { hasBadNews, metres, resay, say, unsay } from "./ui/page";
 import { seenFrom } from "./ui/results";
 import { City } from "./view/city";
 import { BoxesView, ProbeView, SectionView, ZonesView } from "./view/marks";
@@ -19,6 +19,7 @@ const LATE_MS = 500;
 const LATE_FIRST = "Computing…";
 const RESTORING = "Computing the shown volume again…";
 const LATE = `${LATE_FIRST} What is shown is still the last volume`;
+const WAITING = "Other windows of the program compute: waiting for a turn…";
 
 export interface Cut {
   axis: 0 | 1 | 2;
@@ -105,6 +106,7 @@ export class App {
   private readonly proofListeners: ((text: string, volume: Volume, proof?: Proof) => void)[] = [];
 
   constructor(readonly engine: Engine, readonly stage: Stage) {
+    engine.onWaits = () => resay(this.lateWords, LATE, LATE_FIRST, WAITING);
     this.city = new City(stage.scene);
     this.volumeView = new VolumeView(stage.scene, this.city);
     this.target = new TargetView(stage.scene, this.city);
@@ -264,11 +266,15 @@ export class App {
     this.clearVolume();
   }
 
+  private get lateWords(): string {
+    return this.engine.waits ? WAITING : this.volume ? LATE : LATE_FIRST;
+  }
+
   /** `mission`: the one that is edited, as it is now. */
   private async run(turn: number, mission: Mission, isDraft: boolean): Promise<void> {
     const { target } = mission;
     const fault = target?.kind === "polygon" ? faultOf(target.vertices) : null;
-    const tell = () => turn === this.turn && say(this.volume ? LATE : LATE_FIRST);
+    const tell = () => turn === this.turn && say(this.lateWords);
     try {
       if (fault) throw new Error(`${fault.reason}; the volume shown is that of the last valid target`);
       const volume = await this.late(this.engine.compute(missionText(mission, isDraft)), tell);
@@ -278,7 +284,7 @@ export class App {
     } catch (error) {
       if (turn >= this.since && this.isNews(turn)) this.fail(error);
     } finally {
-      if (turn === this.turn) unsay(LATE, LATE_FIRST);
+      if (turn === this.turn) unsay(LATE, LATE_FIRST, WAITING);
       this.settle();
     }
   }

@@ -40,7 +40,16 @@ export class Engine {
   /** the last volume in this scene: what query, prove, slice and save speak of, as their answers come in the same order */
   last: Volume | null = null;
 
-  constructor(private readonly transport: Transport) {}
+  /** Other pages of the program compute, and what was asked here waits for them. */
+  waits = false;
+  onWaits: () => void = () => {};
+
+  constructor(private readonly transport: Transport) {
+    transport.onWaits = (waits) => {
+      this.waits = waits;
+      this.onWaits();
+    };
+  }
 
   /** No volume is on its way. */
   get isIdle(): boolean {
@@ -85,7 +94,7 @@ export class Engine {
       if (stale) return null;
       return (this.last = { info: value as VolumeInfo, mesh: mesh!, engine_ms, total_ms: performance.now() - asked });
     } finally {
-      --this.awaited;
+      if (--this.awaited === 0) this.waits = false;
     }
   }
 

@@ -162,5 +162,7 @@ export interface Answer {
   bytes?: Uint8Array;
   /** a newer request took its place */
   stale?: boolean;
+  /** no answer yet: whether it waits until other pages have computed */
+  waits?: boolean;
   engine_ms: number;
 }

@@ -6,9 +6,11 @@ const ENDED = "the connection to the program is lost: reload this page, or start
 
 export class SocketTransport implements Transport {
   private readonly pending = new Pending();
+  onWaits?: (waits: boolean) => void;
 
   private constructor(private readonly socket: WebSocket) {
     socket.binaryType = "arraybuffer";
+    this.pending.onWaits = (waits) => this.onWaits?.(waits);
     socket.onmessage = ({ data }: MessageEvent<ArrayBuffer>) => this.pending.take(decoded(data));
   }
 

@@ -5,6 +5,8 @@ export interface Transport {
   ask(request: Request): Promise<Answer>;
   /** Ends what is computed, whose answer is an error then. True: the engine has lost its last volume with that. */
   stop(): boolean;
+  /** Told whether a volume waits until other pages of the program have computed. */
+  onWaits?: (waits: boolean) => void;
 }
 
 /** What was asked and then stopped by the user. */
@@ -24,6 +26,7 @@ export class EngineFailure extends Error {
 export class Pending {
   private readonly waiting = new Map<number, { resolve(answer: Answer): void; reject(error: Error): void }>();
   private next = 1;
+  onWaits: (waits: boolean) => void = () => {};
 
   add(): { id: number; answer: Promise<Answer> } {
     const id = this.next++;
@@ -31,6 +34,7 @@ export class Pending {
   }
 
   take(answer: Answer): void {
+    if (answer.waits !== undefined) return this.onWaits(answer.waits); // its answer comes later
     const one = this.waiting.get(answer.id);
     this.waiting.delete(answer.id);
     if (answer.error) one?.reject(answer.error.code === "cancelled" ? new Stopped() : new EngineFailure(answer.error));

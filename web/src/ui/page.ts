@@ -18,7 +18,12 @@ export function say(text: string, isBad = false): void {
 
 /** Takes back what was said last, if it is one of these. */
 export function unsay(...texts: string[]): void {
-  if (texts.includes(element("hint").textContent ?? "")) say("");
+  resay("", ...texts);
+}
+
+/** Says this in the place of what was said last, if that is one of these. */
+export function resay(text: string, ...texts: string[]): void {
+  if (texts.includes(element("hint").textContent ?? "")) say(text);
 }
 
 /** Whether what was said last is an error. */
